@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+
+#include "core/linear_algebra.h"
+#include "core/pose.h"
+
+namespace careen {
+
+/// How hard a body is to move. Infinite mass is inverse mass 0.
+struct MassProperties {
+  double mass = 0;                         ///< [kg]
+  double inverseMass = 0;                  ///< [1/kg]
+  Vec3 inertiaBody = Vec3::Zero();         ///< [kg m²] diagonal of Ī about the centre of mass (Eq. 19)
+  Vec3 inverseInertiaBody = Vec3::Zero();  ///< [1/(kg m²)] diagonal of Ī⁻¹
+};
+
+/// Solid box of constant density with full sizes (a,b,c): Ī = M/12 diag(b²+c², a²+c², a²+b²), Eq. 19
+/// integrated.
+MassProperties solidBox(const Vec3& halfExtents, double mass);
+/// A wall, or a body that is held: no impulse moves it.
+MassProperties immovable();
+
+/// What a touching pair is made of. A pair has restitution max(e₁, e₂) and friction sqrt(μ₁ μ₂).
+struct Material {
+  double restitution = 0;  ///< [1] 0 … 1
+  double friction = 0;     ///< [1] Coulomb's μ
+};
+Material touching(const Material& a, const Material& b);
+
+/// State of one body, world frame. L, not ω, is primary: torque integrates to it, and a free body keeps it
+/// for ever.
+struct BodyState {
+  Pose pose;
+  Vec3 velocity = Vec3::Zero();         ///< [m/s] of the centre of mass
+  Vec3 angularMomentum = Vec3::Zero();  ///< [kg m²/s] about the centre of mass
+};
+
+/// I⁻¹ = A Ī⁻¹ Aᵀ (Eq. 20), a similarity transform.
+Mat3 inverseInertiaWorld(const MassProperties& mass, const Mat3& worldFromBody);
+/// ω = I⁻¹ L (Eq. 18), [rad/s].
+Vec3 angularVelocity(const MassProperties& mass, const BodyState& state);
+/// L = I ω (Eq. 17), [kg m²/s].
+Vec3 angularMomentum(const MassProperties& mass, const Mat3& worldFromBody, const Vec3& angularVelocity);
+
+struct Body {
+  std::string name;
+  Vec3 halfExtents = Vec3::Zero();  ///< [m] half sizes along the body's axes
+  MassProperties mass;
+  Material material;
+  BodyState initial;
+};
+
+/// Corner 0…7 of a box, body frame [m]. Bit 2 of the index picks the sign of x, bit 1 of y, bit 0 of z; a
+/// clear bit is plus.
+Vec3 corner(const Vec3& halfExtents, int index);
+inline constexpr int kCorners = 8;
+
+}  // namespace careen

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <variant>
+
+#include "physics/body.h"
+
+namespace careen {
+
+/// Nothing moves.
+struct Rest {
+  Pose pose;
+};
+
+/// One explicit Euler step of Listing 1, left open at its end: at time s into it, the body is where a step of
+/// length s would have put it.
+struct EulerStep {
+  BodyState start;
+  Vec3 force = Vec3::Zero();   ///< [N] total, at the start
+  Vec3 torque = Vec3::Zero();  ///< [N m] total about the centre of mass, at the start
+};
+
+/// How one body moves until something happens to it. A further motion is one more type here and one more line
+/// in stateAt.
+using Motion = std::variant<Rest, EulerStep>;
+
+/// Where the body is `elapsed` [s] after the motion began.
+BodyState stateAt(const Motion& motion, const MassProperties& mass, double elapsed);
+
+}  // namespace careen

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/linear_algebra.h"
+#include "physics/body.h"
+#include "physics/method.h"
+#include "physics/world.h"
+#include "scene/frame_rate.h"
+
+namespace careen {
+
+/// sRGB, 8 bits a channel.
+struct Color {
+  std::uint8_t red = 200;
+  std::uint8_t green = 200;
+  std::uint8_t blue = 200;
+};
+
+/// Faces of a room, in the order x−, x+, y−, y+, z−, z+.
+inline constexpr std::array<const char*, 6> kRoomSides = {"-x", "+x", "-y", "+y", "-z", "+z"};
+
+struct Room {
+  Vec3 min = Vec3::Zero();     ///< [m]
+  Vec3 max = Vec3::Zero();     ///< [m]
+  std::array<bool, 6> open{};  ///< no wall on that side; order of kRoomSides
+  Material material;
+};
+
+struct SceneBox {
+  std::string name;
+  Vec3 halfExtents = Vec3::Zero();  ///< [m]
+  double mass = 0;                  ///< [kg]
+  Pose pose;
+  Vec3 velocity = Vec3::Zero();         ///< [m/s]
+  Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s] world frame
+  Material material;
+  bool fixed = false;
+  Color color;
+};
+
+struct Camera {
+  Vec3 eye = Vec3::Zero();     ///< [m]
+  Vec3 target = Vec3::Zero();  ///< [m]
+  Vec3 up = Vec3::UnitZ();
+  double fovDegrees = 40;  ///< [deg] vertical
+};
+
+struct Film {
+  int width = 1280;  ///< [px]
+  int height = 720;  ///< [px]
+  FrameRate rate;
+};
+
+/// A scene file, read and checked. Angles are radians but for the camera's.
+struct Scene {
+  std::string text;  ///< the file, byte for byte
+  std::string name;
+  double duration = 0;          ///< [s]
+  Vec3 gravity = Vec3::Zero();  ///< [m/s²]
+  std::optional<Room> room;
+  std::vector<Wall> walls;  ///< those written out; the room's come from `room`
+  std::vector<SceneBox> boxes;
+  std::vector<Spring> springs;
+  std::optional<Drag> drag;
+  Method method = Method::kListing1;
+  double dt = 1.0 / 240;  ///< [s]
+  double tolerance = 1e-6;
+  std::optional<Camera> camera;  ///< absent: the renderer chooses one that sees the scene
+  Film film;
+};
+
+}  // namespace careen

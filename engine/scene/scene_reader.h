@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "scene/scene.h"
+
+namespace careen {
+
+/// Reads and checks a scene. InputError says "file:line:column: what was found, what was expected".
+Scene readScene(const std::filesystem::path& path);
+/// The same from text; `name` stands for the file in messages.
+Scene parseScene(const std::string& text, const std::string& name);
+
+}  // namespace careen
