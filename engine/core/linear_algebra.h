@@ -10,12 +10,18 @@ template <class Real>
 using Vector3 = Eigen::Matrix<Real, 3, 1>;
 template <class Real>
 using Matrix3 = Eigen::Matrix<Real, 3, 3>;
+template <class Real>
+using Vector4 = Eigen::Matrix<Real, 4, 1>;
+template <class Real>
+using Matrix4 = Eigen::Matrix<Real, 4, 4>;
 /// Constructed as (w, x, y, z), but coeffs() is x, y, z, w: use the named fields.
 template <class Real>
 using Quaternion = Eigen::Quaternion<Real>;
 
 using Vec3 = Vector3<double>;
 using Mat3 = Matrix3<double>;
+using Vec4 = Vector4<double>;  ///< homogeneous: x y z w
+using Mat4 = Matrix4<double>;
 using Quat = Quaternion<double>;
 
 }  // namespace careen

@@ -7,7 +7,8 @@
 
 namespace careen {
 
-/// How hard a body is to move. Infinite mass is inverse mass 0.
+/// How hard a body is to move. Infinite mass is inverse mass 0; mass and inertia are then left 0 as well, so
+/// that weight and energy of what cannot move come out as none.
 struct MassProperties {
   double mass = 0;                         ///< [kg]
   double inverseMass = 0;                  ///< [1/kg]
@@ -16,10 +17,11 @@ struct MassProperties {
 };
 
 /// Solid box of constant density with full sizes (a,b,c): Ī = M/12 diag(b²+c², a²+c², a²+b²), Eq. 19
-/// integrated.
+/// integrated. Sizes [m] and mass [kg] must be positive and finite, else InputError.
 MassProperties solidBox(const Vec3& halfExtents, double mass);
 /// A wall, or a body that is held: no impulse moves it.
 MassProperties immovable();
+inline bool isImmovable(const MassProperties& mass) { return mass.inverseMass == 0; }
 
 /// What a touching pair is made of. A pair has restitution max(e₁, e₂) and friction sqrt(μ₁ μ₂).
 struct Material {
@@ -31,7 +33,7 @@ Material touching(const Material& a, const Material& b);
 /// State of one body, world frame. L, not ω, is primary: torque integrates to it, and a free body keeps it
 /// for ever.
 struct BodyState {
-  Pose pose;
+  Pose pose = {};
   Vec3 velocity = Vec3::Zero();         ///< [m/s] of the centre of mass
   Vec3 angularMomentum = Vec3::Zero();  ///< [kg m²/s] about the centre of mass
 };
@@ -53,7 +55,10 @@ struct Body {
 
 /// Corner 0…7 of a box, body frame [m]. Bit 2 of the index picks the sign of x, bit 1 of y, bit 0 of z; a
 /// clear bit is plus.
-Vec3 corner(const Vec3& halfExtents, int index);
+inline Vec3 corner(const Vec3& halfExtents, int index) {
+  const auto signOfBit = [index](int bit) { return (index & bit) == 0 ? 1.0 : -1.0; };
+  return halfExtents.cwiseProduct(Vec3(signOfBit(4), signOfBit(2), signOfBit(1)));
+}
 inline constexpr int kCorners = 8;
 
 }  // namespace careen

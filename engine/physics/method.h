@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <stop_token>
 #include <string_view>
 
@@ -8,15 +10,37 @@
 
 namespace careen {
 
-/// Ways to move a world. One line here, one in method.cpp.
+/// Ways to move a world: one line here, one in kMethods, one in simulate.
 enum class Method { kListing1 };
 
-std::string_view methodName(Method method);
+struct NamedMethod {
+  Method method;
+  std::string_view name;  ///< as scene files and commands spell it
+};
+inline constexpr std::array kMethods = {NamedMethod{Method::kListing1, "listing1"}};
+
+constexpr std::string_view methodName(Method method) {
+  for (const NamedMethod& known : kMethods) {
+    if (known.method == method) {
+      return known.name;
+    }
+  }
+  return {};
+}
+
+constexpr std::optional<Method> methodNamed(std::string_view name) {
+  for (const NamedMethod& known : kMethods) {
+    if (known.name == name) {
+      return known.method;
+    }
+  }
+  return std::nullopt;
+}
 
 /// What a run says of its own errors.
 struct RunFigures {
   double energyChange = 0;  ///< [1] largest change not accounted for by impacts, springs, drag and friction,
-                            ///< relative to the run's largest kinetic plus spring energy
+                            ///< relative to the largest kinetic plus spring energy the run should have had
   double momentumChange =
       0;  ///< [1] largest relative change in flight, linear and angular, beyond what forces give
   double orthogonality = 0;       ///< [1] largest ‖AAᵀ−1‖

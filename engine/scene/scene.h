@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -34,7 +35,7 @@ struct Room {
 struct SceneBox {
   std::string name;
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
-  double mass = 0;                  ///< [kg]
+  double mass = 0;                  ///< [kg] 0 if the box is fixed and the scene gives none
   Pose pose;
   Vec3 velocity = Vec3::Zero();         ///< [m/s]
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s] world frame
@@ -46,8 +47,8 @@ struct SceneBox {
 struct Camera {
   Vec3 eye = Vec3::Zero();     ///< [m]
   Vec3 target = Vec3::Zero();  ///< [m]
-  Vec3 up = Vec3::UnitZ();
-  double fovDegrees = 40;  ///< [deg] vertical
+  Vec3 up = Vec3::UnitZ();     ///< [1] unit, not along the line of sight
+  double fovDegrees = 40;      ///< [deg] vertical
 };
 
 struct Film {
@@ -59,7 +60,7 @@ struct Film {
 /// A scene file, read and checked. Angles are radians but for the camera's.
 struct Scene {
   std::string text;  ///< the file, byte for byte
-  std::string name;
+  std::string name = "untitled";
   double duration = 0;          ///< [s]
   Vec3 gravity = Vec3::Zero();  ///< [m/s²]
   std::optional<Room> room;
@@ -73,5 +74,11 @@ struct Scene {
   std::optional<Camera> camera;  ///< absent: the renderer chooses one that sees the scene
   Film film;
 };
+
+/// "room-x" for side 0: what the room's walls are called.
+std::string roomWallName(std::size_t side);
+
+/// The room's walls, less its open sides, named room-x room+x … room+z, then those written out.
+std::vector<Wall> wallsOf(const Scene& scene);
 
 }  // namespace careen

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <filesystem>
+#include <stop_token>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/pose.h"
@@ -11,6 +11,7 @@
 #include "physics/method.h"
 #include "physics/motion.h"
 #include "physics/recorder.h"
+#include "physics/world.h"
 
 namespace careen {
 
@@ -28,16 +29,26 @@ struct Track {
 
 /// A recorded run: where every body is at any moment of it.
 struct Trajectory {
-  std::string sceneText;  ///< the scene file it came from
+  std::string sceneText;  ///< the scene file it came from, byte for byte
   RunSettings settings;
   RunFigures figures;
   std::vector<std::string> wallNames;
   std::vector<Track> tracks;
   std::vector<Impact> impacts;  ///< in order of time
 
-  /// State of one body at a time within [0, duration]; times outside are an InputError.
+  /// State of a body at a time within [0, duration] [s]; InputError outside. Where two segments meet, the
+  /// later one.
   BodyState state(std::size_t body, double time) const;
   std::vector<Pose> poses(double time) const;
+
+  /// Of the scene file's bytes.
+  std::string sceneHash() const;
+  /// Of every body's last state, bit for bit, taken in the order of the bodies' names.
+  std::string stateHash() const;
 };
+
+/// Runs the world by settings.method and keeps what happened.
+Trajectory record(const World& world, const RunSettings& settings, std::string sceneText,
+                  const std::stop_token& stop = {});
 
 }  // namespace careen

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <stop_token>
+
+#include "core/error.h"
+
+namespace CLI {
+class App;
+}
+
+namespace careen {
+
+/// What the command line asked for; runs until done or until asked to stop.
+using Command = std::function<ExitCode(const std::stop_token&)>;
+
+// Each adds one command, with its options, to the command line; parsing it sets `chosen`.
+void addRender(CLI::App& commandLine, Command& chosen);
+void addSimulate(CLI::App& commandLine, Command& chosen);
+void addInfo(CLI::App& commandLine, Command& chosen);
+void addVerify(CLI::App& commandLine, Command& chosen);
+
+}  // namespace careen

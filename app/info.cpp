@@ -1,0 +1,51 @@
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "commands.h"
+#include "core/file.h"
+#include "report.h"
+#include "run.h"
+#include "scene/scene_reader.h"
+#include "trajectory/trajectory_file.h"
+
+namespace careen {
+namespace {
+
+ExitCode infoCommand(std::filesystem::path path, const std::stop_token& stop) {
+  if (path.empty()) {
+    path = defaultScene();
+  }
+  const std::string bytes = readFile(path);
+  if (!looksLikeTrajectory(bytes)) {
+    const Scene scene = parseScene(bytes, path.string());
+    printPlan(std::cout, scene, plan(scene));
+    return ExitCode::kDone;
+  }
+  const Run run = loadRun(path, stop);
+  printPlan(std::cout, run.scene, run.plan);
+  printError(std::cout, run.trajectory);
+  std::size_t segments = 0;
+  for (const Track& track : run.trajectory.tracks) {
+    segments += track.segments.size();
+  }
+  std::cout << "trajectory   " << bytes.size() << " bytes, " << segments << " segments\n"
+            << "scene hash   " << run.trajectory.sceneHash() << '\n';
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void addInfo(CLI::App& commandLine, Command& chosen) {
+  CLI::App* command =
+      commandLine.add_subcommand("info", "What a scene's run models, what it leaves out, and why");
+  const auto path = std::make_shared<std::filesystem::path>();
+  command->add_option("file", *path, "Scene or trajectory file; the default scene if none is named");
+  command->callback(
+      [path, &chosen] { chosen = [path](const std::stop_token& stop) { return infoCommand(*path, stop); }; });
+}
+
+}  // namespace careen

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <atomic>
+#include <csignal>
+#include <stop_token>
+#include <thread>
+
+namespace careen {
+
+/// Turns SIGINT and SIGTERM into a request to stop, so that whatever is being written is finished or undone.
+/// Make it before any other thread: they inherit the mask that leaves the signals to its own thread. A second
+/// signal ends the process at once.
+class Interruption {
+ public:
+  Interruption();
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+  Interruption(Interruption&&) = delete;
+  Interruption& operator=(Interruption&&) = delete;
+
+  std::stop_token token() const { return source_.get_token(); }
+  /// The signal that came, 0 if none.
+  int signal() const { return signal_; }
+
+ private:
+  void wait();
+
+  sigset_t signals_{};
+  std::stop_source source_;
+  std::atomic<int> signal_ = 0;
+  std::atomic<bool> over_ = false;
+  std::thread waiter_;
+};
+
+}  // namespace careen

@@ -1,0 +1,68 @@
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "commands.h"
+#include "core/error.h"
+#include "interruption.h"
+
+namespace careen {
+namespace {
+
+int exitWith(ExitCode code) { return static_cast<int>(code); }
+
+// A negative number is a signal that the caller should see the process die of.
+int runCommandLine(int argc, char** argv, Interruption& interruption) {
+  CLI::App commandLine("Films rigid boxes that tumble and collide with walls.", "careen");
+  commandLine.set_version_flag("--version", "careen " CAREEN_VERSION);
+  commandLine.require_subcommand(1);
+  Command chosen;
+#ifdef CAREEN_RENDER
+  addRender(commandLine, chosen);
+#endif
+  addSimulate(commandLine, chosen);
+  addInfo(commandLine, chosen);
+#ifdef CAREEN_RENDER
+  addVerify(commandLine, chosen);
+#endif
+  commandLine.footer(
+      "Exit codes: 0 done, 1 frames or states differ, 2 bad usage or bad input, 3 the machine failed,\n"
+      "4 the numbers failed. 'careen COMMAND --help' tells a command's options.");
+  try {
+    commandLine.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return exitWith(commandLine.exit(error) == 0 ? ExitCode::kDone : ExitCode::kBadInput);
+  }
+  try {
+    return exitWith(chosen(interruption.token()));
+  } catch (const Interrupted&) {
+    std::cerr << "careen: interrupted\n";
+    return -interruption.signal();
+  } catch (const Error& error) {
+    std::cerr << "careen: " << error.what() << '\n';
+    return exitWith(error.code());
+  } catch (const std::bad_alloc&) {
+    std::cerr << "careen: out of memory\n";
+    return exitWith(ExitCode::kMachineFailed);
+  } catch (const std::exception& error) {
+    std::cerr << "careen: " << error.what() << '\n';
+    return exitWith(ExitCode::kMachineFailed);
+  }
+}
+
+}  // namespace
+}  // namespace careen
+
+int main(int argc, char** argv) {
+  int result = 0;
+  {
+    careen::Interruption interruption;
+    result = careen::runCommandLine(argc, argv, interruption);
+  }
+  if (result < 0) {
+    std::raise(-result);
+  }
+  return result;
+}

@@ -1,0 +1,37 @@
+# Shared by app/demo and tests/run: what the project is built with on Debian 12, and how it gets there. Sourced.
+
+kBuildPackages=(g++ cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libcli11-dev libdeflate-dev
+  libstb-dev libosmesa6-dev)
+
+# Installs those of the packages named that are missing; says so first. Asks nothing of the network if none is.
+install_missing() {
+  local package missing=() as_root=()
+  for package in "$@"; do
+    [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] ||
+      missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return
+  echo "About to install these Debian packages: ${missing[*]}"
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || {
+      echo "Neither root nor sudo: install them yourself, then run this again." >&2
+      exit 3
+    }
+    as_root=(sudo)
+  fi
+  "${as_root[@]}" apt-get update -qq &&
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+      "${missing[@]}" >/dev/null || {
+    echo "The packages could not be installed." >&2
+    exit 3
+  }
+}
+
+# build_in FOLDER TARGET [CMAKE OPTION…]
+build_in() {
+  local folder=$1 target=$2
+  shift 2
+  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" >"$folder.log" 2>&1 ||
+    { cat "$folder.log" >&2 && exit 3; }
+  cmake --build "$folder" --target "$target"
+}

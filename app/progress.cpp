@@ -1,0 +1,44 @@
+#include "progress.h"
+
+#include <iomanip>
+#include <sstream>
+#include <string>
+
+namespace careen {
+namespace {
+
+constexpr std::int64_t kBarWidth = 30;
+constexpr double kTerminalInterval = 0.1;  // [s]
+constexpr double kPlainInterval = 5;       // [s]
+
+std::string barOf(std::int64_t done, std::int64_t total) {
+  const auto filled = static_cast<std::size_t>(kBarWidth * done / total);
+  return "[" + std::string(filled, '#') + std::string(static_cast<std::size_t>(kBarWidth) - filled, '.') +
+         "] ";
+}
+
+}  // namespace
+
+void Progress::update(std::int64_t done, std::int64_t total) {
+  const double now = stopwatch_.seconds();
+  const bool last = done == total;
+  if (!last && now - toldAt_ < (terminal_ ? kTerminalInterval : kPlainInterval)) {
+    return;
+  }
+  toldAt_ = now;
+  std::ostringstream line;
+  line << std::fixed << std::setprecision(1);
+  if (terminal_) {
+    line << '\r' << barOf(done, total);
+  }
+  line << "frame " << done << " of " << total;
+  if (done > 0 && now > 0) {
+    const double perSecond = static_cast<double>(done) / now;
+    line << ", " << perSecond << " frames/s, " << static_cast<double>(total - done) / perSecond << " s left";
+  }
+  // Blanks cover what a longer line left on a terminal.
+  line << (terminal_ ? (last ? "    \n" : "    ") : "\n");
+  out_ << line.str() << std::flush;
+}
+
+}  // namespace careen

@@ -1,0 +1,73 @@
+#include "report.h"
+
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace careen {
+namespace {
+
+void printItems(std::ostream& out, const char* title, const Plan& plan, bool modelled) {
+  const char* indent = title;
+  for (const PlanItem& item : plan.items) {
+    if (item.modelled == modelled) {
+      out << indent << item.what << ": " << item.reason << '\n';
+      indent = "             ";
+    }
+  }
+}
+
+}  // namespace
+
+nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
+  const Trajectory& trajectory = run.trajectory;
+  const RunFigures& figures = trajectory.figures;
+  return {
+      {"scene", run.scene.name},
+      {"scene_hash", trajectory.sceneHash()},
+      {"method", methodName(trajectory.settings.method)},
+      {"dt", trajectory.settings.dt},
+      {"simulated_seconds", trajectory.settings.duration},
+      {"wall_seconds", wallSeconds},
+      {"impacts", trajectory.impacts.size()},
+      {"state_hash", trajectory.stateHash()},
+      {"energy_change", figures.energyChange},
+      {"momentum_change", figures.momentumChange},
+      {"orthogonality", figures.orthogonality},
+      {"deepest_penetration", figures.deepestPenetration},
+      {"modelled", run.plan.modelled()},
+      {"left_out", run.plan.leftOut()},
+      {"seconds", {{"simulate", run.simulateSeconds}}},
+  };
+}
+
+void printPlan(std::ostream& out, const Scene& scene, const Plan& plan) {
+  out << "scene        " << scene.name << ", " << scene.boxes.size()
+      << (scene.boxes.size() == 1 ? " box, " : " boxes, ") << scene.duration << " s by "
+      << methodName(scene.method) << ", dt " << scene.dt << " s\n";
+  printItems(out, "modelled     ", plan, true);
+  printItems(out, "left out     ", plan, false);
+}
+
+void printError(std::ostream& out, const Trajectory& trajectory) {
+  const RunFigures& figures = trajectory.figures;
+  out << std::setprecision(3) << "error        energy " << figures.energyChange << ", momentum "
+      << figures.momentumChange << ", |AAᵀ-1| " << figures.orthogonality << ", deepest penetration "
+      << figures.deepestPenetration << " m\n";
+  out << "impacts      " << trajectory.impacts.size() << '\n';
+  out << "state hash   " << trajectory.stateHash() << '\n';
+}
+
+void printSummary(std::ostream& out, const Run& run, double wallSeconds) {
+  printPlan(out, run.scene, run.plan);
+  out << std::setprecision(3) << "speed        " << wallSeconds << " s in all";
+  if (run.simulateSeconds > 0) {
+    out << "; simulated in " << run.simulateSeconds << " s, "
+        << run.trajectory.settings.duration / run.simulateSeconds << " times real time";
+  }
+  out << '\n';
+  printError(out, run.trajectory);
+}
+
+}  // namespace careen

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <ostream>
+
+#include "run.h"
+
+namespace careen {
+
+/// report.json of a run (keys as in the contract); what drew it adds its own part.
+nlohmann::ordered_json runReport(const Run& run, double wallSeconds);
+
+/// The same for a person: what was modelled, then speed and error next to each other.
+void printSummary(std::ostream& out, const Run& run, double wallSeconds);
+/// Parts of it.
+void printPlan(std::ostream& out, const Scene& scene, const Plan& plan);
+void printError(std::ostream& out, const Trajectory& trajectory);
+
+}  // namespace careen

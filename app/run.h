@@ -1,0 +1,56 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "scene/plan.h"
+#include "scene/scene.h"
+#include "trajectory/trajectory.h"
+
+namespace CLI {
+class App;
+}
+
+namespace careen {
+
+/// A scene and what became of it.
+struct Run {
+  std::filesystem::path source;  ///< the scene or trajectory file
+  Scene scene;
+  Plan plan;
+  Trajectory trajectory;
+  double simulateSeconds = 0;  ///< [s] 0 when the trajectory was read from a file
+};
+
+/// What the command line puts in place of the scene file's own.
+struct Overrides {
+  std::optional<std::string> method;
+  std::optional<double> dt;        ///< [s]
+  std::optional<double> duration;  ///< [s]
+
+  void addTo(CLI::App& command);
+};
+
+/// The scene that every command takes when none is named.
+std::filesystem::path defaultScene();
+
+/// Reads a scene file and runs it. Tells on the standard error what was overridden.
+Run simulateScene(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop);
+
+/// Takes a scene file, which is run, or a trajectory file, which was.
+Run loadRun(const std::filesystem::path& path, const std::stop_token& stop);
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace careen

@@ -1,0 +1,91 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <list>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+
+#include "commands.h"
+#include "core/file.h"
+#include "report.h"
+#include "run.h"
+#include "trajectory/export_csv.h"
+#include "trajectory/trajectory_file.h"
+
+namespace careen {
+namespace {
+
+struct SimulateOptions {
+  std::filesystem::path scene;
+  std::filesystem::path output;
+  std::filesystem::path poses;
+  double every = 1.0 / 60;  // [s]
+  std::filesystem::path impacts;
+  std::filesystem::path report;
+  Overrides overrides;
+};
+
+// All or nothing: every file is written beside its place first, and none is put there unless all could be.
+class Outputs {
+ public:
+  void add(const std::filesystem::path& path, const std::function<void(const TextSink&)>& write) {
+    if (path.empty()) {
+      return;
+    }
+    AtomicFile& file = files_.emplace_back(path);
+    write([&file](std::string_view text) { file.write(text); });
+  }
+  void commit() {
+    for (AtomicFile& file : files_) {
+      file.commit();
+    }
+  }
+
+ private:
+  std::list<AtomicFile> files_;  // a list, because an AtomicFile stays where it is
+};
+
+ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& stop) {
+  const Stopwatch stopwatch;
+  const std::filesystem::path source = options.scene.empty() ? defaultScene() : options.scene;
+  const std::filesystem::path output =
+      options.output.empty() ? std::filesystem::path(source.stem().string() + ".careen") : options.output;
+  const Run run = simulateScene(source, options.overrides, stop);
+
+  Outputs outputs;
+  outputs.add(output, [&](const TextSink& sink) { sink(encodeTrajectory(run.trajectory)); });
+  outputs.add(options.poses,
+              [&](const TextSink& sink) { writePosesCsv(run.trajectory, options.every, sink); });
+  outputs.add(options.impacts, [&](const TextSink& sink) { writeImpactsCsv(run.trajectory, sink); });
+  outputs.add(options.report,
+              [&](const TextSink& sink) { sink(runReport(run, stopwatch.seconds()).dump(2) + "\n"); });
+  outputs.commit();
+
+  printSummary(std::cout, run, stopwatch.seconds());
+  std::cout << "trajectory   " << output.string() << '\n';
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void addSimulate(CLI::App& commandLine, Command& chosen) {
+  CLI::App* command = commandLine.add_subcommand("simulate", "Run a scene and keep what happened");
+  const auto options = std::make_shared<SimulateOptions>();
+  command->add_option("scene", options->scene, "Scene file; the default scene if none is named");
+  command->add_option("-o,--output", options->output, "Trajectory file (default: the scene's name, .careen)");
+  CLI::Option* poses = command->add_option("--poses", options->poses, "Table of poses (CSV)");
+  command->add_option("--every", options->every, "Time between rows of the table of poses [s]")
+      ->needs(poses)
+      ->capture_default_str();
+  command->add_option("--impacts", options->impacts, "Table of impacts (CSV)");
+  command->add_option("--report", options->report, "What was modelled, speed and error (JSON)");
+  options->overrides.addTo(*command);
+  command->callback([options, &chosen] {
+    chosen = [options](const std::stop_token& stop) { return simulateCommand(*options, stop); };
+  });
+}
+
+}  // namespace careen

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "image/picture.h"
+
+namespace careen {
+
+/// A PNG file's bytes: 8-bit RGB, lossless. The same picture gives the same bytes.
+std::string encodePng(const Picture& picture);
+
+/// Any PNG as 8-bit RGB; transparency is dropped. InputError, naming `name`, if the bytes are no whole PNG or
+/// one of its checksums is wrong.
+Picture decodePng(std::string_view bytes, const std::string& name);
+
+/// InputError if the file is missing, cut short or changed.
+Picture readPng(const std::filesystem::path& path);
+/// The file appears whole or not at all; MachineError if it cannot be written.
+void writePng(const std::filesystem::path& path, const Picture& picture);
+
+/// Whether the file begins and ends as a PNG of this size does: quick, its pixels are not looked at.
+bool looksWhole(const std::filesystem::path& path, int width, int height);
+
+}  // namespace careen

@@ -1,0 +1,214 @@
+#include "image/video_pipe.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+
+namespace careen {
+namespace {
+
+// Left by a run that was killed outright: ".film.mp4.123.partial" where no process 123 lives any more.
+void removeStale(const std::filesystem::path& path) {
+  const std::string start = "." + path.filename().string() + ".";
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    std::string name = entry.path().filename().string();
+    if (!name.starts_with(start) || !name.ends_with(kPartialEnding)) {
+      continue;
+    }
+    name = name.substr(start.size(), name.size() - start.size() - kPartialEnding.size());
+    const bool isNumber =
+        !name.empty() && name.size() < 10 && name.find_first_not_of("0123456789") == std::string::npos;
+    if (isNumber && (std::stoi(name) == getpid() || (kill(std::stoi(name), 0) != 0 && errno == ESRCH))) {
+      std::filesystem::remove(entry.path(), ignored);
+    }
+  }
+}
+
+std::vector<std::string> ffmpegCommand(const VideoSettings& settings, const std::filesystem::path& output) {
+  const std::string size = std::to_string(settings.width) + "x" + std::to_string(settings.height);
+  const std::string rate =
+      std::to_string(settings.rateNumerator) + "/" + std::to_string(settings.rateDenominator);
+  // Chroma is halved, so sizes are made even; players take a film of this size to be BT.709.
+  const std::string filter =
+      "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
+  return {"ffmpeg",     "-nostdin",
+          "-loglevel",  "error",
+          "-y",         "-f",
+          "rawvideo",   "-pix_fmt",
+          "rgb24",      "-video_size",
+          size,         "-framerate",
+          rate,         "-i",
+          "pipe:0",     "-vf",
+          filter,       "-c:v",
+          "libx264",    "-preset",
+          "veryfast",   "-crf",
+          "18",         "-colorspace",
+          "bt709",      "-color_primaries",
+          "bt709",      "-color_trc",
+          "bt709",      "-color_range",
+          "tv",         "-fflags",
+          "+bitexact",  "-movflags",
+          "+faststart", "-f",
+          "mp4",        "file:" + output.string()};
+}
+
+// A group of its own: Ctrl-C at the terminal is this program's to deal with. And none of the signals that
+// this program keeps back.
+int spawn(std::vector<std::string> command, int input, int log, pid_t& process) {
+  std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
+  for (std::string& argument : command) {
+    arguments.push_back(argument.data());
+  }
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&files, log, STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+  const int error = posix_spawnp(&process, arguments[0], &files, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&files);
+  return error;
+}
+
+void closeAndForget(int& descriptor) {
+  if (descriptor >= 0) {
+    close(std::exchange(descriptor, -1));
+  }
+}
+
+// The end of what it said: there the cause is.
+std::string lastWords(int log) {
+  constexpr off_t kMost = 1500;
+  const off_t size = lseek(log, 0, SEEK_END);
+  std::array<char, kMost> text{};
+  const ssize_t got = pread(log, text.data(), text.size(), std::max<off_t>(0, size - kMost));
+  std::string_view words(text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+  words = words.substr(0, words.find_last_not_of(" \n") + 1);
+  return std::string(words);
+}
+
+}  // namespace
+
+VideoPipe::VideoPipe(VideoSettings settings) : settings_(std::move(settings)) {
+  removeStale(settings_.path);
+  partial_ = settings_.path.parent_path() / ("." + settings_.path.filename().string() + "." +
+                                             std::to_string(getpid()) + std::string(kPartialEnding));
+  // Said now rather than when the last frame is drawn.
+  const int probe = open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (probe < 0) {
+    throw MachineError(settings_.path.string() + ": cannot be written: " + std::strerror(errno));
+  }
+  close(probe);
+  try {
+    start();
+  } catch (...) {
+    undo();
+    throw;
+  }
+}
+
+void VideoPipe::start() {
+  // A socket, not a pipe: send can be told not to raise SIGPIPE when ffmpeg is gone.
+  std::array<int, 2> ends = {-1, -1};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    throw MachineError(std::string("no socket to ffmpeg: ") + std::strerror(errno));
+  }
+  frames_ = ends[0];
+  log_ = memfd_create("ffmpeg", MFD_CLOEXEC);
+  const int error = spawn(ffmpegCommand(settings_, partial_), ends[1], log_, process_);
+  close(ends[1]);
+  if (error != 0) {
+    process_ = 0;
+    throw MachineError(settings_.path.string() + ": ffmpeg, which makes the video, cannot be started: " +
+                       std::strerror(error) + (error == ENOENT ? "; install it: apt install ffmpeg" : ""));
+  }
+}
+
+VideoPipe::~VideoPipe() { undo(); }
+
+void VideoPipe::hangUp() { shutdown(frames_, SHUT_RDWR); }
+
+void VideoPipe::write(const Picture& picture) {
+  if (picture.width != settings_.width || picture.height != settings_.height) {
+    throw InputError(settings_.path.string() + ": a frame of another size than the video's");
+  }
+  std::size_t sent = 0;
+  while (sent < picture.rgb.size()) {
+    const ssize_t count = send(frames_, picture.rgb.data() + sent, picture.rgb.size() - sent, MSG_NOSIGNAL);
+    if (count >= 0) {
+      sent += static_cast<std::size_t>(count);
+    } else if (errno != EINTR) {
+      fail("ffmpeg ended before the video did");
+    }
+  }
+}
+
+void VideoPipe::finish() {
+  closeAndForget(frames_);
+  if (wait() != 0) {
+    fail("ffmpeg failed");
+  }
+  std::error_code error;
+  std::filesystem::rename(partial_, settings_.path, error);
+  if (error) {
+    throw MachineError(settings_.path.string() + ": cannot be put in place: " + error.message());
+  }
+  closeAndForget(log_);
+  partial_.clear();
+}
+
+// Exit status, or that of a shell for one that died of a signal.
+int VideoPipe::wait() {
+  int status = 0;
+  while (process_ != 0 && waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  process_ = 0;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+void VideoPipe::fail(const std::string& what) {
+  const std::string words = lastWords(log_);
+  throw MachineError(settings_.path.string() + ": " + what + (words.empty() ? "" : ": " + words));
+}
+
+void VideoPipe::undo() {
+  if (process_ != 0) {
+    kill(process_, SIGKILL);
+    wait();
+  }
+  closeAndForget(frames_);
+  closeAndForget(log_);
+  if (!partial_.empty()) {
+    std::error_code ignored;
+    std::filesystem::remove(partial_, ignored);
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,25 @@
+#include "physics/method.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "physics/loop1997.h"
+
+namespace careen {
+
+RunFigures simulate(const World& world, const RunSettings& settings, Recorder& recorder,
+                    const std::stop_token& stop) {
+  if (!(std::isfinite(settings.duration) && settings.duration >= 0)) {
+    throw InputError("duration must be finite and not negative");
+  }
+  if (!(std::isfinite(settings.dt) && settings.dt > 0)) {
+    throw InputError("dt must be finite and positive");
+  }
+  switch (settings.method) {
+    case Method::kListing1:
+      return runLoop1997(world, settings, recorder, stop);
+  }
+  throw InputError("unknown method");
+}
+
+}  // namespace careen

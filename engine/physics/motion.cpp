@@ -1,0 +1,24 @@
+#include "physics/motion.h"
+
+#include "physics/listing1.h"
+
+namespace careen {
+namespace {
+
+BodyState stateIn(const Rest& rest, const MassProperties& /*mass*/, double /*elapsed*/) {
+  return {.pose = rest.pose};
+}
+
+BodyState stateIn(const EulerStep& step, const MassProperties& mass, double elapsed) {
+  // At its start the state itself, to the bit: even a step of no length would orthonormalise anew.
+  return elapsed == 0 ? step.start
+                      : listing1Step(mass, step.start, {.force = step.force, .torque = step.torque}, elapsed);
+}
+
+}  // namespace
+
+BodyState stateAt(const Motion& motion, const MassProperties& mass, double elapsed) {
+  return std::visit([&](const auto& kind) { return stateIn(kind, mass, elapsed); }, motion);
+}
+
+}  // namespace careen

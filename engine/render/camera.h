@@ -1,0 +1,35 @@
+#pragma once
+
+#include "core/linear_algebra.h"
+#include "render/scene_extent.h"
+#include "scene/scene.h"
+
+namespace careen {
+
+/// How the world comes onto the picture. Positions are taken relative to the eye before they lose digits to
+/// single precision: "offset" is a point of the world less the eye, along the world's axes.
+struct View {
+  Vec3 eye = Vec3::Zero();                  ///< [m]
+  Mat3 worldFromCamera = Mat3::Identity();  ///< camera looks along its −z; x right, y up on the picture
+  Mat4 clipFromOffset = Mat4::Identity();   ///< OpenGL's clip space
+
+  /// Where a point of the world appears [px], from the picture's upper left corner; z is depth, −1 … 1.
+  Vec3 pixelFromWorld(const Vec3& point, int width, int height) const;
+};
+
+/// Rotation of a camera that looks from eye to target with `up` upward. InputError if they leave it
+/// undefined.
+Mat3 lookAt(const Vec3& eye, const Vec3& target, const Vec3& up);
+
+/// Perspective of OpenGL; `fov` [rad] is the vertical angle, `aspect` width over height, near < far [m].
+Mat4 perspective(double fov, double aspect, double near, double far);
+
+/// A camera that sees the whole of `extent`, from the front, the right and above.
+Camera cameraThatSees(const Extent& extent, double aspect);
+
+/// The scene's camera, or one that sees the whole scene.
+Camera cameraOf(const Scene& scene, double aspect);
+
+View viewOf(const Camera& camera, const Extent& extent, double aspect);
+
+}  // namespace careen

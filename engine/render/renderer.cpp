@@ -1,0 +1,185 @@
+#include <GL/glcorearb.h>
+
+#include "render/renderer.h"
+
+#include <chrono>
+
+#include "core/error.h"
+#include "core/resource.h"
+#include "render/box_batch.h"
+#include "render/camera.h"
+#include "render/canvas.h"
+#include "render/frame_block.h"
+#include "render/gl.h"
+#include "render/scene_extent.h"
+#include "render/shader.h"
+#include "render/shadow_map.h"
+#include "render/surface_batch.h"
+#include "render/surfaces.h"
+
+namespace careen {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begun) {
+  return std::chrono::duration<double>(Clock::now() - begun).count();
+}
+
+std::filesystem::path shaderFolder(const RenderOptions& options) {
+  return options.shaders.empty() ? resourceFolder() / "shaders" : options.shaders;
+}
+
+// What shades: no file of what is not there.
+std::vector<std::string> lightShaders(const Lighting& lighting, bool shadows) {
+  if (!lighting.light) {
+    return {"ambient.frag"};
+  }
+  return {"light.frag", shadows ? "shadow.frag" : "no_shadow.frag"};
+}
+
+// A room holds its boxes, so its shadows keep still; elsewhere the map follows them.
+Extent castersOf(const Scene& scene, const Extent& extent, const std::vector<DrawnBox>& boxes) {
+  if (scene.room) {
+    return extent;
+  }
+  Extent casters{.min = boxes[0].pose.position, .max = boxes[0].pose.position};
+  for (const DrawnBox& box : boxes) {
+    const Vec3 reach = box.pose.worldFromBody.cwiseAbs() * box.halfExtents;
+    casters.min = casters.min.cwiseMin(box.pose.position - reach);
+    casters.max = casters.max.cwiseMax(box.pose.position + reach);
+  }
+  return casters;
+}
+
+// Texture coordinates and depth of a point given as an offset from the eye.
+Mat4 fromOffset(const Mat4& fromWorld, const Vec3& eye) {
+  Mat4 result = fromWorld;
+  result.topRightCorner<3, 1>() += fromWorld.topLeftCorner<3, 3>() * eye;
+  return result;
+}
+
+}  // namespace
+
+struct Renderer::Parts {
+  Parts(const Scene& scene, int width, int height, const RenderOptions& options);
+  void drawShadows(const std::vector<DrawnBox>& drawn);
+  void drawPicture();
+  void upload() const;
+
+  Scene scene;
+  Extent extent;
+  Camera camera;
+  View view;
+  Lighting lighting;
+  bool shadows;
+  OsMesa osMesa;
+  Gl gl;
+  Canvas canvas;
+  std::optional<ShadowMap> shadowMap;
+  BoxBatch boxes;
+  SurfaceBatch surfaces;
+  unsigned backgroundArray;
+  unsigned backgroundProgram;
+  unsigned blockBuffer = 0;
+  FrameBlock block;
+  DrawFigures figures;
+};
+
+Renderer::Parts::Parts(const Scene& drawnScene, int width, int height, const RenderOptions& options)
+    : scene(drawnScene),
+      extent(extentOf(scene)),
+      camera(cameraOf(scene, static_cast<double>(width) / height)),
+      view(viewOf(camera, extent, static_cast<double>(width) / height)),
+      lighting(options.lighting ? *options.lighting : defaultLighting(camera)),
+      shadows(lighting.light && lighting.light->castsShadow && !scene.boxes.empty()),
+      osMesa(options.osMesa),
+      gl(osMesa),
+      canvas(gl, width, height),
+      boxes(gl, shaderFolder(options), lightShaders(lighting, shadows)),
+      surfaces(gl, shaderFolder(options), lightShaders(lighting, shadows), surfacesOf(scene, extent),
+               tileSize(extent), view.eye),
+      backgroundArray(makeVertexArray(gl)),
+      backgroundProgram(linkProgram(gl, shaderFolder(options), {"background.vert", "background.frag"})) {
+  if (shadows) {
+    shadowMap.emplace(gl, shaderFolder(options));
+  }
+  gl.GenBuffers(1, &blockBuffer);
+  gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, blockBuffer);  // block 0 is where every program looks
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthFunc(GL_LEQUAL);
+  gl.Enable(GL_CULL_FACE);
+
+  block.clipFromOffset = floats(view.clipFromOffset);
+  block.up = floats(camera.up.normalized());
+  block.sky = floats(lighting.sky);
+  block.ground = floats(lighting.ground);
+  block.backgroundTop = floats(lighting.backgroundTop);
+  block.backgroundBottom = floats(lighting.backgroundBottom);
+  if (lighting.light) {
+    block.towardsLight = floats(lighting.light->towards.normalized());
+    block.lightColor = floats(lighting.light->color, 1);
+  }
+  checkGl(gl, "preparing to draw");
+}
+
+void Renderer::Parts::upload() const {
+  gl.BindBuffer(GL_UNIFORM_BUFFER, blockBuffer);
+  gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
+}
+
+void Renderer::Parts::drawShadows(const std::vector<DrawnBox>& drawn) {
+  const Mat4 fromWorld = shadowFromWorld(castersOf(scene, extent, drawn), lighting.light->towards);
+  block.shadowFromOffset = floats(fromOffset(fromWorld, view.eye));
+  upload();
+  shadowMap->begin();
+  boxes.drawDepth();
+  shadowMap->end();
+  ++figures.shadowPasses;
+}
+
+void Renderer::Parts::drawPicture() {
+  canvas.begin();
+  boxes.draw();
+  surfaces.draw();
+  gl.UseProgram(backgroundProgram);
+  gl.BindVertexArray(backgroundArray);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  canvas.finish();
+}
+
+Renderer::Renderer(const Scene& scene, int width, int height, const RenderOptions& options)
+    : parts_(std::make_unique<Parts>(scene, width, height, options)) {}
+
+Renderer::~Renderer() = default;
+
+Picture Renderer::draw(std::span<const Pose> poses) {
+  Parts& parts = *parts_;
+  if (poses.size() != parts.scene.boxes.size()) {
+    throw InputError("drawing: found " + std::to_string(poses.size()) + " poses, expected one for each of " +
+                     std::to_string(parts.scene.boxes.size()) + " boxes");
+  }
+  const Clock::time_point begun = Clock::now();
+  parts.osMesa.makeCurrent();
+  std::vector<DrawnBox> drawn = drawnBoxes(parts.scene, poses, 0.004 * parts.extent.radius());
+  parts.boxes.place(drawn, parts.view.eye);
+  if (parts.shadows) {
+    parts.drawShadows(drawn);
+  } else {
+    parts.upload();
+  }
+  parts.drawPicture();
+  parts.figures.drawSeconds += secondsSince(begun);
+
+  const Clock::time_point drawnAt = Clock::now();
+  Picture picture = parts.canvas.read();
+  parts.figures.readSeconds += secondsSince(drawnAt);
+  ++parts.figures.frames;
+  return picture;
+}
+
+const std::string& Renderer::rendererName() const { return parts_->gl.description; }
+
+const DrawFigures& Renderer::figures() const { return parts_->figures; }
+
+}  // namespace careen

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/pose.h"
+#include "image/picture.h"
+#include "render/lighting.h"
+#include "render/osmesa.h"
+#include "scene/scene.h"
+
+namespace careen {
+
+struct RenderOptions {
+  OsMesaOptions osMesa;
+  std::optional<Lighting> lighting;  ///< absent: defaultLighting
+  std::filesystem::path shaders;     ///< folder; empty: the program's own
+};
+
+/// What drawing took so far.
+struct DrawFigures {
+  int frames = 0;
+  int shadowPasses = 0;
+  double drawSeconds = 0;  ///< [s] by the clock, until the last pixel is done
+  double readSeconds = 0;  ///< [s] reading back and flipping
+};
+
+/// Draws a scene with its boxes where they are told to be. The same poses give the same bytes.
+class Renderer {
+ public:
+  /// Size in pixels. InputError for a size beyond what GL can do, MachineError where there is no GL to do it.
+  Renderer(const Scene& scene, int width, int height, const RenderOptions& options = {});
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+  Renderer(Renderer&&) = delete;
+  Renderer& operator=(Renderer&&) = delete;
+
+  /// One pose for each box of the scene, in its order. MachineError if the frame comes out blank.
+  Picture draw(std::span<const Pose> poses);
+
+  /// GL's renderer and version, such as "llvmpipe (…), OpenGL … Mesa 22.3.6, libOSMesa.so.8".
+  const std::string& rendererName() const;
+  const DrawFigures& figures() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace careen

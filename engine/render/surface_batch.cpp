@@ -1,0 +1,65 @@
+#include <GL/glcorearb.h>
+
+#include "render/surface_batch.h"
+
+#include "render/gl.h"
+#include "render/shader.h"
+
+namespace careen {
+namespace {
+
+void append(std::vector<float>& records, const Vec3& v) {
+  for (const double value : v) {
+    records.push_back(static_cast<float>(value));
+  }
+}
+
+void appendVertex(std::vector<float>& records, const Surface& surface, const Vec3& corner, double tileSize,
+                  const Vec3& eye) {
+  append(records, corner - eye);
+  append(records, surface.normal);
+  // Lengths on a surface are counted in tiles from here on.
+  for (const double length :
+       {surface.across.dot(corner - surface.origin), surface.along.dot(corner - surface.origin),
+        surface.size.x(), surface.size.y()}) {
+    records.push_back(static_cast<float>(length / tileSize));
+  }
+  for (const bool adjoins : surface.adjoins) {
+    records.push_back(adjoins ? 1.0F : 0.0F);
+  }
+  append(records, surface.color);
+  records.push_back(static_cast<float>(surface.covering));
+}
+
+// A convex outline is a fan of triangles.
+std::vector<float> triangles(const std::vector<Surface>& surfaces, double tileSize, const Vec3& eye) {
+  std::vector<float> records;
+  for (const Surface& surface : surfaces) {
+    for (std::size_t last = 2; last < surface.outline.size(); ++last) {
+      for (const std::size_t corner : {std::size_t{0}, last - 1, last}) {
+        appendVertex(records, surface, surface.outline[corner], tileSize, eye);
+      }
+    }
+  }
+  return records;
+}
+
+}  // namespace
+
+SurfaceBatch::SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders,
+                           const std::vector<std::string>& light, const std::vector<Surface>& surfaces,
+                           double tileSize, const Vec3& eye)
+    : gl_(gl),
+      array_(makeVertexArray(gl)),
+      vertices_(gl, {{0, 3}, {1, 3}, {2, 4}, {3, 4}, {4, 4}}, VertexBuffer::Step::kVertex),
+      program_(linkProgram(gl, shaders, with({"surface.vert", "surface.frag"}, light))) {
+  vertices_.fill(triangles(surfaces, tileSize, eye));
+}
+
+void SurfaceBatch::draw() const {
+  gl_.UseProgram(program_);
+  gl_.BindVertexArray(array_);
+  gl_.DrawArrays(GL_TRIANGLES, 0, vertices_.count());
+}
+
+}  // namespace careen

@@ -1,0 +1,194 @@
+#include "scene/json_shape.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace careen {
+namespace {
+
+using Kind = JsonNode::Kind;
+
+std::string withUnit(const std::string& text, const std::string& unit) {
+  return unit.empty() ? text : text + " [" + unit + "]";
+}
+
+// Words, not numbers, where a bound is the natural one; the number where it is only careen's own limit.
+std::string expectedNumber(const NumberRange& range, double found) {
+  if (found > range.max && range.max == kLargestNumber) {
+    return withUnit("a number of at most 1e60", range.unit);
+  }
+  if (found < range.min && range.min == -kLargestNumber) {
+    return withUnit("a number of at least -1e60", range.unit);
+  }
+  if (found > 0 && found < range.min && range.min == kSmallestPositive) {
+    return withUnit("a number of at least 1e-60", range.unit);
+  }
+  return withUnit(range.plain, range.unit);
+}
+
+// Edits of one letter that turn one word into the other (Levenshtein), upper and lower case being the same.
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = std::tolower(static_cast<unsigned char>(a[i - 1])) ==
+                        std::tolower(static_cast<unsigned char>(b[j - 1]));
+      const std::size_t replaced = diagonal + (same ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
+    }
+  }
+  return row.back();
+}
+
+std::string oneOf(const std::vector<std::string_view>& known) {
+  std::string list;
+  for (const std::string_view each : known) {
+    list += (list.empty() ? "" : ", ") + std::string(each);
+  }
+  return known.size() == 1 ? list : "one of " + list;
+}
+
+std::string member(const std::string& label, std::string_view key) {
+  return label.empty() ? std::string(key) : label + "." + std::string(key);
+}
+
+std::string shown(const std::string& label) { return label.empty() ? "the scene" : label; }
+
+}  // namespace
+
+std::optional<std::string_view> nearest(std::string_view word, const std::vector<std::string_view>& known) {
+  std::optional<std::string_view> best;
+  std::size_t fewest = 2 + word.size() / 4;  // this many edits are too many
+  for (const std::string_view each : known) {
+    if (each.size() < word.size() + fewest && word.size() < each.size() + fewest) {
+      const std::size_t edits = editDistance(word, each);
+      if (edits < fewest && edits < each.size()) {
+        fewest = edits;
+        best = each;
+      }
+    }
+  }
+  return best;
+}
+
+double JsonValue::number(const NumberRange& range) const {
+  if (!is(Kind::kNumber)) {
+    fail(withUnit(range.plain, range.unit));
+  }
+  const double value = node_->number;
+  if (!(value >= range.min && value <= range.max)) {
+    fail(expectedNumber(range, value));
+  }
+  return value;
+}
+
+int JsonValue::integer(int min, int max, const char* unit) const {
+  const double value = node_->number;
+  if (!is(Kind::kNumber) || value < min || value > max || value != std::floor(value)) {
+    fail(withUnit("a whole number from " + std::to_string(min) + " to " + std::to_string(max), unit));
+  }
+  return static_cast<int>(value);
+}
+
+bool JsonValue::boolean() const {
+  if (!is(Kind::kBoolean)) {
+    fail("true or false");
+  }
+  return node_->boolean;
+}
+
+const std::string& JsonValue::string(const std::string& expected) const {
+  if (!is(Kind::kString)) {
+    fail(expected);
+  }
+  return node_->text;
+}
+
+std::size_t JsonValue::word(const std::vector<std::string_view>& known, const std::string& what) const {
+  const std::string& text = string("the name of a " + what);
+  const auto at = std::find(known.begin(), known.end(), text);
+  if (at == known.end()) {
+    tree_->fail(node_->offset, "the unknown " + what + " " + inQuotes(text), oneOf(known));
+  }
+  return static_cast<std::size_t>(at - known.begin());
+}
+
+Vec3 JsonValue::vector(const NumberRange& range) const {
+  const std::vector<JsonValue> parts = elements(withUnit("[x, y, z]", range.unit), 3);
+  return {parts[0].number(range), parts[1].number(range), parts[2].number(range)};
+}
+
+Vec3 JsonValue::direction() const {
+  const Vec3 value = vector(anyNumber());
+  const double largest = value.cwiseAbs().maxCoeff();
+  if (largest == 0) {
+    failAs("a zero vector", "a direction");
+  }
+  return (value / largest).normalized();  // tiny ones would square to 0
+}
+
+std::vector<JsonValue> JsonValue::elements(const std::string& expected,
+                                           std::optional<std::size_t> size) const {
+  if (!is(Kind::kArray) || (size && node_->children.size() != *size)) {
+    fail(expected);
+  }
+  std::vector<JsonValue> values;
+  for (const JsonNode& child : node_->children) {
+    values.emplace_back(*tree_, child, label_ + "[" + std::to_string(values.size()) + "]");
+  }
+  return values;
+}
+
+JsonObject JsonValue::object(std::initializer_list<std::string_view> keys) const {
+  if (!is(Kind::kObject)) {
+    fail("an object");
+  }
+  for (const JsonNode& child : node_->children) {
+    if (std::find(keys.begin(), keys.end(), child.key) == keys.end()) {
+      const std::optional<std::string_view> meant = nearest(child.key, keys);
+      tree_->fail(child.keyOffset, "the unknown key " + inQuotes(child.key) + " in " + shown(label_),
+                  meant ? inQuotes(*meant) : oneOf(keys));
+    }
+  }
+  return {*tree_, *node_, label_};
+}
+
+void JsonValue::fail(const std::string& expected) const { failAs(describe(*node_), expected); }
+
+void JsonValue::failAs(const std::string& found, const std::string& expected) const {
+  tree_->fail(node_->offset, found + " for " + shown(label_), expected);
+}
+
+std::optional<JsonValue> JsonObject::find(std::string_view key) const {
+  const JsonNode* const child = node_->find(key);
+  return child == nullptr ? std::nullopt : std::optional(JsonValue(*tree_, *child, member(label_, key)));
+}
+
+JsonValue JsonObject::require(std::string_view key) const {
+  const std::optional<JsonValue> value = find(key);
+  if (!value) {
+    fail("no " + std::string(key), "that key");
+  }
+  return *value;
+}
+
+double JsonObject::number(std::string_view key, const NumberRange& range, double whenAbsent) const {
+  const std::optional<JsonValue> value = find(key);
+  return value ? value->number(range) : whenAbsent;
+}
+
+Vec3 JsonObject::vector(std::string_view key, const NumberRange& range) const {
+  const std::optional<JsonValue> value = find(key);
+  return value ? value->vector(range) : Vec3::Zero();
+}
+
+void JsonObject::fail(const std::string& what, const std::string& expected) const {
+  tree_->fail(node_->offset, what + " in " + shown(label_), expected);
+}
+
+}  // namespace careen

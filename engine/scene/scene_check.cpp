@@ -1,0 +1,189 @@
+#include "scene/scene_check.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "scene/json_shape.h"
+
+namespace careen {
+namespace {
+
+// A line of sight closer to `up` than this [rad] has no sideways.
+constexpr double kLeastTilt = 1e-9;
+
+std::string brief(double value) {
+  std::array<char, 32> digits{};
+  const char* const end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 4).ptr;
+  return std::string(static_cast<const char*>(digits.data()), end);
+}
+
+// The member's node if the object has it, else the object's own.
+const JsonNode& memberOrSelf(const JsonNode& object, std::string_view key) {
+  const JsonNode* const child = object.find(key);
+  return child == nullptr ? object : *child;
+}
+
+const JsonNode& elementOf(const JsonTree& tree, std::string_view list, std::size_t index) {
+  return tree.root().find(list)->children[index];
+}
+
+void checkRoom(const JsonTree& tree, const Scene& scene) {
+  if (!scene.room) {
+    return;
+  }
+  const JsonNode& max = *tree.root().find("room")->find("max");
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (!(scene.room->min[axis] < scene.room->max[axis])) {
+      const JsonNode& node = max.children[static_cast<std::size_t>(axis)];
+      tree.fail(node.offset, describe(node) + " for room.max[" + std::to_string(axis) + "]",
+                "more than room.min[" + std::to_string(axis) + "], which is " + brief(scene.room->min[axis]));
+    }
+  }
+}
+
+// Boxes and walls stand in the same column of impacts.csv.
+void checkNames(const JsonTree& tree, const Scene& scene) {
+  std::map<std::string, std::string> owners;
+  for (std::size_t side = 0; side < kRoomSides.size(); ++side) {
+    owners.emplace(roomWallName(side), "a wall of the room");
+  }
+  const auto claim = [&](const std::string& name, std::string_view list, std::size_t index) {
+    const std::string owner = std::string(list) + "[" + std::to_string(index) + "]";
+    const auto [first, fresh] = owners.emplace(name, owner);
+    if (!fresh) {
+      const JsonNode& node = elementOf(tree, list, index);
+      const std::string byDefault = node.find("name") == nullptr ? ", its name for want of one" : "";
+      tree.fail(memberOrSelf(node, "name").offset, inQuotes(name) + " for " + owner + byDefault,
+                "another name: " + first->second + " has this one");
+    }
+  };
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    claim(scene.walls[i].name, "walls", i);
+  }
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    claim(scene.boxes[i].name, "boxes", i);
+  }
+}
+
+void checkMasses(const JsonTree& tree, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    const SceneBox& box = scene.boxes[i];
+    const JsonNode* const density = elementOf(tree, "boxes", i).find("density");
+    if (density != nullptr && !(box.mass >= kSmallestPositive && box.mass <= kLargestNumber)) {
+      tree.fail(density->offset,
+                describe(*density) + " for the density of box " + inQuotes(box.name) +
+                    ", whose mass it makes " + brief(box.mass) + " kg",
+                "a mass from 1e-60 to 1e60 kg");
+    }
+  }
+}
+
+void checkFixed(const JsonTree& tree, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    const SceneBox& box = scene.boxes[i];
+    const std::array<std::pair<const char*, const Vec3*>, 2> speeds = {
+        {{"velocity", &box.velocity}, {"angular_velocity", &box.angularVelocity}}};
+    for (const auto& [key, speed] : speeds) {
+      if (box.fixed && !speed->isZero(0)) {
+        tree.fail(elementOf(tree, "boxes", i).find(key)->offset,
+                  std::string(key) + " for the fixed box " + inQuotes(box.name),
+                  "none, as it stays where it is");
+      }
+    }
+  }
+}
+
+std::optional<int> bodyAt(const JsonTree& tree, const Scene& scene, const JsonNode& end) {
+  const JsonNode& first = end.children[0];
+  if (first.kind != JsonNode::Kind::kString) {
+    return std::nullopt;
+  }
+  std::vector<std::string_view> names;
+  for (const SceneBox& box : scene.boxes) {
+    if (box.name == first.text) {
+      return static_cast<int>(names.size());
+    }
+    names.push_back(box.name);
+  }
+  const std::optional<std::string_view> meant = nearest(first.text, names);
+  tree.fail(first.offset, "no box of the name " + inQuotes(first.text),
+            meant ? inQuotes(*meant) : "the name of a box of the scene");
+}
+
+void connectSprings(const JsonTree& tree, Scene& scene) {
+  for (std::size_t i = 0; i < scene.springs.size(); ++i) {
+    const JsonNode& node = elementOf(tree, "springs", i);
+    Spring& spring = scene.springs[i];
+    spring.from.body = bodyAt(tree, scene, *node.find("from"));
+    spring.to.body = bodyAt(tree, scene, *node.find("to"));
+    if (spring.from.body == spring.to.body) {
+      tree.fail(node.find("to")->offset,
+                spring.to.body ? "a spring from a box to itself" : "a spring from the world to the world",
+                "two ends that can move apart");
+    }
+  }
+}
+
+void checkCamera(const JsonTree& tree, const Scene& scene) {
+  if (!scene.camera) {
+    return;
+  }
+  const JsonNode& node = *tree.root().find("camera");
+  const Vec3 sight = scene.camera->target - scene.camera->eye;
+  const double distance = sight.norm();
+  if (distance == 0) {
+    tree.fail(node.find("target")->offset, "the camera's target where its eye is",
+              "another place to look at");
+  }
+  if (!((sight / distance).cross(scene.camera->up).norm() > kLeastTilt)) {
+    tree.fail(memberOrSelf(node, "up").offset, "a camera that looks along its up",
+              "an up that points elsewhere");
+  }
+}
+
+/// Gap of a box's lowest corner to a wall, n·x − Σ hᵢ|n·aᵢ| − offset [m], and the lengths it is the
+/// difference of.
+struct LowestGap {
+  double gap = 0;
+  double lengths = 0;
+};
+LowestGap lowestGap(const Wall& wall, const SceneBox& box) {
+  const double centre = wall.normal.dot(box.pose.position);
+  const double reach = (box.pose.worldFromBody.transpose() * wall.normal).cwiseAbs().dot(box.halfExtents);
+  const double size = wall.normal.cwiseAbs().dot(box.pose.position.cwiseAbs());
+  return {.gap = centre - reach - wall.offset, .lengths = size + reach + std::fabs(wall.offset)};
+}
+
+void checkStart(const JsonTree& tree, const Scene& scene) {
+  const std::vector<Wall> walls = wallsOf(scene);
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    const SceneBox& box = scene.boxes[i];
+    for (const Wall& wall : walls) {
+      const LowestGap lowest = lowestGap(wall, box);
+      if (lowest.gap < -kGapAllowance * lowest.lengths) {
+        tree.fail(
+            memberOrSelf(elementOf(tree, "boxes", i), "position").offset,
+            "box " + inQuotes(box.name) + " " + brief(-lowest.gap) + " m behind wall " + inQuotes(wall.name),
+            "a start on the wall's free side");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void checkScene(const JsonTree& tree, Scene& scene) {
+  checkRoom(tree, scene);
+  checkNames(tree, scene);
+  checkMasses(tree, scene);
+  checkFixed(tree, scene);
+  connectSprings(tree, scene);
+  checkCamera(tree, scene);
+  checkStart(tree, scene);
+}
+
+}  // namespace careen

@@ -1,0 +1,281 @@
+#include "scene/scene_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+
+#include "scene/json_shape.h"
+#include "scene/turn.h"
+
+namespace careen {
+namespace {
+
+using Kind = JsonNode::Kind;
+
+constexpr int kFormatVersion = 1;
+constexpr int kLargestFilm = 16384;  // what GL drivers draw into
+constexpr NumberRange kRestitution = {.min = 0, .max = 1, .plain = "a number from 0 to 1"};
+constexpr NumberRange kFieldOfView = {.min = kSmallestPositive,
+                                      .max = 179.99999999999997,  // the last double below 180
+                                      .unit = "deg",
+                                      .plain = "a number between 0 and 180"};
+constexpr NumberRange kFramesPerSecond = {.min = kSlowestFrameRate,
+                                          .max = kFastestFrameRate,
+                                          .unit = "1/s",
+                                          .plain = "a number from 0.001 to 100000"};
+
+// Names go to CSV files as they are.
+std::string readName(const JsonObject& object, const std::string& whenAbsent) {
+  const std::optional<JsonValue> value = object.find("name");
+  if (!value) {
+    return whenAbsent;
+  }
+  const std::string expected = "a name without comma, quote or control character";
+  const std::string& name = value->string(expected);
+  if (name.empty() || std::any_of(name.begin(), name.end(), [](char c) {
+        return c == ',' || c == '"' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+      })) {
+    value->fail(expected);
+  }
+  return name;
+}
+
+Material readMaterial(const JsonObject& object) {
+  return {.restitution = object.number("restitution", kRestitution, 0),
+          .friction = object.number("friction", nonNegativeNumber(), 0)};
+}
+
+Color readColor(const JsonValue& value) {
+  const std::string expected = "a colour \"#rrggbb\"";
+  const std::string& text = value.string(expected);
+  std::array<std::uint8_t, 3> channels{};
+  bool good = text.size() == 7 && text[0] == '#';
+  for (std::size_t i = 0; good && i < channels.size(); ++i) {
+    const char* const digits = text.data() + 1 + 2 * i;
+    good = std::from_chars(digits, digits + 2, channels[i], 16).ptr == digits + 2;
+  }
+  if (!good) {
+    value.fail(expected);
+  }
+  return {.red = channels[0], .green = channels[1], .blue = channels[2]};
+}
+
+Mat3 readAxisAngle(const JsonValue& value) {
+  const JsonObject object = value.object({"axis", "angle_deg"});
+  const Vec3 axis = object.require("axis").direction();
+  return rotationAbout(axis, turnFrom(object.require("angle_deg").number(anyNumber("deg"))));
+}
+
+Mat3 readQuaternion(const JsonValue& value) {
+  const std::vector<JsonValue> parts = value.elements("[w, x, y, z] or an axis and an angle_deg", 4);
+  Quat rotation(parts[0].number(anyNumber()), parts[1].number(anyNumber()), parts[2].number(anyNumber()),
+                parts[3].number(anyNumber()));
+  const double largest = rotation.coeffs().cwiseAbs().maxCoeff();
+  if (largest == 0) {
+    value.failAs("a zero quaternion", "a rotation");
+  }
+  rotation.coeffs() /= largest;  // tiny ones would square to 0
+  return rotation.normalized().toRotationMatrix();
+}
+
+Room readRoom(const JsonValue& value) {
+  const JsonObject object = value.object({"min", "max", "open", "restitution", "friction"});
+  Room room{.min = object.require("min").vector(anyNumber("m")),
+            .max = object.require("max").vector(anyNumber("m")),
+            .material = readMaterial(object)};
+  if (const std::optional<JsonValue> open = object.find("open")) {
+    const std::vector<std::string_view> sides(kRoomSides.begin(), kRoomSides.end());
+    for (const JsonValue& side : open->elements("an array of sides such as [\"+z\"]")) {
+      bool& isOpen = room.open.at(side.word(sides, "side"));
+      if (isOpen) {
+        side.fail("each side once");
+      }
+      isOpen = true;
+    }
+  }
+  return room;
+}
+
+Wall readWall(const JsonValue& value, std::size_t index) {
+  const JsonObject object = value.object({"name", "point", "normal", "restitution", "friction"});
+  Wall wall{.name = readName(object, "wall-" + std::to_string(index)),
+            .normal = object.require("normal").direction(),
+            .material = readMaterial(object)};
+  wall.offset = wall.normal.dot(object.require("point").vector(anyNumber("m")));
+  return wall;
+}
+
+double readMass(const JsonObject& object, const Vec3& halfExtents, bool fixed) {
+  const std::optional<JsonValue> mass = object.find("mass");
+  const std::optional<JsonValue> density = object.find("density");
+  if (mass && density) {
+    object.fail("both mass and density", "one of them");
+  }
+  if (!mass && !density && !fixed) {
+    object.fail("neither mass nor density", "one of them");
+  }
+  if (density) {
+    return density->number(positiveNumber("kg/m³")) * 8 * halfExtents.prod();
+  }
+  return mass ? mass->number(positiveNumber("kg")) : 0;
+}
+
+SceneBox readBox(const JsonValue& value, std::size_t index) {
+  const JsonObject object =
+      value.object({"name", "half_extents", "mass", "density", "position", "orientation", "velocity",
+                    "angular_velocity", "restitution", "friction", "fixed", "color"});
+  SceneBox box;
+  box.name = readName(object, "box-" + std::to_string(index));
+  box.halfExtents = object.require("half_extents").vector(positiveNumber("m"));
+  if (const std::optional<JsonValue> fixed = object.find("fixed")) {
+    box.fixed = fixed->boolean();
+  }
+  box.mass = readMass(object, box.halfExtents, box.fixed);
+  box.pose.position = object.vector("position", anyNumber("m"));
+  if (const std::optional<JsonValue> orientation = object.find("orientation")) {
+    box.pose.worldFromBody =
+        orientation->is(Kind::kObject) ? readAxisAngle(*orientation) : readQuaternion(*orientation);
+  }
+  box.velocity = object.vector("velocity", anyNumber("m/s"));
+  box.angularVelocity = object.vector("angular_velocity", anyNumber("rad/s"));
+  box.material = readMaterial(object);
+  if (const std::optional<JsonValue> color = object.find("color")) {
+    box.color = readColor(*color);
+  }
+  return box;
+}
+
+// [x, y, z] of the world, or [name, [x, y, z]] of a box.
+SpringEnd readSpringEnd(const JsonValue& value) {
+  const std::string expected = "a world point [x, y, z] or [name of a box, [x, y, z]]";
+  const std::vector<JsonValue> parts = value.elements(expected);
+  if (parts.size() == 3) {
+    return {.body = std::nullopt, .point = value.vector(anyNumber("m"))};
+  }
+  if (parts.size() != 2) {
+    value.fail(expected);
+  }
+  parts[0].string("the name of a box");
+  return {.body = std::nullopt, .point = parts[1].vector(anyNumber("m"))};
+}
+
+Spring readSpring(const JsonValue& value) {
+  const JsonObject object = value.object({"from", "to", "stiffness", "damping", "rest_length"});
+  return {.from = readSpringEnd(object.require("from")),
+          .to = readSpringEnd(object.require("to")),
+          .stiffness = object.require("stiffness").number(nonNegativeNumber("N/m")),
+          .damping = object.number("damping", nonNegativeNumber("N s/m"), 0),
+          .restLength = object.number("rest_length", nonNegativeNumber("m"), 0)};
+}
+
+Drag readDrag(const JsonValue& value) {
+  const JsonObject object = value.object({"linear", "angular"});
+  return {.linear = object.number("linear", nonNegativeNumber("N s/m"), 0),
+          .angular = object.number("angular", nonNegativeNumber("N m s"), 0)};
+}
+
+Camera readCamera(const JsonValue& value) {
+  const JsonObject object = value.object({"eye", "target", "up", "fov_deg"});
+  Camera camera;
+  camera.eye = object.require("eye").vector(anyNumber("m"));
+  camera.target = object.require("target").vector(anyNumber("m"));
+  if (const std::optional<JsonValue> up = object.find("up")) {
+    camera.up = up->direction();
+  }
+  camera.fovDegrees = object.number("fov_deg", kFieldOfView, camera.fovDegrees);
+  return camera;
+}
+
+Film readFilm(const JsonValue& value) {
+  const JsonObject object = value.object({"size", "fps"});
+  Film film;
+  if (const std::optional<JsonValue> size = object.find("size")) {
+    const std::vector<JsonValue> sides = size->elements("[width, height] [px]", 2);
+    film.width = sides[0].integer(1, kLargestFilm, "px");
+    film.height = sides[1].integer(1, kLargestFilm, "px");
+  }
+  if (const std::optional<JsonValue> fps = object.find("fps")) {
+    film.rate = frameRateFrom(fps->number(kFramesPerSecond));
+  }
+  return film;
+}
+
+// Before all else: another version may have other keys.
+void readVersion(const JsonTree& tree, const JsonValue& root) {
+  const JsonNode* const version = root.node().find("careen");
+  if (version == nullptr) {
+    tree.fail(root.node().offset, "no careen in the scene",
+              "that key, which gives the version of the format");
+  }
+  if (version->kind != Kind::kNumber || version->number != kFormatVersion) {
+    tree.fail(version->offset, describe(*version) + " for careen",
+              "1, the version of the scene format that this program reads");
+  }
+}
+
+template <class Item, class Read>
+std::vector<Item> readList(const std::optional<JsonValue>& list, Read read) {
+  std::vector<Item> items;
+  if (list) {
+    for (const JsonValue& value : list->elements("an array")) {
+      items.push_back(read(value, items.size()));
+    }
+  }
+  return items;
+}
+
+template <class Item, class Read>
+std::optional<Item> readOptional(const std::optional<JsonValue>& value, Read read) {
+  return value ? std::optional<Item>(read(*value)) : std::nullopt;
+}
+
+Method readMethod(const JsonValue& value) {
+  std::vector<std::string_view> names;
+  for (const NamedMethod& known : kMethods) {
+    names.push_back(known.name);
+  }
+  return kMethods.at(value.word(names, "method")).method;
+}
+
+}  // namespace
+
+Scene readShape(const JsonTree& tree) {
+  const JsonValue root(tree, tree.root(), "");
+  if (root.is(Kind::kObject)) {
+    readVersion(tree, root);
+  }
+  const JsonObject object = root.object({"careen", "name", "duration", "gravity", "room", "walls", "boxes",
+                                         "springs", "drag", "method", "dt", "tolerance", "camera", "film", "$schema"});
+  Scene scene;
+  scene.text = tree.text();
+  if (const std::optional<JsonValue> name = object.find("name")) {
+    scene.name = name->string("a string");
+  }
+  if (const std::optional<JsonValue> schema = object.find("$schema")) {
+    schema->string("a string");  // editors read it, and find the keys they complete
+  }
+  scene.duration = object.require("duration").number(positiveNumber("s"));
+  scene.gravity = object.vector("gravity", anyNumber("m/s²"));
+  scene.room = readOptional<Room>(object.find("room"), readRoom);
+  scene.walls = readList<Wall>(object.find("walls"), readWall);
+  scene.boxes = readList<SceneBox>(object.require("boxes"), readBox);
+  if (scene.boxes.empty()) {
+    object.require("boxes").fail("at least one box");
+  }
+  scene.springs = readList<Spring>(object.find("springs"),
+                                   [](const JsonValue& value, std::size_t) { return readSpring(value); });
+  scene.drag = readOptional<Drag>(object.find("drag"), readDrag);
+  if (const std::optional<JsonValue> method = object.find("method")) {
+    scene.method = readMethod(*method);
+  }
+  scene.dt = object.number("dt", positiveNumber("s"), scene.dt);
+  scene.tolerance = object.number("tolerance", positiveNumber(), scene.tolerance);
+  scene.camera = readOptional<Camera>(object.find("camera"), readCamera);
+  if (const std::optional<JsonValue> film = object.find("film")) {
+    scene.film = readFilm(*film);
+  }
+  return scene;
+}
+
+}  // namespace careen

@@ -1,0 +1,98 @@
+#include "trajectory/export_csv.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+#include <string>
+#include <variant>
+
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+// 17 significant digits bring the same double back; std::to_chars asks no locale for its decimal point.
+void append(std::string& row, double value) {
+  constexpr int kDigits = 17;
+  std::array<char, 32> digits{};
+  const std::to_chars_result end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, kDigits);
+  row += ',';
+  row.append(digits.data(), end.ptr);
+}
+
+void append(std::string& row, const Vec3& vector) {
+  for (int i = 0; i < 3; ++i) {
+    append(row, vector[i]);
+  }
+}
+
+// A row begins with its time, which has no comma before it.
+std::string rowAt(double time) {
+  std::string row;
+  append(row, time);
+  return row.substr(1);
+}
+
+Quat quaternionOf(const Mat3& worldFromBody) {
+  Quat q(worldFromBody);
+  for (const double part : {q.w(), q.x(), q.y(), q.z()}) {
+    if (part != 0) {
+      return part > 0 ? q : Quat(-q.w(), -q.x(), -q.y(), -q.z());
+    }
+  }
+  return q;
+}
+
+const std::string& partnerName(const Trajectory& trajectory, const Impact& impact) {
+  if (const WallIndex* wall = std::get_if<WallIndex>(&impact.b)) {
+    return trajectory.wallNames.at(static_cast<std::size_t>(wall->value));
+  }
+  return trajectory.tracks.at(static_cast<std::size_t>(std::get<BodyIndex>(impact.b).value)).name;
+}
+
+}  // namespace
+
+void writePosesCsv(const Trajectory& trajectory, double every, const TextSink& sink) {
+  if (!(every > 0 && std::isfinite(every))) {
+    throw InputError("poses are written every " + std::to_string(every) +
+                     " s, expected a positive number of seconds");
+  }
+  sink("time,box,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n");
+  for (std::size_t sample = 0;; ++sample) {
+    const double time = static_cast<double>(sample) * every;
+    if (time > trajectory.settings.duration) {
+      return;
+    }
+    for (std::size_t body = 0; body < trajectory.tracks.size(); ++body) {
+      const Track& track = trajectory.tracks[body];
+      const BodyState state = trajectory.state(body, time);
+      const Quat q = quaternionOf(state.pose.worldFromBody);
+      std::string row = rowAt(time) + "," + track.name;
+      append(row, state.pose.position);
+      append(row, q.w());
+      append(row, Vec3(q.vec()));
+      append(row, state.velocity);
+      append(row, angularVelocity(track.mass, state));
+      sink(row + "\n");
+    }
+  }
+}
+
+void writeImpactsCsv(const Trajectory& trajectory, const TextSink& sink) {
+  sink("time,a,b,x,y,z,nx,ny,nz,approach,impulse,tangential\n");
+  for (const Impact& impact : trajectory.impacts) {
+    std::string row = rowAt(impact.time) + "," +
+                      trajectory.tracks.at(static_cast<std::size_t>(impact.a.value)).name + "," +
+                      partnerName(trajectory, impact);
+    append(row, impact.point);
+    append(row, impact.normal);
+    append(row, impact.approach);
+    append(row, impact.impulse);
+    append(row, impact.tangential);
+    sink(row + "\n");
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,100 @@
+#include "trajectory/trajectory.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "core/error.h"
+#include "core/hash.h"
+
+namespace careen {
+namespace {
+
+class TrajectoryRecorder : public Recorder {
+ public:
+  explicit TrajectoryRecorder(Trajectory& trajectory) : trajectory_(trajectory) {}
+
+  void moves(BodyIndex body, double time, const Motion& motion) override {
+    trajectory_.tracks.at(static_cast<std::size_t>(body.value))
+        .segments.push_back({.start = time, .motion = motion});
+  }
+  void strikes(const Impact& impact) override { trajectory_.impacts.push_back(impact); }
+
+ private:
+  Trajectory& trajectory_;
+};
+
+void add(Hash& hash, const BodyState& state) {
+  for (const Vec3& vector : {state.pose.position, state.velocity, state.angularMomentum}) {
+    for (int i = 0; i < 3; ++i) {
+      hash.add(vector[i]);
+    }
+  }
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      hash.add(state.pose.worldFromBody(row, column));
+    }
+  }
+}
+
+}  // namespace
+
+BodyState Trajectory::state(std::size_t body, double time) const {
+  if (!(time >= 0 && time <= settings.duration)) {
+    throw InputError("time " + std::to_string(time) + " s lies outside the run, which lasts from 0 to " +
+                     std::to_string(settings.duration) + " s");
+  }
+  const Track& track = tracks.at(body);
+  const auto next = std::upper_bound(track.segments.begin(), track.segments.end(), time,
+                                     [](double t, const Segment& segment) { return t < segment.start; });
+  if (next == track.segments.begin()) {
+    throw InputError("body " + track.name + " has no recorded motion");
+  }
+  const Segment& segment = *std::prev(next);
+  return stateAt(segment.motion, track.mass, time - segment.start);
+}
+
+std::vector<Pose> Trajectory::poses(double time) const {
+  std::vector<Pose> poses;
+  poses.reserve(tracks.size());
+  for (std::size_t body = 0; body < tracks.size(); ++body) {
+    poses.push_back(state(body, time).pose);
+  }
+  return poses;
+}
+
+std::string Trajectory::sceneHash() const {
+  Hash hash;
+  hash.add(sceneText);
+  return hash.text();
+}
+
+std::string Trajectory::stateHash() const {
+  std::vector<std::size_t> byName(tracks.size());
+  std::iota(byName.begin(), byName.end(), std::size_t{0});
+  std::sort(byName.begin(), byName.end(),
+            [this](std::size_t a, std::size_t b) { return tracks[a].name < tracks[b].name; });
+  Hash hash;
+  for (const std::size_t body : byName) {
+    add(hash, state(body, settings.duration));
+  }
+  return hash.text();
+}
+
+Trajectory record(const World& world, const RunSettings& settings, std::string sceneText,
+                  const std::stop_token& stop) {
+  Trajectory trajectory;
+  trajectory.sceneText = std::move(sceneText);
+  trajectory.settings = settings;
+  for (const Wall& wall : world.walls) {
+    trajectory.wallNames.push_back(wall.name);
+  }
+  for (const Body& body : world.bodies) {
+    trajectory.tracks.push_back({.name = body.name, .mass = body.mass, .segments = {}});
+  }
+  TrajectoryRecorder recorder(trajectory);
+  trajectory.figures = simulate(world, settings, recorder, stop);
+  return trajectory;
+}
+
+}  // namespace careen

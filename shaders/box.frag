@@ -1,0 +1,58 @@
+#version 330 core
+// A box's face: a rounded panel in a darker frame, and the pips of a die, so that tumbling can be followed.
+
+in vec3 offset;
+in vec2 onFace;
+flat in vec2 halfFace;
+flat in vec3 faceNormal;
+flat in vec3 faceAcross;
+flat in vec3 faceAlong;
+flat in vec4 baseColor;
+flat in float pips;
+
+out vec4 result;
+
+vec3 lit(vec3 albedo, float roughness, vec3 normal, vec3 offset);
+
+const vec3 kIvory = vec3(0.86, 0.82, 0.72);
+const vec3 kInk = vec3(0.05, 0.05, 0.06);
+
+// How much of the pixel lies within, from the signed distance to the edge [m] (negative inside).
+float covered(float distance) {
+  float perPixel = length(vec2(dFdx(distance), dFdy(distance)));
+  return clamp(0.5 - distance / max(perPixel, 1e-9), 0.0, 1.0);
+}
+
+float pipDistance(vec2 p, float spacing, float radius) {
+  float nearest = 1e9;
+  bool odd = mod(pips, 2.0) > 0.5;
+  if (odd) nearest = length(p);
+  if (pips > 3.5) {
+    nearest = min(nearest, length(abs(p) - spacing));
+  } else if (pips > 1.5) {
+    nearest = min(nearest, length((p.x + p.y < 0.0 ? -p : p) - spacing));
+  }
+  if (pips > 5.5) nearest = min(nearest, length(vec2(abs(p.x) - spacing, p.y)));
+  return nearest - radius;
+}
+
+void main() {
+  vec3 albedo = baseColor.rgb;
+  vec3 normal = faceNormal;
+  if (baseColor.a > 0.5) {
+    float unit = min(halfFace.x, halfFace.y);
+    float inset = 0.13 * unit;
+    float rounding = 0.16 * unit;
+    vec2 beyond = abs(onFace) - (halfFace - inset - rounding);
+    float panel = length(max(beyond, 0.0)) + min(max(beyond.x, beyond.y), 0.0) - rounding;
+    bool isLight = dot(baseColor.rgb, vec3(0.2126, 0.7152, 0.0722)) > 0.4;
+    float pip = pipDistance(onFace, 0.44 * unit, 0.165 * unit);
+    albedo = mix(0.42 * albedo, albedo, covered(panel));
+    albedo = mix(albedo, isLight ? kInk : kIvory, covered(pip));
+
+    // Edges catch the light as if they were worn round.
+    vec2 worn = clamp(1.0 - (halfFace - abs(onFace)) / (0.07 * unit), 0.0, 1.0) * sign(onFace);
+    normal = normalize(normal + 0.7 * (worn.x * faceAcross + worn.y * faceAlong));
+  }
+  result = vec4(lit(albedo, 0.42, normal, offset), 1.0);
+}

@@ -1,0 +1,12 @@
+// What all shaders of a frame share; FrameBlock in C++. An offset is a point of the world less the eye.
+layout(std140) uniform Frame {
+  mat4 clipFromOffset;
+  mat4 shadowFromOffset;  // to texture coordinates and depth, 0 to 1
+  vec4 towardsLight;      // unit
+  vec4 lightColor;        // linear, as all colours here; what a white face turned to the light sends back
+  vec4 up;                // unit
+  vec4 sky;               // what a white face turned up gets from all around
+  vec4 ground;            // the same for one turned down
+  vec4 backgroundTop;
+  vec4 backgroundBottom;
+};

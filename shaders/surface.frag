@@ -1,0 +1,74 @@
+#version 330 core
+// Tiles, or paint with a skirting board, both averaged over the pixel: no shimmer however far away.
+
+in vec3 offset;
+in vec2 onSurface;
+flat in vec3 surfaceNormal;
+flat in vec2 size;
+flat in vec4 edges;
+flat in vec4 baseColor;
+
+out vec4 result;
+
+vec3 lit(vec3 albedo, float roughness, vec3 normal, vec3 offset);
+
+const float kSkirted = 1.0;
+const float kTiles = 2.0;
+const float kJoint = 0.02;      // width of the joint between tiles
+const float kSkirting = 0.22;   // height of the skirting board
+const float kRim = 0.05;        // width of the line where a surface ends
+
+// Integral from 0 to x of a comb that is 1 within half a joint of every whole number.
+vec2 combIntegral(vec2 x) {
+  vec2 shifted = x + 0.5 * kJoint;
+  return floor(shifted) * kJoint + min(fract(shifted), kJoint);
+}
+
+// Integral of a wave that is 1 on even tiles and -1 on odd ones.
+vec2 waveIntegral(vec2 x) { return 1.0 - abs(2.0 * fract(0.5 * x) - 1.0); }
+
+vec3 tiles(vec3 base) {
+  vec2 width = max(fwidth(onSurface), 1e-5);
+  vec2 from = onSurface - 0.5 * width;
+  vec2 to = onSurface + 0.5 * width;
+  vec2 joints = (combIntegral(to) - combIntegral(from)) / width;
+  vec2 wave = (waveIntegral(to) - waveIntegral(from)) / width;
+  vec3 tile = base * (1.0 + 0.10 * wave.x * wave.y);
+  return mix(0.55 * base, tile, (1.0 - joints.x) * (1.0 - joints.y));
+}
+
+vec3 skirted(vec3 base) {
+  float width = max(fwidth(onSurface.y), 1e-5);
+  float board = clamp((kSkirting - onSurface.y) / width + 0.5, 0.0, 1.0) * edges.z;
+  float lip = clamp(0.5 * kJoint + 0.5 * width - abs(onSurface.y - kSkirting), 0.0, width) / width * edges.z;
+  return base * mix(mix(1.0, 0.62, board), 0.4, lip);
+}
+
+// A dark line where a surface ends in the open, so that a wall stands out from what is behind it.
+float rim() {
+  if (size.x <= 0.0) return 0.0;  // no rectangle, no edges known
+  vec2 width = max(fwidth(onSurface), 1e-5);
+  vec4 inward = vec4(onSurface.x, size.x - onSurface.x, onSurface.y, size.y - onSurface.y);
+  vec4 line = clamp((kRim - inward) / width.xxyy + 0.5, 0.0, 1.0) * (1.0 - edges);
+  return max(max(line.x, line.y), max(line.z, line.w));
+}
+
+// Corners of a room get less of the light from all around.
+float openness() {
+  vec4 inward = vec4(onSurface.x, size.x - onSurface.x, onSurface.y, size.y - onSurface.y);
+  vec4 shade = 1.0 - 0.30 * edges * exp(-1.6 * max(inward, 0.0));
+  return shade.x * shade.y * shade.z * shade.w;
+}
+
+void main() {
+  vec3 albedo = baseColor.rgb;
+  float roughness = 0.8;
+  if (baseColor.a > kTiles - 0.5) {
+    albedo = tiles(albedo);
+    roughness = 0.38;
+  } else if (baseColor.a > kSkirted - 0.5) {
+    albedo = skirted(albedo);
+  }
+  albedo *= 1.0 - 0.45 * rim();
+  result = vec4(lit(albedo * openness(), roughness, surfaceNormal, offset), 1.0);
+}

@@ -1,0 +1,225 @@
+// The program as its user meets it: what it prints, what it leaves behind, how it ends.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/process.h"
+
+namespace careen {
+namespace {
+
+const std::string kScene = R"({
+  "careen": 1, "name": "bounce", "duration": 1, "gravity": [0, 0, -10], "method": "listing1", "dt": 0.001,
+  "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "restitution": 1 },
+  "boxes": [ { "name": "crate", "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1],
+               "orientation": { "axis": [1, 2, 3], "angle_deg": 40 } } ]
+})";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+class CommandLine : public testing::Test {
+ protected:
+  Ended careen(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), CAREEN_BINARY);
+    return Process(arguments, folder_.path()).wait();
+  }
+  std::vector<std::string> linesOf(const std::string& name) const {
+    std::istringstream stream(textOf(folder_ / name));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);) {
+      lines.push_back(line);
+    }
+    return lines;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CommandLine, explainsItself) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"--help"}, {"simulate", "--help"}, {"info", "--help"}}) {
+    const Ended ended = careen(arguments);
+    EXPECT_EQ(ended.exitCode, 0);
+    EXPECT_NE(ended.out.find("Usage"), std::string::npos) << ended.out;
+  }
+}
+
+TEST_F(CommandLine, refusesWhatItDoesNotKnow) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"fly"},
+                                             {"simulate", "--fast"},
+                                             {"simulate", "--dt"},
+                                             {"simulate", "--dt", "soon"},
+                                             {"simulate", "--dt", "-1"},
+                                             {"simulate", "--dt", "nan"},
+                                             {"simulate", "--duration", "0"},
+                                             {"simulate", "--method", "guess"},
+                                             {"simulate", "a.json", "b.json"}}) {
+    const Ended ended = careen(arguments);
+    EXPECT_EQ(ended.exitCode, 2) << ended.err;
+    EXPECT_FALSE(ended.err.empty());
+    EXPECT_TRUE(folder_.files().empty());
+  }
+}
+
+TEST_F(CommandLine, simulatesAndWritesTheTables) {
+  folder_.write("scene.json", kScene);
+  const Ended ended = careen({"simulate", "--poses", "poses.csv", "--every", "0.1", "scene.json", "--impacts",
+                              "impacts.csv", "-o", "run.careen", "--report", "report.json"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_EQ(folder_.files(), (std::vector<std::string>{"impacts.csv", "poses.csv", "report.json",
+                                                       "run.careen", "scene.json"}));
+  const std::vector<std::string> poses = linesOf("poses.csv");
+  ASSERT_EQ(poses.size(), 1U + 11U);
+  EXPECT_EQ(poses[0], "time,box,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz");
+  EXPECT_TRUE(poses[1].starts_with("0,crate,0,0,1,")) << poses[1];
+  const std::vector<std::string> impacts = linesOf("impacts.csv");
+  EXPECT_EQ(impacts.at(0), "time,a,b,x,y,z,nx,ny,nz,approach,impulse,tangential");
+  ASSERT_GT(impacts.size(), 1U);
+  EXPECT_NE(impacts[1].find(",crate,room-z,"), std::string::npos) << impacts[1];
+}
+
+TEST_F(CommandLine, reportHasTheKeysOfTheContract) {
+  folder_.write("scene.json", kScene);
+  ASSERT_EQ(careen({"simulate", "scene.json", "--report", "report.json"}).exitCode, 0);
+  const nlohmann::json report = nlohmann::json::parse(textOf(folder_ / "report.json"));
+  for (const char* key :
+       {"scene", "scene_hash", "method", "dt", "simulated_seconds", "wall_seconds", "impacts", "state_hash",
+        "energy_change", "momentum_change", "orthogonality", "deepest_penetration", "modelled", "left_out"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  EXPECT_EQ(report["scene"], "bounce");
+  EXPECT_EQ(report["simulated_seconds"], 1.0);
+  EXPECT_GT(report["impacts"], 0);
+  EXPECT_TRUE(report["modelled"].is_array());
+}
+
+TEST_F(CommandLine, sameSceneGivesTheSameBytes) {
+  folder_.write("scene.json", kScene);
+  ASSERT_EQ(careen({"simulate", "scene.json", "-o", "a.careen"}).exitCode, 0);
+  ASSERT_EQ(careen({"simulate", "scene.json", "-o", "b.careen"}).exitCode, 0);
+  EXPECT_EQ(textOf(folder_ / "a.careen"), textOf(folder_ / "b.careen"));
+}
+
+TEST_F(CommandLine, announcesWhatItOverrides) {
+  folder_.write("scene.json", kScene);
+  const Ended ended = careen({"simulate", "scene.json", "--duration", "0.5", "--report", "report.json"});
+  ASSERT_EQ(ended.exitCode, 0);
+  EXPECT_NE(ended.err.find("duration 0.5 from the command line (the scene says 1)"), std::string::npos)
+      << ended.err;
+  EXPECT_EQ(nlohmann::json::parse(textOf(folder_ / "report.json"))["simulated_seconds"], 0.5);
+}
+
+TEST_F(CommandLine, infoTellsWhatIsLeftOutAndWhy) {
+  folder_.write("scene.json", kScene);
+  const Ended ended = careen({"info", "scene.json"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const std::size_t leftOut = ended.out.find("left out");
+  ASSERT_NE(leftOut, std::string::npos) << ended.out;
+  EXPECT_LT(ended.out.find("gravity"), leftOut);
+  EXPECT_NE(ended.out.find("box-box", leftOut), std::string::npos) << ended.out;
+}
+
+TEST_F(CommandLine, infoReadsATrajectoryToo) {
+  folder_.write("scene.json", kScene);
+  ASSERT_EQ(careen({"simulate", "scene.json", "-o", "run.careen"}).exitCode, 0);
+  const Ended ended = careen({"info", "run.careen"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.out.find("state hash"), std::string::npos) << ended.out;
+}
+
+TEST_F(CommandLine, everyCommandHasADefaultScene) {
+  EXPECT_EQ(careen({"info"}).exitCode, 0);
+  EXPECT_EQ(careen({"simulate"}).exitCode, 0);
+  EXPECT_EQ(folder_.files(), std::vector<std::string>{"careen.careen"});
+}
+
+TEST_F(CommandLine, badScenesExitWith2AndWriteNothing) {
+  const std::vector<std::pair<std::string, std::string>> changes = {
+      {"\"careen\": 1", "\"careen\": 2"},
+      {"\"duration\": 1", "\"duration\": 1e400"},
+      {"\"duration\": 1", "\"duration\": NaN"},
+      {"\"duration\": 1", "\"duration\": \"1\""},
+      {"\"mass\": 1", "\"mass\": 0"},
+      {"\"mass\": 1", "\"mass\": -1"},
+      {"\"mass\": 1", "\"mas\": 1"},
+      {"[0.3, 0.2, 0.1]", "[0.3, 0, 0.1]"},
+      {"[0, 0, 1]", "[0, 0, 0.1]"},
+      {"[0, 0, 1]", "[0, 0, -9]"},
+      {"}", "} }"},
+  };
+  for (const auto& [from, to] : changes) {
+    folder_.write("scene.json", replaced(kScene, from, to));
+    const Ended ended = careen({"simulate", "scene.json", "--poses", "p.csv", "--impacts", "i.csv"});
+    EXPECT_EQ(ended.exitCode, 2) << to << ": " << ended.err;
+    EXPECT_NE(ended.err.find("scene.json:"), std::string::npos) << ended.err;
+    EXPECT_EQ(folder_.files(), std::vector<std::string>{"scene.json"}) << to;
+  }
+}
+
+TEST_F(CommandLine, missingFileAndFolderInItsPlaceAreNamed) {
+  const Ended missing = careen({"simulate", "nowhere.json"});
+  EXPECT_EQ(missing.exitCode, 2);
+  EXPECT_NE(missing.err.find("nowhere.json"), std::string::npos) << missing.err;
+  std::filesystem::create_directory(folder_ / "folder.json");
+  const Ended folder = careen({"simulate", "folder.json"});
+  EXPECT_EQ(folder.exitCode, 2);
+  EXPECT_NE(folder.err.find("is a folder"), std::string::npos) << folder.err;
+}
+
+TEST_F(CommandLine, placesThatCannotBeWrittenExitWith3) {
+  folder_.write("scene.json", kScene);
+  const Ended ended = careen({"simulate", "scene.json", "-o", "no/such/folder/run.careen"});
+  EXPECT_EQ(ended.exitCode, 3);
+  EXPECT_NE(ended.err.find("no/such/folder/run.careen: cannot be written"), std::string::npos) << ended.err;
+}
+
+// A file may grow to 8 blocks of 1 kB, as on a disk that is nearly full.
+TEST_F(CommandLine, fullDiskLeavesNoneOfTheFiles) {
+  folder_.write("scene.json", kScene);
+  const Ended ended = Process({"bash", "-c",
+                               std::string("trap '' XFSZ; ulimit -f 8; exec ") + CAREEN_BINARY +
+                                   " simulate scene.json -o run.careen --impacts i.csv --poses p.csv"},
+                              folder_.path())
+                          .wait();
+  EXPECT_EQ(ended.exitCode, 3) << ended.err;
+  EXPECT_NE(ended.err.find("cannot be written"), std::string::npos) << ended.err;
+  EXPECT_EQ(folder_.files(), std::vector<std::string>{"scene.json"});
+}
+
+// A cube falls flat with e = 0: the 1997 method cannot rest.
+TEST_F(CommandLine, methodThatCannotGoOnExitsWith4AndWritesNothing) {
+  folder_.write("scene.json", R"({ "careen": 1, "duration": 2, "gravity": [0, 0, -10], "method": "listing1",
+    "dt": 0.016666666666666666, "room": { "min": [-2, -2, 0], "max": [2, 2, 4] },
+    "boxes": [ { "half_extents": [0.5, 0.5, 0.5], "mass": 1, "position": [0, 0, 1] } ] })");
+  const Ended ended = careen({"simulate", "scene.json", "--impacts", "i.csv"});
+  EXPECT_EQ(ended.exitCode, 4) << ended.err;
+  EXPECT_FALSE(ended.err.empty());
+  EXPECT_EQ(folder_.files(), std::vector<std::string>{"scene.json"});
+}
+
+TEST_F(CommandLine, interruptedSimulationWritesNothing) {
+  folder_.write("scene.json", replaced(kScene, "\"duration\": 1,", "\"duration\": 100000,"));
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Process process({CAREEN_BINARY, "simulate", "scene.json", "-o", "run.careen"}, folder_.path());
+    usleep(200'000);
+    process.send(signal);
+    const Ended ended = process.wait();
+    EXPECT_EQ(ended.signal, signal) << ended.exitCode << ended.err;
+    EXPECT_NE(ended.err.find("interrupted"), std::string::npos);
+    EXPECT_EQ(folder_.files(), std::vector<std::string>{"scene.json"});
+  }
+}
+
+}  // namespace
+}  // namespace careen

@@ -1,0 +1,34 @@
+// An installed program runs from its own copies of scenes and shaders, wherever it was put.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "support/process.h"
+
+namespace careen {
+namespace {
+
+TEST(Install, programFindsItsOwnScenes) {
+  const TemporaryFolder folder;
+  const Ended installed =
+      Process({CAREEN_CMAKE, "--install", CAREEN_BUILD_DIR, "--prefix", folder / "there"}, folder.path())
+          .wait();
+  ASSERT_EQ(installed.exitCode, 0) << installed.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "there/share/careen/shaders"));
+
+  const std::filesystem::path scene = folder / "there/share/careen/assets/scenes/careen.json";
+  std::string text = textOf(scene);
+  const std::string name = "\"name\": \"careen\"";
+  ASSERT_NE(text.find(name), std::string::npos);
+  text.replace(text.find(name), name.size(), "\"name\": \"the installed one\"");
+  std::ofstream(scene) << text;
+
+  const Ended ended = Process({folder / "there/bin/careen", "info"}, folder.path()).wait();
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.out.find("the installed one"), std::string::npos) << ended.out;
+}
+
+}  // namespace
+}  // namespace careen

@@ -1,0 +1,194 @@
+// Films as their user meets them. Small pictures: what is tested is the path, not the look.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "support/process.h"
+
+namespace careen {
+namespace {
+
+const std::string kScene = R"({
+  "careen": 1, "name": "toss", "duration": 1, "gravity": [0, 0, -10], "method": "listing1", "dt": 0.001,
+  "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "open": ["-y"], "restitution": 1 },
+  "boxes": [ { "name": "crate", "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1],
+               "velocity": [1, 0, 2], "angular_velocity": [1, 2, 3] } ],
+  "film": { "size": [64, 48], "fps": 10 }
+})";
+
+class Render : public testing::Test {
+ protected:
+  void SetUp() override { folder_.write("scene.json", kScene); }
+
+  Ended careen(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), CAREEN_BINARY);
+    return Process(arguments, folder_.path()).wait();
+  }
+  std::vector<std::string> framesIn(const std::string& name) const {
+    std::vector<std::string> frames;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / name)) {
+      if (entry.path().extension() == ".png") {
+        frames.push_back(entry.path().filename().string());
+      }
+    }
+    std::sort(frames.begin(), frames.end());
+    return frames;
+  }
+  bool hasPartials() const {
+    const std::vector<std::string> files = folder_.files();
+    return std::any_of(files.begin(), files.end(),
+                       [](const std::string& name) { return name.find(".partial") != std::string::npos; });
+  }
+  void expectSameFilm(const std::string& a, const std::string& b) const {
+    ASSERT_EQ(framesIn(a), framesIn(b));
+    for (const std::string& frame : framesIn(a)) {
+      EXPECT_EQ(textOf(folder_ / a / frame), textOf(folder_ / b / frame)) << frame;
+    }
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Render, filmsASceneInOneCommand) {
+  const Ended ended = careen({"render", "scene.json", "--out", "film"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const std::vector<std::string> frames = framesIn("film");
+  ASSERT_EQ(frames.size(), 10U);
+  EXPECT_EQ(frames.front(), "000000.png");
+  EXPECT_EQ(frames.back(), "000009.png");
+  const nlohmann::json report = nlohmann::json::parse(textOf(folder_ / "film/report.json"));
+  for (const char* key : {"simulate", "draw", "read", "encode"}) {
+    EXPECT_TRUE(report["seconds"].contains(key)) << key;
+  }
+  EXPECT_NE(std::string(report["renderer"]).find("llvmpipe"), std::string::npos);
+  EXPECT_NE(ended.out.find("state hash"), std::string::npos) << ended.out;
+}
+
+TEST_F(Render, trajectoryGivesTheSameFilmAsItsScene) {
+  ASSERT_EQ(careen({"simulate", "scene.json", "-o", "run.careen"}).exitCode, 0);
+  ASSERT_EQ(careen({"render", "run.careen", "--out", "a"}).exitCode, 0);
+  ASSERT_EQ(careen({"render", "scene.json", "--out", "b"}).exitCode, 0);
+  expectSameFilm("a", "b");
+}
+
+TEST_F(Render, choosesFramesSizeAndRate) {
+  const Ended ended = careen(
+      {"render", "--size", "32x24", "--frames", "0-3,10:5", "--fps", "20", "scene.json", "--out", "film"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_EQ(framesIn("film"), (std::vector<std::string>{"000000.png", "000001.png", "000002.png",
+                                                        "000003.png", "000010.png", "000015.png"}));
+  // A PNG's width and height stand big-endian behind its 16th byte.
+  const std::string png = textOf(folder_ / "film/000000.png");
+  EXPECT_EQ(png[19], 32);
+  EXPECT_EQ(png[23], 24);
+}
+
+TEST_F(Render, refusesWhatCannotBeFilmed) {
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"--size", "0x10"},
+                                             {"--size", "100000x100000"},
+                                             {"--size", "ten"},
+                                             {"--fps", "0"},
+                                             {"--fps", "-3"},
+                                             {"--frames", "5-2"},
+                                             {"--frames", "0-99"},
+                                             {"--frames", "x"},
+                                             {"--threads", "-1"}}) {
+    std::vector<std::string> arguments = {"render", "scene.json", "--out", "film"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Ended ended = careen(arguments);
+    EXPECT_EQ(ended.exitCode, 2) << options[0] << ' ' << options[1] << ": " << ended.err;
+    EXPECT_NE(ended.err.find(options[0] == "--size" ? "x" : options[1]), std::string::npos) << ended.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "film")) << options[1];
+  }
+}
+
+TEST_F(Render, placeThatCannotBeWrittenExitsWith3) {
+  folder_.write("occupied", "a file, not a folder");
+  const Ended ended = careen({"render", "scene.json", "--out", "occupied/film"});
+  EXPECT_EQ(ended.exitCode, 3) << ended.err;
+  EXPECT_NE(ended.err.find("occupied"), std::string::npos) << ended.err;
+}
+
+// No file may grow past 1 kB, as on a full disk.
+TEST_F(Render, fullDiskEndsTheFilmWithNothingHalfWritten) {
+  const Ended ended = Process({"bash", "-c",
+                               std::string("trap '' XFSZ; ulimit -f 1; exec ") + CAREEN_BINARY +
+                                   " render scene.json --out film --size 640x480"},
+                              folder_.path())
+                          .wait();
+  EXPECT_EQ(ended.exitCode, 3) << ended.err;
+  EXPECT_NE(ended.err.find("cannot be written"), std::string::npos) << ended.err;
+  EXPECT_FALSE(hasPartials());
+}
+
+TEST_F(Render, interruptedFilmIsCompletedByASecondRun) {
+  ASSERT_EQ(careen({"render", "scene.json", "--out", "whole", "--fps", "100"}).exitCode, 0);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::filesystem::remove_all(folder_ / "film");
+    Process process({CAREEN_BINARY, "render", "scene.json", "--out", "film", "--fps", "100"}, folder_.path());
+    // Until it is in the middle of it.
+    for (int tries = 0; tries < 1000 && !std::filesystem::exists(folder_ / "film/000005.png"); ++tries) {
+      usleep(5'000);
+    }
+    process.send(signal);
+    const Ended ended = process.wait();
+    EXPECT_EQ(ended.signal, signal) << ended.exitCode << ended.err;
+    EXPECT_FALSE(hasPartials());
+    const std::size_t written = framesIn("film").size();
+    EXPECT_GT(written, 0U);
+    EXPECT_LT(written, 100U);
+    EXPECT_EQ(careen({"verify", "film"}).exitCode, 1);
+
+    const Ended second = careen({"render", "scene.json", "--out", "film", "--fps", "100", "--resume"});
+    ASSERT_EQ(second.exitCode, 0) << second.err;
+    expectSameFilm("film", "whole");
+    EXPECT_EQ(careen({"verify", "film"}).exitCode, 0);
+  }
+}
+
+TEST_F(Render, resumeDoesNotMixTwoFilms) {
+  ASSERT_EQ(careen({"render", "scene.json", "--out", "film", "--frames", "0-2"}).exitCode, 0);
+  const Ended ended = careen({"render", "scene.json", "--out", "film", "--size", "80x60", "--resume"});
+  EXPECT_EQ(ended.exitCode, 2) << ended.err;
+  EXPECT_EQ(framesIn("film").size(), 3U);
+}
+
+TEST_F(Render, verifyFindsAMissingAndABrokenFrame) {
+  ASSERT_EQ(careen({"render", "scene.json", "--out", "film"}).exitCode, 0);
+  EXPECT_EQ(careen({"verify", "film"}).exitCode, 0);
+  std::filesystem::remove(folder_ / "film/000003.png");
+  std::filesystem::resize_file(folder_ / "film/000007.png", 100);
+  const Ended ended = careen({"verify", "film"});
+  EXPECT_EQ(ended.exitCode, 1);
+  EXPECT_NE(ended.out.find("000003.png: missing"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("000007.png: broken"), std::string::npos) << ended.out;
+  EXPECT_EQ(careen({"verify", "nowhere"}).exitCode, 2);
+}
+
+TEST_F(Render, writesAVideoThatPlayersRead) {
+  const Ended ended = careen({"render", "scene.json", "--out", "film", "--video", "film.mp4"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const Ended probe =
+      Process({"ffprobe", "-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
+               "stream=codec_name,pix_fmt,r_frame_rate,nb_read_frames", "-of", "csv=p=0", "film.mp4"},
+              folder_.path())
+          .wait();
+  EXPECT_EQ(probe.out, "h264,yuv420p,10/1,10\n") << probe.err;
+}
+
+TEST_F(Render, saysThatFfmpegIsMissing) {
+  const Ended ended = Process({"env", "PATH=/nowhere", CAREEN_BINARY, "render", "scene.json", "--out", "film",
+                               "--video", "film.mp4"},
+                              folder_.path())
+                          .wait();
+  EXPECT_EQ(ended.exitCode, 3) << ended.err;
+  EXPECT_NE(ended.err.find("ffmpeg"), std::string::npos) << ended.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "film.mp4"));
+}
+
+}  // namespace
+}  // namespace careen

@@ -1,0 +1,156 @@
+#include "scene/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "scene/scene_reader.h"
+#include "support/scenes.h"
+
+namespace careen {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Scene shipped(const std::string& name) {
+  return readScene(std::filesystem::path(CAREEN_SOURCE_DIR) / "assets" / "scenes" / name);
+}
+
+Scene withParts(const std::string& parts) {
+  return parseScene(R"({"careen": 1, "duration": 1, )" + parts + "}", "f");
+}
+
+std::string reasonFor(const Scene& scene, const std::string& what) {
+  for (const PlanItem& item : plan(scene).items) {
+    if (item.what == what) {
+      return (item.modelled ? "modelled: " : "left out: ") + item.reason;
+    }
+  }
+  return "not in the plan";
+}
+
+const std::string kBox = R"({"half_extents": [1, 1, 1], "mass": 1, "friction": 0.5, "position": [0, 0, 2]})";
+const std::string kFixed =
+    R"({"name": "post", "half_extents": [1, 1, 1], "fixed": true, "restitution": 1, "friction": 1})";
+const std::string kFloor =
+    R"("walls": [{"point": [0, 0, -1], "normal": [0, 0, 1], "restitution": 0.5, "friction": 0.5}])";
+
+TEST(Plan, defaultSceneNeedsGravityAndWalls) {
+  const Plan planned = plan(shipped("careen.json"));
+  EXPECT_EQ(planned.modelled(), (Names{"gravity", "box-wall", "restitution"}));
+  EXPECT_EQ(planned.leftOut(), (Names{"drag", "springs", "box-box", "friction", "resting", "joints"}));
+}
+
+TEST(Plan, sampleOf1997NeedsSpringsAndDragToo) {
+  const Plan planned = plan(shipped("hecker-1997.json"));
+  EXPECT_EQ(planned.modelled(), (Names{"gravity", "drag", "springs", "box-wall", "restitution"}));
+  EXPECT_EQ(planned.leftOut(), (Names{"box-box", "friction", "resting", "joints"}));
+}
+
+TEST(Plan, saysWhyEachThingIsModelled) {
+  const Scene scene = shipped("hecker-1997.json");
+  EXPECT_EQ(reasonFor(scene, "gravity"), "modelled: the scene sets it");
+  EXPECT_EQ(reasonFor(scene, "drag"), "modelled: the scene sets it");
+  EXPECT_EQ(reasonFor(scene, "springs"), "modelled: 7 springs in the scene");
+  EXPECT_EQ(reasonFor(scene, "box-wall"), "modelled: 6 walls and 6 boxes that can move");
+  EXPECT_EQ(reasonFor(scene, "restitution"), "modelled: the scene sets it");
+}
+
+TEST(Plan, saysWhatTheMethodLacks) {
+  const Scene scene = withParts(kFloor + R"(, "boxes": [)" + kBox + ", " + kFixed + "]");
+  EXPECT_EQ(reasonFor(scene, "box-box"),
+            "left out: the 1997 sample had none: boxes pass through one another");
+  EXPECT_EQ(reasonFor(scene, "friction"),
+            "left out: THE SCENE ASKS FOR IT, but the 1997 sample had none: everything slides freely");
+  EXPECT_EQ(reasonFor(scene, "resting"),
+            "left out: the 1997 method cannot rest: a box that comes to lie ends the run");
+  EXPECT_EQ(reasonFor(scene, "joints"), "left out: the scene has none");
+}
+
+TEST(Plan, saysWhatTheSceneDoesNotAskFor) {
+  const Scene lone = withParts(R"("boxes": [)" + kBox + "]");
+  EXPECT_EQ(reasonFor(lone, "gravity"), "left out: the scene has none");
+  EXPECT_EQ(reasonFor(lone, "drag"), "left out: the scene has none");
+  EXPECT_EQ(reasonFor(lone, "springs"), "left out: the scene has none");
+  EXPECT_EQ(reasonFor(lone, "box-wall"), "left out: the scene has no walls");
+  EXPECT_EQ(reasonFor(lone, "box-box"), "left out: no two boxes could meet");
+  for (const char* what : {"restitution", "friction", "resting"}) {
+    EXPECT_EQ(reasonFor(lone, what), "left out: nothing meets a wall");
+  }
+  const Scene held = withParts(kFloor + R"(, "drag": {}, "boxes": [)" + kFixed + "]");
+  EXPECT_EQ(reasonFor(held, "box-wall"), "left out: every box is fixed");
+  EXPECT_EQ(reasonFor(held, "drag"), "left out: both its coefficients are 0");
+  const Scene smooth =
+      withParts(R"("walls": [{"point": [0, 0, -1], "normal": [0, 0, 1]}], "boxes": [)" + kBox + "]");
+  EXPECT_EQ(reasonFor(smooth, "restitution"), "left out: it is 0 wherever a box meets a wall");
+  EXPECT_EQ(reasonFor(smooth, "friction"), "left out: it is 0 wherever a box meets a wall");
+}
+
+TEST(Plan, knowsNoOtherItems) {
+  EXPECT_TRUE(plan(shipped("careen.json")).models("gravity"));
+  EXPECT_FALSE(plan(shipped("careen.json")).models("drag"));
+  EXPECT_THROW(plan(shipped("careen.json")).models("magnetism"), std::logic_error);
+}
+
+TEST(Assemble, buildsWhatThePlanModels) {
+  const Scene scene = parseScene(kEveryKey, "f");
+  const World world = assemble(scene, plan(scene));
+  EXPECT_EQ(world.gravity, Vec3(0, 0, -9.81));
+  ASSERT_EQ(world.walls.size(), 6U);  // of the room's six, two are open
+  EXPECT_EQ(world.walls[0].name, "room-x");
+  EXPECT_EQ(world.walls[4].name, "ramp");
+  EXPECT_EQ(world.springs.size(), 2U);
+  EXPECT_EQ(world.drag->linear, 0.5);
+  ASSERT_EQ(world.bodies.size(), 3U);
+  const Body& crate = world.bodies[0];
+  EXPECT_EQ(crate.name, "crate");
+  EXPECT_EQ(crate.halfExtents, Vec3(0.5, 0.25, 0.125));
+  EXPECT_EQ(crate.mass.mass, 2);
+  EXPECT_EQ(crate.initial.pose.position, Vec3(1, 0.5, 2));
+  EXPECT_EQ(crate.initial.velocity, Vec3(6, 1.5, 0));
+  EXPECT_EQ(crate.material.restitution, 0.75);
+}
+
+// The crate is turned by 90° about z, so its x axis lies along the world's y: half sizes (0.25, 0.5, 0.125)
+// along the world's axes, mass 2 kg, ω = (3, 7, -2): L = 2/3 (0.5² + 0.125², 0.25² + 0.125², 0.25² + 0.5²) ·
+// ω.
+TEST(Assemble, angularMomentumFollowsFromAngularVelocity) {
+  const Scene scene = parseScene(kEveryKey, "f");
+  const World world = assemble(scene, plan(scene));
+  const Vec3 expected = 2.0 / 3 * Vec3(0.265625 * 3, 0.078125 * 7, 0.3125 * -2);
+  EXPECT_LT((world.bodies[0].initial.angularMomentum - expected).norm(), 1e-15);  // measured MEASURED
+}
+
+TEST(Assemble, fixedBoxesAreImmovable) {
+  const Scene scene = parseScene(kEveryKey, "f");
+  const World world = assemble(scene, plan(scene));
+  EXPECT_FALSE(isImmovable(world.bodies[0].mass));
+  EXPECT_TRUE(isImmovable(world.bodies[2].mass));
+  EXPECT_EQ(world.bodies[2].mass.inverseInertiaBody, Vec3::Zero());
+}
+
+TEST(Assemble, leavesOutWhatThePlanLeavesOut) {
+  const Scene scene = parseScene(kEveryKey, "f");
+  const World world = assemble(scene, plan(scene));
+  for (const Wall& wall : world.walls) {
+    EXPECT_EQ(wall.material.friction, 0) << wall.name;
+  }
+  EXPECT_EQ(world.bodies[0].material.friction, 0);
+  EXPECT_EQ(world.walls[0].material.restitution, 0.5);
+
+  Plan nothing = plan(scene);
+  for (PlanItem& item : nothing.items) {
+    item.modelled = false;
+  }
+  const World empty = assemble(scene, nothing);
+  EXPECT_EQ(empty.bodies.size(), 3U);
+  EXPECT_EQ(empty.gravity, Vec3::Zero());
+  EXPECT_TRUE(empty.walls.empty() && empty.springs.empty() && !empty.drag);
+  EXPECT_EQ(empty.bodies[0].material.restitution, 0);
+}
+
+}  // namespace
+}  // namespace careen

@@ -1,0 +1,170 @@
+#include "scene/scene_check.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene_reader.h"
+#include "support/input_error.h"
+#include "support/scenes.h"
+
+namespace careen {
+namespace {
+
+std::string sceneErrorOf(const std::string& text) {
+  return inputErrorOf([&text] { parseScene(text, "f"); });
+}
+
+struct Bad {
+  const char* piece;
+  const char* instead;  // '@' stands before what the message points at
+  const char* message;
+};
+
+class BadMeaning : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadMeaning, isToldWhereAndWhy) {
+  const Bad& bad = GetParam();
+  const MarkedText marked(everyKeyBut(bad.piece, bad.instead));
+  EXPECT_EQ(sceneErrorOf(marked.text), "f:" + marked.place + ": " + bad.message);
+}
+
+const std::vector<Bad> kBadScenes = {
+    {"\"max\": [3, 2, 4]", "\"max\": [3, @-2, 4]",
+     "found -2 for room.max[1], expected more than room.min[1], which is -2"},
+    {"\"max\": [3, 2, 4]", "\"max\": [3, 2, @-4.5]",
+     "found -4.5 for room.max[2], expected more than room.min[2], which is 0"},
+    {"\"ramp\"", "@\"room-z\"",
+     "found \"room-z\" for walls[0], expected another name: a wall of the room has this one"},
+    {"\"crate\", \"half", "@\"room+z\", \"half",
+     "found \"room+z\" for boxes[0], expected another name: a wall of the room has this one"},
+    {"\"crate\", \"half", "@\"ramp\", \"half",
+     "found \"ramp\" for boxes[0], expected another name: walls[0] has this one"},
+    {"\"post\", \"half", "@\"crate\", \"half",
+     "found \"crate\" for boxes[2], expected another name: boxes[0] has this one"},
+    {"\"post\", \"half", "@\"box-1\", \"half",
+     "found \"box-1\" for boxes[2], expected another name: boxes[1] has this one"},
+    {"\"velocity\": [0, 0, 0]", "\"velocity\": @[0, 0, -1]",
+     "found velocity for the fixed box \"post\", expected none, as it stays where it is"},
+    {"\"velocity\": [0, 0, 0]", "\"angular_velocity\": @[0, 0, -1]",
+     "found angular_velocity for the fixed box \"post\", expected none, as it stays where it is"},
+    {"[\"crate\", [0.5, 0.25, 0.125]]", "[@\"create\", [0.5, 0.25, 0.125]]",
+     "found no box of the name \"create\", expected \"crate\""},
+    {"[\"post\", [0, 0, 0.1]]", "[@\"elephant\", [0, 0, 0.1]]",
+     "found no box of the name \"elephant\", expected the name of a box of the scene"},
+    {"[\"post\", [0, 0, 0.1]]", "[@\"ramp\", [0, 0, 0.1]]",
+     "found no box of the name \"ramp\", expected the name of a box of the scene"},
+    {"[\"post\", [0, 0, 0.1]]", "@[\"box-1\", [0, 0, 0.1]]",
+     "found a spring from a box to itself, expected two ends that can move apart"},
+    {"[\"crate\", [0.5, 0.25, 0.125]], \"to\": [-1.5, 0, 3]", "[0, 0, 0], \"to\": @[-1.5, 0, 3]",
+     "found a spring from the world to the world, expected two ends that can move apart"},
+    {"\"target\": [0, 0, 1]", "\"target\": @[6, -8, 4]",
+     "found the camera's target where its eye is, expected another place to look at"},
+    {"\"target\": [0, 0, 1], \"up\": [0, 0, 4]", "\"target\": [6, -8, 1], \"up\": @[0, 0, 4]",
+     "found a camera that looks along its up, expected an up that points elsewhere"},
+    {"{ \"eye\": [6, -8, 4], \"target\": [0, 0, 1], \"up\": [0, 0, 4]",
+     "@{ \"eye\": [6, -8, 4], \"target\": [6, -8, 7]",
+     "found a camera that looks along its up, expected an up that points elsewhere"},
+    // The crate is turned by 90° about z: 0.25 m along x, 0.5 m along y, 0.125 m along z.
+    {"[1, 0.5, 2]", "@[2.875, 0.5, 2]",
+     "found box \"crate\" 0.125 m behind wall \"room+x\", expected a start on the wall's free side"},
+    {"[1, 0.5, 2]", "@[1, 1.75, 2]",
+     "found box \"crate\" 0.25 m behind wall \"room+y\", expected a start on the wall's free side"},
+    {"[1, 0.5, 2]", "@[1, 0.5, 0]",
+     "found box \"crate\" 0.125 m behind wall \"room-z\", expected a start on the wall's free side"},
+    {"[1, 0.5, 2]", "@[1, 0.5, 100]",
+     "found box \"crate\" 96.12 m behind wall \"wall-1\", expected a start on the wall's free side"},
+    // Ramp through (-3, 0, 1) with normal (1, 0, 2)/√5: the gap is (0.5 + 2·-0.6 - 0.1 - 0.2)/√5.
+    {"[2, 1, 0.5]", "@[-2.5, 1, 0.4]",
+     "found box \"post\" 0.4472 m behind wall \"ramp\", expected a start on the wall's free side"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Scene, BadMeaning, testing::ValuesIn(kBadScenes));
+
+std::string withBoxes(const std::string& boxes) {
+  return R"({"careen": 1, "duration": 1, "room": {"min": [-2, -2, 0], "max": [2, 2, 4]}, "boxes": [)" +
+         boxes + "]}";
+}
+
+TEST(SceneCheck, namesForWantOfOneAreNamesToo) {
+  const MarkedText marked(
+      withBoxes(R"({"name": "box-1", "half_extents": [1, 1, 1], "mass": 1, "position": [0, 0, 1]},
+    @{"half_extents": [1, 1, 1], "mass": 1, "position": [0, 0, 1]})"));
+  EXPECT_EQ(sceneErrorOf(marked.text), "f:" + marked.place +
+                                           ": found \"box-1\" for boxes[1], its name for want of one, "
+                                           "expected another name: boxes[0] has this one");
+}
+
+TEST(SceneCheck, massesMadeByDensityKeepToTheRange) {
+  const MarkedText heavy(
+      withBoxes(R"({"half_extents": [1, 1, 1], "density": @1e60, "position": [0, 0, 1]})"));
+  EXPECT_EQ(sceneErrorOf(heavy.text), "f:" + heavy.place +
+                                          ": found 1e60 for the density of box \"box-0\", whose mass it "
+                                          "makes 8e+60 kg, expected a mass from 1e-60 "
+                                          "to 1e60 kg");
+  const MarkedText light(
+      withBoxes(R"({"half_extents": [1e-9, 1e-9, 1e-9], "density": @1e-40, "position": [0, 0, 1]})"));
+  EXPECT_NE(sceneErrorOf(light.text).find("f:" + light.place + ": found 1e-40 for the density"),
+            std::string::npos);
+}
+
+TEST(SceneCheck, boxWithoutAPositionIsToldAtItsBrace) {
+  const MarkedText marked(withBoxes(R"(@{"half_extents": [1, 1, 1], "mass": 1})"));
+  EXPECT_EQ(sceneErrorOf(marked.text),
+            "f:" + marked.place +
+                ": found box \"box-0\" 1 m behind wall \"room-z\", expected a start on the wall's free side");
+}
+
+// A unit cube on the floor, and one that stands on its edge or its corner: touching is no overlap.
+TEST(SceneCheck, boxesMayStartTouchingAWall) {
+  for (const char* box :
+       {R"({"half_extents": [0.5, 0.5, 0.5], "mass": 1, "position": [0, 0, 0.5]})",
+        R"({"half_extents": [0.5, 0.5, 0.5], "mass": 1, "position": [1.5, -1.5, 0.5]})",
+        R"({"half_extents": [0.5, 0.5, 0.5], "mass": 1, "position": [0, 0, 0.7071067811865476],
+                              "orientation": {"axis": [1, 0, 0], "angle_deg": 45}})",
+        R"({"half_extents": [0.1, 0.1, 0.1], "mass": 1, "position": [0, 0, 3.9]})"}) {
+    EXPECT_EQ(sceneErrorOf(withBoxes(box)), "no error") << box;
+  }
+  // Two hundred times the allowance, which is 1e-12 of the lengths that make up the gap.
+  EXPECT_NE(sceneErrorOf(withBoxes(
+                R"({"half_extents": [0.5, 0.5, 0.5], "mass": 1, "position": [0, 0, 0.4999999998]})")),
+            "no error");
+}
+
+TEST(SceneCheck, openSidesHoldNothing) {
+  const std::string scene = R"({"careen": 1, "duration": 1,
+    "room": {"min": [-2, -2, 0], "max": [2, 2, 4], "open": ["+z", "-x"]},
+    "boxes": [{"half_extents": [1, 1, 1], "mass": 1, "position": [-20, 0, 50]}]})";
+  EXPECT_EQ(sceneErrorOf(scene), "no error");
+}
+
+TEST(SceneCheck, overlappingBoxesAreNoFaultWhereBoxesDoNotMeet) {
+  EXPECT_EQ(sceneErrorOf(withBoxes(R"({"half_extents": [1, 1, 1], "mass": 1, "position": [0, 0, 1]},
+                                      {"half_extents": [1, 1, 1], "mass": 1, "position": [0, 0, 1]})")),
+            "no error");
+}
+
+TEST(SceneCheck, springsFindTheirBoxes) {
+  const Scene scene = parseScene(kEveryKey, "f");
+  ASSERT_EQ(scene.springs.size(), 2U);
+  EXPECT_EQ(scene.springs[0].from.body, 0);
+  EXPECT_EQ(scene.springs[0].to.body, std::nullopt);
+  EXPECT_EQ(scene.springs[1].from.body, 1);
+  EXPECT_EQ(scene.springs[1].to.body, 2);
+}
+
+// The largest numbers a scene may hold go through every check without overflow.
+TEST(SceneCheck, largestNumbersAreHandled) {
+  EXPECT_EQ(sceneErrorOf(R"({"careen": 1, "duration": 1e60, "gravity": [1e60, -1e60, 1e60],
+    "walls": [{"point": [1e60, 1e60, 1e60], "normal": [-1, -1, -1]}],
+    "boxes": [{"half_extents": [1e60, 1e60, 1e60], "mass": 1e60, "position": [-1e60, -1e60, -1e60],
+               "velocity": [1e60, 1e60, 1e60], "angular_velocity": [1e60, 1e60, 1e60],
+               "orientation": {"axis": [1e-60, 1e60, 0], "angle_deg": 1e60}}],
+    "camera": {"eye": [1e60, 0, 0], "target": [-1e60, 0, 0]}})"),
+            "no error");
+}
+
+}  // namespace
+}  // namespace careen

@@ -1,0 +1,400 @@
+#include "scene/scene_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+#include <vector>
+
+#include "core/file.h"
+#include "support/input_error.h"
+#include "support/scenes.h"
+
+namespace careen {
+namespace {
+
+using nlohmann::json;
+using Adapter = valijson::adapters::NlohmannJsonAdapter;
+
+const std::filesystem::path kAssets = std::filesystem::path(CAREEN_SOURCE_DIR) / "assets";
+
+json schemaFile() { return json::parse(readFile(kAssets / "scene.schema.json")); }
+
+class Schema {
+ public:
+  Schema() : file_(schemaFile()) {
+    valijson::SchemaParser(valijson::SchemaParser::kDraft7).populateSchema(Adapter(file_), schema_);
+  }
+  bool accepts(const json& scene) { return valijson::Validator().validate(schema_, Adapter(scene), nullptr); }
+
+ private:
+  json file_;
+  valijson::Schema schema_;
+};
+
+// ---- The reader and the schema accept the same files.
+
+// What a value may be replaced by: every type, and numbers and words on both sides of every bound.
+const std::vector<json>& replacements() {
+  static const std::vector<json> list = json::parse(R"([
+    null, true, false, 0, -0.0, 1, -1, 2, 0.5, -0.5, 1.5, 1e-61, 1e-60, 1e60, 1.1e60, -1e60, -1.1e60, 1e300, -1e300,
+    0.0009, 0.001, 100000, 100001, 16384, 16385, 9007199254740993, 179.99999999999997, 180, 180.5,
+    "", "x", "a,b", "a\"b", "a\nb", "a\u0001b", "a\u0000b", "a\u001fb", "a\u007fb", "a b", "höhe", "room-x",
+    "#123456", "#12345", "#1234567", "#12345g", "123456#", "#ABCDEF", "+z", "-x", "z", "listing1", "Listing1", "exact", "1",
+    [], [0], [null], ["x"], [1, 2], [1.5, 2], [0, 1], [16384, 1], [16385, 1], [0, 0, 0], [0, -0.0, 0], [1, 2, 3],
+    [0, 0, 1e-300], [1, 2, "3"], [1, 2, null], [1, 2, 1e61], [1e-60, 1, 1], [1e-61, 1, 1], [0, 1, 1], [-1, 1, 1],
+    [0, 0, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0.5], [1, 0, 0, true], [1, 2, 3, 4, 5],
+    ["+x"], ["+x", "-x"], ["+x", "+x"], ["x", "+x"], ["-x", "+x", "-y", "+y", "-z", "+z"],
+    ["crate", [0, 0, 0]], ["crate", [0, 0]], [1, [0, 0, 0]], ["crate", 1], ["crate", [0, 0, 0], 1], [[0, 0, 0], "crate"],
+    {}, {"x": 1}, {"axis": [0, 0, 1], "angle_deg": 3}, {"axis": [0, 0, 0], "angle_deg": 3}, {"axis": [0, 0, 1]},
+    {"angle_deg": 3}, {"axis": [0, 0, 1], "angle_deg": 3, "x": 1}, {"half_extents": [1, 1, 1], "mass": 1},
+    {"half_extents": [1, 1, 1]}, {"half_extents": [1, 1, 1], "fixed": true}, {"half_extents": [1, 1, 1], "fixed": false},
+    {"point": [0, 0, 0], "normal": [0, 0, 1]}, {"from": [0, 0, 0], "to": ["crate", [0, 0, 0]], "stiffness": 0},
+    {"min": [0, 0, 0], "max": [1, 1, 1]}, {"eye": [0, 0, 0], "target": [1, 1, 1]}
+  ])");
+  return list;
+}
+
+// Calls `look` with every scene that is one change away.
+class Mutations {
+ public:
+  using Look = std::function<void(const json&)>;
+  Mutations(json scene, Look look) : scene_(std::move(scene)), look_(std::move(look)) { visit(scene_); }
+
+ private:
+  // `value` is part of scene_: changed, looked at and put back.
+  void visit(json& value) {
+    const json before = value;
+    for (const json& other : replacements()) {
+      value = other;
+      look_(scene_);
+    }
+    value = before;
+    if (value.is_object()) {
+      changeMembers(value, before);
+    }
+    if (value.is_array()) {
+      changeElements(value, before);
+    }
+    if (value.is_structured()) {
+      for (json& child : value) {
+        visit(child);
+      }
+    }
+  }
+  void changeMembers(json& value, const json& before) {
+    for (const auto& [key, member] : before.items()) {
+      value.erase(key);
+      look_(scene_);
+      value[key + "_"] = member;  // misspelt
+      look_(scene_);
+      value = before;
+      value[key + "_"] = member;  // too much
+      look_(scene_);
+      value = before;
+    }
+    for (const char* key : {"mass", "density", "fixed", "friction", "comment"}) {
+      value[key] = 1;
+      look_(scene_);
+      value[key] = true;
+      look_(scene_);
+      value = before;
+    }
+  }
+  void changeElements(json& value, const json& before) {
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      value.erase(i);
+      look_(scene_);
+      value = before;
+    }
+    if (!before.empty()) {
+      value.push_back(before.back());
+      look_(scene_);
+      value = before;
+    }
+  }
+
+  json scene_;
+  Look look_;
+};
+
+std::string shapeErrorOf(const std::string& text) {
+  return inputErrorOf([&text] { readShape(JsonTree(text, "f")); });
+}
+
+TEST(SceneShape, schemaAndReaderAcceptAndRejectTheSameFiles) {
+  std::vector<std::string> scenes = {kEveryKey};
+  for (const auto& entry : std::filesystem::directory_iterator(kAssets / "scenes")) {
+    scenes.push_back(readFile(entry.path()));
+  }
+  EXPECT_GE(scenes.size(), 3U);
+  Schema schema;
+  int accepted = 0;
+  int rejected = 0;
+  for (const std::string& scene : scenes) {
+    const json original = json::parse(scene, nullptr, true, true);
+    EXPECT_EQ(shapeErrorOf(scene), "no error");
+    EXPECT_TRUE(schema.accepts(original));
+    Mutations(original, [&](const json& mutation) {
+      const std::string text = mutation.dump();
+      const std::string error = shapeErrorOf(text);
+      const bool bySchema = schema.accepts(mutation);
+      EXPECT_EQ(error == "no error", bySchema) << error << "\n" << text;
+      (bySchema ? accepted : rejected) += 1;
+    });
+  }
+  RecordProperty("accepted", accepted);
+  RecordProperty("rejected", rejected);
+  EXPECT_GT(accepted, 5'000);   // measured 6192
+  EXPECT_GT(rejected, 20'000);  // measured 38276
+}
+
+// ---- What the schema tells an editor.
+
+// Every property's schema, with its path.
+void collectProperties(const json& schema, const std::string& path,
+                       std::vector<std::pair<std::string, json>>& found) {
+  for (const auto& [key, value] : schema.items()) {
+    if (key == "properties") {
+      for (const auto& [name, property] : value.items()) {
+        found.emplace_back(path + "/" + name, property);
+      }
+    }
+    if (value.is_structured()) {
+      collectProperties(value, path + "/" + key, found);
+    }
+  }
+}
+
+TEST(SceneShape, schemaDescribesEveryKey) {
+  const json schema = schemaFile();
+  std::vector<std::pair<std::string, json>> properties;
+  collectProperties(schema, "", properties);
+  EXPECT_GT(properties.size(), 50U);
+  for (const auto& [path, property] : properties) {
+    json resolved = property;
+    if (property.contains("$ref")) {
+      resolved = schema.at(json::json_pointer(property["$ref"].get<std::string>().substr(1)));
+    }
+    const bool isCondition = property == json{{"const", true}};  // "fixed" where it excuses a missing mass
+    EXPECT_TRUE(isCondition || (resolved.contains("title") && resolved.contains("description"))) << path;
+  }
+}
+
+TEST(SceneShape, schemaTellsTheDefaultsOfTheReader) {
+  const json schema = schemaFile();
+  const json& keys = schema["properties"];
+  const json& box = schema["definitions"]["box"]["properties"];
+  const json camera = {{"eye", {1, 2, 3}}, {"target", {0, 0, 0}}};
+  const json bare = {{"careen", 1},
+                     {"duration", 1},
+                     {"boxes", {{{"half_extents", {1, 1, 1}}, {"mass", 1}}}},
+                     {"camera", camera},
+                     {"film", json::object()}};
+  json filled = bare;
+  for (const char* key : {"name", "gravity", "walls", "springs", "method", "dt", "tolerance"}) {
+    filled[key] = keys[key]["default"];
+  }
+  for (const char* key : {"up", "fov_deg"}) {
+    filled["camera"][key] = keys["camera"]["properties"][key]["default"];
+  }
+  for (const char* key : {"size", "fps"}) {
+    filled["film"][key] = keys["film"]["properties"][key]["default"];
+  }
+  for (const char* key : {"position", "velocity", "angular_velocity", "fixed", "color"}) {
+    filled["boxes"][0][key] = box[key]["default"];
+  }
+  const Scene without = readShape(JsonTree(bare.dump(), "f"));
+  const Scene with = readShape(JsonTree(filled.dump(), "f"));
+  EXPECT_EQ(with.name, without.name);
+  EXPECT_EQ(with.gravity, without.gravity);
+  EXPECT_EQ(with.method, without.method);
+  EXPECT_EQ(with.dt, without.dt);
+  EXPECT_EQ(with.tolerance, without.tolerance);
+  EXPECT_EQ(with.camera->up, without.camera->up);
+  EXPECT_EQ(with.camera->fovDegrees, without.camera->fovDegrees);
+  EXPECT_EQ(with.film.width, without.film.width);
+  EXPECT_EQ(with.film.height, without.film.height);
+  EXPECT_EQ(with.film.rate, without.film.rate);
+  const SceneBox& withBox = with.boxes[0];
+  const SceneBox& withoutBox = without.boxes[0];
+  EXPECT_EQ(withBox.pose.position, withoutBox.pose.position);
+  EXPECT_EQ(withBox.velocity, withoutBox.velocity);
+  EXPECT_EQ(withBox.angularVelocity, withoutBox.angularVelocity);
+  EXPECT_EQ(withBox.fixed, withoutBox.fixed);
+  EXPECT_EQ(withBox.color.red, withoutBox.color.red);
+  EXPECT_EQ(withBox.color.green, withoutBox.color.green);
+  EXPECT_EQ(withBox.color.blue, withoutBox.color.blue);
+}
+
+TEST(SceneShape, schemaListsTheMethodsThereAre) {
+  std::vector<std::string> names;
+  for (const NamedMethod& known : kMethods) {
+    names.emplace_back(known.name);
+  }
+  EXPECT_EQ(schemaFile()["properties"]["method"]["enum"], json(names));
+}
+
+// ---- What each bad value is told.
+
+struct Bad {
+  const char* piece;
+  const char* instead;  // '@' stands before what the message points at
+  const char* message;
+};
+
+class BadShape : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadShape, isToldWhereAndWhy) {
+  const Bad& bad = GetParam();
+  const MarkedText marked(everyKeyBut(bad.piece, bad.instead));
+  EXPECT_EQ(shapeErrorOf(marked.text), "f:" + marked.place + ": " + bad.message);
+}
+
+const std::vector<Bad> kBadValues = {
+    {"\"careen\": 1", "\"careen\": @2, \"new_key\": 3",
+     "found 2 for careen, expected 1, the version of the scene format that this program reads"},
+    {"\"careen\": 1", "\"careen\": @\"1\"",
+     "found \"1\" for careen, expected 1, the version of the scene format that this program reads"},
+    {"\"every key\"", "@7", "found 7 for name, expected a string"},
+    {"\"../scene.schema.json\"", "@null", "found null for $schema, expected a string"},
+    {"2.5", "@0", "found 0 for duration, expected a number above 0 [s]"},
+    {"2.5", "@-1", "found -1 for duration, expected a number above 0 [s]"},
+    {"2.5", "@NaN", "found \"NaN\", expected a finite number"},
+    {"2.5", "@Infinity", "found \"Infinity\", expected a finite number"},
+    {"2.5", "@1e400", "found \"1e400\", expected a number no larger than 1.8e308"},
+    {"2.5", "@\"2.5\"", "found \"2.5\" for duration, expected a number above 0 [s]"},
+    {"\"gravity\"", "@\"gravitiy\"", "found the unknown key \"gravitiy\" in the scene, expected \"gravity\""},
+    {"\"gravity\"", "@\"wind\"",
+     "found the unknown key \"wind\" in the scene, expected one of careen, name, duration, gravity, room, "
+     "walls, boxes, springs, drag, method, dt, tolerance, camera, film, $schema"},
+    {"[0, 0, -9.81]", "@-9.81", "found -9.81 for gravity, expected [x, y, z] [m/s²]"},
+    {"[0, 0, -9.81]", "@[0, -9.81]", "found an array of 2 for gravity, expected [x, y, z] [m/s²]"},
+    {"{ \"min\": [-3, -2, 0], ", "@{ ", "found no min in room, expected that key"},
+    {"[\"-y\", \"+z\"]", "[\"-y\", @\"top\"]",
+     "found the unknown side \"top\", expected one of -x, +x, -y, +y, -z, +z"},
+    {"[\"-y\", \"+z\"]", "[\"-y\", @\"-y\"]", "found \"-y\" for room.open[1], expected each side once"},
+    {"[\"-y\", \"+z\"]", "@\"-y\"",
+     "found \"-y\" for room.open, expected an array of sides such as [\"+z\"]"},
+    {"\"restitution\": 0.5", "\"restitution\": @1.01",
+     "found 1.01 for room.restitution, expected a number from 0 to 1"},
+    {"\"restitution\": 0.5", "\"restitution\": @-0.1",
+     "found -0.1 for room.restitution, expected a number from 0 to 1"},
+    {"\"friction\": 0.25", "\"friction\": @-0.25",
+     "found -0.25 for room.friction, expected a number not below 0"},
+    {"\"normal\": [1, 0, 2]", "\"normal\": @[0, 0, 0]",
+     "found a zero vector for walls[0].normal, expected a direction"},
+    {"{ \"point\": [0, 0, 4], ", "@{ ", "found no point in walls[1], expected that key"},
+    {"\"normal\": [0, 0, -0.5]", "@\"normals\": [0, 0, -0.5]",
+     "found the unknown key \"normals\" in walls[1], expected \"normal\""},
+    {"\"crate\", \"half", "@\"\", \"half",
+     "found \"\" for boxes[0].name, expected a name without comma, quote or control character"},
+    {"\"crate\", \"half", "@\"a,b\", \"half",
+     "found \"a,b\" for boxes[0].name, expected a name without comma, quote or control character"},
+    {"\"crate\", \"half", "@\"a\\\"b\", \"half",
+     "found \"a\"b\" for boxes[0].name, expected a name without comma, quote or control character"},
+    {"\"crate\", \"half", "@\"a\\nb\", \"half",
+     "found \"a?b\" for boxes[0].name, expected a name without comma, quote or control character"},
+    {"\"crate\", \"half", "@17, \"half",
+     "found 17 for boxes[0].name, expected a name without comma, quote or control character"},
+    {"[0.5, 0.25, 0.125], \"mass\"", "[0.5, @0, 0.125], \"mass\"",
+     "found 0 for boxes[0].half_extents[1], expected a number above 0 [m]"},
+    {"[0.5, 0.25, 0.125], \"mass\"", "[0.5, 0.25, @-1], \"mass\"",
+     "found -1 for boxes[0].half_extents[2], expected a number above 0 [m]"},
+    {"\"mass\": 2", "\"mass\": @0", "found 0 for boxes[0].mass, expected a number above 0 [kg]"},
+    {"\"mass\": 2", "\"mass\": @-2", "found -2 for boxes[0].mass, expected a number above 0 [kg]"},
+    {"\"mass\": 2", "@\"mas\": 2", "found the unknown key \"mas\" in boxes[0], expected \"mass\""},
+    {"{ \"half_extents\": [0.5, 0.5, 0.5], \"density\": 8", "@{ \"half_extents\": [0.5, 0.5, 0.5]",
+     "found neither mass nor density in boxes[1], expected one of them"},
+    {"{ \"half_extents\": [0.5, 0.5, 0.5], ", "@{ \"half_extents\": [0.5, 0.5, 0.5], \"mass\": 3, ",
+     "found both mass and density in boxes[1], expected one of them"},
+    {"\"density\": 8", "\"density\": @0", "found 0 for boxes[1].density, expected a number above 0 [kg/m³]"},
+    {"[1, 0.5, 2]", "[1, @1e151, 2]",
+     "found 1e151 for boxes[0].position[1], expected a number of at most 1e60 [m]"},
+    {"\"axis\": [0, 0, 2]", "\"axis\": @[0, 0, 0]",
+     "found a zero vector for boxes[0].orientation.axis, expected a direction"},
+    {"{ \"axis\": [0, 0, 2], \"angle_deg\": 90", "@{ \"axis\": [0, 0, 2]",
+     "found no angle_deg in boxes[0].orientation, expected that key"},
+    {"[2, 0, 0, 0]", "@[0, 0, 0, 0]",
+     "found a zero quaternion for boxes[1].orientation, expected a rotation"},
+    {"[2, 0, 0, 0]", "@[2, 0, 0]",
+     "found an array of 3 for boxes[1].orientation, expected [w, x, y, z] or an axis and an angle_deg"},
+    {"[2, 0, 0, 0]", "@45",
+     "found 45 for boxes[1].orientation, expected [w, x, y, z] or an axis and an angle_deg"},
+    {"[6, 1.5, 0]", "[6, 1.5, @true]", "found true for boxes[0].velocity[2], expected a number [m/s]"},
+    {"[3, 7, -2]", "@{}", "found an object for boxes[0].angular_velocity, expected [x, y, z] [rad/s]"},
+    {"\"fixed\": false", "\"fixed\": @0", "found 0 for boxes[0].fixed, expected true or false"},
+    {"\"#C8553d\"", "@\"red\"", "found \"red\" for boxes[0].color, expected a colour \"#rrggbb\""},
+    {"\"#C8553d\"", "@\"#C8553\"", "found \"#C8553\" for boxes[0].color, expected a colour \"#rrggbb\""},
+    {"\"#C8553d\"", "@\"#C8553g\"", "found \"#C8553g\" for boxes[0].color, expected a colour \"#rrggbb\""},
+    {"\"#C8553d\"", "@[200, 85, 61]",
+     "found an array of 3 for boxes[0].color, expected a colour \"#rrggbb\""},
+    {"[\"crate\", [0.5, 0.25, 0.125]]", "@[\"crate\"]",
+     "found an array of 1 for springs[0].from, expected a world point [x, y, z] or [name of a box, [x, y, "
+     "z]]"},
+    {"[\"crate\", [0.5, 0.25, 0.125]]", "[@0, [0.5, 0.25, 0.125]]",
+     "found 0 for springs[0].from[0], expected the name of a box"},
+    {"[\"crate\", [0.5, 0.25, 0.125]]", "[\"crate\", @\"corner\"]",
+     "found \"corner\" for springs[0].from[1], expected [x, y, z] [m]"},
+    {"[-1.5, 0, 3]", "[-1.5, 0, @\"3\"]", "found \"3\" for springs[0].to[2], expected a number [m]"},
+    {"\"stiffness\": 0.75", "\"stiffness\": @-0.75",
+     "found -0.75 for springs[0].stiffness, expected a number not below 0 [N/m]"},
+    {"\"damping\": 0.5", "\"damping\": @-0.5",
+     "found -0.5 for springs[0].damping, expected a number not below 0 [N s/m]"},
+    {"\"rest_length\": 1", "\"rest_length\": @-1",
+     "found -1 for springs[0].rest_length, expected a number not below 0 [m]"},
+    {"{ \"from\": [\"box-1\", [0, 0, 0]], ", "@{ ", "found no from in springs[1], expected that key"},
+    {"\"linear\": 0.5", "\"linear\": @-0.5",
+     "found -0.5 for drag.linear, expected a number not below 0 [N s/m]"},
+    {"\"angular\": 0.25", "\"angular\": @-1",
+     "found -1 for drag.angular, expected a number not below 0 [N m s]"},
+    {"\"listing1\"", "@\"exact\"", "found the unknown method \"exact\", expected listing1"},
+    {"\"listing1\"", "@1", "found 1 for method, expected the name of a method"},
+    {"0.001", "@0", "found 0 for dt, expected a number above 0 [s]"},
+    {"0.001", "@-0.001", "found -0.001 for dt, expected a number above 0 [s]"},
+    {"1e-9", "@0", "found 0 for tolerance, expected a number above 0"},
+    {"{ \"eye\": [6, -8, 4], ", "@{ ", "found no eye in camera, expected that key"},
+    {"\"up\": [0, 0, 4]", "\"up\": @[0, 0, 0]", "found a zero vector for camera.up, expected a direction"},
+    {"\"fov_deg\": 35", "\"fov_deg\": @0",
+     "found 0 for camera.fov_deg, expected a number between 0 and 180 [deg]"},
+    {"\"fov_deg\": 35", "\"fov_deg\": @180",
+     "found 180 for camera.fov_deg, expected a number between 0 and 180 [deg]"},
+    {"[640, 360]", "[@0, 360]", "found 0 for film.size[0], expected a whole number from 1 to 16384 [px]"},
+    {"[640, 360]", "[640, @100000]",
+     "found 100000 for film.size[1], expected a whole number from 1 to 16384 [px]"},
+    {"[640, 360]", "[@640.5, 360]",
+     "found 640.5 for film.size[0], expected a whole number from 1 to 16384 [px]"},
+    {"[640, 360]", "@[640]", "found an array of 1 for film.size, expected [width, height] [px]"},
+    {"23.976", "@0", "found 0 for film.fps, expected a number from 0.001 to 100000 [1/s]"},
+    {"23.976", "@1e6", "found 1e6 for film.fps, expected a number from 0.001 to 100000 [1/s]"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Scene, BadShape, testing::ValuesIn(kBadValues));
+
+TEST(SceneShape, keysThatMustBeThereAreNamed) {
+  EXPECT_EQ(shapeErrorOf("{}"),
+            "f:1:1: found no careen in the scene, expected that key, which gives the version of the format");
+  EXPECT_EQ(shapeErrorOf("\n  {\"careen\": 1}"), "f:2:3: found no duration in the scene, expected that key");
+}
+
+TEST(SceneShape, sceneIsAnObjectWithBoxes) {
+  EXPECT_EQ(shapeErrorOf("[]"), "f:1:1: found an array of 0 for the scene, expected an object");
+  EXPECT_EQ(shapeErrorOf(R"({"careen": 1, "duration": 1})"),
+            "f:1:1: found no boxes in the scene, expected that key");
+  EXPECT_EQ(shapeErrorOf(R"({"careen": 1, "duration": 1, "boxes": []})"),
+            "f:1:39: found an array of 0 for boxes, expected at least one box");
+  EXPECT_EQ(shapeErrorOf(R"({"careen": 1, "duration": 1, "boxes": [3]})"),
+            "f:1:40: found 3 for boxes[0], expected an object");
+  EXPECT_EQ(shapeErrorOf(R"({"careen": 1, "duration": 1, "boxes": [{"mass": 1}]})"),
+            "f:1:40: found no half_extents in boxes[0], expected that key");
+}
+
+}  // namespace
+}  // namespace careen

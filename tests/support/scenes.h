@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+namespace careen {
+
+/// A scene that uses every key.
+inline const std::string kEveryKey = R"({
+  "$schema": "../scene.schema.json",
+  "careen": 1,
+  "name": "every key",
+  "duration": 2.5,
+  "gravity": [0, 0, -9.81],
+  "room": { "min": [-3, -2, 0], "max": [3, 2, 4], "open": ["-y", "+z"], "restitution": 0.5, "friction": 0.25 },
+  "walls": [
+    { "name": "ramp", "point": [-3, 0, 1], "normal": [1, 0, 2], "restitution": 1, "friction": 0.125 },
+    { "point": [0, 0, 4], "normal": [0, 0, -0.5] }
+  ],
+  "boxes": [
+    { "name": "crate", "half_extents": [0.5, 0.25, 0.125], "mass": 2, "position": [1, 0.5, 2],
+      "orientation": { "axis": [0, 0, 2], "angle_deg": 90 }, "velocity": [6, 1.5, 0], "angular_velocity": [3, 7, -2],
+      "restitution": 0.75, "friction": 0.5, "fixed": false, "color": "#C8553d" },
+    { "half_extents": [0.5, 0.5, 0.5], "density": 8, "position": [0, 0, 2], "orientation": [2, 0, 0, 0] },
+    { "name": "post", "half_extents": [0.1, 0.1, 0.1], "fixed": true, "position": [2, 1, 0.5], "velocity": [0, 0, 0] }
+  ],
+  "springs": [
+    { "from": ["crate", [0.5, 0.25, 0.125]], "to": [-1.5, 0, 3], "stiffness": 0.75, "damping": 0.5, "rest_length": 1 },
+    { "from": ["box-1", [0, 0, 0]], "to": ["post", [0, 0, 0.1]], "stiffness": 2 }
+  ],
+  "drag": { "linear": 0.5, "angular": 0.25 },
+  "method": "listing1",
+  "dt": 0.001,
+  "tolerance": 1e-9,
+  "camera": { "eye": [6, -8, 4], "target": [0, 0, 1], "up": [0, 0, 4], "fov_deg": 35 },
+  "film": { "size": [640, 360], "fps": 23.976 }
+})";
+
+/// The same with one piece of text, which must be there exactly once, in place of another.
+inline std::string everyKeyBut(const std::string& piece, const std::string& instead) {
+  const std::size_t at = kEveryKey.find(piece);
+  if (at == std::string::npos || kEveryKey.find(piece, at + 1) != std::string::npos) {
+    throw std::logic_error("not there exactly once: " + piece);
+  }
+  return std::string(kEveryKey).replace(at, piece.size(), instead);
+}
+
+/// A text in which an '@' marks a place: the text without it, and the place as messages give it. ASCII up to
+/// there.
+struct MarkedText {
+  explicit MarkedText(const std::string& marked) : text(marked) {
+    const std::size_t at = marked.find('@');
+    if (at == std::string::npos) {
+      throw std::logic_error("no place is marked");
+    }
+    text.erase(at, 1);
+    std::size_t line = 1;
+    std::size_t column = 1;
+    for (std::size_t i = 0; i < at; ++i) {
+      const bool ends = marked[i] == '\n';
+      line += ends ? 1 : 0;
+      column = ends ? 1 : column + 1;
+    }
+    place = std::to_string(line) + ":" + std::to_string(column);
+  }
+
+  std::string text;
+  std::string place;
+};
+
+}  // namespace careen

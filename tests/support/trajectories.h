@@ -1,0 +1,43 @@
+#pragma once
+
+#include "physics/body.h"
+#include "trajectory/trajectory.h"
+
+namespace careen {
+
+/// Two boxes and a wall by hand: "drifter" moves at (2, 0, 0) m/s from x = 1 m without forces, at 0.5 s it is
+/// struck and comes back; "anchor" stays at (0, 5, 0). 1 s long.
+inline Trajectory driftAndReturn() {
+  Trajectory trajectory;
+  trajectory.sceneText = "{ \"a scene\": 1 }\n";
+  trajectory.settings = {.method = Method::kListing1, .duration = 1.0, .dt = 0.5};
+  trajectory.figures = {
+      .energyChange = 0.1, .momentumChange = 1e-16, .orthogonality = 3e-16, .deepestPenetration = 1e-4};
+  trajectory.wallNames = {"room-x", "room+x"};
+
+  EulerStep out;
+  out.start.pose.position = Vec3(1, 0, 0);
+  out.start.velocity = Vec3(2, 0, 0);
+  EulerStep back;
+  back.start.pose.position = Vec3(2, 0, 0);
+  back.start.velocity = Vec3(-2, 0, 0);
+  back.start.angularMomentum = Vec3(0, 0, 1. / 3);
+  trajectory.tracks.push_back({.name = "drifter",
+                               .mass = solidBox(Vec3(0.1, 0.2, 0.3), 2.0),
+                               .segments = {{.start = 0, .motion = out}, {.start = 0.5, .motion = back}}});
+  Rest rest;
+  rest.pose.position = Vec3(0, 5, 0);
+  trajectory.tracks.push_back(
+      {.name = "anchor", .mass = immovable(), .segments = {{.start = 0, .motion = rest}}});
+  trajectory.impacts.push_back({.time = 0.5,
+                                .a = {0},
+                                .b = WallIndex{1},
+                                .point = Vec3(2.1, 0, 0),
+                                .normal = Vec3(-1, 0, 0),
+                                .approach = 2,
+                                .impulse = 8,
+                                .tangential = 0});
+  return trajectory;
+}
+
+}  // namespace careen

@@ -1,0 +1,99 @@
+#include "trajectory/trajectory.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "support/trajectories.h"
+
+namespace careen {
+namespace {
+
+TEST(Trajectory, isKnownAtAnyMoment) {
+  const Trajectory trajectory = driftAndReturn();
+  EXPECT_EQ(trajectory.state(0, 0).pose.position, Vec3(1, 0, 0));
+  EXPECT_EQ(trajectory.state(0, 0.25).pose.position, Vec3(1.5, 0, 0));
+  EXPECT_EQ(trajectory.state(0, 0.75).pose.position, Vec3(1.5, 0, 0));
+  EXPECT_EQ(trajectory.state(0, 1).pose.position, Vec3(1, 0, 0));
+  EXPECT_EQ(trajectory.state(1, 0.3).pose.position, Vec3(0, 5, 0));
+}
+
+TEST(Trajectory, isAfterTheImpactAtItsMoment) {
+  const Trajectory trajectory = driftAndReturn();
+  EXPECT_EQ(trajectory.state(0, 0.5).velocity, Vec3(-2, 0, 0));
+  EXPECT_EQ(trajectory.state(0, std::nextafter(0.5, 0.0)).velocity, Vec3(2, 0, 0));
+}
+
+TEST(Trajectory, refusesMomentsOutsideTheRun) {
+  const Trajectory trajectory = driftAndReturn();
+  EXPECT_THROW(trajectory.state(0, -1e-9), InputError);
+  EXPECT_THROW(trajectory.state(0, 1.0000001), InputError);
+  EXPECT_THROW(trajectory.state(0, std::nan("")), InputError);
+}
+
+TEST(Trajectory, givesEveryBodysPose) {
+  const std::vector<Pose> poses = driftAndReturn().poses(0.25);
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_EQ(poses[0].position, Vec3(1.5, 0, 0));
+  EXPECT_EQ(poses[1].position, Vec3(0, 5, 0));
+}
+
+TEST(Trajectory, stateHashSeesOneBitAndNoOrder) {
+  const Trajectory trajectory = driftAndReturn();
+  const std::string hash = trajectory.stateHash();
+
+  Trajectory swapped = trajectory;
+  std::swap(swapped.tracks[0], swapped.tracks[1]);
+  EXPECT_EQ(swapped.stateHash(), hash);
+
+  Trajectory nudged = trajectory;
+  double& x = std::get<EulerStep>(nudged.tracks[0].segments[1].motion).start.angularMomentum.z();
+  x = std::nextafter(x, 1.0);
+  EXPECT_NE(nudged.stateHash(), hash);
+}
+
+TEST(Trajectory, sceneHashIsThatOfTheText) {
+  Trajectory trajectory = driftAndReturn();
+  trajectory.sceneText = "a";
+  EXPECT_EQ(trajectory.sceneHash(), "af63dc4c8601ec8c");  // published FNV-1a value
+}
+
+// A single body without forces: 1 m/s for 2 s.
+TEST(Trajectory, recordsWhatTheMethodTells) {
+  World world;
+  Body body;
+  body.name = "drifter";
+  body.halfExtents = Vec3(0.5, 0.5, 0.5);
+  body.mass = solidBox(body.halfExtents, 1);
+  body.initial.velocity = Vec3(1, 0, 0);
+  world.bodies.push_back(body);
+  world.walls.push_back({.name = "far",
+                         .normal = Vec3(-1, 0, 0),
+                         .offset = -100,
+                         .material = {.restitution = 1, .friction = 0}});
+  const Trajectory trajectory =
+      record(world, {.method = Method::kListing1, .duration = 2, .dt = 0.25}, "text");
+  EXPECT_EQ(trajectory.sceneText, "text");
+  EXPECT_EQ(trajectory.wallNames, std::vector<std::string>{"far"});
+  EXPECT_EQ(trajectory.state(0, 1.3125).pose.position, Vec3(1.3125, 0, 0));
+  EXPECT_TRUE(trajectory.impacts.empty());
+}
+
+TEST(Trajectory, stopsWhenAsked) {
+  World world;
+  Body body;
+  body.name = "drifter";
+  body.halfExtents = Vec3(0.5, 0.5, 0.5);
+  body.mass = solidBox(body.halfExtents, 1);
+  world.bodies.push_back(body);
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_THROW(
+      record(world, {.method = Method::kListing1, .duration = 2, .dt = 0.25}, "", source.get_token()),
+      Interrupted);
+}
+
+}  // namespace
+}  // namespace careen
