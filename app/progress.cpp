@@ -1,5 +1,6 @@
 #include "progress.h"
 
+#include <cstdint>
 #include <iomanip>
 #include <sstream>
 #include <string>
@@ -19,9 +20,9 @@ std::string barOf(std::int64_t done, std::int64_t total) {
 
 }  // namespace
 
-void Progress::update(std::int64_t done, std::int64_t total) {
+void Progress::update(const FilmProgress& film) {
   const double now = stopwatch_.seconds();
-  const bool last = done == total;
+  const bool last = film.done == film.total;
   if (!last && now - toldAt_ < (terminal_ ? kTerminalInterval : kPlainInterval)) {
     return;
   }
@@ -29,12 +30,11 @@ void Progress::update(std::int64_t done, std::int64_t total) {
   std::ostringstream line;
   line << std::fixed << std::setprecision(1);
   if (terminal_) {
-    line << '\r' << barOf(done, total);
+    line << '\r' << barOf(film.done, film.total);
   }
-  line << "frame " << done << " of " << total;
-  if (done > 0 && now > 0) {
-    const double perSecond = static_cast<double>(done) / now;
-    line << ", " << perSecond << " frames/s, " << static_cast<double>(total - done) / perSecond << " s left";
+  line << "frame " << film.done << " of " << film.total;
+  if (film.framesPerSecond > 0) {
+    line << ", " << film.framesPerSecond << " frames/s, " << film.secondsLeft << " s left";
   }
   // Blanks cover what a longer line left on a terminal.
   line << (terminal_ ? (last ? "    \n" : "    ") : "\n");

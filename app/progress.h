@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstdint>
 #include <ostream>
 
+#include "render/film.h"
 #include "run.h"
 
 namespace careen {
@@ -12,7 +12,7 @@ class Progress {
  public:
   Progress(std::ostream& out, bool terminal) : out_(out), terminal_(terminal) {}
 
-  void update(std::int64_t done, std::int64_t total);
+  void update(const FilmProgress& film);
 
  private:
   std::ostream& out_;

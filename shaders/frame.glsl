@@ -2,6 +2,7 @@
 layout(std140) uniform Frame {
   mat4 clipFromOffset;
   mat4 shadowFromOffset;  // to texture coordinates and depth, 0 to 1
+  vec4 shadowBounds;      // of what casts shadows, in texture coordinates: least, then greatest
   vec4 towardsLight;      // unit
   vec4 lightColor;        // linear, as all colours here; what a white face turned to the light sends back
   vec4 up;                // unit

@@ -3,7 +3,7 @@
 
 #include "frame.glsl"
 
-float lightArriving(vec3 offset);
+float lightArriving(vec3 offset, float facing);
 
 // Cook and Torrance's specular term as Walter et al. (2007) shape it, GGX, with the visibility of Smith in
 // Karis's approximation. Fresnel by Schlick, 0.04 at right angles: paint, stone.
@@ -22,7 +22,7 @@ float glossy(float roughness, vec3 normal, vec3 toEye, float facing) {
 vec3 lit(vec3 albedo, float roughness, vec3 normal, vec3 offset) {
   vec3 around = mix(ground.rgb, sky.rgb, 0.5 + 0.5 * dot(normal, up.xyz));
   float facing = max(dot(normal, towardsLight.xyz), 0.0);
-  float arriving = facing * lightArriving(offset);
+  float arriving = facing * lightArriving(offset, facing);
   float gloss = glossy(roughness, normal, normalize(-offset), facing);
   return albedo * around + (albedo + gloss) * arriving * lightColor.rgb;
 }

@@ -13,6 +13,7 @@ using Float16 = std::array<float, 16>;
 struct FrameBlock {
   Float16 clipFromOffset{};
   Float16 shadowFromOffset{};  ///< to texture coordinates and depth, 0 … 1
+  Float4 shadowBounds{};       ///< of what casts shadows, in texture coordinates: least, then greatest
   Float4 towardsLight{};       ///< unit
   Float4 lightColor{};         ///< linear, all of it 0 where there is no light
   Float4 up{};                 ///< unit; where the sky is

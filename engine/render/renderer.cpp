@@ -3,6 +3,7 @@
 #include "render/renderer.h"
 
 #include <chrono>
+#include <limits>
 
 #include "core/error.h"
 #include "core/resource.h"
@@ -19,6 +20,8 @@
 
 namespace careen {
 namespace {
+
+constexpr double kShadowReach = 4;  // [px] farther than the filter of the shadow map reaches
 
 using Clock = std::chrono::steady_clock;
 
@@ -50,6 +53,25 @@ Extent castersOf(const Scene& scene, const Extent& extent, const std::vector<Dra
     casters.max = casters.max.cwiseMax(box.pose.position + reach);
   }
   return casters;
+}
+
+// Where in the shadow map boxes are at all; elsewhere nobody needs to look into it.
+Float4 shadowBounds(const Mat4& shadowFromWorld, const std::vector<DrawnBox>& boxes) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec3 min = Vec3::Constant(kInfinity);
+  Vec3 max = Vec3::Constant(-kInfinity);
+  const Mat3 rotation = shadowFromWorld.topLeftCorner<3, 3>();
+  const Vec3 shift = shadowFromWorld.topRightCorner<3, 1>();
+  for (const DrawnBox& box : boxes) {
+    const Vec3 centre = rotation * box.pose.position + shift;
+    const Vec3 reach = (rotation * box.pose.worldFromBody).cwiseAbs() * box.halfExtents;
+    min = min.cwiseMin(centre - reach);
+    max = max.cwiseMax(centre + reach);
+  }
+  const double margin = kShadowReach / kShadowMapSize;
+  const Vec3 least = min - Vec3::Constant(margin);
+  const Vec3 greatest = max + Vec3::Constant(margin);
+  return floats(Vec3(least.x(), least.y(), greatest.x()), greatest.y());
 }
 
 // Texture coordinates and depth of a point given as an offset from the eye.
@@ -118,7 +140,7 @@ Renderer::Parts::Parts(const Scene& drawnScene, int width, int height, const Ren
   block.backgroundBottom = floats(lighting.backgroundBottom);
   if (lighting.light) {
     block.towardsLight = floats(lighting.light->towards.normalized());
-    block.lightColor = floats(lighting.light->color, 1);
+    block.lightColor = floats(lighting.light->color);
   }
   checkGl(gl, "preparing to draw");
 }
@@ -131,6 +153,7 @@ void Renderer::Parts::upload() const {
 void Renderer::Parts::drawShadows(const std::vector<DrawnBox>& drawn) {
   const Mat4 fromWorld = shadowFromWorld(castersOf(scene, extent, drawn), lighting.light->towards);
   block.shadowFromOffset = floats(fromOffset(fromWorld, view.eye));
+  block.shadowBounds = shadowBounds(fromWorld, drawn);
   upload();
   shadowMap->begin();
   boxes.drawDepth();

@@ -15,10 +15,11 @@ enum class Covering { kPlain, kSkirted, kTiles };
 struct Surface {
   std::vector<Vec3> outline;  ///< [m] world; anticlockwise as seen from that side
   Vec3 normal = Vec3::UnitZ();
-  Vec3 origin = Vec3::Zero();     ///< [m] a point of the surface where both coordinates are 0
-  Vec3 across = Vec3::UnitX();    ///< first coordinate's direction; horizontal on a wall
-  Vec3 along = Vec3::UnitY();     ///< second coordinate's; upward on a wall
-  Vec3 size = Vec3::Zero();       ///< [m] of a room's side: extent of both coordinates; 0 where there is no rectangle
+  Vec3 origin = Vec3::Zero();   ///< [m] a point of the surface where both coordinates are 0
+  Vec3 across = Vec3::UnitX();  ///< first coordinate's direction; horizontal on a wall
+  Vec3 along = Vec3::UnitY();   ///< second coordinate's; upward on a wall
+  Vec3 size =
+      Vec3::Zero();  ///< [m] of a room's side: extent of both coordinates; 0 where there is no rectangle
   std::array<bool, 4> adjoins{};  ///< whether another surface meets it where the first coordinate is 0, is at
                                   ///< its end, where the second is 0, is at its end
   Covering covering = Covering::kPlain;

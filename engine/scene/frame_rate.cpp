@@ -74,7 +74,7 @@ std::int64_t FrameRate::frameCount(double duration) const {
                      " frames, expected a shorter duration or fewer frames per second");
   }
   // `about` has rounded twice; the times themselves decide.
-  std::int64_t count = static_cast<std::int64_t>(about);
+  auto count = static_cast<std::int64_t>(about);
   while (count > 0 && frameTime(count - 1) >= duration) {
     --count;
   }

@@ -51,6 +51,9 @@ struct Camera {
   double fovDegrees = 40;      ///< [deg] vertical
 };
 
+/// [px] in width and height: what GL drivers draw into.
+inline constexpr int kLargestFilm = 16384;
+
 struct Film {
   int width = 1280;  ///< [px]
   int height = 720;  ///< [px]

@@ -16,9 +16,9 @@ constexpr double kLeastTilt = 1e-9;
 
 std::string brief(double value) {
   std::array<char, 32> digits{};
-  const char* const end =
+  char* const end =
       std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 4).ptr;
-  return std::string(static_cast<const char*>(digits.data()), end);
+  return {digits.data(), end};
 }
 
 // The member's node if the object has it, else the object's own.

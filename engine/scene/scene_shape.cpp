@@ -14,7 +14,6 @@ namespace {
 using Kind = JsonNode::Kind;
 
 constexpr int kFormatVersion = 1;
-constexpr int kLargestFilm = 16384;  // what GL drivers draw into
 constexpr NumberRange kRestitution = {.min = 0, .max = 1, .plain = "a number from 0 to 1"};
 constexpr NumberRange kFieldOfView = {.min = kSmallestPositive,
                                       .max = 179.99999999999997,  // the last double below 180
@@ -232,6 +231,7 @@ std::optional<Item> readOptional(const std::optional<JsonValue>& value, Read rea
 
 Method readMethod(const JsonValue& value) {
   std::vector<std::string_view> names;
+  names.reserve(kMethods.size());
   for (const NamedMethod& known : kMethods) {
     names.push_back(known.name);
   }
@@ -245,8 +245,9 @@ Scene readShape(const JsonTree& tree) {
   if (root.is(Kind::kObject)) {
     readVersion(tree, root);
   }
-  const JsonObject object = root.object({"careen", "name", "duration", "gravity", "room", "walls", "boxes",
-                                         "springs", "drag", "method", "dt", "tolerance", "camera", "film", "$schema"});
+  const JsonObject object =
+      root.object({"careen", "name", "duration", "gravity", "room", "walls", "boxes", "springs", "drag",
+                   "method", "dt", "tolerance", "camera", "film", "$schema"});
   Scene scene;
   scene.text = tree.text();
   if (const std::optional<JsonValue> name = object.find("name")) {

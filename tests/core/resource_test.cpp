@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <string>
 
 #include "core/error.h"
+#include "support/process.h"
 
 namespace careen {
 namespace {
@@ -15,7 +18,7 @@ namespace fs = std::filesystem;
 
 // A CAREEN_DATA of the test's own, put back afterwards.
 class Resource : public testing::Test {
- protected:
+ public:
   Resource() {
     if (const char* const told = std::getenv("CAREEN_DATA")) {
       before_ = told;
@@ -39,14 +42,21 @@ TEST_F(Resource, comesFromTheSourceTreeWhenNotInstalled) {
   EXPECT_TRUE(fs::is_regular_file(findResource("assets/scenes/careen.json")));
 }
 
+TEST_F(Resource, isAFolder) {
+  std::cout << "it is " << resourceFolder().string() << '\n';  // for the test below
+  EXPECT_TRUE(fs::is_directory(resourceFolder()));
+}
+
+// This program, copied to where an installed one lies.
 TEST_F(Resource, comesFromBesideTheProgramWhenInstalled) {
-  const fs::path program = fs::read_symlink("/proc/self/exe");
-  const fs::path share = program.parent_path().parent_path() / "share" / "careen";
-  ASSERT_FALSE(fs::exists(share.parent_path()));
-  fs::create_directories(share);
-  const fs::path found = resourceFolder();
-  fs::remove_all(share.parent_path());
-  EXPECT_EQ(found, share);
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "bin");
+  fs::create_directories(folder / "share/careen");
+  fs::copy_file("/proc/self/exe", folder / "bin/program");
+  const Ended ended =
+      Process({folder / "bin/program", "--gtest_filter=Resource.isAFolder"}, folder.path()).wait();
+  EXPECT_EQ(ended.exitCode, 0);
+  EXPECT_NE(ended.out.find("it is " + (folder / "share/careen").string()), std::string::npos) << ended.out;
 }
 
 TEST_F(Resource, comesFromWhereTheEnvironmentSays) {

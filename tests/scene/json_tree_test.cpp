@@ -40,7 +40,7 @@ TEST(JsonTree, everyValueKnowsItsPlace) {
   EXPECT_EQ(a.children[1].text, "-2.5e3");
   EXPECT_TRUE(a.children[2].boolean);
   EXPECT_EQ(a.children[3].kind, JsonNode::Kind::kNull);
-  EXPECT_EQ(a.children[4].text, "x\"]");
+  EXPECT_EQ(a.children[4].text, R"(x"])");
   EXPECT_EQ(a.children[5].kind, JsonNode::Kind::kObject);
   const JsonNode& b = *root.find("b");
   EXPECT_EQ(tree.place(b.keyOffset), "4:2");
@@ -60,7 +60,7 @@ TEST(JsonTree, placesHoldBehindNumbers) {
       EXPECT_EQ(tree.root().children[1].offset, before.size()) << before;
     }
   }
-  const JsonTree tree("{\"a\":1}", "f");
+  const JsonTree tree(R"({"a":1})", "f");
   EXPECT_EQ(tree.root().find("a")->offset, 5U);
 }
 
@@ -83,69 +83,69 @@ TEST(JsonTree, saysWhatIsNotJson) {
       {"", "1:1: found the end of the file, expected a JSON object"},
       {" \n ", "2:2: found the end of the file, expected a JSON object"},
       {"// only a comment", "1:18: found the end of the file, expected a JSON object"},
-      {"hello", "1:1: found \"hello\", expected a JSON object"},
-      {"<xml/>", "1:1: found \"<\", expected a JSON object"},
-      {"]", "1:1: found \"]\", expected a JSON object"},
+      {"hello", R"(1:1: found "hello", expected a JSON object)"},
+      {"<xml/>", R"(1:1: found "<", expected a JSON object)"},
+      {"]", R"(1:1: found "]", expected a JSON object)"},
       {"{", "1:2: found the end of the file, expected a key in quotes or '}'"},
-      {"{,}", "1:2: found \",\", expected a key in quotes or '}'"},
-      {"{a: 1}", "1:2: found \"a\", expected a key in quotes or '}'"},
-      {"{NaN: 1}", "1:2: found \"NaN\", expected a key in quotes or '}'"},
-      {"{\"a\" 12}", "1:6: found \"12\", expected ':'"},
-      {"{\"a\" \"b\"}", "1:6: found a string, expected ':'"},
-      {"{\"a\"}", "1:5: found \"}\", expected ':'"},
-      {"{\"a\"::1}", "1:6: found \":\", expected a value"},
-      {"{\"a\":}", "1:6: found \"}\", expected a value"},
-      {"{\"a\":,}", "1:6: found \",\", expected a value"},
-      {"{\"a\":", "1:6: found the end of the file, expected a value"},
-      {"{\"a\": 1", "1:8: found the end of the file, expected ',' or '}'"},
+      {"{,}", R"(1:2: found ",", expected a key in quotes or '}')"},
+      {"{a: 1}", R"(1:2: found "a", expected a key in quotes or '}')"},
+      {"{NaN: 1}", R"(1:2: found "NaN", expected a key in quotes or '}')"},
+      {R"({"a" 12})", R"(1:6: found "12", expected ':')"},
+      {R"({"a" "b"})", "1:6: found a string, expected ':'"},
+      {R"({"a"})", R"(1:5: found "}", expected ':')"},
+      {R"({"a"::1})", R"(1:6: found ":", expected a value)"},
+      {R"({"a":})", R"(1:6: found "}", expected a value)"},
+      {R"({"a":,})", R"(1:6: found ",", expected a value)"},
+      {R"({"a":)", "1:6: found the end of the file, expected a value"},
+      {R"({"a": 1)", "1:8: found the end of the file, expected ',' or '}'"},
       {"{\"a\": 1\n\n", "3:1: found the end of the file, expected ',' or '}'"},
-      {"{\"a\": 1,", "1:9: found the end of the file, expected a key in quotes"},
-      {"{\"a\": 1,}", "1:9: found \"}\", expected a key in quotes"},
-      {"{\"a\": 1 \"b\": 2}", "1:9: found a string, expected ',' or '}'"},
-      {"{\"a\": 1]", "1:8: found \"]\", expected ',' or '}'"},
+      {R"({"a": 1,)", "1:9: found the end of the file, expected a key in quotes"},
+      {R"({"a": 1,})", R"(1:9: found "}", expected a key in quotes)"},
+      {R"({"a": 1 "b": 2})", "1:9: found a string, expected ',' or '}'"},
+      {R"({"a": 1])", R"(1:8: found "]", expected ',' or '}')"},
       {"[", "1:2: found the end of the file, expected a value or ']'"},
-      {"[,1]", "1:2: found \",\", expected a value or ']'"},
-      {"[1,,2]", "1:4: found \",\", expected a value"},
-      {"[1, ]", "1:5: found \"]\", expected a value"},
-      {"[1 2]", "1:4: found \"2\", expected ',' or ']'"},
-      {"[1}", "1:3: found \"}\", expected ',' or ']'"},
-      {"[1,// x\n 2 3]", "2:4: found \"3\", expected ',' or ']'"},
-      {"{} x", "1:4: found \"x\", expected the end of the file"},
-      {"{},", "1:3: found \",\", expected the end of the file"},
-      {"{} {}", "1:4: found \"{\", expected the end of the file"},
-      {"[01]", "1:3: found \"1\", expected ',' or ']'"},
-      {"[tru]", "1:2: found \"tru\", expected a value or ']'"},
-      {"[1.]", "1:2: found \"1.\", expected a value or ']'"},
-      {"[.5]", "1:2: found \".5\", expected a value or ']'"},
-      {"[+1]", "1:2: found \"+1\", expected a value or ']'"},
-      {"[0x10]", "1:3: found \"x10\", expected ',' or ']'"},
-      {"['a']", "1:2: found \"'\", expected a value or ']'"},
+      {"[,1]", R"(1:2: found ",", expected a value or ']')"},
+      {"[1,,2]", R"(1:4: found ",", expected a value)"},
+      {"[1, ]", R"(1:5: found "]", expected a value)"},
+      {"[1 2]", R"(1:4: found "2", expected ',' or ']')"},
+      {"[1}", R"(1:3: found "}", expected ',' or ']')"},
+      {"[1,// x\n 2 3]", R"(2:4: found "3", expected ',' or ']')"},
+      {"{} x", R"(1:4: found "x", expected the end of the file)"},
+      {"{},", R"(1:3: found ",", expected the end of the file)"},
+      {"{} {}", R"(1:4: found "{", expected the end of the file)"},
+      {"[01]", R"(1:3: found "1", expected ',' or ']')"},
+      {"[tru]", R"(1:2: found "tru", expected a value or ']')"},
+      {"[1.]", R"(1:2: found "1.", expected a value or ']')"},
+      {"[.5]", R"(1:2: found ".5", expected a value or ']')"},
+      {"[+1]", R"(1:2: found "+1", expected a value or ']')"},
+      {"[0x10]", R"(1:3: found "x10", expected ',' or ']')"},
+      {"['a']", R"(1:2: found "'", expected a value or ']')"},
       {"[\xC3\xA4]", "1:2: found a character outside a string, expected a value or ']'"},
-      {"[1, NaN]", "1:5: found \"NaN\", expected a finite number"},
-      {"[nan]", "1:2: found \"nan\", expected a finite number"},
-      {"[Infinity]", "1:2: found \"Infinity\", expected a finite number"},
-      {"[-Infinity]", "1:2: found \"-Infinity\", expected a finite number"},
-      {"[-inf]", "1:2: found \"-inf\", expected a finite number"},
-      {"[1, 1e400]", "1:5: found \"1e400\", expected a number no larger than 1.8e308"},
-      {"[-1e400]", "1:2: found \"-1e400\", expected a number no larger than 1.8e308"},
-      {"{\"a\": \"bc", "1:7: found a string without its closing quote, expected '\"' on the same line"},
-      {"{\"a\": \"bc\n}", "1:7: found a string without its closing quote, expected '\"' on the same line"},
-      {"{\"a", "1:2: found a string without its closing quote, expected '\"' on the same line"},
+      {"[1, NaN]", R"(1:5: found "NaN", expected a finite number)"},
+      {"[nan]", R"(1:2: found "nan", expected a finite number)"},
+      {"[Infinity]", R"(1:2: found "Infinity", expected a finite number)"},
+      {"[-Infinity]", R"(1:2: found "-Infinity", expected a finite number)"},
+      {"[-inf]", R"(1:2: found "-inf", expected a finite number)"},
+      {"[1, 1e400]", R"(1:5: found "1e400", expected a number no larger than 1.8e308)"},
+      {"[-1e400]", R"(1:2: found "-1e400", expected a number no larger than 1.8e308)"},
+      {R"({"a": "bc)", R"(1:7: found a string without its closing quote, expected '"' on the same line)"},
+      {"{\"a\": \"bc\n}", R"(1:7: found a string without its closing quote, expected '"' on the same line)"},
+      {R"({"a)", R"(1:2: found a string without its closing quote, expected '"' on the same line)"},
       {"[\"a\tb\"]", "1:4: found a control character in a string, expected an escape such as \\t"},
-      {"[\"a\\x\"]",
+      {R"(["a\x"])",
        R"(1:5: found a wrong escape in a string, expected one of \" \\ \/ \b \f \n \r \t \u0000)"},
-      {"[\"\\u12\"]",
+      {R"(["\u12"])",
        R"(1:7: found a wrong escape in a string, expected one of \" \\ \/ \b \f \n \r \t \u0000)"},
-      {"[\"\\ud800\"]",
+      {R"(["\ud800"])",
        R"(1:9: found a wrong escape in a string, expected one of \" \\ \/ \b \f \n \r \t \u0000)"},
       {"[\"\xFF\"]", "1:3: found a byte that is not UTF-8, expected text in UTF-8"},
       {"[1, /* x", "1:5: found a comment without its end, expected a value"},
-      {"[1 / 2]", "1:4: found \"/\", expected ',' or ']'"},
+      {"[1 / 2]", R"(1:4: found "/", expected ',' or ']')"},
       {"{\"a\": 1\0}"s, "1:8: found a zero byte, expected JSON text"},
       {"{\"a\": 1, \"b\": 2,\n  \"a\": 3}",
-       "2:3: found the key \"a\" again, expected each key once; it stands at 1:2 already"},
-      {"{\"x\": {\"a\": 1, \"a\": {}}}",
-       "1:16: found the key \"a\" again, expected each key once; it stands at 1:8 already"},
+       R"(2:3: found the key "a" again, expected each key once; it stands at 1:2 already)"},
+      {R"({"x": {"a": 1, "a": {}}})",
+       R"(1:16: found the key "a" again, expected each key once; it stands at 1:8 already)"},
   };
   for (const auto& [text, message] : cases) {
     EXPECT_EQ(errorIn(text), "f:" + message) << text;
@@ -161,11 +161,11 @@ TEST(JsonTree, refusesBottomlessNesting) {
 }
 
 TEST(JsonTree, messagesStayShortAndPrintable) {
-  EXPECT_EQ(inQuotes("plain"), "\"plain\"");
-  EXPECT_EQ(inQuotes("a\nb\x7f"), "\"a?b?\"");
-  EXPECT_EQ(inQuotes(std::string(50, 'x')), "\"" + std::string(40, 'x') + "…\"");
+  EXPECT_EQ(inQuotes("plain"), R"("plain")");
+  EXPECT_EQ(inQuotes("a\nb\x7f"), R"("a?b?")");
+  EXPECT_EQ(inQuotes(std::string(50, 'x')), R"(")" + std::string(40, 'x') + R"(…")");
   // 39 bytes and then characters of two: the cut falls between characters.
-  EXPECT_EQ(inQuotes(std::string(39, 'x') + "ääääää"), "\"" + std::string(39, 'x') + "…\"");
+  EXPECT_EQ(inQuotes(std::string(39, 'x') + "ääääää"), R"(")" + std::string(39, 'x') + R"(…")");
 }
 
 TEST(JsonTree, describesEveryKind) {
@@ -174,7 +174,7 @@ TEST(JsonTree, describesEveryKind) {
   for (const JsonNode& node : tree.root().children) {
     words.push_back(describe(node));
   }
-  EXPECT_EQ(words, (std::vector<std::string>{"null", "true", "false", "-1.50", "\"a\"", "an array of 2",
+  EXPECT_EQ(words, (std::vector<std::string>{"null", "true", "false", "-1.50", R"("a")", "an array of 2",
                                              "an object"}));
 }
 

@@ -121,7 +121,7 @@ TEST(Assemble, angularMomentumFollowsFromAngularVelocity) {
   const Scene scene = parseScene(kEveryKey, "f");
   const World world = assemble(scene, plan(scene));
   const Vec3 expected = 2.0 / 3 * Vec3(0.265625 * 3, 0.078125 * 7, 0.3125 * -2);
-  EXPECT_LT((world.bodies[0].initial.angularMomentum - expected).norm(), 1e-15);  // measured MEASURED
+  EXPECT_LT((world.bodies[0].initial.angularMomentum - expected).norm(), 1e-15);  // measured 0
 }
 
 TEST(Assemble, fixedBoxesAreImmovable) {

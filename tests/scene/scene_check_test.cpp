@@ -23,65 +23,62 @@ struct Bad {
   const char* message;
 };
 
-class BadMeaning : public testing::TestWithParam<Bad> {};
-
-TEST_P(BadMeaning, isToldWhereAndWhy) {
-  const Bad& bad = GetParam();
-  const MarkedText marked(everyKeyBut(bad.piece, bad.instead));
-  EXPECT_EQ(sceneErrorOf(marked.text), "f:" + marked.place + ": " + bad.message);
-}
-
 const std::vector<Bad> kBadScenes = {
-    {"\"max\": [3, 2, 4]", "\"max\": [3, @-2, 4]",
+    {R"("max": [3, 2, 4])", R"("max": [3, @-2, 4])",
      "found -2 for room.max[1], expected more than room.min[1], which is -2"},
-    {"\"max\": [3, 2, 4]", "\"max\": [3, 2, @-4.5]",
+    {R"("max": [3, 2, 4])", R"("max": [3, 2, @-4.5])",
      "found -4.5 for room.max[2], expected more than room.min[2], which is 0"},
-    {"\"ramp\"", "@\"room-z\"",
-     "found \"room-z\" for walls[0], expected another name: a wall of the room has this one"},
-    {"\"crate\", \"half", "@\"room+z\", \"half",
-     "found \"room+z\" for boxes[0], expected another name: a wall of the room has this one"},
-    {"\"crate\", \"half", "@\"ramp\", \"half",
-     "found \"ramp\" for boxes[0], expected another name: walls[0] has this one"},
-    {"\"post\", \"half", "@\"crate\", \"half",
-     "found \"crate\" for boxes[2], expected another name: boxes[0] has this one"},
-    {"\"post\", \"half", "@\"box-1\", \"half",
-     "found \"box-1\" for boxes[2], expected another name: boxes[1] has this one"},
-    {"\"velocity\": [0, 0, 0]", "\"velocity\": @[0, 0, -1]",
-     "found velocity for the fixed box \"post\", expected none, as it stays where it is"},
-    {"\"velocity\": [0, 0, 0]", "\"angular_velocity\": @[0, 0, -1]",
-     "found angular_velocity for the fixed box \"post\", expected none, as it stays where it is"},
-    {"[\"crate\", [0.5, 0.25, 0.125]]", "[@\"create\", [0.5, 0.25, 0.125]]",
-     "found no box of the name \"create\", expected \"crate\""},
-    {"[\"post\", [0, 0, 0.1]]", "[@\"elephant\", [0, 0, 0.1]]",
-     "found no box of the name \"elephant\", expected the name of a box of the scene"},
-    {"[\"post\", [0, 0, 0.1]]", "[@\"ramp\", [0, 0, 0.1]]",
-     "found no box of the name \"ramp\", expected the name of a box of the scene"},
-    {"[\"post\", [0, 0, 0.1]]", "@[\"box-1\", [0, 0, 0.1]]",
+    {R"("ramp")", R"(@"room-z")",
+     R"(found "room-z" for walls[0], expected another name: a wall of the room has this one)"},
+    {R"("crate", "half)", R"(@"room+z", "half)",
+     R"(found "room+z" for boxes[0], expected another name: a wall of the room has this one)"},
+    {R"("crate", "half)", R"(@"ramp", "half)",
+     R"(found "ramp" for boxes[0], expected another name: walls[0] has this one)"},
+    {R"("post", "half)", R"(@"crate", "half)",
+     R"(found "crate" for boxes[2], expected another name: boxes[0] has this one)"},
+    {R"("post", "half)", R"(@"box-1", "half)",
+     R"(found "box-1" for boxes[2], expected another name: boxes[1] has this one)"},
+    {R"("velocity": [0, 0, 0])", R"("velocity": @[0, 0, -1])",
+     R"(found velocity for the fixed box "post", expected none, as it stays where it is)"},
+    {R"("velocity": [0, 0, 0])", R"("angular_velocity": @[0, 0, -1])",
+     R"(found angular_velocity for the fixed box "post", expected none, as it stays where it is)"},
+    {R"(["crate", [0.5, 0.25, 0.125]])", R"([@"create", [0.5, 0.25, 0.125]])",
+     R"(found no box of the name "create", expected "crate")"},
+    {R"(["post", [0, 0, 0.1]])", R"([@"elephant", [0, 0, 0.1]])",
+     R"(found no box of the name "elephant", expected the name of a box of the scene)"},
+    {R"(["post", [0, 0, 0.1]])", R"([@"ramp", [0, 0, 0.1]])",
+     R"(found no box of the name "ramp", expected the name of a box of the scene)"},
+    {R"(["post", [0, 0, 0.1]])", R"(@["box-1", [0, 0, 0.1]])",
      "found a spring from a box to itself, expected two ends that can move apart"},
-    {"[\"crate\", [0.5, 0.25, 0.125]], \"to\": [-1.5, 0, 3]", "[0, 0, 0], \"to\": @[-1.5, 0, 3]",
+    {R"(["crate", [0.5, 0.25, 0.125]], "to": [-1.5, 0, 3])", R"([0, 0, 0], "to": @[-1.5, 0, 3])",
      "found a spring from the world to the world, expected two ends that can move apart"},
-    {"\"target\": [0, 0, 1]", "\"target\": @[6, -8, 4]",
+    {R"("target": [0, 0, 1])", R"("target": @[6, -8, 4])",
      "found the camera's target where its eye is, expected another place to look at"},
-    {"\"target\": [0, 0, 1], \"up\": [0, 0, 4]", "\"target\": [6, -8, 1], \"up\": @[0, 0, 4]",
+    {R"("target": [0, 0, 1], "up": [0, 0, 4])", R"("target": [6, -8, 1], "up": @[0, 0, 4])",
      "found a camera that looks along its up, expected an up that points elsewhere"},
-    {"{ \"eye\": [6, -8, 4], \"target\": [0, 0, 1], \"up\": [0, 0, 4]",
-     "@{ \"eye\": [6, -8, 4], \"target\": [6, -8, 7]",
+    {R"({ "eye": [6, -8, 4], "target": [0, 0, 1], "up": [0, 0, 4])",
+     R"(@{ "eye": [6, -8, 4], "target": [6, -8, 7])",
      "found a camera that looks along its up, expected an up that points elsewhere"},
     // The crate is turned by 90° about z: 0.25 m along x, 0.5 m along y, 0.125 m along z.
     {"[1, 0.5, 2]", "@[2.875, 0.5, 2]",
-     "found box \"crate\" 0.125 m behind wall \"room+x\", expected a start on the wall's free side"},
+     R"(found box "crate" 0.125 m behind wall "room+x", expected a start on the wall's free side)"},
     {"[1, 0.5, 2]", "@[1, 1.75, 2]",
-     "found box \"crate\" 0.25 m behind wall \"room+y\", expected a start on the wall's free side"},
+     R"(found box "crate" 0.25 m behind wall "room+y", expected a start on the wall's free side)"},
     {"[1, 0.5, 2]", "@[1, 0.5, 0]",
-     "found box \"crate\" 0.125 m behind wall \"room-z\", expected a start on the wall's free side"},
+     R"(found box "crate" 0.125 m behind wall "room-z", expected a start on the wall's free side)"},
     {"[1, 0.5, 2]", "@[1, 0.5, 100]",
-     "found box \"crate\" 96.12 m behind wall \"wall-1\", expected a start on the wall's free side"},
+     R"(found box "crate" 96.12 m behind wall "wall-1", expected a start on the wall's free side)"},
     // Ramp through (-3, 0, 1) with normal (1, 0, 2)/√5: the gap is (0.5 + 2·-0.6 - 0.1 - 0.2)/√5.
     {"[2, 1, 0.5]", "@[-2.5, 1, 0.4]",
-     "found box \"post\" 0.4472 m behind wall \"ramp\", expected a start on the wall's free side"},
+     R"(found box "post" 0.4472 m behind wall "ramp", expected a start on the wall's free side)"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Scene, BadMeaning, testing::ValuesIn(kBadScenes));
+TEST(SceneCheck, badScenesAreToldWhereAndWhy) {
+  for (const Bad& bad : kBadScenes) {
+    const MarkedText marked(everyKeyBut(bad.piece, bad.instead));
+    EXPECT_EQ(sceneErrorOf(marked.text), "f:" + marked.place + ": " + bad.message);
+  }
+}
 
 std::string withBoxes(const std::string& boxes) {
   return R"({"careen": 1, "duration": 1, "room": {"min": [-2, -2, 0], "max": [2, 2, 4]}, "boxes": [)" +
@@ -93,7 +90,7 @@ TEST(SceneCheck, namesForWantOfOneAreNamesToo) {
       withBoxes(R"({"name": "box-1", "half_extents": [1, 1, 1], "mass": 1, "position": [0, 0, 1]},
     @{"half_extents": [1, 1, 1], "mass": 1, "position": [0, 0, 1]})"));
   EXPECT_EQ(sceneErrorOf(marked.text), "f:" + marked.place +
-                                           ": found \"box-1\" for boxes[1], its name for want of one, "
+                                           R"(: found "box-1" for boxes[1], its name for want of one, )"
                                            "expected another name: boxes[0] has this one");
 }
 
@@ -101,7 +98,7 @@ TEST(SceneCheck, massesMadeByDensityKeepToTheRange) {
   const MarkedText heavy(
       withBoxes(R"({"half_extents": [1, 1, 1], "density": @1e60, "position": [0, 0, 1]})"));
   EXPECT_EQ(sceneErrorOf(heavy.text), "f:" + heavy.place +
-                                          ": found 1e60 for the density of box \"box-0\", whose mass it "
+                                          R"(: found 1e60 for the density of box "box-0", whose mass it )"
                                           "makes 8e+60 kg, expected a mass from 1e-60 "
                                           "to 1e60 kg");
   const MarkedText light(
@@ -114,7 +111,7 @@ TEST(SceneCheck, boxWithoutAPositionIsToldAtItsBrace) {
   const MarkedText marked(withBoxes(R"(@{"half_extents": [1, 1, 1], "mass": 1})"));
   EXPECT_EQ(sceneErrorOf(marked.text),
             "f:" + marked.place +
-                ": found box \"box-0\" 1 m behind wall \"room-z\", expected a start on the wall's free side");
+                R"(: found box "box-0" 1 m behind wall "room-z", expected a start on the wall's free side)");
 }
 
 // A unit cube on the floor, and one that stands on its edge or its corner: touching is no overlap.

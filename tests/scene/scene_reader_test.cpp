@@ -48,8 +48,8 @@ TEST(SceneReader, readsWalls) {
   ASSERT_EQ(scene.walls.size(), 2U);
   const Wall& ramp = scene.walls[0];
   EXPECT_EQ(ramp.name, "ramp");
-  EXPECT_LT((ramp.normal - Vec3(1, 0, 2) / std::sqrt(5)).norm(), 2e-16);  // measured 1e-16
-  EXPECT_NEAR(ramp.offset, -1 / std::sqrt(5), 2e-16);                     // measured 1e-16
+  EXPECT_LT((ramp.normal - Vec3(1, 0, 2) / std::sqrt(5)).norm(), 2e-16);  // measured 0
+  EXPECT_NEAR(ramp.offset, -1 / std::sqrt(5), 2e-16);                     // measured 6e-17
   EXPECT_EQ(ramp.material.restitution, 1);
   EXPECT_EQ(ramp.material.friction, 0.125);
   EXPECT_EQ(scene.walls[1].name, "wall-1");
@@ -239,7 +239,8 @@ TEST(SceneReader, damagedFilesAreToldOrRead) {
     }
     rejected += parses(text) ? 0 : 1;
   }
-  EXPECT_GT(rejected, 15'000);  // measured MEASURED
+  RecordProperty("rejected", rejected);
+  EXPECT_GT(rejected, 15'000);  // measured 19596
 }
 
 }  // namespace

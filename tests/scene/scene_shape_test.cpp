@@ -152,8 +152,8 @@ TEST(SceneShape, schemaAndReaderAcceptAndRejectTheSameFiles) {
   }
   RecordProperty("accepted", accepted);
   RecordProperty("rejected", rejected);
-  EXPECT_GT(accepted, 5'000);   // measured 6192
-  EXPECT_GT(rejected, 20'000);  // measured 38276
+  EXPECT_GT(accepted, 5'000);   // measured 6213
+  EXPECT_GT(rejected, 20'000);  // measured 38671
 }
 
 // ---- What the schema tells an editor.
@@ -164,11 +164,11 @@ void collectProperties(const json& schema, const std::string& path,
   for (const auto& [key, value] : schema.items()) {
     if (key == "properties") {
       for (const auto& [name, property] : value.items()) {
-        found.emplace_back(path + "/" + name, property);
+        found.emplace_back(std::string(path).append("/").append(name), property);
       }
     }
     if (value.is_structured()) {
-      collectProperties(value, path + "/" + key, found);
+      collectProperties(value, std::string(path).append("/").append(key), found);
     }
   }
 }
@@ -236,6 +236,7 @@ TEST(SceneShape, schemaTellsTheDefaultsOfTheReader) {
 
 TEST(SceneShape, schemaListsTheMethodsThereAre) {
   std::vector<std::string> names;
+  names.reserve(kMethods.size());
   for (const NamedMethod& known : kMethods) {
     names.emplace_back(known.name);
   }
@@ -250,77 +251,70 @@ struct Bad {
   const char* message;
 };
 
-class BadShape : public testing::TestWithParam<Bad> {};
-
-TEST_P(BadShape, isToldWhereAndWhy) {
-  const Bad& bad = GetParam();
-  const MarkedText marked(everyKeyBut(bad.piece, bad.instead));
-  EXPECT_EQ(shapeErrorOf(marked.text), "f:" + marked.place + ": " + bad.message);
-}
-
 const std::vector<Bad> kBadValues = {
-    {"\"careen\": 1", "\"careen\": @2, \"new_key\": 3",
+    {R"("careen": 1)", R"("careen": @2, "new_key": 3)",
      "found 2 for careen, expected 1, the version of the scene format that this program reads"},
-    {"\"careen\": 1", "\"careen\": @\"1\"",
-     "found \"1\" for careen, expected 1, the version of the scene format that this program reads"},
-    {"\"every key\"", "@7", "found 7 for name, expected a string"},
-    {"\"../scene.schema.json\"", "@null", "found null for $schema, expected a string"},
+    {R"("careen": 1)", R"("careen": @"1")",
+     R"(found "1" for careen, expected 1, the version of the scene format that this program reads)"},
+    {R"("every key")", "@7", "found 7 for name, expected a string"},
+    {R"("../scene.schema.json")", "@null", "found null for $schema, expected a string"},
     {"2.5", "@0", "found 0 for duration, expected a number above 0 [s]"},
     {"2.5", "@-1", "found -1 for duration, expected a number above 0 [s]"},
-    {"2.5", "@NaN", "found \"NaN\", expected a finite number"},
-    {"2.5", "@Infinity", "found \"Infinity\", expected a finite number"},
-    {"2.5", "@1e400", "found \"1e400\", expected a number no larger than 1.8e308"},
-    {"2.5", "@\"2.5\"", "found \"2.5\" for duration, expected a number above 0 [s]"},
-    {"\"gravity\"", "@\"gravitiy\"", "found the unknown key \"gravitiy\" in the scene, expected \"gravity\""},
-    {"\"gravity\"", "@\"wind\"",
-     "found the unknown key \"wind\" in the scene, expected one of careen, name, duration, gravity, room, "
+    {"2.5", "@NaN", R"(found "NaN", expected a finite number)"},
+    {"2.5", "@Infinity", R"(found "Infinity", expected a finite number)"},
+    {"2.5", "@1e400", R"(found "1e400", expected a number no larger than 1.8e308)"},
+    {"2.5", R"(@"2.5")", R"(found "2.5" for duration, expected a number above 0 [s])"},
+    {R"("gravity")", R"(@"gravitiy")",
+     R"(found the unknown key "gravitiy" in the scene, expected "gravity")"},
+    {R"("gravity")", R"(@"wind")",
+     R"(found the unknown key "wind" in the scene, expected one of careen, name, duration, gravity, room, )"
      "walls, boxes, springs, drag, method, dt, tolerance, camera, film, $schema"},
     {"[0, 0, -9.81]", "@-9.81", "found -9.81 for gravity, expected [x, y, z] [m/s²]"},
     {"[0, 0, -9.81]", "@[0, -9.81]", "found an array of 2 for gravity, expected [x, y, z] [m/s²]"},
-    {"{ \"min\": [-3, -2, 0], ", "@{ ", "found no min in room, expected that key"},
-    {"[\"-y\", \"+z\"]", "[\"-y\", @\"top\"]",
-     "found the unknown side \"top\", expected one of -x, +x, -y, +y, -z, +z"},
-    {"[\"-y\", \"+z\"]", "[\"-y\", @\"-y\"]", "found \"-y\" for room.open[1], expected each side once"},
-    {"[\"-y\", \"+z\"]", "@\"-y\"",
-     "found \"-y\" for room.open, expected an array of sides such as [\"+z\"]"},
-    {"\"restitution\": 0.5", "\"restitution\": @1.01",
+    {R"({ "min": [-3, -2, 0], )", "@{ ", "found no min in room, expected that key"},
+    {R"(["-y", "+z"])", R"(["-y", @"top"])",
+     R"(found the unknown side "top", expected one of -x, +x, -y, +y, -z, +z)"},
+    {R"(["-y", "+z"])", R"(["-y", @"-y"])", R"(found "-y" for room.open[1], expected each side once)"},
+    {R"(["-y", "+z"])", R"(@"-y")", R"(found "-y" for room.open, expected an array of sides such as ["+z"])"},
+    {R"("restitution": 0.5)", R"("restitution": @1.01)",
      "found 1.01 for room.restitution, expected a number from 0 to 1"},
-    {"\"restitution\": 0.5", "\"restitution\": @-0.1",
+    {R"("restitution": 0.5)", R"("restitution": @-0.1)",
      "found -0.1 for room.restitution, expected a number from 0 to 1"},
-    {"\"friction\": 0.25", "\"friction\": @-0.25",
+    {R"("friction": 0.25)", R"("friction": @-0.25)",
      "found -0.25 for room.friction, expected a number not below 0"},
-    {"\"normal\": [1, 0, 2]", "\"normal\": @[0, 0, 0]",
+    {R"("normal": [1, 0, 2])", R"("normal": @[0, 0, 0])",
      "found a zero vector for walls[0].normal, expected a direction"},
-    {"{ \"point\": [0, 0, 4], ", "@{ ", "found no point in walls[1], expected that key"},
-    {"\"normal\": [0, 0, -0.5]", "@\"normals\": [0, 0, -0.5]",
-     "found the unknown key \"normals\" in walls[1], expected \"normal\""},
-    {"\"crate\", \"half", "@\"\", \"half",
-     "found \"\" for boxes[0].name, expected a name without comma, quote or control character"},
-    {"\"crate\", \"half", "@\"a,b\", \"half",
-     "found \"a,b\" for boxes[0].name, expected a name without comma, quote or control character"},
-    {"\"crate\", \"half", "@\"a\\\"b\", \"half",
-     "found \"a\"b\" for boxes[0].name, expected a name without comma, quote or control character"},
-    {"\"crate\", \"half", "@\"a\\nb\", \"half",
-     "found \"a?b\" for boxes[0].name, expected a name without comma, quote or control character"},
-    {"\"crate\", \"half", "@17, \"half",
+    {R"({ "point": [0, 0, 4], )", "@{ ", "found no point in walls[1], expected that key"},
+    {R"("normal": [0, 0, -0.5])", R"(@"normals": [0, 0, -0.5])",
+     R"(found the unknown key "normals" in walls[1], expected "normal")"},
+    {R"("crate", "half)", R"(@"", "half)",
+     R"(found "" for boxes[0].name, expected a name without comma, quote or control character)"},
+    {R"("crate", "half)", R"(@"a,b", "half)",
+     R"(found "a,b" for boxes[0].name, expected a name without comma, quote or control character)"},
+    {R"("crate", "half)", R"(@"a\"b", "half)",
+     R"(found "a"b" for boxes[0].name, expected a name without comma, quote or control character)"},
+    {R"("crate", "half)", R"(@"a\nb", "half)",
+     R"(found "a?b" for boxes[0].name, expected a name without comma, quote or control character)"},
+    {R"("crate", "half)", R"(@17, "half)",
      "found 17 for boxes[0].name, expected a name without comma, quote or control character"},
-    {"[0.5, 0.25, 0.125], \"mass\"", "[0.5, @0, 0.125], \"mass\"",
+    {R"([0.5, 0.25, 0.125], "mass")", R"([0.5, @0, 0.125], "mass")",
      "found 0 for boxes[0].half_extents[1], expected a number above 0 [m]"},
-    {"[0.5, 0.25, 0.125], \"mass\"", "[0.5, 0.25, @-1], \"mass\"",
+    {R"([0.5, 0.25, 0.125], "mass")", R"([0.5, 0.25, @-1], "mass")",
      "found -1 for boxes[0].half_extents[2], expected a number above 0 [m]"},
-    {"\"mass\": 2", "\"mass\": @0", "found 0 for boxes[0].mass, expected a number above 0 [kg]"},
-    {"\"mass\": 2", "\"mass\": @-2", "found -2 for boxes[0].mass, expected a number above 0 [kg]"},
-    {"\"mass\": 2", "@\"mas\": 2", "found the unknown key \"mas\" in boxes[0], expected \"mass\""},
-    {"{ \"half_extents\": [0.5, 0.5, 0.5], \"density\": 8", "@{ \"half_extents\": [0.5, 0.5, 0.5]",
+    {R"("mass": 2)", R"("mass": @0)", "found 0 for boxes[0].mass, expected a number above 0 [kg]"},
+    {R"("mass": 2)", R"("mass": @-2)", "found -2 for boxes[0].mass, expected a number above 0 [kg]"},
+    {R"("mass": 2)", R"(@"mas": 2)", R"(found the unknown key "mas" in boxes[0], expected "mass")"},
+    {R"({ "half_extents": [0.5, 0.5, 0.5], "density": 8)", R"(@{ "half_extents": [0.5, 0.5, 0.5])",
      "found neither mass nor density in boxes[1], expected one of them"},
-    {"{ \"half_extents\": [0.5, 0.5, 0.5], ", "@{ \"half_extents\": [0.5, 0.5, 0.5], \"mass\": 3, ",
+    {R"({ "half_extents": [0.5, 0.5, 0.5], )", R"(@{ "half_extents": [0.5, 0.5, 0.5], "mass": 3, )",
      "found both mass and density in boxes[1], expected one of them"},
-    {"\"density\": 8", "\"density\": @0", "found 0 for boxes[1].density, expected a number above 0 [kg/m³]"},
+    {R"("density": 8)", R"("density": @0)",
+     "found 0 for boxes[1].density, expected a number above 0 [kg/m³]"},
     {"[1, 0.5, 2]", "[1, @1e151, 2]",
      "found 1e151 for boxes[0].position[1], expected a number of at most 1e60 [m]"},
-    {"\"axis\": [0, 0, 2]", "\"axis\": @[0, 0, 0]",
+    {R"("axis": [0, 0, 2])", R"("axis": @[0, 0, 0])",
      "found a zero vector for boxes[0].orientation.axis, expected a direction"},
-    {"{ \"axis\": [0, 0, 2], \"angle_deg\": 90", "@{ \"axis\": [0, 0, 2]",
+    {R"({ "axis": [0, 0, 2], "angle_deg": 90)", R"(@{ "axis": [0, 0, 2])",
      "found no angle_deg in boxes[0].orientation, expected that key"},
     {"[2, 0, 0, 0]", "@[0, 0, 0, 0]",
      "found a zero quaternion for boxes[1].orientation, expected a rotation"},
@@ -330,41 +324,41 @@ const std::vector<Bad> kBadValues = {
      "found 45 for boxes[1].orientation, expected [w, x, y, z] or an axis and an angle_deg"},
     {"[6, 1.5, 0]", "[6, 1.5, @true]", "found true for boxes[0].velocity[2], expected a number [m/s]"},
     {"[3, 7, -2]", "@{}", "found an object for boxes[0].angular_velocity, expected [x, y, z] [rad/s]"},
-    {"\"fixed\": false", "\"fixed\": @0", "found 0 for boxes[0].fixed, expected true or false"},
-    {"\"#C8553d\"", "@\"red\"", "found \"red\" for boxes[0].color, expected a colour \"#rrggbb\""},
-    {"\"#C8553d\"", "@\"#C8553\"", "found \"#C8553\" for boxes[0].color, expected a colour \"#rrggbb\""},
-    {"\"#C8553d\"", "@\"#C8553g\"", "found \"#C8553g\" for boxes[0].color, expected a colour \"#rrggbb\""},
-    {"\"#C8553d\"", "@[200, 85, 61]",
-     "found an array of 3 for boxes[0].color, expected a colour \"#rrggbb\""},
-    {"[\"crate\", [0.5, 0.25, 0.125]]", "@[\"crate\"]",
+    {R"("fixed": false)", R"("fixed": @0)", "found 0 for boxes[0].fixed, expected true or false"},
+    {R"("#C8553d")", R"(@"red")", R"(found "red" for boxes[0].color, expected a colour "#rrggbb")"},
+    {R"("#C8553d")", R"(@"#C8553")", R"(found "#C8553" for boxes[0].color, expected a colour "#rrggbb")"},
+    {R"("#C8553d")", R"(@"#C8553g")", R"(found "#C8553g" for boxes[0].color, expected a colour "#rrggbb")"},
+    {R"("#C8553d")", "@[200, 85, 61]",
+     R"(found an array of 3 for boxes[0].color, expected a colour "#rrggbb")"},
+    {R"(["crate", [0.5, 0.25, 0.125]])", R"(@["crate"])",
      "found an array of 1 for springs[0].from, expected a world point [x, y, z] or [name of a box, [x, y, "
      "z]]"},
-    {"[\"crate\", [0.5, 0.25, 0.125]]", "[@0, [0.5, 0.25, 0.125]]",
+    {R"(["crate", [0.5, 0.25, 0.125]])", "[@0, [0.5, 0.25, 0.125]]",
      "found 0 for springs[0].from[0], expected the name of a box"},
-    {"[\"crate\", [0.5, 0.25, 0.125]]", "[\"crate\", @\"corner\"]",
-     "found \"corner\" for springs[0].from[1], expected [x, y, z] [m]"},
-    {"[-1.5, 0, 3]", "[-1.5, 0, @\"3\"]", "found \"3\" for springs[0].to[2], expected a number [m]"},
-    {"\"stiffness\": 0.75", "\"stiffness\": @-0.75",
+    {R"(["crate", [0.5, 0.25, 0.125]])", R"(["crate", @"corner"])",
+     R"(found "corner" for springs[0].from[1], expected [x, y, z] [m])"},
+    {"[-1.5, 0, 3]", R"([-1.5, 0, @"3"])", R"(found "3" for springs[0].to[2], expected a number [m])"},
+    {R"("stiffness": 0.75)", R"("stiffness": @-0.75)",
      "found -0.75 for springs[0].stiffness, expected a number not below 0 [N/m]"},
-    {"\"damping\": 0.5", "\"damping\": @-0.5",
+    {R"("damping": 0.5)", R"("damping": @-0.5)",
      "found -0.5 for springs[0].damping, expected a number not below 0 [N s/m]"},
-    {"\"rest_length\": 1", "\"rest_length\": @-1",
+    {R"("rest_length": 1)", R"("rest_length": @-1)",
      "found -1 for springs[0].rest_length, expected a number not below 0 [m]"},
-    {"{ \"from\": [\"box-1\", [0, 0, 0]], ", "@{ ", "found no from in springs[1], expected that key"},
-    {"\"linear\": 0.5", "\"linear\": @-0.5",
+    {R"({ "from": ["box-1", [0, 0, 0]], )", "@{ ", "found no from in springs[1], expected that key"},
+    {R"("linear": 0.5)", R"("linear": @-0.5)",
      "found -0.5 for drag.linear, expected a number not below 0 [N s/m]"},
-    {"\"angular\": 0.25", "\"angular\": @-1",
+    {R"("angular": 0.25)", R"("angular": @-1)",
      "found -1 for drag.angular, expected a number not below 0 [N m s]"},
-    {"\"listing1\"", "@\"exact\"", "found the unknown method \"exact\", expected listing1"},
-    {"\"listing1\"", "@1", "found 1 for method, expected the name of a method"},
+    {R"("listing1")", R"(@"exact")", R"(found the unknown method "exact", expected listing1)"},
+    {R"("listing1")", "@1", "found 1 for method, expected the name of a method"},
     {"0.001", "@0", "found 0 for dt, expected a number above 0 [s]"},
     {"0.001", "@-0.001", "found -0.001 for dt, expected a number above 0 [s]"},
     {"1e-9", "@0", "found 0 for tolerance, expected a number above 0"},
-    {"{ \"eye\": [6, -8, 4], ", "@{ ", "found no eye in camera, expected that key"},
-    {"\"up\": [0, 0, 4]", "\"up\": @[0, 0, 0]", "found a zero vector for camera.up, expected a direction"},
-    {"\"fov_deg\": 35", "\"fov_deg\": @0",
+    {R"({ "eye": [6, -8, 4], )", "@{ ", "found no eye in camera, expected that key"},
+    {R"("up": [0, 0, 4])", R"("up": @[0, 0, 0])", "found a zero vector for camera.up, expected a direction"},
+    {R"("fov_deg": 35)", R"("fov_deg": @0)",
      "found 0 for camera.fov_deg, expected a number between 0 and 180 [deg]"},
-    {"\"fov_deg\": 35", "\"fov_deg\": @180",
+    {R"("fov_deg": 35)", R"("fov_deg": @180)",
      "found 180 for camera.fov_deg, expected a number between 0 and 180 [deg]"},
     {"[640, 360]", "[@0, 360]", "found 0 for film.size[0], expected a whole number from 1 to 16384 [px]"},
     {"[640, 360]", "[640, @100000]",
@@ -376,7 +370,12 @@ const std::vector<Bad> kBadValues = {
     {"23.976", "@1e6", "found 1e6 for film.fps, expected a number from 0.001 to 100000 [1/s]"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Scene, BadShape, testing::ValuesIn(kBadValues));
+TEST(SceneShape, badValuesAreToldWhereAndWhy) {
+  for (const Bad& bad : kBadValues) {
+    const MarkedText marked(everyKeyBut(bad.piece, bad.instead));
+    EXPECT_EQ(shapeErrorOf(marked.text), "f:" + marked.place + ": " + bad.message);
+  }
+}
 
 TEST(SceneShape, keysThatMustBeThereAreNamed) {
   EXPECT_EQ(shapeErrorOf("{}"),

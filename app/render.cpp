@@ -1,0 +1,153 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "commands.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "progress.h"
+#include "render/film.h"
+#include "render/frame_range.h"
+#include "report.h"
+#include "run.h"
+
+namespace careen {
+namespace {
+
+struct FilmOptions {
+  std::filesystem::path source;
+  std::filesystem::path folder;
+  std::string frames;
+  std::optional<std::string> size;
+  std::optional<std::string> rate;
+  std::optional<std::filesystem::path> video;
+  bool resume = false;
+  std::optional<int> threads;
+};
+
+std::pair<int, int> parseSize(const std::string& text) {
+  int width = 0;
+  int height = 0;
+  const char* const end = text.data() + text.size();
+  const std::from_chars_result first = std::from_chars(text.data(), end, width);
+  if (first.ec == std::errc() && first.ptr != end && *first.ptr == 'x') {
+    const std::from_chars_result second = std::from_chars(first.ptr + 1, end, height);
+    if (second.ec == std::errc() && second.ptr == end && width > 0 && height > 0 && width <= kLargestFilm &&
+        height <= kLargestFilm) {
+      return {width, height};
+    }
+  }
+  throw InputError("--size: found '" + text + "', expected WIDTHxHEIGHT, each from 1 to " +
+                   std::to_string(kLargestFilm) + ", such as 1280x720");
+}
+
+FrameRate parseRate(const std::string& text) {
+  try {
+    return parseFrameRate(text);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--fps: ") + error.what());
+  }
+}
+
+std::vector<FrameRange> framesIn(const std::string& text) {
+  return text.empty() ? std::vector<FrameRange>() : parseFrameRanges(text);
+}
+
+FilmSettings settingsOf(const FilmOptions& options, const Run& run) {
+  FilmSettings settings;
+  settings.folder =
+      options.folder.empty() ? std::filesystem::path("out") / options.source.stem() : options.folder;
+  const Film& film = run.scene.film;
+  std::tie(settings.width, settings.height) =
+      options.size ? parseSize(*options.size) : std::pair(film.width, film.height);
+  settings.rate = options.rate ? parseRate(*options.rate) : film.rate;
+  settings.frames = framesIn(options.frames);
+  settings.video = options.video;
+  settings.resume = options.resume;
+  settings.render.osMesa.threads = options.threads;
+  return settings;
+}
+
+void writeReport(const Run& run, const FilmSettings& settings, const FilmFigures& figures,
+                 double wallSeconds) {
+  nlohmann::ordered_json report = runReport(run, wallSeconds);
+  report["seconds"]["draw"] = figures.drawSeconds;
+  report["seconds"]["read"] = figures.readSeconds;
+  report["seconds"]["encode"] = figures.encodeSeconds;
+  report["core_seconds"] = figures.coreSeconds;
+  report["frames"] = figures.drawn + figures.skipped;
+  report["frames_drawn"] = figures.drawn;
+  report["size"] = {settings.width, settings.height};
+  report["fps"] = settings.rate.text();
+  report["renderer"] = figures.renderer;
+  writeFile(settings.folder / "report.json", report.dump(2) + "\n");
+}
+
+void printFilm(const FilmSettings& settings, const FilmFigures& figures) {
+  std::cout << "drawing      " << figures.drawSeconds << " s, reading back " << figures.readSeconds
+            << " s, encoding " << figures.encodeSeconds << " s, " << figures.coreSeconds
+            << " s of all cores\n";
+  if (!figures.renderer.empty()) {
+    std::cout << "renderer     " << figures.renderer << '\n';
+  }
+  std::cout << "frames       " << figures.drawn + figures.skipped << " at " << settings.rate.text()
+            << " per second, " << settings.width << 'x' << settings.height << ", " << figures.skipped
+            << " of them were there already: "
+            << std::filesystem::absolute(settings.folder).lexically_normal().string() << '\n';
+  if (settings.video) {
+    std::cout << "film         " << std::filesystem::absolute(*settings.video).lexically_normal().string()
+              << '\n';
+  }
+}
+
+ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
+  const Stopwatch stopwatch;
+  if (options.source.empty()) {
+    options.source = defaultScene();
+  }
+  if (options.threads && *options.threads < 0) {
+    throw InputError("--threads: found " + std::to_string(*options.threads) + ", expected 0 or more");
+  }
+  const Run run = loadRun(options.source, stop);
+  const FilmSettings settings = settingsOf(options, run);
+  Progress progress(std::cerr, isatty(STDERR_FILENO) != 0);
+  const FilmFigures figures = renderFilm(
+      run.trajectory, run.scene, settings, [&progress](const FilmProgress& now) { progress.update(now); },
+      stop);
+  writeReport(run, settings, figures, stopwatch.seconds());
+  printSummary(std::cout, run, stopwatch.seconds());
+  printFilm(settings, figures);
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void addRender(CLI::App& commandLine, Command& chosen) {
+  CLI::App* command = commandLine.add_subcommand("render", "Make a film of a scene, or of a run");
+  const auto options = std::make_shared<FilmOptions>();
+  command->add_option("file", options->source,
+                      "Scene or trajectory file; the default scene if none is named");
+  command->add_option("--out", options->folder, "Folder for the frames (default: out/ and the scene's name)");
+  command->add_option("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
+  command->add_option("--size", options->size, "WIDTHxHEIGHT in place of the scene's [px]");
+  command->add_option("--fps", options->rate,
+                      "Frames per second in place of the scene's, such as 25 or 24000/1001");
+  command->add_option("--video", options->video, "Film to make of the frames, by ffmpeg (.mp4)");
+  command->add_flag("--resume", options->resume, "Keep the frames that are there and draw the others");
+  command->add_option("--threads", options->threads, "Threads that fill pixels; 0: none but the main one");
+  command->callback([options, &chosen] {
+    chosen = [options](const std::stop_token& stop) { return renderCommand(*options, stop); };
+  });
+}
+
+}  // namespace careen

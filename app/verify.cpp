@@ -1,0 +1,42 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "core/error.h"
+#include "image/frame_writer.h"
+#include "render/film_faults.h"
+#include "render/film_manifest.h"
+
+namespace careen {
+namespace {
+
+ExitCode verifyCommand(const std::filesystem::path& folder) {
+  const std::optional<FilmManifest> manifest = readManifest(folder);
+  if (!manifest) {
+    throw InputError(folder.string() + ": holds no " + kManifestName +
+                     ", expected a folder that 'careen render' wrote");
+  }
+  const std::vector<FrameFault> faults = findFaults(folder, *manifest);
+  for (const FrameFault& fault : faults) {
+    std::cout << (folder / frameFileName(fault.frame)).string() << ": " << fault.what << '\n';
+  }
+  std::cout << manifest->frames.size() << " frames, " << faults.size() << " missing or broken\n";
+  return faults.empty() ? ExitCode::kDone : ExitCode::kDifferent;
+}
+
+}  // namespace
+
+void addVerify(CLI::App& commandLine, Command& chosen) {
+  CLI::App* command = commandLine.add_subcommand("verify", "Which frames of a film are missing or broken");
+  const auto path = std::make_shared<std::filesystem::path>();
+  command->add_option("folder", *path, "Folder of frames")->required();
+  command->callback(
+      [path, &chosen] { chosen = [path](const std::stop_token&) { return verifyCommand(*path); }; });
+}
+
+}  // namespace careen

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "render/film_manifest.h"
+
+namespace careen {
+
+/// A folder that a film is being written into: made if it is not there, held so that no other process writes
+/// to it, and gone again if nothing was written. Only what careen wrote is ever removed.
+class FilmFolder {
+ public:
+  /// MachineError if the folder cannot be made, InputError if another process holds it or if it has PNG files
+  /// that no manifest tells of.
+  explicit FilmFolder(std::filesystem::path path);
+  ~FilmFolder();
+  FilmFolder(const FilmFolder&) = delete;
+  FilmFolder& operator=(const FilmFolder&) = delete;
+  FilmFolder(FilmFolder&&) = delete;
+  FilmFolder& operator=(FilmFolder&&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// What film is there.
+  const std::optional<FilmManifest>& manifest() const { return manifest_; }
+
+  /// Of the frames asked for, those not there or not whole.
+  std::vector<std::int64_t> missing(const FilmManifest& asked) const;
+  /// Makes place for a film: another film's frames go, the same film's stay.
+  void begin(const FilmManifest& asked, bool resume);
+
+ private:
+  void lock();
+  void removePartials() const;
+  void removeFrames() const;
+
+  std::filesystem::path path_;
+  bool made_ = false;
+  int descriptor_ = -1;
+  std::optional<FilmManifest> manifest_;
+};
+
+}  // namespace careen

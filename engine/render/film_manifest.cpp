@@ -1,0 +1,73 @@
+#include "render/film_manifest.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "render/frame_range.h"
+
+namespace careen {
+namespace {
+
+constexpr int kVersion = 1;
+
+std::string sizeText(const FilmManifest& manifest) {
+  return std::to_string(manifest.width) + "x" + std::to_string(manifest.height);
+}
+
+FilmManifest fromJson(const nlohmann::json& json) {
+  if (json.at("careen_film").get<int>() != kVersion) {
+    throw InputError("another version");
+  }
+  FilmManifest manifest;
+  manifest.sceneHash = json.at("scene_hash").get<std::string>();
+  manifest.stateHash = json.at("state_hash").get<std::string>();
+  manifest.width = json.at("size").at(0).get<int>();
+  manifest.height = json.at("size").at(1).get<int>();
+  manifest.rate = parseFrameRate(json.at("fps").get<std::string>());
+  manifest.frameCount = json.at("frame_count").get<std::int64_t>();
+  manifest.frames = framesOf(parseFrameRanges(json.at("frames").get<std::string>()), manifest.frameCount);
+  return manifest;
+}
+
+}  // namespace
+
+std::optional<FilmManifest> readManifest(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / kManifestName;
+  std::error_code none;
+  if (!std::filesystem::exists(path, none)) {
+    return std::nullopt;
+  }
+  try {
+    return fromJson(nlohmann::json::parse(readFile(path)));
+  } catch (const std::exception& error) {
+    throw InputError(path.string() + ": does not tell of a film: " + error.what());
+  }
+}
+
+void writeManifest(const std::filesystem::path& folder, const FilmManifest& manifest) {
+  const nlohmann::ordered_json json = {
+      {"careen_film", kVersion},
+      {"scene_hash", manifest.sceneHash},
+      {"state_hash", manifest.stateHash},
+      {"size", {manifest.width, manifest.height}},
+      {"fps", manifest.rate.text()},
+      {"frame_count", manifest.frameCount},
+      {"frames", rangesText(manifest.frames)},
+  };
+  writeFile(folder / kManifestName, json.dump(2) + "\n");
+}
+
+std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
+  const auto compare = [](const char* what, const std::string& a, const std::string& b) {
+    return a == b ? std::string() : std::string(what) + " " + a + " there, " + b + " now; ";
+  };
+  std::string text =
+      compare("scene", there.sceneHash, asked.sceneHash) + compare("run", there.stateHash, asked.stateHash) +
+      compare("size", sizeText(there), sizeText(asked)) +
+      compare("fps", there.rate.text(), asked.rate.text()) +
+      compare("frames in all", std::to_string(there.frameCount), std::to_string(asked.frameCount));
+  return text.empty() ? text : text.substr(0, text.size() - 2);
+}
+
+}  // namespace careen

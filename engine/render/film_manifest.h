@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/frame_rate.h"
+
+namespace careen {
+
+/// What a folder of frames is a film of; kept beside them as film.json.
+struct FilmManifest {
+  std::string sceneHash;
+  std::string stateHash;  ///< of the run's end
+  int width = 0;          ///< [px]
+  int height = 0;         ///< [px]
+  FrameRate rate;
+  std::int64_t frameCount = 0;       ///< of the whole film
+  std::vector<std::int64_t> frames;  ///< those asked for so far, in order
+};
+
+inline constexpr const char* kManifestName = "film.json";
+
+/// The folder's manifest, nothing if it has none. InputError if it is there and cannot be understood.
+std::optional<FilmManifest> readManifest(const std::filesystem::path& folder);
+void writeManifest(const std::filesystem::path& folder, const FilmManifest& manifest);
+
+/// In what two films differ, frames asked for aside: empty if they are the same film.
+std::string differenceOf(const FilmManifest& there, const FilmManifest& asked);
+
+}  // namespace careen
