@@ -1,0 +1,95 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "image/picture.h"
+#include "physics/body.h"
+#include "render/lighting.h"
+#include "scene/scene.h"
+#include "trajectory/trajectory.h"
+
+namespace careen {
+
+// What tests of drawing share: small scenes in code, and colours worked out beside the engine.
+
+inline SceneBox boxAt(const Vec3& position, const Vec3& halfExtents, const Color& color = {}) {
+  SceneBox box;
+  box.name = "box";
+  box.halfExtents = halfExtents;
+  box.mass = 1;
+  box.pose.position = position;
+  box.color = color;
+  return box;
+}
+
+inline Camera cameraAt(const Vec3& eye, const Vec3& target, double fovDegrees) {
+  return {.eye = eye, .target = target, .up = Vec3::UnitZ(), .fovDegrees = fovDegrees};
+}
+
+/// Boxes where the scene puts them.
+inline std::vector<Pose> posesOf(const Scene& scene) {
+  std::vector<Pose> poses;
+  for (const SceneBox& box : scene.boxes) {
+    poses.push_back(box.pose);
+  }
+  return poses;
+}
+
+/// A crate in a room open in front and above, as the default film has it.
+inline Scene crateInRoom() {
+  Scene scene;
+  scene.name = "crate in a room";
+  scene.duration = 1;
+  scene.gravity = Vec3(0, 0, -9.81);
+  scene.room = Room{.min = Vec3(-3, -2, 0), .max = Vec3(3, 2, 3)};
+  scene.room->open = {false, false, true, false, false, true};
+  scene.boxes.push_back(boxAt(Vec3(0, 0, 1), Vec3(0.5, 0.3, 0.2), Color{200, 85, 61}));
+  scene.boxes[0].pose.worldFromBody =
+      Quat(0.8, 0.2, 0.4, 0.4).normalized().toRotationMatrix();  // no face straight on
+  scene.camera = cameraAt(Vec3(-1.5, -7, 3), Vec3(0, 0, 1.2), 38);
+  return scene;
+}
+
+/// Light from all around alike, none from any side: what is drawn has its own colour.
+inline Lighting evenLighting(const Vec3& background = Vec3::Zero()) {
+  return {.light = std::nullopt,
+          .sky = Vec3::Ones(),
+          .ground = Vec3::Ones(),
+          .backgroundTop = background,
+          .backgroundBottom = background};
+}
+
+/// 8-bit sRGB of a linear value (IEC 61966-2-1).
+inline int srgbFromLinear(double value) {
+  const double clamped = std::clamp(value, 0.0, 1.0);
+  const double encoded = clamped <= 0.0031308 ? 12.92 * clamped : 1.055 * std::pow(clamped, 1 / 2.4) - 0.055;
+  return static_cast<int>(std::lround(255 * encoded));
+}
+
+inline std::array<int, 3> pixelAt(const Picture& picture, int x, int y) {
+  const std::size_t place =
+      static_cast<std::size_t>(y) * picture.rowBytes() + 3 * static_cast<std::size_t>(x);
+  return {picture.rgb.at(place), picture.rgb.at(place + 1), picture.rgb.at(place + 2)};
+}
+
+/// The scene's first box drifts at a steady velocity for the scene's whole duration.
+inline Trajectory drifting(const Scene& scene, const Vec3& velocity) {
+  Trajectory trajectory;
+  trajectory.sceneText = scene.name;
+  trajectory.settings.duration = scene.duration;
+  EulerStep motion;
+  motion.start.pose = scene.boxes.at(0).pose;
+  motion.start.velocity = velocity;
+  trajectory.tracks.push_back({.name = scene.boxes[0].name,
+                               .mass = solidBox(scene.boxes[0].halfExtents, scene.boxes[0].mass),
+                               .segments = {{.start = 0, .motion = motion}}});
+  return trajectory;
+}
+
+}  // namespace careen
