@@ -32,7 +32,7 @@ TEST(SceneExtent, endsBehindAWall) {
   scene.duration = 10;
   scene.gravity = Vec3(0, 0, -10);
   scene.boxes.push_back(boxAt(Vec3(0, 0, 5), Vec3(0.1, 0.1, 0.1)));
-  scene.walls.push_back({.name = "floor"});
+  scene.walls.push_back(wallAt(Vec3::UnitZ(), 0));
   const Extent extent = extentOf(scene);
   EXPECT_GT(extent.min.z(), -0.2);  // without the wall: −495
   EXPECT_LT(extent.min.z(), 1.5);

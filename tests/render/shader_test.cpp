@@ -15,8 +15,10 @@ namespace careen {
 namespace {
 
 std::string errorOfDrawingWith(const std::filesystem::path& shaders) {
+  RenderOptions options;
+  options.shaders = shaders;
   try {
-    Renderer(crateInRoom(), 32, 18, {.osMesa = {}, .lighting = {}, .shaders = shaders});
+    const Renderer renderer(crateInRoom(), 32, 18, options);
   } catch (const MachineError& error) {
     return error.what();
   }
@@ -63,7 +65,7 @@ TEST(Shader, compilersWordsComeWithTheFilesName) {
 
 TEST(Shader, linkersWordsComeWithTheFilesNames) {
   const TemporaryFolder folder;
-  folder.write("light.frag", "#version 330 core\n");  // has no lit()
+  folder.write("light.frag", "#version 330 core\nvoid other() {}\n");
   const std::string said = errorOfDrawingWith(folder.path());
   EXPECT_NE(said.find("light.frag"), std::string::npos) << said;
   EXPECT_NE(said.find("lit"), std::string::npos) << said;

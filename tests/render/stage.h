@@ -28,6 +28,10 @@ inline SceneBox boxAt(const Vec3& position, const Vec3& halfExtents, const Color
   return box;
 }
 
+inline Wall wallAt(const Vec3& normal, double offset) {
+  return {.name = "wall", .normal = normal, .offset = offset, .material = {}};
+}
+
 inline Camera cameraAt(const Vec3& eye, const Vec3& target, double fovDegrees) {
   return {.eye = eye, .target = target, .up = Vec3::UnitZ(), .fovDegrees = fovDegrees};
 }
@@ -47,7 +51,9 @@ inline Scene crateInRoom() {
   scene.name = "crate in a room";
   scene.duration = 1;
   scene.gravity = Vec3(0, 0, -9.81);
-  scene.room = Room{.min = Vec3(-3, -2, 0), .max = Vec3(3, 2, 3)};
+  scene.room.emplace();
+  scene.room->min = Vec3(-3, -2, 0);
+  scene.room->max = Vec3(3, 2, 3);
   scene.room->open = {false, false, true, false, false, true};
   scene.boxes.push_back(boxAt(Vec3(0, 0, 1), Vec3(0.5, 0.3, 0.2), Color{200, 85, 61}));
   scene.boxes[0].pose.worldFromBody =

@@ -62,10 +62,12 @@ TEST(Surfaces, wallsStandUprightOnTheFloor) {
 // The plane x + z = 1 cuts a cube of side 2 about the origin in a rectangle, from (0,·,1) to (1,·,0): 2√2 m².
 TEST(Surfaces, furtherWallIsCutToTheRoom) {
   Scene scene;
-  scene.room = Room{.min = Vec3::Constant(-1), .max = Vec3::Constant(1)};
+  scene.room.emplace();
+  scene.room->min = Vec3::Constant(-1);
+  scene.room->max = Vec3::Constant(1);
   scene.room->open.fill(true);
   const double half = std::sqrt(0.5);
-  scene.walls.push_back({.name = "ramp", .normal = Vec3(-half, 0, -half), .offset = -half});
+  scene.walls.push_back(wallAt(Vec3(-half, 0, -half), -half));
   const std::vector<Surface> surfaces = surfacesOf(scene, extentOf(scene));
   ASSERT_EQ(surfaces.size(), 1U);
   EXPECT_NEAR(areaAlong(surfaces[0], surfaces[0].normal), 2 * std::sqrt(2.0), 1e-12);
@@ -78,14 +80,14 @@ TEST(Surfaces, furtherWallIsCutToTheRoom) {
 TEST(Surfaces, wallOutsideTheRoomIsNotThere) {
   Scene scene = crateInRoom();
   scene.room->open.fill(true);
-  scene.walls.push_back({.name = "far below", .normal = Vec3::UnitZ(), .offset = -100});
+  scene.walls.push_back(wallAt(Vec3::UnitZ(), -100));
   EXPECT_TRUE(surfacesOf(scene, extentOf(scene)).empty());
 }
 
 TEST(Surfaces, floorWithoutRoomReachesBeyondTheScene) {
   Scene scene;
   scene.boxes.push_back(boxAt(Vec3(0, 0, 1), Vec3(0.5, 0.5, 0.5)));
-  scene.walls.push_back({.name = "floor"});
+  scene.walls.push_back(wallAt(Vec3::UnitZ(), 0));
   const Extent extent = extentOf(scene);
   const std::vector<Surface> surfaces = surfacesOf(scene, extent);
   ASSERT_EQ(surfaces.size(), 1U);

@@ -20,6 +20,7 @@ Scene roomAndRamp() {
 
 std::vector<std::string> namesOf(const std::vector<Wall>& walls) {
   std::vector<std::string> names;
+  names.reserve(walls.size());
   for (const Wall& wall : walls) {
     names.push_back(wall.name);
   }
