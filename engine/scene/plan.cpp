@@ -93,9 +93,10 @@ PlanItem friction(const Wants& wants) {
 }
 
 PlanItem resting(const Wants& wants) {
-  return leftOut("resting", wants.meetsWalls
-                                ? "the 1997 method cannot rest: a box that comes to lie ends the run"
-                                : "nothing meets a wall");
+  return leftOut("resting",
+                 wants.meetsWalls
+                     ? "the 1997 method cannot rest: where a box would come to lie, the run ends in an error"
+                     : "nothing meets a wall");
 }
 
 }  // namespace

@@ -97,17 +97,21 @@ void checkFixed(const JsonTree& tree, const Scene& scene) {
   }
 }
 
-std::optional<int> bodyAt(const JsonTree& tree, const Scene& scene, const JsonNode& end) {
+using BodiesByName = std::map<std::string_view, int>;
+
+std::optional<int> bodyAt(const JsonTree& tree, const BodiesByName& bodies, const JsonNode& end) {
   const JsonNode& first = end.children[0];
   if (first.kind != JsonNode::Kind::kString) {
     return std::nullopt;
   }
+  const auto found = bodies.find(first.text);
+  if (found != bodies.end()) {
+    return found->second;
+  }
   std::vector<std::string_view> names;
-  for (const SceneBox& box : scene.boxes) {
-    if (box.name == first.text) {
-      return static_cast<int>(names.size());
-    }
-    names.push_back(box.name);
+  names.reserve(bodies.size());
+  for (const auto& [name, index] : bodies) {
+    names.push_back(name);
   }
   const std::optional<std::string_view> meant = nearest(first.text, names);
   tree.fail(first.offset, "no box of the name " + inQuotes(first.text),
@@ -115,11 +119,15 @@ std::optional<int> bodyAt(const JsonTree& tree, const Scene& scene, const JsonNo
 }
 
 void connectSprings(const JsonTree& tree, Scene& scene) {
+  BodiesByName bodies;
+  for (const SceneBox& box : scene.boxes) {
+    bodies.emplace(box.name, static_cast<int>(bodies.size()));
+  }
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const JsonNode& node = elementOf(tree, "springs", i);
     Spring& spring = scene.springs[i];
-    spring.from.body = bodyAt(tree, scene, *node.find("from"));
-    spring.to.body = bodyAt(tree, scene, *node.find("to"));
+    spring.from.body = bodyAt(tree, bodies, *node.find("from"));
+    spring.to.body = bodyAt(tree, bodies, *node.find("to"));
     if (spring.from.body == spring.to.body) {
       tree.fail(node.find("to")->offset,
                 spring.to.body ? "a spring from a box to itself" : "a spring from the world to the world",

@@ -1,6 +1,8 @@
 #include "trajectory/trajectory_file.h"
 
 #include <bit>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -25,9 +27,10 @@ class Writer {
  public:
   static constexpr bool kReads = false;
 
-  void visit(const std::uint64_t& value) {
-    for (int shift = 0; shift < 64; shift += 8) {
-      bytes_.push_back(static_cast<char>(value >> shift));
+  template <std::unsigned_integral Integer>
+  void visit(const Integer& value) {
+    for (std::size_t i = 0; i < sizeof(Integer); ++i) {
+      bytes_.push_back(static_cast<char>(value >> (8 * i)));
     }
   }
   void visit(const double& value) { visit(std::bit_cast<std::uint64_t>(value)); }
@@ -47,12 +50,14 @@ class Reader {
 
   Reader(std::string_view bytes, std::string_view name) : rest_(bytes), name_(name) {}
 
-  void visit(std::uint64_t& value) {
-    const std::string_view bytes = take(8);
-    value = 0;
-    for (std::size_t i = 0; i < 8; ++i) {
-      value |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])) << (8 * i);
+  template <std::unsigned_integral Integer>
+  void visit(Integer& value) {
+    const std::string_view bytes = take(sizeof(Integer));
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < sizeof(Integer); ++i) {
+      bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])) << (8 * i);
     }
+    value = static_cast<Integer>(bits);
   }
   void visit(double& value) {
     std::uint64_t bits = 0;
@@ -153,7 +158,7 @@ bool emplaceAlternative(Variant& variant, std::uint64_t index) {
 // Which alternative a variant holds, then that alternative. The numbers are part of the format: append only.
 template <class Archive, class Variant>
 void visitVariant(Archive& archive, Variant& variant) {
-  std::uint64_t index = variant.index();
+  auto index = static_cast<std::uint8_t>(variant.index());
   archive.visit(index);
   if constexpr (Archive::kReads) {
     if (!emplaceAlternative(variant, index)) {
@@ -176,7 +181,7 @@ void visit(Archive& archive, Visited<Archive, Segment> segment) {
 
 template <class Archive>
 void visitIndex(Archive& archive, Visited<Archive, int> index) {
-  auto value = static_cast<std::uint64_t>(index);
+  auto value = static_cast<std::uint32_t>(index);
   archive.visit(value);
   if constexpr (Archive::kReads) {
     index = static_cast<int>(value);

@@ -292,7 +292,7 @@ double coreSecondsOf(const std::function<void()>& action) {
 }
 
 // The same frames once drawn and then encoded on one thread, once filmed. Other work on the machine disturbs
-// both, so the best of three counts. Measured: KKK; the default film at its full size 1.0.
+// both, so the best of three counts. Measured 0.84 to 1.05; the whole default film 1.05 to 1.08.
 TEST_F(FilmTest, needsLittleMoreCoreTimeThanDrawingAndEncodingAlone) {
   settings_.width = 640;
   settings_.height = 360;

@@ -66,7 +66,7 @@ TEST(Plan, saysWhatTheMethodLacks) {
   EXPECT_EQ(reasonFor(scene, "friction"),
             "left out: THE SCENE ASKS FOR IT, but the 1997 sample had none: everything slides freely");
   EXPECT_EQ(reasonFor(scene, "resting"),
-            "left out: the 1997 method cannot rest: a box that comes to lie ends the run");
+            "left out: the 1997 method cannot rest: where a box would come to lie, the run ends in an error");
   EXPECT_EQ(reasonFor(scene, "joints"), "left out: the scene has none");
 }
 
