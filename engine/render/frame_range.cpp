@@ -46,7 +46,7 @@ void append(std::vector<std::int64_t>& frames, const FrameRange& range, std::int
   const std::int64_t last = range.last.value_or(frameCount - 1);
   if (range.first >= frameCount || last >= frameCount) {
     throw InputError("frames: found " + std::to_string(std::max(range.first, last)) +
-                     ", but the film's frames are 0 to " + std::to_string(frameCount - 1));
+                     ", expected frames from 0 to " + std::to_string(frameCount - 1));
   }
   // By what is left, because a frame and a step may add up to more than any number.
   for (std::int64_t left = last - range.first;; left -= range.step) {

@@ -5,10 +5,8 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -283,34 +281,6 @@ TEST_F(FilmTest, missingFfmpegIsToldBeforeAnyFrame) {
   setenv("PATH", before.c_str(), 1);
   EXPECT_NE(said.find("apt install ffmpeg"), std::string::npos) << said;
   EXPECT_TRUE(folder_.files().empty());
-}
-
-double coreSecondsOf(const std::function<void()>& action) {
-  const std::clock_t begun = std::clock();
-  action();
-  return static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
-}
-
-// The same frames once drawn and then encoded on one thread, once filmed. Other work on the machine disturbs
-// both, so the best of three counts. Measured 0.84 to 1.05; the whole default film 1.05 to 1.08.
-TEST_F(FilmTest, needsLittleMoreCoreTimeThanDrawingAndEncodingAlone) {
-  settings_.width = 640;
-  settings_.height = 360;
-  settings_.rate.numerator = 30;
-  double best = 10;
-  for (int attempt = 0; attempt < 3 && best > 1.15; ++attempt) {
-    const double alone = coreSecondsOf([&] {
-      Renderer renderer(scene_, settings_.width, settings_.height);
-      for (int frame = 0; frame < 30; ++frame) {
-        const Picture picture = renderer.draw(run_.poses(settings_.rate.frameTime(frame)));
-        EXPECT_FALSE(encodePng(picture).empty());
-      }
-    });
-    const double filmed = coreSecondsOf([&] { film(settings_); });
-    best = std::min(best, filmed / alone);
-  }
-  std::cout << "filmed / alone: " << best << '\n';
-  EXPECT_LE(best, 1.15);
 }
 
 TEST_F(FilmTest, faultsAreFound) {
