@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <iterator>
-#include <regex>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -26,10 +26,30 @@ bool hasPng(const fs::path& folder) {
                      [](const fs::directory_entry& entry) { return entry.path().extension() == ".png"; });
 }
 
-void removeMatching(const fs::path& folder, const std::regex& name) {
+bool isNumber(std::string_view text, std::size_t fewestDigits) {
+  return text.size() >= fewestDigits && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+bool isFrame(std::string_view name) {
+  constexpr std::string_view kEnding = ".png";
+  return name.ends_with(kEnding) && isNumber(name.substr(0, name.size() - kEnding.size()), 6);
+}
+
+// ".000012.png.4711.partial", as AtomicFile names what it has not finished.
+bool isPartial(std::string_view name) {
+  if (!name.starts_with('.') || !name.ends_with(kPartialEnding)) {
+    return false;
+  }
+  name = name.substr(1, name.size() - 1 - kPartialEnding.size());
+  const std::size_t dot = name.rfind('.');
+  return dot != std::string_view::npos && isNumber(name.substr(dot + 1), 1) &&
+         (isFrame(name.substr(0, dot)) || name.substr(0, dot) == kManifestName);
+}
+
+void removeAll(const fs::path& folder, bool (*isMeant)(std::string_view)) {
   std::vector<fs::path> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (std::regex_match(entry.path().filename().string(), name)) {
+    if (isMeant(entry.path().filename().string())) {
       found.push_back(entry.path());
     }
   }
@@ -51,7 +71,7 @@ FilmFolder::FilmFolder(fs::path path) : path_(std::move(path)) {
   if (!manifest_ && hasPng(path_)) {
     throw InputError(path_.string() + ": holds PNG files that are no film of careen's; name another folder");
   }
-  removePartials();
+  removeAll(path_, isPartial);  // what a run left that was killed outright
 }
 
 FilmFolder::~FilmFolder() {
@@ -90,22 +110,10 @@ void FilmFolder::begin(const FilmManifest& asked, bool resume) {
                    asked.frames.end(), std::back_inserter(frames));
     manifest.frames = std::move(frames);
   } else if (manifest_) {
-    removeFrames();
+    removeAll(path_, isFrame);
   }
   writeManifest(path_, manifest);
   manifest_ = std::move(manifest);
-}
-
-// What a run left that was killed outright.
-void FilmFolder::removePartials() const {
-  static const std::regex kPartial(R"(\.(\d{6,}\.png|film\.json)\.\d+\.partial)");
-  static_assert(kPartialEnding == ".partial");
-  removeMatching(path_, kPartial);
-}
-
-void FilmFolder::removeFrames() const {
-  static const std::regex kFrame(R"(\d{6,}\.png)");
-  removeMatching(path_, kFrame);
 }
 
 }  // namespace careen

@@ -33,8 +33,6 @@ class FilmFolder {
 
  private:
   void lock();
-  void removePartials() const;
-  void removeFrames() const;
 
   std::filesystem::path path_;
   bool made_ = false;
