@@ -125,6 +125,17 @@ class Mutations {
   Look look_;
 };
 
+// Three of each kind: a list's other elements would only be changed the same way again, and a scene may have
+// thousands.
+json shortened(json scene) {
+  for (const char* list : {"boxes", "springs", "walls"}) {
+    while (scene.contains(list) && scene[list].size() > 3) {
+      scene[list].erase(scene[list].size() - 1);
+    }
+  }
+  return scene;
+}
+
 std::string shapeErrorOf(const std::string& text) {
   return inputErrorOf([&text] { readShape(JsonTree(text, "f")); });
 }
@@ -142,7 +153,7 @@ TEST(SceneShape, schemaAndReaderAcceptAndRejectTheSameFiles) {
     const json original = json::parse(scene, nullptr, true, true);
     EXPECT_EQ(shapeErrorOf(scene), "no error");
     EXPECT_TRUE(schema.accepts(original));
-    Mutations(original, [&](const json& mutation) {
+    Mutations(shortened(original), [&](const json& mutation) {
       const std::string text = mutation.dump();
       const std::string error = shapeErrorOf(text);
       const bool bySchema = schema.accepts(mutation);
