@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/linear_algebra.h"
+#include "core/wide.h"
+
+namespace careen {
+
+/// A quaternion as two complex numbers, the Cayley–Klein parameters: α = w + iz, β = x + iy.
+/// A turn by θ about z multiplies both by exp(iθ/2).
+template <class Real>
+struct CayleyKlein {
+  Real alphaRe = 1;
+  Real alphaIm = 0;
+  Real betaRe = 0;
+  Real betaIm = 0;
+};
+
+/// The turn q followed by the turn p.
+template <class Real>
+CayleyKlein<Real> product(const CayleyKlein<Real>& p, const CayleyKlein<Real>& q) {
+  return {(p.alphaRe * q.alphaRe - p.alphaIm * q.alphaIm) - (p.betaRe * q.betaRe + p.betaIm * q.betaIm),
+          (p.alphaRe * q.alphaIm + p.alphaIm * q.alphaRe) + (p.betaRe * q.betaIm - p.betaIm * q.betaRe),
+          (p.alphaRe * q.betaRe - p.alphaIm * q.betaIm) + (p.betaRe * q.alphaRe + p.betaIm * q.alphaIm),
+          (p.alphaRe * q.betaIm + p.alphaIm * q.betaRe) + (p.betaIm * q.alphaRe - p.betaRe * q.alphaIm)};
+}
+
+template <class Real>
+Real squaredNorm(const CayleyKlein<Real>& q) {
+  return (q.alphaRe * q.alphaRe + q.alphaIm * q.alphaIm) + (q.betaRe * q.betaRe + q.betaIm * q.betaIm);
+}
+
+/// R⁻¹ v for the rotation R along q, computed in `Number`; q need not be of length 1.
+template <class Number, class Real>
+std::array<Number, 3> turnedBack(const Quaternion<Real>& q, const Vector3<Real>& v) {
+  const Real& w = q.w();
+  const std::array<Real, 3> u = {q.x(), q.y(), q.z()};
+  const auto crossed = [&](std::size_t i, std::size_t j) {
+    return wideProduct<Number>(u[i], v[static_cast<int>(j)]) -
+           wideProduct<Number>(u[j], v[static_cast<int>(i)]);
+  };
+  const Number lengthSquared = (wideProduct<Number>(w, w) + wideProduct<Number>(u[0], u[0])) +
+                               (wideProduct<Number>(u[1], u[1]) + wideProduct<Number>(u[2], u[2]));
+  const Number scale = Number(2) / lengthSquared;
+  const std::array<Number, 3> swing = {scale * crossed(1, 2), scale * crossed(2, 0), scale * crossed(0, 1)};
+  const auto component = [&](std::size_t i, std::size_t j, std::size_t k) {
+    return Number(v[static_cast<int>(i)]) + ((u[j] * swing[k] - u[k] * swing[j]) - w * swing[i]);
+  };
+  return {component(0, 1, 2), component(1, 2, 0), component(2, 0, 1)};
+}
+
+}  // namespace careen

@@ -1,0 +1,7 @@
+#include "physics/torque_free_rotation.h"
+
+namespace careen {
+
+template class TorqueFreeRotation<double>;
+
+}  // namespace careen
