@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/linear_algebra.h"
+#include "core/pose.h"
+#include "physics/separation.h"
+
+namespace careen {
+
+struct ContactPoint {
+  Vec3 point = Vec3::Zero();   ///< [m] world
+  Vec3 normal = Vec3::Zero();  ///< [1] unit, from b (or the wall) to a
+};
+
+/// The points of one pair's contact, at most those of two quadrilaterals laid on each other.
+class ContactPoints {
+ public:
+  static constexpr std::size_t kMost = 8;
+
+  void add(const ContactPoint& point) { points_[count_++] = point; }
+  std::size_t size() const { return count_; }
+  bool full() const { return count_ == kMost; }
+  const ContactPoint& operator[](std::size_t k) const { return points_[k]; }
+  const ContactPoint* begin() const { return points_.data(); }
+  const ContactPoint* end() const { return points_.data() + count_; }
+
+ private:
+  std::array<ContactPoint, kMost> points_;
+  std::size_t count_ = 0;
+};
+
+/// At the moment of an impact: the corners that lie on the wall, to within kSimultaneous of the lowest. One,
+/// two or four; in the order of corner().
+ContactPoints wallContactPoints(const Pose& box, const Vec3& halfExtents, const Vec3& normal, double offset);
+
+/// At the moment of an impact: where two boxes touch. The normal is that of the face that separates best if
+/// it does so within kSimultaneous of the best direction, else of the two edges. Each box's lowest feature
+/// towards the other, within kSimultaneous, is a corner, an edge or a face; their common part is a corner, a
+/// crossing, the ends of a segment, or the corners of a polygon. Points nearer to each other than
+/// kSimultaneous are one.
+///
+/// Two faces at an angle that separate equally well (boxes that meet edge to parallel edge, exactly
+/// cornerwise) have no normal of their own: the one listed first, a's before b's, is taken.
+ContactPoints boxContactPoints(const Pose& a, const Vec3& halfExtentsA, const Pose& b,
+                               const Vec3& halfExtentsB);
+
+}  // namespace careen

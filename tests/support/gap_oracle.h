@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "support/tumbling_box.h"
+
+namespace careen::test {
+
+struct Plane {
+  Vec3 normal;
+  double offset = 0;
+};
+
+// The oracles know corners only, no half extents along axes and no bounds.
+
+template <class Real>
+Real heightOverWall(const TumblingBox& box, const Plane& wall, const Real& t) {
+  Real lowest = 1e30;
+  for (const Vector3<Real>& corner : box.corners<Real>(t)) {
+    const Real height = wall.normal.cast<Real>().dot(corner) - Real(wall.offset);
+    lowest = height < lowest ? height : lowest;
+  }
+  return lowest;
+}
+
+template <class Real>
+struct Shadow {
+  Real low = 1e30;
+  Real high = -1e30;
+  Shadow(const std::array<Vector3<Real>, 8>& corners, const Vector3<Real>& direction) {
+    for (const Vector3<Real>& corner : corners) {
+      const Real at = direction.dot(corner);
+      low = at < low ? at : low;
+      high = at > high ? at : high;
+    }
+  }
+};
+
+// The widest interval between the corners' shadows on the 15 directions; `towardsA` receives its direction.
+template <class Real>
+Real separation(const TumblingBox& a, const TumblingBox& b, const Real& t, Vec3* towardsA = nullptr) {
+  using std::sqrt;
+  const Matrix3<Real> turnA = a.orientation<Real>(t);
+  const Matrix3<Real> turnB = b.orientation<Real>(t);
+  // Shorter, and the cross product is rounding alone; a precise type resolves what double cannot.
+  const Real parallel = std::numeric_limits<Real>::epsilon() * 100;
+  std::vector<Vector3<Real>> directions;
+  for (int i = 0; i < 3; ++i) {
+    directions.push_back(turnA.col(i));
+    directions.push_back(turnB.col(i));
+    for (int j = 0; j < 3; ++j) {
+      const Vector3<Real> edge = turnA.col(i);
+      const Vector3<Real> other = turnB.col(j);
+      const Vector3<Real> cross = edge.cross(other);
+      if (cross.squaredNorm() > parallel * parallel) {
+        directions.push_back(cross / sqrt(cross.squaredNorm()));
+      }
+    }
+  }
+  const std::array<Vector3<Real>, 8> cornersA = a.corners<Real>(t);
+  const std::array<Vector3<Real>, 8> cornersB = b.corners<Real>(t);
+  Real widest = -1e30;
+  for (const Vector3<Real>& u : directions) {
+    const Shadow<Real> ofA(cornersA, u);
+    const Shadow<Real> ofB(cornersB, u);
+    const bool above = ofA.low - ofB.high > ofB.low - ofA.high;
+    const Real gap = above ? Real(ofA.low - ofB.high) : Real(ofB.low - ofA.high);
+    if (gap > widest) {
+      widest = gap;
+      if (towardsA != nullptr) {
+        *towardsA = (above ? 1 : -1) * u.template cast<double>();
+      }
+    }
+  }
+  return widest;
+}
+
+// Boxes, thin plates, needles 1e4:1 and bullets, by turns.
+inline TumblingBox roomFlight(Dice& dice, int k) {
+  const std::array<Vec3, 4> shapes = {Vec3(0.5, 0.3, 0.2), Vec3(0.6, 0.4, 1e-3), Vec3(1, 1e-4, 1e-4),
+                                      Vec3(0.1, 0.1, 0.1)};
+  const auto shape = static_cast<std::size_t>(k % 4);
+  const double turning = shape == 2 ? 40 : 8;
+  TumblingBox box = tumblingBox(dice, shapes.at(shape), shape == 3 ? 1000 : 5, turning);
+  box.position = dice.vector(1.5);
+  box.gravity = {0, 0, k % 3 == 0 ? 0 : -9.81};
+  return box;
+}
+
+struct Meeting {
+  TumblingBox a;
+  TumblingBox b;
+};
+
+// Two boxes aimed at each other: alike, needles, plates, one held still, one a bullet.
+inline Meeting meeting(Dice& dice, int k) {
+  const std::array<Vec3, 5> shapes = {Vec3(0.5, 0.3, 0.2), Vec3(1, 1e-4, 1e-4), Vec3(0.6, 0.4, 1e-3),
+                                      Vec3(0.1, 0.1, 0.1), Vec3(1.5, 0.1, 0.7)};
+  Meeting pair{.a = tumblingBox(dice, shapes.at(static_cast<std::size_t>(k % 5)), 2, 8),
+               .b = tumblingBox(dice, shapes.at(static_cast<std::size_t>(k / 5 % 5)), 2, 8)};
+  const bool fast = k % 7 == 0;
+  pair.a.gravity = Vec3(0, 0, -9.81);
+  pair.b.gravity = pair.a.gravity;
+  if (k % 3 == 0) {
+    pair.b.gravity.setZero();
+    pair.b.velocity.setZero();
+    pair.b.precession = 0;
+    pair.b.spin = 0;
+  }
+  pair.b.position = 4 * dice.direction();
+  const double meetAt = fast ? 0.005 : dice.between(0.5, 1);
+  const Vec3 miss = dice.vector(0.3);
+  // a's centre passes b's at about `meetAt`, whatever the gravity of each.
+  pair.a.velocity = (pair.b.position + miss - pair.a.position) / meetAt + pair.b.velocity +
+                    0.5 * meetAt * (pair.b.gravity - pair.a.gravity);
+  return pair;
+}
+
+}  // namespace careen::test
