@@ -1,0 +1,373 @@
+#include "physics/impact_law.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/error.h"
+#include "physics/impact_solver.h"
+#include "physics/order_free_sum.h"
+#include "physics/single_impact.h"
+
+namespace careen {
+namespace {
+
+using Impulse = ImpactSolver::Impulse;
+using Demand = ImpactSolver::Demand;
+constexpr std::size_t kSix = ImpactSolver::kAxes;
+/// Friction answers normal impulses up to so many times the largest of the frictionless impact.
+constexpr double kWedged = 0x1p10;
+
+bool movable(const MassProperties& mass) {
+  return mass.inverseMass > 0 || !mass.inverseInertiaBody.isZero(0);
+}
+
+/// The part of a row that one body has: how fast its point moves along `direction`, per velocity.
+void fillSide(ImpactSolver::Row& row, std::size_t side, const Vec3& direction, const Vec3& arm, const Mat3& a,
+              double sign) {
+  const Vec3 turning = a.transpose() * arm.cross(direction);
+  for (std::size_t k = 0; k < 3; ++k) {
+    row[side * kSix + k] = sign * direction[static_cast<Eigen::Index>(k)];
+    row[side * kSix + 3 + k] = sign * turning[static_cast<Eigen::Index>(k)];
+  }
+}
+
+/// The impact in the coordinates of the solver: only the bodies that can move.
+struct Setup {
+  std::vector<int> movableOf;  // by body: index among the movable, or kNobody
+  std::vector<double> velocity;
+  std::vector<double> inverseMass;
+  std::vector<ImpactSolver::Contact> contacts;
+};
+
+void addBodies(Setup& setup, std::span<const ImpactBody> bodies) {
+  for (const ImpactBody& body : bodies) {
+    if (!movable(*body.mass)) {
+      setup.movableOf.push_back(ImpactSolver::kNobody);
+      continue;
+    }
+    setup.movableOf.push_back(static_cast<int>(setup.velocity.size() / kSix));
+    const Vec3 momentumBody = body.state->pose.worldFromBody.transpose() * body.state->angularMomentum;
+    const Vec3 spin = body.mass->inverseInertiaBody.cwiseProduct(momentumBody);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      setup.velocity.push_back(body.state->velocity[k]);
+      setup.inverseMass.push_back(body.mass->inverseMass);
+    }
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      setup.velocity.push_back(spin[k]);
+      setup.inverseMass.push_back(body.mass->inverseInertiaBody[k]);
+    }
+  }
+}
+
+double softness(const Setup& setup, const ImpactSolver::Contact& contact, std::size_t row) {
+  std::array<double, 2> sum{};
+  const std::array<int, 2> sides{contact.a, contact.b};
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t k = 0; sides[side] != ImpactSolver::kNobody && k < kSix; ++k) {
+      const double value = contact.rows[row][side * kSix + k];
+      sum[side] += setup.inverseMass[static_cast<std::size_t>(sides[side]) * kSix + k] * (value * value);
+    }
+  }
+  return sum[0] + sum[1];
+}
+
+void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactContact& contact) {
+  ImpactSolver::Contact added;
+  const Tangents tangents = tangentsOf(contact.normal);
+  const std::array<Vec3, 3> directions{contact.normal, tangents.first, tangents.second};
+  const auto a = static_cast<std::size_t>(contact.a);
+  added.a = setup.movableOf[a];
+  for (std::size_t row = 0; row < 3; ++row) {
+    fillSide(added.rows[row], 0, directions[row], contact.armA, bodies[a].state->pose.worldFromBody, 1);
+  }
+  if (contact.b != ImpactContact::kWall) {
+    const auto b = static_cast<std::size_t>(contact.b);
+    added.b = setup.movableOf[b];
+    for (std::size_t row = 0; row < 3; ++row) {
+      fillSide(added.rows[row], 1, directions[row], contact.armB, bodies[b].state->pose.worldFromBody, -1);
+    }
+  }
+  const double normal = softness(setup, added, 0);
+  const double tangential = softness(setup, added, 1) + softness(setup, added, 2);
+  if (!(normal > 0) || !std::isfinite(normal + tangential)) {
+    throw NumericalError(
+        "impact: a contact between two sides that cannot move, or a number that is not finite");
+  }
+  added.normalMass = 1 / normal;
+  added.tangentialMass = 2 / tangential;
+  setup.contacts.push_back(added);
+}
+
+/// The laws for several contacts, all in terms of impulses from the velocity before.
+class Law {
+ public:
+  Law(Setup setup, std::span<const ImpactContact> contacts)
+      : before_(std::move(setup.velocity)),
+        solver_(std::move(setup.inverseMass), std::move(setup.contacts)),
+        contacts_(contacts),
+        rounding_(kApproachRounding * solver_.speedScale(before_)) {}
+
+  std::vector<Impulse> resolve() {
+    std::vector<char> approaches = approaching(before_);
+    if (std::none_of(approaches.begin(), approaches.end(), [](char yes) { return yes != 0; })) {
+      return std::vector<Impulse>(contacts_.size());
+    }
+    std::vector<Impulse> impulses = frictionless();
+    const bool rough = std::any_of(contacts_.begin(), contacts_.end(),
+                                   [](const ImpactContact& c) { return c.material.friction > 0; });
+    return rough ? withFriction(impulses) : impulses;
+  }
+
+  double approach(std::size_t contact) const { return -solver_.speed(contact, 0, before_); }
+
+ private:
+  using Impulses = std::vector<Impulse>;
+
+  std::vector<char> approaching(std::span<const double> q) const {
+    std::vector<char> result;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      result.push_back(solver_.speed(c, 0, q) < -rounding_ ? 1 : 0);
+    }
+    return result;
+  }
+
+  /// Impulses that project q onto the motions in which the chosen contacts do not approach.
+  Impulses projection(std::span<const double> q, std::span<const char> chosen) {
+    std::vector<Demand> demands(contacts_.size());
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      demands[c].included = chosen[c] != 0;
+    }
+    Impulses impulses(contacts_.size());
+    solver_.solve(q, demands, impulses);
+    return impulses;
+  }
+
+  static void add(Impulses& sum, double factor, const Impulses& impulses) {
+    for (std::size_t c = 0; c < sum.size(); ++c) {
+      for (std::size_t row = 0; row < 3; ++row) {
+        sum[c][row] += factor * impulses[c][row];
+      }
+    }
+  }
+
+  /// P: Moreau's projection.
+  Impulses plastic() { return projection(before_, std::vector<char>(contacts_.size(), 1)); }
+
+  /// Xₜ: reflections about the contacts with e > t, projections onto the others, until nothing approaches.
+  /// Reflections alone come to an end; for a mixture that does not within the cap, the plastic law ends it.
+  Impulses reflected(double threshold) {
+    Impulses total(contacts_.size());
+    std::vector<double> q = before_;
+    const std::size_t cap = 100 + 10 * contacts_.size() * contacts_.size();
+    for (std::size_t pass = 0; pass < cap; ++pass) {
+      const std::vector<char> violated = approaching(q);
+      std::vector<char> elastic = violated;
+      bool any = false;
+      bool anyElastic = false;
+      for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        elastic[c] = violated[c] != 0 && contacts_[c].material.restitution > threshold ? 1 : 0;
+        any = any || violated[c] != 0;
+        anyElastic = anyElastic || elastic[c] != 0;
+      }
+      if (!any) {
+        return total;
+      }
+      add(total, anyElastic ? 2 : 1, projection(q, anyElastic ? elastic : violated));
+      q = solver_.after(before_, total);
+    }
+    add(total, 1, projection(q, std::vector<char>(contacts_.size(), 1)));
+    return total;
+  }
+
+  Impulses frictionless() {
+    std::vector<double> levels;  // the different e above 0, rising
+    bool somePlastic = false;
+    for (const ImpactContact& contact : contacts_) {
+      if (contact.material.restitution > 0) {
+        levels.push_back(contact.material.restitution);
+      }
+      somePlastic = somePlastic || contact.material.restitution < 1;
+    }
+    std::sort(levels.begin(), levels.end());
+    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+    Impulses total(contacts_.size());
+    double below = 0;
+    for (const double level : levels) {
+      add(total, level - below, reflected(below));
+      below = level;
+    }
+    if (below < 1) {
+      add(total, 1 - below, plastic());
+    }
+    return total;
+  }
+
+  Impulses withFriction(const Impulses& smooth);
+  Impulses shortened(const Impulses& smooth, const Impulses& rough) const;
+
+  std::vector<double> before_;
+  ImpactSolver solver_;
+  std::span<const ImpactContact> contacts_;
+  double rounding_;
+};
+
+/// Coulomb's limit depends on the normal impulses and they on friction: the limits are brought to agree by
+/// iteration, each time a convex problem.
+Law::Impulses Law::withFriction(const Impulses& smooth) {
+  const std::vector<double> parting = solver_.after(before_, smooth);
+  const std::vector<double> compressed = solver_.after(before_, plastic());
+  std::vector<double> restituted = parting;
+  for (std::size_t k = 0; k < restituted.size(); ++k) {
+    restituted[k] -= compressed[k];
+  }
+  std::vector<Demand> demands(contacts_.size());
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    demands[c].partingSpeed = smooth[c][0] > 0 ? solver_.speed(c, 0, parting) : 0;
+    demands[c].frictionLimit = contacts_[c].material.friction * smooth[c][0];
+    demands[c].slip = {solver_.speed(c, 1, restituted), solver_.speed(c, 2, restituted)};
+  }
+  // Wedged between walls, a rough box may press on them as hard as it likes, and the iteration would follow
+  // it: impulses that cancel are kept to a size whose rounding does not show.
+  double most = 0;
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    most = std::max(most, kWedged * smooth[c][0]);
+  }
+  constexpr int kCap = 100;
+  constexpr int kUndamped = 30;
+  Impulses rough = smooth;
+  for (int iteration = 0; iteration < kCap; ++iteration) {
+    solver_.solve(before_, demands, rough);
+    double change = 0;
+    double largest = 0;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const double limit = contacts_[c].material.friction * std::min(rough[c][0], most);
+      double& used = demands[c].frictionLimit;
+      change = std::max(change, std::fabs(limit - used));
+      largest = std::max(largest, std::max(limit, used));
+      used = iteration < kUndamped ? limit : (limit + used) / 2;
+    }
+    if (change <= 0x1p-48 * largest) {
+      break;
+    }
+  }
+  return shortened(smooth, rough);
+}
+
+/// The way from the frictionless answer to the one with friction, as far as energy, the cones and the walls
+/// allow: all of it, but where the iteration above did not settle or a lifted contact would gain energy. All
+/// three are convex and hold at its start.
+Law::Impulses Law::shortened(const Impulses& smooth, const Impulses& rough) const {
+  const std::vector<double> start = solver_.after(before_, smooth);
+  const std::vector<double> end = solver_.after(before_, rough);
+  double fraction = 1;
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const double size = std::sqrt(rough[c][1] * rough[c][1] + rough[c][2] * rough[c][2]);
+    const double limit = contacts_[c].material.friction * smooth[c][0];
+    const double over = size - contacts_[c].material.friction * rough[c][0];
+    if (over > 0x1p-44 * size) {
+      fraction = std::min(fraction, limit / (limit + over));
+    }
+    const double closing = -solver_.speed(c, 0, end);
+    if (closing > rounding_) {
+      const double parting = std::max(0.0, solver_.speed(c, 0, start));
+      fraction = std::min(fraction, parting / (parting + closing));
+    }
+  }
+  std::vector<double> way = end;
+  double slope = 0;  // dE/dfraction at the start
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    way[k] -= start[k];
+    slope += solver_.inverseMass()[k] > 0 ? start[k] * way[k] / solver_.inverseMass()[k] : 0;
+  }
+  const double curvature = 2 * solver_.energy(way);
+  const double full = solver_.energy(start);
+  if (fraction * slope + fraction * fraction * curvature / 2 > 0x1p-50 * full) {
+    fraction = slope < 0 ? std::min(fraction, -slope / curvature) : 0;
+  }
+  if (fraction == 1) {
+    return rough;
+  }
+  Impulses result = smooth;
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    for (std::size_t row = 0; row < 3; ++row) {
+      result[c][row] += fraction * (rough[c][row] - smooth[c][row]);
+    }
+  }
+  return result;
+}
+
+/// Sum of a component and what the contacts add; zero where it is below the rounding of its terms.
+double settledSum(std::span<const double> terms) {
+  double largest = 0;
+  for (const double term : terms) {
+    largest = std::max(largest, std::fabs(term));
+  }
+  const double sum = orderFreeSum(terms);
+  return std::fabs(sum) <= 0x1p-49 * largest ? 0 : sum;
+}
+
+void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> contacts,
+             std::span<const Vec3> impulses) {
+  std::array<std::vector<double>, 3> linear;
+  std::array<std::vector<double>, 3> angular;
+  for (std::size_t k = 0; k < 3; ++k) {
+    linear[k].push_back(body.state->velocity[static_cast<Eigen::Index>(k)]);
+    angular[k].push_back(body.state->angularMomentum[static_cast<Eigen::Index>(k)]);
+  }
+  const bool turns = !body.mass->inverseInertiaBody.isZero(0);
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    for (const bool second : {false, true}) {
+      if ((second ? contacts[c].b : contacts[c].a) != index) {
+        continue;
+      }
+      const Vec3 impulse = second ? Vec3(-impulses[c]) : impulses[c];
+      const Vec3 torque = (second ? contacts[c].armB : contacts[c].armA).cross(impulse);
+      for (std::size_t k = 0; k < 3; ++k) {
+        linear[k].push_back(body.mass->inverseMass * impulse[static_cast<Eigen::Index>(k)]);
+        angular[k].push_back(turns ? torque[static_cast<Eigen::Index>(k)] : 0);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    body.state->velocity[static_cast<Eigen::Index>(k)] = settledSum(linear[k]);
+    body.state->angularMomentum[static_cast<Eigen::Index>(k)] = settledSum(angular[k]);
+  }
+}
+
+}  // namespace
+
+void resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts,
+                   std::span<ImpactShare> shares) {
+  if (contacts.size() == 1) {
+    const ImpactContact& only = contacts[0];
+    const ImpactBody* b =
+        only.b == ImpactContact::kWall ? nullptr : &bodies[static_cast<std::size_t>(only.b)];
+    shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)], b, only);
+    return;
+  }
+  Setup setup;
+  addBodies(setup, bodies);
+  for (const ImpactContact& contact : contacts) {
+    addContact(setup, bodies, contact);
+  }
+  Law law(std::move(setup), contacts);
+  const std::vector<Impulse> impulses = law.resolve();
+  std::vector<Vec3> world(contacts.size());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Tangents tangents = tangentsOf(contacts[c].normal);
+    const Impulse& j = impulses[c];
+    world[c] = j[0] * contacts[c].normal + (j[1] * tangents.first + j[2] * tangents.second);
+    shares[c] = {
+        .approach = law.approach(c), .impulse = j[0], .tangential = std::sqrt(j[1] * j[1] + j[2] * j[2])};
+    if (!world[c].allFinite()) {
+      throw NumericalError("impact: an impulse is not a finite number");
+    }
+  }
+  for (std::size_t index = 0; index < bodies.size(); ++index) {
+    applyTo(static_cast<int>(index), bodies[index], contacts, world);
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,433 @@
+#include "physics/impact_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "physics/order_free_sum.h"
+
+namespace careen {
+namespace {
+
+constexpr std::size_t kSix = ImpactSolver::kAxes;
+
+/// ρ, as multiple of the mass a contact feels. Each outer iteration shrinks the error about 1/ρ times, where
+/// rows of different contacts are not nearly parallel, and loses log₂ ρ bits of 53 in its solve: half of them
+/// is a balance.
+constexpr double kPenalty = 0x1p20;
+/// A speed this small beside the scale of speeds is rounding error.
+constexpr double kRounding = 0x1p-52;
+constexpr int kOuterCap = 60;
+constexpr int kInnerCap = 60;
+/// Full Newton steps taken on trust before steps are shortened; they nearly always suffice.
+constexpr int kTrusted = 4;
+/// Part of its slope at which a shortened step has gone far enough, and how often it is halved for that.
+constexpr double kFlat = 0.1;
+constexpr int kSearchCap = 40;
+
+}  // namespace
+
+ImpactSolver::ImpactSolver(std::vector<double> inverseMass, std::vector<Contact> contacts)
+    : inverseMass_(std::move(inverseMass)), mass_(inverseMass_.size(), 1), contacts_(std::move(contacts)) {
+  const std::size_t axes = inverseMass_.size();
+  for (std::size_t k = 0; k < axes; ++k) {
+    if (inverseMass_[k] > 0) {
+      mass_[k] = 1 / inverseMass_[k];
+    }
+  }
+  touchesOf_.resize(axes / kSix);
+  for (std::size_t p = 0; p < axes / kSix; ++p) {
+    blocks_.push_back({static_cast<int>(p), static_cast<int>(p), {}});
+  }
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    Contact& contact = contacts_[c];
+    const std::array<int, 2> sides{contact.a, contact.b};
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (std::size_t k = 0; k < kSix; ++k) {
+        const bool moves =
+            sides[side] != kNobody && inverseMass_[static_cast<std::size_t>(sides[side]) * kSix + k] > 0;
+        for (Row& row : contact.rows) {
+          row[side * kSix + k] = moves ? row[side * kSix + k] : 0;
+        }
+      }
+      if (sides[side] != kNobody) {
+        const auto p = static_cast<std::size_t>(sides[side]);
+        touchesOf_[p].push_back({c, side * kSix, side * kSix});
+        blocks_[p].touches.push_back({c, side * kSix, side * kSix});
+      }
+    }
+    if (contact.a != kNobody && contact.b != kNobody) {
+      const int p = std::max(contact.a, contact.b);
+      const int q = std::min(contact.a, contact.b);
+      const Touch touch{c, p == contact.a ? 0 : kSix, q == contact.a ? 0 : kSix};
+      const auto pair = std::find_if(blocks_.begin(), blocks_.end(),
+                                     [&](const Block& block) { return block.p == p && block.q == q; });
+      if (pair == blocks_.end()) {
+        blocks_.push_back({p, q, {touch}});
+      } else {
+        pair->touches.push_back(touch);
+      }
+    }
+  }
+  excess_.resize(contacts_.size());
+  responses_.resize(contacts_.size());
+  z_.resize(axes);
+  gradient_.resize(axes);
+  step_.resize(axes);
+  matrix_.resize(axes * axes);
+}
+
+double ImpactSolver::speed(std::size_t contact, int row, std::span<const double> q) const {
+  const Contact& touched = contacts_[contact];
+  const Row& values = touched.rows[static_cast<std::size_t>(row)];
+  double linear = 0;  // summed side by side, so that the two sides may be exchanged
+  double angular = 0;
+  const std::array<int, 2> sides{touched.a, touched.b};
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (sides[side] != kNobody) {
+      const double* value = &values[side * kSix];
+      const double* of = &q[static_cast<std::size_t>(sides[side]) * kSix];
+      linear += value[0] * of[0] + value[1] * of[1] + value[2] * of[2];
+      angular += value[3] * of[3] + value[4] * of[4] + value[5] * of[5];
+    }
+  }
+  return linear + angular;
+}
+
+double ImpactSolver::speedScale(std::span<const double> q) const {
+  double largest = 0;
+  for (const Contact& contact : contacts_) {
+    double sum = 0;
+    const std::array<int, 2> sides{contact.a, contact.b};
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (std::size_t k = 0; sides[side] != kNobody && k < kSix; ++k) {
+        sum +=
+            std::fabs(contact.rows[0][side * kSix + k] * q[static_cast<std::size_t>(sides[side]) * kSix + k]);
+      }
+    }
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
+std::vector<double> ImpactSolver::after(std::span<const double> q0, std::span<const Impulse> impulses) const {
+  std::vector<double> q(q0.begin(), q0.end());
+  for (std::size_t p = 0; p < touchesOf_.size(); ++p) {
+    for (std::size_t k = 0; k < kSix; ++k) {
+      terms_.clear();
+      terms_.push_back(q0[p * kSix + k]);
+      for (const Touch& touch : touchesOf_[p]) {
+        const auto& rows = contacts_[touch.contact].rows;
+        const Impulse& impulse = impulses[touch.contact];
+        terms_.push_back(inverseMass_[p * kSix + k] *
+                         (rows[0][touch.first + k] * impulse[0] + rows[1][touch.first + k] * impulse[1] +
+                          rows[2][touch.first + k] * impulse[2]));
+      }
+      q[p * kSix + k] = orderFreeSum(terms_);
+    }
+  }
+  return q;
+}
+
+double ImpactSolver::energy(std::span<const double> q) const {
+  double twice = 0;
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    twice += inverseMass_[k] > 0 ? mass_[k] * q[k] * q[k] : 0;
+  }
+  return twice / 2;
+}
+
+/// The impulse that the augmented Lagrangian assigns to a contact: the guess, less penalty times excess,
+/// brought back to what is admissible.
+ImpactSolver::Response ImpactSolver::respond(const Contact& contact, const Demand& demand,
+                                             const Impulse& guess, const Impulse& excess) const {
+  Response response;
+  if (!demand.included) {
+    return response;
+  }
+  const double normal = guess[0] - kPenalty * contact.normalMass * excess[0];
+  if (normal > 0) {
+    response.impulse[0] = normal;
+    response.normal = State::kOn;
+  }
+  if (demand.frictionLimit > 0) {
+    const double x = guess[1] - kPenalty * contact.tangentialMass * excess[1];
+    const double y = guess[2] - kPenalty * contact.tangentialMass * excess[2];
+    const double size = std::sqrt(x * x + y * y);
+    if (size <= demand.frictionLimit) {
+      response.impulse[1] = x;
+      response.impulse[2] = y;
+      response.tangent = State::kStick;
+      response.stiffness = {1, 0, 1};
+    } else {
+      const double shrink = demand.frictionLimit / size;
+      const double alongX = x / size;
+      const double alongY = y / size;
+      response.impulse[1] = shrink * x;
+      response.impulse[2] = shrink * y;
+      response.tangent = State::kSlip;
+      response.stiffness = {shrink * (alongY * alongY), -shrink * (alongX * alongY),
+                            shrink * (alongX * alongX)};
+    }
+  }
+  return response;
+}
+
+void ImpactSolver::respondAll(std::span<const Demand> demands, std::span<const Impulse> impulses) {
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    Impulse excess{};
+    if (demands[c].included) {
+      excess[0] = excess_[c][0] + speed(c, 0, z_);
+      if (demands[c].frictionLimit > 0) {
+        excess[1] = excess_[c][1] + speed(c, 1, z_);
+        excess[2] = excess_[c][2] + speed(c, 2, z_);
+      }
+    }
+    responses_[c] = respond(contacts_[c], demands[c], impulses[c], excess);
+  }
+}
+
+/// M z − Jᵀ(response − guess): M (q − q₀) at the outer iterate is Jᵀ guess, so that nothing large cancels.
+void ImpactSolver::gradient(std::span<const Impulse> impulses) {
+  for (std::size_t p = 0; p < touchesOf_.size(); ++p) {
+    for (std::size_t k = 0; k < kSix; ++k) {
+      terms_.clear();
+      terms_.push_back(mass_[p * kSix + k] * z_[p * kSix + k]);
+      for (const Touch& touch : touchesOf_[p]) {
+        const auto& rows = contacts_[touch.contact].rows;
+        const Impulse& now = responses_[touch.contact].impulse;
+        const Impulse& guess = impulses[touch.contact];
+        double push = rows[0][touch.first + k] * (now[0] - guess[0]);
+        for (std::size_t row = 1; row < 3; ++row) {
+          push += rows[row][touch.first + k] * (now[row] - guess[row]);
+        }
+        terms_.push_back(-push);
+      }
+      gradient_[p * kSix + k] = orderFreeSum(terms_);
+    }
+  }
+}
+
+/// M + ρ Σ m nᵀn + ρ Σ m tᵀ S t over the contacts that respond.
+void ImpactSolver::assemble() {
+  const std::size_t axes = mass_.size();
+  std::fill(matrix_.begin(), matrix_.end(), 0.0);
+  for (const Block& block : blocks_) {
+    const std::size_t top = static_cast<std::size_t>(block.p) * kSix;
+    const std::size_t left = static_cast<std::size_t>(block.q) * kSix;
+    for (std::size_t k = 0; k < kSix; ++k) {
+      for (std::size_t l = 0; l < (block.p == block.q ? k + 1 : kSix); ++l) {
+        terms_.clear();
+        if (block.p == block.q && k == l) {
+          terms_.push_back(mass_[top + k]);
+        }
+        for (const Touch& touch : block.touches) {
+          const Response& response = responses_[touch.contact];
+          const Contact& contact = contacts_[touch.contact];
+          const std::size_t i = touch.first + k;
+          const std::size_t j = touch.second + l;
+          double term = 0;
+          if (response.normal == State::kOn) {
+            term = kPenalty * contact.normalMass * (contact.rows[0][i] * contact.rows[0][j]);
+          }
+          if (response.tangent != State::kOff) {
+            const Row& t = contact.rows[1];
+            const Row& u = contact.rows[2];
+            term += kPenalty * contact.tangentialMass *
+                    (response.stiffness[0] * (t[i] * t[j]) + response.stiffness[2] * (u[i] * u[j]) +
+                     response.stiffness[1] * (t[i] * u[j] + u[i] * t[j]));
+          }
+          if (term != 0) {
+            terms_.push_back(term);
+          }
+        }
+        matrix_[(top + k) * axes + left + l] = orderFreeSum(terms_);
+      }
+    }
+  }
+}
+
+/// L D Lᵀ in place: positive definite, so no pivots are looked for.
+void ImpactSolver::factorise() {
+  const std::size_t n = mass_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    double* row = &matrix_[i * n];
+    for (std::size_t j = 0; j < i; ++j) {
+      const double* other = &matrix_[j * n];
+      double sum = row[j];
+      for (std::size_t k = 0; k < j; ++k) {
+        sum -= row[k] * other[k];
+      }
+      row[j] = sum;  // L D for now
+    }
+    double pivot = row[i];
+    for (std::size_t j = 0; j < i; ++j) {
+      const double factor = row[j] / matrix_[j * n + j];
+      pivot -= factor * row[j];
+      row[j] = factor;
+    }
+    row[i] = pivot;
+  }
+}
+
+void ImpactSolver::backSubstitute(std::vector<double>& x) const {
+  const std::size_t n = mass_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      x[i] -= matrix_[i * n + k] * x[k];
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    x[i] /= matrix_[i * n + i];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = i + 1; k < n; ++k) {
+      x[i] -= matrix_[k * n + i] * x[k];
+    }
+  }
+}
+
+void ImpactSolver::newtonStep() {
+  assemble();
+  factorise();
+  for (std::size_t k = 0; k < step_.size(); ++k) {
+    step_[k] = -gradient_[k];
+  }
+  backSubstitute(step_);
+}
+
+/// Slope of the smooth subproblem along the last step.
+double ImpactSolver::along() const {
+  double slope = 0;
+  for (std::size_t k = 0; k < step_.size(); ++k) {
+    slope += gradient_[k] * step_[k];
+  }
+  return slope;
+}
+
+/// Goes along the step: all the way if that is trusted or still downhill there, else to about where it stops
+/// being so. The subproblem is convex, hence its slope along the step only rises.
+double ImpactSolver::lineSearch(const std::vector<double>& from, std::span<const Demand> demands,
+                                std::span<const Impulse> impulses, bool trusted) {
+  const auto moveTo = [&](double length) {
+    for (std::size_t k = 0; k < z_.size(); ++k) {
+      z_[k] = from[k] + length * step_[k];
+    }
+    respondAll(demands, impulses);
+  };
+  const double slopeAtStart = along();
+  moveTo(1);
+  if (trusted) {
+    return 1;
+  }
+  gradient(impulses);
+  if (along() <= kFlat * std::fabs(slopeAtStart)) {
+    return 1;
+  }
+  double low = 0;
+  double high = 1;
+  double length = 1;
+  for (int i = 0; i < kSearchCap; ++i) {
+    length = (low + high) / 2;
+    moveTo(length);
+    gradient(impulses);
+    const double slope = along();
+    if (std::fabs(slope) <= kFlat * std::fabs(slopeAtStart)) {
+      break;
+    }
+    (slope < 0 ? low : high) = length;
+  }
+  return length;
+}
+
+/// The smooth subproblem: leaves its solution in z_ and responses_.
+void ImpactSolver::minimise(std::span<const double> q, std::span<const Demand> demands,
+                            std::span<const Impulse> impulses) {
+  std::fill(z_.begin(), z_.end(), 0.0);
+  respondAll(demands, impulses);
+  const double smallest = kRounding * kRounding * energy(q);
+  for (int iteration = 0; iteration < kInnerCap; ++iteration) {
+    gradient(impulses);
+    newtonStep();
+    const std::vector<Response> before = responses_;
+    const std::vector<double> from = z_;
+    const double length = lineSearch(from, demands, impulses, iteration < kTrusted);
+    bool same = length == 1;
+    bool slips = false;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      same = same && responses_[c].normal == before[c].normal && responses_[c].tangent == before[c].tangent;
+      slips = slips || responses_[c].tangent == State::kSlip;
+    }
+    const double moved = energy(step_);
+    if (same && (!slips || moved <= 0x1p-40 * energy(z_) +
+                                        smallest)) {  // piecewise quadratic but for slip: then it is exact
+      return;
+    }
+  }
+}
+
+/// Largest failure of a condition [m/s]; an impulse that should not be there counts by the speed it gives.
+double ImpactSolver::violation(std::span<const double> q, std::span<const Demand> demands,
+                               std::span<const Impulse> impulses) {
+  double worst = 0;
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const Contact& contact = contacts_[c];
+    const Demand& demand = demands[c];
+    excess_[c] = {};
+    if (!demand.included) {
+      continue;
+    }
+    excess_[c][0] = speed(c, 0, q) - demand.partingSpeed;
+    worst = std::max(worst, std::fabs(std::min(excess_[c][0], impulses[c][0] / contact.normalMass)));
+    if (demand.frictionLimit > 0) {
+      excess_[c][1] = speed(c, 1, q) - demand.slip[0];
+      excess_[c][2] = speed(c, 2, q) - demand.slip[1];
+      // λ is admissible and right iff it is what is left of λ − m (t q − b) inside the limit.
+      const double x = impulses[c][1] - contact.tangentialMass * excess_[c][1];
+      const double y = impulses[c][2] - contact.tangentialMass * excess_[c][2];
+      const double size = std::sqrt(x * x + y * y);
+      const double shrink = size > demand.frictionLimit ? demand.frictionLimit / size : 1;
+      worst = std::max(worst, std::fabs(impulses[c][1] - shrink * x) / contact.tangentialMass);
+      worst = std::max(worst, std::fabs(impulses[c][2] - shrink * y) / contact.tangentialMass);
+    }
+  }
+  return worst;
+}
+
+bool ImpactSolver::solve(std::span<const double> q0, std::span<const Demand> demands,
+                         std::vector<Impulse>& impulses) {
+  double scale = speedScale(q0);
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    if (!demands[c].included) {
+      impulses[c] = {};
+    } else if (!(demands[c].frictionLimit > 0)) {
+      impulses[c][1] = 0;
+      impulses[c][2] = 0;
+    }
+  }
+  std::vector<Impulse> best = impulses;
+  double bestViolation = std::numeric_limits<double>::infinity();
+  int stalled = 0;
+  for (int iteration = 0; iteration < kOuterCap; ++iteration) {
+    const std::vector<double> q = after(q0, impulses);
+    scale = std::max(scale, speedScale(q));
+    const double now = violation(q, demands, impulses);
+    stalled = now < bestViolation / 2 ? 0 : stalled + 1;
+    if (now < bestViolation) {
+      bestViolation = now;
+      best = impulses;
+    }
+    if (now <= kRounding / 2 * scale || stalled >= 3) {
+      break;
+    }
+    minimise(q, demands, impulses);
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      impulses[c] = responses_[c].impulse;
+    }
+  }
+  impulses = best;
+  return bestViolation <= 16 * kRounding * scale;
+}
+
+}  // namespace careen
