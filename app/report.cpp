@@ -23,11 +23,12 @@ void printItems(std::ostream& out, const char* title, const Plan& plan, bool mod
 nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
   const Trajectory& trajectory = run.trajectory;
   const RunFigures& figures = trajectory.figures;
+  const bool steps = hasSteps(trajectory.settings.method);
   return {
       {"scene", run.scene.name},
       {"scene_hash", trajectory.sceneHash()},
       {"method", methodName(trajectory.settings.method)},
-      {"dt", trajectory.settings.dt},
+      {steps ? "dt" : "tolerance", steps ? trajectory.settings.dt : run.scene.tolerance},
       {"simulated_seconds", trajectory.settings.duration},
       {"wall_seconds", wallSeconds},
       {"impacts", trajectory.impacts.size()},
@@ -45,7 +46,11 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
 void printPlan(std::ostream& out, const Scene& scene, const Plan& plan) {
   out << "scene        " << scene.name << ", " << scene.boxes.size()
       << (scene.boxes.size() == 1 ? " box, " : " boxes, ") << scene.duration << " s by "
-      << methodName(scene.method) << ", dt " << scene.dt << " s\n";
+      << methodName(scene.method);
+  if (hasSteps(scene.method)) {
+    out << ", dt " << scene.dt << " s";
+  }
+  out << '\n';
   printItems(out, "modelled     ", plan, true);
   printItems(out, "left out     ", plan, false);
 }

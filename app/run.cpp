@@ -45,6 +45,10 @@ void apply(const Overrides& overrides, Scene& scene) {
     announce("method", methodName(*method), methodName(scene.method));
     scene.method = *method;
   }
+  if (overrides.dt && !hasSteps(scene.method)) {
+    throw InputError("--dt: found " + std::to_string(*overrides.dt) + ", but method " +
+                     std::string(methodName(scene.method)) + " takes no steps; expected no --dt");
+  }
   if (overrides.dt) {
     announce("dt", positive("--dt", *overrides.dt), scene.dt);
     scene.dt = *overrides.dt;

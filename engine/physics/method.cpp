@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "physics/exact_world.h"
 #include "physics/loop1997.h"
 
 namespace careen {
@@ -16,6 +17,8 @@ RunFigures simulate(const World& world, const RunSettings& settings, Recorder& r
     throw InputError("dt must be finite and positive");
   }
   switch (settings.method) {
+    case Method::kExact:
+      return ExactWorld(world, settings.duration, recorder).run(stop);
     case Method::kListing1:
       return runLoop1997(world, settings, recorder, stop);
   }

@@ -11,13 +11,17 @@
 namespace careen {
 
 /// Ways to move a world: one line here, one in kMethods, one in simulate.
-enum class Method { kListing1 };
+enum class Method { kExact, kListing1 };
+
+/// Whether it moves the world step by step, each as long as RunSettings::dt.
+constexpr bool hasSteps(Method method) { return method == Method::kListing1; }
 
 struct NamedMethod {
   Method method;
   std::string_view name;  ///< as scene files and commands spell it
 };
-inline constexpr std::array kMethods = {NamedMethod{Method::kListing1, "listing1"}};
+inline constexpr std::array kMethods = {NamedMethod{Method::kExact, "exact"},
+                                        NamedMethod{Method::kListing1, "listing1"}};
 
 constexpr std::string_view methodName(Method method) {
   for (const NamedMethod& known : kMethods) {

@@ -1,6 +1,7 @@
 #include "physics/motion.h"
 
 #include "physics/listing1.h"
+#include "physics/torque_free_rotation.h"
 
 namespace careen {
 namespace {
@@ -13,6 +14,14 @@ BodyState stateIn(const EulerStep& step, const MassProperties& mass, double elap
   // At its start the state itself, to the bit: even a step of no length would orthonormalise anew.
   return elapsed == 0 ? step.start
                       : listing1Step(mass, step.start, {.force = step.force, .torque = step.torque}, elapsed);
+}
+
+BodyState stateIn(const Flight& flight, const MassProperties& mass, double elapsed) {
+  const TorqueFreeRotation<double> rotation(mass.inertiaBody, flight.worldFromBody, flight.angularMomentum);
+  return {.pose = {.position = flight.positionAt(elapsed),
+                   .worldFromBody = rotation.worldFromBody(elapsed).toRotationMatrix()},
+          .velocity = flight.velocityAt(elapsed),
+          .angularMomentum = flight.angularMomentum};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "physics/body.h"
+#include "physics/flight.h"
 
 namespace careen {
 
@@ -21,7 +22,7 @@ struct EulerStep {
 
 /// How one body moves until something happens to it. A further motion is one more type here and one more line
 /// in stateAt.
-using Motion = std::variant<Rest, EulerStep>;
+using Motion = std::variant<Rest, EulerStep, Flight>;
 
 /// Where the body is `elapsed` [s] after the motion began.
 BodyState stateAt(const Motion& motion, const MassProperties& mass, double elapsed);

@@ -5,31 +5,55 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/error.h"
+
 namespace careen {
 namespace {
+
+// What the methods differ in.
+bool hasForces(Method method) { return method == Method::kListing1; }  // springs and drag
+bool hasBoxBox(Method method) { return method == Method::kExact; }
+bool hasFriction(Method method) { return method == Method::kExact; }
+bool hasRest(Method method) { return method == Method::kExact; }
 
 // What a scene asks for that more than one item turns on.
 struct Wants {
   std::vector<Wall> walls;
   std::size_t movingBoxes = 0;
   bool meetsWalls = false;
-  bool meetsBoxes = false;  // if the method had contact between boxes
-  bool rebounds = false;    // some box and wall that may meet have restitution
+  bool meetsBoxes = false;  // two boxes could meet, if the method lets them
+  bool meets = false;       // some two things meet by this method
+  bool rebounds = false;    // … and have restitution
   bool rubs = false;        // … or friction
+  bool stops = false;       // … and are pulled together without parting again at full speed
 };
+
+void meet(Wants& wants, const Material& pair, bool pulled) {
+  wants.meets = true;
+  wants.rebounds = wants.rebounds || pair.restitution > 0;
+  wants.rubs = wants.rubs || pair.friction > 0;
+  wants.stops = wants.stops || (pulled && pair.restitution < 1);
+}
 
 Wants wantsOf(const Scene& scene) {
   Wants wants{.walls = wallsOf(scene)};
-  for (const SceneBox& box : scene.boxes) {
+  const bool pulled = !scene.gravity.isZero(0);
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    const SceneBox& box = scene.boxes[i];
     wants.movingBoxes += box.fixed ? 0U : 1U;
-    for (const Wall& wall : wants.walls) {
-      const Material pair = touching(box.material, wall.material);
-      wants.rebounds = wants.rebounds || (!box.fixed && pair.restitution > 0);
-      wants.rubs = wants.rubs || (!box.fixed && pair.friction > 0);
+    for (std::size_t w = 0; w < wants.walls.size() && !box.fixed; ++w) {
+      meet(wants, touching(box.material, wants.walls[w].material), pulled);
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      const SceneBox& other = scene.boxes[j];
+      const bool could = !box.fixed || !other.fixed;
+      wants.meetsBoxes = wants.meetsBoxes || could;
+      if (could && hasBoxBox(scene.method)) {
+        meet(wants, touching(box.material, other.material), pulled);
+      }
     }
   }
   wants.meetsWalls = wants.movingBoxes > 0 && !wants.walls.empty();
-  wants.meetsBoxes = wants.movingBoxes > 0 && scene.boxes.size() > 1;
   return wants;
 }
 
@@ -70,33 +94,54 @@ PlanItem boxWall(const Wants& wants) {
                                   counted(wants.movingBoxes, "box", "boxes") + " that can move");
 }
 
-PlanItem boxBox(const Wants& wants) {
-  return leftOut("box-box", wants.meetsBoxes ? "the 1997 sample had none: boxes pass through one another"
-                                             : "no two boxes could meet");
+PlanItem boxBox(const Scene& scene, const Wants& wants) {
+  if (!wants.meetsBoxes) {
+    return leftOut("box-box", "no two boxes could meet");
+  }
+  return hasBoxBox(scene.method)
+             ? modelled("box-box", counted(scene.boxes.size(), "box", "boxes") + " that could meet")
+             : leftOut("box-box", "the 1997 sample had none: boxes pass through one another");
 }
 
-PlanItem restitution(const Wants& wants) {
-  if (!wants.meetsWalls) {
-    return leftOut("restitution", "nothing meets a wall");
+const char* nothingMeets(const Scene& scene) {
+  return hasBoxBox(scene.method) ? "nothing meets anything" : "nothing meets a wall";
+}
+const char* zeroWhereTheyMeet(const Scene& scene) {
+  return hasBoxBox(scene.method) ? "it is 0 wherever two things meet" : "it is 0 wherever a box meets a wall";
+}
+
+PlanItem restitution(const Scene& scene, const Wants& wants) {
+  if (!wants.meets) {
+    return leftOut("restitution", nothingMeets(scene));
   }
   return wants.rebounds ? modelled("restitution", "the scene sets it")
-                        : leftOut("restitution", "it is 0 wherever a box meets a wall");
+                        : leftOut("restitution", zeroWhereTheyMeet(scene));
 }
 
-PlanItem friction(const Wants& wants) {
-  if (!wants.meetsWalls) {
-    return leftOut("friction", "nothing meets a wall");
+PlanItem friction(const Scene& scene, const Wants& wants) {
+  if (!wants.meets) {
+    return leftOut("friction", nothingMeets(scene));
   }
-  return leftOut("friction",
-                 wants.rubs ? "THE SCENE ASKS FOR IT, but the 1997 sample had none: everything slides freely"
-                            : "it is 0 wherever a box meets a wall");
+  if (!wants.rubs) {
+    return leftOut("friction", zeroWhereTheyMeet(scene));
+  }
+  return hasFriction(scene.method)
+             ? modelled("friction", "the scene sets it; at impacts")
+             : leftOut("friction",
+                       "THE SCENE ASKS FOR IT, but the 1997 sample had none: everything slides freely");
 }
 
-PlanItem resting(const Wants& wants) {
-  return leftOut("resting",
-                 wants.meetsWalls
-                     ? "the 1997 method cannot rest: where a box would come to lie, the run ends in an error"
-                     : "nothing meets a wall");
+PlanItem resting(const Scene& scene, const Wants& wants) {
+  if (!wants.meets) {
+    return leftOut("resting", nothingMeets(scene));
+  }
+  if (!hasRest(scene.method)) {
+    return leftOut("resting",
+                   "the 1997 method cannot rest: where a box would come to lie, the run ends in an error");
+  }
+  return wants.stops
+             ? modelled("resting", "bounces that die out end on a face; to slide, rock or stack ends the run")
+             : leftOut("resting", "nothing that meets loses speed and is pulled back");
 }
 
 }  // namespace
@@ -132,8 +177,9 @@ std::vector<std::string> Plan::leftOut() const {
 
 Plan plan(const Scene& scene) {
   const Wants wants = wantsOf(scene);
-  return {{gravity(scene), drag(scene), springs(scene), boxWall(wants), boxBox(wants), restitution(wants),
-           friction(wants), resting(wants), leftOut("joints", "the scene has none")}};
+  return {{gravity(scene), drag(scene), springs(scene), boxWall(wants), boxBox(scene, wants),
+           restitution(scene, wants), friction(scene, wants), resting(scene, wants),
+           leftOut("joints", "the scene has none")}};
 }
 
 World assemble(const Scene& scene, const Plan& plan) {
@@ -141,6 +187,10 @@ World assemble(const Scene& scene, const Plan& plan) {
     return Material{.restitution = plan.models("restitution") ? material.restitution : 0,
                     .friction = plan.models("friction") ? material.friction : 0};
   };
+  if (!hasForces(scene.method) && (plan.models("springs") || plan.models("drag"))) {
+    throw InputError("scene " + scene.name + " has springs or drag, which method " +
+                     std::string(methodName(scene.method)) + " does not model; expected method listing1");
+  }
   World world;
   for (const SceneBox& box : scene.boxes) {
     Body body{.name = box.name,

@@ -135,6 +135,17 @@ void visit(Archive& archive, Visited<Archive, EulerStep> step) {
 }
 
 template <class Archive>
+void visit(Archive& archive, Visited<Archive, Flight> flight) {
+  visit(archive, flight.position);
+  visit(archive, flight.velocity);
+  visit(archive, flight.acceleration);
+  for (int i = 0; i < 4; ++i) {
+    archive.visit(flight.worldFromBody.coeffs()[i]);
+  }
+  visit(archive, flight.angularMomentum);
+}
+
+template <class Archive>
 void visit(Archive& archive, Visited<Archive, MassProperties> mass) {
   archive.visit(mass.mass);
   archive.visit(mass.inverseMass);

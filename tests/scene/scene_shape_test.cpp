@@ -360,7 +360,7 @@ const std::vector<Bad> kBadValues = {
      "found -0.5 for drag.linear, expected a number not below 0 [N s/m]"},
     {R"("angular": 0.25)", R"("angular": @-1)",
      "found -1 for drag.angular, expected a number not below 0 [N m s]"},
-    {R"("listing1")", R"(@"exact")", R"(found the unknown method "exact", expected listing1)"},
+    {R"("listing1")", R"(@"guess")", R"(found the unknown method "guess", expected one of exact, listing1)"},
     {R"("listing1")", "@1", "found 1 for method, expected the name of a method"},
     {"0.001", "@0", "found 0 for dt, expected a number above 0 [s]"},
     {"0.001", "@-0.001", "found -0.001 for dt, expected a number above 0 [s]"},

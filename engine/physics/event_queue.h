@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <queue>
+#include <vector>
+
+#include "core/double_double.h"
+
+namespace careen {
+
+/// A moment on a world's clock [s]. 32 digits, so that the time since a flight began keeps all its own digits
+/// however late that was.
+using Instant = DoubleDouble;
+
+enum class EventKind {
+  kContact,   ///< the gap to the partner closes
+  kTouching,  ///< the gap to the partner stays zero
+  kCrossing,  ///< the body enters another cell of the neighbour search
+  kSearch,    ///< nothing found up to here: look on
+};
+
+/// What is to happen to one body next. Bodies and partners are ranks (see World's order), walls −1 − index.
+struct Event {
+  Instant time;
+  EventKind kind = EventKind::kContact;
+  int body = 0;
+  int partner = 0;
+  std::uint64_t partnerMotion = 0;  ///< the partner's motion that this was predicted for
+};
+
+/// The next event of every body, earliest first; ties in the order of bodies. A body has one event at most:
+/// setting it again replaces it.
+class EventQueue {
+ public:
+  explicit EventQueue(std::size_t bodies) : tickets_(bodies, 0) {}
+
+  void set(const Event& event) { heap_.push({event, ++tickets_[static_cast<std::size_t>(event.body)]}); }
+  void clear(int body) { ++tickets_[static_cast<std::size_t>(body)]; }
+  /// Takes the earliest event out.
+  std::optional<Event> next() {
+    while (!heap_.empty()) {
+      const Entry entry = heap_.top();
+      heap_.pop();
+      if (entry.ticket == tickets_[static_cast<std::size_t>(entry.event.body)]) {
+        return entry.event;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Entry {
+    Event event;
+    std::uint64_t ticket;
+  };
+  struct Later {
+    bool operator()(const Entry& x, const Entry& y) const {
+      if (x.event.time.hi != y.event.time.hi) {
+        return x.event.time.hi > y.event.time.hi;
+      }
+      if (x.event.time.lo != y.event.time.lo) {
+        return x.event.time.lo > y.event.time.lo;
+      }
+      return x.event.body > y.event.body;
+    }
+  };
+
+  std::priority_queue<Entry, std::vector<Entry>, Later> heap_;
+  std::vector<std::uint64_t> tickets_;
+};
+
+}  // namespace careen

@@ -1,0 +1,557 @@
+#include "physics/exact_world.h"
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "physics/contact_points.h"
+#include "physics/separation.h"
+#include "physics/settling.h"
+#include "physics/translating_contact.h"
+
+namespace careen {
+namespace {
+
+// Events that may happen to one body at one moment before the run gives up: more than any impact needs, and
+// an end to what would go on for ever.
+constexpr int kMostAtOneMoment = 1000;
+
+constexpr const char* kNeedsContact =
+    ". That takes the motion Contact, which method exact does not have; end the run before it, or give the "
+    "pair more "
+    "restitution";
+
+int wallPartner(std::size_t wall) { return -1 - static_cast<int>(wall); }
+std::size_t wallOf(int partner) { return static_cast<std::size_t>(-1 - partner); }
+
+bool earlier(const Instant& x, const Instant& y) { return x.hi < y.hi || (x.hi == y.hi && x.lo < y.lo); }
+const Instant& later(const Instant& x, const Instant& y) { return earlier(x, y) ? y : x; }
+
+std::vector<std::size_t> ranked(const World& world) {
+  std::vector<std::size_t> order(world.bodies.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&world](std::size_t a, std::size_t b) { return world.bodies[a].name < world.bodies[b].name; });
+  return order;
+}
+
+std::vector<double> radiiOf(const World& world) {
+  std::vector<double> radii;
+  radii.reserve(world.bodies.size());
+  for (const Body& body : world.bodies) {
+    radii.push_back(body.halfExtents.norm());
+  }
+  return radii;
+}
+
+bool movesAlike(const BodyState& x, const BodyState& y) {
+  return x.velocity == y.velocity && x.angularMomentum == y.angularMomentum;
+}
+
+// Searches on where a search ran out of evaluations.
+template <class Search>
+FirstContact searchUntil(double until, const Search& search) {
+  FirstContact found;
+  do {
+    const double from = found.time;
+    found = search(SearchWindow{.from = from, .until = until});
+    if (found.kind == ContactKind::kNone && found.time < until && !(found.time > from)) {
+      throw NumericalError("the search for the next impact does not come forward");
+    }
+  } while (found.kind == ContactKind::kNone && found.time < until);
+  return found;
+}
+
+}  // namespace
+
+ExactWorld::ExactWorld(const World& world, double duration, Recorder& recorder)
+    : world_(world),
+      end_(duration),
+      recorder_(recorder),
+      neighbors_(radiiOf(world)),
+      queue_(world.bodies.size()),
+      account_(world) {
+  for (const std::size_t listed : ranked(world)) {
+    Mover& mover = movers_.emplace_back();
+    mover.body = &world.bodies[listed];
+    mover.listed = {static_cast<int>(listed)};
+  }
+}
+
+// The whole method, from here to moveOn().
+
+RunFigures ExactWorld::run(const std::stop_token& stop) {
+  begin();
+  for (std::optional<Event> event = queue_.next(); event && !earlier(end_, event->time);
+       event = queue_.next()) {
+    if (stop.stop_requested()) {
+      throw Interrupted();
+    }
+    happen(*event);
+  }
+  end();
+  return account_.figures();
+}
+
+void ExactWorld::begin() {
+  for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
+    const Body& body = *mover(rank).body;
+    neighbors_.insert(rank, body.initial.pose.position, body.halfExtents.norm());
+    if (mover(rank).isHeld()) {
+      rest(rank, {}, body.initial.pose);
+    } else {
+      fly(rank, {}, body.initial, Quat(body.initial.pose.worldFromBody).normalized());
+    }
+  }
+  account_.parted();
+  for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
+    predict(rank);
+  }
+}
+
+void ExactWorld::happen(const Event& event) {
+  if (event.kind == EventKind::kCrossing) {
+    neighbors_.move(event.body, mover(event.body).crossing.cell);
+    findCrossing(mover(event.body), event.body);
+    predict(event.body);
+  } else if (event.partner >= 0 && mover(event.partner).motion != event.partnerMotion) {
+    predict(event.body);
+  } else {
+    Group group = gather(event);
+    resolve(group);
+    settle(group);
+    if (event.kind == EventKind::kTouching) {
+      checkParts(group, event);
+    }
+    record(group);
+    moveOn(group);
+  }
+}
+
+// What came before ends, the impact's bodies get their next motions, and only they are predicted again.
+void ExactWorld::moveOn(const Group& group) {
+  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
+    const int rank = group.ranks[i];
+    if (group.restsFrom[i]) {
+      rest(rank, *group.restsFrom[i], group.after[i].pose);
+    } else if (!mover(rank).isHeld() && (mover(rank).flies || !movesAlike(group.before[i], group.after[i]))) {
+      fly(rank, group.time, group.after[i], group.attitudes[i]);
+    }
+  }
+  account_.parted();
+  for (const int rank : group.ranks) {
+    predict(rank);
+  }
+}
+
+void ExactWorld::end() {
+  for (const Mover& body : movers_) {
+    if (body.flies) {
+      arrive(body, end_);
+    }
+  }
+}
+
+// ---- The group of bodies that touch.
+
+ExactWorld::Group ExactWorld::gather(const Event& event) {
+  Group group;
+  group.time = event.time;
+  group.ranks = touchingFrom(event);
+  for (const int rank : group.ranks) {
+    group.attitudes.push_back(attitudeAt(mover(rank), event.time));
+    group.before.push_back(stateAt(mover(rank), event.time, group.attitudes.back()));
+  }
+  group.after = group.before;
+  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
+    addWallContacts(group, i);
+    for (std::size_t j = i + 1; j < group.ranks.size(); ++j) {
+      addPairContacts(group, i, j);
+    }
+  }
+  group.shares.resize(group.contacts.size());
+  group.restsFrom.resize(group.ranks.size());
+  return group;
+}
+
+// An impact runs through every body that touches one that it reaches, held ones excepted: they pass nothing
+// on.
+std::vector<int> ExactWorld::touchingFrom(const Event& event) const {
+  std::vector<int> ranks = {event.body};
+  if (event.partner >= 0) {
+    ranks.push_back(event.partner);
+  }
+  std::vector<Neighbors::Key> candidates;
+  for (std::size_t reached = 0; reached < ranks.size(); ++reached) {
+    if (mover(ranks[reached]).isHeld()) {
+      continue;
+    }
+    neighbors_.findCandidates(ranks[reached], candidates);
+    for (const Neighbors::Key candidate : candidates) {
+      if (std::find(ranks.begin(), ranks.end(), candidate) == ranks.end() &&
+          touch(mover(ranks[reached]), mover(candidate), event.time)) {
+        ranks.push_back(candidate);
+      }
+    }
+  }
+  std::sort(ranks.begin(), ranks.end());
+  return ranks;
+}
+
+bool ExactWorld::touch(const Mover& a, const Mover& b, const Instant& time) {
+  const Pose poseA = stateAt(a, time, attitudeAt(a, time)).pose;
+  const Pose poseB = stateAt(b, time, attitudeAt(b, time)).pose;
+  const double within = kSimultaneous * std::min(a.body->halfExtents.norm(), b.body->halfExtents.norm());
+  const Vec3 bToA = poseA.position - poseB.position;
+  if (bToA.norm() > a.body->halfExtents.norm() + b.body->halfExtents.norm() + within) {
+    return false;
+  }
+  return BoxAxes(poseA.worldFromBody, a.body->halfExtents, poseB.worldFromBody, b.body->halfExtents, bToA)
+             .gap() <= within;
+}
+
+void ExactWorld::addWallContacts(Group& group, std::size_t index) {
+  const Mover& body = mover(group.ranks[index]);
+  const Pose& pose = group.before[index].pose;
+  const double within = kSimultaneous * body.body->halfExtents.norm();
+  for (std::size_t w = 0; w < world_.walls.size() && !body.isHeld(); ++w) {
+    const Wall& wall = world_.walls[w];
+    const WallGap gap = wallGap(pose, body.body->halfExtents, wall.normal, wall.offset, within);
+    if (gap.gap > within) {
+      continue;
+    }
+    account_.penetrates(-gap.gap);
+    for (int k = 0; k < kCorners; ++k) {
+      if ((gap.corners >> static_cast<unsigned>(k) & 1U) != 0) {
+        group.contacts.push_back({.a = static_cast<int>(index),
+                                  .armA = pose.worldFromBody * corner(body.body->halfExtents, k),
+                                  .normal = wall.normal,
+                                  .material = touching(body.body->material, wall.material)});
+        group.partners.push_back(wallPartner(w));
+      }
+    }
+  }
+}
+
+void ExactWorld::addPairContacts(Group& group, std::size_t indexA, std::size_t indexB) {
+  const Mover& a = mover(group.ranks[indexA]);
+  const Mover& b = mover(group.ranks[indexB]);
+  if ((a.isHeld() && b.isHeld()) || !touch(a, b, group.time)) {
+    return;
+  }
+  const Pose& poseA = group.before[indexA].pose;
+  const Pose& poseB = group.before[indexB].pose;
+  for (const ContactPoint& at : boxContactPoints(poseA, a.body->halfExtents, poseB, b.body->halfExtents)) {
+    group.contacts.push_back({.a = static_cast<int>(indexA),
+                              .b = static_cast<int>(indexB),
+                              .armA = at.point - poseA.position,
+                              .armB = at.point - poseB.position,
+                              .normal = at.normal,
+                              .material = touching(a.body->material, b.body->material)});
+    group.partners.push_back(group.ranks[indexB]);
+  }
+}
+
+void ExactWorld::resolve(Group& group) {
+  std::vector<ImpactBody> bodies;
+  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
+    bodies.push_back({.mass = &mover(group.ranks[i]).body->mass, .state = &group.after[i]});
+  }
+  bool mayLose = false;
+  for (const ImpactContact& contact : group.contacts) {
+    mayLose = mayLose || contact.material.restitution < 1 || contact.material.friction > 0;
+  }
+  for (const int rank : group.ranks) {
+    if (mover(rank).flies) {
+      arrive(mover(rank), group.time);
+    }
+  }
+  account_.strikes(mayLose);
+  resolveImpact(bodies, group.contacts, group.shares);
+}
+
+void ExactWorld::settle(Group& group) const {
+  if (world_.gravity.isZero(0)) {
+    return;
+  }
+  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
+    const bool moves = mover(group.ranks[i]).flies || !movesAlike(group.before[i], group.after[i]);
+    if (moves && !mover(group.ranks[i]).isHeld()) {
+      settleBody(group, i);
+    }
+  }
+}
+
+// Two that stay in touch without coming to rest: no closed form holds.
+void ExactWorld::checkParts(const Group& group, const Event& event) const {
+  const auto place = std::find(group.ranks.begin(), group.ranks.end(), event.body) - group.ranks.begin();
+  if (!group.restsFrom[static_cast<std::size_t>(place)]) {
+    const std::string& partner =
+        event.partner >= 0 ? mover(event.partner).body->name : world_.walls[wallOf(event.partner)].name;
+    throw NumericalError(where(event.body, event.time) + "stays in touch with " + partner + kNeedsContact);
+  }
+}
+
+// A body whose next hop at one of its contacts is too short to follow comes to rest there, or the run ends.
+void ExactWorld::settleBody(Group& group, std::size_t index) const {
+  const Body& body = *mover(group.ranks[index]).body;
+  BodyState& state = group.after[index];
+  const Vec3 omega = careen::angularVelocity(body.mass, state);
+  const Vec3 omegaRate =
+      inverseInertiaWorld(body.mass, state.pose.worldFromBody) * state.angularMomentum.cross(omega);
+  double tail = -1;
+  Settling settling;
+  settling.velocity = state.velocity;
+  settling.angularVelocity = omega;
+  settling.gravity = world_.gravity;
+  std::vector<Vec3> arms;
+  for (std::size_t k = 0; k < group.contacts.size(); ++k) {
+    const ImpactContact& contact = group.contacts[k];
+    const bool isA = contact.a == static_cast<int>(index);
+    if (!isA && contact.b != static_cast<int>(index)) {
+      continue;
+    }
+    const Vec3 normal = isA ? contact.normal : Vec3(-contact.normal);
+    const Vec3& arm = isA ? contact.armA : contact.armB;
+    const Vec3 acceleration = world_.gravity + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
+    const Bouncing bouncing{.acceleration = normal.dot(acceleration),
+                            .departure = std::max(0.0, normal.dot(state.velocity + omega.cross(arm))),
+                            .restitution = contact.material.restitution};
+    if (!settles(bouncing, body.halfExtents.minCoeff())) {
+      continue;
+    }
+    tail = std::max(tail, settlingTail(bouncing));
+    arms.push_back(arm);
+    settling.normal = normal;
+    settling.friction = contact.material.friction;
+    settling.speed = std::max(settling.speed, group.shares[k].approach);
+    settling.onBody = settling.onBody || (group.partners[k] >= 0 && mover(group.partners[k]).flies);
+  }
+  if (tail < 0) {
+    return;
+  }
+  settling.arms = arms;
+  settling.velocity -= settling.normal.dot(settling.velocity) * settling.normal;
+  const Settled settled = afterTail(settling);
+  if (settled != Settled::kRests) {
+    throw NumericalError(where(group.ranks[index], group.time) +
+                         "has bounced itself out: " + std::string(describe(settled)) + kNeedsContact);
+  }
+  state = {.pose = state.pose};
+  group.restsFrom[index] = group.time + Instant(tail);
+}
+
+void ExactWorld::record(const Group& group) {
+  for (std::size_t k = 0; k < group.contacts.size(); ++k) {
+    const ImpactContact& contact = group.contacts[k];
+    const ImpactShare& share = group.shares[k];
+    if (share.impulse > 0) {
+      const auto a = static_cast<std::size_t>(contact.a);
+      Impact impact{.time = group.time.hi,
+                    .a = mover(group.ranks[a]).listed,
+                    .b = WallIndex{},
+                    .point = group.before[a].pose.position + contact.armA,
+                    .normal = contact.normal,
+                    .approach = share.approach,
+                    .impulse = share.impulse,
+                    .tangential = share.tangential};
+      if (group.partners[k] < 0) {
+        impact.b = WallIndex{static_cast<int>(wallOf(group.partners[k]))};
+      } else {
+        impact.b = mover(group.partners[k]).listed;
+      }
+      recorder_.strikes(impact);
+    }
+  }
+}
+
+// ---- Motions.
+
+void ExactWorld::fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude) {
+  Mover& body = mover(rank);
+  body.flies = true;
+  body.flight = {.position = state.pose.position,
+                 .velocity = state.velocity,
+                 .acceleration = world_.gravity,
+                 .worldFromBody = attitude,
+                 .angularMomentum = state.angularMomentum};
+  body.rotation.emplace(body.body->mass.inertiaBody, attitude, state.angularMomentum);
+  const TorqueFreeRotation<double>::Bounds bounds = body.rotation->calcBounds();
+  body.angularSpeedBound = bounds.angularSpeed;
+  body.angularAccelerationBound = bounds.angularAcceleration;
+  begins(rank, time);
+  recorder_.moves(body.listed, time.hi, body.flight);
+  account_.departs(static_cast<std::size_t>(body.listed.value), state);
+  body.wall = firstWall(rank);
+  body.crossing = {};
+  findCrossing(body, rank);
+}
+
+void ExactWorld::rest(int rank, const Instant& time, const Pose& pose) {
+  Mover& body = mover(rank);
+  body.flies = false;
+  body.flight = {.position = pose.position, .worldFromBody = Quat(pose.worldFromBody)};
+  body.pose = pose;
+  body.rotation.reset();
+  body.angularSpeedBound = 0;
+  body.angularAccelerationBound = 0;
+  body.wall.reset();
+  body.crossing = {};
+  begins(rank, time);
+  recorder_.moves(body.listed, time.hi, Rest{pose});
+  account_.departs(static_cast<std::size_t>(body.listed.value), {.pose = pose});
+}
+
+void ExactWorld::begins(int rank, const Instant& time) {
+  Mover& body = mover(rank);
+  const bool again = body.motion > 0 && !earlier(body.start, time);
+  body.atOneMoment = again ? body.atOneMoment + 1 : 0;
+  if (body.atOneMoment > kMostAtOneMoment) {
+    throw NumericalError(where(rank, time) + "is struck again and again at one moment");
+  }
+  body.start = time;
+  ++body.motion;
+}
+
+void ExactWorld::arrive(const Mover& body, const Instant& time) {
+  account_.arrives(static_cast<std::size_t>(body.listed.value), stateAt(body, time, attitudeAt(body, time)),
+                   elapsed(body, time));
+}
+
+Attitude ExactWorld::Mover::operator()(double elapsed) const {
+  if (!rotation) {
+    return {.worldFromBody = pose.worldFromBody};
+  }
+  const Quat attitude = rotation->worldFromBody(elapsed);
+  return {.worldFromBody = attitude.toRotationMatrix(),
+          .angularVelocity = rotation->angularVelocityWorld(attitude)};
+}
+
+Quat ExactWorld::attitudeAt(const Mover& body, const Instant& time) {
+  return body.rotation ? body.rotation->worldFromBody(elapsed(body, time)) : body.flight.worldFromBody;
+}
+
+BodyState ExactWorld::stateAt(const Mover& body, const Instant& time, const Quat& attitude) {
+  if (!body.flies) {
+    return {.pose = body.pose};
+  }
+  const double since = elapsed(body, time);
+  return {.pose = {.position = body.flight.positionAt(since), .worldFromBody = attitude.toRotationMatrix()},
+          .velocity = body.flight.velocityAt(since),
+          .angularMomentum = body.flight.angularMomentum};
+}
+
+// ---- What comes next.
+
+void ExactWorld::predict(int rank) {
+  const Mover& body = mover(rank);
+  if (!body.flies) {  // what flies towards it is told to that
+    queue_.clear(rank);
+    return;
+  }
+  std::optional<Event> first = body.wall;
+  if (body.crosses) {
+    sooner(first,
+           {.time = body.start + Instant(body.crossing.time), .kind = EventKind::kCrossing, .body = rank});
+  }
+  neighbors_.findCandidates(rank, candidates_);
+  for (const Neighbors::Key candidate : candidates_) {
+    const std::optional<Event> met = firstMeeting(rank, candidate, first ? first->time : end_);
+    if (met) {
+      sooner(first, *met);
+    }
+  }
+  if (first) {
+    queue_.set(*first);
+  } else {
+    queue_.clear(rank);
+  }
+}
+
+void ExactWorld::sooner(std::optional<Event>& first, const Event& candidate) {
+  if (!first || earlier(candidate.time, first->time)) {
+    first = candidate;
+  }
+}
+
+std::optional<Event> ExactWorld::firstWall(int rank) const {
+  const Mover& body = mover(rank);
+  const MovingBox box = moving(body, body.start);
+  std::optional<Event> first;
+  double until = elapsed(body, end_);
+  for (std::size_t w = 0; w < world_.walls.size(); ++w) {
+    const Wall& wall = world_.walls[w];
+    const FirstContact contact = body.angularSpeedBound == 0
+                                     ? firstContactTranslating(box, wall.normal, wall.offset, until)
+                                     : searchUntil(until, [&](const SearchWindow& window) {
+                                         return firstContactWithWall(box, wall.normal, wall.offset, window);
+                                       });
+    if (contact.kind != ContactKind::kNone && (!first || contact.time < until)) {
+      until = contact.time;
+      first = {.time = body.start + Instant(contact.time),
+               .kind = contact.kind == ContactKind::kImpact ? EventKind::kContact : EventKind::kTouching,
+               .body = rank,
+               .partner = wallPartner(w)};
+    }
+  }
+  return first;
+}
+
+// Nothing changes between two that move alike and do not turn: blocks that lie in a row.
+bool ExactWorld::moveAsOne(const Mover& a, const Mover& b) {
+  return a.angularSpeedBound == 0 && b.angularSpeedBound == 0 &&
+         a.flight.acceleration == b.flight.acceleration && a.flight.velocity == b.flight.velocity &&
+         a.flight.acceleration.isZero(0);
+}
+
+std::optional<Event> ExactWorld::firstMeeting(int rank, int partner, const Instant& until) const {
+  const Mover& a = mover(rank);
+  const Mover& b = mover(partner);
+  const Instant zero = later(a.start, b.start);
+  const double end = (until - zero).hi;
+  if (!(end >= 0) || moveAsOne(a, b)) {
+    return std::nullopt;
+  }
+  const FirstContact contact = searchUntil(end, [&](const SearchWindow& window) {
+    return firstContactOfBoxes(moving(a, zero), moving(b, zero), window);
+  });
+  if (contact.kind == ContactKind::kNone) {
+    return std::nullopt;
+  }
+  return Event{.time = zero + Instant(contact.time),
+               .kind = contact.kind == ContactKind::kImpact ? EventKind::kContact : EventKind::kTouching,
+               .body = rank,
+               .partner = partner,
+               .partnerMotion = b.motion};
+}
+
+void ExactWorld::findCrossing(Mover& body, int rank) {
+  body.crosses = neighbors_.isFiled(rank) && movers_.size() > 1;
+  if (body.crosses) {
+    body.crossing =
+        neighbors_.nextCrossing(body.flight.position, body.flight.velocity, body.flight.acceleration,
+                                neighbors_.cell(rank), body.crossing.time);
+  }
+}
+
+MovingBox ExactWorld::moving(const Mover& body, const Instant& clockZero) {
+  return {.halfExtents = body.body->halfExtents,
+          .position = body.flight.position,
+          .velocity = body.flight.velocity,
+          .acceleration = body.flight.acceleration,
+          .age = elapsed(body, clockZero),
+          .angularSpeedBound = body.angularSpeedBound,
+          .angularAccelerationBound = body.angularAccelerationBound,
+          .attitude = AttitudeView(body)};
+}
+
+std::string ExactWorld::where(int rank, const Instant& time) const {
+  std::ostringstream text;
+  text << "at " << time.hi << " s box " << mover(rank).body->name << ' ';
+  return text.str();
+}
+
+}  // namespace careen

@@ -1,0 +1,65 @@
+#include "physics/flight_account.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/rotation.h"
+
+namespace careen {
+
+void FlightAccount::see(std::size_t body, const BodyState& state) {
+  const MassProperties& mass = world_.bodies[body].mass;
+  BodyAccount& account = bodies_[body];
+  const double kinetic = 0.5 * mass.mass * state.velocity.squaredNorm() +
+                         0.5 * angularVelocity(mass, state).dot(state.angularMomentum);
+  const double energy = kinetic - mass.mass * world_.gravity.dot(state.pose.position);
+  energy_ += energy - account.energy;
+  kinetic_ += kinetic - account.kinetic;
+  account = {.energy = energy,
+             .kinetic = kinetic,
+             .momentum = mass.mass * state.velocity,
+             .angularMomentum = state.angularMomentum};
+  largestKinetic_ = std::max(largestKinetic_, kinetic_);
+  orthogonality_ = std::max(orthogonality_, orthogonalityError(state.pose.worldFromBody));
+}
+
+void FlightAccount::departs(std::size_t body, const BodyState& state) { see(body, state); }
+
+void FlightAccount::arrives(std::size_t body, const BodyState& state, double elapsed) {
+  const MassProperties& mass = world_.bodies[body].mass;
+  const BodyAccount begun = bodies_[body];
+  see(body, state);
+  const Vec3 given = elapsed * mass.mass * world_.gravity;
+  const double size = std::max(begun.momentum.norm(), bodies_[body].momentum.norm());
+  if (size > 0) {
+    momentumError_ =
+        std::max(momentumError_, (bodies_[body].momentum - begun.momentum - given).norm() / size);
+  }
+  largestError_ = std::max(largestError_, std::abs(energy_ - due_));
+}
+
+void FlightAccount::strikes(bool mayLose) { mayLose_ = mayLose; }
+
+void FlightAccount::parted() {
+  if (!begun_) {
+    begun_ = true;
+    due_ = energy_;
+    return;
+  }
+  if (mayLose_ && energy_ < due_) {
+    due_ = energy_;
+  }
+  mayLose_ = false;
+  largestError_ = std::max(largestError_, std::abs(energy_ - due_));
+}
+
+void FlightAccount::penetrates(double depth) { deepest_ = std::max(deepest_, depth); }
+
+RunFigures FlightAccount::figures() const {
+  return {.energyChange = largestKinetic_ > 0 ? largestError_ / largestKinetic_ : 0,
+          .momentumChange = momentumError_,
+          .orthogonality = orthogonality_,
+          .deepestPenetration = deepest_};
+}
+
+}  // namespace careen
