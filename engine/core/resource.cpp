@@ -17,7 +17,7 @@ struct Place {
 };
 
 Place findPlace() {
-  // Nothing in the program writes the environment, so reading it is safe on any thread.
+  // The environment is written only before the first thread starts (LP_NUM_THREADS), so reading it is safe.
   const char* const told = std::getenv("CAREEN_DATA");  // NOLINT(concurrency-mt-unsafe)
   if (told != nullptr && *told != '\0') {
     return {told, "the environment's CAREEN_DATA"};
