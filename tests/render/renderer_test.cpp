@@ -83,8 +83,7 @@ TEST(Renderer, faceSeenStraightOnHasTheColourOfItsLight) {
       const Vec3 sentBack = paint + Vec3::Constant(gloss(n, toEye, toLight));
       expected += facing * sentBack.cwiseProduct(lighting.light->color);
     }
-    // Pixel (164, 89) has its middle 0.45 m right of the picture's middle and 0.05 m above. Measured: off by
-    // 0.
+    // Pixel (164, 89) has its middle 0.45 m right of the picture's middle and 0.05 m above.
     expectColor(pixelAt(drawn(scene, lit(lighting)), 164, 89), expected, 1);
   }
 }
