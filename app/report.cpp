@@ -23,12 +23,12 @@ void printItems(std::ostream& out, const char* title, const Plan& plan, bool mod
 nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
   const Trajectory& trajectory = run.trajectory;
   const RunFigures& figures = trajectory.figures;
-  const bool steps = hasSteps(trajectory.settings.method);
+  const bool steps = traitsOf(trajectory.settings.method).steps;
   return {
       {"scene", run.scene.name},
       {"scene_hash", trajectory.sceneHash()},
-      {"method", methodName(trajectory.settings.method)},
-      {steps ? "dt" : "tolerance", steps ? trajectory.settings.dt : run.scene.tolerance},
+      {"method", traitsOf(trajectory.settings.method).name},
+      {steps ? "dt" : "tolerance", steps ? trajectory.settings.dt : trajectory.settings.tolerance},
       {"simulated_seconds", trajectory.settings.duration},
       {"wall_seconds", wallSeconds},
       {"impacts", trajectory.impacts.size()},
@@ -46,8 +46,8 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
 void printPlan(std::ostream& out, const Scene& scene, const Plan& plan) {
   out << "scene        " << scene.name << ", " << scene.boxes.size()
       << (scene.boxes.size() == 1 ? " box, " : " boxes, ") << scene.duration << " s by "
-      << methodName(scene.method);
-  if (hasSteps(scene.method)) {
+      << traitsOf(scene.method).name;
+  if (traitsOf(scene.method).steps) {
     out << ", dt " << scene.dt << " s";
   }
   out << '\n';

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
+#include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "core/error.h"
@@ -17,19 +19,29 @@ namespace {
 
 // The scene file says one thing, the command line another: the user should see which one counts.
 template <class T>
-void announce(const char* what, const T& given, const T& inFile) {
+void announce(std::string_view what, const T& given, const T& inFile) {
   if (given != inFile) {
     std::cerr << "careen: " << what << " " << given << " from the command line (the scene says " << inFile
               << ")\n";
   }
 }
 
-double positive(const char* option, double value) {
-  if (!(value > 0 && std::isfinite(value))) {
-    throw InputError(std::string(option) + ": found " + std::to_string(value) +
-                     ", expected a positive number of seconds");
+void override(const std::string& key, const std::optional<double>& given, bool used, Method method,
+              double& inScene) {
+  if (!given) {
+    return;
   }
-  return value;
+  std::ostringstream found;
+  found << "--" << key << ": found " << *given;
+  if (!used) {
+    throw InputError(found.str() + ", but method " + std::string(traitsOf(method).name) +
+                     " does not use it; expected no --" + key);
+  }
+  if (!(*given > 0 && std::isfinite(*given))) {
+    throw InputError(found.str() + ", expected a positive number");
+  }
+  announce(key, *given, inScene);
+  inScene = *given;
 }
 
 void apply(const Overrides& overrides, Scene& scene) {
@@ -37,26 +49,18 @@ void apply(const Overrides& overrides, Scene& scene) {
     const std::optional<Method> method = methodNamed(*overrides.method);
     if (!method) {
       std::string known;
-      for (const NamedMethod& each : kMethods) {
+      for (const MethodTraits& each : kMethods) {
         known += (known.empty() ? "" : ", ") + std::string(each.name);
       }
       throw InputError("--method: found '" + *overrides.method + "', expected one of: " + known);
     }
-    announce("method", methodName(*method), methodName(scene.method));
+    announce("method", traitsOf(*method).name, traitsOf(scene.method).name);
     scene.method = *method;
   }
-  if (overrides.dt && !hasSteps(scene.method)) {
-    throw InputError("--dt: found " + std::to_string(*overrides.dt) + ", but method " +
-                     std::string(methodName(scene.method)) + " takes no steps; expected no --dt");
-  }
-  if (overrides.dt) {
-    announce("dt", positive("--dt", *overrides.dt), scene.dt);
-    scene.dt = *overrides.dt;
-  }
-  if (overrides.duration) {
-    announce("duration", positive("--duration", *overrides.duration), scene.duration);
-    scene.duration = *overrides.duration;
-  }
+  const bool steps = traitsOf(scene.method).steps;
+  override("dt", overrides.dt, steps, scene.method, scene.dt);
+  override("tolerance", overrides.tolerance, !steps, scene.method, scene.tolerance);
+  override("duration", overrides.duration, true, scene.method, scene.duration);
 }
 
 Run simulateText(const std::filesystem::path& path, const std::string& text, const Overrides& overrides,
@@ -67,9 +71,12 @@ Run simulateText(const std::filesystem::path& path, const std::string& text, con
   apply(overrides, run.scene);
   run.plan = plan(run.scene);
   const Stopwatch stopwatch;
-  run.trajectory =
-      record(assemble(run.scene, run.plan),
-             {.method = run.scene.method, .duration = run.scene.duration, .dt = run.scene.dt}, text, stop);
+  run.trajectory = record(assemble(run.scene, run.plan),
+                          {.method = run.scene.method,
+                           .duration = run.scene.duration,
+                           .dt = run.scene.dt,
+                           .tolerance = run.scene.tolerance},
+                          text, stop);
   run.simulateSeconds = stopwatch.seconds();
   return run;
 }
@@ -78,7 +85,9 @@ Run simulateText(const std::filesystem::path& path, const std::string& text, con
 
 void Overrides::addTo(CLI::App& command) {
   command.add_option("--method", method, "Method of motion in place of the scene's");
-  command.add_option("--dt", dt, "Step in place of the scene's [s]");
+  command.add_option("--dt", dt, "Step in place of the scene's [s], for methods that step");
+  command.add_option("--tolerance", tolerance,
+                     "Tolerance in place of the scene's, for methods that choose their own");
   command.add_option("--duration", duration, "Length of the run in place of the scene's [s]");
 }
 
@@ -101,6 +110,7 @@ Run loadRun(const std::filesystem::path& path, const std::stop_token& stop) {
   // The run may have been made with another method, step or length than the file says.
   run.scene.method = run.trajectory.settings.method;
   run.scene.dt = run.trajectory.settings.dt;
+  run.scene.tolerance = run.trajectory.settings.tolerance;
   run.scene.duration = run.trajectory.settings.duration;
   run.plan = plan(run.scene);
   return run;

@@ -28,7 +28,8 @@ struct Run {
 /// What the command line puts in place of the scene file's own.
 struct Overrides {
   std::optional<std::string> method;
-  std::optional<double> dt;        ///< [s]
+  std::optional<double> dt;  ///< [s]
+  std::optional<double> tolerance;
   std::optional<double> duration;  ///< [s]
 
   void addTo(CLI::App& command);

@@ -13,27 +13,30 @@ namespace careen {
 /// Ways to move a world: one line here, one in kMethods, one in simulate.
 enum class Method { kExact, kListing1 };
 
-/// Whether it moves the world step by step, each as long as RunSettings::dt.
-constexpr bool hasSteps(Method method) { return method == Method::kListing1; }
-
-struct NamedMethod {
+/// What a method is called and what it can do.
+struct MethodTraits {
   Method method;
   std::string_view name;  ///< as scene files and commands spell it
+  bool steps = false;     ///< moves the world step by step, each as long as RunSettings::dt
+  bool forces = false;    ///< springs and drag
+  bool boxBox = false;    ///< boxes meet boxes
+  bool friction = false;
+  bool rests = false;  ///< bounces may die out
 };
-inline constexpr std::array kMethods = {NamedMethod{Method::kExact, "exact"},
-                                        NamedMethod{Method::kListing1, "listing1"}};
+inline constexpr std::array kMethods = {
+    MethodTraits{.method = Method::kExact, .name = "exact", .boxBox = true, .friction = true, .rests = true},
+    MethodTraits{.method = Method::kListing1, .name = "listing1", .steps = true, .forces = true}};
 
-constexpr std::string_view methodName(Method method) {
-  for (const NamedMethod& known : kMethods) {
-    if (known.method == method) {
-      return known.name;
-    }
+constexpr const MethodTraits& traitsOf(Method method) {
+  const MethodTraits* known = kMethods.data();
+  while (known->method != method) {
+    ++known;
   }
-  return {};
+  return *known;
 }
 
 constexpr std::optional<Method> methodNamed(std::string_view name) {
-  for (const NamedMethod& known : kMethods) {
+  for (const MethodTraits& known : kMethods) {
     if (known.name == name) {
       return known.method;
     }
@@ -52,9 +55,10 @@ struct RunFigures {
 };
 
 struct RunSettings {
-  Method method = Method::kListing1;
-  double duration = 0;    ///< [s]
-  double dt = 1.0 / 240;  ///< [s] methods that step
+  Method method = Method::kExact;
+  double duration = 0;      ///< [s]
+  double dt = 1.0 / 240;    ///< [s] methods that step
+  double tolerance = 1e-6;  ///< what a method that chooses its own steps must hold
 };
 
 /// Runs the world from time 0 to `duration`. Throws NumericalError when the method cannot go on, Interrupted

@@ -6,15 +6,10 @@
 #include <utility>
 
 #include "core/error.h"
+#include "scene/scene_check.h"
 
 namespace careen {
 namespace {
-
-// What the methods differ in.
-bool hasForces(Method method) { return method == Method::kListing1; }  // springs and drag
-bool hasBoxBox(Method method) { return method == Method::kExact; }
-bool hasFriction(Method method) { return method == Method::kExact; }
-bool hasRest(Method method) { return method == Method::kExact; }
 
 // What a scene asks for that more than one item turns on.
 struct Wants {
@@ -48,7 +43,7 @@ Wants wantsOf(const Scene& scene) {
       const SceneBox& other = scene.boxes[j];
       const bool could = !box.fixed || !other.fixed;
       wants.meetsBoxes = wants.meetsBoxes || could;
-      if (could && hasBoxBox(scene.method)) {
+      if (could && traitsOf(scene.method).boxBox) {
         meet(wants, touching(box.material, other.material), pulled);
       }
     }
@@ -98,16 +93,17 @@ PlanItem boxBox(const Scene& scene, const Wants& wants) {
   if (!wants.meetsBoxes) {
     return leftOut("box-box", "no two boxes could meet");
   }
-  return hasBoxBox(scene.method)
+  return traitsOf(scene.method).boxBox
              ? modelled("box-box", counted(scene.boxes.size(), "box", "boxes") + " that could meet")
              : leftOut("box-box", "the 1997 sample had none: boxes pass through one another");
 }
 
 const char* nothingMeets(const Scene& scene) {
-  return hasBoxBox(scene.method) ? "nothing meets anything" : "nothing meets a wall";
+  return traitsOf(scene.method).boxBox ? "nothing meets anything" : "nothing meets a wall";
 }
 const char* zeroWhereTheyMeet(const Scene& scene) {
-  return hasBoxBox(scene.method) ? "it is 0 wherever two things meet" : "it is 0 wherever a box meets a wall";
+  return traitsOf(scene.method).boxBox ? "it is 0 wherever two things meet"
+                                       : "it is 0 wherever a box meets a wall";
 }
 
 PlanItem restitution(const Scene& scene, const Wants& wants) {
@@ -125,7 +121,7 @@ PlanItem friction(const Scene& scene, const Wants& wants) {
   if (!wants.rubs) {
     return leftOut("friction", zeroWhereTheyMeet(scene));
   }
-  return hasFriction(scene.method)
+  return traitsOf(scene.method).friction
              ? modelled("friction", "the scene sets it; at impacts")
              : leftOut("friction",
                        "THE SCENE ASKS FOR IT, but the 1997 sample had none: everything slides freely");
@@ -135,7 +131,7 @@ PlanItem resting(const Scene& scene, const Wants& wants) {
   if (!wants.meets) {
     return leftOut("resting", nothingMeets(scene));
   }
-  if (!hasRest(scene.method)) {
+  if (!traitsOf(scene.method).rests) {
     return leftOut("resting",
                    "the 1997 method cannot rest: where a box would come to lie, the run ends in an error");
   }
@@ -187,9 +183,15 @@ World assemble(const Scene& scene, const Plan& plan) {
     return Material{.restitution = plan.models("restitution") ? material.restitution : 0,
                     .friction = plan.models("friction") ? material.friction : 0};
   };
-  if (!hasForces(scene.method) && (plan.models("springs") || plan.models("drag"))) {
+  if (!traitsOf(scene.method).forces && (plan.models("springs") || plan.models("drag"))) {
     throw InputError("scene " + scene.name + " has springs or drag, which method " +
-                     std::string(methodName(scene.method)) + " does not model; expected method listing1");
+                     std::string(traitsOf(scene.method).name) + " does not model; expected method listing1");
+  }
+  // The reader has asked the same of the scene file's own method; the command line may name another.
+  if (const auto overlap = plan.models("box-box") ? findOverlap(scene) : std::nullopt) {
+    throw InputError("box " + scene.boxes[overlap->second].name + " starts inside box " +
+                     scene.boxes[overlap->first].name + "; expected boxes apart, as method " +
+                     std::string(traitsOf(scene.method).name) + " lets them meet");
   }
   World world;
   for (const SceneBox& box : scene.boxes) {

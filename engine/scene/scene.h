@@ -71,9 +71,9 @@ struct Scene {
   std::vector<SceneBox> boxes;
   std::vector<Spring> springs;
   std::optional<Drag> drag;
-  Method method = Method::kListing1;
-  double dt = 1.0 / 240;  ///< [s]
-  double tolerance = 1e-6;
+  Method method = Method::kExact;
+  double dt = 1.0 / 240;         ///< [s]
+  double tolerance = 1e-6;       ///< of methods that choose their own steps
   std::optional<Camera> camera;  ///< absent: the renderer chooses one that sees the scene
   Film film;
 };

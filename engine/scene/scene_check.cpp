@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "physics/separation.h"
 #include "scene/json_shape.h"
 
 namespace careen {
@@ -182,7 +183,41 @@ void checkStart(const JsonTree& tree, const Scene& scene) {
   }
 }
 
+void checkOverlap(const JsonTree& tree, const Scene& scene) {
+  const std::optional<Overlap> overlap =
+      traitsOf(scene.method).boxBox ? findOverlap(scene) : std::optional<Overlap>();
+  if (overlap) {
+    tree.fail(memberOrSelf(elementOf(tree, "boxes", overlap->second), "position").offset,
+              "box " + inQuotes(scene.boxes[overlap->second].name) + " " + brief(overlap->depth) +
+                  " m inside box " + inQuotes(scene.boxes[overlap->first].name),
+              "a start outside every other box");
+  }
+}
+
 }  // namespace
+
+std::optional<Overlap> findOverlap(const Scene& scene) {
+  for (std::size_t j = 1; j < scene.boxes.size(); ++j) {
+    const SceneBox& second = scene.boxes[j];
+    for (std::size_t i = 0; i < j; ++i) {
+      const SceneBox& first = scene.boxes[i];
+      const Vec3 apart = first.pose.position - second.pose.position;
+      const double reach = first.halfExtents.norm() + second.halfExtents.norm();
+      if (apart.norm() > reach || (first.fixed && second.fixed)) {
+        continue;
+      }
+      const double lengths =
+          reach + first.pose.position.cwiseAbs().sum() + second.pose.position.cwiseAbs().sum();
+      const double gap = BoxAxes(first.pose.worldFromBody, first.halfExtents, second.pose.worldFromBody,
+                                 second.halfExtents, apart)
+                             .gap();
+      if (gap < -kGapAllowance * lengths) {
+        return Overlap{.first = i, .second = j, .depth = -gap};
+      }
+    }
+  }
+  return std::nullopt;
+}
 
 void checkScene(const JsonTree& tree, Scene& scene) {
   checkRoom(tree, scene);
@@ -192,6 +227,7 @@ void checkScene(const JsonTree& tree, Scene& scene) {
   connectSprings(tree, scene);
   checkCamera(tree, scene);
   checkStart(tree, scene);
+  checkOverlap(tree, scene);
 }
 
 }  // namespace careen

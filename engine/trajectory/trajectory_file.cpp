@@ -19,7 +19,7 @@ namespace {
 
 // The line ends in the magic word show a transfer that took the file for text.
 constexpr std::string_view kMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 
 // Writer and Reader have the same calls, so that one description of the format, `visit` below, serves both
 // and the two cannot disagree.
@@ -256,7 +256,7 @@ void visit(Archive& archive, Visited<Archive, RunFigures> figures) {
 
 template <class Archive>
 void visit(Archive& archive, Visited<Archive, RunSettings> settings) {
-  std::string method(methodName(settings.method));
+  std::string method(traitsOf(settings.method).name);
   archive.visit(method);
   if constexpr (Archive::kReads) {
     const std::optional<Method> known = methodNamed(method);
@@ -266,6 +266,7 @@ void visit(Archive& archive, Visited<Archive, RunSettings> settings) {
     settings.method = *known;
   }
   archive.visit(settings.dt);
+  archive.visit(settings.tolerance);
   archive.visit(settings.duration);
 }
 

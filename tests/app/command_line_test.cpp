@@ -63,6 +63,9 @@ TEST_F(CommandLine, refusesWhatItDoesNotKnow) {
                                              {"simulate", "--dt", "-1"},
                                              {"simulate", "--dt", "nan"},
                                              {"simulate", "--duration", "0"},
+                                             {"simulate", "--tolerance", "0"},
+                                             {"simulate", "--dt", "0.01"},
+                                             {"simulate", "--method", "listing1", "--tolerance", "1e-9"},
                                              {"simulate", "--method", "guess"},
                                              {"simulate", "a.json", "b.json"}}) {
     const Ended ended = careen(arguments);
@@ -118,6 +121,27 @@ TEST_F(CommandLine, announcesWhatItOverrides) {
   EXPECT_NE(ended.err.find("duration 0.5 from the command line (the scene says 1)"), std::string::npos)
       << ended.err;
   EXPECT_EQ(nlohmann::json::parse(textOf(folder_ / "report.json"))["simulated_seconds"], 0.5);
+}
+
+TEST_F(CommandLine, boxesThatOverlapAreNoSceneForAMethodThatLetsThemMeet) {
+  folder_.write("scene.json", R"({ "careen": 1, "duration": 1, "method": "listing1", "boxes": [
+    { "name": "a", "half_extents": [1, 1, 1], "mass": 1 }, { "name": "b", "half_extents": [1, 1, 1], "mass": 1 } ] })");
+  EXPECT_EQ(careen({"simulate", "scene.json", "-o", "run.careen"}).exitCode, 0);
+  const Ended ended = careen({"simulate", "scene.json", "--method", "exact"});
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_NE(ended.err.find("box b starts inside box a"), std::string::npos) << ended.err;
+}
+
+TEST_F(CommandLine, toleranceIsReportedByAMethodThatChoosesItsOwnSteps) {
+  folder_.write("scene.json",
+                R"({ "careen": 1, "duration": 1, "boxes": [ { "half_extents": [1, 1, 1], "mass": 1 } ] })");
+  const Ended ended = careen({"simulate", "scene.json", "--tolerance", "1e-9", "--report", "report.json"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.err.find("tolerance 1e-09 from the command line (the scene says 1e-06)"), std::string::npos)
+      << ended.err;
+  const nlohmann::json report = nlohmann::json::parse(textOf(folder_ / "report.json"));
+  EXPECT_EQ(report["tolerance"], 1e-9);
+  EXPECT_FALSE(report.contains("dt"));
 }
 
 TEST_F(CommandLine, infoTellsWhatIsLeftOutAndWhy) {

@@ -11,9 +11,9 @@ namespace careen {
 namespace {
 
 TEST(Methods, areFoundByTheirNames) {
-  for (const NamedMethod& known : kMethods) {
+  for (const MethodTraits& known : kMethods) {
     EXPECT_EQ(methodNamed(known.name), known.method);
-    EXPECT_EQ(methodName(known.method), known.name);
+    EXPECT_EQ(traitsOf(known.method).name, known.name);
   }
   EXPECT_EQ(methodNamed("listing1"), Method::kListing1);
   EXPECT_EQ(methodNamed("listing2"), std::nullopt);

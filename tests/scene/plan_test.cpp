@@ -40,8 +40,8 @@ const std::string kFloor =
 
 TEST(Plan, defaultSceneNeedsGravityAndWalls) {
   const Plan planned = plan(shipped("careen.json"));
-  EXPECT_EQ(planned.modelled(), (Names{"gravity", "box-wall", "restitution"}));
-  EXPECT_EQ(planned.leftOut(), (Names{"drag", "springs", "box-box", "friction", "resting", "joints"}));
+  EXPECT_EQ(planned.modelled(), (Names{"gravity", "box-wall", "restitution", "resting"}));
+  EXPECT_EQ(planned.leftOut(), (Names{"drag", "springs", "box-box", "friction", "joints"}));
 }
 
 TEST(Plan, sampleOf1997NeedsSpringsAndDragToo) {
@@ -60,7 +60,8 @@ TEST(Plan, saysWhyEachThingIsModelled) {
 }
 
 TEST(Plan, saysWhatTheMethodLacks) {
-  const Scene scene = withParts(kFloor + R"(, "boxes": [)" + kBox + ", " + kFixed + "]");
+  const Scene scene =
+      withParts(R"("method": "listing1", )" + kFloor + R"(, "boxes": [)" + kBox + ", " + kFixed + "]");
   EXPECT_EQ(reasonFor(scene, "box-box"),
             "left out: the 1997 sample had none: boxes pass through one another");
   EXPECT_EQ(reasonFor(scene, "friction"),
@@ -68,6 +69,16 @@ TEST(Plan, saysWhatTheMethodLacks) {
   EXPECT_EQ(reasonFor(scene, "resting"),
             "left out: the 1997 method cannot rest: where a box would come to lie, the run ends in an error");
   EXPECT_EQ(reasonFor(scene, "joints"), "left out: the scene has none");
+}
+
+TEST(Plan, saysWhatTheExactMethodModels) {
+  const Scene scene = withParts(kFloor + R"(, "boxes": [)" + kBox + ", " + kFixed + "]");
+  EXPECT_EQ(reasonFor(scene, "box-box"), "modelled: 2 boxes that could meet");
+  EXPECT_EQ(reasonFor(scene, "friction"), "modelled: the scene sets it; at impacts");
+  EXPECT_EQ(reasonFor(scene, "resting"), "left out: nothing that meets loses speed and is pulled back");
+  const Scene pulled = withParts(R"("gravity": [0, 0, -1], )" + kFloor + R"(, "boxes": [)" + kBox + "]");
+  EXPECT_EQ(reasonFor(pulled, "resting"),
+            "modelled: bounces that die out end on a face; to slide, rock or stack ends the run");
 }
 
 TEST(Plan, saysWhatTheSceneDoesNotAskFor) {
@@ -78,15 +89,15 @@ TEST(Plan, saysWhatTheSceneDoesNotAskFor) {
   EXPECT_EQ(reasonFor(lone, "box-wall"), "left out: the scene has no walls");
   EXPECT_EQ(reasonFor(lone, "box-box"), "left out: no two boxes could meet");
   for (const char* what : {"restitution", "friction", "resting"}) {
-    EXPECT_EQ(reasonFor(lone, what), "left out: nothing meets a wall");
+    EXPECT_EQ(reasonFor(lone, what), "left out: nothing meets anything");
   }
   const Scene held = withParts(kFloor + R"(, "drag": {}, "boxes": [)" + kFixed + "]");
   EXPECT_EQ(reasonFor(held, "box-wall"), "left out: every box is fixed");
   EXPECT_EQ(reasonFor(held, "drag"), "left out: both its coefficients are 0");
   const Scene smooth =
       withParts(R"("walls": [{"point": [0, 0, -1], "normal": [0, 0, 1]}], "boxes": [)" + kBox + "]");
-  EXPECT_EQ(reasonFor(smooth, "restitution"), "left out: it is 0 wherever a box meets a wall");
-  EXPECT_EQ(reasonFor(smooth, "friction"), "left out: it is 0 wherever a box meets a wall");
+  EXPECT_EQ(reasonFor(smooth, "restitution"), "left out: it is 0 wherever two things meet");
+  EXPECT_EQ(reasonFor(smooth, "friction"), "left out: it is 0 wherever two things meet");
 }
 
 TEST(Plan, knowsNoOtherItems) {

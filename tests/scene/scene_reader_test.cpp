@@ -116,7 +116,7 @@ TEST(SceneReader, fillsInWhatASceneDoesNotSay) {
   EXPECT_EQ(scene.gravity, Vec3::Zero());
   EXPECT_FALSE(scene.room || scene.drag || scene.camera);
   EXPECT_TRUE(scene.walls.empty() && scene.springs.empty());
-  EXPECT_EQ(scene.method, Method::kListing1);
+  EXPECT_EQ(scene.method, Method::kExact);
   EXPECT_EQ(scene.dt, 1.0 / 240);
   EXPECT_EQ(scene.tolerance, 1e-6);
   EXPECT_EQ(scene.film.width, 1280);

@@ -248,7 +248,7 @@ TEST(SceneShape, schemaTellsTheDefaultsOfTheReader) {
 TEST(SceneShape, schemaListsTheMethodsThereAre) {
   std::vector<std::string> names;
   names.reserve(kMethods.size());
-  for (const NamedMethod& known : kMethods) {
+  for (const MethodTraits& known : kMethods) {
     names.emplace_back(known.name);
   }
   EXPECT_EQ(schemaFile()["properties"]["method"]["enum"], json(names));
