@@ -39,33 +39,36 @@ struct Shadow {
   }
 };
 
+// A box as its corners and the directions of its edges.
+template <class Real>
+struct Skeleton {
+  std::array<Vector3<Real>, 8> corners;
+  Matrix3<Real> edges;
+};
+
 // The widest interval between the corners' shadows on the 15 directions; `towardsA` receives its direction.
 template <class Real>
-Real separation(const TumblingBox& a, const TumblingBox& b, const Real& t, Vec3* towardsA = nullptr) {
+Real separation(const Skeleton<Real>& a, const Skeleton<Real>& b, Vec3* towardsA = nullptr) {
   using std::sqrt;
-  const Matrix3<Real> turnA = a.orientation<Real>(t);
-  const Matrix3<Real> turnB = b.orientation<Real>(t);
   // Shorter, and the cross product is rounding alone; a precise type resolves what double cannot.
   const Real parallel = std::numeric_limits<Real>::epsilon() * 100;
   std::vector<Vector3<Real>> directions;
   for (int i = 0; i < 3; ++i) {
-    directions.push_back(turnA.col(i));
-    directions.push_back(turnB.col(i));
+    directions.push_back(a.edges.col(i));
+    directions.push_back(b.edges.col(i));
     for (int j = 0; j < 3; ++j) {
-      const Vector3<Real> edge = turnA.col(i);
-      const Vector3<Real> other = turnB.col(j);
+      const Vector3<Real> edge = a.edges.col(i);
+      const Vector3<Real> other = b.edges.col(j);
       const Vector3<Real> cross = edge.cross(other);
       if (cross.squaredNorm() > parallel * parallel) {
         directions.push_back(cross / sqrt(cross.squaredNorm()));
       }
     }
   }
-  const std::array<Vector3<Real>, 8> cornersA = a.corners<Real>(t);
-  const std::array<Vector3<Real>, 8> cornersB = b.corners<Real>(t);
   Real widest = -1e30;
   for (const Vector3<Real>& u : directions) {
-    const Shadow<Real> ofA(cornersA, u);
-    const Shadow<Real> ofB(cornersB, u);
+    const Shadow<Real> ofA(a.corners, u);
+    const Shadow<Real> ofB(b.corners, u);
     const bool above = ofA.low - ofB.high > ofB.low - ofA.high;
     const Real gap = above ? Real(ofA.low - ofB.high) : Real(ofB.low - ofA.high);
     if (gap > widest) {
@@ -76,6 +79,12 @@ Real separation(const TumblingBox& a, const TumblingBox& b, const Real& t, Vec3*
     }
   }
   return widest;
+}
+
+template <class Real>
+Real separation(const TumblingBox& a, const TumblingBox& b, const Real& t, Vec3* towardsA = nullptr) {
+  return separation<Real>({a.corners<Real>(t), a.orientation<Real>(t)},
+                          {b.corners<Real>(t), b.orientation<Real>(t)}, towardsA);
 }
 
 // Boxes, thin plates, needles 1e4:1 and bullets, by turns.
