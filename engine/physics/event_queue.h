@@ -14,6 +14,17 @@ namespace careen {
 /// however late that was.
 using Instant = DoubleDouble;
 
+/// The moment `elapsed` [s] after another. Normalised: hi alone is off by the clock's rounding otherwise, and
+/// the order of two moments is that of their hi, then lo.
+inline Instant instantAfter(const Instant& start, double elapsed) {
+  return normalized(start + Instant(elapsed));
+}
+/// [s] to rounding of the difference itself: not of the clock, whose hi would make a short hop late in a run
+/// as coarse as the clock is.
+inline double secondsBetween(const Instant& start, const Instant& end) {
+  return static_cast<double>(end - start);
+}
+
 enum class EventKind {
   kContact,   ///< the gap to the partner closes
   kTouching,  ///< the gap to the partner stays zero

@@ -341,7 +341,7 @@ void ExactWorld::settleBody(Group& group, std::size_t index) const {
                          "has bounced itself out: " + std::string(describe(settled)) + kNeedsContact);
   }
   state = {.pose = state.pose};
-  group.restsFrom[index] = group.time + Instant(tail);
+  group.restsFrom[index] = instantAfter(group.time, tail);
 }
 
 void ExactWorld::record(const Group& group) {
@@ -454,8 +454,9 @@ void ExactWorld::predict(int rank) {
   }
   std::optional<Event> first = body.wall;
   if (body.crosses) {
-    sooner(first,
-           {.time = body.start + Instant(body.crossing.time), .kind = EventKind::kCrossing, .body = rank});
+    sooner(
+        first,
+        {.time = instantAfter(body.start, body.crossing.time), .kind = EventKind::kCrossing, .body = rank});
   }
   neighbors_.findCandidates(rank, candidates_);
   for (const Neighbors::Key candidate : candidates_) {
@@ -491,7 +492,7 @@ std::optional<Event> ExactWorld::firstWall(int rank) const {
                                        });
     if (contact.kind != ContactKind::kNone && (!first || contact.time < until)) {
       until = contact.time;
-      first = {.time = body.start + Instant(contact.time),
+      first = {.time = instantAfter(body.start, contact.time),
                .kind = contact.kind == ContactKind::kImpact ? EventKind::kContact : EventKind::kTouching,
                .body = rank,
                .partner = wallPartner(w)};
@@ -511,7 +512,7 @@ std::optional<Event> ExactWorld::firstMeeting(int rank, int partner, const Insta
   const Mover& a = mover(rank);
   const Mover& b = mover(partner);
   const Instant zero = later(a.start, b.start);
-  const double end = (until - zero).hi;
+  const double end = secondsBetween(zero, until);
   if (!(end >= 0) || moveAsOne(a, b)) {
     return std::nullopt;
   }
@@ -521,7 +522,7 @@ std::optional<Event> ExactWorld::firstMeeting(int rank, int partner, const Insta
   if (contact.kind == ContactKind::kNone) {
     return std::nullopt;
   }
-  return Event{.time = zero + Instant(contact.time),
+  return Event{.time = instantAfter(zero, contact.time),
                .kind = contact.kind == ContactKind::kImpact ? EventKind::kContact : EventKind::kTouching,
                .body = rank,
                .partner = partner,

@@ -94,7 +94,7 @@ class ExactWorld {
 
   Mover& mover(int rank) { return movers_[static_cast<std::size_t>(rank)]; }
   const Mover& mover(int rank) const { return movers_[static_cast<std::size_t>(rank)]; }
-  static double elapsed(const Mover& body, const Instant& time) { return (time - body.start).hi; }
+  static double elapsed(const Mover& body, const Instant& time) { return secondsBetween(body.start, time); }
   static Quat attitudeAt(const Mover& body, const Instant& time);
   static BodyState stateAt(const Mover& body, const Instant& time, const Quat& attitude);
   static MovingBox moving(const Mover& body, const Instant& clockZero);

@@ -35,21 +35,26 @@ TEST(ExactWorld, countsTheDigitsOfPi) {
 
 // Falls h = 1 m flat: at rest after sqrt(2h/g)(1+e)/(1−e).
 TEST(ExactWorld, bouncesThatAccumulateEndInRestAtTheirTime) {
-  for (const double e : {0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99}) {
-    World world;
-    world.gravity = Vec3(0, 0, -10);
-    world.walls = {wall("floor", Vec3(0, 0, 1), 0, 0)};
-    world.bodies = {box("cube", Vec3(0.25, 0.25, 0.25), 1, Vec3(0, 0, 1.25), Vec3::Zero(), Vec3::Zero(), e)};
-    const Recorded run = runFor(world, 200);
-    const auto& [start, motion] = run.motions[0].back();
-    ASSERT_TRUE(std::holds_alternative<Rest>(motion)) << e;
-    // Measured 6e-12 at most, but 5.4e-11 for 0.99, where 1,800 impacts pass their rounding on.
-    EXPECT_NEAR(start, std::sqrt(0.2) * (1 + e) / (1 - e), e < 0.99 ? 1e-11 : 1e-10) << e;
-    const Pose& pose = std::get<Rest>(motion).pose;
-    EXPECT_EQ(pose.worldFromBody, Mat3(Mat3::Identity())) << e;
-    EXPECT_EQ(pose.position.head<2>(), (Vec3(0, 0, 0).head<2>())) << e;
-    EXPECT_NEAR(pose.position.z(), 0.25, 1e-12) << e;
+  double worst = 0;
+  for (const Vec3& half : {Vec3(0.25, 0.25, 0.25), Vec3(0.3, 0.2, 0.1)}) {
+    for (const double e : {0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99}) {
+      World world;
+      world.gravity = Vec3(0, 0, -10);
+      world.walls = {wall("floor", Vec3(0, 0, 1), 0, 0)};
+      world.bodies = {box("box", half, 0.7, Vec3(0, 0, 1 + half.z()), Vec3::Zero(), Vec3::Zero(), e)};
+      world.bodies[0].material.friction = half.x() == half.y() ? 0 : 0.4;
+      const Recorded run = runFor(world, 200);
+      const auto& [start, motion] = run.motions[0].back();
+      ASSERT_TRUE(std::holds_alternative<Rest>(motion)) << e;
+      worst = std::max(worst, std::fabs(start - std::sqrt(0.2) * (1 + e) / (1 - e)));
+      const Pose& pose = std::get<Rest>(motion).pose;
+      EXPECT_EQ(pose.worldFromBody, Mat3(Mat3::Identity())) << e;
+      EXPECT_EQ(pose.position.head<2>(), (Vec3(0, 0, 0).head<2>())) << e;
+      EXPECT_NEAR(pose.position.z(), half.z(), 1e-12) << e;
+    }
   }
+  RecordProperty("worst", std::to_string(worst * 1e15) + "e-15");
+  EXPECT_LT(worst, 1e-12);  // measured 3.7e-13, after 1,500 impacts that are each off by a few roundings
 }
 
 TEST(ExactWorld, fallsAtRestWithoutRestitution) {
