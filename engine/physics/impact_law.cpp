@@ -100,6 +100,40 @@ void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactCo
   setup.contacts.push_back(added);
 }
 
+/// Brings x and g(x) to agree. Plain iteration takes g(x) next; this goes on along the line through the last
+/// two where it would make the difference least (D. G. Anderson, "Iterative procedures for nonlinear integral
+/// equations", J. ACM 12, 1965, with one step of memory).
+class SecantIteration {
+ public:
+  explicit SecantIteration(std::size_t size) : x_(size), rest_(size), terms_(size) {}
+
+  /// x becomes the next one, so `part` = 1 for whole steps.
+  void step(std::vector<double>& x, std::span<const double> g, double part) {
+    for (std::size_t c = 0; c < x.size(); ++c) {
+      const double rest = g[c] - x[c];
+      const double turned = rest - rest_[c];
+      terms_[c] = {rest * turned, turned * turned};
+    }
+    const auto [along, squared] = orderFreeSums<2>(terms_);
+    const double back = hasLast_ && squared > 0 ? along / squared : 0;
+    for (std::size_t c = 0; c < x.size(); ++c) {
+      const double rest = g[c] - x[c];
+      const double next = x[c] + part * rest;
+      const double last = x_[c] + part * rest_[c];
+      x_[c] = x[c];
+      rest_[c] = rest;
+      x[c] = next - back * (next - last);
+    }
+    hasLast_ = true;
+  }
+
+ private:
+  std::vector<double> x_;     // the last one
+  std::vector<double> rest_;  // g(x) − x there
+  std::vector<std::array<double, 2>> terms_;
+  bool hasLast_ = false;
+};
+
 /// The laws for several contacts, all in terms of impulses from the velocity before.
 class Law {
  public:
@@ -153,7 +187,12 @@ class Law {
   }
 
   /// P: Moreau's projection.
-  Impulses plastic() { return projection(before_, std::vector<char>(contacts_.size(), 1)); }
+  const Impulses& plastic() {
+    if (plastic_.empty()) {
+      plastic_ = projection(before_, std::vector<char>(contacts_.size(), 1));
+    }
+    return plastic_;
+  }
 
   /// Xₜ: reflections about the contacts with e > t, projections onto the others, until nothing approaches.
   /// Reflections alone come to an end; for a mixture that does not within the cap, the plastic law ends it.
@@ -174,7 +213,9 @@ class Law {
       if (!any) {
         return total;
       }
-      add(total, anyElastic ? 2 : 1, projection(q, anyElastic ? elastic : violated));
+      const std::vector<char>& chosen = anyElastic ? elastic : violated;
+      const bool isPlastic = pass == 0 && std::find(chosen.begin(), chosen.end(), 0) == chosen.end();
+      add(total, anyElastic ? 2 : 1, isPlastic ? plastic() : projection(q, chosen));
       q = solver_.after(before_, total);
     }
     add(total, 1, projection(q, std::vector<char>(contacts_.size(), 1)));
@@ -205,12 +246,13 @@ class Law {
   }
 
   Impulses withFriction(const Impulses& smooth);
-  Impulses shortened(const Impulses& smooth, const Impulses& rough) const;
+  Impulses shortened(const Impulses& smooth, const Impulses& rough);
 
   std::vector<double> before_;
   ImpactSolver solver_;
   std::span<const ImpactContact> contacts_;
   double rounding_;
+  Impulses plastic_;  // empty: not yet computed
 };
 
 /// Coulomb's limit depends on the normal impulses and they on friction: the limits are brought to agree by
@@ -234,23 +276,37 @@ Law::Impulses Law::withFriction(const Impulses& smooth) {
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     most = std::max(most, kWedged * smooth[c][0]);
   }
+  std::vector<double> limits(contacts_.size());
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    limits[c] = demands[c].frictionLimit;
+  }
   constexpr int kCap = 100;
   constexpr int kUndamped = 30;
+  // Each problem is solved to what the limits are good for.
+  constexpr double kAhead = 0x1p-10;
+  double accuracy = kAhead;
   Impulses rough = smooth;
-  for (int iteration = 0; iteration < kCap; ++iteration) {
-    solver_.solve(before_, demands, rough);
+  SecantIteration iteration(contacts_.size());
+  std::vector<double> found(contacts_.size());
+  for (int k = 0; k < kCap; ++k) {
+    solver_.solve(before_, demands, rough, accuracy);
     double change = 0;
     double largest = 0;
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      const double limit = contacts_[c].material.friction * std::min(rough[c][0], most);
-      double& used = demands[c].frictionLimit;
-      change = std::max(change, std::fabs(limit - used));
-      largest = std::max(largest, std::max(limit, used));
-      used = iteration < kUndamped ? limit : (limit + used) / 2;
+      found[c] = contacts_[c].material.friction * std::min(rough[c][0], most);
+      change = std::max(change, std::fabs(found[c] - limits[c]));
+      largest = std::max(largest, std::max(found[c], limits[c]));
     }
-    if (change <= 0x1p-48 * largest) {
+    if (change <= 0x1p-48 * largest && accuracy == ImpactSolver::kFullAccuracy) {
       break;
     }
+    iteration.step(limits, found, k < kUndamped ? 1 : 0.5);
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      limits[c] = std::max(0.0, limits[c]);
+      demands[c].frictionLimit = limits[c];
+    }
+    const double relative = largest > 0 ? change / largest : 0;
+    accuracy = std::max(ImpactSolver::kFullAccuracy, std::min(accuracy, kAhead * relative));
   }
   return shortened(smooth, rough);
 }
@@ -258,7 +314,7 @@ Law::Impulses Law::withFriction(const Impulses& smooth) {
 /// The way from the frictionless answer to the one with friction, as far as energy, the cones and the walls
 /// allow: all of it, but where the iteration above did not settle or a lifted contact would gain energy. All
 /// three are convex and hold at its start.
-Law::Impulses Law::shortened(const Impulses& smooth, const Impulses& rough) const {
+Law::Impulses Law::shortened(const Impulses& smooth, const Impulses& rough) {
   const std::vector<double> start = solver_.after(before_, smooth);
   const std::vector<double> end = solver_.after(before_, rough);
   double fraction = 1;
@@ -298,42 +354,37 @@ Law::Impulses Law::shortened(const Impulses& smooth, const Impulses& rough) cons
   return result;
 }
 
-/// Sum of a component and what the contacts add; zero where it is below the rounding of its terms.
-double settledSum(std::span<const double> terms) {
-  double largest = 0;
-  for (const double term : terms) {
-    largest = std::max(largest, std::fabs(term));
-  }
-  const double sum = orderFreeSum(terms);
-  return std::fabs(sum) <= 0x1p-49 * largest ? 0 : sum;
-}
-
+/// Velocity and angular momentum with what the contacts add; a component is zero where it is below the
+/// rounding of its terms.
 void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> contacts,
              std::span<const Vec3> impulses) {
-  std::array<std::vector<double>, 3> linear;
-  std::array<std::vector<double>, 3> angular;
-  for (std::size_t k = 0; k < 3; ++k) {
-    linear[k].push_back(body.state->velocity[static_cast<Eigen::Index>(k)]);
-    angular[k].push_back(body.state->angularMomentum[static_cast<Eigen::Index>(k)]);
-  }
+  using Six = std::array<double, kSix>;
+  BodyState& state = *body.state;
+  std::vector<Six> terms;
+  const auto add = [&terms](const Vec3& linear, const Vec3& angular) {
+    terms.push_back({linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]});
+  };
+  add(state.velocity, state.angularMomentum);
   const bool turns = !body.mass->inverseInertiaBody.isZero(0);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     for (const bool second : {false, true}) {
-      if ((second ? contacts[c].b : contacts[c].a) != index) {
-        continue;
-      }
-      const Vec3 impulse = second ? Vec3(-impulses[c]) : impulses[c];
-      const Vec3 torque = (second ? contacts[c].armB : contacts[c].armA).cross(impulse);
-      for (std::size_t k = 0; k < 3; ++k) {
-        linear[k].push_back(body.mass->inverseMass * impulse[static_cast<Eigen::Index>(k)]);
-        angular[k].push_back(turns ? torque[static_cast<Eigen::Index>(k)] : 0);
+      if ((second ? contacts[c].b : contacts[c].a) == index) {
+        const Vec3 impulse = second ? Vec3(-impulses[c]) : impulses[c];
+        const Vec3& arm = second ? contacts[c].armB : contacts[c].armA;
+        add(body.mass->inverseMass * impulse, turns ? arm.cross(impulse) : Vec3(Vec3::Zero()));
       }
     }
   }
-  for (std::size_t k = 0; k < 3; ++k) {
-    body.state->velocity[static_cast<Eigen::Index>(k)] = settledSum(linear[k]);
-    body.state->angularMomentum[static_cast<Eigen::Index>(k)] = settledSum(angular[k]);
+  Six sums = orderFreeSums<kSix>(terms);
+  for (std::size_t k = 0; k < kSix; ++k) {
+    double largest = 0;
+    for (const Six& term : terms) {
+      largest = std::max(largest, std::fabs(term[k]));
+    }
+    sums[k] = std::fabs(sums[k]) <= 0x1p-49 * largest ? 0 : sums[k];
   }
+  state.velocity = Vec3(sums[0], sums[1], sums[2]);
+  state.angularMomentum = Vec3(sums[3], sums[4], sums[5]);
 }
 
 }  // namespace

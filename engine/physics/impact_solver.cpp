@@ -18,6 +18,8 @@ constexpr std::size_t kSix = ImpactSolver::kAxes;
 constexpr double kPenalty = 0x1p20;
 /// A speed this small beside the scale of speeds is rounding error.
 constexpr double kRounding = 0x1p-52;
+/// Violations this small that do not shrink any more are rounding error.
+constexpr double kNoise = 0x1p-49;
 constexpr int kOuterCap = 60;
 constexpr int kInnerCap = 60;
 /// Full Newton steps taken on trust before steps are shortened; they nearly always suffice.
@@ -72,6 +74,7 @@ ImpactSolver::ImpactSolver(std::vector<double> inverseMass, std::vector<Contact>
   }
   excess_.resize(contacts_.size());
   responses_.resize(contacts_.size());
+  q_.resize(axes);
   z_.resize(axes);
   gradient_.resize(axes);
   step_.resize(axes);
@@ -111,23 +114,31 @@ double ImpactSolver::speedScale(std::span<const double> q) const {
   return largest;
 }
 
-std::vector<double> ImpactSolver::after(std::span<const double> q0, std::span<const Impulse> impulses) const {
-  std::vector<double> q(q0.begin(), q0.end());
-  for (std::size_t p = 0; p < touchesOf_.size(); ++p) {
-    for (std::size_t k = 0; k < kSix; ++k) {
-      terms_.clear();
-      terms_.push_back(q0[p * kSix + k]);
-      for (const Touch& touch : touchesOf_[p]) {
-        const auto& rows = contacts_[touch.contact].rows;
-        const Impulse& impulse = impulses[touch.contact];
-        terms_.push_back(inverseMass_[p * kSix + k] *
-                         (rows[0][touch.first + k] * impulse[0] + rows[1][touch.first + k] * impulse[1] +
-                          rows[2][touch.first + k] * impulse[2]));
-      }
-      q[p * kSix + k] = orderFreeSum(terms_);
-    }
-  }
+std::vector<double> ImpactSolver::after(std::span<const double> q0, std::span<const Impulse> impulses) {
+  std::vector<double> q(q0.size());
+  pushOff(q0, impulses, q);
   return q;
+}
+
+void ImpactSolver::pushOff(std::span<const double> q0, std::span<const Impulse> impulses,
+                           std::vector<double>& q) {
+  for (std::size_t p = 0; p < touchesOf_.size(); ++p) {
+    terms_.clear();
+    Six& start = terms_.emplace_back();
+    std::copy_n(&q0[p * kSix], kSix, start.begin());
+    for (const Touch& touch : touchesOf_[p]) {
+      const auto& rows = contacts_[touch.contact].rows;
+      const Impulse& impulse = impulses[touch.contact];
+      Six& term = terms_.emplace_back();
+      for (std::size_t k = 0; k < kSix; ++k) {
+        term[k] = inverseMass_[p * kSix + k] *
+                  (rows[0][touch.first + k] * impulse[0] + rows[1][touch.first + k] * impulse[1] +
+                   rows[2][touch.first + k] * impulse[2]);
+      }
+    }
+    const Six sum = orderFreeSums<kSix>(terms_);
+    std::copy_n(sum.begin(), kSix, &q[p * kSix]);
+  }
 }
 
 double ImpactSolver::energy(std::span<const double> q) const {
@@ -191,60 +202,72 @@ void ImpactSolver::respondAll(std::span<const Demand> demands, std::span<const I
 /// M z − Jᵀ(response − guess): M (q − q₀) at the outer iterate is Jᵀ guess, so that nothing large cancels.
 void ImpactSolver::gradient(std::span<const Impulse> impulses) {
   for (std::size_t p = 0; p < touchesOf_.size(); ++p) {
+    terms_.clear();
+    Six& inertia = terms_.emplace_back();
     for (std::size_t k = 0; k < kSix; ++k) {
-      terms_.clear();
-      terms_.push_back(mass_[p * kSix + k] * z_[p * kSix + k]);
-      for (const Touch& touch : touchesOf_[p]) {
-        const auto& rows = contacts_[touch.contact].rows;
-        const Impulse& now = responses_[touch.contact].impulse;
-        const Impulse& guess = impulses[touch.contact];
-        double push = rows[0][touch.first + k] * (now[0] - guess[0]);
-        for (std::size_t row = 1; row < 3; ++row) {
-          push += rows[row][touch.first + k] * (now[row] - guess[row]);
-        }
-        terms_.push_back(-push);
-      }
-      gradient_[p * kSix + k] = orderFreeSum(terms_);
+      inertia[k] = mass_[p * kSix + k] * z_[p * kSix + k];
     }
+    for (const Touch& touch : touchesOf_[p]) {
+      const auto& rows = contacts_[touch.contact].rows;
+      const Impulse& now = responses_[touch.contact].impulse;
+      const Impulse& guess = impulses[touch.contact];
+      Six& term = terms_.emplace_back();
+      for (std::size_t k = 0; k < kSix; ++k) {
+        term[k] = -(rows[0][touch.first + k] * (now[0] - guess[0]) +
+                    rows[1][touch.first + k] * (now[1] - guess[1]) +
+                    rows[2][touch.first + k] * (now[2] - guess[2]));
+      }
+    }
+    const Six sum = orderFreeSums<kSix>(terms_);
+    std::copy_n(sum.begin(), kSix, &gradient_[p * kSix]);
   }
 }
 
 /// M + ρ Σ m nᵀn + ρ Σ m tᵀ S t over the contacts that respond.
 void ImpactSolver::assemble() {
-  const std::size_t axes = mass_.size();
   std::fill(matrix_.begin(), matrix_.end(), 0.0);
   for (const Block& block : blocks_) {
-    const std::size_t top = static_cast<std::size_t>(block.p) * kSix;
-    const std::size_t left = static_cast<std::size_t>(block.q) * kSix;
-    for (std::size_t k = 0; k < kSix; ++k) {
-      for (std::size_t l = 0; l < (block.p == block.q ? k + 1 : kSix); ++l) {
-        terms_.clear();
-        if (block.p == block.q && k == l) {
-          terms_.push_back(mass_[top + k]);
+    assembleBlock(block);
+  }
+}
+
+/// Row by row; what stands above the diagonal is computed too and never read.
+void ImpactSolver::assembleBlock(const Block& block) {
+  const std::size_t axes = mass_.size();
+  const std::size_t top = static_cast<std::size_t>(block.p) * kSix;
+  const std::size_t left = static_cast<std::size_t>(block.q) * kSix;
+  for (std::size_t k = 0; k < kSix; ++k) {
+    terms_.clear();
+    if (block.p == block.q) {
+      terms_.emplace_back()[k] = mass_[top + k];
+    }
+    for (const Touch& touch : block.touches) {
+      const Response& response = responses_[touch.contact];
+      const Contact& contact = contacts_[touch.contact];
+      if (response.normal == State::kOff && response.tangent == State::kOff) {
+        continue;
+      }
+      Six& term = terms_.emplace_back();
+      const auto& [n, t, u] = contact.rows;
+      const std::size_t i = touch.first + k;
+      const double* nj = &n[touch.second];
+      const double* tj = &t[touch.second];
+      const double* uj = &u[touch.second];
+      if (response.normal == State::kOn) {
+        for (std::size_t l = 0; l < kSix; ++l) {
+          term[l] = kPenalty * contact.normalMass * (n[i] * nj[l]);
         }
-        for (const Touch& touch : block.touches) {
-          const Response& response = responses_[touch.contact];
-          const Contact& contact = contacts_[touch.contact];
-          const std::size_t i = touch.first + k;
-          const std::size_t j = touch.second + l;
-          double term = 0;
-          if (response.normal == State::kOn) {
-            term = kPenalty * contact.normalMass * (contact.rows[0][i] * contact.rows[0][j]);
-          }
-          if (response.tangent != State::kOff) {
-            const Row& t = contact.rows[1];
-            const Row& u = contact.rows[2];
-            term += kPenalty * contact.tangentialMass *
-                    (response.stiffness[0] * (t[i] * t[j]) + response.stiffness[2] * (u[i] * u[j]) +
-                     response.stiffness[1] * (t[i] * u[j] + u[i] * t[j]));
-          }
-          if (term != 0) {
-            terms_.push_back(term);
-          }
+      }
+      if (response.tangent != State::kOff) {
+        const std::array<double, 3>& s = response.stiffness;
+        for (std::size_t l = 0; l < kSix; ++l) {
+          term[l] += kPenalty * contact.tangentialMass *
+                     (s[0] * (t[i] * tj[l]) + s[2] * (u[i] * uj[l]) + s[1] * (t[i] * uj[l] + u[i] * tj[l]));
         }
-        matrix_[(top + k) * axes + left + l] = orderFreeSum(terms_);
       }
     }
+    const Six sum = orderFreeSums<kSix>(terms_);
+    std::copy_n(sum.begin(), kSix, &matrix_[(top + k) * axes + left]);
   }
 }
 
@@ -289,8 +312,13 @@ void ImpactSolver::backSubstitute(std::vector<double>& x) const {
 }
 
 void ImpactSolver::newtonStep() {
-  assemble();
-  factorise();
+  const bool known = std::equal(responses_.begin(), responses_.end(), factorised_.begin(), factorised_.end(),
+                                [](const Response& x, const Response& y) { return x.feelsLike(y); });
+  if (!known) {
+    assemble();
+    factorise();
+    factorised_ = responses_;
+  }
   for (std::size_t k = 0; k < step_.size(); ++k) {
     step_[k] = -gradient_[k];
   }
@@ -308,11 +336,11 @@ double ImpactSolver::along() const {
 
 /// Goes along the step: all the way if that is trusted or still downhill there, else to about where it stops
 /// being so. The subproblem is convex, hence its slope along the step only rises.
-double ImpactSolver::lineSearch(const std::vector<double>& from, std::span<const Demand> demands,
-                                std::span<const Impulse> impulses, bool trusted) {
+double ImpactSolver::lineSearch(std::span<const Demand> demands, std::span<const Impulse> impulses,
+                                bool trusted) {
   const auto moveTo = [&](double length) {
     for (std::size_t k = 0; k < z_.size(); ++k) {
-      z_[k] = from[k] + length * step_[k];
+      z_[k] = from_[k] + length * step_[k];
     }
     respondAll(demands, impulses);
   };
@@ -343,25 +371,26 @@ double ImpactSolver::lineSearch(const std::vector<double>& from, std::span<const
 
 /// The smooth subproblem: leaves its solution in z_ and responses_.
 void ImpactSolver::minimise(std::span<const double> q, std::span<const Demand> demands,
-                            std::span<const Impulse> impulses) {
+                            std::span<const Impulse> impulses, double accuracy) {
   std::fill(z_.begin(), z_.end(), 0.0);
   respondAll(demands, impulses);
-  const double smallest = kRounding * kRounding * energy(q);
+  const double whole = energy(q);
   for (int iteration = 0; iteration < kInnerCap; ++iteration) {
     gradient(impulses);
     newtonStep();
-    const std::vector<Response> before = responses_;
-    const std::vector<double> from = z_;
-    const double length = lineSearch(from, demands, impulses, iteration < kTrusted);
+    previous_ = responses_;
+    from_ = z_;
+    const double length = lineSearch(demands, impulses, iteration < kTrusted);
     bool same = length == 1;
     bool slips = false;
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      same = same && responses_[c].normal == before[c].normal && responses_[c].tangent == before[c].tangent;
+      same = same && responses_[c].normal == previous_[c].normal &&
+             responses_[c].tangent == previous_[c].tangent;
       slips = slips || responses_[c].tangent == State::kSlip;
     }
-    const double moved = energy(step_);
-    if (same && (!slips || moved <= 0x1p-40 * energy(z_) +
-                                        smallest)) {  // piecewise quadratic but for slip: then it is exact
+    // Piecewise quadratic but for slip: then the step was exact. With slip the error is about the square of
+    // the step; should it be more, the outer iteration comes back.
+    if (same && (!slips || energy(step_) <= accuracy * whole)) {
       return;
     }
   }
@@ -396,7 +425,7 @@ double ImpactSolver::violation(std::span<const double> q, std::span<const Demand
 }
 
 bool ImpactSolver::solve(std::span<const double> q0, std::span<const Demand> demands,
-                         std::vector<Impulse>& impulses) {
+                         std::vector<Impulse>& impulses, double accuracy) {
   double scale = speedScale(q0);
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     if (!demands[c].included) {
@@ -406,27 +435,26 @@ bool ImpactSolver::solve(std::span<const double> q0, std::span<const Demand> dem
       impulses[c][2] = 0;
     }
   }
-  std::vector<Impulse> best = impulses;
   double bestViolation = std::numeric_limits<double>::infinity();
   int stalled = 0;
   for (int iteration = 0; iteration < kOuterCap; ++iteration) {
-    const std::vector<double> q = after(q0, impulses);
-    scale = std::max(scale, speedScale(q));
-    const double now = violation(q, demands, impulses);
+    pushOff(q0, impulses, q_);
+    scale = std::max(scale, speedScale(q_));
+    const double now = violation(q_, demands, impulses);
     stalled = now < bestViolation / 2 ? 0 : stalled + 1;
     if (now < bestViolation) {
       bestViolation = now;
-      best = impulses;
+      best_ = impulses;
     }
-    if (now <= kRounding / 2 * scale || stalled >= 3) {
+    if (now <= accuracy * scale || stalled >= (bestViolation <= kNoise * scale ? 1 : 3)) {
       break;
     }
-    minimise(q, demands, impulses);
+    minimise(q_, demands, impulses, accuracy);
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       impulses[c] = responses_[c].impulse;
     }
   }
-  impulses = best;
+  impulses = best_;
   return bestViolation <= 16 * kRounding * scale;
 }
 

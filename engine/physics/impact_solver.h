@@ -63,13 +63,16 @@ class ImpactSolver {
   /// Largest Σ|n_k q_k| over the contacts [m/s]: what the rounding of their speeds is measured against.
   double speedScale(std::span<const double> q) const;
   /// q₀ + M⁻¹ Jᵀλ.
-  std::vector<double> after(std::span<const double> q0, std::span<const Impulse> impulses) const;
+  std::vector<double> after(std::span<const double> q0, std::span<const Impulse> impulses);
   /// ½ qᵀ M q [J]; what immovable axes hold is left out.
   double energy(std::span<const double> q) const;
 
   /// Solves the problem; `impulses` is the first guess on entry, the solution on return. True when the
-  /// conditions hold to rounding error; otherwise they are as good as was reached.
-  bool solve(std::span<const double> q0, std::span<const Demand> demands, std::vector<Impulse>& impulses);
+  /// conditions hold to rounding error; otherwise they are as good as was reached, or as `accuracy` asks,
+  /// which is relative to the scale of speeds.
+  bool solve(std::span<const double> q0, std::span<const Demand> demands, std::vector<Impulse>& impulses,
+             double accuracy = kFullAccuracy);
+  static constexpr double kFullAccuracy = 0x1p-53;
 
  private:
   struct Touch {  // one contact seen by one body, or by a pair
@@ -88,7 +91,12 @@ class ImpactSolver {
     State normal = State::kOff;
     State tangent = State::kOff;
     std::array<double, 3> stiffness{};  // of the tangents, as multiple of the penalty: 11, 12, 22
+
+    bool feelsLike(const Response& other) const {  // the subproblem has the same second derivative
+      return normal == other.normal && tangent == other.tangent && stiffness == other.stiffness;
+    }
   };
+  using Six = std::array<double, static_cast<std::size_t>(kAxes)>;
 
   Response respond(const Contact& contact, const Demand& demand, const Impulse& guess,
                    const Impulse& excess) const;
@@ -96,13 +104,14 @@ class ImpactSolver {
   void gradient(std::span<const Impulse> impulses);
   void newtonStep();
   double along() const;
-  void minimise(std::span<const double> q, std::span<const Demand> demands,
-                std::span<const Impulse> impulses);
-  double lineSearch(const std::vector<double>& from, std::span<const Demand> demands,
-                    std::span<const Impulse> impulses, bool trusted);
+  void minimise(std::span<const double> q, std::span<const Demand> demands, std::span<const Impulse> impulses,
+                double accuracy);
+  double lineSearch(std::span<const Demand> demands, std::span<const Impulse> impulses, bool trusted);
   double violation(std::span<const double> q, std::span<const Demand> demands,
                    std::span<const Impulse> impulses);
+  void pushOff(std::span<const double> q0, std::span<const Impulse> impulses, std::vector<double>& q);
   void assemble();
+  void assembleBlock(const Block& block);
   void factorise();
   void backSubstitute(std::vector<double>& x) const;
 
@@ -112,14 +121,19 @@ class ImpactSolver {
   std::vector<std::vector<Touch>> touchesOf_;
   std::vector<Block> blocks_;
 
-  // Workspace of solve.
-  std::vector<Impulse> excess_;      // n q − û, t q − b at the outer iterate
-  std::vector<Response> responses_;  // at the inner iterate
-  std::vector<double> z_;            // inner iterate, measured from the outer one
+  // Workspace of solve: nothing is allocated there after the first time.
+  std::vector<Impulse> excess_;       // n q − û, t q − b at the outer iterate
+  std::vector<Impulse> best_;         // the best outer iterate so far
+  std::vector<double> q_;             // velocities at the outer iterate
+  std::vector<Response> responses_;   // at the inner iterate
+  std::vector<Response> previous_;    // at the one before
+  std::vector<Response> factorised_;  // those that matrix_ was made of
+  std::vector<double> z_;             // inner iterate, measured from the outer one
+  std::vector<double> from_;          // the one before
   std::vector<double> gradient_;
   std::vector<double> step_;
   std::vector<double> matrix_;  // lower triangle by rows, then its L D Lᵀ
-  mutable std::vector<double> terms_;
+  std::vector<Six> terms_;
 };
 
 }  // namespace careen

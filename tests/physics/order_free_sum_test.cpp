@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-
 #include <cmath>
 #include <vector>
 
@@ -15,6 +14,15 @@ namespace {
 
 using testing::Quad;
 using testing::Random;
+
+double orderFreeSum(const std::vector<double>& terms) {
+  std::vector<std::array<double, 1>> columns;
+  columns.reserve(terms.size());
+  for (const double term : terms) {
+    columns.push_back({term});
+  }
+  return orderFreeSums<1>(columns)[0];
+}
 
 std::vector<double> randomTerms(Random& random) {
   std::vector<double> terms;
@@ -85,10 +93,28 @@ TEST(OrderFreeSum, isRightToTheLastBitWhereNothingCancels) {
   }
 }
 
+TEST(OrderFreeSum, manySumsAreThoseOfEachAlone) {
+  Random random(5);
+  for (int k = 0; k < 2000; ++k) {
+    std::array<std::vector<double>, 3> columns;
+    const std::vector<double> terms = randomTerms(random);
+    std::vector<std::array<double, 3>> rows;
+    for (const double term : terms) {
+      rows.push_back({term, random.between(-1, 1) / term, random.below(3) == 0 ? term * term : 0});
+      for (std::size_t i = 0; i < 3; ++i) {
+        columns[i].push_back(rows.back()[i]);
+      }
+    }
+    const std::array<double, 3> sums = orderFreeSums<3>(rows);
+    for (std::size_t i = 0; i < 3; ++i) {
+      ASSERT_EQ(sums[i], orderFreeSum(columns[i]));
+    }
+  }
+}
+
 TEST(OrderFreeSum, ofNothingIsZero) {
   EXPECT_EQ(orderFreeSum({}), 0);
-  const std::array<double, 4> zeros{};
-  EXPECT_EQ(orderFreeSum(zeros), 0);
+  EXPECT_EQ(orderFreeSum({0, 0, 0, 0}), 0);
 }
 
 }  // namespace
