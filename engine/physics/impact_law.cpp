@@ -282,6 +282,7 @@ Law::Impulses Law::withFriction(const Impulses& smooth) {
   }
   constexpr int kCap = 100;
   constexpr int kUndamped = 30;
+  constexpr double kAgree = 0x1p-46;
   // Each problem is solved to what the limits are good for.
   constexpr double kAhead = 0x1p-10;
   double accuracy = kAhead;
@@ -297,7 +298,7 @@ Law::Impulses Law::withFriction(const Impulses& smooth) {
       change = std::max(change, std::fabs(found[c] - limits[c]));
       largest = std::max(largest, std::max(found[c], limits[c]));
     }
-    if (change <= 0x1p-48 * largest && accuracy == ImpactSolver::kFullAccuracy) {
+    if (change <= kAgree * largest && accuracy == ImpactSolver::kFullAccuracy) {
       break;
     }
     iteration.step(limits, found, k < kUndamped ? 1 : 0.5);

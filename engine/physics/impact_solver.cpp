@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "physics/ldl.h"
 #include "physics/order_free_sum.h"
 
 namespace careen {
@@ -271,58 +272,18 @@ void ImpactSolver::assembleBlock(const Block& block) {
   }
 }
 
-/// L D Lᵀ in place: positive definite, so no pivots are looked for.
-void ImpactSolver::factorise() {
-  const std::size_t n = mass_.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    double* row = &matrix_[i * n];
-    for (std::size_t j = 0; j < i; ++j) {
-      const double* other = &matrix_[j * n];
-      double sum = row[j];
-      for (std::size_t k = 0; k < j; ++k) {
-        sum -= row[k] * other[k];
-      }
-      row[j] = sum;  // L D for now
-    }
-    double pivot = row[i];
-    for (std::size_t j = 0; j < i; ++j) {
-      const double factor = row[j] / matrix_[j * n + j];
-      pivot -= factor * row[j];
-      row[j] = factor;
-    }
-    row[i] = pivot;
-  }
-}
-
-void ImpactSolver::backSubstitute(std::vector<double>& x) const {
-  const std::size_t n = mass_.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      x[i] -= matrix_[i * n + k] * x[k];
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    x[i] /= matrix_[i * n + i];
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    for (std::size_t k = i + 1; k < n; ++k) {
-      x[i] -= matrix_[k * n + i] * x[k];
-    }
-  }
-}
-
 void ImpactSolver::newtonStep() {
   const bool known = std::equal(responses_.begin(), responses_.end(), factorised_.begin(), factorised_.end(),
                                 [](const Response& x, const Response& y) { return x.feelsLike(y); });
   if (!known) {
     assemble();
-    factorise();
+    factoriseLdl(matrix_, mass_.size());
     factorised_ = responses_;
   }
   for (std::size_t k = 0; k < step_.size(); ++k) {
     step_[k] = -gradient_[k];
   }
-  backSubstitute(step_);
+  solveLdl(matrix_, step_);
 }
 
 /// Slope of the smooth subproblem along the last step.

@@ -112,8 +112,6 @@ class ImpactSolver {
   void pushOff(std::span<const double> q0, std::span<const Impulse> impulses, std::vector<double>& q);
   void assemble();
   void assembleBlock(const Block& block);
-  void factorise();
-  void backSubstitute(std::vector<double>& x) const;
 
   std::vector<double> inverseMass_;
   std::vector<double> mass_;
