@@ -109,4 +109,79 @@ inline Mat3 aboutZ(double angle) {
   return a;
 }
 
+inline double relativeChange(const Quad& after, const Quad& before) {
+  return static_cast<double>(Quad((after - before) / before));
+}
+
+/// A cube of half size `half` above a floor, standing on its four lower corners (odd indices), turned about
+/// z.
+inline ImpactScene flatCube(double angle, double restitution, double friction, const Vec3& velocity,
+                            const Vec3& half = Vec3(0.5, 0.5, 0.5), double mass = 2) {
+  ImpactScene scene;
+  BodyState state;
+  state.pose.worldFromBody = aboutZ(angle);
+  state.velocity = velocity;
+  scene.addBox(half, mass, state);
+  for (const int k : {1, 3, 5, 7}) {
+    scene.addCorner(0, k, Vec3::UnitZ(), {.restitution = restitution, .friction = friction});
+  }
+  return scene;
+}
+
+/// A box that turns and flies, driven by its corner 7 into the corner of a room: each of the four corners of
+/// the three faces there touches its wall, as when the box stands in the corner.
+inline ImpactScene roomCorner(Random& random, double restitution) {
+  ImpactScene scene;
+  BodyState state;
+  state.velocity = random.inCube(3) - Vec3(2, 2, 2);
+  const Vec3 half{random.between(.1, 1), random.between(.1, 1), random.between(.1, 1)};
+  const int box = scene.addBox(half, random.between(.5, 5), state);
+  scene.states[0].angularMomentum = scene.masses[0].inertiaBody.cwiseProduct(random.inCube(3));
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int k = 0; k < kCorners; ++k) {
+      if (((k >> (2 - axis)) & 1) != 0) {
+        scene.addCorner(box, k, Vec3(Vec3::Unit(axis)), {.restitution = restitution, .friction = 0});
+      }
+    }
+  }
+  return scene;
+}
+
+/// One or two free boxes that touch in up to `most` points at random, normals in a common half-space.
+inline ImpactScene randomImpact(Random& random, int most, bool friction) {
+  ImpactScene scene;
+  const int bodies = 1 + random.below(2);
+  for (int k = 0; k < bodies; ++k) {
+    BodyState state;
+    state.pose.worldFromBody = random.rotation();
+    state.velocity = random.inCube(4);
+    const Vec3 half{random.between(.05, 1), random.between(.05, 1), random.between(.05, 1)};
+    scene.addBox(half, random.between(.1, 10), state);
+    const Vec3 spin = state.pose.worldFromBody.transpose() * random.inCube(6);
+    scene.states.back().angularMomentum =
+        state.pose.worldFromBody * scene.masses.back().inertiaBody.cwiseProduct(spin);
+  }
+  const int count = 1 + random.below(most);
+  const Vec3 common = random.direction();
+  for (int k = 0; k < count; ++k) {
+    Vec3 normal = (common + 0.8 * random.direction()).normalized();
+    const bool wall = bodies == 1 || random.below(3) == 0;
+    const int a = wall ? random.below(bodies) : 0;
+    const int index = random.below(kCorners);  // named: the order of arguments' evaluation is the compiler's
+    const Material material{.restitution = random.below(4) == 0 ? 1 : random.between(0, 1),
+                            .friction = friction ? random.between(0, 1.5) : 0};
+    scene.addCorner(a, index, normal, material);
+    if (!wall) {
+      scene.contacts.back().b = 1;
+      scene.contacts.back().armB =
+          scene.states[1].pose.worldFromBody * corner(scene.halfExtents[1], random.below(8));
+    }
+  }
+  return scene;
+}
+
+inline bool sameBits(const BodyState& a, const BodyState& b) {
+  return a.velocity == b.velocity && a.angularMomentum == b.angularMomentum;
+}
+
 }  // namespace careen::testing
