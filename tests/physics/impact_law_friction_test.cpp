@@ -23,8 +23,12 @@ TEST(ImpactLaw, millionRandomImpactsWithFrictionGainNoEnergy) {
   Random random(11);
   double gained = -1;
   double cone = 0;
-  for (int k = 0; k < 1000000; ++k) {
+  for (int hits = 0; hits < 1'000'000;) {
     ImpactScene scene = randomImpact(random, 1, true);
+    if (hits % 4 == 0) {  // where next to nothing is lost, rounding could show as a gain
+      scene.contacts[0].material = {.restitution = 1,
+                                    .friction = 0x1p-45 * scene.contacts[0].material.friction};
+    }
     const auto energy = [&]() {  // plain doubles: four times faster, and sharp enough for the bound
       double twice = 0;
       for (std::size_t b = 0; b < scene.states.size(); ++b) {
@@ -36,11 +40,15 @@ TEST(ImpactLaw, millionRandomImpactsWithFrictionGainNoEnergy) {
     };
     const double before = energy();
     scene.resolve();
-    gained = std::max(gained, (energy() - before) / before);
     const ImpactShare& share = scene.shares[0];
+    if (share.approach <= 0) {
+      continue;
+    }
+    ++hits;
+    gained = std::max(gained, (energy() - before) / before);
     cone = std::max(cone, share.tangential - scene.contacts[0].material.friction * share.impulse);
   }
-  EXPECT_LT(gained, 1e-14);  // measured 0: losses outweigh rounding
+  EXPECT_LT(gained, 1e-14);  // measured 4.5e-16
   EXPECT_LT(cone, 1e-13);
   RecordProperty("gained", std::to_string(gained * 1e16) + "e-16");
 }
