@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+#include <cstddef>
+#include <memory_resource>
+#include <utility>
 
 #include "core/error.h"
 #include "physics/impact_solver.h"
 #include "physics/order_free_sum.h"
+#include "physics/secant_iteration.h"
 #include "physics/single_impact.h"
 
 namespace careen {
@@ -35,10 +38,13 @@ void fillSide(ImpactSolver::Row& row, std::size_t side, const Vec3& direction, c
 
 /// The impact in the coordinates of the solver: only the bodies that can move.
 struct Setup {
-  std::vector<int> movableOf;  // by body: index among the movable, or kNobody
-  std::vector<double> velocity;
-  std::vector<double> inverseMass;
-  std::vector<ImpactSolver::Contact> contacts;
+  explicit Setup(std::pmr::memory_resource* memory)
+      : movableOf(memory), velocity(memory), inverseMass(memory), contacts(memory) {}
+
+  ImpactVector<int> movableOf;  // by body: index among the movable, or kNobody
+  ImpactVector<double> velocity;
+  ImpactVector<double> inverseMass;
+  ImpactVector<ImpactSolver::Contact> contacts;
 };
 
 void addBodies(Setup& setup, std::span<const ImpactBody> bodies) {
@@ -100,82 +106,55 @@ void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactCo
   setup.contacts.push_back(added);
 }
 
-/// Brings x and g(x) to agree. Plain iteration takes g(x) next; this goes on along the line through the last
-/// two where it would make the difference least (D. G. Anderson, "Iterative procedures for nonlinear integral
-/// equations", J. ACM 12, 1965, with one step of memory).
-class SecantIteration {
- public:
-  explicit SecantIteration(std::size_t size) : x_(size), rest_(size), terms_(size) {}
-
-  /// x becomes the next one, so `part` = 1 for whole steps.
-  void step(std::vector<double>& x, std::span<const double> g, double part) {
-    for (std::size_t c = 0; c < x.size(); ++c) {
-      const double rest = g[c] - x[c];
-      const double turned = rest - rest_[c];
-      terms_[c] = {rest * turned, turned * turned};
-    }
-    const auto [along, squared] = orderFreeSums<2>(terms_);
-    const double back = hasLast_ && squared > 0 ? along / squared : 0;
-    for (std::size_t c = 0; c < x.size(); ++c) {
-      const double rest = g[c] - x[c];
-      const double next = x[c] + part * rest;
-      const double last = x_[c] + part * rest_[c];
-      x_[c] = x[c];
-      rest_[c] = rest;
-      x[c] = next - back * (next - last);
-    }
-    hasLast_ = true;
-  }
-
- private:
-  std::vector<double> x_;     // the last one
-  std::vector<double> rest_;  // g(x) − x there
-  std::vector<std::array<double, 2>> terms_;
-  bool hasLast_ = false;
-};
-
 /// The laws for several contacts, all in terms of impulses from the velocity before.
 class Law {
  public:
   Law(Setup setup, std::span<const ImpactContact> contacts)
-      : before_(std::move(setup.velocity)),
+      : memory_(setup.velocity.get_allocator().resource()),
+        before_(std::move(setup.velocity)),
         solver_(std::move(setup.inverseMass), std::move(setup.contacts)),
         contacts_(contacts),
-        rounding_(kApproachRounding * solver_.speedScale(before_)) {}
+        rounding_(kApproachRounding * solver_.speedScale(before_)),
+        plastic_(memory_),
+        projected_(contacts.size(), memory_),
+        demands_(contacts.size(), memory_) {}
 
-  std::vector<Impulse> resolve() {
-    std::vector<char> approaches = approaching(before_);
+  ImpactVector<Impulse> resolve() {
+    Chosen approaches(memory_);
+    findApproaching(before_, approaches);
     if (std::none_of(approaches.begin(), approaches.end(), [](char yes) { return yes != 0; })) {
-      return std::vector<Impulse>(contacts_.size());
+      return Impulses(contacts_.size(), memory_);
     }
-    std::vector<Impulse> impulses = frictionless();
+    ImpactVector<Impulse> impulses = frictionless();
     const bool rough = std::any_of(contacts_.begin(), contacts_.end(),
                                    [](const ImpactContact& c) { return c.material.friction > 0; });
-    return rough ? withFriction(impulses) : impulses;
+    if (rough) {
+      return withFriction(impulses);
+    }
+    return impulses;
   }
 
   double approach(std::size_t contact) const { return -solver_.speed(contact, 0, before_); }
 
  private:
-  using Impulses = std::vector<Impulse>;
+  using Impulses = ImpactVector<Impulse>;
+  using Chosen = ImpactVector<char>;  // of the contacts
 
-  std::vector<char> approaching(std::span<const double> q) const {
-    std::vector<char> result;
+  void findApproaching(std::span<const double> q, Chosen& approaches) const {
+    approaches.clear();
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      result.push_back(solver_.speed(c, 0, q) < -rounding_ ? 1 : 0);
+      approaches.push_back(solver_.speed(c, 0, q) < -rounding_ ? 1 : 0);
     }
-    return result;
   }
 
   /// Impulses that project q onto the motions in which the chosen contacts do not approach.
-  Impulses projection(std::span<const double> q, std::span<const char> chosen) {
-    std::vector<Demand> demands(contacts_.size());
+  const Impulses& projection(std::span<const double> q, std::span<const char> chosen) {
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      demands[c].included = chosen[c] != 0;
+      demands_[c].included = chosen[c] != 0;
+      projected_[c] = {};
     }
-    Impulses impulses(contacts_.size());
-    solver_.solve(q, demands, impulses);
-    return impulses;
+    solver_.solve(q, demands_, projected_);
+    return projected_;
   }
 
   static void add(Impulses& sum, double factor, const Impulses& impulses) {
@@ -189,7 +168,7 @@ class Law {
   /// P: Moreau's projection.
   const Impulses& plastic() {
     if (plastic_.empty()) {
-      plastic_ = projection(before_, std::vector<char>(contacts_.size(), 1));
+      plastic_ = projection(before_, Chosen(contacts_.size(), 1, memory_));
     }
     return plastic_;
   }
@@ -197,12 +176,14 @@ class Law {
   /// Xₜ: reflections about the contacts with e > t, projections onto the others, until nothing approaches.
   /// Reflections alone come to an end; for a mixture that does not within the cap, the plastic law ends it.
   Impulses reflected(double threshold) {
-    Impulses total(contacts_.size());
-    std::vector<double> q = before_;
+    Impulses total(contacts_.size(), memory_);
+    ImpactVector<double> q(before_, memory_);
+    Chosen violated(memory_);
+    Chosen elastic(memory_);
     const std::size_t cap = 100 + 10 * contacts_.size() * contacts_.size();
     for (std::size_t pass = 0; pass < cap; ++pass) {
-      const std::vector<char> violated = approaching(q);
-      std::vector<char> elastic = violated;
+      findApproaching(q, violated);
+      elastic = violated;
       bool any = false;
       bool anyElastic = false;
       for (std::size_t c = 0; c < contacts_.size(); ++c) {
@@ -213,17 +194,17 @@ class Law {
       if (!any) {
         return total;
       }
-      const std::vector<char>& chosen = anyElastic ? elastic : violated;
+      const Chosen& chosen = anyElastic ? elastic : violated;
       const bool isPlastic = pass == 0 && std::find(chosen.begin(), chosen.end(), 0) == chosen.end();
       add(total, anyElastic ? 2 : 1, isPlastic ? plastic() : projection(q, chosen));
-      q = solver_.after(before_, total);
+      solver_.after(before_, total, q);
     }
-    add(total, 1, projection(q, std::vector<char>(contacts_.size(), 1)));
+    add(total, 1, projection(q, Chosen(contacts_.size(), 1, memory_)));
     return total;
   }
 
   Impulses frictionless() {
-    std::vector<double> levels;  // the different e above 0, rising
+    ImpactVector<double> levels(memory_);  // the different e above 0, rising
     bool somePlastic = false;
     for (const ImpactContact& contact : contacts_) {
       if (contact.material.restitution > 0) {
@@ -233,7 +214,7 @@ class Law {
     }
     std::sort(levels.begin(), levels.end());
     levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
-    Impulses total(contacts_.size());
+    Impulses total(contacts_.size(), memory_);
     double below = 0;
     for (const double level : levels) {
       add(total, level - below, reflected(below));
@@ -246,25 +227,30 @@ class Law {
   }
 
   Impulses withFriction(const Impulses& smooth);
-  Impulses shortened(const Impulses& smooth, const Impulses& rough);
+  Impulses shortened(const Impulses& smooth, Impulses rough);
 
-  std::vector<double> before_;
+  std::pmr::memory_resource* memory_;
+  ImpactVector<double> before_;
   ImpactSolver solver_;
   std::span<const ImpactContact> contacts_;
   double rounding_;
-  Impulses plastic_;  // empty: not yet computed
+  Impulses plastic_;    // empty: not yet computed
+  Impulses projected_;  // the last projection
+  ImpactVector<Demand> demands_;
 };
 
 /// Coulomb's limit depends on the normal impulses and they on friction: the limits are brought to agree by
 /// iteration, each time a convex problem.
 Law::Impulses Law::withFriction(const Impulses& smooth) {
-  const std::vector<double> parting = solver_.after(before_, smooth);
-  const std::vector<double> compressed = solver_.after(before_, plastic());
-  std::vector<double> restituted = parting;
+  ImpactVector<double> parting(memory_);
+  ImpactVector<double> compressed(memory_);
+  solver_.after(before_, smooth, parting);
+  solver_.after(before_, plastic(), compressed);
+  ImpactVector<double> restituted(parting, memory_);
   for (std::size_t k = 0; k < restituted.size(); ++k) {
     restituted[k] -= compressed[k];
   }
-  std::vector<Demand> demands(contacts_.size());
+  ImpactVector<Demand> demands(contacts_.size(), memory_);
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     demands[c].partingSpeed = smooth[c][0] > 0 ? solver_.speed(c, 0, parting) : 0;
     demands[c].frictionLimit = contacts_[c].material.friction * smooth[c][0];
@@ -276,7 +262,7 @@ Law::Impulses Law::withFriction(const Impulses& smooth) {
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     most = std::max(most, kWedged * smooth[c][0]);
   }
-  std::vector<double> limits(contacts_.size());
+  ImpactVector<double> limits(contacts_.size(), memory_);
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     limits[c] = demands[c].frictionLimit;
   }
@@ -286,9 +272,9 @@ Law::Impulses Law::withFriction(const Impulses& smooth) {
   // Each problem is solved to what the limits are good for.
   constexpr double kAhead = 0x1p-10;
   double accuracy = kAhead;
-  Impulses rough = smooth;
-  SecantIteration iteration(contacts_.size());
-  std::vector<double> found(contacts_.size());
+  Impulses rough(smooth, memory_);
+  SecantIteration iteration(contacts_.size(), memory_);
+  ImpactVector<double> found(contacts_.size(), memory_);
   for (int k = 0; k < kCap; ++k) {
     solver_.solve(before_, demands, rough, accuracy);
     double change = 0;
@@ -309,15 +295,17 @@ Law::Impulses Law::withFriction(const Impulses& smooth) {
     const double relative = largest > 0 ? change / largest : 0;
     accuracy = std::max(ImpactSolver::kFullAccuracy, std::min(accuracy, kAhead * relative));
   }
-  return shortened(smooth, rough);
+  return shortened(smooth, std::move(rough));
 }
 
 /// The way from the frictionless answer to the one with friction, as far as energy, the cones and the walls
 /// allow: all of it, but where the iteration above did not settle or a lifted contact would gain energy. All
 /// three are convex and hold at its start.
-Law::Impulses Law::shortened(const Impulses& smooth, const Impulses& rough) {
-  const std::vector<double> start = solver_.after(before_, smooth);
-  const std::vector<double> end = solver_.after(before_, rough);
+Law::Impulses Law::shortened(const Impulses& smooth, Impulses rough) {
+  ImpactVector<double> start(memory_);
+  ImpactVector<double> end(memory_);
+  solver_.after(before_, smooth, start);
+  solver_.after(before_, rough, end);
   double fraction = 1;
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const double size = std::sqrt(rough[c][1] * rough[c][1] + rough[c][2] * rough[c][2]);
@@ -332,7 +320,7 @@ Law::Impulses Law::shortened(const Impulses& smooth, const Impulses& rough) {
       fraction = std::min(fraction, parting / (parting + closing));
     }
   }
-  std::vector<double> way = end;
+  ImpactVector<double> way(end, memory_);
   double slope = 0;  // dE/dfraction at the start
   for (std::size_t k = 0; k < way.size(); ++k) {
     way[k] -= start[k];
@@ -346,7 +334,7 @@ Law::Impulses Law::shortened(const Impulses& smooth, const Impulses& rough) {
   if (fraction == 1) {
     return rough;
   }
-  Impulses result = smooth;
+  Impulses result(smooth, memory_);
   for (std::size_t c = 0; c < result.size(); ++c) {
     for (std::size_t row = 0; row < 3; ++row) {
       result[c][row] += fraction * (rough[c][row] - smooth[c][row]);
@@ -358,10 +346,11 @@ Law::Impulses Law::shortened(const Impulses& smooth, const Impulses& rough) {
 /// Velocity and angular momentum with what the contacts add; a component is zero where it is below the
 /// rounding of its terms.
 void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> contacts,
-             std::span<const Vec3> impulses) {
+             std::span<const Vec3> impulses, std::pmr::memory_resource* memory) {
   using Six = std::array<double, kSix>;
   BodyState& state = *body.state;
-  std::vector<Six> terms;
+  ImpactVector<Six> terms(memory);
+  terms.reserve(1 + 2 * contacts.size());
   const auto add = [&terms](const Vec3& linear, const Vec3& angular) {
     terms.push_back({linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]});
   };
@@ -399,14 +388,18 @@ void resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactCon
     shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)], b, only);
     return;
   }
-  Setup setup;
+  // Usual impacts never reach the heap: a dozen contacts fit.
+  std::array<std::byte, std::size_t{1} << 15U> room;
+  std::pmr::monotonic_buffer_resource memory(room.data(), room.size());
+  Setup setup(&memory);
   addBodies(setup, bodies);
+  setup.contacts.reserve(contacts.size());
   for (const ImpactContact& contact : contacts) {
     addContact(setup, bodies, contact);
   }
   Law law(std::move(setup), contacts);
-  const std::vector<Impulse> impulses = law.resolve();
-  std::vector<Vec3> world(contacts.size());
+  const ImpactVector<Impulse> impulses = law.resolve();
+  ImpactVector<Vec3> world(contacts.size(), &memory);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Tangents tangents = tangentsOf(contacts[c].normal);
     const Impulse& j = impulses[c];
@@ -418,7 +411,7 @@ void resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactCon
     }
   }
   for (std::size_t index = 0; index < bodies.size(); ++index) {
-    applyTo(static_cast<int>(index), bodies[index], contacts, world);
+    applyTo(static_cast<int>(index), bodies[index], contacts, world, &memory);
   }
 }
 

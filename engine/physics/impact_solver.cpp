@@ -31,17 +31,34 @@ constexpr int kSearchCap = 40;
 
 }  // namespace
 
-ImpactSolver::ImpactSolver(std::vector<double> inverseMass, std::vector<Contact> contacts)
-    : inverseMass_(std::move(inverseMass)), mass_(inverseMass_.size(), 1), contacts_(std::move(contacts)) {
+ImpactSolver::ImpactSolver(ImpactVector<double> inverseMass, ImpactVector<Contact> contacts)
+    : inverseMass_(std::move(inverseMass)),
+      mass_(inverseMass_.size(), 1, memory()),
+      contacts_(std::move(contacts)),
+      touchesOf_(inverseMass_.size() / kSix, memory()),
+      blocks_(memory()),
+      excess_(contacts_.size(), memory()),
+      best_(memory()),
+      q_(memory()),
+      responses_(contacts_.size(), memory()),
+      previous_(memory()),
+      factorised_(memory()),
+      z_(inverseMass_.size(), memory()),
+      from_(memory()),
+      gradient_(inverseMass_.size(), memory()),
+      step_(inverseMass_.size(), memory()),
+      matrix_(inverseMass_.size() * inverseMass_.size(), memory()),
+      terms_(memory()) {
   const std::size_t axes = inverseMass_.size();
+  terms_.reserve(1 + contacts_.size());
   for (std::size_t k = 0; k < axes; ++k) {
     if (inverseMass_[k] > 0) {
       mass_[k] = 1 / inverseMass_[k];
     }
   }
-  touchesOf_.resize(axes / kSix);
   for (std::size_t p = 0; p < axes / kSix; ++p) {
-    blocks_.push_back({static_cast<int>(p), static_cast<int>(p), {}});
+    const int body = static_cast<int>(p);
+    blocks_.push_back({body, body, ImpactVector<Touch>(memory())});
   }
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     Contact& contact = contacts_[c];
@@ -67,19 +84,12 @@ ImpactSolver::ImpactSolver(std::vector<double> inverseMass, std::vector<Contact>
       const auto pair = std::find_if(blocks_.begin(), blocks_.end(),
                                      [&](const Block& block) { return block.p == p && block.q == q; });
       if (pair == blocks_.end()) {
-        blocks_.push_back({p, q, {touch}});
+        blocks_.push_back({p, q, ImpactVector<Touch>({touch}, memory())});
       } else {
         pair->touches.push_back(touch);
       }
     }
   }
-  excess_.resize(contacts_.size());
-  responses_.resize(contacts_.size());
-  q_.resize(axes);
-  z_.resize(axes);
-  gradient_.resize(axes);
-  step_.resize(axes);
-  matrix_.resize(axes * axes);
 }
 
 double ImpactSolver::speed(std::size_t contact, int row, std::span<const double> q) const {
@@ -115,14 +125,9 @@ double ImpactSolver::speedScale(std::span<const double> q) const {
   return largest;
 }
 
-std::vector<double> ImpactSolver::after(std::span<const double> q0, std::span<const Impulse> impulses) {
-  std::vector<double> q(q0.size());
-  pushOff(q0, impulses, q);
-  return q;
-}
-
-void ImpactSolver::pushOff(std::span<const double> q0, std::span<const Impulse> impulses,
-                           std::vector<double>& q) {
+void ImpactSolver::after(std::span<const double> q0, std::span<const Impulse> impulses,
+                         ImpactVector<double>& q) {
+  q.resize(q0.size());
   for (std::size_t p = 0; p < touchesOf_.size(); ++p) {
     terms_.clear();
     Six& start = terms_.emplace_back();
@@ -386,7 +391,7 @@ double ImpactSolver::violation(std::span<const double> q, std::span<const Demand
 }
 
 bool ImpactSolver::solve(std::span<const double> q0, std::span<const Demand> demands,
-                         std::vector<Impulse>& impulses, double accuracy) {
+                         ImpactVector<Impulse>& impulses, double accuracy) {
   double scale = speedScale(q0);
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     if (!demands[c].included) {
@@ -399,7 +404,7 @@ bool ImpactSolver::solve(std::span<const double> q0, std::span<const Demand> dem
   double bestViolation = std::numeric_limits<double>::infinity();
   int stalled = 0;
   for (int iteration = 0; iteration < kOuterCap; ++iteration) {
-    pushOff(q0, impulses, q_);
+    after(q0, impulses, q_);
     scale = std::max(scale, speedScale(q_));
     const double now = violation(q_, demands, impulses);
     stalled = now < bestViolation / 2 ? 0 : stalled + 1;

@@ -3,10 +3,15 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
 namespace careen {
+
+/// Memory of one impact, see resolveImpact.
+template <class Value>
+using ImpactVector = std::pmr::vector<Value>;
 
 /// The convex problem inside every impact of several contacts at once.
 ///
@@ -53,25 +58,25 @@ class ImpactSolver {
     std::array<double, 2> slip{};  ///< [m/s] b
   };
 
-  /// Takes 1/M (six per body, 0: immovable along it) and the contacts.
-  ImpactSolver(std::vector<double> inverseMass, std::vector<Contact> contacts);
+  /// Takes 1/M (six per body, 0: immovable along it) and the contacts, and all memory from where theirs is.
+  ImpactSolver(ImpactVector<double> inverseMass, ImpactVector<Contact> contacts);
 
-  const std::vector<Contact>& contacts() const { return contacts_; }
+  const ImpactVector<Contact>& contacts() const { return contacts_; }
   std::span<const double> inverseMass() const { return inverseMass_; }
 
   /// n q, t₁ q or t₂ q of a contact [m/s].
   double speed(std::size_t contact, int row, std::span<const double> q) const;
   /// Largest Σ|n_k q_k| over the contacts [m/s]: what the rounding of their speeds is measured against.
   double speedScale(std::span<const double> q) const;
-  /// q₀ + M⁻¹ Jᵀλ.
-  std::vector<double> after(std::span<const double> q0, std::span<const Impulse> impulses);
+  /// q = q₀ + M⁻¹ Jᵀλ.
+  void after(std::span<const double> q0, std::span<const Impulse> impulses, ImpactVector<double>& q);
   /// ½ qᵀ M q [J]; what immovable axes hold is left out.
   double energy(std::span<const double> q) const;
 
   /// Solves the problem; `impulses` is the first guess on entry, the solution on return. True when the
   /// conditions hold to rounding error; otherwise they are as good as was reached, or as `accuracy` asks,
   /// which is relative to the scale of speeds.
-  bool solve(std::span<const double> q0, std::span<const Demand> demands, std::vector<Impulse>& impulses,
+  bool solve(std::span<const double> q0, std::span<const Demand> demands, ImpactVector<Impulse>& impulses,
              double accuracy = kFullAccuracy);
   static constexpr double kFullAccuracy = 0x1p-53;
 
@@ -84,7 +89,7 @@ class ImpactSolver {
   struct Block {  // bodies p ≥ q and the contacts both take part in
     int p;
     int q;
-    std::vector<Touch> touches;
+    ImpactVector<Touch> touches;
   };
   enum class State : unsigned char { kOff, kOn, kStick, kSlip };
   struct Response {  // what the smooth subproblem says of a contact at a trial velocity
@@ -104,6 +109,7 @@ class ImpactSolver {
   };
   using Six = std::array<double, static_cast<std::size_t>(kAxes)>;
 
+  std::pmr::memory_resource* memory() const { return inverseMass_.get_allocator().resource(); }
   Response respond(const Contact& contact, const Demand& demand, const Impulse& guess,
                    const Impulse& excess) const;
   void respondAll(std::span<const Demand> demands, std::span<const Impulse> impulses);
@@ -115,29 +121,28 @@ class ImpactSolver {
   double lineSearch(std::span<const Demand> demands, std::span<const Impulse> impulses, bool trusted);
   double violation(std::span<const double> q, std::span<const Demand> demands,
                    std::span<const Impulse> impulses);
-  void pushOff(std::span<const double> q0, std::span<const Impulse> impulses, std::vector<double>& q);
   void assemble();
   void assembleBlock(const Block& block);
 
-  std::vector<double> inverseMass_;
-  std::vector<double> mass_;
-  std::vector<Contact> contacts_;
-  std::vector<std::vector<Touch>> touchesOf_;
-  std::vector<Block> blocks_;
+  ImpactVector<double> inverseMass_;
+  ImpactVector<double> mass_;
+  ImpactVector<Contact> contacts_;
+  ImpactVector<ImpactVector<Touch>> touchesOf_;
+  ImpactVector<Block> blocks_;
 
   // Workspace of solve: nothing is allocated there after the first time.
-  std::vector<Impulse> excess_;       // n q − û, t q − b at the outer iterate
-  std::vector<Impulse> best_;         // the best outer iterate so far
-  std::vector<double> q_;             // velocities at the outer iterate
-  std::vector<Response> responses_;   // at the inner iterate
-  std::vector<Response> previous_;    // at the one before
-  std::vector<Response> factorised_;  // those that matrix_ was made of
-  std::vector<double> z_;             // inner iterate, measured from the outer one
-  std::vector<double> from_;          // the one before
-  std::vector<double> gradient_;
-  std::vector<double> step_;
-  std::vector<double> matrix_;  // lower triangle by rows, then its L D Lᵀ
-  std::vector<Six> terms_;
+  ImpactVector<Impulse> excess_;       // n q − û, t q − b at the outer iterate
+  ImpactVector<Impulse> best_;         // the best outer iterate so far
+  ImpactVector<double> q_;             // velocities at the outer iterate
+  ImpactVector<Response> responses_;   // at the inner iterate
+  ImpactVector<Response> previous_;    // at the one before
+  ImpactVector<Response> factorised_;  // those that matrix_ was made of
+  ImpactVector<double> z_;             // inner iterate, measured from the outer one
+  ImpactVector<double> from_;          // the one before
+  ImpactVector<double> gradient_;
+  ImpactVector<double> step_;
+  ImpactVector<double> matrix_;  // lower triangle by rows, then its L D Lᵀ
+  ImpactVector<Six> terms_;
 };
 
 }  // namespace careen
