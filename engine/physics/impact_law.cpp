@@ -388,7 +388,7 @@ void resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactCon
     shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)], b, only);
     return;
   }
-  // Usual impacts never reach the heap: a dozen contacts fit.
+  // Usual impacts never reach the heap: a dozen contacts of one body fit.
   std::array<std::byte, std::size_t{1} << 15U> room;
   std::pmr::monotonic_buffer_resource memory(room.data(), room.size());
   Setup setup(&memory);

@@ -67,11 +67,11 @@ struct ImpactShare {
 ///   Int. J. Mech. Sci. 90, 2015). For several contacts, where a lever lifts one of them, the step is cut
 ///   short if energy would rise.
 ///
-/// Nothing is taken from the heap for up to a dozen contacts. One contact: impulses in extended precision, so
-/// that 10⁶ bounces keep energy to 1e-12. Several: to a few ulps. The order of the contacts changes no bit;
-/// that of the bodies may change the last one, so give them in an order that does not depend on the scene's
-/// listing. Mirrored in a coordinate plane, and scaled by powers of two, the same impact has the same bits.
-/// What the rounding of the impulses leaves of a component that vanishes is set to zero.
+/// Nothing is taken from the heap for up to a dozen contacts of one body. One contact: impulses in extended
+/// precision, so that 10⁶ bounces keep energy to 1e-12. Several: to a few ulps. The order of the contacts
+/// changes no bit; that of the bodies may change the last one, so give them in an order that does not depend
+/// on the scene's listing. Mirrored in a coordinate plane, and scaled by powers of two, the same impact has
+/// the same bits. What the rounding of the impulses leaves of a component that vanishes is set to zero.
 void resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts,
                    std::span<ImpactShare> shares);
 
