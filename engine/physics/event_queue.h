@@ -25,14 +25,19 @@ inline double secondsBetween(const Instant& start, const Instant& end) {
   return static_cast<double>(end - start);
 }
 
+inline bool earlier(const Instant& x, const Instant& y) {
+  return x.hi < y.hi || (x.hi == y.hi && x.lo < y.lo);
+}
+inline const Instant& later(const Instant& x, const Instant& y) { return earlier(x, y) ? y : x; }
+
 enum class EventKind {
   kContact,   ///< the gap to the partner closes
   kTouching,  ///< the gap to the partner stays zero
   kCrossing,  ///< the body enters another cell of the neighbour search
-  kSearch,    ///< nothing found up to here: look on
 };
 
-/// What is to happen to one body next. Bodies and partners are ranks (see World's order), walls −1 − index.
+/// What is to happen to one body next. Bodies and partners are ranks, their places among the names; a partner
+/// may be a wall.
 struct Event {
   Instant time;
   EventKind kind = EventKind::kContact;
@@ -40,6 +45,10 @@ struct Event {
   int partner = 0;
   std::uint64_t partnerMotion = 0;  ///< the partner's motion that this was predicted for
 };
+
+/// A wall as a partner is −1 − its index.
+inline int wallPartner(std::size_t wall) { return -1 - static_cast<int>(wall); }
+inline std::size_t wallOf(int partner) { return static_cast<std::size_t>(-1 - partner); }
 
 /// The next event of every body, earliest first; ties in the order of bodies. A body has one event at most:
 /// setting it again replaces it.
@@ -68,11 +77,11 @@ class EventQueue {
   };
   struct Later {
     bool operator()(const Entry& x, const Entry& y) const {
-      if (x.event.time.hi != y.event.time.hi) {
-        return x.event.time.hi > y.event.time.hi;
+      if (earlier(y.event.time, x.event.time)) {
+        return true;
       }
-      if (x.event.time.lo != y.event.time.lo) {
-        return x.event.time.lo > y.event.time.lo;
+      if (earlier(x.event.time, y.event.time)) {
+        return false;
       }
       return x.event.body > y.event.body;
     }

@@ -8,9 +8,9 @@
 
 #include "core/error.h"
 #include "physics/contact_points.h"
+#include "physics/next_contact.h"
 #include "physics/separation.h"
 #include "physics/settling.h"
-#include "physics/translating_contact.h"
 
 namespace careen {
 namespace {
@@ -23,12 +23,6 @@ constexpr const char* kNeedsContact =
     ". That takes the motion Contact, which method exact does not have; end the run before it, or give the "
     "pair more "
     "restitution";
-
-int wallPartner(std::size_t wall) { return -1 - static_cast<int>(wall); }
-std::size_t wallOf(int partner) { return static_cast<std::size_t>(-1 - partner); }
-
-bool earlier(const Instant& x, const Instant& y) { return x.hi < y.hi || (x.hi == y.hi && x.lo < y.lo); }
-const Instant& later(const Instant& x, const Instant& y) { return earlier(x, y) ? y : x; }
 
 std::vector<std::size_t> ranked(const World& world) {
   std::vector<std::size_t> order(world.bodies.size());
@@ -49,20 +43,6 @@ std::vector<double> radiiOf(const World& world) {
 
 bool movesAlike(const BodyState& x, const BodyState& y) {
   return x.velocity == y.velocity && x.angularMomentum == y.angularMomentum;
-}
-
-// Searches on where a search ran out of evaluations.
-template <class Search>
-FirstContact searchUntil(double until, const Search& search) {
-  FirstContact found;
-  do {
-    const double from = found.time;
-    found = search(SearchWindow{.from = from, .until = until});
-    if (found.kind == ContactKind::kNone && found.time < until && !(found.time > from)) {
-      throw NumericalError("the search for the next impact does not come forward");
-    }
-  } while (found.kind == ContactKind::kNone && found.time < until);
-  return found;
 }
 
 }  // namespace
@@ -162,8 +142,8 @@ ExactWorld::Group ExactWorld::gather(const Event& event) {
   group.time = event.time;
   group.ranks = touchingFrom(event);
   for (const int rank : group.ranks) {
-    group.attitudes.push_back(attitudeAt(mover(rank), event.time));
-    group.before.push_back(stateAt(mover(rank), event.time, group.attitudes.back()));
+    group.attitudes.push_back(mover(rank).attitudeAt(event.time));
+    group.before.push_back(mover(rank).stateAt(event.time, group.attitudes.back()));
   }
   group.after = group.before;
   for (std::size_t i = 0; i < group.ranks.size(); ++i) {
@@ -199,18 +179,6 @@ std::vector<int> ExactWorld::touchingFrom(const Event& event) const {
   }
   std::sort(ranks.begin(), ranks.end());
   return ranks;
-}
-
-bool ExactWorld::touch(const Mover& a, const Mover& b, const Instant& time) {
-  const Pose poseA = stateAt(a, time, attitudeAt(a, time)).pose;
-  const Pose poseB = stateAt(b, time, attitudeAt(b, time)).pose;
-  const double within = kSimultaneous * std::min(a.body->halfExtents.norm(), b.body->halfExtents.norm());
-  const Vec3 bToA = poseA.position - poseB.position;
-  if (bToA.norm() > a.body->halfExtents.norm() + b.body->halfExtents.norm() + within) {
-    return false;
-  }
-  return BoxAxes(poseA.worldFromBody, a.body->halfExtents, poseB.worldFromBody, b.body->halfExtents, bToA)
-             .gap() <= within;
 }
 
 void ExactWorld::addWallContacts(Group& group, std::size_t index) {
@@ -372,35 +340,19 @@ void ExactWorld::record(const Group& group) {
 
 void ExactWorld::fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude) {
   Mover& body = mover(rank);
-  body.flies = true;
-  body.flight = {.position = state.pose.position,
-                 .velocity = state.velocity,
-                 .acceleration = world_.gravity,
-                 .worldFromBody = attitude,
-                 .angularMomentum = state.angularMomentum};
-  body.rotation.emplace(body.body->mass.inertiaBody, attitude, state.angularMomentum);
-  const TorqueFreeRotation<double>::Bounds bounds = body.rotation->calcBounds();
-  body.angularSpeedBound = bounds.angularSpeed;
-  body.angularAccelerationBound = bounds.angularAcceleration;
   begins(rank, time);
+  body.fly(state, attitude, world_.gravity);
   recorder_.moves(body.listed, time.hi, body.flight);
   account_.departs(static_cast<std::size_t>(body.listed.value), state);
-  body.wall = firstWall(rank);
+  body.wall = firstWall(body, rank, world_.walls, end_);
   body.crossing = {};
   findCrossing(body, rank);
 }
 
 void ExactWorld::rest(int rank, const Instant& time, const Pose& pose) {
   Mover& body = mover(rank);
-  body.flies = false;
-  body.flight = {.position = pose.position, .worldFromBody = Quat(pose.worldFromBody)};
-  body.pose = pose;
-  body.rotation.reset();
-  body.angularSpeedBound = 0;
-  body.angularAccelerationBound = 0;
-  body.wall.reset();
-  body.crossing = {};
   begins(rank, time);
+  body.rest(pose);
   recorder_.moves(body.listed, time.hi, Rest{pose});
   account_.departs(static_cast<std::size_t>(body.listed.value), {.pose = pose});
 }
@@ -417,31 +369,7 @@ void ExactWorld::begins(int rank, const Instant& time) {
 }
 
 void ExactWorld::arrive(const Mover& body, const Instant& time) {
-  account_.arrives(static_cast<std::size_t>(body.listed.value), stateAt(body, time, attitudeAt(body, time)),
-                   elapsed(body, time));
-}
-
-Attitude ExactWorld::Mover::operator()(double elapsed) const {
-  if (!rotation) {
-    return {.worldFromBody = pose.worldFromBody};
-  }
-  const Quat attitude = rotation->worldFromBody(elapsed);
-  return {.worldFromBody = attitude.toRotationMatrix(),
-          .angularVelocity = rotation->angularVelocityWorld(attitude)};
-}
-
-Quat ExactWorld::attitudeAt(const Mover& body, const Instant& time) {
-  return body.rotation ? body.rotation->worldFromBody(elapsed(body, time)) : body.flight.worldFromBody;
-}
-
-BodyState ExactWorld::stateAt(const Mover& body, const Instant& time, const Quat& attitude) {
-  if (!body.flies) {
-    return {.pose = body.pose};
-  }
-  const double since = elapsed(body, time);
-  return {.pose = {.position = body.flight.positionAt(since), .worldFromBody = attitude.toRotationMatrix()},
-          .velocity = body.flight.velocityAt(since),
-          .angularMomentum = body.flight.angularMomentum};
+  account_.arrives(static_cast<std::size_t>(body.listed.value), body.stateAt(time), body.elapsed(time));
 }
 
 // ---- What comes next.
@@ -460,7 +388,8 @@ void ExactWorld::predict(int rank) {
   }
   neighbors_.findCandidates(rank, candidates_);
   for (const Neighbors::Key candidate : candidates_) {
-    const std::optional<Event> met = firstMeeting(rank, candidate, first ? first->time : end_);
+    const std::optional<Event> met =
+        firstMeeting(body, rank, mover(candidate), candidate, first ? first->time : end_);
     if (met) {
       sooner(first, *met);
     }
@@ -478,57 +407,6 @@ void ExactWorld::sooner(std::optional<Event>& first, const Event& candidate) {
   }
 }
 
-std::optional<Event> ExactWorld::firstWall(int rank) const {
-  const Mover& body = mover(rank);
-  const MovingBox box = moving(body, body.start);
-  std::optional<Event> first;
-  double until = elapsed(body, end_);
-  for (std::size_t w = 0; w < world_.walls.size(); ++w) {
-    const Wall& wall = world_.walls[w];
-    const FirstContact contact = body.angularSpeedBound == 0
-                                     ? firstContactTranslating(box, wall.normal, wall.offset, until)
-                                     : searchUntil(until, [&](const SearchWindow& window) {
-                                         return firstContactWithWall(box, wall.normal, wall.offset, window);
-                                       });
-    if (contact.kind != ContactKind::kNone && (!first || contact.time < until)) {
-      until = contact.time;
-      first = {.time = instantAfter(body.start, contact.time),
-               .kind = contact.kind == ContactKind::kImpact ? EventKind::kContact : EventKind::kTouching,
-               .body = rank,
-               .partner = wallPartner(w)};
-    }
-  }
-  return first;
-}
-
-// Nothing changes between two that move alike and do not turn: blocks that lie in a row.
-bool ExactWorld::moveAsOne(const Mover& a, const Mover& b) {
-  return a.angularSpeedBound == 0 && b.angularSpeedBound == 0 &&
-         a.flight.acceleration == b.flight.acceleration && a.flight.velocity == b.flight.velocity &&
-         a.flight.acceleration.isZero(0);
-}
-
-std::optional<Event> ExactWorld::firstMeeting(int rank, int partner, const Instant& until) const {
-  const Mover& a = mover(rank);
-  const Mover& b = mover(partner);
-  const Instant zero = later(a.start, b.start);
-  const double end = secondsBetween(zero, until);
-  if (!(end >= 0) || moveAsOne(a, b)) {
-    return std::nullopt;
-  }
-  const FirstContact contact = searchUntil(end, [&](const SearchWindow& window) {
-    return firstContactOfBoxes(moving(a, zero), moving(b, zero), window);
-  });
-  if (contact.kind == ContactKind::kNone) {
-    return std::nullopt;
-  }
-  return Event{.time = instantAfter(zero, contact.time),
-               .kind = contact.kind == ContactKind::kImpact ? EventKind::kContact : EventKind::kTouching,
-               .body = rank,
-               .partner = partner,
-               .partnerMotion = b.motion};
-}
-
 void ExactWorld::findCrossing(Mover& body, int rank) {
   body.crosses = neighbors_.isFiled(rank) && movers_.size() > 1;
   if (body.crosses) {
@@ -536,17 +414,6 @@ void ExactWorld::findCrossing(Mover& body, int rank) {
         neighbors_.nextCrossing(body.flight.position, body.flight.velocity, body.flight.acceleration,
                                 neighbors_.cell(rank), body.crossing.time);
   }
-}
-
-MovingBox ExactWorld::moving(const Mover& body, const Instant& clockZero) {
-  return {.halfExtents = body.body->halfExtents,
-          .position = body.flight.position,
-          .velocity = body.flight.velocity,
-          .acceleration = body.flight.acceleration,
-          .age = elapsed(body, clockZero),
-          .angularSpeedBound = body.angularSpeedBound,
-          .angularAccelerationBound = body.angularAccelerationBound,
-          .attitude = AttitudeView(body)};
 }
 
 std::string ExactWorld::where(int rank, const Instant& time) const {

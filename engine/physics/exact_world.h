@@ -1,21 +1,18 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "physics/event_queue.h"
-#include "physics/flight.h"
 #include "physics/flight_account.h"
 #include "physics/impact_law.h"
 #include "physics/method.h"
+#include "physics/mover.h"
 #include "physics/neighbors.h"
 #include "physics/recorder.h"
-#include "physics/time_of_impact.h"
-#include "physics/torque_free_rotation.h"
 #include "physics/world.h"
 
 namespace careen {
@@ -32,25 +29,6 @@ class ExactWorld {
   RunFigures run(const std::stop_token& stop);
 
  private:
-  struct Mover {
-    const Body* body = nullptr;
-    BodyIndex listed;  ///< its place in the scene
-    bool flies = false;
-    Flight flight;  ///< if it flies
-    std::optional<TorqueFreeRotation<double>> rotation;
-    double angularSpeedBound = 0;         ///< [rad/s]
-    double angularAccelerationBound = 0;  ///< [rad/s²]
-    Pose pose;                            ///< if it rests, or is held
-    Instant start{};
-    std::uint64_t motion = 0;      ///< counts flights and rests: what was predicted for another is stale
-    int atOneMoment = 0;           ///< how many of them began at `start`
-    std::optional<Event> wall;     ///< the flight's first contact with a wall
-    bool crosses = false;          ///< it enters other cells
-    Neighbors::Crossing crossing;  ///< the next one
-
-    bool isHeld() const { return body->mass.inverseMass == 0; }
-    Attitude operator()(double elapsed) const;
-  };
   /// Bodies that touch at one moment, and what becomes of them.
   struct Group {
     Instant time;
@@ -71,7 +49,6 @@ class ExactWorld {
 
   Group gather(const Event& event);
   std::vector<int> touchingFrom(const Event& event) const;
-  static bool touch(const Mover& a, const Mover& b, const Instant& time);
   void addWallContacts(Group& group, std::size_t index);
   void addPairContacts(Group& group, std::size_t indexA, std::size_t indexB);
   void resolve(Group& group);
@@ -87,17 +64,10 @@ class ExactWorld {
 
   void predict(int rank);
   static void sooner(std::optional<Event>& first, const Event& candidate);
-  std::optional<Event> firstWall(int rank) const;
-  static bool moveAsOne(const Mover& a, const Mover& b);
-  std::optional<Event> firstMeeting(int rank, int partner, const Instant& until) const;
   void findCrossing(Mover& body, int rank);
 
   Mover& mover(int rank) { return movers_[static_cast<std::size_t>(rank)]; }
   const Mover& mover(int rank) const { return movers_[static_cast<std::size_t>(rank)]; }
-  static double elapsed(const Mover& body, const Instant& time) { return secondsBetween(body.start, time); }
-  static Quat attitudeAt(const Mover& body, const Instant& time);
-  static BodyState stateAt(const Mover& body, const Instant& time, const Quat& attitude);
-  static MovingBox moving(const Mover& body, const Instant& clockZero);
   std::string where(int rank, const Instant& time) const;
 
   const World& world_;
