@@ -108,10 +108,16 @@ class EllipticPhase {
 
   template <class Level>
   void step(const Level& level) {
+    using std::abs;
     halfTurns_ = 2 * halfTurns_ + (y_ < 0 ? 1 : 0);
     scale_ /= 2;
-    const Real y = y_ == 0 ? Real(level.upper * square(std::numeric_limits<Real>::epsilon())) : y_;
-    y_ = (y_ - static_cast<Real>(level.product) / y) / 2;
+    const Real product = static_cast<Real>(level.product);
+    const Real tiny = square(std::numeric_limits<Real>::epsilon());
+    if (abs(y_) * level.upper > product * tiny) {
+      y_ = (y_ - product / y_) / 2;
+    } else {
+      y_ = (y_ < 0 ? level.upper : Real(-level.upper)) / tiny;  // a quarter turn to rounding
+    }
   }
 
   Real value(const Real& mean) const {

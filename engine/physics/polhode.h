@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "core/linear_algebra.h"
@@ -46,10 +48,12 @@ struct Polhode {
   Extended volume;         // V [kg³ m⁶]
   Extended nAB, nBC, nAC;  // [kg² m⁴], nAB + nBC = nAC
   Extended momentum;       // G = |m|
-  Extended p, s, d;        // A² nAC, C² nAC and A² kc² nAB
+  Extended p, s, d;        // A² nAC, C² nAC and A² kc² nAB · magnification²
+  Real magnification = 1;  // [1] by which m along a and c was enlarged for d, a power of two
 
   /// moments [kg m²] along the body axes, momentumBody [kg m²/s] along them.
-  Polhode(const Vector3<Real>& moments, const std::array<Extended, 3>& momentumBody) {
+  Polhode(const Vector3<Real>& moments, std::array<Extended, 3> momentumBody) {
+    using std::abs;
     using std::sqrt;
     const Vector3<Real> m(static_cast<Real>(momentumBody[0]), static_cast<Real>(momentumBody[1]),
                           static_cast<Real>(momentumBody[2]));
@@ -67,6 +71,19 @@ struct Polhode {
     const Real i3 = moments[static_cast<int>(order[2])];
     const std::array<Extended, 2> n = {wideDifference<Extended>(i2, i1) * i3,
                                        wideDifference<Extended>(i3, i2) * i1};
+    // Hardly off the middle axis, nothing but kc depends on the two outer components: they are taken larger,
+    // so that their squares do not underflow.
+    const Real outer =
+        std::max(Real(abs(m[static_cast<int>(order[0])])), Real(abs(m[static_cast<int>(order[2])])));
+    if (outer > 0) {
+      while (outer * magnification < abs(m[static_cast<int>(order[1])]) * Real(0x1p-300)) {
+        magnification *= Real(0x1p200);
+      }
+    }
+    if (magnification > 1) {
+      momentumBody[order[0]] = magnification * momentumBody[order[0]];
+      momentumBody[order[2]] = magnification * momentumBody[order[2]];
+    }
     const std::array<Extended, 2> squares = {square(momentumBody[order[0]]), square(momentumBody[order[2]])};
     const Extended mbSquared = square(momentumBody[order[1]]);
     const Extended excess = normalized(Extended(squares[0] * n[0] - squares[1] * n[1]));

@@ -120,9 +120,10 @@ class TiltSeries {
     }
     const Real v = quarters * (elementary::pi<Real>() / 2) + angle.rest;
     const Real y = v * stretch_;
-    // Everything is divided by e^{|y|}/2. As |y| ≤ πK/4K', ratio is at most 1.
+    // Everything is divided by e^{|y|}/2. As |y| ≤ πK/4K', the ratio of one harmonic's growth to the last's
+    // is at most 1, also where both numbers underflow.
     const Real decay = elementary::exp(Real(-2 * abs(y)));
-    const Real ratio = mode_ == Mode::kTransformed ? Real(nome_ / decay) : Real(0);  // p e^{2|y|}
+    const Real ratio = decay > nome_ ? Real(nome_ / decay) : Real(1);  // p e^{2|y|}
     CayleyKlein<Real> sum{0, 0, 0, 0};
     Real growth = 1;     // ratioⁿ
     Real power = decay;  // e^{−2(2n+1)|y|}

@@ -74,7 +74,8 @@ namespace careen {
 /// 1.3 and 14 to 17.
 ///
 /// Moments must be positive and finite, L finite; the quaternion may have any length but 0. Squares of all of
-/// them, and products of two such squares, must neither overflow nor underflow; |ωt| < 2⁵⁰.
+/// them, and products of two such squares, must neither overflow nor underflow; only the momentum off an axis
+/// may be as small as it likes. |ωt| < 2⁵⁰.
 template <class Real>
 class TorqueFreeRotation {
  public:
@@ -224,7 +225,7 @@ void TorqueFreeRotation<Real>::setUpGeneral(const Polhode<Real>& polhode) {
   // k a₀.
   const Extended lowerSquared = polhode.d * nAC;
   const Extended upper = sqrt(Extended(p * nAB));
-  const Extended lower = sqrt(lowerSquared);
+  const Extended lower = (1 / polhode.magnification) * sqrt(lowerSquared);
   const Real a0 = real(upper);
   const Real kUpperSquared = real(nBC) * real(s);
   const Real aSquared = real(p) / real(nAC);
@@ -275,7 +276,7 @@ void TorqueFreeRotation<Real>::setUpGeneral(const Polhode<Real>& polhode) {
       complementaryPhase.step(complementary.level());
     }
     const Real x = elementary::pi<Real>() / 4 - complementaryPhase.value(complementary.mean()) / 2;
-    tilt_ = TiltSeries<Real>::fromComplementaryNome(sqrt(complementary.nome()), x,
+    tilt_ = TiltSeries<Real>::fromComplementaryNome(sqrt(complementary.nome()) / polhode.magnification, x,
                                                     complementary.mean() / (2 * real(ladder.mean())));
   }
 }
