@@ -54,6 +54,16 @@ constexpr Number wideProduct(const Real& a, const Real& b) {
   }
 }
 
+/// a + b for a b of the order of a's rounding.
+template <class Number, class Real>
+constexpr Number withRest(const Number& a, const Real& b) {
+  if constexpr (std::is_same_v<Number, DoubleDouble>) {
+    return {a.hi, a.lo + b};
+  } else {
+    return a + b;
+  }
+}
+
 /// a / b given leadingInverse(b).
 template <class Number>
 constexpr Number quotient(const Number& a, const Number&, const Number& inverse) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "core/linear_algebra.h"
 #include "core/wide.h"
@@ -35,18 +37,25 @@ Real squaredNorm(const CayleyKlein<Real>& q) {
 /// R⁻¹ v for the rotation R along q, computed in `Number`; q need not be of length 1.
 template <class Number, class Real>
 std::array<Number, 3> turnedBack(const Quaternion<Real>& q, const Vector3<Real>& v) {
+  // v + 2 (u × (u × v) − w u × v)/|q|², where 1/|q|² is 2 − |q|² if q is of length 1 but for rounding.
+  using std::abs;
   const Real& w = q.w();
   const std::array<Real, 3> u = {q.x(), q.y(), q.z()};
+  const std::array<Real, 3> twice = {2 * u[0], 2 * u[1], 2 * u[2]};
   const auto crossed = [&](std::size_t i, std::size_t j) {
-    return wideProduct<Number>(u[i], v[static_cast<int>(j)]) -
-           wideProduct<Number>(u[j], v[static_cast<int>(i)]);
+    return Number(wideProduct<Number>(u[i], v[static_cast<int>(j)]) -
+                  wideProduct<Number>(u[j], v[static_cast<int>(i)]));
   };
   const Number lengthSquared = (wideProduct<Number>(w, w) + wideProduct<Number>(u[0], u[0])) +
                                (wideProduct<Number>(u[1], u[1]) + wideProduct<Number>(u[2], u[2]));
-  const Number scale = Number(2) / lengthSquared;
-  const std::array<Number, 3> swing = {scale * crossed(1, 2), scale * crossed(2, 0), scale * crossed(0, 1)};
+  const Real excess = static_cast<Real>(Number(lengthSquared - Number(1)));
+  const bool isUnit = abs(excess) < 64 * std::numeric_limits<Real>::epsilon();
+  const std::array<Number, 3> cross = {crossed(1, 2), crossed(2, 0), crossed(0, 1)};
   const auto component = [&](std::size_t i, std::size_t j, std::size_t k) {
-    return Number(v[static_cast<int>(i)]) + ((u[j] * swing[k] - u[k] * swing[j]) - w * swing[i]);
+    const Number swing = (twice[j] * cross[k] - twice[k] * cross[j]) - 2 * w * cross[i];
+    return Number(
+        Number(v[static_cast<int>(i)]) +
+        (isUnit ? withRest(swing, Real(-excess * static_cast<Real>(swing))) : Number(swing / lengthSquared)));
   };
   return {component(0, 1, 2), component(1, 2, 0), component(2, 0, 1)};
 }

@@ -42,7 +42,7 @@ class LandenLadder {
  public:
   struct Level {
     Real upper, lower, gap;  // aₙ, bₙ, dₙ
-    Number product;          // aₙ bₙ
+    Real product;            // aₙ bₙ
   };
 
   /// a ≥ b > 0, gap = a − b to full relative accuracy.
@@ -51,24 +51,38 @@ class LandenLadder {
   /// Takes one level down; false when it was the last that is needed.
   bool descend() {
     using std::sqrt;
-    level_ = {static_cast<Real>(upper_), static_cast<Real>(lower_), gap_, upper_ * lower_};
+    const Real upper = static_cast<Real>(upper_);
+    const Real lower = static_cast<Real>(lower_);
+    level_ = {upper, lower, gap_, upper * lower};
+    const Number above = upper_;
     upper_ = half(Number(upper_ + lower_));
-    lower_ = sqrt(level_.product);
+    ++descents_;
+    const Real guess = gap_ / (8 * static_cast<Real>(upper_));  // ℓₙ as if bₙ₊₁ were aₙ₊₁
+    const Real cube = guess * guess * guess;
+    if (cube <= std::numeric_limits<Real>::epsilon() / 4096 || descents_ == kMostDescents) {
+      lambda_ = guess + 4 * cube;
+      gap_ *= lambda_;
+      return false;
+    }
+    product_ = above * lower_;
+    lower_ = sqrt(product_);
     lambda_ = gap_ / (4 * (static_cast<Real>(upper_) + static_cast<Real>(lower_)));
     gap_ *= lambda_;
-    ++descents_;
-    return lambda_ * lambda_ * lambda_ > std::numeric_limits<Real>::epsilon() / 16 &&
-           descents_ < kMostDescents;
+    return true;
   }
 
   /// The level from which descend() went down, N at the end.
   const Level& level() const { return level_; }
+  /// Its a b in all digits; not of the last.
+  const Number& product() const { return product_; }
 
-  /// a b one level below the last.
-  Number productBelow() const { return upper_ * lower_; }
+  /// The arithmetic–geometric mean M of a₀ and b₀, after the last descent. K = π a₀ / (2 M).
+  Number mean() const { return upper_ - Number(gap_ / 2); }
 
-  /// The arithmetic–geometric mean of a₀ and b₀, after the last descent. K = π a₀ / (2 mean).
-  Number mean() const { return half(Number(upper_ + lower_)); }
+  /// a b − M² for the last level if it is not the first, whose product is known in all digits.
+  Real excessOfLastProduct() const {
+    return descents_ == 1 ? Real(0) : Real(gap_ * (Real(0.75) * gap_ - static_cast<Real>(upper_)));
+  }
 
   /// Q, the nome of the last level.
   const Real& lastNome() const { return lambda_; }
@@ -92,6 +106,7 @@ class LandenLadder {
 
   Number upper_;
   Number lower_;
+  Number product_{};
   Real gap_;
   Real lambda_ = 0;
   int descents_ = 0;
@@ -104,17 +119,17 @@ class LandenLadder {
 template <class Real>
 class EllipticPhase {
  public:
-  EllipticPhase(const Real& cotangent, const Real& a0) : y_(cotangent * a0) {}
+  /// a₀ cs u.
+  explicit EllipticPhase(const Real& a0Cotangent) : y_(a0Cotangent) {}
 
   template <class Level>
   void step(const Level& level) {
     using std::abs;
     halfTurns_ = 2 * halfTurns_ + (y_ < 0 ? 1 : 0);
     scale_ /= 2;
-    const Real product = static_cast<Real>(level.product);
     const Real tiny = square(std::numeric_limits<Real>::epsilon());
-    if (abs(y_) * level.upper > product * tiny) {
-      y_ = (y_ - product / y_) / 2;
+    if (abs(y_) * level.upper > level.product * tiny) {
+      y_ = (y_ - level.product / y_) / 2;
     } else {
       y_ = (y_ < 0 ? level.upper : Real(-level.upper)) / tiny;  // a quarter turn to rounding
     }
@@ -135,16 +150,15 @@ class EllipticPhase {
 template <class Real>
 class EllipticDecay {
  public:
-  /// 1 − sine to full relative accuracy along with sine itself.
-  EllipticDecay(const Real& sine, const Real& oneMinusSine, const Real& a0)
-      : x_(sine / a0), rest_(oneMinusSine) {}
+  /// sn/a₀, and 1 − sn to full relative accuracy.
+  EllipticDecay(const Real& sinePerA0, const Real& oneMinusSine) : x_(sinePerA0), rest_(oneMinusSine) {}
 
   template <class Level>
   void step(const Level& level) {
     x_ = below_.x;
     rest_ = below_.rest;
     last_ = {level.upper, level.lower, level.gap};
-    const Real inverse = 1 / (1 + static_cast<Real>(level.product) * x_ * x_);
+    const Real inverse = 1 / (1 + level.product * x_ * x_);
     below_ = {2 * x_ * inverse, rest_ * (rest_ + level.gap * x_) * inverse};
   }
 
@@ -175,14 +189,24 @@ class EllipticDecay {
   Bounds last_{};
 };
 
-/// The mean over a period of (α cn² + β p sn²)/(cn² + p sn²), p > 0, given as s = a₀√p, α and γ = a₀β√p:
-/// Bulirsch's cel(kc, p, α, βp) / K. For positive α and β every term is positive and nothing cancels.
+/// The mean over a period of (α cn² + β p sn²)/(cn² + p sn²), p > 0, given as s = a₀√p, α and β: Bulirsch's
+/// cel(kc, p, α, βp) / K. For positive α and β every term is positive and nothing cancels.
+///
+/// A step is s ← (s + ab/s)/2, α ← (α + γ/s)/2, γ ← (γ + α ab/s)/2 with γ = βs at first; the mean is V = (αM
+/// + γ)/(M + s) once a = b = M. Where ab = M² + ε with a small ε, the V of before the step wants only ε (α −
+/// V)/((M + s)² + ε), for which plain numbers do: so for the last step.
 template <class Real, class Number = Wide<Real>>
 class ThirdKindMean {
  public:
-  ThirdKindMean(const Number& s, const Number& alpha, const Number& gamma)
-      : s_(s), alpha_(alpha), gamma_(gamma) {}
+  /// product = a₀ b₀: takes the first step.
+  ThirdKindMean(const Number& s, const Number& alpha, const Number& beta, const Number& product) {
+    const Number ratio = product / s;
+    gamma_ = half(Number(s * beta + alpha * ratio));
+    alpha_ = half(Number(alpha + beta));
+    s_ = half(Number(s + ratio));
+  }
 
+  /// A step between the first and the last.
   void step(const Number& product) {
     const Real inverse = leadingInverse<Real>(s_);
     const Number ratio = quotient(product, s_, inverse);
@@ -192,11 +216,15 @@ class ThirdKindMean {
     s_ = half(Number(s_ + ratio));
   }
 
+  /// With the last step.
   template <class Ladder>
-  Number value(const Ladder& ladder) {
-    step(ladder.productBelow());
+  Number value(const Ladder& ladder) const {
     const Number mean = ladder.mean();
-    return (alpha_ * mean + gamma_) / (mean + s_);
+    const Number sum = mean + s_;
+    const Number circular = (alpha_ * mean + gamma_) / sum;
+    const Real excess = ladder.excessOfLastProduct();
+    return circular +
+           Number(excess * static_cast<Real>(alpha_ - circular) / (square(static_cast<Real>(sum)) + excess));
   }
 
  private:

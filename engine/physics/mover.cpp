@@ -13,8 +13,11 @@ void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravit
             .acceleration = gravity,
             .worldFromBody = attitude,
             .angularMomentum = state.angularMomentum};
-  rotation.emplace(body->mass.inertiaBody, attitude, state.angularMomentum);
-  const TorqueFreeRotation<double>::Bounds bounds = rotation->calcBounds();
+  if (!moments) {
+    moments.emplace(body->mass.inertiaBody);
+  }
+  rotation.emplace(*moments, attitude, state.angularMomentum);
+  const TorqueFreeRotation<double>::Bounds& bounds = rotation->bounds();
   angularSpeedBound = bounds.angularSpeed;
   angularAccelerationBound = bounds.angularAcceleration;
 }

@@ -19,6 +19,7 @@ struct Mover {
   BodyIndex listed;  ///< its place in the scene
   bool flies = false;
   Flight flight;  ///< if it flies
+  std::optional<PrincipalMoments<double>> moments;  ///< if it ever flew
   std::optional<TorqueFreeRotation<double>> rotation;
   double angularSpeedBound = 0;         ///< [rad/s]
   double angularAccelerationBound = 0;  ///< [rad/s²]

@@ -7,6 +7,7 @@
 
 #include "core/linear_algebra.h"
 #include "core/wide.h"
+#include "physics/principal_moments.h"
 
 namespace careen {
 
@@ -16,9 +17,6 @@ namespace careen {
 ///
 /// The momentum is taken in the extended type: near the separatrix, or in a needle, the last digit of a
 /// component decides where the motion goes.
-///
-/// Denominators are cleared: with V = Ia Ib Ic, nAB = |Ib − Ia| Ic stands for V |1/Ia − 1/Ib|, and so on.
-/// Differences of moments are thus taken of the moments themselves, where they are exact when it matters.
 template <class Real>
 struct Polhode {
   using Extended = Wide<Real>;
@@ -40,37 +38,37 @@ struct Polhode {
     kSeparatrix,  // from −b to b
   };
 
+  const PrincipalMoments<Real>& body;
+  std::size_t circled;  // 0 if Ia is the smallest moment, 1 if it is the largest
   Kind kind;
   Frame frame;
-  Real direction;          // +1 if Ia is the smallest moment, −1 if it is the largest
-  Real mb, mc, ma;         // [kg m²/s] the momentum along x, y, z
-  Real ia, ib, ic;         // [kg m²]
-  Extended volume;         // V [kg³ m⁶]
-  Extended nAB, nBC, nAC;  // [kg² m⁴], nAB + nBC = nAC
-  Extended momentum;       // G = |m|
-  Extended p, s, d;        // A² nAC, C² nAC and A² kc² nAB · magnification²
+  Real direction;     // +1 if Ia is the smallest moment, −1 if it is the largest
+  Real mb, mc, ma;    // [kg m²/s] the momentum along x, y, z
+  Extended momentum;  // G = |m|
+  Extended alongZ;    // ma
+  Extended p, d;      // A² nAC and A² kc² nAB · magnification²
+  Real s;             // C² nAC
+  Real aSquared = 0;  // A², and C²; of Kind::kGeneral and Kind::kSeparatrix alone
+  Real cSquared = 0;
   Real magnification = 1;  // [1] by which m along a and c was enlarged for d, a power of two
 
-  /// moments [kg m²] along the body axes, momentumBody [kg m²/s] along them.
-  Polhode(const Vector3<Real>& moments, std::array<Extended, 3> momentumBody) {
+  // nAB = V |1/Ia − 1/Ib| and so on [kg² m⁴].
+  const Extended& nAB() const { return body.n[circled]; }
+  const Extended& nBC() const { return body.n[1 - circled]; }
+  const Extended& nAC() const { return body.n13; }
+  Extended excess() const { return direction < 0 ? Extended(-d) : d; }  // V D
+  // [1/(kg m²)]
+  const Extended& perIa() const { return body.inverse[2 * circled]; }
+  const Extended& perIb() const { return body.inverse[1]; }
+  const Extended& perIc() const { return body.inverse[2 - 2 * circled]; }
+
+  /// momentumBody [kg m²/s] along the body axes. Keeps a reference to the moments.
+  Polhode(const PrincipalMoments<Real>& moments, std::array<Extended, 3> momentumBody) : body(moments) {
     using std::abs;
     using std::sqrt;
     const Vector3<Real> m(static_cast<Real>(momentumBody[0]), static_cast<Real>(momentumBody[1]),
                           static_cast<Real>(momentumBody[2]));
-    // Ranks instead of swaps: a sort of three mispredicts every other branch.
-    std::array<std::size_t, 3> order{};
-    const int before01 = moments[1] < moments[0] ? 1 : 0;
-    const int before02 = moments[2] < moments[0] ? 1 : 0;
-    const int before12 = moments[2] < moments[1] ? 1 : 0;
-    order[static_cast<std::size_t>(before01 + before02)] = 0;
-    order[static_cast<std::size_t>(1 - before01 + before12)] = 1;
-    order[static_cast<std::size_t>(2 - before02 - before12)] = 2;
-
-    const Real i1 = moments[static_cast<int>(order[0])];
-    const Real i2 = moments[static_cast<int>(order[1])];
-    const Real i3 = moments[static_cast<int>(order[2])];
-    const std::array<Extended, 2> n = {wideDifference<Extended>(i2, i1) * i3,
-                                       wideDifference<Extended>(i3, i2) * i1};
+    const std::array<std::size_t, 3>& order = body.order;
     // Hardly off the middle axis, nothing but kc depends on the two outer components: they are taken larger,
     // so that their squares do not underflow.
     const Real outer =
@@ -86,28 +84,23 @@ struct Polhode {
     }
     const std::array<Extended, 2> squares = {square(momentumBody[order[0]]), square(momentumBody[order[2]])};
     const Extended mbSquared = square(momentumBody[order[1]]);
-    const Extended excess = normalized(Extended(squares[0] * n[0] - squares[1] * n[1]));
+    const Extended excess = normalized(Extended(squares[0] * body.n[0] - squares[1] * body.n[1]));
     const Real sign = static_cast<Real>(excess);
     // On the separatrix either would do, but a symmetric body's axis must be a.
-    const std::size_t largest = sign < 0 || (sign == 0 && static_cast<Real>(n[0]) == 0) ? 1 : 0;
+    circled = sign < 0 || (sign == 0 && static_cast<Real>(body.n[0]) == 0) ? 1 : 0;
 
-    direction = largest == 1 ? Real(-1) : Real(1);
-    const int a = static_cast<int>(order[2 * largest]);
+    direction = circled == 1 ? Real(-1) : Real(1);
+    const int a = static_cast<int>(order[2 * circled]);
     const int b = static_cast<int>(order[1]);
-    const int c = static_cast<int>(order[2 - 2 * largest]);
-    ia = moments[a];
-    ib = moments[b];
-    ic = moments[c];
-    volume = wideProduct<Extended>(ia, ib) * ic;
-    nAB = n[largest];
-    nBC = n[1 - largest];
-    nAC = wideDifference<Extended>(i3, i1) * i2;
-    d = largest == 1 ? Extended(-excess) : excess;
-    const Extended& maSquared = squares[largest];
-    const Extended& mcSquared = squares[1 - largest];
-    momentum = sqrt(Extended(maSquared + mbSquared + mcSquared));
-    p = maSquared * nAC + mbSquared * nBC;
-    s = mcSquared * nAC + mbSquared * nAB;
+    const int c = static_cast<int>(order[2 - 2 * circled]);
+    d = circled == 1 ? Extended(-excess) : excess;
+    const Extended& maSquared = squares[circled];
+    const Extended& mcSquared = squares[1 - circled];
+    const Extended squared = maSquared + mcSquared + mbSquared;
+    momentum = sqrt(squared);
+    p = d + squared * nBC();
+    s = static_cast<Real>(mcSquared) * static_cast<Real>(nAC()) +
+        static_cast<Real>(mbSquared) * static_cast<Real>(nAB());
 
     const bool noA = static_cast<Real>(maSquared) == 0;
     const bool noB = static_cast<Real>(mbSquared) == 0;
@@ -117,7 +110,14 @@ struct Polhode {
       const int axis = !noA ? a : !noB ? b : c;
       frame = {{(axis + 1) % 3, (axis + 2) % 3, axis}, {Real(1), signOf(m[axis]), signOf(m[axis])}};
     } else {
-      kind = static_cast<Real>(nBC) == 0 ? Kind::kSymmetric : sign == 0 ? Kind::kSeparatrix : Kind::kGeneral;
+      kind = static_cast<Real>(nBC()) == 0 ? Kind::kSymmetric
+             : sign == 0                   ? Kind::kSeparatrix
+                                           : Kind::kGeneral;
+      if (kind != Kind::kSymmetric) {
+        const Real perAC = 1 / static_cast<Real>(nAC());
+        aSquared = static_cast<Real>(p) * perAC;
+        cSquared = s * perAC;
+      }
       // m is made positive along as many axes as a right-handed frame allows: a half turn of body and world
       // about a coordinate axis, which is what mirroring amounts to, then leads to the same frame and the
       // same bits.
@@ -135,6 +135,11 @@ struct Polhode {
       frame = {{b, c, a}, {alongB, alongC, alongA}};
     }
     const Vector3<Real> inFrame = frame.fromBody(m);
+    const auto axis = static_cast<std::size_t>(frame.bodyAxis[2]);
+    alongZ = frame.sign[2] < 0 ? Extended(-momentumBody[axis]) : momentumBody[axis];
+    if (magnification > 1 && axis != order[1]) {
+      alongZ = (1 / magnification) * alongZ;
+    }
     mb = inFrame[0];
     mc = inFrame[1];
     ma = inFrame[2];

@@ -13,6 +13,7 @@
 #include "physics/landen_ladder.h"
 #include "physics/linear_phase.h"
 #include "physics/polhode.h"
+#include "physics/principal_moments.h"
 #include "physics/tilt_series.h"
 
 namespace careen {
@@ -81,8 +82,11 @@ class TorqueFreeRotation {
  public:
   /// Principal moments of inertia [kg m²] along the body's axes, attitude at t = 0, angular momentum [kg
   /// m²/s].
-  TorqueFreeRotation(const Vector3<Real>& momentsBody, const Quaternion<Real>& worldFromBodyAtStart,
+  TorqueFreeRotation(const PrincipalMoments<Real>& moments, const Quaternion<Real>& worldFromBodyAtStart,
                      const Vector3<Real>& angularMomentumWorld);
+  TorqueFreeRotation(const Vector3<Real>& momentsBody, const Quaternion<Real>& worldFromBodyAtStart,
+                     const Vector3<Real>& angularMomentumWorld)
+      : TorqueFreeRotation(PrincipalMoments<Real>(momentsBody), worldFromBodyAtStart, angularMomentumWorld) {}
 
   /// The attitude at time t [s] after (or before) the start, a unit quaternion to rounding.
   Quaternion<Real> worldFromBody(const Real& t) const;
@@ -101,7 +105,7 @@ class TorqueFreeRotation {
     Real angularSpeed;         // [rad/s]
     Real angularAcceleration;  // [rad/s²]
   };
-  Bounds calcBounds() const;
+  const Bounds& bounds() const { return bounds_; }
 
  private:
   using Frame = typename Polhode<Real>::Frame;
@@ -109,16 +113,17 @@ class TorqueFreeRotation {
   static constexpr double kLeastDirectModulus = 0.185;  // kc where the nome is 0.2
 
   void setStart(const Quaternion<Real>& worldFromBody, const Frame& frame);
+  void setBounds(const Polhode<Real>& polhode);
+  void setUpFixedAxis(const Polhode<Real>& polhode);
   void setUpSymmetric(const Polhode<Real>& polhode);
   void setUpSeparatrix(const Polhode<Real>& polhode);
   void setUpGeneral(const Polhode<Real>& polhode);
   CayleyKlein<Real> spinor(const Real& t) const;
 
   // Plain arrays: Eigen's are not trivially copyable.
-  std::array<Real, 3> angularMomentumWorld_;       // L [kg m²/s]
-  std::array<Real, 3> moments_;                    // [kg m²] along the body axes
-  std::array<Real, 3> inverseMoments_;             // [1/(kg m²)]
-  std::array<Real, 3> momentumBody_;               // [kg m²/s] at t = 0
+  std::array<Real, 3> angularMomentumWorld_;  // L [kg m²/s]
+  std::array<Real, 3> inverseMoments_;        // [1/(kg m²)]
+  Bounds bounds_;
   std::array<std::array<Real, 4>, 4> fromSpinor_;  // its columns; rows x y z w
   LinearPhase<Real> polhodePhase_;                 // v
   LinearPhase<Real> precession_;                   // κt
@@ -126,28 +131,26 @@ class TorqueFreeRotation {
 };
 
 template <class Real>
-TorqueFreeRotation<Real>::TorqueFreeRotation(const Vector3<Real>& momentsBody,
+TorqueFreeRotation<Real>::TorqueFreeRotation(const PrincipalMoments<Real>& moments,
                                              const Quaternion<Real>& worldFromBodyAtStart,
                                              const Vector3<Real>& angularMomentumWorld)
     : angularMomentumWorld_{angularMomentumWorld[0], angularMomentumWorld[1], angularMomentumWorld[2]},
-      moments_{momentsBody[0], momentsBody[1], momentsBody[2]},
-      inverseMoments_{1 / momentsBody[0], 1 / momentsBody[1], 1 / momentsBody[2]} {
-  const auto momentum = turnedBack<Wide<Real>>(worldFromBodyAtStart, angularMomentumWorld);
-  std::transform(momentum.begin(), momentum.end(), momentumBody_.begin(),
-                 [](const Wide<Real>& m) { return static_cast<Real>(m); });
-  const Polhode<Real> polhode(momentsBody, momentum);
+      inverseMoments_(moments.inverseAlongBody) {
+  const Polhode<Real> polhode(moments, turnedBack<Wide<Real>>(worldFromBodyAtStart, angularMomentumWorld));
   switch (polhode.kind) {
     case Polhode<Real>::Kind::kFixedAxis:
-      precession_ = {half(Wide<Real>(polhode.ma) / Wide<Real>(momentsBody[polhode.frame.bodyAxis[2]])), 0, 0};
+      setUpFixedAxis(polhode);
       break;
     case Polhode<Real>::Kind::kSymmetric:
       setUpSymmetric(polhode);
       break;
     case Polhode<Real>::Kind::kSeparatrix:
       setUpSeparatrix(polhode);
+      setBounds(polhode);
       break;
     case Polhode<Real>::Kind::kGeneral:
       setUpGeneral(polhode);
+      setBounds(polhode);
       break;
   }
   setStart(worldFromBodyAtStart, polhode.frame);
@@ -183,13 +186,28 @@ void TorqueFreeRotation<Real>::setStart(const Quaternion<Real>& worldFromBody, c
 }
 
 template <class Real>
+void TorqueFreeRotation<Real>::setUpFixedAxis(const Polhode<Real>& polhode) {
+  const auto axis = static_cast<std::size_t>(polhode.frame.bodyAxis[2]);
+  precession_ = {half(Wide<Real>(polhode.alongZ / Wide<Real>(polhode.body.alongBody[axis]))), 0, 0};
+  bounds_ = {static_cast<Real>(polhode.momentum) * inverseMoments_[axis] *
+                 (1 + 8 * std::numeric_limits<Real>::epsilon()),
+             0};
+}
+
+template <class Real>
 void TorqueFreeRotation<Real>::setUpSymmetric(const Polhode<Real>& polhode) {
   using std::sqrt;
-  const Wide<Real> bodyRate = (polhode.direction * polhode.ma) * polhode.nAC / polhode.volume;
+  const Wide<Real> bodyRate = polhode.direction * (polhode.alongZ * polhode.nAC() * polhode.body.perVolume);
   polhodePhase_ = {bodyRate, 0, elementary::atan2(polhode.mb, polhode.mc)};
-  precession_ = {half(Wide<Real>(polhode.momentum / Wide<Real>(polhode.ib) + bodyRate)), 0, 0};
+  precession_ = {half(Wide<Real>(polhode.momentum * polhode.perIb() + bodyRate)), 0, 0};
   const Real transverse = sqrt(square(polhode.mb) + square(polhode.mc));
   tilt_ = TiltSeries<Real>::fromNome(0, transverse / (static_cast<Real>(polhode.momentum) + polhode.ma));
+  const Real perIb = static_cast<Real>(polhode.perIb());
+  const Real perIa = static_cast<Real>(polhode.perIa());
+  const Real margin = 1 + 64 * std::numeric_limits<Real>::epsilon();
+  bounds_ = {sqrt(square(Real(polhode.ma * perIa)) + square(Real(transverse * perIb))) * margin,
+             static_cast<Real>(polhode.nAC()) * static_cast<Real>(polhode.body.perVolume) * perIb *
+                 polhode.ma * transverse * margin};
 }
 
 template <class Real>
@@ -198,14 +216,15 @@ void TorqueFreeRotation<Real>::setUpSeparatrix(const Polhode<Real>& polhode) {
   using std::sqrt;
   const auto real = [](const Wide<Real>& x) { return static_cast<Real>(x); };
   // λ = A √(AC·AB), and e^u = (1 + sn u)/cn u from sn u = tanh u = mb/B, cn u = mc/C, C² = B² nAB/nAC.
-  const Wide<Real> lambda = polhode.direction * sqrt(Wide<Real>(polhode.p * polhode.nAB)) / polhode.volume;
-  const Real b = sqrt(real(polhode.s) / real(polhode.nAB));
-  const Real c = sqrt(real(polhode.s) / real(polhode.nAC));
+  const Wide<Real> lambda =
+      polhode.direction * sqrt(Wide<Real>(polhode.p * polhode.nAB())) * polhode.body.perVolume;
+  const Real b = sqrt(polhode.s / real(polhode.nAB()));
+  const Real c = sqrt(polhode.cSquared);
   const Real u = elementary::log(Real((1 + abs(polhode.mb) / b) * (c / polhode.mc)));
   polhodePhase_ = {half(lambda), 0, (polhode.mb < 0 ? Real(-u) : u) / 2};
-  precession_ = {half(Wide<Real>(polhode.momentum / Wide<Real>(polhode.ib))), 0, 0};
+  precession_ = {half(Wide<Real>(polhode.momentum * polhode.perIb())), 0, 0};
   // w = F(φ, k' = 1) with cot φ = C/A; x = π/4 − φ/2 as k' = 1 makes K' the quarter turn of a circle.
-  const Real phi = elementary::atan2(Real(sqrt(real(polhode.p))), Real(sqrt(real(polhode.s))));
+  const Real phi = elementary::atan2(Real(sqrt(real(polhode.p))), Real(sqrt(polhode.s)));
   tilt_ = TiltSeries<Real>::onSeparatrix(elementary::pi<Real>() / 4 - phi / 2);
 }
 
@@ -215,62 +234,58 @@ void TorqueFreeRotation<Real>::setUpGeneral(const Polhode<Real>& polhode) {
   using std::sqrt;
   using Extended = Wide<Real>;
   const auto real = [](const Extended& x) { return static_cast<Real>(x); };
-  const Extended& nAB = polhode.nAB;
-  const Extended& nBC = polhode.nBC;
-  const Extended& nAC = polhode.nAC;
-  const Extended& p = polhode.p;
-  const Extended& s = polhode.s;
+  const PrincipalMoments<Real>& body = polhode.body;
 
   // Both ladders start from a₀ = A √(nAC nAB), the direct one with b₀ = kc a₀, the complementary one with
   // k a₀.
-  const Extended lowerSquared = polhode.d * nAC;
-  const Extended upper = sqrt(Extended(p * nAB));
-  const Extended lower = (1 / polhode.magnification) * sqrt(lowerSquared);
+  const Extended lowerSquared = polhode.d * polhode.nAC();
+  const Extended upper = sqrt(Extended(polhode.p * polhode.nAB()));
+  Extended lower = sqrt(lowerSquared);
+  if (polhode.magnification > 1) {
+    lower = (1 / polhode.magnification) * lower;
+  }
   const Real a0 = real(upper);
-  const Real kUpperSquared = real(nBC) * real(s);
-  const Real aSquared = real(p) / real(nAC);
-  const Real cSquared = real(s) / real(nAC);
-  const Real a = sqrt(aSquared);
+  const Real kUpperSquared = real(polhode.nBC()) * polhode.s;
+  const Real a = sqrt(polhode.aSquared);
+  const Real cSquared = polhode.cSquared;
   const Real g = real(polhode.momentum);
 
-  // The mean precession about L of the axis a or c, whichever has the better conditioned integral.
-  const bool ofAxisA = real(nAB) >= real(nBC);
-  const Extended root =
-      ofAxisA ? sqrt(Extended(p * nAC)) : Extended(polhode.momentum * sqrt(Extended(nAC * nAB)));
-  const Extended iaic = wideProduct<Extended>(polhode.ia, polhode.ic);
-  const Extended ibic = wideProduct<Extended>(polhode.ib, polhode.ic);
-  ThirdKindMean<Real> precession =
-      ofAxisA ? ThirdKindMean<Real>(root, wideProduct<Extended>(polhode.ia, polhode.ib), root * iaic)
-              : ThirdKindMean<Real>(root, ibic, (lowerSquared * ibic + s * nAC * iaic) / root);
-  EllipticPhase<Real> phase(
-      polhode.mb == 0 ? Real(1) : abs(polhode.mc) / (polhode.mb * sqrt(real(nAB) / real(nAC))), a0);
-  EllipticDecay<Real> decay(a / g, cSquared / (g * (g + a)), a0);
+  // The mean precession about L of the axis a or c, whichever has the better conditioned integral. On the
+  // polhode Σ m²/I is G²/Ib + D.
+  const bool ofAxisA = body.isLarger(polhode.circled);
+  const Extended& factor = body.precessionRoot[polhode.circled];
+  const Extended beta = ofAxisA
+                            ? polhode.perIb()
+                            : polhode.perIb() + polhode.excess() * body.perVolume / square(polhode.momentum);
+  ThirdKindMean<Real> precession(factor * (ofAxisA ? upper : polhode.momentum),
+                                 ofAxisA ? polhode.perIc() : polhode.perIa(), beta, upper * lower);
+  EllipticPhase<Real> phase(polhode.mb == 0 ? a0 : abs(polhode.mc) * a * real(polhode.nAC()) / polhode.mb);
+  EllipticDecay<Real> decay(a / (g * a0), cSquared / (g * (g + a)));
   LandenLadder<Real> ladder(upper, lower, kUpperSquared / (a0 + real(lower)));
-  for (bool more = true; more;) {
+  for (bool more = true, isFirst = true; more; isFirst = false) {
     more = ladder.descend();
-    precession.step(ladder.level().product);
     phase.step(ladder.level());
     decay.step(ladder.level());
+    if (more && !isFirst) {
+      precession.step(ladder.product());
+    }
   }
 
-  const Extended rateTimesVolume = polhode.direction * ladder.mean();  // V dv/dt
-  const Extended meanTimesVolume = polhode.momentum * precession.value(ladder);
-  const Extended precessionTimesVolume =
-      ofAxisA ? Extended(meanTimesVolume + rateTimesVolume) : meanTimesVolume;
-  const Real perVolume = leadingInverse<Real>(polhode.volume);
-  precession_ = {half(quotient(precessionTimesVolume, polhode.volume, perVolume)), 0, 0};
+  const Extended rateSize = ladder.mean() * body.perVolume;
+  const Extended rate = polhode.direction < 0 ? Extended(-rateSize) : rateSize;  // dv/dt
+  const Extended mean = polhode.momentum * precession.value(ladder);
+  precession_ = {half(ofAxisA ? Extended(mean + rate) : mean), 0, 0};
   // Counted from the nearer of 0 and π: when K is large, u depends on all digits of v there.
   const bool beyond = polhode.mc < 0;
   const Real start = polhode.mb == 0 ? Real(0) : phase.value(real(ladder.mean()));
-  polhodePhase_ = {quotient(rateTimesVolume, polhode.volume, perVolume), Real(beyond ? 2 : 0),
-                   beyond ? Real(-start) : start};
+  polhodePhase_ = {rate, Real(beyond ? 2 : 0), beyond ? Real(-start) : start};
 
   if (real(lower) > a0 * Real(kLeastDirectModulus)) {
     tilt_ = TiltSeries<Real>::fromNome(ladder.nome(), decay.value(ladder));
   } else {
     const Real kUpper = sqrt(kUpperSquared);
     LandenLadder<Real, Real> complementary(a0, kUpper, real(lowerSquared) / (a0 + kUpper));
-    EllipticPhase<Real> complementaryPhase(sqrt(cSquared) / a, a0);  // πw/2K', from cs(w, k') = C/A
+    EllipticPhase<Real> complementaryPhase(a0 * sqrt(cSquared) / a);  // πw/2K', from cs(w, k') = C/A
     for (bool more = true; more;) {
       more = complementary.descend();
       complementaryPhase.step(complementary.level());
@@ -325,32 +340,32 @@ Vector3<Real> TorqueFreeRotation<Real>::angularVelocityWorld(const Quaternion<Re
 }
 
 template <class Real>
-typename TorqueFreeRotation<Real>::Bounds TorqueFreeRotation<Real>::calcBounds() const {
+void TorqueFreeRotation<Real>::setBounds(const Polhode<Real>& polhode) {
   using std::sqrt;
   const auto real = [](const Wide<Real>& x) { return static_cast<Real>(x); };
-  const Polhode<Real> polhode({moments_[0], moments_[1], moments_[2]},
-                              {momentumBody_[0], momentumBody_[1], momentumBody_[2]});
-  if (polhode.kind == Polhode<Real>::Kind::kFixedAxis || real(polhode.nAC) == 0) {
-    const int axis = polhode.frame.bodyAxis[2];
-    const Real speed = real(polhode.momentum) / moments_[static_cast<std::size_t>(axis)];
-    return {speed * (1 + 8 * std::numeric_limits<Real>::epsilon()), 0};
-  }
-  const Real aSquared = real(polhode.p) / real(polhode.nAC);
-  const Real bSquared = real(polhode.s) / real(polhode.nAB);
-  const Real cSquared = real(polhode.s) / real(polhode.nAC);
-  const Real aLowestSquared = real(polhode.d) / real(polhode.nAB);  // (A kc)²
-  const Real perVolume = 1 / real(polhode.volume);
+  const Real nAC = real(polhode.nAC());
+  const Real nAB = real(polhode.nAB());
+  const Real aSquared = polhode.aSquared;
+  const Real cSquared = polhode.cSquared;
+  const Real nBC = real(polhode.nBC());
+  const Real perIa = real(polhode.perIa());
+  const Real perIb = real(polhode.perIb());
+  const Real perIc = real(polhode.perIc());
+  const Real perAB = 1 / nAB;
+  const Real bSquared = polhode.s * perAB;
+  const Real aLowestSquared = real(polhode.d) * perAB;  // (A kc)²
 
   // |ω|² = Σ (mᵢ/Iᵢ)² is linear in s = sn², so that it is largest at s = 0 or s = 1.
-  const Real atMiddle = cSquared / square(polhode.ic) + aSquared / square(polhode.ia);
-  const Real atEnd = bSquared / square(polhode.ib) + aLowestSquared / square(polhode.ia);
+  const Real atMiddle = cSquared * square(perIc) + aSquared * square(perIa);
+  const Real atEnd = bSquared * square(perIb) + aLowestSquared * square(perIa);
 
   // dω/dt in the world is I⁻¹ dm/dt in the body (ω × ω = 0), and Euler's equations make its square
   //   first (1−s)(1−k²s) + second s (1−k²s) + third s (1−s).
-  const Real first = square(real(polhode.nAC) * perVolume / polhode.ib) * cSquared * aSquared;
-  const Real second = square(real(polhode.nAB) * perVolume / polhode.ic) * aSquared * bSquared;
-  const Real third = square(real(polhode.nBC) * perVolume / polhode.ia) * bSquared * cSquared;
-  const Real kcSquared = aSquared > 0 ? Real(aLowestSquared / aSquared) : Real(1);
+  const Real perVolume = real(polhode.body.perVolume);
+  const Real first = square(nAC * perVolume * perIb) * cSquared * aSquared;
+  const Real second = square(nAB * perVolume * perIc) * aSquared * bSquared;
+  const Real third = square(nBC * perVolume * perIa) * bSquared * cSquared;
+  const Real kcSquared = aLowestSquared / aSquared;
   const Real kSquared = 1 - kcSquared;
   Real largest = std::max(first, Real(second * kcSquared));
   const Real slope = second + third - first * (1 + kSquared);
@@ -362,7 +377,7 @@ typename TorqueFreeRotation<Real>::Bounds TorqueFreeRotation<Real>::calcBounds()
         std::max(largest, Real(first * (1 - s) * dnSquared + second * s * dnSquared + third * s * (1 - s)));
   }
   const Real margin = 1 + 64 * std::numeric_limits<Real>::epsilon();
-  return {sqrt(std::max(atMiddle, atEnd)) * margin, sqrt(largest) * margin};
+  bounds_ = {sqrt(std::max(atMiddle, atEnd)) * margin, sqrt(largest) * margin};
 }
 
 extern template class TorqueFreeRotation<double>;

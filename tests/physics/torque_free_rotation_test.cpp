@@ -40,7 +40,7 @@ double worstError(Draw kind, int count, double longest) {
   for (int i = 0; i < count; ++i) {
     const Start start = source.draw(kind);
     const TorqueFreeRotation<Real> flight = rotation<Real>(start);
-    const double speed = static_cast<double>(flight.calcBounds().angularSpeed);
+    const double speed = static_cast<double>(flight.bounds().angularSpeed);
     const double t = (source.below(4) == 0 ? -1 : 1) * source.logUniform(1e-2, longest) / speed;
     FreeBody<OracleReal> body = oracle::freeBody<OracleReal>(start);
     oracle::advance(body, OracleReal(t));
@@ -290,9 +290,9 @@ TEST(TorqueFreeRotation, isTheSameToTheBitInUnitsThatArePowersOfTwo) {
                             start.momentum * std::ldexp(1, b)};
           const TorqueFreeRotation<double> scaled = rotation<double>(other);
           expectSameBits(scaled.worldFromBody(std::ldexp(t, a - b)), flight.worldFromBody(t));
-          EXPECT_EQ(scaled.calcBounds().angularSpeed, std::ldexp(flight.calcBounds().angularSpeed, b - a));
-          EXPECT_EQ(scaled.calcBounds().angularAcceleration,
-                    std::ldexp(flight.calcBounds().angularAcceleration, 2 * (b - a)));
+          EXPECT_EQ(scaled.bounds().angularSpeed, std::ldexp(flight.bounds().angularSpeed, b - a));
+          EXPECT_EQ(scaled.bounds().angularAcceleration,
+                    std::ldexp(flight.bounds().angularAcceleration, 2 * (b - a)));
         }
       }
     }
@@ -305,8 +305,8 @@ TEST(TorqueFreeRotation, restsWithoutAngularMomentum) {
   EXPECT_LT((flight.worldFromBody(1e6).coeffs() - start.coeffs()).norm(), 3e-16);
   EXPECT_EQ(flight.worldFromBody(1e6).coeffs(), flight.worldFromBody(0).coeffs());
   EXPECT_EQ(flight.angularVelocityWorld(start), Vec3::Zero());
-  EXPECT_EQ(flight.calcBounds().angularSpeed, 0);
-  EXPECT_EQ(flight.calcBounds().angularAcceleration, 0);
+  EXPECT_EQ(flight.bounds().angularSpeed, 0);
+  EXPECT_EQ(flight.bounds().angularAcceleration, 0);
 }
 
 TEST(TorqueFreeRotation, turnsAtASteadyRateAboutABodyAxis) {
@@ -351,7 +351,7 @@ TEST(TorqueFreeRotation, angularVelocityAgreesWithTheOracle) {
   for (int n = 0; n < 2000; ++n) {
     const Start start = source.draw(Draw::kGeneric);
     const TorqueFreeRotation<double> flight = rotation<double>(start);
-    const double t = 5 / flight.calcBounds().angularSpeed;
+    const double t = 5 / flight.bounds().angularSpeed;
     FreeBody<long double> body = oracle::freeBody<long double>(start);
     oracle::advance(body, static_cast<long double>(t));
     const Quaternion<long double> q(body.attitude[0], body.attitude[1], body.attitude[2], body.attitude[3]);
@@ -373,8 +373,8 @@ TEST(TorqueFreeRotation, boundsHoldAndAreReached) {
     const auto kind = static_cast<Draw>(n % static_cast<int>(Draw::kNearSeparatrix));
     const Start start = source.draw(kind);
     const TorqueFreeRotation<double> flight = rotation<double>(start);
-    const double speedBound = flight.calcBounds().angularSpeed;
-    const double accelerationBound = flight.calcBounds().angularAcceleration;
+    const double speedBound = flight.bounds().angularSpeed;
+    const double accelerationBound = flight.bounds().angularAcceleration;
     double speed = 0;
     double acceleration = 0;
     // In long double; what rounding leaves of a zero torque, m × ω for m parallel to ω, is allowed for.

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "core/linear_algebra.h"
+#include "core/wide.h"
+
+namespace careen {
+
+/// What the free rotation of a body depends on that is the same for all its flights. Worked out once per
+/// body, because it takes as long as a flight's own set-up.
+///
+/// Denominators are cleared: with V = I₁ I₂ I₃, n₁₂ = (I₂ − I₁) I₃ stands for V (1/I₁ − 1/I₂), and so on.
+/// Differences of moments are thus taken of the moments themselves, where they are exact when it matters.
+template <class Real>
+struct PrincipalMoments {
+  using Extended = Wide<Real>;
+
+  std::array<Real, 3> alongBody;         // [kg m²]
+  std::array<Real, 3> inverseAlongBody;  // [1/(kg m²)]
+  std::array<std::size_t, 3> order;      // the body axes of I₁ ≤ I₂ ≤ I₃
+  std::array<Extended, 3> inverse;       // [1/(kg m²)] 1/I₁, 1/I₂, 1/I₃
+  std::array<Extended, 2> n;             // [kg² m⁴] n₁₂, n₂₃
+  Extended n13;                          // [kg² m⁴] their sum
+  Extended perVolume;                    // [1/(kg³ m⁶)] 1/V
+  // Where the momentum circles axis 1, and where it circles axis 3: √(n₁₃/n) if n, n₁₂ or n₂₃, is the larger
+  // of these two, else √(n₁₃ n); see ThirdKindMean's use.
+  std::array<Extended, 2> precessionRoot;
+
+  /// Positive and finite [kg m²].
+  explicit PrincipalMoments(const Vector3<Real>& moments)
+      : alongBody{moments[0], moments[1], moments[2]},
+        inverseAlongBody{1 / moments[0], 1 / moments[1], 1 / moments[2]} {
+    using std::sqrt;
+    const auto before = [&](int i, int j) {
+      return moments[j] < moments[i] ? std::size_t{1} : std::size_t{0};
+    };
+    order[before(0, 1) + before(0, 2)] = 0;
+    order[1 - before(0, 1) + before(1, 2)] = 1;
+    order[2 - before(0, 2) - before(1, 2)] = 2;
+    const Real i1 = alongBody[order[0]];
+    const Real i2 = alongBody[order[1]];
+    const Real i3 = alongBody[order[2]];
+    n = {wideDifference<Extended>(i2, i1) * i3, wideDifference<Extended>(i3, i2) * i1};
+    n13 = wideDifference<Extended>(i3, i1) * i2;
+    inverse = {Extended(1) / Extended(i1), Extended(1) / Extended(i2), Extended(1) / Extended(i3)};
+    perVolume = Extended(1) / Extended(wideProduct<Extended>(i1, i2) * i3);
+    for (std::size_t circled = 0; circled < 2; ++circled) {
+      precessionRoot[circled] =
+          isLarger(circled) ? sqrt(Extended(n13 / n[circled])) : sqrt(Extended(n13 * n[circled]));
+    }
+  }
+
+  /// Whether n₁₂ (0) or n₂₃ (1) is positive and at least the other.
+  bool isLarger(std::size_t which) const {
+    const Real mine = static_cast<Real>(n[which]);
+    return mine > 0 && mine >= static_cast<Real>(n[1 - which]);
+  }
+};
+
+}  // namespace careen
