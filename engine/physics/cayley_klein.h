@@ -36,7 +36,8 @@ Real squaredNorm(const CayleyKlein<Real>& q) {
 
 /// R⁻¹ v for the rotation R along q, computed in `Number`; q need not be of length 1.
 template <class Number, class Real>
-std::array<Number, 3> turnedBack(const Quaternion<Real>& q, const Vector3<Real>& v) {
+[[gnu::always_inline]] inline std::array<Number, 3> turnedBack(const Quaternion<Real>& q,
+                                                               const Vector3<Real>& v) {
   // v + 2 (u × (u × v) − w u × v)/|q|², where 1/|q|² is 2 − |q|² if q is of length 1 but for rounding.
   using std::abs;
   const Real& w = q.w();

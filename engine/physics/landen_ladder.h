@@ -46,7 +46,8 @@ class LandenLadder {
   };
 
   /// a ≥ b > 0, gap = a − b to full relative accuracy.
-  LandenLadder(const Number& a, const Number& b, const Real& gap) : upper_(a), lower_(b), gap_(gap) {}
+  LandenLadder(const Number& a, const Number& b, const Real& gap)
+      : upper_(a), lower_(b), product_(a * b), gap_(gap) {}
 
   /// Takes one level down; false when it was the last that is needed.
   bool descend() {
@@ -64,7 +65,9 @@ class LandenLadder {
       gap_ *= lambda_;
       return false;
     }
-    product_ = above * lower_;
+    if (descents_ > 1) {
+      product_ = above * lower_;
+    }
     lower_ = sqrt(product_);
     lambda_ = gap_ / (4 * (static_cast<Real>(upper_) + static_cast<Real>(lower_)));
     gap_ *= lambda_;
@@ -73,7 +76,7 @@ class LandenLadder {
 
   /// The level from which descend() went down, N at the end.
   const Level& level() const { return level_; }
-  /// Its a b in all digits; not of the last.
+  /// Its a b in all digits; not of the last unless that is the first. a₀ b₀ before the first descent.
   const Number& product() const { return product_; }
 
   /// The arithmetic–geometric mean M of a₀ and b₀, after the last descent. K = π a₀ / (2 M).
@@ -106,7 +109,7 @@ class LandenLadder {
 
   Number upper_;
   Number lower_;
-  Number product_{};
+  Number product_;
   Real gap_;
   Real lambda_ = 0;
   int descents_ = 0;

@@ -45,12 +45,12 @@ struct Polhode {
   Real direction;     // +1 if Ia is the smallest moment, −1 if it is the largest
   Real mb, mc, ma;    // [kg m²/s] the momentum along x, y, z
   Extended momentum;  // G = |m|
-  Extended alongZ;    // ma
-  Extended p, d;      // A² nAC and A² kc² nAB · magnification²
-  Real s;             // C² nAC
-  Real aSquared = 0;  // A², and C²; of Kind::kGeneral and Kind::kSeparatrix alone
-  Real cSquared = 0;
-  Real magnification = 1;  // [1] by which m along a and c was enlarged for d, a power of two
+  Extended momentumSquared;
+  Extended alongZ;          // ma
+  Extended p, d;            // A² nAC and A² kc² nAB · magnification²
+  Real s;                   // C² nAC
+  Real aSquared, cSquared;  // A² and C²; 0 for a body with three equal moments
+  Real magnification = 1;   // [1] by which m along a and c was enlarged for d, a power of two
 
   // nAB = V |1/Ia − 1/Ib| and so on [kg² m⁴].
   const Extended& nAB() const { return body.n[circled]; }
@@ -62,8 +62,10 @@ struct Polhode {
   const Extended& perIb() const { return body.inverse[1]; }
   const Extended& perIc() const { return body.inverse[2 - 2 * circled]; }
 
-  /// momentumBody [kg m²/s] along the body axes. Keeps a reference to the moments.
-  Polhode(const PrincipalMoments<Real>& moments, std::array<Extended, 3> momentumBody) : body(moments) {
+  /// momentumBody [kg m²/s] along the body axes. Keeps a reference to the moments. In line with turnedBack():
+  /// the momentum then stays in registers.
+  [[gnu::always_inline]] Polhode(const PrincipalMoments<Real>& moments, std::array<Extended, 3> momentumBody)
+      : body(moments) {
     using std::abs;
     using std::sqrt;
     const Vector3<Real> m(static_cast<Real>(momentumBody[0]), static_cast<Real>(momentumBody[1]),
@@ -96,11 +98,13 @@ struct Polhode {
     d = circled == 1 ? Extended(-excess) : excess;
     const Extended& maSquared = squares[circled];
     const Extended& mcSquared = squares[1 - circled];
-    const Extended squared = maSquared + mcSquared + mbSquared;
-    momentum = sqrt(squared);
-    p = d + squared * nBC();
+    momentumSquared = maSquared + mcSquared + mbSquared;
+    momentum = sqrt(momentumSquared);
+    p = d + momentumSquared * nBC();
     s = static_cast<Real>(mcSquared) * static_cast<Real>(nAC()) +
         static_cast<Real>(mbSquared) * static_cast<Real>(nAB());
+    aSquared = static_cast<Real>(p) * body.perN13;
+    cSquared = s * body.perN13;
 
     const bool noA = static_cast<Real>(maSquared) == 0;
     const bool noB = static_cast<Real>(mbSquared) == 0;
@@ -113,11 +117,6 @@ struct Polhode {
       kind = static_cast<Real>(nBC()) == 0 ? Kind::kSymmetric
              : sign == 0                   ? Kind::kSeparatrix
                                            : Kind::kGeneral;
-      if (kind != Kind::kSymmetric) {
-        const Real perAC = 1 / static_cast<Real>(nAC());
-        aSquared = static_cast<Real>(p) * perAC;
-        cSquared = s * perAC;
-      }
       // m is made positive along as many axes as a right-handed frame allows: a half turn of body and world
       // about a coordinate axis, which is what mirroring amounts to, then leads to the same frame and the
       // same bits.

@@ -24,6 +24,8 @@ struct PrincipalMoments {
   std::array<Extended, 3> inverse;       // [1/(kg m²)] 1/I₁, 1/I₂, 1/I₃
   std::array<Extended, 2> n;             // [kg² m⁴] n₁₂, n₂₃
   Extended n13;                          // [kg² m⁴] their sum
+  std::array<Real, 2> perN;              // [1/(kg² m⁴)] 1/n₁₂, 1/n₂₃, or 0 where n is 0
+  Real perN13;                           // [1/(kg² m⁴)] likewise
   Extended perVolume;                    // [1/(kg³ m⁶)] 1/V
   // Where the momentum circles axis 1, and where it circles axis 3: √(n₁₃/n) if n, n₁₂ or n₂₃, is the larger
   // of these two, else √(n₁₃ n); see ThirdKindMean's use.
@@ -45,6 +47,12 @@ struct PrincipalMoments {
     const Real i3 = alongBody[order[2]];
     n = {wideDifference<Extended>(i2, i1) * i3, wideDifference<Extended>(i3, i2) * i1};
     n13 = wideDifference<Extended>(i3, i1) * i2;
+    const auto inverseOf = [](const Extended& x) {
+      const Real value = static_cast<Real>(x);
+      return value > 0 ? Real(1 / value) : Real(0);
+    };
+    perN = {inverseOf(n[0]), inverseOf(n[1])};
+    perN13 = inverseOf(n13);
     inverse = {Extended(1) / Extended(i1), Extended(1) / Extended(i2), Extended(1) / Extended(i3)};
     perVolume = Extended(1) / Extended(wideProduct<Extended>(i1, i2) * i3);
     for (std::size_t circled = 0; circled < 2; ++circled) {

@@ -250,18 +250,18 @@ void TorqueFreeRotation<Real>::setUpGeneral(const Polhode<Real>& polhode) {
   const Real cSquared = polhode.cSquared;
   const Real g = real(polhode.momentum);
 
+  LandenLadder<Real> ladder(upper, lower, kUpperSquared / (a0 + real(lower)));
   // The mean precession about L of the axis a or c, whichever has the better conditioned integral. On the
   // polhode Σ m²/I is G²/Ib + D.
   const bool ofAxisA = body.isLarger(polhode.circled);
   const Extended& factor = body.precessionRoot[polhode.circled];
   const Extended beta = ofAxisA
                             ? polhode.perIb()
-                            : polhode.perIb() + polhode.excess() * body.perVolume / square(polhode.momentum);
+                            : polhode.perIb() + polhode.excess() * body.perVolume / polhode.momentumSquared;
   ThirdKindMean<Real> precession(factor * (ofAxisA ? upper : polhode.momentum),
-                                 ofAxisA ? polhode.perIc() : polhode.perIa(), beta, upper * lower);
+                                 ofAxisA ? polhode.perIc() : polhode.perIa(), beta, ladder.product());
   EllipticPhase<Real> phase(polhode.mb == 0 ? a0 : abs(polhode.mc) * a * real(polhode.nAC()) / polhode.mb);
   EllipticDecay<Real> decay(a / (g * a0), cSquared / (g * (g + a)));
-  LandenLadder<Real> ladder(upper, lower, kUpperSquared / (a0 + real(lower)));
   for (bool more = true, isFirst = true; more; isFirst = false) {
     more = ladder.descend();
     phase.step(ladder.level());
@@ -270,15 +270,6 @@ void TorqueFreeRotation<Real>::setUpGeneral(const Polhode<Real>& polhode) {
       precession.step(ladder.product());
     }
   }
-
-  const Extended rateSize = ladder.mean() * body.perVolume;
-  const Extended rate = polhode.direction < 0 ? Extended(-rateSize) : rateSize;  // dv/dt
-  const Extended mean = polhode.momentum * precession.value(ladder);
-  precession_ = {half(ofAxisA ? Extended(mean + rate) : mean), 0, 0};
-  // Counted from the nearer of 0 and π: when K is large, u depends on all digits of v there.
-  const bool beyond = polhode.mc < 0;
-  const Real start = polhode.mb == 0 ? Real(0) : phase.value(real(ladder.mean()));
-  polhodePhase_ = {rate, Real(beyond ? 2 : 0), beyond ? Real(-start) : start};
 
   if (real(lower) > a0 * Real(kLeastDirectModulus)) {
     tilt_ = TiltSeries<Real>::fromNome(ladder.nome(), decay.value(ladder));
@@ -294,6 +285,15 @@ void TorqueFreeRotation<Real>::setUpGeneral(const Polhode<Real>& polhode) {
     tilt_ = TiltSeries<Real>::fromComplementaryNome(sqrt(complementary.nome()) / polhode.magnification, x,
                                                     complementary.mean() / (2 * real(ladder.mean())));
   }
+
+  const Extended rateSize = ladder.mean() * body.perVolume;
+  const Extended rate = polhode.direction < 0 ? Extended(-rateSize) : rateSize;  // dv/dt
+  const Extended mean = polhode.momentum * precession.value(ladder);
+  precession_ = {half(ofAxisA ? Extended(mean + rate) : mean), 0, 0};
+  // Counted from the nearer of 0 and π: when K is large, u depends on all digits of v there.
+  const bool beyond = polhode.mc < 0;
+  const Real start = polhode.mb == 0 ? Real(0) : phase.value(real(ladder.mean()));
+  polhodePhase_ = {rate, Real(beyond ? 2 : 0), beyond ? Real(-start) : start};
 }
 
 template <class Real>
@@ -351,7 +351,7 @@ void TorqueFreeRotation<Real>::setBounds(const Polhode<Real>& polhode) {
   const Real perIa = real(polhode.perIa());
   const Real perIb = real(polhode.perIb());
   const Real perIc = real(polhode.perIc());
-  const Real perAB = 1 / nAB;
+  const Real perAB = polhode.body.perN[polhode.circled];
   const Real bSquared = polhode.s * perAB;
   const Real aLowestSquared = real(polhode.d) * perAB;  // (A kc)²
 
