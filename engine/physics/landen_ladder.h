@@ -18,8 +18,8 @@ namespace careen {
 ///
 /// The gap comes in from outside and is never subtracted again, so that a nearly circular modulus keeps all
 /// digits. Each level squares the nome; ℓₙ is the nome of level n up to a relative 2ℓₙ⁴, so a few levels do:
-/// the ladder ends at the first N with ℓ³ below rounding, and what that level lacks is summed from the theta
-/// series. Everything is homogeneous in (a₀, b₀): nothing need be divided by a₀.
+/// the ladder ends at the first N with ℓ³ well below rounding, and what that level lacks is summed from the
+/// theta series. Everything is homogeneous in (a₀, b₀): nothing need be divided by a₀.
 ///
 /// An integral is a recurrence that takes one step per level (the structs below). They are advanced side by
 /// side, in one loop, because each is a chain of divisions that leaves the processor idle on its own:

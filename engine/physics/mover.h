@@ -18,7 +18,7 @@ struct Mover {
   const Body* body = nullptr;
   BodyIndex listed;  ///< its place in the scene
   bool flies = false;
-  Flight flight;  ///< if it flies
+  Flight flight;                                    ///< if it flies
   std::optional<PrincipalMoments<double>> moments;  ///< if it ever flew
   std::optional<TorqueFreeRotation<double>> rotation;
   double angularSpeedBound = 0;         ///< [rad/s]

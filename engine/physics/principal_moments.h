@@ -27,8 +27,8 @@ struct PrincipalMoments {
   std::array<Real, 2> perN;              // [1/(kg² m⁴)] 1/n₁₂, 1/n₂₃, or 0 where n is 0
   Real perN13;                           // [1/(kg² m⁴)] likewise
   Extended perVolume;                    // [1/(kg³ m⁶)] 1/V
-  // Where the momentum circles axis 1, and where it circles axis 3: √(n₁₃/n) if n, n₁₂ or n₂₃, is the larger
-  // of these two, else √(n₁₃ n); see ThirdKindMean's use.
+  // Where the momentum circles axis 1, and where it circles axis 3: √(n₁₃/nAB) if nAB, n₁₂ or n₂₃, is the
+  // larger of these two, else √(n₁₃ nAB). Times a₀, or times G, this is a₀√p of the precession's integral.
   std::array<Extended, 2> precessionRoot;
 
   /// Positive and finite [kg m²].

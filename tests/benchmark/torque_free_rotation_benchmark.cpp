@@ -3,8 +3,8 @@
 //
 // Read the ratios within one run (items per second against rungeKutta4Step): absolute times differ from
 // machine to machine, the ratios hardly. The step is the bare method; rungeKutta4UnitStep also brings the
-// quaternion back to unit length, which the exact attitude includes. Measured: attitude 1.2 and 1.0, set-up
-// 15 and 13.
+// quaternion back to unit length, which the exact attitude includes. Measured (g++ 12 -O3, AMD EPYC, medians
+// of 15): attitude 1.18 and 0.87, set-up with both bounds 12.0 and 8.8, a body's moments, once, 1.4 and 1.04.
 
 #include "physics/torque_free_rotation.h"
 

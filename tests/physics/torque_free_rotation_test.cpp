@@ -57,38 +57,38 @@ double worstError(Draw kind, int count, double longest) {
 constexpr int kBulk = 34000;  // of each of six kinds: 204,000 in all
 
 TEST(TorqueFreeRotation, followsTheOracleForGenericBoxes) {
-  // measured 1.2e-15, asserts < 2e-15
+  // measured 1.3e-15, asserts < 2e-15
   EXPECT_LT((worstError<double, long double>(Draw::kGeneric, kBulk, 30)), 2e-15);
 }
 
 TEST(TorqueFreeRotation, followsTheOracleForNeedlesAndPlates) {
-  // measured 1.1e-15, asserts < 2e-15
+  // measured 1.04e-15, asserts < 2e-15
   EXPECT_LT((worstError<double, long double>(Draw::kExtremeShape, kBulk, 30)), 2e-15);
 }
 
 TEST(TorqueFreeRotation, followsTheOracleForNearlySymmetricBodies) {
-  // measured 1.1e-15, asserts < 2e-15
+  // measured 1.06e-15, asserts < 2e-15
   EXPECT_LT((worstError<double, long double>(Draw::kNearSymmetric, kBulk, 30)), 2e-15);
 }
 
 TEST(TorqueFreeRotation, followsTheOracleForSymmetricBodiesAndCubes) {
-  // measured 1.1e-15, asserts < 2e-15
+  // measured 1.08e-15, asserts < 2e-15
   EXPECT_LT((worstError<double, long double>(Draw::kSymmetric, kBulk, 30)), 2e-15);
 }
 
 TEST(TorqueFreeRotation, followsTheOracleForSpinsCloseToAnAxis) {
-  // measured 1.1e-15, asserts < 2e-15
+  // measured 1.05e-15, asserts < 2e-15
   EXPECT_LT((worstError<double, long double>(Draw::kNearAxis, kBulk, 30)), 2e-15);
 }
 
 TEST(TorqueFreeRotation, followsTheOracleForSpinsInAPlaneOrAboutAnAxis) {
-  // measured 9.5e-16, asserts < 2e-15
+  // measured 9.3e-16, asserts < 2e-15
   EXPECT_LT((worstError<double, long double>(Draw::kAxis, kBulk, 30)), 2e-15);
 }
 
 TEST(TorqueFreeRotation, followsTheOracleCloseToTheSeparatrix) {
   // In quadruple precision: here the oracle's own rounding grows exponentially, to 6e-12 in long double.
-  // measured 8.7e-16, asserts < 2e-15
+  // measured 8.6e-16, asserts < 2e-15
   EXPECT_LT((worstError<double, Quad>(Draw::kNearSeparatrix, 1500, 30)), 2e-15);
 }
 
@@ -340,7 +340,7 @@ TEST(TorqueFreeRotation, keepsUnitLengthAndEnergy) {
     worstEnergy = std::max(worstEnergy, std::fabs(energyAt(late) - before) / scale);
   }
   EXPECT_LT(worstLength, 1e-15);  // measured 5.6e-16
-  EXPECT_LT(worstEnergy, 2e-15);  // measured 7.9e-16
+  EXPECT_LT(worstEnergy, 2e-15);  // measured 7.8e-16
   ::testing::Test::RecordProperty(
       "worst", std::to_string(1e18 * worstLength) + " " + std::to_string(1e18 * worstEnergy));
 }
