@@ -69,15 +69,16 @@ MovingBox Mover::moving(const Instant& clockZero) const {
 }
 
 bool touch(const Mover& a, const Mover& b, const Instant& time) {
-  const Pose poseA = a.stateAt(time).pose;
-  const Pose poseB = b.stateAt(time).pose;
   const double radiusA = a.body->halfExtents.norm();
   const double radiusB = b.body->halfExtents.norm();
   const double within = kSimultaneous * std::min(radiusA, radiusB);
-  const Vec3 bToA = poseA.position - poseB.position;
-  return bToA.norm() <= radiusA + radiusB + within &&
-         BoxAxes(poseA.worldFromBody, a.body->halfExtents, poseB.worldFromBody, b.body->halfExtents, bToA)
-                 .gap() <= within;
+  const Vec3 bToA = a.flight.positionAt(a.elapsed(time)) - b.flight.positionAt(b.elapsed(time));
+  if (bToA.norm() > radiusA + radiusB + within) {
+    return false;
+  }
+  return BoxAxes(a.stateAt(time).pose.worldFromBody, a.body->halfExtents, b.stateAt(time).pose.worldFromBody,
+                 b.body->halfExtents, bToA)
+             .gap() <= within;
 }
 
 }  // namespace careen

@@ -38,7 +38,7 @@ std::size_t Neighbors::CellHash::operator()(const Cell& cell) const {
 }
 
 Neighbors::Neighbors(std::span<const double> radii) {
-  if (radii.empty()) {
+  if (radii.size() <= kFew) {
     return;
   }
   std::vector<double> sorted(radii.begin(), radii.end());

@@ -24,16 +24,19 @@ using Cell = std::array<std::int64_t, 3>;
 /// apart, and are candidates of everyone. That costs O(their number) per event, and the cells stay small.
 /// With many large bodies among many more small ones this grows to O(large).
 ///
+/// Few bodies have no grid: to ask all of them costs less than to file one.
+///
 /// Bodies are known by the caller's keys and lists come sorted by key: no answer depends on the order of
 /// filing.
 class Neighbors {
  public:
   using Key = int;
+  static constexpr std::size_t kFew = 8;
 
-  /// Sizes the cells; bodies to come should be about as large as these.
+  /// Sizes the cells; bodies to come should be about as large as these. No more than kFew: no cells.
   explicit Neighbors(std::span<const double> radii);
 
-  /// [m] 0 if no body is small (then there is no grid).
+  /// [m] 0 if there is no grid.
   double cellEdge() const { return edge_; }
   Cell cellOf(const Vec3& position) const;
 

@@ -51,5 +51,3 @@ BENCHMARK_CAPTURE(resolve, twelve_contacts, 12, 0.8, 0.0);
 BENCHMARK_CAPTURE(resolve, twelve_contacts_friction, 12, 0.8, 0.3);
 
 }  // namespace
-
-BENCHMARK_MAIN();

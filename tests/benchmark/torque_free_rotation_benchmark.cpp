@@ -155,5 +155,3 @@ BENCHMARK(oneBodysMoments);
 
 }  // namespace
 }  // namespace careen
-
-BENCHMARK_MAIN();

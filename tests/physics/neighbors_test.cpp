@@ -153,11 +153,23 @@ TEST(Neighbors, aFloorIsEveryonesCandidateAndDoesNotWidenTheCells) {
   EXPECT_FALSE(std::binary_search(candidates.begin(), candidates.end(), 50));
 }
 
+TEST(Neighbors, fewHaveNoGridAndAreAllCandidates) {
+  const std::vector<double> radii(Neighbors::kFew, 0.5);
+  Neighbors few(radii);
+  for (int k = 0; k < static_cast<int>(Neighbors::kFew); ++k) {
+    few.insert(k, Vec3(1000 * k, 0, 0), 0.5);
+    EXPECT_FALSE(few.isFiled(k));
+  }
+  std::vector<Neighbors::Key> candidates;
+  few.findCandidates(3, candidates);
+  EXPECT_EQ(candidates, (std::vector<Neighbors::Key>{0, 1, 2, 4, 5, 6, 7}));
+}
+
 // Cells of edge 1 (diameter 7/8). From 0.5 at 1 m/s the centre is 1/16 past the border at 0.5625 s; thrown up
 // at 4 m/s under 8 m/s² it comes to z = 1.5 only and leaves its cell 0 at 1 + 1/16, where 4t − 4t² = 0.5625:
 // t = 0.1691.
 TEST(Neighbors, crossingsAreTheClosedForm) {
-  const std::vector<double> radii = {0.4375};
+  const std::vector<double> radii(Neighbors::kFew + 1, 0.4375);
   const Neighbors grid(radii);
   ASSERT_EQ(grid.cellEdge(), 1);
   const Vec3 middle(0.5, 0.5, 0.5);

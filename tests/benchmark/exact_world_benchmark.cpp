@@ -1,0 +1,104 @@
+// What a run of method exact costs, and that what a scene does not need costs nothing: compare within one run
+// (--benchmark_enable_random_interleaving=true --benchmark_repetitions=9, minimum of each).
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+#include "physics/method.h"
+#include "support/exact_runs.h"
+#include "support/tumbling_box.h"
+
+namespace careen {
+namespace {
+
+class Deaf : public Recorder {
+ public:
+  void moves(BodyIndex /*body*/, double /*time*/, const Motion& /*motion*/) override {}
+  void strikes(const Impact& /*impact*/) override { ++impacts; }
+  std::size_t impacts = 0;
+};
+
+// Counts simulated seconds and impacts per second.
+void run(benchmark::State& state, const World& world, const RunSettings& settings) {
+  double seconds = 0;
+  double impacts = 0;
+  for (auto _ : state) {
+    Deaf recorder;
+    const RunFigures figures = simulate(world, settings, recorder);
+    benchmark::DoNotOptimize(figures);
+    seconds += settings.duration;
+    impacts += static_cast<double>(recorder.impacts);
+  }
+  state.counters["simulated"] = benchmark::Counter(seconds, benchmark::Counter::kIsRate);
+  state.counters["impacts"] = benchmark::Counter(impacts, benchmark::Counter::kIsRate);
+}
+
+// One box in a room, e = 1, for a minute: the same by both methods.
+void elasticRoomByExact(benchmark::State& state) { run(state, elasticRoom(), {.duration = 60}); }
+BENCHMARK(elasticRoomByExact);
+void elasticRoomByListing1(benchmark::State& state) {
+  run(state, elasticRoom(), {.method = Method::kListing1, .duration = 60, .dt = 1.0 / 240});
+}
+BENCHMARK(elasticRoomByListing1);
+
+// A hundred boxes without gravity, e = 1, as assets/scenes/gas.json.
+void gas(benchmark::State& state) {
+  test::Dice dice(100);
+  World world = elasticRoom();
+  world.gravity.setZero();
+  world.bodies.clear();
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 place(-2.4 + 1.2 * (i % 5), -1.5 + (i / 5 % 4), 0.6 + 1.2 * (i / 20));
+    const Vec3 velocity = dice.vector(2);
+    const Vec3 spin = dice.vector(3);
+    world.bodies.push_back(box("box-" + std::to_string(i), Vec3(0.15, 0.12, 0.1), 1, place, velocity, spin));
+  }
+  run(state, world, {.duration = 5});
+}
+BENCHMARK(gas);
+
+// One box between floor and ceiling, then one thing more at a time. Gravity and friction change the number of
+// impacts: compare the time of each. Measured against oneBox: gravity 1.06, friction 1.18, a second box far
+// away or near 1.05.
+World hop() {
+  World world;
+  world.walls = {wall("floor", Vec3(0, 0, 1), 0), wall("ceiling", Vec3(0, 0, -1), -6)};
+  world.bodies = {box("crate", Vec3(0.5, 0.3, 0.2), 1, Vec3(0, 0, 3), Vec3(0.1, 0, -2), Vec3(1, 2, 3))};
+  return world;
+}
+void oneBox(benchmark::State& state) { run(state, hop(), {.duration = 60}); }
+BENCHMARK(oneBox);
+void oneBoxUnderGravity(benchmark::State& state) {
+  World world = hop();
+  world.gravity = Vec3(0, 0, -1);
+  run(state, world, {.duration = 60});
+}
+BENCHMARK(oneBoxUnderGravity);
+void oneBoxWithFriction(benchmark::State& state) {
+  World world = hop();
+  world.bodies[0].material.friction = 0.3;
+  for (Wall& each : world.walls) {
+    each.material.friction = 0.3;
+  }
+  run(state, world, {.duration = 60});
+}
+BENCHMARK(oneBoxWithFriction);
+void oneBoxAndOneFarAway(benchmark::State& state) {
+  World world = hop();
+  Body held = box("far", Vec3(0.5, 0.3, 0.2), 1, Vec3(500, 0, 3));
+  held.mass = immovable();
+  world.bodies.push_back(held);
+  run(state, world, {.duration = 60});
+}
+BENCHMARK(oneBoxAndOneFarAway);
+void oneBoxAndOneNear(benchmark::State& state) {
+  World world = hop();
+  Body held = box("near", Vec3(0.5, 0.3, 0.2), 1, Vec3(0, 1.5, 3));
+  held.mass = immovable();
+  world.bodies.push_back(held);
+  run(state, world, {.duration = 60});
+}
+BENCHMARK(oneBoxAndOneNear);
+
+}  // namespace
+}  // namespace careen
