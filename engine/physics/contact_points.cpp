@@ -4,18 +4,23 @@
 #include <cmath>
 #include <utility>
 
-#include "physics/body.h"
-
 namespace careen {
 namespace {
 
-// The corner, edge or face of a box that lies furthest along a direction.
+// The corner, edge or face of a box that lies furthest along a direction, seen from a box's centre of mass:
+// places are differences, so that what is symmetric about it stays so to the bit wherever the boxes are.
 struct Feature {
   Vec3 centre = Vec3::Zero();
   int freedom = 0;               // 0 corner, 1 edge, 2 face
   std::array<Vec3, 2> axis;      // [1] along which it extends
   std::array<double, 2> half{};  // [m]
 
+  double extent() const { return half[0] * half[1]; }
+  Feature seenFrom(const Vec3& place) const {
+    Feature moved = *this;
+    moved.centre -= place;
+    return moved;
+  }
   Vec3 corner(double first, double second) const {
     Vec3 point = centre;
     if (freedom > 0) {
@@ -29,7 +34,7 @@ struct Feature {
 };
 
 Feature furthest(const Pose& box, const Vec3& halfExtents, const Vec3& direction, double within) {
-  Feature feature{.centre = box.position, .axis = {Vec3::Zero(), Vec3::Zero()}};
+  Feature feature{.axis = {Vec3::Zero(), Vec3::Zero()}};
   const Vec3 along = box.worldFromBody.transpose() * direction;
   // A box thinner than the tolerance still has two sides: its steepest axis never counts as level.
   int steepest = 0;
@@ -53,20 +58,26 @@ Feature furthest(const Pose& box, const Vec3& halfExtents, const Vec3& direction
 
 class Manifold {
  public:
-  Manifold(Vec3 normal, double within) : normal_(std::move(normal)), within_(within) {}
+  Manifold(Vec3 normal, Vec3 bToA, double within)
+      : normal_(std::move(normal)), bToA_(std::move(bToA)), within_(within) {}
 
-  void add(const Vec3& point) {
-    const bool known = std::any_of(points_.begin(), points_.end(), [&](const ContactPoint& other) {
-      return (other.point - point).squaredNorm() <= within_ * within_;
-    });
-    if (!known && !points_.full()) {
-      points_.add({.point = point, .normal = normal_});
-    }
-  }
+  void addOnA(const Vec3& armA) { add({.armA = armA, .armB = armA + bToA_, .normal = normal_}); }
+  void addOnB(const Vec3& armB) { add({.armA = armB - bToA_, .armB = armB, .normal = normal_}); }
+  void add(const Vec3& armA, const Vec3& armB) { add({.armA = armA, .armB = armB, .normal = normal_}); }
   const ContactPoints& points() const { return points_; }
 
  private:
+  void add(const ContactPoint& point) {
+    const bool known = std::any_of(points_.begin(), points_.end(), [&](const ContactPoint& other) {
+      return (other.armA - point.armA).squaredNorm() <= within_ * within_;
+    });
+    if (!known && !points_.full()) {
+      points_.add(point);
+    }
+  }
+
   Vec3 normal_;
+  Vec3 bToA_;
   double within_;
   ContactPoints points_;
 };
@@ -111,8 +122,8 @@ Polygon cut(const Polygon& polygon, const Vec3& outward, double limit, double wi
   return left;
 }
 
-// The part of a face or an edge that lies over a face.
-void clip(const Feature& incident, const Feature& face, double within, Manifold& manifold) {
+// The part of a face or an edge that lies over a face, both seen from the same centre.
+Polygon clip(const Feature& incident, const Feature& face, double within) {
   Polygon polygon;
   polygon.add(incident.corner(1, 1));
   polygon.add(incident.corner(-1, 1));
@@ -134,30 +145,31 @@ void clip(const Feature& incident, const Feature& face, double within, Manifold&
     }
     polygon.add(point);
   }
-  for (std::size_t k = 0; k < polygon.count; ++k) {
-    manifold.add(polygon.corner[k]);
-  }
+  return polygon;
 }
 
-// Two edges: the middle of their shortest link, or the ends of what parallel edges have in common.
-void cross(const Feature& a, const Feature& b, double within, Manifold& manifold) {
+// Two edges, each seen from its own box: the middle of their shortest link, or the ends of what parallel
+// edges have in common.
+void cross(const Feature& a, const Feature& b, const Vec3& bToA, double within, Manifold& manifold) {
   const Vec3& u = a.axis[0];
   const Vec3& v = b.axis[0];
-  const Vec3 link = b.centre - a.centre;
+  const Vec3 link = b.centre - a.centre - bToA;
   const Vec3 n = u.cross(v);
   const double squaredSine = n.squaredNorm();
   const double shorter = std::min(a.half[0], b.half[0]);
   if (4 * shorter * shorter * squaredSine > within * within) {
     const double alongA = std::clamp(link.cross(v).dot(n) / squaredSine, -a.half[0], a.half[0]);
     const double alongB = std::clamp(link.cross(u).dot(n) / squaredSine, -b.half[0], b.half[0]);
-    manifold.add(0.5 * ((a.centre + alongA * u) + (b.centre + alongB * v)));
+    const Vec3 onA = a.centre + alongA * u;
+    const Vec3 onB = b.centre + alongB * v;
+    manifold.add(0.5 * (onA + (onB - bToA)), 0.5 * (onB + (onA + bToA)));
     return;
   }
   const double middle = link.dot(u);
   const double low = std::max(-a.half[0], middle - b.half[0]);
   const double high = std::min(a.half[0], middle + b.half[0]);
-  manifold.add(a.centre + (low <= high ? low : 0.5 * (low + high)) * u);
-  manifold.add(a.centre + (low <= high ? high : 0.5 * (low + high)) * u);
+  manifold.addOnA(a.centre + (low <= high ? low : 0.5 * (low + high)) * u);
+  manifold.addOnA(a.centre + (low <= high ? high : 0.5 * (low + high)) * u);
 }
 
 // The direction the boxes touch along: a face if one separates as well as the best.
@@ -173,20 +185,6 @@ BoxAxis contactAxis(const BoxAxes& axes, double within) {
 
 }  // namespace
 
-ContactPoints wallContactPoints(const Pose& box, const Vec3& halfExtents, const Vec3& normal, double offset) {
-  const double radius = halfExtents.norm();
-  const double rounding = kGapRounding * (normal.cwiseAbs().dot(box.position.cwiseAbs()) + radius);
-  const double within = std::max(kSimultaneous * radius, rounding);
-  const CornerSet corners = wallGap(box, halfExtents, normal, offset, within).corners;
-  ContactPoints points;
-  for (int k = 0; k < kCorners; ++k) {
-    if ((corners >> static_cast<unsigned>(k) & 1U) != 0) {
-      points.add({.point = box.worldPoint(corner(halfExtents, k)), .normal = normal});
-    }
-  }
-  return points;
-}
-
 ContactPoints boxContactPoints(const Pose& a, const Vec3& halfExtentsA, const Pose& b,
                                const Vec3& halfExtentsB) {
   const double radiusA = halfExtentsA.norm();
@@ -194,23 +192,35 @@ ContactPoints boxContactPoints(const Pose& a, const Vec3& halfExtentsA, const Po
   const double rounding =
       kGapRounding * ((a.position.cwiseAbs().sum() + b.position.cwiseAbs().sum()) + (radiusA + radiusB));
   const double within = std::max(kSimultaneous * std::min(radiusA, radiusB), rounding);
-  const BoxAxes axes(a.worldFromBody, halfExtentsA, b.worldFromBody, halfExtentsB, a.position - b.position);
+  const Vec3 bToA = a.position - b.position;
+  const BoxAxes axes(a.worldFromBody, halfExtentsA, b.worldFromBody, halfExtentsB, bToA);
   const BoxAxis axis = contactAxis(axes, within);
   const Vec3 normal = axes.normal(axis);
 
   const Feature ofA = furthest(a, halfExtentsA, -normal, within);
   const Feature ofB = furthest(b, halfExtentsB, normal, within);
-  Manifold manifold(normal, within);
+  Manifold manifold(normal, bToA, within);
   if (ofA.freedom == 0 || ofB.freedom == 0) {
     // Of two corners, the one that meets the other box's face or edge is the point.
     const bool cornerOfA = ofA.freedom == 0 && axis.kind() != BoxAxis::Kind::kFaceOfA;
-    manifold.add(cornerOfA || ofB.freedom > 0 ? ofA.centre : ofB.centre);
+    if (cornerOfA || ofB.freedom > 0) {
+      manifold.addOnA(ofA.centre);
+    } else {
+      manifold.addOnB(ofB.centre);
+    }
   } else if (ofA.freedom == 1 && ofB.freedom == 1) {
-    cross(ofA, ofB, within, manifold);
-  } else if (ofB.freedom == 2 && (ofA.freedom == 1 || axis.kind() == BoxAxis::Kind::kFaceOfB)) {
-    clip(ofA, ofB, within, manifold);
+    cross(ofA, ofB, bToA, within, manifold);
+    // The smaller face is laid on the larger, so that one that lies within keeps its own corners to the bit.
+  } else if (ofB.freedom == 2 && (ofA.freedom == 1 || ofA.extent() < ofB.extent())) {
+    const Polygon common = clip(ofA, ofB.seenFrom(bToA), within);
+    for (std::size_t k = 0; k < common.count; ++k) {
+      manifold.addOnA(common.corner[k]);
+    }
   } else {
-    clip(ofB, ofA, within, manifold);
+    const Polygon common = clip(ofB, ofA.seenFrom(-bToA), within);
+    for (std::size_t k = 0; k < common.count; ++k) {
+      manifold.addOnB(common.corner[k]);
+    }
   }
   return manifold.points();
 }

@@ -9,9 +9,11 @@
 
 namespace careen {
 
+/// A point where box a touches box b, seen from both: position + arm − position is not arm in floating point.
 struct ContactPoint {
-  Vec3 point = Vec3::Zero();   ///< [m] world
-  Vec3 normal = Vec3::Zero();  ///< [1] unit, from b (or the wall) to a
+  Vec3 armA = Vec3::Zero();    ///< [m] world, from a's centre of mass
+  Vec3 armB = Vec3::Zero();    ///< [m] world, from b's
+  Vec3 normal = Vec3::Zero();  ///< [1] unit, from b to a
 };
 
 /// The points of one pair's contact, at most those of two quadrilaterals laid on each other.
@@ -30,10 +32,6 @@ class ContactPoints {
   std::array<ContactPoint, kMost> points_;
   std::size_t count_ = 0;
 };
-
-/// At the moment of an impact: the corners that lie on the wall, to within kSimultaneous of the lowest. One,
-/// two or four; in the order of corner().
-ContactPoints wallContactPoints(const Pose& box, const Vec3& halfExtents, const Vec3& normal, double offset);
 
 /// At the moment of an impact: where two boxes touch. The normal is that of the face that separates best if
 /// it does so within kSimultaneous of the best direction, else of the two edges. Each box's lowest feature

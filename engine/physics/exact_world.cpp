@@ -1,6 +1,7 @@
 #include "physics/exact_world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <sstream>
 #include <string>
@@ -102,7 +103,7 @@ void ExactWorld::happen(const Event& event) {
   } else {
     Group group = gather(event);
     resolve(group);
-    settle(group);
+    settle(group, event.kind == EventKind::kTouching);
     if (event.kind == EventKind::kTouching) {
       checkParts(group, event);
     }
@@ -215,8 +216,8 @@ void ExactWorld::addPairContacts(Group& group, std::size_t indexA, std::size_t i
   for (const ContactPoint& at : boxContactPoints(poseA, a.body->halfExtents, poseB, b.body->halfExtents)) {
     group.contacts.push_back({.a = static_cast<int>(indexA),
                               .b = static_cast<int>(indexB),
-                              .armA = at.point - poseA.position,
-                              .armB = at.point - poseB.position,
+                              .armA = at.armA,
+                              .armB = at.armB,
                               .normal = at.normal,
                               .material = touching(a.body->material, b.body->material)});
     group.partners.push_back(group.ranks[indexB]);
@@ -241,14 +242,14 @@ void ExactWorld::resolve(Group& group) {
   resolveImpact(bodies, group.contacts, group.shares);
 }
 
-void ExactWorld::settle(Group& group) const {
+void ExactWorld::settle(Group& group, bool touching) const {
   if (world_.gravity.isZero(0)) {
     return;
   }
   for (std::size_t i = 0; i < group.ranks.size(); ++i) {
     const bool moves = mover(group.ranks[i]).flies || !movesAlike(group.before[i], group.after[i]);
     if (moves && !mover(group.ranks[i]).isHeld()) {
-      settleBody(group, i);
+      settleBody(group, i, touching);
     }
   }
 }
@@ -263,8 +264,9 @@ void ExactWorld::checkParts(const Group& group, const Event& event) const {
   }
 }
 
-// A body whose next hop at one of its contacts is too short to follow comes to rest there, or the run ends.
-void ExactWorld::settleBody(Group& group, std::size_t index) const {
+// A body whose next hop at one of its contacts is too short to follow, or lower than the gap's rounding,
+// comes to rest there, or the run ends.
+void ExactWorld::settleBody(Group& group, std::size_t index, bool touching) const {
   const Body& body = *mover(group.ranks[index]).body;
   BodyState& state = group.after[index];
   const Vec3 omega = careen::angularVelocity(body.mass, state);
@@ -288,7 +290,8 @@ void ExactWorld::settleBody(Group& group, std::size_t index) const {
     const Bouncing bouncing{.acceleration = normal.dot(acceleration),
                             .departure = std::max(0.0, normal.dot(state.velocity + omega.cross(arm))),
                             .restitution = contact.material.restitution};
-    if (!settles(bouncing, body.halfExtents.minCoeff())) {
+    const bool sinks = touching && std::isfinite(settlingTail(bouncing));
+    if (!sinks && !settles(bouncing, body.halfExtents.minCoeff())) {
       continue;
     }
     tail = std::max(tail, settlingTail(bouncing));

@@ -21,42 +21,22 @@ Pose at(const Vec3& position, const Mat3& turn = Mat3::Identity()) {
   return {.position = position, .worldFromBody = turn};
 }
 
-bool holds(const ContactPoints& points, const Vec3& expected) {
-  return std::any_of(points.begin(), points.end(),
-                     [&](const ContactPoint& contact) { return (contact.point - expected).norm() < 1e-9; });
-}
-
-TEST(WallContactPoints, areOneTwoOrFourCorners) {
-  const Vec3 half(0.5, 0.25, 0.125);
-  EXPECT_EQ(wallContactPoints(at({3, 2, 0.125}), half, Vec3::UnitZ(), 0).size(), 4U);
-  const Mat3 onEdge = turned<double>(Vec3::UnitY(), 0.3);
-  const ContactPoints edge = wallContactPoints(at({0, 0, 1}, onEdge), half, Vec3::UnitZ(), 0);
-  ASSERT_EQ(edge.size(), 2U);
-  // The lowest edge runs along y: half apart on either side.
-  EXPECT_NEAR(std::fabs(edge[0].point.y() - edge[1].point.y()), 0.5, 1e-15);
-  const Mat3 onCorner = onEdge * turned<double>(Vec3::UnitX(), 0.3);
-  EXPECT_EQ(wallContactPoints(at({0, 0, 1}, onCorner), half, Vec3::UnitZ(), 0).size(), 1U);
-}
-
-// A face tilted by less than the grouping tolerance strikes with all corners, by more with its edge.
-TEST(WallContactPoints, groupWithinTheTolerance) {
-  const Vec3 half(1, 1, 1);
-  const double within = kSimultaneous * half.norm();
-  const auto corners = [&](double rise) {
-    const Mat3 tilt = turned<double>(Vec3::UnitY(), rise / 2);
-    return wallContactPoints(at({0, 0, 1}, tilt), half, Vec3::UnitZ(), 0).size();
-  };
-  EXPECT_EQ(corners(0.9 * within), 4U);
-  EXPECT_EQ(corners(1.1 * within), 2U);
+// Whether one of the points is that place, in the world of both boxes.
+bool holds(const ContactPoints& points, const Pose& a, const Pose& b, const Vec3& expected) {
+  return std::any_of(points.begin(), points.end(), [&](const ContactPoint& contact) {
+    return (a.position + contact.armA - expected).norm() < 1e-14 &&
+           (b.position + contact.armB - expected).norm() < 1e-14;
+  });
 }
 
 TEST(BoxContactPoints, faceOnFaceIsTheCommonRectangle) {
-  const ContactPoints points =
-      boxContactPoints(at({0.5, 0.75, 2}), Vec3(1, 1, 1), at({0, 0, 0}), Vec3(1, 1, 1));
+  const Pose a = at({0.5, 0.75, 2});
+  const Pose b = at({0, 0, 0});
+  const ContactPoints points = boxContactPoints(a, Vec3(1, 1, 1), b, Vec3(1, 1, 1));
   ASSERT_EQ(points.size(), 4U);
   for (const double x : {-0.5, 1.0}) {
     for (const double y : {-0.25, 1.0}) {
-      EXPECT_TRUE(holds(points, {x, y, 1})) << x << " " << y;
+      EXPECT_TRUE(holds(points, a, b, {x, y, 1})) << x << " " << y;
     }
   }
   EXPECT_EQ(points[0].normal, Vec3(Vec3::UnitZ()));
@@ -73,18 +53,19 @@ TEST(BoxContactPoints, turnedFaceOnFaceIsAnOctagon) {
                                                 Vec3(1, 1, 1), at({0, 0, 0}), Vec3(1, 1, 1));
   ASSERT_EQ(points.size(), 8U);
   for (const ContactPoint& contact : points) {
-    EXPECT_NEAR(std::hypot(contact.point.x(), contact.point.y()), 1 / std::cos(kEighth / 2), 1e-14);
-    EXPECT_NEAR(contact.point.z(), 1, 1e-15);
+    EXPECT_NEAR(std::hypot(contact.armB.x(), contact.armB.y()), 1 / std::cos(kEighth / 2), 1e-14);
+    EXPECT_NEAR(contact.armB.z(), 1, 1e-15);
   }
 }
 
 TEST(BoxContactPoints, edgeOnFaceIsASegmentCutAtTheFace) {
   const double height = 1 + std::sqrt(2.0);
-  const ContactPoints points = boxContactPoints(at({0.5, 0, height}, turned<double>(Vec3::UnitX(), kEighth)),
-                                                Vec3(2, 1, 1), at({0, 0, 0}), Vec3(1, 1, 1));
+  const Pose a = at({0.5, 0, height}, turned<double>(Vec3::UnitX(), kEighth));
+  const Pose b = at({0, 0, 0});
+  const ContactPoints points = boxContactPoints(a, Vec3(2, 1, 1), b, Vec3(1, 1, 1));
   ASSERT_EQ(points.size(), 2U);
-  EXPECT_TRUE(holds(points, {-1, 0, 1}));
-  EXPECT_TRUE(holds(points, {1, 0, 1}));
+  EXPECT_TRUE(holds(points, a, b, {-1, 0, 1}));
+  EXPECT_TRUE(holds(points, a, b, {1, 0, 1}));
 }
 
 TEST(BoxContactPoints, cornerOnFaceIsTheCornerWhicheverBoxHasIt) {
@@ -94,20 +75,20 @@ TEST(BoxContactPoints, cornerOnFaceIsTheCornerWhicheverBoxHasIt) {
   const Pose below = at({0, 0, 0});
   const ContactPoints points = boxContactPoints(above, Vec3(1, 1, 1), below, Vec3(1, 1, 1));
   ASSERT_EQ(points.size(), 1U);
-  EXPECT_TRUE(holds(points, {0.25, 0.5, 1}));
+  EXPECT_TRUE(holds(points, above, below, {0.25, 0.5, 1}));
   EXPECT_NEAR(points[0].normal.z(), 1, 1e-15);
   const ContactPoints other = boxContactPoints(below, Vec3(1, 1, 1), above, Vec3(1, 1, 1));
   ASSERT_EQ(other.size(), 1U);
-  EXPECT_TRUE(holds(other, {0.25, 0.5, 1}));
+  EXPECT_TRUE(holds(other, below, above, {0.25, 0.5, 1}));
   EXPECT_NEAR(other[0].normal.z(), -1, 1e-15);
 }
 
 TEST(BoxContactPoints, crossedEdgesMeetInAPoint) {
-  const ContactPoints points =
-      boxContactPoints(at({0.25, 0.5, 2 * std::sqrt(2.0)}, turned<double>(Vec3::UnitX(), kEighth)),
-                       Vec3(1, 1, 1), at({0, 0, 0}, turned<double>(Vec3::UnitY(), kEighth)), Vec3(1, 1, 1));
+  const Pose a = at({0.25, 0.5, 2 * std::sqrt(2.0)}, turned<double>(Vec3::UnitX(), kEighth));
+  const Pose b = at({0, 0, 0}, turned<double>(Vec3::UnitY(), kEighth));
+  const ContactPoints points = boxContactPoints(a, Vec3(1, 1, 1), b, Vec3(1, 1, 1));
   ASSERT_EQ(points.size(), 1U);
-  EXPECT_TRUE(holds(points, {0, 0.5, std::sqrt(2.0)}));
+  EXPECT_TRUE(holds(points, a, b, {0, 0.5, std::sqrt(2.0)}));
 }
 
 // Whatever meets: every point lies on both boxes, and at that moment the points' normal speeds are those of
@@ -128,15 +109,15 @@ TEST(BoxContactPoints, ofRandomImpactsLieOnBothBoxesAndCloseAsTheGapDoes) {
     const Pose b = pair.b.moving().poseAt(hit.time);
     const ContactPoints points = boxContactPoints(a, pair.a.halfExtents, b, pair.b.halfExtents);
     ASSERT_EQ(points.size(), 1U) << k;
-    const auto outside = [](const Pose& pose, const Vec3& half, const Vec3& point) {
-      const Vec3 local = pose.worldFromBody.transpose() * (point - pose.position);
+    const auto outside = [](const Pose& pose, const Vec3& half, const Vec3& arm) {
+      const Vec3 local = pose.worldFromBody.transpose() * arm;
       return (local.cwiseAbs() - half).maxCoeff();
     };
-    off = std::max({off, outside(a, pair.a.halfExtents, points[0].point),
-                    outside(b, pair.b.halfExtents, points[0].point)});
+    off = std::max({off, outside(a, pair.a.halfExtents, points[0].armA),
+                    outside(b, pair.b.halfExtents, points[0].armB)});
     const Vec3 closing = pair.a.moving().velocityAt(hit.time) - pair.b.moving().velocityAt(hit.time) +
-                         pair.a(hit.time).angularVelocity.cross(points[0].point - a.position) -
-                         pair.b(hit.time).angularVelocity.cross(points[0].point - b.position);
+                         pair.a(hit.time).angularVelocity.cross(points[0].armA) -
+                         pair.b(hit.time).angularVelocity.cross(points[0].armB);
     speed = std::max(speed, std::fabs(closing.dot(points[0].normal) + hit.approach) / (1 + hit.approach));
   }
   EXPECT_GT(impacts, 2000);
@@ -160,10 +141,24 @@ TEST(BoxContactPoints, theMirrorImageAndTheSwapGiveTheSamePoints) {
   ASSERT_EQ(mirrored.size(), points.size());
   ASSERT_EQ(swapped.size(), points.size());
   for (const ContactPoint& contact : points) {
-    const Vec3 seen = mirror.cwiseProduct(contact.point);
+    const Vec3 seen = mirror.cwiseProduct(contact.armA);
     EXPECT_TRUE(std::any_of(mirrored.begin(), mirrored.end(),
-                            [&](const ContactPoint& other) { return other.point == seen; }));
-    EXPECT_TRUE(holds(swapped, contact.point));
+                            [&](const ContactPoint& other) { return other.armA == seen; }));
+    EXPECT_TRUE(holds(swapped, b, a, a.position + contact.armA));
+  }
+}
+
+// A box that lies flat on another: its corners, each the other's mirror image about its centre.
+TEST(BoxContactPoints, ofABoxLaidOnABoxAreItsCornersToTheBit) {
+  const Vec3 half(0.3, 0.2, 0.1);
+  const Mat3 turn = turned<double>(Vec3::UnitZ(), 0.4);
+  const ContactPoints points =
+      boxContactPoints(at({0.11, 0.7, 1.31}, turn), half, at({0.13, 0.77, 0.9}), Vec3(0.7, 0.6, 0.31));
+  ASSERT_EQ(points.size(), 4U);
+  for (const ContactPoint& contact : points) {
+    EXPECT_TRUE(std::any_of(points.begin(), points.end(), [&](const ContactPoint& other) {
+      return other.armA == Vec3(-contact.armA.x(), -contact.armA.y(), contact.armA.z());
+    }));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 
 #include "support/gap_oracle.h"
@@ -22,6 +23,18 @@ TEST(WallGap, isThatOfTheLowestEdge) {
   EXPECT_NEAR(gap.gap, 5 - std::sqrt(2.0), 1e-15);
   // Body corners (−,−,±): bits 2 and 1 set.
   EXPECT_EQ(gap.corners, 1U << 6U | 1U << 7U);
+}
+
+// A face tilted by less than the grouping tolerance strikes with all corners, by more with its edge.
+TEST(WallGap, groupsCornersWithinTheTolerance) {
+  const double within = kSimultaneous * std::sqrt(3.0);
+  const auto corners = [&](double rise) {
+    const Pose pose{.position = Vec3(0, 0, 1),
+                    .worldFromBody = test::turned<double>(Vec3::UnitY(), rise / 2)};
+    return std::popcount(wallGap(pose, Vec3(1, 1, 1), Vec3::UnitZ(), 0, within).corners);
+  };
+  EXPECT_EQ(corners(0.9 * within), 4);
+  EXPECT_EQ(corners(1.1 * within), 2);
 }
 
 TEST(BoxAxes, alignedBoxesSeparateAlongTheWidestFace) {
