@@ -103,7 +103,7 @@ void ExactWorld::happen(const Event& event) {
   } else {
     Group group = gather(event);
     resolve(group);
-    settle(group, event.kind == EventKind::kTouching);
+    settle(group, event);
     if (event.kind == EventKind::kTouching) {
       checkParts(group, event);
     }
@@ -242,14 +242,14 @@ void ExactWorld::resolve(Group& group) {
   resolveImpact(bodies, group.contacts, group.shares);
 }
 
-void ExactWorld::settle(Group& group, bool touching) const {
+void ExactWorld::settle(Group& group, const Event& event) const {
   if (world_.gravity.isZero(0)) {
     return;
   }
   for (std::size_t i = 0; i < group.ranks.size(); ++i) {
     const bool moves = mover(group.ranks[i]).flies || !movesAlike(group.before[i], group.after[i]);
     if (moves && !mover(group.ranks[i]).isHeld()) {
-      settleBody(group, i, touching);
+      settleBody(group, i, event);
     }
   }
 }
@@ -264,9 +264,16 @@ void ExactWorld::checkParts(const Group& group, const Event& event) const {
   }
 }
 
+// Whether contact number k is between the event's two.
+bool ExactWorld::isOf(const Event& event, const Group& group, std::size_t k) {
+  const int a = group.ranks[static_cast<std::size_t>(group.contacts[k].a)];
+  const int b = group.partners[k];
+  return (a == event.body && b == event.partner) || (a == event.partner && b == event.body);
+}
+
 // A body whose next hop at one of its contacts is too short to follow, or lower than the gap's rounding,
 // comes to rest there, or the run ends.
-void ExactWorld::settleBody(Group& group, std::size_t index, bool touching) const {
+void ExactWorld::settleBody(Group& group, std::size_t index, const Event& event) const {
   const Body& body = *mover(group.ranks[index]).body;
   BodyState& state = group.after[index];
   const Vec3 omega = careen::angularVelocity(body.mass, state);
@@ -290,7 +297,8 @@ void ExactWorld::settleBody(Group& group, std::size_t index, bool touching) cons
     const Bouncing bouncing{.acceleration = normal.dot(acceleration),
                             .departure = std::max(0.0, normal.dot(state.velocity + omega.cross(arm))),
                             .restitution = contact.material.restitution};
-    const bool sinks = touching && std::isfinite(settlingTail(bouncing));
+    const bool sinks =
+        event.kind == EventKind::kTouching && isOf(event, group, k) && std::isfinite(settlingTail(bouncing));
     if (!sinks && !settles(bouncing, body.halfExtents.minCoeff())) {
       continue;
     }
