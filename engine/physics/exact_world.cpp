@@ -1,7 +1,6 @@
 #include "physics/exact_world.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <sstream>
 #include <string>
@@ -103,7 +102,7 @@ void ExactWorld::happen(const Event& event) {
   } else {
     Group group = gather(event);
     resolve(group);
-    settle(group, event);
+    settle(group);
     if (event.kind == EventKind::kTouching) {
       checkParts(group, event);
     }
@@ -242,14 +241,14 @@ void ExactWorld::resolve(Group& group) {
   resolveImpact(bodies, group.contacts, group.shares);
 }
 
-void ExactWorld::settle(Group& group, const Event& event) const {
+void ExactWorld::settle(Group& group) const {
   if (world_.gravity.isZero(0)) {
     return;
   }
   for (std::size_t i = 0; i < group.ranks.size(); ++i) {
     const bool moves = mover(group.ranks[i]).flies || !movesAlike(group.before[i], group.after[i]);
     if (moves && !mover(group.ranks[i]).isHeld()) {
-      settleBody(group, i, event);
+      settleBody(group, i);
     }
   }
 }
@@ -264,16 +263,18 @@ void ExactWorld::checkParts(const Group& group, const Event& event) const {
   }
 }
 
-// Whether contact number k is between the event's two.
-bool ExactWorld::isOf(const Event& event, const Group& group, std::size_t k) {
-  const int a = group.ranks[static_cast<std::size_t>(group.contacts[k].a)];
-  const int b = group.partners[k];
-  return (a == event.body && b == event.partner) || (a == event.partner && b == event.body);
+// [m] What the gap at contact k is the difference of. A wall's offset is no more than its body's part of it.
+double ExactWorld::lengthsAt(const Group& group, std::size_t k) const {
+  const auto of = [&](int index) {
+    const auto i = static_cast<std::size_t>(index);
+    return group.after[i].pose.position.cwiseAbs().sum() + mover(group.ranks[i]).body->halfExtents.norm();
+  };
+  const ImpactContact& contact = group.contacts[k];
+  return of(contact.a) + of(contact.b == ImpactContact::kWall ? contact.a : contact.b);
 }
 
-// A body whose next hop at one of its contacts is too short to follow, or lower than the gap's rounding,
-// comes to rest there, or the run ends.
-void ExactWorld::settleBody(Group& group, std::size_t index, const Event& event) const {
+// A body whose next hop at one of its contacts is too short to follow comes to rest there, or the run ends.
+void ExactWorld::settleBody(Group& group, std::size_t index) const {
   const Body& body = *mover(group.ranks[index]).body;
   BodyState& state = group.after[index];
   const Vec3 omega = careen::angularVelocity(body.mass, state);
@@ -296,10 +297,9 @@ void ExactWorld::settleBody(Group& group, std::size_t index, const Event& event)
     const Vec3 acceleration = world_.gravity + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
     const Bouncing bouncing{.acceleration = normal.dot(acceleration),
                             .departure = std::max(0.0, normal.dot(state.velocity + omega.cross(arm))),
-                            .restitution = contact.material.restitution};
-    const bool sinks =
-        event.kind == EventKind::kTouching && isOf(event, group, k) && std::isfinite(settlingTail(bouncing));
-    if (!sinks && !settles(bouncing, body.halfExtents.minCoeff())) {
+                            .restitution = contact.material.restitution,
+                            .gapRounding = kGapRounding * lengthsAt(group, k)};
+    if (!settles(bouncing, body.halfExtents.minCoeff())) {
       continue;
     }
     tail = std::max(tail, settlingTail(bouncing));

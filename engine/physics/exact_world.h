@@ -52,9 +52,9 @@ class ExactWorld {
   void addWallContacts(Group& group, std::size_t index);
   void addPairContacts(Group& group, std::size_t indexA, std::size_t indexB);
   void resolve(Group& group);
-  void settle(Group& group, const Event& event) const;
-  static bool isOf(const Event& event, const Group& group, std::size_t k);
-  void settleBody(Group& group, std::size_t index, const Event& event) const;
+  void settle(Group& group) const;
+  double lengthsAt(const Group& group, std::size_t k) const;
+  void settleBody(Group& group, std::size_t index) const;
   void checkParts(const Group& group, const Event& event) const;
   void record(const Group& group);
 

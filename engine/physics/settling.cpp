@@ -69,8 +69,12 @@ double settlingHop(const Bouncing& bouncing, double smallestHalfExtent) {
 }
 
 bool settles(const Bouncing& bouncing, double smallestHalfExtent) {
-  return bouncing.acceleration < 0 && bouncing.restitution < 1 &&
-         nextHop(bouncing) < settlingHop(bouncing, smallestHalfExtent);
+  if (!(bouncing.acceleration < 0 && bouncing.restitution < 1)) {
+    return false;
+  }
+  const double lost = 1 - bouncing.restitution * bouncing.restitution;
+  return nextHop(bouncing) < settlingHop(bouncing, smallestHalfExtent) ||
+         nextHeight(bouncing) * lost < kRoundingsOfAHop * bouncing.gapRounding;
 }
 
 std::string_view describe(Settled settled) {

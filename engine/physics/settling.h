@@ -14,6 +14,7 @@ struct Bouncing {
   double acceleration = 0;  ///< [m/s²] a_n, along the wall's normal; settles only where negative
   double departure = 0;     ///< [m/s] v₊ ≥ 0, normal speed after the impact
   double restitution = 0;   ///< [1] e < 1
+  double gapRounding = 0;   ///< [m] of the gap to the wall
 };
 
 /// 2 v₊/|a_n| [s]: how long the hop that now begins will last. Infinite without acceleration towards the
@@ -30,8 +31,12 @@ double nextHeight(const Bouncing& bouncing);
 /// kSettlingFraction²/4 at most, is 2e-13 of the box. The tail's time is exact whatever τ is.
 double settlingHop(const Bouncing& bouncing, double smallestHalfExtent);
 inline constexpr double kSettlingFraction = 0x1p-20;
+inline constexpr double kRoundingsOfAHop = 16;
 
-/// True when the remaining bounces are to be summed instead of followed.
+/// True when the remaining bounces are to be summed instead of followed: shorter than τ, or so low that the
+/// gap's rounding feeds them. A hop that ends δ lower than it began gains 2|a_n|δ of squared speed, so hops
+/// of height e²δ/(1−e²) would go on for ever; a thin plate comes to that long before its τ. The search ends a
+/// hop within a few roundings: kRoundingsOfAHop of them, over 1−e², leave a margin.
 bool settles(const Bouncing& bouncing, double smallestHalfExtent);
 
 /// What becomes of a body when its bounces have ended.
