@@ -43,12 +43,6 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   } catch (const Error& error) {
     std::cerr << "careen: " << error.what() << '\n';
     return exitWith(error.code());
-  } catch (const std::bad_alloc&) {
-    std::cerr << "careen: out of memory\n";
-    return exitWith(ExitCode::kMachineFailed);
-  } catch (const std::exception& error) {
-    std::cerr << "careen: " << error.what() << '\n';
-    return exitWith(ExitCode::kMachineFailed);
   }
 }
 
@@ -57,9 +51,15 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
 
 int main(int argc, char** argv) {
   int result = 0;
-  {
+  try {
     careen::Interruption interruption;
     result = careen::runCommandLine(argc, argv, interruption);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "careen: out of memory\n";
+    return careen::exitWith(careen::ExitCode::kMachineFailed);
+  } catch (const std::exception& error) {
+    std::cerr << "careen: " << error.what() << '\n';
+    return careen::exitWith(careen::ExitCode::kMachineFailed);
   }
   if (result < 0) {
     std::raise(-result);
