@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -174,10 +176,10 @@ inline double log(double x) {
     exponent = -54;
   }
   // x = 2ⁿ·m with √½ ≤ m < √2: take the bits of √½ off before reading the exponent.
-  const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
+  const auto bits = std::bit_cast<std::uint64_t>(x);
   const std::uint64_t kSqrtHalf = 0x3fe6a09e667f3bcdU;
   const auto n = static_cast<std::int64_t>(bits - kSqrtHalf) >> 52;
-  const double m = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(n) << 52U));
+  const auto m = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(n) << 52U));
   exponent += static_cast<int>(n);
   // ln m = 2 artanh s with s = f/(2+f), f = m − 1 exact; and 2s = f − s f, so that f itself carries the
   // digits.
@@ -199,7 +201,7 @@ inline double log(double x) {
 namespace detail {
 
 /// atan(k/8) as hi + lo.
-inline constexpr DoubleDouble kArcTangentOfEighths[] = {
+inline constexpr std::array<DoubleDouble, 9> kArcTangentOfEighths = {{
     {0x0.0p+0, 0x0.0p+0},
     {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
     {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
@@ -209,11 +211,12 @@ inline constexpr DoubleDouble kArcTangentOfEighths[] = {
     {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
     {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
     {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55},
-};
+}};
 
 /// atan(y/x) for 0 ≤ y ≤ x, x > 0, as hi + lo: atan(k/8) + atan((y − x k/8)/(x + y k/8)).
 inline DoubleDouble arcTangent(double y, double x) {
-  const int k = static_cast<int>(8 * (y / x) + 0.5);
+  const double rounding = 8 * (y / x) + 0.5;
+  const int k = static_cast<int>(rounding);
   const double c = 0.125 * k;
   const DoubleDouble cx = twoProduct(c, x);
   const DoubleDouble numerator = fastTwoSum(y - cx.hi, -cx.lo);
@@ -223,7 +226,7 @@ inline DoubleDouble arcTangent(double y, double x) {
   const double r4 = r2 * r2;
   const double tail = ((-1.0 / 3 + r2 * (1.0 / 5)) + r4 * (-1.0 / 7 + r2 * (1.0 / 9))) +
                       r4 * r4 * (-1.0 / 11 + r2 * (1.0 / 13));
-  const DoubleDouble& step = kArcTangentOfEighths[k];
+  const DoubleDouble& step = kArcTangentOfEighths[static_cast<std::size_t>(k)];
   const DoubleDouble sum = fastTwoSum(step.hi, r.hi);
   return fastTwoSum(sum.hi, sum.lo + (step.lo + (r.lo + r.hi * r2 * tail)));
 }
@@ -239,16 +242,16 @@ inline double atan2(double y, double x) {
   }
   // The angle to the nearer axis, added to or taken off a multiple of π/2: by table, not by unpredictable
   // branches.
-  constexpr DoubleDouble kStart[] = {{0, 0},
-                                     {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54},
-                                     {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53},
-                                     {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54}};
-  constexpr double kDirection[] = {1, -1, -1, 1};
-  const int octant = (ay > ax ? 1 : 0) + (x < 0 ? 2 : 0);
+  constexpr std::array<DoubleDouble, 4> kStart = {{{0, 0},
+                                                   {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54},
+                                                   {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53},
+                                                   {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54}}};
+  constexpr std::array<double, 4> kDirection = {1, -1, -1, 1};
+  const std::size_t octant = (ay > ax ? 1U : 0U) + (x < 0 ? 2U : 0U);
   const DoubleDouble angle = detail::arcTangent(ay < ax ? ay : ax, ay < ax ? ax : ay);
   const DoubleDouble turned =
       kStart[octant] + DoubleDouble(kDirection[octant] * angle.hi, kDirection[octant] * angle.lo);
-  const double rounded = static_cast<double>(turned);
+  const auto rounded = static_cast<double>(turned);
   return y < 0 ? -rounded : rounded;
 }
 

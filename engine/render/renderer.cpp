@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 #include "core/resource.h"
@@ -84,7 +85,7 @@ Mat4 fromOffset(const Mat4& fromWorld, const Vec3& eye) {
 }  // namespace
 
 struct Renderer::Parts {
-  Parts(const Scene& scene, int width, int height, const RenderOptions& options);
+  Parts(Scene drawnScene, int width, int height, const RenderOptions& options);
   void drawShadows(const std::vector<DrawnBox>& drawn);
   void drawPicture();
   void upload() const;
@@ -108,8 +109,8 @@ struct Renderer::Parts {
   DrawFigures figures;
 };
 
-Renderer::Parts::Parts(const Scene& drawnScene, int width, int height, const RenderOptions& options)
-    : scene(drawnScene),
+Renderer::Parts::Parts(Scene drawnScene, int width, int height, const RenderOptions& options)
+    : scene(std::move(drawnScene)),
       extent(extentOf(scene)),
       camera(cameraOf(scene, static_cast<double>(width) / height)),
       view(viewOf(camera, extent, static_cast<double>(width) / height)),

@@ -54,7 +54,7 @@ std::vector<Vec3> clipped(const std::vector<Vec3>& outline, const Vec3& normal, 
       kept.push_back(from);
     }
     if ((before >= 0) != (after >= 0)) {
-      kept.push_back(from + before / (before - after) * (to - from));
+      kept.emplace_back(from + before / (before - after) * (to - from));
     }
   }
   return kept;
