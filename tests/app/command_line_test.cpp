@@ -173,7 +173,7 @@ TEST_F(CommandLine, badScenesExitWith2AndWriteNothing) {
       {"\"careen\": 1", "\"careen\": 2"},
       {"\"duration\": 1", "\"duration\": 1e400"},
       {"\"duration\": 1", "\"duration\": NaN"},
-      {"\"duration\": 1", "\"duration\": \"1\""},
+      {"\"duration\": 1", R"("duration": "1")"},
       {"\"mass\": 1", "\"mass\": 0"},
       {"\"mass\": 1", "\"mass\": -1"},
       {"\"mass\": 1", "\"mas\": 1"},

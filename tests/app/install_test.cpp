@@ -20,9 +20,9 @@ TEST(Install, programFindsItsOwnScenes) {
 
   const std::filesystem::path scene = folder / "there/share/careen/assets/scenes/careen.json";
   std::string text = textOf(scene);
-  const std::string name = "\"name\": \"careen\"";
+  const std::string name = R"("name": "careen")";
   ASSERT_NE(text.find(name), std::string::npos);
-  text.replace(text.find(name), name.size(), "\"name\": \"the installed one\"");
+  text.replace(text.find(name), name.size(), R"("name": "the installed one")");
   std::ofstream(scene) << text;
 
   const Ended ended = Process({folder / "there/bin/careen", "info"}, folder.path()).wait();

@@ -75,6 +75,7 @@ class Process {
     out_ = log_ / "out";
     err_ = log_ / "err";
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (const std::string& argument : command) {
       arguments.push_back(const_cast<char*>(argument.c_str()));
     }
