@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "core/error.h"
+#include "physics/first_contact_search.h"
 #include "physics/time_of_impact.h"
 #include "physics/translating_contact.h"
 
@@ -39,9 +40,19 @@ bool moveAsOne(const Mover& a, const Mover& b) {
 std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wall>& walls,
                                const Instant& end) {
   const MovingBox box = body.moving(body.start);
+  // The wall whose turn is likely first, so that the others need not be followed further than it.
+  std::size_t likely = 0;
+  double soonest = kNever;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const double clear = sphereClearUntil(box, walls[w].normal, walls[w].offset);
+    if (clear > 0 && clear < soonest) {
+      soonest = clear;
+      likely = w;
+    }
+  }
   std::optional<Event> first;
   double until = body.elapsed(end);
-  for (std::size_t w = 0; w < walls.size(); ++w) {
+  const auto meet = [&](std::size_t w) {
     const Wall& wall = walls[w];
     const FirstContact contact = body.angularSpeedBound == 0
                                      ? firstContactTranslating(box, wall.normal, wall.offset, until)
@@ -55,6 +66,9 @@ std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wa
                .body = rank,
                .partner = wallPartner(w)};
     }
+  };
+  for (std::size_t k = 0; k < walls.size(); ++k) {
+    meet((likely + k) % walls.size());
   }
   return first;
 }

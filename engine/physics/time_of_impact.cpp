@@ -95,6 +95,10 @@ class WallApproach {
 
 }  // namespace
 
+double sphereClearUntil(const MovingBox& box, const Vec3& normal, double offset) {
+  return WallApproach(box, normal, offset).skip(0);
+}
+
 FirstContact firstContactWithWall(const MovingBox& box, const Vec3& normal, double offset,
                                   const SearchWindow& window) {
   WallApproach approach(box, normal, offset);

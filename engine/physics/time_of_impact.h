@@ -106,6 +106,9 @@ struct SearchWindow {
 FirstContact firstContactWithWall(const MovingBox& box, const Vec3& normal, double offset,
                                   const SearchWindow& window);
 
+/// [s] Before this moment, 0 or later, the box's bounding sphere is clear of the wall.
+double sphereClearUntil(const MovingBox& box, const Vec3& normal, double offset);
+
 /// First contact of two boxes. The same bits in time when a and b change places (normal reversed).
 FirstContact firstContactOfBoxes(const MovingBox& a, const MovingBox& b, const SearchWindow& window);
 
