@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
+#include "trajectory/compression.h"
 
 namespace careen {
 namespace {
@@ -76,6 +77,7 @@ class Reader {
     }
     return count;
   }
+  std::string_view rest() const { return rest_; }
   bool atEnd() const { return rest_.empty(); }
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(std::string(name_) + ": this trajectory file " + what);
@@ -312,13 +314,16 @@ void checkIndices(const Trajectory& trajectory, const Reader& reader) {
 }  // namespace
 
 std::string encodeTrajectory(const Trajectory& trajectory) {
-  Writer writer;
-  writer.bytes() += kMagic;
-  writer.visit(kVersion);
-  visit(writer, trajectory);
-  writer.visit(trajectory.stateHash());
-  writer.visit(checksum(writer.bytes()));
-  return std::move(writer.bytes());
+  Writer record;
+  visit(record, trajectory);
+  record.visit(trajectory.stateHash());
+  Writer file;
+  file.bytes() += kMagic;
+  file.visit(kVersion);
+  file.visit(static_cast<std::uint64_t>(record.bytes().size()));
+  file.bytes() += compressed(record.bytes());
+  file.visit(checksum(file.bytes()));
+  return std::move(file.bytes());
 }
 
 bool looksLikeTrajectory(const std::string& bytes) { return bytes.starts_with(kMagic); }
@@ -328,7 +333,7 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name) {
   if (!looksLikeTrajectory(bytes)) {
     reader.fail("does not begin as one: expected a file written by 'careen simulate'");
   }
-  if (bytes.size() < kMagic.size() + 2 * sizeof(std::uint64_t)) {
+  if (bytes.size() < kMagic.size() + 3 * sizeof(std::uint64_t)) {
     reader.fail("is cut short");
   }
   const std::string_view body = std::string_view(bytes).substr(0, bytes.size() - sizeof(std::uint64_t));
@@ -343,6 +348,13 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name) {
   if (checksum(body) != expected) {
     reader.fail("is cut short or damaged: its checksum does not match");
   }
+  std::uint64_t size = 0;
+  reader.visit(size);
+  const std::optional<std::string> record = decompressed(reader.rest(), size);
+  if (!record) {
+    reader.fail("is damaged: its record cannot be unpacked");
+  }
+  reader = Reader(*record, name);
   Trajectory trajectory;
   std::string stateHash;
   visit(reader, trajectory);

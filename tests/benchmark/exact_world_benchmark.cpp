@@ -41,21 +41,25 @@ void elasticRoomByListing1(benchmark::State& state) {
 }
 BENCHMARK(elasticRoomByListing1);
 
-// A hundred boxes without gravity, e = 1, as assets/scenes/gas.json.
+// Boxes without gravity, e = 1, as in assets/scenes/gas.json: a cube of n³ of them, each with as much room.
+// The rate of impacts must not fall with their number.
 void gas(benchmark::State& state) {
+  const auto n = static_cast<int>(state.range(0));
   test::Dice dice(100);
-  World world = elasticRoom();
-  world.gravity.setZero();
-  world.bodies.clear();
-  for (int i = 0; i < 100; ++i) {
-    const Vec3 place(-2.4 + 1.2 * (i % 5), -1.5 + (i / 5 % 4), 0.6 + 1.2 * (i / 20));
+  World world;
+  for (int axis = 0; axis < 3; ++axis) {
+    world.walls.push_back(wall("low-" + std::to_string(axis), Vec3::Unit(axis), 0));
+    world.walls.push_back(wall("high-" + std::to_string(axis), -Vec3::Unit(axis), -n));
+  }
+  for (int i = 0; i < n * n * n; ++i) {
+    const Vec3 place(i % n + 0.5, i / n % n + 0.5, i / (n * n) + 0.5);
     const Vec3 velocity = dice.vector(2);
     const Vec3 spin = dice.vector(3);
     world.bodies.push_back(box("box-" + std::to_string(i), Vec3(0.15, 0.12, 0.1), 1, place, velocity, spin));
   }
-  run(state, world, {.duration = 5});
+  run(state, world, {.duration = 10});
 }
-BENCHMARK(gas);
+BENCHMARK(gas)->Arg(5)->Arg(10)->Arg(20);
 
 // One box between floor and ceiling, then one thing more at a time. Gravity and friction change the number of
 // impacts: compare the time of each. Measured against oneBox: gravity 1.06, friction 1.18, a second box far
