@@ -72,8 +72,8 @@ TEST(Png, isSmallerAndQuickerThanByTheCompressorThatComesWithStb) {
   RecordProperty("bytes_stb", size);
   std::cout << "ours " << ours.size() << " bytes, " << 1000 * (between - begun) << " ms; stb's " << size
             << " bytes, " << 1000 * (ended - between) << " ms\n";
-  EXPECT_LT(static_cast<double>(ours.size()), 0.9 * size);
-  EXPECT_LT(between - begun, 0.7 * (ended - between));
+  EXPECT_LT(static_cast<double>(ours.size()), 0.9 * size);  // measured 0.77
+  EXPECT_LT(between - begun, 0.7 * (ended - between));      // measured 0.30 to 0.35
 }
 
 TEST(Png, damageIsToldAndNamed) {
