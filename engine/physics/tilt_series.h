@@ -175,7 +175,7 @@ class TiltSeries {
   /// Terms of each sum such that the first harmonic left out is below rounding at q = 0.2.
   static constexpr std::size_t countTerms() {
     int j = 1;
-    while (j * (j - 1) / 2 * 2.32 < std::numeric_limits<Real>::digits + 4) {
+    while (1.16 * j * (j - 1) < std::numeric_limits<Real>::digits + 4) {
       ++j;
     }
     return static_cast<std::size_t>((j + 1) / 2);
