@@ -1,0 +1,32 @@
+#pragma once
+
+#include "core/linear_algebra.h"
+
+namespace careen {
+
+/// A rigid body that nothing turns, as the methods that step it see it:
+///
+///     q' = ½ q ω,   m' = m × ω,   ωᵢ = mᵢ/Iᵢ.
+///
+/// A method is a function of this state that takes `count` steps of dt [s] (either sign) for principal
+/// moments `inertia` [kg m²] along the body's axes. It takes the many at once so that what all steps share is
+/// worked out once, and what only the end of a run needs is done once. The quaternion is of unit length at
+/// the start and to rounding at the end.
+template <class Real>
+struct FreeState {
+  Quaternion<Real> worldFromBody;
+  Vector3<Real> bodyMomentum;  // [kg m²/s] m = Aᵀ L
+
+  Vector3<Real> angularMomentumWorld() const { return worldFromBody * bodyMomentum; }
+};
+
+/// q brought to unit length.
+template <class Real>
+Quaternion<Real> unit(Quaternion<Real> q) {
+  using std::sqrt;
+  const Real inverseLength = 1 / sqrt(q.squaredNorm());
+  q.coeffs() *= inverseLength;
+  return q;
+}
+
+}  // namespace careen
