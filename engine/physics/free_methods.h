@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "physics/free_step.h"
+
+namespace careen {
+
+/// A method that steps a free body, and what is claimed of it; the claims are tested.
+struct FreeMethod {
+  std::string_view name;
+  void (*steps)(const Vec3& inertia, FreeState<double>& state, const double& dt, std::int64_t count);
+  int order;           // of the attitude
+  bool keepsEnergy;    // to rounding, whatever the step
+  bool keepsMomentum;  // likewise |m| and the momentum in the world
+  bool symmetric;      // steps of −dt lead back
+};
+
+/// All there are, by order.
+std::span<const FreeMethod> freeMethods();
+
+}  // namespace careen
