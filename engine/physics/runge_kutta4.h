@@ -38,6 +38,18 @@ inline AttitudeAndMomentum<Real> moved(const AttitudeAndMomentum<Real>& s, const
           s.m0 + h * d.m0, s.m1 + h * d.m1, s.m2 + h * d.m2};
 }
 
+/// One step, the quaternion's length left as it comes.
+template <class Real>
+inline AttitudeAndMomentum<Real> rungeKutta4Step(const AttitudeAndMomentum<Real>& s,
+                                                 const Vector3<Real>& inverse, const Real& dt) {
+  const auto k1 = rate(s, inverse);
+  const auto k2 = rate(moved(s, k1, Real(dt / 2)), inverse);
+  const auto k3 = rate(moved(s, k2, Real(dt / 2)), inverse);
+  const auto k4 = rate(moved(s, k3, dt), inverse);
+  return moved(moved(moved(moved(s, k1, Real(dt / 6)), k2, Real(dt / 3)), k3, Real(dt / 3)), k4,
+               Real(dt / 6));
+}
+
 }  // namespace detail
 
 /// The classical Runge–Kutta method on (q, m), the quaternion brought back to unit length after each step.
@@ -54,17 +66,9 @@ void rungeKutta4Steps(const Vector3<Real>& inertia, FreeState<Real>& state, cons
   const Vector3<Real> inverse = inertia.cwiseInverse();
   const Quaternion<Real>& q = state.worldFromBody;
   const Vector3<Real>& m = state.bodyMomentum;
-  const Real half = dt / 2;
-  const Real third = dt / 3;
-  const Real sixth = dt / 6;
   detail::AttitudeAndMomentum<Real> s{q.w(), q.x(), q.y(), q.z(), m[0], m[1], m[2]};
   for (std::int64_t i = 0; i < count; ++i) {
-    const auto k1 = detail::rate(s, inverse);
-    const auto k2 = detail::rate(detail::moved(s, k1, half), inverse);
-    const auto k3 = detail::rate(detail::moved(s, k2, half), inverse);
-    const auto k4 = detail::rate(detail::moved(s, k3, dt), inverse);
-    s = detail::moved(detail::moved(detail::moved(detail::moved(s, k1, sixth), k2, third), k3, third), k4,
-                      sixth);
+    s = detail::rungeKutta4Step(s, inverse, dt);
     const Real inverseLength = 1 / sqrt(s.w * s.w + s.x * s.x + s.y * s.y + s.z * s.z);
     s.w *= inverseLength;
     s.x *= inverseLength;

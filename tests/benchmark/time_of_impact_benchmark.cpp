@@ -32,8 +32,7 @@ void attitude(benchmark::State& state) {
 BENCHMARK(attitude);
 
 // The next impact of a box in a room of six walls.
-void boxInRoom(benchmark::State& state) {
-  const std::vector<TumblingBox> boxes = flights(256);
+void nextImpact(benchmark::State& state, const std::vector<TumblingBox>& boxes) {
   std::size_t k = 0;
   double evaluations = 0;
   for ([[maybe_unused]] auto step : state) {
@@ -51,6 +50,8 @@ void boxInRoom(benchmark::State& state) {
   }
   state.counters["evaluations"] = benchmark::Counter(evaluations, benchmark::Counter::kAvgIterations);
 }
+
+void boxInRoom(benchmark::State& state) { nextImpact(state, flights(256)); }
 BENCHMARK(boxInRoom);
 
 // The same from a bounce: the box has just left the floor with one of its corners.
@@ -60,22 +61,7 @@ void bounceInRoom(benchmark::State& state) {
     box.velocity.z() = 5;
     box.position.z() -= wallGap(box.moving().poseAt(0), box.halfExtents, Vec3::UnitZ(), -kRoom, 0).gap;
   }
-  std::size_t k = 0;
-  double evaluations = 0;
-  for ([[maybe_unused]] auto step : state) {
-    const MovingBox box = boxes[k++ % boxes.size()].moving();
-    double until = 10;
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const double side : {-1.0, 1.0}) {
-        const FirstContact contact =
-            firstContactWithWall(box, side * Vec3::Unit(axis), -kRoom, {.from = 0, .until = until});
-        evaluations += contact.evaluations;
-        until = contact.time;
-      }
-    }
-    benchmark::DoNotOptimize(until);
-  }
-  state.counters["evaluations"] = benchmark::Counter(evaluations, benchmark::Counter::kAvgIterations);
+  nextImpact(state, boxes);
 }
 BENCHMARK(bounceInRoom);
 

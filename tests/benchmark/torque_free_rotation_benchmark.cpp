@@ -15,6 +15,8 @@
 #include <random>
 #include <vector>
 
+#include "physics/runge_kutta4.h"
+
 namespace careen {
 namespace {
 
@@ -40,36 +42,7 @@ std::vector<Body> makeBodies() {
   return bodies;
 }
 
-struct State {
-  double w, x, y, z;
-  double m0, m1, m2;
-};
-
-inline State derivative(const State& s, const Vec3& inverse) {
-  const double a = s.m0 * inverse[0];
-  const double b = s.m1 * inverse[1];
-  const double c = s.m2 * inverse[2];
-  return {-0.5 * (s.x * a + s.y * b + s.z * c),
-          0.5 * (s.w * a + s.y * c - s.z * b),
-          0.5 * (s.w * b + s.z * a - s.x * c),
-          0.5 * (s.w * c + s.x * b - s.y * a),
-          s.m1 * c - s.m2 * b,
-          s.m2 * a - s.m0 * c,
-          s.m0 * b - s.m1 * a};
-}
-
-inline State moved(const State& s, const State& d, double h) {
-  return {s.w + h * d.w,   s.x + h * d.x,   s.y + h * d.y,  s.z + h * d.z,
-          s.m0 + h * d.m0, s.m1 + h * d.m1, s.m2 + h * d.m2};
-}
-
-State rungeKutta4(const State& s, const Vec3& inverse, double h) {
-  const State k1 = derivative(s, inverse);
-  const State k2 = derivative(moved(s, k1, 0.5 * h), inverse);
-  const State k3 = derivative(moved(s, k2, 0.5 * h), inverse);
-  const State k4 = derivative(moved(s, k3, h), inverse);
-  return moved(moved(moved(moved(s, k1, h / 6), k2, h / 3), k3, h / 3), k4, h / 6);
-}
+using State = detail::AttitudeAndMomentum<double>;
 
 template <bool kUnit>
 void stepAll(benchmark::State& state) {
@@ -84,7 +57,7 @@ void stepAll(benchmark::State& state) {
   }
   for (auto _ : state) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      states[i] = rungeKutta4(states[i], inverses[i], 1e-3);
+      states[i] = detail::rungeKutta4Step(states[i], inverses[i], 1e-3);
       if constexpr (kUnit) {
         State& s = states[i];
         const double inverseNorm = 1 / std::sqrt(s.w * s.w + s.x * s.x + s.y * s.y + s.z * s.z);
