@@ -9,8 +9,8 @@ namespace {
 
 TEST(Compression, bringsBackEveryByte) {
   std::string bytes;
-  for (int i = 0; i < 100'000; ++i) {
-    bytes.push_back(static_cast<char>(i * i >> 5));
+  for (unsigned i = 0; i < 100'000; ++i) {
+    bytes.push_back(static_cast<char>(i * i >> 5U));
   }
   const std::string packed = compressed(bytes);
   EXPECT_LT(packed.size(), bytes.size());
