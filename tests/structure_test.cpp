@@ -25,6 +25,7 @@ const std::map<std::string, Names> kMayInclude = {
     {"image", {"core"}},
     {"scene", {"physics", "core"}},
     {"trajectory", {"physics", "core"}},
+    {"study", {"scene", "trajectory", "physics", "core"}},
     {"render", {"trajectory", "scene", "image", "core"}},
 };
 

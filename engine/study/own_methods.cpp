@@ -1,0 +1,48 @@
+#include "study/own_methods.h"
+
+#include "physics/method.h"
+#include "study/sampled_states.h"
+
+namespace careen {
+namespace {
+
+class OwnMethod : public Contestant {
+ public:
+  explicit OwnMethod(const MethodTraits& traits) : traits_(traits) {}
+
+  std::string name() const override { return std::string(traits_.name); }
+  std::string settings() const override { return "careen's own"; }
+  bool steps() const override { return traits_.steps; }
+
+  std::string refuses(const World& world) const override {
+    if (!traits_.forces && (!world.springs.empty() || world.drag)) {
+      return "no springs, no drag";
+    }
+    if (!traits_.boxBox && world.bodies.size() > 1) {
+      return "boxes do not meet";
+    }
+    return "";
+  }
+
+  std::vector<std::vector<BodyState>> run(const World& world, double dt, std::span<const double> times,
+                                          const std::stop_token& stop) const override {
+    SampledStates states(world, times);
+    simulate(world, {.method = traits_.method, .duration = times.back(), .dt = dt}, states, stop);
+    return states.finish();
+  }
+
+ private:
+  const MethodTraits& traits_;
+};
+
+}  // namespace
+
+Contestants ownMethods() {
+  Contestants all;
+  for (const MethodTraits& traits : kMethods) {
+    all.push_back(std::make_unique<OwnMethod>(traits));
+  }
+  return all;
+}
+
+}  // namespace careen
