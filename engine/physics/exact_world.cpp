@@ -11,6 +11,7 @@
 #include "physics/next_contact.h"
 #include "physics/separation.h"
 #include "physics/settling.h"
+#include "physics/wall_contacts.h"
 
 namespace careen {
 namespace {
@@ -21,8 +22,7 @@ constexpr int kMostAtOneMoment = 1000;
 
 constexpr const char* kNeedsContact =
     ". That takes the motion Contact, which method exact does not have; end the run before it, or give the "
-    "pair more "
-    "restitution";
+    "pair more restitution";
 
 std::vector<std::size_t> ranked(const World& world) {
   std::vector<std::size_t> order(world.bodies.size());
@@ -130,7 +130,7 @@ void ExactWorld::moveOn(const Group& group) {
 void ExactWorld::end() {
   for (const Mover& body : movers_) {
     if (body.flies) {
-      arrive(body, end_);
+      arrive(body, end_, body.stateAt(end_));
     }
   }
 }
@@ -147,7 +147,11 @@ ExactWorld::Group ExactWorld::gather(const Event& event) {
   }
   group.after = group.before;
   for (std::size_t i = 0; i < group.ranks.size(); ++i) {
-    addWallContacts(group, i);
+    const Mover& body = mover(group.ranks[i]);
+    if (!body.isHeld()) {
+      account_.penetrates(addWallContacts(world_, *body.body, group.before[i].pose, static_cast<int>(i),
+                                          group.contacts, group.partners));
+    }
     for (std::size_t j = i + 1; j < group.ranks.size(); ++j) {
       addPairContacts(group, i, j);
     }
@@ -181,29 +185,6 @@ std::vector<int> ExactWorld::touchingFrom(const Event& event) const {
   return ranks;
 }
 
-void ExactWorld::addWallContacts(Group& group, std::size_t index) {
-  const Mover& body = mover(group.ranks[index]);
-  const Pose& pose = group.before[index].pose;
-  const double within = kSimultaneous * body.body->halfExtents.norm();
-  for (std::size_t w = 0; w < world_.walls.size() && !body.isHeld(); ++w) {
-    const Wall& wall = world_.walls[w];
-    const WallGap gap = wallGap(pose, body.body->halfExtents, wall.normal, wall.offset, within);
-    if (gap.gap > within) {
-      continue;
-    }
-    account_.penetrates(-gap.gap);
-    for (int k = 0; k < kCorners; ++k) {
-      if ((gap.corners >> static_cast<unsigned>(k) & 1U) != 0) {
-        group.contacts.push_back({.a = static_cast<int>(index),
-                                  .armA = pose.worldFromBody * corner(body.body->halfExtents, k),
-                                  .normal = wall.normal,
-                                  .material = touching(body.body->material, wall.material)});
-        group.partners.push_back(wallPartner(w));
-      }
-    }
-  }
-}
-
 void ExactWorld::addPairContacts(Group& group, std::size_t indexA, std::size_t indexB) {
   const Mover& a = mover(group.ranks[indexA]);
   const Mover& b = mover(group.ranks[indexB]);
@@ -232,9 +213,9 @@ void ExactWorld::resolve(Group& group) {
   for (const ImpactContact& contact : group.contacts) {
     mayLose = mayLose || contact.material.restitution < 1 || contact.material.friction > 0;
   }
-  for (const int rank : group.ranks) {
-    if (mover(rank).flies) {
-      arrive(mover(rank), group.time);
+  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
+    if (mover(group.ranks[i]).flies) {
+      arrive(mover(group.ranks[i]), group.time, group.before[i]);
     }
   }
   account_.strikes(mayLose);
@@ -379,8 +360,8 @@ void ExactWorld::begins(int rank, const Instant& time) {
   ++body.motion;
 }
 
-void ExactWorld::arrive(const Mover& body, const Instant& time) {
-  account_.arrives(static_cast<std::size_t>(body.listed.value), body.stateAt(time), body.elapsed(time));
+void ExactWorld::arrive(const Mover& body, const Instant& time, const BodyState& state) {
+  account_.arrives(static_cast<std::size_t>(body.listed.value), state, body.elapsed(time));
 }
 
 // ---- What comes next.

@@ -49,7 +49,6 @@ class ExactWorld {
 
   Group gather(const Event& event);
   std::vector<int> touchingFrom(const Event& event) const;
-  void addWallContacts(Group& group, std::size_t index);
   void addPairContacts(Group& group, std::size_t indexA, std::size_t indexB);
   void resolve(Group& group);
   void settle(Group& group) const;
@@ -61,7 +60,7 @@ class ExactWorld {
   void fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude);
   void rest(int rank, const Instant& time, const Pose& pose);
   void begins(int rank, const Instant& time);
-  void arrive(const Mover& body, const Instant& time);
+  void arrive(const Mover& body, const Instant& time, const BodyState& state);
 
   void predict(int rank);
   static void sooner(std::optional<Event>& first, const Event& candidate);

@@ -15,27 +15,36 @@ void FlightAccount::see(std::size_t body, const BodyState& state) {
   const double energy = kinetic - mass.mass * world_.gravity.dot(state.pose.position);
   energy_ += energy - account.energy;
   kinetic_ += kinetic - account.kinetic;
-  account = {.energy = energy,
-             .kinetic = kinetic,
-             .momentum = mass.mass * state.velocity,
-             .angularMomentum = state.angularMomentum};
+  account.energy = energy;
+  account.kinetic = kinetic;
   largestKinetic_ = std::max(largestKinetic_, kinetic_);
   orthogonality_ = std::max(orthogonality_, orthogonalityError(state.pose.worldFromBody));
 }
 
-void FlightAccount::departs(std::size_t body, const BodyState& state) { see(body, state); }
+void FlightAccount::departs(std::size_t body, const BodyState& state) {
+  see(body, state);
+  bodies_[body].momentum = world_.bodies[body].mass.mass * state.velocity;
+  bodies_[body].angularMomentum = state.angularMomentum;
+}
+
+void FlightAccount::passes(std::size_t body, const BodyState& state) {
+  see(body, state);
+  largestError_ = std::max(largestError_, std::abs(energy_ - due_));
+}
 
 void FlightAccount::arrives(std::size_t body, const BodyState& state, double elapsed) {
-  const MassProperties& mass = world_.bodies[body].mass;
-  const BodyAccount begun = bodies_[body];
-  see(body, state);
-  const Vec3 given = elapsed * mass.mass * world_.gravity;
-  const double size = std::max(begun.momentum.norm(), bodies_[body].momentum.norm());
+  passes(body, state);
+  const BodyAccount& begun = bodies_[body];
+  const double mass = world_.bodies[body].mass.mass;
+  expect(mass * state.velocity, begun.momentum + elapsed * mass * world_.gravity);
+  expect(state.angularMomentum, begun.angularMomentum);
+}
+
+void FlightAccount::expect(const Vec3& momentum, const Vec3& due) {
+  const double size = std::max(momentum.norm(), due.norm());
   if (size > 0) {
-    momentumError_ =
-        std::max(momentumError_, (bodies_[body].momentum - begun.momentum - given).norm() / size);
+    momentumError_ = std::max(momentumError_, (momentum - due).norm() / size);
   }
-  largestError_ = std::max(largestError_, std::abs(energy_ - due_));
 }
 
 void FlightAccount::strikes(bool mayLose) { mayLose_ = mayLose; }

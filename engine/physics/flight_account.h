@@ -19,6 +19,8 @@ class FlightAccount {
 
   /// A body's motion begins in this state.
   void departs(std::size_t body, const BodyState& state);
+  /// A body's motion goes on through this state.
+  void passes(std::size_t body, const BodyState& state);
   /// A body's motion ends in this state, `elapsed` [s] after it began.
   void arrives(std::size_t body, const BodyState& state, double elapsed);
   /// Between the arrivals and the departures of its bodies: an impact that may take energy out, or may not.
@@ -31,12 +33,13 @@ class FlightAccount {
 
  private:
   struct BodyAccount {
-    double energy = 0;   // [J] kinetic and gravitational, where last seen
-    double kinetic = 0;  // [J] likewise
-    Vec3 momentum = Vec3::Zero();
-    Vec3 angularMomentum = Vec3::Zero();
+    double energy = 0;                    // [J] kinetic and gravitational, where last seen
+    double kinetic = 0;                   // [J] likewise
+    Vec3 momentum = Vec3::Zero();         // where its motion began
+    Vec3 angularMomentum = Vec3::Zero();  // likewise
   };
   void see(std::size_t body, const BodyState& state);
+  void expect(const Vec3& momentum, const Vec3& due);
 
   const World& world_;
   std::vector<BodyAccount> bodies_;

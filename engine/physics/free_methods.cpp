@@ -1,6 +1,7 @@
 #include "physics/free_methods.h"
 
 #include <array>
+#include <stdexcept>
 
 #include "physics/free_splitting.h"
 #include "physics/moser_veselov.h"
@@ -10,14 +11,23 @@
 namespace careen {
 
 std::span<const FreeMethod> freeMethods() {
-  static constexpr std::array<FreeMethod, 5> kMethods = {{
-      {"strang", strangSteps<double>, 2, false, true, true},
-      {"runge-kutta-4", rungeKutta4Steps<double>, 4, false, false, false},
-      {"splitting-6", splitting6Steps<double>, 6, false, true, true},
-      {"taylor-8", taylor8Steps<double>, 8, false, false, false},
-      {"moser-veselov-10", moserVeselovSteps<double>, 10, true, true, true},
+  static constexpr std::array<FreeMethod, 5> kFreeMethods = {{
+      {Method::kStrang, strangSteps<double>, 2, false, true, true},
+      {Method::kRungeKutta4, rungeKutta4Steps<double>, 4, false, false, false},
+      {Method::kSplitting6, splitting6Steps<double>, 6, false, true, true},
+      {Method::kTaylor8, taylor8Steps<double>, 8, false, false, false},
+      {Method::kMoserVeselov10, moserVeselovSteps<double>, 10, true, true, true},
   }};
-  return kMethods;
+  return kFreeMethods;
+}
+
+const FreeMethod& freeMethod(Method method) {
+  for (const FreeMethod& each : freeMethods()) {
+    if (each.method == method) {
+      return each;
+    }
+  }
+  throw std::logic_error("no method of free bodies");
 }
 
 }  // namespace careen

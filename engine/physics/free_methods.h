@@ -2,15 +2,15 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
 
 #include "physics/free_step.h"
+#include "physics/method.h"
 
 namespace careen {
 
 /// A method that steps a free body, and what is claimed of it; the claims are tested.
 struct FreeMethod {
-  std::string_view name;
+  Method method;
   void (*steps)(const Vec3& inertia, FreeState<double>& state, const double& dt, std::int64_t count);
   int order;           // of the attitude
   bool keepsEnergy;    // to rounding, whatever the step
@@ -20,5 +20,7 @@ struct FreeMethod {
 
 /// All there are, by order.
 std::span<const FreeMethod> freeMethods();
+/// The one that `method` is; std::logic_error if it is another kind of method.
+const FreeMethod& freeMethod(Method method);
 
 }  // namespace careen

@@ -4,7 +4,9 @@
 
 #include "core/error.h"
 #include "physics/exact_world.h"
+#include "physics/free_methods.h"
 #include "physics/loop1997.h"
+#include "physics/stepped_world.h"
 
 namespace careen {
 
@@ -21,8 +23,9 @@ RunFigures simulate(const World& world, const RunSettings& settings, Recorder& r
       return ExactWorld(world, settings.duration, recorder).run(stop);
     case Method::kListing1:
       return runLoop1997(world, settings, recorder, stop);
+    default:
+      return runStepped(world, settings, recorder, stop);
   }
-  throw InputError("unknown method");
 }
 
 }  // namespace careen

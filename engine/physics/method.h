@@ -10,8 +10,8 @@
 
 namespace careen {
 
-/// Ways to move a world: one line here, one in kMethods, one in simulate.
-enum class Method { kExact, kListing1 };
+/// Ways to move a world: one line here, one in kMethods, one in simulate or in freeMethods().
+enum class Method : int { kExact, kListing1, kStrang, kRungeKutta4, kSplitting6, kTaylor8, kMoserVeselov10 };
 
 /// What a method is called and what it can do.
 struct MethodTraits {
@@ -23,9 +23,20 @@ struct MethodTraits {
   bool friction = false;
   bool rests = false;  ///< bounces may die out
 };
+
+/// A method that steps free bodies, see FreeMethod: it meets walls, with friction, at the roots of the gap.
+constexpr MethodTraits steppedFlight(Method method, std::string_view name) {
+  return {.method = method, .name = name, .steps = true, .friction = true};
+}
+
 inline constexpr std::array kMethods = {
     MethodTraits{.method = Method::kExact, .name = "exact", .boxBox = true, .friction = true, .rests = true},
-    MethodTraits{.method = Method::kListing1, .name = "listing1", .steps = true, .forces = true}};
+    MethodTraits{.method = Method::kListing1, .name = "listing1", .steps = true, .forces = true},
+    steppedFlight(Method::kStrang, "strang"),
+    steppedFlight(Method::kRungeKutta4, "runge-kutta-4"),
+    steppedFlight(Method::kSplitting6, "splitting-6"),
+    steppedFlight(Method::kTaylor8, "taylor-8"),
+    steppedFlight(Method::kMoserVeselov10, "moser-veselov-10")};
 
 constexpr const MethodTraits& traitsOf(Method method) {
   const MethodTraits* known = kMethods.data();

@@ -1,5 +1,8 @@
 #include "physics/motion.h"
 
+#include <cmath>
+
+#include "physics/free_methods.h"
 #include "physics/listing1.h"
 #include "physics/torque_free_rotation.h"
 
@@ -22,6 +25,21 @@ BodyState stateIn(const Flight& flight, const MassProperties& mass, double elaps
                    .worldFromBody = rotation.worldFromBody(elapsed).toRotationMatrix()},
           .velocity = flight.velocityAt(elapsed),
           .angularMomentum = flight.angularMomentum};
+}
+
+BodyState stateIn(const SteppedFlight& stepped, const MassProperties& mass, double elapsed) {
+  const Flight& flight = stepped.start;
+  const FreeMethod& method = freeMethod(stepped.method);
+  FreeState<double> rotation{flight.worldFromBody, flight.worldFromBody.conjugate() * flight.angularMomentum};
+  const double whole = std::floor(elapsed / stepped.dt);
+  method.steps(mass.inertiaBody, rotation, stepped.dt, static_cast<std::int64_t>(whole));
+  if (const double rest = elapsed - whole * stepped.dt; rest > 0) {
+    method.steps(mass.inertiaBody, rotation, rest, 1);
+  }
+  return {.pose = {.position = flight.positionAt(elapsed),
+                   .worldFromBody = rotation.worldFromBody.toRotationMatrix()},
+          .velocity = flight.velocityAt(elapsed),
+          .angularMomentum = rotation.angularMomentumWorld()};
 }
 
 }  // namespace

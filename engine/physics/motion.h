@@ -20,9 +20,19 @@ struct EulerStep {
   Vec3 torque = Vec3::Zero();  ///< [N m] total about the centre of mass, at the start
 };
 
+enum class Method : int;
+
+/// Free flight by a method that steps: the centre of mass runs along the parabola, the attitude is what steps
+/// of dt and a last shorter one lead to.
+struct SteppedFlight {
+  Method method{};
+  double dt = 0;  ///< [s]
+  Flight start;
+};
+
 /// How one body moves until something happens to it. A further motion is one more type here and one more line
 /// in stateAt.
-using Motion = std::variant<Rest, EulerStep, Flight>;
+using Motion = std::variant<Rest, EulerStep, Flight, SteppedFlight>;
 
 /// Where the body is `elapsed` [s] after the motion began.
 BodyState stateAt(const Motion& motion, const MassProperties& mass, double elapsed);

@@ -59,6 +59,8 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 PlanItem modelled(const char* what, const std::string& reason) { return {what, true, reason}; }
 PlanItem leftOut(const char* what, const std::string& reason) { return {what, false, reason}; }
 
+std::string nameOf(Method method) { return std::string(traitsOf(method).name); }
+
 PlanItem gravity(const Scene& scene) {
   return scene.gravity.isZero(0) ? leftOut("gravity", "the scene has none")
                                  : modelled("gravity", "the scene sets it");
@@ -95,7 +97,8 @@ PlanItem boxBox(const Scene& scene, const Wants& wants) {
   }
   return traitsOf(scene.method).boxBox
              ? modelled("box-box", counted(scene.boxes.size(), "box", "boxes") + " that could meet")
-             : leftOut("box-box", "the 1997 sample had none: boxes pass through one another");
+             : leftOut("box-box",
+                       "method " + nameOf(scene.method) + " has none: boxes pass through one another");
 }
 
 const char* nothingMeets(const Scene& scene) {
@@ -123,8 +126,8 @@ PlanItem friction(const Scene& scene, const Wants& wants) {
   }
   return traitsOf(scene.method).friction
              ? modelled("friction", "the scene sets it; at impacts")
-             : leftOut("friction",
-                       "THE SCENE ASKS FOR IT, but the 1997 sample had none: everything slides freely");
+             : leftOut("friction", "THE SCENE ASKS FOR IT, but method " + nameOf(scene.method) +
+                                       " has none: everything slides freely");
 }
 
 PlanItem resting(const Scene& scene, const Wants& wants) {
@@ -132,8 +135,8 @@ PlanItem resting(const Scene& scene, const Wants& wants) {
     return leftOut("resting", nothingMeets(scene));
   }
   if (!traitsOf(scene.method).rests) {
-    return leftOut("resting",
-                   "the 1997 method cannot rest: where a box would come to lie, the run ends in an error");
+    return leftOut("resting", "method " + nameOf(scene.method) +
+                                  " cannot rest: where a box would come to lie, the run ends in an error");
   }
   return wants.stops
              ? modelled("resting", "bounces that die out end on a face; to slide, rock or stack ends the run")
@@ -184,14 +187,14 @@ World assemble(const Scene& scene, const Plan& plan) {
                     .friction = plan.models("friction") ? material.friction : 0};
   };
   if (!traitsOf(scene.method).forces && (plan.models("springs") || plan.models("drag"))) {
-    throw InputError("scene " + scene.name + " has springs or drag, which method " +
-                     std::string(traitsOf(scene.method).name) + " does not model; expected method listing1");
+    throw InputError("scene " + scene.name + " has springs or drag, which method " + nameOf(scene.method) +
+                     " does not model; expected method listing1");
   }
   // The reader has asked the same of the scene file's own method; the command line may name another.
   if (const auto overlap = plan.models("box-box") ? findOverlap(scene) : std::nullopt) {
     throw InputError("box " + scene.boxes[overlap->second].name + " starts inside box " +
                      scene.boxes[overlap->first].name + "; expected boxes apart, as method " +
-                     std::string(traitsOf(scene.method).name) + " lets them meet");
+                     nameOf(scene.method) + " lets them meet");
   }
   World world;
   for (const SceneBox& box : scene.boxes) {

@@ -147,6 +147,30 @@ void visit(Archive& archive, Visited<Archive, Flight> flight) {
   visit(archive, flight.angularMomentum);
 }
 
+// By name: the numbers of the methods may change.
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Method> method) {
+  std::string name;
+  if constexpr (!Archive::kReads) {
+    name = traitsOf(method).name;
+  }
+  archive.visit(name);
+  if constexpr (Archive::kReads) {
+    const std::optional<Method> known = methodNamed(name);
+    if (!known) {
+      archive.fail("was made by the method '" + name + "', which this version does not know");
+    }
+    method = *known;
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, SteppedFlight> stepped) {
+  visit(archive, stepped.method);
+  archive.visit(stepped.dt);
+  visit(archive, stepped.start);
+}
+
 template <class Archive>
 void visit(Archive& archive, Visited<Archive, MassProperties> mass) {
   archive.visit(mass.mass);
@@ -258,15 +282,7 @@ void visit(Archive& archive, Visited<Archive, RunFigures> figures) {
 
 template <class Archive>
 void visit(Archive& archive, Visited<Archive, RunSettings> settings) {
-  std::string method(traitsOf(settings.method).name);
-  archive.visit(method);
-  if constexpr (Archive::kReads) {
-    const std::optional<Method> known = methodNamed(method);
-    if (!known) {
-      archive.fail("was made by the method '" + method + "', which this version does not know");
-    }
-    settings.method = *known;
-  }
+  visit(archive, settings.method);
   archive.visit(settings.dt);
   archive.visit(settings.tolerance);
   archive.visit(settings.duration);

@@ -80,7 +80,7 @@ void lonelyStep(benchmark::State& state, const FreeMethod& method) {
 
 [[maybe_unused]] const bool kRegistered = [] {
   for (const FreeMethod& method : freeMethods()) {
-    const std::string name(method.name);
+    const std::string name(traitsOf(method.method).name);
     benchmark::RegisterBenchmark(("freeStep/" + name).c_str(), step, method);
     benchmark::RegisterBenchmark(("freeStepAlone/" + name).c_str(), lonelyStep, method);
   }

@@ -63,11 +63,11 @@ TEST(Plan, saysWhatTheMethodLacks) {
   const Scene scene =
       withParts(R"("method": "listing1", )" + kFloor + R"(, "boxes": [)" + kBox + ", " + kFixed + "]");
   EXPECT_EQ(reasonFor(scene, "box-box"),
-            "left out: the 1997 sample had none: boxes pass through one another");
+            "left out: method listing1 has none: boxes pass through one another");
   EXPECT_EQ(reasonFor(scene, "friction"),
-            "left out: THE SCENE ASKS FOR IT, but the 1997 sample had none: everything slides freely");
+            "left out: THE SCENE ASKS FOR IT, but method listing1 has none: everything slides freely");
   EXPECT_EQ(reasonFor(scene, "resting"),
-            "left out: the 1997 method cannot rest: where a box would come to lie, the run ends in an error");
+            "left out: method listing1 cannot rest: where a box would come to lie, the run ends in an error");
   EXPECT_EQ(reasonFor(scene, "joints"), "left out: the scene has none");
 }
 

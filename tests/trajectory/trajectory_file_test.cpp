@@ -44,6 +44,17 @@ std::string withRightChecksum(std::string bytes) {
   return bytes;
 }
 
+TEST(TrajectoryFile, bringsBackARunOfEveryMethod) {
+  for (const MethodTraits& method : kMethods) {
+    const Trajectory run = record(elasticRoom(), {.method = method.method, .duration = 1}, "{}");
+    const std::string bytes = encodeTrajectory(run);
+    const Trajectory back = decodeTrajectory(bytes, "run.careen");
+    EXPECT_EQ(encodeTrajectory(back), bytes) << method.name;
+    EXPECT_EQ(back.settings.method, method.method);
+    EXPECT_EQ(back.state(0, 0.7).pose.worldFromBody, run.state(0, 0.7).pose.worldFromBody) << method.name;
+  }
+}
+
 TEST(TrajectoryFile, bringsBackEveryBit) {
   const Trajectory trajectory = driftAndReturn();
   const std::string bytes = encodeTrajectory(trajectory);
