@@ -23,7 +23,7 @@ void printItems(std::ostream& out, const char* title, const Plan& plan, bool mod
 nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
   const Trajectory& trajectory = run.trajectory;
   const RunFigures& figures = trajectory.figures;
-  const bool steps = traitsOf(trajectory.settings.method).steps;
+  const bool steps = traitsOf(trajectory.settings.method).steps();
   return {
       {"scene", run.scene.name},
       {"scene_hash", trajectory.sceneHash()},
@@ -47,7 +47,7 @@ void printPlan(std::ostream& out, const Scene& scene, const Plan& plan) {
   out << "scene        " << scene.name << ", " << scene.boxes.size()
       << (scene.boxes.size() == 1 ? " box, " : " boxes, ") << scene.duration << " s by "
       << traitsOf(scene.method).name;
-  if (traitsOf(scene.method).steps) {
+  if (traitsOf(scene.method).steps()) {
     out << ", dt " << scene.dt << " s";
   }
   out << '\n';

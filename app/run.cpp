@@ -57,7 +57,7 @@ void apply(const Overrides& overrides, Scene& scene) {
     announce("method", traitsOf(*method).name, traitsOf(scene.method).name);
     scene.method = *method;
   }
-  const bool steps = traitsOf(scene.method).steps;
+  const bool steps = traitsOf(scene.method).steps();
   override("dt", overrides.dt, steps, scene.method, scene.dt);
   override("tolerance", overrides.tolerance, !steps, scene.method, scene.tolerance);
   override("duration", overrides.duration, true, scene.method, scene.duration);

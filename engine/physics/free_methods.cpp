@@ -12,11 +12,11 @@ namespace careen {
 
 std::span<const FreeMethod> freeMethods() {
   static constexpr std::array<FreeMethod, 5> kFreeMethods = {{
-      {Method::kStrang, strangSteps<double>, 2, false, true, true},
-      {Method::kRungeKutta4, rungeKutta4Steps<double>, 4, false, false, false},
-      {Method::kSplitting6, splitting6Steps<double>, 6, false, true, true},
-      {Method::kTaylor8, taylor8Steps<double>, 8, false, false, false},
-      {Method::kMoserVeselov10, moserVeselovSteps<double>, 10, true, true, true},
+      {Method::kStrang, strangSteps<double>, false, true, true},
+      {Method::kRungeKutta4, rungeKutta4Steps<double>, false, false, false},
+      {Method::kSplitting6, splitting6Steps<double>, false, true, true},
+      {Method::kTaylor8, taylor8Steps<double>, false, false, false},
+      {Method::kMoserVeselov10, moserVeselovSteps<double>, true, true, true},
   }};
   return kFreeMethods;
 }

@@ -12,7 +12,6 @@ namespace careen {
 struct FreeMethod {
   Method method;
   void (*steps)(const Vec3& inertia, FreeState<double>& state, const double& dt, std::int64_t count);
-  int order;           // of the attitude
   bool keepsEnergy;    // to rounding, whatever the step
   bool keepsMomentum;  // likewise |m| and the momentum in the world
   bool symmetric;      // steps of −dt lead back

@@ -12,7 +12,7 @@ class OwnMethod : public Contestant {
 
   std::string name() const override { return std::string(traits_.name); }
   std::string settings() const override { return "careen's own"; }
-  bool steps() const override { return traits_.steps; }
+  bool steps() const override { return traits_.steps(); }
 
   std::string refuses(const World& world) const override {
     if (!traits_.forces && (!world.springs.empty() || world.drag)) {

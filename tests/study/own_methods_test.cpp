@@ -16,7 +16,7 @@ TEST(OwnMethods, areAllMethodsUnderTheirNames) {
   ASSERT_EQ(all.size(), kMethods.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(all[i]->name(), kMethods.at(i).name);
-    EXPECT_EQ(all[i]->steps(), kMethods.at(i).steps);
+    EXPECT_EQ(all[i]->steps(), kMethods.at(i).steps());
   }
 }
 
