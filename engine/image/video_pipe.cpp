@@ -1,7 +1,6 @@
 #include "image/video_pipe.h"
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -19,6 +18,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/process.h"
 
 namespace careen {
 namespace {
@@ -70,48 +70,10 @@ std::vector<std::string> ffmpegCommand(const VideoSettings& settings, const std:
           "mp4",        "file:" + output.string()};
 }
 
-// A group of its own: Ctrl-C at the terminal is this program's to deal with. And none of the signals that
-// this program keeps back.
-int spawn(std::vector<std::string> command, int input, int log, pid_t& process) {
-  std::vector<char*> arguments;
-  arguments.reserve(command.size() + 1);
-  for (std::string& argument : command) {
-    arguments.push_back(argument.data());
-  }
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&files, log, STDERR_FILENO);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t none;
-  sigemptyset(&none);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
-  const int error = posix_spawnp(&process, arguments[0], &files, &attributes, arguments.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&files);
-  return error;
-}
-
 void closeAndForget(int& descriptor) {
   if (descriptor >= 0) {
     close(std::exchange(descriptor, -1));
   }
-}
-
-// The end of what it said: there the cause is.
-std::string lastWords(int log) {
-  constexpr off_t kMost = 1500;
-  const off_t size = lseek(log, 0, SEEK_END);
-  std::array<char, kMost> text{};
-  const ssize_t got = pread(log, text.data(), text.size(), std::max<off_t>(0, size - kMost));
-  std::string_view words(text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, got)));
-  words = words.substr(0, words.find_last_not_of(" \n") + 1);
-  return std::string(words);
 }
 
 }  // namespace
@@ -142,7 +104,7 @@ void VideoPipe::start() {
   }
   frames_ = ends[0];
   log_ = memfd_create("ffmpeg", MFD_CLOEXEC);
-  const int error = spawn(ffmpegCommand(settings_, partial_), ends[1], log_, process_);
+  const int error = startProgram(ffmpegCommand(settings_, partial_), ends[1], log_, process_);
   close(ends[1]);
   if (error != 0) {
     process_ = 0;
