@@ -27,7 +27,11 @@ class OwnMethod : public Contestant {
   std::vector<std::vector<BodyState>> run(const World& world, double dt, std::span<const double> times,
                                           const std::stop_token& stop) const override {
     SampledStates states(world, times);
-    simulate(world, {.method = traits_.method, .duration = times.back(), .dt = dt}, states, stop);
+    RunSettings settings{.method = traits_.method, .duration = times.back()};
+    if (traits_.steps()) {
+      settings.dt = dt;
+    }
+    simulate(world, settings, states, stop);
     return states.finish();
   }
 

@@ -1,0 +1,19 @@
+# What all plots share. Colours after P. Tol's "bright" and "muted" sets, which colour-blind readers can tell apart.
+set datafile separator ","
+set datafile missing ""
+set key outside right top samplen 1.5 spacing 1.1
+set grid lc rgb "#dddddd"
+set border lc rgb "#444444"
+set tics textcolor rgb "#444444" nomirror
+
+known = "exact listing1 strang runge-kutta-4 splitting-6 taylor-8 moser-veselov-10 bullet bullet-best ode ode-best"
+colours = "#c8553d #888888 #66ccee #4477aa #228833 #ccbb44 #aa3377 #882255 #cc6677 #332288 #88ccee"
+points = "7 2 4 6 8 10 12 5 4 9 8"
+place(name) = (sum [i = 1:words(known)] (word(known, i) eq name ? i : 0))
+colourOf(name) = place(name) > 0 ? word(colours, place(name)) : "#000000"
+pointOf(name) = place(name) > 0 ? int(word(points, place(name))) : 1
+sizeOf(name) = name eq "exact" ? 1.6 : 0.8
+
+# Both pictures of one plot: out is its path without the ending.
+svg(w, h) = sprintf("set terminal svg size %d,%d dynamic background 'white' font 'DejaVu Sans,12'; set output '%s.svg'", w, h, out)
+png(w, h) = sprintf("set terminal pngcairo size %d,%d background 'white' font 'DejaVu Sans,11'; set output '%s.png'", w, h, out)

@@ -1,0 +1,148 @@
+#include "study/case.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/resource.h"
+#include "scene/plan.h"
+#include "scene/scene_reader.h"
+#include "study/error_estimate.h"
+#include "trajectory/trajectory.h"
+
+namespace careen {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kMomentsOfAScene = 16;
+
+const std::map<std::string, Measure> kMeasures = {{"poses", Measure::kPoses},
+                                                  {"energy", Measure::kEnergy},
+                                                  {"reversal", Measure::kReversal},
+                                                  {"scaled", Measure::kScaled}};
+
+std::filesystem::path scenePath(const std::string& relative) {
+  return findResource(std::filesystem::path("assets/scenes") / relative);
+}
+
+// What exact models, so that every contestant is given all of the scene.
+World worldOf(Scene scene) {
+  scene.method = Method::kExact;
+  return assemble(scene, plan(scene));
+}
+
+Vec3 vectorFrom(const Json& value) {
+  return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
+}
+
+Quat quaternionFrom(const Json& value) {
+  return Quat(value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>(),
+              value.at(3).get<double>())
+      .normalized();
+}
+
+void readPoses(const Json& boxes, Case& study) {
+  std::vector<Pose> still;
+  for (const Body& body : study.world.bodies) {
+    still.push_back(body.initial.pose);
+  }
+  study.poses.assign(study.times.size(), still);
+  for (const Json& box : boxes) {
+    const auto& bodies = study.world.bodies;
+    const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const Body& each) {
+      return each.name == box.at("name").get<std::string>();
+    });
+    if (body == bodies.end()) {
+      throw InputError("no box " + box.at("name").get<std::string>() + " in its scene");
+    }
+    for (std::size_t k = 0; k < study.times.size(); ++k) {
+      study.poses[k][static_cast<std::size_t>(body - bodies.begin())] = {
+          .position = vectorFrom(box.at("positions").at(k)),
+          .worldFromBody = quaternionFrom(box.at("orientations").at(k)).toRotationMatrix()};
+    }
+  }
+}
+
+void readTruth(const Json& truth, Case& study) {
+  study.title = truth.at("title").get<std::string>();
+  study.whyHard = truth.at("why_hard").get<std::string>();
+  study.source = truth.at("source").get<std::string>();
+  study.measure = kMeasures.at(truth.at("measure").get<std::string>());
+  study.scene = readScene(scenePath(truth.at("scene").get<std::string>()));
+  study.world = worldOf(study.scene);
+  if (study.measure == Measure::kScaled) {
+    study.original = worldOf(readScene(scenePath(truth.at("of").get<std::string>())));
+    study.lengths = truth.at("lengths").get<double>();
+    study.durations = truth.at("times").get<double>();
+    study.times = {study.scene.duration};
+    return;
+  }
+  study.times = truth.at("times").get<std::vector<double>>();
+  if (study.times.empty() || !std::is_sorted(study.times.begin(), study.times.end())) {
+    throw InputError("its times do not ascend");
+  }
+  if (study.measure == Measure::kPoses) {
+    readPoses(truth.at("boxes"), study);
+  }
+}
+
+}  // namespace
+
+double Case::simulated() const {
+  switch (measure) {
+    case Measure::kReversal:
+      return 2 * duration();
+    case Measure::kScaled:
+      return duration() + duration() / durations;
+    default:
+      return duration();
+  }
+}
+
+std::vector<std::string> caseNames() {
+  return Json::parse(readFile(findResource("assets/study/cases.json"))).get<std::vector<std::string>>();
+}
+
+Case readCase(const std::string& name) {
+  const std::filesystem::path path = findResource("assets/truths/" + name + ".json");
+  Case study;
+  study.name = name;
+  try {
+    readTruth(Json::parse(readFile(path)), study);
+  } catch (const Json::exception& error) {
+    throw InputError(path.string() + ": " + error.what());
+  } catch (const std::out_of_range& error) {
+    throw InputError(path.string() + ": unknown measure");
+  } catch (const InputError& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
+  return study;
+}
+
+Case caseOfScene(const std::filesystem::path& scene, const std::stop_token& stop) {
+  Case study;
+  study.scene = readScene(scene);
+  study.name = scene.stem().string();
+  study.title = study.scene.name;
+  study.world = worldOf(study.scene);
+  const Trajectory run = record(study.world, {.method = Method::kExact, .duration = study.scene.duration},
+                                study.scene.text, stop);
+  const std::optional<ErrorEstimate> estimate = estimateError(study.world, run, stop);
+  const double until = estimate ? estimate->until : 0;
+  if (until <= 0) {
+    throw InputError(scene.string() + ": chaos takes over before anything can be compared");
+  }
+  study.source = "method exact, which agrees with a run from a start one rounding away";
+  study.whyHard = "a scene of your own";
+  for (int k = 1; k <= kMomentsOfAScene; ++k) {
+    study.times.push_back(until * k / kMomentsOfAScene);
+    study.poses.push_back(run.poses(study.times.back()));
+  }
+  return study;
+}
+
+}  // namespace careen

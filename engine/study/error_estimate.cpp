@@ -1,0 +1,76 @@
+#include "study/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/error.h"
+#include "study/difference.h"
+#include "study/sampled_states.h"
+
+namespace careen {
+namespace {
+
+std::vector<double> sampleTimes(double duration) {
+  std::vector<double> times;
+  for (int k = 1; k <= kEstimateSamples; ++k) {
+    times.push_back(duration * k / kEstimateSamples);
+  }
+  return times;
+}
+
+std::vector<BodyState> statesAt(const Trajectory& run, double time) {
+  std::vector<BodyState> states;
+  for (std::size_t body = 0; body < run.tracks.size(); ++body) {
+    states.push_back(run.state(body, time));
+  }
+  return states;
+}
+
+}  // namespace
+
+double estimateCost(Method method) { return traitsOf(method).steps() ? 2 : 1; }
+
+World oneRoundingAway(const World& world) {
+  World moved = world;
+  const auto away = [](Vec3& vector) { vector *= 1 + 0x1p-52; };
+  for (Body& body : moved.bodies) {
+    if (!isImmovable(body.mass)) {
+      away(body.initial.pose.position);
+      away(body.initial.velocity);
+      away(body.initial.angularMomentum);
+    }
+  }
+  return moved;
+}
+
+std::optional<ErrorEstimate> estimateError(const World& world, const Trajectory& run,
+                                           const std::stop_token& stop) {
+  const int order = traitsOf(run.settings.method).order;
+  RunSettings settings = run.settings;
+  settings.dt /= order > 0 ? 2 : 1;
+  const std::vector<double> times = sampleTimes(settings.duration);
+  SampledStates again(world, times);
+  try {
+    simulate(order > 0 ? world : oneRoundingAway(world), settings, again, stop);
+  } catch (const NumericalError&) {
+    return std::nullopt;
+  }
+  const std::vector<std::vector<BodyState>> states = again.finish();
+  const double whole = order > 0 ? 1 / (1 - std::pow(0.5, order)) : 1;
+  ErrorEstimate estimate;
+  estimate.by = order > 0 ? "half the step" : "a start one rounding away";
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const PoseDifference difference = differenceOf(world, statesAt(run, times[k]), states[k]);
+    if (difference.relative > kHorizonDifference) {
+      estimate.horizon = times[k];
+      break;
+    }
+    estimate.position = std::max(estimate.position, whole * difference.position);
+    estimate.angle = std::max(estimate.angle, whole * difference.angle);
+    estimate.until = times[k];
+  }
+  return estimate;
+}
+
+}  // namespace careen

@@ -1,0 +1,275 @@
+#include "study/measuring.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+#include "core/error.h"
+#include "physics/diagnostics.h"
+#include "study/deadline.h"
+#include "study/difference.h"
+
+namespace careen {
+namespace {
+
+constexpr int kLeastRounds = 2;
+constexpr double kLongestStepOfRun = 0.25;  // [1] of the run: no step is longer
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+World startingFrom(const World& world, const std::vector<BodyState>& states) {
+  World next = world;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (!isImmovable(world.bodies[i].mass)) {
+      next.bodies[i].initial = states[i];
+    }
+  }
+  return next;
+}
+
+std::vector<BodyState> turnedRound(std::vector<BodyState> states) {
+  for (BodyState& state : states) {
+    state.velocity = -state.velocity;
+    state.angularMomentum = -state.angularMomentum;
+  }
+  return states;
+}
+
+std::vector<BodyState> initialStates(const World& world) {
+  std::vector<BodyState> states;
+  for (const Body& body : world.bodies) {
+    states.push_back(body.initial);
+  }
+  return states;
+}
+
+std::vector<BodyState> withPoses(const std::vector<Pose>& poses) {
+  std::vector<BodyState> states;
+  for (const Pose& pose : poses) {
+    states.push_back({.pose = pose});
+  }
+  return states;
+}
+
+bool mayLoseEnergy(const World& world) {
+  return std::any_of(world.bodies.begin(), world.bodies.end(), [&](const Body& body) {
+    const auto loses = [&](const Material& other) {
+      const Material pair = touching(body.material, other);
+      return pair.restitution < 1 || pair.friction > 0;
+    };
+    return std::any_of(world.walls.begin(), world.walls.end(),
+                       [&](const Wall& wall) { return loses(wall.material); }) ||
+           (world.bodies.size() > 1 && loses(body.material));
+  });
+}
+
+double energyChange(const World& world, const std::vector<BodyState>& states) {
+  const Energy start = energyOf(world, initialStates(world));
+  return (energyOf(world, states).total() - start.total()) / start.kinetic;
+}
+
+// One attempt's place among all, and what is known of how long it takes.
+struct Timed {
+  std::size_t attempt = 0;
+  const Contestant* contestant = nullptr;
+  double seconds = 0;
+  std::vector<double> samples;
+};
+
+std::string inWords(double seconds) {
+  std::ostringstream text;
+  text << "not done after " << seconds << " s";
+  return text.str();
+}
+
+// Errors, and a first idea of the time.
+double attempt(const Case& study, const Contestant& contestant, const Effort& effort,
+               const std::stop_token& stop, Attempt& result) {
+  const Deadline deadline(effort.longestRun, stop);
+  const Clock::time_point start = Clock::now();
+  try {
+    result.judgement = judge(study, answerOf(study, contestant, result.dt, deadline.token()));
+    if (!std::isfinite(result.judgement.error)) {
+      result.failure = "its states are not finite";
+    }
+  } catch (const Interrupted&) {
+    if (stop.stop_requested()) {
+      throw;
+    }
+    result.failure = inWords(effort.longestRun);
+  } catch (const Error& error) {
+    result.failure = error.what();
+  }
+  return secondsSince(start);
+}
+
+double timeOnce(const Case& study, const Timed& timed, double dt, double shortest,
+                const std::stop_token& stop) {
+  const int count = static_cast<int>(std::ceil(shortest / std::max(timed.seconds, shortest / 1e4)));
+  const Clock::time_point start = Clock::now();
+  for (int i = 0; i < count; ++i) {
+    answerOf(study, *timed.contestant, dt, stop);
+  }
+  return secondsSince(start) / count;
+}
+
+void timeAll(const Case& study, const Effort& effort, std::vector<Timed>& all, std::vector<Attempt>& attempts,
+             const std::stop_token& stop) {
+  const Pinned pinned;
+  const Clock::time_point start = Clock::now();
+  for (int round = 0; round < effort.rounds; ++round) {
+    if (round >= kLeastRounds && secondsSince(start) > effort.timing) {
+      break;
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Timed& timed = all[(i + static_cast<std::size_t>(round)) % all.size()];
+      timed.samples.push_back(timeOnce(study, timed, attempts[timed.attempt].dt, effort.shortest, stop));
+      timed.seconds = *std::min_element(timed.samples.begin(), timed.samples.end());
+    }
+  }
+  for (Timed& timed : all) {
+    const auto middle = timed.samples.begin() + static_cast<std::ptrdiff_t>(timed.samples.size() / 2);
+    std::nth_element(timed.samples.begin(), middle, timed.samples.end());
+    Attempt& result = attempts[timed.attempt];
+    result.cost = timed.seconds / study.simulated();
+    result.spread = *middle / timed.seconds - 1;
+    result.repeats = static_cast<int>(timed.samples.size());
+  }
+}
+
+}  // namespace
+
+Effort fullEffort() { return {.steps = {8, 4, 2, 1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64}}; }
+
+Effort quickEffort() {
+  return {.longestRun = 0.3,
+          .longestStep = 0.02,
+          .timing = 0.5,
+          .rounds = 3,
+          .shortest = 5e-4,
+          .steps = {4, 1, 1. / 4}};
+}
+
+Answer answerOf(const Case& study, const Contestant& contestant, double dt, const std::stop_token& stop) {
+  Answer answer;
+  answer.states = contestant.run(study.world, dt, study.times, stop);
+  if (study.measure == Measure::kReversal) {
+    const double end = study.duration();
+    answer.second =
+        contestant.run(startingFrom(study.world, turnedRound(answer.states.back())), dt, {&end, 1}, stop);
+  } else if (study.measure == Measure::kScaled) {
+    const double end = study.duration() / study.durations;
+    answer.second = contestant.run(study.original, dt / study.durations, {&end, 1}, stop);
+  }
+  return answer;
+}
+
+Judgement judge(const Case& study, const Answer& answer) {
+  Judgement judgement;
+  if (!mayLoseEnergy(study.world)) {
+    for (const std::vector<BodyState>& states : answer.states) {
+      judgement.energy.push_back(energyChange(study.world, states));
+    }
+  }
+  switch (study.measure) {
+    case Measure::kPoses:
+      for (std::size_t k = 0; k < study.times.size(); ++k) {
+        judgement.error = std::max(
+            judgement.error, differenceOf(study.world, answer.states[k], withPoses(study.poses[k])).relative);
+      }
+      break;
+    case Measure::kEnergy:
+      for (const double change : judgement.energy) {
+        judgement.error = std::max(judgement.error, std::isfinite(change) ? std::fabs(change) : INFINITY);
+      }
+      break;
+    case Measure::kReversal:
+      judgement.error = differenceOf(study.world, answer.second.back(), initialStates(study.world)).relative;
+      break;
+    case Measure::kScaled: {
+      std::vector<BodyState> scaled = answer.second.back();
+      for (BodyState& state : scaled) {
+        state.pose.position *= study.lengths;
+      }
+      judgement.error = differenceOf(study.world, answer.states.back(), scaled).relative;
+      break;
+    }
+  }
+  return judgement;
+}
+
+std::vector<Attempt> attemptAll(const Case& study, const Contestants& contestants, const Effort& effort,
+                                const std::stop_token& stop) {
+  std::vector<Attempt> attempts;
+  std::vector<Timed> timed;
+  const double usual = study.scene.dt;
+  for (const auto& contestant : contestants) {
+    Attempt blank;
+    blank.contestant = contestant->name();
+    blank.settings = contestant->settings();
+    if (const std::string refusal = contestant->refuses(study.world); !refusal.empty()) {
+      attempts.push_back(blank);
+      attempts.back().failure = refusal;
+      continue;
+    }
+    for (const double factor : contestant->steps() ? effort.steps : std::vector<double>{0}) {
+      const double dt = factor * usual;
+      if (dt > kLongestStepOfRun * study.duration() && factor > 1) {
+        continue;
+      }
+      attempts.push_back(blank);
+      attempts.back().dt = dt;
+      const double seconds = attempt(study, *contestant, effort, stop, attempts.back());
+      if (attempts.back().failure.empty()) {
+        timed.push_back({.attempt = attempts.size() - 1,
+                         .contestant = contestant.get(),
+                         .seconds = seconds,
+                         .samples = {}});
+      }
+      // A table needs the usual step of everything; the rest as long as it is quickly done.
+      if (factor <= 1 && seconds > effort.longestStep) {
+        break;
+      }
+    }
+  }
+  timeAll(study, effort, timed, attempts, stop);
+  return attempts;
+}
+
+Pinned::Pinned() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  if (sched_getaffinity(0, sizeof(allowed), &allowed) != 0) {
+    return;
+  }
+  for (int core = 0; core < CPU_SETSIZE; ++core) {
+    if (CPU_ISSET(core, &allowed)) {
+      before_.push_back(core);
+    }
+  }
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(before_.back(), &one);
+  sched_setaffinity(0, sizeof(one), &one);
+}
+
+Pinned::~Pinned() {
+  if (before_.empty()) {
+    return;
+  }
+  cpu_set_t all;
+  CPU_ZERO(&all);
+  for (const int core : before_) {
+    CPU_SET(core, &all);
+  }
+  sched_setaffinity(0, sizeof(all), &all);
+}
+
+}  // namespace careen

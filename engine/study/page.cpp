@@ -1,0 +1,186 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/file.h"
+#include "core/resource.h"
+#include "study/study.h"
+
+namespace careen {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    result += c == '&'   ? "&amp;"
+              : c == '<' ? "&lt;"
+              : c == '>' ? "&gt;"
+              : c == '"' ? "&quot;"
+                         : std::string(1, c);
+  }
+  return result;
+}
+
+// From red (no digit right) over white to blue (all right), as in the plot of the matrix.
+std::string colourOf(double digits) {
+  using Rgb = std::array<double, 3>;
+  constexpr Rgb kNone = {178, 24, 43};
+  constexpr Rgb kHalf = {247, 247, 247};
+  constexpr Rgb kAll = {67, 147, 195};
+  const double at = std::clamp(digits / 16, 0.0, 1.0);
+  const Rgb& from = at < 0.5 ? kNone : kHalf;
+  const Rgb& to = at < 0.5 ? kHalf : kAll;
+  const double part = at < 0.5 ? 2 * at : 2 * at - 1;
+  std::ostringstream colour;
+  colour << "rgb(";
+  for (std::size_t i = 0; i < 3; ++i) {
+    colour << (i == 0 ? "" : ",") << std::lround(from.at(i) + part * (to.at(i) - from.at(i)));
+  }
+  return colour.str() + ")";
+}
+
+std::string cell(const Attempt* attempt) {
+  if (attempt == nullptr) {
+    return "<td></td>";
+  }
+  if (!attempt->failure.empty()) {
+    return "<td class=\"none\" title=\"" + escaped(attempt->failure) + "\">–</td>";
+  }
+  const double digits = correctDigits(attempt->judgement.error);
+  return "<td style=\"background:" + colourOf(digits) + (digits < 3 ? ";color:white" : "") + "\">" +
+         inShort(attempt->judgement.error) + "</td>";
+}
+
+std::string headOf(const std::vector<std::string>& contestants) {
+  std::string row = "<tr><th>case</th>";
+  for (const std::string& contestant : contestants) {
+    row += "<th>" + escaped(contestant) + "</th>";
+  }
+  return row + "</tr>\n";
+}
+
+std::string matrix(const StudyResult& study) {
+  const std::vector<std::string> contestants = study.contestants();
+  std::string table = "<table class=\"matrix\">\n" + headOf(contestants);
+  for (const CaseResult& result : study.cases) {
+    table += "<tr><th><a href=\"#" + escaped(result.name) + "\">" + escaped(result.name) + "</a></th>";
+    for (const std::string& contestant : contestants) {
+      table += cell(usualAttempt(result, contestant));
+    }
+    table += "</tr>\n";
+  }
+  return table + "</table>\n";
+}
+
+std::string attemptsOf(const CaseResult& result) {
+  std::ostringstream table;
+  table << "<table><tr><th>contestant</th><th>dt [s]</th><th>error</th><th>µs per simulated "
+           "s</th><th>spread</th>"
+           "<th>repeats</th><th>on the front</th></tr>\n";
+  for (const Attempt& attempt : result.attempts) {
+    table << "<tr><th>" << escaped(attempt.contestant) << "</th><td>"
+          << (attempt.dt > 0 ? inShort(attempt.dt) : "") << "</td>";
+    if (attempt.failure.empty()) {
+      table << "<td>" << inShort(attempt.judgement.error) << "</td><td>" << inShort(1e6 * attempt.cost)
+            << "</td><td>" << inShort(attempt.spread) << "</td><td>" << attempt.repeats << "</td><td>"
+            << (onFront(result, attempt) ? "yes" : "") << "</td></tr>\n";
+    } else {
+      table << "<td colspan=\"5\" class=\"none\">" << escaped(attempt.failure) << "</td></tr>\n";
+    }
+  }
+  table << "</table>\n";
+  return table.str();
+}
+
+// The part of an SVG file that a page can hold.
+std::string withoutProlog(const std::string& svg) {
+  std::string result;
+  for (std::size_t at = svg.find("<svg"); at != std::string::npos; at = svg.find("<svg", at)) {
+    const std::size_t end = svg.find("</svg>", at);
+    result += svg.substr(at, end + 6 - at) + "\n";
+    at = end;
+  }
+  return result;
+}
+
+std::string sections(const StudyResult& study, const std::vector<std::string>& plots) {
+  std::string all;
+  for (std::size_t i = 0; i < study.cases.size(); ++i) {
+    const CaseResult& result = study.cases[i];
+    all += "<section id=\"" + escaped(result.name) + "\">\n<h2>" + escaped(result.title) + "</h2>\n<p>" +
+           escaped(result.whyHard) + "</p>\n<p class=\"source\">Truth: " + escaped(result.source) +
+           ".</p>\n" + (i < plots.size() ? withoutProlog(plots[i]) : "") +
+           "<details><summary>All attempts</summary>\n" + attemptsOf(result) + "</details>\n</section>\n";
+  }
+  return all;
+}
+
+std::string settingsOf(const StudyResult& study) {
+  std::vector<std::pair<std::string, std::string>> known;
+  for (const CaseResult& result : study.cases) {
+    for (const Attempt& attempt : result.attempts) {
+      const std::pair<std::string, std::string> entry(attempt.contestant, attempt.settings);
+      if (std::find(known.begin(), known.end(), entry) == known.end()) {
+        known.push_back(entry);
+      }
+    }
+  }
+  std::string list = "<dl>\n";
+  for (const auto& [contestant, settings] : known) {
+    list += "<dt>" + escaped(contestant) + "</dt><dd>" + escaped(settings) + "</dd>\n";
+  }
+  return list + "</dl>\n";
+}
+
+std::string verdict(const StudyResult& study) {
+  int front = 0;
+  int answered = 0;
+  double worst = 0;
+  std::string worstCase;
+  std::string dominated;
+  for (const CaseResult& result : study.cases) {
+    const Attempt* const exact = usualAttempt(result, "exact");
+    if (exact == nullptr || !exact->failure.empty()) {
+      continue;
+    }
+    ++answered;
+    if (exact->judgement.error >= worst) {
+      worst = exact->judgement.error;
+      worstCase = result.name;
+    }
+    if (onFront(result, *exact)) {
+      ++front;
+    } else {
+      dominated += (dominated.empty() ? "" : ", ") + result.name;
+    }
+  }
+  std::ostringstream text;
+  text << "<b>exact</b> answers " << answered << " of " << study.cases.size()
+       << " cases; its largest error is " << inShort(worst) << " (" << escaped(worstCase) << "). In " << front
+       << " of them no other answer is both cheaper and better"
+       << (dominated.empty() ? "." : "; it is not so in " + escaped(dominated) + ".");
+  return text.str();
+}
+
+}  // namespace
+
+std::string resultsPage(const StudyResult& study, const std::vector<std::string>& plots) {
+  std::string page = readFile(findResource("assets/plots/page.html"));
+  const std::vector<std::pair<std::string, std::string>> parts = {
+      {"{{verdict}}", verdict(study)},         {"{{machine}}", escaped(study.machine)},
+      {"{{command}}", escaped(study.command)}, {"{{matrix}}", matrix(study)},
+      {"{{settings}}", settingsOf(study)},     {"{{cases}}", sections(study, plots)}};
+  for (const auto& [mark, text] : parts) {
+    const std::size_t at = page.find(mark);
+    if (at != std::string::npos) {
+      page.replace(at, mark.size(), text);
+    }
+  }
+  return page;
+}
+
+}  // namespace careen

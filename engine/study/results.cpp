@@ -1,0 +1,152 @@
+#include "study/results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+namespace careen {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMostDigits = 16;
+
+const char* nameOf(Measure measure) {
+  switch (measure) {
+    case Measure::kPoses:
+      return "poses";
+    case Measure::kEnergy:
+      return "energy";
+    case Measure::kReversal:
+      return "reversal";
+    case Measure::kScaled:
+      return "scaled";
+  }
+  return "";
+}
+
+Json toJson(const Attempt& attempt) {
+  Json json = {{"contestant", attempt.contestant}, {"settings", attempt.settings}};
+  if (attempt.dt > 0) {
+    json["dt"] = attempt.dt;
+  }
+  if (!attempt.failure.empty()) {
+    json["failure"] = attempt.failure;
+    return json;
+  }
+  json["error"] = attempt.judgement.error;
+  json["cost_us"] = 1e6 * attempt.cost;
+  json["spread"] = attempt.spread;
+  json["repeats"] = attempt.repeats;
+  json["energy"] = attempt.judgement.energy;
+  return json;
+}
+
+Attempt attemptFrom(const Json& json) {
+  Attempt attempt;
+  attempt.contestant = json.at("contestant").get<std::string>();
+  attempt.settings = json.at("settings").get<std::string>();
+  attempt.dt = json.value("dt", 0.0);
+  attempt.failure = json.value("failure", "");
+  if (attempt.failure.empty()) {
+    attempt.judgement.error = json.at("error").get<double>();
+    attempt.judgement.energy = json.at("energy").get<std::vector<double>>();
+    attempt.cost = 1e-6 * json.at("cost_us").get<double>();
+    attempt.spread = json.at("spread").get<double>();
+    attempt.repeats = json.at("repeats").get<int>();
+  }
+  return attempt;
+}
+
+Json toJson(const CaseResult& result) {
+  Json attempts = Json::array();
+  for (const Attempt& attempt : result.attempts) {
+    attempts.push_back(toJson(attempt));
+  }
+  return {{"case", result.name},          {"title", result.title},     {"why_hard", result.whyHard},
+          {"truth", result.source},       {"measure", result.measure}, {"stamp", result.stamp},
+          {"usual_dt", result.usualStep}, {"times", result.times},     {"attempts", std::move(attempts)}};
+}
+
+}  // namespace
+
+CaseResult resultOf(const Case& study, std::vector<Attempt> attempts, std::string stamp) {
+  return {.name = study.name,
+          .title = study.title,
+          .whyHard = study.whyHard,
+          .source = study.source,
+          .measure = nameOf(study.measure),
+          .stamp = std::move(stamp),
+          .usualStep = study.scene.dt,
+          .times = study.times,
+          .attempts = std::move(attempts)};
+}
+
+std::string encodeResult(const CaseResult& result) { return toJson(result).dump(1) + "\n"; }
+
+std::optional<CaseResult> decodeResult(const std::string& text) {
+  try {
+    const Json json = Json::parse(text);
+    CaseResult result{.name = json.at("case").get<std::string>(),
+                      .title = json.at("title").get<std::string>(),
+                      .whyHard = json.at("why_hard").get<std::string>(),
+                      .source = json.at("truth").get<std::string>(),
+                      .measure = json.at("measure").get<std::string>(),
+                      .stamp = json.at("stamp").get<std::string>(),
+                      .usualStep = json.at("usual_dt").get<double>(),
+                      .times = json.at("times").get<std::vector<double>>(),
+                      .attempts = {}};
+    for (const Json& attempt : json.at("attempts")) {
+      result.attempts.push_back(attemptFrom(attempt));
+    }
+    return result;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
+std::vector<std::string> StudyResult::contestants() const {
+  std::vector<std::string> names;
+  std::set<std::string> known;
+  for (const CaseResult& result : cases) {
+    for (const Attempt& attempt : result.attempts) {
+      if (known.insert(attempt.contestant).second) {
+        names.push_back(attempt.contestant);
+      }
+    }
+  }
+  return names;
+}
+
+const Attempt* usualAttempt(const CaseResult& result, const std::string& contestant) {
+  const auto found =
+      std::find_if(result.attempts.begin(), result.attempts.end(), [&](const Attempt& attempt) {
+        return attempt.contestant == contestant && (attempt.dt == 0 || attempt.dt == result.usualStep);
+      });
+  return found == result.attempts.end() ? nullptr : &*found;
+}
+
+bool onFront(const CaseResult& result, const Attempt& attempt) {
+  return attempt.failure.empty() &&
+         std::none_of(result.attempts.begin(), result.attempts.end(), [&](const Attempt& other) {
+           return other.failure.empty() && other.cost < attempt.cost &&
+                  other.judgement.error < attempt.judgement.error;
+         });
+}
+
+double correctDigits(double error) {
+  return error > 0 ? std::clamp(-std::log10(error), 0.0, kMostDigits) : kMostDigits;
+}
+
+std::string resultsJson(const StudyResult& study) {
+  Json cases = Json::array();
+  for (const CaseResult& result : study.cases) {
+    cases.push_back(toJson(result));
+  }
+  return Json{{"machine", study.machine}, {"command", study.command}, {"cases", std::move(cases)}}.dump(1) +
+         "\n";
+}
+
+}  // namespace careen

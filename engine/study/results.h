@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/measuring.h"
+
+namespace careen {
+
+/// What a study found out about one case.
+struct CaseResult {
+  std::string name;
+  std::string title;
+  std::string whyHard;
+  std::string source;
+  std::string measure;   ///< "poses", "energy", "reversal", "scaled"
+  std::string stamp;     ///< hash of what the result depends on
+  double usualStep = 0;  ///< [s]
+  std::vector<double> times;
+  std::vector<Attempt> attempts;
+};
+CaseResult resultOf(const Case& study, std::vector<Attempt> attempts, std::string stamp);
+
+/// One case's file; doubles are exact.
+std::string encodeResult(const CaseResult& result);
+/// std::nullopt if the text is no such file.
+std::optional<CaseResult> decodeResult(const std::string& text);
+
+/// A whole study.
+struct StudyResult {
+  std::string machine;  ///< where the timings were taken, one line
+  std::string command;  ///< that made it
+  std::vector<CaseResult> cases;
+
+  /// In order of their first appearance.
+  std::vector<std::string> contestants() const;
+};
+
+/// The contestant's answer at the case's usual step; the only one of those that take no steps. Null if it was
+/// never tried.
+const Attempt* usualAttempt(const CaseResult& result, const std::string& contestant);
+/// Whether no other answer is both cheaper and better. Of those that gave no answer: false.
+bool onFront(const CaseResult& result, const Attempt& attempt);
+/// −log₁₀ of an error, from 0 (none is right) to 16 (all that a double has).
+double correctDigits(double error);
+
+/// All attempts: case,contestant,dt,error,cost_us,spread,repeats,front,failure. cost_us is µs of one core per
+/// simulated second.
+std::string resultsCsv(const StudyResult& study);
+/// Energy against time at the usual step: case,contestant,time,change.
+std::string energyCsv(const StudyResult& study);
+/// The matrix of cases and contestants: row,column,case,contestant,digits,error.
+std::string matrixCsv(const StudyResult& study);
+std::string resultsJson(const StudyResult& study);
+std::string resultsMarkdown(const StudyResult& study);
+
+/// "1.3e-15"; "0" for none.
+std::string inShort(double value);
+
+}  // namespace careen

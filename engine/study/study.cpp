@@ -1,0 +1,118 @@
+#include "study/study.h"
+
+#include <sys/utsname.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/hash.h"
+#include "study/case.h"
+#include "study/own_methods.h"
+
+namespace careen {
+namespace {
+
+namespace fs = std::filesystem;
+
+Case caseNamed(const std::string& name, const std::stop_token& stop) {
+  return fs::path(name).extension() == ".json" ? caseOfScene(name, stop) : readCase(name);
+}
+
+// What a result depends on.
+std::string stampOf(const Case& study, const Contestants& contestants, const StudySettings& settings) {
+  Hash hash;
+  hash.add(study.scene.text);
+  hash.add(settings.version);
+  for (const auto& contestant : contestants) {
+    hash.add(contestant->name() + contestant->settings());
+  }
+  for (const double number : {settings.effort.longestRun, settings.effort.longestStep, settings.effort.timing,
+                              static_cast<double>(settings.effort.rounds)}) {
+    hash.add(number);
+  }
+  for (const std::vector<Pose>& poses : study.poses) {
+    for (const Pose& pose : poses) {
+      hash.add(pose.position.x());
+      hash.add(pose.worldFromBody(0, 0));
+    }
+  }
+  return hash.text();
+}
+
+std::optional<CaseResult> finished(const fs::path& path, const std::string& stamp) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) {
+    return std::nullopt;
+  }
+  std::optional<CaseResult> result = decodeResult(readFile(path));
+  return result && result->stamp == stamp ? result : std::nullopt;
+}
+
+// "model name : X" of the first processor; empty where the system does not tell.
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) {
+      return line.substr(std::min(line.size(), line.find(':') + 2));
+    }
+  }
+  return "an unknown processor";
+}
+
+}  // namespace
+
+std::vector<CaseResult> runStudy(const StudySettings& settings, const Contestants& contestants,
+                                 const CaseDone& done, const std::stop_token& stop) {
+  const fs::path folder = settings.folder / "cases";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw MachineError(folder.string() + ": cannot be made: " + error.message());
+  }
+  std::vector<CaseResult> results;
+  std::set<std::string> names;
+  for (const std::string& name : settings.cases) {
+    const Case study = caseNamed(name, stop);
+    if (!names.insert(study.name).second) {
+      throw InputError("two cases are called " + study.name + "; expected different names");
+    }
+    const fs::path path = folder / (study.name + ".json");
+    const std::string stamp = stampOf(study, contestants, settings);
+    std::optional<CaseResult> result = settings.resume ? finished(path, stamp) : std::nullopt;
+    const bool takenOver = result.has_value();
+    if (!result) {
+      result = resultOf(study, attemptAll(study, contestants, settings.effort, stop), stamp);
+      writeFile(path, encodeResult(*result));
+    }
+    done(*result, takenOver);
+    results.push_back(std::move(*result));
+  }
+  return results;
+}
+
+Contestants allContestants() { return ownMethods(); }
+
+std::string machineLine() {
+  utsname system{};
+  uname(&system);
+  std::ostringstream line;
+  line << processor() << ", " << std::thread::hardware_concurrency() << " cores, " << system.sysname << ' '
+       << system.release << ' ' << system.machine << ", ";
+#if defined(__clang__)
+  line << "Clang " << __clang_major__ << '.' << __clang_minor__;
+#else
+  line << "GCC " << __GNUC__ << '.' << __GNUC_MINOR__;
+#endif
+#ifndef __OPTIMIZE__
+  line << ", not optimised";
+#endif
+  return line.str();
+}
+
+}  // namespace careen

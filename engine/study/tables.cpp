@@ -1,0 +1,166 @@
+#include <array>
+#include <charconv>
+#include <sstream>
+
+#include "study/results.h"
+
+namespace careen {
+namespace {
+
+std::string exactly(double value) {
+  std::array<char, 32> digits{};
+  char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return {digits.data(), end};
+}
+
+std::string general(double value, int precision) {
+  std::array<char, 32> digits{};
+  char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                  std::chars_format::general, precision)
+                        .ptr;
+  return {digits.data(), end};
+}
+
+// A message may hold commas, quotes and line ends.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    result += c == '"' ? "\"\"" : c == '\n' ? " " : std::string(1, c);
+  }
+  return result + "\"";
+}
+
+std::string cell(const Attempt* attempt) {
+  if (attempt == nullptr) {
+    return "";
+  }
+  return attempt->failure.empty() ? inShort(attempt->judgement.error) : "–";
+}
+
+}  // namespace
+
+std::string inShort(double value) { return general(value, 2); }
+
+std::string resultsCsv(const StudyResult& study) {
+  std::ostringstream csv;
+  csv << "case,contestant,dt,error,cost_us,spread,repeats,front,failure\n";
+  for (const CaseResult& result : study.cases) {
+    for (const Attempt& attempt : result.attempts) {
+      csv << result.name << ',' << attempt.contestant << ',' << (attempt.dt > 0 ? exactly(attempt.dt) : "")
+          << ',';
+      if (attempt.failure.empty()) {
+        csv << exactly(attempt.judgement.error) << ',' << general(1e6 * attempt.cost, 6) << ','
+            << general(attempt.spread, 3) << ',' << attempt.repeats << ',' << onFront(result, attempt)
+            << ",\n";
+      } else {
+        csv << ",,,,0," << quoted(attempt.failure) << '\n';
+      }
+    }
+  }
+  return csv.str();
+}
+
+std::string energyCsv(const StudyResult& study) {
+  std::ostringstream csv;
+  csv << "case,contestant,time,change\n";
+  for (const CaseResult& result : study.cases) {
+    for (const std::string& contestant : study.contestants()) {
+      const Attempt* const attempt = usualAttempt(result, contestant);
+      for (std::size_t k = 0; attempt != nullptr && k < attempt->judgement.energy.size(); ++k) {
+        csv << result.name << ',' << contestant << ',' << exactly(result.times[k]) << ','
+            << exactly(attempt->judgement.energy[k]) << '\n';
+      }
+    }
+  }
+  return csv.str();
+}
+
+std::string matrixCsv(const StudyResult& study) {
+  std::ostringstream csv;
+  csv << "row,column,case,contestant,digits,error\n";
+  const std::vector<std::string> contestants = study.contestants();
+  for (std::size_t row = 0; row < study.cases.size(); ++row) {
+    for (std::size_t column = 0; column < contestants.size(); ++column) {
+      const Attempt* const attempt = usualAttempt(study.cases[row], contestants[column]);
+      const bool answered = attempt != nullptr && attempt->failure.empty();
+      csv << row << ',' << column << ',' << study.cases[row].name << ',' << contestants[column] << ','
+          << (answered ? general(correctDigits(attempt->judgement.error), 4) : "-1") << ',' << cell(attempt)
+          << '\n';
+    }
+  }
+  return csv.str();
+}
+
+std::string resultsMarkdown(const StudyResult& study) {
+  std::ostringstream text;
+  const std::vector<std::string> contestants = study.contestants();
+  text << "# Speed against error\n\n"
+       << "Made by `" << study.command << "` on " << study.machine << ".\n\n"
+       << "## Errors at the usual step\n\n"
+       << "Largest distance from the truth in half diagonals, or angle in radians; in cases of energy its\n"
+       << "largest relative change. – stands where there is no answer; the reason is in results.csv.\n\n| "
+          "case |";
+  for (const std::string& contestant : contestants) {
+    text << ' ' << contestant << " |";
+  }
+  text << "\n|---|";
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    text << "---|";
+  }
+  text << '\n';
+  for (const CaseResult& result : study.cases) {
+    text << "| " << result.name << " |";
+    for (const std::string& contestant : contestants) {
+      text << ' ' << cell(usualAttempt(result, contestant)) << " |";
+    }
+    text << '\n';
+  }
+  text << "\n## What the answers cost\n\nµs of one core per simulated second, at the usual step.\n\n| case |";
+  for (const std::string& contestant : contestants) {
+    text << ' ' << contestant << " |";
+  }
+  text << "\n|---|";
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    text << "---|";
+  }
+  text << '\n';
+  for (const CaseResult& result : study.cases) {
+    text << "| " << result.name << " |";
+    for (const std::string& contestant : contestants) {
+      const Attempt* const attempt = usualAttempt(result, contestant);
+      text << ' ' << (attempt != nullptr && attempt->failure.empty() ? general(1e6 * attempt->cost, 3) : "–")
+           << " |";
+    }
+    text << '\n';
+  }
+  text << "\n## Where another answer is both cheaper and better than that of exact\n\n";
+  bool any = false;
+  for (const CaseResult& result : study.cases) {
+    const Attempt* const exact = usualAttempt(result, "exact");
+    if (exact == nullptr || onFront(result, *exact)) {
+      continue;
+    }
+    any = true;
+    text << "- " << result.name << ": ";
+    if (!exact->failure.empty()) {
+      text << exact->failure << '\n';
+      continue;
+    }
+    text << "exact is wrong by " << inShort(exact->judgement.error) << " at " << general(1e6 * exact->cost, 3)
+         << " µs/s;";
+    for (const Attempt& other : result.attempts) {
+      if (other.failure.empty() && other.cost < exact->cost &&
+          other.judgement.error < exact->judgement.error) {
+        text << ' ' << other.contestant << " (dt " << general(other.dt, 3) << ") by "
+             << inShort(other.judgement.error) << " at " << general(1e6 * other.cost, 3) << " µs/s;";
+      }
+    }
+    text << '\n';
+  }
+  if (!any) {
+    text << "In no case.\n";
+  }
+  return text.str();
+}
+
+}  // namespace careen
