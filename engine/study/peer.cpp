@@ -1,0 +1,50 @@
+#include "study/peer.h"
+
+#include <cmath>
+#include <cstddef>
+
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+bool isFinite(const BodyState& state) {
+  return state.pose.position.allFinite() && state.pose.worldFromBody.allFinite() &&
+         state.velocity.allFinite() && state.angularMomentum.allFinite();
+}
+
+}  // namespace
+
+std::string Peer::refuses(const World& world) const {
+  return world.springs.empty() && !world.drag ? "" : "no springs, no drag";
+}
+
+std::vector<std::vector<BodyState>> Peer::run(const World& world, double dt, std::span<const double> times,
+                                              const std::stop_token& stop) const {
+  const std::unique_ptr<Engine> engine = feed(world);
+  std::vector<std::vector<BodyState>> states;
+  double now = 0;
+  for (const double time : times) {
+    // The factor keeps an interval of n steps, but for its rounding, from being cut into n + 1.
+    const double count = std::ceil((time - now) / dt * (1 - 1e-12));
+    for (double k = 0; k < count; ++k) {
+      if (stop.stop_requested()) {
+        throw Interrupted();
+      }
+      engine->step((time - now) / count);
+    }
+    now = time;
+
+    std::vector<BodyState>& sampled = states.emplace_back();
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+      const Body& body = world.bodies[i];
+      sampled.push_back(isImmovable(body.mass) ? BodyState{.pose = body.initial.pose} : engine->state(i));
+      if (!isFinite(sampled.back())) {
+        throw NumericalError(name() + " lost " + body.name + " by t = " + std::to_string(time) + " s");
+      }
+    }
+  }
+  return states;
+}
+
+}  // namespace careen
