@@ -232,6 +232,28 @@ TEST_F(Peers, tumbleAboutTheMiddleAxisAsBulletIsKnownTo) {
   }
 }
 
+// What the best settings are for. Measured loss: bullet 0.71, the others 0.0069.
+TEST_F(Peers, keepTheEnergyOfAnElasticImpactButForBulletAsItShips) {
+  World world = worldOf({{.halfExtents = {0.2, 0.3, 0.5},
+                          .position = {0, 0, 1.5},
+                          .worldFromBody = axisAngle(Vec3(2, -1, 2) / 3, 0.7),
+                          .velocity = {0, 0, -4},
+                          .angularVelocity = {0.5, 1, -0.3},
+                          .restitution = 1}});
+  world.walls.push_back({.name = "floor", .normal = Vec3::UnitZ(), .offset = 0, .material = {}});
+  const Body& body = world.bodies[0];
+  const auto energy = [&body](const BodyState& state) {
+    return (body.mass.mass * state.velocity.squaredNorm() +
+            angularVelocity(body.mass, state).dot(state.angularMomentum)) /
+           2;
+  };
+  forEach([&](const Contestant& peer) {
+    const BodyState state = after(peer, world, 0.4, 1.0 / 240)[0];
+    const double loss = 1 - energy(state) / energy(body.initial);
+    EXPECT_NEAR(loss, isBulletAsItShips(peer) ? 0.7 : 0, isBulletAsItShips(peer) ? 0.1 : 0.01);
+  });
+}
+
 TEST_F(Peers, giveTheSameBitsTwice) {
   World world = worldOf({{.halfExtents = kLong, .velocity = {3, 2, 1}, .angularVelocity = {1, 2, 3}}});
   world.walls = roomWalls(Vec3::Constant(-1.5), Vec3::Constant(1.5));
