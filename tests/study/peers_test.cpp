@@ -267,12 +267,12 @@ TEST_F(Peers, giveTheSameBitsTwice) {
   });
 }
 
-TEST_F(Peers, endAtOnceWhenAskedToStop) {
+TEST_F(Peers, endBeforeTheNextStepWhenAskedToStop) {
   std::stop_source source;
   source.request_stop();
   const World world = worldOf({{}});
   forEach([&](const Contestant& peer) {
-    EXPECT_THROW(peer.run(world, 1e-3, std::vector<double>{1e9}, source.get_token()), Interrupted);
+    EXPECT_THROW(peer.run(world, 1, std::vector<double>{1}, source.get_token()), Interrupted);
   });
 }
 
