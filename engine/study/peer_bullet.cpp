@@ -125,9 +125,8 @@ class BulletEngine : public Peer::Engine {
 // - one point of contact with a plane, as shipped: the flat drop rises to 0.18 m, not 0.5, and tilts;
 // - 10 iterations, as shipped: the flat drop tilts by 0.06 rad; 50 do as well as 1000;
 // - friction after all normals, as shipped: 0.05 m short of 1.3 m down the slope, not 0.004;
-// - explicit gyroscopic term: tumbles no better from 1/240 s on, and energy times 3.8 in the room; implicit
-// in
-//   the world: worse in the room; none: energy is kept, and the tumble is wrong at any step;
+// - explicit gyroscopic term: tumbles no better from 1/240 s on, and energy times 3.8 in the room;
+//   implicit in the world: worse in the room; none: energy is kept, and the tumble is wrong at any step;
 // - Dantzig's and projected Gauss-Seidel MLCP, warm starting, CCD, margins: no better.
 void BulletEngine::useBestSettings() {
   constexpr int kPoints = 4;  // all that a manifold holds
@@ -154,8 +153,7 @@ class Bullet : public Peer {
         std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100);
     return "Bullet " + version + " in doubles, " +
            (best_ ? "no sleeping, contacts only where boxes overlap, four points on a plane, restitution at "
-                    "any "
-                    "speed, all overlap by split impulse, 50 iterations, friction interleaved"
+                    "any speed, all overlap by split impulse, 50 iterations, friction interleaved"
                   : "as it ships");
   }
 

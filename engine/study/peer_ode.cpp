@@ -50,7 +50,7 @@ class OdeEngine : public Peer::Engine {
   }
 
   BodyState state(std::size_t body) const override {
-    const dBodyID id = bodies_[body];
+    dxBody* const id = bodies_[body];
     BodyState state;
     state.pose.position = Vec3::Map(dBodyGetPosition(id));
     const dReal* rotation = dBodyGetRotation(id);
@@ -64,12 +64,12 @@ class OdeEngine : public Peer::Engine {
   }
 
  private:
-  static constexpr int kRowOfOde = 4;  // rows of three, padded
+  static constexpr std::ptrdiff_t kRowOfOde = 4;  // rows of three, padded
   static constexpr int kMostContacts = 16;
 
   void add(const Body& body) {
     const BodyState& initial = body.initial;
-    const dGeomID box = dCreateBox(space_.get(), 2 * body.halfExtents.x(), 2 * body.halfExtents.y(),
+    dxGeom* const box = dCreateBox(space_.get(), 2 * body.halfExtents.x(), 2 * body.halfExtents.y(),
                                    2 * body.halfExtents.z());
     name(box, body.material);
     dBodyID id = nullptr;
@@ -131,13 +131,12 @@ class OdeEngine : public Peer::Engine {
 // - 20 iterations, as shipped: the flat drop at 1/60 s tilts by 0.003 rad, and from 100 on not at all;
 // - no finite rotation, as shipped: the same to two digits; with it, a steady spin has no error;
 // - error reduction 0.01 to 0.2, its speed limited, CFM 0 to 1e-10, over-relaxation 1 to 1.3: no better;
-// without
-//   error reduction the stack sinks by 27 mm in 10 s;
+//   without error reduction the stack sinks by 27 mm in 10 s;
 // - a surface layer: the stack sinks by ten layers;
 // - no gyroscopic term: energy is kept, and the tumble is wrong at any step.
 void OdeEngine::useBestSettings() {
   dWorldSetQuickStepNumIterations(world_.get(), 100);
-  for (const dBodyID body : bodies_) {
+  for (dxBody* const body : bodies_) {
     if (body != nullptr) {
       dBodySetFiniteRotationMode(body, 1);
     }
@@ -158,7 +157,7 @@ class Ode : public Peer {
  protected:
   std::unique_ptr<Engine> feed(const World& world) const override {
     static const Library library;
-    dAllocateODEDataForThread(dAllocateMaskAll);
+    dAllocateODEDataForThread(static_cast<unsigned int>(dAllocateMaskAll));
     auto engine = std::make_unique<OdeEngine>(world);
     if (best_) {
       engine->useBestSettings();
