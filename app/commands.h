@@ -18,6 +18,7 @@ using Command = std::function<ExitCode(const std::stop_token&)>;
 void addRender(CLI::App& commandLine, Command& chosen);
 void addSimulate(CLI::App& commandLine, Command& chosen);
 void addInfo(CLI::App& commandLine, Command& chosen);
+void addStudy(CLI::App& commandLine, Command& chosen);
 void addVerify(CLI::App& commandLine, Command& chosen);
 
 }  // namespace careen

@@ -23,6 +23,7 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   addRender(commandLine, chosen);
 #endif
   addSimulate(commandLine, chosen);
+  addStudy(commandLine, chosen);
   addInfo(commandLine, chosen);
 #ifdef CAREEN_RENDER
   addVerify(commandLine, chosen);

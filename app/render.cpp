@@ -33,6 +33,7 @@ struct FilmOptions {
   std::optional<std::filesystem::path> video;
   bool resume = false;
   std::optional<int> threads;
+  EstimateChoice estimate;
 };
 
 std::pair<int, int> parseSize(const std::string& text) {
@@ -118,12 +119,13 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (options.threads && *options.threads < 0) {
     throw InputError("--threads: found " + std::to_string(*options.threads) + ", expected 0 or more");
   }
-  const Run run = loadRun(options.source, stop);
+  Run run = loadRun(options.source, stop);
   const FilmSettings settings = settingsOf(options, run);
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0);
   const FilmFigures figures = renderFilm(
       run.trajectory, run.scene, settings, [&progress](const FilmProgress& now) { progress.update(now); },
       stop);
+  estimate(run, options.estimate, stopwatch.seconds(), stop);
   writeReport(run, settings, figures, stopwatch.seconds());
   printSummary(std::cout, run, stopwatch.seconds());
   printFilm(settings, figures);
@@ -145,6 +147,7 @@ void addRender(CLI::App& commandLine, Command& chosen) {
   command->add_option("--video", options->video, "Film to make of the frames, by ffmpeg (.mp4)");
   command->add_flag("--resume", options->resume, "Keep the frames that are there and draw the others");
   command->add_option("--threads", options->threads, "Threads that fill pixels; 0: none but the main one");
+  options->estimate.addTo(*command);
   command->callback([options, &chosen] {
     chosen = [options](const std::stop_token& stop) { return renderCommand(*options, stop); };
   });

@@ -18,13 +18,29 @@ void printItems(std::ostream& out, const char* title, const Plan& plan, bool mod
   }
 }
 
+// null where the repeated run could not be finished.
+nlohmann::ordered_json estimateReport(const std::optional<ErrorEstimate>& estimate) {
+  if (!estimate) {
+    return nullptr;
+  }
+  nlohmann::ordered_json report = {{"by", estimate->by},
+                                   {"position", estimate->position},
+                                   {"angle", estimate->angle},
+                                   {"until", estimate->until},
+                                   {"horizon", nullptr}};
+  if (estimate->horizon) {
+    report["horizon"] = *estimate->horizon;
+  }
+  return report;
+}
+
 }  // namespace
 
 nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
   const Trajectory& trajectory = run.trajectory;
   const RunFigures& figures = trajectory.figures;
   const bool steps = traitsOf(trajectory.settings.method).steps();
-  return {
+  nlohmann::ordered_json report = {
       {"scene", run.scene.name},
       {"scene_hash", trajectory.sceneHash()},
       {"method", traitsOf(trajectory.settings.method).name},
@@ -41,6 +57,10 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
       {"left_out", run.plan.leftOut()},
       {"seconds", {{"simulate", run.simulateSeconds}}},
   };
+  if (run.estimated) {
+    report["error_estimate"] = estimateReport(run.estimate);
+  }
+  return report;
 }
 
 void printPlan(std::ostream& out, const Scene& scene, const Plan& plan) {
@@ -73,6 +93,27 @@ void printSummary(std::ostream& out, const Run& run, double wallSeconds) {
   }
   out << '\n';
   printError(out, run.trajectory);
+  printEstimate(out, run);
+}
+
+void printEstimate(std::ostream& out, const Run& run) {
+  if (!run.estimated) {
+    return;
+  }
+  out << "estimate     ";
+  if (!run.estimate) {
+    out << "none: the run could not be repeated to its end\n";
+    return;
+  }
+  const ErrorEstimate& estimate = *run.estimate;
+  out << std::setprecision(2) << "wrong by " << estimate.position << " m and " << estimate.angle
+      << " rad at most, " << std::setprecision(3);
+  if (estimate.horizon) {
+    out << "until " << estimate.until << " s; from " << *estimate.horizon << " s on chaos has taken over";
+  } else {
+    out << "to the end";
+  }
+  out << " (by " << estimate.by << ")\n";
 }
 
 }  // namespace careen

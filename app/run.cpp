@@ -17,6 +17,8 @@
 namespace careen {
 namespace {
 
+constexpr double kCheapPart = 0.1;  // of the whole: what an error estimate may cost unasked
+
 // The scene file says one thing, the command line another: the user should see which one counts.
 template <class T>
 void announce(std::string_view what, const T& given, const T& inFile) {
@@ -89,6 +91,25 @@ void Overrides::addTo(CLI::App& command) {
   command.add_option("--tolerance", tolerance,
                      "Tolerance in place of the scene's, for methods that choose their own");
   command.add_option("--duration", duration, "Length of the run in place of the scene's [s]");
+}
+
+void EstimateChoice::addTo(CLI::App& command) {
+  CLI::Option* yes = command.add_flag_callback(
+      "--estimate-error", [this] { asked = true; },
+      "Run it a second time to tell how wrong it is (default: if that takes less than a tenth of the whole)");
+  command
+      .add_flag_callback(
+          "--no-estimate-error", [this] { asked = false; }, "Do not")
+      ->excludes(yes);
+}
+
+void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const std::stop_token& stop) {
+  const double expected = run.simulateSeconds * estimateCost(run.trajectory.settings.method);
+  if (!choice.asked.value_or(expected > 0 && expected < kCheapPart * wallSeconds)) {
+    return;
+  }
+  run.estimated = true;
+  run.estimate = estimateError(assemble(run.scene, run.plan), run.trajectory, stop);
 }
 
 std::filesystem::path defaultScene() { return findResource("assets/scenes/careen.json"); }

@@ -8,6 +8,7 @@
 
 #include "scene/plan.h"
 #include "scene/scene.h"
+#include "study/error_estimate.h"
 #include "trajectory/trajectory.h"
 
 namespace CLI {
@@ -23,7 +24,20 @@ struct Run {
   Plan plan;
   Trajectory trajectory;
   double simulateSeconds = 0;  ///< [s] 0 when the trajectory was read from a file
+  bool estimated = false;      ///< whether its error was looked for
+  std::optional<ErrorEstimate> estimate;
 };
+
+/// Whether to run the scene once more, to estimate its error.
+struct EstimateChoice {
+  std::optional<bool> asked;
+
+  void addTo(CLI::App& command);
+};
+
+/// Estimates the run's error if that was asked for, or if nothing was said and it takes less than a tenth of
+/// the time that all took so far.
+void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const std::stop_token& stop);
 
 /// What the command line puts in place of the scene file's own.
 struct Overrides {

@@ -26,6 +26,7 @@ struct SimulateOptions {
   std::filesystem::path impacts;
   std::filesystem::path report;
   Overrides overrides;
+  EstimateChoice estimate;
 };
 
 // All or nothing: every file is written beside its place first, and none is put there unless all could be.
@@ -53,10 +54,12 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   const std::filesystem::path source = options.scene.empty() ? defaultScene() : options.scene;
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(source.stem().string() + ".careen") : options.output;
-  const Run run = simulateScene(source, options.overrides, stop);
+  Run run = simulateScene(source, options.overrides, stop);
+  const std::string trajectory = encodeTrajectory(run.trajectory);
+  estimate(run, options.estimate, stopwatch.seconds(), stop);
 
   Outputs outputs;
-  outputs.add(output, [&](const TextSink& sink) { sink(encodeTrajectory(run.trajectory)); });
+  outputs.add(output, [&](const TextSink& sink) { sink(trajectory); });
   outputs.add(options.poses,
               [&](const TextSink& sink) { writePosesCsv(run.trajectory, options.every, sink); });
   outputs.add(options.impacts, [&](const TextSink& sink) { writeImpactsCsv(run.trajectory, sink); });
@@ -83,6 +86,7 @@ void addSimulate(CLI::App& commandLine, Command& chosen) {
   command->add_option("--impacts", options->impacts, "Table of impacts (CSV)");
   command->add_option("--report", options->report, "What was modelled, speed and error (JSON)");
   options->overrides.addTo(*command);
+  options->estimate.addTo(*command);
   command->callback([options, &chosen] {
     chosen = [options](const std::stop_token& stop) { return simulateCommand(*options, stop); };
   });

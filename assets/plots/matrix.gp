@@ -18,8 +18,15 @@ set cblabel "correct digits"
 set palette defined (0 "#b2182b", 3 "#ef8a62", 6 "#fddbc7", 9 "#d1e5f0", 12 "#67a9cf", 16 "#2166ac")
 
 do for [kind in "svg png"] {
-  if (kind eq "svg") { eval svg(170 + 85 * columns, 150 + 22 * rows) } else { eval png(170 + 85 * columns, 150 + 22 * rows) }
-  plot csv every ::1 using 2:1:(column(5) >= 0 ? column(5) : NaN):xticlabels(4):yticlabels(3) with image, \
+  width = 260 + 66 * columns
+  height = 190 + 22 * rows
+  if (kind eq "svg") { eval svg(width, height) } else { eval png(width, height) }
+  set lmargin at screen 150.0 / width
+  set rmargin at screen 1 - 90.0 / width
+  set tmargin at screen 1 - 40.0 / height
+  set bmargin at screen 130.0 / height
+  plot csv every ::1 using 2:1:(0.5):(0.5):(column(5) >= 0 ? column(5) : NaN):xticlabels(4):yticlabels(3) \
+      with boxxyerror fillstyle solid noborder fillcolor palette, \
     csv every ::1 using 2:1:6 with labels font ",9" noenhanced
   unset output
 }

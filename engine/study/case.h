@@ -30,6 +30,7 @@ struct Case {
   World world;
   std::vector<double> times;             ///< [s] moments that count; the last is the end
   std::vector<std::vector<Pose>> poses;  ///< [moment][body] for kPoses; of what cannot move, its own
+  double uncertainty = 0;                ///< [1] of the poses, as Judgement::error; 0: that of a double
   // For kScaled: the world this one is a scaled copy of, and the units of this one in those of that.
   World original;
   double lengths = 1;
@@ -46,8 +47,8 @@ std::vector<std::string> caseNames();
 /// One of them. InputError names the file and what is wrong with it.
 Case readCase(const std::string& name);
 
-/// A case out of any scene: what method exact says, up to the horizon of its own error estimate. InputError
-/// if exact cannot run it.
+/// A case out of any scene: what method exact says, up to half the horizon of its own error estimate.
+/// InputError if exact cannot run it.
 Case caseOfScene(const std::filesystem::path& scene, const std::stop_token& stop);
 
 }  // namespace careen

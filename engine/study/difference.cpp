@@ -22,6 +22,14 @@ double angleBetween(const Mat3& a, const Mat3& b) {
   return std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
+std::vector<BodyState> withPoses(std::span<const Pose> poses) {
+  std::vector<BodyState> states;
+  for (const Pose& pose : poses) {
+    states.push_back({.pose = pose});
+  }
+  return states;
+}
+
 PoseDifference differenceOf(const World& world, std::span<const BodyState> a, std::span<const BodyState> b) {
   PoseDifference worst;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "physics/world.h"
 
@@ -14,6 +15,9 @@ struct PoseDifference {
   double relative = 0;  ///< [1] the larger of position / half diagonal of that body, and angle
 };
 PoseDifference differenceOf(const World& world, std::span<const BodyState> a, std::span<const BodyState> b);
+
+/// Bodies at these poses, still.
+std::vector<BodyState> withPoses(std::span<const Pose> poses);
 
 /// The turn [rad] that leads from one orientation to the other.
 double angleBetween(const Mat3& a, const Mat3& b);

@@ -50,14 +50,6 @@ std::vector<BodyState> initialStates(const World& world) {
   return states;
 }
 
-std::vector<BodyState> withPoses(const std::vector<Pose>& poses) {
-  std::vector<BodyState> states;
-  for (const Pose& pose : poses) {
-    states.push_back({.pose = pose});
-  }
-  return states;
-}
-
 bool mayLoseEnergy(const World& world) {
   return std::any_of(world.bodies.begin(), world.bodies.end(), [&](const Body& body) {
     const auto loses = [&](const Material& other) {
@@ -180,6 +172,7 @@ Judgement judge(const Case& study, const Answer& answer) {
   }
   switch (study.measure) {
     case Measure::kPoses:
+      judgement.error = study.uncertainty;
       for (std::size_t k = 0; k < study.times.size(); ++k) {
         judgement.error = std::max(
             judgement.error, differenceOf(study.world, answer.states[k], withPoses(study.poses[k])).relative);

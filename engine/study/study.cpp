@@ -14,6 +14,7 @@
 #include "core/hash.h"
 #include "study/case.h"
 #include "study/own_methods.h"
+#include "study/peers.h"
 
 namespace careen {
 namespace {
@@ -96,7 +97,13 @@ std::vector<CaseResult> runStudy(const StudySettings& settings, const Contestant
   return results;
 }
 
-Contestants allContestants() { return ownMethods(); }
+Contestants allContestants() {
+  Contestants all = ownMethods();
+  for (auto& peer : peers()) {
+    all.push_back(std::move(peer));
+  }
+  return all;
+}
 
 std::string machineLine() {
   utsname system{};

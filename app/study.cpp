@@ -1,0 +1,152 @@
+#include "study/study.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "commands.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "run.h"
+#include "study/case.h"
+
+namespace careen {
+namespace {
+
+struct StudyOptions {
+  std::vector<std::string> cases;
+  std::vector<std::string> methods;
+  std::filesystem::path out = "study";
+  bool quick = false;
+  bool resume = false;
+  bool noPlots = false;
+  bool list = false;
+};
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) {
+    all += (all.empty() ? "" : ", ") + name;
+  }
+  return all;
+}
+
+void checkCases(const std::vector<std::string>& chosen, const std::vector<std::string>& known) {
+  for (const std::string& name : chosen) {
+    if (std::filesystem::path(name).extension() != ".json" &&
+        std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError("found the unknown case '" + name +
+                       "', expected a scene file, .json, or one of: " + joined(known));
+    }
+  }
+}
+
+// Those named, in the order of all.
+Contestants chosenContestants(const std::vector<std::string>& names) {
+  Contestants all = allContestants();
+  if (names.empty()) {
+    return all;
+  }
+  std::vector<std::string> known;
+  Contestants chosen;
+  for (auto& contestant : all) {
+    known.push_back(contestant->name());
+    if (std::find(names.begin(), names.end(), contestant->name()) != names.end()) {
+      chosen.push_back(std::move(contestant));
+    }
+  }
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError("--methods: found '" + name + "', expected some of: " + joined(known));
+    }
+  }
+  return chosen;
+}
+
+std::string commandOf(const StudyOptions& options) {
+  std::string command = "careen study";
+  for (const std::string& name : options.cases) {
+    command += " " + name;
+  }
+  for (std::size_t i = 0; i < options.methods.size(); ++i) {
+    command += (i == 0 ? " --methods " : ",") + options.methods[i];
+  }
+  return command + (options.quick ? " --quick" : "");
+}
+
+void printCase(const CaseResult& result, bool takenOver) {
+  const Attempt* const exact = usualAttempt(result, "exact");
+  std::cout << std::left << std::setw(24) << result.name;
+  if (exact != nullptr && exact->failure.empty()) {
+    std::cout << "exact: error " << std::setw(8) << inShort(exact->judgement.error)
+              << inShort(1e6 * exact->cost) << " us/s"
+              << (onFront(result, *exact) ? "" : ", not on the front");
+  } else if (exact != nullptr) {
+    std::cout << "exact: " << exact->failure;
+  }
+  std::cout << (takenOver ? " (taken over)" : "") << std::endl;  // flushed: progress
+}
+
+ExitCode studyCommand(const StudyOptions& options, const std::stop_token& stop) {
+  const std::vector<std::string> known = caseNames();
+  if (options.list) {
+    for (const std::string& name : known) {
+      std::cout << std::left << std::setw(24) << name << readCase(name).title << '\n';
+    }
+    return ExitCode::kDone;
+  }
+  checkCases(options.cases, known);
+  const Contestants contestants = chosenContestants(options.methods);
+  if (!options.noPlots) {
+    checkPlotter();
+  }
+  const StudySettings settings{.cases = options.cases.empty() ? known : options.cases,
+                               .effort = options.quick ? quickEffort() : fullEffort(),
+                               .version = CAREEN_VERSION,
+                               .folder = options.out,
+                               .resume = options.resume};
+  const Stopwatch stopwatch;
+  StudyResult study{.machine = machineLine(), .command = commandOf(options), .cases = {}};
+  std::size_t number = 0;
+  study.cases = runStudy(
+      settings, contestants,
+      [&](const CaseResult& result, bool takenOver) {
+        std::cout << '[' << ++number << '/' << settings.cases.size() << "] ";
+        printCase(result, takenOver);
+      },
+      stop);
+  writeTables(study, options.out);
+  const std::vector<std::string> plots =
+      options.noPlots ? std::vector<std::string>{} : drawPlots(study, options.out);
+  writeFile(options.out / "index.html", resultsPage(study, plots));
+  std::cout << "study        " << (options.out / "index.html").string() << ", " << std::setprecision(3)
+            << stopwatch.seconds() << " s\n";
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void addStudy(CLI::App& commandLine, Command& chosen) {
+  CLI::App* command =
+      commandLine.add_subcommand("study", "Speed against error, on cases whose truth is known");
+  const auto options = std::make_shared<StudyOptions>();
+  command->add_option("cases", options->cases,
+                      "Names of cases, or scene files of your own; all cases if none");
+  command->add_option("--methods", options->methods, "Only these, with commas between")->delimiter(',');
+  command->add_option("--out", options->out, "Folder for tables, plots and page")->capture_default_str();
+  command->add_flag("--quick", options->quick, "Few steps, few repeats: a minute for all");
+  command->add_flag("--resume", options->resume, "Take over what is finished in the folder");
+  command->add_flag("--no-plots", options->noPlots, "Tables and page only; gnuplot is not needed");
+  command->add_flag("--list", options->list, "Only list the cases");
+  command->callback([options, &chosen] {
+    chosen = [options](const std::stop_token& stop) { return studyCommand(*options, stop); };
+  });
+}
+
+}  // namespace careen
