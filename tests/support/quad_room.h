@@ -6,79 +6,68 @@
 
 #include "physics/world.h"
 #include "support/quad.h"
+#include "support/quad_scene.h"
 #include "support/taylor_oracle.h"
 
 namespace careen::oracle {
 
 /// One box among walls without friction, followed in quadruple precision from impact to impact: Taylor series
 /// for the turning, samples and regula falsi for the contact, Fig. 4's impulse at the corner that touches.
-/// Shares nothing with the engine but the numbers of the start, whose attitude is the identity.
+/// Shares nothing with the engine but the numbers of the start.
+///
+/// Where several corners touch one wall at once the impulse acts in their middle: right for an edge or a face
+/// that lands without rolling along it, by symmetry, and for nothing else.
 class QuadRoom {
  public:
-  /// Every number of the start is changed by this part of itself, up or down.
-  explicit QuadRoom(const World& world, double nudge = 0)
-      : walls_(world.walls), body_(world.bodies[0]), gravity_(world.gravity) {
-    const Body& body = world.bodies[0];
-    for (int i = 0; i < 3; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const Quad factor = 1 + Quad(i == 1 ? -nudge : nudge);
-      state_.position[i] = factor * body.initial.pose.position[i];
-      state_.velocity[i] = factor * body.initial.velocity[i];
-      state_.rotation.moments[at] = body.mass.inertiaBody[i];
-      state_.rotation.momentum[at] = factor * body.initial.angularMomentum[i];
-    }
-    state_.rotation.attitude = {1, 0, 0, 0};
+  /// The scene's first box; `step` [s] between the samples that look for contact, shorter than any dip behind
+  /// a wall.
+  explicit QuadRoom(const QuadScene& scene, double step = 1.0 / 512)
+      : walls_(scene.walls), body_(scene.boxes.at(0)), gravity_(scene.gravity), step_(step) {
+    state_ = {body_.position, body_.velocity, body_.freeBody()};
   }
+
+  /// The attitude must be the identity. Every number of the start is changed by this part of itself, up or
+  /// down.
+  explicit QuadRoom(const World& world, double nudge = 0) : QuadRoom(sceneOf(world, nudge)) {}
 
   const Quad& time() const { return time_; }
 
-  /// On to the next impact, and through it.
-  void strike() {
+  /// On to the next impact, and through it; false, and nothing done, if there is none up to the moment
+  /// `until`.
+  bool strike(double until = 1e300) {
     // Doubles tell between which two samples it is.
     const State<double> rough = state_.rounded();
+    const double left = until - static_cast<double>(time_);
     int sample = 1;
-    while (lowest(after(rough, sample * kStep)).gap >= 0) {
+    while (lowest(after(rough, sample * step_)).gap >= 0) {
+      if (sample * step_ > left) {
+        return false;
+      }
       ++sample;
     }
     // It leaves first what it has just struck.
-    const double from = sample == 1 ? kStep / 64 : (sample - 1) * kStep;
-    state_ = after(state_, Quad(from));
-    time_ += from;
-    Quad low = 0;
-    Quad high = sample * kStep - from;
-    Quad gapLow = lowest(state_).gap;
-    Quad gapHigh = lowest(after(state_, high)).gap;
-    Quad root = 0;
-    for (Quad gap = gapLow; gap > 1e-31 || gap < -1e-31;) {
-      // Illinois: the end that stays twice counts half.
-      root = high - gapHigh * (high - low) / (gapHigh - gapLow);
-      gap = lowest(after(state_, root)).gap;
-      if (gap < 0) {
-        high = root;
-        gapHigh = gap;
-        gapLow /= 2;
-      } else {
-        low = root;
-        gapLow = gap;
-        gapHigh /= 2;
-      }
-      if (!(high - low > 1e-32)) {
-        break;
-      }
+    const double from = sample == 1 ? step_ / 64 : (sample - 1) * step_;
+    const State<Quad> before = after(state_, Quad(from));
+    const Quad root = firstTouch(before, sample * step_ - from);
+    if (time_ + from + root > until) {
+      return false;
     }
-    time_ += root;
-    state_ = after(state_, root);
+    time_ += from + root;
+    state_ = after(before, root);
     reflect();
+    return true;
   }
 
   /// The corners `elapsed` after the last impact, which must be before the next; in the order of corner().
   std::array<Vector3<Quad>, 8> corners(const Quad& elapsed) const {
     return cornersOf(after(state_, elapsed));
   }
+  QuadPose pose(const Quad& elapsed) const {
+    const State<Quad> state = after(state_, elapsed);
+    return {state.position, normalized(state.rotation.attitude)};
+  }
 
  private:
-  static constexpr double kStep = 1.0 / 512;  // [s]
-
   template <class Real>
   struct State {
     Vector3<Real> position;
@@ -101,8 +90,55 @@ class QuadRoom {
   struct Lowest {
     Real gap = 1e30;
     std::size_t wall = 0;
-    std::size_t corner = 0;
   };
+
+  static QuadScene sceneOf(const World& world, double nudge) {
+    const Body& body = world.bodies[0];
+    QuadScene scene;
+    QuadBox box;
+    for (int i = 0; i < 3; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const Quad factor = 1 + Quad(i == 1 ? -nudge : nudge);
+      box.position[i] = factor * body.initial.pose.position[i];
+      box.velocity[i] = factor * body.initial.velocity[i];
+      box.moments.at(at) = body.mass.inertiaBody[i];
+      box.momentum.at(at) = factor * body.initial.angularMomentum[i];
+    }
+    box.halfExtents = body.halfExtents.cast<Quad>();
+    box.mass = body.mass.mass;
+    box.restitution = body.material.restitution;
+    scene.boxes = {box};
+    scene.gravity = world.gravity.cast<Quad>();
+    for (const Wall& wall : world.walls) {
+      scene.walls.push_back({wall.normal.cast<Quad>(), wall.offset, wall.material.restitution});
+    }
+    return scene;
+  }
+
+  // The moment within `high` [s] at which the lowest corner touches: Illinois, the end that stays twice
+  // counts half. To the rounding of the lengths that a gap is the difference of.
+  Quad firstTouch(const State<Quad>& before, Quad high) const {
+    const Quad small = Quad(1e-31) * (body_.halfExtents.norm() + Quad(before.position.norm()) / 100);
+    Quad low = 0;
+    Quad gapLow = lowest(before).gap;
+    Quad gapHigh = lowest(after(before, high)).gap;
+    Quad root = 0;
+    Quad gap = gapLow;
+    for (int i = 0; i < 100 && (gap > small || gap < -small); ++i) {
+      root = high - gapHigh * (high - low) / (gapHigh - gapLow);
+      gap = lowest(after(before, root)).gap;
+      if (gap < 0) {
+        high = root;
+        gapHigh = gap;
+        gapLow /= 2;
+      } else {
+        low = root;
+        gapLow = gap;
+        gapHigh /= 2;
+      }
+    }
+    return root;
+  }
 
   template <class Real>
   State<Real> after(State<Real> state, const Real& elapsed) const {
@@ -126,12 +162,12 @@ class QuadRoom {
   template <class Real>
   std::array<Vector3<Real>, 8> cornersOf(const State<Real>& state) const {
     const Matrix3<Real> turn = matrix(state.rotation);
+    const Vector3<Real> half = body_.halfExtents.template cast<Real>();
     std::array<Vector3<Real>, 8> corners;
     for (unsigned k = 0; k < 8; ++k) {
-      const Vec3 inBody((k & 4U) == 0 ? body_.halfExtents[0] : -body_.halfExtents[0],
-                        (k & 2U) == 0 ? body_.halfExtents[1] : -body_.halfExtents[1],
-                        (k & 1U) == 0 ? body_.halfExtents[2] : -body_.halfExtents[2]);
-      corners[k] = state.position + turn * inBody.cast<Real>();
+      const Vector3<Real> inBody((k & 4U) == 0 ? half[0] : -half[0], (k & 2U) == 0 ? half[1] : -half[1],
+                                 (k & 1U) == 0 ? half[2] : -half[2]);
+      corners[k] = state.position + turn * inBody;
     }
     return corners;
   }
@@ -143,22 +179,38 @@ class QuadRoom {
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       const Vector3<Real> normal = walls_[w].normal.template cast<Real>();
       for (std::size_t k = 0; k < corners.size(); ++k) {
-        const Real gap = normal.dot(corners[k]) - Real(walls_[w].offset);
+        const Real gap = normal.dot(corners[k]) - static_cast<Real>(walls_[w].offset);
         if (gap < found.gap) {
-          found = {.gap = gap, .wall = w, .corner = k};
+          found = {.gap = gap, .wall = w};
         }
       }
     }
     return found;
   }
 
+  // Of the corners as low as the lowest.
+  Vector3<Quad> middleOfTouch(const Lowest<Quad>& contact) const {
+    const QuadWall& wall = walls_[contact.wall];
+    const Quad as = Quad(1e-26) * body_.halfExtents.norm();
+    Vector3<Quad> sum(Quad(0), Quad(0), Quad(0));
+    int count = 0;
+    for (const Vector3<Quad>& corner : cornersOf(state_)) {
+      if (wall.normal.dot(corner) - wall.offset < contact.gap + as) {
+        sum += corner;
+        ++count;
+      }
+    }
+    return sum / Quad(count);
+  }
+
   // In the body's frame, where the inertia is constant.
   void reflect() {
     const Lowest<Quad> contact = lowest(state_);
     const Matrix3<Quad> turn = matrix(state_.rotation);
-    const Vector3<Quad> normal = walls_[contact.wall].normal.cast<Quad>();
+    const QuadWall& wall = walls_[contact.wall];
+    const Vector3<Quad>& normal = wall.normal;
     const Vector3<Quad> n = turn.transpose() * normal;
-    const Vector3<Quad> r = turn.transpose() * (cornersOf(state_)[contact.corner] - state_.position);
+    const Vector3<Quad> r = turn.transpose() * (middleOfTouch(contact) - state_.position);
     FreeBody<Quad>& rotation = state_.rotation;
     Vector3<Quad> omega;
     Vector3<Quad> turning = r.cross(n);
@@ -168,17 +220,19 @@ class QuadRoom {
       turning[i] /= rotation.moments[at];
     }
     const Quad approach = normal.dot(state_.velocity) + n.dot(omega.cross(r));
-    const Quad impulse = -2 * approach / (1 / Quad(body_.mass.mass) + n.dot(turning.cross(r)));
-    state_.velocity += impulse / Quad(body_.mass.mass) * normal;
+    const Quad restitution = wall.restitution > body_.restitution ? wall.restitution : body_.restitution;
+    const Quad impulse = -(1 + restitution) * approach / (1 / body_.mass + n.dot(turning.cross(r)));
+    state_.velocity += impulse / body_.mass * normal;
     const Vector3<Quad> kick = impulse * r.cross(n);
     for (int i = 0; i < 3; ++i) {
       rotation.momentum[static_cast<std::size_t>(i)] += kick[i];
     }
   }
 
-  std::vector<Wall> walls_;
-  Body body_;
-  Vec3 gravity_;
+  std::vector<QuadWall> walls_;
+  QuadBox body_;
+  Vector3<Quad> gravity_;
+  double step_;
   State<Quad> state_;
   Quad time_ = 0;
 };

@@ -1,0 +1,189 @@
+// Method exact on the hard cases, against their truths.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "scene/plan.h"
+#include "scene/scene_reader.h"
+#include "study/own_methods.h"
+#include "study/truths.h"
+#include "support/quad_scene_file.h"
+
+namespace careen::study {
+namespace {
+
+using nlohmann::json;
+using States = std::vector<std::vector<BodyState>>;
+
+World worldOf(const std::string& name) {
+  const Scene scene = readScene(scenePath(name));
+  return assemble(scene, plan(scene));
+}
+
+States exactOn(const World& world, const std::vector<double>& times) {
+  const Contestants all = ownMethods();
+  const auto exact =
+      std::find_if(all.begin(), all.end(), [](const auto& each) { return each->name() == "exact"; });
+  EXPECT_EQ((*exact)->refuses(world), "");
+  return (*exact)->run(world, 1, times, {});
+}
+
+std::string brief(double value) {
+  std::ostringstream text;
+  text.precision(2);
+  text << value;
+  return text.str();
+}
+
+Mat3 matrixOf(const std::vector<double>& q) {
+  return Quat(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+}
+
+// The larger of the distance, in half diagonals, and the angle [rad].
+double apart(const Body& body, const Pose& pose, const std::vector<double>& position, const Mat3& turn) {
+  const double distance = (pose.position - Vec3(position[0], position[1], position[2])).norm();
+  const double chord = (pose.worldFromBody - turn).norm() / std::sqrt(8.0);
+  return std::max(distance / body.halfExtents.norm(), 2 * std::asin(std::min(1.0, chord)));
+}
+
+double errorOn(const std::string& name) {
+  const json truth = oracle::jsonIn(truthPath(name));
+  const World world = worldOf(name);
+  const States states = exactOn(world, truth.at("times").get<std::vector<double>>());
+  double worst = 0;
+  std::size_t entry = 0;
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    if (isImmovable(world.bodies[i].mass)) {
+      continue;
+    }
+    const json& box = truth.at("boxes").at(entry++);
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      worst = std::max(worst, apart(world.bodies[i], states[k][i].pose,
+                                    box.at("positions").at(k).get<std::vector<double>>(),
+                                    matrixOf(box.at("orientations").at(k).get<std::vector<double>>())));
+    }
+  }
+  return worst;
+}
+
+struct Bound {
+  const char* name;
+  double bound;
+};
+
+const std::vector<Bound> kBounds = {
+    {"bounce-1000", 1e-12},
+    {"corner-impact", 1e-12},
+    {"far-away", 1e-12},
+    {"fast-spin", 1e-12},
+    {"free-fall", 1e-12},
+    {"galperin", 1e-12},
+    {"grazing-hit", 1e-12},
+    {"grazing-miss", 1e-12},
+    {"kilometre", 1e-12},
+    {"landing-edge", 1e-12},
+    {"landing-flat", 1e-12},
+    {"landing-room-corner", 1e-12},
+    {"millimetre", 1e-12},
+    {"near-simultaneous-1e-12", 1e-12},
+    {"near-simultaneous-1e-3", 1e-12},
+    {"near-simultaneous-1e-6", 1e-12},
+    {"near-simultaneous-1e-9", 1e-12},
+    {"needle", 1e-12},
+    {"plate", 1e-12},
+    {"separatrix-1e-3", 1e-12},
+    {"separatrix-1e-6", 1e-12},
+    {"separatrix-1e-9", 1e-12},
+    {"thin-wall", 1e-12},
+    {"tumble-generic", 1e-12},
+    {"tumble-middle-axis", 1e-12},
+    {"zeno-half", 1e-12},
+    {"zeno-nine", 1e-12},
+};
+
+class ExactOnHardCases : public testing::TestWithParam<Bound> {};
+
+TEST_P(ExactOnHardCases, isWhereTheTruthIs) {
+  const auto& [name, bound] = GetParam();
+  const double error = errorOn(name);
+  std::cout << name << ": " << brief(error) << '\n';
+  RecordProperty("error", brief(error));
+  EXPECT_LE(error, bound);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ExactOnHardCases, testing::ValuesIn(kBounds));
+
+TEST(ExactOnHardCasesAll, coversEveryTruthOfPoses) {
+  for (const std::string& name : truthNames()) {
+    const bool covered =
+        std::any_of(kBounds.begin(), kBounds.end(), [&name](const Bound& each) { return each.name == name; });
+    EXPECT_EQ(covered, oracle::jsonIn(truthPath(name)).at("measure") == "poses") << name;
+  }
+}
+
+double energyOf(const World& world, const BodyState& state) {
+  const MassProperties& mass = world.bodies[0].mass;
+  return 0.5 * mass.mass * state.velocity.squaredNorm() +
+         0.5 * angularVelocity(mass, state).dot(state.angularMomentum) -
+         mass.mass * world.gravity.dot(state.pose.position);
+}
+
+double energyChangeOn(const std::string& name) {
+  const World world = worldOf(name);
+  const json truth = oracle::jsonIn(truthPath(name));
+  const double before = energyOf(world, world.bodies[0].initial);
+  double worst = 0;
+  for (const auto& state : exactOn(world, truth.at("times").get<std::vector<double>>())) {
+    worst = std::max(worst, std::fabs(energyOf(world, state[0]) / before - 1));
+  }
+  std::cout << name << ": energy changed by " << brief(worst) << '\n';
+  return worst;
+}
+
+TEST(ExactOnHardCasesAll, keepsEnergyInRooms) {
+  EXPECT_LT(energyChangeOn("room-minute"), 1e-13);
+  EXPECT_LT(energyChangeOn("room-million"), 1e-10);
+}
+
+TEST(ExactOnHardCasesAll, comesBackWhereItBegan) {
+  World world = worldOf("reversal");
+  const BodyState start = world.bodies[0].initial;
+  const double duration = oracle::jsonIn(scenePath("reversal")).at("duration").get<double>();
+  BodyState& state = world.bodies[0].initial;
+  for (int way = 0; way < 2; ++way) {
+    state = exactOn(world, {duration}).back()[0];
+    state.velocity = -state.velocity;
+    state.angularMomentum = -state.angularMomentum;
+  }
+  const Vec3& x = start.pose.position;
+  const double error = apart(world.bodies[0], state.pose, {x[0], x[1], x[2]}, start.pose.worldFromBody);
+  std::cout << "reversal: " << brief(error) << '\n';
+  EXPECT_LT(error, 1e-8);
+}
+
+TEST(ExactOnHardCasesAll, scalesToTheBit) {
+  const json truth = oracle::jsonIn(truthPath("scaled"));
+  const double lengths = truth.at("lengths").get<double>();
+  const double times = truth.at("times").get<double>();
+  auto moments = oracle::jsonIn(truthPath("corner-impact")).at("times").get<std::vector<double>>();
+  const States one = exactOn(worldOf("corner-impact"), moments);
+  for (double& moment : moments) {
+    moment *= times;
+  }
+  const States other = exactOn(worldOf("scaled"), moments);
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    EXPECT_EQ(Vec3(lengths * one[k][0].pose.position), other[k][0].pose.position);
+    EXPECT_EQ(one[k][0].pose.worldFromBody, other[k][0].pose.worldFromBody);
+    EXPECT_EQ(Vec3(lengths / times * one[k][0].velocity), other[k][0].velocity);
+  }
+}
+
+}  // namespace
+}  // namespace careen::study

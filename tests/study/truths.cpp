@@ -1,0 +1,387 @@
+#include "study/truths.h"
+
+#include <charconv>
+#include <cstddef>
+#include <functional>
+#include <sstream>
+#include <stdexcept>
+
+#include "support/closed_forms.h"
+#include "support/quad_scene_file.h"
+
+namespace careen::study {
+namespace {
+
+using oracle::QuadPoses;
+using oracle::QuadScene;
+using Moments = std::span<const double>;
+using Boxes = std::vector<QuadPoses>;  // of the movable boxes, in the scene's order
+using Oracle = std::function<Boxes(const QuadScene&, Moments)>;
+
+constexpr const char* kTaylor = "quadruple precision: Taylor series of Euler's equations, order 30";
+constexpr const char* kRoom =
+    "quadruple precision: Taylor series of Euler's equations between impacts, one impulse at the corner that "
+    "touches";
+constexpr const char* kPlanar =
+    "quadruple precision: plane motion in elementary functions between impacts, one impulse at each edge "
+    "that "
+    "touches";
+constexpr const char* kKept = "closed form: the total energy is kept";
+
+struct Case {
+  std::string name;
+  std::string title;
+  std::string whyHard;
+  std::string source;
+  std::string measure = "poses";
+  int samples = 8;
+  Oracle oracle = {};
+};
+
+Boxes flies(const QuadScene& scene, Moments times) { return {flown(scene, times)}; }
+Boxes drops(const QuadScene& scene, Moments times) { return {dropped(scene, times)}; }
+
+Oracle strikes(double step, int impacts) {
+  return [=](const QuadScene& scene, Moments times) {
+    return Boxes{struck(oracle::QuadRoom(scene, step), times, impacts)};
+  };
+}
+Oracle strikesFloor(double step, int impacts) {
+  return [=](const QuadScene& scene, Moments times) {
+    return Boxes{struck(oracle::PlanarBox(scene, step), times, impacts)};
+  };
+}
+
+// The cube's corner strikes the middle of the plate's front, which is as good as a wall there.
+Boxes strikesPlate(const QuadScene& scene, Moments times) {
+  const oracle::QuadBox& plate = scene.boxes.at(1);
+  QuadScene front = scene;
+  front.walls = {{.normal = {Quad(-1), Quad(0), Quad(0)},
+                  .offset = plate.halfExtents[0] - plate.position[0],
+                  .restitution = plate.restitution}};
+  return {struck(oracle::QuadRoom(front, 1.0 / 65536), times, 1)};
+}
+
+Boxes comesBack(const QuadScene& scene, Moments times) { return {intoCornerAndBack(scene, times)}; }
+
+Boxes unfolds(const QuadScene& scene, Moments times) {
+  const oracle::QuadPair pair = galperinUnfolded(scene, times);
+  return {pair[0], pair[1]};
+}
+
+Case nearSeparatrix(const std::string& offset) {
+  return {.name = "separatrix-" + offset,
+          .title = "Book beside the separatrix, " + offset + " rad/s",
+          .whyHard = "So near the separatrix, " + offset +
+                     " rad/s beside the middle axis, that the book seems to spin steadily before it turns "
+                     "over; when it does depends on the logarithm of that little.",
+          .source = kTaylor,
+          .oracle = flies};
+}
+
+Case nearSimultaneous(const std::string& tilt) {
+  return {
+      .name = "near-simultaneous-" + tilt,
+      .title = "Cube tilted by " + tilt + " rad lands on two edges",
+      .whyHard = "Tilted by " + tilt +
+                 " rad the cube lands on one edge and at nearly the same moment on the other: taken one "
+                 "after the other, as they come, the two impacts set it spinning; taken as one they do not.",
+      .source = kPlanar,
+      .oracle = strikesFloor(1.0 / 512, 2)};
+}
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> kCases = {
+      {.name = "tumble-generic",
+       .title = "Generic tumble",
+       .whyHard = "Three different moments of inertia and a spin about none of the axes: the attitude "
+                  "follows elliptic functions, and stepwise turning drifts.",
+       .source = kTaylor,
+       .oracle = flies},
+      {.name = "tumble-middle-axis",
+       .title = "Tumbling about the middle axis",
+       .whyHard = "Spin about the middle axis is unstable: a small disturbance grows until the box "
+                  "turns over, again and again, and every error grows with it.",
+       .source = kTaylor,
+       .oracle = flies},
+      nearSeparatrix("1e-3"),
+      nearSeparatrix("1e-6"),
+      nearSeparatrix("1e-9"),
+      {.name = "needle",
+       .title = "Needle, 1 : 10⁻⁴ : 10⁻⁴",
+       .whyHard = "One moment of inertia is fifty million times smaller than the others: the least "
+                  "error of angular momentum across the needle is a great error of its spin.",
+       .source = kTaylor,
+       .oracle = flies},
+      {.name = "plate",
+       .title = "Plate, 1 : 1 : 10⁻⁴",
+       .whyHard = "Two half sizes are ten thousand times the third: the moments of inertia are those of"
+                  " a disc, one just the sum of the others, and differences of them lose digits.",
+       .source = kTaylor,
+       .oracle = flies},
+      {.name = "fast-spin",
+       .title = "Ten thousand radians per second",
+       .whyHard = "Ten thousand radians in a second: every relative error of the rate of turning comes "
+                  "out ten thousand times larger in the attitude.",
+       .source = kTaylor,
+       .oracle = flies},
+      {.name = "free-fall",
+       .title = "Tumbling in free fall",
+       .whyHard = "Falling 490 m while it tumbles: first-order steps misplace it by half g t dt, and no"
+                  " wall hides it.",
+       .source = "quadruple precision: parabola, and Taylor series of Euler's equations, order 30",
+       .oracle = flies},
+      {.name = "bounce-1000",
+       .title = "A thousand bounces",
+       .whyHard = "A thousand bounces that lose nothing: errors of the times of impact and of the "
+                  "speeds add up, and a step that gains energy throws the cube ever higher.",
+       .source = "closed form: parabolas of equal height",
+       .samples = 16,
+       .oracle = drops},
+      {.name = "zeno-half",
+       .title = "Infinitely many bounces, e = 0.5",
+       .whyHard = "Infinitely many bounces in 1.34 s, each with half of the speed of the last, and rest"
+                  " from then on.",
+       .source = "closed form: parabolas of geometric height, at rest after sqrt(2h/g) (1+e)/(1-e)",
+       .samples = 16,
+       .oracle = drops},
+      {.name = "zeno-nine",
+       .title = "Infinitely many bounces, e = 0.9",
+       .whyHard = "Infinitely many bounces in 8.5 s, each with nine tenths of the speed of the last: "
+                  "more and more of them in each step.",
+       .source = "closed form: parabolas of geometric height, at rest after sqrt(2h/g) (1+e)/(1-e)",
+       .samples = 16,
+       .oracle = drops},
+      {.name = "corner-impact",
+       .title = "Impact on a corner",
+       .whyHard = "A tumbling box strikes a wall on one corner: where, how fast and with what spin it "
+                  "leaves all hang on the attitude at that moment.",
+       .source = kRoom,
+       .oracle = strikes(1.0 / 512, 1)},
+      {.name = "landing-flat",
+       .title = "Landing on a face",
+       .whyHard = "Four corners land at one moment: treated one after the other they leave the cube "
+                  "spinning.",
+       .source = "closed form: parabolas of geometric height",
+       .samples = 16,
+       .oracle = drops},
+      {.name = "landing-edge",
+       .title = "Landing on an edge",
+       .whyHard = "Two corners of an edge land at one moment: the box must go on turning about that "
+                  "edge's direction and no other.",
+       .source = kPlanar,
+       .oracle = strikesFloor(1.0 / 512, 2)},
+      {.name = "landing-room-corner",
+       .title = "Into the corner of three walls",
+       .whyHard = "Twelve contacts with three walls at one moment, none of them independent of the "
+                  "others, and the cube must come straight back.",
+       .source = "closed form: comes straight back",
+       .oracle = comesBack},
+      {.name = "grazing-hit",
+       .title = "Grazes the floor, 1 micrometre deep",
+       .whyHard = "An edge of a turning box dips a micrometre into the floor's plane, for less than a "
+                  "millisecond: who steps over it misses the impact.",
+       .source = kPlanar,
+       .oracle = strikesFloor(1.0 / 8192, 1)},
+      {.name = "grazing-miss",
+       .title = "Misses the floor by 1 micrometre",
+       .whyHard = "The edges of a turning box stay a micrometre above the floor, time after time: a "
+                  "margin of contact makes an impact of it.",
+       .source = kPlanar,
+       .oracle = strikesFloor(1.0 / 8192, 0)},
+      nearSimultaneous("1e-3"),
+      nearSimultaneous("1e-6"),
+      nearSimultaneous("1e-9"),
+      nearSimultaneous("1e-12"),
+      {.name = "thin-wall",
+       .title = "Shot at a thin plate",
+       .whyHard = "At 400 m/s the cube moves 1.7 m in a step of 1/240 s, 167 times the thickness of the"
+                  " plate that it strikes head on with a corner: who looks only at the end of a step "
+                  "finds it behind.",
+       .source = "closed form: comes straight back, but for the rounding of the start's attitude, which is "
+                 "followed in quadruple precision",
+       .oracle = strikesPlate},
+      {.name = "room-million",
+       .title = "A million impacts in a room",
+       .whyHard = "A million impacts that lose nothing: what each adds to the energy adds up.",
+       .source = kKept,
+       .measure = "energy"},
+      {.name = "room-minute",
+       .title = "A minute in a room",
+       .whyHard = "A minute of impacts on corners and edges, none of which may gain or lose energy.",
+       .source = kKept,
+       .measure = "energy"},
+      {.name = "reversal",
+       .title = "There and back again",
+       .whyHard = "Run backwards the box must find its way through the same impacts to where it began; "
+                  "each of them multiplies errors by about five.",
+       .source = "closed form: the motion run backwards",
+       .measure = "reversal"},
+      {.name = "galperin",
+       .title = "314 impacts, the digits of π",
+       .whyHard = "314 impacts, the closest an eighth of a millisecond apart, between a wall, a light "
+                  "box and one ten thousand times heavier: one that is missed or taken twice sends the "
+                  "light box elsewhere.",
+       .source = "closed form: the billiard unfolded (G. Galperin 2003)",
+       .samples = 16,
+       .oracle = unfolds},
+      {.name = "millimetre",
+       .title = "Impact on a corner, in millimetres",
+       .whyHard = "The corner impact a thousand times smaller: margins and slops meant for metres are "
+                  "larger than the box.",
+       .source = kRoom,
+       .oracle = strikes(1.0 / 16384, 1)},
+      {.name = "kilometre",
+       .title = "Impact on a corner, in kilometres",
+       .whyHard = "The corner impact a thousand times larger: positions lose digits to metres, and "
+                  "limits on speed or size set in.",
+       .source = kRoom,
+       .oracle = strikes(1.0 / 16, 1)},
+      {.name = "far-away",
+       .title = "Impact on a corner, far from the origin",
+       .whyHard = "The corner impact a million metres from the origin along every axis: a float "
+                  "resolves 6 cm there, a double 0.1 nm.",
+       .source = kRoom,
+       .oracle = strikes(1.0 / 512, 1)},
+      {.name = "scaled",
+       .title = "Impact on a corner, lengths times 4, times times 2",
+       .whyHard = "The corner impact with lengths four times and times twice as large, in the same "
+                  "gravity: any absolute tolerance hidden in a method shows, for all else scales to the"
+                  " bit.",
+       .source = "closed form: the other run, scaled by powers of two",
+       .measure = "scaled"},
+  };
+  return kCases;
+}
+
+const Case& caseNamed(const std::string& name) {
+  for (const Case& each : cases()) {
+    if (each.name == name) {
+      return each;
+    }
+  }
+  throw std::invalid_argument("no case " + name);
+}
+
+// Rounded, with the sign that makes equal attitudes equal numbers.
+TruthBox rounded(const std::string& name, const QuadPoses& poses) {
+  TruthBox box;
+  box.name = name;
+  for (const oracle::QuadPose& pose : poses) {
+    auto& position = box.positions.emplace_back();
+    for (int i = 0; i < 3; ++i) {
+      position.at(static_cast<std::size_t>(i)) = static_cast<double>(pose.position[i]);
+    }
+    auto& orientation = box.orientations.emplace_back();
+    double sign = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto part = static_cast<double>(pose.attitude.at(i));
+      sign = sign != 0 || part == 0 ? sign : (part > 0 ? 1.0 : -1.0);
+      orientation.at(i) = part == 0 ? 0 : sign * part;
+    }
+  }
+  return box;
+}
+
+std::string number(double value) {
+  std::array<char, 32> digits{};
+  char* const end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 17).ptr;
+  return {digits.data(), end};
+}
+
+template <class Numbers>
+std::string list(const Numbers& numbers) {
+  std::string text = "[";
+  for (const double value : numbers) {
+    text += (text.size() > 1 ? ", " : "") + number(value);
+  }
+  return text + "]";
+}
+
+template <class Rows>
+std::string table(const Rows& rows) {
+  std::string text = "[";
+  for (const auto& row : rows) {
+    text += (text.size() > 1 ? ",\n        " : "\n        ") + list(row);
+  }
+  return text + "]";
+}
+
+std::string quoted(const std::string& text) { return '"' + text + '"'; }
+
+}  // namespace
+
+std::vector<std::string> truthNames() {
+  std::vector<std::string> names;
+  for (const Case& each : cases()) {
+    names.push_back(each.name);
+  }
+  return names;
+}
+
+std::filesystem::path scenePath(const std::string& name) {
+  return std::filesystem::path(CAREEN_SOURCE_DIR) / "assets" / "scenes" / "hard" / (name + ".json");
+}
+std::filesystem::path truthPath(const std::string& name) {
+  return std::filesystem::path(CAREEN_SOURCE_DIR) / "assets" / "truths" / (name + ".json");
+}
+
+std::vector<double> timesOf(const std::string& name, const QuadScene& scene) {
+  const int samples = caseNamed(name).samples;
+  std::vector<double> times;
+  for (int k = 1; k <= samples; ++k) {
+    times.push_back(scene.duration * k / samples);
+  }
+  return times;
+}
+
+Truth computeTruth(const std::string& name) {
+  const Case& found = caseNamed(name);
+  Truth truth{.name = name,
+              .title = found.title,
+              .whyHard = found.whyHard,
+              .source = found.source,
+              .measure = found.measure};
+  if (found.measure == "scaled") {
+    truth.of = "corner-impact";
+    truth.lengths = 4;
+    truth.timesBy = 2;
+    return truth;
+  }
+  const QuadScene scene = oracle::sceneIn(scenePath(name));
+  truth.times = timesOf(name, scene);
+  if (found.measure == "poses") {
+    const Boxes boxes = found.oracle(scene, truth.times);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      truth.boxes.push_back(rounded(scene.boxes.at(i).name, boxes[i]));
+    }
+  }
+  return truth;
+}
+
+std::string toText(const Truth& truth) {
+  std::ostringstream text;
+  text << "{\n  \"scene\": " << quoted("hard/" + truth.name + ".json")
+       << ",\n  \"title\": " << quoted(truth.title) << ",\n  \"why_hard\": " << quoted(truth.whyHard)
+       << ",\n  \"source\": " << quoted(truth.source) << ",\n  \"measure\": " << quoted(truth.measure);
+  if (truth.measure == "scaled") {
+    text << ",\n  \"of\": " << quoted("hard/" + truth.of + ".json")
+         << ",\n  \"lengths\": " << number(truth.lengths) << ",\n  \"times\": " << number(truth.timesBy);
+  } else {
+    text << ",\n  \"times\": " << list(truth.times);
+  }
+  if (!truth.boxes.empty()) {
+    text << ",\n  \"boxes\": [";
+    for (const TruthBox& box : truth.boxes) {
+      text << (&box == truth.boxes.data() ? "" : ",") << "\n    {\n      \"name\": " << quoted(box.name)
+           << ",\n      \"positions\": " << table(box.positions)
+           << ",\n      \"orientations\": " << table(box.orientations) << "\n    }";
+    }
+    text << "\n  ]";
+  }
+  text << "\n}\n";
+  return text.str();
+}
+
+}  // namespace careen::study

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/oracle_runs.h"
+#include "support/quad_scene.h"
+
+namespace careen::study {
+
+/// One movable box of a case, where it is at each of the case's moments, rounded from quadruple precision.
+struct TruthBox {
+  std::string name;
+  std::vector<std::array<double, 3>> positions;     // [m]
+  std::vector<std::array<double, 4>> orientations;  // w x y z, the first that is not 0 positive
+};
+
+/// What a file of assets/truths holds.
+struct Truth {
+  std::string name;
+  std::string title;
+  std::string whyHard;
+  std::string source;
+  std::string measure;             // poses, energy, reversal or scaled
+  std::vector<double> times = {};  // [s]
+  std::vector<TruthBox> boxes = {};
+  std::string of = {};  // scaled: the other case
+  double lengths = 1;   // scaled: the factors
+  double timesBy = 1;
+};
+
+std::vector<std::string> truthNames();
+std::filesystem::path scenePath(const std::string& name);
+std::filesystem::path truthPath(const std::string& name);
+/// The moments at which a case is looked at: k · duration / n.
+std::vector<double> timesOf(const std::string& name, const oracle::QuadScene& scene);
+
+/// Computed from the case's scene file by the oracles, from nothing of the engine.
+Truth computeTruth(const std::string& name);
+/// The text of its file.
+std::string toText(const Truth& truth);
+
+}  // namespace careen::study

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "support/extrapolated_top.h"
+#include "support/planar_box.h"
+#include "support/quad_room.h"
+#include "support/quad_scene.h"
+
+namespace careen::oracle {
+
+using QuadPoses = std::vector<QuadPose>;  // one per moment
+
+inline QuadVector fallen(const QuadScene& scene, const Quad& time) {
+  const QuadBox& box = scene.boxes.at(0);
+  return box.position + time * (box.velocity + time / 2 * scene.gravity);
+}
+
+/// Free flight, turning by the Taylor series.
+inline QuadPoses flown(const QuadScene& scene, std::span<const double> times) {
+  FreeBody<Quad> body = scene.boxes.at(0).freeBody();
+  QuadPoses poses;
+  Quad at = 0;
+  for (const double time : times) {
+    advance(body, Quad(Quad(time) - at));
+    at = time;
+    poses.push_back({fallen(scene, at), normalized(body.attitude)});
+  }
+  return poses;
+}
+
+/// Free flight, turning by extrapolation.
+inline QuadPoses flownByExtrapolation(const QuadScene& scene, std::span<const double> times) {
+  ExtrapolatedTop top(scene.boxes.at(0));
+  QuadPoses poses;
+  Quad at = 0;
+  for (const double time : times) {
+    top.advance(Quad(time) - at);
+    at = time;
+    poses.push_back({fallen(scene, at), top.attitude()});
+  }
+  return poses;
+}
+
+/// What an oracle that goes from impact to impact, a QuadRoom or a PlanarBox, says of the moments.
+template <class Oracle>
+QuadPoses struck(Oracle oracle, std::span<const double> times, int impacts) {
+  QuadPoses poses;
+  int seen = 0;
+  for (std::size_t k = 0; k < times.size();) {
+    Oracle next = oracle;
+    const bool strikes = next.strike(times.back());
+    for (; k < times.size() && (!strikes || Quad(times[k]) <= next.time()); ++k) {
+      poses.push_back(oracle.pose(Quad(times[k]) - oracle.time()));
+    }
+    oracle = std::move(next);
+    seen += strikes ? 1 : 0;
+  }
+  if (seen != impacts) {
+    throw std::runtime_error("other than the number of impacts expected: " + std::to_string(seen));
+  }
+  return poses;
+}
+
+}  // namespace careen::oracle

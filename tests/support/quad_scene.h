@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/linear_algebra.h"
+#include "support/quad.h"
+#include "support/taylor_oracle.h"
+
+namespace careen::oracle {
+
+using QuadVector = Vector3<Quad>;
+using QuadTurn = std::array<Quad, 4>;  // w x y z, a unit
+
+/// Product of quaternions.
+inline QuadTurn times(const QuadTurn& a, const QuadTurn& b) {
+  return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+          a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+          a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+          a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
+}
+inline QuadTurn inverse(const QuadTurn& q) { return {q[0], -q[1], -q[2], -q[3]}; }
+inline QuadTurn normalized(QuadTurn q) {
+  const Quad length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  for (Quad& part : q) {
+    part /= length;
+  }
+  return q;
+}
+inline QuadVector turned(const QuadTurn& q, const QuadVector& v) {
+  const QuadTurn r = times(times(q, {0, v[0], v[1], v[2]}), inverse(q));
+  return {r[1], r[2], r[3]};
+}
+
+/// Where a box is at a moment.
+struct QuadPose {
+  QuadVector position;
+  QuadTurn attitude;
+};
+
+/// How far two poses lie apart: the larger of the distance [m] and the angle [rad].
+inline double apart(const QuadPose& a, const QuadPose& b) {
+  const QuadTurn turn = times(inverse(a.attitude), b.attitude);
+  const Quad angle = 2 * sqrt(turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);
+  const Quad distance = (a.position - b.position).norm();
+  return static_cast<double>(angle > distance ? angle : distance);
+}
+
+/// The free side is where normal·x > offset.
+struct QuadWall {
+  QuadVector normal;
+  Quad offset = 0;
+  Quad restitution = 0;
+};
+
+struct QuadBox {
+  std::string name;
+  QuadVector halfExtents;
+  Quad mass = 0;
+  std::array<Quad, 3> moments;  // [kg m²]
+  Quad restitution = 0;
+  bool fixed = false;
+  QuadVector position;
+  QuadVector velocity;
+  QuadTurn attitude = {1, 0, 0, 0};
+  std::array<Quad, 3> momentum;  // [kg m²/s] angular, in the body's frame
+
+  FreeBody<Quad> freeBody() const { return {moments, momentum, attitude}; }
+};
+
+/// A scene in quadruple precision, read apart from the engine: what the oracles start from.
+struct QuadScene {
+  double duration = 0;
+  QuadVector gravity;
+  std::vector<QuadWall> walls;
+  std::vector<QuadBox> boxes;
+};
+
+}  // namespace careen::oracle

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "support/quad_scene.h"
+
+namespace careen::oracle {
+
+inline std::string textOf(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  if (!stream) {
+    throw std::runtime_error("no file " + path.string());
+  }
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// JSON with // comments.
+inline nlohmann::json jsonIn(const std::filesystem::path& path) {
+  return nlohmann::json::parse(textOf(path), nullptr, true, true);
+}
+
+inline QuadVector vectorIn(const nlohmann::json& object, const char* key) {
+  if (!object.contains(key)) {
+    return {Quad(0), Quad(0), Quad(0)};
+  }
+  const nlohmann::json& v = object[key];
+  return {Quad(v.at(0).get<double>()), Quad(v.at(1).get<double>()), Quad(v.at(2).get<double>())};
+}
+
+inline QuadBox boxIn(const nlohmann::json& object) {
+  QuadBox box;
+  box.name = object.at("name").get<std::string>();
+  box.halfExtents = vectorIn(object, "half_extents");
+  box.mass = object.value("mass", 0.0);
+  box.restitution = object.value("restitution", 0.0);
+  box.fixed = object.value("fixed", false);
+  box.position = vectorIn(object, "position");
+  box.velocity = vectorIn(object, "velocity");
+  if (object.contains("orientation")) {
+    const nlohmann::json& q = object["orientation"];
+    for (std::size_t i = 0; i < 4; ++i) {
+      box.attitude.at(i) = q.at(i).get<double>();
+    }
+    box.attitude = normalized(box.attitude);
+  }
+  const QuadVector squares = box.halfExtents.cwiseProduct(box.halfExtents);
+  const QuadVector spin = turned(inverse(box.attitude), vectorIn(object, "angular_velocity"));
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    box.moments.at(at) = box.mass / 3 * (squares[(i + 1) % 3] + squares[(i + 2) % 3]);
+    box.momentum.at(at) = box.moments.at(at) * spin[i];
+  }
+  return box;
+}
+
+/// What the hard cases use of the format: no friction, orientations as quaternions, every box with a mass or
+/// fixed. The numbers are exactly the doubles that the file's decimals round to.
+inline QuadScene sceneIn(const std::filesystem::path& path) {
+  const nlohmann::json file = jsonIn(path);
+  QuadScene scene;
+  scene.duration = file.at("duration").get<double>();
+  scene.gravity = vectorIn(file, "gravity");
+  if (file.contains("room")) {
+    const nlohmann::json& room = file["room"];
+    const nlohmann::json open = room.value("open", nlohmann::json::array());
+    const std::array<const char*, 6> sides = {"-x", "+x", "-y", "+y", "-z", "+z"};
+    for (std::size_t side = 0; side < sides.size(); ++side) {
+      if (std::find(open.begin(), open.end(), sides.at(side)) != open.end()) {
+        continue;
+      }
+      const bool isMin = side % 2 == 0;
+      const auto axis = static_cast<Eigen::Index>(side / 2);
+      const Quad sign = isMin ? 1 : -1;
+      QuadWall wall;
+      wall.normal = QuadVector(Quad(0), Quad(0), Quad(0));
+      wall.normal[axis] = sign;
+      wall.offset = sign * vectorIn(room, isMin ? "min" : "max")[axis];
+      wall.restitution = room.value("restitution", 0.0);
+      scene.walls.push_back(wall);
+    }
+  }
+  for (const nlohmann::json& each : file.value("walls", nlohmann::json::array())) {
+    QuadWall wall;
+    wall.normal = vectorIn(each, "normal");
+    wall.normal /= wall.normal.norm();
+    wall.offset = wall.normal.dot(vectorIn(each, "point"));
+    wall.restitution = each.value("restitution", 0.0);
+    scene.walls.push_back(wall);
+  }
+  for (const nlohmann::json& each : file.at("boxes")) {
+    scene.boxes.push_back(boxIn(each));
+  }
+  return scene;
+}
+
+}  // namespace careen::oracle
