@@ -85,7 +85,7 @@ void printCase(const CaseResult& result, bool takenOver) {
   std::cout << std::left << std::setw(24) << result.name;
   if (exact != nullptr && exact->failure.empty()) {
     std::cout << "exact: error " << std::setw(8) << inShort(exact->judgement.error)
-              << inShort(1e6 * exact->cost) << " us/s"
+              << inShort(exact->cost) << " us/s"
               << (onFront(result, *exact) ? "" : ", not on the front");
   } else if (exact != nullptr) {
     std::cout << "exact: " << exact->failure;

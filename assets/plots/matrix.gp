@@ -18,10 +18,10 @@ set cblabel "correct digits"
 set palette defined (0 "#b2182b", 3 "#ef8a62", 6 "#fddbc7", 9 "#d1e5f0", 12 "#67a9cf", 16 "#2166ac")
 
 do for [kind in "svg png"] {
-  width = 260 + 66 * columns
+  width = 300 + 66 * columns
   height = 190 + 22 * rows
   if (kind eq "svg") { eval svg(width, height) } else { eval png(width, height) }
-  set lmargin at screen 150.0 / width
+  set lmargin at screen 190.0 / width
   set rmargin at screen 1 - 90.0 / width
   set tmargin at screen 1 - 40.0 / height
   set bmargin at screen 130.0 / height

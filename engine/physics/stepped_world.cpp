@@ -203,8 +203,10 @@ double SteppedBody::gapOf(const Flying& flying) const {
   return lowest;
 }
 
+// [m] Of a gap, and well within what counts as touching.
 double SteppedBody::gapRounding() const {
-  return kGapRounding * (now_.position.cwiseAbs().sum() + body_.halfExtents.norm());
+  const double size = body_.halfExtents.norm();
+  return std::min(kGapRounding * (now_.position.cwiseAbs().sum() + size), kSimultaneous * size / 4);
 }
 
 // The gap is positive somewhere in (0, h), and negative at h: regula falsi, where the end that stays twice
@@ -235,7 +237,7 @@ double SteppedBody::contactWithin(double h) const {
     const double middle = high - gapHigh * (high - low) / (gapHigh - gapLow);
     const double gap = gapOf(after(middle));
     best = middle;
-    if (std::fabs(gap) <= gapRounding()) {
+    if (std::fabs(gap) <= gapRounding() / 8) {
       break;
     }
     if (gap < 0) {

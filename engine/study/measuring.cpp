@@ -16,6 +16,7 @@ namespace careen {
 namespace {
 
 constexpr int kLeastRounds = 2;
+constexpr double kRunsWithoutSteps = 4;     // see Effort::longestRun
 constexpr double kLongestStepOfRun = 0.25;  // [1] of the run: no step is longer
 
 using Clock = std::chrono::steady_clock;
@@ -84,7 +85,8 @@ std::string inWords(double seconds) {
 // Errors, and a first idea of the time.
 double attempt(const Case& study, const Contestant& contestant, const Effort& effort,
                const std::stop_token& stop, Attempt& result) {
-  const Deadline deadline(effort.longestRun, stop);
+  const double allowed = (contestant.steps() ? 1 : kRunsWithoutSteps) * effort.longestRun;
+  const Deadline deadline(allowed, stop);
   const Clock::time_point start = Clock::now();
   try {
     result.judgement = judge(study, answerOf(study, contestant, result.dt, deadline.token()));
@@ -95,7 +97,7 @@ double attempt(const Case& study, const Contestant& contestant, const Effort& ef
     if (stop.stop_requested()) {
       throw;
     }
-    result.failure = inWords(effort.longestRun);
+    result.failure = inWords(allowed);
   } catch (const Error& error) {
     result.failure = error.what();
   }
@@ -130,7 +132,7 @@ void timeAll(const Case& study, const Effort& effort, std::vector<Timed>& all, s
     const auto middle = timed.samples.begin() + static_cast<std::ptrdiff_t>(timed.samples.size() / 2);
     std::nth_element(timed.samples.begin(), middle, timed.samples.end());
     Attempt& result = attempts[timed.attempt];
-    result.cost = timed.seconds / study.simulated();
+    result.cost = 1e6 * timed.seconds / study.simulated();
     result.spread = *middle / timed.seconds - 1;
     result.repeats = static_cast<int>(timed.samples.size());
   }
@@ -138,10 +140,15 @@ void timeAll(const Case& study, const Effort& effort, std::vector<Timed>& all, s
 
 }  // namespace
 
-Effort fullEffort() { return {.steps = {8, 4, 2, 1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64}}; }
+Effort fullEffort() {
+  return {.longestRun = 5,
+          .longestStep = 0.5,
+          .timing = 6,
+          .steps = {8, 4, 2, 1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64}};
+}
 
 Effort quickEffort() {
-  return {.longestRun = 0.3,
+  return {.longestRun = 1,
           .longestStep = 0.02,
           .timing = 0.5,
           .rounds = 3,
@@ -227,6 +234,10 @@ std::vector<Attempt> attemptAll(const Case& study, const Contestants& contestant
                          .samples = {}});
       }
       // A table needs the usual step of everything; the rest as long as it is quickly done.
+      if (seconds > effort.longestRun) {
+        attempts.back().dt = std::min(dt, usual);
+        break;
+      }
       if (factor <= 1 && seconds > effort.longestStep) {
         break;
       }

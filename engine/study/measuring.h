@@ -35,16 +35,17 @@ struct Attempt {
   double dt = 0;        ///< [s] 0: it takes no steps
   std::string failure;  ///< why there is no answer; empty if there is one
   Judgement judgement;
-  double cost = 0;    ///< [s] of one core per simulated second; 0: not timed
+  double cost = 0;    ///< [µs] of one core per simulated second; 0: not timed
   double spread = 0;  ///< [1] how much longer the median of the repeats took than the shortest
   int repeats = 0;
 };
 
 /// How much is asked of a machine.
 struct Effort {
-  double longestRun = 10;     ///< [s] a run that takes longer is given up
-  double longestStep = 1;     ///< [s] no further halvings of the step once a run takes longer
-  double timing = 10;         ///< [s] for all timings of one case, at least two rounds
+  double longestRun = 0;      ///< [s] a run that takes longer is given up, and so are shorter steps; who takes
+                              ///< no steps has four times as long, for one run
+  double longestStep = 0;     ///< [s] no further halvings of the step once a run takes longer
+  double timing = 0;          ///< [s] for all timings of one case, at least two rounds
   int rounds = 7;             ///< of timings
   double shortest = 2e-3;     ///< [s] a timing repeats its run until it has taken so long
   std::vector<double> steps;  ///< in units of the scene's own

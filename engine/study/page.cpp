@@ -85,7 +85,7 @@ std::string attemptsOf(const CaseResult& result) {
     table << "<tr><th>" << escaped(attempt.contestant) << "</th><td>"
           << (attempt.dt > 0 ? inShort(attempt.dt) : "") << "</td>";
     if (attempt.failure.empty()) {
-      table << "<td>" << inShort(attempt.judgement.error) << "</td><td>" << inShort(1e6 * attempt.cost)
+      table << "<td>" << inShort(attempt.judgement.error) << "</td><td>" << inShort(attempt.cost)
             << "</td><td>" << inShort(attempt.spread) << "</td><td>" << attempt.repeats << "</td><td>"
             << (onFront(result, attempt) ? "yes" : "") << "</td></tr>\n";
     } else {

@@ -37,7 +37,7 @@ Json toJson(const Attempt& attempt) {
     return json;
   }
   json["error"] = attempt.judgement.error;
-  json["cost_us"] = 1e6 * attempt.cost;
+  json["cost_us"] = attempt.cost;
   json["spread"] = attempt.spread;
   json["repeats"] = attempt.repeats;
   json["energy"] = attempt.judgement.energy;
@@ -53,7 +53,7 @@ Attempt attemptFrom(const Json& json) {
   if (attempt.failure.empty()) {
     attempt.judgement.error = json.at("error").get<double>();
     attempt.judgement.energy = json.at("energy").get<std::vector<double>>();
-    attempt.cost = 1e-6 * json.at("cost_us").get<double>();
+    attempt.cost = json.at("cost_us").get<double>();
     attempt.spread = json.at("spread").get<double>();
     attempt.repeats = json.at("repeats").get<int>();
   }

@@ -49,7 +49,7 @@ std::string resultsCsv(const StudyResult& study) {
       csv << result.name << ',' << attempt.contestant << ',' << (attempt.dt > 0 ? exactly(attempt.dt) : "")
           << ',';
       if (attempt.failure.empty()) {
-        csv << exactly(attempt.judgement.error) << ',' << general(1e6 * attempt.cost, 6) << ','
+        csv << exactly(attempt.judgement.error) << ',' << general(attempt.cost, 6) << ','
             << general(attempt.spread, 3) << ',' << attempt.repeats << ',' << onFront(result, attempt)
             << ",\n";
       } else {
@@ -128,7 +128,7 @@ std::string resultsMarkdown(const StudyResult& study) {
     text << "| " << result.name << " |";
     for (const std::string& contestant : contestants) {
       const Attempt* const attempt = usualAttempt(result, contestant);
-      text << ' ' << (attempt != nullptr && attempt->failure.empty() ? general(1e6 * attempt->cost, 3) : "–")
+      text << ' ' << (attempt != nullptr && attempt->failure.empty() ? general(attempt->cost, 3) : "–")
            << " |";
     }
     text << '\n';
@@ -146,13 +146,13 @@ std::string resultsMarkdown(const StudyResult& study) {
       text << exact->failure << '\n';
       continue;
     }
-    text << "exact is wrong by " << inShort(exact->judgement.error) << " at " << general(1e6 * exact->cost, 3)
+    text << "exact is wrong by " << inShort(exact->judgement.error) << " at " << general(exact->cost, 3)
          << " µs/s;";
     for (const Attempt& other : result.attempts) {
       if (other.failure.empty() && other.cost < exact->cost &&
           other.judgement.error < exact->judgement.error) {
         text << ' ' << other.contestant << " (dt " << general(other.dt, 3) << ") by "
-             << inShort(other.judgement.error) << " at " << general(1e6 * other.cost, 3) << " µs/s;";
+             << inShort(other.judgement.error) << " at " << general(other.cost, 3) << " µs/s;";
       }
     }
     text << '\n';

@@ -1,0 +1,118 @@
+#include "study/error_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "study/difference.h"
+#include "support/exact_runs.h"
+#include "support/quad_room.h"
+
+namespace careen {
+namespace {
+
+World tumble() {
+  World world;
+  world.bodies = {box("book", Vec3(0.1, 0.2, 0.3), 1, Vec3::Zero(), Vec3(1, 0, 0), Vec3(1, 2, 3))};
+  return world;
+}
+
+// The largest angle to the closed form at the moments of the estimate.
+double trueAngle(const World& world, const Trajectory& run) {
+  const double duration = run.settings.duration;
+  const Trajectory truth = record(world, {.method = Method::kExact, .duration = duration}, "");
+  double worst = 0;
+  for (int k = 1; k <= kEstimateSamples; ++k) {
+    const double time = duration * k / kEstimateSamples;
+    worst = std::max(
+        worst, angleBetween(run.state(0, time).pose.worldFromBody, truth.state(0, time).pose.worldFromBody));
+  }
+  return worst;
+}
+
+TEST(ErrorEstimate, ofAMethodThatStepsIsItsTrueError) {
+  for (const MethodTraits& method : kMethods) {
+    if (!method.steps()) {
+      continue;
+    }
+    const double dt = method.order == 1   ? 1e-5
+                      : method.order == 2 ? 1.0 / 960
+                      : method.order < 10 ? 1.0 / 30
+                                          : 1.0 / 15;
+    const World world = tumble();
+    const Trajectory run = record(world, {.method = method.method, .duration = 2, .dt = dt}, "");
+    const std::optional<ErrorEstimate> estimate = estimateError(world, run);
+    ASSERT_TRUE(estimate.has_value());
+    EXPECT_EQ(estimate->by, "half the step");
+    EXPECT_EQ(estimate->until, 2);
+    EXPECT_FALSE(estimate->horizon.has_value());
+    // measured 0.9995 to 1.02
+    EXPECT_NEAR(estimate->angle / trueAngle(world, run), 1, 0.05) << method.name;
+    EXPECT_LT(estimate->position, 1e-12) << method.name;
+  }
+}
+
+TEST(ErrorEstimate, ofExactIsItsErrorAgainstAQuadrupleRun) {
+  World world = elasticRoom();
+  world.bodies[0].initial.pose.worldFromBody.setIdentity();
+  oracle::QuadRoom room(world);
+  for (int impact = 0; impact < 8; ++impact) {
+    room.strike();
+  }
+  const double end = static_cast<double>(room.time()) + 0.01;
+  const Trajectory run = record(world, {.method = Method::kExact, .duration = end}, "");
+  const std::optional<ErrorEstimate> estimate = estimateError(world, run);
+  ASSERT_TRUE(estimate.has_value());
+  EXPECT_EQ(estimate->by, "a start one rounding away");
+  double error = 0;
+  const auto corners = room.corners(Quad(end) - room.time());
+  const Pose pose = run.state(0, end).pose;
+  for (int k = 0; k < kCorners; ++k) {
+    const Vec3 at = pose.position + pose.worldFromBody * corner(world.bodies[0].halfExtents, k);
+    error = std::max(error, (at - corners.at(static_cast<std::size_t>(k)).cast<double>()).norm());
+  }
+  // One run's rounding against another's: the size of it, no more can be told. Measured 8.
+  const double told = estimate->position + estimate->angle * world.bodies[0].halfExtents.norm();
+  EXPECT_GT(told, error / 30);
+  EXPECT_LT(told, error * 30);
+  RecordProperty("told over true", std::to_string(told / error));
+}
+
+TEST(ErrorEstimate, findsWhereChaosTakesOver) {
+  const World world = elasticRoom();
+  const Trajectory run = record(world, {.method = Method::kExact, .duration = 30}, "");
+  const std::optional<ErrorEstimate> estimate = estimateError(world, run);
+  ASSERT_TRUE(estimate.has_value());
+  ASSERT_TRUE(estimate->horizon.has_value());
+  // The quadruple run and this one part after some 17 impacts.
+  EXPECT_GT(*estimate->horizon, 3);
+  EXPECT_LT(*estimate->horizon, 12);
+  EXPECT_LT(estimate->until, *estimate->horizon);
+  EXPECT_LE(estimate->position / world.bodies[0].halfExtents.norm(), kHorizonDifference);
+}
+
+TEST(ErrorEstimate, saysNothingWhereTheRunCannotBeRepeated) {
+  // Euler falls the less the longer its steps: with half of them the cube lands in time, and cannot rest.
+  World world;
+  world.gravity = Vec3(0, 0, -10);
+  world.walls = {wall("floor", Vec3(0, 0, 1), 0, 0)};
+  world.bodies = {box("cube", Vec3(0.5, 0.5, 0.5), 1, Vec3(0, 0, 1), Vec3::Zero(), Vec3::Zero(), 0)};
+  const Trajectory run = record(world, {.method = Method::kListing1, .duration = 0.33, .dt = 1.0 / 30}, "");
+  EXPECT_FALSE(estimateError(world, run).has_value());
+}
+
+TEST(ErrorEstimate, aStartOneRoundingAwayMovesNothingElse) {
+  World world = elasticRoom();
+  world.bodies.push_back(world.bodies[0]);
+  world.bodies[1].mass = immovable();
+  const World away = oneRoundingAway(world);
+  EXPECT_EQ(away.bodies[0].initial.pose.position.z(), 3 * (1 + 0x1p-52));
+  EXPECT_EQ(away.bodies[0].initial.pose.position.x(), 0);
+  EXPECT_EQ(away.bodies[0].initial.velocity.x(), 3 * (1 + 0x1p-52));
+  EXPECT_EQ(away.bodies[1].initial.pose.position, world.bodies[1].initial.pose.position);
+  EXPECT_EQ(away.walls[0].offset, world.walls[0].offset);
+}
+
+}  // namespace
+}  // namespace careen

@@ -1,0 +1,166 @@
+#include "study/measuring.h"
+
+#include <gtest/gtest.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <thread>
+
+#include "core/error.h"
+#include "support/exact_runs.h"
+
+namespace careen {
+namespace {
+
+// Moves everything along x at a speed of its own, wrong by dt, and takes as long as it is told to.
+class Drifter : public Contestant {
+ public:
+  Drifter(std::string name, double seconds) : name_(std::move(name)), seconds_(seconds) {}
+
+  std::string name() const override { return name_; }
+  std::string settings() const override { return "none"; }
+  bool steps() const override { return true; }
+  std::string refuses(const World& world) const override { return world.drag ? "no drag" : ""; }
+  States run(const World& world, double dt, std::span<const double> times,
+             const std::stop_token& stop) const override {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds_);
+    while (std::chrono::steady_clock::now() < end) {
+      if (stop.stop_requested()) {
+        throw Interrupted();
+      }
+    }
+    if (dt < 0.01) {
+      throw NumericalError("steps too short");
+    }
+    States states;
+    for (const double time : times) {
+      states.push_back({world.bodies[0].initial});
+      states.back()[0].pose.position += time * (world.bodies[0].initial.velocity + Vec3(dt, 0, 0));
+    }
+    return states;
+  }
+
+ private:
+  std::string name_;
+  double seconds_;
+};
+
+// A box of half diagonal 3 m that moves at 1 m/s along x for 4 s.
+Case drift(Measure measure) {
+  Case study;
+  study.measure = measure;
+  study.scene.dt = 0.1;
+  study.world.bodies = {box("crate", Vec3(1, 2, 2), 1, Vec3::Zero(), Vec3(1, 0, 0))};
+  study.times = {1, 4};
+  for (const double time : study.times) {
+    study.poses.push_back({{.position = Vec3(time, 0, 0)}});
+  }
+  return study;
+}
+
+double errorOf(const Case& study, double dt) {
+  return judge(study, answerOf(study, Drifter("drifter", 0), dt, {})).error;
+}
+
+TEST(Measuring, takesTheLargestErrorOfAllMoments) {
+  EXPECT_DOUBLE_EQ(errorOf(drift(Measure::kPoses), 0.3), 4 * 0.3 / 3);
+  Case known = drift(Measure::kPoses);
+  known.uncertainty = 0.7;  // of the truth itself
+  EXPECT_EQ(errorOf(known, 0.3), 0.7);
+}
+
+TEST(Measuring, sendsAReversedRunBack) {
+  // There with 1 + dt, back with −1 + dt.
+  EXPECT_DOUBLE_EQ(errorOf(drift(Measure::kReversal), 0.3), 2 * 4 * 0.3 / 3);
+  EXPECT_EQ(drift(Measure::kReversal).simulated(), 8);
+}
+
+TEST(Measuring, comparesAScaledCopyWithItsOriginal) {
+  Case study = drift(Measure::kScaled);
+  study.lengths = 4;
+  study.durations = 2;
+  study.original.bodies = {box("crate", Vec3(0.25, 0.5, 0.5), 1, Vec3::Zero(), Vec3(0.5, 0, 0))};
+  study.world.bodies[0].initial.velocity = Vec3(1, 0, 0);
+  // 4 s at 1 + dt, against 4 × 2 s at 0.5 + dt/2: the same.
+  EXPECT_DOUBLE_EQ(errorOf(study, 0.25), 0);
+  study.original.bodies[0].initial.velocity.x() = 0.75;
+  EXPECT_DOUBLE_EQ(errorOf(study, 0.25), 2. / 3);
+  EXPECT_EQ(study.simulated(), 6);
+}
+
+TEST(Measuring, tellsTheChangeOfEnergyOnlyWhereImpactsTakeNoneOut) {
+  Case study = drift(Measure::kEnergy);
+  const Judgement kept = judge(study, answerOf(study, Drifter("drifter", 0), 0.3, {}));
+  ASSERT_EQ(kept.energy.size(), 2U);
+  EXPECT_EQ(kept.error, 0);
+  study.world.walls = {wall("far", Vec3(1, 0, 0), -10, 0.5)};
+  study.world.bodies[0].material.restitution = 0.5;
+  EXPECT_TRUE(judge(study, answerOf(study, Drifter("drifter", 0), 0.3, {})).energy.empty());
+  study.world.bodies[0].material = {.restitution = 1, .friction = 0.5};
+  EXPECT_EQ(judge(study, answerOf(study, Drifter("drifter", 0), 0.3, {})).energy.size(), 2U);
+  study.world.walls[0].material.friction = 0.5;
+  EXPECT_TRUE(judge(study, answerOf(study, Drifter("drifter", 0), 0.3, {})).energy.empty());
+}
+
+TEST(Measuring, saysWhyThereIsNoAnswer) {
+  Contestants contestants;
+  contestants.push_back(std::make_unique<Drifter>("quick", 0));
+  contestants.push_back(std::make_unique<Drifter>("slow", 10));
+  const Effort effort{.longestRun = 0.05,
+                      .longestStep = 1,
+                      .timing = 0,
+                      .rounds = 3,
+                      .shortest = 1e-4,
+                      .steps = {2, 1, 0.01}};
+  const Case study = drift(Measure::kPoses);
+  const std::vector<Attempt> attempts = attemptAll(study, contestants, effort, {});
+  ASSERT_EQ(attempts.size(), 4U);
+  EXPECT_EQ(attempts[0].dt, 0.2);
+  EXPECT_DOUBLE_EQ(attempts[0].judgement.error, 4 * 0.2 / 3);
+  EXPECT_GT(attempts[0].cost, 0);
+  EXPECT_EQ(attempts[0].repeats, 2);  // at least, however little time there is
+  EXPECT_EQ(attempts[1].dt, 0.1);
+  EXPECT_EQ(attempts[2].failure, "steps too short");
+  EXPECT_EQ(attempts[2].repeats, 0);
+  // Given up at the first step, and told of the usual one.
+  EXPECT_EQ(attempts[3].contestant, "slow");
+  EXPECT_EQ(attempts[3].dt, 0.1);
+  EXPECT_EQ(attempts[3].failure, "not done after 0.05 s");
+  Case dragged = study;
+  dragged.world.drag = Drag{};
+  const std::vector<Attempt> refused = attemptAll(dragged, contestants, effort, {});
+  ASSERT_EQ(refused.size(), 2U);
+  EXPECT_EQ(refused[0].failure, "no drag");
+}
+
+TEST(Measuring, endsWhenInterrupted) {
+  Contestants contestants;
+  contestants.push_back(std::make_unique<Drifter>("slow", 60));
+  std::stop_source source;
+  std::jthread later([&source] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    source.request_stop();
+  });
+  EXPECT_THROW(attemptAll(drift(Measure::kPoses), contestants, fullEffort(), source.get_token()),
+               Interrupted);
+}
+
+TEST(Measuring, timesOnOneCoreAndGivesTheOthersBack) {
+  cpu_set_t before;
+  sched_getaffinity(0, sizeof(before), &before);
+  {
+    const Pinned pinned;
+    cpu_set_t during;
+    sched_getaffinity(0, sizeof(during), &during);
+    EXPECT_EQ(CPU_COUNT(&during), 1);
+  }
+  cpu_set_t after;
+  sched_getaffinity(0, sizeof(after), &after);
+  EXPECT_TRUE(CPU_EQUAL(&before, &after));
+}
+
+}  // namespace
+}  // namespace careen
