@@ -1,0 +1,135 @@
+#include "study/study.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "study/own_methods.h"
+#include "support/process.h"
+
+namespace careen {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Study : public testing::Test {
+ protected:
+  StudySettings settings(std::vector<std::string> cases) const {
+    return {
+        .cases = std::move(cases),
+        .effort =
+            {.longestRun = 1, .longestStep = 0.1, .timing = 0, .rounds = 2, .shortest = 1e-5, .steps = {1}},
+        .version = "1",
+        .folder = folder_.path(),
+        .resume = true};
+  }
+  // Names of the cases in the order they were told, those taken over with a star.
+  std::vector<std::string> run(const StudySettings& settings, const std::stop_token& stop = {}) {
+    std::vector<std::string> told;
+    results_ = runStudy(
+        settings, ownMethods(),
+        [&](const CaseResult& result, bool takenOver) {
+          told.push_back(result.name + (takenOver ? "*" : ""));
+        },
+        stop);
+    return told;
+  }
+
+  TemporaryFolder folder_;
+  std::vector<CaseResult> results_;
+};
+using Told = std::vector<std::string>;
+
+TEST_F(Study, takesOverWhatIsFinishedAndNothingElse) {
+  StudySettings some = settings({"free-fall", "landing-flat"});
+  EXPECT_EQ(run(some), (Told{"free-fall", "landing-flat"}));
+  const std::vector<CaseResult> first = results_;
+  EXPECT_EQ(run(some), (Told{"free-fall*", "landing-flat*"}));
+  EXPECT_EQ(encodeResult(results_[1]), encodeResult(first[1]));
+  // A file cut short is done again, and so is one of another version or with another effort.
+  writeFile(folder_ / "cases" / "free-fall.json", encodeResult(first[0]).substr(0, 100));
+  EXPECT_EQ(run(some), (Told{"free-fall", "landing-flat*"}));
+  some.version = "2";
+  EXPECT_EQ(run(some), (Told{"free-fall", "landing-flat"}));
+  some.effort.rounds = 3;
+  EXPECT_EQ(run(some), (Told{"free-fall", "landing-flat"}));
+  some.resume = false;
+  EXPECT_EQ(run(some), (Told{"free-fall", "landing-flat"}));
+}
+
+TEST_F(Study, leavesWhatIsFinishedWhenInterrupted) {
+  std::stop_source source;
+  Told told;
+  EXPECT_THROW(runStudy(
+                   settings({"free-fall", "landing-flat"}), ownMethods(),
+                   [&](const CaseResult& result, bool) {
+                     told.push_back(result.name);
+                     source.request_stop();
+                   },
+                   source.get_token()),
+               Interrupted);
+  EXPECT_EQ(told, (Told{"free-fall"}));
+  EXPECT_EQ(run(settings({"free-fall", "landing-flat"})), (Told{"free-fall*", "landing-flat"}));
+}
+
+TEST_F(Study, takesASceneOfOnesOwnAgainstExact) {
+  folder_.write("fall.json", R"({ "careen": 1, "name": "fall", "duration": 2, "gravity": [0, 0, -10],
+    "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "restitution": 1 },
+    "boxes": [ { "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1], "angular_velocity": [1, 2, 3] } ] })");
+  EXPECT_EQ(run(settings({(folder_ / "fall.json").string()})), (Told{"fall"}));
+  const Attempt& exact = *usualAttempt(results_[0], "exact");
+  EXPECT_GT(exact.judgement.error, 1e-16);  // what exact itself may be wrong by
+  EXPECT_LT(exact.judgement.error, 1e-8);   // measured 1.7e-10
+  EXPECT_GT(usualAttempt(results_[0], "listing1")->judgement.error, 1e-3);
+  EXPECT_LT(usualAttempt(results_[0], "taylor-8")->judgement.error, 1e-6);
+}
+
+TEST_F(Study, wantsDifferentNames) {
+  folder_.write("free-fall.json",
+                R"({ "careen": 1, "duration": 1, "boxes": [ { "half_extents": [1, 1, 1], "mass": 1 } ] })");
+  EXPECT_THROW(run(settings({"free-fall", (folder_ / "free-fall.json").string()})), InputError);
+}
+
+TEST_F(Study, pageHoldsEverythingAndNeedsNoNetwork) {
+  run(settings({"free-fall"}));
+  StudyResult study{.machine = "a <machine>", .command = "careen study free-fall", .cases = results_};
+  study.cases[0].attempts[1].failure = "it \"failed\"";
+  writeTables(study, folder_.path());
+  const std::string page = resultsPage(study, {"<?xml?><!DOCTYPE svg><svg id=\"plot\"></svg>"});
+  for (const char* const part :
+       {"a &lt;machine&gt;", "careen study free-fall", "<svg id=\"plot\"></svg>", "id=\"free-fall\"",
+        "title=\"it &quot;failed&quot;\"", "runge-kutta-4", "<b>exact</b> answers 1 of 1 cases"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  }
+  for (const char* const part : {"http:", "https:", "{{", "<?xml", "src="}) {
+    EXPECT_EQ(page.find(part), std::string::npos) << part;
+  }
+  for (const char* const file : {"results.csv", "energy.csv", "matrix.csv", "results.json", "results.md"}) {
+    EXPECT_TRUE(fs::exists(folder_ / file)) << file;
+  }
+}
+
+TEST_F(Study, drawsPlotsOfTheTables) {
+  run(settings({"room-minute"}));
+  const StudyResult study{.machine = "here", .command = "careen study", .cases = results_};
+  writeTables(study, folder_.path());
+  checkPlotter();
+  const std::vector<std::string> plots = drawPlots(study, folder_.path());
+  ASSERT_EQ(plots.size(), 1U);
+  EXPECT_NE(plots[0].find("taylor-8"), std::string::npos);
+  for (const char* const name : {"matrix", "room-minute", "room-minute-energy"}) {
+    const fs::path plot = folder_ / "plots" / name;
+    EXPECT_EQ(readFile(plot.string() + ".png").substr(1, 3), "PNG") << name;
+    EXPECT_NE(readFile(plot.string() + ".svg").find("<svg"), std::string::npos) << name;
+  }
+}
+
+}  // namespace
+}  // namespace careen
