@@ -189,9 +189,9 @@ ContactPoints boxContactPoints(const Pose& a, const Vec3& halfExtentsA, const Po
                                const Vec3& halfExtentsB) {
   const double radiusA = halfExtentsA.norm();
   const double radiusB = halfExtentsB.norm();
-  const double rounding =
-      kGapRounding * ((a.position.cwiseAbs().sum() + b.position.cwiseAbs().sum()) + (radiusA + radiusB));
-  const double within = std::max(kSimultaneous * std::min(radiusA, radiusB), rounding);
+  const double within =
+      touchingWithin(std::min(radiusA, radiusB),
+                     (a.position.cwiseAbs().sum() + b.position.cwiseAbs().sum()) + (radiusA + radiusB));
   const Vec3 bToA = a.position - b.position;
   const BoxAxes axes(a.worldFromBody, halfExtentsA, b.worldFromBody, halfExtentsB, bToA);
   const BoxAxis axis = contactAxis(axes, within);

@@ -71,8 +71,12 @@ MovingBox Mover::moving(const Instant& clockZero) const {
 bool touch(const Mover& a, const Mover& b, const Instant& time) {
   const double radiusA = a.body->halfExtents.norm();
   const double radiusB = b.body->halfExtents.norm();
-  const double within = kSimultaneous * std::min(radiusA, radiusB);
-  const Vec3 bToA = a.flight.positionAt(a.elapsed(time)) - b.flight.positionAt(b.elapsed(time));
+  const Vec3 positionA = a.flight.positionAt(a.elapsed(time));
+  const Vec3 positionB = b.flight.positionAt(b.elapsed(time));
+  const double within =
+      touchingWithin(std::min(radiusA, radiusB),
+                     positionA.cwiseAbs().sum() + positionB.cwiseAbs().sum() + radiusA + radiusB);
+  const Vec3 bToA = positionA - positionB;
   if (bToA.norm() > radiusA + radiusB + within) {
     return false;
   }

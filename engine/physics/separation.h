@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "core/linear_algebra.h"
@@ -19,10 +20,16 @@ inline constexpr double kGapRounding = 0x1p-49;
 /// approaching.
 inline constexpr double kRateRounding = 0x1p-46;
 /// [1] Contacts whose gap exceeds the smallest by less than this times the half diagonal of the smaller box
-/// happen at once. Chosen between the noise and the visible: attitudes carry 1e-15·(1+ωt), so after a long
-/// flight the four corners of a box that falls flat differ by up to 1e-12 of its size and still strike
-/// together; and a millimetre per metre of tilt is a million times more than this.
-inline constexpr double kSimultaneous = 0x1p-30;
+/// happen at once: 5e-13. Chosen between the noise, as the corners of a box that falls flat stay level to
+/// rounding while it turns about the vertical, and what the start of a scene can mean: a tilt of 1e-12 is
+/// one.
+inline constexpr double kSimultaneous = 0x1p-41;
+
+/// [m] Gaps below this are contact, at one moment: `radius` is the half diagonal of the smaller box,
+/// `lengths` what the gap is the difference of.
+inline double touchingWithin(double radius, double lengths) {
+  return std::max(kSimultaneous * radius, kGapRounding * lengths);
+}
 
 /// Corner k of a box is bit k of a set; corners as in corner().
 using CornerSet = unsigned;

@@ -203,10 +203,8 @@ double SteppedBody::gapOf(const Flying& flying) const {
   return lowest;
 }
 
-// [m] Of a gap, and well within what counts as touching.
 double SteppedBody::gapRounding() const {
-  const double size = body_.halfExtents.norm();
-  return std::min(kGapRounding * (now_.position.cwiseAbs().sum() + size), kSimultaneous * size / 4);
+  return kGapRounding * (now_.position.cwiseAbs().sum() + body_.halfExtents.norm());
 }
 
 // The gap is positive somewhere in (0, h), and negative at h: regula falsi, where the end that stays twice

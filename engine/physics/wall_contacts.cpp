@@ -9,7 +9,8 @@ namespace careen {
 
 double addWallContacts(const World& world, const Body& body, const Pose& pose, int index,
                        std::vector<ImpactContact>& contacts, std::vector<int>& partners) {
-  const double within = kSimultaneous * body.halfExtents.norm();
+  const double radius = body.halfExtents.norm();
+  const double within = touchingWithin(radius, pose.position.cwiseAbs().sum() + radius);
   double deepest = 0;
   for (std::size_t w = 0; w < world.walls.size(); ++w) {
     const Wall& wall = world.walls[w];
