@@ -150,7 +150,8 @@ TEST(Structure, onlyOneHeaderSpellsOutEigenTypes) {
   }
 }
 
-// <file>_test.cpp, or <file>_<aspect>_test.cpp where a source has more than one; the source may be the tests' own.
+// <file>_test.cpp, or <file>_<aspect>_test.cpp where a source has more than one; the source may be the tests'
+// own.
 TEST(Structure, testsMirrorTheSources) {
   for (const auto& [folder, mayInclude] : kMayInclude) {
     Names tested;

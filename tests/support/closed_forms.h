@@ -13,6 +13,35 @@ inline Quad restitutionOf(const QuadBox& box, const QuadWall& wall) {
   return box.restitution > wall.restitution ? box.restitution : wall.restitution;
 }
 
+inline QuadTurn turnAbout(const QuadVector& axis, const Quad& angle) {
+  const QuadVector v = sin(angle / 2) * axis;
+  return {cos(angle / 2), v[0], v[1], v[2]};
+}
+
+/// A symmetric top, free of forces: it precesses about L and spins about its own axis, both steadily.
+inline QuadPoses precessed(const QuadScene& scene, std::span<const double> times) {
+  const QuadBox& box = scene.boxes.at(0);
+  std::size_t axis = 0;
+  while (axis < 3 && box.moments.at((axis + 1) % 3) != box.moments.at((axis + 2) % 3)) {
+    ++axis;
+  }
+  const Quad& along = box.moments.at(axis);
+  const Quad& across = box.moments.at((axis + 1) % 3);
+  const QuadVector momentum(box.momentum[0], box.momentum[1], box.momentum[2]);
+  const Quad size = momentum.norm();
+  const QuadVector direction = turned(box.attitude, QuadVector(momentum / size));
+  QuadVector own(Quad(0), Quad(0), Quad(0));
+  own[static_cast<Eigen::Index>(axis)] = 1;
+  const Quad spin = box.momentum.at(axis) * (1 / along - 1 / across);
+  QuadPoses poses;
+  for (const double time : times) {
+    poses.push_back(
+        {fallen(scene, time), oracle::times(turnAbout(direction, size / across * time),
+                                            oracle::times(box.attitude, turnAbout(own, spin * time)))});
+  }
+  return poses;
+}
+
 /// A box dropped flat, at rest, on the floor z = 0: hops of 2 vₙ/g with vₙ = eⁿ sqrt(2 g h), at rest after
 /// sqrt(2 h/g) (1+e)/(1−e).
 inline QuadPoses dropped(const QuadScene& scene, std::span<const double> times) {

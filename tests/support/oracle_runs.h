@@ -19,15 +19,18 @@ inline QuadVector fallen(const QuadScene& scene, const Quad& time) {
   return box.position + time * (box.velocity + time / 2 * scene.gravity);
 }
 
-/// Free flight, turning by the Taylor series.
-inline QuadPoses flown(const QuadScene& scene, std::span<const double> times) {
-  FreeBody<Quad> body = scene.boxes.at(0).freeBody();
+/// Free flight, turning by the Taylor series. Of a Quad, order 30 serves; of a Wide, 48.
+template <class Real = Quad, std::size_t kOrder = 30>
+QuadPoses flown(const QuadScene& scene, std::span<const double> times) {
+  const QuadBox& box = scene.boxes.at(0);
+  FreeBody<Real> body{converted<Real>(box.moments), converted<Real>(box.momentum),
+                      normalized(converted<Real>(box.attitude))};
   QuadPoses poses;
-  Quad at = 0;
+  Real at = 0;
   for (const double time : times) {
-    advance(body, Quad(Quad(time) - at));
+    advance<Real, kOrder>(body, Real(Real(time) - at));
     at = time;
-    poses.push_back({fallen(scene, at), normalized(body.attitude)});
+    poses.push_back({fallen(scene, time), converted<Quad>(normalized(body.attitude))});
   }
   return poses;
 }

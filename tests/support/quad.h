@@ -11,4 +11,9 @@ using Quad = boost::multiprecision::number<
                                          -16382, 16383>,
     boost::multiprecision::et_off>;
 
+/// Half as wide again: where a motion multiplies even the roundings of a Quad.
+using Wide = boost::multiprecision::number<
+    boost::multiprecision::cpp_bin_float<192, boost::multiprecision::digit_base_2, void, boost::int32_t>,
+    boost::multiprecision::et_off>;
+
 }  // namespace careen

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,25 +12,37 @@
 namespace careen::oracle {
 
 using QuadVector = Vector3<Quad>;
-using QuadTurn = std::array<Quad, 4>;  // w x y z, a unit
+template <class Real>
+using Turn = std::array<Real, 4>;  // w x y z, a unit
+using QuadTurn = Turn<Quad>;
 
 /// Product of quaternions.
-inline QuadTurn times(const QuadTurn& a, const QuadTurn& b) {
+template <class Real>
+Turn<Real> times(const Turn<Real>& a, const Turn<Real>& b) {
   return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
           a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
           a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
           a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
 }
 inline QuadTurn inverse(const QuadTurn& q) { return {q[0], -q[1], -q[2], -q[3]}; }
-inline QuadTurn normalized(QuadTurn q) {
-  const Quad length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  for (Quad& part : q) {
+template <class Real>
+Turn<Real> normalized(Turn<Real> q) {
+  const Real length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  for (Real& part : q) {
     part /= length;
   }
   return q;
 }
+template <class To, class From, std::size_t kCount>
+std::array<To, kCount> converted(const std::array<From, kCount>& numbers) {
+  std::array<To, kCount> result;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    result[i] = static_cast<To>(numbers[i]);
+  }
+  return result;
+}
 inline QuadVector turned(const QuadTurn& q, const QuadVector& v) {
-  const QuadTurn r = times(times(q, {0, v[0], v[1], v[2]}), inverse(q));
+  const QuadTurn r = times(times(q, QuadTurn{0, v[0], v[1], v[2]}), inverse(q));
   return {r[1], r[2], r[3]};
 }
 
