@@ -42,7 +42,7 @@ struct Case {
 
 Boxes flies(const QuadScene& scene, Moments times) { return {oracle::flown(scene, times)}; }
 // Where a motion multiplies roundings until they would show in a double.
-Boxes fliesWide(const QuadScene& scene, Moments times) { return {oracle::flown<Wide, 48>(scene, times)}; }
+Boxes fliesWide(const QuadScene& scene, Moments times) { return {oracle::flown<Bits192, 48>(scene, times)}; }
 Boxes drops(const QuadScene& scene, Moments times) { return {dropped(scene, times)}; }
 
 Oracle strikes(double step, int impacts) {

@@ -17,8 +17,6 @@ namespace careen::study {
 namespace {
 
 using nlohmann::json;
-using oracle::QuadPoses;
-using oracle::QuadScene;
 
 // The same double, or its neighbor: rounding from quadruple precision may meet a tie.
 void expectSame(double file, double computed, const std::string& where) {

@@ -19,7 +19,7 @@ inline QuadVector fallen(const QuadScene& scene, const Quad& time) {
   return box.position + time * (box.velocity + time / 2 * scene.gravity);
 }
 
-/// Free flight, turning by the Taylor series. Of a Quad, order 30 serves; of a Wide, 48.
+/// Free flight, turning by the Taylor series. Of a Quad, order 30 serves; of a Bits192, 48.
 template <class Real = Quad, std::size_t kOrder = 30>
 QuadPoses flown(const QuadScene& scene, std::span<const double> times) {
   const QuadBox& box = scene.boxes.at(0);

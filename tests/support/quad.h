@@ -12,7 +12,7 @@ using Quad = boost::multiprecision::number<
     boost::multiprecision::et_off>;
 
 /// Half as wide again: where a motion multiplies even the roundings of a Quad.
-using Wide = boost::multiprecision::number<
+using Bits192 = boost::multiprecision::number<
     boost::multiprecision::cpp_bin_float<192, boost::multiprecision::digit_base_2, void, boost::int32_t>,
     boost::multiprecision::et_off>;
 
