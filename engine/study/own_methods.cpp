@@ -11,7 +11,13 @@ class OwnMethod : public Contestant {
   explicit OwnMethod(const MethodTraits& traits) : traits_(traits) {}
 
   std::string name() const override { return std::string(traits_.name); }
-  std::string settings() const override { return "careen's own"; }
+  std::string settings() const override {
+    if (!traits_.steps()) {
+      return "careen: closed forms from impact to impact, no steps";
+    }
+    return "careen: order " + std::to_string(traits_.order) +
+           (traits_.forces ? ", the loop of 1997" : ", impacts at the roots of the gap");
+  }
   bool steps() const override { return traits_.steps(); }
 
   std::string refuses(const World& world) const override {
