@@ -8,7 +8,7 @@ out = ARG5
 
 set title ARG3 noenhanced
 set xlabel "time [s]"
-set ylabel "|change of energy|, relative to the kinetic energy at the start"
+set ylabel "relative change of energy"
 set logscale y
 set format y "10^{%T}"
 set yrange [1e-17 : 1e3]

@@ -63,7 +63,9 @@ TEST(Truths, ofImpactsOnACornerAreThoseOfTheFiles) {
   expectTheFiles({"corner-impact", "scaled", "millimetre", "kilometre", "far-away", "thin-wall"});
 }
 
-TEST(Truths, ofGrazingAreThoseOfTheFiles) { expectTheFiles({"grazing-hit", "grazing-miss"}); }
+TEST(Truths, ofGrazingAreThoseOfTheFiles) {
+  expectTheFiles({"grazing-hit", "grazing-miss", "grazing-hit-tumbling", "grazing-miss-tumbling"});
+}
 
 TEST(Truths, ofRoomsAndBilliardAreThoseOfTheFiles) {
   expectTheFiles({"room-million", "room-minute", "reversal", "galperin"});

@@ -10,7 +10,7 @@ namespace careen::oracle {
 
 /// A second oracle of free turning, which shares neither equations nor method with the Taylor series: the
 /// attitude alone by q' = ½ ω q with ω = A I⁻¹ Aᵀ L in the world, L constant; the midpoint rule, extrapolated
-/// to step 0 (W. B. Gragg 1965; R. Bulirsch, J. Stoer 1966). Wider, because extrapolation multiplies
+/// to step 0 (W. B. Gragg 1965; R. Bulirsch, J. Stoer 1966). In 192 bits, because extrapolation multiplies
 /// roundings.
 class ExtrapolatedTop {
  public:

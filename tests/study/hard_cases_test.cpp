@@ -1,0 +1,138 @@
+// Errors on the hard cases, as the study measures them: those of exact on all, those of the methods that step
+// on some, so that one that is broken is seen.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "study/case.h"
+#include "study/measuring.h"
+#include "study/own_methods.h"
+
+namespace careen {
+namespace {
+
+double errorOf(const std::string& method, const std::string& name) {
+  const Case study = readCase(name);
+  for (const auto& contestant : ownMethods()) {
+    if (contestant->name() == method) {
+      EXPECT_EQ(contestant->refuses(study.world), "");
+      return judge(study, answerOf(study, *contestant, study.scene.dt, {})).error;
+    }
+  }
+  ADD_FAILURE() << "no method " << method;
+  return 0;
+}
+
+struct Measured {
+  std::string method;
+  std::string name;
+  double error;
+};
+
+std::string nameOf(const testing::TestParamInfo<Measured>& info) {
+  std::string name = info.param.method + "_" + info.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+// Measured. Rounding may come out three times as large elsewhere, and no more.
+const std::vector<Measured> kExact = {
+    {"exact", "tumble-generic", 1.1e-15},
+    {"exact", "tumble-middle-axis", 1.2e-14},
+    {"exact", "separatrix-1e-3", 3.9e-15},
+    {"exact", "separatrix-1e-6", 7.7e-15},
+    {"exact", "separatrix-1e-9", 8.9e-15},
+    {"exact", "needle", 3.2e-14},
+    {"exact", "plate", 1.2e-15},
+    {"exact", "fast-spin", 6.9e-13},  // ten thousand radians
+    {"exact", "free-fall", 8.5e-14},
+    {"exact", "bounce-1000", 8e-13},  // 894 s, rounded to 1.1e-13 s
+    {"exact", "zeno-half", 7.7e-16},
+    {"exact", "zeno-nine", 1.1e-14},
+    {"exact", "corner-impact", 3.9e-15},
+    {"exact", "landing-flat", 1.7e-15},
+    {"exact", "landing-edge", 2.7e-14},
+    {"exact", "landing-room-corner", 4.4e-16},
+    {"exact", "grazing-hit", 5.6e-13},
+    {"exact", "grazing-miss", 6.3e-16},
+    {"exact", "grazing-hit-tumbling", 4.1e-13},
+    {"exact", "grazing-miss-tumbling", 1.6e-15},
+    {"exact", "near-simultaneous-1e-3", 2e-14},
+    {"exact", "near-simultaneous-1e-6", 1.9e-15},
+    {"exact", "near-simultaneous-1e-9", 4.7e-15},
+    {"exact", "near-simultaneous-1e-12", 1.6e-15},
+    {"exact", "thin-wall", 9.5e-14},
+    {"exact", "galperin", 2.1e-12},  // the light box is struck 314 times, at up to 100 m/s
+    {"exact", "room-minute", 2.9e-15},
+    {"exact", "room-million", 1.7e-12},
+    {"exact", "reversal", 8.9e-12},
+    {"exact", "millimetre", 2.8e-15},
+    {"exact", "kilometre", 2.9e-15},
+    {"exact", "far-away", 1.5e-10},  // positions are rounded to 1.2e-10 m there
+    {"exact", "scaled", 0},          // to the bit
+};
+
+class ExactOnHardCases : public testing::TestWithParam<Measured> {};
+
+TEST_P(ExactOnHardCases, isAsGoodAsItWas) {
+  const double error = errorOf(GetParam().method, GetParam().name);
+  RecordProperty("error", std::to_string(error));
+  EXPECT_LE(error, 3 * GetParam().error);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ExactOnHardCases, testing::ValuesIn(kExact), nameOf);
+
+TEST(HardCases, areAllHeldByABoundOnExact) {
+  std::vector<std::string> held;
+  for (const Measured& each : kExact) {
+    held.push_back(each.name);
+  }
+  std::vector<std::string> known = caseNames();
+  std::sort(held.begin(), held.end());
+  std::sort(known.begin(), known.end());
+  EXPECT_EQ(held, known);
+}
+
+// What a step costs in error, measured; the bad ones are asserted to be bad. A factor of 1.5 either way, for
+// these are no roundings.
+const std::vector<Measured> kStepped = {
+    {"listing1", "tumble-generic", 0.69},
+    {"strang", "tumble-generic", 2e-6},
+    {"runge-kutta-4", "tumble-generic", 1e-9},
+    {"listing1", "tumble-middle-axis", 2.8},
+    {"strang", "tumble-middle-axis", 6.2e-4},
+    {"runge-kutta-4", "tumble-middle-axis", 2.6e-8},
+    {"splitting-6", "tumble-middle-axis", 9.7e-9},
+    {"taylor-8", "tumble-middle-axis", 1.2e-9},
+    {"moser-veselov-10", "tumble-middle-axis", 5.4e-10},
+    {"strang", "corner-impact", 7.1e-5},
+    {"runge-kutta-4", "corner-impact", 2e-7},
+    {"strang", "fast-spin", 1.7},
+    {"runge-kutta-4", "fast-spin", 0.54},
+    {"splitting-6", "fast-spin", 1.2e-8},
+    {"taylor-8", "fast-spin", 1.8e-6},
+    {"moser-veselov-10", "fast-spin", 3.7e-10},
+};
+
+class SteppedOnHardCases : public testing::TestWithParam<Measured> {};
+
+TEST_P(SteppedOnHardCases, isAsWrongAsItWas) {
+  const double error = errorOf(GetParam().method, GetParam().name);
+  EXPECT_LT(error, 1.5 * GetParam().error);
+  EXPECT_GT(error, GetParam().error / 1.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SteppedOnHardCases, testing::ValuesIn(kStepped), nameOf);
+
+// Beyond what a double resolves, all that step with more than order 2 are at their rounding.
+TEST(HardCases, ofOneImpactAreDoneByHighOrdersToRounding) {
+  for (const char* const method : {"splitting-6", "taylor-8", "moser-veselov-10"}) {
+    EXPECT_LT(errorOf(method, "corner-impact"), 1e-13) << method;   // measured 5e-15 to 1.4e-14
+    EXPECT_LT(errorOf(method, "tumble-generic"), 1e-13) << method;  // measured 7e-15 to 3e-14
+  }
+}
+
+}  // namespace
+}  // namespace careen
