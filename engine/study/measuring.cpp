@@ -148,7 +148,7 @@ Effort fullEffort() {
 }
 
 Effort quickEffort() {
-  return {.longestRun = 1,
+  return {.longestRun = 1.5,
           .longestStep = 0.02,
           .timing = 0.5,
           .rounds = 3,
