@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct Measured {
   std::string name;
   double error;
 };
+// For messages; the name is one that GoogleTest looks for.
+void PrintTo(const Measured& measured, std::ostream* out) {  // NOLINT(readability-identifier-naming)
+  *out << measured.method << " on " << measured.name << ", measured " << measured.error;
+}
 
 std::string nameOf(const testing::TestParamInfo<Measured>& info) {
   std::string name = info.param.method + "_" + info.param.name;
