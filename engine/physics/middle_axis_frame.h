@@ -28,12 +28,14 @@ template <class Real>
 struct MiddleAxisFrame {
   enum class X { kSmallerRate, kLargerRate };
 
-  int x, y, z;          // the body axes
+  int x = 0;  // the body axes
+  int y = 2;
+  int z = 1;
   Real sign;            // of z
   Real alphaX, alphaY;  // [1/(kg m²)] 1/I − 1/Ib
   Real perMiddle;       // [1/(kg m²)] 1/Ib
 
-  MiddleAxisFrame(const Vector3<Real>& inertia, X which) : x(0), y(2), z(1) {
+  MiddleAxisFrame(const Vector3<Real>& inertia, X which) {
     using std::abs;
     const auto sort = [&](int& low, int& high) {
       if (inertia[high] < inertia[low]) {

@@ -27,10 +27,12 @@ Vector3<Real> inverseModifiedMoments(const Vector3<Real>& inertia, const Vector3
   const Real e22 = e2 * e2;
   const Real e33 = e3 * e3;
   const Real e13 = e1 * e3;
+  // NOLINTBEGIN(readability-identifier-naming): energy and length as papers write them
   const Real H = h * h / 2 * momentumBody.cwiseProduct(inverse).dot(momentumBody);
   const Real C = h * h / 2 * momentumBody.squaredNorm();
   const Real H2 = H * H;
   const Real C2 = C * C;
+  // NOLINTEND(readability-identifier-naming)
 
   const Real s1 = (C * e2 - 2 * H * e1) / 6;
   const Real d1 = (H * e2 - 2 * C * e3) / 6;

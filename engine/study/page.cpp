@@ -48,7 +48,7 @@ std::string cell(const Attempt* attempt) {
     return "<td></td>";
   }
   if (!attempt->failure.empty()) {
-    return "<td class=\"none\" title=\"" + escaped(attempt->failure) + "\">–</td>";
+    return R"(<td class="none" title=")" + escaped(attempt->failure) + "\">–</td>";
   }
   const double digits = correctDigits(attempt->judgement.error);
   return "<td style=\"background:" + colourOf(digits) + (digits < 3 ? ";color:white" : "") + "\">" +
@@ -89,7 +89,7 @@ std::string attemptsOf(const CaseResult& result) {
             << "</td><td>" << inShort(attempt.spread) << "</td><td>" << attempt.repeats << "</td><td>"
             << (onFront(result, attempt) ? "yes" : "") << "</td></tr>\n";
     } else {
-      table << "<td colspan=\"5\" class=\"none\">" << escaped(attempt.failure) << "</td></tr>\n";
+      table << R"(<td colspan="5" class="none">)" << escaped(attempt.failure) << "</td></tr>\n";
     }
   }
   table << "</table>\n";
