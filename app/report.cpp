@@ -34,6 +34,26 @@ nlohmann::ordered_json estimateReport(const std::optional<ErrorEstimate>& estima
   return report;
 }
 
+void printEstimate(std::ostream& out, const Run& run) {
+  if (!run.estimated) {
+    return;
+  }
+  out << "estimate     ";
+  if (!run.estimate) {
+    out << "none: the run could not be repeated to its end\n";
+    return;
+  }
+  const ErrorEstimate& estimate = *run.estimate;
+  out << std::setprecision(2) << "wrong by " << estimate.position << " m and " << estimate.angle
+      << " rad at most, " << std::setprecision(3);
+  if (estimate.horizon) {
+    out << "until " << estimate.until << " s; from " << *estimate.horizon << " s on chaos has taken over";
+  } else {
+    out << "to the end";
+  }
+  out << " (by " << estimate.by << ")\n";
+}
+
 }  // namespace
 
 nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
@@ -94,26 +114,6 @@ void printSummary(std::ostream& out, const Run& run, double wallSeconds) {
   out << '\n';
   printError(out, run.trajectory);
   printEstimate(out, run);
-}
-
-void printEstimate(std::ostream& out, const Run& run) {
-  if (!run.estimated) {
-    return;
-  }
-  out << "estimate     ";
-  if (!run.estimate) {
-    out << "none: the run could not be repeated to its end\n";
-    return;
-  }
-  const ErrorEstimate& estimate = *run.estimate;
-  out << std::setprecision(2) << "wrong by " << estimate.position << " m and " << estimate.angle
-      << " rad at most, " << std::setprecision(3);
-  if (estimate.horizon) {
-    out << "until " << estimate.until << " s; from " << *estimate.horizon << " s on chaos has taken over";
-  } else {
-    out << "to the end";
-  }
-  out << " (by " << estimate.by << ")\n";
 }
 
 }  // namespace careen

@@ -15,6 +15,5 @@ void printSummary(std::ostream& out, const Run& run, double wallSeconds);
 /// Parts of it.
 void printPlan(std::ostream& out, const Scene& scene, const Plan& plan);
 void printError(std::ostream& out, const Trajectory& trajectory);
-void printEstimate(std::ostream& out, const Run& run);
 
 }  // namespace careen

@@ -84,9 +84,8 @@ void printCase(const CaseResult& result, bool takenOver) {
   const Attempt* const exact = usualAttempt(result, "exact");
   std::cout << std::left << std::setw(24) << result.name;
   if (exact != nullptr && exact->failure.empty()) {
-    std::cout << "exact: error " << std::setw(8) << inShort(exact->judgement.error)
-              << inShort(exact->cost) << " us/s"
-              << (onFront(result, *exact) ? "" : ", not on the front");
+    std::cout << "exact: error " << std::setw(8) << inShort(exact->judgement.error) << inShort(exact->cost)
+              << " us/s" << (onFront(result, *exact) ? "" : ", not on the front");
   } else if (exact != nullptr) {
     std::cout << "exact: " << exact->failure;
   }

@@ -29,6 +29,11 @@ Energy energyOf(const World& world, std::span<const BodyState> states) {
   return energy;
 }
 
+bool isFinite(const BodyState& state) {
+  return state.pose.position.allFinite() && state.pose.worldFromBody.allFinite() &&
+         state.velocity.allFinite() && state.angularMomentum.allFinite();
+}
+
 Vec3 linearMomentum(const World& world, std::span<const BodyState> states) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < states.size(); ++i) {

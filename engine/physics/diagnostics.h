@@ -18,6 +18,9 @@ struct Energy {
 };
 Energy energyOf(const World& world, std::span<const BodyState> states);
 
+/// Whether every number of it is finite.
+bool isFinite(const BodyState& state);
+
 /// Σ M v, [kg m/s].
 Vec3 linearMomentum(const World& world, std::span<const BodyState> states);
 

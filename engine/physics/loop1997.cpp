@@ -56,11 +56,6 @@ std::vector<BodyState> initialStates(const World& world) {
   return states;
 }
 
-bool isFinite(const BodyState& state) {
-  return state.pose.position.allFinite() && state.pose.worldFromBody.allFinite() &&
-         state.velocity.allFinite() && state.angularMomentum.allFinite();
-}
-
 std::string inSeconds(double time) {
   std::ostringstream text;
   text << time << " s";

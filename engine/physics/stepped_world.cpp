@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "physics/diagnostics.h"
 #include "physics/event_queue.h"
 #include "physics/flight_account.h"
 #include "physics/free_methods.h"
@@ -60,7 +61,7 @@ class SteppedBody {
   Flying after(double h, std::int64_t count = 1) const;
   double gapOf(const Flying& flying) const;
   double gapRounding() const;
-  double contactWithin(double h) const;
+  double contactWithin(double h, double gapAtEnd) const;
   void strike();
 
   double stepEnd(std::int64_t step) const;
@@ -121,7 +122,7 @@ void SteppedBody::step(double end) {
     if (gap >= -gapRounding()) {
       moveTo(next, end);
     } else {
-      const double contact = contactWithin(h);
+      const double contact = contactWithin(h, gap);
       moveTo(after(contact), time_ + contact);
     }
     if (gap <= gapRounding()) {
@@ -178,7 +179,7 @@ void SteppedBody::moveTo(const Flying& next, double time) {
   now_ = next;
   time_ = time;
   const BodyState state = now_.state();
-  if (!(state.pose.position.allFinite() && state.angularMomentum.allFinite())) {
+  if (!isFinite(state)) {
     throw NumericalError(where() + "is nowhere: its state is no longer finite; take a smaller dt");
   }
   account_.passes(static_cast<std::size_t>(index_), state);
@@ -209,9 +210,9 @@ double SteppedBody::gapRounding() const {
 
 // The gap is positive somewhere in (0, h), and negative at h: regula falsi, where the end that stays twice
 // counts half (the Illinois rule).
-double SteppedBody::contactWithin(double h) const {
+double SteppedBody::contactWithin(double h, double gapAtEnd) const {
   double high = h;
-  double gapHigh = gapOf(after(high));
+  double gapHigh = gapAtEnd;
   double low = 0;
   double gapLow = gapOf(now_);
   // What has just struck leaves first.

@@ -234,7 +234,7 @@ std::vector<Attempt> attemptAll(const Case& study, const Contestants& contestant
                          .samples = {}});
       }
       // A table needs the usual step of everything; the rest as long as it is quickly done.
-      if (seconds > effort.longestRun) {
+      if (seconds > effort.longestRun && !attempts.back().failure.empty()) {
         attempts.back().dt = std::min(dt, usual);
         break;
       }

@@ -4,17 +4,9 @@
 #include <cstddef>
 
 #include "core/error.h"
+#include "physics/diagnostics.h"
 
 namespace careen {
-namespace {
-
-bool isFinite(const BodyState& state) {
-  return state.pose.position.allFinite() && state.pose.worldFromBody.allFinite() &&
-         state.velocity.allFinite() && state.angularMomentum.allFinite();
-}
-
-}  // namespace
-
 std::string Peer::refuses(const World& world) const {
   return world.springs.empty() && !world.drag ? "" : "no springs, no drag";
 }

@@ -33,14 +33,24 @@ std::string stampOf(const Case& study, const Contestants& contestants, const Stu
   for (const auto& contestant : contestants) {
     hash.add(contestant->name() + contestant->settings());
   }
-  for (const double number : {settings.effort.longestRun, settings.effort.longestStep, settings.effort.timing,
-                              static_cast<double>(settings.effort.rounds)}) {
+  const Effort& effort = settings.effort;
+  for (const double number : {effort.longestRun, effort.longestStep, effort.timing,
+                              static_cast<double>(effort.rounds), effort.shortest}) {
     hash.add(number);
+  }
+  for (const std::vector<double>& numbers : {effort.steps, study.times}) {
+    for (const double number : numbers) {
+      hash.add(number);
+    }
   }
   for (const std::vector<Pose>& poses : study.poses) {
     for (const Pose& pose : poses) {
-      hash.add(pose.position.x());
-      hash.add(pose.worldFromBody(0, 0));
+      for (const double number : pose.position) {
+        hash.add(number);
+      }
+      for (const double number : pose.worldFromBody.reshaped()) {
+        hash.add(number);
+      }
     }
   }
   return hash.text();
@@ -55,7 +65,7 @@ std::optional<CaseResult> finished(const fs::path& path, const std::string& stam
   return result && result->stamp == stamp ? result : std::nullopt;
 }
 
-// "model name : X" of the first processor; empty where the system does not tell.
+// "model name : X" of the first processor.
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

@@ -37,6 +37,58 @@ std::string cell(const Attempt* attempt) {
   return attempt->failure.empty() ? inShort(attempt->judgement.error) : "–";
 }
 
+// A row for each case, a column for each contestant.
+template <class CellOf>
+void addTable(std::ostream& text, const StudyResult& study, CellOf cellOf) {
+  const std::vector<std::string> contestants = study.contestants();
+  text << "| case |";
+  for (const std::string& contestant : contestants) {
+    text << ' ' << contestant << " |";
+  }
+  text << "\n|---|";
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    text << "---|";
+  }
+  text << '\n';
+  for (const CaseResult& result : study.cases) {
+    text << "| " << result.name << " |";
+    for (const std::string& contestant : contestants) {
+      text << ' ' << cellOf(usualAttempt(result, contestant)) << " |";
+    }
+    text << '\n';
+  }
+}
+
+void addFindings(std::ostream& text, const StudyResult& study) {
+  text << "\n## Where another answer is both cheaper and better than that of exact\n\n";
+  bool any = false;
+  for (const CaseResult& result : study.cases) {
+    const Attempt* const exact = usualAttempt(result, "exact");
+    if (exact == nullptr || onFront(result, *exact)) {
+      continue;
+    }
+    any = true;
+    text << "- " << result.name << ": ";
+    if (!exact->failure.empty()) {
+      text << exact->failure << '\n';
+      continue;
+    }
+    text << "exact is wrong by " << inShort(exact->judgement.error) << " at " << general(exact->cost, 3)
+         << " µs/s;";
+    for (const Attempt& other : result.attempts) {
+      if (other.failure.empty() && other.cost < exact->cost &&
+          other.judgement.error < exact->judgement.error) {
+        text << ' ' << other.contestant << " (dt " << general(other.dt, 3) << ") by "
+             << inShort(other.judgement.error) << " at " << general(other.cost, 3) << " µs/s;";
+      }
+    }
+    text << '\n';
+  }
+  if (!any) {
+    text << "In no case.\n";
+  }
+}
+
 }  // namespace
 
 std::string inShort(double value) { return general(value, 2); }
@@ -63,8 +115,9 @@ std::string resultsCsv(const StudyResult& study) {
 std::string energyCsv(const StudyResult& study) {
   std::ostringstream csv;
   csv << "case,contestant,time,change\n";
+  const std::vector<std::string> contestants = study.contestants();
   for (const CaseResult& result : study.cases) {
-    for (const std::string& contestant : study.contestants()) {
+    for (const std::string& contestant : contestants) {
       const Attempt* const attempt = usualAttempt(result, contestant);
       for (std::size_t k = 0; attempt != nullptr && k < attempt->judgement.energy.size(); ++k) {
         csv << result.name << ',' << contestant << ',' << exactly(result.times[k]) << ','
@@ -93,73 +146,17 @@ std::string matrixCsv(const StudyResult& study) {
 
 std::string resultsMarkdown(const StudyResult& study) {
   std::ostringstream text;
-  const std::vector<std::string> contestants = study.contestants();
   text << "# Speed against error\n\n"
        << "Made by `" << study.command << "` on " << study.machine << ".\n\n"
        << "## Errors at the usual step\n\n"
        << "Largest distance from the truth in half diagonals, or angle in radians; in cases of energy its\n"
-       << "largest relative change. – stands where there is no answer; the reason is in results.csv.\n\n| "
-          "case |";
-  for (const std::string& contestant : contestants) {
-    text << ' ' << contestant << " |";
-  }
-  text << "\n|---|";
-  for (std::size_t i = 0; i < contestants.size(); ++i) {
-    text << "---|";
-  }
-  text << '\n';
-  for (const CaseResult& result : study.cases) {
-    text << "| " << result.name << " |";
-    for (const std::string& contestant : contestants) {
-      text << ' ' << cell(usualAttempt(result, contestant)) << " |";
-    }
-    text << '\n';
-  }
-  text << "\n## What the answers cost\n\nµs of one core per simulated second, at the usual step.\n\n| case |";
-  for (const std::string& contestant : contestants) {
-    text << ' ' << contestant << " |";
-  }
-  text << "\n|---|";
-  for (std::size_t i = 0; i < contestants.size(); ++i) {
-    text << "---|";
-  }
-  text << '\n';
-  for (const CaseResult& result : study.cases) {
-    text << "| " << result.name << " |";
-    for (const std::string& contestant : contestants) {
-      const Attempt* const attempt = usualAttempt(result, contestant);
-      text << ' ' << (attempt != nullptr && attempt->failure.empty() ? general(attempt->cost, 3) : "–")
-           << " |";
-    }
-    text << '\n';
-  }
-  text << "\n## Where another answer is both cheaper and better than that of exact\n\n";
-  bool any = false;
-  for (const CaseResult& result : study.cases) {
-    const Attempt* const exact = usualAttempt(result, "exact");
-    if (exact == nullptr || onFront(result, *exact)) {
-      continue;
-    }
-    any = true;
-    text << "- " << result.name << ": ";
-    if (!exact->failure.empty()) {
-      text << exact->failure << '\n';
-      continue;
-    }
-    text << "exact is wrong by " << inShort(exact->judgement.error) << " at " << general(exact->cost, 3)
-         << " µs/s;";
-    for (const Attempt& other : result.attempts) {
-      if (other.failure.empty() && other.cost < exact->cost &&
-          other.judgement.error < exact->judgement.error) {
-        text << ' ' << other.contestant << " (dt " << general(other.dt, 3) << ") by "
-             << inShort(other.judgement.error) << " at " << general(other.cost, 3) << " µs/s;";
-      }
-    }
-    text << '\n';
-  }
-  if (!any) {
-    text << "In no case.\n";
-  }
+       << "largest relative change. – stands where there is no answer; the reason is in results.csv.\n\n";
+  addTable(text, study, [](const Attempt* attempt) { return cell(attempt); });
+  text << "\n## What the answers cost\n\nµs of one core per simulated second, at the usual step.\n\n";
+  addTable(text, study, [](const Attempt* attempt) {
+    return attempt != nullptr && attempt->failure.empty() ? general(attempt->cost, 3) : std::string("–");
+  });
+  addFindings(text, study);
   return text.str();
 }
 
