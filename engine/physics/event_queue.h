@@ -34,6 +34,7 @@ enum class EventKind {
   kContact,   ///< the gap to the partner closes
   kTouching,  ///< the gap to the partner stays zero
   kCrossing,  ///< the body enters another cell of the neighbour search
+  kStep,      ///< a step of the body's island ends
 };
 
 /// What is to happen to one body next. Bodies and partners are ranks, their places among the names; a partner

@@ -20,10 +20,6 @@ namespace {
 // an end to what would go on for ever.
 constexpr int kMostAtOneMoment = 1000;
 
-constexpr const char* kNeedsContact =
-    ". That takes the motion Contact, which method exact does not have; end the run before it, or give the "
-    "pair more restitution";
-
 std::vector<std::size_t> ranked(const World& world) {
   std::vector<std::size_t> order(world.bodies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -41,27 +37,41 @@ std::vector<double> radiiOf(const World& world) {
   return radii;
 }
 
-bool movesAlike(const BodyState& x, const BodyState& y) {
-  return x.velocity == y.velocity && x.angularMomentum == y.angularMomentum;
-}
-
 }  // namespace
 
-ExactWorld::ExactWorld(const World& world, double duration, Recorder& recorder)
+ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder)
     : world_(world),
-      end_(duration),
+      end_(settings.duration),
+      tolerance_(settings.tolerance),
+      stride_(strideOf(world, settings.tolerance)),
       recorder_(recorder),
       neighbors_(radiiOf(world)),
       queue_(world.bodies.size()),
-      account_(world) {
+      account_(world),
+      forced_(world.bodies.size(), world.drag ? 1 : 0),
+      springs_(world.bodies.size()) {
+  std::vector<int> rankOf(world.bodies.size());
   for (const std::size_t listed : ranked(world)) {
+    rankOf[listed] = static_cast<int>(movers_.size());
     Mover& mover = movers_.emplace_back();
     mover.body = &world.bodies[listed];
     mover.listed = {static_cast<int>(listed)};
   }
+  for (const Spring& spring : world.springs) {
+    for (const SpringEnd* end : {&spring.from, &spring.to}) {
+      const SpringEnd& other = end == &spring.from ? spring.to : spring.from;
+      if (end->body) {
+        const auto rank = static_cast<std::size_t>(rankOf[static_cast<std::size_t>(*end->body)]);
+        forced_[rank] = 1;
+        if (other.body) {
+          springs_[rank].push_back(rankOf[static_cast<std::size_t>(*other.body)]);
+        }
+      }
+    }
+  }
 }
 
-// The whole method, from here to moveOn().
+// The whole method, from here to end().
 
 RunFigures ExactWorld::run(const std::stop_token& stop) {
   begin();
@@ -88,7 +98,11 @@ void ExactWorld::begin() {
   }
   account_.parted();
   for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
-    predict(rank);
+    if (isForced(rank) && !mover(rank).isHeld()) {
+      queue_.set({.time = {}, .kind = EventKind::kTouching, .body = rank, .partner = wallPartner(0)});
+    } else {
+      predict(rank);
+    }
   }
 }
 
@@ -99,31 +113,46 @@ void ExactWorld::happen(const Event& event) {
     predict(event.body);
   } else if (event.partner >= 0 && mover(event.partner).motion != event.partnerMotion) {
     predict(event.body);
+  } else if (event.kind == EventKind::kStep && mover(event.body).touchers->step.end == Island::End::kGoesOn) {
+    advance(mover(event.body).touchers, event.time);
   } else {
     Group group = gather(event);
     resolve(group);
     settle(group);
-    if (event.kind == EventKind::kTouching) {
-      checkParts(group, event);
-    }
     record(group);
     moveOn(group);
   }
 }
 
-// What came before ends, the impact's bodies get their next motions, and only they are predicted again.
-void ExactWorld::moveOn(const Group& group) {
+// What came before ends, the event's bodies get their next motions, and only they are predicted again.
+void ExactWorld::moveOn(Group& group) {
   for (std::size_t i = 0; i < group.ranks.size(); ++i) {
-    const int rank = group.ranks[i];
-    if (group.restsFrom[i]) {
-      rest(rank, *group.restsFrom[i], group.after[i].pose);
-    } else if (!mover(rank).isHeld() && (mover(rank).flies || !movesAlike(group.before[i], group.after[i]))) {
-      fly(rank, group.time, group.after[i], group.attitudes[i]);
+    if (group.next[i] == Next::kRests) {
+      rest(group.ranks[i], group.since[i], group.after[i].pose);
+    } else if (group.next[i] == Next::kFlies) {
+      fly(group.ranks[i], group.time, group.after[i], group.attitudes[i]);
     }
   }
+  for (const std::shared_ptr<Touchers>& touchers : group.islands) {
+    touch(touchers, group.time);
+  }
   account_.parted();
-  for (const int rank : group.ranks) {
-    predict(rank);
+  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
+    predict(group.ranks[i]);
+    if (group.next[i] == Next::kRests) {
+      predictAround(group.ranks[i]);
+    }
+  }
+}
+
+// What rests looks out for nobody: those that move must look out for it.
+void ExactWorld::predictAround(int rank) {
+  std::vector<Neighbors::Key> around;
+  neighbors_.findCandidates(rank, around);
+  for (const Neighbors::Key candidate : around) {
+    if (mover(candidate).moves()) {
+      predict(candidate);
+    }
   }
 }
 
@@ -131,199 +160,6 @@ void ExactWorld::end() {
   for (const Mover& body : movers_) {
     if (body.flies) {
       arrive(body, end_, body.stateAt(end_));
-    }
-  }
-}
-
-// ---- The group of bodies that touch.
-
-ExactWorld::Group ExactWorld::gather(const Event& event) {
-  Group group;
-  group.time = event.time;
-  group.ranks = touchingFrom(event);
-  for (const int rank : group.ranks) {
-    group.attitudes.push_back(mover(rank).attitudeAt(event.time));
-    group.before.push_back(mover(rank).stateAt(event.time, group.attitudes.back()));
-  }
-  group.after = group.before;
-  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
-    const Mover& body = mover(group.ranks[i]);
-    if (!body.isHeld()) {
-      account_.penetrates(addWallContacts(world_, *body.body, group.before[i].pose, static_cast<int>(i),
-                                          group.contacts, group.partners));
-    }
-    for (std::size_t j = i + 1; j < group.ranks.size(); ++j) {
-      addPairContacts(group, i, j);
-    }
-  }
-  group.shares.resize(group.contacts.size());
-  group.restsFrom.resize(group.ranks.size());
-  return group;
-}
-
-// An impact runs through every body that touches one that it reaches, held ones excepted: they pass nothing
-// on.
-std::vector<int> ExactWorld::touchingFrom(const Event& event) const {
-  std::vector<int> ranks = {event.body};
-  if (event.partner >= 0) {
-    ranks.push_back(event.partner);
-  }
-  std::vector<Neighbors::Key> candidates;
-  for (std::size_t reached = 0; reached < ranks.size(); ++reached) {
-    if (mover(ranks[reached]).isHeld()) {
-      continue;
-    }
-    neighbors_.findCandidates(ranks[reached], candidates);
-    for (const Neighbors::Key candidate : candidates) {
-      if (std::find(ranks.begin(), ranks.end(), candidate) == ranks.end() &&
-          touch(mover(ranks[reached]), mover(candidate), event.time)) {
-        ranks.push_back(candidate);
-      }
-    }
-  }
-  std::sort(ranks.begin(), ranks.end());
-  return ranks;
-}
-
-void ExactWorld::addPairContacts(Group& group, std::size_t indexA, std::size_t indexB) {
-  const Mover& a = mover(group.ranks[indexA]);
-  const Mover& b = mover(group.ranks[indexB]);
-  if ((a.isHeld() && b.isHeld()) || !touch(a, b, group.time)) {
-    return;
-  }
-  const Pose& poseA = group.before[indexA].pose;
-  const Pose& poseB = group.before[indexB].pose;
-  for (const ContactPoint& at : boxContactPoints(poseA, a.body->halfExtents, poseB, b.body->halfExtents)) {
-    group.contacts.push_back({.a = static_cast<int>(indexA),
-                              .b = static_cast<int>(indexB),
-                              .armA = at.armA,
-                              .armB = at.armB,
-                              .normal = at.normal,
-                              .material = touching(a.body->material, b.body->material)});
-    group.partners.push_back(group.ranks[indexB]);
-  }
-}
-
-void ExactWorld::resolve(Group& group) {
-  std::vector<ImpactBody> bodies;
-  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
-    bodies.push_back({.mass = &mover(group.ranks[i]).body->mass, .state = &group.after[i]});
-  }
-  bool mayLose = false;
-  for (const ImpactContact& contact : group.contacts) {
-    mayLose = mayLose || contact.material.restitution < 1 || contact.material.friction > 0;
-  }
-  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
-    if (mover(group.ranks[i]).flies) {
-      arrive(mover(group.ranks[i]), group.time, group.before[i]);
-    }
-  }
-  account_.strikes(mayLose);
-  resolveImpact(bodies, group.contacts, group.shares);
-}
-
-void ExactWorld::settle(Group& group) const {
-  if (world_.gravity.isZero(0)) {
-    return;
-  }
-  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
-    const bool moves = mover(group.ranks[i]).flies || !movesAlike(group.before[i], group.after[i]);
-    if (moves && !mover(group.ranks[i]).isHeld()) {
-      settleBody(group, i);
-    }
-  }
-}
-
-// Two that stay in touch without coming to rest: no closed form holds.
-void ExactWorld::checkParts(const Group& group, const Event& event) const {
-  const auto place = std::find(group.ranks.begin(), group.ranks.end(), event.body) - group.ranks.begin();
-  if (!group.restsFrom[static_cast<std::size_t>(place)]) {
-    const std::string& partner =
-        event.partner >= 0 ? mover(event.partner).body->name : world_.walls[wallOf(event.partner)].name;
-    throw NumericalError(where(event.body, event.time) + "stays in touch with " + partner + kNeedsContact);
-  }
-}
-
-// [m] What the gap at contact k is the difference of. A wall's offset is no more than its body's part of it.
-double ExactWorld::lengthsAt(const Group& group, std::size_t k) const {
-  const auto of = [&](int index) {
-    const auto i = static_cast<std::size_t>(index);
-    return group.after[i].pose.position.cwiseAbs().sum() + mover(group.ranks[i]).body->halfExtents.norm();
-  };
-  const ImpactContact& contact = group.contacts[k];
-  return of(contact.a) + of(contact.b == ImpactContact::kWall ? contact.a : contact.b);
-}
-
-// A body whose next hop at one of its contacts is too short to follow comes to rest there, or the run ends.
-void ExactWorld::settleBody(Group& group, std::size_t index) const {
-  const Body& body = *mover(group.ranks[index]).body;
-  BodyState& state = group.after[index];
-  const Vec3 omega = careen::angularVelocity(body.mass, state);
-  const Vec3 omegaRate =
-      inverseInertiaWorld(body.mass, state.pose.worldFromBody) * state.angularMomentum.cross(omega);
-  double tail = -1;
-  Settling settling;
-  settling.velocity = state.velocity;
-  settling.angularVelocity = omega;
-  settling.gravity = world_.gravity;
-  std::vector<Vec3> arms;
-  for (std::size_t k = 0; k < group.contacts.size(); ++k) {
-    const ImpactContact& contact = group.contacts[k];
-    const bool isA = contact.a == static_cast<int>(index);
-    if (!isA && contact.b != static_cast<int>(index)) {
-      continue;
-    }
-    const Vec3 normal = isA ? contact.normal : Vec3(-contact.normal);
-    const Vec3& arm = isA ? contact.armA : contact.armB;
-    const Vec3 acceleration = world_.gravity + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
-    const Bouncing bouncing{.acceleration = normal.dot(acceleration),
-                            .departure = std::max(0.0, normal.dot(state.velocity + omega.cross(arm))),
-                            .restitution = contact.material.restitution,
-                            .gapRounding = kGapRounding * lengthsAt(group, k)};
-    if (!settles(bouncing, body.halfExtents.minCoeff())) {
-      continue;
-    }
-    tail = std::max(tail, settlingTail(bouncing));
-    arms.push_back(arm);
-    settling.normal = normal;
-    settling.friction = contact.material.friction;
-    settling.speed = std::max(settling.speed, group.shares[k].approach);
-    settling.onBody = settling.onBody || (group.partners[k] >= 0 && mover(group.partners[k]).flies);
-  }
-  if (tail < 0) {
-    return;
-  }
-  settling.arms = arms;
-  settling.velocity -= settling.normal.dot(settling.velocity) * settling.normal;
-  const Settled settled = afterTail(settling);
-  if (settled != Settled::kRests) {
-    throw NumericalError(where(group.ranks[index], group.time) +
-                         "has bounced itself out: " + std::string(describe(settled)) + kNeedsContact);
-  }
-  state = {.pose = state.pose};
-  group.restsFrom[index] = instantAfter(group.time, tail);
-}
-
-void ExactWorld::record(const Group& group) {
-  for (std::size_t k = 0; k < group.contacts.size(); ++k) {
-    const ImpactContact& contact = group.contacts[k];
-    const ImpactShare& share = group.shares[k];
-    if (share.impulse > 0) {
-      const auto a = static_cast<std::size_t>(contact.a);
-      Impact impact{.time = group.time.hi,
-                    .a = mover(group.ranks[a]).listed,
-                    .b = WallIndex{},
-                    .point = group.before[a].pose.position + contact.armA,
-                    .normal = contact.normal,
-                    .approach = share.approach,
-                    .impulse = share.impulse,
-                    .tangential = share.tangential};
-      if (group.partners[k] < 0) {
-        impact.b = WallIndex{static_cast<int>(wallOf(group.partners[k]))};
-      } else {
-        impact.b = mover(group.partners[k]).listed;
-      }
-      recorder_.strikes(impact);
     }
   }
 }
@@ -349,6 +185,60 @@ void ExactWorld::rest(int rank, const Instant& time, const Pose& pose) {
   account_.departs(static_cast<std::size_t>(body.listed.value), {.pose = pose});
 }
 
+// The next step of an island, and how its bodies move in it.
+void ExactWorld::touch(const std::shared_ptr<Touchers>& touchers, const Instant& time) {
+  Island& island = touchers->island;
+  double most = secondsBetween(time, end_);
+  if (neighbors_.cellEdge() > 0) {
+    most = std::min(most, withinCell(island));
+  }
+  touchers->start = time;
+  touchers->step = island.step(most);
+  touchers->motions.resize(touchers->ranks.size());
+  for (std::size_t i = 0; i < touchers->ranks.size(); ++i) {
+    if (island.bodies()[i].isHeld()) {
+      continue;
+    }
+    const int rank = touchers->ranks[i];
+    Mover& body = mover(rank);
+    begins(rank, time);
+    touchers->motions[i] = island.motion(i);
+    body.touch(touchers, i);
+    recorder_.moves(body.listed, time.hi, touchers->motions[i]);
+    if (neighbors_.isFiled(rank)) {
+      neighbors_.move(rank, neighbors_.cellOf(body.positionAt(time)));
+    }
+    account_.departs(static_cast<std::size_t>(body.listed.value), island.bodies()[i].state());
+  }
+  account_.penetrates(island.deepest());
+}
+
+void ExactWorld::advance(const std::shared_ptr<Touchers>& touchers, const Instant& time) {
+  account_.strikes(true);
+  touch(touchers, time);
+  account_.parted();
+  for (std::size_t i = 0; i < touchers->ranks.size(); ++i) {
+    if (!touchers->island.bodies()[i].isHeld()) {
+      predict(touchers->ranks[i]);
+    }
+  }
+}
+
+// [s] In which no body of the island leaves the margin of its cell.
+double ExactWorld::withinCell(const Island& island) const {
+  const double margin = neighbors_.cellEdge() / 32;
+  double most = secondsBetween({}, end_);
+  for (const TouchingBody& body : island.bodies()) {
+    const double speed = body.velocity.norm();
+    const double pull = 8 * island.system().pull();
+    // speed t + pull t²/2 ≤ margin
+    if (speed + pull > 0) {
+      most = std::min(most, 2 * margin / (speed + std::sqrt(speed * speed + 2 * pull * margin)));
+    }
+  }
+  return most;
+}
+
 void ExactWorld::begins(int rank, const Instant& time) {
   Mover& body = mover(rank);
   const bool again = body.motion > 0 && !earlier(body.start, time);
@@ -356,6 +246,11 @@ void ExactWorld::begins(int rank, const Instant& time) {
   if (body.atOneMoment > kMostAtOneMoment) {
     throw NumericalError(where(rank, time) + "is struck again and again at one moment");
   }
+  if (secondsBetween(body.burst, time) > kBurst * stride_) {
+    body.burst = time;
+    body.inBurst = 0;
+  }
+  ++body.inBurst;
   body.start = time;
   ++body.motion;
 }
@@ -368,11 +263,14 @@ void ExactWorld::arrive(const Mover& body, const Instant& time, const BodyState&
 
 void ExactWorld::predict(int rank) {
   const Mover& body = mover(rank);
-  if (!body.flies) {  // what flies towards it is told to that
+  if (!body.moves()) {
     queue_.clear(rank);
     return;
   }
   std::optional<Event> first = body.wall;
+  if (body.touches() && body.touchers->leader() == rank && earlier(body.touchers->end(), end_)) {
+    first = {.time = body.touchers->end(), .kind = EventKind::kStep, .body = rank, .partner = wallPartner(0)};
+  }
   if (body.crosses) {
     sooner(
         first,
@@ -380,6 +278,9 @@ void ExactWorld::predict(int rank) {
   }
   neighbors_.findCandidates(rank, candidates_);
   for (const Neighbors::Key candidate : candidates_) {
+    if (body.touches() && shareContact(body, rank, candidate)) {
+      continue;
+    }
     const std::optional<Event> met =
         firstMeeting(body, rank, mover(candidate), candidate, first ? first->time : end_);
     if (met) {
@@ -391,6 +292,20 @@ void ExactWorld::predict(int rank) {
   } else {
     queue_.clear(rank);
   }
+}
+
+// Those that touch are the island's own business.
+bool ExactWorld::shareContact(const Mover& a, int rankA, int rankB) {
+  const std::vector<int>& ranks = a.touchers->ranks;
+  const std::vector<ContactFeature>& features = a.touchers->island.system().features();
+  return std::any_of(features.begin(), features.end(), [&](const ContactFeature& feature) {
+    if (feature.b == ContactFeature::kNobody) {
+      return false;
+    }
+    const int x = ranks[static_cast<std::size_t>(feature.a)];
+    const int y = ranks[static_cast<std::size_t>(feature.b)];
+    return (x == rankA && y == rankB) || (x == rankB && y == rankA);
+  });
 }
 
 void ExactWorld::sooner(std::optional<Event>& first, const Event& candidate) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -17,21 +18,25 @@
 
 namespace careen {
 
-/// Method `exact`. Every body flies in closed form from impact to impact, or rests; between events nothing is
-/// computed, and an event touches only the bodies that take part in it. Where a body would have to slide,
-/// rock or be stacked for a while it ends in a NumericalError that says so.
+/// Method `exact`. Every body is in one of three motions: Flight in closed form from impact to impact,
+/// Contact in steps that the tolerance chooses, or Rest. Between events nothing is computed, and an event
+/// touches only the bodies that take part in it.
 ///
 /// Bodies go by rank, their place among the names, so that the order in which a scene lists them changes no
 /// bit.
 class ExactWorld {
  public:
-  ExactWorld(const World& world, double duration, Recorder& recorder);
+  ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder);
   RunFigures run(const std::stop_token& stop);
 
  private:
+  /// What a body does after an event.
+  enum class Next { kGoesOn, kFlies, kRests, kTouches };
+
   /// Bodies that touch at one moment, and what becomes of them.
   struct Group {
     Instant time;
+    EventKind cause{};
     std::vector<int> ranks;  ///< sorted
     std::vector<Quat> attitudes;
     std::vector<BodyState> before;
@@ -39,30 +44,54 @@ class ExactWorld {
     std::vector<ImpactContact> contacts;  ///< their bodies are indices into `ranks`
     std::vector<int> partners;            ///< of each contact, as in Event
     std::vector<ImpactShare> shares;
-    std::vector<std::optional<Instant>> restsFrom;  ///< of each body
+    std::vector<char> persists;  ///< of each contact: its bodies do not part
+    std::vector<Next> next;      ///< of each body
+    std::vector<Instant> since;  ///< and from when
+    std::vector<std::shared_ptr<Touchers>> islands;
+    bool tangled = false;  ///< it moves by strides
   };
 
   void begin();
   void happen(const Event& event);
-  void moveOn(const Group& group);
+  void moveOn(Group& group);
   void end();
 
+  // Who touches whom, and what an impact does to them.
   Group gather(const Event& event);
-  std::vector<int> touchingFrom(const Event& event) const;
+  void reach(const Event& event, Group& group);
+  void join(Group& group, int rank);
+  void alignPlaces(Group& group, const Event& event) const;
+  bool addOverlaps(const Group& group, std::vector<ContactFeature>& features) const;
+  double gapOf(const Group& group, std::size_t a, std::size_t b) const;
+  void addMeeting(const Group& group, std::size_t a, std::size_t b,
+                  std::vector<ContactFeature>& features) const;
   void addPairContacts(Group& group, std::size_t indexA, std::size_t indexB);
   void resolve(Group& group);
-  void settle(Group& group) const;
-  double lengthsAt(const Group& group, std::size_t k) const;
-  void settleBody(Group& group, std::size_t index) const;
-  void checkParts(const Group& group, const Event& event) const;
   void record(const Group& group);
 
+  // What comes after: Flight, Contact or Rest.
+  void findTangle(Group& group);
+  void settle(Group& group);
+  void settleBody(Group& group, std::size_t index) const;
+  void findPersisting(Group& group) const;
+  void formIslands(Group& group) const;
+  void formIsland(Group& group, const std::vector<std::size_t>& members) const;
+  TouchingBody touchingBody(const Group& group, std::size_t index) const;
+  ContactFeature featureOf(const Group& group, std::size_t contact) const;
+  double lengthsAt(const Group& group, std::size_t k) const;
+  bool isForced(int rank) const { return forced_[static_cast<std::size_t>(rank)] != 0; }
+
+  void advance(const std::shared_ptr<Touchers>& touchers, const Instant& time);
+  static bool shareContact(const Mover& a, int rankA, int rankB);
   void fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude);
   void rest(int rank, const Instant& time, const Pose& pose);
+  void touch(const std::shared_ptr<Touchers>& touchers, const Instant& time);
+  double withinCell(const Island& island) const;
   void begins(int rank, const Instant& time);
   void arrive(const Mover& body, const Instant& time, const BodyState& state);
 
   void predict(int rank);
+  void predictAround(int rank);
   static void sooner(std::optional<Event>& first, const Event& candidate);
   void findCrossing(Mover& body, int rank);
 
@@ -72,12 +101,17 @@ class ExactWorld {
 
   const World& world_;
   Instant end_;
+  double tolerance_;                       // [m]
+  static constexpr double kBurst = 0.125;  // [1] of a stride
+  double stride_;                          // [s] of Island, where there are no smooth motions
   Recorder& recorder_;
   std::vector<Mover> movers_;
   Neighbors neighbors_;
   EventQueue queue_;
   FlightAccount account_;
   std::vector<Neighbors::Key> candidates_;
+  std::vector<char> forced_;               // by rank: springs or drag act on it, so that it never flies
+  std::vector<std::vector<int>> springs_;  // by rank: who hangs on it by springs
 };
 
 }  // namespace careen

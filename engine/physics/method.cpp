@@ -20,7 +20,7 @@ RunFigures simulate(const World& world, const RunSettings& settings, Recorder& r
   }
   switch (settings.method) {
     case Method::kExact:
-      return ExactWorld(world, settings.duration, recorder).run(stop);
+      return ExactWorld(world, settings, recorder).run(stop);
     case Method::kListing1:
       return runLoop1997(world, settings, recorder, stop);
     default:

@@ -32,7 +32,12 @@ constexpr MethodTraits steppedFlight(Method method, std::string_view name, int o
 }
 
 inline constexpr std::array kMethods = {
-    MethodTraits{.method = Method::kExact, .name = "exact", .boxBox = true, .friction = true, .rests = true},
+    MethodTraits{.method = Method::kExact,
+                 .name = "exact",
+                 .forces = true,
+                 .boxBox = true,
+                 .friction = true,
+                 .rests = true},
     MethodTraits{.method = Method::kListing1, .name = "listing1", .order = 1, .forces = true},
     steppedFlight(Method::kStrang, "strang", 2),
     steppedFlight(Method::kRungeKutta4, "runge-kutta-4", 4),
@@ -71,7 +76,7 @@ struct RunSettings {
   Method method = Method::kExact;
   double duration = 0;      ///< [s]
   double dt = 1.0 / 240;    ///< [s] methods that step
-  double tolerance = 1e-6;  ///< what a method that chooses its own steps must hold
+  double tolerance = 1e-6;  ///< [m] what a method that chooses its own steps must hold: of places and corners
 };
 
 /// Runs the world from time 0 to `duration`. Throws NumericalError when the method cannot go on, Interrupted

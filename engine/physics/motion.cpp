@@ -42,6 +42,36 @@ BodyState stateIn(const SteppedFlight& stepped, const MassProperties& mass, doub
           .angularMomentum = rotation.angularMomentumWorld()};
 }
 
+// Σ c[k] sᵏ and its derivative by s.
+template <class Vector>
+struct Polynomial {
+  Vector value;
+  Vector slope;
+};
+template <class Vector>
+Polynomial<Vector> evaluate(const std::array<Vector, 6>& coefficients, double s) {
+  Polynomial<Vector> at{coefficients[5], Vector::Zero()};
+  for (std::size_t k = 5; k-- > 0;) {
+    at.slope = at.slope * s + at.value;
+    at.value = at.value * s + coefficients[k];
+  }
+  return at;
+}
+
+BodyState stateIn(const ContactStep& step, const MassProperties& mass, double elapsed) {
+  const double s = elapsed / step.duration;
+  const auto position = evaluate(step.position, s);
+  const auto turn = evaluate(step.worldFromBody, s);
+  // ω = 2 q̇ q*, of a quaternion of any length
+  const Quat q(turn.value);
+  const Quat rate(turn.slope);
+  const Vec3 omega = (2 / (step.duration * turn.value.squaredNorm())) * (rate * q.conjugate()).vec();
+  const Mat3 columns = q.normalized().toRotationMatrix();
+  return {.pose = {.position = position.value, .worldFromBody = columns},
+          .velocity = position.slope / step.duration,
+          .angularMomentum = angularMomentum(mass, columns, omega)};
+}
+
 }  // namespace
 
 BodyState stateAt(const Motion& motion, const MassProperties& mass, double elapsed) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <variant>
 
 #include "physics/body.h"
@@ -30,9 +31,19 @@ struct SteppedFlight {
   Flight start;
 };
 
+/// One step of the motion Contact: polynomials of degree 5 through place, velocity and acceleration at both
+/// ends (Hermite), which err no more than the step does.
+struct ContactStep {
+  double duration = 0;  ///< [s]
+  /// [m] position at s = elapsed/duration: Σ position[k] sᵏ.
+  std::array<Vec3, 6> position{};
+  /// Quaternion x y z w likewise, up to its length.
+  std::array<Vec4, 6> worldFromBody{};
+};
+
 /// How one body moves until something happens to it. A further motion is one more type here and one more line
 /// in stateAt.
-using Motion = std::variant<Rest, EulerStep, Flight, SteppedFlight>;
+using Motion = std::variant<Rest, EulerStep, Flight, SteppedFlight, ContactStep>;
 
 /// Where the body is `elapsed` [s] after the motion began.
 BodyState stateAt(const Motion& motion, const MassProperties& mass, double elapsed);

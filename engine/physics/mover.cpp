@@ -1,13 +1,23 @@
 #include "physics/mover.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "physics/separation.h"
 
 namespace careen {
 
+int Touchers::leader() const {
+  std::size_t first = 0;
+  while (island.bodies()[first].isHeld()) {
+    ++first;
+  }
+  return ranks[first];
+}
+
 void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravity) {
   flies = true;
+  touchers.reset();
   flight = {.position = state.pose.position,
             .velocity = state.velocity,
             .acceleration = gravity,
@@ -22,8 +32,15 @@ void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravit
   angularAccelerationBound = bounds.angularAcceleration;
 }
 
+void Mover::touch(std::shared_ptr<Touchers> with, std::size_t as) {
+  rest({});
+  touchers = std::move(with);
+  place = as;
+}
+
 void Mover::rest(const Pose& at) {
   flies = false;
+  touchers.reset();
   flight = {.position = at.position, .worldFromBody = Quat(at.worldFromBody)};
   pose = at;
   rotation.reset();
@@ -34,11 +51,21 @@ void Mover::rest(const Pose& at) {
   crossing = {};
 }
 
+Vec3 Mover::positionAt(const Instant& time) const {
+  return touches() ? stateAt(time).pose.position : flight.positionAt(elapsed(time));
+}
+
 Quat Mover::attitudeAt(const Instant& time) const {
+  if (touches()) {
+    return Quat(careen::stateAt(touchers->motions[place], body->mass, elapsed(time)).pose.worldFromBody);
+  }
   return rotation ? rotation->worldFromBody(elapsed(time)) : flight.worldFromBody;
 }
 
 BodyState Mover::stateAt(const Instant& time, const Quat& attitude) const {
+  if (touches()) {
+    return careen::stateAt(touchers->motions[place], body->mass, elapsed(time));
+  }
   if (!flies) {
     return {.pose = pose};
   }
@@ -68,21 +95,18 @@ MovingBox Mover::moving(const Instant& clockZero) const {
           .attitude = AttitudeView(*this)};
 }
 
-bool touch(const Mover& a, const Mover& b, const Instant& time) {
-  const double radiusA = a.body->halfExtents.norm();
-  const double radiusB = b.body->halfExtents.norm();
-  const Vec3 positionA = a.flight.positionAt(a.elapsed(time));
-  const Vec3 positionB = b.flight.positionAt(b.elapsed(time));
+bool areTouching(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB) {
+  const double radiusA = a.halfExtents.norm();
+  const double radiusB = b.halfExtents.norm();
   const double within =
       touchingWithin(std::min(radiusA, radiusB),
-                     positionA.cwiseAbs().sum() + positionB.cwiseAbs().sum() + radiusA + radiusB);
-  const Vec3 bToA = positionA - positionB;
+                     poseA.position.cwiseAbs().sum() + poseB.position.cwiseAbs().sum() + radiusA + radiusB);
+  const Vec3 bToA = poseA.position - poseB.position;
   if (bToA.norm() > radiusA + radiusB + within) {
     return false;
   }
-  return BoxAxes(a.stateAt(time).pose.worldFromBody, a.body->halfExtents, b.stateAt(time).pose.worldFromBody,
-                 b.body->halfExtents, bToA)
-             .gap() <= within;
+  return BoxAxes(poseA.worldFromBody, a.halfExtents, poseB.worldFromBody, b.halfExtents, bToA).gap() <=
+         within;
 }
 
 }  // namespace careen

@@ -68,6 +68,11 @@ struct Polhode {
       : body(moments) {
     using std::abs;
     using std::sqrt;
+    // Spin within rounding about one axis leaves the others to what has cancelled: their parts may overlap,
+    // and a square that leaves out the smaller part's would come out negative.
+    for (Extended& component : momentumBody) {
+      component = normalized(component);
+    }
     const Vector3<Real> m(static_cast<Real>(momentumBody[0]), static_cast<Real>(momentumBody[1]),
                           static_cast<Real>(momentumBody[2]));
     const std::array<std::size_t, 3>& order = body.order;

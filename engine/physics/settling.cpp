@@ -77,26 +77,7 @@ bool settles(const Bouncing& bouncing, double smallestHalfExtent) {
          nextHeight(bouncing) * lost < kRoundingsOfAHop * bouncing.gapRounding;
 }
 
-std::string_view describe(Settled settled) {
-  switch (settled) {
-    case Settled::kRests:
-      return "it rests";
-    case Settled::kSlides:
-      return "it would slide on";
-    case Settled::kSlipsDown:
-      return "it would slip down the slope";
-    case Settled::kRocks:
-      return "it would rock or fall over";
-    case Settled::kStacked:
-      return "it would stand on another body";
-  }
-  return "";
-}
-
 Settled afterTail(const Settling& settling) {
-  if (settling.onBody) {
-    return Settled::kStacked;
-  }
   const double length = largestArm(settling.arms);
   const double allowed = kSettlingRounding * settling.speed;
   if (settling.arms.empty() || settling.angularVelocity.norm() * length > allowed) {

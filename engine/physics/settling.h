@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string_view>
 
 #include "core/linear_algebra.h"
 
@@ -45,10 +44,7 @@ enum class Settled {
   kSlides,     ///< still has a tangential velocity
   kSlipsDown,  ///< at rest, but tangential gravity exceeds friction: tan θ > μ
   kRocks,      ///< still turns, or what carries it is not below its centre of mass
-  kStacked,    ///< stands on, or carries, another body that moves or could
 };
-/// "it would slide", … for the error that says which motion is missing.
-std::string_view describe(Settled settled);
 
 /// A body that has just lost its normal speed. Velocities are those after the impact, settled normal speed
 /// removed.
@@ -59,8 +55,7 @@ struct Settling {
   Vec3 gravity = Vec3::Zero();          ///< [m/s²]
   std::span<const Vec3> arms;           ///< [m] from the centre of mass to the points that touch
   double friction = 0;                  ///< [1] μ
-  double speed = 0;     ///< [m/s] of the last impact: what `velocity` is compared with, within rounding
-  bool onBody = false;  ///< what it touches is not a wall
+  double speed = 0;  ///< [m/s] of the last impact: what `velocity` is compared with, within rounding
 };
 
 /// Rests only if it really would: no velocity left but rounding error, carried by three points or more around

@@ -125,7 +125,9 @@ PlanItem friction(const Scene& scene, const Wants& wants) {
     return leftOut("friction", zeroWhereTheyMeet(scene));
   }
   return traitsOf(scene.method).friction
-             ? modelled("friction", "the scene sets it; at impacts")
+             ? modelled("friction", traitsOf(scene.method).rests
+                                        ? "the scene sets it; at impacts and in contact"
+                                        : "the scene sets it; at impacts")
              : leftOut("friction", "THE SCENE ASKS FOR IT, but method " + nameOf(scene.method) +
                                        " has none: everything slides freely");
 }
@@ -139,7 +141,7 @@ PlanItem resting(const Scene& scene, const Wants& wants) {
                                   " cannot rest: where a box would come to lie, the run ends in an error");
   }
   return wants.stops
-             ? modelled("resting", "bounces that die out end on a face; to slide, rock or stack ends the run")
+             ? modelled("resting", "bounces die out; what touches slides, rocks, stacks and comes to rest")
              : leftOut("resting", "nothing that meets loses speed and is pulled back");
 }
 

@@ -172,6 +172,17 @@ void visit(Archive& archive, Visited<Archive, SteppedFlight> stepped) {
 }
 
 template <class Archive>
+void visit(Archive& archive, Visited<Archive, ContactStep> step) {
+  archive.visit(step.duration);
+  for (std::size_t k = 0; k < step.position.size(); ++k) {
+    visit(archive, step.position[k]);
+    for (int i = 0; i < 4; ++i) {
+      archive.visit(step.worldFromBody[k][i]);
+    }
+  }
+}
+
+template <class Archive>
 void visit(Archive& archive, Visited<Archive, MassProperties> mass) {
   archive.visit(mass.mass);
   archive.visit(mass.inverseMass);

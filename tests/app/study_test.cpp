@@ -57,14 +57,10 @@ TEST_F(StudyCommand, takesASceneOfOnesOwn) {
 }
 
 TEST_F(StudyCommand, refusesWhatItDoesNotKnow) {
-  folder_.write("springs.json",
-                R"({ "careen": 1, "duration": 1, "method": "listing1", "drag": { "linear": 1 },
-    "boxes": [ { "half_extents": [1, 1, 1], "mass": 1, "velocity": [1, 0, 0] } ] })");
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{"study", "free-fly"},
        "found the unknown case 'free-fly', expected a scene file, .json, or one of: tumble-generic"},
       {{"study", "missing.json"}, "missing.json"},
-      {{"study", "springs.json"}, "springs or drag, which method exact does not model"},
       {{"study", "free-fall", "--methods", "euler"},
        "--methods: found 'euler', expected some of: exact, listing1"}};
   for (const auto& [arguments, message] : wrong) {

@@ -69,8 +69,7 @@ class AfterTail : public ::testing::Test {
                 .gravity = Vec3(0, 0, -9.81),
                 .arms = arms,
                 .friction = 0,
-                .speed = 3,
-                .onBody = false};
+                .speed = 3};
 };
 
 TEST_F(AfterTail, flatOnTheFloorRests) { EXPECT_EQ(afterTail(flat), Settled::kRests); }
@@ -129,12 +128,6 @@ TEST_F(AfterTail, threePointsCarryOnlyWhatIsAboveThem) {
   const std::array<Vec3, 3> beside{Vec3(.3, .2, -.5), Vec3(.1, .2, -.5), Vec3(.2, -.2, -.5)};
   flat.arms = beside;
   EXPECT_EQ(afterTail(flat), Settled::kRocks);
-}
-
-TEST_F(AfterTail, whatStandsOnABodyIsNotDecidedHere) {
-  flat.onBody = true;
-  EXPECT_EQ(afterTail(flat), Settled::kStacked);
-  EXPECT_EQ(describe(afterTail(flat)), "it would stand on another body");
 }
 
 }  // namespace

@@ -74,11 +74,11 @@ TEST(Plan, saysWhatTheMethodLacks) {
 TEST(Plan, saysWhatTheExactMethodModels) {
   const Scene scene = withParts(kFloor + R"(, "boxes": [)" + kBox + ", " + kFixed + "]");
   EXPECT_EQ(reasonFor(scene, "box-box"), "modelled: 2 boxes that could meet");
-  EXPECT_EQ(reasonFor(scene, "friction"), "modelled: the scene sets it; at impacts");
+  EXPECT_EQ(reasonFor(scene, "friction"), "modelled: the scene sets it; at impacts and in contact");
   EXPECT_EQ(reasonFor(scene, "resting"), "left out: nothing that meets loses speed and is pulled back");
   const Scene pulled = withParts(R"("gravity": [0, 0, -1], )" + kFloor + R"(, "boxes": [)" + kBox + "]");
   EXPECT_EQ(reasonFor(pulled, "resting"),
-            "modelled: bounces that die out end on a face; to slide, rock or stack ends the run");
+            "modelled: bounces die out; what touches slides, rocks, stacks and comes to rest");
 }
 
 TEST(Plan, saysWhatTheSceneDoesNotAskFor) {

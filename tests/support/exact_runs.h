@@ -45,7 +45,7 @@ inline Recorded runFor(const World& world, double duration) {
   Recorded run;
   run.motions.resize(world.bodies.size());
   Notes notes(run);
-  run.figures = ExactWorld(world, duration, notes).run({});
+  run.figures = ExactWorld(world, {.duration = duration}, notes).run({});
   return run;
 }
 

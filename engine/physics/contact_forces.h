@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace careen {
+
+/// The forces between bodies that stay in touch, and the accelerations they leave. Coulomb friction with a
+/// round cone.
+///
+/// Accelerations a are six numbers per body, that of the centre in the world and ω̇ in the body's frame, so
+/// that M is diagonal. Contact c has a normal row n_c and two tangential rows t_c, orthonormal in the world;
+/// targets are what its geometry asks for besides (centripetal terms, with their sign changed):
+///
+///   M (a − a_free) = Jᵀλ,   0 ≤ λ_n ⊥ n a − target_n ≥ 0,   |λ_t| ≤ μ λ_n,
+///   a contact that slips: λ_t = −μ λ_n · slip;   one that does not: λ_t holds t a at its target if |λ_t|
+///   can, else it is μ λ_n against what is left of t a − target.
+///
+/// The same with velocities in place of accelerations is the velocity that a blow without restitution leaves.
+///
+/// Method: augmented Lagrangian with semismooth Newton (P. Alart, A. Curnier, Comput. Methods Appl. Mech.
+/// Eng. 92, 1991) in the coordinates of the bodies: the matrix M + Jᵀ D J stays regular however redundant the
+/// contacts are, and of all force distributions the one of least norm, weighted by what mass a contact feels,
+/// is found, for the multipliers start from 0 and only move along the rows. Friction makes it unsymmetric.
+/// Unlike ImpactSolver's problem this one is not convex and may have no solution (P. Painlevé, C. R. Acad.
+/// Sci. 121, 1895): solve() then says so.
+class ContactForces {
+ public:
+  static constexpr std::size_t kAxes = 6;
+  static constexpr int kNobody = -1;
+  using Row = std::array<double, 2 * kAxes>;  ///< a's six, then b's
+  using Force = std::array<double, 3>;        ///< [N] normal, tangent, tangent
+
+  enum class Mode : unsigned char {
+    kOff,    ///< no force
+    kOn,     ///< pushes, without friction
+    kStick,  ///< pushes, does not slip
+    kSlip,   ///< pushes, slips or begins to
+  };
+
+  struct Contact {
+    int a = kNobody;
+    int b = kNobody;
+    std::array<Row, 3> rows{};
+    Force target{};  ///< [m/s²] of n a and t a
+    double friction = 0;
+    bool slips = false;            ///< has a slip velocity
+    std::array<double, 2> slip{};  ///< [1] its unit direction; if it only begins to slip, solve() fills it in
+  };
+
+  /// Six 1/M per body [1/kg, 1/(kg m²)], all positive. Empties the contacts.
+  void setBodies(std::span<const double> inverseMass);
+  std::vector<Contact>& contacts() { return contacts_; }
+  const std::vector<Contact>& contacts() const { return contacts_; }
+
+  /// Which contacts push, stick and slip is asked for, or given: then no inequality is looked at.
+  enum class Modes { kFound, kGiven };
+  /// False if no solution was reached to rounding; what was reached is left. Given modes may ask for what
+  /// cannot quite be, as two ends of an edge that both stick while the body turns out of line: that is shared
+  /// out by least squares. Redundant forces are those next to `guess`, one per contact, or to none.
+  bool solve(std::span<const double> free, std::span<Mode> modes, Modes how,
+             std::span<const Force> guess = {});
+
+  /// The same for velocities, which always has a solution; the limits of friction agree with the normal
+  /// impulses as far as could be reached, and no energy is gained.
+  void solveBlow(std::span<const double> free, std::span<Mode> modes);
+
+  std::span<const double> accelerations() const { return a_; }
+  std::span<const Force> forces() const { return forces_; }
+  /// n a − target_n or a tangent's [m/s²], of the last solution.
+  double excess(std::size_t contact, std::size_t row) const { return excess_[contact][row]; }
+  /// [m/s²] What rounding of the excess is measured against.
+  double scale() const { return scale_; }
+  /// [kg] that the contact feels along its normal.
+  double normalMass(std::size_t contact) const { return masses_[contact][0]; }
+
+ private:
+  struct Response {
+    Force force{};
+    Mode mode = Mode::kOff;
+    std::array<double, 9> stiffness{};  // −d force / d excess, by rows
+  };
+
+  bool solveByNewton(std::span<const double> free, std::span<Mode> modes, Modes how,
+                     std::span<const Force> guess);
+  bool solveByLimits(std::span<const double> free, std::span<Mode> modes);
+  bool decide(std::span<const double> free, std::span<Mode> modes);
+  void weigh();
+  double along(const Contact& contact, std::size_t row, std::span<const double> of) const;
+  void push(const Contact& contact, const Force& force, std::span<double> onto) const;
+  Response respond(std::size_t contact, const Force& excess, const Mode* as, Modes how) const;
+  void accelerate(std::span<const double> free);
+  Mode modeOf(std::size_t contact);
+  double violation(std::span<const Mode> modes, Modes how) const;
+  double newton(std::span<const Mode> modes, Modes how);
+  void assemble();
+
+  std::vector<double> inverseMass_;
+  std::vector<double> mass_;
+  std::vector<Contact> contacts_;
+  std::vector<std::array<double, 2>> masses_;  // [kg] normal, tangential
+  std::vector<double> a_;
+  std::vector<Force> forces_;
+  std::vector<Force> best_;
+  std::vector<Force> excess_;
+  std::vector<Response> responses_;
+  std::vector<Response> factorised_;
+  std::vector<double> z_;
+  std::vector<double> gradient_;
+  std::vector<double> matrix_;
+  std::vector<std::size_t> pivots_;
+  double scale_ = 0;
+  double penalty_ = 0;  // [1]
+};
+
+}  // namespace careen

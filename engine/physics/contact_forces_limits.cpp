@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <cmath>
+#include <memory_resource>
+#include <utility>
+
+#include "physics/contact_forces.h"
+#include "physics/impact_solver.h"
+#include "physics/secant_iteration.h"
+
+namespace careen {
+namespace {
+
+constexpr int kMostLimits = 200;
+constexpr double kLimitsAgree = 0x1p-42;
+constexpr int kMostDecisions = 8;
+
+}  // namespace
+
+/// Where Newton's method goes astray: limits of friction are guessed, which leaves a convex problem, and
+/// brought to agree with the normal forces by iteration. That tells the modes; the forces then are Newton's
+/// again.
+bool ContactForces::solveByLimits(std::span<const double> free, std::span<Mode> modes) {
+  ImpactVector<ImpactSolver::Contact> contacts;
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    contacts.push_back({.a = contacts_[c].a,
+                        .b = contacts_[c].b,
+                        .rows = contacts_[c].rows,
+                        .normalMass = masses_[c][0],
+                        .tangentialMass = masses_[c][1]});
+  }
+  ImpactSolver solver(ImpactVector<double>(inverseMass_.begin(), inverseMass_.end()), std::move(contacts));
+  ImpactVector<ImpactSolver::Demand> demands(contacts_.size());
+  ImpactVector<ImpactSolver::Impulse> impulses(contacts_.size());
+  ImpactVector<double> limits(contacts_.size(), 0.0);
+  ImpactVector<double> found(contacts_.size(), 0.0);
+  SecantIteration iteration(contacts_.size(), std::pmr::get_default_resource());
+  bool agrees = false;
+  for (int k = 0; k < kMostLimits && !agrees; ++k) {
+    std::fill(a_.begin(), a_.end(), 0.0);
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const Contact& contact = contacts_[c];
+      demands[c] = {.partingSpeed = contact.target[0],
+                    .frictionLimit = contact.slips ? 0 : limits[c],
+                    .slip = {contact.target[1], contact.target[2]}};
+      if (contact.slips) {
+        push(contact, {0, -limits[c] * contact.slip[0], -limits[c] * contact.slip[1]}, a_);
+      }
+    }
+    for (std::size_t i = 0; i < a_.size(); ++i) {
+      a_[i] = free[i] + inverseMass_[i] * a_[i];
+    }
+    solver.solve(a_, demands, impulses);
+    double change = 0;
+    double largest = 0;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      found[c] = contacts_[c].friction * impulses[c][0];
+      change = std::max(change, std::fabs(found[c] - limits[c]));
+      largest = std::max(largest, std::max(found[c], limits[c]));
+    }
+    agrees = change <= kLimitsAgree * largest;
+    iteration.step(limits, found, k < kMostLimits / 4 ? 1 : 0.5);
+    for (double& limit : limits) {
+      limit = std::max(0.0, limit);
+    }
+  }
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    forces_[c] = impulses[c];
+    if (contacts_[c].slips) {
+      forces_[c][1] = -limits[c] * contacts_[c].slip[0];
+      forces_[c][2] = -limits[c] * contacts_[c].slip[1];
+    }
+    modes[c] = contacts_[c].slips && forces_[c][0] > 0 ? Mode::kSlip : modeOf(c);
+  }
+  accelerate(free);
+  return agrees;
+}
+
+/// What the iteration has left undecided is decided towards slip and parting.
+bool ContactForces::decide(std::span<const double> free, std::span<Mode> modes) {
+  for (int k = 0; k < kMostDecisions; ++k) {
+    if (!solveByNewton(free, modes, Modes::kGiven, {})) {
+      return false;
+    }
+    bool same = true;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const bool goesOn = modes[c] == Mode::kOff || (modes[c] == Mode::kSlip && forces_[c][0] > 0);
+      const Mode now = goesOn ? modes[c] : modeOf(c);
+      same = same && now == modes[c];
+      modes[c] = now;
+    }
+    if (same) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace careen

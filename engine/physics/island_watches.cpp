@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <cmath>
+
+#include "physics/island.h"
+#include "physics/separation.h"
+
+// What ends a smooth motion of an island, and when.
+
+namespace careen {
+namespace {
+
+using Mode = ContactForces::Mode;
+using Kind = ContactFeature::Kind;
+
+constexpr int kMostRefinements = 60;
+/// [1] of a step: a root is good enough.
+constexpr double kRootWidth = 0x1p-50;
+constexpr double kRootValue = 0x1p-42;
+constexpr double kShortestHop = 0x1p-30;
+
+}  // namespace
+
+double Island::touching(std::size_t body) const {
+  const double radius = bodies()[body].body->halfExtents.norm();
+  return touchingWithin(radius, bodies()[body].position.cwiseAbs().sum() + radius);
+}
+
+void Island::watchAll() {
+  watches_.clear();
+  const std::vector<ContactFeature>& features = system_.features();
+  for (std::size_t c = 0; c < features.size(); ++c) {
+    if (!system_.pushes(c)) {
+      watches_.push_back({.kind = Watch::Kind::kGap, .contact = c});
+      continue;
+    }
+    watches_.push_back({.kind = Watch::Kind::kPush, .contact = c});
+    if (system_.modes()[c] == Mode::kStick) {
+      watches_.push_back({.kind = Watch::Kind::kStick, .contact = c});
+    }
+    if (features[c].kind != Kind::kPointOnWall) {
+      watches_.push_back({.kind = Watch::Kind::kWithin, .contact = c});
+    }
+  }
+  for (std::size_t c = 0; c < features.size(); ++c) {
+    const bool first =
+        std::none_of(features.begin(), features.begin() + static_cast<std::ptrdiff_t>(c),
+                     [&](const ContactFeature& other) {
+                       return std::minmax(other.a, other.b) == std::minmax(features[c].a, features[c].b);
+                     });
+    if (features[c].kind != Kind::kPointOnWall && first) {
+      watches_.push_back({.kind = Watch::Kind::kOverlap, .contact = c});
+    }
+  }
+  for (std::size_t i = 0; i < bodies().size(); ++i) {
+    for (std::size_t w = 0; w < (bodies()[i].isHeld() ? 0 : world_.walls.size()); ++w) {
+      for (int k = 0; k < kCorners; ++k) {
+        const Vec3 at = corner(bodies()[i].body->halfExtents, k);
+        const bool known = std::any_of(features.begin(), features.end(), [&](const ContactFeature& feature) {
+          return feature.kind == Kind::kPointOnWall && feature.a == static_cast<int>(i) &&
+                 feature.wall == static_cast<int>(w) && feature.onA == at;
+        });
+        if (!known) {
+          watches_.push_back(
+              {.kind = Watch::Kind::kCorner, .contact = i, .wall = static_cast<int>(w), .corner = k});
+        }
+      }
+    }
+  }
+}
+
+double Island::value(const Watch& watch) const {
+  const std::size_t c = watch.contact;
+  const ContactForces& forces = system_.forces();
+  switch (watch.kind) {
+    case Watch::Kind::kPush:
+      return forces.forces()[c][0] / forces.normalMass(c);
+    case Watch::Kind::kStick: {
+      const ContactForces::Force& force = forces.forces()[c];
+      return (system_.features()[c].material.friction * force[0] -
+              std::sqrt(force[1] * force[1] + force[2] * force[2])) /
+             forces.normalMass(c);
+    }
+    case Watch::Kind::kGap:
+      return system_.states()[c].gap +
+             kTouching * touching(static_cast<std::size_t>(system_.features()[c].a));
+    case Watch::Kind::kWithin:
+      return kTouching * touching(static_cast<std::size_t>(system_.features()[c].a)) -
+             system_.states()[c].beyond;
+    case Watch::Kind::kOverlap: {
+      const ContactFeature& feature = system_.features()[c];
+      const auto a = static_cast<std::size_t>(feature.a);
+      const auto b = static_cast<std::size_t>(feature.b);
+      const Pose& poseA = system_.kinematics(a).pose;
+      const Pose& poseB = system_.kinematics(b).pose;
+      return BoxAxes(poseA.worldFromBody, bodies()[a].body->halfExtents, poseB.worldFromBody,
+                     bodies()[b].body->halfExtents, poseA.position - poseB.position)
+                 .gap() +
+             kTouching * std::max(touching(a), touching(b));
+    }
+    case Watch::Kind::kCorner: {
+      const Wall& wall = world_.walls[static_cast<std::size_t>(watch.wall)];
+      const Pose& pose = system_.kinematics(c).pose;
+      return wall.normal.dot(pose.position) +
+             wall.normal.dot(pose.worldFromBody * corner(bodies()[c].body->halfExtents, watch.corner)) -
+             wall.offset;
+    }
+  }
+  return 0;
+}
+
+// Where watch falls to zero in (0, h]: regula falsi, where the end that stays twice counts half (the Illinois
+// rule). The end where it has fallen is taken.
+double Island::rootWithin(double h, std::size_t watch, double atEnd) {
+  double low = 0;
+  double high = h;
+  double valueLow = atStart_[watch];
+  double valueHigh = atEnd;
+  // What has just parted is positive in between.
+  for (double part = 0.5; !(valueLow > 0); part /= 2) {
+    if (part < kShortestHop) {
+      return high;
+    }
+    restep(part * h);
+    const double at = value(watches_[watch]);
+    if (at > 0) {
+      low = part * h;
+      valueLow = at;
+    } else {
+      high = part * h;
+      valueHigh = at < 0 ? at : valueHigh;
+    }
+  }
+  double weightLow = valueLow;
+  double weightHigh = valueHigh;
+  for (int k = 0; k < kMostRefinements && high - low > kRootWidth * h; ++k) {
+    if (-valueHigh <= kRootValue * valueLow) {
+      break;
+    }
+    double middle = high - weightHigh * (high - low) / (weightHigh - weightLow);
+    if (!(middle > low && middle < high)) {
+      middle = 0.5 * (low + high);
+    }
+    restep(middle);
+    const double at = value(watches_[watch]);
+    if (at < 0) {
+      high = middle;
+      valueHigh = weightHigh = at;
+      weightLow /= 2;
+    } else {
+      // The last bit of the way by bisection towards the far side: regula falsi would stay on this one.
+      low = middle;
+      weightLow = at;
+      weightHigh /= 2;
+      if (at <= kRootValue * valueLow) {
+        const double beyond = std::min(high, middle + 0x1p-44 * h);
+        restep(beyond);
+        if (value(watches_[watch]) < 0) {
+          return beyond;
+        }
+        low = beyond;
+      }
+    }
+  }
+  return high;
+}
+
+}  // namespace careen
