@@ -25,7 +25,7 @@ ExitCode infoCommand(std::filesystem::path path, const std::stop_token& stop) {
     printPlan(std::cout, scene, plan(scene));
     return ExitCode::kDone;
   }
-  const Run run = loadRun(path, stop);
+  const Run run = loadRun(path, {}, stop);
   printPlan(std::cout, run.scene, run.plan);
   printError(std::cout, run.trajectory);
   std::size_t segments = 0;

@@ -33,6 +33,7 @@ struct FilmOptions {
   std::optional<std::filesystem::path> video;
   bool resume = false;
   std::optional<int> threads;
+  Overrides overrides;
   EstimateChoice estimate;
 };
 
@@ -119,7 +120,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (options.threads && *options.threads < 0) {
     throw InputError("--threads: found " + std::to_string(*options.threads) + ", expected 0 or more");
   }
-  Run run = loadRun(options.source, stop);
+  Run run = loadRun(options.source, options.overrides, stop);
   const FilmSettings settings = settingsOf(options, run);
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0);
   const FilmFigures figures = renderFilm(
@@ -147,6 +148,7 @@ void addRender(CLI::App& commandLine, Command& chosen) {
   command->add_option("--video", options->video, "Film to make of the frames, by ffmpeg (.mp4)");
   command->add_flag("--resume", options->resume, "Keep the frames that are there and draw the others");
   command->add_option("--threads", options->threads, "Threads that fill pixels; 0: none but the main one");
+  options->overrides.addAllowOverlapTo(*command);
   options->estimate.addTo(*command);
   command->callback([options, &chosen] {
     chosen = [options](const std::stop_token& stop) { return renderCommand(*options, stop); };

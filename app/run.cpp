@@ -1,7 +1,9 @@
 #include "run.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iostream>
 #include <sstream>
 #include <string_view>
@@ -12,6 +14,7 @@
 #include "core/resource.h"
 #include "physics/method.h"
 #include "scene/scene_reader.h"
+#include "scene/starts.h"
 #include "trajectory/trajectory_file.h"
 
 namespace careen {
@@ -65,12 +68,31 @@ void apply(const Overrides& overrides, Scene& scene) {
   override("duration", overrides.duration, true, scene.method, scene.duration);
 }
 
+// Tells on the standard error what was moved.
+void partBoxes(Scene& scene) {
+  const Parted parted = moveApart(scene);
+  if (parted.pairs + parted.behindWalls == 0) {
+    return;
+  }
+  std::cerr << "careen: moved apart " << parted.pairs << (parted.pairs == 1 ? " pair" : " pairs")
+            << " of boxes that overlapped";
+  if (parted.behindWalls > 0) {
+    std::cerr << " and " << parted.behindWalls << (parted.behindWalls == 1 ? " box" : " boxes")
+              << " behind walls";
+  }
+  std::cerr << ": " << parted.moved << (parted.moved == 1 ? " box" : " boxes") << " by at most "
+            << parted.furthest << " m\n";
+}
+
 Run simulateText(const std::filesystem::path& path, const std::string& text, const Overrides& overrides,
                  const std::stop_token& stop) {
   Run run;
   run.source = path;
-  run.scene = parseScene(text, path.string());
+  run.scene = parseScene(text, path.string(), overrides.allowOverlap ? Starts::kMayOverlap : Starts::kApart);
   apply(overrides, run.scene);
+  if (overrides.allowOverlap) {
+    partBoxes(run.scene);
+  }
   run.plan = plan(run.scene);
   const Stopwatch stopwatch;
   run.trajectory = record(assemble(run.scene, run.plan),
@@ -91,6 +113,12 @@ void Overrides::addTo(CLI::App& command) {
   command.add_option("--tolerance", tolerance,
                      "Tolerance in place of the scene's, for methods that choose their own");
   command.add_option("--duration", duration, "Length of the run in place of the scene's [s]");
+  addAllowOverlapTo(command);
+}
+
+void Overrides::addAllowOverlapTo(CLI::App& command) {
+  command.add_flag("--allow-overlap", allowOverlap,
+                   "Move boxes that overlap at the start apart, in place of refusing the scene");
 }
 
 void EstimateChoice::addTo(CLI::App& command) {
@@ -119,20 +147,28 @@ Run simulateScene(const std::filesystem::path& path, const Overrides& overrides,
   return simulateText(path, readFile(path), overrides, stop);
 }
 
-Run loadRun(const std::filesystem::path& path, const std::stop_token& stop) {
+Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop) {
   const std::string bytes = readFile(path);
   if (!looksLikeTrajectory(bytes)) {
-    return simulateText(path, bytes, {}, stop);
+    return simulateText(path, bytes, overrides, stop);
+  }
+  if (overrides.allowOverlap) {
+    throw InputError("--allow-overlap: found the run " + path.string() +
+                     ", expected a scene that is to be run");
   }
   Run run;
   run.source = path;
   run.trajectory = decodeTrajectory(bytes, path.string());
-  run.scene = parseScene(run.trajectory.sceneText, path.string() + " (its scene)");
+  run.scene = parseScene(run.trajectory.sceneText, path.string() + " (its scene)", Starts::kMayOverlap);
   // The run may have been made with another method, step or length than the file says.
   run.scene.method = run.trajectory.settings.method;
   run.scene.dt = run.trajectory.settings.dt;
   run.scene.tolerance = run.trajectory.settings.tolerance;
   run.scene.duration = run.trajectory.settings.duration;
+  // … and have moved boxes that overlapped.
+  for (std::size_t i = 0; i < std::min(run.scene.boxes.size(), run.trajectory.tracks.size()); ++i) {
+    run.scene.boxes[i].pose.position = run.trajectory.state(i, 0).pose.position;
+  }
   run.plan = plan(run.scene);
   return run;
 }

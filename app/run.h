@@ -45,8 +45,10 @@ struct Overrides {
   std::optional<double> dt;  ///< [s]
   std::optional<double> tolerance;
   std::optional<double> duration;  ///< [s]
+  bool allowOverlap = false;       ///< boxes that overlap at the start are moved apart first
 
   void addTo(CLI::App& command);
+  void addAllowOverlapTo(CLI::App& command);
 };
 
 /// The scene that every command takes when none is named.
@@ -55,8 +57,9 @@ std::filesystem::path defaultScene();
 /// Reads a scene file and runs it. Tells on the standard error what was overridden.
 Run simulateScene(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop);
 
-/// Takes a scene file, which is run, or a trajectory file, which was.
-Run loadRun(const std::filesystem::path& path, const std::stop_token& stop);
+/// Takes a scene file, which is run, or a trajectory file, which was; of the latter nothing can be
+/// overridden.
+Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop);
 
 class Stopwatch {
  public:

@@ -5,8 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/brief.h"
 #include "core/error.h"
-#include "scene/scene_check.h"
+#include "scene/starts.h"
 
 namespace careen {
 namespace {
@@ -193,10 +194,11 @@ World assemble(const Scene& scene, const Plan& plan) {
                      " does not model; expected method listing1");
   }
   // The reader has asked the same of the scene file's own method; the command line may name another.
-  if (const auto overlap = plan.models("box-box") ? findOverlap(scene) : std::nullopt) {
-    throw InputError("box " + scene.boxes[overlap->second].name + " starts inside box " +
-                     scene.boxes[overlap->first].name + "; expected boxes apart, as method " +
-                     nameOf(scene.method) + " lets them meet");
+  const bool known = scene.startsApart || !plan.models("box-box");
+  if (const auto overlap = known ? std::nullopt : findOverlap(scene)) {
+    throw InputError("box " + scene.boxes[overlap->second].name + " starts " + brief(overlap->depth) +
+                     " m inside box " + scene.boxes[overlap->first].name +
+                     "; expected boxes apart, as method " + nameOf(scene.method) + " lets them meet");
   }
   World world;
   for (const SceneBox& box : scene.boxes) {

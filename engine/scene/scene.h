@@ -74,6 +74,7 @@ struct Scene {
   Method method = Method::kExact;
   double dt = 1.0 / 240;         ///< [s]
   double tolerance = 1e-6;       ///< of methods that choose their own steps
+  bool startsApart = false;      ///< known that no two boxes that can meet overlap at the start
   std::optional<Camera> camera;  ///< absent: the renderer chooses one that sees the scene
   Film film;
 };

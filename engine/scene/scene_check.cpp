@@ -1,26 +1,20 @@
 #include "scene/scene_check.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "physics/separation.h"
+#include "core/brief.h"
+#include "physics/overlap.h"
 #include "scene/json_shape.h"
+#include "scene/starts.h"
 
 namespace careen {
 namespace {
 
 // A line of sight closer to `up` than this [rad] has no sideways.
 constexpr double kLeastTilt = 1e-9;
-
-std::string brief(double value) {
-  std::array<char, 32> digits{};
-  char* const end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 4).ptr;
-  return {digits.data(), end};
-}
 
 // The member's node if the object has it, else the object's own.
 const JsonNode& memberOrSelf(const JsonNode& object, std::string_view key) {
@@ -154,26 +148,13 @@ void checkCamera(const JsonTree& tree, const Scene& scene) {
   }
 }
 
-/// Gap of a box's lowest corner to a wall, n·x − Σ hᵢ|n·aᵢ| − offset [m], and the lengths it is the
-/// difference of.
-struct LowestGap {
-  double gap = 0;
-  double lengths = 0;
-};
-LowestGap lowestGap(const Wall& wall, const SceneBox& box) {
-  const double centre = wall.normal.dot(box.pose.position);
-  const double reach = (box.pose.worldFromBody.transpose() * wall.normal).cwiseAbs().dot(box.halfExtents);
-  const double size = wall.normal.cwiseAbs().dot(box.pose.position.cwiseAbs());
-  return {.gap = centre - reach - wall.offset, .lengths = size + reach + std::fabs(wall.offset)};
-}
-
 void checkStart(const JsonTree& tree, const Scene& scene) {
   const std::vector<Wall> walls = wallsOf(scene);
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
     const SceneBox& box = scene.boxes[i];
     for (const Wall& wall : walls) {
-      const LowestGap lowest = lowestGap(wall, box);
-      if (lowest.gap < -kGapAllowance * lowest.lengths) {
+      const LowestGap lowest = lowestGap(wall, box.halfExtents, box.pose);
+      if (lowest.overlaps()) {
         tree.fail(
             memberOrSelf(elementOf(tree, "boxes", i), "position").offset,
             "box " + inQuotes(box.name) + " " + brief(-lowest.gap) + " m behind wall " + inQuotes(wall.name),
@@ -183,51 +164,30 @@ void checkStart(const JsonTree& tree, const Scene& scene) {
   }
 }
 
-void checkOverlap(const JsonTree& tree, const Scene& scene) {
-  const std::optional<Overlap> overlap =
-      traitsOf(scene.method).boxBox ? findOverlap(scene) : std::optional<Overlap>();
+void checkOverlap(const JsonTree& tree, Scene& scene) {
+  const std::optional<Overlap> overlap = findOverlap(scene);
   if (overlap) {
     tree.fail(memberOrSelf(elementOf(tree, "boxes", overlap->second), "position").offset,
               "box " + inQuotes(scene.boxes[overlap->second].name) + " " + brief(overlap->depth) +
                   " m inside box " + inQuotes(scene.boxes[overlap->first].name),
               "a start outside every other box");
   }
+  scene.startsApart = traitsOf(scene.method).boxBox;
 }
 
 }  // namespace
 
-std::optional<Overlap> findOverlap(const Scene& scene) {
-  for (std::size_t j = 1; j < scene.boxes.size(); ++j) {
-    const SceneBox& second = scene.boxes[j];
-    for (std::size_t i = 0; i < j; ++i) {
-      const SceneBox& first = scene.boxes[i];
-      const Vec3 apart = first.pose.position - second.pose.position;
-      const double reach = first.halfExtents.norm() + second.halfExtents.norm();
-      if (apart.norm() > reach || (first.fixed && second.fixed)) {
-        continue;
-      }
-      const double lengths =
-          reach + first.pose.position.cwiseAbs().sum() + second.pose.position.cwiseAbs().sum();
-      const double gap = BoxAxes(first.pose.worldFromBody, first.halfExtents, second.pose.worldFromBody,
-                                 second.halfExtents, apart)
-                             .gap();
-      if (gap < -kGapAllowance * lengths) {
-        return Overlap{.first = i, .second = j, .depth = -gap};
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-void checkScene(const JsonTree& tree, Scene& scene) {
+void checkScene(const JsonTree& tree, Scene& scene, Starts starts) {
   checkRoom(tree, scene);
   checkNames(tree, scene);
   checkMasses(tree, scene);
   checkFixed(tree, scene);
   connectSprings(tree, scene);
   checkCamera(tree, scene);
-  checkStart(tree, scene);
-  checkOverlap(tree, scene);
+  if (starts == Starts::kApart) {
+    checkStart(tree, scene);
+    checkOverlap(tree, scene);
+  }
 }
 
 }  // namespace careen

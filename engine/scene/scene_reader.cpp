@@ -9,10 +9,10 @@ namespace careen {
 
 Scene readScene(const std::filesystem::path& path) { return parseScene(readFile(path), path.string()); }
 
-Scene parseScene(const std::string& text, const std::string& name) {
+Scene parseScene(const std::string& text, const std::string& name, Starts starts) {
   const JsonTree tree(text, name);
   Scene scene = readShape(tree);
-  checkScene(tree, scene);
+  checkScene(tree, scene, starts);
   return scene;
 }
 

@@ -4,12 +4,14 @@
 #include <string>
 
 #include "scene/scene.h"
+#include "scene/starts.h"
 
 namespace careen {
 
 /// Reads and checks a scene. InputError says "file:line:column: what was found, what was expected".
 Scene readScene(const std::filesystem::path& path);
-/// The same from text; `name` stands for the file in messages.
-Scene parseScene(const std::string& text, const std::string& name);
+/// The same from text; `name` stands for the file in messages. Where boxes may overlap, the caller is to move
+/// them apart.
+Scene parseScene(const std::string& text, const std::string& name, Starts starts = Starts::kApart);
 
 }  // namespace careen
