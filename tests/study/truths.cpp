@@ -2,10 +2,11 @@
 
 #include <charconv>
 #include <cstddef>
-#include <functional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
+#include "study/truth_case.h"
 #include "support/closed_forms.h"
 #include "support/quad_scene_file.h"
 
@@ -15,8 +16,8 @@ namespace {
 using oracle::QuadPoses;
 using oracle::QuadScene;
 using Moments = std::span<const double>;
-using Boxes = std::vector<QuadPoses>;  // of the movable boxes, in the scene's order
-using Oracle = std::function<Boxes(const QuadScene&, Moments)>;
+using Boxes = TruthCase::Boxes;
+using Oracle = TruthCase::Oracle;
 
 constexpr const char* kTaylor = "quadruple precision: Taylor series of Euler's equations, order 30";
 constexpr const char* kTaylorWide =
@@ -29,16 +30,6 @@ constexpr const char* kPlanar =
     "that "
     "touches";
 constexpr const char* kKept = "closed form: the total energy is kept";
-
-struct Case {
-  std::string name;
-  std::string title;
-  std::string whyHard;
-  std::string source;
-  std::string measure = "poses";
-  int samples = 8;
-  Oracle oracle = {};
-};
 
 Boxes flies(const QuadScene& scene, Moments times) { return {oracle::flown(scene, times)}; }
 // Where a motion multiplies roundings until they would show in a double.
@@ -73,7 +64,7 @@ Boxes unfolds(const QuadScene& scene, Moments times) {
   return {pair[0], pair[1]};
 }
 
-Case nearSeparatrix(const std::string& offset) {
+TruthCase nearSeparatrix(const std::string& offset) {
   return {.name = "separatrix-" + offset,
           .title = "Book beside the separatrix, " + offset + " rad/s",
           .whyHard = "So near the separatrix, " + offset +
@@ -83,7 +74,7 @@ Case nearSeparatrix(const std::string& offset) {
           .oracle = fliesWide};
 }
 
-Case nearSimultaneous(const std::string& tilt) {
+TruthCase nearSimultaneous(const std::string& tilt) {
   return {
       .name = "near-simultaneous-" + tilt,
       .title = "Cube tilted by " + tilt + " rad lands on two edges",
@@ -94,8 +85,8 @@ Case nearSimultaneous(const std::string& tilt) {
       .oracle = strikesFloor(1.0 / 512, 2)};
 }
 
-const std::vector<Case>& cases() {
-  static const std::vector<Case> kCases = {
+std::vector<TruthCase> casesOfFlight() {
+  return {
       {.name = "tumble-generic",
        .title = "Generic tumble",
        .whyHard = "Three different moments of inertia and a spin about none of the axes: the attitude "
@@ -268,11 +259,21 @@ const std::vector<Case>& cases() {
        .source = "closed form: the other run, scaled by powers of two",
        .measure = "scaled"},
   };
+}
+
+const std::vector<TruthCase>& cases() {
+  static const std::vector<TruthCase> kCases = [] {
+    std::vector<TruthCase> all = casesOfFlight();
+    for (TruthCase& each : contactCases()) {
+      all.push_back(std::move(each));
+    }
+    return all;
+  }();
   return kCases;
 }
 
-const Case& caseNamed(const std::string& name) {
-  for (const Case& each : cases()) {
+const TruthCase& caseNamed(const std::string& name) {
+  for (const TruthCase& each : cases()) {
     if (each.name == name) {
       return each;
     }
@@ -331,7 +332,7 @@ std::string quoted(const std::string& text) { return '"' + text + '"'; }
 
 std::vector<std::string> truthNames() {
   std::vector<std::string> names;
-  for (const Case& each : cases()) {
+  for (const TruthCase& each : cases()) {
     names.push_back(each.name);
   }
   return names;
@@ -354,7 +355,7 @@ std::vector<double> timesOf(const std::string& name, const QuadScene& scene) {
 }
 
 Truth computeTruth(const std::string& name) {
-  const Case& found = caseNamed(name);
+  const TruthCase& found = caseNamed(name);
   Truth truth{.name = name,
               .title = found.title,
               .whyHard = found.whyHard,
@@ -370,8 +371,10 @@ Truth computeTruth(const std::string& name) {
   truth.times = timesOf(name, scene);
   if (found.measure == "poses") {
     const Boxes boxes = found.oracle(scene, truth.times);
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      truth.boxes.push_back(rounded(scene.boxes.at(i).name, boxes[i]));
+    for (const oracle::QuadBox& box : scene.boxes) {
+      if (!box.fixed) {
+        truth.boxes.push_back(rounded(box.name, boxes.at(truth.boxes.size())));
+      }
     }
   }
   return truth;

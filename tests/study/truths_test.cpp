@@ -71,6 +71,15 @@ TEST(Truths, ofRoomsAndBilliardAreThoseOfTheFiles) {
   expectTheFiles({"room-million", "room-minute", "reversal", "galperin"});
 }
 
+TEST(Truths, ofSlidingAndSpinningAreThoseOfTheFiles) {
+  expectTheFiles({"sliding-azimuths", "sliding-spinning", "spinning-stop"});
+}
+
+TEST(Truths, ofContactAreThoseOfTheFiles) {
+  expectTheFiles({"incline-slide", "incline-hold", "rocking-block", "tip-or-slide", "stack-10",
+                  "stack-heavy-100", "stack-heavy-1e6", "row-of-boxes", "overhang"});
+}
+
 std::set<std::string> namesIn(const std::filesystem::path& folder) {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

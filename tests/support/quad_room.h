@@ -110,7 +110,8 @@ class QuadRoom {
     scene.boxes = {box};
     scene.gravity = world.gravity.cast<Quad>();
     for (const Wall& wall : world.walls) {
-      scene.walls.push_back({wall.normal.cast<Quad>(), wall.offset, wall.material.restitution});
+      scene.walls.push_back(
+          {wall.normal.cast<Quad>(), wall.offset, wall.material.restitution, wall.material.friction});
     }
     return scene;
   }

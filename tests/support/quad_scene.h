@@ -65,6 +65,7 @@ struct QuadWall {
   QuadVector normal;
   Quad offset = 0;
   Quad restitution = 0;
+  Quad friction = 0;
 };
 
 struct QuadBox {
@@ -73,6 +74,7 @@ struct QuadBox {
   Quad mass = 0;
   std::array<Quad, 3> moments;  // [kg m²]
   Quad restitution = 0;
+  Quad friction = 0;
   bool fixed = false;
   QuadVector position;
   QuadVector velocity;

@@ -42,6 +42,7 @@ inline QuadBox boxIn(const nlohmann::json& object) {
   box.halfExtents = vectorIn(object, "half_extents");
   box.mass = object.value("mass", 0.0);
   box.restitution = object.value("restitution", 0.0);
+  box.friction = object.value("friction", 0.0);
   box.fixed = object.value("fixed", false);
   box.position = vectorIn(object, "position");
   box.velocity = vectorIn(object, "velocity");
@@ -62,8 +63,8 @@ inline QuadBox boxIn(const nlohmann::json& object) {
   return box;
 }
 
-/// What the hard cases use of the format: no friction, orientations as quaternions, every box with a mass or
-/// fixed. The numbers are exactly the doubles that the file's decimals round to.
+/// What the hard cases use of the format: orientations as quaternions, every box with a mass or fixed. The
+/// numbers are exactly the doubles that the file's decimals round to.
 inline QuadScene sceneIn(const std::filesystem::path& path) {
   const nlohmann::json file = jsonIn(path);
   QuadScene scene;
@@ -85,6 +86,7 @@ inline QuadScene sceneIn(const std::filesystem::path& path) {
       wall.normal[axis] = sign;
       wall.offset = sign * vectorIn(room, isMin ? "min" : "max")[axis];
       wall.restitution = room.value("restitution", 0.0);
+      wall.friction = room.value("friction", 0.0);
       scene.walls.push_back(wall);
     }
   }
@@ -94,6 +96,7 @@ inline QuadScene sceneIn(const std::filesystem::path& path) {
     wall.normal /= wall.normal.norm();
     wall.offset = wall.normal.dot(vectorIn(each, "point"));
     wall.restitution = each.value("restitution", 0.0);
+    wall.friction = each.value("friction", 0.0);
     scene.walls.push_back(wall);
   }
   for (const nlohmann::json& each : file.at("boxes")) {

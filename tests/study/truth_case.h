@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "support/oracle_runs.h"
+#include "support/quad_scene.h"
+
+namespace careen::study {
+
+/// How the truth of one hard case is had.
+struct TruthCase {
+  using Boxes = std::vector<oracle::QuadPoses>;  // of the movable boxes, in the scene's order
+  using Oracle = std::function<Boxes(const oracle::QuadScene&, std::span<const double>)>;
+
+  std::string name;
+  std::string title;
+  std::string whyHard;
+  std::string source;
+  std::string measure = "poses";
+  int samples = 8;
+  Oracle oracle = {};
+};
+
+/// Those in which boxes stay in contact: they slide, rock, tip or stand.
+std::vector<TruthCase> contactCases();
+
+}  // namespace careen::study
