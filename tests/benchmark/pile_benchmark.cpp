@@ -1,0 +1,136 @@
+// What pouring boxes into a pit costs, per frame of 1/60 s, and how that grows with their number; beside it
+// Bullet's double library, as it ships, on the same scene (-DCAREEN_PEERS=ON). Compare within one run:
+// --benchmark_enable_random_interleaving=true --benchmark_repetitions=5, minimum of each.
+#include <benchmark/benchmark.h>
+
+#include "physics/pile.h"
+#include "support/pile_scenes.h"
+
+#ifdef CAREEN_PEERS
+#include <btBulletDynamicsCommon.h>
+
+#include <cmath>
+
+#include <memory>
+#endif
+
+namespace careen {
+namespace {
+
+constexpr double kFrame = 1.0 / 60;
+
+std::vector<BodyState> startOf(const World& world) {
+  std::vector<BodyState> states;
+  for (const Body& body : world.bodies) {
+    states.push_back(body.initial);
+  }
+  return states;
+}
+
+// Arguments: boxes, seconds, boxes across a layer.
+World sceneOf(const benchmark::State& state) {
+  return test::pouring(static_cast<int>(state.range(0)), 0.5, 0, 1, static_cast<int>(state.range(2)));
+}
+
+void perFrame(benchmark::State& state, std::int64_t frames) {
+  state.counters["frame"] =
+      benchmark::Counter(static_cast<double>(frames),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void pour(benchmark::State& state) {
+  const World world = sceneOf(state);
+  const std::int64_t frames = 60 * state.range(1);
+  for (auto _ : state) {
+    Pile pile(world, startOf(world), kFrame);
+    for (std::int64_t k = 0; k < frames; ++k) {
+      pile.step();
+    }
+    benchmark::DoNotOptimize(pile.states().data());
+  }
+  perFrame(state, frames);
+}
+BENCHMARK(pour)->Args({1000, 10, 6})->Iterations(1)->Unit(benchmark::kMillisecond);
+// The same depth, so the same work for each box: 200, 1000, 8000 boxes of a pit 3, 6 and 17 across.
+BENCHMARK(pour)->Args({250, 6, 3})->Args({8028, 6, 17})->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(pour)->Args({1000, 6, 6})->Iterations(1)->Unit(benchmark::kMillisecond);
+
+// After everything sleeps.
+void settled(benchmark::State& state) {
+  const World world = sceneOf(state);
+  Pile pile(world, startOf(world), kFrame);
+  for (std::int64_t k = 0; k < 60 * state.range(1) && !pile.atRest(); ++k) {
+    pile.step();
+  }
+  for (auto _ : state) {
+    pile.step();
+  }
+  state.counters["atRest"] = pile.atRest() ? 1 : 0;
+}
+BENCHMARK(settled)->Args({200, 20, 6});
+
+#ifdef CAREEN_PEERS
+btVector3 toBullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+class BulletPit {
+ public:
+  explicit BulletPit(const World& world) {
+    world_.setGravity(toBullet(world.gravity));
+    for (const Body& body : world.bodies) {
+      add(std::make_unique<btBoxShape>(toBullet(body.halfExtents)), body);
+    }
+    for (const Wall& wall : world.walls) {
+      add(std::make_unique<btStaticPlaneShape>(toBullet(wall.normal), wall.offset),
+          {.name = wall.name, .mass = immovable(), .material = wall.material, .initial = {}});
+    }
+  }
+  ~BulletPit() {
+    for (const auto& object : objects_) {
+      world_.removeRigidBody(object.get());
+    }
+  }
+  BulletPit(const BulletPit&) = delete;
+  BulletPit& operator=(const BulletPit&) = delete;
+
+  void step(double h) { world_.stepSimulation(h, 0); }
+
+ private:
+  void add(std::unique_ptr<btCollisionShape> shape, const Body& body) {
+    btRigidBody::btRigidBodyConstructionInfo info(body.mass.mass, nullptr, shape.get(),
+                                                  toBullet(body.mass.inertiaBody));
+    const Mat3& a = body.initial.pose.worldFromBody;
+    info.m_startWorldTransform = btTransform(
+        btMatrix3x3(a(0, 0), a(0, 1), a(0, 2), a(1, 0), a(1, 1), a(1, 2), a(2, 0), a(2, 1), a(2, 2)),
+        toBullet(body.initial.pose.position));
+    // Bullet multiplies what two bodies have; here all have the same.
+    info.m_friction = std::sqrt(body.material.friction);
+    objects_.push_back(std::make_unique<btRigidBody>(info));
+    shapes_.push_back(std::move(shape));
+    world_.addRigidBody(objects_.back().get());
+  }
+
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+  std::vector<std::unique_ptr<btRigidBody>> objects_;
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+};
+
+void pourBullet(benchmark::State& state) {
+  const World world = sceneOf(state);
+  const std::int64_t frames = 60 * state.range(1);
+  for (auto _ : state) {
+    BulletPit pit(world);
+    for (std::int64_t k = 0; k < frames; ++k) {
+      pit.step(kFrame);
+    }
+  }
+  perFrame(state, frames);
+}
+BENCHMARK(pourBullet)->Args({1000, 10, 6})->Iterations(1)->Unit(benchmark::kMillisecond);
+#endif
+
+}  // namespace
+}  // namespace careen
