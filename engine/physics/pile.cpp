@@ -9,13 +9,18 @@
 namespace careen {
 namespace {
 
-constexpr int kSubsteps = 6;
-constexpr int kSweeps = 20;
+constexpr double kLeastSubsteps = 3;  // in a frame
+constexpr double kMostSubsteps = 12;
+constexpr double kStride =
+    0x1p-4;  // [1] of the smallest size, moved in a substep: faster bodies ask for more
+constexpr std::int64_t kSweeps = 20;
+constexpr std::int64_t kMostSweeps = 400;
+constexpr std::int64_t kFewManifolds = 1000;
 constexpr int kBounceSweeps = 20;
 constexpr int kPasses = 4;
 constexpr double kLookAhead = 2;   // frames that a fat box should last
 constexpr double kTell = 0x1p-14;  // [1] of the smallest size, moved in a substep: neighbours are told
-constexpr double kTellLeast = 0x1p-24;
+constexpr double kTellLeast = 0x1p-36;
 constexpr std::int64_t kEasy = 4;
 constexpr std::int64_t kHard = 8;
 constexpr double kGrowth = 1.5;        // [1] a warm start trusts an impulse to have grown by, in a substep
@@ -29,7 +34,7 @@ Pile::Pile(const World& world, std::vector<BodyState> states, double frame)
       pull_(world.gravity.norm()),
       walls_(world.walls),
       frame_(frame),
-      h_(frame / kSubsteps),
+      h_(frame / kLeastSubsteps),
       rankOf_(world.bodies.size()),
       bodyOf_(world.bodies.size()),
       states_(std::move(states)),
@@ -45,7 +50,6 @@ Pile::Pile(const World& world, std::vector<BodyState> states, double frame)
   }
   pairs_ = PilePairs(bodies_, walls_);
   unrest_.assign(bodies_.size(), std::numeric_limits<double>::max());
-  turning_.assign(bodies_.size(), Vec3::Zero());
 }
 
 // The whole method, from here to freeze().
@@ -55,7 +59,8 @@ void Pile::step() {
   if (atRest_) {
     return;
   }
-  for (int k = 0; k < kSubsteps; ++k) {
+  const int substeps = chooseSubsteps();
+  for (int k = 0; k < substeps; ++k) {
     substep(k == 0 ? frame_ : h_);
   }
   project();
@@ -67,23 +72,47 @@ void Pile::step() {
   }
 }
 
+// As many as the fastest body asks for, in parts of its size. Kept impulses are those of the last substep:
+// in a longer one they would be in proportion.
+int Pile::chooseSubsteps() {
+  double fastest = 0;
+  for (const PileBody& body : bodies_) {
+    if (!body.still()) {
+      fastest = std::max(fastest, (body.velocity.norm() + frame_ * pull_) / body.length);
+    }
+  }
+  const int substeps =
+      static_cast<int>(std::clamp(1 + fastest * frame_ / kStride, kLeastSubsteps, kMostSubsteps));
+  const double h = frame_ / substeps;
+  impulseScale_ = h / h_;
+  h_ = h;
+  return substeps;
+}
+
 void Pile::substep(double lookAhead) {
   ++figures_.substeps;
   lookAround(lookAhead);
   loadSolver();
+  solver_.link();
   solver_.wakeAll();
-  const std::int64_t solves = solver_.solve(kSweeps, true);
-  figures_.solves += solves;
-  const std::int64_t perManifold = solves / (static_cast<std::int64_t>(solver_.blockCount()) + 1);
-  if (perManifold < kEasy) {
-    tell_ = std::max(tell_ * 0.5, kTellLeast);
-  } else if (perManifold > kHard) {
-    tell_ = std::min(tell_ * 2, kTell);
-  }
+  solve();
   keepImpulses();
   move();
   bounce();
-  settle();
+}
+
+// How small a change neighbours are told follows from how hard the last substep was: coarse where all falls
+// on all, ever finer as it comes to rest. Few manifolds can be given more rounds.
+void Pile::solve() {
+  const auto manifolds = static_cast<std::int64_t>(solver_.blockCount()) + 1;
+  const std::int64_t effort = 1 + kFewManifolds / manifolds;
+  const std::int64_t solves = solver_.solve(static_cast<int>(std::min(kSweeps * effort, kMostSweeps)), true);
+  figures_.solves += solves;
+  if (solves < kEasy * effort * manifolds) {
+    tell_ = std::max(tell_ * 0.5, kTellLeast);
+  } else if (solves > kHard * effort * manifolds) {
+    tell_ = std::min(tell_ * 2, kTell);
+  }
 }
 
 // Pairs, and the manifolds of those that are near. What would push a sleeper wakes its cluster, whose pairs
@@ -227,6 +256,7 @@ void Pile::loadSolver() {
   for (const int slot : near_) {
     addRows(manifolds_[at(slot)]);
   }
+  impulseScale_ = 1;
   figures_.rows += static_cast<std::int64_t>(solver_.rowCount());
   solver_.warmStart();
 }
@@ -257,7 +287,7 @@ void Pile::addRows(PileManifold& manifold) {
     }
     PileSolver::Row row{.armA = point.world, .armB = armB, .frame = frame};
     row.bound = -std::max(0.0, point.gap) / h_;
-    row.normalImpulse = std::min(point.normalImpulse, kGrowth * point.normalImpulseBefore);
+    row.normalImpulse = impulseScale_ * std::min(point.normalImpulse, kGrowth * point.normalImpulseBefore);
     if (row.normalImpulse > 0) {
       const double part = row.normalImpulse / point.normalImpulse;
       row.tangential1 = part * point.tangential1;
@@ -291,8 +321,7 @@ void Pile::keepImpulses() {
   }
 }
 
-// A body that no contact pushed goes on its parabola, the others along their velocity after the solve. Turns
-// wait for settle(), which needs the moments of inertia that the solve had.
+// A body that no contact pushed goes on its parabola, the others along their velocity after the solve.
 void Pile::move() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     PileBody& body = bodies_[i];
@@ -301,57 +330,96 @@ void Pile::move() {
     }
     const int index = static_cast<int>(i);
     body.path += body.ahead;
-    turning_[i] = solver_.omega(index);
     if (!solver_.pushed(index)) {
       body.position += h_ * (body.velocity + 0.5 * h_ * gravity_);
+      body.velocity = solver_.velocity(index);
       unrest_[i] = std::numeric_limits<double>::max();
     } else {
-      const Vec3& v = solver_.velocity(index);
-      body.position += h_ * v;
-      unrest_[i] = (v - body.velocity).norm() + body.radius * (turning_[i] - body.omega).norm();
+      body.position += h_ * solver_.velocity(index);
+      unrest_[i] = (solver_.velocity(index) - body.velocity).norm() +
+                   body.radius * (solver_.omega(index) - body.omega).norm();
       body.path += h_ * unrest_[i];
+      takeVelocity(body, index);
     }
+    turnFree(body, h_);
   }
 }
 
-// First touches part again with e times the speed they met with.
+// Impulses enter L at the attitude they were solved at.
+void Pile::takeVelocity(PileBody& body, int index) {
+  const Vec3 change = body.axes.transpose() * (solver_.omega(index) - body.omega);
+  body.angularMomentum += body.axes * body.inertiaBody.cwiseProduct(change);
+  body.velocity = solver_.velocity(index);
+}
+
+// First touches part again with e times the speed they met with: a second solve after the motion, at the
+// places where bodies now are (else their angular momentum about each other is not kept), that goes on from
+// the impulses of the first.
 void Pile::bounce() {
-  bool any = false;
+  const bool any = std::any_of(bounces_.begin(), bounces_.end(),
+                               [&](const Bounce& each) { return solver_.normalImpulse(each.row) > 0; });
+  if (!any) {
+    return;
+  }
+  refreshNear();
+  solver_.begin(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const PileBody& body = bodies_[i];
+    solver_.setBody(static_cast<int>(i), body, tell_ * body.length / h_);
+    if (!body.still()) {
+      solver_.velocity(static_cast<int>(i)) = body.velocity;
+      solver_.omega(static_cast<int>(i)) = body.omega;
+    }
+  }
+  for (const int slot : near_) {
+    const PileManifold& manifold = manifolds_[at(slot)];
+    const bool hasWall = isWall(manifold.b);
+    const Vec3 apart = hasWall ? Vec3(Vec3::Zero())
+                               : Vec3(bodies_[at(manifold.a)].position - bodies_[at(manifold.b)].position);
+    bool begun = false;
+    for (int k = 0; k < manifold.count; ++k) {
+      const PilePoint& point = manifold.points[at(k)];
+      if (point.row < 0) {
+        continue;
+      }
+      if (!begun) {
+        solver_.beginManifold(manifold.a, hasWall ? solver_.walls() : manifold.b, manifold.friction);
+        begun = true;
+      }
+      solver_.add({.armA = point.world,
+                   .armB = point.world + apart,
+                   .frame = manifold.frameOf(k),
+                   .bound = -std::max(0.0, point.gap) / h_,
+                   .normalImpulse = point.normalImpulse,
+                   .tangential1 = point.tangential1,
+                   .tangential2 = point.tangential2});
+    }
+  }
+  solver_.link();
   for (const Bounce& each : bounces_) {
     if (solver_.normalImpulse(each.row) > 0) {
       solver_.setBound(each.row, each.speed);
       solver_.wakeRow(each.row);
-      any = true;
     }
   }
-  if (any) {
-    figures_.solves += solver_.solve(kBounceSweeps, true);
+  figures_.solves += solver_.solve(kBounceSweeps, true);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (solver_.pushed(static_cast<int>(i))) {
+      takeVelocity(bodies_[i], static_cast<int>(i));
+      deriveOmega(bodies_[i]);
+    }
   }
 }
 
-// Impulses enter L at the attitude they were solved at; the turn is that of L before any bounce.
-void Pile::settle() {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    PileBody& body = bodies_[i];
-    if (body.still()) {
-      continue;
-    }
-    const int index = static_cast<int>(i);
-    body.velocity = solver_.velocity(index);
-    if (!solver_.pushed(index)) {
-      turnFree(body, h_);
-      continue;
-    }
-    const auto momentumOf = [&](const Vec3& omega) {
-      const Vec3 inBody = body.axes.transpose() * omega;
-      return Vec3(body.axes * body.inertiaBody.cwiseProduct(inBody));
-    };
-    const Vec3 bounced = momentumOf(solver_.omega(index) - turning_[i]);
-    body.angularMomentum += momentumOf(turning_[i] - body.omega);
-    turnFree(body, h_);
-    if (bounced != Vec3::Zero()) {
-      body.angularMomentum += bounced;
-      deriveOmega(body);
+// Gaps where bodies are now; only what has moved too far is built anew.
+void Pile::refreshNear() {
+  for (const int slot : near_) {
+    PileManifold& manifold = manifolds_[at(slot)];
+    const PileBody& a = bodies_[at(manifold.a)];
+    if (isWall(manifold.b)) {
+      refreshManifold(a, wall(manifold.b), manifold);
+    } else {
+      refreshManifold(a, bodies_[at(manifold.b)], manifold);
     }
   }
 }

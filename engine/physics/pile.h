@@ -67,17 +67,20 @@ class Pile {
   bool isWall(int index) const { return at(index) >= bodies_.size(); }
   const Wall& wall(int index) const { return walls_[at(index) - bodies_.size()]; }
 
+  int chooseSubsteps();
   void substep(double lookAhead);
   void lookAround(double time);
   bool lookAt(PilePair& pair);
   bool wouldPush(const PilePair& pair, const PileManifold& manifold) const;
   void wakeCluster(int cluster);
   void loadSolver();
+  void solve();
   void addRows(PileManifold& manifold);
   void keepImpulses();
   void move();
   void bounce();
-  void settle();
+  void refreshNear();
+  void takeVelocity(PileBody& body, int index);
   void project();
   bool freeze();
   PileManifold& manifoldOf(PilePair& pair);
@@ -89,6 +92,7 @@ class Pile {
   std::vector<Wall> walls_;
   double frame_;
   double h_;                         // [s] a substep
+  double impulseScale_ = 1;          // of the kept ones, for this substep
   std::vector<std::size_t> rankOf_;  // of the world's bodies
   std::vector<PileBody> bodies_;     // by rank
   std::vector<int> bodyOf_;          // of a rank
@@ -104,7 +108,6 @@ class Pile {
   double tell_;  // [1] of the smallest size: what of a substep's motion neighbours are told
   std::vector<Bounce> bounces_;
   std::vector<double> unrest_;  // [m/s] what contacts and gravity left over in the last substep
-  std::vector<Vec3> turning_;   // [rad/s] ω that a substep turns by, before bounces
   std::vector<int> parent_;
   bool atRest_ = false;
   Figures figures_;

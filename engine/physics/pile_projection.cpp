@@ -94,6 +94,7 @@ bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> ma
       }
     }
   }
+  solver_.link();
   solver_.wakeAll();
   solver_.solve(kSweeps, false);
   for (std::size_t i = 0; i < bodies.size(); ++i) {

@@ -12,7 +12,6 @@ void PileSolver::begin(std::size_t bodies) {
   rows_.clear();
   blocks_.clear();
   blockOfRow_.clear();
-  linked_ = false;
 }
 
 void PileSolver::setBody(int index, const PileBody& body, double change) {
@@ -115,7 +114,6 @@ double PileSolver::normalVelocity(int index) const {
 
 // Which manifolds each body has, in one list, by counting.
 void PileSolver::link() {
-  linked_ = true;
   firstBlock_.assign(moving_.size() + 1, 0);
   for (const Block& block : blocks_) {
     ++firstBlock_[at(block.a) + 1];
@@ -134,9 +132,6 @@ void PileSolver::link() {
 }
 
 void PileSolver::wakeAll() {
-  if (!linked_) {
-    link();
-  }
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     put(k);
   }

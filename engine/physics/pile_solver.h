@@ -61,7 +61,8 @@ class PileSolver {
   /// v_n of a row at present velocities.
   double normalVelocity(int row) const;
   void setBound(int row, double bound) { rows_[at(row)].bound = bound; }
-  /// Puts every manifold of the list, or none, on the worklist; solve() begins with what is on it.
+  /// After the last add(): who touches whom. solve() begins with what wakeAll() or wakeRow() put on the list.
+  void link();
   void wakeAll();
   void wakeRow(int row);
   /// Tells neighbours of smaller changes from now on.
@@ -101,7 +102,6 @@ class PileSolver {
     double friction = 0;
   };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  void link();
   template <bool kFriction>
   void solveBlock(const Block& block);
   void tell(int body);
@@ -112,7 +112,6 @@ class PileSolver {
   std::vector<SolvedRow> rows_;
   std::vector<Block> blocks_;
   std::vector<int> blockOfRow_;
-  bool linked_ = false;
   std::vector<int> firstBlock_;  // of each body in blocksOfBody_
   std::vector<int> blocksOfBody_;
   std::vector<int> cursor_;

