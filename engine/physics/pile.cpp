@@ -15,7 +15,7 @@ constexpr double kStride =
     0x1p-4;  // [1] of the smallest size, moved in a substep: faster bodies ask for more
 constexpr std::int64_t kSweeps = 20;
 constexpr std::int64_t kMostSweeps = 400;
-constexpr std::int64_t kFewManifolds = 1000;
+constexpr std::int64_t kFewManifolds = 256;
 constexpr int kBounceSweeps = 20;
 constexpr int kPasses = 4;
 constexpr double kLookAhead = 2;   // frames that a fat box should last

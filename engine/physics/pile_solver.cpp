@@ -38,39 +38,35 @@ void PileSolver::beginManifold(int a, int b, double friction) {
 
 void PileSolver::add(const Row& row) {
   Block& block = blocks_.back();
-  const Inertia& a = inertia_[at(block.a)];
-  const Inertia& b = inertia_[at(block.b)];
-  const double inverseMass = a.inverseMass + b.inverseMass;
-  const Vec3& n = row.frame.normal;
-  const Vec3& t1 = row.frame.tangent1;
-  const Vec3& t2 = row.frame.tangent2;
-  const Vec3 an = row.armA.cross(n);
-  const Vec3 bn = row.armB.cross(n);
-  const Vec3 turnedA = a.times(an);
-  const Vec3 turnedB = b.times(bn);
+  const PairInertia inertia(inertia_[at(block.a)], inertia_[at(block.b)]);
+  const double inverseMass = inertia.inverseMass[0] + inertia.inverseMass[1];
   SolvedRow& solved = rows_.emplace_back();
-  solved.armA = row.armA;
-  solved.armB = row.armB;
-  solved.normal = n;
-  solved.tangent1 = t1;
-  solved.tangent2 = t2;
+  solved.arms = pairOf(row.armA, row.armB);
+  solved.normal = row.frame.normal;
+  solved.tangent1 = row.frame.tangent1;
+  solved.tangent2 = row.frame.tangent2;
   solved.bound = row.bound;
-  solved.massNormal = 1 / (inverseMass + turnedA.dot(an) + turnedB.dot(bn));
   solved.normalImpulse = row.normalImpulse;
   solved.tangential1 = row.tangential1;
   solved.tangential2 = row.tangential2;
+  // Entries of the point's 3×3 matrix: dᵢ·dⱼ/m + Σ (r × dᵢ)·I⁻¹ (r × dⱼ) over both bodies.
+  const auto lever = [&](const Vec3& direction) { return cross(solved.arms, pairOf(direction, direction)); };
+  const auto product = [](const PairVec& a, const PairVec& b) {
+    const Pair sum = a.x * b.x + a.y * b.y + a.z * b.z;
+    return sum[0] + sum[1];
+  };
+  const PairVec leverN = lever(solved.normal);
+  const PairVec turnedN = inertia.times(leverN);
+  solved.massNormal = 1 / (inverseMass + product(turnedN, leverN));
   if (block.friction > 0) {
-    const Vec3 a1 = row.armA.cross(t1);
-    const Vec3 b1 = row.armB.cross(t1);
-    const Vec3 a2 = row.armA.cross(t2);
-    const Vec3 b2 = row.armB.cross(t2);
-    const Vec3 turnedA2 = a.times(a2);
-    const Vec3 turnedB2 = b.times(b2);
-    solved.normalToTangent1 = turnedA.dot(a1) + turnedB.dot(b1);
-    solved.normalToTangent2 = turnedA.dot(a2) + turnedB.dot(b2);
-    const double k11 = inverseMass + a.times(a1).dot(a1) + b.times(b1).dot(b1);
-    const double k22 = inverseMass + turnedA2.dot(a2) + turnedB2.dot(b2);
-    const double k12 = turnedA2.dot(a1) + turnedB2.dot(b1);
+    const PairVec lever1 = lever(solved.tangent1);
+    const PairVec lever2 = lever(solved.tangent2);
+    const PairVec turned2 = inertia.times(lever2);
+    solved.normalToTangent1 = product(turnedN, lever1);
+    solved.normalToTangent2 = product(turnedN, lever2);
+    const double k11 = inverseMass + product(inertia.times(lever1), lever1);
+    const double k22 = inverseMass + product(turned2, lever2);
+    const double k12 = product(turned2, lever1);
     const double perDeterminant = 1 / (k11 * k22 - k12 * k12);
     solved.stop11 = k22 * perDeterminant;
     solved.stop22 = k11 * perDeterminant;
@@ -96,20 +92,12 @@ void PileSolver::warmStart() {
       const Vec3 impulse =
           row.normalImpulse * row.normal + row.tangential1 * row.tangent1 + row.tangential2 * row.tangent2;
       a.velocity += inertiaA.inverseMass * impulse;
-      a.omega += inertiaA.times(row.armA.cross(impulse));
+      a.omega += inertiaA.times(firstOf(row.arms).cross(impulse));
       b.velocity -= inertiaB.inverseMass * impulse;
-      b.omega -= inertiaB.times(row.armB.cross(impulse));
+      b.omega -= inertiaB.times(secondOf(row.arms).cross(impulse));
       a.pushed = b.pushed = true;
     }
   }
-}
-
-double PileSolver::normalVelocity(int index) const {
-  const SolvedRow& row = rows_[at(index)];
-  const Block& block = blocks_[at(blockOfRow_[at(index)])];
-  const Moving& a = moving_[at(block.a)];
-  const Moving& b = moving_[at(block.b)];
-  return row.normal.dot(a.velocity + a.omega.cross(row.armA) - b.velocity - b.omega.cross(row.armB));
 }
 
 // Which manifolds each body has, in one list, by counting.
@@ -138,15 +126,6 @@ void PileSolver::wakeAll() {
 }
 
 void PileSolver::wakeRow(int row) { put(at(blockOfRow_[at(row)])); }
-
-void PileSolver::refine(double factor) {
-  for (std::size_t i = 0; i < moving_.size(); ++i) {
-    inertia_[i].change *= factor;
-    if (inertia_[i].inverseMass > 0 && moving_[i].untold > inertia_[i].change) {
-      tell(static_cast<int>(i));
-    }
-  }
-}
 
 void PileSolver::tell(int body) {
   moving_[at(body)].untold = 0;
@@ -184,20 +163,25 @@ std::int64_t PileSolver::solve(int sweeps, bool withFriction) {
 
 template <bool kFriction>
 void PileSolver::solveBlock(const Block& block) {
+  constexpr Pair kOpposite = {1, -1};
   Moving& movingA = moving_[at(block.a)];
   Moving& movingB = moving_[at(block.b)];
-  const Inertia& inertiaA = inertia_[at(block.a)];
-  const Inertia& inertiaB = inertia_[at(block.b)];
-  Vec3 vA = movingA.velocity;
-  Vec3 wA = movingA.omega;
-  Vec3 vB = movingB.velocity;
-  Vec3 wB = movingB.omega;
+  const PairInertia inertia(inertia_[at(block.a)], inertia_[at(block.b)]);
+  PairVec v = pairOf(movingA.velocity, movingB.velocity);
+  PairVec w = pairOf(movingA.omega, movingB.omega);
   bool changed = false;
   for (int k = block.first; k < block.first + block.count; ++k) {
     SolvedRow& row = rows_[at(k)];
-    const Vec3 u = vA + wA.cross(row.armA) - vB - wB.cross(row.armB);
+    const PairVec turning = cross(w, row.arms);
+    const Pair x = v.x + turning.x;
+    const Pair y = v.y + turning.y;
+    const Pair z = v.z + turning.z;
+    const double ux = x[0] - x[1];
+    const double uy = y[0] - y[1];
+    const double uz = z[0] - z[1];
+    const auto along = [&](const Vec3& d) { return d.x() * ux + d.y() * uy + d.z() * uz; };
     const double before = row.normalImpulse;
-    const double normal = std::max(0.0, before - row.massNormal * (row.normal.dot(u) - row.bound));
+    const double normal = std::max(0.0, before - row.massNormal * (along(row.normal) - row.bound));
     const double change = normal - before;
     if (normal == 0 && change == 0) {
       continue;
@@ -205,8 +189,8 @@ void PileSolver::solveBlock(const Block& block) {
     row.normalImpulse = normal;
     Vec3 impulse = change * row.normal;
     if constexpr (kFriction) {
-      const double u1 = row.tangent1.dot(u) + row.normalToTangent1 * change;
-      const double u2 = row.tangent2.dot(u) + row.normalToTangent2 * change;
+      const double u1 = along(row.tangent1) + row.normalToTangent1 * change;
+      const double u2 = along(row.tangent2) + row.normalToTangent2 * change;
       const double limit = block.friction * normal;
       double p1 = row.tangential1 - (row.stop11 * u1 + row.stop12 * u2);
       double p2 = row.tangential2 - (row.stop12 * u1 + row.stop22 * u2);
@@ -224,30 +208,33 @@ void PileSolver::solveBlock(const Block& block) {
       row.tangential1 = p1;
       row.tangential2 = p2;
     }
-    vA += inertiaA.inverseMass * impulse;
-    wA += inertiaA.times(row.armA.cross(impulse));
-    vB -= inertiaB.inverseMass * impulse;
-    wB -= inertiaB.times(row.armB.cross(impulse));
+    const PairVec push = {impulse.x() * kOpposite, impulse.y() * kOpposite, impulse.z() * kOpposite};
+    const PairVec spin = inertia.times(cross(row.arms, push));
+    v = {v.x + inertia.inverseMass * push.x, v.y + inertia.inverseMass * push.y,
+         v.z + inertia.inverseMass * push.z};
+    w = {w.x + spin.x, w.y + spin.y, w.z + spin.z};
     changed = true;
   }
-  if (!changed) {
+  if (changed) {
+    store(block.a, firstOf(v), firstOf(w));
+    store(block.b, secondOf(v), secondOf(w));
+  }
+}
+
+void PileSolver::store(int body, const Vec3& velocity, const Vec3& omega) {
+  const Inertia& inertia = inertia_[at(body)];
+  if (inertia.inverseMass == 0) {
     return;
   }
-  const auto store = [&](Moving& moving, const Inertia& inertia, const Vec3& v, const Vec3& w, int body) {
-    if (inertia.inverseMass == 0) {
-      return;
-    }
-    moving.untold +=
-        (v - moving.velocity).cwiseAbs().sum() + inertia.radius * (w - moving.omega).cwiseAbs().sum();
-    moving.velocity = v;
-    moving.omega = w;
-    moving.pushed = true;
-    if (moving.untold > inertia.change) {
-      tell(body);
-    }
-  };
-  store(movingA, inertiaA, vA, wA, block.a);
-  store(movingB, inertiaB, vB, wB, block.b);
+  Moving& moving = moving_[at(body)];
+  moving.untold += (velocity - moving.velocity).cwiseAbs().sum() +
+                   inertia.radius * (omega - moving.omega).cwiseAbs().sum();
+  moving.velocity = velocity;
+  moving.omega = omega;
+  moving.pushed = true;
+  if (moving.untold > inertia.change) {
+    tell(body);
+  }
 }
 
 }  // namespace careen

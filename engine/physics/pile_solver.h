@@ -58,15 +58,11 @@ class PileSolver {
   double normalImpulse(int row) const { return rows_[at(row)].normalImpulse; }
   double tangential1(int row) const { return rows_[at(row)].tangential1; }
   double tangential2(int row) const { return rows_[at(row)].tangential2; }
-  /// v_n of a row at present velocities.
-  double normalVelocity(int row) const;
   void setBound(int row, double bound) { rows_[at(row)].bound = bound; }
   /// After the last add(): who touches whom. solve() begins with what wakeAll() or wakeRow() put on the list.
   void link();
   void wakeAll();
   void wakeRow(int row);
-  /// Tells neighbours of smaller changes from now on.
-  void refine(double factor);
 
  private:
   struct Moving {
@@ -85,8 +81,37 @@ class PileSolver {
               xz * v.x() + yz * v.y() + zz * v.z()};
     }
   };
+  // Two doubles for two bodies at once, a's first; each operation is that of single doubles, bit for bit.
+  using Pair = double __attribute__((vector_size(16)));
+  struct PairVec {
+    Pair x, y, z;
+  };
+  static PairVec pairOf(const Vec3& a, const Vec3& b) {
+    return {Pair{a.x(), b.x()}, Pair{a.y(), b.y()}, Pair{a.z(), b.z()}};
+  }
+  static PairVec cross(const PairVec& a, const PairVec& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+  static Vec3 firstOf(const PairVec& v) { return {v.x[0], v.y[0], v.z[0]}; }
+  static Vec3 secondOf(const PairVec& v) { return {v.x[1], v.y[1], v.z[1]}; }
+  // The inverse masses and moments of two bodies.
+  struct PairInertia {
+    Pair inverseMass, xx, yy, zz, xy, xz, yz;
+    PairInertia(const Inertia& a, const Inertia& b)
+        : inverseMass{a.inverseMass, b.inverseMass},
+          xx{a.xx, b.xx},
+          yy{a.yy, b.yy},
+          zz{a.zz, b.zz},
+          xy{a.xy, b.xy},
+          xz{a.xz, b.xz},
+          yz{a.yz, b.yz} {}
+    PairVec times(const PairVec& v) const {
+      return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
+    }
+  };
   struct SolvedRow {
-    Vec3 armA, armB, normal, tangent1, tangent2;
+    PairVec arms;
+    Vec3 normal, tangent1, tangent2;
     double bound = 0;
     double massNormal = 0;
     double normalToTangent1 = 0, normalToTangent2 = 0;  // Δu_t per normal impulse
@@ -104,6 +129,7 @@ class PileSolver {
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   template <bool kFriction>
   void solveBlock(const Block& block);
+  void store(int body, const Vec3& velocity, const Vec3& omega);
   void tell(int body);
   void put(std::size_t block) { waiting_[block / 64] |= std::uint64_t{1} << (block % 64); }
 

@@ -64,9 +64,10 @@ inline World pouring(int count, double friction = 0.5, double restitution = 0, d
     body.mass = solidBox(body.halfExtents, 1000 * 8 * body.halfExtents.prod());
     body.material = {.restitution = restitution, .friction = friction};
     const double spacing = 0.98;  // no two overlap, nor a wall
-    body.initial.pose.position =
-        scale * Vec3((x + 0.5 - half) * spacing + pourer.between(-0.02, 0.02),
-                     (y + 0.5 - half) * spacing + pourer.between(-0.02, 0.02), 0.6 + 1.04 * layer);
+    const double askewX = pourer.between(-0.02, 0.02);
+    const double askewY = pourer.between(-0.02, 0.02);
+    body.initial.pose.position = scale * Vec3((x + 0.5 - half) * spacing + askewX,
+                                              (y + 0.5 - half) * spacing + askewY, 0.6 + 1.04 * layer);
     body.initial.pose.worldFromBody = pourer.attitude().toRotationMatrix();
     world.bodies.push_back(body);
   }
