@@ -108,6 +108,7 @@ class Pile {
   double tell_;  // [1] of the smallest size: what of a substep's motion neighbours are told
   std::vector<Bounce> bounces_;
   std::vector<double> unrest_;  // [m/s] what contacts and gravity left over in the last substep
+  std::vector<double> grip_;    // [1] the largest friction that holds a body
   std::vector<int> parent_;
   bool atRest_ = false;
   Figures figures_;

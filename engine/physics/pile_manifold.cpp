@@ -11,9 +11,10 @@
 namespace careen {
 namespace {
 
-constexpr double kSlack = 0x1p-10;  // [1] sides of a face moved outward, so that no clip is empty by rounding
-constexpr double kTie = 0x1p-12;    // [1] by which an axis must be better than that of last time
-constexpr double kSamePlace = 0x1p-6;  // [1] points of other features inherit from those nearer than this
+constexpr double kSlack = 0x1p-10;      // [1] past its ends an edge still counts
+constexpr double kClipSlack = 0x1p-30;  // [1] sides of a face moved outward, so that rounding empties no clip
+constexpr double kTie = 0x1p-12;        // [1] by which an axis must be better than that of last time
+constexpr double kSamePlace = 0x1p-6;   // [1] points of other features inherit from those nearer than this
 constexpr int kMostProjections = 40;
 constexpr std::uint32_t kEdgeFeature = 0x100;
 constexpr std::uint32_t kClosestFeature = 0x200;
@@ -96,7 +97,7 @@ void addFace(const PileBody& a, const PileBody& b, const PileAxes& axes, double 
   const Vec3 center = ofB ? axes.apartB : Vec3(-axes.apartA);
   const double sign = center[axis] < 0 ? -1 : 1;
   const ClippedFace face =
-      clipFace(owner, incident, ownerFromIncident, center, axis, sign, kSlack * manifold.length);
+      clipFace(owner, incident, ownerFromIncident, center, axis, sign, kClipSlack * manifold.length);
   manifold.planeOfB = ofB;
   manifold.planeAxis = axis;
   manifold.closest = false;

@@ -8,7 +8,7 @@
 namespace careen {
 namespace {
 
-constexpr double kStoppable = 0x1p-5;  // [1] of what gravity adds in a substep: speed that rest may stop
+constexpr double kFrictionless = 0x1p-20;  // μ below which nothing is stopped
 
 }  // namespace
 
@@ -28,12 +28,10 @@ void Pile::join(int a, int b) {
 
 // With all velocities set to zero, gravity and the kept impulses must leave every body of a touching cluster
 // next to nothing: then it would not move, and its last impulses, which lie in their cones, hold it for ever.
+// What moves at a constant speed passes that test too: the speed must be one that friction can take away
+// within the substep, μ g h.
 bool Pile::freeze() {
-  const auto isQuiet = [&](std::size_t i) {
-    const PileBody& body = bodies_[i];
-    return body.asleep || (unrest_[i] <= kFeasible * pull_ * h_ &&
-                           body.velocity.norm() + body.radius * body.omega.norm() <= kStoppable * pull_ * h_);
-  };
+  grip_.assign(bodies_.size(), kFrictionless);
   parent_.resize(bodies_.size());
   std::iota(parent_.begin(), parent_.end(), 0);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -43,15 +41,24 @@ bool Pile::freeze() {
   }
   for (const int slot : near_) {
     const PileManifold& manifold = manifolds_[at(slot)];
-    if (isWall(manifold.b) || bodies_[at(manifold.a)].held || bodies_[at(manifold.b)].held) {
-      continue;
-    }
     const bool pushes = std::any_of(manifold.points.begin(), manifold.points.begin() + manifold.count,
                                     [](const PilePoint& point) { return point.normalImpulse > 0; });
-    if (pushes) {
-      join(manifold.a, manifold.b);
+    if (!pushes) {
+      continue;
+    }
+    grip_[at(manifold.a)] = std::max(grip_[at(manifold.a)], manifold.friction);
+    if (!isWall(manifold.b)) {
+      grip_[at(manifold.b)] = std::max(grip_[at(manifold.b)], manifold.friction);
+      if (!bodies_[at(manifold.a)].held && !bodies_[at(manifold.b)].held) {
+        join(manifold.a, manifold.b);
+      }
     }
   }
+  const auto isQuiet = [&](std::size_t i) {
+    const PileBody& body = bodies_[i];
+    const double speed = body.velocity.norm() + body.radius * body.omega.norm();
+    return body.asleep || (unrest_[i] <= kFeasible * pull_ * h_ && speed <= grip_[i] * pull_ * h_);
+  };
   std::vector<char> quiet(bodies_.size(), 1);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].held && !isQuiet(i)) {
