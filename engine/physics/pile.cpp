@@ -9,6 +9,7 @@
 namespace careen {
 namespace {
 
+constexpr std::int64_t kFramesPerSorting = 4;
 constexpr double kLeastSubsteps = 3;  // in a frame
 constexpr double kMostSubsteps = 12;
 constexpr double kStride =
@@ -58,6 +59,9 @@ void Pile::step() {
   if (atRest_) {
     return;
   }
+  if (figures_.frames % kFramesPerSorting == 0) {
+    sortManifolds();
+  }
   const int substeps = chooseSubsteps();
   for (int k = 0; k < substeps; ++k) {
     substep(k == 0 ? frame_ : h_);
@@ -69,6 +73,22 @@ void Pile::step() {
       states_[at(bodyOf_[rank])] = stateOf(bodies_[rank]);
     }
   }
+}
+
+// Manifolds lie in memory in the order in which they are gone through: with thousands of boxes the cache
+// holds few of them. Where one lies changes no result.
+void Pile::sortManifolds() {
+  std::vector<PileManifold> sorted;
+  sorted.reserve(manifolds_.size());
+  for (PilePair& pair : pairs_.pairs()) {
+    if (pair.slot >= 0) {
+      sorted.push_back(manifolds_[at(pair.slot)]);
+      pair.slot = static_cast<int>(sorted.size()) - 1;
+    }
+  }
+  manifolds_.swap(sorted);
+  unused_.clear();
+  near_.clear();
 }
 
 // As many as the fastest body asks for, in parts of its size. Kept impulses are those of the last substep:

@@ -67,6 +67,7 @@ class Pile {
   bool isWall(int index) const { return at(index) >= bodies_.size(); }
   const Wall& wall(int index) const { return walls_[at(index) - bodies_.size()]; }
 
+  void sortManifolds();
   int chooseSubsteps();
   void substep(double lookAhead);
   void lookAround(double time);
