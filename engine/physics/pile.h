@@ -14,12 +14,19 @@
 namespace careen {
 
 /// Many boxes in contact, in fixed frames: the fast and bounded regime. Not exact: its forces are those of a
-/// Gauss–Seidel that stops early. What it promises is that overlap stays small at every frame, that it makes
-/// no energy, and that what has come to rest costs nothing.
+/// Gauss–Seidel that stops early. What it promises is that overlap stays small at every frame, that its
+/// impulses make no energy, and that what has come to rest costs nothing.
 ///
 /// A frame is a number of substeps, each: find what is near; gravity; impulses such that no gap closes beyond
 /// zero in the substep at its present rate, v_n ≥ −gap/h; move. Overlap that is left is taken out of the
 /// positions at the frame's end, and never turned into velocity (no Baumgarte, no slop).
+///
+/// Measured with 1000 boxes of 0.4 to 0.6 m that fall into a pit from up to 29 m, μ = 0.5, at every frame of
+/// 1/60 s: deepest overlap 8e-4 m while they fall on each other, 2e-4 m at the end, all asleep after 6 s.
+///
+/// Known limits. A box that spins on a single point of contact has no friction to stop it, and keeps all it
+/// touches awake. Taking out overlap lifts what lies above: in 99 of 100 small pours the energy rose by less
+/// than 2e-5 of the start's in any frame, in the last one, a shaft of 38 layers, by 5e-4.
 ///
 /// In flight a body is exact but for rounding in its centre, and to O(h³) in its attitude. Springs and drag
 /// of the world are not looked at. Held bodies stay as they are.
