@@ -75,14 +75,18 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
 
 RunFigures ExactWorld::run(const std::stop_token& stop) {
   begin();
-  for (std::optional<Event> event = queue_.next(); event && !earlier(end_, event->time);
+  for (std::optional<Event> event = queue_.next(); event && !crowded_ && !earlier(end_, event->time);
        event = queue_.next()) {
     if (stop.stop_requested()) {
       throw Interrupted();
     }
     happen(*event);
   }
-  end();
+  if (crowded_) {
+    runAsPile(stop);
+  } else {
+    end();
+  }
   return account_.figures();
 }
 
@@ -117,6 +121,10 @@ void ExactWorld::happen(const Event& event) {
     advance(mover(event.body).touchers, event.time);
   } else {
     Group group = gather(event);
+    if (isCrowd(group)) {
+      crowded_ = event.time;
+      return;
+    }
     resolve(group);
     settle(group);
     record(group);

@@ -29,6 +29,9 @@ class ExactWorld {
   ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder);
   RunFigures run(const std::stop_token& stop);
 
+  /// Contact of so many bodies at once is solved exactly: forces cost the cube of their number.
+  static constexpr int kMostInIsland = 24;
+
  private:
   /// What a body does after an event.
   enum class Next { kGoesOn, kFlies, kRests, kTouches };
@@ -53,6 +56,8 @@ class ExactWorld {
 
   void begin();
   void happen(const Event& event);
+  bool isCrowd(const Group& group) const;
+  void runAsPile(const std::stop_token& stop);
   void moveOn(Group& group);
   void end();
 
@@ -101,6 +106,7 @@ class ExactWorld {
 
   const World& world_;
   Instant end_;
+  std::optional<Instant> crowded_;         // when too many touch
   double tolerance_;                       // [m]
   static constexpr double kBurst = 0.125;  // [1] of a stride
   double stride_;                          // [s] of Island, where there are no smooth motions
