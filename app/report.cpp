@@ -1,12 +1,53 @@
 #include "report.h"
 
+#include <algorithm>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace careen {
 namespace {
+
+/// How long a body flew, was in contact, and rested [s].
+struct Life {
+  double flight = 0;
+  double contact = 0;
+  double rest = 0;
+  std::size_t steps = 0;  // of Contact
+};
+
+Life lifeOf(const Track& track, double duration) {
+  Life life;
+  for (std::size_t k = 0; k < track.segments.size(); ++k) {
+    const double end = k + 1 < track.segments.size() ? track.segments[k + 1].start : duration;
+    const double seconds = std::max(0.0, std::min(end, duration) - track.segments[k].start);
+    const Motion& motion = track.segments[k].motion;
+    if (std::holds_alternative<Rest>(motion)) {
+      life.rest += seconds;
+    } else if (std::holds_alternative<ContactStep>(motion)) {
+      life.contact += seconds;
+      ++life.steps;
+    } else {
+      life.flight += seconds;
+    }
+  }
+  return life;
+}
+
+nlohmann::ordered_json lifeReport(const Trajectory& trajectory) {
+  nlohmann::ordered_json lives = nlohmann::ordered_json::array();
+  for (const Track& track : trajectory.tracks) {
+    const Life life = lifeOf(track, trajectory.settings.duration);
+    lives.push_back({{"box", track.name},
+                     {"flight", life.flight},
+                     {"contact", life.contact},
+                     {"rest", life.rest},
+                     {"steps", life.steps}});
+  }
+  return lives;
+}
 
 void printItems(std::ostream& out, const char* title, const Plan& plan, bool modelled) {
   const char* indent = title;
@@ -73,10 +114,14 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
       {"momentum_change", figures.momentumChange},
       {"orthogonality", figures.orthogonality},
       {"deepest_penetration", figures.deepestPenetration},
+      {"life", lifeReport(trajectory)},
       {"modelled", run.plan.modelled()},
       {"left_out", run.plan.leftOut()},
       {"seconds", {{"simulate", run.simulateSeconds}}},
   };
+  if (figures.boundedFrom) {
+    report["bounded_from"] = *figures.boundedFrom;
+  }
   if (run.estimated) {
     report["error_estimate"] = estimateReport(run.estimate);
   }
@@ -100,6 +145,23 @@ void printError(std::ostream& out, const Trajectory& trajectory) {
   out << std::setprecision(3) << "error        energy " << figures.energyChange << ", momentum "
       << figures.momentumChange << ", |AAᵀ-1| " << figures.orthogonality << ", deepest penetration "
       << figures.deepestPenetration << " m\n";
+  if (figures.boundedFrom) {
+    out << "bounded      from " << *figures.boundedFrom
+        << " s on: too many bodies touch to be exact; they go on as a pile\n";
+  }
+  Life all;
+  for (const Track& track : trajectory.tracks) {
+    const Life life = lifeOf(track, trajectory.settings.duration);
+    all.flight += life.flight;
+    all.contact += life.contact;
+    all.rest += life.rest;
+    all.steps += life.steps;
+  }
+  const double whole = all.flight + all.contact + all.rest;
+  if (whole > 0) {
+    out << "life         flight " << 100 * all.flight / whole << " %, contact " << 100 * all.contact / whole
+        << " % in " << all.steps << " steps, rest " << 100 * all.rest / whole << " %\n";
+  }
   out << "impacts      " << trajectory.impacts.size() << '\n';
   out << "state hash   " << trajectory.stateHash() << '\n';
 }

@@ -129,6 +129,9 @@ void ExactWorld::happen(const Event& event) {
     settle(group);
     record(group);
     moveOn(group);
+    if (canPile() && movers_.size() > kMostInContact && !group.islands.empty()) {
+      crowded_ = event.time;
+    }
   }
 }
 
@@ -251,7 +254,9 @@ void ExactWorld::begins(int rank, const Instant& time) {
   Mover& body = mover(rank);
   const bool again = body.motion > 0 && !earlier(body.start, time);
   body.atOneMoment = again ? body.atOneMoment + 1 : 0;
-  if (body.atOneMoment > kMostAtOneMoment) {
+  if (body.atOneMoment > kMostAtOneMoment && canPile()) {
+    crowded_ = time;
+  } else if (body.atOneMoment > kMostAtOneMoment) {
     throw NumericalError(where(rank, time) + "is struck again and again at one moment");
   }
   if (secondsBetween(body.burst, time) > kBurst * stride_) {

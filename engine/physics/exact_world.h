@@ -31,6 +31,7 @@ class ExactWorld {
 
   /// Contact of so many bodies at once is solved exactly: forces cost the cube of their number.
   static constexpr int kMostInIsland = 24;
+  static constexpr std::size_t kMostInContact = 64;
 
  private:
   /// What a body does after an event.
@@ -57,6 +58,7 @@ class ExactWorld {
   void begin();
   void happen(const Event& event);
   bool isCrowd(const Group& group) const;
+  bool canPile() const { return !world_.gravity.isZero(0) && world_.springs.empty() && !world_.drag; }
   void runAsPile(const std::stop_token& stop);
   void moveOn(Group& group);
   void end();

@@ -32,13 +32,14 @@ ContactStep between(const BodyState& from, const BodyState& to) {
 }  // namespace
 
 bool ExactWorld::isCrowd(const Group& group) const {
-  return std::count_if(group.ranks.begin(), group.ranks.end(),
-                       [&](int rank) { return !mover(rank).isHeld(); }) > kMostInIsland;
+  return canPile() && std::count_if(group.ranks.begin(), group.ranks.end(),
+                                    [&](int rank) { return !mover(rank).isHeld(); }) > kMostInIsland;
 }
 
 // From here on all bodies move together, in frames.
 void ExactWorld::runAsPile(const std::stop_token& stop) {
   const Instant start = *crowded_;
+  account_.bounds(start.hi);
   std::vector<BodyState> states(movers_.size());
   for (const Mover& body : movers_) {
     const BodyState here = body.stateAt(start);

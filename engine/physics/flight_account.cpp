@@ -68,7 +68,8 @@ RunFigures FlightAccount::figures() const {
   return {.energyChange = largestKinetic_ > 0 ? largestError_ / largestKinetic_ : 0,
           .momentumChange = momentumError_,
           .orthogonality = orthogonality_,
-          .deepestPenetration = deepest_};
+          .deepestPenetration = deepest_,
+          .boundedFrom = boundedFrom_};
 }
 
 }  // namespace careen

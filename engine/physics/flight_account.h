@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "physics/method.h"
@@ -28,6 +29,8 @@ class FlightAccount {
   /// All of them have departed.
   void parted();
   void penetrates(double depth);
+  /// From that moment [s] on the run is bounded, not exact.
+  void bounds(double time) { boundedFrom_ = time; }
 
   RunFigures figures() const;
 
@@ -52,7 +55,8 @@ class FlightAccount {
   double largestError_ = 0;   // [J]
   double momentumError_ = 0;  // [1]
   double orthogonality_ = 0;
-  double deepest_ = 0;  // [m]
+  double deepest_ = 0;                 // [m]
+  std::optional<double> boundedFrom_;  // [s]
 };
 
 }  // namespace careen

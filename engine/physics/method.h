@@ -68,8 +68,9 @@ struct RunFigures {
                             ///< relative to the largest kinetic plus spring energy the run should have had
   double momentumChange =
       0;  ///< [1] largest relative change in flight, linear and angular, beyond what forces give
-  double orthogonality = 0;       ///< [1] largest ‖AAᵀ−1‖
-  double deepestPenetration = 0;  ///< [m]
+  double orthogonality = 0;                ///< [1] largest ‖AAᵀ−1‖
+  double deepestPenetration = 0;           ///< [m]
+  std::optional<double> boundedFrom = {};  ///< [s] from when method exact went on as a pile, if it did
 };
 
 struct RunSettings {

@@ -20,7 +20,7 @@ namespace {
 
 // The line ends in the magic word show a transfer that took the file for text.
 constexpr std::string_view kMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 2;
+constexpr std::uint64_t kVersion = 3;
 
 // Writer and Reader have the same calls, so that one description of the format, `visit` below, serves both
 // and the two cannot disagree.
@@ -289,6 +289,12 @@ void visit(Archive& archive, Visited<Archive, RunFigures> figures) {
   archive.visit(figures.momentumChange);
   archive.visit(figures.orthogonality);
   archive.visit(figures.deepestPenetration);
+  constexpr double kNever = -1;
+  double boundedFrom = figures.boundedFrom.value_or(kNever);
+  archive.visit(boundedFrom);
+  if constexpr (Archive::kReads) {
+    figures.boundedFrom = boundedFrom >= 0 ? std::optional(boundedFrom) : std::nullopt;
+  }
 }
 
 template <class Archive>

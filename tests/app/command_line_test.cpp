@@ -96,9 +96,9 @@ TEST_F(CommandLine, reportHasTheKeysOfTheContract) {
   folder_.write("scene.json", kScene);
   ASSERT_EQ(careen({"simulate", "scene.json", "--report", "report.json"}).exitCode, 0);
   const nlohmann::json report = nlohmann::json::parse(textOf(folder_ / "report.json"));
-  for (const char* key :
-       {"scene", "scene_hash", "method", "dt", "simulated_seconds", "wall_seconds", "impacts", "state_hash",
-        "energy_change", "momentum_change", "orthogonality", "deepest_penetration", "modelled", "left_out"}) {
+  for (const char* key : {"scene", "scene_hash", "method", "dt", "simulated_seconds", "wall_seconds",
+                          "impacts", "state_hash", "energy_change", "momentum_change", "orthogonality",
+                          "deepest_penetration", "life", "modelled", "left_out"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   EXPECT_EQ(report["scene"], "bounce");
