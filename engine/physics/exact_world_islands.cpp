@@ -26,7 +26,7 @@ bool movesAlike(const BodyState& x, const BodyState& y) {
 // go on by strides: one, and twice as many each time that was too early to stop.
 void ExactWorld::findTangle(Group& group) {
   constexpr int kMostInBurst = 24;
-  constexpr int kMostStrides = 64;
+  constexpr int kMostStrides = 16;
   if (world_.gravity.isZero(0)) {
     return;
   }
@@ -140,8 +140,8 @@ void ExactWorld::settleBody(Group& group, std::size_t index) const {
 // Contacts that neither approach nor part; or that come back within a stride, where bodies rattle or the
 // search has found them to hop on the spot.
 void ExactWorld::findPersisting(Group& group) const {
-  const double slow =
-      group.tangled || group.cause == EventKind::kTouching ? world_.gravity.norm() * stride_ : 0;
+  const bool hops = group.tangled || group.cause == EventKind::kTouching;
+  const double slow = hops && !world_.gravity.isZero(0) ? world_.gravity.norm() * stride_ : 0;
   for (std::size_t k = 0; k < group.contacts.size(); ++k) {
     const ImpactContact& contact = group.contacts[k];
     double parting = 0;

@@ -14,7 +14,7 @@ using Kind = ContactFeature::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// [1] of the tolerance that one step may err: many steps add up.
-constexpr double kShare = 0x1p-1;
+constexpr double kShare = 0x1p-4;
 /// [rad] turned in one step at most, so that the polynomials follow.
 constexpr double kMostTurn = 0.4;
 /// [1] of the smallest half extent: how far two bodies may slip past each other in one step.
@@ -280,7 +280,8 @@ Island::Step Island::step(double most) {
   double error = 0;
   int attempts = 0;
   for (;; ++attempts) {
-    if (attempts > kMostAttempts || (attempts > 0 && h < kStiff * strideOf(world_, tolerance_))) {
+    if (attempts > kMostAttempts ||
+        (attempts > 0 && system_.pull() > 0 && h < kStiff * strideOf(world_, tolerance_))) {
       end_ = start_;
       return stride(most);
     }

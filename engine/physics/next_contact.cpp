@@ -164,8 +164,11 @@ std::optional<Event> firstMeetingInStep(const Mover& body, int rank, const Mover
       watching = false;
       const double probe = kProbe * within / closing;
       const double rate = (gapAt(body, other, instantAfter(zero, t + probe)) - gap) / probe;
-      const double bent =
-          bending > 0 ? (rate + std::sqrt(rate * rate + 2 * bending * gap)) / bending : gap / closing;
+      // The root of gap + rate t − ½ bending t², in the form that adds.
+      const double root = std::sqrt(rate * rate + 2 * bending * gap);
+      const double bent = rate < 0      ? 2 * gap / (root - rate)
+                          : bending > 0 ? (rate + root) / bending
+                                        : gap / closing;
       t += std::max(bent, gap / closing);
       continue;
     }

@@ -13,7 +13,7 @@ class OwnMethod : public Contestant {
   std::string name() const override { return std::string(traits_.name); }
   std::string settings() const override {
     if (!traits_.steps()) {
-      return "careen: closed forms from impact to impact, no steps";
+      return "careen: closed forms from impact to impact, no steps; contact in steps, tolerance 1e-6 m";
     }
     return "careen: order " + std::to_string(traits_.order) +
            (traits_.forces ? ", the loop of 1997" : ", impacts at the roots of the gap");

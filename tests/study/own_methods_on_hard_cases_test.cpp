@@ -77,6 +77,19 @@ const std::vector<Measured> kExact = {
     {"exact", "kilometre", 2.9e-15},
     {"exact", "far-away", 1.5e-10},  // positions are rounded to 1.2e-10 m there
     {"exact", "scaled", 0},          // to the bit
+    // Contact: closed forms where forces are constant, else its steps, at a tolerance of 1e-6 m
+    {"exact", "sliding-azimuths", 1.8e-14},
+    {"exact", "incline-slide", 1.1e-14},
+    {"exact", "incline-hold", 9.7e-16},
+    {"exact", "stack-10", 0},
+    {"exact", "stack-heavy-100", 0},
+    {"exact", "stack-heavy-1e6", 0},
+    {"exact", "row-of-boxes", 1.3e-13},
+    {"exact", "spinning-stop", 2.1e-8},
+    {"exact", "overhang", 3.3e-8},
+    {"exact", "sliding-spinning", 1.5e-7},
+    {"exact", "rocking-block", 6.5e-7},
+    {"exact", "tip-or-slide", 6.2e-6},  // what tips leaves its balance ever faster
 };
 
 class ExactOnHardCases : public testing::TestWithParam<Measured> {};
