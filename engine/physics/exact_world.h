@@ -30,7 +30,7 @@ class ExactWorld {
   RunFigures run(const std::stop_token& stop);
 
   /// Contact of so many bodies at once is solved exactly: forces cost the cube of their number.
-  static constexpr int kMostInIsland = 24;
+  static constexpr int kMostInIsland = 12;
   static constexpr std::size_t kMostInContact = 64;
 
  private:
