@@ -9,7 +9,8 @@
 namespace careen {
 
 /// How wrong a run is, told by running it again a little otherwise: with half the step where the method takes
-/// steps, else from a start one rounding away, for then rounding is all there is to be wrong by.
+/// steps, else from a start one rounding away and with a tenth of the tolerance, for then rounding and the
+/// steps of contact are all there is to be wrong by.
 struct ErrorEstimate {
   std::string by;                 ///< what was done otherwise, in words
   double position = 0;            ///< [m] largest over all bodies, up to `until`

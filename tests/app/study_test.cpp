@@ -101,7 +101,9 @@ TEST_F(StudyCommand, runsTellTheirOwnErrorWhenAsked) {
   folder_.write("scene.json", kScene);
   Ended ended = careen({"simulate", "scene.json", "--estimate-error", "--report", "report.json"});
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
-  EXPECT_NE(ended.out.find("to the end (by a start one rounding away)"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("to the end (by a start one rounding away and a tenth of the tolerance)"),
+            std::string::npos)
+      << ended.out;
   nlohmann::json estimate = jsonOf("report.json").at("error_estimate");
   EXPECT_EQ(estimate.at("until"), 1);
   EXPECT_TRUE(estimate.at("horizon").is_null());

@@ -64,7 +64,7 @@ TEST(ErrorEstimate, ofExactIsItsErrorAgainstAQuadrupleRun) {
   const Trajectory run = record(world, {.method = Method::kExact, .duration = end}, "");
   const std::optional<ErrorEstimate> estimate = estimateError(world, run);
   ASSERT_TRUE(estimate.has_value());
-  EXPECT_EQ(estimate->by, "a start one rounding away");
+  EXPECT_EQ(estimate->by, "a start one rounding away and a tenth of the tolerance");
   double error = 0;
   const auto corners = room.corners(Quad(end) - room.time());
   const Pose pose = run.state(0, end).pose;
