@@ -10,7 +10,8 @@
 namespace careen {
 namespace {
 
-constexpr int kMostLimits = 200;
+constexpr int kMostLimits = 40;
+constexpr double kLimitsAccuracy = 0x1p-46;
 constexpr double kLimitsAgree = 0x1p-42;
 constexpr int kMostDecisions = 8;
 
@@ -49,7 +50,7 @@ bool ContactForces::solveByLimits(std::span<const double> free, std::span<Mode> 
     for (std::size_t i = 0; i < a_.size(); ++i) {
       a_[i] = free[i] + inverseMass_[i] * a_[i];
     }
-    solver.solve(a_, demands, impulses);
+    solver.solve(a_, demands, impulses, kLimitsAccuracy);
     double change = 0;
     double largest = 0;
     for (std::size_t c = 0; c < contacts_.size(); ++c) {

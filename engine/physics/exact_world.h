@@ -108,10 +108,10 @@ class ExactWorld {
 
   const World& world_;
   Instant end_;
-  std::optional<Instant> crowded_;         // when too many touch
-  double tolerance_;                       // [m]
-  static constexpr double kBurst = 0.125;  // [1] of a stride
-  double stride_;                          // [s] of Island, where there are no smooth motions
+  std::optional<Instant> crowded_;       // when too many touch
+  double tolerance_;                     // [m]
+  static constexpr double kBurst = 0.5;  // [1] of a stride
+  double stride_;                        // [s] of Island, where there are no smooth motions
   Recorder& recorder_;
   std::vector<Mover> movers_;
   Neighbors neighbors_;

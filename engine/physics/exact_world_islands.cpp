@@ -25,7 +25,7 @@ bool movesAlike(const BodyState& x, const BodyState& y) {
 // Bodies that rattle, with more changes of contact in less than a stride than are worth following one by one,
 // go on by strides: one, and twice as many each time that was too early to stop.
 void ExactWorld::findTangle(Group& group) {
-  constexpr int kMostInBurst = 24;
+  constexpr int kMostInBurst = 12;
   constexpr int kMostStrides = 16;
   if (world_.gravity.isZero(0)) {
     return;
