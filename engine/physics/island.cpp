@@ -21,6 +21,8 @@ constexpr double kMostTurn = 0.4;
 constexpr double kMostSlip = 0.25;
 /// [1] Short of the moment where slip would end: past it the equations change.
 constexpr double kBeforeStop = 1 - 0x1p-10;
+/// [1] of the time in which its slip would end: how long the speed of a body that slides alone matters.
+constexpr double kLifetime = 4;
 /// A slip so many tolerances slow, in the time it takes to fall one's own size, has stopped.
 constexpr double kStopped = 16;
 /// [1] Accelerations this small beside the pull are none.
@@ -113,8 +115,10 @@ bool Island::rests() const {
 
 // ---- Steps.
 
-double Island::longestStep() const {
+double Island::longestStep() {
   double most = kInfinity;
+  const bool alone = end_.size() == ContactSystem::kNumbers;
+  lifetime_ = kInfinity;
   for (std::size_t i = 0; i < bodies().size(); ++i) {
     const double turning = system_.kinematics(i).angularVelocity.norm();
     if (turning > 0) {
@@ -135,6 +139,7 @@ double Island::longestStep() const {
       const double rate = system_.slipSpeedRate(c);
       if (speed > system_.restSpeed() && rate < 0) {
         most = std::min(most, kBeforeStop * speed / -rate);
+        lifetime_ = alone ? std::min(lifetime_, kLifetime * speed / -rate) : lifetime_;
       }
     }
   }
@@ -187,7 +192,8 @@ double Island::sizeOf(const State& difference, double h) const {
       continue;
     }
     const double radius = body.body->halfExtents.norm();
-    const double time = system_.pull() > 0 ? std::max(h, std::sqrt(radius / system_.pull())) : h;
+    const double time =
+        system_.pull() > 0 ? std::max(h, std::min(std::sqrt(radius / system_.pull()), lifetime_)) : h;
     const Vec4 turn(difference[at + 3], difference[at + 4], difference[at + 5], difference[at + 6]);
     worst = std::max({worst, threeAt(difference, at).norm(), 2 * radius * turn.norm(),
                       time * threeAt(difference, at + 7).norm(),

@@ -77,7 +77,7 @@ class Island {
   void watchAll();
   double value(const Watch& watch) const;
   double touching(std::size_t body) const;
-  double longestStep() const;
+  double longestStep();
   Step stride(double most);
   bool try5(double h);
   void restep(double h);
@@ -101,8 +101,9 @@ class Island {
   State error_;
   double length_ = 0;  // of the last step
   double proposed_ = 0;
-  bool known_ = false;  // startRate_ is that of end_
-  bool smooth_ = true;  // forces were found
+  double lifetime_ = 0;  // [s] of the speeds there are
+  bool known_ = false;   // startRate_ is that of end_
+  bool smooth_ = true;   // forces were found
   double deepest_ = 0;
   int evaluations_ = 0;
 };
