@@ -22,6 +22,10 @@ namespace careen {
 /// Contact in steps that the tolerance chooses, or Rest. Between events nothing is computed, and an event
 /// touches only the bodies that take part in it.
 ///
+/// Where more bodies than kMostInIsland touch, or any slide or stack among more than kMostInContact, or
+/// bodies rattle on and on, the whole world goes on as a Pile from there: bounded, not exact. RunFigures says
+/// so.
+///
 /// Bodies go by rank, their place among the names, so that the order in which a scene lists them changes no
 /// bit.
 class ExactWorld {
@@ -31,6 +35,7 @@ class ExactWorld {
 
   /// Contact of so many bodies at once is solved exactly: forces cost the cube of their number.
   static constexpr int kMostInIsland = 12;
+  /// And contact in worlds of so many: every one is asked at each step of its neighbours.
   static constexpr std::size_t kMostInContact = 64;
 
  private:

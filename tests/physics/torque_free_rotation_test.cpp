@@ -76,6 +76,21 @@ TEST(TorqueFreeRotation, followsTheOracleForSymmetricBodiesAndCubes) {
   EXPECT_LT((worstError<double, long double>(Draw::kSymmetric, kBulk, 30)), 2e-15);
 }
 
+// Spin along an axis but for the rounding of the attitude: the other two components are what has cancelled,
+// and their squares came out negative once. What spins about its axis keeps to it.
+TEST(TorqueFreeRotation, keepsToAnAxisThatOnlyRoundingLeaves) {
+  const Vec3 moments(0.0080221269748460347, 0.011037178710746519, 0.0045587477762336912);
+  const Quat attitude(0.68577565682161989, -0.17168927073405801, 0.68594664101138902, 0.17237096191318307);
+  for (const double size : {1.0, 1e3, 1e6}) {
+    const Vec3 momentum =
+        size * Vec3(-1.3399907340884674e-05, -7.1733149753299932e-06, 2.4683069478582346e-21);
+    const TorqueFreeRotation<double> rotation(moments, attitude, momentum);
+    EXPECT_LT((rotation.worldFromBody(0.0).coeffs() - attitude.coeffs()).norm(), 1e-15) << size;
+    const Vec3 axis = rotation.worldFromBody(10.0) * Vec3::UnitZ();
+    EXPECT_LT((axis + momentum.normalized()).norm(), 1e-14) << size;
+  }
+}
+
 TEST(TorqueFreeRotation, followsTheOracleForSpinsCloseToAnAxis) {
   // measured 1.05e-15, asserts < 2e-15
   EXPECT_LT((worstError<double, long double>(Draw::kNearAxis, kBulk, 30)), 2e-15);
