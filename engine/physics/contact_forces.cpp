@@ -22,6 +22,8 @@ constexpr double kNoise = 0x1p-46;
 constexpr double kNear = 0x1p-38;
 /// Demands that contradict each other by so much are met as well as can be.
 constexpr double kInconsistent = 0x1p-10;
+/// [1] of the least violation: Newton's method has gone astray.
+constexpr double kDiverged = 0x1p20;
 constexpr int kOuterCap = 40;
 constexpr int kInnerCap = 40;
 /// Full Newton steps before half ones are tried against cycling.
@@ -153,6 +155,7 @@ ContactForces::Response ContactForces::respond(std::size_t c, const Force& exces
 }
 
 void ContactForces::accelerate(std::span<const double> free) {
+  scale_ = 0;
   std::fill(a_.begin(), a_.end(), 0.0);
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     push(contacts_[c], forces_[c], a_);
@@ -337,7 +340,7 @@ ContactForces::Mode ContactForces::modeOf(std::size_t c) {
 bool ContactForces::solve(std::span<const double> free, std::span<Mode> modes, Modes how,
                           std::span<const Force> guess) {
   return solveByNewton(free, modes, how, guess) ||
-         (how == Modes::kFound && solveByLimits(free, modes) && decide(free, modes));
+         (how == Modes::kFound && solveByLimits(free, modes) && (stands(modes) || decide(free, modes)));
 }
 
 void ContactForces::solveBlow(std::span<const double> free, std::span<Mode> modes) {
@@ -367,7 +370,6 @@ bool ContactForces::solveByNewton(std::span<const double> free, std::span<Mode> 
   gradient_.resize(axes);
   matrix_.resize(axes * axes);
   pivots_.resize(axes);
-  scale_ = 0;
   penalty_ = kPenalty;
   double bestViolation = std::numeric_limits<double>::infinity();
   double change = bestViolation;
@@ -375,7 +377,7 @@ bool ContactForces::solveByNewton(std::span<const double> free, std::span<Mode> 
   for (int iteration = 0; iteration < kOuterCap; ++iteration) {
     accelerate(free);
     const double now = violation(modes, how);
-    if (!(now < std::numeric_limits<double>::infinity())) {
+    if (!(now <= kDiverged * bestViolation)) {
       break;
     }
     stalled = now < bestViolation / 2 ? 0 : stalled + 1;

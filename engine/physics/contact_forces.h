@@ -86,6 +86,7 @@ class ContactForces {
   bool solveByNewton(std::span<const double> free, std::span<Mode> modes, Modes how,
                      std::span<const Force> guess);
   bool solveByLimits(std::span<const double> free, std::span<Mode> modes);
+  bool stands(std::span<Mode> modes) const;
   bool decide(std::span<const double> free, std::span<Mode> modes);
   void weigh();
   double along(const Contact& contact, std::size_t row, std::span<const double> of) const;

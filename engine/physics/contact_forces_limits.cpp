@@ -14,6 +14,8 @@ constexpr int kMostLimits = 40;
 constexpr double kLimitsAccuracy = 0x1p-46;
 constexpr double kLimitsAgree = 0x1p-42;
 constexpr int kMostDecisions = 8;
+constexpr double kDecided = 0x1p-36;
+constexpr double kStands = 0x1p-40;
 
 }  // namespace
 
@@ -76,6 +78,24 @@ bool ContactForces::solveByLimits(std::span<const double> free, std::span<Mode> 
   return agrees;
 }
 
+/// Nothing moves, and nothing begins to. Where more contacts stick than are needed, some of their forces may
+/// be at the limit and yet not slip.
+bool ContactForces::stands(std::span<Mode> modes) const {
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const Force& excess = excess_[c];
+    const bool pushes = modes[c] != Mode::kOff;
+    if (contacts_[c].slips || (pushes && std::fabs(excess[0]) > kStands * scale_) ||
+        (pushes && contacts_[c].friction > 0 &&
+         std::max(std::fabs(excess[1]), std::fabs(excess[2])) > kStands * scale_)) {
+      return false;
+    }
+  }
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    modes[c] = modes[c] == Mode::kSlip ? Mode::kStick : modes[c];
+  }
+  return true;
+}
+
 /// What the iteration has left undecided is decided towards slip and parting.
 bool ContactForces::decide(std::span<const double> free, std::span<Mode> modes) {
   for (int k = 0; k < kMostDecisions; ++k) {
@@ -90,7 +110,7 @@ bool ContactForces::decide(std::span<const double> free, std::span<Mode> modes) 
       modes[c] = now;
     }
     if (same) {
-      return true;
+      return violation(modes, Modes::kFound) <= kDecided * scale_;
     }
   }
   return false;
