@@ -186,14 +186,10 @@ BoxAxis contactAxis(const BoxAxes& axes, double within) {
 }  // namespace
 
 ContactPoints boxContactPoints(const Pose& a, const Vec3& halfExtentsA, const Pose& b,
-                               const Vec3& halfExtentsB) {
-  const double radiusA = halfExtentsA.norm();
-  const double radiusB = halfExtentsB.norm();
-  const double within =
-      touchingWithin(std::min(radiusA, radiusB),
-                     (a.position.cwiseAbs().sum() + b.position.cwiseAbs().sum()) + (radiusA + radiusB));
+                               const Vec3& halfExtentsB, double apart) {
+  const double within = std::max(apart, touchingWithin(a, halfExtentsA, b, halfExtentsB));
   const Vec3 bToA = a.position - b.position;
-  const BoxAxes axes(a.worldFromBody, halfExtentsA, b.worldFromBody, halfExtentsB, bToA);
+  const BoxAxes axes(a, halfExtentsA, b, halfExtentsB);
   const BoxAxis axis = contactAxis(axes, within);
   const Vec3 normal = axes.normal(axis);
 

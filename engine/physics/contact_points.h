@@ -41,7 +41,10 @@ class ContactPoints {
 ///
 /// Two faces at an angle that separate equally well (boxes that meet edge to parallel edge, exactly
 /// cornerwise) have no normal of their own: the one listed first, a's before b's, is taken.
+///
+/// With `apart` [m] instead of kSimultaneous, where that is more: points that so little parts are contact
+/// too.
 ContactPoints boxContactPoints(const Pose& a, const Vec3& halfExtentsA, const Pose& b,
-                               const Vec3& halfExtentsB);
+                               const Vec3& halfExtentsB, double apart = 0);
 
 }  // namespace careen

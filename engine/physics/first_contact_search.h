@@ -71,7 +71,9 @@ FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
     } else if (approach.closing() && (!watching || approach.closesHard())) {
       FirstContact impact = approach.describe();
       impact.kind = ContactKind::kImpact;
-      impact.time = std::clamp(t + approach.polish(), watching ? touch.time : window.from, window.until);
+      // A root before the search began is none: boxes that overlap by rounding may have touched ever since.
+      const double root = t + approach.polish();
+      impact.time = root < (watching ? touch.time : window.from) ? t : std::min(root, window.until);
       impact.evaluations = evaluations;
       return impact;
     } else {

@@ -74,6 +74,32 @@ BodyState stateIn(const ContactStep& step, const MassProperties& mass, double el
 
 }  // namespace
 
+Vec3 positionAt(const ContactStep& step, double elapsed) {
+  return evaluate(step.position, elapsed / step.duration).value;
+}
+
+Vec3 velocityAt(const ContactStep& step, double elapsed) {
+  return evaluate(step.position, elapsed / step.duration).slope / step.duration;
+}
+
+StepBounds boundsOf(const ContactStep& step) {
+  StepBounds bounds;
+  for (std::size_t k = 1; k < step.position.size(); ++k) {
+    const double first = static_cast<double>(k) / step.duration;
+    const double second = first * static_cast<double>(k - 1) / step.duration;
+    bounds.speed += first * step.position[k].norm();
+    bounds.acceleration += second * step.position[k].norm();
+    bounds.angularSpeed += 2 * first * step.worldFromBody[k].norm();
+    bounds.angularAcceleration += 2 * second * step.worldFromBody[k].norm();
+  }
+  // Between its ends the quaternion's length is not quite 1.
+  constexpr double kLength = 1 + 0x1p-6;
+  bounds.angularSpeed *= kLength;
+  bounds.angularAcceleration =
+      kLength * (bounds.angularAcceleration + bounds.angularSpeed * bounds.angularSpeed);
+  return bounds;
+}
+
 BodyState stateAt(const Motion& motion, const MassProperties& mass, double elapsed) {
   return std::visit([&](const auto& kind) { return stateIn(kind, mass, elapsed); }, motion);
 }

@@ -41,6 +41,17 @@ struct ContactStep {
   std::array<Vec4, 6> worldFromBody{};
 };
 
+Vec3 positionAt(const ContactStep& step, double elapsed);
+Vec3 velocityAt(const ContactStep& step, double elapsed);
+/// What a step of Contact never exceeds.
+struct StepBounds {
+  double speed = 0;                ///< [m/s] of the centre
+  double acceleration = 0;         ///< [m/s²] likewise
+  double angularSpeed = 0;         ///< [rad/s]
+  double angularAcceleration = 0;  ///< [rad/s²]
+};
+StepBounds boundsOf(const ContactStep& step);
+
 /// How one body moves until something happens to it. A further motion is one more type here and one more line
 /// in stateAt.
 using Motion = std::variant<Rest, EulerStep, Flight, SteppedFlight, ContactStep>;

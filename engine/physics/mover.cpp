@@ -36,6 +36,11 @@ void Mover::touch(std::shared_ptr<Touchers> with, std::size_t as) {
   rest({});
   touchers = std::move(with);
   place = as;
+  const StepBounds bounds = boundsOf(touchers->motions[place]);
+  speedBound = bounds.speed;
+  accelerationBound = bounds.acceleration;
+  angularSpeedBound = bounds.angularSpeed;
+  angularAccelerationBound = bounds.angularAcceleration;
 }
 
 void Mover::rest(const Pose& at) {
@@ -76,6 +81,10 @@ BodyState Mover::stateAt(const Instant& time, const Quat& attitude) const {
 }
 
 Attitude Mover::operator()(double elapsed) const {
+  if (touches()) {
+    const BodyState state = careen::stateAt(touchers->motions[place], body->mass, elapsed);
+    return {.worldFromBody = state.pose.worldFromBody, .angularVelocity = angularVelocity(body->mass, state)};
+  }
   if (!rotation) {
     return {.worldFromBody = pose.worldFromBody};
   }
@@ -92,21 +101,17 @@ MovingBox Mover::moving(const Instant& clockZero) const {
           .age = elapsed(clockZero),
           .angularSpeedBound = angularSpeedBound,
           .angularAccelerationBound = angularAccelerationBound,
-          .attitude = AttitudeView(*this)};
+          .attitude = AttitudeView(*this),
+          .step = touches() ? &touchers->motions[place] : nullptr,
+          .speedBound = speedBound,
+          .accelerationBound = accelerationBound};
 }
 
-bool areTouching(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB) {
-  const double radiusA = a.halfExtents.norm();
-  const double radiusB = b.halfExtents.norm();
-  const double within =
-      touchingWithin(std::min(radiusA, radiusB),
-                     poseA.position.cwiseAbs().sum() + poseB.position.cwiseAbs().sum() + radiusA + radiusB);
-  const Vec3 bToA = poseA.position - poseB.position;
-  if (bToA.norm() > radiusA + radiusB + within) {
-    return false;
-  }
-  return BoxAxes(poseA.worldFromBody, a.halfExtents, poseB.worldFromBody, b.halfExtents, bToA).gap() <=
-         within;
+bool areTouching(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, double apart) {
+  const double within = std::max(apart, touchingWithin(poseA, a.halfExtents, poseB, b.halfExtents));
+  const double reach = a.halfExtents.norm() + b.halfExtents.norm() + within;
+  return (poseA.position - poseB.position).norm() <= reach &&
+         BoxAxes(poseA, a.halfExtents, poseB, b.halfExtents).gap() <= within;
 }
 
 }  // namespace careen

@@ -39,6 +39,8 @@ struct Mover {
   std::size_t place = 0;                            ///< among them
   std::optional<PrincipalMoments<double>> moments;  ///< if it ever flew
   std::optional<TorqueFreeRotation<double>> rotation;
+  double speedBound = 0;                ///< [m/s] if it is in Contact
+  double accelerationBound = 0;         ///< [m/s²] likewise
   double angularSpeedBound = 0;         ///< [rad/s]
   double angularAccelerationBound = 0;  ///< [rad/s²]
   Pose pose;                            ///< if it rests, or is held
@@ -72,7 +74,7 @@ struct Mover {
   MovingBox moving(const Instant& clockZero) const;
 };
 
-/// Whether the gap of two boxes is within the grouping tolerance.
-bool areTouching(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB);
+/// Whether the gap of two boxes is within the grouping tolerance, or within `apart` [m] if that is more.
+bool areTouching(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, double apart = 0);
 
 }  // namespace careen

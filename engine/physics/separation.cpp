@@ -53,6 +53,22 @@ double reach(const Vec3& direction, const Mat3& worldFromBox, const Vec3& halfEx
 
 }  // namespace
 
+double touchingWithin(const Pose& box, const Vec3& halfExtents) {
+  const double radius = halfExtents.norm();
+  return touchingWithin(radius, box.position.cwiseAbs().sum() + radius);
+}
+
+double touchingWithin(const Pose& a, const Vec3& halfExtentsA, const Pose& b, const Vec3& halfExtentsB) {
+  const double radiusA = halfExtentsA.norm();
+  const double radiusB = halfExtentsB.norm();
+  return touchingWithin(std::min(radiusA, radiusB),
+                        (a.position.cwiseAbs().sum() + b.position.cwiseAbs().sum()) + (radiusA + radiusB));
+}
+
+double cornerGap(const Pose& box, const Vec3& corner, const Vec3& normal, double offset) {
+  return normal.dot(box.position) + normal.dot(box.worldFromBody * corner) - offset;
+}
+
 WallGap wallGap(const Pose& box, const Vec3& halfExtents, const Vec3& normal, double offset, double within) {
   const double height = normal.dot(box.position) - offset;
   WallGap result{.gap = height - reach(normal, box.worldFromBody, halfExtents)};

@@ -31,6 +31,13 @@ inline double touchingWithin(double radius, double lengths) {
   return std::max(kSimultaneous * radius, kGapRounding * lengths);
 }
 
+/// Likewise for a box and what does not move, and for two boxes.
+double touchingWithin(const Pose& box, const Vec3& halfExtents);
+double touchingWithin(const Pose& a, const Vec3& halfExtentsA, const Pose& b, const Vec3& halfExtentsB);
+
+/// [m] Signed gap of one corner, given in the box's frame, to the half-space normal·x > offset.
+double cornerGap(const Pose& box, const Vec3& corner, const Vec3& normal, double offset);
+
 /// Corner k of a box is bit k of a set; corners as in corner().
 using CornerSet = unsigned;
 
@@ -64,6 +71,8 @@ struct BoxAxis {
 class BoxAxes {
  public:
   BoxAxes(Mat3 worldFromA, Vec3 halfExtentsA, Mat3 worldFromB, Vec3 halfExtentsB, Vec3 bToA);
+  BoxAxes(const Pose& a, const Vec3& halfExtentsA, const Pose& b, const Vec3& halfExtentsB)
+      : BoxAxes(a.worldFromBody, halfExtentsA, b.worldFromBody, halfExtentsB, a.position - b.position) {}
 
   /// [m] the largest separation and the first axis that has it. Positive: a lower bound of the distance.
   /// Zero: touching. Negative: how deep the boxes overlap along that axis.

@@ -2,6 +2,7 @@
 
 #include "core/linear_algebra.h"
 #include "core/pose.h"
+#include "physics/motion.h"
 #include "physics/separation.h"
 
 // When a tumbling box first touches a wall or another tumbling box. Nothing is sampled: time advances by
@@ -21,10 +22,11 @@
 //   u turning with b's face M = K_b|Δ| + 2 W_b V + G + K_ab R_a      (f = u·Δ + u·r_a; likewise a's face)
 //   N = aᵢ×bⱼ turning       M = K_ab|Δ| + 2 (W_a+W_b) V + G + K_ab (ρ_a+ρ_b)   (ρ: half diagonal across the
 //   edge) u at rest in space      M = K_a R_a + K_b R_b − u·g
-// N is left at its own length sin θ there: its root is that of the unit direction and M does not grow as θ →
-// 0. Directions that turn with the boxes converge quadratically; the one at rest costs little, is safe for
-// nearly parallel edges too, and takes the long strides. Each proves the step on its own, so the longest is
-// taken.
+// In a step of Contact the centre's path is no parabola: G then bounds the relative acceleration, whatever
+// its direction. N is left at its own length sin θ there: its root is that of the unit direction and M does
+// not grow as θ → 0. Directions that turn with the boxes converge quadratically; the one at rest costs
+// little, is safe for nearly parallel edges too, and takes the long strides. Each proves the step on its own,
+// so the longest is taken.
 //
 // Touching. A gap within rounding is zero (kGapRounding). If it closes, that is an impact; if not, the pair
 // is watched until it is clear again, or sinks by 4 roundings without ever closing at a speed above rounding
@@ -54,7 +56,7 @@ class AttitudeView {
   Attitude (*call_)(const void*, double);
 };
 
-/// A box in flight, or at rest: then velocity, acceleration and bounds are zero.
+/// A box in flight, or at rest: then velocity, acceleration and bounds are zero. Or in a step of Contact.
 struct MovingBox {
   Vec3 halfExtents;
   Vec3 position;                        ///< [m] of the centre when the flight began, world
@@ -64,12 +66,19 @@ struct MovingBox {
   double angularSpeedBound = 0;         ///< [rad/s] never exceeded in this flight
   double angularAccelerationBound = 0;  ///< [rad/s²] likewise
   AttitudeView attitude;
+  const ContactStep* step = nullptr;  ///< how the centre moves, in place of the above
+  double speedBound = 0;              ///< [m/s] of the centre in this step
+  double accelerationBound = 0;       ///< [m/s²] likewise
 
   Vec3 positionAt(double time) const {
     const double elapsed = age + time;
-    return position + (velocity + 0.5 * elapsed * acceleration) * elapsed;
+    return step != nullptr ? careen::positionAt(*step, elapsed)
+                           : position + (velocity + 0.5 * elapsed * acceleration) * elapsed;
   }
-  Vec3 velocityAt(double time) const { return velocity + (age + time) * acceleration; }
+  Vec3 velocityAt(double time) const {
+    const double elapsed = age + time;
+    return step != nullptr ? careen::velocityAt(*step, elapsed) : velocity + elapsed * acceleration;
+  }
   Pose poseAt(double time) const {
     return {.position = positionAt(time), .worldFromBody = attitude(age + time).worldFromBody};
   }

@@ -31,7 +31,8 @@ class BoxApproach {
         turningA_(turningBound(a)),
         turningB_(turningBound(b)),
         turningBoth_((turningA_ + turningB_) + 2 * a.angularSpeedBound * b.angularSpeedBound),
-        gravity_(acceleration_.norm()) {}
+        steps_(a.step != nullptr || b.step != nullptr),
+        gravity_(steps_ ? accelerationOf(a) + accelerationOf(b) : acceleration_.norm()) {}
 
   double skip(double time) const;
   void moveTo(double time);
@@ -56,10 +57,19 @@ class BoxApproach {
   }
 
  private:
-  Vec3 offsetAt(double time) const { return bToA_ + (velocity_ + 0.5 * time * acceleration_) * time; }
-  Vec3 velocityAt(double time) const { return velocity_ + time * acceleration_; }
+  static double accelerationOf(const MovingBox& box) {
+    return box.step != nullptr ? box.accelerationBound : box.acceleration.norm();
+  }
+  Vec3 offsetAt(double time) const {
+    return steps_ ? a_.positionAt(time) - b_.positionAt(time)
+                  : Vec3(bToA_ + (velocity_ + 0.5 * time * acceleration_) * time);
+  }
+  Vec3 velocityAt(double time) const {
+    return steps_ ? a_.velocityAt(time) - b_.velocityAt(time) : Vec3(velocity_ + time * acceleration_);
+  }
   double skipStraight(double time) const;
   double skipCurved(double time) const;
+  double skipInSteps(double time) const;
   void boundTranslation(double time);
   void findRates();
 
@@ -90,7 +100,8 @@ class BoxApproach {
   const double turningA_;
   const double turningB_;
   const double turningBoth_;
-  const double gravity_;
+  const bool steps_;      // one of them is in Contact
+  const double gravity_;  // [m/s²] bounds the relative acceleration
 
   // At the present moment:
   Attitude nowA_;
@@ -114,7 +125,7 @@ double BoxApproach::skip(double time) const {
   if (offsetAt(time).squaredNorm() <= spheres_ * spheres_) {
     return time;
   }
-  return gravity_ == 0 ? skipStraight(time) : skipCurved(time);
+  return steps_ ? skipInSteps(time) : gravity_ == 0 ? skipStraight(time) : skipCurved(time);
 }
 
 // |Δ + Δ̇ s| = R. The discriminant as a cross product: far away nothing cancels.
@@ -147,10 +158,18 @@ double BoxApproach::skipCurved(double time) const {
   return time;
 }
 
+// At the relative speed there is, and what it can gain.
+double BoxApproach::skipInSteps(double time) const {
+  const Vec3 offset = offsetAt(time);
+  const double distance = offset.norm();
+  const Vec3 velocity = velocityAt(time);
+  return time + firstRoot(distance - spheres_, offset.dot(velocity) / distance, gravity_, kNever);
+}
+
 // Between straight flights the distance of the centres is a convex function of time: it stays below R_a + R_b
 // until the spheres part for good. Otherwise the bounds hold for a stride of half that length.
 void BoxApproach::boundTranslation(double time) {
-  if (gravity_ == 0) {
+  if (gravity_ == 0 && !steps_) {
     mostSpeed_ = velocity_.norm();
     mostDistance_ = std::max(spheres_, offset_.norm());
     const double squaredSpeed = velocity_.squaredNorm();
@@ -169,7 +188,8 @@ void BoxApproach::boundTranslation(double time) {
   const double speed = velocityAt(time).norm();
   const double stride = 0.5 * spheres_;
   // v s + ½ g s² ≤ stride for s = stride / (v + sqrt(½ g stride)).
-  validity_ = stride / (speed + std::sqrt(0.5 * gravity_ * stride));
+  const double pace = speed + std::sqrt(0.5 * gravity_ * stride);
+  validity_ = pace > 0 ? stride / pace : kNever;
   mostSpeed_ = speed + gravity_ * validity_;
   mostDistance_ = offset_.norm() + stride;
 }
@@ -186,10 +206,16 @@ void BoxApproach::moveTo(double time) {
   boundTranslation(time);
 
   const auto lengths = [](const MovingBox& box, double elapsed) {
+    if (box.step != nullptr) {
+      return sumOfSizes(box.step->position[0]) + box.speedBound * elapsed;
+    }
     return sumOfSizes(box.position) +
            elapsed * (sumOfSizes(box.velocity) + 0.5 * elapsed * sumOfSizes(box.acceleration));
   };
   const auto speeds = [](const MovingBox& box, double elapsed) {
+    if (box.step != nullptr) {
+      return box.speedBound;
+    }
     return sumOfSizes(box.velocity) + elapsed * sumOfSizes(box.acceleration);
   };
   tolerance_ = kGapRounding * ((lengths(a_, elapsedA) + lengths(b_, elapsedB)) + spheres_);
@@ -207,9 +233,12 @@ void BoxApproach::findRates() {
   closing_ = true;
   approach_ = kNever;
   curvature_ = 0;
+  // Of boxes that overlap within what counts as touching, any direction may be the one they part along.
+  const double alike =
+      axes_->gap() < -tolerance_ ? kSimultaneous * std::min(radiusA_, radiusB_) : tolerance_;
   for (int k = 0; k < BoxAxis::kCount; ++k) {
     const BoxAxis axis{k};
-    if (axes_->separation(axis) < axes_->gap() - tolerance_) {
+    if (axes_->separation(axis) < axes_->gap() - alike) {
       continue;
     }
     const bool turning = turnsWell(axis, kTurningEdges);
@@ -314,8 +343,8 @@ ConcaveBound BoxApproach::edgeBound(int i, int j) const {
 
 ConcaveBound BoxApproach::restingBound(BoxAxis axis) const {
   const Vec3 u = axes_->normal(axis);
-  const double curvature =
-      std::max(0.0, (turningA_ * radiusA_ + turningB_ * radiusB_) - u.dot(acceleration_));
+  const double curvature = std::max(
+      0.0, (turningA_ * radiusA_ + turningB_ * radiusB_) + (steps_ ? gravity_ : -u.dot(acceleration_)));
   ConcaveBound f(u.dot(offset_), u.dot(rate_), curvature);
   for (int i = 0; i < 3; ++i) {
     const Vec3 edge = nowA_.worldFromBody.col(i);

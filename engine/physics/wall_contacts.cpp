@@ -9,8 +9,7 @@ namespace careen {
 
 double addWallContacts(const World& world, const Body& body, const Pose& pose, int index,
                        std::vector<ImpactContact>& contacts, std::vector<int>& partners) {
-  const double radius = body.halfExtents.norm();
-  const double within = touchingWithin(radius, pose.position.cwiseAbs().sum() + radius);
+  const double within = touchingWithin(pose, body.halfExtents);
   double deepest = 0;
   for (std::size_t w = 0; w < world.walls.size(); ++w) {
     const Wall& wall = world.walls[w];
