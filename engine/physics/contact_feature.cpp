@@ -141,6 +141,13 @@ ContactFeature pointOnFace(int a, const Vec3& point, int b, const Mat3& worldFro
 
 }  // namespace
 
+bool hasCorner(std::span<const ContactFeature> features, int a, int wall, const Vec3& corner) {
+  return std::any_of(features.begin(), features.end(), [&](const ContactFeature& feature) {
+    return feature.kind == ContactFeature::Kind::kPointOnWall && feature.a == a && feature.wall == wall &&
+           feature.onA == corner;
+  });
+}
+
 ContactState contactState(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,
                           const Kinematics* b, const Vec3& halfExtentsB, const Wall* wall) {
   if (feature.kind == ContactFeature::Kind::kEdgeOnEdge) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "core/linear_algebra.h"
 #include "physics/body.h"
@@ -52,6 +52,9 @@ struct ContactState {
   Vec3 slipBias = Vec3::Zero();  ///< [m/s²]
   double beyond = 0;  ///< [m] how far the contact is past the end of its face or edge; negative within
 };
+
+/// Whether that corner of a is among them.
+bool hasCorner(std::span<const ContactFeature> features, int a, int wall, const Vec3& corner);
 
 /// `b` is null for a wall. Eq. 13 and its derivative; n turns with b's face, or with both edges.
 ContactState contactState(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,

@@ -1,17 +1,13 @@
 #include "physics/exact_world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <sstream>
 #include <string>
-#include <utility>
 
 #include "core/error.h"
-#include "physics/contact_points.h"
 #include "physics/next_contact.h"
-#include "physics/separation.h"
-#include "physics/settling.h"
-#include "physics/wall_contacts.h"
 
 namespace careen {
 namespace {
@@ -168,11 +164,20 @@ void ExactWorld::predictAround(int rank) {
 }
 
 void ExactWorld::end() {
+  bool mayLose = false;
   for (const Mover& body : movers_) {
     if (body.flies) {
       arrive(body, end_, body.stateAt(end_));
     }
   }
+  for (const Mover& body : movers_) {
+    if (body.touches()) {
+      account_.departs(static_cast<std::size_t>(body.listed.value), body.stateAt(end_));
+      mayLose = mayLose || body.touchers->island.mayLose();
+    }
+  }
+  account_.strikes(mayLose);
+  account_.parted();
 }
 
 // ---- Motions.
@@ -203,6 +208,11 @@ void ExactWorld::touch(const std::shared_ptr<Touchers>& touchers, const Instant&
   if (neighbors_.cellEdge() > 0) {
     most = std::min(most, withinCell(island));
   }
+  for (const TouchingBody& body : island.bodies()) {
+    if (!body.isHeld()) {
+      account_.departs(static_cast<std::size_t>(body.index), body.state());
+    }
+  }
   touchers->start = time;
   touchers->step = island.step(most);
   touchers->motions.resize(touchers->ranks.size());
@@ -219,13 +229,12 @@ void ExactWorld::touch(const std::shared_ptr<Touchers>& touchers, const Instant&
     if (neighbors_.isFiled(rank)) {
       neighbors_.move(rank, neighbors_.cellOf(body.positionAt(time)));
     }
-    account_.departs(static_cast<std::size_t>(body.listed.value), island.bodies()[i].state());
   }
   account_.penetrates(island.deepest());
 }
 
 void ExactWorld::advance(const std::shared_ptr<Touchers>& touchers, const Instant& time) {
-  account_.strikes(true);
+  account_.strikes(touchers->island.mayLose());
   touch(touchers, time);
   account_.parted();
   for (std::size_t i = 0; i < touchers->ranks.size(); ++i) {

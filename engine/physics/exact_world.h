@@ -35,10 +35,17 @@ class ExactWorld {
 
   /// Contact of so many bodies at once is solved exactly: forces cost the cube of their number.
   static constexpr int kMostInIsland = 12;
-  /// And contact in worlds of so many: every one is asked at each step of its neighbours.
+  /// And contact among so many in all: at each step each of its bodies looks for meetings with its
+  /// neighbours.
   static constexpr std::size_t kMostInContact = 64;
 
  private:
+  /// [1] of a stride: changes of contact within it belong together.
+  static constexpr double kBurst = 0.5;
+  /// Where bodies rattle: so many tolerances are near, and so many times what a stride falls is slow.
+  static constexpr double kNear = 4;
+  static constexpr double kSlow = 2;
+
   /// What a body does after an event.
   enum class Next { kGoesOn, kFlies, kRests, kTouches };
 
@@ -72,20 +79,31 @@ class ExactWorld {
   Group gather(const Event& event);
   void reach(const Event& event, Group& group);
   void join(Group& group, int rank);
-  void alignPlaces(Group& group, const Event& event) const;
-  bool addOverlaps(const Group& group, std::vector<ContactFeature>& features) const;
-  double gapOf(const Group& group, std::size_t a, std::size_t b) const;
-  void addMeeting(const Group& group, std::size_t a, std::size_t b,
-                  std::vector<ContactFeature>& features) const;
-  void addPairContacts(Group& group, std::size_t indexA, std::size_t indexB);
+  void addPairContacts(Group& group, std::size_t indexA, std::size_t indexB, double apart) const;
   void resolve(Group& group);
   void record(const Group& group);
+
+  // Where they stand.
+  void alignPlaces(Group& group, const Event& event) const;
+  void addHeld(const Group& group, std::vector<ContactFeature>& features) const;
+  void addCorners(const Group& group, std::vector<ContactFeature>& features) const;
+  void addMeeting(const Group& group, std::size_t a, std::size_t b,
+                  std::vector<ContactFeature>& features) const;
+  void addOverlaps(const Group& group, std::vector<ContactFeature>& features) const;
+  void addNear(Group& group) const;
+  double gapOf(const Group& group, std::size_t a, std::size_t b) const;
+  static std::size_t indexOf(const Group& group, int rank);
 
   // What comes after: Flight, Contact or Rest.
   void findTangle(Group& group);
   void settle(Group& group);
   void settleBody(Group& group, std::size_t index) const;
   void findPersisting(Group& group) const;
+  struct Parting {
+    double speed = 0;     ///< [m/s] of the gap
+    double rounding = 0;  ///< [m/s] as slow as this is none
+  };
+  Parting partingAt(const Group& group, std::size_t contact) const;
   void formIslands(Group& group) const;
   void formIsland(Group& group, const std::vector<std::size_t>& members) const;
   TouchingBody touchingBody(const Group& group, std::size_t index) const;
@@ -113,10 +131,9 @@ class ExactWorld {
 
   const World& world_;
   Instant end_;
-  std::optional<Instant> crowded_;       // when too many touch
-  double tolerance_;                     // [m]
-  static constexpr double kBurst = 0.5;  // [1] of a stride
-  double stride_;                        // [s] of Island, where there are no smooth motions
+  std::optional<Instant> crowded_;  // when too many touch
+  double tolerance_;                // [m]
+  double stride_;                   // [s] of Island, where there are no smooth motions
   Recorder& recorder_;
   std::vector<Mover> movers_;
   Neighbors neighbors_;

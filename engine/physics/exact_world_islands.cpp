@@ -15,6 +15,8 @@ namespace {
 
 /// [1] Speeds this small beside those of the bodies are no parting.
 constexpr double kParting = 0x1p-40;
+/// [1] of the speed that a stride's fall gives: nothing rattles any more.
+constexpr double kAllButStill = 0x1p-12;
 
 bool movesAlike(const BodyState& x, const BodyState& y) {
   return x.velocity == y.velocity && x.angularMomentum == y.angularMomentum;
@@ -26,7 +28,7 @@ bool movesAlike(const BodyState& x, const BodyState& y) {
 // go on by strides: one, and twice as many each time that was too early to stop.
 void ExactWorld::findTangle(Group& group) {
   constexpr int kMostInBurst = 12;
-  constexpr int kMostStrides = 16;
+  constexpr int kMostStrides = 1 << 20;
   if (world_.gravity.isZero(0)) {
     return;
   }
@@ -137,29 +139,35 @@ void ExactWorld::settleBody(Group& group, std::size_t index) const {
   }
 }
 
+ExactWorld::Parting ExactWorld::partingAt(const Group& group, std::size_t contact) const {
+  const ImpactContact& at = group.contacts[contact];
+  Parting parting;
+  const auto add = [&](int index, const Vec3& arm, double sign) {
+    const auto i = static_cast<std::size_t>(index);
+    const Body& body = *mover(group.ranks[i]).body;
+    const Vec3 spin = careen::angularVelocity(body.mass, group.after[i]);
+    parting.speed += sign * at.normal.dot(group.after[i].velocity + spin.cross(arm));
+    parting.rounding += kParting * (group.after[i].velocity.norm() + spin.norm() * arm.norm() +
+                                    kParting * std::sqrt(world_.gravity.norm() * body.halfExtents.norm()));
+  };
+  add(at.a, at.armA, 1);
+  if (at.b != ImpactContact::kWall) {
+    add(at.b, at.armB, -1);
+  }
+  return parting;
+}
+
 // Contacts that neither approach nor part; or that come back within a stride, where bodies rattle or the
 // search has found them to hop on the spot.
 void ExactWorld::findPersisting(Group& group) const {
   const bool hops = group.tangled || group.cause == EventKind::kTouching;
   const double slow = hops && !world_.gravity.isZero(0) ? world_.gravity.norm() * stride_ : 0;
+  if (group.tangled) {
+    addNear(group);
+  }
   for (std::size_t k = 0; k < group.contacts.size(); ++k) {
-    const ImpactContact& contact = group.contacts[k];
-    double parting = 0;
-    double scale = 0;
-    const auto add = [&](int index, const Vec3& arm, double sign) {
-      const auto i = static_cast<std::size_t>(index);
-      const Body& body = *mover(group.ranks[i]).body;
-      const Vec3 spin = careen::angularVelocity(body.mass, group.after[i]);
-      const Vec3 velocity = group.after[i].velocity + spin.cross(arm);
-      parting += sign * contact.normal.dot(velocity);
-      scale += group.after[i].velocity.norm() + spin.norm() * arm.norm() +
-               kParting * std::sqrt(world_.gravity.norm() * body.halfExtents.norm());
-    };
-    add(contact.a, contact.armA, 1);
-    if (contact.b != ImpactContact::kWall) {
-      add(contact.b, contact.armB, -1);
-    }
-    if (parting <= std::max(slow, kParting * scale)) {
+    const Parting parting = partingAt(group, k);
+    if (parting.speed <= std::max(slow, parting.rounding)) {
       group.persists[k] = 1;
     }
   }
@@ -236,8 +244,9 @@ ContactFeature ExactWorld::featureOf(const Group& group, std::size_t k) const {
     }
   } else {
     const auto b = static_cast<std::size_t>(contact.b);
-    feature = featureAt({contact.armA, contact.armB, contact.normal}, 0, contact.a, pose, half, contact.b,
-                        group.after[b].pose, mover(group.ranks[b]).body->halfExtents);
+    feature = featureAt({contact.armA, contact.armB, contact.normal}, group.tangled ? kNear * tolerance_ : 0,
+                        contact.a, pose, half, contact.b, group.after[b].pose,
+                        mover(group.ranks[b]).body->halfExtents);
   }
   feature.material = contact.material;
   return feature;
@@ -291,8 +300,19 @@ void ExactWorld::formIsland(Group& group, const std::vector<std::size_t>& member
   auto touchers = std::make_shared<Touchers>(
       Touchers{Island(world_, std::move(bodies), std::move(features), tolerance_), std::move(ranks), {}});
   Island& island = touchers->island;
-  island.begin(group.tangled ? Island::Motion::kStrides : Island::Motion::kSmooth);
-  if (!group.tangled && island.rests()) {
+  // Among what rattles only what has all but come to rest is asked for smooth motion: it may be at rest.
+  double speed = 0;
+  for (const TouchingBody& body : island.bodies()) {
+    speed = std::max(
+        {speed, body.velocity.norm(), body.angularVelocityBody.norm() * body.body->halfExtents.norm()});
+  }
+  const bool smooth = !group.tangled || speed <= kAllButStill * world_.gravity.norm() * stride_;
+  island.begin(smooth ? Island::Motion::kSmooth : Island::Motion::kStrides);
+  const bool rests = island.rests();
+  if (group.tangled && smooth && !rests) {
+    island.begin(Island::Motion::kStrides);
+  }
+  if (rests) {
     for (const std::size_t i : members) {
       const Mover& body = mover(group.ranks[i]);
       if (body.moves() || !movesAlike(group.before[i], group.after[i])) {
@@ -302,7 +322,7 @@ void ExactWorld::formIsland(Group& group, const std::vector<std::size_t>& member
         group.next[i] = Next::kGoesOn;
       }
     }
-  } else if (!group.tangled && !island.pushes() && !forced && group.cause != EventKind::kTouching) {
+  } else if (island.isSmooth() && !island.pushes() && !forced && group.cause != EventKind::kTouching) {
     all(Next::kFlies);
   } else {
     all(Next::kTouches);

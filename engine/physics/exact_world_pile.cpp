@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "core/error.h"
 #include "physics/exact_world.h"
@@ -46,6 +44,8 @@ void ExactWorld::runAsPile(const std::stop_token& stop) {
     states[static_cast<std::size_t>(body.listed.value)] = here;
     if (body.flies) {
       arrive(body, start, here);
+    } else if (body.touches()) {
+      account_.departs(static_cast<std::size_t>(body.listed.value), here);
     }
   }
   Pile pile(world_, states, kFrame);

@@ -4,8 +4,22 @@
 #include <cmath>
 
 #include "core/rotation.h"
+#include "physics/forces.h"
 
 namespace careen {
+
+FlightAccount::FlightAccount(const World& world) : world_(world), bodies_(world.bodies.size()) {
+  if (!world.springs.empty()) {
+    for (const Body& body : world.bodies) {
+      states_.push_back(body.initial);
+    }
+  }
+}
+
+// Bodies that a spring joins are seen at the same moments.
+double FlightAccount::energy() const {
+  return states_.empty() ? energy_ : energy_ + springEnergy(world_, states_);
+}
 
 void FlightAccount::see(std::size_t body, const BodyState& state) {
   const MassProperties& mass = world_.bodies[body].mass;
@@ -18,6 +32,9 @@ void FlightAccount::see(std::size_t body, const BodyState& state) {
   account.energy = energy;
   account.kinetic = kinetic;
   largestKinetic_ = std::max(largestKinetic_, kinetic_);
+  if (!states_.empty()) {
+    states_[body] = state;
+  }
   orthogonality_ = std::max(orthogonality_, orthogonalityError(state.pose.worldFromBody));
 }
 
@@ -29,7 +46,7 @@ void FlightAccount::departs(std::size_t body, const BodyState& state) {
 
 void FlightAccount::passes(std::size_t body, const BodyState& state) {
   see(body, state);
-  largestError_ = std::max(largestError_, std::abs(energy_ - due_));
+  largestError_ = std::max(largestError_, std::abs(energy() - due_));
 }
 
 void FlightAccount::arrives(std::size_t body, const BodyState& state, double elapsed) {
@@ -50,16 +67,13 @@ void FlightAccount::expect(const Vec3& momentum, const Vec3& due) {
 void FlightAccount::strikes(bool mayLose) { mayLose_ = mayLose; }
 
 void FlightAccount::parted() {
-  if (!begun_) {
-    begun_ = true;
-    due_ = energy_;
-    return;
+  const double energy = this->energy();
+  if (!begun_ || (mayLose_ && energy < due_)) {
+    due_ = energy;
   }
-  if (mayLose_ && energy_ < due_) {
-    due_ = energy_;
-  }
+  begun_ = true;
   mayLose_ = false;
-  largestError_ = std::max(largestError_, std::abs(energy_ - due_));
+  largestError_ = std::max(largestError_, std::abs(energy - due_));
 }
 
 void FlightAccount::penetrates(double depth) { deepest_ = std::max(deepest_, depth); }

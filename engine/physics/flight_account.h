@@ -16,7 +16,7 @@ namespace careen {
 /// nor is any change in flight or in an impact that should keep it.
 class FlightAccount {
  public:
-  explicit FlightAccount(const World& world) : world_(world), bodies_(world.bodies.size()) {}
+  explicit FlightAccount(const World& world);
 
   /// A body's motion begins in this state.
   void departs(std::size_t body, const BodyState& state);
@@ -42,14 +42,16 @@ class FlightAccount {
     Vec3 angularMomentum = Vec3::Zero();  // likewise
   };
   void see(std::size_t body, const BodyState& state);
+  double energy() const;
   void expect(const Vec3& momentum, const Vec3& due);
 
   const World& world_;
   std::vector<BodyAccount> bodies_;
-  double energy_ = 0;          // [J] of all bodies, where last seen
-  double kinetic_ = 0;         // [J] likewise
-  double largestKinetic_ = 0;  // [J]
-  double due_ = 0;             // [J] what the energy should be
+  std::vector<BodyState> states_;  // for springs: where last seen
+  double energy_ = 0;              // [J] of all bodies, where last seen, without springs
+  double kinetic_ = 0;             // [J] likewise
+  double largestKinetic_ = 0;      // [J]
+  double due_ = 0;                 // [J] what the energy should be
   bool mayLose_ = false;
   bool begun_ = false;
   double largestError_ = 0;   // [J]

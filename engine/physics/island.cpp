@@ -82,6 +82,15 @@ bool Island::isClear() const {
   return !features.empty();
 }
 
+bool Island::mayLose() const {
+  const std::vector<ContactFeature>& features = system_.features();
+  return strode_ || world_.drag ||
+         std::any_of(world_.springs.begin(), world_.springs.end(),
+                     [](const Spring& spring) { return spring.damping > 0; }) ||
+         std::any_of(features.begin(), features.end(),
+                     [](const ContactFeature& feature) { return feature.material.friction > 0; });
+}
+
 bool Island::rests() const {
   if (!smooth_) {
     return false;
@@ -148,10 +157,7 @@ double Island::longestStep() {
 
 bool Island::try5(double h) {
   bool found = true;
-  const auto rate = [&](const State& y, State& dy) {
-    ++evaluations_;
-    found = system_.rate(y, dy) && found;
-  };
+  const auto rate = [&](const State& y, State& dy) { found = system_.rate(y, dy) && found; };
   integrator_.step(start_, startRate_, h, rate, end_);
   rate(end_, endRate_);
   integrator_.error(h, endRate_, error_);
@@ -159,6 +165,15 @@ bool Island::try5(double h) {
 }
 
 void Island::restep(double h) {
+  if (strode_) {  // along the line between both ends
+    const double part = h / length_;
+    for (std::size_t k = 0; k < end_.size(); ++k) {
+      end_[k] = start_[k] + part * (strideEnd_[k] - start_[k]);
+    }
+    system_.projectPositions(end_);
+    system_.look(end_);
+    return;
+  }
   if (h > 0) {
     try5(h);
   } else {
@@ -178,12 +193,11 @@ void Island::finish() {
   }
   if (system_.project(end_)) {
     system_.rate(end_, endRate_);
-    ++evaluations_;
   }
 }
 
 // The error of a step in tolerances: of places as they are, of speeds by what they lead to in the time in
-// which the body would fall its own size.
+// which the body would fall its own size, or until it has stopped.
 double Island::sizeOf(const State& difference, double h) const {
   double worst = 0;
   std::size_t at = 0;
@@ -203,39 +217,48 @@ double Island::sizeOf(const State& difference, double h) const {
   return worst / (kShare * tolerance_);
 }
 
-bool Island::stops() const {
-  for (std::size_t c = 0; c < system_.features().size(); ++c) {
-    if (system_.modes()[c] == Mode::kSlip) {
-      const double speed = system_.states()[c].slip.norm();
-      const double rate = system_.slipSpeedRate(c);
-      if (speed > 0 && rate < 0 && speed <= kStopped * tolerance_ * std::sqrt(-rate / system_.radius())) {
-        return true;
-      }
-    }
-  }
-  return false;
+bool Island::allButStands(std::size_t contact) const {
+  const double speed = system_.states()[contact].slip.norm();
+  const double rate = system_.slipSpeedRate(contact);
+  return speed > 0 && rate < 0 && speed <= kStopped * tolerance_ * std::sqrt(-rate / system_.radius());
 }
 
 // What has all but ceased to slip, does: integrated into its stop it would take ever shorter steps.
-void Island::stop() {
+bool Island::stop() {
   const std::vector<Mode> kept = system_.modes();
+  bool stopped = false;
   for (std::size_t c = 0; c < kept.size(); ++c) {
-    if (kept[c] == Mode::kSlip) {
-      const double speed = system_.states()[c].slip.norm();
-      const double rate = system_.slipSpeedRate(c);
-      if (rate < 0 && speed <= kStopped * tolerance_ * std::sqrt(-rate / system_.radius())) {
-        system_.modes()[c] = Mode::kStick;
-      }
+    if (kept[c] == Mode::kSlip && allButStands(c)) {
+      system_.modes()[c] = Mode::kStick;
+      stopped = true;
     }
   }
-  system_.projectVelocities(end_);
-  system_.modes() = kept;
+  if (stopped) {
+    system_.projectVelocities(end_);
+    system_.modes() = kept;
+  }
+  return stopped;
 }
 
 Island::Step Island::stride(double most) {
-  const double h = std::min(most, strideOf(world_, tolerance_));
-  system_.strideBlow(end_, h);
+  strode_ = true;
+  known_ = false;
+  length_ = std::min(most, strideOf(world_, tolerance_));
+  system_.look(start_);
+  look();
+  system_.strideBlow(end_, length_);
   system_.look(end_);
+  strideEnd_ = end_;
+  Step done{.length = length_};
+  locate(done);
+  done.end = End::kChanges;
+  length_ = done.length;
+  findStrideRates();
+  system_.unpack(end_);
+  return done;
+}
+
+void Island::findStrideRates() {
   startRate_.assign(start_.size(), 0);
   endRate_.assign(start_.size(), 0);
   for (std::size_t at = 0; at < start_.size(); at += ContactSystem::kNumbers) {
@@ -245,8 +268,8 @@ Island::Step Island::stride(double most) {
       const std::array<double, 4> rates{turning.w(), turning.x(), turning.y(), turning.z()};
       for (std::size_t k = 0; k < 3; ++k) {
         dy[at + k] = y[at + 7 + k];
-        dy[at + 7 + k] = (end_[at + 7 + k] - start_[at + 7 + k]) / h;
-        dy[at + 10 + k] = (end_[at + 10 + k] - start_[at + 10 + k]) / h;
+        dy[at + 7 + k] = (end_[at + 7 + k] - start_[at + 7 + k]) / length_;
+        dy[at + 10 + k] = (end_[at + 10 + k] - start_[at + 10 + k]) / length_;
       }
       for (std::size_t k = 0; k < 4; ++k) {
         dy[at + 3 + k] = 0.5 * rates[k];
@@ -255,30 +278,21 @@ Island::Step Island::stride(double most) {
     fill(start_, startRate_);
     fill(end_, endRate_);
   }
-  length_ = h;
-  known_ = false;
-  system_.unpack(end_);
-  return {.length = h, .end = End::kChanges};
 }
 
 Island::Step Island::step(double most) {
   start_ = end_;
+  strode_ = false;
   if (!smooth_) {
     return stride(most);
   }
   if (known_) {
     startRate_ = endRate_;
     system_.look(start_);
-  } else {
-    ++evaluations_;
-    if (!system_.rate(start_, startRate_)) {
-      return stride(most);
-    }
+  } else if (!system_.rate(start_, startRate_)) {
+    return stride(most);
   }
-  atStart_.clear();
-  for (const Watch& watch : watches_) {
-    atStart_.push_back(value(watch));
-  }
+  look();
   double h = std::min(most, longestStep());
   if (proposed_ > 0) {
     h = std::min(h, proposed_);
@@ -301,20 +315,8 @@ Island::Step Island::step(double most) {
   proposed_ = h * (error > 1e-4 ? std::clamp(0.9 / std::sqrt(std::sqrt(error)), 0.2, 4.0) : 4.0);
   finish();
   Step done{.length = h};
-  for (std::size_t w = 0; w < watches_.size(); ++w) {
-    const double now = value(watches_[w]);
-    const bool fell = now < 0 && (atStart_[w] >= 0 || now < 2 * atStart_[w]);
-    if (fell) {
-      done.length = rootWithin(done.length, w, now);
-      done.end = End::kChanges;
-      restep(done.length);
-    }
-  }
-  if (done.end == End::kGoesOn && stops()) {
-    stop();
-    done.end = End::kChanges;
-  }
-  if (done.end == End::kGoesOn && isClear()) {
+  locate(done);
+  if (done.end == End::kGoesOn && (stop() || isClear())) {
     done.end = End::kChanges;
   }
   length_ = done.length;
@@ -330,16 +332,11 @@ Island::Step Island::step(double most) {
 }
 
 void Island::cutTo(double length) {
-  if (smooth_) {
-    restep(length);
-  } else {  // along the line between both ends
-    const double part = length / length_;
-    for (std::size_t k = 0; k < end_.size(); ++k) {
-      end_[k] = start_[k] + part * (end_[k] - start_[k]);
-    }
-    system_.projectPositions(end_);
-  }
+  restep(length);
   length_ = length;
+  if (strode_) {
+    findStrideRates();
+  }
   known_ = false;
   system_.unpack(end_);
 }

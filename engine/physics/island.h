@@ -56,10 +56,8 @@ class Island {
   ContactStep motion(std::size_t body) const;
   /// [m] deepest overlap seen at the end of a step.
   double deepest() const { return deepest_; }
-  int evaluations() const { return evaluations_; }
-  /// The next step begins with this length [s].
-  double proposedStep() const { return proposed_; }
-  void proposeStep(double length) { proposed_ = length; }
+  /// The last step may have taken out energy: by friction, or because it was a stride.
+  bool mayLose() const;
 
  private:
   using State = DormandPrince5::State;
@@ -68,23 +66,28 @@ class Island {
 
   struct Watch {  // a number that is positive until something happens
     enum class Kind { kPush, kStick, kGap, kWithin, kOverlap, kCorner };
+    static bool isOfPlaces(Kind kind) { return kind == Kind::kOverlap || kind == Kind::kCorner; }
     Kind kind;
     std::size_t contact = 0;  // or the pair, or the body
     int wall = 0;
     int corner = 0;
+    double margin = 0;  // [m]
   };
 
   void watchAll();
+  void look();
+  void locate(Step& step);
   double value(const Watch& watch) const;
   double touching(std::size_t body) const;
   double longestStep();
   Step stride(double most);
+  void findStrideRates();
   bool try5(double h);
   void restep(double h);
   void finish();
-  bool stops() const;
   bool isClear() const;
-  void stop();
+  bool allButStands(std::size_t contact) const;
+  bool stop();
   double sizeOf(const State& difference, double h) const;
   double rootWithin(double h, std::size_t watch, double atEnd);
 
@@ -97,6 +100,7 @@ class Island {
   State start_;
   State startRate_;
   State end_;
+  State strideEnd_;
   State endRate_;
   State error_;
   double length_ = 0;  // of the last step
@@ -104,8 +108,8 @@ class Island {
   double lifetime_ = 0;  // [s] of the speeds there are
   bool known_ = false;   // startRate_ is that of end_
   bool smooth_ = true;   // forces were found
+  bool strode_ = false;  // the last step was a stride
   double deepest_ = 0;
-  int evaluations_ = 0;
 };
 
 }  // namespace careen

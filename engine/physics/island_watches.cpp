@@ -21,8 +21,7 @@ constexpr double kShortestHop = 0x1p-30;
 }  // namespace
 
 double Island::touching(std::size_t body) const {
-  const double radius = bodies()[body].body->halfExtents.norm();
-  return touchingWithin(radius, bodies()[body].position.cwiseAbs().sum() + radius);
+  return touchingWithin(system_.kinematics(body).pose, bodies()[body].body->halfExtents);
 }
 
 void Island::watchAll() {
@@ -55,15 +54,40 @@ void Island::watchAll() {
     for (std::size_t w = 0; w < (bodies()[i].isHeld() ? 0 : world_.walls.size()); ++w) {
       for (int k = 0; k < kCorners; ++k) {
         const Vec3 at = corner(bodies()[i].body->halfExtents, k);
-        const bool known = std::any_of(features.begin(), features.end(), [&](const ContactFeature& feature) {
-          return feature.kind == Kind::kPointOnWall && feature.a == static_cast<int>(i) &&
-                 feature.wall == static_cast<int>(w) && feature.onA == at;
-        });
-        if (!known) {
+        if (!hasCorner(features, static_cast<int>(i), static_cast<int>(w), at)) {
           watches_.push_back(
               {.kind = Watch::Kind::kCorner, .contact = i, .wall = static_cast<int>(w), .corner = k});
         }
       }
+    }
+  }
+}
+
+// Forces are watched in smooth motion only: a stride shares them out itself.
+void Island::look() {
+  atStart_.clear();
+  for (Watch& watch : watches_) {
+    // A corner that touches and yet is no contact parts: rounding is no landing.
+    if (watch.kind == Watch::Kind::kCorner) {
+      watch.margin = 0;
+      watch.margin = value(watch) > touching(watch.contact) ? 0 : kTouching * touching(watch.contact);
+    }
+    atStart_.push_back(strode_ && !Watch::isOfPlaces(watch.kind) ? 0 : value(watch));
+  }
+}
+
+// The step ends where the first of the watches falls.
+void Island::locate(Step& step) {
+  for (std::size_t w = 0; w < watches_.size(); ++w) {
+    if (strode_ && !Watch::isOfPlaces(watches_[w].kind)) {
+      continue;
+    }
+    const double now = value(watches_[w]);
+    const bool fell = now < 0 && (atStart_[w] >= 0 || now < 2 * atStart_[w]);
+    if (fell) {
+      step.length = rootWithin(step.length, w, now);
+      step.end = End::kChanges;
+      restep(step.length);
     }
   }
 }
@@ -90,19 +114,16 @@ double Island::value(const Watch& watch) const {
       const ContactFeature& feature = system_.features()[c];
       const auto a = static_cast<std::size_t>(feature.a);
       const auto b = static_cast<std::size_t>(feature.b);
-      const Pose& poseA = system_.kinematics(a).pose;
-      const Pose& poseB = system_.kinematics(b).pose;
-      return BoxAxes(poseA.worldFromBody, bodies()[a].body->halfExtents, poseB.worldFromBody,
-                     bodies()[b].body->halfExtents, poseA.position - poseB.position)
+      return BoxAxes(system_.kinematics(a).pose, bodies()[a].body->halfExtents, system_.kinematics(b).pose,
+                     bodies()[b].body->halfExtents)
                  .gap() +
              kTouching * std::max(touching(a), touching(b));
     }
     case Watch::Kind::kCorner: {
       const Wall& wall = world_.walls[static_cast<std::size_t>(watch.wall)];
-      const Pose& pose = system_.kinematics(c).pose;
-      return wall.normal.dot(pose.position) +
-             wall.normal.dot(pose.worldFromBody * corner(bodies()[c].body->halfExtents, watch.corner)) -
-             wall.offset;
+      return cornerGap(system_.kinematics(c).pose, corner(bodies()[c].body->halfExtents, watch.corner),
+                       wall.normal, wall.offset) +
+             watch.margin;
     }
   }
   return 0;
@@ -136,8 +157,9 @@ double Island::rootWithin(double h, std::size_t watch, double atEnd) {
     if (-valueHigh <= kRootValue * valueLow) {
       break;
     }
+    // A watch may be level and then fall: every third cut is in the middle.
     double middle = high - weightHigh * (high - low) / (weightHigh - weightLow);
-    if (!(middle > low && middle < high)) {
+    if (k % 3 == 2 || !(middle > low && middle < high)) {
       middle = 0.5 * (low + high);
     }
     restep(middle);
