@@ -300,7 +300,7 @@ void ExactWorld::predict(int rank) {
   }
   neighbors_.findCandidates(rank, candidates_);
   for (const Neighbors::Key candidate : candidates_) {
-    if (body.touches() && shareContact(body, rank, candidate)) {
+    if (body.touches() && seesTo(*body.touchers, body.place, candidate)) {
       continue;
     }
     const std::optional<Event> met =
@@ -317,17 +317,10 @@ void ExactWorld::predict(int rank) {
 }
 
 // Those that touch are the island's own business.
-bool ExactWorld::shareContact(const Mover& a, int rankA, int rankB) {
-  const std::vector<int>& ranks = a.touchers->ranks;
-  const std::vector<ContactFeature>& features = a.touchers->island.system().features();
-  return std::any_of(features.begin(), features.end(), [&](const ContactFeature& feature) {
-    if (feature.b == ContactFeature::kNobody) {
-      return false;
-    }
-    const int x = ranks[static_cast<std::size_t>(feature.a)];
-    const int y = ranks[static_cast<std::size_t>(feature.b)];
-    return (x == rankA && y == rankB) || (x == rankB && y == rankA);
-  });
+bool ExactWorld::seesTo(const Touchers& touchers, std::size_t place, int rank) {
+  const auto other = std::find(touchers.ranks.begin(), touchers.ranks.end(), rank);
+  return other != touchers.ranks.end() &&
+         touchers.island.watches(place, static_cast<std::size_t>(other - touchers.ranks.begin()));
 }
 
 void ExactWorld::sooner(std::optional<Event>& first, const Event& candidate) {

@@ -22,9 +22,8 @@ namespace careen {
 /// Contact in steps that the tolerance chooses, or Rest. Between events nothing is computed, and an event
 /// touches only the bodies that take part in it.
 ///
-/// Where more bodies than kMostInIsland touch, or any slide or stack among more than kMostInContact, or
-/// bodies rattle on and on, the whole world goes on as a Pile from there: bounded, not exact. RunFigures says
-/// so.
+/// Where more bodies than kMostInIsland touch, or any slide or stack among more than kMostInContact, the
+/// whole world goes on as a Pile from there: bounded, not exact. RunFigures says so.
 ///
 /// Bodies go by rank, their place among the names, so that the order in which a scene lists them changes no
 /// bit.
@@ -65,6 +64,7 @@ class ExactWorld {
     std::vector<Instant> since;  ///< and from when
     std::vector<std::shared_ptr<Touchers>> islands;
     bool tangled = false;  ///< it moves by strides
+    bool passes = false;   ///< contacts without an impulse persist
   };
 
   void begin();
@@ -112,7 +112,7 @@ class ExactWorld {
   bool isForced(int rank) const { return forced_[static_cast<std::size_t>(rank)] != 0; }
 
   void advance(const std::shared_ptr<Touchers>& touchers, const Instant& time);
-  static bool shareContact(const Mover& a, int rankA, int rankB);
+  static bool seesTo(const Touchers& touchers, std::size_t place, int rank);
   void fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude);
   void rest(int rank, const Instant& time, const Pose& pose);
   void touch(const std::shared_ptr<Touchers>& touchers, const Instant& time);

@@ -13,7 +13,7 @@
 namespace careen {
 namespace {
 
-/// [1] Speeds this small beside those of the bodies are no parting.
+/// [1] Speeds this small beside those of the bodies are no parting, and accelerations no pull.
 constexpr double kParting = 0x1p-40;
 /// [1] of the speed that a stride's fall gives: nothing rattles any more.
 constexpr double kAllButStill = 0x1p-12;
@@ -28,7 +28,7 @@ bool movesAlike(const BodyState& x, const BodyState& y) {
 // go on by strides: one, and twice as many each time that was too early to stop.
 void ExactWorld::findTangle(Group& group) {
   constexpr int kMostInBurst = 12;
-  constexpr int kMostStrides = 1 << 20;
+  constexpr int kMostStrides = 1024;
   if (world_.gravity.isZero(0)) {
     return;
   }
@@ -50,9 +50,6 @@ void ExactWorld::findTangle(Group& group) {
   // A single body that bounces is followed to the end: the time at which it rests is exact.
   if (rattles && !group.tangled && (touching || movable > 1)) {
     group.tangled = true;
-    if (strides == kMostStrides && canPile()) {
-      crowded_ = group.time;
-    }
     for (const int rank : group.ranks) {
       mover(rank).strides = strides;
       mover(rank).tangledUntil = instantAfter(group.time, strides * stride_);
@@ -68,7 +65,7 @@ void ExactWorld::settle(Group& group) {
       continue;
     }
     group.next[i] = Next::kFlies;
-    if (!world_.gravity.isZero(0)) {
+    if (!world_.gravity.isZero(0) && !group.tangled) {
       settleBody(group, i);
     }
   }
@@ -113,7 +110,9 @@ void ExactWorld::settleBody(Group& group, std::size_t index) const {
     const Vec3 normal = isA ? contact.normal : Vec3(-contact.normal);
     const Vec3& arm = isA ? contact.armA : contact.armB;
     const Vec3 acceleration = world_.gravity + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
-    const Bouncing bouncing{.acceleration = normal.dot(acceleration),
+    const double pull = normal.dot(acceleration);
+    const bool pulled = std::fabs(pull) > kParting * acceleration.norm();  // along a wall it is rounding
+    const Bouncing bouncing{.acceleration = pulled ? pull : 0,
                             .departure = std::max(0.0, normal.dot(state.velocity + omega.cross(arm))),
                             .restitution = contact.material.restitution,
                             .gapRounding = kGapRounding * lengthsAt(group, k)};
@@ -167,7 +166,8 @@ void ExactWorld::findPersisting(Group& group) const {
   }
   for (std::size_t k = 0; k < group.contacts.size(); ++k) {
     const Parting parting = partingAt(group, k);
-    if (parting.speed <= std::max(slow, parting.rounding)) {
+    const bool passes = group.passes && !(group.shares[k].impulse > 0);
+    if (passes || parting.speed <= std::max(slow, parting.rounding)) {
       group.persists[k] = 1;
     }
   }

@@ -25,8 +25,8 @@ void ExactWorld::alignPlaces(Group& group, const Event& event) const {
   std::vector<ContactFeature> features;
   addHeld(group, features);
   addCorners(group, features);
-  if (event.partner >= 0 &&
-      !(mover(event.body).touches() && shareContact(mover(event.body), event.body, event.partner))) {
+  const Mover& body = mover(event.body);
+  if (event.partner >= 0 && !(body.touches() && seesTo(*body.touchers, body.place, event.partner))) {
     addMeeting(group, indexOf(group, event.body), indexOf(group, event.partner), features);
   }
   constexpr int kMostPasses = 8;

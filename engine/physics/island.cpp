@@ -165,10 +165,12 @@ bool Island::try5(double h) {
 }
 
 void Island::restep(double h) {
-  if (strode_) {  // along the line between both ends
+  if (strode_) {  // under steady accelerations
     const double part = h / length_;
     for (std::size_t k = 0; k < end_.size(); ++k) {
-      end_[k] = start_[k] + part * (strideEnd_[k] - start_[k]);
+      const double steady = startRate_[k] + endRate_[k];
+      end_[k] = start_[k] + part * (strideEnd_[k] - start_[k] - 0.5 * length_ * steady) +
+                h * (startRate_[k] + 0.5 * part * (endRate_[k] - startRate_[k]));
     }
     system_.projectPositions(end_);
     system_.look(end_);
@@ -248,17 +250,22 @@ Island::Step Island::stride(double most) {
   look();
   system_.strideBlow(end_, length_);
   system_.look(end_);
-  strideEnd_ = end_;
+  endStride(length_);
   Step done{.length = length_};
   locate(done);
   done.end = End::kChanges;
-  length_ = done.length;
-  findStrideRates();
+  endStride(done.length);
   system_.unpack(end_);
   return done;
 }
 
-void Island::findStrideRates() {
+// The stride is that from start_ to end_ now.
+void Island::endStride(double length) {
+  length_ = length;
+  strideEnd_ = end_;
+  if (!(length_ > 0)) {
+    return;
+  }
   startRate_.assign(start_.size(), 0);
   endRate_.assign(start_.size(), 0);
   for (std::size_t at = 0; at < start_.size(); at += ContactSystem::kNumbers) {
@@ -335,15 +342,14 @@ void Island::cutTo(double length) {
   restep(length);
   length_ = length;
   if (strode_) {
-    findStrideRates();
+    endStride(length);
   }
   known_ = false;
   system_.unpack(end_);
 }
 
-ContactStep Island::motion(std::size_t body) const {
+ContactStep Island::motion(std::size_t body, double h) const {
   const std::size_t at = system_.placeOf(body) * ContactSystem::kNumbers;
-  const double h = length_;
   ContactStep step{.duration = h > 0 ? h : 1};
   const auto hermite = [h](const auto& p0, const auto& v0, const auto& a0, const auto& p1, const auto& v1,
                            const auto& a1, auto& c) {

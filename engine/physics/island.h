@@ -52,8 +52,10 @@ class Island {
 
   const ContactSystem& system() const { return system_; }
   const std::vector<TouchingBody>& bodies() const { return system_.bodies(); }
+  /// Two bodies are watched by steps themselves, because they pushed or touched where this one began.
+  bool watches(std::size_t a, std::size_t b) const;
   /// How a body that can move did so in the last step.
-  ContactStep motion(std::size_t body) const;
+  ContactStep motion(std::size_t body) const { return motion(body, length_); }
   /// [m] deepest overlap seen at the end of a step.
   double deepest() const { return deepest_; }
   /// The last step may have taken out energy: by friction, or because it was a stride.
@@ -72,16 +74,22 @@ class Island {
     int wall = 0;
     int corner = 0;
     double margin = 0;  // [m]
+    double rate = 0;    // [m/s] of a corner, at the start of the step
   };
 
   void watchAll();
   void look();
   void locate(Step& step);
+  double rateOf(const Watch& corner) const;
+  double lowestWithin(double h, std::size_t watch, double atEnd) const;
+  double lowestOfCorner(double h, std::size_t watch, double atEnd) const;
+  double deepWithin(double h, const Watch& watch) const;
+  ContactStep motion(std::size_t body, double h) const;
   double value(const Watch& watch) const;
   double touching(std::size_t body) const;
   double longestStep();
   Step stride(double most);
-  void findStrideRates();
+  void endStride(double length);
   bool try5(double h);
   void restep(double h);
   void finish();

@@ -73,6 +73,7 @@ void Island::look() {
       watch.margin = value(watch) > touching(watch.contact) ? 0 : kTouching * touching(watch.contact);
     }
     atStart_.push_back(strode_ && !Watch::isOfPlaces(watch.kind) ? 0 : value(watch));
+    watch.rate = watch.kind == Watch::Kind::kCorner ? rateOf(watch) : 0;
   }
 }
 
@@ -82,14 +83,114 @@ void Island::locate(Step& step) {
     if (strode_ && !Watch::isOfPlaces(watches_[w].kind)) {
       continue;
     }
-    const double now = value(watches_[w]);
+    double until = step.length;
+    double now = value(watches_[w]);
+    if (const double lowest = lowestWithin(step.length, w, now); lowest > 0) {
+      restep(lowest);
+      const double there = value(watches_[w]);
+      if (there < 0) {
+        until = lowest;
+        now = there;
+      } else {
+        restep(step.length);
+      }
+    }
     const bool fell = now < 0 && (atStart_[w] >= 0 || now < 2 * atStart_[w]);
     if (fell) {
-      step.length = rootWithin(step.length, w, now);
+      step.length = rootWithin(until, w, now);
       step.end = End::kChanges;
       restep(step.length);
     }
   }
+}
+
+bool Island::watches(std::size_t a, std::size_t b) const {
+  const std::vector<ContactFeature>& features = system_.features();
+  const auto isBetween = [&](std::size_t c) {
+    const auto first = static_cast<std::size_t>(features[c].a);
+    const auto second = static_cast<std::size_t>(features[c].b);
+    return (first == a && second == b) || (first == b && second == a);
+  };
+  for (std::size_t c = 0; c < features.size(); ++c) {
+    if (features[c].b != ContactFeature::kNobody && isBetween(c) && system_.pushes(c)) {
+      return true;
+    }
+  }
+  for (std::size_t w = 0; w < watches_.size(); ++w) {
+    const double margin = kTouching * std::max(touching(a), touching(b));
+    if (watches_[w].kind == Watch::Kind::kOverlap && isBetween(watches_[w].contact) &&
+        atStart_[w] <= 2 * margin) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// [m/s] of a corner's gap.
+double Island::rateOf(const Watch& corner) const {
+  const Kinematics& at = system_.kinematics(corner.contact);
+  const Vec3 arm =
+      at.pose.worldFromBody * careen::corner(bodies()[corner.contact].body->halfExtents, corner.corner);
+  return world_.walls[static_cast<std::size_t>(corner.wall)].normal.dot(at.velocity +
+                                                                        at.angularVelocity.cross(arm));
+}
+
+// Where within the step something may have sunk and come up again; else 0.
+double Island::lowestWithin(double h, std::size_t watch, double atEnd) const {
+  if (!(atEnd >= 0) || !(atStart_[watch] >= 0)) {
+    return 0;
+  }
+  switch (watches_[watch].kind) {
+    case Watch::Kind::kCorner:
+      return lowestOfCorner(h, watch, atEnd);
+    case Watch::Kind::kOverlap:
+      return strode_ ? 0 : deepWithin(h, watches_[watch]);
+    default:
+      return 0;
+  }
+}
+
+// The lowest point of the cubic through the corner's gap and rate at both ends, if that is below zero.
+double Island::lowestOfCorner(double h, std::size_t watch, double atEnd) const {
+  const double from = h * watches_[watch].rate;
+  const double to = h * rateOf(watches_[watch]);
+  const double rise = atEnd - atStart_[watch];
+  const double b = 3 * rise - 2 * from - to;  // gap = start + from s + b s² + c s³
+  const double c = from + to - 2 * rise;
+  const double squared = b * b - 3 * from * c;
+  if (!(squared > 0)) {
+    return 0;
+  }
+  const double root = std::sqrt(squared);
+  const double above = b > 0 ? -from : root - b;
+  const double below = b > 0 ? b + root : 3 * c;
+  if (!(above > 0 && above < below)) {
+    return 0;
+  }
+  const double s = above / below;
+  return atStart_[watch] + s * (from + s * (b + s * c)) < 0 ? s * h : 0;
+}
+
+// The first of a few moments at which the two share more than the tolerance.
+double Island::deepWithin(double h, const Watch& watch) const {
+  constexpr int kMoments = 4;
+  const ContactFeature& feature = system_.features()[watch.contact];
+  const auto a = static_cast<std::size_t>(feature.a);
+  const auto b = static_cast<std::size_t>(feature.b);
+  const careen::Motion ofA =
+      bodies()[a].isHeld() ? careen::Motion(Rest{system_.kinematics(a).pose}) : motion(a, h);
+  const careen::Motion ofB =
+      bodies()[b].isHeld() ? careen::Motion(Rest{system_.kinematics(b).pose}) : motion(b, h);
+  for (int k = 1; k < kMoments; ++k) {
+    const double time = h * k / kMoments;
+    const Pose poseA = stateAt(ofA, bodies()[a].body->mass, time).pose;
+    const Pose poseB = stateAt(ofB, bodies()[b].body->mass, time).pose;
+    if (BoxAxes(poseA, bodies()[a].body->halfExtents, poseB, bodies()[b].body->halfExtents).gap() <
+        -tolerance_) {
+      return time;
+    }
+  }
+  return 0;
 }
 
 double Island::value(const Watch& watch) const {

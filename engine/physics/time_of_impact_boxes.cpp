@@ -234,8 +234,7 @@ void BoxApproach::findRates() {
   approach_ = kNever;
   curvature_ = 0;
   // Of boxes that overlap within what counts as touching, any direction may be the one they part along.
-  const double alike =
-      axes_->gap() < -tolerance_ ? kSimultaneous * std::min(radiusA_, radiusB_) : tolerance_;
+  const double alike = axes_->gap() < -tolerance_ ? kSimultaneous * std::min(radiusA_, radiusB_) : tolerance_;
   for (int k = 0; k < BoxAxis::kCount; ++k) {
     const BoxAxis axis{k};
     if (axes_->separation(axis) < axes_->gap() - alike) {
