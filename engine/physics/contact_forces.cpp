@@ -24,6 +24,11 @@ constexpr double kNear = 0x1p-38;
 constexpr double kInconsistent = 0x1p-10;
 /// [1] of the least violation: Newton's method has gone astray.
 constexpr double kDiverged = 0x1p20;
+/// [1] of the largest limit of friction.
+constexpr double kLimitsAgree = 0x1p-42;
+constexpr double kBlowsAgree = 0x1p-16;
+/// [1] of the velocities: strides err more.
+constexpr double kBlowEnough = 0x1p-30;
 constexpr int kOuterCap = 40;
 constexpr int kInnerCap = 40;
 /// Full Newton steps before half ones are tried against cycling.
@@ -132,7 +137,8 @@ ContactForces::Response ContactForces::respond(std::size_t c, const Force& exces
   const double y = guess[2] - stiffTangent * excess[2];
   const double size = std::sqrt(x * x + y * y);
   const double limit = mu * normal;
-  if (as != nullptr ? *as == Mode::kStick : size <= limit) {
+  // Without a force along the contact there is no direction to begin to slip in.
+  if (size == 0 || (as != nullptr ? *as == Mode::kStick : size <= limit)) {
     response.mode = Mode::kStick;
     response.force[1] = x;
     response.force[2] = y;
@@ -263,6 +269,7 @@ double ContactForces::newton(std::span<const Mode> modes, Modes how) {
   // What pushed at the last multipliers is likely to go on: their rounding, times the penalty, must not
   // decide.
   respondAll(factorised_.size() == contacts_.size());
+  cycles_ = true;
   for (int iteration = 0; iteration < kInnerCap; ++iteration) {
     std::fill(gradient_.begin(), gradient_.end(), 0.0);
     bool known = factorised_.size() == responses_.size();
@@ -295,6 +302,7 @@ double ContactForces::newton(std::span<const Mode> modes, Modes how) {
     }
     respondAll(false);
     if (how == Modes::kGiven) {
+      cycles_ = false;
       break;
     }
     bool same = length == 1 || moved <= 0x1p-60 * size;
@@ -304,6 +312,7 @@ double ContactForces::newton(std::span<const Mode> modes, Modes how) {
       begins = begins || (responses_[c].mode == Mode::kSlip && !contacts_[c].slips);
     }
     if (same && (!begins || moved <= 0x1p-60 * size)) {
+      cycles_ = false;
       break;
     }
   }
@@ -339,25 +348,32 @@ ContactForces::Mode ContactForces::modeOf(std::size_t c) {
 
 bool ContactForces::solve(std::span<const double> free, std::span<Mode> modes, Modes how,
                           std::span<const Force> guess) {
-  return solveByNewton(free, modes, how, guess) ||
-         (how == Modes::kFound && solveByLimits(free, modes) && (stands(modes) || decide(free, modes)));
+  if (solveByNewton(free, modes, how, guess, {}, kRounding)) {
+    return true;
+  }
+  if (how == Modes::kGiven) {
+    return false;
+  }
+  const Limits limits = solveByLimits(free, modes, kLimitsAgree, kRounding);
+  return limits == Limits::kSolved || (limits == Limits::kAgree && (stands(modes) || decide(free, modes)));
 }
 
 void ContactForces::solveBlow(std::span<const double> free, std::span<Mode> modes) {
-  if (!solveByNewton(free, modes, Modes::kFound, {})) {
-    solveByLimits(free, modes);
+  if (!solveByNewton(free, modes, Modes::kFound, {}, {}, kBlowEnough)) {
+    solveByLimits(free, modes, kBlowsAgree, kBlowEnough);
   }
 }
 
+// `first` are the modes to begin with, `enough` [1] of the accelerations is the violation to end with.
 bool ContactForces::solveByNewton(std::span<const double> free, std::span<Mode> modes, Modes how,
-                                  std::span<const Force> guess) {
+                                  std::span<const Force> guess, std::span<const Mode> first, double enough) {
   const std::size_t axes = mass_.size();
   weigh();
   a_.assign(free.begin(), free.end());
   forces_.assign(contacts_.size(), {});
   std::copy(guess.begin(), guess.end(), forces_.begin());
   for (std::size_t c = 0; c < guess.size(); ++c) {  // slip may have turned since
-    if (modes[c] == Mode::kSlip) {
+    if (how == Modes::kGiven && modes[c] == Mode::kSlip) {
       const Contact& contact = contacts_[c];
       forces_[c][1] = -contact.friction * forces_[c][0] * contact.slip[0];
       forces_[c][2] = -contact.friction * forces_[c][0] * contact.slip[1];
@@ -365,12 +381,16 @@ bool ContactForces::solveByNewton(std::span<const double> free, std::span<Mode> 
   }
   excess_.assign(contacts_.size(), {});
   responses_.assign(contacts_.size(), {});
-  factorised_.clear();
+  factorised_.assign(first.size(), {});
+  for (std::size_t c = 0; c < first.size(); ++c) {
+    factorised_[c].mode = first[c];
+  }
   z_.resize(axes);
   gradient_.resize(axes);
   matrix_.resize(axes * axes);
   pivots_.resize(axes);
   penalty_ = kPenalty;
+  cycles_ = false;
   double bestViolation = std::numeric_limits<double>::infinity();
   double change = bestViolation;
   int stalled = 0;
@@ -380,8 +400,12 @@ bool ContactForces::solveByNewton(std::span<const double> free, std::span<Mode> 
     if (!(now <= kDiverged * bestViolation)) {
       break;
     }
+    if (cycles_ && now > bestViolation / 2) {
+      break;
+    }
     stalled = now < bestViolation / 2 ? 0 : stalled + 1;
-    if (now > kSlow * bestViolation && penalty_ < kMostPenalty) {
+    const bool good = std::min(now, bestViolation) <= kNoise * scale_;
+    if (!good && now > kSlow * bestViolation && penalty_ < kMostPenalty) {
       penalty_ *= kMorePenalty;
       stalled = 0;
     }
@@ -390,7 +414,7 @@ bool ContactForces::solveByNewton(std::span<const double> free, std::span<Mode> 
       best_ = forces_;
     }
     const bool settled = how == Modes::kGiven && change <= kNoise * scale_;
-    if (now <= kRounding * scale_ || settled || stalled >= (bestViolation <= kNoise * scale_ ? 1 : 4)) {
+    if (now <= enough * scale_ || settled || stalled >= (bestViolation <= kNoise * scale_ ? 1 : 4)) {
       break;
     }
     change = newton(modes, how);
@@ -408,7 +432,7 @@ bool ContactForces::solveByNewton(std::span<const double> free, std::span<Mode> 
       modes[c] = modeOf(c);
     }
   }
-  return bestViolation <= kNoise * scale_ ||
+  return bestViolation <= std::max(kNoise, enough) * scale_ ||
          (how == Modes::kGiven && change <= kNoise * scale_ && bestViolation <= kInconsistent * scale_);
 }
 

@@ -64,7 +64,7 @@ class ContactForces {
              std::span<const Force> guess = {});
 
   /// The same for velocities, which always has a solution; the limits of friction agree with the normal
-  /// impulses as far as could be reached, and no energy is gained.
+  /// impulses to 2e-5 of them, or as far as could be reached, and no energy is gained.
   void solveBlow(std::span<const double> free, std::span<Mode> modes);
 
   std::span<const double> accelerations() const { return a_; }
@@ -84,8 +84,10 @@ class ContactForces {
   };
 
   bool solveByNewton(std::span<const double> free, std::span<Mode> modes, Modes how,
-                     std::span<const Force> guess);
-  bool solveByLimits(std::span<const double> free, std::span<Mode> modes);
+                     std::span<const Force> guess, std::span<const Mode> first, double enough);
+  enum class Limits { kDisagree, kAgree, kSolved };
+  Limits solveByLimits(std::span<const double> free, std::span<Mode> modes, double agreement, double enough);
+  std::vector<Mode> modesNear(std::span<const Force> forces) const;
   bool stands(std::span<Mode> modes) const;
   bool decide(std::span<const double> free, std::span<Mode> modes);
   void weigh();
@@ -113,7 +115,8 @@ class ContactForces {
   std::vector<double> matrix_;
   std::vector<std::size_t> pivots_;
   double scale_ = 0;
-  double penalty_ = 0;  // [1]
+  double penalty_ = 0;   // [1]
+  bool cycles_ = false;  // Newton's method did not settle on modes
 };
 
 }  // namespace careen

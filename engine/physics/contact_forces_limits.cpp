@@ -11,8 +11,10 @@ namespace careen {
 namespace {
 
 constexpr int kMostLimits = 40;
+constexpr double kRounding = 0x1p-52;
+constexpr int kTryEvery = 4;
+constexpr double kRough = 0x1p-16;
 constexpr double kLimitsAccuracy = 0x1p-46;
-constexpr double kLimitsAgree = 0x1p-42;
 constexpr int kMostDecisions = 8;
 constexpr double kDecided = 0x1p-36;
 constexpr double kStands = 0x1p-40;
@@ -20,9 +22,9 @@ constexpr double kStands = 0x1p-40;
 }  // namespace
 
 /// Where Newton's method goes astray: limits of friction are guessed, which leaves a convex problem, and
-/// brought to agree with the normal forces by iteration. That tells the modes; the forces then are Newton's
-/// again.
-bool ContactForces::solveByLimits(std::span<const double> free, std::span<Mode> modes) {
+/// brought to agree with the normal forces by iteration. Now and then Newton's method is tried from there.
+ContactForces::Limits ContactForces::solveByLimits(std::span<const double> free, std::span<Mode> modes,
+                                                   double agreement, double enough) {
   ImpactVector<ImpactSolver::Contact> contacts;
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     contacts.push_back({.a = contacts_[c].a,
@@ -60,7 +62,19 @@ bool ContactForces::solveByLimits(std::span<const double> free, std::span<Mode> 
       change = std::max(change, std::fabs(found[c] - limits[c]));
       largest = std::max(largest, std::max(found[c], limits[c]));
     }
-    agrees = change <= kLimitsAgree * largest;
+    agrees = change <= agreement * largest;
+    if (!agrees && k % kTryEvery == kTryEvery - 1) {
+      std::vector<Force> guess(impulses.begin(), impulses.end());
+      for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        if (contacts_[c].slips) {
+          guess[c][1] = -found[c] * contacts_[c].slip[0];
+          guess[c][2] = -found[c] * contacts_[c].slip[1];
+        }
+      }
+      if (solveByNewton(free, modes, Modes::kFound, guess, modesNear(guess), enough)) {
+        return Limits::kSolved;
+      }
+    }
     iteration.step(limits, found, k < kMostLimits / 4 ? 1 : 0.5);
     for (double& limit : limits) {
       limit = std::max(0.0, limit);
@@ -75,7 +89,29 @@ bool ContactForces::solveByLimits(std::span<const double> free, std::span<Mode> 
     modes[c] = contacts_[c].slips && forces_[c][0] > 0 ? Mode::kSlip : modeOf(c);
   }
   accelerate(free);
-  return agrees;
+  return agrees ? Limits::kAgree : Limits::kDisagree;
+}
+
+/// What the modes may be where forces are known roughly.
+std::vector<ContactForces::Mode> ContactForces::modesNear(std::span<const Force> forces) const {
+  double most = 0;
+  for (const Force& force : forces) {
+    most = std::max(most, force[0]);
+  }
+  std::vector<Mode> modes;
+  for (std::size_t c = 0; c < forces.size(); ++c) {
+    const Force& force = forces[c];
+    const double limit = contacts_[c].friction * force[0];
+    if (force[0] <= kRough * most) {
+      modes.push_back(Mode::kOff);
+    } else if (limit <= 0) {
+      modes.push_back(Mode::kOn);
+    } else {
+      const double size = std::sqrt(force[1] * force[1] + force[2] * force[2]);
+      modes.push_back(contacts_[c].slips || size >= (1 - kRough) * limit ? Mode::kSlip : Mode::kStick);
+    }
+  }
+  return modes;
 }
 
 /// Nothing moves, and nothing begins to. Where more contacts stick than are needed, some of their forces may
@@ -99,7 +135,7 @@ bool ContactForces::stands(std::span<Mode> modes) const {
 /// What the iteration has left undecided is decided towards slip and parting.
 bool ContactForces::decide(std::span<const double> free, std::span<Mode> modes) {
   for (int k = 0; k < kMostDecisions; ++k) {
-    if (!solveByNewton(free, modes, Modes::kGiven, {})) {
+    if (!solveByNewton(free, modes, Modes::kGiven, {}, {}, kRounding)) {
       return false;
     }
     bool same = true;

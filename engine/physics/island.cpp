@@ -33,6 +33,10 @@ constexpr double kStillLoaded = 0x1p-40;
 /// and smooth steps would have to follow that; a stride, implicit in friction, errs less than the tolerance
 /// there.
 constexpr double kStiff = 0x1p-4;
+/// [1] of the accelerations at hand: a contact that pulls by no more is about to part.
+constexpr double kPulling = 0x1p-20;
+/// [1] of what a step may err: it may be a little more where a watch falls.
+constexpr double kMostLocated = 4;
 constexpr int kMostAttempts = 60;
 
 Vec3 threeAt(const DormandPrince5::State& y, std::size_t at) { return {y[at], y[at + 1], y[at + 2]}; }
@@ -59,6 +63,9 @@ void Island::begin(Motion motion) {
     if (smooth_ && system_.projectVelocities(end_)) {  // what sticks loses the last trace of slip
       smooth_ = system_.findModes(end_);
     }
+    if (smooth_ && stop()) {
+      smooth_ = system_.findModes(end_);
+    }
     system_.unpack(end_);
   }
   known_ = false;
@@ -68,6 +75,16 @@ void Island::begin(Motion motion) {
 bool Island::pushes() const {
   return std::any_of(system_.modes().begin(), system_.modes().end(),
                      [](Mode mode) { return mode != Mode::kOff; });
+}
+
+// Some contact pulls, and its friction would drive: the modes found lead elsewhere than they were found.
+bool Island::pulls() const {
+  for (std::size_t w = 0; w < watches_.size(); ++w) {
+    if (watches_[w].kind == Watch::Kind::kPush && atStart_[w] < -kPulling * system_.forces().scale()) {
+      return true;
+    }
+  }
+  return false;
 }
 
 // Its contacts are open for good: what was an island flies.
@@ -300,6 +317,9 @@ Island::Step Island::step(double most) {
     return stride(most);
   }
   look();
+  if (pulls()) {
+    return stride(most);
+  }
   double h = std::min(most, longestStep());
   if (proposed_ > 0) {
     h = std::min(h, proposed_);
@@ -323,6 +343,11 @@ Island::Step Island::step(double most) {
   finish();
   Step done{.length = h};
   locate(done);
+  // Located past a moment where forces cease to exist, the end means nothing.
+  if (done.end == End::kChanges && sizeOf(error_, done.length) > kMostLocated) {
+    end_ = start_;
+    return stride(most);
+  }
   if (done.end == End::kGoesOn && (stop() || isClear())) {
     done.end = End::kChanges;
   }

@@ -86,6 +86,7 @@ class Island {
   double deepWithin(double h, const Watch& watch) const;
   ContactStep motion(std::size_t body, double h) const;
   double value(const Watch& watch) const;
+  double marginOf(const Watch& watch, double gap) const;
   double touching(std::size_t body) const;
   double longestStep();
   Step stride(double most);
@@ -94,6 +95,7 @@ class Island {
   void restep(double h);
   void finish();
   bool isClear() const;
+  bool pulls() const;
   bool allButStands(std::size_t contact) const;
   bool stop();
   double sizeOf(const State& difference, double h) const;

@@ -17,6 +17,8 @@ constexpr int kMostRefinements = 60;
 constexpr double kRootWidth = 0x1p-50;
 constexpr double kRootValue = 0x1p-42;
 constexpr double kShortestHop = 0x1p-30;
+/// [1] of the tolerance.
+constexpr double kStrideDepth = 0.5;
 
 }  // namespace
 
@@ -67,14 +69,27 @@ void Island::watchAll() {
 void Island::look() {
   atStart_.clear();
   for (Watch& watch : watches_) {
-    // A corner that touches and yet is no contact parts: rounding is no landing.
-    if (watch.kind == Watch::Kind::kCorner) {
-      watch.margin = 0;
-      watch.margin = value(watch) > touching(watch.contact) ? 0 : kTouching * touching(watch.contact);
+    watch.margin = 0;
+    if (Watch::isOfPlaces(watch.kind)) {
+      watch.margin = marginOf(watch, value(watch));
     }
     atStart_.push_back(strode_ && !Watch::isOfPlaces(watch.kind) ? 0 : value(watch));
     watch.rate = watch.kind == Watch::Kind::kCorner ? rateOf(watch) : 0;
   }
+}
+
+// [m] How deep it counts as nothing, if the gap is that much at the start of the step.
+double Island::marginOf(const Watch& watch, double gap) const {
+  if (watch.kind == Watch::Kind::kCorner) {
+    // A corner that touches and yet is no contact parts: rounding is no landing.
+    const double within = touching(watch.contact);
+    return gap > within ? 0 : kTouching * within;
+  }
+  const ContactFeature& feature = system_.features()[watch.contact];
+  const double within = kTouching * std::max(touching(static_cast<std::size_t>(feature.a)),
+                                             touching(static_cast<std::size_t>(feature.b)));
+  // What touches is brought together again where a stride ends, not on its way.
+  return strode_ && gap <= within ? kStrideDepth * tolerance_ : within;
 }
 
 // The step ends where the first of the watches falls.
@@ -116,10 +131,10 @@ bool Island::watches(std::size_t a, std::size_t b) const {
       return true;
     }
   }
+  const double within = kTouching * std::max(touching(a), touching(b));
   for (std::size_t w = 0; w < watches_.size(); ++w) {
-    const double margin = kTouching * std::max(touching(a), touching(b));
     if (watches_[w].kind == Watch::Kind::kOverlap && isBetween(watches_[w].contact) &&
-        atStart_[w] <= 2 * margin) {
+        atStart_[w] - watches_[w].margin <= within) {
       return true;
     }
   }
@@ -218,7 +233,7 @@ double Island::value(const Watch& watch) const {
       return BoxAxes(system_.kinematics(a).pose, bodies()[a].body->halfExtents, system_.kinematics(b).pose,
                      bodies()[b].body->halfExtents)
                  .gap() +
-             kTouching * std::max(touching(a), touching(b));
+             watch.margin;
     }
     case Watch::Kind::kCorner: {
       const Wall& wall = world_.walls[static_cast<std::size_t>(watch.wall)];
