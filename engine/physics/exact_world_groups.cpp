@@ -17,7 +17,7 @@ ExactWorld::Group ExactWorld::gather(const Event& event) {
   group.time = event.time;
   // Met again where nothing is left to resolve: edges that pass within rounding. Contact sees them past.
   constexpr int kMostMeetings = 2;
-  group.passes = event.kind == EventKind::kContact && mover(event.body).atOneMoment > kMostMeetings;
+  group.passes = event.kind != EventKind::kStep && mover(event.body).atOneMoment > kMostMeetings;
   group.cause = group.passes ? EventKind::kTouching : event.kind;
   reach(event, group);
   group.after = group.before;

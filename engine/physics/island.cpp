@@ -182,11 +182,12 @@ bool Island::try5(double h) {
 }
 
 void Island::restep(double h) {
-  if (strode_) {  // under steady accelerations
+  // Under steady accelerations; what has been projected away at the end has grown with the square of time.
+  if (strode_) {
     const double part = h / length_;
     for (std::size_t k = 0; k < end_.size(); ++k) {
       const double steady = startRate_[k] + endRate_[k];
-      end_[k] = start_[k] + part * (strideEnd_[k] - start_[k] - 0.5 * length_ * steady) +
+      end_[k] = start_[k] + part * part * (strideEnd_[k] - start_[k] - 0.5 * length_ * steady) +
                 h * (startRate_[k] + 0.5 * part * (endRate_[k] - startRate_[k]));
     }
     system_.projectPositions(end_);

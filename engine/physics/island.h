@@ -80,6 +80,7 @@ class Island {
   void watchAll();
   void look();
   void locate(Step& step);
+  bool locate(std::size_t watch, double shortest, Step& step);
   double rateOf(const Watch& corner) const;
   double lowestWithin(double h, std::size_t watch, double atEnd) const;
   double lowestOfCorner(double h, std::size_t watch, double atEnd) const;

@@ -17,6 +17,7 @@ constexpr int kMostRefinements = 60;
 constexpr double kRootWidth = 0x1p-50;
 constexpr double kRootValue = 0x1p-42;
 constexpr double kShortestHop = 0x1p-30;
+constexpr double kShortestStep = 0x1p-40;
 /// [1] of the tolerance.
 constexpr double kStrideDepth = 0.5;
 
@@ -92,31 +93,45 @@ double Island::marginOf(const Watch& watch, double gap) const {
   return strode_ && gap <= within ? kStrideDepth * tolerance_ : within;
 }
 
-// The step ends where the first of the watches falls.
+// The step ends where the first of the watches falls. What has been looked at where the step ended before may
+// have fallen where it ends now.
 void Island::locate(Step& step) {
-  for (std::size_t w = 0; w < watches_.size(); ++w) {
-    if (strode_ && !Watch::isOfPlaces(watches_[w].kind)) {
-      continue;
-    }
-    double until = step.length;
-    double now = value(watches_[w]);
-    if (const double lowest = lowestWithin(step.length, w, now); lowest > 0) {
-      restep(lowest);
-      const double there = value(watches_[w]);
-      if (there < 0) {
-        until = lowest;
-        now = there;
-      } else {
-        restep(step.length);
+  constexpr int kMostPasses = 4;
+  const double shortest = kShortestStep * step.length;  // for what falls at once
+  bool shorter = true;
+  for (int pass = 0; pass < kMostPasses && shorter; ++pass) {
+    shorter = false;
+    for (std::size_t w = 0; w < watches_.size(); ++w) {
+      if (!strode_ || Watch::isOfPlaces(watches_[w].kind)) {
+        shorter = locate(w, shortest, step) || shorter;
       }
     }
-    const bool fell = now < 0 && (atStart_[w] >= 0 || now < 2 * atStart_[w]);
-    if (fell) {
-      step.length = rootWithin(until, w, now);
-      step.end = End::kChanges;
+  }
+}
+
+bool Island::locate(std::size_t watch, double shortest, Step& step) {
+  double until = step.length;
+  double now = value(watches_[watch]);
+  if (const double lowest = lowestWithin(step.length, watch, now); lowest > 0) {
+    restep(lowest);
+    const double there = value(watches_[watch]);
+    if (there < 0) {
+      until = lowest;
+      now = there;
+    } else {
       restep(step.length);
     }
   }
+  const bool fell = now < 0 && (atStart_[watch] >= 0 || now < 2 * atStart_[watch]);
+  if (!fell) {
+    return false;
+  }
+  const double length = std::min(step.length, std::max(shortest, rootWithin(until, watch, now)));
+  const bool shorter = length < step.length;
+  step.length = length;
+  step.end = End::kChanges;
+  restep(step.length);
+  return shorter;
 }
 
 bool Island::watches(std::size_t a, std::size_t b) const {
@@ -152,12 +167,12 @@ double Island::rateOf(const Watch& corner) const {
 
 // Where within the step something may have sunk and come up again; else 0.
 double Island::lowestWithin(double h, std::size_t watch, double atEnd) const {
-  if (!(atEnd >= 0) || !(atStart_[watch] >= 0)) {
+  if (!(atEnd >= 0)) {
     return 0;
   }
   switch (watches_[watch].kind) {
     case Watch::Kind::kCorner:
-      return lowestOfCorner(h, watch, atEnd);
+      return atStart_[watch] >= 0 ? lowestOfCorner(h, watch, atEnd) : 0;
     case Watch::Kind::kOverlap:
       return strode_ ? 0 : deepWithin(h, watches_[watch]);
     default:
