@@ -50,6 +50,9 @@ void ExactWorld::findTangle(Group& group) {
   // A single body that bounces is followed to the end: the time at which it rests is exact.
   if (rattles && !group.tangled && (touching || movable > 1)) {
     group.tangled = true;
+    if (movable > kMostRattling && canPile()) {
+      crowded_ = group.time;
+    }
     for (const int rank : group.ranks) {
       mover(rank).strides = strides;
       mover(rank).tangledUntil = instantAfter(group.time, strides * stride_);
