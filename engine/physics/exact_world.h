@@ -109,6 +109,7 @@ class ExactWorld {
   Parting partingAt(const Group& group, std::size_t contact) const;
   void formIslands(Group& group) const;
   void formIsland(Group& group, const std::vector<std::size_t>& members) const;
+  bool beginsAtRest(Island& island, bool tangled) const;
   TouchingBody touchingBody(const Group& group, std::size_t index) const;
   ContactFeature featureOf(const Group& group, std::size_t contact) const;
   double lengthsAt(const Group& group, std::size_t k) const;

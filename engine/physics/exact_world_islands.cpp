@@ -255,6 +255,24 @@ ContactFeature ExactWorld::featureOf(const Group& group, std::size_t k) const {
   return feature;
 }
 
+// Begins the island's motion. Among what rattles only what has all but come to rest is asked for a smooth
+// one: it may be at rest.
+bool ExactWorld::beginsAtRest(Island& island, bool tangled) const {
+  double speed = 0;
+  for (const TouchingBody& body : island.bodies()) {
+    speed = std::max(
+        {speed, body.velocity.norm(), body.angularVelocityBody.norm() * body.body->halfExtents.norm()});
+  }
+  if (!tangled || speed <= kAllButStill * world_.gravity.norm() * stride_) {
+    island.begin(Island::Motion::kSmooth);
+    if (!tangled || island.rests()) {
+      return island.rests();
+    }
+  }
+  island.begin(Island::Motion::kStrides);
+  return false;
+}
+
 // Bodies joined by lasting contacts go on in Contact, unless nothing holds them together or nothing moves.
 void ExactWorld::formIsland(Group& group, const std::vector<std::size_t>& members) const {
   std::vector<std::size_t> indices = members;
@@ -303,19 +321,7 @@ void ExactWorld::formIsland(Group& group, const std::vector<std::size_t>& member
   auto touchers = std::make_shared<Touchers>(
       Touchers{Island(world_, std::move(bodies), std::move(features), tolerance_), std::move(ranks), {}});
   Island& island = touchers->island;
-  // Among what rattles only what has all but come to rest is asked for smooth motion: it may be at rest.
-  double speed = 0;
-  for (const TouchingBody& body : island.bodies()) {
-    speed = std::max(
-        {speed, body.velocity.norm(), body.angularVelocityBody.norm() * body.body->halfExtents.norm()});
-  }
-  const bool smooth = !group.tangled || speed <= kAllButStill * world_.gravity.norm() * stride_;
-  island.begin(smooth ? Island::Motion::kSmooth : Island::Motion::kStrides);
-  const bool rests = island.rests();
-  if (group.tangled && smooth && !rests) {
-    island.begin(Island::Motion::kStrides);
-  }
-  if (rests) {
+  if (beginsAtRest(island, group.tangled)) {
     for (const std::size_t i : members) {
       const Mover& body = mover(group.ranks[i]);
       if (body.moves() || !movesAlike(group.before[i], group.after[i])) {
