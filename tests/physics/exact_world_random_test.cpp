@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -15,7 +16,8 @@
 #include "support/impact_scene.h"
 
 // Scenes at random: no energy gained, nothing sinks or gets out, and the run comes to its end.
-// CAREEN_RANDOM_SCENES="1000 200" takes 200 scenes from number 1000 on instead of the first few.
+// CAREEN_RANDOM_SCENES="1000 200" takes 200 scenes from number 1000 on. Without it: a few, and those that
+// have found something out.
 
 namespace careen {
 namespace {
@@ -129,16 +131,17 @@ Verdict judge(const RandomScene& scene, const Recorded& run) {
   return verdict;
 }
 
-struct Range {
-  std::uint64_t first = 1;
-  std::uint64_t count = 0;
-};
-Range scenesOr(std::uint64_t count) {
-  Range range{.count = count};
+using Seeds = std::vector<std::uint64_t>;
+
+Seeds seedsOr(Seeds usual) {
   if (const char* const asked = std::getenv("CAREEN_RANDOM_SCENES")) {
-    std::istringstream(asked) >> range.first >> range.count;
+    std::uint64_t first = 1;
+    std::uint64_t count = 0;
+    std::istringstream(asked) >> first >> count;
+    usual.resize(count);
+    std::iota(usual.begin(), usual.end(), first);
   }
-  return range;
+  return usual;
 }
 
 struct Worst {
@@ -147,9 +150,9 @@ struct Worst {
   int bounded = 0;
 };
 
-void run(RandomScene (*make)(std::uint64_t), const Range& range, double energyBound, double depthBound) {
+void run(RandomScene (*make)(std::uint64_t), const Seeds& seeds, double energyBound, double depthBound) {
   Worst worst;
-  for (std::uint64_t seed = range.first; seed < range.first + range.count; ++seed) {
+  for (const std::uint64_t seed : seeds) {
     const RandomScene scene = make(seed);
     Recorded recorded;
     recorded.motions.resize(scene.world.bodies.size());
@@ -171,18 +174,22 @@ void run(RandomScene (*make)(std::uint64_t), const Range& range, double energyBo
     worst.bounded += recorded.figures.boundedFrom ? 1 : 0;
   }
   std::ostringstream text;
-  text << range.count << " scenes: energy " << worst.energy << ", depth " << worst.deepest
+  text << seeds.size() << " scenes: energy " << worst.energy << ", depth " << worst.deepest
        << " of the tolerance, " << worst.bounded << " as a pile";
   ::testing::Test::RecordProperty("worst", text.str());
   std::printf("%s\n", text.str().c_str());
 }
 
-// Energy gained, of the largest kinetic energy; depth in tolerances. Measured 4e-8 and 0.44; over 600 scenes
+// Energy gained, of the largest kinetic energy; depth in tolerances. Measured 2e-7 and 2.6; over 600 scenes
 // 1e-5 and 2.6.
-TEST(ExactWorldRandom, everydayScenesGainNoEnergyAndNothingSinks) { run(everyday, scenesOr(24), 1e-5, 4); }
+TEST(ExactWorldRandom, everydayScenesGainNoEnergyAndNothingSinks) {
+  run(everyday, seedsOr({1, 2, 3, 4, 7, 19, 20, 33, 45, 74, 78, 90, 106, 116, 388, 458, 477, 537}), 1e-5, 4);
+}
 
-// Measured 2e-8 and 0.27; over 300 scenes 5e-6 and 0.9.
-TEST(ExactWorldRandom, extremeScenesGainNoEnergyAndNothingSinks) { run(extreme, scenesOr(24), 1e-5, 4); }
+// Measured 2e-8 and 0.2; over 300 scenes 5e-6 and 0.9.
+TEST(ExactWorldRandom, extremeScenesGainNoEnergyAndNothingSinks) {
+  run(extreme, seedsOr({1, 2, 3, 4, 15, 16, 17, 25, 42, 76, 97, 109, 187}), 1e-5, 4);
+}
 
 }  // namespace
 }  // namespace careen
