@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace careen {
@@ -98,6 +99,58 @@ TEST(Island, restsAtOnceOnALevelFloor) {
   Lying lying(Vec3(0.5, 0.3, 0.2));
   lying.run(Vec3::Zero(), 0, 1e-6);
   EXPECT_EQ(lying.steps, 0);
+}
+
+// Cubes off each other's middle, the top one heavier by a factor: what is carried at each height is the
+// weight above it, and about no axis does it turn.
+TEST(Island, forcesOfAStackAreSumsOfWeights) {
+  constexpr int kCubes = 10;
+  const Vec3 half(0.5, 0.5, 0.5);
+  // measured 1.8e-16, 2.1e-16, 1.8e-15, 8.2e-13
+  for (const auto& [top, bound] : {std::pair(1.0, 1e-15), {1e2, 1e-15}, {1e4, 1e-14}, {1e6, 1e-11}}) {
+    World world;
+    world.gravity = Vec3(0, 0, -kGravity);
+    world.walls = {{.name = "floor", .material = {0, kFriction}}};
+    for (int k = 0; k < kCubes; ++k) {
+      world.bodies.push_back({.name = "cube",
+                              .halfExtents = half,
+                              .mass = solidBox(half, k == kCubes - 1 ? top : 1),
+                              .material = {},
+                              .initial = {}});
+    }
+    std::vector<TouchingBody> bodies;
+    std::vector<ContactFeature> features;
+    for (int k = 0; k < kCubes; ++k) {
+      bodies.push_back({.body = &world.bodies[static_cast<std::size_t>(k)],
+                        .index = k,
+                        .position = Vec3(0.01 * (k % 3), 0.01 * (k % 2), 0.5 + k),
+                        .worldFromBody = Quat::Identity(),
+                        .velocity = Vec3::Zero(),
+                        .angularVelocityBody = Vec3::Zero()});
+      for (int c = 0; c < 4; ++c) {
+        const Vec3 at(c % 2 == 0 ? -0.4 : 0.4, c / 2 == 0 ? -0.4 : 0.4, -0.5);
+        ContactFeature feature{.a = k, .onA = at, .material = {0, kFriction}};
+        if (k > 0) {
+          feature.kind = ContactFeature::Kind::kPointOnFace;
+          feature.b = k - 1;
+          feature.axisB = 2;
+        }
+        features.push_back(feature);
+      }
+    }
+    Island island(world, bodies, features, 1e-6);
+    island.begin(Island::Motion::kSmooth);
+    double worst = 0;
+    for (int k = 0; k < kCubes; ++k) {
+      const double above = kGravity * (kCubes - 1 - k + top);
+      double carried = 0;
+      for (std::size_t c = 0; c < 4; ++c) {
+        carried += island.system().forces().forces()[4 * static_cast<std::size_t>(k) + c][0];
+      }
+      worst = std::max(worst, std::fabs(carried - above) / above);
+    }
+    EXPECT_LT(worst, bound) << top;
+  }
 }
 
 }  // namespace
