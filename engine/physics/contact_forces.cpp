@@ -317,9 +317,9 @@ double ContactForces::newton(std::span<const Mode> modes, Modes how) {
     }
   }
   double change = 0;
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+  for (const Contact& contact : contacts_) {
     for (std::size_t row = 0; row < 3; ++row) {
-      change = std::max(change, std::fabs(along(contacts_[c], row, z_)));
+      change = std::max(change, std::fabs(along(contact, row, z_)));
     }
   }
   return change;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -50,8 +51,8 @@ RandomScene everyday(std::uint64_t seed) {
   Random random(seed);
   RandomScene scene{.world = {}, .duration = 5, .tolerance = 1e-6};
   scene.world.gravity = Vec3(0, 0, -9.81);
-  const double roughness[] = {0, 0.3, 0.5, 0.8};
-  const double bounces[] = {0, 0, 0.3, 0.6};
+  const std::array<double, 4> roughness{0, 0.3, 0.5, 0.8};
+  const std::array<double, 4> bounces{0, 0, 0.3, 0.6};
   double height = 0.1;
   for (int k = 1 + random.below(8); k > 0; --k) {
     const Vec3 half(random.between(0.1, 0.5), random.between(0.1, 0.5), random.between(0.1, 0.5));
@@ -61,7 +62,8 @@ RandomScene everyday(std::uint64_t seed) {
     body.initial.pose.worldFromBody = random.rotation();
     body.initial.angularMomentum =
         angularMomentum(body.mass, body.initial.pose.worldFromBody, random.inCube(4));
-    body.material = {.restitution = bounces[random.below(4)], .friction = roughness[random.below(4)]};
+    body.material = {.restitution = bounces.at(static_cast<std::size_t>(random.below(4))),
+                     .friction = roughness.at(static_cast<std::size_t>(random.below(4)))};
     scene.world.bodies.push_back(body);
     height += half.norm();
   }
