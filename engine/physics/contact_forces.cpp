@@ -16,7 +16,6 @@ constexpr double kPenalty = 0x1p26;
 constexpr double kMorePenalty = 0x1p7;
 constexpr double kMostPenalty = 0x1p46;
 constexpr double kSlow = 0.125;
-constexpr double kRounding = 0x1p-52;
 /// Violations this small that do not shrink any more are rounding error.
 constexpr double kNoise = 0x1p-46;
 constexpr double kNear = 0x1p-38;

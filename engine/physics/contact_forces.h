@@ -77,6 +77,8 @@ class ContactForces {
   double normalMass(std::size_t contact) const { return masses_[contact][0]; }
 
  private:
+  static constexpr double kRounding = 0x1p-52;
+
   struct Response {
     Force force{};
     Mode mode = Mode::kOff;

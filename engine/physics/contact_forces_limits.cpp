@@ -11,11 +11,13 @@ namespace careen {
 namespace {
 
 constexpr int kMostLimits = 40;
-constexpr double kRounding = 0x1p-52;
+/// Newton's method is tried again after so many limits.
 constexpr int kTryEvery = 4;
+/// [1] of the largest force: what limits have led to is known so well by then.
 constexpr double kRough = 0x1p-16;
 constexpr double kLimitsAccuracy = 0x1p-46;
 constexpr int kMostDecisions = 8;
+/// [1] of the accelerations at hand: conditions of contact count as met, and nothing as moving.
 constexpr double kDecided = 0x1p-36;
 constexpr double kStands = 0x1p-40;
 

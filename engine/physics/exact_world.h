@@ -22,9 +22,9 @@ namespace careen {
 /// Contact in steps that the tolerance chooses, or Rest. Between events nothing is computed, and an event
 /// touches only the bodies that take part in it.
 ///
-/// Where more bodies than kMostInIsland touch, more than kMostRattling rattle, or any slide or
-/// stack among more than kMostInContact, the whole world goes on as a Pile from there: bounded, not exact.
-/// RunFigures says so.
+/// Where more bodies than kMostInIsland touch, more than kMostRattling rattle, or any slide or stack among
+/// more than kMostInContact, the whole world goes on as a Pile from there: bounded, not exact. RunFigures
+/// says so.
 ///
 /// Bodies go by rank, their place among the names, so that the order in which a scene lists them changes no
 /// bit.
@@ -35,7 +35,7 @@ class ExactWorld {
 
   /// Contact of so many bodies at once is solved exactly: forces cost the cube of their number.
   static constexpr int kMostInIsland = 12;
-  /// Of so many also where they rattle: a stride costs them 10 ms, and there are thousands in a second.
+  /// Of so many also where they rattle: eleven take 4 ms a stride, and there are thousands in a second.
   static constexpr int kMostRattling = 8;
   /// And contact among so many in all: at each step each of its bodies looks for meetings with its
   /// neighbours.

@@ -105,7 +105,7 @@ void ExactWorld::reach(const Event& event, Group& group) {
   group.before = std::move(sorted.before);
 }
 
-// Contacts of two bodies that are no more than `apart` [m] from each other, and if they touch.
+// Adds the contacts of two bodies that touch, or are no more than `apart` [m] from each other.
 void ExactWorld::addPairContacts(Group& group, std::size_t indexA, std::size_t indexB, double apart) const {
   const Body& a = *mover(group.ranks[indexA]).body;
   const Body& b = *mover(group.ranks[indexB]).body;

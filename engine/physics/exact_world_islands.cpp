@@ -264,12 +264,12 @@ bool ExactWorld::beginsAtRest(Island& island, bool tangled) const {
         {speed, body.velocity.norm(), body.angularVelocityBody.norm() * body.body->halfExtents.norm()});
   }
   if (!tangled || speed <= kAllButStill * world_.gravity.norm() * stride_) {
-    island.begin(Island::Motion::kSmooth);
+    island.begin(Island::Stepping::kSmooth);
     if (!tangled || island.rests()) {
       return island.rests();
     }
   }
-  island.begin(Island::Motion::kStrides);
+  island.begin(Island::Stepping::kStrides);
   return false;
 }
 

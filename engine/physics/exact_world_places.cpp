@@ -131,6 +131,7 @@ void ExactWorld::addMeeting(const Group& group, std::size_t a, std::size_t b,
   }
 }
 
+// What a stride has driven into each other.
 void ExactWorld::addOverlaps(const Group& group, std::vector<ContactFeature>& features) const {
   for (std::size_t i = 0; i < group.ranks.size(); ++i) {
     const Body& a = *mover(group.ranks[i]).body;
@@ -147,7 +148,7 @@ void ExactWorld::addOverlaps(const Group& group, std::vector<ContactFeature>& fe
   }
 }
 
-// Contacts that a body comes into within a stride. They count where bodies rattle.
+// Adds contacts that two may come into within a stride. They count where bodies rattle.
 void ExactWorld::addNear(Group& group) const {
   const double near = kNear * tolerance_;
   const std::size_t touching = group.contacts.size();
@@ -171,18 +172,17 @@ void ExactWorld::addNear(Group& group) const {
       addPairContacts(group, i, j, near);
     }
   }
-  // Only those that are new, and that come slowly: an impact is one.
+  // Only those that are new, and that come slowly: what comes fast is an impact when it arrives.
+  std::size_t kept = touching;
   const auto isKnown = [&](std::size_t k) {
-    for (std::size_t other = 0; other < k; ++other) {
-      if (group.contacts[other].a == group.contacts[k].a && group.contacts[other].b == group.contacts[k].b &&
-          group.partners[other] == group.partners[k] &&
+    for (std::size_t other = 0; other < kept; ++other) {
+      if (group.contacts[other].a == group.contacts[k].a && group.partners[other] == group.partners[k] &&
           (group.contacts[other].armA - group.contacts[k].armA).norm() <= 2 * near) {
         return true;
       }
     }
     return false;
   };
-  std::size_t kept = touching;
   for (std::size_t k = touching; k < group.contacts.size(); ++k) {
     if (!isKnown(k) && partingAt(group, k).speed >= -kSlow * world_.gravity.norm() * stride_) {
       group.contacts[kept] = group.contacts[k];

@@ -54,8 +54,8 @@ Island::Island(const World& world, std::vector<TouchingBody> bodies, std::vector
   end_ = system_.pack();
 }
 
-void Island::begin(Motion motion) {
-  smooth_ = motion == Motion::kSmooth;
+void Island::begin(Stepping stepping) {
+  smooth_ = stepping == Stepping::kSmooth;
   if (smooth_) {
     std::fill(system_.modes().begin(), system_.modes().end(), Mode::kOn);
     system_.projectVelocities(end_);
@@ -265,7 +265,7 @@ Island::Step Island::stride(double most) {
   known_ = false;
   length_ = std::min(most, strideOf(world_, tolerance_));
   system_.look(start_);
-  look();
+  noteStart();
   system_.strideBlow(end_, length_);
   system_.look(end_);
   endStride(length_);
@@ -317,7 +317,7 @@ Island::Step Island::step(double most) {
   } else if (!system_.rate(start_, startRate_)) {
     return stride(most);
   }
-  look();
+  noteStart();
   if (pulls()) {
     return stride(most);
   }

@@ -28,8 +28,8 @@ class Island {
 
   /// Finds which contacts push, and how. Where no forces do what is asked (Painlevé's paradox, or a tangle of
   /// contacts on the brink) the next step is a short one of first order, by impulses.
-  enum class Motion { kSmooth, kStrides };
-  void begin(Motion motion);
+  enum class Stepping { kSmooth, kStrides };
+  void begin(Stepping stepping);
   bool isSmooth() const { return smooth_; }
   /// Some contact pushes.
   bool pushes() const;
@@ -78,7 +78,7 @@ class Island {
   };
 
   void watchAll();
-  void look();
+  void noteStart();
   void locate(Step& step);
   bool locate(std::size_t watch, double shortest, Step& step);
   double rateOf(const Watch& corner) const;

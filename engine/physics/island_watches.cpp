@@ -67,14 +67,15 @@ void Island::watchAll() {
 }
 
 // Forces are watched in smooth motion only: a stride shares them out itself.
-void Island::look() {
+void Island::noteStart() {
   atStart_.clear();
   for (Watch& watch : watches_) {
     watch.margin = 0;
+    const double bare = strode_ && !Watch::isOfPlaces(watch.kind) ? 0 : value(watch);
     if (Watch::isOfPlaces(watch.kind)) {
-      watch.margin = marginOf(watch, value(watch));
+      watch.margin = marginOf(watch, bare);
     }
-    atStart_.push_back(strode_ && !Watch::isOfPlaces(watch.kind) ? 0 : value(watch));
+    atStart_.push_back(bare + watch.margin);
     watch.rate = watch.kind == Watch::Kind::kCorner ? rateOf(watch) : 0;
   }
 }
@@ -207,10 +208,8 @@ double Island::deepWithin(double h, const Watch& watch) const {
   const ContactFeature& feature = system_.features()[watch.contact];
   const auto a = static_cast<std::size_t>(feature.a);
   const auto b = static_cast<std::size_t>(feature.b);
-  const careen::Motion ofA =
-      bodies()[a].isHeld() ? careen::Motion(Rest{system_.kinematics(a).pose}) : motion(a, h);
-  const careen::Motion ofB =
-      bodies()[b].isHeld() ? careen::Motion(Rest{system_.kinematics(b).pose}) : motion(b, h);
+  const Motion ofA = bodies()[a].isHeld() ? Motion(Rest{system_.kinematics(a).pose}) : motion(a, h);
+  const Motion ofB = bodies()[b].isHeld() ? Motion(Rest{system_.kinematics(b).pose}) : motion(b, h);
   for (int k = 1; k < kMoments; ++k) {
     const double time = h * k / kMoments;
     const Pose poseA = stateAt(ofA, bodies()[a].body->mass, time).pose;
