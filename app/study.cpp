@@ -85,7 +85,7 @@ void printCase(const CaseResult& result, bool takenOver) {
   std::cout << std::left << std::setw(24) << result.name;
   if (exact != nullptr && exact->failure.empty()) {
     std::cout << "exact: error " << std::setw(8) << inShort(exact->judgement.error) << inShort(exact->cost)
-              << " us/s" << (onFront(result, *exact) ? "" : ", not on the front");
+              << " us/s" << (betterThan(result, *exact).empty() ? "" : ", not the best");
   } else if (exact != nullptr) {
     std::cout << "exact: " << exact->failure;
   }

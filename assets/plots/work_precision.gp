@@ -19,7 +19,7 @@ shown(e) = e > 1e-16 ? (e < 1e2 ? e : 1e2) : 1e-16
 do for [kind in "svg png"] {
   if (kind eq "svg") { eval svg(820, 480) } else { eval png(820, 480) }
   plot for [name in contestants] csv every ::1 \
-    using (strcol(1) eq case && strcol(2) eq name && strlen(strcol(4)) > 0 ? column(5) : NaN):(shown(column(4))) \
+    using (strcol(1) eq case && strcol(2) eq name && strlen(strcol(5)) > 0 ? column(6) : NaN):(shown(column(5))) \
     with linespoints lc rgb colourOf(name) pt pointOf(name) ps sizeOf(name) title name noenhanced
   unset output
 }

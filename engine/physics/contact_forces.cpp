@@ -28,6 +28,8 @@ constexpr double kLimitsAgree = 0x1p-42;
 constexpr double kBlowsAgree = 0x1p-16;
 /// [1] of the velocities: strides err more.
 constexpr double kBlowEnough = 0x1p-30;
+/// [1] of the accelerations, with given modes: gaps and rates are projected anyway.
+constexpr double kGivenEnough = 0x1p-50;
 constexpr int kOuterCap = 40;
 constexpr int kInnerCap = 40;
 /// Full Newton steps before half ones are tried against cycling.
@@ -255,11 +257,12 @@ void ContactForces::assemble() {
 /// the contacts change [m/s²].
 double ContactForces::newton(std::span<const Mode> modes, Modes how) {
   std::fill(z_.begin(), z_.end(), 0.0);
+  std::fill(gained_.begin(), gained_.end(), Force{});
   const auto respondAll = [&](bool asBefore) {
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       Force excess = excess_[c];
       for (std::size_t row = 0; row < 3; ++row) {
-        excess[row] += along(contacts_[c], row, z_);
+        excess[row] += gained_[c][row];
       }
       const Mode* as = how == Modes::kGiven ? &modes[c] : asBefore ? &factorised_[c].mode : nullptr;
       responses_[c] = respond(c, excess, as, how);
@@ -299,6 +302,11 @@ double ContactForces::newton(std::span<const Mode> modes, Modes how) {
       moved += mass_[k] * gradient_[k] * gradient_[k];
       size += mass_[k] * z_[k] * z_[k];
     }
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      for (std::size_t row = 0; row < 3; ++row) {
+        gained_[c][row] = along(contacts_[c], row, z_);
+      }
+    }
     respondAll(false);
     if (how == Modes::kGiven) {
       cycles_ = false;
@@ -316,9 +324,9 @@ double ContactForces::newton(std::span<const Mode> modes, Modes how) {
     }
   }
   double change = 0;
-  for (const Contact& contact : contacts_) {
-    for (std::size_t row = 0; row < 3; ++row) {
-      change = std::max(change, std::fabs(along(contact, row, z_)));
+  for (const Force& gained : gained_) {
+    for (const double part : gained) {
+      change = std::max(change, std::fabs(part));
     }
   }
   return change;
@@ -347,7 +355,7 @@ ContactForces::Mode ContactForces::modeOf(std::size_t c) {
 
 bool ContactForces::solve(std::span<const double> free, std::span<Mode> modes, Modes how,
                           std::span<const Force> guess) {
-  if (solveByNewton(free, modes, how, guess, {}, kRounding)) {
+  if (solveByNewton(free, modes, how, guess, {}, how == Modes::kGiven ? kGivenEnough : kRounding)) {
     return true;
   }
   if (how == Modes::kGiven) {
@@ -379,6 +387,7 @@ bool ContactForces::solveByNewton(std::span<const double> free, std::span<Mode> 
     }
   }
   excess_.assign(contacts_.size(), {});
+  gained_.assign(contacts_.size(), {});
   responses_.assign(contacts_.size(), {});
   factorised_.assign(first.size(), {});
   for (std::size_t c = 0; c < first.size(); ++c) {
@@ -424,8 +433,10 @@ bool ContactForces::solveByNewton(std::span<const double> free, std::span<Mode> 
   if (best_.size() != forces_.size()) {
     return false;
   }
-  forces_ = best_;
-  accelerate(free);
+  if (forces_ != best_) {
+    forces_ = best_;
+    accelerate(free);
+  }
   if (how == Modes::kFound) {
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       modes[c] = modeOf(c);

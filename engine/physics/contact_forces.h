@@ -110,6 +110,7 @@ class ContactForces {
   std::vector<Force> forces_;
   std::vector<Force> best_;
   std::vector<Force> excess_;
+  std::vector<Force> gained_;  // by z_
   std::vector<Response> responses_;
   std::vector<Response> factorised_;
   std::vector<double> z_;

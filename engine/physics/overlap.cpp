@@ -331,21 +331,26 @@ LowestGap lowestGap(const Wall& wall, const Vec3& halfExtents, const Pose& pose)
   return {.gap = centre - reach - wall.offset, .lengths = size + reach + std::fabs(wall.offset)};
 }
 
-std::optional<Overlap> firstOverlap(std::span<const PlacedBox> boxes) {
-  std::optional<Overlap> found;
+std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes) {
+  std::vector<Overlap> all;
   forBoundsThatMeet(boxes, positionsOf(boxes), [&](std::size_t i, std::size_t j) {
     const auto [first, second] = std::minmax(i, j);
-    if (found && std::pair(second, first) > std::pair(found->second, found->first)) {
-      return;
-    }
     const PlacedBox& a = boxes[first];
     const PlacedBox& b = boxes[second];
     const double gap = axesOf(a, b, a.pose.position - b.pose.position).gap();
     if (gap < -kGapAllowance * lengthsOf(a, b, a.pose.position, b.pose.position)) {
-      found = Overlap{.first = first, .second = second, .depth = -gap};
+      all.push_back({.first = first, .second = second, .depth = -gap});
     }
   });
-  return found;
+  return all;
+}
+
+std::optional<Overlap> firstOverlap(std::span<const PlacedBox> boxes) {
+  const std::vector<Overlap> all = overlaps(boxes);
+  const auto first = std::min_element(all.begin(), all.end(), [](const Overlap& x, const Overlap& y) {
+    return std::pair(x.second, x.first) < std::pair(y.second, y.first);
+  });
+  return first == all.end() ? std::nullopt : std::optional(*first);
 }
 
 Parted moveApart(std::span<const PlacedBox> boxes, std::span<const Wall> walls, Meeting meeting) {

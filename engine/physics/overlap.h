@@ -34,6 +34,8 @@ struct Overlap {
 /// `second`, then least `first`. Sorted along x, so that boxes in rows and heaps cost little more than
 /// O(n log n).
 std::optional<Overlap> firstOverlap(std::span<const PlacedBox> boxes);
+/// All of them, in no stated order.
+std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes);
 
 /// Gap of a box's lowest corner to a wall, n·x − Σ hᵢ|n·aᵢ| − offset [m], and the lengths it is the
 /// difference of.

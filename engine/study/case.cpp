@@ -25,7 +25,8 @@ constexpr int kMomentsOfAScene = 16;
 const std::map<std::string, Measure> kMeasures = {{"poses", Measure::kPoses},
                                                   {"energy", Measure::kEnergy},
                                                   {"reversal", Measure::kReversal},
-                                                  {"scaled", Measure::kScaled}};
+                                                  {"scaled", Measure::kScaled},
+                                                  {"overlap", Measure::kOverlap}};
 
 std::filesystem::path scenePath(const std::string& relative) {
   return findResource(std::filesystem::path("assets/scenes") / relative);

@@ -17,6 +17,7 @@ enum class Measure {
   kEnergy,    ///< to keep its energy
   kReversal,  ///< to come back when all velocities are turned round at the end
   kScaled,    ///< to do the same as in another scene with other units of length and time
+  kOverlap,   ///< to keep boxes out of each other and out of walls
 };
 
 /// A scene whose truth is known.

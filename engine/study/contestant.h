@@ -20,15 +20,16 @@ class Contestant {
   virtual std::string name() const = 0;
   /// Its settings in words, for the reader who wants to repeat it.
   virtual std::string settings() const = 0;
-  /// Whether it moves step by step, so that its error depends on dt.
+  /// Whether it moves step by step, so that its error depends on dt. The others are asked for a tolerance.
   virtual bool steps() const = 0;
   /// Why it cannot be asked to move this world; empty if it can.
   virtual std::string refuses(const World& world) const = 0;
 
   /// Where every body is at each of the moments: result[moment][body], bodies in the world's order. `times`
-  /// [s] ascend from 0 or later; between two of them (and from 0 to the first) it takes equal steps no longer
-  /// than dt [s]. Throws an Error if it cannot go on, Interrupted if asked to stop.
-  virtual std::vector<std::vector<BodyState>> run(const World& world, double dt,
+  /// [s] ascend from 0 or later. `fineness` is a dt [s]: between two of the moments (and from 0 to the first)
+  /// it takes equal steps no longer than that; or, of who takes no steps, a tolerance [m]. Throws an Error if
+  /// it cannot go on, Interrupted if asked to stop.
+  virtual std::vector<std::vector<BodyState>> run(const World& world, double fineness,
                                                   std::span<const double> times,
                                                   const std::stop_token& stop) const = 0;
 

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "physics/diagnostics.h"
+#include "physics/overlap.h"
 #include "study/deadline.h"
 #include "study/difference.h"
 
@@ -68,6 +69,27 @@ double energyChange(const World& world, const std::vector<BodyState>& states) {
   return (energyOf(world, states).total() - start.total()) / start.kinetic;
 }
 
+// Half diagonals of the smaller one of two bodies.
+double deepestOverlap(const World& world, const std::vector<BodyState>& states) {
+  std::vector<PlacedBox> boxes;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Body& body = world.bodies[i];
+    boxes.push_back({body.name, body.halfExtents, states[i].pose, body.mass.inverseMass});
+  }
+  double worst = 0;
+  for (const Overlap& each : overlaps(boxes)) {
+    const double size = std::min(boxes[each.first].halfExtents.norm(), boxes[each.second].halfExtents.norm());
+    worst = std::max(worst, each.depth / size);
+  }
+  for (const PlacedBox& box : boxes) {
+    for (const Wall& wall : world.walls) {
+      const double gap = box.inverseMass > 0 ? lowestGap(wall, box.halfExtents, box.pose).gap : 0;
+      worst = std::max(worst, std::isfinite(gap) ? -gap / box.halfExtents.norm() : INFINITY);
+    }
+  }
+  return worst;
+}
+
 // One attempt's place among all, and what is known of how long it takes.
 struct Timed {
   std::size_t attempt = 0;
@@ -82,14 +104,33 @@ std::string inWords(double seconds) {
   return text.str();
 }
 
+double finenessOf(const Attempt& attempt, const Case& study) {
+  return attempt.dt > 0 ? attempt.dt : attempt.tolerance > 0 ? attempt.tolerance : study.scene.tolerance;
+}
+
+bool isSame(const std::vector<BodyState>& x, const std::vector<BodyState>& y) {
+  return std::equal(x.begin(), x.end(), y.begin(), [](const BodyState& a, const BodyState& b) {
+    return a.pose.position == b.pose.position && a.pose.worldFromBody == b.pose.worldFromBody;
+  });
+}
+
+bool isSame(const Answer& x, const Answer& y) {
+  const auto same = [](const States& a, const States& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const auto& p, const auto& q) { return isSame(p, q); });
+  };
+  return same(x.states, y.states) && same(x.second, y.second);
+}
+
 // Errors, and a first idea of the time.
 double attempt(const Case& study, const Contestant& contestant, const Effort& effort,
-               const std::stop_token& stop, Attempt& result) {
+               const std::stop_token& stop, Attempt& result, Answer& answer) {
   const double allowed = (contestant.steps() ? 1 : kRunsWithoutSteps) * effort.longestRun;
   const Deadline deadline(allowed, stop);
   const Clock::time_point start = Clock::now();
   try {
-    result.judgement = judge(study, answerOf(study, contestant, result.dt, deadline.token()));
+    answer = answerOf(study, contestant, finenessOf(result, study), deadline.token());
+    result.judgement = judge(study, answer);
     if (!std::isfinite(result.judgement.error)) {
       result.failure = "its states are not finite";
     }
@@ -104,12 +145,12 @@ double attempt(const Case& study, const Contestant& contestant, const Effort& ef
   return secondsSince(start);
 }
 
-double timeOnce(const Case& study, const Timed& timed, double dt, double shortest,
+double timeOnce(const Case& study, const Timed& timed, double fineness, double shortest,
                 const std::stop_token& stop) {
   const int count = static_cast<int>(std::ceil(shortest / std::max(timed.seconds, shortest / 1e4)));
   const Clock::time_point start = Clock::now();
   for (int i = 0; i < count; ++i) {
-    answerOf(study, *timed.contestant, dt, stop);
+    answerOf(study, *timed.contestant, fineness, stop);
   }
   return secondsSince(start) / count;
 }
@@ -124,7 +165,8 @@ void timeAll(const Case& study, const Effort& effort, std::vector<Timed>& all, s
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
       Timed& timed = all[(i + static_cast<std::size_t>(round)) % all.size()];
-      timed.samples.push_back(timeOnce(study, timed, attempts[timed.attempt].dt, effort.shortest, stop));
+      timed.samples.push_back(
+          timeOnce(study, timed, finenessOf(attempts[timed.attempt], study), effort.shortest, stop));
       timed.seconds = *std::min_element(timed.samples.begin(), timed.samples.end());
     }
   }
@@ -144,7 +186,8 @@ Effort fullEffort() {
   return {.longestRun = 5,
           .longestStep = 0.5,
           .timing = 6,
-          .steps = {8, 4, 2, 1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64}};
+          .steps = {8, 4, 2, 1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64},
+          .tolerances = {1, 1e-2, 1e-4}};
 }
 
 Effort quickEffort() {
@@ -153,19 +196,26 @@ Effort quickEffort() {
           .timing = 0.5,
           .rounds = 3,
           .shortest = 5e-4,
-          .steps = {4, 1, 1. / 4}};
+          .steps = {4, 1, 1. / 4},
+          .tolerances = {1, 1e-2}};
 }
 
-Answer answerOf(const Case& study, const Contestant& contestant, double dt, const std::stop_token& stop) {
+double usualFineness(const Case& study, const Contestant& contestant) {
+  return contestant.steps() ? study.scene.dt : study.scene.tolerance;
+}
+
+Answer answerOf(const Case& study, const Contestant& contestant, double fineness,
+                const std::stop_token& stop) {
   Answer answer;
-  answer.states = contestant.run(study.world, dt, study.times, stop);
+  answer.states = contestant.run(study.world, fineness, study.times, stop);
   if (study.measure == Measure::kReversal) {
     const double end = study.duration();
-    answer.second =
-        contestant.run(startingFrom(study.world, turnedRound(answer.states.back())), dt, {&end, 1}, stop);
+    answer.second = contestant.run(startingFrom(study.world, turnedRound(answer.states.back())), fineness,
+                                   {&end, 1}, stop);
   } else if (study.measure == Measure::kScaled) {
     const double end = study.duration() / study.durations;
-    answer.second = contestant.run(study.original, dt / study.durations, {&end, 1}, stop);
+    const double unit = contestant.steps() ? study.durations : study.lengths;
+    answer.second = contestant.run(study.original, fineness / unit, {&end, 1}, stop);
   }
   return answer;
 }
@@ -190,6 +240,11 @@ Judgement judge(const Case& study, const Answer& answer) {
         judgement.error = std::max(judgement.error, std::isfinite(change) ? std::fabs(change) : INFINITY);
       }
       break;
+    case Measure::kOverlap:
+      for (const std::vector<BodyState>& states : answer.states) {
+        judgement.error = std::max(judgement.error, deepestOverlap(study.world, states));
+      }
+      break;
     case Measure::kReversal:
       judgement.error = differenceOf(study.world, answer.second.back(), initialStates(study.world)).relative;
       break;
@@ -209,7 +264,6 @@ std::vector<Attempt> attemptAll(const Case& study, const Contestants& contestant
                                 const std::stop_token& stop) {
   std::vector<Attempt> attempts;
   std::vector<Timed> timed;
-  const double usual = study.scene.dt;
   for (const auto& contestant : contestants) {
     Attempt blank;
     blank.contestant = contestant->name();
@@ -219,14 +273,27 @@ std::vector<Attempt> attemptAll(const Case& study, const Contestants& contestant
       attempts.back().failure = refusal;
       continue;
     }
-    for (const double factor : contestant->steps() ? effort.steps : std::vector<double>{0}) {
-      const double dt = factor * usual;
+    const bool steps = contestant->steps();
+    const double usual = usualFineness(study, *contestant);
+    Answer coarser;
+    for (const double factor : steps ? effort.steps : effort.tolerances) {
+      const double dt = steps ? factor * usual : 0;
       if (dt > kLongestStepOfRun * study.duration() && factor > 1) {
         continue;
       }
       attempts.push_back(blank);
       attempts.back().dt = dt;
-      const double seconds = attempt(study, *contestant, effort, stop, attempts.back());
+      attempts.back().tolerance = steps ? 0 : factor * usual;
+      Answer answer;
+      const double seconds = attempt(study, *contestant, effort, stop, attempts.back(), answer);
+      if (!steps && factor < 1 && isSame(answer, coarser)) {
+        attempts.pop_back();
+        if (factor == effort.tolerances[1]) {
+          attempts.back().tolerance = 0;
+        }
+        break;
+      }
+      coarser = std::move(answer);
       if (attempts.back().failure.empty()) {
         timed.push_back({.attempt = attempts.size() - 1,
                          .contestant = contestant.get(),

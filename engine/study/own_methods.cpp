@@ -13,7 +13,7 @@ class OwnMethod : public Contestant {
   std::string name() const override { return std::string(traits_.name); }
   std::string settings() const override {
     if (!traits_.steps()) {
-      return "careen: closed forms from impact to impact, no steps; contact in steps, tolerance 1e-6 m";
+      return "careen: closed forms from impact to impact, no steps; contact in steps chosen by the tolerance";
     }
     return "careen: order " + std::to_string(traits_.order) +
            (traits_.forces ? ", the loop of 1997" : ", impacts at the roots of the gap");
@@ -30,13 +30,11 @@ class OwnMethod : public Contestant {
     return "";
   }
 
-  std::vector<std::vector<BodyState>> run(const World& world, double dt, std::span<const double> times,
+  std::vector<std::vector<BodyState>> run(const World& world, double fineness, std::span<const double> times,
                                           const std::stop_token& stop) const override {
     SampledStates states(world, times);
     RunSettings settings{.method = traits_.method, .duration = times.back()};
-    if (traits_.steps()) {
-      settings.dt = dt;
-    }
+    (traits_.steps() ? settings.dt : settings.tolerance) = fineness;
     simulate(world, settings, states, stop);
     return states.finish();
   }

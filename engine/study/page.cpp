@@ -78,12 +78,14 @@ std::string matrix(const StudyResult& study) {
 
 std::string attemptsOf(const CaseResult& result) {
   std::ostringstream table;
-  table << "<table><tr><th>contestant</th><th>dt [s]</th><th>error</th><th>µs per simulated "
+  table << "<table><tr><th>contestant</th><th>dt [s]</th><th>tolerance [m]</th><th>error</th><th>µs per "
+           "simulated "
            "s</th><th>spread</th>"
            "<th>repeats</th><th>on the front</th></tr>\n";
   for (const Attempt& attempt : result.attempts) {
     table << "<tr><th>" << escaped(attempt.contestant) << "</th><td>"
-          << (attempt.dt > 0 ? inShort(attempt.dt) : "") << "</td>";
+          << (attempt.dt > 0 ? inShort(attempt.dt) : "") << "</td><td>"
+          << (attempt.tolerance > 0 ? inShort(attempt.tolerance) : "") << "</td>";
     if (attempt.failure.empty()) {
       table << "<td>" << inShort(attempt.judgement.error) << "</td><td>" << inShort(attempt.cost)
             << "</td><td>" << inShort(attempt.spread) << "</td><td>" << attempt.repeats << "</td><td>"
@@ -152,7 +154,7 @@ std::string verdict(const StudyResult& study) {
       worst = exact->judgement.error;
       worstCase = result.name;
     }
-    if (onFront(result, *exact)) {
+    if (exact->failure.empty() && betterThan(result, *exact).empty()) {
       ++front;
     } else {
       dominated += (dominated.empty() ? "" : ", ") + result.name;
@@ -161,7 +163,7 @@ std::string verdict(const StudyResult& study) {
   std::ostringstream text;
   text << "<b>exact</b> answers " << answered << " of " << study.cases.size()
        << " cases; its largest error is " << inShort(worst) << " (" << escaped(worstCase) << "). In " << front
-       << " of them no other answer is both cheaper and better"
+       << " of them no other contestant is both cheaper and better"
        << (dominated.empty() ? "." : "; it is not so in " + escaped(dominated) + ".");
   return text.str();
 }

@@ -23,6 +23,8 @@ const char* nameOf(Measure measure) {
       return "reversal";
     case Measure::kScaled:
       return "scaled";
+    case Measure::kOverlap:
+      return "overlap";
   }
   return "";
 }
@@ -31,6 +33,9 @@ Json toJson(const Attempt& attempt) {
   Json json = {{"contestant", attempt.contestant}, {"settings", attempt.settings}};
   if (attempt.dt > 0) {
     json["dt"] = attempt.dt;
+  }
+  if (attempt.tolerance > 0) {
+    json["tolerance"] = attempt.tolerance;
   }
   if (!attempt.failure.empty()) {
     json["failure"] = attempt.failure;
@@ -49,6 +54,7 @@ Attempt attemptFrom(const Json& json) {
   attempt.contestant = json.at("contestant").get<std::string>();
   attempt.settings = json.at("settings").get<std::string>();
   attempt.dt = json.value("dt", 0.0);
+  attempt.tolerance = json.value("tolerance", 0.0);
   attempt.failure = json.value("failure", "");
   if (attempt.failure.empty()) {
     attempt.judgement.error = json.at("error").get<double>();
@@ -58,6 +64,11 @@ Attempt attemptFrom(const Json& json) {
     attempt.repeats = json.at("repeats").get<int>();
   }
   return attempt;
+}
+
+bool isBetter(const Attempt& attempt, const Attempt& other) {
+  return attempt.failure.empty() && attempt.cost < other.cost &&
+         attempt.judgement.error < other.judgement.error;
 }
 
 Json toJson(const CaseResult& result) {
@@ -130,10 +141,18 @@ const Attempt* usualAttempt(const CaseResult& result, const std::string& contest
 
 bool onFront(const CaseResult& result, const Attempt& attempt) {
   return attempt.failure.empty() &&
-         std::none_of(result.attempts.begin(), result.attempts.end(), [&](const Attempt& other) {
-           return other.failure.empty() && other.cost < attempt.cost &&
-                  other.judgement.error < attempt.judgement.error;
-         });
+         std::none_of(result.attempts.begin(), result.attempts.end(),
+                      [&](const Attempt& other) { return isBetter(other, attempt); });
+}
+
+std::vector<const Attempt*> betterThan(const CaseResult& result, const Attempt& attempt) {
+  std::vector<const Attempt*> better;
+  for (const Attempt& other : result.attempts) {
+    if (other.contestant != attempt.contestant && isBetter(other, attempt)) {
+      better.push_back(&other);
+    }
+  }
+  return better;
 }
 
 double correctDigits(double error) {

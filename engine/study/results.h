@@ -37,16 +37,18 @@ struct StudyResult {
   std::vector<std::string> contestants() const;
 };
 
-/// The contestant's answer at the case's usual step; the only one of those that take no steps. Null if it was
-/// never tried.
+/// The contestant's answer at the case's usual step or, of those that take no steps, tolerance. Null if it
+/// was never tried.
 const Attempt* usualAttempt(const CaseResult& result, const std::string& contestant);
 /// Whether no other answer is both cheaper and better. Of those that gave no answer: false.
 bool onFront(const CaseResult& result, const Attempt& attempt);
+/// Answers of other contestants that are both cheaper and better than this one.
+std::vector<const Attempt*> betterThan(const CaseResult& result, const Attempt& attempt);
 /// −log₁₀ of an error, from 0 (none is right) to 16 (all that a double has).
 double correctDigits(double error);
 
-/// All attempts: case,contestant,dt,error,cost_us,spread,repeats,front,failure. cost_us is µs of one core per
-/// simulated second.
+/// All attempts: case,contestant,dt,tolerance,error,cost_us,spread,repeats,front,failure. cost_us is µs of
+/// one core per simulated second.
 std::string resultsCsv(const StudyResult& study);
 /// Energy against time at the usual step: case,contestant,time,change.
 std::string energyCsv(const StudyResult& study);

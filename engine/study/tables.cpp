@@ -59,12 +59,22 @@ void addTable(std::ostream& text, const StudyResult& study, CellOf cellOf) {
   }
 }
 
+std::string finenessOf(const Attempt& attempt) {
+  return attempt.dt > 0          ? " (dt " + general(attempt.dt, 3) + ")"
+         : attempt.tolerance > 0 ? " (tolerance " + general(attempt.tolerance, 3) + ")"
+                                 : "";
+}
+
 void addFindings(std::ostream& text, const StudyResult& study) {
   text << "\n## Where another answer is both cheaper and better than that of exact\n\n";
   bool any = false;
   for (const CaseResult& result : study.cases) {
     const Attempt* const exact = usualAttempt(result, "exact");
-    if (exact == nullptr || onFront(result, *exact)) {
+    if (exact == nullptr) {
+      continue;
+    }
+    const std::vector<const Attempt*> better = betterThan(result, *exact);
+    if (exact->failure.empty() && better.empty()) {
       continue;
     }
     any = true;
@@ -75,12 +85,9 @@ void addFindings(std::ostream& text, const StudyResult& study) {
     }
     text << "exact is wrong by " << inShort(exact->judgement.error) << " at " << general(exact->cost, 3)
          << " µs/s;";
-    for (const Attempt& other : result.attempts) {
-      if (other.failure.empty() && other.cost < exact->cost &&
-          other.judgement.error < exact->judgement.error) {
-        text << ' ' << other.contestant << " (dt " << general(other.dt, 3) << ") by "
-             << inShort(other.judgement.error) << " at " << general(other.cost, 3) << " µs/s;";
-      }
+    for (const Attempt* other : better) {
+      text << ' ' << other->contestant << finenessOf(*other) << " by " << inShort(other->judgement.error)
+           << " at " << general(other->cost, 3) << " µs/s;";
     }
     text << '\n';
   }
@@ -95,11 +102,11 @@ std::string inShort(double value) { return general(value, 2); }
 
 std::string resultsCsv(const StudyResult& study) {
   std::ostringstream csv;
-  csv << "case,contestant,dt,error,cost_us,spread,repeats,front,failure\n";
+  csv << "case,contestant,dt,tolerance,error,cost_us,spread,repeats,front,failure\n";
   for (const CaseResult& result : study.cases) {
     for (const Attempt& attempt : result.attempts) {
       csv << result.name << ',' << attempt.contestant << ',' << (attempt.dt > 0 ? exactly(attempt.dt) : "")
-          << ',';
+          << ',' << (attempt.tolerance > 0 ? exactly(attempt.tolerance) : "") << ',';
       if (attempt.failure.empty()) {
         csv << exactly(attempt.judgement.error) << ',' << general(attempt.cost, 6) << ','
             << general(attempt.spread, 3) << ',' << attempt.repeats << ',' << onFront(result, attempt)
@@ -149,8 +156,10 @@ std::string resultsMarkdown(const StudyResult& study) {
   text << "# Speed against error\n\n"
        << "Made by `" << study.command << "` on " << study.machine << ".\n\n"
        << "## Errors at the usual step\n\n"
-       << "Largest distance from the truth in half diagonals, or angle in radians; in cases of energy its\n"
-       << "largest relative change. – stands where there is no answer; the reason is in results.csv.\n\n";
+       << "Largest distance from the truth in half diagonals, or angle in radians; the deepest overlap of a "
+          "pile\n"
+       << "in half diagonals; in cases of energy its largest relative change. – stands where there is no "
+          "answer; the reason is in results.csv.\n\n";
   addTable(text, study, [](const Attempt* attempt) { return cell(attempt); });
   text << "\n## What the answers cost\n\nµs of one core per simulated second, at the usual step.\n\n";
   addTable(text, study, [](const Attempt* attempt) {

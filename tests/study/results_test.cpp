@@ -42,6 +42,7 @@ CaseResult someCase() {
   result.times = {1, 2};
   result.attempts = {answered("exact", 0, 1e-15, 0.1), answered("strang", 0.2, 1e-2, 0.2),
                      answered("strang", 0.1, 1. / 300, 0.4), failed("ode", 0.1)};
+  result.attempts[0].tolerance = 1e-6;
   return result;
 }
 
@@ -52,6 +53,7 @@ TEST(Results, comeBackFromTheirFileToTheBit) {
   ASSERT_TRUE(back.has_value());
   EXPECT_EQ(encodeResult(*back), text);
   EXPECT_EQ(back->stamp, result.stamp);
+  EXPECT_EQ(back->attempts[0].tolerance, 1e-6);
   EXPECT_EQ(back->attempts[2].judgement.error, 1. / 300);
   EXPECT_EQ(back->attempts[3].failure, result.attempts[3].failure);
   EXPECT_FALSE(decodeResult(text.substr(0, text.size() / 2)).has_value());
@@ -71,6 +73,10 @@ TEST(Results, areOnTheFrontUnlessAnotherIsBothCheaperAndBetter) {
   EXPECT_TRUE(onFront(result, result.attempts[0]));
   EXPECT_FALSE(onFront(result, result.attempts[1]));
   EXPECT_FALSE(onFront(result, result.attempts[3]));
+  EXPECT_TRUE(betterThan(result, result.attempts[0]).empty());
+  ASSERT_EQ(betterThan(result, result.attempts[1]).size(), 1U);
+  EXPECT_EQ(betterThan(result, result.attempts[1])[0], &result.attempts[0]);
+  EXPECT_TRUE(betterThan(result, result.attempts[2]).size() == 1);
   result.attempts[1].cost = 0.01;  // cheaper, though worse
   EXPECT_TRUE(onFront(result, result.attempts[0]));
   EXPECT_TRUE(onFront(result, result.attempts[1]));
@@ -94,11 +100,11 @@ TEST(Results, haveFromNoneToSixteenDigits) {
 TEST(Results, areTablesThatOtherProgramsRead) {
   const StudyResult study{.machine = "here", .command = "careen study", .cases = {someCase()}};
   EXPECT_EQ(resultsCsv(study),
-            "case,contestant,dt,error,cost_us,spread,repeats,front,failure\n"
-            "tumble,exact,,1e-15,0.1,0.1,3,1,\n"
-            "tumble,strang,0.2,0.01,0.2,0.1,3,0,\n"
-            "tumble,strang,0.1,0.0033333333333333335,0.4,0.1,3,0,\n"
-            "tumble,ode,0.1,,,,,0,\"fell over, \"\"quietly\"\" and lay there\"\n");
+            "case,contestant,dt,tolerance,error,cost_us,spread,repeats,front,failure\n"
+            "tumble,exact,,1e-06,1e-15,0.1,0.1,3,1,\n"
+            "tumble,strang,0.2,,0.01,0.2,0.1,3,0,\n"
+            "tumble,strang,0.1,,0.0033333333333333335,0.4,0.1,3,0,\n"
+            "tumble,ode,0.1,,,,,,0,\"fell over, \"\"quietly\"\" and lay there\"\n");
   EXPECT_EQ(energyCsv(study),
             "case,contestant,time,change\n"
             "tumble,exact,1,1e-15\ntumble,exact,2,-1e-15\n"

@@ -148,6 +148,13 @@ std::vector<TruthCase> contactCases() {
                   " is an edge within a face, and lies where no corner is.",
        .source = "quadruple precision: Taylor series of a pendulum on its head about the edge",
        .oracle = tipsOver},
+      {.name = "pile",
+       .title = "Poured into a pit",
+       .whyHard = "128 boxes of 0.4 to 0.6 m are poured into a pit of 4.4 by 4.4 metres: where they end "
+                  "is chaos, but at no moment may one be inside another.",
+       .source = "closed form: bodies are solid",
+       .measure = "overlap",
+       .samples = 120},
   };
 }
 
