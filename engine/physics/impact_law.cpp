@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory_resource>
 #include <utility>
 
@@ -268,11 +269,15 @@ Law::Impulses Law::withFriction(const Impulses& smooth) {
   }
   constexpr int kCap = 100;
   constexpr int kUndamped = 30;
+  constexpr int kPatience = 16;  // without a better agreement
   constexpr double kAgree = 0x1p-46;
   // Each problem is solved to what the limits are good for.
   constexpr double kAhead = 0x1p-10;
   double accuracy = kAhead;
   Impulses rough(smooth, memory_);
+  Impulses best(smooth, memory_);
+  double bestChange = std::numeric_limits<double>::infinity();
+  int bestAt = 0;
   SecantIteration iteration(contacts_.size(), memory_);
   ImpactVector<double> found(contacts_.size(), memory_);
   for (int k = 0; k < kCap; ++k) {
@@ -284,7 +289,17 @@ Law::Impulses Law::withFriction(const Impulses& smooth) {
       change = std::max(change, std::fabs(found[c] - limits[c]));
       largest = std::max(largest, std::max(found[c], limits[c]));
     }
-    if (change <= kAgree * largest && accuracy == ImpactSolver::kFullAccuracy) {
+    const double relative = largest > 0 ? change / largest : 0;
+    const bool full = accuracy == ImpactSolver::kFullAccuracy;
+    if (relative <= kAgree && full) {
+      return shortened(smooth, std::move(rough));
+    }
+    if (relative < bestChange && (full || accuracy <= relative / 8)) {
+      bestChange = relative;
+      bestAt = k;
+      best = rough;
+    }
+    if (k - bestAt >= kPatience) {
       break;
     }
     iteration.step(limits, found, k < kUndamped ? 1 : 0.5);
@@ -292,10 +307,9 @@ Law::Impulses Law::withFriction(const Impulses& smooth) {
       limits[c] = std::max(0.0, limits[c]);
       demands[c].frictionLimit = limits[c];
     }
-    const double relative = largest > 0 ? change / largest : 0;
-    accuracy = std::max(ImpactSolver::kFullAccuracy, std::min(accuracy, kAhead * relative));
+    accuracy = std::clamp(kAhead * relative, ImpactSolver::kFullAccuracy, kAhead);
   }
-  return shortened(smooth, std::move(rough));
+  return shortened(smooth, std::move(best));
 }
 
 /// The way from the frictionless answer to the one with friction, as far as energy, the cones and the walls
