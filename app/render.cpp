@@ -76,7 +76,7 @@ FilmSettings settingsOf(const FilmOptions& options, const Run& run) {
   settings.frames = framesIn(options.frames);
   settings.video = options.video;
   settings.resume = options.resume;
-  settings.render.osMesa.threads = options.threads;
+  settings.render.context.threads = options.threads;
   return settings;
 }
 

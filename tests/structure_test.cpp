@@ -119,7 +119,7 @@ TEST(Structure, foreignHeadersStayWhereTheyBelong) {
     std::string files = "";  // how their names begin
   };
   const std::vector<Rule> rules = {
-      {std::regex("^(GL|GLFW)/.*"), {"render"}},
+      {std::regex("^(GL|EGL|GLFW)/.*"), {"render"}},
       {std::regex("^(stb/)?stb_.*"), {"image"}},
       {std::regex("^nlohmann/.*"), {"scene", "study", "render", "app"}},
       {std::regex("^CLI/.*"), {"app"}},

@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "render/gl.h"
-#include "render/osmesa.h"
 
 namespace careen {
 namespace {
@@ -98,9 +97,10 @@ Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int he
     }
   }
   if (drawn != 255 || brightest == 0) {
-    throw MachineError(std::string("the frame came out ") +
-                       (drawn != 255 ? "with pixels left blank" : "black") + ": " + renderer +
-                       " does not draw what it should; for another, " + kHowToGetOsMesa);
+    throw MachineError(
+        std::string("the frame came out ") + (drawn != 255 ? "with pixels left blank" : "black") + ": " +
+        renderer +
+        " does not draw what it should; another may: --list-rendering-backends, apt install libosmesa6");
   }
   return picture;
 }

@@ -17,11 +17,11 @@ std::string text(const Gl& gl, GLenum what) {
 
 }  // namespace
 
-Gl::Gl(const OsMesa& osMesa) {
-#define CAREEN_GL_LOAD(type, name) name = reinterpret_cast<type>(osMesa.function("gl" #name));
+Gl::Gl(const GlContext& context) {
+#define CAREEN_GL_LOAD(type, name) name = reinterpret_cast<type>(context.function("gl" #name));
   CAREEN_GL_FUNCTIONS(CAREEN_GL_LOAD)
 #undef CAREEN_GL_LOAD
-  description = text(*this, GL_RENDERER) + ", OpenGL " + text(*this, GL_VERSION) + ", " + osMesa.library();
+  description = text(*this, GL_RENDERER) + ", OpenGL " + text(*this, GL_VERSION) + ", " + context.library();
 }
 
 int Gl::integer(unsigned what) const {

@@ -7,9 +7,9 @@
 
 #include <string>
 
-#include "render/osmesa.h"
+#include "render/gl_context.h"
 
-// Every function used, all of OpenGL 3.3 core or older: OSMesa hands out 4.5, whatever was asked for.
+// Every function used, all of OpenGL 3.3 core or older: Mesa hands out 4.5, whatever was asked for.
 #define CAREEN_GL_FUNCTIONS(X)                                               \
   X(PFNGLGETSTRINGPROC, GetString)                                           \
   X(PFNGLGETERRORPROC, GetError)                                             \
@@ -72,7 +72,7 @@ namespace careen {
 /// The functions of OpenGL by their names without "gl". GL's objects go with their context, so nobody deletes
 /// them one by one.
 struct Gl {
-  explicit Gl(const OsMesa& osMesa);
+  explicit Gl(const GlContext& context);
 
 #define CAREEN_GL_MEMBER(type, name) type name = nullptr;
   CAREEN_GL_FUNCTIONS(CAREEN_GL_MEMBER)

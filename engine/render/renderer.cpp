@@ -96,7 +96,7 @@ struct Renderer::Parts {
   View view;
   Lighting lighting;
   bool shadows;
-  OsMesa osMesa;
+  std::unique_ptr<GlContext> context;
   Gl gl;
   Canvas canvas;
   std::optional<ShadowMap> shadowMap;
@@ -116,8 +116,8 @@ Renderer::Parts::Parts(Scene drawnScene, int width, int height, const RenderOpti
       view(viewOf(camera, extent, static_cast<double>(width) / height)),
       lighting(options.lighting ? *options.lighting : defaultLighting(camera)),
       shadows(lighting.light && lighting.light->castsShadow && !scene.boxes.empty()),
-      osMesa(options.osMesa),
-      gl(osMesa),
+      context(openContext(options.context)),
+      gl(*context),
       canvas(gl, width, height),
       boxes(gl, shaderFolder(options), lightShaders(lighting, shadows)),
       surfaces(gl, shaderFolder(options), lightShaders(lighting, shadows), surfacesOf(scene, extent),
@@ -184,7 +184,7 @@ Picture Renderer::draw(std::span<const Pose> poses) {
                      std::to_string(parts.scene.boxes.size()) + " boxes");
   }
   const Clock::time_point begun = Clock::now();
-  parts.osMesa.makeCurrent();
+  parts.context->makeCurrent();
   std::vector<DrawnBox> drawn = drawnBoxes(parts.scene, poses, 0.004 * parts.extent.radius());
   parts.boxes.place(drawn, parts.view.eye);
   if (parts.shadows) {

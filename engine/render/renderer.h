@@ -9,13 +9,13 @@
 #include "core/pose.h"
 #include "image/picture.h"
 #include "render/lighting.h"
-#include "render/osmesa.h"
+#include "render/rendering_backend.h"
 #include "scene/scene.h"
 
 namespace careen {
 
 struct RenderOptions {
-  OsMesaOptions osMesa;
+  ContextOptions context;
   std::optional<Lighting> lighting;  ///< absent: defaultLighting
   std::filesystem::path shaders;     ///< folder; empty: the program's own
 };

@@ -146,7 +146,7 @@ TEST_F(FilmTest, resumeDrawsAgainWhatIsBroken) {
 TEST_F(FilmTest, finishedFilmIsResumedWithoutGl) {
   film(settings_);
   settings_.resume = true;
-  settings_.render.osMesa.library = "libNoSuchMesa.so";
+  settings_.render.context = nowhereToDraw();
   const FilmFigures figures = film(settings_);
   EXPECT_EQ(figures.skipped, 10);
   EXPECT_EQ(figures.renderer, "");
@@ -211,7 +211,7 @@ TEST_F(FilmTest, whatAKilledRunLeftIsRemoved) {
 TEST_F(FilmTest, oldFilmStaysWhenANewOneCannotBegin) {
   film(settings_);
   FilmSettings other = settings_;
-  other.render.osMesa.library = "libNoSuchMesa.so";
+  other.render.context = nowhereToDraw();
   EXPECT_THROW(film(other), MachineError);
   other = settings_;
   other.width = 100000;

@@ -11,7 +11,7 @@ namespace {
 
 std::string errorOf(const std::string& library) {
   try {
-    const OsMesa osMesa({.threads = std::nullopt, .library = library});
+    const OsMesa osMesa(library);
   } catch (const MachineError& error) {
     return error.what();
   }
@@ -30,14 +30,9 @@ TEST(OsMesa, libraryOfSomethingElseIsToldSo) {
 }
 
 TEST(OsMesa, isFoundUnderItsUsualName) {
-  OsMesa osMesa({});
+  const OsMesa osMesa("");
   EXPECT_EQ(osMesa.library().substr(0, 12), "libOSMesa.so");
   EXPECT_NE(osMesa.function("glDrawArraysInstanced"), nullptr);
-}
-
-TEST(OsMesa, refusesAnImpossibleNumberOfThreads) {
-  EXPECT_THROW(OsMesa({.threads = -1, .library = {}}), InputError);
-  EXPECT_THROW(OsMesa({.threads = 1000, .library = {}}), InputError);
 }
 
 }  // namespace

@@ -348,7 +348,7 @@ TEST(Renderer, frameThatComesOutBlankIsAnError) {
 
 TEST(Renderer, missingLibraryIsAnError) {
   RenderOptions options;
-  options.osMesa.library = "libNoSuchMesa.so";
+  options.context = nowhereToDraw();
   EXPECT_THROW(Renderer(crateInRoom(), 32, 18, options), MachineError);
 }
 

@@ -11,6 +11,7 @@
 #include "image/picture.h"
 #include "physics/body.h"
 #include "render/lighting.h"
+#include "render/rendering_backend.h"
 #include "scene/scene.h"
 #include "trajectory/trajectory.h"
 
@@ -60,6 +61,14 @@ inline Scene crateInRoom() {
       Quat(0.8, 0.2, 0.4, 0.4).normalized().toRotationMatrix();  // no face straight on
   scene.camera = cameraAt(Vec3(-1.5, -7, 3), Vec3(0, 0, 1.2), 38);
   return scene;
+}
+
+/// No library of any backend can be loaded.
+inline ContextOptions nowhereToDraw() {
+  ContextOptions options;
+  options.osMesaLibrary = "libNoSuchMesa.so";
+  options.eglLibrary = "libNoSuchEgl.so";
+  return options;
 }
 
 /// Light from all around alike, none from any side: what is drawn has its own colour.
