@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -32,7 +33,9 @@ struct FilmOptions {
   std::optional<std::string> rate;
   std::optional<std::filesystem::path> video;
   bool resume = false;
-  std::optional<int> threads;
+  ContextOptions context;
+  std::string backend = "auto";
+  bool listBackends = false;
   Overrides overrides;
   EstimateChoice estimate;
 };
@@ -61,6 +64,14 @@ FrameRate parseRate(const std::string& text) {
   }
 }
 
+RenderingBackend parseBackend(const std::string& text) {
+  try {
+    return renderingBackendNamed(text);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--rendering-backend: ") + error.what());
+  }
+}
+
 std::vector<FrameRange> framesIn(const std::string& text) {
   return text.empty() ? std::vector<FrameRange>() : parseFrameRanges(text);
 }
@@ -76,7 +87,7 @@ FilmSettings settingsOf(const FilmOptions& options, const Run& run) {
   settings.frames = framesIn(options.frames);
   settings.video = options.video;
   settings.resume = options.resume;
-  settings.render.context.threads = options.threads;
+  settings.render.context = options.context;
   return settings;
 }
 
@@ -112,14 +123,29 @@ void printFilm(const FilmSettings& settings, const FilmFigures& figures) {
   }
 }
 
+ExitCode listBackends(const ContextOptions& options) {
+  std::string first = "none";
+  std::ostringstream lines;
+  for (const BackendFound& each : findRenderingBackends(options)) {
+    lines << each.name << (each.available ? ": available, " : ": not available, ") << each.description
+          << '\n';
+    if (each.available && first == "none") {
+      first = each.name;
+    }
+  }
+  std::cout << "auto: " << first << '\n' << lines.str();
+  return ExitCode::kDone;
+}
+
 ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   const Stopwatch stopwatch;
   if (options.source.empty()) {
     options.source = defaultScene();
   }
-  if (options.threads && *options.threads < 0) {
-    throw InputError("--threads: found " + std::to_string(*options.threads) + ", expected 0 or more");
+  if (options.context.threads && *options.context.threads < 0) {
+    throw InputError("--threads: found " + std::to_string(*options.context.threads) + ", expected 0 or more");
   }
+  options.context.backend = parseBackend(options.backend);
   Run run = loadRun(options.source, options.overrides, stop);
   const FilmSettings settings = settingsOf(options, run);
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0);
@@ -147,11 +173,19 @@ void addRender(CLI::App& commandLine, Command& chosen) {
                       "Frames per second in place of the scene's, such as 25 or 24000/1001");
   command->add_option("--video", options->video, "Film to make of the frames, by ffmpeg (.mp4)");
   command->add_flag("--resume", options->resume, "Keep the frames that are there and draw the others");
-  command->add_option("--threads", options->threads, "Threads that fill pixels; 0: none but the main one");
+  command->add_option(
+      "--rendering-backend", options->backend,
+      "What draws: auto, osmesa or egl (default: auto, the first of the others that there is)");
+  command->add_flag("--list-rendering-backends", options->listBackends,
+                    "Tell which of them are available, and make no film");
+  command->add_option("--threads", options->context.threads,
+                      "Threads that fill pixels; 0: none but the main one");
   options->overrides.addAllowOverlapTo(*command);
   options->estimate.addTo(*command);
   command->callback([options, &chosen] {
-    chosen = [options](const std::stop_token& stop) { return renderCommand(*options, stop); };
+    chosen = [options](const std::stop_token& stop) {
+      return options->listBackends ? listBackends(options->context) : renderCommand(*options, stop);
+    };
   });
 }
 

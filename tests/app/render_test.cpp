@@ -96,6 +96,7 @@ TEST_F(Render, refusesWhatCannotBeFilmed) {
                                              {"--frames", "5-2"},
                                              {"--frames", "0-99"},
                                              {"--frames", "x"},
+                                             {"--rendering-backend", "glx"},
                                              {"--threads", "-1"}}) {
     std::vector<std::string> arguments = {"render", "scene.json", "--out", "film"};
     arguments.insert(arguments.end(), options.begin(), options.end());
@@ -105,6 +106,75 @@ TEST_F(Render, refusesWhatCannotBeFilmed) {
     EXPECT_NE(ended.err.find("expected"), std::string::npos) << ended.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "film")) << options[1];
   }
+}
+
+TEST_F(Render, drawsWithTheBackendAskedFor) {
+  for (const char* backend : {"auto", "osmesa", "egl"}) {
+    const Ended ended = careen({"render", "scene.json", "--out", backend, "--rendering-backend", backend});
+    ASSERT_EQ(ended.exitCode, 0) << ended.err;
+    const nlohmann::json report = nlohmann::json::parse(textOf(folder_ / backend / "report.json"));
+    const std::string library = std::string(backend) == "egl" ? "libEGL.so" : "libOSMesa.so";
+    EXPECT_NE(std::string(report["renderer"]).find(library), std::string::npos) << report["renderer"];
+  }
+  expectSameFilm("auto", "osmesa");
+}
+
+TEST_F(Render, namesTheBackendsThatThereAre) {
+  const Ended ended = careen({"render", "scene.json", "--rendering-backend", "glx"});
+  EXPECT_NE(ended.err.find("--rendering-backend: found 'glx', expected one of: auto, osmesa, egl"),
+            std::string::npos)
+      << ended.err;
+}
+
+// Files of these names that are no libraries stand before the real ones.
+class RenderWithout : public Render {
+ protected:
+  Ended careenWithout(const std::vector<std::string>& libraries, std::vector<std::string> arguments) const {
+    for (const std::string& library : libraries) {
+      folder_.write(library, "");
+    }
+    arguments.insert(arguments.begin(), {"env", "LD_LIBRARY_PATH=" + folder_.path().string(), CAREEN_BINARY});
+    return Process(arguments, folder_.path()).wait();
+  }
+
+  const std::vector<std::string> osMesa_ = {"libOSMesa.so.8", "libOSMesa.so"};
+  const std::vector<std::string> both_ = {"libOSMesa.so.8", "libOSMesa.so", "libEGL.so.1"};
+};
+
+TEST_F(RenderWithout, anyLackTheListSaysSo) {
+  const std::vector<std::string> list = {"render", "--list-rendering-backends"};
+  Ended ended = careen(list);
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_TRUE(ended.out.starts_with("auto: osmesa\nosmesa: available, llvmpipe")) << ended.out;
+  EXPECT_NE(ended.out.find("\negl: available, "), std::string::npos) << ended.out;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+
+  ended = careenWithout(osMesa_, list);
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_TRUE(ended.out.starts_with("auto: egl\nosmesa: not available, libOSMesa.so, which")) << ended.out;
+  EXPECT_NE(ended.out.find("apt install libosmesa6"), std::string::npos) << ended.out;
+
+  ended = careenWithout(both_, list);
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_TRUE(ended.out.starts_with("auto: none\n")) << ended.out;
+  EXPECT_NE(ended.out.find("\negl: not available, libEGL.so.1, which"), std::string::npos) << ended.out;
+}
+
+TEST_F(RenderWithout, osMesaTheFilmIsDrawnThroughEgl) {
+  const Ended ended = careenWithout(osMesa_, {"render", "scene.json", "--out", "film"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const nlohmann::json report = nlohmann::json::parse(textOf(folder_ / "film/report.json"));
+  EXPECT_NE(std::string(report["renderer"]).find("libEGL.so"), std::string::npos) << report["renderer"];
+  EXPECT_EQ(careenWithout(osMesa_, {"render", "scene.json", "--rendering-backend", "osmesa"}).exitCode, 3);
+}
+
+TEST_F(RenderWithout, bothItSaysWhatToInstall) {
+  const Ended ended = careenWithout(both_, {"render", "scene.json", "--out", "film"});
+  EXPECT_EQ(ended.exitCode, 3) << ended.err;
+  EXPECT_NE(ended.err.find("apt install libosmesa6"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("apt install libegl1 libegl-mesa0 libgl1-mesa-dri"), std::string::npos)
+      << ended.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "film"));
 }
 
 TEST_F(Render, placeThatCannotBeWrittenExitsWith3) {
