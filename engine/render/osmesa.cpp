@@ -1,6 +1,6 @@
-#include "render/osmesa.h"
+#include <GL/glcorearb.h>
 
-#include <GL/osmesa.h>
+#include "render/osmesa.h"
 
 #include <array>
 #include <vector>
@@ -12,6 +12,21 @@ namespace {
 
 constexpr const char* kRemedy = "install it: apt install libosmesa6";
 
+// What is used of GL/osmesa.h: it went from Mesa with the library, and where it is gone this must build to
+// draw through EGL.
+enum Attribute : int {
+  kFormat = 0x22,
+  kDepthBits = 0x30,
+  kProfile = 0x33,
+  kCoreProfile = 0x34,
+  kMajorVersion = 0x36,
+  kMinorVersion = 0x37
+};
+using CreateContext = void* (*)(const int* attributes, void* shared);
+using DestroyContext = void (*)(void* context);
+using MakeCurrent = GLboolean (*)(void* context, void* pixels, GLenum type, GLsizei width, GLsizei height);
+using GetProcAddress = void* (*)(const char* name);
+
 std::vector<std::string> namesOf(const std::string& library) {
   return library.empty() ? std::vector<std::string>{"libOSMesa.so.8", "libOSMesa.so"} : std::vector{library};
 }
@@ -19,19 +34,9 @@ std::vector<std::string> namesOf(const std::string& library) {
 }  // namespace
 
 OsMesa::OsMesa(const std::string& library) : library_(namesOf(library), kRemedy) {
-  const std::array<int, 13> attributes = {OSMESA_FORMAT,
-                                          OSMESA_RGBA,
-                                          OSMESA_DEPTH_BITS,
-                                          0,
-                                          OSMESA_PROFILE,
-                                          OSMESA_CORE_PROFILE,
-                                          OSMESA_CONTEXT_MAJOR_VERSION,
-                                          3,
-                                          OSMESA_CONTEXT_MINOR_VERSION,
-                                          3,
-                                          0};
-  context_ = library_.function<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs")(
-      attributes.data(), nullptr);
+  constexpr std::array<int, 11> kCore33 = {kFormat,       GL_RGBA, kDepthBits,    0, kProfile, kCoreProfile,
+                                           kMajorVersion, 3,       kMinorVersion, 3, 0};
+  context_ = library_.function<CreateContext>("OSMesaCreateContextAttribs")(kCore33.data(), nullptr);
   if (context_ == nullptr) {
     throw MachineError(library_.name() + " makes no OpenGL 3.3 core context; " + kRemedy);
   }
@@ -40,25 +45,22 @@ OsMesa::OsMesa(const std::string& library) : library_(namesOf(library), kRemedy)
 
 OsMesa::~OsMesa() {
   release();
-  library_.function<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext")(
-      static_cast<OSMesaContext>(context_));
+  library_.function<DestroyContext>("OSMesaDestroyContext")(context_);
 }
 
 void OsMesa::bind() {
-  const auto make = library_.function<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent");
-  if (make(static_cast<OSMesaContext>(context_), &pixel_, GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
+  const auto make = library_.function<MakeCurrent>("OSMesaMakeCurrent");
+  if (make(context_, &pixel_, GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
     throw MachineError(library_.name() + " cannot use the context it made; " + kRemedy);
   }
 }
 
 void OsMesa::unbind() {
-  library_.function<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent")(nullptr, nullptr, GL_UNSIGNED_BYTE, 0,
-                                                                       0);
+  library_.function<MakeCurrent>("OSMesaMakeCurrent")(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
 }
 
 void* OsMesa::function(const char* name) const {
-  const auto find = library_.function<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress");
-  void* address = reinterpret_cast<void*>(find(name));
+  void* const address = library_.function<GetProcAddress>("OSMesaGetProcAddress")(name);
   if (address == nullptr) {
     throw MachineError(library_.name() + " has no " + name + " of OpenGL 3.3; " + kRemedy);
   }
