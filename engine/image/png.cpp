@@ -2,53 +2,30 @@
 
 #include <libdeflate.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <memory>
-#include <new>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "image/deflate_writer.h"
+#include "image/row_filter.h"
 
 namespace {
 
 struct Free {
   void operator()(unsigned char* memory) const { std::free(memory); }
 };
-using Buffer = std::unique_ptr<unsigned char, Free>;  // stb takes and gives what malloc made
-
-// What stb would do with its own compressor in seven times the time. Level 1: higher ones cost much and save
-// little.
-unsigned char* compress(const unsigned char* data, int size, int* compressedSize) {
-  constexpr int kLevel = 1;
-  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-      libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
-  if (!compressor) {
-    return nullptr;
-  }
-  const auto length = static_cast<std::size_t>(size);
-  const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), length);
-  Buffer out(static_cast<unsigned char*>(std::malloc(bound)));
-  if (!out || bound > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-    return nullptr;
-  }
-  const std::size_t used = libdeflate_zlib_compress(compressor.get(), data, length, out.get(), bound);
-  *compressedSize = static_cast<int>(used);
-  return used == 0 ? nullptr : out.release();
-}
+using Buffer = std::unique_ptr<unsigned char, Free>;  // stb gives what malloc made
 
 }  // namespace
-
-#define STBIW_ZLIB_COMPRESS(data, size, compressedSize, quality) compress(data, size, compressedSize)
-#define STBIW_CRC32(data, size) libdeflate_crc32(0, data, static_cast<std::size_t>(size))
-#define STBI_WRITE_NO_STDIO
-#define STB_IMAGE_WRITE_STATIC
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#include <stb/stb_image_write.h>
 
 #define STBI_ONLY_PNG
 #define STBI_NO_STDIO
@@ -93,8 +70,62 @@ const char* faultOf(std::string_view bytes) {
   return "is a PNG cut short";
 }
 
-void append(void* text, void* bytes, int size) {
-  static_cast<std::string*>(text)->append(static_cast<const char*>(bytes), static_cast<std::size_t>(size));
+void appendBigEndian(std::string& bytes, std::uint32_t value) {
+  for (const unsigned shift : {24U, 16U, 8U, 0U}) {
+    bytes.push_back(static_cast<char>(value >> shift & 0xffU));
+  }
+}
+
+/// Appends a chunk: PNG specification, 5.3. What is in it is appended between the beginning and finish().
+class Chunk {
+ public:
+  Chunk(std::string& bytes, std::string_view type) : bytes_(&bytes), begun_(bytes.size()) {
+    bytes.append(4, '\0');
+    bytes += type;
+  }
+  void finish() {
+    const std::string_view checked = std::string_view(*bytes_).substr(begun_ + 4);
+    const std::uint32_t checksum = libdeflate_crc32(0, checked.data(), checked.size());
+    std::string length;
+    appendBigEndian(length, static_cast<std::uint32_t>(checked.size() - 4));
+    bytes_->replace(begun_, length.size(), length);
+    appendBigEndian(*bytes_, checksum);
+  }
+
+ private:
+  std::string* bytes_;
+  std::size_t begun_;
+};
+
+// The pixels as a zlib stream, RFC 1950. Every row gets the Paeth filter: of filters for a whole picture it
+// makes most rendered frames smallest. The best of three for every row would save up to 7 %, and all three
+// would have to be tried.
+void appendPixels(std::string& bytes, const Picture& picture) {
+  constexpr std::size_t kPiece = std::size_t{1} << 18U;
+  constexpr std::uint8_t kPaeth = 4;
+  constexpr std::string_view kZlibHeader = "\x78\x01";
+  const std::size_t rowBytes = picture.rowBytes();
+  const auto height = static_cast<std::size_t>(picture.height);
+  const std::size_t rowsOfPiece = std::clamp<std::size_t>(kPiece / (rowBytes + 1), 1, height);
+  std::vector<std::uint8_t> piece(rowsOfPiece * (rowBytes + 1));
+  const std::vector<std::uint8_t> nothing(rowBytes);
+  std::span<const std::uint8_t> above(nothing);
+  std::uint32_t checksum = 1;
+  bytes += kZlibHeader;
+  DeflateWriter deflate(bytes);
+  for (std::size_t row = 0; row < height;) {
+    std::size_t used = 0;
+    for (const std::size_t end = std::min(row + rowsOfPiece, height); row < end; ++row) {
+      const std::span pixels(picture.rgb.data() + row * rowBytes, rowBytes);
+      piece[used] = kPaeth;
+      subtractPaeth(pixels, above, {piece.data() + used + 1, rowBytes});
+      above = pixels;
+      used += rowBytes + 1;
+    }
+    checksum = libdeflate_adler32(checksum, piece.data(), used);
+    deflate.write({piece.data(), used}, row == height);
+  }
+  appendBigEndian(bytes, checksum);
 }
 
 }  // namespace
@@ -107,11 +138,16 @@ std::string encodePng(const Picture& picture) {
     throw InputError("a picture of " + std::to_string(picture.width) + " x " +
                      std::to_string(picture.height) + " cannot be written as PNG");
   }
-  std::string bytes;
-  if (stbi_write_png_to_func(append, &bytes, picture.width, picture.height, 3, picture.rgb.data(),
-                             static_cast<int>(picture.rowBytes())) == 0) {
-    throw std::bad_alloc();
-  }
+  std::string bytes(kSignature);
+  Chunk header(bytes, "IHDR");
+  appendBigEndian(bytes, static_cast<std::uint32_t>(picture.width));
+  appendBigEndian(bytes, static_cast<std::uint32_t>(picture.height));
+  bytes.append({8, 2, 0, 0, 0});  // 8-bit RGB, nothing special
+  header.finish();
+  Chunk data(bytes, "IDAT");
+  appendPixels(bytes, picture);
+  data.finish();
+  bytes += kEnd;
   return bytes;
 }
 

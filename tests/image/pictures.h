@@ -26,4 +26,21 @@ inline Picture shadedTiles(int width, int height, unsigned seed = 1) {
   return picture;
 }
 
+/// What no compressor makes smaller.
+inline Picture noise(int width, int height, unsigned seed) {
+  Picture picture{.width = width, .height = height, .rgb = {}};
+  std::uint32_t random = seed;
+  for (std::size_t i = picture.rowBytes() * static_cast<std::size_t>(height); i > 0; --i) {
+    random = random * 1664525U + 1013904223U;
+    picture.rgb.push_back(static_cast<std::uint8_t>(random >> 24U));
+  }
+  return picture;
+}
+
+inline Picture flat(int width, int height, std::uint8_t level) {
+  Picture picture{.width = width, .height = height, .rgb = {}};
+  picture.rgb.assign(picture.rowBytes() * static_cast<std::size_t>(height), level);
+  return picture;
+}
+
 }  // namespace careen
