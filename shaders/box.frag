@@ -1,6 +1,8 @@
 #version 330 core
 // A box's face: a rounded panel in a darker frame, and the pips of a die, so that tumbling can be followed.
 
+#include "frame.glsl"
+
 in vec3 offset;
 in vec2 onFace;
 flat in vec2 halfFace;
@@ -13,6 +15,8 @@ flat in float pips;
 out vec4 result;
 
 vec3 lit(vec3 albedo, float roughness, vec3 normal, vec3 offset);
+float edgeAlpha(float inside, vec2 slope);
+vec4 finished(vec3 color, float alpha);
 
 const vec3 kIvory = vec3(0.86, 0.82, 0.72);
 const vec3 kInk = vec3(0.05, 0.05, 0.06);
@@ -36,10 +40,22 @@ float pipDistance(vec2 p, float spacing, float radius) {
   return nearest - radius;
 }
 
+// Of the face's four edges the one that is fewest pixels away.
+float nearestEdge() {
+  vec2 right = dFdx(onFace);
+  vec2 up = dFdy(onFace);
+  vec2 steep = max(max(abs(right), abs(up)), 1e-20);
+  vec2 inside = halfFace - abs(onFace);
+  vec2 pixels = inside / steep;
+  vec2 outward = sign(onFace);
+  return pixels.x < pixels.y ? edgeAlpha(inside.x, -outward.x * vec2(right.x, up.x))
+                             : edgeAlpha(inside.y, -outward.y * vec2(right.y, up.y));
+}
+
 void main() {
-  vec3 albedo = baseColor.rgb;
+  vec3 albedo = mix(material.rgb, baseColor.rgb, boxLook.z);
   vec3 normal = faceNormal;
-  if (baseColor.a > 0.5) {
+  if (baseColor.a > 0.5 && boxLook.y > 0.5) {
     float unit = min(halfFace.x, halfFace.y);
     float inset = 0.13 * unit;
     float rounding = 0.16 * unit;
@@ -54,5 +70,11 @@ void main() {
     vec2 worn = clamp(1.0 - (halfFace - abs(onFace)) / (0.07 * unit), 0.0, 1.0) * sign(onFace);
     normal = normalize(normal + 0.7 * (worn.x * faceAcross + worn.y * faceAlong));
   }
-  result = vec4(lit(albedo, 0.42, normal, offset), 1.0);
+  vec3 color = lit(albedo, boxLook.x, normal, offset);
+  if (boxLook.w > 0.0) {
+    vec2 inside = halfFace - abs(onFace);
+    float edge = min(inside.x, inside.y) - boxLook.w * min(halfFace.x, halfFace.y);
+    color = mix(color, lines.rgb, covered(edge));
+  }
+  result = finished(color, nearestEdge());
 }

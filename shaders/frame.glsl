@@ -10,4 +10,9 @@ layout(std140) uniform Frame {
   vec4 ground;            // the same for one turned down
   vec4 backgroundTop;
   vec4 backgroundBottom;
+  vec4 finish;    // where the tone curve's shoulder begins, 1 with edges in alpha, dither [steps of 8 bits]
+  vec4 boxLook;   // roughness, 1 with marks on faces, part of a box's own colour, lines along edges
+  vec4 material;  // colour of all boxes, as far as they have none of their own
+  vec4 lines;     // colour of lines along edges, and of a floor's joints
+  vec4 surfaceLook;  // roughness of tiles and of walls, contrast of tiles, strength of joints
 };

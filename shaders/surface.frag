@@ -1,7 +1,10 @@
 #version 330 core
 // Tiles, or paint with a skirting board, both averaged over the pixel: no shimmer however far away.
 
+#include "frame.glsl"
+
 in vec3 offset;
+in float inside;
 in vec2 onSurface;
 flat in vec3 surfaceNormal;
 flat in vec2 size;
@@ -11,6 +14,8 @@ flat in vec4 baseColor;
 out vec4 result;
 
 vec3 lit(vec3 albedo, float roughness, vec3 normal, vec3 offset);
+float edgeAlpha(float inside, vec2 slope);
+vec4 finished(vec3 color, float alpha);
 
 const float kSkirted = 1.0;
 const float kTiles = 2.0;
@@ -33,8 +38,9 @@ vec3 tiles(vec3 base) {
   vec2 to = onSurface + 0.5 * width;
   vec2 joints = (combIntegral(to) - combIntegral(from)) / width;
   vec2 wave = (waveIntegral(to) - waveIntegral(from)) / width;
-  vec3 tile = base * (1.0 + 0.10 * wave.x * wave.y);
-  return mix(0.55 * base, tile, (1.0 - joints.x) * (1.0 - joints.y));
+  vec3 tile = base * (1.0 + surfaceLook.z * wave.x * wave.y);
+  float joint = 1.0 - (1.0 - joints.x) * (1.0 - joints.y);
+  return mix(tile, lines.a > 0.5 ? lines.rgb : 0.55 * base, surfaceLook.w * joint);
 }
 
 vec3 skirted(vec3 base) {
@@ -62,13 +68,14 @@ float openness() {
 
 void main() {
   vec3 albedo = baseColor.rgb;
-  float roughness = 0.8;
+  float roughness = surfaceLook.y;
   if (baseColor.a > kTiles - 0.5) {
     albedo = tiles(albedo);
-    roughness = 0.38;
+    roughness = surfaceLook.x;
   } else if (baseColor.a > kSkirted - 0.5) {
     albedo = skirted(albedo);
   }
   albedo *= 1.0 - 0.45 * rim();
-  result = vec4(lit(albedo * openness(), roughness, surfaceNormal, offset), 1.0);
+  vec3 color = lit(albedo * openness(), roughness, surfaceNormal, offset);
+  result = finished(color, edgeAlpha(inside, vec2(dFdx(inside), dFdy(inside))));
 }

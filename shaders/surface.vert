@@ -8,9 +8,11 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 place;    // coordinates on the surface, then the surface's size
 layout(location = 3) in vec4 adjoins;  // 1 where another surface meets this one: left, right, below, above
 layout(location = 4) in vec4 color;    // alpha: covering
+layout(location = 5) in float fromRim;  // distance to the outline
 
 out vec3 offset;
 out vec2 onSurface;
+out float inside;
 flat out vec3 surfaceNormal;
 flat out vec2 size;
 flat out vec4 edges;
@@ -19,6 +21,7 @@ flat out vec4 baseColor;
 void main() {
   offset = position;
   onSurface = place.xy;
+  inside = fromRim;
   surfaceNormal = normal;
   size = place.zw;
   edges = adjoins;

@@ -68,6 +68,10 @@ Camera cameraOf(const Scene& scene, double aspect) {
   return scene.camera ? *scene.camera : cameraThatSees(extentOf(scene), aspect);
 }
 
+double pixelAngle(const Camera& camera, int height) {
+  return 2 * std::tan(0.5 * radians(camera.fovDegrees)) / height;
+}
+
 View viewOf(const Camera& camera, const Extent& extent, double aspect) {
   View view;
   view.eye = camera.eye;

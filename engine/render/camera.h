@@ -30,6 +30,9 @@ Camera cameraThatSees(const Extent& extent, double aspect);
 /// The scene's camera, or one that sees the whole scene.
 Camera cameraOf(const Scene& scene, double aspect);
 
+/// [rad] that a pixel in the middle of a picture so many pixels high covers.
+double pixelAngle(const Camera& camera, int height);
+
 View viewOf(const Camera& camera, const Extent& extent, double aspect);
 
 }  // namespace careen

@@ -3,8 +3,11 @@
 #include "render/canvas.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.h"
+#include "image/srgb.h"
+#include "render/edge_blend.h"
 #include "render/gl.h"
 
 namespace careen {
@@ -12,8 +15,8 @@ namespace {
 
 constexpr int kSamples = 4;
 
-void checkSize(const Gl& gl, int width, int height) {
-  const int most = std::min(gl.integer(GL_MAX_RENDERBUFFER_SIZE), gl.integer(GL_MAX_VIEWPORT_DIMS));
+void checkSize(const Gl& gl, int width, int height, int scale) {
+  const int most = std::min(gl.integer(GL_MAX_RENDERBUFFER_SIZE), gl.integer(GL_MAX_VIEWPORT_DIMS)) / scale;
   if (width < 1 || height < 1 || width > most || height > most) {
     throw InputError("size: found " + std::to_string(width) + " x " + std::to_string(height) +
                      ", expected 1 to " + std::to_string(most) + " pixels each way");
@@ -28,12 +31,12 @@ void attach(const Gl& gl, GLenum place, GLenum format, int samples, int width, i
   gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer);
 }
 
-GLuint makeFramebuffer(const Gl& gl, int samples, int width, int height) {
+GLuint makeFramebuffer(const Gl& gl, int samples, bool depth, int width, int height) {
   GLuint framebuffer = 0;
   gl.GenFramebuffers(1, &framebuffer);
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   attach(gl, GL_COLOR_ATTACHMENT0, GL_SRGB8_ALPHA8, samples, width, height);
-  if (samples > 0) {
+  if (depth) {
     attach(gl, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, samples, width, height);
   }
   const std::string size = std::to_string(width) + " x " + std::to_string(height);
@@ -47,59 +50,89 @@ GLuint makeFramebuffer(const Gl& gl, int samples, int width, int height) {
 
 }  // namespace
 
-Canvas::Canvas(const Gl& gl, int width, int height) : gl_(gl), width_(width), height_(height) {
-  checkSize(gl, width, height);
-  sampled_ = makeFramebuffer(gl, std::min(kSamples, gl.integer(GL_MAX_SAMPLES)), width, height);
-  resolved_ = makeFramebuffer(gl, 0, width, height);
-  rgba_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+Canvas::Canvas(const Gl& gl, int width, int height, Antialiasing antialiasing)
+    : gl_(gl),
+      width_(width),
+      height_(height),
+      scale_(antialiasing == Antialiasing::kSupersampled ? 2 : 1),
+      antialiasing_(antialiasing) {
+  checkSize(gl, width, height, scale_);
+  const bool multisampled = antialiasing == Antialiasing::kMultisampled;
+  const int samples = multisampled ? std::min(kSamples, gl.integer(GL_MAX_SAMPLES)) : 0;
+  drawn_ = makeFramebuffer(gl, samples, true, scale_ * width, scale_ * height);
+  resolved_ = multisampled ? makeFramebuffer(gl, 0, false, width, height) : drawn_;
+  rgba_.resize(static_cast<std::size_t>(scale_ * width) * static_cast<std::size_t>(scale_ * height) * 4);
+  scratch_.resize(wantsEdges() ? rgba_.size() : 0);
+}
+
+bool Canvas::wantsEdges() const {
+  return antialiasing_ == Antialiasing::kEdges || antialiasing_ == Antialiasing::kSupersampled;
 }
 
 void Canvas::begin() const {
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_);
-  gl_.Viewport(0, 0, width_, height_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, drawn_);
+  gl_.Viewport(0, 0, scale_ * width_, scale_ * height_);
   gl_.Enable(GL_FRAMEBUFFER_SRGB);
   gl_.ClearColor(0, 0, 0, 0);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 void Canvas::finish() const {
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_);
-  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_);
-  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  if (resolved_ != drawn_) {
+    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
+    gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_);
+    gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  }
   gl_.Finish();
 }
 
 Picture Canvas::read() {
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_);
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
+  gl_.ReadPixels(0, 0, scale_ * width_, scale_ * height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
   checkGl(gl_, "drawing a frame");
-  return pictureFromDrawing(rgba_, width_, height_, gl_.description);
+  if (wantsEdges()) {
+    blendEdges(rgba_, scale_ * width_, scale_ * height_, scratch_);
+  }
+  return pictureFromDrawing(rgba_, width_, height_, scale_, gl_.description);
 }
 
-Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int height,
+Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int height, int scale,
                            const std::string& renderer) {
   Picture picture{.width = width, .height = height, .rgb = {}};
   const auto columns = static_cast<std::size_t>(width);
   const auto rows = static_cast<std::size_t>(height);
+  const auto times = static_cast<std::size_t>(scale);
+  const SrgbTables& tables = SrgbTables::get();
   picture.rgb.resize(picture.rowBytes() * rows);
   unsigned brightest = 0;
-  unsigned drawn = 255;
+  bool blank = false;
   for (std::size_t row = 0; row < rows; ++row) {
-    const std::uint8_t* from = &rgba[(rows - 1 - row) * columns * 4];
+    const std::uint8_t* from = &rgba[times * (rows - 1 - row) * times * columns * 4];
     std::uint8_t* to = &picture.rgb[row * picture.rowBytes()];
-    for (std::size_t column = 0; column < columns; ++column, from += 4, to += 3) {
-      to[0] = from[0];
-      to[1] = from[1];
-      to[2] = from[2];
-      brightest |= static_cast<unsigned>(from[0]) | from[1] | from[2];
-      drawn &= from[3];
+    for (std::size_t column = 0; column < columns; ++column, from += 4 * times, to += 3) {
+      if (times == 1) {
+        std::copy_n(from, 3, to);
+        blank = blank || from[3] == 0;
+      } else {
+        std::array<std::uint32_t, 3> light{};
+        for (std::size_t k = 0; k < times * times; ++k) {
+          const std::uint8_t* pixel = from + 4 * (k / times * times * columns + k % times);
+          for (std::size_t channel = 0; channel < 3; ++channel) {
+            light[channel] += tables.linear(pixel[channel]);
+          }
+          blank = blank || pixel[3] == 0;
+        }
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+          to[channel] = tables.encoded(static_cast<std::uint16_t>(light[channel] / (times * times)));
+        }
+      }
+      brightest |= static_cast<unsigned>(to[0]) | to[1] | to[2];
     }
   }
-  if (drawn != 255 || brightest == 0) {
+  if (blank || brightest == 0) {
     throw MachineError(
-        std::string("the frame came out ") + (drawn != 255 ? "with pixels left blank" : "black") + ": " +
-        renderer +
+        std::string("the frame came out ") + (blank ? "with pixels left blank" : "black") + ": " + renderer +
         " does not draw what it should; another may: --list-rendering-backends, apt install libosmesa6");
   }
   return picture;

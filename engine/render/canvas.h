@@ -6,39 +6,44 @@
 #include <vector>
 
 #include "image/picture.h"
+#include "scene/scene.h"
 
 namespace careen {
 
 struct Gl;
 
-/// What is drawn on: linear light goes in, is averaged over four samples a pixel, and comes out as sRGB.
+/// What is drawn on: linear light goes in, edges are smoothed, and out comes sRGB.
 class Canvas {
  public:
   /// InputError if the size is beyond what GL can do.
-  Canvas(const Gl& gl, int width, int height);
+  Canvas(const Gl& gl, int width, int height, Antialiasing antialiasing);
 
   /// Drawing goes here from now on; all is cleared, and no pixel counts as drawn.
   void begin() const;
-  /// Averages the samples and waits until all is done.
+  /// Waits until all is done.
   void finish() const;
-  /// MachineError if the frame came out blank.
+  /// Smooths the edges. MachineError if the frame came out blank.
   Picture read();
 
-  int width() const { return width_; }
-  int height() const { return height_; }
+  /// What is drawn has to say in alpha where edges are, see edge_blend.h.
+  bool wantsEdges() const;
 
  private:
   const Gl& gl_;
   int width_;
   int height_;
-  unsigned sampled_ = 0;
-  unsigned resolved_ = 0;
+  int scale_;  // pixels drawn for one of the picture, each way
+  Antialiasing antialiasing_;
+  unsigned drawn_ = 0;
+  unsigned resolved_ = 0;  // the same but for multisampling
   std::vector<std::uint8_t> rgba_;
+  std::vector<std::uint8_t> scratch_;
 };
 
-/// Rows from the bottom, four bytes a pixel, as a picture. Whatever is drawn has alpha 255: MachineError,
-/// naming `renderer`, if a pixel was never drawn, or if all are black.
-Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int height,
+/// Rows from the bottom, four bytes a pixel, as a picture; of each `scale` x `scale` of them the average
+/// light. Whatever is drawn has an alpha above 0: MachineError, naming `renderer`, if a pixel was never
+/// drawn, or if all are black.
+Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int height, int scale,
                            const std::string& renderer);
 
 }  // namespace careen

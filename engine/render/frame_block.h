@@ -21,6 +21,11 @@ struct FrameBlock {
   Float4 ground{};             ///< linear
   Float4 backgroundTop{};      ///< linear
   Float4 backgroundBottom{};   ///< linear
+  Float4 finish{};             ///< start of the tone curve's shoulder, 1 with edges in alpha, dither
+  Float4 boxLook{};            ///< roughness, 1 with marks, part of its own colour, lines along edges
+  Float4 material{};           ///< linear; of all boxes, as far as they have no colour of their own
+  Float4 lines{};              ///< linear; w: 1 if joints have this colour
+  Float4 surfaceLook{};        ///< roughness of tiles and of walls, contrast of tiles, strength of joints
 };
 
 inline Float4 floats(const Vec3& v, double w = 0) {

@@ -26,7 +26,8 @@ struct Lighting {
   Vec3 backgroundBottom = Vec3(0.19, 0.225, 0.255);
 };
 
-/// Warm light over the left shoulder of the camera, soft blue from above.
-Lighting defaultLighting(const Camera& camera);
+/// A look's light. It comes over the left shoulder of the camera; in the studio it is warm, and a soft blue
+/// comes from above.
+Lighting lightingOf(Look look, const Camera& camera);
 
 }  // namespace careen

@@ -2,6 +2,7 @@
 
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <utility>
@@ -37,9 +38,9 @@ std::filesystem::path shaderFolder(const RenderOptions& options) {
 // What shades: no file of what is not there.
 std::vector<std::string> lightShaders(const Lighting& lighting, bool shadows) {
   if (!lighting.light) {
-    return {"ambient.frag"};
+    return {"ambient.frag", "finish.frag"};
   }
-  return {"light.frag", shadows ? "shadow.frag" : "no_shadow.frag"};
+  return {"light.frag", "finish.frag", shadows ? "shadow.frag" : "no_shadow.frag"};
 }
 
 // A room holds its boxes, so its shadows keep still; elsewhere the map follows them.
@@ -75,6 +76,18 @@ Float4 shadowBounds(const Mat4& shadowFromWorld, const std::vector<DrawnBox>& bo
   return floats(Vec3(least.x(), least.y(), greatest.x()), greatest.y());
 }
 
+// Springs thinner than this many pixels would break into dots.
+constexpr double kThinnest = 1.5;
+void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAngle) {
+  for (DrawnBox& box : boxes) {
+    if (!box.marked) {
+      const double least = 0.5 * kThinnest * pixelAngle * (box.pose.position - eye).norm();
+      box.halfExtents.y() = std::max(box.halfExtents.y(), least);
+      box.halfExtents.z() = std::max(box.halfExtents.z(), least);
+    }
+  }
+}
+
 // Texture coordinates and depth of a point given as an offset from the eye.
 Mat4 fromOffset(const Mat4& fromWorld, const Vec3& eye) {
   Mat4 result = fromWorld;
@@ -85,7 +98,7 @@ Mat4 fromOffset(const Mat4& fromWorld, const Vec3& eye) {
 }  // namespace
 
 struct Renderer::Parts {
-  Parts(Scene drawnScene, int width, int height, const RenderOptions& options);
+  Parts(Scene drawnScene, int width, int pictureHeight, const RenderOptions& options);
   void drawShadows(const std::vector<DrawnBox>& drawn);
   void drawPicture();
   void upload() const;
@@ -95,6 +108,8 @@ struct Renderer::Parts {
   Camera camera;
   View view;
   Lighting lighting;
+  Materials materials;
+  int height;  // [px]
   bool shadows;
   std::unique_ptr<GlContext> context;
   Gl gl;
@@ -109,21 +124,24 @@ struct Renderer::Parts {
   DrawFigures figures;
 };
 
-Renderer::Parts::Parts(Scene drawnScene, int width, int height, const RenderOptions& options)
+Renderer::Parts::Parts(Scene drawnScene, int width, int pictureHeight, const RenderOptions& options)
     : scene(std::move(drawnScene)),
       extent(extentOf(scene)),
-      camera(cameraOf(scene, static_cast<double>(width) / height)),
-      view(viewOf(camera, extent, static_cast<double>(width) / height)),
-      lighting(options.lighting ? *options.lighting : defaultLighting(camera)),
+      camera(cameraOf(scene, static_cast<double>(width) / pictureHeight)),
+      view(viewOf(camera, extent, static_cast<double>(width) / pictureHeight)),
+      lighting(options.lighting ? *options.lighting : lightingOf(scene.look, camera)),
+      materials(options.materials ? *options.materials : materialsOf(scene.look)),
+      height(pictureHeight),
       shadows(lighting.light && lighting.light->castsShadow && !scene.boxes.empty()),
       context(openContext(options.context)),
       gl(*context),
-      canvas(gl, width, height),
+      canvas(gl, width, pictureHeight, options.antialiasing.value_or(scene.film.antialiasing)),
       boxes(gl, shaderFolder(options), lightShaders(lighting, shadows)),
-      surfaces(gl, shaderFolder(options), lightShaders(lighting, shadows), surfacesOf(scene, extent),
-               tileSize(extent), view.eye),
+      surfaces(gl, shaderFolder(options), lightShaders(lighting, shadows),
+               surfacesOf(scene, extent, materials), tileSize(extent), view.eye),
       backgroundArray(makeVertexArray(gl)),
-      backgroundProgram(linkProgram(gl, shaderFolder(options), {"background.vert", "background.frag"})) {
+      backgroundProgram(
+          linkProgram(gl, shaderFolder(options), {"background.vert", "background.frag", "finish.frag"})) {
   if (shadows) {
     shadowMap.emplace(gl, shaderFolder(options));
   }
@@ -139,6 +157,13 @@ Renderer::Parts::Parts(Scene drawnScene, int width, int height, const RenderOpti
   block.ground = floats(lighting.ground);
   block.backgroundTop = floats(lighting.backgroundTop);
   block.backgroundBottom = floats(lighting.backgroundBottom);
+  block.finish = floats(Vec3(materials.shoulder, canvas.wantsEdges() ? 1 : 0, materials.dither));
+  block.boxLook =
+      floats(Vec3(materials.boxRoughness, materials.marks ? 1 : 0, materials.ownColor), materials.edgeLine);
+  block.material = floats(materials.boxColor);
+  block.lines = floats(materials.lineColor, materials.ownJoints ? 1 : 0);
+  block.surfaceLook = floats(Vec3(materials.tileRoughness, materials.wallRoughness, materials.tileContrast),
+                             materials.joints);
   if (lighting.light) {
     block.towardsLight = floats(lighting.light->towards.normalized());
     block.lightColor = floats(lighting.light->color);
@@ -186,6 +211,7 @@ Picture Renderer::draw(std::span<const Pose> poses) {
   const Clock::time_point begun = Clock::now();
   parts.context->makeCurrent();
   std::vector<DrawnBox> drawn = drawnBoxes(parts.scene, poses, 0.004 * parts.extent.radius());
+  widenSprings(drawn, parts.view.eye, pixelAngle(parts.camera, parts.height));
   parts.boxes.place(drawn, parts.view.eye);
   if (parts.shadows) {
     parts.drawShadows(drawn);

@@ -9,6 +9,7 @@
 #include "core/pose.h"
 #include "image/picture.h"
 #include "render/lighting.h"
+#include "render/materials.h"
 #include "render/rendering_backend.h"
 #include "scene/scene.h"
 
@@ -16,8 +17,10 @@ namespace careen {
 
 struct RenderOptions {
   ContextOptions context;
-  std::optional<Lighting> lighting;  ///< absent: defaultLighting
-  std::filesystem::path shaders;     ///< folder; empty: the program's own
+  std::optional<Lighting> lighting;          ///< absent: that of the scene's look
+  std::optional<Materials> materials;        ///< absent: those of the scene's look
+  std::optional<Antialiasing> antialiasing;  ///< absent: the scene's
+  std::filesystem::path shaders;             ///< folder; empty: the program's own
 };
 
 /// What drawing took so far.

@@ -2,6 +2,8 @@
 
 #include "render/surface_batch.h"
 
+#include <numeric>
+
 #include "render/gl.h"
 #include "render/shader.h"
 
@@ -14,8 +16,8 @@ void append(std::vector<float>& records, const Vec3& v) {
   }
 }
 
-void appendVertex(std::vector<float>& records, const Surface& surface, const Vec3& corner, double tileSize,
-                  const Vec3& eye) {
+void appendVertex(std::vector<float>& records, const Surface& surface, const Vec3& corner, double fromRim,
+                  double tileSize, const Vec3& eye) {
   append(records, corner - eye);
   append(records, surface.normal);
   // Lengths on a surface are counted in tiles from here on.
@@ -29,16 +31,23 @@ void appendVertex(std::vector<float>& records, const Surface& surface, const Vec
   }
   append(records, surface.color);
   records.push_back(static_cast<float>(surface.covering));
+  records.push_back(static_cast<float>(fromRim));
 }
 
-// A convex outline is a fan of triangles.
+// A convex outline is a fan of triangles around its middle, each with one edge of the outline.
 std::vector<float> triangles(const std::vector<Surface>& surfaces, double tileSize, const Vec3& eye) {
   std::vector<float> records;
   for (const Surface& surface : surfaces) {
-    for (std::size_t last = 2; last < surface.outline.size(); ++last) {
-      for (const std::size_t corner : {std::size_t{0}, last - 1, last}) {
-        appendVertex(records, surface, surface.outline[corner], tileSize, eye);
-      }
+    const std::size_t count = surface.outline.size();
+    const Vec3 middle = std::accumulate(surface.outline.begin(), surface.outline.end(), Vec3(Vec3::Zero())) /
+                        static_cast<double>(count);
+    for (std::size_t first = 0; first < count; ++first) {
+      const Vec3& from = surface.outline[first];
+      const Vec3& to = surface.outline[(first + 1) % count];
+      const double fromRim = (middle - from).cross((to - from).normalized()).norm();
+      appendVertex(records, surface, middle, fromRim, tileSize, eye);
+      appendVertex(records, surface, from, 0, tileSize, eye);
+      appendVertex(records, surface, to, 0, tileSize, eye);
     }
   }
   return records;
@@ -51,7 +60,7 @@ SurfaceBatch::SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders,
                            double tileSize, const Vec3& eye)
     : gl_(gl),
       array_(makeVertexArray(gl)),
-      vertices_(gl, {{0, 3}, {1, 3}, {2, 4}, {3, 4}, {4, 4}}, VertexBuffer::Step::kVertex),
+      vertices_(gl, {{0, 3}, {1, 3}, {2, 4}, {3, 4}, {4, 4}, {5, 1}}, VertexBuffer::Step::kVertex),
       program_(linkProgram(gl, shaders, with({"surface.vert", "surface.frag"}, light))) {
   vertices_.fill(triangles(surfaces, tileSize, eye));
 }

@@ -6,12 +6,8 @@
 namespace careen {
 namespace {
 
-const Vec3 kFloor(0.56, 0.51, 0.45);
-const Vec3 kWall(0.72, 0.69, 0.64);
-const Vec3 kSlab(0.45, 0.50, 0.52);
-
 // Side 0…5 of a room, in the order of kRoomSides.
-Surface roomSide(const Room& room, std::size_t side) {
+Surface roomSide(const Room& room, std::size_t side, const Materials& materials) {
   const auto axis = static_cast<Eigen::Index>(side / 2);
   const bool isMax = side % 2 == 1;
   Surface surface;
@@ -38,7 +34,7 @@ Surface roomSide(const Room& room, std::size_t side) {
   surface.adjoins = {isClosed(-surface.across), isClosed(surface.across), isClosed(-surface.along),
                      isClosed(surface.along)};
   surface.covering = axis == 2 ? (isMax ? Covering::kPlain : Covering::kTiles) : Covering::kSkirted;
-  surface.color = axis == 2 && !isMax ? kFloor : kWall;
+  surface.color = axis == 2 && !isMax ? materials.floor : materials.wall;
   return surface;
 }
 
@@ -61,7 +57,7 @@ std::vector<Vec3> clipped(const std::vector<Vec3>& outline, const Vec3& normal, 
 }
 
 // A square of the wall's plane, large enough to hold all of it that the extent holds, then cut to the extent.
-Surface slab(const Wall& wall, const Extent& extent) {
+Surface slab(const Wall& wall, const Extent& extent, const Materials& materials) {
   Surface surface;
   surface.normal = wall.normal;
   const bool isLevel = std::abs(wall.normal.z()) > 0.999;
@@ -80,7 +76,7 @@ Surface slab(const Wall& wall, const Extent& extent) {
     surface.outline = clipped(surface.outline, -Vec3::Unit(axis), -extent.max[axis]);
   }
   surface.covering = Covering::kTiles;
-  surface.color = isLevel ? kFloor : kSlab;
+  surface.color = isLevel ? materials.floor : materials.slab;
   return surface;
 }
 
@@ -97,12 +93,12 @@ double tileSize(const Extent& extent) {
   return power;
 }
 
-std::vector<Surface> surfacesOf(const Scene& scene, const Extent& extent) {
+std::vector<Surface> surfacesOf(const Scene& scene, const Extent& extent, const Materials& materials) {
   std::vector<Surface> surfaces;
   if (scene.room) {
     for (std::size_t side = 0; side < kRoomSides.size(); ++side) {
       if (!scene.room->open[side]) {
-        surfaces.push_back(roomSide(*scene.room, side));
+        surfaces.push_back(roomSide(*scene.room, side, materials));
       }
     }
   }
@@ -113,7 +109,7 @@ std::vector<Surface> surfacesOf(const Scene& scene, const Extent& extent) {
     reach = {.min = extent.min - margin, .max = extent.max + margin};
   }
   for (const Wall& wall : scene.walls) {
-    Surface surface = slab(wall, reach);
+    Surface surface = slab(wall, reach, materials);
     if (surface.outline.size() >= 3) {
       surfaces.push_back(std::move(surface));
     }

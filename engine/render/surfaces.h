@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/linear_algebra.h"
+#include "render/materials.h"
 #include "render/scene_extent.h"
 #include "scene/scene.h"
 
@@ -30,6 +31,6 @@ struct Surface {
 double tileSize(const Extent& extent);
 
 /// Floor and walls: the room's closed sides, and of every further wall what lies within the extent.
-std::vector<Surface> surfacesOf(const Scene& scene, const Extent& extent);
+std::vector<Surface> surfacesOf(const Scene& scene, const Extent& extent, const Materials& materials = {});
 
 }  // namespace careen

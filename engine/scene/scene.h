@@ -51,6 +51,20 @@ struct Camera {
   double fovDegrees = 40;      ///< [deg] vertical
 };
 
+/// How a film looks; each is a small set of numbers of the renderer's.
+enum class Look { kStudio, kBlueprint, kClay };
+inline constexpr std::array<const char*, 3> kLooks = {"studio", "blueprint",
+                                                      "clay"};  ///< their names, in order
+
+/// How edges are kept smooth.
+enum class Antialiasing {
+  kOff,
+  kEdges,         ///< every pixel that an edge crosses gets its share of both sides: nearly as cheap as off
+  kMultisampled,  ///< four samples a pixel
+  kSupersampled,  ///< drawn twice as large each way, for stills: patterns are smooth too
+};
+inline constexpr std::array<const char*, 4> kAntialiasings = {"off", "edges", "4x", "supersampled"};
+
 /// [px] in width and height: what GL drivers draw into.
 inline constexpr int kLargestFilm = 16384;
 
@@ -58,6 +72,7 @@ struct Film {
   int width = 1280;  ///< [px]
   int height = 720;  ///< [px]
   FrameRate rate;
+  Antialiasing antialiasing = Antialiasing::kEdges;
 };
 
 /// A scene file, read and checked. Angles are radians but for the camera's.
@@ -77,6 +92,7 @@ struct Scene {
   bool startsApart = false;      ///< known that no two boxes that can meet overlap at the start
   std::optional<Camera> camera;  ///< absent: the renderer chooses one that sees the scene
   Film film;
+  Look look = Look::kStudio;
 };
 
 /// "room-x" for side 0: what the room's walls are called.

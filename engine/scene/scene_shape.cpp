@@ -187,7 +187,7 @@ Camera readCamera(const JsonValue& value) {
 }
 
 Film readFilm(const JsonValue& value) {
-  const JsonObject object = value.object({"size", "fps"});
+  const JsonObject object = value.object({"size", "fps", "antialiasing"});
   Film film;
   if (const std::optional<JsonValue> size = object.find("size")) {
     const std::vector<JsonValue> sides = size->elements("[width, height] [px]", 2);
@@ -196,6 +196,10 @@ Film readFilm(const JsonValue& value) {
   }
   if (const std::optional<JsonValue> fps = object.find("fps")) {
     film.rate = frameRateFrom(fps->number(kFramesPerSecond));
+  }
+  if (const std::optional<JsonValue> how = object.find("antialiasing")) {
+    film.antialiasing =
+        static_cast<Antialiasing>(how->word({kAntialiasings.begin(), kAntialiasings.end()}, "antialiasing"));
   }
   return film;
 }
@@ -247,7 +251,7 @@ Scene readShape(const JsonTree& tree) {
   }
   const JsonObject object =
       root.object({"careen", "name", "duration", "gravity", "room", "walls", "boxes", "springs", "drag",
-                   "method", "dt", "tolerance", "camera", "film", "$schema"});
+                   "method", "dt", "tolerance", "camera", "film", "look", "$schema"});
   Scene scene;
   scene.text = tree.text();
   if (const std::optional<JsonValue> name = object.find("name")) {
@@ -275,6 +279,9 @@ Scene readShape(const JsonTree& tree) {
   scene.camera = readOptional<Camera>(object.find("camera"), readCamera);
   if (const std::optional<JsonValue> film = object.find("film")) {
     scene.film = readFilm(*film);
+  }
+  if (const std::optional<JsonValue> look = object.find("look")) {
+    scene.look = static_cast<Look>(look->word({kLooks.begin(), kLooks.end()}, "look"));
   }
   return scene;
 }

@@ -12,7 +12,7 @@ namespace {
 
 std::string errorOf(const std::vector<std::uint8_t>& rgba) {
   try {
-    pictureFromDrawing(rgba, 2, 2, "a renderer, version 1");
+    pictureFromDrawing(rgba, 2, 2, 1, "a renderer, version 1");
   } catch (const MachineError& error) {
     return error.what();
   }
@@ -21,8 +21,15 @@ std::string errorOf(const std::vector<std::uint8_t>& rgba) {
 
 TEST(Canvas, turnsRowsFromTheBottomIntoRowsFromTheTop) {
   const std::vector<std::uint8_t> rgba = {1, 2, 3, 255, 4, 5, 6, 255, 7, 8, 9, 255, 10, 11, 12, 255};
-  const Picture picture = pictureFromDrawing(rgba, 2, 2, "");
+  const Picture picture = pictureFromDrawing(rgba, 2, 2, 1, "");
   EXPECT_EQ(picture.rgb, (std::vector<std::uint8_t>{7, 8, 9, 10, 11, 12, 1, 2, 3, 4, 5, 6}));
+}
+
+// Two black pixels and two white ones are half the light, which is not half the code.
+TEST(Canvas, averagesLightWhereItDrewFinerThanThePicture) {
+  const std::vector<std::uint8_t> rgba = {0, 0, 0, 255, 255, 255, 255, 255, 255, 255, 255, 255, 0, 0, 0, 9};
+  const Picture picture = pictureFromDrawing(rgba, 1, 1, 2, "");
+  EXPECT_EQ(picture.rgb, (std::vector<std::uint8_t>{188, 188, 188}));
 }
 
 TEST(Canvas, oneBlankPixelIsAnError) {

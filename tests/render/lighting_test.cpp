@@ -27,7 +27,7 @@ TEST(Lighting, everyValueComesBackFromLinearLight) {
 TEST(Lighting, shinesOverTheLeftShoulder) {
   for (const Vec3& eye : {Vec3(6, -8, 4), Vec3(-3, 5, 1), Vec3(0, -9, 0.5)}) {
     const Camera camera = cameraAt(eye, Vec3(0, 0, 1), 40);
-    const Vec3 towards = defaultLighting(camera).light->towards;
+    const Vec3 towards = lightingOf(Look::kStudio, camera).light->towards;
     const Vec3 back = camera.eye - camera.target;
     EXPECT_GT(towards.z(), 0);
     EXPECT_GT(towards.dot(Vec3(back.x(), back.y(), 0)), 0);

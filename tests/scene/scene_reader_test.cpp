@@ -41,6 +41,8 @@ TEST(SceneReader, readsEveryKey) {
   EXPECT_EQ(scene.film.width, 640);
   EXPECT_EQ(scene.film.height, 360);
   EXPECT_EQ(scene.film.rate.text(), "24000/1001");
+  EXPECT_EQ(scene.film.antialiasing, Antialiasing::kMultisampled);
+  EXPECT_EQ(scene.look, Look::kClay);
 }
 
 TEST(SceneReader, readsWalls) {
@@ -122,6 +124,8 @@ TEST(SceneReader, fillsInWhatASceneDoesNotSay) {
   EXPECT_EQ(scene.film.width, 1280);
   EXPECT_EQ(scene.film.height, 720);
   EXPECT_EQ(scene.film.rate.text(), "30");
+  EXPECT_EQ(scene.film.antialiasing, Antialiasing::kEdges);
+  EXPECT_EQ(scene.look, Look::kStudio);
   const SceneBox& box = scene.boxes.at(0);
   EXPECT_EQ(box.name, "box-0");
   EXPECT_EQ(box.pose.position, Vec3::Zero());

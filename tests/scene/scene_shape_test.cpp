@@ -219,13 +219,13 @@ TEST(SceneShape, schemaTellsTheDefaultsOfTheReader) {
                      {"camera", camera},
                      {"film", json::object()}};
   json filled = bare;
-  for (const char* key : {"name", "gravity", "walls", "springs", "method", "dt", "tolerance"}) {
+  for (const char* key : {"name", "gravity", "walls", "springs", "method", "dt", "tolerance", "look"}) {
     filled[key] = keys[key]["default"];
   }
   for (const char* key : {"up", "fov_deg"}) {
     filled["camera"][key] = keys["camera"]["properties"][key]["default"];
   }
-  for (const char* key : {"size", "fps"}) {
+  for (const char* key : {"size", "fps", "antialiasing"}) {
     filled["film"][key] = keys["film"]["properties"][key]["default"];
   }
   for (const char* key : {"position", "velocity", "angular_velocity", "fixed", "color"}) {
@@ -243,6 +243,8 @@ TEST(SceneShape, schemaTellsTheDefaultsOfTheReader) {
   EXPECT_EQ(with.film.width, without.film.width);
   EXPECT_EQ(with.film.height, without.film.height);
   EXPECT_EQ(with.film.rate, without.film.rate);
+  EXPECT_EQ(with.film.antialiasing, without.film.antialiasing);
+  EXPECT_EQ(with.look, without.look);
   const SceneBox& withBox = with.boxes[0];
   const SceneBox& withoutBox = without.boxes[0];
   EXPECT_EQ(withBox.pose.position, withoutBox.pose.position);
@@ -288,7 +290,7 @@ const std::vector<Bad> kBadValues = {
      R"(found the unknown key "gravitiy" in the scene, expected "gravity")"},
     {R"("gravity")", R"(@"wind")",
      R"(found the unknown key "wind" in the scene, expected one of careen, name, duration, gravity, room, )"
-     "walls, boxes, springs, drag, method, dt, tolerance, camera, film, $schema"},
+     "walls, boxes, springs, drag, method, dt, tolerance, camera, film, look, $schema"},
     {"[0, 0, -9.81]", "@-9.81", "found -9.81 for gravity, expected [x, y, z] [m/s²]"},
     {"[0, 0, -9.81]", "@[0, -9.81]", "found an array of 2 for gravity, expected [x, y, z] [m/s²]"},
     {R"({ "min": [-3, -2, 0], )", "@{ ", "found no min in room, expected that key"},
@@ -389,6 +391,9 @@ const std::vector<Bad> kBadValues = {
     {"[640, 360]", "@[640]", "found an array of 1 for film.size, expected [width, height] [px]"},
     {"23.976", "@0", "found 0 for film.fps, expected a number from 0.001 to 100000 [1/s]"},
     {"23.976", "@1e6", "found 1e6 for film.fps, expected a number from 0.001 to 100000 [1/s]"},
+    {R"("4x")", R"(@"8x")",
+     R"(found the unknown antialiasing "8x", expected one of off, edges, 4x, supersampled)"},
+    {R"("clay")", R"(@"mud")", R"(found the unknown look "mud", expected one of studio, blueprint, clay)"},
 };
 
 TEST(SceneShape, badValuesAreToldWhereAndWhy) {

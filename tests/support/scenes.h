@@ -34,7 +34,8 @@ inline const std::string kEveryKey = R"({
   "dt": 0.001,
   "tolerance": 1e-9,
   "camera": { "eye": [6, -8, 4], "target": [0, 0, 1], "up": [0, 0, 4], "fov_deg": 35 },
-  "film": { "size": [640, 360], "fps": 23.976 }
+  "film": { "size": [640, 360], "fps": 23.976, "antialiasing": "4x" },
+  "look": "clay"
 })";
 
 /// The same with one piece of text, which must be there exactly once, in place of another.

@@ -1,0 +1,39 @@
+#version 330 core
+// The last that happens to a colour: the tone curve, dither, and word of the nearest edge.
+
+#include "frame.glsl"
+
+const float kSteps = 63.0;  // of the way to the next pixel; see edge_blend.h
+
+// Khronos PBR Neutral: colours stay as they are up to where the shoulder begins, brighter ones are pressed
+// together below 1 and lose saturation.
+vec3 toned(vec3 color) {
+  float start = finish.x;
+  float peak = max(color.r, max(color.g, color.b));
+  if (peak <= start) return color;
+  float room = 1.0 - start;
+  float pressed = 1.0 - room * room / (peak + room - start);
+  float faded = 1.0 / (0.15 * (peak - pressed) + 1.0);
+  return mix(vec3(pressed), color * (pressed / peak), faded);
+}
+
+// Half a step of 8 bits either way, so that a slow gradient has no bands. The noise is J. Jimenez's interleaved
+// gradient (SIGGRAPH 2014 course); a step of sRGB is about 2 sqrt(c) / 255 of linear light.
+vec3 dithered(vec3 color) {
+  float noise = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
+  vec3 stepped = max(2.0 * sqrt(color), vec3(0.0774)) * (1.0 / 255.0);
+  return color + finish.z * (noise - 0.5) * stepped;
+}
+
+// Alpha that says where an edge crosses: `inside` is how far within it the pixel is, in any unit, and `slope`
+// how that grows from pixel to pixel, to the right and up.
+float edgeAlpha(float inside, vec2 slope) {
+  vec2 steep = abs(slope);
+  bool level = steep.x > steep.y;  // the edge lies to the right or left
+  float at = inside / max(max(steep.x, steep.y), 1e-20);
+  float along = level ? slope.x : slope.y;
+  float direction = (level ? 0.0 : 2.0) + (along > 0.0 ? 1.0 : 0.0);
+  return at < 1.0 && finish.y > 0.5 ? (1.0 + kSteps * direction + floor(kSteps * clamp(at, 0.0, 0.999))) / 255.0 : 1.0;
+}
+
+vec4 finished(vec3 color, float alpha) { return vec4(dithered(toned(color)), alpha); }
