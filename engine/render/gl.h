@@ -20,6 +20,8 @@
   X(PFNGLCLEARCOLORPROC, ClearColor)                                         \
   X(PFNGLCLEARPROC, Clear)                                                   \
   X(PFNGLDEPTHFUNCPROC, DepthFunc)                                           \
+  X(PFNGLDEPTHMASKPROC, DepthMask)                                           \
+  X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                           \
   X(PFNGLCULLFACEPROC, CullFace)                                             \
   X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                                   \
   X(PFNGLFINISHPROC, Finish)                                                 \

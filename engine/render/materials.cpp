@@ -20,7 +20,8 @@ Materials materialsOf(Look look) {
               .joints = 0.22,
               .floor = Vec3(0.010, 0.040, 0.120),
               .wall = Vec3(0.012, 0.048, 0.140),
-              .slab = Vec3(0.012, 0.048, 0.140)};
+              .slab = Vec3(0.012, 0.048, 0.140),
+              .contactShade = 0};
     case Look::kClay:
       return {.boxRoughness = 0.9,
               .ownColor = 0.30,
@@ -32,7 +33,8 @@ Materials materialsOf(Look look) {
               .joints = 0.18,
               .floor = Vec3(0.66, 0.63, 0.60),
               .wall = Vec3(0.70, 0.68, 0.66),
-              .slab = Vec3(0.60, 0.60, 0.60)};
+              .slab = Vec3(0.60, 0.60, 0.60),
+              .contactShade = 0.85};
   }
   return {};
 }

@@ -12,6 +12,7 @@
 #include "render/box_batch.h"
 #include "render/camera.h"
 #include "render/canvas.h"
+#include "render/contact_shade.h"
 #include "render/frame_block.h"
 #include "render/gl.h"
 #include "render/scene_extent.h"
@@ -116,7 +117,9 @@ struct Renderer::Parts {
   Canvas canvas;
   std::optional<ShadowMap> shadowMap;
   BoxBatch boxes;
+  std::vector<Surface> floors;
   SurfaceBatch surfaces;
+  std::optional<ContactShadeBatch> contactShades;
   unsigned backgroundArray;
   unsigned backgroundProgram;
   unsigned blockBuffer = 0;
@@ -137,13 +140,17 @@ Renderer::Parts::Parts(Scene drawnScene, int width, int pictureHeight, const Ren
       gl(*context),
       canvas(gl, width, pictureHeight, options.antialiasing.value_or(scene.film.antialiasing)),
       boxes(gl, shaderFolder(options), lightShaders(lighting, shadows)),
-      surfaces(gl, shaderFolder(options), lightShaders(lighting, shadows),
-               surfacesOf(scene, extent, materials), tileSize(extent), view.eye),
+      floors(surfacesOf(scene, extent, materials)),
+      surfaces(gl, shaderFolder(options), lightShaders(lighting, shadows), floors, tileSize(extent),
+               view.eye),
       backgroundArray(makeVertexArray(gl)),
       backgroundProgram(
           linkProgram(gl, shaderFolder(options), {"background.vert", "background.frag", "finish.frag"})) {
   if (shadows) {
     shadowMap.emplace(gl, shaderFolder(options));
+  }
+  if (materials.contactShade > 0 && !floors.empty()) {
+    contactShades.emplace(gl, shaderFolder(options));
   }
   gl.GenBuffers(1, &blockBuffer);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, blockBuffer);  // block 0 is where every program looks
@@ -191,6 +198,9 @@ void Renderer::Parts::drawPicture() {
   canvas.begin();
   boxes.draw();
   surfaces.draw();
+  if (contactShades) {
+    contactShades->draw();
+  }
   gl.UseProgram(backgroundProgram);
   gl.BindVertexArray(backgroundArray);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
@@ -213,6 +223,10 @@ Picture Renderer::draw(std::span<const Pose> poses) {
   std::vector<DrawnBox> drawn = drawnBoxes(parts.scene, poses, 0.004 * parts.extent.radius());
   widenSprings(drawn, parts.view.eye, pixelAngle(parts.camera, parts.height));
   parts.boxes.place(drawn, parts.view.eye);
+  if (parts.contactShades) {
+    parts.contactShades->place(contactShades(drawn, parts.floors, parts.materials.contactShade),
+                               parts.view.eye);
+  }
   if (parts.shadows) {
     parts.drawShadows(drawn);
   } else {

@@ -33,7 +33,7 @@ Picture drawn(const Scene& scene, const RenderOptions& options = {}, int width =
 RenderOptions lit(const Lighting& lighting) {
   RenderOptions options;
   options.lighting = lighting;
-  options.materials = Materials{.shoulder = 1e9, .dither = 0};  // light comes out as it went in
+  options.materials = Materials{.contactShade = 0, .shoulder = 1e9, .dither = 0};  // light stays as it is
   return options;
 }
 
@@ -495,6 +495,23 @@ TEST(Renderer, ditherKeepsTheAverage) {
   }
   EXPECT_EQ(codes, (std::set<int>{100, 101}));
   EXPECT_NEAR(sum / 4096, 100.5, 0.05);
+}
+
+// In even light, straight from above: a box that stands on the floor darkens it around, one that floats does
+// not.
+TEST(Renderer, boxesDarkenTheFloorTheyStandOn) {
+  Scene scene = crateInRoom();
+  scene.boxes[0].pose.worldFromBody = Mat3::Identity();
+  scene.camera = Camera{.eye = Vec3(0, 0, 5), .target = Vec3::Zero(), .up = Vec3::UnitY(), .fovDegrees = 35};
+  const auto beside = [&](double height, double shade) {
+    scene.boxes[0].pose.position = Vec3(0, 0, height);
+    RenderOptions options = lit(evenLighting(Vec3::Constant(0.1)));
+    options.materials->contactShade = shade;
+    return pixelAt(drawn(scene, options), kWidth / 2 + 45, kHeight / 2 + 3)[0];  // 0.6 m from the middle
+  };
+  const int bare = beside(0.2, 0);
+  EXPECT_LT(beside(0.2, 0.7), bare - 10);
+  EXPECT_EQ(beside(2.5, 0.7), beside(2.5, 0));
 }
 
 TEST(Renderer, looksDiffer) {
