@@ -12,6 +12,8 @@
 #include "physics/method.h"
 #include "physics/world.h"
 #include "scene/frame_rate.h"
+#include "scene/shutter.h"
+#include "scene/time_map.h"
 
 namespace careen {
 
@@ -65,6 +67,21 @@ enum class Antialiasing {
 };
 inline constexpr std::array<const char*, 4> kAntialiasings = {"off", "edges", "4x", "supersampled"};
 
+/// Where the camera is at a moment of the film.
+struct CameraKey {
+  double time = 0;             ///< [s] of the film
+  Vec3 eye = Vec3::Zero();     ///< [m]
+  Vec3 target = Vec3::Zero();  ///< [m]
+  double fovDegrees = 40;      ///< [deg] vertical
+};
+
+/// How the camera moves from where Scene::camera puts it. Keys and an orbit exclude each other.
+struct CameraMove {
+  double orbitDegrees = 0;  ///< [deg/s] of the film: the eye about target and up, by the right-hand rule
+  std::optional<std::size_t> followed;  ///< box that eye and target go along with
+  std::vector<CameraKey> keys;          ///< in order of time; the first is what Scene::camera says
+};
+
 /// [px] in width and height: what GL drivers draw into.
 inline constexpr int kLargestFilm = 16384;
 
@@ -73,6 +90,8 @@ struct Film {
   int height = 720;  ///< [px]
   FrameRate rate;
   Antialiasing antialiasing = Antialiasing::kEdges;
+  TimeMap time;
+  Shutter shutter;
 };
 
 /// A scene file, read and checked. Angles are radians but for the camera's.
@@ -90,7 +109,8 @@ struct Scene {
   double dt = 1.0 / 240;         ///< [s]
   double tolerance = 1e-6;       ///< of methods that choose their own steps
   bool startsApart = false;      ///< known that no two boxes that can meet overlap at the start
-  std::optional<Camera> camera;  ///< absent: the renderer chooses one that sees the scene
+  std::optional<Camera> camera;  ///< absent: one that sees all that happens is chosen
+  CameraMove cameraMove;         ///< none where there is no camera
   Film film;
   Look look = Look::kStudio;
 };

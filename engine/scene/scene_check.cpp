@@ -7,14 +7,12 @@
 
 #include "core/brief.h"
 #include "physics/overlap.h"
+#include "scene/film_check.h"
 #include "scene/json_shape.h"
 #include "scene/starts.h"
 
 namespace careen {
 namespace {
-
-// A line of sight closer to `up` than this [rad] has no sideways.
-constexpr double kLeastTilt = 1e-9;
 
 // The member's node if the object has it, else the object's own.
 const JsonNode& memberOrSelf(const JsonNode& object, std::string_view key) {
@@ -94,12 +92,16 @@ void checkFixed(const JsonTree& tree, const Scene& scene) {
 
 using BodiesByName = std::map<std::string_view, int>;
 
-std::optional<int> bodyAt(const JsonTree& tree, const BodiesByName& bodies, const JsonNode& end) {
-  const JsonNode& first = end.children[0];
-  if (first.kind != JsonNode::Kind::kString) {
-    return std::nullopt;
+BodiesByName bodiesOf(const Scene& scene) {
+  BodiesByName bodies;
+  for (const SceneBox& box : scene.boxes) {
+    bodies.emplace(box.name, static_cast<int>(bodies.size()));
   }
-  const auto found = bodies.find(first.text);
+  return bodies;
+}
+
+int bodyNamed(const JsonTree& tree, const BodiesByName& bodies, const JsonNode& node) {
+  const auto found = bodies.find(node.text);
   if (found != bodies.end()) {
     return found->second;
   }
@@ -108,16 +110,20 @@ std::optional<int> bodyAt(const JsonTree& tree, const BodiesByName& bodies, cons
   for (const auto& [name, index] : bodies) {
     names.push_back(name);
   }
-  const std::optional<std::string_view> meant = nearest(first.text, names);
-  tree.fail(first.offset, "no box of the name " + inQuotes(first.text),
+  const std::optional<std::string_view> meant = nearest(node.text, names);
+  tree.fail(node.offset, "no box of the name " + inQuotes(node.text),
             meant ? inQuotes(*meant) : "the name of a box of the scene");
 }
 
-void connectSprings(const JsonTree& tree, Scene& scene) {
-  BodiesByName bodies;
-  for (const SceneBox& box : scene.boxes) {
-    bodies.emplace(box.name, static_cast<int>(bodies.size()));
+std::optional<int> bodyAt(const JsonTree& tree, const BodiesByName& bodies, const JsonNode& end) {
+  const JsonNode& first = end.children[0];
+  if (first.kind != JsonNode::Kind::kString) {
+    return std::nullopt;
   }
+  return bodyNamed(tree, bodies, first);
+}
+
+void connectSprings(const JsonTree& tree, const BodiesByName& bodies, Scene& scene) {
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const JsonNode& node = elementOf(tree, "springs", i);
     Spring& spring = scene.springs[i];
@@ -131,20 +137,11 @@ void connectSprings(const JsonTree& tree, Scene& scene) {
   }
 }
 
-void checkCamera(const JsonTree& tree, const Scene& scene) {
-  if (!scene.camera) {
-    return;
-  }
-  const JsonNode& node = *tree.root().find("camera");
-  const Vec3 sight = scene.camera->target - scene.camera->eye;
-  const double distance = sight.norm();
-  if (distance == 0) {
-    tree.fail(node.find("target")->offset, "the camera's target where its eye is",
-              "another place to look at");
-  }
-  if (!((sight / distance).cross(scene.camera->up).norm() > kLeastTilt)) {
-    tree.fail(memberOrSelf(node, "up").offset, "a camera that looks along its up",
-              "an up that points elsewhere");
+void findFollowed(const JsonTree& tree, const BodiesByName& bodies, Scene& scene) {
+  const JsonNode* const camera = tree.root().find("camera");
+  const JsonNode* const follow = camera == nullptr ? nullptr : camera->find("follow");
+  if (follow != nullptr) {
+    scene.cameraMove.followed = static_cast<std::size_t>(bodyNamed(tree, bodies, *follow));
   }
 }
 
@@ -182,8 +179,10 @@ void checkScene(const JsonTree& tree, Scene& scene, Starts starts) {
   checkNames(tree, scene);
   checkMasses(tree, scene);
   checkFixed(tree, scene);
-  connectSprings(tree, scene);
-  checkCamera(tree, scene);
+  const BodiesByName bodies = bodiesOf(scene);
+  connectSprings(tree, bodies, scene);
+  findFollowed(tree, bodies, scene);
+  checkFilm(tree, scene);
   if (starts == Starts::kApart) {
     checkStart(tree, scene);
     checkOverlap(tree, scene);

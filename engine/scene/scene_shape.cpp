@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 
+#include "scene/film_shape.h"
 #include "scene/json_shape.h"
 #include "scene/turn.h"
 
@@ -15,14 +16,6 @@ using Kind = JsonNode::Kind;
 
 constexpr int kFormatVersion = 1;
 constexpr NumberRange kRestitution = {.min = 0, .max = 1, .plain = "a number from 0 to 1"};
-constexpr NumberRange kFieldOfView = {.min = kSmallestPositive,
-                                      .max = 179.99999999999997,  // the last double below 180
-                                      .unit = "deg",
-                                      .plain = "a number between 0 and 180"};
-constexpr NumberRange kFramesPerSecond = {.min = kSlowestFrameRate,
-                                          .max = kFastestFrameRate,
-                                          .unit = "1/s",
-                                          .plain = "a number from 0.001 to 100000"};
 
 // Names go to CSV files as they are.
 std::string readName(const JsonObject& object, const std::string& whenAbsent) {
@@ -174,36 +167,6 @@ Drag readDrag(const JsonValue& value) {
           .angular = object.number("angular", nonNegativeNumber("N m s"), 0)};
 }
 
-Camera readCamera(const JsonValue& value) {
-  const JsonObject object = value.object({"eye", "target", "up", "fov_deg"});
-  Camera camera;
-  camera.eye = object.require("eye").vector(anyNumber("m"));
-  camera.target = object.require("target").vector(anyNumber("m"));
-  if (const std::optional<JsonValue> up = object.find("up")) {
-    camera.up = up->direction();
-  }
-  camera.fovDegrees = object.number("fov_deg", kFieldOfView, camera.fovDegrees);
-  return camera;
-}
-
-Film readFilm(const JsonValue& value) {
-  const JsonObject object = value.object({"size", "fps", "antialiasing"});
-  Film film;
-  if (const std::optional<JsonValue> size = object.find("size")) {
-    const std::vector<JsonValue> sides = size->elements("[width, height] [px]", 2);
-    film.width = sides[0].integer(1, kLargestFilm, "px");
-    film.height = sides[1].integer(1, kLargestFilm, "px");
-  }
-  if (const std::optional<JsonValue> fps = object.find("fps")) {
-    film.rate = frameRateFrom(fps->number(kFramesPerSecond));
-  }
-  if (const std::optional<JsonValue> how = object.find("antialiasing")) {
-    film.antialiasing =
-        static_cast<Antialiasing>(how->word({kAntialiasings.begin(), kAntialiasings.end()}, "antialiasing"));
-  }
-  return film;
-}
-
 // Before all else: another version may have other keys.
 void readVersion(const JsonTree& tree, const JsonValue& root) {
   const JsonNode* const version = root.node().find("careen");
@@ -276,7 +239,9 @@ Scene readShape(const JsonTree& tree) {
   }
   scene.dt = object.number("dt", positiveNumber("s"), scene.dt);
   scene.tolerance = object.number("tolerance", positiveNumber(), scene.tolerance);
-  scene.camera = readOptional<Camera>(object.find("camera"), readCamera);
+  if (const std::optional<JsonValue> camera = object.find("camera")) {
+    readCamera(*camera, scene);
+  }
   if (const std::optional<JsonValue> film = object.find("film")) {
     scene.film = readFilm(*film);
   }

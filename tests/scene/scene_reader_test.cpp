@@ -43,6 +43,12 @@ TEST(SceneReader, readsEveryKey) {
   EXPECT_EQ(scene.film.rate.text(), "24000/1001");
   EXPECT_EQ(scene.film.antialiasing, Antialiasing::kMultisampled);
   EXPECT_EQ(scene.look, Look::kClay);
+  EXPECT_EQ(scene.cameraMove.orbitDegrees, 20);
+  EXPECT_EQ(scene.cameraMove.followed, 0U);
+  ASSERT_EQ(scene.film.time.keys.size(), 3U);
+  EXPECT_EQ(scene.film.time.keys[2].film, 3);
+  EXPECT_EQ(scene.film.time.keys[2].scene, 2.25);
+  EXPECT_EQ(scene.film.shutter.text(), "90:4");
 }
 
 TEST(SceneReader, readsWalls) {
@@ -116,7 +122,9 @@ TEST(SceneReader, fillsInWhatASceneDoesNotSay) {
       parseScene(R"({"careen": 1, "duration": 1, "boxes": [{"half_extents": [1, 2, 3], "mass": 4}]})", "f");
   EXPECT_EQ(scene.name, "untitled");
   EXPECT_EQ(scene.gravity, Vec3::Zero());
-  EXPECT_FALSE(scene.room || scene.drag || scene.camera);
+  EXPECT_FALSE(scene.room || scene.drag || scene.camera || scene.cameraMove.followed);
+  EXPECT_TRUE(scene.cameraMove.keys.empty() && scene.film.time.keys.empty());
+  EXPECT_EQ(scene.film.shutter.degrees, 0);
   EXPECT_TRUE(scene.walls.empty() && scene.springs.empty());
   EXPECT_EQ(scene.method, Method::kExact);
   EXPECT_EQ(scene.dt, 1.0 / 240);

@@ -33,8 +33,10 @@ inline const std::string kEveryKey = R"({
   "method": "listing1",
   "dt": 0.001,
   "tolerance": 1e-9,
-  "camera": { "eye": [6, -8, 4], "target": [0, 0, 1], "up": [0, 0, 4], "fov_deg": 35 },
-  "film": { "size": [640, 360], "fps": 23.976, "antialiasing": "4x" },
+  "camera": { "eye": [6, -8, 4], "target": [0, 0, 1], "up": [0, 0, 4], "fov_deg": 35,
+              "orbit": { "deg_per_s": 20 }, "follow": "crate" },
+  "film": { "size": [640, 360], "fps": 23.976, "antialiasing": "4x", "time": [[0, 0.75], [1, 0.75], [3, 2.25]],
+            "shutter_deg": 90, "shutter_samples": 4 },
   "look": "clay"
 })";
 

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "scene/json_shape.h"
+#include "scene/scene.h"
+
+namespace careen {
+
+/// The scene's camera and how it moves; whom it follows is found by checkScene.
+void readCamera(const JsonValue& value, Scene& scene);
+Film readFilm(const JsonValue& value);
+
+}  // namespace careen
