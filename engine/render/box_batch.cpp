@@ -59,12 +59,17 @@ DrawnBox rod(const Vec3& from, const Vec3& to, double thickness) {
   return box;
 }
 
-}  // namespace
+bool isSame(const Pose& a, const Pose& b) {
+  return a.position == b.position && a.worldFromBody == b.worldFromBody;
+}
 
-std::vector<DrawnBox> drawnBoxes(const Scene& scene, std::span<const Pose> poses, double springThickness) {
-  std::vector<DrawnBox> boxes;
-  boxes.reserve(scene.boxes.size() + scene.springs.size());
+// `before` are the poses of the moment before, if there is one: what rests is there already.
+void appendBoxes(std::vector<DrawnBox>& boxes, const Scene& scene, std::span<const Pose> poses,
+                 std::span<const Pose> before, double springThickness) {
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    if (!before.empty() && isSame(poses[i], before[i])) {
+      continue;
+    }
     boxes.push_back({.pose = poses[i],
                      .halfExtents = scene.boxes[i].halfExtents,
                      .color = linearFromSrgb(scene.boxes[i].color)});
@@ -75,6 +80,19 @@ std::vector<DrawnBox> drawnBoxes(const Scene& scene, std::span<const Pose> poses
     if ((to - from).norm() > 0.1 * springThickness) {
       boxes.push_back(rod(from, to, springThickness));
     }
+  }
+}
+
+}  // namespace
+
+std::vector<DrawnBox> drawnBoxes(const Scene& scene, std::span<const Pose> poses, double springThickness) {
+  const std::size_t count = scene.boxes.size();
+  std::vector<DrawnBox> boxes;
+  boxes.reserve(poses.size() + scene.springs.size());
+  for (std::size_t first = 0; first < poses.size() || first == 0; first += std::max<std::size_t>(count, 1)) {
+    const std::span<const Pose> before =
+        first == 0 ? std::span<const Pose>() : poses.subspan(first - count, count);
+    appendBoxes(boxes, scene, poses.subspan(first, count), before, springThickness);
   }
   return boxes;
 }

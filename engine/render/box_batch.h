@@ -21,7 +21,8 @@ struct DrawnBox {
   bool marked = true;
 };
 
-/// The scene's boxes, then its springs as thin rods, so thick [m], from end to end.
+/// The scene's boxes, then its springs as thin rods, so thick [m], from end to end. With poses for several
+/// moments one after the other: all of that for each of them, less boxes that have not moved since.
 std::vector<DrawnBox> drawnBoxes(const Scene& scene, std::span<const Pose> poses, double springThickness);
 
 /// All boxes of a frame, drawn at once.

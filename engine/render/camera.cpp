@@ -48,10 +48,9 @@ Mat4 perspective(double fov, double aspect, double near, double far) {
 
 Camera cameraThatSees(const Extent& extent, double aspect) {
   constexpr double kMargin = 1.04;
-  const Vec3 direction = Vec3(0.42, -1, 0.42).normalized();
   Camera camera;
   camera.target = extent.centre();
-  const Mat3 worldFromCamera = lookAt(direction, Vec3::Zero(), camera.up);
+  const Mat3 worldFromCamera = lookAt(kDefaultDirection, Vec3::Zero(), camera.up);
   const double tangent = std::tan(0.5 * radians(camera.fovDegrees));
   double distance = 0;
   for (int index = 0; index < 8; ++index) {
@@ -60,7 +59,7 @@ Camera cameraThatSees(const Extent& extent, double aspect) {
     distance = std::max(distance, corner.z() + kMargin * std::max(std::abs(corner.x()) / (tangent * aspect),
                                                                   std::abs(corner.y()) / tangent));
   }
-  camera.eye = camera.target + distance * direction;
+  camera.eye = camera.target + distance * kDefaultDirection;
   return camera;
 }
 
@@ -76,12 +75,13 @@ View viewOf(const Camera& camera, const Extent& extent, double aspect) {
   View view;
   view.eye = camera.eye;
   view.worldFromCamera = lookAt(camera.eye, camera.target, camera.up);
-  // The nearest and farthest that a scene of this size can want; between them depth keeps 1e-4 m in 10 m.
+  // The nearest and farthest that a scene of this size can want; between them depth keeps 1e-4 m in 10 m. A
+  // look at a trifle in a vast room is closer.
   const double reach = (camera.eye - extent.centre()).norm() + extent.radius();
+  const double near = std::min(0.004 * reach, 0.1 * (camera.eye - camera.target).norm());
   Mat4 cameraFromOffset = Mat4::Identity();
   cameraFromOffset.topLeftCorner<3, 3>() = view.worldFromCamera.transpose();
-  view.clipFromOffset =
-      perspective(radians(camera.fovDegrees), aspect, 0.004 * reach, 50 * reach) * cameraFromOffset;
+  view.clipFromOffset = perspective(radians(camera.fovDegrees), aspect, near, 50 * reach) * cameraFromOffset;
   return view;
 }
 

@@ -24,10 +24,14 @@ Mat3 lookAt(const Vec3& eye, const Vec3& target, const Vec3& up);
 /// Perspective of OpenGL; `fov` [rad] is the vertical angle, `aspect` width over height, near < far [m].
 Mat4 perspective(double fov, double aspect, double near, double far);
 
-/// A camera that sees the whole of `extent`, from the front, the right and above.
+/// Where a camera that nobody placed stands, as seen from what it films: in front, to the right and above.
+inline const Vec3 kDefaultDirection = Vec3(0.42, -1, 0.42).normalized();
+
+/// A camera that sees the whole of `extent`, from there.
 Camera cameraThatSees(const Extent& extent, double aspect);
 
-/// The scene's camera, or one that sees the whole scene.
+/// The scene's camera where it starts, or one that sees where the scene plays, whatever the run does; see
+/// CameraPath for that.
 Camera cameraOf(const Scene& scene, double aspect);
 
 /// [rad] that a pixel in the middle of a picture so many pixels high covers.

@@ -100,6 +100,7 @@ Mat4 fromOffset(const Mat4& fromWorld, const Vec3& eye) {
 
 struct Renderer::Parts {
   Parts(Scene drawnScene, int width, int pictureHeight, const RenderOptions& options);
+  void look(const Camera& from);
   void drawShadows(const std::vector<DrawnBox>& drawn);
   void drawPicture();
   void upload() const;
@@ -107,6 +108,7 @@ struct Renderer::Parts {
   Scene scene;
   Extent extent;
   Camera camera;
+  double aspect;
   View view;
   Lighting lighting;
   Materials materials;
@@ -130,8 +132,8 @@ struct Renderer::Parts {
 Renderer::Parts::Parts(Scene drawnScene, int width, int pictureHeight, const RenderOptions& options)
     : scene(std::move(drawnScene)),
       extent(extentOf(scene)),
-      camera(cameraOf(scene, static_cast<double>(width) / pictureHeight)),
-      view(viewOf(camera, extent, static_cast<double>(width) / pictureHeight)),
+      camera(options.camera ? *options.camera : cameraOf(scene, static_cast<double>(width) / pictureHeight)),
+      aspect(static_cast<double>(width) / pictureHeight),
       lighting(options.lighting ? *options.lighting : lightingOf(scene.look, camera)),
       materials(options.materials ? *options.materials : materialsOf(scene.look)),
       height(pictureHeight),
@@ -141,8 +143,7 @@ Renderer::Parts::Parts(Scene drawnScene, int width, int pictureHeight, const Ren
       canvas(gl, width, pictureHeight, options.antialiasing.value_or(scene.film.antialiasing)),
       boxes(gl, shaderFolder(options), lightShaders(lighting, shadows)),
       floors(surfacesOf(scene, extent, materials)),
-      surfaces(gl, shaderFolder(options), lightShaders(lighting, shadows), floors, tileSize(extent),
-               view.eye),
+      surfaces(gl, shaderFolder(options), lightShaders(lighting, shadows), floors, tileSize(extent)),
       backgroundArray(makeVertexArray(gl)),
       backgroundProgram(
           linkProgram(gl, shaderFolder(options), {"background.vert", "background.frag", "finish.frag"})) {
@@ -158,7 +159,6 @@ Renderer::Parts::Parts(Scene drawnScene, int width, int pictureHeight, const Ren
   gl.DepthFunc(GL_LEQUAL);
   gl.Enable(GL_CULL_FACE);
 
-  block.clipFromOffset = floats(view.clipFromOffset);
   block.up = floats(camera.up.normalized());
   block.sky = floats(lighting.sky);
   block.ground = floats(lighting.ground);
@@ -181,6 +181,12 @@ Renderer::Parts::Parts(Scene drawnScene, int width, int pictureHeight, const Ren
 void Renderer::Parts::upload() const {
   gl.BindBuffer(GL_UNIFORM_BUFFER, blockBuffer);
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
+}
+
+void Renderer::Parts::look(const Camera& from) {
+  view = viewOf(from, extent, aspect);
+  block.clipFromOffset = floats(view.clipFromOffset);
+  surfaces.place(view.eye);
 }
 
 void Renderer::Parts::drawShadows(const std::vector<DrawnBox>& drawn) {
@@ -213,15 +219,22 @@ Renderer::Renderer(const Scene& scene, int width, int height, const RenderOption
 Renderer::~Renderer() = default;
 
 Picture Renderer::draw(std::span<const Pose> poses) {
+  return draw({.poses = poses, .camera = parts_->camera});
+}
+
+Picture Renderer::draw(const Shot& shot) {
   Parts& parts = *parts_;
-  if (poses.size() != parts.scene.boxes.size()) {
-    throw InputError("drawing: found " + std::to_string(poses.size()) + " poses, expected one for each of " +
-                     std::to_string(parts.scene.boxes.size()) + " boxes");
+  const std::size_t poses = shot.poses.size();
+  const std::size_t boxes = parts.scene.boxes.size();
+  if (boxes == 0 ? poses != 0 : poses == 0 || poses % boxes != 0) {
+    throw InputError("drawing: found " + std::to_string(poses) + " poses, expected one for each of " +
+                     std::to_string(boxes) + " boxes, or so many for each of several moments");
   }
   const Clock::time_point begun = Clock::now();
   parts.context->makeCurrent();
-  std::vector<DrawnBox> drawn = drawnBoxes(parts.scene, poses, 0.004 * parts.extent.radius());
-  widenSprings(drawn, parts.view.eye, pixelAngle(parts.camera, parts.height));
+  parts.look(shot.camera);
+  std::vector<DrawnBox> drawn = drawnBoxes(parts.scene, shot.poses, 0.004 * parts.extent.radius());
+  widenSprings(drawn, parts.view.eye, pixelAngle(shot.camera, parts.height));
   parts.boxes.place(drawn, parts.view.eye);
   if (parts.contactShades) {
     parts.contactShades->place(contactShades(drawn, parts.floors, parts.materials.contactShade),

@@ -20,6 +20,7 @@ struct RenderOptions {
   std::optional<Lighting> lighting;          ///< absent: that of the scene's look
   std::optional<Materials> materials;        ///< absent: those of the scene's look
   std::optional<Antialiasing> antialiasing;  ///< absent: the scene's
+  std::optional<Camera> camera;              ///< by which the light is set up; absent: cameraOf(scene)
   std::filesystem::path shaders;             ///< folder; empty: the program's own
 };
 
@@ -31,7 +32,15 @@ struct DrawFigures {
   double readSeconds = 0;  ///< [s] reading back and flipping
 };
 
-/// Draws a scene with its boxes where they are told to be. The same poses give the same bytes.
+/// A picture to be drawn.
+struct Shot {
+  std::span<const Pose> poses;  ///< one for each box of the scene, in its order; or so for several moments,
+                                ///< one after the other, all of which are drawn
+  Camera camera;
+};
+
+/// Draws a scene with its boxes where they are told to be. The same shot gives the same bytes, whatever was
+/// drawn before.
 class Renderer {
  public:
   /// Size in pixels. InputError for a size beyond what GL can do, MachineError where there is no GL to do it.
@@ -42,7 +51,9 @@ class Renderer {
   Renderer(Renderer&&) = delete;
   Renderer& operator=(Renderer&&) = delete;
 
-  /// One pose for each box of the scene, in its order. MachineError if the frame comes out blank.
+  /// MachineError if the frame comes out blank.
+  Picture draw(const Shot& shot);
+  /// Seen by the camera that the light is set up by.
   Picture draw(std::span<const Pose> poses);
 
   /// GL's renderer and version, such as "llvmpipe (…), OpenGL … Mesa 22.3.6, libOSMesa.so.8".

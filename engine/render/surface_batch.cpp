@@ -3,6 +3,7 @@
 #include "render/surface_batch.h"
 
 #include <numeric>
+#include <utility>
 
 #include "render/gl.h"
 #include "render/shader.h"
@@ -56,13 +57,20 @@ std::vector<float> triangles(const std::vector<Surface>& surfaces, double tileSi
 }  // namespace
 
 SurfaceBatch::SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders,
-                           const std::vector<std::string>& light, const std::vector<Surface>& surfaces,
-                           double tileSize, const Vec3& eye)
+                           const std::vector<std::string>& light, std::vector<Surface> surfaces,
+                           double tileSize)
     : gl_(gl),
       array_(makeVertexArray(gl)),
       vertices_(gl, {{0, 3}, {1, 3}, {2, 4}, {3, 4}, {4, 4}, {5, 1}}, VertexBuffer::Step::kVertex),
-      program_(linkProgram(gl, shaders, with({"surface.vert", "surface.frag"}, light))) {
-  vertices_.fill(triangles(surfaces, tileSize, eye));
+      program_(linkProgram(gl, shaders, with({"surface.vert", "surface.frag"}, light))),
+      surfaces_(std::move(surfaces)),
+      tileSize_(tileSize) {}
+
+void SurfaceBatch::place(const Vec3& eye) {
+  if (eye_ != eye) {
+    vertices_.fill(triangles(surfaces_, tileSize_, eye));
+    eye_ = eye;
+  }
 }
 
 void SurfaceBatch::draw() const {

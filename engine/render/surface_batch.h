@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,12 @@ namespace careen {
 
 struct Gl;
 
-/// Floor and walls. They stand still, so they are laid down once.
+/// Floor and walls. They stand still: they are laid down again only for an eye that has moved.
 class SurfaceBatch {
  public:
   SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders, const std::vector<std::string>& light,
-               const std::vector<Surface>& surfaces, double tileSize, const Vec3& eye);
+               std::vector<Surface> surfaces, double tileSize);
+  void place(const Vec3& eye);
   void draw() const;
 
  private:
@@ -23,6 +25,9 @@ class SurfaceBatch {
   unsigned array_;
   VertexBuffer vertices_;
   unsigned program_;
+  std::vector<Surface> surfaces_;
+  double tileSize_;
+  std::optional<Vec3> eye_;
 };
 
 }  // namespace careen

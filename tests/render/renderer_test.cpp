@@ -367,7 +367,10 @@ TEST(Renderer, refusesSizesBeyondWhatGlCanDo) {
 
 TEST(Renderer, refusesPosesOfAnotherScene) {
   Renderer renderer(crateInRoom(), 32, 18);
-  EXPECT_THROW(renderer.draw({}), InputError);
+  EXPECT_THROW(renderer.draw(std::vector<Pose>()), InputError);
+  Scene two = crateInRoom();
+  two.boxes.push_back(two.boxes[0]);
+  EXPECT_THROW(Renderer(two, 32, 18).draw(std::vector<Pose>(3)), InputError);
 }
 
 TEST(Renderer, tellsWhoDrawsAndHowLongItTook) {
