@@ -11,6 +11,7 @@
 #include "image/video_pipe.h"
 #include "render/film_folder.h"
 #include "render/film_manifest.h"
+#include "render/filming.h"
 #include "render/renderer.h"
 
 namespace careen {
@@ -29,13 +30,14 @@ double coreSeconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-FilmManifest manifestOf(const Trajectory& trajectory, const FilmSettings& settings) {
+FilmManifest manifestOf(const Trajectory& trajectory, const FilmSettings& settings, double duration) {
   FilmManifest manifest{.sceneHash = trajectory.sceneHash(),
                         .stateHash = trajectory.stateHash(),
                         .width = settings.width,
                         .height = settings.height,
                         .rate = settings.rate,
-                        .frameCount = settings.rate.frameCount(trajectory.settings.duration),
+                        .shutter = settings.shutter.text(),
+                        .frameCount = settings.rate.frameCount(duration),
                         .frames = {}};
   manifest.frames = framesOf(settings.frames, manifest.frameCount);
   return manifest;
@@ -76,7 +78,9 @@ FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const F
                        const FilmCallback& progress, const std::stop_token& stop) {
   const double wallBegun = wallSeconds();
   const double coreBegun = coreSeconds();
-  const FilmManifest asked = manifestOf(trajectory, settings);
+  const Filming filming(scene, trajectory, static_cast<double>(settings.width) / settings.height);
+  const FilmManifest asked = manifestOf(trajectory, settings, filming.duration());
+  filming.checkCamera(asked.frames, settings.rate);
   FilmFolder folder(settings.folder);
   if (settings.resume) {
     refuseAnotherFilm(folder, asked);
@@ -86,7 +90,9 @@ FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const F
   // All that may fail comes before the film that is there is touched. What is there already needs no GL.
   std::unique_ptr<Renderer> renderer;
   if (!missing.empty()) {
-    renderer = std::make_unique<Renderer>(scene, settings.width, settings.height, settings.render);
+    RenderOptions options = settings.render;
+    options.camera = filming.camera(0);
+    renderer = std::make_unique<Renderer>(scene, settings.width, settings.height, options);
   }
   std::unique_ptr<VideoPipe> video = startVideo(settings);
   folder.begin(asked, settings.resume);
@@ -99,7 +105,8 @@ FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const F
       throw Interrupted();
     }
     if (std::binary_search(missing.begin(), missing.end(), frame)) {
-      writer.push(frame, renderer->draw(trajectory.poses(settings.rate.frameTime(frame))));
+      writer.push(frame,
+                  filming.draw(*renderer, settings.rate.frameTime(frame), settings.shutter, settings.rate));
       ++figures.drawn;
     } else {
       writer.pushWritten(frame);

@@ -22,6 +22,7 @@ struct FilmSettings {
   int width = 1280;                ///< [px]
   int height = 720;                ///< [px]
   FrameRate rate;
+  Shutter shutter;                             ///< in place of the scene's
   std::optional<std::filesystem::path> video;  ///< H.264 film of the frames asked for, by ffmpeg
   bool resume = false;  ///< frames of the same film that are there already are left as they are
   RenderOptions render;
@@ -47,10 +48,10 @@ struct FilmFigures {
   std::string renderer;      ///< empty if nothing had to be drawn
 };
 
-/// Films a run: frame k shows time k/fps exactly. Frames appear whole or not at all, so a run that was
-/// interrupted (Interrupted) or killed can be completed, to the same bytes. A film of careen's that is in the
-/// folder already is replaced, or with `resume` completed if it is the same one; nothing else there is
-/// touched.
+/// Films a run: frame k shows film time k/fps exactly, as the scene's camera and time map want it. Frames
+/// appear whole or not at all, so a run that was interrupted (Interrupted) or killed can be completed, to the
+/// same bytes. A film of careen's that is in the folder already is replaced, or with `resume` completed if it
+/// is the same one; nothing else there is touched.
 FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const FilmSettings& settings,
                        const FilmCallback& progress = {}, const std::stop_token& stop = {});
 

@@ -92,6 +92,38 @@ TEST_F(FilmTest, frameKShowsTimeKOverFps) {
   }
 }
 
+TEST_F(FilmTest, lastsAsLongAsItsTimeMap) {
+  scene_.film.time.keys = {{0, 0}, {1.5, 0.1}, {2, 0.1}};
+  EXPECT_EQ(film(settings_).drawn, 20);
+  Renderer renderer(scene_, 64, 36);
+  EXPECT_EQ(readPng(folder_ / "film/000012.png").rgb, renderer.draw(run_.poses(0.08)).rgb);
+  EXPECT_EQ(textOf(folder_ / "film/000015.png"), textOf(folder_ / "film/000019.png"));  // a freeze frame
+}
+
+TEST_F(FilmTest, framesAreTheSameWhicheverOthersAreDrawn) {
+  scene_.cameraMove.orbitDegrees = 40;
+  scene_.cameraMove.followed = 0;
+  scene_.film.time.keys = {{0, 0}, {0.4, 0.4}, {0.8, 0.42}};
+  settings_.shutter = {.degrees = 180, .samples = 3};
+  film(settings_);
+  FilmSettings some = filmIn("some");
+  some.shutter = settings_.shutter;
+  some.frames = parseFrameRanges("2,3,7");
+  film(some);
+  for (const int frame : {2, 3, 7}) {
+    const std::string name = frameFileName(frame);
+    EXPECT_EQ(textOf(folder_ / "some" / name), textOf(folder_ / "film" / name)) << frame;
+  }
+}
+
+TEST_F(FilmTest, keysThatLeaveTheCameraNothingToLookAtAreToldBeforeAnyFrame) {
+  // Eye and target change places: half way they meet.
+  scene_.cameraMove.keys = {{.time = 0, .eye = Vec3(0, -5, 1), .target = Vec3(0, 5, 1)},
+                            {.time = 1, .eye = Vec3(0, 5, 1), .target = Vec3(0, -5, 1)}};
+  EXPECT_NE(errorOf(settings_).find("0.5 s into the film"), std::string::npos) << errorOf(settings_);
+  EXPECT_TRUE(folder_.files().empty());
+}
+
 TEST_F(FilmTest, drawsTheFramesAskedFor) {
   settings_.frames = parseFrameRanges("1,4:3");
   EXPECT_EQ(film(settings_).drawn, 3);
@@ -171,6 +203,10 @@ TEST_F(FilmTest, anotherFilmIsNotResumed) {
   other.width = 64;
   other.rate.numerator = 20;
   EXPECT_NE(errorOf(other).find("fps 10 there, 20 now"), std::string::npos) << errorOf(other);
+  other = settings_;
+  other.resume = true;
+  other.shutter.degrees = 90;
+  EXPECT_NE(errorOf(other).find("shutter none there, 90:8 now"), std::string::npos) << errorOf(other);
   run_ = drifting(scene_, Vec3(1, 0, 0.25));
   other = settings_;
   other.resume = true;

@@ -12,6 +12,7 @@
 #include "physics/body.h"
 #include "render/lighting.h"
 #include "render/rendering_backend.h"
+#include "scene/plan.h"
 #include "scene/scene.h"
 #include "trajectory/trajectory.h"
 
@@ -91,6 +92,14 @@ inline std::array<int, 3> pixelAt(const Picture& picture, int x, int y) {
   const std::size_t place =
       static_cast<std::size_t>(y) * picture.rowBytes() + 3 * static_cast<std::size_t>(x);
   return {picture.rgb.at(place), picture.rgb.at(place + 1), picture.rgb.at(place + 2)};
+}
+
+/// What becomes of a scene.
+inline Trajectory runOf(const Scene& scene) {
+  return record(
+      assemble(scene, plan(scene)),
+      {.method = scene.method, .duration = scene.duration, .dt = scene.dt, .tolerance = scene.tolerance},
+      scene.text);
 }
 
 /// The scene's first box drifts at a steady velocity for the scene's whole duration.

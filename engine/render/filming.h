@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/pose.h"
+#include "image/picture.h"
+#include "render/camera_path.h"
+#include "scene/scene.h"
+#include "scene/time_map.h"
+#include "trajectory/trajectory.h"
+
+namespace careen {
+
+class Renderer;
+
+/// What the film of a run shows at each of its moments: from where, and where the boxes are, both exact at
+/// any time. Keeps scene and run by reference.
+class Filming {
+ public:
+  /// InputError if the film begins after the run's end.
+  Filming(const Scene& scene, const Trajectory& run, double aspect);
+
+  double duration() const { return clock_.duration(); }  ///< [s] of the film
+  /// [s] of the scene; before the film's beginning and after its end all stands still, the camera too.
+  double sceneTime(double filmTime) const { return clock_.sceneTime(filmTime); }
+  Camera camera(double filmTime) const;
+
+  /// InputError if there is a frame in which the camera's keys leave it nothing to look at or no upward.
+  void checkCamera(std::span<const std::int64_t> frames, const FrameRate& rate) const;
+
+  /// The picture at a moment. With a shutter that is open it is the average of pictures at the middles of
+  /// `samples` equal parts of the time that it is open, half of it before the moment and half after.
+  Picture draw(Renderer& renderer, double filmTime, const Shutter& shutter, const FrameRate& rate) const;
+
+  /// One picture with the boxes as they are at every one of the moments, from where the camera is at the
+  /// first.
+  Picture drawStrobe(Renderer& renderer, std::span<const double> filmTimes) const;
+
+ private:
+  const Trajectory& run_;
+  TimeMap clock_;
+  CameraPath path_;
+};
+
+}  // namespace careen
