@@ -21,6 +21,7 @@
 #include "render/frame_range.h"
 #include "report.h"
 #include "run.h"
+#include "still.h"
 
 namespace careen {
 namespace {
@@ -31,6 +32,9 @@ struct FilmOptions {
   std::string frames;
   std::optional<std::string> size;
   std::optional<std::string> rate;
+  std::optional<std::string> shutter;
+  std::optional<double> still;  ///< [s] of the film
+  std::optional<std::string> strobe;
   std::optional<std::filesystem::path> video;
   bool resume = false;
   ContextOptions context;
@@ -64,6 +68,14 @@ FrameRate parseRate(const std::string& text) {
   }
 }
 
+Shutter shutterOf(const std::string& text) {
+  try {
+    return parseShutter(text);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--shutter: ") + error.what());
+  }
+}
+
 RenderingBackend parseBackend(const std::string& text) {
   try {
     return renderingBackendNamed(text);
@@ -84,6 +96,7 @@ FilmSettings settingsOf(const FilmOptions& options, const Run& run) {
   std::tie(settings.width, settings.height) =
       options.size ? parseSize(*options.size) : std::pair(film.width, film.height);
   settings.rate = options.rate ? parseRate(*options.rate) : film.rate;
+  settings.shutter = options.shutter ? shutterOf(*options.shutter) : film.shutter;
   settings.frames = framesIn(options.frames);
   settings.video = options.video;
   settings.resume = options.resume;
@@ -148,6 +161,10 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   options.context.backend = parseBackend(options.backend);
   Run run = loadRun(options.source, options.overrides, stop);
   const FilmSettings settings = settingsOf(options, run);
+  if (options.still || options.strobe) {
+    return drawStill(run, settings,
+                     {.path = options.folder, .moment = options.still.value_or(0), .strobe = options.strobe});
+  }
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0);
   const FilmFigures figures = renderFilm(
       run.trajectory, run.scene, settings, [&progress](const FilmProgress& now) { progress.update(now); },
@@ -166,13 +183,29 @@ void addRender(CLI::App& commandLine, Command& chosen) {
   const auto options = std::make_shared<FilmOptions>();
   command->add_option("file", options->source,
                       "Scene or trajectory file; the default scene if none is named");
-  command->add_option("--out", options->folder, "Folder for the frames (default: out/ and the scene's name)");
-  command->add_option("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
+  command->add_option(
+      "--out", options->folder,
+      "Folder for the frames, or file of a single picture (default: out/ and the scene's name)");
+  CLI::Option* frames =
+      command->add_option("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
   command->add_option("--size", options->size, "WIDTHxHEIGHT in place of the scene's [px]");
   command->add_option("--fps", options->rate,
                       "Frames per second in place of the scene's, such as 25 or 24000/1001");
-  command->add_option("--video", options->video, "Film to make of the frames, by ffmpeg (.mp4)");
-  command->add_flag("--resume", options->resume, "Keep the frames that are there and draw the others");
+  command->add_option("--shutter", options->shutter,
+                      "Motion blur in place of the scene's: how long the shutter is open, 360 from frame to "
+                      "frame, and how many moments are averaged, such as 180:8; 0: none");
+  CLI::Option* video =
+      command->add_option("--video", options->video, "Film to make of the frames, by ffmpeg (.mp4)");
+  CLI::Option* resume =
+      command->add_flag("--resume", options->resume, "Keep the frames that are there and draw the others");
+  CLI::Option* still = command
+                           ->add_option("--still", options->still,
+                                        "One picture, of this moment of the film [s], in place of the film")
+                           ->excludes(frames, video, resume);
+  command
+      ->add_option("--strobe", options->strobe,
+                   "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
+      ->excludes(frames, video, resume, still);
   command->add_option(
       "--rendering-backend", options->backend,
       "What draws: auto, osmesa or egl (default: auto, the first of the others that there is)");

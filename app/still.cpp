@@ -1,0 +1,64 @@
+#include "still.h"
+
+#include <iostream>
+#include <vector>
+
+#include "core/brief.h"
+#include "image/png.h"
+#include "render/filming.h"
+#include "render/renderer.h"
+#include "render/strobe.h"
+
+namespace careen {
+namespace {
+
+std::vector<double> momentsOf(const Still& still) {
+  if (!still.strobe) {
+    return {still.moment};
+  }
+  try {
+    return parseStrobe(*still.strobe);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--strobe: ") + error.what());
+  }
+}
+
+void checkMoments(const std::vector<double>& moments, const Filming& filming, const char* option) {
+  for (const double moment : moments) {
+    if (!(moment >= 0 && moment <= filming.duration())) {
+      throw InputError(std::string(option) + ": found " + brief(moment) +
+                       " s, expected a moment of the film, from 0 to " + brief(filming.duration()) + " s");
+    }
+  }
+}
+
+std::filesystem::path placeOf(const Run& run, const Still& still) {
+  if (!still.path.empty()) {
+    return still.path;
+  }
+  std::filesystem::path name = run.source.stem();
+  name += still.strobe ? "-strobe.png" : "-still.png";
+  return std::filesystem::path("out") / name;
+}
+
+}  // namespace
+
+ExitCode drawStill(const Run& run, const FilmSettings& settings, const Still& still) {
+  const Filming filming(run.scene, run.trajectory, static_cast<double>(settings.width) / settings.height);
+  const std::vector<double> moments = momentsOf(still);
+  checkMoments(moments, filming, still.strobe ? "--strobe" : "--still");
+  RenderOptions options = settings.render;
+  options.camera = filming.camera(0);
+  Renderer renderer(run.scene, settings.width, settings.height, options);
+  const Picture picture = still.strobe ? filming.drawStrobe(renderer, moments)
+                                       : filming.draw(renderer, moments[0], settings.shutter, settings.rate);
+  const std::filesystem::path path = std::filesystem::absolute(placeOf(run, still)).lexically_normal();
+  std::error_code error;
+  std::filesystem::create_directories(path.parent_path(), error);  // writing tells if there is none
+  writePng(path, picture);
+  std::cout << "picture      " << (still.strobe ? std::to_string(moments.size()) + " moments, " : "")
+            << path.string() << '\n';
+  return ExitCode::kDone;
+}
+
+}  // namespace careen
