@@ -12,6 +12,7 @@
 #include "physics/method.h"
 #include "physics/world.h"
 #include "scene/frame_rate.h"
+#include "scene/overlay.h"
 
 namespace careen {
 
@@ -93,6 +94,7 @@ struct Scene {
   std::optional<Camera> camera;  ///< absent: the renderer chooses one that sees the scene
   Film film;
   Look look = Look::kStudio;
+  OverlaySet overlays;  ///< drawn over the film
 };
 
 /// "room-x" for side 0: what the room's walls are called.

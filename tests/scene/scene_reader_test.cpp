@@ -43,6 +43,7 @@ TEST(SceneReader, readsEveryKey) {
   EXPECT_EQ(scene.film.rate.text(), "24000/1001");
   EXPECT_EQ(scene.film.antialiasing, Antialiasing::kMultisampled);
   EXPECT_EQ(scene.look, Look::kClay);
+  EXPECT_EQ(scene.overlays.text(), "time,energy");
 }
 
 TEST(SceneReader, readsWalls) {

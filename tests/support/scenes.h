@@ -35,7 +35,8 @@ inline const std::string kEveryKey = R"({
   "tolerance": 1e-9,
   "camera": { "eye": [6, -8, 4], "target": [0, 0, 1], "up": [0, 0, 4], "fov_deg": 35 },
   "film": { "size": [640, 360], "fps": 23.976, "antialiasing": "4x" },
-  "look": "clay"
+  "look": "clay",
+  "overlays": ["time", "energy"]
 })";
 
 /// The same with one piece of text, which must be there exactly once, in place of another.
