@@ -32,6 +32,7 @@ struct FilmOptions {
   std::optional<std::string> size;
   std::optional<std::string> rate;
   std::optional<std::filesystem::path> video;
+  std::optional<std::string> overlays;
   bool resume = false;
   ContextOptions context;
   std::string backend = "auto";
@@ -72,6 +73,14 @@ RenderingBackend parseBackend(const std::string& text) {
   }
 }
 
+OverlaySet parseOverlays(const std::string& text) {
+  try {
+    return overlaysNamed(text);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--overlays: ") + error.what());
+  }
+}
+
 std::vector<FrameRange> framesIn(const std::string& text) {
   return text.empty() ? std::vector<FrameRange>() : parseFrameRanges(text);
 }
@@ -85,6 +94,7 @@ FilmSettings settingsOf(const FilmOptions& options, const Run& run) {
       options.size ? parseSize(*options.size) : std::pair(film.width, film.height);
   settings.rate = options.rate ? parseRate(*options.rate) : film.rate;
   settings.frames = framesIn(options.frames);
+  settings.overlays = options.overlays ? parseOverlays(*options.overlays) : run.scene.overlays;
   settings.video = options.video;
   settings.resume = options.resume;
   settings.render.context = options.context;
@@ -102,6 +112,7 @@ void writeReport(const Run& run, const FilmSettings& settings, const FilmFigures
   report["frames_drawn"] = figures.drawn;
   report["size"] = {settings.width, settings.height};
   report["fps"] = settings.rate.text();
+  report["overlays"] = settings.overlays.text();
   report["renderer"] = figures.renderer;
   writeFile(settings.folder / "report.json", report.dump(2) + "\n");
 }
@@ -172,6 +183,9 @@ void addRender(CLI::App& commandLine, Command& chosen) {
   command->add_option("--fps", options->rate,
                       "Frames per second in place of the scene's, such as 25 or 24000/1001");
   command->add_option("--video", options->video, "Film to make of the frames, by ffmpeg (.mp4)");
+  command->add_option(
+      "--overlays", options->overlays,
+      "What to draw over the film in place of the scene's, such as time,energy; none: nothing");
   command->add_flag("--resume", options->resume, "Keep the frames that are there and draw the others");
   command->add_option(
       "--rendering-backend", options->backend,

@@ -11,6 +11,7 @@
 #include "image/video_pipe.h"
 #include "render/film_folder.h"
 #include "render/film_manifest.h"
+#include "render/overlays.h"
 #include "render/renderer.h"
 
 namespace careen {
@@ -35,6 +36,7 @@ FilmManifest manifestOf(const Trajectory& trajectory, const FilmSettings& settin
                         .width = settings.width,
                         .height = settings.height,
                         .rate = settings.rate,
+                        .overlays = settings.overlays.text(),
                         .frameCount = settings.rate.frameCount(trajectory.settings.duration),
                         .frames = {}};
   manifest.frames = framesOf(settings.frames, manifest.frameCount);
@@ -58,6 +60,16 @@ std::unique_ptr<VideoPipe> startVideo(const FilmSettings& settings) {
                                                    .height = settings.height,
                                                    .rateNumerator = settings.rate.numerator,
                                                    .rateDenominator = settings.rate.denominator});
+}
+
+// What goes over the frame that shows that time [s]; nothing without overlays.
+OverlaySource overlayAt(const std::optional<Overlays>& overlays, double time, const FilmSettings& settings) {
+  if (!overlays) {
+    return {};
+  }
+  return [&overlays, &settings, time](const View& view) {
+    return overlays->shapesAt(time, view, settings.width, settings.height);
+  };
 }
 
 FilmProgress progressOf(const FilmFigures& figures, const FilmManifest& asked, std::int64_t toDraw,
@@ -85,7 +97,11 @@ FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const F
 
   // All that may fail comes before the film that is there is touched. What is there already needs no GL.
   std::unique_ptr<Renderer> renderer;
+  std::optional<Overlays> overlays;
   if (!missing.empty()) {
+    if (settings.overlays.any()) {
+      overlays.emplace(trajectory, scene, settings.overlays, settings.rate.frameTime(1));
+    }
     renderer = std::make_unique<Renderer>(scene, settings.width, settings.height, settings.render);
   }
   std::unique_ptr<VideoPipe> video = startVideo(settings);
@@ -99,7 +115,8 @@ FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const F
       throw Interrupted();
     }
     if (std::binary_search(missing.begin(), missing.end(), frame)) {
-      writer.push(frame, renderer->draw(trajectory.poses(settings.rate.frameTime(frame))));
+      const double time = settings.rate.frameTime(frame);
+      writer.push(frame, renderer->draw(trajectory.poses(time), overlayAt(overlays, time, settings)));
       ++figures.drawn;
     } else {
       writer.pushWritten(frame);

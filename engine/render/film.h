@@ -23,6 +23,7 @@ struct FilmSettings {
   int height = 720;                ///< [px]
   FrameRate rate;
   std::optional<std::filesystem::path> video;  ///< H.264 film of the frames asked for, by ffmpeg
+  OverlaySet overlays;                         ///< drawn over the frames
   bool resume = false;  ///< frames of the same film that are there already are left as they are
   RenderOptions render;
 };

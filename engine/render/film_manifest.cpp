@@ -25,6 +25,7 @@ FilmManifest fromJson(const nlohmann::json& json) {
   manifest.width = json.at("size").at(0).get<int>();
   manifest.height = json.at("size").at(1).get<int>();
   manifest.rate = parseFrameRate(json.at("fps").get<std::string>());
+  manifest.overlays = json.value("overlays", "none");  // films were made before there were any
   manifest.frameCount = json.at("frame_count").get<std::int64_t>();
   manifest.frames = framesOf(parseFrameRanges(json.at("frames").get<std::string>()), manifest.frameCount);
   return manifest;
@@ -52,6 +53,7 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
       {"state_hash", manifest.stateHash},
       {"size", {manifest.width, manifest.height}},
       {"fps", manifest.rate.text()},
+      {"overlays", manifest.overlays},
       {"frame_count", manifest.frameCount},
       {"frames", rangesText(manifest.frames)},
   };
@@ -66,6 +68,7 @@ std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
       compare("scene", there.sceneHash, asked.sceneHash) + compare("run", there.stateHash, asked.stateHash) +
       compare("size", sizeText(there), sizeText(asked)) +
       compare("fps", there.rate.text(), asked.rate.text()) +
+      compare("overlays", there.overlays, asked.overlays) +
       compare("frames in all", std::to_string(there.frameCount), std::to_string(asked.frameCount));
   return text.empty() ? text : text.substr(0, text.size() - 2);
 }

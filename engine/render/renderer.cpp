@@ -15,6 +15,7 @@
 #include "render/contact_shade.h"
 #include "render/frame_block.h"
 #include "render/gl.h"
+#include "render/overlay_batch.h"
 #include "render/scene_extent.h"
 #include "render/shader.h"
 #include "render/shadow_map.h"
@@ -102,6 +103,7 @@ struct Renderer::Parts {
   Parts(Scene drawnScene, int width, int pictureHeight, const RenderOptions& options);
   void drawShadows(const std::vector<DrawnBox>& drawn);
   void drawPicture();
+  void drawOver(Picture& picture, const OverlayShapes& shapes);
   void upload() const;
 
   Scene scene;
@@ -115,6 +117,8 @@ struct Renderer::Parts {
   std::unique_ptr<GlContext> context;
   Gl gl;
   Canvas canvas;
+  std::filesystem::path shaders;
+  std::optional<OverlayBatch> overlays;  // from the first picture on that has any
   std::optional<ShadowMap> shadowMap;
   BoxBatch boxes;
   std::vector<Surface> floors;
@@ -139,6 +143,7 @@ Renderer::Parts::Parts(Scene drawnScene, int width, int pictureHeight, const Ren
       context(openContext(options.context)),
       gl(*context),
       canvas(gl, width, pictureHeight, options.antialiasing.value_or(scene.film.antialiasing)),
+      shaders(shaderFolder(options)),
       boxes(gl, shaderFolder(options), lightShaders(lighting, shadows)),
       floors(surfacesOf(scene, extent, materials)),
       surfaces(gl, shaderFolder(options), lightShaders(lighting, shadows), floors, tileSize(extent),
@@ -207,12 +212,20 @@ void Renderer::Parts::drawPicture() {
   canvas.finish();
 }
 
+void Renderer::Parts::drawOver(Picture& picture, const OverlayShapes& shapes) {
+  if (!overlays) {
+    overlays.emplace(gl, shaders, picture.width, picture.height);
+  }
+  overlays->drawOver(picture, shapes);
+  ++figures.overlayPasses;
+}
+
 Renderer::Renderer(const Scene& scene, int width, int height, const RenderOptions& options)
     : parts_(std::make_unique<Parts>(scene, width, height, options)) {}
 
 Renderer::~Renderer() = default;
 
-Picture Renderer::draw(std::span<const Pose> poses) {
+Picture Renderer::draw(std::span<const Pose> poses, const OverlaySource& overlay) {
   Parts& parts = *parts_;
   if (poses.size() != parts.scene.boxes.size()) {
     throw InputError("drawing: found " + std::to_string(poses.size()) + " poses, expected one for each of " +
@@ -238,6 +251,11 @@ Picture Renderer::draw(std::span<const Pose> poses) {
   const Clock::time_point drawnAt = Clock::now();
   Picture picture = parts.canvas.read();
   parts.figures.readSeconds += secondsSince(drawnAt);
+  if (overlay) {
+    const Clock::time_point readAt = Clock::now();
+    parts.drawOver(picture, overlay(parts.view));
+    parts.figures.drawSeconds += secondsSince(readAt);
+  }
   ++parts.figures.frames;
   return picture;
 }

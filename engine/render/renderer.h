@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -8,8 +9,10 @@
 
 #include "core/pose.h"
 #include "image/picture.h"
+#include "render/camera.h"
 #include "render/lighting.h"
 #include "render/materials.h"
+#include "render/overlay_shapes.h"
 #include "render/rendering_backend.h"
 #include "scene/scene.h"
 
@@ -27,9 +30,13 @@ struct RenderOptions {
 struct DrawFigures {
   int frames = 0;
   int shadowPasses = 0;
+  int overlayPasses = 0;
   double drawSeconds = 0;  ///< [s] by the clock, until the last pixel is done
   double readSeconds = 0;  ///< [s] reading back and flipping
 };
+
+/// Shapes to draw over a picture that is seen so.
+using OverlaySource = std::function<OverlayShapes(const View&)>;
 
 /// Draws a scene with its boxes where they are told to be. The same poses give the same bytes.
 class Renderer {
@@ -42,8 +49,9 @@ class Renderer {
   Renderer(Renderer&&) = delete;
   Renderer& operator=(Renderer&&) = delete;
 
-  /// One pose for each box of the scene, in its order. MachineError if the frame comes out blank.
-  Picture draw(std::span<const Pose> poses);
+  /// One pose for each box of the scene, in its order; over the picture what `overlay` gives, if there is
+  /// one. MachineError if the frame comes out blank.
+  Picture draw(std::span<const Pose> poses, const OverlaySource& overlay = {});
 
   /// GL's renderer and version, such as "llvmpipe (…), OpenGL … Mesa 22.3.6, libOSMesa.so.8".
   const std::string& rendererName() const;
