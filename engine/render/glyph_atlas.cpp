@@ -38,7 +38,7 @@ const GlyphAtlas::Entry& GlyphAtlas::entry(const Label& label, char32_t characte
   entry.row = row_;
   column_ += width;
   rowHeight_ = std::max(rowHeight_, entry.glyph.height);
-  const auto rows = static_cast<std::size_t>(row_ + rowHeight_);
+  const std::size_t rows = static_cast<std::size_t>(row_) + static_cast<std::size_t>(rowHeight_);
   coverage_.resize(std::max(coverage_.size(), rows * kWidth));
   for (int row = 0; row < entry.glyph.height; ++row) {
     const auto from = entry.glyph.coverage.begin() + static_cast<std::ptrdiff_t>(row) * entry.glyph.width;
@@ -56,9 +56,10 @@ std::vector<AtlasGlyph> GlyphAtlas::glyphsOf(const Label& label) {
     if (placed.character == 0) {
       continue;
     }
-    const long quarters = std::lround(kQuarters * (label.at.x() + placed.pen));
-    const auto column = static_cast<int>(std::floor(static_cast<double>(quarters) / kQuarters));
-    const Entry& found = entry(label, placed.character, static_cast<int>(quarters - kQuarters * column));
+    const double place = std::round(kQuarters * (label.at.x() + placed.pen)) / kQuarters;
+    const double whole = std::floor(place);
+    const auto column = static_cast<int>(whole);
+    const Entry& found = entry(label, placed.character, static_cast<int>(kQuarters * (place - whole)));
     if (!found.glyph.coverage.empty()) {
       glyphs.push_back({.column = found.column,
                         .row = found.row,

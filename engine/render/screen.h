@@ -12,7 +12,7 @@ namespace careen {
 class Screen {
  public:
   /// Size in pixels.
-  Screen(const View& view, int width, int height) : view_(view), width_(width), height_(height) {}
+  Screen(View view, int width, int height) : view_(std::move(view)), width_(width), height_(height) {}
 
   int width() const { return width_; }
   int height() const { return height_; }
