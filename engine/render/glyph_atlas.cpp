@@ -42,8 +42,8 @@ const GlyphAtlas::Entry& GlyphAtlas::entry(const Label& label, char32_t characte
   coverage_.resize(std::max(coverage_.size(), rows * kWidth));
   for (int row = 0; row < entry.glyph.height; ++row) {
     const auto from = entry.glyph.coverage.begin() + static_cast<std::ptrdiff_t>(row) * entry.glyph.width;
-    std::copy_n(from, width,
-                coverage_.begin() + static_cast<std::ptrdiff_t>(entry.row + row) * kWidth + entry.column);
+    const std::ptrdiff_t place = std::ptrdiff_t{kWidth} * (entry.row + row) + entry.column;
+    std::copy_n(from, width, coverage_.begin() + place);
   }
   ++revision_;
   return entries_.emplace(key, std::move(entry)).first->second;

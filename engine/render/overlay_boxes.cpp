@@ -10,13 +10,14 @@
 namespace careen {
 namespace {
 
-constexpr double kShortestArrow = 2;        // [px]
-constexpr double kTrailBudget = 16000;      // states looked up for the trails of one frame
-constexpr int kTrailMostSamples = 600;      // of one trail
-constexpr double kTrailTurn = 0.15;         // [rad] that a box may turn between two of them
-constexpr double kBehindItsBox = 0.3;       // how much of a trail is seen there
-constexpr std::size_t kMostNames = 16;      // that nobody gave
-constexpr std::size_t kCornerFollowed = 0;  // the one at +x +y +z
+constexpr double kShortestArrow = 2;              // [px]
+constexpr double kTrailBudget = 16000;            // states looked up for the trails of one frame
+constexpr int kTrailMostSamples = 600;            // of one trail
+constexpr std::ptrdiff_t kTrailMostTimes = 1200;  // impacts among them
+constexpr double kTrailTurn = 0.15;               // [rad] that a box may turn between two of them
+constexpr double kBehindItsBox = 0.3;             // how much of a trail is seen there
+constexpr std::size_t kMostNames = 16;            // that nobody gave
+constexpr std::size_t kCornerFollowed = 0;        // the one at +x +y +z
 
 template <class Vector>
 void addArrows(OverlayShapes& shapes, const OverlayFrame& frame, double largest, const Color& color,
@@ -63,7 +64,7 @@ std::vector<double> trailTimes(const OverlayFrame& frame, std::size_t body) {
   auto impact = std::lower_bound(impacts.begin(), impacts.end(), begin,
                                  [](const Impact& each, double time) { return each.time < time; });
   for (; impact != impacts.end() && impact->time < frame.time; ++impact) {
-    if (concerns(*impact, body) && std::ssize(times) < 2 * kTrailMostSamples) {
+    if (concerns(*impact, body) && std::ssize(times) < kTrailMostTimes) {
       times.push_back(impact->time);
     }
   }

@@ -45,7 +45,7 @@ class EnergyText {
     unit_ = std::pow(10.0, 3 * thousands);
     const double inUnit = largest / unit_;
     digits_ = inUnit >= 100 ? 1 : (inUnit >= 10 ? 2 : 3);
-    name_ = std::string(" ") + kPrefixes.at(static_cast<std::size_t>(thousands + 4)) + "J";
+    name_ = std::string(" ") + *(kPrefixes.begin() + 4 + thousands) + "J";
   }
   std::string operator()(double energy) const {
     std::array<char, 64> text{};
