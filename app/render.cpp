@@ -36,6 +36,7 @@ struct FilmOptions {
   std::optional<double> still;  ///< [s] of the film
   std::optional<std::string> strobe;
   std::optional<std::filesystem::path> video;
+  std::optional<std::string> overlays;
   bool resume = false;
   ContextOptions context;
   std::string backend = "auto";
@@ -84,6 +85,14 @@ RenderingBackend parseBackend(const std::string& text) {
   }
 }
 
+OverlaySet parseOverlays(const std::string& text) {
+  try {
+    return overlaysNamed(text);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--overlays: ") + error.what());
+  }
+}
+
 std::vector<FrameRange> framesIn(const std::string& text) {
   return text.empty() ? std::vector<FrameRange>() : parseFrameRanges(text);
 }
@@ -98,6 +107,7 @@ FilmSettings settingsOf(const FilmOptions& options, const Run& run) {
   settings.rate = options.rate ? parseRate(*options.rate) : film.rate;
   settings.shutter = options.shutter ? shutterOf(*options.shutter) : film.shutter;
   settings.frames = framesIn(options.frames);
+  settings.overlays = options.overlays ? parseOverlays(*options.overlays) : run.scene.overlays;
   settings.video = options.video;
   settings.resume = options.resume;
   settings.render.context = options.context;
@@ -115,6 +125,7 @@ void writeReport(const Run& run, const FilmSettings& settings, const FilmFigures
   report["frames_drawn"] = figures.drawn;
   report["size"] = {settings.width, settings.height};
   report["fps"] = settings.rate.text();
+  report["overlays"] = settings.overlays.text();
   report["renderer"] = figures.renderer;
   writeFile(settings.folder / "report.json", report.dump(2) + "\n");
 }
@@ -206,6 +217,9 @@ void addRender(CLI::App& commandLine, Command& chosen) {
       ->add_option("--strobe", options->strobe,
                    "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
       ->excludes(frames, video, resume, still);
+  command->add_option(
+      "--overlays", options->overlays,
+      "What to draw over the film in place of the scene's, such as time,energy; none: nothing");
   command->add_option(
       "--rendering-backend", options->backend,
       "What draws: auto, osmesa or egl (default: auto, the first of the others that there is)");

@@ -18,6 +18,7 @@ using Matrix4 = Eigen::Matrix<Real, 4, 4>;
 template <class Real>
 using Quaternion = Eigen::Quaternion<Real>;
 
+using Vec2 = Eigen::Vector2d;
 using Vec3 = Vector3<double>;
 using Mat3 = Matrix3<double>;
 using Vec4 = Vector4<double>;  ///< homogeneous: x y z w

@@ -12,6 +12,7 @@
 #include "render/film_folder.h"
 #include "render/film_manifest.h"
 #include "render/filming.h"
+#include "render/overlays.h"
 #include "render/renderer.h"
 
 namespace careen {
@@ -37,6 +38,7 @@ FilmManifest manifestOf(const Trajectory& trajectory, const FilmSettings& settin
                         .height = settings.height,
                         .rate = settings.rate,
                         .shutter = settings.shutter.text(),
+                        .overlays = settings.overlays.text(),
                         .frameCount = settings.rate.frameCount(duration),
                         .frames = {}};
   manifest.frames = framesOf(settings.frames, manifest.frameCount);
@@ -89,7 +91,11 @@ FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const F
 
   // All that may fail comes before the film that is there is touched. What is there already needs no GL.
   std::unique_ptr<Renderer> renderer;
+  std::optional<Overlays> overlays;
   if (!missing.empty()) {
+    if (settings.overlays.any()) {
+      overlays.emplace(trajectory, scene, settings.overlays, settings.rate.frameTime(1));
+    }
     RenderOptions options = settings.render;
     options.camera = filming.camera(0);
     renderer = std::make_unique<Renderer>(scene, settings.width, settings.height, options);
@@ -105,8 +111,14 @@ FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const F
       throw Interrupted();
     }
     if (std::binary_search(missing.begin(), missing.end(), frame)) {
-      writer.push(frame,
-                  filming.draw(*renderer, settings.rate.frameTime(frame), settings.shutter, settings.rate));
+      const double time = settings.rate.frameTime(frame);
+      Picture picture = filming.draw(*renderer, time, settings.shutter, settings.rate);
+      if (overlays) {
+        renderer->drawOver(picture, filming.camera(time), [&](const View& view) {
+          return overlays->shapesAt(filming.sceneTime(time), view, settings.width, settings.height);
+        });
+      }
+      writer.push(frame, std::move(picture));
       ++figures.drawn;
     } else {
       writer.pushWritten(frame);

@@ -24,6 +24,7 @@ struct FilmSettings {
   FrameRate rate;
   Shutter shutter;                             ///< in place of the scene's
   std::optional<std::filesystem::path> video;  ///< H.264 film of the frames asked for, by ffmpeg
+  OverlaySet overlays;                         ///< drawn over the frames
   bool resume = false;  ///< frames of the same film that are there already are left as they are
   RenderOptions render;
 };

@@ -26,6 +26,7 @@ FilmManifest fromJson(const nlohmann::json& json) {
   manifest.height = json.at("size").at(1).get<int>();
   manifest.rate = parseFrameRate(json.at("fps").get<std::string>());
   manifest.shutter = json.value("shutter", manifest.shutter);
+  manifest.overlays = json.value("overlays", "none");  // films were made before there were any
   manifest.frameCount = json.at("frame_count").get<std::int64_t>();
   manifest.frames = framesOf(parseFrameRanges(json.at("frames").get<std::string>()), manifest.frameCount);
   return manifest;
@@ -54,6 +55,7 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
       {"size", {manifest.width, manifest.height}},
       {"fps", manifest.rate.text()},
       {"shutter", manifest.shutter},
+      {"overlays", manifest.overlays},
       {"frame_count", manifest.frameCount},
       {"frames", rangesText(manifest.frames)},
   };
@@ -68,7 +70,7 @@ std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
       compare("scene", there.sceneHash, asked.sceneHash) + compare("run", there.stateHash, asked.stateHash) +
       compare("size", sizeText(there), sizeText(asked)) +
       compare("fps", there.rate.text(), asked.rate.text()) +
-      compare("shutter", there.shutter, asked.shutter) +
+      compare("shutter", there.shutter, asked.shutter) + compare("overlays", there.overlays, asked.overlays) +
       compare("frames in all", std::to_string(there.frameCount), std::to_string(asked.frameCount));
   return text.empty() ? text : text.substr(0, text.size() - 2);
 }

@@ -18,6 +18,7 @@ struct FilmManifest {
   int height = 0;         ///< [px]
   FrameRate rate;
   std::string shutter = "none";      ///< as Shutter::text gives it
+  std::string overlays = "none";     ///< their names
   std::int64_t frameCount = 0;       ///< of the whole film
   std::vector<std::int64_t> frames;  ///< those asked for so far, in order
 };

@@ -67,7 +67,11 @@
   X(PFNGLDRAWBUFFERPROC, DrawBuffer)                                         \
   X(PFNGLREADBUFFERPROC, ReadBuffer)                                         \
   X(PFNGLREADPIXELSPROC, ReadPixels)                                         \
-  X(PFNGLPIXELSTOREIPROC, PixelStorei)
+  X(PFNGLPIXELSTOREIPROC, PixelStorei)                                       \
+  X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                   \
+  X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                         \
+  X(PFNGLUNIFORM1IPROC, Uniform1i)                                           \
+  X(PFNGLUNIFORM2FPROC, Uniform2f)
 
 namespace careen {
 

@@ -22,8 +22,8 @@ struct Materials {
   Vec3 wall = Vec3(0.72, 0.69, 0.64);
   Vec3 slab = Vec3(0.45, 0.50, 0.52);  ///< a sloping wall
   double contactShade = 0.7;  ///< [1] of the light that a box keeps off where it touches; 0: no pass for it
-  double shoulder = 0.8;       ///< [1] brightness from which on the tone curve gives in
-  double dither = 1;           ///< [1] steps of 8 bits
+  double shoulder = 0.8;      ///< [1] brightness from which on the tone curve gives in
+  double dither = 1;          ///< [1] steps of 8 bits
 };
 
 Materials materialsOf(Look look);

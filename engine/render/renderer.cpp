@@ -15,6 +15,7 @@
 #include "render/contact_shade.h"
 #include "render/frame_block.h"
 #include "render/gl.h"
+#include "render/overlay_batch.h"
 #include "render/scene_extent.h"
 #include "render/shader.h"
 #include "render/shadow_map.h"
@@ -103,6 +104,7 @@ struct Renderer::Parts {
   void look(const Camera& from);
   void drawShadows(const std::vector<DrawnBox>& drawn);
   void drawPicture();
+  void drawOver(Picture& picture, const OverlayShapes& shapes);
   void upload() const;
 
   Scene scene;
@@ -117,6 +119,8 @@ struct Renderer::Parts {
   std::unique_ptr<GlContext> context;
   Gl gl;
   Canvas canvas;
+  std::filesystem::path shaders;
+  std::optional<OverlayBatch> overlays;  // from the first picture on that has any
   std::optional<ShadowMap> shadowMap;
   BoxBatch boxes;
   std::vector<Surface> floors;
@@ -141,6 +145,7 @@ Renderer::Parts::Parts(Scene drawnScene, int width, int pictureHeight, const Ren
       context(openContext(options.context)),
       gl(*context),
       canvas(gl, width, pictureHeight, options.antialiasing.value_or(scene.film.antialiasing)),
+      shaders(shaderFolder(options)),
       boxes(gl, shaderFolder(options), lightShaders(lighting, shadows)),
       floors(surfacesOf(scene, extent, materials)),
       surfaces(gl, shaderFolder(options), lightShaders(lighting, shadows), floors, tileSize(extent)),
@@ -213,6 +218,14 @@ void Renderer::Parts::drawPicture() {
   canvas.finish();
 }
 
+void Renderer::Parts::drawOver(Picture& picture, const OverlayShapes& shapes) {
+  if (!overlays) {
+    overlays.emplace(gl, shaders, picture.width, picture.height);
+  }
+  overlays->drawOver(picture, shapes);
+  ++figures.overlayPasses;
+}
+
 Renderer::Renderer(const Scene& scene, int width, int height, const RenderOptions& options)
     : parts_(std::make_unique<Parts>(scene, width, height, options)) {}
 
@@ -253,6 +266,14 @@ Picture Renderer::draw(const Shot& shot) {
   parts.figures.readSeconds += secondsSince(drawnAt);
   ++parts.figures.frames;
   return picture;
+}
+
+void Renderer::drawOver(Picture& picture, const Camera& camera, const OverlaySource& overlay) {
+  const Clock::time_point begun = Clock::now();
+  parts_->context->makeCurrent();
+  parts_->look(camera);
+  parts_->drawOver(picture, overlay(parts_->view));
+  parts_->figures.drawSeconds += secondsSince(begun);
 }
 
 const std::string& Renderer::rendererName() const { return parts_->gl.description; }

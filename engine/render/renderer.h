@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -8,8 +9,10 @@
 
 #include "core/pose.h"
 #include "image/picture.h"
+#include "render/camera.h"
 #include "render/lighting.h"
 #include "render/materials.h"
+#include "render/overlay_shapes.h"
 #include "render/rendering_backend.h"
 #include "scene/scene.h"
 
@@ -28,9 +31,13 @@ struct RenderOptions {
 struct DrawFigures {
   int frames = 0;
   int shadowPasses = 0;
+  int overlayPasses = 0;
   double drawSeconds = 0;  ///< [s] by the clock, until the last pixel is done
   double readSeconds = 0;  ///< [s] reading back and flipping
 };
+
+/// Shapes to draw over a picture that is seen so.
+using OverlaySource = std::function<OverlayShapes(const View&)>;
 
 /// A picture to be drawn.
 struct Shot {
@@ -55,6 +62,8 @@ class Renderer {
   Picture draw(const Shot& shot);
   /// Seen by the camera that the light is set up by.
   Picture draw(std::span<const Pose> poses);
+  /// What `overlay` gives over a picture of this size, as seen by the camera.
+  void drawOver(Picture& picture, const Camera& camera, const OverlaySource& overlay);
 
   /// GL's renderer and version, such as "llvmpipe (…), OpenGL … Mesa 22.3.6, libOSMesa.so.8".
   const std::string& rendererName() const;

@@ -12,6 +12,7 @@
 #include "physics/method.h"
 #include "physics/world.h"
 #include "scene/frame_rate.h"
+#include "scene/overlay.h"
 #include "scene/shutter.h"
 #include "scene/time_map.h"
 
@@ -113,6 +114,7 @@ struct Scene {
   CameraMove cameraMove;         ///< none where there is no camera
   Film film;
   Look look = Look::kStudio;
+  OverlaySet overlays;  ///< drawn over the film
 };
 
 /// "room-x" for side 0: what the room's walls are called.

@@ -167,6 +167,19 @@ Drag readDrag(const JsonValue& value) {
           .angular = object.number("angular", nonNegativeNumber("N m s"), 0)};
 }
 
+OverlaySet readOverlays(const JsonValue& value) {
+  OverlaySet overlays;
+  const std::vector<std::string_view> names(kOverlayNames.begin(), kOverlayNames.end());
+  for (const JsonValue& each : value.elements("an array of overlays such as [\"energy\"]")) {
+    const auto overlay = static_cast<Overlay>(each.word(names, "overlay"));
+    if (overlays.has(overlay)) {
+      each.fail("each overlay once");
+    }
+    overlays.add(overlay);
+  }
+  return overlays;
+}
+
 // Before all else: another version may have other keys.
 void readVersion(const JsonTree& tree, const JsonValue& root) {
   const JsonNode* const version = root.node().find("careen");
@@ -214,7 +227,7 @@ Scene readShape(const JsonTree& tree) {
   }
   const JsonObject object =
       root.object({"careen", "name", "duration", "gravity", "room", "walls", "boxes", "springs", "drag",
-                   "method", "dt", "tolerance", "camera", "film", "look", "$schema"});
+                   "method", "dt", "tolerance", "camera", "film", "look", "overlays", "$schema"});
   Scene scene;
   scene.text = tree.text();
   if (const std::optional<JsonValue> name = object.find("name")) {
@@ -247,6 +260,9 @@ Scene readShape(const JsonTree& tree) {
   }
   if (const std::optional<JsonValue> look = object.find("look")) {
     scene.look = static_cast<Look>(look->word({kLooks.begin(), kLooks.end()}, "look"));
+  }
+  if (const std::optional<JsonValue> overlays = object.find("overlays")) {
+    scene.overlays = readOverlays(*overlays);
   }
   return scene;
 }

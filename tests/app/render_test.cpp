@@ -96,6 +96,8 @@ TEST_F(Render, refusesWhatCannotBeFilmed) {
                                              {"--frames", "5-2"},
                                              {"--frames", "0-99"},
                                              {"--frames", "x"},
+                                             {"--overlays", "energy,wind"},
+                                             {"--overlays", ""},
                                              {"--rendering-backend", "glx"},
                                              {"--threads", "-1"}}) {
     std::vector<std::string> arguments = {"render", "scene.json", "--out", "film"};
@@ -106,6 +108,25 @@ TEST_F(Render, refusesWhatCannotBeFilmed) {
     EXPECT_NE(ended.err.find("expected"), std::string::npos) << ended.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "film")) << options[1];
   }
+}
+
+TEST_F(Render, drawsTheOverlaysOfTheSceneOrThoseAskedFor) {
+  std::string text = kScene;
+  text.insert(text.rfind('}'), R"(, "overlays": ["velocity"])");
+  folder_.write("explained.json", text);
+  const auto frameOf = [&](const std::vector<std::string>& options, const std::string& out) {
+    std::vector<std::string> arguments = {"render", "--frames", "3", "--out", out};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Ended ended = careen(arguments);
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    return textOf(folder_ / out / "000003.png");
+  };
+  const std::string bare = frameOf({"scene.json"}, "bare");
+  const std::string explained = frameOf({"explained.json"}, "explained");
+  EXPECT_NE(explained, bare);
+  EXPECT_EQ(frameOf({"scene.json", "--overlays", "velocity"}, "asked"), explained);
+  EXPECT_EQ(frameOf({"explained.json", "--overlays", "none"}, "none"), bare);
+  EXPECT_NE(textOf(folder_ / "explained/report.json").find(R"("overlays": "velocity")"), std::string::npos);
 }
 
 TEST_F(Render, drawsWithTheBackendAskedFor) {

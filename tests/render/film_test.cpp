@@ -124,6 +124,19 @@ TEST_F(FilmTest, keysThatLeaveTheCameraNothingToLookAtAreToldBeforeAnyFrame) {
   EXPECT_TRUE(folder_.files().empty());
 }
 
+TEST_F(FilmTest, overlaysAreDrawnOverTheirFrames) {
+  film(filmIn("bare"));
+  settings_.overlays = overlaysNamed("velocity");
+  film(settings_);
+  ASSERT_EQ(files("film"), files("bare"));
+  for (const std::string& name : filmOf(10)) {
+    EXPECT_NE(textOf(folder_ / "film" / name), textOf(folder_ / "bare" / name)) << name;
+  }
+  FilmSettings other = filmIn("film");
+  other.resume = true;
+  EXPECT_NE(errorOf(other).find("overlays velocity there, none now"), std::string::npos) << errorOf(other);
+}
+
 TEST_F(FilmTest, drawsTheFramesAskedFor) {
   settings_.frames = parseFrameRanges("1,4:3");
   EXPECT_EQ(film(settings_).drawn, 3);

@@ -49,6 +49,7 @@ TEST(SceneReader, readsEveryKey) {
   EXPECT_EQ(scene.film.time.keys[2].film, 3);
   EXPECT_EQ(scene.film.time.keys[2].scene, 2.25);
   EXPECT_EQ(scene.film.shutter.text(), "90:4");
+  EXPECT_EQ(scene.overlays.text(), "time,energy");
 }
 
 TEST(SceneReader, readsWalls) {

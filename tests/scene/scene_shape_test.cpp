@@ -48,7 +48,7 @@ const std::vector<json>& replacements() {
     0.0009, 0.001, 100000, 100001, 16384, 16385, 9007199254740993, 179.99999999999997, 180, 180.5,
     "", "x", "a,b", "a\"b", "a\nb", "a\u0001b", "a\u0000b", "a\u001fb", "a\u007fb", "a b", "höhe", "room-x",
     "#123456", "#12345", "#1234567", "#12345g", "123456#", "#ABCDEF", "+z", "-x", "z", "listing1", "Listing1", "exact", "1",
-    [], [0], [null], ["x"], [1, 2], [1.5, 2], [0, 1], [16384, 1], [16385, 1], [0, 0, 0], [0, -0.0, 0], [1, 2, 3],
+    [], [0], [null], ["x"], ["time"], ["time", "time"], [1, 2], [1.5, 2], [0, 1], [16384, 1], [16385, 1], [0, 0, 0], [0, -0.0, 0], [1, 2, 3],
     [0, 0, 1e-300], [1, 2, "3"], [1, 2, null], [1, 2, 1e61], [1e-60, 1, 1], [1e-61, 1, 1], [0, 1, 1], [-1, 1, 1],
     [0, 0, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0.5], [1, 0, 0, true], [1, 2, 3, 4, 5],
     ["+x"], ["+x", "-x"], ["+x", "+x"], ["x", "+x"], ["-x", "+x", "-y", "+y", "-z", "+z"],
@@ -224,7 +224,8 @@ TEST(SceneShape, schemaTellsTheDefaultsOfTheReader) {
                      {"camera", camera},
                      {"film", json::object()}};
   json filled = bare;
-  for (const char* key : {"name", "gravity", "walls", "springs", "method", "dt", "tolerance", "look"}) {
+  for (const char* key :
+       {"name", "gravity", "walls", "springs", "method", "dt", "tolerance", "look", "overlays"}) {
     filled[key] = keys[key]["default"];
   }
   for (const char* key : {"up", "fov_deg"}) {
@@ -245,6 +246,7 @@ TEST(SceneShape, schemaTellsTheDefaultsOfTheReader) {
   EXPECT_EQ(with.tolerance, without.tolerance);
   EXPECT_EQ(with.camera->up, without.camera->up);
   EXPECT_EQ(with.camera->fovDegrees, without.camera->fovDegrees);
+  EXPECT_EQ(with.overlays, without.overlays);
   EXPECT_EQ(with.film.width, without.film.width);
   EXPECT_EQ(with.film.height, without.film.height);
   EXPECT_EQ(with.film.rate, without.film.rate);
@@ -272,6 +274,10 @@ TEST(SceneShape, schemaListsTheMethodsThereAre) {
   EXPECT_EQ(schemaFile()["properties"]["method"]["enum"], json(names));
 }
 
+TEST(SceneShape, schemaListsTheOverlaysThereAre) {
+  EXPECT_EQ(schemaFile()["properties"]["overlays"]["items"]["enum"], json(kOverlayNames));
+}
+
 // ---- What each bad value is told.
 
 struct Bad {
@@ -297,7 +303,7 @@ const std::vector<Bad> kBadValues = {
      R"(found the unknown key "gravitiy" in the scene, expected "gravity")"},
     {R"("gravity")", R"(@"wind")",
      R"(found the unknown key "wind" in the scene, expected one of careen, name, duration, gravity, room, )"
-     "walls, boxes, springs, drag, method, dt, tolerance, camera, film, look, $schema"},
+     "walls, boxes, springs, drag, method, dt, tolerance, camera, film, look, overlays, $schema"},
     {"[0, 0, -9.81]", "@-9.81", "found -9.81 for gravity, expected [x, y, z] [m/s²]"},
     {"[0, 0, -9.81]", "@[0, -9.81]", "found an array of 2 for gravity, expected [x, y, z] [m/s²]"},
     {R"({ "min": [-3, -2, 0], )", "@{ ", "found no min in room, expected that key"},
@@ -384,6 +390,12 @@ const std::vector<Bad> kBadValues = {
     {"0.001", "@0", "found 0 for dt, expected a number above 0 [s]"},
     {"0.001", "@-0.001", "found -0.001 for dt, expected a number above 0 [s]"},
     {"1e-9", "@0", "found 0 for tolerance, expected a number above 0"},
+    {R"(["time", "energy"])", R"(["time", @"enrgy"])",
+     R"(found the unknown overlay "enrgy", expected one of contacts, impulses, angular-momentum, spin-axis, trail, velocity, names, time, energy)"},
+    {R"(["time", "energy"])", R"(["time", @"time"])",
+     R"(found "time" for overlays[1], expected each overlay once)"},
+    {R"(["time", "energy"])", R"(@"time")",
+     R"(found "time" for overlays, expected an array of overlays such as ["energy"])"},
     {R"("clay")", R"(@"mud")", R"(found the unknown look "mud", expected one of studio, blueprint, clay)"},
 };
 

@@ -37,7 +37,8 @@ inline const std::string kEveryKey = R"({
               "orbit": { "deg_per_s": 20 }, "follow": "crate" },
   "film": { "size": [640, 360], "fps": 23.976, "antialiasing": "4x", "time": [[0, 0.75], [1, 0.75], [3, 2.25]],
             "shutter_deg": 90, "shutter_samples": 4 },
-  "look": "clay"
+  "look": "clay",
+  "overlays": ["time", "energy"]
 })";
 
 /// The same with one piece of text, which must be there exactly once, in place of another.

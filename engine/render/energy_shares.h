@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+#include "trajectory/trajectory.h"
+
+namespace careen {
+
+/// What a scene's energy is made of at a moment [J].
+struct EnergyShares {
+  double translation = 0;  ///< Σ ½ M v²
+  double rotation = 0;     ///< Σ ½ ω·L
+  double potential = 0;    ///< Σ −M g·(x − x₀), see EnergyBook
+  double springs = 0;      ///< Σ ½ k (length − rest)²
+  double sum() const { return translation + rotation + potential + springs; }
+};
+
+/// The account of a run's energy. Each box's potential is counted from x₀, the lowest place that its centre
+/// reaches in the run, so that no share is ever negative: in flight the lowest is at one of the ends.
+class EnergyBook {
+ public:
+  EnergyBook(const Trajectory& trajectory, const Scene& scene);
+
+  /// One state for each box of the scene, at the same moment.
+  EnergyShares sharesOf(std::span<const BodyState> states) const;
+  double atStart() const { return atStart_; }
+  /// The largest sum found: not much above the start, but for what adds energy by its errors.
+  double largest() const { return largest_; }
+  bool hasSprings() const { return !springs_.empty(); }
+
+ private:
+  Vec3 gravity_;
+  std::vector<Spring> springs_;
+  std::vector<MassProperties> masses_;
+  std::vector<double> lowest_;  // [J/kg] least −g·x of each box
+  double atStart_ = 0;
+  double largest_ = 0;
+};
+
+/// One for each box, at a time within the run [s].
+std::vector<BodyState> statesAt(const Trajectory& trajectory, double time);
+
+}  // namespace careen

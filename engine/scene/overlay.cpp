@@ -1,0 +1,54 @@
+#include "scene/overlay.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+constexpr std::string_view kNone = "none";
+
+[[noreturn]] void failUnknown(std::string_view found) {
+  std::string known(kNone);
+  for (const std::string_view name : kOverlayNames) {
+    known.append(", ").append(name);
+  }
+  throw InputError("found '" + std::string(found) + "', expected one or more of: " + known);
+}
+
+}  // namespace
+
+bool OverlaySet::any() const {
+  return std::any_of(shown_.begin(), shown_.end(), [](bool shown) { return shown; });
+}
+
+std::string OverlaySet::text() const {
+  std::string text;
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    if (shown_[i]) {
+      text.append(text.empty() ? "" : ",").append(kOverlayNames.at(i));
+    }
+  }
+  return text.empty() ? std::string(kNone) : text;
+}
+
+OverlaySet overlaysNamed(std::string_view text) {
+  OverlaySet set;
+  if (text == kNone) {
+    return set;
+  }
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    const std::string_view name = text.substr(start, end - start);
+    const auto* const at = std::find(kOverlayNames.begin(), kOverlayNames.end(), name);
+    if (at == kOverlayNames.end()) {
+      failUnknown(name);
+    }
+    set.add(static_cast<Overlay>(at - kOverlayNames.begin()));
+    start = end + 1;
+  }
+  return set;
+}
+
+}  // namespace careen
