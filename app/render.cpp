@@ -18,6 +18,7 @@
 #include "core/file.h"
 #include "progress.h"
 #include "render/film.h"
+#include "render/film_folder.h"
 #include "render/frame_range.h"
 #include "report.h"
 #include "run.h"
@@ -37,6 +38,10 @@ struct FilmOptions {
   std::optional<std::string> strobe;
   std::optional<std::filesystem::path> video;
   std::optional<std::string> overlays;
+  std::string codec;
+  std::string quality = "good";
+  std::optional<int> jobs;
+  std::string log = "text";
   bool resume = false;
   ContextOptions context;
   std::string backend = "auto";
@@ -93,6 +98,38 @@ OverlaySet parseOverlays(const std::string& text) {
   }
 }
 
+std::optional<VideoSettings> videoOf(const FilmOptions& options) {
+  if (!options.video) {
+    return std::nullopt;
+  }
+  VideoSettings video{.path = *options.video, .codec = options.codec};
+  try {
+    video.quality = videoQualityNamed(options.quality);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--quality: ") + error.what());
+  }
+  return video;
+}
+
+// What can be found wrong before anything is simulated.
+void check(const FilmOptions& options) {
+  const auto fail = [](const char* option, const std::string& found, const std::string& expected) {
+    throw InputError(std::string(option) + ": found " + found + ", expected " + expected);
+  };
+  if (options.context.threads && *options.context.threads < 0) {
+    fail("--threads", std::to_string(*options.context.threads), "0 or more");
+  }
+  if (options.jobs && (*options.jobs < 1 || *options.jobs > kMostJobs)) {
+    fail("--jobs", std::to_string(*options.jobs), "1 to " + std::to_string(kMostJobs));
+  }
+  if (options.log != "text" && options.log != "json") {
+    fail("--log", "'" + options.log + "'", "text or json");
+  }
+  if (const std::optional<VideoSettings> video = videoOf(options)) {
+    checkVideo(*video);
+  }
+}
+
 std::vector<FrameRange> framesIn(const std::string& text) {
   return text.empty() ? std::vector<FrameRange>() : parseFrameRanges(text);
 }
@@ -108,7 +145,14 @@ FilmSettings settingsOf(const FilmOptions& options, const Run& run) {
   settings.shutter = options.shutter ? shutterOf(*options.shutter) : film.shutter;
   settings.frames = framesIn(options.frames);
   settings.overlays = options.overlays ? parseOverlays(*options.overlays) : run.scene.overlays;
-  settings.video = options.video;
+  settings.video = videoOf(options);
+  if (settings.video) {
+    settings.video->rateNumerator = settings.rate.numerator;
+    settings.video->rateDenominator = settings.rate.denominator;
+    checkVideo(*settings.video);
+  }
+  settings.jobs = options.jobs;
+  settings.program = "careen " CAREEN_VERSION;
   settings.resume = options.resume;
   settings.render.context = options.context;
   return settings;
@@ -121,6 +165,7 @@ void writeReport(const Run& run, const FilmSettings& settings, const FilmFigures
   report["seconds"]["read"] = figures.readSeconds;
   report["seconds"]["encode"] = figures.encodeSeconds;
   report["core_seconds"] = figures.coreSeconds;
+  report["jobs"] = figures.jobs;
   report["frames"] = figures.drawn + figures.skipped;
   report["frames_drawn"] = figures.drawn;
   report["size"] = {settings.width, settings.height};
@@ -130,20 +175,30 @@ void writeReport(const Run& run, const FilmSettings& settings, const FilmFigures
   writeFile(settings.folder / "report.json", report.dump(2) + "\n");
 }
 
-void printFilm(const FilmSettings& settings, const FilmFigures& figures) {
-  std::cout << "drawing      " << figures.drawSeconds << " s, reading back " << figures.readSeconds
-            << " s, encoding " << figures.encodeSeconds << " s, " << figures.coreSeconds
-            << " s of all cores\n";
+void printFrame(const FilmSettings& settings, const FrameFigures& frame) {
+  const nlohmann::ordered_json line = {{"frame", frame.frame},
+                                       {"time", frame.time},
+                                       {"file", (settings.folder / frameFileName(frame.frame)).string()},
+                                       {"draw", frame.drawSeconds},
+                                       {"read", frame.readSeconds},
+                                       {"encode", frame.encodeSeconds}};
+  std::cout << line.dump() << std::endl;  // at once: somebody may be waiting for it
+}
+
+void printFilm(std::ostream& out, const FilmSettings& settings, const FilmFigures& figures) {
+  out << "drawing      " << figures.drawSeconds << " s, reading back " << figures.readSeconds
+      << " s, encoding " << figures.encodeSeconds << " s, " << figures.coreSeconds << " s of all cores, "
+      << figures.jobs << (figures.jobs == 1 ? " job\n" : " jobs\n");
   if (!figures.renderer.empty()) {
-    std::cout << "renderer     " << figures.renderer << '\n';
+    out << "renderer     " << figures.renderer << '\n';
   }
-  std::cout << "frames       " << figures.drawn + figures.skipped << " at " << settings.rate.text()
-            << " per second, " << settings.width << 'x' << settings.height << ", " << figures.skipped
-            << " of them were there already: "
-            << std::filesystem::absolute(settings.folder).lexically_normal().string() << '\n';
+  out << "frames       " << figures.drawn + figures.skipped << " at " << settings.rate.text()
+      << " per second, " << settings.width << 'x' << settings.height << ", " << figures.skipped
+      << " of them were there already: "
+      << std::filesystem::absolute(settings.folder).lexically_normal().string() << '\n';
   if (settings.video) {
-    std::cout << "film         " << std::filesystem::absolute(*settings.video).lexically_normal().string()
-              << '\n';
+    out << "film         " << std::filesystem::absolute(settings.video->path).lexically_normal().string()
+        << '\n';
   }
 }
 
@@ -166,9 +221,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (options.source.empty()) {
     options.source = defaultScene();
   }
-  if (options.context.threads && *options.context.threads < 0) {
-    throw InputError("--threads: found " + std::to_string(*options.context.threads) + ", expected 0 or more");
-  }
+  check(options);
   options.context.backend = parseBackend(options.backend);
   Run run = loadRun(options.source, options.overrides, stop);
   const FilmSettings settings = settingsOf(options, run);
@@ -177,13 +230,21 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
                      {.path = options.folder, .moment = options.still.value_or(0), .strobe = options.strobe});
   }
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0);
+  const bool logsFrames = options.log == "json";
   const FilmFigures figures = renderFilm(
-      run.trajectory, run.scene, settings, [&progress](const FilmProgress& now) { progress.update(now); },
+      run.trajectory, run.scene, settings,
+      [&](const FilmProgress& now) {
+        progress.update(now);
+        if (logsFrames) {
+          printFrame(settings, now.frame);
+        }
+      },
       stop);
   estimate(run, options.estimate, stopwatch.seconds(), stop);
   writeReport(run, settings, figures, stopwatch.seconds());
-  printSummary(std::cout, run, stopwatch.seconds());
-  printFilm(settings, figures);
+  std::ostream& summary = logsFrames ? std::cerr : std::cout;
+  printSummary(summary, run, stopwatch.seconds());
+  printFilm(summary, settings, figures);
   return ExitCode::kDone;
 }
 
@@ -205,10 +266,19 @@ void addRender(CLI::App& commandLine, Command& chosen) {
   command->add_option("--shutter", options->shutter,
                       "Motion blur in place of the scene's: how long the shutter is open, 360 from frame to "
                       "frame, and how many moments are averaged, such as 180:8; 0: none");
-  CLI::Option* video =
-      command->add_option("--video", options->video, "Film to make of the frames, by ffmpeg (.mp4)");
+  CLI::Option* video = command->add_option(
+      "--video", options->video, "Film to make of the frames, by ffmpeg: .mp4, .mkv, .webm, .webp or .gif");
+  command
+      ->add_option("--codec", options->codec,
+                   "h264, vp9 or av1 (default: h264 for .mp4 and .mkv, vp9 for .webm)")
+      ->needs(video);
+  command->add_option("--quality", options->quality, "The video's: draft, good or best (default: good)")
+      ->needs(video);
+  command->add_option("--jobs", options->jobs,
+                      "Frames drawn at once, each in a process of its own (default: one for each core)");
   CLI::Option* resume =
-      command->add_flag("--resume", options->resume, "Keep the frames that are there and draw the others");
+      command->add_flag("--resume", options->resume,
+                        "Keep the frames of the same film that are there and whole, and draw the others");
   CLI::Option* still = command
                            ->add_option("--still", options->still,
                                         "One picture, of this moment of the film [s], in place of the film")
@@ -226,7 +296,11 @@ void addRender(CLI::App& commandLine, Command& chosen) {
   command->add_flag("--list-rendering-backends", options->listBackends,
                     "Tell which of them are available, and make no film");
   command->add_option("--threads", options->context.threads,
-                      "Threads that fill pixels; 0: none but the main one");
+                      "Threads that fill pixels for each job; 0: none but its main one (default: what cores "
+                      "the jobs leave)");
+  command->add_option("--log", options->log,
+                      "text, or json: a line for each frame drawn on the standard output, and nothing else "
+                      "there (default: text)");
   options->overrides.addAllowOverlapTo(*command);
   options->estimate.addTo(*command);
   command->callback([options, &chosen] {

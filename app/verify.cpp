@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -8,9 +9,10 @@
 
 #include "commands.h"
 #include "core/error.h"
-#include "image/frame_writer.h"
 #include "render/film_faults.h"
+#include "render/film_folder.h"
 #include "render/film_manifest.h"
+#include "render/frame_range.h"
 
 namespace careen {
 namespace {
@@ -22,10 +24,15 @@ ExitCode verifyCommand(const std::filesystem::path& folder) {
                      ", expected a folder that 'careen render' wrote");
   }
   const std::vector<FrameFault> faults = findFaults(folder, *manifest);
+  std::vector<std::int64_t> frames;
   for (const FrameFault& fault : faults) {
     std::cout << (folder / frameFileName(fault.frame)).string() << ": " << fault.what << '\n';
+    frames.push_back(fault.frame);
   }
   std::cout << manifest->frames.size() << " frames, " << faults.size() << " missing or broken\n";
+  if (!frames.empty()) {  // the last line is what draws them again
+    std::cout << "--frames " << rangesText(frames) << '\n';
+  }
   return faults.empty() ? ExitCode::kDone : ExitCode::kDifferent;
 }
 

@@ -3,13 +3,12 @@
 #include <libdeflate.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
 #include <limits>
 #include <memory>
 #include <span>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -177,18 +176,15 @@ void writePng(const std::filesystem::path& path, const Picture& picture) {
   writeFile(path, encodePng(picture));
 }
 
-bool looksWhole(const std::filesystem::path& path, int width, int height) {
-  std::ifstream stream(path, std::ios::binary);
-  std::array<char, kHeaderBytes> head{};
-  std::array<char, kEnd.size()> tail{};
-  stream.read(head.data(), head.size());
-  stream.seekg(-static_cast<std::streamoff>(tail.size()), std::ios::end);
-  stream.read(tail.data(), tail.size());
-  const std::string_view header(head.data(), head.size());
-  return stream.good() && header.starts_with(kSignature) &&
-         std::cmp_equal(bigEndian(header.substr(16)), width) &&
-         std::cmp_equal(bigEndian(header.substr(20)), height) &&
-         std::string_view(tail.data(), tail.size()) == kEnd;
+bool isWholePng(const std::filesystem::path& path, int width, int height) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) {
+    return false;
+  }
+  const std::string bytes = readFile(path);
+  return faultOf(bytes) == nullptr && bytes.size() >= kHeaderBytes &&
+         std::cmp_equal(bigEndian(std::string_view(bytes).substr(16)), width) &&
+         std::cmp_equal(bigEndian(std::string_view(bytes).substr(20)), height);
 }
 
 }  // namespace careen

@@ -20,7 +20,8 @@ Picture readPng(const std::filesystem::path& path);
 /// The file appears whole or not at all; MachineError if it cannot be written.
 void writePng(const std::filesystem::path& path, const Picture& picture);
 
-/// Whether the file begins and ends as a PNG of this size does: quick, its pixels are not looked at.
-bool looksWhole(const std::filesystem::path& path, int width, int height);
+/// Whether the file is a PNG of this size with nothing missing and every checksum right: quick, for its
+/// pixels are not unpacked.
+bool isWholePng(const std::filesystem::path& path, int width, int height);
 
 }  // namespace careen

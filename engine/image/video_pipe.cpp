@@ -42,34 +42,6 @@ void removeStale(const std::filesystem::path& path) {
   }
 }
 
-std::vector<std::string> ffmpegCommand(const VideoSettings& settings, const std::filesystem::path& output) {
-  const std::string size = std::to_string(settings.width) + "x" + std::to_string(settings.height);
-  const std::string rate =
-      std::to_string(settings.rateNumerator) + "/" + std::to_string(settings.rateDenominator);
-  // Chroma is halved, so sizes are made even; players take a film of this size to be BT.709.
-  const std::string filter =
-      "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
-  return {"ffmpeg",     "-nostdin",
-          "-loglevel",  "error",
-          "-y",         "-f",
-          "rawvideo",   "-pix_fmt",
-          "rgb24",      "-video_size",
-          size,         "-framerate",
-          rate,         "-i",
-          "pipe:0",     "-vf",
-          filter,       "-c:v",
-          "libx264",    "-preset",
-          "veryfast",   "-crf",
-          "18",         "-colorspace",
-          "bt709",      "-color_primaries",
-          "bt709",      "-color_trc",
-          "bt709",      "-color_range",
-          "tv",         "-fflags",
-          "+bitexact",  "-movflags",
-          "+faststart", "-f",
-          "mp4",        "file:" + output.string()};
-}
-
 void closeAndForget(int& descriptor) {
   if (descriptor >= 0) {
     close(std::exchange(descriptor, -1));
@@ -79,6 +51,7 @@ void closeAndForget(int& descriptor) {
 }  // namespace
 
 VideoPipe::VideoPipe(VideoSettings settings) : settings_(std::move(settings)) {
+  checkVideo(settings_);
   removeStale(settings_.path);
   partial_ = settings_.path.parent_path() / ("." + settings_.path.filename().string() + "." +
                                              std::to_string(getpid()) + std::string(kPartialEnding));
@@ -115,18 +88,16 @@ void VideoPipe::start() {
 
 VideoPipe::~VideoPipe() { undo(); }
 
-void VideoPipe::hangUp() { shutdown(frames_, SHUT_RDWR); }
-
-void VideoPipe::write(const Picture& picture) {
-  if (picture.width != settings_.width || picture.height != settings_.height) {
-    throw InputError(settings_.path.string() + ": a frame of another size than the video's");
-  }
-  std::size_t sent = 0;
-  while (sent < picture.rgb.size()) {
-    const ssize_t count = send(frames_, picture.rgb.data() + sent, picture.rgb.size() - sent, MSG_NOSIGNAL);
+std::size_t VideoPipe::write(std::span<const std::uint8_t> bytes) {
+  while (true) {
+    const ssize_t count = send(frames_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (count >= 0) {
-      sent += static_cast<std::size_t>(count);
-    } else if (errno != EINTR) {
+      return static_cast<std::size_t>(count);
+    }
+    if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      return 0;
+    }
+    if (errno != EINTR) {
       fail("ffmpeg ended before the video did");
     }
   }

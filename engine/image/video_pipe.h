@@ -1,24 +1,17 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 
-#include "image/picture.h"
+#include "image/video_format.h"
 
 namespace careen {
 
-struct VideoSettings {
-  std::filesystem::path path;
-  int width = 0;                    ///< [px] odd sizes get one more column or row of black
-  int height = 0;                   ///< [px]
-  std::int64_t rateNumerator = 30;  ///< frames per second, exactly: numerator / denominator
-  std::int64_t rateDenominator = 1;
-};
-
-/// Hands frames to ffmpeg, which makes an H.264 film (yuv420p, playable while it loads). The film appears at
-/// its path whole, with finish(), or not at all. MachineError if ffmpeg is missing or fails, with what it
-/// said.
+/// Hands frames to ffmpeg, which makes a film of them. The film appears at its path whole, with finish(), or
+/// not at all. MachineError if ffmpeg is missing or fails, with what it said.
 class VideoPipe {
  public:
   explicit VideoPipe(VideoSettings settings);
@@ -29,10 +22,12 @@ class VideoPipe {
   VideoPipe(VideoPipe&&) = delete;
   VideoPipe& operator=(VideoPipe&&) = delete;
 
-  void write(const Picture& picture);
+  /// Hands over as many of these bytes as ffmpeg takes without waiting, and says how many. Pictures follow
+  /// each other without a gap: 8-bit RGB, rows from the top.
+  std::size_t write(std::span<const std::uint8_t> bytes);
+  /// For poll: writable when ffmpeg takes more.
+  int descriptor() const { return frames_; }
   void finish();
-  /// Makes a write at work in another thread fail, so that nothing waits for ffmpeg any more.
-  void hangUp();
 
  private:
   void start();

@@ -5,8 +5,8 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "image/frame_writer.h"
 #include "image/png.h"
+#include "render/film_folder.h"
 
 namespace careen {
 namespace {

@@ -13,7 +13,6 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "image/frame_writer.h"
 #include "image/png.h"
 
 namespace careen {
@@ -60,6 +59,12 @@ void removeAll(const fs::path& folder, bool (*isMeant)(std::string_view)) {
 
 }  // namespace
 
+std::string frameFileName(std::int64_t frame) {
+  constexpr std::size_t kDigits = 6;
+  const std::string number = std::to_string(frame);
+  return std::string(kDigits - std::min(kDigits, number.size()), '0') + number + ".png";
+}
+
 FilmFolder::FilmFolder(fs::path path) : path_(std::move(path)) {
   std::error_code error;
   made_ = fs::create_directories(path_, error);
@@ -75,6 +80,10 @@ FilmFolder::FilmFolder(fs::path path) : path_(std::move(path)) {
 }
 
 FilmFolder::~FilmFolder() {
+  try {
+    removeAll(path_, isPartial);
+  } catch (const std::exception&) {  // the next film's to remove
+  }
   if (descriptor_ >= 0) {
     close(descriptor_);
   }
@@ -97,7 +106,7 @@ void FilmFolder::lock() {
 std::vector<std::int64_t> FilmFolder::missing(const FilmManifest& asked) const {
   std::vector<std::int64_t> frames;
   std::copy_if(asked.frames.begin(), asked.frames.end(), std::back_inserter(frames), [&](std::int64_t frame) {
-    return !looksWhole(path_ / frameFileName(frame), asked.width, asked.height);
+    return !isWholePng(path_ / frameFileName(frame), asked.width, asked.height);
   });
   return frames;
 }
@@ -105,6 +114,9 @@ std::vector<std::int64_t> FilmFolder::missing(const FilmManifest& asked) const {
 void FilmFolder::begin(const FilmManifest& asked, bool resume) {
   FilmManifest manifest = asked;
   if (manifest_ && resume) {
+    if (manifest.renderer.empty()) {
+      manifest.renderer = manifest_->renderer;
+    }
     std::vector<std::int64_t> frames;
     std::set_union(manifest_->frames.begin(), manifest_->frames.end(), asked.frames.begin(),
                    asked.frames.end(), std::back_inserter(frames));

@@ -3,14 +3,19 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "render/film_manifest.h"
 
 namespace careen {
 
+/// Name of a frame's file: 000000.png for frame 0.
+std::string frameFileName(std::int64_t frame);
+
 /// A folder that a film is being written into: made if it is not there, held so that no other process writes
-/// to it, and gone again if nothing was written. Only what careen wrote is ever removed.
+/// to it, and gone again if nothing was written. Only what careen wrote is ever removed; what was being
+/// written when a process died goes with this object.
 class FilmFolder {
  public:
   /// MachineError if the folder cannot be made, InputError if another process holds it or if it has PNG files

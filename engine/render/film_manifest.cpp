@@ -20,6 +20,8 @@ FilmManifest fromJson(const nlohmann::json& json) {
     throw InputError("another version");
   }
   FilmManifest manifest;
+  manifest.program = json.value("program", "");  // films of old have neither
+  manifest.renderer = json.value("renderer", "");
   manifest.sceneHash = json.at("scene_hash").get<std::string>();
   manifest.stateHash = json.at("state_hash").get<std::string>();
   manifest.width = json.at("size").at(0).get<int>();
@@ -50,6 +52,8 @@ std::optional<FilmManifest> readManifest(const std::filesystem::path& folder) {
 void writeManifest(const std::filesystem::path& folder, const FilmManifest& manifest) {
   const nlohmann::ordered_json json = {
       {"careen_film", kVersion},
+      {"program", manifest.program},
+      {"renderer", manifest.renderer},
       {"scene_hash", manifest.sceneHash},
       {"state_hash", manifest.stateHash},
       {"size", {manifest.width, manifest.height}},
@@ -71,7 +75,11 @@ std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
       compare("size", sizeText(there), sizeText(asked)) +
       compare("fps", there.rate.text(), asked.rate.text()) +
       compare("shutter", there.shutter, asked.shutter) + compare("overlays", there.overlays, asked.overlays) +
-      compare("frames in all", std::to_string(there.frameCount), std::to_string(asked.frameCount));
+      compare("frames in all", std::to_string(there.frameCount), std::to_string(asked.frameCount)) +
+      compare("program", there.program, asked.program) +
+      (there.renderer.empty() || asked.renderer.empty()
+           ? ""
+           : compare("renderer", there.renderer, asked.renderer));
   return text.empty() ? text : text.substr(0, text.size() - 2);
 }
 

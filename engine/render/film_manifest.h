@@ -12,6 +12,8 @@ namespace careen {
 
 /// What a folder of frames is a film of; kept beside them as film.json.
 struct FilmManifest {
+  std::string program;   ///< name and version of what draws it
+  std::string renderer;  ///< GL's; empty: nothing was drawn yet
   std::string sceneHash;
   std::string stateHash;  ///< of the run's end
   int width = 0;          ///< [px]
@@ -29,7 +31,8 @@ inline constexpr const char* kManifestName = "film.json";
 std::optional<FilmManifest> readManifest(const std::filesystem::path& folder);
 void writeManifest(const std::filesystem::path& folder, const FilmManifest& manifest);
 
-/// In what two films differ, frames asked for aside: empty if they are the same film.
+/// In what two films differ, frames asked for aside: empty if they are the same film. Renderers differ only
+/// where both are known.
 std::string differenceOf(const FilmManifest& there, const FilmManifest& asked);
 
 }  // namespace careen

@@ -13,7 +13,8 @@
 namespace careen {
 namespace {
 
-constexpr int kMostThreads = 64;
+bool opened = false;
+
 constexpr std::span kSingle = std::span(kRenderingBackends).subspan(1);  // all but auto
 
 // Read by Mesa when a library of its makes the first context.
@@ -66,14 +67,18 @@ RenderingBackend renderingBackendNamed(std::string_view name) {
 
 std::unique_ptr<GlContext> openContext(const ContextOptions& options) {
   prepareEnvironment(options.threads);
+  opened = true;
   if (options.backend == RenderingBackend::kAuto) {
     return openFirst(options);
   }
   return open(options.backend, options);
 }
 
+bool glWasOpened() { return opened; }
+
 std::vector<BackendFound> findRenderingBackends(const ContextOptions& options) {
   prepareEnvironment(options.threads);
+  opened = true;
   std::vector<BackendFound> found;
   for (const NamedBackend& each : kSingle) {
     try {

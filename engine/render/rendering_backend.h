@@ -25,10 +25,13 @@ inline constexpr std::array kRenderingBackends = {NamedBackend{RenderingBackend:
 /// InputError, naming those there are, for a name that none has.
 RenderingBackend renderingBackendNamed(std::string_view name);
 
+inline constexpr int kMostThreads = 64;
+
 struct ContextOptions {
   RenderingBackend backend = RenderingBackend::kAuto;
-  /// Threads that fill pixels where Mesa draws on the processor, 0: all on the calling thread; absent: Mesa's
-  /// choice, one for each core. The first context of a process decides for all of the same library.
+  /// At most kMostThreads threads that fill pixels where Mesa draws on the processor, 0: all on the calling
+  /// thread; absent: Mesa's choice, one for each core. The first context of a process decides for all of the
+  /// same library.
   std::optional<int> threads;
   std::string osMesaLibrary;  ///< shared library to load; empty: the usual one
   std::string eglLibrary;     ///< likewise
@@ -37,6 +40,9 @@ struct ContextOptions {
 /// Opens a context and makes it current. MachineError tells what is missing and what to install, of each
 /// library that was tried.
 std::unique_ptr<GlContext> openContext(const ContextOptions& options);
+
+/// Whether this process has asked for a context before. GL's threads are not forked with it.
+bool glWasOpened();
 
 struct BackendFound {
   std::string_view name;

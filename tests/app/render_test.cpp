@@ -1,8 +1,11 @@
 // Films as their user meets them. Small pictures: what is tested is the path, not the look.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,6 +21,21 @@ const std::string kScene = R"({
                "velocity": [1, 0, 2], "angular_velocity": [1, 2, 3] } ],
   "film": { "size": [64, 48], "fps": 10 }
 })";
+
+// In the order they were made in.
+std::vector<pid_t> childrenOf(pid_t parent) {
+  std::vector<pid_t> children;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    const std::string status = textOf(entry.path() / "status");
+    if (name.find_first_not_of("0123456789") == std::string::npos &&
+        status.find("\nPPid:\t" + std::to_string(parent) + "\n") != std::string::npos) {
+      children.push_back(std::stoi(name));
+    }
+  }
+  std::sort(children.begin(), children.end());
+  return children;
+}
 
 class Render : public testing::Test {
  protected:
@@ -46,6 +64,16 @@ class Render : public testing::Test {
     ASSERT_EQ(framesIn(a), framesIn(b));
     for (const std::string& frame : framesIn(a)) {
       EXPECT_EQ(textOf(folder_ / a / frame), textOf(folder_ / b / frame)) << frame;
+    }
+  }
+
+  /// Makes a film of a hundred frames.
+  static std::vector<std::string> longFilm(const std::string& jobs) {
+    return {CAREEN_BINARY, "render", "scene.json", "--out", "film", "--fps", "100", "--jobs", jobs};
+  }
+  void waitUntilInTheMiddle() const {
+    for (int tries = 0; tries < 1000 && !std::filesystem::exists(folder_ / "film/000005.png"); ++tries) {
+      usleep(5'000);
     }
   }
 
@@ -99,7 +127,13 @@ TEST_F(Render, refusesWhatCannotBeFilmed) {
                                              {"--overlays", "energy,wind"},
                                              {"--overlays", ""},
                                              {"--rendering-backend", "glx"},
-                                             {"--threads", "-1"}}) {
+                                             {"--threads", "-1"},
+                                             {"--jobs", "0"},
+                                             {"--log", "xml"},
+                                             {"--video", "film.avi"},
+                                             {"--video=film.webm", "--codec=h264"},
+                                             {"--video=film.gif", "--fps=60"},
+                                             {"--video=film.mp4", "--quality=ultra"}}) {
     std::vector<std::string> arguments = {"render", "scene.json", "--out", "film"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const Ended ended = careen(arguments);
@@ -219,16 +253,22 @@ TEST_F(Render, fullDiskEndsTheFilmWithNothingHalfWritten) {
 
 TEST_F(Render, interruptedFilmIsCompletedByASecondRun) {
   ASSERT_EQ(careen({"render", "scene.json", "--out", "whole", "--fps", "100"}).exitCode, 0);
-  for (const int signal : {SIGINT, SIGTERM}) {
+  struct Case {
+    int signal;
+    std::string jobs;
+  };
+  for (const Case& each : {Case{SIGINT, "1"}, {SIGTERM, "1"}, {SIGINT, "3"}, {SIGTERM, "3"}}) {
     std::filesystem::remove_all(folder_ / "film");
-    Process process({CAREEN_BINARY, "render", "scene.json", "--out", "film", "--fps", "100"}, folder_.path());
-    // Until it is in the middle of it.
-    for (int tries = 0; tries < 1000 && !std::filesystem::exists(folder_ / "film/000005.png"); ++tries) {
-      usleep(5'000);
-    }
-    process.send(signal);
+    Process process(longFilm(each.jobs), folder_.path());
+    waitUntilInTheMiddle();
+    const std::vector<pid_t> workers = childrenOf(process.id());
+    EXPECT_EQ(std::to_string(workers.size()), each.jobs);
+    process.send(each.signal);
     const Ended ended = process.wait();
-    EXPECT_EQ(ended.signal, signal) << ended.exitCode << ended.err;
+    EXPECT_EQ(ended.signal, each.signal) << ended.exitCode << ended.err;
+    for (const pid_t worker : workers) {
+      EXPECT_NE(kill(worker, 0), 0);
+    }
     EXPECT_FALSE(hasPartials());
     const std::size_t written = framesIn("film").size();
     EXPECT_GT(written, 0U);
@@ -240,6 +280,62 @@ TEST_F(Render, interruptedFilmIsCompletedByASecondRun) {
     expectSameFilm("film", "whole");
     EXPECT_EQ(careen({"verify", "film"}).exitCode, 0);
   }
+}
+
+TEST_F(Render, killedFilmIsCompletedByASecondRun) {
+  ASSERT_EQ(careen({"render", "scene.json", "--out", "whole", "--fps", "100"}).exitCode, 0);
+  Process process(longFilm("3"), folder_.path());
+  waitUntilInTheMiddle();
+  process.send(SIGKILL);
+  EXPECT_EQ(process.wait().signal, SIGKILL);
+  usleep(100'000);  // its workers are killed by the system then
+  const Ended second = careen({"render", "scene.json", "--out", "film", "--fps", "100", "--resume"});
+  ASSERT_EQ(second.exitCode, 0) << second.err;
+  EXPECT_FALSE(hasPartials());
+  expectSameFilm("film", "whole");
+}
+
+TEST_F(Render, workerThatDiesEndsTheFilmWithNothingHalfWritten) {
+  std::vector<std::string> command = longFilm("3");
+  command.insert(command.end(), {"--video", "film.mp4"});
+  Process process(command, folder_.path());
+  waitUntilInTheMiddle();
+  std::vector<pid_t> children = childrenOf(process.id());
+  ASSERT_EQ(children.size(), 4U);  // ffmpeg is the fourth, started last
+  kill(children[1], SIGKILL);
+  const Ended ended = process.wait();
+  EXPECT_EQ(ended.exitCode, 3) << ended.err;
+  EXPECT_NE(ended.err.find("a process that draws frames died: killed by signal 9 (Killed)"),
+            std::string::npos)
+      << ended.err;
+  for (const pid_t child : children) {
+    EXPECT_NE(kill(child, 0), 0);
+  }
+  EXPECT_FALSE(hasPartials());
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "film.mp4"));
+  for (const std::string& frame : framesIn("film")) {
+    EXPECT_TRUE(textOf(folder_ / "film" / frame).ends_with("IEND\xae\x42\x60\x82")) << frame;
+  }
+}
+
+TEST_F(Render, logsEveryFrameDrawnAsALineOfJson) {
+  ASSERT_EQ(careen({"render", "scene.json", "--out", "film", "--frames", "0-1"}).exitCode, 0);
+  const Ended ended = careen({"render", "scene.json", "--out", "film", "--resume", "--log", "json"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.err.find("state hash"), std::string::npos) << ended.err;
+  std::istringstream lines(ended.out);
+  std::vector<int> frames;
+  for (std::string line; std::getline(lines, line);) {
+    const nlohmann::json frame = nlohmann::json::parse(line);
+    frames.push_back(frame["frame"]);
+    EXPECT_EQ(frame["time"], frames.back() / 10.0);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / std::string(frame["file"]))) << line;
+    for (const char* key : {"draw", "read", "encode"}) {
+      EXPECT_GT(frame[key], 0) << line;
+    }
+  }
+  std::sort(frames.begin(), frames.end());
+  EXPECT_EQ(frames, (std::vector<int>{2, 3, 4, 5, 6, 7, 8, 9}));
 }
 
 TEST_F(Render, resumeDoesNotMixTwoFilms) {
@@ -258,6 +354,7 @@ TEST_F(Render, verifyFindsAMissingAndABrokenFrame) {
   EXPECT_EQ(ended.exitCode, 1);
   EXPECT_NE(ended.out.find("000003.png: is missing"), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("000007.png: is a PNG cut short"), std::string::npos) << ended.out;
+  EXPECT_TRUE(ended.out.ends_with("\n--frames 3,7\n")) << ended.out;
   EXPECT_EQ(careen({"verify", "nowhere"}).exitCode, 2);
 }
 

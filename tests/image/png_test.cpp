@@ -193,17 +193,21 @@ TEST(Png, damageIsToldAndNamed) {
   }
 }
 
-TEST(Png, looksWholeOnlyWithBothEndsAndTheSize) {
+TEST(Png, isWholeOnlyWithEveryByteAndTheSize) {
   const TemporaryFolder folder;
   const std::string whole = encodePng(shadedTiles(64, 48));
   folder.write("whole.png", whole);
   folder.write("cut.png", whole.substr(0, whole.size() - 1));
   folder.write("empty.png", "");
-  EXPECT_TRUE(looksWhole(folder / "whole.png", 64, 48));
-  EXPECT_FALSE(looksWhole(folder / "whole.png", 48, 64));
-  EXPECT_FALSE(looksWhole(folder / "cut.png", 64, 48));
-  EXPECT_FALSE(looksWhole(folder / "empty.png", 64, 48));
-  EXPECT_FALSE(looksWhole(folder / "none.png", 64, 48));
+  std::string changed = whole;
+  changed[changed.size() / 2] = static_cast<char>(changed[changed.size() / 2] ^ 1);
+  folder.write("changed.png", changed);
+  EXPECT_TRUE(isWholePng(folder / "whole.png", 64, 48));
+  EXPECT_FALSE(isWholePng(folder / "whole.png", 48, 64));
+  EXPECT_FALSE(isWholePng(folder / "cut.png", 64, 48));
+  EXPECT_FALSE(isWholePng(folder / "changed.png", 64, 48));
+  EXPECT_FALSE(isWholePng(folder / "empty.png", 64, 48));
+  EXPECT_FALSE(isWholePng(folder / "none.png", 64, 48));
 }
 
 TEST(Png, missingFileAndUnwritablePlaceAreErrors) {

@@ -1,8 +1,10 @@
 #include "image/video_pipe.h"
 
 #include <gtest/gtest.h>
+#include <poll.h>
 
 #include <cstdlib>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,10 +28,18 @@ class PathVariable {
   std::string before_;
 };
 
+void write(VideoPipe& pipe, const Picture& picture) {
+  for (std::size_t sent = 0; sent < picture.rgb.size();) {
+    pollfd writable{.fd = pipe.descriptor(), .events = POLLOUT, .revents = 0};
+    poll(&writable, 1, -1);
+    sent += pipe.write(std::span(picture.rgb).subspan(sent));
+  }
+}
+
 void film(const VideoSettings& settings, int frames) {
   VideoPipe pipe(settings);
   for (int frame = 0; frame < frames; ++frame) {
-    pipe.write(shadedTiles(settings.width, settings.height, static_cast<unsigned>(frame)));
+    write(pipe, shadedTiles(settings.width, settings.height, static_cast<unsigned>(frame)));
   }
   pipe.finish();
 }
@@ -43,9 +53,10 @@ std::string errorOf(const VideoSettings& settings, int frames) {
   return {};
 }
 
-std::string probe(const TemporaryFolder& folder, const std::string& entries) {
+std::string probe(const TemporaryFolder& folder, const std::string& entries,
+                  const std::string& name = "film.mp4") {
   const Ended ended = Process({"ffprobe", "-v", "error", "-count_frames", "-select_streams", "v",
-                               "-show_entries", "stream=" + entries, "-of", "csv=p=0", "film.mp4"},
+                               "-show_entries", "stream=" + entries, "-of", "csv=p=0", name},
                               folder.path())
                           .wait();
   return ended.out + ended.err;
@@ -66,6 +77,68 @@ TEST(VideoPipe, makesAFilmOfTheExactRateThatPlaysWhileItLoads) {
   EXPECT_EQ(folder.files(), std::vector<std::string>{"film.mp4"});
 }
 
+TEST(VideoPipe, everyKindOfFilmIsMadeAndTellsItsColours) {
+  struct Case {
+    std::string name;
+    std::string codec;
+    std::string is;
+  };
+  const TemporaryFolder folder;
+  for (const char* quality : {"draft", "good", "best"}) {
+    for (const Case& each : {Case{"h264.mp4", "", "h264"},
+                             {"vp9.mp4", "vp9", "vp9"},
+                             {"av1.mp4", "av1", "av1"},
+                             {"h264.mkv", "", "h264"},
+                             {"vp9.webm", "", "vp9"},
+                             {"av1.webm", "av1", "av1"}}) {
+      film({.path = folder / each.name,
+            .codec = each.codec,
+            .quality = videoQualityNamed(quality),
+            .width = 128,
+            .height = 96,
+            .rateNumerator = 24000,
+            .rateDenominator = 1001},
+           5);
+      EXPECT_EQ(
+          probe(
+              folder,
+              "codec_name,color_range,color_space,color_transfer,color_primaries,r_frame_rate,nb_read_frames",
+              each.name),
+          each.is + ",tv,bt709,iec61966-2-1,bt709,24000/1001,5\n")
+          << each.name << ' ' << quality;
+    }
+  }
+}
+
+// The frames of an animated picture follow each other at the rate asked for, as far as its clock goes.
+TEST(VideoPipe, animatedPicturesAreMade) {
+  const TemporaryFolder folder;
+  for (const char* quality : {"draft", "good", "best"}) {
+    VideoSettings settings{.path = folder / "film.gif",
+                           .quality = videoQualityNamed(quality),
+                           .width = 65,
+                           .height = 49,
+                           .rateNumerator = 25};
+    film(settings, 5);
+    EXPECT_EQ(probe(folder, "codec_name,width,height,r_frame_rate,nb_read_frames", "film.gif"),
+              "gif,65,49,25/1,5\n");
+    settings.path = folder / "film.webp";
+    VideoPipe pipe(settings);
+    for (unsigned frame = 0; frame < 5; ++frame) {
+      write(pipe, noise(65, 49, frame));  // frames too much alike would become one
+    }
+    pipe.finish();
+    const std::string bytes = textOf(folder / "film.webp");
+    EXPECT_TRUE(bytes.starts_with("RIFF"));
+    int frames = 0;
+    for (std::size_t at = bytes.find("ANMF"); at != std::string::npos; at = bytes.find("ANMF", at + 4)) {
+      ++frames;
+      EXPECT_EQ(static_cast<unsigned char>(bytes[at + 20]), 40);  // [ms]
+    }
+    EXPECT_EQ(frames, 5);
+  }
+}
+
 TEST(VideoPipe, oddSizesAreMadeEven) {
   const TemporaryFolder folder;
   film({.path = folder / "film.mp4", .width = 33, .height = 17}, 2);
@@ -80,7 +153,7 @@ TEST(VideoPipe, keepsColours) {
     green.rgb.insert(green.rgb.end(), {40, 200, 90});
   }
   VideoPipe pipe({.path = folder / "film.mp4", .width = 64, .height = 64});
-  pipe.write(green);
+  write(pipe, green);
   pipe.finish();
   const Ended ended =
       Process({"ffmpeg", "-nostdin", "-loglevel", "error", "-i", "film.mp4", "-vf",
@@ -98,9 +171,13 @@ TEST(VideoPipe, keepsColours) {
 
 TEST(VideoPipe, sameFramesGiveTheSameBytes) {
   const TemporaryFolder folder;
-  film({.path = folder / "a.mp4", .width = 320, .height = 180}, 10);
-  film({.path = folder / "b.mp4", .width = 320, .height = 180}, 10);
-  EXPECT_EQ(textOf(folder / "a.mp4"), textOf(folder / "b.mp4"));
+  for (const char* suffix : {".mp4", ".mkv", ".webm", ".webp", ".gif"}) {
+    for (const char* name : {"a", "b"}) {
+      film({.path = folder / (std::string(name) + suffix), .width = 320, .height = 180}, 10);
+    }
+    EXPECT_EQ(textOf(folder / (std::string("a") + suffix)), textOf(folder / (std::string("b") + suffix)))
+        << suffix;
+  }
 }
 
 TEST(VideoPipe, missingFfmpegIsNamedWithWhatToInstall) {
@@ -136,7 +213,7 @@ TEST(VideoPipe, givenUpLeavesNothingAndKeepsTheOldFilm) {
   folder.write("film.mp4", "the old film");
   {
     VideoPipe pipe({.path = folder / "film.mp4", .width = 64, .height = 48});
-    pipe.write(shadedTiles(64, 48));
+    write(pipe, shadedTiles(64, 48));
     EXPECT_EQ(folder.files().size(), 2U);
   }
   EXPECT_EQ(folder.files(), std::vector<std::string>{"film.mp4"});

@@ -94,6 +94,7 @@ class Process {
     }
   }
 
+  pid_t id() const { return pid_; }
   void send(int signal) const { kill(pid_, signal); }
   Ended wait() {
     int status = 0;

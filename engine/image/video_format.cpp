@@ -1,0 +1,172 @@
+#include "image/video_format.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+using Words = std::vector<std::string>;
+
+constexpr std::array<std::string_view, 3> kQualities = {"draft", "good", "best"};
+
+struct Suffix {
+  std::string_view suffix;
+  std::string_view muxer;                  // as ffmpeg calls it
+  std::array<std::string_view, 3> codecs;  // the usual one first
+};
+constexpr std::array<Suffix, 5> kSuffixes = {{{".mp4", "mp4", {"h264", "vp9", "av1"}},
+                                              {".mkv", "matroska", {"h264", "vp9", "av1"}},
+                                              {".webm", "webm", {"vp9", "av1", ""}},
+                                              {".webp", "webp", {"webp", "", ""}},
+                                              {".gif", "gif", {"gif", "", ""}}}};
+
+// Chroma is halved, so sizes are made even.
+constexpr const char* kYuv =
+    "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
+
+std::string joined(std::span<const std::string_view> words) {
+  std::string text;
+  for (const std::string_view word : words) {
+    if (!word.empty()) {
+      text += (text.empty() ? "" : ", ") + std::string(word);
+    }
+  }
+  return text;
+}
+
+const Suffix& suffixOf(const VideoSettings& settings) {
+  const std::string suffix = settings.path.extension().string();
+  std::string known;
+  for (const Suffix& each : kSuffixes) {
+    if (each.suffix == suffix) {
+      return each;
+    }
+    known += (known.empty() ? "" : ", ") + std::string(each.suffix);
+  }
+  throw InputError(settings.path.string() + ": found a video's name that ends in '" + suffix +
+                   "', expected one of: " + known);
+}
+
+std::string codecOf(const VideoSettings& settings) {
+  const Suffix& suffix = suffixOf(settings);
+  if (settings.codec.empty()) {
+    return std::string(suffix.codecs[0]);
+  }
+  if (std::find(suffix.codecs.begin(), suffix.codecs.end(), settings.codec) == suffix.codecs.end()) {
+    throw InputError(settings.path.string() + ": found codec '" + settings.codec + "', expected for " +
+                     std::string(suffix.suffix) + " one of: " + joined(suffix.codecs));
+  }
+  return settings.codec;
+}
+
+// By quality: draft, good, best.
+Words pick(VideoQuality quality, const std::array<Words, 3>& choices) {
+  return choices.at(static_cast<std::size_t>(quality));
+}
+
+Words encoderWords(const std::string& codec, VideoQuality quality) {
+  if (codec == "h264") {
+    return pick(quality, {Words{"-c:v", "libx264", "-preset", "ultrafast", "-crf", "28"},
+                          {"-c:v", "libx264", "-preset", "veryfast", "-crf", "18"},
+                          {"-c:v", "libx264", "-preset", "slow", "-crf", "12"}});
+  }
+  if (codec == "vp9") {  // a bit rate of 0: the quality alone counts
+    Words words = pick(quality, {Words{"-deadline", "realtime", "-cpu-used", "8", "-crf", "40"},
+                                 {"-deadline", "good", "-cpu-used", "4", "-crf", "24"},
+                                 {"-deadline", "good", "-cpu-used", "1", "-crf", "12"}});
+    words.insert(words.begin(), {"-c:v", "libvpx-vp9", "-row-mt", "1", "-b:v", "0"});
+    return words;
+  }
+  if (codec == "av1") {
+    return pick(quality, {Words{"-c:v", "libsvtav1", "-preset", "12", "-crf", "45"},
+                          {"-c:v", "libsvtav1", "-preset", "8", "-crf", "26"},
+                          {"-c:v", "libsvtav1", "-preset", "4", "-crf", "14"}});
+  }
+  if (codec == "webp") {
+    Words words = pick(quality, {Words{"-quality", "60", "-compression_level", "1"},
+                                 {"-quality", "85", "-compression_level", "4"},
+                                 {"-lossless", "1", "-quality", "75", "-compression_level", "4"}});
+    words.insert(words.begin(), {"-c:v", "libwebp_anim", "-loop", "0"});
+    return words;
+  }
+  return {"-c:v", "gif", "-loop", "0"};
+}
+
+// WebP turns RGB into its own YUV, which is no BT.709. Every frame of a GIF has a palette of its own: one for
+// all of them would keep all of them in memory.
+std::string filterOf(const std::string& codec, VideoQuality quality) {
+  if (codec == "webp") {
+    return "format=bgra";
+  }
+  if (codec == "gif") {
+    constexpr std::array<const char*, 3> kDither = {"none", "bayer:bayer_scale=4", "sierra2_4a"};
+    return std::string("split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=") +
+           kDither.at(static_cast<std::size_t>(quality));
+  }
+  return kYuv;
+}
+
+}  // namespace
+
+VideoQuality videoQualityNamed(std::string_view name) {
+  const auto* const found = std::find(kQualities.begin(), kQualities.end(), name);
+  if (found == kQualities.end()) {
+    throw InputError("found '" + std::string(name) + "', expected one of: " + joined(kQualities));
+  }
+  return static_cast<VideoQuality>(found - kQualities.begin());
+}
+
+void checkVideo(const VideoSettings& settings) {
+  // Its times are in hundredths of a second, and players take less than two of them for ten.
+  if (codecOf(settings) == "gif" && settings.rateNumerator > 50 * settings.rateDenominator) {
+    throw InputError(settings.path.string() + ": found " + std::to_string(settings.rateNumerator) + "/" +
+                     std::to_string(settings.rateDenominator) +
+                     " frames per second, expected at most 50 for a GIF");
+  }
+}
+
+Words ffmpegCommand(const VideoSettings& settings, const std::filesystem::path& output) {
+  const std::string codec = codecOf(settings);
+  const std::string size = std::to_string(settings.width) + "x" + std::to_string(settings.height);
+  const std::string rate =
+      std::to_string(settings.rateNumerator) + "/" + std::to_string(settings.rateDenominator);
+  Words command = {"ffmpeg",
+                   "-nostdin",
+                   "-loglevel",
+                   "error",
+                   "-y",
+                   "-f",
+                   "rawvideo",
+                   "-pix_fmt",
+                   "rgb24",
+                   "-video_size",
+                   size,
+                   "-framerate",
+                   rate,
+                   "-i",
+                   "pipe:0",
+                   "-vf",
+                   filterOf(codec, settings.quality)};
+  const auto add = [&command](const Words& words) {
+    command.insert(command.end(), words.begin(), words.end());
+  };
+  add(encoderWords(codec, settings.quality));
+  if (codec != "webp" && codec != "gif") {
+    add({"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range",
+         "tv"});
+  }
+  add({"-fflags", "+bitexact", "-flags:v", "+bitexact"});
+  if (settings.path.extension() == ".mp4") {
+    add({"-movflags", "+faststart"});
+  }
+  add({"-f", std::string(suffixOf(settings).muxer), "file:" + output.string()});
+  return command;
+}
+
+}  // namespace careen
