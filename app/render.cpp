@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <iostream>
@@ -38,6 +39,8 @@ struct FilmOptions {
   std::optional<std::string> strobe;
   std::optional<std::filesystem::path> video;
   std::optional<std::string> overlays;
+  std::optional<std::string> look;
+  std::optional<std::string> antialiasing;
   std::string codec;
   std::string quality = "good";
   std::optional<int> jobs;
@@ -88,6 +91,20 @@ RenderingBackend parseBackend(const std::string& text) {
   } catch (const InputError& error) {
     throw InputError(std::string("--rendering-backend: ") + error.what());
   }
+}
+
+// Which of the names it is.
+template <std::size_t count>
+std::size_t placeOf(const char* option, const std::string& text,
+                    const std::array<const char*, count>& names) {
+  std::string all;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (text == names[k]) {
+      return k;
+    }
+    all += (all.empty() ? "" : ", ") + std::string(names[k]);
+  }
+  throw InputError(std::string(option) + ": found '" + text + "', expected one of " + all);
 }
 
 OverlaySet parseOverlays(const std::string& text) {
@@ -155,6 +172,13 @@ FilmSettings settingsOf(const FilmOptions& options, const Run& run) {
   settings.program = "careen " CAREEN_VERSION;
   settings.resume = options.resume;
   settings.render.context = options.context;
+  if (options.look) {
+    settings.render.look = static_cast<Look>(placeOf("--look", *options.look, kLooks));
+  }
+  if (options.antialiasing) {
+    settings.render.antialiasing =
+        static_cast<Antialiasing>(placeOf("--antialiasing", *options.antialiasing, kAntialiasings));
+  }
   return settings;
 }
 
@@ -287,6 +311,9 @@ void addRender(CLI::App& commandLine, Command& chosen) {
       ->add_option("--strobe", options->strobe,
                    "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
       ->excludes(frames, video, resume, still);
+  command->add_option("--look", options->look, "studio, blueprint or clay in place of the scene's look");
+  command->add_option("--antialiasing", options->antialiasing,
+                      "off, edges, 4x or supersampled in place of the scene's");
   command->add_option(
       "--overlays", options->overlays,
       "What to draw over the film in place of the scene's, such as time,energy; none: nothing");

@@ -6,6 +6,7 @@
 #include "core/brief.h"
 #include "image/png.h"
 #include "render/filming.h"
+#include "render/overlays.h"
 #include "render/renderer.h"
 #include "render/strobe.h"
 
@@ -50,8 +51,14 @@ ExitCode drawStill(const Run& run, const FilmSettings& settings, const Still& st
   RenderOptions options = settings.render;
   options.camera = filming.camera(0);
   Renderer renderer(run.scene, settings.width, settings.height, options);
-  const Picture picture = still.strobe ? filming.drawStrobe(renderer, moments)
-                                       : filming.draw(renderer, moments[0], settings.shutter, settings.rate);
+  Picture picture = still.strobe ? filming.drawStrobe(renderer, moments)
+                                 : filming.draw(renderer, moments[0], settings.shutter, settings.rate);
+  if (settings.overlays.any() && !still.strobe) {
+    const Overlays overlays(run.trajectory, run.scene, settings.overlays, settings.rate.frameTime(1));
+    renderer.drawOver(picture, filming.camera(moments[0]), [&](const View& view) {
+      return overlays.shapesAt(filming.sceneTime(moments[0]), view, settings.width, settings.height);
+    });
+  }
   const std::filesystem::path path = std::filesystem::absolute(placeOf(run, still)).lexically_normal();
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);  // writing tells if there is none

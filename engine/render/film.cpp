@@ -38,7 +38,11 @@ double coreSeconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-FilmManifest manifestOf(const Trajectory& trajectory, const FilmSettings& settings, double duration) {
+FilmManifest manifestOf(const Trajectory& trajectory, const Scene& scene, const FilmSettings& settings,
+                        double duration) {
+  const auto look = static_cast<std::size_t>(settings.render.look.value_or(scene.look));
+  const auto antialiasing =
+      static_cast<std::size_t>(settings.render.antialiasing.value_or(scene.film.antialiasing));
   FilmManifest manifest{.program = settings.program,
                         .renderer = {},
                         .sceneHash = trajectory.sceneHash(),
@@ -46,6 +50,8 @@ FilmManifest manifestOf(const Trajectory& trajectory, const FilmSettings& settin
                         .width = settings.width,
                         .height = settings.height,
                         .rate = settings.rate,
+                        .look = kLooks.at(look),
+                        .antialiasing = kAntialiasings.at(antialiasing),
                         .shutter = settings.shutter.text(),
                         .overlays = settings.overlays.text(),
                         .frameCount = settings.rate.frameCount(duration),
@@ -247,7 +253,7 @@ FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const F
   const double wallBegun = wallSeconds();
   const double coreBegun = coreSeconds();
   const Filming filming(scene, trajectory, static_cast<double>(settings.width) / settings.height);
-  FilmManifest asked = manifestOf(trajectory, settings, filming.duration());
+  FilmManifest asked = manifestOf(trajectory, scene, settings, filming.duration());
   filming.checkCamera(asked.frames, settings.rate);
   FilmFolder folder(settings.folder);
   if (settings.resume) {

@@ -27,6 +27,8 @@ FilmManifest fromJson(const nlohmann::json& json) {
   manifest.width = json.at("size").at(0).get<int>();
   manifest.height = json.at("size").at(1).get<int>();
   manifest.rate = parseFrameRate(json.at("fps").get<std::string>());
+  manifest.look = json.value("look", manifest.look);
+  manifest.antialiasing = json.value("antialiasing", manifest.antialiasing);
   manifest.shutter = json.value("shutter", manifest.shutter);
   manifest.overlays = json.value("overlays", "none");  // films were made before there were any
   manifest.frameCount = json.at("frame_count").get<std::int64_t>();
@@ -58,6 +60,8 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
       {"state_hash", manifest.stateHash},
       {"size", {manifest.width, manifest.height}},
       {"fps", manifest.rate.text()},
+      {"look", manifest.look},
+      {"antialiasing", manifest.antialiasing},
       {"shutter", manifest.shutter},
       {"overlays", manifest.overlays},
       {"frame_count", manifest.frameCount},
@@ -73,7 +77,8 @@ std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
   std::string text =
       compare("scene", there.sceneHash, asked.sceneHash) + compare("run", there.stateHash, asked.stateHash) +
       compare("size", sizeText(there), sizeText(asked)) +
-      compare("fps", there.rate.text(), asked.rate.text()) +
+      compare("fps", there.rate.text(), asked.rate.text()) + compare("look", there.look, asked.look) +
+      compare("antialiasing", there.antialiasing, asked.antialiasing) +
       compare("shutter", there.shutter, asked.shutter) + compare("overlays", there.overlays, asked.overlays) +
       compare("frames in all", std::to_string(there.frameCount), std::to_string(asked.frameCount)) +
       compare("program", there.program, asked.program) +

@@ -19,10 +19,12 @@ struct FilmManifest {
   int width = 0;          ///< [px]
   int height = 0;         ///< [px]
   FrameRate rate;
-  std::string shutter = "none";      ///< as Shutter::text gives it
-  std::string overlays = "none";     ///< their names
-  std::int64_t frameCount = 0;       ///< of the whole film
-  std::vector<std::int64_t> frames;  ///< those asked for so far, in order
+  std::string look = "studio";         ///< as kLooks names it
+  std::string antialiasing = "edges";  ///< as kAntialiasings names it
+  std::string shutter = "none";        ///< as Shutter::text gives it
+  std::string overlays = "none";       ///< their names
+  std::int64_t frameCount = 0;         ///< of the whole film
+  std::vector<std::int64_t> frames;    ///< those asked for so far, in order
 };
 
 inline constexpr const char* kManifestName = "film.json";

@@ -22,6 +22,7 @@ struct RenderOptions {
   ContextOptions context;
   std::optional<Lighting> lighting;          ///< absent: that of the scene's look
   std::optional<Materials> materials;        ///< absent: those of the scene's look
+  std::optional<Look> look;                  ///< absent: the scene's
   std::optional<Antialiasing> antialiasing;  ///< absent: the scene's
   std::optional<Camera> camera;              ///< by which the light is set up; absent: cameraOf(scene)
   std::filesystem::path shaders;             ///< folder; empty: the program's own

@@ -41,6 +41,14 @@ class Render : public testing::Test {
  protected:
   void SetUp() override { folder_.write("scene.json", kScene); }
 
+  std::string frameOf(const std::vector<std::string>& options, const std::string& out) {
+    std::vector<std::string> arguments = {"render", "--frames", "3", "--out", out};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Ended ended = careen(arguments);
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    return textOf(folder_ / out / "000003.png");
+  }
+
   Ended careen(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), CAREEN_BINARY);
     return Process(arguments, folder_.path()).wait();
@@ -125,6 +133,8 @@ TEST_F(Render, refusesWhatCannotBeFilmed) {
                                              {"--frames", "0-99"},
                                              {"--frames", "x"},
                                              {"--overlays", "energy,wind"},
+                                             {"--look", "mud"},
+                                             {"--antialiasing", "8x"},
                                              {"--overlays", ""},
                                              {"--rendering-backend", "glx"},
                                              {"--threads", "-1"},
@@ -148,19 +158,22 @@ TEST_F(Render, drawsTheOverlaysOfTheSceneOrThoseAskedFor) {
   std::string text = kScene;
   text.insert(text.rfind('}'), R"(, "overlays": ["velocity"])");
   folder_.write("explained.json", text);
-  const auto frameOf = [&](const std::vector<std::string>& options, const std::string& out) {
-    std::vector<std::string> arguments = {"render", "--frames", "3", "--out", out};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const Ended ended = careen(arguments);
-    EXPECT_EQ(ended.exitCode, 0) << ended.err;
-    return textOf(folder_ / out / "000003.png");
-  };
   const std::string bare = frameOf({"scene.json"}, "bare");
   const std::string explained = frameOf({"explained.json"}, "explained");
   EXPECT_NE(explained, bare);
   EXPECT_EQ(frameOf({"scene.json", "--overlays", "velocity"}, "asked"), explained);
   EXPECT_EQ(frameOf({"explained.json", "--overlays", "none"}, "none"), bare);
   EXPECT_NE(textOf(folder_ / "explained/report.json").find(R"("overlays": "velocity")"), std::string::npos);
+}
+
+TEST_F(Render, looksAndAntialiasingOfTheCommandLineTakeTheScenesPlace) {
+  const std::string usual = frameOf({"scene.json"}, "usual");
+  EXPECT_EQ(frameOf({"scene.json", "--look", "studio", "--antialiasing", "edges"}, "same"), usual);
+  EXPECT_NE(frameOf({"scene.json", "--look", "clay"}, "clay"), usual);
+  EXPECT_NE(frameOf({"scene.json", "--antialiasing", "off"}, "off"), usual);
+  const Ended other = careen({"render", "scene.json", "--out", "clay", "--resume"});
+  EXPECT_EQ(other.exitCode, 2);
+  EXPECT_NE(other.err.find("look clay there, studio now"), std::string::npos) << other.err;
 }
 
 TEST_F(Render, drawsWithTheBackendAskedFor) {

@@ -11,6 +11,7 @@
 #include "image/picture.h"
 #include "physics/body.h"
 #include "render/lighting.h"
+#include "render/renderer.h"
 #include "render/rendering_backend.h"
 #include "scene/plan.h"
 #include "scene/scene.h"
@@ -79,6 +80,14 @@ inline Lighting evenLighting(const Vec3& background = Vec3::Zero()) {
           .ground = Vec3::Ones(),
           .backgroundTop = background,
           .backgroundBottom = background};
+}
+
+/// So lit, and nothing done to the light on its way into the picture.
+inline RenderOptions lit(const Lighting& lighting) {
+  RenderOptions options;
+  options.lighting = lighting;
+  options.materials = Materials{.contactShade = 0, .shoulder = 1e9, .dither = 0};  // light stays as it is
+  return options;
 }
 
 /// 8-bit sRGB of a linear value (IEC 61966-2-1).
