@@ -17,6 +17,7 @@
 #include "commands.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/names.h"
 #include "progress.h"
 #include "render/film.h"
 #include "render/film_folder.h"
@@ -69,50 +70,19 @@ std::pair<int, int> parseSize(const std::string& text) {
                    std::to_string(kLargestFilm) + ", such as 1280x720");
 }
 
-FrameRate parseRate(const std::string& text) {
+// What `parse` makes of an option's text; its error names the option.
+template <class Parse>
+auto parsed(const char* option, const std::string& text, Parse parse) {
   try {
-    return parseFrameRate(text);
+    return parse(text);
   } catch (const InputError& error) {
-    throw InputError(std::string("--fps: ") + error.what());
+    throw InputError(std::string(option) + ": " + error.what());
   }
 }
 
-Shutter shutterOf(const std::string& text) {
-  try {
-    return parseShutter(text);
-  } catch (const InputError& error) {
-    throw InputError(std::string("--shutter: ") + error.what());
-  }
-}
-
-RenderingBackend parseBackend(const std::string& text) {
-  try {
-    return renderingBackendNamed(text);
-  } catch (const InputError& error) {
-    throw InputError(std::string("--rendering-backend: ") + error.what());
-  }
-}
-
-// Which of the names it is.
-template <std::size_t count>
-std::size_t placeOf(const char* option, const std::string& text,
-                    const std::array<const char*, count>& names) {
-  std::string all;
-  for (std::size_t k = 0; k < count; ++k) {
-    if (text == names[k]) {
-      return k;
-    }
-    all += (all.empty() ? "" : ", ") + std::string(names[k]);
-  }
-  throw InputError(std::string(option) + ": found '" + text + "', expected one of " + all);
-}
-
-OverlaySet parseOverlays(const std::string& text) {
-  try {
-    return overlaysNamed(text);
-  } catch (const InputError& error) {
-    throw InputError(std::string("--overlays: ") + error.what());
-  }
+Look lookNamed(std::string_view name) { return static_cast<Look>(placeAmong(name, kLooks)); }
+Antialiasing antialiasingNamed(std::string_view name) {
+  return static_cast<Antialiasing>(placeAmong(name, kAntialiasings));
 }
 
 std::optional<VideoSettings> videoOf(const FilmOptions& options) {
@@ -120,11 +90,7 @@ std::optional<VideoSettings> videoOf(const FilmOptions& options) {
     return std::nullopt;
   }
   VideoSettings video{.path = *options.video, .codec = options.codec};
-  try {
-    video.quality = videoQualityNamed(options.quality);
-  } catch (const InputError& error) {
-    throw InputError(std::string("--quality: ") + error.what());
-  }
+  video.quality = parsed("--quality", options.quality, videoQualityNamed);
   return video;
 }
 
@@ -147,39 +113,61 @@ void check(const FilmOptions& options) {
   }
 }
 
-std::vector<FrameRange> framesIn(const std::string& text) {
-  return text.empty() ? std::vector<FrameRange>() : parseFrameRanges(text);
-}
-
-FilmSettings settingsOf(const FilmOptions& options, const Run& run) {
+// What the options alone say: all that can be found wrong before anything is simulated.
+FilmSettings settingsOf(const FilmOptions& options) {
+  check(options);
   FilmSettings settings;
   settings.folder =
       options.folder.empty() ? std::filesystem::path("out") / options.source.stem() : options.folder;
-  const Film& film = run.scene.film;
-  std::tie(settings.width, settings.height) =
-      options.size ? parseSize(*options.size) : std::pair(film.width, film.height);
-  settings.rate = options.rate ? parseRate(*options.rate) : film.rate;
-  settings.shutter = options.shutter ? shutterOf(*options.shutter) : film.shutter;
-  settings.frames = framesIn(options.frames);
-  settings.overlays = options.overlays ? parseOverlays(*options.overlays) : run.scene.overlays;
+  if (options.size) {
+    std::tie(settings.width, settings.height) = parseSize(*options.size);
+  }
+  if (options.rate) {
+    settings.rate = parsed("--fps", *options.rate, parseFrameRate);
+  }
+  if (options.shutter) {
+    settings.shutter = parsed("--shutter", *options.shutter, parseShutter);
+  }
+  if (options.overlays) {
+    settings.overlays = parsed("--overlays", *options.overlays, overlaysNamed);
+  }
+  if (!options.frames.empty()) {
+    settings.frames = parseFrameRanges(options.frames);
+  }
   settings.video = videoOf(options);
+  settings.jobs = options.jobs;
+  settings.program = "careen " CAREEN_VERSION;
+  settings.resume = options.resume;
+  settings.render.context = options.context;
+  settings.render.context.backend = parsed("--rendering-backend", options.backend, renderingBackendNamed);
+  if (options.look) {
+    settings.render.look = parsed("--look", *options.look, lookNamed);
+  }
+  if (options.antialiasing) {
+    settings.render.antialiasing = parsed("--antialiasing", *options.antialiasing, antialiasingNamed);
+  }
+  return settings;
+}
+
+void takeFromScene(const Scene& scene, const FilmOptions& options, FilmSettings& settings) {
+  if (!options.size) {
+    settings.width = scene.film.width;
+    settings.height = scene.film.height;
+  }
+  if (!options.rate) {
+    settings.rate = scene.film.rate;
+  }
+  if (!options.shutter) {
+    settings.shutter = scene.film.shutter;
+  }
+  if (!options.overlays) {
+    settings.overlays = scene.overlays;
+  }
   if (settings.video) {
     settings.video->rateNumerator = settings.rate.numerator;
     settings.video->rateDenominator = settings.rate.denominator;
     checkVideo(*settings.video);
   }
-  settings.jobs = options.jobs;
-  settings.program = "careen " CAREEN_VERSION;
-  settings.resume = options.resume;
-  settings.render.context = options.context;
-  if (options.look) {
-    settings.render.look = static_cast<Look>(placeOf("--look", *options.look, kLooks));
-  }
-  if (options.antialiasing) {
-    settings.render.antialiasing =
-        static_cast<Antialiasing>(placeOf("--antialiasing", *options.antialiasing, kAntialiasings));
-  }
-  return settings;
 }
 
 void writeReport(const Run& run, const FilmSettings& settings, const FilmFigures& figures,
@@ -245,10 +233,9 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (options.source.empty()) {
     options.source = defaultScene();
   }
-  check(options);
-  options.context.backend = parseBackend(options.backend);
+  FilmSettings settings = settingsOf(options);
   Run run = loadRun(options.source, options.overrides, stop);
-  const FilmSettings settings = settingsOf(options, run);
+  takeFromScene(run.scene, options, settings);
   if (options.still || options.strobe) {
     return drawStill(run, settings,
                      {.path = options.folder, .moment = options.still.value_or(0), .strobe = options.strobe});

@@ -55,9 +55,7 @@ ExitCode drawStill(const Run& run, const FilmSettings& settings, const Still& st
                                  : filming.draw(renderer, moments[0], settings.shutter, settings.rate);
   if (settings.overlays.any() && !still.strobe) {
     const Overlays overlays(run.trajectory, run.scene, settings.overlays, settings.rate.frameTime(1));
-    renderer.drawOver(picture, filming.camera(moments[0]), [&](const View& view) {
-      return overlays.shapesAt(filming.sceneTime(moments[0]), view, settings.width, settings.height);
-    });
+    filming.explain(renderer, picture, moments[0], overlays);
   }
   const std::filesystem::path path = std::filesystem::absolute(placeOf(run, still)).lexically_normal();
   std::error_code error;

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/error.h"
+#include "core/names.h"
 
 namespace careen {
 namespace {
@@ -115,11 +116,7 @@ std::string filterOf(const std::string& codec, VideoQuality quality) {
 }  // namespace
 
 VideoQuality videoQualityNamed(std::string_view name) {
-  const auto* const found = std::find(kQualities.begin(), kQualities.end(), name);
-  if (found == kQualities.end()) {
-    throw InputError("found '" + std::string(name) + "', expected one of: " + joined(kQualities));
-  }
-  return static_cast<VideoQuality>(found - kQualities.begin());
+  return static_cast<VideoQuality>(placeAmong(name, kQualities));
 }
 
 void checkVideo(const VideoSettings& settings) {

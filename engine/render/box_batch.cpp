@@ -38,12 +38,6 @@ std::vector<float> cube() {
   return records;
 }
 
-void append(std::vector<float>& records, const Vec3& v) {
-  for (const double value : v) {
-    records.push_back(static_cast<float>(value));
-  }
-}
-
 Vec3 endOf(const SpringEnd& end, std::span<const Pose> poses) {
   return end.body ? poses[static_cast<std::size_t>(*end.body)].worldPoint(end.point) : end.point;
 }

@@ -13,9 +13,13 @@ double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 }  // namespace
 
-Vec3 View::pixelFromWorld(const Vec3& point, int width, int height) const {
+Vec4 View::clipFromWorld(const Vec3& point) const {
   const Vec3 offset = point - eye;
-  const Vec4 clip = clipFromOffset * Vec4(offset.x(), offset.y(), offset.z(), 1);
+  return clipFromOffset * Vec4(offset.x(), offset.y(), offset.z(), 1);
+}
+
+Vec3 View::pixelFromWorld(const Vec3& point, int width, int height) const {
+  const Vec4 clip = clipFromWorld(point);
   return {0.5 * width * (1 + clip.x() / clip.w()), 0.5 * height * (1 - clip.y() / clip.w()),
           clip.z() / clip.w()};
 }

@@ -13,6 +13,8 @@ struct View {
   Mat3 worldFromCamera = Mat3::Identity();  ///< camera looks along its −z; x right, y up on the picture
   Mat4 clipFromOffset = Mat4::Identity();   ///< OpenGL's clip space
 
+  /// In OpenGL's clip space.
+  Vec4 clipFromWorld(const Vec3& point) const;
   /// Where a point of the world appears [px], from the picture's upper left corner; z is depth, −1 … 1.
   Vec3 pixelFromWorld(const Vec3& point, int width, int height) const;
 };

@@ -129,9 +129,8 @@ Camera cameraThatFrames(const Scene& scene, const Trajectory& run, const TimeMap
     const std::vector<Pose> poses = run.poses(clock.sceneTime(part * clock.duration()));
     for (std::size_t box = 0; box < poses.size(); ++box) {
       const Vec3& half = scene.boxes[box].halfExtents;
-      const Extent corners{.min = -half, .max = half};
-      for (int corner = 0; corner < 8; ++corner) {
-        framing.add(poses[box].worldPoint(corners.corner(corner)));
+      for (int index = 0; index < kCorners; ++index) {
+        framing.add(poses[box].worldPoint(corner(half, index)));
       }
     }
   }

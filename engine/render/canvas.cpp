@@ -48,6 +48,25 @@ GLuint makeFramebuffer(const Gl& gl, int samples, bool depth, int width, int hei
   return framebuffer;
 }
 
+// The average light of so many pixels each way; false if one was never drawn.
+bool average(const std::uint8_t* from, std::size_t times, std::size_t rowPixels, std::uint8_t* to) {
+  const SrgbTables& tables = SrgbTables::get();
+  std::array<std::uint32_t, 3> light{};
+  bool drawn = true;
+  for (std::size_t k = 0; k < times * times; ++k) {
+    const std::uint8_t* const pixel = from + 4 * (k / times * rowPixels + k % times);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      light[channel] += tables.linear(pixel[channel]);
+    }
+    drawn = drawn && pixel[3] != 0;
+  }
+  const auto count = static_cast<std::uint32_t>(times * times);
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    to[channel] = tables.encoded(static_cast<std::uint16_t>((light[channel] + count / 2) / count));
+  }
+  return drawn;
+}
+
 }  // namespace
 
 Canvas::Canvas(const Gl& gl, int width, int height, Antialiasing antialiasing)
@@ -103,7 +122,6 @@ Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int he
   const auto columns = static_cast<std::size_t>(width);
   const auto rows = static_cast<std::size_t>(height);
   const auto times = static_cast<std::size_t>(scale);
-  const SrgbTables& tables = SrgbTables::get();
   picture.rgb.resize(picture.rowBytes() * rows);
   unsigned brightest = 0;
   bool blank = false;
@@ -111,21 +129,11 @@ Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int he
     const std::uint8_t* from = &rgba[times * (rows - 1 - row) * times * columns * 4];
     std::uint8_t* to = &picture.rgb[row * picture.rowBytes()];
     for (std::size_t column = 0; column < columns; ++column, from += 4 * times, to += 3) {
-      if (times == 1) {
+      if (times > 1) {
+        blank = !average(from, times, times * columns, to) || blank;
+      } else {
         std::copy_n(from, 3, to);
         blank = blank || from[3] == 0;
-      } else {
-        std::array<std::uint32_t, 3> light{};
-        for (std::size_t k = 0; k < times * times; ++k) {
-          const std::uint8_t* pixel = from + 4 * (k / times * times * columns + k % times);
-          for (std::size_t channel = 0; channel < 3; ++channel) {
-            light[channel] += tables.linear(pixel[channel]);
-          }
-          blank = blank || pixel[3] == 0;
-        }
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-          to[channel] = tables.encoded(static_cast<std::uint16_t>(light[channel] / (times * times)));
-        }
       }
       brightest |= static_cast<unsigned>(to[0]) | to[1] | to[2];
     }

@@ -12,7 +12,6 @@
 namespace careen {
 namespace {
 
-using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
 
 /// [1] of a box's size: so far from the surface its shade has vanished, and so wide it is at least beyond it.
@@ -34,12 +33,6 @@ bool holds(const Surface& surface, const Vec3& point, double margin) {
     }
   }
   return true;
-}
-
-void append(std::vector<float>& records, const Vec3& v) {
-  for (const double value : v) {
-    records.push_back(static_cast<float>(value));
-  }
 }
 
 }  // namespace

@@ -50,8 +50,8 @@ FilmManifest manifestOf(const Trajectory& trajectory, const Scene& scene, const 
                         .width = settings.width,
                         .height = settings.height,
                         .rate = settings.rate,
-                        .look = kLooks.at(look),
-                        .antialiasing = kAntialiasings.at(antialiasing),
+                        .look = std::string(kLooks.at(look)),
+                        .antialiasing = std::string(kAntialiasings.at(antialiasing)),
                         .shutter = settings.shutter.text(),
                         .overlays = settings.overlays.text(),
                         .frameCount = settings.rate.frameCount(duration),
@@ -124,9 +124,7 @@ FrameWorkshop openWorkshop(const Filming& filming, const Scene& scene, const Fil
     const DrawFigures before = renderer->figures();
     Picture picture = filming.draw(*renderer, figures.time, settings.shutter, settings.rate);
     if (overlays) {
-      renderer->drawOver(picture, filming.camera(figures.time), [&](const View& view) {
-        return overlays->shapesAt(filming.sceneTime(figures.time), view, settings.width, settings.height);
-      });
+      filming.explain(*renderer, picture, figures.time, *overlays);
     }
     figures.drawSeconds = renderer->figures().drawSeconds - before.drawSeconds;
     figures.readSeconds = renderer->figures().readSeconds - before.readSeconds;

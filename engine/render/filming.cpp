@@ -6,6 +6,7 @@
 #include "core/brief.h"
 #include "core/error.h"
 #include "image/light_average.h"
+#include "render/overlays.h"
 #include "render/renderer.h"
 
 namespace careen {
@@ -73,6 +74,12 @@ Picture Filming::draw(Renderer& renderer, double filmTime, const Shutter& shutte
     average.add(renderer.draw({.poses = sample.poses, .camera = sample.camera}), sample.weight);
   }
   return average.average();
+}
+
+void Filming::explain(Renderer& renderer, Picture& picture, double filmTime, const Overlays& overlays) const {
+  renderer.drawOver(picture, camera(filmTime), [&](const View& view) {
+    return overlays.shapesAt(sceneTime(filmTime), view, picture.width, picture.height);
+  });
 }
 
 Picture Filming::drawStrobe(Renderer& renderer, std::span<const double> filmTimes) const {

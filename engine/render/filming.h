@@ -13,6 +13,7 @@
 
 namespace careen {
 
+class Overlays;
 class Renderer;
 
 /// What the film of a run shows at each of its moments: from where, and where the boxes are, both exact at
@@ -33,6 +34,9 @@ class Filming {
   /// The picture at a moment. With a shutter that is open it is the average of pictures at the middles of
   /// `samples` equal parts of the time that it is open, half of it before the moment and half after.
   Picture draw(Renderer& renderer, double filmTime, const Shutter& shutter, const FrameRate& rate) const;
+
+  /// What explains the picture of that moment, over it.
+  void explain(Renderer& renderer, Picture& picture, double filmTime, const Overlays& overlays) const;
 
   /// One picture with the boxes as they are at every one of the moments, from where the camera is at the
   /// first.

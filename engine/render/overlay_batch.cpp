@@ -182,7 +182,8 @@ OverlayBatch::OverlayBatch(const Gl& gl, const std::filesystem::path& shaders, i
       program_(linkProgram(gl, shaders, {"overlay.vert", "overlay.frag"})) {
   gl.UseProgram(program_);
   gl.Uniform1i(gl.GetUniformLocation(program_, "atlas"), kAtlasUnit);
-  sizePlace_ = gl.GetUniformLocation(program_, "pictureSize");
+  gl.Uniform2f(gl.GetUniformLocation(program_, "pictureSize"), static_cast<float>(width),
+               static_cast<float>(height));
   gl.ActiveTexture(GL_TEXTURE0 + kAtlasUnit);
   gl.GenTextures(1, &texture_);
   gl.BindTexture(GL_TEXTURE_2D, texture_);
@@ -221,7 +222,6 @@ void OverlayBatch::drawLayer(const OverlayShapes& shapes) {
   gl_.ClearColor(0, 0, 0, 0);
   gl_.Clear(GL_COLOR_BUFFER_BIT);
   gl_.UseProgram(program_);
-  gl_.Uniform2f(sizePlace_, static_cast<float>(width_), static_cast<float>(height_));
   gl_.BindVertexArray(array_);
   // Inks are mixed as sRGB, so that they look as they were chosen.
   gl_.Disable(GL_FRAMEBUFFER_SRGB);

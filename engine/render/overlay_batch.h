@@ -37,7 +37,6 @@ class OverlayBatch {
   unsigned texture_ = 0;
   unsigned layer_ = 0;
   std::vector<std::uint8_t> rgba_;
-  int sizePlace_ = 0;
   GlyphAtlas atlas_;
   int sentRevision_ = 0;
 };

@@ -109,8 +109,8 @@ struct Renderer::Parts {
 
   Scene scene;
   Extent extent;
-  Camera camera;
   double aspect;
+  Camera camera;
   View view;
   Lighting lighting;
   Materials materials;
@@ -123,7 +123,6 @@ struct Renderer::Parts {
   std::optional<OverlayBatch> overlays;  // from the first picture on that has any
   std::optional<ShadowMap> shadowMap;
   BoxBatch boxes;
-  std::vector<Surface> floors;
   SurfaceBatch surfaces;
   std::optional<ContactShadeBatch> contactShades;
   unsigned backgroundArray;
@@ -136,8 +135,8 @@ struct Renderer::Parts {
 Renderer::Parts::Parts(Scene drawnScene, int width, int pictureHeight, const RenderOptions& options)
     : scene(std::move(drawnScene)),
       extent(extentOf(scene)),
-      camera(options.camera ? *options.camera : cameraOf(scene, static_cast<double>(width) / pictureHeight)),
       aspect(static_cast<double>(width) / pictureHeight),
+      camera(options.camera ? *options.camera : cameraOf(scene, aspect)),
       lighting(options.lighting ? *options.lighting : lightingOf(options.look.value_or(scene.look), camera)),
       materials(options.materials ? *options.materials : materialsOf(options.look.value_or(scene.look))),
       height(pictureHeight),
@@ -146,17 +145,16 @@ Renderer::Parts::Parts(Scene drawnScene, int width, int pictureHeight, const Ren
       gl(*context),
       canvas(gl, width, pictureHeight, options.antialiasing.value_or(scene.film.antialiasing)),
       shaders(shaderFolder(options)),
-      boxes(gl, shaderFolder(options), lightShaders(lighting, shadows)),
-      floors(surfacesOf(scene, extent, materials)),
-      surfaces(gl, shaderFolder(options), lightShaders(lighting, shadows), floors, tileSize(extent)),
+      boxes(gl, shaders, lightShaders(lighting, shadows)),
+      surfaces(gl, shaders, lightShaders(lighting, shadows), surfacesOf(scene, extent, materials),
+               tileSize(extent)),
       backgroundArray(makeVertexArray(gl)),
-      backgroundProgram(
-          linkProgram(gl, shaderFolder(options), {"background.vert", "background.frag", "finish.frag"})) {
+      backgroundProgram(linkProgram(gl, shaders, {"background.vert", "background.frag", "finish.frag"})) {
   if (shadows) {
-    shadowMap.emplace(gl, shaderFolder(options));
+    shadowMap.emplace(gl, shaders);
   }
-  if (materials.contactShade > 0 && !floors.empty()) {
-    contactShades.emplace(gl, shaderFolder(options));
+  if (materials.contactShade > 0 && !surfaces.surfaces().empty()) {
+    contactShades.emplace(gl, shaders);
   }
   gl.GenBuffers(1, &blockBuffer);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, blockBuffer);  // block 0 is where every program looks
@@ -250,7 +248,7 @@ Picture Renderer::draw(const Shot& shot) {
   widenSprings(drawn, parts.view.eye, pixelAngle(shot.camera, parts.height));
   parts.boxes.place(drawn, parts.view.eye);
   if (parts.contactShades) {
-    parts.contactShades->place(contactShades(drawn, parts.floors, parts.materials.contactShade),
+    parts.contactShades->place(contactShades(drawn, parts.surfaces.surfaces(), parts.materials.contactShade),
                                parts.view.eye);
   }
   if (parts.shadows) {
@@ -271,8 +269,7 @@ Picture Renderer::draw(const Shot& shot) {
 void Renderer::drawOver(Picture& picture, const Camera& camera, const OverlaySource& overlay) {
   const Clock::time_point begun = Clock::now();
   parts_->context->makeCurrent();
-  parts_->look(camera);
-  parts_->drawOver(picture, overlay(parts_->view));
+  parts_->drawOver(picture, overlay(viewOf(camera, parts_->extent, parts_->aspect)));
   parts_->figures.drawSeconds += secondsSince(begun);
 }
 

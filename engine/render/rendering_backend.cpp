@@ -3,9 +3,9 @@
 #include "render/rendering_backend.h"
 
 #include <cstdlib>
-#include <span>
 
 #include "core/error.h"
+#include "core/names.h"
 #include "render/egl.h"
 #include "render/gl.h"
 #include "render/osmesa.h"
@@ -15,7 +15,11 @@ namespace {
 
 bool opened = false;
 
-constexpr std::span kSingle = std::span(kRenderingBackends).subspan(1);  // all but auto
+constexpr std::array kSingle = {RenderingBackend::kOsMesa, RenderingBackend::kEgl};
+
+std::string_view nameOf(RenderingBackend backend) {
+  return kRenderingBackends.at(static_cast<std::size_t>(backend));
+}
 
 // Read by Mesa when a library of its makes the first context.
 void prepareEnvironment(const std::optional<int>& threads) {
@@ -42,11 +46,11 @@ std::unique_ptr<GlContext> open(RenderingBackend backend, const ContextOptions& 
 
 std::unique_ptr<GlContext> openFirst(const ContextOptions& options) {
   std::string reasons;
-  for (const NamedBackend& each : kSingle) {
+  for (const RenderingBackend each : kSingle) {
     try {
-      return open(each.backend, options);
+      return open(each, options);
     } catch (const MachineError& error) {
-      reasons += "\n  " + std::string(each.name) + ": " + error.what();
+      reasons += "\n  " + std::string(nameOf(each)) + ": " + error.what();
     }
   }
   throw MachineError("no rendering backend can be had:" + reasons);
@@ -55,14 +59,7 @@ std::unique_ptr<GlContext> openFirst(const ContextOptions& options) {
 }  // namespace
 
 RenderingBackend renderingBackendNamed(std::string_view name) {
-  std::string known;
-  for (const NamedBackend& each : kRenderingBackends) {
-    if (each.name == name) {
-      return each.backend;
-    }
-    known += (known.empty() ? "" : ", ") + std::string(each.name);
-  }
-  throw InputError("found '" + std::string(name) + "', expected one of: " + known);
+  return static_cast<RenderingBackend>(placeAmong(name, kRenderingBackends));
 }
 
 std::unique_ptr<GlContext> openContext(const ContextOptions& options) {
@@ -80,12 +77,12 @@ std::vector<BackendFound> findRenderingBackends(const ContextOptions& options) {
   prepareEnvironment(options.threads);
   opened = true;
   std::vector<BackendFound> found;
-  for (const NamedBackend& each : kSingle) {
+  for (const RenderingBackend each : kSingle) {
     try {
-      const std::unique_ptr<GlContext> context = open(each.backend, options);
-      found.push_back({.name = each.name, .available = true, .description = Gl(*context).description});
+      const std::unique_ptr<GlContext> context = open(each, options);
+      found.push_back({.name = nameOf(each), .available = true, .description = Gl(*context).description});
     } catch (const MachineError& error) {
-      found.push_back({.name = each.name, .available = false, .description = error.what()});
+      found.push_back({.name = nameOf(each), .available = false, .description = error.what()});
     }
   }
   return found;

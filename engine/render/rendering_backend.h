@@ -14,13 +14,8 @@ namespace careen {
 /// Ways to an OpenGL context. kAuto is the first of the others that there is.
 enum class RenderingBackend { kAuto, kOsMesa, kEgl };
 
-struct NamedBackend {
-  RenderingBackend backend;
-  std::string_view name;  ///< as commands spell it; F3D has the same
-};
-inline constexpr std::array kRenderingBackends = {NamedBackend{RenderingBackend::kAuto, "auto"},
-                                                  NamedBackend{RenderingBackend::kOsMesa, "osmesa"},
-                                                  NamedBackend{RenderingBackend::kEgl, "egl"}};
+/// In their order, as commands spell them; F3D has the same.
+inline constexpr std::array<std::string_view, 3> kRenderingBackends = {"auto", "osmesa", "egl"};
 
 /// InputError, naming those there are, for a name that none has.
 RenderingBackend renderingBackendNamed(std::string_view name);

@@ -8,23 +8,18 @@ double beyondNear(const Vec4& clip) { return clip.z() + clip.w(); }
 
 }  // namespace
 
-Vec4 Screen::clip(const Vec3& point) const {
-  const Vec3 offset = point - view_.eye;
-  return view_.clipFromOffset * Vec4(offset.x(), offset.y(), offset.z(), 1);
-}
-
 Vec2 Screen::pixel(const Vec4& clip) const {
   return {0.5 * width_ * (1 + clip.x() / clip.w()), 0.5 * height_ * (1 - clip.y() / clip.w())};
 }
 
 std::optional<Vec2> Screen::at(const Vec3& point) const {
-  const Vec4 seen = clip(point);
+  const Vec4 seen = view_.clipFromWorld(point);
   return beyondNear(seen) > 0 ? std::optional(pixel(seen)) : std::nullopt;
 }
 
 std::optional<std::pair<Vec2, Vec2>> Screen::line(const Vec3& from, const Vec3& to) const {
-  Vec4 a = clip(from);
-  Vec4 b = clip(to);
+  Vec4 a = view_.clipFromWorld(from);
+  Vec4 b = view_.clipFromWorld(to);
   const double aBeyond = beyondNear(a);
   const double bBeyond = beyondNear(b);
   if (!(aBeyond > 0) && !(bBeyond > 0)) {
@@ -40,7 +35,7 @@ std::optional<std::pair<Vec2, Vec2>> Screen::line(const Vec3& from, const Vec3& 
 
 double Screen::metresPerPixel(const Vec3& point) const {
   const double focal = view_.clipFromOffset.block<1, 3>(1, 0).norm();  // 1/tan(fov/2)
-  return clip(point).w() / (0.5 * height_ * focal);
+  return depth(point) / (0.5 * height_ * focal);
 }
 
 }  // namespace careen

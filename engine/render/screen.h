@@ -25,10 +25,9 @@ class Screen {
   /// Size of a pixel at a point's distance, for lines across the line of sight.
   double metresPerPixel(const Vec3& point) const;
   /// Depth along the line of sight: nearer is less.
-  double depth(const Vec3& point) const { return clip(point).w(); }
+  double depth(const Vec3& point) const { return view_.clipFromWorld(point).w(); }
 
  private:
-  Vec4 clip(const Vec3& point) const;
   Vec2 pixel(const Vec4& clip) const;
 
   View view_;

@@ -11,12 +11,6 @@
 namespace careen {
 namespace {
 
-void append(std::vector<float>& records, const Vec3& v) {
-  for (const double value : v) {
-    records.push_back(static_cast<float>(value));
-  }
-}
-
 void appendVertex(std::vector<float>& records, const Surface& surface, const Vec3& corner, double fromRim,
                   double tileSize, const Vec3& eye) {
   append(records, corner - eye);

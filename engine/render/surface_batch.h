@@ -17,6 +17,7 @@ class SurfaceBatch {
  public:
   SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders, const std::vector<std::string>& light,
                std::vector<Surface> surfaces, double tileSize);
+  const std::vector<Surface>& surfaces() const { return surfaces_; }
   void place(const Vec3& eye);
   void draw() const;
 

@@ -34,6 +34,12 @@ void VertexBuffer::fill(std::span<const float> records) {
   count_ = static_cast<int>(records.size() / floatsPerRecord_);
 }
 
+void append(std::vector<float>& records, const Vec3& v) {
+  for (const double value : v) {
+    records.push_back(static_cast<float>(value));
+  }
+}
+
 unsigned makeVertexArray(const Gl& gl) {
   GLuint array = 0;
   gl.GenVertexArrays(1, &array);

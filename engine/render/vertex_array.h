@@ -3,6 +3,9 @@
 #include <cstddef>
 #include <initializer_list>
 #include <span>
+#include <vector>
+
+#include "core/linear_algebra.h"
 
 namespace careen {
 
@@ -30,6 +33,9 @@ class VertexBuffer {
   std::size_t floatsPerRecord_ = 0;
   int count_ = 0;
 };
+
+/// Adds three floats to a record.
+void append(std::vector<float>& records, const Vec3& v);
 
 unsigned makeVertexArray(const Gl& gl);
 

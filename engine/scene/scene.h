@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/linear_algebra.h"
@@ -56,8 +57,8 @@ struct Camera {
 
 /// How a film looks; each is a small set of numbers of the renderer's.
 enum class Look { kStudio, kBlueprint, kClay };
-inline constexpr std::array<const char*, 3> kLooks = {"studio", "blueprint",
-                                                      "clay"};  ///< their names, in order
+inline constexpr std::array<std::string_view, 3> kLooks = {"studio", "blueprint",
+                                                           "clay"};  ///< their names, in order
 
 /// How edges are kept smooth.
 enum class Antialiasing {
@@ -66,7 +67,7 @@ enum class Antialiasing {
   kMultisampled,  ///< four samples a pixel
   kSupersampled,  ///< drawn twice as large each way, for stills: patterns are smooth too
 };
-inline constexpr std::array<const char*, 4> kAntialiasings = {"off", "edges", "4x", "supersampled"};
+inline constexpr std::array<std::string_view, 4> kAntialiasings = {"off", "edges", "4x", "supersampled"};
 
 /// Where the camera is at a moment of the film.
 struct CameraKey {

@@ -137,9 +137,9 @@ TEST(RenderingBackend, tellsOfEachWhetherItIsThere) {
 }
 
 TEST(RenderingBackend, isFoundByItsName) {
-  for (const NamedBackend& each : kRenderingBackends) {
-    EXPECT_EQ(renderingBackendNamed(each.name), each.backend);
-  }
+  EXPECT_EQ(renderingBackendNamed("auto"), RenderingBackend::kAuto);
+  EXPECT_EQ(renderingBackendNamed("osmesa"), RenderingBackend::kOsMesa);
+  EXPECT_EQ(renderingBackendNamed("egl"), RenderingBackend::kEgl);
   try {
     renderingBackendNamed("OSMesa");
     FAIL();

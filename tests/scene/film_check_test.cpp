@@ -12,13 +12,7 @@
 namespace careen {
 namespace {
 
-struct Bad {
-  const char* piece;
-  const char* instead;  // '@' stands before what the message points at
-  const char* message;
-};
-
-const std::vector<Bad> kBadScenes = {
+const std::vector<BadPiece> kBadScenes = {
     {R"("target": [0, 0, 1])", R"("target": @[6, -8, 4])",
      "found the camera's target where its eye is, expected another place to look at"},
     {R"("target": [0, 0, 1], "up": [0, 0, 4])", R"("target": [6, -8, 1], "up": @[0, 0, 4])",
@@ -36,7 +30,7 @@ const std::vector<Bad> kBadScenes = {
 };
 
 TEST(FilmCheck, badScenesAreToldWhereAndWhy) {
-  for (const Bad& bad : kBadScenes) {
+  for (const BadPiece& bad : kBadScenes) {
     const MarkedText marked(everyKeyBut(bad.piece, bad.instead));
     EXPECT_EQ(inputErrorOf([&marked] { parseScene(marked.text, "f"); }),
               "f:" + marked.place + ": " + bad.message);

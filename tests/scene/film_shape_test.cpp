@@ -16,13 +16,7 @@ std::string shapeErrorOf(const std::string& text) {
   return inputErrorOf([&text] { readShape(JsonTree(text, "f")); });
 }
 
-struct Bad {
-  const char* piece;
-  const char* instead;  // '@' stands before what the message points at
-  const char* message;
-};
-
-const std::vector<Bad> kBadValues = {
+const std::vector<BadPiece> kBadValues = {
     {R"({ "eye": [6, -8, 4], )", "@{ ", "found no eye in camera, expected that key"},
     {R"("up": [0, 0, 4])", R"("up": @[0, 0, 0])", "found a zero vector for camera.up, expected a direction"},
     {R"("fov_deg": 35)", R"("fov_deg": @0)",
@@ -61,7 +55,7 @@ const std::vector<Bad> kBadValues = {
 };
 
 TEST(FilmShape, badValuesAreToldWhereAndWhy) {
-  for (const Bad& bad : kBadValues) {
+  for (const BadPiece& bad : kBadValues) {
     const MarkedText marked(everyKeyBut(bad.piece, bad.instead));
     EXPECT_EQ(shapeErrorOf(marked.text), "f:" + marked.place + ": " + bad.message);
   }

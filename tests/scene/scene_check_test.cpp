@@ -17,13 +17,7 @@ std::string sceneErrorOf(const std::string& text) {
   return inputErrorOf([&text] { parseScene(text, "f"); });
 }
 
-struct Bad {
-  const char* piece;
-  const char* instead;  // '@' stands before what the message points at
-  const char* message;
-};
-
-const std::vector<Bad> kBadScenes = {
+const std::vector<BadPiece> kBadScenes = {
     {R"("max": [3, 2, 4])", R"("max": [3, @-2, 4])",
      "found -2 for room.max[1], expected more than room.min[1], which is -2"},
     {R"("max": [3, 2, 4])", R"("max": [3, 2, @-4.5])",
@@ -70,7 +64,7 @@ const std::vector<Bad> kBadScenes = {
 };
 
 TEST(SceneCheck, badScenesAreToldWhereAndWhy) {
-  for (const Bad& bad : kBadScenes) {
+  for (const BadPiece& bad : kBadScenes) {
     const MarkedText marked(everyKeyBut(bad.piece, bad.instead));
     EXPECT_EQ(sceneErrorOf(marked.text), "f:" + marked.place + ": " + bad.message);
   }

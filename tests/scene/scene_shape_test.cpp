@@ -280,13 +280,7 @@ TEST(SceneShape, schemaListsTheOverlaysThereAre) {
 
 // ---- What each bad value is told.
 
-struct Bad {
-  const char* piece;
-  const char* instead;  // '@' stands before what the message points at
-  const char* message;
-};
-
-const std::vector<Bad> kBadValues = {
+const std::vector<BadPiece> kBadValues = {
     {R"("careen": 1)", R"("careen": @2, "new_key": 3)",
      "found 2 for careen, expected 1, the version of the scene format that this program reads"},
     {R"("careen": 1)", R"("careen": @"1")",
@@ -400,7 +394,7 @@ const std::vector<Bad> kBadValues = {
 };
 
 TEST(SceneShape, badValuesAreToldWhereAndWhy) {
-  for (const Bad& bad : kBadValues) {
+  for (const BadPiece& bad : kBadValues) {
     const MarkedText marked(everyKeyBut(bad.piece, bad.instead));
     EXPECT_EQ(shapeErrorOf(marked.text), "f:" + marked.place + ": " + bad.message);
   }

@@ -50,6 +50,13 @@ inline std::string everyKeyBut(const std::string& piece, const std::string& inst
   return std::string(kEveryKey).replace(at, piece.size(), instead);
 }
 
+/// What makes that scene wrong, and what is then said.
+struct BadPiece {
+  const char* piece;
+  const char* instead;  ///< '@' stands before what the message points at
+  const char* message;
+};
+
 /// A text in which an '@' marks a place: the text without it, and the place as messages give it. ASCII up to
 /// there.
 struct MarkedText {
