@@ -163,7 +163,12 @@ class Chooser : public Drifter {
 TEST(Measuring, triesTolerancesWhereTheyMatter) {
   Contestants contestants;
   contestants.push_back(std::make_unique<Chooser>());
-  const Effort effort{.longestRun = 1, .longestStep = 1, .timing = 0, .rounds = 1, .steps = {1}, .tolerances = {1, 0.5, 0.25}};
+  const Effort effort{.longestRun = 1,
+                      .longestStep = 1,
+                      .timing = 0,
+                      .rounds = 1,
+                      .steps = {1},
+                      .tolerances = {1, 0.5, 0.25}};
   Case study = drift(Measure::kPoses);
   study.scene.tolerance = 0.4;
   const std::vector<Attempt> attempts = attemptAll(study, contestants, effort, {});
