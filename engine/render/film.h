@@ -77,8 +77,8 @@ struct FilmFigures {
 /// MachineError.
 ///
 /// Memory does not grow with the film, but for 9 bytes a frame: with J jobs and P pixels it is the run, once,
-/// and J times GL (about 100 MB and 60 P bytes with Mesa on the processor); with a video, (J + 2)·3 P bytes
-/// more, for frames that wait for their turn, and what ffmpeg takes.
+/// 60 MB, and J times GL (about 40 MB and 20 P bytes with Mesa on the processor); with a video, (J + 2)·3 P
+/// bytes more, for frames that wait for their turn, and what ffmpeg takes.
 ///
 /// Jobs are forked, so this process must not have opened GL before (GL's threads are not forked with it).
 FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const FilmSettings& settings,
