@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <iterator>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "core/error.h"
@@ -93,13 +95,20 @@ FilmFolder::~FilmFolder() {
   }
 }
 
-// Given up by the system when the process ends, however it ends. Some file systems have no locks; there, two
-// processes in one folder go unnoticed.
+// Given up by the system when the process and its workers end, however they end: workers of one that was killed
+// take a moment. Some file systems have no locks; there, two processes in one folder go unnoticed.
 void FilmFolder::lock() {
   descriptor_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    close(std::exchange(descriptor_, -1));
-    throw InputError(path_.string() + ": another careen is writing a film there");
+  const auto taken = [this] {
+    return descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  };
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+  while (taken()) {
+    if (std::chrono::steady_clock::now() > patience) {
+      close(std::exchange(descriptor_, -1));
+      throw InputError(path_.string() + ": another careen is writing a film there");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }
 

@@ -301,7 +301,6 @@ TEST_F(Render, killedFilmIsCompletedByASecondRun) {
   waitUntilInTheMiddle();
   process.send(SIGKILL);
   EXPECT_EQ(process.wait().signal, SIGKILL);
-  usleep(100'000);  // its workers are killed by the system then
   const Ended second = careen({"render", "scene.json", "--out", "film", "--fps", "100", "--resume"});
   ASSERT_EQ(second.exitCode, 0) << second.err;
   EXPECT_FALSE(hasPartials());
