@@ -78,12 +78,11 @@ FilmFolder::FilmFolder(fs::path path) : path_(std::move(path)) {
   if (!manifest_ && hasPng(path_)) {
     throw InputError(path_.string() + ": holds PNG files that are no film of careen's; name another folder");
   }
-  removeAll(path_, isPartial);  // what a run left that was killed outright
 }
 
 FilmFolder::~FilmFolder() {
   try {
-    removeAll(path_, isPartial);
+    removeAll(path_, isPartial);  // ours, and what a run left that was killed outright
   } catch (const std::exception&) {  // the next film's to remove
   }
   if (descriptor_ >= 0) {
