@@ -26,6 +26,7 @@ const std::map<std::string, Names> kMayInclude = {
     {"scene", {"physics", "core"}},
     {"trajectory", {"physics", "core"}},
     {"study", {"scene", "trajectory", "physics", "core"}},
+    {"compare", {"image", "trajectory", "core"}},
     {"render", {"trajectory", "scene", "image", "core"}},
 };
 

@@ -19,8 +19,6 @@ struct ErrorEstimate {
   std::optional<double> horizon;  ///< [s] from here on the two runs have nothing to do with each other
 };
 
-/// A difference of poses, relative to the box or in radians, beyond which chaos has taken over.
-inline constexpr double kHorizonDifference = 0.01;
 /// Moments at which the two runs are compared, evenly spread.
 inline constexpr int kEstimateSamples = 256;
 /// What it costs, in runs.

@@ -45,13 +45,6 @@ Quat quaternionOf(const Mat3& worldFromBody) {
   return q;
 }
 
-const std::string& partnerName(const Trajectory& trajectory, const Impact& impact) {
-  if (const WallIndex* wall = std::get_if<WallIndex>(&impact.b)) {
-    return trajectory.wallNames.at(static_cast<std::size_t>(wall->value));
-  }
-  return trajectory.tracks.at(static_cast<std::size_t>(std::get<BodyIndex>(impact.b).value)).name;
-}
-
 }  // namespace
 
 void writePosesCsv(const Trajectory& trajectory, double every, const TextSink& sink) {
@@ -85,7 +78,7 @@ void writeImpactsCsv(const Trajectory& trajectory, const TextSink& sink) {
   for (const Impact& impact : trajectory.impacts) {
     std::string row = rowAt(impact.time) + "," +
                       trajectory.tracks.at(static_cast<std::size_t>(impact.a.value)).name + "," +
-                      partnerName(trajectory, impact);
+                      trajectory.partnerName(impact);
     append(row, impact.point);
     append(row, impact.normal);
     append(row, impact.approach);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <utility>
+#include <variant>
 
 #include "core/error.h"
 #include "core/hash.h"
@@ -61,6 +62,13 @@ std::vector<Pose> Trajectory::poses(double time) const {
     poses.push_back(state(body, time).pose);
   }
   return poses;
+}
+
+const std::string& Trajectory::partnerName(const Impact& impact) const {
+  if (const WallIndex* wall = std::get_if<WallIndex>(&impact.b)) {
+    return wallNames.at(static_cast<std::size_t>(wall->value));
+  }
+  return tracks.at(static_cast<std::size_t>(std::get<BodyIndex>(impact.b).value)).name;
 }
 
 std::string Trajectory::sceneHash() const {

@@ -41,6 +41,9 @@ struct Trajectory {
   BodyState state(std::size_t body, double time) const;
   std::vector<Pose> poses(double time) const;
 
+  /// Of the box or wall that body a struck.
+  const std::string& partnerName(const Impact& impact) const;
+
   /// Of the scene file's bytes.
   std::string sceneHash() const;
   /// Of every body's last state, bit for bit, taken in the order of the bodies' names.

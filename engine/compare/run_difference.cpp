@@ -1,0 +1,297 @@
+#include "compare/run_difference.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "core/brief.h"
+#include "core/error.h"
+#include "trajectory/trajectory_file.h"
+
+namespace careen {
+namespace {
+
+// An average over fewer says little.
+constexpr std::size_t kLeastImpactsToGrowBy = 3;
+
+bool sameBits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+template <class Matrix>
+bool sameBits(const Matrix& a, const Matrix& b) {
+  return std::equal(a.data(), a.data() + a.size(), b.data(),
+                    [](double x, double y) { return sameBits(x, y); });
+}
+bool sameBits(const BodyState& a, const BodyState& b) {
+  return sameBits(a.pose.position, b.pose.position) && sameBits(a.pose.worldFromBody, b.pose.worldFromBody) &&
+         sameBits(a.velocity, b.velocity) && sameBits(a.angularMomentum, b.angularMomentum);
+}
+bool sameBits(const Impact& a, const Impact& b) {
+  return sameBits(a.time, b.time) && sameBits(a.point, b.point) && sameBits(a.normal, b.normal) &&
+         sameBits(a.approach, b.approach) && sameBits(a.impulse, b.impulse) &&
+         sameBits(a.tangential, b.tangential);
+}
+
+// All that moves, box by box in the order of their names, and nothing of how it was computed or what the
+// scene's file says beside it.
+std::string motionBytes(const Trajectory& run) {
+  std::map<std::string, std::size_t> byName;
+  for (std::size_t i = 0; i < run.tracks.size(); ++i) {
+    byName[run.tracks[i].name] = i;
+  }
+  Trajectory bare;
+  bare.settings.duration = run.settings.duration;
+  bare.wallNames = run.wallNames;
+  bare.impacts = run.impacts;
+  std::vector<int> places(run.tracks.size());
+  for (const auto& [name, place] : byName) {
+    places[place] = static_cast<int>(bare.tracks.size());
+    bare.tracks.push_back(run.tracks[place]);
+  }
+  const auto renumber = [&places](BodyIndex& body) {
+    body.value = places.at(static_cast<std::size_t>(body.value));
+  };
+  for (Impact& impact : bare.impacts) {
+    renumber(impact.a);
+    if (BodyIndex* other = std::get_if<BodyIndex>(&impact.b)) {
+      renumber(*other);
+    }
+  }
+  return encodeTrajectory(bare);
+}
+
+// ⅓ M (b²+c²) and so on for half extents a, b, c: Eq. 19 integrated.
+double halfDiagonal(const MassProperties& mass) {
+  return std::sqrt(1.5 * mass.inertiaBody.sum() / mass.mass);
+}
+
+double kineticEnergy(const MassProperties& mass, const BodyState& state) {
+  const Vec3 momentum = state.pose.worldFromBody.transpose() * state.angularMomentum;
+  return 0.5 * (mass.mass * state.velocity.squaredNorm() + momentum.cwiseAbs2().dot(mass.inverseInertiaBody));
+}
+
+/// Both runs' states, box by box under the expected run's order.
+class Pair {
+ public:
+  Pair(const Trajectory& expected, const Trajectory& actual, RunDifference& found)
+      : expected_(expected), actual_(actual) {
+    std::map<std::string, std::size_t> places;
+    for (std::size_t i = 0; i < actual.tracks.size(); ++i) {
+      places[actual.tracks[i].name] = i;
+    }
+    for (const Track& track : expected.tracks) {
+      const auto place = places.find(track.name);
+      if (place == places.end()) {
+        found.incomparable.push_back("box " + track.name + " is not there");
+      } else {
+        places_.push_back(place->second);
+        places.erase(place);
+      }
+    }
+    for (const auto& [name, place] : places) {
+      found.incomparable.push_back("box " + name + " was not expected");
+    }
+    duration_ = std::min(expected.settings.duration, actual.settings.duration);
+  }
+
+  double duration() const { return duration_; }
+
+  RunSample sampleAt(double time) const {
+    RunSample sample{.time = time, .difference = {}, .body = {}};
+    for (std::size_t body = 0; body < places_.size(); ++body) {
+      const Track& track = expected_.tracks[body];
+      if (isImmovable(track.mass)) {
+        continue;
+      }
+      const PoseDifference difference = differenceOf(expectedState(body, time).pose,
+                                                     actualState(body, time).pose, halfDiagonal(track.mass));
+      if (difference.relative > sample.difference.relative) {
+        sample.body = track.name;
+      }
+      sample.difference.include(difference);
+    }
+    return sample;
+  }
+
+  // Looked for where a segment begins, and at the end.
+  std::optional<double> firstDifference() const {
+    double first = duration_;
+    bool differ = false;
+    for (std::size_t body = 0; body < places_.size(); ++body) {
+      for (const double time : startsOf(body)) {
+        if (differ && time >= first) {
+          break;
+        }
+        if (!sameBits(expectedState(body, time), actualState(body, time))) {
+          first = time;
+          differ = true;
+          break;
+        }
+      }
+    }
+    return differ ? std::optional(first) : std::nullopt;
+  }
+
+  std::pair<double, double> energies() const {
+    std::pair<double, double> sums;
+    for (std::size_t body = 0; body < places_.size(); ++body) {
+      if (!isImmovable(expected_.tracks[body].mass)) {
+        sums.first += kineticEnergy(expected_.tracks[body].mass, expectedState(body, duration_));
+        sums.second += kineticEnergy(actual_.tracks[places_[body]].mass, actualState(body, duration_));
+      }
+    }
+    return sums;
+  }
+
+ private:
+  BodyState expectedState(std::size_t body, double time) const { return finite(expected_, body, time); }
+  BodyState actualState(std::size_t body, double time) const { return finite(actual_, places_[body], time); }
+
+  static BodyState finite(const Trajectory& run, std::size_t body, double time) {
+    BodyState state = run.state(body, time);
+    if (!(state.pose.position.allFinite() && state.pose.worldFromBody.allFinite() &&
+          state.velocity.allFinite() && state.angularMomentum.allFinite())) {
+      throw InputError("box " + run.tracks[body].name + " has a state at " + brief(time) +
+                       " s that is no number");
+    }
+    return state;
+  }
+
+  std::vector<double> startsOf(std::size_t body) const {
+    std::vector<double> times = {duration_};
+    for (const Track* track : {&expected_.tracks[body], &actual_.tracks[places_[body]]}) {
+      for (const Segment& segment : track->segments) {
+        if (segment.start <= duration_) {
+          times.push_back(segment.start);
+        }
+      }
+    }
+    std::sort(times.begin(), times.end());
+    return times;
+  }
+
+  const Trajectory& expected_;
+  const Trajectory& actual_;
+  std::vector<std::size_t> places_;  // of each expected box in the actual run
+  double duration_;
+};
+
+bool sameEvent(const Trajectory& expected, const Impact& a, const Trajectory& actual, const Impact& b) {
+  const auto name = [](const Trajectory& run, const Impact& impact) {
+    return run.tracks.at(static_cast<std::size_t>(impact.a.value)).name;
+  };
+  return name(expected, a) == name(actual, b) && expected.partnerName(a) == actual.partnerName(b);
+}
+
+std::string howItDiffers(const Impact& a, const Impact& b) {
+  std::string text;
+  const auto add = [&text](const char* what, double difference, const char* unit) {
+    if (difference != 0) {
+      text += (text.empty() ? "" : ", ") + std::string(what) + " by " + brief(difference) + unit;
+    }
+  };
+  add("time", b.time - a.time, " s");
+  add("point", (b.point - a.point).norm(), " m");
+  add("normal", (b.normal - a.normal).norm(), "");
+  add("approach", b.approach - a.approach, " m/s");
+  add("impulse", b.impulse - a.impulse, " N s");
+  add("friction's impulse", b.tangential - a.tangential, " N s");
+  return text.empty() ? "the sign of a zero" : text;
+}
+
+void compareImpacts(const Trajectory& expected, const Trajectory& actual, RunDifference& found) {
+  found.expectedImpacts = expected.impacts.size();
+  found.actualImpacts = actual.impacts.size();
+  for (std::size_t i = 0; i < std::max(found.expectedImpacts, found.actualImpacts); ++i) {
+    const Impact* const a = i < found.expectedImpacts ? &expected.impacts[i] : nullptr;
+    const Impact* const b = i < found.actualImpacts ? &actual.impacts[i] : nullptr;
+    const bool same = a != nullptr && b != nullptr && sameEvent(expected, *a, actual, *b);
+    if (same && sameBits(*a, *b)) {
+      continue;
+    }
+    ImpactDifference difference{.index = i, .expected = {}, .actual = {}, .what = {}};
+    if (a != nullptr) {
+      difference.expected = *a;
+    }
+    if (b != nullptr) {
+      difference.actual = *b;
+    }
+    difference.what = same           ? describe(*a, expected) + ": " + howItDiffers(*a, *b)
+                      : a == nullptr ? describe(*b, actual) + " was not expected"
+                      : b == nullptr
+                          ? describe(*a, expected) + " is not there"
+                          : "expected " + describe(*a, expected) + ", found " + describe(*b, actual);
+    if (!found.firstImpact) {
+      found.firstImpact = difference;
+    }
+    if (!same) {
+      found.firstOtherEvent = std::move(difference);
+      return;
+    }
+  }
+}
+
+// From the first difference there is to the last before the horizon.
+std::optional<double> growthPerImpact(const RunDifference& found, const std::vector<Impact>& impacts) {
+  const auto differs = [](const RunSample& sample) { return sample.difference.relative > 0; };
+  const auto from = std::find_if(found.growth.begin(), found.growth.end(), differs);
+  if (from == found.growth.end() || !found.horizon) {
+    return std::nullopt;
+  }
+  const auto to = std::find_if(from, found.growth.end(),
+                               [&found](const RunSample& sample) { return sample.time > *found.horizon; });
+  const auto last = to == from ? from : std::prev(to);
+  const auto within = [&](const Impact& impact) {
+    return impact.time > from->time && impact.time <= last->time;
+  };
+  const auto count = static_cast<std::size_t>(std::count_if(impacts.begin(), impacts.end(), within));
+  if (count < kLeastImpactsToGrowBy) {
+    return std::nullopt;
+  }
+  return std::pow(last->difference.relative / from->difference.relative, 1.0 / static_cast<double>(count));
+}
+
+}  // namespace
+
+std::string describe(const Impact& impact, const Trajectory& run) {
+  return "at " + brief(impact.time) + " s " + run.tracks.at(static_cast<std::size_t>(impact.a.value)).name +
+         " against " + run.partnerName(impact) + " with " + brief(impact.impulse) + " N s";
+}
+
+RunDifference differenceOf(const Trajectory& expected, const Trajectory& actual) {
+  RunDifference found;
+  const Pair pair(expected, actual, found);
+  compareImpacts(expected, actual, found);
+  found.expectedDuration = expected.settings.duration;
+  found.actualDuration = actual.settings.duration;
+  if (!found.incomparable.empty()) {
+    return found;
+  }
+  found.sameBits = motionBytes(expected) == motionBytes(actual);
+  found.firstTime = pair.firstDifference();
+  for (int k = 0; k <= kRunSamples; ++k) {
+    const RunSample sample = pair.sampleAt(pair.duration() * k / kRunSamples);
+    if (!found.horizon && sample.difference.relative > kHorizonDifference) {
+      found.horizon = found.growth.empty() ? 0 : found.growth.back().time;
+    }
+    if (!found.horizon && (k == 0 || sample.difference.relative > found.worst.difference.relative)) {
+      found.worst = sample;
+    }
+    found.growth.push_back(sample);
+  }
+  const auto apart =
+      std::find_if(found.growth.begin(), found.growth.end(), [&found](const RunSample& sample) {
+        return sample.difference.relative > 0 && (!found.firstTime || sample.time < *found.firstTime);
+      });
+  if (apart != found.growth.end()) {
+    found.firstTime = apart->time;
+  }
+  found.growthPerImpact = growthPerImpact(found, expected.impacts);
+  std::tie(found.expectedEnergy, found.actualEnergy) = pair.energies();
+  return found;
+}
+
+}  // namespace careen

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/pose_difference.h"
+#include "trajectory/trajectory.h"
+
+namespace careen {
+
+/// How far two runs lie apart at a moment: the worst of the boxes that can move.
+struct RunSample {
+  double time = 0;  ///< [s]
+  PoseDifference difference;
+  std::string body;  ///< the one that is farthest apart, relative to its size
+};
+
+/// The first impact that is not the same in both; an impact that only one of them has counts.
+struct ImpactDifference {
+  std::size_t index = 0;  ///< counted from 0
+  std::optional<Impact> expected;
+  std::optional<Impact> actual;
+  std::string what;  ///< in words, with names
+};
+
+/// What the motion of two runs has in common, and from when on it has not.
+struct RunDifference {
+  std::vector<std::string> incomparable;  ///< why the two cannot be the same scene, in words; else
+  bool sameBits = false;                  ///< every motion and every impact
+  std::optional<double> firstTime;        ///< [s] from here on a state differs, by however little
+  std::vector<RunSample> growth;          ///< kRunSamples + 1 moments, evenly spread
+  RunSample worst;                        ///< of those moments, up to the horizon
+  /// [s] before kHorizonDifference is exceeded. What small difference there was has grown so large that from
+  /// here on places say nothing any more: compare energies and counts.
+  std::optional<double> horizon;
+  /// By how much a difference grew from impact to impact, on average; if there were impacts to grow by.
+  std::optional<double> growthPerImpact;
+  std::optional<ImpactDifference> firstImpact;      ///< any bit of it
+  std::optional<ImpactDifference> firstOtherEvent;  ///< other bodies, or not there
+  std::size_t expectedImpacts = 0;
+  std::size_t actualImpacts = 0;
+  double expectedDuration = 0;  ///< [s]; states are compared up to the end of the shorter
+  double actualDuration = 0;    ///< [s]
+  double expectedEnergy = 0;    ///< [J] kinetic, there
+  double actualEnergy = 0;      ///< [J] likewise
+};
+
+/// Moments at which states are compared, besides the ends of their segments.
+inline constexpr int kRunSamples = 1000;
+
+/// Compares what moved, not how it was computed. InputError, naming the run, where a number is not finite.
+RunDifference differenceOf(const Trajectory& expected, const Trajectory& actual);
+
+/// An impact in words: time, bodies, impulse.
+std::string describe(const Impact& impact, const Trajectory& run);
+
+}  // namespace careen

@@ -1,0 +1,144 @@
+#include "compare/run_difference.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/exact_runs.h"
+#include "support/input_error.h"
+#include "support/trajectories.h"
+
+namespace careen {
+namespace {
+
+Trajectory bouncing(double startOff = 0, double duration = 8) {
+  World world = elasticRoom();
+  world.bodies[0].initial.pose.position.x() += startOff;
+  return record(world, {.duration = duration}, "a scene");
+}
+
+TEST(RunDifference, sameRunsAreTheSameWhateverTheirFilesSayBeside) {
+  const Trajectory run = bouncing();
+  Trajectory other = run;
+  other.sceneText = "another text";
+  other.settings.tolerance = 1e-9;
+  other.figures.energyChange = 0.5;
+  const RunDifference found = differenceOf(run, other);
+  EXPECT_TRUE(found.sameBits);
+  EXPECT_TRUE(found.incomparable.empty());
+  EXPECT_FALSE(found.firstTime || found.horizon || found.firstImpact || found.firstOtherEvent);
+  EXPECT_EQ(found.worst.difference.relative, 0);
+  EXPECT_EQ(found.growth.size(), kRunSamples + 1U);
+  EXPECT_EQ(found.expectedEnergy, found.actualEnergy);
+  EXPECT_GT(found.expectedImpacts, 5U);
+}
+
+TEST(RunDifference, ordersOfBoxesDoNotMatter) {
+  const Trajectory run = driftAndReturn();
+  Trajectory other = run;
+  std::swap(other.tracks[0], other.tracks[1]);
+  other.impacts[0].a = {1};
+  const RunDifference found = differenceOf(run, other);
+  EXPECT_FALSE(found.firstTime || found.firstImpact);
+  EXPECT_TRUE(found.incomparable.empty());
+  EXPECT_TRUE(found.sameBits);
+}
+
+TEST(RunDifference, oneBitIsSeenWhereItBegins) {
+  const Trajectory run = driftAndReturn();
+  Trajectory other = run;
+  double& momentum = std::get<EulerStep>(other.tracks[0].segments[1].motion).start.angularMomentum.z();
+  momentum = std::nextafter(momentum, 1);
+  const RunDifference found = differenceOf(run, other);
+  EXPECT_FALSE(found.sameBits);
+  EXPECT_EQ(found.firstTime, 0.5);
+  EXPECT_FALSE(found.firstImpact);
+}
+
+TEST(RunDifference, firstImpactThatDiffersIsToldWithHow) {
+  const Trajectory run = driftAndReturn();
+  Trajectory other = run;
+  other.impacts[0].impulse = 8.5;
+  RunDifference found = differenceOf(run, other);
+  EXPECT_FALSE(found.sameBits);
+  ASSERT_TRUE(found.firstImpact);
+  EXPECT_FALSE(found.firstOtherEvent);
+  EXPECT_EQ(found.firstImpact->index, 0U);
+  EXPECT_EQ(found.firstImpact->what, "at 0.5 s drifter against room+x with 8 N s: impulse by 0.5 N s");
+  other.impacts[0].b = WallIndex{0};
+  found = differenceOf(run, other);
+  ASSERT_TRUE(found.firstOtherEvent);
+  EXPECT_EQ(found.firstOtherEvent->what,
+            "expected at 0.5 s drifter against room+x with 8 N s, found at 0.5 s drifter against room-x with "
+            "8.5 N s");
+  other.impacts.clear();
+  found = differenceOf(run, other);
+  ASSERT_TRUE(found.firstOtherEvent);
+  EXPECT_EQ(found.firstOtherEvent->what, "at 0.5 s drifter against room+x with 8 N s is not there");
+  EXPECT_TRUE(found.firstOtherEvent->expected);
+  EXPECT_FALSE(found.firstOtherEvent->actual);
+  found = differenceOf(other, run);
+  EXPECT_EQ(found.firstOtherEvent->what, "at 0.5 s drifter against room+x with 8 N s was not expected");
+}
+
+// A known distance: relative to the half diagonal of the box, whose sizes the runs know only by its inertia.
+TEST(RunDifference, distanceIsRelativeToTheBox) {
+  const Trajectory run = driftAndReturn();
+  Trajectory other = run;
+  std::get<EulerStep>(other.tracks[0].segments[1].motion).start.pose.position.y() += 1e-3;
+  const RunDifference found = differenceOf(run, other);
+  EXPECT_DOUBLE_EQ(found.worst.difference.position, 1e-3);
+  EXPECT_NEAR(found.worst.difference.relative, 1e-3 / std::sqrt(0.14), 1e-15);
+  EXPECT_EQ(found.worst.body, "drifter");
+  EXPECT_FALSE(found.horizon);
+}
+
+TEST(RunDifference, chaosHasAHorizonAndARate) {
+  const Trajectory run = bouncing(0, 20);
+  const RunDifference found = differenceOf(run, bouncing(1e-12, 20));
+  EXPECT_EQ(found.firstTime, 0);
+  ASSERT_TRUE(found.horizon);
+  EXPECT_GT(*found.horizon, 3);
+  EXPECT_LT(*found.horizon, 19);
+  EXPECT_LT(found.worst.difference.relative, kHorizonDifference);
+  EXPECT_LE(found.worst.time, *found.horizon);
+  ASSERT_TRUE(found.growthPerImpact);
+  EXPECT_GT(*found.growthPerImpact, 1.5);  // PHYSICS.md: about 4.3
+  EXPECT_LT(*found.growthPerImpact, 10);
+  ASSERT_TRUE(found.firstOtherEvent);  // the boxes hit other walls in the end
+  EXPECT_GT(found.firstOtherEvent->index, 5U);
+  EXPECT_EQ(found.firstImpact->index, 0U);
+  EXPECT_NEAR(found.actualEnergy / found.expectedEnergy, 1, 0.9);
+}
+
+TEST(RunDifference, otherBoxesCannotBeCompared) {
+  const Trajectory run = driftAndReturn();
+  Trajectory other = run;
+  other.tracks[0].name = "rambler";
+  const RunDifference found = differenceOf(run, other);
+  EXPECT_EQ(found.incomparable,
+            (std::vector<std::string>{"box drifter is not there", "box rambler was not expected"}));
+  EXPECT_FALSE(found.sameBits);
+}
+
+TEST(RunDifference, shorterRunIsComparedToItsEnd) {
+  const RunDifference found = differenceOf(bouncing(), bouncing(0, 3));
+  EXPECT_FALSE(found.sameBits);
+  EXPECT_FALSE(found.firstTime);
+  EXPECT_EQ(found.growth.back().time, 3);
+  EXPECT_EQ(found.worst.difference.relative, 0);
+  EXPECT_TRUE(found.firstOtherEvent);
+}
+
+TEST(RunDifference, aStateThatIsNoNumberIsAnError) {
+  Trajectory run = driftAndReturn();
+  std::get<EulerStep>(run.tracks[0].segments[1].motion).start.velocity.x() =
+      std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(inputErrorOf([&run] { differenceOf(run, run); }),
+            "box drifter has a state at 0.5 s that is no number");
+}
+
+}  // namespace
+}  // namespace careen
