@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+
+namespace careen {
+
+/// CIE 1976 L*a*b*, white point D65.
+struct Lab {
+  float L = 0;
+  float a = 0;
+  float b = 0;
+};
+
+/// Light [0 … 1] of a value of sRGB [0 … 1]: IEC 61966-2-1.
+float lightOfSrgb(float encoded);
+
+/// Of linear light of the primaries of sRGB [0 … 1]. White is that of the matrix, so that grey has no colour.
+Lab labOfLight(const std::array<float, 3>& rgb);
+
+/// The CIEDE2000 difference of two colours, k_L = k_C = k_H = 1: G. Sharma, W. Wu, E. N. Dalal, "The
+/// CIEDE2000 color-difference formula: implementation notes, supplementary test data, and mathematical
+/// observations", Color Research and Application 30 (2005). About 1 is the least that can be seen side by
+/// side, 2.3 is noticed.
+float ciede2000(const Lab& one, const Lab& other);
+
+}  // namespace careen

@@ -1,0 +1,259 @@
+#include "compare/picture_difference.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "compare/perceptual_color.h"
+#include "compare/structural_similarity.h"
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+using Rgb = std::array<int, 3>;
+
+/// Light of every value a sample can have.
+template <class Sample>
+const std::vector<float>& lights() {
+  static const std::vector<float> kLights = [] {
+    constexpr auto kFull = std::numeric_limits<Sample>::max();
+    std::vector<float> table;
+    for (int value = 0; value <= kFull; ++value) {
+      table.push_back(lightOfSrgb(static_cast<float>(value) / kFull));
+    }
+    return table;
+  }();
+  return kLights;
+}
+
+template <class Sample>
+const std::vector<Sample>& samplesOf(const DeepPicture& picture) {
+  if constexpr (sizeof(Sample) == 1) {
+    return picture.samples8;
+  } else {
+    return picture.samples16;
+  }
+}
+
+/// Two pictures of one size, depth and number of channels.
+template <class Sample>
+class Comparison {
+ public:
+  Comparison(const DeepPicture& expected, const DeepPicture& actual)
+      : width_(expected.width),
+        height_(expected.height),
+        channels_(static_cast<std::size_t>(expected.channels)),
+        expected_(samplesOf<Sample>(expected)),
+        actual_(samplesOf<Sample>(actual)) {
+    result_.pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    result_.byStep.assign(kFull + 1U, 0);
+    result_.byStepOfEdges.assign(kFull + 1U, 0);
+    result_.shift.assign(channels_, 0);
+  }
+
+  PictureDifference run() {
+    const std::size_t rowSamples = static_cast<std::size_t>(width_) * channels_;
+    for (int y = 0; y < height_; ++y) {
+      const std::size_t begin = static_cast<std::size_t>(y) * rowSamples;
+      const std::span one = expected_.subspan(begin, rowSamples);
+      const std::span other = actual_.subspan(begin, rowSamples);
+      if (!std::equal(one.begin(), one.end(), other.begin())) {
+        channels_ == 3 ? addRow<3>(y, one, other) : addRow<4>(y, one, other);
+      }
+    }
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr int kFull = std::numeric_limits<Sample>::max();
+  static constexpr int kStep = kFull / 255;  ///< 1/255 of full
+
+  template <std::size_t kChannels>
+  void addRow(int y, std::span<const Sample> one, std::span<const Sample> other) {
+    std::array<std::int64_t, kChannels> signedSums{};
+    std::uint64_t sum = 0;
+    std::uint64_t squares = 0;
+    for (int x = 0; x < width_; ++x) {
+      const std::size_t place = static_cast<std::size_t>(x) * kChannels;
+      int most = 0;
+      for (std::size_t k = 0; k < kChannels; ++k) {
+        const int difference = other[place + k] - one[place + k];
+        const auto size = static_cast<unsigned>(std::abs(difference));
+        signedSums[k] += difference;
+        sum += size;
+        squares += std::uint64_t{size} * size;
+        most = std::max(most, std::abs(difference));
+      }
+      if (most != 0) {
+        addPixel(x, y, most);
+      }
+    }
+    for (std::size_t k = 0; k < kChannels; ++k) {
+      result_.shift[k] += static_cast<double>(signedSums[k]);
+    }
+    sum_ += sum;
+    squares_ += squares;
+  }
+
+  void addPixel(int x, int y, int most) {
+    ++result_.byStep[static_cast<std::size_t>(most)];
+    if (most > largest_) {
+      largest_ = most;
+      result_.largestX = x;
+      result_.largestY = y;
+    }
+    if (most <= kStep) {
+      return;  // too near for anyone to see
+    }
+    const bool edge = liesWithin(expected_, actual_, x, y) || liesWithin(actual_, expected_, x, y);
+    result_.byStepOfEdges[static_cast<std::size_t>(most)] += edge ? 1 : 0;
+    const auto color = static_cast<double>(ciede2000(labAt(expected_, x, y), labAt(actual_, x, y)));
+    result_.largestColor = std::max(result_.largestColor, color);
+    if (color > kVisible) {
+      ++result_.changed;
+      result_.changedByEdges += edge ? 1 : 0;
+    }
+  }
+
+  Rgb at(std::span<const Sample> samples, int x, int y) const {
+    const Sample* const pixel =
+        samples.data() +
+        (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) *
+            channels_;
+    Rgb rgb{pixel[0], pixel[1], pixel[2]};
+    if (channels_ == 4) {
+      for (int& value : rgb) {
+        const std::int64_t alpha = pixel[3];
+        value = static_cast<int>((value * alpha + (kFull / 2) * (kFull - alpha) + kFull / 2) / kFull);
+      }
+    }
+    return rgb;
+  }
+
+  /// Whether `samples` has there what `others` has there or half way to a neighbour.
+  bool liesWithin(std::span<const Sample> samples, std::span<const Sample> others, int x, int y) const {
+    const Rgb value = at(samples, x, y);
+    const Rgb middle = at(others, x, y);
+    Rgb least = middle;
+    Rgb most = middle;
+    for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v) {
+      for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u) {
+        const Rgb neighbor = at(others, u, v);
+        for (std::size_t k = 0; k < 3; ++k) {
+          least[k] = std::min(least[k], neighbor[k]);
+          most[k] = std::max(most[k], neighbor[k]);
+        }
+      }
+    }
+    bool within = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      within &=
+          2 * (value[k] + kStep) >= middle[k] + least[k] && 2 * (value[k] - kStep) <= middle[k] + most[k];
+    }
+    return within;
+  }
+
+  Lab labAt(std::span<const Sample> samples, int x, int y) const {
+    const std::vector<float>& light = lights<Sample>();
+    const Rgb rgb = at(samples, x, y);
+    return labOfLight({light[static_cast<std::size_t>(rgb[0])], light[static_cast<std::size_t>(rgb[1])],
+                       light[static_cast<std::size_t>(rgb[2])]});
+  }
+
+  Plane lumaOf(std::span<const Sample> samples) const {
+    constexpr float kScale = 255.0F / kFull;
+    Plane plane{.width = width_, .height = height_, .values = {}};
+    plane.values.resize(result_.pixels);
+    for (std::size_t i = 0; i < result_.pixels; ++i) {
+      Rgb rgb{samples[channels_ * i], samples[channels_ * i + 1], samples[channels_ * i + 2]};
+      if (channels_ == 4) {
+        rgb = at(samples, static_cast<int>(i % static_cast<std::size_t>(width_)),
+                 static_cast<int>(i / static_cast<std::size_t>(width_)));
+      }
+      plane.values[i] = kScale * (0.299F * static_cast<float>(rgb[0]) + 0.587F * static_cast<float>(rgb[1]) +
+                                  0.114F * static_cast<float>(rgb[2]));
+    }
+    return plane;
+  }
+
+  void finish() {
+    for (std::size_t step = 1; step < result_.byStep.size(); ++step) {
+      result_.differing += result_.byStep[step];
+    }
+    result_.byStep[0] = result_.pixels - result_.differing;
+    if (result_.differing == 0) {
+      return;
+    }
+    const double samples = static_cast<double>(result_.pixels) * static_cast<double>(channels_);
+    result_.largest = static_cast<double>(largest_) / kFull;
+    result_.mean = static_cast<double>(sum_) / kFull / samples;
+    result_.meanSquare = static_cast<double>(squares_) / kFull / kFull / samples;
+    for (double& shift : result_.shift) {
+      shift /= kFull * static_cast<double>(result_.pixels);
+    }
+    const std::size_t place = (static_cast<std::size_t>(result_.largestY) * static_cast<std::size_t>(width_) +
+                               static_cast<std::size_t>(result_.largestX)) *
+                              channels_;
+    while (std::abs(expected_[place + static_cast<std::size_t>(result_.largestChannel)] -
+                    actual_[place + static_cast<std::size_t>(result_.largestChannel)]) != largest_) {
+      ++result_.largestChannel;
+    }
+    const StructuralSimilarity similarity = similarityOf(lumaOf(expected_), lumaOf(actual_));
+    result_.ssim = similarity.mean;
+    result_.worstSsim = similarity.worst;
+    result_.worstSsimX = similarity.worstX;
+    result_.worstSsimY = similarity.worstY;
+  }
+
+  int width_;
+  int height_;
+  std::size_t channels_;
+  std::span<const Sample> expected_;
+  std::span<const Sample> actual_;
+  PictureDifference result_;
+  int largest_ = 0;
+  std::uint64_t sum_ = 0;
+  std::uint64_t squares_ = 0;
+};
+
+}  // namespace
+
+double PictureDifference::psnr() const {
+  return meanSquare > 0 ? -10 * std::log10(meanSquare) : std::numeric_limits<double>::infinity();
+}
+
+std::size_t PictureDifference::pixelsOver(double threshold, bool edgesToo) const {
+  std::size_t count = 0;
+  const auto full = static_cast<double>(byStep.size() - 1);
+  for (std::size_t step = 1; step < byStep.size(); ++step) {
+    if (static_cast<double>(step) / full > threshold) {
+      count += byStep[step] - (edgesToo ? 0 : byStepOfEdges[step]);
+    }
+  }
+  return count;
+}
+
+PictureDifference differenceOf(const DeepPicture& expected, const DeepPicture& actual) {
+  if (expected.width != actual.width || expected.height != actual.height) {
+    throw InputError("pictures of " + std::to_string(expected.width) + " x " +
+                     std::to_string(expected.height) + " and " + std::to_string(actual.width) + " x " +
+                     std::to_string(actual.height) + " pixels cannot be compared");
+  }
+  if (expected.deep != actual.deep) {
+    return differenceOf(deepened(expected), deepened(actual));
+  }
+  if (expected.channels != actual.channels) {
+    return differenceOf(withAlpha(expected), withAlpha(actual));
+  }
+  return expected.deep ? Comparison<std::uint16_t>(expected, actual).run()
+                       : Comparison<std::uint8_t>(expected, actual).run();
+}
+
+}  // namespace careen

@@ -1,0 +1,142 @@
+#include "compare/structural_similarity.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace careen {
+namespace {
+
+constexpr int kMostReach = 5;  // [px] of the window, either way
+constexpr float kC1 = 0.01F * 255 * 0.01F * 255;
+constexpr float kC2 = 0.03F * 255 * 0.03F * 255;
+// Variances do not change with an offset, and squares of smaller numbers are rounded less.
+constexpr float kOffset = 128;
+
+/// Half of the window's weights along one direction: [0] in the middle, [reach] at the end.
+struct Window {
+  explicit Window(int size) : reach(std::min(kMostReach, (size - 1) / 2)) {
+    double sum = 0;
+    std::array<double, kMostReach + 1> exact{};
+    for (int i = 0; i <= reach; ++i) {
+      exact.at(static_cast<std::size_t>(i)) = std::exp(-i * i / (2 * 1.5 * 1.5));
+      sum += (i == 0 ? 1 : 2) * exact.at(static_cast<std::size_t>(i));
+    }
+    std::transform(exact.begin(), exact.end(), weights.begin(),
+                   [sum](double weight) { return static_cast<float>(weight / sum); });
+  }
+  int reach;
+  std::array<float, kMostReach + 1> weights{};
+};
+
+/// From which column to before which one two rows differ.
+struct Range {
+  int begin;
+  int end;
+};
+
+Range differing(std::span<const float> one, std::span<const float> other) {
+  const auto first = std::mismatch(one.begin(), one.end(), other.begin()).first;
+  if (first == one.end()) {
+    return {static_cast<int>(one.size()), 0};
+  }
+  const auto last = std::mismatch(one.rbegin(), one.rend(), other.rbegin()).first;
+  return {static_cast<int>(first - one.begin()), static_cast<int>(last.base() - one.begin())};
+}
+
+/// Weighted sums over the height of a window: of each plane, of both squared, of the product. There is room
+/// on both sides, where a window that is less wide has weights of zero.
+struct Sums {
+  explicit Sums(std::size_t width)
+      : one(width + 2 * kMostReach), other(one.size()), squares(one.size()), product(one.size()) {}
+  std::vector<float> one, other, squares, product;
+};
+
+void addRow(Sums& sums, std::span<const float> one, std::span<const float> other, float weight, Range range) {
+  float* const sumOne = sums.one.data() + kMostReach;
+  float* const sumOther = sums.other.data() + kMostReach;
+  float* const sumSquares = sums.squares.data() + kMostReach;
+  float* const sumProduct = sums.product.data() + kMostReach;
+  for (int x = range.begin; x < range.end; ++x) {
+    const float a = one[static_cast<std::size_t>(x)] - kOffset;
+    const float b = other[static_cast<std::size_t>(x)] - kOffset;
+    sumOne[x] += weight * a;
+    sumOther[x] += weight * b;
+    sumSquares[x] += weight * (a * a + b * b);
+    sumProduct[x] += weight * (a * b);
+  }
+}
+
+// Equal planes make squares exactly twice the product, and what is above the line exactly what is below.
+void similarities(const Sums& sums, const Window& window, Range range, float* result) {
+  const auto across = [&window](const float* column) {
+    float sum = window.weights[0] * column[0];
+    for (int i = 1; i <= kMostReach; ++i) {
+      sum += window.weights[static_cast<std::size_t>(i)] * (column[-i] + column[i]);
+    }
+    return sum;
+  };
+  for (int x = range.begin; x < range.end; ++x) {
+    const float a = across(sums.one.data() + kMostReach + x);
+    const float b = across(sums.other.data() + kMostReach + x);
+    const float squares = across(sums.squares.data() + kMostReach + x) - (a * a + b * b);
+    const float product = across(sums.product.data() + kMostReach + x) - a * b;
+    const float meanA = a + kOffset;
+    const float meanB = b + kOffset;
+    const float above = (2 * (meanA * meanB) + kC1) * (2 * product + kC2);
+    const float below = (meanA * meanA + meanB * meanB + kC1) * (squares + kC2);
+    result[x] = above / below;
+  }
+}
+
+}  // namespace
+
+StructuralSimilarity similarityOf(const Plane& one, const Plane& other) {
+  const int width = one.width;
+  const Window wide(width);
+  const Window high(one.height);
+  std::vector<Range> rows;
+  for (int y = 0; y < one.height; ++y) {
+    rows.push_back(differing(one.row(y), other.row(y)));
+  }
+  Sums sums(static_cast<std::size_t>(width));
+  std::vector<float> result(static_cast<std::size_t>(width));
+  StructuralSimilarity similarity;
+  double missing = 0;  // from 1, of all windows
+  for (int y = high.reach; y < one.height - high.reach; ++y) {
+    Range range{width, 0};
+    for (int i = -high.reach; i <= high.reach; ++i) {
+      range.begin = std::min(range.begin, rows[static_cast<std::size_t>(y + i)].begin);
+      range.end = std::max(range.end, rows[static_cast<std::size_t>(y + i)].end);
+    }
+    range = {std::max(range.begin - wide.reach, wide.reach),
+             std::min(range.end + wide.reach, width - wide.reach)};
+    if (range.begin >= range.end) {
+      continue;  // all windows of the row are equal
+    }
+    const Range columns{range.begin - wide.reach, range.end + wide.reach};
+    for (std::vector<float>* sum : {&sums.one, &sums.other, &sums.squares, &sums.product}) {
+      std::fill(sum->begin(), sum->end(), 0.0F);
+    }
+    for (int i = -high.reach; i <= high.reach; ++i) {
+      addRow(sums, one.row(y + i), other.row(y + i), high.weights[static_cast<std::size_t>(std::abs(i))],
+             columns);
+    }
+    similarities(sums, wide, range, result.data());
+    for (int x = range.begin; x < range.end; ++x) {
+      const double value = static_cast<double>(result[static_cast<std::size_t>(x)]);
+      missing += 1 - value;
+      if (value < similarity.worst) {
+        similarity.worst = value;
+        similarity.worstX = x;
+        similarity.worstY = y;
+      }
+    }
+  }
+  similarity.mean = 1 - missing / (static_cast<double>(width - 2 * wide.reach) *
+                                   static_cast<double>(one.height - 2 * high.reach));
+  return similarity;
+}
+
+}  // namespace careen

@@ -1,0 +1,168 @@
+#include "compare/tolerance.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <utility>
+
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+constexpr double kStep = 1.0 / 255;
+
+struct Named {
+  const char* name;
+  Tolerance tolerance;
+};
+
+// Measured on frames 0 and 40 of careen, pile, wall, gas, dzhanibekov, domino, hecker-1997 and a cube,
+// 320x180 and 1280x720, llvmpipe of Mesa 22.3.6, beside the same with other threads; with SSE2 only; by
+// softpipe; and changed. The worst, or the nearest to pass, of each; "over n" are % of pixels with a channel
+// off by more than n/255:
+//
+//                                   over 0  over 1  colour changed %  SSIM   of a window
+//                                                   edges  others
+//   threads, 512 bits               0       0       0      0          1       1
+//   SSE2                            0.089   0.0017  0.0001 0.0001     1.0000  0.970
+//   softpipe                        33      8.8     1.71   0.115      0.9962  0.583
+//   a box's colour 3/255 off        3.1     2.3     0      0          1.0000  1.000
+//   a box 1 px off                  0.72    0.57    0.17   0.20       0.9962  0.173
+//   a box 2 px off                  0.94    0.75    0.10   0.52       0.9909  -0.398
+//   no shadow                       0.78    0.77    0.001  0.76       0.9969  -0.389
+//   another face of a cube          3.1     3.1     0.05   2.80       0.9790  -0.516
+//   next frame: domino, one falls   0.25    0.16    0.012  0.083      0.9984  0.042
+//   next frame: pile, boxes fall    12.7    9.4     4.87   0.48       0.9896  0.451
+//
+// So same-picture stands at 0.01 % over 1: six times what it must let pass, a sixteenth of what it must not.
+// What is smaller than that, such as a box of 16 pixels, it sees by its colour, of which one pixel may
+// change, or in a window. other-renderer stands between 0.115 and 0.48 % of changed colours, and between
+// 0.583 and 0.106 (hecker-1997, next frame) of a window's SSIM; every change above breaks one of the two.
+const std::array<Named, 4>& all() {
+  static const std::array<Named, 4> kAll{{
+      {"exact", {}},
+      {"same-machine", {.failPercent = 0.005, .hardFail = kStep}},
+      {"same-picture",
+       {.fail = kStep,
+        .failPercent = 0.01,
+        .warnPercent = 0.5,
+        .changedPercent = 0.0005,
+        .leastWindowSsim = 0.8}},
+      {"other-renderer",
+       {.fail = 4 * kStep,
+        .failPercent = 0.25,
+        .warn = 2 * kStep,
+        .warnPercent = 0.25,
+        .excuseEdges = true,
+        .changedPercent = 0.25,
+        .edgePercent = 5,
+        .leastSsim = 0.98,
+        .leastWindowSsim = 0.3}},
+  }};
+  return kAll;
+}
+
+/// Lines such as "0.12 % of the pixels are off by more than 0.0039; 0.01 % may be".
+class Reasons {
+ public:
+  template <class... Parts>
+  void addIf(bool broken, const Parts&... parts) {
+    if (broken) {
+      std::ostringstream line;
+      line.precision(4);
+      (line << ... << parts);
+      lines_.push_back(line.str());
+    }
+  }
+  std::vector<std::string> take() { return std::move(lines_); }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+// A difference of exactly so many steps is no more than that, however its division was rounded.
+double withinRounding(double threshold) { return threshold * (1 + 1e-12); }
+
+struct Limits {
+  double each, percent, any;
+};
+
+void compare(Reasons& reasons, const PictureDifference& difference, const Limits& limits, bool edgesToo) {
+  const auto pixels = static_cast<double>(difference.pixels);
+  const double over =
+      100 * static_cast<double>(difference.pixelsOver(withinRounding(limits.each), edgesToo)) / pixels;
+  const char* const which = edgesToo ? " % of the pixels" : " % of the pixels, those at edges left out,";
+  reasons.addIf(over > limits.percent, over, which, " differ by more than ", limits.each, "; at most ",
+                limits.percent, " % may");
+  static constexpr std::array<const char*, 4> kChannels{"red", "green", "blue", "alpha"};
+  reasons.addIf(difference.largest > withinRounding(limits.any),
+                kChannels.at(static_cast<std::size_t>(difference.largestChannel)), " differs by ",
+                difference.largest, " at (", difference.largestX, ", ", difference.largestY, "); at most ",
+                limits.any, " is allowed");
+}
+
+void compareLook(Reasons& reasons, const PictureDifference& difference, const Tolerance& tolerance) {
+  const auto percent = [&difference](std::size_t count) {
+    return 100 * static_cast<double>(count) / static_cast<double>(difference.pixels);
+  };
+  const std::size_t inside = difference.changed - difference.changedByEdges;
+  const double changed = percent(inside);
+  reasons.addIf(changed > tolerance.changedPercent && (inside > 1 || tolerance.changedPercent == 0), changed,
+                " % of the pixels have another colour; at most ", tolerance.changedPercent, " % may");
+  const double edges = percent(difference.changedByEdges);
+  reasons.addIf(edges > tolerance.edgePercent, edges,
+                " % of the pixels have another colour at edges; at most ", tolerance.edgePercent, " % may");
+  reasons.addIf(!(difference.ssim >= tolerance.leastSsim), "SSIM is ", difference.ssim, "; at least ",
+                tolerance.leastSsim, " is expected");
+  reasons.addIf(!(difference.worstSsim >= tolerance.leastWindowSsim), "SSIM is ", difference.worstSsim,
+                " around (", difference.worstSsimX, ", ", difference.worstSsimY, "); at least ",
+                tolerance.leastWindowSsim, " is expected");
+}
+
+}  // namespace
+
+const std::vector<std::string>& toleranceNames() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names;
+    for (const Named& named : all()) {
+      names.emplace_back(named.name);
+    }
+    return names;
+  }();
+  return kNames;
+}
+
+Tolerance toleranceOf(std::string_view name) {
+  std::string known;
+  for (const Named& named : all()) {
+    if (named.name == name) {
+      return named.tolerance;
+    }
+    known += known.empty() ? "" : ", ";
+    known += named.name;
+  }
+  throw InputError("there is no tolerance '" + std::string(name) + "'; there are " + known);
+}
+
+Judgement judge(const PictureDifference& difference, const Tolerance& tolerance) {
+  if (difference.differing == 0) {
+    return {};
+  }
+  Reasons failures;
+  compare(failures, difference, {tolerance.fail, tolerance.failPercent, tolerance.hardFail},
+          !tolerance.excuseEdges);
+  compareLook(failures, difference, tolerance);
+  std::vector<std::string> reasons = failures.take();
+  if (!reasons.empty()) {
+    return {Verdict::kDifferent, std::move(reasons)};
+  }
+  Reasons warnings;
+  compare(warnings, difference, {tolerance.warn, tolerance.warnPercent, tolerance.hardWarn},
+          !tolerance.excuseEdges);
+  reasons = warnings.take();
+  return {reasons.empty() ? Verdict::kSame : Verdict::kWarning, std::move(reasons)};
+}
+
+}  // namespace careen

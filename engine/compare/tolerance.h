@@ -1,0 +1,61 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compare/picture_difference.h"
+
+namespace careen {
+
+/// How much two pictures may differ. The first seven are idiff's, of OpenImageIO, and mean the same: a pixel
+/// fails if a channel of it differs by more than `fail`, and the pictures differ if more than `failPercent`
+/// of the pixels fail or one differs by more than `hardFail`; with `warn` likewise for a warning. All that is
+/// said of a picture must hold.
+struct Tolerance {
+  static constexpr double kAny = std::numeric_limits<double>::infinity();
+
+  double fail = 0;         ///< [1] of full
+  double failPercent = 0;  ///< [%] of all pixels
+  double hardFail = kAny;  ///< [1]
+  double warn = 0;         ///< [1]
+  double warnPercent = 0;  ///< [%]
+  double hardWarn = kAny;  ///< [1]
+
+  /// Pixels that edges explain, see differenceOf(), do not count for failPercent and warnPercent.
+  bool excuseEdges = false;
+  /// [%] of pixels with another colour to the eye that edges do not explain; if not 0, a single one always
+  /// may.
+  double changedPercent = 100;
+  double edgePercent = 100;     ///< [%] of pixels with another colour to the eye that edges explain
+  double leastSsim = -1;        ///< [1] of the picture
+  double leastWindowSsim = -1;  ///< [1] of every window
+};
+
+/// Tolerances by name, strictest first:
+/// - "exact": not one sample differs.
+/// - "same-machine": 0.005 % of the pixels may differ, by 1/255. Threads, jobs and the width of vectors do
+/// nothing.
+/// - "same-picture": 0.01 % may differ by more than 1/255, 0.0005 % or one pixel in colour to the eye, and
+/// every
+///   window's SSIM is 0.8. For other processors and versions of one renderer; catches a box moved by a pixel
+///   and a colour off by 3/255.
+/// - "other-renderer": edges may lie a third of a pixel elsewhere; of other pixels 0.25 % may differ by more
+/// than 4/255 or
+///   in colour to the eye; SSIM is 0.98, every window's 0.3. Catches a missing shadow, a lost frame, a box
+///   moved by two pixels.
+const std::vector<std::string>& toleranceNames();
+/// InputError, naming those there are, if there is none of the name.
+Tolerance toleranceOf(std::string_view name);
+
+enum class Verdict { kSame, kWarning, kDifferent };
+
+struct Judgement {
+  Verdict verdict = Verdict::kSame;
+  std::vector<std::string> reasons;  ///< what was found and what is allowed; the ones of the verdict only
+};
+
+Judgement judge(const PictureDifference& difference, const Tolerance& tolerance);
+
+}  // namespace careen

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace careen {
+
+/// A picture with all that its PNG says of the pixels: 8 or 16 bits, with alpha or without. Grey and palettes
+/// are spread to RGB, 1, 2 and 4 bits to 8, and a colour that stands for "transparent" becomes alpha; nothing
+/// of it loses a bit. Gamma and colour profiles are not applied.
+struct DeepPicture {
+  int width = 0;      ///< [px]
+  int height = 0;     ///< [px]
+  int channels = 3;   ///< 3: RGB, 4: RGBA, not multiplied by alpha
+  bool deep = false;  ///< 16 bits a sample, not 8
+
+  /// Rows from the top, no padding; one of the two is empty.
+  std::vector<std::uint8_t> samples8;
+  std::vector<std::uint16_t> samples16;
+
+  std::size_t rowSamples() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
+  }
+  std::size_t samples() const { return rowSamples() * static_cast<std::size_t>(height); }
+};
+
+/// Any PNG: every colour type, depth and filter, interlaced or not. InputError, naming `name`, if a byte of
+/// it is missing, a checksum is wrong, or it claims more pixels than its data can hold or than 2^28.
+DeepPicture decodeDeepPng(std::string_view bytes, const std::string& name);
+
+/// InputError if the file is missing, cut short or changed.
+DeepPicture readDeepPng(const std::filesystem::path& path);
+
+/// The same picture with 16 bits a sample (the same share of full), and with alpha (opaque).
+DeepPicture deepened(const DeepPicture& picture);
+DeepPicture withAlpha(const DeepPicture& picture);
+
+}  // namespace careen

@@ -1,0 +1,68 @@
+// What comparing a pair of frames costs, 1280x720, from the bytes of their PNGs to all metrics but FLIP, and
+// parts of it: frames that differ by grain (another processor), by edges too (another renderer), and wholly.
+//
+// Measured (g++ 12 -O3, AMD EPYC, a machine at work), ms: see README.
+#include <benchmark/benchmark.h>
+
+#include <string>
+#include <utility>
+
+#include "compare/flip.h"
+#include "compare/picture_difference.h"
+#include "image/pictures.h"
+#include "image/png.h"
+
+namespace careen {
+namespace {
+
+using Pair = std::pair<std::string, std::string>;
+
+std::string rendered() { return encodePng(readPng(CAREEN_SOURCE_DIR "/assets/pictures/careen.png")); }
+
+Pair grainedPair() { return {encodePng(shadedTiles(1280, 720, 1)), encodePng(shadedTiles(1280, 720, 2))}; }
+Pair shiftedPair() {
+  Picture picture = readPng(CAREEN_SOURCE_DIR "/assets/pictures/careen.png");
+  picture.rgb.insert(picture.rgb.begin(), 3, 0);
+  picture.rgb.resize(picture.rgb.size() - 3);
+  return {rendered(), encodePng(picture)};
+}
+Pair otherPair() { return {rendered(), encodePng(shadedTiles(1280, 720))}; }
+
+void readDeepPng(benchmark::State& state, const std::string& bytes) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(decodeDeepPng(bytes, "frame.png"));
+  }
+}
+BENCHMARK_CAPTURE(readDeepPng, rendered, rendered())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(readDeepPng, grained, grainedPair().first)->Unit(benchmark::kMillisecond);
+
+void readPngByStb(benchmark::State& state, const std::string& bytes) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(decodePng(bytes, "frame.png"));
+  }
+}
+BENCHMARK_CAPTURE(readPngByStb, rendered, rendered())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(readPngByStb, grained, grainedPair().first)->Unit(benchmark::kMillisecond);
+
+void comparePair(benchmark::State& state, const Pair& pair) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        differenceOf(decodeDeepPng(pair.first, "one.png"), decodeDeepPng(pair.second, "other.png")));
+  }
+}
+BENCHMARK_CAPTURE(comparePair, equal, Pair{rendered(), rendered()})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(comparePair, grained, grainedPair())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(comparePair, shifted, shiftedPair())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(comparePair, other, otherPair())->Unit(benchmark::kMillisecond);
+
+void flipOfPair(benchmark::State& state, const Pair& pair) {
+  const DeepPicture one = decodeDeepPng(pair.first, "one.png");
+  const DeepPicture other = decodeDeepPng(pair.second, "other.png");
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(flipOf(one, other));
+  }
+}
+BENCHMARK_CAPTURE(flipOfPair, shifted, shiftedPair())->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace careen

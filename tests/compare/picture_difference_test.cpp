@@ -1,0 +1,163 @@
+#include "compare/picture_difference.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "compare/perceptual_color.h"
+#include "core/error.h"
+#include "pictures_to_compare.h"
+
+namespace careen {
+namespace {
+
+TEST(PictureDifference, equalPicturesDifferInNothing) {
+  const DeepPicture picture = deepPicture(noise(50, 40, 1));
+  const PictureDifference difference = differenceOf(picture, picture);
+  EXPECT_EQ(difference.pixels, 2000U);
+  EXPECT_EQ(difference.differing, 0U);
+  EXPECT_EQ(difference.largest, 0);
+  EXPECT_EQ(difference.mean, 0);
+  EXPECT_TRUE(std::isinf(difference.psnr()));
+  EXPECT_EQ(difference.ssim, 1);
+  EXPECT_EQ(difference.changed, 0U);
+  EXPECT_EQ(difference.byStep[0], 2000U);
+}
+
+// Each figure by its definition, in doubles, of two pictures of noise.
+TEST(PictureDifference, figuresAreThoseOfTheirDefinitions) {
+  const Picture a = noise(61, 47, 1);
+  const Picture b = noise(61, 47, 2);
+  const PictureDifference difference = differenceOf(deepPicture(a), deepPicture(b));
+  double sum = 0;
+  double squares = 0;
+  std::array<double, 3> shift{};
+  int largest = 0;
+  std::size_t over40 = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); i += 3) {
+    int most = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int step = b.rgb[i + k] - a.rgb[i + k];
+      sum += std::abs(step);
+      squares += step * step;
+      shift[k] += step;
+      most = std::max(most, std::abs(step));
+    }
+    largest = std::max(largest, most);
+    over40 += most > 40 ? 1 : 0;
+  }
+  const auto samples = static_cast<double>(a.rgb.size());
+  EXPECT_NEAR(difference.mean, sum / samples / 255, 1e-14);
+  EXPECT_NEAR(difference.meanSquare, squares / samples / 255 / 255, 1e-14);
+  EXPECT_NEAR(difference.psnr(), 10 * std::log10(255.0 * 255 * samples / squares), 1e-10);
+  EXPECT_EQ(difference.largest, largest / 255.0);
+  EXPECT_EQ(difference.pixelsOver(40.5 / 255), over40);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(difference.shift[k], shift[k] / (samples / 3) / 255, 1e-14);
+  }
+}
+
+TEST(PictureDifference, theLargestDifferenceIsToldWithItsPlaceAndChannel) {
+  const DeepPicture picture = deepPicture(flat(20, 10, 100));
+  DeepPicture other = picture;
+  other.samples8[3 * (7 * 20 + 13) + 2] = 40;
+  other.samples8[3 * (2 * 20 + 3)] = 130;
+  const PictureDifference difference = differenceOf(picture, other);
+  EXPECT_EQ(difference.differing, 2U);
+  EXPECT_EQ(difference.largest, 60.0 / 255);
+  EXPECT_EQ(difference.largestX, 13);
+  EXPECT_EQ(difference.largestY, 7);
+  EXPECT_EQ(difference.largestChannel, 2);
+}
+
+TEST(PictureDifference, seesTheLowByteOfSixteenBitsAndAlphaAlone) {
+  DeepPicture deep = deepened(deepPicture(noise(8, 8, 1)));
+  const DeepPicture before = deep;
+  deep.samples16[40] ^= 1U;
+  const PictureDifference low = differenceOf(before, deep);
+  EXPECT_EQ(low.differing, 1U);
+  EXPECT_EQ(low.largest, 1.0 / 65535);
+  DeepPicture clear = withAlpha(deepPicture(noise(8, 8, 1)));
+  clear.samples8[4 * 9 + 3] = 254;
+  const PictureDifference alpha = differenceOf(deepPicture(noise(8, 8, 1)), clear);
+  EXPECT_EQ(alpha.differing, 1U);
+  EXPECT_EQ(alpha.largestChannel, 3);
+  EXPECT_EQ(alpha.largest, 1.0 / 255);
+}
+
+TEST(PictureDifference, depthsAndAlphaThatSayTheSameAreTheSame) {
+  const DeepPicture picture = deepPicture(noise(8, 8, 1));
+  EXPECT_EQ(differenceOf(picture, deepened(picture)).differing, 0U);
+  EXPECT_EQ(differenceOf(withAlpha(picture), picture).differing, 0U);
+  EXPECT_EQ(differenceOf(withAlpha(deepened(picture)), picture).differing, 0U);
+}
+
+// White that turns transparent and black that does are both seen.
+TEST(PictureDifference, transparencyIsVisibleOverEveryColour) {
+  for (const int level : {0, 255}) {
+    const DeepPicture opaque = withAlpha(flatPicture(16, 16, level, level, level));
+    DeepPicture clear = opaque;
+    for (std::size_t i = 3; i < clear.samples8.size(); i += 4) {
+      clear.samples8[i] = 0;
+    }
+    const PictureDifference difference = differenceOf(opaque, clear);
+    EXPECT_EQ(difference.changed, 256U);
+    EXPECT_LT(difference.ssim, 0.9);
+  }
+}
+
+TEST(PictureDifference, otherSizesAreAnErrorThatNamesBoth) {
+  try {
+    differenceOf(deepPicture(flat(8, 4, 1)), deepPicture(flat(4, 8, 1)));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "pictures of 8 x 4 and 4 x 8 pixels cannot be compared");
+  }
+}
+
+TEST(PictureDifference, visibleColoursAreCountedByTheirDistance) {
+  const DeepPicture picture = flatPicture(12, 12, 200, 85, 61);
+  EXPECT_EQ(differenceOf(picture, flatPicture(12, 12, 203, 85, 61)).changed, 0U);
+  const PictureDifference difference = differenceOf(picture, flatPicture(12, 12, 240, 85, 61));
+  EXPECT_EQ(difference.changed, 144U);
+  EXPECT_EQ(difference.changedByEdges, 0U);
+  const auto lab = [](int red) {
+    return labOfLight(
+        {lightOfSrgb(static_cast<float>(red) / 255), lightOfSrgb(85.0F / 255), lightOfSrgb(61.0F / 255)});
+  };
+  EXPECT_NEAR(difference.largestColor, static_cast<double>(ciede2000(lab(200), lab(240))), 1e-4);
+}
+
+TEST(PictureDifference, edgesExplainAThirdOfAPixel) {
+  const DeepPicture box = BoxPicture{}.draw();
+  for (const double shift : {-0.33, -0.25, 0.1, 0.25, 0.33}) {
+    const PictureDifference difference = differenceOf(box, BoxPicture{.left = 60.3 + shift}.draw());
+    EXPECT_GT(difference.changed, 40U) << shift;
+    EXPECT_EQ(difference.changedByEdges, difference.changed) << shift;
+    EXPECT_EQ(difference.pixelsOver(1.0 / 255, false), 0U) << shift;
+  }
+}
+
+// Of each of the box's rows at least a pixel at either end.
+TEST(PictureDifference, edgesDoNotExplainAWholePixelNorALineThatIsGone) {
+  const DeepPicture box = BoxPicture{}.draw();
+  for (const double left : {59.3, 61.3, 62.3}) {
+    const PictureDifference difference = differenceOf(box, BoxPicture{.left = left}.draw());
+    EXPECT_GE(difference.changed - difference.changedByEdges, 100U) << left;
+  }
+  DeepPicture line = box;
+  for (std::size_t x = 0; x < 320; ++x) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      line.samples8[3 * (320 * 20 + x) + k] = 20;
+    }
+  }
+  for (const bool came : {false, true}) {
+    const PictureDifference difference = came ? differenceOf(box, line) : differenceOf(line, box);
+    EXPECT_EQ(difference.changed, 320U);
+    EXPECT_EQ(difference.changedByEdges, 0U);
+  }
+}
+
+}  // namespace
+}  // namespace careen

@@ -1,0 +1,108 @@
+#include "compare/structural_similarity.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pictures_to_compare.h"
+
+namespace careen {
+namespace {
+
+Plane planeOf(const Picture& picture) {
+  Plane plane{.width = picture.width, .height = picture.height, .values = {}};
+  for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
+    plane.values.push_back(static_cast<float>(picture.rgb[i]));
+  }
+  return plane;
+}
+
+// Equation 13 of the paper, window by window, in doubles: weights by the plane distance, two passes for
+// variances.
+StructuralSimilarity straightforward(const Plane& one, const Plane& other) {
+  constexpr double kC1 = 6.5025;
+  constexpr double kC2 = 58.5225;
+  const auto reachOf = [](int size) { return std::min(5, (size - 1) / 2); };
+  const int wide = reachOf(one.width);
+  const int high = reachOf(one.height);
+  const auto at = [&one](const Plane& plane, int x, int y) {
+    return static_cast<double>(plane.values[static_cast<std::size_t>(y * one.width + x)]);
+  };
+  StructuralSimilarity result{.mean = 0, .worst = 2};
+  int windows = 0;
+  for (int y = high; y < one.height - high; ++y) {
+    for (int x = wide; x < one.width - wide; ++x) {
+      const auto mean = [&](auto&& value) {
+        double sum = 0;
+        double weights = 0;
+        for (int v = -high; v <= high; ++v) {
+          for (int u = -wide; u <= wide; ++u) {
+            const double weight = std::exp(-(u * u + v * v) / (2 * 1.5 * 1.5));
+            sum += weight * value(x + u, y + v);
+            weights += weight;
+          }
+        }
+        return sum / weights;
+      };
+      const double a = mean([&](int u, int v) { return at(one, u, v); });
+      const double b = mean([&](int u, int v) { return at(other, u, v); });
+      const double aa = mean([&](int u, int v) { return std::pow(at(one, u, v) - a, 2); });
+      const double bb = mean([&](int u, int v) { return std::pow(at(other, u, v) - b, 2); });
+      const double ab = mean([&](int u, int v) { return (at(one, u, v) - a) * (at(other, u, v) - b); });
+      const double value = (2 * a * b + kC1) * (2 * ab + kC2) / ((a * a + b * b + kC1) * (aa + bb + kC2));
+      result.mean += value;
+      ++windows;
+      if (value < result.worst) {
+        result.worst = value;
+        result.worstX = x;
+        result.worstY = y;
+      }
+    }
+  }
+  result.mean /= windows;
+  return result;
+}
+
+void expectAsStraightforward(const Plane& one, const Plane& other) {
+  const StructuralSimilarity measured = similarityOf(one, other);
+  const StructuralSimilarity expected = straightforward(one, other);
+  EXPECT_NEAR(measured.mean, expected.mean, 2e-6);
+  EXPECT_NEAR(measured.worst, expected.worst, 2e-5);
+  EXPECT_EQ(measured.worstX, expected.worstX);
+  EXPECT_EQ(measured.worstY, expected.worstY);
+}
+
+TEST(StructuralSimilarity, isThatOfThePapersFormulaWindowByWindow) {
+  expectAsStraightforward(planeOf(noise(64, 48, 1)), planeOf(noise(64, 48, 2)));
+  expectAsStraightforward(planeOf(shadedTiles(90, 70, 1)), planeOf(shadedTiles(90, 70, 5)));
+  expectAsStraightforward(planeOf(shadedTiles(64, 48)), planeOf(noise(64, 48, 2)));
+}
+
+TEST(StructuralSimilarity, picturesSmallerThanTheWindowHaveASmallerOne) {
+  for (const auto& [width, height] :
+       {std::pair{1, 1}, {2, 2}, {3, 9}, {4, 30}, {30, 5}, {10, 10}, {11, 11}, {12, 3}}) {
+    expectAsStraightforward(planeOf(noise(width, height, 1)), planeOf(noise(width, height, 2)));
+  }
+}
+
+// Windows that see nothing of the change are left out, and count as 1.
+TEST(StructuralSimilarity, changesInACornerAndInTheMiddleAreFound) {
+  const Plane plane = planeOf(shadedTiles(80, 60));
+  for (const auto& [x, y] : {std::pair{0, 0}, {79, 59}, {40, 30}, {79, 0}, {6, 59}, {73, 20}}) {
+    Plane changed = plane;
+    changed.values[static_cast<std::size_t>(y * 80 + x)] += 90;
+    expectAsStraightforward(plane, changed);
+  }
+}
+
+TEST(StructuralSimilarity, isExactlyOneOfEqualPlanesAndFollowsFromMeansOfFlatOnes) {
+  const Plane plane = planeOf(noise(100, 80, 3));
+  EXPECT_EQ(similarityOf(plane, plane).mean, 1);
+  EXPECT_EQ(similarityOf(plane, plane).worst, 1);
+  const double flatOnes = (2 * 100.0 * 150 + 6.5025) / (100.0 * 100 + 150.0 * 150 + 6.5025);
+  EXPECT_NEAR(similarityOf(planeOf(flat(40, 40, 100)), planeOf(flat(40, 40, 150))).mean, flatOnes, 1e-6);
+}
+
+}  // namespace
+}  // namespace careen
