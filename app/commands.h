@@ -17,6 +17,7 @@ using Command = std::function<ExitCode(const std::stop_token&)>;
 // Each adds one command, with its options, to the command line; parsing it sets `chosen`.
 void addRender(CLI::App& commandLine, Command& chosen);
 void addSimulate(CLI::App& commandLine, Command& chosen);
+void addCompare(CLI::App& commandLine, Command& chosen);
 void addInfo(CLI::App& commandLine, Command& chosen);
 void addStudy(CLI::App& commandLine, Command& chosen);
 void addVerify(CLI::App& commandLine, Command& chosen);

@@ -24,6 +24,7 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
 #endif
   addSimulate(commandLine, chosen);
   addStudy(commandLine, chosen);
+  addCompare(commandLine, chosen);
   addInfo(commandLine, chosen);
 #ifdef CAREEN_RENDER
   addVerify(commandLine, chosen);

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -58,5 +61,35 @@ struct Comparison {
 /// Files of a frame: the pictures themselves where two pictures are compared.
 std::filesystem::path expectedFrame(const Comparison& comparison, const FrameComparison& frame);
 std::filesystem::path actualFrame(const Comparison& comparison, const FrameComparison& frame);
+
+struct ComparisonSettings {
+  std::string program;
+  std::string toleranceName = "same-picture";
+  Tolerance tolerance = toleranceOf("same-picture");  ///< of pictures
+  /// Of places [1], see PoseDifference; 0: every bit counts. Impacts need not be the same where it is not 0.
+  double motionTolerance = 0;
+  bool motionCounts = true;  ///< a film of another motion is another film, even if its pictures are the same
+  bool flip = false;         ///< ꟻLIP, too, which takes ten times as long as all the rest
+  int threads = 1;           ///< frames that are compared side by side
+};
+
+/// Tells how many frames of how many are compared.
+using ComparisonCallback = std::function<void(std::size_t done, std::size_t total)>;
+
+/// Two PNG files; InputError if one is none. Files that are the same byte for byte are not unpacked, but
+/// their checksums must be right.
+Comparison comparePictures(const std::filesystem::path& expected, const std::filesystem::path& actual,
+                           const ComparisonSettings& settings);
+
+/// All PNG files of two folders, by name. A frame that is missing, broken or of another size is a different
+/// one. `sameMotion`: whether both films are known to be of one motion, or not. InputError if a folder has no
+/// PNG. Memory: the frames at hand, and some 300 bytes for each of all.
+Comparison compareFolders(const std::filesystem::path& expected, const std::filesystem::path& actual,
+                          const ComparisonSettings& settings, std::optional<bool> sameMotion,
+                          const ComparisonCallback& progress = {}, const std::stop_token& stop = {});
+
+/// Two trajectory files.
+Comparison compareRuns(const std::filesystem::path& expected, const std::filesystem::path& actual,
+                       const ComparisonSettings& settings);
 
 }  // namespace careen

@@ -147,14 +147,18 @@ class Pair {
   }
 
  private:
-  BodyState expectedState(std::size_t body, double time) const { return finite(expected_, body, time); }
-  BodyState actualState(std::size_t body, double time) const { return finite(actual_, places_[body], time); }
+  BodyState expectedState(std::size_t body, double time) const {
+    return finite("the expected run", expected_, body, time);
+  }
+  BodyState actualState(std::size_t body, double time) const {
+    return finite("the actual run", actual_, places_[body], time);
+  }
 
-  static BodyState finite(const Trajectory& run, std::size_t body, double time) {
+  static BodyState finite(const char* name, const Trajectory& run, std::size_t body, double time) {
     BodyState state = run.state(body, time);
     if (!(state.pose.position.allFinite() && state.pose.worldFromBody.allFinite() &&
           state.velocity.allFinite() && state.angularMomentum.allFinite())) {
-      throw InputError("box " + run.tracks[body].name + " has a state at " + brief(time) +
+      throw InputError(std::string(name) + ": box " + run.tracks[body].name + " has a state at " + brief(time) +
                        " s that is no number");
     }
     return state;

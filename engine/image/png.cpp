@@ -150,10 +150,14 @@ std::string encodePng(const Picture& picture) {
   return bytes;
 }
 
-Picture decodePng(std::string_view bytes, const std::string& name) {
+void checkPng(std::string_view bytes, const std::string& name) {
   if (const char* fault = faultOf(bytes)) {
     throw InputError(name + ": " + fault);
   }
+}
+
+Picture decodePng(std::string_view bytes, const std::string& name) {
+  checkPng(bytes, name);
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
     throw InputError(name + ": is too large a PNG");
   }

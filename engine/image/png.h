@@ -20,6 +20,10 @@ Picture readPng(const std::filesystem::path& path);
 /// The file appears whole or not at all; MachineError if it cannot be written.
 void writePng(const std::filesystem::path& path, const Picture& picture);
 
+/// InputError, naming `name`, if something of a PNG is missing or a checksum is wrong: quick, for its pixels
+/// are not unpacked.
+void checkPng(std::string_view bytes, const std::string& name);
+
 /// Whether the file is a PNG of this size with nothing missing and every checksum right: quick, for its
 /// pixels are not unpacked.
 bool isWholePng(const std::filesystem::path& path, int width, int height);

@@ -1,6 +1,5 @@
 #include "render/film.h"
 
-#include <sched.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/processor.h"
 #include "image/picture_ring.h"
 #include "image/png.h"
 #include "image/video_pipe.h"
@@ -68,15 +68,8 @@ void refuseAnotherFilm(const FilmFolder& folder, const FilmManifest& asked) {
   }
 }
 
-// Those this process may use: a cluster's job is given some of a machine's.
-int coreCount() {
-  cpu_set_t cores;
-  CPU_ZERO(&cores);
-  return sched_getaffinity(0, sizeof(cores), &cores) == 0 ? std::max(1, CPU_COUNT(&cores)) : 1;
-}
-
 int jobCount(const FilmSettings& settings, std::size_t framesToDraw) {
-  const int jobs = settings.jobs.value_or(std::min(coreCount(), kMostJobs));
+  const int jobs = settings.jobs.value_or(std::min(usableCores(), kMostJobs));
   if (jobs < 1 || jobs > kMostJobs) {
     throw InputError("jobs: found " + std::to_string(jobs) + ", expected 1 to " + std::to_string(kMostJobs));
   }
@@ -87,7 +80,7 @@ int jobCount(const FilmSettings& settings, std::size_t framesToDraw) {
 RenderOptions optionsOfJob(const FilmSettings& settings, int jobs) {
   RenderOptions options = settings.render;
   if (!options.context.threads) {
-    const int cores = coreCount() / jobs;
+    const int cores = usableCores() / jobs;
     options.context.threads = cores > 1 ? std::min(cores, kMostThreads) : 0;
   }
   return options;

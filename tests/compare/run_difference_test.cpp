@@ -137,7 +137,7 @@ TEST(RunDifference, aStateThatIsNoNumberIsAnError) {
   std::get<EulerStep>(run.tracks[0].segments[1].motion).start.velocity.x() =
       std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(inputErrorOf([&run] { differenceOf(run, run); }),
-            "box drifter has a state at 0.5 s that is no number");
+            "the expected run: box drifter has a state at 0.5 s that is no number");
 }
 
 }  // namespace

@@ -1,0 +1,320 @@
+#include "compare.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "commands.h"
+#include "core/brief.h"
+#include "core/file.h"
+#include "core/processor.h"
+#include "trajectory/trajectory_file.h"
+#ifdef CAREEN_RENDER
+#include "render/film_manifest.h"
+#endif
+
+namespace careen {
+namespace {
+
+constexpr int kMostThreads = 256;
+constexpr std::size_t kMostFramesTold = 10;
+
+struct Override {
+  const char* option;
+  const char* help;
+  std::optional<double> CompareOptions::*given;
+  double Tolerance::*value;
+  double most;
+};
+
+// idiff's words, where it has one.
+constexpr double kAny = Tolerance::kAny;
+const std::vector<Override>& overrides() {
+  static const std::vector<Override> kOverrides = {
+      {"--fail", "A pixel fails if a channel differs by more, of 1", &CompareOptions::fail, &Tolerance::fail,
+       1},
+      {"--failpercent", "Of the pixels that may fail", &CompareOptions::failPercent, &Tolerance::failPercent,
+       100},
+      {"--hardfail", "No channel may differ by more, of 1", &CompareOptions::hardFail, &Tolerance::hardFail,
+       kAny},
+      {"--warn", "As --fail, for a warning", &CompareOptions::warn, &Tolerance::warn, 1},
+      {"--warnpercent", "As --failpercent, for a warning", &CompareOptions::warnPercent,
+       &Tolerance::warnPercent, 100},
+      {"--hardwarn", "As --hardfail, for a warning", &CompareOptions::hardWarn, &Tolerance::hardWarn, kAny},
+      {"--changedpercent", "Of the pixels that may have another colour to the eye",
+       &CompareOptions::changedPercent, &Tolerance::changedPercent, 100},
+      {"--edgepercent", "The same of those at edges that lie elsewhere by less than a pixel",
+       &CompareOptions::edgePercent, &Tolerance::edgePercent, 100},
+      {"--ssim", "Least SSIM of a frame", &CompareOptions::ssim, &Tolerance::leastSsim, 1},
+      {"--windowssim", "Least SSIM of any part of it, 11 pixels wide and high", &CompareOptions::windowSsim,
+       &Tolerance::leastWindowSsim, 1},
+  };
+  return kOverrides;
+}
+
+double motionToleranceOf(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0' || !(value > 0) || !std::isfinite(value)) {
+    throw InputError("--motion: found '" + text +
+                     "', expected same, any, or how far apart boxes may be, in their sizes or radians");
+  }
+  return value;
+}
+
+ComparisonSettings settingsOf(const CompareOptions& options) {
+  ComparisonSettings settings;
+  settings.program = "careen " CAREEN_VERSION;
+  settings.toleranceName = options.threshold;
+  try {
+    settings.tolerance = toleranceOf(options.threshold);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--threshold: ") + error.what());
+  }
+  for (const Override& each : overrides()) {
+    if (const std::optional<double>& given = options.*each.given) {
+      if (!(*given >= 0 && *given <= each.most)) {
+        throw InputError(std::string(each.option) + ": found " + brief(*given) + ", expected 0 " +
+                         (each.most < kAny ? "to " + brief(each.most) : "or more"));
+      }
+      settings.tolerance.*each.value = *given;
+      settings.toleranceName += ", " + std::string(each.option) + " " + brief(*given);
+    }
+  }
+  settings.motionCounts = options.motion != "any";
+  if (options.motion != "any" && options.motion != "same") {
+    settings.motionTolerance = motionToleranceOf(options.motion);
+  }
+  settings.flip = options.flip;
+  settings.threads = options.threads.value_or(std::min(usableCores(), kMostThreads));
+  if (settings.threads < 1 || settings.threads > kMostThreads) {
+    throw InputError("--threads: found " + std::to_string(settings.threads) + ", expected 1 to " +
+                     std::to_string(kMostThreads));
+  }
+  return settings;
+}
+
+enum class Kind { kPicture, kFolder, kRun };
+
+Kind kindOf(const std::filesystem::path& path) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) {
+    return Kind::kFolder;
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::string begin(64, '\0');
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  if (!stream && stream.gcount() == 0) {
+    throw InputError(path.string() + (std::filesystem::exists(path, none) ? ": is empty" : ": is not there") +
+                     ", expected a picture, a folder of frames, or a run");
+  }
+  return looksLikeTrajectory(begin) ? Kind::kRun : Kind::kPicture;
+}
+
+const char* nameOf(Kind kind) {
+  return kind == Kind::kPicture ? "a picture" : kind == Kind::kFolder ? "a folder" : "a run";
+}
+
+// What the films say of themselves, where both do.
+struct Films {
+  std::vector<Fact> facts;
+  std::optional<bool> sameMotion;
+};
+
+Films filmsIn([[maybe_unused]] const std::filesystem::path& expected,
+              [[maybe_unused]] const std::filesystem::path& actual) {
+  Films films;
+#ifdef CAREEN_RENDER
+  const std::optional<FilmManifest> one = readManifest(expected);
+  const std::optional<FilmManifest> other = readManifest(actual);
+  if (one && other) {
+    films.sameMotion = one->stateHash == other->stateHash;
+    films.facts = {{"scene hash", one->sceneHash, other->sceneHash},
+                   {"state hash", one->stateHash, other->stateHash},
+                   {"program", one->program, other->program},
+                   {"renderer", one->renderer, other->renderer},
+                   {"frames per second", one->rate.text(), other->rate.text()},
+                   {"frames of the film", std::to_string(one->frameCount), std::to_string(other->frameCount)},
+                   {"look", one->look, other->look},
+                   {"antialiasing", one->antialiasing, other->antialiasing},
+                   {"shutter", one->shutter, other->shutter},
+                   {"overlays", one->overlays, other->overlays}};
+  }
+#endif
+  return films;
+}
+
+nlohmann::ordered_json lineOf(const FrameComparison& frame) {
+  constexpr const char* kVerdicts[] = {"same", "warning", "different"};
+  nlohmann::ordered_json line = {{"frame", frame.name},
+                                 {"verdict", kVerdicts[static_cast<int>(frame.verdict)]},
+                                 {"identical", frame.identical}};
+  if (frame.measured) {
+    line.update({{"largest", frame.largest},
+                 {"mean", frame.mean},
+                 {"psnr", std::isfinite(frame.psnr) ? nlohmann::ordered_json(frame.psnr) : nullptr},
+                 {"ssim", frame.ssim},
+                 {"worst_ssim", frame.worstSsim},
+                 {"failing_percent", frame.failingPercent},
+                 {"changed_percent", frame.changedPercent},
+                 {"edge_percent", frame.edgePercent}});
+  }
+  if (frame.flip) {
+    line["flip"] = *frame.flip;
+  }
+  line["reasons"] = frame.reasons;
+  return line;
+}
+
+void printFrame(std::ostream& out, const FrameComparison& frame) {
+  for (const std::string& reason : frame.reasons) {
+    out << "  " << frame.name << ": " << reason << '\n';
+  }
+}
+
+void printRun(std::ostream& out, const RunDifference& run) {
+  for (const std::string& reason : run.incomparable) {
+    out << "  " << reason << '\n';
+  }
+  if (run.firstTime) {
+    out << "  first difference of a state at " << brief(*run.firstTime) << " s\n";
+  }
+  if (run.worst.difference.relative > 0) {
+    out << "  largest difference" << (run.horizon ? " before that horizon" : "") << ' '
+        << brief(run.worst.difference.position) << " m, " << brief(run.worst.difference.angle) << " rad, at "
+        << brief(run.worst.time) << " s, " << run.worst.body << '\n';
+  }
+  if (run.firstImpact) {
+    out << "  first impact that differs, number " << run.firstImpact->index + 1 << ": "
+        << run.firstImpact->what << '\n';
+  }
+  if (run.firstOtherEvent && run.firstOtherEvent->what != run.firstImpact->what) {
+    out << "  first other impact, number " << run.firstOtherEvent->index + 1 << ": "
+        << run.firstOtherEvent->what << '\n';
+  }
+  if (!run.sameBits && run.incomparable.empty()) {
+    out << "  impacts " << run.expectedImpacts << " and " << run.actualImpacts
+        << ", kinetic energy at the end " << brief(run.expectedEnergy) << " and " << brief(run.actualEnergy)
+        << " J\n";
+  }
+}
+
+void print(std::ostream& out, const Comparison& comparison) {
+  constexpr const char* kVerdicts[] = {"same", "same, with a warning", "differs"};
+  out << kVerdicts[static_cast<int>(comparison.verdict)] << ": " << comparison.headline;
+  if (!comparison.frames.empty()) {
+    out << " (" << comparison.toleranceName << ')';
+  }
+  out << '\n';
+  if (comparison.run) {
+    printRun(out, *comparison.run);
+  }
+  std::size_t told = 0;
+  std::size_t untold = 0;
+  for (const FrameComparison& frame : comparison.frames) {
+    if (frame.verdict != Verdict::kSame && told < kMostFramesTold) {
+      printFrame(out, frame);
+      ++told;
+    } else if (frame.verdict != Verdict::kSame) {
+      ++untold;
+    }
+  }
+  if (untold > 0) {
+    out << "  and " << untold << " frames more\n";
+  }
+  if (comparison.verdict != Verdict::kSame) {
+    for (const Fact& fact : comparison.facts) {
+      if (fact.expected != fact.actual) {
+        out << "  " << fact.name << ": " << fact.expected << ", found " << fact.actual << '\n';
+      }
+    }
+  }
+}
+
+Comparison compare(const std::filesystem::path& expected, const std::filesystem::path& actual,
+                   const ComparisonSettings& settings, const std::stop_token& stop) {
+  const Kind kind = kindOf(expected);
+  if (const Kind other = kindOf(actual); other != kind) {
+    throw InputError("found " + std::string(nameOf(kind)) + " and " + nameOf(other) +
+                     ", expected two pictures, two folders or two runs");
+  }
+  if (kind == Kind::kPicture) {
+    return comparePictures(expected, actual, settings);
+  }
+  if (kind == Kind::kRun) {
+    return compareRuns(expected, actual, settings);
+  }
+  Films films = filmsIn(expected, actual);
+  Comparison comparison = compareFolders(expected, actual, settings, films.sameMotion, {}, stop);
+  comparison.facts = std::move(films.facts);
+  return comparison;
+}
+
+}  // namespace
+
+void CompareOptions::addTo(CLI::App& command) {
+  std::string names;
+  for (const std::string& name : toleranceNames()) {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  command.add_option("--threshold", threshold, "What may differ, by name: " + names)->capture_default_str();
+  for (const Override& each : overrides()) {
+    command.add_option(each.option, this->*each.given, each.help);
+  }
+  command
+      .add_option(
+          "--motion", motion,
+          "Of runs and films: same, bit for bit; any; or how far apart boxes may be in runs, in their "
+          "half diagonals or radians")
+      ->capture_default_str();
+  command.add_flag("--flip", flip, "Measure FLIP, too, which takes longer");
+  command.add_option("--threads", threads, "Frames compared side by side; as many as there are cores");
+}
+
+ExitCode compareAndTell(const std::filesystem::path& expected, const std::filesystem::path& actual,
+                        const CompareOptions& options, bool logsFrames, const std::stop_token& stop,
+                        Comparison* found) {
+  Comparison comparison = compare(expected, actual, settingsOf(options), stop);
+  if (logsFrames) {
+    for (const FrameComparison& frame : comparison.frames) {
+      std::cout << lineOf(frame).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    }
+  }
+  print(logsFrames ? std::cerr : std::cout, comparison);
+  const ExitCode code = comparison.verdict == Verdict::kDifferent ? ExitCode::kDifferent : ExitCode::kDone;
+  if (found != nullptr) {
+    *found = std::move(comparison);
+  }
+  return code;
+}
+
+void addCompare(CLI::App& commandLine, Command& chosen) {
+  struct Arguments {
+    std::filesystem::path expected, actual;
+    CompareOptions options;
+    std::string log = "text";
+  };
+  CLI::App* command =
+      commandLine.add_subcommand("compare", "Whether two pictures, folders of frames, or runs are the same");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("expected", arguments->expected, "Picture (PNG), folder of frames, or run.careen")
+      ->required();
+  command->add_option("actual", arguments->actual, "What is to be the same")->required();
+  arguments->options.addTo(*command);
+  command->add_option("--log", arguments->log, "text, or json: a line for each frame on the standard output")
+      ->check(CLI::IsMember({"text", "json"}));
+  command->callback([arguments, &chosen] {
+    chosen = [arguments](const std::stop_token& stop) {
+      return compareAndTell(arguments->expected, arguments->actual, arguments->options,
+                            arguments->log == "json", stop);
+    };
+  });
+}
+
+}  // namespace careen

@@ -1,0 +1,343 @@
+#include "compare/comparison.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "compare/flip.h"
+#include "compare/picture_difference.h"
+#include "core/brief.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "image/deep_picture.h"
+#include "image/png.h"
+#include "trajectory/trajectory_file.h"
+
+namespace careen {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A frame of both folders; a path is empty where there is none.
+struct Pair {
+  std::string name;
+  fs::path expected;
+  fs::path actual;
+};
+
+void measure(const Pair& pair, const std::string& expectedBytes, const std::string& actualBytes,
+             const ComparisonSettings& settings, FrameComparison& frame) {
+  const DeepPicture expected = decodeDeepPng(expectedBytes, pair.expected.string());
+  const DeepPicture actual = decodeDeepPng(actualBytes, pair.actual.string());
+  const PictureDifference difference = differenceOf(expected, actual);
+  const auto percent = [&difference](std::size_t pixels) {
+    return 100 * static_cast<double>(pixels) / static_cast<double>(difference.pixels);
+  };
+  frame.measured = true;
+  frame.largest = difference.largest;
+  frame.largestX = difference.largestX;
+  frame.largestY = difference.largestY;
+  frame.mean = difference.mean;
+  frame.psnr = difference.psnr();
+  frame.ssim = difference.ssim;
+  frame.worstSsim = difference.worstSsim;
+  frame.failingPercent = percent(difference.pixelsOver(settings.tolerance.fail));
+  frame.changedPercent = percent(difference.changed - difference.changedByEdges);
+  frame.edgePercent = percent(difference.changedByEdges);
+  if (settings.flip) {
+    frame.flip = flipOf(expected, actual).mean;
+  }
+  Judgement judgement = judge(difference, settings.tolerance);
+  frame.verdict = judgement.verdict;
+  frame.reasons = std::move(judgement.reasons);
+}
+
+FrameComparison compareFiles(const Pair& pair, const ComparisonSettings& settings) {
+  FrameComparison frame;
+  frame.name = pair.name;
+  const std::string expected = readFile(pair.expected);
+  const std::string actual = readFile(pair.actual);
+  frame.identical = expected == actual;
+  if (frame.identical) {
+    checkPng(expected, pair.expected.string());
+    frame.measured = true;
+    frame.psnr = std::numeric_limits<double>::infinity();
+    if (settings.flip) {
+      frame.flip = 0;
+    }
+  } else {
+    measure(pair, expected, actual, settings, frame);
+  }
+  return frame;
+}
+
+// Missing and broken frames are differences here.
+FrameComparison compareFrame(const Pair& pair, const ComparisonSettings& settings) {
+  FrameComparison frame;
+  frame.name = pair.name;
+  frame.verdict = Verdict::kDifferent;
+  if (pair.actual.empty()) {
+    frame.reasons = {"it is missing"};
+    return frame;
+  }
+  if (pair.expected.empty()) {
+    frame.reasons = {"it was not expected"};
+    return frame;
+  }
+  try {
+    return compareFiles(pair, settings);
+  } catch (const InputError& error) {
+    frame.reasons = {error.what()};
+  }
+  return frame;
+}
+
+void list(const fs::path& folder, std::map<std::string, Pair>& pairs, fs::path Pair::*side) {
+  bool any = false;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".png") {
+      Pair& pair = pairs[entry.path().filename().string()];
+      pair.name = entry.path().filename().string();
+      pair.*side = entry.path();
+      any = true;
+    }
+  }
+  if (!any) {
+    throw InputError(folder.string() + ": found no PNG files, expected a folder of frames");
+  }
+}
+
+std::vector<Pair> pairsOf(const fs::path& expected, const fs::path& actual) {
+  std::map<std::string, Pair> byName;
+  list(expected, byName, &Pair::expected);
+  list(actual, byName, &Pair::actual);
+  std::vector<Pair> pairs;
+  for (auto& [name, pair] : byName) {
+    pairs.push_back(std::move(pair));
+  }
+  return pairs;
+}
+
+/// Compares frames side by side; the first error ends it.
+class Crew {
+ public:
+  Crew(const std::vector<Pair>& pairs, const ComparisonSettings& settings, const ComparisonCallback& progress,
+       const std::stop_token& stop)
+      : pairs_(pairs), settings_(settings), progress_(progress), stop_(stop), frames_(pairs.size()) {}
+
+  std::vector<FrameComparison> compare() {
+    {
+      std::vector<std::jthread> threads;
+      for (int i = 1; i < settings_.threads; ++i) {
+        threads.emplace_back([this] { work(); });
+      }
+      work();
+    }
+    if (error_) {
+      std::rethrow_exception(error_);
+    }
+    if (stop_.stop_requested()) {
+      throw Interrupted();
+    }
+    return std::move(frames_);
+  }
+
+ private:
+  void work() {
+    for (std::size_t i = next_++; i < pairs_.size() && !stop_.stop_requested(); i = next_++) {
+      try {
+        frames_[i] = compareFrame(pairs_[i], settings_);
+        const std::lock_guard lock(mutex_);
+        ++done_;
+        if (progress_) {
+          progress_(done_, pairs_.size());
+        }
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        error_ = std::current_exception();
+        next_ = pairs_.size();
+      }
+    }
+  }
+
+  const std::vector<Pair>& pairs_;
+  const ComparisonSettings& settings_;
+  const ComparisonCallback& progress_;
+  const std::stop_token& stop_;
+  std::vector<FrameComparison> frames_;
+  std::atomic<std::size_t> next_ = 0;
+  std::mutex mutex_;  // of what follows
+  std::size_t done_ = 0;
+  std::exception_ptr error_;
+};
+
+bool same(const fs::path& expected, const fs::path& actual, const ComparisonSettings& settings) {
+  return !expected.empty() && !actual.empty() &&
+         compareFrame({.name = {}, .expected = expected, .actual = actual}, settings).verdict !=
+             Verdict::kDifferent;
+}
+
+// Of the first frame that is another picture: whether it is the one before or after it.
+void tellShift(const std::vector<Pair>& pairs, const ComparisonSettings& settings,
+               std::vector<FrameComparison>& frames) {
+  const auto first = std::find_if(frames.begin(), frames.end(), [](const FrameComparison& frame) {
+    return frame.verdict == Verdict::kDifferent && frame.measured;
+  });
+  if (first == frames.end()) {
+    return;
+  }
+  const auto k = static_cast<std::size_t>(first - frames.begin());
+  if (k > 0 && same(pairs[k - 1].expected, pairs[k].actual, settings)) {
+    first->reasons.push_back("it shows what " + pairs[k - 1].name + " should: a frame is doubled");
+  } else if (k + 1 < pairs.size() && same(pairs[k + 1].expected, pairs[k].actual, settings)) {
+    first->reasons.push_back("it shows what " + pairs[k + 1].name + " should: a frame was dropped");
+  }
+}
+
+Comparison begun(const fs::path& expected, const fs::path& actual, const ComparisonSettings& settings) {
+  Comparison comparison;
+  comparison.expected = expected;
+  comparison.actual = actual;
+  comparison.program = settings.program;
+  comparison.toleranceName = settings.toleranceName;
+  comparison.tolerance = settings.tolerance;
+  return comparison;
+}
+
+Verdict worstVerdict(const std::vector<FrameComparison>& frames) {
+  const auto worst = std::max_element(
+      frames.begin(), frames.end(),
+      [](const FrameComparison& a, const FrameComparison& b) { return a.verdict < b.verdict; });
+  return worst == frames.end() ? Verdict::kSame : worst->verdict;
+}
+
+std::string pictureHeadline(const Comparison& comparison) {
+  const auto different = static_cast<std::size_t>(
+      std::count_if(comparison.frames.begin(), comparison.frames.end(),
+                    [](const FrameComparison& frame) { return frame.verdict == Verdict::kDifferent; }));
+  const bool identical = std::all_of(comparison.frames.begin(), comparison.frames.end(),
+                                     [](const FrameComparison& frame) { return frame.identical; });
+  if (comparison.verdict == Verdict::kDifferent) {
+    return comparison.frames.size() == 1 ? "other picture"
+                                         : "other picture in " + std::to_string(different) + " of " +
+                                               std::to_string(comparison.frames.size()) + " frames";
+  }
+  return comparison.frames.size() == 1 ? (identical ? "same file" : "same picture")
+                                       : (identical ? "same files" : "same pictures");
+}
+
+std::string runHeadline(const RunDifference& run, bool same) {
+  if (run.sameBits) {
+    return "same motion, bit for bit";
+  }
+  if (!run.incomparable.empty()) {
+    return "other motion: " + run.incomparable.front();
+  }
+  if (same) {
+    return "same motion, within " + brief(run.worst.difference.relative) + " of a box's size or radians";
+  }
+  if (run.expectedDuration != run.actualDuration && !run.firstTime) {
+    return "same motion, but it lasts " + brief(run.actualDuration) + " s, not " +
+           brief(run.expectedDuration) + " s";
+  }
+  std::string text = "other motion from " + brief(run.firstTime.value_or(0)) + " s on";
+  if (run.horizon && run.growthPerImpact) {
+    text += "; the difference grows " + brief(*run.growthPerImpact) +
+            "-fold from impact to impact, and from " + brief(*run.horizon) + " s on chaos has taken over";
+  } else if (run.horizon) {
+    text += ", by more than a hundredth of a box after " + brief(*run.horizon) + " s";
+  }
+  return text;
+}
+
+std::vector<Fact> factsOf(const Trajectory& expected, const Trajectory& actual) {
+  std::vector<Fact> facts;
+  const auto add = [&](const char* name, auto value) {
+    facts.push_back({.name = name, .expected = value(expected), .actual = value(actual)});
+  };
+  add("scene hash", [](const Trajectory& run) { return run.sceneHash(); });
+  add("state hash", [](const Trajectory& run) { return run.stateHash(); });
+  add("method", [](const Trajectory& run) { return std::string(traitsOf(run.settings.method).name); });
+  add("tolerance [m]", [](const Trajectory& run) { return brief(run.settings.tolerance); });
+  add("duration [s]", [](const Trajectory& run) { return brief(run.settings.duration); });
+  add("impacts", [](const Trajectory& run) { return std::to_string(run.impacts.size()); });
+  add("energy change [1]", [](const Trajectory& run) { return brief(run.figures.energyChange); });
+  add("deepest penetration [m]", [](const Trajectory& run) { return brief(run.figures.deepestPenetration); });
+  return facts;
+}
+
+}  // namespace
+
+const FrameComparison* Comparison::firstDifferent() const {
+  const auto found = std::find_if(frames.begin(), frames.end(), [](const FrameComparison& frame) {
+    return frame.verdict != Verdict::kSame;
+  });
+  return found == frames.end() ? nullptr : &*found;
+}
+
+const FrameComparison* Comparison::worst() const {
+  const FrameComparison* worst = nullptr;
+  for (const FrameComparison& frame : frames) {
+    if (frame.verdict != Verdict::kSame && frame.measured &&
+        (worst == nullptr || frame.verdict > worst->verdict ||
+         (frame.verdict == worst->verdict && frame.psnr < worst->psnr))) {
+      worst = &frame;
+    }
+  }
+  return worst != nullptr ? worst : firstDifferent();
+}
+
+fs::path expectedFrame(const Comparison& comparison, const FrameComparison& frame) {
+  return fs::is_directory(comparison.expected) ? comparison.expected / frame.name : comparison.expected;
+}
+fs::path actualFrame(const Comparison& comparison, const FrameComparison& frame) {
+  return fs::is_directory(comparison.actual) ? comparison.actual / frame.name : comparison.actual;
+}
+
+Comparison comparePictures(const fs::path& expected, const fs::path& actual,
+                           const ComparisonSettings& settings) {
+  Comparison comparison = begun(expected, actual, settings);
+  comparison.frames = {
+      compareFiles({.name = actual.filename().string(), .expected = expected, .actual = actual}, settings)};
+  comparison.verdict = worstVerdict(comparison.frames);
+  comparison.headline = pictureHeadline(comparison);
+  return comparison;
+}
+
+Comparison compareFolders(const fs::path& expected, const fs::path& actual,
+                          const ComparisonSettings& settings, std::optional<bool> sameMotion,
+                          const ComparisonCallback& progress, const std::stop_token& stop) {
+  Comparison comparison = begun(expected, actual, settings);
+  const std::vector<Pair> pairs = pairsOf(expected, actual);
+  comparison.frames = Crew(pairs, settings, progress, stop).compare();
+  tellShift(pairs, settings, comparison.frames);
+  comparison.verdict = worstVerdict(comparison.frames);
+  comparison.headline = pictureHeadline(comparison);
+  if (sameMotion) {
+    comparison.headline = (*sameMotion ? "same motion, " : "other motion, ") + comparison.headline;
+  }
+  if (sameMotion == false && settings.motionCounts) {
+    comparison.verdict = Verdict::kDifferent;
+  }
+  return comparison;
+}
+
+Comparison compareRuns(const fs::path& expected, const fs::path& actual, const ComparisonSettings& settings) {
+  Comparison comparison = begun(expected, actual, settings);
+  const Trajectory expectedRun = readTrajectory(expected);
+  const Trajectory actualRun = readTrajectory(actual);
+  comparison.facts = factsOf(expectedRun, actualRun);
+  RunDifference run = differenceOf(expectedRun, actualRun);
+  const bool within = settings.motionTolerance > 0 && run.incomparable.empty() && !run.horizon &&
+                      run.expectedDuration == run.actualDuration &&
+                      run.worst.difference.relative <= settings.motionTolerance;
+  comparison.verdict = run.sameBits || within ? Verdict::kSame : Verdict::kDifferent;
+  comparison.headline = runHeadline(run, within);
+  comparison.run = std::move(run);
+  return comparison;
+}
+
+}  // namespace careen
