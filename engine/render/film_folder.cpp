@@ -1,16 +1,9 @@
 #include "render/film_folder.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <chrono>
 #include <iterator>
 #include <string_view>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include "core/error.h"
@@ -73,7 +66,7 @@ FilmFolder::FilmFolder(fs::path path) : path_(std::move(path)) {
   if (error) {
     throw MachineError(path_.string() + ": cannot be made a folder: " + error.message());
   }
-  lock();
+  lock_.emplace(path_);
   manifest_ = readManifest(path_);
   if (!manifest_ && hasPng(path_)) {
     throw InputError(path_.string() + ": holds PNG files that are no film of careen's; name another folder");
@@ -82,32 +75,13 @@ FilmFolder::FilmFolder(fs::path path) : path_(std::move(path)) {
 
 FilmFolder::~FilmFolder() {
   try {
-    removeAll(path_, isPartial);  // ours, and what a run left that was killed outright
+    removeAll(path_, isPartial);     // ours, and what a run left that was killed outright
   } catch (const std::exception&) {  // the next film's to remove
   }
-  if (descriptor_ >= 0) {
-    close(descriptor_);
-  }
+  lock_.reset();  // its file is in the folder
   if (made_) {
     std::error_code notEmpty;
     fs::remove(path_, notEmpty);
-  }
-}
-
-// Given up by the system when the process and its workers end, however they end: workers of one that was killed
-// take a moment. Some file systems have no locks; there, two processes in one folder go unnoticed.
-void FilmFolder::lock() {
-  descriptor_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const auto taken = [this] {
-    return descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  };
-  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
-  while (taken()) {
-    if (std::chrono::steady_clock::now() > patience) {
-      close(std::exchange(descriptor_, -1));
-      throw InputError(path_.string() + ": another careen is writing a film there");
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/film_manifest.h"
+#include "render/folder_lock.h"
 
 namespace careen {
 
@@ -37,11 +38,9 @@ class FilmFolder {
   void begin(const FilmManifest& asked, bool resume);
 
  private:
-  void lock();
-
   std::filesystem::path path_;
   bool made_ = false;
-  int descriptor_ = -1;
+  std::optional<FolderLock> lock_;
   std::optional<FilmManifest> manifest_;
 };
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -305,6 +307,40 @@ TEST_F(Render, killedFilmIsCompletedByASecondRun) {
   ASSERT_EQ(second.exitCode, 0) << second.err;
   EXPECT_FALSE(hasPartials());
   expectSameFilm("film", "whole");
+}
+
+// Only one at a time is let in; that, and whoever is refused and tries again, leaves a whole film with a
+// manifest that tells of all of it.
+TEST_F(Render, processesThatMeetInOneFolderLoseNothing) {
+  ASSERT_EQ(careen({"render", "scene.json", "--out", "whole", "--fps", "40"}).exitCode, 0);
+  ASSERT_EQ(framesIn("whole").size(), 40U);
+  const auto start = [this](const std::string& frames) {
+    return std::make_unique<Process>(
+        std::vector<std::string>{CAREEN_BINARY, "render", "scene.json", "--out", "film", "--fps", "40",
+                                 "--jobs", "1", "--resume", "--frames", frames},
+        folder_.path());
+  };
+  std::vector<std::string> waiting = {"0-9", "10-19", "20-29", "30-39"};
+  while (!waiting.empty()) {
+    std::vector<std::unique_ptr<Process>> processes;
+    std::transform(waiting.begin(), waiting.end(), std::back_inserter(processes), start);
+    std::vector<std::string> again;
+    for (std::size_t i = 0; i < processes.size(); ++i) {
+      const Ended ended = processes[i]->wait();
+      if (ended.exitCode != 0) {
+        EXPECT_EQ(ended.exitCode, 2) << ended.err;
+        EXPECT_NE(ended.err.find("another careen is writing a film there"), std::string::npos) << ended.err;
+        again.push_back(waiting[i]);
+      }
+    }
+    ASSERT_LT(again.size(), waiting.size());
+    waiting = again;
+  }
+  const Ended verified = careen({"verify", "film"});
+  EXPECT_EQ(verified.exitCode, 0) << verified.out;
+  EXPECT_TRUE(verified.out.starts_with("40 frames, 0 missing")) << verified.out;
+  expectSameFilm("film", "whole");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "film/.careen.lock"));
 }
 
 TEST_F(Render, workerThatDiesEndsTheFilmWithNothingHalfWritten) {
