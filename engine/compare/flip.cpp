@@ -52,7 +52,7 @@ Values filtered(const Values& values, Grid grid, const Taps& across, const Taps&
   for (int y = 0; y < grid.height; ++y) {
     float* const out = result.data() + static_cast<std::size_t>(y) * width;
     for (int tap = -reach; tap <= reach; ++tap) {
-      const float weight = down[static_cast<std::size_t>(tap + reach)];
+      const float weight = *(down.begin() + tap + reach);
       const float* const row =
           rows.data() + static_cast<std::size_t>(std::clamp(y + tap, 0, grid.height - 1)) * width;
       for (std::size_t x = 0; x < width; ++x) {

@@ -49,7 +49,10 @@ Range differing(std::span<const float> one, std::span<const float> other) {
 /// on both sides, where a window that is less wide has weights of zero.
 struct Sums {
   explicit Sums(std::size_t width)
-      : one(width + 2 * kMostReach), other(one.size()), squares(one.size()), product(one.size()) {}
+      : one(width + std::size_t{2} * kMostReach),
+        other(one.size()),
+        squares(one.size()),
+        product(one.size()) {}
   std::vector<float> one, other, squares, product;
 };
 
@@ -97,6 +100,7 @@ StructuralSimilarity similarityOf(const Plane& one, const Plane& other) {
   const Window wide(width);
   const Window high(one.height);
   std::vector<Range> rows;
+  rows.reserve(static_cast<std::size_t>(one.height));
   for (int y = 0; y < one.height; ++y) {
     rows.push_back(differing(one.row(y), other.row(y)));
   }
@@ -107,8 +111,9 @@ StructuralSimilarity similarityOf(const Plane& one, const Plane& other) {
   for (int y = high.reach; y < one.height - high.reach; ++y) {
     Range range{width, 0};
     for (int i = -high.reach; i <= high.reach; ++i) {
-      range.begin = std::min(range.begin, rows[static_cast<std::size_t>(y + i)].begin);
-      range.end = std::max(range.end, rows[static_cast<std::size_t>(y + i)].end);
+      const Range& row = *(rows.begin() + y + i);
+      range.begin = std::min(range.begin, row.begin);
+      range.end = std::max(range.end, row.end);
     }
     range = {std::max(range.begin - wide.reach, wide.reach),
              std::min(range.end + wide.reach, width - wide.reach)};
@@ -125,7 +130,7 @@ StructuralSimilarity similarityOf(const Plane& one, const Plane& other) {
     }
     similarities(sums, wide, range, result.data());
     for (int x = range.begin; x < range.end; ++x) {
-      const double value = static_cast<double>(result[static_cast<std::size_t>(x)]);
+      const auto value = static_cast<double>(result[static_cast<std::size_t>(x)]);
       missing += 1 - value;
       if (value < similarity.worst) {
         similarity.worst = value;

@@ -112,8 +112,7 @@ class Straightforward {
     return colors;
   }
   const Color& at(const std::vector<Color>& picture, int x, int y) const {
-    return picture[static_cast<std::size_t>(std::clamp(y, 0, height_ - 1) * width_ +
-                                            std::clamp(x, 0, width_ - 1))];
+    return *(picture.begin() + std::clamp(y, 0, height_ - 1) * width_ + std::clamp(x, 0, width_ - 1));
   }
   Color seen(const std::vector<Color>& picture, int x, int y) const {
     const std::array<std::array<double, 4>, 3> table{
@@ -136,10 +135,10 @@ class Straightforward {
     for (std::size_t k = 0; k < 3; ++k) {
       sum[k] /= weights[k];
     }
-    const double Y = (sum[0] + 16) / 116;
+    const double luminance = (sum[0] + 16) / 116;
     const Color white = xyzOf({1, 1, 1});
-    Color light =
-        solved(primaries(), {(Y + sum[1] / 500) * white[0], Y * white[1], (Y - sum[2] / 200) * white[2]});
+    Color light = solved(primaries(), {(luminance + sum[1] / 500) * white[0], luminance * white[1],
+                                       (luminance - sum[2] / 200) * white[2]});
     for (double& value : light) {
       value = std::clamp(value, 0.0, 1.0);
     }

@@ -61,8 +61,8 @@ TEST(PictureDifference, figuresAreThoseOfTheirDefinitions) {
 TEST(PictureDifference, theLargestDifferenceIsToldWithItsPlaceAndChannel) {
   const DeepPicture picture = deepPicture(flat(20, 10, 100));
   DeepPicture other = picture;
-  other.samples8[3 * (7 * 20 + 13) + 2] = 40;
-  other.samples8[3 * (2 * 20 + 3)] = 130;
+  other.samples8[461] = 40;  // blue of (13, 7); the next is red of (3, 2)
+  other.samples8[129] = 130;
   const PictureDifference difference = differenceOf(picture, other);
   EXPECT_EQ(difference.differing, 2U);
   EXPECT_EQ(difference.largest, 60.0 / 255);
@@ -149,7 +149,7 @@ TEST(PictureDifference, edgesDoNotExplainAWholePixelNorALineThatIsGone) {
   DeepPicture line = box;
   for (std::size_t x = 0; x < 320; ++x) {
     for (std::size_t k = 0; k < 3; ++k) {
-      line.samples8[3 * (320 * 20 + x) + k] = 20;
+      line.samples8[19200 + 3 * x + k] = 20;
     }
   }
   for (const bool came : {false, true}) {

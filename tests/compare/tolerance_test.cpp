@@ -14,7 +14,8 @@ Verdict verdictOf(const DeepPicture& one, const DeepPicture& other, const char* 
 
 DeepPicture withPixels(DeepPicture picture, int count, int change) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    picture.samples8[3 * 97 * i] = static_cast<std::uint8_t>(picture.samples8[3 * 97 * i] + change);
+    std::uint8_t& red = picture.samples8[i * 97 * 3];
+    red = static_cast<std::uint8_t>(red + change);
   }
   return picture;
 }

@@ -202,7 +202,7 @@ TEST(DeepPicture, aFileCutAnywhereIsAnError) {
       .width = 3,
       .bits = 8,
       .color = 3,
-      .before = pngChunk("PLTE", "\x01\x02\x03\x0a\x0b\x0c\x15\x16\x17"s) + pngChunk("tRNS", "\x40"s),
+      .before = pngChunk("PLTE", "\x01\x02\x03\x0a\x0b\x0c\x15\x16\x17"s) + pngChunk("tRNS", "\x7f"s),
       .rows = "\0\x00\x01\x02"s};
   for (const std::string& whole : {encodePng(shadedTiles(20, 10)), palette.bytes()}) {
     ASSERT_EQ(errorOf(whole), "");
@@ -279,7 +279,8 @@ TEST(DeepPicture, readsWhatAnotherProgramWrote) {
   for (const auto& [format, channels] :
        {std::pair{"rgb24", 3}, {"rgba", 4}, {"rgb48be", 3}, {"rgba64be", 4}}) {
     const bool deep = std::string(format).find("be") != std::string::npos;
-    const std::string raw = randomBytes(static_cast<std::size_t>(31 * 17 * channels * (deep ? 2 : 1)), 9);
+    const std::string raw =
+        randomBytes(std::size_t{31 * 17} * static_cast<std::size_t>(channels) * (deep ? 2 : 1), 9);
     folder.write("raw", raw);
     const Ended ended =
         Process({"ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", format, "-s",
