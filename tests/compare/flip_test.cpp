@@ -112,7 +112,9 @@ class Straightforward {
     return colors;
   }
   const Color& at(const std::vector<Color>& picture, int x, int y) const {
-    return *(picture.begin() + std::clamp(y, 0, height_ - 1) * width_ + std::clamp(x, 0, width_ - 1));
+    const auto row = static_cast<std::size_t>(std::clamp(y, 0, height_ - 1));
+    const auto column = static_cast<std::size_t>(std::clamp(x, 0, width_ - 1));
+    return picture[row * static_cast<std::size_t>(width_) + column];
   }
   Color seen(const std::vector<Color>& picture, int x, int y) const {
     const std::array<std::array<double, 4>, 3> table{

@@ -26,8 +26,8 @@ StructuralSimilarity straightforward(const Plane& one, const Plane& other) {
   const auto reachOf = [](int size) { return std::min(5, (size - 1) / 2); };
   const int wide = reachOf(one.width);
   const int high = reachOf(one.height);
-  const auto at = [&one](const Plane& plane, int x, int y) {
-    return static_cast<double>(*(plane.values.begin() + y * one.width + x));
+  const auto at = [](const Plane& plane, int x, int y) {
+    return static_cast<double>(plane.row(y)[static_cast<std::size_t>(x)]);
   };
   StructuralSimilarity result{.mean = 0, .worst = 2};
   int windows = 0;
@@ -91,7 +91,7 @@ TEST(StructuralSimilarity, changesInACornerAndInTheMiddleAreFound) {
   const Plane plane = planeOf(shadedTiles(80, 60));
   for (const auto& [x, y] : {std::pair{0, 0}, {79, 59}, {40, 30}, {79, 0}, {6, 59}, {73, 20}}) {
     Plane changed = plane;
-    *(changed.values.begin() + y * 80 + x) += 90;
+    changed.values[static_cast<std::size_t>(y) * 80 + static_cast<std::size_t>(x)] += 90;
     expectAsStraightforward(plane, changed);
   }
 }

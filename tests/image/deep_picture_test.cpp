@@ -280,7 +280,7 @@ TEST(DeepPicture, readsWhatAnotherProgramWrote) {
        {std::pair{"rgb24", 3}, {"rgba", 4}, {"rgb48be", 3}, {"rgba64be", 4}}) {
     const bool deep = std::string(format).find("be") != std::string::npos;
     const std::string raw =
-        randomBytes(std::size_t{31 * 17} * static_cast<std::size_t>(channels) * (deep ? 2 : 1), 9);
+        randomBytes(std::size_t{31} * 17 * static_cast<std::size_t>(channels) * (deep ? 2 : 1), 9);
     folder.write("raw", raw);
     const Ended ended =
         Process({"ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", format, "-s",
