@@ -136,8 +136,12 @@ TEST(RunDifference, aStateThatIsNoNumberIsAnError) {
   Trajectory run = driftAndReturn();
   std::get<EulerStep>(run.tracks[0].segments[1].motion).start.velocity.x() =
       std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(inputErrorOf([&run] { differenceOf(run, run); }),
+  const Trajectory whole = driftAndReturn();
+  EXPECT_EQ(inputErrorOf([&] { differenceOf(run, whole); }),
             "the expected run: box drifter has a state at 0.5 s that is no number");
+  EXPECT_EQ(inputErrorOf([&] { differenceOf(whole, run); }),
+            "the actual run: box drifter has a state at 0.5 s that is no number");
+  EXPECT_NE(inputErrorOf([&] { differenceOf(run, run); }), "no error");
 }
 
 }  // namespace
