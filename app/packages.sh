@@ -1,7 +1,7 @@
 # Shared by app/demo and tests/run: what the project is built with on Debian 12, and how it gets there. Sourced.
 
 kBuildPackages=(g++ cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libcli11-dev libdeflate-dev
-  libstb-dev libosmesa6 libgl-dev libegl-dev fonts-dejavu-core)
+  libstb-dev libosmesa6 libgl-dev libegl-dev libglfw3-dev fonts-dejavu-core)
 
 # Installs those of the packages named that are missing; says so first. Asks nothing of the network if none is.
 install_missing() {

@@ -35,7 +35,9 @@ bool isSame(const Sample& a, const Sample& b) {
 Filming::Filming(const Scene& scene, const Trajectory& run, double aspect)
     : run_(run), clock_(scene.film.time.within(run.settings.duration)), path_(scene, run, clock_, aspect) {}
 
-Camera Filming::camera(double filmTime) const { return path_.at(std::clamp(filmTime, 0.0, duration())); }
+Camera Filming::camera(double filmTime) const {
+  return orbited(path_.at(std::clamp(filmTime, 0.0, duration())), orbit_);
+}
 
 void Filming::checkCamera(std::span<const std::int64_t> frames, const FrameRate& rate) const {
   if (!path_.hasKeys()) {

@@ -7,6 +7,7 @@
 #include "core/pose.h"
 #include "image/picture.h"
 #include "render/camera_path.h"
+#include "render/orbit.h"
 #include "scene/scene.h"
 #include "scene/time_map.h"
 #include "trajectory/trajectory.h"
@@ -27,6 +28,8 @@ class Filming {
   /// [s] of the scene; before the film's beginning and after its end all stands still, the camera too.
   double sceneTime(double filmTime) const { return clock_.sceneTime(filmTime); }
   Camera camera(double filmTime) const;
+  /// From now on the camera is turned so, against where the film has it.
+  void turnCamera(const Orbit& orbit) { orbit_ = orbit; }
 
   /// InputError if there is a frame in which the camera's keys leave it nothing to look at or no upward.
   void checkCamera(std::span<const std::int64_t> frames, const FrameRate& rate) const;
@@ -46,6 +49,7 @@ class Filming {
   const Trajectory& run_;
   TimeMap clock_;
   CameraPath path_;
+  Orbit orbit_;
 };
 
 }  // namespace careen

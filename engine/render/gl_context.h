@@ -4,8 +4,9 @@
 
 namespace careen {
 
-/// An OpenGL 3.3 core context without display or window; whoever draws brings a framebuffer of their own.
-/// Made, used and destroyed on one thread. There may be several, of several libraries.
+/// An OpenGL 3.3 core context. But for a window's it is without display, and whoever draws brings a
+/// framebuffer of their own. Made, used and destroyed on one thread. There may be several, of several
+/// libraries.
 class GlContext {
  public:
   GlContext() = default;

@@ -19,7 +19,7 @@ SharedLibrary::SharedLibrary(const std::vector<std::string>& names, std::string 
     }
     reasons += std::string("; ") + dlerror();
   }
-  throw MachineError(name_ + ", which draws the frames, cannot be loaded; " + remedy_ + reasons);
+  throw MachineError(name_ + " cannot be loaded; " + remedy_ + reasons);
 }
 
 void* SharedLibrary::address(const char* name) const {

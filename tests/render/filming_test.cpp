@@ -55,6 +55,20 @@ TEST_F(FilmingTest, blurIsTheAverageOfTheLightOfItsSamples) {
   EXPECT_NE(blurred.rgb, plain(0.5).rgb);
 }
 
+TEST_F(FilmingTest, turnedCameraIsTurnedFromWhereTheFilmHasIt) {
+  scene_.cameraMove.orbitDegrees = 100;
+  Filming film = filming();
+  const Orbit orbit = {.azimuth = 0.5, .elevation = 0.1, .distance = 1.5};
+  const Camera own = film.camera(0.7);
+  film.turnCamera(orbit);
+  EXPECT_EQ(film.camera(0.7).eye, orbited(own, orbit).eye);
+  const std::vector<Pose> poses = run_.poses(0.7);
+  EXPECT_EQ(film.draw(renderer_, 0.7, {}, kRate).rgb,
+            renderer_.draw({.poses = poses, .camera = orbited(own, orbit)}).rgb);
+  film.turnCamera({});
+  EXPECT_EQ(film.camera(0.7).eye, own.eye);
+}
+
 TEST_F(FilmingTest, whereNothingMovesBlurChangesNothingAndCostsNothing) {
   scene_.film.time.keys = {{0, 0.3}, {2, 0.3}};
   const Picture still = plain(1);
