@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -10,14 +9,12 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "commands.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/names.h"
+#include "picture_options.h"
 #include "progress.h"
 #include "render/film.h"
 #include "render/film_folder.h"
@@ -33,57 +30,19 @@ struct FilmOptions {
   std::filesystem::path source;
   std::filesystem::path folder;
   std::string frames;
-  std::optional<std::string> size;
-  std::optional<std::string> rate;
-  std::optional<std::string> shutter;
   std::optional<double> still;  ///< [s] of the film
   std::optional<std::string> strobe;
   std::optional<std::filesystem::path> video;
-  std::optional<std::string> overlays;
-  std::optional<std::string> look;
-  std::optional<std::string> antialiasing;
   std::string codec;
   std::string quality = "good";
   std::optional<int> jobs;
   std::string log = "text";
   bool resume = false;
-  ContextOptions context;
-  std::string backend = "auto";
+  PictureOptions picture;
   bool listBackends = false;
   Overrides overrides;
   EstimateChoice estimate;
 };
-
-std::pair<int, int> parseSize(const std::string& text) {
-  int width = 0;
-  int height = 0;
-  const char* const end = text.data() + text.size();
-  const std::from_chars_result first = std::from_chars(text.data(), end, width);
-  if (first.ec == std::errc() && first.ptr != end && *first.ptr == 'x') {
-    const std::from_chars_result second = std::from_chars(first.ptr + 1, end, height);
-    if (second.ec == std::errc() && second.ptr == end && width > 0 && height > 0 && width <= kLargestFilm &&
-        height <= kLargestFilm) {
-      return {width, height};
-    }
-  }
-  throw InputError("--size: found '" + text + "', expected WIDTHxHEIGHT, each from 1 to " +
-                   std::to_string(kLargestFilm) + ", such as 1280x720");
-}
-
-// What `parse` makes of an option's text; its error names the option.
-template <class Parse>
-auto parsed(const char* option, const std::string& text, Parse parse) {
-  try {
-    return parse(text);
-  } catch (const InputError& error) {
-    throw InputError(std::string(option) + ": " + error.what());
-  }
-}
-
-Look lookNamed(std::string_view name) { return static_cast<Look>(placeAmong(name, kLooks)); }
-Antialiasing antialiasingNamed(std::string_view name) {
-  return static_cast<Antialiasing>(placeAmong(name, kAntialiasings));
-}
 
 std::optional<VideoSettings> videoOf(const FilmOptions& options) {
   if (!options.video) {
@@ -99,9 +58,6 @@ void check(const FilmOptions& options) {
   const auto fail = [](const char* option, const std::string& found, const std::string& expected) {
     throw InputError(std::string(option) + ": found " + found + ", expected " + expected);
   };
-  if (options.context.threads && *options.context.threads < 0) {
-    fail("--threads", std::to_string(*options.context.threads), "0 or more");
-  }
   if (options.jobs && (*options.jobs < 1 || *options.jobs > kMostJobs)) {
     fail("--jobs", std::to_string(*options.jobs), "1 to " + std::to_string(kMostJobs));
   }
@@ -116,21 +72,9 @@ void check(const FilmOptions& options) {
 // What the options alone say: all that can be found wrong before anything is simulated.
 FilmSettings settingsOf(const FilmOptions& options) {
   check(options);
-  FilmSettings settings;
+  FilmSettings settings = options.picture.settings();
   settings.folder =
       options.folder.empty() ? std::filesystem::path("out") / options.source.stem() : options.folder;
-  if (options.size) {
-    std::tie(settings.width, settings.height) = parseSize(*options.size);
-  }
-  if (options.rate) {
-    settings.rate = parsed("--fps", *options.rate, parseFrameRate);
-  }
-  if (options.shutter) {
-    settings.shutter = parsed("--shutter", *options.shutter, parseShutter);
-  }
-  if (options.overlays) {
-    settings.overlays = parsed("--overlays", *options.overlays, overlaysNamed);
-  }
   if (!options.frames.empty()) {
     settings.frames = parseFrameRanges(options.frames);
   }
@@ -138,31 +82,11 @@ FilmSettings settingsOf(const FilmOptions& options) {
   settings.jobs = options.jobs;
   settings.program = "careen " CAREEN_VERSION;
   settings.resume = options.resume;
-  settings.render.context = options.context;
-  settings.render.context.backend = parsed("--rendering-backend", options.backend, renderingBackendNamed);
-  if (options.look) {
-    settings.render.look = parsed("--look", *options.look, lookNamed);
-  }
-  if (options.antialiasing) {
-    settings.render.antialiasing = parsed("--antialiasing", *options.antialiasing, antialiasingNamed);
-  }
   return settings;
 }
 
 void takeFromScene(const Scene& scene, const FilmOptions& options, FilmSettings& settings) {
-  if (!options.size) {
-    settings.width = scene.film.width;
-    settings.height = scene.film.height;
-  }
-  if (!options.rate) {
-    settings.rate = scene.film.rate;
-  }
-  if (!options.shutter) {
-    settings.shutter = scene.film.shutter;
-  }
-  if (!options.overlays) {
-    settings.overlays = scene.overlays;
-  }
+  options.picture.takeFromScene(scene, settings);
   if (settings.video) {
     settings.video->rateNumerator = settings.rate.numerator;
     settings.video->rateDenominator = settings.rate.denominator;
@@ -271,12 +195,7 @@ void addRender(CLI::App& commandLine, Command& chosen) {
       "Folder for the frames, or file of a single picture (default: out/ and the scene's name)");
   CLI::Option* frames =
       command->add_option("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
-  command->add_option("--size", options->size, "WIDTHxHEIGHT in place of the scene's [px]");
-  command->add_option("--fps", options->rate,
-                      "Frames per second in place of the scene's, such as 25 or 24000/1001");
-  command->add_option("--shutter", options->shutter,
-                      "Motion blur in place of the scene's: how long the shutter is open, 360 from frame to "
-                      "frame, and how many moments are averaged, such as 180:8; 0: none");
+  options->picture.addTo(*command);
   CLI::Option* video = command->add_option(
       "--video", options->video, "Film to make of the frames, by ffmpeg: .mp4, .mkv, .webm, .webp or .gif");
   command
@@ -298,20 +217,8 @@ void addRender(CLI::App& commandLine, Command& chosen) {
       ->add_option("--strobe", options->strobe,
                    "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
       ->excludes(frames, video, resume, still);
-  command->add_option("--look", options->look, "studio, blueprint or clay in place of the scene's look");
-  command->add_option("--antialiasing", options->antialiasing,
-                      "off, edges, 4x or supersampled in place of the scene's");
-  command->add_option(
-      "--overlays", options->overlays,
-      "What to draw over the film in place of the scene's, such as time,energy; none: nothing");
-  command->add_option(
-      "--rendering-backend", options->backend,
-      "What draws: auto, osmesa or egl (default: auto, the first of the others that there is)");
   command->add_flag("--list-rendering-backends", options->listBackends,
                     "Tell which of them are available, and make no film");
-  command->add_option("--threads", options->context.threads,
-                      "Threads that fill pixels for each job; 0: none but its main one (default: what cores "
-                      "the jobs leave)");
   command->add_option("--log", options->log,
                       "text, or json: a line for each frame drawn on the standard output, and nothing else "
                       "there (default: text)");
@@ -319,7 +226,7 @@ void addRender(CLI::App& commandLine, Command& chosen) {
   options->estimate.addTo(*command);
   command->callback([options, &chosen] {
     chosen = [options](const std::stop_token& stop) {
-      return options->listBackends ? listBackends(options->context) : renderCommand(*options, stop);
+      return options->listBackends ? listBackends(options->picture.context) : renderCommand(*options, stop);
     };
   });
 }

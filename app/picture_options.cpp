@@ -1,0 +1,102 @@
+#include "picture_options.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "core/names.h"
+
+namespace careen {
+namespace {
+
+std::pair<int, int> parseSize(const std::string& text) {
+  int width = 0;
+  int height = 0;
+  const char* const end = text.data() + text.size();
+  const std::from_chars_result first = std::from_chars(text.data(), end, width);
+  if (first.ec == std::errc() && first.ptr != end && *first.ptr == 'x') {
+    const std::from_chars_result second = std::from_chars(first.ptr + 1, end, height);
+    if (second.ec == std::errc() && second.ptr == end && width > 0 && height > 0 && width <= kLargestFilm &&
+        height <= kLargestFilm) {
+      return {width, height};
+    }
+  }
+  throw InputError("--size: found '" + text + "', expected WIDTHxHEIGHT, each from 1 to " +
+                   std::to_string(kLargestFilm) + ", such as 1280x720");
+}
+
+Look lookNamed(std::string_view name) { return static_cast<Look>(placeAmong(name, kLooks)); }
+Antialiasing antialiasingNamed(std::string_view name) {
+  return static_cast<Antialiasing>(placeAmong(name, kAntialiasings));
+}
+
+}  // namespace
+
+void PictureOptions::addTo(CLI::App& command) {
+  command.add_option("--size", size, "WIDTHxHEIGHT in place of the scene's [px]");
+  command.add_option("--fps", rate, "Frames per second in place of the scene's, such as 25 or 24000/1001");
+  command.add_option("--shutter", shutter,
+                     "Motion blur in place of the scene's: how long the shutter is open, 360 from frame to "
+                     "frame, and how many moments are averaged, such as 180:8; 0: none");
+  command.add_option("--look", look, "studio, blueprint or clay in place of the scene's look");
+  command.add_option("--antialiasing", antialiasing,
+                     "off, edges, 4x or supersampled in place of the scene's");
+  command.add_option(
+      "--overlays", overlays,
+      "What to draw over the film in place of the scene's, such as time,energy; none: nothing");
+  command.add_option(
+      "--rendering-backend", backend,
+      "What draws: auto, osmesa or egl (default: auto, the first of the others that there is)");
+  command.add_option(
+      "--threads", context.threads,
+      "Threads that fill pixels in each process that draws; 0: none but its main one (default: "
+      "what cores there are for it)");
+}
+
+FilmSettings PictureOptions::settings() const {
+  if (context.threads && *context.threads < 0) {
+    throw InputError("--threads: found " + std::to_string(*context.threads) + ", expected 0 or more");
+  }
+  FilmSettings settings;
+  if (size) {
+    std::tie(settings.width, settings.height) = parseSize(*size);
+  }
+  if (rate) {
+    settings.rate = parsed("--fps", *rate, parseFrameRate);
+  }
+  if (shutter) {
+    settings.shutter = parsed("--shutter", *shutter, parseShutter);
+  }
+  if (overlays) {
+    settings.overlays = parsed("--overlays", *overlays, overlaysNamed);
+  }
+  settings.render.context = context;
+  settings.render.context.backend = parsed("--rendering-backend", backend, renderingBackendNamed);
+  if (look) {
+    settings.render.look = parsed("--look", *look, lookNamed);
+  }
+  if (antialiasing) {
+    settings.render.antialiasing = parsed("--antialiasing", *antialiasing, antialiasingNamed);
+  }
+  return settings;
+}
+
+void PictureOptions::takeFromScene(const Scene& scene, FilmSettings& settings) const {
+  if (!size) {
+    settings.width = scene.film.width;
+    settings.height = scene.film.height;
+  }
+  if (!rate) {
+    settings.rate = scene.film.rate;
+  }
+  if (!shutter) {
+    settings.shutter = scene.film.shutter;
+  }
+  if (!overlays) {
+    settings.overlays = scene.overlays;
+  }
+}
+
+}  // namespace careen
