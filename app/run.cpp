@@ -121,6 +121,15 @@ void Overrides::addAllowOverlapTo(CLI::App& command) {
                    "Move boxes that overlap at the start apart, in place of refusing the scene");
 }
 
+const char* Overrides::given() const {
+  return method         ? "--method"
+         : dt           ? "--dt"
+         : tolerance    ? "--tolerance"
+         : duration     ? "--duration"
+         : allowOverlap ? "--allow-overlap"
+                        : nullptr;
+}
+
 void EstimateChoice::addTo(CLI::App& command) {
   CLI::Option* yes = command.add_flag_callback(
       "--estimate-error", [this] { asked = true; },
@@ -152,8 +161,8 @@ Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const
   if (!looksLikeTrajectory(bytes)) {
     return simulateText(path, bytes, overrides, stop);
   }
-  if (overrides.allowOverlap) {
-    throw InputError("--allow-overlap: found the run " + path.string() +
+  if (const char* const option = overrides.given()) {
+    throw InputError(std::string(option) + ": found the run " + path.string() +
                      ", expected a scene that is to be run");
   }
   Run run;

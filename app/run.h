@@ -49,6 +49,8 @@ struct Overrides {
 
   void addTo(CLI::App& command);
   void addAllowOverlapTo(CLI::App& command);
+  /// The first option that was given; null: none was.
+  const char* given() const;
 };
 
 /// The scene that every command takes when none is named.
