@@ -21,5 +21,6 @@ void addCompare(CLI::App& commandLine, Command& chosen);
 void addInfo(CLI::App& commandLine, Command& chosen);
 void addStudy(CLI::App& commandLine, Command& chosen);
 void addVerify(CLI::App& commandLine, Command& chosen);
+void addView(CLI::App& commandLine, Command& chosen);
 
 }  // namespace careen

@@ -28,6 +28,7 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   addInfo(commandLine, chosen);
 #ifdef CAREEN_RENDER
   addVerify(commandLine, chosen);
+  addView(commandLine, chosen);
 #endif
   commandLine.footer(
       "Exit codes: 0 done, 1 frames or states differ, 2 bad usage or bad input, 3 the machine failed,\n"

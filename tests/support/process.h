@@ -96,6 +96,9 @@ class Process {
 
   pid_t id() const { return pid_; }
   void send(int signal) const { kill(pid_, signal); }
+  /// What it said until now.
+  std::string outSoFar() const { return textOf(out_); }
+  std::string errSoFar() const { return textOf(err_); }
   Ended wait() {
     int status = 0;
     while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {

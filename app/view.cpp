@@ -1,0 +1,46 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "render/window.h"
+#include "viewer.h"
+
+namespace careen {
+namespace {
+
+ExitCode viewCommand(ViewOptions options, const std::stop_token& stop) {
+  if (options.source.empty()) {
+    options.source = defaultScene();
+  }
+  static_cast<void>(options.picture.settings());  // what is wrong with them is said before anything is done …
+  Window window("careen");  // … and that there is no display before anything is simulated
+  std::cout << "The space bar plays and pauses; the key h tells what else there is.\n" << std::flush;
+  Viewer viewer(window, options);
+  viewer.run(stop);
+  const int shown = std::max(viewer.picturesShown(), 1);
+  std::cout << "shown        " << viewer.picturesShown() << " pictures, each took "
+            << 1e3 * viewer.drawSeconds() / shown << " ms to draw and " << 1e3 * viewer.showSeconds() / shown
+            << " ms to show\n";
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void addView(CLI::App& commandLine, Command& chosen) {
+  CLI::App* command =
+      commandLine.add_subcommand("view", "Show the film of a scene, or of a run, in a window");
+  const auto options = std::make_shared<ViewOptions>();
+  command->add_option("file", options->source,
+                      "Scene or trajectory file; the default scene if none is named");
+  command->add_option("--out", options->folder, "Folder for stills (default: out)");
+  options->picture.addTo(*command);
+  options->overrides.addTo(*command);
+  command->footer(std::string("Keys and mouse:\n") + kViewerHelp);
+  command->callback([options, &chosen] {
+    chosen = [options](const std::stop_token& stop) { return viewCommand(*options, stop); };
+  });
+}
+
+}  // namespace careen
