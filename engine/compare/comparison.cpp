@@ -13,7 +13,6 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "image/deep_picture.h"
-#include "image/png.h"
 #include "trajectory/trajectory_file.h"
 
 namespace careen {

@@ -319,6 +319,12 @@ DeepPicture decodeDeepPng(std::string_view bytes, const std::string& name) {
   return picture;
 }
 
+PngSize checkPng(std::string_view bytes, const std::string& name) {
+  Chunks chunks;
+  readChunks(chunks, bytes, name);
+  return {.width = chunks.width, .height = chunks.height};
+}
+
 DeepPicture readDeepPng(const std::filesystem::path& path) {
   return decodeDeepPng(readFile(path), path.string());
 }

@@ -35,6 +35,14 @@ DeepPicture decodeDeepPng(std::string_view bytes, const std::string& name);
 /// InputError if the file is missing, cut short or changed.
 DeepPicture readDeepPng(const std::filesystem::path& path);
 
+struct PngSize {
+  int width = 0;   ///< [px]
+  int height = 0;  ///< [px]
+};
+/// InputError, naming `name`, if something of a PNG is missing or a checksum is wrong: quick, for its pixels
+/// are not unpacked.
+PngSize checkPng(std::string_view bytes, const std::string& name);
+
 /// The same picture with 16 bits a sample (the same share of full), and with alpha (opaque).
 DeepPicture deepened(const DeepPicture& picture);
 DeepPicture withAlpha(const DeepPicture& picture);

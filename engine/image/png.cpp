@@ -4,70 +4,21 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <limits>
-#include <memory>
 #include <span>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "image/deep_picture.h"
 #include "image/deflate_writer.h"
 #include "image/row_filter.h"
-
-namespace {
-
-struct Free {
-  void operator()(unsigned char* memory) const { std::free(memory); }
-};
-using Buffer = std::unique_ptr<unsigned char, Free>;  // stb gives what malloc made
-
-}  // namespace
-
-#define STBI_ONLY_PNG
-#define STBI_NO_STDIO
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#include <stb/stb_image.h>
 
 namespace careen {
 namespace {
 
 constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
 constexpr std::string_view kEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
-constexpr std::size_t kHeaderBytes = 24;  // signature, then the header chunk as far as width and height
-
-std::uint32_t bigEndian(std::string_view bytes) {
-  std::uint32_t value = 0;
-  for (const char byte : bytes.substr(0, 4)) {
-    value = value << 8U | static_cast<unsigned char>(byte);
-  }
-  return value;
-}
-
-// stb passes over the checksums; a damaged frame would be read as one of other pixels.
-const char* faultOf(std::string_view bytes) {
-  if (!bytes.starts_with(kSignature)) {
-    return "is no PNG";
-  }
-  for (bytes.remove_prefix(kSignature.size()); bytes.size() >= 12;) {
-    const std::size_t length = bigEndian(bytes);
-    if (length > bytes.size() - 12) {
-      break;
-    }
-    const std::string_view checked = bytes.substr(4, 4 + length);
-    if (libdeflate_crc32(0, checked.data(), checked.size()) != bigEndian(bytes.substr(8 + length))) {
-      return "is a damaged PNG: a checksum is wrong";
-    }
-    if (checked.starts_with("IEND")) {
-      return nullptr;
-    }
-    bytes.remove_prefix(12 + length);
-  }
-  return "is a PNG cut short";
-}
 
 void appendBigEndian(std::string& bytes, std::uint32_t value) {
   for (const unsigned shift : {24U, 16U, 8U, 0U}) {
@@ -150,27 +101,21 @@ std::string encodePng(const Picture& picture) {
   return bytes;
 }
 
-void checkPng(std::string_view bytes, const std::string& name) {
-  if (const char* fault = faultOf(bytes)) {
-    throw InputError(name + ": " + fault);
-  }
-}
-
 Picture decodePng(std::string_view bytes, const std::string& name) {
-  checkPng(bytes, name);
-  if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-    throw InputError(name + ": is too large a PNG");
+  const DeepPicture deep = decodeDeepPng(bytes, name);
+  Picture picture{.width = deep.width, .height = deep.height, .rgb = {}};
+  const auto channels = static_cast<std::size_t>(deep.channels);
+  if (channels == 3 && !deep.deep) {
+    picture.rgb = deep.samples8;
+    return picture;
   }
-  Picture picture;
-  int channels = 0;
-  const Buffer pixels(stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()),
-                                            static_cast<int>(bytes.size()), &picture.width, &picture.height,
-                                            &channels, 3));
-  if (!pixels) {
-    throw InputError(name + ": cannot be read as PNG: " + stbi_failure_reason());
+  picture.rgb.reserve(picture.rowBytes() * static_cast<std::size_t>(picture.height));
+  for (std::size_t i = 0; i < deep.samples(); ++i) {
+    if (i % channels < 3) {
+      picture.rgb.push_back(deep.deep ? static_cast<std::uint8_t>((deep.samples16[i] + 128) / 257)
+                                      : deep.samples8[i]);
+    }
   }
-  picture.rgb.assign(pixels.get(),
-                     pixels.get() + picture.rowBytes() * static_cast<std::size_t>(picture.height));
   return picture;
 }
 
@@ -185,10 +130,12 @@ bool isWholePng(const std::filesystem::path& path, int width, int height) {
   if (!std::filesystem::is_regular_file(path, none)) {
     return false;
   }
-  const std::string bytes = readFile(path);
-  return faultOf(bytes) == nullptr && bytes.size() >= kHeaderBytes &&
-         std::cmp_equal(bigEndian(std::string_view(bytes).substr(16)), width) &&
-         std::cmp_equal(bigEndian(std::string_view(bytes).substr(20)), height);
+  try {
+    const PngSize size = checkPng(readFile(path), path.string());
+    return size.width == width && size.height == height;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 }  // namespace careen

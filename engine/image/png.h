@@ -11,18 +11,14 @@ namespace careen {
 /// A PNG file's bytes: 8-bit RGB, lossless. The same picture gives the same bytes.
 std::string encodePng(const Picture& picture);
 
-/// Any PNG as 8-bit RGB; transparency is dropped. InputError, naming `name`, if the bytes are no whole PNG or
-/// one of its checksums is wrong.
+/// Any PNG as 8-bit RGB, rounded; transparency is dropped. InputError, naming `name`, if the bytes are no
+/// whole PNG or one of its checksums is wrong.
 Picture decodePng(std::string_view bytes, const std::string& name);
 
 /// InputError if the file is missing, cut short or changed.
 Picture readPng(const std::filesystem::path& path);
 /// The file appears whole or not at all; MachineError if it cannot be written.
 void writePng(const std::filesystem::path& path, const Picture& picture);
-
-/// InputError, naming `name`, if something of a PNG is missing or a checksum is wrong: quick, for its pixels
-/// are not unpacked.
-void checkPng(std::string_view bytes, const std::string& name);
 
 /// Whether the file is a PNG of this size with nothing missing and every checksum right: quick, for its
 /// pixels are not unpacked.
