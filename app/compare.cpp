@@ -91,6 +91,12 @@ ComparisonSettings settingsOf(const CompareOptions& options) {
   if (options.motion != "any" && options.motion != "same") {
     settings.motionTolerance = motionToleranceOf(options.motion);
   }
+  if (options.until) {
+    if (!(*options.until > 0)) {
+      throw InputError("--until: found " + brief(*options.until) + ", expected more than 0 s");
+    }
+    settings.until = *options.until;
+  }
   settings.flip = options.flip;
   settings.threads = options.threads.value_or(std::min(usableCores(), kMostThreads));
   if (settings.threads < 1 || settings.threads > kMostThreads) {
@@ -260,8 +266,8 @@ Comparison compare(const std::filesystem::path& expected, const std::filesystem:
 
 void CompareOptions::addTo(CLI::App& command) {
   std::string names;
-  for (const std::string& name : toleranceNames()) {
-    names += (names.empty() ? "" : ", ") + name;
+  for (const std::string_view name : kToleranceNames) {
+    names.append(names.empty() ? "" : ", ").append(name);
   }
   command.add_option("--threshold", threshold, "What may differ, by name: " + names)->capture_default_str();
   for (const Override& each : overrides()) {
@@ -273,6 +279,7 @@ void CompareOptions::addTo(CLI::App& command) {
           "Of runs and films: same, bit for bit; any; or how far apart boxes may be in runs, in their "
           "half diagonals or radians")
       ->capture_default_str();
+  command.add_option("--until", until, "Of runs: compare up to this moment, s");
   command.add_flag("--flip", flip, "Measure FLIP, too, which takes longer");
   command.add_option("--threads", threads, "Frames compared side by side; as many as there are cores");
 }

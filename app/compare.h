@@ -20,6 +20,7 @@ struct CompareOptions {
   std::optional<double> fail, failPercent, hardFail, warn, warnPercent, hardWarn;
   std::optional<double> changedPercent, edgePercent, ssim, windowSsim;
   std::string motion = "same";
+  std::optional<double> until;  ///< [s]
   bool flip = false;
   std::optional<int> threads;
   std::filesystem::path report;  ///< folder; empty: none

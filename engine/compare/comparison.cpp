@@ -329,10 +329,11 @@ Comparison compareRuns(const fs::path& expected, const fs::path& actual, const C
   const Trajectory expectedRun = readTrajectory(expected);
   const Trajectory actualRun = readTrajectory(actual);
   comparison.facts = factsOf(expectedRun, actualRun);
-  RunDifference run = differenceOf(expectedRun, actualRun);
-  const bool within = settings.motionTolerance > 0 && run.incomparable.empty() && !run.horizon &&
-                      run.expectedDuration == run.actualDuration &&
-                      run.worst.difference.relative <= settings.motionTolerance;
+  RunDifference run = differenceOf(expectedRun, actualRun, settings.until);
+  const bool within =
+      settings.motionTolerance > 0 && run.incomparable.empty() && !run.horizon &&
+      std::min(run.expectedDuration, settings.until) == std::min(run.actualDuration, settings.until) &&
+      run.worst.difference.relative <= settings.motionTolerance;
   comparison.verdict = run.sameBits || within ? Verdict::kSame : Verdict::kDifferent;
   comparison.headline = runHeadline(run, within);
   comparison.run = std::move(run);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -68,6 +69,7 @@ struct ComparisonSettings {
   Tolerance tolerance = toleranceOf("same-picture");  ///< of pictures
   /// Of places [1], see PoseDifference; 0: every bit counts. Impacts need not be the same where it is not 0.
   double motionTolerance = 0;
+  double until = std::numeric_limits<double>::infinity();  ///< [s] runs are compared up to there
   bool motionCounts = true;  ///< a film of another motion is another film, even if its pictures are the same
   bool flip = false;         ///< ꟻLIP, too, which takes ten times as long as all the rest
   int threads = 1;           ///< frames that are compared side by side

@@ -76,7 +76,7 @@ double kineticEnergy(const MassProperties& mass, const BodyState& state) {
 /// Both runs' states, box by box under the expected run's order.
 class Pair {
  public:
-  Pair(const Trajectory& expected, const Trajectory& actual, RunDifference& found)
+  Pair(const Trajectory& expected, const Trajectory& actual, double until, RunDifference& found)
       : expected_(expected), actual_(actual) {
     std::map<std::string, std::size_t> places;
     for (std::size_t i = 0; i < actual.tracks.size(); ++i) {
@@ -94,7 +94,7 @@ class Pair {
     for (const auto& [name, place] : places) {
       found.incomparable.push_back("box " + name + " was not expected");
     }
-    duration_ = std::min(expected.settings.duration, actual.settings.duration);
+    duration_ = std::min({expected.settings.duration, actual.settings.duration, until});
   }
 
   double duration() const { return duration_; }
@@ -158,8 +158,8 @@ class Pair {
     BodyState state = run.state(body, time);
     if (!(state.pose.position.allFinite() && state.pose.worldFromBody.allFinite() &&
           state.velocity.allFinite() && state.angularMomentum.allFinite())) {
-      throw InputError(std::string(name) + ": box " + run.tracks[body].name + " has a state at " + brief(time) +
-                       " s that is no number");
+      throw InputError(std::string(name) + ": box " + run.tracks[body].name + " has a state at " +
+                       brief(time) + " s that is no number");
     }
     return state;
   }
@@ -206,9 +206,16 @@ std::string howItDiffers(const Impact& a, const Impact& b) {
   return text.empty() ? "the sign of a zero" : text;
 }
 
-void compareImpacts(const Trajectory& expected, const Trajectory& actual, RunDifference& found) {
-  found.expectedImpacts = expected.impacts.size();
-  found.actualImpacts = actual.impacts.size();
+std::size_t impactsUntil(const Trajectory& run, double until) {
+  return static_cast<std::size_t>(
+      std::count_if(run.impacts.begin(), run.impacts.end(),
+                    [until](const Impact& impact) { return impact.time <= until; }));
+}
+
+void compareImpacts(const Trajectory& expected, const Trajectory& actual, double until,
+                    RunDifference& found) {
+  found.expectedImpacts = impactsUntil(expected, until);
+  found.actualImpacts = impactsUntil(actual, until);
   for (std::size_t i = 0; i < std::max(found.expectedImpacts, found.actualImpacts); ++i) {
     const Impact* const a = i < found.expectedImpacts ? &expected.impacts[i] : nullptr;
     const Impact* const b = i < found.actualImpacts ? &actual.impacts[i] : nullptr;
@@ -265,16 +272,15 @@ std::string describe(const Impact& impact, const Trajectory& run) {
          " against " + run.partnerName(impact) + " with " + brief(impact.impulse) + " N s";
 }
 
-RunDifference differenceOf(const Trajectory& expected, const Trajectory& actual) {
+RunDifference differenceOf(const Trajectory& expected, const Trajectory& actual, double until) {
   RunDifference found;
-  const Pair pair(expected, actual, found);
-  compareImpacts(expected, actual, found);
+  const Pair pair(expected, actual, until, found);
+  compareImpacts(expected, actual, until, found);
   found.expectedDuration = expected.settings.duration;
   found.actualDuration = actual.settings.duration;
   if (!found.incomparable.empty()) {
     return found;
   }
-  found.sameBits = motionBytes(expected) == motionBytes(actual);
   found.firstTime = pair.firstDifference();
   for (int k = 0; k <= kRunSamples; ++k) {
     const RunSample sample = pair.sampleAt(pair.duration() * k / kRunSamples);
@@ -293,6 +299,10 @@ RunDifference differenceOf(const Trajectory& expected, const Trajectory& actual)
   if (apart != found.growth.end()) {
     found.firstTime = apart->time;
   }
+  const bool whole =
+      pair.duration() == expected.settings.duration && pair.duration() == actual.settings.duration;
+  found.sameBits = whole ? motionBytes(expected) == motionBytes(actual)
+                         : pair.duration() == until && !found.firstTime && !found.firstImpact;
   found.growthPerImpact = growthPerImpact(found, expected.impacts);
   std::tie(found.expectedEnergy, found.actualEnergy) = pair.energies();
   return found;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,8 +51,10 @@ struct RunDifference {
 /// Moments at which states are compared, besides the ends of their segments.
 inline constexpr int kRunSamples = 1000;
 
-/// Compares what moved, not how it was computed. InputError, naming the run, where a number is not finite.
-RunDifference differenceOf(const Trajectory& expected, const Trajectory& actual);
+/// Compares what moved, not how it was computed, up to a moment [s]: impacts and states later than that do
+/// not count. InputError, naming the run, where a number is not finite.
+RunDifference differenceOf(const Trajectory& expected, const Trajectory& actual,
+                           double until = std::numeric_limits<double>::infinity());
 
 /// An impact in words: time, bodies, impulse.
 std::string describe(const Impact& impact, const Trajectory& run);

@@ -6,17 +6,12 @@
 #include <sstream>
 #include <utility>
 
-#include "core/error.h"
+#include "core/names.h"
 
 namespace careen {
 namespace {
 
 constexpr double kStep = 1.0 / 255;
-
-struct Named {
-  const char* name;
-  Tolerance tolerance;
-};
 
 // Measured on frames 0 and 40 of careen, pile, wall, gas, dzhanibekov, domino, hecker-1997 and a cube,
 // 320x180 and 1280x720, llvmpipe of Mesa 22.3.6, beside the same with other threads; with SSE2 only; by
@@ -40,29 +35,24 @@ struct Named {
 // What is smaller than that, such as a box of 16 pixels, it sees by its colour, of which one pixel may
 // change, or in a window. other-renderer stands between 0.115 and 0.48 % of changed colours, and between
 // 0.583 and 0.106 (hecker-1997, next frame) of a window's SSIM; every change above breaks one of the two.
-const std::array<Named, 4>& all() {
-  static const std::array<Named, 4> kAll{{
-      {"exact", {}},
-      {"same-machine", {.failPercent = 0.005, .hardFail = kStep}},
-      {"same-picture",
-       {.fail = kStep,
-        .failPercent = 0.01,
-        .warnPercent = 0.5,
-        .changedPercent = 0.0005,
-        .leastWindowSsim = 0.8}},
-      {"other-renderer",
-       {.fail = 4 * kStep,
-        .failPercent = 0.25,
-        .warn = 2 * kStep,
-        .warnPercent = 0.25,
-        .excuseEdges = true,
-        .changedPercent = 0.25,
-        .edgePercent = 5,
-        .leastSsim = 0.98,
-        .leastWindowSsim = 0.3}},
-  }};
-  return kAll;
-}
+constexpr std::array<Tolerance, 4> kTolerances{{
+    {},
+    {.failPercent = 0.005, .hardFail = kStep},
+    {.fail = kStep,
+     .failPercent = 0.01,
+     .warnPercent = 0.5,
+     .changedPercent = 0.0005,
+     .leastWindowSsim = 0.8},
+    {.fail = 4 * kStep,
+     .failPercent = 0.25,
+     .warn = 2 * kStep,
+     .warnPercent = 0.25,
+     .excuseEdges = true,
+     .changedPercent = 0.25,
+     .edgePercent = 5,
+     .leastSsim = 0.98,
+     .leastWindowSsim = 0.3},
+}};
 
 /// Lines such as "0.12 % of the pixels are off by more than 0.0039; 0.01 % may be".
 class Reasons {
@@ -123,28 +113,7 @@ void compareLook(Reasons& reasons, const PictureDifference& difference, const To
 
 }  // namespace
 
-const std::vector<std::string>& toleranceNames() {
-  static const std::vector<std::string> kNames = [] {
-    std::vector<std::string> names;
-    for (const Named& named : all()) {
-      names.emplace_back(named.name);
-    }
-    return names;
-  }();
-  return kNames;
-}
-
-Tolerance toleranceOf(std::string_view name) {
-  std::string known;
-  for (const Named& named : all()) {
-    if (named.name == name) {
-      return named.tolerance;
-    }
-    known += known.empty() ? "" : ", ";
-    known += named.name;
-  }
-  throw InputError("there is no tolerance '" + std::string(name) + "'; there are " + known);
-}
+Tolerance toleranceOf(std::string_view name) { return kTolerances.at(placeAmong(name, kToleranceNames)); }
 
 Judgement judge(const PictureDifference& difference, const Tolerance& tolerance) {
   if (difference.differing == 0) {

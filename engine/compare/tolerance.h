@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -45,7 +46,8 @@ struct Tolerance {
 /// than 4/255 or
 ///   in colour to the eye; SSIM is 0.98, every window's 0.3. Catches a missing shadow, a lost frame, a box
 ///   moved by two pixels.
-const std::vector<std::string>& toleranceNames();
+inline constexpr std::array<std::string_view, 4> kToleranceNames = {"exact", "same-machine", "same-picture",
+                                                                    "other-renderer"};
 /// InputError, naming those there are, if there is none of the name.
 Tolerance toleranceOf(std::string_view name);
 

@@ -132,6 +132,21 @@ TEST(RunDifference, shorterRunIsComparedToItsEnd) {
   EXPECT_TRUE(found.firstOtherEvent);
 }
 
+TEST(RunDifference, whatIsLaterThanAskedForDoesNotCount) {
+  const Trajectory run = driftAndReturn();
+  Trajectory other = run;
+  std::get<EulerStep>(other.tracks[0].segments[1].motion).start.velocity.x() = -3;
+  other.impacts[0].impulse = 10;
+  const RunDifference before = differenceOf(run, other, 0.4);
+  EXPECT_TRUE(before.sameBits);
+  EXPECT_EQ(before.expectedImpacts, 0U);
+  EXPECT_EQ(before.growth.back().time, 0.4);
+  const RunDifference later = differenceOf(run, other, 0.6);
+  EXPECT_FALSE(later.sameBits);
+  EXPECT_EQ(later.firstTime, 0.5);
+  EXPECT_TRUE(later.firstImpact);
+}
+
 TEST(RunDifference, aStateThatIsNoNumberIsAnError) {
   Trajectory run = driftAndReturn();
   std::get<EulerStep>(run.tracks[0].segments[1].motion).start.velocity.x() =

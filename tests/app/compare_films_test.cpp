@@ -1,0 +1,67 @@
+// Comparing films: what their folders say of themselves counts, too.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/process.h"
+
+namespace careen {
+namespace {
+
+std::string scene(const std::string& speed, const std::string& color) {
+  return R"({ "careen": 1, "duration": 1, "gravity": [0, 0, -10],
+    "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "open": ["-y"], "restitution": 1 },
+    "boxes": [ { "name": "crate", "half_extents": [0.6, 0.4, 0.2], "mass": 1, "position": [0, 0, 1],
+                 "velocity": [)" +
+         speed + R"(, 0, 2], "angular_velocity": [1, 2, 3], "color": ")" + color + R"(" } ],
+    "film": { "size": [160, 90], "fps": 10 } })";
+}
+
+class CompareFilms : public testing::Test {
+ protected:
+  Ended careen(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), CAREEN_BINARY);
+    return Process(arguments, folder_.path()).wait();
+  }
+  void film(const std::string& name, const std::string& text, std::vector<std::string> options = {}) const {
+    folder_.write(name + ".json", text);
+    options.insert(options.begin(), {"render", name + ".json", "--out", name});
+    const Ended ended = careen(options);
+    ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CompareFilms, motionAndPicturesAreToldApart) {
+  film("one", scene("1", "#C8553D"));
+  film("same", "// but for a comment\n" + scene("1", "#C8553D"), {"--jobs", "3"});
+  film("colour", scene("1", "#3D55C8"));
+  film("motion", scene("1.0000000000000002", "#C8553D"));
+  Ended ended = careen({"compare", "one", "same"});
+  EXPECT_EQ(ended.exitCode, 0) << ended.out;
+  EXPECT_EQ(ended.out, "same: same motion, same files (same-picture)\n");
+  ended = careen({"compare", "one", "colour"});
+  EXPECT_EQ(ended.exitCode, 1);
+  EXPECT_TRUE(
+      ended.out.starts_with("differs: same motion, other picture in 10 of 10 frames (same-picture)\n"))
+      << ended.out;
+  EXPECT_NE(ended.out.find("  scene hash: "), std::string::npos) << ended.out;
+  ended = careen({"compare", "one", "motion"});
+  EXPECT_EQ(ended.exitCode, 1);
+  EXPECT_TRUE(ended.out.starts_with("differs: other motion, same ")) << ended.out;
+  EXPECT_EQ(careen({"compare", "one", "motion", "--motion", "any"}).exitCode, 0);
+}
+
+TEST_F(CompareFilms, lostFramesAreNamed) {
+  film("one", scene("1", "#C8553D"));
+  film("part", scene("1", "#C8553D"), {"--frames", "0-7,9"});
+  const Ended ended = careen({"compare", "one", "part"});
+  EXPECT_EQ(ended.exitCode, 1);
+  EXPECT_NE(ended.out.find("  000008.png: it is missing\n"), std::string::npos) << ended.out;
+}
+
+}  // namespace
+}  // namespace careen

@@ -1,0 +1,144 @@
+// Comparing pictures and runs, as its user meets it; films are in compare_films_test.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "support/process.h"
+
+namespace careen {
+namespace {
+
+const std::string kGallery = CAREEN_SOURCE_DIR "/assets/gallery/";
+
+std::string scene(const std::string& speed, const std::string& name = "crate") {
+  return R"({ "careen": 1, "duration": 3, "gravity": [0, 0, -10],
+    "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "restitution": 1 },
+    "boxes": [ { "name": ")" +
+         name + R"(", "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1],
+                 "velocity": [)" +
+         speed + R"(, 0, 2], "angular_velocity": [1, 2, 3] } ] })";
+}
+
+class Compare : public testing::Test {
+ protected:
+  Ended careen(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), CAREEN_BINARY);
+    return Process(arguments, folder_.path()).wait();
+  }
+  Ended compare(const std::vector<std::string>& arguments) const {
+    std::vector<std::string> all = {"compare"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return careen(all);
+  }
+  void simulate(const std::string& name, const std::string& text) const {
+    folder_.write(name + ".json", text);
+    const Ended ended = careen({"simulate", name + ".json", "-o", name + ".careen"});
+    ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Compare, picturesAreSameOrNot) {
+  const Ended same = compare({kGallery + "wall.png", kGallery + "wall.png"});
+  EXPECT_EQ(same.exitCode, 0);
+  EXPECT_EQ(same.out, "same: same file (same-picture)\n");
+  const Ended other = compare({kGallery + "wall.png", kGallery + "stack.png"});
+  EXPECT_EQ(other.exitCode, 1);
+  EXPECT_TRUE(other.out.starts_with("differs: other picture (same-picture)\n  stack.png: ")) << other.out;
+  EXPECT_EQ(other.err, "");
+}
+
+TEST_F(Compare, everyNumberOfAThresholdCanBeGiven) {
+  const Ended lenient = compare(
+      {kGallery + "wall.png", kGallery + "stack.png", "--threshold", "exact", "--failpercent", "100"});
+  EXPECT_EQ(lenient.exitCode, 0);
+  EXPECT_TRUE(lenient.out.starts_with("same, with a warning: same picture (exact, --failpercent 100)\n"))
+      << lenient.out;
+  const Ended strict = compare({kGallery + "wall.png", kGallery + "stack.png", "--threshold", "exact",
+                                "--failpercent", "100", "--hardfail", "0.5"});
+  EXPECT_EQ(strict.exitCode, 1);
+  EXPECT_NE(strict.out.find("at most 0.5 is allowed"), std::string::npos) << strict.out;
+}
+
+TEST_F(Compare, framesAreLoggedAsLinesOfJson) {
+  const Ended ended = compare({kGallery + "wall.png", kGallery + "stack.png", "--log", "json", "--flip"});
+  EXPECT_EQ(ended.exitCode, 1);
+  const nlohmann::json line = nlohmann::json::parse(ended.out);
+  EXPECT_EQ(line["frame"], "stack.png");
+  EXPECT_EQ(line["verdict"], "different");
+  EXPECT_GT(line["flip"], 0.01);
+  EXPECT_LT(line["ssim"], 1);
+  EXPECT_FALSE(line["reasons"].empty());
+  EXPECT_TRUE(ended.err.starts_with("differs: ")) << ended.err;
+}
+
+TEST_F(Compare, runsAreComparedBitByBitAndEventByEvent) {
+  simulate("one", "// a comment\n" + scene("1"));
+  simulate("same", scene("1"));
+  simulate("other", scene("1.001"));
+  const Ended same = compare({"one.careen", "same.careen"});
+  EXPECT_EQ(same.exitCode, 0);
+  EXPECT_EQ(same.out, "same: same motion, bit for bit\n");
+  const Ended other = compare({"one.careen", "other.careen"});
+  EXPECT_EQ(other.exitCode, 1);
+  EXPECT_TRUE(other.out.starts_with("differs: other motion from 0 s on")) << other.out;
+  EXPECT_NE(other.out.find("first impact that differs, number 1: at "), std::string::npos) << other.out;
+  EXPECT_NE(other.out.find("crate against room-z"), std::string::npos) << other.out;
+  EXPECT_NE(other.out.find("  state hash: "), std::string::npos) << other.out;
+}
+
+TEST_F(Compare, otherBoxesAreOtherMotion) {
+  simulate("one", scene("1"));
+  simulate("other", scene("1", "chest"));
+  const Ended ended = compare({"one.careen", "other.careen", "--motion", "0.5"});
+  EXPECT_EQ(ended.exitCode, 1);
+  EXPECT_NE(ended.out.find("box crate is not there"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("box chest was not expected"), std::string::npos) << ended.out;
+}
+
+TEST_F(Compare, motionMayBeComparedWithinATolerance) {
+  simulate("one", scene("1"));
+  simulate("near", scene("1.00000001"));
+  EXPECT_EQ(compare({"one.careen", "near.careen"}).exitCode, 1);
+  EXPECT_EQ(compare({"one.careen", "near.careen", "--motion", "1e-3"}).exitCode, 1);  // chaos, from 2.8 s on
+  const Ended ended = compare({"one.careen", "near.careen", "--motion", "1e-3", "--until", "1.5"});
+  EXPECT_EQ(ended.exitCode, 0) << ended.out;
+  EXPECT_NE(ended.out.find("same motion, within "), std::string::npos) << ended.out;
+}
+
+TEST_F(Compare, badInputIsNamed) {
+  folder_.write("text.png", "no picture");
+  folder_.write("empty.png", "");
+  std::filesystem::create_directory(folder_ / "folder");
+  struct Bad {
+    std::vector<std::string> arguments;
+    std::string message;
+  };
+  const std::string picture = kGallery + "wall.png";
+  for (const Bad& bad : std::vector<Bad>{
+           {{picture, "nowhere.png"}, "nowhere.png: is not there"},
+           {{"empty.png", picture}, "empty.png: is empty"},
+           {{picture, "text.png"}, "text.png: is no PNG"},
+           {{"text.png", "text.png"}, "text.png: is no PNG"},
+           {{picture, "folder"},
+            "found a picture and a folder, expected two pictures, two folders or two runs"},
+           {{"folder", "folder"}, "folder: found no PNG files"},
+           {{picture, picture, "--threshold", "close"}, "--threshold: found 'close', expected one of"},
+           {{picture, picture, "--fail", "-1"}, "--fail: found -1, expected 0 to 1"},
+           {{picture, picture, "--fail", "nan"}, "--fail: found nan, expected 0 to 1"},
+           {{picture, picture, "--motion", "a bit"}, "--motion: found 'a bit', expected same, any, or"},
+           {{picture, picture, "--until", "0"}, "--until: found 0, expected more than 0 s"},
+           {{picture, picture, "--threads", "0"}, "--threads: found 0, expected 1 to 256"}}) {
+    const Ended ended = compare(bad.arguments);
+    EXPECT_EQ(ended.exitCode, 2) << bad.message;
+    EXPECT_NE(ended.err.find(bad.message), std::string::npos) << ended.err;
+    EXPECT_EQ(ended.out, "") << bad.message;
+  }
+}
+
+}  // namespace
+}  // namespace careen
