@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <system_error>
 
+#include "core/characters.h"
 #include "core/error.h"
 #include "core/file.h"
 
@@ -12,50 +13,6 @@
 #include <stb/stb_truetype.h>
 
 namespace careen {
-namespace {
-
-constexpr char32_t kReplacement = 0xFFFD;
-
-// How many bytes a character takes, by its first one; 0 if none begins so.
-std::size_t lengthOf(unsigned char first) {
-  if (first < 0x80) {
-    return 1;
-  }
-  if (first >= 0xC2 && first < 0xE0) {
-    return 2;
-  }
-  if (first >= 0xE0 && first < 0xF0) {
-    return 3;
-  }
-  return first >= 0xF0 && first < 0xF5 ? 4 : 0;
-}
-
-// The character that starts there; `at` moves behind it, or by one byte if there is none.
-char32_t next(std::string_view utf8, std::size_t& at) {
-  constexpr std::array<char32_t, 5> kSmallest = {0, 0, 0x80, 0x800, 0x10000};
-  const auto first = static_cast<unsigned char>(utf8[at]);
-  const std::size_t length = lengthOf(first);
-  const std::size_t start = at++;
-  if (length == 0 || start + length > utf8.size()) {
-    return kReplacement;
-  }
-  char32_t character = length == 1 ? first : first & (0x7FU >> length);
-  for (std::size_t i = start + 1; i < start + length; ++i) {
-    const auto byte = static_cast<unsigned char>(utf8[i]);
-    if ((byte & 0xC0U) != 0x80U) {
-      return kReplacement;
-    }
-    character = character << 6U | (byte & 0x3FU);
-  }
-  const bool isSurrogate = character >= 0xD800 && character < 0xE000;
-  if (character < kSmallest.at(length) || character > 0x10FFFF || isSurrogate) {
-    return kReplacement;
-  }
-  at = start + length;
-  return character;
-}
-
-}  // namespace
 
 struct Font::Parts {
   std::string bytes;
@@ -146,14 +103,6 @@ Font findFont(const std::string& file, std::span<const std::filesystem::path> fo
   }
   throw MachineError("found no font " + file + " to write with, looked in " + looked +
                      "; apt install fonts-dejavu-core");
-}
-
-std::u32string charactersOf(std::string_view utf8) {
-  std::u32string characters;
-  for (std::size_t at = 0; at < utf8.size();) {
-    characters.push_back(next(utf8, at));
-  }
-  return characters;
 }
 
 }  // namespace careen

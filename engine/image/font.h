@@ -60,7 +60,4 @@ std::span<const std::filesystem::path> fontFolders();
 /// package to install if none has.
 Font findFont(const std::string& file, std::span<const std::filesystem::path> folders = fontFolders());
 
-/// The characters of a text; U+FFFD in place of bytes that are none.
-std::u32string charactersOf(std::string_view utf8);
-
 }  // namespace careen

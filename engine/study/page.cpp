@@ -6,24 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/characters.h"
 #include "core/file.h"
 #include "core/resource.h"
 #include "study/study.h"
 
 namespace careen {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    result += c == '&'   ? "&amp;"
-              : c == '<' ? "&lt;"
-              : c == '>' ? "&gt;"
-              : c == '"' ? "&quot;"
-                         : std::string(1, c);
-  }
-  return result;
-}
 
 // From red (no digit right) over white to blue (all right), as in the plot of the matrix.
 std::string colourOf(double digits) {
@@ -48,7 +37,7 @@ std::string cell(const Attempt* attempt) {
     return "<td></td>";
   }
   if (!attempt->failure.empty()) {
-    return R"(<td class="none" title=")" + escaped(attempt->failure) + "\">–</td>";
+    return R"(<td class="none" title=")" + escapedForMarkup(attempt->failure) + "\">–</td>";
   }
   const double digits = correctDigits(attempt->judgement.error);
   return "<td style=\"background:" + colourOf(digits) + (digits < 3 ? ";color:white" : "") + "\">" +
@@ -58,7 +47,7 @@ std::string cell(const Attempt* attempt) {
 std::string headOf(const std::vector<std::string>& contestants) {
   std::string row = "<tr><th>case</th>";
   for (const std::string& contestant : contestants) {
-    row += "<th>" + escaped(contestant) + "</th>";
+    row += "<th>" + escapedForMarkup(contestant) + "</th>";
   }
   return row + "</tr>\n";
 }
@@ -67,7 +56,8 @@ std::string matrix(const StudyResult& study) {
   const std::vector<std::string> contestants = study.contestants();
   std::string table = "<table class=\"matrix\">\n" + headOf(contestants);
   for (const CaseResult& result : study.cases) {
-    table += "<tr><th><a href=\"#" + escaped(result.name) + "\">" + escaped(result.name) + "</a></th>";
+    table += "<tr><th><a href=\"#" + escapedForMarkup(result.name) + "\">" + escapedForMarkup(result.name) +
+             "</a></th>";
     for (const std::string& contestant : contestants) {
       table += cell(usualAttempt(result, contestant));
     }
@@ -83,7 +73,7 @@ std::string attemptsOf(const CaseResult& result) {
            "s</th><th>spread</th>"
            "<th>repeats</th><th>on the front</th></tr>\n";
   for (const Attempt& attempt : result.attempts) {
-    table << "<tr><th>" << escaped(attempt.contestant) << "</th><td>"
+    table << "<tr><th>" << escapedForMarkup(attempt.contestant) << "</th><td>"
           << (attempt.dt > 0 ? inShort(attempt.dt) : "") << "</td><td>"
           << (attempt.tolerance > 0 ? inShort(attempt.tolerance) : "") << "</td>";
     if (attempt.failure.empty()) {
@@ -91,7 +81,7 @@ std::string attemptsOf(const CaseResult& result) {
             << "</td><td>" << inShort(attempt.spread) << "</td><td>" << attempt.repeats << "</td><td>"
             << (onFront(result, attempt) ? "yes" : "") << "</td></tr>\n";
     } else {
-      table << R"(<td colspan="5" class="none">)" << escaped(attempt.failure) << "</td></tr>\n";
+      table << R"(<td colspan="5" class="none">)" << escapedForMarkup(attempt.failure) << "</td></tr>\n";
     }
   }
   table << "</table>\n";
@@ -113,10 +103,11 @@ std::string sections(const StudyResult& study, const std::vector<std::string>& p
   std::string all;
   for (std::size_t i = 0; i < study.cases.size(); ++i) {
     const CaseResult& result = study.cases[i];
-    all += "<section id=\"" + escaped(result.name) + "\">\n<h2>" + escaped(result.title) + "</h2>\n<p>" +
-           escaped(result.whyHard) + "</p>\n<p class=\"source\">Truth: " + escaped(result.source) +
-           ".</p>\n" + (i < plots.size() ? withoutProlog(plots[i]) : "") +
-           "<details><summary>All attempts</summary>\n" + attemptsOf(result) + "</details>\n</section>\n";
+    all += "<section id=\"" + escapedForMarkup(result.name) + "\">\n<h2>" + escapedForMarkup(result.title) +
+           "</h2>\n<p>" + escapedForMarkup(result.whyHard) +
+           "</p>\n<p class=\"source\">Truth: " + escapedForMarkup(result.source) + ".</p>\n" +
+           (i < plots.size() ? withoutProlog(plots[i]) : "") + "<details><summary>All attempts</summary>\n" +
+           attemptsOf(result) + "</details>\n</section>\n";
   }
   return all;
 }
@@ -133,7 +124,7 @@ std::string settingsOf(const StudyResult& study) {
   }
   std::string list = "<dl>\n";
   for (const auto& [contestant, settings] : known) {
-    list += "<dt>" + escaped(contestant) + "</dt><dd>" + escaped(settings) + "</dd>\n";
+    list += "<dt>" + escapedForMarkup(contestant) + "</dt><dd>" + escapedForMarkup(settings) + "</dd>\n";
   }
   return list + "</dl>\n";
 }
@@ -162,9 +153,9 @@ std::string verdict(const StudyResult& study) {
   }
   std::ostringstream text;
   text << "<b>exact</b> answers " << answered << " of " << study.cases.size()
-       << " cases; its largest error is " << inShort(worst) << " (" << escaped(worstCase) << "). In " << front
-       << " of them no other contestant is both cheaper and better"
-       << (dominated.empty() ? "." : "; it is not so in " + escaped(dominated) + ".");
+       << " cases; its largest error is " << inShort(worst) << " (" << escapedForMarkup(worstCase) << "). In "
+       << front << " of them no other contestant is both cheaper and better"
+       << (dominated.empty() ? "." : "; it is not so in " + escapedForMarkup(dominated) + ".");
   return text.str();
 }
 
@@ -173,9 +164,12 @@ std::string verdict(const StudyResult& study) {
 std::string resultsPage(const StudyResult& study, const std::vector<std::string>& plots) {
   std::string page = readFile(findResource("assets/plots/page.html"));
   const std::vector<std::pair<std::string, std::string>> parts = {
-      {"{{verdict}}", verdict(study)},         {"{{machine}}", escaped(study.machine)},
-      {"{{command}}", escaped(study.command)}, {"{{matrix}}", matrix(study)},
-      {"{{settings}}", settingsOf(study)},     {"{{cases}}", sections(study, plots)}};
+      {"{{verdict}}", verdict(study)},
+      {"{{machine}}", escapedForMarkup(study.machine)},
+      {"{{command}}", escapedForMarkup(study.command)},
+      {"{{matrix}}", matrix(study)},
+      {"{{settings}}", settingsOf(study)},
+      {"{{cases}}", sections(study, plots)}};
   for (const auto& [mark, text] : parts) {
     const std::size_t at = page.find(mark);
     if (at != std::string::npos) {

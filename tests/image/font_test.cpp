@@ -40,15 +40,6 @@ TEST(Font, charactersBeyondAsciiHaveShapesOfTheirOwn) {
   }
 }
 
-TEST(Font, readsUtf8) {
-  EXPECT_EQ(charactersOf("aé→𝄞"), U"aé→𝄞");
-  EXPECT_EQ(charactersOf("a\xC3"), U"a�");            // cut short
-  EXPECT_EQ(charactersOf("\xC3\x28z"), U"�(z");       // no continuation
-  EXPECT_EQ(charactersOf("\xC0\xAF"), U"��");         // longer than needed
-  EXPECT_EQ(charactersOf("\xED\xA0\x80x"), U"���x");  // half of a pair of UTF-16
-  EXPECT_EQ(charactersOf("\xF8"), U"�");
-}
-
 // Moved by half a pixel it covers as much, elsewhere.
 TEST(Font, shiftMovesTheShape) {
   const Font font = findFont(kPlainFont);
