@@ -183,13 +183,6 @@ class Pair {
   double duration_;
 };
 
-bool sameEvent(const Trajectory& expected, const Impact& a, const Trajectory& actual, const Impact& b) {
-  const auto name = [](const Trajectory& run, const Impact& impact) {
-    return run.tracks.at(static_cast<std::size_t>(impact.a.value)).name;
-  };
-  return name(expected, a) == name(actual, b) && expected.partnerName(a) == actual.partnerName(b);
-}
-
 std::string howItDiffers(const Impact& a, const Impact& b) {
   std::string text;
   const auto add = [&text](const char* what, double difference, const char* unit) {
@@ -206,6 +199,36 @@ std::string howItDiffers(const Impact& a, const Impact& b) {
   return text.empty() ? "the sign of a zero" : text;
 }
 
+std::string bodiesOf(const Impact& impact, const Trajectory& run) {
+  return run.tracks.at(static_cast<std::size_t>(impact.a.value)).name + " against " + run.partnerName(impact);
+}
+
+// Those that `found` counts.
+ImpactDifference impactsAt(std::size_t index, const Trajectory& expected, const Trajectory& actual,
+                           const RunDifference& found) {
+  ImpactDifference pair{
+      .index = index, .expected = {}, .actual = {}, .expectedBodies = {}, .actualBodies = {}, .what = {}};
+  if (index < found.expectedImpacts) {
+    pair.expected = expected.impacts[index];
+    pair.expectedBodies = bodiesOf(*pair.expected, expected);
+  }
+  if (index < found.actualImpacts) {
+    pair.actual = actual.impacts[index];
+    pair.actualBodies = bodiesOf(*pair.actual, actual);
+  }
+  if (!pair.expected) {
+    pair.what = describe(*pair.actual, actual) + " was not expected";
+  } else if (!pair.actual) {
+    pair.what = describe(*pair.expected, expected) + " is not there";
+  } else if (pair.expectedBodies != pair.actualBodies) {
+    pair.what =
+        "expected " + describe(*pair.expected, expected) + ", found " + describe(*pair.actual, actual);
+  } else if (!sameBits(*pair.expected, *pair.actual)) {
+    pair.what = describe(*pair.expected, expected) + ": " + howItDiffers(*pair.expected, *pair.actual);
+  }
+  return pair;
+}
+
 std::size_t impactsUntil(const Trajectory& run, double until) {
   return static_cast<std::size_t>(
       std::count_if(run.impacts.begin(), run.impacts.end(),
@@ -216,31 +239,21 @@ void compareImpacts(const Trajectory& expected, const Trajectory& actual, double
                     RunDifference& found) {
   found.expectedImpacts = impactsUntil(expected, until);
   found.actualImpacts = impactsUntil(actual, until);
-  for (std::size_t i = 0; i < std::max(found.expectedImpacts, found.actualImpacts); ++i) {
-    const Impact* const a = i < found.expectedImpacts ? &expected.impacts[i] : nullptr;
-    const Impact* const b = i < found.actualImpacts ? &actual.impacts[i] : nullptr;
-    const bool same = a != nullptr && b != nullptr && sameEvent(expected, *a, actual, *b);
-    if (same && sameBits(*a, *b)) {
-      continue;
+  const std::size_t impacts = std::max(found.expectedImpacts, found.actualImpacts);
+  for (std::size_t i = 0; i < impacts && !found.firstOtherEvent; ++i) {
+    const ImpactDifference pair = impactsAt(i, expected, actual, found);
+    if (!pair.what.empty() && !found.firstImpact) {
+      found.firstImpact = pair;
     }
-    ImpactDifference difference{.index = i, .expected = {}, .actual = {}, .what = {}};
-    if (a != nullptr) {
-      difference.expected = *a;
+    if (pair.expectedBodies != pair.actualBodies) {
+      found.firstOtherEvent = pair;
     }
-    if (b != nullptr) {
-      difference.actual = *b;
-    }
-    difference.what = same           ? describe(*a, expected) + ": " + howItDiffers(*a, *b)
-                      : a == nullptr ? describe(*b, actual) + " was not expected"
-                      : b == nullptr
-                          ? describe(*a, expected) + " is not there"
-                          : "expected " + describe(*a, expected) + ", found " + describe(*b, actual);
-    if (!found.firstImpact) {
-      found.firstImpact = difference;
-    }
-    if (!same) {
-      found.firstOtherEvent = std::move(difference);
-      return;
+  }
+  if (found.firstImpact) {
+    const std::size_t first = found.firstImpact->index;
+    for (std::size_t i = first - std::min(first, kImpactsBefore);
+         i < std::min(impacts, first + kImpactsAfter + 1); ++i) {
+      found.impactsAround.push_back(impactsAt(i, expected, actual, found));
     }
   }
 }
@@ -268,8 +281,8 @@ std::optional<double> growthPerImpact(const RunDifference& found, const std::vec
 }  // namespace
 
 std::string describe(const Impact& impact, const Trajectory& run) {
-  return "at " + brief(impact.time) + " s " + run.tracks.at(static_cast<std::size_t>(impact.a.value)).name +
-         " against " + run.partnerName(impact) + " with " + brief(impact.impulse) + " N s";
+  return "at " + brief(impact.time) + " s " + bodiesOf(impact, run) + " with " + brief(impact.impulse) +
+         " N s";
 }
 
 RunDifference differenceOf(const Trajectory& expected, const Trajectory& actual, double until) {

@@ -18,12 +18,15 @@ struct RunSample {
   std::string body;  ///< the one that is farthest apart, relative to its size
 };
 
-/// The first impact that is not the same in both; an impact that only one of them has counts.
+/// The impacts that are at one place of both lists; an impact that only one of the runs has counts as not the
+/// same.
 struct ImpactDifference {
   std::size_t index = 0;  ///< counted from 0
   std::optional<Impact> expected;
   std::optional<Impact> actual;
-  std::string what;  ///< in words, with names
+  std::string expectedBodies;  ///< "crate against room-x"; empty where there is none
+  std::string actualBodies;
+  std::string what;  ///< how they differ, in words, with names; empty if they are the same
 };
 
 /// What the motion of two runs has in common, and from when on it has not.
@@ -40,6 +43,7 @@ struct RunDifference {
   std::optional<double> growthPerImpact;
   std::optional<ImpactDifference> firstImpact;      ///< any bit of it
   std::optional<ImpactDifference> firstOtherEvent;  ///< other bodies, or not there
+  std::vector<ImpactDifference> impactsAround;      ///< kImpactsBefore the first and kImpactsAfter it
   std::size_t expectedImpacts = 0;
   std::size_t actualImpacts = 0;
   double expectedDuration = 0;  ///< [s]; states are compared up to the end of the shorter
@@ -50,6 +54,10 @@ struct RunDifference {
 
 /// Moments at which states are compared, besides the ends of their segments.
 inline constexpr int kRunSamples = 1000;
+
+/// Impacts that are told beside the first that differs.
+inline constexpr std::size_t kImpactsBefore = 3;
+inline constexpr std::size_t kImpactsAfter = 8;
 
 /// Compares what moved, not how it was computed, up to a moment [s]: impacts and states later than that do
 /// not count. InputError, naming the run, where a number is not finite.
