@@ -122,7 +122,7 @@ TEST(Structure, foreignHeadersStayWhereTheyBelong) {
   const std::vector<Rule> rules = {
       {std::regex("^(GL|EGL|GLFW)/.*"), {"render"}},
       {std::regex("^(stb/)?stb_.*"), {"image"}},
-      {std::regex("^nlohmann/.*"), {"scene", "study", "render", "app"}},
+      {std::regex("^nlohmann/.*"), {"scene", "study", "compare", "render", "app"}},
       {std::regex("^CLI/.*"), {"app"}},
       {std::regex("^(bt[A-Z]|Bullet|LinearMath/).*"), {"study"}, "peer_bullet"},
       {std::regex("^ode/.*"), {"study"}, "peer_ode"},

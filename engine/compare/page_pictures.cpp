@@ -1,0 +1,165 @@
+#include "compare/page_pictures.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+
+#include "compare/difference_image.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "image/deep_picture.h"
+#include "image/png.h"
+
+namespace careen {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A picture as its file has it, and unpacked.
+struct Source {
+  std::string bytes;
+  DeepPicture picture;
+};
+
+std::optional<Source> sourceOf(const std::filesystem::path& path) {
+  try {
+    Source source{.bytes = readFile(path), .picture = {}};
+    source.picture = decodeDeepPng(source.bytes, path.string());
+    return source;
+  } catch (const InputError&) {
+    return std::nullopt;  // that it is missing or broken is among the frame's reasons
+  }
+}
+
+std::string dataUri(std::string_view png) { return "data:image/png;base64," + base64(png); }
+
+Json samplesAt(const DeepPicture& picture, int x, int y) {
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  const std::size_t at =
+      (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x)) *
+      channels;
+  Json samples = Json::array();
+  for (std::size_t i = at; i < at + channels; ++i) {
+    samples.push_back(picture.deep ? int{picture.samples16[i]} : int{picture.samples8[i]});
+  }
+  return samples;
+}
+
+Json pixelJson(const FrameComparison& frame, const DeepPicture& expected, const DeepPicture& actual) {
+  const bool deep = expected.deep || actual.deep;
+  const DeepPicture& one = deep ? deepened(expected) : expected;
+  const DeepPicture& other = deep ? deepened(actual) : actual;
+  return {{"x", frame.largestX},
+          {"y", frame.largestY},
+          {"full", deep ? 65535 : 255},
+          {"expected", samplesAt(one, frame.largestX, frame.largestY)},
+          {"actual", samplesAt(other, frame.largestX, frame.largestY)}};
+}
+
+Json pictureJson(const Comparison& comparison, const FrameComparison& frame) {
+  const std::optional<Source> expected = sourceOf(expectedFrame(comparison, frame));
+  const std::optional<Source> actual = sourceOf(actualFrame(comparison, frame));
+  Json json = {{"width", 0},        {"height", 0},           {"expected", nullptr},
+               {"actual", nullptr}, {"difference", nullptr}, {"factor", nullptr},
+               {"pixel", nullptr}};
+  for (const auto* const side : {&actual, &expected}) {
+    if (*side) {
+      json["width"] = std::max(json["width"].get<int>(), (*side)->picture.width);
+      json["height"] = std::max(json["height"].get<int>(), (*side)->picture.height);
+    }
+  }
+  if (expected) {
+    json["expected"] = dataUri(expected->bytes);
+  }
+  if (actual) {
+    json["actual"] = dataUri(actual->bytes);
+  }
+  if (frame.measured && expected && actual && expected->picture.width == actual->picture.width &&
+      expected->picture.height == actual->picture.height) {
+    const int factor = amplificationOf(expected->picture, actual->picture);
+    json["difference"] = dataUri(encodePng(differenceImage(expected->picture, actual->picture, factor)));
+    json["factor"] = factor;
+    json["pixel"] = pixelJson(frame, expected->picture, actual->picture);
+  }
+  return json;
+}
+
+std::size_t bytesOf(const Json& picture) {
+  std::size_t bytes = 0;
+  for (const char* key : {"expected", "actual", "difference"}) {
+    bytes += picture[key].is_string() ? picture[key].get_ref<const std::string&>().size() : 0;
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<std::size_t> framesToShow(const Comparison& comparison, std::size_t most) {
+  const std::vector<FrameComparison>& frames = comparison.frames;
+  std::vector<std::size_t> chosen;
+  const auto choose = [&](std::size_t frame) {
+    if (chosen.size() < most && std::find(chosen.begin(), chosen.end(), frame) == chosen.end()) {
+      chosen.push_back(frame);
+    }
+  };
+  const FrameComparison* const first = comparison.firstDifferent();
+  if (first == nullptr) {
+    const auto largest = std::max_element(
+        frames.begin(), frames.end(),
+        [](const FrameComparison& a, const FrameComparison& b) { return a.largest < b.largest; });
+    if (largest != frames.end() && !largest->identical) {
+      choose(static_cast<std::size_t>(largest - frames.begin()));
+    }
+    return chosen;
+  }
+  choose(static_cast<std::size_t>(first - frames.data()));
+  choose(static_cast<std::size_t>(comparison.worst() - frames.data()));
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i].verdict != Verdict::kSame) {
+      others.push_back(i);
+    }
+  }
+  // Both ends among them; fewer than asked for where one was chosen above.
+  const std::size_t steps = std::min(others.size(), most);
+  for (std::size_t k = 0; k < steps; ++k) {
+    choose(others[steps == 1 ? 0 : k * (others.size() - 1) / (steps - 1)]);
+  }
+  return chosen;
+}
+
+std::string picturesJson(const Comparison& comparison, std::size_t mostBytes) {
+  Json pictures = Json::object();
+  std::size_t bytes = 0;
+  for (const std::size_t place : framesToShow(comparison)) {
+    const FrameComparison& frame = comparison.frames[place];
+    Json picture = pictureJson(comparison, frame);
+    const std::size_t more = bytesOf(picture);
+    if (pictures.empty() || bytes + more <= mostBytes) {
+      bytes += more;
+      pictures[frame.name] = std::move(picture);
+    }
+  }
+  return pictures.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      bits = bits << 8U | (i < count ? static_cast<unsigned char>(bytes[at + i]) : 0U);
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      text += i <= count ? kDigits[(bits >> (18 - 6 * i)) & 0x3FU] : '=';
+    }
+  }
+  return text;
+}
+
+}  // namespace careen

@@ -1,0 +1,22 @@
+#include "compare/report.h"
+
+#include <system_error>
+
+#include "core/error.h"
+#include "core/file.h"
+
+namespace careen {
+
+void writeReport(const std::filesystem::path& folder, const Comparison& comparison) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw MachineError(folder.string() + ": cannot make this folder: " + error.message());
+  }
+  const std::string page = reportPage(comparison);
+  writeFile(folder / "report.json", reportJson(comparison) + "\n");
+  writeFile(folder / "junit.xml", reportJunit(comparison));
+  writeFile(folder / "index.html", page);
+}
+
+}  // namespace careen

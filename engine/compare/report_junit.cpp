@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "compare/report.h"
+#include "compare/report_words.h"
+#include "core/brief.h"
+#include "core/characters.h"
+
+namespace careen {
+namespace {
+
+/// What CI systems show as one line.
+struct TestCase {
+  std::string name;
+  std::string failure;  ///< empty: it passed
+  std::string warning;
+};
+
+std::vector<TestCase> casesOfFrames(const Comparison& comparison) {
+  std::vector<TestCase> cases;
+  for (const FrameComparison& frame : comparison.frames) {
+    const bool fails = frame.verdict == Verdict::kDifferent;
+    const bool warns = frame.verdict == Verdict::kWarning;
+    const std::string reasons = frame.reasons.empty() ? nameOf(frame.verdict) : joined(frame.reasons);
+    cases.push_back({.name = frame.name, .failure = fails ? reasons : "", .warning = warns ? reasons : ""});
+  }
+  return cases;
+}
+
+std::string both(const std::string& expected, const std::string& actual, const char* unit) {
+  return expected == actual ? "" : "found " + actual + unit + ", expected " + expected + unit;
+}
+
+// Single properties fail only if the whole does: within a tolerance they may differ.
+std::vector<TestCase> casesOfRun(const Comparison& comparison, const RunDifference& run) {
+  const auto failing = [&comparison](const std::string& what) {
+    return comparison.verdict == Verdict::kDifferent ? what : std::string();
+  };
+  return {
+      {.name = "boxes", .failure = failing(joined(run.incomparable)), .warning = {}},
+      {.name = "duration",
+       .failure = failing(both(brief(run.expectedDuration), brief(run.actualDuration), " s")),
+       .warning = {}},
+      {.name = "states",
+       .failure = failing(run.firstTime ? "other from " + brief(*run.firstTime) + " s on" : ""),
+       .warning = {}},
+      {.name = "impacts", .failure = failing(run.firstImpact ? run.firstImpact->what : ""), .warning = {}}};
+}
+
+// What was found of the whole; without it a difference that no single case has, another motion behind the
+// same pictures, would pass.
+TestCase caseOfAll(const Comparison& comparison) {
+  const std::string text = comparison.headline + ". " + reasonOf(comparison);
+  return {.name = "verdict",
+          .failure = comparison.verdict == Verdict::kDifferent ? text : "",
+          .warning = comparison.verdict == Verdict::kWarning ? text : ""};
+}
+
+std::string xmlOf(const TestCase& test, const std::string& className) {
+  const std::string head =
+      "    <testcase classname=\"" + className + "\" name=\"" + escapedForMarkup(test.name) + "\"";
+  if (!test.failure.empty()) {
+    const std::string message = escapedForMarkup(test.failure);
+    return head + ">\n      <failure type=\"different\" message=\"" + message + "\">" + message +
+           "</failure>\n    </testcase>\n";
+  }
+  if (!test.warning.empty()) {
+    return head + ">\n      <system-out>" + escapedForMarkup("warning: " + test.warning) +
+           "</system-out>\n    </testcase>\n";
+  }
+  return head + "/>\n";
+}
+
+}  // namespace
+
+std::string reportJunit(const Comparison& comparison) {
+  std::vector<TestCase> cases = {caseOfAll(comparison)};
+  const std::vector<TestCase> parts =
+      comparison.run ? casesOfRun(comparison, *comparison.run) : casesOfFrames(comparison);
+  cases.insert(cases.end(), parts.begin(), parts.end());
+  const auto failures =
+      std::count_if(cases.begin(), cases.end(), [](const TestCase& test) { return !test.failure.empty(); });
+  const std::string suite =
+      escapedForMarkup(comparison.actual.string() + " against " + comparison.expected.string());
+  const std::string className = comparison.run ? "careen.compare.run" : "careen.compare.frames";
+  const std::string counts = " tests=\"" + std::to_string(cases.size()) + "\" failures=\"" +
+                             std::to_string(failures) + "\" errors=\"0\" skipped=\"0\"";
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"careen compare\"" +
+                    counts + ">\n  <testsuite name=\"" + suite + "\"" + counts + ">\n";
+  for (const TestCase& test : cases) {
+    xml += xmlOf(test, className);
+  }
+  return xml + "  </testsuite>\n</testsuites>\n";
+}
+
+}  // namespace careen
