@@ -57,7 +57,7 @@ function GrowthChart(run) {
   function mark(drawing, time, label, y) {
     const x = xOf(time);
     const atEnd = x > kLeft + inner * 0.7;
-    drawing.append(svg("line", { class: "mark", x1: x, x2: x, y1: y - 10, y2: kHeight - kBottom }));
+    drawing.append(svg("line", { class: "mark", x1: x, x2: x, y1: Math.min(y - 10, kTop), y2: kHeight - kBottom }));
     drawing.append(svg("text", { class: "mark-label", x: x + (atEnd ? -5 : 5), y, "text-anchor": atEnd ? "end" : "start" }, label));
   }
 
@@ -72,7 +72,7 @@ function GrowthChart(run) {
     drawing.append(svg("path", { class: "curve", d: curve() }));
     if (run.horizon !== null) mark(drawing, run.horizon, "horizon: beyond it, chaos", 14);
     const impact = run.first_impact?.expected ?? run.first_impact?.actual;
-    if (impact) mark(drawing, impact.time, "first impact that differs", run.horizon !== null ? kTop + 16 : 14);
+    if (impact) mark(drawing, impact.time, "first impact that differs", kHeight - kBottom - 8);
     line = drawing.appendChild(svg("line", { class: "chosen", y1: kTop, y2: kHeight - kBottom }));
     dot = drawing.appendChild(svg("circle", { r: 4 }));
     element.replaceChildren(drawing);

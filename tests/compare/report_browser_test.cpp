@@ -91,7 +91,8 @@ TEST_F(ReportInBrowser, addressTellsFrameAndMode) {
   EXPECT_TRUE(isSeen("#wipe"));
   EXPECT_FALSE(isSeen("#side"));
   const char* const clip =
-      "parseFloat(getComputedStyle(document.querySelector('#one [data-which=expected]')).clipPath.split(' ')[1])";
+      "parseFloat(getComputedStyle(document.querySelector('#one [data-which=expected]')).clipPath.split(' "
+      "')[1])";
   EXPECT_NEAR(number(clip), 48, 1);  // half of 96 px is covered
   browser.press(".");
   EXPECT_LT(number(clip), 47);
@@ -183,8 +184,7 @@ TEST_F(ReportInBrowser, isLegibleByDayAndNightAndOnNarrowScreens) {
 TEST_F(ReportInBrowser, hostileNamesDoNothing) {
   const std::string name = "</script><img src=x onerror=document.title='struck'>&\"'{{style}}";
   Comparison comparison = filmComparison(folder.path(), 3, 1, 2);
-  comparison.headline = comparison.facts[0].name = comparison.frames[0].name = comparison.frames[1].name =
-      name;
+  comparison.headline = comparison.facts[0].name = comparison.frames[1].name = name;
   comparison.frames[1].reasons = {name};
   write(comparison);
   open();
@@ -207,6 +207,18 @@ TEST_F(ReportInBrowser, missingFrameIsShownAsFarAsItIsThere) {
   EXPECT_EQ(textOf("#pixel"), "");
   browser.press("2");
   browser.press("x");
+}
+
+TEST_F(ReportInBrowser, keysAreTold) {
+  write(filmComparison(folder.path(), 3, 1, 1));
+  open();
+  EXPECT_FALSE(isSeen("#help"));
+  browser.press("?");
+  EXPECT_TRUE(isSeen("#help"));
+  browser.press("ArrowRight");  // is for the dialog now
+  EXPECT_EQ(textOf("#frame-name"), "000001.png, 2 of 3");
+  browser.press("Escape");
+  EXPECT_FALSE(isSeen("#help"));
 }
 
 TEST_F(ReportInBrowser, equalsAreShort) {

@@ -3,9 +3,14 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
 
 #include "compare/report.h"
 #include "comparisons.h"
+#include "core/file.h"
 #include "support/trajectories.h"
 
 namespace careen {
@@ -30,6 +35,40 @@ Comparison threeFrames() {
   comparison.frames[2].verdict = Verdict::kDifferent;
   comparison.frames[2].reasons = {"it is missing"};
   return comparison;
+}
+
+Comparison twoRuns() {
+  const Trajectory run = driftAndReturn();
+  Trajectory other = run;
+  other.impacts[0].impulse = 8.5;
+  std::get<EulerStep>(other.tracks[0].segments[1].motion).start.velocity.x() = -1;
+  Comparison comparison;
+  comparison.verdict = Verdict::kDifferent;
+  comparison.run = differenceOf(run, other);
+  return comparison;
+}
+
+TEST(ReportJson, isAsItsSchemaTells) {
+  using Adapter = valijson::adapters::NlohmannJsonAdapter;
+  const Json text =
+      Json::parse(readFile(std::string(CAREEN_SOURCE_DIR) + "/assets/compare/report.schema.json"));
+  valijson::Schema schema;
+  valijson::SchemaParser(valijson::SchemaParser::kDraft7).populateSchema(Adapter(text), schema);
+  const auto accepts = [&schema](const Json& report) {
+    return valijson::Validator().validate(schema, Adapter(report), nullptr);
+  };
+  Comparison none = twoRuns();
+  none.run->incomparable = {"box a is not there"};
+  none.run->firstImpact->actual.reset();
+  for (const Comparison& comparison : {threeFrames(), twoRuns(), none}) {
+    Json report = Json::parse(reportJson(comparison));
+    EXPECT_TRUE(accepts(report));
+    report["another"] = 1;
+    EXPECT_FALSE(accepts(report));
+    report.erase("another");
+    report.erase("headline");
+    EXPECT_FALSE(accepts(report));
+  }
 }
 
 TEST(ReportJson, hasEveryFieldOfTheComparison) {
@@ -76,13 +115,7 @@ TEST(ReportJson, namesThatAreNoUtf8StillMakeJson) {
 }
 
 TEST(ReportJson, ofRunsHasImpactsAndGrowth) {
-  const Trajectory run = driftAndReturn();
-  Trajectory other = run;
-  other.impacts[0].impulse = 8.5;
-  std::get<EulerStep>(other.tracks[0].segments[1].motion).start.velocity.x() = -1;
-  Comparison comparison;
-  comparison.verdict = Verdict::kDifferent;
-  comparison.run = differenceOf(run, other);
+  const Comparison comparison = twoRuns();
   const Json found = Json::parse(reportJson(comparison)).at("run");
   EXPECT_FALSE(found.at("same_bits").get<bool>());
   EXPECT_EQ(found.at("first_time"), 0.5);

@@ -82,8 +82,8 @@ class Browser {
     Json event = {{"type", "keyDown"}, {"key", key}, {"modifiers", shift ? 8 : 0}};
     if (key.size() == 1) {
       event["text"] = key;
-    } else if (key == "Tab") {
-      event["windowsVirtualKeyCode"] = 9;
+    } else if (key == "Tab" || key == "Escape") {  // the browser's own keys go by their numbers
+      event["windowsVirtualKeyCode"] = key == "Tab" ? 9 : 27;
     }
     call("Input.dispatchKeyEvent", event);
     event["type"] = "keyUp";
@@ -113,6 +113,7 @@ class Browser {
 
  private:
   void start(int in, int out) {
+    // Its sandbox needs what containers and root do not have; all it opens is our own.
     const std::string profile = "--user-data-dir=" + (folder_.path() / "profile").string();
     std::vector<std::string> command = {"chromium",
                                         "--headless",
