@@ -10,7 +10,11 @@ function measuresOf(report) {
   const tolerance = report.tolerance;
   const all = [
     { name: "largest difference of a channel [1/255]", of: (frame) => 255 * numeric(frame.largest), limit: 255 * numeric(tolerance.fail) },
-    { name: "pixels beyond the tolerance [%]", of: (frame) => numeric(frame.failing_percent), limit: numeric(tolerance.fail_percent) },
+    {
+      name: tolerance.excuse_edges ? "pixels beyond the tolerance, those at edges too [%]" : "pixels beyond the tolerance [%]",
+      of: (frame) => numeric(frame.failing_percent),
+      limit: tolerance.excuse_edges ? NaN : numeric(tolerance.fail_percent),
+    },
     { name: "pixels of another colour to the eye [%]", of: (frame) => numeric(frame.changed_percent), limit: numeric(tolerance.changed_percent) },
     { name: "1 − SSIM", of: (frame) => 1 - numeric(frame.ssim), limit: 1 - numeric(tolerance.least_ssim) },
     { name: "ꟻLIP", of: (frame) => numeric(frame.flip), limit: NaN },

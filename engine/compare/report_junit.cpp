@@ -85,7 +85,7 @@ std::string reportJunit(const Comparison& comparison) {
       escapedForMarkup(comparison.actual.string() + " against " + comparison.expected.string());
   const std::string className = comparison.run ? "careen.compare.run" : "careen.compare.frames";
   const std::string counts = " tests=\"" + std::to_string(cases.size()) + "\" failures=\"" +
-                             std::to_string(failures) + "\" errors=\"0\" skipped=\"0\"";
+                             std::to_string(failures) + R"(" errors="0" skipped="0")";
   std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"careen compare\"" +
                     counts + ">\n  <testsuite name=\"" + suite + "\"" + counts + ">\n";
   for (const TestCase& test : cases) {

@@ -70,7 +70,7 @@ std::string impactsTable(const RunDifference& run) {
   std::string rows;
   for (const ImpactDifference& pair : run.impactsAround) {
     const bool first = run.firstImpact && pair.index == run.firstImpact->index;
-    rows += std::string("<tr") + (first ? " class=\"first\" id=\"first-impact\"" : "") +
+    rows += std::string("<tr") + (first ? R"( class="first" id="first-impact")" : "") +
             "><th scope=\"row\">" + std::to_string(pair.index) + (first ? " ← first" : "") + "</th>" +
             impactBodies(pair) + impactCell(pair, [](const Impact& impact) { return inFull(impact.time); }) +
             impactCell(pair, [](const Impact& impact) { return inFull(impact.approach); }) +
