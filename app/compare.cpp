@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "compare/report.h"
 #include "core/brief.h"
 #include "core/file.h"
 #include "core/processor.h"
@@ -293,7 +294,15 @@ ExitCode compareAndTell(const std::filesystem::path& expected, const std::filesy
       std::cout << lineOf(frame).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     }
   }
-  print(logsFrames ? std::cerr : std::cout, comparison);
+  if (!options.report.empty()) {
+    writeReport(options.report, comparison);
+  }
+  std::ostream& out = logsFrames ? std::cerr : std::cout;
+  print(out, comparison);
+  if (!options.report.empty()) {
+    out << "report: " << std::filesystem::absolute(options.report / "index.html").lexically_normal().string()
+        << '\n';
+  }
   const ExitCode code = comparison.verdict == Verdict::kDifferent ? ExitCode::kDifferent : ExitCode::kDone;
   if (found != nullptr) {
     *found = std::move(comparison);
@@ -314,6 +323,8 @@ void addCompare(CLI::App& commandLine, Command& chosen) {
       ->required();
   command->add_option("actual", arguments->actual, "What is to be the same")->required();
   arguments->options.addTo(*command);
+  command->add_option("--out", arguments->options.report,
+                      "Folder for a report: index.html, report.json, junit.xml");
   command->add_option("--log", arguments->log, "text, or json: a line for each frame on the standard output")
       ->check(CLI::IsMember({"text", "json"}));
   command->callback([arguments, &chosen] {
