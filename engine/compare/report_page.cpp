@@ -71,7 +71,7 @@ std::string impactsTable(const RunDifference& run) {
   for (const ImpactDifference& pair : run.impactsAround) {
     const bool first = run.firstImpact && pair.index == run.firstImpact->index;
     rows += std::string("<tr") + (first ? R"( class="first" id="first-impact")" : "") +
-            "><th scope=\"row\">" + std::to_string(pair.index) + (first ? " ← first" : "") + "</th>" +
+            "><th scope=\"row\">" + std::to_string(pair.index + 1) + (first ? " ← first" : "") + "</th>" +
             impactBodies(pair) + impactCell(pair, [](const Impact& impact) { return inFull(impact.time); }) +
             impactCell(pair, [](const Impact& impact) { return inFull(impact.approach); }) +
             impactCell(pair, [](const Impact& impact) { return inFull(impact.impulse); }) +

@@ -51,7 +51,7 @@ std::string reasonOfRun(const RunDifference& run) {
   }
   std::string text;
   if (run.firstImpact) {
-    text = "The first impact that differs is number " + std::to_string(run.firstImpact->index) + ": " +
+    text = "The first impact that differs is number " + std::to_string(run.firstImpact->index + 1) + ": " +
            run.firstImpact->what + ".";
   }
   if (run.firstTime) {
