@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "compare/report.h"
 #include "comparisons.h"
@@ -61,6 +62,25 @@ TEST_F(ReportInBrowser, opensAtTheFirstDifferenceAndKeysChooseOthers) {
   browser.press("n");
   EXPECT_TRUE(isSeen("#panes"));
   EXPECT_EQ(textOf("#frame-name"), "000002.png, 3 of 8");
+}
+
+// The square's middle as it is on the screen: in the expected picture, the actual one and the difference.
+TEST_F(ReportInBrowser, picturesAreSeenAsTheyAre) {
+  write(filmComparison(folder.path(), 4, 2, 2));
+  browser.setSize(1400, 1200);
+  open();
+  const auto boxes = browser.evaluate(
+      "[...document.querySelectorAll('#side .view')].map(view => view.getBoundingClientRect().toJSON())");
+  const Picture seen = decodePng(browser.screenshot(), "the screenshot");
+  ASSERT_EQ(seen.width, 1400);
+  std::vector<int> levels;
+  for (const auto& box : boxes) {
+    const double x = box.at("left").get<double>() + box.at("width").get<double>() * (2 + 9) / 96;
+    const double y = box.at("top").get<double>() + box.at("height").get<double>() * 27 / 54;
+    levels.push_back(
+        seen.rgb[static_cast<std::size_t>(y) * seen.rowBytes() + 3 * static_cast<std::size_t>(x)]);
+  }
+  EXPECT_EQ(levels, (std::vector<int>{100, 220, 240}));  // the difference of 120, twice
 }
 
 TEST_F(ReportInBrowser, chartIsASliderForKeysAndPointer) {

@@ -103,8 +103,8 @@ class Browser {
          {{"type", "mouseWheel"}, {"x", x}, {"y", y}, {"deltaX", 0}, {"deltaY", down}});
     settle();
   }
-  /// What is to be seen, as a PNG in base64.
-  std::string screenshot() { return call("Page.captureScreenshot").at("data"); }
+  /// What is to be seen, as a PNG.
+  std::string screenshot() { return fromBase64(call("Page.captureScreenshot").at("data")); }
 
   /// Exceptions, errors and warnings of pages, in words.
   const std::vector<std::string>& complaints() const { return complaints_; }
@@ -112,6 +112,22 @@ class Browser {
   const std::vector<std::string>& requests() const { return requests_; }
 
  private:
+  static std::string fromBase64(const std::string& text) {
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    unsigned bits = 0;
+    int count = 0;
+    for (const char digit : text.substr(0, text.find('='))) {
+      bits = bits << 6U | static_cast<unsigned>(kDigits.find(digit));
+      count += 6;
+      if (count >= 8) {
+        count -= 8;
+        bytes += static_cast<char>((bits >> static_cast<unsigned>(count)) & 0xFFU);
+      }
+    }
+    return bytes;
+  }
+
   void start(int in, int out) {
     // Its sandbox needs what containers and root do not have; all it opens is our own.
     const std::string profile = "--user-data-dir=" + (folder_.path() / "profile").string();
