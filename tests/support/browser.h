@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -26,9 +27,9 @@ class Browser {
   using Json = nlohmann::json;
 
   Browser() {
-    int toBrowser[2];
-    int fromBrowser[2];
-    if (pipe2(toBrowser, O_CLOEXEC) != 0 || pipe2(fromBrowser, O_CLOEXEC) != 0) {
+    std::array<int, 2> toBrowser{};
+    std::array<int, 2> fromBrowser{};
+    if (pipe2(toBrowser.data(), O_CLOEXEC) != 0 || pipe2(fromBrowser.data(), O_CLOEXEC) != 0) {
       throw std::runtime_error("no pipe");
     }
     in_ = toBrowser[1];
@@ -143,6 +144,7 @@ class Browser {
                                         profile,
                                         "about:blank"};
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (std::string& argument : command) {
       arguments.push_back(argument.data());
     }
@@ -201,12 +203,12 @@ class Browser {
       }
       pollfd readable{.fd = out_, .events = POLLIN, .revents = 0};
       constexpr int kPatience = 60'000;  // [ms]
-      char bytes[65536];
-      const ssize_t count = poll(&readable, 1, kPatience) > 0 ? read(out_, bytes, sizeof bytes) : 0;
+      std::array<char, 65536> bytes{};
+      const ssize_t count = poll(&readable, 1, kPatience) > 0 ? read(out_, bytes.data(), bytes.size()) : 0;
       if (count <= 0) {
         throw std::runtime_error("chromium says nothing: " + textOf(folder_.path() / "log"));
       }
-      received_.append(bytes, static_cast<std::size_t>(count));
+      received_.append(bytes.data(), static_cast<std::size_t>(count));
     }
   }
 
