@@ -292,7 +292,7 @@ TEST_F(ReportInBrowser, runShowsGrowthHorizonAndImpacts) {
             "nothing");
   browser.press("Home");
   EXPECT_EQ(textOf("#growth-readout"), "0 s: not apart");
-  EXPECT_EQ(textOf("#first-impact th"), "0 ← first");
+  EXPECT_EQ(textOf("#first-impact th"), "1 ← first");
   EXPECT_FALSE(isSeen("#frame"));
 }
 

@@ -75,7 +75,7 @@ TEST(ReportPage, ofRunsTellsTheHorizonAndTheImpacts) {
   const std::string page = reportPage(comparison);
   EXPECT_NE(page.find("The runs part at 0.5 s."), std::string::npos);
   EXPECT_NE(page.find("The horizon is at 0.50"), std::string::npos);
-  EXPECT_NE(page.find("<th scope=\"row\">0 ← first</th><td>drifter against room+x</td><td>0.5</td><td>2</td>"
+  EXPECT_NE(page.find("<th scope=\"row\">1 ← first</th><td>drifter against room+x</td><td>0.5</td><td>2</td>"
                       "<td class=\"other\"><del>8</del> <ins>8.5</ins></td><td>0</td>"),
             std::string::npos);
   EXPECT_NE(page.find("<th scope=\"row\">impacts</th><td>1</td><td>1</td><td>same</td>"), std::string::npos);
