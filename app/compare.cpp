@@ -69,44 +69,6 @@ double motionToleranceOf(const std::string& text) {
   return value;
 }
 
-ComparisonSettings settingsOf(const CompareOptions& options) {
-  ComparisonSettings settings;
-  settings.program = "careen " CAREEN_VERSION;
-  settings.toleranceName = options.threshold;
-  try {
-    settings.tolerance = toleranceOf(options.threshold);
-  } catch (const InputError& error) {
-    throw InputError(std::string("--threshold: ") + error.what());
-  }
-  for (const Override& each : overrides()) {
-    if (const std::optional<double>& given = options.*each.given) {
-      if (!(*given >= 0 && *given <= each.most)) {
-        throw InputError(std::string(each.option) + ": found " + brief(*given) + ", expected 0 " +
-                         (each.most < kAny ? "to " + brief(each.most) : "or more"));
-      }
-      settings.tolerance.*each.value = *given;
-      settings.toleranceName += ", " + std::string(each.option) + " " + brief(*given);
-    }
-  }
-  settings.motionCounts = options.motion != "any";
-  if (options.motion != "any" && options.motion != "same") {
-    settings.motionTolerance = motionToleranceOf(options.motion);
-  }
-  if (options.until) {
-    if (!(*options.until > 0)) {
-      throw InputError("--until: found " + brief(*options.until) + ", expected more than 0 s");
-    }
-    settings.until = *options.until;
-  }
-  settings.flip = options.flip;
-  settings.threads = options.threads.value_or(std::min(usableCores(), kMostThreads));
-  if (settings.threads < 1 || settings.threads > kMostThreads) {
-    throw InputError("--threads: found " + std::to_string(settings.threads) + ", expected 1 to " +
-                     std::to_string(kMostThreads));
-  }
-  return settings;
-}
-
 enum class Kind { kPicture, kFolder, kRun };
 
 Kind kindOf(const std::filesystem::path& path) {
@@ -146,6 +108,7 @@ Films filmsIn([[maybe_unused]] const std::filesystem::path& expected,
                    {"state hash", one->stateHash, other->stateHash},
                    {"program", one->program, other->program},
                    {"renderer", one->renderer, other->renderer},
+                   {"libraries", one->libraries, other->libraries},
                    {"frames per second", one->rate.text(), other->rate.text()},
                    {"frames of the film", std::to_string(one->frameCount), std::to_string(other->frameCount)},
                    {"look", one->look, other->look},
@@ -282,13 +245,51 @@ void CompareOptions::addTo(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--until", until, "Of runs: compare up to this moment, s");
   command.add_flag("--flip", flip, "Measure FLIP, too, which takes longer");
-  command.add_option("--threads", threads, "Frames compared side by side; as many as there are cores");
+}
+
+ComparisonSettings CompareOptions::settings() const {
+  ComparisonSettings settings;
+  settings.program = "careen " CAREEN_VERSION;
+  settings.toleranceName = threshold;
+  try {
+    settings.tolerance = toleranceOf(threshold);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--threshold: ") + error.what());
+  }
+  for (const Override& each : overrides()) {
+    if (const std::optional<double>& given = this->*each.given) {
+      if (!(*given >= 0 && *given <= each.most)) {
+        throw InputError(std::string(each.option) + ": found " + brief(*given) + ", expected 0 " +
+                         (each.most < kAny ? "to " + brief(each.most) : "or more"));
+      }
+      settings.tolerance.*each.value = *given;
+      settings.toleranceName += ", " + std::string(each.option) + " " + brief(*given);
+    }
+  }
+  settings.motionCounts = motion != "any";
+  if (motion != "any" && motion != "same") {
+    settings.motionTolerance = motionToleranceOf(motion);
+  }
+  if (until) {
+    if (!(*until > 0)) {
+      throw InputError("--until: found " + brief(*until) + ", expected more than 0 s");
+    }
+    settings.until = *until;
+  }
+  settings.flip = flip;
+  settings.only = only;
+  settings.threads = threads.value_or(std::min(usableCores(), kMostThreads));
+  if (settings.threads < 1 || settings.threads > kMostThreads) {
+    throw InputError("--threads: found " + std::to_string(settings.threads) + ", expected 1 to " +
+                     std::to_string(kMostThreads));
+  }
+  return settings;
 }
 
 ExitCode compareAndTell(const std::filesystem::path& expected, const std::filesystem::path& actual,
                         const CompareOptions& options, bool logsFrames, const std::stop_token& stop,
                         Comparison* found) {
-  Comparison comparison = compare(expected, actual, settingsOf(options), stop);
+  Comparison comparison = compare(expected, actual, options.settings(), stop);
   if (logsFrames) {
     for (const FrameComparison& frame : comparison.frames) {
       std::cout << lineOf(frame).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
@@ -325,6 +326,8 @@ void addCompare(CLI::App& commandLine, Command& chosen) {
   arguments->options.addTo(*command);
   command->add_option("--out", arguments->options.report,
                       "Folder for a report: index.html, report.json, junit.xml");
+  command->add_option("--threads", arguments->options.threads,
+                      "Frames compared side by side; as many as there are cores");
   command->add_option("--log", arguments->log, "text, or json: a line for each frame on the standard output")
       ->check(CLI::IsMember({"text", "json"}));
   command->callback([arguments, &chosen] {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "compare/comparison.h"
 #include "core/error.h"
@@ -23,9 +24,13 @@ struct CompareOptions {
   std::optional<double> until;  ///< [s]
   bool flip = false;
   std::optional<int> threads;
-  std::filesystem::path report;  ///< folder; empty: none
+  std::vector<std::string> only;  ///< frames by their names; empty: all there are
+  std::filesystem::path report;   ///< folder; empty: none
 
+  /// All but --threads, which is another thing to a command that draws.
   void addTo(CLI::App& command);
+  /// InputError: what can be found wrong before anything is compared.
+  ComparisonSettings settings() const;
 };
 
 /// Compares, tells what was found on the standard output, and writes the report if one is asked for.

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "commands.h"
+#include "compare.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "picture_options.h"
 #include "progress.h"
+#include "reference.h"
 #include "render/film.h"
 #include "render/film_folder.h"
 #include "render/frame_range.h"
@@ -40,6 +42,8 @@ struct FilmOptions {
   bool resume = false;
   PictureOptions picture;
   bool listBackends = false;
+  std::optional<std::filesystem::path> reference;
+  CompareOptions compare;
   Overrides overrides;
   EstimateChoice estimate;
 };
@@ -152,12 +156,34 @@ ExitCode listBackends(const ContextOptions& options) {
   return ExitCode::kDone;
 }
 
+// Before anything is simulated, as whatever the options say.
+Reference openReference(FilmOptions& options) {
+  Reference reference = readReference(*options.reference);
+  takeFromReference(reference, options.picture, options.frames, options.compare);
+  options.compare.settings();
+  return reference;
+}
+
+void refuseToOverwrite(const Reference& reference, const std::filesystem::path& folder) {
+  if (std::filesystem::weakly_canonical(folder) == std::filesystem::weakly_canonical(reference.folder)) {
+    throw InputError("--out: found the folder of --ref, " + folder.string() +
+                     ", expected another one for what differs");
+  }
+}
+
 ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   const Stopwatch stopwatch;
   if (options.source.empty()) {
     options.source = defaultScene();
   }
+  std::optional<Reference> reference;
+  if (options.reference) {
+    reference = openReference(options);
+  }
   FilmSettings settings = settingsOf(options);
+  if (reference) {
+    refuseToOverwrite(*reference, settings.folder);
+  }
   Run run = loadRun(options.source, options.overrides, stop);
   takeFromScene(run.scene, options, settings);
   if (options.still || options.strobe) {
@@ -176,11 +202,14 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
       },
       stop);
   estimate(run, options.estimate, stopwatch.seconds(), stop);
-  writeReport(run, settings, figures, stopwatch.seconds());
+  if (!reference) {
+    writeReport(run, settings, figures, stopwatch.seconds());
+  }
   std::ostream& summary = logsFrames ? std::cerr : std::cout;
   printSummary(summary, run, stopwatch.seconds());
   printFilm(summary, settings, figures);
-  return ExitCode::kDone;
+  return reference ? compareWithReference(*reference, settings, options.compare, logsFrames, stop)
+                   : ExitCode::kDone;
 }
 
 }  // namespace
@@ -213,10 +242,22 @@ void addRender(CLI::App& commandLine, Command& chosen) {
                            ->add_option("--still", options->still,
                                         "One picture, of this moment of the film [s], in place of the film")
                            ->excludes(frames, video, resume);
-  command
-      ->add_option("--strobe", options->strobe,
-                   "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
-      ->excludes(frames, video, resume, still);
+  CLI::Option* strobe =
+      command
+          ->add_option("--strobe", options->strobe,
+                       "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
+          ->excludes(frames, video, resume, still);
+  CLI::App* comparing = command->add_option_group(
+      "Comparing", "With a film that was made before: exit code 1 if this one differs");
+  CLI::Option* reference =
+      comparing
+          ->add_option("--ref", options->reference,
+                       "Folder of that film. Its frames are drawn, of its size, rate and look unless told "
+                       "otherwise; those that differ stay in --out")
+          ->excludes(still, strobe, video, resume);
+  CLI::App* how = comparing->add_option_group("How", "What counts as different");
+  options->compare.addTo(*how);
+  how->needs(reference);
   command->add_flag("--list-rendering-backends", options->listBackends,
                     "Tell which of them are available, and make no film");
   command->add_option("--log", options->log,

@@ -109,13 +109,16 @@ void list(const fs::path& folder, std::map<std::string, Pair>& pairs, fs::path P
   }
 }
 
-std::vector<Pair> pairsOf(const fs::path& expected, const fs::path& actual) {
+std::vector<Pair> pairsOf(const fs::path& expected, const fs::path& actual,
+                          const std::vector<std::string>& only) {
   std::map<std::string, Pair> byName;
   list(expected, byName, &Pair::expected);
   list(actual, byName, &Pair::actual);
   std::vector<Pair> pairs;
   for (auto& [name, pair] : byName) {
-    pairs.push_back(std::move(pair));
+    if (only.empty() || std::find(only.begin(), only.end(), name) != only.end()) {
+      pairs.push_back(std::move(pair));
+    }
   }
   return pairs;
 }
@@ -310,7 +313,7 @@ Comparison compareFolders(const fs::path& expected, const fs::path& actual,
                           const ComparisonSettings& settings, std::optional<bool> sameMotion,
                           const ComparisonCallback& progress, const std::stop_token& stop) {
   Comparison comparison = begun(expected, actual, settings);
-  const std::vector<Pair> pairs = pairsOf(expected, actual);
+  const std::vector<Pair> pairs = pairsOf(expected, actual, settings.only);
   comparison.frames = Crew(pairs, settings, progress, stop).compare();
   tellShift(pairs, settings, comparison.frames);
   comparison.verdict = worstVerdict(comparison.frames);

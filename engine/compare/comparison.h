@@ -73,6 +73,7 @@ struct ComparisonSettings {
   bool motionCounts = true;  ///< a film of another motion is another film, even if its pictures are the same
   bool flip = false;         ///< ꟻLIP, too, which takes ten times as long as all the rest
   int threads = 1;           ///< frames that are compared side by side
+  std::vector<std::string> only;  ///< of folders, the frames of these names; empty: all there are
 };
 
 /// Tells how many frames of how many are compared.

@@ -29,7 +29,7 @@ void forBoundsThatMeet(std::span<const PlacedBox> boxes, std::span<const Vec3> p
   Indices order(boxes.size());
   std::iota(order.begin(), order.end(), 0U);
   const auto low = [&](std::size_t i) { return positions[i].x() - reach[i].x(); };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return low(a) < low(b); });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return low(a) < low(b); });
   for (std::size_t k = 0; k < order.size(); ++k) {
     const std::size_t i = order[k];
     const double high = positions[i].x() + reach[i].x();

@@ -45,6 +45,7 @@ FilmManifest manifestOf(const Trajectory& trajectory, const Scene& scene, const 
       static_cast<std::size_t>(settings.render.antialiasing.value_or(scene.film.antialiasing));
   FilmManifest manifest{.program = settings.program,
                         .renderer = {},
+                        .libraries = librariesHere(),
                         .sceneHash = trajectory.sceneHash(),
                         .stateHash = trajectory.stateHash(),
                         .width = settings.width,

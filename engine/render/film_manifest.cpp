@@ -1,5 +1,8 @@
 #include "render/film_manifest.h"
 
+#include <gnu/libc-version.h>
+
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -22,6 +25,7 @@ FilmManifest fromJson(const nlohmann::json& json) {
   FilmManifest manifest;
   manifest.program = json.value("program", "");  // films of old have neither
   manifest.renderer = json.value("renderer", "");
+  manifest.libraries = json.value("libraries", "");
   manifest.sceneHash = json.at("scene_hash").get<std::string>();
   manifest.stateHash = json.at("state_hash").get<std::string>();
   manifest.width = json.at("size").at(0).get<int>();
@@ -32,11 +36,23 @@ FilmManifest fromJson(const nlohmann::json& json) {
   manifest.shutter = json.value("shutter", manifest.shutter);
   manifest.overlays = json.value("overlays", "none");  // films were made before there were any
   manifest.frameCount = json.at("frame_count").get<std::int64_t>();
-  manifest.frames = framesOf(parseFrameRanges(json.at("frames").get<std::string>()), manifest.frameCount);
+  if (const std::string frames = json.at("frames").get<std::string>(); !frames.empty()) {
+    manifest.frames = framesOf(parseFrameRanges(frames), manifest.frameCount);
+  }
   return manifest;
 }
 
 }  // namespace
+
+std::string librariesHere() {
+  const auto version = [](int major, int minor, int patch) {
+    return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+  };
+  return "Eigen " + version(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION) +
+         ", nlohmann-json " +
+         version(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH) +
+         ", glibc " + gnu_get_libc_version();
+}
 
 std::optional<FilmManifest> readManifest(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / kManifestName;
@@ -56,6 +72,7 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
       {"careen_film", kVersion},
       {"program", manifest.program},
       {"renderer", manifest.renderer},
+      {"libraries", manifest.libraries},
       {"scene_hash", manifest.sceneHash},
       {"state_hash", manifest.stateHash},
       {"size", {manifest.width, manifest.height}},

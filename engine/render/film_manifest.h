@@ -14,6 +14,9 @@ namespace careen {
 struct FilmManifest {
   std::string program;   ///< name and version of what draws it
   std::string renderer;  ///< GL's; empty: nothing was drawn yet
+  /// Names and versions of the other libraries that have a say in the run or its pictures. It explains a
+  /// difference; a film made with others is no other film.
+  std::string libraries;
   std::string sceneHash;
   std::string stateHash;  ///< of the run's end
   int width = 0;          ///< [px]
@@ -26,6 +29,9 @@ struct FilmManifest {
   std::int64_t frameCount = 0;         ///< of the whole film
   std::vector<std::int64_t> frames;    ///< those asked for so far, in order
 };
+
+/// What `libraries` is to be for a film made by this program on this machine.
+std::string librariesHere();
 
 inline constexpr const char* kManifestName = "film.json";
 

@@ -1,0 +1,100 @@
+#include "reference.h"
+
+#include <algorithm>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "render/film_folder.h"
+#include "render/frame_range.h"
+
+namespace careen {
+namespace {
+
+namespace fs = std::filesystem;
+
+// How many those are. Only what was made for the comparison goes: the folder may hold other things.
+std::size_t keepFramesThatDiffer(const fs::path& folder, const Comparison& comparison) {
+  FilmManifest film = readManifest(folder).value();
+  std::erase_if(film.frames, [&](std::int64_t frame) {
+    const std::string name = frameFileName(frame);
+    const bool differs = std::any_of(
+        comparison.frames.begin(), comparison.frames.end(),
+        [&](const auto& each) { return each.name == name && each.verdict == Verdict::kDifferent; });
+    if (!differs) {
+      fs::remove(folder / name);
+    }
+    return !differs;
+  });
+  if (comparison.verdict == Verdict::kDifferent) {
+    writeManifest(folder, film);
+  } else {
+    fs::remove(folder / kManifestName);
+    std::error_code holdsMore;
+    fs::remove(folder, holdsMore);
+  }
+  return film.frames.size();
+}
+
+}  // namespace
+
+Reference readReference(const fs::path& folder) {
+  std::error_code none;
+  const char* const expected = ", expected a folder with a film of careen's";
+  if (!fs::is_directory(folder, none)) {
+    throw InputError("--ref: " + folder.string() +
+                     (fs::exists(folder, none) ? " is no folder" : " is not there") + expected);
+  }
+  std::optional<FilmManifest> film = readManifest(folder);
+  if (!film) {
+    throw InputError("--ref: " + folder.string() + " has no " + kManifestName + expected);
+  }
+  if (std::none_of(film->frames.begin(), film->frames.end(),
+                   [&](std::int64_t frame) { return fs::exists(folder / frameFileName(frame), none); })) {
+    throw InputError("--ref: " + folder.string() + " has none of the frames that its " + kManifestName +
+                     " tells of" + expected);
+  }
+  return {.folder = folder, .film = std::move(*film)};
+}
+
+void takeFromReference(const Reference& reference, PictureOptions& picture, std::string& frames,
+                       CompareOptions& compare) {
+  const FilmManifest& film = reference.film;
+  const auto take = [](std::optional<std::string>& open, const std::string& value) {
+    if (!open) {
+      open = value;
+    }
+  };
+  take(picture.size, std::to_string(film.width) + "x" + std::to_string(film.height));
+  take(picture.rate, film.rate.text());
+  take(picture.look, film.look);
+  take(picture.antialiasing, film.antialiasing);
+  take(picture.shutter, film.shutter == "none" ? "0" : film.shutter);
+  take(picture.overlays, film.overlays);
+  if (frames.empty()) {
+    frames = rangesText(film.frames);
+    return;
+  }
+  for (const std::int64_t frame : framesOf(parseFrameRanges(frames), film.frameCount)) {
+    compare.only.push_back(frameFileName(frame));
+  }
+}
+
+ExitCode compareWithReference(const Reference& reference, const FilmSettings& film,
+                              const CompareOptions& options, bool logsFrames, const std::stop_token& stop) {
+  Comparison comparison;
+  const ExitCode code = compareAndTell(reference.folder, film.folder, options, logsFrames, stop, &comparison);
+  const std::size_t kept = keepFramesThatDiffer(film.folder, comparison);
+  std::ostream& out = logsFrames ? std::cerr : std::cout;
+  if (comparison.verdict == Verdict::kDifferent) {
+    out << "kept         " << kept << (kept == 1 ? " frame" : " frames") << " that differ"
+        << (kept == 1 ? "s: " : ": ") << fs::absolute(film.folder).lexically_normal().string() << '\n';
+  } else {
+    out << "kept         nothing\n";
+  }
+  return code;
+}
+
+}  // namespace careen

@@ -1,0 +1,155 @@
+// Films that are compared with one made before, as their user meets them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "support/process.h"
+
+namespace careen {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kScene = R"({
+  "careen": 1, "duration": 1, "gravity": [0, 0, -10],
+  "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "open": ["-y"], "restitution": 1 },
+  "boxes": [ { "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1], "velocity": [1, 0, 2],
+               "angular_velocity": [1, 2, 3] } ],
+  "film": { "size": [64, 48], "fps": 10 }
+})";
+
+std::string replaced(std::string text, const std::string& from, const std::string& by) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), by);
+}
+
+class RenderReference : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("scene.json", kScene);
+    // Nothing of it is as the scene says.
+    const Ended ended =
+        careen({"scene.json", "--out", "ref", "--frames", "2,5", "--size", "80x60", "--fps", "20", "--look",
+                "clay", "--antialiasing", "off", "--overlays", "velocity", "--shutter", "90:2"});
+    ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  }
+
+  Ended careen(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {CAREEN_BINARY, "render"});
+    return Process(arguments, folder_.path()).wait();
+  }
+  Ended compared(std::vector<std::string> more = {}, const std::string& scene = "scene.json") const {
+    more.insert(more.begin(), {scene, "--ref", "ref", "--out", "out"});
+    return careen(more);
+  }
+  std::vector<std::string> kept() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out")) {
+      names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  TemporaryFolder folder_;
+};
+
+using Names = std::vector<std::string>;
+
+TEST_F(RenderReference, sameFilmLeavesNothing) {
+  const Ended ended = compared();
+  EXPECT_EQ(ended.exitCode, 0) << ended.out << ended.err;
+  EXPECT_NE(ended.out.find("same: same motion, same files"), std::string::npos) << ended.out;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(RenderReference, framesThatDifferStayAndNoOthers) {
+  fs::copy_file(folder_ / "ref/000005.png", folder_ / "ref/000002.png", fs::copy_options::overwrite_existing);
+  const Ended ended = compared();
+  EXPECT_EQ(ended.exitCode, 1) << ended.err;
+  EXPECT_NE(ended.out.find("differs: same motion, other picture in 1 of 2 frames"), std::string::npos)
+      << ended.out;
+  EXPECT_EQ(kept(), (Names{"000002.png", "film.json"}));
+  EXPECT_EQ(nlohmann::json::parse(textOf(folder_ / "out/film.json"))["frames"], "2");
+}
+
+TEST_F(RenderReference, whatIsAskedForTakesTheReferencesPlace) {
+  const Ended ended = compared({"--look", "studio"});
+  EXPECT_EQ(ended.exitCode, 1);
+  EXPECT_NE(ended.out.find("look: clay, found studio"), std::string::npos) << ended.out;
+  EXPECT_EQ(kept(), (Names{"000002.png", "000005.png", "film.json"}));
+}
+
+TEST_F(RenderReference, onlyFramesAskedForAreCompared) {
+  fs::copy_file(folder_ / "ref/000005.png", folder_ / "ref/000002.png", fs::copy_options::overwrite_existing);
+  const Ended ended = compared({"--frames", "5"});
+  EXPECT_EQ(ended.exitCode, 0) << ended.out << ended.err;
+}
+
+TEST_F(RenderReference, missingFrameIsADifference) {
+  fs::remove(folder_ / "ref/000005.png");
+  const Ended ended = compared();
+  EXPECT_EQ(ended.exitCode, 1) << ended.err;
+  EXPECT_EQ(kept(), (Names{"000005.png", "film.json"}));
+}
+
+// Gravity differs in its last bit: no pixel shows it.
+TEST_F(RenderReference, otherMotionIsADifferenceEvenIfNoPictureShowsIt) {
+  folder_.write("other.json", replaced(kScene, "-10]", "-10.000000000000002]"));
+  const Ended ended = compared({}, "other.json");
+  EXPECT_EQ(ended.exitCode, 1) << ended.err;
+  EXPECT_NE(ended.out.find("differs: other motion, same"), std::string::npos) << ended.out;
+  EXPECT_EQ(kept(), (Names{"film.json"}));
+  EXPECT_EQ(compared({"--motion", "any"}, "other.json").exitCode, 0);
+}
+
+TEST_F(RenderReference, whatElseIsInTheFolderStays) {
+  fs::create_directory(folder_ / "out");
+  folder_.write("out/notes.txt", "mine");
+  EXPECT_EQ(compared().exitCode, 0);
+  EXPECT_EQ(kept(), (Names{"notes.txt"}));
+}
+
+// The scene cannot be simulated: who looks at it first would say so.
+TEST_F(RenderReference, badReferenceOrOptionIsToldBeforeAnythingIsSimulated) {
+  folder_.write("broken.json", "{");
+  fs::create_directory(folder_ / "empty");
+  fs::create_directory(folder_ / "frameless");
+  fs::copy_file(folder_ / "ref/film.json", folder_ / "frameless/film.json");
+  const struct {
+    std::string reference;
+    Names more;
+    std::string said;
+  } cases[] = {
+      {"nowhere", {}, "--ref: nowhere is not there"},
+      {"scene.json", {}, "--ref: scene.json is no folder"},
+      {"empty", {}, "--ref: empty has no film.json"},
+      {"frameless", {}, "--ref: frameless has none of the frames"},
+      {"ref", {"--threshold", "nearly"}, "--threshold: "},
+      {"ref", {"--fail", "2"}, "--fail: found 2"},
+      {"ref", {"--out", "./ref/"}, "--out: found the folder of --ref"},
+      {"ref", {"--frames", "100"}, "100"},
+  };
+  for (const auto& each : cases) {
+    Names arguments = {"broken.json", "--ref", each.reference};
+    arguments.insert(arguments.end(), each.more.begin(), each.more.end());
+    const Ended ended = careen(arguments);
+    EXPECT_EQ(ended.exitCode, 2) << each.said;
+    EXPECT_NE(ended.err.find(each.said), std::string::npos) << ended.err;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "ref/000002.png"));
+}
+
+TEST_F(RenderReference, optionsOfComparingNeedOne) {
+  EXPECT_EQ(careen({"scene.json", "--fail", "0.1", "--out", "out"}).exitCode, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+}  // namespace
+}  // namespace careen
