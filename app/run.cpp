@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/arithmetic.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/resource.h"
@@ -94,6 +95,7 @@ Run simulateText(const std::filesystem::path& path, const std::string& text, con
     partBoxes(run.scene);
   }
   run.plan = plan(run.scene);
+  const UsualArithmetic usual;  // GL may be open, in a window
   const Stopwatch stopwatch;
   run.trajectory = record(assemble(run.scene, run.plan),
                           {.method = run.scene.method,
