@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "compare/report.h"
 #include "render/film_folder.h"
 #include "render/frame_range.h"
 
@@ -31,7 +32,9 @@ std::size_t keepFramesThatDiffer(const fs::path& folder, const Comparison& compa
   if (comparison.verdict == Verdict::kDifferent) {
     writeManifest(folder, film);
   } else {
-    fs::remove(folder / kManifestName);
+    for (const char* const name : {kManifestName, "index.html", "junit.xml", "report.json"}) {
+      fs::remove(folder / name);  // reports of a comparison before this one would say that it differs
+    }
     std::error_code holdsMore;
     fs::remove(folder, holdsMore);
   }
@@ -86,6 +89,9 @@ ExitCode compareWithReference(const Reference& reference, const FilmSettings& fi
                               const CompareOptions& options, bool logsFrames, const std::stop_token& stop) {
   Comparison comparison;
   const ExitCode code = compareAndTell(reference.folder, film.folder, options, logsFrames, stop, &comparison);
+  if (comparison.verdict == Verdict::kDifferent) {
+    writeReport(film.folder, comparison);  // while all its pictures are there
+  }
   const std::size_t kept = keepFramesThatDiffer(film.folder, comparison);
   std::ostream& out = logsFrames ? std::cerr : std::cout;
   if (comparison.verdict == Verdict::kDifferent) {

@@ -27,7 +27,8 @@ void takeFromReference(const Reference& reference, PictureOptions& picture, std:
                        CompareOptions& compare);
 
 /// Compares the film just made with the reference and tells what was found. Of the film the frames that
-/// differ stay, and its film.json, which then tells of those; nothing if it is the same.
+/// differ stay, its film.json, which then tells of those, and a report (compare/report.h); nothing if it is
+/// the same.
 ExitCode compareWithReference(const Reference& reference, const FilmSettings& film,
                               const CompareOptions& options, bool logsFrames, const std::stop_token& stop);
 

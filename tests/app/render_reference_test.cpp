@@ -74,7 +74,7 @@ TEST_F(RenderReference, framesThatDifferStayAndNoOthers) {
   EXPECT_EQ(ended.exitCode, 1) << ended.err;
   EXPECT_NE(ended.out.find("differs: same motion, other picture in 1 of 2 frames"), std::string::npos)
       << ended.out;
-  EXPECT_EQ(kept(), (Names{"000002.png", "film.json"}));
+  EXPECT_EQ(kept(), (Names{"000002.png", "film.json", "index.html", "junit.xml", "report.json"}));
   EXPECT_EQ(nlohmann::json::parse(textOf(folder_ / "out/film.json"))["frames"], "2");
 }
 
@@ -82,7 +82,8 @@ TEST_F(RenderReference, whatIsAskedForTakesTheReferencesPlace) {
   const Ended ended = compared({"--look", "studio"});
   EXPECT_EQ(ended.exitCode, 1);
   EXPECT_NE(ended.out.find("look: clay, found studio"), std::string::npos) << ended.out;
-  EXPECT_EQ(kept(), (Names{"000002.png", "000005.png", "film.json"}));
+  EXPECT_EQ(kept(),
+            (Names{"000002.png", "000005.png", "film.json", "index.html", "junit.xml", "report.json"}));
 }
 
 TEST_F(RenderReference, onlyFramesAskedForAreCompared) {
@@ -95,7 +96,7 @@ TEST_F(RenderReference, missingFrameIsADifference) {
   fs::remove(folder_ / "ref/000005.png");
   const Ended ended = compared();
   EXPECT_EQ(ended.exitCode, 1) << ended.err;
-  EXPECT_EQ(kept(), (Names{"000005.png", "film.json"}));
+  EXPECT_EQ(kept(), (Names{"000005.png", "film.json", "index.html", "junit.xml", "report.json"}));
 }
 
 // Gravity differs in its last bit: no pixel shows it.
@@ -104,8 +105,14 @@ TEST_F(RenderReference, otherMotionIsADifferenceEvenIfNoPictureShowsIt) {
   const Ended ended = compared({}, "other.json");
   EXPECT_EQ(ended.exitCode, 1) << ended.err;
   EXPECT_NE(ended.out.find("differs: other motion, same"), std::string::npos) << ended.out;
-  EXPECT_EQ(kept(), (Names{"film.json"}));
+  EXPECT_EQ(kept(), (Names{"film.json", "index.html", "junit.xml", "report.json"}));
   EXPECT_EQ(compared({"--motion", "any"}, "other.json").exitCode, 0);
+}
+
+TEST_F(RenderReference, differenceThatIsGoneLeavesNothing) {
+  EXPECT_EQ(compared({"--look", "studio"}).exitCode, 1);
+  EXPECT_EQ(compared().exitCode, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
 TEST_F(RenderReference, whatElseIsInTheFolderStays) {
