@@ -1,0 +1,157 @@
+#include "mutation/subject.h"
+
+namespace careen {
+namespace {
+
+Mutation in(const std::string& file, const std::string& name, const std::string& piece,
+            const std::string& instead) {
+  return {file + ": " + name, stillLife, [=](Subject& it) { it.edits.push_back({file, piece, instead}); }};
+}
+
+Mutation opposite(const std::string& file, const std::string& name, const std::string& piece,
+                  const std::string& instead) {
+  return {file + ": " + name + ", against the light", againstTheLight, [=](Subject& it) {
+            it.edits.push_back({file, piece, instead});
+          }};
+}
+
+Mutation inTheDark(const std::string& name, const std::string& piece, const std::string& instead) {
+  const std::string file = "ambient.frag";
+  return {file + ": " + name, stillLifeWithoutLight, [=](Subject& it) {
+            it.edits.push_back({file, piece, instead});
+          }};
+}
+
+}  // namespace
+
+Mutations boxShaderMutations() {
+  const char* const frag = "box.frag";
+  const char* const vert = "box.vert";
+  return {
+      in(frag, "ivory 5 % darker", "vec3(0.86, 0.82, 0.72)", "vec3(0.817, 0.779, 0.684)"),
+      in(frag, "ink lighter", "vec3(0.05, 0.05, 0.06)", "vec3(0.07, 0.07, 0.08)"),
+      in(frag, "edges of marks half a pixel off", "0.5 - distance", "1.0 - distance"),
+      in(frag, "marks not smooth", "max(perPixel, 1e-9), 0.0", "max(0.001 * perPixel, 1e-9), 0.0"),
+      in(frag, "pips 5 % farther apart", "0.44 * unit", "0.462 * unit"),
+      in(frag, "pips 5 % larger", "0.165 * unit", "0.173 * unit"),
+      in(frag, "no middle pip", "if (odd) nearest", "if (!odd) nearest"),
+      in(frag, "four pips from three", "pips > 3.5", "pips > 2.5"),
+      in(frag, "no two pips", "pips > 1.5", "pips > 2.5"),
+      in(frag, "six pips are four", "pips > 5.5", "pips > 6.5"),
+      in(frag, "two pips, the other diagonal", "p.x + p.y < 0.0 ? -p", "p.x + p.y > 0.0 ? -p"),
+      in(frag, "inset 10 % more", "0.13 * unit", "0.143 * unit"),
+      in(frag, "rounding 50 % more", "0.16 * unit", "0.24 * unit"),
+      in(frag, "frame 5 % lighter", "mix(0.42 * albedo", "mix(0.441 * albedo"),
+      in(frag, "no frame", "mix(0.42 * albedo, albedo, covered(panel))", "albedo"),
+      in(frag, "no pips", "isLight ? kInk : kIvory, covered(pip)", "isLight ? kInk : kIvory, 0.0"),
+      in(frag, "ink for ivory", "isLight ? kInk : kIvory", "isLight ? kIvory : kInk"),
+      in(frag, "ivory on pale boxes", "vec3(0.2126, 0.7152, 0.0722)) > 0.4",
+         "vec3(0.2126, 0.7152, 0.0722)) > 0.8"),
+      in(frag, "edges worn 20 % wider", "0.07 * unit", "0.084 * unit"),
+      in(frag, "edges worn less", "normal + 0.7", "normal + 0.5"),
+      in(frag, "edges not worn", "normal = normalize(normal + 0.7", "normal = normalize(normal + 0.0"),
+      in(frag, "edges worn the other way", "normal + 0.7", "normal - 0.7"),
+      in(frag, "edges worn on two sides only", " + worn.y * faceAlong", ""),
+      in(frag, "normal's sign", "vec3 normal = faceNormal", "vec3 normal = -faceNormal"),
+      in(frag, "no edges", "finished(color, nearestEdge())", "finished(color, 1.0)"),
+      in(frag, "edges on the wrong side", "return pixels.x < pixels.y", "return pixels.x > pixels.y"),
+      in(frag, "edge's slope the other way", "inside.x, -outward.x", "inside.x, outward.x"),
+      in(vert, "normal in the body's frame", "worldFromBody * normal", "normal"),
+      in(vert, "a one for a six", "1.0 : 6.0", "6.0 : 1.0"),
+      in(vert, "a two for a five", "2.0 : 5.0", "5.0 : 2.0"),
+      in(vert, "a three for a four", "3.0 : 4.0", "4.0 : 3.0"),
+      in(vert, "marks across", "onFace = at.yz", "onFace = at.zy"),
+      in(vert, "a face's sizes exchanged", "halfFace = halfExtents.zx", "halfFace = halfExtents.xz"),
+      in(vert, "a face's directions exchanged", "faceAcross = axisX", "faceAcross = axisY"),
+      in(vert, "boxes 2 % larger", "halfExtents * corner);\n  faceNormal",
+         "1.02 * halfExtents * corner);\n  faceNormal"),
+      in(vert, "rotation the other way", "mat3(axisX, axisY, axisZ)", "transpose(mat3(axisX, axisY, axisZ))"),
+  };
+}
+
+Mutations surfaceShaderMutations() {
+  const char* const frag = "surface.frag";
+  const char* const vert = "surface.vert";
+  return {
+      in(frag, "joints 30 % wider", "kJoint = 0.02", "kJoint = 0.026"),
+      in(frag, "skirting board 5 % higher", "kSkirting = 0.22", "kSkirting = 0.231"),
+      in(frag, "rim 20 % wider", "kRim = 0.05", "kRim = 0.06"),
+      in(frag, "tiles the other way round", "1.0 + surfaceLook.z", "1.0 - surfaceLook.z"),
+      in(frag, "tiles in stripes", "wave.x * wave.y", "wave.x"),
+      in(frag, "joints lighter", "0.55 * base", "0.65 * base"),
+      in(frag, "joints one way only", "(1.0 - joints.x) * (1.0 - joints.y)", "(1.0 - joints.x)"),
+      in(frag, "joints not averaged", "max(fwidth(onSurface), 1e-5);\n  vec2 from",
+         "vec2(1e-3);\n  vec2 from"),
+      in(frag, "skirting board darker", "mix(1.0, 0.62, board)", "mix(1.0, 0.58, board)"),
+      in(frag, "no skirting board", "mix(1.0, 0.62, board)", "1.0"),
+      in(frag, "lip lighter", "0.4, lip", "0.6, lip"),
+      in(frag, "rim lighter", "1.0 - 0.45 * rim()", "1.0 - 0.35 * rim()"),
+      in(frag, "corners lighter", "1.0 - 0.30 * edges", "1.0 - 0.25 * edges"),
+      in(frag, "corners' shade narrower", "exp(-1.6 *", "exp(-1.9 *"),
+      in(frag, "no shade of corners", "albedo * openness()", "albedo"),
+      in(frag, "one corner less", "shade.x * shade.y * shade.z", "shade.y * shade.z"),
+      in(frag, "no rim", "albedo *= 1.0 - 0.45 * rim()", "albedo *= 1.0"),
+      in(frag, "tiles as rough as walls", "roughness = surfaceLook.x;", ""),
+      in(frag, "normal's sign", "roughness, surfaceNormal", "roughness, -surfaceNormal"),
+      in(frag, "edge's direction", "vec2(dFdx(inside), dFdy(inside))", "vec2(-dFdx(inside), -dFdy(inside))"),
+      in(vert, "pattern 5 cm aside", "onSurface = place.xy", "onSurface = place.xy + 0.05"),
+      in(vert, "neighbours in another order", "edges = adjoins", "edges = adjoins.yzwx"),
+      in(vert, "normal upward", "surfaceNormal = normal", "surfaceNormal = up.xyz"),
+      in("background.frag", "upside down", "mix(backgroundBottom.rgb, backgroundTop.rgb",
+         "mix(backgroundTop.rgb, backgroundBottom.rgb"),
+      in("background.frag", "not smooth", "smoothstep(0.0, 1.0, height)", "height"),
+      in("background.vert", "higher", "+ 0.5;", "+ 0.55;"),
+  };
+}
+
+Mutations lightShaderMutations() {
+  const char* const light = "light.frag";
+  const char* const finish = "finish.frag";
+  const char* const shadow = "shadow.frag";
+  return {
+      inTheDark("normal's sign", "0.5 * dot", "-0.5 * dot"),
+      inTheDark("from above alone", "mix(ground.rgb, sky.rgb, 0.5 + 0.5 * dot(normal, up.xyz))", "sky.rgb"),
+      inTheDark("2 % darker", "return albedo", "return 0.98 * albedo"),
+      in(light, "normal's sign", "dot(normal, towardsLight.xyz)", "dot(-normal, towardsLight.xyz)"),
+      in(light, "sky below", "0.5 + 0.5 * dot(normal, up", "0.5 - 0.5 * dot(normal, up"),
+      in(light, "nothing from around", "return albedo * around + ", "return "),
+      in(light, "no gloss", "(albedo + gloss)", "albedo"),
+      in(light, "gloss alone", "(albedo + gloss)", "gloss"),
+      in(light, "all sides lit alike", "facing * lightArriving", "lightArriving"),
+      in(light, "light without colour", "lightColor.rgb", "vec3(dot(lightColor.rgb, vec3(0.3333)))"),
+      opposite(light, "Fresnel's 0.04 is 0.06", "0.04 + 0.96", "0.06 + 0.94"),
+      opposite(light, "no Fresnel", "0.04 + 0.96 * pow(1.0 - max(dot(toEye, between), 0.0), 5.0)", "0.04"),
+      opposite(light, "Fresnel's power 4", "5.0)", "4.0)"),
+      in(light, "roughness not to the fourth", "roughness * roughness * roughness * roughness;",
+         "roughness * roughness;"),
+      opposite(light, "Smith's half forgotten", "0.5 * roughness * roughness;", "roughness * roughness;"),
+      in(light, "a fourth is a half", "0.25 /", "0.5 /"),
+      in(light, "half way to the wrong side", "toEye + towardsLight", "toEye - towardsLight"),
+      in(light, "the eye's direction's sign", "normalize(-offset)", "normalize(offset)"),
+      in(finish, "gamma forgotten", "dithered(toned(color))", "dithered(toned(pow(color, vec3(2.2))))"),
+      in(finish, "gamma twice", "dithered(toned(color))", "dithered(toned(pow(color, vec3(1.0 / 2.2))))"),
+      in(finish, "2 % darker", "dithered(toned(color))", "dithered(toned(0.98 * color))"),
+      in(finish, "red and blue exchanged", "dithered(toned(color))", "dithered(toned(color.bgr))"),
+      in(finish, "shoulder from black", "float start = finish.x", "float start = 0.0"),
+      in(finish, "dither ten times as strong", "finish.z * (threshold", "10.0 * finish.z * (threshold"),
+      in(finish, "edges' directions exchanged", "along > 0.0 ? 1.0", "along < 0.0 ? 1.0"),
+      in(finish, "edges' axes exchanged", "steep.x > steep.y", "steep.x < steep.y"),
+      in(finish, "edges half as wide", "at < 1.0 &&", "at < 0.5 &&"),
+      in(shadow, "blurred twice as wide", "1.6 / 2048.0", "3.2 / 2048.0"),
+      in(shadow, "sharp", "1.6 / 2048.0", "0.0"),
+      in(shadow, "lighter by a ninth", "return sum / 9.0", "return min(sum / 9.0 + 0.11, 1.0)"),
+      in(shadow, "a pixel aside", "(shadowFromOffset * vec4(offset, 1.0)).xyz",
+         "(shadowFromOffset * vec4(offset, 1.0)).xyz + vec3(0.005, 0.0, 0.0)"),
+      in(shadow, "a row of comparisons less", "needed ? 9 : 0", "needed ? 6 : 0"),
+      in(shadow, "inverted", "return sum / 9.0", "return 1.0 - sum / 9.0"),
+      in(shadow, "nowhere", "bool needed = facing > 0.0", "bool needed = false"),
+      in("caster.vert", "shadows of boxes 5 % larger", "(halfExtents * corner)",
+         "(1.05 * halfExtents * corner)"),
+      in("caster.vert", "shadows of boxes not turned", "mat3(axisX, axisY, axisZ) * ", ""),
+      in("contact_shade.frag", "half as strong", "1.0 - most", "1.0 - 0.5 * most"),
+      in("contact_shade.frag", "narrower", "exp(-0.5 *", "exp(-0.6 *"),
+      in("contact_shade.vert", "10 % wider", "corner.x * first", "1.1 * corner.x * first"),
+  };
+}
+
+}  // namespace careen
