@@ -16,7 +16,7 @@
 #include "compare/comparison.h"
 #include "image/png.h"
 #include "mutation/subject.h"
-#include "render/camera.h"
+#include "render/lighting.h"
 #include "render/stage.h"
 #include "support/process.h"
 
@@ -39,6 +39,7 @@ const std::vector<Picture>& film() {
     options.context.threads = 0;
     Renderer renderer(crate.scene, kWidth, kHeight, options);
     std::vector<Picture> pictures;
+    pictures.reserve(kFrames);
     for (int i = 0; i < kFrames; ++i) {
       pictures.push_back(renderer.draw(run.poses(i / 30.0)));
     }
@@ -264,8 +265,7 @@ TEST(OtherRenderer, catchesLostFrames) {
 }
 
 void expectOtherRendererCatches(const Subject& changed, const Subject& unchanged, const std::string& name) {
-  const PictureDifference difference =
-      differenceOf(unchangedPicture(unchanged, 320, 180), pictureOf(changed, 320, 180));
+  const PictureDifference difference = differenceOf(unchangedPicture(unchanged), pictureOf(changed));
   const Margin margin = marginOf(difference, toleranceOf("other-renderer"));
   EXPECT_EQ(judge(difference, toleranceOf("other-renderer")).verdict, Verdict::kDifferent) << name;
   std::printf("%-40s %-16s %.3g\n", name.c_str(), margin.criterion.c_str(), margin.ratio);
@@ -285,8 +285,7 @@ TEST(OtherRenderer, catchesABoxTwoPixelsOff) {
     for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(0, 0, 1)}) {
       Subject subject = stillLife();
       SceneBox& box = subject.scene.boxes.at(i);
-      const Camera& camera = *subject.scene.camera;
-      box.pose.position += 2 * pixelAngle(camera, 180) * (box.pose.position - camera.eye).norm() * direction;
+      box.pose.position += 2 * pixelAt(subject, box.pose.position) * direction;
       expectOtherRendererCatches(subject, stillLife(),
                                  box.name + (direction.x() > 0 ? " two pixels aside" : " two pixels up"));
     }

@@ -2,8 +2,8 @@
 // them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <ostream>
@@ -17,23 +17,20 @@
 namespace careen {
 namespace {
 
-constexpr int kWidth = 320;
-constexpr int kHeight = 180;
-
 struct NamedTable {
   const char* name;
   Mutations (*list)();
 };
 // What gtest calls it by, which would be its bytes.
-void PrintTo(const NamedTable& table, std::ostream* out) { *out << table.name; }
+std::ostream& operator<<(std::ostream& out, const NamedTable& table) { return out << table.name; }
 
-const NamedTable kSeen[] = {{"scenes", sceneMutations},
-                            {"camera", cameraMutations},
-                            {"light", lightMutations},
-                            {"materials", materialMutations},
-                            {"boxShaders", boxShaderMutations},
-                            {"surfaceShaders", surfaceShaderMutations},
-                            {"lightShaders", lightShaderMutations}};
+const std::array kSeen = {NamedTable{"scenes", sceneMutations},
+                          NamedTable{"camera", cameraMutations},
+                          NamedTable{"light", lightMutations},
+                          NamedTable{"materials", materialMutations},
+                          NamedTable{"boxShaders", boxShaderMutations},
+                          NamedTable{"surfaceShaders", surfaceShaderMutations},
+                          NamedTable{"lightShaders", lightShaderMutations}};
 
 Subject changed(const Mutation& mutation) {
   Subject subject = mutation.subject();
@@ -41,16 +38,8 @@ Subject changed(const Mutation& mutation) {
   return subject;
 }
 
-// A size to do the whole by hand in, such as CAREEN_MUTATION_HEIGHT=720.
-int height() {
-  const char* const given = std::getenv("CAREEN_MUTATION_HEIGHT");
-  return given == nullptr ? kHeight : std::stoi(given);
-}
-
 PictureDifference differenceBy(const Mutation& mutation) {
-  const int width = height() * kWidth / kHeight;
-  return differenceOf(unchangedPicture(mutation.subject(), width, height()),
-                      pictureOf(changed(mutation), width, height()));
+  return differenceOf(unchangedPicture(mutation.subject()), pictureOf(changed(mutation)));
 }
 
 class SeenMutations : public testing::TestWithParam<NamedTable> {};

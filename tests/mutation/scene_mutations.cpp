@@ -3,19 +3,12 @@
 
 #include "core/rotation.h"
 #include "mutation/subject.h"
-#include "render/camera.h"
+#include "render/lighting.h"
 
 namespace careen {
 namespace {
 
 using Change = std::function<void(Subject&)>;
-
-// A pixel of a picture 180 px high at the distance of a box: what a box is moved by.
-constexpr int kHeight = 180;
-double pixelAt(const Subject& subject, const Vec3& place) {
-  const Camera& camera = *subject.scene.camera;
-  return pixelAngle(camera, kHeight) * (place - camera.eye).norm();
-}
 
 SceneBox& box(Subject& it, std::size_t index) { return it.scene.boxes.at(index); }
 

@@ -1,6 +1,7 @@
 #include "mutation/subject.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "core/rotation.h"
+#include "render/camera.h"
 #include "render/stage.h"
 #include "support/process.h"
 
@@ -185,7 +187,19 @@ Subject row() {
   return subject;
 }
 
-DeepPicture pictureOf(const Subject& subject, int width, int height) {
+int pictureHeight() {
+  const char* const given = std::getenv("CAREEN_MUTATION_HEIGHT");
+  return given == nullptr ? 180 : std::stoi(given);
+}
+
+int pictureWidth() { return pictureHeight() * 16 / 9; }
+
+double pixelAt(const Subject& subject, const Vec3& place) {
+  const Camera& camera = *subject.scene.camera;
+  return pixelAngle(camera, pictureHeight()) * (place - camera.eye).norm();
+}
+
+DeepPicture pictureOf(const Subject& subject) {
   RenderOptions options = subject.look;
   options.context.threads = 0;
   std::unique_ptr<TemporaryFolder> folder;
@@ -196,7 +210,7 @@ DeepPicture pictureOf(const Subject& subject, int width, int height) {
   }
   const std::vector<Pose> poses =
       subject.moment > 0 ? runOf(subject.scene).poses(subject.moment) : posesOf(subject.scene);
-  Picture picture = Renderer(subject.scene, width, height, options).draw(poses);
+  Picture picture = Renderer(subject.scene, pictureWidth(), pictureHeight(), options).draw(poses);
   return {.width = picture.width,
           .height = picture.height,
           .channels = 3,
@@ -205,12 +219,10 @@ DeepPicture pictureOf(const Subject& subject, int width, int height) {
           .samples16 = {}};
 }
 
-const DeepPicture& unchangedPicture(const Subject& subject, int width, int height) {
+const DeepPicture& unchangedPicture(const Subject& subject) {
   static std::map<std::string, DeepPicture> drawn;
-  const std::string key = subject.name + ' ' + std::to_string(width) + 'x' + std::to_string(height);
-  const auto found = drawn.find(key);
-  return found != drawn.end() ? found->second
-                              : drawn.emplace(key, pictureOf(subject, width, height)).first->second;
+  const auto found = drawn.find(subject.name);
+  return found != drawn.end() ? found->second : drawn.emplace(subject.name, pictureOf(subject)).first->second;
 }
 
 Margin marginOf(const PictureDifference& difference, const Tolerance& tolerance) {

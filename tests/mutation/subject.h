@@ -65,12 +65,20 @@ Mutations materialMutations();
 Mutations boxShaderMutations();
 Mutations surfaceShaderMutations();
 Mutations lightShaderMutations();
-/// Changes of a picture that nobody sees: no channel is more than 2/255 off.
+/// Changes that nobody sees: at 320 x 180 no channel is more than 2/255 off.
 Mutations unseenMutations();
 
+/// [px] Of all pictures but films': 320 x 180, or CAREEN_MUTATION_HEIGHT=720, say, to do the whole by hand in
+/// the size of a film.
+int pictureHeight();
+int pictureWidth();
+
+/// [m] What a pixel covers at a place of the subject's.
+double pixelAt(const Subject& subject, const Vec3& place);
+
 /// Draws the subject's moment. What was drawn of an unchanged subject is kept by its name.
-DeepPicture pictureOf(const Subject& subject, int width, int height);
-const DeepPicture& unchangedPicture(const Subject& subject, int width, int height);
+DeepPicture pictureOf(const Subject& subject);
+const DeepPicture& unchangedPicture(const Subject& subject);
 
 /// How near a difference is to a tolerance's limits: what was found over what is allowed, of the criterion
 /// where that is greatest. More than 1 is too much.
