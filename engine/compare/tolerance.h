@@ -38,10 +38,8 @@ struct Tolerance {
 /// - "exact": not one sample differs.
 /// - "same-machine": 0.005 % of the pixels may differ, by 1/255. Threads, jobs and the width of vectors do
 /// nothing.
-/// - "same-picture": 0.01 % may differ by more than 1/255, 0.0005 % or one pixel in colour to the eye, and
-/// every
-///   window's SSIM is 0.8. For other processors and versions of one renderer; catches a box moved by a pixel
-///   and a colour off by 3/255.
+/// - "same-picture": 0.01 % may differ by more than 1/255, 0.001 % or one pixel in colour to the eye. For
+///   other processors and versions of one renderer; catches a box moved by a pixel and a colour off by 3/255.
 /// - "other-renderer": edges may lie a third of a pixel elsewhere; of other pixels 0.25 % may differ by more
 /// than 4/255 or
 ///   in colour to the eye; SSIM is 0.98, every window's 0.3. Catches a missing shadow, a lost frame, a box
