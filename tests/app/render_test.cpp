@@ -311,8 +311,8 @@ TEST_F(Render, killedFilmIsCompletedByASecondRun) {
   expectSameFilm("film", "whole");
 }
 
-// Only one at a time is let in. The others wait a moment or are refused; when those have tried again the film is
-// whole, and its manifest tells of all of it.
+// Only one at a time is let in. The others wait a moment or are refused; when those have tried again the film
+// is whole, and its manifest tells of all of it.
 TEST_F(Render, processesThatMeetInOneFolderLoseNothing) {
   ASSERT_EQ(careen({"render", "scene.json", "--out", "whole", "--fps", "40"}).exitCode, 0);
   ASSERT_EQ(framesIn("whole").size(), 40U);
