@@ -8,6 +8,7 @@
 #include "compare/comparison.h"
 #include "image/picture.h"
 #include "image/png.h"
+#include "support/trajectories.h"
 
 namespace careen {
 
@@ -77,6 +78,19 @@ inline Comparison filmComparison(const std::filesystem::path& folder, int frames
   }
   comparison.verdict = firstOther < frames ? Verdict::kDifferent : Verdict::kSame;
   comparison.headline = firstOther < frames ? "other picture" : "same files";
+  return comparison;
+}
+
+/// Two runs of driftAndReturn() that part at its impact.
+inline Comparison twoRuns() {
+  const Trajectory run = driftAndReturn();
+  Trajectory other = run;
+  other.impacts[0].impulse = 8.5;
+  std::get<EulerStep>(other.tracks[0].segments[1].motion).start.velocity.x() = -1;
+  Comparison comparison;
+  comparison.verdict = Verdict::kDifferent;
+  comparison.headline = "other motion";
+  comparison.run = differenceOf(run, other);
   return comparison;
 }
 

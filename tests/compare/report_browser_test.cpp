@@ -9,7 +9,6 @@
 #include "comparisons.h"
 #include "core/file.h"
 #include "support/browser.h"
-#include "support/trajectories.h"
 
 namespace careen {
 namespace {
@@ -272,15 +271,7 @@ TEST_F(ReportInBrowser, tenThousandFramesAreDrawnAtOnce) {
 }
 
 TEST_F(ReportInBrowser, runShowsGrowthHorizonAndImpacts) {
-  const Trajectory run = driftAndReturn();
-  Trajectory other = run;
-  other.impacts[0].impulse = 8.5;
-  std::get<EulerStep>(other.tracks[0].segments[1].motion).start.velocity.x() = -1;
-  Comparison comparison;
-  comparison.verdict = Verdict::kDifferent;
-  comparison.headline = "other motion";
-  comparison.run = differenceOf(run, other);
-  write(comparison);
+  write(twoRuns());
   open();
   EXPECT_NE(textOf("#growth-chart").find("horizon: beyond it, chaos"), std::string::npos);
   EXPECT_NE(textOf("#growth-chart").find("first impact that differs"), std::string::npos);

@@ -11,7 +11,6 @@
 #include "compare/report.h"
 #include "comparisons.h"
 #include "core/file.h"
-#include "support/trajectories.h"
 
 namespace careen {
 namespace {
@@ -34,17 +33,6 @@ Comparison threeFrames() {
   comparison.frames[2].name = "c.png";
   comparison.frames[2].verdict = Verdict::kDifferent;
   comparison.frames[2].reasons = {"it is missing"};
-  return comparison;
-}
-
-Comparison twoRuns() {
-  const Trajectory run = driftAndReturn();
-  Trajectory other = run;
-  other.impacts[0].impulse = 8.5;
-  std::get<EulerStep>(other.tracks[0].segments[1].motion).start.velocity.x() = -1;
-  Comparison comparison;
-  comparison.verdict = Verdict::kDifferent;
-  comparison.run = differenceOf(run, other);
   return comparison;
 }
 

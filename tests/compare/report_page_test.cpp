@@ -7,7 +7,6 @@
 #include "compare/report.h"
 #include "comparisons.h"
 #include "support/process.h"
-#include "support/trajectories.h"
 
 namespace careen {
 namespace {
@@ -64,15 +63,7 @@ TEST(ReportPage, ofEqualsIsShort) {
 }
 
 TEST(ReportPage, ofRunsTellsTheHorizonAndTheImpacts) {
-  const Trajectory run = driftAndReturn();
-  Trajectory other = run;
-  other.impacts[0].impulse = 8.5;
-  std::get<EulerStep>(other.tracks[0].segments[1].motion).start.velocity.x() = -1;
-  Comparison comparison;
-  comparison.verdict = Verdict::kDifferent;
-  comparison.headline = "other motion";
-  comparison.run = differenceOf(run, other);
-  const std::string page = reportPage(comparison);
+  const std::string page = reportPage(twoRuns());
   EXPECT_NE(page.find("The runs part at 0.5 s."), std::string::npos);
   EXPECT_NE(page.find("The horizon is at 0.50"), std::string::npos);
   EXPECT_NE(page.find("<th scope=\"row\">1 ← first</th><td>drifter against room+x</td><td>0.5</td><td>2</td>"

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "compare/pictures_to_compare.h"
 #include "core/rotation.h"
 #include "render/camera.h"
 #include "render/stage.h"
@@ -210,13 +211,7 @@ DeepPicture pictureOf(const Subject& subject) {
   }
   const std::vector<Pose> poses =
       subject.moment > 0 ? runOf(subject.scene).poses(subject.moment) : posesOf(subject.scene);
-  Picture picture = Renderer(subject.scene, pictureWidth(), pictureHeight(), options).draw(poses);
-  return {.width = picture.width,
-          .height = picture.height,
-          .channels = 3,
-          .deep = false,
-          .samples8 = std::move(picture.rgb),
-          .samples16 = {}};
+  return deepPicture(Renderer(subject.scene, pictureWidth(), pictureHeight(), options).draw(poses));
 }
 
 const DeepPicture& unchangedPicture(const Subject& subject) {
