@@ -2,10 +2,10 @@
 // (assets/pictures/careen.png, 1280x720), and one as large with grain in a sixth of the pixels. Compare
 // within one run: --benchmark_enable_random_interleaving=true --benchmark_repetitions=5, minimum of each.
 //
-// Measured (g++ 12 -O3, AMD EPYC), minimum of 9, ms and bytes, stb's: rendered 1.17, 151,812 (39.6, 181,884);
-// grained 3.77, 412,248 (52.0, 427,854). Before, with stb's filters and libdeflate: 15.6, 150,082; 14.7,
-// 329,537. Of the 1.17: 0.21 filter (0.46 without AVX2), 0.45 to find runs, 0.11 to count, 0.06 codes, 0.18
-// to send.
+// Measured (g++ 12 -O3, AMD EPYC), minimum of 3, ms and bytes, stb's: rendered 1.45, 213,930 (46.9, 271,842);
+// grained 3.58, 412,248 (51.6, 427,854). With stb's filters and libdeflate, of another rendered frame that
+// ours takes 1.17 and 151,812 for: 15.6, 150,082. Of the 1.17: 0.21 filter (0.46 without AVX2), 0.45 to find
+// runs, 0.11 to count, 0.06 codes, 0.18 to send.
 #include <benchmark/benchmark.h>
 
 #define STB_IMAGE_WRITE_STATIC
