@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -121,9 +122,9 @@ Films filmsIn([[maybe_unused]] const std::filesystem::path& expected,
 }
 
 nlohmann::ordered_json lineOf(const FrameComparison& frame) {
-  constexpr const char* kVerdicts[] = {"same", "warning", "different"};
+  constexpr std::array<const char*, 3> kVerdicts = {"same", "warning", "different"};
   nlohmann::ordered_json line = {{"frame", frame.name},
-                                 {"verdict", kVerdicts[static_cast<int>(frame.verdict)]},
+                                 {"verdict", kVerdicts.at(static_cast<std::size_t>(frame.verdict))},
                                  {"identical", frame.identical}};
   if (frame.measured) {
     line.update({{"largest", frame.largest},
@@ -176,8 +177,8 @@ void printRun(std::ostream& out, const RunDifference& run) {
 }
 
 void print(std::ostream& out, const Comparison& comparison) {
-  constexpr const char* kVerdicts[] = {"same", "same, with a warning", "differs"};
-  out << kVerdicts[static_cast<int>(comparison.verdict)] << ": " << comparison.headline;
+  constexpr std::array<const char*, 3> kVerdicts = {"same", "same, with a warning", "differs"};
+  out << kVerdicts.at(static_cast<std::size_t>(comparison.verdict)) << ": " << comparison.headline;
   if (!comparison.frames.empty()) {
     out << " (" << comparison.toleranceName << ')';
   }
@@ -295,12 +296,11 @@ ExitCode compareAndTell(const std::filesystem::path& expected, const std::filesy
       std::cout << lineOf(frame).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     }
   }
-  if (!options.report.empty()) {
-    writeReport(options.report, comparison);
-  }
   std::ostream& out = logsFrames ? std::cerr : std::cout;
   print(out, comparison);
+  out.flush();  // the verdict is told even if the report cannot be written
   if (!options.report.empty()) {
+    writeReport(options.report, comparison);
     out << "report: " << std::filesystem::absolute(options.report / "index.html").lexically_normal().string()
         << '\n';
   }
