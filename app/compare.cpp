@@ -8,14 +8,13 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <vector>
 
 #include "commands.h"
 #include "compare/report.h"
 #include "core/brief.h"
-#include "core/file.h"
+#include "core/names.h"
 #include "core/processor.h"
+#include "parsed.h"
 #include "trajectory/trajectory_file.h"
 #ifdef CAREEN_RENDER
 #include "render/film_manifest.h"
@@ -27,38 +26,30 @@ namespace {
 constexpr int kMostThreads = 256;
 constexpr std::size_t kMostFramesTold = 10;
 
+/// An option that puts one number in place of a threshold's.
 struct Override {
   const char* option;
   const char* help;
-  std::optional<double> CompareOptions::*given;
   double Tolerance::*value;
   double most;
 };
 
 // idiff's words, where it has one.
 constexpr double kAny = Tolerance::kAny;
-const std::vector<Override>& overrides() {
-  static const std::vector<Override> kOverrides = {
-      {"--fail", "A pixel fails if a channel differs by more, of 1", &CompareOptions::fail, &Tolerance::fail,
-       1},
-      {"--failpercent", "Of the pixels that may fail", &CompareOptions::failPercent, &Tolerance::failPercent,
-       100},
-      {"--hardfail", "No channel may differ by more, of 1", &CompareOptions::hardFail, &Tolerance::hardFail,
-       kAny},
-      {"--warn", "As --fail, for a warning", &CompareOptions::warn, &Tolerance::warn, 1},
-      {"--warnpercent", "As --failpercent, for a warning", &CompareOptions::warnPercent,
-       &Tolerance::warnPercent, 100},
-      {"--hardwarn", "As --hardfail, for a warning", &CompareOptions::hardWarn, &Tolerance::hardWarn, kAny},
-      {"--changedpercent", "Of the pixels that may have another colour to the eye",
-       &CompareOptions::changedPercent, &Tolerance::changedPercent, 100},
-      {"--edgepercent", "The same of those at edges that lie elsewhere by less than a pixel",
-       &CompareOptions::edgePercent, &Tolerance::edgePercent, 100},
-      {"--ssim", "Least SSIM of a frame", &CompareOptions::ssim, &Tolerance::leastSsim, 1},
-      {"--windowssim", "Least SSIM of any part of it, 11 pixels wide and high", &CompareOptions::windowSsim,
-       &Tolerance::leastWindowSsim, 1},
-  };
-  return kOverrides;
-}
+constexpr std::array<Override, 10> kOverrides = {{
+    {"--fail", "A pixel fails if a channel differs by more, of 1", &Tolerance::fail, 1},
+    {"--failpercent", "Of the pixels that may fail", &Tolerance::failPercent, 100},
+    {"--hardfail", "No channel may differ by more, of 1", &Tolerance::hardFail, kAny},
+    {"--warn", "As --fail, for a warning", &Tolerance::warn, 1},
+    {"--warnpercent", "As --failpercent, for a warning", &Tolerance::warnPercent, 100},
+    {"--hardwarn", "As --hardfail, for a warning", &Tolerance::hardWarn, kAny},
+    {"--changedpercent", "Of the pixels that may have another colour to the eye", &Tolerance::changedPercent,
+     100},
+    {"--edgepercent", "The same of those at edges that lie elsewhere by less than a pixel",
+     &Tolerance::edgePercent, 100},
+    {"--ssim", "Least SSIM of a frame", &Tolerance::leastSsim, 1},
+    {"--windowssim", "Least SSIM of any part of it, 11 pixels wide and high", &Tolerance::leastWindowSsim, 1},
+}};
 
 double motionToleranceOf(const std::string& text) {
   char* end = nullptr;
@@ -121,28 +112,6 @@ Films filmsIn([[maybe_unused]] const std::filesystem::path& expected,
   return films;
 }
 
-nlohmann::ordered_json lineOf(const FrameComparison& frame) {
-  constexpr std::array<const char*, 3> kVerdicts = {"same", "warning", "different"};
-  nlohmann::ordered_json line = {{"frame", frame.name},
-                                 {"verdict", kVerdicts.at(static_cast<std::size_t>(frame.verdict))},
-                                 {"identical", frame.identical}};
-  if (frame.measured) {
-    line.update({{"largest", frame.largest},
-                 {"mean", frame.mean},
-                 {"psnr", std::isfinite(frame.psnr) ? nlohmann::ordered_json(frame.psnr) : nullptr},
-                 {"ssim", frame.ssim},
-                 {"worst_ssim", frame.worstSsim},
-                 {"failing_percent", frame.failingPercent},
-                 {"changed_percent", frame.changedPercent},
-                 {"edge_percent", frame.edgePercent}});
-  }
-  if (frame.flip) {
-    line["flip"] = *frame.flip;
-  }
-  line["reasons"] = frame.reasons;
-  return line;
-}
-
 void printFrame(std::ostream& out, const FrameComparison& frame) {
   for (const std::string& reason : frame.reasons) {
     out << "  " << frame.name << ": " << reason << '\n';
@@ -168,6 +137,9 @@ void printRun(std::ostream& out, const RunDifference& run) {
   if (run.firstOtherEvent && run.firstOtherEvent->what != run.firstImpact->what) {
     out << "  first other impact, number " << run.firstOtherEvent->index + 1 << ": "
         << run.firstOtherEvent->what << '\n';
+  }
+  if (run.expectedDuration != run.actualDuration && !run.until) {
+    out << "  they last " << brief(run.expectedDuration) << " and " << brief(run.actualDuration) << " s\n";
   }
   if (!run.sameBits && run.incomparable.empty()) {
     out << "  impacts " << run.expectedImpacts << " and " << run.actualImpacts
@@ -208,35 +180,14 @@ void print(std::ostream& out, const Comparison& comparison) {
   }
 }
 
-Comparison compare(const std::filesystem::path& expected, const std::filesystem::path& actual,
-                   const ComparisonSettings& settings, const std::stop_token& stop) {
-  const Kind kind = kindOf(expected);
-  if (const Kind other = kindOf(actual); other != kind) {
-    throw InputError("found " + std::string(nameOf(kind)) + " and " + nameOf(other) +
-                     ", expected two pictures, two folders or two runs");
-  }
-  if (kind == Kind::kPicture) {
-    return comparePictures(expected, actual, settings);
-  }
-  if (kind == Kind::kRun) {
-    return compareRuns(expected, actual, settings);
-  }
-  Films films = filmsIn(expected, actual);
-  Comparison comparison = compareFolders(expected, actual, settings, films.sameMotion, {}, stop);
-  comparison.facts = std::move(films.facts);
-  return comparison;
-}
-
 }  // namespace
 
 void CompareOptions::addTo(CLI::App& command) {
-  std::string names;
-  for (const std::string_view name : kToleranceNames) {
-    names.append(names.empty() ? "" : ", ").append(name);
-  }
-  command.add_option("--threshold", threshold, "What may differ, by name: " + names)->capture_default_str();
-  for (const Override& each : overrides()) {
-    command.add_option(each.option, this->*each.given, each.help);
+  command.add_option("--threshold", threshold, "What may differ, by name: " + listed(kToleranceNames))
+      ->capture_default_str();
+  for (const Override& each : kOverrides) {
+    command.add_option_function<double>(
+        each.option, [this, &each](double value) { limits[each.option] = value; }, each.help);
   }
   command
       .add_option(
@@ -252,19 +203,16 @@ ComparisonSettings CompareOptions::settings() const {
   ComparisonSettings settings;
   settings.program = "careen " CAREEN_VERSION;
   settings.toleranceName = threshold;
-  try {
-    settings.tolerance = toleranceOf(threshold);
-  } catch (const InputError& error) {
-    throw InputError(std::string("--threshold: ") + error.what());
-  }
-  for (const Override& each : overrides()) {
-    if (const std::optional<double>& given = this->*each.given) {
-      if (!(*given >= 0 && *given <= each.most)) {
-        throw InputError(std::string(each.option) + ": found " + brief(*given) + ", expected 0 " +
+  settings.tolerance = parsed("--threshold", threshold, toleranceOf);
+  for (const Override& each : kOverrides) {
+    if (const auto given = limits.find(each.option); given != limits.end()) {
+      const double limit = given->second;
+      if (!(limit >= 0 && limit <= each.most)) {
+        throw InputError(std::string(each.option) + ": found " + brief(limit) + ", expected 0 " +
                          (each.most < kAny ? "to " + brief(each.most) : "or more"));
       }
-      settings.tolerance.*each.value = *given;
-      settings.toleranceName += ", " + std::string(each.option) + " " + brief(*given);
+      settings.tolerance.*each.value = limit;
+      settings.toleranceName += ", " + std::string(each.option) + " " + brief(limit);
     }
   }
   settings.motionCounts = motion != "any";
@@ -287,34 +235,45 @@ ComparisonSettings CompareOptions::settings() const {
   return settings;
 }
 
-ExitCode compareAndTell(const std::filesystem::path& expected, const std::filesystem::path& actual,
-                        const CompareOptions& options, bool logsFrames, const std::stop_token& stop,
-                        Comparison* found) {
-  Comparison comparison = compare(expected, actual, options.settings(), stop);
+Comparison compare(const std::filesystem::path& expected, const std::filesystem::path& actual,
+                   const ComparisonSettings& settings, const std::stop_token& stop) {
+  const Kind kind = kindOf(expected);
+  if (const Kind other = kindOf(actual); other != kind) {
+    throw InputError("found " + std::string(nameOf(kind)) + " and " + nameOf(other) +
+                     ", expected two pictures, two folders or two runs");
+  }
+  if (kind == Kind::kPicture) {
+    return comparePictures(expected, actual, settings);
+  }
+  if (kind == Kind::kRun) {
+    return compareRuns(expected, actual, settings);
+  }
+  Films films = filmsIn(expected, actual);
+  Comparison comparison = compareFolders(expected, actual, settings, films.sameMotion, {}, stop);
+  comparison.facts = std::move(films.facts);
+  return comparison;
+}
+
+void tell(const Comparison& comparison, bool logsFrames) {
   if (logsFrames) {
     for (const FrameComparison& frame : comparison.frames) {
-      std::cout << lineOf(frame).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+      std::cout << frameJson(frame) << '\n';
     }
   }
   std::ostream& out = logsFrames ? std::cerr : std::cout;
   print(out, comparison);
-  out.flush();  // the verdict is told even if the report cannot be written
-  if (!options.report.empty()) {
-    writeReport(options.report, comparison);
-    out << "report: " << std::filesystem::absolute(options.report / "index.html").lexically_normal().string()
-        << '\n';
-  }
-  const ExitCode code = comparison.verdict == Verdict::kDifferent ? ExitCode::kDifferent : ExitCode::kDone;
-  if (found != nullptr) {
-    *found = std::move(comparison);
-  }
-  return code;
+  out.flush();  // the verdict is told even if what follows fails
+}
+
+ExitCode exitCodeOf(const Comparison& comparison) {
+  return comparison.verdict == Verdict::kDifferent ? ExitCode::kDifferent : ExitCode::kDone;
 }
 
 void addCompare(CLI::App& commandLine, Command& chosen) {
   struct Arguments {
     std::filesystem::path expected, actual;
     CompareOptions options;
+    std::filesystem::path report;  // empty: none
     std::string log = "text";
   };
   CLI::App* command =
@@ -324,16 +283,24 @@ void addCompare(CLI::App& commandLine, Command& chosen) {
       ->required();
   command->add_option("actual", arguments->actual, "What is to be the same")->required();
   arguments->options.addTo(*command);
-  command->add_option("--out", arguments->options.report,
-                      "Folder for a report: index.html, report.json, junit.xml");
+  command->add_option("--out", arguments->report, "Folder for a report: index.html, report.json, junit.xml");
   command->add_option("--threads", arguments->options.threads,
                       "Frames compared side by side; as many as there are cores");
   command->add_option("--log", arguments->log, "text, or json: a line for each frame on the standard output")
       ->check(CLI::IsMember({"text", "json"}));
   command->callback([arguments, &chosen] {
     chosen = [arguments](const std::stop_token& stop) {
-      return compareAndTell(arguments->expected, arguments->actual, arguments->options,
-                            arguments->log == "json", stop);
+      const bool logsFrames = arguments->log == "json";
+      const Comparison comparison =
+          compare(arguments->expected, arguments->actual, arguments->options.settings(), stop);
+      tell(comparison, logsFrames);
+      if (const std::filesystem::path& folder = arguments->report; !folder.empty()) {
+        writeReport(folder, comparison);
+        (logsFrames ? std::cerr : std::cout)
+            << "report: " << std::filesystem::absolute(folder / "index.html").lexically_normal().string()
+            << '\n';
+      }
+      return exitCodeOf(comparison);
     };
   });
 }

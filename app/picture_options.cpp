@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/names.h"
+#include "parsed.h"
 
 namespace careen {
 namespace {

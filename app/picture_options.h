@@ -13,16 +13,6 @@ class App;
 
 namespace careen {
 
-/// What `parse` makes of an option's text; its error names the option.
-template <class Parse>
-auto parsed(const char* option, const std::string& text, Parse parse) {
-  try {
-    return parse(text);
-  } catch (const InputError& error) {
-    throw InputError(std::string(option) + ": " + error.what());
-  }
-}
-
 /// What the command line puts in place of what the scene says of its film's pictures.
 struct PictureOptions {
   std::optional<std::string> size;

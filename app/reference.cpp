@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 #include <optional>
+#include <set>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -18,17 +19,20 @@ namespace fs = std::filesystem;
 
 // How many those are. Only what was made for the comparison goes: the folder may hold other things.
 std::size_t keepFramesThatDiffer(const fs::path& folder, const Comparison& comparison) {
-  FilmManifest film = readManifest(folder).value();
-  std::erase_if(film.frames, [&](std::int64_t frame) {
-    const std::string name = frameFileName(frame);
-    const bool differs = std::any_of(
-        comparison.frames.begin(), comparison.frames.end(),
-        [&](const auto& each) { return each.name == name && each.verdict == Verdict::kDifferent; });
-    if (!differs) {
-      fs::remove(folder / name);
+  std::set<std::string> different;
+  for (const FrameComparison& frame : comparison.frames) {
+    if (frame.verdict == Verdict::kDifferent) {
+      different.insert(frame.name);
     }
-    return !differs;
-  });
+  }
+  FilmManifest film = readManifest(folder).value();
+  const auto isSame = [&](std::int64_t frame) { return !different.contains(frameFileName(frame)); };
+  for (const std::int64_t frame : film.frames) {
+    if (isSame(frame)) {
+      fs::remove(folder / frameFileName(frame));
+    }
+  }
+  std::erase_if(film.frames, isSame);
   if (comparison.verdict == Verdict::kDifferent) {
     writeManifest(folder, film);
   } else {
@@ -81,14 +85,14 @@ void takeFromReference(const Reference& reference, PictureOptions& picture, std:
     return;
   }
   for (const std::int64_t frame : framesOf(parseFrameRanges(frames), film.frameCount)) {
-    compare.only.push_back(frameFileName(frame));
+    compare.only.insert(frameFileName(frame));
   }
 }
 
 ExitCode compareWithReference(const Reference& reference, const FilmSettings& film,
                               const CompareOptions& options, bool logsFrames, const std::stop_token& stop) {
-  Comparison comparison;
-  const ExitCode code = compareAndTell(reference.folder, film.folder, options, logsFrames, stop, &comparison);
+  const Comparison comparison = compare(reference.folder, film.folder, options.settings(), stop);
+  tell(comparison, logsFrames);
   if (comparison.verdict == Verdict::kDifferent) {
     writeReport(film.folder, comparison);  // while all its pictures are there
   }
@@ -100,7 +104,7 @@ ExitCode compareWithReference(const Reference& reference, const FilmSettings& fi
   } else {
     out << "kept         nothing\n";
   }
-  return code;
+  return exitCodeOf(comparison);
 }
 
 }  // namespace careen

@@ -15,6 +15,7 @@
 #include "compare.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "parsed.h"
 #include "picture_options.h"
 #include "progress.h"
 #include "reference.h"

@@ -12,7 +12,9 @@
 #include "core/arithmetic.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/names.h"
 #include "core/resource.h"
+#include "parsed.h"
 #include "physics/method.h"
 #include "scene/scene_reader.h"
 #include "scene/starts.h"
@@ -52,16 +54,10 @@ void override(const std::string& key, const std::optional<double>& given, bool u
 
 void apply(const Overrides& overrides, Scene& scene) {
   if (overrides.method) {
-    const std::optional<Method> method = methodNamed(*overrides.method);
-    if (!method) {
-      std::string known;
-      for (const MethodTraits& each : kMethods) {
-        known += (known.empty() ? "" : ", ") + std::string(each.name);
-      }
-      throw InputError("--method: found '" + *overrides.method + "', expected one of: " + known);
-    }
-    announce("method", traitsOf(*method).name, traitsOf(scene.method).name);
-    scene.method = *method;
+    const std::size_t place = parsed("--method", *overrides.method,
+                                     [](const auto& name) { return placeAmong(name, kMethodNames); });
+    announce("method", kMethodNames.at(place), traitsOf(scene.method).name);
+    scene.method = kMethods.at(place).method;
   }
   const bool steps = traitsOf(scene.method).steps();
   override("dt", overrides.dt, steps, scene.method, scene.dt);
@@ -87,6 +83,7 @@ void partBoxes(Scene& scene) {
 
 Run simulateText(const std::filesystem::path& path, const std::string& text, const Overrides& overrides,
                  const std::stop_token& stop) {
+  const UsualArithmetic usual;  // GL may be open, in a window
   Run run;
   run.source = path;
   run.scene = parseScene(text, path.string(), overrides.allowOverlap ? Starts::kMayOverlap : Starts::kApart);
@@ -95,7 +92,6 @@ Run simulateText(const std::filesystem::path& path, const std::string& text, con
     partBoxes(run.scene);
   }
   run.plan = plan(run.scene);
-  const UsualArithmetic usual;  // GL may be open, in a window
   const Stopwatch stopwatch;
   run.trajectory = record(assemble(run.scene, run.plan),
                           {.method = run.scene.method,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/brief.h"
 #include "core/error.h"
 #include "image/png.h"
 #include "render/scrub_bar.h"
@@ -32,18 +32,11 @@ const char* const kViewerHelp =
 
 namespace {
 
+constexpr int kMomentDigits = 6;                    // enough to tell frames apart
 constexpr double kPatience = 0.1;                   // [s] between looks whether to stop
 constexpr double kLookEvery = 0.2;                  // [s] at the file
 constexpr double kZoomOfNotch = 1 / 1.1;            // of the distance
 constexpr double kTurnOfHeight = std::numbers::pi;  // [rad] for a drag as long as the picture is high
-
-// Enough of a moment to tell frames apart.
-std::string momentText(double seconds) {
-  std::array<char, 32> digits{};
-  char* const end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), seconds, std::chars_format::general, 6).ptr;
-  return {digits.data(), end};
-}
 
 // The file so many further in its folder, by name, of those with the same ending; round and round.
 std::filesystem::path neighbour(const std::filesystem::path& path, int by) {
@@ -166,8 +159,8 @@ void Viewer::show() {
 void Viewer::entitle() {
   std::string title =
       screening_->run().source.filename().string() + ": frame " + std::to_string(player_->frame()) +
-      " of 0-" + std::to_string(player_->lastFrame()) + ", " + momentText(player_->time()) + " s, " +
-      (player_->isPlaying() ? "playing" : "paused") + (orbit_ == Orbit() ? "" : ", camera turned") +
+      " of 0-" + std::to_string(player_->lastFrame()) + ", " + brief(player_->time(), kMomentDigits) +
+      " s, " + (player_->isPlaying() ? "playing" : "paused") + (orbit_ == Orbit() ? "" : ", camera turned") +
       (loading_.valid() ? ", loading " + picked_.filename().string() : "");
   if (title != title_) {
     window_.setTitle(title);
@@ -252,7 +245,8 @@ void Viewer::turn(const Orbit& by) {
 // keeps it from replacing another.
 void Viewer::takeStill() {
   show();  // the key may have come together with others
-  const std::string name = screening_->run().source.stem().string() + "-" + momentText(player_->time());
+  const std::string name =
+      screening_->run().source.stem().string() + "-" + brief(player_->time(), kMomentDigits);
   std::filesystem::path path = options_.folder / (name + ".png");
   for (int number = 1; orbit_ != Orbit() && (number == 1 || std::filesystem::exists(path)); ++number) {
     path = options_.folder / (name + "-turned-" + std::to_string(number) + ".png");

@@ -70,7 +70,7 @@ function GrowthChart(run) {
     const y = yOf(kHorizon);
     drawing.append(svg("line", { class: "limit", x1: kLeft, x2: kLeft + inner, y1: y, y2: y }));
     drawing.append(svg("path", { class: "curve", d: curve() }));
-    if (run.horizon !== null) mark(drawing, run.horizon, "horizon: beyond it, chaos", 14);
+    if (run.horizon !== null) mark(drawing, run.horizon, run.growth_per_impact === null ? "horizon" : "horizon: beyond it, chaos", 14);
     const impact = run.first_impact?.expected ?? run.first_impact?.actual;
     if (impact) mark(drawing, impact.time, "first impact that differs", kHeight - kBottom - 8);
     line = drawing.appendChild(svg("line", { class: "chosen", y1: kTop, y2: kHeight - kBottom }));

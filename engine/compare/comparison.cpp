@@ -110,13 +110,13 @@ void list(const fs::path& folder, std::map<std::string, Pair>& pairs, fs::path P
 }
 
 std::vector<Pair> pairsOf(const fs::path& expected, const fs::path& actual,
-                          const std::vector<std::string>& only) {
+                          const std::set<std::string>& only) {
   std::map<std::string, Pair> byName;
   list(expected, byName, &Pair::expected);
   list(actual, byName, &Pair::actual);
   std::vector<Pair> pairs;
   for (auto& [name, pair] : byName) {
-    if (only.empty() || std::find(only.begin(), only.end(), name) != only.end()) {
+    if (only.empty() || only.contains(name)) {
       pairs.push_back(std::move(pair));
     }
   }
@@ -232,14 +232,16 @@ std::string pictureHeadline(const Comparison& comparison) {
 }
 
 std::string runHeadline(const RunDifference& run, bool same) {
+  const std::string until = run.until ? ", up to " + brief(*run.until) + " s" : "";
   if (run.sameBits) {
-    return "same motion, bit for bit";
+    return "same motion, bit for bit" + until;
   }
   if (!run.incomparable.empty()) {
     return "other motion: " + run.incomparable.front();
   }
   if (same) {
-    return "same motion, within " + brief(run.worst.difference.relative) + " of a box's size or radians";
+    return "same motion, within " + brief(run.worst.difference.relative) + " of a box's size or radians" +
+           until;
   }
   if (run.expectedDuration != run.actualDuration && !run.firstTime) {
     return "same motion, but it lasts " + brief(run.actualDuration) + " s, not " +
@@ -264,8 +266,6 @@ std::vector<Fact> factsOf(const Trajectory& expected, const Trajectory& actual) 
   add("state hash", [](const Trajectory& run) { return run.stateHash(); });
   add("method", [](const Trajectory& run) { return std::string(traitsOf(run.settings.method).name); });
   add("tolerance [m]", [](const Trajectory& run) { return brief(run.settings.tolerance); });
-  add("duration [s]", [](const Trajectory& run) { return brief(run.settings.duration); });
-  add("impacts", [](const Trajectory& run) { return std::to_string(run.impacts.size()); });
   add("energy change [1]", [](const Trajectory& run) { return brief(run.figures.energyChange); });
   add("deepest penetration [m]", [](const Trajectory& run) { return brief(run.figures.deepestPenetration); });
   return facts;

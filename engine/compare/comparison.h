@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -73,7 +74,7 @@ struct ComparisonSettings {
   bool motionCounts = true;  ///< a film of another motion is another film, even if its pictures are the same
   bool flip = false;         ///< ꟻLIP, too, which takes ten times as long as all the rest
   int threads = 1;           ///< frames that are compared side by side
-  std::vector<std::string> only;  ///< of folders, the frames of these names; empty: all there are
+  std::set<std::string> only;  ///< of folders, the frames of these names; empty: all there are
 };
 
 /// Tells how many frames of how many are compared.
@@ -86,7 +87,7 @@ Comparison comparePictures(const std::filesystem::path& expected, const std::fil
 
 /// All PNG files of two folders, by name. A frame that is missing, broken or of another size is a different
 /// one. `sameMotion`: whether both films are known to be of one motion, or not. InputError if a folder has no
-/// PNG. Memory: the frames at hand, and some 300 bytes for each of all.
+/// PNG. Memory: the frames at hand, and less than a kB for each of all.
 Comparison compareFolders(const std::filesystem::path& expected, const std::filesystem::path& actual,
                           const ComparisonSettings& settings, std::optional<bool> sameMotion,
                           const ComparisonCallback& progress = {}, const std::stop_token& stop = {});

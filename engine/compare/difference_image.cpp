@@ -4,10 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <vector>
-
-#include "core/error.h"
 
 namespace careen {
 namespace {
@@ -18,9 +15,7 @@ using Rgb = std::array<int, 3>;  // of 65535
 class Pair {
  public:
   Pair(const DeepPicture& expected, const DeepPicture& actual) {
-    if (expected.width != actual.width || expected.height != actual.height) {
-      throw InputError("found a picture of " + sizeOf(actual) + ", expected one of " + sizeOf(expected));
-    }
+    requireOneSize(expected, actual);
     const bool alpha = expected.channels == 4 || actual.channels == 4;
     expected_ = deepened(alpha ? withAlpha(expected) : expected);
     actual_ = deepened(alpha ? withAlpha(actual) : actual);
@@ -41,10 +36,6 @@ class Pair {
   }
 
  private:
-  static std::string sizeOf(const DeepPicture& picture) {
-    return std::to_string(picture.width) + "x" + std::to_string(picture.height);
-  }
-
   DeepPicture expected_;
   DeepPicture actual_;
 };

@@ -11,7 +11,6 @@
 #include <string>
 
 #include "compare/perceptual_color.h"
-#include "core/error.h"
 
 namespace careen {
 namespace {
@@ -110,15 +109,8 @@ Vec lightOfOpponent(const Vec& v) {
 Vec huntLab(const Vec& light) {
   static const Vec kWhite = whiteXyz();
   const Vec xyz = times(kXyzOfRgb, light);
-  const auto root = [](float t) {
-    constexpr float kDelta = 6.0F / 29.0F;
-    return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0F / 29.0F;
-  };
-  const float x = root(xyz[0] / kWhite[0]);
-  const float y = root(xyz[1] / kWhite[1]);
-  const float z = root(xyz[2] / kWhite[2]);
-  const float lightness = 116 * y - 16;
-  return {lightness, 0.01F * lightness * 500 * (x - y), 0.01F * lightness * 200 * (y - z)};
+  const Lab lab = labOfXyz({xyz[0] / kWhite[0], xyz[1] / kWhite[1], xyz[2] / kWhite[2]});
+  return {lab.L, 0.01F * lab.L * lab.a, 0.01F * lab.L * lab.b};
 }
 
 /// The distance for large differences of 3.2, to the power q_c.
@@ -292,11 +284,7 @@ Features featuresOf(const Opponent& picture, Grid grid, double pixelsPerDegree) 
 }  // namespace
 
 Flip flipOf(const DeepPicture& expected, const DeepPicture& actual, double pixelsPerDegree) {
-  if (expected.width != actual.width || expected.height != actual.height) {
-    throw InputError("pictures of " + std::to_string(expected.width) + " x " +
-                     std::to_string(expected.height) + " and " + std::to_string(actual.width) + " x " +
-                     std::to_string(actual.height) + " pixels cannot be compared");
-  }
+  requireOneSize(expected, actual);
   const Grid grid{expected.width, expected.height};
   const Opponent one = opponentOf(expected);
   const Opponent other = opponentOf(actual);

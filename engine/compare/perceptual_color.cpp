@@ -38,13 +38,19 @@ float lightOfSrgb(float encoded) {
   return encoded <= 0.04045F ? encoded / 12.92F : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
 }
 
+Lab labOfXyz(const std::array<float, 3>& xyz) {
+  const float x = labRoot(xyz[0]);
+  const float y = labRoot(xyz[1]);
+  const float z = labRoot(xyz[2]);
+  return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
 Lab labOfLight(const std::array<float, 3>& rgb) {
   // Rows of IEC 61966-2-1's matrix, each over its sum, for X, Y and Z of white are what its rows sum to.
   const auto [r, g, b] = rgb;
-  const float x = labRoot((0.4124F * r + 0.3576F * g + 0.1805F * b) / (0.4124F + 0.3576F + 0.1805F));
-  const float y = labRoot(0.2126F * r + 0.7152F * g + 0.0722F * b);
-  const float z = labRoot((0.0193F * r + 0.1192F * g + 0.9505F * b) / (0.0193F + 0.1192F + 0.9505F));
-  return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+  return labOfXyz({(0.4124F * r + 0.3576F * g + 0.1805F * b) / (0.4124F + 0.3576F + 0.1805F),
+                   0.2126F * r + 0.7152F * g + 0.0722F * b,
+                   (0.0193F * r + 0.1192F * g + 0.9505F * b) / (0.0193F + 0.1192F + 0.9505F)});
 }
 
 // Equations (2) to (22) of the paper.

@@ -14,6 +14,9 @@ struct Lab {
 /// Light [0 … 1] of a value of sRGB [0 … 1]: IEC 61966-2-1.
 float lightOfSrgb(float encoded);
 
+/// Of X, Y and Z over those of white.
+Lab labOfXyz(const std::array<float, 3>& xyz);
+
 /// Of linear light of the primaries of sRGB [0 … 1]. White is that of the matrix, so that grey has no colour.
 Lab labOfLight(const std::array<float, 3>& rgb);
 

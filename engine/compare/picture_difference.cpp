@@ -6,12 +6,10 @@
 #include <cstdint>
 #include <cstdlib>
 #include <span>
-#include <string>
 #include <utility>
 
 #include "compare/perceptual_color.h"
 #include "compare/structural_similarity.h"
-#include "core/error.h"
 
 namespace careen {
 namespace {
@@ -41,11 +39,11 @@ const std::vector<Sample>& samplesOf(const DeepPicture& picture) {
   }
 }
 
-/// Two pictures of one size, depth and number of channels.
+/// Of two pictures of one size, depth and number of channels.
 template <class Sample>
-class Comparison {
+class Measuring {
  public:
-  Comparison(const DeepPicture& expected, const DeepPicture& actual)
+  Measuring(const DeepPicture& expected, const DeepPicture& actual)
       : width_(expected.width),
         height_(expected.height),
         channels_(static_cast<std::size_t>(expected.channels)),
@@ -54,7 +52,6 @@ class Comparison {
     result_.pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     result_.byStep.assign(kFull + 1U, 0);
     result_.byStepOfEdges.assign(kFull + 1U, 0);
-    result_.shift.assign(channels_, 0);
   }
 
   PictureDifference run() {
@@ -77,26 +74,20 @@ class Comparison {
 
   template <std::size_t kChannels>
   void addRow(int y, std::span<const Sample> one, std::span<const Sample> other) {
-    std::array<std::int64_t, kChannels> signedSums{};
     std::uint64_t sum = 0;
     std::uint64_t squares = 0;
     for (int x = 0; x < width_; ++x) {
       const std::size_t place = static_cast<std::size_t>(x) * kChannels;
       int most = 0;
       for (std::size_t k = 0; k < kChannels; ++k) {
-        const int difference = other[place + k] - one[place + k];
-        const auto size = static_cast<unsigned>(std::abs(difference));
-        signedSums[k] += difference;
-        sum += size;
-        squares += std::uint64_t{size} * size;
-        most = std::max(most, std::abs(difference));
+        const int difference = std::abs(other[place + k] - one[place + k]);
+        sum += static_cast<unsigned>(difference);
+        squares += static_cast<std::uint64_t>(difference) * static_cast<unsigned>(difference);
+        most = std::max(most, difference);
       }
       if (most != 0) {
         addPixel(x, y, most);
       }
-    }
-    for (std::size_t k = 0; k < kChannels; ++k) {
-      result_.shift[k] += static_cast<double>(signedSums[k]);
     }
     sum_ += sum;
     squares_ += squares;
@@ -114,9 +105,7 @@ class Comparison {
     }
     const bool edge = liesWithin(expected_, actual_, x, y) || liesWithin(actual_, expected_, x, y);
     result_.byStepOfEdges[static_cast<std::size_t>(most)] += edge ? 1 : 0;
-    const auto color = static_cast<double>(ciede2000(labAt(expected_, x, y), labAt(actual_, x, y)));
-    result_.largestColor = std::max(result_.largestColor, color);
-    if (color > kVisible) {
+    if (static_cast<double>(ciede2000(labAt(expected_, x, y), labAt(actual_, x, y))) > kVisible) {
       ++result_.changed;
       result_.changedByEdges += edge ? 1 : 0;
     }
@@ -195,9 +184,6 @@ class Comparison {
     result_.largest = static_cast<double>(largest_) / kFull;
     result_.mean = static_cast<double>(sum_) / kFull / samples;
     result_.meanSquare = static_cast<double>(squares_) / kFull / kFull / samples;
-    for (double& shift : result_.shift) {
-      shift /= kFull * static_cast<double>(result_.pixels);
-    }
     const std::size_t place = (static_cast<std::size_t>(result_.largestY) * static_cast<std::size_t>(width_) +
                                static_cast<std::size_t>(result_.largestX)) *
                               channels_;
@@ -241,19 +227,15 @@ std::size_t PictureDifference::pixelsOver(double threshold, bool edgesToo) const
 }
 
 PictureDifference differenceOf(const DeepPicture& expected, const DeepPicture& actual) {
-  if (expected.width != actual.width || expected.height != actual.height) {
-    throw InputError("pictures of " + std::to_string(expected.width) + " x " +
-                     std::to_string(expected.height) + " and " + std::to_string(actual.width) + " x " +
-                     std::to_string(actual.height) + " pixels cannot be compared");
-  }
+  requireOneSize(expected, actual);
   if (expected.deep != actual.deep) {
     return differenceOf(deepened(expected), deepened(actual));
   }
   if (expected.channels != actual.channels) {
     return differenceOf(withAlpha(expected), withAlpha(actual));
   }
-  return expected.deep ? Comparison<std::uint16_t>(expected, actual).run()
-                       : Comparison<std::uint8_t>(expected, actual).run();
+  return expected.deep ? Measuring<std::uint16_t>(expected, actual).run()
+                       : Measuring<std::uint8_t>(expected, actual).run();
 }
 
 }  // namespace careen

@@ -20,8 +20,6 @@ struct PictureDifference {
   int largestChannel = 0;  ///< 0 red, 1 green, 2 blue, 3 alpha
   double mean = 0;         ///< of all channels, of the absolute value
   double meanSquare = 0;   ///< of all channels
-  /// Signed, the second less the first, of red, green, blue and alpha.
-  std::vector<double> shift;
 
   /// Of luma 0.299 R' + 0.587 G' + 0.114 B'; see structural_similarity.h.
   double ssim = 1;
@@ -32,7 +30,6 @@ struct PictureDifference {
   /// Pixels whose colours are more than kVisible apart in CIEDE2000, and those of them that edges explain.
   std::size_t changed = 0;
   std::size_t changedByEdges = 0;
-  double largestColor = 0;  ///< [CIEDE2000], of the pixels with a channel more than 1/255 apart
 
   /// How many pixels have which largest difference of a channel, in steps of 1/255, or 1/65535 where either
   /// picture is deep; and of those with more than 1/255 the ones that edges explain.

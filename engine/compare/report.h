@@ -22,6 +22,9 @@ void writeReport(const std::filesystem::path& folder, const Comparison& comparis
 /// report.schema.json tells each field with its unit.
 std::string reportJson(const Comparison& comparison, int indent = 2);
 
+/// What reportJson() has of one frame, on one line.
+std::string frameJson(const FrameComparison& frame);
+
 /// JUnit's XML as Jenkins, GitLab and others read it. A difference is a failure, a warning is written to
 /// system-out. No times: how long a frame took is not measured.
 std::string reportJunit(const Comparison& comparison);

@@ -22,6 +22,11 @@ Json number(double value) {
 
 Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
+// Names of files and boxes may hold any bytes.
+std::string text(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 Json toleranceJson(const Comparison& comparison) {
   const Tolerance& tolerance = comparison.tolerance;
   return {{"name", comparison.toleranceName},
@@ -38,7 +43,7 @@ Json toleranceJson(const Comparison& comparison) {
           {"least_window_ssim", number(tolerance.leastWindowSsim)}};
 }
 
-Json frameJson(const FrameComparison& frame) {
+Json frameOf(const FrameComparison& frame) {
   Json json = {{"name", frame.name},
                {"verdict", nameOf(frame.verdict)},
                {"reasons", frame.reasons},
@@ -115,6 +120,7 @@ Json runJson(const RunDifference& run) {
   }
   return {{"incomparable", run.incomparable},
           {"same_bits", run.sameBits},
+          {"until", number(run.until)},
           {"first_time", number(run.firstTime)},
           {"horizon", number(run.horizon)},
           {"growth_per_impact", number(run.growthPerImpact)},
@@ -139,7 +145,7 @@ std::string reportJson(const Comparison& comparison, int indent) {
   }
   Json frames = Json::array();
   for (const FrameComparison& frame : comparison.frames) {
-    frames.push_back(frameJson(frame));
+    frames.push_back(frameOf(frame));
   }
   const Json report = {{"report", 1},
                        {"program", comparison.program},
@@ -155,7 +161,9 @@ std::string reportJson(const Comparison& comparison, int indent) {
                        {"worst", nameOrNull(comparison.worst())},
                        {"frames", frames},
                        {"run", comparison.run ? runJson(*comparison.run) : Json(nullptr)}};
-  return report.dump(indent, ' ', false, Json::error_handler_t::replace);
+  return text(report, indent);
 }
+
+std::string frameJson(const FrameComparison& frame) { return text(frameOf(frame), -1); }
 
 }  // namespace careen

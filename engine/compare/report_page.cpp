@@ -1,5 +1,3 @@
-#include <array>
-#include <charconv>
 #include <map>
 #include <sstream>
 #include <string>
@@ -18,13 +16,6 @@ namespace careen {
 namespace {
 
 std::string escaped(std::string_view text) { return escapedForMarkup(text); }
-
-// All of its digits: two numbers that differ must not look the same.
-std::string inFull(double value) {
-  std::array<char, 32> digits{};
-  char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  return {digits.data(), end};
-}
 
 std::string row(const std::string& name, const std::string& expected, const std::string& actual) {
   const bool same = expected == actual;

@@ -47,7 +47,8 @@ std::string reasonOfRun(const RunDifference& run) {
     return "The two cannot be of one scene: " + joined(run.incomparable) + ".";
   }
   if (run.sameBits) {
-    return "Every motion and every impact is the same, bit for bit.";
+    return (run.until ? "Up to " + brief(*run.until) + " s every" : std::string("Every")) +
+           " motion and every impact is the same, bit for bit.";
   }
   std::string text;
   if (run.firstImpact) {

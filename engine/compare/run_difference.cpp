@@ -14,8 +14,9 @@
 namespace careen {
 namespace {
 
-// An average over fewer says little.
+// Less says little of impacts' doing.
 constexpr std::size_t kLeastImpactsToGrowBy = 3;
+constexpr double kLeastGrowth = 10;  // beyond that of another speed, which grows as time does
 
 bool sameBits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -35,31 +36,14 @@ bool sameBits(const Impact& a, const Impact& b) {
          sameBits(a.tangential, b.tangential);
 }
 
-// All that moves, box by box in the order of their names, and nothing of how it was computed or what the
-// scene's file says beside it.
+// How boxes move, in the order of their names, and nothing of how that was computed or what the scene's file
+// says beside it.
 std::string motionBytes(const Trajectory& run) {
-  std::map<std::string, std::size_t> byName;
-  for (std::size_t i = 0; i < run.tracks.size(); ++i) {
-    byName[run.tracks[i].name] = i;
-  }
   Trajectory bare;
   bare.settings.duration = run.settings.duration;
-  bare.wallNames = run.wallNames;
-  bare.impacts = run.impacts;
-  std::vector<int> places(run.tracks.size());
-  for (const auto& [name, place] : byName) {
-    places[place] = static_cast<int>(bare.tracks.size());
-    bare.tracks.push_back(run.tracks[place]);
-  }
-  const auto renumber = [&places](BodyIndex& body) {
-    body.value = places.at(static_cast<std::size_t>(body.value));
-  };
-  for (Impact& impact : bare.impacts) {
-    renumber(impact.a);
-    if (BodyIndex* other = std::get_if<BodyIndex>(&impact.b)) {
-      renumber(*other);
-    }
-  }
+  bare.tracks = run.tracks;
+  std::sort(bare.tracks.begin(), bare.tracks.end(),
+            [](const Track& a, const Track& b) { return a.name < b.name; });
   return encodeTrajectory(bare);
 }
 
@@ -118,21 +102,18 @@ class Pair {
 
   // Looked for where a segment begins, and at the end.
   std::optional<double> firstDifference() const {
-    double first = duration_;
-    bool differ = false;
+    std::optional<double> first;
     for (std::size_t body = 0; body < places_.size(); ++body) {
       for (const double time : startsOf(body)) {
-        if (differ && time >= first) {
+        if (first && time >= *first) {
           break;
         }
         if (!sameBits(expectedState(body, time), actualState(body, time))) {
           first = time;
-          differ = true;
-          break;
         }
       }
     }
-    return differ ? std::optional(first) : std::nullopt;
+    return first;
   }
 
   std::pair<double, double> energies() const {
@@ -258,9 +239,11 @@ void compareImpacts(const Trajectory& expected, const Trajectory& actual, double
   }
 }
 
-// From the first difference there is to the last before the horizon.
+// From the first difference after the start to the last before the horizon.
 std::optional<double> growthPerImpact(const RunDifference& found, const std::vector<Impact>& impacts) {
-  const auto differs = [](const RunSample& sample) { return sample.difference.relative > 0; };
+  const auto differs = [](const RunSample& sample) {
+    return sample.difference.relative > 0 && sample.time > 0;
+  };
   const auto from = std::find_if(found.growth.begin(), found.growth.end(), differs);
   if (from == found.growth.end() || !found.horizon) {
     return std::nullopt;
@@ -272,10 +255,11 @@ std::optional<double> growthPerImpact(const RunDifference& found, const std::vec
     return impact.time > from->time && impact.time <= last->time;
   };
   const auto count = static_cast<std::size_t>(std::count_if(impacts.begin(), impacts.end(), within));
-  if (count < kLeastImpactsToGrowBy) {
+  const double growth = last->difference.relative / from->difference.relative;
+  if (count < kLeastImpactsToGrowBy || growth < kLeastGrowth * last->time / from->time) {
     return std::nullopt;
   }
-  return std::pow(last->difference.relative / from->difference.relative, 1.0 / static_cast<double>(count));
+  return std::pow(growth, 1.0 / static_cast<double>(count));
 }
 
 }  // namespace
@@ -314,8 +298,11 @@ RunDifference differenceOf(const Trajectory& expected, const Trajectory& actual,
   }
   const bool whole =
       pair.duration() == expected.settings.duration && pair.duration() == actual.settings.duration;
-  found.sameBits = whole ? motionBytes(expected) == motionBytes(actual)
-                         : pair.duration() == until && !found.firstTime && !found.firstImpact;
+  if (!whole && pair.duration() == until) {
+    found.until = until;
+  }
+  found.sameBits = !found.firstTime && !found.firstImpact &&
+                   (found.until || (whole && motionBytes(expected) == motionBytes(actual)));
   found.growthPerImpact = growthPerImpact(found, expected.impacts);
   std::tie(found.expectedEnergy, found.actualEnergy) = pair.energies();
   return found;

@@ -33,13 +33,16 @@ struct ImpactDifference {
 struct RunDifference {
   std::vector<std::string> incomparable;  ///< why the two cannot be the same scene, in words; else
   bool sameBits = false;                  ///< every motion and every impact
+  std::optional<double> until;            ///< [s] what came later was left out, as asked for
   std::optional<double> firstTime;        ///< [s] from here on a state differs, by however little
   std::vector<RunSample> growth;          ///< kRunSamples + 1 moments, evenly spread
   RunSample worst;                        ///< of those moments, up to the horizon
   /// [s] before kHorizonDifference is exceeded. What small difference there was has grown so large that from
   /// here on places say nothing any more: compare energies and counts.
   std::optional<double> horizon;
-  /// By how much a difference grew from impact to impact, on average; if there were impacts to grow by.
+  /// By how much a difference grew from impact to impact, on average; if there were some to grow by, and it
+  /// became ten times as large as time alone makes it. Then chaos made it grow; else it was large at once, or
+  /// a speed differs.
   std::optional<double> growthPerImpact;
   std::optional<ImpactDifference> firstImpact;      ///< any bit of it
   std::optional<ImpactDifference> firstOtherEvent;  ///< other bodies, or not there

@@ -10,7 +10,7 @@
 
 namespace careen {
 
-/// How much two pictures may differ. The first seven are idiff's, of OpenImageIO, and mean the same: a pixel
+/// How much two pictures may differ. The first six are idiff's, of OpenImageIO, and mean the same: a pixel
 /// fails if a channel of it differs by more than `fail`, and the pictures differ if more than `failPercent`
 /// of the pixels fail or one differs by more than `hardFail`; with `warn` likewise for a warning. All that is
 /// said of a picture must hold.
@@ -36,14 +36,12 @@ struct Tolerance {
 
 /// Tolerances by name, strictest first:
 /// - "exact": not one sample differs.
-/// - "same-machine": 0.005 % of the pixels may differ, by 1/255. Threads, jobs and the width of vectors do
-/// nothing.
-/// - "same-picture": 0.01 % may differ by more than 1/255, 0.001 % or one pixel in colour to the eye. For
-///   other processors and versions of one renderer; catches a box moved by a pixel and a colour off by 3/255.
-/// - "other-renderer": edges may lie a third of a pixel elsewhere; of other pixels 0.25 % may differ by more
-/// than 4/255 or
-///   in colour to the eye; SSIM is 0.98, every window's 0.3. Catches a missing shadow, a lost frame, a box
-///   moved by two pixels.
+/// - "same-machine": 0.005 % of the pixels may differ, by 1/255: threads, jobs, vectors wider than 128 bits.
+/// - "same-picture": 0.01 % may differ by more than 1/255, 0.001 % or one pixel in colour to the eye: other
+///   processors and versions of one renderer. Catches a box moved by a pixel and a colour off by 3/255.
+/// - "other-renderer": edges may lie a third of a pixel elsewhere; of the other pixels 0.25 % may differ by
+///   more than 4/255, or in colour to the eye; SSIM is at least 0.98, that of every window 0.3. Catches a
+///   missing shadow, a lost frame, a box moved by two pixels.
 inline constexpr std::array<std::string_view, 4> kToleranceNames = {"exact", "same-machine", "same-picture",
                                                                     "other-renderer"};
 /// InputError, naming those there are, if there is none of the name.

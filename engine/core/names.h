@@ -9,16 +9,23 @@
 
 namespace careen {
 
+/// "one, two, three"
+inline std::string listed(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) {
+    text.append(text.empty() ? "" : ", ").append(name);
+  }
+  return text;
+}
+
 /// The place of a name among those there are; InputError, which lists them, if it is none of them.
 inline std::size_t placeAmong(std::string_view name, std::span<const std::string_view> names) {
-  std::string known;
   for (std::size_t place = 0; place < names.size(); ++place) {
     if (names[place] == name) {
       return place;
     }
-    known.append(known.empty() ? "" : ", ").append(names[place]);
   }
-  throw InputError("found '" + std::string(name) + "', expected one of: " + known);
+  throw InputError("found '" + std::string(name) + "', expected one of: " + listed(names));
 }
 
 }  // namespace careen

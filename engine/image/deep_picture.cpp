@@ -15,7 +15,6 @@
 namespace careen {
 namespace {
 
-constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28U;
 constexpr std::uint64_t kMostInflation = 1032;  // DEFLATE cannot do more: 258 bytes of two bits
 
@@ -102,10 +101,10 @@ void takeData(Chunks& chunks, std::string_view body) {
 
 /// Reads into `chunks`, which the caller keeps: `data` may point into it.
 void readChunks(Chunks& chunks, std::string_view bytes, const std::string& name) {
-  if (!bytes.starts_with(kSignature)) {
+  if (!bytes.starts_with(kPngSignature)) {
     fail(name, "is no PNG");
   }
-  for (bytes.remove_prefix(kSignature.size()); bytes.size() >= 12;) {
+  for (bytes.remove_prefix(kPngSignature.size()); bytes.size() >= 12;) {
     const std::size_t length = bigEndian(bytes);
     if (length > bytes.size() - 12) {
       break;
@@ -299,6 +298,16 @@ std::vector<Sample> unpacked(const Chunks& chunks, const Spreader& spreader, con
   return samples;
 }
 
+template <class Sample>
+std::vector<Sample> opaque(const std::vector<Sample>& rgb) {
+  std::vector<Sample> rgba;
+  rgba.reserve(rgb.size() / 3 * 4);
+  for (std::size_t i = 0; i < rgb.size(); i += 3) {
+    rgba.insert(rgba.end(), {rgb[i], rgb[i + 1], rgb[i + 2], static_cast<Sample>(-1)});
+  }
+  return rgba;
+}
+
 }  // namespace
 
 DeepPicture decodeDeepPng(std::string_view bytes, const std::string& name) {
@@ -329,6 +338,15 @@ DeepPicture readDeepPng(const std::filesystem::path& path) {
   return decodeDeepPng(readFile(path), path.string());
 }
 
+void requireOneSize(const DeepPicture& expected, const DeepPicture& actual) {
+  const auto sizeOf = [](const DeepPicture& picture) {
+    return std::to_string(picture.width) + "x" + std::to_string(picture.height);
+  };
+  if (expected.width != actual.width || expected.height != actual.height) {
+    throw InputError("found a picture of " + sizeOf(actual) + " pixels, expected one of " + sizeOf(expected));
+  }
+}
+
 DeepPicture deepened(const DeepPicture& picture) {
   DeepPicture result = picture;
   if (!picture.deep) {
@@ -341,20 +359,6 @@ DeepPicture deepened(const DeepPicture& picture) {
   }
   return result;
 }
-
-namespace {
-
-template <class Sample>
-std::vector<Sample> opaque(const std::vector<Sample>& rgb) {
-  std::vector<Sample> rgba;
-  rgba.reserve(rgb.size() / 3 * 4);
-  for (std::size_t i = 0; i < rgb.size(); i += 3) {
-    rgba.insert(rgba.end(), {rgb[i], rgb[i + 1], rgb[i + 2], static_cast<Sample>(-1)});
-  }
-  return rgba;
-}
-
-}  // namespace
 
 DeepPicture withAlpha(const DeepPicture& picture) {
   DeepPicture result = picture;

@@ -28,6 +28,9 @@ struct DeepPicture {
   std::size_t samples() const { return rowSamples() * static_cast<std::size_t>(height); }
 };
 
+/// What every PNG begins with.
+inline constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
+
 /// Any PNG: every colour type, depth and filter, interlaced or not. InputError, naming `name`, if a byte of
 /// it is missing, a checksum is wrong, or it claims more pixels than its data can hold or than 2^28.
 DeepPicture decodeDeepPng(std::string_view bytes, const std::string& name);
@@ -42,6 +45,9 @@ struct PngSize {
 /// InputError, naming `name`, if something of a PNG is missing or a checksum is wrong: quick, for its pixels
 /// are not unpacked.
 PngSize checkPng(std::string_view bytes, const std::string& name);
+
+/// InputError, naming both sizes, if they are not one.
+void requireOneSize(const DeepPicture& expected, const DeepPicture& actual);
 
 /// The same picture with 16 bits a sample (the same share of full), and with alpha (opaque).
 DeepPicture deepened(const DeepPicture& picture);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -17,7 +18,6 @@
 namespace careen {
 namespace {
 
-constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
 constexpr std::string_view kEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
 
 void appendBigEndian(std::string& bytes, std::uint32_t value) {
@@ -88,7 +88,7 @@ std::string encodePng(const Picture& picture) {
     throw InputError("a picture of " + std::to_string(picture.width) + " x " +
                      std::to_string(picture.height) + " cannot be written as PNG");
   }
-  std::string bytes(kSignature);
+  std::string bytes(kPngSignature);
   Chunk header(bytes, "IHDR");
   appendBigEndian(bytes, static_cast<std::uint32_t>(picture.width));
   appendBigEndian(bytes, static_cast<std::uint32_t>(picture.height));
@@ -102,11 +102,11 @@ std::string encodePng(const Picture& picture) {
 }
 
 Picture decodePng(std::string_view bytes, const std::string& name) {
-  const DeepPicture deep = decodeDeepPng(bytes, name);
+  DeepPicture deep = decodeDeepPng(bytes, name);
   Picture picture{.width = deep.width, .height = deep.height, .rgb = {}};
   const auto channels = static_cast<std::size_t>(deep.channels);
   if (channels == 3 && !deep.deep) {
-    picture.rgb = deep.samples8;
+    picture.rgb = std::move(deep.samples8);
     return picture;
   }
   picture.rgb.reserve(picture.rowBytes() * static_cast<std::size_t>(picture.height));

@@ -16,52 +16,45 @@ using Words = std::vector<std::string>;
 
 constexpr std::array<std::string_view, 3> kQualities = {"draft", "good", "best"};
 
-struct Suffix {
-  std::string_view suffix;
-  std::string_view muxer;                  // as ffmpeg calls it
-  std::array<std::string_view, 3> codecs;  // the usual one first
+constexpr std::array<std::string_view, 5> kSuffixes = {".mp4", ".mkv", ".webm", ".webp", ".gif"};
+
+constexpr std::array<std::string_view, 3> kVideoCodecs = {"h264", "vp9", "av1"};
+constexpr std::array<std::string_view, 2> kWebmCodecs = {"vp9", "av1"};
+constexpr std::array<std::string_view, 1> kWebpCodecs = {"webp"};
+constexpr std::array<std::string_view, 1> kGifCodecs = {"gif"};
+
+struct Container {
+  std::string_view muxer;                    // as ffmpeg calls it
+  std::span<const std::string_view> codecs;  // the usual one first
 };
-constexpr std::array<Suffix, 5> kSuffixes = {{{".mp4", "mp4", {"h264", "vp9", "av1"}},
-                                              {".mkv", "matroska", {"h264", "vp9", "av1"}},
-                                              {".webm", "webm", {"vp9", "av1", ""}},
-                                              {".webp", "webp", {"webp", "", ""}},
-                                              {".gif", "gif", {"gif", "", ""}}}};
+constexpr std::array<Container, kSuffixes.size()> kContainers = {{{"mp4", kVideoCodecs},
+                                                                  {"matroska", kVideoCodecs},
+                                                                  {"webm", kWebmCodecs},
+                                                                  {"webp", kWebpCodecs},
+                                                                  {"gif", kGifCodecs}}};
 
 // Chroma is halved, so sizes are made even.
 constexpr const char* kYuv =
     "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
 
-std::string joined(std::span<const std::string_view> words) {
-  std::string text;
-  for (const std::string_view word : words) {
-    if (!word.empty()) {
-      text += (text.empty() ? "" : ", ") + std::string(word);
-    }
-  }
-  return text;
-}
-
-const Suffix& suffixOf(const VideoSettings& settings) {
+const Container& containerOf(const VideoSettings& settings) {
   const std::string suffix = settings.path.extension().string();
-  std::string known;
-  for (const Suffix& each : kSuffixes) {
-    if (each.suffix == suffix) {
-      return each;
-    }
-    known += (known.empty() ? "" : ", ") + std::string(each.suffix);
+  const auto* const found = std::find(kSuffixes.begin(), kSuffixes.end(), suffix);
+  if (found == kSuffixes.end()) {
+    throw InputError(settings.path.string() + ": found a video's name that ends in '" + suffix +
+                     "', expected one of: " + listed(kSuffixes));
   }
-  throw InputError(settings.path.string() + ": found a video's name that ends in '" + suffix +
-                   "', expected one of: " + known);
+  return kContainers.at(static_cast<std::size_t>(found - kSuffixes.begin()));
 }
 
 std::string codecOf(const VideoSettings& settings) {
-  const Suffix& suffix = suffixOf(settings);
+  const std::span<const std::string_view> codecs = containerOf(settings).codecs;
   if (settings.codec.empty()) {
-    return std::string(suffix.codecs[0]);
+    return std::string(codecs[0]);
   }
-  if (std::find(suffix.codecs.begin(), suffix.codecs.end(), settings.codec) == suffix.codecs.end()) {
+  if (std::find(codecs.begin(), codecs.end(), settings.codec) == codecs.end()) {
     throw InputError(settings.path.string() + ": found codec '" + settings.codec + "', expected for " +
-                     std::string(suffix.suffix) + " one of: " + joined(suffix.codecs));
+                     settings.path.extension().string() + " one of: " + listed(codecs));
   }
   return settings.codec;
 }
@@ -162,7 +155,7 @@ Words ffmpegCommand(const VideoSettings& settings, const std::filesystem::path& 
   if (settings.path.extension() == ".mp4") {
     add({"-movflags", "+faststart"});
   }
-  add({"-f", std::string(suffixOf(settings).muxer), "file:" + output.string()});
+  add({"-f", std::string(containerOf(settings).muxer), "file:" + output.string()});
   return command;
 }
 

@@ -45,6 +45,14 @@ inline constexpr std::array kMethods = {
     steppedFlight(Method::kTaylor8, "taylor-8", 8),
     steppedFlight(Method::kMoserVeselov10, "moser-veselov-10", 10)};
 
+inline constexpr auto kMethodNames = [] {
+  std::array<std::string_view, kMethods.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    names[i] = kMethods[i].name;
+  }
+  return names;
+}();
+
 constexpr const MethodTraits& traitsOf(Method method) {
   const MethodTraits* known = kMethods.data();
   while (known->method != method) {

@@ -6,7 +6,8 @@ namespace careen {
 
 /// Keeps a folder to this process for as long as the object is there; the system gives it up when the process
 /// and those it forked end, however they end. Holds between machines too, where the file system has locks
-/// between them, as NFS has. Where there are none at all, two processes in one folder go unnoticed.
+/// between them, as NFS should (not tried). Where there are none at all, two processes in one folder go
+/// unnoticed.
 class FolderLock {
  public:
   /// Makes a hidden file in the folder, which goes with this object. InputError if another process holds the

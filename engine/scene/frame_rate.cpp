@@ -8,6 +8,7 @@
 #include <optional>
 #include <system_error>
 
+#include "core/brief.h"
 #include "core/error.h"
 
 namespace careen {
@@ -91,9 +92,7 @@ std::string FrameRate::text() const {
 
 FrameRate frameRateFrom(double framesPerSecond) {
   if (!inRange(framesPerSecond)) {
-    std::array<char, 32> digits{};
-    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), framesPerSecond);
-    fail({digits.data(), end});
+    fail(inFull(framesPerSecond));
   }
   for (const std::int64_t rate : kBroadcast) {
     const double exact = static_cast<double>(rate * 1000) / 1001;

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/names.h"
+
 namespace careen {
 namespace {
 
@@ -46,11 +48,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 }
 
 std::string oneOf(const std::vector<std::string_view>& known) {
-  std::string list;
-  for (const std::string_view each : known) {
-    list += (list.empty() ? "" : ", ") + std::string(each);
-  }
-  return known.size() == 1 ? list : "one of " + list;
+  return known.size() == 1 ? std::string(known[0]) : "one of " + listed(known);
 }
 
 std::string member(const std::string& label, std::string_view key) {

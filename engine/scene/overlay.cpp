@@ -3,19 +3,12 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/names.h"
 
 namespace careen {
 namespace {
 
 constexpr std::string_view kNone = "none";
-
-[[noreturn]] void failUnknown(std::string_view found) {
-  std::string known(kNone);
-  for (const std::string_view name : kOverlayNames) {
-    known.append(", ").append(name);
-  }
-  throw InputError("found '" + std::string(found) + "', expected one or more of: " + known);
-}
 
 }  // namespace
 
@@ -43,7 +36,8 @@ OverlaySet overlaysNamed(std::string_view text) {
     const std::string_view name = text.substr(start, end - start);
     const auto* const at = std::find(kOverlayNames.begin(), kOverlayNames.end(), name);
     if (at == kOverlayNames.end()) {
-      failUnknown(name);
+      throw InputError("found '" + std::string(name) + "', expected one or more of: " + std::string(kNone) +
+                       ", " + listed(kOverlayNames));
     }
     set.add(static_cast<Overlay>(at - kOverlayNames.begin()));
     start = end + 1;

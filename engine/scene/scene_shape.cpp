@@ -210,12 +210,7 @@ std::optional<Item> readOptional(const std::optional<JsonValue>& value, Read rea
 }
 
 Method readMethod(const JsonValue& value) {
-  std::vector<std::string_view> names;
-  names.reserve(kMethods.size());
-  for (const MethodTraits& known : kMethods) {
-    names.push_back(known.name);
-  }
-  return kMethods.at(value.word(names, "method")).method;
+  return kMethods.at(value.word({kMethodNames.begin(), kMethodNames.end()}, "method")).method;
 }
 
 }  // namespace

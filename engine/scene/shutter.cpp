@@ -1,8 +1,8 @@
 #include "scene/shutter.h"
 
-#include <array>
 #include <charconv>
 
+#include "core/brief.h"
 #include "core/error.h"
 
 namespace careen {
@@ -20,9 +20,7 @@ std::string Shutter::text() const {
   if (!(degrees > 0)) {
     return "none";
   }
-  std::array<char, 32> digits{};
-  char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), degrees).ptr;
-  return std::string(digits.data(), end) + ":" + std::to_string(samples);
+  return inFull(degrees) + ":" + std::to_string(samples);
 }
 
 Shutter parseShutter(std::string_view text) {

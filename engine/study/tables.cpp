@@ -1,25 +1,10 @@
-#include <array>
-#include <charconv>
 #include <sstream>
 
+#include "core/brief.h"
 #include "study/results.h"
 
 namespace careen {
 namespace {
-
-std::string exactly(double value) {
-  std::array<char, 32> digits{};
-  char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  return {digits.data(), end};
-}
-
-std::string general(double value, int precision) {
-  std::array<char, 32> digits{};
-  char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                  std::chars_format::general, precision)
-                        .ptr;
-  return {digits.data(), end};
-}
 
 // A message may hold commas, quotes and line ends.
 std::string quoted(const std::string& text) {
@@ -60,8 +45,8 @@ void addTable(std::ostream& text, const StudyResult& study, CellOf cellOf) {
 }
 
 std::string finenessOf(const Attempt& attempt) {
-  return attempt.dt > 0          ? " (dt " + general(attempt.dt, 3) + ")"
-         : attempt.tolerance > 0 ? " (tolerance " + general(attempt.tolerance, 3) + ")"
+  return attempt.dt > 0          ? " (dt " + brief(attempt.dt, 3) + ")"
+         : attempt.tolerance > 0 ? " (tolerance " + brief(attempt.tolerance, 3) + ")"
                                  : "";
 }
 
@@ -83,11 +68,11 @@ void addFindings(std::ostream& text, const StudyResult& study) {
       text << exact->failure << '\n';
       continue;
     }
-    text << "exact is wrong by " << inShort(exact->judgement.error) << " at " << general(exact->cost, 3)
+    text << "exact is wrong by " << inShort(exact->judgement.error) << " at " << brief(exact->cost, 3)
          << " µs/s;";
     for (const Attempt* other : better) {
       text << ' ' << other->contestant << finenessOf(*other) << " by " << inShort(other->judgement.error)
-           << " at " << general(other->cost, 3) << " µs/s;";
+           << " at " << brief(other->cost, 3) << " µs/s;";
     }
     text << '\n';
   }
@@ -98,19 +83,18 @@ void addFindings(std::ostream& text, const StudyResult& study) {
 
 }  // namespace
 
-std::string inShort(double value) { return general(value, 2); }
+std::string inShort(double value) { return brief(value, 2); }
 
 std::string resultsCsv(const StudyResult& study) {
   std::ostringstream csv;
   csv << "case,contestant,dt,tolerance,error,cost_us,spread,repeats,front,failure\n";
   for (const CaseResult& result : study.cases) {
     for (const Attempt& attempt : result.attempts) {
-      csv << result.name << ',' << attempt.contestant << ',' << (attempt.dt > 0 ? exactly(attempt.dt) : "")
-          << ',' << (attempt.tolerance > 0 ? exactly(attempt.tolerance) : "") << ',';
+      csv << result.name << ',' << attempt.contestant << ',' << (attempt.dt > 0 ? inFull(attempt.dt) : "")
+          << ',' << (attempt.tolerance > 0 ? inFull(attempt.tolerance) : "") << ',';
       if (attempt.failure.empty()) {
-        csv << exactly(attempt.judgement.error) << ',' << general(attempt.cost, 6) << ','
-            << general(attempt.spread, 3) << ',' << attempt.repeats << ',' << onFront(result, attempt)
-            << ",\n";
+        csv << inFull(attempt.judgement.error) << ',' << brief(attempt.cost, 6) << ','
+            << brief(attempt.spread, 3) << ',' << attempt.repeats << ',' << onFront(result, attempt) << ",\n";
       } else {
         csv << ",,,,0," << quoted(attempt.failure) << '\n';
       }
@@ -127,8 +111,8 @@ std::string energyCsv(const StudyResult& study) {
     for (const std::string& contestant : contestants) {
       const Attempt* const attempt = usualAttempt(result, contestant);
       for (std::size_t k = 0; attempt != nullptr && k < attempt->judgement.energy.size(); ++k) {
-        csv << result.name << ',' << contestant << ',' << exactly(result.times[k]) << ','
-            << exactly(attempt->judgement.energy[k]) << '\n';
+        csv << result.name << ',' << contestant << ',' << inFull(result.times[k]) << ','
+            << inFull(attempt->judgement.energy[k]) << '\n';
       }
     }
   }
@@ -144,7 +128,7 @@ std::string matrixCsv(const StudyResult& study) {
       const Attempt* const attempt = usualAttempt(study.cases[row], contestants[column]);
       const bool answered = attempt != nullptr && attempt->failure.empty();
       csv << row << ',' << column << ',' << study.cases[row].name << ',' << contestants[column] << ','
-          << (answered ? general(correctDigits(attempt->judgement.error), 4) : "-1") << ',' << cell(attempt)
+          << (answered ? brief(correctDigits(attempt->judgement.error), 4) : "-1") << ',' << cell(attempt)
           << '\n';
     }
   }
@@ -163,7 +147,7 @@ std::string resultsMarkdown(const StudyResult& study) {
   addTable(text, study, [](const Attempt* attempt) { return cell(attempt); });
   text << "\n## What the answers cost\n\nµs of one core per simulated second, at the usual step.\n\n";
   addTable(text, study, [](const Attempt* attempt) {
-    return attempt != nullptr && attempt->failure.empty() ? general(attempt->cost, 3) : std::string("–");
+    return attempt != nullptr && attempt->failure.empty() ? brief(attempt->cost, 3) : std::string("–");
   });
   addFindings(text, study);
   return text.str();

@@ -1,25 +1,19 @@
 #include "trajectory/export_csv.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <string>
 #include <variant>
 
+#include "core/brief.h"
 #include "core/error.h"
 
 namespace careen {
 namespace {
 
-// 17 significant digits bring the same double back; std::to_chars asks no locale for its decimal point.
 void append(std::string& row, double value) {
-  constexpr int kDigits = 17;
-  std::array<char, 32> digits{};
-  const std::to_chars_result end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, kDigits);
-  row += ',';
-  row.append(digits.data(), end.ptr);
+  constexpr int kDigits = 17;  // bring the same double back
+  row += ',' + brief(value, kDigits);
 }
 
 void append(std::string& row, const Vec3& vector) {

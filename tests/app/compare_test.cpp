@@ -68,7 +68,7 @@ TEST_F(Compare, framesAreLoggedAsLinesOfJson) {
   const Ended ended = compare({kGallery + "wall.png", kGallery + "stack.png", "--log", "json", "--flip"});
   EXPECT_EQ(ended.exitCode, 1);
   const nlohmann::json line = nlohmann::json::parse(ended.out);
-  EXPECT_EQ(line["frame"], "stack.png");
+  EXPECT_EQ(line["name"], "stack.png");
   EXPECT_EQ(line["verdict"], "different");
   EXPECT_GT(line["flip"], 0.01);
   EXPECT_LT(line["ssim"], 1);
@@ -108,6 +108,9 @@ TEST_F(Compare, motionMayBeComparedWithinATolerance) {
   const Ended ended = compare({"one.careen", "near.careen", "--motion", "1e-3", "--until", "1.5"});
   EXPECT_EQ(ended.exitCode, 0) << ended.out;
   EXPECT_NE(ended.out.find("same motion, within "), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find(" of a box's size or radians, up to 1.5 s\n"), std::string::npos) << ended.out;
+  EXPECT_EQ(compare({"one.careen", "one.careen", "--until", "1.5"}).out,
+            "same: same motion, bit for bit, up to 1.5 s\n");
 }
 
 TEST_F(Compare, badInputIsNamed) {

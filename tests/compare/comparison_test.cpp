@@ -142,7 +142,7 @@ TEST_F(Compared, anotherSizeIsADifference) {
   put("actual", 0, shadedTiles(96, 65));
   const Comparison found = compare();
   EXPECT_EQ(found.verdict, Verdict::kDifferent);
-  EXPECT_NE(found.frames[0].reasons.at(0).find("96 x 65"), std::string::npos) << found.frames[0].reasons[0];
+  EXPECT_NE(found.frames[0].reasons.at(0).find("96x65"), std::string::npos) << found.frames[0].reasons[0];
 }
 
 TEST_F(Compared, anotherMotionIsADifferenceUnlessItDoesNotCount) {

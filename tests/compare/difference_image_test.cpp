@@ -55,7 +55,7 @@ TEST(DifferenceImage, sizesMustBeTheSame) {
   EXPECT_EQ(inputErrorOf([] {
               differenceImage(row({1, 2, 3}), row({1, 2, 3, 4, 5, 6}), 1);
             }),
-            "found a picture of 2x1, expected one of 1x1");
+            "found a picture of 2x1 pixels, expected one of 1x1");
 }
 
 }  // namespace

@@ -32,7 +32,6 @@ TEST(PictureDifference, figuresAreThoseOfTheirDefinitions) {
   const PictureDifference difference = differenceOf(deepPicture(a), deepPicture(b));
   double sum = 0;
   double squares = 0;
-  std::array<double, 3> shift{};
   int largest = 0;
   std::size_t over40 = 0;
   for (std::size_t i = 0; i < a.rgb.size(); i += 3) {
@@ -41,7 +40,6 @@ TEST(PictureDifference, figuresAreThoseOfTheirDefinitions) {
       const int step = b.rgb[i + k] - a.rgb[i + k];
       sum += std::abs(step);
       squares += step * step;
-      shift[k] += step;
       most = std::max(most, std::abs(step));
     }
     largest = std::max(largest, most);
@@ -53,9 +51,6 @@ TEST(PictureDifference, figuresAreThoseOfTheirDefinitions) {
   EXPECT_NEAR(difference.psnr(), 10 * std::log10(255.0 * 255 * samples / squares), 1e-10);
   EXPECT_EQ(difference.largest, largest / 255.0);
   EXPECT_EQ(difference.pixelsOver(40.5 / 255), over40);
-  for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_NEAR(difference.shift[k], shift[k] / (samples / 3) / 255, 1e-14);
-  }
 }
 
 TEST(PictureDifference, theLargestDifferenceIsToldWithItsPlaceAndChannel) {
@@ -112,21 +107,26 @@ TEST(PictureDifference, otherSizesAreAnErrorThatNamesBoth) {
     differenceOf(deepPicture(flat(8, 4, 1)), deepPicture(flat(4, 8, 1)));
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "pictures of 8 x 4 and 4 x 8 pixels cannot be compared");
+    EXPECT_STREQ(error.what(), "found a picture of 4x8 pixels, expected one of 8x4");
   }
 }
 
 TEST(PictureDifference, visibleColoursAreCountedByTheirDistance) {
   const DeepPicture picture = flatPicture(12, 12, 200, 85, 61);
-  EXPECT_EQ(differenceOf(picture, flatPicture(12, 12, 203, 85, 61)).changed, 0U);
-  const PictureDifference difference = differenceOf(picture, flatPicture(12, 12, 240, 85, 61));
-  EXPECT_EQ(difference.changed, 144U);
-  EXPECT_EQ(difference.changedByEdges, 0U);
   const auto lab = [](int red) {
     return labOfLight(
         {lightOfSrgb(static_cast<float>(red) / 255), lightOfSrgb(85.0F / 255), lightOfSrgb(61.0F / 255)});
   };
-  EXPECT_NEAR(difference.largestColor, static_cast<double>(ciede2000(lab(200), lab(240))), 1e-4);
+  std::size_t visible = 0;
+  for (int red = 202; red < 240; ++red) {
+    const bool isVisible = static_cast<double>(ciede2000(lab(200), lab(red))) > kVisible;
+    const PictureDifference difference = differenceOf(picture, flatPicture(12, 12, red, 85, 61));
+    EXPECT_EQ(difference.changed, isVisible ? 144U : 0U) << red;
+    EXPECT_EQ(difference.changedByEdges, 0U) << red;
+    visible += isVisible ? 1 : 0;
+  }
+  EXPECT_GT(visible, 20U);
+  EXPECT_LT(visible, 38U);
 }
 
 TEST(PictureDifference, edgesExplainAThirdOfAPixel) {

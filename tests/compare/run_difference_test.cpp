@@ -25,6 +25,7 @@ TEST(RunDifference, sameRunsAreTheSameWhateverTheirFilesSayBeside) {
   other.sceneText = "another text";
   other.settings.tolerance = 1e-9;
   other.figures.energyChange = 0.5;
+  other.wallNames.emplace_back("one that nothing met");
   const RunDifference found = differenceOf(run, other);
   EXPECT_TRUE(found.sameBits);
   EXPECT_TRUE(found.incomparable.empty());
@@ -113,6 +114,22 @@ TEST(RunDifference, chaosHasAHorizonAndARate) {
   EXPECT_NEAR(found.actualEnergy / found.expectedEnergy, 1, 0.9);
 }
 
+// Two boxes that go to and fro between walls, one a bit faster: time makes that difference, not impacts.
+TEST(RunDifference, whatGrowsAsTimeDoesIsNoChaos) {
+  const auto toAndFro = [](double speed) {
+    World world = elasticRoom();
+    world.bodies.resize(1);
+    world.bodies[0].initial.velocity = Vec3(speed, 0, 0);
+    world.bodies[0].initial.angularMomentum.setZero();
+    return record(world, {.duration = 20}, "a scene");
+  };
+  const RunDifference found = differenceOf(toAndFro(2), toAndFro(2 + 2e-3));
+  ASSERT_TRUE(found.horizon);
+  EXPECT_GT(found.expectedImpacts, 10U);
+  EXPECT_GT(found.worst.difference.relative, 100 * found.growth[1].difference.relative);
+  EXPECT_FALSE(found.growthPerImpact);
+}
+
 TEST(RunDifference, otherBoxesCannotBeCompared) {
   const Trajectory run = driftAndReturn();
   Trajectory other = run;
@@ -139,12 +156,14 @@ TEST(RunDifference, whatIsLaterThanAskedForDoesNotCount) {
   other.impacts[0].impulse = 10;
   const RunDifference before = differenceOf(run, other, 0.4);
   EXPECT_TRUE(before.sameBits);
+  EXPECT_EQ(before.until, 0.4);
   EXPECT_EQ(before.expectedImpacts, 0U);
   EXPECT_EQ(before.growth.back().time, 0.4);
   const RunDifference later = differenceOf(run, other, 0.6);
   EXPECT_FALSE(later.sameBits);
   EXPECT_EQ(later.firstTime, 0.5);
   EXPECT_TRUE(later.firstImpact);
+  EXPECT_FALSE(differenceOf(run, other, 100).until);
 }
 
 TEST(RunDifference, aStateThatIsNoNumberIsAnError) {

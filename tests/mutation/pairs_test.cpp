@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "compare/tolerance.h"
-#include "core/file.h"
 #include "mutation/subject.h"
 #include "render/film_manifest.h"
 #include "support/process.h"
@@ -64,8 +63,6 @@ std::string fileName(std::string scene) {
   return scene + ".json";
 }
 
-DeepPicture readDeep(const fs::path& path) { return decodeDeepPng(readFile(path), path.string()); }
-
 class Pairs : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
@@ -101,7 +98,7 @@ class Pairs : public testing::TestWithParam<const char*> {
       const fs::path expected = folder_ / kPlain.name / (frame + ".png");
       const fs::path actual = folder_ / way.name / (frame + ".png");
       const bool identical = textOf(expected) == textOf(actual);
-      const PictureDifference difference = differenceOf(readDeep(expected), readDeep(actual));
+      const PictureDifference difference = differenceOf(readDeepPng(expected), readDeepPng(actual));
       const Judgement judgement = judge(difference, tolerance);
       EXPECT_NE(judgement.verdict, Verdict::kDifferent)
           << way.name << ", " << frame << ": " << judgement.reasons.at(0);

@@ -128,15 +128,10 @@ Subject steppedCrate(Method method) {
 }
 
 Subject stillLife() {
-  Subject subject{.name = "still life", .scene = {}, .moment = 0, .look = {}, .edits = {}};
+  Subject subject{.name = "still life", .scene = crateInRoom(), .moment = 0, .look = {}, .edits = {}};
   Scene& scene = subject.scene;
   scene.name = "still life";
   scene.duration = 0.001;
-  scene.gravity = Vec3(0, 0, -9.81);
-  scene.room.emplace();
-  scene.room->min = Vec3(-3, -2, 0);
-  scene.room->max = Vec3(3, 2, 3);
-  scene.room->open = {false, false, true, false, false, true};
   scene.walls = {wallAt(Vec3(-1, 0, 2).normalized(), -0.9)};
   scene.camera = cameraAt(Vec3(-1.2, -7.2, 3.2), Vec3(0.05, 0, 1.1), 36);
   scene.boxes = {
