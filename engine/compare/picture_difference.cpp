@@ -55,13 +55,14 @@ class Measuring {
   }
 
   PictureDifference run() {
-    const std::size_t rowSamples = static_cast<std::size_t>(width_) * channels_;
     for (int y = 0; y < height_; ++y) {
-      const std::size_t begin = static_cast<std::size_t>(y) * rowSamples;
-      const std::span one = expected_.subspan(begin, rowSamples);
-      const std::span other = actual_.subspan(begin, rowSamples);
-      if (!std::equal(one.begin(), one.end(), other.begin())) {
-        channels_ == 3 ? addRow<3>(y, one, other) : addRow<4>(y, one, other);
+      for (int x = 0; x < width_; x += kBlock) {
+        const Block block{.x = x, .y = y, .width = std::min(kBlock, width_ - x)};
+        const auto one = expected_.subspan(placeOf(x, y), static_cast<std::size_t>(block.width) * channels_);
+        if (!std::equal(one.begin(), one.end(), actual_.data() + placeOf(x, y))) {
+          channels_ == 3 ? addBlock<3>(block) : addBlock<4>(block);
+          differing_.push_back(block);
+        }
       }
     }
     finish();
@@ -72,21 +73,35 @@ class Measuring {
   static constexpr int kFull = std::numeric_limits<Sample>::max();
   static constexpr int kStep = kFull / 255;  ///< 1/255 of full
 
+  /// Pixels side by side. Most pictures have few that differ, and what is equal need not be looked into.
+  struct Block {
+    int x;
+    int y;
+    int width;
+  };
+  static constexpr int kBlock = 16;
+
+  std::size_t placeOf(int x, int y) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) *
+           channels_;
+  }
+
   template <std::size_t kChannels>
-  void addRow(int y, std::span<const Sample> one, std::span<const Sample> other) {
+  void addBlock(const Block& block) {
+    const Sample* one = expected_.data() + placeOf(block.x, block.y);
+    const Sample* other = actual_.data() + placeOf(block.x, block.y);
     std::uint64_t sum = 0;
     std::uint64_t squares = 0;
-    for (int x = 0; x < width_; ++x) {
-      const std::size_t place = static_cast<std::size_t>(x) * kChannels;
+    for (int x = block.x; x < block.x + block.width; ++x) {
       int most = 0;
       for (std::size_t k = 0; k < kChannels; ++k) {
-        const int difference = std::abs(other[place + k] - one[place + k]);
+        const int difference = std::abs(*other++ - *one++);
         sum += static_cast<unsigned>(difference);
         squares += static_cast<std::uint64_t>(difference) * static_cast<unsigned>(difference);
         most = std::max(most, difference);
       }
       if (most != 0) {
-        addPixel(x, y, most);
+        addPixel(x, block.y, most);
       }
     }
     sum_ += sum;
@@ -112,10 +127,7 @@ class Measuring {
   }
 
   Rgb at(std::span<const Sample> samples, int x, int y) const {
-    const Sample* const pixel =
-        samples.data() +
-        (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) *
-            channels_;
+    const Sample* const pixel = samples.data() + placeOf(x, y);
     Rgb rgb{pixel[0], pixel[1], pixel[2]};
     if (channels_ == 4) {
       for (int& value : rgb) {
@@ -156,20 +168,28 @@ class Measuring {
                        light[static_cast<std::size_t>(rgb[2])]});
   }
 
-  Plane lumaOf(std::span<const Sample> samples) const {
+  float lumaAt(std::span<const Sample> samples, int x, int y) const {
     constexpr float kScale = 255.0F / kFull;
-    Plane plane{.width = width_, .height = height_, .values = {}};
-    plane.values.resize(result_.pixels);
-    for (std::size_t i = 0; i < result_.pixels; ++i) {
-      Rgb rgb{samples[channels_ * i], samples[channels_ * i + 1], samples[channels_ * i + 2]};
-      if (channels_ == 4) {
-        rgb = at(samples, static_cast<int>(i % static_cast<std::size_t>(width_)),
-                 static_cast<int>(i / static_cast<std::size_t>(width_)));
+    const Rgb rgb = at(samples, x, y);
+    return kScale * (0.299F * static_cast<float>(rgb[0]) + 0.587F * static_cast<float>(rgb[1]) +
+                     0.114F * static_cast<float>(rgb[2]));
+  }
+
+  StructuralSimilarity similarity() const {
+    Plane one{.width = width_, .height = height_, .values = {}};
+    one.values.reserve(result_.pixels);
+    for (int y = 0; y < height_; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        one.values.push_back(lumaAt(expected_, x, y));
       }
-      plane.values[i] = kScale * (0.299F * static_cast<float>(rgb[0]) + 0.587F * static_cast<float>(rgb[1]) +
-                                  0.114F * static_cast<float>(rgb[2]));
     }
-    return plane;
+    Plane other = one;
+    for (const Block& block : differing_) {
+      for (int x = block.x; x < block.x + block.width; ++x) {
+        other.row(block.y)[static_cast<std::size_t>(x)] = lumaAt(actual_, x, block.y);
+      }
+    }
+    return similarityOf(one, other);
   }
 
   void finish() {
@@ -184,18 +204,16 @@ class Measuring {
     result_.largest = static_cast<double>(largest_) / kFull;
     result_.mean = static_cast<double>(sum_) / kFull / samples;
     result_.meanSquare = static_cast<double>(squares_) / kFull / kFull / samples;
-    const std::size_t place = (static_cast<std::size_t>(result_.largestY) * static_cast<std::size_t>(width_) +
-                               static_cast<std::size_t>(result_.largestX)) *
-                              channels_;
+    const std::size_t place = placeOf(result_.largestX, result_.largestY);
     while (std::abs(expected_[place + static_cast<std::size_t>(result_.largestChannel)] -
                     actual_[place + static_cast<std::size_t>(result_.largestChannel)]) != largest_) {
       ++result_.largestChannel;
     }
-    const StructuralSimilarity similarity = similarityOf(lumaOf(expected_), lumaOf(actual_));
-    result_.ssim = similarity.mean;
-    result_.worstSsim = similarity.worst;
-    result_.worstSsimX = similarity.worstX;
-    result_.worstSsimY = similarity.worstY;
+    const StructuralSimilarity found = similarity();
+    result_.ssim = found.mean;
+    result_.worstSsim = found.worst;
+    result_.worstSsimX = found.worstX;
+    result_.worstSsimY = found.worstY;
   }
 
   int width_;
@@ -204,6 +222,7 @@ class Measuring {
   std::span<const Sample> expected_;
   std::span<const Sample> actual_;
   PictureDifference result_;
+  std::vector<Block> differing_;
   int largest_ = 0;
   std::uint64_t sum_ = 0;
   std::uint64_t squares_ = 0;

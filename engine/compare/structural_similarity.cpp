@@ -30,20 +30,53 @@ struct Window {
   std::array<float, kMostReach + 1> weights{};
 };
 
-/// From which column to before which one two rows differ.
+/// Columns of windows' middles, `end` no longer among them.
 struct Range {
   int begin;
   int end;
 };
 
-Range differing(std::span<const float> one, std::span<const float> other) {
-  const auto first = std::mismatch(one.begin(), one.end(), other.begin()).first;
-  if (first == one.end()) {
-    return {static_cast<int>(one.size()), 0};
+/// Windows that go over anything that differs; others have an SSIM of exactly 1.
+class Differing {
+ public:
+  Differing(const Plane& one, const Plane& other)
+      : one_(one), other_(other), counts_(static_cast<std::size_t>(one.width)) {}
+
+  /// The rows that the next windows have, or no longer have.
+  void enter(int y) { count(y, 1); }
+  void leave(int y) { count(y, -1); }
+
+  const std::vector<Range>& ranges(int reach) {
+    ranges_.clear();
+    const int width = one_.width;
+    for (int x = 0; x < width; ++x) {
+      if (counts_[static_cast<std::size_t>(x)] == 0) {
+        continue;
+      }
+      const Range around{std::max(x - reach, reach), std::min(x + reach + 1, width - reach)};
+      if (!ranges_.empty() && around.begin <= ranges_.back().end) {
+        ranges_.back().end = around.end;
+      } else {
+        ranges_.push_back(around);
+      }
+    }
+    return ranges_;
   }
-  const auto last = std::mismatch(one.rbegin(), one.rend(), other.rbegin()).first;
-  return {static_cast<int>(first - one.begin()), static_cast<int>(last.base() - one.begin())};
-}
+
+ private:
+  void count(int y, int by) {
+    const std::span<const float> one = one_.row(y);
+    const std::span<const float> other = other_.row(y);
+    for (std::size_t x = 0; x < one.size(); ++x) {
+      counts_[x] += one[x] != other[x] ? by : 0;
+    }
+  }
+
+  const Plane& one_;
+  const Plane& other_;
+  std::vector<int> counts_;  ///< of each column: rows of the windows in which it differs
+  std::vector<Range> ranges_;
+};
 
 /// Weighted sums over the height of a window: of each plane, of both squared, of the product. There is room
 /// on both sides, where a window that is less wide has weights of zero.
@@ -53,6 +86,11 @@ struct Sums {
         other(one.size()),
         squares(one.size()),
         product(one.size()) {}
+  void clear(Range range) {
+    for (std::vector<float>* sum : {&one, &other, &squares, &product}) {
+      std::fill(sum->begin() + range.begin, sum->begin() + range.end + std::ptrdiff_t{2} * kMostReach, 0.0F);
+    }
+  }
   std::vector<float> one, other, squares, product;
 };
 
@@ -99,45 +137,35 @@ StructuralSimilarity similarityOf(const Plane& one, const Plane& other) {
   const int width = one.width;
   const Window wide(width);
   const Window high(one.height);
-  std::vector<Range> rows;
-  rows.reserve(static_cast<std::size_t>(one.height));
-  for (int y = 0; y < one.height; ++y) {
-    rows.push_back(differing(one.row(y), other.row(y)));
+  Differing differing(one, other);
+  for (int y = 0; y < 2 * high.reach; ++y) {
+    differing.enter(y);
   }
   Sums sums(static_cast<std::size_t>(width));
   std::vector<float> result(static_cast<std::size_t>(width));
   StructuralSimilarity similarity;
   double missing = 0;  // from 1, of all windows
   for (int y = high.reach; y < one.height - high.reach; ++y) {
-    Range range{width, 0};
-    for (int i = -high.reach; i <= high.reach; ++i) {
-      const Range& row = *(rows.begin() + y + i);
-      range.begin = std::min(range.begin, row.begin);
-      range.end = std::max(range.end, row.end);
-    }
-    range = {std::max(range.begin - wide.reach, wide.reach),
-             std::min(range.end + wide.reach, width - wide.reach)};
-    if (range.begin >= range.end) {
-      continue;  // all windows of the row are equal
-    }
-    const Range columns{range.begin - wide.reach, range.end + wide.reach};
-    for (std::vector<float>* sum : {&sums.one, &sums.other, &sums.squares, &sums.product}) {
-      std::fill(sum->begin(), sum->end(), 0.0F);
-    }
-    for (int i = -high.reach; i <= high.reach; ++i) {
-      addRow(sums, one.row(y + i), other.row(y + i), high.weights[static_cast<std::size_t>(std::abs(i))],
-             columns);
-    }
-    similarities(sums, wide, range, result.data());
-    for (int x = range.begin; x < range.end; ++x) {
-      const auto value = static_cast<double>(result[static_cast<std::size_t>(x)]);
-      missing += 1 - value;
-      if (value < similarity.worst) {
-        similarity.worst = value;
-        similarity.worstX = x;
-        similarity.worstY = y;
+    differing.enter(y + high.reach);
+    for (const Range& range : differing.ranges(wide.reach)) {
+      const Range columns{range.begin - wide.reach, range.end + wide.reach};
+      sums.clear(range);
+      for (int i = -high.reach; i <= high.reach; ++i) {
+        addRow(sums, one.row(y + i), other.row(y + i), high.weights[static_cast<std::size_t>(std::abs(i))],
+               columns);
+      }
+      similarities(sums, wide, range, result.data());
+      for (int x = range.begin; x < range.end; ++x) {
+        const auto value = static_cast<double>(result[static_cast<std::size_t>(x)]);
+        missing += 1 - value;
+        if (value < similarity.worst) {
+          similarity.worst = value;
+          similarity.worstX = x;
+          similarity.worstY = y;
+        }
       }
     }
+    differing.leave(y - high.reach);
   }
   similarity.mean = 1 - missing / (static_cast<double>(width - 2 * wide.reach) *
                                    static_cast<double>(one.height - 2 * high.reach));

@@ -12,8 +12,12 @@ struct Plane {
   std::vector<float> values;
 
   std::span<const float> row(int y) const {
-    return {values.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width),
-            static_cast<std::size_t>(width)};
+    return std::span(values).subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(width),
+                                     static_cast<std::size_t>(width));
+  }
+  std::span<float> row(int y) {
+    return std::span(values).subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(width),
+                                     static_cast<std::size_t>(width));
   }
 };
 

@@ -270,19 +270,18 @@ std::vector<Sample> unpacked(const Chunks& chunks, const Spreader& spreader, con
   const bool asIs = sizeof(Sample) == 1 && chunks.fileChannels() == channels && !chunks.interlaced;
   std::vector<Sample> samples(width * static_cast<std::size_t>(chunks.height) * channels);
   std::span<std::uint8_t> left(rows);
-  const std::vector<std::uint8_t> nothing(chunks.rowBytes(chunks.width));
   for (const Pass& pass : passesOf(chunks)) {
     const int columns = pass.columns(chunks.width);
     if (columns < 1) {
       continue;
     }
     const std::size_t rowBytes = chunks.rowBytes(columns);
-    std::span<const std::uint8_t> above = std::span(nothing).first(rowBytes);
+    const std::size_t bytes = static_cast<std::size_t>(pass.rows(chunks.height)) * (rowBytes + 1);
+    if (const std::optional<int> unknown = undoFilters(left.first(bytes), rowBytes, chunks.pixelBytes())) {
+      fail(name, "is a damaged PNG: a row has filter " + std::to_string(*unknown) + ", the last is 4");
+    }
     for (int y = pass.top; y < chunks.height; y += pass.stepY) {
-      const std::span<std::uint8_t> row = left.subspan(1, rowBytes);
-      if (!undoFilter(left[0], row, above, chunks.pixelBytes())) {
-        fail(name, "is a damaged PNG: a row has filter " + std::to_string(left[0]) + ", the last is 4");
-      }
+      const std::span<const std::uint8_t> row = left.subspan(1, rowBytes);
       Sample* const out = samples.data() + static_cast<std::size_t>(y) * width * channels;
       if (asIs) {
         std::copy(row.begin(), row.end(), out);
@@ -291,7 +290,6 @@ std::vector<Sample> unpacked(const Chunks& chunks, const Spreader& spreader, con
         spreader.spread(row, static_cast<std::size_t>(i),
                         out + static_cast<std::size_t>(pass.left + i * pass.stepX) * channels);
       }
-      above = row;
       left = left.subspan(1 + rowBytes);
     }
   }

@@ -2,13 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace careen {
 
-/// Undoes a row's filter in place: PNG specification, 9.2, types 0 to 4. `above` is the row before, undone,
-/// or zeros; `pixel` is how many bytes a whole pixel has, at least 1. False if there is no such type.
-bool undoFilter(int type, std::span<std::uint8_t> row, std::span<const std::uint8_t> above,
-                std::size_t pixel);
+/// Undoes the filters of a picture's rows in place: PNG specification, 9.2, types 0 to 4. `rows` has the type
+/// of each before its `rowBytes`; `pixel` is how many bytes a whole pixel has: 1, 2, 3, 4, 6 or 8. Ends at a
+/// type there is not, and tells it.
+std::optional<int> undoFilters(std::span<std::uint8_t> rows, std::size_t rowBytes, std::size_t pixel);
 
 }  // namespace careen

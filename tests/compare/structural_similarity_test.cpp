@@ -96,6 +96,17 @@ TEST(StructuralSimilarity, changesInACornerAndInTheMiddleAreFound) {
   }
 }
 
+// Windows are looked at in ranges; none is left out between two, however far apart they are.
+TEST(StructuralSimilarity, changesApartAreBothFound) {
+  const Plane plane = planeOf(shadedTiles(80, 24));
+  for (int apart = 1; apart < 40; ++apart) {
+    Plane changed = plane;
+    changed.values[std::size_t{12} * 80 + 20] += 30;
+    changed.values[std::size_t{11} * 80 + 20 + static_cast<std::size_t>(apart)] += 90;
+    expectAsStraightforward(plane, changed);
+  }
+}
+
 TEST(StructuralSimilarity, isExactlyOneOfEqualPlanesAndFollowsFromMeansOfFlatOnes) {
   const Plane plane = planeOf(noise(100, 80, 3));
   EXPECT_EQ(similarityOf(plane, plane).mean, 1);

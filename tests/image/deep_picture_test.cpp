@@ -138,14 +138,16 @@ TEST(DeepPicture, everyFilterIsUndoneForEveryKindOfPixel) {
                                            {6, 16, 8},
                                            {0, 2, 1}}) {
     for (std::uint32_t width = 1; width < 24; width += bits < 8 ? 4 : 1) {
-      PngByHand plain{.width = width, .height = 11, .bits = bits, .color = color};
+      constexpr std::array kTypes = {4, 4, 4, 2, 4, 4,
+                                     1, 3, 0, 4, 4};  // Paeth alone, in pairs, and at the end
+      PngByHand plain{.width = width, .height = kTypes.size(), .bits = bits, .color = color};
       PngByHand filtered = plain;
       const std::size_t rowBytes = bits < 8 ? (width + 3) / 4 : width * static_cast<std::size_t>(pixel);
       std::string above(rowBytes, '\0');
-      for (int y = 0; y < 11; ++y) {
+      for (std::size_t y = 0; y < kTypes.size(); ++y) {
         const std::string row = randomBytes(rowBytes, width * 31 + static_cast<std::uint32_t>(y));
         plain.rows += filteredRow(0, row, above, static_cast<std::size_t>(pixel));
-        filtered.rows += filteredRow((y + 1) % 5, row, above, static_cast<std::size_t>(pixel));
+        filtered.rows += filteredRow(kTypes.at(y), row, above, static_cast<std::size_t>(pixel));
         above = row;
       }
       const DeepPicture one = decodeDeepPng(plain.bytes(), "plain");
