@@ -128,11 +128,12 @@ TEST_F(RenderReference, badReferenceOrOptionIsToldBeforeAnythingIsSimulated) {
   fs::create_directory(folder_ / "empty");
   fs::create_directory(folder_ / "frameless");
   fs::copy_file(folder_ / "ref/film.json", folder_ / "frameless/film.json");
-  const struct {
+  struct Case {
     std::string reference;
     Names more;
     std::string said;
-  } cases[] = {
+  };
+  const std::vector<Case> cases = {
       {"nowhere", {}, "--ref: nowhere is not there"},
       {"scene.json", {}, "--ref: scene.json is no folder"},
       {"empty", {}, "--ref: empty has no film.json"},
@@ -142,7 +143,7 @@ TEST_F(RenderReference, badReferenceOrOptionIsToldBeforeAnythingIsSimulated) {
       {"ref", {"--out", "./ref/"}, "--out: found the folder of --ref"},
       {"ref", {"--frames", "100"}, "100"},
   };
-  for (const auto& each : cases) {
+  for (const Case& each : cases) {
     Names arguments = {"broken.json", "--ref", each.reference};
     arguments.insert(arguments.end(), each.more.begin(), each.more.end());
     const Ended ended = careen(arguments);
