@@ -1,5 +1,5 @@
-// The state hash of a scene's run, as `careen simulate` tells it, from a program that holds nothing but what moves
-// boxes: careen_state_hash SCENE [--method METHOD] [--duration SECONDS].
+// The state hash of a scene's run, as `careen simulate` tells it, from a program that holds nothing but what
+// moves boxes: careen_state_hash SCENE [--method METHOD] [--duration SECONDS].
 #include <cstdlib>
 #include <exception>
 #include <iostream>

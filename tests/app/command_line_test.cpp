@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/process.h"
+#include "support/program.h"
 
 namespace careen {
 namespace {
@@ -29,7 +30,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 class CommandLine : public testing::Test {
  protected:
   Ended careen(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), CAREEN_BINARY);
+    arguments.insert(arguments.begin(), program());
     return Process(arguments, folder_.path()).wait();
   }
   std::vector<std::string> linesOf(const std::string& name) const {
@@ -249,7 +250,7 @@ TEST_F(CommandLine, placesThatCannotBeWrittenExitWith3) {
 TEST_F(CommandLine, fullDiskLeavesNoneOfTheFiles) {
   folder_.write("scene.json", kScene);
   const Ended ended = Process({"bash", "-c",
-                               std::string("trap '' XFSZ; ulimit -f 8; exec ") + CAREEN_BINARY +
+                               std::string("trap '' XFSZ; ulimit -f 8; exec ") + program() +
                                    " simulate scene.json -o run.careen --impacts i.csv --poses p.csv"},
                               folder_.path())
                           .wait();
@@ -272,7 +273,7 @@ TEST_F(CommandLine, methodThatCannotGoOnExitsWith4AndWritesNothing) {
 TEST_F(CommandLine, interruptedSimulationWritesNothing) {
   folder_.write("scene.json", replaced(kScene, "\"duration\": 1,", "\"duration\": 100000,"));
   for (const int signal : {SIGINT, SIGTERM}) {
-    Process process({CAREEN_BINARY, "simulate", "scene.json", "-o", "run.careen"}, folder_.path());
+    Process process({program(), "simulate", "scene.json", "-o", "run.careen"}, folder_.path());
     usleep(200'000);
     process.send(signal);
     const Ended ended = process.wait();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/process.h"
+#include "support/program.h"
 
 namespace careen {
 namespace {
@@ -25,7 +26,7 @@ std::string scene(const std::string& speed, const std::string& name = "crate") {
 class Compare : public testing::Test {
  protected:
   Ended careen(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), CAREEN_BINARY);
+    arguments.insert(arguments.begin(), program());
     return Process(arguments, folder_.path()).wait();
   }
   Ended compare(const std::vector<std::string>& arguments) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "support/process.h"
+#include "support/program.h"
 
 namespace careen {
 namespace {
@@ -22,7 +23,7 @@ const std::string kScene = R"({ "careen": 1, "name": "fall", "duration": 1, "gra
 class StudyCommand : public testing::Test {
  protected:
   Ended careen(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), CAREEN_BINARY);
+    arguments.insert(arguments.begin(), program());
     return Process(arguments, folder_.path()).wait();
   }
   nlohmann::json jsonOf(const std::string& name) const {
@@ -75,8 +76,7 @@ TEST_F(StudyCommand, refusesWhatItDoesNotKnow) {
 
 TEST_F(StudyCommand, saysWhatPlotsNeed) {
   const Ended ended =
-      Process({"/usr/bin/env", "PATH=/nowhere", CAREEN_BINARY, "study", "free-fall", "--quick"},
-              folder_.path())
+      Process({"/usr/bin/env", "PATH=/nowhere", program(), "study", "free-fall", "--quick"}, folder_.path())
           .wait();
   EXPECT_EQ(ended.exitCode, 3);
   EXPECT_NE(ended.err.find("install gnuplot-nox, or give --no-plots"), std::string::npos) << ended.err;
@@ -89,7 +89,7 @@ TEST_F(StudyCommand, listsItsCases) {
 }
 
 TEST_F(StudyCommand, leavesNoHalfFinishedCaseWhenInterrupted) {
-  Process process({CAREEN_BINARY, "study", "room-million", "--no-plots"}, folder_.path());
+  Process process({program(), "study", "room-million", "--no-plots"}, folder_.path());
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   process.send(SIGINT);
   const Ended ended = process.wait();
