@@ -1,10 +1,11 @@
 // What comparing a pair of frames costs, 1280x720, from the bytes of their PNGs to all metrics but FLIP, and
 // parts of it: frames that differ by grain (another processor), by edges too (another renderer), and wholly.
 //
-// Measured (g++ 12 -O3, AMD EPYC), minimum of 3, ms of one core: reading a rendered frame 4.6, one with grain
-// 6.8; a pair: equal 9.4, grained 30.9, shifted 31.6, wholly other 240; FLIP 291. On a busy machine, noisy
-// frames of 1.0 and 0.68 MB: 13.3 and 11.8, by stb 32.6 and 24.5, libspng 39.9 and 34.1, libpng 26.0
-// and 22.4.
+// Measured (g++ 12 -O3, AMD EPYC), ms of one core, with memory kept as app/main.cpp does (GLIBC_TUNABLES=
+// glibc.malloc.mmap_threshold=67108864:glibc.malloc.trim_threshold=67108864): reading a rendered frame 3.8,
+// one with grain 5.9; a pair: equal 7.7, grained 31.8, shifted 27.6, wholly other 233; FLIP 314. On a busy
+// machine, noisy frames of 1.0 and 0.68 MB: 13.3 and 11.8, by stb 32.6 and 24.5, libspng 39.9 and 34.1,
+// libpng 26.0 and 22.4.
 #include <benchmark/benchmark.h>
 
 #include <string>
