@@ -79,6 +79,8 @@ class Pair {
       found.incomparable.push_back("box " + name + " was not expected");
     }
     duration_ = std::min({expected.settings.duration, actual.settings.duration, until});
+    const bool goesOn = duration_ < std::max(expected.settings.duration, actual.settings.duration);
+    last_ = goesOn ? std::nextafter(duration_, 0) : duration_;
   }
 
   double duration() const { return duration_; }
@@ -129,10 +131,10 @@ class Pair {
 
  private:
   BodyState expectedState(std::size_t body, double time) const {
-    return finite("the expected run", expected_, body, time);
+    return finite("the expected run", expected_, body, std::min(time, last_));
   }
   BodyState actualState(std::size_t body, double time) const {
-    return finite("the actual run", actual_, places_[body], time);
+    return finite("the actual run", actual_, places_[body], std::min(time, last_));
   }
 
   static BodyState finite(const char* name, const Trajectory& run, std::size_t body, double time) {
@@ -162,6 +164,7 @@ class Pair {
   const Trajectory& actual_;
   std::vector<std::size_t> places_;  // of each expected box in the actual run
   double duration_;
+  double last_;  // nothing later is looked at: where one run ends, another that goes on may have jumped
 };
 
 std::string howItDiffers(const Impact& a, const Impact& b) {

@@ -149,6 +149,20 @@ TEST(RunDifference, shorterRunIsComparedToItsEnd) {
   EXPECT_TRUE(found.firstOtherEvent);
 }
 
+// The longer has bounced at the moment at which the shorter ends.
+TEST(RunDifference, jumpWhereTheShorterEndsIsNoDifference) {
+  const Trajectory run = driftAndReturn();
+  Trajectory shorter = run;
+  shorter.settings.duration = 0.5;
+  shorter.tracks[0].segments.pop_back();
+  const RunDifference found = differenceOf(run, shorter);
+  EXPECT_FALSE(found.firstTime);
+  EXPECT_EQ(found.worst.difference.relative, 0);
+  EXPECT_EQ(found.expectedEnergy, found.actualEnergy);
+  EXPECT_FALSE(found.sameBits);  // it does not last as long
+  EXPECT_TRUE(differenceOf(run, shorter, 0.5).sameBits);
+}
+
 TEST(RunDifference, whatIsLaterThanAskedForDoesNotCount) {
   const Trajectory run = driftAndReturn();
   Trajectory other = run;
