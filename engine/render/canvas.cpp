@@ -31,6 +31,19 @@ void attach(const Gl& gl, GLenum place, GLenum format, int samples, int width, i
   gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer);
 }
 
+// Fewer would be another picture than the one asked for: softpipe has one.
+int samplesOf(const Gl& gl, Antialiasing antialiasing) {
+  if (antialiasing != Antialiasing::kMultisampled) {
+    return 0;
+  }
+  if (const int most = gl.integer(GL_MAX_SAMPLES); most < kSamples) {
+    throw MachineError("antialiasing: found at most " + std::to_string(most) + " of " +
+                       std::to_string(kSamples) + " samples a pixel (" + gl.description +
+                       "); \"edges\" needs none");
+  }
+  return kSamples;
+}
+
 GLuint makeFramebuffer(const Gl& gl, int samples, bool depth, int width, int height) {
   GLuint framebuffer = 0;
   gl.GenFramebuffers(1, &framebuffer);
@@ -76,10 +89,9 @@ Canvas::Canvas(const Gl& gl, int width, int height, Antialiasing antialiasing)
       scale_(antialiasing == Antialiasing::kSupersampled ? 2 : 1),
       antialiasing_(antialiasing) {
   checkSize(gl, width, height, scale_);
-  const bool multisampled = antialiasing == Antialiasing::kMultisampled;
-  const int samples = multisampled ? std::min(kSamples, gl.integer(GL_MAX_SAMPLES)) : 0;
+  const int samples = samplesOf(gl, antialiasing);
   drawn_ = makeFramebuffer(gl, samples, true, scale_ * width, scale_ * height);
-  resolved_ = multisampled ? makeFramebuffer(gl, 0, false, width, height) : drawn_;
+  resolved_ = samples > 0 ? makeFramebuffer(gl, 0, false, width, height) : drawn_;
   rgba_.resize(static_cast<std::size_t>(scale_ * width) * static_cast<std::size_t>(scale_ * height) * 4);
   scratch_.resize(wantsEdges() ? rgba_.size() : 0);
 }

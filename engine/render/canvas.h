@@ -15,7 +15,7 @@ struct Gl;
 /// What is drawn on: linear light goes in, edges are smoothed, and out comes sRGB.
 class Canvas {
  public:
-  /// InputError if the size is beyond what GL can do.
+  /// InputError if the size is beyond what GL can do, MachineError if it has fewer samples than asked for.
   Canvas(const Gl& gl, int width, int height, Antialiasing antialiasing);
 
   /// Drawing goes here from now on; all is cleared, and no pixel counts as drawn.

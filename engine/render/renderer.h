@@ -51,7 +51,8 @@ struct Shot {
 /// drawn before.
 class Renderer {
  public:
-  /// Size in pixels. InputError for a size beyond what GL can do, MachineError where there is no GL to do it.
+  /// Size in pixels. InputError for a size beyond what GL can do, MachineError where there is no GL to do it,
+  /// or it has fewer samples a pixel than asked for.
   Renderer(const Scene& scene, int width, int height, const RenderOptions& options = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;

@@ -58,6 +58,21 @@ TEST_F(Still, shutterOfTheCommandLineTakesTheScenesPlace) {
   EXPECT_NE(other.err.find("shutter 180:2 there, 90:8 now"), std::string::npos) << other.err;
 }
 
+TEST_F(Still, fourSamplesAPixelAreNeverFewer) {
+  const auto bySoftpipe = [&](const char* antialiasing) {
+    return Process({"env", "GALLIUM_DRIVER=softpipe", CAREEN_BINARY, "render", "scene.json",
+                    "--rendering-backend", "osmesa", "--still", "0.3", "--out", "still.png", "--antialiasing",
+                    antialiasing},
+                   folder_.path())
+        .wait();
+  };
+  const Ended one = bySoftpipe("4x");
+  EXPECT_EQ(one.exitCode, 3);
+  EXPECT_NE(one.err.find("found at most 1 of 4 samples a pixel (softpipe"), std::string::npos) << one.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "still.png"));
+  EXPECT_EQ(bySoftpipe("edges").exitCode, 0);
+}
+
 TEST_F(Still, badOptionsWriteNothing) {
   for (const std::vector<std::string>& options :
        std::vector<std::vector<std::string>>{{"--still", "1.5"},
