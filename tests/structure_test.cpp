@@ -117,7 +117,7 @@ TEST(Structure, foreignHeadersStayWhereTheyBelong) {
   struct Rule {
     std::regex header;
     Names folders;
-    std::string files = "";  // how their names begin
+    std::string files{};  // how their names begin
   };
   const std::vector<Rule> rules = {
       {std::regex("^(GL|EGL|GLFW)/.*"), {"render"}},

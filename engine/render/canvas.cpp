@@ -66,14 +66,15 @@ bool average(const std::uint8_t* from, std::size_t times, std::size_t rowPixels,
   const SrgbTables& tables = SrgbTables::get();
   std::array<std::uint32_t, 3> light{};
   bool drawn = true;
-  for (std::size_t k = 0; k < times * times; ++k) {
-    const std::uint8_t* const pixel = from + 4 * (k / times * rowPixels + k % times);
+  std::uint32_t count = 0;
+  do {
+    const std::uint8_t* const pixel = from + 4 * (count / times * rowPixels + count % times);
     for (std::size_t channel = 0; channel < 3; ++channel) {
       light[channel] += tables.linear(pixel[channel]);
     }
     drawn = drawn && pixel[3] != 0;
-  }
-  const auto count = static_cast<std::uint32_t>(times * times);
+    ++count;
+  } while (count < times * times);
   for (std::size_t channel = 0; channel < 3; ++channel) {
     to[channel] = tables.encoded(static_cast<std::uint16_t>((light[channel] + count / 2) / count));
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "support/environment_variable.h"
 #include "support/process.h"
 
 namespace careen {
@@ -59,12 +60,10 @@ TEST_F(Still, shutterOfTheCommandLineTakesTheScenesPlace) {
 }
 
 TEST_F(Still, fourSamplesAPixelAreNeverFewer) {
+  const EnvironmentVariable driver("GALLIUM_DRIVER", "softpipe");
   const auto bySoftpipe = [&](const char* antialiasing) {
-    return Process({"env", "GALLIUM_DRIVER=softpipe", CAREEN_BINARY, "render", "scene.json",
-                    "--rendering-backend", "osmesa", "--still", "0.3", "--out", "still.png", "--antialiasing",
-                    antialiasing},
-                   folder_.path())
-        .wait();
+    return render({"--rendering-backend", "osmesa", "--still", "0.3", "--out", "still.png", "--antialiasing",
+                   antialiasing});
   };
   const Ended one = bySoftpipe("4x");
   EXPECT_EQ(one.exitCode, 3);

@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "image/png.h"
+#include "support/environment_variable.h"
 #include "support/process.h"
 #include "support/x_display.h"
 
@@ -46,11 +47,7 @@ testing::AssertionResult eventually(const std::function<bool()>& holds) {
 
 class View : public testing::Test {
  protected:
-  void SetUp() override {
-    setenv("DISPLAY", display_.name().c_str(), 1);
-    unsetenv("WAYLAND_DISPLAY");
-    folder_.write("scene.json", scene("#c8553d"));
-  }
+  void SetUp() override { folder_.write("scene.json", scene("#c8553d")); }
 
   Process careen(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), CAREEN_BINARY);
@@ -90,6 +87,8 @@ class View : public testing::Test {
 
   TemporaryFolder folder_;
   XDisplay display_{640, 480};
+  EnvironmentVariable x_{"DISPLAY", display_.name()};
+  EnvironmentVariable wayland_{"WAYLAND_DISPLAY", std::nullopt};
 };
 
 TEST_F(View, stepsThroughTheFilmsFramesByteForByte) {
@@ -252,23 +251,21 @@ TEST_F(View, badSceneOrOptionIsRefused) {
 // It says so before it reads the scene.
 TEST(ViewWithoutDisplay, saysSoAndEnds) {
   const TemporaryFolder folder;
-  unsetenv("WAYLAND_DISPLAY");
-  unsetenv("DISPLAY");
-  for (int i = 0; i < 2; ++i) {
+  const EnvironmentVariable wayland("WAYLAND_DISPLAY", std::nullopt);
+  for (const auto& display : {std::optional<std::string>(), std::optional<std::string>(":nobody")}) {
+    const EnvironmentVariable x("DISPLAY", display);
     const Ended ended = Process({CAREEN_BINARY, "view", "missing.json"}, folder.path()).wait();
     EXPECT_EQ(ended.exitCode, 3) << ended.err;
     EXPECT_NE(ended.err.find("no display"), std::string::npos) << ended.err;
     EXPECT_TRUE(folder.files().empty());
-    setenv("DISPLAY", ":nobody", 1);  // named, but not there
   }
 }
 
 TEST(ViewWithoutGlfw, saysWhatToInstall) {
   const TemporaryFolder folder;
   folder.write("libglfw.so.3", "");
-  setenv("LD_LIBRARY_PATH", folder.path().c_str(), 1);
+  const EnvironmentVariable libraries("LD_LIBRARY_PATH", folder.path());
   const Ended ended = Process({CAREEN_BINARY, "view"}, folder.path()).wait();
-  unsetenv("LD_LIBRARY_PATH");
   EXPECT_EQ(ended.exitCode, 3);
   EXPECT_NE(ended.err.find("apt install libglfw3"), std::string::npos) << ended.err;
 }

@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
+#include "support/environment_variable.h"
 #include "support/process.h"
 
 namespace careen {
@@ -16,25 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A CAREEN_DATA of the test's own, put back afterwards.
 class Resource : public testing::Test {
- public:
-  Resource() {
-    if (const char* const told = std::getenv("CAREEN_DATA")) {
-      before_ = told;
-    }
-    unsetenv("CAREEN_DATA");
-  }
-  ~Resource() override {
-    before_.empty() ? unsetenv("CAREEN_DATA") : setenv("CAREEN_DATA", before_.c_str(), 1);
-  }
-  Resource(const Resource&) = delete;
-  Resource& operator=(const Resource&) = delete;
-  Resource(Resource&&) = delete;
-  Resource& operator=(Resource&&) = delete;
-
  private:
-  std::string before_;
+  EnvironmentVariable none_{"CAREEN_DATA", std::nullopt};
 };
 
 TEST_F(Resource, comesFromTheSourceTreeWhenNotInstalled) {
@@ -60,14 +45,14 @@ TEST_F(Resource, comesFromBesideTheProgramWhenInstalled) {
 }
 
 TEST_F(Resource, comesFromWhereTheEnvironmentSays) {
-  setenv("CAREEN_DATA", "/nowhere", 1);
+  const EnvironmentVariable data("CAREEN_DATA", "/nowhere");
   EXPECT_EQ(resourceFolder(), "/nowhere");
-  setenv("CAREEN_DATA", "", 1);  // as good as not set
+  const EnvironmentVariable empty("CAREEN_DATA", "");  // as good as not set
   EXPECT_EQ(resourceFolder(), fs::path(CAREEN_SOURCE_DIR));
 }
 
 TEST_F(Resource, missingOnesAreToldWithThePlaceLookedAt) {
-  setenv("CAREEN_DATA", "/nowhere", 1);
+  const EnvironmentVariable data("CAREEN_DATA", "/nowhere");
   try {
     findResource("shaders/box.vert");
     FAIL() << "nothing is there";

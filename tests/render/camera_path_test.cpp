@@ -44,7 +44,8 @@ TEST_F(CameraPathTest, orbitComesBackAfterAFullTurn) {
   EXPECT_EQ(at(2).eye, Vec3(1, 7, 3));
   EXPECT_EQ(at(4).eye, Vec3(1, -7, 3));
   EXPECT_EQ(at(8).eye, Vec3(1, -7, 3));
-  for (double time = 0; time < 8; time += 0.37) {
+  for (int i = 0; i < 22; ++i) {
+    const double time = 0.37 * i;
     EXPECT_EQ(at(time).target, Vec3(1, 0, 1));
     EXPECT_NEAR((at(time).eye - at(time).target).norm(), std::hypot(7, 2), 1e-14);
     EXPECT_NEAR(at(time).eye.z(), 3, 1e-15);
@@ -98,8 +99,8 @@ TEST(CameraPath, nothingOvershootsItsKeysAndWhatIsEqualStays) {
   for (std::size_t i = 0; i + 1 < kKeys.size(); ++i) {
     const CameraKey& a = kKeys[i];
     const CameraKey& b = kKeys[i + 1];
-    for (double part = 0; part <= 1; part += 1.0 / 64) {
-      const CameraKey key = between(kKeys, a.time + part * (b.time - a.time));
+    for (int part = 0; part <= 64; ++part) {
+      const CameraKey key = between(kKeys, a.time + part / 64.0 * (b.time - a.time));
       constexpr double kRounding = 1e-12;
       EXPECT_GE(key.fovDegrees, std::min(a.fovDegrees, b.fovDegrees) - kRounding);
       EXPECT_LE(key.fovDegrees, std::max(a.fovDegrees, b.fovDegrees) + kRounding);
@@ -160,7 +161,8 @@ TEST(CameraPath, followingIsNotJerkedByImpactsAndKeepsTheBoxInThePicture) {
   double hardest = 0;     // [m/s²] of the eye
   double boxHardest = 0;  // of the box, by the same differences
   double farthest = 0;    // from the middle of the picture: 1 is its edge
-  for (double time = kStep; time < 6 - kStep; time += kStep) {
+  for (int i = 1; i < 6 * 512 - 1; ++i) {
+    const double time = kStep * i;
     const auto bend = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
       return (a - 2 * b + c).norm() / (kStep * kStep);
     };

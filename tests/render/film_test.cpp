@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "render/film_faults.h"
 #include "render/film_folder.h"
 #include "stage.h"
+#include "support/environment_variable.h"
 #include "support/process.h"
 
 namespace careen {
@@ -62,6 +62,7 @@ class FilmTest : public testing::Test {
   }
   std::vector<std::string> filmOf(int frames) const {
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(frames) + 1);
     for (int frame = 0; frame < frames; ++frame) {
       names.push_back(frameFileName(frame));
     }
@@ -368,11 +369,9 @@ TEST_F(FilmTest, resumedVideoIsTheSameAsOneMadeAtOnce) {
 }
 
 TEST_F(FilmTest, missingFfmpegIsToldBeforeAnyFrame) {
-  const std::string before = std::getenv("PATH");
-  setenv("PATH", folder_.path().c_str(), 1);
+  const EnvironmentVariable path("PATH", folder_.path());
   settings_.video = VideoSettings{.path = folder_ / "film.mp4"};
   const std::string said = errorOf(settings_);
-  setenv("PATH", before.c_str(), 1);
   EXPECT_NE(said.find("apt install ffmpeg"), std::string::npos) << said;
   EXPECT_TRUE(folder_.files().empty());
 }

@@ -243,6 +243,7 @@ TEST_F(OverlaysTest, barsAreAsLongAsTheirEnergies) {
   EXPECT_NEAR(bounced[0], whole, 1e-9 * whole);
   const std::vector<Label> labels = only<Label>(shapesAt("energy", 0.5));
   std::vector<std::string> texts;
+  texts.reserve(labels.size());
   for (const Label& label : labels) {
     texts.push_back(label.text);
   }

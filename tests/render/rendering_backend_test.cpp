@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "render/renderer.h"
 #include "stage.h"
+#include "support/environment_variable.h"
 #include "support/process.h"
 
 namespace careen {
@@ -37,9 +38,8 @@ Scene manyBoxes() {
 }
 
 class RenderingBackendPixels : public testing::Test {
- protected:
-  void SetUp() override { setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1); }  // a GPU has pixels of its own
-  void TearDown() override { unsetenv("LIBGL_ALWAYS_SOFTWARE"); }
+ private:
+  EnvironmentVariable software_{"LIBGL_ALWAYS_SOFTWARE", "1"};  // a GPU has pixels of its own
 };
 
 TEST_F(RenderingBackendPixels, areTheSameFromEveryBackend) {
