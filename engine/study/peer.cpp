@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/error.h"
 #include "physics/diagnostics.h"
@@ -18,12 +19,12 @@ std::vector<std::vector<BodyState>> Peer::run(const World& world, double dt, std
   double now = 0;
   for (const double time : times) {
     // The factor keeps an interval of n steps, but for its rounding, from being cut into n + 1.
-    const double count = std::ceil((time - now) / dt * (1 - 1e-12));
-    for (double k = 0; k < count; ++k) {
+    const auto count = static_cast<std::int64_t>(std::ceil((time - now) / dt * (1 - 1e-12)));
+    for (std::int64_t k = 0; k < count; ++k) {
       if (stop.stop_requested()) {
         throw Interrupted();
       }
-      engine->step((time - now) / count);
+      engine->step((time - now) / static_cast<double>(count));
     }
     now = time;
 
