@@ -252,7 +252,9 @@ TEST_F(View, badSceneOrOptionIsRefused) {
 TEST(ViewWithoutDisplay, saysSoAndEnds) {
   const TemporaryFolder folder;
   const EnvironmentVariable wayland("WAYLAND_DISPLAY", std::nullopt);
-  for (const auto& display : {std::optional<std::string>(), std::optional<std::string>(":nobody")}) {
+  const std::optional<std::string> notNamed;
+  const std::optional<std::string> notThere = ":nobody";
+  for (const auto& display : {notNamed, notThere}) {
     const EnvironmentVariable x("DISPLAY", display);
     const Ended ended = Process({CAREEN_BINARY, "view", "missing.json"}, folder.path()).wait();
     EXPECT_EQ(ended.exitCode, 3) << ended.err;

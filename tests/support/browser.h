@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "support/environment_variable.h"
 #include "support/process.h"
 
 namespace careen {
@@ -161,16 +162,8 @@ class Browser {
     const std::string log = (folder_.path() / "log").string();
     posix_spawn_file_actions_addopen(&actions, 2, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-    std::string temporary = "TMPDIR=" + folder_.path().string();  // it leaves things there
-    std::vector<char*> environment = {temporary.data()};
-    for (char** each = environ; *each != nullptr; ++each) {
-      if (!std::string_view(*each).starts_with("TMPDIR=")) {
-        environment.push_back(*each);
-      }
-    }
-    environment.push_back(nullptr);
-    const int error =
-        posix_spawnp(&pid_, "chromium", &actions, nullptr, arguments.data(), environment.data());
+    const EnvironmentVariable temporary("TMPDIR", folder_.path());  // it leaves things there
+    const int error = posix_spawnp(&pid_, "chromium", &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0) {
       throw std::runtime_error("cannot start chromium; apt install chromium");
