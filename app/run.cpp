@@ -15,7 +15,7 @@
 #include "core/names.h"
 #include "core/resource.h"
 #include "parsed.h"
-#include "physics/method.h"
+#include "physics/world/method.h"
 #include "scene/scene_reader.h"
 #include "scene/starts.h"
 #include "trajectory/trajectory_file.h"

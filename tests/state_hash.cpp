@@ -8,7 +8,7 @@
 
 #include "core/arithmetic.h"
 #include "core/file.h"
-#include "physics/method.h"
+#include "physics/world/method.h"
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
 #include "trajectory/trajectory.h"

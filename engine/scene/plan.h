@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "physics/world.h"
+#include "physics/world/world.h"
 #include "scene/scene.h"
 
 namespace careen {

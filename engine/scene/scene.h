@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/linear_algebra.h"
-#include "physics/body.h"
-#include "physics/method.h"
-#include "physics/world.h"
+#include "physics/world/body.h"
+#include "physics/world/method.h"
+#include "physics/world/world.h"
 #include "scene/frame_rate.h"
 #include "scene/overlay.h"
 #include "scene/shutter.h"

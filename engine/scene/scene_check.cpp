@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/brief.h"
-#include "physics/overlap.h"
+#include "physics/start/overlap.h"
 #include "scene/film_check.h"
 #include "scene/json_shape.h"
 #include "scene/starts.h"

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "physics/overlap.h"
+#include "physics/start/overlap.h"
 #include "scene/scene.h"
 
 namespace careen {

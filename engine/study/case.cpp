@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/resource.h"
+#include "physics/simulate.h"
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
 #include "study/difference.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "physics/world.h"
+#include "physics/world/world.h"
 #include "scene/scene.h"
 
 namespace careen {

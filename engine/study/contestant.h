@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "physics/body.h"
-#include "physics/world.h"
+#include "physics/world/body.h"
+#include "physics/world/world.h"
 
 namespace careen {
 

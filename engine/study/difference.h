@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/pose_difference.h"
-#include "physics/world.h"
+#include "physics/world/world.h"
 
 namespace careen {
 

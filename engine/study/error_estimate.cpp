@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "physics/simulate.h"
 #include "study/difference.h"
 #include "study/sampled_states.h"
 

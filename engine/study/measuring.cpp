@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "physics/diagnostics.h"
-#include "physics/overlap.h"
+#include "physics/start/overlap.h"
+#include "physics/world/diagnostics.h"
 #include "study/deadline.h"
 #include "study/difference.h"
 

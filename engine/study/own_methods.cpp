@@ -1,6 +1,7 @@
 #include "study/own_methods.h"
 
-#include "physics/method.h"
+#include "physics/simulate.h"
+#include "physics/world/method.h"
 #include "study/sampled_states.h"
 
 namespace careen {

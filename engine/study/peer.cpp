@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/error.h"
-#include "physics/diagnostics.h"
+#include "physics/world/diagnostics.h"
 
 namespace careen {
 std::string Peer::refuses(const World& world) const {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "physics/recorder.h"
-#include "physics/world.h"
+#include "physics/motion/recorder.h"
+#include "physics/world/world.h"
 
 namespace careen {
 

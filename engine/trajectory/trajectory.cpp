@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "physics/simulate.h"
 
 namespace careen {
 namespace {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "physics/body.h"
-#include "physics/method.h"
-#include "physics/motion.h"
-#include "physics/recorder.h"
-#include "physics/world.h"
+#include "physics/motion/motion.h"
+#include "physics/motion/recorder.h"
+#include "physics/world/body.h"
+#include "physics/world/method.h"
+#include "physics/world/world.h"
 
 namespace careen {
 

@@ -4,7 +4,8 @@
 
 #include <string>
 
-#include "physics/method.h"
+#include "physics/simulate.h"
+#include "physics/world/method.h"
 #include "support/exact_runs.h"
 #include "support/tumbling_box.h"
 

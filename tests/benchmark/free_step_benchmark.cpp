@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "physics/free_methods.h"
-#include "physics/listing1.h"
-#include "physics/torque_free_rotation.h"
+#include "physics/attitude/free_methods.h"
+#include "physics/attitude/torque_free_rotation.h"
+#include "physics/motion/listing1.h"
 
 namespace careen {
 namespace {

@@ -1,4 +1,4 @@
-#include "physics/impact_law.h"
+#include "physics/impact/impact_law.h"
 
 #include <benchmark/benchmark.h>
 

@@ -7,7 +7,7 @@
 // 8.0). 250, 1000, 8028 boxes in the first 3 s: 5.0, 22.7, 318. A settled pile: 2 ns.
 #include <benchmark/benchmark.h>
 
-#include "physics/pile.h"
+#include "physics/pile/pile.h"
 #include "support/pile_scenes.h"
 
 #ifdef CAREEN_PEERS

@@ -6,7 +6,7 @@
 // to machine, the ratios hardly. Measured (g++ 12 -O3, AMD EPYC, best of 15): attitude 1.12, set-up with both
 // bounds 11.3; against the bare rungeKutta4Step 1.24 and 12.5.
 
-#include "physics/torque_free_rotation.h"
+#include "physics/attitude/torque_free_rotation.h"
 
 #include <benchmark/benchmark.h>
 
@@ -15,7 +15,7 @@
 #include <random>
 #include <vector>
 
-#include "physics/runge_kutta4.h"
+#include "physics/attitude/runge_kutta4.h"
 
 namespace careen {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "image/picture.h"
-#include "physics/body.h"
+#include "physics/world/body.h"
 #include "render/lighting.h"
 #include "render/renderer.h"
 #include "render/rendering_backend.h"

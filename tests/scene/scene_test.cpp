@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "physics/gap.h"
+#include "physics/world/gap.h"
 
 namespace careen {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "physics/method.h"
+#include "physics/world/method.h"
 #include "support/exact_runs.h"
 
 namespace careen {

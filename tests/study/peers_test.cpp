@@ -13,7 +13,7 @@
 
 #include "core/error.h"
 #include "core/rotation.h"
-#include "physics/torque_free_rotation.h"
+#include "physics/attitude/torque_free_rotation.h"
 #include "support/physics_worlds.h"
 
 namespace careen {

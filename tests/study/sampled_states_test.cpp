@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "physics/method.h"
+#include "physics/simulate.h"
+#include "physics/world/method.h"
 #include "support/exact_runs.h"
 #include "trajectory/trajectory.h"
 

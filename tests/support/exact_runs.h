@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "physics/exact_world.h"
+#include "physics/exact/exact_world.h"
 
 namespace careen {
 

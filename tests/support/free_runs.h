@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "physics/free_step.h"
+#include "physics/attitude/free_step.h"
 #include "support/free_bodies.h"
 #include "support/quad.h"
 #include "support/taylor_oracle.h"

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "physics/impact_law.h"
+#include "physics/impact/impact_law.h"
 #include "support/quad.h"
 
 namespace careen::testing {

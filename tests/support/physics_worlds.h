@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "physics/method.h"
-#include "physics/recorder.h"
-#include "physics/world.h"
+#include "physics/motion/recorder.h"
+#include "physics/world/method.h"
+#include "physics/world/world.h"
 
 namespace careen {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "physics/world.h"
+#include "physics/world/world.h"
 #include "support/physics_worlds.h"
 
 namespace careen::test {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "physics/world.h"
+#include "physics/world/world.h"
 #include "support/quad.h"
 #include "support/quad_scene.h"
 #include "support/taylor_oracle.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "physics/body.h"
+#include "physics/world/body.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {

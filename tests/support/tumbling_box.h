@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/linear_algebra.h"
-#include "physics/time_of_impact.h"
+#include "physics/search/time_of_impact.h"
 
 namespace careen::test {
 

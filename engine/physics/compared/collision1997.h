@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+
+#include "physics/motion/recorder.h"
+#include "physics/world/world.h"
+
+namespace careen {
+
+/// Half the thickness of the layer in which a corner touches a wall [m]: the 1997 sample's.
+inline constexpr double kTouchingDepth = 0.001;
+
+/// A corner of a body at a wall.
+struct CornerAtWall {
+  BodyIndex body;
+  WallIndex wall;
+  Vec3 point = Vec3::Zero();  ///< [m] world
+  double gap = 0;             ///< [m]
+};
+
+enum class CornerState {
+  kClear,
+  kColliding,    ///< a corner within kTouchingDepth of a wall moves towards it
+  kPenetrating,  ///< a corner lies deeper than kTouchingDepth
+};
+
+struct CornerCheck {
+  CornerState state = CornerState::kClear;
+  CornerAtWall corner;  ///< the first that penetrates, else the last that collides
+  double deepest = 0;   ///< [m] ≥ 0, over the corners looked at: all of them unless one penetrates
+};
+
+/// All corners against all walls, body by body and wall by wall, as the 1997 sample did: it stops at the
+/// first that penetrates. Immovable bodies are not looked at.
+CornerCheck checkCorners(const World& world, std::span<const BodyState> states);
+
+struct ResolvedCorner {
+  Impact impact;
+  double energyChange = 0;  ///< [J] what the impact took out, ≤ 0
+};
+/// Resolves one colliding corner by a frictionless impulse (Fig. 4), the wall being a body of infinite mass.
+ResolvedCorner resolveCorner(const World& world, const CornerAtWall& corner, double time,
+                             std::span<BodyState> states);
+
+}  // namespace careen

@@ -1,0 +1,315 @@
+#include "physics/compared/stepped_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "physics/attitude/free_methods.h"
+#include "physics/geometry/separation.h"
+#include "physics/impact/wall_contacts.h"
+#include "physics/world/diagnostics.h"
+#include "physics/world/flight_account.h"
+#include "physics/world/partner.h"
+
+namespace careen {
+namespace {
+
+constexpr std::int64_t kStepsAtOnce = 64;  // what a call of a method shares, a segment of the record holds
+constexpr double kSliver = 1e-6;           // [1] of dt: a shorter last step is joined to the one before
+constexpr double kShortestHop = 0x1p-40;   // [1] of a step
+constexpr int kMostRefinements = 200;
+
+/// A body between two of its steps.
+struct Flying {
+  Vec3 position = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();
+  FreeState<double> rotation;
+
+  BodyState state() const {
+    return {.pose = {.position = position, .worldFromBody = rotation.worldFromBody.toRotationMatrix()},
+            .velocity = velocity,
+            .angularMomentum = rotation.angularMomentumWorld()};
+  }
+};
+
+/// One body's run: none has to do with another.
+class SteppedBody {
+ public:
+  SteppedBody(const World& world, int index, const RunSettings& settings, Recorder& recorder,
+              FlightAccount& account, std::vector<Impact>& impacts)
+      : world_(world),
+        body_(world.bodies[static_cast<std::size_t>(index)]),
+        index_(index),
+        settings_(settings),
+        method_(freeMethod(settings.method)),
+        recorder_(recorder),
+        account_(account),
+        impacts_(impacts) {}
+
+  void run(const std::stop_token& stop);
+
+ private:
+  void depart();
+  void step(double end);
+  void takeSteps(std::int64_t count);
+  void moveTo(const Flying& next, double time);
+  Flying after(double h, std::int64_t count = 1) const;
+  double gapOf(const Flying& flying) const;
+  double gapRounding() const;
+  double contactWithin(double h, double gapAtEnd) const;
+  void strike();
+
+  double stepEnd(std::int64_t step) const;
+  std::int64_t stepsOutOfReach() const;
+  std::string where() const;
+
+  const World& world_;
+  const Body& body_;
+  int index_;
+  const RunSettings& settings_;
+  const FreeMethod& method_;
+  Recorder& recorder_;
+  FlightAccount& account_;
+  std::vector<Impact>& impacts_;
+
+  double time_ = 0;
+  std::int64_t step_ = 0;  // whole steps that lie behind
+  Flying now_;
+  double departure_ = 0;  // [s] when the flight began
+  std::vector<ImpactContact> contacts_;
+  std::vector<int> partners_;
+  std::vector<ImpactShare> shares_;
+};
+
+// The whole method, from here to strike().
+
+void SteppedBody::run(const std::stop_token& stop) {
+  const BodyState& start = body_.initial;
+  const Quat attitude = Quat(start.pose.worldFromBody).normalized();
+  now_ = {start.pose.position, start.velocity, {attitude, attitude.conjugate() * start.angularMomentum}};
+  depart();
+  account_.parted();
+  while (time_ < settings_.duration) {
+    if (stop.stop_requested()) {
+      throw Interrupted();
+    }
+    if (const std::int64_t count = stepsOutOfReach(); count > 0) {
+      takeSteps(count);
+    } else {
+      step(stepEnd(step_ + 1));
+      ++step_;
+    }
+  }
+  account_.arrives(static_cast<std::size_t>(index_), now_.state(), time_ - departure_);
+}
+
+void SteppedBody::takeSteps(std::int64_t count) {
+  const Flying next = after(settings_.dt, count);
+  step_ += count;
+  moveTo(next, stepEnd(step_));
+}
+
+void SteppedBody::step(double end) {
+  while (time_ < end) {
+    const double h = end - time_;
+    const Flying next = after(h);
+    const double gap = gapOf(next);
+    if (gap >= -gapRounding()) {
+      moveTo(next, end);
+    } else {
+      const double contact = contactWithin(h, gap);
+      moveTo(after(contact), time_ + contact);
+    }
+    if (gap <= gapRounding()) {
+      strike();
+    }
+  }
+}
+
+void SteppedBody::strike() {
+  const BodyState before = now_.state();
+  BodyState after = before;
+  contacts_.clear();
+  partners_.clear();
+  account_.penetrates(addWallContacts(world_, body_, before.pose, 0, contacts_, partners_));
+  account_.arrives(static_cast<std::size_t>(index_), before, time_ - departure_);
+  account_.strikes(std::any_of(contacts_.begin(), contacts_.end(), [](const ImpactContact& contact) {
+    return contact.material.restitution < 1 || contact.material.friction > 0;
+  }));
+  shares_.assign(contacts_.size(), {});
+  const ImpactBody body{.mass = &body_.mass, .state = &after};
+  resolveImpact({&body, 1}, contacts_, shares_);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    if (shares_[k].impulse > 0) {
+      impacts_.push_back({.time = time_,
+                          .a = {index_},
+                          .b = WallIndex{static_cast<int>(wallOf(partners_[k]))},
+                          .point = before.pose.position + contacts_[k].armA,
+                          .normal = contacts_[k].normal,
+                          .approach = shares_[k].approach,
+                          .impulse = shares_[k].impulse,
+                          .tangential = shares_[k].tangential});
+    }
+  }
+  now_.velocity = after.velocity;
+  now_.rotation.bodyMomentum = now_.rotation.worldFromBody.conjugate() * after.angularMomentum;
+  depart();
+  account_.parted();
+}
+
+void SteppedBody::depart() {
+  departure_ = time_;
+  account_.departs(static_cast<std::size_t>(index_), now_.state());
+}
+
+void SteppedBody::moveTo(const Flying& next, double time) {
+  recorder_.moves({index_}, time_,
+                  SteppedFlight{.method = method_.method,
+                                .dt = settings_.dt,
+                                .start = {.position = now_.position,
+                                          .velocity = now_.velocity,
+                                          .acceleration = world_.gravity,
+                                          .worldFromBody = now_.rotation.worldFromBody,
+                                          .angularMomentum = now_.rotation.angularMomentumWorld()}});
+  now_ = next;
+  time_ = time;
+  const BodyState state = now_.state();
+  if (!isFinite(state)) {
+    throw NumericalError(where() + "is nowhere: its state is no longer finite; take a smaller dt");
+  }
+  account_.passes(static_cast<std::size_t>(index_), state);
+}
+
+Flying SteppedBody::after(double h, std::int64_t count) const {
+  Flying next = now_;
+  const double elapsed = h * static_cast<double>(count);
+  next.position += (now_.velocity + 0.5 * elapsed * world_.gravity) * elapsed;
+  next.velocity += elapsed * world_.gravity;
+  method_.steps(body_.mass.inertiaBody, next.rotation, h, count);
+  return next;
+}
+
+double SteppedBody::gapOf(const Flying& flying) const {
+  double lowest = std::numeric_limits<double>::infinity();
+  const Mat3 columns = flying.rotation.worldFromBody.toRotationMatrix();
+  for (const Wall& wall : world_.walls) {
+    const double reach = body_.halfExtents.dot((columns.transpose() * wall.normal).cwiseAbs());
+    lowest = std::min(lowest, wall.normal.dot(flying.position) - reach - wall.offset);
+  }
+  return lowest;
+}
+
+double SteppedBody::gapRounding() const {
+  return kGapRounding * (now_.position.cwiseAbs().sum() + body_.halfExtents.norm());
+}
+
+// The gap is positive somewhere in (0, h), and negative at h: regula falsi, where the end that stays twice
+// counts half (the Illinois rule).
+double SteppedBody::contactWithin(double h, double gapAtEnd) const {
+  double high = h;
+  double gapHigh = gapAtEnd;
+  double low = 0;
+  double gapLow = gapOf(now_);
+  // What has just struck leaves first.
+  for (double part = 0.5; gapLow <= gapRounding(); part /= 2) {
+    if (part < kShortestHop) {
+      throw NumericalError(where() + "would have to rest, slide or roll on a wall, which method " +
+                           std::string(traitsOf(method_.method).name) +
+                           " cannot: end the run before it, or give the pair more restitution");
+    }
+    const double gap = gapOf(after(part * h));
+    if (gap > gapRounding()) {
+      low = part * h;
+      gapLow = gap;
+    } else if (gap < 0) {
+      high = part * h;
+      gapHigh = gap;
+    }
+  }
+  double best = low;
+  for (int k = 0; k < kMostRefinements && high - low > std::numeric_limits<double>::epsilon() * h; ++k) {
+    const double middle = high - gapHigh * (high - low) / (gapHigh - gapLow);
+    const double gap = gapOf(after(middle));
+    best = middle;
+    if (std::fabs(gap) <= gapRounding() / 8) {
+      break;
+    }
+    if (gap < 0) {
+      high = middle;
+      gapHigh = gap;
+      gapLow /= 2;
+    } else {
+      low = middle;
+      gapLow = gap;
+      gapHigh /= 2;
+    }
+  }
+  return best;
+}
+
+// By multiplication: a running sum would drift away from the frames of a film.
+double SteppedBody::stepEnd(std::int64_t step) const {
+  const double end = static_cast<double>(step) * settings_.dt;
+  return end < settings_.duration - kSliver * settings_.dt ? end : settings_.duration;
+}
+
+// Whole steps in which not even the sphere around the box comes to a wall.
+std::int64_t SteppedBody::stepsOutOfReach() const {
+  if (time_ != stepEnd(step_)) {
+    return 0;
+  }
+  const double radius = body_.halfExtents.norm();
+  double safe = static_cast<double>(kStepsAtOnce) * settings_.dt;
+  for (const Wall& wall : world_.walls) {
+    const double room = wall.normal.dot(now_.position) - wall.offset - radius;
+    const double speed = wall.normal.dot(now_.velocity);
+    const double pull = wall.normal.dot(world_.gravity);
+    if (room <= 0) {
+      return 0;
+    }
+    // room + speed t + pull t²/2 ≥ room − (|speed| + |pull| t/2) t while both only pull it nearer
+    const double closing = std::max(0.0, -speed) + 0.5 * std::max(0.0, -pull) * safe;
+    if (closing > 0) {
+      safe = std::min(safe, room / closing);
+    }
+  }
+  const double left = std::floor((settings_.duration - time_) / settings_.dt);
+  return static_cast<std::int64_t>(
+      std::min({std::floor(safe / settings_.dt), left, static_cast<double>(kStepsAtOnce)}));
+}
+
+std::string SteppedBody::where() const {
+  std::ostringstream text;
+  text << "at " << time_ << " s box " << body_.name << ' ';
+  return text.str();
+}
+
+}  // namespace
+
+RunFigures runStepped(const World& world, const RunSettings& settings, Recorder& recorder,
+                      const std::stop_token& stop) {
+  FlightAccount account(world);
+  std::vector<Impact> impacts;
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    const Body& body = world.bodies[i];
+    const int index = static_cast<int>(i);
+    if (isImmovable(body.mass)) {
+      recorder.moves({index}, 0, Rest{body.initial.pose});
+    } else {
+      SteppedBody(world, index, settings, recorder, account, impacts).run(stop);
+    }
+  }
+  std::stable_sort(impacts.begin(), impacts.end(),
+                   [](const Impact& a, const Impact& b) { return a.time < b.time; });
+  for (const Impact& impact : impacts) {
+    recorder.strikes(impact);
+  }
+  return account.figures();
+}
+
+}  // namespace careen

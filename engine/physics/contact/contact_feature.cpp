@@ -1,0 +1,230 @@
+#include "physics/contact/contact_feature.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace careen {
+namespace {
+
+// [1] of the half extents: a point so near to an edge is on it. Wider than any contact's own tolerance; no
+// two points of one manifold are so near.
+constexpr double kOnEdge = 0x1p-30;
+// [1] A normal so nearly along a face's is the face's.
+constexpr double kAlongFace = 1 - 0x1p-40;
+
+ContactState onPlane(const Vec3& arm, const Kinematics& a, const Kinematics* b, const Vec3& normal,
+                     double offset) {
+  ContactState state;
+  const Vec3 velocity = a.velocity + a.angularVelocity.cross(arm);
+  const Vec3 centripetal = a.angularVelocity.cross(a.angularVelocity.cross(arm));
+  state.normal = normal;
+  state.armA = arm;
+  if (b == nullptr) {
+    state.gap = normal.dot(a.pose.position) + normal.dot(arm) - offset;
+    state.slip = velocity;
+    state.gapBias = normal.dot(centripetal);
+    state.slipBias = centripetal;
+  } else {
+    const Vec3& spin = b->angularVelocity;
+    state.armB = (a.pose.position - b->pose.position) + arm;
+    state.gap = normal.dot(state.armB) - offset;
+    const Vec3 pulling = velocity - b->velocity;
+    state.slip = pulling - spin.cross(state.armB);
+    state.gapBias = normal.dot(centripetal) + spin.cross(spin.cross(normal)).dot(state.armB) +
+                    2 * spin.cross(normal).dot(pulling);
+    state.slipBias = centripetal - spin.cross(pulling);
+  }
+  state.rate = normal.dot(state.slip);
+  state.slip -= state.rate * normal;
+  return state;
+}
+
+ContactState onEdge(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,
+                    const Kinematics& b, const Vec3& halfExtentsB) {
+  ContactState state;
+  const Vec3 edgeA = a.pose.worldFromBody.col(feature.axisA);
+  const Vec3 edgeB = b.pose.worldFromBody.col(feature.axisB);
+  const Vec3 middleA = a.pose.worldFromBody * feature.onA;
+  const Vec3 middleB = b.pose.worldFromBody * feature.onB;
+  const Vec3 link = (a.pose.position - b.pose.position) + middleA - middleB;
+  const Vec3 cross = feature.sign * edgeA.cross(edgeB);
+  const double sine = cross.norm();
+  const Vec3& n = state.normal = cross / sine;
+  const double alongA = -feature.sign * link.dot(edgeB.cross(n)) / sine;
+  const double alongB = -feature.sign * link.dot(edgeA.cross(n)) / sine;
+  state.armA = middleA + alongA * edgeA;
+  state.armB = middleB + alongB * edgeB;
+  state.gap = n.dot(link);
+  state.beyond = std::max(std::fabs(alongA) - halfExtentsA[feature.axisA],
+                          std::fabs(alongB) - halfExtentsB[feature.axisB]);
+
+  const Vec3& spinA = a.angularVelocity;
+  const Vec3& spinB = b.angularVelocity;
+  const Vec3 velocityA = a.velocity + spinA.cross(state.armA);
+  state.slip = velocityA - b.velocity - spinB.cross(state.armB);
+  state.rate = n.dot(state.slip);
+  state.slip -= state.rate * n;
+  const Vec3 turning = feature.sign * (spinA.cross(edgeA).cross(edgeB) + edgeA.cross(spinB.cross(edgeB)));
+  const Vec3 normalRate = (turning - n.dot(turning) * n) / sine;
+  state.gapBias = n.dot(spinA.cross(spinA.cross(state.armA)) - spinB.cross(spinB.cross(state.armB))) +
+                  2 * normalRate.dot(state.slip);
+  // The crossing itself wanders along both edges.
+  const double wander = -feature.sign * n.dot(state.slip.cross(edgeB)) / sine;
+  const Vec3 crossing = velocityA + wander * edgeA;
+  state.slipBias = spinA.cross(crossing - a.velocity) - spinB.cross(crossing - b.velocity);
+  return state;
+}
+
+// The axes across which the point lies at the box's side.
+struct Sides {
+  std::array<bool, 3> at{};
+  int count = 0;
+};
+Sides sidesAt(const Vec3& point, const Vec3& halfExtents, double apart) {
+  Sides sides;
+  const double within = kOnEdge * halfExtents.norm() + std::fabs(apart);
+  for (int i = 0; i < 3; ++i) {
+    if (std::fabs(point[i]) >= halfExtents[i] - within) {
+      sides.at[static_cast<std::size_t>(i)] = true;
+      ++sides.count;
+    }
+  }
+  return sides;
+}
+
+// The face of a box that looks along a direction, if one does.
+int faceAlong(const Mat3& worldFromBody, const Vec3& direction) {
+  for (int i = 0; i < 3; ++i) {
+    if (std::fabs(worldFromBody.col(i).dot(direction)) >= kAlongFace) {
+      return i;
+    }
+  }
+  return -1;
+}
+
+Vec3 atSides(const Vec3& point, const Vec3& halfExtents, int except) {
+  Vec3 moved = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    if (i != except) {
+      moved[i] = point[i] < 0 ? -halfExtents[i] : halfExtents[i];
+    }
+  }
+  return moved;
+}
+
+// Of the box's edges through the point the one that crosses `other` most squarely, seen along the normal.
+int edgeThrough(const Sides& sides, const Mat3& worldFromBody, const Vec3& normal, const Vec3& other) {
+  int best = -1;
+  double most = -1;
+  for (int i = 0; i < 3; ++i) {
+    const int atOthers = sides.count - (sides.at[static_cast<std::size_t>(i)] ? 1 : 0);
+    const double across = std::fabs(worldFromBody.col(i).cross(other).dot(normal));
+    if (atOthers == 2 && across > most) {
+      best = i;
+      most = across;
+    }
+  }
+  return best;
+}
+
+ContactFeature pointOnFace(int a, const Vec3& point, int b, const Mat3& worldFromB, int face,
+                           const Vec3& normal) {
+  return {.kind = ContactFeature::Kind::kPointOnFace,
+          .a = a,
+          .b = b,
+          .onA = point,
+          .axisB = face,
+          .sign = worldFromB.col(face).dot(normal) < 0 ? -1.0 : 1.0};
+}
+
+}  // namespace
+
+bool hasCorner(std::span<const ContactFeature> features, int a, int wall, const Vec3& corner) {
+  return std::any_of(features.begin(), features.end(), [&](const ContactFeature& feature) {
+    return feature.kind == ContactFeature::Kind::kPointOnWall && feature.a == a && feature.wall == wall &&
+           feature.onA == corner;
+  });
+}
+
+ContactState contactState(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,
+                          const Kinematics* b, const Vec3& halfExtentsB, const Wall* wall) {
+  if (feature.kind == ContactFeature::Kind::kEdgeOnEdge) {
+    return onEdge(feature, a, halfExtentsA, *b, halfExtentsB);
+  }
+  const Vec3 arm = a.pose.worldFromBody * feature.onA;
+  if (feature.kind == ContactFeature::Kind::kPointOnWall) {
+    ContactState state = onPlane(arm, a, nullptr, wall->normal, wall->offset);
+    state.beyond = -std::numeric_limits<double>::infinity();
+    return state;
+  }
+  const int face = feature.axisB;
+  const Vec3 normal = feature.sign * b->pose.worldFromBody.col(face);
+  ContactState state = onPlane(arm, a, b, normal, halfExtentsB[face]);
+  const Vec3 place = b->pose.worldFromBody.transpose() * state.armB;
+  state.beyond = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    if (i != face) {
+      state.beyond = std::max(state.beyond, std::fabs(place[i]) - halfExtentsB[i]);
+    }
+  }
+  return state;
+}
+
+ContactFeature featureAt(const ContactPoint& point, double apart, int a, const Pose& poseA,
+                         const Vec3& halfExtentsA, int b, const Pose& poseB, const Vec3& halfExtentsB) {
+  const Vec3 placeA = poseA.worldFromBody.transpose() * point.armA;
+  const Vec3 placeB = poseB.worldFromBody.transpose() * point.armB;
+  const Sides sidesA = sidesAt(placeA, halfExtentsA, apart);
+  const Sides sidesB = sidesAt(placeB, halfExtentsB, apart);
+  const int faceA = faceAlong(poseA.worldFromBody, point.normal);
+  const int faceB = faceAlong(poseB.worldFromBody, point.normal);
+  if (sidesA.count == 3 && faceB >= 0) {
+    return pointOnFace(a, atSides(placeA, halfExtentsA, -1), b, poseB.worldFromBody, faceB, point.normal);
+  }
+  if (sidesB.count == 3 && faceA >= 0) {
+    return pointOnFace(b, atSides(placeB, halfExtentsB, -1), a, poseA.worldFromBody, faceA, -point.normal);
+  }
+  // The edges that cross most squarely; each chosen against all of the other's.
+  int edgeA = -1;
+  int edgeB = -1;
+  double most = kOnEdge;
+  for (int j = 0; j < 3; ++j) {
+    if (sidesB.count - (sidesB.at[static_cast<std::size_t>(j)] ? 1 : 0) != 2) {
+      continue;
+    }
+    const Vec3 other = poseB.worldFromBody.col(j);
+    const int i = edgeThrough(sidesA, poseA.worldFromBody, point.normal, other);
+    const double across = i < 0 ? 0 : std::fabs(poseA.worldFromBody.col(i).cross(other).dot(point.normal));
+    if (across > most) {
+      most = across;
+      edgeA = i;
+      edgeB = j;
+    }
+  }
+  if (edgeA >= 0) {
+    const Vec3 cross = poseA.worldFromBody.col(edgeA).cross(poseB.worldFromBody.col(edgeB));
+    return {.kind = ContactFeature::Kind::kEdgeOnEdge,
+            .a = a,
+            .b = b,
+            .onA = atSides(placeA, halfExtentsA, edgeA),
+            .onB = atSides(placeB, halfExtentsB, edgeB),
+            .axisA = edgeA,
+            .axisB = edgeB,
+            .sign = cross.dot(point.normal) < 0 ? -1.0 : 1.0};
+  }
+  // A place within a face, as where a face's middle was brought over another: it keeps to its body.
+  if (faceB >= 0 || faceA < 0) {
+    int face = faceB;
+    if (face < 0) {
+      Eigen::Index best = 0;
+      (poseB.worldFromBody.transpose() * point.normal).cwiseAbs().maxCoeff(&best);
+      face = static_cast<int>(best);
+    }
+    return pointOnFace(a, placeA, b, poseB.worldFromBody, face, point.normal);
+  }
+  return pointOnFace(b, placeB, a, poseA.worldFromBody, faceA, -point.normal);
+}
+
+}  // namespace careen

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <span>
+
+#include "core/linear_algebra.h"
+#include "physics/geometry/contact_points.h"
+#include "physics/world/body.h"
+#include "physics/world/world.h"
+
+namespace careen {
+
+/// A body's motion at one moment, world frame.
+struct Kinematics {
+  Pose pose;
+  Vec3 velocity = Vec3::Zero();         ///< [m/s] of the centre of mass
+  Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s]
+};
+
+/// What touches what, as parts of the bodies rather than as a place: it goes on holding while they move.
+/// Faces, edges and corners that lie on each other are several features, one for each point of their common
+/// part.
+struct ContactFeature {
+  enum class Kind {
+    kPointOnWall,
+    kPointOnFace,  ///< a point of a on a face of b
+    kEdgeOnEdge,   ///< the crossing of an edge of a and one of b
+  };
+  static constexpr int kNobody = -1;
+
+  Kind kind = Kind::kPointOnWall;
+  int a = 0;                ///< index of a body; the normal points to it
+  int b = kNobody;          ///< index of a body, or kNobody for a wall
+  int wall = 0;             ///< index of the wall
+  Vec3 onA = Vec3::Zero();  ///< [m] in a's frame: the point, or its edge's middle
+  Vec3 onB = Vec3::Zero();  ///< [m] in b's frame: its edge's middle
+  int axisA = 0;            ///< along which a's edge runs
+  int axisB = 0;            ///< along which b's edge runs, or b's face looks
+  double sign = 1;          ///< of the face's outward normal, or of the edges' cross product
+  Material material = {};   ///< of the pair
+};
+
+/// A feature at one moment. How its gap d and its slip change, for accelerations v̇ and ω̇ of both sides:
+///   d̈ = n·(v̇_a + ω̇_a×armA − v̇_b − ω̇_b×armB) + gapBias,   d(slip)/dt = the same without n + slipBias.
+struct ContactState {
+  Vec3 normal = Vec3::UnitZ();   ///< [1] unit, from b to a
+  Vec3 armA = Vec3::Zero();      ///< [m] world, from a's centre of mass to the contact
+  Vec3 armB = Vec3::Zero();      ///< [m] likewise from b's
+  double gap = 0;                ///< [m]
+  double rate = 0;               ///< [m/s] of the gap
+  Vec3 slip = Vec3::Zero();      ///< [m/s] of a's material past b's, along the contact plane
+  double gapBias = 0;            ///< [m/s²]
+  Vec3 slipBias = Vec3::Zero();  ///< [m/s²]
+  double beyond = 0;  ///< [m] how far the contact is past the end of its face or edge; negative within
+};
+
+/// Whether that corner of a is among them.
+bool hasCorner(std::span<const ContactFeature> features, int a, int wall, const Vec3& corner);
+
+/// `b` is null for a wall. Eq. 13 and its derivative; n turns with b's face, or with both edges.
+ContactState contactState(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,
+                          const Kinematics* b, const Vec3& halfExtentsB, const Wall* wall);
+
+/// Which parts of two boxes meet at a point of boxContactPoints, of boxes that are `apart` [m] or overlap so
+/// much: a crossing of edges lies in the middle between them.
+ContactFeature featureAt(const ContactPoint& point, double apart, int a, const Pose& poseA,
+                         const Vec3& halfExtentsA, int b, const Pose& poseB, const Vec3& halfExtentsB);
+
+}  // namespace careen

@@ -1,0 +1,352 @@
+#include "physics/contact/contact_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/impact/single_impact.h"
+#include "physics/world/forces.h"
+
+namespace careen {
+namespace {
+
+constexpr std::size_t kSix = ContactForces::kAxes;
+constexpr std::size_t kHeld = std::numeric_limits<std::size_t>::max();
+/// [1] of the speed that the pull gives over a half diagonal: rounding of what has come to rest.
+constexpr double kRestSpeed = 0x1p-44;
+/// [1] Gaps and rates this small, beside their lengths and speeds, need no projection.
+constexpr double kProjected = 0x1p-51;
+constexpr double kProjectedSpeed = 0x1p-46;
+constexpr int kMostProjections = 4;
+
+Vec3 threeAt(std::span<const double> y, std::size_t at) { return {y[at], y[at + 1], y[at + 2]}; }
+void setThree(std::span<double> y, std::size_t at, const Vec3& v) {
+  y[at] = v[0];
+  y[at + 1] = v[1];
+  y[at + 2] = v[2];
+}
+Quat quatAt(std::span<const double> y, std::size_t at) { return {y[at], y[at + 1], y[at + 2], y[at + 3]}; }
+void setQuat(std::span<double> y, std::size_t at, const Quat& q) {
+  y[at] = q.w();
+  y[at + 1] = q.x();
+  y[at + 2] = q.y();
+  y[at + 3] = q.z();
+}
+
+}  // namespace
+
+BodyState TouchingBody::state() const {
+  const Mat3 columns = worldFromBody.toRotationMatrix();
+  return {.pose = {.position = position, .worldFromBody = columns},
+          .velocity = velocity,
+          .angularMomentum = columns * body->mass.inertiaBody.cwiseProduct(angularVelocityBody)};
+}
+
+ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodies,
+                             std::vector<ContactFeature> features)
+    : world_(world),
+      bodies_(std::move(bodies)),
+      features_(std::move(features)),
+      modes_(features_.size(), Mode::kOff),
+      onset_(features_.size(), Vec3::Zero()),
+      kinematics_(bodies_.size()),
+      states_(features_.size()) {
+  pull_ = world.gravity.norm();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const TouchingBody& each = bodies_[i];
+    places_.push_back(each.isHeld() ? kHeld : movers_.size());
+    kinematics_[i].pose = {each.position, each.worldFromBody.toRotationMatrix()};
+    if (!each.isHeld()) {
+      movers_.push_back(i);
+      radius_ = std::max(radius_, each.body->halfExtents.norm());
+      const MassProperties& mass = each.body->mass;
+      inverseMass_.insert(inverseMass_.end(), 3, mass.inverseMass);
+      for (int k = 0; k < 3; ++k) {
+        inverseMass_.push_back(mass.inverseInertiaBody[k]);
+      }
+    }
+  }
+  restSpeed_ = kRestSpeed * std::sqrt(pull_ * radius_);
+  free_.resize(inverseMass_.size());
+  forces_.setBodies(inverseMass_);
+  forces_.contacts().resize(features_.size());
+  if (!world.springs.empty() || world.drag) {
+    for (const Body& body : world.bodies) {
+      worldStates_.push_back(body.initial);
+    }
+  }
+}
+
+std::vector<double> ContactSystem::pack() const {
+  std::vector<double> y(movers_.size() * kNumbers);
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    const TouchingBody& body = bodies_[movers_[m]];
+    setThree(y, m * kNumbers, body.position);
+    setQuat(y, m * kNumbers + 3, body.worldFromBody);
+    setThree(y, m * kNumbers + 7, body.velocity);
+    setThree(y, m * kNumbers + 10, body.angularVelocityBody);
+  }
+  return y;
+}
+
+void ContactSystem::unpack(std::span<const double> y) {
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    TouchingBody& body = bodies_[movers_[m]];
+    body.position = threeAt(y, m * kNumbers);
+    body.worldFromBody = quatAt(y, m * kNumbers + 3).normalized();
+    body.velocity = threeAt(y, m * kNumbers + 7);
+    body.angularVelocityBody = threeAt(y, m * kNumbers + 10);
+  }
+}
+
+void ContactSystem::look(std::span<const double> y) {
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    Kinematics& at = kinematics_[movers_[m]];
+    at.pose.position = threeAt(y, m * kNumbers);
+    at.pose.worldFromBody = quatAt(y, m * kNumbers + 3).normalized().toRotationMatrix();
+    at.velocity = threeAt(y, m * kNumbers + 7);
+    at.angularVelocity = at.pose.worldFromBody * threeAt(y, m * kNumbers + 10);
+  }
+  for (std::size_t c = 0; c < features_.size(); ++c) {
+    const ContactFeature& feature = features_[c];
+    const auto a = static_cast<std::size_t>(feature.a);
+    const bool onWall = feature.b == ContactFeature::kNobody;
+    const auto b = static_cast<std::size_t>(onWall ? 0 : feature.b);
+    states_[c] =
+        contactState(feature, kinematics_[a], bodies_[a].body->halfExtents,
+                     onWall ? nullptr : &kinematics_[b], onWall ? Vec3::Zero() : bodies_[b].body->halfExtents,
+                     onWall ? &world_.walls[static_cast<std::size_t>(feature.wall)] : nullptr);
+  }
+}
+
+// Rows and targets of every contact, from the last look().
+void ContactSystem::fillContacts() {
+  for (std::size_t c = 0; c < features_.size(); ++c) {
+    const ContactFeature& feature = features_[c];
+    const ContactState& state = states_[c];
+    ContactForces::Contact& contact = forces_.contacts()[c];
+    const Tangents tangents = tangentsOf(state.normal);
+    const std::array<Vec3, 3> directions{state.normal, tangents.first, tangents.second};
+    const auto a = static_cast<std::size_t>(feature.a);
+    const auto side = [&](std::size_t body, const Vec3& arm, double sign, std::size_t offset) {
+      if (places_[body] == kHeld) {
+        return ContactForces::kNobody;
+      }
+      const Mat3& turn = kinematics_[body].pose.worldFromBody;
+      for (std::size_t row = 0; row < 3; ++row) {
+        const Vec3 turning = turn.transpose() * arm.cross(directions[row]);
+        for (int k = 0; k < 3; ++k) {
+          contact.rows[row][offset + static_cast<std::size_t>(k)] = sign * directions[row][k];
+          contact.rows[row][offset + 3 + static_cast<std::size_t>(k)] = sign * turning[k];
+        }
+      }
+      return static_cast<int>(places_[body]);
+    };
+    contact.a = side(a, state.armA, 1, 0);
+    contact.b = ContactForces::kNobody;
+    if (feature.b != ContactFeature::kNobody) {
+      contact.b = side(static_cast<std::size_t>(feature.b), state.armB, -1, kSix);
+    }
+    contact.target = {-state.gapBias, -state.slipBias.dot(tangents.first),
+                      -state.slipBias.dot(tangents.second)};
+    contact.friction = feature.material.friction;
+    const double speed = state.slip.norm();
+    contact.slips = speed > restSpeed_;
+    const Vec3 direction = contact.slips ? Vec3(state.slip / speed) : onset_[c];
+    contact.slip = {direction.dot(tangents.first), direction.dot(tangents.second)};
+  }
+}
+
+// Accelerations without contact.
+void ContactSystem::findFree() {
+  std::vector<Load> loads;
+  if (!worldStates_.empty()) {
+    for (const std::size_t i : movers_) {
+      TouchingBody at = bodies_[i];
+      at.velocity = kinematics_[i].velocity;
+      const Mat3& columns = kinematics_[i].pose.worldFromBody;
+      worldStates_[static_cast<std::size_t>(at.index)] = {
+          .pose = kinematics_[i].pose,
+          .velocity = kinematics_[i].velocity,
+          .angularMomentum = careen::angularMomentum(at.body->mass, columns, kinematics_[i].angularVelocity)};
+    }
+    computeLoads(world_, worldStates_, loads);
+  }
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    const std::size_t i = movers_[m];
+    const MassProperties& mass = bodies_[i].body->mass;
+    const Mat3& columns = kinematics_[i].pose.worldFromBody;
+    const Vec3 spin = columns.transpose() * kinematics_[i].angularVelocity;
+    Vec3 linear = world_.gravity;
+    Vec3 torque = mass.inertiaBody.cwiseProduct(spin).cross(spin);
+    if (!loads.empty()) {
+      const Load& load = loads[static_cast<std::size_t>(bodies_[i].index)];
+      linear = mass.inverseMass * load.force;
+      torque += columns.transpose() * load.torque;
+    }
+    setThree(free_, m * kSix, linear);
+    setThree(free_, m * kSix + 3, mass.inverseInertiaBody.cwiseProduct(torque));
+  }
+}
+
+bool ContactSystem::findModes(std::span<const double> y) {
+  look(y);
+  fillContacts();
+  findFree();
+  const bool found = forces_.solve(free_, modes_, ContactForces::Modes::kFound);
+  guess_.assign(forces_.forces().begin(), forces_.forces().end());
+  for (std::size_t c = 0; c < features_.size(); ++c) {
+    if (modes_[c] == Mode::kSlip) {
+      const Tangents tangents = tangentsOf(states_[c].normal);
+      const auto& slip = forces_.contacts()[c].slip;
+      onset_[c] = slip[0] * tangents.first + slip[1] * tangents.second;
+    }
+  }
+  return found;
+}
+
+bool ContactSystem::rate(std::span<const double> y, std::vector<double>& dy) {
+  look(y);
+  fillContacts();
+  findFree();
+  const bool found = forces_.solve(free_, modes_, ContactForces::Modes::kGiven, guess_);
+  dy.resize(y.size());
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    const std::size_t at = m * kNumbers;
+    const Quat q = quatAt(y, at + 3);
+    const Vec3 w = threeAt(y, at + 10);
+    const Quat turning = q * Quat(0, w[0], w[1], w[2]);
+    setThree(dy, at, threeAt(y, at + 7));
+    setQuat(dy, at + 3, Quat(0.5 * turning.w(), 0.5 * turning.x(), 0.5 * turning.y(), 0.5 * turning.z()));
+    setThree(dy, at + 7, threeAt(forces_.accelerations(), m * kSix));
+    setThree(dy, at + 10, threeAt(forces_.accelerations(), m * kSix + 3));
+  }
+  return found;
+}
+
+void ContactSystem::solveGiven(std::span<const double> free) {
+  forces_.solve(free, modes_, ContactForces::Modes::kGiven);
+}
+
+bool ContactSystem::projectPositions(std::vector<double>& y) {
+  const std::vector<Mode> kept = modes_;
+  for (Mode& mode : modes_) {
+    mode = mode == Mode::kOff ? Mode::kOff : Mode::kOn;
+  }
+  const std::vector<double> still(inverseMass_.size(), 0.0);
+  int pass = 0;
+  for (; pass < kMostProjections; ++pass) {
+    look(y);
+    double worst = 0;
+    for (std::size_t c = 0; c < features_.size(); ++c) {
+      if (modes_[c] != Mode::kOff) {
+        const auto a = static_cast<std::size_t>(features_[c].a);
+        const double lengths = kinematics_[a].pose.position.cwiseAbs().sum() + states_[c].armA.norm();
+        worst = std::max(worst, std::fabs(states_[c].gap) / lengths);
+      }
+    }
+    if (worst <= kProjected) {
+      break;
+    }
+    fillContacts();
+    for (std::size_t c = 0; c < features_.size(); ++c) {
+      forces_.contacts()[c].target = {-states_[c].gap, 0, 0};
+    }
+    solveGiven(still);
+    for (std::size_t m = 0; m < movers_.size(); ++m) {
+      const std::size_t at = m * kNumbers;
+      setThree(y, at, threeAt(y, at) + threeAt(forces_.accelerations(), m * kSix));
+      const Vec3 half = 0.5 * threeAt(forces_.accelerations(), m * kSix + 3);
+      setQuat(y, at + 3, (quatAt(y, at + 3) * Quat(1, half[0], half[1], half[2])).normalized());
+    }
+  }
+  modes_ = kept;
+  return pass > 0;
+}
+
+bool ContactSystem::projectVelocities(std::vector<double>& y) {
+  look(y);
+  std::vector<Mode> kept = modes_;
+  double worst = 0;
+  double scale = 0;
+  for (std::size_t c = 0; c < features_.size(); ++c) {
+    if (modes_[c] == Mode::kOff) {
+      continue;
+    }
+    const auto a = static_cast<std::size_t>(features_[c].a);
+    scale = std::max(scale, kinematics_[a].velocity.norm() +
+                                kinematics_[a].angularVelocity.norm() * states_[c].armA.norm());
+    worst = std::max(worst, std::fabs(states_[c].rate));
+    if (modes_[c] == Mode::kStick) {
+      worst = std::max(worst, states_[c].slip.norm());
+    } else {
+      modes_[c] = Mode::kOn;
+    }
+  }
+  const bool moves = worst > kProjectedSpeed * scale;
+  if (moves) {
+    fillContacts();
+    for (ContactForces::Contact& contact : forces_.contacts()) {
+      contact.target = {};
+    }
+    std::vector<double> before(inverseMass_.size());
+    for (std::size_t m = 0; m < movers_.size(); ++m) {
+      setThree(before, m * kSix, threeAt(y, m * kNumbers + 7));
+      setThree(before, m * kSix + 3, threeAt(y, m * kNumbers + 10));
+    }
+    for (ContactForces::Contact& contact : forces_.contacts()) {
+      contact.slips = false;
+    }
+    solveGiven(before);
+    for (std::size_t m = 0; m < movers_.size(); ++m) {
+      setThree(y, m * kNumbers + 7, threeAt(forces_.accelerations(), m * kSix));
+      setThree(y, m * kNumbers + 10, threeAt(forces_.accelerations(), m * kSix + 3));
+    }
+  }
+  modes_ = std::move(kept);
+  return moves;
+}
+
+bool ContactSystem::project(std::vector<double>& y) {
+  const bool moved = projectPositions(y);
+  return projectVelocities(y) || moved;
+}
+
+void ContactSystem::strideBlow(std::vector<double>& y, double h) {
+  look(y);
+  fillContacts();
+  findFree();
+  for (std::size_t c = 0; c < features_.size(); ++c) {
+    ContactForces::Contact& contact = forces_.contacts()[c];
+    contact.target = {-std::max(0.0, states_[c].gap) / h, 0, 0};
+    contact.slips = false;
+  }
+  std::vector<double> before(inverseMass_.size());
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    setThree(before, m * kSix, threeAt(y, m * kNumbers + 7));
+    setThree(before, m * kSix + 3, threeAt(y, m * kNumbers + 10));
+  }
+  std::vector<double> pulled = before;
+  for (std::size_t k = 0; k < pulled.size(); ++k) {
+    pulled[k] += h * free_[k];
+  }
+  forces_.solveBlow(pulled, modes_);
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    const std::size_t at = m * kNumbers;
+    const Vec3 velocity = threeAt(forces_.accelerations(), m * kSix);
+    const Vec3 spin = threeAt(forces_.accelerations(), m * kSix + 3);
+    setThree(y, at, threeAt(y, at) + 0.5 * h * (threeAt(before, m * kSix) + velocity));
+    const Vec3 half = 0.25 * h * (threeAt(before, m * kSix + 3) + spin);
+    setQuat(y, at + 3, (quatAt(y, at + 3) * Quat(1, half[0], half[1], half[2])).normalized());
+    setThree(y, at + 7, velocity);
+    setThree(y, at + 10, spin);
+  }
+  projectPositions(y);
+}
+
+double ContactSystem::slipSpeedRate(std::size_t c) const {
+  const auto& slip = forces_.contacts()[c].slip;
+  return slip[0] * forces_.excess(c, 1) + slip[1] * forces_.excess(c, 2);
+}
+
+}  // namespace careen

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "physics/contact/contact_feature.h"
+#include "physics/contact/contact_forces.h"
+#include "physics/world/world.h"
+
+namespace careen {
+
+/// A body of an island of touching bodies.
+struct TouchingBody {
+  const Body* body = nullptr;
+  int index = 0;  ///< of the body in the world
+  Vec3 position = Vec3::Zero();
+  Quat worldFromBody = Quat::Identity();
+  Vec3 velocity = Vec3::Zero();             ///< [m/s]
+  Vec3 angularVelocityBody = Vec3::Zero();  ///< [rad/s] body frame
+
+  bool isHeld() const { return isImmovable(body->mass); }
+  BodyState state() const;
+};
+
+/// The equations of motion of bodies that stay in touch: Eqs. 10, 13, 14 and Euler's equations, with the
+/// contact forces that ContactForces finds.
+///
+/// A state y has 13 numbers per body that can move: position, quaternion w x y z, velocity, ω in the body's
+/// frame.
+class ContactSystem {
+ public:
+  using Mode = ContactForces::Mode;
+  static constexpr std::size_t kNumbers = 13;
+
+  ContactSystem(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features);
+
+  const std::vector<TouchingBody>& bodies() const { return bodies_; }
+  const std::vector<ContactFeature>& features() const { return features_; }
+  std::vector<Mode>& modes() { return modes_; }
+  const std::vector<Mode>& modes() const { return modes_; }
+  bool pushes(std::size_t contact) const { return modes_[contact] != Mode::kOff; }
+
+  std::vector<double> pack() const;
+  void unpack(std::span<const double> y);
+
+  /// Finds which contacts push, stick or slip. False if no forces were found.
+  bool findModes(std::span<const double> y);
+  /// dy with the modes as they are. False if the forces are not to be had.
+  bool rate(std::span<const double> y, std::vector<double>& dy);
+
+  /// Brings the gaps of pushing contacts to zero by the least displacement (in the metric of mass), their
+  /// rates by the least blow; contacts that stick lose their slip. False if rounding is all there was.
+  bool project(std::vector<double>& y);
+  bool projectPositions(std::vector<double>& y);
+  bool projectVelocities(std::vector<double>& y);
+
+  /// One step of first order, whose impulses act at once (D. E. Stewart, J. C. Trinkle, Int. J. Numer.
+  /// Methods Eng. 39, 1996): it exists where accelerations do not.
+  void strideBlow(std::vector<double>& y, double h);
+
+  /// As of the last rate(), findModes() or look().
+  const std::vector<ContactState>& states() const { return states_; }
+  const ContactForces& forces() const { return forces_; }
+  void look(std::span<const double> y);
+  /// [m/s²] rate of the slip speed of contact c.
+  double slipSpeedRate(std::size_t contact) const;
+  std::size_t placeOf(std::size_t body) const { return places_[body]; }
+  const Kinematics& kinematics(std::size_t body) const { return kinematics_[body]; }
+
+  /// [m/s] Slower than this is at rest: rounding.
+  double restSpeed() const { return restSpeed_; }
+  /// [m] the largest half diagonal; [m/s²] the accelerations to be expected.
+  double radius() const { return radius_; }
+  double pull() const { return pull_; }
+
+ private:
+  void findFree();
+  void fillContacts();
+  void solveGiven(std::span<const double> free);
+
+  const World& world_;
+  std::vector<TouchingBody> bodies_;
+  std::vector<std::size_t> places_;  // of a body among those that move; kHeld
+  std::vector<std::size_t> movers_;  // the other way round
+  std::vector<ContactFeature> features_;
+  std::vector<Mode> modes_;
+  std::vector<ContactForces::Force> guess_;  // those found with the modes
+  std::vector<Vec3> onset_;                  // [1] which way a contact that stands begins to slip
+  std::vector<Kinematics> kinematics_;
+  std::vector<ContactState> states_;
+  std::vector<double> inverseMass_;
+  std::vector<double> free_;
+  std::vector<BodyState> worldStates_;  // for springs and drag
+  ContactForces forces_;
+  double restSpeed_ = 0;
+  double radius_ = 0;
+  double pull_ = 0;
+};
+
+}  // namespace careen

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <queue>
+#include <vector>
+
+#include "core/double_double.h"
+
+namespace careen {
+
+/// A moment on a world's clock [s]. 32 digits, so that the time since a flight began keeps all its own digits
+/// however late that was.
+using Instant = DoubleDouble;
+
+/// The moment `elapsed` [s] after another. Normalised: hi alone is off by the clock's rounding otherwise, and
+/// the order of two moments is that of their hi, then lo.
+inline Instant instantAfter(const Instant& start, double elapsed) {
+  return normalized(start + Instant(elapsed));
+}
+/// [s] to rounding of the difference itself: not of the clock, whose hi would make a short hop late in a run
+/// as coarse as the clock is.
+inline double secondsBetween(const Instant& start, const Instant& end) {
+  return static_cast<double>(end - start);
+}
+
+inline bool earlier(const Instant& x, const Instant& y) {
+  return x.hi < y.hi || (x.hi == y.hi && x.lo < y.lo);
+}
+inline const Instant& later(const Instant& x, const Instant& y) { return earlier(x, y) ? y : x; }
+
+enum class EventKind {
+  kContact,   ///< the gap to the partner closes
+  kTouching,  ///< the gap to the partner stays zero
+  kCrossing,  ///< the body enters another cell of the neighbour search
+  kStep,      ///< a step of the body's island ends
+};
+
+/// What is to happen to one body next. Bodies and partners are ranks, their places among the names; a partner
+/// may be a wall.
+struct Event {
+  Instant time;
+  EventKind kind = EventKind::kContact;
+  int body = 0;
+  int partner = 0;
+  std::uint64_t partnerMotion = 0;  ///< the partner's motion that this was predicted for
+};
+
+/// The next event of every body, earliest first; ties in the order of bodies. A body has one event at most:
+/// setting it again replaces it.
+class EventQueue {
+ public:
+  explicit EventQueue(std::size_t bodies) : tickets_(bodies, 0) {}
+
+  void set(const Event& event) { heap_.push({event, ++tickets_[static_cast<std::size_t>(event.body)]}); }
+  void clear(int body) { ++tickets_[static_cast<std::size_t>(body)]; }
+  /// Takes the earliest event out.
+  std::optional<Event> next() {
+    while (!heap_.empty()) {
+      const Entry entry = heap_.top();
+      heap_.pop();
+      if (entry.ticket == tickets_[static_cast<std::size_t>(entry.event.body)]) {
+        return entry.event;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Entry {
+    Event event;
+    std::uint64_t ticket;
+  };
+  struct Later {
+    bool operator()(const Entry& x, const Entry& y) const {
+      if (earlier(y.event.time, x.event.time)) {
+        return true;
+      }
+      if (earlier(x.event.time, y.event.time)) {
+        return false;
+      }
+      return x.event.body > y.event.body;
+    }
+  };
+
+  std::priority_queue<Entry, std::vector<Entry>, Later> heap_;
+  std::vector<std::uint64_t> tickets_;
+};
+
+}  // namespace careen

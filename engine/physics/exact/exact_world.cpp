@@ -1,0 +1,348 @@
+#include "physics/exact/exact_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <string>
+
+#include "core/error.h"
+#include "physics/exact/next_contact.h"
+#include "physics/world/partner.h"
+
+namespace careen {
+namespace {
+
+// Events that may happen to one body at one moment before the run gives up: more than any impact needs, and
+// an end to what would go on for ever.
+constexpr int kMostAtOneMoment = 1000;
+
+std::vector<std::size_t> ranked(const World& world) {
+  std::vector<std::size_t> order(world.bodies.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&world](std::size_t a, std::size_t b) { return world.bodies[a].name < world.bodies[b].name; });
+  return order;
+}
+
+std::vector<double> radiiOf(const World& world) {
+  std::vector<double> radii;
+  radii.reserve(world.bodies.size());
+  for (const Body& body : world.bodies) {
+    radii.push_back(body.halfExtents.norm());
+  }
+  return radii;
+}
+
+}  // namespace
+
+ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder)
+    : world_(world),
+      end_(settings.duration),
+      tolerance_(settings.tolerance),
+      stride_(strideOf(world, settings.tolerance)),
+      recorder_(recorder),
+      neighbors_(radiiOf(world)),
+      queue_(world.bodies.size()),
+      account_(world),
+      forced_(world.bodies.size(), world.drag ? 1 : 0),
+      springs_(world.bodies.size()) {
+  std::vector<int> rankOf(world.bodies.size());
+  for (const std::size_t listed : ranked(world)) {
+    rankOf[listed] = static_cast<int>(movers_.size());
+    Mover& mover = movers_.emplace_back();
+    mover.body = &world.bodies[listed];
+    mover.listed = {static_cast<int>(listed)};
+  }
+  for (const Spring& spring : world.springs) {
+    for (const SpringEnd* end : {&spring.from, &spring.to}) {
+      const SpringEnd& other = end == &spring.from ? spring.to : spring.from;
+      if (end->body) {
+        const auto rank = static_cast<std::size_t>(rankOf[static_cast<std::size_t>(*end->body)]);
+        forced_[rank] = 1;
+        if (other.body) {
+          springs_[rank].push_back(rankOf[static_cast<std::size_t>(*other.body)]);
+        }
+      }
+    }
+  }
+}
+
+// The whole method, from here to end().
+
+RunFigures ExactWorld::run(const std::stop_token& stop) {
+  begin();
+  for (std::optional<Event> event = queue_.next(); event && !crowded_ && !earlier(end_, event->time);
+       event = queue_.next()) {
+    if (stop.stop_requested()) {
+      throw Interrupted();
+    }
+    happen(*event);
+  }
+  if (crowded_) {
+    runAsPile(stop);
+  } else {
+    end();
+  }
+  return account_.figures();
+}
+
+void ExactWorld::begin() {
+  for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
+    const Body& body = *mover(rank).body;
+    neighbors_.insert(rank, body.initial.pose.position, body.halfExtents.norm());
+    if (mover(rank).isHeld()) {
+      rest(rank, {}, body.initial.pose);
+    } else {
+      fly(rank, {}, body.initial, Quat(body.initial.pose.worldFromBody).normalized());
+    }
+  }
+  account_.parted();
+  for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
+    if (isForced(rank) && !mover(rank).isHeld()) {
+      queue_.set({.time = {}, .kind = EventKind::kTouching, .body = rank, .partner = wallPartner(0)});
+    } else {
+      predict(rank);
+    }
+  }
+}
+
+void ExactWorld::happen(const Event& event) {
+  if (event.kind == EventKind::kCrossing) {
+    neighbors_.move(event.body, mover(event.body).crossing.cell);
+    findCrossing(mover(event.body), event.body);
+    predict(event.body);
+  } else if (event.partner >= 0 && mover(event.partner).motion != event.partnerMotion) {
+    predict(event.body);
+  } else if (event.kind == EventKind::kStep && mover(event.body).touchers->step.end == Island::End::kGoesOn) {
+    advance(mover(event.body).touchers, event.time);
+  } else {
+    Group group = gather(event);
+    if (isCrowd(group)) {
+      crowded_ = event.time;
+      return;
+    }
+    resolve(group);
+    settle(group);
+    record(group);
+    moveOn(group);
+    if (canPile() && movers_.size() > kMostInContact && !group.islands.empty()) {
+      crowded_ = event.time;
+    }
+  }
+}
+
+// What came before ends, the event's bodies get their next motions, and only they are predicted again.
+void ExactWorld::moveOn(Group& group) {
+  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
+    if (group.next[i] == Next::kRests) {
+      rest(group.ranks[i], group.since[i], group.after[i].pose);
+    } else if (group.next[i] == Next::kFlies) {
+      fly(group.ranks[i], group.time, group.after[i], group.attitudes[i]);
+    }
+  }
+  for (const std::shared_ptr<Touchers>& touchers : group.islands) {
+    touch(touchers, group.time);
+  }
+  account_.parted();
+  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
+    predict(group.ranks[i]);
+    if (group.next[i] == Next::kRests) {
+      predictAround(group.ranks[i]);
+    }
+  }
+}
+
+// What rests looks out for nobody: those that move must look out for it.
+void ExactWorld::predictAround(int rank) {
+  std::vector<Neighbors::Key> around;
+  neighbors_.findCandidates(rank, around);
+  for (const Neighbors::Key candidate : around) {
+    if (mover(candidate).moves()) {
+      predict(candidate);
+    }
+  }
+}
+
+void ExactWorld::end() {
+  bool mayLose = false;
+  for (const Mover& body : movers_) {
+    if (body.flies) {
+      arrive(body, end_, body.stateAt(end_));
+    }
+  }
+  for (const Mover& body : movers_) {
+    if (body.touches()) {
+      account_.departs(static_cast<std::size_t>(body.listed.value), body.stateAt(end_));
+      mayLose = mayLose || body.touchers->island.mayLose();
+    }
+  }
+  account_.strikes(mayLose);
+  account_.parted();
+}
+
+// ---- Motions.
+
+void ExactWorld::fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude) {
+  Mover& body = mover(rank);
+  begins(rank, time);
+  body.fly(state, attitude, world_.gravity);
+  recorder_.moves(body.listed, time.hi, body.flight);
+  account_.departs(static_cast<std::size_t>(body.listed.value), state);
+  body.wall = firstWall(body, rank, world_.walls, end_);
+  body.crossing = {};
+  findCrossing(body, rank);
+}
+
+void ExactWorld::rest(int rank, const Instant& time, const Pose& pose) {
+  Mover& body = mover(rank);
+  begins(rank, time);
+  body.rest(pose);
+  recorder_.moves(body.listed, time.hi, Rest{pose});
+  account_.departs(static_cast<std::size_t>(body.listed.value), {.pose = pose});
+}
+
+// The next step of an island, and how its bodies move in it.
+void ExactWorld::touch(const std::shared_ptr<Touchers>& touchers, const Instant& time) {
+  Island& island = touchers->island;
+  double most = secondsBetween(time, end_);
+  if (neighbors_.cellEdge() > 0) {
+    most = std::min(most, withinCell(island));
+  }
+  for (const TouchingBody& body : island.bodies()) {
+    if (!body.isHeld()) {
+      account_.departs(static_cast<std::size_t>(body.index), body.state());
+    }
+  }
+  touchers->start = time;
+  touchers->step = island.step(most);
+  touchers->motions.resize(touchers->ranks.size());
+  for (std::size_t i = 0; i < touchers->ranks.size(); ++i) {
+    if (island.bodies()[i].isHeld()) {
+      continue;
+    }
+    const int rank = touchers->ranks[i];
+    Mover& body = mover(rank);
+    begins(rank, time);
+    touchers->motions[i] = island.motion(i);
+    body.touch(touchers, i);
+    recorder_.moves(body.listed, time.hi, touchers->motions[i]);
+    if (neighbors_.isFiled(rank)) {
+      neighbors_.move(rank, neighbors_.cellOf(body.positionAt(time)));
+    }
+  }
+  account_.penetrates(island.deepest());
+}
+
+void ExactWorld::advance(const std::shared_ptr<Touchers>& touchers, const Instant& time) {
+  account_.strikes(touchers->island.mayLose());
+  touch(touchers, time);
+  account_.parted();
+  for (std::size_t i = 0; i < touchers->ranks.size(); ++i) {
+    if (!touchers->island.bodies()[i].isHeld()) {
+      predict(touchers->ranks[i]);
+    }
+  }
+}
+
+// [s] In which no body of the island leaves the margin of its cell.
+double ExactWorld::withinCell(const Island& island) const {
+  const double margin = neighbors_.cellEdge() / 32;
+  double most = secondsBetween({}, end_);
+  for (const TouchingBody& body : island.bodies()) {
+    const double speed = body.velocity.norm();
+    const double pull = 8 * island.system().pull();
+    // speed t + pull t²/2 ≤ margin
+    if (speed + pull > 0) {
+      most = std::min(most, 2 * margin / (speed + std::sqrt(speed * speed + 2 * pull * margin)));
+    }
+  }
+  return most;
+}
+
+void ExactWorld::begins(int rank, const Instant& time) {
+  Mover& body = mover(rank);
+  const bool again = body.motion > 0 && !earlier(body.start, time);
+  body.atOneMoment = again ? body.atOneMoment + 1 : 0;
+  if (body.atOneMoment > kMostAtOneMoment && canPile()) {
+    crowded_ = time;
+  } else if (body.atOneMoment > kMostAtOneMoment) {
+    throw NumericalError(where(rank, time) + "is struck again and again at one moment");
+  }
+  if (secondsBetween(body.burst, time) > kBurst * stride_) {
+    body.burst = time;
+    body.inBurst = 0;
+  }
+  ++body.inBurst;
+  body.start = time;
+  ++body.motion;
+}
+
+void ExactWorld::arrive(const Mover& body, const Instant& time, const BodyState& state) {
+  account_.arrives(static_cast<std::size_t>(body.listed.value), state, body.elapsed(time));
+}
+
+// ---- What comes next.
+
+void ExactWorld::predict(int rank) {
+  const Mover& body = mover(rank);
+  if (!body.moves()) {
+    queue_.clear(rank);
+    return;
+  }
+  std::optional<Event> first = body.wall;
+  if (body.touches() && body.touchers->leader() == rank && earlier(body.touchers->end(), end_)) {
+    first = {.time = body.touchers->end(), .kind = EventKind::kStep, .body = rank, .partner = wallPartner(0)};
+  }
+  if (body.crosses) {
+    sooner(
+        first,
+        {.time = instantAfter(body.start, body.crossing.time), .kind = EventKind::kCrossing, .body = rank});
+  }
+  neighbors_.findCandidates(rank, candidates_);
+  for (const Neighbors::Key candidate : candidates_) {
+    if (body.touches() && seesTo(*body.touchers, body.place, candidate)) {
+      continue;
+    }
+    const std::optional<Event> met =
+        firstMeeting(body, rank, mover(candidate), candidate, first ? first->time : end_);
+    if (met) {
+      sooner(first, *met);
+    }
+  }
+  if (first) {
+    queue_.set(*first);
+  } else {
+    queue_.clear(rank);
+  }
+}
+
+// Those that touch are the island's own business.
+bool ExactWorld::seesTo(const Touchers& touchers, std::size_t place, int rank) {
+  const auto other = std::find(touchers.ranks.begin(), touchers.ranks.end(), rank);
+  return other != touchers.ranks.end() &&
+         touchers.island.watches(place, static_cast<std::size_t>(other - touchers.ranks.begin()));
+}
+
+void ExactWorld::sooner(std::optional<Event>& first, const Event& candidate) {
+  if (!first || earlier(candidate.time, first->time)) {
+    first = candidate;
+  }
+}
+
+void ExactWorld::findCrossing(Mover& body, int rank) {
+  body.crosses = neighbors_.isFiled(rank) && movers_.size() > 1;
+  if (body.crosses) {
+    body.crossing =
+        neighbors_.nextCrossing(body.flight.position, body.flight.velocity, body.flight.acceleration,
+                                neighbors_.cell(rank), body.crossing.time);
+  }
+}
+
+std::string ExactWorld::where(int rank, const Instant& time) const {
+  std::ostringstream text;
+  text << "at " << time.hi << " s box " << mover(rank).body->name << ' ';
+  return text.str();
+}
+
+}  // namespace careen

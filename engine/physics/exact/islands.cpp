@@ -1,0 +1,343 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "physics/exact/exact_world.h"
+#include "physics/geometry/separation.h"
+#include "physics/impact/settling.h"
+#include "physics/world/partner.h"
+
+// How bodies that touch move on: in Flight, in Contact or at rest.
+
+namespace careen {
+namespace {
+
+/// [1] Speeds this small beside those of the bodies are no parting, and accelerations no pull.
+constexpr double kParting = 0x1p-40;
+/// [1] of the speed that a stride's fall gives: nothing rattles any more.
+constexpr double kAllButStill = 0x1p-12;
+
+bool movesAlike(const BodyState& x, const BodyState& y) {
+  return x.velocity == y.velocity && x.angularMomentum == y.angularMomentum;
+}
+
+}  // namespace
+
+// Bodies that rattle, with more changes of contact in less than a stride than are worth following one by one,
+// go on by strides: one, and twice as many each time that was too early to stop.
+void ExactWorld::findTangle(Group& group) {
+  constexpr int kMostInBurst = 12;
+  constexpr int kMostStrides = 1024;
+  if (world_.gravity.isZero(0)) {
+    return;
+  }
+  bool rattles = false;
+  int strides = 1;
+  int movable = 0;
+  bool touching = false;
+  for (const int rank : group.ranks) {
+    const Mover& body = mover(rank);
+    movable += body.isHeld() ? 0 : 1;
+    touching = touching || body.touches();
+    rattles =
+        rattles || (body.inBurst > kMostInBurst && secondsBetween(body.burst, group.time) < kBurst * stride_);
+    group.tangled = group.tangled || earlier(group.time, body.tangledUntil);
+    if (body.strides > 0 && secondsBetween(body.tangledUntil, group.time) < 4 * body.strides * stride_) {
+      strides = std::max(strides, std::min(kMostStrides, 2 * body.strides));
+    }
+  }
+  // A single body that bounces is followed to the end: the time at which it rests is exact.
+  if (rattles && !group.tangled && (touching || movable > 1)) {
+    group.tangled = true;
+    if (movable > kMostRattling && canPile()) {
+      crowded_ = group.time;
+    }
+    for (const int rank : group.ranks) {
+      mover(rank).strides = strides;
+      mover(rank).tangledUntil = instantAfter(group.time, strides * stride_);
+    }
+  }
+}
+
+void ExactWorld::settle(Group& group) {
+  findTangle(group);
+  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
+    const Mover& body = mover(group.ranks[i]);
+    if (body.isHeld() || (!body.moves() && movesAlike(group.before[i], group.after[i]))) {
+      continue;
+    }
+    group.next[i] = Next::kFlies;
+    if (!world_.gravity.isZero(0) && !group.tangled) {
+      settleBody(group, i);
+    }
+  }
+  findPersisting(group);
+  formIslands(group);
+}
+
+// [m] What the gap at contact k is the difference of. A wall's offset is no more than its body's part of it.
+double ExactWorld::lengthsAt(const Group& group, std::size_t k) const {
+  const auto of = [&](int index) {
+    const auto i = static_cast<std::size_t>(index);
+    return group.after[i].pose.position.cwiseAbs().sum() + mover(group.ranks[i]).body->halfExtents.norm();
+  };
+  const ImpactContact& contact = group.contacts[k];
+  return of(contact.a) + of(contact.b == ImpactContact::kWall ? contact.a : contact.b);
+}
+
+// Contacts of a body whose next hop is too short to follow persist. If that brings it to rest on what cannot
+// move, it rests when all its hops would have ended.
+void ExactWorld::settleBody(Group& group, std::size_t index) const {
+  const Body& body = *mover(group.ranks[index]).body;
+  BodyState& state = group.after[index];
+  const Vec3 omega = careen::angularVelocity(body.mass, state);
+  const Vec3 omegaRate =
+      inverseInertiaWorld(body.mass, state.pose.worldFromBody) * state.angularMomentum.cross(omega);
+  double tail = -1;
+  bool alone = !isForced(group.ranks[index]);
+  Settling settling;
+  settling.velocity = state.velocity;
+  settling.angularVelocity = omega;
+  settling.gravity = world_.gravity;
+  std::vector<Vec3> arms;
+  for (std::size_t k = 0; k < group.contacts.size(); ++k) {
+    const ImpactContact& contact = group.contacts[k];
+    const bool isA = contact.a == static_cast<int>(index);
+    if (!isA && contact.b != static_cast<int>(index)) {
+      continue;
+    }
+    const int other = isA ? contact.b : contact.a;
+    alone = alone &&
+            (other == ImpactContact::kWall || mover(group.ranks[static_cast<std::size_t>(other)]).isHeld());
+    const Vec3 normal = isA ? contact.normal : Vec3(-contact.normal);
+    const Vec3& arm = isA ? contact.armA : contact.armB;
+    const Vec3 acceleration = world_.gravity + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
+    const double pull = normal.dot(acceleration);
+    const bool pulled = std::fabs(pull) > kParting * acceleration.norm();  // along a wall it is rounding
+    const Bouncing bouncing{.acceleration = pulled ? pull : 0,
+                            .departure = std::max(0.0, normal.dot(state.velocity + omega.cross(arm))),
+                            .restitution = contact.material.restitution,
+                            .gapRounding = kGapRounding * lengthsAt(group, k)};
+    if (!settles(bouncing, body.halfExtents.minCoeff())) {
+      continue;
+    }
+    group.persists[k] = 1;
+    tail = std::max(tail, settlingTail(bouncing));
+    arms.push_back(arm);
+    settling.normal = normal;
+    settling.friction = contact.material.friction;
+    settling.speed = std::max(settling.speed, group.shares[k].approach);
+  }
+  if (tail < 0 || !alone) {
+    return;
+  }
+  settling.arms = arms;
+  settling.velocity -= settling.normal.dot(settling.velocity) * settling.normal;
+  if (afterTail(settling) == Settled::kRests) {
+    state = {.pose = state.pose};
+    group.next[index] = Next::kRests;
+    group.since[index] = instantAfter(group.time, tail);
+  }
+}
+
+ExactWorld::Parting ExactWorld::partingAt(const Group& group, std::size_t contact) const {
+  const ImpactContact& at = group.contacts[contact];
+  Parting parting;
+  const auto add = [&](int index, const Vec3& arm, double sign) {
+    const auto i = static_cast<std::size_t>(index);
+    const Body& body = *mover(group.ranks[i]).body;
+    const Vec3 spin = careen::angularVelocity(body.mass, group.after[i]);
+    parting.speed += sign * at.normal.dot(group.after[i].velocity + spin.cross(arm));
+    parting.rounding += kParting * (group.after[i].velocity.norm() + spin.norm() * arm.norm() +
+                                    kParting * std::sqrt(world_.gravity.norm() * body.halfExtents.norm()));
+  };
+  add(at.a, at.armA, 1);
+  if (at.b != ImpactContact::kWall) {
+    add(at.b, at.armB, -1);
+  }
+  return parting;
+}
+
+// Contacts that neither approach nor part; or that come back within a stride, where bodies rattle or the
+// search has found them to hop on the spot.
+void ExactWorld::findPersisting(Group& group) const {
+  const bool hops = group.tangled || group.cause == EventKind::kTouching;
+  const double slow = hops && !world_.gravity.isZero(0) ? world_.gravity.norm() * stride_ : 0;
+  if (group.tangled) {
+    addNear(group);
+  }
+  for (std::size_t k = 0; k < group.contacts.size(); ++k) {
+    const Parting parting = partingAt(group, k);
+    const bool passes = group.passes && !(group.shares[k].impulse > 0);
+    if (passes || parting.speed <= std::max(slow, parting.rounding)) {
+      group.persists[k] = 1;
+    }
+  }
+}
+
+void ExactWorld::formIslands(Group& group) const {
+  const std::size_t count = group.ranks.size();
+  std::vector<std::size_t> root(count);
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto takesPart = [&](std::size_t i) {
+    return !mover(group.ranks[i]).isHeld() && group.next[i] != Next::kRests;
+  };
+  const auto join = [&](std::size_t x, std::size_t y) {
+    const std::size_t from = std::max(root[x], root[y]);
+    const std::size_t to = std::min(root[x], root[y]);
+    std::replace(root.begin(), root.end(), from, to);
+  };
+  for (std::size_t k = 0; k < group.contacts.size(); ++k) {
+    const ImpactContact& contact = group.contacts[k];
+    if (group.persists[k] != 0 && contact.b != ImpactContact::kWall) {
+      const auto a = static_cast<std::size_t>(contact.a);
+      const auto b = static_cast<std::size_t>(contact.b);
+      if (takesPart(a) && takesPart(b)) {
+        join(a, b);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const int other : springs_[static_cast<std::size_t>(group.ranks[i])]) {
+      const auto at = std::find(group.ranks.begin(), group.ranks.end(), other);
+      const auto j = static_cast<std::size_t>(at - group.ranks.begin());
+      if (takesPart(i) && takesPart(j)) {
+        join(i, j);
+      }
+    }
+  }
+  for (std::size_t first = 0; first < count; ++first) {
+    std::vector<std::size_t> members;
+    for (std::size_t i = first; i < count; ++i) {
+      if (root[i] == first && takesPart(i)) {
+        members.push_back(i);
+      }
+    }
+    if (!members.empty()) {
+      formIsland(group, members);
+    }
+  }
+}
+
+TouchingBody ExactWorld::touchingBody(const Group& group, std::size_t index) const {
+  const Mover& body = mover(group.ranks[index]);
+  const BodyState& state = group.after[index];
+  return {.body = body.body,
+          .index = body.listed.value,
+          .position = state.pose.position,
+          .worldFromBody = group.attitudes[index],
+          .velocity = state.velocity,
+          .angularVelocityBody = body.body->mass.inverseInertiaBody.cwiseProduct(
+              state.pose.worldFromBody.transpose() * state.angularMomentum)};
+}
+
+ContactFeature ExactWorld::featureOf(const Group& group, std::size_t k) const {
+  const ImpactContact& contact = group.contacts[k];
+  const auto a = static_cast<std::size_t>(contact.a);
+  const Pose& pose = group.after[a].pose;
+  const Vec3& half = mover(group.ranks[a]).body->halfExtents;
+  ContactFeature feature;
+  if (contact.b == ImpactContact::kWall) {
+    const Vec3 at = pose.worldFromBody.transpose() * contact.armA;
+    feature.a = contact.a;
+    feature.wall = static_cast<int>(wallOf(group.partners[k]));
+    for (int i = 0; i < 3; ++i) {
+      feature.onA[i] = at[i] < 0 ? -half[i] : half[i];
+    }
+  } else {
+    const auto b = static_cast<std::size_t>(contact.b);
+    feature = featureAt({contact.armA, contact.armB, contact.normal}, group.tangled ? kNear * tolerance_ : 0,
+                        contact.a, pose, half, contact.b, group.after[b].pose,
+                        mover(group.ranks[b]).body->halfExtents);
+  }
+  feature.material = contact.material;
+  return feature;
+}
+
+// Begins the island's motion. Among what rattles only what has all but come to rest is asked for a smooth
+// one: it may be at rest.
+bool ExactWorld::beginsAtRest(Island& island, bool tangled) const {
+  double speed = 0;
+  for (const TouchingBody& body : island.bodies()) {
+    speed = std::max(
+        {speed, body.velocity.norm(), body.angularVelocityBody.norm() * body.body->halfExtents.norm()});
+  }
+  if (!tangled || speed <= kAllButStill * world_.gravity.norm() * stride_) {
+    island.begin(Island::Stepping::kSmooth);
+    if (!tangled || island.rests()) {
+      return island.rests();
+    }
+  }
+  island.begin(Island::Stepping::kStrides);
+  return false;
+}
+
+// Bodies joined by lasting contacts go on in Contact, unless nothing holds them together or nothing moves.
+void ExactWorld::formIsland(Group& group, const std::vector<std::size_t>& members) const {
+  std::vector<std::size_t> indices = members;
+  std::vector<ContactFeature> features;
+  const auto placeOf = [&](int index) {
+    const auto at = std::find(indices.begin(), indices.end(), static_cast<std::size_t>(index));
+    if (at == indices.end()) {
+      indices.push_back(static_cast<std::size_t>(index));
+      return static_cast<int>(indices.size()) - 1;
+    }
+    return static_cast<int>(at - indices.begin());
+  };
+  for (std::size_t k = 0; k < group.contacts.size(); ++k) {
+    const ImpactContact& contact = group.contacts[k];
+    const auto isMember = [&](int index) {
+      return std::find(members.begin(), members.end(), static_cast<std::size_t>(index)) != members.end();
+    };
+    if (group.persists[k] == 0 ||
+        (!isMember(contact.a) && (contact.b == ImpactContact::kWall || !isMember(contact.b)))) {
+      continue;
+    }
+    ContactFeature feature = featureOf(group, k);
+    feature.a = placeOf(feature.a);
+    if (feature.b != ContactFeature::kNobody) {
+      feature.b = placeOf(feature.b);
+    }
+    features.push_back(feature);
+  }
+  const bool forced =
+      std::any_of(members.begin(), members.end(), [&](std::size_t i) { return isForced(group.ranks[i]); });
+  const auto all = [&](Next next) {
+    for (const std::size_t i : members) {
+      group.next[i] = next;
+    }
+  };
+  if (features.empty() && !forced) {
+    all(Next::kFlies);
+    return;
+  }
+  std::vector<TouchingBody> bodies;
+  std::vector<int> ranks;
+  for (const std::size_t i : indices) {
+    bodies.push_back(touchingBody(group, i));
+    ranks.push_back(group.ranks[i]);
+  }
+  auto touchers = std::make_shared<Touchers>(
+      Touchers{Island(world_, std::move(bodies), std::move(features), tolerance_), std::move(ranks), {}});
+  Island& island = touchers->island;
+  if (beginsAtRest(island, group.tangled)) {
+    for (const std::size_t i : members) {
+      const Mover& body = mover(group.ranks[i]);
+      if (body.moves() || !movesAlike(group.before[i], group.after[i])) {
+        group.next[i] = Next::kRests;
+        group.after[i] = {.pose = group.after[i].pose};
+      } else {
+        group.next[i] = Next::kGoesOn;
+      }
+    }
+  } else if (island.isSmooth() && !island.pushes() && !forced && group.cause != EventKind::kTouching) {
+    all(Next::kFlies);
+  } else {
+    all(Next::kTouches);
+    group.islands.push_back(std::move(touchers));
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,117 @@
+#include "physics/exact/mover.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "physics/geometry/separation.h"
+
+namespace careen {
+
+int Touchers::leader() const {
+  std::size_t first = 0;
+  while (island.bodies()[first].isHeld()) {
+    ++first;
+  }
+  return ranks[first];
+}
+
+void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravity) {
+  flies = true;
+  touchers.reset();
+  flight = {.position = state.pose.position,
+            .velocity = state.velocity,
+            .acceleration = gravity,
+            .worldFromBody = attitude,
+            .angularMomentum = state.angularMomentum};
+  if (!moments) {
+    moments.emplace(body->mass.inertiaBody);
+  }
+  rotation.emplace(*moments, attitude, state.angularMomentum);
+  const TorqueFreeRotation<double>::Bounds& bounds = rotation->bounds();
+  angularSpeedBound = bounds.angularSpeed;
+  angularAccelerationBound = bounds.angularAcceleration;
+}
+
+void Mover::touch(std::shared_ptr<Touchers> with, std::size_t as) {
+  rest({});
+  touchers = std::move(with);
+  place = as;
+  const StepBounds bounds = boundsOf(touchers->motions[place]);
+  speedBound = bounds.speed;
+  accelerationBound = bounds.acceleration;
+  angularSpeedBound = bounds.angularSpeed;
+  angularAccelerationBound = bounds.angularAcceleration;
+}
+
+void Mover::rest(const Pose& at) {
+  flies = false;
+  touchers.reset();
+  flight = {.position = at.position, .worldFromBody = Quat(at.worldFromBody)};
+  pose = at;
+  rotation.reset();
+  angularSpeedBound = 0;
+  angularAccelerationBound = 0;
+  wall.reset();
+  crosses = false;
+  crossing = {};
+}
+
+Vec3 Mover::positionAt(const Instant& time) const {
+  return touches() ? stateAt(time).pose.position : flight.positionAt(elapsed(time));
+}
+
+Quat Mover::attitudeAt(const Instant& time) const {
+  if (touches()) {
+    return Quat(careen::stateAt(touchers->motions[place], body->mass, elapsed(time)).pose.worldFromBody);
+  }
+  return rotation ? rotation->worldFromBody(elapsed(time)) : flight.worldFromBody;
+}
+
+BodyState Mover::stateAt(const Instant& time, const Quat& attitude) const {
+  if (touches()) {
+    return careen::stateAt(touchers->motions[place], body->mass, elapsed(time));
+  }
+  if (!flies) {
+    return {.pose = pose};
+  }
+  const double since = elapsed(time);
+  return {.pose = {.position = flight.positionAt(since), .worldFromBody = attitude.toRotationMatrix()},
+          .velocity = flight.velocityAt(since),
+          .angularMomentum = flight.angularMomentum};
+}
+
+Attitude Mover::operator()(double elapsed) const {
+  if (touches()) {
+    const BodyState state = careen::stateAt(touchers->motions[place], body->mass, elapsed);
+    return {.worldFromBody = state.pose.worldFromBody, .angularVelocity = angularVelocity(body->mass, state)};
+  }
+  if (!rotation) {
+    return {.worldFromBody = pose.worldFromBody};
+  }
+  const Quat attitude = rotation->worldFromBody(elapsed);
+  return {.worldFromBody = attitude.toRotationMatrix(),
+          .angularVelocity = rotation->angularVelocityWorld(attitude)};
+}
+
+MovingBox Mover::moving(const Instant& clockZero) const {
+  return {.halfExtents = body->halfExtents,
+          .position = flight.position,
+          .velocity = flight.velocity,
+          .acceleration = flight.acceleration,
+          .age = elapsed(clockZero),
+          .angularSpeedBound = angularSpeedBound,
+          .angularAccelerationBound = angularAccelerationBound,
+          .attitude = AttitudeView(*this),
+          .step = touches() ? &touchers->motions[place] : nullptr,
+          .speedBound = speedBound,
+          .accelerationBound = accelerationBound};
+}
+
+bool areTouching(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, double apart) {
+  const double within = std::max(apart, touchingWithin(poseA, a.halfExtents, poseB, b.halfExtents));
+  const double reach = a.halfExtents.norm() + b.halfExtents.norm() + within;
+  return (poseA.position - poseB.position).norm() <= reach &&
+         BoxAxes(poseA, a.halfExtents, poseB, b.halfExtents).gap() <= within;
+}
+
+}  // namespace careen

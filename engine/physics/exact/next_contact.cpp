@@ -1,0 +1,104 @@
+#include "physics/exact/next_contact.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/error.h"
+#include "physics/search/first_contact_search.h"
+#include "physics/search/time_of_impact.h"
+#include "physics/search/translating_contact.h"
+#include "physics/world/partner.h"
+
+namespace careen {
+namespace {
+
+// Searches on where a search ran out of evaluations.
+template <class Search>
+FirstContact searchUntil(double until, const Search& search) {
+  FirstContact found;
+  do {
+    const double from = found.time;
+    found = search(SearchWindow{.from = from, .until = until});
+    if (found.kind == ContactKind::kNone && found.time < until && !(found.time > from)) {
+      throw NumericalError("the search for the next impact does not come forward");
+    }
+  } while (found.kind == ContactKind::kNone && found.time < until);
+  return found;
+}
+
+EventKind kindOf(const FirstContact& contact) {
+  return contact.kind == ContactKind::kImpact ? EventKind::kContact : EventKind::kTouching;
+}
+
+// Nothing changes between two that move alike and do not turn: blocks that lie in a row.
+bool moveAsOne(const Mover& a, const Mover& b) {
+  return !a.touches() && !b.touches() && a.angularSpeedBound == 0 && b.angularSpeedBound == 0 &&
+         a.flight.acceleration == b.flight.acceleration && a.flight.velocity == b.flight.velocity &&
+         a.flight.acceleration.isZero(0);
+}
+
+}  // namespace
+
+std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wall>& walls,
+                               const Instant& end) {
+  const MovingBox box = body.moving(body.start);
+  // The wall whose turn is likely first, so that the others need not be followed further than it.
+  std::size_t likely = 0;
+  double soonest = kNever;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const double clear = sphereClearUntil(box, walls[w].normal, walls[w].offset);
+    if (clear > 0 && clear < soonest) {
+      soonest = clear;
+      likely = w;
+    }
+  }
+  std::optional<Event> first;
+  double until = body.elapsed(end);
+  const auto meet = [&](std::size_t w) {
+    const Wall& wall = walls[w];
+    const FirstContact contact = body.angularSpeedBound == 0
+                                     ? firstContactTranslating(box, wall.normal, wall.offset, until)
+                                     : searchUntil(until, [&](const SearchWindow& window) {
+                                         return firstContactWithWall(box, wall.normal, wall.offset, window);
+                                       });
+    if (contact.kind != ContactKind::kNone && (!first || contact.time < until)) {
+      until = contact.time;
+      first = {.time = instantAfter(body.start, contact.time),
+               .kind = kindOf(contact),
+               .body = rank,
+               .partner = wallPartner(w)};
+    }
+  };
+  for (std::size_t k = 0; k < walls.size(); ++k) {
+    meet((likely + k) % walls.size());
+  }
+  return first;
+}
+
+std::optional<Event> firstMeeting(const Mover& body, int rank, const Mover& other, int partner,
+                                  const Instant& until) {
+  const Instant zero = later(body.start, other.start);
+  Instant last = until;
+  for (const Mover* each : {&body, &other}) {
+    if (each->touches() && earlier(each->touchers->end(), last)) {
+      last = each->touchers->end();
+    }
+  }
+  const double end = secondsBetween(zero, last);
+  if (!(end >= 0) || moveAsOne(body, other)) {
+    return std::nullopt;
+  }
+  const FirstContact contact = searchUntil(end, [&](const SearchWindow& window) {
+    return firstContactOfBoxes(body.moving(zero), other.moving(zero), window);
+  });
+  if (contact.kind == ContactKind::kNone) {
+    return std::nullopt;
+  }
+  return Event{.time = instantAfter(zero, contact.time),
+               .kind = kindOf(contact),
+               .body = rank,
+               .partner = partner,
+               .partnerMotion = other.motion};
+}
+
+}  // namespace careen

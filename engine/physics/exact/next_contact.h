@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "physics/exact/event_queue.h"
+#include "physics/exact/mover.h"
+#include "physics/world/world.h"
+
+namespace careen {
+
+/// The first contact of a flying body with any wall, up to `end`.
+std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wall>& walls,
+                               const Instant& end);
+
+/// The first contact of two bodies, of which the first flies, from the later of their starts up to `until`.
+std::optional<Event> firstMeeting(const Mover& body, int rank, const Mover& other, int partner,
+                                  const Instant& until);
+
+}  // namespace careen

@@ -1,0 +1,84 @@
+#include <algorithm>
+
+#include "core/error.h"
+#include "physics/exact/exact_world.h"
+#include "physics/pile/pile.h"
+
+namespace careen {
+namespace {
+
+/// [s] Of a pile's frame. A film of another rate shows what lies between two of them.
+constexpr double kFrame = 1.0 / 60;
+
+/// From one frame to the next along a line.
+ContactStep between(const BodyState& from, const BodyState& to) {
+  ContactStep step{.duration = kFrame};
+  const Quat start(from.pose.worldFromBody);
+  Quat end(to.pose.worldFromBody);
+  if (start.dot(end) < 0) {
+    end.coeffs() = -end.coeffs();
+  }
+  step.position.fill(Vec3::Zero());
+  step.worldFromBody.fill(Vec4::Zero());
+  step.position[0] = from.pose.position;
+  step.position[1] = to.pose.position - from.pose.position;
+  step.worldFromBody[0] = start.coeffs();
+  step.worldFromBody[1] = end.coeffs() - start.coeffs();
+  return step;
+}
+
+}  // namespace
+
+bool ExactWorld::isCrowd(const Group& group) const {
+  return canPile() && std::count_if(group.ranks.begin(), group.ranks.end(),
+                                    [&](int rank) { return !mover(rank).isHeld(); }) > kMostInIsland;
+}
+
+// From here on all bodies move together, in frames.
+void ExactWorld::runAsPile(const std::stop_token& stop) {
+  const Instant start = *crowded_;
+  account_.bounds(start.hi);
+  std::vector<BodyState> states(movers_.size());
+  for (const Mover& body : movers_) {
+    const BodyState here = body.stateAt(start);
+    states[static_cast<std::size_t>(body.listed.value)] = here;
+    if (body.flies) {
+      arrive(body, start, here);
+    } else if (body.touches()) {
+      account_.departs(static_cast<std::size_t>(body.listed.value), here);
+    }
+  }
+  Pile pile(world_, states, kFrame);
+  std::vector<char> slept(movers_.size(), 0);
+  for (std::int64_t frame = 0; !pile.atRest(); ++frame) {
+    // By multiplication: a running sum would drift away from the frames of a film.
+    const Instant time = instantAfter(start, static_cast<double>(frame) * kFrame);
+    if (!earlier(time, end_)) {
+      break;
+    }
+    if (stop.stop_requested()) {
+      throw Interrupted();
+    }
+    pile.step();
+    account_.strikes(true);
+    for (const Mover& body : movers_) {
+      const auto i = static_cast<std::size_t>(body.listed.value);
+      const BodyState& next = pile.states()[i];
+      const bool sleeps = pile.sleeps(body.listed.value);
+      if (body.isHeld() || (sleeps && slept[i] != 0)) {
+        continue;
+      }
+      recorder_.moves(body.listed, time.hi, between(states[i], next));
+      if (sleeps) {
+        recorder_.moves(body.listed, instantAfter(time, kFrame).hi, Rest{next.pose});
+      }
+      slept[i] = sleeps ? 1 : 0;
+      account_.departs(i, next);
+      states[i] = next;
+    }
+    account_.parted();
+    account_.penetrates(pile.deepest());
+  }
+}
+
+}  // namespace careen

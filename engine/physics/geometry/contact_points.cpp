@@ -1,0 +1,224 @@
+#include "physics/geometry/contact_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace careen {
+namespace {
+
+// The corner, edge or face of a box that lies furthest along a direction, seen from a box's centre of mass:
+// places are differences, so that what is symmetric about it stays so to the bit wherever the boxes are.
+struct Feature {
+  Vec3 centre = Vec3::Zero();
+  int freedom = 0;               // 0 corner, 1 edge, 2 face
+  std::array<Vec3, 2> axis;      // [1] along which it extends
+  std::array<double, 2> half{};  // [m]
+
+  double extent() const { return half[0] * half[1]; }
+  Feature seenFrom(const Vec3& place) const {
+    Feature moved = *this;
+    moved.centre -= place;
+    return moved;
+  }
+  Vec3 corner(double first, double second) const {
+    Vec3 point = centre;
+    if (freedom > 0) {
+      point += first * half[0] * axis[0];
+    }
+    if (freedom > 1) {
+      point += second * half[1] * axis[1];
+    }
+    return point;
+  }
+};
+
+Feature furthest(const Pose& box, const Vec3& halfExtents, const Vec3& direction, double within) {
+  Feature feature{.axis = {Vec3::Zero(), Vec3::Zero()}};
+  const Vec3 along = box.worldFromBody.transpose() * direction;
+  // A box thinner than the tolerance still has two sides: its steepest axis never counts as level.
+  int steepest = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (std::fabs(along(i)) > std::fabs(along(steepest))) {
+      steepest = i;
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    if (i != steepest && 2 * halfExtents(i) * std::fabs(along(i)) <= within) {
+      const auto k = static_cast<std::size_t>(feature.freedom);
+      feature.axis[k] = box.worldFromBody.col(i);
+      feature.half[k] = halfExtents(i);
+      ++feature.freedom;
+    } else {
+      feature.centre += (along(i) > 0 ? halfExtents(i) : -halfExtents(i)) * box.worldFromBody.col(i);
+    }
+  }
+  return feature;
+}
+
+class Manifold {
+ public:
+  Manifold(Vec3 normal, Vec3 bToA, double within)
+      : normal_(std::move(normal)), bToA_(std::move(bToA)), within_(within) {}
+
+  void addOnA(const Vec3& armA) { add({.armA = armA, .armB = armA + bToA_, .normal = normal_}); }
+  void addOnB(const Vec3& armB) { add({.armA = armB - bToA_, .armB = armB, .normal = normal_}); }
+  void add(const Vec3& armA, const Vec3& armB) { add({.armA = armA, .armB = armB, .normal = normal_}); }
+  const ContactPoints& points() const { return points_; }
+
+ private:
+  void add(const ContactPoint& point) {
+    const bool known = std::any_of(points_.begin(), points_.end(), [&](const ContactPoint& other) {
+      return (other.armA - point.armA).squaredNorm() <= within_ * within_;
+    });
+    if (!known && !points_.full()) {
+      points_.add(point);
+    }
+  }
+
+  Vec3 normal_;
+  Vec3 bToA_;
+  double within_;
+  ContactPoints points_;
+};
+
+// A convex polygon of at most four corners, cut by at most four lines.
+struct Polygon {
+  std::array<Vec3, ContactPoints::kMost> corner;
+  std::size_t count = 0;
+
+  void add(const Vec3& point) {
+    if (count < corner.size()) {
+      corner[count++] = point;
+    }
+  }
+};
+
+// What is left of a polygon (or of a segment, a polygon of two) where outward·x ≤ limit (Sutherland and
+// Hodgman 1974). The cut of an edge is computed from its inner end, whichever way the edge runs.
+Polygon cut(const Polygon& polygon, const Vec3& outward, double limit, double within) {
+  Polygon left;
+  const std::size_t edges = polygon.count == 2 ? 1 : polygon.count;
+  for (std::size_t k = 0; k < polygon.count; ++k) {
+    const Vec3& from = polygon.corner[k];
+    const Vec3& to = polygon.corner[(k + 1) % polygon.count];
+    const double outsideFrom = outward.dot(from) - limit;
+    const double outsideTo = outward.dot(to) - limit;
+    if (outsideFrom <= within) {
+      left.add(from);
+    }
+    if (k < edges && (outsideFrom <= within) != (outsideTo <= within)) {
+      const bool fromIn = outsideFrom <= within;
+      const Vec3& inner = fromIn ? from : to;
+      const Vec3& outer = fromIn ? to : from;
+      const double in = fromIn ? outsideFrom : outsideTo;
+      const double out = fromIn ? outsideTo : outsideFrom;
+      // An inner end on the line itself is its own cut.
+      if (in < 0) {
+        left.add(inner + (in / (in - out)) * (outer - inner));
+      }
+    }
+  }
+  return left;
+}
+
+// The part of a face or an edge that lies over a face, both seen from the same centre.
+Polygon clip(const Feature& incident, const Feature& face, double within) {
+  Polygon polygon;
+  polygon.add(incident.corner(1, 1));
+  polygon.add(incident.corner(-1, 1));
+  if (incident.freedom == 2) {
+    polygon.add(incident.corner(-1, -1));
+    polygon.add(incident.corner(1, -1));
+  }
+  for (std::size_t k = 0; k < 2 && polygon.count > 0; ++k) {
+    const double middle = face.axis[k].dot(face.centre);
+    polygon = cut(polygon, face.axis[k], middle + face.half[k], within);
+    polygon = cut(polygon, -face.axis[k], face.half[k] - middle, within);
+  }
+  if (polygon.count == 0) {
+    // They pass each other by rounding: the incident feature's middle, brought over the face.
+    Vec3 point = incident.centre;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double along = face.axis[k].dot(point - face.centre);
+      point += (std::clamp(along, -face.half[k], face.half[k]) - along) * face.axis[k];
+    }
+    polygon.add(point);
+  }
+  return polygon;
+}
+
+// Two edges, each seen from its own box: the middle of their shortest link, or the ends of what parallel
+// edges have in common.
+void cross(const Feature& a, const Feature& b, const Vec3& bToA, double within, Manifold& manifold) {
+  const Vec3& u = a.axis[0];
+  const Vec3& v = b.axis[0];
+  const Vec3 link = b.centre - a.centre - bToA;
+  const Vec3 n = u.cross(v);
+  const double squaredSine = n.squaredNorm();
+  const double shorter = std::min(a.half[0], b.half[0]);
+  if (4 * shorter * shorter * squaredSine > within * within) {
+    const double alongA = std::clamp(link.cross(v).dot(n) / squaredSine, -a.half[0], a.half[0]);
+    const double alongB = std::clamp(link.cross(u).dot(n) / squaredSine, -b.half[0], b.half[0]);
+    const Vec3 onA = a.centre + alongA * u;
+    const Vec3 onB = b.centre + alongB * v;
+    manifold.add(0.5 * (onA + (onB - bToA)), 0.5 * (onB + (onA + bToA)));
+    return;
+  }
+  const double middle = link.dot(u);
+  const double low = std::max(-a.half[0], middle - b.half[0]);
+  const double high = std::min(a.half[0], middle + b.half[0]);
+  manifold.addOnA(a.centre + (low <= high ? low : 0.5 * (low + high)) * u);
+  manifold.addOnA(a.centre + (low <= high ? high : 0.5 * (low + high)) * u);
+}
+
+// The direction the boxes touch along: a face if one separates as well as the best.
+BoxAxis contactAxis(const BoxAxes& axes, double within) {
+  int best = 0;
+  for (int k = 1; k < 6; ++k) {
+    if (axes.separation({k}) > axes.separation({best})) {
+      best = k;
+    }
+  }
+  return axes.separation({best}) >= axes.gap() - within ? BoxAxis{best} : axes.best();
+}
+
+}  // namespace
+
+ContactPoints boxContactPoints(const Pose& a, const Vec3& halfExtentsA, const Pose& b,
+                               const Vec3& halfExtentsB, double apart) {
+  const double within = std::max(apart, touchingWithin(a, halfExtentsA, b, halfExtentsB));
+  const Vec3 bToA = a.position - b.position;
+  const BoxAxes axes(a, halfExtentsA, b, halfExtentsB);
+  const BoxAxis axis = contactAxis(axes, within);
+  const Vec3 normal = axes.normal(axis);
+
+  const Feature ofA = furthest(a, halfExtentsA, -normal, within);
+  const Feature ofB = furthest(b, halfExtentsB, normal, within);
+  Manifold manifold(normal, bToA, within);
+  if (ofA.freedom == 0 || ofB.freedom == 0) {
+    // Of two corners, the one that meets the other box's face or edge is the point.
+    const bool cornerOfA = ofA.freedom == 0 && axis.kind() != BoxAxis::Kind::kFaceOfA;
+    if (cornerOfA || ofB.freedom > 0) {
+      manifold.addOnA(ofA.centre);
+    } else {
+      manifold.addOnB(ofB.centre);
+    }
+  } else if (ofA.freedom == 1 && ofB.freedom == 1) {
+    cross(ofA, ofB, bToA, within, manifold);
+    // The smaller face is laid on the larger, so that one that lies within keeps its own corners to the bit.
+  } else if (ofB.freedom == 2 && (ofA.freedom == 1 || ofA.extent() < ofB.extent())) {
+    const Polygon common = clip(ofA, ofB.seenFrom(bToA), within);
+    for (std::size_t k = 0; k < common.count; ++k) {
+      manifold.addOnA(common.corner[k]);
+    }
+  } else {
+    const Polygon common = clip(ofB, ofA.seenFrom(-bToA), within);
+    for (std::size_t k = 0; k < common.count; ++k) {
+      manifold.addOnB(common.corner[k]);
+    }
+  }
+  return manifold.points();
+}
+
+}  // namespace careen

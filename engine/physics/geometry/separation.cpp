@@ -1,0 +1,163 @@
+#include "physics/geometry/separation.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "physics/world/body.h"
+
+namespace careen {
+namespace {
+
+// Below this squared sine the plain cross product has lost three bits: form it without error.
+constexpr double kNearlyParallelSquared = 0x1p-6;
+constexpr double kParallelSquared = 0x1p-96;
+
+struct Split {
+  double high = 0;
+  double low = 0;
+};
+
+// Veltkamp's splitting and Dekker's product (1971): a·b = high + low exactly. No fma, whose speed, unlike its
+// value, depends on the processor.
+Split split(double x) {
+  const double scaled = 134217729.0 * x;
+  const double high = scaled - (scaled - x);
+  return {.high = high, .low = x - high};
+}
+
+Split product(double a, double b) {
+  const Split x = split(a);
+  const Split y = split(b);
+  const double high = a * b;
+  return {.high = high, .low = ((x.high * y.high - high) + x.high * y.low + x.low * y.high) + x.low * y.low};
+}
+
+// ab − cd to rounding of the result, however much cancels.
+double differenceOfProducts(double a, double b, double c, double d) {
+  const Split x = product(a, b);
+  const Split y = product(c, d);
+  return (x.high - y.high) + (x.low - y.low);
+}
+
+Vec3 accurateCross(const Vec3& a, const Vec3& b) {
+  return {differenceOfProducts(a.y(), b.z(), a.z(), b.y()), differenceOfProducts(a.z(), b.x(), a.x(), b.z()),
+          differenceOfProducts(a.x(), b.y(), a.y(), b.x())};
+}
+
+double reach(const Vec3& direction, const Mat3& worldFromBox, const Vec3& halfExtents) {
+  return halfExtents.x() * std::fabs(direction.dot(worldFromBox.col(0))) +
+         halfExtents.y() * std::fabs(direction.dot(worldFromBox.col(1))) +
+         halfExtents.z() * std::fabs(direction.dot(worldFromBox.col(2)));
+}
+
+}  // namespace
+
+double touchingWithin(const Pose& box, const Vec3& halfExtents) {
+  const double radius = halfExtents.norm();
+  return touchingWithin(radius, box.position.cwiseAbs().sum() + radius);
+}
+
+double touchingWithin(const Pose& a, const Vec3& halfExtentsA, const Pose& b, const Vec3& halfExtentsB) {
+  const double radiusA = halfExtentsA.norm();
+  const double radiusB = halfExtentsB.norm();
+  return touchingWithin(std::min(radiusA, radiusB),
+                        (a.position.cwiseAbs().sum() + b.position.cwiseAbs().sum()) + (radiusA + radiusB));
+}
+
+double cornerGap(const Pose& box, const Vec3& corner, const Vec3& normal, double offset) {
+  return normal.dot(box.position) + normal.dot(box.worldFromBody * corner) - offset;
+}
+
+WallGap wallGap(const Pose& box, const Vec3& halfExtents, const Vec3& normal, double offset, double within) {
+  const double height = normal.dot(box.position) - offset;
+  WallGap result{.gap = height - reach(normal, box.worldFromBody, halfExtents)};
+  const Vec3 upInBody = box.worldFromBody.transpose() * normal;
+  for (int i = 0; i < kCorners; ++i) {
+    if (height + upInBody.dot(corner(halfExtents, i)) <= result.gap + within) {
+      result.corners |= 1U << static_cast<unsigned>(i);
+    }
+  }
+  return result;
+}
+
+BoxAxes::BoxAxes(Mat3 worldFromA, Vec3 halfExtentsA, Mat3 worldFromB, Vec3 halfExtentsB, Vec3 bToA)
+    : a_(std::move(worldFromA)),
+      b_(std::move(worldFromB)),
+      halfA_(std::move(halfExtentsA)),
+      halfB_(std::move(halfExtentsB)),
+      bToA_(std::move(bToA)) {
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      cosines_(i, j) = a_.col(i).dot(b_.col(j));
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double reachOfB = halfB_.x() * std::fabs(cosines_(i, 0)) + halfB_.y() * std::fabs(cosines_(i, 1)) +
+                            halfB_.z() * std::fabs(cosines_(i, 2));
+    separation_[index(i)] = std::fabs(a_.col(i).dot(bToA_)) - (halfA_(i) + reachOfB);
+    const double reachOfA = halfA_.x() * std::fabs(cosines_(0, i)) + halfA_.y() * std::fabs(cosines_(1, i)) +
+                            halfA_.z() * std::fabs(cosines_(2, i));
+    separation_[index(3 + i)] = std::fabs(b_.col(i).dot(bToA_)) - (halfB_(i) + reachOfA);
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      addEdges(i, j);
+    }
+  }
+  for (int k = 1; k < BoxAxis::kCount; ++k) {
+    if (separation_[index(k)] > separation_[index(best_)]) {
+      best_ = k;
+    }
+  }
+}
+
+void BoxAxes::addEdges(int i, int j) {
+  const std::size_t pair = index(3 * i + j);
+  Vec3& n = cross_[pair];
+  double& separation = separation_[6 + pair];
+  n = a_.col(i).cross(b_.col(j));
+  double squared = n.squaredNorm();
+  if (squared >= kNearlyParallelSquared) {
+    const int i1 = (i + 1) % 3;
+    const int i2 = (i + 2) % 3;
+    const int j1 = (j + 1) % 3;
+    const int j2 = (j + 2) % 3;
+    // N·a of one edge is, up to sign, the cosine of the other: no further dot products.
+    const double reachOfA = halfA_(i1) * std::fabs(cosines_(i2, j)) + halfA_(i2) * std::fabs(cosines_(i1, j));
+    const double reachOfB = halfB_(j1) * std::fabs(cosines_(i, j2)) + halfB_(j2) * std::fabs(cosines_(i, j1));
+    sine_[pair] = std::sqrt(squared);
+    separation = (std::fabs(n.dot(bToA_)) - (reachOfA + reachOfB)) / sine_[pair];
+    return;
+  }
+  n = accurateCross(a_.col(i), b_.col(j));
+  squared = n.squaredNorm();
+  sine_[pair] = std::sqrt(squared);
+  if (squared < kParallelSquared) {
+    separation = std::numeric_limits<double>::lowest();
+    return;
+  }
+  const Vec3 u = n / sine_[pair];
+  separation = std::fabs(u.dot(bToA_)) - (reach(u, a_, halfA_) + reach(u, b_, halfB_));
+}
+
+Vec3 BoxAxes::normal(BoxAxis axis) const {
+  Vec3 n = Vec3::Zero();
+  switch (axis.kind()) {
+    case BoxAxis::Kind::kFaceOfA:
+      n = a_.col(axis.index);
+      break;
+    case BoxAxis::Kind::kFaceOfB:
+      n = b_.col(axis.index - 3);
+      break;
+    case BoxAxis::Kind::kEdges:
+      n = cross(axis.edgeOfA(), axis.edgeOfB()) / sine(axis.edgeOfA(), axis.edgeOfB());
+      break;
+  }
+  if (n.dot(bToA_) < 0) {
+    n = -n;
+  }
+  return n;
+}
+
+}  // namespace careen

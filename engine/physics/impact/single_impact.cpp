@@ -1,0 +1,241 @@
+#include "physics/impact/single_impact.h"
+
+#include <array>
+#include <cmath>
+
+#include "core/double_double.h"
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+using Wide3 = std::array<DoubleDouble, 3>;
+
+Wide3 wideCross(const Vec3& a, const Vec3& b) {
+  return {twoProduct(a.y(), b.z()) - twoProduct(a.z(), b.y()),
+          twoProduct(a.z(), b.x()) - twoProduct(a.x(), b.z()),
+          twoProduct(a.x(), b.y()) - twoProduct(a.y(), b.x())};
+}
+
+Wide3 wideInBody(const Mat3& worldFromBody, const Wide3& v) {
+  Wide3 result;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    result[static_cast<std::size_t>(i)] =
+        worldFromBody(0, i) * v[0] + worldFromBody(1, i) * v[1] + worldFromBody(2, i) * v[2];
+  }
+  return result;
+}
+
+/// What one body brings to the contact.
+struct Side {
+  Wide3 torque;           // arm × n, world: angular momentum per unit of normal impulse
+  DoubleDouble speed;     // n·(v + ω × arm)
+  DoubleDouble softness;  // that speed per unit of normal impulse
+};
+
+Side sideOf(const ImpactBody& body, const Vec3& arm, const Vec3& normal) {
+  const BodyState& state = *body.state;
+  const MassProperties& mass = *body.mass;
+  const Vec3& v = state.velocity;
+  const Vec3& momentum = state.angularMomentum;
+  Side side{wideCross(arm, normal), 0, 0};
+  const Wide3 torqueBody = wideInBody(state.pose.worldFromBody, side.torque);
+  const Wide3 momentumBody =
+      wideInBody(state.pose.worldFromBody, Wide3{momentum.x(), momentum.y(), momentum.z()});
+  side.speed = twoProduct(normal.x(), v.x()) + twoProduct(normal.y(), v.y()) + twoProduct(normal.z(), v.z());
+  // n·n is 1 but for rounding, and that rounding would be a drift of energy.
+  side.softness = mass.inverseMass * (twoSquare(normal.x()) + twoSquare(normal.y()) + twoSquare(normal.z()));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const DoubleDouble spin = mass.inverseInertiaBody[static_cast<Eigen::Index>(i)] * torqueBody[i];
+    side.speed = side.speed + spin * momentumBody[i];
+    side.softness = side.softness + spin * torqueBody[i];
+  }
+  return side;
+}
+
+/// v and L of a body after an impulse at the end of an arm: `alongNormal` n, and a small rest in plain
+/// doubles.
+void push(const ImpactBody& body, const Side& side, const Vec3& normal, const DoubleDouble& alongNormal) {
+  BodyState& state = *body.state;
+  const DoubleDouble perMass = body.mass->inverseMass * alongNormal;
+  const bool turns = !body.mass->inverseInertiaBody.isZero(0);
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    state.velocity[k] = static_cast<double>(state.velocity[k] + normal[k] * perMass);
+    if (turns) {
+      state.angularMomentum[k] = static_cast<double>(state.angularMomentum[k] +
+                                                     alongNormal * side.torque[static_cast<std::size_t>(k)]);
+    }
+  }
+}
+
+void push(const ImpactBody& body, const Vec3& arm, const Vec3& impulse) {
+  body.state->velocity += body.mass->inverseMass * impulse;
+  if (!body.mass->inverseInertiaBody.isZero(0)) {
+    body.state->angularMomentum += arm.cross(impulse);
+  }
+}
+
+/// Velocity of the body's point at `arm` after `impulse` there, from rest.
+Vec3 yield(const ImpactBody& body, const Vec3& arm, const Vec3& impulse) {
+  const Mat3& a = body.state->pose.worldFromBody;
+  const Vec3 torqueBody = a.transpose() * arm.cross(impulse);
+  const Vec3 spin = a * body.mass->inverseInertiaBody.cwiseProduct(torqueBody);
+  return body.mass->inverseMass * impulse + spin.cross(arm);
+}
+
+Vec3 pointVelocity(const ImpactBody& body, const Vec3& arm) {
+  const Mat3& a = body.state->pose.worldFromBody;
+  const Vec3 momentumBody = a.transpose() * body.state->angularMomentum;
+  const Vec3 spin = a * body.mass->inverseInertiaBody.cwiseProduct(momentumBody);
+  return body.state->velocity + spin.cross(arm);
+}
+
+/// The tangential problem of one contact, in the plane of the tangents.
+struct Plane {
+  double x = 0;
+  double y = 0;
+};
+struct Slip {
+  Plane speed;    // s: slip at the end of compression, without friction
+  double xx = 0;  // B: slip per unit of tangential impulse, while the normal speed is kept
+  double xy = 0;
+  double yy = 0;
+  Plane coupling;            // a: normal impulse lost per unit of tangential impulse
+  double normalImpulse = 0;  // N: without friction
+};
+
+/// j = −(B + γ)⁻¹ s.
+Plane impulseAt(const Slip& slip, double gamma) {
+  const double xx = slip.xx + gamma;
+  const double yy = slip.yy + gamma;
+  const double det = xx * yy - slip.xy * slip.xy;
+  return {.x = -(yy * slip.speed.x - slip.xy * slip.speed.y) / det,
+          .y = -(xx * slip.speed.y - slip.xy * slip.speed.x) / det};
+}
+
+double limitAt(const Slip& slip, double friction, const Plane& j) {
+  return friction * (slip.normalImpulse - (slip.coupling.x * j.x + slip.coupling.y * j.y));
+}
+
+/// Least energy ½ jᵀBj + sᵀj within the cone: stick if that is inside it, otherwise j = −(B + γ)⁻¹ s with γ ≥
+/// 0, which opposes the slip B j + s that is left, where |j| reaches the limit. Bisection, for the limit
+/// varies with j and Newton's method could leave the root that continues the frictionless law.
+Plane frictionImpulse(const Slip& slip, double friction) {
+  const auto outside = [&](const Plane& j) {
+    return std::sqrt(j.x * j.x + j.y * j.y) > limitAt(slip, friction, j);
+  };
+  const Plane stick = impulseAt(slip, 0);
+  if (!outside(stick)) {
+    return stick;
+  }
+  double inside = slip.xx + slip.yy;
+  for (int i = 0; i < 1000 && outside(impulseAt(slip, inside)); ++i) {
+    inside *= 2;
+  }
+  double out = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double middle = out + (inside - out) / 2;
+    if (!(middle > out && middle < inside)) {
+      break;
+    }
+    (outside(impulseAt(slip, middle)) ? out : inside) = middle;
+  }
+  return impulseAt(slip, inside);
+}
+
+}  // namespace
+
+Tangents tangentsOf(const Vec3& normal) {
+  Eigen::Index flattest = 0;
+  for (Eigen::Index k = 1; k < 3; ++k) {
+    flattest = std::fabs(normal[k]) < std::fabs(normal[flattest]) ? k : flattest;
+  }
+  const Vec3 across = normal.cross(Vec3(Vec3::Unit(flattest)));
+  const Vec3 first = across / std::sqrt(across.dot(across));
+  const Vec3 second = normal.cross(first);
+  return {.first = first, .second = second};
+}
+
+namespace {
+
+Slip slipOf(const ImpactBody& a, const ImpactBody* b, const ImpactContact& contact, const Tangents& tangents,
+            double softness, double approach) {
+  const Vec3& n = contact.normal;
+  Vec3 velocity = pointVelocity(a, contact.armA);
+  Vec3 byNormal = yield(a, contact.armA, n);
+  Vec3 byFirst = yield(a, contact.armA, tangents.first);
+  Vec3 bySecond = yield(a, contact.armA, tangents.second);
+  if (b != nullptr) {
+    velocity -= pointVelocity(*b, contact.armB);
+    byNormal += yield(*b, contact.armB, n);
+    byFirst += yield(*b, contact.armB, tangents.first);
+    bySecond += yield(*b, contact.armB, tangents.second);
+  }
+  const Plane across{.x = byNormal.dot(tangents.first), .y = byNormal.dot(tangents.second)};
+  const double compression = approach / softness;
+  Slip slip;
+  slip.coupling = {.x = across.x / softness, .y = across.y / softness};
+  slip.speed = {.x = velocity.dot(tangents.first) + across.x * compression,
+                .y = velocity.dot(tangents.second) + across.y * compression};
+  slip.xx = byFirst.dot(tangents.first) - across.x * slip.coupling.x;
+  slip.xy = byFirst.dot(tangents.second) - across.x * slip.coupling.y;
+  slip.yy = bySecond.dot(tangents.second) - across.y * slip.coupling.y;
+  slip.normalImpulse = (1 + contact.material.restitution) * compression;
+  return slip;
+}
+
+}  // namespace
+
+ImpactShare resolveSingleImpact(const ImpactBody& a, const ImpactBody* b, const ImpactContact& contact) {
+  const Vec3& n = contact.normal;
+  const Side sideA = sideOf(a, contact.armA, n);
+  Side sideB{};
+  DoubleDouble speed = sideA.speed;
+  DoubleDouble softness = sideA.softness;
+  if (b != nullptr) {
+    sideB = sideOf(*b, contact.armB, n);
+    speed = speed - sideB.speed;
+    softness = softness + sideB.softness;
+  }
+  speed = normalized(speed);  // its parts may have cancelled
+  softness = normalized(softness);
+  ImpactShare share{.approach = -speed.hi, .impulse = 0, .tangential = 0};
+  if (!(speed.hi < 0)) {
+    if (!std::isfinite(speed.hi)) {
+      throw NumericalError("impact: a velocity or an arm is not a finite number");
+    }
+    return share;
+  }
+  if (!(softness.hi > 0)) {
+    throw NumericalError("impact: neither side can move");
+  }
+  const DoubleDouble impulse = normalized(-(twoSum(1, contact.material.restitution) * speed) / softness);
+  if (!std::isfinite(impulse.hi)) {
+    throw NumericalError("impact: the impulse is not a finite number");
+  }
+  share.impulse = impulse.hi;
+
+  Vec3 frictional = Vec3::Zero();
+  if (contact.material.friction > 0) {
+    const Tangents tangents = tangentsOf(n);
+    const Slip slip = slipOf(a, b, contact, tangents, softness.hi, share.approach);
+    const Plane j = frictionImpulse(slip, contact.material.friction);
+    const double normalPart = -(slip.coupling.x * j.x + slip.coupling.y * j.y);
+    frictional = j.x * tangents.first + j.y * tangents.second + normalPart * n;
+    share.impulse += normalPart;
+    share.tangential = std::sqrt(j.x * j.x + j.y * j.y);
+  }
+  push(a, sideA, n, impulse);
+  if (b != nullptr) {
+    push(*b, sideB, n, -impulse);
+  }
+  if (contact.material.friction > 0) {
+    push(a, contact.armA, frictional);
+    if (b != nullptr) {
+      push(*b, contact.armB, -frictional);
+    }
+  }
+  return share;
+}
+
+}  // namespace careen

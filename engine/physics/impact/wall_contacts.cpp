@@ -1,0 +1,34 @@
+#include "physics/impact/wall_contacts.h"
+
+#include <algorithm>
+
+#include "physics/geometry/separation.h"
+#include "physics/world/partner.h"
+
+namespace careen {
+
+double addWallContacts(const World& world, const Body& body, const Pose& pose, int index,
+                       std::vector<ImpactContact>& contacts, std::vector<int>& partners) {
+  const double within = touchingWithin(pose, body.halfExtents);
+  double deepest = 0;
+  for (std::size_t w = 0; w < world.walls.size(); ++w) {
+    const Wall& wall = world.walls[w];
+    const WallGap gap = wallGap(pose, body.halfExtents, wall.normal, wall.offset, within);
+    if (gap.gap > within) {
+      continue;
+    }
+    deepest = std::max(deepest, -gap.gap);
+    for (int k = 0; k < kCorners; ++k) {
+      if ((gap.corners >> static_cast<unsigned>(k) & 1U) != 0) {
+        contacts.push_back({.a = index,
+                            .armA = pose.worldFromBody * corner(body.halfExtents, k),
+                            .normal = wall.normal,
+                            .material = touching(body.material, wall.material)});
+        partners.push_back(wallPartner(w));
+      }
+    }
+  }
+  return deepest;
+}
+
+}  // namespace careen

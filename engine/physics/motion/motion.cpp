@@ -1,0 +1,107 @@
+#include "physics/motion/motion.h"
+
+#include <cmath>
+
+#include "physics/attitude/free_methods.h"
+#include "physics/attitude/torque_free_rotation.h"
+#include "physics/motion/listing1.h"
+
+namespace careen {
+namespace {
+
+BodyState stateIn(const Rest& rest, const MassProperties& /*mass*/, double /*elapsed*/) {
+  return {.pose = rest.pose};
+}
+
+BodyState stateIn(const EulerStep& step, const MassProperties& mass, double elapsed) {
+  // At its start the state itself, to the bit: even a step of no length would orthonormalise anew.
+  return elapsed == 0 ? step.start
+                      : listing1Step(mass, step.start, {.force = step.force, .torque = step.torque}, elapsed);
+}
+
+BodyState stateIn(const Flight& flight, const MassProperties& mass, double elapsed) {
+  const TorqueFreeRotation<double> rotation(mass.inertiaBody, flight.worldFromBody, flight.angularMomentum);
+  return {.pose = {.position = flight.positionAt(elapsed),
+                   .worldFromBody = rotation.worldFromBody(elapsed).toRotationMatrix()},
+          .velocity = flight.velocityAt(elapsed),
+          .angularMomentum = flight.angularMomentum};
+}
+
+BodyState stateIn(const SteppedFlight& stepped, const MassProperties& mass, double elapsed) {
+  const Flight& flight = stepped.start;
+  const FreeMethod& method = freeMethod(stepped.method);
+  FreeState<double> rotation{flight.worldFromBody, flight.worldFromBody.conjugate() * flight.angularMomentum};
+  const double whole = std::floor(elapsed / stepped.dt);
+  method.steps(mass.inertiaBody, rotation, stepped.dt, static_cast<std::int64_t>(whole));
+  if (const double rest = elapsed - whole * stepped.dt; rest > 0) {
+    method.steps(mass.inertiaBody, rotation, rest, 1);
+  }
+  return {.pose = {.position = flight.positionAt(elapsed),
+                   .worldFromBody = rotation.worldFromBody.toRotationMatrix()},
+          .velocity = flight.velocityAt(elapsed),
+          .angularMomentum = rotation.angularMomentumWorld()};
+}
+
+// Σ c[k] sᵏ and its derivative by s.
+template <class Vector>
+struct Polynomial {
+  Vector value;
+  Vector slope;
+};
+template <class Vector>
+Polynomial<Vector> evaluate(const std::array<Vector, 6>& coefficients, double s) {
+  Polynomial<Vector> at{coefficients[5], Vector::Zero()};
+  for (std::size_t k = 5; k-- > 0;) {
+    at.slope = at.slope * s + at.value;
+    at.value = at.value * s + coefficients[k];
+  }
+  return at;
+}
+
+BodyState stateIn(const ContactStep& step, const MassProperties& mass, double elapsed) {
+  const double s = elapsed / step.duration;
+  const auto position = evaluate(step.position, s);
+  const auto turn = evaluate(step.worldFromBody, s);
+  // ω = 2 q̇ q*, of a quaternion of any length
+  const Quat q(turn.value);
+  const Quat rate(turn.slope);
+  const Vec3 omega = (2 / (step.duration * turn.value.squaredNorm())) * (rate * q.conjugate()).vec();
+  const Mat3 columns = q.normalized().toRotationMatrix();
+  return {.pose = {.position = position.value, .worldFromBody = columns},
+          .velocity = position.slope / step.duration,
+          .angularMomentum = angularMomentum(mass, columns, omega)};
+}
+
+}  // namespace
+
+Vec3 positionAt(const ContactStep& step, double elapsed) {
+  return evaluate(step.position, elapsed / step.duration).value;
+}
+
+Vec3 velocityAt(const ContactStep& step, double elapsed) {
+  return evaluate(step.position, elapsed / step.duration).slope / step.duration;
+}
+
+StepBounds boundsOf(const ContactStep& step) {
+  StepBounds bounds;
+  for (std::size_t k = 1; k < step.position.size(); ++k) {
+    const double first = static_cast<double>(k) / step.duration;
+    const double second = first * static_cast<double>(k - 1) / step.duration;
+    bounds.speed += first * step.position[k].norm();
+    bounds.acceleration += second * step.position[k].norm();
+    bounds.angularSpeed += 2 * first * step.worldFromBody[k].norm();
+    bounds.angularAcceleration += 2 * second * step.worldFromBody[k].norm();
+  }
+  // Between its ends the quaternion's length is not quite 1.
+  constexpr double kLength = 1 + 0x1p-6;
+  bounds.angularSpeed *= kLength;
+  bounds.angularAcceleration =
+      kLength * (bounds.angularAcceleration + bounds.angularSpeed * bounds.angularSpeed);
+  return bounds;
+}
+
+BodyState stateAt(const Motion& motion, const MassProperties& mass, double elapsed) {
+  return std::visit([&](const auto& kind) { return stateIn(kind, mass, elapsed); }, motion);
+}
+
+}  // namespace careen

@@ -1,0 +1,76 @@
+#include "physics/pile/axes.h"
+
+#include <cmath>
+#include <limits>
+
+namespace careen {
+namespace {
+
+constexpr double kParallelSquared = 0x1p-14;
+
+}  // namespace
+
+bool PileAxes::find(const PileBody& a, const PileBody& b, double reach, int last, double tie) {
+  cosines.noalias() = a.axes.transpose() * b.axes;
+  const Vec3 apart = a.position - b.position;
+  apartA.noalias() = a.axes.transpose() * apart;
+  apartB.noalias() = b.axes.transpose() * apart;
+  const Vec3& halfA = a.halfExtents;
+  const Vec3& halfB = b.halfExtents;
+  const Mat3 sizes = cosines.cwiseAbs();
+  double best = std::numeric_limits<double>::lowest();
+  faceSeparation = best;
+  const auto offerFace = [&](int axis, double separation) {
+    const double weight = separation + (axis == last ? tie : 0);
+    if (weight > best) {
+      best = weight;
+      face = axis;
+      faceSeparation = separation;
+    }
+    return separation <= reach;
+  };
+  for (int i = 0; i < 3; ++i) {
+    const double reachOfB = halfB.x() * sizes(i, 0) + halfB.y() * sizes(i, 1) + halfB.z() * sizes(i, 2);
+    if (!offerFace(i, std::fabs(apartA[i]) - (halfA[i] + reachOfB))) {
+      return false;
+    }
+  }
+  for (int j = 0; j < 3; ++j) {
+    const double reachOfA = halfA.x() * sizes(0, j) + halfA.y() * sizes(1, j) + halfA.z() * sizes(2, j);
+    if (!offerFace(3 + j, std::fabs(apartB[j]) - (halfB[j] + reachOfA))) {
+      return false;
+    }
+  }
+  best = std::numeric_limits<double>::lowest();
+  edgeSeparation = best;
+  for (int i = 0; i < 3; ++i) {
+    const int i1 = (i + 1) % 3;
+    const int i2 = (i + 2) % 3;
+    for (int j = 0; j < 3; ++j) {
+      const int j1 = (j + 1) % 3;
+      const int j2 = (j + 2) % 3;
+      const double squared = cosines(i1, j) * cosines(i1, j) + cosines(i2, j) * cosines(i2, j);
+      if (squared < kParallelSquared) {
+        continue;
+      }
+      // aᵢ × bⱼ in a's frame is (0, −c(i2,j), c(i1,j)) from i on.
+      const double along = std::fabs(apartA[i2] * cosines(i1, j) - apartA[i1] * cosines(i2, j));
+      const double reaches = halfA[i1] * sizes(i2, j) + halfA[i2] * sizes(i1, j) + halfB[j1] * sizes(i, j2) +
+                             halfB[j2] * sizes(i, j1);
+      const double separation = (along - reaches) / std::sqrt(squared);
+      const double weight = separation + (6 + 3 * i + j == last ? tie : 0);
+      if (weight > best) {
+        best = weight;
+        edges = 6 + 3 * i + j;
+        edgeSeparation = separation;
+      }
+      if (separation > reach) {
+        faceSeparation = separation;
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace careen

@@ -1,0 +1,87 @@
+#include "physics/pile/body.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/attitude/free_splitting.h"
+
+namespace careen {
+namespace {
+
+constexpr double kLongTurn = 0.5;        // [rad] in one substep
+constexpr double kTurnPerStrang = 0.25;  // [rad]
+constexpr double kMostStrang = 1024;     // steps: beyond it the turn is wrong, but finite
+
+// (cos θ/2, θ/|θ| sin θ/2), |θ| ≤ 1: next terms are below 1e-12 of one.
+Quat turnOf(const Vec3& theta) {
+  const double z = 0.25 * theta.squaredNorm();
+  const double cos = 1 - z * (1.0 / 2 - z * (1.0 / 24 - z * (1.0 / 720 - z * (1.0 / 40320))));
+  const double sin = 1 - z * (1.0 / 6 - z * (1.0 / 120 - z * (1.0 / 5040 - z * (1.0 / 362880))));
+  const Vec3 v = (0.5 * sin) * theta;
+  return {cos, v.x(), v.y(), v.z()};
+}
+
+void setAttitude(PileBody& body, const Quat& attitude) {
+  body.attitude = unit<double>(attitude);
+  body.axes = body.attitude.toRotationMatrix();
+  deriveOmega(body);
+}
+
+}  // namespace
+
+PileBody pileBody(const Body& body, const BodyState& state) {
+  PileBody result{.halfExtents = body.halfExtents,
+                  .radius = body.halfExtents.norm(),
+                  .length = 2 * body.halfExtents.minCoeff(),
+                  .inverseMass = body.mass.inverseMass,
+                  .inertiaBody = body.mass.inertiaBody,
+                  .inverseInertiaBody = body.mass.inverseInertiaBody,
+                  .material = body.material,
+                  .position = state.pose.position,
+                  .attitude = Quat(state.pose.worldFromBody).normalized(),
+                  .axes = state.pose.worldFromBody,
+                  .velocity = state.velocity,
+                  .angularMomentum = state.angularMomentum,
+                  .held = isImmovable(body.mass)};
+  if (result.held) {
+    result.velocity = Vec3::Zero();
+    result.angularMomentum = Vec3::Zero();
+  }
+  deriveOmega(result);
+  return result;
+}
+
+BodyState stateOf(const PileBody& body) {
+  return {.pose = {.position = body.position, .worldFromBody = body.axes},
+          .velocity = body.velocity,
+          .angularMomentum = body.angularMomentum};
+}
+
+void deriveOmega(PileBody& body) {
+  const Vec3 momentum = body.axes.transpose() * body.angularMomentum;
+  body.omega = body.axes * body.inverseInertiaBody.cwiseProduct(momentum);
+}
+
+void turnFree(PileBody& body, double h) {
+  const Vec3 m = body.axes.transpose() * body.angularMomentum;
+  const Vec3 omega = body.inverseInertiaBody.cwiseProduct(m);
+  const double angle = omega.norm() * h;
+  if (angle > kLongTurn) {
+    FreeState<double> state{body.attitude, m};
+    const double steps = std::min(1 + angle / kTurnPerStrang, kMostStrang);
+    const auto count = static_cast<std::int64_t>(steps);
+    strangSteps<double>(body.inertiaBody, state, h / static_cast<double>(count), count);
+    setAttitude(body, state.worldFromBody);
+    return;
+  }
+  const Vec3 mRate = m.cross(omega);
+  const Vec3 rate = body.inverseInertiaBody.cwiseProduct(mRate);
+  const Vec3 rateOfRate = body.inverseInertiaBody.cwiseProduct(mRate.cross(omega) + m.cross(rate));
+  const Vec3 theta =
+      h * (omega + h * (0.5 * rate + h * (rateOfRate * (1.0 / 6) + omega.cross(rate) * (1.0 / 12))));
+  setAttitude(body, body.attitude * turnOf(theta));
+}
+
+void turnBy(PileBody& body, const Vec3& rotation) { setAttitude(body, turnOf(rotation) * body.attitude); }
+
+}  // namespace careen

@@ -1,0 +1,312 @@
+#include "physics/pile/manifold.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/geometry/separation.h"
+#include "physics/pile/axes.h"
+#include "physics/pile/clip.h"
+
+namespace careen {
+namespace {
+
+constexpr double kSlack = 0x1p-10;      // [1] past its ends an edge still counts
+constexpr double kClipSlack = 0x1p-30;  // [1] sides of a face moved outward, so that rounding empties no clip
+constexpr double kTie = 0x1p-12;        // [1] by which an axis must be better than that of last time
+constexpr double kSamePlace = 0x1p-6;   // [1] points of other features inherit from those nearer than this
+constexpr int kMostProjections = 40;
+constexpr std::uint32_t kEdgeFeature = 0x100;
+constexpr std::uint32_t kClosestFeature = 0x200;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// What a rebuilding starts from.
+struct Former {
+  std::array<PilePoint, PileManifold::kMost> points;
+  int count = 0;
+  bool hadEdges = false;
+  std::uint32_t faces = 0;
+  PileFrame plane;
+};
+
+void inherit(const Former& former, PileManifold& manifold) {
+  const double near = kSamePlace * manifold.length;
+  const bool sameFaces = former.faces == manifold.faces;
+  // Tangents that did not stay in place lose their impulses: the cone would turn them.
+  const bool sameTangents = sameFaces || former.plane.tangent1.dot(manifold.plane.tangent1) > 0.99;
+  std::array<bool, PileManifold::kMost> taken{};
+  for (int k = 0; k < manifold.count; ++k) {
+    PilePoint& point = manifold.points[at(k)];
+    int best = -1;
+    double nearest = near * near;
+    for (int i = 0; i < former.count; ++i) {
+      if (taken[at(i)]) {
+        continue;
+      }
+      const PilePoint& old = former.points[at(i)];
+      const bool comparable = sameFaces || point.feature == kEdgeFeature;
+      if (comparable && old.feature == point.feature) {
+        best = i;
+        break;
+      }
+      const double distance = (old.world - point.world).squaredNorm();
+      if (distance < nearest) {
+        nearest = distance;
+        best = i;
+      }
+    }
+    if (best < 0) {
+      continue;
+    }
+    const PilePoint& old = former.points[at(best)];
+    taken[at(best)] = true;
+    point.normalImpulse = old.normalImpulse;
+    point.normalImpulseBefore = old.normalImpulseBefore;
+    if (sameTangents && (old.feature == kEdgeFeature) == (point.feature == kEdgeFeature)) {
+      point.tangential1 = old.tangential1;
+      point.tangential2 = old.tangential2;
+    }
+  }
+}
+
+Former formerOf(const PileManifold& manifold) {
+  Former former;
+  former.count = manifold.count;
+  std::copy_n(manifold.points.begin(), manifold.count, former.points.begin());
+  former.faces = manifold.faces;
+  former.plane = manifold.plane;
+  return former;
+}
+
+void addPoint(PileManifold& manifold, const Vec3& local, std::uint32_t feature) {
+  PilePoint& point = manifold.points[at(manifold.count++)];
+  point = {};
+  point.local = local;
+  point.feature = feature;
+}
+
+// Outward normal of the owner's face the axis stands on; the incident box lies on its side.
+void addFace(const PileBody& a, const PileBody& b, const PileAxes& axes, double reach, double least,
+             PileManifold& manifold) {
+  const bool ofB = axes.face >= 3;
+  const int axis = axes.face % 3;
+  const PileBody& owner = ofB ? b : a;
+  const PileBody& incident = ofB ? a : b;
+  const Mat3 ownerFromIncident = ofB ? Mat3(axes.cosines.transpose()) : axes.cosines;
+  const Vec3 center = ofB ? axes.apartB : Vec3(-axes.apartA);
+  const double sign = center[axis] < 0 ? -1 : 1;
+  const ClippedFace face =
+      clipFace(owner, incident, ownerFromIncident, center, axis, sign, kClipSlack * manifold.length);
+  manifold.planeOfB = ofB;
+  manifold.planeAxis = axis;
+  manifold.closest = false;
+  manifold.planeNormal = sign * Vec3::Unit(axis);
+  manifold.planeTangent = Vec3::Unit((axis + 1) % 3);
+  manifold.planeOffset = owner.halfExtents[axis];
+  manifold.faces = face.faces * 2 + (ofB ? 1 : 0);
+  for (int k = 0; k < face.count; ++k) {
+    const ClippedPoint& point = face.points[at(k)];
+    if (point.gap <= reach && point.gap >= least) {
+      addPoint(manifold, ownerFromIncident.transpose() * (point.point - center), point.feature);
+    }
+  }
+}
+
+// The edge pair of the best edge axis, if its closest points lie on both.
+void addEdges(const PileBody& a, const PileBody& b, const PileAxes& axes, PileManifold& manifold) {
+  const int i = (axes.edges - 6) / 3;
+  const int j = (axes.edges - 6) % 3;
+  Vec3 normal = a.axes.col(i).cross(b.axes.col(j));
+  const Vec3 apart = a.position - b.position;
+  manifold.edgeSign = normal.dot(apart) < 0 ? -1 : 1;
+  normal *= manifold.edgeSign;
+  const Vec3 normalA = a.axes.transpose() * normal;
+  const Vec3 normalB = b.axes.transpose() * normal;
+  for (int k = 0; k < 3; ++k) {
+    manifold.middleA[k] = k == i ? 0 : normalA[k] > 0 ? -a.halfExtents[k] : a.halfExtents[k];
+    manifold.middleB[k] = k == j ? 0 : normalB[k] > 0 ? b.halfExtents[k] : -b.halfExtents[k];
+  }
+  const Vec3 between = apart + a.axes * manifold.middleA - b.axes * manifold.middleB;
+  const double cosine = axes.cosines(i, j);
+  const double alongA = a.axes.col(i).dot(between);
+  const double alongB = b.axes.col(j).dot(between);
+  const double perSquare = 1 / (1 - cosine * cosine);
+  const double s = (cosine * alongB - alongA) * perSquare;
+  const double t = (alongB - cosine * alongA) * perSquare;
+  const double slack = kSlack * manifold.length;
+  if (std::fabs(s) > a.halfExtents[i] + slack || std::fabs(t) > b.halfExtents[j] + slack) {
+    return;
+  }
+  manifold.edgeA = i;
+  manifold.edgeB = j;
+  manifold.hasEdges = true;
+  addPoint(manifold, Vec3::Zero(), kEdgeFeature);
+}
+
+Vec3 nearestIn(const PileBody& box, const Vec3& point) {
+  const Vec3 local = box.axes.transpose() * (point - box.position);
+  return box.position + box.axes * local.cwiseMax(-box.halfExtents).cwiseMin(box.halfExtents);
+}
+
+// Corner against corner or edge, beside every face: alternating projections (von Neumann) on the two boxes.
+// The plane found is of a, the point of b.
+void addClosest(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
+  Vec3 onB = nearestIn(b, a.position);
+  Vec3 onA = nearestIn(a, onB);
+  const double still = kSlack * kSlack * manifold.length;
+  for (int k = 0; k < kMostProjections; ++k) {
+    const Vec3 before = onB;
+    onB = nearestIn(b, onA);
+    onA = nearestIn(a, onB);
+    if ((onB - before).squaredNorm() < still * still) {
+      break;
+    }
+  }
+  const Vec3 apart = onB - onA;
+  const double distance = apart.norm();
+  manifold.separation = distance;
+  if (distance > reach || distance < still) {
+    return;
+  }
+  manifold.planeOfB = false;
+  manifold.closest = true;
+  manifold.faces = kClosestFeature;
+  manifold.planeNormal = a.axes.transpose() * (apart / distance);
+  manifold.planeTangent = frameAbout(manifold.planeNormal).tangent1;
+  manifold.planeOffset = manifold.planeNormal.dot(a.axes.transpose() * (onA - a.position));
+  addPoint(manifold, b.axes.transpose() * (onB - b.position), kClosestFeature);
+}
+
+}  // namespace
+
+PileFrame frameAbout(const Vec3& normal) {
+  int least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  PileFrame frame{.normal = normal};
+  frame.tangent1 = normal.cross(Vec3::Unit(least)).normalized();
+  frame.tangent2 = normal.cross(frame.tangent1);
+  return frame;
+}
+
+bool buildManifold(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
+  const Former former = formerOf(manifold);
+  manifold.count = 0;
+  manifold.hasEdges = false;
+  manifold.moved = 0;
+  PileAxes axes;
+  const double tie = kTie * manifold.length;
+  if (!axes.find(a, b, reach, manifold.axis, tie)) {
+    manifold.separation = axes.faceSeparation;
+    return false;
+  }
+  const bool edgesBest = axes.edgeSeparation > axes.faceSeparation + (manifold.axis >= 6 ? 0 : tie);
+  manifold.axis = edgesBest ? axes.edges : axes.face;
+  manifold.separation = std::max(axes.edgeSeparation, axes.faceSeparation);
+  const double least = edgesBest ? axes.edgeSeparation - PileLengths::kOverlapped * manifold.length
+                                 : std::numeric_limits<double>::lowest();
+  addFace(a, b, axes, reach, least, manifold);
+  if (edgesBest) {
+    addEdges(a, b, axes, manifold);
+  }
+  if (manifold.count == 0 && manifold.separation > 0) {
+    addClosest(a, b, reach, manifold);
+  }
+  refreshManifold(a, b, manifold);
+  inherit(former, manifold);
+  return true;
+}
+
+bool buildManifold(const PileBody& a, const Wall& wall, double reach, PileManifold& manifold) {
+  const Former former = formerOf(manifold);
+  manifold.count = 0;
+  manifold.moved = 0;
+  manifold.planeOfB = true;
+  manifold.plane = frameAbout(wall.normal);
+  const Vec3 up = a.axes.transpose() * wall.normal;
+  const double height = wall.normal.dot(a.position) - wall.offset;
+  manifold.separation = height - a.halfExtents.dot(up.cwiseAbs());
+  if (manifold.separation > reach) {
+    return false;
+  }
+  for (int k = 0; k < kCorners; ++k) {
+    const Vec3 local = corner(a.halfExtents, k);
+    if (height + up.dot(local) <= reach) {
+      addPoint(manifold, local, static_cast<std::uint32_t>(k));
+    }
+  }
+  refreshManifold(a, wall, manifold);
+  inherit(former, manifold);
+  return true;
+}
+
+void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifold) {
+  const Vec3 apart = a.position - b.position;
+  const PileBody& owner = manifold.planeOfB ? b : a;
+  const PileBody& other = manifold.planeOfB ? a : b;
+  const double sign = manifold.planeOfB ? 1 : -1;
+  const int planePoints = manifold.count - (manifold.hasEdges ? 1 : 0);
+  if (planePoints > 0) {
+    const Vec3 outward = owner.axes * manifold.planeNormal;
+    manifold.plane.normal = sign * outward;
+    manifold.plane.tangent1 = owner.axes * manifold.planeTangent;
+    manifold.plane.tangent2 = manifold.plane.normal.cross(manifold.plane.tangent1);
+    const double center = sign * outward.dot(apart) - manifold.planeOffset;
+    const Vec3 toOther = manifold.planeOfB ? Vec3::Zero() : Vec3(-apart);
+    for (int k = 0; k < planePoints; ++k) {
+      PilePoint& point = manifold.points[at(k)];
+      const Vec3 arm = other.axes * point.local;
+      point.world = toOther + arm;
+      point.gap = center + outward.dot(arm);
+    }
+  }
+  if (manifold.hasEdges) {
+    PilePoint& point = manifold.points[at(manifold.count - 1)];
+    const Vec3 alongA = a.axes.col(manifold.edgeA);
+    const Vec3 alongB = b.axes.col(manifold.edgeB);
+    const double cosine = alongA.dot(alongB);
+    const Vec3 cross = manifold.edgeSign * alongA.cross(alongB);
+    const double sine = cross.norm();
+    if (sine > kSlack) {
+      manifold.edges.normal = cross / sine;
+      manifold.edges.tangent1 = alongA;
+      manifold.edges.tangent2 = manifold.edges.normal.cross(alongA);
+    }
+    const Vec3 armA = a.axes * manifold.middleA;
+    const Vec3 between = apart + armA - b.axes * manifold.middleB;
+    point.gap = manifold.edges.normal.dot(between);
+    const double square = std::max(1 - cosine * cosine, kSlack * kSlack);
+    const double along = (cosine * alongB.dot(between) - alongA.dot(between)) / square;
+    const double half = a.halfExtents[manifold.edgeA];
+    point.world = armA + std::clamp(along, -half, half) * alongA;
+  }
+}
+
+void refreshManifold(const PileBody& a, const Wall& wall, PileManifold& manifold) {
+  const double height = wall.normal.dot(a.position) - wall.offset;
+  for (int k = 0; k < manifold.count; ++k) {
+    PilePoint& point = manifold.points[at(k)];
+    point.world = a.axes * point.local;
+    point.gap = height + wall.normal.dot(point.world);
+  }
+}
+
+double relativeMotion(const PileBody& a, const PileBody& b, double h) {
+  const Vec3 apart = b.position - a.position;
+  const Vec3 slip = b.velocity - a.velocity - a.omega.cross(apart);
+  const Vec3 spin = b.omega - a.omega;
+  return h * (slip.cwiseAbs().sum() + b.radius * spin.cwiseAbs().sum());
+}
+
+double overlapOf(const PileBody& a, const PileBody& b) {
+  const BoxAxes axes(a.axes, a.halfExtents, b.axes, b.halfExtents, a.position - b.position);
+  return std::max(0.0, -axes.gap());
+}
+
+double overlapOf(const PileBody& a, const Wall& wall) {
+  const Vec3 up = a.axes.transpose() * wall.normal;
+  const double gap = wall.normal.dot(a.position) - wall.offset - a.halfExtents.dot(up.cwiseAbs());
+  return std::max(0.0, -gap);
+}
+
+}  // namespace careen

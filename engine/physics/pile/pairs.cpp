@@ -1,0 +1,217 @@
+#include "physics/pile/pairs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace careen {
+namespace {
+
+constexpr double kFat = 0.1;  // [1] of the smallest size, on every side
+constexpr int kLeaf = 4;
+constexpr int kMostRefits = 16;
+constexpr std::size_t kDeepest = 128;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+std::uint64_t keyOf(int a, int b) {
+  return (static_cast<std::uint64_t>(a) << 32U) | static_cast<std::uint64_t>(b);
+}
+
+}  // namespace
+
+bool PilePairs::Box::overlaps(const Box& other) const {
+  return low.x() <= other.high.x() && other.low.x() <= high.x() && low.y() <= other.high.y() &&
+         other.low.y() <= high.y() && low.z() <= other.high.z() && other.low.z() <= high.z();
+}
+
+bool PilePairs::Box::holds(const Box& other) const {
+  return low.x() <= other.low.x() && other.high.x() <= high.x() && low.y() <= other.low.y() &&
+         other.high.y() <= high.y() && low.z() <= other.low.z() && other.high.z() <= high.z();
+}
+
+void PilePairs::Box::include(const Box& other) {
+  low = low.cwiseMin(other.low);
+  high = high.cwiseMax(other.high);
+}
+
+PilePairs::PilePairs(std::span<const PileBody> bodies, std::span<const Wall> walls)
+    : walls_(walls.begin(), walls.end()), fat_(bodies.size()), left_(bodies.size()) {
+  constexpr double kNowhere = std::numeric_limits<double>::max();
+  for (Box& box : fat_) {
+    box = {.low = Vec3::Constant(kNowhere), .high = Vec3::Constant(-kNowhere)};
+  }
+}
+
+// Holds the box over the time at its present velocities; a turn moves no corner farther than 2 radii, and
+// sides less than the angle times the radius.
+PilePairs::Box PilePairs::sweptBox(const PileBody& body, const Vec3& gravity, double time) {
+  const Vec3 reach = body.axes.cwiseAbs() * body.halfExtents;
+  Box box{.low = body.position - reach, .high = body.position + reach};
+  if (body.still()) {
+    return box;
+  }
+  const Vec3 moved = time * (body.velocity + time * gravity);
+  const double turned = body.radius * std::min(1.0, body.omega.norm() * time);
+  box.low += moved.cwiseMin(0) - Vec3::Constant(turned);
+  box.high += moved.cwiseMax(0) + Vec3::Constant(turned);
+  return box;
+}
+
+void PilePairs::update(std::span<const PileBody> bodies, const Vec3& gravity, double time, double lookAhead) {
+  bool any = false;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    left_[i] = 0;
+    if (bodies[i].still() && fat_[i].low.x() <= fat_[i].high.x()) {
+      continue;
+    }
+    if (!fat_[i].holds(sweptBox(bodies[i], gravity, time))) {
+      const Vec3 margin = Vec3::Constant(kFat * bodies[i].length);
+      fat_[i] = sweptBox(bodies[i], gravity, lookAhead);
+      fat_[i].low -= margin;
+      fat_[i].high += margin;
+      left_[i] = 1;
+      any = true;
+    }
+  }
+  if (!any) {
+    return;
+  }
+  if (nodes_.empty() || ++refits_ > kMostRefits) {
+    buildTree();
+  } else {
+    refit();
+  }
+  found_.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (left_[i] != 0) {
+      findPartners(bodies, walls_, static_cast<int>(i));
+    }
+  }
+  std::sort(found_.begin(), found_.end());
+  merge(bodies);
+}
+
+void PilePairs::buildTree() {
+  refits_ = 0;
+  nodes_.clear();
+  order_.resize(fat_.size());
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    order_[i] = static_cast<int>(i);
+  }
+  if (!order_.empty()) {
+    buildNode(0, static_cast<int>(order_.size()));
+  }
+}
+
+int PilePairs::buildNode(int first, int count) {
+  const int index = static_cast<int>(nodes_.size());
+  nodes_.push_back({.box = fat_[at(order_[at(first)])], .first = first, .count = count});
+  Box centers{.low = fat_[at(order_[at(first)])].low + fat_[at(order_[at(first)])].high};
+  centers.high = centers.low;
+  for (int k = first + 1; k < first + count; ++k) {
+    const Box& box = fat_[at(order_[at(k)])];
+    nodes_[at(index)].box.include(box);
+    const Vec3 center = box.low + box.high;
+    centers.include({.low = center, .high = center});
+  }
+  if (count > kLeaf) {
+    int axis = 0;
+    (centers.high - centers.low).maxCoeff(&axis);
+    const auto begin = order_.begin() + first;
+    std::nth_element(begin, begin + count / 2, begin + count, [&](int i, int j) {
+      const double x = fat_[at(i)].low[axis] + fat_[at(i)].high[axis];
+      const double y = fat_[at(j)].low[axis] + fat_[at(j)].high[axis];
+      return x < y || (x == y && i < j);
+    });
+    buildNode(first, count / 2);
+    nodes_[at(index)].right = buildNode(first + count / 2, count - count / 2);
+  }
+  return index;
+}
+
+void PilePairs::refit() {
+  for (std::size_t k = nodes_.size(); k-- > 0;) {
+    Node& node = nodes_[k];
+    if (node.right == 0) {
+      node.box = fat_[at(order_[at(node.first)])];
+      for (int i = node.first + 1; i < node.first + node.count; ++i) {
+        node.box.include(fat_[at(order_[at(i)])]);
+      }
+    } else {
+      node.box = nodes_[k + 1].box;
+      node.box.include(nodes_[at(node.right)].box);
+    }
+  }
+}
+
+// Pairs of two that have left are found from the lower rank.
+void PilePairs::findPartners(std::span<const PileBody> bodies, std::span<const Wall> walls, int body) {
+  const Box& box = fat_[at(body)];
+  const bool held = bodies[at(body)].held;
+  std::array<int, kDeepest> stack;
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const int index = stack[--size];
+    const Node& node = nodes_[at(index)];
+    if (!node.box.overlaps(box)) {
+      continue;
+    }
+    if (node.right != 0) {
+      stack[size++] = node.right;
+      stack[size++] = index + 1;
+      continue;
+    }
+    for (int k = node.first; k < node.first + node.count; ++k) {
+      const int other = order_[at(k)];
+      const bool twice = left_[at(other)] != 0 && other < body;
+      if (other != body && !twice && !(held && bodies[at(other)].held) && box.overlaps(fat_[at(other)])) {
+        found_.push_back(keyOf(std::min(body, other), std::max(body, other)));
+      }
+    }
+  }
+  if (held) {
+    return;
+  }
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const Vec3& n = walls[w].normal;
+    const Vec3 lowest = (n.array() > 0).select(box.low, box.high);
+    if (n.dot(lowest) <= walls[w].offset) {
+      found_.push_back(keyOf(body, static_cast<int>(bodies.size() + w)));
+    }
+  }
+}
+
+// Old pairs of which none has left stay; of the others those that were found again.
+void PilePairs::merge(std::span<const PileBody> bodies) {
+  merged_.clear();
+  auto found = found_.begin();
+  const auto hasLeft = [&](int index) { return at(index) < bodies.size() && left_[at(index)] != 0; };
+  const auto add = [&] {
+    merged_.push_back(
+        {.key = *found, .a = static_cast<int>(*found >> 32U), .b = static_cast<int>(*found & 0xffffffffU)});
+    ++found;
+  };
+  for (const PilePair& old : pairs_) {
+    while (found != found_.end() && *found < old.key) {
+      add();
+    }
+    const bool again = found != found_.end() && *found == old.key;
+    if (again) {
+      ++found;
+    }
+    if (again || !(hasLeft(old.a) || hasLeft(old.b))) {
+      merged_.push_back(old);
+    } else if (old.slot >= 0) {
+      freed_.push_back(old.slot);
+    }
+  }
+  while (found != found_.end()) {
+    add();
+  }
+  pairs_.swap(merged_);
+}
+
+}  // namespace careen

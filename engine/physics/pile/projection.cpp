@@ -1,0 +1,131 @@
+#include "physics/pile/projection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace careen {
+namespace {
+
+constexpr int kSweeps = 20;
+constexpr double kLeft = 0.5;      // [1] of the tolerance, left so that touching bodies go on touching
+constexpr double kTell = 0.125;    // [1] of the tolerance
+constexpr double kLongest = 0.25;  // [1] of the smallest size: movement in one pass
+constexpr double kNear = 0x1p-6;   // [1] of the smallest size: gaps that could close
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+double lowestGap(const PileManifold& manifold) {
+  double gap = manifold.length;
+  for (int k = 0; k < manifold.count; ++k) {
+    gap = std::min(gap, manifold.points[at(k)].gap);
+  }
+  return gap;
+}
+
+}  // namespace
+
+// reached_: 1 for bodies of deep pairs, one more for each layer around them.
+bool PileProjection::collect(std::span<const PileBody> bodies, std::span<PileManifold> manifolds,
+                             std::span<const int> near, int layers) {
+  reached_.assign(bodies.size(), 0);
+  const auto mark = [&](int body, int layer) {
+    if (at(body) < bodies.size() && !bodies[at(body)].still() && reached_[at(body)] == 0) {
+      reached_[at(body)] = static_cast<char>(layer);
+    }
+  };
+  const auto layerOf = [&](int body) { return at(body) < bodies.size() ? reached_[at(body)] : char{0}; };
+  bool any = false;
+  for (const int slot : near) {
+    const PileManifold& manifold = manifolds[at(slot)];
+    if (lowestGap(manifold) < -kTolerance * manifold.length) {
+      mark(manifold.a, 1);
+      mark(manifold.b, 1);
+      any = true;
+    }
+  }
+  if (!any) {
+    return false;
+  }
+  chosen_.clear();
+  for (int layer = 1; layer <= layers; ++layer) {
+    for (const int slot : near) {
+      const PileManifold& manifold = manifolds[at(slot)];
+      const bool touches = layerOf(manifold.a) == layer || layerOf(manifold.b) == layer;
+      if (touches && layer < layers && lowestGap(manifold) < kNear * manifold.length) {
+        mark(manifold.a, layer + 1);
+        mark(manifold.b, layer + 1);
+      }
+    }
+  }
+  for (const int slot : near) {
+    if (layerOf(manifolds[at(slot)].a) != 0 || layerOf(manifolds[at(slot)].b) != 0) {
+      chosen_.push_back(slot);
+    }
+  }
+  return true;
+}
+
+bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> manifolds,
+                          std::span<const int> near, int layers) {
+  moved_.assign(bodies.size(), 0);
+  if (!collect(bodies, manifolds, near, layers)) {
+    return false;
+  }
+  solver_.begin(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (reached_[i] != 0) {
+      solver_.setBody(static_cast<int>(i), bodies[i], kTell * kTolerance * bodies[i].length);
+    }
+  }
+  for (const int slot : chosen_) {
+    const PileManifold& manifold = manifolds[at(slot)];
+    const bool wall = at(manifold.b) >= bodies.size();
+    const Vec3 apart =
+        wall ? Vec3::Zero() : Vec3(bodies[at(manifold.a)].position - bodies[at(manifold.b)].position);
+    solver_.beginManifold(manifold.a, wall ? solver_.walls() : manifold.b, 0);
+    const double left = kLeft * kTolerance * manifold.length;
+    for (int k = 0; k < manifold.count; ++k) {
+      const PilePoint& point = manifold.points[at(k)];
+      if (point.gap < kNear * manifold.length) {
+        solver_.add({.armA = point.world,
+                     .armB = point.world + apart,
+                     .frame = manifold.frameOf(k),
+                     .bound = -(point.gap + left)});
+      }
+    }
+  }
+  solver_.link();
+  solver_.wakeAll();
+  solver_.solve(kSweeps, false);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const int index = static_cast<int>(i);
+    if (reached_[i] == 0 || !solver_.pushed(index)) {
+      continue;
+    }
+    PileBody& body = bodies[i];
+    Vec3 shift = solver_.velocity(index);
+    Vec3 turn = solver_.omega(index);
+    const double far = shift.norm() + body.radius * turn.norm();
+    const double most = kLongest * body.length;
+    if (far > most) {
+      shift *= most / far;
+      turn *= most / far;
+    }
+    body.position += shift;
+    turnBy(body, turn);
+    body.path += std::min(far, most);
+    moved_[i] = 1;
+  }
+  for (const int slot : near) {
+    PileManifold& manifold = manifolds[at(slot)];
+    for (const int body : {manifold.a, manifold.b}) {
+      if (at(body) < bodies.size() && moved_[at(body)] != 0) {
+        manifold.moved +=
+            solver_.velocity(body).norm() + bodies[at(body)].radius * solver_.omega(body).norm();
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace careen

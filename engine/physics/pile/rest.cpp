@@ -1,0 +1,99 @@
+// Falling asleep, and what is asked of a pile from outside.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "physics/pile/pile.h"
+
+namespace careen {
+namespace {
+
+constexpr double kFrictionless = 0x1p-20;  // μ below which nothing is stopped
+
+}  // namespace
+
+int Pile::rootOf(int body) {
+  while (parent_[at(body)] != body) {
+    parent_[at(body)] = parent_[at(parent_[at(body)])];
+    body = parent_[at(body)];
+  }
+  return body;
+}
+
+void Pile::join(int a, int b) {
+  const int rootA = rootOf(a);
+  const int rootB = rootOf(b);
+  parent_[at(std::max(rootA, rootB))] = std::min(rootA, rootB);
+}
+
+// With all velocities set to zero, gravity and the kept impulses must leave every body of a touching cluster
+// next to nothing: then it would not move, and its last impulses, which lie in their cones, hold it for ever.
+// What moves at a constant speed passes that test too: the speed must be one that friction can take away
+// within the substep, μ g h.
+bool Pile::freeze() {
+  grip_.assign(bodies_.size(), kFrictionless);
+  parent_.resize(bodies_.size());
+  std::iota(parent_.begin(), parent_.end(), 0);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].asleep) {
+      join(static_cast<int>(i), bodies_[i].cluster);
+    }
+  }
+  for (const int slot : near_) {
+    const PileManifold& manifold = manifolds_[at(slot)];
+    const bool pushes = std::any_of(manifold.points.begin(), manifold.points.begin() + manifold.count,
+                                    [](const PilePoint& point) { return point.normalImpulse > 0; });
+    if (!pushes) {
+      continue;
+    }
+    grip_[at(manifold.a)] = std::max(grip_[at(manifold.a)], manifold.friction);
+    if (!isWall(manifold.b)) {
+      grip_[at(manifold.b)] = std::max(grip_[at(manifold.b)], manifold.friction);
+      if (!bodies_[at(manifold.a)].held && !bodies_[at(manifold.b)].held) {
+        join(manifold.a, manifold.b);
+      }
+    }
+  }
+  const auto isQuiet = [&](std::size_t i) {
+    const PileBody& body = bodies_[i];
+    const double speed = body.velocity.norm() + body.radius * body.omega.norm();
+    return body.asleep || (unrest_[i] <= kFeasible * pull_ * h_ && speed <= grip_[i] * pull_ * h_);
+  };
+  std::vector<char> quiet(bodies_.size(), 1);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].held && !isQuiet(i)) {
+      quiet[at(rootOf(static_cast<int>(i)))] = 0;
+    }
+  }
+  bool all = true;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    PileBody& body = bodies_[i];
+    const int root = rootOf(static_cast<int>(i));
+    if (body.held || (body.asleep && quiet[at(root)] == 0)) {
+      continue;
+    }
+    if (quiet[at(root)] == 0) {
+      all = false;
+      continue;
+    }
+    body.cluster = root;
+    if (!body.asleep) {
+      body.asleep = true;
+      body.velocity = body.angularMomentum = body.omega = Vec3::Zero();
+      ++figures_.frozen;
+    }
+  }
+  return all;
+}
+
+double Pile::deepest() const {
+  double deepest = 0;
+  for (const PilePair& pair : pairs_.pairs()) {
+    const PileBody& a = bodies_[at(pair.a)];
+    deepest =
+        std::max(deepest, isWall(pair.b) ? overlapOf(a, wall(pair.b)) : overlapOf(a, bodies_[at(pair.b)]));
+  }
+  return deepest;
+}
+
+}  // namespace careen

@@ -1,0 +1,240 @@
+#include "physics/pile/solver.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace careen {
+
+void PileSolver::begin(std::size_t bodies) {
+  moving_.assign(bodies + 1, {});
+  inertia_.assign(bodies + 1, {});
+  rows_.clear();
+  blocks_.clear();
+  blockOfRow_.clear();
+}
+
+void PileSolver::setBody(int index, const PileBody& body, double change) {
+  Inertia& inertia = inertia_[at(index)];
+  inertia.radius = body.radius;
+  inertia.change = change;
+  if (body.still()) {
+    return;
+  }
+  inertia.inverseMass = body.inverseMass;
+  const Mat3 scaled = body.axes * body.inverseInertiaBody.asDiagonal();
+  const auto entry = [&](int i, int j) { return scaled.row(i).dot(body.axes.row(j)); };
+  inertia.xx = entry(0, 0);
+  inertia.yy = entry(1, 1);
+  inertia.zz = entry(2, 2);
+  inertia.xy = entry(0, 1);
+  inertia.xz = entry(0, 2);
+  inertia.yz = entry(1, 2);
+}
+
+void PileSolver::beginManifold(int a, int b, double friction) {
+  blocks_.push_back({.a = a, .b = b, .first = static_cast<int>(rows_.size()), .friction = friction});
+}
+
+void PileSolver::add(const Row& row) {
+  Block& block = blocks_.back();
+  const PairInertia inertia(inertia_[at(block.a)], inertia_[at(block.b)]);
+  const double inverseMass = inertia.inverseMass[0] + inertia.inverseMass[1];
+  SolvedRow& solved = rows_.emplace_back();
+  solved.arms = pairOf(row.armA, row.armB);
+  solved.normal = row.frame.normal;
+  solved.tangent1 = row.frame.tangent1;
+  solved.tangent2 = row.frame.tangent2;
+  solved.bound = row.bound;
+  solved.normalImpulse = row.normalImpulse;
+  solved.tangential1 = row.tangential1;
+  solved.tangential2 = row.tangential2;
+  // Entries of the point's 3×3 matrix: dᵢ·dⱼ/m + Σ (r × dᵢ)·I⁻¹ (r × dⱼ) over both bodies.
+  const auto lever = [&](const Vec3& direction) { return cross(solved.arms, pairOf(direction, direction)); };
+  const auto product = [](const PairVec& a, const PairVec& b) {
+    const Pair sum = a.x * b.x + a.y * b.y + a.z * b.z;
+    return sum[0] + sum[1];
+  };
+  const PairVec leverN = lever(solved.normal);
+  const PairVec turnedN = inertia.times(leverN);
+  solved.massNormal = 1 / (inverseMass + product(turnedN, leverN));
+  if (block.friction > 0) {
+    const PairVec lever1 = lever(solved.tangent1);
+    const PairVec lever2 = lever(solved.tangent2);
+    const PairVec turned2 = inertia.times(lever2);
+    solved.normalToTangent1 = product(turnedN, lever1);
+    solved.normalToTangent2 = product(turnedN, lever2);
+    const double k11 = inverseMass + product(inertia.times(lever1), lever1);
+    const double k22 = inverseMass + product(turned2, lever2);
+    const double k12 = product(turned2, lever1);
+    const double perDeterminant = 1 / (k11 * k22 - k12 * k12);
+    solved.stop11 = k22 * perDeterminant;
+    solved.stop22 = k11 * perDeterminant;
+    solved.stop12 = -k12 * perDeterminant;
+    const double half = 0.5 * (k11 - k22);
+    solved.slide = 1 / (0.5 * (k11 + k22) + std::sqrt(half * half + k12 * k12));
+  }
+  blockOfRow_.push_back(static_cast<int>(blocks_.size()) - 1);
+  ++block.count;
+}
+
+void PileSolver::warmStart() {
+  for (const Block& block : blocks_) {
+    Moving& a = moving_[at(block.a)];
+    Moving& b = moving_[at(block.b)];
+    const Inertia& inertiaA = inertia_[at(block.a)];
+    const Inertia& inertiaB = inertia_[at(block.b)];
+    for (int k = block.first; k < block.first + block.count; ++k) {
+      const SolvedRow& row = rows_[at(k)];
+      if (row.normalImpulse == 0) {
+        continue;
+      }
+      const Vec3 impulse =
+          row.normalImpulse * row.normal + row.tangential1 * row.tangent1 + row.tangential2 * row.tangent2;
+      a.velocity += inertiaA.inverseMass * impulse;
+      a.omega += inertiaA.times(firstOf(row.arms).cross(impulse));
+      b.velocity -= inertiaB.inverseMass * impulse;
+      b.omega -= inertiaB.times(secondOf(row.arms).cross(impulse));
+      a.pushed = b.pushed = true;
+    }
+  }
+}
+
+// Which manifolds each body has, in one list, by counting.
+void PileSolver::link() {
+  firstBlock_.assign(moving_.size() + 1, 0);
+  for (const Block& block : blocks_) {
+    ++firstBlock_[at(block.a) + 1];
+    ++firstBlock_[at(block.b) + 1];
+  }
+  for (std::size_t i = 1; i < firstBlock_.size(); ++i) {
+    firstBlock_[i] += firstBlock_[i - 1];
+  }
+  cursor_.assign(firstBlock_.begin(), firstBlock_.end());
+  blocksOfBody_.resize(2 * blocks_.size());
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    blocksOfBody_[at(cursor_[at(blocks_[k].a)]++)] = static_cast<int>(k);
+    blocksOfBody_[at(cursor_[at(blocks_[k].b)]++)] = static_cast<int>(k);
+  }
+  waiting_.assign(blocks_.size() / 64 + 1, 0);
+}
+
+void PileSolver::wakeAll() {
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    put(k);
+  }
+}
+
+void PileSolver::wakeRow(int row) { put(at(blockOfRow_[at(row)])); }
+
+void PileSolver::tell(int body) {
+  moving_[at(body)].untold = 0;
+  for (int k = firstBlock_[at(body)]; k < firstBlock_[at(body) + 1]; ++k) {
+    put(at(blocksOfBody_[at(k)]));
+  }
+}
+
+std::int64_t PileSolver::solve(int sweeps, bool withFriction) {
+  std::int64_t solved = 0;
+  bool any = true;
+  for (int sweep = 0; sweep < sweeps && any; ++sweep) {
+    any = false;
+    for (std::size_t word = 0; word < waiting_.size(); ++word) {
+      // Those put ahead of this place are still met in this round, those behind in the next. The word is read
+      // anew each time, and only bits past the last one solved count.
+      std::uint64_t ahead = ~std::uint64_t{0};
+      while ((waiting_[word] & ahead) != 0) {
+        const int bit = std::countr_zero(waiting_[word] & ahead);
+        ahead = bit == 63 ? 0 : ~std::uint64_t{0} << (bit + 1);
+        waiting_[word] &= ~(std::uint64_t{1} << bit);
+        const Block& block = blocks_[word * 64 + static_cast<std::size_t>(bit)];
+        if (withFriction && block.friction > 0) {
+          solveBlock<true>(block);
+        } else {
+          solveBlock<false>(block);
+        }
+        ++solved;
+        any = true;
+      }
+    }
+  }
+  return solved;
+}
+
+template <bool kFriction>
+void PileSolver::solveBlock(const Block& block) {
+  constexpr Pair kOpposite = {1, -1};
+  Moving& movingA = moving_[at(block.a)];
+  Moving& movingB = moving_[at(block.b)];
+  const PairInertia inertia(inertia_[at(block.a)], inertia_[at(block.b)]);
+  PairVec v = pairOf(movingA.velocity, movingB.velocity);
+  PairVec w = pairOf(movingA.omega, movingB.omega);
+  bool changed = false;
+  for (int k = block.first; k < block.first + block.count; ++k) {
+    SolvedRow& row = rows_[at(k)];
+    const PairVec turning = cross(w, row.arms);
+    const Pair x = v.x + turning.x;
+    const Pair y = v.y + turning.y;
+    const Pair z = v.z + turning.z;
+    const double ux = x[0] - x[1];
+    const double uy = y[0] - y[1];
+    const double uz = z[0] - z[1];
+    const auto along = [&](const Vec3& d) { return d.x() * ux + d.y() * uy + d.z() * uz; };
+    const double before = row.normalImpulse;
+    const double normal = std::max(0.0, before - row.massNormal * (along(row.normal) - row.bound));
+    const double change = normal - before;
+    if (normal == 0 && change == 0) {
+      continue;
+    }
+    row.normalImpulse = normal;
+    Vec3 impulse = change * row.normal;
+    if constexpr (kFriction) {
+      const double u1 = along(row.tangent1) + row.normalToTangent1 * change;
+      const double u2 = along(row.tangent2) + row.normalToTangent2 * change;
+      const double limit = block.friction * normal;
+      double p1 = row.tangential1 - (row.stop11 * u1 + row.stop12 * u2);
+      double p2 = row.tangential2 - (row.stop12 * u1 + row.stop22 * u2);
+      if (p1 * p1 + p2 * p2 > limit * limit) {
+        p1 = row.tangential1 - row.slide * u1;
+        p2 = row.tangential2 - row.slide * u2;
+        const double squared = p1 * p1 + p2 * p2;
+        if (squared > limit * limit) {
+          const double scale = limit / std::sqrt(squared);
+          p1 *= scale;
+          p2 *= scale;
+        }
+      }
+      impulse += (p1 - row.tangential1) * row.tangent1 + (p2 - row.tangential2) * row.tangent2;
+      row.tangential1 = p1;
+      row.tangential2 = p2;
+    }
+    const PairVec push = {impulse.x() * kOpposite, impulse.y() * kOpposite, impulse.z() * kOpposite};
+    const PairVec spin = inertia.times(cross(row.arms, push));
+    v = {v.x + inertia.inverseMass * push.x, v.y + inertia.inverseMass * push.y,
+         v.z + inertia.inverseMass * push.z};
+    w = {w.x + spin.x, w.y + spin.y, w.z + spin.z};
+    changed = true;
+  }
+  if (changed) {
+    store(block.a, firstOf(v), firstOf(w));
+    store(block.b, secondOf(v), secondOf(w));
+  }
+}
+
+void PileSolver::store(int body, const Vec3& velocity, const Vec3& omega) {
+  const Inertia& inertia = inertia_[at(body)];
+  if (inertia.inverseMass == 0) {
+    return;
+  }
+  Moving& moving = moving_[at(body)];
+  moving.untold += (velocity - moving.velocity).cwiseAbs().sum() +
+                   inertia.radius * (omega - moving.omega).cwiseAbs().sum();
+  moving.velocity = velocity;
+  moving.omega = omega;
+  moving.pushed = true;
+  if (moving.untold > inertia.change) {
+    tell(body);
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,147 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/linear_algebra.h"
+#include "physics/pile/body.h"
+#include "physics/pile/manifold.h"
+
+namespace careen {
+
+/// Gauss–Seidel by worklist for the contacts of a pile: unknown are the velocities of all bodies (or, in a
+/// projection, how far they are moved), each row an impulse at a point.
+///
+/// A manifold is solved again only when one of its bodies has changed by more than a tolerance since its
+/// manifolds were last told; in the order the manifolds were added, forward, round after round. A shock then
+/// travels in one round as far as the order leads, and what is quiet costs nothing.
+///
+/// Normal: v_n ≥ bound, impulse ≥ 0, complementary. Friction: the impulse's two tangential parts lie in the
+/// disc of radius μ × normal impulse (the round cone). Tried first is what would stop the sliding, by the
+/// point's 2×2 matrix; if the disc does not hold it, a step along the sliding velocity, and back to the disc:
+/// its fixed point slides against its impulse, as Coulomb says, which that of the matrix' step does not.
+class PileSolver {
+ public:
+  /// Empties it, for that many bodies; one more, the last, stands for all walls.
+  void begin(std::size_t bodies);
+
+  /// A body with its inverse masses; `change` [m/s] is what its manifolds need to be told.
+  void setBody(int index, const PileBody& body, double change);
+
+  Vec3& velocity(int body) { return moving_[at(body)].velocity; }
+  Vec3& omega(int body) { return moving_[at(body)].omega; }
+  int walls() const { return static_cast<int>(moving_.size()) - 1; }
+  /// Whether any impulse acted on it since begin().
+  bool pushed(int body) const { return moving_[at(body)].pushed; }
+
+  /// A manifold's rows follow with add(). Manifolds come in the order of their keys; b may be walls().
+  void beginManifold(int a, int b, double friction);
+  struct Row {
+    Vec3 armA = Vec3::Zero();  ///< [m]
+    Vec3 armB = Vec3::Zero();  ///< [m]
+    PileFrame frame;
+    double bound = 0;  ///< [m/s] v_n is to be no less
+    double normalImpulse = 0;
+    double tangential1 = 0;
+    double tangential2 = 0;
+  };
+  void add(const Row& row);
+  /// Applies the impulses that rows were added with.
+  void warmStart();
+  /// After the last add: solves at most `sweeps` rounds. Returns how often a manifold was solved.
+  std::int64_t solve(int sweeps, bool withFriction);
+
+  std::size_t blockCount() const { return blocks_.size(); }
+  std::size_t rowCount() const { return rows_.size(); }
+  double normalImpulse(int row) const { return rows_[at(row)].normalImpulse; }
+  double tangential1(int row) const { return rows_[at(row)].tangential1; }
+  double tangential2(int row) const { return rows_[at(row)].tangential2; }
+  void setBound(int row, double bound) { rows_[at(row)].bound = bound; }
+  /// After the last add(): who touches whom. solve() begins with what wakeAll() or wakeRow() put on the list.
+  void link();
+  void wakeAll();
+  void wakeRow(int row);
+
+ private:
+  struct Moving {
+    Vec3 velocity = Vec3::Zero();
+    double untold = 0;  // [m/s] how much has changed that the manifolds do not know
+    Vec3 omega = Vec3::Zero();
+    bool pushed = false;
+  };
+  struct Inertia {
+    double inverseMass = 0;
+    double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;  // world I⁻¹
+    double radius = 0;
+    double change = 0;
+    Vec3 times(const Vec3& v) const {
+      return {xx * v.x() + xy * v.y() + xz * v.z(), xy * v.x() + yy * v.y() + yz * v.z(),
+              xz * v.x() + yz * v.y() + zz * v.z()};
+    }
+  };
+  // Two doubles for two bodies at once, a's first; each operation is that of single doubles, bit for bit.
+  using Pair = double __attribute__((vector_size(16)));
+  struct PairVec {
+    Pair x, y, z;
+  };
+  static PairVec pairOf(const Vec3& a, const Vec3& b) {
+    return {Pair{a.x(), b.x()}, Pair{a.y(), b.y()}, Pair{a.z(), b.z()}};
+  }
+  static PairVec cross(const PairVec& a, const PairVec& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+  static Vec3 firstOf(const PairVec& v) { return {v.x[0], v.y[0], v.z[0]}; }
+  static Vec3 secondOf(const PairVec& v) { return {v.x[1], v.y[1], v.z[1]}; }
+  // The inverse masses and moments of two bodies.
+  struct PairInertia {
+    Pair inverseMass, xx, yy, zz, xy, xz, yz;
+    PairInertia(const Inertia& a, const Inertia& b)
+        : inverseMass{a.inverseMass, b.inverseMass},
+          xx{a.xx, b.xx},
+          yy{a.yy, b.yy},
+          zz{a.zz, b.zz},
+          xy{a.xy, b.xy},
+          xz{a.xz, b.xz},
+          yz{a.yz, b.yz} {}
+    PairVec times(const PairVec& v) const {
+      return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
+    }
+  };
+  struct SolvedRow {
+    PairVec arms;
+    Vec3 normal, tangent1, tangent2;
+    double bound = 0;
+    double massNormal = 0;
+    double normalToTangent1 = 0, normalToTangent2 = 0;  // Δu_t per normal impulse
+    double stop11 = 0, stop12 = 0, stop22 = 0;          // (2×2 matrix)⁻¹
+    double slide = 0;                                   // 1/its largest eigenvalue
+    double normalImpulse = 0, tangential1 = 0, tangential2 = 0;
+  };
+  struct Block {
+    int a = 0;
+    int b = 0;
+    int first = 0;
+    int count = 0;
+    double friction = 0;
+  };
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  template <bool kFriction>
+  void solveBlock(const Block& block);
+  void store(int body, const Vec3& velocity, const Vec3& omega);
+  void tell(int body);
+  void put(std::size_t block) { waiting_[block / 64] |= std::uint64_t{1} << (block % 64); }
+
+  std::vector<Moving> moving_;
+  std::vector<Inertia> inertia_;
+  std::vector<SolvedRow> rows_;
+  std::vector<Block> blocks_;
+  std::vector<int> blockOfRow_;
+  std::vector<int> firstBlock_;  // of each body in blocksOfBody_
+  std::vector<int> blocksOfBody_;
+  std::vector<int> cursor_;
+  std::vector<std::uint64_t> waiting_;
+};
+
+}  // namespace careen

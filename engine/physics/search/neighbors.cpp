@@ -1,0 +1,153 @@
+#include "physics/search/neighbors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+#include "physics/search/concave_bound.h"
+
+namespace careen {
+namespace {
+
+constexpr double kLarge = 4;            // [1] times the median radius
+constexpr double kMargin = 1.0 / 16;    // [1] of an edge, before a body is filed anew
+constexpr double kMostCells = 0x1p+52;  // beyond, neighbouring cells cannot be told apart
+constexpr double kNeverCrosses = std::numeric_limits<double>::max();
+
+// [s] First t ≥ from with position + v t + ½ a t² = limit, coming from below. At or above it already: `from`.
+double whenAbove(double limit, double position, double velocity, double acceleration, double from) {
+  const double room = limit - (position + (velocity + 0.5 * from * acceleration) * from);
+  if (room <= 0) {
+    return from;
+  }
+  const double more = firstRoot(room, -(velocity + from * acceleration), acceleration, kNeverCrosses);
+  return more < kNeverCrosses ? from + more : kNeverCrosses;
+}
+
+}  // namespace
+
+std::size_t Neighbors::CellHash::operator()(const Cell& cell) const {
+  std::uint64_t h = 0;
+  for (const std::int64_t part : cell) {
+    h = (h ^ static_cast<std::uint64_t>(part)) * 0x9e3779b97f4a7c15U;
+    h ^= h >> 29U;
+  }
+  return static_cast<std::size_t>(h);
+}
+
+Neighbors::Neighbors(std::span<const double> radii) {
+  if (radii.size() <= kFew) {
+    return;
+  }
+  std::vector<double> sorted(radii.begin(), radii.end());
+  std::sort(sorted.begin(), sorted.end());
+  const double most = kLarge * sorted[(sorted.size() - 1) / 2];
+  for (const double radius : sorted) {
+    if (radius <= most) {
+      largestFiled_ = radius;
+    }
+  }
+  // Two spheres two cells apart: edge − 2 margins ≥ one diameter.
+  edge_ = 2 * largestFiled_ / (1 - 2 * kMargin);
+}
+
+Cell Neighbors::cellOf(const Vec3& position) const {
+  Cell cell{};
+  for (int i = 0; i < 3; ++i) {
+    const double at = std::floor(position(i) / edge_);
+    if (!(std::fabs(at) < kMostCells)) {
+      throw NumericalError("a body is too far away, for its size, to look for its neighbours");
+    }
+    cell[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(at);
+  }
+  return cell;
+}
+
+void Neighbors::insert(Key body, const Vec3& position, double radius) {
+  const bool filed = edge_ > 0 && radius <= largestFiled_;
+  const Cell cell = filed ? cellOf(position) : Cell{};
+  if (!places_.emplace(body, Place{.cell = cell, .filed = filed}).second) {
+    throw NumericalError("a body was given to the neighbour search twice");
+  }
+  if (filed) {
+    file(body, cell);
+  } else {
+    large_.insert(std::lower_bound(large_.begin(), large_.end(), body), body);
+  }
+}
+
+void Neighbors::erase(Key body) {
+  const Place place = places_.at(body);
+  if (place.filed) {
+    unfile(body, place.cell);
+  } else {
+    large_.erase(std::lower_bound(large_.begin(), large_.end(), body));
+  }
+  places_.erase(body);
+}
+
+void Neighbors::move(Key body, const Cell& cell) {
+  Place& place = places_.at(body);
+  if (place.filed && place.cell != cell) {
+    unfile(body, place.cell);
+    file(body, cell);
+    place.cell = cell;
+  }
+}
+
+void Neighbors::file(Key body, const Cell& cell) { cells_[cell].push_back(body); }
+
+void Neighbors::unfile(Key body, const Cell& cell) {
+  const auto found = cells_.find(cell);
+  std::erase(found->second, body);
+  if (found->second.empty()) {
+    cells_.erase(found);
+  }
+}
+
+void Neighbors::findCandidates(Key body, std::vector<Key>& candidates) const {
+  candidates.clear();
+  const Place& place = places_.at(body);
+  if (!place.filed) {
+    for (const auto& [key, other] : places_) {
+      candidates.push_back(key);
+    }
+  } else {
+    candidates.assign(large_.begin(), large_.end());
+    for (std::int64_t x = -1; x <= 1; ++x) {
+      for (std::int64_t y = -1; y <= 1; ++y) {
+        for (std::int64_t z = -1; z <= 1; ++z) {
+          const auto found = cells_.find({place.cell[0] + x, place.cell[1] + y, place.cell[2] + z});
+          if (found != cells_.end()) {
+            candidates.insert(candidates.end(), found->second.begin(), found->second.end());
+          }
+        }
+      }
+    }
+  }
+  std::erase(candidates, body);
+  std::sort(candidates.begin(), candidates.end());
+}
+
+Neighbors::Crossing Neighbors::nextCrossing(const Vec3& position, const Vec3& velocity,
+                                            const Vec3& acceleration, const Cell& cell, double from) const {
+  Crossing first{.time = kNeverCrosses, .cell = cell};
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const auto low = static_cast<double>(cell[k]);
+    const double upper = edge_ * (low + 1 + kMargin);
+    const double lower = edge_ * (low - kMargin);
+    const double up = whenAbove(upper, position(i), velocity(i), acceleration(i), from);
+    const double down = whenAbove(-lower, -position(i), -velocity(i), -acceleration(i), from);
+    const double time = std::min(up, down);
+    if (time < first.time) {
+      first = {.time = time, .cell = cell};
+      first.cell[k] += up <= down ? 1 : -1;
+    }
+  }
+  return first;
+}
+
+}  // namespace careen

@@ -1,0 +1,31 @@
+#include "physics/simulate.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "physics/attitude/free_methods.h"
+#include "physics/compared/loop1997.h"
+#include "physics/compared/stepped_world.h"
+#include "physics/exact/exact_world.h"
+
+namespace careen {
+
+RunFigures simulate(const World& world, const RunSettings& settings, Recorder& recorder,
+                    const std::stop_token& stop) {
+  if (!(std::isfinite(settings.duration) && settings.duration >= 0)) {
+    throw InputError("duration must be finite and not negative");
+  }
+  if (!(std::isfinite(settings.dt) && settings.dt > 0)) {
+    throw InputError("dt must be finite and positive");
+  }
+  switch (settings.method) {
+    case Method::kExact:
+      return ExactWorld(world, settings, recorder).run(stop);
+    case Method::kListing1:
+      return runLoop1997(world, settings, recorder, stop);
+    default:
+      return runStepped(world, settings, recorder, stop);
+  }
+}
+
+}  // namespace careen

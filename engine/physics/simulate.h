@@ -1,0 +1,16 @@
+#pragma once
+
+#include <stop_token>
+
+#include "physics/motion/recorder.h"
+#include "physics/world/method.h"
+#include "physics/world/world.h"
+
+namespace careen {
+
+/// Runs the world from time 0 to `duration`. Throws NumericalError when the method cannot go on, Interrupted
+/// when asked to stop.
+RunFigures simulate(const World& world, const RunSettings& settings, Recorder& recorder,
+                    const std::stop_token& stop = {});
+
+}  // namespace careen

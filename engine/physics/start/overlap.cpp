@@ -1,0 +1,360 @@
+#include "physics/start/overlap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "core/brief.h"
+#include "core/error.h"
+#include "physics/geometry/separation.h"
+
+namespace careen {
+namespace {
+
+using Indices = std::vector<std::size_t>;
+
+// Boxes whose axis-parallel bounds meet, each pair once, in no stated order: swept along x.
+template <class Visit>
+void forBoundsThatMeet(std::span<const PlacedBox> boxes, std::span<const Vec3> positions,
+                       const Visit& visit) {
+  std::vector<Vec3> reach;
+  reach.reserve(boxes.size());
+  for (const PlacedBox& box : boxes) {
+    reach.emplace_back(box.pose.worldFromBody.cwiseAbs() * box.halfExtents);
+  }
+  Indices order(boxes.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto low = [&](std::size_t i) { return positions[i].x() - reach[i].x(); };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return low(a) < low(b); });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t i = order[k];
+    const double high = positions[i].x() + reach[i].x();
+    for (std::size_t l = k + 1; l < order.size() && low(order[l]) <= high; ++l) {
+      const std::size_t j = order[l];
+      const Vec3 apart = (positions[i] - positions[j]).cwiseAbs();
+      const Vec3 both = reach[i] + reach[j];
+      if (apart.y() <= both.y() && apart.z() <= both.z() &&
+          (boxes[i].inverseMass > 0 || boxes[j].inverseMass > 0)) {
+        visit(i, j);
+      }
+    }
+  }
+}
+
+BoxAxes axesOf(const PlacedBox& a, const PlacedBox& b, const Vec3& bToA) {
+  return {a.pose.worldFromBody, a.halfExtents, b.pose.worldFromBody, b.halfExtents, bToA};
+}
+
+// What the gap of two boxes is the difference of.
+double lengthsOf(const PlacedBox& a, const PlacedBox& b, const Vec3& at, const Vec3& other) {
+  return a.halfExtents.norm() + b.halfExtents.norm() + at.cwiseAbs().sum() + other.cwiseAbs().sum();
+}
+
+std::vector<Vec3> positionsOf(std::span<const PlacedBox> boxes) {
+  std::vector<Vec3> positions;
+  positions.reserve(boxes.size());
+  for (const PlacedBox& box : boxes) {
+    positions.push_back(box.pose.position);
+  }
+  return positions;
+}
+
+constexpr std::size_t kNoBox = std::numeric_limits<std::size_t>::max();
+// Rounding, of the lengths that a gap is the difference of: what a sweep must come to before it is the last.
+constexpr double kTight = 0x1p-48;
+// What has no room is known by gaps that stop closing: less than a thousandth in this many sweeps for each
+// box. Towers take about 3 n² in all, those with a heavy top more.
+constexpr double kStalls = 0.999;
+constexpr std::size_t kSweepsPerBox = 100;
+constexpr std::size_t kMostPushes = 300'000'000;  // in all: a few seconds
+constexpr int kRounds = 200;
+// No box counts for more than this many of the lightest: each further factor costs as many more sweeps.
+constexpr double kHeaviest = 64;
+
+// One that must keep n·(a − b), or n·a of a wall, at no less than `least`.
+struct Barrier {
+  std::size_t a = kNoBox;
+  std::size_t b = kNoBox;  // kNoBox: a wall
+  std::size_t wall = 0;
+  int choice = 0;  // which of the pair's axes, by depth: 0 the least deep
+  Vec3 normal = Vec3::Zero();
+  double least = 0;       // [m]
+  double lengths = 0;     // [m] that the gap is the difference of
+  double multiplier = 0;  // [kg m]
+};
+
+class Parting {
+ public:
+  Parting(std::span<const PlacedBox> boxes, std::span<const Wall> walls, Meeting meeting)
+      : boxes_(boxes),
+        walls_(walls),
+        meeting_(meeting),
+        ease_(easeOf(boxes)),
+        start_(positionsOf(boxes)),
+        now_(start_),
+        rank_(boxes.size()),
+        wallRank_(walls.size()) {
+    rankByName(boxes_, rank_);
+    rankByName(walls_, wallRank_);
+  }
+
+  Parted run() {
+    bool parted = true;
+    for (int round = 0; round < kRounds && pushes_ < kMostPushes; ++round) {
+      if (!addBarriers() && parted) {
+        return result();
+      }
+      parted = relax();
+      if (!parted && !turnToNextAxis()) {
+        break;
+      }
+    }
+    const Barrier& worst = barriers_[deepest()];
+    const std::string other =
+        worst.b == kNoBox ? "wall " + walls_[worst.wall].name : "box " + boxes_[worst.b].name;
+    throw InputError("box " + boxes_[worst.a].name + " cannot be moved out of " + other +
+                     ": there is no room for it, " + brief(-gapOf(worst)) +
+                     " m are missing; expected boxes that have room to part");
+  }
+
+ private:
+  template <class Named>
+  static void rankByName(std::span<const Named> named, Indices& rank) {
+    Indices order(named.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(),
+              [named](std::size_t x, std::size_t y) { return named[x].name < named[y].name; });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      rank[order[k]] = k;
+    }
+  }
+
+  static std::vector<double> easeOf(std::span<const PlacedBox> boxes) {
+    double easiest = 0;
+    for (const PlacedBox& box : boxes) {
+      easiest = std::max(easiest, box.inverseMass);
+    }
+    std::vector<double> ease;
+    for (const PlacedBox& box : boxes) {
+      ease.push_back(box.inverseMass > 0 ? std::max(box.inverseMass, easiest / kHeaviest) : 0);
+    }
+    return ease;
+  }
+
+  double gapOf(const Barrier& barrier) const {
+    const Vec3 from = barrier.b == kNoBox ? now_[barrier.a] : Vec3(now_[barrier.a] - now_[barrier.b]);
+    return barrier.normal.dot(from) - barrier.least;
+  }
+  double easeOf(const Barrier& barrier) const {
+    return ease_[barrier.a] + (barrier.b == kNoBox ? 0 : ease_[barrier.b]);
+  }
+
+  // The order of names, walls after boxes.
+  bool before(const Barrier& x, const Barrier& y) const {
+    const auto key = [this](const Barrier& each) {
+      return std::array<std::size_t, 3>{each.b == kNoBox ? 1U : 0U, rank_[each.a],
+                                        each.b == kNoBox ? wallRank_[each.wall] : rank_[each.b]};
+    };
+    return key(x) < key(y);
+  }
+
+  // Takes up what overlaps where the boxes are now; false if nothing new does.
+  bool addBarriers() {
+    const std::size_t known = barriers_.size();
+    if (meeting_ == Meeting::kAll) {
+      addPairs();
+    }
+    addWalls();
+    std::sort(barriers_.begin(), barriers_.end(),
+              [this](const Barrier& x, const Barrier& y) { return before(x, y); });
+    return barriers_.size() > known;
+  }
+
+  void addPairs() {
+    forBoundsThatMeet(boxes_, now_, [this](std::size_t i, std::size_t j) {
+      const auto [a, b] = rank_[i] < rank_[j] ? std::pair(i, j) : std::pair(j, i);
+      const double lengths = lengthsOf(boxes_[a], boxes_[b], now_[a], now_[b]);
+      if (!pairs_.contains({a, b}) &&
+          axesOf(boxes_[a], boxes_[b], now_[a] - now_[b]).gap() < -kGapAllowance * lengths) {
+        pairs_.insert({a, b});
+        barriers_.push_back({.a = a, .b = b, .lengths = lengths});
+        choose(barriers_.back(), now_[a] - now_[b]);
+      }
+    });
+  }
+
+  void addWalls() {
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      const Pose pose{.position = now_[i], .worldFromBody = boxes_[i].pose.worldFromBody};
+      for (std::size_t w = 0; w < walls_.size() && ease_[i] > 0; ++w) {
+        const LowestGap lowest = lowestGap(walls_[w], boxes_[i].halfExtents, pose);
+        if (lowest.overlaps() && behind_.insert({i, w}).second) {
+          const double centre = walls_[w].normal.dot(now_[i]);
+          barriers_.push_back({.a = i,
+                               .wall = w,
+                               .normal = walls_[w].normal,
+                               .least = centre - lowest.gap,
+                               .lengths = lowest.lengths});
+        }
+      }
+    }
+  }
+
+  // Of the pair's 15 directions and their opposites that of the place barrier.choice, by how far the boxes
+  // must move along it.
+  void choose(Barrier& barrier, const Vec3& bToA) const {
+    const BoxAxes axes = axesOf(boxes_[barrier.a], boxes_[barrier.b], bToA);
+    struct Way {
+      double depth = 0;
+      int axis = 0;
+      double sign = 1;
+    };
+    std::vector<Way> ways;
+    for (int k = 0; k < BoxAxis::kCount; ++k) {
+      const double separation = axes.separation({k});
+      if (separation > std::numeric_limits<double>::lowest()) {
+        ways.push_back({.depth = -separation, .axis = k, .sign = 1});
+        const double across = 2 * std::fabs(axes.normal({k}).dot(bToA));
+        ways.push_back({.depth = across - separation, .axis = k, .sign = -1});
+      }
+    }
+    std::stable_sort(ways.begin(), ways.end(), [](const Way& x, const Way& y) { return x.depth < y.depth; });
+    const Way& way = ways[std::min(static_cast<std::size_t>(barrier.choice), ways.size() - 1)];
+    barrier.normal = way.sign * axes.normal({way.axis});
+    barrier.least = barrier.normal.dot(bToA) + way.depth;
+  }
+
+  // Sweeps until every gap is closed to rounding; false if that will not come about.
+  bool relax() {
+    const std::size_t sweeps = kSweepsPerBox * (boxes_.size() + 1);
+    double before = std::numeric_limits<double>::max();
+    while (pushes_ < kMostPushes) {
+      double worst = before;
+      for (std::size_t k = 0; k < sweeps && worst > kTight; ++k) {
+        worst = sweep();
+      }
+      if (worst <= kTight) {
+        return true;
+      }
+      if (worst > kStalls * before) {
+        break;
+      }
+      before = worst;
+    }
+    return std::all_of(barriers_.begin(), barriers_.end(),
+                       [this](const Barrier& each) { return gapOf(each) >= -kGapAllowance * each.lengths; });
+  }
+
+  // How far, of the lengths at hand, one of them had to be corrected at most.
+  double sweep() {
+    double worst = 0;
+    for (Barrier& barrier : barriers_) {
+      const double before = barrier.multiplier;
+      barrier.multiplier = std::max(0.0, before - gapOf(barrier) / easeOf(barrier));
+      const double change = barrier.multiplier - before;
+      push(barrier, change);
+      worst = std::max(worst, std::fabs(change) * easeOf(barrier) / barrier.lengths);
+    }
+    pushes_ += barriers_.size();
+    return worst;
+  }
+
+  void push(const Barrier& barrier, double multiplier) {
+    now_[barrier.a] += (multiplier * ease_[barrier.a]) * barrier.normal;
+    if (barrier.b != kNoBox) {
+      now_[barrier.b] -= (multiplier * ease_[barrier.b]) * barrier.normal;
+    }
+  }
+
+  std::size_t deepest() const {
+    const auto least = std::min_element(
+        barriers_.begin(), barriers_.end(),
+        [this](const Barrier& x, const Barrier& y) { return gapOf(x) / x.lengths < gapOf(y) / y.lengths; });
+    return static_cast<std::size_t>(least - barriers_.begin());
+  }
+
+  // Where barriers contradict each other: another axis for the pair that pushes hardest, and all anew. False
+  // if there is no pair among them.
+  bool turnToNextAxis() {
+    Barrier* hardest = nullptr;
+    for (Barrier& each : barriers_) {
+      if (each.b != kNoBox && (hardest == nullptr || each.multiplier > hardest->multiplier)) {
+        hardest = &each;
+      }
+    }
+    if (hardest == nullptr || hardest->choice + 1 >= 2 * BoxAxis::kCount) {
+      return false;
+    }
+    ++hardest->choice;
+    now_ = start_;
+    choose(*hardest, now_[hardest->a] - now_[hardest->b]);
+    for (Barrier& each : barriers_) {
+      each.multiplier = 0;
+    }
+    return true;
+  }
+
+  Parted result() const {
+    Parted parted{.positions = now_, .pairs = pairs_.size(), .behindWalls = behind_.size()};
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      const double way = (now_[i] - start_[i]).norm();
+      parted.moved += way > 0 ? 1U : 0U;
+      parted.furthest = std::max(parted.furthest, way);
+    }
+    return parted;
+  }
+
+  std::span<const PlacedBox> boxes_;
+  std::span<const Wall> walls_;
+  Meeting meeting_;
+  std::vector<double> ease_;  // [1/kg] of moving each box; 0: held
+  std::vector<Vec3> start_;
+  std::vector<Vec3> now_;
+  Indices rank_;      // of each box's name
+  Indices wallRank_;  // of each wall's name
+  std::vector<Barrier> barriers_;
+  std::set<std::pair<std::size_t, std::size_t>> pairs_;
+  std::set<std::pair<std::size_t, std::size_t>> behind_;
+  std::size_t pushes_ = 0;
+};
+
+}  // namespace
+
+LowestGap lowestGap(const Wall& wall, const Vec3& halfExtents, const Pose& pose) {
+  const double centre = wall.normal.dot(pose.position);
+  const double reach = (pose.worldFromBody.transpose() * wall.normal).cwiseAbs().dot(halfExtents);
+  const double size = wall.normal.cwiseAbs().dot(pose.position.cwiseAbs());
+  return {.gap = centre - reach - wall.offset, .lengths = size + reach + std::fabs(wall.offset)};
+}
+
+std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes) {
+  std::vector<Overlap> all;
+  forBoundsThatMeet(boxes, positionsOf(boxes), [&](std::size_t i, std::size_t j) {
+    const auto [first, second] = std::minmax(i, j);
+    const PlacedBox& a = boxes[first];
+    const PlacedBox& b = boxes[second];
+    const double gap = axesOf(a, b, a.pose.position - b.pose.position).gap();
+    if (gap < -kGapAllowance * lengthsOf(a, b, a.pose.position, b.pose.position)) {
+      all.push_back({.first = first, .second = second, .depth = -gap});
+    }
+  });
+  return all;
+}
+
+std::optional<Overlap> firstOverlap(std::span<const PlacedBox> boxes) {
+  const std::vector<Overlap> all = overlaps(boxes);
+  const auto first = std::min_element(all.begin(), all.end(), [](const Overlap& x, const Overlap& y) {
+    return std::pair(x.second, x.first) < std::pair(y.second, y.first);
+  });
+  return first == all.end() ? std::nullopt : std::optional(*first);
+}
+
+Parted moveApart(std::span<const PlacedBox> boxes, std::span<const Wall> walls, Meeting meeting) {
+  return Parting(boxes, walls, meeting).run();
+}
+
+}  // namespace careen

@@ -1,7 +1,0 @@
-#include "physics/torque_free_rotation.h"
-
-namespace careen {
-
-template class TorqueFreeRotation<double>;
-
-}  // namespace careen

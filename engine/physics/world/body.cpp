@@ -1,0 +1,51 @@
+#include "physics/world/body.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/rotation.h"
+
+namespace careen {
+
+MassProperties solidBox(const Vec3& halfExtents, double mass) {
+  const auto isUsable = [](double value) { return std::isfinite(value) && value > 0; };
+  if (!(isUsable(mass) && std::all_of(halfExtents.begin(), halfExtents.end(), isUsable))) {
+    throw InputError("a solid box needs positive, finite sizes and mass");
+  }
+  const Vec3 squares = halfExtents.cwiseAbs2();
+  // In half sizes the twelfth becomes a third.
+  const Vec3 inertia =
+      mass / 3 * Vec3(squares.y() + squares.z(), squares.x() + squares.z(), squares.x() + squares.y());
+  return {.mass = mass,
+          .inverseMass = 1 / mass,
+          .inertiaBody = inertia,
+          .inverseInertiaBody = inertia.cwiseInverse()};
+}
+
+MassProperties immovable() { return {}; }
+
+Material touching(const Material& a, const Material& b) {
+  return {.restitution = std::max(a.restitution, b.restitution),
+          .friction = std::sqrt(a.friction * b.friction)};
+}
+
+Mat3 inverseInertiaWorld(const MassProperties& mass, const Mat3& worldFromBody) {
+  const Mat3 inverseInertiaBody = mass.inverseInertiaBody.asDiagonal();
+  return similarityTransform(worldFromBody, inverseInertiaBody);
+}
+
+// The products below are Eqs. 18 and 17 through Eq. 20, bracketed from the right: three matrix-vector
+// products instead of two of matrices.
+Vec3 angularVelocity(const MassProperties& mass, const BodyState& state) {
+  const Mat3& worldFromBody = state.pose.worldFromBody;
+  const Vec3 momentumBody = worldFromBody.transpose() * state.angularMomentum;
+  return worldFromBody * mass.inverseInertiaBody.cwiseProduct(momentumBody);
+}
+
+Vec3 angularMomentum(const MassProperties& mass, const Mat3& worldFromBody, const Vec3& angularVelocity) {
+  const Vec3 velocityBody = worldFromBody.transpose() * angularVelocity;
+  return worldFromBody * mass.inertiaBody.cwiseProduct(velocityBody);
+}
+
+}  // namespace careen

@@ -1,0 +1,89 @@
+#include "physics/world/flight_account.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/rotation.h"
+#include "physics/world/forces.h"
+
+namespace careen {
+
+FlightAccount::FlightAccount(const World& world) : world_(world), bodies_(world.bodies.size()) {
+  if (!world.springs.empty()) {
+    for (const Body& body : world.bodies) {
+      states_.push_back(body.initial);
+    }
+  }
+}
+
+// Bodies that a spring joins are seen at the same moments.
+double FlightAccount::energy() const {
+  return states_.empty() ? energy_ : energy_ + springEnergy(world_, states_);
+}
+
+void FlightAccount::see(std::size_t body, const BodyState& state) {
+  const MassProperties& mass = world_.bodies[body].mass;
+  BodyAccount& account = bodies_[body];
+  const double kinetic = 0.5 * mass.mass * state.velocity.squaredNorm() +
+                         0.5 * angularVelocity(mass, state).dot(state.angularMomentum);
+  const double energy = kinetic - mass.mass * world_.gravity.dot(state.pose.position);
+  energy_ += energy - account.energy;
+  kinetic_ += kinetic - account.kinetic;
+  account.energy = energy;
+  account.kinetic = kinetic;
+  largestKinetic_ = std::max(largestKinetic_, kinetic_);
+  if (!states_.empty()) {
+    states_[body] = state;
+  }
+  orthogonality_ = std::max(orthogonality_, orthogonalityError(state.pose.worldFromBody));
+}
+
+void FlightAccount::departs(std::size_t body, const BodyState& state) {
+  see(body, state);
+  bodies_[body].momentum = world_.bodies[body].mass.mass * state.velocity;
+  bodies_[body].angularMomentum = state.angularMomentum;
+}
+
+void FlightAccount::passes(std::size_t body, const BodyState& state) {
+  see(body, state);
+  largestError_ = std::max(largestError_, std::abs(energy() - due_));
+}
+
+void FlightAccount::arrives(std::size_t body, const BodyState& state, double elapsed) {
+  passes(body, state);
+  const BodyAccount& begun = bodies_[body];
+  const double mass = world_.bodies[body].mass.mass;
+  expect(mass * state.velocity, begun.momentum + elapsed * mass * world_.gravity);
+  expect(state.angularMomentum, begun.angularMomentum);
+}
+
+void FlightAccount::expect(const Vec3& momentum, const Vec3& due) {
+  const double size = std::max(momentum.norm(), due.norm());
+  if (size > 0) {
+    momentumError_ = std::max(momentumError_, (momentum - due).norm() / size);
+  }
+}
+
+void FlightAccount::strikes(bool mayLose) { mayLose_ = mayLose; }
+
+void FlightAccount::parted() {
+  const double energy = this->energy();
+  if (!begun_ || (mayLose_ && energy < due_)) {
+    due_ = energy;
+  }
+  begun_ = true;
+  mayLose_ = false;
+  largestError_ = std::max(largestError_, std::abs(energy - due_));
+}
+
+void FlightAccount::penetrates(double depth) { deepest_ = std::max(deepest_, depth); }
+
+RunFigures FlightAccount::figures() const {
+  return {.energyChange = largestKinetic_ > 0 ? largestError_ / largestKinetic_ : 0,
+          .momentumChange = momentumError_,
+          .orthogonality = orthogonality_,
+          .deepestPenetration = deepest_,
+          .boundedFrom = boundedFrom_};
+}
+
+}  // namespace careen

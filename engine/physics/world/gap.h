@@ -1,0 +1,10 @@
+#pragma once
+
+#include "physics/world/world.h"
+
+namespace careen {
+
+/// How far a world point is from a wall [m]; negative: behind it.
+inline double gap(const Wall& wall, const Vec3& point) { return wall.normal.dot(point) - wall.offset; }
+
+}  // namespace careen

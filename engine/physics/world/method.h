@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace careen {
+
+/// Ways to move a world: one line here, one in kMethods, one in simulate or in freeMethods().
+enum class Method : int { kExact, kListing1, kStrang, kRungeKutta4, kSplitting6, kTaylor8, kMoserVeselov10 };
+
+/// What a method is called and what it can do.
+struct MethodTraits {
+  Method method;
+  std::string_view name;  ///< as scene files and commands spell it
+  int order = 0;          ///< its error goes with dt to this power; 0: it takes no steps of RunSettings::dt
+  bool forces = false;    ///< springs and drag
+  bool boxBox = false;    ///< boxes meet boxes
+  bool friction = false;
+  bool rests = false;  ///< bounces may die out
+
+  constexpr bool steps() const { return order > 0; }
+};
+
+/// A method that steps free bodies, see FreeMethod: it meets walls, with friction, at the roots of the gap.
+constexpr MethodTraits steppedFlight(Method method, std::string_view name, int order) {
+  return {.method = method, .name = name, .order = order, .friction = true};
+}
+
+inline constexpr std::array kMethods = {
+    MethodTraits{.method = Method::kExact,
+                 .name = "exact",
+                 .forces = true,
+                 .boxBox = true,
+                 .friction = true,
+                 .rests = true},
+    MethodTraits{.method = Method::kListing1, .name = "listing1", .order = 1, .forces = true},
+    steppedFlight(Method::kStrang, "strang", 2),
+    steppedFlight(Method::kRungeKutta4, "runge-kutta-4", 4),
+    steppedFlight(Method::kSplitting6, "splitting-6", 6),
+    steppedFlight(Method::kTaylor8, "taylor-8", 8),
+    steppedFlight(Method::kMoserVeselov10, "moser-veselov-10", 10)};
+
+inline constexpr auto kMethodNames = [] {
+  std::array<std::string_view, kMethods.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    names[i] = kMethods[i].name;
+  }
+  return names;
+}();
+
+constexpr const MethodTraits& traitsOf(Method method) {
+  const MethodTraits* known = kMethods.data();
+  while (known->method != method) {
+    ++known;
+  }
+  return *known;
+}
+
+constexpr std::optional<Method> methodNamed(std::string_view name) {
+  for (const MethodTraits& known : kMethods) {
+    if (known.name == name) {
+      return known.method;
+    }
+  }
+  return std::nullopt;
+}
+
+/// What a run says of its own errors.
+struct RunFigures {
+  double energyChange = 0;  ///< [1] largest change not accounted for by impacts, springs, drag and friction,
+                            ///< relative to the largest kinetic plus spring energy the run should have had
+  double momentumChange =
+      0;  ///< [1] largest relative change in flight, linear and angular, beyond what forces give
+  double orthogonality = 0;                ///< [1] largest ‖AAᵀ−1‖
+  double deepestPenetration = 0;           ///< [m]
+  std::optional<double> boundedFrom = {};  ///< [s] from when method exact went on as a pile, if it did
+};
+
+struct RunSettings {
+  Method method = Method::kExact;
+  double duration = 0;      ///< [s]
+  double dt = 1.0 / 240;    ///< [s] methods that step
+  double tolerance = 1e-6;  ///< [m] what a method that chooses its own steps must hold: of places and corners
+};
+
+}  // namespace careen

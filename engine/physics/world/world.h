@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/linear_algebra.h"
+#include "physics/world/body.h"
+
+namespace careen {
+
+/// Half-space that keeps bodies out: a point x is on the free side where normal·x > offset.
+struct Wall {
+  std::string name;
+  Vec3 normal = Vec3::UnitZ();  ///< [1] unit, points to the free side
+  double offset = 0;            ///< [m]
+  Material material;
+};
+
+/// Where a spring ends: a point of a body, in the body's frame, or of the world.
+struct SpringEnd {
+  std::optional<int> body;
+  Vec3 point = Vec3::Zero();  ///< [m]
+};
+
+/// Pulls its ends together with k (length − rest) + c · (rate of length), along the line between them.
+struct Spring {
+  SpringEnd from;
+  SpringEnd to;
+  double stiffness = 0;   ///< [N/m] k
+  double damping = 0;     ///< [N s/m] c
+  double restLength = 0;  ///< [m]
+};
+
+/// F = −linear · v, τ = −angular · ω.
+struct Drag {
+  double linear = 0;   ///< [N s/m]
+  double angular = 0;  ///< [N m s]
+};
+
+/// What the laws act on: only what a scene's plan calls for is in it; an empty list costs nothing.
+struct World {
+  Vec3 gravity = Vec3::Zero();  ///< [m/s²]
+  std::vector<Body> bodies;
+  std::vector<Wall> walls;
+  std::vector<Spring> springs;
+  std::optional<Drag> drag;
+};
+
+}  // namespace careen

@@ -1,0 +1,118 @@
+#include "physics/contact/contact_feature.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/rotation.h"
+
+namespace careen {
+namespace {
+
+const Vec3 kHalfA(0.3, 0.2, 0.1);
+const Vec3 kHalfB(0.25, 0.4, 0.35);
+
+// A body that turns steadily about a fixed axis while its centre runs along a parabola: known at any moment.
+struct Path {
+  Vec3 position;
+  Vec3 velocity;
+  Vec3 acceleration;
+  Vec3 axis;
+  double speed = 0;
+  Mat3 attitude;
+
+  Kinematics at(double t) const {
+    return {
+        {Vec3(position + velocity * t + 0.5 * t * t * acceleration), axisAngle(axis, speed * t) * attitude},
+        velocity + t * acceleration,
+        speed * axis};
+  }
+};
+
+const Path kPathA{Vec3(0.1, -0.2, 0.5),
+                  Vec3(0.3, 0.1, -0.2),
+                  Vec3(0.2, -0.5, 0.4),
+                  Vec3(1, 2, -0.5).normalized(),
+                  1.3,
+                  axisAngle(Vec3(1, 1, 0).normalized(), 0.7)};
+const Path kPathB{Vec3(-0.2, 0.1, 0.0),
+                  Vec3(-0.1, 0.2, 0.1),
+                  Vec3(-0.3, 0.1, 0.2),
+                  Vec3(-0.3, 1, 1).normalized(),
+                  -0.9,
+                  axisAngle(Vec3(0, 1, 1).normalized(), -0.4)};
+
+// gap, its rate and the bias against differences of the gap itself: neither ω̇ is there to add.
+void expectDerivatives(const ContactFeature& feature, const Wall* wall) {
+  const auto state = [&](double t) {
+    const Kinematics a = kPathA.at(t);
+    const Kinematics b = kPathB.at(t);
+    return contactState(feature, a, kHalfA, wall == nullptr ? &b : nullptr, kHalfB, wall);
+  };
+  const double h = 1e-4;
+  const ContactState now = state(0);
+  const Vec3 pull = wall == nullptr ? Vec3(kPathA.acceleration - kPathB.acceleration) : kPathA.acceleration;
+  EXPECT_NEAR(now.rate, (state(h).gap - state(-h).gap) / (2 * h), 1e-7);
+  EXPECT_NEAR(now.normal.dot(pull) + now.gapBias, (state(h).gap - 2 * now.gap + state(-h).gap) / (h * h),
+              2e-6);
+}
+
+TEST(ContactState, ofACornerOnAWallChangesAsItSays) {
+  const Wall wall{.name = "wall", .normal = Vec3(1, -2, 2) / 3, .offset = -0.2, .material = {}};
+  expectDerivatives({.a = 0, .wall = 0, .onA = corner(kHalfA, 5)}, &wall);
+}
+
+TEST(ContactState, ofACornerOnATurningFaceChangesAsItSays) {
+  expectDerivatives({.kind = ContactFeature::Kind::kPointOnFace,
+                     .a = 0,
+                     .b = 1,
+                     .onA = corner(kHalfA, 3),
+                     .axisB = 1,
+                     .sign = -1},
+                    nullptr);
+}
+
+// The crossing is brought to touch first: apart from each other, the gap's second derivative has a term more.
+TEST(ContactState, ofTwoEdgesChangesAsItSays) {
+  const ContactFeature feature{.kind = ContactFeature::Kind::kEdgeOnEdge,
+                               .a = 0,
+                               .b = 1,
+                               .onA = Vec3(0, -kHalfA.y(), -kHalfA.z()),
+                               .onB = Vec3(kHalfB.x(), 0, kHalfB.z()),
+                               .axisA = 0,
+                               .axisB = 1};
+  const auto state = [&](double t, const Vec3& shift) {
+    Kinematics a = kPathA.at(t);
+    a.pose.position += shift;
+    const Kinematics b = kPathB.at(t);
+    return contactState(feature, a, kHalfA, &b, kHalfB, nullptr);
+  };
+  const ContactState apart = state(0, Vec3::Zero());
+  const Vec3 shift = -apart.gap * apart.normal;
+  const ContactState now = state(0, shift);
+  ASSERT_NEAR(now.gap, 0, 1e-15);
+  const double h = 1e-4;
+  EXPECT_NEAR(now.rate, (state(h, shift).gap - state(-h, shift).gap) / (2 * h), 1e-7);
+  EXPECT_NEAR(now.normal.dot(kPathA.acceleration - kPathB.acceleration) + now.gapBias,
+              (state(h, shift).gap + state(-h, shift).gap) / (h * h), 2e-6);
+  EXPECT_NEAR((now.armA - now.armB + kPathA.position + shift - kPathB.position).norm(), 0, 1e-15);
+}
+
+// A small box flat on a large one, half over its border: two corners stand on the face, and two pairs of
+// edges cross.
+TEST(FeatureAt, tellsCornersOnFacesFromCrossings) {
+  const Pose a{.position = Vec3(0.25, 0, 0.45), .worldFromBody = Mat3::Identity()};
+  const Pose b{};
+  int corners = 0;
+  int crossings = 0;
+  for (const ContactPoint& point : boxContactPoints(a, kHalfA, b, kHalfB)) {
+    const ContactFeature feature = featureAt(point, 0, 0, a, kHalfA, 1, b, kHalfB);
+    corners += feature.kind == ContactFeature::Kind::kPointOnFace ? 1 : 0;
+    crossings += feature.kind == ContactFeature::Kind::kEdgeOnEdge ? 1 : 0;
+  }
+  EXPECT_EQ(corners, 2);
+  EXPECT_EQ(crossings, 2);
+}
+
+}  // namespace
+}  // namespace careen

@@ -1,0 +1,124 @@
+#include "physics/pile/manifold.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/rotation.h"
+#include "support/pile_scenes.h"
+
+namespace careen {
+namespace {
+
+PileBody boxAt(const Vec3& half, const Vec3& position, const Mat3& axes = Mat3::Identity()) {
+  Body body;
+  body.halfExtents = half;
+  body.mass = solidBox(half, 1);
+  body.initial.pose = {.position = position, .worldFromBody = axes};
+  return pileBody(body, body.initial);
+}
+
+PileManifold between(const PileBody& a, const PileBody& b) {
+  PileManifold manifold;
+  manifold.length = std::min(a.length, b.length);
+  EXPECT_TRUE(buildManifold(a, b, 0.1 * manifold.length, manifold));
+  return manifold;
+}
+
+double lowest(const PileManifold& manifold) {
+  double gap = 1e9;
+  for (int k = 0; k < manifold.count; ++k) {
+    gap = std::min(gap, manifold.points[static_cast<std::size_t>(k)].gap);
+  }
+  return gap;
+}
+
+TEST(PileManifold, faceOnFaceHasTheFourCornersOfTheSmaller) {
+  const PileBody floor = boxAt(Vec3(1, 1, 0.5), Vec3(0, 0, 0));
+  const PileBody box = boxAt(Vec3(0.2, 0.3, 0.25), Vec3(0.1, 0.2, 0.751));
+  const PileManifold manifold = between(box, floor);
+  ASSERT_EQ(manifold.count, 4);
+  EXPECT_LT((manifold.plane.normal - Vec3::UnitZ()).norm(), 1e-15);
+  for (int k = 0; k < 4; ++k) {
+    const PilePoint& point = manifold.points[static_cast<std::size_t>(k)];
+    EXPECT_NEAR(point.gap, 0.001, 1e-15);
+    EXPECT_NEAR(std::fabs(point.world.x()), 0.2, 1e-9);
+    EXPECT_NEAR(std::fabs(point.world.y()), 0.3, 1e-9);
+  }
+}
+
+// Two crossed roof ridges: one turned by 45° about x, one by 45° about y. Gap of the ridges 1 mm.
+TEST(PileManifold, crossedEdgesTouchAtTheirCrossing) {
+  const double eighth = std::atan(1.0);
+  const Vec3 half = Vec3::Constant(0.25);
+  const double ridge = 0.25 * std::sqrt(2.0);
+  const PileBody below = boxAt(half, Vec3(0, 0, 0), axisAngle(Vec3::UnitX(), eighth));
+  const PileBody above = boxAt(half, Vec3(0.05, -0.1, 2 * ridge + 0.001), axisAngle(Vec3::UnitY(), eighth));
+  const PileManifold manifold = between(above, below);
+  ASSERT_TRUE(manifold.hasEdges);
+  const PilePoint& point = manifold.points[static_cast<std::size_t>(manifold.count - 1)];
+  EXPECT_NEAR(point.gap, 0.001, 1e-14);
+  EXPECT_LT((manifold.edges.normal - Vec3::UnitZ()).norm(), 1e-14);
+  EXPECT_NEAR(point.world.x(), 0, 1e-14);  // the upper ridge runs along y, over the lower one at y = 0
+  EXPECT_NEAR(point.world.y(), 0.1, 1e-14);
+}
+
+// Diagonally beside each other no face lies over another: the nearest corners are the contact.
+TEST(PileManifold, cornersBesideEachOtherTouchAtTheNearestPoints) {
+  const Vec3 half = Vec3::Constant(0.25);
+  const PileBody a = boxAt(half, Vec3::Zero());
+  const PileBody b = boxAt(half, Vec3(0.51, 0.52, 0.51));
+  const PileManifold manifold = between(a, b);
+  ASSERT_EQ(manifold.count, 1);
+  EXPECT_NEAR(manifold.points[0].gap, std::sqrt(0.01 * 0.01 + 0.02 * 0.02 + 0.01 * 0.01), 1e-9);
+  EXPECT_LT((manifold.points[0].world - Vec3(0.26, 0.27, 0.26)).norm(), 1e-9);
+}
+
+// Gaps follow the poses: after a small motion they are those of a manifold built anew there, to second order.
+TEST(PileManifold, refreshedGapsAreThoseOfANewManifold) {
+  test::Pourer pourer(3);
+  int compared = 0;
+  for (int k = 0; k < 400; ++k) {
+    const PileBody a = boxAt(pourer.vector(0.2, 0.3), Vec3::Zero(), pourer.attitude().toRotationMatrix());
+    Vec3 direction = pourer.vector(-1, 1);
+    direction.normalize();
+    PileBody b = boxAt(pourer.vector(0.2, 0.3), direction, pourer.attitude().toRotationMatrix());
+    // Brought to touch.
+    for (int i = 0; i < 60 && overlapOf(a, b) == 0; ++i) {
+      b.position -= 0.01 * direction;
+    }
+    PileManifold manifold = between(a, b);
+    b.position += 1e-4 * pourer.vector(-1, 1);
+    turnBy(b, 1e-4 * pourer.vector(-1, 1));
+    refreshManifold(a, b, manifold);
+    const double overlap = overlapOf(a, b);
+    if (manifold.count > 0 && overlap > 0) {
+      ++compared;
+      EXPECT_NEAR(lowest(manifold), -overlap, 2e-3) << k;
+    }
+  }
+  EXPECT_GT(compared, 300);
+}
+
+// A manifold built anew takes over the impulses of the points that stay.
+TEST(PileManifold, impulsesStayWithTheirFeatures) {
+  const PileBody floor = boxAt(Vec3(1, 1, 0.5), Vec3(0, 0, 0));
+  PileBody box = boxAt(Vec3(0.2, 0.3, 0.25), Vec3(0.1, 0.2, 0.75));
+  PileManifold manifold = between(box, floor);
+  for (int k = 0; k < 4; ++k) {
+    manifold.points[static_cast<std::size_t>(k)].normalImpulse = k + 1;
+  }
+  const PileManifold before = manifold;
+  box.position += Vec3(0.01, -0.02, 0);
+  turnBy(box, Vec3(0, 0, 0.01));
+  ASSERT_TRUE(buildManifold(box, floor, 0.05, manifold));
+  ASSERT_EQ(manifold.count, 4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(manifold.points[k].feature, before.points[k].feature);
+    EXPECT_EQ(manifold.points[k].normalImpulse, before.points[k].normalImpulse);
+  }
+}
+
+}  // namespace
+}  // namespace careen

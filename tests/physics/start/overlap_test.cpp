@@ -1,0 +1,188 @@
+#include "physics/start/overlap.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "physics/geometry/separation.h"
+
+namespace careen {
+namespace {
+
+PlacedBox cube(const std::string& name, const Vec3& position, double mass = 1, double half = 0.5) {
+  return {.name = name,
+          .halfExtents = Vec3::Constant(half),
+          .pose = {.position = position},
+          .inverseMass = mass > 0 ? 1 / mass : 0};
+}
+
+Wall wall(const std::string& name, const Vec3& normal, double offset) {
+  return {.name = name, .normal = normal, .offset = offset, .material = {}};
+}
+
+// Anywhere in a cube of the given edge, at any attitude.
+std::vector<PlacedBox> heap(int count, double edge, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> within(-edge / 2, edge / 2);
+  std::uniform_real_distribution<double> size(0.2, 0.3);
+  std::vector<PlacedBox> boxes;
+  for (int k = 0; k < count; ++k) {
+    PlacedBox box = cube("box-" + std::to_string(k), Vec3(within(random), within(random), within(random)),
+                         1 + std::fabs(within(random)));
+    box.halfExtents = Vec3(size(random), size(random), size(random));
+    const Vec3 axis(within(random), within(random), within(random) + edge);
+    box.pose.worldFromBody = Eigen::AngleAxisd(within(random), Vec3(axis / axis.norm())).toRotationMatrix();
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+double gapOf(const PlacedBox& a, const PlacedBox& b) {
+  return BoxAxes(a.pose.worldFromBody, a.halfExtents, b.pose.worldFromBody, b.halfExtents,
+                 a.pose.position - b.pose.position)
+      .gap();
+}
+
+std::vector<PlacedBox> movedTo(std::vector<PlacedBox> boxes, const Parted& parted) {
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    boxes[i].pose.position = parted.positions[i];
+  }
+  return boxes;
+}
+
+TEST(FirstOverlap, isTheFirstInTheOrderGiven) {
+  int found = 0;
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const std::vector<PlacedBox> boxes = heap(40, 4 + 0.2 * seed, seed);
+    std::optional<Overlap> expected;
+    for (std::size_t j = 1; j < boxes.size() && !expected; ++j) {
+      for (std::size_t i = 0; i < j && !expected; ++i) {
+        if (gapOf(boxes[i], boxes[j]) < -1e-9) {
+          expected = {.first = i, .second = j, .depth = -gapOf(boxes[i], boxes[j])};
+        }
+      }
+    }
+    const std::optional<Overlap> overlap = firstOverlap(boxes);
+    ASSERT_EQ(overlap.has_value(), expected.has_value());
+    if (overlap) {
+      ++found;
+      EXPECT_EQ(overlap->first, expected->first);
+      EXPECT_EQ(overlap->second, expected->second);
+      EXPECT_EQ(overlap->depth, expected->depth);
+    }
+  }
+  EXPECT_GT(found, 10);
+}
+
+TEST(FirstOverlap, leavesOutTwoThatAreHeld) {
+  EXPECT_FALSE(firstOverlap(std::vector{cube("a", Vec3::Zero(), 0), cube("b", Vec3::Zero(), 0)}));
+  EXPECT_TRUE(firstOverlap(std::vector{cube("a", Vec3::Zero(), 0), cube("b", Vec3::Zero(), 1)}));
+}
+
+// By 0.25 m along x: 3 kg by a quarter of that, 1 kg by three quarters.
+TEST(MoveApart, movesTwoAlongTheAxisOfLeastDepthTheLighterOneFurther) {
+  const Parted parted =
+      moveApart(std::vector{cube("a", Vec3(0, 0, 0), 3), cube("b", Vec3(0.75, 0.5, 0.25), 1)}, {});
+  EXPECT_EQ(parted.pairs, 1U);
+  EXPECT_EQ(parted.moved, 2U);
+  EXPECT_EQ(parted.furthest, 0.1875);
+  EXPECT_EQ(parted.positions[0], Vec3(-0.0625, 0, 0));
+  EXPECT_EQ(parted.positions[1], Vec3(0.9375, 0.5, 0.25));
+}
+
+TEST(MoveApart, leavesAloneWhatTouches) {
+  const std::vector<Wall> floor = {wall("floor", Vec3::UnitZ(), 0)};
+  const std::vector<PlacedBox> boxes = {cube("a", Vec3(0.1, 0, 0.5)), cube("b", Vec3(0.1, 0.2, 1.5))};
+  const Parted parted = moveApart(boxes, floor);
+  EXPECT_EQ(parted.pairs + parted.behindWalls + parted.moved, 0U);
+  EXPECT_EQ(parted.positions[1], boxes[1].pose.position);
+}
+
+TEST(MoveApart, leavesWhatIsHeldWhereItIs) {
+  const Parted parted =
+      moveApart(std::vector{cube("a", Vec3(0, 0, 0), 0), cube("b", Vec3(0.75, 0.5, 0.25))}, {});
+  EXPECT_EQ(parted.positions[0], Vec3(0, 0, 0));
+  EXPECT_EQ(parted.positions[1], Vec3(1, 0.5, 0.25));
+}
+
+// Ten cubes, each 0.1 m too low for the one below: all of least movement push up from the floor.
+TEST(MoveApart, liftsAStackOffTheFloor) {
+  std::vector<PlacedBox> boxes;
+  for (int k = 0; k < 10; ++k) {
+    boxes.push_back(cube("box-" + std::to_string(k), Vec3(0, 0, 0.4 + 0.9 * k), k == 9 ? 1e4 : 1));
+  }
+  const std::vector<Wall> floor = {wall("floor", Vec3::UnitZ(), 0)};
+  const Parted parted = moveApart(boxes, floor);
+  EXPECT_EQ(parted.pairs, 9U);
+  EXPECT_EQ(parted.behindWalls, 1U);
+  for (std::size_t k = 0; k < 10; ++k) {
+    EXPECT_NEAR(parted.positions[k].z(), 0.5 + static_cast<double>(k), 1e-12);
+    EXPECT_EQ(parted.positions[k].x(), 0);
+  }
+}
+
+TEST(MoveApart, partsWhatStandsInOnePlace) {
+  std::vector<PlacedBox> boxes;
+  for (int k = 0; k < 5; ++k) {
+    boxes.push_back(cube("box-" + std::to_string(k), Vec3(1, 2, 3)));
+  }
+  const Parted parted = moveApart(boxes, {});
+  EXPECT_EQ(parted.pairs, 10U);
+  EXPECT_FALSE(firstOverlap(movedTo(boxes, parted)));
+  EXPECT_NEAR(parted.furthest, 2, 1e-12);  // they end in a row
+}
+
+// Down is the axis of least depth, and there is the floor.
+TEST(MoveApart, takesTheNextAxisWhereTheFirstLeavesNoRoom) {
+  const std::vector<Wall> floor = {wall("floor", Vec3::UnitZ(), 0)};
+  const std::vector<PlacedBox> boxes = {cube("held", Vec3(0, 0, 1.4), 0), cube("under", Vec3(0.5, 0.1, 0.5))};
+  const Parted parted = moveApart(boxes, floor);
+  EXPECT_NEAR((parted.positions[1] - Vec3(1, 0.1, 0.5)).norm(), 0, 1e-12);
+}
+
+TEST(MoveApart, endsWithoutOverlapInAHeapWhateverTheOrder) {
+  const std::vector<Wall> floor = {wall("floor", Vec3::UnitZ(), -1.25)};
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const std::vector<PlacedBox> boxes = heap(60, 2.5, seed);
+    const Parted parted = moveApart(boxes, floor);
+    EXPECT_GT(parted.pairs, 5U);
+    const std::vector<PlacedBox> after = movedTo(boxes, parted);
+    EXPECT_FALSE(firstOverlap(after));
+    for (const PlacedBox& box : after) {
+      EXPECT_FALSE(lowestGap(floor[0], box.halfExtents, box.pose).overlaps());
+    }
+    std::vector<PlacedBox> reversed(boxes.rbegin(), boxes.rend());
+    Parted other = moveApart(reversed, floor);
+    std::reverse(other.positions.begin(), other.positions.end());
+    EXPECT_EQ(other.positions, parted.positions);
+  }
+}
+
+// Of three in a row the middle one is pushed from both sides. Least Σ m d²: the outer ones go by the depth.
+TEST(MoveApart, movesAsLittleAsCanBe) {
+  const Parted parted = moveApart(
+      std::vector{cube("a", Vec3(-0.75, 0, 0)), cube("b", Vec3(0, 0, 0)), cube("c", Vec3(0.75, 0, 0))}, {});
+  EXPECT_NEAR(parted.positions[0].x(), -1, 1e-13);
+  EXPECT_NEAR(parted.positions[1].x(), 0, 1e-13);
+  EXPECT_NEAR(parted.positions[2].x(), 1, 1e-13);
+}
+
+TEST(MoveApart, namesThePairThatHasNoRoom) {
+  const std::vector<Wall> slot = {wall("left", Vec3::UnitX(), 0), wall("right", -Vec3::UnitX(), -0.75)};
+  try {
+    moveApart(std::vector{cube("wide", Vec3(0.25, 0, 0))}, slot);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("box wide cannot be moved out of wall"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("there is no room"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace careen
