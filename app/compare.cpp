@@ -13,12 +13,10 @@
 #include "compare/report.h"
 #include "core/brief.h"
 #include "core/names.h"
-#include "core/processor.h"
+#include "core/system/processor.h"
+#include "film/manifest.h"
 #include "parsed.h"
 #include "trajectory/trajectory_file.h"
-#ifdef CAREEN_RENDER
-#include "render/film_manifest.h"
-#endif
 
 namespace careen {
 namespace {
@@ -88,10 +86,8 @@ struct Films {
   std::optional<bool> sameMotion;
 };
 
-Films filmsIn([[maybe_unused]] const std::filesystem::path& expected,
-              [[maybe_unused]] const std::filesystem::path& actual) {
+Films filmsIn(const std::filesystem::path& expected, const std::filesystem::path& actual) {
   Films films;
-#ifdef CAREEN_RENDER
   const std::optional<FilmManifest> one = readManifest(expected);
   const std::optional<FilmManifest> other = readManifest(actual);
   if (one && other) {
@@ -108,7 +104,6 @@ Films filmsIn([[maybe_unused]] const std::filesystem::path& expected,
                    {"shutter", one->shutter, other->shutter},
                    {"overlays", one->overlays, other->overlays}};
   }
-#endif
   return films;
 }
 

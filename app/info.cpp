@@ -6,7 +6,7 @@
 #include <string>
 
 #include "commands.h"
-#include "core/file.h"
+#include "core/system/file.h"
 #include "report.h"
 #include "run.h"
 #include "scene/scene_reader.h"

@@ -28,8 +28,8 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   addStudy(commandLine, chosen);
   addCompare(commandLine, chosen);
   addInfo(commandLine, chosen);
-#ifdef CAREEN_RENDER
   addVerify(commandLine, chosen);
+#ifdef CAREEN_RENDER
   addView(commandLine, chosen);
 #endif
   commandLine.footer(

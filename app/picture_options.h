@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "render/film.h"
+#include "render/film/film.h"
 #include "scene/scene.h"
 
 namespace CLI {

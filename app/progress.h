@@ -2,7 +2,7 @@
 
 #include <ostream>
 
-#include "render/film.h"
+#include "render/film/film.h"
 #include "run.h"
 
 namespace careen {

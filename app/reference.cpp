@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "compare/report.h"
-#include "render/film_folder.h"
-#include "render/frame_range.h"
+#include "film/folder.h"
+#include "film/frame_range.h"
 
 namespace careen {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "compare.h"
 #include "core/error.h"
+#include "film/manifest.h"
 #include "picture_options.h"
-#include "render/film.h"
-#include "render/film_manifest.h"
+#include "render/film/film.h"
 
 namespace careen {
 

@@ -9,11 +9,11 @@
 #include <string_view>
 #include <utility>
 
-#include "core/arithmetic.h"
 #include "core/error.h"
-#include "core/file.h"
+#include "core/math/arithmetic.h"
 #include "core/names.h"
-#include "core/resource.h"
+#include "core/system/file.h"
+#include "core/system/resource.h"
 #include "parsed.h"
 #include "physics/world/method.h"
 #include "scene/scene_reader.h"

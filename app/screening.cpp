@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "render/frame_range.h"
+#include "film/frame_range.h"
 
 namespace careen {
 namespace {

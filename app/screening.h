@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "picture_options.h"
-#include "render/filming.h"
-#include "render/overlays.h"
-#include "render/renderer.h"
+#include "render/draw/renderer.h"
+#include "render/film/filming.h"
+#include "render/overlay/overlays.h"
 #include "run.h"
 
 namespace careen {

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "commands.h"
-#include "core/file.h"
+#include "core/system/file.h"
 #include "report.h"
 #include "run.h"
 #include "trajectory/export_csv.h"

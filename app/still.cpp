@@ -5,10 +5,10 @@
 
 #include "core/brief.h"
 #include "image/png.h"
-#include "render/filming.h"
-#include "render/overlays.h"
-#include "render/renderer.h"
-#include "render/strobe.h"
+#include "render/draw/renderer.h"
+#include "render/film/filming.h"
+#include "render/film/strobe.h"
+#include "render/overlay/overlays.h"
 
 namespace careen {
 namespace {

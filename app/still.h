@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "render/film.h"
+#include "render/film/film.h"
 #include "run.h"
 
 namespace careen {

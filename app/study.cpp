@@ -12,7 +12,7 @@
 
 #include "commands.h"
 #include "core/error.h"
-#include "core/file.h"
+#include "core/system/file.h"
 #include "run.h"
 #include "study/case.h"
 

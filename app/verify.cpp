@@ -9,10 +9,10 @@
 
 #include "commands.h"
 #include "core/error.h"
-#include "render/film_faults.h"
-#include "render/film_folder.h"
-#include "render/film_manifest.h"
-#include "render/frame_range.h"
+#include "film/faults.h"
+#include "film/folder.h"
+#include "film/frame_range.h"
+#include "film/manifest.h"
 
 namespace careen {
 namespace {

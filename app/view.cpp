@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "commands.h"
-#include "render/window.h"
+#include "render/window/window.h"
 #include "viewer.h"
 
 namespace careen {

@@ -12,7 +12,7 @@
 #include "core/brief.h"
 #include "core/error.h"
 #include "image/png.h"
-#include "render/scrub_bar.h"
+#include "render/window/scrub_bar.h"
 
 namespace careen {
 

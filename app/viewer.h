@@ -11,9 +11,9 @@
 #include "file_watch.h"
 #include "image/picture.h"
 #include "picture_options.h"
-#include "render/orbit.h"
-#include "render/player.h"
-#include "render/window.h"
+#include "render/view/orbit.h"
+#include "render/window/player.h"
+#include "render/window/window.h"
 #include "run.h"
 #include "screening.h"
 

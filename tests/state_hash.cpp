@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/arithmetic.h"
-#include "core/file.h"
+#include "core/math/arithmetic.h"
+#include "core/system/file.h"
 #include "physics/world/method.h"
 #include "scene/plan.h"
 #include "scene/scene_reader.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <regex>
 #include <set>
@@ -23,12 +24,44 @@ const std::map<std::string, Names> kMayInclude = {
     {"core", {}},
     {"physics", {"core"}},
     {"image", {"core"}},
-    {"scene", {"physics", "core"}},
+    {"stage", {"core"}},
+    {"film", {"image", "stage", "core"}},
+    {"scene", {"physics", "stage", "core"}},
     {"trajectory", {"physics", "core"}},
     {"study", {"scene", "trajectory", "physics", "core"}},
     {"compare", {"image", "trajectory", "core"}},
-    {"render", {"trajectory", "scene", "image", "core"}},
+    {"render", {"trajectory", "scene", "film", "stage", "image", "core"}},
 };
+
+// Rooms of a folder, and whom each may include among them; "" is what lies in the folder itself.
+using Rooms = std::map<std::string, Names>;
+const std::map<std::string, Rooms> kRooms = {
+    {"core", {{"", {}}, {"math", {}}, {"system", {""}}}},
+    {"physics",
+     {{"world", {}},
+      {"attitude", {"world"}},
+      {"geometry", {"world"}},
+      {"motion", {"attitude", "world"}},
+      {"start", {"geometry", "world"}},
+      {"search", {"geometry", "motion"}},
+      {"impact", {"geometry", "world"}},
+      {"contact", {"geometry", "impact", "motion", "world"}},
+      {"pile", {"attitude", "geometry", "world"}},
+      {"exact", {"attitude", "contact", "geometry", "impact", "motion", "pile", "search", "world"}},
+      {"compared", {"attitude", "geometry", "impact", "motion", "world"}},
+      {"", {"exact", "compared", "attitude", "motion", "world"}}}},
+    {"render",
+     {{"gl", {}},
+      {"view", {}},
+      {"look", {"view"}},
+      {"overlay", {"gl", "view"}},
+      {"draw", {"gl", "look", "overlay", "view"}},
+      {"window", {"gl", "overlay"}},
+      {"film", {"draw", "overlay", "view"}}}},
+};
+
+// What the rest of the program may include of a folder that has a door: rooms, and single headers.
+const std::map<std::string, Names> kDoors = {{"physics", {"world", "motion", "start", "simulate.h"}}};
 
 std::string textOf(const fs::path& path) {
   std::ifstream stream(path);
@@ -58,9 +91,50 @@ std::vector<std::string> includesOf(const fs::path& source) {
   return includes;
 }
 
-Names foldersOfEngine() {
+/// Where a header or a source lies: physics/world/body.h is {physics, world, body.h}.
+struct Place {
+  std::string folder;
+  std::string room{};  // "" for the folder itself
+  std::string file{};
+
+  bool isOurs() const { return kMayInclude.contains(folder) || folder == "app" || folder == "tests"; }
+};
+
+// `path` is from engine/; one without a folder is nobody's.
+Place placeOf(const fs::path& path) {
+  std::vector<std::string> parts;
+  for (const fs::path& part : path) {
+    parts.push_back(part.string());
+  }
+  if (parts.size() < 2) {
+    return {};
+  }
+  return {.folder = parts[0], .room = parts.size() > 2 ? parts[1] : "", .file = parts.back()};
+}
+
+/// An include of one of our headers.
+struct Include {
+  fs::path source;
+  Place from;
+  Place to;
+};
+
+std::vector<Include> includesInEngine() {
+  std::vector<Include> includes;
+  for (const fs::path& source : sourcesIn(kRoot / "engine")) {
+    for (const std::string& include : includesOf(source)) {
+      if (const Place to = placeOf(include); to.isOurs()) {
+        includes.push_back(
+            {.source = source, .from = placeOf(fs::relative(source, kRoot / "engine")), .to = to});
+      }
+    }
+  }
+  return includes;
+}
+
+Names subfoldersOf(const fs::path& folder) {
   Names folders;
-  for (const fs::directory_entry& entry : fs::directory_iterator(kRoot / "engine")) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.is_directory()) {
       folders.insert(entry.path().filename().string());
     }
@@ -82,7 +156,7 @@ TEST(Structure, engineHasTheFoldersOfTheRulesAndNoOthers) {
   for (const auto& [folder, mayInclude] : kMayInclude) {
     ruled.insert(folder);
   }
-  EXPECT_EQ(foldersOfEngine(), ruled);
+  EXPECT_EQ(subfoldersOf(kRoot / "engine"), ruled);
 }
 
 TEST(Structure, cmakeTargetOfEveryFolderStatesWhomItMayInclude) {
@@ -96,20 +170,82 @@ TEST(Structure, cmakeTargetOfEveryFolderStatesWhomItMayInclude) {
   }
 }
 
-TEST(Structure, everyIncludeInTheEngineKeepsToTheRules) {
-  std::size_t checked = 0;
+TEST(Structure, foldersHaveTheRoomsOfTheRulesAndNoOthers) {
   for (const auto& [folder, mayInclude] : kMayInclude) {
-    for (const fs::path& source : sourcesIn(kRoot / "engine" / folder)) {
-      for (const std::string& include : includesOf(source)) {
-        const std::string from = include.substr(0, include.find('/'));
-        const bool ours = from != include && (kMayInclude.contains(from) || from == "app" || from == "tests");
-        EXPECT_TRUE(!ours || from == folder || mayInclude.contains(from))
-            << source << " includes " << include;
-        ++checked;
+    Names ruled;
+    if (const auto rooms = kRooms.find(folder); rooms != kRooms.end()) {
+      for (const auto& [room, others] : rooms->second) {
+        ruled.insert(room);
       }
     }
+    ruled.erase("");
+    EXPECT_EQ(subfoldersOf(kRoot / "engine" / folder), ruled) << folder;
   }
-  EXPECT_GT(checked, 100U);
+}
+
+TEST(Structure, everyIncludeInTheEngineKeepsToTheRules) {
+  const std::vector<Include> includes = includesInEngine();
+  for (const Include& include : includes) {
+    const Place& from = include.from;
+    const Place& to = include.to;
+    if (from.folder != to.folder) {
+      EXPECT_TRUE(kMayInclude.at(from.folder).contains(to.folder))
+          << include.source << " includes " << to.folder;
+    } else if (from.room != to.room) {
+      EXPECT_TRUE(kRooms.at(from.folder).at(from.room).contains(to.room))
+          << include.source << " includes " << to.folder << '/' << to.room << '/' << to.file;
+    }
+  }
+  EXPECT_GT(includes.size(), 1000U);  // measured: 1,133
+}
+
+TEST(Structure, whatHasADoorIsEnteredByIt) {
+  std::vector<Include> includes = includesInEngine();
+  for (const fs::path& source : sourcesIn(kRoot / "app")) {
+    for (const std::string& include : includesOf(source)) {
+      includes.push_back({.source = source, .from = {.folder = "app"}, .to = placeOf(include)});
+    }
+  }
+  for (const Include& include : includes) {
+    const auto door = kDoors.find(include.to.folder);
+    if (door != kDoors.end() && include.from.folder != include.to.folder) {
+      const std::string& entered = include.to.room.empty() ? include.to.file : include.to.room;
+      EXPECT_TRUE(door->second.contains(entered)) << include.source << " includes " << entered;
+    }
+  }
+}
+
+// Of the includes that there are, not of the rules.
+TEST(Structure, noRoomIncludesItselfThroughOthers) {
+  std::map<std::string, Names> arrows;
+  Names rooms;
+  for (const Include& include : includesInEngine()) {
+    const std::string from = include.from.folder + '/' + include.from.room;
+    const std::string to = include.to.folder + '/' + include.to.room;
+    rooms.insert({from, to});
+    if (from != to) {
+      arrows[from].insert(to);
+    }
+  }
+  std::size_t count = 0;
+  Names cycles;
+  for (const std::string& start : rooms) {
+    count += arrows[start].size();
+    Names reached;
+    std::vector<std::string> left(arrows[start].begin(), arrows[start].end());
+    while (!left.empty()) {
+      const std::string room = left.back();
+      left.pop_back();
+      if (reached.insert(room).second) {
+        left.insert(left.end(), arrows[room].begin(), arrows[room].end());
+      }
+    }
+    if (reached.contains(start)) {
+      cycles.insert(start);
+    }
+  }
+  EXPECT_EQ(cycles, Names());
+  std::cout << rooms.size() << " rooms, " << count << " arrows, " << cycles.size() << " in cycles\n";
 }
 
 // Where a foreign header may be seen: folder, which of its files, and whether in .cpp files only.
@@ -122,14 +258,16 @@ TEST(Structure, foreignHeadersStayWhereTheyBelong) {
   const std::vector<Rule> rules = {
       {std::regex("^(GL|EGL|GLFW)/.*"), {"render"}},
       {std::regex("^(stb/)?stb_.*"), {"image"}},
-      {std::regex("^nlohmann/.*"), {"scene", "study", "compare", "render", "app"}},
+      {std::regex("^nlohmann/.*"), {"scene", "study", "compare", "film", "app"}},
       {std::regex("^CLI/.*"), {"app"}},
       {std::regex("^(bt[A-Z]|Bullet|LinearMath/).*"), {"study"}, "peer_bullet"},
       {std::regex("^ode/.*"), {"study"}, "peer_ode"},
   };
   for (const char* top : {"engine", "app"}) {
     for (const fs::path& source : sourcesIn(kRoot / top)) {
-      const std::string folder = source.parent_path().filename().string();
+      const fs::path under = fs::relative(source, kRoot);
+      const std::string folder =
+          under.begin()->string() == "app" ? "app" : std::next(under.begin())->string();
       for (const std::string& include : includesOf(source)) {
         for (const Rule& rule : rules) {
           const bool allowed = rule.folders.contains(folder) &&
@@ -151,29 +289,60 @@ TEST(Structure, onlyOneHeaderSpellsOutEigenTypes) {
   }
 }
 
-// <file>_test.cpp, or <file>_<aspect>_test.cpp where a source has more than one; the source may be the tests'
-// own.
-TEST(Structure, testsMirrorTheSources) {
-  for (const auto& [folder, mayInclude] : kMayInclude) {
-    Names tested;
-    for (const fs::path& source : sourcesIn(kRoot / "engine" / folder)) {
-      tested.insert(source.stem().string());
+// ---- Tests know their sources, and sources their tests.
+
+Names stemsIn(const fs::path& folder, bool tests) {
+  Names stems;
+  if (!fs::exists(folder)) {
+    return stems;
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string stem = entry.path().stem().string();
+    const bool isSource = entry.path().extension() == ".h" || entry.path().extension() == ".cpp";
+    if (isSource && stem.ends_with("_test") == tests) {
+      stems.insert(stem);
     }
-    const std::vector<fs::path> tests = sourcesIn(kRoot / "tests" / folder);
-    for (const fs::path& source : tests) {
-      if (!source.stem().string().ends_with("_test")) {
-        tested.insert(source.stem().string());
+  }
+  return stems;
+}
+
+/// Whether a test is of that source: <file>_test.cpp, or <file>_<aspect>_test.cpp where it has more than one.
+bool isTestOf(const std::string& test, const std::string& source) { return test.starts_with(source + "_"); }
+
+// Folder and room of every source, from engine/.
+std::set<fs::path> placesOfSources() {
+  std::set<fs::path> places;
+  for (const fs::path& source : sourcesIn(kRoot / "engine")) {
+    places.insert(fs::relative(source.parent_path(), kRoot / "engine"));
+  }
+  return places;
+}
+
+// The source may be the tests' own.
+TEST(Structure, everyTestLiesWhereItsSourceDoes) {
+  std::size_t checked = 0;
+  for (const auto& [folder, mayInclude] : kMayInclude) {
+    Names places = {""};
+    if (kRooms.contains(folder)) {
+      for (const auto& [room, others] : kRooms.at(folder)) {
+        places.insert(room);
       }
     }
-    for (const fs::path& test : tests) {
-      const std::string stem = test.stem().string();
-      if (stem.ends_with("_test")) {
-        EXPECT_TRUE(std::any_of(tested.begin(), tested.end(),
-                                [&stem](const std::string& name) { return stem.starts_with(name + "_"); }))
+    for (const fs::path& test : sourcesIn(kRoot / "tests" / folder)) {
+      const fs::path place = fs::relative(test.parent_path(), kRoot / "tests" / folder);
+      EXPECT_TRUE(places.contains(place == "." ? "" : place.string())) << test << " lies in no room";
+      if (test.stem().string().ends_with("_test")) {
+        Names sources = stemsIn(kRoot / "engine" / folder / place, false);
+        sources.merge(stemsIn(test.parent_path(), false));
+        EXPECT_TRUE(std::any_of(
+            sources.begin(), sources.end(),
+            [&test](const std::string& source) { return isTestOf(test.stem().string(), source); }))
             << test << " has no source of its name";
+        ++checked;
       }
     }
   }
+  EXPECT_GT(checked, 100U);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "compare/picture_difference.h"
 #include "core/brief.h"
 #include "core/error.h"
-#include "core/file.h"
+#include "core/system/file.h"
 #include "image/deep_picture.h"
 #include "trajectory/trajectory_file.h"
 

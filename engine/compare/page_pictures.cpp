@@ -8,7 +8,7 @@
 
 #include "compare/difference_image.h"
 #include "core/error.h"
-#include "core/file.h"
+#include "core/system/file.h"
 #include "image/deep_picture.h"
 #include "image/png.h"
 

@@ -3,7 +3,7 @@
 #include <system_error>
 
 #include "core/error.h"
-#include "core/file.h"
+#include "core/system/file.h"
 
 namespace careen {
 

@@ -9,8 +9,8 @@
 #include "core/brief.h"
 #include "core/characters.h"
 #include "core/error.h"
-#include "core/file.h"
-#include "core/resource.h"
+#include "core/system/file.h"
+#include "core/system/resource.h"
 
 namespace careen {
 namespace {

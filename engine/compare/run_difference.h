@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pose_difference.h"
+#include "core/math/pose_difference.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "core/error.h"
-#include "core/file.h"
+#include "core/system/file.h"
 #include "image/row_filter_undo.h"
 
 namespace careen {

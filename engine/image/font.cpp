@@ -6,7 +6,7 @@
 
 #include "core/characters.h"
 #include "core/error.h"
-#include "core/file.h"
+#include "core/system/file.h"
 
 #define STBTT_STATIC
 #define STB_TRUETYPE_IMPLEMENTATION

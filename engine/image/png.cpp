@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/file.h"
+#include "core/system/file.h"
 #include "image/deep_picture.h"
 #include "image/deflate_writer.h"
 #include "image/row_filter.h"

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/file.h"
-#include "core/process.h"
+#include "core/system/file.h"
+#include "core/system/process.h"
 
 namespace careen {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 #include "scene/json_tree.h"
 
 namespace careen {

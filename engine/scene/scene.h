@@ -8,14 +8,14 @@
 #include <string_view>
 #include <vector>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 #include "physics/world/body.h"
 #include "physics/world/method.h"
 #include "physics/world/world.h"
-#include "scene/frame_rate.h"
-#include "scene/overlay.h"
-#include "scene/shutter.h"
-#include "scene/time_map.h"
+#include "stage/frame_rate.h"
+#include "stage/overlay.h"
+#include "stage/shutter.h"
+#include "stage/time_map.h"
 
 namespace careen {
 

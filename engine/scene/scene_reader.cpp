@@ -1,6 +1,6 @@
 #include "scene/scene_reader.h"
 
-#include "core/file.h"
+#include "core/system/file.h"
 #include "scene/json_tree.h"
 #include "scene/scene_check.h"
 #include "scene/scene_shape.h"

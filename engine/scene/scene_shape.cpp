@@ -7,7 +7,7 @@
 
 #include "scene/film_shape.h"
 #include "scene/json_shape.h"
-#include "scene/turn.h"
+#include "stage/turn.h"
 
 namespace careen {
 namespace {

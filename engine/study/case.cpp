@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/file.h"
-#include "core/resource.h"
+#include "core/system/file.h"
+#include "core/system/resource.h"
 #include "physics/simulate.h"
 #include "scene/plan.h"
 #include "scene/scene_reader.h"

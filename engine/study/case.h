@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pose.h"
+#include "core/math/pose.h"
 #include "physics/world/world.h"
 #include "scene/scene.h"
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/pose_difference.h"
+#include "core/math/pose_difference.h"
 #include "physics/world/world.h"
 
 namespace careen {

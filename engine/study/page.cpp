@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/characters.h"
-#include "core/file.h"
-#include "core/resource.h"
+#include "core/system/file.h"
+#include "core/system/resource.h"
 #include "study/study.h"
 
 namespace careen {

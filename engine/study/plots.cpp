@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/file.h"
-#include "core/process.h"
-#include "core/resource.h"
+#include "core/system/file.h"
+#include "core/system/process.h"
+#include "core/system/resource.h"
 #include "study/study.h"
 
 namespace careen {

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/file.h"
 #include "core/hash.h"
+#include "core/system/file.h"
 #include "study/case.h"
 #include "study/own_methods.h"
 #include "study/peers.h"

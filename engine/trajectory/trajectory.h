@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pose.h"
+#include "core/math/pose.h"
 #include "physics/motion/motion.h"
 #include "physics/motion/recorder.h"
 #include "physics/world/body.h"

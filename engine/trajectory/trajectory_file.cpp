@@ -11,8 +11,8 @@
 #include <variant>
 
 #include "core/error.h"
-#include "core/file.h"
 #include "core/hash.h"
+#include "core/system/file.h"
 #include "trajectory/compression.h"
 
 namespace careen {

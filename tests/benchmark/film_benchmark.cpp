@@ -15,10 +15,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/file.h"
-#include "core/worker.h"
+#include "core/system/file.h"
+#include "core/system/worker.h"
 #include "image/png.h"
-#include "render/film.h"
+#include "render/film/film.h"
 #include "render/stage.h"
 #include "support/process.h"
 

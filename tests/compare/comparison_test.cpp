@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/file.h"
+#include "core/system/file.h"
 #include "image/pictures.h"
 #include "image/png.h"
 #include "support/exact_runs.h"

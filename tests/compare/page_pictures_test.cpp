@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "comparisons.h"
-#include "core/file.h"
+#include "core/system/file.h"
 #include "support/process.h"
 
 namespace careen {

@@ -7,7 +7,7 @@
 
 #include "compare/report.h"
 #include "comparisons.h"
-#include "core/file.h"
+#include "core/system/file.h"
 #include "support/browser.h"
 
 namespace careen {

@@ -10,7 +10,7 @@
 
 #include "compare/report.h"
 #include "comparisons.h"
-#include "core/file.h"
+#include "core/system/file.h"
 
 namespace careen {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/error.h"
-#include "core/worker.h"
+#include "core/system/worker.h"
 
 namespace careen {
 namespace {

@@ -16,7 +16,7 @@
 #include "compare/comparison.h"
 #include "image/png.h"
 #include "mutation/subject.h"
-#include "render/lighting.h"
+#include "render/look/lighting.h"
 #include "render/stage.h"
 #include "support/process.h"
 

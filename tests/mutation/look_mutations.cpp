@@ -1,10 +1,10 @@
 #include <numbers>
 #include <utility>
 
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 #include "mutation/subject.h"
-#include "render/lighting.h"
-#include "render/materials.h"
+#include "render/look/lighting.h"
+#include "render/look/materials.h"
 
 namespace careen {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 #include "mutation/subject.h"
 
 namespace careen {

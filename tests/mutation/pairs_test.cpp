@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "compare/tolerance.h"
+#include "film/manifest.h"
 #include "mutation/subject.h"
-#include "render/film_manifest.h"
 #include "support/process.h"
 
 namespace careen {

@@ -1,9 +1,9 @@
 #include <numbers>
 #include <utility>
 
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 #include "mutation/subject.h"
-#include "render/lighting.h"
+#include "render/look/lighting.h"
 
 namespace careen {
 namespace {

@@ -7,7 +7,7 @@
 #include "compare/picture_difference.h"
 #include "compare/tolerance.h"
 #include "image/deep_picture.h"
-#include "render/renderer.h"
+#include "render/draw/renderer.h"
 #include "scene/scene.h"
 #include "trajectory/trajectory.h"
 

@@ -10,9 +10,9 @@
 
 #include "image/picture.h"
 #include "physics/world/body.h"
-#include "render/lighting.h"
-#include "render/renderer.h"
-#include "render/rendering_backend.h"
+#include "render/draw/renderer.h"
+#include "render/gl/rendering_backend.h"
+#include "render/look/lighting.h"
 #include "scene/plan.h"
 #include "scene/scene.h"
 #include "trajectory/trajectory.h"

@@ -8,8 +8,8 @@
 #include <regex>
 #include <string>
 
-#include "core/file.h"
-#include "core/rotation.h"
+#include "core/math/rotation.h"
+#include "core/system/file.h"
 #include "support/input_error.h"
 #include "support/scenes.h"
 

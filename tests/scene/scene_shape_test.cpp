@@ -13,7 +13,7 @@
 #include <valijson/validator.hpp>
 #include <vector>
 
-#include "core/file.h"
+#include "core/system/file.h"
 #include "support/input_error.h"
 #include "support/scenes.h"
 

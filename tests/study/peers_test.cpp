@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 #include "physics/attitude/torque_free_rotation.h"
 #include "support/physics_worlds.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/file.h"
+#include "core/system/file.h"
 #include "study/own_methods.h"
 #include "support/process.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 #include "support/taylor_oracle.h"
 
 namespace careen::oracle {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 
 namespace careen {
 

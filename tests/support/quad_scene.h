@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 #include "support/quad.h"
 #include "support/taylor_oracle.h"
 

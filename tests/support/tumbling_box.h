@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <random>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 #include "physics/search/time_of_impact.h"
 
 namespace careen::test {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "core/linear_algebra.h"
-#include "core/wide.h"
+#include "core/math/linear_algebra.h"
+#include "core/math/wide.h"
 
 namespace careen {
 

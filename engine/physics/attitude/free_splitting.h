@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/elementary.h"
+#include "core/math/elementary.h"
 #include "physics/attitude/middle_axis_frame.h"
 
 namespace careen {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/elementary.h"
-#include "core/wide.h"
+#include "core/math/elementary.h"
+#include "core/math/wide.h"
 
 namespace careen {
 

@@ -3,8 +3,8 @@
 #include <bit>
 #include <utility>
 
-#include "core/elementary.h"
-#include "core/wide.h"
+#include "core/math/elementary.h"
+#include "core/math/wide.h"
 
 namespace careen {
 

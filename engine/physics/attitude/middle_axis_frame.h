@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/elementary.h"
+#include "core/math/elementary.h"
 #include "physics/attitude/free_step.h"
 
 namespace careen {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 
 namespace careen {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/linear_algebra.h"
-#include "core/wide.h"
+#include "core/math/linear_algebra.h"
+#include "core/math/wide.h"
 #include "physics/attitude/principal_moments.h"
 
 namespace careen {

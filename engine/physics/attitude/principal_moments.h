@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/linear_algebra.h"
-#include "core/wide.h"
+#include "core/math/linear_algebra.h"
+#include "core/math/wide.h"
 
 namespace careen {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/elementary.h"
+#include "core/math/elementary.h"
 #include "physics/attitude/cayley_klein.h"
 #include "physics/attitude/linear_phase.h"
 

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <limits>
 
-#include "core/elementary.h"
-#include "core/linear_algebra.h"
-#include "core/wide.h"
+#include "core/math/elementary.h"
+#include "core/math/linear_algebra.h"
+#include "core/math/wide.h"
 #include "physics/attitude/cayley_klein.h"
 #include "physics/attitude/landen_ladder.h"
 #include "physics/attitude/linear_phase.h"

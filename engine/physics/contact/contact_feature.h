@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 #include "physics/geometry/contact_points.h"
 #include "physics/world/body.h"
 #include "physics/world/world.h"

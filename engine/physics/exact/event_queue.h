@@ -6,7 +6,7 @@
 #include <queue>
 #include <vector>
 
-#include "core/double_double.h"
+#include "core/math/double_double.h"
 
 namespace careen {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstddef>
 
-#include "core/linear_algebra.h"
-#include "core/pose.h"
+#include "core/math/linear_algebra.h"
+#include "core/math/pose.h"
 #include "physics/geometry/separation.h"
 
 namespace careen {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "core/linear_algebra.h"
-#include "core/pose.h"
+#include "core/math/linear_algebra.h"
+#include "core/math/pose.h"
 
 namespace careen {
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 
 namespace careen {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/double_double.h"
 #include "core/error.h"
+#include "core/math/double_double.h"
 
 namespace careen {
 namespace {

@@ -1,6 +1,6 @@
 #include "physics/motion/listing1.h"
 
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 #include "physics/world/kinematics.h"
 
 namespace careen {

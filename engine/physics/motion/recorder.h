@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 #include "physics/motion/motion.h"
 
 namespace careen {

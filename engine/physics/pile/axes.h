@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 #include "physics/pile/body.h"
 
 namespace careen {

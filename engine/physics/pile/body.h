@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 #include "physics/world/world.h"
 
 namespace careen {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 #include "physics/pile/body.h"
 
 namespace careen {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 #include "physics/pile/body.h"
 #include "physics/pile/manifold.h"
 

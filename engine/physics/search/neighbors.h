@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 
 namespace careen {
 

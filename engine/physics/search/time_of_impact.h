@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/linear_algebra.h"
-#include "core/pose.h"
+#include "core/math/linear_algebra.h"
+#include "core/math/pose.h"
 #include "physics/geometry/separation.h"
 #include "physics/motion/motion.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/linear_algebra.h"
-#include "core/pose.h"
+#include "core/math/linear_algebra.h"
+#include "core/math/pose.h"
 #include "physics/world/world.h"
 
 namespace careen {

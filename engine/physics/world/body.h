@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "core/linear_algebra.h"
-#include "core/pose.h"
+#include "core/math/linear_algebra.h"
+#include "core/math/pose.h"
 
 namespace careen {
 

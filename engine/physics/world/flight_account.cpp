@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 #include "physics/world/forces.h"
 
 namespace careen {

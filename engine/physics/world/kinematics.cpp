@@ -1,6 +1,6 @@
 #include "physics/world/kinematics.h"
 
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 
 namespace careen {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/linear_algebra.h"
+#include "core/math/linear_algebra.h"
 #include "physics/world/body.h"
 
 namespace careen {

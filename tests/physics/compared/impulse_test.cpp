@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 
 namespace careen {
 namespace {

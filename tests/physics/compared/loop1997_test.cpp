@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 #include "physics/compared/collision1997.h"
 #include "physics/simulate.h"
 #include "support/physics_worlds.h"

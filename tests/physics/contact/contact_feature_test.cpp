@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 
 namespace careen {
 namespace {

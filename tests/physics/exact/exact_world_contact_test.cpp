@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 #include "physics/exact/exact_world.h"
 #include "support/exact_runs.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 #include "support/exact_runs.h"
 
 namespace careen {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 #include "physics/motion/listing1.h"
 #include "support/physics_worlds.h"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 #include "physics/world/kinematics.h"
 
 namespace careen {

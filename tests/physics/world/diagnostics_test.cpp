@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/rotation.h"
+#include "core/math/rotation.h"
 #include "physics/simulate.h"
 #include "support/physics_worlds.h"
 

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/pose.h"
-#include "core/rotation.h"
+#include "core/math/pose.h"
+#include "core/math/rotation.h"
 
 namespace careen {
 namespace {

@@ -1,0 +1,15 @@
+#include "core/math/arithmetic.h"
+
+#include <cfloat>
+#include <limits>
+
+namespace careen {
+
+// What the same bits everywhere rest on; see README, What is the same everywhere.
+static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53);
+static_assert(FLT_EVAL_METHOD == 0, "expressions of doubles are computed in doubles: no x87");
+#ifdef __FAST_MATH__
+#error "-ffast-math computes something else than what is written"
+#endif
+
+}  // namespace careen

@@ -1,0 +1,76 @@
+#include "core/system/process.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace careen {
+
+int startProgram(std::vector<std::string> command, int input, int log, pid_t& process) {
+  std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
+  for (std::string& argument : command) {
+    arguments.push_back(argument.data());
+  }
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&files, log, STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+  const int error = posix_spawnp(&process, arguments[0], &files, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&files);
+  return error;
+}
+
+std::string lastWords(int file) {
+  constexpr off_t kMost = 1500;
+  const off_t size = lseek(file, 0, SEEK_END);
+  std::array<char, kMost> text{};
+  const ssize_t got = pread(file, text.data(), text.size(), std::max<off_t>(0, size - kMost));
+  std::string_view words(text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+  words = words.substr(0, words.find_last_not_of(" \n") + 1);
+  return std::string(words);
+}
+
+void runProgram(const std::vector<std::string>& command) {
+  const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  const int log = memfd_create("log", MFD_CLOEXEC);
+  pid_t process = 0;
+  const int error = startProgram(command, nothing, log, process);
+  int status = 0;
+  if (error == 0) {
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+  }
+  const std::string words = lastWords(log);
+  close(nothing);
+  close(log);
+  if (error != 0) {
+    throw MachineError("cannot start " + command.front() + ": " + std::strerror(error));
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    throw MachineError(command.front() + " failed" + (words.empty() ? "" : ": " + words));
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,46 @@
+#include "film/faults.h"
+
+#include <system_error>
+#include <utility>
+
+#include "core/error.h"
+#include "core/system/file.h"
+#include "film/folder.h"
+#include "image/png.h"
+
+namespace careen {
+namespace {
+
+// Empty if there is none.
+std::string faultOf(const std::filesystem::path& path, const FilmManifest& film) {
+  std::error_code none;
+  if (!std::filesystem::exists(path, none)) {
+    return "is missing";
+  }
+  try {
+    const Picture picture = readPng(path);
+    if (picture.width != film.width || picture.height != film.height) {
+      return "is " + std::to_string(picture.width) + "x" + std::to_string(picture.height) + ", expected " +
+             std::to_string(film.width) + "x" + std::to_string(film.height);
+    }
+  } catch (const InputError& error) {
+    const std::string words = error.what();
+    return words.substr(path.string().size() + 2);  // what comes after "path: "
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<FrameFault> findFaults(const std::filesystem::path& folder, const FilmManifest& manifest) {
+  std::vector<FrameFault> faults;
+  for (const std::int64_t frame : manifest.frames) {
+    std::string what = faultOf(folder / frameFileName(frame), manifest);
+    if (!what.empty()) {
+      faults.push_back({.frame = frame, .what = std::move(what)});
+    }
+  }
+  return faults;
+}
+
+}  // namespace careen

@@ -1,0 +1,113 @@
+#include "film/folder.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "core/error.h"
+#include "core/system/file.h"
+#include "image/png.h"
+
+namespace careen {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool hasPng(const fs::path& folder) {
+  return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                     [](const fs::directory_entry& entry) { return entry.path().extension() == ".png"; });
+}
+
+bool isNumber(std::string_view text, std::size_t fewestDigits) {
+  return text.size() >= fewestDigits && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+bool isFrame(std::string_view name) {
+  constexpr std::string_view kEnding = ".png";
+  return name.ends_with(kEnding) && isNumber(name.substr(0, name.size() - kEnding.size()), 6);
+}
+
+// ".000012.png.4711.partial", as AtomicFile names what it has not finished.
+bool isPartial(std::string_view name) {
+  if (!name.starts_with('.') || !name.ends_with(kPartialEnding)) {
+    return false;
+  }
+  name = name.substr(1, name.size() - 1 - kPartialEnding.size());
+  const std::size_t dot = name.rfind('.');
+  return dot != std::string_view::npos && isNumber(name.substr(dot + 1), 1) &&
+         (isFrame(name.substr(0, dot)) || name.substr(0, dot) == kManifestName);
+}
+
+void removeAll(const fs::path& folder, bool (*isMeant)(std::string_view)) {
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (isMeant(entry.path().filename().string())) {
+      found.push_back(entry.path());
+    }
+  }
+  for (const fs::path& path : found) {
+    fs::remove(path);
+  }
+}
+
+}  // namespace
+
+std::string frameFileName(std::int64_t frame) {
+  constexpr std::size_t kDigits = 6;
+  const std::string number = std::to_string(frame);
+  return std::string(kDigits - std::min(kDigits, number.size()), '0') + number + ".png";
+}
+
+FilmFolder::FilmFolder(fs::path path) : path_(std::move(path)) {
+  std::error_code error;
+  made_ = fs::create_directories(path_, error);
+  if (error) {
+    throw MachineError(path_.string() + ": cannot be made a folder: " + error.message());
+  }
+  lock_.emplace(path_);
+  manifest_ = readManifest(path_);
+  if (!manifest_ && hasPng(path_)) {
+    throw InputError(path_.string() + ": holds PNG files that are no film of careen's; name another folder");
+  }
+}
+
+FilmFolder::~FilmFolder() {
+  try {
+    removeAll(path_, isPartial);     // ours, and what a run left that was killed outright
+  } catch (const std::exception&) {  // the next film's to remove
+  }
+  lock_.reset();  // its file is in the folder
+  if (made_) {
+    std::error_code notEmpty;
+    fs::remove(path_, notEmpty);
+  }
+}
+
+std::vector<std::int64_t> FilmFolder::missing(const FilmManifest& asked) const {
+  std::vector<std::int64_t> frames;
+  std::copy_if(asked.frames.begin(), asked.frames.end(), std::back_inserter(frames), [&](std::int64_t frame) {
+    return !isWholePng(path_ / frameFileName(frame), asked.width, asked.height);
+  });
+  return frames;
+}
+
+void FilmFolder::begin(const FilmManifest& asked, bool resume) {
+  FilmManifest manifest = asked;
+  if (manifest_ && resume) {
+    if (manifest.renderer.empty()) {
+      manifest.renderer = manifest_->renderer;
+    }
+    std::vector<std::int64_t> frames;
+    std::set_union(manifest_->frames.begin(), manifest_->frames.end(), asked.frames.begin(),
+                   asked.frames.end(), std::back_inserter(frames));
+    manifest.frames = std::move(frames);
+  } else if (manifest_) {
+    removeAll(path_, isFrame);
+  }
+  writeManifest(path_, manifest);
+  manifest_ = std::move(manifest);
+}
+
+}  // namespace careen

@@ -1,0 +1,53 @@
+#include "film/folder_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <system_error>
+#include <thread>
+
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+bool isAt(int descriptor, const std::filesystem::path& path) {
+  struct stat opened {};
+  struct stat there {};
+  return fstat(descriptor, &opened) == 0 && stat(path.c_str(), &there) == 0 &&
+         opened.st_dev == there.st_dev && opened.st_ino == there.st_ino;
+}
+
+}  // namespace
+
+// A file open for writing, because NFS gives no such lock on a folder, nor on what is open for reading only:
+// flock(2), "NFS details".
+FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".careen.lock") {
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+  while ((descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) >= 0) {
+    const bool taken = flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!taken && isAt(descriptor_, file_)) {
+      return;
+    }
+    close(descriptor_);  // taken, or just removed by who held it before
+    if (std::chrono::steady_clock::now() > patience) {
+      throw InputError(folder.string() +
+                       ": another careen is writing a film there; expected a folder for each");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) {
+    std::error_code ignored;
+    std::filesystem::remove(file_, ignored);  // while it is held, so that it is nobody else's
+    close(descriptor_);
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,108 @@
+#include "film/manifest.h"
+
+#include <gnu/libc-version.h>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/system/file.h"
+#include "film/frame_range.h"
+
+namespace careen {
+namespace {
+
+constexpr int kVersion = 1;
+
+std::string sizeText(const FilmManifest& manifest) {
+  return std::to_string(manifest.width) + "x" + std::to_string(manifest.height);
+}
+
+FilmManifest fromJson(const nlohmann::json& json) {
+  if (json.at("careen_film").get<int>() != kVersion) {
+    throw InputError("another version");
+  }
+  FilmManifest manifest;
+  manifest.program = json.value("program", "");  // films of old have neither
+  manifest.renderer = json.value("renderer", "");
+  manifest.libraries = json.value("libraries", "");
+  manifest.sceneHash = json.at("scene_hash").get<std::string>();
+  manifest.stateHash = json.at("state_hash").get<std::string>();
+  manifest.width = json.at("size").at(0).get<int>();
+  manifest.height = json.at("size").at(1).get<int>();
+  manifest.rate = parseFrameRate(json.at("fps").get<std::string>());
+  manifest.look = json.value("look", manifest.look);
+  manifest.antialiasing = json.value("antialiasing", manifest.antialiasing);
+  manifest.shutter = json.value("shutter", manifest.shutter);
+  manifest.overlays = json.value("overlays", "none");  // films were made before there were any
+  manifest.frameCount = json.at("frame_count").get<std::int64_t>();
+  if (const std::string frames = json.at("frames").get<std::string>(); !frames.empty()) {
+    manifest.frames = framesOf(parseFrameRanges(frames), manifest.frameCount);
+  }
+  return manifest;
+}
+
+}  // namespace
+
+std::string librariesHere() {
+  const auto version = [](int major, int minor, int patch) {
+    return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+  };
+  return "Eigen " + version(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION) +
+         ", nlohmann-json " +
+         version(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH) +
+         ", glibc " + gnu_get_libc_version();
+}
+
+std::optional<FilmManifest> readManifest(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / kManifestName;
+  std::error_code none;
+  if (!std::filesystem::exists(path, none)) {
+    return std::nullopt;
+  }
+  try {
+    return fromJson(nlohmann::json::parse(readFile(path)));
+  } catch (const std::exception& error) {
+    throw InputError(path.string() + ": does not tell of a film: " + error.what());
+  }
+}
+
+void writeManifest(const std::filesystem::path& folder, const FilmManifest& manifest) {
+  const nlohmann::ordered_json json = {
+      {"careen_film", kVersion},
+      {"program", manifest.program},
+      {"renderer", manifest.renderer},
+      {"libraries", manifest.libraries},
+      {"scene_hash", manifest.sceneHash},
+      {"state_hash", manifest.stateHash},
+      {"size", {manifest.width, manifest.height}},
+      {"fps", manifest.rate.text()},
+      {"look", manifest.look},
+      {"antialiasing", manifest.antialiasing},
+      {"shutter", manifest.shutter},
+      {"overlays", manifest.overlays},
+      {"frame_count", manifest.frameCount},
+      {"frames", rangesText(manifest.frames)},
+  };
+  writeFile(folder / kManifestName, json.dump(2) + "\n");
+}
+
+std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
+  const auto compare = [](const char* what, const std::string& a, const std::string& b) {
+    return a == b ? std::string() : std::string(what) + " " + a + " there, " + b + " now; ";
+  };
+  std::string text =
+      compare("scene", there.sceneHash, asked.sceneHash) + compare("run", there.stateHash, asked.stateHash) +
+      compare("size", sizeText(there), sizeText(asked)) +
+      compare("fps", there.rate.text(), asked.rate.text()) + compare("look", there.look, asked.look) +
+      compare("antialiasing", there.antialiasing, asked.antialiasing) +
+      compare("shutter", there.shutter, asked.shutter) + compare("overlays", there.overlays, asked.overlays) +
+      compare("frames in all", std::to_string(there.frameCount), std::to_string(asked.frameCount)) +
+      compare("program", there.program, asked.program) +
+      (there.renderer.empty() || asked.renderer.empty()
+           ? ""
+           : compare("renderer", there.renderer, asked.renderer));
+  return text.empty() ? text : text.substr(0, text.size() - 2);
+}
+
+}  // namespace careen

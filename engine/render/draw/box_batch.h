@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/math/pose.h"
+#include "render/gl/vertex_array.h"
+#include "scene/scene.h"
+
+namespace careen {
+
+struct Gl;
+
+/// One box to draw. Boxes of a scene carry marks on their faces, springs are boxes without.
+struct DrawnBox {
+  Pose pose;
+  Vec3 halfExtents = Vec3::Zero();  ///< [m]
+  Vec3 color = Vec3::Ones();        ///< linear
+  bool marked = true;
+};
+
+/// The scene's boxes, then its springs as thin rods, so thick [m], from end to end. With poses for several
+/// moments one after the other: all of that for each of them, less boxes that have not moved since.
+std::vector<DrawnBox> drawnBoxes(const Scene& scene, std::span<const Pose> poses, double springThickness);
+
+/// All boxes of a frame, drawn at once.
+class BoxBatch {
+ public:
+  BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const std::vector<std::string>& light);
+
+  /// Nearest to the eye first, so that hidden pixels are not shaded.
+  void place(std::vector<DrawnBox> boxes, const Vec3& eye);
+  void draw() const;
+  /// The same by the program in use, for the shadow map.
+  void drawDepth() const;
+
+ private:
+  const Gl& gl_;
+  unsigned array_;
+  VertexBuffer corners_;
+  VertexBuffer instances_;
+  unsigned program_ = 0;
+};
+
+}  // namespace careen

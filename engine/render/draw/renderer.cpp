@@ -1,0 +1,280 @@
+#include <GL/glcorearb.h>
+
+#include "render/draw/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+#include "core/system/resource.h"
+#include "render/draw/box_batch.h"
+#include "render/draw/contact_shade.h"
+#include "render/draw/frame_block.h"
+#include "render/draw/shadow_map.h"
+#include "render/draw/surface_batch.h"
+#include "render/gl/canvas.h"
+#include "render/gl/gl.h"
+#include "render/gl/shader.h"
+#include "render/look/surfaces.h"
+#include "render/overlay/batch.h"
+#include "render/view/camera.h"
+#include "render/view/scene_extent.h"
+
+namespace careen {
+namespace {
+
+constexpr double kShadowReach = 4;  // [px] farther than the filter of the shadow map reaches
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begun) {
+  return std::chrono::duration<double>(Clock::now() - begun).count();
+}
+
+std::filesystem::path shaderFolder(const RenderOptions& options) {
+  return options.shaders.empty() ? resourceFolder() / "shaders" : options.shaders;
+}
+
+// What shades: no file of what is not there.
+std::vector<std::string> lightShaders(const Lighting& lighting, bool shadows) {
+  if (!lighting.light) {
+    return {"ambient.frag", "finish.frag"};
+  }
+  return {"light.frag", "finish.frag", shadows ? "shadow.frag" : "no_shadow.frag"};
+}
+
+// A room holds its boxes, so its shadows keep still; elsewhere the map follows them.
+Extent castersOf(const Scene& scene, const Extent& extent, const std::vector<DrawnBox>& boxes) {
+  if (scene.room) {
+    return extent;
+  }
+  Extent casters{.min = boxes[0].pose.position, .max = boxes[0].pose.position};
+  for (const DrawnBox& box : boxes) {
+    const Vec3 reach = box.pose.worldFromBody.cwiseAbs() * box.halfExtents;
+    casters.min = casters.min.cwiseMin(box.pose.position - reach);
+    casters.max = casters.max.cwiseMax(box.pose.position + reach);
+  }
+  return casters;
+}
+
+// Where in the shadow map boxes are at all; elsewhere nobody needs to look into it.
+Float4 shadowBounds(const Mat4& shadowFromWorld, const std::vector<DrawnBox>& boxes) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec3 min = Vec3::Constant(kInfinity);
+  Vec3 max = Vec3::Constant(-kInfinity);
+  const Mat3 rotation = shadowFromWorld.topLeftCorner<3, 3>();
+  const Vec3 shift = shadowFromWorld.topRightCorner<3, 1>();
+  for (const DrawnBox& box : boxes) {
+    const Vec3 centre = rotation * box.pose.position + shift;
+    const Vec3 reach = (rotation * box.pose.worldFromBody).cwiseAbs() * box.halfExtents;
+    min = min.cwiseMin(centre - reach);
+    max = max.cwiseMax(centre + reach);
+  }
+  const double margin = kShadowReach / kShadowMapSize;
+  const Vec3 least = min - Vec3::Constant(margin);
+  const Vec3 greatest = max + Vec3::Constant(margin);
+  return floats(Vec3(least.x(), least.y(), greatest.x()), greatest.y());
+}
+
+// Springs thinner than this many pixels would break into dots.
+constexpr double kThinnest = 1.5;
+void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAngle) {
+  for (DrawnBox& box : boxes) {
+    if (!box.marked) {
+      const double least = 0.5 * kThinnest * pixelAngle * (box.pose.position - eye).norm();
+      box.halfExtents.y() = std::max(box.halfExtents.y(), least);
+      box.halfExtents.z() = std::max(box.halfExtents.z(), least);
+    }
+  }
+}
+
+// Texture coordinates and depth of a point given as an offset from the eye.
+Mat4 fromOffset(const Mat4& fromWorld, const Vec3& eye) {
+  Mat4 result = fromWorld;
+  result.topRightCorner<3, 1>() += fromWorld.topLeftCorner<3, 3>() * eye;
+  return result;
+}
+
+}  // namespace
+
+struct Renderer::Parts {
+  Parts(Scene drawnScene, int width, int pictureHeight, const RenderOptions& options);
+  void look(const Camera& from);
+  void drawShadows(const std::vector<DrawnBox>& drawn);
+  void drawPicture();
+  void drawOver(Picture& picture, const OverlayShapes& shapes);
+  void upload() const;
+
+  Scene scene;
+  Extent extent;
+  double aspect;
+  Camera camera;
+  View view;
+  Lighting lighting;
+  Materials materials;
+  int height;  // [px]
+  bool shadows;
+  std::unique_ptr<GlContext> context;
+  Gl gl;
+  Canvas canvas;
+  std::filesystem::path shaders;
+  std::optional<OverlayBatch> overlays;  // from the first picture on that has any
+  std::optional<ShadowMap> shadowMap;
+  BoxBatch boxes;
+  SurfaceBatch surfaces;
+  std::optional<ContactShadeBatch> contactShades;
+  unsigned backgroundArray;
+  unsigned backgroundProgram;
+  unsigned blockBuffer = 0;
+  FrameBlock block;
+  DrawFigures figures;
+};
+
+Renderer::Parts::Parts(Scene drawnScene, int width, int pictureHeight, const RenderOptions& options)
+    : scene(std::move(drawnScene)),
+      extent(extentOf(scene)),
+      aspect(static_cast<double>(width) / pictureHeight),
+      camera(options.camera ? *options.camera : cameraOf(scene, aspect)),
+      lighting(options.lighting ? *options.lighting : lightingOf(options.look.value_or(scene.look), camera)),
+      materials(options.materials ? *options.materials : materialsOf(options.look.value_or(scene.look))),
+      height(pictureHeight),
+      shadows(lighting.light && lighting.light->castsShadow && !scene.boxes.empty()),
+      context(openContext(options.context)),
+      gl(*context),
+      canvas(gl, width, pictureHeight, options.antialiasing.value_or(scene.film.antialiasing)),
+      shaders(shaderFolder(options)),
+      boxes(gl, shaders, lightShaders(lighting, shadows)),
+      surfaces(gl, shaders, lightShaders(lighting, shadows), surfacesOf(scene, extent, materials),
+               tileSize(extent)),
+      backgroundArray(makeVertexArray(gl)),
+      backgroundProgram(linkProgram(gl, shaders, {"background.vert", "background.frag", "finish.frag"})) {
+  if (shadows) {
+    shadowMap.emplace(gl, shaders);
+  }
+  if (materials.contactShade > 0 && !surfaces.surfaces().empty()) {
+    contactShades.emplace(gl, shaders);
+  }
+  gl.GenBuffers(1, &blockBuffer);
+  gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, blockBuffer);  // block 0 is where every program looks
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthFunc(GL_LEQUAL);
+  gl.Enable(GL_CULL_FACE);
+
+  block.up = floats(camera.up.normalized());
+  block.sky = floats(lighting.sky);
+  block.ground = floats(lighting.ground);
+  block.backgroundTop = floats(lighting.backgroundTop);
+  block.backgroundBottom = floats(lighting.backgroundBottom);
+  block.finish = floats(Vec3(materials.shoulder, canvas.wantsEdges() ? 1 : 0, materials.dither));
+  block.boxLook =
+      floats(Vec3(materials.boxRoughness, materials.marks ? 1 : 0, materials.ownColor), materials.edgeLine);
+  block.material = floats(materials.boxColor);
+  block.lines = floats(materials.lineColor, materials.ownJoints ? 1 : 0);
+  block.surfaceLook = floats(Vec3(materials.tileRoughness, materials.wallRoughness, materials.tileContrast),
+                             materials.joints);
+  if (lighting.light) {
+    block.towardsLight = floats(lighting.light->towards.normalized());
+    block.lightColor = floats(lighting.light->color);
+  }
+  checkGl(gl, "preparing to draw");
+}
+
+void Renderer::Parts::upload() const {
+  gl.BindBuffer(GL_UNIFORM_BUFFER, blockBuffer);
+  gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
+}
+
+void Renderer::Parts::look(const Camera& from) {
+  view = viewOf(from, extent, aspect);
+  block.clipFromOffset = floats(view.clipFromOffset);
+  surfaces.place(view.eye);
+}
+
+void Renderer::Parts::drawShadows(const std::vector<DrawnBox>& drawn) {
+  const Mat4 fromWorld = shadowFromWorld(castersOf(scene, extent, drawn), lighting.light->towards);
+  block.shadowFromOffset = floats(fromOffset(fromWorld, view.eye));
+  block.shadowBounds = shadowBounds(fromWorld, drawn);
+  upload();
+  shadowMap->begin();
+  boxes.drawDepth();
+  shadowMap->end();
+  ++figures.shadowPasses;
+}
+
+void Renderer::Parts::drawPicture() {
+  canvas.begin();
+  boxes.draw();
+  surfaces.draw();
+  if (contactShades) {
+    contactShades->draw();
+  }
+  gl.UseProgram(backgroundProgram);
+  gl.BindVertexArray(backgroundArray);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  canvas.finish();
+}
+
+void Renderer::Parts::drawOver(Picture& picture, const OverlayShapes& shapes) {
+  if (!overlays) {
+    overlays.emplace(gl, shaders, picture.width, picture.height);
+  }
+  overlays->drawOver(picture, shapes);
+  ++figures.overlayPasses;
+}
+
+Renderer::Renderer(const Scene& scene, int width, int height, const RenderOptions& options)
+    : parts_(std::make_unique<Parts>(scene, width, height, options)) {}
+
+Renderer::~Renderer() = default;
+
+Picture Renderer::draw(std::span<const Pose> poses) {
+  return draw({.poses = poses, .camera = parts_->camera});
+}
+
+Picture Renderer::draw(const Shot& shot) {
+  Parts& parts = *parts_;
+  const std::size_t poses = shot.poses.size();
+  const std::size_t boxes = parts.scene.boxes.size();
+  if (boxes == 0 ? poses != 0 : poses == 0 || poses % boxes != 0) {
+    throw InputError("drawing: found " + std::to_string(poses) + " poses, expected one for each of " +
+                     std::to_string(boxes) + " boxes, or so many for each of several moments");
+  }
+  const Clock::time_point begun = Clock::now();
+  parts.context->makeCurrent();
+  parts.look(shot.camera);
+  std::vector<DrawnBox> drawn = drawnBoxes(parts.scene, shot.poses, 0.004 * parts.extent.radius());
+  widenSprings(drawn, parts.view.eye, pixelAngle(shot.camera, parts.height));
+  parts.boxes.place(drawn, parts.view.eye);
+  if (parts.contactShades) {
+    parts.contactShades->place(contactShades(drawn, parts.surfaces.surfaces(), parts.materials.contactShade),
+                               parts.view.eye);
+  }
+  if (parts.shadows) {
+    parts.drawShadows(drawn);
+  } else {
+    parts.upload();
+  }
+  parts.drawPicture();
+  parts.figures.drawSeconds += secondsSince(begun);
+
+  const Clock::time_point drawnAt = Clock::now();
+  Picture picture = parts.canvas.read();
+  parts.figures.readSeconds += secondsSince(drawnAt);
+  ++parts.figures.frames;
+  return picture;
+}
+
+void Renderer::drawOver(Picture& picture, const Camera& camera, const OverlaySource& overlay) {
+  const Clock::time_point begun = Clock::now();
+  parts_->context->makeCurrent();
+  parts_->drawOver(picture, overlay(viewOf(camera, parts_->extent, parts_->aspect)));
+  parts_->figures.drawSeconds += secondsSince(begun);
+}
+
+const std::string& Renderer::rendererName() const { return parts_->gl.description; }
+
+const DrawFigures& Renderer::figures() const { return parts_->figures; }
+
+}  // namespace careen

@@ -1,0 +1,284 @@
+#include "render/film/film.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "core/error.h"
+#include "core/system/processor.h"
+#include "film/folder.h"
+#include "film/manifest.h"
+#include "image/picture_ring.h"
+#include "image/png.h"
+#include "image/video_pipe.h"
+#include "render/draw/renderer.h"
+#include "render/film/filming.h"
+#include "render/film/workers.h"
+#include "render/overlay/overlays.h"
+
+namespace careen {
+namespace {
+
+constexpr std::chrono::milliseconds kPatience(100);  // between looks whether to stop
+
+double wallSeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double coreSeconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+FilmManifest manifestOf(const Trajectory& trajectory, const Scene& scene, const FilmSettings& settings,
+                        double duration) {
+  const auto look = static_cast<std::size_t>(settings.render.look.value_or(scene.look));
+  const auto antialiasing =
+      static_cast<std::size_t>(settings.render.antialiasing.value_or(scene.film.antialiasing));
+  FilmManifest manifest{.program = settings.program,
+                        .renderer = {},
+                        .libraries = librariesHere(),
+                        .sceneHash = trajectory.sceneHash(),
+                        .stateHash = trajectory.stateHash(),
+                        .width = settings.width,
+                        .height = settings.height,
+                        .rate = settings.rate,
+                        .look = std::string(kLooks.at(look)),
+                        .antialiasing = std::string(kAntialiasings.at(antialiasing)),
+                        .shutter = settings.shutter.text(),
+                        .overlays = settings.overlays.text(),
+                        .frameCount = settings.rate.frameCount(duration),
+                        .frames = {}};
+  manifest.frames = framesOf(settings.frames, manifest.frameCount);
+  return manifest;
+}
+
+void refuseAnotherFilm(const FilmFolder& folder, const FilmManifest& asked) {
+  const std::string difference = folder.manifest() ? differenceOf(*folder.manifest(), asked) : "";
+  if (!difference.empty()) {
+    throw InputError(folder.path().string() +
+                     ": the film there is another one, it cannot be resumed: " + difference);
+  }
+}
+
+int jobCount(const FilmSettings& settings, std::size_t framesToDraw) {
+  const int jobs = settings.jobs.value_or(std::min(usableCores(), kMostJobs));
+  if (jobs < 1 || jobs > kMostJobs) {
+    throw InputError("jobs: found " + std::to_string(jobs) + ", expected 1 to " + std::to_string(kMostJobs));
+  }
+  return static_cast<int>(std::min(static_cast<std::size_t>(jobs), framesToDraw));
+}
+
+// A job that has a core to itself is fastest without threads.
+RenderOptions optionsOfJob(const FilmSettings& settings, int jobs) {
+  RenderOptions options = settings.render;
+  if (!options.context.threads) {
+    const int cores = usableCores() / jobs;
+    options.context.threads = cores > 1 ? std::min(cores, kMostThreads) : 0;
+  }
+  return options;
+}
+
+std::size_t pictureBytes(const FilmSettings& settings) {
+  return static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height) * 3;
+}
+
+std::unique_ptr<VideoPipe> startVideo(const FilmSettings& settings) {
+  if (!settings.video) {
+    return nullptr;
+  }
+  VideoSettings video = *settings.video;
+  video.width = settings.width;
+  video.height = settings.height;
+  video.rateNumerator = settings.rate.numerator;
+  video.rateDenominator = settings.rate.denominator;
+  return std::make_unique<VideoPipe>(std::move(video));
+}
+
+// What a job does, in its own process. The ring has places if there is a video.
+FrameWorkshop openWorkshop(const Filming& filming, const Scene& scene, const FilmSettings& settings,
+                           const std::optional<Overlays>& overlays, int jobs, const PictureRing& ring) {
+  if (glWasOpened()) {  // rather than wait for threads that were not forked
+    throw MachineError("no job can draw: GL had been opened before it was forked");
+  }
+  RenderOptions options = optionsOfJob(settings, jobs);
+  options.camera = filming.camera(0);
+  const auto renderer = std::make_shared<Renderer>(scene, settings.width, settings.height, options);
+  const auto work = [renderer, &filming, &settings, &overlays, &ring](std::int64_t index,
+                                                                      std::int64_t frame) {
+    FrameFigures figures{.frame = frame, .time = settings.rate.frameTime(frame)};
+    const DrawFigures before = renderer->figures();
+    Picture picture = filming.draw(*renderer, figures.time, settings.shutter, settings.rate);
+    if (overlays) {
+      filming.explain(*renderer, picture, figures.time, *overlays);
+    }
+    figures.drawSeconds = renderer->figures().drawSeconds - before.drawSeconds;
+    figures.readSeconds = renderer->figures().readSeconds - before.readSeconds;
+    const double begun = wallSeconds();
+    if (ring.places() > 0) {
+      std::copy(picture.rgb.begin(), picture.rgb.end(), ring[index].begin());
+    }
+    writePng(settings.folder / frameFileName(frame), picture);
+    figures.encodeSeconds = wallSeconds() - begun;
+    return figures;
+  };
+  return {.renderer = renderer->rendererName(), .work = work};
+}
+
+/// Frames go to whoever is idle and come back in any order. A video gets them in theirs: the ring keeps those
+/// whose turn it is not, and no frame is begun that has no place there.
+class FrameFlow {
+ public:
+  FrameFlow(const FilmFolder& folder, const std::vector<std::int64_t>& asked,
+            const std::vector<std::int64_t>& missing, FilmWorkers& workers, const PictureRing& ring,
+            VideoPipe* video)
+      : folder_(folder), asked_(asked), workers_(workers), ring_(ring), video_(video) {
+    for (const std::int64_t frame : asked) {
+      written_.push_back(!std::binary_search(missing.begin(), missing.end(), frame));
+    }
+    old_ = written_;
+    toDraw_ = std::ssize(missing);
+    figures_.skipped = total() - toDraw_;
+  }
+
+  FilmFigures film(const FilmCallback& progress, const std::stop_token& stop) {
+    begun_ = wallSeconds();
+    while (figures_.drawn < toDraw_ || (video_ != nullptr && shown_ < total())) {
+      if (stop.stop_requested()) {
+        throw Interrupted();
+      }
+      giveOut();
+      const bool shows = video_ != nullptr && shown_ < next_ && written_[place(shown_)];
+      for (const FilmWorkers::Done& done : workers_.wait(shows ? video_->descriptor() : -1, kPatience)) {
+        written_[place(done.index)] = true;
+        count(done.figures);
+        if (progress) {
+          progress(progressNow(done.figures));
+        }
+      }
+      if (shows) {
+        show();
+      }
+    }
+    return figures_;
+  }
+
+ private:
+  static std::size_t place(std::int64_t index) { return static_cast<std::size_t>(index); }
+  std::int64_t total() const { return std::ssize(asked_); }
+
+  void giveOut() {
+    while (next_ < total() && (video_ == nullptr || next_ < shown_ + ring_.places())) {
+      if (!old_[place(next_)]) {
+        if (!workers_.hasIdle()) {
+          return;
+        }
+        workers_.give(next_, asked_[place(next_)]);
+      }
+      ++next_;
+    }
+  }
+
+  // As much of the next frame as ffmpeg takes now.
+  void show() {
+    std::span<const std::uint8_t> pixels;
+    if (old_[place(shown_)]) {
+      if (sent_ == 0) {
+        oldPicture_ = readPng(folder_.path() / frameFileName(asked_[place(shown_)]));
+      }
+      pixels = oldPicture_.rgb;
+    } else {
+      pixels = ring_[shown_];
+    }
+    sent_ += video_->write(pixels.subspan(sent_));
+    if (sent_ == pixels.size()) {
+      sent_ = 0;
+      ++shown_;
+    }
+  }
+
+  void count(const FrameFigures& frame) {
+    ++figures_.drawn;
+    figures_.drawSeconds += frame.drawSeconds;
+    figures_.readSeconds += frame.readSeconds;
+    figures_.encodeSeconds += frame.encodeSeconds;
+  }
+
+  FilmProgress progressNow(const FrameFigures& frame) const {
+    FilmProgress progress{.done = figures_.drawn + figures_.skipped, .total = total(), .frame = frame};
+    const double seconds = wallSeconds() - begun_;
+    if (seconds > 0) {
+      progress.framesPerSecond = static_cast<double>(figures_.drawn) / seconds;
+      progress.secondsLeft = static_cast<double>(toDraw_ - figures_.drawn) / progress.framesPerSecond;
+    }
+    return progress;
+  }
+
+  const FilmFolder& folder_;
+  const std::vector<std::int64_t>& asked_;
+  FilmWorkers& workers_;
+  const PictureRing& ring_;
+  VideoPipe* video_;
+  std::vector<bool> written_;  // of those asked for, by index
+  std::vector<bool> old_;      // were there before
+  std::int64_t toDraw_ = 0;
+  std::int64_t next_ = 0;   // index to give out
+  std::int64_t shown_ = 0;  // frames that the video has whole
+  std::size_t sent_ = 0;    // [bytes] of the one after them
+  Picture oldPicture_;
+  double begun_ = 0;  // [s]
+  FilmFigures figures_;
+};
+
+}  // namespace
+
+FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const FilmSettings& settings,
+                       const FilmCallback& progress, const std::stop_token& stop) {
+  const double wallBegun = wallSeconds();
+  const double coreBegun = coreSeconds();
+  const Filming filming(scene, trajectory, static_cast<double>(settings.width) / settings.height);
+  FilmManifest asked = manifestOf(trajectory, scene, settings, filming.duration());
+  filming.checkCamera(asked.frames, settings.rate);
+  FilmFolder folder(settings.folder);
+  if (settings.resume) {
+    refuseAnotherFilm(folder, asked);
+  }
+  const std::vector<std::int64_t> missing = settings.resume ? folder.missing(asked) : asked.frames;
+
+  // All that may fail comes before the film that is there is touched. What is there already needs no GL.
+  std::optional<Overlays> overlays;
+  if (!missing.empty() && settings.overlays.any()) {
+    overlays.emplace(trajectory, scene, settings.overlays, settings.rate.frameTime(1));
+  }
+  const int jobs = jobCount(settings, missing.size());
+  const PictureRing ring(settings.video ? jobs + 2 : 0, pictureBytes(settings));
+  FilmWorkers workers(jobs, [&] { return openWorkshop(filming, scene, settings, overlays, jobs, ring); });
+  asked.renderer = workers.renderer();
+  if (settings.resume) {
+    refuseAnotherFilm(folder, asked);
+  }
+  const std::unique_ptr<VideoPipe> video = startVideo(settings);  // after the workers: its pipe is not theirs
+  folder.begin(asked, settings.resume);
+
+  FilmFigures figures =
+      FrameFlow(folder, asked.frames, missing, workers, ring, video.get()).film(progress, stop);
+  const double coreOfWorkers = workers.finish();
+  if (video) {
+    video->finish();
+  }
+  figures.jobs = jobs;
+  figures.renderer = asked.renderer;
+  figures.wallSeconds = wallSeconds() - wallBegun;
+  figures.coreSeconds = coreSeconds() - coreBegun + coreOfWorkers;
+  return figures;
+}
+
+}  // namespace careen

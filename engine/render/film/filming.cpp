@@ -1,0 +1,96 @@
+#include "render/film/filming.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/brief.h"
+#include "core/error.h"
+#include "image/light_average.h"
+#include "render/draw/renderer.h"
+#include "render/overlay/overlays.h"
+
+namespace careen {
+namespace {
+
+// What is to be drawn, and how many samples see just that.
+struct Sample {
+  std::vector<Pose> poses;
+  Camera camera;
+  int weight = 1;
+};
+
+bool isSame(const Camera& a, const Camera& b) {
+  return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovDegrees == b.fovDegrees;
+}
+
+bool isSame(const Sample& a, const Sample& b) {
+  return isSame(a.camera, b.camera) &&
+         std::equal(a.poses.begin(), a.poses.end(), b.poses.begin(), [](const Pose& p, const Pose& q) {
+           return p.position == q.position && p.worldFromBody == q.worldFromBody;
+         });
+}
+
+}  // namespace
+
+Filming::Filming(const Scene& scene, const Trajectory& run, double aspect)
+    : run_(run), clock_(scene.film.time.within(run.settings.duration)), path_(scene, run, clock_, aspect) {}
+
+Camera Filming::camera(double filmTime) const {
+  return orbited(path_.at(std::clamp(filmTime, 0.0, duration())), orbit_);
+}
+
+void Filming::checkCamera(std::span<const std::int64_t> frames, const FrameRate& rate) const {
+  if (!path_.hasKeys()) {
+    return;  // its eye keeps its distance and its height above the target
+  }
+  for (const std::int64_t frame : frames) {
+    const Camera there = camera(rate.frameTime(frame));
+    try {
+      lookAt(there.eye, there.target, there.up);
+    } catch (const InputError& error) {
+      throw InputError(std::string(error.what()) + ", " + brief(rate.frameTime(frame)) +
+                       " s into the film, between its keys");
+    }
+  }
+}
+
+Picture Filming::draw(Renderer& renderer, double filmTime, const Shutter& shutter,
+                      const FrameRate& rate) const {
+  const double open = shutter.degrees / 360 * rate.frameTime(1);
+  const int count = open > 0 ? shutter.samples : 1;
+  std::vector<Sample> samples;
+  for (int i = 0; i < count; ++i) {
+    const double time = filmTime + open * ((i + 0.5) / count - 0.5);
+    Sample sample{.poses = run_.poses(sceneTime(time)), .camera = camera(time)};
+    if (!samples.empty() && isSame(samples.back(), sample)) {
+      ++samples.back().weight;  // nothing moves: nothing more to draw
+    } else {
+      samples.push_back(std::move(sample));
+    }
+  }
+  if (samples.size() == 1) {
+    return renderer.draw({.poses = samples[0].poses, .camera = samples[0].camera});
+  }
+  LightAverage average;
+  for (const Sample& sample : samples) {
+    average.add(renderer.draw({.poses = sample.poses, .camera = sample.camera}), sample.weight);
+  }
+  return average.average();
+}
+
+void Filming::explain(Renderer& renderer, Picture& picture, double filmTime, const Overlays& overlays) const {
+  renderer.drawOver(picture, camera(filmTime), [&](const View& view) {
+    return overlays.shapesAt(sceneTime(filmTime), view, picture.width, picture.height);
+  });
+}
+
+Picture Filming::drawStrobe(Renderer& renderer, std::span<const double> filmTimes) const {
+  std::vector<Pose> all;
+  for (const double time : filmTimes) {
+    const std::vector<Pose> poses = run_.poses(sceneTime(time));
+    all.insert(all.end(), poses.begin(), poses.end());
+  }
+  return renderer.draw({.poses = all, .camera = camera(filmTimes.front())});
+}
+
+}  // namespace careen

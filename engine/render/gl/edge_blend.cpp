@@ -1,0 +1,104 @@
+#include "render/gl/edge_blend.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "image/srgb.h"
+
+namespace careen {
+namespace {
+
+constexpr std::size_t kBytes = 4;
+
+constexpr int kWhole = 2 * kEdgeSteps;  // the way to the next pixel
+
+struct Crossing {
+  int direction = 0;
+  int at = 0;  // [1/kWhole] of the way, the middle of its step
+};
+
+std::optional<Crossing> crossingOf(std::uint8_t alpha) {
+  if (alpha == 0 || alpha > 4 * kEdgeSteps) {
+    return std::nullopt;
+  }
+  const int code = alpha - 1;
+  return Crossing{.direction = code / kEdgeSteps, .at = 2 * (code % kEdgeSteps) + 1};
+}
+
+// `part` / (2 kWhole) of a pixel takes the colour of another.
+void blend(std::uint8_t* pixel, const std::uint8_t* other, int part) {
+  const SrgbTables& tables = SrgbTables::get();
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const int mixed =
+        (2 * kWhole - part) * tables.linear(pixel[channel]) + part * tables.linear(other[channel]);
+    pixel[channel] = tables.encoded(static_cast<std::uint16_t>((mixed + kWhole) / (2 * kWhole)));
+  }
+}
+
+class EdgeBlend {
+ public:
+  EdgeBlend(std::span<std::uint8_t> rgba, int width, int height, std::span<const std::uint8_t> before)
+      : rgba_(rgba), before_(before), width_(width), height_(height) {}
+
+  void at(int x, int y) {
+    const std::size_t here = placeOf(x, y);
+    const std::optional<Crossing> crossing = crossingOf(before_[here + 3]);
+    if (!crossing) {
+      return;
+    }
+    const auto d = static_cast<std::size_t>(crossing->direction);
+    const int otherX = x + kRight.at(d);
+    const int otherY = y + kUp.at(d);
+    if (otherX < 0 || otherX >= width_ || otherY < 0 || otherY >= height_) {
+      return;
+    }
+    const std::size_t there = placeOf(otherX, otherY);
+    int edge = 2 * crossing->at;  // [1/(2 kWhole)]
+    const std::optional<Crossing> back = crossingOf(before_[there + 3]);
+    if (back && back->direction == (crossing->direction ^ 1)) {
+      if (there < here) {
+        return;  // done from there
+      }
+      edge = crossing->at + kWhole - back->at;  // the same edge, but for rounding
+    }
+    if (edge < kWhole) {
+      blend(&rgba_[here], &before_[there], kWhole - edge);
+    } else {
+      blend(&rgba_[there], &before_[here], edge - kWhole);
+    }
+  }
+
+ private:
+  static constexpr std::array<int, 4> kRight{1, -1, 0, 0};
+  static constexpr std::array<int, 4> kUp{0, 0, 1, -1};
+
+  std::size_t placeOf(int x, int y) const {
+    return kBytes *
+           (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
+  }
+
+  std::span<std::uint8_t> rgba_;
+  std::span<const std::uint8_t> before_;
+  int width_;
+  int height_;
+};
+
+}  // namespace
+
+void blendEdges(std::span<std::uint8_t> rgba, int width, int height, std::span<std::uint8_t> scratch) {
+  std::copy(rgba.begin(), rgba.end(), scratch.begin());
+  EdgeBlend blend(rgba, width, height, scratch);
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* row =
+        &scratch[kBytes * static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];
+    for (int x = 0; x < width; ++x) {
+      if (row[kBytes * static_cast<std::size_t>(x) + 3] != kNoEdge) {
+        blend.at(x, y);
+      }
+    }
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,70 @@
+#include <GL/glcorearb.h>
+
+#include "render/gl/osmesa.h"
+
+#include <array>
+#include <vector>
+
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+constexpr const char* kRemedy = "install it: apt install libosmesa6";
+
+// What is used of GL/osmesa.h: it went from Mesa with the library, and where it is gone this must build to
+// draw through EGL.
+enum Attribute : int {
+  kFormat = 0x22,
+  kDepthBits = 0x30,
+  kProfile = 0x33,
+  kCoreProfile = 0x34,
+  kMajorVersion = 0x36,
+  kMinorVersion = 0x37
+};
+using CreateContext = void* (*)(const int* attributes, void* shared);
+using DestroyContext = void (*)(void* context);
+using MakeCurrent = GLboolean (*)(void* context, void* pixels, GLenum type, GLsizei width, GLsizei height);
+using GetProcAddress = void* (*)(const char* name);
+
+std::vector<std::string> namesOf(const std::string& library) {
+  return library.empty() ? std::vector<std::string>{"libOSMesa.so.8", "libOSMesa.so"} : std::vector{library};
+}
+
+}  // namespace
+
+OsMesa::OsMesa(const std::string& library) : library_(namesOf(library), kRemedy) {
+  constexpr std::array<int, 11> kCore33 = {kFormat,       GL_RGBA, kDepthBits,    0, kProfile, kCoreProfile,
+                                           kMajorVersion, 3,       kMinorVersion, 3, 0};
+  context_ = library_.function<CreateContext>("OSMesaCreateContextAttribs")(kCore33.data(), nullptr);
+  if (context_ == nullptr) {
+    throw MachineError(library_.name() + " makes no OpenGL 3.3 core context; " + kRemedy);
+  }
+  makeCurrent();
+}
+
+OsMesa::~OsMesa() {
+  release();
+  library_.function<DestroyContext>("OSMesaDestroyContext")(context_);
+}
+
+void OsMesa::bind() {
+  const auto make = library_.function<MakeCurrent>("OSMesaMakeCurrent");
+  if (make(context_, &pixel_, GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
+    throw MachineError(library_.name() + " cannot use the context it made; " + kRemedy);
+  }
+}
+
+void OsMesa::unbind() {
+  library_.function<MakeCurrent>("OSMesaMakeCurrent")(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+}
+
+void* OsMesa::function(const char* name) const {
+  void* const address = library_.function<GetProcAddress>("OSMesaGetProcAddress")(name);
+  if (address == nullptr) {
+    throw MachineError(library_.name() + " has no " + name + " of OpenGL 3.3; " + kRemedy);
+  }
+  return address;
+}
+
+}  // namespace careen

@@ -1,0 +1,297 @@
+// What is drawn at boxes: arrows, trails and names.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include "render/overlay/frame.h"
+
+namespace careen {
+namespace {
+
+constexpr double kShortestArrow = 2;              // [px]
+constexpr double kTrailBudget = 16000;            // states looked up for the trails of one frame
+constexpr int kTrailMostSamples = 600;            // of one trail
+constexpr std::ptrdiff_t kTrailMostTimes = 1200;  // impacts among them
+constexpr double kTrailTurn = 0.15;               // [rad] that a box may turn between two of them
+constexpr double kBehindItsBox = 0.3;             // how much of a trail is seen there
+constexpr std::size_t kMostNames = 16;            // that nobody gave
+constexpr std::size_t kCornerFollowed = 0;        // the one at +x +y +z
+
+template <class Vector>
+void addArrows(OverlayShapes& shapes, const OverlayFrame& frame, double largest, const Color& color,
+               Vector vectorOf) {
+  for (std::size_t body = 0; body < frame.states.size(); ++body) {
+    const Vec3& centre = frame.states[body].pose.position;
+    if (const std::optional<Stroke> arrow = arrowFor(frame, centre, vectorOf(body), largest, color)) {
+      shapes.emplace_back(*arrow);
+    }
+  }
+}
+
+Vec3 spinOf(const OverlayFrame& frame, std::size_t body) {
+  return angularVelocity(frame.trajectory.tracks[body].mass, frame.states[body]);
+}
+
+Vec3 cornerAt(const OverlayFrame& frame, std::size_t body, double time) {
+  return frame.trajectory.state(body, time)
+      .pose.worldPoint(corner(frame.scene.boxes[body].halfExtents, kCornerFollowed));
+}
+
+bool concerns(const Impact& impact, std::size_t body) {
+  const int index = static_cast<int>(body);
+  const BodyIndex* const other = std::get_if<BodyIndex>(&impact.b);
+  return impact.a.value == index || (other != nullptr && other->value == index);
+}
+
+// Moments a trail goes through: on a grid that stays where it is from frame to frame, where the box was
+// struck, and now.
+std::vector<double> trailTimes(const OverlayFrame& frame, std::size_t body) {
+  const double perBox = kTrailBudget / static_cast<double>(frame.states.size());
+  double step = kTrailSeconds / std::clamp(perBox, 12.0, 180.0);
+  const double spin = spinOf(frame, body).norm();
+  if (spin * step > kTrailTurn) {
+    step = kTrailTurn / spin;
+  }
+  const double begin = std::max(0.0, frame.time - std::min(kTrailSeconds, kTrailMostSamples * step));
+  std::vector<double> times = {begin};
+  for (std::int64_t k = static_cast<std::int64_t>(begin / step) + 1;
+       static_cast<double>(k) * step < frame.time; ++k) {
+    times.push_back(static_cast<double>(k) * step);
+  }
+  const std::vector<Impact>& impacts = frame.trajectory.impacts;
+  auto impact = std::lower_bound(impacts.begin(), impacts.end(), begin,
+                                 [](const Impact& each, double time) { return each.time < time; });
+  for (; impact != impacts.end() && impact->time < frame.time; ++impact) {
+    if (concerns(*impact, body) && std::ssize(times) < kTrailMostTimes) {
+      times.push_back(impact->time);
+    }
+  }
+  times.push_back(frame.time);
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+bool isResting(const OverlayFrame& frame, std::size_t body) {
+  const Vec3 now = cornerAt(frame, body, frame.time);
+  const auto moved = [&](double ago) {
+    return (cornerAt(frame, body, std::max(0.0, frame.time - ago)) - now).norm();
+  };
+  const double seen = 0.5 * frame.screen.metresPerPixel(now);
+  return std::max({moved(kTrailSeconds), moved(0.61 * kTrailSeconds), moved(0.2 * kTrailSeconds)}) < seen;
+}
+
+// A third of the way to ivory: a box's own colour would drown in its own face.
+Color lightened(const Color& color) {
+  const auto mixed = [](std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>((2 * a + b) / 3);
+  };
+  return {mixed(color.red, kIvory.red), mixed(color.green, kIvory.green), mixed(color.blue, kIvory.blue)};
+}
+
+// Whether a box stands between the eye and a point: by the part of the way that lies between each pair of
+// faces.
+bool hides(const Pose& pose, const Vec3& halfExtents, const Vec3& eye, const Vec3& point) {
+  const Vec3 from = pose.worldFromBody.transpose() * (eye - pose.position);
+  const Vec3 way = pose.worldFromBody.transpose() * (point - eye);
+  double enter = 0;
+  double leave = 1 - 1e-6;  // the point itself may be the box's
+  for (int axis = 0; axis < 3; ++axis) {
+    if (way[axis] == 0) {
+      leave = std::abs(from[axis]) < halfExtents[axis] ? leave : -1;
+      continue;
+    }
+    const double a = (-halfExtents[axis] - from[axis]) / way[axis];
+    const double b = (halfExtents[axis] - from[axis]) / way[axis];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter < leave;
+}
+
+void addTrail(OverlayShapes& shapes, const OverlayFrame& frame, std::size_t body) {
+  const auto visibility = [&](const Vec3& point) {
+    return hides(frame.states[body].pose, frame.scene.boxes[body].halfExtents, frame.screen.eye(), point)
+               ? kBehindItsBox
+               : 1.0;
+  };
+  std::vector<Ribbon> pieces(1);
+  for (const double time : trailTimes(frame, body)) {
+    const Vec3 point = cornerAt(frame, body, time);
+    const std::optional<Vec2> at = frame.screen.at(point);
+    if (at) {
+      pieces.back().points.push_back(
+          {.at = *at, .strength = 1 - (frame.time - time) / kTrailSeconds, .alpha = visibility(point)});
+    } else if (!pieces.back().points.empty()) {
+      pieces.emplace_back();
+    }
+  }
+  const Color color = lightened(frame.scene.boxes[body].color);
+  const double width = 1.25 * frame.style.line;
+  for (const bool isRim : {true, false}) {
+    for (Ribbon& piece : pieces) {
+      piece.width = isRim ? width + 2 * frame.style.halo : width;
+      piece.ink = isRim ? Ink{kSlate, 0.4} : Ink{color, 1};
+      shapes.emplace_back(piece);
+    }
+  }
+  const Vec3 now = cornerAt(frame, body, frame.time);
+  if (const std::optional<Vec2> at = frame.screen.at(now)) {
+    shapes.emplace_back(Stroke{.from = *at,
+                               .to = *at,
+                               .width = 2.2 * width,
+                               .halo = frame.style.halo,
+                               .ink = {color, visibility(now)}});
+  }
+}
+
+bool overlap(const Plate& a, const Plate& b) {
+  return (a.min.array() < b.max.array()).all() && (b.min.array() < a.max.array()).all();
+}
+
+// What a box covers of the picture, along its edges.
+struct Covered {
+  Vec2 min;
+  Vec2 max;
+};
+Covered coveredBy(const OverlayFrame& frame, std::size_t body, const Vec2& centre) {
+  Covered covered{centre, centre};
+  for (int index = 0; index < kCorners; ++index) {
+    const Vec3 at = frame.states[body].pose.worldPoint(corner(frame.scene.boxes[body].halfExtents, index));
+    if (const std::optional<Vec2> seen = frame.screen.at(at)) {
+      covered.min = covered.min.cwiseMin(*seen);
+      covered.max = covered.max.cwiseMax(*seen);
+    }
+  }
+  return covered;
+}
+
+// A name's plate above its box, and the one below it; within the picture's left and right edge.
+std::array<Plate, 2> placesFor(const OverlayFrame& frame, const Covered& box, double middle,
+                               const Vec2& size) {
+  const double gap = 0.45 * frame.style.text;
+  const double rightmost = std::max(0.0, frame.screen.width() - size.x());
+  const double x = std::clamp(middle - 0.5 * size.x(), 0.0, rightmost);
+  const auto at = [&](double y) {
+    const Vec2 min(std::round(x), std::round(y));
+    return plateFor(frame.style, min, min + size);
+  };
+  return {at(box.min.y() - gap - size.y()), at(box.max.y() + gap)};
+}
+
+bool isFree(const OverlayFrame& frame, const Plate& place, const std::vector<Plate>& taken) {
+  return place.min.y() >= 0 && place.max.y() <= frame.screen.height() &&
+         std::none_of(taken.begin(), taken.end(), [&](const Plate& other) { return overlap(place, other); });
+}
+
+// Where there is room for a name, if the box is on the picture.
+void addName(OverlayShapes& shapes, const OverlayFrame& frame, std::size_t body, std::vector<Plate>& taken) {
+  const std::optional<Vec2> centre = frame.screen.at(frame.states[body].pose.position);
+  const Vec2 picture(frame.screen.width(), frame.screen.height());
+  if (!centre || centre->minCoeff() < 0 || (picture - *centre).minCoeff() < 0) {
+    return;
+  }
+  const std::string& name = frame.scene.boxes[body].name;
+  const double em = std::max(kSmallestText, 0.9 * frame.style.text);
+  const Vec2 size(std::round(frame.fonts->plain.width(name, em) + 0.9 * em), std::round(1.5 * em));
+  const Covered box = coveredBy(frame, body, *centre);
+  for (const Plate& place : placesFor(frame, box, centre->x(), size)) {
+    if (isFree(frame, place, taken)) {
+      const double down = std::round(0.5 * (size.y() + frame.fonts->plain.capitalHeight(em)));
+      taken.push_back(place);
+      shapes.emplace_back(place);
+      shapes.emplace_back(
+          Label{.text = name, .at = place.min + Vec2(0.45 * em, down), .size = em, .ink = {kIvory, 1}});
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<Stroke> arrowFor(const OverlayFrame& frame, const Vec3& point, const Vec3& vector,
+                               double largest, const Color& color) {
+  const double size = vector.norm();
+  if (!(largest > 0) || !(size > 0) || !frame.screen.at(point)) {
+    return std::nullopt;
+  }
+  const double pixels = frame.style.longestArrow * size / largest;
+  if (pixels < kShortestArrow) {
+    return std::nullopt;
+  }
+  const Vec3 end = point + pixels * frame.screen.metresPerPixel(point) / size * vector;
+  const auto line = frame.screen.line(point, end);
+  if (!line) {
+    return std::nullopt;
+  }
+  return Stroke{.from = line->first,
+                .to = line->second,
+                .width = frame.style.line,
+                .head = std::min(frame.style.head, (line->second - line->first).norm()),
+                .halo = frame.style.halo,
+                .ink = {color, 1}};
+}
+
+Plate plateFor(const OverlayStyle& style, const Vec2& min, const Vec2& max) {
+  return {.min = min.array().round(),
+          .max = max.array().round(),
+          .rounding = 0.35 * style.text,
+          .ink = {kSlate, kPlateAlpha}};
+}
+
+void addTrails(OverlayShapes& shapes, const OverlayFrame& frame) {
+  for (std::size_t body = 0; body < frame.states.size(); ++body) {
+    if (!frame.scene.boxes[body].fixed && !isResting(frame, body)) {
+      addTrail(shapes, frame, body);
+    }
+  }
+}
+
+void addVelocities(OverlayShapes& shapes, const OverlayFrame& frame) {
+  addArrows(shapes, frame, frame.scales.speed, kTeal,
+            [&](std::size_t body) { return frame.states[body].velocity; });
+}
+
+void addAngularMomenta(OverlayShapes& shapes, const OverlayFrame& frame) {
+  addArrows(shapes, frame, frame.scales.angularMomentum, kViolet,
+            [&](std::size_t body) { return frame.states[body].angularMomentum; });
+}
+
+void addSpinAxes(OverlayShapes& shapes, const OverlayFrame& frame) {
+  // The axis goes on backwards as a thin line, so that it is seen to go through the centre.
+  for (std::size_t body = 0; body < frame.states.size(); ++body) {
+    const Vec3& centre = frame.states[body].pose.position;
+    std::optional<Stroke> back =
+        arrowFor(frame, centre, -spinOf(frame, body), frame.scales.angularSpeed, kMoss);
+    if (back) {
+      back->head = 0;
+      back->width *= 0.6;
+      shapes.emplace_back(*back);
+    }
+  }
+  addArrows(shapes, frame, frame.scales.angularSpeed, kMoss,
+            [&](std::size_t body) { return spinOf(frame, body); });
+}
+
+void addNames(OverlayShapes& shapes, const OverlayFrame& frame) {
+  std::vector<std::size_t> nearestFirst(frame.states.size());
+  std::iota(nearestFirst.begin(), nearestFirst.end(), std::size_t{0});
+  const auto depth = [&](std::size_t body) { return frame.screen.depth(frame.states[body].pose.position); };
+  std::stable_sort(nearestFirst.begin(), nearestFirst.end(),
+                   [&](std::size_t a, std::size_t b) { return depth(a) < depth(b); });
+  std::vector<Plate> taken;
+  for (const OverlayShape& shape : shapes) {  // panels keep their places
+    if (const Plate* const plate = std::get_if<Plate>(&shape)) {
+      taken.push_back(*plate);
+    }
+  }
+  for (const std::size_t body : nearestFirst) {
+    const bool isGiven = frame.scene.boxes[body].name != "box-" + std::to_string(body);
+    if (isGiven || frame.states.size() <= kMostNames) {
+      addName(shapes, frame, body, taken);
+    }
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,102 @@
+#include "render/overlay/overlays.h"
+
+#include <algorithm>
+#include <array>
+
+namespace careen {
+namespace {
+
+using Add = void (*)(OverlayShapes&, const OverlayFrame&);
+struct NamedAdd {
+  Overlay overlay;
+  Add add;
+};
+
+// From the back to the front.
+constexpr std::array<NamedAdd, 8> kInOrder = {{{Overlay::kTrail, addTrails},
+                                               {Overlay::kSpinAxis, addSpinAxes},
+                                               {Overlay::kAngularMomentum, addAngularMomenta},
+                                               {Overlay::kVelocity, addVelocities},
+                                               {Overlay::kContacts, addContacts},
+                                               {Overlay::kImpulses, addImpulses},
+                                               {Overlay::kEnergy, addEnergy},
+                                               {Overlay::kTime, addTimeCode}}};
+
+constexpr std::array kArrows = {Overlay::kVelocity, Overlay::kAngularMomentum, Overlay::kSpinAxis,
+                                Overlay::kImpulses};
+
+bool hasAny(const OverlaySet& shown, std::span<const Overlay> overlays) {
+  return std::any_of(overlays.begin(), overlays.end(), [&](Overlay each) { return shown.has(each); });
+}
+
+bool isWritten(const OverlaySet& shown) {
+  constexpr std::array kWritten = {Overlay::kNames, Overlay::kTime, Overlay::kEnergy};
+  return hasAny(shown, kWritten) || hasAny(shown, kArrows);
+}
+
+// Looked for at moments all over the run, fewer where there are many boxes.
+OverlayScales scalesOf(const Trajectory& trajectory) {
+  OverlayScales scales;
+  const int samples = 100'000 / static_cast<int>(std::max<std::size_t>(1, trajectory.tracks.size()));
+  const int steps = std::clamp(samples, 16, 512);
+  for (int step = 0; step <= steps; ++step) {
+    const std::vector<BodyState> states = statesAt(trajectory, trajectory.settings.duration * step / steps);
+    for (std::size_t body = 0; body < states.size(); ++body) {
+      const double spin = angularVelocity(trajectory.tracks[body].mass, states[body]).norm();
+      scales.speed = std::max(scales.speed, states[body].velocity.norm());
+      scales.angularMomentum = std::max(scales.angularMomentum, states[body].angularMomentum.norm());
+      scales.angularSpeed = std::max(scales.angularSpeed, spin);
+    }
+  }
+  for (const Impact& impact : trajectory.impacts) {
+    scales.impulse = std::max(scales.impulse, impact.impulse);
+  }
+  return scales;
+}
+
+}  // namespace
+
+Overlays::Overlays(const Trajectory& trajectory, const Scene& scene, const OverlaySet& shown,
+                   double frameSeconds, std::span<const std::filesystem::path> folders)
+    : trajectory_(trajectory), scene_(scene), shown_(shown), frameSeconds_(frameSeconds) {
+  if (hasAny(shown, kArrows)) {
+    scales_ = scalesOf(trajectory);
+  }
+  if (isWritten(shown)) {
+    fonts_ = OverlayFonts{.plain = findFont(kPlainFont, folders),
+                          .monospaced = findFont(kMonospacedFont, folders)};
+  }
+  if (shown.has(Overlay::kEnergy)) {
+    energy_.emplace(trajectory, scene);
+  }
+}
+
+OverlayShapes Overlays::shapesAt(double time, const View& view, int width, int height) const {
+  const std::vector<BodyState> states = statesAt(trajectory_, time);
+  const Screen screen(view, width, height);
+  const OverlayFrame frame{.trajectory = trajectory_,
+                           .scene = scene_,
+                           .time = time,
+                           .frameSeconds = frameSeconds_,
+                           .states = states,
+                           .scales = scales_,
+                           .fonts = fonts_ ? &*fonts_ : nullptr,
+                           .energy = energy_ ? &*energy_ : nullptr,
+                           .screen = screen,
+                           .style = OverlayStyle(height)};
+  OverlayShapes shapes;
+  for (const NamedAdd& each : kInOrder) {
+    if (shown_.has(each.overlay)) {
+      each.add(shapes, frame);
+    }
+  }
+  if (hasAny(shown_, kArrows)) {
+    addLegend(shapes, frame, shown_);
+  }
+  if (shown_.has(Overlay::kNames)) {  // last: they keep clear of what stands at the edges
+    addNames(shapes, frame);
+  }
+  return shapes;
+}
+
+}  // namespace careen

@@ -1,0 +1,92 @@
+#include "render/view/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+}  // namespace
+
+Vec4 View::clipFromWorld(const Vec3& point) const {
+  const Vec3 offset = point - eye;
+  return clipFromOffset * Vec4(offset.x(), offset.y(), offset.z(), 1);
+}
+
+Vec3 View::pixelFromWorld(const Vec3& point, int width, int height) const {
+  const Vec4 clip = clipFromWorld(point);
+  return {0.5 * width * (1 + clip.x() / clip.w()), 0.5 * height * (1 - clip.y() / clip.w()),
+          clip.z() / clip.w()};
+}
+
+Mat3 lookAt(const Vec3& eye, const Vec3& target, const Vec3& up) {
+  const Vec3 back = eye - target;
+  Vec3 right = up.cross(back);
+  if (!(back.norm() > 0)) {
+    throw InputError("camera: eye and target are the same point");
+  }
+  if (!(right.norm() > 1e-9 * up.norm() * back.norm())) {
+    throw InputError("camera: it looks along its up");
+  }
+  right.normalize();
+  Mat3 worldFromCamera;
+  worldFromCamera << right, back.cross(right).normalized(), back.normalized();
+  return worldFromCamera;
+}
+
+Mat4 perspective(double fov, double aspect, double near, double far) {
+  const double scale = 1 / std::tan(0.5 * fov);
+  Mat4 clipFromCamera = Mat4::Zero();
+  clipFromCamera(0, 0) = scale / aspect;
+  clipFromCamera(1, 1) = scale;
+  clipFromCamera(2, 2) = (near + far) / (near - far);
+  clipFromCamera(2, 3) = 2 * near * far / (near - far);
+  clipFromCamera(3, 2) = -1;
+  return clipFromCamera;
+}
+
+Camera cameraThatSees(const Extent& extent, double aspect) {
+  constexpr double kMargin = 1.04;
+  Camera camera;
+  camera.target = extent.centre();
+  const Mat3 worldFromCamera = lookAt(kDefaultDirection, Vec3::Zero(), camera.up);
+  const double tangent = std::tan(0.5 * radians(camera.fovDegrees));
+  double distance = 0;
+  for (int index = 0; index < 8; ++index) {
+    // A corner at (x, y, z) is in sight from as far away as z + |y| / tan(fov/2); x likewise.
+    const Vec3 corner = worldFromCamera.transpose() * (extent.corner(index) - camera.target);
+    distance = std::max(distance, corner.z() + kMargin * std::max(std::abs(corner.x()) / (tangent * aspect),
+                                                                  std::abs(corner.y()) / tangent));
+  }
+  camera.eye = camera.target + distance * kDefaultDirection;
+  return camera;
+}
+
+Camera cameraOf(const Scene& scene, double aspect) {
+  return scene.camera ? *scene.camera : cameraThatSees(extentOf(scene), aspect);
+}
+
+double pixelAngle(const Camera& camera, int height) {
+  return 2 * std::tan(0.5 * radians(camera.fovDegrees)) / height;
+}
+
+View viewOf(const Camera& camera, const Extent& extent, double aspect) {
+  View view;
+  view.eye = camera.eye;
+  view.worldFromCamera = lookAt(camera.eye, camera.target, camera.up);
+  // The nearest and farthest that a scene of this size can want; between them depth keeps 1e-4 m in 10 m. A
+  // look at a trifle in a vast room is closer.
+  const double reach = (camera.eye - extent.centre()).norm() + extent.radius();
+  const double near = std::min(0.004 * reach, 0.1 * (camera.eye - camera.target).norm());
+  Mat4 cameraFromOffset = Mat4::Identity();
+  cameraFromOffset.topLeftCorner<3, 3>() = view.worldFromCamera.transpose();
+  view.clipFromOffset = perspective(radians(camera.fovDegrees), aspect, near, 50 * reach) * cameraFromOffset;
+  return view;
+}
+
+}  // namespace careen

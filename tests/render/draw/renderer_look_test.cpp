@@ -1,0 +1,176 @@
+// How edges, bright light and gradients come out, and what looks and contact shades change.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <numbers>
+#include <set>
+#include <vector>
+
+#include "core/math/rotation.h"
+#include "image/srgb.h"
+#include "outline.h"
+#include "render/draw/renderer.h"
+#include "stage.h"
+
+namespace careen {
+namespace {
+
+constexpr int kWidth = 320;
+constexpr int kHeight = 180;
+
+Picture drawn(const Scene& scene, const RenderOptions& options = {}) {
+  return Renderer(scene, kWidth, kHeight, options).draw(posesOf(scene));
+}
+
+// A black plate before white: what is left of the light in a pixel is the part of it that the plate leaves
+// free, counted by 32 x 32 points beside the engine. An edge through a pixel is taken for a line across it,
+// so that at 45 degrees the corners of pixels are missed.
+double edgeError(double angle, Antialiasing antialiasing) {
+  Scene scene;
+  scene.boxes.push_back(boxAt(Vec3::Zero(), Vec3(1.3, 1e-4, 0.9)));
+  scene.boxes[0].color = Color{0, 0, 0};
+  scene.boxes[0].pose.worldFromBody = axisAngle(Vec3::UnitY(), angle);
+  scene.camera = cameraAt(Vec3(0, -10, 0), Vec3::Zero(), 20);
+  RenderOptions options = lit(evenLighting(Vec3::Ones()));
+  options.antialiasing = antialiasing;
+  const Picture picture = drawn(scene, options);
+  const double pixels = 0.5 * kHeight / std::tan(10 * std::numbers::pi / 180) / 10;
+  std::vector<Vec3> corners;
+  for (const auto& [x, z] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+    const Vec3 at = scene.boxes[0].pose.worldPoint(Vec3(x * 1.3, 0, z * 0.9));
+    corners.emplace_back(0.5 * kWidth + pixels * at.x(), 0.5 * kHeight - pixels * at.z(), 0);
+  }
+  const std::vector<Vec3> outline = hull(corners);
+  constexpr int kPoints = 32;
+  double sum = 0;
+  int count = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      if (std::abs(depthInside(outline, Vec3(x + 0.5, y + 0.5, 0))) > 0.75) {
+        continue;  // no edge comes near
+      }
+      int free = 0;
+      for (int k = 0; k < kPoints * kPoints; ++k) {
+        const int row = k / kPoints;
+        const Vec3 point(x + (k % kPoints + 0.5) / kPoints, y + (row + 0.5) / kPoints, 0);
+        free += depthInside(outline, point) < 0 ? 1 : 0;
+      }
+      const double share = static_cast<double>(free) / (kPoints * kPoints);
+      if (share > 0 && share < 1) {
+        const double found =
+            SrgbTables::get().linear(static_cast<std::uint8_t>(pixelAt(picture, x, y)[0])) / 65535.0;
+        sum += (found - share) * (found - share);
+        ++count;
+      }
+    }
+  }
+  EXPECT_GT(count, 200);
+  return std::sqrt(sum / count);
+}
+
+TEST(Renderer, edgesTakeTheirShareOfAPixel) {
+  for (const double angle : {0.0, 0.05, 0.3, 0.7}) {
+    const double off = edgeError(angle, Antialiasing::kOff);
+    const double edges = edgeError(angle, Antialiasing::kEdges);
+    const double multisampled = edgeError(angle, Antialiasing::kMultisampled);
+    std::cout << angle << " rad: off " << off << ", edges " << edges << ", 4x " << multisampled << '\n';
+    EXPECT_LT(edges, 0.06) << angle;  // measured 0.031, 0.021, 0.034, 0.053; 4x 0.075 to 0.10
+    EXPECT_LT(edges, multisampled) << angle;
+    EXPECT_GT(off, 0.2) << angle;
+  }
+}
+
+TEST(Renderer, supersamplingDrawsFourPixelsForOne) {
+  const Scene scene = crateInRoom();
+  RenderOptions options;
+  options.antialiasing = Antialiasing::kSupersampled;
+  options.materials = Materials{.dither = 0};
+  const Picture fine = drawn(scene, options);
+  EXPECT_EQ(fine.width, kWidth);
+  EXPECT_EQ(fine.height, kHeight);
+  options.antialiasing = Antialiasing::kOff;
+  const Picture coarse = drawn(scene, options);
+  int differ = 0;
+  for (std::size_t k = 0; k < fine.rgb.size(); ++k) {
+    differ += std::abs(fine.rgb[k] - coarse.rgb[k]) > 8 ? 1 : 0;
+  }
+  EXPECT_GT(differ, 500);
+  EXPECT_LT(differ, static_cast<int>(fine.rgb.size()) / 20);  // edges and patterns only
+}
+
+TEST(Renderer, brightLightIsPressedBelowWhiteAndLosesColour) {
+  Scene scene;
+  scene.boxes.push_back(boxAt(Vec3::Zero(), Vec3(1, 1, 1), Color{255, 188, 188}));
+  scene.camera = cameraAt(Vec3(0, -10, 0), Vec3::Zero(), 10);
+  const auto middle = [&](double brightness) {
+    RenderOptions options;
+    options.lighting = evenLighting();
+    options.lighting->sky = options.lighting->ground = Vec3::Constant(brightness);
+    options.materials = Materials{.marks = false, .dither = 0};
+    return pixelAt(drawn(scene, options), kWidth / 2, kHeight / 2);
+  };
+  const std::array<int, 3> dim = middle(0.7);  // below the shoulder: as it is
+  EXPECT_NEAR(dim[0], srgbFromLinear(0.7), 1);
+  const std::array<int, 3> bright = middle(2);
+  EXPECT_LT(bright[0], 255);
+  EXPECT_GT(bright[0], dim[0]);
+  EXPECT_LT(bright[0] - bright[1], dim[0] - dim[1]);
+}
+
+// The background's middle lies between two codes: dithered pixels are one or the other, and right on average.
+TEST(Renderer, ditherKeepsTheAverage) {
+  Scene scene;
+  scene.boxes.push_back(boxAt(Vec3::Zero(), Vec3(1e-3, 1e-3, 1e-3)));
+  scene.camera = cameraAt(Vec3(0, -10, 0), Vec3::Zero(), 30);
+  const double between = 0.5 * (SrgbTables::get().linear(100) + SrgbTables::get().linear(101)) / 65535.0;
+  RenderOptions options;
+  options.lighting = evenLighting(Vec3::Constant(between));
+  const Picture picture = drawn(scene, options);
+  double sum = 0;
+  std::set<int> codes;
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const int code = pixelAt(picture, x, y)[0];
+      codes.insert(code);
+      sum += code;
+    }
+  }
+  EXPECT_EQ(codes, (std::set<int>{100, 101}));
+  EXPECT_NEAR(sum / 4096, 100.5, 0.05);
+}
+
+// In even light, straight from above: a box that stands on the floor darkens it around, one that floats does
+// not.
+TEST(Renderer, boxesDarkenTheFloorTheyStandOn) {
+  Scene scene = crateInRoom();
+  scene.boxes[0].pose.worldFromBody = Mat3::Identity();
+  scene.camera = Camera{.eye = Vec3(0, 0, 5), .target = Vec3::Zero(), .up = Vec3::UnitY(), .fovDegrees = 35};
+  const auto beside = [&](double height, double shade) {
+    scene.boxes[0].pose.position = Vec3(0, 0, height);
+    RenderOptions options = lit(evenLighting(Vec3::Constant(0.1)));
+    options.materials->contactShade = shade;
+    return pixelAt(drawn(scene, options), kWidth / 2 + 45, kHeight / 2 + 3)[0];  // 0.6 m from the middle
+  };
+  const int bare = beside(0.2, 0);
+  EXPECT_LT(beside(0.2, 0.7), bare - 10);
+  EXPECT_EQ(beside(2.5, 0.7), beside(2.5, 0));
+}
+
+TEST(Renderer, looksDiffer) {
+  Scene scene = crateInRoom();
+  const auto as = [&](Look look) {
+    scene.look = look;
+    return drawn(scene).rgb;
+  };
+  const std::vector<std::uint8_t> studio = as(Look::kStudio);
+  const std::vector<std::uint8_t> blueprint = as(Look::kBlueprint);
+  EXPECT_NE(studio, blueprint);
+  EXPECT_NE(studio, as(Look::kClay));
+  EXPECT_NE(blueprint, as(Look::kClay));
+}
+
+}  // namespace
+}  // namespace careen
