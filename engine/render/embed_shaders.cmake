@@ -5,7 +5,7 @@ foreach(shader IN LISTS SHADERS)
   file(READ ${shader} text)
   string(APPEND entries "  if (name == \"${name}\") {\n    return R\"glsl(${text})glsl\";\n  }\n")
 endforeach()
-file(WRITE ${OUTPUT} "#include \"render/shader.h\"
+file(WRITE ${OUTPUT} "#include \"render/gl/shader.h\"
 
 namespace careen {
 

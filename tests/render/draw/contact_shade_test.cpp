@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/math/rotation.h"
-#include "stage.h"
+#include "render/stage.h"
 
 namespace careen {
 namespace {

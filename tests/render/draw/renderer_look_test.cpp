@@ -11,9 +11,9 @@
 
 #include "core/math/rotation.h"
 #include "image/srgb.h"
-#include "outline.h"
 #include "render/draw/renderer.h"
-#include "stage.h"
+#include "render/outline.h"
+#include "render/stage.h"
 
 namespace careen {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "render/draw/renderer.h"
-#include "stage.h"
+#include "render/stage.h"
 
 namespace careen {
 namespace {

@@ -16,8 +16,8 @@
 #include "core/math/rotation.h"
 #include "image/png.h"
 #include "image/srgb.h"
-#include "outline.h"
-#include "stage.h"
+#include "render/outline.h"
+#include "render/stage.h"
 #include "support/process.h"
 
 namespace careen {

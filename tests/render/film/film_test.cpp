@@ -12,7 +12,7 @@
 #include "film/faults.h"
 #include "film/folder.h"
 #include "image/png.h"
-#include "stage.h"
+#include "render/stage.h"
 #include "support/environment_variable.h"
 #include "support/process.h"
 

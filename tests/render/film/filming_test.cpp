@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "render/draw/renderer.h"
-#include "stage.h"
+#include "render/stage.h"
 
 namespace careen {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "render/draw/renderer.h"
-#include "stage.h"
+#include "render/stage.h"
 #include "support/environment_variable.h"
 #include "support/process.h"
 

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/system/resource.h"
 #include "render/draw/renderer.h"
-#include "stage.h"
+#include "render/stage.h"
 #include "support/process.h"
 
 namespace careen {

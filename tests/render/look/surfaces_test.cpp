@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage.h"
+#include "render/stage.h"
 
 namespace careen {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "render/stage.h"
 #include "scene/plan.h"
-#include "stage.h"
 
 namespace careen {
 namespace {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/error.h"
+#include "render/stage.h"
 #include "render/view/scene_extent.h"
 #include "scene/plan.h"
-#include "stage.h"
 
 namespace careen {
 namespace {

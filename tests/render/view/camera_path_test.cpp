@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "render/stage.h"
 #include "scene/scene_reader.h"
-#include "stage.h"
 
 namespace careen {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/math/rotation.h"
-#include "stage.h"
+#include "render/stage.h"
 
 namespace careen {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "stage.h"
+#include "render/stage.h"
 
 namespace careen {
 namespace {
