@@ -309,15 +309,6 @@ Names stemsIn(const fs::path& folder, bool tests) {
 /// Whether a test is of that source: <file>_test.cpp, or <file>_<aspect>_test.cpp where it has more than one.
 bool isTestOf(const std::string& test, const std::string& source) { return test.starts_with(source + "_"); }
 
-// Folder and room of every source, from engine/.
-std::set<fs::path> placesOfSources() {
-  std::set<fs::path> places;
-  for (const fs::path& source : sourcesIn(kRoot / "engine")) {
-    places.insert(fs::relative(source.parent_path(), kRoot / "engine"));
-  }
-  return places;
-}
-
 // The source may be the tests' own.
 TEST(Structure, everyTestLiesWhereItsSourceDoes) {
   std::size_t checked = 0;
