@@ -6,7 +6,7 @@
 
 namespace careen {
 
-/// A number as messages give it, with so many significant digits: "0.08211". No locale has a say.
+/// A number as messages show it, with that many significant digits: "0.08211". Independent of the locale.
 inline std::string brief(double value, int significant = 4) {
   std::array<char, 32> digits{};
   char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
@@ -15,7 +15,7 @@ inline std::string brief(double value, int significant = 4) {
   return {digits.data(), end};
 }
 
-/// As few digits as bring the same number back: two that differ do not look the same.
+/// The shortest text that converts back to the same number, so different numbers look different.
 inline std::string inFull(double value) {
   std::array<char, 32> digits{};
   char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr char32_t kReplacement = 0xFFFD;
 
-// How many bytes a character takes, by its first one; 0 if none begins so.
+// The number of bytes of a character, from its first byte; 0 if no character starts with it.
 std::size_t lengthOf(unsigned char first) {
   if (first < 0x80) {
     return 1;
@@ -22,7 +22,7 @@ std::size_t lengthOf(unsigned char first) {
   return first >= 0xF0 && first < 0xF5 ? 4 : 0;
 }
 
-// The character that starts there; `at` moves behind it, or by one byte if there is none.
+// The character that starts at `at`; `at` moves past it, or by one byte if the bytes are invalid.
 char32_t next(std::string_view utf8, std::size_t& at) {
   constexpr std::array<char32_t, 5> kSmallest = {0, 0, 0x80, 0x800, 0x10000};
   const auto first = static_cast<unsigned char>(utf8[at]);
@@ -47,7 +47,7 @@ char32_t next(std::string_view utf8, std::size_t& at) {
   return character;
 }
 
-// What XML 1.0, 2.2, allows, less the control characters of Latin-1.
+// What XML 1.0, 2.2, allows, without the control characters of Latin-1.
 bool mayBeInMarkup(char32_t character) {
   return character == U'\t' || character == U'\n' || character == U'\r' ||
          (character >= 0x20 && character < 0x7F) ||

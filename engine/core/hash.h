@@ -7,8 +7,8 @@
 
 namespace careen {
 
-/// FNV-1a, 64 bits: the same bytes give the same value on every machine. Tells runs apart; no protection
-/// against forgery.
+/// FNV-1a, 64 bits: the same bytes give the same value on every machine. It distinguishes runs; it does not
+/// protect against forgery.
 class Hash {
  public:
   void add(std::string_view bytes) {
@@ -16,7 +16,7 @@ class Hash {
       addByte(static_cast<unsigned char>(byte));
     }
   }
-  /// Little-endian bytes whatever the machine's order. A double is hashed by its bits: −0 differs from 0.
+  /// Little-endian bytes on every machine. A double is hashed by its bits: −0 differs from 0.
   void add(std::uint64_t value) {
     for (int shift = 0; shift < 64; shift += 8) {
       addByte(static_cast<unsigned char>(value >> shift));

@@ -18,7 +18,7 @@ inline std::string listed(std::span<const std::string_view> names) {
   return text;
 }
 
-/// The place of a name among those there are; InputError, which lists them, if it is none of them.
+/// The index of a name in `names`; InputError, which lists them, if it is none of them.
 inline std::size_t placeAmong(std::string_view name, std::span<const std::string_view> names) {
   for (std::size_t place = 0; place < names.size(); ++place) {
     if (names[place] == name) {

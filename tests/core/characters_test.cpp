@@ -7,10 +7,10 @@ namespace {
 
 TEST(Characters, areReadFromUtf8) {
   EXPECT_EQ(charactersOf("aé→𝄞"), U"aé→𝄞");
-  EXPECT_EQ(charactersOf("a\xC3"), U"a�");            // cut short
-  EXPECT_EQ(charactersOf("\xC3\x28z"), U"�(z");       // no continuation
-  EXPECT_EQ(charactersOf("\xC0\xAF"), U"��");         // longer than needed
-  EXPECT_EQ(charactersOf("\xED\xA0\x80x"), U"���x");  // half of a pair of UTF-16
+  EXPECT_EQ(charactersOf("a\xC3"), U"a�");            // truncated
+  EXPECT_EQ(charactersOf("\xC3\x28z"), U"�(z");       // no continuation byte
+  EXPECT_EQ(charactersOf("\xC0\xAF"), U"��");         // overlong encoding
+  EXPECT_EQ(charactersOf("\xED\xA0\x80x"), U"���x");  // half of a UTF-16 surrogate pair
   EXPECT_EQ(charactersOf("\xF8"), U"�");
 }
 

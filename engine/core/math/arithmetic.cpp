@@ -5,11 +5,11 @@
 
 namespace careen {
 
-// What the same bits everywhere rest on; see README, What is the same everywhere.
+// Requirements for the same bits everywhere; see README, Reproducibility.
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53);
 static_assert(FLT_EVAL_METHOD == 0, "expressions of doubles are computed in doubles: no x87");
 #ifdef __FAST_MATH__
-#error "-ffast-math computes something else than what is written"
+#error "-ffast-math does not compute what the source says"
 #endif
 
 }  // namespace careen

@@ -4,9 +4,9 @@
 
 namespace careen {
 
-/// While it lives, this thread computes as the program does when it starts: results rounded to the nearest,
-/// numbers below 2.2e-308 kept, nothing trapped. Others may have changed that: libraries built with
-/// -ffast-math do so when they are loaded, drivers while they draw.
+/// During its lifetime this thread has the default floating-point environment of C: rounding to nearest,
+/// subnormal numbers, no traps. Others may have changed it: libraries built with -ffast-math when they are
+/// loaded, drivers while they draw.
 class UsualArithmetic {
  public:
   UsualArithmetic() {

@@ -4,18 +4,17 @@
 
 namespace careen {
 
-/// An unevaluated sum of two doubles, lo of the order of hi's rounding: about 32 digits where a double
-/// has 16.
+/// An unevaluated sum of two doubles, where lo is of the order of the rounding error of hi: about 32 digits
+/// instead of 16.
 ///
-/// For the few quantities that time multiplies: an angular rate known to 16 digits is off by a whole
-/// microradian after 10¹⁰ radians. Only + − * / sqrt are used (no fused multiply-add): the same bits
-/// everywhere.
+/// It is meant for the few quantities that are multiplied by time: an angular rate known to 16 digits is off
+/// by a whole microradian after 10¹⁰ radians. Only + − * / sqrt are used (no fused multiply-add), which gives
+/// the same bits everywhere.
 ///
-/// hi is what plain double arithmetic would give, and lo the first-order sum of what it lost. Results are not
-/// brought back to |lo| ≤ ulp(hi)/2 after each operation: the chain of his then runs ahead at the speed of
-/// plain doubles and the los follow. The one thing to remember is normalized() after a difference that may
-/// have cancelled. Relative errors are stated for normalised arguments; for + and − they are relative to |a|
-/// + |b|.
+/// hi is what plain double arithmetic would give, and lo the first-order sum of its rounding errors. Results
+/// are not renormalised to |lo| ≤ ulp(hi)/2 after each operation, so the chain of hi values runs at the speed
+/// of plain doubles and the lo values follow. Call normalized() after a difference that may have cancelled.
+/// Relative errors are stated for normalised arguments; for + and − they are relative to |a| + |b|.
 ///
 /// T. J. Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18, 1971;
 /// D. E. Knuth, The Art of Computer Programming 2, 4.2.2, theorem B (twoSum).
@@ -23,9 +22,8 @@ struct DoubleDouble {
   double hi;
   double lo;
 
-  DoubleDouble() = default;  // without a value, as a double
-  constexpr DoubleDouble(double value)
-      : hi(value), lo(0) {}  // NOLINT: numbers convert, as int to double does
+  DoubleDouble() = default;                                   // uninitialised, like a double
+  constexpr DoubleDouble(double value) : hi(value), lo(0) {}  // NOLINT: numbers convert, like int to double
   constexpr DoubleDouble(double high, double low) : hi(high), lo(low) {}
   constexpr explicit operator double() const { return hi + lo; }
 };

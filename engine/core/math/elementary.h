@@ -13,15 +13,15 @@
 
 /// sin, cos, exp, log and atan2 from + − * / sqrt and bit patterns alone.
 ///
-/// The C library's own functions pick their code by processor (with or without fused multiply-add), and with
-/// it the last bit of the result. These give the same bits wherever IEEE 754 arithmetic does, and are right
-/// to 1 ulp.
+/// The C library selects code by processor (with or without fused multiply-add), which changes the last bit
+/// of the result. These functions give the same bits wherever IEEE 754 arithmetic is available, and are
+/// accurate to 1 ulp.
 ///
-/// Each is the textbook scheme: reduce the argument to a short interval, keeping what rounding drops as a
-/// second double; sum a Taylor series there; put back what was taken off. J.-M. Muller, Elementary Functions,
-/// ch. 11.
+/// Each function is the textbook scheme: reduce the argument to a short interval, with the rounding error of
+/// the reduction in a second double; sum a Taylor series there; undo the reduction. J.-M. Muller, Elementary
+/// Functions, ch. 11.
 ///
-/// For any other scalar type the same names call the functions that belong to that type.
+/// For any other scalar type the same names call the functions of that type.
 namespace careen::elementary {
 
 template <class Real>
@@ -35,7 +35,7 @@ namespace detail {
 /// 2ⁿ for −1022 ≤ n ≤ 1023.
 inline double powerOfTwo(int n) { return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52U); }
 
-/// 1.5·2⁵²: adding it leaves no bits for a fraction, and whole numbers in the low bits as two's complements.
+/// 1.5·2⁵²: adding it rounds to a whole number, which is in the low bits as a two's complement.
 inline constexpr double kWholeNumberShift = 6755399441055744.0;
 
 /// x − n·π/2 as hi + lo, for the n nearest to 2x/π. |x| < 2⁵⁰.
@@ -54,7 +54,7 @@ inline DoubleDouble lessQuarterTurns(double x, double n) {
   return fastTwoSum(fine.hi, (fine.lo + coarse.lo) - (second.lo - n * 0x1.f1976b7ed8fbcp-110));
 }
 
-/// Two doubles for two results at once; the operations are those of single doubles, bit for bit.
+/// Two doubles for two results at once; the operations are bit for bit those of single doubles.
 using Pair = double __attribute__((vector_size(16)));
 using PairBits = std::uint64_t __attribute__((vector_size(16)));
 
@@ -67,7 +67,7 @@ struct Bits<Pair> {
   using Type = PairBits;
 };
 
-/// Taylor series for |x| ≤ π/4 (a little more does no harm); first terms left out: x¹⁹/19!, x¹⁸/18!.
+/// Taylor series for |x| ≤ π/4 (slightly more is harmless); first omitted terms: x¹⁹/19!, x¹⁸/18!.
 template <class Number>
 struct SinCosTails {
   Number square;  // z = x²
@@ -86,7 +86,7 @@ struct SinCosTails {
   }
 };
 
-/// For an angle given as hi + lo, each to 1 ulp.
+/// For an angle given as hi + lo; both results to 1 ulp.
 inline SinCos<double> sinCosNearZero(const DoubleDouble& x) {
   const SinCosTails<double> tail(x.hi);
   const double halfSquare = 0.5 * tail.square;
@@ -95,14 +95,14 @@ inline SinCos<double> sinCosNearZero(const DoubleDouble& x) {
           coarse + (((1 - coarse) - halfSquare) + (tail.square * tail.square * tail.cos - x.hi * x.lo))};
 }
 
-/// For an angle that is itself only as good as a rounding of 1.
+/// For an angle whose error is itself a rounding of 1.
 template <class Number>
 SinCos<Number> sinCosNearZero(const Number& x) {
   const SinCosTails<Number> tail(x);
   return {x + x * tail.square * tail.sin, (1 - 0.5 * tail.square) + tail.square * tail.square * tail.cos};
 }
 
-/// Turned on by a whole number of quarter turns; by bits, because a branch on the quadrant is mispredicted
+/// The angle plus a whole number of quarter turns; by bits, because a branch on the quadrant is mispredicted
 /// half the time.
 template <class Number>
 SinCos<Number> turnedOn(const SinCos<Number>& start, const Number& quarterTurns) {

@@ -5,7 +5,7 @@
 
 namespace careen {
 
-// The only place that spells out Eigen's types. Columns; right-handed; SI units.
+// The only place that spells out Eigen's types. Column vectors; right-handed; SI units.
 template <class Real>
 using Vector3 = Eigen::Matrix<Real, 3, 1>;
 template <class Real>

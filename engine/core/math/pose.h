@@ -4,7 +4,7 @@
 
 namespace careen {
 
-/// Where a body is: a point b̄ fixed in it lies at position + worldFromBody · b̄ (Eq. 11).
+/// Position and orientation of a body: a point b̄ fixed in it lies at position + worldFromBody · b̄ (Eq. 11).
 struct Pose {
   Vec3 position = Vec3::Zero();           ///< [m] centre of mass, world
   Mat3 worldFromBody = Mat3::Identity();  ///< [1] special orthogonal (Eq. 1)

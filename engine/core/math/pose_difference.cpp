@@ -7,7 +7,7 @@
 
 namespace careen {
 
-// ‖A − B‖ = 2√2 sin(θ/2), which keeps its digits where θ is small; near π the trace does.
+// ‖A − B‖ = 2√2 sin(θ/2) is accurate for small θ; the trace is accurate near π.
 double angleBetween(const Mat3& a, const Mat3& b) {
   const double sine = (a - b).norm() / (2 * std::numbers::sqrt2);
   if (sine < 0.5) {
@@ -21,7 +21,7 @@ PoseDifference differenceOf(const Pose& a, const Pose& b, double halfDiagonal) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double position = (a.position - b.position).norm();
   const double angle = angleBetween(a.worldFromBody, b.worldFromBody);
-  if (!std::isfinite(position + angle)) {  // a maximum would lose it
+  if (!std::isfinite(position + angle)) {  // std::max would lose it
     return {kInfinity, kInfinity, kInfinity};
   }
   return {position, angle, std::max(position / halfDiagonal, angle)};

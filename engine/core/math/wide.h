@@ -6,9 +6,8 @@
 
 namespace careen {
 
-/// The type in which quantities are kept that time multiplies: twice the digits for double, else the type
-/// itself. The functions below give code written for any scalar type the few operations that double_double.h
-/// adds.
+/// The type for quantities that are multiplied by time: twice the digits for double, otherwise the type
+/// itself. The functions below provide the operations of double_double.h for every scalar type.
 template <class Real>
 struct Widened {
   using Type = Real;
@@ -54,7 +53,7 @@ constexpr Number wideProduct(const Real& a, const Real& b) {
   }
 }
 
-/// a + b for a b of the order of a's rounding.
+/// a + b, where b is of the order of the rounding error of a.
 template <class Number, class Real>
 constexpr Number withRest(const Number& a, const Real& b) {
   if constexpr (std::is_same_v<Number, DoubleDouble>) {
@@ -70,7 +69,7 @@ constexpr Number quotient(const Number& a, const Number&, const Number& inverse)
   return a * inverse;
 }
 
-/// 1 / b, or 1 / b.hi where b is a sum of two.
+/// 1 / b, or 1 / b.hi for a double-double b.
 template <class Real, class Number>
 constexpr Real leadingInverse(const Number& b) {
   if constexpr (std::is_same_v<Number, DoubleDouble>) {

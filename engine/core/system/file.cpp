@@ -12,8 +12,8 @@
 namespace careen {
 namespace {
 
-// Two processes may write the same file: each has a partial file of its own, and the last to finish wins
-// whole.
+// Two processes may write the same file: each has its own partial file, and the last one to finish replaces
+// the file as a whole.
 std::filesystem::path partialPath(const std::filesystem::path& path) {
   const std::string name =
       "." + path.filename().string() + "." + std::to_string(getpid()) + std::string(kPartialEnding);
@@ -46,7 +46,7 @@ void AtomicFile::write(std::string_view bytes) {
 }
 
 void AtomicFile::commit() {
-  stream_.close();  // flushes: a full disk shows here at the latest
+  stream_.close();  // flushes, so a full disk is noticed here at the latest
   if (!stream_) {
     fail("cannot be written");
   }

@@ -7,8 +7,8 @@
 
 namespace careen {
 
-/// A file that appears whole or not at all: written beside its place under a hidden name, moved there by
-/// commit(), removed if commit() is never reached. Errors are MachineError and name the file.
+/// A file that appears whole or not at all: it is written beside its place under a hidden name, moved there
+/// by commit(), and removed without commit(). Errors are MachineError and name the file.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -34,7 +34,7 @@ class AtomicFile {
 std::string readFile(const std::filesystem::path& path);
 void writeFile(const std::filesystem::path& path, std::string_view bytes);
 
-/// Files left by a run that was killed outright are told by this ending.
+/// Suffix of partial files; a run that was killed leaves them behind.
 inline constexpr std::string_view kPartialEnding = ".partial";
 
 }  // namespace careen

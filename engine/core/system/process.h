@@ -7,17 +7,17 @@
 
 namespace careen {
 
-/// Starts another program, found as a shell would find it, with `input` as its standard input and `log` as
-/// its standard error; what it prints is dropped. 0, or the error number if it could not be started. It gets
-/// a group of its own, for Ctrl-C at the terminal is this program's to deal with, and none of the signals
-/// that this program keeps back.
+/// Starts another program, found through PATH, with `input` as its standard input and `log` as its standard
+/// error; its standard output is discarded. Returns 0, or the error number if it could not be started. The
+/// program gets its own process group, because this program handles Ctrl-C, and inherits none of this
+/// program's blocked signals.
 int startProgram(std::vector<std::string> command, int input, int log, pid_t& process);
 
-/// The end of what was written to an open file: there the cause is.
+/// The last lines of an open log file, which hold the cause of a failure.
 std::string lastWords(int file);
 
-/// Runs a program to its end without input. MachineError with its last words if it cannot be started or
-/// fails.
+/// Runs a program to its end without input. MachineError with the last lines of its log if it cannot be
+/// started or fails.
 void runProgram(const std::vector<std::string>& command);
 
 }  // namespace careen

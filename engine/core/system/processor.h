@@ -2,7 +2,7 @@
 
 namespace careen {
 
-/// Cores that this process may use: a cluster's job is given some of a machine's.
+/// Cores that this process may use: a job on a cluster gets only some of a machine's cores.
 int usableCores();
 
 }  // namespace careen

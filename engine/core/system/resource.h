@@ -4,8 +4,8 @@
 
 namespace careen {
 
-/// Folder that holds shaders/ and assets/: $CAREEN_DATA if set, else share/careen beside the program's bin if
-/// the program is installed, else the source tree it was built from.
+/// Folder that holds shaders/ and assets/: $CAREEN_DATA if set, else share/careen beside the bin folder of an
+/// installed program, else the source tree it was built from.
 std::filesystem::path resourceFolder();
 
 /// A file or folder of resourceFolder(), such as "assets/scenes/careen.json". MachineError says where it

@@ -36,7 +36,7 @@ std::string faultOf(int status) {
   sigaddset(&signals, SIGTERM);
   sigprocmask(SIG_BLOCK, &signals, nullptr);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != maker) {  // it died before it could be said
+  if (getppid() != maker) {  // it died before prctl took effect
     _exit(1);
   }
   try {
@@ -45,7 +45,7 @@ std::string faultOf(int status) {
   } catch (...) {
     std::terminate();
   }
-  _exit(0);  // what is to be done at the maker's end is not for this process to do
+  _exit(0);  // skips the maker's exit handlers
 }
 
 }  // namespace

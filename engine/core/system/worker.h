@@ -11,7 +11,7 @@
 
 namespace careen {
 
-/// One end of a line between two processes. Messages arrive whole and in order.
+/// One end of a connection between two processes. Messages arrive whole and in order.
 class Channel {
  public:
   explicit Channel(int socket) : socket_(socket) {}
@@ -33,9 +33,9 @@ class Channel {
     static_assert(std::is_trivially_copyable_v<Message>);
     return receiveBytes(std::as_writable_bytes(std::span(&message, 1)));
   }
-  /// For poll: readable when there is a message, or nobody at the other end.
+  /// For poll: readable when there is a message or the other end is gone.
   int descriptor() const { return socket_; }
-  /// To the other end it is as if this one were gone.
+  /// The other end sees the connection as closed.
   void hangUp() const;
 
  private:
@@ -47,19 +47,19 @@ class Channel {
 
 /// How a worker ended.
 struct WorkerEnd {
-  std::string fault;       ///< empty if it came to its end, else such as "killed by signal 9 (Killed)"
-  double coreSeconds = 0;  ///< [s] that it took of all cores
+  std::string fault;       ///< empty if it finished, else for example "killed by signal 9 (Killed)"
+  double coreSeconds = 0;  ///< [s] CPU time that it used
 };
 
-/// A process forked to do part of the work: it begins with all that this one has in memory, at no cost. It
-/// keeps SIGINT and SIGTERM back, for to end it orderly is up to this process, and is killed when this one
-/// dies. No thread may hold a lock that the work takes.
+/// A forked process that does part of the work: it starts with a copy-on-write view of this process's memory.
+/// SIGINT and SIGTERM are blocked in it; this process ends it in order, and it is killed if this process
+/// dies. No thread may hold a lock that the work needs.
 class Worker {
  public:
-  /// The other process ends when `work`, which must not throw, returns. MachineError if the system makes
-  /// none.
+  /// The other process ends when `work`, which must not throw, returns. MachineError if the system cannot
+  /// create it.
   explicit Worker(const std::function<void(const Channel&)>& work);
-  /// Hangs up and waits for its end.
+  /// Shuts the connection down and waits for the end of the process.
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
@@ -67,7 +67,7 @@ class Worker {
   Worker& operator=(Worker&&) = delete;
 
   const Channel& channel() const { return *channel_; }
-  /// Hangs up and waits for its end.
+  /// Shuts the connection down and waits for the end of the process.
   const WorkerEnd& end();
 
  private:

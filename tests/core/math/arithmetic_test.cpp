@@ -7,7 +7,7 @@
 namespace careen {
 namespace {
 
-// What the compiler cannot work out beforehand.
+// volatile: the compiler must not evaluate these in advance.
 volatile double smallest = std::numeric_limits<double>::min();
 volatile double one = 1;
 volatile double third = 3;
@@ -27,11 +27,11 @@ TEST(UsualArithmetic, roundsToTheNearestWhateverWasSetBefore) {
   std::fesetround(FE_TONEAREST);
   EXPECT_GT(up, nearest);
   EXPECT_EQ(within, nearest);
-  EXPECT_EQ(after, FE_UPWARD) << "what was set before is not set again";
+  EXPECT_EQ(after, FE_UPWARD) << "the previous mode is not restored";
 }
 
 #ifdef __x86_64__
-// Bits 6 and 15 of MXCSR: numbers below the smallest normal one count as 0, and become 0.
+// Bits 6 and 15 of MXCSR: subnormal inputs count as 0, and subnormal results become 0.
 TEST(UsualArithmetic, keepsSmallNumbers) {
   const unsigned before = __builtin_ia32_stmxcsr();
   __builtin_ia32_ldmxcsr(before | 0x8040U);

@@ -12,7 +12,7 @@
 namespace careen {
 namespace {
 
-/// |got − exact| in units of the last place that a correctly rounded result would have.
+/// |got − exact| in units in the last place of the correctly rounded result.
 double errorInUlps(double got, const Quad& exact) {
   if (exact == 0) {
     return got == 0 ? 0 : std::numeric_limits<double>::infinity();

@@ -18,7 +18,7 @@ Mat3 turn(double angle) {
 TEST(PoseDifference, isTheAngleWhateverItsSize) {
   const Mat3 from = turn(1);
   for (const double angle : {0.0, 1e-15, 1e-9, 1e-3, 0.7, 1.5, 3.0, 3.14159}) {
-    // measured 2e-16 below 1, 1.3e-15 at 3; near π the trace hardly changes
+    // measured 2e-16 below 1, 1.3e-15 at 3; the trace hardly changes near π
     EXPECT_NEAR(angleBetween(from, from * turn(angle)), angle, angle > 3 ? 1e-9 : 3e-15) << angle;
   }
 }

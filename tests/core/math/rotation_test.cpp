@@ -12,7 +12,7 @@ constexpr double kRight = std::numbers::pi / 2;
 const Vec3 kAxis = Vec3(2, -1, 2) / 3;  // unit
 const Vec3 kR(0.7, -1.3, 2.1);
 
-// Eq. 9, entry by entry and as the product it stands for.
+// Eq. 9, entry by entry and as the cross product it represents.
 TEST(Tilde, turnsACrossProductIntoAMatrixProduct) {
   Mat3 expected;
   expected << 0, -3, 2,  //
@@ -24,7 +24,7 @@ TEST(Tilde, turnsACrossProductIntoAMatrixProduct) {
 
 TEST(Tilde, isSkewSymmetric) { EXPECT_EQ(Mat3(tilde(kR).transpose()), Mat3(-tilde(kR))); }
 
-// Eq. 2 by hand: A turns x to y, so what B does to x it does to y in the new space.
+// Eq. 2 by hand: A maps x to y, so what B does to x the result does to y.
 TEST(SimilarityTransform, carriesAMatrixIntoAnotherSpace) {
   const Mat3 a = axisAngle(Vec3::UnitZ(), kRight);
   const Mat3 b = Vec3(1, 2, 3).asDiagonal();
@@ -32,7 +32,7 @@ TEST(SimilarityTransform, carriesAMatrixIntoAnotherSpace) {
   EXPECT_LT((similarityTransform(a, b) - expected).norm(), 1e-15);  // measured 8.7e-17
 }
 
-// Eq. 2's meaning: map, act, map back.
+// The meaning of Eq. 2: map, act, map back.
 TEST(SimilarityTransform, actsAsTheOriginalDoesInItsOwnSpace) {
   const Mat3 a = axisAngle(kAxis, 1.1);
   Mat3 b;
@@ -89,7 +89,7 @@ TEST(AxisAngle, isSpecialOrthogonal) {
   EXPECT_NEAR(a.determinant(), 1, 1e-15);   // measured 2.2e-16
 }
 
-// Eqs. 7, 8: a vector that turns with θ̇ about n has the rate θ̇ n × r. Central difference of Eq. 6.
+// Eqs. 7, 8: a vector that rotates with θ̇ about n has the rate θ̇ n × r. Central difference of Eq. 6.
 TEST(OrientationRate, isTheRateOfATurningVector) {
   constexpr double kRate = 1.7;
   constexpr double kStep = 1e-5;
@@ -100,7 +100,7 @@ TEST(OrientationRate, isTheRateOfATurningVector) {
   EXPECT_EQ(Vec3(tilde(kRate * kAxis) * kR), Vec3((kRate * kAxis).cross(kR)));
 }
 
-// Eq. 10, column by column: each is a vector that turns.
+// Eq. 10, column by column: each column is a rotating vector.
 TEST(OrientationRate, turnsEveryColumn) {
   const Vec3 omega(1, -2, 0.5);
   const Mat3 a = axisAngle(kAxis, 0.9);
@@ -113,13 +113,13 @@ TEST(OrientationRate, turnsEveryColumn) {
 TEST(OrthonormalizeFromColumn0, keepsColumn0sDirectionAndTheFirstTwosPlane) {
   Mat3 bent;
   bent << 2, 1, 9, 0, 3, 9, 0, 0, 9;
-  EXPECT_EQ(orthonormalizeFromColumn0(bent), Mat3::Identity()) << "by hand; column 2 is not looked at";
+  EXPECT_EQ(orthonormalizeFromColumn0(bent), Mat3::Identity()) << "by hand; column 2 is ignored";
 }
 
 TEST(OrthonormalizeFromColumn0, makesAStepOfEulerARotationAgain) {
   const Mat3 a = axisAngle(kAxis, 0.9);
   const Mat3 stepped = a + 0.1 * orientationRate({1, -2, 0.5}, a);
-  EXPECT_GT(orthogonalityError(stepped), 0.03) << "measured 0.074: there is something to do";
+  EXPECT_GT(orthogonalityError(stepped), 0.03) << "measured 0.074: the step leaves an error to remove";
   const Mat3 result = orthonormalizeFromColumn0(stepped);
   EXPECT_LT(orthogonalityError(result), 2e-15);  // measured 3e-16
   EXPECT_NEAR(result.determinant(), 1, 2e-15);

@@ -57,7 +57,7 @@ TEST_F(FileTest, leavesNothingWithoutCommit) {
   {
     AtomicFile file(inFolder("run"));
     file.write("half");
-    EXPECT_EQ(entries(), 1U) << "written beside its place";
+    EXPECT_EQ(entries(), 1U) << "the partial file lies beside it";
     EXPECT_EQ(fs::directory_iterator(folder_)->path().extension(), kPartialEnding);
   }
   EXPECT_EQ(entries(), 0U);
@@ -91,7 +91,7 @@ TEST_F(FileTest, writesIntoTheCurrentFolder) {
   EXPECT_EQ(readFile(inFolder("bare-name")), "here");
 }
 
-// Permissions would not stop root, who may run the tests: these folders cannot be written by anyone.
+// Permissions would not stop root, and root may run the tests: nobody can write into these folders.
 TEST_F(FileTest, saysWhichFileCannotBeWritten) {
   const std::string missing = messageOf([&] { writeFile(inFolder("no/such/run"), "x"); });
   EXPECT_NE(missing.find("no/such/run"), std::string::npos) << missing;
@@ -112,7 +112,7 @@ TEST_F(FileTest, removesThePartialFileWhenTheNameIsTaken) {
 
 TEST_F(FileTest, readingWhatIsNotThereIsBadInput) {
   EXPECT_THROW(readFile(inFolder("missing")), InputError);
-  EXPECT_THROW(readFile(folder_), InputError) << "a folder is no file";
+  EXPECT_THROW(readFile(folder_), InputError) << "a folder is not a file";
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ TEST_F(Resource, isAFolder) {
   EXPECT_TRUE(fs::is_directory(resourceFolder()));
 }
 
-// This program, copied to where an installed one lies.
+// This program, copied into the layout of an installation.
 TEST_F(Resource, comesFromBesideTheProgramWhenInstalled) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "bin");
@@ -47,7 +47,7 @@ TEST_F(Resource, comesFromBesideTheProgramWhenInstalled) {
 TEST_F(Resource, comesFromWhereTheEnvironmentSays) {
   const EnvironmentVariable data("CAREEN_DATA", "/nowhere");
   EXPECT_EQ(resourceFolder(), "/nowhere");
-  const EnvironmentVariable empty("CAREEN_DATA", "");  // as good as not set
+  const EnvironmentVariable empty("CAREEN_DATA", "");  // an empty value counts as unset
   EXPECT_EQ(resourceFolder(), fs::path(CAREEN_SOURCE_DIR));
 }
 
@@ -55,7 +55,7 @@ TEST_F(Resource, missingOnesAreToldWithThePlaceLookedAt) {
   const EnvironmentVariable data("CAREEN_DATA", "/nowhere");
   try {
     findResource("shaders/box.vert");
-    FAIL() << "nothing is there";
+    FAIL() << "the file does not exist";
   } catch (const MachineError& error) {
     EXPECT_STREQ(error.what(),
                  "/nowhere/shaders/box.vert: not found; looked in /nowhere (the environment's CAREEN_DATA)");

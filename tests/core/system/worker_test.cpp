@@ -40,7 +40,7 @@ TEST(Worker, hasWhatItsMakerHasAndAnswers) {
   EXPECT_EQ(worker.end().fault, "");
 }
 
-// A second worker holds a copy of the first one's line, too: hanging up must reach the first all the same.
+// A second worker also holds a copy of the first one's socket: shutting down must reach the first one anyway.
 TEST(Worker, endsWhenItsMakerHangsUpWhoeverElseThereIs) {
   const auto waits = [](const Channel& channel) {
     for (Pair pair; channel.receive(pair);) {
@@ -81,7 +81,7 @@ TEST(Worker, leavesInterruptionToItsMaker) {
   EXPECT_EQ(worker.end().fault, "");
 }
 
-// The maker is a process of its own here, which is killed; its worker writes a file if it outlives it.
+// The maker is a separate process here, which is killed; its worker would write a file if it outlived it.
 TEST(Worker, diesWithItsMaker) {
   const TemporaryFolder folder;
   const pid_t maker = fork();
