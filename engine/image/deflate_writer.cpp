@@ -11,22 +11,23 @@
 namespace careen {
 namespace {
 
-// Tokens: a literal byte; the end of the block; 256 + n for n bytes like the one before them.
+// Tokens: a literal byte; the end of the block; 256 + n for a run of n copies of the previous byte.
 constexpr std::size_t kEnd = 256;
 constexpr std::size_t kShortestRun = 3;
 constexpr std::size_t kLongestRun = 258;
 constexpr std::size_t kTokens = kEnd + kLongestRun + 1;
 
 constexpr std::size_t kWord = 8;            // [byte] compared and written at once
-constexpr std::size_t kMostLiterals = 286;  // literals, end and the codes of lengths
+constexpr std::size_t kMostLiterals = 286;  // literals, end of block and length codes
 constexpr std::size_t kMostPrecodes = 19;
 constexpr int kLongestCode = 12;
-// Three tokens fit a word beside a byte begun: a run has a code, at most 5 extra bits, one for its distance.
+// Three tokens and the bits of an unfinished byte fit a word: a run has a code, at most 5 extra bits, and a
+// distance code.
 static_assert(7 + 3 * (kLongestCode + 5 + 1) < 64);
-constexpr int kLongestPrecode = 7;       // RFC 1951, 3.2.7: what three bits can say
+constexpr int kLongestPrecode = 7;       // RFC 1951, 3.2.7: three bits hold it
 constexpr std::size_t kStored = 0xffff;  // [byte] of one stored block
 
-// To and from the order of the stream, lowest byte first.
+// Converts to and from the byte order of the stream, lowest byte first.
 constexpr std::uint64_t inStreamOrder(std::uint64_t word) {
   if constexpr (std::endian::native == std::endian::little) {
     return word;
@@ -49,8 +50,8 @@ void storeWord(std::uint64_t word, std::uint8_t* bytes) {
   std::memcpy(bytes, &word, kWord);
 }
 
-/// The code of a run's length, RFC 1951, 3.2.5: groups of four codes with one more extra bit each, but eight
-/// codes without any begin, and 258 has its own.
+/// The code of a run length, RFC 1951, 3.2.5: each group of four codes has one more extra bit, except that
+/// the first eight codes have none and 258 has its own.
 struct RunCode {
   std::uint16_t symbol;
   std::uint8_t extraBits;
@@ -82,8 +83,8 @@ std::uint16_t* addRun(std::uint8_t value, std::size_t length, std::uint16_t* tok
   return std::fill_n(token, length, value);
 }
 
-// Runs of eight and more, looked for a word at a time; shorter ones would save 1.5 % of a frame at most.
-// `tokens` has room for one per byte, the end and a word more; how many there are is returned.
+// Finds runs of at least eight bytes, a word at a time; shorter ones would save 1.5 % of a frame at most.
+// `tokens` has room for one per byte, the end and one more word; the function returns their number.
 std::size_t findTokens(std::span<const std::uint8_t> bytes, std::uint16_t* tokens) {
   std::uint16_t* token = tokens;
   const std::uint8_t* next = bytes.data();
@@ -97,7 +98,7 @@ std::size_t findTokens(std::span<const std::uint8_t> bytes, std::uint16_t* token
   }
   while (wordIsLeft(next)) {
     if (const std::uint64_t changed = changes(next); changed != 0) {
-      // As far as the last byte that differs; what follows it may be a run.
+      // Copy up to the last byte that differs; what follows it may be a run.
       std::copy_n(next, kWord, token);
       const auto literals = kWord - static_cast<std::size_t>(std::countl_zero(changed)) / 8;
       token += literals;
@@ -120,7 +121,7 @@ std::size_t findTokens(std::span<const std::uint8_t> bytes, std::uint16_t* token
 
 using TokenCounts = std::array<std::uint32_t, kTokens>;
 
-// Four counters each, because one that has just been written is slow to read again.
+// Four sets of counters, because reading one that was just written is slow.
 TokenCounts countTokens(std::span<const std::uint16_t> tokens) {
   std::array<TokenCounts, 4> counts{};
   std::size_t i = 0;
@@ -138,13 +139,13 @@ TokenCounts countTokens(std::span<const std::uint16_t> tokens) {
   return counts[0];
 }
 
-/// Bits to send for a token, the first lowest.
+/// The bits of a token in the stream, lowest first.
 struct Bits {
   std::uint32_t value = 0;
   std::uint32_t count = 0;
 };
 
-/// The head of a block: how long its codes are, RFC 1951, 3.2.7.
+/// The header of a block: the code lengths, RFC 1951, 3.2.7.
 struct Head {
   std::array<Bits, 4 + kMostPrecodes + 2 * (kMostLiterals + 1)> bits;
   std::size_t used = 0;
@@ -152,14 +153,14 @@ struct Head {
   void add(std::uint32_t value, std::uint32_t count) { bits[used++] = {.value = value, .count = count}; }
 };
 
-/// A code length, or a repetition of one, as the head has it.
+/// A code length, or a repetition of one, as encoded in the header.
 struct HeadSymbol {
   std::uint8_t symbol;
   std::uint8_t extraBits;
   std::uint8_t extra;
 };
 
-// 16: the one before 3 to 6 times; 17: 3 to 10 zeros; 18: 11 to 138 zeros.
+// 16: repeat the previous one 3 to 6 times; 17: 3 to 10 zeros; 18: 11 to 138 zeros.
 std::size_t findHeadSymbols(std::span<const std::uint8_t> lengths, HeadSymbol* symbols) {
   const HeadSymbol* const begun = symbols;
   for (std::size_t i = 0; i < lengths.size();) {
@@ -187,7 +188,7 @@ std::size_t findHeadSymbols(std::span<const std::uint8_t> lengths, HeadSymbol* s
   return static_cast<std::size_t>(symbols - begun);
 }
 
-// `lengths`: of the literals' codes, then that of the one distance.
+// `lengths`: of the literal codes, then of the single distance code.
 Head makeHead(std::span<const std::uint8_t> lengths, bool last) {
   constexpr std::array<std::uint8_t, kMostPrecodes> kOrder = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                                               11, 4,  12, 3, 13, 2, 14, 1, 15};
@@ -206,9 +207,9 @@ Head makeHead(std::span<const std::uint8_t> lengths, bool last) {
     --listed;
   }
   Head head;
-  head.add((last ? 1U : 0U) | 2U << 1U, 3);                           // BFINAL, BTYPE: codes of its own
+  head.add((last ? 1U : 0U) | 2U << 1U, 3);                           // BFINAL, BTYPE: dynamic Huffman codes
   head.add(static_cast<std::uint32_t>(lengths.size() - 1 - 257), 5);  // HLIT
-  head.add(0, 5);                                                     // HDIST: one
+  head.add(0, 5);                                                     // HDIST: one code
   head.add(listed - 4, 4);                                            // HCLEN
   for (std::uint32_t i = 0; i < listed; ++i) {
     head.add(precodeLengths[kOrder[i]], 3);
@@ -225,7 +226,7 @@ using Codes = std::array<Bits, kTokens>;
 struct Block {
   Codes codes;
   Head head;
-  std::size_t bits = 0;  // head and tokens
+  std::size_t bits = 0;  // header and tokens
 };
 
 Block planBlock(const TokenCounts& tokens, bool last) {
@@ -247,7 +248,7 @@ Block planBlock(const TokenCounts& tokens, bool last) {
   for (std::size_t length = kShortestRun; length <= kLongestRun; ++length) {
     const RunCode& run = kRunCodes[length];
     const std::uint32_t bits = lengths[run.symbol];
-    // The one distance is the bit 0.
+    // The single distance code is the bit 0.
     block.codes[kEnd + length] = {.value = codes[run.symbol] | std::uint32_t{run.extra} << bits,
                                   .count = bits + run.extraBits + 1};
   }
@@ -266,7 +267,7 @@ Block planBlock(const TokenCounts& tokens, bool last) {
   return block;
 }
 
-/// Bits to bytes, a word at a time: what is written reaches up to a word beyond what is used.
+/// Writes bits as bytes, a word at a time: it writes up to one word beyond the bytes in use.
 class BitSink {
  public:
   BitSink(std::uint8_t* out, std::uint64_t bits, unsigned count) : out_(out), bits_(bits), count_(count) {}
@@ -275,7 +276,7 @@ class BitSink {
     bits_ |= std::uint64_t{bits.value} << count_;
     count_ += bits.count;
   }
-  /// To be called before 64 bits are there.
+  /// Must be called before the buffer holds 64 bits.
   void flush() {
     storeWord(bits_, out_);
     out_ += count_ / 8;
@@ -299,7 +300,7 @@ void send(const Head& head, BitSink& sink) {
 }
 
 void send(std::span<const std::uint16_t> tokens, const Codes& codes, BitSink& sinkOut) {
-  BitSink sink = sinkOut;  // a copy, which stays in registers
+  BitSink sink = sinkOut;  // a local copy stays in registers
   std::size_t i = 0;
   for (; i + 3 <= tokens.size(); i += 3) {
     sink.add(codes[tokens[i]]);
@@ -338,7 +339,7 @@ void DeflateWriter::write(std::span<const std::uint8_t> bytes, bool last) {
   pendingBits_ = pads ? 0 : sink.count();
 }
 
-// RFC 1951, 3.2.4: from a whole byte on, the size, its complement, and the bytes as they are.
+// RFC 1951, 3.2.4: aligned to a byte, the size, its complement, and the bytes as they are.
 void DeflateWriter::store(std::span<const std::uint8_t> bytes, bool last) {
   do {
     const std::span piece = bytes.first(std::min(bytes.size(), kStored));

@@ -7,24 +7,24 @@
 
 namespace careen {
 
-/// Compresses filtered pixels to DEFLATE (RFC 1951), quickly: Huffman codes made for each piece, and of
-/// repeats only runs of one byte. That is most of what is to be had after a filter; text would remain large.
-/// A piece that gets no smaller is stored: the whole is at most 5 bytes for each begun 65,535 of a piece
-/// larger.
+/// A fast DEFLATE compressor (RFC 1951) for filtered pixels: each piece has its own Huffman codes, and the
+/// only matches are runs of one byte. After a filter, this gets most of the possible compression; text would
+/// stay large. A piece that would not shrink is stored, so the output is at most 5 bytes per 65,535 input
+/// bytes (or part of them) larger.
 class DeflateWriter {
  public:
-  /// Appends to `out`, which must stay until the last piece.
+  /// Appends to `out`, which must live until the last piece is written.
   explicit DeflateWriter(std::string& out) : out_(&out) {}
 
-  /// The next piece; the last one ends the stream. Some 256 KiB each is best: codes fit what is there, and
-  /// pieces still fit a core's cache. Less than 2 GiB.
+  /// Writes the next piece; the last one ends the stream. About 256 KiB each is best: the codes fit the data,
+  /// and the piece still fits a core's cache. Less than 2 GiB.
   void write(std::span<const std::uint8_t> bytes, bool last);
 
  private:
   void store(std::span<const std::uint8_t> bytes, bool last);
 
   std::string* out_;
-  std::uint64_t pending_ = 0;  // bits of a byte not yet full, the first lowest
+  std::uint64_t pending_ = 0;  // bits of an incomplete byte, lowest first
   unsigned pendingBits_ = 0;   // less than 8
   std::vector<std::uint16_t> tokens_;
 };

@@ -39,7 +39,7 @@ Font::Font(Font&&) noexcept = default;
 Font& Font::operator=(Font&&) noexcept = default;
 
 double Font::capitalHeight(double size) const {
-  std::array<int, 4> box{};  // x and y of one corner, then of the other
+  std::array<int, 4> box{};  // x and y of the lower left, then of the upper right corner
   stbtt_GetCodepointBox(&parts_->info, 'H', box.data(), &box[1], &box[2], &box[3]);
   return static_cast<double>(box[3]) * static_cast<double>(parts_->scale(size));
 }

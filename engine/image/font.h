@@ -10,25 +10,25 @@
 
 namespace careen {
 
-/// One character as pixels: how much of each it covers, 0 … 255, rows from the top.
+/// The pixels of one character: how much of each pixel it covers, 0 … 255, rows from the top.
 struct Glyph {
   int width = 0;   ///< [px]
   int height = 0;  ///< [px]
-  int left = 0;    ///< [px] of the first column from the pen, rightward
-  int top = 0;     ///< [px] of the first row from the baseline, downward
+  int left = 0;    ///< [px] from the pen to the first column, rightward
+  int top = 0;     ///< [px] from the baseline to the first row, downward
   std::vector<std::uint8_t> coverage;
 };
 
-/// Where a character of a text stands.
+/// The position of a character in a text.
 struct PlacedGlyph {
   char32_t character = 0;
   double pen = 0;  ///< [px] from the start of the text
 };
 
-/// An outline font. Sizes are those of the em square [px].
+/// An outline font. Sizes are em sizes [px].
 class Font {
  public:
-  /// A TrueType file; MachineError if it cannot be read or is none.
+  /// Loads a TrueType file; MachineError if it cannot be read or is not one.
   explicit Font(const std::filesystem::path& path);
   ~Font();
   Font(const Font&) = delete;
@@ -36,13 +36,13 @@ class Font {
   Font(Font&&) noexcept;
   Font& operator=(Font&&) noexcept;
 
-  /// [px] of a capital letter.
+  /// Height of a capital letter [px].
   double capitalHeight(double size) const;
-  /// Characters with their pens, kerned; a last one, 0, tells where the text ends.
+  /// Characters and their pen positions, kerned; the last one is 0 and marks the end of the text.
   std::vector<PlacedGlyph> place(std::string_view utf8, double size) const;
-  /// [px] from the start to the end of a line of text.
+  /// Length of a line of text [px].
   double width(std::string_view utf8, double size) const;
-  /// `shift` [px], 0 … 1: how far right of a whole pixel the pen stands.
+  /// `shift` [px], 0 … 1: fraction of a pixel by which the pen is to the right.
   Glyph draw(char32_t character, double size, double shift) const;
 
  private:
@@ -53,11 +53,11 @@ class Font {
 inline constexpr const char* kPlainFont = "DejaVuSans.ttf";
 inline constexpr const char* kMonospacedFont = "DejaVuSansMono.ttf";
 
-/// Folders where distributions keep the fonts of DejaVu.
+/// Folders where Linux distributions install the DejaVu fonts.
 std::span<const std::filesystem::path> fontFolders();
 
-/// The font of that file name, "DejaVuSans.ttf", in the first folder that has it. MachineError names the
-/// package to install if none has.
+/// The font with that file name, such as "DejaVuSans.ttf", from the first folder that has it. If none has,
+/// MachineError names the package to install.
 Font findFont(const std::string& file, std::span<const std::filesystem::path> folders = fontFolders());
 
 }  // namespace careen

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kMostSymbols = 288;  // RFC 1951, 3.2.5
 constexpr std::size_t kMostBits = 15;      // RFC 1951, 3.2.7
 
-/// Of a symbol; in the order of counts.
+/// A symbol and its count; ordered by count.
 class Leaf {
  public:
   Leaf() = default;
@@ -24,9 +24,9 @@ class Leaf {
   std::uint64_t both_ = 0;
 };
 
-// How many leaves of the Huffman tree lie how deep, from leaves in the order of their counts: the two nodes
-// of the least counts become one, over and over. New nodes come in the order of their counts, so the least is
-// the first leaf left or the first node left. What lies deeper than `longest` is counted there.
+// Counts the leaves at each depth of the Huffman tree, from leaves sorted by count: repeatedly merge the two
+// nodes with the smallest counts. New nodes are created in order of count, so the smallest is either the
+// first remaining leaf or the first remaining node. Leaves deeper than `longest` are counted at `longest`.
 void countDepths(std::span<const Leaf> leaves, std::size_t longest, std::span<std::uint32_t> atDepth) {
   struct Node {
     std::uint64_t count;
@@ -59,8 +59,8 @@ void countDepths(std::span<const Leaf> leaves, std::size_t longest, std::span<st
   }
 }
 
-// Cut to `longest`, leaves may be more than a code has room for. One step makes room for one: a leaf of the
-// next shorter length there is moves down by one and takes one of the longest with it.
+// After clipping to `longest`, the leaves may exceed the room of a code. Each step frees one place: a leaf of
+// the next shorter length in use moves down by one and takes one of the longest with it.
 void makeRoom(std::size_t longest, std::span<std::uint32_t> atDepth) {
   std::size_t taken = 0;
   for (std::size_t depth = 1; depth <= longest; ++depth) {
@@ -77,7 +77,7 @@ void makeRoom(std::size_t longest, std::span<std::uint32_t> atDepth) {
   }
 }
 
-// Of 16 bits the last first: halves change places, then their halves.
+// Reverses 16 bits: swaps the halves, then the halves of these, and so on.
 std::uint32_t reversed(std::uint32_t bits) {
   bits = (bits & 0xffU) << 8U | bits >> 8U;
   bits = (bits & 0x0f0fU) << 4U | (bits & 0xf0f0U) >> 4U;
@@ -116,8 +116,8 @@ void findCodeLengths(std::span<const std::uint32_t> counts, int longest, std::sp
 }
 
 void findCodes(std::span<const std::uint8_t> lengths, std::span<std::uint16_t> codes) {
-  std::array<std::uint32_t, kMostBits + 2>
-      next{};  // next[n + 1] counts codes of n bits, then next[n] is a code
+  // At first next[n + 1] counts the codes of n bits, then next[n] is the next code of n bits.
+  std::array<std::uint32_t, kMostBits + 2> next{};
   for (const std::uint8_t length : lengths) {
     next[length + std::size_t{1}] += length == 0 ? 0 : 1;
   }

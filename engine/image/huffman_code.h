@@ -5,12 +5,12 @@
 
 namespace careen {
 
-/// Lengths [bit] of the prefix code that sends symbols of these counts in few bits: the least there are, but
-/// where a length had to be cut to `longest`. The code is complete: a single symbol gets company that is
-/// never sent, since readers refuse others. A symbol without a count gets 0. No more than 2^longest symbols.
+/// Code lengths [bit] of a prefix code for symbols with these counts: optimal, except where lengths had to be
+/// limited to `longest`. The code is complete: a single symbol is paired with an unused one, because decoders
+/// reject incomplete codes. A symbol with count 0 gets length 0. At most 2^longest symbols.
 void findCodeLengths(std::span<const std::uint32_t> counts, int longest, std::span<std::uint8_t> lengths);
 
-/// The codes of those lengths, RFC 1951, 3.2.2, first bit lowest, as the stream takes them.
+/// The codes for those lengths, RFC 1951, 3.2.2, in the order of the stream: first bit lowest.
 void findCodes(std::span<const std::uint8_t> lengths, std::span<std::uint16_t> codes);
 
 }  // namespace careen

@@ -7,12 +7,13 @@
 
 namespace careen {
 
-/// Averages pictures of one size as light, not as codes, by SrgbTables. Equal pictures give that picture.
+/// Averages pictures of one size in linear light with SrgbTables. The average of equal pictures is that
+/// picture.
 class LightAverage {
  public:
-  /// `weight` times; 256 in all, at most.
+  /// Adds a picture `weight` times; the weights add up to 256 at most.
   void add(const Picture& picture, int weight = 1);
-  /// Of what was added, which must be something.
+  /// The average of the added pictures, of which there must be at least one.
   Picture average() const;
 
  private:

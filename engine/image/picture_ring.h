@@ -6,11 +6,11 @@
 
 namespace careen {
 
-/// Room for the pixels of a few pictures that this process shares with those it forks: what one writes there
-/// the others read.
+/// A ring buffer for pictures in memory that this process shares with those it forks: all of them see what
+/// one of them writes.
 class PictureRing {
  public:
-  /// Pictures of so many bytes; MachineError if there is no memory for them.
+  /// `pictureBytes` is the size of one picture; MachineError if there is not enough memory.
   PictureRing(std::int64_t places, std::size_t pictureBytes);
   ~PictureRing();
   PictureRing(const PictureRing&) = delete;
@@ -19,7 +19,7 @@ class PictureRing {
   PictureRing& operator=(PictureRing&&) = delete;
 
   std::int64_t places() const { return places_; }
-  /// The place of picture `index`; it is that of picture index + places, too.
+  /// The slot of picture `index`; picture index + places uses the same slot.
   std::span<std::uint8_t> operator[](std::int64_t index) const;
 
  private:

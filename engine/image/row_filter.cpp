@@ -8,10 +8,10 @@ namespace {
 
 constexpr std::size_t kPixel = 3;  // [byte]
 
-// Left a, above b, above the left one c, as in the specification; with p = a + b - c the distances to compare
-// are pa = |p - a| = |b - c|, pb = |p - b| = |a - c| and pc = |p - c| = |(b - c) + (a - c)|. All is done in
-// bytes, so that many fit a register: where b - c and a - c have one sign, pc is only known to be no less
-// than either, which is all that is asked of it.
+// a is to the left, b above, c above a, as in the specification; with p = a + b - c the distances are pa = |p
+// - a| = |b - c|, pb = |p - b| = |a - c| and pc = |p - c| = |(b - c) + (a - c)|. All arithmetic is in bytes,
+// so that many fit a register: where b - c and a - c have the same sign, pc is only known to be no less than
+// either, which is sufficient.
 [[gnu::always_inline]] inline std::uint8_t paeth(std::uint8_t a, std::uint8_t b, std::uint8_t c) {
   const auto byte = [](int value) { return static_cast<std::uint8_t>(value); };
   const std::uint8_t bAbove = byte(std::max(b, c) - c);  // b - c if positive
@@ -27,12 +27,12 @@ constexpr std::size_t kPixel = 3;  // [byte]
   return std::min(pc, nearer) == nearer ? leftOrAbove : c;
 }
 
-// Compiled into each caller, for what that may use.
+// Inlined into each caller, so that it uses the caller's instruction set.
 [[gnu::always_inline]] inline void subtract(std::span<const std::uint8_t> row,
                                             std::span<const std::uint8_t> above,
                                             std::span<std::uint8_t> difference) {
   const std::size_t first = std::min(kPixel, row.size());
-  for (std::size_t i = 0; i < first; ++i) {  // nothing to the left: the prediction is what is above
+  for (std::size_t i = 0; i < first; ++i) {  // nothing to the left: the prediction is the byte above
     difference[i] = static_cast<std::uint8_t>(row[i] - above[i]);
   }
   for (std::size_t i = first; i < row.size(); ++i) {

@@ -5,8 +5,8 @@
 
 namespace careen {
 
-/// Light of sRGB values (IEC 61966-2-1) in 16 bits, 0 … 65535, and back to the nearest value: what averages
-/// of pixels are taken in.
+/// Conversion of sRGB values (IEC 61966-2-1) to linear light in 16 bits, 0 … 65535, and back to the nearest
+/// value. Averages of pixels are taken in linear light.
 class SrgbTables {
  public:
   static const SrgbTables& get();

@@ -24,8 +24,8 @@ constexpr std::array<std::string_view, 1> kWebpCodecs = {"webp"};
 constexpr std::array<std::string_view, 1> kGifCodecs = {"gif"};
 
 struct Container {
-  std::string_view muxer;                    // as ffmpeg calls it
-  std::span<const std::string_view> codecs;  // the usual one first
+  std::string_view muxer;                    // name in ffmpeg
+  std::span<const std::string_view> codecs;  // the default first
 };
 constexpr std::array<Container, kSuffixes.size()> kContainers = {{{"mp4", kVideoCodecs},
                                                                   {"matroska", kVideoCodecs},
@@ -33,7 +33,7 @@ constexpr std::array<Container, kSuffixes.size()> kContainers = {{{"mp4", kVideo
                                                                   {"webp", kWebpCodecs},
                                                                   {"gif", kGifCodecs}}};
 
-// Chroma is halved, so sizes are made even.
+// Chroma is subsampled, so width and height are made even.
 constexpr const char* kYuv =
     "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
 
@@ -70,7 +70,7 @@ Words encoderWords(const std::string& codec, VideoQuality quality) {
                           {"-c:v", "libx264", "-preset", "veryfast", "-crf", "18"},
                           {"-c:v", "libx264", "-preset", "slow", "-crf", "12"}});
   }
-  if (codec == "vp9") {  // a bit rate of 0: the quality alone counts
+  if (codec == "vp9") {  // bit rate 0: constant quality
     Words words = pick(quality, {Words{"-deadline", "realtime", "-cpu-used", "8", "-crf", "40"},
                                  {"-deadline", "good", "-cpu-used", "4", "-crf", "24"},
                                  {"-deadline", "good", "-cpu-used", "1", "-crf", "12"}});
@@ -92,8 +92,8 @@ Words encoderWords(const std::string& codec, VideoQuality quality) {
   return {"-c:v", "gif", "-loop", "0"};
 }
 
-// WebP turns RGB into its own YUV, which is no BT.709. Every frame of a GIF has a palette of its own: one for
-// all of them would keep all of them in memory.
+// WebP converts RGB to its own YUV, which is not BT.709. Every frame of a GIF has its own palette: a common
+// palette would keep all frames in memory.
 std::string filterOf(const std::string& codec, VideoQuality quality) {
   if (codec == "webp") {
     return "format=bgra";
@@ -113,7 +113,7 @@ VideoQuality videoQualityNamed(std::string_view name) {
 }
 
 void checkVideo(const VideoSettings& settings) {
-  // Its times are in hundredths of a second, and players take less than two of them for ten.
+  // GIF times are in hundredths of a second, and players replace delays below two of them by ten.
   if (codecOf(settings) == "gif" && settings.rateNumerator > 50 * settings.rateDenominator) {
     throw InputError(settings.path.string() + ": found " + std::to_string(settings.rateNumerator) + "/" +
                      std::to_string(settings.rateDenominator) +

@@ -8,14 +8,15 @@
 
 namespace careen {
 
-/// kDraft is quick to make and small, kBest takes its time.
+/// kDraft is fast and small, kBest is slow.
 enum class VideoQuality { kDraft, kGood, kBest };
 
 struct VideoSettings {
-  std::filesystem::path path;  ///< its suffix says what it becomes: .mp4, .mkv, .webm, .webp, .gif
-  std::string codec = {};      ///< h264, vp9 or av1; empty: what is usual for the suffix
+  std::filesystem::path path;  ///< its suffix selects the container: .mp4, .mkv, .webm, .webp, .gif
+  std::string codec = {};      ///< h264, vp9 or av1; empty: the default of the suffix
   VideoQuality quality = VideoQuality::kGood;
-  int width = 0;                    ///< [px] odd sizes get one more column or row of black where they must
+  int width = 0;                    ///< [px] odd sizes are padded by one black column or row where the format
+                                    ///< needs it
   int height = 0;                   ///< [px]
   std::int64_t rateNumerator = 30;  ///< frames per second, exactly: numerator / denominator
   std::int64_t rateDenominator = 1;
@@ -24,11 +25,12 @@ struct VideoSettings {
 /// "draft", "good", "best"; InputError for another.
 VideoQuality videoQualityNamed(std::string_view name);
 
-/// InputError, naming what can be made, for a suffix, codec or rate that cannot; size and rate must be set.
+/// InputError for an unsupported suffix, codec or rate; the message lists what is supported. Size and rate
+/// must be set.
 void checkVideo(const VideoSettings& settings);
 
-/// What makes ffmpeg read frames from its standard input, 8-bit RGB, and write the film to `output`. Films
-/// are BT.709 with the transfer of sRGB and say so. The same frames give the same bytes.
+/// The command with which ffmpeg reads frames from its standard input, 8-bit RGB, and writes the film to
+/// `output`. Films are tagged as BT.709 with the sRGB transfer function. The same frames give the same bytes.
 std::vector<std::string> ffmpegCommand(const VideoSettings& settings, const std::filesystem::path& output);
 
 }  // namespace careen

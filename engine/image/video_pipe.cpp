@@ -23,7 +23,7 @@
 namespace careen {
 namespace {
 
-// Left by a run that was killed outright: ".film.mp4.123.partial" where no process 123 lives any more.
+// Removes what a killed run left behind: ".film.mp4.123.partial" if there is no process 123.
 void removeStale(const std::filesystem::path& path) {
   const std::string start = "." + path.filename().string() + ".";
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
@@ -55,7 +55,7 @@ VideoPipe::VideoPipe(VideoSettings settings) : settings_(std::move(settings)) {
   removeStale(settings_.path);
   partial_ = settings_.path.parent_path() / ("." + settings_.path.filename().string() + "." +
                                              std::to_string(getpid()) + std::string(kPartialEnding));
-  // Said now rather than when the last frame is drawn.
+  // Fail now rather than after the last frame.
   const int probe = open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (probe < 0) {
     throw MachineError(settings_.path.string() + ": cannot be written: " + std::strerror(errno));
@@ -70,7 +70,7 @@ VideoPipe::VideoPipe(VideoSettings settings) : settings_(std::move(settings)) {
 }
 
 void VideoPipe::start() {
-  // A socket, not a pipe: send can be told not to raise SIGPIPE when ffmpeg is gone.
+  // A socket, not a pipe: send() can suppress SIGPIPE when ffmpeg has ended.
   std::array<int, 2> ends = {-1, -1};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     throw MachineError(std::string("no socket to ffmpeg: ") + std::strerror(errno));
@@ -81,7 +81,7 @@ void VideoPipe::start() {
   close(ends[1]);
   if (error != 0) {
     process_ = 0;
-    throw MachineError(settings_.path.string() + ": ffmpeg, which makes the video, cannot be started: " +
+    throw MachineError(settings_.path.string() + ": ffmpeg, which encodes the video, cannot be started: " +
                        std::strerror(error) + (error == ENOENT ? "; install it: apt install ffmpeg" : ""));
   }
 }
@@ -117,7 +117,7 @@ void VideoPipe::finish() {
   partial_.clear();
 }
 
-// Exit status, or that of a shell for one that died of a signal.
+// The exit status, or 128 + signal as in a shell.
 int VideoPipe::wait() {
   int status = 0;
   while (process_ != 0 && waitpid(process_, &status, 0) < 0 && errno == EINTR) {

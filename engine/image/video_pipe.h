@@ -10,19 +10,19 @@
 
 namespace careen {
 
-/// Hands frames to ffmpeg, which makes a film of them. The film appears at its path whole, with finish(), or
-/// not at all. MachineError if ffmpeg is missing or fails, with what it said.
+/// Sends frames to ffmpeg, which encodes the film. The film appears at its path as a whole with finish(), or
+/// not at all. MachineError if ffmpeg is missing or fails, with its messages.
 class VideoPipe {
  public:
   explicit VideoPipe(VideoSettings settings);
-  /// Without finish(): ffmpeg is ended and nothing stays.
+  /// Without finish(), it terminates ffmpeg and leaves no file.
   ~VideoPipe();
   VideoPipe(const VideoPipe&) = delete;
   VideoPipe& operator=(const VideoPipe&) = delete;
   VideoPipe(VideoPipe&&) = delete;
   VideoPipe& operator=(VideoPipe&&) = delete;
 
-  /// Hands over as many of these bytes as ffmpeg takes without waiting, and says how many. Pictures follow
+  /// Sends as many of these bytes as ffmpeg takes without waiting, and returns their number. Pictures follow
   /// each other without a gap: 8-bit RGB, rows from the top.
   std::size_t write(std::span<const std::uint8_t> bytes);
   /// For poll: writable when ffmpeg takes more.
@@ -38,8 +38,8 @@ class VideoPipe {
   VideoSettings settings_;
   std::filesystem::path partial_;
   int frames_ = -1;  // socket to ffmpeg's standard input
-  int log_ = -1;     // what ffmpeg says
-  int process_ = 0;  // 0: none at work
+  int log_ = -1;     // ffmpeg's messages
+  int process_ = 0;  // 0: not running
 };
 
 }  // namespace careen

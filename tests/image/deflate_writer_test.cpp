@@ -29,7 +29,7 @@ std::string compressed(const std::vector<Bytes>& pieces) {
   return out;
 }
 
-/// By libdeflate, which refuses what is incomplete and what follows the end.
+/// Decodes with libdeflate, which rejects truncated streams and trailing bytes.
 void expectLibdeflateReads(const std::string& stream, const Bytes& expected) {
   Bytes back(expected.size() + 1);
   std::size_t used = 0;
@@ -44,7 +44,7 @@ void expectLibdeflateReads(const std::string& stream, const Bytes& expected) {
   EXPECT_TRUE(back == expected);
 }
 
-/// stb wants the four bytes of a checksum after the end, or it stops before that.
+/// stb needs the four bytes of a checksum after the end; without them it stops earlier.
 void expectStbReads(std::string stream, const Bytes& expected) {
   stream.append(4, '\0');
   Bytes back(expected.size() + 1);
@@ -105,7 +105,7 @@ TEST(DeflateWriter, whatIsNoisyIsStoredAndGrowsByFiveBytesInSixtyFourThousand) {
   EXPECT_EQ(expectReadable({noise(200000, 1)}), 200000U + 20);
 }
 
-// Stored pieces begin at a whole byte wherever the one before has ended.
+// Stored pieces start at a whole byte wherever the previous one ended.
 TEST(DeflateWriter, piecesOfAllKindsFollowEachOther) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);
@@ -118,14 +118,14 @@ TEST(DeflateWriter, piecesOfAllKindsFollowEachOther) {
   }
 }
 
-// Of 16 values 15 get four bits and one five, because the end needs a code as well.
+// Of 16 values 15 get four bits and one gets five, because the end symbol needs a code as well.
 TEST(DeflateWriter, isAsSmallAsTheCodesAllow) {
   const std::size_t size = expectReadable({noise(100000, 4, 16)});
   EXPECT_GE(size, 50000U);
   EXPECT_LT(size, 50800U);  // measured 50780; 50000 and an eighth of the 6250 of one value are 50781
 }
 
-// Counts like Fibonacci's numbers: without a bound, codes would have 23 bits.
+// With Fibonacci numbers as counts, unlimited codes would have 23 bits.
 TEST(DeflateWriter, codesThatHadToBeCutAreReadBack) {
   Bytes bytes;
   std::size_t count = 1;

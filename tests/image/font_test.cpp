@@ -13,8 +13,8 @@
 namespace careen {
 namespace {
 
-// DejaVu's em square has 2048 units. Advances by its own table: H 1540, i 569, digits of the plain face 1303,
-// of the monospaced one all 1233.
+// DejaVu's em square has 2048 units. Advances from its own table: H 1540, i 569, digits of the plain face
+// 1303; all characters of the monospaced face 1233.
 constexpr double kEm = 2048;
 
 TEST(Font, widthIsTheSumOfAdvances) {
@@ -32,7 +32,7 @@ TEST(Font, widthGrowsWithTheSize) {
 
 TEST(Font, charactersBeyondAsciiHaveShapesOfTheirOwn) {
   const Font font = findFont(kPlainFont);
-  const Glyph unknown = font.draw(0xE000, 24, 0);  // for private use: the font has none
+  const Glyph unknown = font.draw(0xE000, 24, 0);  // private use area: the font has no such glyph
   for (const char32_t character : {U'é', U'ß', U'²', U'Ω', U'Ж', U'→'}) {
     const Glyph glyph = font.draw(character, 24, 0);
     EXPECT_NE(glyph.coverage, unknown.coverage) << static_cast<unsigned>(character);
@@ -40,7 +40,7 @@ TEST(Font, charactersBeyondAsciiHaveShapesOfTheirOwn) {
   }
 }
 
-// Moved by half a pixel it covers as much, elsewhere.
+// After a shift by half a pixel the glyph covers as much, at another place.
 TEST(Font, shiftMovesTheShape) {
   const Font font = findFont(kPlainFont);
   const Glyph here = font.draw(U'l', 20, 0);

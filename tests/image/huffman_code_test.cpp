@@ -18,7 +18,7 @@ std::vector<std::uint8_t> lengthsOf(const std::vector<std::uint32_t>& counts, in
   return lengths;
 }
 
-/// 1 for a complete code: every sequence of bits is one of codes.
+/// The Kraft sum: 1 for a complete code, in which every bit sequence decodes.
 double shareTaken(const std::vector<std::uint8_t>& lengths) {
   double taken = 0;
   for (const std::uint8_t length : lengths) {
@@ -35,7 +35,7 @@ std::uint64_t bitsSent(const std::vector<std::uint32_t>& counts, const std::vect
   return bits;
 }
 
-/// Huffman's theorem: the least there are is the sum of all nodes above the leaves.
+/// Huffman's theorem: the minimum is the sum of all nodes above the leaves.
 std::uint64_t leastBits(const std::vector<std::uint32_t>& counts) {
   std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>> nodes;
   for (const std::uint32_t count : counts) {
@@ -73,7 +73,7 @@ TEST(HuffmanCode, sendsInAsFewBitsAsThereCanBe) {
   }
 }
 
-// Counts that grow as Fibonacci's numbers make the deepest tree there is.
+// Fibonacci numbers as counts give the deepest possible tree.
 TEST(HuffmanCode, isCutToTheLongestLengthAndStaysComplete) {
   std::vector<std::uint32_t> counts = {1, 1};
   while (counts.size() < 40) {

@@ -41,7 +41,7 @@ TEST(LightAverage, ofEqualPicturesIsThatPicture) {
   }
 }
 
-// Half of white's light is code 188, not 128.
+// Half of the light of white is code 188, not 128.
 TEST(LightAverage, isOfLightNotOfCodes) {
   LightAverage average;
   average.add(gray({0, 255, 0}));
@@ -58,14 +58,15 @@ TEST(LightAverage, isTheNearestCode) {
     for (int i = 0; i < count; ++i) {
       std::vector<std::uint8_t> codes(kBytes);
       for (std::size_t k = 0; k < kBytes; ++k) {
-        codes[k] = static_cast<std::uint8_t>(random() % (k < kBytes / 2 ? 256 : 12));  // the dark too
+        codes[k] = static_cast<std::uint8_t>(random() % (k < kBytes / 2 ? 256 : 12));  // dark values, too
         sums[k] += light(codes[k]);
       }
       average.add(gray(codes));
     }
     const Picture picture = average.average();
     for (std::size_t k = 0; k < kBytes; ++k) {
-      EXPECT_NEAR(picture.rgb[k], codeOf(sums[k] / count), 0.5 + 0.06) << count;  // 16 bits, in the dark
+      EXPECT_NEAR(picture.rgb[k], codeOf(sums[k] / count), 0.5 + 0.06) << count;  // 16 bits resolve less in
+                                                                                  // the dark
     }
   }
 }

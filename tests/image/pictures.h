@@ -7,7 +7,7 @@
 
 namespace careen {
 
-/// Looks to a compressor like a drawn frame: smooth shades, tiles, and one grey level of grain.
+/// To a compressor this looks like a drawn frame: smooth shades, tiles, and one grey level of grain.
 inline Picture shadedTiles(int width, int height, unsigned seed = 1) {
   Picture picture{.width = width, .height = height, .rgb = {}};
   picture.rgb.reserve(picture.rowBytes() * static_cast<std::size_t>(height));
@@ -26,7 +26,7 @@ inline Picture shadedTiles(int width, int height, unsigned seed = 1) {
   return picture;
 }
 
-/// What no compressor makes smaller.
+/// Incompressible.
 inline Picture noise(int width, int height, unsigned seed) {
   Picture picture{.width = width, .height = height, .rgb = {}};
   std::uint32_t random = seed;

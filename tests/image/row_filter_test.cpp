@@ -11,7 +11,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// As the PNG specification has it, 9.4.
+/// As in the PNG specification, 9.4.
 int paethPredictor(int a, int b, int c) {
   const int p = a + b - c;
   const int pa = std::abs(p - a);

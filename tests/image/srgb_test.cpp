@@ -13,7 +13,7 @@ TEST(Srgb, comesBackToTheSameValue) {
   }
 }
 
-// IEC 61966-2-1 at a few points: half the light is code 188 (187.5), code 128 is 0.2159 of the light.
+// IEC 61966-2-1 at a few points: half of the light is code 188 (187.5), code 128 is 0.2159 of the light.
 TEST(Srgb, isThatOfTheStandard) {
   const SrgbTables& tables = SrgbTables::get();
   EXPECT_EQ(tables.linear(0), 0);

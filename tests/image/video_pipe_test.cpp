@@ -97,7 +97,7 @@ TEST(VideoPipe, everyKindOfFilmIsMadeAndTellsItsColours) {
   }
 }
 
-// The frames of an animated picture follow each other at the rate asked for, as far as its clock goes.
+// The frames of an animated picture have the requested rate, up to the resolution of its clock.
 TEST(VideoPipe, animatedPicturesAreMade) {
   const TemporaryFolder folder;
   for (const char* quality : {"draft", "good", "best"}) {
@@ -112,7 +112,7 @@ TEST(VideoPipe, animatedPicturesAreMade) {
     settings.path = folder / "film.webp";
     VideoPipe pipe(settings);
     for (unsigned frame = 0; frame < 5; ++frame) {
-      write(pipe, noise(65, 49, frame));  // frames too much alike would become one
+      write(pipe, noise(65, 49, frame));  // frames that are too similar would be merged
     }
     pipe.finish();
     const std::string bytes = textOf(folder / "film.webp");
@@ -132,7 +132,7 @@ TEST(VideoPipe, oddSizesAreMadeEven) {
   EXPECT_EQ(probe(folder, "width,height"), "34,18\n");
 }
 
-// The picture of one colour, there and back.
+// A picture of one colour, encoded and decoded.
 TEST(VideoPipe, keepsColours) {
   const TemporaryFolder folder;
   Picture green{.width = 64, .height = 64, .rgb = {}};
@@ -176,7 +176,7 @@ TEST(VideoPipe, missingFfmpegIsNamedWithWhatToInstall) {
   EXPECT_TRUE(folder.files().empty());
 }
 
-// An ffmpeg that reads a little, complains and ends: writing to it must be an error, not a SIGPIPE.
+// An ffmpeg that reads a little, complains and ends: writing to it must raise an error, not SIGPIPE.
 TEST(VideoPipe, tellsWhatFfmpegSaidWhenItFails) {
   const TemporaryFolder folder;
   folder.write("ffmpeg", "#!/bin/sh\nhead -c 1000 >/dev/null\necho 'the disk is full' >&2\nexit 1\n");
@@ -210,7 +210,7 @@ TEST(VideoPipe, givenUpLeavesNothingAndKeepsTheOldFilm) {
 
 TEST(VideoPipe, removesWhatAKilledRunLeft) {
   const TemporaryFolder folder;
-  const int dead = 999999999;  // above the largest process number
+  const int dead = 999999999;  // above the largest process ID
   folder.write(".film.mp4." + std::to_string(dead) + ".partial", "half");
   folder.write(".film.mp4.1.partial", "of a process that lives");
   folder.write(".film.mp4.mine.partial", "not ours");
