@@ -1,5 +1,5 @@
 #version 330 core
-// In place of light.frag where no light shines: what comes from all around.
+// Replaces light.frag in a look without a light source: ambient light only.
 
 #include "frame.glsl"
 

@@ -1,5 +1,5 @@
 #version 330 core
-// One triangle that covers the picture, behind everything.
+// One triangle that covers the picture, behind everything else.
 
 out float height;  // 0 at the bottom, 1 at the top
 

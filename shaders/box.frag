@@ -1,5 +1,5 @@
 #version 330 core
-// A box's face: a rounded panel in a darker frame, and the pips of a die, so that tumbling can be followed.
+// A box's face: a rounded panel in a darker frame, and the pips of a die, so that rotation is visible.
 
 #include "frame.glsl"
 
@@ -21,7 +21,7 @@ vec4 finished(vec3 color, float alpha);
 const vec3 kIvory = vec3(0.86, 0.82, 0.72);
 const vec3 kInk = vec3(0.05, 0.05, 0.06);
 
-// How much of the pixel lies within, from the signed distance to the edge [m] (negative inside).
+// Coverage of the pixel, from the signed distance to the edge [m] (negative inside).
 float covered(float distance) {
   float perPixel = length(vec2(dFdx(distance), dFdy(distance)));
   return clamp(0.5 - distance / max(perPixel, 1e-9), 0.0, 1.0);
@@ -40,7 +40,7 @@ float pipDistance(vec2 p, float spacing, float radius) {
   return nearest - radius;
 }
 
-// Of the face's four edges the one that is fewest pixels away.
+// Alpha for the edge of the face that is the fewest pixels away.
 float nearestEdge() {
   vec2 right = dFdx(onFace);
   vec2 up = dFdy(onFace);
@@ -66,7 +66,7 @@ void main() {
     albedo = mix(0.42 * albedo, albedo, covered(panel));
     albedo = mix(albedo, isLight ? kInk : kIvory, covered(pip));
 
-    // Edges catch the light as if they were worn round.
+    // Edges reflect light as if worn round.
     vec2 worn = clamp(1.0 - (halfFace - abs(onFace)) / (0.07 * unit), 0.0, 1.0) * sign(onFace);
     normal = normalize(normal + 0.7 * (worn.x * faceAcross + worn.y * faceAlong));
   }

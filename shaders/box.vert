@@ -13,7 +13,7 @@ layout(location = 6) in vec3 halfExtents;
 layout(location = 7) in vec4 color;  // alpha 1: with marks on the faces
 
 out vec3 offset;
-out vec2 onFace;            // [m] from the middle of the face
+out vec2 onFace;            // [m] from the centre of the face
 flat out vec2 halfFace;     // [m]
 flat out vec3 faceNormal;
 flat out vec3 faceAcross;   // directions of onFace

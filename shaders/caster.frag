@@ -1,4 +1,4 @@
 #version 330 core
-// Depth is all there is to write.
+// Only depth is written.
 
 void main() {}

@@ -1,5 +1,5 @@
 #version 330 core
-// Boxes as the light sees them.
+// Boxes as seen from the light.
 
 #include "frame.glsl"
 

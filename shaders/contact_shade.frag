@@ -1,11 +1,11 @@
 #version 330 core
-// What is left of the light: multiplied with what is there.
+// The fraction of light that remains; it is multiplied with the picture.
 
 in vec2 at;
 flat in float most;
 out vec4 result;
 
-const float kRim = 0.0111;  // exp(-9/2): the spot ends where its rectangle does
+const float kRim = 0.0111;  // exp(-9/2): the value at the rectangle's edge
 
 void main() {
   float dark = max(exp(-0.5 * dot(at, at)) - kRim, 0.0);

@@ -1,5 +1,5 @@
 #version 330 core
-// A soft spot on a surface: a rectangle large enough to hold it.
+// A soft spot on a surface: a rectangle large enough to contain it.
 
 #include "frame.glsl"
 

@@ -1,12 +1,12 @@
 #version 330 core
-// The last that happens to a colour: the tone curve, dither, and word of the nearest edge.
+// The last stage of a colour: tone curve, dither, and the nearest edge encoded in alpha.
 
 #include "frame.glsl"
 
-const float kSteps = 63.0;  // of the way to the next pixel; see edge_blend.h
+const float kSteps = 63.0;  // of the distance to the next pixel; see edge_blend.h
 
-// Khronos PBR Neutral: colours stay as they are up to where the shoulder begins, brighter ones are pressed
-// together below 1 and lose saturation.
+// Khronos PBR Neutral: colours are unchanged up to the start of the shoulder; brighter ones are compressed
+// below 1 and lose saturation.
 vec3 toned(vec3 color) {
   float start = finish.x;
   float peak = max(color.r, max(color.g, color.b));
@@ -17,9 +17,9 @@ vec3 toned(vec3 color) {
   return mix(vec3(pressed), color * (pressed / peak), faded);
 }
 
-// Half a step of 8 bits either way, so that a slow gradient has no bands: of each four rows one rounds at each
-// quarter of a step. Pixels side by side still round alike, so that a PNG is a third of what noise makes it. A
-// step of sRGB is about 2 sqrt(c) / 255 of linear light.
+// Dithers by half an 8-bit step either way against banding: each of four rows rounds at another quarter of a
+// step. Neighbouring pixels in a row round alike, so that a PNG is a third of what noise makes it. A step of
+// sRGB is about 2 sqrt(c) / 255 of linear light.
 vec3 dithered(vec3 color) {
   float row = mod(floor(gl_FragCoord.y), 4.0);
   float threshold = (mod(2.0 * row, 4.0) + floor(0.5 * row) + 0.5) / 4.0;  // 0, 2, 1, 3: neighbours far apart
@@ -27,8 +27,8 @@ vec3 dithered(vec3 color) {
   return color + finish.z * (threshold - 0.5) * stepped;
 }
 
-// Alpha that says where an edge crosses: `inside` is how far within it the pixel is, in any unit, and `slope`
-// how that grows from pixel to pixel, to the right and up.
+// Alpha that encodes where an edge crosses: `inside` is the pixel's distance inside the edge, in any unit,
+// and `slope` is how that grows from pixel to pixel, to the right and up.
 float edgeAlpha(float inside, vec2 slope) {
   vec2 steep = abs(slope);
   bool level = steep.x > steep.y;  // the edge lies to the right or left

@@ -1,12 +1,12 @@
 #version 330 core
-// Light that reaches the eye from a point of a surface, for every shader that draws one.
+// Light reflected to the eye from a point of a surface, for every shader that draws one.
 
 #include "frame.glsl"
 
 float lightArriving(vec3 offset, float facing);
 
-// Cook and Torrance's specular term as Walter et al. (2007) shape it, GGX, with the visibility of Smith in
-// Karis's approximation. Fresnel by Schlick, 0.04 at right angles: paint, stone.
+// Cook and Torrance's specular term with the GGX distribution of Walter et al. (2007) and Smith visibility in
+// Karis's approximation. Fresnel by Schlick, 0.04 at normal incidence: paint, stone.
 float glossy(float roughness, vec3 normal, vec3 toEye, float facing) {
   vec3 between = normalize(toEye + towardsLight.xyz);
   float a2 = roughness * roughness * roughness * roughness;
@@ -16,7 +16,7 @@ float glossy(float roughness, vec3 normal, vec3 toEye, float facing) {
   float k = 0.5 * roughness * roughness;
   float visible = 0.25 / ((nv * (1.0 - k) + k) * (facing * (1.0 - k) + k));
   float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(toEye, between), 0.0), 5.0);
-  return a2 / (spread * spread) * visible * fresnel;  // times pi, as lightColor is divided by it
+  return a2 / (spread * spread) * visible * fresnel;  // times pi, because lightColor is divided by it
 }
 
 vec3 lit(vec3 albedo, float roughness, vec3 normal, vec3 offset) {

@@ -1,4 +1,4 @@
 #version 330 core
-// In place of shadow.frag where nothing casts shadows.
+// Replaces shadow.frag where nothing casts shadows.
 
 float lightArriving(vec3 offset, float facing) { return 1.0; }

@@ -1,5 +1,5 @@
 #version 330 core
-// How much of a pixel a shape covers, from the signed distance of the pixel's middle to its edge [px].
+// Coverage of a pixel by a shape, from the signed distance of the pixel's centre to its edge [px].
 
 in vec2 at;
 in vec4 ink;
@@ -19,7 +19,7 @@ const float kHeadSlope = 0.38;  // half an arrow head's width over its length
 
 float covered(float distance) { return clamp(0.5 - distance, 0.0, 1.0); }
 
-// where: from, to; shape: half the width, length of the head, width of the rim.
+// where: from, to; shape: half width, length of the arrow head, width of the rim.
 float strokeDistance() {
   vec2 line = where.zw - where.xy;
   float size = length(line);
@@ -43,7 +43,7 @@ vec4 stroke() {
   return vec4(ink.rgb, 1.0) * body + vec4(kRim.rgb, 1.0) * rim * (1.0 - covered(distance));
 }
 
-// where: two corners; shape: radius of its corners, distance of its stripes.
+// where: two corners; shape: corner radius, stripe spacing.
 vec4 plate() {
   vec2 middle = 0.5 * (where.xy + where.zw);
   vec2 beyond = abs(at - middle) - (0.5 * (where.zw - where.xy) - shape.x);
@@ -56,7 +56,7 @@ vec4 plate() {
   return vec4(ink.rgb, 1.0) * alpha;
 }
 
-// where.xy: from a pixel of the picture to that of the atlas.
+// where.xy: offset from a pixel of the picture to a pixel of the atlas.
 vec4 glyph() {
   float coverage = texelFetch(atlas, ivec2(floor(at)) + ivec2(where.xy), 0).r;
   return vec4(ink.rgb, 1.0) * coverage * ink.a;

@@ -1,5 +1,5 @@
 #version 330 core
-// What is drawn over the picture, in pixels from its upper left corner.
+// Overlay shapes, in pixels from the upper left corner of the picture.
 
 layout(location = 0) in vec2 position;
 layout(location = 1) in vec4 color;   // sRGB

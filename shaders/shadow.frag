@@ -1,16 +1,16 @@
 #version 330 core
-// How much of the light arrives: 3 x 3 filtered comparisons with the shadow map.
+// Fraction of the light that arrives: 3 x 3 filtered comparisons with the shadow map.
 
 #include "frame.glsl"
 
 uniform sampler2DShadow shadowMap;
 
-const float kSpread = 1.6 / 2048.0;  // between comparisons: each is a blend of 2 x 2 texels already
+const float kSpread = 1.6 / 2048.0;  // between comparisons: each blends 2 x 2 texels already
 
-// A loop, because llvmpipe leaves one early where no pixel of a block needs it; it runs both sides of an if.
+// A loop, because llvmpipe exits a loop early if no pixel of a block needs it, but runs both sides of an if.
 float lightArriving(vec3 offset, float facing) {
   vec3 at = (shadowFromOffset * vec4(offset, 1.0)).xyz;
-  at.z = min(at.z, 1.0);  // beyond the map's reach nothing is hidden
+  at.z = min(at.z, 1.0);  // nothing beyond the map's range is in shadow
   bool needed = facing > 0.0 && all(greaterThan(at.xy, shadowBounds.xy)) && all(lessThan(at.xy, shadowBounds.zw));
   int taps = needed ? 9 : 0;
   float sum = needed ? 0.0 : 9.0;

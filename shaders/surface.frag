@@ -1,5 +1,6 @@
 #version 330 core
-// Tiles, or paint with a skirting board, both averaged over the pixel: no shimmer however far away.
+// Tiles, or paint with a skirting board, both averaged over the pixel, which prevents shimmer at any
+// distance.
 
 #include "frame.glsl"
 
@@ -21,9 +22,9 @@ const float kSkirted = 1.0;
 const float kTiles = 2.0;
 const float kJoint = 0.02;      // width of the joint between tiles
 const float kSkirting = 0.22;   // height of the skirting board
-const float kRim = 0.05;        // width of the line where a surface ends
+const float kRim = 0.05;        // width of the line at the border of a surface
 
-// Integral from 0 to x of a comb that is 1 within half a joint of every whole number.
+// Integral from 0 to x of a comb that is 1 within half a joint of every integer.
 vec2 combIntegral(vec2 x) {
   vec2 shifted = x + 0.5 * kJoint;
   return floor(shifted) * kJoint + min(fract(shifted), kJoint);
@@ -50,7 +51,7 @@ vec3 skirted(vec3 base) {
   return base * mix(mix(1.0, 0.62, board), 0.4, lip);
 }
 
-// A dark line where a surface ends in the open, so that a wall stands out from what is behind it.
+// A dark line along a free border of a surface, so that a wall stands out from its background.
 float rim() {
   if (size.x <= 0.0) return 0.0;  // no rectangle, no edges known
   vec2 width = max(fwidth(onSurface), 1e-5);
@@ -59,7 +60,7 @@ float rim() {
   return max(max(line.x, line.y), max(line.z, line.w));
 }
 
-// Corners of a room get less of the light from all around.
+// Ambient occlusion: corners of a room receive less ambient light.
 float openness() {
   vec4 inward = vec4(onSurface.x, size.x - onSurface.x, onSurface.y, size.y - onSurface.y);
   vec4 shade = 1.0 - 0.30 * edges * exp(-1.6 * max(inward, 0.0));

@@ -1,5 +1,5 @@
 #version 330 core
-// Floor and walls. Lengths on a surface are counted in tiles.
+// Floor and walls. Lengths on a surface are in tiles.
 
 #include "frame.glsl"
 
@@ -7,7 +7,7 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 place;    // coordinates on the surface, then the surface's size
 layout(location = 3) in vec4 adjoins;  // 1 where another surface meets this one: left, right, below, above
-layout(location = 4) in vec4 color;    // alpha: covering
+layout(location = 4) in vec4 color;    // alpha: pattern
 layout(location = 5) in float fromRim;  // distance to the outline
 
 out vec3 offset;
