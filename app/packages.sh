@@ -1,9 +1,9 @@
-# Shared by app/demo and tests/run: what the project is built with on Debian 12, and how it gets there. Sourced.
+# Sourced by app/demo and tests/run: the packages that the build needs on Debian 12, and functions to install and build.
 
 kBuildPackages=(g++ cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libcli11-dev libdeflate-dev
   libstb-dev libosmesa6 libgl-dev libegl-dev libglfw3-dev fonts-dejavu-core)
 
-# Installs those of the packages named that are missing; says so first. Asks nothing of the network if none is.
+# Installs those of the named packages that are missing, after listing them. It needs no network if none is missing.
 install_missing() {
   local package missing=() as_root=()
   for package in "$@"; do
@@ -14,7 +14,7 @@ install_missing() {
   echo "About to install these Debian packages: ${missing[*]}"
   if [ "$(id -u)" -ne 0 ]; then
     command -v sudo >/dev/null || {
-      echo "Neither root nor sudo: install them yourself, then run this again." >&2
+      echo "This user is not root, and sudo is not installed: install the packages, then run this again." >&2
       exit 3
     }
     as_root=(sudo)
