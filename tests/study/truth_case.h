@@ -10,7 +10,7 @@
 
 namespace careen::study {
 
-/// How the truth of one hard case is had.
+/// How the truth of one hard case is computed.
 struct TruthCase {
   using Boxes = std::vector<oracle::QuadPoses>;  // of the movable boxes, in the scene's order
   using Oracle = std::function<Boxes(const oracle::QuadScene&, std::span<const double>)>;
@@ -24,7 +24,7 @@ struct TruthCase {
   Oracle oracle = {};
 };
 
-/// Those in which boxes stay in contact: they slide, rock, tip or stand.
+/// The cases with persistent contact: sliding, rocking, tipping or standing boxes.
 std::vector<TruthCase> contactCases();
 
 }  // namespace careen::study

@@ -21,18 +21,17 @@ using Oracle = TruthCase::Oracle;
 
 constexpr const char* kTaylor = "quadruple precision: Taylor series of Euler's equations, order 30";
 constexpr const char* kTaylorWide =
-    "quadruple precision and beyond, 192 bits: Taylor series of Euler's equations, order 48";
+    "quadruple precision extended to 192 bits: Taylor series of Euler's equations, order 48";
 constexpr const char* kRoom =
-    "quadruple precision: Taylor series of Euler's equations between impacts, one impulse at the corner that "
-    "touches";
+    "quadruple precision: Taylor series of Euler's equations between impacts, one impulse at the corner in "
+    "contact";
 constexpr const char* kPlanar =
-    "quadruple precision: plane motion in elementary functions between impacts, one impulse at each edge "
-    "that "
-    "touches";
-constexpr const char* kKept = "closed form: the total energy is kept";
+    "quadruple precision: planar motion in elementary functions between impacts, one impulse at each edge in "
+    "contact";
+constexpr const char* kKept = "closed form: the total energy is conserved";
 
 Boxes flies(const QuadScene& scene, Moments times) { return {oracle::flown(scene, times)}; }
-// Where a motion multiplies roundings until they would show in a double.
+// For motions that amplify rounding errors until they would be visible in a double.
 Boxes fliesWide(const QuadScene& scene, Moments times) { return {oracle::flown<Bits192, 48>(scene, times)}; }
 Boxes drops(const QuadScene& scene, Moments times) { return {dropped(scene, times)}; }
 
@@ -47,7 +46,7 @@ Oracle strikesFloor(double step, int impacts) {
   };
 }
 
-// The cube's corner strikes the middle of the plate's front, which is as good as a wall there.
+// The cube's corner strikes the centre of the plate's front face, which acts like a wall there.
 Boxes strikesPlate(const QuadScene& scene, Moments times) {
   const oracle::QuadBox& plate = scene.boxes.at(1);
   QuadScene front = scene;
@@ -65,24 +64,24 @@ Boxes unfolds(const QuadScene& scene, Moments times) {
 }
 
 TruthCase nearSeparatrix(const std::string& offset) {
-  return {.name = "separatrix-" + offset,
-          .title = "Book beside the separatrix, " + offset + " rad/s",
-          .whyHard = "So near the separatrix, " + offset +
-                     " rad/s beside the middle axis, that the book seems to spin steadily before it turns "
-                     "over; when it does depends on the logarithm of that little.",
-          .source = kTaylorWide,
-          .oracle = fliesWide};
+  return {
+      .name = "separatrix-" + offset,
+      .title = "Book beside the separatrix, " + offset + " rad/s",
+      .whyHard = "At " + offset +
+                 " rad/s from the middle axis, the book is so close to the separatrix that it seems to spin "
+                 "steadily before it flips; the time of the flip depends on the logarithm of that offset.",
+      .source = kTaylorWide,
+      .oracle = fliesWide};
 }
 
 TruthCase nearSimultaneous(const std::string& tilt) {
-  return {
-      .name = "near-simultaneous-" + tilt,
-      .title = "Cube tilted by " + tilt + " rad lands on two edges",
-      .whyHard = "Tilted by " + tilt +
-                 " rad the cube lands on one edge and at nearly the same moment on the other: taken one "
-                 "after the other, as they come, the two impacts set it spinning; taken as one they do not.",
-      .source = kPlanar,
-      .oracle = strikesFloor(1.0 / 512, 2)};
+  return {.name = "near-simultaneous-" + tilt,
+          .title = "Cube tilted by " + tilt + " rad lands on two edges",
+          .whyHard = "Tilted by " + tilt +
+                     " rad, the cube lands on one edge and almost simultaneously on the other: resolving the "
+                     "two impacts one after the other leaves it spinning; resolving them as one does not.",
+          .source = kPlanar,
+          .oracle = strikesFloor(1.0 / 512, 2)};
 }
 
 std::vector<TruthCase> casesOfFlight() {
@@ -90,13 +89,13 @@ std::vector<TruthCase> casesOfFlight() {
       {.name = "tumble-generic",
        .title = "Generic tumble",
        .whyHard = "Three different moments of inertia and a spin about none of the axes: the attitude "
-                  "follows elliptic functions, and stepwise turning drifts.",
+                  "follows elliptic functions, and stepwise rotation drifts.",
        .source = kTaylor,
        .oracle = flies},
       {.name = "tumble-middle-axis",
        .title = "Tumbling about the middle axis",
-       .whyHard = "Spin about the middle axis is unstable: a small disturbance grows until the box "
-                  "turns over, again and again, and every error grows with it.",
+       .whyHard = "Spin about the middle axis is unstable: a small disturbance grows until the box flips, "
+                  "again and again, and every error grows with it.",
        .source = kTaylorWide,
        .oracle = fliesWide},
       nearSeparatrix("1e-3"),
@@ -104,96 +103,96 @@ std::vector<TruthCase> casesOfFlight() {
       nearSeparatrix("1e-9"),
       {.name = "needle",
        .title = "Needle, 1 : 10⁻⁴ : 10⁻⁴",
-       .whyHard = "One moment of inertia is fifty million times smaller than the others: the least "
-                  "error of angular momentum across the needle is a great error of its spin.",
+       .whyHard = "One moment of inertia is fifty million times smaller than the others: a small error of "
+                  "the angular momentum across the needle is a large error of its spin.",
        .source = kTaylor,
        .oracle = flies},
       {.name = "plate",
        .title = "Plate, 1 : 1 : 10⁻⁴",
-       .whyHard = "Two half sizes are ten thousand times the third: the moments of inertia are those of"
-                  " a disc, one just the sum of the others, and differences of them lose digits.",
+       .whyHard = "Two half extents are ten thousand times the third: one moment of inertia is nearly the "
+                  "sum of the other two, as for a disc, and their differences lose digits.",
        .source = kTaylor,
        .oracle = flies},
       {.name = "fast-spin",
        .title = "Ten thousand radians per second",
-       .whyHard = "Ten thousand radians in a second: every relative error of the rate of turning comes "
-                  "out ten thousand times larger in the attitude.",
+       .whyHard = "Ten thousand radians in a second: every relative error of the angular velocity is ten "
+                  "thousand times larger in the attitude.",
        .source = kTaylor,
        .oracle = flies},
       {.name = "free-fall",
        .title = "Tumbling in free fall",
-       .whyHard = "Falling 490 m while it tumbles: first-order steps misplace it by half g t dt, and no"
-                  " wall hides it.",
+       .whyHard = "The box falls 490 m while it tumbles: a first-order method is off by half g t dt, and no "
+                  "wall hides that.",
        .source = "quadruple precision: parabola, and Taylor series of Euler's equations, order 30",
        .oracle = flies},
       {.name = "bounce-1000",
        .title = "A thousand bounces",
-       .whyHard = "A thousand bounces that lose nothing: errors of the times of impact and of the "
-                  "speeds add up, and a step that gains energy throws the cube ever higher.",
+       .whyHard = "A thousand elastic bounces: errors in the times of impact and in the speeds accumulate, "
+                  "and a time step that gains energy makes the cube bounce ever higher.",
        .source = "closed form: parabolas of equal height",
        .samples = 16,
        .oracle = drops},
       {.name = "zeno-half",
        .title = "Infinitely many bounces, e = 0.5",
-       .whyHard = "Infinitely many bounces in 1.34 s, each with half of the speed of the last, and rest"
-                  " from then on.",
+       .whyHard = "Chattering: infinitely many bounces in 1.34 s, each with half the speed of the previous "
+                  "one, then rest.",
        .source = "closed form: parabolas of geometric height, at rest after sqrt(2h/g) (1+e)/(1-e)",
        .samples = 16,
        .oracle = drops},
       {.name = "zeno-nine",
        .title = "Infinitely many bounces, e = 0.9",
-       .whyHard = "Infinitely many bounces in 8.5 s, each with nine tenths of the speed of the last: "
-                  "more and more of them in each step.",
+       .whyHard = "Chattering: infinitely many bounces in 8.5 s, each with nine tenths of the speed of the "
+                  "previous one: more and more of them in each time step.",
        .source = "closed form: parabolas of geometric height, at rest after sqrt(2h/g) (1+e)/(1-e)",
        .samples = 16,
        .oracle = drops},
       {.name = "corner-impact",
        .title = "Impact on a corner",
-       .whyHard = "A tumbling box strikes a wall on one corner: where, how fast and with what spin it "
-                  "leaves all hang on the attitude at that moment.",
+       .whyHard = "A tumbling box strikes a wall with one corner: its position, velocity and spin afterwards "
+                  "all depend on the attitude at that moment.",
        .source = kRoom,
        .oracle = strikes(1.0 / 512, 1)},
       {.name = "landing-flat",
        .title = "Landing on a face",
-       .whyHard = "Four corners land at one moment: treated one after the other they leave the cube "
-                  "spinning.",
+       .whyHard =
+           "Four corners land simultaneously: resolving them one after the other leaves the cube spinning.",
        .source = "closed form: parabolas of geometric height",
        .samples = 16,
        .oracle = drops},
       {.name = "landing-edge",
        .title = "Landing on an edge",
-       .whyHard = "Two corners of an edge land at one moment: the box must go on turning about that "
-                  "edge's direction and no other.",
+       .whyHard = "Two corners of an edge land simultaneously: afterwards the box must rotate about that "
+                  "edge's direction only.",
        .source = kPlanar,
        .oracle = strikesFloor(1.0 / 512, 2)},
       {.name = "landing-room-corner",
        .title = "Into the corner of three walls",
-       .whyHard = "Twelve contacts with three walls at one moment, none of them independent of the "
-                  "others, and the cube must come straight back.",
+       .whyHard = "Twelve simultaneous contacts with three walls depend on each other, and the cube must "
+                  "come straight back.",
        .source = "closed form: comes straight back",
        .oracle = comesBack},
       {.name = "grazing-hit",
        .title = "Grazes the floor, 1 micrometre deep",
-       .whyHard = "An edge of a turning box dips a micrometre into the floor's plane, for less than a "
-                  "millisecond: who steps over it misses the impact.",
+       .whyHard = "An edge of a rotating box dips a micrometre below the floor's plane, for less than a "
+                  "millisecond: a time step that skips it misses the impact.",
        .source = kPlanar,
        .oracle = strikesFloor(1.0 / 8192, 1)},
       {.name = "grazing-miss",
        .title = "Misses the floor by 1 micrometre",
-       .whyHard = "The edges of a turning box stay a micrometre above the floor, time after time: a "
-                  "margin of contact makes an impact of it.",
+       .whyHard = "The edges of a rotating box stay a micrometre above the floor, again and again: a contact "
+                  "margin turns that into an impact.",
        .source = kPlanar,
        .oracle = strikesFloor(1.0 / 8192, 0)},
       {.name = "grazing-hit-tumbling",
        .title = "Tumbles, and grazes the floor, 1 micrometre deep",
-       .whyHard = "A corner of a box that tumbles about all its axes dips a micrometre into the floor's"
-                  " plane, once, after four other close calls: who steps over it misses the impact.",
+       .whyHard = "A corner of a box that tumbles about all its axes dips a micrometre below the floor's "
+                  "plane, once, after four other near misses: a time step that skips it misses the impact.",
        .source = kRoom,
        .oracle = strikes(1.0 / 8192, 1)},
       {.name = "grazing-miss-tumbling",
        .title = "Tumbles, and misses the floor by 1 micrometre",
-       .whyHard = "A corner of a box that tumbles about all its axes stays a micrometre above the "
-                  "floor: a margin of contact makes an impact of it.",
+       .whyHard = "A corner of a box that tumbles about all its axes stays a micrometre above the floor: a "
+                  "contact margin turns that into an impact.",
        .source = kRoom,
        .oracle = strikes(1.0 / 8192, 0)},
       nearSimultaneous("1e-3"),
@@ -202,15 +201,15 @@ std::vector<TruthCase> casesOfFlight() {
       nearSimultaneous("1e-12"),
       {.name = "thin-wall",
        .title = "Shot at a thin plate",
-       .whyHard = "At 400 m/s the cube moves 1.7 m in a step of 1/240 s, 167 times the thickness of the"
-                  " plate that it strikes head on with a corner: who looks only at the end of a step "
-                  "finds it behind.",
-       .source = "closed form: comes straight back, but for the rounding of the start's attitude, which is "
-                 "followed in quadruple precision",
+       .whyHard = "At 400 m/s the cube moves 1.7 m in a time step of 1/240 s, 167 times the thickness of the "
+                  "plate that it strikes head on with a corner: a method that checks only the end of a time "
+                  "step finds it behind the plate (tunnelling).",
+       .source = "closed form: comes straight back, except for the rounding of the initial attitude, which "
+                 "is followed in quadruple precision",
        .oracle = strikesPlate},
       {.name = "room-million",
        .title = "A million impacts in a room",
-       .whyHard = "A million impacts that lose nothing: what each adds to the energy adds up.",
+       .whyHard = "A million elastic impacts: the energy errors of all of them accumulate.",
        .source = kKept,
        .measure = "energy"},
       {.name = "room-minute",
@@ -221,28 +220,28 @@ std::vector<TruthCase> casesOfFlight() {
        .samples = 60},
       {.name = "reversal",
        .title = "There and back again",
-       .whyHard = "Run backwards the box must find its way through the same impacts to where it began; "
-                  "each of them multiplies errors by about five.",
+       .whyHard = "Run backwards, the box must return through the same impacts to its start; each impact "
+                  "multiplies errors by about five.",
        .source = "closed form: the motion run backwards",
        .measure = "reversal"},
       {.name = "galperin",
        .title = "314 impacts, the digits of π",
-       .whyHard = "314 impacts, the closest an eighth of a millisecond apart, between a wall, a light "
-                  "box and one ten thousand times heavier: one that is missed or taken twice sends the "
-                  "light box elsewhere.",
+       .whyHard =
+           "314 impacts, the closest an eighth of a millisecond apart, between a wall, a light box and one "
+           "ten thousand times heavier: if one is missed or counted twice, the light box ends up elsewhere.",
        .source = "closed form: the billiard unfolded (G. Galperin 2003)",
        .samples = 16,
        .oracle = unfolds},
       {.name = "millimetre",
        .title = "Impact on a corner, in millimetres",
-       .whyHard = "The corner impact a thousand times smaller: margins and slops meant for metres are "
-                  "larger than the box.",
+       .whyHard = "The corner impact a thousand times smaller: contact margins and penetration slops meant "
+                  "for metres are larger than the box.",
        .source = kRoom,
        .oracle = strikes(1.0 / 16384, 1)},
       {.name = "kilometre",
        .title = "Impact on a corner, in kilometres",
-       .whyHard = "The corner impact a thousand times larger: positions lose digits to metres, and "
-                  "limits on speed or size set in.",
+       .whyHard = "The corner impact a thousand times larger: positions in metres lose digits, and limits on "
+                  "speed or size take effect.",
        .source = kRoom,
        .oracle = strikes(1.0 / 16, 1)},
       {.name = "far-away",
@@ -253,9 +252,8 @@ std::vector<TruthCase> casesOfFlight() {
        .oracle = strikes(1.0 / 512, 1)},
       {.name = "scaled",
        .title = "Impact on a corner, lengths times 4, times times 2",
-       .whyHard = "The corner impact with lengths four times and times twice as large, in the same "
-                  "gravity: any absolute tolerance hidden in a method shows, for all else scales to the"
-                  " bit.",
+       .whyHard = "The corner impact with lengths four times and times twice as large, in the same gravity: "
+                  "any hidden absolute tolerance shows, because everything else scales to the bit.",
        .source = "closed form: the other run, scaled by powers of two",
        .measure = "scaled"},
   };
@@ -281,7 +279,7 @@ const TruthCase& caseNamed(const std::string& name) {
   throw std::invalid_argument("no case " + name);
 }
 
-// Rounded, with the sign that makes equal attitudes equal numbers.
+// Rounded to doubles, with the sign that gives equal attitudes equal numbers.
 TruthBox rounded(const std::string& name, const QuadPoses& poses) {
   TruthBox box;
   box.name = name;

@@ -10,14 +10,14 @@
 
 namespace careen::study {
 
-/// One movable box of a case, where it is at each of the case's moments, rounded from quadruple precision.
+/// One movable box of a case: its poses at the times of the case, rounded from quadruple precision.
 struct TruthBox {
   std::string name;
   std::vector<std::array<double, 3>> positions;     // [m]
-  std::vector<std::array<double, 4>> orientations;  // w x y z, the first that is not 0 positive
+  std::vector<std::array<double, 4>> orientations;  // w x y z, first nonzero component positive
 };
 
-/// What a file of assets/truths holds.
+/// The content of a file in assets/truths.
 struct Truth {
   std::string name;
   std::string title;
@@ -34,10 +34,10 @@ struct Truth {
 std::vector<std::string> truthNames();
 std::filesystem::path scenePath(const std::string& name);
 std::filesystem::path truthPath(const std::string& name);
-/// The moments at which a case is looked at: k · duration / n.
+/// The times at which a case is evaluated: k · duration / n.
 std::vector<double> timesOf(const std::string& name, const oracle::QuadScene& scene);
 
-/// Computed from the case's scene file by the oracles, from nothing of the engine.
+/// Computed from the case's scene file by the oracles, without any code of the engine.
 Truth computeTruth(const std::string& name);
 /// The text of its file.
 std::string toText(const Truth& truth);

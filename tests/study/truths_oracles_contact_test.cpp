@@ -1,5 +1,5 @@
-// Truths of contact, each had in two ways that share nothing, and that what they take for granted holds: no
-// corner lifts, nothing slips that is not to.
+// Truths of contact: each is computed in two independent ways, and their assumptions hold: no corner lifts
+// off, and nothing slips that should stick.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,8 +25,8 @@ using oracle::QuadVector;
 
 QuadScene sceneOf(const std::string& name) { return oracle::sceneIn(scenePath(name)); }
 
-// Prints and returns how far two figures are apart.
-double told(const std::string& what, const Quad& one, const Quad& other) {
+// Prints and returns the difference of two figures.
+double printedDifference(const std::string& what, const Quad& one, const Quad& other) {
   const auto by = static_cast<double>(abs(Quad(one - other)));
   std::cout << what << ": " << static_cast<double>(one) << ", two oracles apart by " << by << '\n';
   return by;
@@ -51,7 +51,7 @@ QuadPoses slidAndSpun(const QuadScene& scene, const QuadBox& box, const std::vec
   return poses;
 }
 
-// Measured 5e-30 m: SlidingSpin comes to its stop exponentially.
+// Measured 5e-30 m: SlidingSpin approaches its stop exponentially.
 TEST(TruthsOfContact, ofSlidingAtEveryAzimuthStopAfterTheSquareOfTheSpeed) {
   const QuadScene scene = sceneOf("sliding-azimuths");
   const std::vector<double> times = timesOf("sliding-azimuths", scene);
@@ -63,7 +63,7 @@ TEST(TruthsOfContact, ofSlidingAtEveryAzimuthStopAfterTheSquareOfTheSpeed) {
     const Quad squared = box.velocity.squaredNorm();
     EXPECT_LT(abs(Quad(slide.way(Quad(1)) - squared / (2 * slows))), Quad(1e-30));
     EXPECT_LT(slide.stop(), Quad(scene.duration));
-    if (k % 5 == 1) {  // some, for the sake of time
+    if (k % 5 == 1) {  // only some, to save time
       worst = std::max(worst, furthest(slide.poses(times), slidAndSpun(scene, box, times)));
     }
   }
@@ -78,7 +78,7 @@ TEST(TruthsOfContact, ofSpinningFlatEndAtTheAngleOfTheClosedForm) {
   const Quad friction = frictionOf(box, scene.walls.at(0));
   const oracle::QuadSpin spin(box, -scene.gravity[2], friction);
   oracle::SlidingSpin other(box, -scene.gravity[2], friction);
-  EXPECT_LT(told("spinning-stop: stops at", spin.stop(), other.stop()), 1e-25);
+  EXPECT_LT(printedDifference("spinning-stop: stops at", spin.stop(), other.stop()), 1e-25);
   EXPECT_LT(spin.stop(), Quad(scene.duration));
   const double worst = furthest(spin.poses(times), slidAndSpun(scene, box, times));
   std::cout << "spinning-stop: two oracles apart by " << worst << '\n';
@@ -104,8 +104,8 @@ TEST(TruthsOfContact, ofSlidingAndSpinningAgreeWithCollocation) {
           std::max(worst, apart(poses[k], {QuadVector(x, y, box.position[2]), oracle::turnAbout(up, angle)}));
     }
     std::cout << box.name << ": two oracles apart by " << worst << '\n';
-    EXPECT_LT(worst, 1e-19);                                              // measured 3e-21
-    EXPECT_LT(told(box.name + ": stops at", stop, other.time()), 1e-21);  // measured 2.5e-23
+    EXPECT_LT(worst, 1e-19);                                                           // measured 3e-21
+    EXPECT_LT(printedDifference(box.name + ": stops at", stop, other.time()), 1e-21);  // measured 2.5e-23
   }
 }
 
@@ -134,7 +134,7 @@ Quad timeByEnergy(const Quad& a, const Quad& b, const Quad& from, const Quad& to
   const auto rate = [&](const Quad& u) -> Quad {
     const Quad way = u * u;
     const Quad middle = from + sign * way / 2;
-    // sin(way/2)/(way/2), whose series serves where the quotient does not.
+    // sin(way/2)/(way/2), by its series where the quotient loses digits.
     const Quad x = way / 2;
     const Quad sinc = x > Quad(1e-8) ? Quad(sin(x) / x) : Quad(1 - x * x / 6 + x * x * x * x / 120);
     return 2 / sqrt(2 * sign * sinc * (a * cos(middle) - b * sin(middle)));
@@ -149,21 +149,22 @@ TEST(TruthsOfContact, ofTheRockingBlockStrikeWhenTheEnergySaysSo) {
   EXPECT_LT(impacts.back(), Quad(scene.duration));
   const Quad a = -block.squareRate() * sin(block.slenderness());
   const Quad b = -block.squareRate() * cos(block.slenderness());
-  // From each top; the next lies where a square of the ratio is left of the energy.
+  // The swing starts at each extreme tilt; at the next one the energy is the squared ratio times the previous
+  // energy.
   Quad top = block.startTilt();
   Quad time = timeByEnergy(a, b, top, Quad(0));
   for (std::size_t k = 0; k < impacts.size(); ++k) {
-    EXPECT_LT(told("rocking-block: impact at", impacts[k], time), 1e-28);
+    EXPECT_LT(printedDifference("rocking-block: impact at", impacts[k], time), 1e-28);
     const Quad height = cos(block.slenderness() - top) - cos(block.slenderness());
     top = block.slenderness() - acos(cos(block.slenderness()) + block.ratio() * block.ratio() * height);
     time += 2 * timeByEnergy(a, b, top, Quad(0));
   }
-  // The pose of the start is that of the file.
+  // The initial pose is that of the file.
   const QuadPoses poses = block.poses(std::vector<double>{0});
   EXPECT_LT(apart(poses[0], {scene.boxes[0].position, scene.boxes[0].attitude}), 1e-16);
 }
 
-// Friction 1 does for the impacts, whose impulse leans by (h/b)(1 − r)/(1 + r), and for the swings.
+// Friction of 1 suffices for the impacts, whose impulse leans by (h/b)(1 − r)/(1 + r), and for the swings.
 TEST(TruthsOfContact, ofTheRockingBlockDoNotSlip) {
   const QuadScene scene = sceneOf("rocking-block");
   const QuadBox& box = scene.boxes.at(0);
@@ -174,7 +175,7 @@ TEST(TruthsOfContact, ofTheRockingBlockDoNotSlip) {
   const Quad reach = sqrt(box.halfExtents[0] * box.halfExtents[0] + box.halfExtents[2] * box.halfExtents[2]);
   double steepest = 0;
   while (swing.angle() > 0) {
-    // The centre goes along the circle: arm (−sin γ, cos γ), γ = α − θ.
+    // The centre moves on a circle: arm (−sin γ, cos γ), γ = α − θ.
     const Quad lean = block.slenderness() - swing.angle();
     const Quad turning = -block.squareRate() * sin(lean);
     const Quad square = swing.rate() * swing.rate();
@@ -221,14 +222,14 @@ TEST_P(TruthsOfTipping, agreeWithTheEnergy) {
   for (const double part : {0.125, 0.5, 1.0}) {
     const Quad angle = part * end.angle();
     const Quad time = pivot.fromRest().advanceTo(angle);
-    EXPECT_LT(told(std::string(GetParam()) + ": there at", time,
-                   timeByEnergy(pivot.a(), pivot.b(), Quad(0), angle)),
+    EXPECT_LT(printedDifference(std::string(GetParam()) + ": there at", time,
+                                timeByEnergy(pivot.a(), pivot.b(), Quad(0), angle)),
               1e-28);
   }
 }
 
-// On the slope the force keeps to the slope's cone, over the table's edge to that of the box's face; 0.9 of
-// friction 1.
+// On the slope the force stays within the slope's friction cone, over the table's edge within that of the
+// box's face; 0.9 of friction 1.
 TEST_P(TruthsOfTipping, doNotSlip) {
   const auto [pivot, box, duration] = tippingOf(GetParam());
   const bool onSlope = box.name == "tips";
@@ -248,7 +249,7 @@ TEST_P(TruthsOfTipping, doNotSlip) {
   EXPECT_LT(steepest, 0.9);
 }
 
-// μ = 0.577 and 0.578 either side of tan 30°, and so are widths over heights.
+// μ = 0.577 and 0.578 are either side of tan 30°, and so are the ratios of width to height.
 TEST(TruthsOfContact, ofTheThresholdsLieOnTheirSides) {
   const QuadScene scene = sceneOf("tip-or-slide");
   const Quad slope = scene.walls.at(0).normal[0] / scene.walls.at(0).normal[2];
@@ -261,7 +262,7 @@ TEST(TruthsOfContact, ofTheThresholdsLieOnTheirSides) {
   EXPECT_LT(shape(2), slope);
   EXPECT_GT(shape(3), slope);
   for (const std::size_t box : {0U, 1U}) {
-    EXPECT_GT(shape(box), friction(box));  // what slides does not tip
+    EXPECT_GT(shape(box), friction(box));  // a sliding box does not tip
   }
   EXPECT_GT(oracle::QuadSlide(scene.boxes.at(0), scene.gravity, scene.walls.at(0)).way(Quad(1)), Quad(1e-4));
 }
@@ -283,8 +284,8 @@ TEST(TruthsOfContact, ofStacksStandAndCarryTheWeightsAbove) {
   }
 }
 
-// Pair by pair, equal cubes swap velocities until none approaches.
-TEST(TruthsOfContact, ofTheRowAgreeWithBlowsOfPairs) {
+// Equal cubes exchange velocities in pairs until none approaches another.
+TEST(TruthsOfContact, ofTheRowAgreeWithPairwiseImpacts) {
   const QuadScene scene = sceneOf("row-of-boxes");
   std::vector<Quad> velocities;
   for (const QuadBox& box : scene.boxes) {

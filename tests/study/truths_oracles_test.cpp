@@ -1,4 +1,4 @@
-// Where a truth can be had in two ways that share nothing, they must agree far beyond a double.
+// Truths that can be computed in two independent ways must agree to far more digits than a double has.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,8 +60,8 @@ std::string tumbleName(const testing::TestParamInfo<Tumble>& info) {
   return name;
 }
 
-// The middle axis multiplies roundings, which is why its truths are wide: Quads on both sides agree to 3e-12
-// only beside the separatrix.
+// Rotation about the middle axis amplifies rounding errors, so its truths use more bits: Quads on both sides
+// agree only to 3e-12 beside the separatrix.
 INSTANTIATE_TEST_SUITE_P(All, TruthsOfTumbling,
                          testing::Values(Tumble{"tumble-generic", 1e-25},               // measured 3.3e-33
                                          Tumble{"tumble-middle-axis", 1e-25, 1, true},  // measured 4.5e-35
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(All, TruthsOfTumbling,
                                          Tumble{"fast-spin", 1e-25, 0.02}),             // measured 1.5e-31
                          tumbleName);
 
-// Half sizes that are equal make a symmetric top; extrapolation cannot follow a needle.
+// Equal half extents give a symmetric top; extrapolation cannot follow a needle.
 TEST(TruthsOfTumblingTops, agreeWithTheClosedFormOfTheSymmetricTop) {
   for (const char* name : {"needle", "plate"}) {
     const QuadScene scene = oracle::sceneIn(scenePath(name));
@@ -95,7 +95,7 @@ QuadPoses onFloor(const char* name, double step, int impacts) {
   return struck(oracle::PlanarBox(scene, step), timesOf(name, scene), impacts);
 }
 
-// The room follows the turning by its Taylor series and knows nothing of planes.
+// The room oracle integrates the rotation by its Taylor series and does not assume planar motion.
 TEST(TruthsOfImpacts, onEdgesInARoomAndInAPlaneAgree) {
   EXPECT_LT(roomAgainst("landing-edge", 1.0 / 512, 2, onFloor("landing-edge", 1.0 / 512, 2)), 1e-25);
   EXPECT_LT(
@@ -113,7 +113,7 @@ TEST(TruthsOfImpacts, onAFaceInARoomAndInClosedFormAgree) {
   EXPECT_LT(roomAgainst("landing-flat", 1.0 / 512, 2, dropped(scene, timesOf("landing-flat", scene))), 1e-25);
 }
 
-// But for the attitude, which 17 digits give to 1e-16 rad, there and back the same way.
+// Except for the attitude, which 17 digits give to 1e-16 rad, the way there equals the way back.
 TEST(TruthsOfImpacts, onThePlateIsHeadOnButForTheRoundingOfTheStart) {
   const Truth truth = computeTruth("thin-wall");
   const QuadScene scene = oracle::sceneIn(scenePath("thin-wall"));
@@ -143,8 +143,8 @@ TEST(TruthsOfImpacts, inTheBilliardUnfoldedAndOneByOneAgree) {
   }
 }
 
-// Two impacts however little the tilt: their limit is not the impact on the whole face, which does not turn
-// it.
+// There are two impacts however small the tilt: their limit differs from the impact of the whole face, which
+// does not rotate the cube.
 TEST(TruthsOfImpacts, onTwoEdgesHaveALimitThatTurnsTheCube) {
   const QuadPoses one = onFloor("near-simultaneous-1e-9", 1.0 / 512, 2);
   const QuadPoses other = onFloor("near-simultaneous-1e-12", 1.0 / 512, 2);

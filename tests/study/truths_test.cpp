@@ -1,4 +1,4 @@
-// The files of assets/truths against their computation, and the oracles against each other.
+// Compares the files of assets/truths with their computation, and the oracles with each other.
 #include "study/truths.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-// The same double, or its neighbor: rounding from quadruple precision may meet a tie.
+// The same double, or its neighbour: rounding from quadruple precision may meet a tie.
 void expectSame(double file, double computed, const std::string& where) {
   const double one = std::nextafter(std::fabs(computed), 1e308) - std::fabs(computed);
   EXPECT_LE(std::fabs(file - computed), one) << where;
@@ -97,7 +97,7 @@ TEST(Truths, everyHardSceneHasOneAndNoOtherHas) {
   EXPECT_EQ(namesIn(truthPath("x").parent_path()), names);
 }
 
-// Words of the comments before the scene's first brace.
+// The words of the comments before the scene's first brace.
 std::string commentOf(const std::string& scene) {
   std::istringstream text(scene.substr(0, scene.find("\n{")));
   std::string comment;
@@ -165,7 +165,7 @@ TEST(Truths, sayWhereEveryMovableBoxIsAndNoOther) {
   }
 }
 
-// The scaled scene is the other one in other units, to the bit.
+// The scaled scene is the other scene in other units, to the bit.
 TEST(Truths, theScaledSceneIsTheOtherInUnitsThatArePowersOfTwo) {
   const json truth = oracle::jsonIn(truthPath("scaled"));
   EXPECT_EQ(truth.at("of"), "hard/corner-impact.json");

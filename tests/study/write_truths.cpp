@@ -1,4 +1,4 @@
-// Writes the truths of the hard cases, computed anew: careen_truths DIR, one file per case.
+// Recomputes the truths of the hard cases and writes them: careen_truths DIR, one file per case.
 #include <exception>
 #include <filesystem>
 #include <fstream>
