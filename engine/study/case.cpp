@@ -33,7 +33,7 @@ std::filesystem::path scenePath(const std::string& relative) {
   return findResource(std::filesystem::path("assets/scenes") / relative);
 }
 
-// What exact models, so that every contestant is given all of the scene.
+// The whole scene, as exact models it, so that every contestant gets all of it.
 World worldOf(Scene scene) {
   scene.method = Method::kExact;
   return assemble(scene, plan(scene));
@@ -136,7 +136,7 @@ Case caseOfScene(const std::filesystem::path& scene, const std::stop_token& stop
   const Trajectory run = record(study.world, {.method = Method::kExact, .duration = study.scene.duration},
                                 study.scene.text, stop);
   const std::optional<ErrorEstimate> estimate = estimateError(study.world, run, stop);
-  // What is a rounding for exact is more for others, and grows as fast: they part earlier.
+  // One rounding error for exact is a larger error for others, and grows as fast: their runs diverge earlier.
   const double until = estimate ? estimate->until * (estimate->horizon ? 0.5 : 1) : 0;
   if (until <= 0) {
     throw InputError(scene.string() + ": chaos takes over before anything can be compared");

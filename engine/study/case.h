@@ -11,13 +11,13 @@
 
 namespace careen {
 
-/// What a case asks of a contestant.
+/// The quantity that a case measures.
 enum class Measure {
-  kPoses,     ///< to be where the truth says, at every moment of it
-  kEnergy,    ///< to keep its energy
-  kReversal,  ///< to come back when all velocities are turned round at the end
-  kScaled,    ///< to do the same as in another scene with other units of length and time
-  kOverlap,   ///< to keep boxes out of each other and out of walls
+  kPoses,     ///< poses against the truth at every time of it
+  kEnergy,    ///< conservation of energy
+  kReversal,  ///< return to the start after all velocities are reversed at the end
+  kScaled,    ///< the same motion as in another scene with other units of length and time
+  kOverlap,   ///< penetration of boxes and walls
 };
 
 /// A scene whose truth is known.
@@ -29,26 +29,27 @@ struct Case {
   Measure measure = Measure::kPoses;
   Scene scene;
   World world;
-  std::vector<double> times;             ///< [s] moments that count; the last is the end
-  std::vector<std::vector<Pose>> poses;  ///< [moment][body] for kPoses; of what cannot move, its own
+  std::vector<double> times;             ///< [s] times that count; the last is the end
+  std::vector<std::vector<Pose>> poses;  ///< [time][body] for kPoses; a fixed body has its own pose
   double uncertainty = 0;                ///< [1] of the poses, as Judgement::error; 0: that of a double
-  // For kScaled: the world this one is a scaled copy of, and the units of this one in those of that.
+  // For kScaled: the world of which this one is a scaled copy, and the units of this one in those of that
+  // one.
   World original;
   double lengths = 1;
   double durations = 1;
 
   double duration() const { return times.back(); }
-  /// [s] that a contestant simulates for its answer.
+  /// [s] simulated time that an answer needs.
   double simulated() const;
 };
 
 /// Names of all cases that come with the program, in the order of the study.
 std::vector<std::string> caseNames();
 
-/// One of them. InputError names the file and what is wrong with it.
+/// Reads one of them. InputError names the file and the fault.
 Case readCase(const std::string& name);
 
-/// A case out of any scene: what method exact says, up to half the horizon of its own error estimate.
+/// A case made from any scene: its truth is method exact, up to half the horizon of its own error estimate.
 /// InputError if exact cannot run it.
 Case caseOfScene(const std::filesystem::path& scene, const std::stop_token& stop);
 

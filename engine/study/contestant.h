@@ -11,24 +11,24 @@
 
 namespace careen {
 
-/// Whatever can move a world: one of careen's own methods, or another engine behind an adapter.
+/// Anything that can move a world: one of careen's own methods, or another engine behind an adapter.
 class Contestant {
  public:
   virtual ~Contestant() = default;
 
   /// One word, as tables and the command line spell it: "exact", "bullet", "bullet-best".
   virtual std::string name() const = 0;
-  /// Its settings in words, for the reader who wants to repeat it.
+  /// Its settings as text, for readers who want to reproduce a result.
   virtual std::string settings() const = 0;
-  /// Whether it moves step by step, so that its error depends on dt. The others are asked for a tolerance.
+  /// Whether its error depends on a fixed time step dt. The others take a tolerance.
   virtual bool steps() const = 0;
-  /// Why it cannot be asked to move this world; empty if it can.
+  /// Why it cannot move this world; empty if it can.
   virtual std::string refuses(const World& world) const = 0;
 
-  /// Where every body is at each of the moments: result[moment][body], bodies in the world's order. `times`
-  /// [s] ascend from 0 or later. `fineness` is a dt [s]: between two of the moments (and from 0 to the first)
-  /// it takes equal steps no longer than that; or, of who takes no steps, a tolerance [m]. Throws an Error if
-  /// it cannot go on, Interrupted if asked to stop.
+  /// The state of every body at each of the times: result[time][body], bodies in the world's order. `times`
+  /// [s] ascend from 0 or later. `fineness` is a dt [s], and between two of the times (and from 0 to the
+  /// first) all time steps are equal and no longer than that; or a tolerance [m] for contestants without a
+  /// fixed time step. Throws an Error if it cannot continue, Interrupted if stopped.
   virtual std::vector<std::vector<BodyState>> run(const World& world, double fineness,
                                                   std::span<const double> times,
                                                   const std::stop_token& stop) const = 0;

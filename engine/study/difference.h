@@ -8,10 +8,10 @@
 
 namespace careen {
 
-/// How far two sets of states of the same world lie apart: the worst of its bodies that can move.
+/// Distance of two sets of states of the same world: the largest of its movable bodies.
 PoseDifference differenceOf(const World& world, std::span<const BodyState> a, std::span<const BodyState> b);
 
-/// Bodies at these poses, still.
+/// Bodies at these poses, at rest.
 std::vector<BodyState> withPoses(std::span<const Pose> poses);
 
 }  // namespace careen

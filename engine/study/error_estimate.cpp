@@ -28,7 +28,7 @@ std::vector<BodyState> statesAt(const Trajectory& run, double time) {
   return states;
 }
 
-/// What method exact steps, in contact, it steps with so much less of the tolerance.
+/// Where method exact takes time steps, in contact, the second run uses a tolerance smaller by this factor.
 constexpr double kFiner = 10;
 
 }  // namespace

@@ -8,25 +8,25 @@
 
 namespace careen {
 
-/// How wrong a run is, told by running it again a little otherwise: with half the step where the method takes
-/// steps, else from a start one rounding away and with a tenth of the tolerance, for then rounding and the
-/// steps of contact are all there is to be wrong by.
+/// An error estimate from a second, slightly different run: with half the time step for a method with a fixed
+/// time step, else from a start one rounding away and with a tenth of the tolerance, because rounding and the
+/// time steps of contact are then the only errors.
 struct ErrorEstimate {
-  std::string by;                 ///< what was done otherwise, in words
+  std::string by;                 ///< the difference of the second run, as text
   double position = 0;            ///< [m] largest over all bodies, up to `until`
   double angle = 0;               ///< [rad] likewise
-  double until = 0;               ///< [s] end of the run, or of what can be known of it
-  std::optional<double> horizon;  ///< [s] from here on the two runs have nothing to do with each other
+  double until = 0;               ///< [s] end of the run, or of the part that can be estimated
+  std::optional<double> horizon;  ///< [s] from here on the two runs are unrelated
 };
 
-/// Moments at which the two runs are compared, evenly spread.
+/// Number of times, evenly spread, at which the two runs are compared.
 inline constexpr int kEstimateSamples = 256;
-/// What it costs, in runs.
+/// The cost of the estimate, in runs.
 double estimateCost(Method method);
 
-/// Estimates the error of `run`, which is `world` moved by run.settings. Where a method of order p takes
-/// steps, the difference to half the step is taken times 2^p/(2^p−1) (Richardson). std::nullopt if the
-/// repeated run cannot be finished though the first could.
+/// Estimates the error of `run`, which is `world` moved with run.settings. For a method of order p with a
+/// fixed time step, the difference to half the step is multiplied by 2^p/(2^p−1) (Richardson). std::nullopt
+/// if the second run fails although the first did not.
 std::optional<ErrorEstimate> estimateError(const World& world, const Trajectory& run,
                                            const std::stop_token& stop = {});
 

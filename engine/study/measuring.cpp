@@ -69,7 +69,7 @@ double energyChange(const World& world, const std::vector<BodyState>& states) {
   return (energyOf(world, states).total() - start.total()) / start.kinetic;
 }
 
-// Half diagonals of the smaller one of two bodies.
+// The deepest penetration, in half diagonals of the smaller of the two bodies.
 double deepestOverlap(const World& world, const std::vector<BodyState>& states) {
   std::vector<PlacedBox> boxes;
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -90,7 +90,7 @@ double deepestOverlap(const World& world, const std::vector<BodyState>& states) 
   return worst;
 }
 
-// One attempt's place among all, and what is known of how long it takes.
+// The index of an attempt and what is known of its run time.
 struct Timed {
   std::size_t attempt = 0;
   const Contestant* contestant = nullptr;
@@ -122,7 +122,7 @@ bool isSame(const Answer& x, const Answer& y) {
   return same(x.states, y.states) && same(x.second, y.second);
 }
 
-// Errors, and a first idea of the time.
+// Measures the error and a first estimate of the run time.
 double attempt(const Case& study, const Contestant& contestant, const Effort& effort,
                const std::stop_token& stop, Attempt& result, Answer& answer) {
   const double allowed = (contestant.steps() ? 1 : kRunsWithoutSteps) * effort.longestRun;
@@ -300,7 +300,7 @@ std::vector<Attempt> attemptAll(const Case& study, const Contestants& contestant
                          .seconds = seconds,
                          .samples = {}});
       }
-      // A table needs the usual step of everything; the rest as long as it is quickly done.
+      // A table needs the usual time step of everything, the others only while they are fast.
       if (seconds > effort.longestRun && !attempts.back().failure.empty()) {
         attempts.back().dt = std::min(dt, usual);
         break;

@@ -14,7 +14,7 @@
 namespace careen {
 namespace {
 
-// From red (no digit right) over white to blue (all right), as in the plot of the matrix.
+// From red (no correct digit) over white to blue (all correct), as in the plot of the matrix.
 std::string colourOf(double digits) {
   using Rgb = std::array<double, 3>;
   constexpr Rgb kNone = {178, 24, 43};
@@ -88,7 +88,7 @@ std::string attemptsOf(const CaseResult& result) {
   return table.str();
 }
 
-// The part of an SVG file that a page can hold.
+// The part of an SVG file that can be embedded in a page.
 std::string withoutProlog(const std::string& svg) {
   std::string result;
   for (std::size_t at = svg.find("<svg"); at != std::string::npos; at = svg.find("<svg", at)) {

@@ -18,7 +18,7 @@ std::vector<std::vector<BodyState>> Peer::run(const World& world, double dt, std
   std::vector<std::vector<BodyState>> states;
   double now = 0;
   for (const double time : times) {
-    // The factor keeps an interval of n steps, but for its rounding, from being cut into n + 1.
+    // The factor prevents rounding from splitting an interval of n steps into n + 1.
     const auto count = static_cast<std::int64_t>(std::ceil((time - now) / dt * (1 - 1e-12)));
     for (std::int64_t k = 0; k < count; ++k) {
       if (stop.stop_requested()) {

@@ -4,11 +4,11 @@
 
 namespace careen {
 
-/// Another engine, which moves a world step by step. An adapter says how its engine is fed, stepped and read;
-/// the rest is here. Engines know walls, boxes, gravity, restitution and friction.
+/// Another engine, which moves a world by time steps. An adapter defines how the engine is set up, stepped
+/// and read; this class does the rest. Engines model walls, boxes, gravity, restitution and friction.
 class Peer : public Contestant {
  public:
-  /// An engine fed with a world.
+  /// An engine that holds a copy of a world.
   class Engine {
    public:
     Engine() = default;
@@ -16,9 +16,9 @@ class Peer : public Contestant {
     Engine& operator=(const Engine&) = delete;
     virtual ~Engine() = default;
 
-    /// One step of h > 0 [s].
+    /// Takes one time step of h > 0 [s].
     virtual void step(double h) = 0;
-    /// Of a body that can move, by its place in the world.
+    /// State of a movable body, by its index in the world.
     virtual BodyState state(std::size_t body) const = 0;
   };
 
@@ -28,7 +28,7 @@ class Peer : public Contestant {
                                           const std::stop_token& stop) const override;
 
  protected:
-  /// `world` outlives the engine.
+  /// Sets up an engine; `world` outlives it.
   virtual std::unique_ptr<Engine> feed(const World& world) const = 0;
 };
 

@@ -29,8 +29,8 @@ Pose fromBullet(const btTransform& transform) {
   return pose;
 }
 
-// Gives touching pairs the restitution and friction they have in careen, after they are found and before the
-// solver asks. Bullet's own ways, its callbacks, hold for the whole process.
+// Gives pairs in contact the restitution and friction that they have in careen, after detection and before
+// the solver reads them. Bullet's own way, its callbacks, is global to the process.
 class BulletWorld : public btDiscreteDynamicsWorld {
  public:
   using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
@@ -56,7 +56,8 @@ class BulletWorld : public btDiscreteDynamicsWorld {
   }
 };
 
-// Everything is left as Bullet ships it but what a world says: its gravity, sizes, masses, places, speeds.
+// All settings stay as Bullet ships them, except what a world defines: its gravity, sizes, masses, poses,
+// velocities.
 class BulletEngine : public Peer::Engine {
  public:
   explicit BulletEngine(const World& world) {
@@ -72,12 +73,12 @@ class BulletEngine : public Peer::Engine {
 
   void useBestSettings();
 
-  // No substeps of its own: one step, as long as it is told.
+  // Bullet takes no substeps: this is one time step of that length.
   void step(double h) override { world_.stepSimulation(h, 0); }
 
   BodyState state(std::size_t body) const override {
     const btRigidBody& object = *objects_[body];
-    // What has no finite box any more is left where it was.
+    // Bullet leaves a body without a finite bounding box where it was.
     if (object.getActivationState() == DISABLE_SIMULATION) {
       return {.pose = {.position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN())}};
     }
@@ -106,7 +107,7 @@ class BulletEngine : public Peer::Engine {
     objects_.push_back(std::move(object));
   }
 
-  // Bodies, then walls; the world lets go of them before they end.
+  // Bodies, then walls; the world releases them before they are destroyed.
   std::vector<MassProperties> masses_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> objects_;
@@ -117,19 +118,19 @@ class BulletEngine : public Peer::Engine {
   BulletWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
 };
 
-// What gave the smallest errors in two free tumbles, impacts of a corner with e = 1, a minute in an elastic
-// room, a flat drop with e = 0.5, a slope with friction and a stack of ten, at steps of 1/60 to 1/3840 s.
-// Measured, all else as below:
-// - contacts solved before they overlap, as shipped: in the room all energy is lost;
-// - overlap pushed out by velocity, as shipped where it is under 0.04 m: energy times 31 in the room;
-// - one point of contact with a plane, as shipped: the flat drop rises to 0.18 m, not 0.5, and tilts;
+// These settings gave the smallest errors in two free tumbles, impacts of a corner with e = 1, a minute in an
+// elastic room, a flat drop with e = 0.5, a slope with friction and a stack of ten, at time steps of 1/60 to
+// 1/3840 s. Measured, all else as below:
+// - contacts solved before they overlap, as shipped: all energy is lost in the room;
+// - penetration corrected by velocity, as shipped below 0.04 m: energy times 31 in the room;
+// - one contact point with a plane, as shipped: the flat drop rises to 0.18 m, not 0.5, and tilts;
 // - 10 iterations, as shipped: the flat drop tilts by 0.06 rad; 50 do as well as 1000;
 // - friction after all normals, as shipped: 0.05 m short of 1.3 m down the slope, not 0.004;
 // - explicit gyroscopic term: tumbles no better from 1/240 s on, and energy times 3.8 in the room;
 //   implicit in the world: worse in the room; none: energy is kept, and the tumble is wrong at any step;
 // - Dantzig's and projected Gauss-Seidel MLCP, warm starting, CCD, margins: no better.
 void BulletEngine::useBestSettings() {
-  constexpr int kPoints = 4;  // all that a manifold holds
+  constexpr int kPoints = 4;  // the capacity of a manifold
   configuration_.setPlaneConvexMultipointIterations(kPoints, kPoints);
   for (const std::unique_ptr<btRigidBody>& object : objects_) {
     object->setActivationState(DISABLE_DEACTIVATION);

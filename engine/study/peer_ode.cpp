@@ -10,7 +10,7 @@
 namespace careen {
 namespace {
 
-// ODE's own set-up, once for the process.
+// Initialises ODE once for the process.
 struct Library {
   Library() { dInitODE(); }
   Library(const Library&) = delete;
@@ -23,11 +23,12 @@ struct Destroy {
   void operator()(auto* owned) const { kDestroy(owned); }
 };
 
-// Everything is left as ODE ships it but what a world says. Of its two solvers QuickStep is taken.
+// All settings stay as ODE ships them, except what a world defines. Of its two solvers, this uses QuickStep.
 class OdeEngine : public Peer::Engine {
  public:
   explicit OdeEngine(const World& world) {
-    // QuickStep shuffles its rows, with one seed for the process: runs repeat if no two overlap.
+    // QuickStep shuffles its rows with one seed for the process: runs are reproducible if no two overlap in
+    // time.
     dRandSetSeed(0);
     dWorldSetGravity(world_.get(), world.gravity.x(), world.gravity.y(), world.gravity.z());
     materials_.reserve(world.bodies.size() + world.walls.size());
@@ -108,7 +109,7 @@ class OdeEngine : public Peer::Engine {
     const int count = dCollide(a, b, kMostContacts, points.data(), sizeof(dContactGeom));
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
       dContact contact = {};
-      // Without Approx1 ODE takes mu for a force.
+      // Without Approx1, ODE interprets mu as a force.
       contact.surface.mode = dContactBounce | dContactApprox1;
       contact.surface.mu = pair.friction;
       contact.surface.bounce = pair.restitution;
@@ -121,9 +122,9 @@ class OdeEngine : public Peer::Engine {
   std::unique_ptr<dxWorld, Destroy<dWorldDestroy>> world_{dWorldCreate()};
   std::unique_ptr<dxSpace, Destroy<dSpaceDestroy>> space_{dHashSpaceCreate(nullptr)};
   std::unique_ptr<dxJointGroup, Destroy<dJointGroupDestroy>> contacts_{dJointGroupCreate(0)};
-  std::vector<dBodyID> bodies_;  // none for what cannot move
+  std::vector<dBodyID> bodies_;  // none for fixed bodies
   std::vector<MassProperties> masses_;
-  std::vector<Material> materials_;  // bodies, then walls; never grows, for the geometries point into it
+  std::vector<Material> materials_;  // bodies, then walls; never grows, because the geometries point into it
 };
 
 // Measured in the cases that peer_bullet.cpp names, all else as below:

@@ -4,8 +4,8 @@
 
 namespace careen {
 
-/// The other engines that this build has adapters to, each at its defaults and at the best settings found;
-/// none without CAREEN_PEERS.
+/// The other engines for which this build has adapters, each with its defaults and with the best settings
+/// found; empty without CAREEN_PEERS.
 Contestants peers();
 
 }  // namespace careen

@@ -24,7 +24,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 std::string script(const std::string& name) { return findResource("assets/plots/" + name).string(); }
 
-// Contestants with something to draw.
+// Contestants with at least one answer to draw.
 std::vector<std::string> answering(const CaseResult& result) {
   std::vector<std::string> names;
   std::set<std::string> known;

@@ -25,7 +25,7 @@ std::vector<std::vector<BodyState>> SampledStates::finish() {
   return std::move(states_);
 }
 
-// Where two motions meet, the later one counts.
+// At the time where two motions meet, the later one counts.
 void SampledStates::sampleBefore(std::size_t body, double time) {
   Track& track = tracks_[body];
   for (; track.sampled < times_.size() && times_[track.sampled] < time; ++track.sampled) {

@@ -9,23 +9,23 @@
 
 namespace careen {
 
-/// Keeps of a run only where every body is at given moments, however long the run.
+/// Records only the states at given times, however long the run.
 class SampledStates : public Recorder {
  public:
-  /// `times` [s] ascend; both must outlive this.
+  /// `times` [s] ascend; both arguments must outlive this object.
   SampledStates(const World& world, std::span<const double> times);
 
   void moves(BodyIndex body, double time, const Motion& motion) override;
   void strikes(const Impact& /*impact*/) override {}
 
-  /// states[moment][body], once the run has ended.
+  /// states[time][body], after the end of the run.
   std::vector<std::vector<BodyState>> finish();
 
  private:
   struct Track {
     double start = 0;  // [s]
     Motion motion;
-    std::size_t sampled = 0;  // moments known so far
+    std::size_t sampled = 0;  // number of times sampled so far
   };
   void sampleBefore(std::size_t body, double time);
 

@@ -25,7 +25,7 @@ Case caseNamed(const std::string& name, const std::stop_token& stop) {
   return fs::path(name).extension() == ".json" ? caseOfScene(name, stop) : readCase(name);
 }
 
-// What a result depends on.
+// A hash of everything that a result depends on.
 std::string stampOf(const Case& study, const Contestants& contestants, const StudySettings& settings) {
   Hash hash;
   hash.add(study.scene.text);
@@ -65,7 +65,7 @@ std::optional<CaseResult> finished(const fs::path& path, const std::string& stam
   return result && result->stamp == stamp ? result : std::nullopt;
 }
 
-// "model name : X" of the first processor.
+// The "model name" of the first processor in /proc/cpuinfo.
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

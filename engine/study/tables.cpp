@@ -6,7 +6,7 @@
 namespace careen {
 namespace {
 
-// A message may hold commas, quotes and line ends.
+// A message may contain commas, quotes and line ends.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
@@ -22,7 +22,7 @@ std::string cell(const Attempt* attempt) {
   return attempt->failure.empty() ? inShort(attempt->judgement.error) : "–";
 }
 
-// A row for each case, a column for each contestant.
+// One row per case, one column per contestant.
 template <class CellOf>
 void addTable(std::ostream& text, const StudyResult& study, CellOf cellOf) {
   const std::vector<std::string> contestants = study.contestants();
