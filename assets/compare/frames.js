@@ -1,4 +1,4 @@
-// The strip chart of all frames, one strip for each measure.
+// The strip chart of all frames, one strip per measure.
 
 const kInset = 8;
 const kMarks = 24;
@@ -11,11 +11,11 @@ function measuresOf(report) {
   const all = [
     { name: "largest difference of a channel [1/255]", of: (frame) => 255 * numeric(frame.largest), limit: 255 * numeric(tolerance.fail) },
     {
-      name: tolerance.excuse_edges ? "pixels beyond the tolerance, those at edges too [%]" : "pixels beyond the tolerance [%]",
+      name: tolerance.excuse_edges ? "pixels beyond the tolerance, including those at edges [%]" : "pixels beyond the tolerance [%]",
       of: (frame) => numeric(frame.failing_percent),
       limit: tolerance.excuse_edges ? NaN : numeric(tolerance.fail_percent),
     },
-    { name: "pixels of another colour to the eye [%]", of: (frame) => numeric(frame.changed_percent), limit: numeric(tolerance.changed_percent) },
+    { name: "pixels with a visibly different colour [%]", of: (frame) => numeric(frame.changed_percent), limit: numeric(tolerance.changed_percent) },
     { name: "1 − SSIM", of: (frame) => 1 - numeric(frame.ssim), limit: 1 - numeric(tolerance.least_ssim) },
     { name: "ꟻLIP", of: (frame) => numeric(frame.flip), limit: NaN },
   ];
@@ -23,7 +23,7 @@ function measuresOf(report) {
   return telling.length > 0 ? telling : all.slice(0, 1);
 }
 
-// The largest value of each column of pixels: no frame that stands out is lost where there are more frames than pixels.
+// The maximum of each pixel column, so that no outlier is lost if there are more frames than pixels.
 function columnsOf(values, width) {
   const columns = Math.min(values.length, Math.max(1, Math.floor(width)));
   const largest = new Array(columns).fill(0);
@@ -126,7 +126,7 @@ function FramesChart(report, pictures, onChoose) {
   return { show };
 }
 
-// All frames that are not the same as a table, for those who would rather read.
+// A table of all frames that differ, for readers who prefer text.
 function listFrames(report, onChoose) {
   const kMost = 500;
   const found = report.frames.map((frame, index) => ({ frame, index })).filter(({ frame }) => frame.verdict !== "same");
@@ -145,6 +145,6 @@ function listFrames(report, onChoose) {
   document.getElementById("list-table").append(
     html("thead", {}, html("tr", {}, ...heads.map((head) => html("th", { scope: "col" }, head)))), html("tbody", {}, ...rows));
   document.getElementById("list-summary").textContent =
-    `Frames that are not the same: ${found.length}` + (found.length > kMost ? `, of which the first ${kMost}` : "");
+    `Frames that differ: ${found.length}` + (found.length > kMost ? `; the first ${kMost} are listed` : "");
   document.getElementById("list").hidden = false;
 }

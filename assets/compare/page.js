@@ -1,4 +1,4 @@
-// Puts the page together from the two blocks of data, and knows the keys.
+// Assembles the page from its two data blocks and handles the keys.
 
 function showFrames(report, pictures) {
   const frames = report.frames;
@@ -26,7 +26,7 @@ function showFrames(report, pictures) {
   function tellNumbers(frame) {
     const rows = [["largest", "largest difference of a channel [of 1]"], ["mean", "mean difference"], ["psnr", "PSNR [dB]"], ["ssim", "SSIM"],
       ["worst_ssim", "SSIM of the worst window"], ["failing_percent", "pixels beyond the tolerance [%]"],
-      ["changed_percent", "pixels of another colour to the eye [%]"], ["edge_percent", "likewise, but explained by edges [%]"], ["flip", "ꟻLIP"]];
+      ["changed_percent", "pixels with a visibly different colour [%]"], ["edge_percent", "likewise, but explained by edges [%]"], ["flip", "ꟻLIP"]];
     const list = document.getElementById("frame-numbers");
     list.replaceChildren(...rows.filter(([key]) => frame[key] !== null).map(([key, name]) =>
       html("div", {}, html("dt", {}, name), html("dd", {}, brief(numeric(frame[key]))))));
@@ -36,8 +36,8 @@ function showFrames(report, pictures) {
     const notice = document.getElementById("no-pictures");
     const button = html("button", { type: "button", class: "link" }, frames[nearest]?.name ?? "");
     button.addEventListener("click", () => choose(nearest));
-    notice.replaceChildren(frame.identical ? "Both files are the same, byte for byte." : "The pictures of this frame are not in this page, which holds those of a few only.",
-      " Nearest with pictures: ", button, ".");
+    notice.replaceChildren(frame.identical ? "Both files are the same, byte for byte." : "This page has the pictures of a few frames only, and this frame is not one of them.",
+      " Nearest frame with pictures: ", button, ".");
   }
 
   function choose(index) {
@@ -62,7 +62,7 @@ function showFrames(report, pictures) {
     remember();
   }
 
-  // The address says what is shown, so that it can be passed on.
+  // The address contains what is shown, so that it can be shared.
   function remember() {
     const parts = new URLSearchParams({ frame: frames[chosen].name });
     if (viewer.mode() !== "side") parts.set("mode", viewer.mode());

@@ -1,4 +1,4 @@
-// How far two runs lie apart over time, by logarithm, up to the horizon and beyond.
+// The difference of two runs over time on a logarithmic scale, up to the horizon and beyond.
 
 function GrowthChart(run) {
   const element = document.getElementById("growth-chart");
@@ -39,7 +39,7 @@ function GrowthChart(run) {
     return [1, 2, 5, 10].map((factor) => factor * power).find((step) => step >= least) ?? power * 10;
   }
 
-  // A sample without a difference has no place on a logarithm's axis: the curve breaks there.
+  // A logarithmic axis has no zero: the curve is interrupted where nothing differs.
   function curve() {
     let path = "";
     let pen = false;
@@ -84,11 +84,11 @@ function GrowthChart(run) {
     const sample = samples[index];
     const words = sample.relative > 0
       ? `${brief(sample.time)} s: ${brief(numeric(sample.position))} m and ${brief(numeric(sample.angle))} rad apart, ${brief(sample.relative)} of ${sample.box}`
-      : `${brief(sample.time)} s: not apart`;
+      : `${brief(sample.time)} s: no difference`;
     element.setAttribute("aria-valuenow", String(index));
     element.setAttribute("aria-valuetext", words);
     document.getElementById("growth-readout").textContent =
-      words + (run.horizon !== null && sample.time > run.horizon ? " – beyond the horizon this says nothing" : "");
+      words + (run.horizon !== null && sample.time > run.horizon ? " – beyond the horizon this means nothing" : "");
     if (!line) return;
     line.setAttribute("x1", xOf(sample.time));
     line.setAttribute("x2", xOf(sample.time));

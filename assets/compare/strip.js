@@ -1,4 +1,4 @@
-// Drawing of charts, and how one is used: by pointer and keys alike, as a slider.
+// Draws charts and makes them sliders for pointer and keys.
 
 const kSvg = "http://www.w3.org/2000/svg";
 
@@ -16,7 +16,7 @@ function html(name, attributes, ...children) {
   return element;
 }
 
-// report.json has numbers that are not finite as strings, and what was not measured as null.
+// In report.json numbers that are not finite are strings, and what was not measured is null.
 const numeric = (value) => (value === null ? NaN : Number(value));
 
 function brief(value) {
@@ -28,7 +28,7 @@ function brief(value) {
   return text.replace("-", "−").replace("e−", "e-").replace("e+", "e");
 }
 
-// From values to shares of a strip's height. By logarithm where they spread far; what is 0 stays at the bottom.
+// Maps values to fractions of a strip's height, logarithmically if they span a wide range; 0 stays at the bottom.
 function scaleOf(values) {
   const positive = values.filter((value) => value > 0 && Number.isFinite(value));
   const most = positive.reduce((a, b) => Math.max(a, b), 0);
@@ -41,8 +41,8 @@ function scaleOf(values) {
   return { most, logarithmic: true, share };
 }
 
-// Makes an element with role=slider choose one of `count` things: what is at a share of its width, less the inset, or
-// by keys.
+// Makes an element with role=slider choose one of `count` items, by the pointer's fraction of its width without the
+// inset, or by keys.
 function makeSlider(element, count, inset, choose, chosen) {
   element.setAttribute("aria-valuemin", "0");
   element.setAttribute("aria-valuemax", String(count - 1));
@@ -69,7 +69,7 @@ function makeSlider(element, count, inset, choose, chosen) {
   });
 }
 
-// Draws now, and whenever the element gets another width.
+// Draws now, and whenever the width of the element changes.
 function drawAtItsWidth(element, draw) {
   let width = 0;
   new ResizeObserver(() => {

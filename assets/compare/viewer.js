@@ -1,6 +1,6 @@
-// The pictures of a frame: side by side, wiped or blinked, all under one zoom.
+// The pictures of a frame: side by side, wiped or blinked, with a common zoom.
 
-const kBlink = 500; // [ms] one flash a second: far below what harms
+const kBlink = 500; // [ms] one flash a second, far below the harmful rate
 const kMostZoom = 64;
 
 function Viewer() {
@@ -10,8 +10,8 @@ function Viewer() {
   let shown = null;
   let mode = "side";
   let marked = true;
-  let zoom = null; // CSS pixels for a pixel of the picture; null: the whole picture fits
-  let center = { x: 0, y: 0 }; // [px] of the picture, in the middle of a view
+  let zoom = null; // CSS pixels per pixel of the picture; null: fit the whole picture
+  let center = { x: 0, y: 0 }; // [px] point of the picture at the centre of a view
   let blinkShows = "expected";
   let timer = 0;
   const wipe = document.querySelector("#wipe input");
@@ -37,13 +37,13 @@ function Viewer() {
     view.replaceChildren(...there.map(image));
     view.style.aspectRatio = `${shown.width} / ${shown.height}`;
     if (there.length < which.length)
-      view.append(html("span", { class: "absent" }, which.length > 1 ? "one of the two is not there" : "not there, or not to be compared"));
+      view.append(html("span", { class: "absent" }, which.length > 1 ? "one of the two is missing" : "missing, or not comparable"));
     if (view.dataset.shows === "both") view.append(html("span", { class: "edge" }));
     if (shown.pixel) view.append(cross());
     view.setAttribute("aria-label", `${view.dataset.shows === "both" ? "expected and actual" : view.dataset.shows} picture of ${shown.name}`);
   }
 
-  // What the picture's upper left corner is away from the view's [CSS px].
+  // Offset of the picture's upper left corner from the view's [CSS px].
   function cornerOf(view) {
     const z = zoomOf(view);
     return { x: view.clientWidth / 2 - center.x * z, y: view.clientHeight / 2 - center.y * z };
@@ -71,7 +71,7 @@ function Viewer() {
     if (view) document.getElementById("zoom").textContent = `${Math.round(100 * zoomOf(view))} %`;
   }
 
-  // Of the single view: which of the two pictures is seen where.
+  // In the single view: which of the two pictures is visible where.
   function uncover() {
     const expected = one.querySelector("[data-which=expected]");
     const edge = one.querySelector(".edge");
@@ -121,7 +121,7 @@ function Viewer() {
     if (after <= least * 1.001) {
       zoom = null;
     } else {
-      // The point under the pointer stays where it is.
+      // The point under the pointer stays fixed.
       const off = at ?? { x: 0, y: 0 };
       center = { x: center.x + off.x / before - off.x / after, y: center.y + off.y / before - off.y / after };
       zoom = after;

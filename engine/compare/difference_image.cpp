@@ -11,7 +11,7 @@ namespace {
 
 using Rgb = std::array<int, 3>;  // of 65535
 
-/// Two pictures in one form: 16 bits, and alpha if either has it.
+/// Two pictures in a common format: 16 bits, with alpha if either has it.
 class Pair {
  public:
   Pair(const DeepPicture& expected, const DeepPicture& actual) {

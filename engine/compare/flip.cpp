@@ -26,10 +26,10 @@ struct Grid {
 using Values = std::vector<float>;
 using Vec = std::array<float, 3>;
 
-/// A separable filter: what it weighs along one direction, from -reach to reach.
+/// A separable filter: its weights along one direction, from -reach to reach.
 using Taps = std::vector<float>;
 
-// Rows first, then columns; beyond the border the nearest pixel.
+// Filters rows, then columns; the border pixels are repeated outward.
 Values filtered(const Values& values, Grid grid, const Taps& across, const Taps& down) {
   const auto width = static_cast<std::size_t>(grid.width);
   const int reach = static_cast<int>(across.size() / 2);
@@ -62,8 +62,8 @@ Values filtered(const Values& values, Grid grid, const Taps& across, const Taps&
   return result;
 }
 
-// Linear light to CIE XYZ over white, and back: the matrix of IEC 61966-2-1 to more digits, which has the
-// white that the paper's constants were found with.
+// Linear light to CIE XYZ relative to white, and back: the matrix of IEC 61966-2-1 with more digits, whose
+// white is that of the paper's constants.
 constexpr std::array<std::array<double, 3>, 3> kXyzOfRgb{
     {{0.4123865632529916, 0.35759149092062537, 0.18045049120356368},
      {0.21263682167732384, 0.7151829818412507, 0.07218019648142547},
@@ -105,7 +105,7 @@ Vec lightOfOpponent(const Vec& v) {
   return times(kRgbOfXyz, {(y + v[1] / 500) * kWhite[0], y * kWhite[1], (y - v[2] / 200) * kWhite[2]});
 }
 
-/// CIELAB whose chromas are seen less in the dark: 3.2, after Hunt.
+/// CIELAB whose chromas are reduced in the dark: 3.2, Hunt effect.
 Vec huntLab(const Vec& light) {
   static const Vec kWhite = whiteXyz();
   const Vec xyz = times(kXyzOfRgb, light);
@@ -118,7 +118,8 @@ float colorDistance(const Vec& one, const Vec& other) {
   return std::pow(std::abs(one[0] - other[0]) + std::hypot(one[1] - other[1], one[2] - other[2]), 0.7F);
 }
 
-/// Spread so that small differences keep most of 0 … 1: 3.3, p_c and p_t; the largest is green beside blue.
+/// Remaps distances so that small differences use most of 0 … 1: 3.3, p_c and p_t; the largest distance is
+/// that of green and blue.
 float spread(float distance) {
   static const float kLargest = colorDistance(huntLab({0, 1, 0}), huntLab({0, 0, 1}));
   constexpr float kBend = 0.95F;
@@ -140,7 +141,7 @@ int sensitivityReach(double pixelsPerDegree) {
   return static_cast<int>(std::ceil(3 * std::sqrt(kBlueYellow[0].b / (2 * kPi * kPi)) * pixelsPerDegree));
 }
 
-/// Along one direction, not normalized; the square of its sum is that of the plane filter.
+/// The weights along one direction, not normalized; the square of their sum is the sum of the 2D filter.
 std::vector<double> bell(double b, double pixelsPerDegree) {
   const int reach = sensitivityReach(pixelsPerDegree);
   std::vector<double> weights;
@@ -173,7 +174,7 @@ Values seenThrough(const Values& values, Grid grid, const Sensitivity& sensitivi
   return filtered(values, grid, taps, taps);
 }
 
-/// Two bells are not separable together; each is, and their shares are those of their sums.
+/// The sum of two Gaussians is not separable, but each of them is; their shares follow from their sums.
 Values seenThrough(const Values& values, Grid grid, const std::array<Sensitivity, 2>& pair,
                    double pixelsPerDegree) {
   std::array<double, 2> shares{};
@@ -190,7 +191,7 @@ Values seenThrough(const Values& values, Grid grid, const std::array<Sensitivity
   return first;
 }
 
-/// A picture in the opponent space of 3.1.1, each channel for itself.
+/// A picture in the opponent space of 3.1.1, one plane per channel.
 using Opponent = std::array<Values, 3>;
 
 Opponent opponentOf(const DeepPicture& picture) {
@@ -218,7 +219,7 @@ Opponent opponentOf(const DeepPicture& picture) {
   return channels;
 }
 
-/// What the eye makes of it at that distance, in Hunt's L*a*b*: 3.1 and 3.2.
+/// The perceived picture at that distance, in Hunt-adjusted L*a*b*: 3.1 and 3.2.
 std::vector<Vec> seen(const Opponent& picture, Grid grid, double pixelsPerDegree) {
   const Values y = seenThrough(picture[0], grid, kAchromatic, pixelsPerDegree);
   const Values x = seenThrough(picture[1], grid, kRedGreen, pixelsPerDegree);
@@ -234,8 +235,7 @@ std::vector<Vec> seen(const Opponent& picture, Grid grid, double pixelsPerDegree
   return colors;
 }
 
-/// A derivative of a Gaussian along one direction, its positive weights summing to 1, its negative ones to
-/// -1.
+/// A derivative of a Gaussian along one direction; its positive weights sum to 1, its negative ones to -1.
 Taps derivative(const std::vector<double>& weights) {
   double positive = 0;
   double negative = 0;
@@ -249,14 +249,14 @@ Taps derivative(const std::vector<double>& weights) {
   return taps;
 }
 
-/// How strong edges and points are at each pixel: 3.4, of luminance 0 … 1.
+/// Strength of edges and points at each pixel: 3.4, of luminance 0 … 1.
 struct Features {
   Values edges;
   Values points;
 };
 
 Features featuresOf(const Opponent& picture, Grid grid, double pixelsPerDegree) {
-  const double sigma = 0.5 * 0.082 * pixelsPerDegree;  // w: of a border, in degrees
+  const double sigma = 0.5 * 0.082 * pixelsPerDegree;  // w: width of a feature, in degrees
   const int reach = static_cast<int>(std::ceil(3 * sigma));
   std::vector<double> gauss;
   std::vector<double> slope;

@@ -6,20 +6,20 @@
 
 namespace careen {
 
-/// [px/°] Seen from 0.7 m on a display of 3840 px and 0.7 m, as in the paper.
+/// [px/°] A display of 3840 px and 0.7 m seen from 0.7 m, as in the paper.
 inline constexpr double kPixelsPerDegree = 67.0206432765823;
 
 struct Flip {
-  double mean = 0;            ///< [1] 0: none sees a difference, 1: the largest
+  double mean = 0;            ///< [1] 0: no visible difference, 1: the largest
   double largest = 0;         ///< [1]
   std::vector<float> values;  ///< [1] of every pixel, rows from the top
 };
 
-/// How different two pictures of one size look to one who flips between them: P. Andersson, J. Nilsson,
-/// T. Akenine-Möller, M. Oskarsson, K. Åström, M. D. Fairchild, "ꟻLIP: A Difference Evaluator for Alternating
-/// Images", Proc. ACM Comput. Graph. Interact. Tech. 3 (HPG 2020), for low dynamic range, with the constants
-/// of the paper. Beyond the border the nearest pixel goes on. Alpha shows middle grey, as in differenceOf().
-/// InputError if they are not of one size.
+/// The difference of two pictures of one size as perceived when flipping between them: P. Andersson, J.
+/// Nilsson, T. Akenine-Möller, M. Oskarsson, K. Åström, M. D. Fairchild, "ꟻLIP: A Difference Evaluator for
+/// Alternating Images", Proc. ACM Comput. Graph. Interact. Tech. 3 (HPG 2020), for low dynamic range, with
+/// the constants of the paper. The border pixels are repeated outward. Alpha is composited over middle grey,
+/// as in differenceOf(). InputError if the sizes differ.
 Flip flipOf(const DeepPicture& expected, const DeepPicture& actual,
             double pixelsPerDegree = kPixelsPerDegree);
 

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A picture as its file has it, and unpacked.
+/// A picture's file content and its decoded pixels.
 struct Source {
   std::string bytes;
   DeepPicture picture;
@@ -29,7 +29,7 @@ std::optional<Source> sourceOf(const std::filesystem::path& path) {
     source.picture = decodeDeepPng(source.bytes, path.string());
     return source;
   } catch (const InputError&) {
-    return std::nullopt;  // that it is missing or broken is among the frame's reasons
+    return std::nullopt;  // the frame's reasons say that it is missing or broken
   }
 }
 
@@ -122,7 +122,7 @@ std::vector<std::size_t> framesToShow(const Comparison& comparison, std::size_t 
       others.push_back(i);
     }
   }
-  // Both ends among them; fewer than asked for where one was chosen above.
+  // Both ends are included; fewer than `most` if one of these was chosen above.
   const std::size_t steps = std::min(others.size(), most);
   for (std::size_t k = 0; k < steps; ++k) {
     choose(others[steps == 1 ? 0 : k * (others.size() - 1) / (steps - 1)]);

@@ -18,7 +18,7 @@ float square(float x) { return x * x; }
 
 float length(float a, float b) { return std::sqrt(a * a + b * b); }
 
-// C^7 / (C^7 + 25^7) and its root are what the formula has of large chroma.
+// C^7 / (C^7 + 25^7) and its root weight large chroma in the formula.
 float shareOfLargeChroma(float chroma) {
   const float power = chroma * square(chroma * chroma * chroma);
   constexpr float k25To7 = 6103515625.0F;
@@ -46,7 +46,7 @@ Lab labOfXyz(const std::array<float, 3>& xyz) {
 }
 
 Lab labOfLight(const std::array<float, 3>& rgb) {
-  // Rows of IEC 61966-2-1's matrix, each over its sum, for X, Y and Z of white are what its rows sum to.
+  // Rows of IEC 61966-2-1's matrix, each divided by its sum, so that X, Y and Z of white are 1.
   const auto [r, g, b] = rgb;
   return labOfXyz({(0.4124F * r + 0.3576F * g + 0.1805F * b) / (0.4124F + 0.3576F + 0.1805F),
                    0.2126F * r + 0.7152F * g + 0.0722F * b,

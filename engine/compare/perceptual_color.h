@@ -11,19 +11,19 @@ struct Lab {
   float b = 0;
 };
 
-/// Light [0 … 1] of a value of sRGB [0 … 1]: IEC 61966-2-1.
+/// Linear light [0 … 1] of an sRGB value [0 … 1]: IEC 61966-2-1.
 float lightOfSrgb(float encoded);
 
-/// Of X, Y and Z over those of white.
+/// From X, Y and Z relative to white.
 Lab labOfXyz(const std::array<float, 3>& xyz);
 
-/// Of linear light of the primaries of sRGB [0 … 1]. White is that of the matrix, so that grey has no colour.
+/// From linear light of the sRGB primaries [0 … 1]. White is that of the matrix, so that grey has no chroma.
 Lab labOfLight(const std::array<float, 3>& rgb);
 
 /// The CIEDE2000 difference of two colours, k_L = k_C = k_H = 1: G. Sharma, W. Wu, E. N. Dalal, "The
 /// CIEDE2000 color-difference formula: implementation notes, supplementary test data, and mathematical
-/// observations", Color Research and Application 30 (2005). About 1 is the least that can be seen side by
-/// side, 2.3 is noticed.
+/// observations", Color Research and Application 30 (2005). About 1 is just visible side by side, 2.3 is
+/// noticeable.
 float ciede2000(const Lab& one, const Lab& other);
 
 }  // namespace careen

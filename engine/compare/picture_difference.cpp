@@ -16,7 +16,7 @@ namespace {
 
 using Rgb = std::array<int, 3>;
 
-/// Light of every value a sample can have.
+/// Linear light of every possible sample value.
 template <class Sample>
 const std::vector<float>& lights() {
   static const std::vector<float> kLights = [] {
@@ -39,7 +39,7 @@ const std::vector<Sample>& samplesOf(const DeepPicture& picture) {
   }
 }
 
-/// Of two pictures of one size, depth and number of channels.
+/// For two pictures of one size, depth and number of channels.
 template <class Sample>
 class Measuring {
  public:
@@ -73,7 +73,7 @@ class Measuring {
   static constexpr int kFull = std::numeric_limits<Sample>::max();
   static constexpr int kStep = kFull / 255;  ///< 1/255 of full
 
-  /// Pixels side by side. Most pictures have few that differ, and what is equal need not be looked into.
+  /// A run of neighbouring pixels. Most pictures differ in few pixels, and equal blocks are skipped.
   struct Block {
     int x;
     int y;
@@ -116,7 +116,7 @@ class Measuring {
       result_.largestY = y;
     }
     if (most <= kStep) {
-      return;  // too near for anyone to see
+      return;  // the colours are too close to be visibly different
     }
     const bool edge = liesWithin(expected_, actual_, x, y) || liesWithin(actual_, expected_, x, y);
     result_.byStepOfEdges[static_cast<std::size_t>(most)] += edge ? 1 : 0;
@@ -138,7 +138,7 @@ class Measuring {
     return rgb;
   }
 
-  /// Whether `samples` has there what `others` has there or half way to a neighbour.
+  /// Whether `samples` there is within the range of `others` there and half way to its neighbours.
   bool liesWithin(std::span<const Sample> samples, std::span<const Sample> others, int x, int y) const {
     const Rgb value = at(samples, x, y);
     const Rgb middle = at(others, x, y);

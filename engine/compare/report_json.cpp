@@ -22,7 +22,7 @@ Json number(double value) {
 
 Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
-// Names of files and boxes may hold any bytes.
+// Names of files and boxes may contain any bytes.
 std::string text(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }

@@ -10,7 +10,7 @@
 namespace careen {
 namespace {
 
-/// What CI systems show as one line.
+/// One line in a CI system.
 struct TestCase {
   std::string name;
   std::string failure;  ///< empty: it passed
@@ -34,7 +34,7 @@ std::string durationFailure(const RunDifference& run) {
              : "found " + inFull(run.actualDuration) + " s, expected " + inFull(run.expectedDuration) + " s";
 }
 
-// Single properties fail only if the whole does: within a tolerance they may differ.
+// Single properties fail only if the whole comparison does: within a tolerance they may differ.
 std::vector<TestCase> casesOfRun(const Comparison& comparison, const RunDifference& run) {
   const auto failing = [&comparison](const std::string& what) {
     return comparison.verdict == Verdict::kDifferent ? what : std::string();
@@ -43,12 +43,12 @@ std::vector<TestCase> casesOfRun(const Comparison& comparison, const RunDifferen
       {.name = "boxes", .failure = failing(joined(run.incomparable)), .warning = {}},
       {.name = "duration", .failure = failing(durationFailure(run)), .warning = {}},
       {.name = "states",
-       .failure = failing(run.firstTime ? "other from " + brief(*run.firstTime) + " s on" : ""),
+       .failure = failing(run.firstTime ? "differs from " + brief(*run.firstTime) + " s on" : ""),
        .warning = {}},
       {.name = "impacts", .failure = failing(run.firstImpact ? run.firstImpact->what : ""), .warning = {}}};
 }
 
-// What was found of the whole; without it a difference that no single case has, another motion behind the
+// The verdict on the whole. Without it a difference that no single case has, such as another motion with the
 // same pictures, would pass.
 TestCase caseOfAll(const Comparison& comparison) {
   const std::string text = comparison.headline + ". " + reasonOf(comparison);

@@ -74,17 +74,17 @@ std::string impactsTable(const RunDifference& run) {
 std::string growthWords(const RunDifference& run) {
   std::string words;
   if (run.firstTime) {
-    words += "The runs part at " + brief(*run.firstTime) + " s. ";
+    words += "The runs diverge at " + brief(*run.firstTime) + " s. ";
   }
   if (run.growthPerImpact) {
     words +=
-        "What differs grows " + brief(*run.growthPerImpact) + "-fold from impact to impact, on average. ";
+        "The difference grows " + brief(*run.growthPerImpact) + "-fold from impact to impact, on average. ";
   }
   if (run.horizon) {
     words +=
         "The horizon is at " + brief(*run.horizon) +
-        " s: from there on a box is more than a hundredth of its half diagonal, or of a radian, elsewhere, "
-        "and what is where tells nothing of which run is right. Energies and counts still do.";
+        " s: from then on a box is off by more than a hundredth of its half diagonal, or of a radian, and "
+        "positions do not tell which run is right. Energies and counts still do.";
   } else if (run.firstTime) {
     words += "The difference stays within a hundredth of a box to the end: there is no horizon.";
   }
@@ -95,7 +95,7 @@ std::string badge(Verdict verdict) {
   return verdict == Verdict::kSame ? "✓ Same" : verdict == Verdict::kWarning ? "! Warning" : "✕ Different";
 }
 
-// Within a script element only what ends it must not be there.
+// Escapes what would end a script element.
 std::string forScript(const std::string& json) {
   std::string text;
   text.reserve(json.size());
@@ -125,7 +125,7 @@ std::string scripts() {
   return all;
 }
 
-// In one pass, so that a mark within a name is no mark.
+// Replaces in one pass, so that a placeholder within a name is not replaced.
 std::string filled(const std::string& skeleton, const std::map<std::string, std::string>& parts) {
   std::string page;
   std::size_t at = 0;

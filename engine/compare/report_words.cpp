@@ -23,9 +23,9 @@ std::string reasonOfFrames(const Comparison& comparison) {
     const auto largest = std::max_element(
         comparison.frames.begin(), comparison.frames.end(),
         [](const FrameComparison& a, const FrameComparison& b) { return a.largest < b.largest; });
-    return "Not the same files, but within the tolerance: no channel differs by more than " +
+    return "The files differ, but within the tolerance: no channel differs by more than " +
            brief(255 * largest->largest) + "/255" +
-           (frames == 1 ? "." : ", which " + largest->name + " does.");
+           (frames == 1 ? "." : ", the largest difference, in " + largest->name + ".");
   }
   if (frames == 1) {
     return first->name + ": " + joined(first->reasons) + ".";
@@ -44,7 +44,7 @@ std::string reasonOfFrames(const Comparison& comparison) {
 
 std::string reasonOfRun(const RunDifference& run) {
   if (!run.incomparable.empty()) {
-    return "The two cannot be of one scene: " + joined(run.incomparable) + ".";
+    return "The runs cannot be of the same scene: " + joined(run.incomparable) + ".";
   }
   if (run.sameBits) {
     return (run.until ? "Up to " + brief(*run.until) + " s every" : std::string("Every")) +
@@ -59,13 +59,12 @@ std::string reasonOfRun(const RunDifference& run) {
     text += (text.empty() ? "" : " ") + std::string("States differ from ") + brief(*run.firstTime) + " s on.";
   }
   if (run.horizon) {
-    text +=
-        " From " + brief(*run.horizon) +
-        " s on places say nothing any more, since what differs there has grown beyond a hundredth of a box: "
-        "compare energies and counts.";
+    text += " From " + brief(*run.horizon) +
+            " s on positions mean nothing any more, because their difference exceeds a hundredth of a box: "
+            "compare energies and counts.";
   } else if (run.worst.difference.relative > 0) {
-    text += " They are never farther apart than " + brief(run.worst.difference.relative) +
-            " of a box's half diagonal, or radians.";
+    text += " Their largest difference is " + brief(run.worst.difference.relative) +
+            " half diagonals of a box, or radians.";
   }
   return text;
 }

@@ -11,10 +11,10 @@ namespace {
 constexpr int kMostReach = 5;  // [px] of the window, either way
 constexpr float kC1 = 0.01F * 255 * 0.01F * 255;
 constexpr float kC2 = 0.03F * 255 * 0.03F * 255;
-// Variances do not change with an offset, and squares of smaller numbers are rounded less.
+// Variances do not depend on an offset, and squares of smaller numbers have smaller rounding errors.
 constexpr float kOffset = 128;
 
-/// Half of the window's weights along one direction: [0] in the middle, [reach] at the end.
+/// One side of the window's weights along one direction: [0] at the centre, [reach] at the end.
 struct Window {
   explicit Window(int size) : reach(std::min(kMostReach, (size - 1) / 2)) {
     double sum = 0;
@@ -30,19 +30,19 @@ struct Window {
   std::array<float, kMostReach + 1> weights{};
 };
 
-/// Columns of windows' middles, `end` no longer among them.
+/// A range of columns of window centres, excluding `end`.
 struct Range {
   int begin;
   int end;
 };
 
-/// Windows that go over anything that differs; others have an SSIM of exactly 1.
+/// Finds the windows that contain a difference; all others have an SSIM of exactly 1.
 class Differing {
  public:
   Differing(const Plane& one, const Plane& other)
       : one_(one), other_(other), counts_(static_cast<std::size_t>(one.width)) {}
 
-  /// The rows that the next windows have, or no longer have.
+  /// Adds or removes a row of the next windows.
   void enter(int y) { count(y, 1); }
   void leave(int y) { count(y, -1); }
 
@@ -74,12 +74,12 @@ class Differing {
 
   const Plane& one_;
   const Plane& other_;
-  std::vector<int> counts_;  ///< of each column: rows of the windows in which it differs
+  std::vector<int> counts_;  ///< per column: number of differing rows in the windows
   std::vector<Range> ranges_;
 };
 
-/// Weighted sums over the height of a window: of each plane, of both squared, of the product. There is room
-/// on both sides, where a window that is less wide has weights of zero.
+/// Weighted sums over the height of a window: of each plane, of both squared, of the product. There is
+/// padding on both sides, for windows whose outer weights are zero.
 struct Sums {
   explicit Sums(std::size_t width)
       : one(width + std::size_t{2} * kMostReach),
@@ -109,7 +109,7 @@ void addRow(Sums& sums, std::span<const float> one, std::span<const float> other
   }
 }
 
-// Equal planes make squares exactly twice the product, and what is above the line exactly what is below.
+// Equal planes make the squares exactly twice the product, and the numerator exactly the denominator.
 void similarities(const Sums& sums, const Window& window, Range range, float* result) {
   const auto across = [&window](const float* column) {
     float sum = window.weights[0] * column[0];
@@ -144,7 +144,7 @@ StructuralSimilarity similarityOf(const Plane& one, const Plane& other) {
   Sums sums(static_cast<std::size_t>(width));
   std::vector<float> result(static_cast<std::size_t>(width));
   StructuralSimilarity similarity;
-  double missing = 0;  // from 1, of all windows
+  double missing = 0;  // sum of 1 - SSIM over all windows
   for (int y = high.reach; y < one.height - high.reach; ++y) {
     differing.enter(y + high.reach);
     for (const Range& range : differing.ranges(wide.reach)) {

@@ -14,9 +14,10 @@ namespace {
 constexpr double kStep = 1.0 / 255;
 
 // Measured on frames 0 and 40 of careen, pile, wall, gas, dzhanibekov, domino, hecker-1997 and a cube,
-// 320x180 and 1280x720, llvmpipe of Mesa 22.3.6, beside the same with other threads; with SSE2 only; by
-// softpipe; and changed. The worst, or the nearest to pass, of each; "over n" are % of pixels with a channel
-// off by more than n/255 (of what is changed with an earlier dither, by noise):
+// 320x180 and 1280x720, llvmpipe of Mesa 22.3.6, compared with the same frames drawn with other threads, with
+// SSE2 only, by softpipe, and with deliberate changes. Each row is the worst case of a renderer, or the
+// change nearest to passing; "over n" is the % of pixels with a channel off by more than n/255 (for changes:
+// with an earlier dither, by noise):
 //
 //                                   over 0  over 1  colour changed %  SSIM   of a window
 //                                                   edges  others
@@ -37,12 +38,12 @@ constexpr double kStep = 1.0 / 255;
 //
 // (*) frames 20 and 40 of all scenes in assets/scenes; 26.2.6 through EGL, as it has no OSMesa.
 //
-// So same-picture stands at 0.01 % over 1: six times what it must let pass, a sixteenth of what it must not.
-// What is smaller than that, such as a box of 16 pixels, it sees by its colour: 0.001 % may have another one,
-// or one pixel. Of 300 frames of wall, 1280x720, SSE2 changed at most 0.0009 % by more than 1/255 and two
-// pixels' colours (0.0002 %); one such pixel alone brought a window's SSIM to 0.71, so that no window is held
-// to anything. other-renderer stands between 0.120 and 0.48 % of changed colours, and between 0.586 and 0.106
-// (hecker-1997, next frame) of a window's SSIM; every change above breaks one of the two.
+// So same-picture is set to 0.01 % over 1: six times what it must accept, a sixteenth of what it must reject.
+// It detects smaller things, such as a box of 16 pixels, by their colour: 0.001 %, or one pixel, may differ
+// visibly. Of 300 frames of wall, 1280x720, SSE2 changed at most 0.0009 % by more than 1/255 and two pixels'
+// colours (0.0002 %); one such pixel alone reduced a window's SSIM to 0.71, so no limit applies to windows.
+// other-renderer lies between 0.120 and 0.48 % of changed colours, and between 0.586 and 0.106 (hecker-1997,
+// next frame) of a window's SSIM; every change above violates one of the two.
 constexpr std::array<Tolerance, 4> kTolerances{{
     {},
     {.failPercent = 0.005, .hardFail = kStep},
@@ -58,7 +59,7 @@ constexpr std::array<Tolerance, 4> kTolerances{{
      .leastWindowSsim = 0.3},
 }};
 
-/// Lines such as "0.12 % of the pixels are off by more than 0.0039; 0.01 % may be".
+/// Collects lines such as "0.12 % of the pixels are off by more than 0.0039; 0.01 % may be".
 class Reasons {
  public:
   template <class... Parts>
@@ -76,7 +77,7 @@ class Reasons {
   std::vector<std::string> lines_;
 };
 
-// A difference of exactly so many steps is no more than that, however its division was rounded.
+// A difference of exactly n steps must not exceed n steps because of how the division was rounded.
 double withinRounding(double threshold) { return threshold * (1 + 1e-12); }
 
 struct Limits {
@@ -87,7 +88,7 @@ void compare(Reasons& reasons, const PictureDifference& difference, const Limits
   const auto pixels = static_cast<double>(difference.pixels);
   const double over =
       100 * static_cast<double>(difference.pixelsOver(withinRounding(limits.each), edgesToo)) / pixels;
-  const char* const which = edgesToo ? " % of the pixels" : " % of the pixels, those at edges left out,";
+  const char* const which = edgesToo ? " % of the pixels" : " % of the pixels, without those at edges,";
   reasons.addIf(over > limits.percent, over, which, " differ by more than ", limits.each, "; at most ",
                 limits.percent, " % may");
   static constexpr std::array<const char*, 4> kChannels{"red", "green", "blue", "alpha"};
@@ -104,10 +105,11 @@ void compareLook(Reasons& reasons, const PictureDifference& difference, const To
   const std::size_t inside = difference.changed - difference.changedByEdges;
   const double changed = percent(inside);
   reasons.addIf(changed > tolerance.changedPercent && (inside > 1 || tolerance.changedPercent == 0), changed,
-                " % of the pixels have another colour; at most ", tolerance.changedPercent, " % may");
+                " % of the pixels differ visibly in colour; at most ", tolerance.changedPercent, " % may");
   const double edges = percent(difference.changedByEdges);
   reasons.addIf(edges > tolerance.edgePercent, edges,
-                " % of the pixels have another colour at edges; at most ", tolerance.edgePercent, " % may");
+                " % of the pixels differ visibly in colour at edges; at most ", tolerance.edgePercent,
+                " % may");
   reasons.addIf(!(difference.ssim >= tolerance.leastSsim), "SSIM is ", difference.ssim, "; at least ",
                 tolerance.leastSsim, " is expected");
   reasons.addIf(!(difference.worstSsim >= tolerance.leastWindowSsim), "SSIM is ", difference.worstSsim,

@@ -56,7 +56,7 @@ inline std::string frameName(int frame) {
   return std::string(6 - digits.size(), '0') + digits + ".png";
 }
 
-/// Films of so many frames in `folder`/expected and /actual: in the frames from `firstOther` on the square is
+/// Films with that many frames in `folder`/expected and /actual: from frame `firstOther` on the square is
 /// brighter by 40 of 255, and in `worst` by 120.
 inline Comparison filmComparison(const std::filesystem::path& folder, int frames, int firstOther, int worst) {
   Comparison comparison;
@@ -81,7 +81,7 @@ inline Comparison filmComparison(const std::filesystem::path& folder, int frames
   return comparison;
 }
 
-/// Two runs of driftAndReturn() that part at its impact.
+/// Two runs of driftAndReturn() that diverge at its impact.
 inline Comparison twoRuns() {
   const Trajectory run = driftAndReturn();
   Trajectory other = run;

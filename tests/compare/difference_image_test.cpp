@@ -43,7 +43,7 @@ TEST(DifferenceImage, isAmplifiedAsFarAsNothingMuchIsCutOff) {
   EXPECT_EQ(amplificationOf(row({5, 5, 5}), row({5, 5, 5})), 1);
   EXPECT_EQ(amplificationOf(row({0, 0, 0}), row({0, 255, 0})), 1);
   EXPECT_EQ(amplificationOf(row({0, 0, 0}), row({0, 7, 3})), 32);  // 224; 64 would be 448
-  // A hundred pixels off by 2 and one by 200: that one may be cut off, two of them may not.
+  // A hundred pixels are off by 2 and one by 200: that one may be clipped, two of them may not.
   Bytes off(303, 2);
   std::fill(off.begin(), off.begin() + 3, std::uint8_t{200});
   EXPECT_EQ(amplificationOf(row(Bytes(303, 0)), row(off)), 64);

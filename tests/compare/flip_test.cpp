@@ -17,8 +17,8 @@ namespace {
 using Color = std::array<double, 3>;
 constexpr double kPi = std::numbers::pi;
 
-// The paper's pipeline once more, in doubles, with filters of two dimensions taken point by point, and
-// colours by the standard's chromaticities: nothing is shared with the code that is tested.
+// The paper's pipeline implemented again, in doubles, with 2D filters evaluated point by point, and colours
+// from the standard's chromaticities: it shares nothing with the tested code.
 class Straightforward {
  public:
   Straightforward(const DeepPicture& one, const DeepPicture& other, double ppd)
@@ -178,7 +178,7 @@ class Straightforward {
   double ppd_;
 };
 
-// The two matrices differ in the fifth digit; noise makes the most of it.
+// The two matrices differ in the fifth digit; noise maximises the effect.
 void expectAsStraightforward(const DeepPicture& one, const DeepPicture& other, double ppd) {
   const Flip flip = flipOf(one, other, ppd);
   const Straightforward expected(one, other, ppd);

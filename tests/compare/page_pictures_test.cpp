@@ -41,7 +41,7 @@ TEST(PagePictures, firstAndWorstComeFirstAndOthersAreSpread) {
   ASSERT_EQ(places.size(), kPageFrames);
   EXPECT_EQ(places[0], 1000U);
   EXPECT_EQ(places[1], 7777U);
-  EXPECT_EQ(places.back(), 9180U);  // 1000 + 10·8999/11; the last ones give way to the worst
+  EXPECT_EQ(places.back(), 9180U);  // 1000 + 10·8999/11; the last ones make room for the worst
   EXPECT_EQ(framesToShow(comparison, 1), Places{1000});
   EXPECT_EQ(framesToShow(manyFrames(5, 2, 3)), (Places{2, 3, 4}));
 }

@@ -49,8 +49,8 @@ constexpr std::array<std::array<float, 7>, 34> kPublished{{
     {2.0776F, 0.0795F, -1.1350F, 0.9033F, -0.0636F, -0.5514F, 0.9082F},
 }};
 
-// Pairs 10 and 14 have hues 180 degrees apart exactly, where the formula jumps and floats fall to either
-// side.
+// Pairs 10 and 14 have hues exactly 180 degrees apart, where the formula is discontinuous and floats may fall
+// on either side.
 TEST(PerceptualColor, ciede2000IsThatOfThePublishedTable) {
   for (std::size_t i = 0; i < kPublished.size(); ++i) {
     if (i == 9 || i == 13) {
@@ -68,7 +68,7 @@ Lab labOf(int red, int green, int blue) {
   return labOfLight({light(red), light(green), light(blue)});
 }
 
-// Of sRGB's primaries as everyone gives them, by the four digits of the standard's matrix.
+// The commonly published values of sRGB's primaries, with the four digits of the standard's matrix.
 TEST(PerceptualColor, labOfSrgb) {
   const auto near = [](const Lab& lab, float L, float a, float b) {
     EXPECT_NEAR(lab.L, L, 0.05F);
@@ -83,7 +83,7 @@ TEST(PerceptualColor, labOfSrgb) {
   near(labOf(0, 0, 255), 32.30F, 79.19F, -107.86F);
 }
 
-// So differenceOf() leaves out next to nothing where it does not look at grain.
+// So differenceOf() loses next to nothing by skipping differences of one step.
 TEST(PerceptualColor, coloursOneStepApartAreHardlyMoreThanVisiblyDifferent) {
   float most = 0;
   for (int red = 0; red < 255; red += 15) {

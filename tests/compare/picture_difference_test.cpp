@@ -25,7 +25,7 @@ TEST(PictureDifference, equalPicturesDifferInNothing) {
   EXPECT_EQ(difference.byStep[0], 2000U);
 }
 
-// Each figure by its definition, in doubles, of two pictures of noise.
+// Each figure by its definition, in doubles, for two pictures of noise.
 TEST(PictureDifference, figuresAreThoseOfTheirDefinitions) {
   const Picture a = noise(61, 47, 1);
   const Picture b = noise(61, 47, 2);
@@ -88,7 +88,7 @@ TEST(PictureDifference, depthsAndAlphaThatSayTheSameAreTheSame) {
   EXPECT_EQ(differenceOf(withAlpha(deepened(picture)), picture).differing, 0U);
 }
 
-// White that turns transparent and black that does are both seen.
+// White that becomes transparent is seen, and so is black.
 TEST(PictureDifference, transparencyIsVisibleOverEveryColour) {
   for (const int level : {0, 255}) {
     const DeepPicture opaque = withAlpha(flatPicture(16, 16, level, level, level));
@@ -139,7 +139,7 @@ TEST(PictureDifference, edgesExplainAThirdOfAPixel) {
   }
 }
 
-// Of each of the box's rows at least a pixel at either end.
+// In each row of the box at least one pixel at either end.
 TEST(PictureDifference, edgesDoNotExplainAWholePixelNorALineThatIsGone) {
   const DeepPicture box = BoxPicture{}.draw();
   for (const double left : {59.3, 61.3, 62.3}) {

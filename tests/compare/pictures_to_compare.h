@@ -32,7 +32,7 @@ inline DeepPicture flatPicture(int width, int height, int red, int green, int bl
   return picture;
 }
 
-/// An upright box of one colour before shaded tiles, its edges blended by how much of a pixel it covers.
+/// An upright box of one colour in front of shaded tiles; its edges are blended by pixel coverage.
 struct BoxPicture {
   double left = 60.3;  ///< [px]
   double top = 40.6;   ///< [px]

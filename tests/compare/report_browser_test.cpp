@@ -1,4 +1,4 @@
-// The page as its readers have it: in Debian's Chromium, by its keys.
+// The page as its readers see it: in Debian's Chromium, controlled by its keys.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace careen {
 namespace {
 
-/// A report in a browser, which must have nothing to complain of in the end.
+/// A report in a browser, which must report no errors at the end.
 class ReportInBrowser : public testing::Test {
  protected:
   ~ReportInBrowser() override {
@@ -51,19 +51,19 @@ TEST_F(ReportInBrowser, opensAtTheFirstDifferenceAndKeysChooseOthers) {
   EXPECT_EQ(textOf("#frame-name"), "000005.png, 6 of 8");
   EXPECT_EQ(browser.evaluate("location.hash"), "#frame=000005.png");
   browser.press("f");
-  browser.press("p");  // there is none before
+  browser.press("p");  // no earlier frame has pictures
   EXPECT_EQ(textOf("#frame-name"), "000002.png, 3 of 8");
   browser.press("ArrowLeft");
   EXPECT_EQ(textOf("#frame-verdict"), "same file");
   EXPECT_FALSE(isSeen("#panes"));
   EXPECT_EQ(textOf("#no-pictures"),
-            "Both files are the same, byte for byte. Nearest with pictures: 000002.png.");
+            "Both files are the same, byte for byte. Nearest frame with pictures: 000002.png.");
   browser.press("n");
   EXPECT_TRUE(isSeen("#panes"));
   EXPECT_EQ(textOf("#frame-name"), "000002.png, 3 of 8");
 }
 
-// The square's middle as it is on the screen: in the expected picture, the actual one and the difference.
+// The centre of the square on the screen: in the expected picture, the actual one and the difference.
 TEST_F(ReportInBrowser, picturesAreSeenAsTheyAre) {
   write(filmComparison(folder.path(), 4, 2, 2));
   browser.setSize(1400, 1200);
@@ -171,7 +171,7 @@ TEST_F(ReportInBrowser, zoomsByKeysAndWheelAndGoesToTheWorstPixel) {
   EXPECT_FALSE(isSeen(".cross"));
 }
 
-// Of text and the colours of verdicts on what they stand on: WCAG 2.2, 1.4.3, asks for 4.5.
+// Contrast of text and verdict colours with their background: WCAG 2.2, 1.4.3, requires 4.5.
 TEST_F(ReportInBrowser, isLegibleByDayAndNightAndOnNarrowScreens) {
   write(filmComparison(folder.path(), 8, 2, 5));
   const char* const contrasts =
@@ -221,7 +221,7 @@ TEST_F(ReportInBrowser, missingFrameIsShownAsFarAsItIsThere) {
   write(comparison);
   open();
   EXPECT_EQ(textOf("#frame-verdict"), "different: it is missing");
-  EXPECT_EQ(textOf("[data-shows=actual]"), "not there, or not to be compared");
+  EXPECT_EQ(textOf("[data-shows=actual]"), "missing, or not comparable");
   EXPECT_EQ(number("document.querySelector('[data-shows=expected] img').naturalWidth"), 96);
   EXPECT_EQ(textOf("#pixel"), "");
   browser.press("2");
@@ -234,7 +234,7 @@ TEST_F(ReportInBrowser, keysAreTold) {
   EXPECT_FALSE(isSeen("#help"));
   browser.press("?");
   EXPECT_TRUE(isSeen("#help"));
-  browser.press("ArrowRight");  // is for the dialog now
+  browser.press("ArrowRight");  // goes to the dialog now
   EXPECT_EQ(textOf("#frame-name"), "000001.png, 2 of 3");
   browser.press("Escape");
   EXPECT_FALSE(isSeen("#help"));
@@ -260,7 +260,7 @@ TEST_F(ReportInBrowser, tenThousandFramesAreDrawnAtOnce) {
   browser.setSize(1400, 1000);
   open("#frame=005001.png");
   EXPECT_EQ(textOf("#frame-name"), "005001.png, 5002 of 10000");
-  // Bars from the left [of the width]: those of the beginning, and the single frame's in the middle.
+  // Positions of bars [of the width]: those at the beginning, and the single frame's in the middle.
   const Browser::Json bars = browser.evaluate(
       "document.querySelector('#frames-chart .bars').getAttribute('d').match(/M[0-9.]+/g).map(move => "
       "move.slice(1) / document.querySelector('#frames-chart svg').clientWidth)");
@@ -280,10 +280,10 @@ TEST_F(ReportInBrowser, runShowsGrowthHorizonAndImpacts) {
   EXPECT_EQ(browser.evaluate("document.activeElement.id"), "growth-chart");
   browser.press("End");
   EXPECT_EQ(textOf("#growth-readout"),
-            "1 s: 0.5 m and 0 rad apart, 1.336 of drifter – beyond the horizon this says "
+            "1 s: 0.5 m and 0 rad apart, 1.336 of drifter – beyond the horizon this means "
             "nothing");
   browser.press("Home");
-  EXPECT_EQ(textOf("#growth-readout"), "0 s: not apart");
+  EXPECT_EQ(textOf("#growth-readout"), "0 s: no difference");
   EXPECT_EQ(textOf("#first-impact th"), "1 ← first");
   EXPECT_FALSE(isSeen("#frame"));
 }

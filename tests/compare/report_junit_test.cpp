@@ -76,7 +76,7 @@ TEST(ReportJunit, ofRunsHasACaseForEachProperty) {
                "room+x with 8 N s: impulse by 0.5 N s\">"),
       std::string::npos);
   EXPECT_NE(xml.find("name=\"boxes\"/>"), std::string::npos);
-  // Within a tolerance of motion the same impact is no failure.
+  // Within a motion tolerance the same impact is no failure.
   comparison.verdict = Verdict::kSame;
   EXPECT_EQ(count(reportJunit(comparison), "<failure "), 0);
 }

@@ -64,7 +64,7 @@ TEST(ReportPage, ofEqualsIsShort) {
 
 TEST(ReportPage, ofRunsTellsTheHorizonAndTheImpacts) {
   const std::string page = reportPage(twoRuns());
-  EXPECT_NE(page.find("The runs part at 0.5 s."), std::string::npos);
+  EXPECT_NE(page.find("The runs diverge at 0.5 s."), std::string::npos);
   EXPECT_NE(page.find("The horizon is at 0.50"), std::string::npos);
   EXPECT_NE(page.find("<th scope=\"row\">1 ← first</th><td>drifter against room+x</td><td>0.5</td><td>2</td>"
                       "<td class=\"other\"><del>8</del> <ins>8.5</ins></td><td>0</td>"),

@@ -18,8 +18,8 @@ Plane planeOf(const Picture& picture) {
   return plane;
 }
 
-// Equation 13 of the paper, window by window, in doubles: weights by the plane distance, two passes for
-// variances.
+// Equation 13 of the paper, window by window, in doubles: weights by the Euclidean distance, variances in two
+// passes.
 StructuralSimilarity straightforward(const Plane& one, const Plane& other) {
   constexpr double kC1 = 6.5025;
   constexpr double kC2 = 58.5225;
@@ -86,7 +86,7 @@ TEST(StructuralSimilarity, picturesSmallerThanTheWindowHaveASmallerOne) {
   }
 }
 
-// Windows that see nothing of the change are left out, and count as 1.
+// Windows without any change are skipped, and count as 1.
 TEST(StructuralSimilarity, changesInACornerAndInTheMiddleAreFound) {
   const Plane plane = planeOf(shadedTiles(80, 60));
   for (const auto& [x, y] : {std::pair{0, 0}, {79, 59}, {40, 30}, {79, 0}, {6, 59}, {73, 20}}) {
@@ -96,7 +96,7 @@ TEST(StructuralSimilarity, changesInACornerAndInTheMiddleAreFound) {
   }
 }
 
-// Windows are looked at in ranges; none is left out between two, however far apart they are.
+// Windows are processed in ranges; none between two ranges is skipped, however far apart they are.
 TEST(StructuralSimilarity, changesApartAreBothFound) {
   const Plane plane = planeOf(shadedTiles(80, 24));
   for (int apart = 1; apart < 40; ++apart) {

@@ -65,7 +65,7 @@ TEST(Tolerance, anotherRendererMayBlendEdgesOtherwiseButNotMoveThem) {
   EXPECT_EQ(verdictOf(box(), BoxPicture{.red = 212}.draw(), "other-renderer"), Verdict::kDifferent);
 }
 
-// The words of idiff, and its way to count: more than the threshold, more than the share.
+// The options of idiff, and its way to count: above the threshold, above the percentage.
 TEST(Tolerance, meansWhatIdiffMeans) {
   const DeepPicture black = flatPicture(10, 10, 0, 0, 0);
   DeepPicture other = black;
