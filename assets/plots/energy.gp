@@ -1,4 +1,4 @@
-# Energy against time at the usual step of one case, from energy.csv.
+# Energy over time at the usual time step of one case, from energy.csv.
 #   gnuplot -c energy.gp ENERGY.csv CASE TITLE "CONTESTANT …" OUT
 load ARG0[:strstrt(ARG0, "energy.gp") - 1] . "style.gp"
 csv = ARG1

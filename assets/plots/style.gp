@@ -1,4 +1,4 @@
-# What all plots share. Colours after P. Tol's "bright" and "muted" sets, which colour-blind readers can tell apart.
+# Settings of all plots. Colours from P. Tol's "bright" and "muted" sets, which colour-blind readers can distinguish.
 set datafile separator ","
 set datafile missing ""
 set key outside right top samplen 1.5 spacing 1.1
@@ -14,6 +14,6 @@ colourOf(name) = place(name) > 0 ? word(colours, place(name)) : "#000000"
 pointOf(name) = place(name) > 0 ? int(word(points, place(name))) : 1
 sizeOf(name) = name eq "exact" ? 1.6 : 0.8
 
-# Both pictures of one plot: out is its path without the ending.
+# Terminals for the two files of a plot; `out` is its path without the suffix.
 svg(w, h) = sprintf("set terminal svg size %d,%d dynamic background 'white' font 'DejaVu Sans,12'; set output '%s.svg'", w, h, out)
 png(w, h) = sprintf("set terminal pngcairo size %d,%d background 'white' font 'DejaVu Sans,11'; set output '%s.png'", w, h, out)

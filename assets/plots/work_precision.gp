@@ -1,4 +1,4 @@
-# Error against cost of every attempt at one case, from results.csv.
+# Work-precision diagram: error against cost of every attempt at one case, from results.csv.
 #   gnuplot -c work_precision.gp RESULTS.csv CASE TITLE "CONTESTANT …" OUT YLABEL
 load ARG0[:strstrt(ARG0, "work_precision.gp") - 1] . "style.gp"
 csv = ARG1
@@ -13,7 +13,7 @@ set logscale xy
 set format x "10^{%T}"
 set format y "10^{%T}"
 set yrange [1e-17 : 1e2]
-# No error at all has no place on a logarithmic scale: it is drawn at the lowest.
+# A logarithmic scale has no zero: an error of 0 is drawn at the lower end.
 shown(e) = e > 1e-16 ? (e < 1e2 ? e : 1e2) : 1e-16
 
 do for [kind in "svg png"] {

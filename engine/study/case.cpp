@@ -141,7 +141,7 @@ Case caseOfScene(const std::filesystem::path& scene, const std::stop_token& stop
   if (until <= 0) {
     throw InputError(scene.string() + ": chaos takes over before anything can be compared");
   }
-  study.source = "method exact, which agrees with a run from a start one rounding away";
+  study.source = "method exact, which agrees with a run from a start one rounding error away";
   study.whyHard = "a scene of your own";
   for (int k = 1; k <= kMomentsOfAScene; ++k) {
     study.times.push_back(until * k / kMomentsOfAScene);

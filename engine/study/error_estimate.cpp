@@ -64,7 +64,8 @@ std::optional<ErrorEstimate> estimateError(const World& world, const Trajectory&
   const std::vector<std::vector<BodyState>> states = again.finish();
   const double whole = order > 0 ? 1 / (1 - std::pow(0.5, order)) : 1;
   ErrorEstimate estimate;
-  estimate.by = order > 0 ? "half the step" : "a start one rounding away and a tenth of the tolerance";
+  estimate.by =
+      order > 0 ? "half the time step" : "a start one rounding error away and a tenth of the tolerance";
   for (std::size_t k = 0; k < times.size(); ++k) {
     const PoseDifference difference = differenceOf(world, statesAt(run, times[k]), states[k]);
     if (difference.relative > kHorizonDifference) {

@@ -100,7 +100,7 @@ struct Timed {
 
 std::string inWords(double seconds) {
   std::ostringstream text;
-  text << "not done after " << seconds << " s";
+  text << "not finished after " << seconds << " s";
   return text.str();
 }
 

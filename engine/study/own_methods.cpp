@@ -14,10 +14,11 @@ class OwnMethod : public Contestant {
   std::string name() const override { return std::string(traits_.name); }
   std::string settings() const override {
     if (!traits_.steps()) {
-      return "careen: closed forms from impact to impact, no steps; contact in steps chosen by the tolerance";
+      return "careen: closed forms from impact to impact; contact in adaptive time steps that hold the "
+             "tolerance";
     }
     return "careen: order " + std::to_string(traits_.order) +
-           (traits_.forces ? ", the loop of 1997" : ", impacts at the roots of the gap");
+           (traits_.forces ? ", the time loop of the 1997 sample" : ", impacts at roots of the gap function");
   }
   bool steps() const override { return traits_.steps(); }
 
@@ -26,7 +27,7 @@ class OwnMethod : public Contestant {
       return "no springs, no drag";
     }
     if (!traits_.boxBox && world.bodies.size() > 1) {
-      return "boxes do not meet";
+      return "no collisions between boxes";
     }
     return "";
   }

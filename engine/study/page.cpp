@@ -71,7 +71,7 @@ std::string attemptsOf(const CaseResult& result) {
   table << "<table><tr><th>contestant</th><th>dt [s]</th><th>tolerance [m]</th><th>error</th><th>µs per "
            "simulated "
            "s</th><th>spread</th>"
-           "<th>repeats</th><th>on the front</th></tr>\n";
+           "<th>repeats</th><th>Pareto front</th></tr>\n";
   for (const Attempt& attempt : result.attempts) {
     table << "<tr><th>" << escapedForMarkup(attempt.contestant) << "</th><td>"
           << (attempt.dt > 0 ? inShort(attempt.dt) : "") << "</td><td>"
@@ -154,8 +154,8 @@ std::string verdict(const StudyResult& study) {
   std::ostringstream text;
   text << "<b>exact</b> answers " << answered << " of " << study.cases.size()
        << " cases; its largest error is " << inShort(worst) << " (" << escapedForMarkup(worstCase) << "). In "
-       << front << " of them no other contestant is both cheaper and better"
-       << (dominated.empty() ? "." : "; it is not so in " + escapedForMarkup(dominated) + ".");
+       << front << " of them no other contestant is both cheaper and more accurate"
+       << (dominated.empty() ? "." : "; exceptions: " + escapedForMarkup(dominated) + ".");
   return text.str();
 }
 

@@ -33,7 +33,8 @@ std::vector<std::vector<BodyState>> Peer::run(const World& world, double dt, std
       const Body& body = world.bodies[i];
       sampled.push_back(isImmovable(body.mass) ? BodyState{.pose = body.initial.pose} : engine->state(i));
       if (!isFinite(sampled.back())) {
-        throw NumericalError(name() + " lost " + body.name + " by t = " + std::to_string(time) + " s");
+        throw NumericalError(name() + ": the state of " + body.name +
+                             " is not finite by t = " + std::to_string(time) + " s");
       }
     }
   }

@@ -153,9 +153,10 @@ class Bullet : public Peer {
     const std::string version =
         std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100);
     return "Bullet " + version + " in doubles, " +
-           (best_ ? "no sleeping, contacts only where boxes overlap, four points on a plane, restitution at "
-                    "any speed, all overlap by split impulse, 50 iterations, friction interleaved"
-                  : "as it ships");
+           (best_ ? "no sleeping, contacts only where boxes overlap, four contact points with a plane, "
+                    "restitution at "
+                    "any speed, penetration corrected by split impulse, 50 iterations, interleaved friction"
+                  : "default settings");
   }
 
  protected:

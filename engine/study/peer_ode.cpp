@@ -152,7 +152,7 @@ class Ode : public Peer {
 
   std::string settings() const override {
     return std::string("ODE " dODE_VERSION " in doubles, QuickStep, ") +
-           (best_ ? "100 iterations, finite rotation" : "as it ships");
+           (best_ ? "100 iterations, finite rotation" : "default settings");
   }
 
  protected:

@@ -91,7 +91,7 @@ std::vector<CaseResult> runStudy(const StudySettings& settings, const Contestant
   for (const std::string& name : settings.cases) {
     const Case study = caseNamed(name, stop);
     if (!names.insert(study.name).second) {
-      throw InputError("two cases are called " + study.name + "; expected different names");
+      throw InputError("found two cases named " + study.name + ", expected different names");
     }
     const fs::path path = folder / (study.name + ".json");
     const std::string stamp = stampOf(study, contestants, settings);

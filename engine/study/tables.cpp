@@ -51,7 +51,7 @@ std::string finenessOf(const Attempt& attempt) {
 }
 
 void addFindings(std::ostream& text, const StudyResult& study) {
-  text << "\n## Where another answer is both cheaper and better than that of exact\n\n";
+  text << "\n## Cases where another answer is both cheaper and more accurate than that of exact\n\n";
   bool any = false;
   for (const CaseResult& result : study.cases) {
     const Attempt* const exact = usualAttempt(result, "exact");
@@ -68,16 +68,16 @@ void addFindings(std::ostream& text, const StudyResult& study) {
       text << exact->failure << '\n';
       continue;
     }
-    text << "exact is wrong by " << inShort(exact->judgement.error) << " at " << brief(exact->cost, 3)
+    text << "exact has error " << inShort(exact->judgement.error) << " at " << brief(exact->cost, 3)
          << " µs/s;";
     for (const Attempt* other : better) {
-      text << ' ' << other->contestant << finenessOf(*other) << " by " << inShort(other->judgement.error)
+      text << ' ' << other->contestant << finenessOf(*other) << ' ' << inShort(other->judgement.error)
            << " at " << brief(other->cost, 3) << " µs/s;";
     }
     text << '\n';
   }
   if (!any) {
-    text << "In no case.\n";
+    text << "None.\n";
   }
 }
 
@@ -139,13 +139,14 @@ std::string resultsMarkdown(const StudyResult& study) {
   std::ostringstream text;
   text << "# Speed against error\n\n"
        << "Made by `" << study.command << "` on " << study.machine << ".\n\n"
-       << "## Errors at the usual step\n\n"
-       << "Largest distance from the truth in half diagonals, or angle in radians; the deepest overlap of a "
+       << "## Errors at the usual time step\n\n"
+       << "Largest distance from the truth in half diagonals, or angle in radians; for a "
           "pile\n"
-       << "in half diagonals; in cases of energy its largest relative change. – stands where there is no "
-          "answer; the reason is in results.csv.\n\n";
+       << "the deepest penetration in half diagonals; for energy, its largest relative change. – means that "
+          "there "
+          "is no answer; results.csv has the reason.\n\n";
   addTable(text, study, [](const Attempt* attempt) { return cell(attempt); });
-  text << "\n## What the answers cost\n\nµs of one core per simulated second, at the usual step.\n\n";
+  text << "\n## Costs\n\nµs of one core per simulated second, at the usual time step.\n\n";
   addTable(text, study, [](const Attempt* attempt) {
     return attempt != nullptr && attempt->failure.empty() ? brief(attempt->cost, 3) : std::string("–");
   });

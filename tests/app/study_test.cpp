@@ -101,7 +101,7 @@ TEST_F(StudyCommand, runsTellTheirOwnErrorWhenAsked) {
   folder_.write("scene.json", kScene);
   Ended ended = careen({"simulate", "scene.json", "--estimate-error", "--report", "report.json"});
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
-  EXPECT_NE(ended.out.find("to the end (by a start one rounding away and a tenth of the tolerance)"),
+  EXPECT_NE(ended.out.find("to the end (by a start one rounding error away and a tenth of the tolerance)"),
             std::string::npos)
       << ended.out;
   nlohmann::json estimate = jsonOf("report.json").at("error_estimate");
@@ -113,7 +113,7 @@ TEST_F(StudyCommand, runsTellTheirOwnErrorWhenAsked) {
   ended = careen({"simulate", "scene.json", "--estimate-error", "--method", "listing1", "--dt", "0.01",
                   "--report", "report.json"});
   estimate = jsonOf("report.json").at("error_estimate");
-  EXPECT_EQ(estimate.at("by"), "half the step");
+  EXPECT_EQ(estimate.at("by"), "half the time step");
   EXPECT_LE(estimate.at("until"), estimate.at("horizon"));
 
   careen({"simulate", "scene.json", "--no-estimate-error", "--report", "report.json"});

@@ -18,7 +18,7 @@ World tumble() {
   return world;
 }
 
-// The largest angle to the closed form at the moments of the estimate.
+// The largest angle to the closed form at the times of the estimate.
 double trueAngle(const World& world, const Trajectory& run) {
   const double duration = run.settings.duration;
   const Trajectory truth = record(world, {.method = Method::kExact, .duration = duration}, "");
@@ -44,7 +44,7 @@ TEST(ErrorEstimate, ofAMethodThatStepsIsItsTrueError) {
     const Trajectory run = record(world, {.method = method.method, .duration = 2, .dt = dt}, "");
     const std::optional<ErrorEstimate> estimate = estimateError(world, run);
     ASSERT_TRUE(estimate.has_value());
-    EXPECT_EQ(estimate->by, "half the step");
+    EXPECT_EQ(estimate->by, "half the time step");
     EXPECT_EQ(estimate->until, 2);
     EXPECT_FALSE(estimate->horizon.has_value());
     // measured 0.9995 to 1.02
@@ -64,7 +64,7 @@ TEST(ErrorEstimate, ofExactIsItsErrorAgainstAQuadrupleRun) {
   const Trajectory run = record(world, {.method = Method::kExact, .duration = end}, "");
   const std::optional<ErrorEstimate> estimate = estimateError(world, run);
   ASSERT_TRUE(estimate.has_value());
-  EXPECT_EQ(estimate->by, "a start one rounding away and a tenth of the tolerance");
+  EXPECT_EQ(estimate->by, "a start one rounding error away and a tenth of the tolerance");
   double error = 0;
   const auto corners = room.corners(Quad(end) - room.time());
   const Pose pose = run.state(0, end).pose;
@@ -72,7 +72,7 @@ TEST(ErrorEstimate, ofExactIsItsErrorAgainstAQuadrupleRun) {
     const Vec3 at = pose.position + pose.worldFromBody * corner(world.bodies[0].halfExtents, k);
     error = std::max(error, (at - corners.at(static_cast<std::size_t>(k)).cast<double>()).norm());
   }
-  // One run's rounding against another's: the size of it, no more can be told. Measured 8.
+  // One run's rounding error against another's: only the order of magnitude can be known. Measured 8.
   const double told = estimate->position + estimate->angle * world.bodies[0].halfExtents.norm();
   EXPECT_GT(told, error / 30);
   EXPECT_LT(told, error * 30);
@@ -85,7 +85,7 @@ TEST(ErrorEstimate, findsWhereChaosTakesOver) {
   const std::optional<ErrorEstimate> estimate = estimateError(world, run);
   ASSERT_TRUE(estimate.has_value());
   ASSERT_TRUE(estimate->horizon.has_value());
-  // The quadruple run and this one part after some 17 impacts.
+  // This run and the quadruple run diverge after some 17 impacts.
   EXPECT_GT(*estimate->horizon, 3);
   EXPECT_LT(*estimate->horizon, 12);
   EXPECT_LT(estimate->until, *estimate->horizon);
@@ -93,7 +93,7 @@ TEST(ErrorEstimate, findsWhereChaosTakesOver) {
 }
 
 TEST(ErrorEstimate, saysNothingWhereTheRunCannotBeRepeated) {
-  // Euler falls the less the longer its steps: with half of them the cube lands in time, and cannot rest.
+  // Euler falls less with longer time steps: with half of them the cube lands in time, and cannot rest.
   World world;
   world.gravity = Vec3(0, 0, -10);
   world.walls = {wall("floor", Vec3(0, 0, 1), 0, 0)};

@@ -15,7 +15,7 @@
 namespace careen {
 namespace {
 
-// Moves the first body along x at a speed of its own, wrong by dt, and takes as long as it is told to.
+// Moves the first body along x with a velocity error of dt, and takes as long as configured.
 class Drifter : public Contestant {
  public:
   Drifter(std::string name, double seconds) : name_(std::move(name)), seconds_(seconds) {}
@@ -85,7 +85,7 @@ TEST(Measuring, takesTheDeepestOverlapOfAllMoments) {
 }
 
 TEST(Measuring, sendsAReversedRunBack) {
-  // There with 1 + dt, back with −1 + dt.
+  // Forward at 1 + dt, back at −1 + dt.
   EXPECT_DOUBLE_EQ(errorOf(drift(Measure::kReversal), 0.3), 2 * 4 * 0.3 / 3);
   EXPECT_EQ(drift(Measure::kReversal).simulated(), 8);
 }
@@ -133,14 +133,14 @@ TEST(Measuring, saysWhyThereIsNoAnswer) {
   EXPECT_EQ(attempts[0].dt, 0.2);
   EXPECT_DOUBLE_EQ(attempts[0].judgement.error, 4 * 0.2 / 3);
   EXPECT_GT(attempts[0].cost, 0);
-  EXPECT_EQ(attempts[0].repeats, 2);  // at least, however little time there is
+  EXPECT_EQ(attempts[0].repeats, 2);  // at least two, however little time there is
   EXPECT_EQ(attempts[1].dt, 0.1);
   EXPECT_EQ(attempts[2].failure, "steps too short");
   EXPECT_EQ(attempts[2].repeats, 0);
-  // Given up at the first step, and told of the usual one.
+  // Aborted at the first time step, and reported for the usual one.
   EXPECT_EQ(attempts[3].contestant, "slow");
   EXPECT_EQ(attempts[3].dt, 0.1);
-  EXPECT_EQ(attempts[3].failure, "not done after 0.05 s");
+  EXPECT_EQ(attempts[3].failure, "not finished after 0.05 s");
   Case dragged = study;
   dragged.world.drag = Drag{};
   const std::vector<Attempt> refused = attemptAll(dragged, contestants, effort, {});
@@ -148,7 +148,7 @@ TEST(Measuring, saysWhyThereIsNoAnswer) {
   EXPECT_EQ(refused[0].failure, "no drag");
 }
 
-// Wrong by its tolerance, as long as the body moves.
+// Its error is its tolerance, as long as the body moves.
 class Chooser : public Drifter {
  public:
   Chooser() : Drifter("chooser", 0) {}

@@ -1,5 +1,5 @@
-// Errors on the hard cases, as the study measures them: those of exact on all, those of the methods that step
-// on some, so that one that is broken is seen.
+// Errors on the hard cases, as the study measures them: exact on all of them, the methods with a fixed time
+// step on some, so that a broken method shows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct Measured {
   std::string name;
   double error;
 };
-// For messages; the name is one that GoogleTest looks for.
+// For messages; GoogleTest looks for this name.
 void PrintTo(const Measured& measured, std::ostream* out) {  // NOLINT(readability-identifier-naming)
   *out << measured.method << " on " << measured.name << ", measured " << measured.error;
 }
@@ -42,7 +42,7 @@ std::string nameOf(const testing::TestParamInfo<Measured>& info) {
   return name;
 }
 
-// Measured. Rounding may come out three times as large elsewhere, and no more.
+// Measured. On other machines rounding may be three times as large, but not more.
 const std::vector<Measured> kExact = {
     {"exact", "tumble-generic", 1.1e-15},
     {"exact", "tumble-middle-axis", 1.2e-14},
@@ -77,7 +77,7 @@ const std::vector<Measured> kExact = {
     {"exact", "kilometre", 2.9e-15},
     {"exact", "far-away", 1.5e-10},  // positions are rounded to 1.2e-10 m there
     {"exact", "scaled", 0},          // to the bit
-    // Contact: closed forms where forces are constant, else its steps, at a tolerance of 1e-6 m
+    // Contact: closed forms where forces are constant, else adaptive time steps, with a tolerance of 1e-6 m
     {"exact", "sliding-azimuths", 1.8e-14},
     {"exact", "incline-slide", 1.1e-14},
     {"exact", "incline-hold", 9.7e-16},
@@ -90,7 +90,7 @@ const std::vector<Measured> kExact = {
     {"exact", "sliding-spinning", 1.5e-7},
     {"exact", "rocking-block", 6.5e-7},
     {"exact", "pile", 5.4e-4},
-    {"exact", "tip-or-slide", 6.2e-6},  // what tips leaves its balance ever faster
+    {"exact", "tip-or-slide", 6.2e-6},  // an unstable balance: errors grow as the box tips
 };
 
 class ExactOnHardCases : public testing::TestWithParam<Measured> {};
@@ -114,8 +114,8 @@ TEST(HardCases, areAllHeldByABoundOnExact) {
   EXPECT_EQ(held, known);
 }
 
-// What a step costs in error, measured; the bad ones are asserted to be bad. A factor of 1.5 either way, for
-// these are no roundings.
+// Errors of a fixed time step, measured; the bad ones are asserted to be bad. The bound is a factor of 1.5
+// either way, because these errors are not rounding errors.
 const std::vector<Measured> kStepped = {
     {"listing1", "tumble-generic", 0.69},
     {"strang", "tumble-generic", 2e-6},
@@ -145,7 +145,7 @@ TEST_P(SteppedOnHardCases, isAsWrongAsItWas) {
 
 INSTANTIATE_TEST_SUITE_P(All, SteppedOnHardCases, testing::ValuesIn(kStepped), nameOf);
 
-// Beyond what a double resolves, all that step with more than order 2 are at their rounding.
+// All methods of order above 2 reach the limit of double precision.
 TEST(HardCases, ofOneImpactAreDoneByHighOrdersToRounding) {
   for (const char* const method : {"splitting-6", "taylor-8", "moser-veselov-10"}) {
     EXPECT_LT(errorOf(method, "corner-impact"), 1e-13) << method;   // measured 5e-15 to 1.4e-14

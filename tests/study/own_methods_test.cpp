@@ -27,7 +27,8 @@ TEST(OwnMethods, refuseWhatTheyDoNotModel) {
   springs.springs.emplace_back();
   for (const auto& method : ownMethods()) {
     EXPECT_EQ(method->refuses(elasticRoom()), "") << method->name();
-    EXPECT_EQ(method->refuses(two), method->name() == "exact" ? "" : "boxes do not meet") << method->name();
+    EXPECT_EQ(method->refuses(two), method->name() == "exact" ? "" : "no collisions between boxes")
+        << method->name();
     EXPECT_EQ(method->refuses(springs),
               method->name() == "listing1" || method->name() == "exact" ? "" : "no springs, no drag")
         << method->name();

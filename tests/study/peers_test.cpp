@@ -38,7 +38,7 @@ double angleBetween(const Mat3& a, const Mat3& b) {
   return Eigen::AngleAxisd(Mat3(a.transpose() * b)).angle();
 }
 
-// [rad] after 10 s of free tumbling.
+// Attitude error [rad] after 10 s of free tumbling.
 double errorAfterTumble(const Contestant& peer, const Vec3& spin, double dt) {
   const World world = worldOf({{.halfExtents = kLong, .angularVelocity = spin}});
   const Body& body = world.bodies[0];
@@ -48,9 +48,9 @@ double errorAfterTumble(const Contestant& peer, const Vec3& spin, double dt) {
                       after(peer, world, 10, dt)[0].pose.worldFromBody);
 }
 
-bool isBulletAsItShips(const Contestant& peer) { return peer.name() == "bullet"; }
+bool isBulletByDefault(const Contestant& peer) { return peer.name() == "bullet"; }
 
-// Each test asks all peers, and says which one it is about.
+// Each test asks all peers and names the one it is about.
 class Peers : public testing::Test {
  protected:
   template <class Check>
@@ -73,7 +73,7 @@ class Peers : public testing::Test {
   Contestants peers_ = peers();
 };
 
-TEST_F(Peers, areEachEngineAsItShipsAndAtItsBest) {
+TEST_F(Peers, areEachEngineByDefaultAndAtItsBest) {
   std::set<std::string> names;
   forEach([&](const Contestant& peer) {
     names.insert(peer.name());
@@ -97,8 +97,9 @@ TEST_F(Peers, refuseSpringsAndDrag) {
   });
 }
 
-// Both engines move by v += g h, x += v h: the fall is ahead of the parabola by g h t / 2. So it tells how
-// long the steps were: equal, no longer than dt, and 6 of 1/60 s for 0.1 s although 0.1 · 60 > 6 in doubles.
+// Both engines move by v += g h, x += v h: the fall is ahead of the parabola by g h t / 2. This reveals how
+// long the time steps were: equal, no longer than dt, and 6 of 1/60 s for 0.1 s although 0.1 · 60 > 6 in
+// doubles.
 TEST_F(Peers, fallAheadOfTheParabolaByTheStepTheyWereToldToTake) {
   const Vec3 velocity(1, -2, 3);
   World world = worldOf({{.velocity = velocity}});
@@ -122,7 +123,7 @@ TEST_F(Peers, fallAheadOfTheParabolaByTheStepTheyWereToldToTake) {
   });
 }
 
-// A cube keeps its spin. ODE as it ships takes the chord for the arc: a turn of 2 atan(ωh/2) per step.
+// A cube keeps its spin. By default, ODE rotates by the chord instead of the arc: 2 atan(ωh/2) per time step.
 TEST_F(Peers, spinACubeSteadily) {
   const Vec3 axis = Vec3(1, 2, -2) / 3;
   constexpr double kSpin = 3;  // [rad/s]
@@ -174,18 +175,18 @@ TEST_F(Peers, takeInAndGiveBackTheStateOfEachBodyInItsOrder) {
   });
 }
 
-// The pair has the larger e of the two, 0.8, not their product or mean.
+// The pair uses the larger e of the two, 0.8, not their product or mean.
 TEST_F(Peers, comeBackFromAWallWithTheLargerRestitution) {
   World world = worldOf({{.position = {1, 0, 0}, .velocity = {-4, 0, 0}, .restitution = 0.3}});
   world.walls.push_back({.name = "wall", .normal = Vec3::UnitX(), .offset = -0.5, .material = {0.8, 0}});
   forEach([&](const Contestant& peer) {
     const double speed = after(peer, world, 0.6, 1.0 / 240)[0].velocity.x();
-    // Measured: 3.2 within 2e-8 m/s; Bullet as it ships 3.67, for it strikes with one corner at a time.
-    EXPECT_NEAR(speed, 0.8 * 4, isBulletAsItShips(peer) ? 0.6 : 1e-6);
+    // Measured: 3.2 within 2e-8 m/s; Bullet by default 3.67, because it strikes with one corner at a time.
+    EXPECT_NEAR(speed, 0.8 * 4, isBulletByDefault(peer) ? 0.6 : 1e-6);
   });
 }
 
-// The pair has friction sqrt(0.2 · 0.8) = 0.4.
+// The pair's friction is sqrt(0.2 · 0.8) = 0.4.
 TEST_F(Peers, slideToAStopUnderTheMeanFriction) {
   World world = worldOf({{.position = {0, 0, 0.2}, .velocity = {2, 0, 0}}});
   world.gravity = -kGravity * Vec3::UnitZ();
@@ -194,8 +195,8 @@ TEST_F(Peers, slideToAStopUnderTheMeanFriction) {
   const double way = 4 / (2 * 0.4 * kGravity);  // 0.51 m
   forEach([&](const Contestant& peer) {
     const BodyState state = after(peer, world, 2, 1.0 / 240)[0];
-    // Measured: 4 mm short, Bullet as it ships 14 mm. At rest but for 0.025 m/s of bullet-best, which falls
-    // for a step whenever it has lost touch: g h = 0.04 m/s.
+    // Measured: 4 mm short, Bullet by default 14 mm. At rest except for 0.025 m/s of bullet-best, which falls
+    // for one time step whenever it has lost contact: g h = 0.04 m/s.
     EXPECT_NEAR(state.pose.position.x(), way, 0.03);
     EXPECT_LT(state.velocity.norm(), 0.05);
   });
@@ -223,7 +224,7 @@ TEST_F(Peers, convergeToTheFreeTumbleWithTheFirstPowerOfTheStep) {
   });
 }
 
-// Measured: 1.180 and 0.0755 rad; the same as in a comparison made apart from this project's code.
+// Measured: 1.180 and 0.0755 rad; the same as in a comparison made independently of this project's code.
 TEST_F(Peers, tumbleAboutTheMiddleAxisAsBulletIsKnownTo) {
   const Vec3 middle(0.01, 6, 0.01);
   for (const char* name : {"bullet", "bullet-best"}) {
@@ -232,8 +233,8 @@ TEST_F(Peers, tumbleAboutTheMiddleAxisAsBulletIsKnownTo) {
   }
 }
 
-// What the best settings are for. Measured loss: bullet 0.71, the others 0.0069.
-TEST_F(Peers, keepTheEnergyOfAnElasticImpactButForBulletAsItShips) {
+// The purpose of the best settings. Measured loss: bullet 0.71, the others 0.0069.
+TEST_F(Peers, keepTheEnergyOfAnElasticImpactExceptBulletByDefault) {
   World world = worldOf({{.halfExtents = {0.2, 0.3, 0.5},
                           .position = {0, 0, 1.5},
                           .worldFromBody = axisAngle(Vec3(2, -1, 2) / 3, 0.7),
@@ -250,7 +251,7 @@ TEST_F(Peers, keepTheEnergyOfAnElasticImpactButForBulletAsItShips) {
   forEach([&](const Contestant& peer) {
     const BodyState state = after(peer, world, 0.4, 1.0 / 240)[0];
     const double loss = 1 - energy(state) / energy(body.initial);
-    EXPECT_NEAR(loss, isBulletAsItShips(peer) ? 0.7 : 0, isBulletAsItShips(peer) ? 0.1 : 0.01);
+    EXPECT_NEAR(loss, isBulletByDefault(peer) ? 0.7 : 0, isBulletByDefault(peer) ? 0.1 : 0.01);
   });
 }
 
@@ -283,7 +284,7 @@ TEST_F(Peers, sayWhenABodyIsLost) {
       after(peer, world, 10, 1);
       ADD_FAILURE() << "went on";
     } catch (const NumericalError& error) {
-      EXPECT_EQ(error.what(), peer.name() + " lost comet by t = 10.000000 s");
+      EXPECT_EQ(error.what(), peer.name() + ": the state of comet is not finite by t = 10.000000 s");
     }
   });
 }

@@ -77,15 +77,15 @@ TEST(Results, areOnTheFrontUnlessAnotherIsBothCheaperAndBetter) {
   ASSERT_EQ(betterThan(result, result.attempts[1]).size(), 1U);
   EXPECT_EQ(betterThan(result, result.attempts[1])[0], &result.attempts[0]);
   EXPECT_TRUE(betterThan(result, result.attempts[2]).size() == 1);
-  result.attempts[1].cost = 0.01;  // cheaper, though worse
+  result.attempts[1].cost = 0.01;  // cheaper, but less accurate
   EXPECT_TRUE(onFront(result, result.attempts[0]));
   EXPECT_TRUE(onFront(result, result.attempts[1]));
-  result.attempts[2].judgement.error = 1e-16;  // better, though dearer
+  result.attempts[2].judgement.error = 1e-16;  // more accurate, but more expensive
   EXPECT_TRUE(onFront(result, result.attempts[0]));
   result.attempts[2].cost = 0.009;
   EXPECT_FALSE(onFront(result, result.attempts[0]));
-  // One that never answered is in nobody's way.
-  result.attempts[2].failure = "not done";
+  // A contestant without an answer beats nobody.
+  result.attempts[2].failure = "not finished";
   EXPECT_TRUE(onFront(result, result.attempts[0]));
 }
 
@@ -119,12 +119,11 @@ TEST(Results, areTablesThatOtherProgramsRead) {
 
 TEST(Results, sayInWordsWhereExactIsBeaten) {
   StudyResult study{.machine = "here", .command = "careen study", .cases = {someCase()}};
-  EXPECT_NE(resultsMarkdown(study).find("In no case."), std::string::npos);
+  EXPECT_NE(resultsMarkdown(study).find("None."), std::string::npos);
   EXPECT_NE(resultsMarkdown(study).find("| tumble | 1e-15 | 0.0033 | – |"), std::string::npos);
   study.cases[0].attempts[1] = answered("strang", 0.2, 1e-16, 0.01);
-  EXPECT_NE(
-      resultsMarkdown(study).find("- tumble: exact is wrong by 1e-15 at 0.1 µs/s; strang (dt 0.2) by 1e-16"),
-      std::string::npos);
+  EXPECT_NE(resultsMarkdown(study).find("- tumble: exact has error 1e-15 at 0.1 µs/s; strang (dt 0.2) 1e-16"),
+            std::string::npos);
   study.cases[0].attempts[0] = failed("exact", 0);
   EXPECT_NE(resultsMarkdown(study).find("- tumble: fell over"), std::string::npos);
 }

@@ -15,7 +15,7 @@ namespace {
 TEST(SampledStates, areThoseOfTheWholeTrajectory) {
   World world = elasticRoom();
   world.bodies.push_back(
-      box("anchor", Vec3(0.1, 0.1, 0.1), 1, Vec3(-2.5, -1.5, 0.2)));  // a second one, to tell them apart
+      box("anchor", Vec3(0.1, 0.1, 0.1), 1, Vec3(-2.5, -1.5, 0.2)));  // a second box, to tell them apart
   world.bodies[1].mass = immovable();
   const std::vector<double> times = {0, 0.25, 1, 2.5, 3};
   for (const Method method : {Method::kExact, Method::kTaylor8}) {

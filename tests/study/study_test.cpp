@@ -30,7 +30,7 @@ class Study : public testing::Test {
         .folder = folder_.path(),
         .resume = true};
   }
-  // Names of the cases in the order they were told, those taken over with a star.
+  // Names of the cases in the order of their callbacks, reused ones with a star.
   std::vector<std::string> run(const StudySettings& settings, const std::stop_token& stop = {}) {
     std::vector<std::string> told;
     results_ = runStudy(
@@ -53,7 +53,7 @@ TEST_F(Study, takesOverWhatIsFinishedAndNothingElse) {
   const std::vector<CaseResult> first = results_;
   EXPECT_EQ(run(some), (Told{"free-fall*", "landing-flat*"}));
   EXPECT_EQ(encodeResult(results_[1]), encodeResult(first[1]));
-  // A file cut short is done again, and so is one of another version or with another effort.
+  // A truncated file is computed again, and so is one of another version or effort.
   writeFile(folder_ / "cases" / "free-fall.json", encodeResult(first[0]).substr(0, 100));
   EXPECT_EQ(run(some), (Told{"free-fall", "landing-flat*"}));
   some.version = "2";
@@ -85,7 +85,7 @@ TEST_F(Study, takesASceneOfOnesOwnAgainstExact) {
     "boxes": [ { "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1], "angular_velocity": [1, 2, 3] } ] })");
   EXPECT_EQ(run(settings({(folder_ / "fall.json").string()})), (Told{"fall"}));
   const Attempt& exact = *usualAttempt(results_[0], "exact");
-  EXPECT_GT(exact.judgement.error, 1e-16);  // what exact itself may be wrong by
+  EXPECT_GT(exact.judgement.error, 1e-16);  // the possible error of exact itself
   EXPECT_LT(exact.judgement.error, 1e-8);   // measured 1.7e-10
   EXPECT_GT(usualAttempt(results_[0], "listing1")->judgement.error, 1e-3);
   EXPECT_LT(usualAttempt(results_[0], "taylor-8")->judgement.error, 1e-6);
