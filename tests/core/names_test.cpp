@@ -1,0 +1,38 @@
+#include "core/names.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace careen {
+namespace {
+
+constexpr std::array<std::string_view, 3> kNames = {"exact", "listing1", "exactly"};
+
+TEST(Names, areListedWithCommas) {
+  EXPECT_EQ(listed(kNames), "exact, listing1, exactly");
+  EXPECT_EQ(listed(std::span(kNames).first(1)), "exact");
+  EXPECT_EQ(listed({}), "");
+}
+
+TEST(Names, haveTheirPlaces) {
+  for (std::size_t place = 0; place < kNames.size(); ++place) {
+    EXPECT_EQ(placeAmong(kNames.at(place), kNames), place);
+  }
+}
+
+TEST(Names, thatAreUnknownAreToldWithThoseThereAre) {
+  for (const char* name : {"", "exac", "Exact", "exactly "}) {
+    try {
+      placeAmong(name, kNames);
+      ADD_FAILURE() << name;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(), "found '" + std::string(name) + "', expected one of: exact, listing1, exactly");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace careen
