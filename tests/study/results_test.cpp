@@ -2,49 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "some_case.h"
 
 namespace careen {
 namespace {
-
-Attempt answered(const std::string& contestant, double dt, double error, double cost) {
-  Attempt attempt;
-  attempt.contestant = contestant;
-  attempt.settings = "as it is";
-  attempt.dt = dt;
-  attempt.judgement = {.error = error, .energy = {error, -error}};
-  attempt.cost = cost;
-  attempt.spread = 0.1;
-  attempt.repeats = 3;
-  return attempt;
-}
-
-Attempt failed(const std::string& contestant, double dt) {
-  Attempt attempt;
-  attempt.contestant = contestant;
-  attempt.dt = dt;
-  attempt.failure = "fell over, \"quietly\"\nand lay there";
-  return attempt;
-}
-
-CaseResult someCase() {
-  CaseResult result;
-  result.name = "tumble";
-  result.title = "A <tumble> & more";
-  result.whyHard = "it tumbles";
-  result.source = "closed form: none";
-  result.measure = "energy";
-  result.stamp = "0123456789abcdef";
-  result.usualStep = 0.1;
-  result.times = {1, 2};
-  result.attempts = {answered("exact", 0, 1e-15, 0.1), answered("strang", 0.2, 1e-2, 0.2),
-                     answered("strang", 0.1, 1. / 300, 0.4), failed("ode", 0.1)};
-  result.attempts[0].tolerance = 1e-6;
-  return result;
-}
 
 TEST(Results, comeBackFromTheirFileToTheBit) {
   const CaseResult result = someCase();
@@ -97,35 +64,12 @@ TEST(Results, haveFromNoneToSixteenDigits) {
   EXPECT_EQ(correctDigits(INFINITY), 0);
 }
 
-TEST(Results, areTablesThatOtherProgramsRead) {
+TEST(Results, ofAWholeStudyAreJson) {
   const StudyResult study{.machine = "here", .command = "careen study", .cases = {someCase()}};
-  EXPECT_EQ(resultsCsv(study),
-            "case,contestant,dt,tolerance,error,cost_us,spread,repeats,front,failure\n"
-            "tumble,exact,,1e-06,1e-15,0.1,0.1,3,1,\n"
-            "tumble,strang,0.2,,0.01,0.2,0.1,3,0,\n"
-            "tumble,strang,0.1,,0.0033333333333333335,0.4,0.1,3,0,\n"
-            "tumble,ode,0.1,,,,,,0,\"fell over, \"\"quietly\"\" and lay there\"\n");
-  EXPECT_EQ(energyCsv(study),
-            "case,contestant,time,change\n"
-            "tumble,exact,1,1e-15\ntumble,exact,2,-1e-15\n"
-            "tumble,strang,1,0.0033333333333333335\ntumble,strang,2,-0.0033333333333333335\n");
-  EXPECT_EQ(matrixCsv(study),
-            "row,column,case,contestant,digits,error\n"
-            "0,0,tumble,exact,15,1e-15\n0,1,tumble,strang,2.477,0.0033\n0,2,tumble,ode,-1,–\n");
   const nlohmann::json json = nlohmann::json::parse(resultsJson(study));
   EXPECT_EQ(json.at("machine"), "here");
   EXPECT_EQ(json.at("cases").at(0).at("attempts").size(), 4U);
-}
-
-TEST(Results, sayInWordsWhereExactIsBeaten) {
-  StudyResult study{.machine = "here", .command = "careen study", .cases = {someCase()}};
-  EXPECT_NE(resultsMarkdown(study).find("None."), std::string::npos);
-  EXPECT_NE(resultsMarkdown(study).find("| tumble | 1e-15 | 0.0033 | – |"), std::string::npos);
-  study.cases[0].attempts[1] = answered("strang", 0.2, 1e-16, 0.01);
-  EXPECT_NE(resultsMarkdown(study).find("- tumble: exact has error 1e-15 at 0.1 µs/s; strang (dt 0.2) 1e-16"),
-            std::string::npos);
-  study.cases[0].attempts[0] = failed("exact", 0);
-  EXPECT_NE(resultsMarkdown(study).find("- tumble: fell over"), std::string::npos);
+  EXPECT_EQ(study.contestants(), (std::vector<std::string>{"exact", "strang", "ode"}));
 }
 
 }  // namespace

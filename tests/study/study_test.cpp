@@ -2,10 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -16,8 +12,6 @@
 
 namespace careen {
 namespace {
-
-namespace fs = std::filesystem;
 
 class Study : public testing::Test {
  protected:
@@ -95,40 +89,6 @@ TEST_F(Study, wantsDifferentNames) {
   folder_.write("free-fall.json",
                 R"({ "careen": 1, "duration": 1, "boxes": [ { "half_extents": [1, 1, 1], "mass": 1 } ] })");
   EXPECT_THROW(run(settings({"free-fall", (folder_ / "free-fall.json").string()})), InputError);
-}
-
-TEST_F(Study, pageHoldsEverythingAndNeedsNoNetwork) {
-  run(settings({"free-fall"}));
-  StudyResult study{.machine = "a <machine>", .command = "careen study free-fall", .cases = results_};
-  study.cases[0].attempts[1].failure = "it \"failed\"";
-  writeTables(study, folder_.path());
-  const std::string page = resultsPage(study, {"<?xml?><!DOCTYPE svg><svg id=\"plot\"></svg>"});
-  for (const char* const part :
-       {"a &lt;machine&gt;", "careen study free-fall", "<svg id=\"plot\"></svg>", "id=\"free-fall\"",
-        "title=\"it &quot;failed&quot;\"", "runge-kutta-4", "<b>exact</b> answers 1 of 1 cases"}) {
-    EXPECT_NE(page.find(part), std::string::npos) << part;
-  }
-  for (const char* const part : {"http:", "https:", "{{", "<?xml", "src="}) {
-    EXPECT_EQ(page.find(part), std::string::npos) << part;
-  }
-  for (const char* const file : {"results.csv", "energy.csv", "matrix.csv", "results.json", "results.md"}) {
-    EXPECT_TRUE(fs::exists(folder_ / file)) << file;
-  }
-}
-
-TEST_F(Study, drawsPlotsOfTheTables) {
-  run(settings({"room-minute"}));
-  const StudyResult study{.machine = "here", .command = "careen study", .cases = results_};
-  writeTables(study, folder_.path());
-  checkPlotter();
-  const std::vector<std::string> plots = drawPlots(study, folder_.path());
-  ASSERT_EQ(plots.size(), 1U);
-  EXPECT_NE(plots[0].find("taylor-8"), std::string::npos);
-  for (const char* const name : {"matrix", "room-minute", "room-minute-energy"}) {
-    const fs::path plot = folder_ / "plots" / name;
-    EXPECT_EQ(readFile(plot.string() + ".png").substr(1, 3), "PNG") << name;
-    EXPECT_NE(readFile(plot.string() + ".svg").find("<svg"), std::string::npos) << name;
-  }
 }
 
 }  // namespace

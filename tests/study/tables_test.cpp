@@ -1,0 +1,65 @@
+// The tables that results.h declares.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "some_case.h"
+
+namespace careen {
+namespace {
+
+TEST(Tables, areTablesThatOtherProgramsRead) {
+  const StudyResult study{.machine = "here", .command = "careen study", .cases = {someCase()}};
+  EXPECT_EQ(resultsCsv(study),
+            "case,contestant,dt,tolerance,error,cost_us,spread,repeats,front,failure\n"
+            "tumble,exact,,1e-06,1e-15,0.1,0.1,3,1,\n"
+            "tumble,strang,0.2,,0.01,0.2,0.1,3,0,\n"
+            "tumble,strang,0.1,,0.0033333333333333335,0.4,0.1,3,0,\n"
+            "tumble,ode,0.1,,,,,,0,\"fell over, \"\"quietly\"\" and lay there\"\n");
+  EXPECT_EQ(energyCsv(study),
+            "case,contestant,time,change\n"
+            "tumble,exact,1,1e-15\ntumble,exact,2,-1e-15\n"
+            "tumble,strang,1,0.0033333333333333335\ntumble,strang,2,-0.0033333333333333335\n");
+  EXPECT_EQ(matrixCsv(study),
+            "row,column,case,contestant,digits,error\n"
+            "0,0,tumble,exact,15,1e-15\n0,1,tumble,strang,2.477,0.0033\n0,2,tumble,ode,-1,–\n");
+}
+
+TEST(Tables, sayInWordsWhereExactIsBeaten) {
+  StudyResult study{.machine = "here", .command = "careen study", .cases = {someCase()}};
+  EXPECT_NE(resultsMarkdown(study).find("In no case."), std::string::npos);
+  EXPECT_NE(resultsMarkdown(study).find("| tumble | 1e-15 | 0.0033 | – |"), std::string::npos);
+  study.cases[0].attempts[1] = answered("strang", 0.2, 1e-16, 0.01);
+  EXPECT_NE(
+      resultsMarkdown(study).find("- tumble: exact is wrong by 1e-15 at 0.1 µs/s; strang (dt 0.2) by 1e-16"),
+      std::string::npos);
+  study.cases[0].attempts[0] = failed("exact", 0);
+  EXPECT_NE(resultsMarkdown(study).find("- tumble: fell over"), std::string::npos);
+}
+
+// A message may hold whatever an engine says; a study of nothing is a table without rows.
+TEST(Tables, ofNothingAreTheirHeads) {
+  const StudyResult study{.machine = "here", .command = "careen study", .cases = {}};
+  EXPECT_EQ(energyCsv(study), "case,contestant,time,change\n");
+  EXPECT_EQ(matrixCsv(study), "row,column,case,contestant,digits,error\n");
+  EXPECT_NE(resultsMarkdown(study).find("Made by `careen study` on here."), std::string::npos);
+}
+
+TEST(Tables, giveErrorsWithTwoDigits) {
+  EXPECT_EQ(inShort(0), "0");
+  EXPECT_EQ(inShort(1.26e-15), "1.3e-15");
+  EXPECT_EQ(inShort(0.99), "0.99");
+}
+
+// What a contestant was never asked is not what it failed at.
+TEST(Tables, leaveOutWhatWasNeverTried) {
+  CaseResult other = someCase();
+  other.name = "drop";
+  other.attempts = {answered("bullet", 0.1, 0.5, 1)};
+  const StudyResult study{.machine = "here", .command = "careen study", .cases = {someCase(), other}};
+  EXPECT_NE(resultsMarkdown(study).find("| drop |  |  |  | 0.5 |"), std::string::npos);
+  EXPECT_NE(matrixCsv(study).find("1,0,drop,exact,-1,\n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace careen
