@@ -140,11 +140,9 @@ std::string resultsMarkdown(const StudyResult& study) {
   text << "# Speed against error\n\n"
        << "Made by `" << study.command << "` on " << study.machine << ".\n\n"
        << "## Errors at the usual time step\n\n"
-       << "Largest distance from the truth in half diagonals, or angle in radians; for a "
-          "pile\n"
-       << "the deepest penetration in half diagonals; for energy, its largest relative change. – means that "
-          "there "
-          "is no answer; results.csv has the reason.\n\n";
+       << "Largest distance from the truth in half diagonals, or angle in radians; for a pile\n"
+       << "the deepest penetration in half diagonals; for energy, its largest relative change. "
+       << "– means that there is no answer; results.csv has the reason.\n\n";
   addTable(text, study, [](const Attempt* attempt) { return cell(attempt); });
   text << "\n## Costs\n\nµs of one core per simulated second, at the usual time step.\n\n";
   addTable(text, study, [](const Attempt* attempt) {
