@@ -1,4 +1,4 @@
-// app/gallery and the pictures it made: one of each shipped scene.
+// app/gallery and its pictures: one of each shipped scene.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -25,7 +25,7 @@ std::set<std::string> namesIn(const std::filesystem::path& folder, const std::st
 
 std::set<std::string> shippedScenes() { return namesIn(kRoot / "assets/scenes", ".json"); }
 
-// Big-endian, as in a PNG's header.
+// Big-endian, as in a PNG header.
 unsigned numberAt(const std::string& bytes, std::size_t place) {
   unsigned number = 0;
   for (const char byte : bytes.substr(place, 4)) {
@@ -48,7 +48,7 @@ TEST(Gallery, picturesAreAllOfOneSize) {
   }
 }
 
-TEST(Gallery, knowsAFrameOfEachSceneAndNamesThemToWhoAsksForAnother) {
+TEST(Gallery, hasAFrameForEachSceneAndListsThemForAnUnknownName) {
   const TemporaryFolder folder;
   const Ended ended = Process({kRoot / "app/gallery", "nope"}, folder.path()).wait();
   EXPECT_EQ(ended.exitCode, 2) << ended.out;

@@ -1,4 +1,4 @@
-// An installed program runs from its own copies of scenes and shaders, wherever it was put.
+// An installed program uses its own copies of scenes and shaders, in any folder.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -95,7 +95,7 @@ TEST(HuffmanCode, ofAsManySymbolsAsFitIsFlat) {
   EXPECT_EQ(lengthsOf(counts, 7), std::vector<std::uint8_t>(128, 7));
 }
 
-TEST(HuffmanCode, aSingleSymbolGetsCompany) {
+TEST(HuffmanCode, aSingleSymbolIsPairedWithAnUnusedOne) {
   EXPECT_EQ(lengthsOf({0, 0, 9, 0}, 7), (std::vector<std::uint8_t>{1, 0, 1, 0}));
   EXPECT_EQ(lengthsOf({9, 0, 0, 0}, 7), (std::vector<std::uint8_t>{1, 1, 0, 0}));
 }

@@ -73,10 +73,10 @@ TEST(ErrorEstimate, ofExactIsItsErrorAgainstAQuadrupleRun) {
     error = std::max(error, (at - corners.at(static_cast<std::size_t>(k)).cast<double>()).norm());
   }
   // One run's rounding error against another's: only the order of magnitude can be known. Measured 8.
-  const double told = estimate->position + estimate->angle * world.bodies[0].halfExtents.norm();
-  EXPECT_GT(told, error / 30);
-  EXPECT_LT(told, error * 30);
-  RecordProperty("told over true", std::to_string(told / error));
+  const double estimated = estimate->position + estimate->angle * world.bodies[0].halfExtents.norm();
+  EXPECT_GT(estimated, error / 30);
+  EXPECT_LT(estimated, error * 30);
+  RecordProperty("estimated over true", std::to_string(estimated / error));
 }
 
 TEST(ErrorEstimate, findsWhereChaosTakesOver) {

@@ -26,58 +26,58 @@ class Study : public testing::Test {
   }
   // Names of the cases in the order of their callbacks, reused ones with a star.
   std::vector<std::string> run(const StudySettings& settings, const std::stop_token& stop = {}) {
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     results_ = runStudy(
         settings, ownMethods(),
         [&](const CaseResult& result, bool takenOver) {
-          told.push_back(result.name + (takenOver ? "*" : ""));
+          reported.push_back(result.name + (takenOver ? "*" : ""));
         },
         stop);
-    return told;
+    return reported;
   }
 
   TemporaryFolder folder_;
   std::vector<CaseResult> results_;
 };
-using Told = std::vector<std::string>;
+using Reported = std::vector<std::string>;
 
 TEST_F(Study, takesOverWhatIsFinishedAndNothingElse) {
   StudySettings some = settings({"free-fall", "landing-flat"});
-  EXPECT_EQ(run(some), (Told{"free-fall", "landing-flat"}));
+  EXPECT_EQ(run(some), (Reported{"free-fall", "landing-flat"}));
   const std::vector<CaseResult> first = results_;
-  EXPECT_EQ(run(some), (Told{"free-fall*", "landing-flat*"}));
+  EXPECT_EQ(run(some), (Reported{"free-fall*", "landing-flat*"}));
   EXPECT_EQ(encodeResult(results_[1]), encodeResult(first[1]));
   // A truncated file is computed again, and so is one of another version or effort.
   writeFile(folder_ / "cases" / "free-fall.json", encodeResult(first[0]).substr(0, 100));
-  EXPECT_EQ(run(some), (Told{"free-fall", "landing-flat*"}));
+  EXPECT_EQ(run(some), (Reported{"free-fall", "landing-flat*"}));
   some.version = "2";
-  EXPECT_EQ(run(some), (Told{"free-fall", "landing-flat"}));
+  EXPECT_EQ(run(some), (Reported{"free-fall", "landing-flat"}));
   some.effort.rounds = 3;
-  EXPECT_EQ(run(some), (Told{"free-fall", "landing-flat"}));
+  EXPECT_EQ(run(some), (Reported{"free-fall", "landing-flat"}));
   some.resume = false;
-  EXPECT_EQ(run(some), (Told{"free-fall", "landing-flat"}));
+  EXPECT_EQ(run(some), (Reported{"free-fall", "landing-flat"}));
 }
 
 TEST_F(Study, leavesWhatIsFinishedWhenInterrupted) {
   std::stop_source source;
-  Told told;
+  Reported reported;
   EXPECT_THROW(runStudy(
                    settings({"free-fall", "landing-flat"}), ownMethods(),
                    [&](const CaseResult& result, bool) {
-                     told.push_back(result.name);
+                     reported.push_back(result.name);
                      source.request_stop();
                    },
                    source.get_token()),
                Interrupted);
-  EXPECT_EQ(told, (Told{"free-fall"}));
-  EXPECT_EQ(run(settings({"free-fall", "landing-flat"})), (Told{"free-fall*", "landing-flat"}));
+  EXPECT_EQ(reported, (Reported{"free-fall"}));
+  EXPECT_EQ(run(settings({"free-fall", "landing-flat"})), (Reported{"free-fall*", "landing-flat"}));
 }
 
 TEST_F(Study, takesASceneOfOnesOwnAgainstExact) {
   folder_.write("fall.json", R"({ "careen": 1, "name": "fall", "duration": 2, "gravity": [0, 0, -10],
     "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "restitution": 1 },
     "boxes": [ { "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1], "angular_velocity": [1, 2, 3] } ] })");
-  EXPECT_EQ(run(settings({(folder_ / "fall.json").string()})), (Told{"fall"}));
+  EXPECT_EQ(run(settings({(folder_ / "fall.json").string()})), (Reported{"fall"}));
   const Attempt& exact = *usualAttempt(results_[0], "exact");
   EXPECT_GT(exact.judgement.error, 1e-16);  // the possible error of exact itself
   EXPECT_LT(exact.judgement.error, 1e-8);   // measured 1.7e-10
