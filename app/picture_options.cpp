@@ -28,9 +28,9 @@ std::pair<int, int> parseSize(const std::string& text) {
                    std::to_string(kLargestFilm) + ", such as 1280x720");
 }
 
-Look lookNamed(std::string_view name) { return static_cast<Look>(placeAmong(name, kLooks)); }
+Look lookNamed(std::string_view name) { return static_cast<Look>(indexAmong(name, kLooks)); }
 Antialiasing antialiasingNamed(std::string_view name) {
-  return static_cast<Antialiasing>(placeAmong(name, kAntialiasings));
+  return static_cast<Antialiasing>(indexAmong(name, kAntialiasings));
 }
 
 }  // namespace

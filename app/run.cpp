@@ -55,7 +55,7 @@ void override(const std::string& key, const std::optional<double>& given, bool u
 void apply(const Overrides& overrides, Scene& scene) {
   if (overrides.method) {
     const std::size_t place = parsed("--method", *overrides.method,
-                                     [](const auto& name) { return placeAmong(name, kMethodNames); });
+                                     [](const auto& name) { return indexAmong(name, kMethodNames); });
     announce("method", kMethodNames.at(place), traitsOf(scene.method).name);
     scene.method = kMethods.at(place).method;
   }
@@ -83,7 +83,7 @@ void partBoxes(Scene& scene) {
 
 Run simulateText(const std::filesystem::path& path, const std::string& text, const Overrides& overrides,
                  const std::stop_token& stop) {
-  const UsualArithmetic usual;  // GL may be open, in a window
+  const DefaultFloatEnvironment usual;  // GL may be open, in a window
   Run run;
   run.source = path;
   run.scene = parseScene(text, path.string(), overrides.allowOverlap ? Starts::kMayOverlap : Starts::kApart);

@@ -1,5 +1,5 @@
-// The state hash of a scene's run, as `careen simulate` tells it, from a program that holds nothing but what
-// moves boxes: careen_state_hash SCENE [--method METHOD] [--duration SECONDS].
+// Prints the state hash of a scene's run, as `careen simulate` does, from a program that contains only the
+// physics and what it needs: careen_state_hash SCENE [--method METHOD] [--duration SECONDS].
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -32,7 +32,7 @@ std::string stateHashOf(int argc, char** argv) {
       throw std::invalid_argument("found " + option + ", expected --method or --duration");
     }
   }
-  const UsualArithmetic usual;
+  const DefaultFloatEnvironment usual;
   return record(assemble(scene, plan(scene)),
                 {.method = scene.method,
                  .duration = scene.duration,

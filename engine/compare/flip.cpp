@@ -142,7 +142,7 @@ int sensitivityReach(double pixelsPerDegree) {
 }
 
 /// The weights along one direction, not normalized; the square of their sum is the sum of the 2D filter.
-std::vector<double> bell(double b, double pixelsPerDegree) {
+std::vector<double> gaussian(double b, double pixelsPerDegree) {
   const int reach = sensitivityReach(pixelsPerDegree);
   std::vector<double> weights;
   for (int i = -reach; i <= reach; ++i) {
@@ -168,22 +168,23 @@ Taps scaled(const std::vector<double>& values, double factor) {
   return taps;
 }
 
-Values seenThrough(const Values& values, Grid grid, const Sensitivity& sensitivity, double pixelsPerDegree) {
-  const std::vector<double> weights = bell(sensitivity.b, pixelsPerDegree);
+Values filteredBySensitivity(const Values& values, Grid grid, const Sensitivity& sensitivity,
+                             double pixelsPerDegree) {
+  const std::vector<double> weights = gaussian(sensitivity.b, pixelsPerDegree);
   const Taps taps = scaled(weights, 1 / sumOf(weights));
   return filtered(values, grid, taps, taps);
 }
 
 /// The sum of two Gaussians is not separable, but each of them is; their shares follow from their sums.
-Values seenThrough(const Values& values, Grid grid, const std::array<Sensitivity, 2>& pair,
-                   double pixelsPerDegree) {
+Values filteredBySensitivity(const Values& values, Grid grid, const std::array<Sensitivity, 2>& pair,
+                             double pixelsPerDegree) {
   std::array<double, 2> shares{};
   for (std::size_t i = 0; i < 2; ++i) {
-    const double sum = sumOf(bell(pair[i].b, pixelsPerDegree));
+    const double sum = sumOf(gaussian(pair[i].b, pixelsPerDegree));
     shares[i] = pair[i].a * std::sqrt(kPi / pair[i].b) * sum * sum;
   }
-  Values first = seenThrough(values, grid, pair[0], pixelsPerDegree);
-  const Values second = seenThrough(values, grid, pair[1], pixelsPerDegree);
+  Values first = filteredBySensitivity(values, grid, pair[0], pixelsPerDegree);
+  const Values second = filteredBySensitivity(values, grid, pair[1], pixelsPerDegree);
   const auto share = static_cast<float>(shares[0] / (shares[0] + shares[1]));
   for (std::size_t i = 0; i < first.size(); ++i) {
     first[i] = share * first[i] + (1 - share) * second[i];
@@ -220,10 +221,10 @@ Opponent opponentOf(const DeepPicture& picture) {
 }
 
 /// The perceived picture at that distance, in Hunt-adjusted L*a*b*: 3.1 and 3.2.
-std::vector<Vec> seen(const Opponent& picture, Grid grid, double pixelsPerDegree) {
-  const Values y = seenThrough(picture[0], grid, kAchromatic, pixelsPerDegree);
-  const Values x = seenThrough(picture[1], grid, kRedGreen, pixelsPerDegree);
-  const Values z = seenThrough(picture[2], grid, kBlueYellow, pixelsPerDegree);
+std::vector<Vec> perceived(const Opponent& picture, Grid grid, double pixelsPerDegree) {
+  const Values y = filteredBySensitivity(picture[0], grid, kAchromatic, pixelsPerDegree);
+  const Values x = filteredBySensitivity(picture[1], grid, kRedGreen, pixelsPerDegree);
+  const Values z = filteredBySensitivity(picture[2], grid, kBlueYellow, pixelsPerDegree);
   std::vector<Vec> colors;
   for (std::size_t i = 0; i < y.size(); ++i) {
     Vec light = lightOfOpponent({y[i], x[i], z[i]});
@@ -288,8 +289,8 @@ Flip flipOf(const DeepPicture& expected, const DeepPicture& actual, double pixel
   const Grid grid{expected.width, expected.height};
   const Opponent one = opponentOf(expected);
   const Opponent other = opponentOf(actual);
-  const std::vector<Vec> colorsOne = seen(one, grid, pixelsPerDegree);
-  const std::vector<Vec> colorsOther = seen(other, grid, pixelsPerDegree);
+  const std::vector<Vec> colorsOne = perceived(one, grid, pixelsPerDegree);
+  const std::vector<Vec> colorsOther = perceived(other, grid, pixelsPerDegree);
   const Features featuresOne = featuresOf(one, grid, pixelsPerDegree);
   const Features featuresOther = featuresOf(other, grid, pixelsPerDegree);
   Flip flip;

@@ -119,7 +119,7 @@ void compareLook(Reasons& reasons, const PictureDifference& difference, const To
 
 }  // namespace
 
-Tolerance toleranceOf(std::string_view name) { return kTolerances.at(placeAmong(name, kToleranceNames)); }
+Tolerance toleranceOf(std::string_view name) { return kTolerances.at(indexAmong(name, kToleranceNames)); }
 
 Judgement judge(const PictureDifference& difference, const Tolerance& tolerance) {
   if (difference.differing == 0) {

@@ -19,10 +19,10 @@ inline std::string listed(std::span<const std::string_view> names) {
 }
 
 /// The index of a name in `names`; InputError, which lists them, if it is none of them.
-inline std::size_t placeAmong(std::string_view name, std::span<const std::string_view> names) {
-  for (std::size_t place = 0; place < names.size(); ++place) {
-    if (names[place] == name) {
-      return place;
+inline std::size_t indexAmong(std::string_view name, std::span<const std::string_view> names) {
+  for (std::size_t index = 0; index < names.size(); ++index) {
+    if (names[index] == name) {
+      return index;
     }
   }
   throw InputError("found '" + std::string(name) + "', expected one of: " + listed(names));

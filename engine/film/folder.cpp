@@ -31,10 +31,10 @@ bool isFrame(std::string_view name) {
 
 // ".000012.png.4711.partial", as AtomicFile names what it has not finished.
 bool isPartial(std::string_view name) {
-  if (!name.starts_with('.') || !name.ends_with(kPartialEnding)) {
+  if (!name.starts_with('.') || !name.ends_with(kPartialSuffix)) {
     return false;
   }
-  name = name.substr(1, name.size() - 1 - kPartialEnding.size());
+  name = name.substr(1, name.size() - 1 - kPartialSuffix.size());
   const std::size_t dot = name.rfind('.');
   return dot != std::string_view::npos && isNumber(name.substr(dot + 1), 1) &&
          (isFrame(name.substr(0, dot)) || name.substr(0, dot) == kManifestName);

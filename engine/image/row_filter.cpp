@@ -61,8 +61,8 @@ void subtractPaeth(std::span<const std::uint8_t> row, std::span<const std::uint8
   subtract(row, above, difference);
 }
 
-void subtractPaethPlainly(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
-                          std::span<std::uint8_t> difference) {
+void subtractPaethBaseline(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
+                           std::span<std::uint8_t> difference) {
   subtract(row, above, difference);
 }
 

@@ -12,7 +12,7 @@ void subtractPaeth(std::span<const std::uint8_t> row, std::span<const std::uint8
                    std::span<std::uint8_t> difference);
 
 /// The same bytes with baseline instructions only.
-void subtractPaethPlainly(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
-                          std::span<std::uint8_t> difference);
+void subtractPaethBaseline(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
+                           std::span<std::uint8_t> difference);
 
 }  // namespace careen

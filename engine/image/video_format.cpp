@@ -12,7 +12,7 @@
 namespace careen {
 namespace {
 
-using Words = std::vector<std::string>;
+using Arguments = std::vector<std::string>;
 
 constexpr std::array<std::string_view, 3> kQualities = {"draft", "good", "best"};
 
@@ -60,34 +60,34 @@ std::string codecOf(const VideoSettings& settings) {
 }
 
 // By quality: draft, good, best.
-Words pick(VideoQuality quality, const std::array<Words, 3>& choices) {
+Arguments pick(VideoQuality quality, const std::array<Arguments, 3>& choices) {
   return choices.at(static_cast<std::size_t>(quality));
 }
 
-Words encoderWords(const std::string& codec, VideoQuality quality) {
+Arguments encoderArguments(const std::string& codec, VideoQuality quality) {
   if (codec == "h264") {
-    return pick(quality, {Words{"-c:v", "libx264", "-preset", "ultrafast", "-crf", "28"},
+    return pick(quality, {Arguments{"-c:v", "libx264", "-preset", "ultrafast", "-crf", "28"},
                           {"-c:v", "libx264", "-preset", "veryfast", "-crf", "18"},
                           {"-c:v", "libx264", "-preset", "slow", "-crf", "12"}});
   }
   if (codec == "vp9") {  // bit rate 0: constant quality
-    Words words = pick(quality, {Words{"-deadline", "realtime", "-cpu-used", "8", "-crf", "40"},
-                                 {"-deadline", "good", "-cpu-used", "4", "-crf", "24"},
-                                 {"-deadline", "good", "-cpu-used", "1", "-crf", "12"}});
-    words.insert(words.begin(), {"-c:v", "libvpx-vp9", "-row-mt", "1", "-b:v", "0"});
-    return words;
+    Arguments arguments = pick(quality, {Arguments{"-deadline", "realtime", "-cpu-used", "8", "-crf", "40"},
+                                         {"-deadline", "good", "-cpu-used", "4", "-crf", "24"},
+                                         {"-deadline", "good", "-cpu-used", "1", "-crf", "12"}});
+    arguments.insert(arguments.begin(), {"-c:v", "libvpx-vp9", "-row-mt", "1", "-b:v", "0"});
+    return arguments;
   }
   if (codec == "av1") {
-    return pick(quality, {Words{"-c:v", "libsvtav1", "-preset", "12", "-crf", "45"},
+    return pick(quality, {Arguments{"-c:v", "libsvtav1", "-preset", "12", "-crf", "45"},
                           {"-c:v", "libsvtav1", "-preset", "8", "-crf", "26"},
                           {"-c:v", "libsvtav1", "-preset", "4", "-crf", "14"}});
   }
   if (codec == "webp") {
-    Words words = pick(quality, {Words{"-quality", "60", "-compression_level", "1"},
-                                 {"-quality", "85", "-compression_level", "4"},
-                                 {"-lossless", "1", "-quality", "75", "-compression_level", "4"}});
-    words.insert(words.begin(), {"-c:v", "libwebp_anim", "-loop", "0"});
-    return words;
+    Arguments arguments = pick(quality, {Arguments{"-quality", "60", "-compression_level", "1"},
+                                         {"-quality", "85", "-compression_level", "4"},
+                                         {"-lossless", "1", "-quality", "75", "-compression_level", "4"}});
+    arguments.insert(arguments.begin(), {"-c:v", "libwebp_anim", "-loop", "0"});
+    return arguments;
   }
   return {"-c:v", "gif", "-loop", "0"};
 }
@@ -109,7 +109,7 @@ std::string filterOf(const std::string& codec, VideoQuality quality) {
 }  // namespace
 
 VideoQuality videoQualityNamed(std::string_view name) {
-  return static_cast<VideoQuality>(placeAmong(name, kQualities));
+  return static_cast<VideoQuality>(indexAmong(name, kQualities));
 }
 
 void checkVideo(const VideoSettings& settings) {
@@ -121,32 +121,32 @@ void checkVideo(const VideoSettings& settings) {
   }
 }
 
-Words ffmpegCommand(const VideoSettings& settings, const std::filesystem::path& output) {
+Arguments ffmpegCommand(const VideoSettings& settings, const std::filesystem::path& output) {
   const std::string codec = codecOf(settings);
   const std::string size = std::to_string(settings.width) + "x" + std::to_string(settings.height);
   const std::string rate =
       std::to_string(settings.rateNumerator) + "/" + std::to_string(settings.rateDenominator);
-  Words command = {"ffmpeg",
-                   "-nostdin",
-                   "-loglevel",
-                   "error",
-                   "-y",
-                   "-f",
-                   "rawvideo",
-                   "-pix_fmt",
-                   "rgb24",
-                   "-video_size",
-                   size,
-                   "-framerate",
-                   rate,
-                   "-i",
-                   "pipe:0",
-                   "-vf",
-                   filterOf(codec, settings.quality)};
-  const auto add = [&command](const Words& words) {
-    command.insert(command.end(), words.begin(), words.end());
+  Arguments command = {"ffmpeg",
+                       "-nostdin",
+                       "-loglevel",
+                       "error",
+                       "-y",
+                       "-f",
+                       "rawvideo",
+                       "-pix_fmt",
+                       "rgb24",
+                       "-video_size",
+                       size,
+                       "-framerate",
+                       rate,
+                       "-i",
+                       "pipe:0",
+                       "-vf",
+                       filterOf(codec, settings.quality)};
+  const auto add = [&command](const Arguments& arguments) {
+    command.insert(command.end(), arguments.begin(), arguments.end());
   };
-  add(encoderWords(codec, settings.quality));
+  add(encoderArguments(codec, settings.quality));
   if (codec != "webp" && codec != "gif") {
     add({"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range",
          "tv"});

@@ -30,10 +30,10 @@ void removeStale(const std::filesystem::path& path) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     std::string name = entry.path().filename().string();
-    if (!name.starts_with(start) || !name.ends_with(kPartialEnding)) {
+    if (!name.starts_with(start) || !name.ends_with(kPartialSuffix)) {
       continue;
     }
-    name = name.substr(start.size(), name.size() - start.size() - kPartialEnding.size());
+    name = name.substr(start.size(), name.size() - start.size() - kPartialSuffix.size());
     const bool isNumber =
         !name.empty() && name.size() < 10 && name.find_first_not_of("0123456789") == std::string::npos;
     if (isNumber && (std::stoi(name) == getpid() || (kill(std::stoi(name), 0) != 0 && errno == ESRCH))) {
@@ -54,7 +54,7 @@ VideoPipe::VideoPipe(VideoSettings settings) : settings_(std::move(settings)) {
   checkVideo(settings_);
   removeStale(settings_.path);
   partial_ = settings_.path.parent_path() / ("." + settings_.path.filename().string() + "." +
-                                             std::to_string(getpid()) + std::string(kPartialEnding));
+                                             std::to_string(getpid()) + std::string(kPartialSuffix));
   // Fail now rather than after the last frame.
   const int probe = open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (probe < 0) {
@@ -127,8 +127,8 @@ int VideoPipe::wait() {
 }
 
 void VideoPipe::fail(const std::string& what) {
-  const std::string words = lastWords(log_);
-  throw MachineError(settings_.path.string() + ": " + what + (words.empty() ? "" : ": " + words));
+  const std::string tail = tailOf(log_);
+  throw MachineError(settings_.path.string() + ": " + what + (tail.empty() ? "" : ": " + tail));
 }
 
 void VideoPipe::undo() {

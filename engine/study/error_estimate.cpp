@@ -29,7 +29,7 @@ std::vector<BodyState> statesAt(const Trajectory& run, double time) {
 }
 
 /// Where method exact takes time steps, in contact, the second run uses a tolerance smaller by this factor.
-constexpr double kFiner = 10;
+constexpr double kToleranceDivisor = 10;
 
 }  // namespace
 
@@ -53,7 +53,7 @@ std::optional<ErrorEstimate> estimateError(const World& world, const Trajectory&
   const int order = traitsOf(run.settings.method).order;
   RunSettings settings = run.settings;
   settings.dt /= order > 0 ? 2 : 1;
-  settings.tolerance /= kFiner;
+  settings.tolerance /= kToleranceDivisor;
   const std::vector<double> times = sampleTimes(settings.duration);
   SampledStates again(world, times);
   try {

@@ -36,7 +36,7 @@ World startingFrom(const World& world, const std::vector<BodyState>& states) {
   return next;
 }
 
-std::vector<BodyState> turnedRound(std::vector<BodyState> states) {
+std::vector<BodyState> withReversedVelocities(std::vector<BodyState> states) {
   for (BodyState& state : states) {
     state.velocity = -state.velocity;
     state.angularMomentum = -state.angularMomentum;
@@ -98,7 +98,7 @@ struct Timed {
   std::vector<double> samples;
 };
 
-std::string inWords(double seconds) {
+std::string timeoutText(double seconds) {
   std::ostringstream text;
   text << "not finished after " << seconds << " s";
   return text.str();
@@ -138,7 +138,7 @@ double attempt(const Case& study, const Contestant& contestant, const Effort& ef
     if (stop.stop_requested()) {
       throw;
     }
-    result.failure = inWords(allowed);
+    result.failure = timeoutText(allowed);
   } catch (const Error& error) {
     result.failure = error.what();
   }
@@ -210,8 +210,8 @@ Answer answerOf(const Case& study, const Contestant& contestant, double fineness
   answer.states = contestant.run(study.world, fineness, study.times, stop);
   if (study.measure == Measure::kReversal) {
     const double end = study.duration();
-    answer.second = contestant.run(startingFrom(study.world, turnedRound(answer.states.back())), fineness,
-                                   {&end, 1}, stop);
+    answer.second = contestant.run(startingFrom(study.world, withReversedVelocities(answer.states.back())),
+                                   fineness, {&end, 1}, stop);
   } else if (study.measure == Measure::kScaled) {
     const double end = study.duration() / study.durations;
     const double unit = contestant.steps() ? study.durations : study.lengths;

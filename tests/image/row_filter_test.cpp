@@ -38,7 +38,7 @@ void expectAsSpecified(const Bytes& row, const Bytes& above) {
   Bytes chosen(row.size());
   Bytes plain(row.size());
   subtractPaeth(row, above, chosen);
-  subtractPaethPlainly(row, above, plain);
+  subtractPaethBaseline(row, above, plain);
   ASSERT_EQ(chosen, expected) << row.size() << " bytes";
   ASSERT_EQ(plain, expected) << row.size() << " bytes";
 }

@@ -39,7 +39,7 @@ inline double powerOfTwo(int n) { return std::bit_cast<double>(static_cast<std::
 inline constexpr double kWholeNumberShift = 6755399441055744.0;
 
 /// x − n·π/2 as hi + lo, for the n nearest to 2x/π. |x| < 2⁵⁰.
-inline DoubleDouble lessQuarterTurns(double x, double n) {
+inline DoubleDouble reducedByQuarterTurns(double x, double n) {
   if (std::fabs(n) < 0x1p27) {
     // π/2 in pieces of 26 bits: their products with n are exact, and so is the first difference.
     const double first = x - n * 0x1.921fb5p+0;
@@ -105,7 +105,7 @@ SinCos<Number> sinCosNearZero(const Number& x) {
 /// The angle plus a whole number of quarter turns; by bits, because a branch on the quadrant is mispredicted
 /// half the time.
 template <class Number>
-SinCos<Number> turnedOn(const SinCos<Number>& start, const Number& quarterTurns) {
+SinCos<Number> rotatedByQuarterTurns(const SinCos<Number>& start, const Number& quarterTurns) {
   using B = typename Bits<Number>::Type;
   const B quadrant = std::bit_cast<B>(quarterTurns + kWholeNumberShift);
   const B sin = std::bit_cast<B>(start.sin);
@@ -129,13 +129,13 @@ inline SinCos<double> sinCos(double x) {
     return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
   }
   const double n = nearestInteger(x * 0x1.45f306dc9c883p-1);
-  return detail::turnedOn(detail::sinCosNearZero(detail::lessQuarterTurns(x, n)), n);
+  return detail::rotatedByQuarterTurns(detail::sinCosNearZero(detail::reducedByQuarterTurns(x, n)), n);
 }
 
 /// Sine and cosine of `quarterTurns` (a whole number below 2⁵¹) times π/2 plus `rest` [rad], |rest| < 0.8:
 /// for phases that are counted in turns, where nothing is left to reduce. To a rounding of 1.
 inline SinCos<double> sinCosQuarterTurns(double quarterTurns, double rest) {
-  return detail::turnedOn(detail::sinCosNearZero(rest), quarterTurns);
+  return detail::rotatedByQuarterTurns(detail::sinCosNearZero(rest), quarterTurns);
 }
 
 /// e^x. 0 below −708 (where the result would lose digits), infinite above 709.78.

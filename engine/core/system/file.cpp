@@ -16,7 +16,7 @@ namespace {
 // the file as a whole.
 std::filesystem::path partialPath(const std::filesystem::path& path) {
   const std::string name =
-      "." + path.filename().string() + "." + std::to_string(getpid()) + std::string(kPartialEnding);
+      "." + path.filename().string() + "." + std::to_string(getpid()) + std::string(kPartialSuffix);
   return path.parent_path() / name;
 }
 

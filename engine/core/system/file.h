@@ -35,6 +35,6 @@ std::string readFile(const std::filesystem::path& path);
 void writeFile(const std::filesystem::path& path, std::string_view bytes);
 
 /// Suffix of partial files; a run that was killed leaves them behind.
-inline constexpr std::string_view kPartialEnding = ".partial";
+inline constexpr std::string_view kPartialSuffix = ".partial";
 
 }  // namespace careen

@@ -42,14 +42,14 @@ int startProgram(std::vector<std::string> command, int input, int log, pid_t& pr
   return error;
 }
 
-std::string lastWords(int file) {
+std::string tailOf(int file) {
   constexpr off_t kMost = 1500;
   const off_t size = lseek(file, 0, SEEK_END);
   std::array<char, kMost> text{};
   const ssize_t got = pread(file, text.data(), text.size(), std::max<off_t>(0, size - kMost));
-  std::string_view words(text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, got)));
-  words = words.substr(0, words.find_last_not_of(" \n") + 1);
-  return std::string(words);
+  std::string_view tail(text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+  tail = tail.substr(0, tail.find_last_not_of(" \n") + 1);
+  return std::string(tail);
 }
 
 void runProgram(const std::vector<std::string>& command) {
@@ -62,14 +62,14 @@ void runProgram(const std::vector<std::string>& command) {
     while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
     }
   }
-  const std::string words = lastWords(log);
+  const std::string tail = tailOf(log);
   close(nothing);
   close(log);
   if (error != 0) {
     throw MachineError("cannot start " + command.front() + ": " + std::strerror(error));
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    throw MachineError(command.front() + " failed" + (words.empty() ? "" : ": " + words));
+    throw MachineError(command.front() + " failed" + (tail.empty() ? "" : ": " + tail));
   }
 }
 

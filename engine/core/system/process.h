@@ -13,10 +13,10 @@ namespace careen {
 /// program's blocked signals.
 int startProgram(std::vector<std::string> command, int input, int log, pid_t& process);
 
-/// The last lines of an open log file, which hold the cause of a failure.
-std::string lastWords(int file);
+/// The end of an open log file, which holds the cause of a failure.
+std::string tailOf(int file);
 
-/// Runs a program to its end without input. MachineError with the last lines of its log if it cannot be
+/// Runs a program to its end without input. MachineError with the end of its log if it cannot be
 /// started or fails.
 void runProgram(const std::vector<std::string>& command);
 

@@ -18,9 +18,9 @@ struct Place {
 
 Place findPlace() {
   // The environment is written only before the first thread starts (LP_NUM_THREADS), so reading it is safe.
-  const char* const told = std::getenv("CAREEN_DATA");  // NOLINT(concurrency-mt-unsafe)
-  if (told != nullptr && *told != '\0') {
-    return {told, "the environment's CAREEN_DATA"};
+  const char* const configured = std::getenv("CAREEN_DATA");  // NOLINT(concurrency-mt-unsafe)
+  if (configured != nullptr && *configured != '\0') {
+    return {configured, "the environment's CAREEN_DATA"};
   }
   std::error_code none;
   const fs::path program = fs::read_symlink("/proc/self/exe", none);

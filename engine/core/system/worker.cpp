@@ -29,14 +29,14 @@ std::string faultOf(int status) {
   return WEXITSTATUS(status) == 0 ? "" : "exit code " + std::to_string(WEXITSTATUS(status));
 }
 
-[[noreturn]] void workAndExit(const std::function<void(const Channel&)>& work, int socket, pid_t maker) {
+[[noreturn]] void workAndExit(const std::function<void(const Channel&)>& work, int socket, pid_t parent) {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
   sigprocmask(SIG_BLOCK, &signals, nullptr);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != maker) {  // it died before prctl took effect
+  if (getppid() != parent) {  // it died before prctl took effect
     _exit(1);
   }
   try {
@@ -45,14 +45,14 @@ std::string faultOf(int status) {
   } catch (...) {
     std::terminate();
   }
-  _exit(0);  // skips the maker's exit handlers
+  _exit(0);  // skips the parent's exit handlers
 }
 
 }  // namespace
 
 Channel::~Channel() { close(socket_); }
 
-void Channel::hangUp() const { shutdown(socket_, SHUT_RDWR); }
+void Channel::shutDown() const { shutdown(socket_, SHUT_RDWR); }
 
 bool Channel::sendBytes(std::span<const std::byte> bytes) const {
   while (true) {
@@ -78,10 +78,10 @@ Worker::Worker(const std::function<void(const Channel&)>& work) {
     throw MachineError(std::string("no socket to a worker process: ") + std::strerror(errno));
   }
   channel_ = std::make_unique<Channel>(ends[0]);
-  const pid_t maker = getpid();
+  const pid_t parent = getpid();
   process_ = fork();
   if (process_ == 0) {
-    workAndExit(work, ends[1], maker);
+    workAndExit(work, ends[1], parent);
   }
   const int error = errno;
   close(ends[1]);
@@ -93,7 +93,7 @@ Worker::Worker(const std::function<void(const Channel&)>& work) {
 Worker::~Worker() { end(); }
 
 const WorkerEnd& Worker::end() {
-  channel_->hangUp();
+  channel_->shutDown();
   int status = 0;
   rusage usage{};
   while (process_ != 0) {

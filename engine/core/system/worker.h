@@ -36,7 +36,7 @@ class Channel {
   /// For poll: readable when there is a message or the other end is gone.
   int descriptor() const { return socket_; }
   /// The other end sees the connection as closed.
-  void hangUp() const;
+  void shutDown() const;
 
  private:
   bool sendBytes(std::span<const std::byte> bytes) const;

@@ -97,7 +97,7 @@ class LinearPhase<double> {
         ((coarse + fine) + elementary::detail::kWholeNumberShift) - elementary::detail::kWholeNumberShift;
     const Pair rest = ((coarse - whole) + fine) * kRadiansPerQuarterTurn;
     const elementary::SinCos<Pair> both =
-        elementary::detail::turnedOn(elementary::detail::sinCosNearZero(rest), whole);
+        elementary::detail::rotatedByQuarterTurns(elementary::detail::sinCosNearZero(rest), whole);
     return {{both.sin[0], both.cos[0]}, {both.sin[1], both.cos[1]}};
   }
 

@@ -88,7 +88,7 @@ FilmWorkers::FilmWorkers(int count, const std::function<FrameWorkshop()>& prepar
 
 FilmWorkers::~FilmWorkers() {
   for (const Desk& desk : desks_) {
-    desk.worker.channel().hangUp();
+    desk.worker.channel().shutDown();
   }
 }
 
@@ -133,7 +133,7 @@ std::vector<FilmWorkers::Done> FilmWorkers::wait(int writable, std::chrono::mill
 double FilmWorkers::finish() {
   double coreSeconds = 0;
   for (const Desk& desk : desks_) {
-    desk.worker.channel().hangUp();
+    desk.worker.channel().shutDown();
   }
   for (Desk& desk : desks_) {
     const WorkerEnd& end = desk.worker.end();

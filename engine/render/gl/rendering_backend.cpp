@@ -59,7 +59,7 @@ std::unique_ptr<GlContext> openFirst(const ContextOptions& options) {
 }  // namespace
 
 RenderingBackend renderingBackendNamed(std::string_view name) {
-  return static_cast<RenderingBackend>(placeAmong(name, kRenderingBackends));
+  return static_cast<RenderingBackend>(indexAmong(name, kRenderingBackends));
 }
 
 std::unique_ptr<GlContext> openContext(const ContextOptions& options) {

@@ -14,13 +14,13 @@ volatile double third = 3;
 
 double oneThird() { return one / third; }
 
-TEST(UsualArithmetic, roundsToTheNearestWhateverWasSetBefore) {
+TEST(DefaultFloatEnvironment, roundsToTheNearestWhateverWasSetBefore) {
   const double nearest = oneThird();
   std::fesetround(FE_UPWARD);
   const double up = oneThird();
   double within = 0;
   {
-    const UsualArithmetic usual;
+    const DefaultFloatEnvironment usual;
     within = oneThird();
   }
   const int after = std::fegetround();
@@ -32,13 +32,13 @@ TEST(UsualArithmetic, roundsToTheNearestWhateverWasSetBefore) {
 
 #ifdef __x86_64__
 // Bits 6 and 15 of MXCSR: subnormal inputs count as 0, and subnormal results become 0.
-TEST(UsualArithmetic, keepsSmallNumbers) {
+TEST(DefaultFloatEnvironment, keepsSmallNumbers) {
   const unsigned before = __builtin_ia32_stmxcsr();
   __builtin_ia32_ldmxcsr(before | 0x8040U);
   const double flushed = smallest / 2;
   double within = 0;
   {
-    const UsualArithmetic usual;
+    const DefaultFloatEnvironment usual;
     within = smallest / 2;
   }
   __builtin_ia32_ldmxcsr(before);

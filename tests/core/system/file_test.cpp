@@ -58,7 +58,7 @@ TEST_F(FileTest, leavesNothingWithoutCommit) {
     AtomicFile file(inFolder("run"));
     file.write("half");
     EXPECT_EQ(entries(), 1U) << "the partial file lies beside it";
-    EXPECT_EQ(fs::directory_iterator(folder_)->path().extension(), kPartialEnding);
+    EXPECT_EQ(fs::directory_iterator(folder_)->path().extension(), kPartialSuffix);
   }
   EXPECT_EQ(entries(), 0U);
 }

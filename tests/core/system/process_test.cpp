@@ -23,7 +23,7 @@ TEST(Process, runsToItsEnd) { EXPECT_EQ(messageOf({"true"}), "done"); }
 
 TEST(Process, readsNothing) { EXPECT_EQ(messageOf({"sh", "-c", "! read line"}), "done"); }
 
-TEST(Process, showsTheLastWordsOfAFailure) {
+TEST(Process, showsTheEndOfTheLogOfAFailure) {
   EXPECT_EQ(messageOf({"sh", "-c", "echo first >&2; echo 'the cause' >&2; exit 3"}),
             "sh failed: first\nthe cause");
   EXPECT_EQ(messageOf({"false"}), "false failed");

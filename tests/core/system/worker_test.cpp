@@ -23,7 +23,7 @@ struct Pair {
   double b = 0;
 };
 
-TEST(Worker, hasWhatItsMakerHasAndAnswers) {
+TEST(Worker, hasTheMemoryOfItsParentAndAnswers) {
   const std::vector<double> inherited = {1, 2, 4};
   Worker worker([&inherited](const Channel& channel) {
     for (Pair pair; channel.receive(pair);) {
@@ -41,7 +41,7 @@ TEST(Worker, hasWhatItsMakerHasAndAnswers) {
 }
 
 // A second worker also holds a copy of the first one's socket: shutting down must reach the first one anyway.
-TEST(Worker, endsWhenItsMakerHangsUpWhoeverElseThereIs) {
+TEST(Worker, endsWhenItsParentShutsDownDespiteOtherWorkers) {
   const auto waits = [](const Channel& channel) {
     for (Pair pair; channel.receive(pair);) {
     }
@@ -70,7 +70,7 @@ TEST(Worker, tellsWhatItTook) {
   EXPECT_GT(worker.end().coreSeconds, 0.01);  // 0.1 on a core of its own
 }
 
-TEST(Worker, leavesInterruptionToItsMaker) {
+TEST(Worker, leavesInterruptionToItsParent) {
   Worker worker([](const Channel& channel) {
     std::raise(SIGTERM);
     std::raise(SIGINT);
@@ -81,11 +81,11 @@ TEST(Worker, leavesInterruptionToItsMaker) {
   EXPECT_EQ(worker.end().fault, "");
 }
 
-// The maker is a separate process here, which is killed; its worker would write a file if it outlived it.
-TEST(Worker, diesWithItsMaker) {
+// The parent is a separate process here, which is killed; its worker would write a file if it outlived it.
+TEST(Worker, diesWithItsParent) {
   const TemporaryFolder folder;
-  const pid_t maker = fork();
-  if (maker == 0) {
+  const pid_t parent = fork();
+  if (parent == 0) {
     Worker worker([&folder](const Channel& channel) {
       channel.send(Pair{});
       std::this_thread::sleep_for(500ms);
@@ -98,7 +98,7 @@ TEST(Worker, diesWithItsMaker) {
     std::raise(SIGKILL);
   }
   int status = 0;
-  ASSERT_EQ(waitpid(maker, &status, 0), maker);
+  ASSERT_EQ(waitpid(parent, &status, 0), parent);
   EXPECT_TRUE(WIFSIGNALED(status));
   std::this_thread::sleep_for(1s);
   EXPECT_FALSE(std::filesystem::exists(folder / "alive"));
