@@ -66,10 +66,8 @@ std::vector<Pose> Trajectory::poses(double time) const {
 }
 
 const std::string& Trajectory::partnerName(const Impact& impact) const {
-  if (const WallIndex* wall = std::get_if<WallIndex>(&impact.b)) {
-    return wallNames.at(static_cast<std::size_t>(wall->value));
-  }
-  return tracks.at(static_cast<std::size_t>(std::get<BodyIndex>(impact.b).value)).name;
+  return impact.b.isWall() ? wallNames.at(impact.b.wall())
+                           : tracks.at(static_cast<std::size_t>(impact.b.body())).name;
 }
 
 std::string Trajectory::sceneHash() const {

@@ -237,20 +237,33 @@ void visitIndex(Archive& archive, Visited<Archive, int> index) {
 }
 
 template <class Archive>
-void visit(Archive& archive, Visited<Archive, WallIndex> wall) {
-  visitIndex(archive, wall.value);
-}
-
-template <class Archive>
 void visit(Archive& archive, Visited<Archive, BodyIndex> body) {
   visitIndex(archive, body.value);
+}
+
+// 0 for a wall or 1 for a body, then its index.
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Partner> partner) {
+  auto kind = static_cast<std::uint8_t>(partner.isWall() ? 0 : 1);
+  archive.visit(kind);
+  int index = partner.isWall() ? static_cast<int>(partner.wall()) : partner.body();
+  visitIndex(archive, index);
+  if constexpr (Archive::kReads) {
+    if (kind > 1) {
+      archive.fail("holds a kind of record this version does not know");
+    }
+    if (index < 0) {
+      archive.fail("names a body or wall it does not hold");
+    }
+    partner = kind == 0 ? Partner::ofWall(static_cast<std::size_t>(index)) : Partner::ofBody(index);
+  }
 }
 
 template <class Archive>
 void visit(Archive& archive, Visited<Archive, Impact> impact) {
   archive.visit(impact.time);
   visit(archive, impact.a);
-  visitVariant(archive, impact.b);
+  visit(archive, impact.b);
   visit(archive, impact.point);
   visit(archive, impact.normal);
   archive.visit(impact.approach);
@@ -329,10 +342,8 @@ void checkIndices(const Trajectory& trajectory, const Reader& reader) {
     return index >= 0 && static_cast<std::size_t>(index) < size;
   };
   for (const Impact& impact : trajectory.impacts) {
-    const WallIndex* wall = std::get_if<WallIndex>(&impact.b);
-    const bool partner = wall != nullptr
-                             ? within(wall->value, trajectory.wallNames.size())
-                             : within(std::get<BodyIndex>(impact.b).value, trajectory.tracks.size());
+    const bool partner = impact.b.isWall() ? impact.b.wall() < trajectory.wallNames.size()
+                                           : within(impact.b.body(), trajectory.tracks.size());
     if (!partner || !within(impact.a.value, trajectory.tracks.size())) {
       reader.fail("names a body or wall it does not hold");
     }

@@ -24,7 +24,7 @@ void resolve(benchmark::State& state, std::size_t count, double restitution, dou
     for (int k = kCorners - 1; k >= 0; --k) {
       if (((k >> (2 - axis)) & 1) != 0) {
         contacts[next++] = {.a = 0,
-                            .b = ImpactContact::kWall,
+                            .b = Partner::ofWall(0),
                             .armA = corner(half, k),
                             .armB = Vec3::Zero(),
                             .normal = Vec3(Vec3::Unit(axis)),

@@ -68,7 +68,7 @@ TEST(RunDifference, firstImpactThatDiffersIsToldWithHow) {
   EXPECT_FALSE(found.firstOtherEvent);
   EXPECT_EQ(found.firstImpact->index, 0U);
   EXPECT_EQ(found.firstImpact->what, "at 0.5 s drifter against room+x with 8 N s: impulse by 0.5 N s");
-  other.impacts[0].b = WallIndex{0};
+  other.impacts[0].b = Partner::ofWall(0);
   found = differenceOf(run, other);
   ASSERT_TRUE(found.firstOtherEvent);
   EXPECT_EQ(found.firstOtherEvent->what,

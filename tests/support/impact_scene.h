@@ -30,7 +30,7 @@ struct ImpactScene {
   void addCorner(int body, int cornerIndex, const Vec3& normal, const Material& material) {
     const auto k = static_cast<std::size_t>(body);
     contacts.push_back({.a = body,
-                        .b = ImpactContact::kWall,
+                        .b = Partner::ofWall(0),
                         .armA = states[k].pose.worldFromBody * corner(halfExtents[k], cornerIndex),
                         .armB = Vec3::Zero(),
                         .normal = normal,
@@ -56,7 +56,7 @@ struct ImpactScene {
   }
   Quad3 relativeVelocity(const ImpactContact& c) const {
     const Quad3 a = pointVelocity(c.a, c.armA);
-    return c.b == ImpactContact::kWall ? a : Quad3(a - pointVelocity(c.b, c.armB));
+    return c.b.isWall() ? a : Quad3(a - pointVelocity(c.b.body(), c.armB));
   }
   double partingSpeed(const ImpactContact& c) const {
     return static_cast<double>(Quad(relativeVelocity(c).dot(c.normal.cast<Quad>())));
@@ -172,7 +172,7 @@ inline ImpactScene randomImpact(Random& random, int most, bool friction) {
                             .friction = friction ? random.between(0, 1.5) : 0};
     scene.addCorner(a, index, normal, material);
     if (!wall) {
-      scene.contacts.back().b = 1;
+      scene.contacts.back().b = Partner::ofBody(1);
       scene.contacts.back().armB =
           scene.states[1].pose.worldFromBody * corner(scene.halfExtents[1], random.below(8));
     }

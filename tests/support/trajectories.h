@@ -31,7 +31,7 @@ inline Trajectory driftAndReturn() {
       {.name = "anchor", .mass = immovable(), .segments = {{.start = 0, .motion = rest}}});
   trajectory.impacts.push_back({.time = 0.5,
                                 .a = {0},
-                                .b = WallIndex{1},
+                                .b = Partner::ofWall(1),
                                 .point = Vec3(2.1, 0, 0),
                                 .normal = Vec3(-1, 0, 0),
                                 .approach = 2,

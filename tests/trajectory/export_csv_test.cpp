@@ -76,7 +76,7 @@ TEST(ImpactsCsv, namesWhatWasStruck) {
   Trajectory trajectory = driftAndReturn();
   Impact other = trajectory.impacts[0];
   other.time = 0.75;
-  other.b = BodyIndex{1};
+  other.b = Partner::ofBody(1);
   trajectory.impacts.push_back(other);
   std::string text;
   writeImpactsCsv(trajectory, [&text](std::string_view piece) { text += piece; });

@@ -67,7 +67,7 @@ TEST(TrajectoryFile, bringsBackEveryBit) {
   EXPECT_EQ(back.tracks[0].mass.inertiaBody, trajectory.tracks[0].mass.inertiaBody);
   EXPECT_EQ(back.tracks[1].name, "anchor");
   ASSERT_EQ(back.impacts.size(), 1U);
-  EXPECT_EQ(std::get<WallIndex>(back.impacts[0].b).value, 1);
+  EXPECT_EQ(back.impacts[0].b, Partner::ofWall(1));
   EXPECT_EQ(back.impacts[0].normal, Vec3(-1, 0, 0));
   EXPECT_EQ(back.state(0, 0.75).pose.position, Vec3(1.5, 0, 0));
 }

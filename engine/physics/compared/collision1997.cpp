@@ -22,7 +22,7 @@ bool lookAtCorner(const std::vector<Wall>& walls, BodyIndex body, const BodyStat
     if (distance >= kTouchingDepth) {
       continue;
     }
-    const CornerAtWall here{body, WallIndex{static_cast<int>(w)}, point, distance};
+    const CornerAtWall here{body, w, point, distance};
     check.deepest = std::max(check.deepest, -distance);
     if (distance < -kTouchingDepth) {
       check.state = CornerState::kPenetrating;
@@ -64,7 +64,7 @@ ResolvedCorner resolveCorner(const World& world, const CornerAtWall& corner, dou
                              std::span<BodyState> states) {
   const auto index = static_cast<std::size_t>(corner.body.value);
   const Body& body = world.bodies[index];
-  const Wall& wall = world.walls[static_cast<std::size_t>(corner.wall.value)];
+  const Wall& wall = world.walls[corner.wall];
   const MassProperties wallMass = immovable();
   BodyState wallState;
   const CollidingBody box{body.mass, states[index]};
@@ -77,7 +77,7 @@ ResolvedCorner resolveCorner(const World& world, const CornerAtWall& corner, dou
   applyImpulse(obstacle, corner.point, -impulse * wall.normal);
   return {.impact = {.time = time,
                      .a = corner.body,
-                     .b = corner.wall,
+                     .b = Partner::ofWall(corner.wall),
                      .point = corner.point,
                      .normal = wall.normal,
                      .approach = approach,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "physics/motion/recorder.h"
@@ -13,7 +14,7 @@ inline constexpr double kTouchingDepth = 0.001;
 /// A corner of a body at a wall.
 struct CornerAtWall {
   BodyIndex body;
-  WallIndex wall;
+  std::size_t wall = 0;
   Vec3 point = Vec3::Zero();  ///< [m] world
   double gap = 0;             ///< [m]
 };

@@ -174,8 +174,8 @@ std::string Loop1997::where(double time, const CornerAtWall& corner) const {
   std::ostringstream text;
   text << "at " << inSeconds(time) << " box "
        << world_.bodies[static_cast<std::size_t>(corner.body.value)].name << " at wall "
-       << world_.walls[static_cast<std::size_t>(corner.wall.value)].name << ", its corner "
-       << 1e3 * std::fabs(corner.gap) << " mm " << (corner.gap < 0 ? "behind" : "before") << " it: ";
+       << world_.walls[corner.wall].name << ", its corner " << 1e3 * std::fabs(corner.gap) << " mm "
+       << (corner.gap < 0 ? "behind" : "before") << " it: ";
   return text.str();
 }
 

@@ -14,7 +14,6 @@
 #include "physics/impact/wall_contacts.h"
 #include "physics/world/diagnostics.h"
 #include "physics/world/flight_account.h"
-#include "physics/world/partner.h"
 
 namespace careen {
 namespace {
@@ -82,7 +81,6 @@ class SteppedBody {
   Flying now_;
   double departure_ = 0;  // [s] when the flight began
   std::vector<ImpactContact> contacts_;
-  std::vector<int> partners_;
   std::vector<ImpactShare> shares_;
 };
 
@@ -135,8 +133,7 @@ void SteppedBody::strike() {
   const BodyState before = now_.state();
   BodyState after = before;
   contacts_.clear();
-  partners_.clear();
-  account_.penetrates(addWallContacts(world_, body_, before.pose, 0, contacts_, partners_));
+  account_.penetrates(addWallContacts(world_, body_, before.pose, 0, contacts_));
   account_.arrives(static_cast<std::size_t>(index_), before, time_ - departure_);
   account_.strikes(std::any_of(contacts_.begin(), contacts_.end(), [](const ImpactContact& contact) {
     return contact.material.restitution < 1 || contact.material.friction > 0;
@@ -148,7 +145,7 @@ void SteppedBody::strike() {
     if (shares_[k].impulse > 0) {
       impacts_.push_back({.time = time_,
                           .a = {index_},
-                          .b = WallIndex{static_cast<int>(wallOf(partners_[k]))},
+                          .b = contacts_[k].b,
                           .point = before.pose.position + contacts_[k].armA,
                           .normal = contacts_[k].normal,
                           .approach = shares_[k].approach,

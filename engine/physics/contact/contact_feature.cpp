@@ -133,7 +133,7 @@ ContactFeature pointOnFace(int a, const Vec3& point, int b, const Mat3& worldFro
                            const Vec3& normal) {
   return {.kind = ContactFeature::Kind::kPointOnFace,
           .a = a,
-          .b = b,
+          .b = Partner::ofBody(b),
           .onA = point,
           .axisB = face,
           .sign = worldFromB.col(face).dot(normal) < 0 ? -1.0 : 1.0};
@@ -141,10 +141,9 @@ ContactFeature pointOnFace(int a, const Vec3& point, int b, const Mat3& worldFro
 
 }  // namespace
 
-bool hasCorner(std::span<const ContactFeature> features, int a, int wall, const Vec3& corner) {
+bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, const Vec3& corner) {
   return std::any_of(features.begin(), features.end(), [&](const ContactFeature& feature) {
-    return feature.kind == ContactFeature::Kind::kPointOnWall && feature.a == a && feature.wall == wall &&
-           feature.onA == corner;
+    return feature.a == a && feature.b == wall && feature.onA == corner;
   });
 }
 
@@ -207,7 +206,7 @@ ContactFeature featureAt(const ContactPoint& point, double apart, int a, const P
     const Vec3 cross = poseA.worldFromBody.col(edgeA).cross(poseB.worldFromBody.col(edgeB));
     return {.kind = ContactFeature::Kind::kEdgeOnEdge,
             .a = a,
-            .b = b,
+            .b = Partner::ofBody(b),
             .onA = atSides(placeA, halfExtentsA, edgeA),
             .onB = atSides(placeB, halfExtentsB, edgeB),
             .axisA = edgeA,

@@ -5,6 +5,7 @@
 #include "core/math/linear_algebra.h"
 #include "physics/geometry/contact_points.h"
 #include "physics/world/body.h"
+#include "physics/world/partner.h"
 #include "physics/world/world.h"
 
 namespace careen {
@@ -25,12 +26,10 @@ struct ContactFeature {
     kPointOnFace,  ///< a point of a on a face of b
     kEdgeOnEdge,   ///< the crossing of an edge of a and one of b
   };
-  static constexpr int kNobody = -1;
 
   Kind kind = Kind::kPointOnWall;
   int a = 0;                ///< index of a body; the normal points to it
-  int b = kNobody;          ///< index of a body, or kNobody for a wall
-  int wall = 0;             ///< index of the wall
+  Partner b = {};           ///< a wall, or the index of a body
   Vec3 onA = Vec3::Zero();  ///< [m] in a's frame: the point, or its edge's middle
   Vec3 onB = Vec3::Zero();  ///< [m] in b's frame: its edge's middle
   int axisA = 0;            ///< along which a's edge runs
@@ -53,8 +52,8 @@ struct ContactState {
   double beyond = 0;  ///< [m] how far the contact is past the end of its face or edge; negative within
 };
 
-/// Whether that corner of a is among them.
-bool hasCorner(std::span<const ContactFeature> features, int a, int wall, const Vec3& corner);
+/// Whether that corner of a at that wall is among them.
+bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, const Vec3& corner);
 
 /// `b` is null for a wall. Eq. 13 and its derivative; n turns with b's face, or with both edges.
 ContactState contactState(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,

@@ -110,12 +110,12 @@ void ContactSystem::look(std::span<const double> y) {
   for (std::size_t c = 0; c < features_.size(); ++c) {
     const ContactFeature& feature = features_[c];
     const auto a = static_cast<std::size_t>(feature.a);
-    const bool onWall = feature.b == ContactFeature::kNobody;
-    const auto b = static_cast<std::size_t>(onWall ? 0 : feature.b);
+    const bool onWall = feature.b.isWall();
+    const auto b = static_cast<std::size_t>(onWall ? 0 : feature.b.body());
     states_[c] =
         contactState(feature, kinematics_[a], bodies_[a].body->halfExtents,
                      onWall ? nullptr : &kinematics_[b], onWall ? Vec3::Zero() : bodies_[b].body->halfExtents,
-                     onWall ? &world_.walls[static_cast<std::size_t>(feature.wall)] : nullptr);
+                     onWall ? &world_.walls[feature.b.wall()] : nullptr);
   }
 }
 
@@ -144,8 +144,8 @@ void ContactSystem::fillContacts() {
     };
     contact.a = side(a, state.armA, 1, 0);
     contact.b = ContactForces::kNobody;
-    if (feature.b != ContactFeature::kNobody) {
-      contact.b = side(static_cast<std::size_t>(feature.b), state.armB, -1, kSix);
+    if (!feature.b.isWall()) {
+      contact.b = side(static_cast<std::size_t>(feature.b.body()), state.armB, -1, kSix);
     }
     contact.target = {-state.gapBias, -state.slipBias.dot(tangents.first),
                       -state.slipBias.dot(tangents.second)};

@@ -126,7 +126,7 @@ bool Island::rests() const {
     for (std::size_t c = 0; c < system_.features().size(); ++c) {
       const ContactFeature& feature = system_.features()[c];
       if (&bodies()[static_cast<std::size_t>(feature.a)] == &body ||
-          (feature.b != ContactFeature::kNobody && &bodies()[static_cast<std::size_t>(feature.b)] == &body)) {
+          (!feature.b.isWall() && &bodies()[static_cast<std::size_t>(feature.b.body())] == &body)) {
         load += system_.forces().forces()[c][0] * body.body->mass.inverseMass;
       }
     }
@@ -155,7 +155,7 @@ double Island::longestStep() {
     const double speed = system_.states()[c].slip.norm();
     if (speed > 0 && system_.features()[c].kind != Kind::kPointOnWall) {
       const auto a = static_cast<std::size_t>(system_.features()[c].a);
-      const auto b = static_cast<std::size_t>(system_.features()[c].b);
+      const auto b = static_cast<std::size_t>(system_.features()[c].b.body());
       most = std::min(most, kMostSlip *
                                 std::min(bodies()[a].body->halfExtents.minCoeff(),
                                          bodies()[b].body->halfExtents.minCoeff()) /

@@ -44,11 +44,11 @@ void Island::watchAll() {
     }
   }
   for (std::size_t c = 0; c < features.size(); ++c) {
-    const bool first =
-        std::none_of(features.begin(), features.begin() + static_cast<std::ptrdiff_t>(c),
-                     [&](const ContactFeature& other) {
-                       return std::minmax(other.a, other.b) == std::minmax(features[c].a, features[c].b);
-                     });
+    const bool first = std::none_of(features.begin(), features.begin() + static_cast<std::ptrdiff_t>(c),
+                                    [&](const ContactFeature& other) {
+                                      return (other.a == features[c].a && other.b == features[c].b) ||
+                                             (features[c].b.isBody(other.a) && other.b.isBody(features[c].a));
+                                    });
     if (features[c].kind != Kind::kPointOnWall && first) {
       watches_.push_back({.kind = Watch::Kind::kOverlap, .contact = c});
     }
@@ -57,7 +57,7 @@ void Island::watchAll() {
     for (std::size_t w = 0; w < (bodies()[i].isHeld() ? 0 : world_.walls.size()); ++w) {
       for (int k = 0; k < kCorners; ++k) {
         const Vec3 at = corner(bodies()[i].body->halfExtents, k);
-        if (!hasCorner(features, static_cast<int>(i), static_cast<int>(w), at)) {
+        if (!hasCorner(features, static_cast<int>(i), Partner::ofWall(w), at)) {
           watches_.push_back(
               {.kind = Watch::Kind::kCorner, .contact = i, .wall = static_cast<int>(w), .corner = k});
         }
@@ -89,7 +89,7 @@ double Island::marginOf(const Watch& watch, double gap) const {
   }
   const ContactFeature& feature = system_.features()[watch.contact];
   const double within = kTouching * std::max(touching(static_cast<std::size_t>(feature.a)),
-                                             touching(static_cast<std::size_t>(feature.b)));
+                                             touching(static_cast<std::size_t>(feature.b.body())));
   // What touches is brought together again where a stride ends, not on its way.
   return strode_ && gap <= within ? kStrideDepth * tolerance_ : within;
 }
@@ -139,11 +139,11 @@ bool Island::watches(std::size_t a, std::size_t b) const {
   const std::vector<ContactFeature>& features = system_.features();
   const auto isBetween = [&](std::size_t c) {
     const auto first = static_cast<std::size_t>(features[c].a);
-    const auto second = static_cast<std::size_t>(features[c].b);
+    const auto second = static_cast<std::size_t>(features[c].b.body());
     return (first == a && second == b) || (first == b && second == a);
   };
   for (std::size_t c = 0; c < features.size(); ++c) {
-    if (features[c].b != ContactFeature::kNobody && isBetween(c) && system_.pushes(c)) {
+    if (!features[c].b.isWall() && isBetween(c) && system_.pushes(c)) {
       return true;
     }
   }
@@ -207,7 +207,7 @@ double Island::deepWithin(double h, const Watch& watch) const {
   constexpr int kMoments = 4;
   const ContactFeature& feature = system_.features()[watch.contact];
   const auto a = static_cast<std::size_t>(feature.a);
-  const auto b = static_cast<std::size_t>(feature.b);
+  const auto b = static_cast<std::size_t>(feature.b.body());
   const Motion ofA = bodies()[a].isHeld() ? Motion(Rest{system_.kinematics(a).pose}) : motion(a, h);
   const Motion ofB = bodies()[b].isHeld() ? Motion(Rest{system_.kinematics(b).pose}) : motion(b, h);
   for (int k = 1; k < kMoments; ++k) {
@@ -243,7 +243,7 @@ double Island::value(const Watch& watch) const {
     case Watch::Kind::kOverlap: {
       const ContactFeature& feature = system_.features()[c];
       const auto a = static_cast<std::size_t>(feature.a);
-      const auto b = static_cast<std::size_t>(feature.b);
+      const auto b = static_cast<std::size_t>(feature.b.body());
       return BoxAxes(system_.kinematics(a).pose, bodies()[a].body->halfExtents, system_.kinematics(b).pose,
                      bodies()[b].body->halfExtents)
                  .gap() +

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/math/double_double.h"
+#include "physics/world/partner.h"
 
 namespace careen {
 
@@ -37,13 +38,13 @@ enum class EventKind {
   kStep,      ///< a step of the body's island ends
 };
 
-/// What is to happen to one body next. Bodies and partners are ranks, their places among the names; a partner
-/// may be a wall.
+/// What is to happen to one body next. Bodies, and partners that are, go by rank, their place among the
+/// names.
 struct Event {
   Instant time;
   EventKind kind = EventKind::kContact;
   int body = 0;
-  int partner = 0;
+  Partner partner = {};
   std::uint64_t partnerMotion = 0;  ///< the partner's motion that this was predicted for
 };
 

@@ -8,7 +8,6 @@
 
 #include "core/error.h"
 #include "physics/exact/next_contact.h"
-#include "physics/world/partner.h"
 
 namespace careen {
 namespace {
@@ -100,7 +99,7 @@ void ExactWorld::begin() {
   account_.parted();
   for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
     if (isForced(rank) && !mover(rank).isHeld()) {
-      queue_.set({.time = {}, .kind = EventKind::kTouching, .body = rank, .partner = wallPartner(0)});
+      queue_.set({.time = {}, .kind = EventKind::kTouching, .body = rank});
     } else {
       predict(rank);
     }
@@ -112,7 +111,7 @@ void ExactWorld::happen(const Event& event) {
     neighbors_.move(event.body, mover(event.body).crossing.cell);
     findCrossing(mover(event.body), event.body);
     predict(event.body);
-  } else if (event.partner >= 0 && mover(event.partner).motion != event.partnerMotion) {
+  } else if (!event.partner.isWall() && mover(event.partner.body()).motion != event.partnerMotion) {
     predict(event.body);
   } else if (event.kind == EventKind::kStep && mover(event.body).touchers->step.end == Island::End::kGoesOn) {
     advance(mover(event.body).touchers, event.time);
@@ -292,7 +291,7 @@ void ExactWorld::predict(int rank) {
   }
   std::optional<Event> first = body.wall;
   if (body.touches() && body.touchers->leader() == rank && earlier(body.touchers->end(), end_)) {
-    first = {.time = body.touchers->end(), .kind = EventKind::kStep, .body = rank, .partner = wallPartner(0)};
+    first = {.time = body.touchers->end(), .kind = EventKind::kStep, .body = rank};
   }
   if (body.crosses) {
     sooner(

@@ -60,7 +60,6 @@ class ExactWorld {
     std::vector<BodyState> before;
     std::vector<BodyState> after;
     std::vector<ImpactContact> contacts;  ///< their bodies are indices into `ranks`
-    std::vector<int> partners;            ///< of each contact, as in Event
     std::vector<ImpactShare> shares;
     std::vector<char> persists;  ///< of each contact: its bodies do not part
     std::vector<Next> next;      ///< of each body

@@ -5,7 +5,6 @@
 #include "physics/exact/exact_world.h"
 #include "physics/geometry/contact_points.h"
 #include "physics/impact/wall_contacts.h"
-#include "physics/world/partner.h"
 
 // Bodies that touch at one moment: who they are, and what an impact does to them.
 
@@ -27,8 +26,8 @@ ExactWorld::Group ExactWorld::gather(const Event& event) {
   for (std::size_t i = 0; i < group.ranks.size(); ++i) {
     const Mover& body = mover(group.ranks[i]);
     if (!body.isHeld()) {
-      account_.penetrates(addWallContacts(world_, *body.body, group.before[i].pose, static_cast<int>(i),
-                                          group.contacts, group.partners));
+      account_.penetrates(
+          addWallContacts(world_, *body.body, group.before[i].pose, static_cast<int>(i), group.contacts));
     }
     for (std::size_t j = i + 1; j < group.ranks.size(); ++j) {
       addPairContacts(group, i, j, 0);
@@ -73,8 +72,8 @@ void ExactWorld::join(Group& group, int rank) {
 // on.
 void ExactWorld::reach(const Event& event, Group& group) {
   join(group, event.body);
-  if (event.partner >= 0) {
-    join(group, event.partner);
+  if (!event.partner.isWall()) {
+    join(group, event.partner.body());
   }
   std::vector<Neighbors::Key> candidates;
   for (std::size_t reached = 0; reached < group.ranks.size(); ++reached) {
@@ -117,12 +116,11 @@ void ExactWorld::addPairContacts(Group& group, std::size_t indexA, std::size_t i
   }
   for (const ContactPoint& at : boxContactPoints(poseA, a.halfExtents, poseB, b.halfExtents, apart)) {
     group.contacts.push_back({.a = static_cast<int>(indexA),
-                              .b = static_cast<int>(indexB),
+                              .b = Partner::ofBody(static_cast<int>(indexB)),
                               .armA = at.armA,
                               .armB = at.armB,
                               .normal = at.normal,
                               .material = touching(a.material, b.material)});
-    group.partners.push_back(group.ranks[indexB]);
   }
 }
 
@@ -153,20 +151,18 @@ void ExactWorld::record(const Group& group) {
     const ImpactShare& share = group.shares[k];
     if (share.impulse > 0) {
       const auto a = static_cast<std::size_t>(contact.a);
-      Impact impact{.time = group.time.hi,
-                    .a = mover(group.ranks[a]).listed,
-                    .b = WallIndex{},
-                    .point = group.before[a].pose.position + contact.armA,
-                    .normal = contact.normal,
-                    .approach = share.approach,
-                    .impulse = share.impulse,
-                    .tangential = share.tangential};
-      if (group.partners[k] < 0) {
-        impact.b = WallIndex{static_cast<int>(wallOf(group.partners[k]))};
-      } else {
-        impact.b = mover(group.partners[k]).listed;
-      }
-      recorder_.strikes(impact);
+      const auto listed = [&](int index) {
+        return mover(group.ranks[static_cast<std::size_t>(index)]).listed;
+      };
+      recorder_.strikes(
+          {.time = group.time.hi,
+           .a = listed(contact.a),
+           .b = contact.b.isWall() ? contact.b : Partner::ofBody(listed(contact.b.body()).value),
+           .point = group.before[a].pose.position + contact.armA,
+           .normal = contact.normal,
+           .approach = share.approach,
+           .impulse = share.impulse,
+           .tangential = share.tangential});
     }
   }
 }

@@ -7,7 +7,6 @@
 #include "physics/exact/exact_world.h"
 #include "physics/geometry/separation.h"
 #include "physics/impact/settling.h"
-#include "physics/world/partner.h"
 
 // How bodies that touch move on: in Flight, in Contact or at rest.
 
@@ -84,7 +83,7 @@ double ExactWorld::lengthsAt(const Group& group, std::size_t k) const {
     return group.after[i].pose.position.cwiseAbs().sum() + mover(group.ranks[i]).body->halfExtents.norm();
   };
   const ImpactContact& contact = group.contacts[k];
-  return of(contact.a) + of(contact.b == ImpactContact::kWall ? contact.a : contact.b);
+  return of(contact.a) + of(contact.b.isWall() ? contact.a : contact.b.body());
 }
 
 // Contacts of a body whose next hop is too short to follow persist. If that brings it to rest on what cannot
@@ -105,12 +104,11 @@ void ExactWorld::settleBody(Group& group, std::size_t index) const {
   for (std::size_t k = 0; k < group.contacts.size(); ++k) {
     const ImpactContact& contact = group.contacts[k];
     const bool isA = contact.a == static_cast<int>(index);
-    if (!isA && contact.b != static_cast<int>(index)) {
+    if (!isA && !contact.b.isBody(static_cast<int>(index))) {
       continue;
     }
-    const int other = isA ? contact.b : contact.a;
-    alone = alone &&
-            (other == ImpactContact::kWall || mover(group.ranks[static_cast<std::size_t>(other)]).isHeld());
+    const Partner other = isA ? contact.b : Partner::ofBody(contact.a);
+    alone = alone && (other.isWall() || mover(group.ranks[static_cast<std::size_t>(other.body())]).isHeld());
     const Vec3 normal = isA ? contact.normal : Vec3(-contact.normal);
     const Vec3& arm = isA ? contact.armA : contact.armB;
     const Vec3 acceleration = world_.gravity + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
@@ -154,8 +152,8 @@ ExactWorld::Parting ExactWorld::partingAt(const Group& group, std::size_t contac
                                     kParting * std::sqrt(world_.gravity.norm() * body.halfExtents.norm()));
   };
   add(at.a, at.armA, 1);
-  if (at.b != ImpactContact::kWall) {
-    add(at.b, at.armB, -1);
+  if (!at.b.isWall()) {
+    add(at.b.body(), at.armB, -1);
   }
   return parting;
 }
@@ -191,9 +189,9 @@ void ExactWorld::formIslands(Group& group) const {
   };
   for (std::size_t k = 0; k < group.contacts.size(); ++k) {
     const ImpactContact& contact = group.contacts[k];
-    if (group.persists[k] != 0 && contact.b != ImpactContact::kWall) {
+    if (group.persists[k] != 0 && !contact.b.isWall()) {
       const auto a = static_cast<std::size_t>(contact.a);
-      const auto b = static_cast<std::size_t>(contact.b);
+      const auto b = static_cast<std::size_t>(contact.b.body());
       if (takesPart(a) && takesPart(b)) {
         join(a, b);
       }
@@ -239,17 +237,17 @@ ContactFeature ExactWorld::featureOf(const Group& group, std::size_t k) const {
   const Pose& pose = group.after[a].pose;
   const Vec3& half = mover(group.ranks[a]).body->halfExtents;
   ContactFeature feature;
-  if (contact.b == ImpactContact::kWall) {
+  if (contact.b.isWall()) {
     const Vec3 at = pose.worldFromBody.transpose() * contact.armA;
     feature.a = contact.a;
-    feature.wall = static_cast<int>(wallOf(group.partners[k]));
+    feature.b = contact.b;
     for (int i = 0; i < 3; ++i) {
       feature.onA[i] = at[i] < 0 ? -half[i] : half[i];
     }
   } else {
-    const auto b = static_cast<std::size_t>(contact.b);
+    const auto b = static_cast<std::size_t>(contact.b.body());
     feature = featureAt({contact.armA, contact.armB, contact.normal}, group.tangled ? kNear * tolerance_ : 0,
-                        contact.a, pose, half, contact.b, group.after[b].pose,
+                        contact.a, pose, half, contact.b.body(), group.after[b].pose,
                         mover(group.ranks[b]).body->halfExtents);
   }
   feature.material = contact.material;
@@ -292,13 +290,13 @@ void ExactWorld::formIsland(Group& group, const std::vector<std::size_t>& member
       return std::find(members.begin(), members.end(), static_cast<std::size_t>(index)) != members.end();
     };
     if (group.persists[k] == 0 ||
-        (!isMember(contact.a) && (contact.b == ImpactContact::kWall || !isMember(contact.b)))) {
+        (!isMember(contact.a) && (contact.b.isWall() || !isMember(contact.b.body())))) {
       continue;
     }
     ContactFeature feature = featureOf(group, k);
     feature.a = placeOf(feature.a);
-    if (feature.b != ContactFeature::kNobody) {
-      feature.b = placeOf(feature.b);
+    if (!feature.b.isWall()) {
+      feature.b = Partner::ofBody(placeOf(feature.b.body()));
     }
     features.push_back(feature);
   }

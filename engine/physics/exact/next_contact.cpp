@@ -7,7 +7,6 @@
 #include "physics/search/first_contact_search.h"
 #include "physics/search/time_of_impact.h"
 #include "physics/search/translating_contact.h"
-#include "physics/world/partner.h"
 
 namespace careen {
 namespace {
@@ -66,7 +65,7 @@ std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wa
       first = {.time = instantAfter(body.start, contact.time),
                .kind = kindOf(contact),
                .body = rank,
-               .partner = wallPartner(w)};
+               .partner = Partner::ofWall(w)};
     }
   };
   for (std::size_t k = 0; k < walls.size(); ++k) {
@@ -75,7 +74,7 @@ std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wa
   return first;
 }
 
-std::optional<Event> firstMeeting(const Mover& body, int rank, const Mover& other, int partner,
+std::optional<Event> firstMeeting(const Mover& body, int rank, const Mover& other, int otherRank,
                                   const Instant& until) {
   const Instant zero = later(body.start, other.start);
   Instant last = until;
@@ -97,7 +96,7 @@ std::optional<Event> firstMeeting(const Mover& body, int rank, const Mover& othe
   return Event{.time = instantAfter(zero, contact.time),
                .kind = kindOf(contact),
                .body = rank,
-               .partner = partner,
+               .partner = Partner::ofBody(otherRank),
                .partnerMotion = other.motion};
 }
 

@@ -14,7 +14,7 @@ std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wa
                                const Instant& end);
 
 /// The first contact of two bodies, of which the first flies, from the later of their starts up to `until`.
-std::optional<Event> firstMeeting(const Mover& body, int rank, const Mover& other, int partner,
+std::optional<Event> firstMeeting(const Mover& body, int rank, const Mover& other, int otherRank,
                                   const Instant& until);
 
 }  // namespace careen

@@ -4,7 +4,6 @@
 #include "physics/exact/exact_world.h"
 #include "physics/geometry/contact_points.h"
 #include "physics/geometry/separation.h"
-#include "physics/world/partner.h"
 
 // Where bodies that touch stand: steps of Contact place them to the tolerance only.
 
@@ -27,8 +26,9 @@ void ExactWorld::alignPlaces(Group& group, const Event& event) const {
   addHeld(group, features);
   addCorners(group, features);
   const Mover& body = mover(event.body);
-  if (event.partner >= 0 && !(body.touches() && seesTo(*body.touchers, body.place, event.partner))) {
-    addMeeting(group, indexOf(group, event.body), indexOf(group, event.partner), features);
+  if (!event.partner.isWall() &&
+      !(body.touches() && seesTo(*body.touchers, body.place, event.partner.body()))) {
+    addMeeting(group, indexOf(group, event.body), indexOf(group, event.partner.body()), features);
   }
   constexpr int kMostPasses = 8;
   for (int pass = 0; pass < kMostPasses; ++pass) {
@@ -83,8 +83,9 @@ void ExactWorld::addHeld(const Group& group, std::vector<ContactFeature>& featur
         continue;
       }
       feature.a = static_cast<int>(indexOf(group, with->ranks[a]));
-      if (feature.b != ContactFeature::kNobody) {
-        feature.b = static_cast<int>(indexOf(group, with->ranks[static_cast<std::size_t>(feature.b)]));
+      if (!feature.b.isWall()) {
+        const int other = with->ranks[static_cast<std::size_t>(feature.b.body())];
+        feature.b = Partner::ofBody(static_cast<int>(indexOf(group, other)));
       }
       features.push_back(feature);
     }
@@ -102,10 +103,10 @@ void ExactWorld::addCorners(const Group& group, std::vector<ContactFeature>& fea
       for (int k = 0; k < kCorners; ++k) {
         const Vec3 at = corner(half, k);
         const int index = static_cast<int>(i);
-        const int wall = static_cast<int>(w);
+        const Partner wall = Partner::ofWall(w);
         if (cornerGap(pose, at, world_.walls[w].normal, world_.walls[w].offset) <= within &&
             !hasCorner(features, index, wall, at)) {
-          features.push_back({.a = index, .wall = wall, .onA = at});
+          features.push_back({.a = index, .b = wall, .onA = at});
         }
       }
     }
@@ -162,10 +163,10 @@ void ExactWorld::addNear(Group& group) const {
         const Vec3 at = corner(a.body->halfExtents, k);
         if (cornerGap(pose, at, wall.normal, wall.offset) <= near) {
           group.contacts.push_back({.a = static_cast<int>(i),
+                                    .b = Partner::ofWall(w),
                                     .armA = pose.worldFromBody * at,
                                     .normal = wall.normal,
                                     .material = careen::touching(a.body->material, wall.material)});
-          group.partners.push_back(wallPartner(w));
         }
       }
     }
@@ -177,7 +178,7 @@ void ExactWorld::addNear(Group& group) const {
   std::size_t kept = touching;
   const auto isKnown = [&](std::size_t k) {
     for (std::size_t other = 0; other < kept; ++other) {
-      if (group.contacts[other].a == group.contacts[k].a && group.partners[other] == group.partners[k] &&
+      if (group.contacts[other].a == group.contacts[k].a && group.contacts[other].b == group.contacts[k].b &&
           (group.contacts[other].armA - group.contacts[k].armA).norm() <= 2 * near) {
         return true;
       }
@@ -187,12 +188,10 @@ void ExactWorld::addNear(Group& group) const {
   for (std::size_t k = touching; k < group.contacts.size(); ++k) {
     if (!isKnown(k) && partingAt(group, k).speed >= -kSlow * world_.gravity.norm() * stride_) {
       group.contacts[kept] = group.contacts[k];
-      group.partners[kept] = group.partners[k];
       ++kept;
     }
   }
   group.contacts.resize(kept);
-  group.partners.resize(kept);
   group.shares.resize(kept);
   group.persists.resize(kept, 0);
 }

@@ -89,8 +89,8 @@ void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactCo
   for (std::size_t row = 0; row < 3; ++row) {
     fillSide(added.rows[row], 0, directions[row], contact.armA, bodies[a].state->pose.worldFromBody, 1);
   }
-  if (contact.b != ImpactContact::kWall) {
-    const auto b = static_cast<std::size_t>(contact.b);
+  if (!contact.b.isWall()) {
+    const auto b = static_cast<std::size_t>(contact.b.body());
     added.b = setup.movableOf[b];
     for (std::size_t row = 0; row < 3; ++row) {
       fillSide(added.rows[row], 1, directions[row], contact.armB, bodies[b].state->pose.worldFromBody, -1);
@@ -372,7 +372,7 @@ void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> c
   const bool turns = !body.mass->inverseInertiaBody.isZero(0);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     for (const bool second : {false, true}) {
-      if ((second ? contacts[c].b : contacts[c].a) == index) {
+      if (second ? contacts[c].b.isBody(index) : contacts[c].a == index) {
         const Vec3 impulse = second ? Vec3(-impulses[c]) : impulses[c];
         const Vec3& arm = second ? contacts[c].armB : contacts[c].armA;
         add(body.mass->inverseMass * impulse, turns ? arm.cross(impulse) : Vec3(Vec3::Zero()));
@@ -397,8 +397,7 @@ void resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactCon
                    std::span<ImpactShare> shares) {
   if (contacts.size() == 1) {
     const ImpactContact& only = contacts[0];
-    const ImpactBody* b =
-        only.b == ImpactContact::kWall ? nullptr : &bodies[static_cast<std::size_t>(only.b)];
+    const ImpactBody* b = only.b.isWall() ? nullptr : &bodies[static_cast<std::size_t>(only.b.body())];
     shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)], b, only);
     return;
   }

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "physics/world/body.h"
+#include "physics/world/partner.h"
 
 namespace careen {
 
@@ -18,9 +19,8 @@ struct ImpactBody {
 /// The point is given by its arms, not in the world: position + arm − position is not arm in floating point,
 /// and that rounding would tilt a cube that lands flat.
 struct ImpactContact {
-  static constexpr int kWall = -1;
   int a = 0;                    ///< index among the bodies; the normal points to it
-  int b = kWall;                ///< index among the bodies, or kWall
+  Partner b = {};               ///< a wall, or an index among the bodies
   Vec3 armA = Vec3::Zero();     ///< [m] world, from a's centre of mass to the point
   Vec3 armB = Vec3::Zero();     ///< [m] world, from b's; not read for a wall
   Vec3 normal = Vec3::UnitZ();  ///< [1] unit, from b to a

@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "physics/geometry/separation.h"
-#include "physics/world/partner.h"
 
 namespace careen {
 
 double addWallContacts(const World& world, const Body& body, const Pose& pose, int index,
-                       std::vector<ImpactContact>& contacts, std::vector<int>& partners) {
+                       std::vector<ImpactContact>& contacts) {
   const double within = touchingWithin(pose, body.halfExtents);
   double deepest = 0;
   for (std::size_t w = 0; w < world.walls.size(); ++w) {
@@ -21,10 +20,10 @@ double addWallContacts(const World& world, const Body& body, const Pose& pose, i
     for (int k = 0; k < kCorners; ++k) {
       if ((gap.corners >> static_cast<unsigned>(k) & 1U) != 0) {
         contacts.push_back({.a = index,
+                            .b = Partner::ofWall(w),
                             .armA = pose.worldFromBody * corner(body.halfExtents, k),
                             .normal = wall.normal,
                             .material = touching(body.material, wall.material)});
-        partners.push_back(wallPartner(w));
       }
     }
   }

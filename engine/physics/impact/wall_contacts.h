@@ -7,10 +7,9 @@
 
 namespace careen {
 
-/// Adds a contact for every corner of the body that touches a wall within kSimultaneous, and its wall.
-/// `index` is the body's among those of the impact; partners are as in Event. Returns how deep [m] the
-/// deepest corner lies in a wall, 0 if none does.
+/// Adds a contact for every corner of the body that touches a wall within kSimultaneous. `index` is the
+/// body's among those of the impact. Returns how deep [m] the deepest corner lies in a wall, 0 if none does.
 double addWallContacts(const World& world, const Body& body, const Pose& pose, int index,
-                       std::vector<ImpactContact>& contacts, std::vector<int>& partners);
+                       std::vector<ImpactContact>& contacts);
 
 }  // namespace careen

@@ -1,29 +1,26 @@
 #pragma once
 
-#include <variant>
-
 #include "core/math/linear_algebra.h"
 #include "physics/motion/motion.h"
+#include "physics/world/partner.h"
 
 namespace careen {
 
-struct WallIndex {
-  int value = 0;
-};
+/// A body by its place in the world, where ranks might be meant.
 struct BodyIndex {
   int value = 0;
 };
 
 /// One contact point's share of a collision.
 struct Impact {
-  double time = 0;                       ///< [s]
-  BodyIndex a;                           ///< the body the normal points to
-  std::variant<WallIndex, BodyIndex> b;  ///< what it struck
-  Vec3 point = Vec3::Zero();             ///< [m] world
-  Vec3 normal = Vec3::UnitZ();           ///< [1] from b to a
-  double approach = 0;    ///< [m/s] normal speed at the point before; positive: they were closing in
-  double impulse = 0;     ///< [N s] along the normal
-  double tangential = 0;  ///< [N s] size of the friction part
+  double time = 0;              ///< [s]
+  BodyIndex a;                  ///< the body the normal points to
+  Partner b = {};               ///< what it struck, by place in the world
+  Vec3 point = Vec3::Zero();    ///< [m] world
+  Vec3 normal = Vec3::UnitZ();  ///< [1] from b to a
+  double approach = 0;          ///< [m/s] normal speed at the point before; positive: they were closing in
+  double impulse = 0;           ///< [N s] along the normal
+  double tangential = 0;        ///< [N s] size of the friction part
 };
 
 /// What a method tells while it runs; the trajectory is one that remembers.

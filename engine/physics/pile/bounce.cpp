@@ -31,9 +31,9 @@ void Pile::bounce() {
   }
   for (const int slot : near_) {
     const PileManifold& manifold = manifolds_[at(slot)];
-    const bool hasWall = isWall(manifold.b);
-    const Vec3 apart = hasWall ? Vec3(Vec3::Zero())
-                               : Vec3(bodies_[at(manifold.a)].position - bodies_[at(manifold.b)].position);
+    const bool hasWall = manifold.b.isWall();
+    const Vec3 apart =
+        hasWall ? Vec3(Vec3::Zero()) : Vec3(bodies_[at(manifold.a)].position - bodyAt(manifold.b).position);
     bool begun = false;
     for (int k = 0; k < manifold.count; ++k) {
       const PilePoint& point = manifold.points[at(k)];
@@ -41,7 +41,7 @@ void Pile::bounce() {
         continue;
       }
       if (!begun) {
-        solver_.beginManifold(manifold.a, hasWall ? solver_.walls() : manifold.b, manifold.friction);
+        solver_.beginManifold(manifold.a, manifold.b, manifold.friction);
         begun = true;
       }
       solver_.add({.armA = point.world,
@@ -74,10 +74,10 @@ void Pile::refreshNear() {
   for (const int slot : near_) {
     PileManifold& manifold = manifolds_[at(slot)];
     const PileBody& a = bodies_[at(manifold.a)];
-    if (isWall(manifold.b)) {
-      refreshManifold(a, wall(manifold.b), manifold);
+    if (manifold.b.isWall()) {
+      refreshManifold(a, wallAt(manifold.b), manifold);
     } else {
-      refreshManifold(a, bodies_[at(manifold.b)], manifold);
+      refreshManifold(a, bodyAt(manifold.b), manifold);
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "core/math/linear_algebra.h"
 #include "physics/pile/body.h"
+#include "physics/world/partner.h"
 
 namespace careen {
 
@@ -43,7 +44,7 @@ struct PileManifold {
   static constexpr int kMost = 9;  // two quadrilaterals laid on each other, and an edge pair
 
   int a = 0;
-  int b = 0;
+  Partner b = {};
   double length = 0;  ///< [m] smallest size of the smaller box
   double friction = 0;
   double restitution = 0;

@@ -15,9 +15,7 @@ constexpr std::size_t kDeepest = 128;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-std::uint64_t keyOf(int a, int b) {
-  return (static_cast<std::uint64_t>(a) << 32U) | static_cast<std::uint64_t>(b);
-}
+std::uint64_t keyOf(int a, Partner b) { return (static_cast<std::uint64_t>(a) << 32U) | b.key(); }
 
 }  // namespace
 
@@ -90,7 +88,7 @@ void PilePairs::update(std::span<const PileBody> bodies, const Vec3& gravity, do
     }
   }
   std::sort(found_.begin(), found_.end());
-  merge(bodies);
+  merge();
 }
 
 void PilePairs::buildTree() {
@@ -168,7 +166,7 @@ void PilePairs::findPartners(std::span<const PileBody> bodies, std::span<const W
       const int other = order_[at(k)];
       const bool twice = left_[at(other)] != 0 && other < body;
       if (other != body && !twice && !(held && bodies[at(other)].held) && box.overlaps(fat_[at(other)])) {
-        found_.push_back(keyOf(std::min(body, other), std::max(body, other)));
+        found_.push_back(keyOf(std::min(body, other), Partner::ofBody(std::max(body, other))));
       }
     }
   }
@@ -179,19 +177,22 @@ void PilePairs::findPartners(std::span<const PileBody> bodies, std::span<const W
     const Vec3& n = walls[w].normal;
     const Vec3 lowest = (n.array() > 0).select(box.low, box.high);
     if (n.dot(lowest) <= walls[w].offset) {
-      found_.push_back(keyOf(body, static_cast<int>(bodies.size() + w)));
+      found_.push_back(keyOf(body, Partner::ofWall(w)));
     }
   }
 }
 
 // Old pairs of which none has left stay; of the others those that were found again.
-void PilePairs::merge(std::span<const PileBody> bodies) {
+void PilePairs::merge() {
   merged_.clear();
   auto found = found_.begin();
-  const auto hasLeft = [&](int index) { return at(index) < bodies.size() && left_[at(index)] != 0; };
+  const auto hasLeft = [&](const PilePair& pair) {
+    return left_[at(pair.a)] != 0 || (!pair.b.isWall() && left_[at(pair.b.body())] != 0);
+  };
   const auto add = [&] {
-    merged_.push_back(
-        {.key = *found, .a = static_cast<int>(*found >> 32U), .b = static_cast<int>(*found & 0xffffffffU)});
+    merged_.push_back({.key = *found,
+                       .a = static_cast<int>(*found >> 32U),
+                       .b = Partner::ofKey(static_cast<std::uint32_t>(*found & 0xffffffffU))});
     ++found;
   };
   for (const PilePair& old : pairs_) {
@@ -202,7 +203,7 @@ void PilePairs::merge(std::span<const PileBody> bodies) {
     if (again) {
       ++found;
     }
-    if (again || !(hasLeft(old.a) || hasLeft(old.b))) {
+    if (again || !hasLeft(old)) {
       merged_.push_back(old);
     } else if (old.slot >= 0) {
       freed_.push_back(old.slot);

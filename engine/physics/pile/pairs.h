@@ -7,14 +7,15 @@
 
 #include "core/math/linear_algebra.h"
 #include "physics/pile/body.h"
+#include "physics/world/partner.h"
 
 namespace careen {
 
-/// Two bodies, or a body and a wall, near enough to be looked at. By rank, a < b; wall w is b = bodies + w.
+/// Two bodies, or a body and a wall, near enough to be looked at. By rank, a < b.
 struct PilePair {
   std::uint64_t key = 0;  ///< a and b, sorts by a, then b
   int a = 0;
-  int b = 0;
+  Partner b = {};
   int slot = -1;     ///< of its manifold, −1: none
   double until = 0;  ///< [m] nothing can touch while the paths of both add up to less
 };
@@ -57,7 +58,7 @@ class PilePairs {
   int buildNode(int first, int count);
   void refit();
   void findPartners(std::span<const PileBody> bodies, std::span<const Wall> walls, int body);
-  void merge(std::span<const PileBody> bodies);
+  void merge();
 
   std::vector<Wall> walls_;
   std::vector<Box> fat_;

@@ -151,14 +151,14 @@ void Pile::lookAround(double time) {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       PilePair& pair = pairs[k];
       const PileBody& a = bodies_[at(pair.a)];
-      const bool stillB = isWall(pair.b) || bodies_[at(pair.b)].still();
+      const bool stillB = pair.b.isWall() || bodyAt(pair.b).still();
       if (looked_[k] != 0 || (a.still() && stillB)) {
         continue;
       }
       looked_[k] = lookAt(pair) ? 2 : 1;
-      if (looked_[k] == 2 && (a.asleep || (!isWall(pair.b) && bodies_[at(pair.b)].asleep)) &&
+      if (looked_[k] == 2 && (a.asleep || (!pair.b.isWall() && bodyAt(pair.b).asleep)) &&
           wouldPush(pair, manifolds_[at(pair.slot)])) {
-        wakeCluster(a.asleep ? a.cluster : bodies_[at(pair.b)].cluster);
+        wakeCluster(a.asleep ? a.cluster : bodyAt(pair.b).cluster);
         woke = true;
       }
     }
@@ -176,14 +176,14 @@ void Pile::lookAround(double time) {
 bool Pile::lookAt(PilePair& pair) {
   ++figures_.pairs;
   const PileBody& a = bodies_[at(pair.a)];
-  const bool hasWall = isWall(pair.b);
-  const double pathB = hasWall ? 0 : bodies_[at(pair.b)].path;
-  const double aheadB = hasWall ? 0 : bodies_[at(pair.b)].ahead;
+  const bool hasWall = pair.b.isWall();
+  const double pathB = hasWall ? 0 : bodyAt(pair.b).path;
+  const double aheadB = hasWall ? 0 : bodyAt(pair.b).ahead;
   if (pair.slot < 0 && a.path + pathB + a.ahead + aheadB < pair.until) {
     return false;
   }
   PileManifold& manifold = manifoldOf(pair);
-  const double motion = hasWall ? a.ahead : relativeMotion(a, bodies_[at(pair.b)], h_);
+  const double motion = hasWall ? a.ahead : relativeMotion(a, bodyAt(pair.b), h_);
   manifold.moved += motion;
   const double length = manifold.length;
   bool touching = manifold.count > 0;
@@ -191,12 +191,12 @@ bool Pile::lookAt(PilePair& pair) {
       manifold.moved + motion + 0.5 * PileLengths::kReach * length > manifold.reach) {
     ++figures_.rebuilt;
     manifold.reach = PileLengths::kReach * length + 1.5 * motion;
-    touching = hasWall ? buildManifold(a, wall(pair.b), manifold.reach, manifold)
-                       : buildManifold(a, bodies_[at(pair.b)], manifold.reach, manifold);
+    touching = hasWall ? buildManifold(a, wallAt(pair.b), manifold.reach, manifold)
+                       : buildManifold(a, bodyAt(pair.b), manifold.reach, manifold);
   } else if (hasWall) {
-    refreshManifold(a, wall(pair.b), manifold);
+    refreshManifold(a, wallAt(pair.b), manifold);
   } else {
-    refreshManifold(a, bodies_[at(pair.b)], manifold);
+    refreshManifold(a, bodyAt(pair.b), manifold);
   }
   if (!touching) {
     pair.until = a.path + pathB + manifold.separation - PileLengths::kReach * length;
@@ -223,17 +223,17 @@ PileManifold& Pile::manifoldOf(PilePair& pair) {
   manifold.b = pair.b;
   const PileBody& a = bodies_[at(pair.a)];
   const Material material =
-      touching(a.material, isWall(pair.b) ? wall(pair.b).material : bodies_[at(pair.b)].material);
+      touching(a.material, pair.b.isWall() ? wallAt(pair.b).material : bodyAt(pair.b).material);
   manifold.friction = material.friction;
   manifold.restitution = material.restitution;
-  manifold.length = isWall(pair.b) ? a.length : std::min(a.length, bodies_[at(pair.b)].length);
+  manifold.length = pair.b.isWall() ? a.length : std::min(a.length, bodyAt(pair.b).length);
   return manifold;
 }
 
 // Whether one who moves would give a sleeper more than what rest may lack of balance.
 bool Pile::wouldPush(const PilePair& pair, const PileManifold& manifold) const {
   const PileBody& a = bodies_[at(pair.a)];
-  const PileBody& b = bodies_[at(pair.b)];
+  const PileBody& b = bodyAt(pair.b);
   const auto speed = [&](const PileBody& body, const Vec3& arm) {
     return body.still() ? Vec3(Vec3::Zero()) : Vec3(body.velocity + h_ * gravity_ + body.omega.cross(arm));
   };
@@ -281,10 +281,10 @@ void Pile::loadSolver() {
 }
 
 void Pile::addRows(PileManifold& manifold) {
-  const bool hasWall = isWall(manifold.b);
+  const bool hasWall = manifold.b.isWall();
   const PileBody& a = bodies_[at(manifold.a)];
-  const int indexB = hasWall ? solver_.walls() : manifold.b;
-  const Vec3 apart = hasWall ? Vec3::Zero() : Vec3(a.position - bodies_[at(manifold.b)].position);
+  const int indexB = solver_.indexOf(manifold.b);
+  const Vec3 apart = hasWall ? Vec3::Zero() : Vec3(a.position - bodyAt(manifold.b).position);
   const Vec3 vA = solver_.velocity(manifold.a);
   const Vec3 vB = solver_.velocity(indexB);
   bool begun = false;
@@ -301,7 +301,7 @@ void Pile::addRows(PileManifold& manifold) {
       continue;
     }
     if (!begun) {
-      solver_.beginManifold(manifold.a, indexB, manifold.friction);
+      solver_.beginManifold(manifold.a, manifold.b, manifold.friction);
       begun = true;
     }
     PileSolver::Row row{.armA = point.world, .armB = armB, .frame = frame};
@@ -317,7 +317,7 @@ void Pile::addRows(PileManifold& manifold) {
     if (manifold.restitution > 0 && -speed > kBounceFrom * pull_ * h_) {
       // Of what gravity adds in the substep only the part before the touch counts, or bouncing would gain.
       const double before = std::clamp(point.gap / (-speed * h_), 0.0, 1.0);
-      const double held = (a.still() ? 0 : 1) - (hasWall || bodies_[at(manifold.b)].still() ? 0 : 1);
+      const double held = (a.still() ? 0 : 1) - (hasWall || bodyAt(manifold.b).still() ? 0 : 1);
       const double fromGravity = held * h_ * frame.normal.dot(gravity_);
       const double impact = -(speed - (1 - before) * fromGravity);
       bounces_.push_back({.row = point.row, .speed = manifold.restitution * std::max(0.0, impact)});
@@ -377,11 +377,11 @@ void Pile::project() {
     for (const int slot : near_) {
       PileManifold& manifold = manifolds_[at(slot)];
       const PileBody& a = bodies_[at(manifold.a)];
-      if (isWall(manifold.b)) {
-        refreshManifold(a, wall(manifold.b), manifold);
+      if (manifold.b.isWall()) {
+        refreshManifold(a, wallAt(manifold.b), manifold);
         continue;
       }
-      const PileBody& b = bodies_[at(manifold.b)];
+      const PileBody& b = bodyAt(manifold.b);
       const double unseen = pass == 0 ? relativeMotion(a, b, h_) : 0;
       if (manifold.moved + unseen > PileLengths::kRebuild * manifold.length) {
         ++figures_.rebuilt;

@@ -71,8 +71,8 @@ class Pile {
     double speed = 0;  // [m/s] to part with
   };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  bool isWall(int index) const { return at(index) >= bodies_.size(); }
-  const Wall& wall(int index) const { return walls_[at(index) - bodies_.size()]; }
+  const PileBody& bodyAt(Partner partner) const { return bodies_[at(partner.body())]; }
+  const Wall& wallAt(Partner partner) const { return walls_[partner.wall()]; }
 
   void sortManifolds();
   int chooseSubsteps();

@@ -22,24 +22,37 @@ double lowestGap(const PileManifold& manifold) {
   return gap;
 }
 
+template <class Visit>
+void forBodies(const PileManifold& manifold, const Visit& visit) {
+  visit(manifold.a);
+  if (!manifold.b.isWall()) {
+    visit(manifold.b.body());
+  }
+}
+
 }  // namespace
 
 // reached_: 1 for bodies of deep pairs, one more for each layer around them.
 bool PileProjection::collect(std::span<const PileBody> bodies, std::span<PileManifold> manifolds,
                              std::span<const int> near, int layers) {
   reached_.assign(bodies.size(), 0);
-  const auto mark = [&](int body, int layer) {
-    if (at(body) < bodies.size() && !bodies[at(body)].still() && reached_[at(body)] == 0) {
-      reached_[at(body)] = static_cast<char>(layer);
-    }
+  const auto mark = [&](const PileManifold& manifold, int layer) {
+    forBodies(manifold, [&](int body) {
+      if (!bodies[at(body)].still() && reached_[at(body)] == 0) {
+        reached_[at(body)] = static_cast<char>(layer);
+      }
+    });
   };
-  const auto layerOf = [&](int body) { return at(body) < bodies.size() ? reached_[at(body)] : char{0}; };
+  const auto isIn = [&](const PileManifold& manifold, int layer) {
+    bool found = false;
+    forBodies(manifold, [&](int body) { found = found || reached_[at(body)] == layer; });
+    return found;
+  };
   bool any = false;
   for (const int slot : near) {
     const PileManifold& manifold = manifolds[at(slot)];
     if (lowestGap(manifold) < -kTolerance * manifold.length) {
-      mark(manifold.a, 1);
-      mark(manifold.b, 1);
+      mark(manifold, 1);
       any = true;
     }
   }
@@ -50,15 +63,16 @@ bool PileProjection::collect(std::span<const PileBody> bodies, std::span<PileMan
   for (int layer = 1; layer <= layers; ++layer) {
     for (const int slot : near) {
       const PileManifold& manifold = manifolds[at(slot)];
-      const bool touches = layerOf(manifold.a) == layer || layerOf(manifold.b) == layer;
+      const bool touches = isIn(manifold, layer);
       if (touches && layer < layers && lowestGap(manifold) < kNear * manifold.length) {
-        mark(manifold.a, layer + 1);
-        mark(manifold.b, layer + 1);
+        mark(manifold, layer + 1);
       }
     }
   }
   for (const int slot : near) {
-    if (layerOf(manifolds[at(slot)].a) != 0 || layerOf(manifolds[at(slot)].b) != 0) {
+    bool reached = false;
+    forBodies(manifolds[at(slot)], [&](int body) { reached = reached || reached_[at(body)] != 0; });
+    if (reached) {
       chosen_.push_back(slot);
     }
   }
@@ -79,10 +93,10 @@ bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> ma
   }
   for (const int slot : chosen_) {
     const PileManifold& manifold = manifolds[at(slot)];
-    const bool wall = at(manifold.b) >= bodies.size();
-    const Vec3 apart =
-        wall ? Vec3::Zero() : Vec3(bodies[at(manifold.a)].position - bodies[at(manifold.b)].position);
-    solver_.beginManifold(manifold.a, wall ? solver_.walls() : manifold.b, 0);
+    const Vec3 apart = manifold.b.isWall()
+                           ? Vec3::Zero()
+                           : Vec3(bodies[at(manifold.a)].position - bodies[at(manifold.b.body())].position);
+    solver_.beginManifold(manifold.a, manifold.b, 0);
     const double left = kLeft * kTolerance * manifold.length;
     for (int k = 0; k < manifold.count; ++k) {
       const PilePoint& point = manifold.points[at(k)];
@@ -118,12 +132,12 @@ bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> ma
   }
   for (const int slot : near) {
     PileManifold& manifold = manifolds[at(slot)];
-    for (const int body : {manifold.a, manifold.b}) {
-      if (at(body) < bodies.size() && moved_[at(body)] != 0) {
+    forBodies(manifold, [&](int body) {
+      if (moved_[at(body)] != 0) {
         manifold.moved +=
             solver_.velocity(body).norm() + bodies[at(body)].radius * solver_.omega(body).norm();
       }
-    }
+    });
   }
   return true;
 }

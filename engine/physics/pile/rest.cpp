@@ -47,10 +47,10 @@ bool Pile::freeze() {
       continue;
     }
     grip_[at(manifold.a)] = std::max(grip_[at(manifold.a)], manifold.friction);
-    if (!isWall(manifold.b)) {
-      grip_[at(manifold.b)] = std::max(grip_[at(manifold.b)], manifold.friction);
-      if (!bodies_[at(manifold.a)].held && !bodies_[at(manifold.b)].held) {
-        join(manifold.a, manifold.b);
+    if (!manifold.b.isWall()) {
+      grip_[at(manifold.b.body())] = std::max(grip_[at(manifold.b.body())], manifold.friction);
+      if (!bodies_[at(manifold.a)].held && !bodyAt(manifold.b).held) {
+        join(manifold.a, manifold.b.body());
       }
     }
   }
@@ -91,7 +91,7 @@ double Pile::deepest() const {
   for (const PilePair& pair : pairs_.pairs()) {
     const PileBody& a = bodies_[at(pair.a)];
     deepest =
-        std::max(deepest, isWall(pair.b) ? overlapOf(a, wall(pair.b)) : overlapOf(a, bodies_[at(pair.b)]));
+        std::max(deepest, pair.b.isWall() ? overlapOf(a, wallAt(pair.b)) : overlapOf(a, bodyAt(pair.b)));
   }
   return deepest;
 }

@@ -32,8 +32,8 @@ void PileSolver::setBody(int index, const PileBody& body, double change) {
   inertia.yz = entry(1, 2);
 }
 
-void PileSolver::beginManifold(int a, int b, double friction) {
-  blocks_.push_back({.a = a, .b = b, .first = static_cast<int>(rows_.size()), .friction = friction});
+void PileSolver::beginManifold(int a, Partner b, double friction) {
+  blocks_.push_back({.a = a, .b = indexOf(b), .first = static_cast<int>(rows_.size()), .friction = friction});
 }
 
 void PileSolver::add(const Row& row) {

@@ -32,12 +32,14 @@ class PileSolver {
 
   Vec3& velocity(int body) { return moving_[at(body)].velocity; }
   Vec3& omega(int body) { return moving_[at(body)].omega; }
-  int walls() const { return static_cast<int>(moving_.size()) - 1; }
+  int indexOf(Partner partner) const {
+    return partner.isWall() ? static_cast<int>(moving_.size()) - 1 : partner.body();
+  }
   /// Whether any impulse acted on it since begin().
   bool pushed(int body) const { return moving_[at(body)].pushed; }
 
-  /// A manifold's rows follow with add(). Manifolds come in the order of their keys; b may be walls().
-  void beginManifold(int a, int b, double friction);
+  /// A manifold's rows follow with add(). Manifolds come in the order of their keys.
+  void beginManifold(int a, Partner b, double friction);
   struct Row {
     Vec3 armA = Vec3::Zero();  ///< [m]
     Vec3 armB = Vec3::Zero();  ///< [m]

@@ -11,6 +11,7 @@
 #include "core/brief.h"
 #include "core/error.h"
 #include "physics/geometry/separation.h"
+#include "physics/world/partner.h"
 
 namespace careen {
 namespace {
@@ -63,7 +64,6 @@ std::vector<Vec3> positionsOf(std::span<const PlacedBox> boxes) {
   return positions;
 }
 
-constexpr std::size_t kNoBox = std::numeric_limits<std::size_t>::max();
 // Rounding, of the lengths that a gap is the difference of: what a sweep must come to before it is the last.
 constexpr double kTight = 0x1p-48;
 // What has no room is known by gaps that stop closing: less than a thousandth in this many sweeps for each
@@ -77,9 +77,8 @@ constexpr double kHeaviest = 64;
 
 // One that must keep n·(a − b), or n·a of a wall, at no less than `least`.
 struct Barrier {
-  std::size_t a = kNoBox;
-  std::size_t b = kNoBox;  // kNoBox: a wall
-  std::size_t wall = 0;
+  std::size_t a = 0;
+  Partner b = {};
   int choice = 0;  // which of the pair's axes, by depth: 0 the least deep
   Vec3 normal = Vec3::Zero();
   double least = 0;       // [m]
@@ -115,13 +114,15 @@ class Parting {
     }
     const Barrier& worst = barriers_[deepest()];
     const std::string other =
-        worst.b == kNoBox ? "wall " + walls_[worst.wall].name : "box " + boxes_[worst.b].name;
+        worst.b.isWall() ? "wall " + walls_[worst.b.wall()].name : "box " + boxes_[indexOf(worst.b)].name;
     throw InputError("box " + boxes_[worst.a].name + " cannot be moved out of " + other +
                      ": there is no room for it, " + brief(-gapOf(worst)) +
                      " m are missing; expected boxes that have room to part");
   }
 
  private:
+  static std::size_t indexOf(Partner box) { return static_cast<std::size_t>(box.body()); }
+
   template <class Named>
   static void rankByName(std::span<const Named> named, Indices& rank) {
     Indices order(named.size());
@@ -146,18 +147,18 @@ class Parting {
   }
 
   double gapOf(const Barrier& barrier) const {
-    const Vec3 from = barrier.b == kNoBox ? now_[barrier.a] : Vec3(now_[barrier.a] - now_[barrier.b]);
+    const Vec3 from = barrier.b.isWall() ? now_[barrier.a] : Vec3(now_[barrier.a] - now_[indexOf(barrier.b)]);
     return barrier.normal.dot(from) - barrier.least;
   }
   double easeOf(const Barrier& barrier) const {
-    return ease_[barrier.a] + (barrier.b == kNoBox ? 0 : ease_[barrier.b]);
+    return ease_[barrier.a] + (barrier.b.isWall() ? 0 : ease_[indexOf(barrier.b)]);
   }
 
   // The order of names, walls after boxes.
   bool before(const Barrier& x, const Barrier& y) const {
     const auto key = [this](const Barrier& each) {
-      return std::array<std::size_t, 3>{each.b == kNoBox ? 1U : 0U, rank_[each.a],
-                                        each.b == kNoBox ? wallRank_[each.wall] : rank_[each.b]};
+      return std::array<std::size_t, 3>{each.b.isWall() ? 1U : 0U, rank_[each.a],
+                                        each.b.isWall() ? wallRank_[each.b.wall()] : rank_[indexOf(each.b)]};
     };
     return key(x) < key(y);
   }
@@ -181,7 +182,7 @@ class Parting {
       if (!pairs_.contains({a, b}) &&
           axesOf(boxes_[a], boxes_[b], now_[a] - now_[b]).gap() < -kGapAllowance * lengths) {
         pairs_.insert({a, b});
-        barriers_.push_back({.a = a, .b = b, .lengths = lengths});
+        barriers_.push_back({.a = a, .b = Partner::ofBody(static_cast<int>(b)), .lengths = lengths});
         choose(barriers_.back(), now_[a] - now_[b]);
       }
     });
@@ -195,7 +196,7 @@ class Parting {
         if (lowest.overlaps() && behind_.insert({i, w}).second) {
           const double centre = walls_[w].normal.dot(now_[i]);
           barriers_.push_back({.a = i,
-                               .wall = w,
+                               .b = Partner::ofWall(w),
                                .normal = walls_[w].normal,
                                .least = centre - lowest.gap,
                                .lengths = lowest.lengths});
@@ -207,7 +208,7 @@ class Parting {
   // Of the pair's 15 directions and their opposites that of the place barrier.choice, by how far the boxes
   // must move along it.
   void choose(Barrier& barrier, const Vec3& bToA) const {
-    const BoxAxes axes = axesOf(boxes_[barrier.a], boxes_[barrier.b], bToA);
+    const BoxAxes axes = axesOf(boxes_[barrier.a], boxes_[indexOf(barrier.b)], bToA);
     struct Way {
       double depth = 0;
       int axis = 0;
@@ -265,8 +266,9 @@ class Parting {
 
   void push(const Barrier& barrier, double multiplier) {
     now_[barrier.a] += (multiplier * ease_[barrier.a]) * barrier.normal;
-    if (barrier.b != kNoBox) {
-      now_[barrier.b] -= (multiplier * ease_[barrier.b]) * barrier.normal;
+    if (!barrier.b.isWall()) {
+      const std::size_t b = indexOf(barrier.b);
+      now_[b] -= (multiplier * ease_[b]) * barrier.normal;
     }
   }
 
@@ -282,7 +284,7 @@ class Parting {
   bool turnToNextAxis() {
     Barrier* hardest = nullptr;
     for (Barrier& each : barriers_) {
-      if (each.b != kNoBox && (hardest == nullptr || each.multiplier > hardest->multiplier)) {
+      if (!each.b.isWall() && (hardest == nullptr || each.multiplier > hardest->multiplier)) {
         hardest = &each;
       }
     }
@@ -291,7 +293,7 @@ class Parting {
     }
     ++hardest->choice;
     now_ = start_;
-    choose(*hardest, now_[hardest->a] - now_[hardest->b]);
+    choose(*hardest, now_[hardest->a] - now_[indexOf(hardest->b)]);
     for (Barrier& each : barriers_) {
       each.multiplier = 0;
     }

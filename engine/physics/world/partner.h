@@ -1,11 +1,37 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
+#include <cstdint>
 
 namespace careen {
 
-/// A wall as a partner is −1 − its index.
-inline int wallPartner(std::size_t wall) { return -1 - static_cast<int>(wall); }
-inline std::size_t wallOf(int partner) { return static_cast<std::size_t>(-1 - partner); }
+/// Whom a body meets: another body or a wall, by its index. Which list of bodies that index belongs to (the
+/// world's, the ranks', an impact's) is stated where a partner is used; a wall's is always its place in the
+/// world. Bodies come before walls, each in the order of their indices.
+class Partner {
+ public:
+  constexpr Partner() = default;  ///< wall 0
+  static constexpr Partner ofBody(int index) { return Partner(static_cast<std::uint32_t>(index)); }
+  static constexpr Partner ofWall(std::size_t index) {
+    return Partner(kWall | static_cast<std::uint32_t>(index));
+  }
+  static constexpr Partner ofKey(std::uint32_t key) { return Partner(key); }
+
+  constexpr bool isWall() const { return (key_ & kWall) != 0; }
+  constexpr int body() const { return static_cast<int>(key_); }              ///< not of a wall
+  constexpr std::size_t wall() const { return std::size_t{key_ & ~kWall}; }  ///< not of a body
+  constexpr bool isBody(int index) const { return *this == ofBody(index); }
+
+  /// Sorts as partners do.
+  constexpr std::uint32_t key() const { return key_; }
+  friend constexpr auto operator<=>(const Partner&, const Partner&) = default;
+
+ private:
+  static constexpr std::uint32_t kWall = 0x80000000U;
+  explicit constexpr Partner(std::uint32_t key) : key_(key) {}
+
+  std::uint32_t key_ = kWall;
+};
 
 }  // namespace careen

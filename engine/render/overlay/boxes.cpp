@@ -41,8 +41,7 @@ Vec3 cornerAt(const OverlayFrame& frame, std::size_t body, double time) {
 
 bool concerns(const Impact& impact, std::size_t body) {
   const int index = static_cast<int>(body);
-  const BodyIndex* const other = std::get_if<BodyIndex>(&impact.b);
-  return impact.a.value == index || (other != nullptr && other->value == index);
+  return impact.a.value == index || impact.b.isBody(index);
 }
 
 // Moments a trail goes through: on a grid that stays where it is from frame to frame, where the box was

@@ -53,7 +53,7 @@ void addImpulses(OverlayShapes& shapes, const OverlayFrame& frame) {
   for (const Impact& impact : recentImpacts(frame)) {
     const Vec3 impulse = impact.impulse * impact.normal;
     for (const double side : {1.0, -1.0}) {  // another box gets as much the other way
-      if (side < 0 && !std::holds_alternative<BodyIndex>(impact.b)) {
+      if (side < 0 && impact.b.isWall()) {
         continue;
       }
       std::optional<Stroke> arrow =

@@ -72,7 +72,7 @@ TEST(CheckCorners, takesBodiesAndWallsInTheirOrder) {
   world.bodies.push_back(world.bodies[0]);
   const CornerCheck result = check(world);
   EXPECT_EQ(result.corner.body.value, 1) << "the last body";
-  EXPECT_EQ(result.corner.wall.value, 1);
+  EXPECT_EQ(result.corner.wall, 1U);
 }
 
 TEST(CheckCorners, passesOverHeldBodies) {
@@ -93,7 +93,7 @@ TEST(ResolveCorner, reportsTheImpactAndItsEnergy) {
   const double mass = 0.0256;
   EXPECT_EQ(resolved.impact.time, 1.25);
   EXPECT_EQ(resolved.impact.a.value, 0);
-  EXPECT_EQ(std::get<WallIndex>(resolved.impact.b).value, 0);
+  EXPECT_EQ(resolved.impact.b, Partner::ofWall(0));
   EXPECT_EQ(resolved.impact.normal, Vec3::UnitZ());
   EXPECT_EQ(resolved.impact.point, found.corner.point);
   EXPECT_EQ(resolved.impact.approach, 5);

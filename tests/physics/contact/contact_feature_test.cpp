@@ -59,13 +59,13 @@ void expectDerivatives(const ContactFeature& feature, const Wall* wall) {
 
 TEST(ContactState, ofACornerOnAWallChangesAsItSays) {
   const Wall wall{.name = "wall", .normal = Vec3(1, -2, 2) / 3, .offset = -0.2, .material = {}};
-  expectDerivatives({.a = 0, .wall = 0, .onA = corner(kHalfA, 5)}, &wall);
+  expectDerivatives({.a = 0, .onA = corner(kHalfA, 5)}, &wall);
 }
 
 TEST(ContactState, ofACornerOnATurningFaceChangesAsItSays) {
   expectDerivatives({.kind = ContactFeature::Kind::kPointOnFace,
                      .a = 0,
-                     .b = 1,
+                     .b = Partner::ofBody(1),
                      .onA = corner(kHalfA, 3),
                      .axisB = 1,
                      .sign = -1},
@@ -76,7 +76,7 @@ TEST(ContactState, ofACornerOnATurningFaceChangesAsItSays) {
 TEST(ContactState, ofTwoEdgesChangesAsItSays) {
   const ContactFeature feature{.kind = ContactFeature::Kind::kEdgeOnEdge,
                                .a = 0,
-                               .b = 1,
+                               .b = Partner::ofBody(1),
                                .onA = Vec3(0, -kHalfA.y(), -kHalfA.z()),
                                .onB = Vec3(kHalfB.x(), 0, kHalfB.z()),
                                .axisA = 0,

@@ -132,7 +132,7 @@ TEST(Island, forcesOfAStackAreSumsOfWeights) {
         ContactFeature feature{.a = k, .onA = at, .material = {0, kFriction}};
         if (k > 0) {
           feature.kind = ContactFeature::Kind::kPointOnFace;
-          feature.b = k - 1;
+          feature.b = Partner::ofBody(k - 1);
           feature.axisB = 2;
         }
         features.push_back(feature);

@@ -20,30 +20,30 @@ using testing::randomImpact;
 using testing::relativeChange;
 
 /// Fig. 4 written again in quadruple precision, with the world inertia inverted as a matrix.
-BodyState quadrupleFig4(const ImpactScene& scene, int body, double side) {
+BodyState quadrupleFig4(const ImpactScene& scene, int body, double sign) {
   const ImpactContact& c = scene.contacts[0];
   const Quad3 n = c.normal.cast<Quad>();
   Quad denominator = 0;
-  for (const int k : {c.a, c.b}) {
-    if (k < 0) {
+  for (const Partner side : {Partner::ofBody(c.a), c.b}) {
+    if (side.isWall()) {
       continue;
     }
-    const auto i = static_cast<std::size_t>(k);
+    const auto i = static_cast<std::size_t>(side.body());
     const Matrix3<Quad> a = scene.states[i].pose.worldFromBody.cast<Quad>();
     const Matrix3<Quad> inverse =
         a * scene.masses[i].inverseInertiaBody.cast<Quad>().asDiagonal() * a.transpose();
-    const Quad3 arm = (k == c.a ? c.armA : c.armB).cast<Quad>();
+    const Quad3 arm = (side.isBody(c.a) ? c.armA : c.armB).cast<Quad>();
     const Quad3 turned = inverse * arm.cross(n);
     denominator += n.dot(n) * Quad(scene.masses[i].inverseMass) + turned.cross(arm).dot(n);
   }
   const Quad j = -(1 + Quad(c.material.restitution)) * scene.relativeVelocity(c).dot(n) / denominator;
   const auto i = static_cast<std::size_t>(body);
   BodyState after = scene.states[i];
-  const Quad3 arm = (side > 0 ? c.armA : c.armB).cast<Quad>();
+  const Quad3 arm = (sign > 0 ? c.armA : c.armB).cast<Quad>();
   after.velocity =
-      (after.velocity.cast<Quad>() + n * (j * Quad(side) * Quad(scene.masses[i].inverseMass))).cast<double>();
+      (after.velocity.cast<Quad>() + n * (j * Quad(sign) * Quad(scene.masses[i].inverseMass))).cast<double>();
   after.angularMomentum =
-      (after.angularMomentum.cast<Quad>() + arm.cross(n) * (j * Quad(side))).cast<double>();
+      (after.angularMomentum.cast<Quad>() + arm.cross(n) * (j * Quad(sign))).cast<double>();
   return after;
 }
 
@@ -59,7 +59,7 @@ TEST(ImpactLaw, oneContactIsFig4ToTheLastBit) {
     ++hits;
     const ImpactContact& c = scene.contacts[0];
     const BodyState expectedA = quadrupleFig4(scene, c.a, 1);
-    const BodyState expectedB = c.b < 0 ? BodyState{} : quadrupleFig4(scene, c.b, -1);
+    const BodyState expectedB = c.b.isWall() ? BodyState{} : quadrupleFig4(scene, c.b.body(), -1);
     const double before = scene.partingSpeed(c);
     scene.resolve();
     const auto compare = [&](const BodyState& actual, const BodyState& expected) {
@@ -68,8 +68,8 @@ TEST(ImpactLaw, oneContactIsFig4ToTheLastBit) {
                                   expected.angularMomentum.norm());
     };
     compare(scene.states[static_cast<std::size_t>(c.a)], expectedA);
-    if (c.b >= 0) {
-      compare(scene.states[static_cast<std::size_t>(c.b)], expectedB);
+    if (!c.b.isWall()) {
+      compare(scene.states[static_cast<std::size_t>(c.b.body())], expectedB);
     }
     EXPECT_NEAR(scene.partingSpeed(c), -c.material.restitution * before, 1e-13);
   }
@@ -82,7 +82,7 @@ TEST(ImpactLaw, boxesHittingEachOtherKeepMomentumAboutAnyPoint) {
   double worst = 0;
   for (int k = 0; k < 5000; ++k) {
     ImpactScene scene = randomImpact(random, 1, k % 2 == 0);
-    if (scene.states.size() != 2 || scene.contacts[0].b < 0) {
+    if (scene.states.size() != 2 || scene.contacts[0].b.isWall()) {
       continue;
     }
     // Where they touch fixes where they are: the point is the origin.

@@ -118,7 +118,7 @@ ImpactScene row(int n, double restitution) {
     for (const double y : {-0.5, 0.5}) {
       for (const double z : {-0.5, 0.5}) {
         scene.contacts.push_back({.a = k + 1,
-                                  .b = k,
+                                  .b = Partner::ofBody(k),
                                   .armA = Vec3(-0.5, y, z),
                                   .armB = Vec3(0.5, y, z),
                                   .normal = Vec3::UnitX(),
@@ -185,7 +185,7 @@ TEST(ImpactLaw, manyContactsGainNoEnergyKeepMomentumAndLeaveNothingApproaching) 
     for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
       deepest = std::max(deepest, -scene.partingSpeed(scene.contacts[c]) / speed);
       EXPECT_GE(scene.shares[c].impulse, 0);
-      if (scene.contacts[c].b == ImpactContact::kWall) {
+      if (scene.contacts[c].b.isWall()) {
         expected += scene.shares[c].impulse * scene.contacts[c].normal;
         size += scene.shares[c].impulse;
       }

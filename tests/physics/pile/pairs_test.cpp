@@ -40,7 +40,7 @@ TEST(PilePairs, listsEveryPairThatCanTouchThroughoutAFlight) {
     for (std::size_t i = 0; i < pairs.pairs().size(); ++i) {
       const PilePair& pair = pairs.pairs()[i];
       ASSERT_TRUE(i == 0 || pairs.pairs()[i - 1].key < pair.key);
-      found.insert({pair.a, pair.b});
+      found.insert({pair.a, pair.b.body()});
     }
     most = std::max(most, found.size());
     for (int i = 0; i < 150; ++i) {

@@ -62,7 +62,7 @@ class OverlaysTest : public testing::Test {
   void strike(double time, double impulse) {
     run_.impacts.push_back({.time = time,
                             .a = {0},
-                            .b = WallIndex{0},
+                            .b = Partner::ofWall(0),
                             .point = Vec3(1, 0, 1),
                             .normal = Vec3(-1, 0, 0),
                             .impulse = impulse});
@@ -117,7 +117,7 @@ TEST_F(OverlaysTest, otherBoxGetsTheImpulseTheOtherWay) {
   strike(0.2, 3);
   scene_.boxes.push_back(boxAt(Vec3(1, 1, 1), Vec3(0.1, 0.1, 0.1)));
   run_.tracks.push_back({.name = "other", .mass = immovable(), .segments = {{.start = 0, .motion = Rest{}}}});
-  run_.impacts[0].b = BodyIndex{1};
+  run_.impacts[0].b = Partner::ofBody(1);
   const std::vector<Stroke> found = arrows("impulses", 0.2);
   ASSERT_EQ(found.size(), 2U);
   expectNear(found[0].to - found[0].from, found[1].from - found[1].to);
