@@ -52,11 +52,6 @@ double halfDiagonal(const MassProperties& mass) {
   return std::sqrt(1.5 * mass.inertiaBody.sum() / mass.mass);
 }
 
-double kineticEnergy(const MassProperties& mass, const BodyState& state) {
-  const Vec3 momentum = state.pose.worldFromBody.transpose() * state.angularMomentum;
-  return 0.5 * (mass.mass * state.velocity.squaredNorm() + momentum.cwiseAbs2().dot(mass.inverseInertiaBody));
-}
-
 /// Both runs' states, box by box under the expected run's order.
 class Pair {
  public:

@@ -48,4 +48,9 @@ Vec3 angularMomentum(const MassProperties& mass, const Mat3& worldFromBody, cons
   return worldFromBody * mass.inertiaBody.cwiseProduct(velocityBody);
 }
 
+double kineticEnergy(const MassProperties& mass, const BodyState& state) {
+  return 0.5 * mass.mass * state.velocity.squaredNorm() +
+         0.5 * angularVelocity(mass, state).dot(state.angularMomentum);
+}
+
 }  // namespace careen

@@ -45,6 +45,9 @@ Vec3 angularVelocity(const MassProperties& mass, const BodyState& state);
 /// L = I ω (Eq. 17), [kg m²/s].
 Vec3 angularMomentum(const MassProperties& mass, const Mat3& worldFromBody, const Vec3& angularVelocity);
 
+/// ½ M v² + ½ ω·L, [J]; 0 for what cannot move.
+double kineticEnergy(const MassProperties& mass, const BodyState& state);
+
 struct Body {
   std::string name;
   Vec3 halfExtents = Vec3::Zero();  ///< [m] half sizes along the body's axes

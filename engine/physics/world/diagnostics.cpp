@@ -21,8 +21,7 @@ Energy energyOf(const World& world, std::span<const BodyState> states) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     const MassProperties& mass = world.bodies[i].mass;
     const BodyState& state = states[i];
-    energy.kinetic += 0.5 * mass.mass * state.velocity.squaredNorm() +
-                      0.5 * angularVelocity(mass, state).dot(state.angularMomentum);
+    energy.kinetic += kineticEnergy(mass, state);
     energy.gravitational -= mass.mass * world.gravity.dot(state.pose.position);
   }
   energy.springs = springEnergy(world, states);

@@ -24,8 +24,7 @@ double FlightAccount::energy() const {
 void FlightAccount::see(std::size_t body, const BodyState& state) {
   const MassProperties& mass = world_.bodies[body].mass;
   BodyAccount& account = bodies_[body];
-  const double kinetic = 0.5 * mass.mass * state.velocity.squaredNorm() +
-                         0.5 * angularVelocity(mass, state).dot(state.angularMomentum);
+  const double kinetic = kineticEnergy(mass, state);
   const double energy = kinetic - mass.mass * world_.gravity.dot(state.pose.position);
   energy_ += energy - account.energy;
   kinetic_ += kinetic - account.kinetic;

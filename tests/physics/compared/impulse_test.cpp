@@ -38,10 +38,6 @@ struct Pair {
   }
 };
 
-double kineticEnergy(const MassProperties& mass, const BodyState& state) {
-  return 0.5 * mass.mass * state.velocity.squaredNorm() +
-         0.5 * angularVelocity(mass, state).dot(state.angularMomentum);
-}
 double kineticEnergy(const Pair& pair) {
   return kineticEnergy(pair.massA, pair.a) + kineticEnergy(pair.massB, pair.b);
 }
