@@ -1,10 +1,10 @@
 #include <numbers>
 #include <utility>
 
-#include "core/math/rotation.h"
 #include "mutation/subject.h"
 #include "render/look/lighting.h"
 #include "render/look/materials.h"
+#include "support/article_equations.h"
 
 namespace careen {
 namespace {

@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/math/rotation.h"
 #include "mutation/subject.h"
+#include "support/article_equations.h"
 
 namespace careen {
 namespace {

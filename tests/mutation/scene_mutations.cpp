@@ -1,9 +1,9 @@
 #include <numbers>
 #include <utility>
 
-#include "core/math/rotation.h"
 #include "mutation/subject.h"
 #include "render/look/lighting.h"
+#include "support/article_equations.h"
 
 namespace careen {
 namespace {

@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "compare/pictures_to_compare.h"
-#include "core/math/rotation.h"
 #include "render/stage.h"
 #include "render/view/camera.h"
+#include "support/article_equations.h"
 #include "support/process.h"
 
 namespace careen {

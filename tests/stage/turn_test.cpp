@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/math/rotation.h"
+#include "support/article_equations.h"
 
 namespace careen {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/math/rotation.h"
+#include "support/article_equations.h"
 #include "support/exact_runs.h"
 
 namespace careen {

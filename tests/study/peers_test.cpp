@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/math/rotation.h"
 #include "physics/attitude/torque_free_rotation.h"
+#include "support/article_equations.h"
 #include "support/physics_worlds.h"
 
 namespace careen {

@@ -1,7 +1,5 @@
 #include "core/math/rotation.h"
 
-#include <cmath>
-
 namespace careen {
 
 Mat3 tilde(const Vec3& omega) {
@@ -13,21 +11,6 @@ Mat3 tilde(const Vec3& omega) {
 }
 
 Mat3 similarityTransform(const Mat3& a, const Mat3& b) { return a * b * a.transpose(); }
-
-AxisDecomposition decomposeAboutAxis(const Vec3& unitAxis, const Vec3& r) {
-  const Vec3 along = unitAxis.dot(r) * unitAxis;
-  return {.along = along, .radial = r - along, .ahead = unitAxis.cross(r)};
-}
-
-Vec3 rotateAboutAxis(const Vec3& unitAxis, double angle, const Vec3& r) {
-  const AxisDecomposition parts = decomposeAboutAxis(unitAxis, r);
-  return parts.along + std::cos(angle) * parts.radial + std::sin(angle) * parts.ahead;
-}
-
-Mat3 axisAngle(const Vec3& unitAxis, double angle) {
-  const Mat3 along = unitAxis * unitAxis.transpose();
-  return along + std::cos(angle) * (Mat3::Identity() - along) + std::sin(angle) * tilde(unitAxis);
-}
 
 Mat3 orientationRate(const Vec3& omega, const Mat3& worldFromBody) { return tilde(omega) * worldFromBody; }
 

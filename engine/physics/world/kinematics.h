@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "core/math/linear_algebra.h"
 
 namespace careen {
@@ -12,10 +10,6 @@ namespace careen {
 /// ḃ = ȯ + ω × r (Eq. 12), [m/s].
 Vec3 pointVelocity(const Vec3& centerVelocity, const Vec3& angularVelocity, const Vec3& r);
 
-/// b̈ = ö + α × r + ω × (ω × r) (Eq. 13), [m/s²]. The last term is the centripetal one.
-Vec3 pointAcceleration(const Vec3& centerAcceleration, const Vec3& angularAcceleration,
-                       const Vec3& angularVelocity, const Vec3& r);
-
 /// a = F/M (Eq. 14), [m/s²]: the centre of mass moves as if the whole force acted there.
 Vec3 centerAcceleration(double inverseMass, const Vec3& totalForce);
 
@@ -24,17 +18,5 @@ Vec3 angularMomentumAbout(const Vec3& r, const Vec3& momentum);
 
 /// τ_AB = r_AB × F_B (Eq. 16), [N m]: the rate of L_AB.
 Vec3 torqueAbout(const Vec3& r, const Vec3& force);
-
-struct PointMass {
-  double mass = 0;        ///< [kg]
-  Vec3 r = Vec3::Zero();  ///< [m] from the centre of mass
-};
-
-/// I = Σ −mᵢ r̃ᵢ r̃ᵢ, [kg m²]: in world coordinates Eq. 17, in the body's Eq. 19. For a solid box the sum
-/// becomes an integral, which solidBox has in closed form.
-Mat3 inertia(std::span<const PointMass> points);
-
-/// L = Σ rᵢ × mᵢ (ω × rᵢ), [kg m²/s]: what Eq. 17 says equals I ω, before ω is taken out of the sum.
-Vec3 angularMomentum(std::span<const PointMass> points, const Vec3& angularVelocity);
 
 }  // namespace careen

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/article_equations.h"
+
 namespace careen {
 namespace {
 

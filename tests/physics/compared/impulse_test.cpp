@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/math/rotation.h"
+#include "support/article_equations.h"
 
 namespace careen {
 namespace {

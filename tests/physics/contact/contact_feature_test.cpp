@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/math/rotation.h"
+#include "support/article_equations.h"
 
 namespace careen {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/math/rotation.h"
 #include "physics/exact/exact_world.h"
+#include "support/article_equations.h"
 #include "support/exact_runs.h"
 
 // Contact through the doors of the world: bodies that land, slide, rock, stack, rest and wake.

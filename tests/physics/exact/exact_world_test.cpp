@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/math/rotation.h"
+#include "support/article_equations.h"
 #include "support/exact_runs.h"
 
 namespace careen {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/math/rotation.h"
+#include "support/article_equations.h"
 #include "support/free_top.h"
 #include "support/physics_worlds.h"
 

@@ -4,6 +4,7 @@
 
 #include "core/math/rotation.h"
 #include "physics/motion/listing1.h"
+#include "support/article_equations.h"
 #include "support/physics_worlds.h"
 
 namespace careen {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/math/rotation.h"
+#include "support/article_equations.h"
 #include "support/pile_scenes.h"
 
 namespace careen {

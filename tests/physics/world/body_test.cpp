@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/math/rotation.h"
 #include "physics/world/kinematics.h"
+#include "support/article_equations.h"
 
 namespace careen {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/math/rotation.h"
+#include "support/article_equations.h"
 #include "support/physics_worlds.h"
 
 namespace careen {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/math/pose.h"
-#include "core/math/rotation.h"
+#include "support/article_equations.h"
 
 namespace careen {
 namespace {

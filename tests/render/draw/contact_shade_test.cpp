@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/math/rotation.h"
 #include "render/stage.h"
+#include "support/article_equations.h"
 
 namespace careen {
 namespace {

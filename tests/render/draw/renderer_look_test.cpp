@@ -9,11 +9,11 @@
 #include <set>
 #include <vector>
 
-#include "core/math/rotation.h"
 #include "image/srgb.h"
 #include "render/draw/renderer.h"
 #include "render/outline.h"
 #include "render/stage.h"
+#include "support/article_equations.h"
 
 namespace careen {
 namespace {

@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/math/rotation.h"
 #include "image/png.h"
 #include "image/srgb.h"
 #include "render/outline.h"
 #include "render/stage.h"
+#include "support/article_equations.h"
 #include "support/process.h"
 
 namespace careen {
