@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/math/double_double.h"
 #include "physics/world/body.h"
 
 namespace careen {
@@ -13,31 +14,11 @@ namespace {
 constexpr double kNearlyParallelSquared = 0x1p-6;
 constexpr double kParallelSquared = 0x1p-96;
 
-struct Split {
-  double high = 0;
-  double low = 0;
-};
-
-// Veltkamp's splitting and Dekker's product (1971): a·b = high + low exactly. No fma, whose speed, unlike its
-// value, depends on the processor.
-Split split(double x) {
-  const double scaled = 134217729.0 * x;
-  const double high = scaled - (scaled - x);
-  return {.high = high, .low = x - high};
-}
-
-Split product(double a, double b) {
-  const Split x = split(a);
-  const Split y = split(b);
-  const double high = a * b;
-  return {.high = high, .low = ((x.high * y.high - high) + x.high * y.low + x.low * y.high) + x.low * y.low};
-}
-
 // ab − cd to rounding of the result, however much cancels.
 double differenceOfProducts(double a, double b, double c, double d) {
-  const Split x = product(a, b);
-  const Split y = product(c, d);
-  return (x.high - y.high) + (x.low - y.low);
+  const DoubleDouble x = twoProduct(a, b);
+  const DoubleDouble y = twoProduct(c, d);
+  return (x.hi - y.hi) + (x.lo - y.lo);
 }
 
 Vec3 accurateCross(const Vec3& a, const Vec3& b) {
