@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/math/falling_bracket.h"
 #include "physics/attitude/free_methods.h"
 #include "physics/geometry/separation.h"
 #include "physics/impact/wall_contacts.h"
 #include "physics/world/diagnostics.h"
 #include "physics/world/flight_account.h"
+#include "physics/world/gap.h"
 
 namespace careen {
 namespace {
@@ -205,15 +207,11 @@ double SteppedBody::gapRounding() const {
   return kGapRounding * (now_.position.cwiseAbs().sum() + body_.halfExtents.norm());
 }
 
-// The gap is positive somewhere in (0, h), and negative at h: regula falsi, where the end that stays twice
-// counts half (the Illinois rule).
+// The gap is positive somewhere in (0, h), and negative at h.
 double SteppedBody::contactWithin(double h, double gapAtEnd) const {
-  double high = h;
-  double gapHigh = gapAtEnd;
-  double low = 0;
-  double gapLow = gapOf(now_);
+  FallingBracket bracket{.high = h, .valueLow = gapOf(now_), .valueHigh = gapAtEnd};
   // What has just struck leaves first.
-  for (double part = 0.5; gapLow <= gapRounding(); part /= 2) {
+  for (double part = 0.5; bracket.valueLow <= gapRounding(); part /= 2) {
     if (part < kShortestHop) {
       throw NumericalError(where() + "would have to rest, slide or roll on a wall, which method " +
                            std::string(traitsOf(method_.method).name) +
@@ -221,29 +219,25 @@ double SteppedBody::contactWithin(double h, double gapAtEnd) const {
     }
     const double gap = gapOf(after(part * h));
     if (gap > gapRounding()) {
-      low = part * h;
-      gapLow = gap;
+      bracket.low = part * h;
+      bracket.valueLow = gap;
     } else if (gap < 0) {
-      high = part * h;
-      gapHigh = gap;
+      bracket.high = part * h;
+      bracket.valueHigh = gap;
     }
   }
-  double best = low;
-  for (int k = 0; k < kMostRefinements && high - low > std::numeric_limits<double>::epsilon() * h; ++k) {
-    const double middle = high - gapHigh * (high - low) / (gapHigh - gapLow);
+  double best = bracket.low;
+  for (int k = 0; k < kMostRefinements && bracket.width() > std::numeric_limits<double>::epsilon() * h; ++k) {
+    const double middle = bracket.cut();
     const double gap = gapOf(after(middle));
     best = middle;
     if (std::fabs(gap) <= gapRounding() / 8) {
       break;
     }
     if (gap < 0) {
-      high = middle;
-      gapHigh = gap;
-      gapLow /= 2;
+      bracket.moveHigh(middle, gap);
     } else {
-      low = middle;
-      gapLow = gap;
-      gapHigh /= 2;
+      bracket.moveLow(middle, gap);
     }
   }
   return best;
@@ -263,7 +257,7 @@ std::int64_t SteppedBody::stepsOutOfReach() const {
   const double radius = body_.halfExtents.norm();
   double safe = static_cast<double>(kStepsAtOnce) * settings_.dt;
   for (const Wall& wall : world_.walls) {
-    const double room = wall.normal.dot(now_.position) - wall.offset - radius;
+    const double room = careen::gap(wall, now_.position) - radius;
     const double speed = wall.normal.dot(now_.velocity);
     const double pull = wall.normal.dot(world_.gravity);
     if (room <= 0) {

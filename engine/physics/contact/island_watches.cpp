@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/falling_bracket.h"
 #include "physics/contact/island.h"
 #include "physics/geometry/separation.h"
 
@@ -259,61 +260,56 @@ double Island::value(const Watch& watch) const {
   return 0;
 }
 
-// Where watch falls to zero in (0, h]: regula falsi, where the end that stays twice counts half (the Illinois
-// rule). The end where it has fallen is taken.
+// Where watch falls to zero in (0, h]. The end where it has fallen is taken.
 double Island::rootWithin(double h, std::size_t watch, double atEnd) {
-  double low = 0;
-  double high = h;
   double valueLow = atStart_[watch];
   double valueHigh = atEnd;
+  FallingBracket bracket{.high = h};
   // What has just parted is positive in between.
   for (double part = 0.5; !(valueLow > 0); part /= 2) {
     if (part < kShortestHop) {
-      return high;
+      return bracket.high;
     }
     restep(part * h);
     const double at = value(watches_[watch]);
     if (at > 0) {
-      low = part * h;
+      bracket.low = part * h;
       valueLow = at;
     } else {
-      high = part * h;
+      bracket.high = part * h;
       valueHigh = at < 0 ? at : valueHigh;
     }
   }
-  double weightLow = valueLow;
-  double weightHigh = valueHigh;
-  for (int k = 0; k < kMostRefinements && high - low > kRootWidth * h; ++k) {
+  bracket.valueLow = valueLow;
+  bracket.valueHigh = valueHigh;
+  for (int k = 0; k < kMostRefinements && bracket.width() > kRootWidth * h; ++k) {
     if (-valueHigh <= kRootValue * valueLow) {
       break;
     }
     // A watch may be level and then fall: every third cut is in the middle.
-    double middle = high - weightHigh * (high - low) / (weightHigh - weightLow);
-    if (k % 3 == 2 || !(middle > low && middle < high)) {
-      middle = 0.5 * (low + high);
+    double middle = bracket.cut();
+    if (k % 3 == 2 || !(middle > bracket.low && middle < bracket.high)) {
+      middle = 0.5 * (bracket.low + bracket.high);
     }
     restep(middle);
     const double at = value(watches_[watch]);
     if (at < 0) {
-      high = middle;
-      valueHigh = weightHigh = at;
-      weightLow /= 2;
+      bracket.moveHigh(middle, at);
+      valueHigh = at;
     } else {
       // The last bit of the way by bisection towards the far side: regula falsi would stay on this one.
-      low = middle;
-      weightLow = at;
-      weightHigh /= 2;
+      bracket.moveLow(middle, at);
       if (at <= kRootValue * valueLow) {
-        const double beyond = std::min(high, middle + 0x1p-44 * h);
+        const double beyond = std::min(bracket.high, middle + 0x1p-44 * h);
         restep(beyond);
         if (value(watches_[watch]) < 0) {
           return beyond;
         }
-        low = beyond;
+        bracket.low = beyond;
       }
     }
   }
-  return high;
+  return bracket.high;
 }
 
 }  // namespace careen
