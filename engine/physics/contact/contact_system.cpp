@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/impact/single_impact.h"
+#include "physics/geometry/tangents.h"
 #include "physics/world/forces.h"
 
 namespace careen {

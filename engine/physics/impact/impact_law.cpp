@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "physics/geometry/tangents.h"
 #include "physics/impact/impact_solver.h"
 #include "physics/impact/order_free_sum.h"
 #include "physics/impact/secant_iteration.h"

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/math/double_double.h"
+#include "physics/geometry/tangents.h"
 
 namespace careen {
 namespace {
@@ -142,21 +143,6 @@ Plane frictionImpulse(const Slip& slip, double friction) {
   }
   return impulseAt(slip, inside);
 }
-
-}  // namespace
-
-Tangents tangentsOf(const Vec3& normal) {
-  Eigen::Index flattest = 0;
-  for (Eigen::Index k = 1; k < 3; ++k) {
-    flattest = std::fabs(normal[k]) < std::fabs(normal[flattest]) ? k : flattest;
-  }
-  const Vec3 across = normal.cross(Vec3(Vec3::Unit(flattest)));
-  const Vec3 first = across / std::sqrt(across.dot(across));
-  const Vec3 second = normal.cross(first);
-  return {.first = first, .second = second};
-}
-
-namespace {
 
 Slip slipOf(const ImpactBody& a, const ImpactBody* b, const ImpactContact& contact, const Tangents& tangents,
             double softness, double approach) {

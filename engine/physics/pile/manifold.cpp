@@ -5,8 +5,10 @@
 #include <limits>
 
 #include "physics/geometry/separation.h"
+#include "physics/geometry/tangents.h"
 #include "physics/pile/axes.h"
 #include "physics/pile/clip.h"
+#include "physics/world/gap.h"
 
 namespace careen {
 namespace {
@@ -173,21 +175,12 @@ void addClosest(const PileBody& a, const PileBody& b, double reach, PileManifold
   manifold.closest = true;
   manifold.faces = kClosestFeature;
   manifold.planeNormal = a.axes.transpose() * (apart / distance);
-  manifold.planeTangent = frameAbout(manifold.planeNormal).tangent1;
+  manifold.planeTangent = tangentsOf(manifold.planeNormal).first;
   manifold.planeOffset = manifold.planeNormal.dot(a.axes.transpose() * (onA - a.position));
   addPoint(manifold, b.axes.transpose() * (onB - b.position), kClosestFeature);
 }
 
 }  // namespace
-
-PileFrame frameAbout(const Vec3& normal) {
-  int least = 0;
-  normal.cwiseAbs().minCoeff(&least);
-  PileFrame frame{.normal = normal};
-  frame.tangent1 = normal.cross(Vec3::Unit(least)).normalized();
-  frame.tangent2 = normal.cross(frame.tangent1);
-  return frame;
-}
 
 bool buildManifold(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
   const Former former = formerOf(manifold);
@@ -222,9 +215,10 @@ bool buildManifold(const PileBody& a, const Wall& wall, double reach, PileManifo
   manifold.count = 0;
   manifold.moved = 0;
   manifold.planeOfB = true;
-  manifold.plane = frameAbout(wall.normal);
+  const Tangents tangents = tangentsOf(wall.normal);
+  manifold.plane = {.normal = wall.normal, .tangent1 = tangents.first, .tangent2 = tangents.second};
   const Vec3 up = a.axes.transpose() * wall.normal;
-  const double height = wall.normal.dot(a.position) - wall.offset;
+  const double height = gap(wall, a.position);
   manifold.separation = height - a.halfExtents.dot(up.cwiseAbs());
   if (manifold.separation > reach) {
     return false;
@@ -283,7 +277,7 @@ void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifol
 }
 
 void refreshManifold(const PileBody& a, const Wall& wall, PileManifold& manifold) {
-  const double height = wall.normal.dot(a.position) - wall.offset;
+  const double height = gap(wall, a.position);
   for (int k = 0; k < manifold.count; ++k) {
     PilePoint& point = manifold.points[at(k)];
     point.world = a.axes * point.local;
@@ -305,8 +299,7 @@ double overlapOf(const PileBody& a, const PileBody& b) {
 
 double overlapOf(const PileBody& a, const Wall& wall) {
   const Vec3 up = a.axes.transpose() * wall.normal;
-  const double gap = wall.normal.dot(a.position) - wall.offset - a.halfExtents.dot(up.cwiseAbs());
-  return std::max(0.0, -gap);
+  return std::max(0.0, -(gap(wall, a.position) - a.halfExtents.dot(up.cwiseAbs())));
 }
 
 }  // namespace careen

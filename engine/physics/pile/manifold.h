@@ -89,9 +89,6 @@ void refreshManifold(const PileBody& a, const Wall& wall, PileManifold& manifold
 /// Bound [m] on what the boxes move past each other in h [s], as seen from a.
 double relativeMotion(const PileBody& a, const PileBody& b, double h);
 
-/// Two unit vectors that complete a unit normal to a right-handed frame.
-PileFrame frameAbout(const Vec3& normal);
-
 /// The deepest overlap by all 15 axes, or of a box and a wall [m]; 0 if they do not.
 double overlapOf(const PileBody& a, const PileBody& b);
 double overlapOf(const PileBody& a, const Wall& wall);
