@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 #include <string>
 
 #include "core/error.h"
+#include "core/names.h"
 #include "physics/exact/next_contact.h"
 
 namespace careen {
@@ -15,14 +15,6 @@ namespace {
 // Events that may happen to one body at one moment before the run gives up: more than any impact needs, and
 // an end to what would go on for ever.
 constexpr int kMostAtOneMoment = 1000;
-
-std::vector<std::size_t> ranked(const World& world) {
-  std::vector<std::size_t> order(world.bodies.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&world](std::size_t a, std::size_t b) { return world.bodies[a].name < world.bodies[b].name; });
-  return order;
-}
 
 std::vector<double> radiiOf(const World& world) {
   std::vector<double> radii;
@@ -47,7 +39,7 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
       forced_(world.bodies.size(), world.drag ? 1 : 0),
       springs_(world.bodies.size()) {
   std::vector<int> rankOf(world.bodies.size());
-  for (const std::size_t listed : ranked(world)) {
+  for (const std::size_t listed : orderByName(world.bodies)) {
     rankOf[listed] = static_cast<int>(movers_.size());
     Mover& mover = movers_.emplace_back();
     mover.body = &world.bodies[listed];

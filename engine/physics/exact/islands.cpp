@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <utility>
 
+#include "core/disjoint_sets.h"
 #include "physics/exact/exact_world.h"
 #include "physics/geometry/separation.h"
 #include "physics/impact/settling.h"
@@ -177,15 +177,9 @@ void ExactWorld::findPersisting(Group& group) const {
 
 void ExactWorld::formIslands(Group& group) const {
   const std::size_t count = group.ranks.size();
-  std::vector<std::size_t> root(count);
-  std::iota(root.begin(), root.end(), std::size_t{0});
+  DisjointSets joined(count);
   const auto takesPart = [&](std::size_t i) {
     return !mover(group.ranks[i]).isHeld() && group.next[i] != Next::kRests;
-  };
-  const auto join = [&](std::size_t x, std::size_t y) {
-    const std::size_t from = std::max(root[x], root[y]);
-    const std::size_t to = std::min(root[x], root[y]);
-    std::replace(root.begin(), root.end(), from, to);
   };
   for (std::size_t k = 0; k < group.contacts.size(); ++k) {
     const ImpactContact& contact = group.contacts[k];
@@ -193,7 +187,7 @@ void ExactWorld::formIslands(Group& group) const {
       const auto a = static_cast<std::size_t>(contact.a);
       const auto b = static_cast<std::size_t>(contact.b.body());
       if (takesPart(a) && takesPart(b)) {
-        join(a, b);
+        joined.join(a, b);
       }
     }
   }
@@ -202,14 +196,14 @@ void ExactWorld::formIslands(Group& group) const {
       const auto at = std::find(group.ranks.begin(), group.ranks.end(), other);
       const auto j = static_cast<std::size_t>(at - group.ranks.begin());
       if (takesPart(i) && takesPart(j)) {
-        join(i, j);
+        joined.join(i, j);
       }
     }
   }
   for (std::size_t first = 0; first < count; ++first) {
     std::vector<std::size_t> members;
     for (std::size_t i = first; i < count; ++i) {
-      if (root[i] == first && takesPart(i)) {
+      if (joined.root(i) == first && takesPart(i)) {
         members.push_back(i);
       }
     }

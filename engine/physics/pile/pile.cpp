@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
+
+#include "core/names.h"
 
 namespace careen {
 namespace {
@@ -36,15 +37,12 @@ Pile::Pile(const World& world, std::vector<BodyState> states, double frame)
       frame_(frame),
       h_(frame / kLeastSubsteps),
       rankOf_(world.bodies.size()),
-      bodyOf_(world.bodies.size()),
+      bodyOf_(orderByName(world.bodies)),
       states_(std::move(states)),
       pairs_({}, {}),
       tell_(kTell) {
-  std::iota(bodyOf_.begin(), bodyOf_.end(), 0);
-  std::stable_sort(bodyOf_.begin(), bodyOf_.end(),
-                   [&](int i, int j) { return world.bodies[at(i)].name < world.bodies[at(j)].name; });
   for (std::size_t rank = 0; rank < bodyOf_.size(); ++rank) {
-    const std::size_t body = at(bodyOf_[rank]);
+    const std::size_t body = bodyOf_[rank];
     rankOf_[body] = rank;
     bodies_.push_back(pileBody(world.bodies[body], states_[body]));
   }
@@ -70,7 +68,7 @@ void Pile::step() {
   atRest_ = freeze();
   for (std::size_t rank = 0; rank < bodies_.size(); ++rank) {
     if (!bodies_[rank].held) {
-      states_[at(bodyOf_[rank])] = stateOf(bodies_[rank]);
+      states_[bodyOf_[rank]] = stateOf(bodies_[rank]);
     }
   }
 }

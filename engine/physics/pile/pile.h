@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/disjoint_sets.h"
 #include "physics/pile/body.h"
 #include "physics/pile/manifold.h"
 #include "physics/pile/pairs.h"
@@ -92,8 +93,6 @@ class Pile {
   void project();
   bool freeze();
   PileManifold& manifoldOf(PilePair& pair);
-  int rootOf(int body);
-  void join(int a, int b);
 
   Vec3 gravity_;
   double pull_ = 0;  // [m/s²] |gravity|
@@ -103,7 +102,7 @@ class Pile {
   double impulseScale_ = 1;          // of the kept ones, for this substep
   std::vector<std::size_t> rankOf_;  // of the world's bodies
   std::vector<PileBody> bodies_;     // by rank
-  std::vector<int> bodyOf_;          // of a rank
+  std::vector<std::size_t> bodyOf_;  // of a rank
   std::vector<BodyState> states_;
 
   PilePairs pairs_;
@@ -117,7 +116,7 @@ class Pile {
   std::vector<Bounce> bounces_;
   std::vector<double> unrest_;  // [m/s] what contacts and gravity left over in the last substep
   std::vector<double> grip_;    // [1] the largest friction that holds a body
-  std::vector<int> parent_;
+  DisjointSets clusters_;       // of bodies that rest on each other
   bool atRest_ = false;
   Figures figures_;
 };

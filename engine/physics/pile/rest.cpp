@@ -1,7 +1,6 @@
 // Falling asleep, and what is asked of a pile from outside.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "physics/pile/pile.h"
 
@@ -12,31 +11,16 @@ constexpr double kFrictionless = 0x1p-20;  // μ below which nothing is stopped
 
 }  // namespace
 
-int Pile::rootOf(int body) {
-  while (parent_[at(body)] != body) {
-    parent_[at(body)] = parent_[at(parent_[at(body)])];
-    body = parent_[at(body)];
-  }
-  return body;
-}
-
-void Pile::join(int a, int b) {
-  const int rootA = rootOf(a);
-  const int rootB = rootOf(b);
-  parent_[at(std::max(rootA, rootB))] = std::min(rootA, rootB);
-}
-
 // With all velocities set to zero, gravity and the kept impulses must leave every body of a touching cluster
 // next to nothing: then it would not move, and its last impulses, which lie in their cones, hold it for ever.
 // What moves at a constant speed passes that test too: the speed must be one that friction can take away
 // within the substep, μ g h.
 bool Pile::freeze() {
   grip_.assign(bodies_.size(), kFrictionless);
-  parent_.resize(bodies_.size());
-  std::iota(parent_.begin(), parent_.end(), 0);
+  clusters_.reset(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (bodies_[i].asleep) {
-      join(static_cast<int>(i), bodies_[i].cluster);
+      clusters_.join(i, at(bodies_[i].cluster));
     }
   }
   for (const int slot : near_) {
@@ -50,7 +34,7 @@ bool Pile::freeze() {
     if (!manifold.b.isWall()) {
       grip_[at(manifold.b.body())] = std::max(grip_[at(manifold.b.body())], manifold.friction);
       if (!bodies_[at(manifold.a)].held && !bodyAt(manifold.b).held) {
-        join(manifold.a, manifold.b.body());
+        clusters_.join(at(manifold.a), at(manifold.b.body()));
       }
     }
   }
@@ -62,21 +46,21 @@ bool Pile::freeze() {
   std::vector<char> quiet(bodies_.size(), 1);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].held && !isQuiet(i)) {
-      quiet[at(rootOf(static_cast<int>(i)))] = 0;
+      quiet[clusters_.root(i)] = 0;
     }
   }
   bool all = true;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     PileBody& body = bodies_[i];
-    const int root = rootOf(static_cast<int>(i));
-    if (body.held || (body.asleep && quiet[at(root)] == 0)) {
+    const std::size_t root = clusters_.root(i);
+    if (body.held || (body.asleep && quiet[root] == 0)) {
       continue;
     }
-    if (quiet[at(root)] == 0) {
+    if (quiet[root] == 0) {
       all = false;
       continue;
     }
-    body.cluster = root;
+    body.cluster = static_cast<int>(root);
     if (!body.asleep) {
       body.asleep = true;
       body.velocity = body.angularMomentum = body.omega = Vec3::Zero();

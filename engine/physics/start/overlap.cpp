@@ -10,6 +10,7 @@
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "core/names.h"
 #include "physics/geometry/separation.h"
 #include "physics/world/partner.h"
 
@@ -125,10 +126,7 @@ class Parting {
 
   template <class Named>
   static void rankByName(std::span<const Named> named, Indices& rank) {
-    Indices order(named.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(),
-              [named](std::size_t x, std::size_t y) { return named[x].name < named[y].name; });
+    const Indices order = orderByName(named);
     for (std::size_t k = 0; k < order.size(); ++k) {
       rank[order[k]] = k;
     }
