@@ -5,13 +5,25 @@
 namespace careen {
 namespace {
 
-// Bodies count from 0 upward, walls from −1 downward.
-TEST(Partner, ofAWallIsNegativeAndTellsWhichWall) {
-  EXPECT_EQ(wallPartner(0), -1);
-  EXPECT_EQ(wallPartner(5), -6);
-  for (std::size_t wall = 0; wall < 100; ++wall) {
-    EXPECT_LT(wallPartner(wall), 0);
-    EXPECT_EQ(wallOf(wallPartner(wall)), wall);
+TEST(Partner, isABodyOrAWallAndKnowsItsIndex) {
+  EXPECT_EQ(Partner::ofBody(7).body(), 7);
+  EXPECT_FALSE(Partner::ofBody(7).isWall());
+  EXPECT_EQ(Partner::ofWall(7).wall(), 7U);
+  EXPECT_TRUE(Partner::ofWall(7).isWall());
+  EXPECT_NE(Partner::ofBody(7), Partner::ofWall(7));
+  EXPECT_TRUE(Partner::ofBody(7).isBody(7));
+  EXPECT_FALSE(Partner::ofWall(7).isBody(7));
+  EXPECT_EQ(Partner(), Partner::ofWall(0));
+}
+
+// The pile's pairs, and with them the order of its solve, stand on it.
+TEST(Partner, sortsBodiesBeforeWallsAndSurvivesItsKey) {
+  const Partner sorted[] = {Partner::ofBody(0), Partner::ofBody(1000000), Partner::ofWall(0),
+                            Partner::ofWall(3)};
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_LT(sorted[k], sorted[k + 1]);
+    EXPECT_LT(sorted[k].key(), sorted[k + 1].key());
+    EXPECT_EQ(Partner::ofKey(sorted[k].key()), sorted[k]);
   }
 }
 
