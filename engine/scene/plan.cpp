@@ -180,8 +180,7 @@ std::vector<std::string> Plan::leftOut() const {
 Plan plan(const Scene& scene) {
   const Wants wants = wantsOf(scene);
   return {{gravity(scene), drag(scene), springs(scene), boxWall(wants), boxBox(scene, wants),
-           restitution(scene, wants), friction(scene, wants), resting(scene, wants),
-           leftOut("joints", "the scene has none")}};
+           restitution(scene, wants), friction(scene, wants), resting(scene, wants)}};
 }
 
 World assemble(const Scene& scene, const Plan& plan) {

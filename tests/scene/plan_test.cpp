@@ -41,13 +41,13 @@ const std::string kFloor =
 TEST(Plan, defaultSceneNeedsGravityAndWalls) {
   const Plan planned = plan(shipped("careen.json"));
   EXPECT_EQ(planned.modelled(), (Names{"gravity", "box-wall", "restitution", "resting"}));
-  EXPECT_EQ(planned.leftOut(), (Names{"drag", "springs", "box-box", "friction", "joints"}));
+  EXPECT_EQ(planned.leftOut(), (Names{"drag", "springs", "box-box", "friction"}));
 }
 
 TEST(Plan, sampleOf1997NeedsSpringsAndDragToo) {
   const Plan planned = plan(shipped("hecker-1997.json"));
   EXPECT_EQ(planned.modelled(), (Names{"gravity", "drag", "springs", "box-wall", "restitution"}));
-  EXPECT_EQ(planned.leftOut(), (Names{"box-box", "friction", "resting", "joints"}));
+  EXPECT_EQ(planned.leftOut(), (Names{"box-box", "friction", "resting"}));
 }
 
 TEST(Plan, saysWhyEachThingIsModelled) {
@@ -68,7 +68,6 @@ TEST(Plan, saysWhatTheMethodLacks) {
             "left out: THE SCENE ASKS FOR IT, but method listing1 has none: everything slides freely");
   EXPECT_EQ(reasonFor(scene, "resting"),
             "left out: method listing1 cannot rest: where a box would come to lie, the run ends in an error");
-  EXPECT_EQ(reasonFor(scene, "joints"), "left out: the scene has none");
 }
 
 TEST(Plan, saysWhatTheExactMethodModels) {
