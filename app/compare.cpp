@@ -16,6 +16,7 @@
 #include "core/system/processor.h"
 #include "film/manifest.h"
 #include "parsed.h"
+#include "run.h"
 #include "trajectory/trajectory_file.h"
 
 namespace careen {
@@ -97,12 +98,12 @@ Films filmsIn(const std::filesystem::path& expected, const std::filesystem::path
                    {"program", one->program, other->program},
                    {"renderer", one->renderer, other->renderer},
                    {"libraries", one->libraries, other->libraries},
-                   {"frames per second", one->rate.text(), other->rate.text()},
+                   {"frames per second", one->picture.rate.text(), other->picture.rate.text()},
                    {"frames of the film", std::to_string(one->frameCount), std::to_string(other->frameCount)},
-                   {"look", one->look, other->look},
-                   {"antialiasing", one->antialiasing, other->antialiasing},
-                   {"shutter", one->shutter, other->shutter},
-                   {"overlays", one->overlays, other->overlays}};
+                   {"look", nameOf(one->picture.look), nameOf(other->picture.look)},
+                   {"antialiasing", nameOf(one->picture.antialiasing), nameOf(other->picture.antialiasing)},
+                   {"shutter", one->picture.shutter.text(), other->picture.shutter.text()},
+                   {"overlays", one->picture.overlays.text(), other->picture.overlays.text()}};
   }
   return films;
 }
@@ -241,7 +242,7 @@ Comparison compare(const std::filesystem::path& expected, const std::filesystem:
     return comparePictures(expected, actual, settings);
   }
   if (kind == Kind::kRun) {
-    return compareRuns(expected, actual, settings);
+    return compareRuns(expected, actual, settings, readRun);
   }
   Films films = filmsIn(expected, actual);
   Comparison comparison = compareFolders(expected, actual, settings, films.sameMotion, {}, stop);

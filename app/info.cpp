@@ -9,6 +9,7 @@
 #include "core/system/file.h"
 #include "report.h"
 #include "run.h"
+#include "scene/plan.h"
 #include "scene/scene_reader.h"
 #include "trajectory/trajectory_file.h"
 
@@ -22,11 +23,11 @@ ExitCode infoCommand(std::filesystem::path path, const std::stop_token& stop) {
   const std::string bytes = readFile(path);
   if (!looksLikeTrajectory(bytes)) {
     const Scene scene = parseScene(bytes, path.string());
-    printPlan(std::cout, scene, plan(scene));
+    printPlan(std::cout, scene.name, scene.boxes.size(), settingsOf(scene), plan(scene));
     return ExitCode::kDone;
   }
   const Run run = loadRun(path, {}, stop);
-  printPlan(std::cout, run.scene, run.plan);
+  printPlan(std::cout, run.trajectory);
   printError(std::cout, run.trajectory);
   std::size_t segments = 0;
   for (const Track& track : run.trajectory.tracks) {

@@ -6,7 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "core/names.h"
 #include "parsed.h"
 
 namespace careen {
@@ -26,11 +25,6 @@ std::pair<int, int> parseSize(const std::string& text) {
   }
   throw InputError("--size: found '" + text + "', expected WIDTHxHEIGHT, each from 1 to " +
                    std::to_string(kLargestFilm) + ", such as 1280x720");
-}
-
-Look lookNamed(std::string_view name) { return static_cast<Look>(indexAmong(name, kLooks)); }
-Antialiasing antialiasingNamed(std::string_view name) {
-  return static_cast<Antialiasing>(indexAmong(name, kAntialiasings));
 }
 
 }  // namespace
@@ -56,48 +50,40 @@ void PictureOptions::addTo(CLI::App& command) {
       "what cores there are for it)");
 }
 
-FilmSettings PictureOptions::settings() const {
+void PictureOptions::applyTo(PictureSettings& picture) const {
+  if (size) {
+    std::tie(picture.width, picture.height) = parseSize(*size);
+  }
+  if (rate) {
+    picture.rate = parsed("--fps", *rate, parseFrameRate);
+  }
+  if (shutter) {
+    picture.shutter = parsed("--shutter", *shutter, parseShutter);
+  }
+  if (look) {
+    picture.look = parsed("--look", *look, lookNamed);
+  }
+  if (antialiasing) {
+    picture.antialiasing = parsed("--antialiasing", *antialiasing, antialiasingNamed);
+  }
+  if (overlays) {
+    picture.overlays = parsed("--overlays", *overlays, overlaysNamed);
+  }
+}
+
+ContextOptions PictureOptions::contextOptions() const {
   if (context.threads && *context.threads < 0) {
     throw InputError("--threads: found " + std::to_string(*context.threads) + ", expected 0 or more");
   }
-  FilmSettings settings;
-  if (size) {
-    std::tie(settings.width, settings.height) = parseSize(*size);
-  }
-  if (rate) {
-    settings.rate = parsed("--fps", *rate, parseFrameRate);
-  }
-  if (shutter) {
-    settings.shutter = parsed("--shutter", *shutter, parseShutter);
-  }
-  if (overlays) {
-    settings.overlays = parsed("--overlays", *overlays, overlaysNamed);
-  }
-  settings.render.context = context;
-  settings.render.context.backend = parsed("--rendering-backend", backend, renderingBackendNamed);
-  if (look) {
-    settings.render.look = parsed("--look", *look, lookNamed);
-  }
-  if (antialiasing) {
-    settings.render.antialiasing = parsed("--antialiasing", *antialiasing, antialiasingNamed);
-  }
-  return settings;
+  ContextOptions options = context;
+  options.backend = parsed("--rendering-backend", backend, renderingBackendNamed);
+  return options;
 }
 
-void PictureOptions::takeFromScene(const Scene& scene, FilmSettings& settings) const {
-  if (!size) {
-    settings.width = scene.film.width;
-    settings.height = scene.film.height;
-  }
-  if (!rate) {
-    settings.rate = scene.film.rate;
-  }
-  if (!shutter) {
-    settings.shutter = scene.film.shutter;
-  }
-  if (!overlays) {
-    settings.overlays = scene.overlays;
-  }
+void PictureOptions::check() const {
+  static_cast<void>(contextOptions());
+  PictureSettings ignored;
+  applyTo(ignored);
 }
 
 }  // namespace careen

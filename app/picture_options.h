@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/error.h"
-#include "render/film/film.h"
-#include "scene/scene.h"
+#include "render/gl/rendering_backend.h"
+#include "stage/picture_settings.h"
 
 namespace CLI {
 class App;
@@ -13,7 +13,7 @@ class App;
 
 namespace careen {
 
-/// What the command line puts in place of what the scene says of its film's pictures.
+/// What the command line puts in place of what the scene says of its film's pictures, and what draws them.
 struct PictureOptions {
   std::optional<std::string> size;
   std::optional<std::string> rate;
@@ -26,10 +26,11 @@ struct PictureOptions {
 
   void addTo(CLI::App& command);
 
-  /// What the options alone say. InputError: all that can be found wrong before anything is simulated.
-  FilmSettings settings() const;
-  /// What they left open.
-  void takeFromScene(const Scene& scene, FilmSettings& settings) const;
+  /// Puts what is given in place of the picture's own.
+  void applyTo(PictureSettings& picture) const;
+  ContextOptions contextOptions() const;
+  /// InputError: all that can be found wrong before anything is simulated.
+  void check() const;
 };
 
 }  // namespace careen

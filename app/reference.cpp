@@ -74,12 +74,12 @@ void takeFromReference(const Reference& reference, PictureOptions& picture, std:
       open = value;
     }
   };
-  take(picture.size, std::to_string(film.width) + "x" + std::to_string(film.height));
-  take(picture.rate, film.rate.text());
-  take(picture.look, film.look);
-  take(picture.antialiasing, film.antialiasing);
-  take(picture.shutter, film.shutter == "none" ? "0" : film.shutter);
-  take(picture.overlays, film.overlays);
+  take(picture.size, std::to_string(film.picture.width) + "x" + std::to_string(film.picture.height));
+  take(picture.rate, film.picture.rate.text());
+  take(picture.look, nameOf(film.picture.look));
+  take(picture.antialiasing, nameOf(film.picture.antialiasing));
+  take(picture.shutter, film.picture.shutter.degrees > 0 ? film.picture.shutter.text() : "0");
+  take(picture.overlays, film.picture.overlays.text());
   if (frames.empty()) {
     frames = rangesText(film.frames);
     return;

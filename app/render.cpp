@@ -77,7 +77,9 @@ void check(const FilmOptions& options) {
 // What the options alone say: all that can be found wrong before anything is simulated.
 FilmSettings settingsOf(const FilmOptions& options) {
   check(options);
-  FilmSettings settings = options.picture.settings();
+  options.picture.check();
+  FilmSettings settings;
+  settings.render.context = options.picture.contextOptions();
   settings.folder =
       options.folder.empty() ? std::filesystem::path("out") / options.source.stem() : options.folder;
   if (!options.frames.empty()) {
@@ -90,17 +92,18 @@ FilmSettings settingsOf(const FilmOptions& options) {
   return settings;
 }
 
-void takeFromScene(const Scene& scene, const FilmOptions& options, FilmSettings& settings) {
-  options.picture.takeFromScene(scene, settings);
+// What only the film's own rate can make wrong.
+void checkVideoOf(const PictureSettings& picture, FilmSettings& settings) {
   if (settings.video) {
-    settings.video->rateNumerator = settings.rate.numerator;
-    settings.video->rateDenominator = settings.rate.denominator;
+    settings.video->rateNumerator = picture.rate.numerator;
+    settings.video->rateDenominator = picture.rate.denominator;
     checkVideo(*settings.video);
   }
 }
 
 void writeReport(const Run& run, const FilmSettings& settings, const FilmFigures& figures,
                  double wallSeconds) {
+  const PictureSettings& picture = run.trajectory.stage.picture;
   nlohmann::ordered_json report = runReport(run, wallSeconds);
   report["seconds"]["draw"] = figures.drawSeconds;
   report["seconds"]["read"] = figures.readSeconds;
@@ -109,9 +112,9 @@ void writeReport(const Run& run, const FilmSettings& settings, const FilmFigures
   report["jobs"] = figures.jobs;
   report["frames"] = figures.drawn + figures.skipped;
   report["frames_drawn"] = figures.drawn;
-  report["size"] = {settings.width, settings.height};
-  report["fps"] = settings.rate.text();
-  report["overlays"] = settings.overlays.text();
+  report["size"] = {picture.width, picture.height};
+  report["fps"] = picture.rate.text();
+  report["overlays"] = picture.overlays.text();
   report["renderer"] = figures.renderer;
   writeFile(settings.folder / "report.json", report.dump(2) + "\n");
 }
@@ -126,15 +129,16 @@ void printFrame(const FilmSettings& settings, const FrameFigures& frame) {
   std::cout << line.dump() << std::endl;  // at once: somebody may be waiting for it
 }
 
-void printFilm(std::ostream& out, const FilmSettings& settings, const FilmFigures& figures) {
+void printFilm(std::ostream& out, const FilmSettings& settings, const PictureSettings& picture,
+               const FilmFigures& figures) {
   out << "drawing      " << figures.drawSeconds << " s, reading back " << figures.readSeconds
       << " s, encoding " << figures.encodeSeconds << " s, " << figures.coreSeconds << " s of all cores, "
       << figures.jobs << (figures.jobs == 1 ? " job\n" : " jobs\n");
   if (!figures.renderer.empty()) {
     out << "renderer     " << figures.renderer << '\n';
   }
-  out << "frames       " << figures.drawn + figures.skipped << " at " << settings.rate.text()
-      << " per second, " << settings.width << 'x' << settings.height << ", " << figures.skipped
+  out << "frames       " << figures.drawn + figures.skipped << " at " << picture.rate.text()
+      << " per second, " << picture.width << 'x' << picture.height << ", " << figures.skipped
       << " of them were there already: "
       << std::filesystem::absolute(settings.folder).lexically_normal().string() << '\n';
   if (settings.video) {
@@ -186,15 +190,17 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
     refuseToOverwrite(*reference, settings.folder);
   }
   Run run = loadRun(options.source, options.overrides, stop);
-  takeFromScene(run.scene, options, settings);
+  PictureSettings& picture = run.trajectory.stage.picture;
+  options.picture.applyTo(picture);
+  checkVideoOf(picture, settings);
   if (options.still || options.strobe) {
-    return drawStill(run, settings,
+    return drawStill(run, settings.render,
                      {.path = options.folder, .moment = options.still.value_or(0), .strobe = options.strobe});
   }
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0);
   const bool logsFrames = options.log == "json";
   const FilmFigures figures = renderFilm(
-      run.trajectory, run.scene, settings,
+      run.trajectory, settings,
       [&](const FilmProgress& now) {
         progress.update(now);
         if (logsFrames) {
@@ -208,7 +214,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   }
   std::ostream& summary = logsFrames ? std::cerr : std::cout;
   printSummary(summary, run, stopwatch.seconds());
-  printFilm(summary, settings, figures);
+  printFilm(summary, settings, picture, figures);
   return reference ? compareWithReference(*reference, settings, options.compare, logsFrames, stop)
                    : ExitCode::kDone;
 }

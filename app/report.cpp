@@ -38,9 +38,9 @@ Life lifeOf(const Track& track, double duration) {
 
 nlohmann::ordered_json lifeReport(const Trajectory& trajectory) {
   nlohmann::ordered_json lives = nlohmann::ordered_json::array();
-  for (const Track& track : trajectory.tracks) {
-    const Life life = lifeOf(track, trajectory.settings.duration);
-    lives.push_back({{"box", track.name},
+  for (std::size_t body = 0; body < trajectory.tracks.size(); ++body) {
+    const Life life = lifeOf(trajectory.tracks[body], trajectory.settings.duration);
+    lives.push_back({{"box", trajectory.world.bodies[body].name},
                      {"flight", life.flight},
                      {"contact", life.contact},
                      {"rest", life.rest},
@@ -102,7 +102,7 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
   const RunFigures& figures = trajectory.figures;
   const bool steps = traitsOf(trajectory.settings.method).steps();
   nlohmann::ordered_json report = {
-      {"scene", run.scene.name},
+      {"scene", trajectory.stage.name},
       {"scene_hash", trajectory.sceneHash()},
       {"method", traitsOf(trajectory.settings.method).name},
       {steps ? "dt" : "tolerance", steps ? trajectory.settings.dt : trajectory.settings.tolerance},
@@ -115,8 +115,8 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
       {"orthogonality", figures.orthogonality},
       {"deepest_penetration", figures.deepestPenetration},
       {"life", lifeReport(trajectory)},
-      {"modelled", run.plan.modelled()},
-      {"left_out", run.plan.leftOut()},
+      {"modelled", trajectory.plan.modelled()},
+      {"left_out", trajectory.plan.leftOut()},
       {"seconds", {{"simulate", run.simulateSeconds}}},
   };
   if (figures.boundedFrom) {
@@ -128,16 +128,20 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
   return report;
 }
 
-void printPlan(std::ostream& out, const Scene& scene, const Plan& plan) {
-  out << "scene        " << scene.name << ", " << scene.boxes.size()
-      << (scene.boxes.size() == 1 ? " box, " : " boxes, ") << scene.duration << " s by "
-      << traitsOf(scene.method).name;
-  if (traitsOf(scene.method).steps()) {
-    out << ", dt " << scene.dt << " s";
+void printPlan(std::ostream& out, const std::string& scene, std::size_t boxes, const RunSettings& settings,
+               const Plan& plan) {
+  out << "scene        " << scene << ", " << boxes << (boxes == 1 ? " box, " : " boxes, ")
+      << settings.duration << " s by " << traitsOf(settings.method).name;
+  if (traitsOf(settings.method).steps()) {
+    out << ", dt " << settings.dt << " s";
   }
   out << '\n';
   printItems(out, "modelled     ", plan, true);
   printItems(out, "left out     ", plan, false);
+}
+
+void printPlan(std::ostream& out, const RunSetup& setup) {
+  printPlan(out, setup.stage.name, setup.world.bodies.size(), setup.settings, setup.plan);
 }
 
 void printError(std::ostream& out, const Trajectory& trajectory) {
@@ -167,7 +171,7 @@ void printError(std::ostream& out, const Trajectory& trajectory) {
 }
 
 void printSummary(std::ostream& out, const Run& run, double wallSeconds) {
-  printPlan(out, run.scene, run.plan);
+  printPlan(out, run.trajectory);
   out << std::setprecision(3) << "speed        " << wallSeconds << " s in all";
   if (run.simulateSeconds > 0) {
     out << "; simulated in " << run.simulateSeconds << " s, "

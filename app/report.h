@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>
+#include <string>
 
 #include "run.h"
 
@@ -13,7 +15,9 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds);
 /// The same for a person: what was modelled, then speed and error next to each other.
 void printSummary(std::ostream& out, const Run& run, double wallSeconds);
 /// Parts of it.
-void printPlan(std::ostream& out, const Scene& scene, const Plan& plan);
+void printPlan(std::ostream& out, const std::string& scene, std::size_t boxes, const RunSettings& settings,
+               const Plan& plan);
+void printPlan(std::ostream& out, const RunSetup& setup);
 void printError(std::ostream& out, const Trajectory& trajectory);
 
 }  // namespace careen

@@ -1,7 +1,6 @@
 #include "run.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iostream>
@@ -16,6 +15,7 @@
 #include "core/system/resource.h"
 #include "parsed.h"
 #include "physics/world/method.h"
+#include "scene/plan.h"
 #include "scene/scene_reader.h"
 #include "scene/starts.h"
 #include "trajectory/trajectory_file.h"
@@ -84,23 +84,37 @@ void partBoxes(Scene& scene) {
 Run simulateText(const std::filesystem::path& path, const std::string& text, const Overrides& overrides,
                  const std::stop_token& stop) {
   const DefaultFloatEnvironment usual;  // GL may be open, in a window
+  Scene scene =
+      parseScene(text, path.string(), overrides.allowOverlap ? Starts::kMayOverlap : Starts::kApart);
+  const Method method = scene.method;
+  apply(overrides, scene);
+  if (overrides.allowOverlap) {
+    partBoxes(scene);
+  } else if (scene.method != method) {
+    checkApart(scene);  // the reader asked it for the method in the file
+  }
   Run run;
   run.source = path;
-  run.scene = parseScene(text, path.string(), overrides.allowOverlap ? Starts::kMayOverlap : Starts::kApart);
-  apply(overrides, run.scene);
-  if (overrides.allowOverlap) {
-    partBoxes(run.scene);
-  }
-  run.plan = plan(run.scene);
   const Stopwatch stopwatch;
-  run.trajectory = record(assemble(run.scene, run.plan),
-                          {.method = run.scene.method,
-                           .duration = run.scene.duration,
-                           .dt = run.scene.dt,
-                           .tolerance = run.scene.tolerance},
-                          text, stop);
+  run.trajectory = record(setupOf(scene), stop);
   run.simulateSeconds = stopwatch.seconds();
   return run;
+}
+
+// What a run of an older format lacks. Boxes that overlapped had been moved apart.
+RunSetup setupOfText(const std::string& text, const RunSettings& settings, const std::string& name) {
+  Scene scene = parseScene(text, name + " (its scene)", Starts::kMayOverlap);
+  scene.method = settings.method;
+  scene.duration = settings.duration;
+  scene.dt = settings.dt;
+  scene.tolerance = settings.tolerance;
+  return setupOf(scene);
+}
+
+Trajectory decodeRun(const std::string& bytes, const std::string& name) {
+  return decodeTrajectory(bytes, name, [&name](const std::string& text, const RunSettings& settings) {
+    return setupOfText(text, settings, name);
+  });
 }
 
 }  // namespace
@@ -144,7 +158,7 @@ void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const 
     return;
   }
   run.estimated = true;
-  run.estimate = estimateError(assemble(run.scene, run.plan), run.trajectory, stop);
+  run.estimate = estimateError(run.trajectory.world, run.trajectory, stop);
 }
 
 std::filesystem::path defaultScene() { return findResource("assets/scenes/careen.json"); }
@@ -165,19 +179,10 @@ Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const
   }
   Run run;
   run.source = path;
-  run.trajectory = decodeTrajectory(bytes, path.string());
-  run.scene = parseScene(run.trajectory.sceneText, path.string() + " (its scene)", Starts::kMayOverlap);
-  // The run may have been made with another method, step or length than the file says.
-  run.scene.method = run.trajectory.settings.method;
-  run.scene.dt = run.trajectory.settings.dt;
-  run.scene.tolerance = run.trajectory.settings.tolerance;
-  run.scene.duration = run.trajectory.settings.duration;
-  // … and have moved boxes that overlapped.
-  for (std::size_t i = 0; i < std::min(run.scene.boxes.size(), run.trajectory.tracks.size()); ++i) {
-    run.scene.boxes[i].pose.position = run.trajectory.state(i, 0).pose.position;
-  }
-  run.plan = plan(run.scene);
+  run.trajectory = decodeRun(bytes, path.string());
   return run;
 }
+
+Trajectory readRun(const std::filesystem::path& path) { return decodeRun(readFile(path), path.string()); }
 
 }  // namespace careen

@@ -6,8 +6,6 @@
 #include <stop_token>
 #include <string>
 
-#include "scene/plan.h"
-#include "scene/scene.h"
 #include "study/error_estimate.h"
 #include "trajectory/trajectory.h"
 
@@ -17,11 +15,9 @@ class App;
 
 namespace careen {
 
-/// A scene and what became of it.
+/// A run, where it came from and what it cost.
 struct Run {
   std::filesystem::path source;  ///< the scene or trajectory file
-  Scene scene;
-  Plan plan;
   Trajectory trajectory;
   double simulateSeconds = 0;  ///< [s] 0 when the trajectory was read from a file
   bool estimated = false;      ///< whether its error was looked for
@@ -58,6 +54,10 @@ std::filesystem::path defaultScene();
 
 /// Reads a scene file and runs it. Tells on the standard error what was overridden.
 Run simulateScene(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop);
+
+/// A trajectory file of any version: what one that is not whole lacks is made of the scene's text that it
+/// holds.
+Trajectory readRun(const std::filesystem::path& path);
 
 /// Takes a scene file, which is run, or a trajectory file, which was; of the latter nothing can be
 /// overridden.

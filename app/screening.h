@@ -19,18 +19,19 @@ class Screening {
   Screening(Run run, const PictureOptions& options);
 
   const Run& run() const { return run_; }
-  const FrameRate& rate() const { return settings_.rate; }
+  const FrameRate& rate() const { return picture().rate; }
   std::int64_t frameCount() const { return rate().frameCount(filming_.duration()); }
   /// Where the film has the camera.
   Camera filmCamera(double filmTime) const { return filming_.camera(filmTime); }
-  int pictureHeight() const { return settings_.height; }  ///< [px]
+  int pictureHeight() const { return picture().height; }  ///< [px]
 
   /// The picture at a moment of the film [s], overlays and all, with the camera turned so.
   Picture draw(double filmTime, const Orbit& orbit);
 
  private:
+  const PictureSettings& picture() const { return run_.trajectory.stage.picture; }
+
   Run run_;
-  FilmSettings settings_;
   Filming filming_;
   std::optional<Overlays> overlays_;
   std::optional<Renderer> renderer_;

@@ -44,17 +44,17 @@ std::filesystem::path placeOf(const Run& run, const Still& still) {
 
 }  // namespace
 
-ExitCode drawStill(const Run& run, const FilmSettings& settings, const Still& still) {
-  const Filming filming(run.scene, run.trajectory, static_cast<double>(settings.width) / settings.height);
+ExitCode drawStill(const Run& run, RenderOptions options, const Still& still) {
+  const PictureSettings& asked = run.trajectory.stage.picture;
+  const Filming filming(run.trajectory);
   const std::vector<double> moments = momentsOf(still);
   checkMoments(moments, filming, still.strobe ? "--strobe" : "--still");
-  RenderOptions options = settings.render;
   options.camera = filming.camera(0);
-  Renderer renderer(run.scene, settings.width, settings.height, options);
+  Renderer renderer(run.trajectory, options);
   Picture picture = still.strobe ? filming.drawStrobe(renderer, moments)
-                                 : filming.draw(renderer, moments[0], settings.shutter, settings.rate);
-  if (settings.overlays.any() && !still.strobe) {
-    const Overlays overlays(run.trajectory, run.scene, settings.overlays, settings.rate.frameTime(1));
+                                 : filming.draw(renderer, moments[0], asked.shutter, asked.rate);
+  if (asked.overlays.any() && !still.strobe) {
+    const Overlays overlays(run.trajectory, asked.overlays, asked.rate.frameTime(1));
     filming.explain(renderer, picture, moments[0], overlays);
   }
   const std::filesystem::path path = std::filesystem::absolute(placeOf(run, still)).lexically_normal();

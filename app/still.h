@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "render/film/film.h"
+#include "render/draw/renderer.h"
 #include "run.h"
 
 namespace careen {
@@ -17,7 +17,7 @@ struct Still {
   std::optional<std::string> strobe;  ///< FROM:TO:STEP, in place of the moment
 };
 
-/// Writes the picture and says where it is. Of the settings, those that a single picture has count.
-ExitCode drawStill(const Run& run, const FilmSettings& settings, const Still& still);
+/// Writes the picture and says where it is.
+ExitCode drawStill(const Run& run, RenderOptions options, const Still& still);
 
 }  // namespace careen

@@ -14,7 +14,7 @@ ExitCode viewCommand(ViewOptions options, const std::stop_token& stop) {
   if (options.source.empty()) {
     options.source = defaultScene();
   }
-  static_cast<void>(options.picture.settings());  // what is wrong with them is said before anything is done …
+  options.picture.check();  // what is wrong with them is said before anything is done …
   Window window("careen");  // … and that there is no display before anything is simulated
   std::cout << "The space bar plays and pauses; the key h tells what else there is.\n" << std::flush;
   Viewer viewer(window, options);

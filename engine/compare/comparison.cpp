@@ -327,10 +327,11 @@ Comparison compareFolders(const fs::path& expected, const fs::path& actual,
   return comparison;
 }
 
-Comparison compareRuns(const fs::path& expected, const fs::path& actual, const ComparisonSettings& settings) {
+Comparison compareRuns(const fs::path& expected, const fs::path& actual, const ComparisonSettings& settings,
+                       const RunReader& read) {
   Comparison comparison = begun(expected, actual, settings);
-  const Trajectory expectedRun = readTrajectory(expected);
-  const Trajectory actualRun = readTrajectory(actual);
+  const Trajectory expectedRun = read(expected);
+  const Trajectory actualRun = read(actual);
   comparison.facts = factsOf(expectedRun, actualRun);
   RunDifference run = differenceOf(expectedRun, actualRun, settings.until);
   const bool within =

@@ -12,6 +12,7 @@
 
 #include "compare/run_difference.h"
 #include "compare/tolerance.h"
+#include "trajectory/trajectory_file.h"
 
 namespace careen {
 
@@ -92,8 +93,11 @@ Comparison compareFolders(const std::filesystem::path& expected, const std::file
                           const ComparisonSettings& settings, std::optional<bool> sameMotion,
                           const ComparisonCallback& progress = {}, const std::stop_token& stop = {});
 
-/// Two trajectory files.
-Comparison compareRuns(const std::filesystem::path& expected, const std::filesystem::path& actual,
-                       const ComparisonSettings& settings);
+/// Two trajectory files. `read`: how they are read, see SetupReader.
+using RunReader = std::function<Trajectory(const std::filesystem::path&)>;
+Comparison compareRuns(
+    const std::filesystem::path& expected, const std::filesystem::path& actual,
+    const ComparisonSettings& settings,
+    const RunReader& read = [](const std::filesystem::path& path) { return readTrajectory(path); });
 
 }  // namespace careen

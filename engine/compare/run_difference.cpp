@@ -41,15 +41,17 @@ bool sameBits(const Impact& a, const Impact& b) {
 std::string motionBytes(const Trajectory& run) {
   Trajectory bare;
   bare.settings.duration = run.settings.duration;
-  bare.tracks = run.tracks;
-  std::sort(bare.tracks.begin(), bare.tracks.end(),
-            [](const Track& a, const Track& b) { return a.name < b.name; });
+  std::map<std::string, std::size_t> byName;
+  for (std::size_t body = 0; body < run.tracks.size(); ++body) {
+    byName[run.world.bodies[body].name] = body;
+  }
+  for (const auto& [name, body] : byName) {
+    const Body& moved = run.world.bodies[body];
+    bare.world.bodies.push_back(
+        {.name = name, .halfExtents = moved.halfExtents, .mass = moved.mass, .material = {}, .initial = {}});
+    bare.tracks.push_back(run.tracks[body]);
+  }
   return encodeTrajectory(bare);
-}
-
-// ⅓ M (b²+c²) and so on for half extents a, b, c: Eq. 19 integrated.
-double halfDiagonal(const MassProperties& mass) {
-  return std::sqrt(1.5 * mass.inertiaBody.sum() / mass.mass);
 }
 
 /// Both runs' states, box by box under the expected run's order.
@@ -59,12 +61,12 @@ class Pair {
       : expected_(expected), actual_(actual) {
     std::map<std::string, std::size_t> places;
     for (std::size_t i = 0; i < actual.tracks.size(); ++i) {
-      places[actual.tracks[i].name] = i;
+      places[actual.world.bodies[i].name] = i;
     }
-    for (const Track& track : expected.tracks) {
-      const auto place = places.find(track.name);
+    for (const Body& body : expected.world.bodies) {
+      const auto place = places.find(body.name);
       if (place == places.end()) {
-        found.incomparable.push_back("box " + track.name + " is not there");
+        found.incomparable.push_back("box " + body.name + " is not there");
       } else {
         places_.push_back(place->second);
         places.erase(place);
@@ -83,14 +85,14 @@ class Pair {
   RunSample sampleAt(double time) const {
     RunSample sample{.time = time, .difference = {}, .body = {}};
     for (std::size_t body = 0; body < places_.size(); ++body) {
-      const Track& track = expected_.tracks[body];
-      if (isImmovable(track.mass)) {
+      const Body& moved = expected_.world.bodies[body];
+      if (isImmovable(moved.mass)) {
         continue;
       }
       const PoseDifference difference = differenceOf(expectedState(body, time).pose,
-                                                     actualState(body, time).pose, halfDiagonal(track.mass));
+                                                     actualState(body, time).pose, moved.halfExtents.norm());
       if (difference.relative > sample.difference.relative) {
-        sample.body = track.name;
+        sample.body = moved.name;
       }
       sample.difference.include(difference);
     }
@@ -116,9 +118,9 @@ class Pair {
   std::pair<double, double> energies() const {
     std::pair<double, double> sums;
     for (std::size_t body = 0; body < places_.size(); ++body) {
-      if (!isImmovable(expected_.tracks[body].mass)) {
-        sums.first += kineticEnergy(expected_.tracks[body].mass, expectedState(body, duration_));
-        sums.second += kineticEnergy(actual_.tracks[places_[body]].mass, actualState(body, duration_));
+      if (!isImmovable(expected_.world.bodies[body].mass)) {
+        sums.first += kineticEnergy(expected_.world.bodies[body].mass, expectedState(body, duration_));
+        sums.second += kineticEnergy(actual_.world.bodies[places_[body]].mass, actualState(body, duration_));
       }
     }
     return sums;
@@ -136,7 +138,7 @@ class Pair {
     BodyState state = run.state(body, time);
     if (!(state.pose.position.allFinite() && state.pose.worldFromBody.allFinite() &&
           state.velocity.allFinite() && state.angularMomentum.allFinite())) {
-      throw InputError(std::string(name) + ": box " + run.tracks[body].name + " has a state at " +
+      throw InputError(std::string(name) + ": box " + run.world.bodies[body].name + " has a state at " +
                        brief(time) + " s that is no number");
     }
     return state;
@@ -179,7 +181,8 @@ std::string howItDiffers(const Impact& a, const Impact& b) {
 }
 
 std::string bodiesOf(const Impact& impact, const Trajectory& run) {
-  return run.tracks.at(static_cast<std::size_t>(impact.a.value)).name + " against " + run.partnerName(impact);
+  return run.world.bodies.at(static_cast<std::size_t>(impact.a.value)).name + " against " +
+         run.partnerName(impact);
 }
 
 // Those that `found` counts.

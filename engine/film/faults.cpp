@@ -19,9 +19,9 @@ std::string faultOf(const std::filesystem::path& path, const FilmManifest& film)
   }
   try {
     const Picture picture = readPng(path);
-    if (picture.width != film.width || picture.height != film.height) {
+    if (picture.width != film.picture.width || picture.height != film.picture.height) {
       return "is " + std::to_string(picture.width) + "x" + std::to_string(picture.height) + ", expected " +
-             std::to_string(film.width) + "x" + std::to_string(film.height);
+             std::to_string(film.picture.width) + "x" + std::to_string(film.picture.height);
     }
   } catch (const InputError& error) {
     const std::string words = error.what();

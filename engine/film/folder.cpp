@@ -88,7 +88,7 @@ FilmFolder::~FilmFolder() {
 std::vector<std::int64_t> FilmFolder::missing(const FilmManifest& asked) const {
   std::vector<std::int64_t> frames;
   std::copy_if(asked.frames.begin(), asked.frames.end(), std::back_inserter(frames), [&](std::int64_t frame) {
-    return !isWholePng(path_ / frameFileName(frame), asked.width, asked.height);
+    return !isWholePng(path_ / frameFileName(frame), asked.picture.width, asked.picture.height);
   });
   return frames;
 }

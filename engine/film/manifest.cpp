@@ -14,8 +14,22 @@ namespace {
 
 constexpr int kVersion = 1;
 
-std::string sizeText(const FilmManifest& manifest) {
-  return std::to_string(manifest.width) + "x" + std::to_string(manifest.height);
+std::string sizeText(const PictureSettings& picture) {
+  return std::to_string(picture.width) + "x" + std::to_string(picture.height);
+}
+
+// What a film does not tell of is as it was when films did not tell of it, which the defaults still are.
+PictureSettings pictureFrom(const nlohmann::json& json) {
+  PictureSettings picture;
+  picture.width = json.at("size").at(0).get<int>();
+  picture.height = json.at("size").at(1).get<int>();
+  picture.rate = parseFrameRate(json.at("fps").get<std::string>());
+  picture.look = lookNamed(json.value("look", nameOf(picture.look)));
+  picture.antialiasing = antialiasingNamed(json.value("antialiasing", nameOf(picture.antialiasing)));
+  const std::string shutter = json.value("shutter", "none");
+  picture.shutter = shutter == "none" ? Shutter() : parseShutter(shutter);
+  picture.overlays = overlaysNamed(json.value("overlays", "none"));
+  return picture;
 }
 
 FilmManifest fromJson(const nlohmann::json& json) {
@@ -28,13 +42,7 @@ FilmManifest fromJson(const nlohmann::json& json) {
   manifest.libraries = json.value("libraries", "");
   manifest.sceneHash = json.at("scene_hash").get<std::string>();
   manifest.stateHash = json.at("state_hash").get<std::string>();
-  manifest.width = json.at("size").at(0).get<int>();
-  manifest.height = json.at("size").at(1).get<int>();
-  manifest.rate = parseFrameRate(json.at("fps").get<std::string>());
-  manifest.look = json.value("look", manifest.look);
-  manifest.antialiasing = json.value("antialiasing", manifest.antialiasing);
-  manifest.shutter = json.value("shutter", manifest.shutter);
-  manifest.overlays = json.value("overlays", "none");  // films were made before there were any
+  manifest.picture = pictureFrom(json);
   manifest.frameCount = json.at("frame_count").get<std::int64_t>();
   if (const std::string frames = json.at("frames").get<std::string>(); !frames.empty()) {
     manifest.frames = framesOf(parseFrameRanges(frames), manifest.frameCount);
@@ -68,6 +76,7 @@ std::optional<FilmManifest> readManifest(const std::filesystem::path& folder) {
 }
 
 void writeManifest(const std::filesystem::path& folder, const FilmManifest& manifest) {
+  const PictureSettings& picture = manifest.picture;
   const nlohmann::ordered_json json = {
       {"careen_film", kVersion},
       {"program", manifest.program},
@@ -75,12 +84,12 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
       {"libraries", manifest.libraries},
       {"scene_hash", manifest.sceneHash},
       {"state_hash", manifest.stateHash},
-      {"size", {manifest.width, manifest.height}},
-      {"fps", manifest.rate.text()},
-      {"look", manifest.look},
-      {"antialiasing", manifest.antialiasing},
-      {"shutter", manifest.shutter},
-      {"overlays", manifest.overlays},
+      {"size", {picture.width, picture.height}},
+      {"fps", picture.rate.text()},
+      {"look", nameOf(picture.look)},
+      {"antialiasing", nameOf(picture.antialiasing)},
+      {"shutter", picture.shutter.text()},
+      {"overlays", picture.overlays.text()},
       {"frame_count", manifest.frameCount},
       {"frames", rangesText(manifest.frames)},
   };
@@ -93,10 +102,12 @@ std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
   };
   std::string text =
       compare("scene", there.sceneHash, asked.sceneHash) + compare("run", there.stateHash, asked.stateHash) +
-      compare("size", sizeText(there), sizeText(asked)) +
-      compare("fps", there.rate.text(), asked.rate.text()) + compare("look", there.look, asked.look) +
-      compare("antialiasing", there.antialiasing, asked.antialiasing) +
-      compare("shutter", there.shutter, asked.shutter) + compare("overlays", there.overlays, asked.overlays) +
+      compare("size", sizeText(there.picture), sizeText(asked.picture)) +
+      compare("fps", there.picture.rate.text(), asked.picture.rate.text()) +
+      compare("look", nameOf(there.picture.look), nameOf(asked.picture.look)) +
+      compare("antialiasing", nameOf(there.picture.antialiasing), nameOf(asked.picture.antialiasing)) +
+      compare("shutter", there.picture.shutter.text(), asked.picture.shutter.text()) +
+      compare("overlays", there.picture.overlays.text(), asked.picture.overlays.text()) +
       compare("frames in all", std::to_string(there.frameCount), std::to_string(asked.frameCount)) +
       compare("program", there.program, asked.program) +
       (there.renderer.empty() || asked.renderer.empty()

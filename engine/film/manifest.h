@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "stage/frame_rate.h"
+#include "stage/picture_settings.h"
 
 namespace careen {
 
@@ -19,15 +19,9 @@ struct FilmManifest {
   std::string libraries;
   std::string sceneHash;
   std::string stateHash;  ///< of the run's end
-  int width = 0;          ///< [px]
-  int height = 0;         ///< [px]
-  FrameRate rate;
-  std::string look = "studio";         ///< as kLooks names it
-  std::string antialiasing = "edges";  ///< as kAntialiasings names it
-  std::string shutter = "none";        ///< as Shutter::text gives it
-  std::string overlays = "none";       ///< their names
-  std::int64_t frameCount = 0;         ///< of the whole film
-  std::vector<std::int64_t> frames;    ///< those asked for so far, in order
+  PictureSettings picture;
+  std::int64_t frameCount = 0;       ///< of the whole film
+  std::vector<std::int64_t> frames;  ///< those asked for so far, in order
 };
 
 /// What `libraries` is to be for a film made by this program on this machine.

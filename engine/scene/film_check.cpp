@@ -51,7 +51,7 @@ void checkCamera(const JsonTree& tree, const Scene& scene) {
 }
 
 void checkTime(const JsonTree& tree, const Scene& scene) {
-  const std::vector<TimeKey>& keys = scene.film.time.keys;
+  const std::vector<TimeKey>& keys = scene.timeMap.keys;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const JsonNode& node = tree.root().find("film")->find("time")->children[i];
     const std::string label = "film.time[" + std::to_string(i) + "]";

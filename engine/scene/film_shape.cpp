@@ -81,33 +81,32 @@ void readCamera(const JsonValue& value, Scene& scene) {
   scene.camera = camera;
 }
 
-Film readFilm(const JsonValue& value) {
+void readFilm(const JsonValue& value, Scene& scene) {
   const JsonObject object =
       value.object({"size", "fps", "antialiasing", "time", "shutter_deg", "shutter_samples"});
-  Film film;
+  PictureSettings& picture = scene.picture;
   if (const std::optional<JsonValue> size = object.find("size")) {
     const std::vector<JsonValue> sides = size->elements("[width, height] [px]", 2);
-    film.width = sides[0].integer(1, kLargestFilm, "px");
-    film.height = sides[1].integer(1, kLargestFilm, "px");
+    picture.width = sides[0].integer(1, kLargestFilm, "px");
+    picture.height = sides[1].integer(1, kLargestFilm, "px");
   }
   if (const std::optional<JsonValue> fps = object.find("fps")) {
-    film.rate = frameRateFrom(fps->number(kFramesPerSecond));
+    picture.rate = frameRateFrom(fps->number(kFramesPerSecond));
   }
   if (const std::optional<JsonValue> how = object.find("antialiasing")) {
-    film.antialiasing =
+    picture.antialiasing =
         static_cast<Antialiasing>(how->word({kAntialiasings.begin(), kAntialiasings.end()}, "antialiasing"));
   }
   if (const std::optional<JsonValue> time = object.find("time")) {
-    film.time = readTime(*time);
+    scene.timeMap = readTime(*time);
   }
-  film.shutter.degrees = object.number("shutter_deg", kShutterAngle, film.shutter.degrees);
+  picture.shutter.degrees = object.number("shutter_deg", kShutterAngle, picture.shutter.degrees);
   if (const std::optional<JsonValue> samples = object.find("shutter_samples")) {
     if (!object.has("shutter_deg")) {
       object.fail("shutter_samples without shutter_deg", "both, or neither");
     }
-    film.shutter.samples = samples->integer(1, kMostShutterSamples, "");
+    picture.shutter.samples = samples->integer(1, kMostShutterSamples, "");
   }
-  return film;
 }
 
 }  // namespace careen

@@ -7,6 +7,7 @@ namespace careen {
 
 /// The scene's camera and how it moves; whom it follows is found by checkScene.
 void readCamera(const JsonValue& value, Scene& scene);
-Film readFilm(const JsonValue& value);
+/// Its pictures, and which moments it shows.
+void readFilm(const JsonValue& value, Scene& scene);
 
 }  // namespace careen

@@ -1,13 +1,9 @@
 #include "scene/plan.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <stdexcept>
 #include <utility>
 
-#include "core/brief.h"
 #include "core/error.h"
-#include "scene/starts.h"
 
 namespace careen {
 namespace {
@@ -148,35 +144,6 @@ PlanItem resting(const Scene& scene, const Wants& wants) {
 
 }  // namespace
 
-bool Plan::models(std::string_view what) const {
-  const auto item =
-      std::find_if(items.begin(), items.end(), [what](const PlanItem& each) { return each.what == what; });
-  if (item == items.end()) {
-    throw std::logic_error("no plan has an item " + std::string(what));
-  }
-  return item->modelled;
-}
-
-std::vector<std::string> Plan::modelled() const {
-  std::vector<std::string> names;
-  for (const PlanItem& item : items) {
-    if (item.modelled) {
-      names.push_back(item.what);
-    }
-  }
-  return names;
-}
-
-std::vector<std::string> Plan::leftOut() const {
-  std::vector<std::string> names;
-  for (const PlanItem& item : items) {
-    if (!item.modelled) {
-      names.push_back(item.what);
-    }
-  }
-  return names;
-}
-
 Plan plan(const Scene& scene) {
   const Wants wants = wantsOf(scene);
   return {{gravity(scene), drag(scene), springs(scene), boxWall(wants), boxBox(scene, wants),
@@ -191,13 +158,6 @@ World assemble(const Scene& scene, const Plan& plan) {
   if (!traitsOf(scene.method).forces && (plan.models("springs") || plan.models("drag"))) {
     throw InputError("scene " + scene.name + " has springs or drag, which method " + nameOf(scene.method) +
                      " does not model; expected method listing1");
-  }
-  // The reader has asked the same of the scene file's own method; the command line may name another.
-  const bool known = scene.startsApart || !plan.models("box-box");
-  if (const auto overlap = known ? std::nullopt : findOverlap(scene)) {
-    throw InputError("box " + scene.boxes[overlap->second].name + " starts " + brief(overlap->depth) +
-                     " m inside box " + scene.boxes[overlap->first].name +
-                     "; expected boxes apart, as method " + nameOf(scene.method) + " lets them meet");
   }
   World world;
   for (const SceneBox& box : scene.boxes) {
@@ -225,6 +185,39 @@ World assemble(const Scene& scene, const Plan& plan) {
     world.drag = scene.drag;
   }
   return world;
+}
+
+RunSettings settingsOf(const Scene& scene) {
+  return {.method = scene.method, .duration = scene.duration, .dt = scene.dt, .tolerance = scene.tolerance};
+}
+
+Stage stageOf(const Scene& scene) {
+  Stage stage;
+  stage.name = scene.name;
+  stage.camera = scene.camera;
+  stage.cameraMove = scene.cameraMove;
+  stage.timeMap = scene.timeMap;
+  stage.picture = scene.picture;
+  if (scene.room) {
+    stage.room = *scene.room;
+  }
+  for (const Wall& wall : scene.walls) {
+    stage.planes.push_back({.normal = wall.normal, .offset = wall.offset});
+  }
+  for (const SceneBox& box : scene.boxes) {
+    stage.colors.push_back(box.color);
+  }
+  return stage;
+}
+
+RunSetup setupOf(const Scene& scene) {
+  RunSetup setup{.sceneText = scene.text,
+                 .settings = settingsOf(scene),
+                 .world = {},
+                 .stage = stageOf(scene),
+                 .plan = plan(scene)};
+  setup.world = assemble(scene, setup.plan);
+  return setup;
 }
 
 }  // namespace careen

@@ -1,35 +1,27 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <vector>
-
+#include "physics/world/plan.h"
 #include "physics/world/world.h"
 #include "scene/scene.h"
+#include "stage/run_setup.h"
+#include "stage/stage.h"
 
 namespace careen {
-
-/// One thing a scene may call for, and why it is modelled or left out.
-struct PlanItem {
-  std::string what;  ///< "gravity", "drag", "springs", "box-wall", "box-box", "restitution", "friction", …
-  bool modelled = false;
-  std::string reason;
-};
-
-struct Plan {
-  std::vector<PlanItem> items;
-
-  /// Whether the item of that name is modelled; every name is in the list.
-  bool models(std::string_view what) const;
-  std::vector<std::string> modelled() const;
-  std::vector<std::string> leftOut() const;
-};
 
 /// What the scene's physics calls for, and what its method has of it.
 Plan plan(const Scene& scene);
 
 /// The world with what the plan models, and nothing else: what is left out is never executed. Bodies are in
-/// the order of the scene's boxes; fixed ones are immovable.
+/// the order of the scene's boxes; fixed ones are immovable. Whether boxes start apart is not asked here: the
+/// reader has done so for the scene's own method, see checkApart for another one.
 World assemble(const Scene& scene, const Plan& plan);
+
+RunSettings settingsOf(const Scene& scene);
+
+/// What of the scene is to be seen, and how.
+Stage stageOf(const Scene& scene);
+
+/// Plan, world and stage of the scene, and its settings: all that a run takes of it.
+RunSetup setupOf(const Scene& scene);
 
 }  // namespace careen

@@ -161,7 +161,7 @@ void checkStart(const JsonTree& tree, const Scene& scene) {
   }
 }
 
-void checkOverlap(const JsonTree& tree, Scene& scene) {
+void checkOverlap(const JsonTree& tree, const Scene& scene) {
   const std::optional<Overlap> overlap = findOverlap(scene);
   if (overlap) {
     tree.fail(memberOrSelf(elementOf(tree, "boxes", overlap->second), "position").offset,
@@ -169,7 +169,6 @@ void checkOverlap(const JsonTree& tree, Scene& scene) {
                   " m inside box " + inQuotes(scene.boxes[overlap->first].name),
               "a start outside every other box");
   }
-  scene.startsApart = traitsOf(scene.method).boxBox;
 }
 
 }  // namespace

@@ -73,9 +73,10 @@ Mat3 readQuaternion(const JsonValue& value) {
 
 Room readRoom(const JsonValue& value) {
   const JsonObject object = value.object({"min", "max", "open", "restitution", "friction"});
-  Room room{.min = object.require("min").vector(anyNumber("m")),
-            .max = object.require("max").vector(anyNumber("m")),
-            .material = readMaterial(object)};
+  Room room;
+  room.min = object.require("min").vector(anyNumber("m"));
+  room.max = object.require("max").vector(anyNumber("m"));
+  room.material = readMaterial(object);
   if (const std::optional<JsonValue> open = object.find("open")) {
     const std::vector<std::string_view> sides(kRoomSides.begin(), kRoomSides.end());
     for (const JsonValue& side : open->elements("an array of sides such as [\"+z\"]")) {
@@ -251,13 +252,13 @@ Scene readShape(const JsonTree& tree) {
     readCamera(*camera, scene);
   }
   if (const std::optional<JsonValue> film = object.find("film")) {
-    scene.film = readFilm(*film);
+    readFilm(*film, scene);
   }
   if (const std::optional<JsonValue> look = object.find("look")) {
-    scene.look = static_cast<Look>(look->word({kLooks.begin(), kLooks.end()}, "look"));
+    scene.picture.look = static_cast<Look>(look->word({kLooks.begin(), kLooks.end()}, "look"));
   }
   if (const std::optional<JsonValue> overlays = object.find("overlays")) {
-    scene.overlays = readOverlays(*overlays);
+    scene.picture.overlays = readOverlays(*overlays);
   }
   return scene;
 }

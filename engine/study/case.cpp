@@ -11,6 +11,7 @@
 #include "physics/simulate.h"
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
+#include "scene/starts.h"
 #include "study/difference.h"
 #include "study/error_estimate.h"
 #include "study/sampled_states.h"
@@ -36,6 +37,7 @@ std::filesystem::path scenePath(const std::string& relative) {
 // The whole scene, as exact models it, so that every contestant gets all of it.
 World worldOf(Scene scene) {
   scene.method = Method::kExact;
+  checkApart(scene);
   return assemble(scene, plan(scene));
 }
 

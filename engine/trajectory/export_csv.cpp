@@ -53,15 +53,15 @@ void writePosesCsv(const Trajectory& trajectory, double every, const TextSink& s
       return;
     }
     for (std::size_t body = 0; body < trajectory.tracks.size(); ++body) {
-      const Track& track = trajectory.tracks[body];
+      const Body& moved = trajectory.world.bodies[body];
       const BodyState state = trajectory.state(body, time);
       const Quat q = quaternionOf(state.pose.worldFromBody);
-      std::string row = rowAt(time) + "," + track.name;
+      std::string row = rowAt(time) + "," + moved.name;
       append(row, state.pose.position);
       append(row, q.w());
       append(row, Vec3(q.vec()));
       append(row, state.velocity);
-      append(row, angularVelocity(track.mass, state));
+      append(row, angularVelocity(moved.mass, state));
       sink(row + "\n");
     }
   }
@@ -71,7 +71,7 @@ void writeImpactsCsv(const Trajectory& trajectory, const TextSink& sink) {
   sink("time,a,b,x,y,z,nx,ny,nz,approach,impulse,tangential\n");
   for (const Impact& impact : trajectory.impacts) {
     std::string row = rowAt(impact.time) + "," +
-                      trajectory.tracks.at(static_cast<std::size_t>(impact.a.value)).name + "," +
+                      trajectory.world.bodies.at(static_cast<std::size_t>(impact.a.value)).name + "," +
                       trajectory.partnerName(impact);
     append(row, impact.point);
     append(row, impact.normal);

@@ -47,13 +47,14 @@ BodyState Trajectory::state(std::size_t body, double time) const {
                      std::to_string(settings.duration) + " s");
   }
   const Track& track = tracks.at(body);
+  const Body& moved = world.bodies.at(body);
   const auto next = std::upper_bound(track.segments.begin(), track.segments.end(), time,
                                      [](double t, const Segment& segment) { return t < segment.start; });
   if (next == track.segments.begin()) {
-    throw InputError("body " + track.name + " has no recorded motion");
+    throw InputError("body " + moved.name + " has no recorded motion");
   }
   const Segment& segment = *std::prev(next);
-  return stateAt(segment.motion, track.mass, time - segment.start);
+  return stateAt(segment.motion, moved.mass, time - segment.start);
 }
 
 std::vector<Pose> Trajectory::poses(double time) const {
@@ -66,8 +67,8 @@ std::vector<Pose> Trajectory::poses(double time) const {
 }
 
 const std::string& Trajectory::partnerName(const Impact& impact) const {
-  return impact.b.isWall() ? wallNames.at(impact.b.wall())
-                           : tracks.at(static_cast<std::size_t>(impact.b.body())).name;
+  return impact.b.isWall() ? world.walls.at(impact.b.wall()).name
+                           : world.bodies.at(static_cast<std::size_t>(impact.b.body())).name;
 }
 
 std::string Trajectory::sceneHash() const {
@@ -80,7 +81,7 @@ std::string Trajectory::stateHash() const {
   std::vector<std::size_t> byName(tracks.size());
   std::iota(byName.begin(), byName.end(), std::size_t{0});
   std::sort(byName.begin(), byName.end(),
-            [this](std::size_t a, std::size_t b) { return tracks[a].name < tracks[b].name; });
+            [this](std::size_t a, std::size_t b) { return world.bodies[a].name < world.bodies[b].name; });
   Hash hash;
   for (const std::size_t body : byName) {
     add(hash, state(body, settings.duration));
@@ -88,20 +89,21 @@ std::string Trajectory::stateHash() const {
   return hash.text();
 }
 
+Trajectory record(RunSetup setup, const std::stop_token& stop) {
+  Trajectory trajectory;
+  static_cast<RunSetup&>(trajectory) = std::move(setup);
+  trajectory.tracks.resize(trajectory.world.bodies.size());
+  TrajectoryRecorder recorder(trajectory);
+  trajectory.figures = simulate(trajectory.world, trajectory.settings, recorder, stop);
+  return trajectory;
+}
+
 Trajectory record(const World& world, const RunSettings& settings, std::string sceneText,
                   const std::stop_token& stop) {
-  Trajectory trajectory;
-  trajectory.sceneText = std::move(sceneText);
-  trajectory.settings = settings;
-  for (const Wall& wall : world.walls) {
-    trajectory.wallNames.push_back(wall.name);
-  }
-  for (const Body& body : world.bodies) {
-    trajectory.tracks.push_back({.name = body.name, .mass = body.mass, .segments = {}});
-  }
-  TrajectoryRecorder recorder(trajectory);
-  trajectory.figures = simulate(world, settings, recorder, stop);
-  return trajectory;
+  RunSetup setup{
+      .sceneText = std::move(sceneText), .settings = settings, .world = world, .stage = {}, .plan = {}};
+  setup.stage.colors.resize(world.bodies.size());
+  return record(std::move(setup), stop);
 }
 
 }  // namespace careen

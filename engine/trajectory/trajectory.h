@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "physics/world/body.h"
 #include "physics/world/method.h"
 #include "physics/world/world.h"
+#include "stage/run_setup.h"
 
 namespace careen {
 
@@ -22,18 +22,14 @@ struct Segment {
 
 /// What one body did: segments in order of time, the first at 0.
 struct Track {
-  std::string name;
-  MassProperties mass;
   std::vector<Segment> segments;
 };
 
-/// A recorded run: where every body is at any moment of it.
-struct Trajectory {
-  std::string sceneText;  ///< the scene file it came from, byte for byte
-  RunSettings settings;
+/// A recorded run: what it started from, and where every body is at any moment of it. Nothing else is needed
+/// to draw, measure and export it.
+struct Trajectory : RunSetup {
   RunFigures figures;
-  std::vector<std::string> wallNames;
-  std::vector<Track> tracks;
+  std::vector<Track> tracks;    ///< one for each body of the world, in its order
   std::vector<Impact> impacts;  ///< in order of time
 
   /// State of a body at a time within [0, duration] [s]; InputError outside. Where two segments meet, the
@@ -50,7 +46,9 @@ struct Trajectory {
   std::string stateHash() const;
 };
 
-/// Runs the world by settings.method and keeps what happened.
+/// Runs the setup's world by its method and keeps what happened.
+Trajectory record(RunSetup setup, const std::stop_token& stop = {});
+/// The same of a world that no scene was made for: it is shown as a scene is that says nothing of how.
 Trajectory record(const World& world, const RunSettings& settings, std::string sceneText,
                   const std::stop_token& stop = {});
 

@@ -1,5 +1,7 @@
 #include "trajectory/trajectory_file.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <concepts>
 #include <cstddef>
@@ -9,18 +11,22 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/names.h"
 #include "core/system/file.h"
 #include "trajectory/compression.h"
+#include "trajectory/run_check.h"
 
 namespace careen {
 namespace {
 
 // The line ends in the magic word show a transfer that took the file for text.
 constexpr std::string_view kMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 3;
+constexpr std::uint64_t kVersion = 4;
+constexpr std::uint64_t kWithoutSetup = 3;  // held of world and stage no more than names and masses
 
 // Writer and Reader have the same calls, so that one description of the format, `visit` below, serves both
 // and the two cannot disagree.
@@ -70,13 +76,6 @@ class Reader {
     visit(size);
     text = std::string(take(size));
   }
-  /// A count of things of at least `bytesEach` bytes: a damaged one must not ask for all the memory there is.
-  std::size_t checkedCount(std::uint64_t count, std::uint64_t bytesEach) const {
-    if (count > rest_.size() / bytesEach) {
-      fail("is cut short");
-    }
-    return count;
-  }
   std::string_view rest() const { return rest_; }
   bool atEnd() const { return rest_.empty(); }
   [[noreturn]] void fail(const std::string& what) const {
@@ -99,6 +98,85 @@ class Reader {
 
 template <class Archive, class T>
 using Visited = std::conditional_t<Archive::kReads, T&, const T&>;
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, bool> value) {
+  std::uint8_t byte = value ? 1 : 0;
+  archive.visit(byte);
+  if constexpr (Archive::kReads) {
+    value = byte != 0;
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, double> value) {
+  archive.visit(value);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, std::string> text) {
+  archive.visit(text);
+}
+
+template <class Archive>
+void visitIndex(Archive& archive, Visited<Archive, int> index) {
+  auto value = static_cast<std::uint32_t>(index);
+  archive.visit(value);
+  if constexpr (Archive::kReads) {
+    index = static_cast<int>(value);
+  }
+}
+
+// By name: the numbers of the constants may change.
+template <class Archive, class Enum, std::size_t kCount>
+void visitNamed(Archive& archive, Enum& value, const std::array<std::string_view, kCount>& names) {
+  std::string name;
+  if constexpr (!Archive::kReads) {
+    name = names.at(static_cast<std::size_t>(value));
+  }
+  archive.visit(name);
+  if constexpr (Archive::kReads) {
+    const auto known = std::find(names.begin(), names.end(), name);
+    if (known == names.end()) {
+      archive.fail("has '" + name + "', which this version does not know, where it expects one of " +
+                   listed(names));
+    }
+    value = static_cast<Enum>(known - names.begin());
+  }
+}
+
+// Whether it is there, then what it is.
+template <class Archive, class T>
+void visitOptional(Archive& archive, T& optional) {
+  bool isThere = optional.has_value();
+  visit(archive, isThere);
+  if constexpr (Archive::kReads) {
+    optional.reset();
+    if (isThere) {
+      optional.emplace();
+    }
+  }
+  if (isThere) {
+    visit(archive, *optional);
+  }
+}
+
+// A count, then the things. Read one by one, so that a damaged count takes no memory for what is not there.
+template <class Archive, class T>
+void visitAll(Archive& archive, T& list) {
+  std::uint64_t count = list.size();
+  archive.visit(count);
+  if constexpr (Archive::kReads) {
+    list.clear();
+    for (std::uint64_t i = 0; i < count; ++i) {
+      visit(archive, list.emplace_back());
+    }
+  } else {
+    for (const auto& item : list) {
+      visit(archive, item);
+    }
+  }
+}
 
 template <class Archive>
 void visit(Archive& archive, Visited<Archive, Vec3> vector) {
@@ -228,15 +306,6 @@ void visit(Archive& archive, Visited<Archive, Segment> segment) {
 }
 
 template <class Archive>
-void visitIndex(Archive& archive, Visited<Archive, int> index) {
-  auto value = static_cast<std::uint32_t>(index);
-  archive.visit(value);
-  if constexpr (Archive::kReads) {
-    index = static_cast<int>(value);
-  }
-}
-
-template <class Archive>
 void visit(Archive& archive, Visited<Archive, BodyIndex> body) {
   visitIndex(archive, body.value);
 }
@@ -272,27 +341,170 @@ void visit(Archive& archive, Visited<Archive, Impact> impact) {
 }
 
 template <class Archive>
-void visit(Archive& archive, Visited<Archive, std::string> text) {
-  archive.visit(text);
+void visit(Archive& archive, Visited<Archive, Material> material) {
+  archive.visit(material.restitution);
+  archive.visit(material.friction);
 }
 
-// A count, then the things. The smallest of them takes 8 bytes.
-template <class Archive, class T>
-void visitAll(Archive& archive, T& list) {
-  std::uint64_t count = list.size();
-  archive.visit(count);
-  if constexpr (Archive::kReads) {
-    list.resize(archive.checkedCount(count, sizeof(std::uint64_t)));
-  }
-  for (auto& item : list) {
-    visit(archive, item);
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Body> body) {
+  archive.visit(body.name);
+  visit(archive, body.halfExtents);
+  visit(archive, body.mass);
+  visit(archive, body.material);
+  visit(archive, body.initial);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Wall> wall) {
+  archive.visit(wall.name);
+  visit(archive, wall.normal);
+  archive.visit(wall.offset);
+  visit(archive, wall.material);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, int> index) {
+  visitIndex(archive, index);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, SpringEnd> end) {
+  visitOptional(archive, end.body);
+  visit(archive, end.point);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Spring> spring) {
+  visit(archive, spring.from);
+  visit(archive, spring.to);
+  archive.visit(spring.stiffness);
+  archive.visit(spring.damping);
+  archive.visit(spring.restLength);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Drag> drag) {
+  archive.visit(drag.linear);
+  archive.visit(drag.angular);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, World> world) {
+  visit(archive, world.gravity);
+  visitAll(archive, world.bodies);
+  visitAll(archive, world.walls);
+  visitAll(archive, world.springs);
+  visitOptional(archive, world.drag);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, RoomShape> room) {
+  visit(archive, room.min);
+  visit(archive, room.max);
+  for (std::size_t side = 0; side < room.open.size(); ++side) {
+    visit(archive, room.open[side]);
   }
 }
 
 template <class Archive>
+void visit(Archive& archive, Visited<Archive, Plane> plane) {
+  visit(archive, plane.normal);
+  archive.visit(plane.offset);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Color> color) {
+  archive.visit(color.red);
+  archive.visit(color.green);
+  archive.visit(color.blue);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Camera> camera) {
+  visit(archive, camera.eye);
+  visit(archive, camera.target);
+  visit(archive, camera.up);
+  archive.visit(camera.fovDegrees);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, CameraKey> key) {
+  archive.visit(key.time);
+  visit(archive, key.eye);
+  visit(archive, key.target);
+  archive.visit(key.fovDegrees);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, std::size_t> index) {
+  archive.visit(index);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, CameraMove> move) {
+  archive.visit(move.orbitDegrees);
+  visitOptional(archive, move.followed);
+  visitAll(archive, move.keys);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, TimeKey> key) {
+  archive.visit(key.film);
+  archive.visit(key.scene);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, FrameRate> rate) {
+  std::string text = rate.text();
+  archive.visit(text);
+  if constexpr (Archive::kReads) {
+    rate = parseFrameRate(text);
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, OverlaySet> overlays) {
+  std::string text = overlays.text();
+  archive.visit(text);
+  if constexpr (Archive::kReads) {
+    overlays = overlaysNamed(text);
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, PictureSettings> picture) {
+  visitIndex(archive, picture.width);
+  visitIndex(archive, picture.height);
+  visit(archive, picture.rate);
+  visitNamed(archive, picture.look, kLooks);
+  visitNamed(archive, picture.antialiasing, kAntialiasings);
+  archive.visit(picture.shutter.degrees);
+  visitIndex(archive, picture.shutter.samples);
+  visit(archive, picture.overlays);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Stage> stage) {
+  archive.visit(stage.name);
+  visitOptional(archive, stage.room);
+  visitAll(archive, stage.planes);
+  visitAll(archive, stage.colors);
+  visitOptional(archive, stage.camera);
+  visit(archive, stage.cameraMove);
+  visitAll(archive, stage.timeMap.keys);
+  visit(archive, stage.picture);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, PlanItem> item) {
+  archive.visit(item.what);
+  visit(archive, item.modelled);
+  archive.visit(item.reason);
+}
+
+template <class Archive>
 void visit(Archive& archive, Visited<Archive, Track> track) {
-  archive.visit(track.name);
-  visit(archive, track.mass);
   visitAll(archive, track.segments);
 }
 
@@ -319,40 +531,89 @@ void visit(Archive& archive, Visited<Archive, RunSettings> settings) {
 }
 
 template <class Archive>
-void visit(Archive& archive, Visited<Archive, Trajectory> trajectory) {
-  archive.visit(trajectory.sceneText);
-  std::string sceneHash = trajectory.sceneHash();
+void visitBeginning(Archive& archive, Visited<Archive, Trajectory> run) {
+  archive.visit(run.sceneText);
+  std::string sceneHash = run.sceneHash();
   archive.visit(sceneHash);
-  visit(archive, trajectory.settings);
-  visit(archive, trajectory.figures);
-  visitAll(archive, trajectory.wallNames);
-  visitAll(archive, trajectory.tracks);
-  visitAll(archive, trajectory.impacts);
+  visit(archive, run.settings);
+  visit(archive, run.figures);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Trajectory> run) {
+  visitBeginning(archive, run);
+  visit(archive, run.world);
+  visit(archive, run.stage);
+  visitAll(archive, run.plan.items);
+  visitAll(archive, run.tracks);
+  visitAll(archive, run.impacts);
+}
+
+bool isSame(const MassProperties& a, const MassProperties& b) {
+  return a.mass == b.mass && a.inverseMass == b.inverseMass && a.inertiaBody == b.inertiaBody &&
+         a.inverseInertiaBody == b.inverseInertiaBody;
+}
+
+// What a file of old says of its bodies and walls must be what its scene says. Where a body starts is known
+// from its track alone: boxes that overlapped had been moved apart.
+void takeSetup(const Reader& reader, RunSetup setup, const std::vector<std::string>& wallNames,
+               const std::vector<Body>& bodies, Trajectory& run) {
+  if (setup.world.bodies.size() != bodies.size()) {
+    reader.fail("has " + std::to_string(bodies.size()) + " bodies, its scene " +
+                std::to_string(setup.world.bodies.size()));
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Body& body = setup.world.bodies[i];
+    if (body.name != bodies[i].name) {
+      reader.fail("has a body '" + bodies[i].name + "' where its scene has '" + body.name + "'");
+    }
+    if (!isSame(body.mass, bodies[i].mass)) {
+      reader.fail("has another mass or inertia of body '" + body.name + "' than its scene gives that box");
+    }
+  }
+  const bool sameWalls =
+      std::equal(wallNames.begin(), wallNames.end(), setup.world.walls.begin(), setup.world.walls.end(),
+                 [](const std::string& name, const Wall& wall) { return name == wall.name; });
+  if (!sameWalls) {
+    reader.fail("has other walls than its scene");
+  }
+  run.world = std::move(setup.world);
+  run.stage = std::move(setup.stage);
+  run.plan = std::move(setup.plan);
+}
+
+void startWhereTracksDo(Trajectory& run) {
+  checkMotions(run);
+  for (std::size_t body = 0; body < run.tracks.size(); ++body) {
+    run.world.bodies[body].initial = run.state(body, 0);
+  }
+}
+
+void readWithoutSetup(Reader& reader, const SetupReader& setupOf, Trajectory& run) {
+  visitBeginning(reader, run);
+  std::vector<std::string> wallNames;
+  visitAll(reader, wallNames);
+  std::vector<Body> bodies;
+  std::uint64_t count = 0;
+  reader.visit(count);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    Body& body = bodies.emplace_back();
+    reader.visit(body.name);
+    visit(reader, body.mass);
+    visitAll(reader, run.tracks.emplace_back().segments);
+  }
+  visitAll(reader, run.impacts);
+  if (!setupOf) {
+    reader.fail("has format version " + std::to_string(kWithoutSetup) +
+                ", which takes its scene to complete it; expected " + std::to_string(kVersion));
+  }
+  takeSetup(reader, setupOf(run.sceneText, run.settings), wallNames, bodies, run);
 }
 
 std::uint64_t checksum(std::string_view bytes) {
   Hash hash;
   hash.add(bytes);
   return hash.value();
-}
-
-// A file can be whole and yet make no sense; nothing later should have to ask.
-void checkIndices(const Trajectory& trajectory, const Reader& reader) {
-  const auto within = [](int index, std::size_t size) {
-    return index >= 0 && static_cast<std::size_t>(index) < size;
-  };
-  for (const Impact& impact : trajectory.impacts) {
-    const bool partner = impact.b.isWall() ? impact.b.wall() < trajectory.wallNames.size()
-                                           : within(impact.b.body(), trajectory.tracks.size());
-    if (!partner || !within(impact.a.value, trajectory.tracks.size())) {
-      reader.fail("names a body or wall it does not hold");
-    }
-  }
-  for (const Track& track : trajectory.tracks) {
-    if (track.segments.empty() || track.segments.front().start > 0) {
-      reader.fail("does not tell where body '" + track.name + "' begins");
-    }
-  }
 }
 
 }  // namespace
@@ -372,7 +633,7 @@ std::string encodeTrajectory(const Trajectory& trajectory) {
 
 bool looksLikeTrajectory(const std::string& bytes) { return bytes.starts_with(kMagic); }
 
-Trajectory decodeTrajectory(const std::string& bytes, const std::string& name) {
+Trajectory decodeTrajectory(const std::string& bytes, const std::string& name, const SetupReader& setupOf) {
   Reader reader(bytes, name);
   if (!looksLikeTrajectory(bytes)) {
     reader.fail("does not begin as one: expected a file written by 'careen simulate'");
@@ -384,7 +645,7 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name) {
   reader = Reader(body.substr(kMagic.size()), name);
   std::uint64_t version = 0;
   reader.visit(version);
-  if (version != kVersion) {
+  if (version != kVersion && version != kWithoutSetup) {
     reader.fail("has format version " + std::to_string(version) + ", expected " + std::to_string(kVersion));
   }
   std::uint64_t expected = 0;
@@ -401,12 +662,23 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name) {
   reader = Reader(*record, name);
   Trajectory trajectory;
   std::string stateHash;
-  visit(reader, trajectory);
+  if (version == kWithoutSetup) {
+    readWithoutSetup(reader, setupOf, trajectory);
+  } else {
+    visit(reader, trajectory);
+  }
   reader.visit(stateHash);
   if (!reader.atEnd()) {
     reader.fail("goes on after its end");
   }
-  checkIndices(trajectory, reader);
+  try {
+    if (version == kWithoutSetup) {
+      startWhereTracksDo(trajectory);
+    }
+    checkRun(trajectory);
+  } catch (const InputError& error) {
+    reader.fail(error.what());
+  }
   if (stateHash != trajectory.stateHash()) {
     reader.fail(
         "ends in another state than its hash says: it was made by a version that moves bodies otherwise");

@@ -76,7 +76,7 @@ void Film(benchmark::State& state) {
   const double begun = coreSeconds();
   for (auto _ : state) {
     const TemporaryFolder folder;
-    frames += static_cast<double>(renderFilm(run, drawn, settingsIn(folder, state.range(0))).drawn);
+    frames += static_cast<double>(renderFilm(run, settingsIn(folder, state.range(0))).drawn);
   }
   state.counters["frames/s"] = benchmark::Counter(frames, benchmark::Counter::kIsRate);
   state.counters["core ms/frame"] = 1e3 * (coreSeconds() - begun) / frames;
@@ -106,7 +106,7 @@ void FilmInTurn(benchmark::State& state) {
       if (state.range(0) >= 0) {
         options.context.threads = static_cast<int>(state.range(0));
       }
-      Renderer renderer(drawn, 1280, 720, options);
+      Renderer renderer(setupOf(drawn, 1280, 720), options);
       const FrameRate rate;
       Took took;
       renderer.draw(run.poses(0));  // the first frame makes its code

@@ -25,7 +25,9 @@ TEST(RunDifference, sameRunsAreTheSameWhateverTheirFilesSayBeside) {
   other.sceneText = "another text";
   other.settings.tolerance = 1e-9;
   other.figures.energyChange = 0.5;
-  other.wallNames.emplace_back("one that nothing met");
+  other.world.walls.push_back(
+      {.name = "one that nothing met", .normal = Vec3::UnitX(), .offset = -9, .material = {}});
+  other.stage.name = "another name";
   const RunDifference found = differenceOf(run, other);
   EXPECT_TRUE(found.sameBits);
   EXPECT_TRUE(found.incomparable.empty());
@@ -40,6 +42,7 @@ TEST(RunDifference, ordersOfBoxesDoNotMatter) {
   const Trajectory run = driftAndReturn();
   Trajectory other = run;
   std::swap(other.tracks[0], other.tracks[1]);
+  std::swap(other.world.bodies[0], other.world.bodies[1]);
   other.impacts[0].a = {1};
   const RunDifference found = differenceOf(run, other);
   EXPECT_FALSE(found.firstTime || found.firstImpact);
@@ -133,7 +136,7 @@ TEST(RunDifference, whatGrowsAsTimeDoesIsNoChaos) {
 TEST(RunDifference, otherBoxesCannotBeCompared) {
   const Trajectory run = driftAndReturn();
   Trajectory other = run;
-  other.tracks[0].name = "rambler";
+  other.world.bodies[0].name = "rambler";
   const RunDifference found = differenceOf(run, other);
   EXPECT_EQ(found.incomparable,
             (std::vector<std::string>{"box drifter is not there", "box rambler was not expected"}));

@@ -37,7 +37,7 @@ const std::vector<Picture>& film() {
     const Trajectory run = runOf(crate.scene);
     RenderOptions options;
     options.context.threads = 0;
-    Renderer renderer(crate.scene, kWidth, kHeight, options);
+    Renderer renderer(setupOf(crate.scene, kWidth, kHeight), options);
     std::vector<Picture> pictures;
     pictures.reserve(kFrames);
     for (int i = 0; i < kFrames; ++i) {

@@ -106,13 +106,13 @@ Mutations materialMutations() {
       made("shoulder from 0.6", [](Materials& it) { it.shoulder = 0.6; }),
       {"walls smoother, against the light", againstTheLight,
        [](Subject& it) { roughen(it, &Materials::wallRoughness, -0.1); }},
-      {"no smooth edges", stillLife, [](Subject& it) { it.look.antialiasing = Antialiasing::kOff; }},
+      {"no smooth edges", stillLife, [](Subject& it) { it.scene.picture.antialiasing = Antialiasing::kOff; }},
       {"edges smooth by samples", stillLife,
-       [](Subject& it) { it.look.antialiasing = Antialiasing::kMultisampled; }},
+       [](Subject& it) { it.scene.picture.antialiasing = Antialiasing::kMultisampled; }},
       {"drawn twice as large", stillLife,
-       [](Subject& it) { it.look.antialiasing = Antialiasing::kSupersampled; }},
-      {"as a blueprint", stillLife, [](Subject& it) { it.look.look = Look::kBlueprint; }},
-      {"as clay", stillLife, [](Subject& it) { it.look.look = Look::kClay; }},
+       [](Subject& it) { it.scene.picture.antialiasing = Antialiasing::kSupersampled; }},
+      {"as a blueprint", stillLife, [](Subject& it) { it.scene.picture.look = Look::kBlueprint; }},
+      {"as clay", stillLife, [](Subject& it) { it.scene.picture.look = Look::kClay; }},
   };
   for (const auto& [name, i] : kChannels) {
     const Eigen::Index channel = i;

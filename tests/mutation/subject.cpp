@@ -206,7 +206,7 @@ DeepPicture pictureOf(const Subject& subject) {
   }
   const std::vector<Pose> poses =
       subject.moment > 0 ? runOf(subject.scene).poses(subject.moment) : posesOf(subject.scene);
-  return deepPicture(Renderer(subject.scene, pictureWidth(), pictureHeight(), options).draw(poses));
+  return deepPicture(Renderer(setupOf(subject.scene, pictureWidth(), pictureHeight()), options).draw(poses));
 }
 
 const DeepPicture& unchangedPicture(const Subject& subject) {

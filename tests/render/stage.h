@@ -103,25 +103,31 @@ inline std::array<int, 3> pixelAt(const Picture& picture, int x, int y) {
   return {picture.rgb.at(place), picture.rgb.at(place + 1), picture.rgb.at(place + 2)};
 }
 
+/// A scene on a picture of this size [px].
+inline RunSetup setupOf(Scene scene, int width, int height) {
+  scene.picture.width = width;
+  scene.picture.height = height;
+  return setupOf(scene);
+}
+
 /// What becomes of a scene.
-inline Trajectory runOf(const Scene& scene) {
-  return record(
-      assemble(scene, plan(scene)),
-      {.method = scene.method, .duration = scene.duration, .dt = scene.dt, .tolerance = scene.tolerance},
-      scene.text);
+inline Trajectory runOf(const Scene& scene) { return record(setupOf(scene)); }
+
+/// A run as it is shown on the scene's stage.
+inline Trajectory shownAs(const Scene& scene, Trajectory run) {
+  run.stage = stageOf(scene);
+  return run;
 }
 
 /// The scene's first box drifts at a steady velocity for the scene's whole duration.
 inline Trajectory drifting(const Scene& scene, const Vec3& velocity) {
   Trajectory trajectory;
+  static_cast<RunSetup&>(trajectory) = setupOf(scene);
   trajectory.sceneText = scene.name;
-  trajectory.settings.duration = scene.duration;
   EulerStep motion;
   motion.start.pose = scene.boxes.at(0).pose;
   motion.start.velocity = velocity;
-  trajectory.tracks.push_back({.name = scene.boxes[0].name,
-                               .mass = solidBox(scene.boxes[0].halfExtents, scene.boxes[0].mass),
-                               .segments = {{.start = 0, .motion = motion}}});
+  trajectory.tracks.push_back({.segments = {{.start = 0, .motion = motion}}});
   return trajectory;
 }
 

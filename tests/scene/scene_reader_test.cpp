@@ -38,18 +38,18 @@ TEST(SceneReader, readsEveryKey) {
   EXPECT_EQ(scene.camera->target, Vec3(0, 0, 1));
   EXPECT_EQ(scene.camera->up, Vec3(0, 0, 1));  // made a unit vector
   EXPECT_EQ(scene.camera->fovDegrees, 35);
-  EXPECT_EQ(scene.film.width, 640);
-  EXPECT_EQ(scene.film.height, 360);
-  EXPECT_EQ(scene.film.rate.text(), "24000/1001");
-  EXPECT_EQ(scene.film.antialiasing, Antialiasing::kMultisampled);
-  EXPECT_EQ(scene.look, Look::kClay);
+  EXPECT_EQ(scene.picture.width, 640);
+  EXPECT_EQ(scene.picture.height, 360);
+  EXPECT_EQ(scene.picture.rate.text(), "24000/1001");
+  EXPECT_EQ(scene.picture.antialiasing, Antialiasing::kMultisampled);
+  EXPECT_EQ(scene.picture.look, Look::kClay);
   EXPECT_EQ(scene.cameraMove.orbitDegrees, 20);
   EXPECT_EQ(scene.cameraMove.followed, 0U);
-  ASSERT_EQ(scene.film.time.keys.size(), 3U);
-  EXPECT_EQ(scene.film.time.keys[2].film, 3);
-  EXPECT_EQ(scene.film.time.keys[2].scene, 2.25);
-  EXPECT_EQ(scene.film.shutter.text(), "90:4");
-  EXPECT_EQ(scene.overlays.text(), "time,energy");
+  ASSERT_EQ(scene.timeMap.keys.size(), 3U);
+  EXPECT_EQ(scene.timeMap.keys[2].film, 3);
+  EXPECT_EQ(scene.timeMap.keys[2].scene, 2.25);
+  EXPECT_EQ(scene.picture.shutter.text(), "90:4");
+  EXPECT_EQ(scene.picture.overlays.text(), "time,energy");
 }
 
 TEST(SceneReader, readsWalls) {
@@ -124,17 +124,17 @@ TEST(SceneReader, fillsInWhatASceneDoesNotSay) {
   EXPECT_EQ(scene.name, "untitled");
   EXPECT_EQ(scene.gravity, Vec3::Zero());
   EXPECT_FALSE(scene.room || scene.drag || scene.camera || scene.cameraMove.followed);
-  EXPECT_TRUE(scene.cameraMove.keys.empty() && scene.film.time.keys.empty());
-  EXPECT_EQ(scene.film.shutter.degrees, 0);
+  EXPECT_TRUE(scene.cameraMove.keys.empty() && scene.timeMap.keys.empty());
+  EXPECT_EQ(scene.picture.shutter.degrees, 0);
   EXPECT_TRUE(scene.walls.empty() && scene.springs.empty());
   EXPECT_EQ(scene.method, Method::kExact);
   EXPECT_EQ(scene.dt, 1.0 / 240);
   EXPECT_EQ(scene.tolerance, 1e-6);
-  EXPECT_EQ(scene.film.width, 1280);
-  EXPECT_EQ(scene.film.height, 720);
-  EXPECT_EQ(scene.film.rate.text(), "30");
-  EXPECT_EQ(scene.film.antialiasing, Antialiasing::kEdges);
-  EXPECT_EQ(scene.look, Look::kStudio);
+  EXPECT_EQ(scene.picture.width, 1280);
+  EXPECT_EQ(scene.picture.height, 720);
+  EXPECT_EQ(scene.picture.rate.text(), "30");
+  EXPECT_EQ(scene.picture.antialiasing, Antialiasing::kEdges);
+  EXPECT_EQ(scene.picture.look, Look::kStudio);
   const SceneBox& box = scene.boxes.at(0);
   EXPECT_EQ(box.name, "box-0");
   EXPECT_EQ(box.pose.position, Vec3::Zero());
@@ -172,7 +172,7 @@ TEST(SceneReader, shippedScenesParse) {
 TEST(SceneReader, defaultSceneIsOneBoxInFourSeconds) {
   const Scene scene = readScene(kSource / "assets" / "scenes" / "careen.json");
   EXPECT_EQ(scene.boxes.size(), 1U);
-  EXPECT_EQ(scene.film.rate.frameCount(scene.duration), 120);
+  EXPECT_EQ(scene.picture.rate.frameCount(scene.duration), 120);
 }
 
 TEST(SceneReader, sampleOf1997HasItsFigures) {

@@ -12,8 +12,10 @@ namespace {
 
 Scene roomAndRamp() {
   Scene scene;
-  scene.room =
-      Room{.min = Vec3(-3, -2, 1), .max = Vec3(4, 5, 6), .material = {.restitution = 0.5, .friction = 0.25}};
+  scene.room.emplace();
+  scene.room->min = Vec3(-3, -2, 1);
+  scene.room->max = Vec3(4, 5, 6);
+  scene.room->material = {.restitution = 0.5, .friction = 0.25};
   scene.walls.push_back({.name = "ramp", .normal = Vec3::UnitZ(), .offset = 0.5, .material = {}});
   return scene;
 }

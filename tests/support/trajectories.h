@@ -13,7 +13,9 @@ inline Trajectory driftAndReturn() {
   trajectory.settings = {.method = Method::kListing1, .duration = 1.0, .dt = 0.5};
   trajectory.figures = {
       .energyChange = 0.1, .momentumChange = 1e-16, .orthogonality = 3e-16, .deepestPenetration = 1e-4};
-  trajectory.wallNames = {"room-x", "room+x"};
+  trajectory.world.walls = {{.name = "room-x", .normal = Vec3(1, 0, 0), .offset = -3, .material = {}},
+                            {.name = "room+x", .normal = Vec3(-1, 0, 0), .offset = -2.1, .material = {}}};
+  trajectory.stage.colors.resize(2);
 
   EulerStep out;
   out.start.pose.position = Vec3(1, 0, 0);
@@ -22,13 +24,21 @@ inline Trajectory driftAndReturn() {
   back.start.pose.position = Vec3(2, 0, 0);
   back.start.velocity = Vec3(-2, 0, 0);
   back.start.angularMomentum = Vec3(0, 0, 1. / 3);
-  trajectory.tracks.push_back({.name = "drifter",
-                               .mass = solidBox(Vec3(0.1, 0.2, 0.3), 2.0),
-                               .segments = {{.start = 0, .motion = out}, {.start = 0.5, .motion = back}}});
+  const Vec3 halfExtents(0.1, 0.2, 0.3);
+  trajectory.world.bodies.push_back({.name = "drifter",
+                                     .halfExtents = halfExtents,
+                                     .mass = solidBox(halfExtents, 2.0),
+                                     .material = {},
+                                     .initial = out.start});
+  trajectory.tracks.push_back({.segments = {{.start = 0, .motion = out}, {.start = 0.5, .motion = back}}});
   Rest rest;
   rest.pose.position = Vec3(0, 5, 0);
-  trajectory.tracks.push_back(
-      {.name = "anchor", .mass = immovable(), .segments = {{.start = 0, .motion = rest}}});
+  trajectory.world.bodies.push_back({.name = "anchor",
+                                     .halfExtents = Vec3::Ones(),
+                                     .mass = immovable(),
+                                     .material = {},
+                                     .initial = {.pose = rest.pose}});
+  trajectory.tracks.push_back({.segments = {{.start = 0, .motion = rest}}});
   trajectory.impacts.push_back({.time = 0.5,
                                 .a = {0},
                                 .b = Partner::ofWall(1),

@@ -46,6 +46,7 @@ TEST(Trajectory, stateHashSeesOneBitAndNoOrder) {
 
   Trajectory swapped = trajectory;
   std::swap(swapped.tracks[0], swapped.tracks[1]);
+  std::swap(swapped.world.bodies[0], swapped.world.bodies[1]);
   EXPECT_EQ(swapped.stateHash(), hash);
 
   Trajectory nudged = trajectory;
@@ -76,7 +77,10 @@ TEST(Trajectory, recordsWhatTheMethodTells) {
   const Trajectory trajectory =
       record(world, {.method = Method::kListing1, .duration = 2, .dt = 0.25}, "text");
   EXPECT_EQ(trajectory.sceneText, "text");
-  EXPECT_EQ(trajectory.wallNames, std::vector<std::string>{"far"});
+  ASSERT_EQ(trajectory.world.walls.size(), 1U);
+  EXPECT_EQ(trajectory.world.walls[0].name, "far");
+  EXPECT_EQ(trajectory.world.bodies[0].halfExtents, Vec3(0.5, 0.5, 0.5));
+  EXPECT_EQ(trajectory.stage.colors.size(), 1U);
   EXPECT_EQ(trajectory.state(0, 1.3125).pose.position, Vec3(1.3125, 0, 0));
   EXPECT_TRUE(trajectory.impacts.empty());
 }

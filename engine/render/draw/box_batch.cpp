@@ -58,17 +58,17 @@ bool isSame(const Pose& a, const Pose& b) {
 }
 
 // `before` are the poses of the moment before, if there is one: what rests is there already.
-void appendBoxes(std::vector<DrawnBox>& boxes, const Scene& scene, std::span<const Pose> poses,
-                 std::span<const Pose> before, double springThickness) {
-  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+void appendBoxes(std::vector<DrawnBox>& boxes, const World& world, const Stage& stage,
+                 std::span<const Pose> poses, std::span<const Pose> before, double springThickness) {
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     if (!before.empty() && isSame(poses[i], before[i])) {
       continue;
     }
     boxes.push_back({.pose = poses[i],
-                     .halfExtents = scene.boxes[i].halfExtents,
-                     .color = linearFromSrgb(scene.boxes[i].color)});
+                     .halfExtents = world.bodies[i].halfExtents,
+                     .color = linearFromSrgb(stage.colors[i])});
   }
-  for (const Spring& spring : scene.springs) {
+  for (const Spring& spring : world.springs) {
     const Vec3 from = endOf(spring.from, poses);
     const Vec3 to = endOf(spring.to, poses);
     if ((to - from).norm() > 0.1 * springThickness) {
@@ -79,14 +79,15 @@ void appendBoxes(std::vector<DrawnBox>& boxes, const Scene& scene, std::span<con
 
 }  // namespace
 
-std::vector<DrawnBox> drawnBoxes(const Scene& scene, std::span<const Pose> poses, double springThickness) {
-  const std::size_t count = scene.boxes.size();
+std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::span<const Pose> poses,
+                                 double springThickness) {
+  const std::size_t count = world.bodies.size();
   std::vector<DrawnBox> boxes;
-  boxes.reserve(poses.size() + scene.springs.size());
+  boxes.reserve(poses.size() + world.springs.size());
   for (std::size_t first = 0; first < poses.size() || first == 0; first += std::max<std::size_t>(count, 1)) {
     const std::span<const Pose> before =
         first == 0 ? std::span<const Pose>() : poses.subspan(first - count, count);
-    appendBoxes(boxes, scene, poses.subspan(first, count), before, springThickness);
+    appendBoxes(boxes, world, stage, poses.subspan(first, count), before, springThickness);
   }
   return boxes;
 }

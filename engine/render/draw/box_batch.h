@@ -7,13 +7,13 @@
 
 #include "core/math/pose.h"
 #include "render/gl/vertex_array.h"
-#include "scene/scene.h"
+#include "stage/run_setup.h"
 
 namespace careen {
 
 struct Gl;
 
-/// One box to draw. Boxes of a scene carry marks on their faces, springs are boxes without.
+/// One box to draw. Boxes of a run carry marks on their faces, springs are boxes without.
 struct DrawnBox {
   Pose pose;
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
@@ -21,9 +21,10 @@ struct DrawnBox {
   bool marked = true;
 };
 
-/// The scene's boxes, then its springs as thin rods, so thick [m], from end to end. With poses for several
+/// The run's boxes, then its springs as thin rods, so thick [m], from end to end. With poses for several
 /// moments one after the other: all of that for each of them, less boxes that have not moved since.
-std::vector<DrawnBox> drawnBoxes(const Scene& scene, std::span<const Pose> poses, double springThickness);
+std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::span<const Pose> poses,
+                                 double springThickness);
 
 /// All boxes of a frame, drawn at once.
 class BoxBatch {

@@ -46,8 +46,8 @@ std::vector<std::string> lightShaders(const Lighting& lighting, bool shadows) {
 }
 
 // A room holds its boxes, so its shadows keep still; elsewhere the map follows them.
-Extent castersOf(const Scene& scene, const Extent& extent, const std::vector<DrawnBox>& boxes) {
-  if (scene.room) {
+Extent castersOf(const Stage& stage, const Extent& extent, const std::vector<DrawnBox>& boxes) {
+  if (stage.room) {
     return extent;
   }
   Extent casters{.min = boxes[0].pose.position, .max = boxes[0].pose.position};
@@ -100,21 +100,21 @@ Mat4 fromOffset(const Mat4& fromWorld, const Vec3& eye) {
 }  // namespace
 
 struct Renderer::Parts {
-  Parts(Scene drawnScene, int width, int pictureHeight, const RenderOptions& options);
+  Parts(const RunSetup& setup, const RenderOptions& options);
   void look(const Camera& from);
   void drawShadows(const std::vector<DrawnBox>& drawn);
   void drawPicture();
   void drawOver(Picture& picture, const OverlayShapes& shapes);
   void upload() const;
 
-  Scene scene;
+  World world;
+  Stage stage;
   Extent extent;
   double aspect;
   Camera camera;
   View view;
   Lighting lighting;
   Materials materials;
-  int height;  // [px]
   bool shadows;
   std::unique_ptr<GlContext> context;
   Gl gl;
@@ -132,21 +132,21 @@ struct Renderer::Parts {
   DrawFigures figures;
 };
 
-Renderer::Parts::Parts(Scene drawnScene, int width, int pictureHeight, const RenderOptions& options)
-    : scene(std::move(drawnScene)),
-      extent(extentOf(scene)),
-      aspect(static_cast<double>(width) / pictureHeight),
-      camera(options.camera ? *options.camera : cameraOf(scene, aspect)),
-      lighting(options.lighting ? *options.lighting : lightingOf(options.look.value_or(scene.look), camera)),
-      materials(options.materials ? *options.materials : materialsOf(options.look.value_or(scene.look))),
-      height(pictureHeight),
-      shadows(lighting.light && lighting.light->castsShadow && !scene.boxes.empty()),
+Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
+    : world(setup.world),
+      stage(setup.stage),
+      extent(extentOf(setup)),
+      aspect(stage.picture.aspect()),
+      camera(options.camera ? *options.camera : cameraOf(setup, aspect)),
+      lighting(options.lighting ? *options.lighting : lightingOf(stage.picture.look, camera)),
+      materials(options.materials ? *options.materials : materialsOf(stage.picture.look)),
+      shadows(lighting.light && lighting.light->castsShadow && !world.bodies.empty()),
       context(openContext(options.context)),
       gl(*context),
-      canvas(gl, width, pictureHeight, options.antialiasing.value_or(scene.film.antialiasing)),
+      canvas(gl, stage.picture.width, stage.picture.height, stage.picture.antialiasing),
       shaders(shaderFolder(options)),
       boxes(gl, shaders, lightShaders(lighting, shadows)),
-      surfaces(gl, shaders, lightShaders(lighting, shadows), surfacesOf(scene, extent, materials),
+      surfaces(gl, shaders, lightShaders(lighting, shadows), surfacesOf(stage, extent, materials),
                tileSize(extent)),
       backgroundArray(makeVertexArray(gl)),
       backgroundProgram(linkProgram(gl, shaders, {"background.vert", "background.frag", "finish.frag"})) {
@@ -193,7 +193,7 @@ void Renderer::Parts::look(const Camera& from) {
 }
 
 void Renderer::Parts::drawShadows(const std::vector<DrawnBox>& drawn) {
-  const Mat4 fromWorld = shadowFromWorld(castersOf(scene, extent, drawn), lighting.light->towards);
+  const Mat4 fromWorld = shadowFromWorld(castersOf(stage, extent, drawn), lighting.light->towards);
   block.shadowFromOffset = floats(fromOffset(fromWorld, view.eye));
   block.shadowBounds = shadowBounds(fromWorld, drawn);
   upload();
@@ -224,8 +224,8 @@ void Renderer::Parts::drawOver(Picture& picture, const OverlayShapes& shapes) {
   ++figures.overlayPasses;
 }
 
-Renderer::Renderer(const Scene& scene, int width, int height, const RenderOptions& options)
-    : parts_(std::make_unique<Parts>(scene, width, height, options)) {}
+Renderer::Renderer(const RunSetup& setup, const RenderOptions& options)
+    : parts_(std::make_unique<Parts>(setup, options)) {}
 
 Renderer::~Renderer() = default;
 
@@ -236,7 +236,7 @@ Picture Renderer::draw(std::span<const Pose> poses) {
 Picture Renderer::draw(const Shot& shot) {
   Parts& parts = *parts_;
   const std::size_t poses = shot.poses.size();
-  const std::size_t boxes = parts.scene.boxes.size();
+  const std::size_t boxes = parts.world.bodies.size();
   if (boxes == 0 ? poses != 0 : poses == 0 || poses % boxes != 0) {
     throw InputError("drawing: found " + std::to_string(poses) + " poses, expected one for each of " +
                      std::to_string(boxes) + " boxes, or so many for each of several moments");
@@ -244,8 +244,9 @@ Picture Renderer::draw(const Shot& shot) {
   const Clock::time_point begun = Clock::now();
   parts.context->makeCurrent();
   parts.look(shot.camera);
-  std::vector<DrawnBox> drawn = drawnBoxes(parts.scene, shot.poses, 0.004 * parts.extent.radius());
-  widenSprings(drawn, parts.view.eye, pixelAngle(shot.camera, parts.height));
+  std::vector<DrawnBox> drawn =
+      drawnBoxes(parts.world, parts.stage, shot.poses, 0.004 * parts.extent.radius());
+  widenSprings(drawn, parts.view.eye, pixelAngle(shot.camera, parts.stage.picture.height));
   parts.boxes.place(drawn, parts.view.eye);
   if (parts.contactShades) {
     parts.contactShades->place(contactShades(drawn, parts.surfaces.surfaces(), parts.materials.contactShade),

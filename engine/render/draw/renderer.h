@@ -14,18 +14,17 @@
 #include "render/look/materials.h"
 #include "render/overlay/shapes.h"
 #include "render/view/camera.h"
-#include "scene/scene.h"
+#include "stage/camera.h"
+#include "stage/run_setup.h"
 
 namespace careen {
 
 struct RenderOptions {
   ContextOptions context;
-  std::optional<Lighting> lighting;          ///< absent: that of the scene's look
-  std::optional<Materials> materials;        ///< absent: those of the scene's look
-  std::optional<Look> look;                  ///< absent: the scene's
-  std::optional<Antialiasing> antialiasing;  ///< absent: the scene's
-  std::optional<Camera> camera;              ///< by which the light is set up; absent: cameraOf(scene)
-  std::filesystem::path shaders;             ///< folder; empty: the program's own
+  std::optional<Lighting> lighting;    ///< absent: that of the picture's look
+  std::optional<Materials> materials;  ///< absent: those of the picture's look
+  std::optional<Camera> camera;        ///< by which the light is set up; absent: cameraOf(setup)
+  std::filesystem::path shaders;       ///< folder; empty: the program's own
 };
 
 /// What drawing took so far.
@@ -42,18 +41,18 @@ using OverlaySource = std::function<OverlayShapes(const View&)>;
 
 /// A picture to be drawn.
 struct Shot {
-  std::span<const Pose> poses;  ///< one for each box of the scene, in its order; or so for several moments,
+  std::span<const Pose> poses;  ///< one for each body of the world, in its order; or so for several moments,
                                 ///< one after the other, all of which are drawn
   Camera camera;
 };
 
-/// Draws a scene with its boxes where they are told to be. The same shot gives the same bytes, whatever was
-/// drawn before.
+/// Draws a run's boxes where they are told to be, on its stage, as stage.picture says. The same shot gives
+/// the same bytes, whatever was drawn before.
 class Renderer {
  public:
-  /// Size in pixels. InputError for a size beyond what GL can do, MachineError where there is no GL to do it,
-  /// or it has fewer samples a pixel than asked for.
-  Renderer(const Scene& scene, int width, int height, const RenderOptions& options = {});
+  /// InputError for a size beyond what GL can do, MachineError where there is no GL to do it, or it has fewer
+  /// samples a pixel than asked for.
+  explicit Renderer(const RunSetup& setup, const RenderOptions& options = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

@@ -38,24 +38,14 @@ double coreSeconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-FilmManifest manifestOf(const Trajectory& trajectory, const Scene& scene, const FilmSettings& settings,
-                        double duration) {
-  const auto look = static_cast<std::size_t>(settings.render.look.value_or(scene.look));
-  const auto antialiasing =
-      static_cast<std::size_t>(settings.render.antialiasing.value_or(scene.film.antialiasing));
+FilmManifest manifestOf(const Trajectory& run, const FilmSettings& settings, double duration) {
   FilmManifest manifest{.program = settings.program,
                         .renderer = {},
                         .libraries = librariesHere(),
-                        .sceneHash = trajectory.sceneHash(),
-                        .stateHash = trajectory.stateHash(),
-                        .width = settings.width,
-                        .height = settings.height,
-                        .rate = settings.rate,
-                        .look = std::string(kLooks.at(look)),
-                        .antialiasing = std::string(kAntialiasings.at(antialiasing)),
-                        .shutter = settings.shutter.text(),
-                        .overlays = settings.overlays.text(),
-                        .frameCount = settings.rate.frameCount(duration),
+                        .sceneHash = run.sceneHash(),
+                        .stateHash = run.stateHash(),
+                        .picture = run.stage.picture,
+                        .frameCount = run.stage.picture.rate.frameCount(duration),
                         .frames = {}};
   manifest.frames = framesOf(settings.frames, manifest.frameCount);
   return manifest;
@@ -87,36 +77,38 @@ RenderOptions optionsOfJob(const FilmSettings& settings, int jobs) {
   return options;
 }
 
-std::size_t pictureBytes(const FilmSettings& settings) {
-  return static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height) * 3;
+std::size_t bytesOf(const PictureSettings& picture) {
+  return static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) * 3;
 }
 
-std::unique_ptr<VideoPipe> startVideo(const FilmSettings& settings) {
+std::unique_ptr<VideoPipe> startVideo(const FilmSettings& settings, const PictureSettings& picture) {
   if (!settings.video) {
     return nullptr;
   }
   VideoSettings video = *settings.video;
-  video.width = settings.width;
-  video.height = settings.height;
-  video.rateNumerator = settings.rate.numerator;
-  video.rateDenominator = settings.rate.denominator;
+  video.width = picture.width;
+  video.height = picture.height;
+  video.rateNumerator = picture.rate.numerator;
+  video.rateDenominator = picture.rate.denominator;
   return std::make_unique<VideoPipe>(std::move(video));
 }
 
 // What a job does, in its own process. The ring has places if there is a video.
-FrameWorkshop openWorkshop(const Filming& filming, const Scene& scene, const FilmSettings& settings,
+FrameWorkshop openWorkshop(const Filming& filming, const Trajectory& run, const FilmSettings& settings,
                            const std::optional<Overlays>& overlays, int jobs, const PictureRing& ring) {
   if (glWasOpened()) {  // rather than wait for threads that were not forked
     throw MachineError("no job can draw: GL had been opened before it was forked");
   }
   RenderOptions options = optionsOfJob(settings, jobs);
   options.camera = filming.camera(0);
-  const auto renderer = std::make_shared<Renderer>(scene, settings.width, settings.height, options);
-  const auto work = [renderer, &filming, &settings, &overlays, &ring](std::int64_t index,
-                                                                      std::int64_t frame) {
-    FrameFigures figures{.frame = frame, .time = settings.rate.frameTime(frame)};
+  const auto renderer = std::make_shared<Renderer>(run, options);
+  const PictureSettings& settingsOfPicture = run.stage.picture;
+  const auto work = [renderer, &filming, &settings, &settingsOfPicture, &overlays, &ring](
+                        std::int64_t index, std::int64_t frame) {
+    FrameFigures figures{.frame = frame, .time = settingsOfPicture.rate.frameTime(frame)};
     const DrawFigures before = renderer->figures();
-    Picture picture = filming.draw(*renderer, figures.time, settings.shutter, settings.rate);
+    Picture picture =
+        filming.draw(*renderer, figures.time, settingsOfPicture.shutter, settingsOfPicture.rate);
     if (overlays) {
       filming.explain(*renderer, picture, figures.time, *overlays);
     }
@@ -240,13 +232,14 @@ class FrameFlow {
 
 }  // namespace
 
-FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const FilmSettings& settings,
-                       const FilmCallback& progress, const std::stop_token& stop) {
+FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, const FilmCallback& progress,
+                       const std::stop_token& stop) {
   const double wallBegun = wallSeconds();
   const double coreBegun = coreSeconds();
-  const Filming filming(scene, trajectory, static_cast<double>(settings.width) / settings.height);
-  FilmManifest asked = manifestOf(trajectory, scene, settings, filming.duration());
-  filming.checkCamera(asked.frames, settings.rate);
+  const PictureSettings& picture = run.stage.picture;
+  const Filming filming(run);
+  FilmManifest asked = manifestOf(run, settings, filming.duration());
+  filming.checkCamera(asked.frames, picture.rate);
   FilmFolder folder(settings.folder);
   if (settings.resume) {
     refuseAnotherFilm(folder, asked);
@@ -255,17 +248,18 @@ FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const F
 
   // All that may fail comes before the film that is there is touched. What is there already needs no GL.
   std::optional<Overlays> overlays;
-  if (!missing.empty() && settings.overlays.any()) {
-    overlays.emplace(trajectory, scene, settings.overlays, settings.rate.frameTime(1));
+  if (!missing.empty() && picture.overlays.any()) {
+    overlays.emplace(run, picture.overlays, picture.rate.frameTime(1));
   }
   const int jobs = jobCount(settings, missing.size());
-  const PictureRing ring(settings.video ? jobs + 2 : 0, pictureBytes(settings));
-  FilmWorkers workers(jobs, [&] { return openWorkshop(filming, scene, settings, overlays, jobs, ring); });
+  const PictureRing ring(settings.video ? jobs + 2 : 0, bytesOf(picture));
+  FilmWorkers workers(jobs, [&] { return openWorkshop(filming, run, settings, overlays, jobs, ring); });
   asked.renderer = workers.renderer();
   if (settings.resume) {
     refuseAnotherFilm(folder, asked);
   }
-  const std::unique_ptr<VideoPipe> video = startVideo(settings);  // after the workers: its pipe is not theirs
+  const std::unique_ptr<VideoPipe> video =
+      startVideo(settings, picture);  // after the workers: its pipe is not theirs
   folder.begin(asked, settings.resume);
 
   FilmFigures figures =

@@ -11,22 +11,16 @@
 #include "film/frame_range.h"
 #include "image/video_format.h"
 #include "render/draw/renderer.h"
-#include "scene/scene.h"
-#include "stage/frame_rate.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {
 
+/// How a film is made; what its pictures are like is the run's (Stage::picture).
 struct FilmSettings {
   std::filesystem::path folder;    ///< of the frames: 000000.png, …
   std::vector<FrameRange> frames;  ///< empty: all
-  int width = 1280;                ///< [px]
-  int height = 720;                ///< [px]
-  FrameRate rate;
-  Shutter shutter;  ///< in place of the scene's
-  /// Film of the frames asked for, by ffmpeg; its size and rate are taken from here.
+  /// Film of the frames asked for, by ffmpeg; its size and rate are taken from the run's pictures.
   std::optional<VideoSettings> video;
-  OverlaySet overlays;  ///< drawn over the frames
   bool resume = false;  ///< frames of the same film that are there already are left as they are
   /// Processes that draw, each a frame at a time; absent: one for each core. Never more than there are frames
   /// to draw.
@@ -69,7 +63,7 @@ struct FilmFigures {
   std::string renderer;      ///< empty if nothing had to be drawn
 };
 
-/// Films a run: frame k shows film time k/fps exactly, as the scene's camera and time map want it, by the
+/// Films a run: frame k shows film time k/fps exactly, as the stage's camera and time map want it, by the
 /// same bytes however the work is split. Frames appear whole or not at all, so a run that was interrupted
 /// (Interrupted, after the frames at hand) or killed can be completed, to the same bytes. A film of careen's
 /// that is in the folder already is replaced, or with `resume` completed if it is the same one, drawn by the
@@ -81,7 +75,7 @@ struct FilmFigures {
 /// bytes more, for frames that wait for their turn, and what ffmpeg takes.
 ///
 /// Jobs are forked, so this process must not have opened GL before (GL's threads are not forked with it).
-FilmFigures renderFilm(const Trajectory& trajectory, const Scene& scene, const FilmSettings& settings,
-                       const FilmCallback& progress = {}, const std::stop_token& stop = {});
+FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, const FilmCallback& progress = {},
+                       const std::stop_token& stop = {});
 
 }  // namespace careen

@@ -32,8 +32,10 @@ bool isSame(const Sample& a, const Sample& b) {
 
 }  // namespace
 
-Filming::Filming(const Scene& scene, const Trajectory& run, double aspect)
-    : run_(run), clock_(scene.film.time.within(run.settings.duration)), path_(scene, run, clock_, aspect) {}
+Filming::Filming(const Trajectory& run)
+    : run_(run),
+      clock_(run.stage.timeMap.within(run.settings.duration)),
+      path_(run, clock_, run.stage.picture.aspect()) {}
 
 Camera Filming::camera(double filmTime) const {
   return orbited(path_.at(std::clamp(filmTime, 0.0, duration())), orbit_);

@@ -8,7 +8,7 @@
 #include "image/picture.h"
 #include "render/view/camera_path.h"
 #include "render/view/orbit.h"
-#include "scene/scene.h"
+#include "stage/camera.h"
 #include "stage/time_map.h"
 #include "trajectory/trajectory.h"
 
@@ -18,11 +18,11 @@ class Overlays;
 class Renderer;
 
 /// What the film of a run shows at each of its moments: from where, and where the boxes are, both exact at
-/// any time. Keeps scene and run by reference.
+/// any time. Keeps the run by reference.
 class Filming {
  public:
   /// InputError if the film begins after the run's end.
-  Filming(const Scene& scene, const Trajectory& run, double aspect);
+  explicit Filming(const Trajectory& run);
 
   double duration() const { return clock_.duration(); }  ///< [s] of the film
   /// [s] of the scene; before the film's beginning and after its end all stands still, the camera too.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "image/picture.h"
-#include "scene/scene.h"
+#include "stage/picture_settings.h"
 
 namespace careen {
 

@@ -3,7 +3,9 @@
 #include <optional>
 
 #include "core/math/linear_algebra.h"
-#include "scene/scene.h"
+#include "stage/camera.h"
+#include "stage/color.h"
+#include "stage/picture_settings.h"
 
 namespace careen {
 

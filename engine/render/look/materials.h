@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/math/linear_algebra.h"
-#include "scene/scene.h"
+#include "stage/picture_settings.h"
 
 namespace careen {
 

@@ -7,7 +7,7 @@ namespace careen {
 namespace {
 
 // Side 0…5 of a room, in the order of kRoomSides.
-Surface roomSide(const Room& room, std::size_t side, const Materials& materials) {
+Surface roomSide(const RoomShape& room, std::size_t side, const Materials& materials) {
   const auto axis = static_cast<Eigen::Index>(side / 2);
   const bool isMax = side % 2 == 1;
   Surface surface;
@@ -57,7 +57,7 @@ std::vector<Vec3> clipped(const std::vector<Vec3>& outline, const Vec3& normal, 
 }
 
 // A square of the wall's plane, large enough to hold all of it that the extent holds, then cut to the extent.
-Surface slab(const Wall& wall, const Extent& extent, const Materials& materials) {
+Surface slab(const Plane& wall, const Extent& extent, const Materials& materials) {
   Surface surface;
   surface.normal = wall.normal;
   const bool isLevel = std::abs(wall.normal.z()) > 0.999;
@@ -93,22 +93,22 @@ double tileSize(const Extent& extent) {
   return power;
 }
 
-std::vector<Surface> surfacesOf(const Scene& scene, const Extent& extent, const Materials& materials) {
+std::vector<Surface> surfacesOf(const Stage& stage, const Extent& extent, const Materials& materials) {
   std::vector<Surface> surfaces;
-  if (scene.room) {
+  if (stage.room) {
     for (std::size_t side = 0; side < kRoomSides.size(); ++side) {
-      if (!scene.room->open[side]) {
-        surfaces.push_back(roomSide(*scene.room, side, materials));
+      if (!stage.room->open[side]) {
+        surfaces.push_back(roomSide(*stage.room, side, materials));
       }
     }
   }
   // Where no room bounds it, a wall reaches beyond what happens in front of it.
   Extent reach = extent;
-  if (!scene.room) {
+  if (!stage.room) {
     const Vec3 margin = Vec3::Constant(extent.radius());
     reach = {.min = extent.min - margin, .max = extent.max + margin};
   }
-  for (const Wall& wall : scene.walls) {
+  for (const Plane& wall : stage.planes) {
     Surface surface = slab(wall, reach, materials);
     if (surface.outline.size() >= 3) {
       surfaces.push_back(std::move(surface));

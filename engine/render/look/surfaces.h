@@ -5,7 +5,7 @@
 #include "core/math/linear_algebra.h"
 #include "render/look/materials.h"
 #include "render/view/scene_extent.h"
-#include "scene/scene.h"
+#include "stage/stage.h"
 
 namespace careen {
 
@@ -31,6 +31,6 @@ struct Surface {
 double tileSize(const Extent& extent);
 
 /// Floor and walls: the room's closed sides, and of every further wall what lies within the extent.
-std::vector<Surface> surfacesOf(const Scene& scene, const Extent& extent, const Materials& materials = {});
+std::vector<Surface> surfacesOf(const Stage& stage, const Extent& extent, const Materials& materials = {});
 
 }  // namespace careen

@@ -31,12 +31,12 @@ void addArrows(OverlayShapes& shapes, const OverlayFrame& frame, double largest,
 }
 
 Vec3 spinOf(const OverlayFrame& frame, std::size_t body) {
-  return angularVelocity(frame.trajectory.tracks[body].mass, frame.states[body]);
+  return angularVelocity(frame.trajectory.world.bodies[body].mass, frame.states[body]);
 }
 
 Vec3 cornerAt(const OverlayFrame& frame, std::size_t body, double time) {
   return frame.trajectory.state(body, time)
-      .pose.worldPoint(corner(frame.scene.boxes[body].halfExtents, kCornerFollowed));
+      .pose.worldPoint(corner(frame.trajectory.world.bodies[body].halfExtents, kCornerFollowed));
 }
 
 bool concerns(const Impact& impact, std::size_t body) {
@@ -111,7 +111,8 @@ bool hides(const Pose& pose, const Vec3& halfExtents, const Vec3& eye, const Vec
 
 void addTrail(OverlayShapes& shapes, const OverlayFrame& frame, std::size_t body) {
   const auto visibility = [&](const Vec3& point) {
-    return hides(frame.states[body].pose, frame.scene.boxes[body].halfExtents, frame.screen.eye(), point)
+    return hides(frame.states[body].pose, frame.trajectory.world.bodies[body].halfExtents, frame.screen.eye(),
+                 point)
                ? kBehindItsBox
                : 1.0;
   };
@@ -126,7 +127,7 @@ void addTrail(OverlayShapes& shapes, const OverlayFrame& frame, std::size_t body
       pieces.emplace_back();
     }
   }
-  const Color color = lightened(frame.scene.boxes[body].color);
+  const Color color = lightened(frame.trajectory.stage.colors[body]);
   const double width = 1.25 * frame.style.line;
   for (const bool isRim : {true, false}) {
     for (Ribbon& piece : pieces) {
@@ -157,7 +158,8 @@ struct Covered {
 Covered coveredBy(const OverlayFrame& frame, std::size_t body, const Vec2& centre) {
   Covered covered{centre, centre};
   for (int index = 0; index < kCorners; ++index) {
-    const Vec3 at = frame.states[body].pose.worldPoint(corner(frame.scene.boxes[body].halfExtents, index));
+    const Vec3 at =
+        frame.states[body].pose.worldPoint(corner(frame.trajectory.world.bodies[body].halfExtents, index));
     if (const std::optional<Vec2> seen = frame.screen.at(at)) {
       covered.min = covered.min.cwiseMin(*seen);
       covered.max = covered.max.cwiseMax(*seen);
@@ -191,7 +193,7 @@ void addName(OverlayShapes& shapes, const OverlayFrame& frame, std::size_t body,
   if (!centre || centre->minCoeff() < 0 || (picture - *centre).minCoeff() < 0) {
     return;
   }
-  const std::string& name = frame.scene.boxes[body].name;
+  const std::string& name = frame.trajectory.world.bodies[body].name;
   const double em = std::max(kSmallestText, 0.9 * frame.style.text);
   const Vec2 size(std::round(frame.fonts->plain.width(name, em) + 0.9 * em), std::round(1.5 * em));
   const Covered box = coveredBy(frame, body, *centre);
@@ -241,7 +243,7 @@ Plate plateFor(const OverlayStyle& style, const Vec2& min, const Vec2& max) {
 
 void addTrails(OverlayShapes& shapes, const OverlayFrame& frame) {
   for (std::size_t body = 0; body < frame.states.size(); ++body) {
-    if (!frame.scene.boxes[body].fixed && !isResting(frame, body)) {
+    if (!isImmovable(frame.trajectory.world.bodies[body].mass) && !isResting(frame, body)) {
       addTrail(shapes, frame, body);
     }
   }
@@ -286,7 +288,7 @@ void addNames(OverlayShapes& shapes, const OverlayFrame& frame) {
     }
   }
   for (const std::size_t body : nearestFirst) {
-    const bool isGiven = frame.scene.boxes[body].name != "box-" + std::to_string(body);
+    const bool isGiven = frame.trajectory.world.bodies[body].name != "box-" + std::to_string(body);
     if (isGiven || frame.states.size() <= kMostNames) {
       addName(shapes, frame, body, taken);
     }

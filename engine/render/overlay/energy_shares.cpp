@@ -13,7 +13,7 @@ double lowestOf(const Trajectory& trajectory, std::size_t body, const Vec3& grav
   double lowest = -gravity.dot(trajectory.state(body, trajectory.settings.duration).pose.position);
   for (const Segment& segment : trajectory.tracks[body].segments) {
     if (segment.start <= trajectory.settings.duration) {
-      const BodyState state = stateAt(segment.motion, trajectory.tracks[body].mass, 0);
+      const BodyState state = stateAt(segment.motion, trajectory.world.bodies[body].mass, 0);
       lowest = std::min(lowest, -gravity.dot(state.pose.position));
     }
   }
@@ -35,10 +35,10 @@ std::vector<BodyState> statesAt(const Trajectory& trajectory, double time) {
   return states;
 }
 
-EnergyBook::EnergyBook(const Trajectory& trajectory, const Scene& scene)
-    : gravity_(scene.gravity), springs_(scene.springs) {
+EnergyBook::EnergyBook(const Trajectory& trajectory)
+    : gravity_(trajectory.world.gravity), springs_(trajectory.world.springs) {
   for (std::size_t body = 0; body < trajectory.tracks.size(); ++body) {
-    masses_.push_back(trajectory.tracks[body].mass);
+    masses_.push_back(trajectory.world.bodies[body].mass);
     lowest_.push_back(lowestOf(trajectory, body, gravity_));
   }
   atStart_ = sharesOf(statesAt(trajectory, 0)).sum();

@@ -3,12 +3,11 @@
 #include <span>
 #include <vector>
 
-#include "scene/scene.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {
 
-/// What a scene's energy is made of at a moment [J].
+/// What a run's energy is made of at a moment [J].
 struct EnergyShares {
   double translation = 0;  ///< Σ ½ M v²
   double rotation = 0;     ///< Σ ½ ω·L
@@ -21,9 +20,9 @@ struct EnergyShares {
 /// reaches in the run, so that no share is ever negative: in flight the lowest is at one of the ends.
 class EnergyBook {
  public:
-  EnergyBook(const Trajectory& trajectory, const Scene& scene);
+  explicit EnergyBook(const Trajectory& trajectory);
 
-  /// One state for each box of the scene, at the same moment.
+  /// One state for each box, at the same moment.
   EnergyShares sharesOf(std::span<const BodyState> states) const;
   double atStart() const { return atStart_; }
   /// The largest sum found: not much above the start, but for what adds energy by its errors.

@@ -9,7 +9,6 @@
 #include "render/overlay/shapes.h"
 #include "render/overlay/style.h"
 #include "render/view/screen.h"
-#include "scene/scene.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {
@@ -30,7 +29,6 @@ struct OverlayFonts {
 /// What overlays are made from at one moment.
 struct OverlayFrame {
   const Trajectory& trajectory;
-  const Scene& scene;
   double time = 0;          ///< [s]
   double frameSeconds = 0;  ///< [s] from one frame of the film to the next
   const std::vector<BodyState>& states;

@@ -42,7 +42,7 @@ OverlayScales scalesOf(const Trajectory& trajectory) {
   for (int step = 0; step <= steps; ++step) {
     const std::vector<BodyState> states = statesAt(trajectory, trajectory.settings.duration * step / steps);
     for (std::size_t body = 0; body < states.size(); ++body) {
-      const double spin = angularVelocity(trajectory.tracks[body].mass, states[body]).norm();
+      const double spin = angularVelocity(trajectory.world.bodies[body].mass, states[body]).norm();
       scales.speed = std::max(scales.speed, states[body].velocity.norm());
       scales.angularMomentum = std::max(scales.angularMomentum, states[body].angularMomentum.norm());
       scales.angularSpeed = std::max(scales.angularSpeed, spin);
@@ -56,9 +56,9 @@ OverlayScales scalesOf(const Trajectory& trajectory) {
 
 }  // namespace
 
-Overlays::Overlays(const Trajectory& trajectory, const Scene& scene, const OverlaySet& shown,
-                   double frameSeconds, std::span<const std::filesystem::path> folders)
-    : trajectory_(trajectory), scene_(scene), shown_(shown), frameSeconds_(frameSeconds) {
+Overlays::Overlays(const Trajectory& trajectory, const OverlaySet& shown, double frameSeconds,
+                   std::span<const std::filesystem::path> folders)
+    : trajectory_(trajectory), shown_(shown), frameSeconds_(frameSeconds) {
   if (hasAny(shown, kArrows)) {
     scales_ = scalesOf(trajectory);
   }
@@ -67,7 +67,7 @@ Overlays::Overlays(const Trajectory& trajectory, const Scene& scene, const Overl
                           .monospaced = findFont(kMonospacedFont, folders)};
   }
   if (shown.has(Overlay::kEnergy)) {
-    energy_.emplace(trajectory, scene);
+    energy_.emplace(trajectory);
   }
 }
 
@@ -75,7 +75,6 @@ OverlayShapes Overlays::shapesAt(double time, const View& view, int width, int h
   const std::vector<BodyState> states = statesAt(trajectory_, time);
   const Screen screen(view, width, height);
   const OverlayFrame frame{.trajectory = trajectory_,
-                           .scene = scene_,
                            .time = time,
                            .frameSeconds = frameSeconds_,
                            .states = states,

@@ -14,9 +14,9 @@ namespace careen {
 /// as the longest arrow, is found once; only what is shown is looked for.
 class Overlays {
  public:
-  /// The run and the scene must live as long; `frameSeconds` [s] from one frame to the next. MachineError,
+  /// The run must live as long; `frameSeconds` [s] from one frame to the next. MachineError,
   /// which names the package to install, if something is to be written and there is no font in the folders.
-  Overlays(const Trajectory& trajectory, const Scene& scene, const OverlaySet& shown, double frameSeconds,
+  Overlays(const Trajectory& trajectory, const OverlaySet& shown, double frameSeconds,
            std::span<const std::filesystem::path> folders = fontFolders());
 
   /// At a time within the run [s], for a picture of this size [px] that is seen so.
@@ -25,7 +25,6 @@ class Overlays {
 
  private:
   const Trajectory& trajectory_;
-  const Scene& scene_;
   OverlaySet shown_;
   double frameSeconds_;
   OverlayScales scales_;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/math/linear_algebra.h"
-#include "scene/scene.h"
+#include "stage/color.h"
 
 namespace careen {
 

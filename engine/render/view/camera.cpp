@@ -67,8 +67,8 @@ Camera cameraThatSees(const Extent& extent, double aspect) {
   return camera;
 }
 
-Camera cameraOf(const Scene& scene, double aspect) {
-  return scene.camera ? *scene.camera : cameraThatSees(extentOf(scene), aspect);
+Camera cameraOf(const RunSetup& setup, double aspect) {
+  return setup.stage.camera ? *setup.stage.camera : cameraThatSees(extentOf(setup), aspect);
 }
 
 double pixelAngle(const Camera& camera, int height) {

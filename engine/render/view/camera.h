@@ -2,7 +2,8 @@
 
 #include "core/math/linear_algebra.h"
 #include "render/view/scene_extent.h"
-#include "scene/scene.h"
+#include "stage/camera.h"
+#include "stage/run_setup.h"
 
 namespace careen {
 
@@ -32,9 +33,9 @@ inline const Vec3 kDefaultDirection = Vec3(0.42, -1, 0.42).normalized();
 /// A camera that sees the whole of `extent`, from there.
 Camera cameraThatSees(const Extent& extent, double aspect);
 
-/// The scene's camera where it starts, or one that sees where the scene plays, whatever the run does; see
-/// CameraPath for that.
-Camera cameraOf(const Scene& scene, double aspect);
+/// The stage's camera where it starts, or one that sees where the run takes place, whatever happens in it;
+/// see CameraPath for that.
+Camera cameraOf(const RunSetup& setup, double aspect);
 
 /// [rad] that a pixel in the middle of a picture so many pixels high covers.
 double pixelAngle(const Camera& camera, int height);

@@ -118,9 +118,9 @@ CameraKey between(std::span<const CameraKey> keys, double time) {
           .fovDegrees = at[6]};
 }
 
-Camera cameraThatFrames(const Scene& scene, const Trajectory& run, const TimeMap& clock, double aspect) {
+Camera cameraThatFrames(const Trajectory& run, const TimeMap& clock, double aspect) {
   constexpr std::size_t kMostPoses = 200'000;  // what is looked at in a fraction of a second
-  const std::size_t moments = std::clamp<std::size_t>(kMostPoses / scene.boxes.size(), 60, 600);
+  const std::size_t moments = std::clamp<std::size_t>(kMostPoses / run.world.bodies.size(), 60, 600);
   Camera towards;
   towards.eye = kDefaultDirection;
   Framing framing(towards, aspect);
@@ -128,13 +128,13 @@ Camera cameraThatFrames(const Scene& scene, const Trajectory& run, const TimeMap
     const double part = static_cast<double>(i) / static_cast<double>(moments - 1);
     const std::vector<Pose> poses = run.poses(clock.sceneTime(part * clock.duration()));
     for (std::size_t box = 0; box < poses.size(); ++box) {
-      const Vec3& half = scene.boxes[box].halfExtents;
+      const Vec3& half = run.world.bodies[box].halfExtents;
       for (int index = 0; index < kCorners; ++index) {
         framing.add(poses[box].worldPoint(corner(half, index)));
       }
     }
   }
-  for (const Spring& spring : scene.springs) {
+  for (const Spring& spring : run.world.springs) {
     for (const SpringEnd& end : {spring.from, spring.to}) {
       if (!end.body) {
         framing.add(end.point);
@@ -144,11 +144,11 @@ Camera cameraThatFrames(const Scene& scene, const Trajectory& run, const TimeMap
   return framing.camera();
 }
 
-CameraPath::CameraPath(const Scene& scene, const Trajectory& run, TimeMap clock, double aspect)
-    : move_(scene.cameraMove),
+CameraPath::CameraPath(const Trajectory& run, TimeMap clock, double aspect)
+    : move_(run.stage.cameraMove),
       run_(run),
       clock_(std::move(clock)),
-      start_(scene.camera ? *scene.camera : cameraThatFrames(scene, run, clock_, aspect)) {
+      start_(run.stage.camera ? *run.stage.camera : cameraThatFrames(run, clock_, aspect)) {
   if (move_.followed) {
     followedStart_ = run.state(*move_.followed, 0).pose.position;
   }

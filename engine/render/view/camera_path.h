@@ -4,7 +4,7 @@
 #include <span>
 
 #include "render/view/camera.h"
-#include "scene/scene.h"
+#include "stage/camera.h"
 #include "stage/time_map.h"
 #include "trajectory/trajectory.h"
 
@@ -14,11 +14,11 @@ namespace careen {
 /// over twice of this before and after.
 inline constexpr double kFollowStep = 0.2;
 
-/// Where the camera is at every moment of a film: nothing but scene, run, film time and aspect decide it.
+/// Where the camera is at every moment of a film: nothing but run, film time and aspect decide it.
 class CameraPath {
  public:
-  /// `clock` has keys. Keeps scene and run by reference.
-  CameraPath(const Scene& scene, const Trajectory& run, TimeMap clock, double aspect);
+  /// `clock` has keys. Keeps the run by reference.
+  CameraPath(const Trajectory& run, TimeMap clock, double aspect);
 
   bool hasKeys() const { return !move_.keys.empty(); }
   /// Film time [s].
@@ -38,7 +38,7 @@ class CameraPath {
 /// A camera that stands still and has all boxes in its picture whenever the film shows them, and where
 /// springs are held: as near as it can be, in the direction of cameraThatSees. Looks at moments spread evenly
 /// over the film, at 60 at least.
-Camera cameraThatFrames(const Scene& scene, const Trajectory& run, const TimeMap& clock, double aspect);
+Camera cameraThatFrames(const Trajectory& run, const TimeMap& clock, double aspect);
 
 /// Between keys every coordinate of eye and target and the angle follow a cubic that takes on the keys'
 /// values and turns round at keys alone (F. N. Fritsch, J. Butland, "A method for constructing local monotone

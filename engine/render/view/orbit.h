@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "stage/camera.h"
 
 namespace careen {
 

@@ -13,17 +13,18 @@ void include(Extent& extent, const Vec3& point, double radius) {
   extent.max = extent.max.cwiseMax(point + Vec3::Constant(radius));
 }
 
-bool isBehindAWall(const Scene& scene, const Vec3& point) {
-  return std::any_of(scene.walls.begin(), scene.walls.end(),
-                     [&](const Wall& wall) { return wall.normal.dot(point) < wall.offset; });
+bool isBehindAWall(const Stage& stage, const Vec3& point) {
+  return std::any_of(stage.planes.begin(), stage.planes.end(),
+                     [&](const Plane& wall) { return wall.normal.dot(point) < wall.offset; });
 }
 
-void includeFlight(Extent& extent, const Scene& scene, const SceneBox& box) {
+void includeFlight(Extent& extent, const RunSetup& setup, const Body& box) {
   const double radius = box.halfExtents.norm();
   for (int sample = 0; sample <= kSamples; ++sample) {
-    const double time = scene.duration * sample / kSamples;
-    const Vec3 point = box.pose.position + time * box.velocity + 0.5 * time * time * scene.gravity;
-    if (sample > 0 && (box.fixed || isBehindAWall(scene, point))) {
+    const double time = setup.settings.duration * sample / kSamples;
+    const Vec3 point =
+        box.initial.pose.position + time * box.initial.velocity + 0.5 * time * time * setup.world.gravity;
+    if (sample > 0 && (isImmovable(box.mass) || isBehindAWall(setup.stage, point))) {
       return;
     }
     include(extent, point, radius);
@@ -37,16 +38,16 @@ Vec3 Extent::corner(int index) const {
           (index & 1) == 0 ? max.z() : min.z()};
 }
 
-Extent extentOf(const Scene& scene) {
-  if (scene.room) {
-    return {.min = scene.room->min, .max = scene.room->max};
+Extent extentOf(const RunSetup& setup) {
+  if (const std::optional<RoomShape>& room = setup.stage.room) {
+    return {.min = room->min, .max = room->max};
   }
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Extent extent{.min = Vec3::Constant(kInfinity), .max = Vec3::Constant(-kInfinity)};
-  for (const SceneBox& box : scene.boxes) {
-    includeFlight(extent, scene, box);
+  for (const Body& box : setup.world.bodies) {
+    includeFlight(extent, setup, box);
   }
-  for (const Spring& spring : scene.springs) {
+  for (const Spring& spring : setup.world.springs) {
     for (const SpringEnd& end : {spring.from, spring.to}) {
       if (!end.body) {
         include(extent, end.point, 0);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/math/linear_algebra.h"
-#include "scene/scene.h"
+#include "stage/run_setup.h"
 
 namespace careen {
 
@@ -16,8 +16,8 @@ struct Extent {
   Vec3 corner(int index) const;
 };
 
-/// The part of the world that a scene plays in: its room; without one, what its boxes reach in free flight
-/// until they meet a wall, and where its springs are held.
-Extent extentOf(const Scene& scene);
+/// The part of the world that a run takes place in: its room; without one, what its boxes reach in free
+/// flight until they meet a wall, and where its springs are held.
+Extent extentOf(const RunSetup& setup);
 
 }  // namespace careen

@@ -37,7 +37,7 @@ TEST(NextContact, isWithTheWallThatIsReachedFirst) {
   EXPECT_NEAR(event->time.hi, 1.9, 1e-15);
   EXPECT_EQ(event->kind, EventKind::kContact);
   EXPECT_EQ(event->body, 3);
-  EXPECT_EQ(event->partner, wallPartner(1));
+  EXPECT_EQ(event->partner, Partner::ofWall(1));
 }
 
 TEST(NextContact, isNoneBeyondTheEnd) {

@@ -15,7 +15,7 @@ namespace {
 
 struct Found {
   std::vector<ImpactContact> contacts;
-  std::vector<int> partners;
+  std::vector<Partner> partners;
   double deepest = 0;
 };
 
@@ -45,7 +45,7 @@ TEST(WallContacts, areTheFourCornersOfAFace) {
   ASSERT_EQ(found.contacts.size(), 4U);
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_EQ(found.partners[k], wallPartner(4));
+    EXPECT_EQ(found.partners[k], Partner::ofWall(4));
     EXPECT_EQ(found.contacts[k].a, 7);
     EXPECT_EQ(found.contacts[k].armA.cwiseAbs(), Vec3(1, 2, 3));
     EXPECT_EQ(found.contacts[k].armA.z(), -3);

@@ -13,7 +13,7 @@ namespace {
 
 std::vector<Surface> floorOf(const Scene& scene) {
   std::vector<Surface> floor;
-  for (const Surface& surface : surfacesOf(scene, extentOf(scene))) {
+  for (const Surface& surface : surfacesOf(stageOf(scene), extentOf(setupOf(scene)))) {
     if (surface.normal.z() > 0.99) {
       floor.push_back(surface);
     }

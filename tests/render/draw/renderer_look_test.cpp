@@ -22,7 +22,7 @@ constexpr int kWidth = 320;
 constexpr int kHeight = 180;
 
 Picture drawn(const Scene& scene, const RenderOptions& options = {}) {
-  return Renderer(scene, kWidth, kHeight, options).draw(posesOf(scene));
+  return Renderer(setupOf(scene, kWidth, kHeight), options).draw(posesOf(scene));
 }
 
 // A black plate before white: what is left of the light in a pixel is the part of it that the plate leaves
@@ -34,8 +34,8 @@ double edgeError(double angle, Antialiasing antialiasing) {
   scene.boxes[0].color = Color{0, 0, 0};
   scene.boxes[0].pose.worldFromBody = axisAngle(Vec3::UnitY(), angle);
   scene.camera = cameraAt(Vec3(0, -10, 0), Vec3::Zero(), 20);
-  RenderOptions options = lit(evenLighting(Vec3::Ones()));
-  options.antialiasing = antialiasing;
+  const RenderOptions options = lit(evenLighting(Vec3::Ones()));
+  scene.picture.antialiasing = antialiasing;
   const Picture picture = drawn(scene, options);
   const double pixels = 0.5 * kHeight / std::tan(10 * std::numbers::pi / 180) / 10;
   std::vector<Vec3> corners;
@@ -84,14 +84,14 @@ TEST(Renderer, edgesTakeTheirShareOfAPixel) {
 }
 
 TEST(Renderer, supersamplingDrawsFourPixelsForOne) {
-  const Scene scene = crateInRoom();
+  Scene scene = crateInRoom();
   RenderOptions options;
-  options.antialiasing = Antialiasing::kSupersampled;
+  scene.picture.antialiasing = Antialiasing::kSupersampled;
   options.materials = Materials{.dither = 0};
   const Picture fine = drawn(scene, options);
   EXPECT_EQ(fine.width, kWidth);
   EXPECT_EQ(fine.height, kHeight);
-  options.antialiasing = Antialiasing::kOff;
+  scene.picture.antialiasing = Antialiasing::kOff;
   const Picture coarse = drawn(scene, options);
   int differ = 0;
   for (std::size_t k = 0; k < fine.rgb.size(); ++k) {
@@ -162,7 +162,7 @@ TEST(Renderer, boxesDarkenTheFloorTheyStandOn) {
 TEST(Renderer, looksDiffer) {
   Scene scene = crateInRoom();
   const auto as = [&](Look look) {
-    scene.look = look;
+    scene.picture.look = look;
     return drawn(scene).rgb;
   };
   const std::vector<std::uint8_t> studio = as(Look::kStudio);

@@ -12,7 +12,7 @@ constexpr int kWidth = 160;
 constexpr int kHeight = 90;
 
 Picture drawn(const Scene& scene, const RenderOptions& options = {}) {
-  return Renderer(scene, kWidth, kHeight, options).draw(posesOf(scene));
+  return Renderer(setupOf(scene, kWidth, kHeight), options).draw(posesOf(scene));
 }
 
 RenderOptions litFrom(const Camera& camera) {
@@ -25,7 +25,7 @@ TEST(RendererShot, sameShotGivesTheSameBytesWhateverWasSeenBefore) {
   const Scene scene = crateInRoom();
   const std::vector<Pose> poses = posesOf(scene);
   const Camera elsewhere = cameraAt(Vec3(2, -6, 2), Vec3(0.5, 0, 1), 50);
-  Renderer renderer(scene, kWidth, kHeight);
+  Renderer renderer(setupOf(scene, kWidth, kHeight));
   const Picture first = renderer.draw(poses);
   const Picture other = renderer.draw({.poses = poses, .camera = elsewhere});
   EXPECT_NE(other.rgb, first.rgb);
@@ -41,9 +41,10 @@ TEST(RendererShot, lightStaysWhereTheFirstCameraPutsIt) {
   Scene scene = crateInRoom();
   RenderOptions options;
   options.camera = cameraAt(Vec3(4, -6, 2), Vec3(0, 0, 1), 50);
-  EXPECT_EQ(
-      Renderer(scene, kWidth, kHeight, options).draw({.poses = posesOf(scene), .camera = *scene.camera}).rgb,
-      drawn(scene, litFrom(*options.camera)).rgb);
+  EXPECT_EQ(Renderer(setupOf(scene, kWidth, kHeight), options)
+                .draw({.poses = posesOf(scene), .camera = *scene.camera})
+                .rgb,
+            drawn(scene, litFrom(*options.camera)).rgb);
   EXPECT_NE(drawn(scene).rgb, drawn(scene, litFrom(*options.camera)).rgb);
 }
 

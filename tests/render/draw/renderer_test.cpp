@@ -28,7 +28,7 @@ constexpr int kHeight = 180;
 
 Picture drawn(const Scene& scene, const RenderOptions& options = {}, int width = kWidth,
               int height = kHeight) {
-  return Renderer(scene, width, height, options).draw(posesOf(scene));
+  return Renderer(setupOf(scene, width, height), options).draw(posesOf(scene));
 }
 
 void expectColor(const std::array<int, 3>& found, const Vec3& linear, int tolerance) {
@@ -120,8 +120,8 @@ TEST(Renderer, projectedCornersLieWithinHalfAPixel) {
   const Vec3 eye(2, -4, 1.5);
   const Vec3 target(0.1, 0, 0.5);
   scene.camera = cameraAt(eye, target, 35);
-  RenderOptions options = lit(evenLighting(Vec3(1, 0, 0)));
-  options.antialiasing = Antialiasing::kMultisampled;
+  const RenderOptions options = lit(evenLighting(Vec3(1, 0, 0)));
+  scene.picture.antialiasing = Antialiasing::kMultisampled;
   const Picture picture = drawn(scene, options);
 
   const Vec3 ahead = (target - eye).normalized();
@@ -159,8 +159,8 @@ TEST(Renderer, multisampledEdgesAreAveragesOfLight) {
   scene.boxes[0].color = Color{0, 0, 0};
   scene.boxes[0].pose.worldFromBody = axisAngle(Vec3::UnitY(), 0.3);
   scene.camera = cameraAt(Vec3(0, -10, 0), Vec3::Zero(), 20);
-  RenderOptions options = lit(evenLighting(Vec3::Ones()));
-  options.antialiasing = Antialiasing::kMultisampled;
+  const RenderOptions options = lit(evenLighting(Vec3::Ones()));
+  scene.picture.antialiasing = Antialiasing::kMultisampled;
   const Picture picture = drawn(scene, options);
   std::set<int> outer;
   for (int y = 0; y < kHeight; ++y) {
@@ -184,7 +184,7 @@ TEST(Renderer, multisampledEdgesAreAveragesOfLight) {
 TEST(Renderer, withoutCastingLightThereIsNoShadowPass) {
   const Scene scene = crateInRoom();
   const auto passes = [](const Scene& drawnScene, const RenderOptions& options) {
-    Renderer renderer(drawnScene, 32, 18, options);
+    Renderer renderer(setupOf(drawnScene, 32, 18), options);
     renderer.draw(posesOf(drawnScene));
     renderer.draw(posesOf(drawnScene));
     EXPECT_EQ(renderer.figures().frames, 2);
@@ -226,7 +226,7 @@ TEST(Renderer, boxesCastShadowsWhereTheyKeepTheLightOff) {
 
 TEST(Renderer, samePosesGiveTheSameBytes) {
   const Scene scene = crateInRoom();
-  Renderer renderer(scene, kWidth, kHeight);
+  Renderer renderer(setupOf(scene, kWidth, kHeight));
   const Picture first = renderer.draw(posesOf(scene));
   std::vector<Pose> elsewhere = posesOf(scene);
   elsewhere[0].position = Vec3(1, 1, 2);
@@ -316,26 +316,26 @@ TEST(Renderer, frameThatComesOutBlankIsAnError) {
 TEST(Renderer, missingLibraryIsAnError) {
   RenderOptions options;
   options.context = nowhereToDraw();
-  EXPECT_THROW(Renderer(crateInRoom(), 32, 18, options), MachineError);
+  EXPECT_THROW(Renderer(setupOf(crateInRoom(), 32, 18), options), MachineError);
 }
 
 TEST(Renderer, refusesSizesBeyondWhatGlCanDo) {
   for (const auto& [width, height] : {std::pair{100000, 100}, {100, 100000}, {0, 100}, {100, -1}}) {
-    EXPECT_THROW(Renderer(crateInRoom(), width, height), InputError) << width << ' ' << height;
+    EXPECT_THROW(Renderer(setupOf(crateInRoom(), width, height)), InputError) << width << ' ' << height;
   }
 }
 
 TEST(Renderer, refusesPosesOfAnotherScene) {
-  Renderer renderer(crateInRoom(), 32, 18);
+  Renderer renderer(setupOf(crateInRoom(), 32, 18));
   EXPECT_THROW(renderer.draw(std::vector<Pose>()), InputError);
   Scene two = crateInRoom();
   two.boxes.push_back(two.boxes[0]);
-  EXPECT_THROW(Renderer(two, 32, 18).draw(std::vector<Pose>(3)), InputError);
+  EXPECT_THROW(Renderer(setupOf(two, 32, 18)).draw(std::vector<Pose>(3)), InputError);
 }
 
 TEST(Renderer, tellsWhoDrawsAndHowLongItTook) {
   const Scene scene = crateInRoom();
-  Renderer renderer(scene, 32, 18);
+  Renderer renderer(setupOf(scene, 32, 18));
   EXPECT_NE(renderer.rendererName().find("Mesa"), std::string::npos) << renderer.rendererName();
   EXPECT_EQ(renderer.figures().drawSeconds, 0);
   renderer.draw(posesOf(scene));

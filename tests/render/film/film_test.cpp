@@ -21,19 +21,21 @@ namespace {
 
 class FilmTest : public testing::Test {
  protected:
-  FilmTest() { settings_ = filmIn("film"); }
+  FilmTest() {
+    settings_ = filmIn("film");
+    scene_.picture.width = 64;
+    scene_.picture.height = 36;
+    scene_.picture.rate = {.numerator = 10, .denominator = 1};
+  }
 
   FilmSettings filmIn(const std::string& name) const {
     FilmSettings settings;
     settings.folder = folder_ / name;
-    settings.width = 64;
-    settings.height = 36;
-    settings.rate = {.numerator = 10, .denominator = 1};
     settings.jobs = 2;
     settings.program = "film_test 1";
     return settings;
   }
-  FilmFigures film(const FilmSettings& settings) const { return renderFilm(run_, scene_, settings); }
+  FilmFigures film(const FilmSettings& settings) const { return renderFilm(shownAs(scene_, run_), settings); }
   std::string errorOf(const FilmSettings& settings) const {
     try {
       film(settings);
@@ -50,7 +52,7 @@ class FilmTest : public testing::Test {
         stop.request_stop();
       }
     };
-    EXPECT_THROW(renderFilm(run_, scene_, settings, count, stop.get_token()), Interrupted);
+    EXPECT_THROW(renderFilm(shownAs(scene_, run_), settings, count, stop.get_token()), Interrupted);
   }
   std::vector<std::string> files(const std::string& name) const {
     std::vector<std::string> names;
@@ -85,11 +87,10 @@ class FilmTest : public testing::Test {
 TEST_F(FilmTest, framesAreTheSameWhicheverOthersAreDrawn) {
   scene_.cameraMove.orbitDegrees = 40;
   scene_.cameraMove.followed = 0;
-  scene_.film.time.keys = {{0, 0}, {0.4, 0.4}, {0.8, 0.42}};
-  settings_.shutter = {.degrees = 180, .samples = 3};
+  scene_.timeMap.keys = {{0, 0}, {0.4, 0.4}, {0.8, 0.42}};
+  scene_.picture.shutter = {.degrees = 180, .samples = 3};
   film(settings_);
   FilmSettings some = filmIn("some");
-  some.shutter = settings_.shutter;
   some.frames = parseFrameRanges("2,3,7");
   film(some);
   for (const int frame : {2, 3, 7}) {
@@ -108,12 +109,13 @@ TEST_F(FilmTest, keysThatLeaveTheCameraNothingToLookAtAreToldBeforeAnyFrame) {
 
 TEST_F(FilmTest, overlaysAreDrawnOverTheirFrames) {
   film(filmIn("bare"));
-  settings_.overlays = overlaysNamed("velocity");
+  scene_.picture.overlays = overlaysNamed("velocity");
   film(settings_);
   ASSERT_EQ(files("film"), files("bare"));
   for (const std::string& name : filmOf(10)) {
     EXPECT_NE(textOf(folder_ / "film" / name), textOf(folder_ / "bare" / name)) << name;
   }
+  scene_.picture.overlays = {};
   FilmSettings other = filmIn("film");
   other.resume = true;
   EXPECT_NE(errorOf(other).find("overlays velocity there, none now"), std::string::npos) << errorOf(other);
@@ -127,7 +129,7 @@ TEST_F(FilmTest, drawsTheFramesAskedFor) {
 
 TEST_F(FilmTest, tellsProgressAndFigures) {
   std::vector<std::int64_t> done;
-  const FilmFigures figures = renderFilm(run_, scene_, settings_, [&](const FilmProgress& progress) {
+  const FilmFigures figures = renderFilm(shownAs(scene_, run_), settings_, [&](const FilmProgress& progress) {
     done.push_back(progress.done);
     EXPECT_EQ(progress.total, 10);
     EXPECT_GT(progress.framesPerSecond, 0);
@@ -192,7 +194,7 @@ TEST_F(FilmTest, noMoreJobsThanFrames) {
 TEST_F(FilmTest, framesTellWhatTheyTook) {
   std::vector<std::int64_t> frames;
   settings_.frames = parseFrameRanges("2,5");
-  renderFilm(run_, scene_, settings_, [&](const FilmProgress& progress) {
+  renderFilm(shownAs(scene_, run_), settings_, [&](const FilmProgress& progress) {
     frames.push_back(progress.frame.frame);
     EXPECT_EQ(progress.frame.time, static_cast<double>(progress.frame.frame) / 10);
     EXPECT_GT(progress.frame.drawSeconds, 0);
@@ -241,18 +243,16 @@ TEST_F(FilmTest, anotherFilmIsNotResumed) {
   const std::string before = textOf(folder_ / "film/film.json");
   FilmSettings other = settings_;
   other.resume = true;
-  other.width = 32;
+  scene_.picture.width = 32;
   EXPECT_NE(errorOf(other).find("size 64x36 there, 32x36 now"), std::string::npos) << errorOf(other);
-  other.width = 64;
-  other.rate.numerator = 20;
+  scene_.picture.width = 64;
+  scene_.picture.rate.numerator = 20;
   EXPECT_NE(errorOf(other).find("fps 10 there, 20 now"), std::string::npos) << errorOf(other);
-  other = settings_;
-  other.resume = true;
-  other.shutter.degrees = 90;
+  scene_.picture.rate.numerator = 10;
+  scene_.picture.shutter.degrees = 90;
   EXPECT_NE(errorOf(other).find("shutter none there, 90:8 now"), std::string::npos) << errorOf(other);
+  scene_.picture.shutter.degrees = 0;
   run_ = drifting(scene_, Vec3(1, 0, 0.25));
-  other = settings_;
-  other.resume = true;
   EXPECT_NE(errorOf(other).find("run "), std::string::npos) << errorOf(other);
   EXPECT_THROW(film(other), InputError);
   EXPECT_EQ(textOf(folder_ / "film/film.json"), before);
@@ -279,7 +279,7 @@ TEST_F(FilmTest, newFilmTakesTheOldOnesPlaceAndLeavesAllElse) {
   film(settings_);
   folder_.write("film/notes.txt", "mine");
   folder_.write("film/still.png", "mine");
-  settings_.rate.numerator = 5;
+  scene_.picture.rate.numerator = 5;
   film(settings_);
   EXPECT_EQ(files("film"), (std::vector<std::string>{"000000.png", "000001.png", "000002.png", "000003.png",
                                                      "000004.png", "film.json", "notes.txt", "still.png"}));
@@ -310,8 +310,9 @@ TEST_F(FilmTest, oldFilmStaysWhenANewOneCannotBegin) {
   other.render.context = nowhereToDraw();
   EXPECT_THROW(film(other), MachineError);
   other = settings_;
-  other.width = 100000;
+  scene_.picture.width = 100000;
   EXPECT_THROW(film(other), InputError);
+  scene_.picture.width = 64;
   other = settings_;
   other.frames = parseFrameRanges("10");
   EXPECT_THROW(film(other), InputError);
@@ -322,7 +323,7 @@ TEST_F(FilmTest, oldFilmStaysWhenANewOneCannotBegin) {
 }
 
 TEST_F(FilmTest, failureWritesNothing) {
-  settings_.width = 100000;
+  scene_.picture.width = 100000;
   EXPECT_THROW(film(settings_), InputError);
   EXPECT_TRUE(folder_.files().empty());
 }
@@ -401,11 +402,11 @@ TEST_F(FilmTest, damagedManifestIsNamed) {
 
 // The last ones, for they open GL in this process, after which no job can draw.
 TEST_F(FilmTest, frameKShowsTimeKOverFps) {
-  settings_.rate = {.numerator = 24000, .denominator = 1001};
+  scene_.picture.rate = {.numerator = 24000, .denominator = 1001};
   const FilmFigures figures = film(settings_);
   EXPECT_EQ(figures.drawn, 24);
   EXPECT_EQ(files("film"), filmOf(24));
-  Renderer renderer(scene_, 64, 36);
+  Renderer renderer(setupOf(scene_));
   for (const int frame : {0, 7, 23}) {
     const Picture expected = renderer.draw(run_.poses(frame * 1001 / 24000.0));
     EXPECT_EQ(readPng(folder_ / "film" / frameFileName(frame)).rgb, expected.rgb) << frame;
@@ -413,9 +414,9 @@ TEST_F(FilmTest, frameKShowsTimeKOverFps) {
 }
 
 TEST_F(FilmTest, lastsAsLongAsItsTimeMap) {
-  scene_.film.time.keys = {{0, 0}, {1.5, 0.1}, {2, 0.1}};
+  scene_.timeMap.keys = {{0, 0}, {1.5, 0.1}, {2, 0.1}};
   EXPECT_EQ(film(settings_).drawn, 20);
-  Renderer renderer(scene_, 64, 36);
+  Renderer renderer(setupOf(scene_));
   EXPECT_EQ(readPng(folder_ / "film/000012.png").rgb, renderer.draw(run_.poses(0.08)).rgb);
   EXPECT_EQ(textOf(folder_ / "film/000015.png"), textOf(folder_ / "film/000019.png"));  // a freeze frame
 }

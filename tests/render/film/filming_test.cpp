@@ -19,18 +19,22 @@ constexpr FrameRate kRate = {.numerator = 10, .denominator = 1};
 
 class FilmingTest : public testing::Test {
  protected:
-  Filming filming() const { return {scene_, run_, static_cast<double>(kWidth) / kHeight}; }
+  // Of the run as it is now shown; it keeps that by reference.
+  Filming filming() {
+    run_.stage = setupOf(scene_, kWidth, kHeight).stage;
+    return Filming(run_);
+  }
   Picture plain(double time) { return filming().draw(renderer_, time, {}, kRate); }
 
   Scene scene_ = crateInRoom();
   Trajectory run_ = drifting(scene_, Vec3(3, 0, 0.5));
-  Renderer renderer_{scene_, kWidth, kHeight};
+  Renderer renderer_{setupOf(scene_, kWidth, kHeight)};
 };
 
 TEST_F(FilmingTest, showsTheRunByTheFilmsTime) {
-  scene_.film.time.keys = {{0, 0}, {0.5, 0.5}, {2.5, 0.6}};
+  scene_.timeMap.keys = {{0, 0}, {0.5, 0.5}, {2.5, 0.6}};
   EXPECT_EQ(plain(0.25).rgb, renderer_.draw(run_.poses(0.25)).rgb);
-  EXPECT_EQ(plain(1.5).rgb, renderer_.draw(run_.poses(scene_.film.time.sceneTime(1.5))).rgb);
+  EXPECT_EQ(plain(1.5).rgb, renderer_.draw(run_.poses(scene_.timeMap.sceneTime(1.5))).rgb);
   EXPECT_EQ(filming().duration(), 2.5);
 }
 
@@ -70,7 +74,7 @@ TEST_F(FilmingTest, turnedCameraIsTurnedFromWhereTheFilmHasIt) {
 }
 
 TEST_F(FilmingTest, whereNothingMovesBlurChangesNothingAndCostsNothing) {
-  scene_.film.time.keys = {{0, 0.3}, {2, 0.3}};
+  scene_.timeMap.keys = {{0, 0.3}, {2, 0.3}};
   const Picture still = plain(1);
   const int before = renderer_.figures().frames;
   EXPECT_EQ(filming().draw(renderer_, 1, {.degrees = 180, .samples = 16}, kRate).rgb, still.rgb);
@@ -89,9 +93,9 @@ TEST_F(FilmingTest, blurAtTheFilmsEndsStaysWithinIt) {
 TEST_F(FilmingTest, strobeHasEveryMoment) {
   RenderOptions options;
   options.lighting = evenLighting(Vec3::Constant(0.1));  // without shadows boxes leave the rest as it is
-  options.materials = materialsOf(scene_.look);
+  options.materials = materialsOf(scene_.picture.look);
   options.materials->contactShade = 0;
-  Renderer renderer(scene_, kWidth, kHeight, options);
+  Renderer renderer(setupOf(scene_, kWidth, kHeight), options);
   run_ = drifting(scene_, Vec3(2.5, 0, 0));
   scene_.boxes[0].pose.position.x() = 0;
   const std::vector<double> times = {0, 0.4, 0.8};
@@ -99,7 +103,7 @@ TEST_F(FilmingTest, strobeHasEveryMoment) {
   Scene bare = scene_;
   bare.boxes.clear();
   options.camera = scene_.camera;
-  const Picture empty = Renderer(bare, kWidth, kHeight, options).draw(std::vector<Pose>());
+  const Picture empty = Renderer(setupOf(bare, kWidth, kHeight), options).draw(std::vector<Pose>());
   std::array<int, 3> seen{};
   for (std::size_t moment = 0; moment < times.size(); ++moment) {
     const Picture single = filming().draw(renderer, times[moment], {}, kRate);

@@ -44,8 +44,8 @@ class RenderingBackendPixels : public testing::Test {
 
 TEST_F(RenderingBackendPixels, areTheSameFromEveryBackend) {
   const Scene scene = manyBoxes();
-  Renderer osMesa(scene, 320, 180, by(RenderingBackend::kOsMesa));
-  Renderer egl(scene, 320, 180, by(RenderingBackend::kEgl));
+  Renderer osMesa(setupOf(scene, 320, 180), by(RenderingBackend::kOsMesa));
+  Renderer egl(setupOf(scene, 320, 180), by(RenderingBackend::kEgl));
   EXPECT_TRUE(egl.rendererName().ends_with("libEGL.so.1")) << egl.rendererName();
   for (const Renderer* each : {&osMesa, &egl}) {
     ASSERT_NE(each->rendererName().find("llvmpipe"), std::string::npos) << each->rendererName();
@@ -62,10 +62,10 @@ TEST_F(RenderingBackendPixels, areTheSameFromEveryBackend) {
 TEST_F(RenderingBackendPixels, areTheSameWhenContextsTakeTurns) {
   const Scene scene = manyBoxes();
   const auto large = [&scene](RenderingBackend backend) {
-    return std::make_unique<Renderer>(scene, 320, 180, by(backend));
+    return std::make_unique<Renderer>(setupOf(scene, 320, 180), by(backend));
   };
   const auto small = [&scene](RenderingBackend backend) {
-    return std::make_unique<Renderer>(scene, 128, 96, by(backend));
+    return std::make_unique<Renderer>(setupOf(scene, 128, 96), by(backend));
   };
   const auto drawn = [&scene](const std::unique_ptr<Renderer>& renderer) {
     return renderer->draw(posesOf(scene)).rgb;
@@ -172,7 +172,7 @@ TEST(RenderingBackend, everyBackendDrawsWithTheThreadsAskedFor) {
     RenderOptions options = by(renderingBackendNamed(backend));
     options.context.threads = 3;
     const Scene scene = crateInRoom();
-    Renderer renderer(scene, 64, 36, options);
+    Renderer renderer(setupOf(scene, 64, 36), options);
     renderer.draw(posesOf(scene));
     EXPECT_EQ(threadsOfLlvmpipe(), 3);
     return;

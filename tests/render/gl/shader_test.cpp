@@ -18,7 +18,7 @@ std::string errorOfDrawingWith(const std::filesystem::path& shaders) {
   RenderOptions options;
   options.shaders = shaders;
   try {
-    const Renderer renderer(crateInRoom(), 32, 18, options);
+    const Renderer renderer(setupOf(crateInRoom(), 32, 18), options);
   } catch (const MachineError& error) {
     return error.what();
   }

@@ -20,7 +20,7 @@ double areaAlong(const Surface& surface, const Vec3& normal) {
 
 TEST(Surfaces, roomHasItsClosedSidesOnly) {
   const Scene scene = crateInRoom();
-  const std::vector<Surface> surfaces = surfacesOf(scene, extentOf(scene));
+  const std::vector<Surface> surfaces = surfacesOf(stageOf(scene), extentOf(setupOf(scene)));
   ASSERT_EQ(surfaces.size(), 4U);
   for (const Surface& surface : surfaces) {
     EXPECT_NE(surface.normal, Vec3(0, 1, 0));   // -y is open
@@ -32,8 +32,8 @@ TEST(Surfaces, roomHasItsClosedSidesOnly) {
 TEST(Surfaces, sidesFaceInwardWithTheirWholeArea) {
   Scene scene = crateInRoom();
   scene.room->open = {};
-  for (const Surface& surface : surfacesOf(scene, extentOf(scene))) {
-    const Vec3 inward = extentOf(scene).centre() - surface.origin;
+  for (const Surface& surface : surfacesOf(stageOf(scene), extentOf(setupOf(scene)))) {
+    const Vec3 inward = extentOf(setupOf(scene)).centre() - surface.origin;
     EXPECT_GT(inward.dot(surface.normal), 0);
     const Vec3 size = Vec3(6, 4, 3);
     const double area = 72 / std::abs(surface.normal.dot(size));
@@ -49,7 +49,7 @@ TEST(Surfaces, sidesFaceInwardWithTheirWholeArea) {
 
 TEST(Surfaces, wallsStandUprightOnTheFloor) {
   const Scene scene = crateInRoom();
-  for (const Surface& surface : surfacesOf(scene, extentOf(scene))) {
+  for (const Surface& surface : surfacesOf(stageOf(scene), extentOf(setupOf(scene)))) {
     if (surface.covering == Covering::kSkirted) {
       EXPECT_EQ(surface.along, Vec3::UnitZ());
       EXPECT_EQ(surface.origin.z(), 0);
@@ -68,7 +68,7 @@ TEST(Surfaces, furtherWallIsCutToTheRoom) {
   scene.room->open.fill(true);
   const double half = std::sqrt(0.5);
   scene.walls.push_back(wallAt(Vec3(-half, 0, -half), -half));
-  const std::vector<Surface> surfaces = surfacesOf(scene, extentOf(scene));
+  const std::vector<Surface> surfaces = surfacesOf(stageOf(scene), extentOf(setupOf(scene)));
   ASSERT_EQ(surfaces.size(), 1U);
   EXPECT_NEAR(areaAlong(surfaces[0], surfaces[0].normal), 2 * std::sqrt(2.0), 1e-12);
   for (const Vec3& corner : surfaces[0].outline) {
@@ -81,15 +81,15 @@ TEST(Surfaces, wallOutsideTheRoomIsNotThere) {
   Scene scene = crateInRoom();
   scene.room->open.fill(true);
   scene.walls.push_back(wallAt(Vec3::UnitZ(), -100));
-  EXPECT_TRUE(surfacesOf(scene, extentOf(scene)).empty());
+  EXPECT_TRUE(surfacesOf(stageOf(scene), extentOf(setupOf(scene))).empty());
 }
 
 TEST(Surfaces, floorWithoutRoomReachesBeyondTheScene) {
   Scene scene;
   scene.boxes.push_back(boxAt(Vec3(0, 0, 1), Vec3(0.5, 0.5, 0.5)));
   scene.walls.push_back(wallAt(Vec3::UnitZ(), 0));
-  const Extent extent = extentOf(scene);
-  const std::vector<Surface> surfaces = surfacesOf(scene, extent);
+  const Extent extent = extentOf(setupOf(scene));
+  const std::vector<Surface> surfaces = surfacesOf(stageOf(scene), extent);
   ASSERT_EQ(surfaces.size(), 1U);
   double reach = 0;
   for (const Vec3& corner : surfaces[0].outline) {
@@ -100,7 +100,7 @@ TEST(Surfaces, floorWithoutRoomReachesBeyondTheScene) {
 }
 
 TEST(Surfaces, tilesSuitTheScene) {
-  EXPECT_DOUBLE_EQ(tileSize(extentOf(crateInRoom())), 0.5);
+  EXPECT_DOUBLE_EQ(tileSize(extentOf(setupOf(crateInRoom()))), 0.5);
   EXPECT_DOUBLE_EQ(tileSize({.min = Vec3::Zero(), .max = Vec3(600, 400, 300)}), 50);
   EXPECT_DOUBLE_EQ(tileSize({.min = Vec3::Zero(), .max = Vec3(0.2, 0.2, 0.2)}), 0.02);
 }

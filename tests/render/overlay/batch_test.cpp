@@ -36,7 +36,7 @@ class OverlayBatchTest : public testing::Test {
   }
 
   Scene scene_ = crateInRoom();
-  Renderer renderer_{scene_, kWidth, kHeight};
+  Renderer renderer_{setupOf(scene_, kWidth, kHeight)};
 };
 
 const Color kRed{200, 40, 10};
@@ -93,7 +93,7 @@ TEST_F(OverlayBatchTest, ribbonHasNoSeams) {
   RenderOptions options;
   options.lighting = evenLighting(Vec3::Ones());
   scene_.boxes[0].pose.position = Vec3(100, 0, 0);
-  Renderer renderer(scene_, kWidth, kHeight, options);
+  Renderer renderer(setupOf(scene_, kWidth, kHeight), options);
   Ribbon ribbon{.points = {}, .width = 8, .ink = {kRed, 0.5}};
   for (int i = 0; i <= 60; ++i) {
     const double turn = 0.04 * i;
@@ -138,7 +138,7 @@ TEST_F(OverlayBatchTest, sameShapesGiveTheSameBytes) {
   const Picture first = over(shapes);
   over({Label{.text = "something else first", .at = Vec2(1, 60), .size = 13}});
   EXPECT_EQ(over(shapes).rgb, first.rgb);
-  Renderer another(scene_, kWidth, kHeight);
+  Renderer another(setupOf(scene_, kWidth, kHeight));
   EXPECT_EQ(over(another, shapes).rgb, first.rgb);
 }
 

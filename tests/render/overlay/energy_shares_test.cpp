@@ -5,15 +5,9 @@
 #include <cmath>
 
 #include "render/stage.h"
-#include "scene/plan.h"
 
 namespace careen {
 namespace {
-
-Trajectory run(const Scene& scene) {
-  return record(assemble(scene, plan(scene)),
-                {.method = scene.method, .duration = scene.duration, .dt = scene.dt, .tolerance = 1e-6}, "");
-}
 
 // Dropped flat from rest: 2 kg fall 0.8 m to the floor under 10 m/s², and bounce to e² of that.
 Scene dropped(double restitution) {
@@ -31,8 +25,8 @@ Scene dropped(double restitution) {
 
 TEST(EnergyShares, fallTurnsPotentialIntoKinetic) {
   const Scene scene = dropped(1);
-  const Trajectory trajectory = run(scene);
-  const EnergyBook book(trajectory, scene);
+  const Trajectory trajectory = runOf(scene);
+  const EnergyBook book(trajectory);
   EXPECT_NEAR(book.atStart(), 16, 1e-12);  // 2 kg · 10 m/s² · 0.8 m
   for (const double time : {0.0, 0.1, 0.25, 0.39}) {
     const EnergyShares shares = book.sharesOf(statesAt(trajectory, time));
@@ -44,8 +38,8 @@ TEST(EnergyShares, fallTurnsPotentialIntoKinetic) {
 
 TEST(EnergyShares, bounceTakesWhatRestitutionSays) {
   const Scene scene = dropped(0.5);
-  const Trajectory trajectory = run(scene);
-  const EnergyBook book(trajectory, scene);
+  const Trajectory trajectory = runOf(scene);
+  const EnergyBook book(trajectory);
   EXPECT_NEAR(book.sharesOf(statesAt(trajectory, 0.5)).sum(), 4, 1e-9);  // once struck, at 0.4 s
   EXPECT_NEAR(book.largest(), 16, 1e-9);  // it comes to rest 1.5e-12 m lower than it should
 }
@@ -57,8 +51,8 @@ TEST(EnergyShares, sumStaysInAnElasticRoom) {
   scene.room->material.restitution = 1;
   scene.boxes[0].velocity = Vec3(3, 2, 1);
   scene.boxes[0].angularVelocity = Vec3(3, 7, -2);
-  const Trajectory trajectory = run(scene);
-  const EnergyBook book(trajectory, scene);
+  const Trajectory trajectory = runOf(scene);
+  const EnergyBook book(trajectory);
   ASSERT_GT(trajectory.impacts.size(), 10U);
   double leastRotation = 1e9;
   double mostRotation = 0;
@@ -83,7 +77,7 @@ TEST(EnergyShares, springHoldsWhatItWasStretchedBy) {
   scene.springs.push_back(spring);
   const Trajectory trajectory =
       drifting(scene, Vec3(0, 0, 1));  // by hand: 2 m long at first, 1 m shorter later
-  const EnergyBook book(trajectory, scene);
+  const EnergyBook book(trajectory);
   EXPECT_TRUE(book.hasSprings());
   EXPECT_NEAR(book.sharesOf(statesAt(trajectory, 0)).springs, 9, 1e-12);    // ½ · 8 · 1.5²
   EXPECT_NEAR(book.sharesOf(statesAt(trajectory, 0.5)).springs, 4, 1e-12);  // ½ · 8 · 1²
@@ -92,8 +86,8 @@ TEST(EnergyShares, springHoldsWhatItWasStretchedBy) {
 TEST(EnergyShares, whatIsHeldHasNone) {
   Scene scene = dropped(1);
   scene.boxes[0].fixed = true;
-  const Trajectory trajectory = run(scene);
-  const EnergyBook book(trajectory, scene);
+  const Trajectory trajectory = runOf(scene);
+  const EnergyBook book(trajectory);
   EXPECT_EQ(book.atStart(), 0);
   EXPECT_EQ(book.sharesOf(statesAt(trajectory, 0.7)).sum(), 0);
 }

@@ -38,9 +38,10 @@ class OverlaysTest : public testing::Test {
  protected:
   OverlayShapes shapesAt(const std::string& names, double time, int width = kWidth,
                          int height = kHeight) const {
-    const Overlays overlays(run_, scene_, overlaysNamed(names), kFrame);
+    const Trajectory run = shown();
+    const Overlays overlays(run, overlaysNamed(names), kFrame);
     const double aspect = static_cast<double>(width) / height;
-    return overlays.shapesAt(time, viewOf(*scene_.camera, extentOf(scene_), aspect), width, height);
+    return overlays.shapesAt(time, viewOf(*scene_.camera, extentOf(run), aspect), width, height);
   }
   template <class Shape>
   static std::vector<Shape> only(const OverlayShapes& shapes) {
@@ -58,7 +59,13 @@ class OverlaysTest : public testing::Test {
     found.pop_back();
     return found;
   }
-  void simulate() { run_ = record(assemble(scene_, plan(scene_)), {.duration = scene_.duration}, ""); }
+  // The run with the scene's boxes as they are now.
+  Trajectory shown() const {
+    Trajectory run = shownAs(scene_, run_);
+    run.world = setupOf(scene_).world;
+    return run;
+  }
+  void simulate() { run_ = runOf(scene_); }
   void strike(double time, double impulse) {
     run_.impacts.push_back({.time = time,
                             .a = {0},
@@ -91,7 +98,7 @@ TEST_F(OverlaysTest, angularMomentumAndSpinPointAlongThem) {
   expectNear(momentum[0].to - momentum[0].from, Vec2(0, -0.2 * kHeight), 1e-2);
   const std::vector<Stroke> spin = arrows("spin-axis", 0);
   ASSERT_EQ(spin.size(), 2U);  // backwards, then the arrow
-  const Vec3 omega = angularVelocity(run_.tracks[0].mass, run_.state(0, 0));
+  const Vec3 omega = angularVelocity(run_.world.bodies[0].mass, run_.state(0, 0));
   const Vec2 way = spin[1].to - spin[1].from;
   const Vec2 expected = onPicture(Vec3(0, 0, 1) + 1e-6 * omega) - onPicture(Vec3(0, 0, 1));
   EXPECT_NEAR(way.normalized().dot(expected.normalized()), 1, 1e-6);
@@ -116,7 +123,7 @@ TEST_F(OverlaysTest, impulseFadesAndVanishes) {
 TEST_F(OverlaysTest, otherBoxGetsTheImpulseTheOtherWay) {
   strike(0.2, 3);
   scene_.boxes.push_back(boxAt(Vec3(1, 1, 1), Vec3(0.1, 0.1, 0.1)));
-  run_.tracks.push_back({.name = "other", .mass = immovable(), .segments = {{.start = 0, .motion = Rest{}}}});
+  run_.tracks.push_back({.segments = {{.start = 0, .motion = Rest{}}}});
   run_.impacts[0].b = Partner::ofBody(1);
   const std::vector<Stroke> found = arrows("impulses", 0.2);
   ASSERT_EQ(found.size(), 2U);
@@ -286,7 +293,7 @@ TEST_F(OverlaysTest, everythingStaysOnThePictureThatStandsAtItsEdges) {
 
 TEST_F(OverlaysTest, onlyWhatIsShownIsLookedFor) {
   const auto scalesWith = [&](const std::string& names) {
-    return Overlays(run_, scene_, overlaysNamed(names), kFrame).scales().speed;
+    return Overlays(run_, overlaysNamed(names), kFrame).scales().speed;
   };
   EXPECT_EQ(scalesWith("time,energy,trail,names,contacts"), 0);
   EXPECT_GT(scalesWith("velocity"), 0);
@@ -294,9 +301,9 @@ TEST_F(OverlaysTest, onlyWhatIsShownIsLookedFor) {
 
 TEST_F(OverlaysTest, fontIsNeededOnlyForWhatIsWritten) {
   const std::array<std::filesystem::path, 1> nowhere = {"/nowhere"};
-  EXPECT_NO_THROW(Overlays(run_, scene_, overlaysNamed("trail,contacts"), kFrame, nowhere));
+  EXPECT_NO_THROW(Overlays(run_, overlaysNamed("trail,contacts"), kFrame, nowhere));
   for (const char* name : {"time", "names", "energy", "velocity", "impulses"}) {
-    EXPECT_THROW(Overlays(run_, scene_, overlaysNamed(name), kFrame, nowhere), MachineError) << name;
+    EXPECT_THROW(Overlays(run_, overlaysNamed(name), kFrame, nowhere), MachineError) << name;
   }
 }
 

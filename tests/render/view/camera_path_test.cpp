@@ -21,7 +21,7 @@ class CameraPathTest : public testing::Test {
   CameraPathTest() { scene_.duration = 8; }
 
   Camera at(double filmTime) const {
-    return CameraPath(scene_, run_, scene_.film.time.within(scene_.duration), kAspect).at(filmTime);
+    return CameraPath(shownAs(scene_, run_), scene_.timeMap.within(scene_.duration), kAspect).at(filmTime);
   }
 
   Scene scene_ = crateInRoom();
@@ -154,8 +154,8 @@ TEST(CameraPath, followingIsNotJerkedByImpactsAndKeepsTheBoxInThePicture) {
   const Scene scene = bouncing();
   const Trajectory run = runOf(scene);
   ASSERT_GT(run.impacts.size(), 5U);
-  const TimeMap clock = scene.film.time.within(scene.duration);
-  const CameraPath path(scene, run, clock, kAspect);
+  const TimeMap clock = scene.timeMap.within(scene.duration);
+  const CameraPath path(run, clock, kAspect);
   const auto boxAtTime = [&](double time) { return run.state(0, time).pose.position; };
   constexpr double kStep = 1.0 / 512;
   double hardest = 0;     // [m/s²] of the eye
@@ -170,7 +170,7 @@ TEST(CameraPath, followingIsNotJerkedByImpactsAndKeepsTheBoxInThePicture) {
         std::max(hardest, bend(path.at(time - kStep).eye, path.at(time).eye, path.at(time + kStep).eye));
     boxHardest =
         std::max(boxHardest, bend(boxAtTime(time - kStep), boxAtTime(time), boxAtTime(time + kStep)));
-    const View view = viewOf(path.at(time), extentOf(scene), kAspect);
+    const View view = viewOf(path.at(time), extentOf(setupOf(scene)), kAspect);
     farthest = std::max(farthest, std::abs(view.pixelFromWorld(boxAtTime(time), 2, 2).y() - 1));
   }
   EXPECT_GT(boxHardest, 4000);
@@ -180,12 +180,12 @@ TEST(CameraPath, followingIsNotJerkedByImpactsAndKeepsTheBoxInThePicture) {
 
 TEST(CameraPath, followingInSlowMotionIsSmoothInTheFilmsTime) {
   Scene scene = bouncing();
-  scene.film.time.keys = {{0, 0}, {0.4, 0.4}, {4.4, 0.6}, {4.8, 1}};
+  scene.timeMap.keys = {{0, 0}, {0.4, 0.4}, {4.4, 0.6}, {4.8, 1}};
   const Trajectory run = runOf(scene);
-  const CameraPath path(scene, run, scene.film.time.within(scene.duration), kAspect);
+  const CameraPath path(run, scene.timeMap.within(scene.duration), kAspect);
   // At 1/20 speed a throw is h² g / 6 / 400 off, 0.17 mm, but near the impact, at 1.3 s.
   const Vec3 moved = path.at(2.5).eye - scene.camera->eye;
-  const Vec3 box = run.state(0, scene.film.time.sceneTime(2.5)).pose.position - Vec3(0, 0, 1.2);
+  const Vec3 box = run.state(0, scene.timeMap.sceneTime(2.5)).pose.position - Vec3(0, 0, 1.2);
   EXPECT_LT((moved - box).norm(), 2e-4);
 }
 
@@ -193,7 +193,7 @@ TEST(CameraPath, followingInSlowMotionIsSmoothInTheFilmsTime) {
 
 // How far the farthest corner of any box gets out, in halves of the picture, over the whole run.
 double farthestOut(const Scene& scene, const Trajectory& run, const Camera& camera, double aspect) {
-  const View view = viewOf(camera, extentOf(scene), aspect);
+  const View view = viewOf(camera, extentOf(setupOf(scene)), aspect);
   double out = 0;
   for (int moment = 0; moment <= 997; ++moment) {
     const std::vector<Pose> poses = run.poses(run.settings.duration * moment / 997);
@@ -217,11 +217,11 @@ TEST(CameraPath, cameraThatNobodyPlacedSeesAllBoxesAllTheTimeAndNotMuchMore) {
     Scene scene = readScene(scenes / (std::string(name) + ".json"));
     scene.camera.reset();
     scene.cameraMove = {};
-    scene.film.time = {};
+    scene.timeMap = {};
     scene.duration = std::min(scene.duration, 20.0);
     const Trajectory run = runOf(scene);
     for (const double aspect : {kAspect, 0.6}) {
-      const CameraPath path(scene, run, scene.film.time.within(scene.duration), aspect);
+      const CameraPath path(run, scene.timeMap.within(scene.duration), aspect);
       const double out = farthestOut(scene, run, path.at(0), aspect);
       EXPECT_LT(out, 0.97) << name << ' ' << aspect;
       EXPECT_GT(out, 0.85) << name << ' ' << aspect;
@@ -236,9 +236,9 @@ TEST(CameraPath, framesWhatTheFilmShowsOfTheRun) {
   scene.cameraMove = {};
   scene.boxes[0].velocity = Vec3(3, 0, 0);
   const Trajectory run = runOf(scene);
-  const Camera whole = cameraThatFrames(scene, run, scene.film.time.within(6), kAspect);  // 18 m
-  scene.film.time.keys = {{0, 0}, {4, 2}};
-  const Camera third = cameraThatFrames(scene, run, scene.film.time.within(6), kAspect);  // 6 m
+  const Camera whole = cameraThatFrames(run, scene.timeMap.within(6), kAspect);  // 18 m
+  scene.timeMap.keys = {{0, 0}, {4, 2}};
+  const Camera third = cameraThatFrames(run, scene.timeMap.within(6), kAspect);  // 6 m
   EXPECT_NEAR(whole.target.x(), 9, 2.5);
   EXPECT_NEAR(third.target.x(), 3, 1);
   EXPECT_LT((third.eye - third.target).norm(), 0.5 * (whole.eye - whole.target).norm());

@@ -75,9 +75,9 @@ TEST(Camera, defaultSeesTheWholeSceneAndNotMuchMore) {
 
 TEST(Camera, ofTheSceneComesFirst) {
   Scene scene = crateInRoom();
-  EXPECT_EQ(cameraOf(scene, kAspect).eye, Vec3(-1.5, -7, 3));
+  EXPECT_EQ(cameraOf(setupOf(scene), kAspect).eye, Vec3(-1.5, -7, 3));
   scene.camera.reset();
-  EXPECT_EQ(cameraOf(scene, kAspect).target, Vec3(0, 0, 1.5));
+  EXPECT_EQ(cameraOf(setupOf(scene), kAspect).target, Vec3(0, 0, 1.5));
 }
 
 }  // namespace

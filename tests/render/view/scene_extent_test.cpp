@@ -8,7 +8,7 @@ namespace careen {
 namespace {
 
 TEST(SceneExtent, isTheRoomWhereThereIsOne) {
-  const Extent extent = extentOf(crateInRoom());
+  const Extent extent = extentOf(setupOf(crateInRoom()));
   EXPECT_EQ(extent.min, Vec3(-3, -2, 0));
   EXPECT_EQ(extent.max, Vec3(3, 2, 3));
   EXPECT_EQ(extent.centre(), Vec3(0, 0, 1.5));
@@ -21,7 +21,7 @@ TEST(SceneExtent, followsAThrowToItsTop) {
   scene.gravity = Vec3(0, 0, -10);
   scene.boxes.push_back(boxAt(Vec3(1, 1, 1), Vec3(0.3, 0.4, 1.2)));  // corners 1.3 m from the middle
   scene.boxes[0].velocity = Vec3(0, 0, 10);
-  const Extent extent = extentOf(scene);
+  const Extent extent = extentOf(setupOf(scene));
   EXPECT_NEAR(extent.max.z(), 1 + 5 + 1.3, 1e-12);
   EXPECT_NEAR(extent.min.z(), 1 - 1.3, 1e-12);
   EXPECT_NEAR(extent.max.x(), 1 + 1.3, 1e-12);
@@ -33,7 +33,7 @@ TEST(SceneExtent, endsBehindAWall) {
   scene.gravity = Vec3(0, 0, -10);
   scene.boxes.push_back(boxAt(Vec3(0, 0, 5), Vec3(0.1, 0.1, 0.1)));
   scene.walls.push_back(wallAt(Vec3::UnitZ(), 0));
-  const Extent extent = extentOf(scene);
+  const Extent extent = extentOf(setupOf(scene));
   EXPECT_GT(extent.min.z(), -0.2);  // without the wall: −495
   EXPECT_LT(extent.min.z(), 1.5);
 }
@@ -45,10 +45,10 @@ TEST(SceneExtent, holdsWhereSpringsAreFixed) {
   spring.from.body = 0;
   spring.to.point = Vec3(0, 0, 7);
   scene.springs.push_back(spring);
-  EXPECT_EQ(extentOf(scene).max.z(), 7);
+  EXPECT_EQ(extentOf(setupOf(scene)).max.z(), 7);
 }
 
-TEST(SceneExtent, isSomethingEvenOfNothing) { EXPECT_GT(extentOf(Scene{}).radius(), 0); }
+TEST(SceneExtent, isSomethingEvenOfNothing) { EXPECT_GT(extentOf(RunSetup{}).radius(), 0); }
 
 }  // namespace
 }  // namespace careen

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/math/linear_algebra.h"
+#include "stage/camera.h"
+#include "stage/color.h"
+#include "stage/picture_settings.h"
+#include "stage/time_map.h"
+
+namespace careen {
+
+/// Faces of a room, in the order x−, x+, y−, y+, z−, z+.
+inline constexpr std::array<const char*, 6> kRoomSides = {"-x", "+x", "-y", "+y", "-z", "+z"};
+
+struct RoomShape {
+  Vec3 min = Vec3::Zero();     ///< [m]
+  Vec3 max = Vec3::Zero();     ///< [m]
+  std::array<bool, 6> open{};  ///< no wall on that side; order of kRoomSides
+};
+
+/// Points x with normal·x = offset, seen from where normal·x is greater.
+struct Plane {
+  Vec3 normal = Vec3::UnitZ();  ///< [1] unit
+  double offset = 0;            ///< [m]
+};
+
+/// How a run is shown. Walls are drawn whether or not anything that moves could meet them.
+struct Stage {
+  std::string name = "untitled";  ///< the scene's
+  std::optional<RoomShape> room;
+  std::vector<Plane> planes;     ///< walls beside the room's
+  std::vector<Color> colors;     ///< of the boxes, in their order
+  std::optional<Camera> camera;  ///< absent: one that sees all that happens is chosen
+  CameraMove cameraMove;         ///< none where there is no camera
+  TimeMap timeMap;
+  PictureSettings picture;
+};
+
+}  // namespace careen

@@ -1,0 +1,286 @@
+#include "trajectory/run_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <span>
+#include <string>
+#include <variant>
+
+#include "core/brief.h"
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+constexpr double kUnit =
+    1e-6;  // [1] how far a direction, a quaternion or an orientation may be from its length
+constexpr double kSamePlace = 1e-6;  // of a box: between where it is said to start and where its track begins
+constexpr double kMostSteps = 4096;  // of a stepped flight; the methods end one after 64
+constexpr double kRounding = 1e-12;  // of the duration: a time that is summed in two ways
+constexpr double kLeastTilt = 1e-9;  // [rad] of a line of sight to the camera's up
+
+[[noreturn]] void fail(const std::string& what) { throw InputError(what); }
+
+void require(bool holds, const char* what, const std::string& owner) {
+  if (!holds) {
+    fail("has " + owner + " with " + what);
+  }
+}
+
+bool isPositive(double value) { return std::isfinite(value) && value > 0; }
+bool isNotNegative(double value) { return std::isfinite(value) && value >= 0; }
+bool isUnit(double length) { return std::abs(length - 1) <= kUnit; }
+bool isRotation(const Mat3& matrix) {
+  return matrix.allFinite() &&
+         (matrix.transpose() * matrix - Mat3::Identity()).cwiseAbs().maxCoeff() <= kUnit &&
+         matrix.determinant() > 0;
+}
+bool isSound(const BodyState& state) {
+  return state.pose.position.allFinite() && state.velocity.allFinite() && state.angularMomentum.allFinite() &&
+         isRotation(state.pose.worldFromBody);
+}
+bool isWithin(int index, std::size_t size) { return index >= 0 && static_cast<std::size_t>(index) < size; }
+
+// ---- Motions: their numbers are numbers, and any moment of them can be had.
+
+bool isSound(const Flight& flight) {
+  return flight.position.allFinite() && flight.velocity.allFinite() && flight.acceleration.allFinite() &&
+         flight.angularMomentum.allFinite() && isUnit(flight.worldFromBody.norm());
+}
+
+/// Whether a motion that a body goes through for `seconds` makes sense in a run by such settings.
+struct Soundness {
+  const RunSettings& settings;
+  double seconds;
+
+  bool operator()(const Rest& rest) const {
+    return rest.pose.position.allFinite() && isRotation(rest.pose.worldFromBody);
+  }
+  bool operator()(const EulerStep& step) const {
+    return isSound(step.start) && step.force.allFinite() && step.torque.allFinite();
+  }
+  bool operator()(const Flight& flight) const { return isSound(flight); }
+  bool operator()(const SteppedFlight& stepped) const {
+    return stepped.method == settings.method && stepped.dt == settings.dt &&
+           seconds <= kMostSteps * stepped.dt && isSound(stepped.start);
+  }
+  bool operator()(const ContactStep& step) const {
+    const auto isFinite = [](const auto& vector) { return vector.allFinite(); };
+    return isPositive(step.duration) && std::all_of(step.position.begin(), step.position.end(), isFinite) &&
+           std::all_of(step.worldFromBody.begin(), step.worldFromBody.end(), isFinite) &&
+           isUnit(step.worldFromBody[0].norm());
+  }
+};
+
+void checkTrack(const Track& track, const std::string& name, const RunSettings& settings) {
+  const std::string owner = "a track of body '" + name + "'";
+  if (track.segments.empty() || track.segments.front().start != 0) {
+    fail("does not tell where body '" + name + "' begins");
+  }
+  for (std::size_t k = 0; k < track.segments.size(); ++k) {
+    const Segment& segment = track.segments[k];
+    // A pile's last frame may end after the run.
+    const double end = k + 1 < track.segments.size() ? track.segments[k + 1].start
+                                                     : std::max(segment.start, settings.duration);
+    require(end >= segment.start - kRounding * settings.duration && std::isfinite(end),
+            "segments out of order", owner);
+    require(std::visit(Soundness{.settings = settings, .seconds = end - segment.start}, segment.motion),
+            "a motion that makes no sense", owner);
+  }
+}
+
+void checkImpacts(const Trajectory& run) {
+  double before = 0;
+  for (const Impact& impact : run.impacts) {
+    const bool known = isWithin(impact.a.value, run.world.bodies.size()) &&
+                       (impact.b.isWall() ? impact.b.wall() < run.world.walls.size()
+                                          : isWithin(impact.b.body(), run.world.bodies.size()));
+    if (!known) {
+      fail("names a body or wall it does not hold");
+    }
+    require(impact.time >= before && impact.time <= run.settings.duration,
+            "a time out of order or beyond the run's end", "an impact");
+    require(impact.point.allFinite() && isUnit(impact.normal.norm()) && std::isfinite(impact.approach) &&
+                std::isfinite(impact.impulse) && std::isfinite(impact.tangential),
+            "numbers that make no sense", "an impact");
+    before = impact.time;
+  }
+}
+
+// ---- World.
+
+bool isSame(const MassProperties& a, const MassProperties& b) {
+  return a.mass == b.mass && a.inverseMass == b.inverseMass && a.inertiaBody == b.inertiaBody &&
+         a.inverseInertiaBody == b.inverseInertiaBody;
+}
+
+void checkMaterial(const Material& material, const std::string& owner) {
+  require(isNotNegative(material.restitution) && material.restitution <= 1, "a restitution not from 0 to 1",
+          owner);
+  require(isNotNegative(material.friction), "a friction that is no number from 0 on", owner);
+}
+
+void checkBody(const Body& body) {
+  const std::string owner = "a body '" + body.name + "'";
+  require(std::all_of(body.halfExtents.begin(), body.halfExtents.end(), isPositive),
+          "half extents that are not positive numbers", owner);
+  if (isImmovable(body.mass)) {
+    require(isSame(body.mass, immovable()), "a mass though it cannot be moved", owner);
+  } else {
+    require(isPositive(body.mass.mass), "a mass that is no positive number", owner);
+    require(isSame(body.mass, solidBox(body.halfExtents, body.mass.mass)),
+            "another inertia than a solid box of its size and mass", owner);
+  }
+  checkMaterial(body.material, owner);
+  require(isSound(body.initial), "a start that makes no sense", owner);
+}
+
+void checkWall(const Vec3& normal, double offset, const std::string& owner) {
+  require(isUnit(normal.norm()) && std::isfinite(offset), "a place that makes no sense", owner);
+}
+
+void checkNames(const World& world) {
+  std::set<std::string_view> names;
+  const auto claim = [&names](const std::string& name) {
+    if (!names.insert(name).second) {
+      fail("has two bodies or walls of the name '" + name + "'");
+    }
+  };
+  for (const Body& body : world.bodies) {
+    claim(body.name);
+  }
+  for (const Wall& wall : world.walls) {
+    claim(wall.name);
+  }
+}
+
+void checkSpring(const Spring& spring, std::size_t bodies) {
+  for (const SpringEnd& end : {spring.from, spring.to}) {
+    require(!end.body || isWithin(*end.body, bodies), "an end at a body there is not", "a spring");
+    require(end.point.allFinite(), "an end that is nowhere", "a spring");
+  }
+  require(spring.from.body != spring.to.body, "both ends at one body", "a spring");
+  require(
+      isNotNegative(spring.stiffness) && isNotNegative(spring.damping) && isNotNegative(spring.restLength),
+      "numbers that make no sense", "a spring");
+}
+
+void checkWorld(const World& world) {
+  require(world.gravity.allFinite(), "a gravity that is no number", "a world");
+  checkNames(world);
+  for (const Body& body : world.bodies) {
+    checkBody(body);
+  }
+  for (const Wall& wall : world.walls) {
+    const std::string owner = "a wall '" + wall.name + "'";
+    checkWall(wall.normal, wall.offset, owner);
+    checkMaterial(wall.material, owner);
+  }
+  for (const Spring& spring : world.springs) {
+    checkSpring(spring, world.bodies.size());
+  }
+  require(!world.drag || (isNotNegative(world.drag->linear) && isNotNegative(world.drag->angular)),
+          "a drag that makes no sense", "a world");
+}
+
+// A track begins where its body starts, but for the rounding of a motion.
+void checkStart(const Trajectory& run, std::size_t body) {
+  const Body& moved = run.world.bodies[body];
+  const Pose first = run.state(body, 0).pose;
+  const Pose& start = moved.initial.pose;
+  require((first.position - start.position).norm() <= kSamePlace * moved.halfExtents.norm() &&
+              (first.worldFromBody - start.worldFromBody).cwiseAbs().maxCoeff() <= kSamePlace,
+          "a track that begins elsewhere than it starts", "a body '" + moved.name + "'");
+}
+
+// ---- Stage.
+
+void checkSight(const Vec3& eye, const Vec3& target, const Vec3& up, double fovDegrees) {
+  const Vec3 sight = target - eye;
+  require(eye.allFinite() && target.allFinite() && sight.norm() > 0 && isUnit(up.norm()) &&
+              sight.normalized().cross(up).norm() > kLeastTilt,
+          "nothing to look at or no upward", "a camera");
+  require(isPositive(fovDegrees) && fovDegrees < 180, "an angle not between 0 and 180", "a camera");
+}
+
+void checkCamera(const Stage& stage, std::size_t bodies) {
+  const CameraMove& move = stage.cameraMove;
+  const bool moves = move.orbitDegrees != 0 || move.followed || !move.keys.empty();
+  require(stage.camera || !moves, "a move but no place", "a camera");
+  if (!stage.camera) {
+    return;
+  }
+  checkSight(stage.camera->eye, stage.camera->target, stage.camera->up, stage.camera->fovDegrees);
+  require(std::isfinite(move.orbitDegrees) && (move.orbitDegrees == 0 || move.keys.empty()),
+          "an orbit that makes no sense", "a camera");
+  require(!move.followed || *move.followed < bodies, "a body to follow that there is not", "a camera");
+  double before = -1;
+  for (const CameraKey& key : move.keys) {
+    checkSight(key.eye, key.target, stage.camera->up, key.fovDegrees);
+    require(std::isfinite(key.time) && key.time > before, "keys out of order", "a camera");
+    before = std::max(key.time, 0.0);
+  }
+}
+
+void checkTimeMap(const TimeMap& map) {
+  for (std::size_t i = 0; i < map.keys.size(); ++i) {
+    const TimeKey& key = map.keys[i];
+    const bool follows =
+        i == 0 ? key.film == 0 : key.film > map.keys[i - 1].film && key.scene >= map.keys[i - 1].scene;
+    require(follows && isNotNegative(key.film) && isNotNegative(key.scene), "times out of order", "a film");
+  }
+}
+
+void checkPicture(const PictureSettings& picture) {
+  const auto isSize = [](int size) { return size >= 1 && size <= kLargestFilm; };
+  require(isSize(picture.width) && isSize(picture.height), "a size beyond what can be drawn", "a picture");
+  require(isNotNegative(picture.shutter.degrees) && picture.shutter.degrees <= kWidestShutter &&
+              picture.shutter.samples >= 1 && picture.shutter.samples <= kMostShutterSamples,
+          "a shutter that makes no sense", "a picture");
+}
+
+void checkStage(const Stage& stage, std::size_t bodies) {
+  if (stage.colors.size() != bodies) {
+    fail("has " + std::to_string(stage.colors.size()) + " colours for " + std::to_string(bodies) + " bodies");
+  }
+  if (stage.room) {
+    require(stage.room->min.allFinite() && stage.room->max.allFinite() &&
+                (stage.room->min.array() < stage.room->max.array()).all(),
+            "no inside", "a room");
+  }
+  for (const Plane& plane : stage.planes) {
+    checkWall(plane.normal, plane.offset, "a wall to be drawn");
+  }
+  checkCamera(stage, bodies);
+  checkTimeMap(stage.timeMap);
+  checkPicture(stage.picture);
+}
+
+}  // namespace
+
+void checkMotions(const Trajectory& run) {
+  require(
+      isPositive(run.settings.duration) && isPositive(run.settings.dt) && isPositive(run.settings.tolerance),
+      "a duration, step or tolerance that is no positive number", "settings");
+  if (run.tracks.size() != run.world.bodies.size()) {
+    fail("has " + std::to_string(run.tracks.size()) + " tracks for " +
+         std::to_string(run.world.bodies.size()) + " bodies");
+  }
+  for (std::size_t body = 0; body < run.tracks.size(); ++body) {
+    checkTrack(run.tracks[body], run.world.bodies[body].name, run.settings);
+  }
+  checkImpacts(run);
+}
+
+void checkRun(const Trajectory& run) {
+  checkWorld(run.world);
+  checkMotions(run);
+  for (std::size_t body = 0; body < run.tracks.size(); ++body) {
+    checkStart(run, body);
+  }
+  checkStage(run.stage, run.world.bodies.size());
+}
+
+}  // namespace careen

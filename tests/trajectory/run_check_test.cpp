@@ -1,0 +1,185 @@
+#include "trajectory/run_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <variant>
+
+#include "core/error.h"
+#include "support/input_error.h"
+#include "support/trajectories.h"
+#include "trajectory/trajectory_file.h"
+
+namespace careen {
+namespace {
+
+const double kNoNumber = std::nan("");
+const double kInfinity = std::numeric_limits<double>::infinity();
+
+EulerStep& firstStep(Trajectory& run) { return std::get<EulerStep>(run.tracks[0].segments[0].motion); }
+
+template <class Motion>
+Motion& instead(Trajectory& run) {
+  return run.tracks[0].segments[0].motion.emplace<Motion>();
+}
+
+/// What makes the run senseless, and what is then said.
+struct Fault {
+  const char* said;
+  std::function<void(Trajectory&)> make;
+};
+
+const std::vector<Fault> kFaults = {
+    // The world.
+    {"has a world with a gravity that is no number",
+     [](Trajectory& run) { run.world.gravity.z() = kNoNumber; }},
+    {"has two bodies or walls of the name 'anchor'",
+     [](Trajectory& run) { run.world.bodies[0].name = "anchor"; }},
+    {"has two bodies or walls of the name 'drifter'",
+     [](Trajectory& run) { run.world.walls[1].name = "drifter"; }},
+    {"has a body 'drifter' with half extents that are not positive numbers",
+     [](Trajectory& run) { run.world.bodies[0].halfExtents.y() = 0; }},
+    {"has a body 'anchor' with half extents that are not positive numbers",
+     [](Trajectory& run) { run.world.bodies[1].halfExtents.y() = kInfinity; }},
+    {"has a body 'drifter' with a mass that is no positive number",
+     [](Trajectory& run) { run.world.bodies[0].mass.mass = -1; }},
+    {"has a body 'drifter' with another inertia than a solid box of its size and mass",
+     [](Trajectory& run) { run.world.bodies[0].halfExtents.x() = 0.1000001; }},
+    {"has a body 'drifter' with another inertia than a solid box of its size and mass",
+     [](Trajectory& run) { run.world.bodies[0].mass.mass = 3; }},
+    {"has a body 'anchor' with a mass though it cannot be moved",
+     [](Trajectory& run) { run.world.bodies[1].mass.mass = 1; }},
+    {"has a body 'drifter' with a restitution not from 0 to 1",
+     [](Trajectory& run) { run.world.bodies[0].material.restitution = 1.5; }},
+    {"has a body 'drifter' with a start that makes no sense",
+     [](Trajectory& run) { run.world.bodies[0].initial.pose.worldFromBody *= 2; }},
+    {"has a wall 'room+x' with a friction that is no number from 0 on",
+     [](Trajectory& run) { run.world.walls[1].material.friction = kNoNumber; }},
+    {"has a wall 'room-x' with a place that makes no sense",
+     [](Trajectory& run) { run.world.walls[0].normal = Vec3(1, 1, 0); }},
+    {"has a spring with an end at a body there is not",
+     [](Trajectory& run) { run.world.springs.push_back({.from = {.body = 2}, .to = {}}); }},
+    {"has a spring with both ends at one body",
+     [](Trajectory& run) { run.world.springs.push_back({.from = {.body = 1}, .to = {.body = 1}}); }},
+    {"has a spring with numbers that make no sense",
+     [](Trajectory& run) {
+       run.world.springs.push_back({.from = {.body = 1}, .to = {.body = 0}, .stiffness = kInfinity});
+     }},
+    {"has a world with a drag that makes no sense",
+     [](Trajectory& run) { run.world.drag = Drag{.linear = -1, .angular = 0}; }},
+    // The motions.
+    {"has settings with a duration, step or tolerance that is no positive number",
+     [](Trajectory& run) { run.settings.duration = kInfinity; }},
+    {"has settings with a duration, step or tolerance that is no positive number",
+     [](Trajectory& run) { run.settings.dt = 0; }},
+    {"has 1 tracks for 2 bodies", [](Trajectory& run) { run.tracks.pop_back(); }},
+    {"does not tell where body 'anchor' begins", [](Trajectory& run) { run.tracks[1].segments.clear(); }},
+    {"does not tell where body 'drifter' begins",
+     [](Trajectory& run) { run.tracks[0].segments[0].start = 0.1; }},
+    {"has a track of body 'drifter' with segments out of order",
+     [](Trajectory& run) { run.tracks[0].segments[1].start = -0.5; }},
+    {"has a track of body 'drifter' with segments out of order",
+     [](Trajectory& run) { run.tracks[0].segments[1].start = kInfinity; }},
+    {"has a track of body 'drifter' with segments out of order",
+     [](Trajectory& run) { run.tracks[0].segments[1].start = kNoNumber; }},
+    {"has a track of body 'drifter' with a motion that makes no sense",
+     [](Trajectory& run) { firstStep(run).force.x() = kNoNumber; }},
+    {"has a track of body 'drifter' with a motion that makes no sense",
+     [](Trajectory& run) { firstStep(run).start.pose.worldFromBody(0, 0) = 1.1; }},
+    {"has a track of body 'drifter' with a motion that makes no sense",
+     [](Trajectory& run) { firstStep(run).start.pose.worldFromBody = -Mat3::Identity(); }},
+    {"has a track of body 'anchor' with a motion that makes no sense",
+     [](Trajectory& run) { std::get<Rest>(run.tracks[1].segments[0].motion).pose.position.x() = kInfinity; }},
+    {"has a track of body 'drifter' with a motion that makes no sense",
+     [](Trajectory& run) { instead<Flight>(run).worldFromBody.w() = 2; }},
+    {"has a track of body 'drifter' with a motion that makes no sense",  // its duration is 0
+     [](Trajectory& run) { instead<ContactStep>(run).worldFromBody[0].w() = 1; }},
+    {"has a track of body 'drifter' with a motion that makes no sense",  // by another method than the run
+     [](Trajectory& run) {
+       instead<SteppedFlight>(run) = {.method = Method::kStrang, .dt = 0.5, .start = {}};
+     }},
+    {"has a track of body 'drifter' with a motion that makes no sense",  // steps that nobody would wait for
+     [](Trajectory& run) {
+       run.settings.method = Method::kStrang;
+       run.settings.dt = 1e-9;
+       instead<SteppedFlight>(run) = {.method = Method::kStrang, .dt = 1e-9, .start = {}};
+     }},
+    {"has a body 'drifter' with a track that begins elsewhere than it starts",
+     [](Trajectory& run) { run.world.bodies[0].initial.pose.position.x() += 0.01; }},
+    // The impacts.
+    {"names a body or wall it does not hold", [](Trajectory& run) { run.impacts[0].b = Partner::ofWall(2); }},
+    {"names a body or wall it does not hold", [](Trajectory& run) { run.impacts[0].b = BodyIndex{-1}; }},
+    {"has an impact with a time out of order or beyond the run's end",
+     [](Trajectory& run) { run.impacts[0].time = 1.01; }},
+    {"has an impact with a time out of order or beyond the run's end",
+     [](Trajectory& run) {
+       run.impacts.push_back(run.impacts[0]);
+       run.impacts[1].time = 0.25;
+     }},
+    {"has an impact with numbers that make no sense",
+     [](Trajectory& run) { run.impacts[0].impulse = kNoNumber; }},
+    // The stage.
+    {"has 3 colours for 2 bodies", [](Trajectory& run) { run.stage.colors.emplace_back(); }},
+    {"has a room with no inside", [](Trajectory& run) { run.stage.room.emplace(); }},
+    {"has a wall to be drawn with a place that makes no sense",
+     [](Trajectory& run) { run.stage.planes.push_back({.normal = Vec3::UnitX(), .offset = kNoNumber}); }},
+    {"has a camera with a move but no place", [](Trajectory& run) { run.stage.cameraMove.orbitDegrees = 1; }},
+    {"has a camera with nothing to look at or no upward",
+     [](Trajectory& run) { run.stage.camera.emplace(); }},
+    {"has a camera with nothing to look at or no upward",
+     [](Trajectory& run) { run.stage.camera = Camera{.eye = Vec3::UnitZ()}; }},
+    {"has a camera with an angle not between 0 and 180",
+     [](Trajectory& run) { run.stage.camera = Camera{.eye = Vec3::UnitX(), .fovDegrees = 180}; }},
+    {"has a camera with a body to follow that there is not",
+     [](Trajectory& run) {
+       run.stage.camera = Camera{.eye = Vec3::UnitX()};
+       run.stage.cameraMove.followed = 2;
+     }},
+    {"has a camera with keys out of order",
+     [](Trajectory& run) {
+       run.stage.camera = Camera{.eye = Vec3::UnitX()};
+       run.stage.cameraMove.keys = {{.time = 1, .eye = Vec3::UnitX()}, {.time = 1, .eye = Vec3::UnitY()}};
+     }},
+    {"has a film with times out of order",
+     [](Trajectory& run) {
+       run.stage.timeMap.keys = {{.film = 0, .scene = 0.5}, {.film = 1, .scene = 0.4}};
+     }},
+    {"has a picture with a size beyond what can be drawn",
+     [](Trajectory& run) { run.stage.picture.width = kLargestFilm + 1; }},
+    {"has a picture with a size beyond what can be drawn",
+     [](Trajectory& run) { run.stage.picture.height = 0; }},
+    {"has a picture with a shutter that makes no sense",
+     [](Trajectory& run) { run.stage.picture.shutter.samples = 0; }},
+};
+
+TEST(RunCheck, acceptsWhatMakesSense) { EXPECT_NO_THROW(checkRun(driftAndReturn())); }
+
+TEST(RunCheck, saysWhatMakesNoSense) {
+  for (const Fault& fault : kFaults) {
+    Trajectory run = driftAndReturn();
+    fault.make(run);
+    EXPECT_EQ(inputErrorOf([&run] { checkRun(run); }), fault.said);
+  }
+}
+
+// Nothing can be made of a file of theirs: each is refused with the same words.
+TEST(RunCheck, isMadeOfEveryFileThatIsRead) {
+  for (const Fault& fault : kFaults) {
+    Trajectory run = driftAndReturn();
+    fault.make(run);
+    std::string bytes;
+    try {
+      bytes = encodeTrajectory(run);
+    } catch (const std::exception&) {
+      continue;  // its last state, whose hash is in the file, cannot even be found
+    }
+    EXPECT_EQ(inputErrorOf([&bytes] { decodeTrajectory(bytes, "run.careen"); }),
+              "run.careen: this trajectory file " + std::string(fault.said));
+  }
+}
+
+}  // namespace
+}  // namespace careen
