@@ -259,12 +259,12 @@ std::int64_t SteppedBody::stepsOutOfReach() const {
   for (const Wall& wall : world_.walls) {
     const double room = careen::gap(wall, now_.position) - radius;
     const double speed = wall.normal.dot(now_.velocity);
-    const double pull = wall.normal.dot(world_.gravity);
+    const double acceleration = wall.normal.dot(world_.gravity);
     if (room <= 0) {
       return 0;
     }
-    // room + speed t + pull t²/2 ≥ room − (|speed| + |pull| t/2) t while both only pull it nearer
-    const double closing = std::max(0.0, -speed) + 0.5 * std::max(0.0, -pull) * safe;
+    // room + speed t + acceleration t²/2 ≥ room − (|speed| + |acceleration| t/2) t while both close it
+    const double closing = std::max(0.0, -speed) + 0.5 * std::max(0.0, -acceleration) * safe;
     if (closing > 0) {
       safe = std::min(safe, room / closing);
     }

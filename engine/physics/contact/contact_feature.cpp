@@ -30,11 +30,11 @@ ContactState onPlane(const Vec3& arm, const Kinematics& a, const Kinematics* b, 
     const Vec3& spin = b->angularVelocity;
     state.armB = (a.pose.position - b->pose.position) + arm;
     state.gap = normal.dot(state.armB) - offset;
-    const Vec3 pulling = velocity - b->velocity;
-    state.slip = pulling - spin.cross(state.armB);
+    const Vec3 relative = velocity - b->velocity;
+    state.slip = relative - spin.cross(state.armB);
     state.gapBias = normal.dot(centripetal) + spin.cross(spin.cross(normal)).dot(state.armB) +
-                    2 * spin.cross(normal).dot(pulling);
-    state.slipBias = centripetal - spin.cross(pulling);
+                    2 * spin.cross(normal).dot(relative);
+    state.slipBias = centripetal - spin.cross(relative);
   }
   state.rate = normal.dot(state.slip);
   state.slip -= state.rate * normal;

@@ -25,9 +25,9 @@ constexpr double kInconsistent = 0x1p-10;
 constexpr double kDiverged = 0x1p20;
 /// [1] of the largest limit of friction.
 constexpr double kLimitsAgree = 0x1p-42;
-constexpr double kBlowsAgree = 0x1p-16;
-/// [1] of the velocities: strides err more.
-constexpr double kBlowEnough = 0x1p-30;
+constexpr double kImpulsesAgree = 0x1p-16;
+/// [1] of the velocities: time steps err more.
+constexpr double kImpulsesEnough = 0x1p-30;
 /// [1] of the accelerations, with given modes: gaps and rates are projected anyway.
 constexpr double kGivenEnough = 0x1p-50;
 constexpr int kOuterCap = 40;
@@ -91,18 +91,18 @@ void ContactForces::weigh() {
   masses_.resize(contacts_.size());
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const Contact& contact = contacts_[c];
-    std::array<double, 3> softness{};
+    std::array<double, 3> inverseEffectiveMass{};
     const std::array<int, 2> sides{contact.a, contact.b};
     for (std::size_t side = 0; side < 2; ++side) {
       for (std::size_t k = 0; sides[side] != kNobody && k < kAxes; ++k) {
         const double inverse = inverseMass_[static_cast<std::size_t>(sides[side]) * kAxes + k];
         for (std::size_t row = 0; row < 3; ++row) {
           const double value = contact.rows[row][side * kAxes + k];
-          softness[row] += inverse * (value * value);
+          inverseEffectiveMass[row] += inverse * (value * value);
         }
       }
     }
-    masses_[c] = {1 / softness[0], 2 / (softness[1] + softness[2])};
+    masses_[c] = {1 / inverseEffectiveMass[0], 2 / (inverseEffectiveMass[1] + inverseEffectiveMass[2])};
   }
 }
 
@@ -365,9 +365,9 @@ bool ContactForces::solve(std::span<const double> free, std::span<Mode> modes, M
   return limits == Limits::kSolved || (limits == Limits::kAgree && (stands(modes) || decide(free, modes)));
 }
 
-void ContactForces::solveBlow(std::span<const double> free, std::span<Mode> modes) {
-  if (!solveByNewton(free, modes, Modes::kFound, {}, {}, kBlowEnough)) {
-    solveByLimits(free, modes, kBlowsAgree, kBlowEnough);
+void ContactForces::solveImpulses(std::span<const double> free, std::span<Mode> modes) {
+  if (!solveByNewton(free, modes, Modes::kFound, {}, {}, kImpulsesEnough)) {
+    solveByLimits(free, modes, kImpulsesAgree, kImpulsesEnough);
   }
 }
 

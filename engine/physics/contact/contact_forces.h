@@ -18,7 +18,8 @@ namespace careen {
 ///   a contact that slips: λ_t = −μ λ_n · slip;   one that does not: λ_t holds t a at its target if |λ_t|
 ///   can, else it is μ λ_n against what is left of t a − target.
 ///
-/// The same with velocities in place of accelerations is the velocity that a blow without restitution leaves.
+/// The same with velocities in place of accelerations is the velocity that a impulse without restitution
+/// leaves.
 ///
 /// Method: augmented Lagrangian with semismooth Newton (P. Alart, A. Curnier, Comput. Methods Appl. Mech.
 /// Eng. 92, 1991) in the coordinates of the bodies: the matrix M + Jᵀ D J stays regular however redundant the
@@ -65,7 +66,7 @@ class ContactForces {
 
   /// The same for velocities, which always has a solution; the limits of friction agree with the normal
   /// impulses to 2e-5 of them, or as far as could be reached, and no energy is gained.
-  void solveBlow(std::span<const double> free, std::span<Mode> modes);
+  void solveImpulses(std::span<const double> free, std::span<Mode> modes);
 
   std::span<const double> accelerations() const { return a_; }
   std::span<const Force> forces() const { return forces_; }

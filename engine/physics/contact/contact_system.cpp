@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kSix = ContactForces::kAxes;
 constexpr std::size_t kHeld = std::numeric_limits<std::size_t>::max();
-/// [1] of the speed that the pull gives over a half diagonal: rounding of what has come to rest.
+/// [1] of the speed that gravity gives over a half diagonal: rounding of what has come to rest.
 constexpr double kRestSpeed = 0x1p-44;
 /// [1] Gaps and rates this small, beside their lengths and speeds, need no projection.
 constexpr double kProjected = 0x1p-51;
@@ -51,7 +51,7 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
       onset_(features_.size(), Vec3::Zero()),
       kinematics_(bodies_.size()),
       states_(features_.size()) {
-  pull_ = world.gravity.norm();
+  gravityMagnitude_ = world.gravity.norm();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const TouchingBody& each = bodies_[i];
     places_.push_back(each.isHeld() ? kHeld : movers_.size());
@@ -66,7 +66,7 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
       }
     }
   }
-  restSpeed_ = kRestSpeed * std::sqrt(pull_ * radius_);
+  restSpeed_ = kRestSpeed * std::sqrt(gravityMagnitude_ * radius_);
   free_.resize(inverseMass_.size());
   forces_.setBodies(inverseMass_);
   forces_.contacts().resize(features_.size());
@@ -312,7 +312,7 @@ bool ContactSystem::project(std::vector<double>& y) {
   return projectVelocities(y) || moved;
 }
 
-void ContactSystem::strideBlow(std::vector<double>& y, double h) {
+void ContactSystem::takeImpulseStep(std::vector<double>& y, double h) {
   look(y);
   fillContacts();
   findFree();
@@ -326,11 +326,11 @@ void ContactSystem::strideBlow(std::vector<double>& y, double h) {
     setThree(before, m * kSix, threeAt(y, m * kNumbers + 7));
     setThree(before, m * kSix + 3, threeAt(y, m * kNumbers + 10));
   }
-  std::vector<double> pulled = before;
-  for (std::size_t k = 0; k < pulled.size(); ++k) {
-    pulled[k] += h * free_[k];
+  std::vector<double> accelerated = before;
+  for (std::size_t k = 0; k < accelerated.size(); ++k) {
+    accelerated[k] += h * free_[k];
   }
-  forces_.solveBlow(pulled, modes_);
+  forces_.solveImpulses(accelerated, modes_);
   for (std::size_t m = 0; m < movers_.size(); ++m) {
     const std::size_t at = m * kNumbers;
     const Vec3 velocity = threeAt(forces_.accelerations(), m * kSix);

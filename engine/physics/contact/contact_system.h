@@ -50,14 +50,14 @@ class ContactSystem {
   bool rate(std::span<const double> y, std::vector<double>& dy);
 
   /// Brings the gaps of pushing contacts to zero by the least displacement (in the metric of mass), their
-  /// rates by the least blow; contacts that stick lose their slip. False if rounding is all there was.
+  /// rates by the least impulse; contacts that stick lose their slip. False if rounding is all there was.
   bool project(std::vector<double>& y);
   bool projectPositions(std::vector<double>& y);
   bool projectVelocities(std::vector<double>& y);
 
   /// One step of first order, whose impulses act at once (D. E. Stewart, J. C. Trinkle, Int. J. Numer.
   /// Methods Eng. 39, 1996): it exists where accelerations do not.
-  void strideBlow(std::vector<double>& y, double h);
+  void takeImpulseStep(std::vector<double>& y, double h);
 
   /// As of the last rate(), findModes() or look().
   const std::vector<ContactState>& states() const { return states_; }
@@ -72,7 +72,7 @@ class ContactSystem {
   double restSpeed() const { return restSpeed_; }
   /// [m] the largest half diagonal; [m/s²] the accelerations to be expected.
   double radius() const { return radius_; }
-  double pull() const { return pull_; }
+  double gravityMagnitude() const { return gravityMagnitude_; }
 
  private:
   void findFree();
@@ -95,7 +95,7 @@ class ContactSystem {
   ContactForces forces_;
   double restSpeed_ = 0;
   double radius_ = 0;
-  double pull_ = 0;
+  double gravityMagnitude_ = 0;
 };
 
 }  // namespace careen

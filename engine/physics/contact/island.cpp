@@ -25,17 +25,17 @@ constexpr double kBeforeStop = 1 - 0x1p-10;
 constexpr double kLifetime = 4;
 /// A slip so many tolerances slow, in the time it takes to fall one's own size, has stopped.
 constexpr double kStopped = 16;
-/// [1] Accelerations this small beside the pull are none.
+/// [1] Accelerations this small beside gravity are none.
 constexpr double kStill = 0x1p-32;
 /// [1] And so small beside what the contact forces would give.
 constexpr double kStillLoaded = 0x1p-40;
-/// [1] of a stride. Where slip begins, friction turns into its direction ever faster the slower it still is,
-/// and smooth steps would have to follow that; a stride, implicit in friction, errs less than the tolerance
-/// there.
+/// [1] of a time step. Where slip begins, friction turns into its direction ever faster the slower it still
+/// is, and smooth steps would have to follow that; a time step, implicit in friction, errs less than the
+/// tolerance there.
 constexpr double kStiff = 0x1p-4;
 /// [1] of the accelerations at hand: a contact that pulls by no more is about to part.
-constexpr double kPulling = 0x1p-20;
-/// [1] of what a step may err: it may be a little more where a watch falls.
+constexpr double kTension = 0x1p-20;
+/// [1] of what a step may err: it may be a little more where an event function falls.
 constexpr double kMostLocated = 4;
 constexpr int kMostAttempts = 60;
 
@@ -43,9 +43,9 @@ Vec3 threeAt(const DormandPrince5::State& y, std::size_t at) { return {y[at], y[
 
 }  // namespace
 
-double strideOf(const World& world, double tolerance) {
-  const double pull = world.gravity.norm();
-  return pull > 0 ? std::sqrt(tolerance / pull) : kInfinity;
+double timeStepOf(const World& world, double tolerance) {
+  const double gravity = world.gravity.norm();
+  return gravity > 0 ? std::sqrt(tolerance / gravity) : kInfinity;
 }
 
 Island::Island(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features,
@@ -69,7 +69,7 @@ void Island::begin(Stepping stepping) {
     system_.unpack(end_);
   }
   known_ = false;
-  watchAll();
+  listEventFunctions();
 }
 
 bool Island::pushes() const {
@@ -78,9 +78,10 @@ bool Island::pushes() const {
 }
 
 // Some contact pulls, and its friction would drive: the modes found lead elsewhere than they were found.
-bool Island::pulls() const {
-  for (std::size_t w = 0; w < watches_.size(); ++w) {
-    if (watches_[w].kind == Watch::Kind::kPush && atStart_[w] < -kPulling * system_.forces().scale()) {
+bool Island::hasTension() const {
+  for (std::size_t w = 0; w < eventFunctions_.size(); ++w) {
+    if (eventFunctions_[w].kind == EventFunction::Kind::kPush &&
+        atStart_[w] < -kTension * system_.forces().scale()) {
       return true;
     }
   }
@@ -101,7 +102,7 @@ bool Island::isClear() const {
 
 bool Island::mayLose() const {
   const std::vector<ContactFeature>& features = system_.features();
-  return strode_ || world_.drag ||
+  return tookTimeStep_ || world_.drag ||
          std::any_of(world_.springs.begin(), world_.springs.end(),
                      [](const Spring& spring) { return spring.damping > 0; }) ||
          std::any_of(features.begin(), features.end(),
@@ -131,7 +132,7 @@ bool Island::rests() const {
       }
     }
     if (speed > system_.restSpeed() ||
-        std::max(linear, turning) > std::max(kStill * system_.pull(), kStillLoaded * load)) {
+        std::max(linear, turning) > std::max(kStill * system_.gravityMagnitude(), kStillLoaded * load)) {
       return false;
     }
     ++m;
@@ -183,11 +184,11 @@ bool Island::try5(double h) {
 
 void Island::restep(double h) {
   // Under steady accelerations; what has been projected away at the end has grown with the square of time.
-  if (strode_) {
+  if (tookTimeStep_) {
     const double part = h / length_;
     for (std::size_t k = 0; k < end_.size(); ++k) {
       const double steady = startRate_[k] + endRate_[k];
-      end_[k] = start_[k] + part * part * (strideEnd_[k] - start_[k] - 0.5 * length_ * steady) +
+      end_[k] = start_[k] + part * part * (timeStepEnd_[k] - start_[k] - 0.5 * length_ * steady) +
                 h * (startRate_[k] + 0.5 * part * (endRate_[k] - startRate_[k]));
     }
     system_.projectPositions(end_);
@@ -226,8 +227,9 @@ double Island::sizeOf(const State& difference, double h) const {
       continue;
     }
     const double radius = body.body->halfExtents.norm();
-    const double time =
-        system_.pull() > 0 ? std::max(h, std::min(std::sqrt(radius / system_.pull()), lifetime_)) : h;
+    const double time = system_.gravityMagnitude() > 0
+                            ? std::max(h, std::min(std::sqrt(radius / system_.gravityMagnitude()), lifetime_))
+                            : h;
     const Vec4 turn(difference[at + 3], difference[at + 4], difference[at + 5], difference[at + 6]);
     worst = std::max({worst, threeAt(difference, at).norm(), 2 * radius * turn.norm(),
                       time * threeAt(difference, at + 7).norm(),
@@ -260,27 +262,27 @@ bool Island::stop() {
   return stopped;
 }
 
-Island::Step Island::stride(double most) {
-  strode_ = true;
+Island::Step Island::takeTimeStep(double most) {
+  tookTimeStep_ = true;
   known_ = false;
-  length_ = std::min(most, strideOf(world_, tolerance_));
+  length_ = std::min(most, timeStepOf(world_, tolerance_));
   system_.look(start_);
   noteStart();
-  system_.strideBlow(end_, length_);
+  system_.takeImpulseStep(end_, length_);
   system_.look(end_);
-  endStride(length_);
+  endTimeStep(length_);
   Step done{.length = length_};
   locate(done);
   done.end = End::kChanges;
-  endStride(done.length);
+  endTimeStep(done.length);
   system_.unpack(end_);
   return done;
 }
 
-// The stride is that from start_ to end_ now.
-void Island::endStride(double length) {
+// The time step is that from start_ to end_ now.
+void Island::endTimeStep(double length) {
   length_ = length;
-  strideEnd_ = end_;
+  timeStepEnd_ = end_;
   if (!(length_ > 0)) {
     return;
   }
@@ -307,19 +309,19 @@ void Island::endStride(double length) {
 
 Island::Step Island::step(double most) {
   start_ = end_;
-  strode_ = false;
+  tookTimeStep_ = false;
   if (!smooth_) {
-    return stride(most);
+    return takeTimeStep(most);
   }
   if (known_) {
     startRate_ = endRate_;
     system_.look(start_);
   } else if (!system_.rate(start_, startRate_)) {
-    return stride(most);
+    return takeTimeStep(most);
   }
   noteStart();
-  if (pulls()) {
-    return stride(most);
+  if (hasTension()) {
+    return takeTimeStep(most);
   }
   double h = std::min(most, longestStep());
   if (proposed_ > 0) {
@@ -329,9 +331,9 @@ Island::Step Island::step(double most) {
   int attempts = 0;
   for (;; ++attempts) {
     if (attempts > kMostAttempts ||
-        (attempts > 0 && system_.pull() > 0 && h < kStiff * strideOf(world_, tolerance_))) {
+        (attempts > 0 && system_.gravityMagnitude() > 0 && h < kStiff * timeStepOf(world_, tolerance_))) {
       end_ = start_;
-      return stride(most);
+      return takeTimeStep(most);
     }
     const bool found = try5(h);
     error = sizeOf(error_, h);
@@ -347,7 +349,7 @@ Island::Step Island::step(double most) {
   // Located past a moment where forces cease to exist, the end means nothing.
   if (done.end == End::kChanges && sizeOf(error_, done.length) > kMostLocated) {
     end_ = start_;
-    return stride(most);
+    return takeTimeStep(most);
   }
   if (done.end == End::kGoesOn && (stop() || isClear())) {
     done.end = End::kChanges;
@@ -367,8 +369,8 @@ Island::Step Island::step(double most) {
 void Island::cutTo(double length) {
   restep(length);
   length_ = length;
-  if (strode_) {
-    endStride(length);
+  if (tookTimeStep_) {
+    endTimeStep(length);
   }
   known_ = false;
   system_.unpack(end_);

@@ -12,7 +12,7 @@
 namespace careen {
 
 /// [s] The step of first order that follows where no smooth motion is to be had: it errs about the tolerance.
-double strideOf(const World& world, double tolerance);
+double timeStepOf(const World& world, double tolerance);
 
 /// The motion Contact: bodies that slide, roll, rock, lean or stand on walls and on each other, from one
 /// change of their contacts to the next. While the same contacts push, and each sticks or slips as it does,
@@ -26,9 +26,9 @@ class Island {
   Island(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features,
          double tolerance);
 
-  /// Finds which contacts push, and how. Where no forces do what is asked (Painlevé's paradox, or a tangle of
+  /// Finds which contacts push, and how. Where no forces do what is asked (Painlevé's paradox, or a jam of
   /// contacts on the brink) the next step is a short one of first order, by impulses.
-  enum class Stepping { kSmooth, kStrides };
+  enum class Stepping { kSmooth, kTimeSteps };
   void begin(Stepping stepping);
   bool isSmooth() const { return smooth_; }
   /// Some contact pushes.
@@ -53,12 +53,12 @@ class Island {
   const ContactSystem& system() const { return system_; }
   const std::vector<TouchingBody>& bodies() const { return system_.bodies(); }
   /// Two bodies are watched by steps themselves, because they pushed or touched where this one began.
-  bool watches(std::size_t a, std::size_t b) const;
+  bool handlesPair(std::size_t a, std::size_t b) const;
   /// How a body that can move did so in the last step.
   ContactStep motion(std::size_t body) const { return motion(body, length_); }
   /// [m] deepest overlap seen at the end of a step.
   double deepest() const { return deepest_; }
-  /// The last step may have taken out energy: by friction, or because it was a stride.
+  /// The last step may have taken out energy: by friction, or because it was a time step.
   bool mayLose() const;
 
  private:
@@ -66,7 +66,7 @@ class Island {
   /// Gaps within so many touching tolerances are watched for sinking, the others for closing.
   static constexpr double kTouching = 8;
 
-  struct Watch {  // a number that is positive until something happens
+  struct EventFunction {  // a number that is positive until something happens
     enum class Kind { kPush, kStick, kGap, kWithin, kOverlap, kCorner };
     static bool isOfPlaces(Kind kind) { return kind == Kind::kOverlap || kind == Kind::kCorner; }
     Kind kind;
@@ -77,49 +77,49 @@ class Island {
     double rate = 0;    // [m/s] of a corner, at the start of the step
   };
 
-  void watchAll();
+  void listEventFunctions();
   void noteStart();
   void locate(Step& step);
-  bool locate(std::size_t watch, double shortest, Step& step);
-  double rateOf(const Watch& corner) const;
-  double lowestWithin(double h, std::size_t watch, double atEnd) const;
-  double lowestOfCorner(double h, std::size_t watch, double atEnd) const;
-  double deepWithin(double h, const Watch& watch) const;
+  bool locate(std::size_t event, double shortest, Step& step);
+  double rateOf(const EventFunction& corner) const;
+  double lowestWithin(double h, std::size_t event, double atEnd) const;
+  double lowestOfCorner(double h, std::size_t event, double atEnd) const;
+  double deepWithin(double h, const EventFunction& event) const;
   ContactStep motion(std::size_t body, double h) const;
-  double value(const Watch& watch) const;
-  double marginOf(const Watch& watch, double gap) const;
+  double value(const EventFunction& event) const;
+  double marginOf(const EventFunction& event, double gap) const;
   double touching(std::size_t body) const;
   double longestStep();
-  Step stride(double most);
-  void endStride(double length);
+  Step takeTimeStep(double most);
+  void endTimeStep(double length);
   bool try5(double h);
   void restep(double h);
   void finish();
   bool isClear() const;
-  bool pulls() const;
+  bool hasTension() const;
   bool allButStands(std::size_t contact) const;
   bool stop();
   double sizeOf(const State& difference, double h) const;
-  double rootWithin(double h, std::size_t watch, double atEnd);
+  double rootWithin(double h, std::size_t event, double atEnd);
 
   double tolerance_;
   const World& world_;
   ContactSystem system_;
-  std::vector<Watch> watches_;
-  std::vector<double> atStart_;  // of the watches
+  std::vector<EventFunction> eventFunctions_;
+  std::vector<double> atStart_;  // of the event functions
   DormandPrince5 integrator_;
   State start_;
   State startRate_;
   State end_;
-  State strideEnd_;
+  State timeStepEnd_;
   State endRate_;
   State error_;
   double length_ = 0;  // of the last step
   double proposed_ = 0;
-  double lifetime_ = 0;  // [s] of the speeds there are
-  bool known_ = false;   // startRate_ is that of end_
-  bool smooth_ = true;   // forces were found
-  bool strode_ = false;  // the last step was a stride
+  double lifetime_ = 0;        // [s] of the speeds there are
+  bool known_ = false;         // startRate_ is that of end_
+  bool smooth_ = true;         // forces were found
+  bool tookTimeStep_ = false;  // the last step was a time step
   double deepest_ = 0;
 };
 

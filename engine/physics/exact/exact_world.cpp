@@ -31,7 +31,7 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
     : world_(world),
       end_(settings.duration),
       tolerance_(settings.tolerance),
-      stride_(strideOf(world, settings.tolerance)),
+      timeStep_(timeStepOf(world, settings.tolerance)),
       recorder_(recorder),
       neighbors_(radiiOf(world)),
       queue_(world.bodies.size()),
@@ -63,14 +63,14 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
 
 RunFigures ExactWorld::run(const std::stop_token& stop) {
   begin();
-  for (std::optional<Event> event = queue_.next(); event && !crowded_ && !earlier(end_, event->time);
+  for (std::optional<Event> event = queue_.next(); event && !pileFrom_ && !earlier(end_, event->time);
        event = queue_.next()) {
     if (stop.stop_requested()) {
       throw Interrupted();
     }
     happen(*event);
   }
-  if (crowded_) {
+  if (pileFrom_) {
     runAsPile(stop);
   } else {
     end();
@@ -105,41 +105,42 @@ void ExactWorld::happen(const Event& event) {
     predict(event.body);
   } else if (!event.partner.isWall() && mover(event.partner.body()).motion != event.partnerMotion) {
     predict(event.body);
-  } else if (event.kind == EventKind::kStep && mover(event.body).touchers->step.end == Island::End::kGoesOn) {
-    advance(mover(event.body).touchers, event.time);
+  } else if (event.kind == EventKind::kStep &&
+             mover(event.body).contactGroup->step.end == Island::End::kGoesOn) {
+    advance(mover(event.body).contactGroup, event.time);
   } else {
-    Group group = gather(event);
-    if (isCrowd(group)) {
-      crowded_ = event.time;
+    Encounter encounter = gather(event);
+    if (needsPile(encounter)) {
+      pileFrom_ = event.time;
       return;
     }
-    resolve(group);
-    settle(group);
-    record(group);
-    moveOn(group);
-    if (canPile() && movers_.size() > kMostInContact && !group.islands.empty()) {
-      crowded_ = event.time;
+    resolve(encounter);
+    settle(encounter);
+    record(encounter);
+    moveOn(encounter);
+    if (canPile() && movers_.size() > kMostInContact && !encounter.islands.empty()) {
+      pileFrom_ = event.time;
     }
   }
 }
 
 // What came before ends, the event's bodies get their next motions, and only they are predicted again.
-void ExactWorld::moveOn(Group& group) {
-  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
-    if (group.next[i] == Next::kRests) {
-      rest(group.ranks[i], group.since[i], group.after[i].pose);
-    } else if (group.next[i] == Next::kFlies) {
-      fly(group.ranks[i], group.time, group.after[i], group.attitudes[i]);
+void ExactWorld::moveOn(Encounter& encounter) {
+  for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
+    if (encounter.next[i] == Next::kRests) {
+      rest(encounter.ranks[i], encounter.since[i], encounter.after[i].pose);
+    } else if (encounter.next[i] == Next::kFlies) {
+      fly(encounter.ranks[i], encounter.time, encounter.after[i], encounter.attitudes[i]);
     }
   }
-  for (const std::shared_ptr<Touchers>& touchers : group.islands) {
-    touch(touchers, group.time);
+  for (const std::shared_ptr<ContactGroup>& contactGroup : encounter.islands) {
+    touch(contactGroup, encounter.time);
   }
   account_.parted();
-  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
-    predict(group.ranks[i]);
-    if (group.next[i] == Next::kRests) {
-      predictAround(group.ranks[i]);
+  for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
+    predict(encounter.ranks[i]);
+    if (encounter.next[i] == Next::kRests) {
+      predictAround(encounter.ranks[i]);
     }
   }
 }
@@ -165,7 +166,7 @@ void ExactWorld::end() {
   for (const Mover& body : movers_) {
     if (body.touches()) {
       account_.departs(static_cast<std::size_t>(body.listed.value), body.stateAt(end_));
-      mayLose = mayLose || body.touchers->island.mayLose();
+      mayLose = mayLose || body.contactGroup->island.mayLose();
     }
   }
   account_.strikes(mayLose);
@@ -194,8 +195,8 @@ void ExactWorld::rest(int rank, const Instant& time, const Pose& pose) {
 }
 
 // The next step of an island, and how its bodies move in it.
-void ExactWorld::touch(const std::shared_ptr<Touchers>& touchers, const Instant& time) {
-  Island& island = touchers->island;
+void ExactWorld::touch(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time) {
+  Island& island = contactGroup->island;
   double most = secondsBetween(time, end_);
   if (neighbors_.cellEdge() > 0) {
     most = std::min(most, withinCell(island));
@@ -205,19 +206,19 @@ void ExactWorld::touch(const std::shared_ptr<Touchers>& touchers, const Instant&
       account_.departs(static_cast<std::size_t>(body.index), body.state());
     }
   }
-  touchers->start = time;
-  touchers->step = island.step(most);
-  touchers->motions.resize(touchers->ranks.size());
-  for (std::size_t i = 0; i < touchers->ranks.size(); ++i) {
+  contactGroup->start = time;
+  contactGroup->step = island.step(most);
+  contactGroup->motions.resize(contactGroup->ranks.size());
+  for (std::size_t i = 0; i < contactGroup->ranks.size(); ++i) {
     if (island.bodies()[i].isHeld()) {
       continue;
     }
-    const int rank = touchers->ranks[i];
+    const int rank = contactGroup->ranks[i];
     Mover& body = mover(rank);
     begins(rank, time);
-    touchers->motions[i] = island.motion(i);
-    body.touch(touchers, i);
-    recorder_.moves(body.listed, time.hi, touchers->motions[i]);
+    contactGroup->motions[i] = island.motion(i);
+    body.touch(contactGroup, i);
+    recorder_.moves(body.listed, time.hi, contactGroup->motions[i]);
     if (neighbors_.isFiled(rank)) {
       neighbors_.move(rank, neighbors_.cellOf(body.positionAt(time)));
     }
@@ -225,13 +226,13 @@ void ExactWorld::touch(const std::shared_ptr<Touchers>& touchers, const Instant&
   account_.penetrates(island.deepest());
 }
 
-void ExactWorld::advance(const std::shared_ptr<Touchers>& touchers, const Instant& time) {
-  account_.strikes(touchers->island.mayLose());
-  touch(touchers, time);
+void ExactWorld::advance(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time) {
+  account_.strikes(contactGroup->island.mayLose());
+  touch(contactGroup, time);
   account_.parted();
-  for (std::size_t i = 0; i < touchers->ranks.size(); ++i) {
-    if (!touchers->island.bodies()[i].isHeld()) {
-      predict(touchers->ranks[i]);
+  for (std::size_t i = 0; i < contactGroup->ranks.size(); ++i) {
+    if (!contactGroup->island.bodies()[i].isHeld()) {
+      predict(contactGroup->ranks[i]);
     }
   }
 }
@@ -242,10 +243,10 @@ double ExactWorld::withinCell(const Island& island) const {
   double most = secondsBetween({}, end_);
   for (const TouchingBody& body : island.bodies()) {
     const double speed = body.velocity.norm();
-    const double pull = 8 * island.system().pull();
-    // speed t + pull t²/2 ≤ margin
-    if (speed + pull > 0) {
-      most = std::min(most, 2 * margin / (speed + std::sqrt(speed * speed + 2 * pull * margin)));
+    const double acceleration = 8 * island.system().gravityMagnitude();
+    // speed t + acceleration t²/2 ≤ margin
+    if (speed + acceleration > 0) {
+      most = std::min(most, 2 * margin / (speed + std::sqrt(speed * speed + 2 * acceleration * margin)));
     }
   }
   return most;
@@ -256,15 +257,15 @@ void ExactWorld::begins(int rank, const Instant& time) {
   const bool again = body.motion > 0 && !earlier(body.start, time);
   body.atOneMoment = again ? body.atOneMoment + 1 : 0;
   if (body.atOneMoment > kMostAtOneMoment && canPile()) {
-    crowded_ = time;
+    pileFrom_ = time;
   } else if (body.atOneMoment > kMostAtOneMoment) {
     throw NumericalError(where(rank, time) + "is struck again and again at one moment");
   }
-  if (secondsBetween(body.burst, time) > kBurst * stride_) {
-    body.burst = time;
-    body.inBurst = 0;
+  if (secondsBetween(body.windowStart, time) > kChatterWindow * timeStep_) {
+    body.windowStart = time;
+    body.changesInWindow = 0;
   }
-  ++body.inBurst;
+  ++body.changesInWindow;
   body.start = time;
   ++body.motion;
 }
@@ -282,8 +283,8 @@ void ExactWorld::predict(int rank) {
     return;
   }
   std::optional<Event> first = body.wall;
-  if (body.touches() && body.touchers->leader() == rank && earlier(body.touchers->end(), end_)) {
-    first = {.time = body.touchers->end(), .kind = EventKind::kStep, .body = rank};
+  if (body.touches() && body.contactGroup->leader() == rank && earlier(body.contactGroup->end(), end_)) {
+    first = {.time = body.contactGroup->end(), .kind = EventKind::kStep, .body = rank};
   }
   if (body.crosses) {
     sooner(
@@ -292,7 +293,7 @@ void ExactWorld::predict(int rank) {
   }
   neighbors_.findCandidates(rank, candidates_);
   for (const Neighbors::Key candidate : candidates_) {
-    if (body.touches() && seesTo(*body.touchers, body.place, candidate)) {
+    if (body.touches() && seesTo(*body.contactGroup, body.place, candidate)) {
       continue;
     }
     const std::optional<Event> met =
@@ -309,10 +310,10 @@ void ExactWorld::predict(int rank) {
 }
 
 // Those that touch are the island's own business.
-bool ExactWorld::seesTo(const Touchers& touchers, std::size_t place, int rank) {
-  const auto other = std::find(touchers.ranks.begin(), touchers.ranks.end(), rank);
-  return other != touchers.ranks.end() &&
-         touchers.island.watches(place, static_cast<std::size_t>(other - touchers.ranks.begin()));
+bool ExactWorld::seesTo(const ContactGroup& contactGroup, std::size_t place, int rank) {
+  const auto other = std::find(contactGroup.ranks.begin(), contactGroup.ranks.end(), rank);
+  return other != contactGroup.ranks.end() &&
+         contactGroup.island.handlesPair(place, static_cast<std::size_t>(other - contactGroup.ranks.begin()));
 }
 
 void ExactWorld::sooner(std::optional<Event>& first, const Event& candidate) {

@@ -22,7 +22,7 @@ namespace careen {
 /// Contact in steps that the tolerance chooses, or Rest. Between events nothing is computed, and an event
 /// touches only the bodies that take part in it.
 ///
-/// Where more bodies than kMostInIsland touch, more than kMostRattling rattle, or any slide or stack among
+/// Where more bodies than kMostInIsland touch, more than kMostChattering chatter, or any slide or stack among
 /// more than kMostInContact, the whole world goes on as a Pile from there: bounded, not exact. RunFigures
 /// says so.
 ///
@@ -35,16 +35,16 @@ class ExactWorld {
 
   /// Contact of so many bodies at once is solved exactly: forces cost the cube of their number.
   static constexpr int kMostInIsland = 12;
-  /// Of so many also where they rattle: eleven take 4 ms a stride, and there are thousands in a second.
-  static constexpr int kMostRattling = 8;
+  /// Of so many also where they chatter: eleven take 4 ms a time step, and there are thousands in a second.
+  static constexpr int kMostChattering = 8;
   /// And contact among so many in all: at each step each of its bodies looks for meetings with its
   /// neighbours.
   static constexpr std::size_t kMostInContact = 64;
 
  private:
-  /// [1] of a stride: changes of contact within it belong together.
-  static constexpr double kBurst = 0.5;
-  /// Where bodies rattle: so many tolerances are near, and so many times what a stride falls is slow.
+  /// [1] of a time step: changes of contact within it belong together.
+  static constexpr double kChatterWindow = 0.5;
+  /// Where bodies chatter: so many tolerances are near, and so many times what a time step falls is slow.
   static constexpr double kNear = 4;
   static constexpr double kSlow = 2;
 
@@ -52,7 +52,7 @@ class ExactWorld {
   enum class Next { kGoesOn, kFlies, kRests, kTouches };
 
   /// Bodies that touch at one moment, and what becomes of them.
-  struct Group {
+  struct Encounter {
     Instant time;
     EventKind cause{};
     std::vector<int> ranks;  ///< sorted
@@ -64,61 +64,61 @@ class ExactWorld {
     std::vector<char> persists;  ///< of each contact: its bodies do not part
     std::vector<Next> next;      ///< of each body
     std::vector<Instant> since;  ///< and from when
-    std::vector<std::shared_ptr<Touchers>> islands;
-    bool tangled = false;  ///< it moves by strides
-    bool passes = false;   ///< contacts without an impulse persist
+    std::vector<std::shared_ptr<ContactGroup>> islands;
+    bool chattering = false;  ///< it moves by time steps
+    bool passes = false;      ///< contacts without an impulse persist
   };
 
   void begin();
   void happen(const Event& event);
-  bool isCrowd(const Group& group) const;
+  bool needsPile(const Encounter& encounter) const;
   bool canPile() const { return !world_.gravity.isZero(0) && world_.springs.empty() && !world_.drag; }
   void runAsPile(const std::stop_token& stop);
-  void moveOn(Group& group);
+  void moveOn(Encounter& encounter);
   void end();
 
   // Who touches whom, and what an impact does to them.
-  Group gather(const Event& event);
-  void reach(const Event& event, Group& group);
-  void join(Group& group, int rank);
-  void addPairContacts(Group& group, std::size_t indexA, std::size_t indexB, double apart) const;
-  void resolve(Group& group);
-  void record(const Group& group);
+  Encounter gather(const Event& event);
+  void reach(const Event& event, Encounter& encounter);
+  void join(Encounter& encounter, int rank);
+  void addPairContacts(Encounter& encounter, std::size_t indexA, std::size_t indexB, double apart) const;
+  void resolve(Encounter& encounter);
+  void record(const Encounter& encounter);
 
   // Where they stand.
-  void alignPlaces(Group& group, const Event& event) const;
-  void addHeld(const Group& group, std::vector<ContactFeature>& features) const;
-  void addCorners(const Group& group, std::vector<ContactFeature>& features) const;
-  void addMeeting(const Group& group, std::size_t a, std::size_t b,
+  void alignPlaces(Encounter& encounter, const Event& event) const;
+  void addHeld(const Encounter& encounter, std::vector<ContactFeature>& features) const;
+  void addCorners(const Encounter& encounter, std::vector<ContactFeature>& features) const;
+  void addMeeting(const Encounter& encounter, std::size_t a, std::size_t b,
                   std::vector<ContactFeature>& features) const;
-  void addOverlaps(const Group& group, std::vector<ContactFeature>& features) const;
-  void addNear(Group& group) const;
-  double gapOf(const Group& group, std::size_t a, std::size_t b) const;
-  static std::size_t indexOf(const Group& group, int rank);
+  void addOverlaps(const Encounter& encounter, std::vector<ContactFeature>& features) const;
+  void addNear(Encounter& encounter) const;
+  double gapOf(const Encounter& encounter, std::size_t a, std::size_t b) const;
+  static std::size_t indexOf(const Encounter& encounter, int rank);
 
   // What comes after: Flight, Contact or Rest.
-  void findTangle(Group& group);
-  void settle(Group& group);
-  void settleBody(Group& group, std::size_t index) const;
-  void findPersisting(Group& group) const;
+  void findChattering(Encounter& encounter);
+  void settle(Encounter& encounter);
+  void settleBody(Encounter& encounter, std::size_t index) const;
+  void findPersisting(Encounter& encounter) const;
   struct Parting {
     double speed = 0;     ///< [m/s] of the gap
     double rounding = 0;  ///< [m/s] as slow as this is none
   };
-  Parting partingAt(const Group& group, std::size_t contact) const;
-  void formIslands(Group& group) const;
-  void formIsland(Group& group, const std::vector<std::size_t>& members) const;
-  bool beginsAtRest(Island& island, bool tangled) const;
-  TouchingBody touchingBody(const Group& group, std::size_t index) const;
-  ContactFeature featureOf(const Group& group, std::size_t contact) const;
-  double lengthsAt(const Group& group, std::size_t k) const;
+  Parting partingAt(const Encounter& encounter, std::size_t contact) const;
+  void formIslands(Encounter& encounter) const;
+  void formIsland(Encounter& encounter, const std::vector<std::size_t>& members) const;
+  bool beginsAtRest(Island& island, bool chattering) const;
+  TouchingBody touchingBody(const Encounter& encounter, std::size_t index) const;
+  ContactFeature featureOf(const Encounter& encounter, std::size_t contact) const;
+  double lengthsAt(const Encounter& encounter, std::size_t k) const;
   bool isForced(int rank) const { return forced_[static_cast<std::size_t>(rank)] != 0; }
 
-  void advance(const std::shared_ptr<Touchers>& touchers, const Instant& time);
-  static bool seesTo(const Touchers& touchers, std::size_t place, int rank);
+  void advance(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time);
+  static bool seesTo(const ContactGroup& contactGroup, std::size_t place, int rank);
   void fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude);
   void rest(int rank, const Instant& time, const Pose& pose);
-  void touch(const std::shared_ptr<Touchers>& touchers, const Instant& time);
+  void touch(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time);
   double withinCell(const Island& island) const;
   void begins(int rank, const Instant& time);
   void arrive(const Mover& body, const Instant& time, const BodyState& state);
@@ -134,9 +134,9 @@ class ExactWorld {
 
   const World& world_;
   Instant end_;
-  std::optional<Instant> crowded_;  // when too many touch
-  double tolerance_;                // [m]
-  double stride_;                   // [s] of Island, where there are no smooth motions
+  std::optional<Instant> pileFrom_;  // when too many touch
+  double tolerance_;                 // [m]
+  double timeStep_;                  // [s] of Island, where there are no smooth motions
   Recorder& recorder_;
   std::vector<Mover> movers_;
   Neighbors neighbors_;

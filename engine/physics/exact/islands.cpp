@@ -13,9 +13,9 @@
 namespace careen {
 namespace {
 
-/// [1] Speeds this small beside those of the bodies are no parting, and accelerations no pull.
+/// [1] Speeds this small beside those of the bodies are no parting, and accelerations are zero.
 constexpr double kParting = 0x1p-40;
-/// [1] of the speed that a stride's fall gives: nothing rattles any more.
+/// [1] of the speed that a time step's fall gives: nothing chatters any more.
 constexpr double kAllButStill = 0x1p-12;
 
 bool movesAlike(const BodyState& x, const BodyState& y) {
@@ -24,109 +24,113 @@ bool movesAlike(const BodyState& x, const BodyState& y) {
 
 }  // namespace
 
-// Bodies that rattle, with more changes of contact in less than a stride than are worth following one by one,
-// go on by strides: one, and twice as many each time that was too early to stop.
-void ExactWorld::findTangle(Group& group) {
-  constexpr int kMostInBurst = 12;
-  constexpr int kMostStrides = 1024;
+// Bodies that chatter, with more changes of contact in less than a time step than are worth following one by
+// one, go on by time steps: one, and twice as many each time that was too early to stop.
+void ExactWorld::findChattering(Encounter& encounter) {
+  constexpr int kMostInWindow = 12;
+  constexpr int kMostTimeSteps = 1024;
   if (world_.gravity.isZero(0)) {
     return;
   }
-  bool rattles = false;
-  int strides = 1;
+  bool chatters = false;
+  int timeSteps = 1;
   int movable = 0;
   bool touching = false;
-  for (const int rank : group.ranks) {
+  for (const int rank : encounter.ranks) {
     const Mover& body = mover(rank);
     movable += body.isHeld() ? 0 : 1;
     touching = touching || body.touches();
-    rattles =
-        rattles || (body.inBurst > kMostInBurst && secondsBetween(body.burst, group.time) < kBurst * stride_);
-    group.tangled = group.tangled || earlier(group.time, body.tangledUntil);
-    if (body.strides > 0 && secondsBetween(body.tangledUntil, group.time) < 4 * body.strides * stride_) {
-      strides = std::max(strides, std::min(kMostStrides, 2 * body.strides));
+    chatters = chatters || (body.changesInWindow > kMostInWindow &&
+                            secondsBetween(body.windowStart, encounter.time) < kChatterWindow * timeStep_);
+    encounter.chattering = encounter.chattering || earlier(encounter.time, body.chatteringUntil);
+    if (body.timeSteps > 0 &&
+        secondsBetween(body.chatteringUntil, encounter.time) < 4 * body.timeSteps * timeStep_) {
+      timeSteps = std::max(timeSteps, std::min(kMostTimeSteps, 2 * body.timeSteps));
     }
   }
   // A single body that bounces is followed to the end: the time at which it rests is exact.
-  if (rattles && !group.tangled && (touching || movable > 1)) {
-    group.tangled = true;
-    if (movable > kMostRattling && canPile()) {
-      crowded_ = group.time;
+  if (chatters && !encounter.chattering && (touching || movable > 1)) {
+    encounter.chattering = true;
+    if (movable > kMostChattering && canPile()) {
+      pileFrom_ = encounter.time;
     }
-    for (const int rank : group.ranks) {
-      mover(rank).strides = strides;
-      mover(rank).tangledUntil = instantAfter(group.time, strides * stride_);
+    for (const int rank : encounter.ranks) {
+      mover(rank).timeSteps = timeSteps;
+      mover(rank).chatteringUntil = instantAfter(encounter.time, timeSteps * timeStep_);
     }
   }
 }
 
-void ExactWorld::settle(Group& group) {
-  findTangle(group);
-  for (std::size_t i = 0; i < group.ranks.size(); ++i) {
-    const Mover& body = mover(group.ranks[i]);
-    if (body.isHeld() || (!body.moves() && movesAlike(group.before[i], group.after[i]))) {
+void ExactWorld::settle(Encounter& encounter) {
+  findChattering(encounter);
+  for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
+    const Mover& body = mover(encounter.ranks[i]);
+    if (body.isHeld() || (!body.moves() && movesAlike(encounter.before[i], encounter.after[i]))) {
       continue;
     }
-    group.next[i] = Next::kFlies;
-    if (!world_.gravity.isZero(0) && !group.tangled) {
-      settleBody(group, i);
+    encounter.next[i] = Next::kFlies;
+    if (!world_.gravity.isZero(0) && !encounter.chattering) {
+      settleBody(encounter, i);
     }
   }
-  findPersisting(group);
-  formIslands(group);
+  findPersisting(encounter);
+  formIslands(encounter);
 }
 
 // [m] What the gap at contact k is the difference of. A wall's offset is no more than its body's part of it.
-double ExactWorld::lengthsAt(const Group& group, std::size_t k) const {
+double ExactWorld::lengthsAt(const Encounter& encounter, std::size_t k) const {
   const auto of = [&](int index) {
     const auto i = static_cast<std::size_t>(index);
-    return group.after[i].pose.position.cwiseAbs().sum() + mover(group.ranks[i]).body->halfExtents.norm();
+    return encounter.after[i].pose.position.cwiseAbs().sum() +
+           mover(encounter.ranks[i]).body->halfExtents.norm();
   };
-  const ImpactContact& contact = group.contacts[k];
+  const ImpactContact& contact = encounter.contacts[k];
   return of(contact.a) + of(contact.b.isWall() ? contact.a : contact.b.body());
 }
 
 // Contacts of a body whose next hop is too short to follow persist. If that brings it to rest on what cannot
 // move, it rests when all its hops would have ended.
-void ExactWorld::settleBody(Group& group, std::size_t index) const {
-  const Body& body = *mover(group.ranks[index]).body;
-  BodyState& state = group.after[index];
+void ExactWorld::settleBody(Encounter& encounter, std::size_t index) const {
+  const Body& body = *mover(encounter.ranks[index]).body;
+  BodyState& state = encounter.after[index];
   const Vec3 omega = careen::angularVelocity(body.mass, state);
   const Vec3 omegaRate =
       inverseInertiaWorld(body.mass, state.pose.worldFromBody) * state.angularMomentum.cross(omega);
   double tail = -1;
-  bool alone = !isForced(group.ranks[index]);
+  bool alone = !isForced(encounter.ranks[index]);
   Settling settling;
   settling.velocity = state.velocity;
   settling.angularVelocity = omega;
   settling.gravity = world_.gravity;
   std::vector<Vec3> arms;
-  for (std::size_t k = 0; k < group.contacts.size(); ++k) {
-    const ImpactContact& contact = group.contacts[k];
+  for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
+    const ImpactContact& contact = encounter.contacts[k];
     const bool isA = contact.a == static_cast<int>(index);
     if (!isA && !contact.b.isBody(static_cast<int>(index))) {
       continue;
     }
     const Partner other = isA ? contact.b : Partner::ofBody(contact.a);
-    alone = alone && (other.isWall() || mover(group.ranks[static_cast<std::size_t>(other.body())]).isHeld());
+    alone =
+        alone && (other.isWall() || mover(encounter.ranks[static_cast<std::size_t>(other.body())]).isHeld());
     const Vec3 normal = isA ? contact.normal : Vec3(-contact.normal);
     const Vec3& arm = isA ? contact.armA : contact.armB;
     const Vec3 acceleration = world_.gravity + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
-    const double pull = normal.dot(acceleration);
-    const bool pulled = std::fabs(pull) > kParting * acceleration.norm();  // along a wall it is rounding
-    const Bouncing bouncing{.acceleration = pulled ? pull : 0,
+    const double normalAcceleration = normal.dot(acceleration);
+    const bool returns =
+        std::fabs(normalAcceleration) > kParting * acceleration.norm();  // along a wall it is rounding
+    const Bouncing bouncing{.acceleration = returns ? normalAcceleration : 0,
                             .departure = std::max(0.0, normal.dot(state.velocity + omega.cross(arm))),
                             .restitution = contact.material.restitution,
-                            .gapRounding = kGapRounding * lengthsAt(group, k)};
+                            .gapRounding = kGapRounding * lengthsAt(encounter, k)};
     if (!settles(bouncing, body.halfExtents.minCoeff())) {
       continue;
     }
-    group.persists[k] = 1;
+    encounter.persists[k] = 1;
     tail = std::max(tail, settlingTail(bouncing));
     arms.push_back(arm);
     settling.normal = normal;
     settling.friction = contact.material.friction;
-    settling.speed = std::max(settling.speed, group.shares[k].approach);
+    settling.speed = std::max(settling.speed, encounter.shares[k].approach);
   }
   if (tail < 0 || !alone) {
     return;
@@ -135,20 +139,20 @@ void ExactWorld::settleBody(Group& group, std::size_t index) const {
   settling.velocity -= settling.normal.dot(settling.velocity) * settling.normal;
   if (afterTail(settling) == Settled::kRests) {
     state = {.pose = state.pose};
-    group.next[index] = Next::kRests;
-    group.since[index] = instantAfter(group.time, tail);
+    encounter.next[index] = Next::kRests;
+    encounter.since[index] = instantAfter(encounter.time, tail);
   }
 }
 
-ExactWorld::Parting ExactWorld::partingAt(const Group& group, std::size_t contact) const {
-  const ImpactContact& at = group.contacts[contact];
+ExactWorld::Parting ExactWorld::partingAt(const Encounter& encounter, std::size_t contact) const {
+  const ImpactContact& at = encounter.contacts[contact];
   Parting parting;
   const auto add = [&](int index, const Vec3& arm, double sign) {
     const auto i = static_cast<std::size_t>(index);
-    const Body& body = *mover(group.ranks[i]).body;
-    const Vec3 spin = careen::angularVelocity(body.mass, group.after[i]);
-    parting.speed += sign * at.normal.dot(group.after[i].velocity + spin.cross(arm));
-    parting.rounding += kParting * (group.after[i].velocity.norm() + spin.norm() * arm.norm() +
+    const Body& body = *mover(encounter.ranks[i]).body;
+    const Vec3 spin = careen::angularVelocity(body.mass, encounter.after[i]);
+    parting.speed += sign * at.normal.dot(encounter.after[i].velocity + spin.cross(arm));
+    parting.rounding += kParting * (encounter.after[i].velocity.norm() + spin.norm() * arm.norm() +
                                     kParting * std::sqrt(world_.gravity.norm() * body.halfExtents.norm()));
   };
   add(at.a, at.armA, 1);
@@ -158,32 +162,32 @@ ExactWorld::Parting ExactWorld::partingAt(const Group& group, std::size_t contac
   return parting;
 }
 
-// Contacts that neither approach nor part; or that come back within a stride, where bodies rattle or the
+// Contacts that neither approach nor part; or that come back within a time step, where bodies chatter or the
 // search has found them to hop on the spot.
-void ExactWorld::findPersisting(Group& group) const {
-  const bool hops = group.tangled || group.cause == EventKind::kTouching;
-  const double slow = hops && !world_.gravity.isZero(0) ? world_.gravity.norm() * stride_ : 0;
-  if (group.tangled) {
-    addNear(group);
+void ExactWorld::findPersisting(Encounter& encounter) const {
+  const bool hops = encounter.chattering || encounter.cause == EventKind::kTouching;
+  const double slow = hops && !world_.gravity.isZero(0) ? world_.gravity.norm() * timeStep_ : 0;
+  if (encounter.chattering) {
+    addNear(encounter);
   }
-  for (std::size_t k = 0; k < group.contacts.size(); ++k) {
-    const Parting parting = partingAt(group, k);
-    const bool passes = group.passes && !(group.shares[k].impulse > 0);
+  for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
+    const Parting parting = partingAt(encounter, k);
+    const bool passes = encounter.passes && !(encounter.shares[k].impulse > 0);
     if (passes || parting.speed <= std::max(slow, parting.rounding)) {
-      group.persists[k] = 1;
+      encounter.persists[k] = 1;
     }
   }
 }
 
-void ExactWorld::formIslands(Group& group) const {
-  const std::size_t count = group.ranks.size();
+void ExactWorld::formIslands(Encounter& encounter) const {
+  const std::size_t count = encounter.ranks.size();
   DisjointSets joined(count);
   const auto takesPart = [&](std::size_t i) {
-    return !mover(group.ranks[i]).isHeld() && group.next[i] != Next::kRests;
+    return !mover(encounter.ranks[i]).isHeld() && encounter.next[i] != Next::kRests;
   };
-  for (std::size_t k = 0; k < group.contacts.size(); ++k) {
-    const ImpactContact& contact = group.contacts[k];
-    if (group.persists[k] != 0 && !contact.b.isWall()) {
+  for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
+    const ImpactContact& contact = encounter.contacts[k];
+    if (encounter.persists[k] != 0 && !contact.b.isWall()) {
       const auto a = static_cast<std::size_t>(contact.a);
       const auto b = static_cast<std::size_t>(contact.b.body());
       if (takesPart(a) && takesPart(b)) {
@@ -192,9 +196,9 @@ void ExactWorld::formIslands(Group& group) const {
     }
   }
   for (std::size_t i = 0; i < count; ++i) {
-    for (const int other : springs_[static_cast<std::size_t>(group.ranks[i])]) {
-      const auto at = std::find(group.ranks.begin(), group.ranks.end(), other);
-      const auto j = static_cast<std::size_t>(at - group.ranks.begin());
+    for (const int other : springs_[static_cast<std::size_t>(encounter.ranks[i])]) {
+      const auto at = std::find(encounter.ranks.begin(), encounter.ranks.end(), other);
+      const auto j = static_cast<std::size_t>(at - encounter.ranks.begin());
       if (takesPart(i) && takesPart(j)) {
         joined.join(i, j);
       }
@@ -208,28 +212,28 @@ void ExactWorld::formIslands(Group& group) const {
       }
     }
     if (!members.empty()) {
-      formIsland(group, members);
+      formIsland(encounter, members);
     }
   }
 }
 
-TouchingBody ExactWorld::touchingBody(const Group& group, std::size_t index) const {
-  const Mover& body = mover(group.ranks[index]);
-  const BodyState& state = group.after[index];
+TouchingBody ExactWorld::touchingBody(const Encounter& encounter, std::size_t index) const {
+  const Mover& body = mover(encounter.ranks[index]);
+  const BodyState& state = encounter.after[index];
   return {.body = body.body,
           .index = body.listed.value,
           .position = state.pose.position,
-          .worldFromBody = group.attitudes[index],
+          .worldFromBody = encounter.attitudes[index],
           .velocity = state.velocity,
           .angularVelocityBody = body.body->mass.inverseInertiaBody.cwiseProduct(
               state.pose.worldFromBody.transpose() * state.angularMomentum)};
 }
 
-ContactFeature ExactWorld::featureOf(const Group& group, std::size_t k) const {
-  const ImpactContact& contact = group.contacts[k];
+ContactFeature ExactWorld::featureOf(const Encounter& encounter, std::size_t k) const {
+  const ImpactContact& contact = encounter.contacts[k];
   const auto a = static_cast<std::size_t>(contact.a);
-  const Pose& pose = group.after[a].pose;
-  const Vec3& half = mover(group.ranks[a]).body->halfExtents;
+  const Pose& pose = encounter.after[a].pose;
+  const Vec3& half = mover(encounter.ranks[a]).body->halfExtents;
   ContactFeature feature;
   if (contact.b.isWall()) {
     const Vec3 at = pose.worldFromBody.transpose() * contact.armA;
@@ -240,34 +244,35 @@ ContactFeature ExactWorld::featureOf(const Group& group, std::size_t k) const {
     }
   } else {
     const auto b = static_cast<std::size_t>(contact.b.body());
-    feature = featureAt({contact.armA, contact.armB, contact.normal}, group.tangled ? kNear * tolerance_ : 0,
-                        contact.a, pose, half, contact.b.body(), group.after[b].pose,
-                        mover(group.ranks[b]).body->halfExtents);
+    feature =
+        featureAt({contact.armA, contact.armB, contact.normal}, encounter.chattering ? kNear * tolerance_ : 0,
+                  contact.a, pose, half, contact.b.body(), encounter.after[b].pose,
+                  mover(encounter.ranks[b]).body->halfExtents);
   }
   feature.material = contact.material;
   return feature;
 }
 
-// Begins the island's motion. Among what rattles only what has all but come to rest is asked for a smooth
+// Begins the island's motion. Among what chatters only what has all but come to rest is asked for a smooth
 // one: it may be at rest.
-bool ExactWorld::beginsAtRest(Island& island, bool tangled) const {
+bool ExactWorld::beginsAtRest(Island& island, bool chattering) const {
   double speed = 0;
   for (const TouchingBody& body : island.bodies()) {
     speed = std::max(
         {speed, body.velocity.norm(), body.angularVelocityBody.norm() * body.body->halfExtents.norm()});
   }
-  if (!tangled || speed <= kAllButStill * world_.gravity.norm() * stride_) {
+  if (!chattering || speed <= kAllButStill * world_.gravity.norm() * timeStep_) {
     island.begin(Island::Stepping::kSmooth);
-    if (!tangled || island.rests()) {
+    if (!chattering || island.rests()) {
       return island.rests();
     }
   }
-  island.begin(Island::Stepping::kStrides);
+  island.begin(Island::Stepping::kTimeSteps);
   return false;
 }
 
 // Bodies joined by lasting contacts go on in Contact, unless nothing holds them together or nothing moves.
-void ExactWorld::formIsland(Group& group, const std::vector<std::size_t>& members) const {
+void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>& members) const {
   std::vector<std::size_t> indices = members;
   std::vector<ContactFeature> features;
   const auto placeOf = [&](int index) {
@@ -278,27 +283,27 @@ void ExactWorld::formIsland(Group& group, const std::vector<std::size_t>& member
     }
     return static_cast<int>(at - indices.begin());
   };
-  for (std::size_t k = 0; k < group.contacts.size(); ++k) {
-    const ImpactContact& contact = group.contacts[k];
+  for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
+    const ImpactContact& contact = encounter.contacts[k];
     const auto isMember = [&](int index) {
       return std::find(members.begin(), members.end(), static_cast<std::size_t>(index)) != members.end();
     };
-    if (group.persists[k] == 0 ||
+    if (encounter.persists[k] == 0 ||
         (!isMember(contact.a) && (contact.b.isWall() || !isMember(contact.b.body())))) {
       continue;
     }
-    ContactFeature feature = featureOf(group, k);
+    ContactFeature feature = featureOf(encounter, k);
     feature.a = placeOf(feature.a);
     if (!feature.b.isWall()) {
       feature.b = Partner::ofBody(placeOf(feature.b.body()));
     }
     features.push_back(feature);
   }
-  const bool forced =
-      std::any_of(members.begin(), members.end(), [&](std::size_t i) { return isForced(group.ranks[i]); });
+  const bool forced = std::any_of(members.begin(), members.end(),
+                                  [&](std::size_t i) { return isForced(encounter.ranks[i]); });
   const auto all = [&](Next next) {
     for (const std::size_t i : members) {
-      group.next[i] = next;
+      encounter.next[i] = next;
     }
   };
   if (features.empty() && !forced) {
@@ -308,27 +313,27 @@ void ExactWorld::formIsland(Group& group, const std::vector<std::size_t>& member
   std::vector<TouchingBody> bodies;
   std::vector<int> ranks;
   for (const std::size_t i : indices) {
-    bodies.push_back(touchingBody(group, i));
-    ranks.push_back(group.ranks[i]);
+    bodies.push_back(touchingBody(encounter, i));
+    ranks.push_back(encounter.ranks[i]);
   }
-  auto touchers = std::make_shared<Touchers>(
-      Touchers{Island(world_, std::move(bodies), std::move(features), tolerance_), std::move(ranks), {}});
-  Island& island = touchers->island;
-  if (beginsAtRest(island, group.tangled)) {
+  auto contactGroup = std::make_shared<ContactGroup>(
+      ContactGroup{Island(world_, std::move(bodies), std::move(features), tolerance_), std::move(ranks), {}});
+  Island& island = contactGroup->island;
+  if (beginsAtRest(island, encounter.chattering)) {
     for (const std::size_t i : members) {
-      const Mover& body = mover(group.ranks[i]);
-      if (body.moves() || !movesAlike(group.before[i], group.after[i])) {
-        group.next[i] = Next::kRests;
-        group.after[i] = {.pose = group.after[i].pose};
+      const Mover& body = mover(encounter.ranks[i]);
+      if (body.moves() || !movesAlike(encounter.before[i], encounter.after[i])) {
+        encounter.next[i] = Next::kRests;
+        encounter.after[i] = {.pose = encounter.after[i].pose};
       } else {
-        group.next[i] = Next::kGoesOn;
+        encounter.next[i] = Next::kGoesOn;
       }
     }
-  } else if (island.isSmooth() && !island.pushes() && !forced && group.cause != EventKind::kTouching) {
+  } else if (island.isSmooth() && !island.pushes() && !forced && encounter.cause != EventKind::kTouching) {
     all(Next::kFlies);
   } else {
     all(Next::kTouches);
-    group.islands.push_back(std::move(touchers));
+    encounter.islands.push_back(std::move(contactGroup));
   }
 }
 

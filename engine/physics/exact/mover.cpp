@@ -7,7 +7,7 @@
 
 namespace careen {
 
-int Touchers::leader() const {
+int ContactGroup::leader() const {
   std::size_t first = 0;
   while (island.bodies()[first].isHeld()) {
     ++first;
@@ -17,7 +17,7 @@ int Touchers::leader() const {
 
 void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravity) {
   flies = true;
-  touchers.reset();
+  contactGroup.reset();
   flight = {.position = state.pose.position,
             .velocity = state.velocity,
             .acceleration = gravity,
@@ -32,11 +32,11 @@ void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravit
   angularAccelerationBound = bounds.angularAcceleration;
 }
 
-void Mover::touch(std::shared_ptr<Touchers> with, std::size_t as) {
+void Mover::touch(std::shared_ptr<ContactGroup> with, std::size_t as) {
   rest({});
-  touchers = std::move(with);
+  contactGroup = std::move(with);
   place = as;
-  const StepBounds bounds = boundsOf(touchers->motions[place]);
+  const StepBounds bounds = boundsOf(contactGroup->motions[place]);
   speedBound = bounds.speed;
   accelerationBound = bounds.acceleration;
   angularSpeedBound = bounds.angularSpeed;
@@ -45,7 +45,7 @@ void Mover::touch(std::shared_ptr<Touchers> with, std::size_t as) {
 
 void Mover::rest(const Pose& at) {
   flies = false;
-  touchers.reset();
+  contactGroup.reset();
   flight = {.position = at.position, .worldFromBody = Quat(at.worldFromBody)};
   pose = at;
   rotation.reset();
@@ -62,14 +62,14 @@ Vec3 Mover::positionAt(const Instant& time) const {
 
 Quat Mover::attitudeAt(const Instant& time) const {
   if (touches()) {
-    return Quat(careen::stateAt(touchers->motions[place], body->mass, elapsed(time)).pose.worldFromBody);
+    return Quat(careen::stateAt(contactGroup->motions[place], body->mass, elapsed(time)).pose.worldFromBody);
   }
   return rotation ? rotation->worldFromBody(elapsed(time)) : flight.worldFromBody;
 }
 
 BodyState Mover::stateAt(const Instant& time, const Quat& attitude) const {
   if (touches()) {
-    return careen::stateAt(touchers->motions[place], body->mass, elapsed(time));
+    return careen::stateAt(contactGroup->motions[place], body->mass, elapsed(time));
   }
   if (!flies) {
     return {.pose = pose};
@@ -82,7 +82,7 @@ BodyState Mover::stateAt(const Instant& time, const Quat& attitude) const {
 
 Attitude Mover::operator()(double elapsed) const {
   if (touches()) {
-    const BodyState state = careen::stateAt(touchers->motions[place], body->mass, elapsed);
+    const BodyState state = careen::stateAt(contactGroup->motions[place], body->mass, elapsed);
     return {.worldFromBody = state.pose.worldFromBody, .angularVelocity = angularVelocity(body->mass, state)};
   }
   if (!rotation) {
@@ -102,7 +102,7 @@ MovingBox Mover::moving(const Instant& clockZero) const {
           .angularSpeedBound = angularSpeedBound,
           .angularAccelerationBound = angularAccelerationBound,
           .attitude = AttitudeView(*this),
-          .step = touches() ? &touchers->motions[place] : nullptr,
+          .step = touches() ? &contactGroup->motions[place] : nullptr,
           .speedBound = speedBound,
           .accelerationBound = accelerationBound};
 }

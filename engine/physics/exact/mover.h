@@ -17,7 +17,7 @@
 namespace careen {
 
 /// An island in the world: which body is which, and the step it is in.
-struct Touchers {
+struct ContactGroup {
   Island island;
   std::vector<int> ranks;            ///< of island.bodies()
   std::vector<ContactStep> motions;  ///< of those that can move, in this step
@@ -35,7 +35,7 @@ struct Mover {
   BodyIndex listed;  ///< its place in the scene
   bool flies = false;
   Flight flight;                                    ///< if it flies
-  std::shared_ptr<Touchers> touchers;               ///< if it is in Contact: with whom
+  std::shared_ptr<ContactGroup> contactGroup;       ///< if it is in Contact: with whom
   std::size_t place = 0;                            ///< among them
   std::optional<PrincipalMoments<double>> moments;  ///< if it ever flew
   std::optional<TorqueFreeRotation<double>> rotation;
@@ -47,21 +47,21 @@ struct Mover {
   Instant start{};
   std::uint64_t motion = 0;      ///< counts flights and rests: what was predicted for another is stale
   int atOneMoment = 0;           ///< how many of them began at `start`
-  Instant burst{};               ///< see ExactWorld::findTangle
-  int inBurst = 0;               ///< motions begun since
-  Instant tangledUntil{};        ///< it moves by strides so long
-  int strides = 0;               ///< how many of them that was
+  Instant windowStart{};         ///< see ExactWorld::findChattering
+  int changesInWindow = 0;       ///< motions begun since
+  Instant chatteringUntil{};     ///< it moves by time steps so long
+  int timeSteps = 0;             ///< how many of them that was
   std::optional<Event> wall;     ///< the flight's first contact with a wall
   bool crosses = false;          ///< it enters other cells
   Neighbors::Crossing crossing;  ///< the next one
 
   bool isHeld() const { return body->mass.inverseMass == 0; }
-  bool touches() const { return touchers != nullptr; }
+  bool touches() const { return contactGroup != nullptr; }
   bool moves() const { return flies || touches(); }
   /// `attitude` is that of `state`, whose matrix it may not make to the bit.
   void fly(const BodyState& state, const Quat& attitude, const Vec3& gravity);
   void rest(const Pose& at);
-  void touch(std::shared_ptr<Touchers> with, std::size_t as);
+  void touch(std::shared_ptr<ContactGroup> with, std::size_t as);
 
   double elapsed(const Instant& time) const { return secondsBetween(start, time); }
   Vec3 positionAt(const Instant& time) const;

@@ -79,8 +79,8 @@ std::optional<Event> firstMeeting(const Mover& body, int rank, const Mover& othe
   const Instant zero = later(body.start, other.start);
   Instant last = until;
   for (const Mover* each : {&body, &other}) {
-    if (each->touches() && earlier(each->touchers->end(), last)) {
-      last = each->touchers->end();
+    if (each->touches() && earlier(each->contactGroup->end(), last)) {
+      last = each->contactGroup->end();
     }
   }
   const double end = secondsBetween(zero, last);

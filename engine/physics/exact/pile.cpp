@@ -29,14 +29,14 @@ ContactStep between(const BodyState& from, const BodyState& to) {
 
 }  // namespace
 
-bool ExactWorld::isCrowd(const Group& group) const {
-  return canPile() && std::count_if(group.ranks.begin(), group.ranks.end(),
+bool ExactWorld::needsPile(const Encounter& encounter) const {
+  return canPile() && std::count_if(encounter.ranks.begin(), encounter.ranks.end(),
                                     [&](int rank) { return !mover(rank).isHeld(); }) > kMostInIsland;
 }
 
 // From here on all bodies move together, in frames.
 void ExactWorld::runAsPile(const std::stop_token& stop) {
-  const Instant start = *crowded_;
+  const Instant start = *pileFrom_;
   account_.bounds(start.hi);
   std::vector<BodyState> states(movers_.size());
   for (const Mover& body : movers_) {

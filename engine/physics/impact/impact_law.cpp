@@ -69,7 +69,7 @@ void addBodies(Setup& setup, std::span<const ImpactBody> bodies) {
   }
 }
 
-double softness(const Setup& setup, const ImpactSolver::Contact& contact, std::size_t row) {
+double inverseEffectiveMass(const Setup& setup, const ImpactSolver::Contact& contact, std::size_t row) {
   std::array<double, 2> sum{};
   const std::array<int, 2> sides{contact.a, contact.b};
   for (std::size_t side = 0; side < 2; ++side) {
@@ -97,8 +97,8 @@ void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactCo
       fillSide(added.rows[row], 1, directions[row], contact.armB, bodies[b].state->pose.worldFromBody, -1);
     }
   }
-  const double normal = softness(setup, added, 0);
-  const double tangential = softness(setup, added, 1) + softness(setup, added, 2);
+  const double normal = inverseEffectiveMass(setup, added, 0);
+  const double tangential = inverseEffectiveMass(setup, added, 1) + inverseEffectiveMass(setup, added, 2);
   if (!(normal > 0) || !std::isfinite(normal + tangential)) {
     throw NumericalError(
         "impact: a contact between two sides that cannot move, or a number that is not finite");

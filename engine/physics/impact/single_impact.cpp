@@ -29,9 +29,9 @@ Wide3 wideInBody(const Mat3& worldFromBody, const Wide3& v) {
 
 /// What one body brings to the contact.
 struct Side {
-  Wide3 torque;           // arm × n, world: angular momentum per unit of normal impulse
-  DoubleDouble speed;     // n·(v + ω × arm)
-  DoubleDouble softness;  // that speed per unit of normal impulse
+  Wide3 torque;                       // arm × n, world: angular momentum per unit of normal impulse
+  DoubleDouble speed;                 // n·(v + ω × arm)
+  DoubleDouble inverseEffectiveMass;  // that speed per unit of normal impulse
 };
 
 Side sideOf(const ImpactBody& body, const Vec3& arm, const Vec3& normal) {
@@ -45,11 +45,12 @@ Side sideOf(const ImpactBody& body, const Vec3& arm, const Vec3& normal) {
       wideInBody(state.pose.worldFromBody, Wide3{momentum.x(), momentum.y(), momentum.z()});
   side.speed = twoProduct(normal.x(), v.x()) + twoProduct(normal.y(), v.y()) + twoProduct(normal.z(), v.z());
   // n·n is 1 but for rounding, and that rounding would be a drift of energy.
-  side.softness = mass.inverseMass * (twoSquare(normal.x()) + twoSquare(normal.y()) + twoSquare(normal.z()));
+  side.inverseEffectiveMass =
+      mass.inverseMass * (twoSquare(normal.x()) + twoSquare(normal.y()) + twoSquare(normal.z()));
   for (std::size_t i = 0; i < 3; ++i) {
     const DoubleDouble spin = mass.inverseInertiaBody[static_cast<Eigen::Index>(i)] * torqueBody[i];
     side.speed = side.speed + spin * momentumBody[i];
-    side.softness = side.softness + spin * torqueBody[i];
+    side.inverseEffectiveMass = side.inverseEffectiveMass + spin * torqueBody[i];
   }
   return side;
 }
@@ -145,7 +146,7 @@ Plane frictionImpulse(const Slip& slip, double friction) {
 }
 
 Slip slipOf(const ImpactBody& a, const ImpactBody* b, const ImpactContact& contact, const Tangents& tangents,
-            double softness, double approach) {
+            double inverseEffectiveMass, double approach) {
   const Vec3& n = contact.normal;
   Vec3 velocity = pointVelocity(a, contact.armA);
   Vec3 byNormal = yield(a, contact.armA, n);
@@ -158,9 +159,9 @@ Slip slipOf(const ImpactBody& a, const ImpactBody* b, const ImpactContact& conta
     bySecond += yield(*b, contact.armB, tangents.second);
   }
   const Plane across{.x = byNormal.dot(tangents.first), .y = byNormal.dot(tangents.second)};
-  const double compression = approach / softness;
+  const double compression = approach / inverseEffectiveMass;
   Slip slip;
-  slip.coupling = {.x = across.x / softness, .y = across.y / softness};
+  slip.coupling = {.x = across.x / inverseEffectiveMass, .y = across.y / inverseEffectiveMass};
   slip.speed = {.x = velocity.dot(tangents.first) + across.x * compression,
                 .y = velocity.dot(tangents.second) + across.y * compression};
   slip.xx = byFirst.dot(tangents.first) - across.x * slip.coupling.x;
@@ -177,14 +178,14 @@ ImpactShare resolveSingleImpact(const ImpactBody& a, const ImpactBody* b, const 
   const Side sideA = sideOf(a, contact.armA, n);
   Side sideB{};
   DoubleDouble speed = sideA.speed;
-  DoubleDouble softness = sideA.softness;
+  DoubleDouble inverseEffectiveMass = sideA.inverseEffectiveMass;
   if (b != nullptr) {
     sideB = sideOf(*b, contact.armB, n);
     speed = speed - sideB.speed;
-    softness = softness + sideB.softness;
+    inverseEffectiveMass = inverseEffectiveMass + sideB.inverseEffectiveMass;
   }
   speed = normalized(speed);  // its parts may have cancelled
-  softness = normalized(softness);
+  inverseEffectiveMass = normalized(inverseEffectiveMass);
   ImpactShare share{.approach = -speed.hi, .impulse = 0, .tangential = 0};
   if (!(speed.hi < 0)) {
     if (!std::isfinite(speed.hi)) {
@@ -192,10 +193,11 @@ ImpactShare resolveSingleImpact(const ImpactBody& a, const ImpactBody* b, const 
     }
     return share;
   }
-  if (!(softness.hi > 0)) {
+  if (!(inverseEffectiveMass.hi > 0)) {
     throw NumericalError("impact: neither side can move");
   }
-  const DoubleDouble impulse = normalized(-(twoSum(1, contact.material.restitution) * speed) / softness);
+  const DoubleDouble impulse =
+      normalized(-(twoSum(1, contact.material.restitution) * speed) / inverseEffectiveMass);
   if (!std::isfinite(impulse.hi)) {
     throw NumericalError("impact: the impulse is not a finite number");
   }
@@ -204,7 +206,7 @@ ImpactShare resolveSingleImpact(const ImpactBody& a, const ImpactBody* b, const 
   Vec3 frictional = Vec3::Zero();
   if (contact.material.friction > 0) {
     const Tangents tangents = tangentsOf(n);
-    const Slip slip = slipOf(a, b, contact, tangents, softness.hi, share.approach);
+    const Slip slip = slipOf(a, b, contact, tangents, inverseEffectiveMass.hi, share.approach);
     const Plane j = frictionImpulse(slip, contact.material.friction);
     const double normalPart = -(slip.coupling.x * j.x + slip.coupling.y * j.y);
     frictional = j.x * tangents.first + j.y * tangents.second + normalPart * n;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t kFramesPerSorting = 4;
 constexpr double kLeastSubsteps = 3;  // in a frame
 constexpr double kMostSubsteps = 12;
-constexpr double kStride =
+constexpr double kMostMovedInSubstep =
     0x1p-4;  // [1] of the smallest size, moved in a substep: faster bodies ask for more
 constexpr std::int64_t kSweeps = 20;
 constexpr std::int64_t kMostSweeps = 400;
@@ -32,7 +32,7 @@ constexpr double kAllowance = 0x1p-6;  // [1] of the smallest size: gaps that ot
 
 Pile::Pile(const World& world, std::vector<BodyState> states, double frame)
     : gravity_(world.gravity),
-      pull_(world.gravity.norm()),
+      gravityMagnitude_(world.gravity.norm()),
       walls_(world.walls),
       frame_(frame),
       h_(frame / kLeastSubsteps),
@@ -95,11 +95,11 @@ int Pile::chooseSubsteps() {
   double fastest = 0;
   for (const PileBody& body : bodies_) {
     if (!body.still()) {
-      fastest = std::max(fastest, (body.velocity.norm() + frame_ * pull_) / body.length);
+      fastest = std::max(fastest, (body.velocity.norm() + frame_ * gravityMagnitude_) / body.length);
     }
   }
   const int substeps =
-      static_cast<int>(std::clamp(1 + fastest * frame_ / kStride, kLeastSubsteps, kMostSubsteps));
+      static_cast<int>(std::clamp(1 + fastest * frame_ / kMostMovedInSubstep, kLeastSubsteps, kMostSubsteps));
   const double h = frame_ / substeps;
   impulseScale_ = h / h_;
   h_ = h;
@@ -136,8 +136,9 @@ void Pile::solve() {
 // are then looked at too.
 void Pile::lookAround(double time) {
   for (PileBody& body : bodies_) {
-    body.ahead =
-        body.still() ? 0 : h_ * (body.velocity.norm() + body.radius * body.omega.norm() + h_ * pull_);
+    body.ahead = body.still()
+                     ? 0
+                     : h_ * (body.velocity.norm() + body.radius * body.omega.norm() + h_ * gravityMagnitude_);
   }
   pairs_.update(bodies_, gravity_, time, kLookAhead * frame_);
   unused_.insert(unused_.end(), pairs_.freed().begin(), pairs_.freed().end());
@@ -241,7 +242,7 @@ bool Pile::wouldPush(const PilePair& pair, const PileManifold& manifold) const {
     const PilePoint& point = manifold.points[at(k)];
     const Vec3 relative = speed(a, point.world) - speed(b, point.world + a.position - b.position);
     const double approach = -manifold.frameOf(k).normal.dot(relative) - std::max(0.0, point.gap) / h_;
-    if (approach * heavy > kFeasible * pull_ * h_ * (heavy + light)) {
+    if (approach * heavy > kFeasible * gravityMagnitude_ * h_ * (heavy + light)) {
       return true;
     }
   }
@@ -312,7 +313,7 @@ void Pile::addRows(PileManifold& manifold) {
     }
     point.row = static_cast<int>(solver_.rowCount());
     solver_.add(row);
-    if (manifold.restitution > 0 && -speed > kBounceFrom * pull_ * h_) {
+    if (manifold.restitution > 0 && -speed > kBounceFrom * gravityMagnitude_ * h_) {
       // Of what gravity adds in the substep only the part before the touch counts, or bouncing would gain.
       const double before = std::clamp(point.gap / (-speed * h_), 0.0, 1.0);
       const double held = (a.still() ? 0 : 1) - (hasWall || bodyAt(manifold.b).still() ? 0 : 1);

@@ -95,7 +95,7 @@ class Pile {
   PileManifold& manifoldOf(PilePair& pair);
 
   Vec3 gravity_;
-  double pull_ = 0;  // [m/s²] |gravity|
+  double gravityMagnitude_ = 0;  // [m/s²] |gravity|
   std::vector<Wall> walls_;
   double frame_;
   double h_;                         // [s] a substep

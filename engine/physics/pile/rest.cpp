@@ -41,7 +41,8 @@ bool Pile::freeze() {
   const auto isQuiet = [&](std::size_t i) {
     const PileBody& body = bodies_[i];
     const double speed = body.velocity.norm() + body.radius * body.omega.norm();
-    return body.asleep || (unrest_[i] <= kFeasible * pull_ * h_ && speed <= grip_[i] * pull_ * h_);
+    return body.asleep ||
+           (unrest_[i] <= kFeasible * gravityMagnitude_ * h_ && speed <= grip_[i] * gravityMagnitude_ * h_);
   };
   std::vector<char> quiet(bodies_.size(), 1);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {

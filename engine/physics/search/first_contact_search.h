@@ -42,7 +42,7 @@ FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
   // A search that has not ended by then hands back what it has proved; a pair that hovers within rounding for
   // so long is in lasting contact.
   constexpr int kMostEvaluations = 50'000;
-  constexpr int kMostWatched = 500;
+  constexpr int kMostGrazing = 500;
   const auto noneUntil = [](double time, int evaluations) {
     FirstContact none;
     none.time = time;
@@ -51,12 +51,12 @@ FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
   };
 
   double t = window.from;
-  bool watching = false;  // within rounding of contact, not closing
-  double base = 0;        // the gap where watching began, at most 0
-  int watched = 0;
+  bool grazing = false;  // within rounding of contact, not closing
+  double base = 0;       // the gap where grazing began, at most 0
+  int grazes = 0;
   FirstContact touch;
   for (int evaluations = 1; evaluations <= kMostEvaluations; ++evaluations) {
-    if (!watching) {
+    if (!grazing) {
       t = approach.skip(t);
     }
     if (t >= window.until) {
@@ -67,27 +67,27 @@ FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
     const double tolerance = approach.tolerance();
     double floor = 0;
     if (gap > tolerance) {
-      watching = false;
-    } else if (approach.closing() && (!watching || approach.closesHard())) {
+      grazing = false;
+    } else if (approach.closing() && (!grazing || approach.closesHard())) {
       FirstContact impact = approach.describe();
       impact.kind = ContactKind::kImpact;
       // A root before the search began is none: boxes that overlap by rounding may have touched ever since.
       const double root = t + approach.polish();
-      impact.time = root < (watching ? touch.time : window.from) ? t : std::min(root, window.until);
+      impact.time = root < (grazing ? touch.time : window.from) ? t : std::min(root, window.until);
       impact.evaluations = evaluations;
       return impact;
     } else {
-      if (!watching) {
-        watching = true;
-        watched = 0;
+      if (!grazing) {
+        grazing = true;
+        grazes = 0;
         base = std::min(gap, 0.0);
         touch = approach.describe();
         touch.kind = ContactKind::kTouching;
         touch.time = t;
       }
-      ++watched;
+      ++grazes;
       touch.evaluations = evaluations;
-      if (gap <= base - 2 * tolerance || watched > kMostWatched) {
+      if (gap <= base - 2 * tolerance || grazes > kMostGrazing) {
         return touch;
       }
       floor = base - 4 * tolerance;

@@ -25,8 +25,8 @@
 // In a step of Contact the centre's path is no parabola: G then bounds the relative acceleration, whatever
 // its direction. N is left at its own length sin θ there: its root is that of the unit direction and M does
 // not grow as θ → 0. Directions that turn with the boxes converge quadratically; the one at rest costs
-// little, is safe for nearly parallel edges too, and takes the long strides. Each proves the step on its own,
-// so the longest is taken.
+// little, is safe for nearly parallel edges too, and takes the long time steps. Each proves the step on its
+// own, so the longest is taken.
 //
 // Touching. A gap within rounding is zero (kGapRounding). If it closes, that is an impact; if not, the pair
 // is watched until it is clear again, or sinks by 4 roundings without ever closing at a speed above rounding

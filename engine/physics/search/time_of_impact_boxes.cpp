@@ -13,7 +13,7 @@ namespace {
 // at rest in space, which needs no derivative of the direction.
 constexpr double kTurningEdges = 0x1p-7;
 // While contact is watched for sinking, edges must stay this far from parallel for a floor to mean the same.
-constexpr double kWatchedEdges = 0x1p-3;
+constexpr double kGrazingEdges = 0x1p-3;
 
 double sumOfSizes(const Vec3& v) { return std::fabs(v.x()) + std::fabs(v.y()) + std::fabs(v.z()); }
 
@@ -167,7 +167,7 @@ double BoxApproach::skipInSteps(double time) const {
 }
 
 // Between straight flights the distance of the centres is a convex function of time: it stays below R_a + R_b
-// until the spheres part for good. Otherwise the bounds hold for a stride of half that length.
+// until the spheres part for good. Otherwise the bounds hold for a time step of half that length.
 void BoxApproach::boundTranslation(double time) {
   if (gravity_ == 0 && !steps_) {
     mostSpeed_ = velocity_.norm();
@@ -177,7 +177,7 @@ void BoxApproach::boundTranslation(double time) {
     const double discriminant = squaredSpeed * spheres_ * spheres_ - offset_.cross(velocity_).squaredNorm();
     const double ahead = discriminant > 0 ? std::sqrt(discriminant) - along : -along;
     validity_ = squaredSpeed > 0 && ahead < kNever * squaredSpeed ? ahead / squaredSpeed : kNever;
-    // At the spheres' very edge rounding may leave nothing: any stride with this distance bound will do.
+    // At the spheres' very edge rounding may leave nothing: any time step with this distance bound will do.
     const double least = 0x1p-20 * spheres_;
     if (squaredSpeed > 0 && validity_ * mostSpeed_ < least) {
       validity_ = least / mostSpeed_;
@@ -186,12 +186,12 @@ void BoxApproach::boundTranslation(double time) {
     return;
   }
   const double speed = velocityAt(time).norm();
-  const double stride = 0.5 * spheres_;
-  // v s + ½ g s² ≤ stride for s = stride / (v + sqrt(½ g stride)).
-  const double pace = speed + std::sqrt(0.5 * gravity_ * stride);
-  validity_ = pace > 0 ? stride / pace : kNever;
+  const double reach = 0.5 * spheres_;
+  // v s + ½ g s² ≤ time step for s = time step / (v + sqrt(½ g time step)).
+  const double pace = speed + std::sqrt(0.5 * gravity_ * reach);
+  validity_ = pace > 0 ? reach / pace : kNever;
   mostSpeed_ = speed + gravity_ * validity_;
-  mostDistance_ = offset_.norm() + stride;
+  mostDistance_ = offset_.norm() + reach;
 }
 
 void BoxApproach::moveTo(double time) {
@@ -252,19 +252,19 @@ void BoxApproach::findRates() {
 
 double BoxApproach::freeStep(double floor, double most) const {
   const double reach = std::min(most, validity_);
-  const bool watching = floor < 0;
+  const bool grazing = floor < 0;
   double best = 0;
   for (int k = 0; k < BoxAxis::kCount; ++k) {
     const BoxAxis axis{k};
     const double separation = axes_->separation(axis);
     // Far from contact the widest direction alone is worth the work; equals are all tried, so that the answer
     // does not depend on which box is called a.
-    if (separation <= floor || (!watching && separation < axes_->gap())) {
+    if (separation <= floor || (!grazing && separation < axes_->gap())) {
       continue;
     }
-    if (turnsWell(axis, watching ? kWatchedEdges : kTurningEdges)) {
+    if (turnsWell(axis, grazing ? kGrazingEdges : kTurningEdges)) {
       double allowed = reach;
-      if (watching && axis.kind() == BoxAxis::Kind::kEdges) {
+      if (grazing && axis.kind() == BoxAxis::Kind::kEdges) {
         const double turning = a_.angularSpeedBound + b_.angularSpeedBound;
         allowed = 2 * turning * reach > sine(axis) ? 0.5 * sine(axis) / turning : reach;
       }

@@ -23,8 +23,8 @@ EndMotion motionOf(const SpringEnd& end, const World& world, std::span<const Bod
   return {.position = state.pose.position + r, .velocity = pointVelocity(state.velocity, omega, r)};
 }
 
-void pullAt(const SpringEnd& end, const Vec3& point, const Vec3& force, std::span<const BodyState> states,
-            std::vector<Load>& loads) {
+void applyAt(const SpringEnd& end, const Vec3& point, const Vec3& force, std::span<const BodyState> states,
+             std::vector<Load>& loads) {
   if (end.body) {
     const auto index = static_cast<std::size_t>(*end.body);
     loads[index].force += force;
@@ -51,7 +51,7 @@ Stretch stretchOf(const Spring& spring, const World& world, std::span<const Body
   return stretch;
 }
 
-double springPull(const Spring& spring, const Stretch& stretch) {
+double springForce(const Spring& spring, const Stretch& stretch) {
   return spring.stiffness * (stretch.length - spring.restLength) + spring.damping * stretch.rate;
 }
 
@@ -93,9 +93,9 @@ void computeLoads(const World& world, std::span<const BodyState> states, std::ve
   }
   for (const Spring& spring : world.springs) {
     const Stretch stretch = stretchOf(spring, world, states);
-    const Vec3 force = springPull(spring, stretch) * stretch.direction;
-    pullAt(spring.from, stretch.from, force, states, loads);
-    pullAt(spring.to, stretch.to, -force, states, loads);
+    const Vec3 force = springForce(spring, stretch) * stretch.direction;
+    applyAt(spring.from, stretch.from, force, states, loads);
+    applyAt(spring.to, stretch.to, -force, states, loads);
   }
 }
 

@@ -27,8 +27,8 @@ struct Stretch {
 /// `states` has one entry per body of the world.
 Stretch stretchOf(const Spring& spring, const World& world, std::span<const BodyState> states);
 
-/// k (length − rest) + c · rate, [N]; positive pulls the ends together.
-double springPull(const Spring& spring, const Stretch& stretch);
+/// k (length − rest) + c · rate, [N]; positive draws the ends together.
+double springForce(const Spring& spring, const Stretch& stretch);
 
 /// ½ k (length − rest)² summed over the springs, [J].
 double springEnergy(const World& world, std::span<const BodyState> states);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/math/rotation.h"
+#include "support/article_equations.h"
 #include "support/physics_worlds.h"
 #include "support/tumbling_box.h"
 

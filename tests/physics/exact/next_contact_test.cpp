@@ -82,7 +82,7 @@ TEST(NextContact, ofTwoCountsFromTheLaterStart) {
     EXPECT_NEAR(event->time.hi, 2 + 1.6 / 3, 1e-14);
     EXPECT_EQ(event->kind, EventKind::kContact);
     EXPECT_EQ(event->body, 1);
-    EXPECT_EQ(event->partner, 9);
+    EXPECT_EQ(event->partner, Partner::ofBody(9));
     EXPECT_EQ(event->partnerMotion, 5U);
   }
   EXPECT_FALSE(firstMeeting(early.mover, 1, late.mover, 9, Instant(2.5)).has_value());

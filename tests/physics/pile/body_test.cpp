@@ -7,6 +7,7 @@
 
 #include "core/math/rotation.h"
 #include "physics/attitude/torque_free_rotation.h"
+#include "support/article_equations.h"
 #include "support/pile_scenes.h"
 #include "support/tumbling_box.h"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/math/rotation.h"
+#include "support/article_equations.h"
 #include "support/pile_scenes.h"
 #include "support/tumbling_box.h"
 
