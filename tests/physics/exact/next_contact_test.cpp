@@ -89,6 +89,16 @@ TEST(NextContact, ofTwoCountsFromTheLaterStart) {
   EXPECT_FALSE(firstMeeting(early.mover, 1, late.mover, 9, Instant(1.5)).has_value());
 }
 
+// Thrown at t = 2 downward from below a box at rest. The same parabola, had it begun at t = 1, would have
+// risen to 1.25 m at t = 1.5 and met that box, which hangs at 1.5 m.
+TEST(NextContact, ofTwoIsNotBeforeBothHaveBegun) {
+  const Flyer hanging({.position = {0, 0, 1.5}}, Vec3::Zero(), 1);
+  const Flyer falling({.velocity = {0, 0, -5}}, Vec3(0, 0, -10), 2);
+  EXPECT_FALSE(firstMeeting(hanging.mover, 0, falling.mover, 1, Instant(100)).has_value());
+  const Flyer fallen({.position = {0, 0, 0}, .velocity = {0, 0, 5}}, Vec3(0, 0, -10), 2);
+  EXPECT_TRUE(firstMeeting(hanging.mover, 0, fallen.mover, 1, Instant(100)).has_value());
+}
+
 // Blocks that lie face to face and move alike are let be; so are those that part.
 TEST(NextContact, ofTwoThatMoveAsOneIsNone) {
   const Flyer a({.velocity = {1, 2, 3}});

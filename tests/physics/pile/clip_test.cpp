@@ -85,6 +85,8 @@ TEST(Clip, ofTurnedSquaresIsAnOctagon) {
   for (const ClippedPoint& point : pointsOf(face)) {
     EXPECT_NEAR(point.point.head<2>().norm(), std::sqrt(1 + std::pow(std::sqrt(2.0) - 1, 2)), 1e-15);
     features.insert(point.feature);
+    // Where an edge of one crosses an edge of the other: of the incident face 0…3, of the plane's 4…7.
+    EXPECT_NE(point.feature / 8 < 4, point.feature % 8 < 4) << point.feature;
   }
   EXPECT_EQ(features.size(), 8U) << "each corner has its own";
 }

@@ -112,11 +112,11 @@ TEST(FirstContactSearch, callsWhatHoversWithinRoundingTouching) {
   EXPECT_EQ(contact.time, 1);
 }
 
-// Sinking from the wall at 1e-20 m/s²: never fast enough for an impact.
+// Sinking from rest, −½ M t²: 2 tolerances deep it closes at √(4 M tolerance), half of what an impact takes.
 TEST(FirstContactSearch, callsWhatSinksWithoutSpeedTouching) {
-  Curve sinking{.gapAt = [](double t) { return -0.5e-20 * t * t; },
-                .rateAt = [](double t) { return -1e-20 * t; },
-                .curvature = 1e-20};
+  Curve sinking{.gapAt = [](double t) { return -0.5e-4 * t * t; },
+                .rateAt = [](double t) { return -1e-4 * t; },
+                .curvature = 1e-4};
   const FirstContact contact = findFirstContact(sinking, {.from = 0, .until = 1e6});
   EXPECT_EQ(contact.kind, ContactKind::kTouching);
   EXPECT_EQ(contact.time, 0);
