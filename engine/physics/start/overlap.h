@@ -67,6 +67,9 @@ struct Parted {
 /// is a quadratic programme; C. Hildreth 1957 solves it by one multiplier at a time. Pairs are taken in the
 /// order of the boxes' names, so the order given changes no bit.
 ///
+/// Not used: the pile's projection. Without turning, 3000 of its passes leave 0.1 m under a top 1e4 times as
+/// heavy, and where the axis of least depth has no room; and it cannot tell that there is no room at all.
+///
 /// InputError names a pair for which no room was found.
 Parted moveApart(std::span<const PlacedBox> boxes, std::span<const Wall> walls,
                  Meeting meeting = Meeting::kAll);
