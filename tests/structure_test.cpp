@@ -425,5 +425,21 @@ TEST(Structure, everySourceHasATestOrAReason) {
   }
 }
 
+// Paths in backquotes, from the root, engine/ or engine/physics/; patterns and options are no paths.
+TEST(Structure, theMapNamesOnlyWhatThereIs) {
+  const std::string map = textOf(kRoot / "engine" / "ARCHITECTURE.md");
+  const std::regex path("`([A-Za-z0-9_.]+/[A-Za-z0-9_./]*)`");
+  std::size_t checked = 0;
+  for (auto match = std::sregex_iterator(map.begin(), map.end(), path); match != std::sregex_iterator();
+       ++match) {
+    const std::string named = (*match)[1];
+    EXPECT_TRUE(fs::exists(kRoot / named) || fs::exists(kRoot / "engine" / named) ||
+                fs::exists(kRoot / "engine" / "physics" / named))
+        << named;
+    ++checked;
+  }
+  EXPECT_GT(checked, 30U);
+}
+
 }  // namespace
 }  // namespace careen

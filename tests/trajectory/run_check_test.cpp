@@ -111,7 +111,7 @@ const std::vector<Fault> kFaults = {
      [](Trajectory& run) { run.world.bodies[0].initial.pose.position.x() += 0.01; }},
     // The impacts.
     {"names a body or wall it does not hold", [](Trajectory& run) { run.impacts[0].b = Partner::ofWall(2); }},
-    {"names a body or wall it does not hold", [](Trajectory& run) { run.impacts[0].b = BodyIndex{-1}; }},
+    {"names a body or wall it does not hold", [](Trajectory& run) { run.impacts[0].b = Partner::ofBody(7); }},
     {"has an impact with a time out of order or beyond the run's end",
      [](Trajectory& run) { run.impacts[0].time = 1.01; }},
     {"has an impact with a time out of order or beyond the run's end",
