@@ -22,8 +22,8 @@ Picture grey(int width, int height) {
 TEST(Faults, areToldOfEveryFrameThatIsNotAsTheManifestHasIt) {
   const TemporaryFolder folder;
   FilmManifest manifest;
-  manifest.width = 8;
-  manifest.height = 6;
+  manifest.picture.width = 8;
+  manifest.picture.height = 6;
   manifest.frames = {0, 1, 2, 5, 9};
   for (const std::int64_t frame : {0, 2, 5}) {
     writePng(folder / frameFileName(frame), grey(8, 6));
@@ -48,8 +48,8 @@ TEST(Faults, areToldOfEveryFrameThatIsNotAsTheManifestHasIt) {
 TEST(Faults, areNoneInAWholeFilm) {
   const TemporaryFolder folder;
   FilmManifest manifest;
-  manifest.width = 8;
-  manifest.height = 6;
+  manifest.picture.width = 8;
+  manifest.picture.height = 6;
   manifest.frames = {3};
   writePng(folder / frameFileName(3), grey(8, 6));
   EXPECT_TRUE(findFaults(folder.path(), manifest).empty());

@@ -28,8 +28,8 @@ FilmManifest filmOf(const Frames& frames) {
   manifest.program = "careen 1.2.3";
   manifest.sceneHash = "0123";
   manifest.stateHash = "4567";
-  manifest.width = 4;
-  manifest.height = 2;
+  manifest.picture.width = 4;
+  manifest.picture.height = 2;
   manifest.frameCount = 100;
   manifest.frames = frames;
   return manifest;

@@ -22,13 +22,13 @@ FilmManifest everyField() {
   manifest.libraries = "glibc 2.36";
   manifest.sceneHash = "0123";
   manifest.stateHash = "4567";
-  manifest.width = 640;
-  manifest.height = 360;
-  manifest.rate = {.numerator = 24000, .denominator = 1001};
-  manifest.look = "clay";
-  manifest.antialiasing = "4x";
-  manifest.shutter = "180";
-  manifest.overlays = "time,energy";
+  manifest.picture.width = 640;
+  manifest.picture.height = 360;
+  manifest.picture.rate = {.numerator = 24000, .denominator = 1001};
+  manifest.picture.look = Look::kClay;
+  manifest.picture.antialiasing = Antialiasing::kMultisampled;
+  manifest.picture.shutter = parseShutter("180");
+  manifest.picture.overlays = overlaysNamed("time,energy");
   manifest.frameCount = 240;
   manifest.frames = {0, 1, 2, 10, 12};
   return manifest;
@@ -45,7 +45,7 @@ TEST(Manifest, comesBackFromItsFile) {
   EXPECT_EQ(back->libraries, manifest.libraries);
   EXPECT_EQ(back->renderer, manifest.renderer);
   EXPECT_EQ(back->frames, manifest.frames);
-  EXPECT_EQ(back->rate, manifest.rate);
+  EXPECT_EQ(back->picture.rate, manifest.picture.rate);
 }
 
 TEST(Manifest, isNoneWhereThereIsNoFile) {
@@ -88,15 +88,17 @@ TEST(Manifest, ofAnotherFilmDiffersInWhatItSays) {
   const std::vector<std::pair<std::string, std::function<void(FilmManifest&)>>> changes = {
       {"scene 0123 there, x now", [](FilmManifest& film) { film.sceneHash = "x"; }},
       {"run 4567 there, x now", [](FilmManifest& film) { film.stateHash = "x"; }},
-      {"size 640x360 there, 640x361 now", [](FilmManifest& film) { film.height = 361; }},
+      {"size 640x360 there, 640x361 now", [](FilmManifest& film) { film.picture.height = 361; }},
       {"fps 24000/1001 there, 24 now",
        [](FilmManifest& film) {
-         film.rate = {24, 1};
+         film.picture.rate = {24, 1};
        }},
-      {"look clay there, studio now", [](FilmManifest& film) { film.look = "studio"; }},
-      {"antialiasing 4x there, edges now", [](FilmManifest& film) { film.antialiasing = "edges"; }},
-      {"shutter 180 there, none now", [](FilmManifest& film) { film.shutter = "none"; }},
-      {"overlays time,energy there, time now", [](FilmManifest& film) { film.overlays = "time"; }},
+      {"look clay there, studio now", [](FilmManifest& film) { film.picture.look = Look::kStudio; }},
+      {"antialiasing 4x there, edges now",
+       [](FilmManifest& film) { film.picture.antialiasing = Antialiasing::kEdges; }},
+      {"shutter 180:8 there, none now", [](FilmManifest& film) { film.picture.shutter = {}; }},
+      {"overlays time,energy there, time now",
+       [](FilmManifest& film) { film.picture.overlays = overlaysNamed("time"); }},
       {"frames in all 240 there, 241 now", [](FilmManifest& film) { film.frameCount = 241; }},
       {"program careen 1.2.3 there, careen 2 now", [](FilmManifest& film) { film.program = "careen 2"; }},
       {"renderer llvmpipe there, other now", [](FilmManifest& film) { film.renderer = "other"; }},
@@ -107,9 +109,9 @@ TEST(Manifest, ofAnotherFilmDiffersInWhatItSays) {
     EXPECT_EQ(differenceOf(there, asked), said);
   }
   FilmManifest asked = there;
-  asked.look = "studio";
-  asked.shutter = "none";
-  EXPECT_EQ(differenceOf(there, asked), "look clay there, studio now; shutter 180 there, none now");
+  asked.picture.look = Look::kStudio;
+  asked.picture.shutter = {};
+  EXPECT_EQ(differenceOf(there, asked), "look clay there, studio now; shutter 180:8 there, none now");
 }
 
 TEST(Manifest, ofTheSameFilmMayHaveOtherFramesLibrariesAndNoRendererYet) {

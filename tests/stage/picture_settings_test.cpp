@@ -26,7 +26,10 @@ TEST(PictureSettings, unknownNamesAreRefusedWithThoseThereAre) {
 }
 
 TEST(PictureSettings, aspectIsWidthOverHeight) {
-  EXPECT_EQ((PictureSettings{.width = 1920, .height = 1080}.aspect()), 1920.0 / 1080.0);
+  PictureSettings picture;
+  picture.width = 1920;
+  picture.height = 1080;
+  EXPECT_EQ(picture.aspect(), 1920.0 / 1080.0);
 }
 
 }  // namespace
