@@ -8,10 +8,10 @@
 namespace careen {
 namespace {
 
-// [1] of the half extents: a point so near to an edge is on it. Wider than any contact's own tolerance; no
-// two points of one manifold are so near.
+// [1] of the half extents: a point this near to an edge counts as on it. Larger than the tolerance of any
+// contact; no two points of one manifold are this close.
 constexpr double kOnEdge = 0x1p-30;
-// [1] A normal so nearly along a face's is the face's.
+// [1] Cosine from which a normal counts as that of a face.
 constexpr double kAlongFace = 1 - 0x1p-40;
 
 ContactState onPlane(const Vec3& arm, const Kinematics& a, const Kinematics* b, const Vec3& normal,
@@ -70,14 +70,14 @@ ContactState onEdge(const ContactFeature& feature, const Kinematics& a, const Ve
   const Vec3 normalRate = (turning - n.dot(turning) * n) / sine;
   state.gapBias = n.dot(spinA.cross(spinA.cross(state.armA)) - spinB.cross(spinB.cross(state.armB))) +
                   2 * normalRate.dot(state.slip);
-  // The crossing itself wanders along both edges.
+  // The crossing itself moves along both edges.
   const double wander = -feature.sign * n.dot(state.slip.cross(edgeB)) / sine;
   const Vec3 crossing = velocityA + wander * edgeA;
   state.slipBias = spinA.cross(crossing - a.velocity) - spinB.cross(crossing - b.velocity);
   return state;
 }
 
-// The axes across which the point lies at the box's side.
+// The axes along which the point lies on the box's surface.
 struct Sides {
   std::array<bool, 3> at{};
   int count = 0;
@@ -94,7 +94,7 @@ Sides sidesAt(const Vec3& point, const Vec3& halfExtents, double apart) {
   return sides;
 }
 
-// The face of a box that looks along a direction, if one does.
+// The face of a box with its normal along a direction, else -1.
 int faceAlong(const Mat3& worldFromBody, const Vec3& direction) {
   for (int i = 0; i < 3; ++i) {
     if (std::fabs(worldFromBody.col(i).dot(direction)) >= kAlongFace) {
@@ -114,7 +114,7 @@ Vec3 atSides(const Vec3& point, const Vec3& halfExtents, int except) {
   return moved;
 }
 
-// Of the box's edges through the point the one that crosses `other` most squarely, seen along the normal.
+// Of the box's edges through the point, the one nearest to perpendicular to `other`, seen along the normal.
 int edgeThrough(const Sides& sides, const Mat3& worldFromBody, const Vec3& normal, const Vec3& other) {
   int best = -1;
   double most = -1;
@@ -185,7 +185,7 @@ ContactFeature featureAt(const ContactPoint& point, double apart, int a, const P
   if (sidesB.count == 3 && faceA >= 0) {
     return pointOnFace(b, atSides(placeB, halfExtentsB, -1), a, poseA.worldFromBody, faceA, -point.normal);
   }
-  // The edges that cross most squarely; each chosen against all of the other's.
+  // The pair of edges nearest to perpendicular, out of all pairs.
   int edgeA = -1;
   int edgeB = -1;
   double most = kOnEdge;
@@ -213,7 +213,7 @@ ContactFeature featureAt(const ContactPoint& point, double apart, int a, const P
             .axisB = edgeB,
             .sign = cross.dot(point.normal) < 0 ? -1.0 : 1.0};
   }
-  // A place within a face, as where a face's middle was brought over another: it keeps to its body.
+  // A point inside a face, such as a face's centre projected onto another: it stays fixed to its body.
   if (faceB >= 0 || faceA < 0) {
     int face = faceB;
     if (face < 0) {

@@ -17,9 +17,8 @@ struct Kinematics {
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s]
 };
 
-/// What touches what, as parts of the bodies rather than as a place: it goes on holding while they move.
-/// Faces, edges and corners that lie on each other are several features, one for each point of their common
-/// part.
+/// A contact given by the touching parts of the bodies rather than by a point, so that it stays valid while
+/// they move. Coincident faces, edges and corners give one feature for each point of the contact manifold.
 struct ContactFeature {
   enum class Kind {
     kPointOnWall,
@@ -32,13 +31,13 @@ struct ContactFeature {
   Partner b = {};           ///< a wall, or the index of a body
   Vec3 onA = Vec3::Zero();  ///< [m] in a's frame: the point, or its edge's middle
   Vec3 onB = Vec3::Zero();  ///< [m] in b's frame: its edge's middle
-  int axisA = 0;            ///< along which a's edge runs
-  int axisB = 0;            ///< along which b's edge runs, or b's face looks
+  int axisA = 0;            ///< body axis along a's edge
+  int axisB = 0;            ///< body axis along b's edge, or normal to b's face
   double sign = 1;          ///< of the face's outward normal, or of the edges' cross product
   Material material = {};   ///< of the pair
 };
 
-/// A feature at one moment. How its gap d and its slip change, for accelerations v̇ and ω̇ of both sides:
+/// A feature at one moment. Its gap d and its slip change with accelerations v̇ and ω̇ of both sides:
 ///   d̈ = n·(v̇_a + ω̇_a×armA − v̇_b − ω̇_b×armB) + gapBias,   d(slip)/dt = the same without n + slipBias.
 struct ContactState {
   Vec3 normal = Vec3::UnitZ();   ///< [1] unit, from b to a
@@ -46,21 +45,21 @@ struct ContactState {
   Vec3 armB = Vec3::Zero();      ///< [m] likewise from b's
   double gap = 0;                ///< [m]
   double rate = 0;               ///< [m/s] of the gap
-  Vec3 slip = Vec3::Zero();      ///< [m/s] of a's material past b's, along the contact plane
+  Vec3 slip = Vec3::Zero();      ///< [m/s] tangential velocity of a relative to b
   double gapBias = 0;            ///< [m/s²]
   Vec3 slipBias = Vec3::Zero();  ///< [m/s²]
   double beyond = 0;  ///< [m] how far the contact is past the end of its face or edge; negative within
 };
 
-/// Whether that corner of a at that wall is among them.
+/// Whether the features include that corner of a at that wall.
 bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, const Vec3& corner);
 
-/// `b` is null for a wall. Eq. 13 and its derivative; n turns with b's face, or with both edges.
+/// `b` is null for a wall. Eq. 13 and its derivative; n rotates with b's face, or with both edges.
 ContactState contactState(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,
                           const Kinematics* b, const Vec3& halfExtentsB, const Wall* wall);
 
-/// Which parts of two boxes meet at a point of boxContactPoints, of boxes that are `apart` [m] or overlap so
-/// much: a crossing of edges lies in the middle between them.
+/// The feature of two boxes at a point of boxContactPoints. `apart` [m] is their gap, negative for
+/// penetration: a crossing of edges lies halfway between them.
 ContactFeature featureAt(const ContactPoint& point, double apart, int a, const Pose& poseA,
                          const Vec3& halfExtentsA, int b, const Pose& poseB, const Vec3& halfExtentsB);
 

@@ -10,29 +10,30 @@
 namespace careen {
 namespace {
 
-/// ρ, as multiple of the mass a contact feels: see ImpactSolver. A heavy body that stands on light ones
-/// leaves 1/ρ times their ratio, or a power of it, after each iteration: if that is slow, ρ is raised.
+/// ρ, as multiple of a contact's effective mass: see ImpactSolver. With a heavy body on light ones each
+/// iteration multiplies the residual by their mass ratio over ρ, or a power of it: if that is slow, ρ is
+/// raised.
 constexpr double kPenalty = 0x1p26;
 constexpr double kMorePenalty = 0x1p7;
 constexpr double kMostPenalty = 0x1p46;
 constexpr double kSlow = 0.125;
-/// Violations this small that do not shrink any more are rounding error.
+/// Violations this small that no longer decrease are rounding error.
 constexpr double kNoise = 0x1p-46;
 constexpr double kNear = 0x1p-38;
-/// Demands that contradict each other by so much are met as well as can be.
+/// Conditions that contradict each other by this much are met as well as possible.
 constexpr double kInconsistent = 0x1p-10;
-/// [1] of the least violation: Newton's method has gone astray.
+/// [1] of the smallest violation: Newton's method has diverged.
 constexpr double kDiverged = 0x1p20;
-/// [1] of the largest limit of friction.
+/// [1] of the largest friction limit.
 constexpr double kLimitsAgree = 0x1p-42;
 constexpr double kImpulsesAgree = 0x1p-16;
-/// [1] of the velocities: time steps err more.
+/// [1] of the velocities: the error of a time step is larger.
 constexpr double kImpulsesEnough = 0x1p-30;
 /// [1] of the accelerations, with given modes: gaps and rates are projected anyway.
 constexpr double kGivenEnough = 0x1p-50;
 constexpr int kOuterCap = 40;
 constexpr int kInnerCap = 40;
-/// Full Newton steps before half ones are tried against cycling.
+/// Full Newton steps before half steps are tried, to break cycles.
 constexpr int kFullSteps = 12;
 
 bool isSame(const std::array<double, 9>& x, const std::array<double, 9>& y, double within) {
@@ -106,8 +107,8 @@ void ContactForces::weigh() {
   }
 }
 
-/// The force the augmented Lagrangian assigns: the multiplier, less penalty times excess, brought back to
-/// what is admissible; and how it changes with the excess.
+/// The force of the augmented Lagrangian: the multiplier minus penalty times excess, projected onto the
+/// admissible set; and its derivative by the excess.
 ContactForces::Response ContactForces::respond(std::size_t c, const Force& excess, const Mode* as,
                                                Modes how) const {
   const Contact& contact = contacts_[c];
@@ -138,7 +139,7 @@ ContactForces::Response ContactForces::respond(std::size_t c, const Force& exces
   const double y = guess[2] - stiffTangent * excess[2];
   const double size = std::sqrt(x * x + y * y);
   const double limit = mu * normal;
-  // Without a force along the contact there is no direction to begin to slip in.
+  // Without a tangential force there is no direction in which slip could begin.
   if (size == 0 || (as != nullptr ? *as == Mode::kStick : size <= limit)) {
     response.mode = Mode::kStick;
     response.force[1] = x;
@@ -253,8 +254,8 @@ void ContactForces::assemble() {
   }
 }
 
-/// Solves for the responses at the present multipliers: leaves them in responses_. How much accelerations at
-/// the contacts change [m/s²].
+/// Solves for the responses at the current multipliers and leaves them in responses_. Returns the largest
+/// change of an acceleration at the contacts [m/s²].
 double ContactForces::newton(std::span<const Mode> modes, Modes how) {
   std::fill(z_.begin(), z_.end(), 0.0);
   std::fill(gained_.begin(), gained_.end(), Force{});
@@ -268,7 +269,7 @@ double ContactForces::newton(std::span<const Mode> modes, Modes how) {
       responses_[c] = respond(c, excess, as, how);
     }
   };
-  // What pushed at the last multipliers is likely to go on: their rounding, times the penalty, must not
+  // Contacts active at the last multipliers likely stay active: rounding error times the penalty must not
   // decide.
   respondAll(factorised_.size() == contacts_.size());
   cycles_ = true;
@@ -332,8 +333,8 @@ double ContactForces::newton(std::span<const Mode> modes, Modes how) {
   return change;
 }
 
-/// What the forces found mean. A force this near to nothing, or to the limit of friction, is that: an event
-/// is located no better, and would be met again.
+/// The mode that a force means. A force this close to zero, or to the friction limit, counts as equal to it:
+/// events are located no more accurately and would trigger again.
 ContactForces::Mode ContactForces::modeOf(std::size_t c) {
   Contact& contact = contacts_[c];
   const Force& force = forces_[c];
@@ -371,7 +372,7 @@ void ContactForces::solveImpulses(std::span<const double> free, std::span<Mode> 
   }
 }
 
-// `first` are the modes to begin with, `enough` [1] of the accelerations is the violation to end with.
+// `first`: the initial modes; `enough`: the violation to stop at, [1] of the accelerations.
 bool ContactForces::solveByNewton(std::span<const double> free, std::span<Mode> modes, Modes how,
                                   std::span<const Force> guess, std::span<const Mode> first, double enough) {
   const std::size_t axes = mass_.size();
@@ -379,7 +380,7 @@ bool ContactForces::solveByNewton(std::span<const double> free, std::span<Mode> 
   a_.assign(free.begin(), free.end());
   forces_.assign(contacts_.size(), {});
   std::copy(guess.begin(), guess.end(), forces_.begin());
-  for (std::size_t c = 0; c < guess.size(); ++c) {  // slip may have turned since
+  for (std::size_t c = 0; c < guess.size(); ++c) {  // the slip direction may have changed
     if (how == Modes::kGiven && modes[c] == Mode::kSlip) {
       const Contact& contact = contacts_[c];
       forces_[c][1] = -contact.friction * forces_[c][0] * contact.slip[0];

@@ -7,26 +7,26 @@
 
 namespace careen {
 
-/// The forces between bodies that stay in touch, and the accelerations they leave. Coulomb friction with a
-/// round cone.
+/// Contact forces between bodies in persistent contact, and the resulting accelerations. Coulomb friction
+/// with a circular friction cone.
 ///
-/// Accelerations a are six numbers per body, that of the centre in the world and ω̇ in the body's frame, so
-/// that M is diagonal. Contact c has a normal row n_c and two tangential rows t_c, orthonormal in the world;
-/// targets are what its geometry asks for besides (centripetal terms, with their sign changed):
+/// Accelerations a are six numbers per body, that of the centre of mass in the world frame and ω̇ in the
+/// body's frame, so that M is diagonal. Contact c has a normal Jacobian row n_c and two tangential rows t_c,
+/// orthonormal in the world; targets are the accelerations that its geometry requires (centripetal terms,
+/// with their sign changed):
 ///
 ///   M (a − a_free) = Jᵀλ,   0 ≤ λ_n ⊥ n a − target_n ≥ 0,   |λ_t| ≤ μ λ_n,
-///   a contact that slips: λ_t = −μ λ_n · slip;   one that does not: λ_t holds t a at its target if |λ_t|
-///   can, else it is μ λ_n against what is left of t a − target.
+///   a contact that slips: λ_t = −μ λ_n · slip;   one that does not: λ_t holds t a at its target if
+///   |λ_t| ≤ μ λ_n suffices, else |λ_t| = μ λ_n, opposite to the residual t a − target.
 ///
-/// The same with velocities in place of accelerations is the velocity that a impulse without restitution
-/// leaves.
+/// With velocities in place of accelerations, this gives the velocity after an impulse without restitution.
 ///
 /// Method: augmented Lagrangian with semismooth Newton (P. Alart, A. Curnier, Comput. Methods Appl. Mech.
-/// Eng. 92, 1991) in the coordinates of the bodies: the matrix M + Jᵀ D J stays regular however redundant the
-/// contacts are, and of all force distributions the one of least norm, weighted by what mass a contact feels,
-/// is found, for the multipliers start from 0 and only move along the rows. Friction makes it unsymmetric.
-/// Unlike ImpactSolver's problem this one is not convex and may have no solution (P. Painlevé, C. R. Acad.
-/// Sci. 121, 1895): solve() then says so.
+/// Eng. 92, 1991) in the coordinates of the bodies: the matrix M + Jᵀ D J stays nonsingular however redundant
+/// the contacts are. Of all force distributions it finds that of least norm, weighted by effective mass,
+/// because the multipliers start from 0 and only move along the rows. Friction makes the matrix unsymmetric.
+/// Unlike ImpactSolver's problem, this one is not convex and may have no solution (P. Painlevé, C. R. Acad.
+/// Sci. 121, 1895): solve() then returns false.
 class ContactForces {
  public:
   static constexpr std::size_t kAxes = 6;
@@ -36,9 +36,9 @@ class ContactForces {
 
   enum class Mode : unsigned char {
     kOff,    ///< no force
-    kOn,     ///< pushes, without friction
-    kStick,  ///< pushes, does not slip
-    kSlip,   ///< pushes, slips or begins to
+    kOn,     ///< normal force, no friction
+    kStick,  ///< normal force, sticks
+    kSlip,   ///< normal force, slips or begins to
   };
 
   struct Contact {
@@ -56,25 +56,26 @@ class ContactForces {
   std::vector<Contact>& contacts() { return contacts_; }
   const std::vector<Contact>& contacts() const { return contacts_; }
 
-  /// Which contacts push, stick and slip is asked for, or given: then no inequality is looked at.
+  /// The modes of the contacts are to be found, or given: then no inequality is checked.
   enum class Modes { kFound, kGiven };
-  /// False if no solution was reached to rounding; what was reached is left. Given modes may ask for what
-  /// cannot quite be, as two ends of an edge that both stick while the body turns out of line: that is shared
-  /// out by least squares. Redundant forces are those next to `guess`, one per contact, or to none.
+  /// Returns false if no solution was reached to rounding error; the best iterate is kept. Given modes may be
+  /// slightly inconsistent, as two ends of an edge that both stick while the body rotates out of line: the
+  /// residual is distributed by least squares. Redundant forces are those nearest to `guess`, one per
+  /// contact, or to zero.
   bool solve(std::span<const double> free, std::span<Mode> modes, Modes how,
              std::span<const Force> guess = {});
 
-  /// The same for velocities, which always has a solution; the limits of friction agree with the normal
-  /// impulses to 2e-5 of them, or as far as could be reached, and no energy is gained.
+  /// The same for velocities, which always has a solution; the friction limits agree with the normal impulses
+  /// to a relative 2e-5, or as far as could be reached, and no energy is gained.
   void solveImpulses(std::span<const double> free, std::span<Mode> modes);
 
   std::span<const double> accelerations() const { return a_; }
   std::span<const Force> forces() const { return forces_; }
-  /// n a − target_n or a tangent's [m/s²], of the last solution.
+  /// Residual n a − target_n or a tangent's [m/s²], of the last solution.
   double excess(std::size_t contact, std::size_t row) const { return excess_[contact][row]; }
-  /// [m/s²] What rounding of the excess is measured against.
+  /// [m/s²] Scale for the rounding error of the excess.
   double scale() const { return scale_; }
-  /// [kg] that the contact feels along its normal.
+  /// [kg] Effective mass of the contact along its normal.
   double normalMass(std::size_t contact) const { return masses_[contact][0]; }
 
  private:
@@ -106,12 +107,12 @@ class ContactForces {
   std::vector<double> inverseMass_;
   std::vector<double> mass_;
   std::vector<Contact> contacts_;
-  std::vector<std::array<double, 2>> masses_;  // [kg] normal, tangential
+  std::vector<std::array<double, 2>> masses_;  // [kg] effective: normal, tangential
   std::vector<double> a_;
   std::vector<Force> forces_;
   std::vector<Force> best_;
   std::vector<Force> excess_;
-  std::vector<Force> gained_;  // by z_
+  std::vector<Force> gained_;  // change of excess by z_
   std::vector<Response> responses_;
   std::vector<Response> factorised_;
   std::vector<double> z_;
@@ -120,7 +121,7 @@ class ContactForces {
   std::vector<std::size_t> pivots_;
   double scale_ = 0;
   double penalty_ = 0;   // [1]
-  bool cycles_ = false;  // Newton's method did not settle on modes
+  bool cycles_ = false;  // Newton's method did not converge to fixed modes
 };
 
 }  // namespace careen

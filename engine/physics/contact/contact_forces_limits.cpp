@@ -11,20 +11,20 @@ namespace careen {
 namespace {
 
 constexpr int kMostLimits = 40;
-/// Newton's method is tried again after so many limits.
+/// Newton's method is tried again every this many iterations of the limits.
 constexpr int kTryEvery = 4;
-/// [1] of the largest force: what limits have led to is known so well by then.
+/// [1] of the largest force: accuracy of forces from unfinished iterations of the limits.
 constexpr double kRough = 0x1p-16;
 constexpr double kLimitsAccuracy = 0x1p-46;
 constexpr int kMostDecisions = 8;
-/// [1] of the accelerations at hand: conditions of contact count as met, and nothing as moving.
+/// [1] of the current accelerations: contact conditions count as met, and bodies as not moving.
 constexpr double kDecided = 0x1p-36;
 constexpr double kStands = 0x1p-40;
 
 }  // namespace
 
-/// Where Newton's method goes astray: limits of friction are guessed, which leaves a convex problem, and
-/// brought to agree with the normal forces by iteration. Now and then Newton's method is tried from there.
+/// Where Newton's method fails: friction limits are guessed, which leaves a convex problem, and made to agree
+/// with the normal forces by iteration. Every few iterations Newton's method is tried from there.
 ContactForces::Limits ContactForces::solveByLimits(std::span<const double> free, std::span<Mode> modes,
                                                    double agreement, double enough) {
   ImpactVector<ImpactSolver::Contact> contacts;
@@ -94,7 +94,7 @@ ContactForces::Limits ContactForces::solveByLimits(std::span<const double> free,
   return agrees ? Limits::kAgree : Limits::kDisagree;
 }
 
-/// What the modes may be where forces are known roughly.
+/// The likely modes, given approximate forces.
 std::vector<ContactForces::Mode> ContactForces::modesNear(std::span<const Force> forces) const {
   double most = 0;
   for (const Force& force : forces) {
@@ -116,8 +116,8 @@ std::vector<ContactForces::Mode> ContactForces::modesNear(std::span<const Force>
   return modes;
 }
 
-/// Nothing moves, and nothing begins to. Where more contacts stick than are needed, some of their forces may
-/// be at the limit and yet not slip.
+/// Nothing moves or begins to. With redundant sticking contacts, some may be at the friction limit without
+/// slipping.
 bool ContactForces::stands(std::span<Mode> modes) const {
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const Force& excess = excess_[c];
@@ -134,7 +134,7 @@ bool ContactForces::stands(std::span<Mode> modes) const {
   return true;
 }
 
-/// What the iteration has left undecided is decided towards slip and parting.
+/// Modes that the iteration left undecided are decided in favour of slip and separation.
 bool ContactForces::decide(std::span<const double> free, std::span<Mode> modes) {
   for (int k = 0; k < kMostDecisions; ++k) {
     if (!solveByNewton(free, modes, Modes::kGiven, {}, {}, kRounding)) {

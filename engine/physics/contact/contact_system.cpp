@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::size_t kSix = ContactForces::kAxes;
 constexpr std::size_t kHeld = std::numeric_limits<std::size_t>::max();
-/// [1] of the speed that gravity gives over a half diagonal: rounding of what has come to rest.
+/// [1] of the speed after falling a half diagonal: rounding error of a body at rest.
 constexpr double kRestSpeed = 0x1p-44;
-/// [1] Gaps and rates this small, beside their lengths and speeds, need no projection.
+/// [1] Gaps and rates this small relative to their lengths and speeds need no projection.
 constexpr double kProjected = 0x1p-51;
 constexpr double kProjectedSpeed = 0x1p-46;
 constexpr int kMostProjections = 4;
@@ -119,7 +119,7 @@ void ContactSystem::look(std::span<const double> y) {
   }
 }
 
-// Rows and targets of every contact, from the last look().
+// Jacobian rows and targets of every contact, from the last look().
 void ContactSystem::fillContacts() {
   for (std::size_t c = 0; c < features_.size(); ++c) {
     const ContactFeature& feature = features_[c];
@@ -157,7 +157,7 @@ void ContactSystem::fillContacts() {
   }
 }
 
-// Accelerations without contact.
+// Accelerations without contact forces.
 void ContactSystem::findFree() {
   std::vector<Load> loads;
   if (!worldStates_.empty()) {

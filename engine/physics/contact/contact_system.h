@@ -23,11 +23,10 @@ struct TouchingBody {
   BodyState state() const;
 };
 
-/// The equations of motion of bodies that stay in touch: Eqs. 10, 13, 14 and Euler's equations, with the
+/// The equations of motion of bodies in persistent contact: Eqs. 10, 13, 14 and Euler's equations, with the
 /// contact forces that ContactForces finds.
 ///
-/// A state y has 13 numbers per body that can move: position, quaternion w x y z, velocity, ω in the body's
-/// frame.
+/// A state y has 13 numbers per movable body: position, quaternion w x y z, velocity, ω in the body's frame.
 class ContactSystem {
  public:
   using Mode = ContactForces::Mode;
@@ -44,22 +43,23 @@ class ContactSystem {
   std::vector<double> pack() const;
   void unpack(std::span<const double> y);
 
-  /// Finds which contacts push, stick or slip. False if no forces were found.
+  /// Finds the mode of each contact. Returns false if no forces were found.
   bool findModes(std::span<const double> y);
-  /// dy with the modes as they are. False if the forces are not to be had.
+  /// Computes dy with the current modes. Returns false if no forces were found.
   bool rate(std::span<const double> y, std::vector<double>& dy);
 
-  /// Brings the gaps of pushing contacts to zero by the least displacement (in the metric of mass), their
-  /// rates by the least impulse; contacts that stick lose their slip. False if rounding is all there was.
+  /// Projects the gaps of active contacts to zero by the least displacement (in the mass metric), their rates
+  /// by the least impulse; removes the slip of sticking contacts. Returns false if there was only rounding
+  /// error.
   bool project(std::vector<double>& y);
   bool projectPositions(std::vector<double>& y);
   bool projectVelocities(std::vector<double>& y);
 
-  /// One step of first order, whose impulses act at once (D. E. Stewart, J. C. Trinkle, Int. J. Numer.
+  /// One first-order time step, whose impulses act at once (D. E. Stewart, J. C. Trinkle, Int. J. Numer.
   /// Methods Eng. 39, 1996): it exists where accelerations do not.
   void takeImpulseStep(std::vector<double>& y, double h);
 
-  /// As of the last rate(), findModes() or look().
+  /// Contact states as of the last rate(), findModes() or look().
   const std::vector<ContactState>& states() const { return states_; }
   const ContactForces& forces() const { return forces_; }
   void look(std::span<const double> y);
@@ -68,9 +68,9 @@ class ContactSystem {
   std::size_t placeOf(std::size_t body) const { return places_[body]; }
   const Kinematics& kinematics(std::size_t body) const { return kinematics_[body]; }
 
-  /// [m/s] Slower than this is at rest: rounding.
+  /// [m/s] Speeds below this count as rest: rounding error.
   double restSpeed() const { return restSpeed_; }
-  /// [m] the largest half diagonal; [m/s²] the accelerations to be expected.
+  /// [m] the largest half diagonal; [m/s²] the scale of accelerations.
   double radius() const { return radius_; }
   double gravityMagnitude() const { return gravityMagnitude_; }
 
@@ -81,12 +81,12 @@ class ContactSystem {
 
   const World& world_;
   std::vector<TouchingBody> bodies_;
-  std::vector<std::size_t> places_;  // of a body among those that move; kHeld
-  std::vector<std::size_t> movers_;  // the other way round
+  std::vector<std::size_t> places_;  // by body: index among the movable ones, or kHeld
+  std::vector<std::size_t> movers_;  // by movable body: index in bodies_
   std::vector<ContactFeature> features_;
   std::vector<Mode> modes_;
-  std::vector<ContactForces::Force> guess_;  // those found with the modes
-  std::vector<Vec3> onset_;                  // [1] which way a contact that stands begins to slip
+  std::vector<ContactForces::Force> guess_;  // forces found with the modes
+  std::vector<Vec3> onset_;                  // [1] direction in which a sticking contact begins to slip
   std::vector<Kinematics> kinematics_;
   std::vector<ContactState> states_;
   std::vector<double> inverseMass_;

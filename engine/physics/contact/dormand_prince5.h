@@ -6,13 +6,13 @@
 
 namespace careen {
 
-/// Explicit Runge–Kutta of order 5 with an embedded one of order 4 (J. R. Dormand, P. J. Prince, J. Comput.
-/// Appl. Math. 6, 1980): six evaluations, the seventh is the next step's first.
+/// Explicit Runge–Kutta method of order 5 with an embedded one of order 4 (J. R. Dormand, P. J. Prince, J.
+/// Comput. Appl. Math. 6, 1980): six evaluations per step, the seventh is the next step's first.
 class DormandPrince5 {
  public:
   using State = std::vector<double>;
 
-  /// y(h) from y and its derivative there; rate(y, dy) computes derivatives.
+  /// Computes y(h) from y and its derivative there; rate(y, dy) computes derivatives.
   template <class Rate>
   void step(const State& y, const State& derivative, double h, const Rate& rate, State& next) {
     stages_[0] = derivative;
@@ -32,7 +32,7 @@ class DormandPrince5 {
     }
   }
 
-  /// What the embedded method's result differs by, given the derivative at the step's end.
+  /// Error estimate: the difference to the embedded method, given the derivative at the step's end.
   void error(double h, const State& derivativeAtEnd, State& difference) const {
     difference.resize(derivativeAtEnd.size());
     for (std::size_t k = 0; k < difference.size(); ++k) {

@@ -13,29 +13,29 @@ using Mode = ContactForces::Mode;
 using Kind = ContactFeature::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// [1] of the tolerance that one step may err: many steps add up.
+/// [1] of the tolerance: the error allowed per step, since errors of many steps add up.
 constexpr double kShare = 0x1p-4;
-/// [rad] turned in one step at most, so that the polynomials follow.
+/// [rad] Largest rotation in one step, so that the polynomials are accurate.
 constexpr double kMostTurn = 0.4;
-/// [1] of the smallest half extent: how far two bodies may slip past each other in one step.
+/// [1] of the smallest half extent: how far two bodies may slip on each other in one step.
 constexpr double kMostSlip = 0.25;
-/// [1] Short of the moment where slip would end: past it the equations change.
+/// [1] Steps end short of the moment where slip would end: past it the equations change.
 constexpr double kBeforeStop = 1 - 0x1p-10;
-/// [1] of the time in which its slip would end: how long the speed of a body that slides alone matters.
+/// [1] of the time until its slip ends: how long the speed of a single sliding body matters.
 constexpr double kLifetime = 4;
-/// A slip so many tolerances slow, in the time it takes to fall one's own size, has stopped.
+/// Slip of less than this many tolerances, in the time to fall one's own size, counts as stopped.
 constexpr double kStopped = 16;
-/// [1] Accelerations this small beside gravity are none.
+/// [1] Accelerations this small relative to gravity count as zero.
 constexpr double kStill = 0x1p-32;
-/// [1] And so small beside what the contact forces would give.
+/// [1] The same relative to the accelerations by the contact forces.
 constexpr double kStillLoaded = 0x1p-40;
-/// [1] of a time step. Where slip begins, friction turns into its direction ever faster the slower it still
-/// is, and smooth steps would have to follow that; a time step, implicit in friction, errs less than the
-/// tolerance there.
+/// [1] of a time step. Where slip begins, friction turns into its direction the faster the slower the slip
+/// still is, and smooth steps would have to resolve that; a time step, implicit in friction, has an error
+/// below the tolerance there.
 constexpr double kStiff = 0x1p-4;
-/// [1] of the accelerations at hand: a contact that pulls by no more is about to part.
+/// [1] of the current accelerations: a contact with no more tension than this is about to open.
 constexpr double kTension = 0x1p-20;
-/// [1] of what a step may err: it may be a little more where an event function falls.
+/// [1] of the error allowed per step: a step that ends at an event may have a little more.
 constexpr double kMostLocated = 4;
 constexpr int kMostAttempts = 60;
 
@@ -60,7 +60,7 @@ void Island::begin(Stepping stepping) {
     std::fill(system_.modes().begin(), system_.modes().end(), Mode::kOn);
     system_.projectVelocities(end_);
     smooth_ = system_.findModes(end_);
-    if (smooth_ && system_.projectVelocities(end_)) {  // what sticks loses the last trace of slip
+    if (smooth_ && system_.projectVelocities(end_)) {  // removes the rest of the slip of sticking contacts
       smooth_ = system_.findModes(end_);
     }
     if (smooth_ && stop()) {
@@ -77,7 +77,7 @@ bool Island::pushes() const {
                      [](Mode mode) { return mode != Mode::kOff; });
 }
 
-// Some contact pulls, and its friction would drive: the modes found lead elsewhere than they were found.
+// Some contact force is tensile, and its friction would drive the slip: the modes found are inconsistent.
 bool Island::hasTension() const {
   for (std::size_t w = 0; w < eventFunctions_.size(); ++w) {
     if (eventFunctions_[w].kind == EventFunction::Kind::kPush &&
@@ -88,7 +88,7 @@ bool Island::hasTension() const {
   return false;
 }
 
-// Its contacts are open for good: what was an island flies.
+// All contacts are open for good: the bodies are in free flight.
 bool Island::isClear() const {
   const std::vector<ContactFeature>& features = system_.features();
   for (std::size_t c = 0; c < features.size(); ++c) {
@@ -123,7 +123,7 @@ bool Island::rests() const {
     const double linear = Vec3(a[0], a[1], a[2]).norm();
     const double turning = Vec3(a[3], a[4], a[5]).norm() * radius;
     const double speed = std::max(body.velocity.norm(), body.angularVelocityBody.norm() * radius);
-    double load = 0;  // [m/s²] of the contact forces, whose rounding accelerates too
+    double load = 0;  // [m/s²] by the contact forces, whose rounding error accelerates too
     for (std::size_t c = 0; c < system_.features().size(); ++c) {
       const ContactFeature& feature = system_.features()[c];
       if (&bodies()[static_cast<std::size_t>(feature.a)] == &body ||
@@ -183,7 +183,7 @@ bool Island::try5(double h) {
 }
 
 void Island::restep(double h) {
-  // Under steady accelerations; what has been projected away at the end has grown with the square of time.
+  // Constant accelerations; the correction by projection at the end is spread with the square of time.
   if (tookTimeStep_) {
     const double part = h / length_;
     for (std::size_t k = 0; k < end_.size(); ++k) {
@@ -217,8 +217,8 @@ void Island::finish() {
   }
 }
 
-// The error of a step in tolerances: of places as they are, of speeds by what they lead to in the time in
-// which the body would fall its own size, or until it has stopped.
+// The error of a step relative to the error allowed: of positions directly, of velocities by the displacement
+// they cause in the time in which the body would fall its own size, or until it has stopped.
 double Island::sizeOf(const State& difference, double h) const {
   double worst = 0;
   std::size_t at = 0;
@@ -245,7 +245,7 @@ bool Island::allButStands(std::size_t contact) const {
   return speed > 0 && rate < 0 && speed <= kStopped * tolerance_ * std::sqrt(-rate / system_.radius());
 }
 
-// What has all but ceased to slip, does: integrated into its stop it would take ever shorter steps.
+// Stops slip that has nearly ended: integrated up to its end it would take ever shorter steps.
 bool Island::stop() {
   const std::vector<Mode> kept = system_.modes();
   bool stopped = false;
@@ -279,7 +279,7 @@ Island::Step Island::takeTimeStep(double most) {
   return done;
 }
 
-// The time step is that from start_ to end_ now.
+// Makes start_ to end_ the time step.
 void Island::endTimeStep(double length) {
   length_ = length;
   timeStepEnd_ = end_;
@@ -346,7 +346,7 @@ Island::Step Island::step(double most) {
   finish();
   Step done{.length = h};
   locate(done);
-  // Located past a moment where forces cease to exist, the end means nothing.
+  // If the event was located past a moment where forces cease to exist, the end state means nothing.
   if (done.end == End::kChanges && sizeOf(error_, done.length) > kMostLocated) {
     end_ = start_;
     return takeTimeStep(most);

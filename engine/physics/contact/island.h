@@ -11,62 +11,64 @@
 
 namespace careen {
 
-/// [s] The step of first order that follows where no smooth motion is to be had: it errs about the tolerance.
+/// [s] Length of the first-order time step used where no smooth motion exists: its error is about the
+/// tolerance.
 double timeStepOf(const World& world, double tolerance);
 
 /// The motion Contact: bodies that slide, roll, rock, lean or stand on walls and on each other, from one
-/// change of their contacts to the next. While the same contacts push, and each sticks or slips as it does,
-/// the motion is smooth: it is integrated by Dormand–Prince 5, its steps chosen by `tolerance`. What ends
-/// that is looked for at the end of every step and located by shorter steps from its start: a contact that no
-/// longer pushes, begins or ceases to slip, leaves its face, and a gap that closes. Gaps and rates of pushing
-/// contacts are kept at zero by projection: nothing sinks, and nothing is pushed back by a speed.
+/// change of their contacts to the next. While the same contacts are active, each in its mode (stick or
+/// slip), the motion is smooth: it is integrated by Dormand–Prince 5 with step sizes chosen by `tolerance`.
+/// Events are detected at the end of every step and located by shorter steps from its start: a contact force
+/// that reaches zero, slip that begins or ends, a contact that leaves its face, a gap that closes. Gaps and
+/// rates of active contacts are kept at zero by projection: no penetration, and no velocity that corrects
+/// one.
 class Island {
  public:
-  /// `tolerance` [m]: of every body's place, and of its corners'.
+  /// `tolerance` [m]: for the position of every body and of its corners.
   Island(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features,
          double tolerance);
 
-  /// Finds which contacts push, and how. Where no forces do what is asked (Painlevé's paradox, or a jam of
-  /// contacts on the brink) the next step is a short one of first order, by impulses.
+  /// Finds the mode of each contact. Where no forces meet the conditions (Painlevé's paradox, or many
+  /// contacts close to a change of mode), the next step is a short first-order time step, by impulses.
   enum class Stepping { kSmooth, kTimeSteps };
   void begin(Stepping stepping);
   bool isSmooth() const { return smooth_; }
-  /// Some contact pushes.
+  /// Whether some contact is active.
   bool pushes() const;
-  /// Nothing moves, and nothing begins to. Ask after begin().
+  /// Whether nothing moves or begins to. Call after begin().
   bool rests() const;
 
   enum class End {
     kGoesOn,   ///< nothing happened
-    kChanges,  ///< a contact closes, parts, sticks or slips: what touches must be looked at anew
+    kChanges,  ///< a contact closes, opens, sticks or slips: contacts must be found anew
   };
   struct Step {
     double length = 0;  ///< [s]
     End end = End::kGoesOn;
   };
-  /// One step of at most `most` [s]: afterwards bodies() are where it ends and motion() is how they came
-  /// there.
+  /// One step of at most `most` [s]: afterwards bodies() holds the states at its end and motion() the motion
+  /// during it.
   Step step(double most);
-  /// Back to somewhere in the last step, `length` [s] after its start; the contacts stay as they were.
+  /// Cuts the last step to `length` [s] from its start; the contacts stay unchanged.
   void cutTo(double length);
 
   const ContactSystem& system() const { return system_; }
   const std::vector<TouchingBody>& bodies() const { return system_.bodies(); }
-  /// Two bodies are watched by steps themselves, because they pushed or touched where this one began.
+  /// Whether the event functions cover two bodies, because they were in contact at the start of the step.
   bool handlesPair(std::size_t a, std::size_t b) const;
-  /// How a body that can move did so in the last step.
+  /// Motion of a movable body in the last step.
   ContactStep motion(std::size_t body) const { return motion(body, length_); }
-  /// [m] deepest overlap seen at the end of a step.
+  /// [m] deepest penetration at the end of a step.
   double deepest() const { return deepest_; }
-  /// The last step may have taken out energy: by friction, or because it was a time step.
+  /// Whether the last step may have dissipated energy: by friction, or because it was a time step.
   bool mayLose() const;
 
  private:
   using State = DormandPrince5::State;
-  /// Gaps within so many touching tolerances are watched for sinking, the others for closing.
+  /// Gaps within this many touching tolerances are checked for penetration, the others for closing.
   static constexpr double kTouching = 8;
 
-  struct EventFunction {  // a number that is positive until something happens
+  struct EventFunction {  // positive until the event happens
     enum class Kind { kPush, kStick, kGap, kWithin, kOverlap, kCorner };
     static bool isOfPlaces(Kind kind) { return kind == Kind::kOverlap || kind == Kind::kCorner; }
     Kind kind;
@@ -106,7 +108,7 @@ class Island {
   const World& world_;
   ContactSystem system_;
   std::vector<EventFunction> eventFunctions_;
-  std::vector<double> atStart_;  // of the event functions
+  std::vector<double> atStart_;  // values of the event functions
   DormandPrince5 integrator_;
   State start_;
   State startRate_;
@@ -116,8 +118,8 @@ class Island {
   State error_;
   double length_ = 0;  // of the last step
   double proposed_ = 0;
-  double lifetime_ = 0;        // [s] of the speeds there are
-  bool known_ = false;         // startRate_ is that of end_
+  double lifetime_ = 0;        // [s] for which the current speeds matter
+  bool known_ = false;         // endRate_ is the next startRate_
   bool smooth_ = true;         // forces were found
   bool tookTimeStep_ = false;  // the last step was a time step
   double deepest_ = 0;

@@ -5,7 +5,7 @@
 #include "physics/contact/island.h"
 #include "physics/geometry/separation.h"
 
-// What ends a smooth motion of an island, and when.
+// Event functions: what ends a smooth motion of an island, and when.
 
 namespace careen {
 namespace {
@@ -14,7 +14,7 @@ using Mode = ContactForces::Mode;
 using Kind = ContactFeature::Kind;
 
 constexpr int kMostRefinements = 60;
-/// [1] of a step: a root is good enough.
+/// [1] of a step: accuracy of a root.
 constexpr double kRootWidth = 0x1p-50;
 constexpr double kRootValue = 0x1p-42;
 constexpr double kShortestHop = 0x1p-30;
@@ -67,7 +67,7 @@ void Island::listEventFunctions() {
   }
 }
 
-// Forces are watched in smooth motion only: a time step shares them out itself.
+// Events of forces are checked in smooth motion only: a time step distributes the forces itself.
 void Island::noteStart() {
   atStart_.clear();
   for (EventFunction& event : eventFunctions_) {
@@ -81,25 +81,25 @@ void Island::noteStart() {
   }
 }
 
-// [m] How deep it counts as nothing, if the gap is that much at the start of the step.
+// [m] Penetration that is ignored, given the gap at the start of the step.
 double Island::marginOf(const EventFunction& event, double gap) const {
   if (event.kind == EventFunction::Kind::kCorner) {
-    // A corner that touches and yet is no contact parts: rounding is no landing.
+    // A corner that touches but is no contact is separating: rounding error must not count as an impact.
     const double within = touching(event.contact);
     return gap > within ? 0 : kTouching * within;
   }
   const ContactFeature& feature = system_.features()[event.contact];
   const double within = kTouching * std::max(touching(static_cast<std::size_t>(feature.a)),
                                              touching(static_cast<std::size_t>(feature.b.body())));
-  // What touches is brought together again where a time step ends, not on its way.
+  // Touching bodies are projected back to zero gap at the end of a time step, not during it.
   return tookTimeStep_ && gap <= within ? kTimeStepDepth * tolerance_ : within;
 }
 
-// The step ends where the first of the event functions falls. What has been looked at where the step ended
-// before may have fallen where it ends now.
+// Ends the step where the first event function falls below zero. Functions checked at the former end may be
+// negative at the new one, hence several passes.
 void Island::locate(Step& step) {
   constexpr int kMostPasses = 4;
-  const double shortest = kShortestStep * step.length;  // for what falls at once
+  const double shortest = kShortestStep * step.length;  // for events at the very start
   bool shorter = true;
   for (int pass = 0; pass < kMostPasses && shorter; ++pass) {
     shorter = false;
@@ -158,7 +158,7 @@ bool Island::handlesPair(std::size_t a, std::size_t b) const {
   return false;
 }
 
-// [m/s] of a corner's gap.
+// [m/s] Rate of a corner's gap.
 double Island::rateOf(const EventFunction& corner) const {
   const Kinematics& at = system_.kinematics(corner.contact);
   const Vec3 arm =
@@ -167,7 +167,7 @@ double Island::rateOf(const EventFunction& corner) const {
                                                                         at.angularVelocity.cross(arm));
 }
 
-// Where within the step something may have sunk and come up again; else 0.
+// Time within the step of a possible penetration that is gone at its end; else 0.
 double Island::lowestWithin(double h, std::size_t event, double atEnd) const {
   if (!(atEnd >= 0)) {
     return 0;
@@ -182,7 +182,8 @@ double Island::lowestWithin(double h, std::size_t event, double atEnd) const {
   }
 }
 
-// The lowest point of the cubic through the corner's gap and rate at both ends, if that is below zero.
+// Time of the minimum of the cubic through the corner's gap and rate at both ends, if the minimum is below
+// zero.
 double Island::lowestOfCorner(double h, std::size_t event, double atEnd) const {
   const double from = h * eventFunctions_[event].rate;
   const double to = h * rateOf(eventFunctions_[event]);
@@ -203,7 +204,7 @@ double Island::lowestOfCorner(double h, std::size_t event, double atEnd) const {
   return atStart_[event] + s * (from + s * (b + s * c)) < 0 ? s * h : 0;
 }
 
-// The first of a few moments at which the two share more than the tolerance.
+// The first of a few sampled times at which the penetration exceeds the tolerance.
 double Island::deepWithin(double h, const EventFunction& event) const {
   constexpr int kMoments = 4;
   const ContactFeature& feature = system_.features()[event.contact];
@@ -260,12 +261,12 @@ double Island::value(const EventFunction& event) const {
   return 0;
 }
 
-// Where event function falls to zero in (0, h]. The end where it has fallen is taken.
+// Time in (0, h] where the event function falls to zero: the end of the bracket where it is negative.
 double Island::rootWithin(double h, std::size_t event, double atEnd) {
   double valueLow = atStart_[event];
   double valueHigh = atEnd;
   FallingBracket bracket{.high = h};
-  // What has just parted is positive in between.
+  // Just after a separation the value is positive in between.
   for (double part = 0.5; !(valueLow > 0); part /= 2) {
     if (part < kShortestHop) {
       return bracket.high;
@@ -286,7 +287,7 @@ double Island::rootWithin(double h, std::size_t event, double atEnd) {
     if (-valueHigh <= kRootValue * valueLow) {
       break;
     }
-    // An event function may be level and then fall: every third cut is in the middle.
+    // An event function may be flat and then fall: every third step bisects.
     double middle = bracket.cut();
     if (k % 3 == 2 || !(middle > bracket.low && middle < bracket.high)) {
       middle = 0.5 * (bracket.low + bracket.high);
@@ -297,7 +298,7 @@ double Island::rootWithin(double h, std::size_t event, double atEnd) {
       bracket.moveHigh(middle, at);
       valueHigh = at;
     } else {
-      // The last bit of the way by bisection towards the far side: regula falsi would stay on this one.
+      // Finally a small step past the root: regula falsi would stay on this side.
       bracket.moveLow(middle, at);
       if (at <= kRootValue * valueLow) {
         const double beyond = std::min(bracket.high, middle + 0x1p-44 * h);

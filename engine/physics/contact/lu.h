@@ -7,8 +7,8 @@
 
 namespace careen {
 
-/// P A = L U of a square matrix in place, by rows, with the largest of a column as its pivot; `pivots` says
-/// which row each was taken from. A column of zeros leaves a zero on the diagonal.
+/// P A = L U of a square matrix in place, row-major, with partial pivoting; `pivots` holds the row that each
+/// pivot was taken from. A column of zeros leaves a zero on the diagonal.
 inline void factoriseLu(std::span<double> matrix, std::span<std::size_t> pivots) {
   const std::size_t n = pivots.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -42,7 +42,7 @@ inline void factoriseLu(std::span<double> matrix, std::span<std::size_t> pivots)
   }
 }
 
-/// Solves for x in place, given what factoriseLu made.
+/// Solves for x in place, given the factors by factoriseLu.
 inline void solveLu(std::span<const double> factors, std::span<const std::size_t> pivots,
                     std::span<double> x) {
   const std::size_t n = x.size();
