@@ -21,14 +21,14 @@ namespace {
 using Impulse = ImpactSolver::Impulse;
 using Demand = ImpactSolver::Demand;
 constexpr std::size_t kSix = ImpactSolver::kAxes;
-/// Friction answers normal impulses up to so many times the largest of the frictionless impact.
+/// Friction limits count normal impulses up to this many times the largest of the frictionless impact.
 constexpr double kWedged = 0x1p10;
 
 bool movable(const MassProperties& mass) {
   return mass.inverseMass > 0 || !mass.inverseInertiaBody.isZero(0);
 }
 
-/// The part of a row that one body has: how fast its point moves along `direction`, per velocity.
+/// One body's part of a Jacobian row: the speed of its point along `direction`, per unit of its velocities.
 void fillSide(ImpactSolver::Row& row, std::size_t side, const Vec3& direction, const Vec3& arm, const Mat3& a,
               double sign) {
   const Vec3 turning = a.transpose() * arm.cross(direction);
@@ -176,7 +176,7 @@ class Law {
   }
 
   /// Xₜ: reflections about the contacts with e > t, projections onto the others, until nothing approaches.
-  /// Reflections alone come to an end; for a mixture that does not within the cap, the plastic law ends it.
+  /// Reflections alone terminate; a mixture that does not within the cap is ended by the plastic law.
   Impulses reflected(double threshold) {
     Impulses total(contacts_.size(), memory_);
     ImpactVector<double> q(before_, memory_);
@@ -206,7 +206,7 @@ class Law {
   }
 
   Impulses frictionless() {
-    ImpactVector<double> levels(memory_);  // the different e above 0, rising
+    ImpactVector<double> levels(memory_);  // the distinct e above 0, ascending
     bool somePlastic = false;
     for (const ImpactContact& contact : contacts_) {
       if (contact.material.restitution > 0) {
@@ -241,8 +241,8 @@ class Law {
   ImpactVector<Demand> demands_;
 };
 
-/// Coulomb's limit depends on the normal impulses and they on friction: the limits are brought to agree by
-/// iteration, each time a convex problem.
+/// The Coulomb friction limits depend on the normal impulses and these on friction: fixed-point iteration
+/// makes them agree, with a convex problem each time.
 Law::Impulses Law::withFriction(const Impulses& smooth) {
   ImpactVector<double> parting(memory_);
   ImpactVector<double> compressed(memory_);
@@ -258,8 +258,8 @@ Law::Impulses Law::withFriction(const Impulses& smooth) {
     demands[c].frictionLimit = contacts_[c].material.friction * smooth[c][0];
     demands[c].slip = {solver_.speed(c, 1, restituted), solver_.speed(c, 2, restituted)};
   }
-  // Wedged between walls, a rough box may press on them as hard as it likes, and the iteration would follow
-  // it: impulses that cancel are kept to a size whose rounding does not show.
+  // For a box with friction wedged between walls, the impulses are not bounded and the iteration could
+  // diverge: impulses that cancel are limited to a size whose rounding error does not matter.
   double most = 0;
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     most = std::max(most, kWedged * smooth[c][0]);
@@ -270,9 +270,9 @@ Law::Impulses Law::withFriction(const Impulses& smooth) {
   }
   constexpr int kCap = 100;
   constexpr int kUndamped = 30;
-  constexpr int kPatience = 16;  // without a better agreement
+  constexpr int kPatience = 16;  // iterations without improvement
   constexpr double kAgree = 0x1p-46;
-  // Each problem is solved to what the limits are good for.
+  // Each problem is solved only as accurately as the limits are known.
   constexpr double kAhead = 0x1p-10;
   double accuracy = kAhead;
   Impulses rough(smooth, memory_);
@@ -313,9 +313,9 @@ Law::Impulses Law::withFriction(const Impulses& smooth) {
   return shortened(smooth, std::move(best));
 }
 
-/// The way from the frictionless answer to the one with friction, as far as energy, the cones and the walls
-/// allow: all of it, but where the iteration above did not settle or a lifted contact would gain energy. All
-/// three are convex and hold at its start.
+/// Goes from the frictionless solution towards the one with friction, as far as energy, the friction cones
+/// and the walls allow: all the way, unless the iteration above did not converge or a lifted contact would
+/// gain energy. All three constraints are convex and hold at the start.
 Law::Impulses Law::shortened(const Impulses& smooth, Impulses rough) {
   ImpactVector<double> start(memory_);
   ImpactVector<double> end(memory_);
@@ -358,8 +358,8 @@ Law::Impulses Law::shortened(const Impulses& smooth, Impulses rough) {
   return result;
 }
 
-/// Velocity and angular momentum with what the contacts add; a component is zero where it is below the
-/// rounding of its terms.
+/// Adds the impulses of the contacts to velocity and angular momentum; a component below the rounding error
+/// of its terms becomes zero.
 void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> contacts,
              std::span<const Vec3> impulses, std::pmr::memory_resource* memory) {
   using Six = std::array<double, kSix>;
@@ -402,7 +402,7 @@ void resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactCon
     shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)], b, only);
     return;
   }
-  // Usual impacts never reach the heap: a dozen contacts of one body fit.
+  // Usual impacts need no heap: a dozen contacts of one body fit.
   std::array<std::byte, std::size_t{1} << 15U> room;
   std::pmr::monotonic_buffer_resource memory(room.data(), room.size());
   Setup setup(&memory);

@@ -13,19 +13,19 @@ namespace {
 
 constexpr std::size_t kSix = ImpactSolver::kAxes;
 
-/// ρ, as multiple of the mass a contact feels. Each outer iteration shrinks the error about 1/ρ times, where
-/// rows of different contacts are not nearly parallel, and loses log₂ ρ bits of 53 in its solve: half of them
-/// is a balance.
+/// ρ, as multiple of a contact's effective mass. Each outer iteration reduces the error by a factor of about
+/// ρ, unless rows of different contacts are nearly parallel, and loses log₂ ρ of 53 bits in its solve: about
+/// half is a compromise.
 constexpr double kPenalty = 0x1p20;
-/// A speed this small beside the scale of speeds is rounding error.
+/// A speed this small relative to the scale of speeds is rounding error.
 constexpr double kRounding = 0x1p-52;
-/// Violations this small that do not shrink any more are rounding error.
+/// Violations this small that no longer decrease are rounding error.
 constexpr double kNoise = 0x1p-49;
 constexpr int kOuterCap = 60;
 constexpr int kInnerCap = 60;
-/// Full Newton steps taken on trust before steps are shortened; they nearly always suffice.
+/// Full Newton steps taken before the line search is used; they nearly always suffice.
 constexpr int kTrusted = 4;
-/// Part of its slope at which a shortened step has gone far enough, and how often it is halved for that.
+/// Fraction of the initial slope at which the line search stops, and its most bisections.
 constexpr double kFlat = 0.1;
 constexpr int kSearchCap = 40;
 
@@ -95,7 +95,7 @@ ImpactSolver::ImpactSolver(ImpactVector<double> inverseMass, ImpactVector<Contac
 double ImpactSolver::speed(std::size_t contact, int row, std::span<const double> q) const {
   const Contact& touched = contacts_[contact];
   const Row& values = touched.rows[static_cast<std::size_t>(row)];
-  double linear = 0;  // summed side by side, so that the two sides may be exchanged
+  double linear = 0;  // summed per side, so that exchanging the sides changes no bit
   double angular = 0;
   const std::array<int, 2> sides{touched.a, touched.b};
   for (std::size_t side = 0; side < 2; ++side) {
@@ -155,8 +155,8 @@ double ImpactSolver::energy(std::span<const double> q) const {
   return twice / 2;
 }
 
-/// The impulse that the augmented Lagrangian assigns to a contact: the guess, less penalty times excess,
-/// brought back to what is admissible.
+/// The impulse of the augmented Lagrangian at a contact: the guess minus penalty times excess, projected onto
+/// the admissible set.
 ImpactSolver::Response ImpactSolver::respond(const Contact& contact, const Demand& demand,
                                              const Impulse& guess, const Impulse& excess) const {
   Response response;
@@ -205,7 +205,7 @@ void ImpactSolver::respondAll(std::span<const Demand> demands, std::span<const I
   }
 }
 
-/// M z − Jᵀ(response − guess): M (q − q₀) at the outer iterate is Jᵀ guess, so that nothing large cancels.
+/// M z − Jᵀ(response − guess): M (q − q₀) at the outer iterate is Jᵀ guess, so that no large terms cancel.
 void ImpactSolver::gradient(std::span<const Impulse> impulses) {
   for (std::size_t p = 0; p < touchesOf_.size(); ++p) {
     terms_.clear();
@@ -229,7 +229,7 @@ void ImpactSolver::gradient(std::span<const Impulse> impulses) {
   }
 }
 
-/// M + ρ Σ m nᵀn + ρ Σ m tᵀ S t over the contacts that respond.
+/// M + ρ Σ m nᵀn + ρ Σ m tᵀ S t over the active contacts.
 void ImpactSolver::assemble() {
   std::fill(matrix_.begin(), matrix_.end(), 0.0);
   for (const Block& block : blocks_) {
@@ -237,7 +237,7 @@ void ImpactSolver::assemble() {
   }
 }
 
-/// Row by row; what stands above the diagonal is computed too and never read.
+/// Row by row; entries above the diagonal are computed but never read.
 void ImpactSolver::assembleBlock(const Block& block) {
   const std::size_t axes = mass_.size();
   const std::size_t top = static_cast<std::size_t>(block.p) * kSix;
@@ -300,8 +300,8 @@ double ImpactSolver::along() const {
   return slope;
 }
 
-/// Goes along the step: all the way if that is trusted or still downhill there, else to about where it stops
-/// being so. The subproblem is convex, hence its slope along the step only rises.
+/// Line search: takes the full step if `trusted` or if it still descends at its end, else goes to about the
+/// minimum. The subproblem is convex, hence its slope along the step only rises.
 double ImpactSolver::lineSearch(std::span<const Demand> demands, std::span<const Impulse> impulses,
                                 bool trusted) {
   const auto moveTo = [&](double length) {
@@ -335,7 +335,7 @@ double ImpactSolver::lineSearch(std::span<const Demand> demands, std::span<const
   return length;
 }
 
-/// The smooth subproblem: leaves its solution in z_ and responses_.
+/// Solves the smooth subproblem; leaves its solution in z_ and responses_.
 void ImpactSolver::minimise(std::span<const double> q, std::span<const Demand> demands,
                             std::span<const Impulse> impulses, double accuracy) {
   std::fill(z_.begin(), z_.end(), 0.0);
@@ -354,15 +354,15 @@ void ImpactSolver::minimise(std::span<const double> q, std::span<const Demand> d
              responses_[c].tangent == previous_[c].tangent;
       slips = slips || responses_[c].tangent == State::kSlip;
     }
-    // Piecewise quadratic but for slip: then the step was exact. With slip the error is about the square of
-    // the step; should it be more, the outer iteration comes back.
+    // Without slip the subproblem is piecewise quadratic and the step exact. With slip the error is about the
+    // square of the step; if it is larger, the outer iteration repeats.
     if (same && (!slips || energy(step_) <= accuracy * whole)) {
       return;
     }
   }
 }
 
-/// Largest failure of a condition [m/s]; an impulse that should not be there counts by the speed it gives.
+/// Largest violation of a condition [m/s]; an inadmissible impulse counts by the speed it gives.
 double ImpactSolver::violation(std::span<const double> q, std::span<const Demand> demands,
                                std::span<const Impulse> impulses) {
   double worst = 0;
@@ -378,7 +378,7 @@ double ImpactSolver::violation(std::span<const double> q, std::span<const Demand
     if (demand.frictionLimit > 0) {
       excess_[c][1] = speed(c, 1, q) - demand.slip[0];
       excess_[c][2] = speed(c, 2, q) - demand.slip[1];
-      // λ is admissible and right iff it is what is left of λ − m (t q − b) inside the limit.
+      // λ satisfies its conditions iff it is the projection of λ − m (t q − b) onto the disc of radius R.
       const double x = impulses[c][1] - contact.tangentialMass * excess_[c][1];
       const double y = impulses[c][2] - contact.tangentialMass * excess_[c][2];
       const double size = std::sqrt(x * x + y * y);

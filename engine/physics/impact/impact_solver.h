@@ -13,26 +13,27 @@ namespace careen {
 template <class Value>
 using ImpactVector = std::pmr::vector<Value>;
 
-/// The convex problem inside every impact of several contacts at once.
+/// The convex problem inside every impact with several simultaneous contacts.
 ///
-/// Velocities q are six numbers per body, the centre's velocity in the world and ω in the body's frame, so
-/// that the kinetic energy ½ qᵀMq has a diagonal M. Contact c has a normal row n_c and two tangential rows
-/// t_c, orthonormal in the world: n_c q is the speed at which its two sides part, t_c q how they slip.
+/// Velocities q are six numbers per body, the velocity of the centre of mass in the world frame and ω in the
+/// body's frame, so that M in the kinetic energy ½ qᵀMq is diagonal. Contact c has a normal Jacobian row n_c
+/// and two tangential rows t_c, orthonormal in the world: n_c q is the separation speed of its two sides, t_c
+/// q their slip velocity.
 ///
 ///   minimise ½ (q − q₀)ᵀ M (q − q₀) + Σ R_c |t_c q − b_c|   over q with n_c q ≥ û_c
 ///
 /// Its multipliers are impulses, q = q₀ + M⁻¹ Jᵀλ: normal λ ≥ 0 with λ (n q − û) = 0, tangential |λ_t| ≤ R,
-/// equal to R and against t q − b where that does not vanish. With R = 0 and û = 0 it is the projection onto
+/// equal to R and opposite to t q − b where that is not zero. With R = 0 and û = 0 it is the projection onto
 /// the cone of motions that do not penetrate.
 ///
 /// Method: augmented Lagrangian (multipliers of Hestenes and Powell; Rockafellar, Math. Programming 5, 1973),
-/// each of its smooth convex subproblems by semismooth Newton, in which a contact is switched on or off as
-/// its multiplier says. Not an LCP by pivoting, and no factorisation of J M⁻¹ Jᵀ: both single out a contact
-/// among equals (four corners are redundant, and which three are kept decides the rounding). Here every
-/// contact is treated alike, the factorised matrix is M plus something positive, in the bodies' coordinates,
-/// which no redundancy makes singular, and every sum over contacts is an orderFreeSum. So the order of the
-/// contacts changes no bit, a mirrored problem gives the mirrored bits, and redundant contacts share their
-/// load evenly. The order of the bodies does enter the rounding.
+/// each of its smooth convex subproblems solved by semismooth Newton, in which the sign of its multiplier
+/// makes a contact active or not. No LCP by pivoting, and no factorisation of J M⁻¹ Jᵀ: both single out one
+/// of several equivalent contacts (four corners are redundant, and which three are kept decides the
+/// rounding). Here all contacts are treated alike, the factorised matrix is M plus a positive semidefinite
+/// term, in the bodies' coordinates, which no redundancy makes singular, and every sum over contacts is an
+/// orderFreeSum. So the order of the contacts changes no bit, a mirrored problem gives the mirrored bits, and
+/// redundant contacts share their load evenly. The order of the bodies does affect the rounding.
 class ImpactSolver {
  public:
   static constexpr int kAxes = 6;  ///< numbers per body
@@ -40,25 +41,25 @@ class ImpactSolver {
   using Row = std::array<double, static_cast<std::size_t>(2 * kAxes)>;  ///< a's six, then b's
 
   struct Contact {
-    int a = kNobody;  ///< index of a movable body, kNobody: the row's part for it is zero
+    int a = kNobody;  ///< index of a movable body, or kNobody: its part of the rows is zero
     int b = kNobody;
     std::array<Row, 3> rows{};  ///< normal, tangent, tangent
-    double normalMass = 0;      ///< [kg] 1/(n M⁻¹ nᵀ)
+    double normalMass = 0;      ///< [kg] effective mass 1/(n M⁻¹ nᵀ)
     double tangentialMass = 0;  ///< [kg] 2/(trace of t M⁻¹ tᵀ)
   };
 
   /// Impulses at one contact [N s]: normal, tangent, tangent.
   using Impulse = std::array<double, 3>;
 
-  /// What is asked of one contact.
+  /// Conditions at one contact.
   struct Demand {
-    bool included = true;          ///< left out: no impulse, no condition
+    bool included = true;          ///< otherwise no impulse, no condition
     double partingSpeed = 0;       ///< [m/s] û
     double frictionLimit = 0;      ///< [N s] R
     std::array<double, 2> slip{};  ///< [m/s] b
   };
 
-  /// Takes 1/M (six per body, 0: immovable along it) and the contacts, and all memory from where theirs is.
+  /// Takes 1/M (six per body, 0: immovable along that axis) and the contacts; uses their memory resource.
   ImpactSolver(ImpactVector<double> inverseMass, ImpactVector<Contact> contacts);
 
   const ImpactVector<Contact>& contacts() const { return contacts_; }
@@ -66,16 +67,16 @@ class ImpactSolver {
 
   /// n q, t₁ q or t₂ q of a contact [m/s].
   double speed(std::size_t contact, int row, std::span<const double> q) const;
-  /// Largest Σ|n_k q_k| over the contacts [m/s]: what the rounding of their speeds is measured against.
+  /// Largest Σ|n_k q_k| over the contacts [m/s]: the scale for the rounding error of their speeds.
   double speedScale(std::span<const double> q) const;
   /// q = q₀ + M⁻¹ Jᵀλ.
   void after(std::span<const double> q0, std::span<const Impulse> impulses, ImpactVector<double>& q);
-  /// ½ qᵀ M q [J]; what immovable axes hold is left out.
+  /// ½ qᵀ M q [J]; without immovable axes.
   double energy(std::span<const double> q) const;
 
-  /// Solves the problem; `impulses` is the first guess on entry, the solution on return. True when the
-  /// conditions hold to rounding error; otherwise they are as good as was reached, or as `accuracy` asks,
-  /// which is relative to the scale of speeds.
+  /// Solves the problem; `impulses` is the initial guess (warm start) on entry, the solution on return.
+  /// Returns true if the conditions hold to rounding error; otherwise they hold as well as was reached, or to
+  /// `accuracy`, which is relative to the scale of speeds.
   bool solve(std::span<const double> q0, std::span<const Demand> demands, ImpactVector<Impulse>& impulses,
              double accuracy = kFullAccuracy);
   static constexpr double kFullAccuracy = 0x1p-53;
@@ -83,22 +84,22 @@ class ImpactSolver {
  private:
   struct Touch {  // one contact seen by one body, or by a pair
     std::size_t contact;
-    std::size_t first;   // where the first body's six stand in the row
-    std::size_t second;  // where the second's do
+    std::size_t first;   // offset of the first body's six in the row
+    std::size_t second;  // offset of the second's
   };
-  struct Block {  // bodies p ≥ q and the contacts both take part in
+  struct Block {  // bodies p ≥ q and the contacts that involve both
     int p;
     int q;
     ImpactVector<Touch> touches;
   };
   enum class State : unsigned char { kOff, kOn, kStick, kSlip };
-  struct Response {  // what the smooth subproblem says of a contact at a trial velocity
+  struct Response {  // of the smooth subproblem at one contact, at a trial velocity
     Impulse impulse{};
     State normal = State::kOff;
     State tangent = State::kOff;
-    std::array<double, 3> stiffness{};  // of the tangents, as multiple of the penalty: 11, 12, 22
+    std::array<double, 3> stiffness{};  // tangential, as multiple of the penalty: 11, 12, 22
 
-    /// The subproblem has the same second derivative, or nearly so: the penalty makes much of little.
+    /// Whether the second derivative is the same up to a tolerance: the penalty amplifies small differences.
     bool feelsLike(const Response& other) const {
       bool same = normal == other.normal && tangent == other.tangent;
       for (std::size_t k = 0; k < stiffness.size(); ++k) {
@@ -130,18 +131,18 @@ class ImpactSolver {
   ImpactVector<ImpactVector<Touch>> touchesOf_;
   ImpactVector<Block> blocks_;
 
-  // Workspace of solve: nothing is allocated there after the first time.
+  // Workspace of solve: allocated by its first call only.
   ImpactVector<Impulse> excess_;       // n q − û, t q − b at the outer iterate
   ImpactVector<Impulse> best_;         // the best outer iterate so far
   ImpactVector<double> q_;             // velocities at the outer iterate
   ImpactVector<Response> responses_;   // at the inner iterate
-  ImpactVector<Response> previous_;    // at the one before
-  ImpactVector<Response> factorised_;  // those that matrix_ was made of
+  ImpactVector<Response> previous_;    // at the previous one
+  ImpactVector<Response> factorised_;  // those that matrix_ was assembled from
   ImpactVector<double> z_;             // inner iterate, measured from the outer one
-  ImpactVector<double> from_;          // the one before
+  ImpactVector<double> from_;          // the previous one
   ImpactVector<double> gradient_;
   ImpactVector<double> step_;
-  ImpactVector<double> matrix_;  // lower triangle by rows, then its L D Lᵀ
+  ImpactVector<double> matrix_;  // lower triangle, row-major, then its L D Lᵀ
   ImpactVector<Six> terms_;
 };
 

@@ -5,9 +5,8 @@
 
 namespace careen {
 
-/// L D Lᵀ of a positive definite matrix of n rows in place, by rows, of which only the lower triangle is read
-/// and written. No pivots are looked for: none is needed, and choosing one among equals would decide the
-/// rounding.
+/// L D Lᵀ of a positive definite n × n matrix in place, row-major; only the lower triangle is read and
+/// written. No pivoting: none is needed, and choosing among equal pivots would decide the rounding.
 inline void factoriseLdl(std::span<double> matrix, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     double* row = &matrix[i * n];
@@ -29,7 +28,7 @@ inline void factoriseLdl(std::span<double> matrix, std::size_t n) {
   }
 }
 
-/// Solves for x in place, given what factoriseLdl made.
+/// Solves for x in place, given the factors by factoriseLdl.
 inline void solveLdl(std::span<const double> factors, std::span<double> x) {
   const std::size_t n = x.size();
   for (std::size_t i = 0; i < n; ++i) {

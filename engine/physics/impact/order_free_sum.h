@@ -10,23 +10,23 @@
 
 namespace careen {
 
-/// 2ᵏ ≤ |x| < 2ᵏ⁺¹ as a double, for a normal x: the same for x and −x.
+/// 2ᵏ with 2ᵏ ≤ |x| < 2ᵏ⁺¹, for a normal x: the same for x and −x.
 inline double powerOfTwoBelow(double x) {
   constexpr std::uint64_t kExponent = 0x7ff0000000000000U;
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & kExponent);
 }
 
 /// Nearest multiple of ulp(anchor). The anchor is 1.5 times a power of two, so that adding a term of either
-/// sign stays in its binade, and an even multiple of its ulp, so that ties round alike for either sign.
+/// sign stays in its binade, and an even multiple of its ulp, so that ties round alike for both signs.
 inline double onGridOf(double anchor, double term) { return (anchor + term) - anchor; }
 
-/// Sums of numbers, the same bits in whatever order they stand, and exactly negated when all of them are
-/// negated. Several sums side by side, component by component, so that none waits for another.
+/// Sums of numbers with the same bits in any order, and exactly negated when all of them are negated. Several
+/// sums in parallel, one per component, so that none waits for another.
 ///
 /// A running sum has neither property: t₁ + t₂ − t₁ − t₂ need not vanish, and so a cube that lands flat would
-/// leave with a trace of spin. Here every term is first rounded to a grid common to all, coarse enough for
-/// the grid points to add without rounding, and so is what was rounded off: two exact sums, then one rounded
-/// addition. Error at most n 2⁻⁹⁰ of the largest term before that last rounding.
+/// leave with some spin. Here every term is first rounded to a common grid, coarse enough for sums of grid
+/// points to be exact, and the remainders likewise to a finer one: two exact sums, then one rounded addition.
+/// Error at most n 2⁻⁹⁰ of the largest term before that last rounding.
 ///
 /// J. Demmel, H. D. Nguyen, "Fast reproducible floating-point summation", ARITH 21, 2013 (their K-fold sum, K
 /// = 2). Terms must be finite and below 2⁹⁷⁰; at most 2⁸ of them for the error stated, never more than 2²⁰.

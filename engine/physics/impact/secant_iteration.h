@@ -10,16 +10,16 @@
 
 namespace careen {
 
-/// Brings x and g(x) to agree. Plain iteration takes g(x) next; this goes on along the line through the last
-/// two where it would make the difference least (D. G. Anderson, "Iterative procedures for nonlinear integral
-/// equations", J. ACM 12, 1965, with one step of memory).
+/// Solves the fixed-point equation x = g(x). Plain iteration takes g(x) next; this takes the point on the
+/// line through the last two where the residual would be least (D. G. Anderson, "Iterative procedures for
+/// nonlinear integral equations", J. ACM 12, 1965, with one step of memory).
 class SecantIteration {
  public:
   explicit SecantIteration(std::size_t size,
                            std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : x_(size, memory), rest_(size, memory), terms_(size, memory) {}
 
-  /// x becomes the next one, so `part` = 1 for whole steps.
+  /// Replaces x by the next iterate; `part` = 1: undamped.
   void step(std::span<double> x, std::span<const double> g, double part) {
     for (std::size_t c = 0; c < x.size(); ++c) {
       const double rest = g[c] - x[c];
@@ -40,7 +40,7 @@ class SecantIteration {
   }
 
  private:
-  std::pmr::vector<double> x_;     // the last one
+  std::pmr::vector<double> x_;     // the previous iterate
   std::pmr::vector<double> rest_;  // g(x) − x there
   std::pmr::vector<std::array<double, 2>> terms_;
   bool hasLast_ = false;

@@ -18,8 +18,8 @@ double largestArm(std::span<const Vec3> arms) {
 }
 
 /// Whether the line through the centre of mass along `down` passes through the convex hull of the points,
-/// seen along the normal. It does not iff some pair of points has it strictly outside the edge between them,
-/// all points being on the other side; and a hull without area carries nothing steadily.
+/// seen along the normal (support polygon). It does not iff it is strictly outside some edge between two
+/// points that has all points on its other side; a hull without area gives no stable support.
 bool carries(std::span<const Vec3> arms, const Vec3& normal, const Vec3& down, double length) {
   const double slack = kSettlingRounding * length * length;
   bool hasArea = false;

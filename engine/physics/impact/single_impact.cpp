@@ -27,11 +27,11 @@ Wide3 wideInBody(const Mat3& worldFromBody, const Wide3& v) {
   return result;
 }
 
-/// What one body brings to the contact.
+/// Contribution of one body to the contact.
 struct Side {
   Wide3 torque;                       // arm × n, world: angular momentum per unit of normal impulse
   DoubleDouble speed;                 // n·(v + ω × arm)
-  DoubleDouble inverseEffectiveMass;  // that speed per unit of normal impulse
+  DoubleDouble inverseEffectiveMass;  // change of that speed per unit of normal impulse
 };
 
 Side sideOf(const ImpactBody& body, const Vec3& arm, const Vec3& normal) {
@@ -44,7 +44,7 @@ Side sideOf(const ImpactBody& body, const Vec3& arm, const Vec3& normal) {
   const Wide3 momentumBody =
       wideInBody(state.pose.worldFromBody, Wide3{momentum.x(), momentum.y(), momentum.z()});
   side.speed = twoProduct(normal.x(), v.x()) + twoProduct(normal.y(), v.y()) + twoProduct(normal.z(), v.z());
-  // n·n is 1 but for rounding, and that rounding would be a drift of energy.
+  // n·n differs from 1 by rounding, which would make the energy drift.
   side.inverseEffectiveMass =
       mass.inverseMass * (twoSquare(normal.x()) + twoSquare(normal.y()) + twoSquare(normal.z()));
   for (std::size_t i = 0; i < 3; ++i) {
@@ -55,8 +55,8 @@ Side sideOf(const ImpactBody& body, const Vec3& arm, const Vec3& normal) {
   return side;
 }
 
-/// v and L of a body after an impulse at the end of an arm: `alongNormal` n, and a small rest in plain
-/// doubles.
+/// Applies an impulse at the end of an arm to v and L of a body: `alongNormal` n, and a small remainder in
+/// plain doubles.
 void push(const ImpactBody& body, const Side& side, const Vec3& normal, const DoubleDouble& alongNormal) {
   BodyState& state = *body.state;
   const DoubleDouble perMass = body.mass->inverseMass * alongNormal;
@@ -77,7 +77,7 @@ void push(const ImpactBody& body, const Vec3& arm, const Vec3& impulse) {
   }
 }
 
-/// Velocity of the body's point at `arm` after `impulse` there, from rest.
+/// Velocity of the body's point at `arm` after `impulse` there, starting from rest.
 Vec3 yield(const ImpactBody& body, const Vec3& arm, const Vec3& impulse) {
   const Mat3& a = body.state->pose.worldFromBody;
   const Vec3 torqueBody = a.transpose() * arm.cross(impulse);
@@ -98,7 +98,7 @@ struct Plane {
   double y = 0;
 };
 struct Slip {
-  Plane speed;    // s: slip at the end of compression, without friction
+  Plane speed;    // s: slip velocity at the end of compression, without friction
   double xx = 0;  // B: slip per unit of tangential impulse, while the normal speed is kept
   double xy = 0;
   double yy = 0;
@@ -119,9 +119,10 @@ double limitAt(const Slip& slip, double friction, const Plane& j) {
   return friction * (slip.normalImpulse - (slip.coupling.x * j.x + slip.coupling.y * j.y));
 }
 
-/// Least energy ½ jᵀBj + sᵀj within the cone: stick if that is inside it, otherwise j = −(B + γ)⁻¹ s with γ ≥
-/// 0, which opposes the slip B j + s that is left, where |j| reaches the limit. Bisection, for the limit
-/// varies with j and Newton's method could leave the root that continues the frictionless law.
+/// Minimises the energy ½ jᵀBj + sᵀj within the friction cone: stick if that is inside the cone, otherwise j
+/// = −(B + γ)⁻¹ s with γ ≥ 0 where |j| reaches the limit, opposite to the remaining slip B j + s. By
+/// bisection, because the limit varies with j and Newton's method could leave the root that continues the
+/// frictionless law.
 Plane frictionImpulse(const Slip& slip, double friction) {
   const auto outside = [&](const Plane& j) {
     return std::sqrt(j.x * j.x + j.y * j.y) > limitAt(slip, friction, j);
@@ -184,7 +185,7 @@ ImpactShare resolveSingleImpact(const ImpactBody& a, const ImpactBody* b, const 
     speed = speed - sideB.speed;
     inverseEffectiveMass = inverseEffectiveMass + sideB.inverseEffectiveMass;
   }
-  speed = normalized(speed);  // its parts may have cancelled
+  speed = normalized(speed);  // its terms may have cancelled
   inverseEffectiveMass = normalized(inverseEffectiveMass);
   ImpactShare share{.approach = -speed.hi, .impulse = 0, .tangential = 0};
   if (!(speed.hi < 0)) {

@@ -4,7 +4,7 @@
 
 namespace careen {
 
-/// resolveImpact for one contact, by its closed form. `b` is null for a wall.
+/// resolveImpact for one contact, in closed form. `b` is null for a wall.
 ImpactShare resolveSingleImpact(const ImpactBody& a, const ImpactBody* b, const ImpactContact& contact);
 
 }  // namespace careen

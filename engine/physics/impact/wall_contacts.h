@@ -8,7 +8,8 @@
 namespace careen {
 
 /// Adds a contact for every corner of the body that touches a wall within kSimultaneous. `index` is the
-/// body's among those of the impact. Returns how deep [m] the deepest corner lies in a wall, 0 if none does.
+/// body's among those of the impact. Returns the largest penetration of a corner into a wall [m], 0 if none
+/// penetrates.
 double addWallContacts(const World& world, const Body& body, const Pose& pose, int index,
                        std::vector<ImpactContact>& contacts);
 
