@@ -11,17 +11,17 @@
 
 namespace careen {
 
-/// A moment on a world's clock [s]. 32 digits, so that the time since a flight began keeps all its own digits
-/// however late that was.
+/// A moment on a world's clock [s]. 32 digits, so that the time since the start of a flight has full double
+/// precision however late it started.
 using Instant = DoubleDouble;
 
-/// The moment `elapsed` [s] after another. Normalised: hi alone is off by the clock's rounding otherwise, and
-/// the order of two moments is that of their hi, then lo.
+/// The moment `elapsed` [s] after another. Normalised, else hi would be off by the rounding of the clock;
+/// moments are ordered by hi, then lo.
 inline Instant instantAfter(const Instant& start, double elapsed) {
   return normalized(start + Instant(elapsed));
 }
-/// [s] to rounding of the difference itself: not of the clock, whose hi would make a short hop late in a run
-/// as coarse as the clock is.
+/// [s] Rounded relative to the difference itself, not to the clock, which would make short hops late in a run
+/// inaccurate.
 inline double secondsBetween(const Instant& start, const Instant& end) {
   return static_cast<double>(end - start);
 }
@@ -32,20 +32,20 @@ inline bool earlier(const Instant& x, const Instant& y) {
 inline const Instant& later(const Instant& x, const Instant& y) { return earlier(x, y) ? y : x; }
 
 enum class EventKind {
-  kContact,   ///< the gap to the partner closes
+  kContact,   ///< the gap to the partner closes (time of impact)
   kTouching,  ///< the gap to the partner stays zero
   kCrossing,  ///< the body enters another cell of the neighbour search
   kStep,      ///< a step of the body's island ends
 };
 
-/// What is to happen to one body next. Bodies, and partners that are, go by rank, their place among the
+/// The next event of one body. Bodies, also as partners, are given by rank, their position in the order of
 /// names.
 struct Event {
   Instant time;
   EventKind kind = EventKind::kContact;
   int body = 0;
   Partner partner = {};
-  std::uint64_t partnerMotion = 0;  ///< the partner's motion that this was predicted for
+  std::uint64_t partnerMotion = 0;  ///< the motion of the partner that this prediction is for
 };
 
 /// The next event of every body, earliest first; ties in the order of bodies. A body has one event at most:
@@ -56,7 +56,7 @@ class EventQueue {
 
   void set(const Event& event) { heap_.push({event, ++tickets_[static_cast<std::size_t>(event.body)]}); }
   void clear(int body) { ++tickets_[static_cast<std::size_t>(body)]; }
-  /// Takes the earliest event out.
+  /// Removes and returns the earliest event.
   std::optional<Event> next() {
     while (!heap_.empty()) {
       const Entry entry = heap_.top();

@@ -12,8 +12,8 @@
 namespace careen {
 namespace {
 
-// Events that may happen to one body at one moment before the run gives up: more than any impact needs, and
-// an end to what would go on for ever.
+// Most events of one body at one moment before the run gives up: more than any impact needs, and a bound on
+// endless repetition.
 constexpr int kMostAtOneMoment = 1000;
 
 std::vector<double> radiiOf(const World& world) {
@@ -59,7 +59,7 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
   }
 }
 
-// The whole method, from here to end().
+// The event loop, from here to end().
 
 RunFigures ExactWorld::run(const std::stop_token& stop) {
   begin();
@@ -124,7 +124,7 @@ void ExactWorld::happen(const Event& event) {
   }
 }
 
-// What came before ends, the event's bodies get their next motions, and only they are predicted again.
+// Starts the next motions of the event's bodies and predicts their next events, and only theirs.
 void ExactWorld::moveOn(Encounter& encounter) {
   for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
     if (encounter.next[i] == Next::kRests) {
@@ -145,7 +145,7 @@ void ExactWorld::moveOn(Encounter& encounter) {
   }
 }
 
-// What rests looks out for nobody: those that move must look out for it.
+// A body at rest predicts no contacts: the moving bodies around it must.
 void ExactWorld::predictAround(int rank) {
   std::vector<Neighbors::Key> around;
   neighbors_.findCandidates(rank, around);
@@ -194,7 +194,7 @@ void ExactWorld::rest(int rank, const Instant& time, const Pose& pose) {
   account_.departs(static_cast<std::size_t>(body.listed.value), {.pose = pose});
 }
 
-// The next step of an island, and how its bodies move in it.
+// Takes the next step of an island and records the motion of its bodies in it.
 void ExactWorld::touch(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time) {
   Island& island = contactGroup->island;
   double most = secondsBetween(time, end_);
@@ -237,7 +237,7 @@ void ExactWorld::advance(const std::shared_ptr<ContactGroup>& contactGroup, cons
   }
 }
 
-// [s] In which no body of the island leaves the margin of its cell.
+// [s] Time in which no body of the island leaves the margin of its cell.
 double ExactWorld::withinCell(const Island& island) const {
   const double margin = neighbors_.cellEdge() / 32;
   double most = secondsBetween({}, end_);
@@ -274,7 +274,7 @@ void ExactWorld::arrive(const Mover& body, const Instant& time, const BodyState&
   account_.arrives(static_cast<std::size_t>(body.listed.value), state, body.elapsed(time));
 }
 
-// ---- What comes next.
+// ---- Prediction of events.
 
 void ExactWorld::predict(int rank) {
   const Mover& body = mover(rank);
@@ -309,7 +309,7 @@ void ExactWorld::predict(int rank) {
   }
 }
 
-// Those that touch are the island's own business.
+// Whether the island itself handles contact with that body.
 bool ExactWorld::seesTo(const ContactGroup& contactGroup, std::size_t place, int rank) {
   const auto other = std::find(contactGroup.ranks.begin(), contactGroup.ranks.end(), rank);
   return other != contactGroup.ranks.end() &&

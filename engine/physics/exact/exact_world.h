@@ -22,36 +22,38 @@ namespace careen {
 /// Contact in steps that the tolerance chooses, or Rest. Between events nothing is computed, and an event
 /// touches only the bodies that take part in it.
 ///
-/// Where more bodies than kMostInIsland touch, more than kMostChattering chatter, or any slide or stack among
-/// more than kMostInContact, the whole world goes on as a Pile from there: bounded, not exact. RunFigures
-/// says so.
+/// If more than kMostInIsland bodies touch, more than kMostChattering chatter, or any body is in Contact in a
+/// world of more than kMostInContact, the whole world continues as a Pile from there: bounded, not exact.
+/// RunFigures reports it.
 ///
-/// Bodies go by rank, their place among the names, so that the order in which a scene lists them changes no
-/// bit.
+/// Bodies are identified by rank, their position in the order of names, so that their order in the scene
+/// changes no bit.
 class ExactWorld {
  public:
   ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder);
   RunFigures run(const std::stop_token& stop);
 
-  /// Contact of so many bodies at once is solved exactly: forces cost the cube of their number.
+  /// Most bodies of one island that is solved exactly: the cost of forces grows with the cube of their
+  /// number.
   static constexpr int kMostInIsland = 12;
-  /// Of so many also where they chatter: eleven take 4 ms a time step, and there are thousands in a second.
+  /// The same where they chatter: eleven take 4 ms per time step, and there are thousands in a second.
   static constexpr int kMostChattering = 8;
-  /// And contact among so many in all: at each step each of its bodies looks for meetings with its
+  /// Most bodies in a world with Contact: at each step each body in contact searches for contacts with its
   /// neighbours.
   static constexpr std::size_t kMostInContact = 64;
 
  private:
-  /// [1] of a time step: changes of contact within it belong together.
+  /// [1] of a time step: changes of contact within it are counted together.
   static constexpr double kChatterWindow = 0.5;
-  /// Where bodies chatter: so many tolerances are near, and so many times what a time step falls is slow.
+  /// Where bodies chatter: gaps of this many tolerances are near, and speeds of this many times that gained
+  /// by gravity in a time step are slow.
   static constexpr double kNear = 4;
   static constexpr double kSlow = 2;
 
   /// What a body does after an event.
   enum class Next { kGoesOn, kFlies, kRests, kTouches };
 
-  /// Bodies that touch at one moment, and what becomes of them.
+  /// Bodies that touch at one moment, and their next motions.
   struct Encounter {
     Instant time;
     EventKind cause{};
@@ -61,11 +63,11 @@ class ExactWorld {
     std::vector<BodyState> after;
     std::vector<ImpactContact> contacts;  ///< their bodies are indices into `ranks`
     std::vector<ImpactShare> shares;
-    std::vector<char> persists;  ///< of each contact: its bodies do not part
+    std::vector<char> persists;  ///< of each contact: it stays closed
     std::vector<Next> next;      ///< of each body
-    std::vector<Instant> since;  ///< and from when
+    std::vector<Instant> since;  ///< of each body: when that begins
     std::vector<std::shared_ptr<ContactGroup>> islands;
-    bool chattering = false;  ///< it moves by time steps
+    bool chattering = false;  ///< it is integrated by time steps
     bool passes = false;      ///< contacts without an impulse persist
   };
 
@@ -77,7 +79,7 @@ class ExactWorld {
   void moveOn(Encounter& encounter);
   void end();
 
-  // Who touches whom, and what an impact does to them.
+  // Detection of contacts, and impacts.
   Encounter gather(const Event& event);
   void reach(const Event& event, Encounter& encounter);
   void join(Encounter& encounter, int rank);
@@ -85,7 +87,7 @@ class ExactWorld {
   void resolve(Encounter& encounter);
   void record(const Encounter& encounter);
 
-  // Where they stand.
+  // Position correction and contacts to consider.
   void alignPlaces(Encounter& encounter, const Event& event) const;
   void addHeld(const Encounter& encounter, std::vector<ContactFeature>& features) const;
   void addCorners(const Encounter& encounter, std::vector<ContactFeature>& features) const;
@@ -96,14 +98,14 @@ class ExactWorld {
   double gapOf(const Encounter& encounter, std::size_t a, std::size_t b) const;
   static std::size_t indexOf(const Encounter& encounter, int rank);
 
-  // What comes after: Flight, Contact or Rest.
+  // The next motion: Flight, Contact or Rest.
   void findChattering(Encounter& encounter);
   void settle(Encounter& encounter);
   void settleBody(Encounter& encounter, std::size_t index) const;
   void findPersisting(Encounter& encounter) const;
   struct Parting {
-    double speed = 0;     ///< [m/s] of the gap
-    double rounding = 0;  ///< [m/s] as slow as this is none
+    double speed = 0;     ///< [m/s] rate of the gap
+    double rounding = 0;  ///< [m/s] up to this it counts as zero
   };
   Parting partingAt(const Encounter& encounter, std::size_t contact) const;
   void formIslands(Encounter& encounter) const;
@@ -134,17 +136,17 @@ class ExactWorld {
 
   const World& world_;
   Instant end_;
-  std::optional<Instant> pileFrom_;  // when too many touch
+  std::optional<Instant> pileFrom_;  // set when too many bodies touch
   double tolerance_;                 // [m]
-  double timeStep_;                  // [s] of Island, where there are no smooth motions
+  double timeStep_;                  // [s] of Island, where no smooth motion exists
   Recorder& recorder_;
   std::vector<Mover> movers_;
   Neighbors neighbors_;
   EventQueue queue_;
   FlightAccount account_;
   std::vector<Neighbors::Key> candidates_;
-  std::vector<char> forced_;               // by rank: springs or drag act on it, so that it never flies
-  std::vector<std::vector<int>> springs_;  // by rank: who hangs on it by springs
+  std::vector<char> forced_;               // by rank: springs or drag act on it, so it is never in Flight
+  std::vector<std::vector<int>> springs_;  // by rank: bodies attached to it by springs
 };
 
 }  // namespace careen

@@ -6,16 +6,17 @@
 #include "physics/geometry/contact_points.h"
 #include "physics/impact/wall_contacts.h"
 
-// Bodies that touch at one moment: who they are, and what an impact does to them.
+// Contact groups: bodies that touch at one moment, and the impact on them.
 
 namespace careen {
 
-// ---- Who touches whom.
+// ---- Detection of contacts.
 
 ExactWorld::Encounter ExactWorld::gather(const Event& event) {
   Encounter encounter;
   encounter.time = event.time;
-  // Met again where nothing is left to resolve: edges that pass within rounding. Contact sees them past.
+  // The same pair triggers again without approaching (edges passing within rounding): hand it to contact
+  // stepping.
   constexpr int kMostMeetings = 2;
   encounter.passes = event.kind != EventKind::kStep && mover(event.body).atOneMoment > kMostMeetings;
   encounter.cause = encounter.passes ? EventKind::kTouching : event.kind;
@@ -40,7 +41,7 @@ ExactWorld::Encounter ExactWorld::gather(const Event& event) {
   return encounter;
 }
 
-// A body joins a encounter once, and with it its island, which is brought to this moment.
+// Adds a body to an encounter, once, together with its island, which is advanced to this moment.
 void ExactWorld::join(Encounter& encounter, int rank) {
   if (std::find(encounter.ranks.begin(), encounter.ranks.end(), rank) != encounter.ranks.end()) {
     return;
@@ -68,8 +69,7 @@ void ExactWorld::join(Encounter& encounter, int rank) {
   }
 }
 
-// An impact runs through every body that touches one that it reaches, held ones excepted: they pass nothing
-// on.
+// An impact propagates to every body that touches one it reaches, except through immovable bodies.
 void ExactWorld::reach(const Event& event, Encounter& encounter) {
   join(encounter, event.body);
   if (!event.partner.isWall()) {
@@ -106,7 +106,7 @@ void ExactWorld::reach(const Event& event, Encounter& encounter) {
   encounter.before = std::move(sorted.before);
 }
 
-// Adds the contacts of two bodies that touch, or are no more than `apart` [m] from each other.
+// Adds the contacts of two bodies that touch or have a gap of at most `apart` [m].
 void ExactWorld::addPairContacts(Encounter& encounter, std::size_t indexA, std::size_t indexB,
                                  double apart) const {
   const Body& a = *mover(encounter.ranks[indexA]).body;
@@ -126,7 +126,7 @@ void ExactWorld::addPairContacts(Encounter& encounter, std::size_t indexA, std::
   }
 }
 
-// ---- What an impact does.
+// ---- Impacts.
 
 void ExactWorld::resolve(Encounter& encounter) {
   std::vector<ImpactBody> bodies;

@@ -8,14 +8,14 @@
 #include "physics/geometry/separation.h"
 #include "physics/impact/settling.h"
 
-// How bodies that touch move on: in Flight, in Contact or at rest.
+// The next motion of touching bodies: Flight, Contact or Rest.
 
 namespace careen {
 namespace {
 
-/// [1] Speeds this small beside those of the bodies are no parting, and accelerations are zero.
+/// [1] Separation speeds, and accelerations, this small relative to those of the bodies count as zero.
 constexpr double kParting = 0x1p-40;
-/// [1] of the speed that a time step's fall gives: nothing chatters any more.
+/// [1] of the speed gained by gravity in a time step: below it nothing chatters any more.
 constexpr double kAllButStill = 0x1p-12;
 
 bool movesAlike(const BodyState& x, const BodyState& y) {
@@ -24,8 +24,8 @@ bool movesAlike(const BodyState& x, const BodyState& y) {
 
 }  // namespace
 
-// Bodies that chatter, with more changes of contact in less than a time step than are worth following one by
-// one, go on by time steps: one, and twice as many each time that was too early to stop.
+// Chattering bodies, with more changes of contact within a time step than are worth following one by one,
+// continue by time steps: first one, then twice as many each time that was not enough.
 void ExactWorld::findChattering(Encounter& encounter) {
   constexpr int kMostInWindow = 12;
   constexpr int kMostTimeSteps = 1024;
@@ -48,7 +48,7 @@ void ExactWorld::findChattering(Encounter& encounter) {
       timeSteps = std::max(timeSteps, std::min(kMostTimeSteps, 2 * body.timeSteps));
     }
   }
-  // A single body that bounces is followed to the end: the time at which it rests is exact.
+  // A single bouncing body is followed to the end: the time at which it comes to rest is exact.
   if (chatters && !encounter.chattering && (touching || movable > 1)) {
     encounter.chattering = true;
     if (movable > kMostChattering && canPile()) {
@@ -77,7 +77,8 @@ void ExactWorld::settle(Encounter& encounter) {
   formIslands(encounter);
 }
 
-// [m] What the gap at contact k is the difference of. A wall's offset is no more than its body's part of it.
+// [m] Scale of the lengths whose difference is the gap at contact k. A wall's offset is no larger than the
+// body's part.
 double ExactWorld::lengthsAt(const Encounter& encounter, std::size_t k) const {
   const auto of = [&](int index) {
     const auto i = static_cast<std::size_t>(index);
@@ -88,8 +89,8 @@ double ExactWorld::lengthsAt(const Encounter& encounter, std::size_t k) const {
   return of(contact.a) + of(contact.b.isWall() ? contact.a : contact.b.body());
 }
 
-// Contacts of a body whose next hop is too short to follow persist. If that brings it to rest on what cannot
-// move, it rests when all its hops would have ended.
+// Contacts whose next hop is too short to follow persist. If the body thereby comes to rest on immovable
+// things, its Rest begins when all its hops would have ended.
 void ExactWorld::settleBody(Encounter& encounter, std::size_t index) const {
   const Body& body = *mover(encounter.ranks[index]).body;
   BodyState& state = encounter.after[index];
@@ -162,8 +163,8 @@ ExactWorld::Parting ExactWorld::partingAt(const Encounter& encounter, std::size_
   return parting;
 }
 
-// Contacts that neither approach nor part; or that come back within a time step, where bodies chatter or the
-// search has found them to hop on the spot.
+// Contacts that neither approach nor separate persist; so do those that close again within a time step, if
+// bodies chatter or the search has found that their gap stays zero.
 void ExactWorld::findPersisting(Encounter& encounter) const {
   const bool hops = encounter.chattering || encounter.cause == EventKind::kTouching;
   const double slow = hops && !world_.gravity.isZero(0) ? world_.gravity.norm() * timeStep_ : 0;
@@ -253,8 +254,8 @@ ContactFeature ExactWorld::featureOf(const Encounter& encounter, std::size_t k) 
   return feature;
 }
 
-// Begins the island's motion. Among what chatters only what has all but come to rest is asked for a smooth
-// one: it may be at rest.
+// Begins the island's motion; returns whether it rests. A chattering island tries smooth motion only if
+// nearly at rest.
 bool ExactWorld::beginsAtRest(Island& island, bool chattering) const {
   double speed = 0;
   for (const TouchingBody& body : island.bodies()) {
@@ -271,7 +272,7 @@ bool ExactWorld::beginsAtRest(Island& island, bool chattering) const {
   return false;
 }
 
-// Bodies joined by lasting contacts go on in Contact, unless nothing holds them together or nothing moves.
+// Bodies joined by persisting contacts continue in Contact, unless no contact is active or nothing moves.
 void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>& members) const {
   std::vector<std::size_t> indices = members;
   std::vector<ContactFeature> features;

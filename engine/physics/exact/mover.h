@@ -16,49 +16,49 @@
 
 namespace careen {
 
-/// An island in the world: which body is which, and the step it is in.
+/// An island in the world: the ranks of its bodies and its current step.
 struct ContactGroup {
   Island island;
   std::vector<int> ranks;            ///< of island.bodies()
-  std::vector<ContactStep> motions;  ///< of those that can move, in this step
+  std::vector<ContactStep> motions;  ///< of the movable ones, in this step
   Instant start{};                   ///< of this step
   Island::Step step{};
 
-  /// The body that has the step's end as an event.
+  /// The body whose event is the end of the step.
   int leader() const;
   Instant end() const { return instantAfter(start, step.length); }
 };
 
-/// One body of method exact: what it does now, and what was predicted of it.
+/// One body of method exact: its current motion and its predicted events.
 struct Mover {
   const Body* body = nullptr;
-  BodyIndex listed;  ///< its place in the scene
+  BodyIndex listed;  ///< its index in the scene
   bool flies = false;
   Flight flight;                                    ///< if it flies
-  std::shared_ptr<ContactGroup> contactGroup;       ///< if it is in Contact: with whom
-  std::size_t place = 0;                            ///< among them
-  std::optional<PrincipalMoments<double>> moments;  ///< if it ever flew
+  std::shared_ptr<ContactGroup> contactGroup;       ///< if it is in Contact
+  std::size_t place = 0;                            ///< its index in that group
+  std::optional<PrincipalMoments<double>> moments;  ///< if it was ever in Flight
   std::optional<TorqueFreeRotation<double>> rotation;
   double speedBound = 0;                ///< [m/s] if it is in Contact
   double accelerationBound = 0;         ///< [m/s²] likewise
   double angularSpeedBound = 0;         ///< [rad/s]
   double angularAccelerationBound = 0;  ///< [rad/s²]
-  Pose pose;                            ///< if it rests, or is held
+  Pose pose;                            ///< if it rests or is immovable
   Instant start{};
-  std::uint64_t motion = 0;      ///< counts flights and rests: what was predicted for another is stale
+  std::uint64_t motion = 0;      ///< counts its motions: predictions for an earlier one are stale
   int atOneMoment = 0;           ///< how many of them began at `start`
   Instant windowStart{};         ///< see ExactWorld::findChattering
   int changesInWindow = 0;       ///< motions begun since
-  Instant chatteringUntil{};     ///< it moves by time steps so long
+  Instant chatteringUntil{};     ///< until then it is integrated by time steps
   int timeSteps = 0;             ///< how many of them that was
   std::optional<Event> wall;     ///< the flight's first contact with a wall
-  bool crosses = false;          ///< it enters other cells
-  Neighbors::Crossing crossing;  ///< the next one
+  bool crosses = false;          ///< it can enter other cells
+  Neighbors::Crossing crossing;  ///< the next such event
 
   bool isHeld() const { return body->mass.inverseMass == 0; }
   bool touches() const { return contactGroup != nullptr; }
   bool moves() const { return flies || touches(); }
-  /// `attitude` is that of `state`, whose matrix it may not make to the bit.
+  /// `attitude` is that of `state`, but may not reproduce its matrix to the bit.
   void fly(const BodyState& state, const Quat& attitude, const Vec3& gravity);
   void rest(const Pose& at);
   void touch(std::shared_ptr<ContactGroup> with, std::size_t as);
@@ -68,13 +68,13 @@ struct Mover {
   Quat attitudeAt(const Instant& time) const;
   BodyState stateAt(const Instant& time, const Quat& attitude) const;
   BodyState stateAt(const Instant& time) const { return stateAt(time, attitudeAt(time)); }
-  /// As the search for contacts sees it; `elapsed` [s] counts from the motion's start.
+  /// For the contact search; `elapsed` [s] counts from the start of the motion.
   Attitude operator()(double elapsed) const;
-  /// With the clock of the search at 0 at that moment.
+  /// The same, with time 0 of the search at `clockZero`.
   MovingBox moving(const Instant& clockZero) const;
 };
 
-/// Whether the gap of two boxes is within the grouping tolerance, or within `apart` [m] if that is more.
+/// Whether the gap of two boxes is within the contact-group tolerance, or within `apart` [m] if that is more.
 bool areTouching(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, double apart = 0);
 
 }  // namespace careen

@@ -11,7 +11,7 @@
 namespace careen {
 namespace {
 
-// Searches on where a search ran out of evaluations.
+// Continues a search that ran out of evaluations.
 template <class Search>
 FirstContact searchUntil(double until, const Search& search) {
   FirstContact found;
@@ -29,7 +29,7 @@ EventKind kindOf(const FirstContact& contact) {
   return contact.kind == ContactKind::kImpact ? EventKind::kContact : EventKind::kTouching;
 }
 
-// Nothing changes between two that move alike and do not turn: blocks that lie in a row.
+// Two bodies with the same uniform velocity and no rotation keep their gap: blocks that lie in a row.
 bool moveAsOne(const Mover& a, const Mover& b) {
   return !a.touches() && !b.touches() && a.angularSpeedBound == 0 && b.angularSpeedBound == 0 &&
          a.flight.acceleration == b.flight.acceleration && a.flight.velocity == b.flight.velocity &&
@@ -41,7 +41,7 @@ bool moveAsOne(const Mover& a, const Mover& b) {
 std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wall>& walls,
                                const Instant& end) {
   const MovingBox box = body.moving(body.start);
-  // The wall whose turn is likely first, so that the others need not be followed further than it.
+  // The wall likely to be hit first, so that the others need not be searched beyond that time.
   std::size_t likely = 0;
   double soonest = kNever;
   for (std::size_t w = 0; w < walls.size(); ++w) {

@@ -13,7 +13,8 @@ namespace careen {
 std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wall>& walls,
                                const Instant& end);
 
-/// The first contact of two bodies, of which the first flies, from the later of their starts up to `until`.
+/// The first contact of two bodies, the first of which moves, from the later of the starts of their motions
+/// up to `until`.
 std::optional<Event> firstMeeting(const Mover& body, int rank, const Mover& other, int otherRank,
                                   const Instant& until);
 

@@ -7,10 +7,10 @@
 namespace careen {
 namespace {
 
-/// [s] Of a pile's frame. A film of another rate shows what lies between two of them.
+/// [s] Frame of a pile. A film of another frame rate interpolates between two of them.
 constexpr double kFrame = 1.0 / 60;
 
-/// From one frame to the next along a line.
+/// Linear interpolation from one frame to the next.
 ContactStep between(const BodyState& from, const BodyState& to) {
   ContactStep step{.duration = kFrame};
   const Quat start(from.pose.worldFromBody);
@@ -34,7 +34,7 @@ bool ExactWorld::needsPile(const Encounter& encounter) const {
                                     [&](int rank) { return !mover(rank).isHeld(); }) > kMostInIsland;
 }
 
-// From here on all bodies move together, in frames.
+// From here on all bodies advance together, frame by frame.
 void ExactWorld::runAsPile(const std::stop_token& stop) {
   const Instant start = *pileFrom_;
   account_.bounds(start.hi);
@@ -51,7 +51,7 @@ void ExactWorld::runAsPile(const std::stop_token& stop) {
   Pile pile(world_, states, kFrame);
   std::vector<char> slept(movers_.size(), 0);
   for (std::int64_t frame = 0; !pile.atRest(); ++frame) {
-    // By multiplication: a running sum would drift away from the frames of a film.
+    // By multiplication: a running sum would drift from the frames of a film.
     const Instant time = instantAfter(start, static_cast<double>(frame) * kFrame);
     if (!earlier(time, end_)) {
       break;

@@ -5,19 +5,19 @@
 #include "physics/geometry/contact_points.h"
 #include "physics/geometry/separation.h"
 
-// Where bodies that touch stand: steps of Contact place them to the tolerance only.
+// Position correction of touching bodies: steps of Contact place them only to the tolerance.
 
 namespace careen {
 namespace {
 
-/// Gaps within so many touching tolerances are brought to zero together: a contact that has closed is located
-/// to a few of them.
+/// Gaps within this many touching tolerances are projected to zero together: the closing of a contact is
+/// located to a few of them.
 constexpr double kAligned = 64;
 
 }  // namespace
 
-// What touches, what has just come to touch and what a time step has driven into each other is brought to
-// touch exactly, by the least displacement.
+// Projects the gaps of existing contacts, new contacts and penetrations left by a time step to zero, by the
+// least displacement.
 void ExactWorld::alignPlaces(Encounter& encounter, const Event& event) const {
   if (std::none_of(encounter.ranks.begin(), encounter.ranks.end(),
                    [&](int rank) { return mover(rank).touches(); })) {
@@ -64,7 +64,7 @@ std::size_t ExactWorld::indexOf(const Encounter& encounter, int rank) {
                                   encounter.ranks.begin());
 }
 
-// What the islands of the encounter hold together.
+// Adds the contacts of the encounter's islands.
 void ExactWorld::addHeld(const Encounter& encounter, std::vector<ContactFeature>& features) const {
   std::vector<const ContactGroup*> known;
   for (const int rank : encounter.ranks) {
@@ -93,7 +93,7 @@ void ExactWorld::addHeld(const Encounter& encounter, std::vector<ContactFeature>
   }
 }
 
-// Corners that have come to a wall, or through it.
+// Adds corners that have reached or passed a wall.
 void ExactWorld::addCorners(const Encounter& encounter, std::vector<ContactFeature>& features) const {
   for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
     const Mover& body = mover(encounter.ranks[i]);
@@ -120,7 +120,7 @@ double ExactWorld::gapOf(const Encounter& encounter, std::size_t a, std::size_t 
       .gap();
 }
 
-// Where two boxes meet, near each other as they are.
+// Adds the contact manifold of two boxes that are near each other.
 void ExactWorld::addMeeting(const Encounter& encounter, std::size_t a, std::size_t b,
                             std::vector<ContactFeature>& features) const {
   const Pose& poseA = encounter.before[a].pose;
@@ -134,7 +134,7 @@ void ExactWorld::addMeeting(const Encounter& encounter, std::size_t a, std::size
   }
 }
 
-// What a time step has driven into each other.
+// Adds contacts of bodies that penetrate after a time step.
 void ExactWorld::addOverlaps(const Encounter& encounter, std::vector<ContactFeature>& features) const {
   for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
     const Body& a = *mover(encounter.ranks[i]).body;
@@ -151,7 +151,7 @@ void ExactWorld::addOverlaps(const Encounter& encounter, std::vector<ContactFeat
   }
 }
 
-// Adds contacts that two may come into within a time step. They count where bodies chatter.
+// Adds contacts that may close within a time step, for chattering bodies.
 void ExactWorld::addNear(Encounter& encounter) const {
   const double near = kNear * tolerance_;
   const std::size_t touching = encounter.contacts.size();
@@ -175,7 +175,7 @@ void ExactWorld::addNear(Encounter& encounter) const {
       addPairContacts(encounter, i, j, near);
     }
   }
-  // Only those that are new, and that come slowly: what comes fast is an impact when it arrives.
+  // Keep only new contacts that approach slowly: a fast one becomes an impact when it closes.
   std::size_t kept = touching;
   const auto isKnown = [&](std::size_t k) {
     for (std::size_t other = 0; other < kept; ++other) {
