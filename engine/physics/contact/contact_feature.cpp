@@ -11,7 +11,7 @@ namespace {
 // [1] of the half extents: a point this near to an edge counts as on it. Larger than the tolerance of any
 // contact; no two points of one manifold are this close.
 constexpr double kOnEdge = 0x1p-30;
-// [1] Cosine from which a normal counts as that of a face.
+// [1] A contact normal with this cosine or more to a face normal counts as equal to it.
 constexpr double kAlongFace = 1 - 0x1p-40;
 
 ContactState onPlane(const Vec3& arm, const Kinematics& a, const Kinematics* b, const Vec3& normal,

@@ -108,7 +108,7 @@ void ContactForces::weigh() {
 }
 
 /// The force of the augmented Lagrangian: the multiplier minus penalty times excess, projected onto the
-/// admissible set; and its derivative by the excess.
+/// admissible set; and its derivative with respect to the excess.
 ContactForces::Response ContactForces::respond(std::size_t c, const Force& excess, const Mode* as,
                                                Modes how) const {
   const Contact& contact = contacts_[c];
@@ -333,8 +333,8 @@ double ContactForces::newton(std::span<const Mode> modes, Modes how) {
   return change;
 }
 
-/// The mode that a force means. A force this close to zero, or to the friction limit, counts as equal to it:
-/// events are located no more accurately and would trigger again.
+/// The mode that a force implies. A force this close to zero, or to the friction limit, counts as equal to
+/// it: events are located no more accurately and would trigger again.
 ContactForces::Mode ContactForces::modeOf(std::size_t c) {
   Contact& contact = contacts_[c];
   const Force& force = forces_[c];

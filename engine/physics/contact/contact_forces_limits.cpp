@@ -11,7 +11,7 @@ namespace careen {
 namespace {
 
 constexpr int kMostLimits = 40;
-/// Newton's method is tried again every this many iterations of the limits.
+/// Iterations of the limits between attempts of Newton's method.
 constexpr int kTryEvery = 4;
 /// [1] of the largest force: accuracy of forces from unfinished iterations of the limits.
 constexpr double kRough = 0x1p-16;

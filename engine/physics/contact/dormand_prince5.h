@@ -32,7 +32,8 @@ class DormandPrince5 {
     }
   }
 
-  /// Error estimate: the difference to the embedded method, given the derivative at the step's end.
+  /// Error estimate: the difference from the embedded method's result, given the derivative at the step's
+  /// end.
   void error(double h, const State& derivativeAtEnd, State& difference) const {
     difference.resize(derivativeAtEnd.size());
     for (std::size_t k = 0; k < difference.size(); ++k) {

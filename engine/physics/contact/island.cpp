@@ -29,9 +29,9 @@ constexpr double kStopped = 16;
 constexpr double kStill = 0x1p-32;
 /// [1] The same relative to the accelerations by the contact forces.
 constexpr double kStillLoaded = 0x1p-40;
-/// [1] of a time step. Where slip begins, friction turns into its direction the faster the slower the slip
-/// still is, and smooth steps would have to resolve that; a time step, implicit in friction, has an error
-/// below the tolerance there.
+/// [1] of a time step: the shortest smooth step. Where slip begins, friction turns into its direction the
+/// faster the slower the slip is (stiff), and smooth steps would have to resolve that; a time step, implicit
+/// in friction, has an error below the tolerance there.
 constexpr double kStiff = 0x1p-4;
 /// [1] of the current accelerations: a contact with no more tension than this is about to open.
 constexpr double kTension = 0x1p-20;

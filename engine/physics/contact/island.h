@@ -40,7 +40,7 @@ class Island {
 
   enum class End {
     kGoesOn,   ///< nothing happened
-    kChanges,  ///< a contact closes, opens, sticks or slips: contacts must be found anew
+    kChanges,  ///< a contact closes, opens, sticks or slips: contacts must be found again
   };
   struct Step {
     double length = 0;  ///< [s]

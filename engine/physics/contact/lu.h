@@ -42,7 +42,7 @@ inline void factoriseLu(std::span<double> matrix, std::span<std::size_t> pivots)
   }
 }
 
-/// Solves for x in place, given the factors by factoriseLu.
+/// Solves for x in place, given the factors from factoriseLu.
 inline void solveLu(std::span<const double> factors, std::span<const std::size_t> pivots,
                     std::span<double> x) {
   const std::size_t n = x.size();

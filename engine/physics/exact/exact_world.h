@@ -19,8 +19,8 @@
 namespace careen {
 
 /// Method `exact`. Every body is in one of three motions: Flight in closed form from impact to impact,
-/// Contact in steps that the tolerance chooses, or Rest. Between events nothing is computed, and an event
-/// touches only the bodies that take part in it.
+/// Contact in steps chosen by the tolerance, or Rest. Between events nothing is computed, and an event
+/// affects only the bodies involved in it.
 ///
 /// If more than kMostInIsland bodies touch, more than kMostChattering chatter, or any body is in Contact in a
 /// world of more than kMostInContact, the whole world continues as a Pile from there: bounded, not exact.

@@ -15,7 +15,7 @@ namespace {
 
 /// [1] Separation speeds, and accelerations, this small relative to those of the bodies count as zero.
 constexpr double kParting = 0x1p-40;
-/// [1] of the speed gained by gravity in a time step: below it nothing chatters any more.
+/// [1] of the speed gained by gravity in a time step: below it chattering has ended.
 constexpr double kAllButStill = 0x1p-12;
 
 bool movesAlike(const BodyState& x, const BodyState& y) {

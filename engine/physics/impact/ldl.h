@@ -28,7 +28,7 @@ inline void factoriseLdl(std::span<double> matrix, std::size_t n) {
   }
 }
 
-/// Solves for x in place, given the factors by factoriseLdl.
+/// Solves for x in place, given the factors from factoriseLdl.
 inline void solveLdl(std::span<const double> factors, std::span<double> x) {
   const std::size_t n = x.size();
   for (std::size_t i = 0; i < n; ++i) {

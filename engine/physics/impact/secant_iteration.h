@@ -19,7 +19,7 @@ class SecantIteration {
                            std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : x_(size, memory), rest_(size, memory), terms_(size, memory) {}
 
-  /// Replaces x by the next iterate; `part` = 1: undamped.
+  /// Replaces x by the next iterate; `part` is the damping factor, 1 for none.
   void step(std::span<double> x, std::span<const double> g, double part) {
     for (std::size_t c = 0; c < x.size(); ++c) {
       const double rest = g[c] - x[c];
