@@ -7,20 +7,20 @@
 
 namespace careen {
 
-/// Separations of two boxes along the 15 axes of BoxAxis, in a third of its time: edges that are parallel
-/// within 1/128 are left out (the faces' axes stand in for them), and so is all care for the last bits. For a
-/// pile, where what is lost by it is below the overlap that is allowed.
+/// Separations of two boxes along the 15 axes of BoxAxis, in a third of its time: edges parallel within 1/128
+/// are skipped (face axes stand in for them), and rounding is not controlled to the last bit. For a pile,
+/// where the loss is below the allowed penetration.
 struct PileAxes {
   Mat3 cosines;   ///< Aᵀ B
   Vec3 apartA;    ///< [m] from b's centre to a's, in a's frame
   Vec3 apartB;    ///< [m] the same in b's
-  int face = 0;   ///< 0…5 best of the faces, see BoxAxis
-  int edges = 0;  ///< 6 … 14 best of the edges
+  int face = 0;   ///< 0…5 best face axis, see BoxAxis
+  int edges = 0;  ///< 6 … 14 best edge axis
   double faceSeparation = 0;
   double edgeSeparation = 0;
 
-  /// `last`, if not −1, wins ties within `tie` [m]. Gives up, and returns false, at the first axis that
-  /// separates by more than `reach`: `faceSeparation` then is that axis'.
+  /// `last`, if not −1, wins ties within `tie` [m]. Returns false at the first axis that separates by more
+  /// than `reach`; `faceSeparation` is then that separation.
   bool find(const PileBody& a, const PileBody& b, double reach, int last, double tie);
 };
 

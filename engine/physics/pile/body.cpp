@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kLongTurn = 0.5;        // [rad] in one substep
 constexpr double kTurnPerStrang = 0.25;  // [rad]
-constexpr double kMostStrang = 1024;     // steps: beyond it the turn is wrong, but finite
+constexpr double kMostStrang = 1024;     // steps: beyond, the rotation is inaccurate but finite
 
-// (cos θ/2, θ/|θ| sin θ/2), |θ| ≤ 1: next terms are below 1e-12 of one.
+// (cos θ/2, θ/|θ| sin θ/2), |θ| ≤ 1: the omitted terms are below 1e-12.
 Quat turnOf(const Vec3& theta) {
   const double z = 0.25 * theta.squaredNorm();
   const double cos = 1 - z * (1.0 / 2 - z * (1.0 / 24 - z * (1.0 / 720 - z * (1.0 / 40320))));

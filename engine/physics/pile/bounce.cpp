@@ -10,9 +10,9 @@ constexpr int kBounceSweeps = 20;
 
 }  // namespace
 
-// First touches part again with e times the speed they met with: a second solve after the motion, at the
-// places where bodies now are (else their angular momentum about each other is not kept), that goes on from
-// the impulses of the first.
+// New impacts separate with e times their approach speed: a second solve after the motion, at the new
+// positions (otherwise the angular momentum about each other is not conserved), starting from the impulses of
+// the first.
 void Pile::bounce() {
   const bool any = std::any_of(bounces_.begin(), bounces_.end(),
                                [&](const Bounce& each) { return solver_.normalImpulse(each.row) > 0; });
@@ -69,7 +69,7 @@ void Pile::bounce() {
   }
 }
 
-// Gaps where bodies are now; only what has moved too far is built anew.
+// Updates gaps to the current poses, without rebuilding.
 void Pile::refreshNear() {
   for (const int slot : near_) {
     PileManifold& manifold = manifolds_[at(slot)];

@@ -5,7 +5,7 @@
 namespace careen {
 namespace {
 
-// A corner, and which line leads from it to the next.
+// A vertex, and the line that leads from it to the next.
 struct Corner {
   Vec3 point;
   std::uint32_t line = 0;

@@ -8,12 +8,12 @@
 
 namespace careen {
 
-/// A corner of the polygon in which the shadow of one box's face lies on a face of another.
+/// A vertex of the polygon in which the projection of one box's face overlaps a face of another.
 struct ClippedPoint {
   Vec3 point = Vec3::Zero();  ///< [m] on the incident face, in the frame of the box that owns the plane
   double gap = 0;             ///< [m] above the plane
   std::uint32_t feature =
-      0;  ///< the two edges that cross there: of the incident face 0…3, of the plane's 4…7
+      0;  ///< the two edges that cross there: 0…3 of the incident face, 4…7 of the reference face
 };
 
 struct ClippedFace {
@@ -22,9 +22,9 @@ struct ClippedFace {
   std::uint32_t faces = 0;  ///< which two faces
 };
 
-/// The face of `incident` that looks most against the face `axis`, `sign` of `owner`, clipped to its sides
-/// moved outward by `slack` [m] (Sutherland & Hodgman, CACM 17, 1974). ownerFromIncident = OᵀI, and the
-/// incident centre in the owner's frame.
+/// The face of `incident` most antiparallel to the reference face `axis`, `sign` of `owner`, clipped to the
+/// sides of that face moved outward by `slack` [m] (Sutherland & Hodgman, CACM 17, 1974). ownerFromIncident =
+/// OᵀI, incident centre in the owner's frame.
 ClippedFace clipFace(const PileBody& owner, const PileBody& incident, const Mat3& ownerFromIncident,
                      const Vec3& incidentCenter, int axis, double sign, double slack);
 

@@ -13,17 +13,18 @@
 namespace careen {
 namespace {
 
-constexpr double kSlack = 0x1p-10;      // [1] past its ends an edge still counts
-constexpr double kClipSlack = 0x1p-30;  // [1] sides of a face moved outward, so that rounding empties no clip
-constexpr double kTie = 0x1p-12;        // [1] by which an axis must be better than that of last time
-constexpr double kSamePlace = 0x1p-6;   // [1] points of other features inherit from those nearer than this
+constexpr double kSlack = 0x1p-10;      // [1] tolerance past the ends of an edge
+constexpr double kClipSlack = 0x1p-30;  // [1] face sides moved outward, so that rounding never empties a clip
+constexpr double kTie = 0x1p-12;        // [1] margin by which a new axis must beat the last one
+constexpr double kSamePlace =
+    0x1p-6;  // [1] within this distance a point inherits impulses from another feature
 constexpr int kMostProjections = 40;
 constexpr std::uint32_t kEdgeFeature = 0x100;
 constexpr std::uint32_t kClosestFeature = 0x200;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// What a rebuilding starts from.
+// The manifold before rebuilding.
 struct Former {
   std::array<PilePoint, PileManifold::kMost> points;
   int count = 0;
@@ -35,7 +36,7 @@ struct Former {
 void inherit(const Former& former, PileManifold& manifold) {
   const double near = kSamePlace * manifold.length;
   const bool sameFaces = former.faces == manifold.faces;
-  // Tangents that did not stay in place lose their impulses: the cone would turn them.
+  // Rotated tangents lose their friction impulses: they would have another direction.
   const bool sameTangents = sameFaces || former.plane.tangent1.dot(manifold.plane.tangent1) > 0.99;
   std::array<bool, PileManifold::kMost> taken{};
   for (int k = 0; k < manifold.count; ++k) {
@@ -88,7 +89,7 @@ void addPoint(PileManifold& manifold, const Vec3& local, std::uint32_t feature) 
   point.feature = feature;
 }
 
-// Outward normal of the owner's face the axis stands on; the incident box lies on its side.
+// Clips the incident face to the reference face, whose outward normal points to the incident box.
 void addFace(const PileBody& a, const PileBody& b, const PileAxes& axes, double reach, double least,
              PileManifold& manifold) {
   const bool ofB = axes.face >= 3;
@@ -115,7 +116,7 @@ void addFace(const PileBody& a, const PileBody& b, const PileAxes& axes, double 
   }
 }
 
-// The edge pair of the best edge axis, if its closest points lie on both.
+// The edge pair of the best edge axis, if its closest points lie on both edges.
 void addEdges(const PileBody& a, const PileBody& b, const PileAxes& axes, PileManifold& manifold) {
   const int i = (axes.edges - 6) / 3;
   const int j = (axes.edges - 6) % 3;
@@ -151,8 +152,8 @@ Vec3 nearestIn(const PileBody& box, const Vec3& point) {
   return box.position + box.axes * local.cwiseMax(-box.halfExtents).cwiseMin(box.halfExtents);
 }
 
-// Corner against corner or edge, beside every face: alternating projections (von Neumann) on the two boxes.
-// The plane found is of a, the point of b.
+// Corner against corner or edge, outside every face: closest points by alternating projections (von Neumann)
+// onto the two boxes. The plane belongs to a, the point to b.
 void addClosest(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
   Vec3 onB = nearestIn(b, a.position);
   Vec3 onA = nearestIn(a, onB);

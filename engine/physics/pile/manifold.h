@@ -9,39 +9,39 @@
 
 namespace careen {
 
-/// All lengths are parts of the smallest size of the pair's smaller box: 2 mm for boxes of 0.5 m are 0.004.
+/// Lengths relative to the smallest size of the pair's smaller box: 2 mm for boxes of 0.5 m is 0.004.
 struct PileLengths {
-  static constexpr double kRebuild = 0x1p-8;  ///< relative motion after which a manifold is built anew
-  static constexpr double kReach = 0x1p-5;    ///< points with more gap than this can wait
+  static constexpr double kRebuild = 0x1p-8;  ///< relative motion after which a manifold is rebuilt
+  static constexpr double kReach = 0x1p-5;    ///< points with a larger gap are omitted
   static constexpr double kOverlapped =
-      0x1p-9;  ///< points that a better axis contradicts by more are left out
+      0x1p-9;  ///< points that differ by more from the best axis' separation are omitted
 };
 
-/// A point of a manifold and the impulses it bore, kept through rebuilding by its feature.
+/// A contact point with its accumulated impulses, matched by feature when the manifold is rebuilt.
 struct PilePoint {
-  Vec3 local = Vec3::Zero();  ///< [m] in the frame of the box whose point it is
+  Vec3 local = Vec3::Zero();  ///< [m] in the frame of the box it belongs to
   Vec3 world = Vec3::Zero();  ///< [m] from a's centre
   double gap = 0;             ///< [m]
   std::uint32_t feature = 0;
-  double normalImpulse = 0;        ///< [N s] last substep's
-  double normalImpulseBefore = 0;  ///< [N s] that of the one before
+  double normalImpulse = 0;        ///< [N s] of the last substep
+  double normalImpulseBefore = 0;  ///< [N s] of the substep before
   double tangential1 = 0;          ///< [N s] along the manifold's tangents
   double tangential2 = 0;
-  int row = -1;  ///< of the solver, −1: too far apart to need one
+  int row = -1;  ///< in the solver, −1: gap too large
 };
 
-/// Directions at a contact: normal from b to a, and a right-handed pair of tangents that keeps its place in
-/// the body that owns the plane.
+/// Contact frame: normal from b to a, and two tangents (right-handed) fixed in the body that owns the
+/// reference plane.
 struct PileFrame {
   Vec3 normal = Vec3::UnitZ();
   Vec3 tangent1 = Vec3::UnitX();
   Vec3 tangent2 = Vec3::UnitY();
 };
 
-/// Where two boxes, or a box and a wall, can touch. Gaps are exact functions of the two poses, of features
-/// that stay: points of one box against a plane of the other, and one edge of each.
+/// Contact manifold of two boxes, or a box and a wall. Gaps are exact functions of the two poses for fixed
+/// features: points of one box against a reference plane of the other, and one edge pair.
 struct PileManifold {
-  static constexpr int kMost = 9;  // two quadrilaterals laid on each other, and an edge pair
+  static constexpr int kMost = 9;  // intersection of two quadrilaterals, and an edge pair
 
   int a = 0;
   Partner b = {};
@@ -49,47 +49,48 @@ struct PileManifold {
   double friction = 0;
   double restitution = 0;
 
-  int axis = -1;          ///< last best axis as in BoxAxis
-  int planeAxis = 0;      ///< of the owner's frame
-  bool planeOfB = false;  ///< who owns the plane
-  bool closest = false;   ///< the plane is that between closest points, not a face
+  int axis = -1;          ///< best axis at the last rebuild, as in BoxAxis
+  int planeAxis = 0;      ///< in the owner's frame
+  bool planeOfB = false;  ///< b owns the reference plane
+  bool closest = false;   ///< the plane separates the closest points; it is no face
   std::uint32_t faces = 0;
   Vec3 planeNormal = Vec3::UnitZ();   ///< [1] outward, owner's frame
   Vec3 planeTangent = Vec3::UnitX();  ///< [1] owner's frame
   double planeOffset = 0;             ///< [m] owner's frame
 
-  bool hasEdges = false;  ///< the last point is that of the edges
+  bool hasEdges = false;  ///< the last point is the edge pair
   int edgeA = 0;
   int edgeB = 0;
-  Vec3 middleA = Vec3::Zero();  ///< [m] of the edge, a's frame
+  Vec3 middleA = Vec3::Zero();  ///< [m] edge midpoint, a's frame
   Vec3 middleB = Vec3::Zero();  ///< [m] b's frame
-  double edgeSign = 1;          ///< that makes a's edge × b's edge point from b to a
+  double edgeSign = 1;          ///< sign for which a's edge × b's edge points from b to a
 
   PileFrame plane;
   PileFrame edges;
   int count = 0;
   std::array<PilePoint, kMost> points;
 
-  double moved = 0;       ///< [m] bound on the relative motion since it was built
-  double separation = 0;  ///< [m] along the best axis when it was built
-  double reach = 0;       ///< [m] points with smaller gaps were all taken
+  double moved = 0;       ///< [m] bound on the relative motion since the last rebuild
+  double separation = 0;  ///< [m] along the best axis at the last rebuild
+  double reach = 0;       ///< [m] all points with smaller gaps are included
 
   const PileFrame& frameOf(int point) const { return hasEdges && point == count - 1 ? edges : plane; }
 };
 
-/// Builds the manifold anew, points with gaps up to `reach` [m]; impulses of features that stay are kept.
-/// Returns false, and leaves no points, if the boxes are farther apart: separation says how far at least.
+/// Rebuilds the manifold with points of gap up to `reach` [m]; impulses of persisting features are kept. If
+/// the boxes are farther apart, returns false and leaves no points; `separation` is then a lower bound of the
+/// distance.
 bool buildManifold(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold);
 bool buildManifold(const PileBody& a, const Wall& wall, double reach, PileManifold& manifold);
 
-/// Gaps, points and directions at the bodies' present poses.
+/// Updates gaps, points and frames to the current poses.
 void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifold);
 void refreshManifold(const PileBody& a, const Wall& wall, PileManifold& manifold);
 
-/// Bound [m] on what the boxes move past each other in h [s], as seen from a.
+/// Bound [m] on the relative motion of the boxes in h [s], seen from a.
 double relativeMotion(const PileBody& a, const PileBody& b, double h);
 
-/// The deepest overlap by all 15 axes, or of a box and a wall [m]; 0 if they do not.
+/// Penetration depth [m] by all 15 axes, or of a box and a wall; 0 if they are disjoint.
 double overlapOf(const PileBody& a, const PileBody& b);
 double overlapOf(const PileBody& a, const Wall& wall);
 

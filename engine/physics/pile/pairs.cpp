@@ -42,8 +42,8 @@ PilePairs::PilePairs(std::span<const PileBody> bodies, std::span<const Wall> wal
   }
 }
 
-// Holds the box over the time at its present velocities; a turn moves no corner farther than 2 radii, and
-// sides less than the angle times the radius.
+// AABB of the box over `time` at its current velocities; rotation moves no corner farther than 2 radii, and
+// no side farther than angle × radius.
 PilePairs::Box PilePairs::sweptBox(const PileBody& body, const Vec3& gravity, double time) {
   const Vec3 reach = body.axes.cwiseAbs() * body.halfExtents;
   Box box{.low = body.position - reach, .high = body.position + reach};
@@ -144,7 +144,7 @@ void PilePairs::refit() {
   }
 }
 
-// Pairs of two that have left are found from the lower rank.
+// A pair of two bodies that both left is found from the lower rank.
 void PilePairs::findPartners(std::span<const PileBody> bodies, std::span<const Wall> walls, int body) {
   const Box& box = fat_[at(body)];
   const bool held = bodies[at(body)].held;
@@ -182,7 +182,7 @@ void PilePairs::findPartners(std::span<const PileBody> bodies, std::span<const W
   }
 }
 
-// Old pairs of which none has left stay; of the others those that were found again.
+// Keeps old pairs of which neither body left; of the others, those found again.
 void PilePairs::merge() {
   merged_.clear();
   auto found = found_.begin();

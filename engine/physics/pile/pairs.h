@@ -11,32 +11,32 @@
 
 namespace careen {
 
-/// Two bodies, or a body and a wall, near enough to be looked at. By rank, a < b.
+/// Broad-phase pair: two bodies, or a body and a wall, close enough for the narrow phase. By rank, a < b.
 struct PilePair {
-  std::uint64_t key = 0;  ///< a and b, sorts by a, then b
+  std::uint64_t key = 0;  ///< from a and b; sorts by a, then b
   int a = 0;
   Partner b = {};
-  int slot = -1;     ///< of its manifold, −1: none
-  double until = 0;  ///< [m] nothing can touch while the paths of both add up to less
+  int slot = -1;     ///< index of its manifold, −1: none
+  double until = 0;  ///< [m] no contact possible while the sum of both paths is less
 };
 
-/// Broad phase: each body lives in a fat box, its own enlarged by a part of its size and by its motion over
-/// the next frames, and nothing is done while it stays inside. Who leaves is given a new one, and its
-/// partners are searched for in a tree of boxes (median splits along the longest side, O(n log n); refitted,
-/// and built anew only now and then).
+/// Broad phase: each body has a fat AABB, its own enlarged by a fraction of its size and by its motion over
+/// the next frames; nothing is done while the body stays inside. A body that leaves it gets a new one, and
+/// its partners are queried from a bounding volume tree (median splits along the longest side, O(n log n);
+/// refitted, and rebuilt only now and then).
 ///
-/// The pairs are in the order of their keys, whatever happened before.
+/// Pairs are sorted by key, independent of history.
 class PilePairs {
  public:
   PilePairs(std::span<const PileBody> bodies, std::span<const Wall> walls);
 
-  /// Makes sure that all that can touch within `time` [s] at present velocities are among the pairs. With
-  /// `lookAhead` [s] ≥ time for those that get a new box.
+  /// Ensures that all pairs that can touch within `time` [s] at current velocities are listed. New fat AABBs
+  /// are sized for `lookAhead` [s] ≥ time.
   void update(std::span<const PileBody> bodies, const Vec3& gravity, double time, double lookAhead);
 
   std::vector<PilePair>& pairs() { return pairs_; }
   const std::vector<PilePair>& pairs() const { return pairs_; }
-  /// Slots of pairs that are no more; the caller takes them.
+  /// Manifold slots of removed pairs; the caller takes them.
   std::vector<int>& freed() { return freed_; }
 
  private:
@@ -49,9 +49,9 @@ class PilePairs {
   };
   struct Node {
     Box box;
-    int first = 0;  // of its bodies in order_
+    int first = 0;  // index of its first body in order_
     int count = 0;
-    int right = 0;  // child; the left one is the next node; 0: leaf
+    int right = 0;  // right child; the left one is the next node; 0: leaf
   };
   static Box sweptBox(const PileBody& body, const Vec3& gravity, double time);
   void buildTree();
@@ -62,7 +62,7 @@ class PilePairs {
 
   std::vector<Wall> walls_;
   std::vector<Box> fat_;
-  std::vector<char> left_;  // bodies that have just left their boxes
+  std::vector<char> left_;  // bodies that have just left their fat AABBs
   std::vector<PilePair> pairs_;
   std::vector<PilePair> merged_;
   std::vector<std::uint64_t> found_;

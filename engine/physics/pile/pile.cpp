@@ -11,22 +11,22 @@ namespace careen {
 namespace {
 
 constexpr std::int64_t kFramesPerSorting = 4;
-constexpr double kLeastSubsteps = 3;  // in a frame
+constexpr double kLeastSubsteps = 3;  // per frame
 constexpr double kMostSubsteps = 12;
 constexpr double kMostMovedInSubstep =
-    0x1p-4;  // [1] of the smallest size, moved in a substep: faster bodies ask for more
+    0x1p-4;  // [1] of the smallest size, motion per substep: faster bodies need more substeps
 constexpr std::int64_t kSweeps = 20;
 constexpr std::int64_t kMostSweeps = 400;
 constexpr std::int64_t kFewManifolds = 256;
 constexpr int kPasses = 8;
-constexpr double kLookAhead = 2;   // frames that a fat box should last
-constexpr double kTell = 0x1p-14;  // [1] of the smallest size, moved in a substep: neighbours are told
+constexpr double kLookAhead = 2;   // frames for which a fat AABB should stay valid
+constexpr double kTell = 0x1p-14;  // [1] of the smallest size, change per substep that re-solves neighbours
 constexpr double kTellLeast = 0x1p-36;
 constexpr std::int64_t kEasy = 4;
 constexpr std::int64_t kHard = 8;
-constexpr double kGrowth = 1.5;        // [1] a warm start trusts an impulse to have grown by, in a substep
-constexpr double kBounceFrom = 4;      // [1] of what gravity adds in a substep: slower touches do not bounce
-constexpr double kAllowance = 0x1p-6;  // [1] of the smallest size: gaps that others may close in a substep
+constexpr double kGrowth = 1.5;    // [1] largest growth of an impulse per substep that the warm start accepts
+constexpr double kBounceFrom = 4;  // [1] of gravity × substep: slower impacts do not bounce
+constexpr double kAllowance = 0x1p-6;  // [1] of the smallest size: gaps that may close during a substep
 
 }  // namespace
 
@@ -50,7 +50,7 @@ Pile::Pile(const World& world, std::vector<BodyState> states, double frame)
   unrest_.assign(bodies_.size(), std::numeric_limits<double>::max());
 }
 
-// The whole method, from here to freeze().
+// The whole method, up to freeze().
 
 void Pile::step() {
   ++figures_.frames;
@@ -73,8 +73,8 @@ void Pile::step() {
   }
 }
 
-// Manifolds lie in memory in the order in which they are gone through: with thousands of boxes the cache
-// holds few of them. Where one lies changes no result.
+// Stores manifolds in processing order, for cache locality with thousands of boxes. The storage order does
+// not affect results.
 void Pile::sortManifolds() {
   std::vector<PileManifold> sorted;
   sorted.reserve(manifolds_.size());
@@ -89,8 +89,8 @@ void Pile::sortManifolds() {
   near_.clear();
 }
 
-// As many as the fastest body asks for, in parts of its size. Kept impulses are those of the last substep:
-// in a longer one they would be in proportion.
+// As many as the fastest body requires, relative to its size. Stored impulses are those of the last substep
+// and are scaled in proportion to the substep length.
 int Pile::chooseSubsteps() {
   double fastest = 0;
   for (const PileBody& body : bodies_) {
@@ -118,8 +118,8 @@ void Pile::substep(double lookAhead) {
   bounce();
 }
 
-// How small a change neighbours are told follows from how hard the last substep was: coarse where all falls
-// on all, ever finer as it comes to rest. Few manifolds can be given more rounds.
+// The change threshold that re-solves neighbours adapts to the effort of the last substep: coarse during
+// heavy impacts, finer as the pile comes to rest. Few manifolds are allowed more sweeps.
 void Pile::solve() {
   const auto manifolds = static_cast<std::int64_t>(solver_.blockCount()) + 1;
   const std::int64_t effort = 1 + kFewManifolds / manifolds;
@@ -132,8 +132,8 @@ void Pile::solve() {
   }
 }
 
-// Pairs, and the manifolds of those that are near. What would push a sleeper wakes its cluster, whose pairs
-// are then looked at too.
+// Broad and narrow phase: pairs, and manifolds of the near ones. A contact that would push a sleeping body
+// wakes its cluster, whose pairs are then tested too.
 void Pile::lookAround(double time) {
   for (PileBody& body : bodies_) {
     body.ahead = body.still()
@@ -229,7 +229,7 @@ PileManifold& Pile::manifoldOf(PilePair& pair) {
   return manifold;
 }
 
-// Whether one who moves would give a sleeper more than what rest may lack of balance.
+// Whether the moving body would push the sleeping one by more than the tolerated imbalance at rest.
 bool Pile::wouldPush(const PilePair& pair, const PileManifold& manifold) const {
   const PileBody& a = bodies_[at(pair.a)];
   const PileBody& b = bodyAt(pair.b);
@@ -314,7 +314,7 @@ void Pile::addRows(PileManifold& manifold) {
     point.row = static_cast<int>(solver_.rowCount());
     solver_.add(row);
     if (manifold.restitution > 0 && -speed > kBounceFrom * gravityMagnitude_ * h_) {
-      // Of what gravity adds in the substep only the part before the touch counts, or bouncing would gain.
+      // Only the part of gravity before the time of contact counts, or bouncing would gain energy.
       const double before = std::clamp(point.gap / (-speed * h_), 0.0, 1.0);
       const double held = (a.still() ? 0 : 1) - (hasWall || bodyAt(manifold.b).still() ? 0 : 1);
       const double fromGravity = held * h_ * frame.normal.dot(gravity_);
@@ -339,7 +339,7 @@ void Pile::keepImpulses() {
   }
 }
 
-// A body that no contact pushed goes on its parabola, the others along their velocity after the solve.
+// Bodies without contact impulse follow their parabola, the others the velocity after the solve.
 void Pile::move() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     PileBody& body = bodies_[i];
@@ -363,14 +363,14 @@ void Pile::move() {
   }
 }
 
-// Impulses enter L at the attitude they were solved at.
+// Impulses change L at the attitude at which they were solved.
 void Pile::takeVelocity(PileBody& body, int index) {
   const Vec3 change = body.axes.transpose() * (solver_.omega(index) - body.omega);
   body.angularMomentum += body.axes * body.inertiaBody.cwiseProduct(change);
   body.velocity = solver_.velocity(index);
 }
 
-// Manifolds do not know yet how far the last substep has carried their boxes past each other.
+// Manifolds do not yet include the relative motion of the last substep.
 void Pile::project() {
   for (int pass = 0; pass < kPasses; ++pass) {
     for (const int slot : near_) {

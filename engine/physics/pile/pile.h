@@ -14,50 +14,52 @@
 
 namespace careen {
 
-/// Many boxes in contact, in fixed frames: the fast and bounded regime. Not exact: its forces are those of a
-/// Gauss–Seidel that stops early. What it promises is that overlap stays small at every frame, that its
-/// impulses make no energy, and that what has come to rest costs nothing.
+/// Many boxes in contact, advanced in fixed frames: the fast, bounded-error regime. Not exact: contact forces
+/// come from a Gauss–Seidel solver that stops early. Guarantees: penetration stays small at every frame,
+/// impulses add no energy, and bodies at rest cost nothing.
 ///
-/// A frame is a number of substeps, each: find what is near; gravity; impulses such that no gap closes beyond
-/// zero in the substep at its present rate, v_n ≥ −gap/h; move. Overlap that is left is taken out of the
-/// positions at the frame's end, and never turned into velocity (no Baumgarte, no slop).
+/// A frame consists of substeps, each: broad and narrow phase; gravity; solve for impulses such that no gap
+/// becomes negative within the substep at its current rate, v_n ≥ −gap/h; integrate positions. Remaining
+/// penetration is removed by a position projection at the end of the frame and never becomes velocity (no
+/// Baumgarte stabilisation, no slop).
 ///
-/// Measured with 1000 boxes of 0.4 to 0.6 m that fall into a pit from up to 29 m, μ = 0.5, at every frame of
-/// 1/60 s: deepest overlap 8e-4 m while they fall on each other, 2e-4 m at the end, all asleep after 6 s.
+/// Measured with 1000 boxes of 0.4 to 0.6 m falling into a pit from up to 29 m, μ = 0.5, at every frame of
+/// 1/60 s: deepest penetration 8e-4 m during the fall, 2e-4 m at the end, all asleep after 6 s.
 ///
-/// Known limits. A box that spins on a single point of contact has no friction to stop it, and keeps all it
-/// touches awake. Taking out overlap lifts what lies above: in 99 of 100 small pours the energy rose by less
-/// than 2e-5 of the start's in any frame, in the last one, a shaft of 38 layers, by 5e-4.
+/// Known limits. A box spinning on a single contact point has no torsional friction to stop it and keeps
+/// everything it touches awake. Position projection lifts the bodies above: in 99 of 100 small pours the
+/// energy rose by less than 2e-5 of the initial energy in any frame, in the last one, a shaft of 38 layers,
+/// by 5e-4.
 ///
-/// In flight a body is exact but for rounding in its centre, and to O(h³) in its attitude. Springs and drag
-/// of the world are not looked at. Held bodies stay as they are.
+/// In free flight the centre is exact to rounding, the attitude to O(h³). Springs and drag of the world are
+/// ignored. Fixed bodies do not move.
 class Pile {
  public:
-  /// `states`: one per body of the world, in its order. `frame` [s]. Bodies are worked through in the order
-  /// of their names: the order of listing changes no bit.
+  /// `states`: one per body of the world, in its order. `frame` [s]. Bodies are processed in order of their
+  /// names: their order in the world changes no bit of the result.
   Pile(const World& world, std::vector<BodyState> states, double frame);
 
-  /// One frame further.
+  /// Advances by one frame.
   void step();
-  /// After it, in the world's order.
+  /// States after the last step, in the world's order.
   std::span<const BodyState> states() const { return states_; }
 
-  /// Frozen: its pose is constant to the bit until something arrives.
+  /// Asleep: its pose is bitwise constant until another body pushes it.
   bool sleeps(int body) const { return bodies_[rankOf_[at(body)]].asleep; }
-  /// All are asleep or held; step() then costs nothing.
+  /// All bodies are asleep or fixed; step() then costs nothing.
   bool atRest() const { return atRest_; }
-  /// [m] the deepest overlap of any two bodies, or of a body and a wall, now. By all 15 axes of every pair:
-  /// costs more than a step.
+  /// [m] Deepest current penetration between two bodies, or a body and a wall. Tests all 15 axes of every
+  /// pair: costs more than a step.
   double deepest() const;
 
   struct Figures {
     std::int64_t frames = 0;
     std::int64_t substeps = 0;
-    std::int64_t pairs = 0;        ///< looked at, all substeps together
+    std::int64_t pairs = 0;        ///< tested, over all substeps
     std::int64_t manifolds = 0;    ///< refreshed
-    std::int64_t rebuilt = 0;      ///< of them built anew
-    std::int64_t rows = 0;         ///< points that entered a solve
-    std::int64_t solves = 0;       ///< manifolds solved, all rounds together
+    std::int64_t rebuilt = 0;      ///< of these, rebuilt
+    std::int64_t rows = 0;         ///< contact points in the solver
+    std::int64_t solves = 0;       ///< manifold solves, over all sweeps
     std::int64_t projections = 0;  ///< passes
     std::int64_t frozen = 0;       ///< bodies put to sleep
     std::int64_t woken = 0;
@@ -65,11 +67,11 @@ class Pile {
   const Figures& figures() const { return figures_; }
 
  private:
-  /// [1] of gravity: what a body at rest may lack of balance.
+  /// [1] relative to gravity: tolerated force imbalance of a body at rest.
   static constexpr double kFeasible = 0x1p-10;
   struct Bounce {
     int row = 0;
-    double speed = 0;  // [m/s] to part with
+    double speed = 0;  // [m/s] separation speed
   };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const PileBody& bodyAt(Partner partner) const { return bodies_[at(partner.body())]; }
@@ -98,25 +100,25 @@ class Pile {
   double gravityMagnitude_ = 0;  // [m/s²] |gravity|
   std::vector<Wall> walls_;
   double frame_;
-  double h_;                         // [s] a substep
-  double impulseScale_ = 1;          // of the kept ones, for this substep
-  std::vector<std::size_t> rankOf_;  // of the world's bodies
+  double h_;                         // [s] time step of a substep
+  double impulseScale_ = 1;          // scales stored impulses to this substep
+  std::vector<std::size_t> rankOf_;  // rank of each of the world's bodies
   std::vector<PileBody> bodies_;     // by rank
-  std::vector<std::size_t> bodyOf_;  // of a rank
+  std::vector<std::size_t> bodyOf_;  // body of each rank
   std::vector<BodyState> states_;
 
   PilePairs pairs_;
   std::vector<PileManifold> manifolds_;
-  std::vector<int> unused_;  // of them
+  std::vector<int> unused_;  // free slots of manifolds_
   std::vector<int> near_;    // manifolds of this substep, by key
   std::vector<char> looked_;
   PileSolver solver_;
   PileProjection projection_;
-  double tell_;  // [1] of the smallest size: what of a substep's motion neighbours are told
+  double tell_;  // [1] of the smallest size: change per substep above which neighbours are re-solved
   std::vector<Bounce> bounces_;
-  std::vector<double> unrest_;  // [m/s] what contacts and gravity left over in the last substep
-  std::vector<double> grip_;    // [1] the largest friction that holds a body
-  DisjointSets clusters_;       // of bodies that rest on each other
+  std::vector<double> unrest_;  // [m/s] net velocity change of the last substep
+  std::vector<double> grip_;    // [1] largest friction coefficient at a body's contacts
+  DisjointSets clusters_;       // of bodies in resting contact
   bool atRest_ = false;
   Figures figures_;
 };

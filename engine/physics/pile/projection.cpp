@@ -7,10 +7,10 @@ namespace careen {
 namespace {
 
 constexpr int kSweeps = 20;
-constexpr double kLeft = 0.5;      // [1] of the tolerance, left so that touching bodies go on touching
-constexpr double kTell = 0.125;    // [1] of the tolerance
-constexpr double kLongest = 0.25;  // [1] of the smallest size: movement in one pass
-constexpr double kNear = 0x1p-6;   // [1] of the smallest size: gaps that could close
+constexpr double kLeft = 0.5;      // [1] of the tolerance: penetration kept, so that contacts persist
+constexpr double kTell = 0.125;    // [1] of the tolerance: smallest displacement that re-solves neighbours
+constexpr double kLongest = 0.25;  // [1] of the smallest size: largest displacement per pass
+constexpr double kNear = 0x1p-6;   // [1] of the smallest size: larger gaps are ignored
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -32,7 +32,7 @@ void forBodies(const PileManifold& manifold, const Visit& visit) {
 
 }  // namespace
 
-// reached_: 1 for bodies of deep pairs, one more for each layer around them.
+// reached_: 1 for bodies of penetrating pairs, one more for each layer around them.
 bool PileProjection::collect(std::span<const PileBody> bodies, std::span<PileManifold> manifolds,
                              std::span<const int> near, int layers) {
   reached_.assign(bodies.size(), 0);

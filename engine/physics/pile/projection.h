@@ -9,16 +9,16 @@
 
 namespace careen {
 
-/// Takes overlap out of the positions, without friction and without touching a velocity or an angular
-/// momentum: the smallest movement, weighed by mass, with gap + J·δ ≥ 0 for the manifolds around those that
-/// overlap by more than a tolerance. Linear in δ: so it is done in passes, gaps taken anew between them.
+/// Position projection: removes penetration without friction and without changing any velocity or angular
+/// momentum: the smallest mass-weighted displacement δ with gap + J·δ ≥ 0 for the manifolds around those that
+/// penetrate by more than a tolerance. Linear in δ, hence iterated in passes with gaps updated in between.
 class PileProjection {
  public:
-  /// [1] of the smaller box's smallest size: what is left alone. 2e-4 m for boxes of 0.4 m.
+  /// [1] of the smaller box's smallest size: penetration tolerance. 2e-4 m for boxes of 0.4 m.
   static constexpr double kTolerance = 0x1p-11;
 
-  /// One pass over the listed manifolds, whose gaps must be up to date. Only bodies that overlap and their
-  /// neighbours, in so many layers (at most 127), give way. False if nothing was to be done.
+  /// One pass over the listed manifolds, whose gaps must be up to date. Only penetrating bodies and their
+  /// neighbours, up to `layers` layers (at most 127), move. False if nothing was to be done.
   bool pass(std::span<PileBody> bodies, std::span<PileManifold> manifolds, std::span<const int> near,
             int layers);
 

@@ -1,4 +1,4 @@
-// Falling asleep, and what is asked of a pile from outside.
+// Sleeping, and penetration queries.
 #include <algorithm>
 #include <cmath>
 
@@ -7,14 +7,14 @@
 namespace careen {
 namespace {
 
-constexpr double kFrictionless = 0x1p-20;  // μ below which nothing is stopped
+constexpr double kFrictionless = 0x1p-20;  // μ below which friction stops nothing
 
 }  // namespace
 
-// With all velocities set to zero, gravity and the kept impulses must leave every body of a touching cluster
-// next to nothing: then it would not move, and its last impulses, which lie in their cones, hold it for ever.
-// What moves at a constant speed passes that test too: the speed must be one that friction can take away
-// within the substep, μ g h.
+// A cluster in contact falls asleep if, with all velocities set to zero, gravity and the last impulses nearly
+// balance on every body: then it would not move, and these impulses, which lie in their friction cones, hold
+// it indefinitely. Motion at constant speed passes that test too, so the speed must also be one that friction
+// can stop within the substep, μ g h.
 bool Pile::freeze() {
   grip_.assign(bodies_.size(), kFrictionless);
   clusters_.reset(bodies_.size());

@@ -49,7 +49,8 @@ void PileSolver::add(const Row& row) {
   solved.normalImpulse = row.normalImpulse;
   solved.tangential1 = row.tangential1;
   solved.tangential2 = row.tangential2;
-  // Entries of the point's 3×3 matrix: dᵢ·dⱼ/m + Σ (r × dᵢ)·I⁻¹ (r × dⱼ) over both bodies.
+  // Entries of the point's 3×3 inverse effective mass matrix: dᵢ·dⱼ/m + Σ (r × dᵢ)·I⁻¹ (r × dⱼ) over both
+  // bodies.
   const auto lever = [&](const Vec3& direction) { return cross(solved.arms, pairOf(direction, direction)); };
   const auto product = [](const PairVec& a, const PairVec& b) {
     const Pair sum = a.x * b.x + a.y * b.y + a.z * b.z;
@@ -100,7 +101,7 @@ void PileSolver::warmStart() {
   }
 }
 
-// Which manifolds each body has, in one list, by counting.
+// Lists the manifolds of each body, by counting sort.
 void PileSolver::link() {
   firstBlock_.assign(moving_.size() + 1, 0);
   for (const Block& block : blocks_) {
@@ -140,8 +141,8 @@ std::int64_t PileSolver::solve(int sweeps, bool withFriction) {
   for (int sweep = 0; sweep < sweeps && any; ++sweep) {
     any = false;
     for (std::size_t word = 0; word < waiting_.size(); ++word) {
-      // Those put ahead of this place are still met in this round, those behind in the next. The word is read
-      // anew each time, and only bits past the last one solved count.
+      // Blocks put on the list ahead of this position are solved in this sweep, those behind in the next. The
+      // word is read again each time; only bits past the last one solved count.
       std::uint64_t ahead = ~std::uint64_t{0};
       while ((waiting_[word] & ahead) != 0) {
         const int bit = std::countr_zero(waiting_[word] & ahead);

@@ -11,23 +11,25 @@
 
 namespace careen {
 
-/// Gauss–Seidel by worklist for the contacts of a pile: unknown are the velocities of all bodies (or, in a
-/// projection, how far they are moved), each row an impulse at a point.
+/// Projected Gauss–Seidel with a worklist for the contacts of a pile. Unknowns are the velocities of all
+/// bodies (in a projection, their displacements); each row is an impulse at a contact point.
 ///
-/// A manifold is solved again only when one of its bodies has changed by more than a tolerance since its
-/// manifolds were last told; in the order the manifolds were added, forward, round after round. A shock then
-/// travels in one round as far as the order leads, and what is quiet costs nothing.
+/// A manifold is solved again only when one of its bodies has changed by more than a tolerance since they
+/// were last put on the list; in the order of insertion, forward, sweep after sweep. A shock thus travels in
+/// one sweep as far as the order leads, and quiet contacts cost nothing.
 ///
-/// Normal: v_n ≥ bound, impulse ≥ 0, complementary. Friction: the impulse's two tangential parts lie in the
-/// disc of radius μ × normal impulse (the round cone). Tried first is what would stop the sliding, by the
-/// point's 2×2 matrix; if the disc does not hold it, a step along the sliding velocity, and back to the disc:
-/// its fixed point slides against its impulse, as Coulomb says, which that of the matrix' step does not.
+/// Normal: v_n ≥ bound, impulse ≥ 0, complementary. Friction: the tangential impulse lies in the disc of
+/// radius μ × normal impulse (round friction cone). First the impulse that stops sliding is tried, by the
+/// point's 2×2 matrix; if it leaves the disc, a step along the sliding velocity is projected back onto the
+/// disc: its fixed point slides against its impulse, as Coulomb friction requires, while that of the matrix
+/// step does not.
 class PileSolver {
  public:
-  /// Empties it, for that many bodies; one more, the last, stands for all walls.
+  /// Clears it for that many bodies; one more, the last, represents all walls.
   void begin(std::size_t bodies);
 
-  /// A body with its inverse masses; `change` [m/s] is what its manifolds need to be told.
+  /// Sets a body's inverse mass and inertia; `change` [m/s] is the change that puts its manifolds back on the
+  /// list.
   void setBody(int index, const PileBody& body, double change);
 
   Vec3& velocity(int body) { return moving_[at(body)].velocity; }
@@ -38,21 +40,21 @@ class PileSolver {
   /// Whether any impulse acted on it since begin().
   bool pushed(int body) const { return moving_[at(body)].pushed; }
 
-  /// A manifold's rows follow with add(). Manifolds come in the order of their keys.
+  /// A manifold's rows follow with add(). Manifolds must come in order of their keys.
   void beginManifold(int a, Partner b, double friction);
   struct Row {
     Vec3 armA = Vec3::Zero();  ///< [m]
     Vec3 armB = Vec3::Zero();  ///< [m]
     PileFrame frame;
-    double bound = 0;  ///< [m/s] v_n is to be no less
+    double bound = 0;  ///< [m/s] lower bound of v_n
     double normalImpulse = 0;
     double tangential1 = 0;
     double tangential2 = 0;
   };
   void add(const Row& row);
-  /// Applies the impulses that rows were added with.
+  /// Applies the initial impulses of the rows.
   void warmStart();
-  /// After the last add: solves at most `sweeps` rounds. Returns how often a manifold was solved.
+  /// After the last add(): at most `sweeps` sweeps. Returns the number of manifold solves.
   std::int64_t solve(int sweeps, bool withFriction);
 
   std::size_t blockCount() const { return blocks_.size(); }
@@ -61,7 +63,8 @@ class PileSolver {
   double tangential1(int row) const { return rows_[at(row)].tangential1; }
   double tangential2(int row) const { return rows_[at(row)].tangential2; }
   void setBound(int row, double bound) { rows_[at(row)].bound = bound; }
-  /// After the last add(): who touches whom. solve() begins with what wakeAll() or wakeRow() put on the list.
+  /// After the last add(): builds the contact graph. solve() starts with what wakeAll() or wakeRow() put on
+  /// the worklist.
   void link();
   void wakeAll();
   void wakeRow(int row);
@@ -69,7 +72,7 @@ class PileSolver {
  private:
   struct Moving {
     Vec3 velocity = Vec3::Zero();
-    double untold = 0;  // [m/s] how much has changed that the manifolds do not know
+    double untold = 0;  // [m/s] change since its manifolds were last put on the list
     Vec3 omega = Vec3::Zero();
     bool pushed = false;
   };
@@ -83,7 +86,7 @@ class PileSolver {
               xz * v.x() + yz * v.y() + zz * v.z()};
     }
   };
-  // Two doubles for two bodies at once, a's first; each operation is that of single doubles, bit for bit.
+  // Two doubles for two bodies at once (SIMD), a's first; bitwise equal to scalar operations.
   using Pair = double __attribute__((vector_size(16)));
   struct PairVec {
     Pair x, y, z;
@@ -96,7 +99,7 @@ class PileSolver {
   }
   static Vec3 firstOf(const PairVec& v) { return {v.x[0], v.y[0], v.z[0]}; }
   static Vec3 secondOf(const PairVec& v) { return {v.x[1], v.y[1], v.z[1]}; }
-  // The inverse masses and moments of two bodies.
+  // Inverse masses and inertia of two bodies.
   struct PairInertia {
     Pair inverseMass, xx, yy, zz, xy, xz, yz;
     PairInertia(const Inertia& a, const Inertia& b)
@@ -118,7 +121,7 @@ class PileSolver {
     double massNormal = 0;
     double normalToTangent1 = 0, normalToTangent2 = 0;  // Δu_t per normal impulse
     double stop11 = 0, stop12 = 0, stop22 = 0;          // (2×2 matrix)⁻¹
-    double slide = 0;                                   // 1/its largest eigenvalue
+    double slide = 0;                                   // 1/largest eigenvalue of the 2×2 matrix
     double normalImpulse = 0, tangential1 = 0, tangential2 = 0;
   };
   struct Block {
@@ -140,7 +143,7 @@ class PileSolver {
   std::vector<SolvedRow> rows_;
   std::vector<Block> blocks_;
   std::vector<int> blockOfRow_;
-  std::vector<int> firstBlock_;  // of each body in blocksOfBody_
+  std::vector<int> firstBlock_;  // per body, index into blocksOfBody_
   std::vector<int> blocksOfBody_;
   std::vector<int> cursor_;
   std::vector<std::uint64_t> waiting_;
