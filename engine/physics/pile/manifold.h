@@ -14,7 +14,7 @@ struct PileLengths {
   static constexpr double kRebuild = 0x1p-8;  ///< relative motion after which a manifold is rebuilt
   static constexpr double kReach = 0x1p-5;    ///< points with a larger gap are omitted
   static constexpr double kOverlapped =
-      0x1p-9;  ///< points that differ by more from the best axis' separation are omitted
+      0x1p-9;  ///< points deeper by more than the best edge axis' penetration are omitted
 };
 
 /// A contact point with its accumulated impulses, matched by feature when the manifold is rebuilt.

@@ -41,7 +41,7 @@ double ConcaveBound::vertexRoot(double floor, double at, double most) const {
   const double rate = rate_ - sum([&](const Kink& kink) {
                         return positive(kink) ? kink.weight * kink.rate : -kink.weight * kink.rate;
                       });
-  // A vertex lies at or below the floor only by rounding.
+  // Only rounding can put a vertex at or below the floor.
   return height > 0 ? firstRoot(height, rate, curvature_, most) : 0;
 }
 

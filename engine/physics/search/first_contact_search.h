@@ -7,9 +7,9 @@
 
 namespace careen {
 
-/// [s] beyond any search.
+/// [s] later than any search window.
 inline constexpr double kNever = 0x1p500;
-/// [1] Bounding spheres are taken larger by this, so that rounding never skips a corner's touch.
+/// [1] Enlarges bounding spheres, so that rounding never skips contact of a corner.
 inline constexpr double kSphere = 1 + 0x1p-40;
 
 /// [1/s²] K with |r̈| ≤ K|r| for every r fixed in the body.
@@ -17,30 +17,30 @@ inline double turningBound(const MovingBox& box) {
   return box.angularSpeedBound * box.angularSpeedBound + box.angularAccelerationBound;
 }
 
-/// What falls from rest within 8 tolerances of contact is slower than this.
+/// Faster than anything that falls from rest within 8 tolerances of contact.
 inline bool fasterThanSinking(double approach, double curvature, double tolerance) {
   return approach > 0 && approach * approach > 16 * curvature * tolerance;
 }
 
-/// [s] to the root of a gap that closes at `approach`; 0 where its curvature makes Newton's step unsafe.
+/// [s] Newton step to the root of a gap closing at `approach`; 0 where its curvature makes the step unsafe.
 inline double newtonStep(double gap, double approach, double curvature) {
   const bool safe = approach * approach > 4 * curvature * std::fabs(gap);
   return safe ? gap / approach : 0;
 }
 
-/// The search of time_of_impact.h, the same for walls and boxes. An Approach knows one pair:
-///   skip(t)              t, or the later time before which bounding spheres rule contact out
-///   moveTo(t)            evaluates the pair at t, for the calls below
-///   gap(), tolerance()   [m] the gap and what is zero within rounding
-///   closing()            the gap's rate to come is negative beyond rounding
-///   closesHard()         faster than sinking from rest through a few tolerances could make it
-///   freeStep(floor, most) [s] proved: the gap stays above `floor` so long, at most `most`
-///   polish()             [s] from here to the root by one Newton step, 0 where that is not safe
-///   describe()           the contact at this moment
+/// The time-of-impact search of time_of_impact.h, shared by walls and boxes. An Approach represents one pair:
+///       skip(t)              t, or the later time before which bounding spheres rule out contact
+///       moveTo(t)            evaluates the pair at t, for the calls below
+///       gap(), tolerance()   [m] the gap, and the rounding below which it counts as zero
+///       closing()            the gap's rate ahead is negative beyond rounding
+///       closesHard()         closes faster than falling from rest through a few tolerances could
+///       freeStep(floor, most) [s] proved time step in which the gap stays above `floor`, at most `most`
+///       polish()             [s] Newton step from here to the root, 0 where it is not safe
+///       describe()           the contact at this time
 template <class Approach>
 FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
-  // A search that has not ended by then hands back what it has proved; a pair that hovers within rounding for
-  // so long is in lasting contact.
+  // Evaluation budget: when exceeded, the search returns what it has proved. Evaluations with the gap within
+  // rounding: when exceeded, the pair is in lasting contact.
   constexpr int kMostEvaluations = 50'000;
   constexpr int kMostGrazing = 500;
   const auto noneUntil = [](double time, int evaluations) {
@@ -51,8 +51,8 @@ FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
   };
 
   double t = window.from;
-  bool grazing = false;  // within rounding of contact, not closing
-  double base = 0;       // the gap where grazing began, at most 0
+  bool grazing = false;  // gap zero within rounding, not closing
+  double base = 0;       // gap when grazing began, at most 0
   int grazes = 0;
   FirstContact touch;
   for (int evaluations = 1; evaluations <= kMostEvaluations; ++evaluations) {
@@ -71,7 +71,8 @@ FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
     } else if (approach.closing() && (!grazing || approach.closesHard())) {
       FirstContact impact = approach.describe();
       impact.kind = ContactKind::kImpact;
-      // A root before the search began is none: boxes that overlap by rounding may have touched ever since.
+      // A root before the start of the search does not count: boxes that overlap by rounding may have touched
+      // ever since.
       const double root = t + approach.polish();
       impact.time = root < (grazing ? touch.time : window.from) ? t : std::min(root, window.until);
       impact.evaluations = evaluations;
@@ -94,7 +95,7 @@ FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
     }
     const double next = t + approach.freeStep(floor, window.until - t);
     if (next <= t) {
-      // The gap closes within one unit in the last place of the time.
+      // The gap closes within one ulp of the time.
       FirstContact now = approach.describe();
       now.kind = approach.closing() ? ContactKind::kImpact : ContactKind::kTouching;
       now.time = t;

@@ -12,11 +12,11 @@ namespace careen {
 namespace {
 
 constexpr double kLarge = 4;            // [1] times the median radius
-constexpr double kMargin = 1.0 / 16;    // [1] of an edge, before a body is filed anew
-constexpr double kMostCells = 0x1p+52;  // beyond, neighbouring cells cannot be told apart
+constexpr double kMargin = 1.0 / 16;    // [1] of an edge: hysteresis before a body changes cell
+constexpr double kMostCells = 0x1p+52;  // beyond, adjacent cells cannot be distinguished
 constexpr double kNeverCrosses = std::numeric_limits<double>::max();
 
-// [s] First t ≥ from with position + v t + ½ a t² = limit, coming from below. At or above it already: `from`.
+// [s] First t ≥ from with position + v t + ½ a t² = limit, from below. If already at or above it: `from`.
 double whenAbove(double limit, double position, double velocity, double acceleration, double from) {
   const double room = limit - (position + (velocity + 0.5 * from * acceleration) * from);
   if (room <= 0) {
@@ -49,7 +49,7 @@ Neighbors::Neighbors(std::span<const double> radii) {
       largestFiled_ = radius;
     }
   }
-  // Two spheres two cells apart: edge − 2 margins ≥ one diameter.
+  // Spheres two cells apart: edge − 2 margins ≥ one diameter.
   edge_ = 2 * largestFiled_ / (1 - 2 * kMargin);
 }
 

@@ -11,53 +11,52 @@
 
 namespace careen {
 
-/// Cell of the grid, in cell edges from the world's origin.
+/// Grid cell: integer coordinates in cell edges from the world's origin.
 using Cell = std::array<std::int64_t, 3>;
 
-/// Whom a body can meet, without asking all: a grid of cubic cells, each body filed under the cell of its
-/// centre. The edge is 8/7 of the largest diameter, and a body is filed anew when its centre is more than
-/// 1/16 of an edge outside its cell; so spheres that touch are always in the same or adjoining cells, a body
-/// on a border does not flit, and rounding has 1/16 of an edge to live in. Per event: 27 cells, O(1) for a
-/// gas.
+/// Broad phase: a uniform grid of cubic cells, each body stored in the cell of its centre. The edge is 8/7 of
+/// the largest diameter, and a body changes cell when its centre is more than 1/16 of an edge outside its
+/// cell; so touching spheres are always in the same or adjacent cells, a body on a border does not switch
+/// back and forth, and 1/16 of an edge absorbs rounding. Per event: 27 cells, O(1) for a gas.
 ///
-/// Very unequal sizes: bodies more than 4 times the median radius (a floor, a ramp) are not filed but listed
-/// apart, and are candidates of everyone. That costs O(their number) per event, and the cells stay small.
-/// With many large bodies among many more small ones this grows to O(large).
+/// Very unequal sizes: bodies more than 4 times the median radius (a floor, a ramp) are not stored in the
+/// grid but in a separate list, and are candidates of every body. That costs O(their number) per event, and
+/// the cells stay small. With many large bodies among many more small ones this grows to O(large).
 ///
-/// Few bodies have no grid: to ask all of them costs less than to file one.
+/// Few bodies have no grid: testing all costs less than maintaining cells.
 ///
-/// Bodies are known by the caller's keys and lists come sorted by key: no answer depends on the order of
-/// filing.
+/// Bodies are identified by the caller's keys and lists are sorted by key: no result depends on insertion
+/// order.
 class Neighbors {
  public:
   using Key = int;
   static constexpr std::size_t kFew = 8;
 
-  /// Sizes the cells; bodies to come should be about as large as these. No more than kFew: no cells.
+  /// Chooses the cell size from typical radii. No grid for kFew or fewer.
   explicit Neighbors(std::span<const double> radii);
 
   /// [m] 0 if there is no grid.
   double cellEdge() const { return edge_; }
   Cell cellOf(const Vec3& position) const;
 
-  /// Keys must be new. A sphere too large for the cells is listed apart.
+  /// Keys must be new. A sphere too large for the cells goes to the separate list.
   void insert(Key body, const Vec3& position, double radius);
   void erase(Key body);
   void move(Key body, const Cell& cell);
-  /// The body's cell as filed; only for bodies with isFiled.
+  /// The cell in which the body is stored; only for bodies with isFiled.
   const Cell& cell(Key body) const { return places_.at(body).cell; }
   bool isFiled(Key body) const { return places_.at(body).filed; }
 
-  /// Everyone the body can touch before it or they are filed anew: sorted, itself left out. Large bodies are
-  /// candidates of all and have all as candidates.
+  /// All bodies it can touch before either changes cell: sorted, itself excluded. Large bodies are candidates
+  /// of all and have all as candidates.
   void findCandidates(Key body, std::vector<Key>& candidates) const;
 
   struct Crossing {
-    double time = 0;  ///< [s] from the flight's start; past every time if it stays
-    Cell cell{};      ///< to be filed under then
+    double time = 0;  ///< [s] from the flight's start; later than any time if it stays
+    Cell cell{};      ///< new cell from then on
   };
-  /// When a centre on the parabola position + velocity·t + ½ acceleration·t² has left `cell` by 1/16 of an
-  /// edge, not before `from`. Closed form; later crossings are found by asking again.
+  /// When a centre on the parabola position + velocity·t + ½ acceleration·t² is 1/16 of an edge outside
+  /// `cell`, not before `from`. Closed form; call again for later crossings.
   Crossing nextCrossing(const Vec3& position, const Vec3& velocity, const Vec3& acceleration,
                         const Cell& cell, double from) const;
 

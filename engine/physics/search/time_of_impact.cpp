@@ -84,7 +84,7 @@ class WallApproach {
   const double acceleration_;
   const double radius_;
   const double curvature_;
-  std::array<double, 3> sizes_{};  // lengths, speeds and accelerations that round
+  std::array<double, 3> sizes_{};  // magnitudes of lengths, speeds and accelerations, for rounding bounds
   Vec3 up_ = Vec3::Zero();
   ConcaveBound bound_{0, 0, 0};
   double gap_ = 0;

@@ -5,43 +5,45 @@
 #include "physics/geometry/separation.h"
 #include "physics/motion/motion.h"
 
-// When a tumbling box first touches a wall or another tumbling box. Nothing is sampled: time advances by
-// steps each of which is *proved* free of contact, so no contact is missed however fast, thin or grazing.
+// Time of impact of a tumbling box with a wall or another tumbling box. Nothing is sampled (conservative
+// advancement): time advances by steps each *proved* free of contact, so no contact is missed however fast,
+// thin or grazing.
 //
 // The proof. Along a direction u every vertex (or pair of vertices) c has a height f_c(t), and the gap is the
-// lowest: d = min_c f_c. With a bound M ≥ −f̈_c that holds for the whole flight,
+// lowest: d = min_c f_c. With a bound M ≥ −f̈_c valid for the whole flight,
 //     d(t₀+δ) ≥ min_c [ f_c(t₀) + ḟ_c(t₀) δ ] − ½Mδ²  =:  F(δ),
-// and min_c [...] = level + rate·δ − Σ hₖ|qₖ + q̇ₖδ| has one kink where each edge turns over. F is concave and
-// known in closed form; up to its first root there is no contact. A gap that closes at a finite speed is
-// reached quadratically, as by Newton's method, but never from behind.
+// and min_c [...] = level + rate·δ − Σ hₖ|qₖ + q̇ₖδ| has one kink per edge. F is concave and known in closed
+// form; up to its first root there is no contact. A gap that closes at a finite speed is approached
+// quadratically, as by Newton's method, but never overshot.
 //
-// Bounds. W ≥ |ω| and W' ≥ |ω̇| over the flight; a vector of length r fixed in the body has |r̈| ≤ K r with
-// K = W² + W' (Eq. 13). R is the half diagonal, Δ runs from b's centre to a's, V ≥ |Δ̇|, G = |relative
+// Bounds. W ≥ |ω| and W' ≥ |ω̇| over the flight; a vector of length r fixed in the body has |r̈| ≤ K r with K
+// = W² + W' (Eq. 13). R is the half diagonal, Δ runs from b's centre to a's, V ≥ |Δ̇|, G = |relative
 // gravity|, and K_ab = K_a + 2 W_a W_b + K_b bounds the second derivative of any product of a vector of each.
-//   wall                    M = K R − n·g
-//   u turning with b's face M = K_b|Δ| + 2 W_b V + G + K_ab R_a      (f = u·Δ + u·r_a; likewise a's face)
-//   N = aᵢ×bⱼ turning       M = K_ab|Δ| + 2 (W_a+W_b) V + G + K_ab (ρ_a+ρ_b)   (ρ: half diagonal across the
-//   edge) u at rest in space      M = K_a R_a + K_b R_b − u·g
-// In a step of Contact the centre's path is no parabola: G then bounds the relative acceleration, whatever
-// its direction. N is left at its own length sin θ there: its root is that of the unit direction and M does
-// not grow as θ → 0. Directions that turn with the boxes converge quadratically; the one at rest costs
-// little, is safe for nearly parallel edges too, and takes the long time steps. Each proves the step on its
-// own, so the longest is taken.
+//     wall                      M = K R − n·g
+//     u rotating with b's face  M = K_b|Δ| + 2 W_b V + G + K_ab R_a   (f = u·Δ + u·r_a; likewise a's face)
+//     N = aᵢ×bⱼ rotating        M = K_ab|Δ| + 2 (W_a+W_b) V + G + K_ab (ρ_a+ρ_b)
+//     u fixed in space          M = K_a R_a + K_b R_b − u·g
+// ρ is the half diagonal across the edge. In a ContactStep the centre's path is no parabola: G then bounds
+// the relative acceleration in any direction. N keeps its length sin θ: its root is that of the unit
+// direction and M does not grow as θ → 0. Directions that rotate with the boxes converge quadratically; the
+// fixed one is cheap, also safe for nearly parallel edges, and gives the long time steps. Each proves its
+// step on its own, so the longest is taken.
 //
 // Touching. A gap within rounding is zero (kGapRounding). If it closes, that is an impact; if not, the pair
-// is watched until it is clear again, or sinks by 4 roundings without ever closing at a speed above rounding
-// (at rest on the wall, rolling, or a hop too low to resolve): then flight is over and Contact takes over.
+// is followed until it separates, or sinks by 4 roundings without ever closing at a speed above rounding
+// (resting on the wall, rolling, or a hop too low to resolve): then flight ends and contact stepping takes
+// over.
 
 namespace careen {
 
-/// How a body is turned at a moment.
+/// Attitude and angular velocity of a body at one time.
 struct Attitude {
   Mat3 worldFromBody = Mat3::Identity();
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s] world frame
 };
 
-/// Views anything that can be called with the time since its flight began [s] and gives an Attitude. Owns
-/// nothing: what it was made from must outlive it.
+/// Non-owning view of a callable that maps the time since the flight began [s] to an Attitude; the callable
+/// must outlive it.
 class AttitudeView {
  public:
   template <class Rotation>
@@ -56,17 +58,17 @@ class AttitudeView {
   Attitude (*call_)(const void*, double);
 };
 
-/// A box in flight, or at rest: then velocity, acceleration and bounds are zero. Or in a step of Contact.
+/// A box in flight, at rest (velocity, acceleration and bounds zero), or in a ContactStep.
 struct MovingBox {
   Vec3 halfExtents;
   Vec3 position;                        ///< [m] of the centre when the flight began, world
   Vec3 velocity;                        ///< [m/s] likewise
   Vec3 acceleration;                    ///< [m/s²] constant
-  double age = 0;                       ///< [s] of the flight when the search's clock is 0
+  double age = 0;                       ///< [s] time since the flight began, at search time 0
   double angularSpeedBound = 0;         ///< [rad/s] never exceeded in this flight
   double angularAccelerationBound = 0;  ///< [rad/s²] likewise
   AttitudeView attitude;
-  const ContactStep* step = nullptr;  ///< how the centre moves, in place of the above
+  const ContactStep* step = nullptr;  ///< motion of the centre, in place of the above
   double speedBound = 0;              ///< [m/s] of the centre in this step
   double accelerationBound = 0;       ///< [m/s²] likewise
 
@@ -87,38 +89,37 @@ struct MovingBox {
 enum class ContactKind {
   kNone,      ///< proved free of contact up to `time`
   kImpact,    ///< at `time` the gap is zero and closes
-  kTouching,  ///< from `time` on the gap stays zero within rounding and sinks: needs the motion Contact
+  kTouching,  ///< from `time` on the gap stays zero within rounding and sinks: needs contact stepping
 };
 
 struct FirstContact {
   ContactKind kind = ContactKind::kNone;
-  /// [s] kNone: the end of the search, or less if its budget of evaluations ran out (search again from
-  /// there).
+  /// [s] kNone: the end of the search, or earlier if its evaluation budget ran out (resume from there).
   double time = 0;
-  double approach = 0;         ///< [m/s] speed at which the gap closes, of the fastest of the lowest corners
+  double approach = 0;         ///< [m/s] closing speed of the gap, of the fastest of the lowest corners
   Vec3 normal = Vec3::Zero();  ///< [1] unit, from b (or the wall) to a
-  BoxAxis axis;                ///< box and box: the separating direction that closed
+  BoxAxis axis;                ///< box and box: separating axis whose gap closed
   CornerSet corners = 0;       ///< box and wall: the lowest corners, within kSimultaneous
-  int evaluations = 0;         ///< moments at which attitudes were asked for
+  int evaluations = 0;         ///< number of attitude evaluations
 };
 
-/// [s] The search's clock is 0 wherever the ages put it. A search from 0 depends on the two flights alone, so
-/// its result is the same bits whenever it is asked for: let 0 be the moment the later of the two flights
-/// began.
+/// [s] Search time is 0 where the ages put it. A search from 0 depends on the two flights alone, so its
+/// result is the same bits whenever it is run: let 0 be the time at which the later of the two flights began.
 struct SearchWindow {
   double from = 0;
   double until = 0;
 };
 
 /// First contact of a box with the wall normal·x = offset (normal unit, towards the free side). A box that
-/// was just resolved and leaves is let go; one that begins overlapped is let go too unless it closes further.
+/// was just resolved and separates is no contact; one that starts in penetration is none either unless it
+/// closes further.
 FirstContact firstContactWithWall(const MovingBox& box, const Vec3& normal, double offset,
                                   const SearchWindow& window);
 
-/// [s] Before this moment, 0 or later, the box's bounding sphere is clear of the wall.
+/// [s] Time (≥ 0) until which the box's bounding sphere is clear of the wall.
 double sphereClearUntil(const MovingBox& box, const Vec3& normal, double offset);
 
-/// First contact of two boxes. The same bits in time when a and b change places (normal reversed).
+/// First contact of two boxes. Swapping a and b gives the same bits in time (normal reversed).
 FirstContact firstContactOfBoxes(const MovingBox& a, const MovingBox& b, const SearchWindow& window);
 
 }  // namespace careen

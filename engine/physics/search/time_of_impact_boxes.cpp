@@ -9,10 +9,11 @@
 namespace careen {
 namespace {
 
-// Edges at a smaller angle than this [sine] have no direction worth turning with: the proof there is the one
-// at rest in space, which needs no derivative of the direction.
+// Below this sine of the angle between edges their cross product is not used as a rotating direction: the
+// proof is the one fixed in space, which needs no derivative of the direction.
 constexpr double kTurningEdges = 0x1p-7;
-// While contact is watched for sinking, edges must stay this far from parallel for a floor to mean the same.
+// While a grazing contact is tested for sinking, edges must be this far from parallel, so that the floor
+// means the same.
 constexpr double kGrazingEdges = 0x1p-3;
 
 double sumOfSizes(const Vec3& v) { return std::fabs(v.x()) + std::fabs(v.y()) + std::fabs(v.z()); }
@@ -39,7 +40,7 @@ class BoxApproach {
 
   double gap() const { return axes_->gap(); }
   double tolerance() const { return tolerance_; }
-  // Rates are needed where the search ends only.
+  // Rates are needed only where the search ends.
   bool closing() {
     findRates();
     return closing_;
@@ -73,12 +74,12 @@ class BoxApproach {
   void boundTranslation(double time);
   void findRates();
 
-  /// Bound along a direction that turns with the boxes; for edges times sine(axis).
+  /// Bound along a direction that rotates with the boxes; for edges, times sine(axis).
   ConcaveBound bound(BoxAxis axis) const;
   ConcaveBound faceOfABound(int i) const;
   ConcaveBound faceOfBBound(int j) const;
   ConcaveBound edgeBound(int i, int j) const;
-  /// Bound along the axis' present direction, held at rest in space.
+  /// Bound along the axis' current direction, fixed in space.
   ConcaveBound restingBound(BoxAxis axis) const;
   bool turnsWell(BoxAxis axis, double least) const {
     return axis.kind() != BoxAxis::Kind::kEdges || sine(axis) >= least;
@@ -100,10 +101,10 @@ class BoxApproach {
   const double turningA_;
   const double turningB_;
   const double turningBoth_;
-  const bool steps_;      // one of them is in Contact
+  const bool steps_;      // one of them is in a ContactStep
   const double gravity_;  // [m/s²] bounds the relative acceleration
 
-  // At the present moment:
+  // At the current time:
   Attitude nowA_;
   Attitude nowB_;
   Vec3 offset_ = Vec3::Zero();
@@ -112,7 +113,7 @@ class BoxApproach {
   std::optional<BoxAxes> axes_;
   double mostDistance_ = 0;  // [m] |Δ| and
   double mostSpeed_ = 0;     // [m/s] |Δ̇| stay below these
-  double validity_ = 0;      // [s] for so long
+  double validity_ = 0;      // [s] for this long
   double tolerance_ = 0;
   double rateTolerance_ = 0;
   double approach_ = 0;
@@ -128,7 +129,7 @@ double BoxApproach::skip(double time) const {
   return steps_ ? skipInSteps(time) : gravity_ == 0 ? skipStraight(time) : skipCurved(time);
 }
 
-// |Δ + Δ̇ s| = R. The discriminant as a cross product: far away nothing cancels.
+// |Δ + Δ̇ s| = R. The discriminant as a cross product: no cancellation far away.
 double BoxApproach::skipStraight(double time) const {
   const Vec3 offset = offsetAt(time);
   const double along = offset.dot(velocity_);
@@ -141,8 +142,8 @@ double BoxApproach::skipStraight(double time) const {
   return time + clear / (std::sqrt(discriminant) - along);
 }
 
-// A body in flight against one that is held: |Δ| is at least its part along any direction u, and that part is
-// a parabola; step to its root, turn u, repeat. Ends early, short of contact, where the spheres come close.
+// A body in flight against a fixed one: |Δ| is at least its component along any direction u, which is a
+// parabola; step to its root, update u, repeat. Stops short of contact, where the spheres come close.
 double BoxApproach::skipCurved(double time) const {
   constexpr int kMostSteps = 64;
   const double close = spheres_ * (1 + 0x1p-10);
@@ -158,7 +159,7 @@ double BoxApproach::skipCurved(double time) const {
   return time;
 }
 
-// At the relative speed there is, and what it can gain.
+// At the current relative speed plus what it can gain.
 double BoxApproach::skipInSteps(double time) const {
   const Vec3 offset = offsetAt(time);
   const double distance = offset.norm();
@@ -166,8 +167,9 @@ double BoxApproach::skipInSteps(double time) const {
   return time + firstRoot(distance - spheres_, offset.dot(velocity) / distance, gravity_, kNever);
 }
 
-// Between straight flights the distance of the centres is a convex function of time: it stays below R_a + R_b
-// until the spheres part for good. Otherwise the bounds hold for a time step of half that length.
+// In straight flight the distance of the centres is a convex function of time: it stays below R_a + R_b until
+// the spheres separate for good. Otherwise the bounds hold for a time step in which it moves half that
+// length.
 void BoxApproach::boundTranslation(double time) {
   if (gravity_ == 0 && !steps_) {
     mostSpeed_ = velocity_.norm();
@@ -177,7 +179,8 @@ void BoxApproach::boundTranslation(double time) {
     const double discriminant = squaredSpeed * spheres_ * spheres_ - offset_.cross(velocity_).squaredNorm();
     const double ahead = discriminant > 0 ? std::sqrt(discriminant) - along : -along;
     validity_ = squaredSpeed > 0 && ahead < kNever * squaredSpeed ? ahead / squaredSpeed : kNever;
-    // At the spheres' very edge rounding may leave nothing: any time step with this distance bound will do.
+    // At the very edge of the spheres rounding may leave nothing: any time step with this distance bound is
+    // valid.
     const double least = 0x1p-20 * spheres_;
     if (squaredSpeed > 0 && validity_ * mostSpeed_ < least) {
       validity_ = least / mostSpeed_;
@@ -187,7 +190,7 @@ void BoxApproach::boundTranslation(double time) {
   }
   const double speed = velocityAt(time).norm();
   const double reach = 0.5 * spheres_;
-  // v s + ½ g s² ≤ time step for s = time step / (v + sqrt(½ g time step)).
+  // v s + ½ g s² ≤ reach for s = reach / (v + sqrt(½ g reach)).
   const double pace = speed + std::sqrt(0.5 * gravity_ * reach);
   validity_ = pace > 0 ? reach / pace : kNever;
   mostSpeed_ = speed + gravity_ * validity_;
@@ -224,7 +227,7 @@ void BoxApproach::moveTo(double time) {
   ratesKnown_ = false;
 }
 
-// The gap is the largest separation, so its rate is the largest among the directions that attain it.
+// The gap is the largest separation, so its rate is the largest among the axes that attain it.
 void BoxApproach::findRates() {
   if (ratesKnown_) {
     return;
@@ -233,7 +236,7 @@ void BoxApproach::findRates() {
   closing_ = true;
   approach_ = kNever;
   curvature_ = 0;
-  // Of boxes that overlap within what counts as touching, any direction may be the one they part along.
+  // Boxes that overlap within the contact tolerance may separate along any axis.
   const double alike = axes_->gap() < -tolerance_ ? kSimultaneous * std::min(radiusA_, radiusB_) : tolerance_;
   for (int k = 0; k < BoxAxis::kCount; ++k) {
     const BoxAxis axis{k};
@@ -257,8 +260,8 @@ double BoxApproach::freeStep(double floor, double most) const {
   for (int k = 0; k < BoxAxis::kCount; ++k) {
     const BoxAxis axis{k};
     const double separation = axes_->separation(axis);
-    // Far from contact the widest direction alone is worth the work; equals are all tried, so that the answer
-    // does not depend on which box is called a.
+    // Far from contact only the axis of largest separation is worth evaluating; ties are all evaluated, so
+    // that the result does not depend on which box is called a.
     if (separation <= floor || (!grazing && separation < axes_->gap())) {
       continue;
     }
@@ -313,7 +316,7 @@ ConcaveBound BoxApproach::faceOfBBound(int j) const {
   return f;
 }
 
-// N = aᵢ × bⱼ. Of the edges across, N·a is up to its sign the cosine of b's edge with a's third, and so for
+// N = aᵢ × bⱼ. For the other edges, N·a is up to sign the cosine of b's edge with a's third, and likewise for
 // b: kinks have no sign. For which products cancel, see BoxAxes.
 ConcaveBound BoxApproach::edgeBound(int i, int j) const {
   const Vec3 edgeA = nowA_.worldFromBody.col(i);

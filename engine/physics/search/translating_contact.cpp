@@ -8,8 +8,8 @@
 namespace careen {
 namespace {
 
-// First t > 0 at which d + v t + ½ a t² falls to zero, for d > 0, or d = 0 and v > 0. No difference of near
-// numbers: the root is taken in whichever form adds.
+// First t > 0 at which d + v t + ½ a t² falls to zero, for d > 0, or d = 0 and v > 0. No cancellation: the
+// root is taken in whichever form adds.
 std::optional<double> firstFall(double d, double v, double a) {
   if (d == 0) {
     return a < 0 ? std::optional(2 * v / -a) : std::nullopt;
