@@ -7,12 +7,12 @@
 namespace careen {
 namespace {
 
-// The corner, edge or face of a box that lies furthest along a direction, seen from a box's centre of mass:
-// places are differences, so that what is symmetric about it stays so to the bit wherever the boxes are.
+// Support feature: the corner, edge or face of a box that lies furthest along a direction. Positions are
+// relative to a box's centre of mass: what is symmetric about it stays so bitwise wherever the boxes are.
 struct Feature {
   Vec3 centre = Vec3::Zero();
   int freedom = 0;               // 0 corner, 1 edge, 2 face
-  std::array<Vec3, 2> axis;      // [1] along which it extends
+  std::array<Vec3, 2> axis;      // [1] directions along which it extends
   std::array<double, 2> half{};  // [m]
 
   double extent() const { return half[0] * half[1]; }
@@ -82,7 +82,7 @@ class Manifold {
   ContactPoints points_;
 };
 
-// A convex polygon of at most four corners, cut by at most four lines.
+// A convex polygon of at most four corners, clipped by at most four lines.
 struct Polygon {
   std::array<Vec3, ContactPoints::kMost> corner;
   std::size_t count = 0;
@@ -94,8 +94,8 @@ struct Polygon {
   }
 };
 
-// What is left of a polygon (or of a segment, a polygon of two) where outward·x ≤ limit (Sutherland and
-// Hodgman 1974). The cut of an edge is computed from its inner end, whichever way the edge runs.
+// The part of a polygon (or of a segment, a polygon of two) where outward·x ≤ limit (Sutherland and Hodgman
+// 1974). The intersection on an edge is computed from its inner end, whichever way the edge runs.
 Polygon cut(const Polygon& polygon, const Vec3& outward, double limit, double within) {
   Polygon left;
   const std::size_t edges = polygon.count == 2 ? 1 : polygon.count;
@@ -113,7 +113,7 @@ Polygon cut(const Polygon& polygon, const Vec3& outward, double limit, double wi
       const Vec3& outer = fromIn ? to : from;
       const double in = fromIn ? outsideFrom : outsideTo;
       const double out = fromIn ? outsideTo : outsideFrom;
-      // An inner end on the line itself is its own cut.
+      // An inner end on the line is itself the intersection.
       if (in < 0) {
         left.add(inner + (in / (in - out)) * (outer - inner));
       }
@@ -122,7 +122,7 @@ Polygon cut(const Polygon& polygon, const Vec3& outward, double limit, double wi
   return left;
 }
 
-// The part of a face or an edge that lies over a face, both seen from the same centre.
+// The part of a face or an edge over a face, both relative to the same centre.
 Polygon clip(const Feature& incident, const Feature& face, double within) {
   Polygon polygon;
   polygon.add(incident.corner(1, 1));
@@ -137,7 +137,7 @@ Polygon clip(const Feature& incident, const Feature& face, double within) {
     polygon = cut(polygon, -face.axis[k], face.half[k] - middle, within);
   }
   if (polygon.count == 0) {
-    // They pass each other by rounding: the incident feature's middle, brought over the face.
+    // Disjoint by rounding: the midpoint of the incident feature, clamped to the face.
     Vec3 point = incident.centre;
     for (std::size_t k = 0; k < 2; ++k) {
       const double along = face.axis[k].dot(point - face.centre);
@@ -148,8 +148,8 @@ Polygon clip(const Feature& incident, const Feature& face, double within) {
   return polygon;
 }
 
-// Two edges, each seen from its own box: the middle of their shortest link, or the ends of what parallel
-// edges have in common.
+// Two edges, each relative to its own box: the midpoint of their closest points, or the ends of the overlap
+// of parallel edges.
 void cross(const Feature& a, const Feature& b, const Vec3& bToA, double within, Manifold& manifold) {
   const Vec3& u = a.axis[0];
   const Vec3& v = b.axis[0];
@@ -172,7 +172,7 @@ void cross(const Feature& a, const Feature& b, const Vec3& bToA, double within, 
   manifold.addOnA(a.centre + (low <= high ? high : 0.5 * (low + high)) * u);
 }
 
-// The direction the boxes touch along: a face if one separates as well as the best.
+// The contact axis: a face axis if its separation equals the best.
 BoxAxis contactAxis(const BoxAxes& axes, double within) {
   int best = 0;
   for (int k = 1; k < 6; ++k) {
@@ -197,7 +197,7 @@ ContactPoints boxContactPoints(const Pose& a, const Vec3& halfExtentsA, const Po
   const Feature ofB = furthest(b, halfExtentsB, normal, within);
   Manifold manifold(normal, bToA, within);
   if (ofA.freedom == 0 || ofB.freedom == 0) {
-    // Of two corners, the one that meets the other box's face or edge is the point.
+    // Of two corners, the contact point is the one that meets the other box's face or edge.
     const bool cornerOfA = ofA.freedom == 0 && axis.kind() != BoxAxis::Kind::kFaceOfA;
     if (cornerOfA || ofB.freedom > 0) {
       manifold.addOnA(ofA.centre);
@@ -206,7 +206,7 @@ ContactPoints boxContactPoints(const Pose& a, const Vec3& halfExtentsA, const Po
     }
   } else if (ofA.freedom == 1 && ofB.freedom == 1) {
     cross(ofA, ofB, bToA, within, manifold);
-    // The smaller face is laid on the larger, so that one that lies within keeps its own corners to the bit.
+    // The smaller face is clipped to the larger, so that one that lies within keeps its corners bitwise.
   } else if (ofB.freedom == 2 && (ofA.freedom == 1 || ofA.extent() < ofB.extent())) {
     const Polygon common = clip(ofA, ofB.seenFrom(bToA), within);
     for (std::size_t k = 0; k < common.count; ++k) {

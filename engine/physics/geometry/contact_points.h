@@ -9,14 +9,15 @@
 
 namespace careen {
 
-/// A point where box a touches box b, seen from both: position + arm − position is not arm in floating point.
+/// A contact point of boxes a and b, relative to both: position + arm − position is not arm in floating
+/// point.
 struct ContactPoint {
   Vec3 armA = Vec3::Zero();    ///< [m] world, from a's centre of mass
   Vec3 armB = Vec3::Zero();    ///< [m] world, from b's
   Vec3 normal = Vec3::Zero();  ///< [1] unit, from b to a
 };
 
-/// The points of one pair's contact, at most those of two quadrilaterals laid on each other.
+/// Contact manifold of one pair: at most the points of two intersecting quadrilaterals.
 class ContactPoints {
  public:
   static constexpr std::size_t kMost = 8;
@@ -33,17 +34,16 @@ class ContactPoints {
   std::size_t count_ = 0;
 };
 
-/// At the moment of an impact: where two boxes touch. The normal is that of the face that separates best if
-/// it does so within kSimultaneous of the best direction, else of the two edges. Each box's lowest feature
-/// towards the other, within kSimultaneous, is a corner, an edge or a face; their common part is a corner, a
-/// crossing, the ends of a segment, or the corners of a polygon. Points nearer to each other than
-/// kSimultaneous are one.
+/// Contact manifold of two boxes at an impact. The normal is that of the face axis of largest separation if
+/// it is within kSimultaneous of the best axis, else of the two edges. The lowest feature of each box towards
+/// the other, within kSimultaneous, is a corner, an edge or a face; their intersection is a corner, a
+/// crossing, the ends of a segment, or the corners of a polygon. Points closer together than kSimultaneous
+/// are merged.
 ///
 /// Two faces at an angle that separate equally well (boxes that meet edge to parallel edge, exactly
-/// cornerwise) have no normal of their own: the one listed first, a's before b's, is taken.
+/// cornerwise) define no unique normal: the first axis listed, a's before b's, is taken.
 ///
-/// With `apart` [m] instead of kSimultaneous, where that is more: points that so little parts are contact
-/// too.
+/// Points with a gap up to `apart` [m], if more than kSimultaneous, also count as contact.
 ContactPoints boxContactPoints(const Pose& a, const Vec3& halfExtentsA, const Pose& b,
                                const Vec3& halfExtentsB, double apart = 0);
 

@@ -10,11 +10,11 @@
 namespace careen {
 namespace {
 
-// Below this squared sine the plain cross product has lost three bits: form it without error.
+// Below this squared sine the plain cross product has lost three bits: compute it error-free.
 constexpr double kNearlyParallelSquared = 0x1p-6;
 constexpr double kParallelSquared = 0x1p-96;
 
-// ab − cd to rounding of the result, however much cancels.
+// ab − cd, accurate to rounding of the result despite cancellation.
 double differenceOfProducts(double a, double b, double c, double d) {
   const DoubleDouble x = twoProduct(a, b);
   const DoubleDouble y = twoProduct(c, d);

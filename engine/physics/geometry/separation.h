@@ -8,30 +8,27 @@
 
 namespace careen {
 
-// Every tolerance of gaps and contacts stands here. All are relative to lengths and speeds of the pair at
-// hand, so a scene with lengths times 4 and times times 2 runs through the same bits; none is an absolute
-// length.
+// All tolerances of gaps and contacts. All are relative to lengths and speeds of the pair: a scene with
+// lengths times 4 and times times 2 gives the same bits; none is an absolute length.
 
-/// [1] Rounding of a computed gap, relative to the lengths that entered it (positions, flight path, half
+/// [1] Rounding of a computed gap, relative to the lengths that enter it (positions, flight path, half
 /// diagonals): 8 × the unit roundoff of a double per sum of about ten terms. A gap below this is contact.
 inline constexpr double kGapRounding = 0x1p-49;
-/// [1] Rounding of the rate of a gap, relative to the speeds that entered it. Eight times looser than the
-/// gap's, because the rate after an impact comes out of the impact's own solve. Slower than this is not
-/// approaching.
+/// [1] Rounding of the rate of a gap, relative to the speeds that enter it. Eight times the gap's, because
+/// the rate after an impact comes from the impact's own solve. Slower than this is not approaching.
 inline constexpr double kRateRounding = 0x1p-46;
 /// [1] Contacts whose gap exceeds the smallest by less than this times the half diagonal of the smaller box
-/// happen at once: 5e-13. Chosen between the noise, as the corners of a box that falls flat stay level to
-/// rounding while it turns about the vertical, and what the start of a scene can mean: a tilt of 1e-12 is
-/// one.
+/// are simultaneous: 5e-13. Chosen between noise (the corners of a box that falls flat stay level to rounding
+/// while it rotates about the vertical) and what a scene's initial state can mean: a tilt of 1e-12 is one.
 inline constexpr double kSimultaneous = 0x1p-41;
 
-/// [m] Gaps below this are contact, at one moment: `radius` is the half diagonal of the smaller box,
-/// `lengths` what the gap is the difference of.
+/// [m] Contact tolerance at one time: `radius` is the half diagonal of the smaller box, `lengths` the
+/// magnitudes whose difference is the gap.
 inline double touchingWithin(double radius, double lengths) {
   return std::max(kSimultaneous * radius, kGapRounding * lengths);
 }
 
-/// Likewise for a box and what does not move, and for two boxes.
+/// Likewise for a box and a fixed body, and for two boxes.
 double touchingWithin(const Pose& box, const Vec3& halfExtents);
 double touchingWithin(const Pose& a, const Vec3& halfExtentsA, const Pose& b, const Vec3& halfExtentsB);
 
@@ -45,37 +42,36 @@ using CornerSet = unsigned;
 /// columns of worldFromBody.
 struct WallGap {
   double gap = 0;         ///< [m] of the lowest corner; negative: inside the wall
-  CornerSet corners = 0;  ///< those not more than `within` above the lowest
+  CornerSet corners = 0;  ///< corners at most `within` above the lowest
 };
 WallGap wallGap(const Pose& box, const Vec3& halfExtents, const Vec3& normal, double offset, double within);
 
-/// The 15 directions that can separate two boxes: the faces of each and the cross products of their edges
+/// The 15 separating-axis candidates of two boxes: face normals of each and cross products of their edges
 /// (Gottschalk, Lin, Manocha 1996). The boxes are disjoint exactly when one of them separates.
 struct BoxAxis {
   enum class Kind { kFaceOfA, kFaceOfB, kEdges };
   static constexpr int kCount = 15;
 
-  int index = 0;  ///< 0…2 faces of a, 3…5 faces of b, 6 + 3i + j edge i of a with edge j of b
+  int index = 0;  ///< 0…2 faces of a, 3…5 faces of b, 6 + 3i + j: edge i of a with edge j of b
 
   Kind kind() const { return index < 3 ? Kind::kFaceOfA : index < 6 ? Kind::kFaceOfB : Kind::kEdges; }
   int edgeOfA() const { return (index - 6) / 3; }
   int edgeOfB() const { return (index - 6) % 3; }
 };
 
-/// Separations of two boxes along the 15 directions, each taken with unit length:
-/// |u·Δ| − Σ hᵢ|u·aᵢ| − Σ kⱼ|u·bⱼ|, Δ from b's centre to a's. The same bits when a and b change places.
+/// Separations of two boxes along the 15 axes, each normalised: |u·Δ| − Σ hᵢ|u·aᵢ| − Σ kⱼ|u·bⱼ|, Δ from b's
+/// centre to a's. Swapping a and b gives the same bits.
 ///
-/// Nearly parallel edges: the cross product is formed with an error-free product, so its direction is good to
-/// rounding however short it is; below 2⁻⁴⁸ the direction is left out, which can lift the gap by 2⁻⁴⁸ of the
-/// edge at most.
+/// Nearly parallel edges: the cross product is formed error-free, so its direction is accurate to rounding
+/// however short it is; below 2⁻⁴⁸ the axis is skipped, which can change the gap by 2⁻⁴⁸ of the edge at most.
 class BoxAxes {
  public:
   BoxAxes(Mat3 worldFromA, Vec3 halfExtentsA, Mat3 worldFromB, Vec3 halfExtentsB, Vec3 bToA);
   BoxAxes(const Pose& a, const Vec3& halfExtentsA, const Pose& b, const Vec3& halfExtentsB)
       : BoxAxes(a.worldFromBody, halfExtentsA, b.worldFromBody, halfExtentsB, a.position - b.position) {}
 
-  /// [m] the largest separation and the first axis that has it. Positive: a lower bound of the distance.
-  /// Zero: touching. Negative: how deep the boxes overlap along that axis.
+  /// [m] Largest separation, and the first axis that attains it. Positive: a lower bound of the distance.
+  /// Zero: touching. Negative: penetration depth along that axis.
   double gap() const { return separation_[index(best_)]; }
   BoxAxis best() const { return {best_}; }
   double separation(BoxAxis axis) const { return separation_[index(axis.index)]; }

@@ -4,8 +4,8 @@
 
 namespace careen {
 
-/// Two unit vectors that complete a unit normal to a right-handed orthogonal frame. Mirrored in a coordinate
-/// plane, a normal has the mirrored tangents, up to their signs.
+/// Two unit vectors that complete a unit normal to a right-handed orthonormal frame. A normal mirrored in a
+/// coordinate plane has the mirrored tangents, up to sign.
 struct Tangents {
   Vec3 first;
   Vec3 second;

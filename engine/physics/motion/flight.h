@@ -4,14 +4,14 @@
 
 namespace careen {
 
-/// Free flight: constant acceleration, no torque. Known exactly at any time, however long it lasts: the
-/// centre of mass runs along a parabola, the attitude is the closed form of the torque-free top.
+/// Free flight: constant acceleration, no torque. Closed form at any time, however long it lasts: the centre
+/// of mass follows a parabola, the attitude is that of the torque-free top.
 struct Flight {
   Vec3 position = Vec3::Zero();           ///< [m] of the centre of mass at its start, world
   Vec3 velocity = Vec3::Zero();           ///< [m/s] likewise
   Vec3 acceleration = Vec3::Zero();       ///< [m/s²]
   Quat worldFromBody = Quat::Identity();  ///< at its start
-  Vec3 angularMomentum = Vec3::Zero();    ///< [kg m²/s] for all of it
+  Vec3 angularMomentum = Vec3::Zero();    ///< [kg m²/s] constant
 
   Vec3 positionAt(double elapsed) const {
     return position + (velocity + 0.5 * elapsed * acceleration) * elapsed;

@@ -14,7 +14,7 @@ BodyState stateIn(const Rest& rest, const MassProperties& /*mass*/, double /*ela
 }
 
 BodyState stateIn(const EulerStep& step, const MassProperties& mass, double elapsed) {
-  // At its start the state itself, to the bit: even a step of no length would orthonormalise anew.
+  // At its start bitwise the state itself: even a step of zero length would re-orthonormalise.
   return elapsed == 0 ? step.start
                       : listing1Step(mass, step.start, {.force = step.force, .torque = step.torque}, elapsed);
 }
@@ -42,7 +42,7 @@ BodyState stateIn(const SteppedFlight& stepped, const MassProperties& mass, doub
           .angularMomentum = rotation.angularMomentumWorld()};
 }
 
-// Σ c[k] sᵏ and its derivative by s.
+// Σ c[k] sᵏ and its derivative with respect to s.
 template <class Vector>
 struct Polynomial {
   Vector value;
@@ -62,7 +62,7 @@ BodyState stateIn(const ContactStep& step, const MassProperties& mass, double el
   const double s = elapsed / step.duration;
   const auto position = evaluate(step.position, s);
   const auto turn = evaluate(step.worldFromBody, s);
-  // ω = 2 q̇ q*, of a quaternion of any length
+  // ω = 2 q̇ q*, for a quaternion of any length.
   const Quat q(turn.value);
   const Quat rate(turn.slope);
   const Vec3 omega = (2 / (step.duration * turn.value.squaredNorm())) * (rate * q.conjugate()).vec();
@@ -92,7 +92,7 @@ StepBounds boundsOf(const ContactStep& step) {
     bounds.angularSpeed += 2 * first * step.worldFromBody[k].norm();
     bounds.angularAcceleration += 2 * second * step.worldFromBody[k].norm();
   }
-  // Between its ends the quaternion's length is not quite 1.
+  // Between the ends the quaternion's length is not exactly 1.
   constexpr double kLength = 1 + 0x1p-6;
   bounds.angularSpeed *= kLength;
   bounds.angularAcceleration =

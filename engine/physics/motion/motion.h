@@ -13,8 +13,8 @@ struct Rest {
   Pose pose;
 };
 
-/// One explicit Euler step of Listing 1, left open at its end: at time s into it, the body is where a step of
-/// length s would have put it.
+/// One explicit Euler step of Listing 1 with open end: at time s into it, the body is where a step of length
+/// s would have put it.
 struct EulerStep {
   BodyState start;
   Vec3 force = Vec3::Zero();   ///< [N] total, at the start
@@ -23,27 +23,27 @@ struct EulerStep {
 
 enum class Method : int;
 
-/// Free flight by a method that steps: the centre of mass runs along the parabola, the attitude is what steps
-/// of dt and a last shorter one lead to.
+/// Free flight by a stepping method: the centre of mass follows the parabola, the attitude results from steps
+/// of dt and a last shorter one.
 struct SteppedFlight {
   Method method{};
   double dt = 0;  ///< [s]
   Flight start;
 };
 
-/// One step of the motion Contact: polynomials of degree 5 through place, velocity and acceleration at both
-/// ends (Hermite), which err no more than the step does.
+/// One time step of contact stepping: degree-5 Hermite polynomials through position, velocity and
+/// acceleration at both ends, whose error does not exceed that of the step.
 struct ContactStep {
   double duration = 0;  ///< [s]
   /// [m] position at s = elapsed/duration: Σ position[k] sᵏ.
   std::array<Vec3, 6> position{};
-  /// Quaternion x y z w likewise, up to its length.
+  /// Quaternion x y z w likewise, not normalised.
   std::array<Vec4, 6> worldFromBody{};
 };
 
 Vec3 positionAt(const ContactStep& step, double elapsed);
 Vec3 velocityAt(const ContactStep& step, double elapsed);
-/// What a step of Contact never exceeds.
+/// Upper bounds over a contact step.
 struct StepBounds {
   double speed = 0;                ///< [m/s] of the centre
   double acceleration = 0;         ///< [m/s²] likewise
@@ -52,11 +52,10 @@ struct StepBounds {
 };
 StepBounds boundsOf(const ContactStep& step);
 
-/// How one body moves until something happens to it. A further motion is one more type here and one more line
-/// in stateAt.
+/// Motion of one body until its next event. To add a motion: one more type here and one more line in stateAt.
 using Motion = std::variant<Rest, EulerStep, Flight, SteppedFlight, ContactStep>;
 
-/// Where the body is `elapsed` [s] after the motion began.
+/// State of the body `elapsed` [s] after the motion began.
 BodyState stateAt(const Motion& motion, const MassProperties& mass, double elapsed);
 
 }  // namespace careen

@@ -6,28 +6,28 @@
 
 namespace careen {
 
-/// A body by its place in the world, where ranks might be meant.
+/// Index of a body in the world, where it might be confused with a rank.
 struct BodyIndex {
   int value = 0;
 };
 
-/// One contact point's share of a collision.
+/// Impact at one contact point of a collision.
 struct Impact {
   double time = 0;              ///< [s]
   BodyIndex a;                  ///< the body the normal points to
-  Partner b = {};               ///< what it struck, by place in the world
+  Partner b = {};               ///< what it struck, by index in the world
   Vec3 point = Vec3::Zero();    ///< [m] world
   Vec3 normal = Vec3::UnitZ();  ///< [1] from b to a
-  double approach = 0;          ///< [m/s] normal speed at the point before; positive: they were closing in
-  double impulse = 0;           ///< [N s] along the normal
-  double tangential = 0;        ///< [N s] size of the friction part
+  double approach = 0;    ///< [m/s] normal approach speed at the point before the impact; positive: closing
+  double impulse = 0;     ///< [N s] along the normal
+  double tangential = 0;  ///< [N s] magnitude of the friction impulse
 };
 
-/// What a method tells while it runs; the trajectory is one that remembers.
+/// Receives what a method reports while it runs; the trajectory is a recorder that stores it.
 class Recorder {
  public:
   virtual ~Recorder() = default;
-  /// From `time` [s] on the body moves so; times never decrease for one body.
+  /// The body has this motion from `time` [s] on; times never decrease per body.
   virtual void moves(BodyIndex body, double time, const Motion& motion) = 0;
   /// In order of time.
   virtual void strikes(const Impact& impact) = 0;
