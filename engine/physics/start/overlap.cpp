@@ -19,7 +19,7 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-// Boxes whose axis-parallel bounds meet, each pair once, in no stated order: swept along x.
+// Boxes whose AABBs overlap, each pair once, in unspecified order: sweep along x.
 template <class Visit>
 void forBoundsThatMeet(std::span<const PlacedBox> boxes, std::span<const Vec3> positions,
                        const Visit& visit) {
@@ -51,7 +51,7 @@ BoxAxes axesOf(const PlacedBox& a, const PlacedBox& b, const Vec3& bToA) {
   return {a.pose.worldFromBody, a.halfExtents, b.pose.worldFromBody, b.halfExtents, bToA};
 }
 
-// What the gap of two boxes is the difference of.
+// The lengths whose difference is the gap of two boxes.
 double lengthsOf(const PlacedBox& a, const PlacedBox& b, const Vec3& at, const Vec3& other) {
   return a.halfExtents.norm() + b.halfExtents.norm() + at.cwiseAbs().sum() + other.cwiseAbs().sum();
 }
@@ -65,25 +65,25 @@ std::vector<Vec3> positionsOf(std::span<const PlacedBox> boxes) {
   return positions;
 }
 
-// Rounding, of the lengths that a gap is the difference of: what a sweep must come to before it is the last.
+// Convergence: rounding relative to the lengths of the gap.
 constexpr double kTight = 0x1p-48;
-// What has no room is known by gaps that stop closing: less than a thousandth in this many sweeps for each
-// box. Towers take about 3 n² in all, those with a heavy top more.
+// No room is detected by stagnating gaps: improvement of less than a thousandth in this many sweeps per box.
+// Towers take about 3 n² in all, those with a heavy top more.
 constexpr double kStalls = 0.999;
 constexpr std::size_t kSweepsPerBox = 100;
-constexpr std::size_t kMostPushes = 300'000'000;  // in all: a few seconds
+constexpr std::size_t kMostPushes = 300'000'000;  // in total: a few seconds
 constexpr int kRounds = 200;
-// No box counts for more than this many of the lightest: each further factor costs as many more sweeps.
+// Largest mass ratio to the lightest box: the number of sweeps grows in proportion.
 constexpr double kHeaviest = 64;
 
-// One that must keep n·(a − b), or n·a of a wall, at no less than `least`.
+// Constraint: n·(a − b), or n·a for a wall, ≥ `least`.
 struct Barrier {
   std::size_t a = 0;
   Partner b = {};
-  int choice = 0;  // which of the pair's axes, by depth: 0 the least deep
+  int choice = 0;  // rank of the axis among the pair's, by depth: 0 is the least
   Vec3 normal = Vec3::Zero();
   double least = 0;       // [m]
-  double lengths = 0;     // [m] that the gap is the difference of
+  double lengths = 0;     // [m] whose difference is the gap
   double multiplier = 0;  // [kg m]
 };
 
@@ -152,7 +152,7 @@ class Parting {
     return ease_[barrier.a] + (barrier.b.isWall() ? 0 : ease_[indexOf(barrier.b)]);
   }
 
-  // The order of names, walls after boxes.
+  // Order of names, walls after boxes.
   bool before(const Barrier& x, const Barrier& y) const {
     const auto key = [this](const Barrier& each) {
       return std::array<std::size_t, 3>{each.b.isWall() ? 1U : 0U, rank_[each.a],
@@ -161,7 +161,7 @@ class Parting {
     return key(x) < key(y);
   }
 
-  // Takes up what overlaps where the boxes are now; false if nothing new does.
+  // Adds constraints for overlaps at the current positions; false if there are no new ones.
   bool addBarriers() {
     const std::size_t known = barriers_.size();
     if (meeting_ == Meeting::kAll) {
@@ -203,7 +203,7 @@ class Parting {
     }
   }
 
-  // Of the pair's 15 directions and their opposites that of the place barrier.choice, by how far the boxes
+  // Of the pair's 15 axes in both directions, takes number barrier.choice in order of the distance the boxes
   // must move along it.
   void choose(Barrier& barrier, const Vec3& bToA) const {
     const BoxAxes axes = axesOf(boxes_[barrier.a], boxes_[indexOf(barrier.b)], bToA);
@@ -227,7 +227,7 @@ class Parting {
     barrier.least = barrier.normal.dot(bToA) + way.depth;
   }
 
-  // Sweeps until every gap is closed to rounding; false if that will not come about.
+  // Sweeps until every overlap is removed to rounding; false if that does not converge.
   bool relax() {
     const std::size_t sweeps = kSweepsPerBox * (boxes_.size() + 1);
     double before = std::numeric_limits<double>::max();
@@ -248,7 +248,7 @@ class Parting {
                        [this](const Barrier& each) { return gapOf(each) >= -kGapAllowance * each.lengths; });
   }
 
-  // How far, of the lengths at hand, one of them had to be corrected at most.
+  // Largest correction of a constraint, relative to its lengths.
   double sweep() {
     double worst = 0;
     for (Barrier& barrier : barriers_) {
@@ -277,8 +277,8 @@ class Parting {
     return static_cast<std::size_t>(least - barriers_.begin());
   }
 
-  // Where barriers contradict each other: another axis for the pair that pushes hardest, and all anew. False
-  // if there is no pair among them.
+  // For contradictory constraints: next axis for the pair with the largest multiplier, then restart. False if
+  // there is no pair among them.
   bool turnToNextAxis() {
     Barrier* hardest = nullptr;
     for (Barrier& each : barriers_) {
@@ -311,7 +311,7 @@ class Parting {
   std::span<const PlacedBox> boxes_;
   std::span<const Wall> walls_;
   Meeting meeting_;
-  std::vector<double> ease_;  // [1/kg] of moving each box; 0: held
+  std::vector<double> ease_;  // [1/kg] inverse mass used for each box; 0: fixed
   std::vector<Vec3> start_;
   std::vector<Vec3> now_;
   Indices rank_;      // of each box's name

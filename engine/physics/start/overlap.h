@@ -12,33 +12,31 @@
 
 namespace careen {
 
-/// How deep in a wall or a box a box may start, for rounding's sake: this much of the lengths its gap is the
-/// difference of.
+/// Allowed initial penetration due to rounding, relative to the lengths whose difference is the gap.
 inline constexpr double kGapAllowance = 1e-12;
 
-/// A box where it stands, to be asked whether it shares space with others.
+/// A box with its pose, for overlap tests.
 struct PlacedBox {
   std::string name;
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
   Pose pose = {};
-  double inverseMass = 0;  ///< [1/kg] 0: held, it stays where it is
+  double inverseMass = 0;  ///< [1/kg] 0: fixed
 };
 
-/// Two boxes that share space, and how deep [m].
+/// Two overlapping boxes, and the penetration depth [m].
 struct Overlap {
   std::size_t first = 0;
   std::size_t second = 0;
   double depth = 0;
 };
-/// The first two in the order given, two held ones excepted, that overlap by more than kGapAllowance: least
-/// `second`, then least `first`. Sorted along x, so that boxes in rows and heaps cost little more than
-/// O(n log n).
+/// The first pair in the given order, not both fixed, that overlaps by more than kGapAllowance: least
+/// `second`, then least `first`. Sweep along x: boxes in rows and heaps cost little more than O(n log n).
 std::optional<Overlap> firstOverlap(std::span<const PlacedBox> boxes);
-/// All of them, in no stated order.
+/// All overlapping pairs, in unspecified order.
 std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes);
 
-/// Gap of a box's lowest corner to a wall, n·x − Σ hᵢ|n·aᵢ| − offset [m], and the lengths it is the
-/// difference of.
+/// Gap of a box's lowest corner to a wall, n·x − Σ hᵢ|n·aᵢ| − offset [m], and the lengths whose difference it
+/// is.
 struct LowestGap {
   double gap = 0;
   double lengths = 0;
@@ -46,29 +44,30 @@ struct LowestGap {
 };
 LowestGap lowestGap(const Wall& wall, const Vec3& halfExtents, const Pose& pose);
 
-/// What a box can meet.
+/// What boxes can collide with.
 enum class Meeting { kWalls, kAll };
 
-/// How overlapping boxes were moved apart.
+/// Result of moving overlapping boxes apart.
 struct Parted {
   std::vector<Vec3> positions;  ///< [m] of every box, in the order given
-  std::size_t pairs = 0;        ///< of boxes that overlapped, before or on the way
-  std::size_t behindWalls = 0;  ///< boxes and walls that did
-  std::size_t moved = 0;        ///< boxes
-  double furthest = 0;          ///< [m] that one of them was moved
+  std::size_t pairs = 0;        ///< pairs of boxes that overlapped, before or during
+  std::size_t behindWalls = 0;  ///< box–wall pairs that overlapped
+  std::size_t moved = 0;        ///< number of boxes moved
+  double furthest = 0;          ///< [m] largest displacement
 };
 
-/// Moves boxes out of each other and out of walls, turning none and changing no velocity: no kinetic energy
-/// is added. Each pair is parted along the axis of least depth, and of all ways to do that the one with the
-/// least Σ mass · distance² is taken, where no box counts for more than 64 of the lightest. Held boxes stay.
-/// Where an axis leaves no room, as down into the floor, the pair's next best is tried.
+/// Removes overlaps between boxes, and between boxes and walls, by translation only, changing no velocity: no
+/// kinetic energy is added. Each pair is separated along the axis of least penetration, by the displacement
+/// of least Σ mass · distance², where no box counts for more than 64 of the lightest. Fixed boxes stay. Where
+/// an axis leaves no room, as down into the floor, the pair's next best is tried.
 ///
-/// Along a fixed axis the gap of boxes that do not turn is linear in their positions, so the least movement
-/// is a quadratic programme; C. Hildreth 1957 solves it by one multiplier at a time. Pairs are taken in the
-/// order of the boxes' names, so the order given changes no bit.
+/// Along a fixed axis the gap of boxes that do not rotate is linear in their positions, so the least
+/// displacement is a quadratic programme, solved by C. Hildreth's method (1957), one multiplier at a time.
+/// Pairs are processed in order of the boxes' names, so the given order changes no bit.
 ///
-/// Not used: the pile's projection. Without turning, 3000 of its passes leave 0.1 m under a top 1e4 times as
-/// heavy, and where the axis of least depth has no room; and it cannot tell that there is no room at all.
+/// Not used: the pile's projection. Without rotation, 3000 of its passes leave 0.1 m under a top 1e4 times as
+/// heavy, and where the axis of least penetration has no room; and it cannot detect that there is no room at
+/// all.
 ///
 /// InputError names a pair for which no room was found.
 Parted moveApart(std::span<const PlacedBox> boxes, std::span<const Wall> walls,
