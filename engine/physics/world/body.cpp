@@ -14,7 +14,7 @@ MassProperties solidBox(const Vec3& halfExtents, double mass) {
     throw InputError("a solid box needs positive, finite sizes and mass");
   }
   const Vec3 squares = halfExtents.cwiseAbs2();
-  // In half sizes the twelfth becomes a third.
+  // With half sizes, 1/12 becomes 1/3.
   const Vec3 inertia =
       mass / 3 * Vec3(squares.y() + squares.z(), squares.x() + squares.z(), squares.x() + squares.y());
   return {.mass = mass,
@@ -35,8 +35,8 @@ Mat3 inverseInertiaWorld(const MassProperties& mass, const Mat3& worldFromBody) 
   return similarityTransform(worldFromBody, inverseInertiaBody);
 }
 
-// The products below are Eqs. 18 and 17 through Eq. 20, bracketed from the right: three matrix-vector
-// products instead of two of matrices.
+// Eqs. 18 and 17 through Eq. 20, evaluated right to left: three matrix-vector products instead of two of
+// matrices.
 Vec3 angularVelocity(const MassProperties& mass, const BodyState& state) {
   const Mat3& worldFromBody = state.pose.worldFromBody;
   const Vec3 momentumBody = worldFromBody.transpose() * state.angularMomentum;

@@ -7,8 +7,8 @@
 
 namespace careen {
 
-/// How hard a body is to move. Infinite mass is inverse mass 0; mass and inertia are then left 0 as well, so
-/// that weight and energy of what cannot move come out as none.
+/// Mass and inertia of a body. Infinite mass is inverse mass 0; mass and inertia are then 0 as well, so that
+/// the weight and energy of an immovable body are zero.
 struct MassProperties {
   double mass = 0;                         ///< [kg]
   double inverseMass = 0;                  ///< [1/kg]
@@ -19,19 +19,19 @@ struct MassProperties {
 /// Solid box of constant density with full sizes (a,b,c): Ī = M/12 diag(b²+c², a²+c², a²+b²), Eq. 19
 /// integrated. Sizes [m] and mass [kg] must be positive and finite, else InputError.
 MassProperties solidBox(const Vec3& halfExtents, double mass);
-/// A wall, or a body that is held: no impulse moves it.
+/// A wall, or a fixed body: no impulse moves it.
 MassProperties immovable();
 inline bool isImmovable(const MassProperties& mass) { return mass.inverseMass == 0; }
 
-/// What a touching pair is made of. A pair has restitution max(e₁, e₂) and friction sqrt(μ₁ μ₂).
+/// Contact material. A pair has restitution max(e₁, e₂) and friction sqrt(μ₁ μ₂).
 struct Material {
   double restitution = 0;  ///< [1] 0 … 1
-  double friction = 0;     ///< [1] Coulomb's μ
+  double friction = 0;     ///< [1] Coulomb friction coefficient μ
 };
 Material touching(const Material& a, const Material& b);
 
-/// State of one body, world frame. L, not ω, is primary: torque integrates to it, and a free body keeps it
-/// for ever.
+/// State of one body, world frame. L, not ω, is the primary state: torque integrates to it, and a free body
+/// conserves it.
 struct BodyState {
   Pose pose = {};
   Vec3 velocity = Vec3::Zero();         ///< [m/s] of the centre of mass
@@ -45,7 +45,7 @@ Vec3 angularVelocity(const MassProperties& mass, const BodyState& state);
 /// L = I ω (Eq. 17), [kg m²/s].
 Vec3 angularMomentum(const MassProperties& mass, const Mat3& worldFromBody, const Vec3& angularVelocity);
 
-/// ½ M v² + ½ ω·L, [J]; 0 for what cannot move.
+/// ½ M v² + ½ ω·L, [J]; 0 for immovable bodies.
 double kineticEnergy(const MassProperties& mass, const BodyState& state);
 
 struct Body {

@@ -18,30 +18,30 @@ struct Energy {
 };
 Energy energyOf(const World& world, std::span<const BodyState> states);
 
-/// Whether every number of it is finite.
+/// Whether all its numbers are finite.
 bool isFinite(const BodyState& state);
 
 /// Σ M v, [kg m/s].
 Vec3 linearMomentum(const World& world, std::span<const BodyState> states);
 
-/// Keeps a run's account: what its energy and momentum should be after everything that acted, against what
-/// they are. It looks at states only, never at how a method came by them.
+/// Energy and momentum balance of a run: the values they should have after everything that acted, against the
+/// actual ones. Depends on states only, not on the method.
 class RunAccount {
  public:
   RunAccount(const World& world, std::span<const BodyState> initial);
 
-  /// The world moved on by h [s] under loads taken as constant.
+  /// The world advanced by h [s] under constant loads.
   void moved(std::span<const BodyState> before, std::span<const BodyState> after, std::span<const Load> loads,
              double h);
-  /// An impact took this energy out [J], ≤ 0.
+  /// An impact dissipated this energy [J], ≤ 0.
   void struck(double energyChange) { accounted_ += energyChange; }
-  /// A state of the run, impacts included; its deepest corner behind a wall [m].
+  /// A state of the run, after impacts; deepest penetration of a corner into a wall [m].
   void reached(std::span<const BodyState> states, double deepest);
 
   RunFigures figures() const;
 
  private:
-  // How far one body's p or L has strayed from what forces gave it, and the largest it was.
+  // Deviation of one body's p or L from what forces gave it, and its largest magnitude.
   struct MomentumAccount {
     Vec3 error = Vec3::Zero();
     double largestErrorSquared = 0;
@@ -60,8 +60,8 @@ class RunAccount {
   double initialEnergy_ = 0;
   double accounted_ = 0;
   double largestEnergyError_ = 0;
-  // Kinetic plus springs, which gravity's arbitrary zero does not touch, less the error: a method that makes
-  // energy is not to be measured by what it made.
+  // Kinetic plus spring energy, independent of gravity's arbitrary zero, less the error: a method that
+  // creates energy must not be measured relative to that energy.
   double largestDueEnergy_ = 0;
   double orthogonality_ = 0;
   double deepest_ = 0;

@@ -16,7 +16,7 @@ FlightAccount::FlightAccount(const World& world) : world_(world), bodies_(world.
   }
 }
 
-// Bodies that a spring joins are seen at the same moments.
+// Bodies joined by a spring are seen at the same times.
 double FlightAccount::energy() const {
   return states_.empty() ? energy_ : energy_ + springEnergy(world_, states_);
 }

@@ -9,36 +9,36 @@
 
 namespace careen {
 
-/// What an event-driven run says of its own errors. It looks at a body only where its motion begins and ends,
-/// so it costs as little as events do.
+/// Error figures of an event-driven run. Looks at a body only where its motion begins and ends, so its cost
+/// is proportional to the number of events.
 ///
-/// Accounted for is what impacts with e < 1 or friction take out. A rise of energy is never accounted for,
-/// nor is any change in flight or in an impact that should keep it.
+/// Energy dissipated by impacts with e < 1 or friction is accounted for. An energy increase never is, nor any
+/// change in flight or in an impact that should conserve energy.
 class FlightAccount {
  public:
   explicit FlightAccount(const World& world);
 
   /// A body's motion begins in this state.
   void departs(std::size_t body, const BodyState& state);
-  /// A body's motion goes on through this state.
+  /// A body's motion passes through this state.
   void passes(std::size_t body, const BodyState& state);
   /// A body's motion ends in this state, `elapsed` [s] after it began.
   void arrives(std::size_t body, const BodyState& state, double elapsed);
-  /// Between the arrivals and the departures of its bodies: an impact that may take energy out, or may not.
+  /// Between the arrivals and the departures of its bodies: an impact; `mayLose` if it may dissipate energy.
   void strikes(bool mayLose);
-  /// All of them have departed.
+  /// All bodies of the impact have departed.
   void parted();
   void penetrates(double depth);
-  /// From that moment [s] on the run is bounded, not exact.
+  /// From this time [s] on the run is bounded, not exact.
   void bounds(double time) { boundedFrom_ = time; }
 
   RunFigures figures() const;
 
  private:
   struct BodyAccount {
-    double energy = 0;                    // [J] kinetic and gravitational, where last seen
+    double energy = 0;                    // [J] kinetic and gravitational, last seen
     double kinetic = 0;                   // [J] likewise
-    Vec3 momentum = Vec3::Zero();         // where its motion began
+    Vec3 momentum = Vec3::Zero();         // when its motion began
     Vec3 angularMomentum = Vec3::Zero();  // likewise
   };
   void see(std::size_t body, const BodyState& state);
@@ -47,11 +47,11 @@ class FlightAccount {
 
   const World& world_;
   std::vector<BodyAccount> bodies_;
-  std::vector<BodyState> states_;  // for springs: where last seen
-  double energy_ = 0;              // [J] of all bodies, where last seen, without springs
+  std::vector<BodyState> states_;  // for springs: last seen
+  double energy_ = 0;              // [J] of all bodies, last seen, without springs
   double kinetic_ = 0;             // [J] likewise
   double largestKinetic_ = 0;      // [J]
-  double due_ = 0;                 // [J] what the energy should be
+  double due_ = 0;                 // [J] expected energy
   bool mayLose_ = false;
   bool begun_ = false;
   double largestError_ = 0;   // [J]

@@ -7,7 +7,7 @@
 
 namespace careen {
 
-/// What acts on one body: F_T of Eq. 14 and τ_T of Eq. 16.
+/// Total load on one body: F_T of Eq. 14 and τ_T of Eq. 16.
 struct Load {
   Vec3 force = Vec3::Zero();   ///< [N]
   Vec3 torque = Vec3::Zero();  ///< [N m] about the centre of mass
@@ -16,18 +16,18 @@ struct Load {
 /// F = −linear · v, τ = −angular · ω.
 Load dragLoad(const Drag& drag, const Vec3& velocity, const Vec3& angularVelocity);
 
-/// A spring at one moment.
+/// State of a spring at one time.
 struct Stretch {
   Vec3 from = Vec3::Zero();       ///< [m] world
   Vec3 to = Vec3::Zero();         ///< [m] world
-  Vec3 direction = Vec3::Zero();  ///< [1] unit, from → to; zero where the ends meet and no line joins them
+  Vec3 direction = Vec3::Zero();  ///< [1] unit, from → to; zero if the ends coincide
   double length = 0;              ///< [m]
-  double rate = 0;                ///< [m/s] of the length
+  double rate = 0;                ///< [m/s] rate of the length
 };
 /// `states` has one entry per body of the world.
 Stretch stretchOf(const Spring& spring, const World& world, std::span<const BodyState> states);
 
-/// k (length − rest) + c · rate, [N]; positive draws the ends together.
+/// k (length − rest) + c · rate, [N]; positive in tension.
 double springForce(const Spring& spring, const Stretch& stretch);
 
 /// ½ k (length − rest)² summed over the springs, [J].
@@ -36,8 +36,8 @@ double springEnergy(const World& world, std::span<const BodyState> states);
 /// Power of spring damping and drag, [W]; never positive for damping and drag ≥ 0.
 double dissipation(const World& world, std::span<const BodyState> states);
 
-/// Total force and torque on every body from gravity, drag and springs. What acts on an immovable body is in
-/// the list too, its weight excepted, and moves nothing.
+/// Total force and torque on every body from gravity, drag and springs. Loads on immovable bodies are listed
+/// too, without weight, and have no effect.
 void computeLoads(const World& world, std::span<const BodyState> states, std::vector<Load>& loads);
 
 }  // namespace careen

@@ -4,7 +4,7 @@
 
 namespace careen {
 
-/// How far a world point is from a wall [m]; negative: behind it.
+/// Signed distance of a world point from a wall [m]; negative: behind it.
 inline double gap(const Wall& wall, const Vec3& point) { return wall.normal.dot(point) - wall.offset; }
 
 }  // namespace careen

@@ -13,7 +13,7 @@ Vec3 pointVelocity(const Vec3& centerVelocity, const Vec3& angularVelocity, cons
 /// a = F/M (Eq. 14), [m/s²]: the centre of mass moves as if the whole force acted there.
 Vec3 centerAcceleration(double inverseMass, const Vec3& totalForce);
 
-/// L_AB = r_AB × p_B (Eq. 15), [kg m²/s]: momentum p at B, seen from A.
+/// L_AB = r_AB × p_B (Eq. 15), [kg m²/s]: angular momentum about A of momentum p at B.
 Vec3 angularMomentumAbout(const Vec3& r, const Vec3& momentum);
 
 /// τ_AB = r_AB × F_B (Eq. 16), [N m]: the rate of L_AB.

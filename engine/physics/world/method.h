@@ -6,23 +6,24 @@
 
 namespace careen {
 
-/// Ways to move a world: one line here, one in kMethods, one in simulate or in freeMethods().
+/// Simulation methods. To add one: one line here, one in kMethods, one in simulate or in freeMethods().
 enum class Method : int { kExact, kListing1, kStrang, kRungeKutta4, kSplitting6, kTaylor8, kMoserVeselov10 };
 
-/// What a method is called and what it can do.
+/// Name and capabilities of a method.
 struct MethodTraits {
   Method method;
   std::string_view name;  ///< as scene files and commands spell it
-  int order = 0;          ///< its error goes with dt to this power; 0: it takes no steps of RunSettings::dt
+  int order = 0;          ///< order of convergence in dt; 0: it takes no steps of RunSettings::dt
   bool forces = false;    ///< springs and drag
-  bool boxBox = false;    ///< boxes meet boxes
+  bool boxBox = false;    ///< box–box contact
   bool friction = false;
-  bool rests = false;  ///< bounces may die out
+  bool rests = false;  ///< bounces may come to rest
 
   constexpr bool steps() const { return order > 0; }
 };
 
-/// A method that steps free bodies, see FreeMethod: it meets walls, with friction, at the roots of the gap.
+/// A method that steps free bodies, see FreeMethod: impacts with walls, with friction, at the roots of the
+/// gap.
 constexpr MethodTraits steppedFlight(Method method, std::string_view name, int order) {
   return {.method = method, .name = name, .order = order, .friction = true};
 }
@@ -66,7 +67,7 @@ constexpr std::optional<Method> methodNamed(std::string_view name) {
   return std::nullopt;
 }
 
-/// What a run says of its own errors.
+/// Error figures of a run.
 struct RunFigures {
   double energyChange = 0;  ///< [1] largest change not accounted for by impacts, springs, drag and friction,
                             ///< relative to the largest kinetic plus spring energy the run should have had
@@ -74,14 +75,15 @@ struct RunFigures {
       0;  ///< [1] largest relative change in flight, linear and angular, beyond what forces give
   double orthogonality = 0;                ///< [1] largest ‖AAᵀ−1‖
   double deepestPenetration = 0;           ///< [m]
-  std::optional<double> boundedFrom = {};  ///< [s] from when method exact went on as a pile, if it did
+  std::optional<double> boundedFrom = {};  ///< [s] time at which method exact switched to a pile, if it did
 };
 
 struct RunSettings {
   Method method = Method::kExact;
-  double duration = 0;      ///< [s]
-  double dt = 1.0 / 240;    ///< [s] methods that step
-  double tolerance = 1e-6;  ///< [m] what a method that chooses its own steps must hold: of places and corners
+  double duration = 0;    ///< [s]
+  double dt = 1.0 / 240;  ///< [s] time step of stepping methods
+  double tolerance =
+      1e-6;  ///< [m] error tolerance of positions and corners for methods with step size control
 };
 
 }  // namespace careen

@@ -6,9 +6,9 @@
 
 namespace careen {
 
-/// Whom a body meets: another body or a wall, by its index. Which list of bodies that index belongs to (the
-/// world's, the ranks', an impact's) is stated where a partner is used; a wall's is always its place in the
-/// world. Bodies come before walls, each in the order of their indices.
+/// Collision partner of a body: another body or a wall, by its index. Which list of bodies that index refers
+/// to (the world's, the ranks', an impact's) is stated where a partner is used; a wall's is always its index
+/// in the world. Bodies come before walls, each in the order of their indices.
 class Partner {
  public:
   constexpr Partner() = default;  ///< wall 0
@@ -19,8 +19,8 @@ class Partner {
   static constexpr Partner ofKey(std::uint32_t key) { return Partner(key); }
 
   constexpr bool isWall() const { return (key_ & kWall) != 0; }
-  constexpr int body() const { return static_cast<int>(key_); }              ///< not of a wall
-  constexpr std::size_t wall() const { return std::size_t{key_ & ~kWall}; }  ///< not of a body
+  constexpr int body() const { return static_cast<int>(key_); }              ///< only of a body
+  constexpr std::size_t wall() const { return std::size_t{key_ & ~kWall}; }  ///< only of a wall
   constexpr bool isBody(int index) const { return *this == ofBody(index); }
 
   /// Sorts as partners do.

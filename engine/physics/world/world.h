@@ -9,7 +9,7 @@
 
 namespace careen {
 
-/// Half-space that keeps bodies out: a point x is on the free side where normal·x > offset.
+/// Half-space obstacle: a point x is on the free side where normal·x > offset.
 struct Wall {
   std::string name;
   Vec3 normal = Vec3::UnitZ();  ///< [1] unit, points to the free side
@@ -17,7 +17,7 @@ struct Wall {
   Material material;
 };
 
-/// Where a spring ends: a point of a body, in the body's frame, or of the world.
+/// End of a spring: a point of a body, in the body's frame, or of the world.
 struct SpringEnd {
   std::optional<int> body;
   Vec3 point = Vec3::Zero();  ///< [m]
@@ -38,7 +38,7 @@ struct Drag {
   double angular = 0;  ///< [N m s]
 };
 
-/// What the laws act on: only what a scene's plan calls for is in it; an empty list costs nothing.
+/// The simulated system: only what a scene's plan needs is in it; an empty list costs nothing.
 struct World {
   Vec3 gravity = Vec3::Zero();  ///< [m/s²]
   std::vector<Body> bodies;
