@@ -10,12 +10,12 @@
 namespace careen {
 namespace {
 
-/// Takes one corner against all walls into the check; false once a corner penetrates.
+/// Tests one corner against all walls; false once a corner penetrates.
 bool lookAtCorner(const std::vector<Wall>& walls, BodyIndex body, const BodyState& state, const Vec3& omega,
                   const Vec3& cornerBody, CornerCheck& check) {
   const Vec3 point = state.pose.worldPoint(cornerBody);
-  // Not A r̄: the impulse knows the point only, and both must see the same speed to the last bit, or a corner
-  // that one of them has stopped still moves for the other.
+  // Not A r̄: the impulse depends on the point only, and both must compute the same speed to the last bit, or
+  // a corner stopped in one still moves in the other.
   const Vec3 r = point - state.pose.position;
   for (std::size_t w = 0; w < walls.size(); ++w) {
     const double distance = gap(walls[w], point);

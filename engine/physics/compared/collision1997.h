@@ -8,7 +8,7 @@
 
 namespace careen {
 
-/// Half the thickness of the layer in which a corner touches a wall [m]: the 1997 sample's.
+/// [m] Half the thickness of the layer in which a corner touches a wall, as in the 1997 sample.
 inline constexpr double kTouchingDepth = 0.001;
 
 /// A corner of a body at a wall.
@@ -27,17 +27,17 @@ enum class CornerState {
 
 struct CornerCheck {
   CornerState state = CornerState::kClear;
-  CornerAtWall corner;  ///< the first that penetrates, else the last that collides
-  double deepest = 0;   ///< [m] ≥ 0, over the corners looked at: all of them unless one penetrates
+  CornerAtWall corner;  ///< the first penetrating, else the last colliding one
+  double deepest = 0;   ///< [m] ≥ 0, over the corners tested: all unless one penetrates
 };
 
-/// All corners against all walls, body by body and wall by wall, as the 1997 sample did: it stops at the
-/// first that penetrates. Immovable bodies are not looked at.
+/// Tests all corners against all walls, body by body and wall by wall, as the 1997 sample did: stops at the
+/// first penetrating one. Immovable bodies are skipped.
 CornerCheck checkCorners(const World& world, std::span<const BodyState> states);
 
 struct ResolvedCorner {
   Impact impact;
-  double energyChange = 0;  ///< [J] what the impact took out, ≤ 0
+  double energyChange = 0;  ///< [J] of the impact, ≤ 0
 };
 /// Resolves one colliding corner by a frictionless impulse (Fig. 4), the wall being a body of infinite mass.
 ResolvedCorner resolveCorner(const World& world, const CornerAtWall& corner, double time,

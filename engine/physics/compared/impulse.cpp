@@ -10,7 +10,7 @@ Vec3 velocityAt(const CollidingBody& body, const Vec3& point) {
                        point - body.state.pose.position);
 }
 
-// (I⁻¹ (r×n)) × r · n: what turning adds to how easily the point gives way.
+// (I⁻¹ (r×n)) × r · n: rotational part of the inverse effective mass.
 double turningTerm(const CollidingBody& body, const Vec3& point, const Vec3& normal) {
   const Vec3 r = point - body.state.pose.position;
   const Mat3 inverseInertia = inverseInertiaWorld(body.mass, body.state.pose.worldFromBody);

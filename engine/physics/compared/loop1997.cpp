@@ -15,9 +15,9 @@
 namespace careen {
 namespace {
 
-constexpr double kShortestStep = 1e-5;  // [s] the sample's
-constexpr int kMostImpulses = 100;      // the sample's, at one moment
-constexpr double kSliver = 1e-6;  // [1] of dt: a last step shorter than this is joined to the one before
+constexpr double kShortestStep = 1e-5;  // [s] as in the sample
+constexpr int kMostImpulses = 100;      // at one time, as in the sample
+constexpr double kSliver = 1e-6;        // [1] of dt: a shorter last step is merged with the one before
 
 class Loop1997 {
  public:
@@ -72,7 +72,7 @@ Loop1997::Loop1997(const World& world, const RunSettings& settings, Recorder& re
       next_(now_),
       account_(world, now_) {}
 
-// The whole method, from here to resolve().
+// The whole method, up to resolve().
 
 RunFigures Loop1997::run() {
   const CornerCheck start = checkCorners(world_, now_);
@@ -116,7 +116,7 @@ void Loop1997::advanceTo(double end) {
   }
 }
 
-// An impulse moves nothing at once, so that a check after it never finds a corner deeper than before.
+// An impulse does not change positions, so a check after it never finds deeper penetration than before.
 void Loop1997::resolve(CornerCheck found, double time) {
   for (int impulses = 0; found.state == CornerState::kColliding; ++impulses) {
     if (impulses == kMostImpulses) {
@@ -164,7 +164,7 @@ void Loop1997::record(double time) {
   }
 }
 
-// By multiplication: a running sum would drift away from the frames of a film.
+// By multiplication: a running sum would drift away from the video frames.
 double Loop1997::stepEnd(std::int64_t step) const {
   const double end = static_cast<double>(step) * settings_.dt;
   return end < settings_.duration - kSliver * settings_.dt ? end : settings_.duration;

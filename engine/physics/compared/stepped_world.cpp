@@ -20,12 +20,12 @@
 namespace careen {
 namespace {
 
-constexpr std::int64_t kStepsAtOnce = 64;  // what a call of a method shares, a segment of the record holds
-constexpr double kSliver = 1e-6;           // [1] of dt: a shorter last step is joined to the one before
+constexpr std::int64_t kStepsAtOnce = 64;  // steps per call of a method and per recorded segment
+constexpr double kSliver = 1e-6;           // [1] of dt: a shorter last step is merged with the one before
 constexpr double kShortestHop = 0x1p-40;   // [1] of a step
 constexpr int kMostRefinements = 200;
 
-/// A body between two of its steps.
+/// State of a body between two steps.
 struct Flying {
   Vec3 position = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
@@ -38,7 +38,7 @@ struct Flying {
   }
 };
 
-/// One body's run: none has to do with another.
+/// Simulation of one body; bodies are independent of each other.
 class SteppedBody {
  public:
   SteppedBody(const World& world, int index, const RunSettings& settings, Recorder& recorder,
@@ -79,14 +79,14 @@ class SteppedBody {
   std::vector<Impact>& impacts_;
 
   double time_ = 0;
-  std::int64_t step_ = 0;  // whole steps that lie behind
+  std::int64_t step_ = 0;  // whole steps completed
   Flying now_;
   double departure_ = 0;  // [s] when the flight began
   std::vector<ImpactContact> contacts_;
   std::vector<ImpactShare> shares_;
 };
 
-// The whole method, from here to strike().
+// The whole method, up to strike().
 
 void SteppedBody::run(const std::stop_token& stop) {
   const BodyState& start = body_.initial;
@@ -207,10 +207,10 @@ double SteppedBody::gapRounding() const {
   return kGapRounding * (now_.position.cwiseAbs().sum() + body_.halfExtents.norm());
 }
 
-// The gap is positive somewhere in (0, h), and negative at h.
+// Requires a gap positive somewhere in (0, h) and negative at h.
 double SteppedBody::contactWithin(double h, double gapAtEnd) const {
   FallingBracket bracket{.high = h, .valueLow = gapOf(now_), .valueHigh = gapAtEnd};
-  // What has just struck leaves first.
+  // After an impact the body separates first.
   for (double part = 0.5; bracket.valueLow <= gapRounding(); part /= 2) {
     if (part < kShortestHop) {
       throw NumericalError(where() + "would have to rest, slide or roll on a wall, which method " +
@@ -243,13 +243,13 @@ double SteppedBody::contactWithin(double h, double gapAtEnd) const {
   return best;
 }
 
-// By multiplication: a running sum would drift away from the frames of a film.
+// By multiplication: a running sum would drift away from the video frames.
 double SteppedBody::stepEnd(std::int64_t step) const {
   const double end = static_cast<double>(step) * settings_.dt;
   return end < settings_.duration - kSliver * settings_.dt ? end : settings_.duration;
 }
 
-// Whole steps in which not even the sphere around the box comes to a wall.
+// Whole steps in which the bounding sphere reaches no wall.
 std::int64_t SteppedBody::stepsOutOfReach() const {
   if (time_ != stepEnd(step_)) {
     return 0;
@@ -263,7 +263,8 @@ std::int64_t SteppedBody::stepsOutOfReach() const {
     if (room <= 0) {
       return 0;
     }
-    // room + speed t + acceleration t²/2 ≥ room − (|speed| + |acceleration| t/2) t while both close it
+    // room + speed t + acceleration t²/2 ≥ room − (|speed| + |acceleration| t/2) t while both approach the
+    // wall
     const double closing = std::max(0.0, -speed) + 0.5 * std::max(0.0, -acceleration) * safe;
     if (closing > 0) {
       safe = std::min(safe, room / closing);
