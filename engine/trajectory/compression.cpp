@@ -9,7 +9,7 @@ namespace careen {
 namespace {
 
 constexpr int kLevel = 1;
-// Deflate cannot pack tighter than 1:1032: a damaged size must not ask for all the memory there is.
+// Deflate's largest compression ratio is 1:1032: limits the memory a corrupted size can request.
 constexpr std::size_t kMostRatio = 1032;
 
 }  // namespace
@@ -35,7 +35,7 @@ std::optional<std::string> decompressed(std::string_view bytes, std::size_t size
     throw std::bad_alloc();
   }
   std::string out(size, '\0');
-  // With no place for the size found, libdeflate accepts the exact size only.
+  // Without an output for the actual size, libdeflate accepts the exact size only.
   const libdeflate_result result = libdeflate_zlib_decompress(decompressor.get(), bytes.data(), bytes.size(),
                                                               out.data(), out.size(), nullptr);
   return result == LIBDEFLATE_SUCCESS ? std::optional(std::move(out)) : std::nullopt;

@@ -7,11 +7,11 @@
 
 namespace careen {
 
-/// In the zlib format (RFC 1950), at the level that costs least: a record's constants and repeated times go,
-/// what is left of its doubles hardly shrinks at any level.
+/// In zlib format (RFC 1950), at the fastest level: constants and repeated times compress, doubles hardly
+/// shrink at any level.
 std::string compressed(std::string_view bytes);
 
-/// The `size` bytes again; nothing if these are not what compressed() made of so many.
+/// Restores the `size` bytes; nullopt if `bytes` is not compressed() output of that size.
 std::optional<std::string> decompressed(std::string_view bytes, std::size_t size);
 
 }  // namespace careen

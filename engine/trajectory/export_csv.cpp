@@ -12,7 +12,7 @@ namespace careen {
 namespace {
 
 void append(std::string& row, double value) {
-  constexpr int kDigits = 17;  // bring the same double back
+  constexpr int kDigits = 17;  // round-trips a double
   row += ',' + brief(value, kDigits);
 }
 
@@ -22,7 +22,7 @@ void append(std::string& row, const Vec3& vector) {
   }
 }
 
-// A row begins with its time, which has no comma before it.
+// A row starts with its time, without a comma before it.
 std::string rowAt(double time) {
   std::string row;
   append(row, time);

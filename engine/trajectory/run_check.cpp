@@ -14,12 +14,11 @@
 namespace careen {
 namespace {
 
-constexpr double kUnit =
-    1e-6;  // [1] how far a direction, a quaternion or an orientation may be from its length
-constexpr double kSamePlace = 1e-6;  // of a box: between where it is said to start and where its track begins
-constexpr double kMostSteps = 4096;  // of a stepped flight; the methods end one after 64
-constexpr double kRounding = 1e-12;  // of the duration: a time that is summed in two ways
-constexpr double kLeastTilt = 1e-9;  // [rad] of a line of sight to the camera's up
+constexpr double kUnit = 1e-6;       // [1] tolerance of the length of a direction, quaternion or orientation
+constexpr double kSamePlace = 1e-6;  // of a box size: between initial position and start of its track
+constexpr double kMostSteps = 4096;  // per stepped flight; the methods end one after 64
+constexpr double kRounding = 1e-12;  // of the duration: times summed in two ways
+constexpr double kLeastTilt = 1e-9;  // [rad] between line of sight and the camera's up
 
 [[noreturn]] void fail(const std::string& what) { throw InputError(what); }
 
@@ -43,14 +42,14 @@ bool isSound(const BodyState& state) {
 }
 bool isWithin(int index, std::size_t size) { return index >= 0 && static_cast<std::size_t>(index) < size; }
 
-// ---- Motions: their numbers are numbers, and any moment of them can be had.
+// ---- Motions: finite numbers, and a state at any time.
 
 bool isSound(const Flight& flight) {
   return flight.position.allFinite() && flight.velocity.allFinite() && flight.acceleration.allFinite() &&
          flight.angularMomentum.allFinite() && isUnit(flight.worldFromBody.norm());
 }
 
-/// Whether a motion that a body goes through for `seconds` makes sense in a run by such settings.
+/// Whether a motion lasting `seconds` is valid in a run with these settings.
 struct Soundness {
   const RunSettings& settings;
   double seconds;
@@ -185,7 +184,7 @@ void checkWorld(const World& world) {
           "a drag that makes no sense", "a world");
 }
 
-// A track begins where its body starts, but for the rounding of a motion.
+// A track starts at its body's initial state, up to the rounding of a motion.
 void checkStart(const Trajectory& run, std::size_t body) {
   const Body& moved = run.world.bodies[body];
   const Pose first = run.state(body, 0).pose;

@@ -4,13 +4,13 @@
 
 namespace careen {
 
-/// Whether what a run says hangs together, so that nothing later has to ask: a file can be whole and yet make
-/// no sense. InputError says what is wrong, as what the run has: "has a body 'crate' whose mass is -1 kg, …".
+/// Consistency checks of a loaded run, so that nothing later has to check: a file can be intact and yet
+/// inconsistent. InputError names the fault in the form: "has a body 'crate' whose mass is -1 kg, …".
 
-/// How bodies move and what they struck: whatever is drawn or measured of it comes to an end.
+/// Checks motions and impacts, so that drawing or measuring them terminates.
 void checkMotions(const Trajectory& run);
 
-/// That, the world, the stage, and that each agrees with the others.
+/// checkMotions(), plus the world, the stage, and their agreement.
 void checkRun(const Trajectory& run);
 
 }  // namespace careen

@@ -20,35 +20,35 @@ struct Segment {
   Motion motion;
 };
 
-/// What one body did: segments in order of time, the first at 0.
+/// Motion of one body: segments in order of time, the first at 0.
 struct Track {
   std::vector<Segment> segments;
 };
 
-/// A recorded run: what it started from, and where every body is at any moment of it. Nothing else is needed
-/// to draw, measure and export it.
+/// A recorded run: its initial state and settings, and every body's state at any time. Sufficient to draw,
+/// measure and export it.
 struct Trajectory : RunSetup {
   RunFigures figures;
-  std::vector<Track> tracks;    ///< one for each body of the world, in its order
+  std::vector<Track> tracks;    ///< one per body of the world, in its order
   std::vector<Impact> impacts;  ///< in order of time
 
-  /// State of a body at a time within [0, duration] [s]; InputError outside. Where two segments meet, the
-  /// later one.
+  /// State of a body at a time in [0, duration] [s]; InputError outside. Where two segments meet, the later
+  /// one.
   BodyState state(std::size_t body, double time) const;
   std::vector<Pose> poses(double time) const;
 
-  /// Of the box or wall that body a struck.
+  /// Name of the box or wall that body a struck.
   const std::string& partnerName(const Impact& impact) const;
 
-  /// Of the scene file's bytes.
+  /// Hash of the scene file's bytes.
   std::string sceneHash() const;
-  /// Of every body's last state, bit for bit, taken in the order of the bodies' names.
+  /// Hash of the final states of all bodies, bit for bit, in order of the bodies' names.
   std::string stateHash() const;
 };
 
-/// Runs the setup's world by its method and keeps what happened.
+/// Simulates the setup's world by its method and records the trajectory.
 Trajectory record(RunSetup setup, const std::stop_token& stop = {});
-/// The same of a world that no scene was made for: it is shown as a scene is that says nothing of how.
+/// The same for a world without a scene: it is shown with a scene's default stage.
 Trajectory record(const World& world, const RunSettings& settings, std::string sceneText,
                   const std::stop_token& stop = {});
 

@@ -23,13 +23,13 @@
 namespace careen {
 namespace {
 
-// The line ends in the magic word show a transfer that took the file for text.
+// The line ends in the magic word reveal a transfer in text mode.
 constexpr std::string_view kMagic = "careen\r\n";
 constexpr std::uint64_t kVersion = 4;
-constexpr std::uint64_t kWithoutSetup = 3;  // held of world and stage no more than names and masses
+constexpr std::uint64_t kWithoutSetup = 3;  // stored only names and masses of world and stage
 
-// Writer and Reader have the same calls, so that one description of the format, `visit` below, serves both
-// and the two cannot disagree.
+// Writer and Reader have the same interface, so that one description of the format, `visit` below, serves
+// both and they cannot disagree.
 class Writer {
  public:
   static constexpr bool kReads = false;
@@ -127,7 +127,7 @@ void visitIndex(Archive& archive, Visited<Archive, int> index) {
   }
 }
 
-// By name: the numbers of the constants may change.
+// By name: the enumerators' values may change.
 template <class Archive, class Enum, std::size_t kCount>
 void visitNamed(Archive& archive, Enum& value, const std::array<std::string_view, kCount>& names) {
   std::string name;
@@ -145,7 +145,7 @@ void visitNamed(Archive& archive, Enum& value, const std::array<std::string_view
   }
 }
 
-// Whether it is there, then what it is.
+// Presence flag, then the value.
 template <class Archive, class T>
 void visitOptional(Archive& archive, T& optional) {
   bool isThere = optional.has_value();
@@ -161,7 +161,8 @@ void visitOptional(Archive& archive, T& optional) {
   }
 }
 
-// A count, then the things. Read one by one, so that a damaged count takes no memory for what is not there.
+// Count, then the elements. Read one by one, so that a corrupted count allocates no memory for missing
+// elements.
 template <class Archive, class T>
 void visitAll(Archive& archive, T& list) {
   std::uint64_t count = list.size();
@@ -225,7 +226,7 @@ void visit(Archive& archive, Visited<Archive, Flight> flight) {
   visit(archive, flight.angularMomentum);
 }
 
-// By name: the numbers of the methods may change.
+// By name: the methods' values may change.
 template <class Archive>
 void visit(Archive& archive, Visited<Archive, Method> method) {
   std::string name;
@@ -268,7 +269,7 @@ void visit(Archive& archive, Visited<Archive, MassProperties> mass) {
   visit(archive, mass.inverseInertiaBody);
 }
 
-// Makes a variant hold its alternative number `index`; false if it has none such.
+// Sets a variant to its alternative number `index`; false if there is none.
 template <std::size_t kIndex = 0, class Variant>
 bool emplaceAlternative(Variant& variant, std::uint64_t index) {
   if constexpr (kIndex == std::variant_size_v<Variant>) {
@@ -281,7 +282,7 @@ bool emplaceAlternative(Variant& variant, std::uint64_t index) {
   }
 }
 
-// Which alternative a variant holds, then that alternative. The numbers are part of the format: append only.
+// Index of a variant's alternative, then its value. Indices are part of the format: append only.
 template <class Archive, class Variant>
 void visitVariant(Archive& archive, Variant& variant) {
   auto index = static_cast<std::uint8_t>(variant.index());
@@ -554,8 +555,8 @@ bool isSame(const MassProperties& a, const MassProperties& b) {
          a.inverseInertiaBody == b.inverseInertiaBody;
 }
 
-// What a file of old says of its bodies and walls must be what its scene says. Where a body starts is known
-// from its track alone: boxes that overlapped had been moved apart.
+// An old file's bodies and walls must match its scene. Initial positions come from the tracks alone:
+// overlapping boxes had been moved apart.
 void takeSetup(const Reader& reader, RunSetup setup, const std::vector<std::string>& wallNames,
                const std::vector<Body>& bodies, Trajectory& run) {
   if (setup.world.bodies.size() != bodies.size()) {
