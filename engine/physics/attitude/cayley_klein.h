@@ -10,8 +10,8 @@
 
 namespace careen {
 
-/// A quaternion as two complex numbers, the Cayley–Klein parameters: α = w + iz, β = x + iy.
-/// A turn by θ about z multiplies both by exp(iθ/2).
+/// A quaternion as two complex numbers, the Cayley–Klein parameters: α = w + iz, β = x + iy. A rotation by θ
+/// about z multiplies both by exp(iθ/2).
 template <class Real>
 struct CayleyKlein {
   Real alphaRe = 1;
@@ -20,7 +20,7 @@ struct CayleyKlein {
   Real betaIm = 0;
 };
 
-/// The turn q followed by the turn p.
+/// The rotation q followed by the rotation p.
 template <class Real>
 CayleyKlein<Real> product(const CayleyKlein<Real>& p, const CayleyKlein<Real>& q) {
   return {(p.alphaRe * q.alphaRe - p.alphaIm * q.alphaIm) - (p.betaRe * q.betaRe + p.betaIm * q.betaIm),
@@ -34,11 +34,11 @@ Real squaredNorm(const CayleyKlein<Real>& q) {
   return (q.alphaRe * q.alphaRe + q.alphaIm * q.alphaIm) + (q.betaRe * q.betaRe + q.betaIm * q.betaIm);
 }
 
-/// R⁻¹ v for the rotation R along q, computed in `Number`; q need not be of length 1.
+/// R⁻¹ v for the rotation R of q, computed in `Number`; q need not have unit length.
 template <class Number, class Real>
 [[gnu::always_inline]] inline std::array<Number, 3> turnedBack(const Quaternion<Real>& q,
                                                                const Vector3<Real>& v) {
-  // v + 2 (u × (u × v) − w u × v)/|q|², where 1/|q|² is 2 − |q|² if q is of length 1 but for rounding.
+  // v + 2 (u × (u × v) − w u × v)/|q|², where 1/|q|² is 2 − |q|² if q has unit length to rounding.
   using std::abs;
   const Real& w = q.w();
   const std::array<Real, 3> u = {q.x(), q.y(), q.z()};

@@ -12,16 +12,16 @@ namespace careen {
 
 namespace detail {
 
-/// No reduction where there is nothing to reduce: a step should not turn a body far.
+/// Skips range reduction for small angles: a step should not rotate a body far.
 template <class Real>
 elementary::SinCos<Real> sinCosOfStep(const Real& angle) {
   using std::abs;
   return abs(angle) < 0.75 ? elementary::sinCosQuarterTurns(Real(0), angle) : elementary::sinCos(angle);
 }
 
-/// The exact flow of ½ α m₁², a steady turn of the body about axis 1: m turns the other way in the plane of
-/// axes 2 and 3, and (w, v₁), (v₂, v₃) of the quaternion turn by half the angle. Axes 1, 2, 3 are in
-/// right-handed order; halfTime is α t/2.
+/// The exact flow of ½ α m₁², a steady rotation of the body about axis 1: m rotates the other way in the
+/// plane of axes 2 and 3, and (w, v₁), (v₂, v₃) of the quaternion rotate by half the angle. Axes 1, 2, 3 are
+/// in right-handed order; halfTime is α t/2.
 template <class Real>
 void turn(const Real& halfTime, const Real& m1, Real& m2, Real& m3, Real& w, Real& v1, Real& v2, Real& v3) {
   const auto [sin, cos] = sinCosOfStep(Real(halfTime * m1));
@@ -39,8 +39,8 @@ void turn(const Real& halfTime, const Real& m1, Real& m2, Real& m3, Real& w, Rea
   v3 = v3 * cos - v2Before * sin;
 }
 
-/// Steps that turn by the parts aboutX[0], aboutY[0], aboutX[1], … aboutY[last], aboutX[0] of dt; the last
-/// turn of a step and the first of the next are one.
+/// Steps of rotations by the fractions aboutX[0], aboutY[0], aboutX[1], … aboutY[last], aboutX[0] of dt; the
+/// last rotation of a step and the first of the next are merged.
 template <class Real, std::size_t kTurns>
 void compose(typename MiddleAxisFrame<Real>::X which, const std::array<double, kTurns>& aboutX,
              const std::array<double, kTurns>& aboutY, const Vector3<Real>& inertia, FreeState<Real>& state,
@@ -71,33 +71,34 @@ void compose(typename MiddleAxisFrame<Real>::X which, const std::array<double, k
 
 }  // namespace detail
 
-/// Strang splitting into turns about two body axes: half a step about a, one about c, half about a.
+/// Strang splitting into rotations about two body axes: half a step about a, one about c, half about a.
 ///
-/// What is split is not the whole energy but what middle_axis_frame.h leaves of it, two squares instead of
-/// three, the larger rate in the half steps (the other way round: errors 1 to 3 times as large). Not used:
-/// the splitting of ½ Σ m²/I into its three turns, which takes four turns and sines a step instead of two and
-/// has 0.6 to 90 times the error, depending on the order of the three (measured at 1/60 s).
+/// The split Hamiltonian is not the whole energy but what middle_axis_frame.h leaves of it, two squares
+/// instead of three, the larger rate in the half steps (the other way round: errors 1 to 3 times as large).
+/// Not used: splitting ½ Σ m²/I into its three rotations, which takes four rotations and sines per step
+/// instead of two and has 0.6 to 90 times the error, depending on the order of the three (measured at 1/60
+/// s).
 ///
-/// Order 2 in attitude and energy. Kept to rounding: |m| and the momentum in the world. The energy is not
-/// kept but stays within O(h²) for ever. Symmetric: steps of −dt lead back.
+/// Order 2 in attitude and energy. Conserved to rounding: |m| and the momentum in the world. The energy is
+/// not conserved but its error stays O(h²) for all time. Symmetric: steps of −dt lead back.
 ///
 /// Sources: G. Strang, SIAM J. Numer. Anal. 5, 1968; R. I. McLachlan, Phys. Rev. Lett. 71, 1993, and S.
-/// Reich, Physica D 76, 1994 (three turns); J. Touma & J. Wisdom, Astron. J. 107, 1994, and F. Fassò, J.
-/// Comput. Phys. 189, 2003 (a symmetric top and one turn).
+/// Reich, Physica D 76, 1994 (three rotations); J. Touma & J. Wisdom, Astron. J. 107, 1994, and F. Fassò, J.
+/// Comput. Phys. 189, 2003 (a symmetric top and one rotation).
 template <class Real>
 void strangSteps(const Vector3<Real>& inertia, FreeState<Real>& state, const Real& dt, std::int64_t count) {
   detail::compose<Real, 1>(MiddleAxisFrame<Real>::X::kLargerRate, {0.5}, {1}, inertia, state, dt, count);
 }
 
-/// The same two turns, 10 times each per step, to order 6.
+/// The same two rotations, 10 times each per step, to order 6.
 ///
-/// Blanes and Moan's coefficients, with the smaller rate in the turns that begin and end the step (the other
-/// way round: errors 2 to 10 times as large). At equal cost errors are 25 to 200 times smaller than with
-/// Kahan and Li's nine Strang steps (1997), 50 to 400 times than with Yoshida's seven (1990, solution A),
-/// measured between 1e-6 and 1e-9 rad: those step farther back, Yoshida's by 1.18 dt.
+/// Blanes and Moan's coefficients, with the smaller rate in the rotations that begin and end the step (the
+/// other way round: errors 2 to 10 times as large). At equal cost errors are 25 to 200 times smaller than
+/// with Kahan and Li's nine Strang steps (1997), 50 to 400 times than with Yoshida's seven (1990, solution
+/// A), measured between 1e-6 and 1e-9 rad: those have larger backward substeps, Yoshida's of 1.18 dt.
 ///
-/// Order 6 in attitude and energy. Kept to rounding: |m| and the momentum in the world; the energy stays
-/// within O(h⁶) for ever. Symmetric. Spheres and symmetric tops come out exact.
+/// Order 6 in attitude and energy. Conserved to rounding: |m| and the momentum in the world; the energy error
+/// stays O(h⁶) for all time. Symmetric. Exact for spheres and symmetric tops.
 ///
 /// Source: S. Blanes & P. C. Moan, J. Comput. Appl. Math. 142, 2002, their S₁₀ of order 6.
 template <class Real>

@@ -4,14 +4,14 @@
 
 namespace careen {
 
-/// A rigid body that nothing turns, as the methods that step it see it:
+/// State of a torque-free rigid body for stepping methods:
 ///
 ///     q' = ½ q ω,   m' = m × ω,   ωᵢ = mᵢ/Iᵢ.
 ///
 /// A method is a function of this state that takes `count` steps of dt [s] (either sign) for principal
-/// moments `inertia` [kg m²] along the body's axes. It takes the many at once so that what all steps share is
-/// worked out once, and what only the end of a run needs is done once. The quaternion is of unit length at
-/// the start and to rounding at the end.
+/// moments `inertia` [kg m²] along the body's axes. It takes them in one call so that what all steps share is
+/// computed once, as is what only the end of a run needs. The quaternion has unit length at the start, and to
+/// rounding at the end.
 template <class Real>
 struct FreeState {
   Quaternion<Real> worldFromBody;
@@ -20,7 +20,7 @@ struct FreeState {
   Vector3<Real> angularMomentumWorld() const { return worldFromBody * bodyMomentum; }
 };
 
-/// q brought to unit length.
+/// q normalised.
 template <class Real>
 Quaternion<Real> unit(Quaternion<Real> q) {
   using std::sqrt;

@@ -10,19 +10,18 @@ namespace careen {
 
 /// Elliptic integrals and the nome of one modulus, all from one descending Landen transformation.
 ///
-/// The ladder starts from a₀ ≥ b₀ > 0, whose quotient b₀/a₀ = √(1−k²) is the complementary modulus kc, and
-/// takes
+/// The ladder starts from a₀ ≥ b₀ > 0, whose ratio b₀/a₀ = √(1−k²) is the complementary modulus kc, and takes
 ///
-///     aₙ₊₁ = (aₙ + bₙ)/2,   bₙ₊₁ = √(aₙ bₙ),   gap dₙ = aₙ − bₙ,   dₙ₊₁ = dₙ ℓₙ,   ℓₙ = dₙ / (4 (aₙ₊₁ +
-///     bₙ₊₁)).
+///     aₙ₊₁ = (aₙ + bₙ)/2,   bₙ₊₁ = √(aₙ bₙ),   gap dₙ = aₙ − bₙ,   dₙ₊₁ = dₙ ℓₙ,
+///     ℓₙ = dₙ / (4 (aₙ₊₁ + bₙ₊₁)).
 ///
-/// The gap comes in from outside and is never subtracted again, so that a nearly circular modulus keeps all
-/// digits. Each level squares the nome; ℓₙ is the nome of level n up to a relative 2ℓₙ⁴, so a few levels do:
-/// the ladder ends at the first N with ℓ³ well below rounding, and what that level lacks is summed from the
-/// theta series. Everything is homogeneous in (a₀, b₀): nothing need be divided by a₀.
+/// The gap is an input and is never computed by subtraction, so that a nearly circular modulus keeps all
+/// digits. Each level squares the nome; ℓₙ is the nome of level n up to a relative 2ℓₙ⁴, so a few levels
+/// suffice: the ladder ends at the first N with ℓ³ well below rounding, and the remainder at that level is
+/// summed from the theta series. Everything is homogeneous in (a₀, b₀): no division by a₀ is needed.
 ///
 /// An integral is a recurrence that takes one step per level (the structs below). They are advanced side by
-/// side, in one loop, because each is a chain of divisions that leaves the processor idle on its own:
+/// side, in one loop, because each is a chain of divisions that alone leaves the processor idle:
 ///
 ///     for (bool more = true; more;) {
 ///       more = ladder.descend();
@@ -32,11 +31,11 @@ namespace careen {
 ///
 /// Sources: L. V. King, On the Direct Numerical Calculation of Elliptic Functions and Integrals, 1924; R.
 /// Bulirsch, Numer. Math. 7, 1965, and 13, 1969 (cel, el1), here in the form that halves at each level
-/// instead of doubling; Whittaker & Watson ch. 21 for the theta functions. Carlson's duplication was not
-/// taken: it needs three square roots per step, gains two bits with each, and none of its steps can be shared
-/// between the integrals.
+/// instead of doubling; Whittaker & Watson ch. 21 for the theta functions. Not used: Carlson's
+/// duplication: it needs three square roots per step, gains two bits with each, and none of its steps can be
+/// shared between the integrals.
 ///
-/// `Number` is what the levels are computed in, `Real` what phases and nomes are given in.
+/// `Number` is the type of the levels, `Real` that of phases and nomes.
 template <class Real, class Number = Wide<Real>>
 class LandenLadder {
  public:
@@ -49,7 +48,7 @@ class LandenLadder {
   LandenLadder(const Number& a, const Number& b, const Real& gap)
       : upper_(a), lower_(b), product_(a * b), gap_(gap) {}
 
-  /// Takes one level down; false when it was the last that is needed.
+  /// Descends one level; false when it was the last one needed.
   bool descend() {
     using std::sqrt;
     const Real upper = static_cast<Real>(upper_);
@@ -76,13 +75,14 @@ class LandenLadder {
 
   /// The level from which descend() went down, N at the end.
   const Level& level() const { return level_; }
-  /// Its a b in all digits; not of the last unless that is the first. a₀ b₀ before the first descent.
+  /// Product a b of that level in full precision; not for the last unless that is the first. a₀ b₀ before the
+  /// first descent.
   const Number& product() const { return product_; }
 
   /// The arithmetic–geometric mean M of a₀ and b₀, after the last descent. K = π a₀ / (2 M).
   Number mean() const { return upper_ - Number(gap_ / 2); }
 
-  /// a b − M² for the last level if it is not the first, whose product is known in all digits.
+  /// a b − M² for the last level if it is not the first, whose product is known in full precision.
   Real excessOfLastProduct() const {
     return descents_ == 1 ? Real(0) : Real(gap_ * (Real(0.75) * gap_ - static_cast<Real>(upper_)));
   }
@@ -90,8 +90,7 @@ class LandenLadder {
   /// Q, the nome of the last level.
   const Real& lastNome() const { return lambda_; }
 
-  /// What belongs to a₀ and b₀ from what belongs to the last level, for q and all that is squared along with
-  /// it.
+  /// Value at a₀ and b₀ from that at the last level, for q and all quantities squared along with it.
   Real atTop(Real x) const {
     using std::sqrt;
     for (int n = 1; n < descents_; ++n) {
@@ -116,9 +115,9 @@ class LandenLadder {
   Level level_{};
 };
 
-/// πu/2K [rad] in [0, π] for the u in [0, 2K] of which cn u / sn u is given.
+/// πu/2K [rad] in [0, π] for the u in [0, 2K] with given cn u / sn u.
 ///
-/// With y = aₙ cs u the angle doubles from level to level: y ← (y − ab/y)/2. What passes π is counted.
+/// With y = aₙ cs u the angle doubles from level to level: y ← (y − ab/y)/2. Crossings of π are counted.
 template <class Real>
 class EllipticPhase {
  public:
@@ -148,8 +147,8 @@ class EllipticPhase {
   Real scale_ = 1;
 };
 
-/// exp(−πw/2K) for the w in [0, K'] of which sn(w, k') is given: phase for an imaginary argument, x = sn/aₙ =
-/// i/y. Its recurrence loses the minus sign, and every term is positive.
+/// exp(−πw/2K) for the w in [0, K'] with given sn(w, k'): phase for an imaginary argument, x = sn/aₙ = i/y.
+/// Its recurrence loses the minus sign, and every term is positive.
 template <class Real>
 class EllipticDecay {
  public:
@@ -196,8 +195,8 @@ class EllipticDecay {
 /// cel(kc, p, α, βp) / K. For positive α and β every term is positive and nothing cancels.
 ///
 /// A step is s ← (s + ab/s)/2, α ← (α + γ/s)/2, γ ← (γ + α ab/s)/2 with γ = βs at first; the mean is V = (αM
-/// + γ)/(M + s) once a = b = M. Where ab = M² + ε with a small ε, the V of before the step wants only ε (α −
-/// V)/((M + s)² + ε), for which plain numbers do: so for the last step.
+/// + γ)/(M + s) once a = b = M. Where ab = M² + ε with a small ε, the V before the step needs only the
+/// correction ε (α − V)/((M + s)² + ε), for which `Real` suffices: used for the last step.
 template <class Real, class Number = Wide<Real>>
 class ThirdKindMean {
  public:
@@ -209,7 +208,7 @@ class ThirdKindMean {
     s_ = half(Number(s + ratio));
   }
 
-  /// A step between the first and the last.
+  /// An intermediate step.
   void step(const Number& product) {
     const Real inverse = leadingInverse<Real>(s_);
     const Number ratio = quotient(product, s_, inverse);
@@ -219,7 +218,7 @@ class ThirdKindMean {
     s_ = half(Number(s_ + ratio));
   }
 
-  /// With the last step.
+  /// Applies the last step.
   template <class Ladder>
   Number value(const Ladder& ladder) const {
     const Number mean = ladder.mean();

@@ -8,16 +8,15 @@
 
 namespace careen {
 
-/// An angle as a whole number of quarter turns and a rest [rad] of at most π/4 either way.
+/// An angle as a whole number of quarter turns and a remainder [rad] of at most π/4 in magnitude.
 template <class Real>
 struct TurnedAngle {
   Real quarterTurns;
   Real rest;
 };
 
-/// An angle that grows in proportion to time, kept in quarter turns so that whole turns drop out without
-/// error however many there are: after t seconds it is known to 2⁻⁷⁹ of rate · t, and to a rounding of one
-/// radian.
+/// An angle linear in time, kept in quarter turns so that whole turns drop out without error however many
+/// there are: after t seconds its error is 2⁻⁷⁹ of rate · t plus a rounding of one radian.
 template <class Real>
 class LinearPhase {
  public:
@@ -27,7 +26,7 @@ class LinearPhase {
       : rate_(rate * (2 / elementary::pi<Real>())),
         offset_(quarterTurns + rest * (2 / elementary::pi<Real>())) {}
 
-  /// t [s], shift [quarter turns] on top.
+  /// t [s], shift [quarter turns] added.
   TurnedAngle<Real> at(const Real& t, const Real& shift = 0) const {
     const Real turns = rate_ * t + (offset_ + shift);
     const Real whole = elementary::nearestInteger(turns);

@@ -8,21 +8,21 @@
 
 namespace careen {
 
-/// A free body less the part of its motion that commutes with all the rest, for methods that step what is
-/// left.
+/// A free body without the part of its motion that commutes with all the rest, for methods that step the
+/// remainder.
 ///
 /// With b the axis of the middle moment, the energy is
 ///
 ///     ½ Σ m²/I = |m|²/2Ib + ½ (1/Ia − 1/Ib) ma² + ½ (1/Ic − 1/Ib) mc².
 ///
-/// The first term alone turns the body steadily about L, by |L| t/Ib, and leaves m as it is. It commutes with
-/// every function of m, so that one such turn at the end of a run does for all its steps (restored()) and
-/// adds no error. What is left has no rate about b and smaller ones about a and c: none in a sphere, one in a
-/// symmetric top. In the right-handed frame x, y, z with z = ±b,
+/// The first term alone rotates the body steadily about L, by |L| t/Ib, and leaves m unchanged. It commutes
+/// with every function of m, so that one such rotation at the end of a run covers all its steps (restored())
+/// and adds no error. The remainder has no rate about b and smaller ones about a and c: none for a sphere,
+/// one for a symmetric top. In the right-handed frame x, y, z with z = ±b,
 ///
 ///     m' = m × (αx mx, αy my, 0),   q' = ½ q (αx mx, αy my, 0).
 ///
-/// Not used: the same with another axis than b. Strang's errors are then 0.7 to 1.5 (largest moment) or 4 to
+/// Not used: the same with an axis other than b. Strang's errors are then 0.7 to 1.5 (largest moment) or 4 to
 /// 30 times as large (smallest; measured at 1/60 s), and a symmetric top is exact only with the right one.
 template <class Real>
 struct MiddleAxisFrame {
@@ -73,7 +73,7 @@ struct MiddleAxisState {
         my(state.bodyMomentum[frame.y]),
         mz(state.bodyMomentum[frame.z] * frame.sign) {}
 
-  /// Along the body's axes again, turned about L for `time` [s], q of unit length.
+  /// Back in the body's axes, rotated about L for `time` [s], q normalised.
   FreeState<Real> restored(const MiddleAxisFrame<Real>& frame, const Real& time) const {
     const auto alongBody = [&](const Real& alongX, const Real& alongY, const Real& alongZ) {
       Vector3<Real> v;

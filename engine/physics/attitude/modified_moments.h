@@ -10,12 +10,12 @@ namespace careen {
 ///     1/Ĩᵢ = (1 + s₁ + s₂ + s₃ + s₄)/Iᵢ + d₁ + d₂ + d₃ + d₄,
 ///
 /// where sₖ and dₖ are polynomials of degree k in H = h² · energy = ½ h² Σ m²/I and C = ½ h² |m|², with
-/// coefficients made of e₁ = Σ 1/Iᵢ, e₂ = Σ 1/(Iᵢ Iⱼ), e₃ = 1/(I₁ I₂ I₃). s₁ and d₁ alone give order 4.
+/// coefficients in terms of e₁ = Σ 1/Iᵢ, e₂ = Σ 1/(Iᵢ Iⱼ), e₃ = 1/(I₁ I₂ I₃). s₁ and d₁ alone give order 4.
 ///
-/// The form is that of Hairer & Vilmart (J. Phys. A 39, 2006). The coefficients were found here in rational
+/// The form is that of Hairer & Vilmart (J. Phys. A 39, 2006). The coefficients were derived here in rational
 /// arithmetic: with g of the exact step as a Taylor series the equations of the method are linear in Ĩ, and
-/// each sₖ, dₖ is the one polynomial that fits the solutions for 60 bodies and momenta. Any wrong digit shows
-/// as a lower order (moser_veselov_test.cpp).
+/// each sₖ, dₖ is the unique polynomial that fits the solutions for 60 bodies and momenta. Any wrong digit
+/// shows as a lower order (moser_veselov_test.cpp).
 template <class Real>
 Vector3<Real> inverseModifiedMoments(const Vector3<Real>& inertia, const Vector3<Real>& momentumBody,
                                      const Real& h) {
@@ -27,7 +27,7 @@ Vector3<Real> inverseModifiedMoments(const Vector3<Real>& inertia, const Vector3
   const Real e22 = e2 * e2;
   const Real e33 = e3 * e3;
   const Real e13 = e1 * e3;
-  // NOLINTBEGIN(readability-identifier-naming): energy and length as papers write them
+  // NOLINTBEGIN(readability-identifier-naming): notation of the papers
   const Real H = h * h / 2 * momentumBody.cwiseProduct(inverse).dot(momentumBody);
   const Real C = h * h / 2 * momentumBody.squaredNorm();
   const Real H2 = H * H;

@@ -11,12 +11,12 @@
 
 namespace careen {
 
-/// The curve on which the tip of the angular momentum moves in the body, and the names its parts have in
-/// torque_free_rotation.h: which body axes play a, b and c, and the quantities every elliptic integral is
-/// made of.
+/// The polhode, the curve of the tip of the angular momentum in the body, in the notation of
+/// torque_free_rotation.h: which body axes are a, b and c, and the quantities that enter every elliptic
+/// integral.
 ///
-/// The momentum is taken in the extended type: near the separatrix, or in a needle, the last digit of a
-/// component decides where the motion goes.
+/// The momentum is in the extended type: near the separatrix, or in a needle, the last digit of a component
+/// decides the direction of the motion.
 template <class Real>
 struct Polhode {
   using Extended = Wide<Real>;
@@ -50,7 +50,7 @@ struct Polhode {
   Extended p, d;            // A² nAC and A² kc² nAB · magnification²
   Real s;                   // C² nAC
   Real aSquared, cSquared;  // A² and C²; 0 for a body with three equal moments
-  Real magnification = 1;   // [1] by which m along a and c was enlarged for d, a power of two
+  Real magnification = 1;   // [1] scale factor of m along a and c in d, a power of two
 
   // nAB = V |1/Ia − 1/Ib| and so on [kg² m⁴].
   const Extended& nAB() const { return body.n[circled]; }
@@ -62,22 +62,22 @@ struct Polhode {
   const Extended& perIb() const { return body.inverse[1]; }
   const Extended& perIc() const { return body.inverse[2 - 2 * circled]; }
 
-  /// momentumBody [kg m²/s] along the body axes. Keeps a reference to the moments. In line with turnedBack():
+  /// momentumBody [kg m²/s] along the body axes. Keeps a reference to the moments. Inlined with turnedBack():
   /// the momentum then stays in registers.
   [[gnu::always_inline]] Polhode(const PrincipalMoments<Real>& moments, std::array<Extended, 3> momentumBody)
       : body(moments) {
     using std::abs;
     using std::sqrt;
-    // Spin within rounding about one axis leaves the others to what has cancelled: their parts may overlap,
-    // and a square that leaves out the smaller part's would come out negative.
+    // For a spin about one axis to within rounding, the other components are results of cancellation: their
+    // high and low parts may overlap, and a square without the smaller part's would come out negative.
     for (Extended& component : momentumBody) {
       component = normalized(component);
     }
     const Vector3<Real> m(static_cast<Real>(momentumBody[0]), static_cast<Real>(momentumBody[1]),
                           static_cast<Real>(momentumBody[2]));
     const std::array<std::size_t, 3>& order = body.order;
-    // Hardly off the middle axis, nothing but kc depends on the two outer components: they are taken larger,
-    // so that their squares do not underflow.
+    // Very close to the middle axis, only kc depends on the two outer components: they are scaled up, so that
+    // their squares do not underflow.
     const Real outer =
         std::max(Real(abs(m[static_cast<int>(order[0])])), Real(abs(m[static_cast<int>(order[2])])));
     if (outer > 0) {
@@ -93,7 +93,7 @@ struct Polhode {
     const Extended mbSquared = square(momentumBody[order[1]]);
     const Extended excess = normalized(Extended(squares[0] * body.n[0] - squares[1] * body.n[1]));
     const Real sign = static_cast<Real>(excess);
-    // On the separatrix either would do, but a symmetric body's axis must be a.
+    // On the separatrix either works, but a symmetric body's axis must be a.
     circled = sign < 0 || (sign == 0 && static_cast<Real>(body.n[0]) == 0) ? 1 : 0;
 
     direction = circled == 1 ? Real(-1) : Real(1);
@@ -123,8 +123,7 @@ struct Polhode {
              : sign == 0                   ? Kind::kSeparatrix
                                            : Kind::kGeneral;
       // m is made positive along as many axes as a right-handed frame allows: a half turn of body and world
-      // about a coordinate axis, which is what mirroring amounts to, then leads to the same frame and the
-      // same bits.
+      // about a coordinate axis, equivalent to mirroring, then leads to the same frame and the same bits.
       const Real parity = (b + 1) % 3 == c ? Real(1) : Real(-1);
       Real alongA = signOf(m[a]);
       Real alongB = signOf(m[b]);

@@ -9,11 +9,11 @@
 
 namespace careen {
 
-/// What the free rotation of a body depends on that is the same for all its flights. Worked out once per
-/// body, because it takes as long as a flight's own set-up.
+/// The part of a body's free rotation that is the same for all its flights. Computed once per body, because
+/// it takes as long as a flight's own set-up.
 ///
 /// Denominators are cleared: with V = I₁ I₂ I₃, n₁₂ = (I₂ − I₁) I₃ stands for V (1/I₁ − 1/I₂), and so on.
-/// Differences of moments are thus taken of the moments themselves, where they are exact when it matters.
+/// Differences are thus taken of the moments themselves, where they are exact when it matters.
 template <class Real>
 struct PrincipalMoments {
   using Extended = Wide<Real>;
@@ -27,8 +27,8 @@ struct PrincipalMoments {
   std::array<Real, 2> perN;              // [1/(kg² m⁴)] 1/n₁₂, 1/n₂₃, or 0 where n is 0
   Real perN13;                           // [1/(kg² m⁴)] likewise
   Extended perVolume;                    // [1/(kg³ m⁶)] 1/V
-  // Where the momentum circles axis 1, and where it circles axis 3: √(n₁₃/nAB) if nAB, n₁₂ or n₂₃, is the
-  // larger of these two, else √(n₁₃ nAB). Times a₀, or times G, this is a₀√p of the precession's integral.
+  // For momentum circling axis 1, and axis 3: √(n₁₃/nAB) if nAB, n₁₂ or n₂₃, is the larger of these two, else
+  // √(n₁₃ nAB). Times a₀, or times G, this is a₀√p of the precession's integral.
   std::array<Extended, 2> precessionRoot;
 
   /// Positive and finite [kg m²].
@@ -61,7 +61,7 @@ struct PrincipalMoments {
     }
   }
 
-  /// Whether n₁₂ (0) or n₂₃ (1) is positive and at least the other.
+  /// Whether n₁₂ (0) or n₂₃ (1) is positive and not less than the other.
   bool isLarger(std::size_t which) const {
     const Real mine = static_cast<Real>(n[which]);
     return mine > 0 && mine >= static_cast<Real>(n[1 - which]);

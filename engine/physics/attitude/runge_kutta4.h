@@ -38,7 +38,7 @@ inline AttitudeAndMomentum<Real> moved(const AttitudeAndMomentum<Real>& s, const
           s.m0 + h * d.m0, s.m1 + h * d.m1, s.m2 + h * d.m2};
 }
 
-/// One step, the quaternion's length left as it comes.
+/// One step, without normalising the quaternion.
 template <class Real>
 inline AttitudeAndMomentum<Real> rungeKutta4Step(const AttitudeAndMomentum<Real>& s,
                                                  const Vector3<Real>& inverse, const Real& dt) {
@@ -52,11 +52,11 @@ inline AttitudeAndMomentum<Real> rungeKutta4Step(const AttitudeAndMomentum<Real>
 
 }  // namespace detail
 
-/// The classical Runge–Kutta method on (q, m), the quaternion brought back to unit length after each step.
+/// The classical Runge–Kutta method on (q, m), with the quaternion normalised after each step.
 ///
-/// Order 4 in attitude, energy and momentum. Keeps none of energy, |m| and the momentum in the world: within
-/// a period of the polhode their errors are of order 4 and come back (the leading term is odd in time), what
-/// stays is of order 5 and grows with time. Not symmetric.
+/// Order 4 in attitude, energy and momentum. Conserves none of energy, |m| and the momentum in the world:
+/// within a period of the polhode their errors are of order 4 and periodic (the leading term is odd in time),
+/// the remaining drift is of order 5 and grows with time. Not symmetric.
 ///
 /// Source: W. Kutta, Z. Math. Phys. 46, 1901.
 template <class Real>

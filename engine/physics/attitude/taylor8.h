@@ -72,16 +72,16 @@ void taylor8Step(MiddleAxisState<Real>& s, const Real& hAlphaX, const Real& hAlp
 
 }  // namespace detail
 
-/// The Taylor series of q and m to order 8, its coefficients one from another by Cauchy products:
+/// The Taylor series of q and m to order 8, with recursive coefficients by Cauchy products:
 ///
 ///     (n+1) m[n+1] = Σ m[j] × ω[n−j],   (n+1) q[n+1] = Σ ½ q[n−j] ω[j],
 ///
-/// for the motion that middle_axis_frame.h leaves, which saves a third of the products in q and makes errors
-/// smaller. The quaternion is brought back to unit length after each step.
+/// for the motion that middle_axis_frame.h leaves, which saves a third of the products in q and reduces
+/// errors. The quaternion is normalised after each step.
 ///
-/// Order 8 in attitude, energy and momentum. Keeps none of energy, |m| and the momentum in the world: the
-/// leading term of their errors is odd in time and comes back with the polhode's period, what follows grows
-/// with time. Not symmetric. A sphere comes out exact.
+/// Order 8 in attitude, energy and momentum. Conserves none of energy, |m| and the momentum in the world: the
+/// leading term of their errors is odd in time and periodic with the polhode, the next grows with time. Not
+/// symmetric. Exact for a sphere.
 ///
 /// Source: the method is old; E. Hairer, S. P. Nørsett & G. Wanner, Solving Ordinary Differential Equations
 /// I, I.8.

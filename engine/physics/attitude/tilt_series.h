@@ -12,30 +12,29 @@
 
 namespace careen {
 
-/// How a torque-free body leans while it goes round: α = θ₄(v + iσ | q²), β = −i θ₁(v + iσ | q²), not
-/// normalised.
+/// Tilt of a torque-free body during precession: α = θ₄(v + iσ | q²), β = −i θ₁(v + iσ | q²), not normalised.
 ///
-/// v = πu/2K [rad] is the phase of the polhode, q the nome, and σ fixes the mean lean through
-/// ε = exp(−πw/2K) and ζ = q/ε = exp(−πs/K)·ε, where w + s = K' and σ = πs/2K (torque_free_rotation.h).
-/// Harmonic j of the series has the coefficients q^{j(j−1)/2} ζʲ for e^{ijv} and q^{j(j−1)/2} εʲ for
-/// e^{−ijv}, which stay finite for a symmetric body, where q = ζ = 0 and β = ε e^{−iv} is all that is left.
+/// v = πu/2K [rad] is the phase of the polhode, q the nome, and σ determines the mean tilt through ε =
+/// exp(−πw/2K) and ζ = q/ε = exp(−πs/K)·ε, where w + s = K' and σ = πs/2K (torque_free_rotation.h). Harmonic
+/// j of the series has the coefficients q^{j(j−1)/2} ζʲ for e^{ijv} and q^{j(j−1)/2} εʲ for e^{−ijv}, which
+/// stay finite for a symmetric body, where q = ζ = 0 and only β = ε e^{−iv} is left.
 ///
-/// Near the separatrix q tends to 1 and the series would not end. Beyond q = 0.2 Jacobi's imaginary
-/// transformation takes over: with p = exp(−πK/2K'), y = vK/2K' and x = πs/4K',
+/// Near the separatrix q tends to 1 and the series does not converge in practice. Beyond q = 0.2 Jacobi's
+/// imaginary transformation is used: with p = exp(−πK/2K'), y = vK/2K' and x = πs/4K',
 ///
 ///     α = θ₂(x − iy | p) e^{iψ},   β = θ₁(x − iy | p) e^{iψ},   ψ = −2xv/π,   for |v| ≤ π/2,
 ///
-/// to which whole half turns of v are added by α(v + π) = α(v), β(v + π) = −β(v). On the separatrix itself K
-/// is infinite, p and ψ vanish, y = u/2 grows without end, and one term of each series is the whole answer.
+/// with whole half turns of v added by α(v + π) = α(v), β(v + π) = −β(v). On the separatrix itself K is
+/// infinite, p and ψ vanish, y = u/2 grows without bound, and one term of each series is the exact result.
 template <class Real>
 class TiltSeries {
  public:
   struct Lean {
     CayleyKlein<Real> spinor;  // up to a common real factor
-    Real phase;                // ψ [quarter turns], by which both are still to be turned
+    Real phase;                // ψ [quarter turns], phase still to be applied to both
   };
 
-  /// No lean at all: a spin about the axis itself.
+  /// No tilt: a spin about the axis itself.
   TiltSeries() : TiltSeries(fromNome(0, 0)) {}
 
   /// q ≤ 0.2; ε ≥ √q.
@@ -75,19 +74,19 @@ class TiltSeries {
     return series;
   }
 
-  /// K = ∞: the angle that transformed() takes is then y = u/2 itself.
+  /// K = ∞: the angle passed to transformed() is then y = u/2 itself.
   static TiltSeries onSeparatrix(const Real& x) {
     TiltSeries series{Mode::kSeparatrix};
     series.setTransformed(0, x);
     return series;
   }
 
-  /// Whether α and β come from direct() or from transformed().
+  /// Whether direct() or transformed() gives α and β.
   bool isDirect() const { return mode_ == Mode::kDirect; }
 
   /// α and β for sin v and cos v.
   CayleyKlein<Real> direct(const elementary::SinCos<Real>& v) const {
-    // Clenshaw's recurrence in 2 cos 2v for all four sums side by side.
+    // Clenshaw's recurrence in 2 cos 2v for all four sums in parallel.
     const Real sin2 = 2 * v.sin * v.cos;
     const Real cos2 = (v.cos - v.sin) * (v.cos + v.sin);
     const Real twice = 2 * cos2;
@@ -109,7 +108,7 @@ class TiltSeries {
   /// α, β and ψ for v.
   Lean transformed(const TurnedAngle<Real>& angle) const {
     using std::abs;
-    // v less whole half turns, on the separatrix with all of them.
+    // v minus whole half turns; on the separatrix with all of them.
     Real quarters = angle.quarterTurns;
     bool odd = false;
     if (mode_ == Mode::kTransformed) {
@@ -120,8 +119,8 @@ class TiltSeries {
     }
     const Real v = quarters * (elementary::pi<Real>() / 2) + angle.rest;
     const Real y = v * stretch_;
-    // Everything is divided by e^{|y|}/2. As |y| ≤ πK/4K', the ratio of one harmonic's growth to the last's
-    // is at most 1, also where both numbers underflow.
+    // Everything is divided by e^{|y|}/2. As |y| ≤ πK/4K', the growth ratio of successive harmonics is at
+    // most 1, also where both numbers underflow.
     const Real decay = elementary::exp(Real(-2 * abs(y)));
     const Real ratio = decay > nome_ ? Real(nome_ / decay) : Real(1);  // p e^{2|y|}
     CayleyKlein<Real> sum{0, 0, 0, 0};
@@ -172,7 +171,7 @@ class TiltSeries {
     }
   }
 
-  /// Terms of each sum such that the first harmonic left out is below rounding at q = 0.2.
+  /// Number of terms per sum, such that the first omitted harmonic is below rounding at q = 0.2.
   static constexpr std::size_t countTerms() {
     int j = 1;
     while (1.16 * j * (j - 1) < std::numeric_limits<Real>::digits + 4) {

@@ -18,34 +18,34 @@
 
 namespace careen {
 
-/// The attitude of a rigid body that nothing turns, at any time, in closed form: set up once, evaluated
-/// anywhere, never stepped.
+/// The attitude of a torque-free rigid body at any time, in closed form: set up once, evaluated at any time,
+/// never stepped.
 ///
 /// **The problem.** L [kg m²/s], the angular momentum in the world, is constant. Seen from the body it is m =
 /// Aᵀ L and obeys Euler's m' = m × I⁻¹ m; A obeys A' = ω̃ A with ω = A I⁻¹ Aᵀ L.
 ///
-/// **The momentum in the body** runs round one axis. Let b be the axis of the middle moment, a and c the
-/// outer two, a the one that m circles: that of the smallest moment if D = ma² (1/Ia − 1/Ib) − mc² (1/Ib −
-/// 1/Ic) is positive for that choice, else that of the largest. With AB = 1/Ia − 1/Ib, BC = 1/Ib − 1/Ic, AC =
-/// 1/Ia − 1/Ic (one sign for all),
+/// **The momentum in the body** circles one axis. Let b be the axis of the middle moment, a and c the outer
+/// two, a the one that m circles: that of the smallest moment if D = ma² (1/Ia − 1/Ib) − mc² (1/Ib − 1/Ic) is
+/// positive for that choice, else that of the largest. With AB = 1/Ia − 1/Ib, BC = 1/Ib − 1/Ic, AC = 1/Ia −
+/// 1/Ic (all of one sign),
 ///
 ///     m = (mb, mc, ma) = (B sn u, C cn u, A dn u),   u = λt + u₀,   λ = sgn(AC) A √(AC·AB),
 ///     A² = ma² + mb² BC/AC,   C² = mc² + mb² AB/AC,   B² = C² AC/AB,   G² = |L|² = A² + C²,
 ///     k² = (BC/AC) B²/A²,     kc² = 1 − k² = D/(A² AB).
 ///
-/// kc is formed from D, never from k, which is next to 1 near the separatrix D = 0. sn, cn, dn are Jacobi's
-/// functions of modulus k, K and K' their quarter periods, v = πu/2K the phase of the polhode.
+/// kc is computed from D, never from k, which is close to 1 near the separatrix D = 0. sn, cn, dn are
+/// Jacobi's functions of modulus k, K and K' their quarter periods, v = πu/2K the phase of the polhode.
 ///
 /// **The attitude.** In the right-handed frame x = ±b, y = ±c, z = ±a (signs such that ma ≥ 0) and for L
-/// along the world's z, the Cayley–Klein parameters w + iz and x + iy of A are entire functions of u but for
-/// a common factor (Klein & Sommerfeld), and these two are theta functions of nome q² = exp(−2πK'/K):
+/// along the world's z, the Cayley–Klein parameters w + iz and x + iy of A are, up to a common factor, entire
+/// functions of u (Klein & Sommerfeld): theta functions of nome q² = exp(−2πK'/K),
 ///
-///     w + iz = e^{iκt} θ₄(v + iσ | q²)/N,   x + iy = −i e^{iκt} θ₁(v + iσ | q²)/N,   N making the length 1.
+///     w + iz = e^{iκt} θ₄(v + iσ | q²)/N,   x + iy = −i e^{iκt} θ₁(v + iσ | q²)/N,   N: normalisation.
 ///
-/// σ = πs/2K says how far m leans from a: w = K' − s is the argument with sn(w, k') = A/G. κ is half the mean
-/// angular speed about L, and follows from the mean precession of a body axis: a's is the mean of G (mb²/Ib +
-/// mc²/Ic)/(mb² + mc²), c's the mean of G (ma²/Ia + mb²/Ib)/(ma² + mb²), and they differ by dv/dt = πλ/2K
-/// because c goes round a once per period of the polhode where a, on average, stays:
+/// σ = πs/2K measures the tilt of m from a: w = K' − s is the argument with sn(w, k') = A/G. κ is half the
+/// mean angular speed about L, and follows from the mean precession of a body axis: a's is the mean of G
+/// (mb²/Ib + mc²/Ic)/(mb² + mc²), c's the mean of G (ma²/Ia + mb²/Ib)/(ma² + mb²), and they differ by dv/dt =
+/// πλ/2K because c revolves about a once per period of the polhode while a, on average, stays:
 ///
 ///     2κ = ⟨precession of a⟩ + dv/dt = ⟨precession of c⟩.
 ///
@@ -54,39 +54,39 @@ namespace careen {
 ///     G ⟨(α cn² + β p sn²)/(cn² + p sn²)⟩,   of a: α = 1/Ic, β = 1/Ib, p = AC/AB;
 ///                                            of c: α = 1/Ia, β = 1/Ib + D/G², p = G²/A²
 ///
-/// (β of c is twice the energy, Σ m²/I = G²/Ib + D, over G²); the one is taken whose p lies in (1, 2]. In
-/// general L is not along z: a constant quaternion on the left, fixed by A(0), sees to that.
+/// (β of c is twice the energy, Σ m²/I = G²/Ib + D, over G²); the one with p in (1, 2] is used. In general L
+/// is not along z: a constant quaternion on the left, determined by A(0), accounts for that.
 ///
-/// **In numbers.** landen_ladder.h has the integrals, tilt_series.h the theta functions, polhode.h the choice
-/// of axes and the sign of D, principal_moments.h what is the same for all flights of a body. What time
-/// multiplies (dv/dt and κ) is computed in twice the digits and kept in quarter turns (linear_phase.h).
-/// Special cases: two equal moments make k = 0, circular functions and one term of each series; a spin about
-/// a body axis makes A a steady turn; on the separatrix (D = 0) K = ∞ and the functions are hyperbolic. No
-/// tolerance has a unit: multiplying moments, L and t by powers of two gives the same bits, and so does
-/// mirroring.
+/// **Numerically.** landen_ladder.h computes the integrals, tilt_series.h the theta functions, polhode.h the
+/// choice of axes and the sign of D, principal_moments.h what is the same for all flights of a body. Factors
+/// of time (dv/dt and κ) are computed in double the precision and kept in quarter turns (linear_phase.h).
+/// Special cases: two equal moments give k = 0, circular functions and one term of each series; for a spin
+/// about a body axis A is a steady rotation; on the separatrix (D = 0) K = ∞ and the functions are
+/// hyperbolic. No tolerance has a unit: multiplying moments, L and t by powers of two gives the same bits,
+/// and so does mirroring.
 ///
-/// Not used: Whittaker's Euler angles (they lose digits where m passes the axis they are counted from); a
+/// Not used: Whittaker's Euler angles (they lose digits where m passes the axis they are measured from); a
 /// rotation matrix built on L and m (Van Zon & Schofield), which needs the incomplete integral of the third
-/// kind at every evaluation or the same theta functions; Celledoni & others' form, whose case (iii) has signs
-/// in error.
+/// kind at every evaluation or the same theta functions; the form of Celledoni et al., whose case (iii) has
+/// sign errors.
 ///
 /// Sources: F. Klein & A. Sommerfeld, Theorie des Kreisels, ch. VI; E. T. Whittaker, Analytical Dynamics,
 /// §69; R. van Zon & J. Schofield, J. Comput. Phys. 225, 2007; E. Celledoni, F. Fassò, N. Säfström & A.
 /// Zanna, SIAM J. Sci. Comput. 30, 2008; R. Bulirsch, Numer. Math. 13, 1969, for the third kind (cel).
 ///
 /// Measured for double: error [rad] at most 1.3e-15 (1 + ωt) for 204,000 bodies and spins of all kinds,
-/// against a Taylor series of order 30; 7.1e-16 after 10⁴ s and 4·10⁴ radians. In steps of the classical
-/// Runge–Kutta method that end with a unit quaternion, one attitude costs 0.9 and one set-up 9; in bare
-/// steps 1.2 and 12 (torque_free_rotation_benchmark.cpp).
+/// against a Taylor series of order 30; 7.1e-16 after 10⁴ s and 4·10⁴ radians. Cost in steps of the classical
+/// Runge–Kutta method with normalisation: one attitude 0.9, one set-up 9; in steps without it 1.2 and 12
+/// (torque_free_rotation_benchmark.cpp).
 ///
-/// Moments must be positive and finite, L finite; the quaternion may have any length but 0. Squares of all of
-/// them, and products of two such squares, must neither overflow nor underflow; only the momentum off an axis
-/// may be as small as it likes. |ωt| < 2⁵⁰.
+/// Moments must be positive and finite, L finite; the quaternion may have any non-zero length. Squares of all
+/// of them, and products of two such squares, must neither overflow nor underflow; only the momentum off an
+/// axis may be arbitrarily small. |ωt| < 2⁵⁰.
 template <class Real>
 class TorqueFreeRotation {
  public:
   /// Principal moments of inertia, along the body's axes if given as a vector [kg m²], attitude at t = 0,
-  /// angular momentum [kg m²/s]. Nothing is kept of the moments by reference.
+  /// angular momentum [kg m²/s]. Keeps no reference to the moments.
   TorqueFreeRotation(const PrincipalMoments<Real>& moments, const Quaternion<Real>& worldFromBodyAtStart,
                      const Vector3<Real>& angularMomentumWorld);
   TorqueFreeRotation(const Vector3<Real>& momentsBody, const Quaternion<Real>& worldFromBodyAtStart,
@@ -99,13 +99,13 @@ class TorqueFreeRotation {
   /// ω = A I⁻¹ Aᵀ L [rad/s] for the attitude A.
   Vector3<Real> angularVelocityWorld(const Quaternion<Real>& worldFromBody) const;
 
-  /// L [kg m²/s], the same for ever.
+  /// L [kg m²/s], constant.
   Vector3<Real> angularMomentumWorld() const {
     return {angularMomentumWorld_[0], angularMomentumWorld_[1], angularMomentumWorld_[2]};
   }
 
-  /// What |ω| and |dω/dt| in the world never exceed, at any time: the largest values on the whole polhode,
-  /// from the conservation of energy and |L|, made safe against rounding.
+  /// Upper bounds of |ω| and |dω/dt| in the world for all times: the largest values on the whole polhode,
+  /// from the conservation of energy and |L|, with a margin for rounding.
   struct Bounds {
     Real angularSpeed;         // [rad/s]
     Real angularAcceleration;  // [rad/s²]
@@ -241,8 +241,8 @@ void TorqueFreeRotation<Real>::setUpGeneral(const Polhode<Real>& polhode) {
   const auto real = [](const Extended& x) { return static_cast<Real>(x); };
   const PrincipalMoments<Real>& body = polhode.body;
 
-  // Both ladders start from a₀ = A √(nAC nAB), the direct one with b₀ = kc a₀, the complementary one with
-  // k a₀.
+  // Both ladders start from a₀ = A √(nAC nAB), the direct one with b₀ = kc a₀, the complementary one with k
+  // a₀.
   const Extended lowerSquared = polhode.d * polhode.nAC();
   const Extended upper = sqrt(Extended(polhode.p * polhode.nAB()));
   Extended lower = sqrt(lowerSquared);
@@ -295,7 +295,7 @@ void TorqueFreeRotation<Real>::setUpGeneral(const Polhode<Real>& polhode) {
   const Extended rate = polhode.direction < 0 ? Extended(-rateSize) : rateSize;  // dv/dt
   const Extended mean = polhode.momentum * precession.value(ladder);
   precession_ = {half(ofAxisA ? Extended(mean + rate) : mean), 0, 0};
-  // Counted from the nearer of 0 and π: when K is large, u depends on all digits of v there.
+  // Measured from the nearer of 0 and π: when K is large, u depends on all digits of v there.
   const bool beyond = polhode.mc < 0;
   const Real start = polhode.mb == 0 ? Real(0) : phase.value(real(ladder.mean()));
   polhodePhase_ = {rate, Real(beyond ? 2 : 0), beyond ? Real(-start) : start};
