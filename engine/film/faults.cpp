@@ -11,7 +11,7 @@
 namespace careen {
 namespace {
 
-// Empty if there is none.
+// Returns an empty string if the frame is valid.
 std::string faultOf(const std::filesystem::path& path, const FilmManifest& film) {
   std::error_code none;
   if (!std::filesystem::exists(path, none)) {
@@ -25,7 +25,7 @@ std::string faultOf(const std::filesystem::path& path, const FilmManifest& film)
     }
   } catch (const InputError& error) {
     const std::string words = error.what();
-    return words.substr(path.string().size() + 2);  // what comes after "path: "
+    return words.substr(path.string().size() + 2);  // the text after "path: "
   }
   return {};
 }

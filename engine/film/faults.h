@@ -14,7 +14,7 @@ struct FrameFault {
   std::string what;  ///< "is missing", …
 };
 
-/// Frames of the manifest that are missing, broken or of another size. Every file is read whole.
+/// Frames of the manifest that are missing, corrupt or of another size. Reads every file completely.
 std::vector<FrameFault> findFaults(const std::filesystem::path& folder, const FilmManifest& manifest);
 
 }  // namespace careen

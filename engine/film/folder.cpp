@@ -29,7 +29,7 @@ bool isFrame(std::string_view name) {
   return name.ends_with(kEnding) && isNumber(name.substr(0, name.size() - kEnding.size()), 6);
 }
 
-// ".000012.png.4711.partial", as AtomicFile names what it has not finished.
+// ".000012.png.4711.partial": AtomicFile's name for an unfinished file.
 bool isPartial(std::string_view name) {
   if (!name.starts_with('.') || !name.ends_with(kPartialSuffix)) {
     return false;
@@ -75,10 +75,10 @@ FilmFolder::FilmFolder(fs::path path) : path_(std::move(path)) {
 
 FilmFolder::~FilmFolder() {
   try {
-    removeAll(path_, isPartial);     // ours, and what a run left that was killed outright
-  } catch (const std::exception&) {  // the next film's to remove
+    removeAll(path_, isPartial);     // our own and those of killed runs
+  } catch (const std::exception&) {  // left for the next film to remove
   }
-  lock_.reset();  // its file is in the folder
+  lock_.reset();  // removes the lock file, which is in the folder
   if (made_) {
     std::error_code notEmpty;
     fs::remove(path_, notEmpty);

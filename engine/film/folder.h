@@ -11,16 +11,16 @@
 
 namespace careen {
 
-/// Name of a frame's file: 000000.png for frame 0.
+/// File name of a frame: 000000.png for frame 0.
 std::string frameFileName(std::int64_t frame);
 
-/// A folder that a film is being written into: made if it is not there, held so that no other process writes
-/// to it, and gone again if nothing was written. Only what careen wrote is ever removed; what was being
-/// written when a process died goes with this object.
+/// A folder that a film is being written to: created if it does not exist, locked against other processes,
+/// and removed again if nothing was written. Only files that careen wrote are ever removed; partial files of
+/// processes that died are removed by the destructor.
 class FilmFolder {
  public:
-  /// MachineError if the folder cannot be made, InputError if another process holds it or if it has PNG files
-  /// that no manifest tells of.
+  /// MachineError if the folder cannot be created, InputError if another process has locked it or it contains
+  /// PNG files but no manifest.
   explicit FilmFolder(std::filesystem::path path);
   ~FilmFolder();
   FilmFolder(const FilmFolder&) = delete;
@@ -29,12 +29,12 @@ class FilmFolder {
   FilmFolder& operator=(FilmFolder&&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// What film is there.
+  /// The film already in the folder.
   const std::optional<FilmManifest>& manifest() const { return manifest_; }
 
-  /// Of the frames asked for, those not there or not whole.
+  /// The requested frames that are missing or incomplete.
   std::vector<std::int64_t> missing(const FilmManifest& asked) const;
-  /// Makes place for a film: another film's frames go, the same film's stay.
+  /// Prepares the folder for a film: with `resume`, existing frames are kept; otherwise they are removed.
   void begin(const FilmManifest& asked, bool resume);
 
  private:

@@ -24,8 +24,8 @@ bool isAt(int descriptor, const std::filesystem::path& path) {
 
 }  // namespace
 
-// A file open for writing, because NFS gives no such lock on a folder, nor on what is open for reading only:
-// flock(2), "NFS details".
+// Locks a file open for writing, because NFS cannot lock a folder exclusively, nor a file open for reading
+// only: flock(2), "NFS details".
 FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".careen.lock") {
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
   while ((descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) >= 0) {
@@ -33,7 +33,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".c
     if (!taken && isAt(descriptor_, file_)) {
       return;
     }
-    close(descriptor_);  // taken, or just removed by who held it before
+    close(descriptor_);  // taken, or just removed by its previous owner
     if (std::chrono::steady_clock::now() > patience) {
       throw InputError(folder.string() +
                        ": another careen is writing a film there; expected a folder for each");
@@ -45,7 +45,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".c
 FolderLock::~FolderLock() {
   if (descriptor_ >= 0) {
     std::error_code ignored;
-    std::filesystem::remove(file_, ignored);  // while it is held, so that it is nobody else's
+    std::filesystem::remove(file_, ignored);  // while locked, so it cannot be another process's
     close(descriptor_);
   }
 }

@@ -4,14 +4,13 @@
 
 namespace careen {
 
-/// Keeps a folder to this process for as long as the object is there; the system gives it up when the process
-/// and those it forked end, however they end. Holds between machines too, where the file system has locks
-/// between them, as NFS should (not tried). Where there are none at all, two processes in one folder go
-/// unnoticed.
+/// Locks a folder for this process for the object's lifetime; the system releases the lock when the process
+/// and its forks end, however they end. Works across machines if the file system supports such locks, as NFS
+/// should (not tried). Without any lock support, two processes in one folder go undetected.
 class FolderLock {
  public:
-  /// Makes a hidden file in the folder, which goes with this object. InputError if another process holds the
-  /// folder for more than a second: workers of one that was killed take a moment to end.
+  /// Creates a hidden lock file in the folder, removed by the destructor. InputError if another process holds
+  /// the lock for more than a second: workers of a killed process take a moment to end.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
@@ -21,7 +20,7 @@ class FolderLock {
 
  private:
   std::filesystem::path file_;
-  int descriptor_ = -1;  ///< −1: no locks here
+  int descriptor_ = -1;  ///< −1: locks are not supported
 };
 
 }  // namespace careen

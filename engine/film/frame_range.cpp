@@ -48,7 +48,7 @@ void append(std::vector<std::int64_t>& frames, const FrameRange& range, std::int
     throw InputError("frames: found " + std::to_string(std::max(range.first, last)) +
                      ", expected frames from 0 to " + std::to_string(frameCount - 1));
   }
-  // By what is left, because a frame and a step may add up to more than any number.
+  // Counts down the rest, because frame + step may overflow.
   for (std::int64_t left = last - range.first;; left -= range.step) {
     frames.push_back(last - left);
     if (left < range.step) {

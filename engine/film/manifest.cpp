@@ -18,7 +18,7 @@ std::string sizeText(const PictureSettings& picture) {
   return std::to_string(picture.width) + "x" + std::to_string(picture.height);
 }
 
-// What a film does not tell of is as it was when films did not tell of it, which the defaults still are.
+// Fields missing in old manifests take their default, which is the behaviour of that time.
 PictureSettings pictureFrom(const nlohmann::json& json) {
   PictureSettings picture;
   picture.width = json.at("size").at(0).get<int>();
@@ -37,7 +37,7 @@ FilmManifest fromJson(const nlohmann::json& json) {
     throw InputError("another version");
   }
   FilmManifest manifest;
-  manifest.program = json.value("program", "");  // films of old have neither
+  manifest.program = json.value("program", "");  // missing in old manifests, as are the next two
   manifest.renderer = json.value("renderer", "");
   manifest.libraries = json.value("libraries", "");
   manifest.sceneHash = json.at("scene_hash").get<std::string>();
