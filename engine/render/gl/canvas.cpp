@@ -31,7 +31,7 @@ void attach(const Gl& gl, GLenum place, GLenum format, int samples, int width, i
   gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer);
 }
 
-// Fewer would be another picture than the one asked for: softpipe has one.
+// Fewer samples would give a different picture than requested; softpipe supports only one.
 int samplesOf(const Gl& gl, Antialiasing antialiasing) {
   if (antialiasing != Antialiasing::kMultisampled) {
     return 0;
@@ -61,7 +61,7 @@ GLuint makeFramebuffer(const Gl& gl, int samples, bool depth, int width, int hei
   return framebuffer;
 }
 
-// The average light of so many pixels each way; false if one was never drawn.
+// Averages times x times pixels in linear light; false if one of them was never drawn.
 bool average(const std::uint8_t* from, std::size_t times, std::size_t rowPixels, std::uint8_t* to) {
   const SrgbTables& tables = SrgbTables::get();
   std::array<std::uint32_t, 3> light{};

@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t kBytes = 4;
 
-constexpr int kWhole = 2 * kEdgeSteps;  // the way to the next pixel
+constexpr int kWhole = 2 * kEdgeSteps;  // distance to the next pixel
 
 struct Crossing {
   int direction = 0;
-  int at = 0;  // [1/kWhole] of the way, the middle of its step
+  int at = 0;  // [1/kWhole] of the distance, middle of the step
 };
 
 std::optional<Crossing> crossingOf(std::uint8_t alpha) {
@@ -27,7 +27,7 @@ std::optional<Crossing> crossingOf(std::uint8_t alpha) {
   return Crossing{.direction = code / kEdgeSteps, .at = 2 * (code % kEdgeSteps) + 1};
 }
 
-// `part` / (2 kWhole) of a pixel takes the colour of another.
+// Blends `other` into a pixel with weight `part` / (2 kWhole).
 void blend(std::uint8_t* pixel, const std::uint8_t* other, int part) {
   const SrgbTables& tables = SrgbTables::get();
   for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -59,9 +59,9 @@ class EdgeBlend {
     const std::optional<Crossing> back = crossingOf(before_[there + 3]);
     if (back && back->direction == (crossing->direction ^ 1)) {
       if (there < here) {
-        return;  // done from there
+        return;  // handled from the other pixel
       }
-      edge = crossing->at + kWhole - back->at;  // the same edge, but for rounding
+      edge = crossing->at + kWhole - back->at;  // the same edge, up to rounding
     }
     if (edge < kWhole) {
       blend(&rgba_[here], &before_[there], kWhole - edge);

@@ -1,6 +1,6 @@
 #include "render/gl/egl.h"
 
-#define EGL_NO_PLATFORM_SPECIFIC_TYPES  // else it includes X11
+#define EGL_NO_PLATFORM_SPECIFIC_TYPES  // otherwise the header includes X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 

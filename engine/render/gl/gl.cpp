@@ -25,7 +25,7 @@ Gl::Gl(const GlContext& context) {
 }
 
 int Gl::integer(unsigned what) const {
-  std::array<GLint, 4> values{};  // some questions have more than one answer; the first is the one meant
+  std::array<GLint, 4> values{};  // some queries return several values; the first is used
   GetIntegerv(what, values.data());
   return values[0];
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal. GL's headers belong in .cpp files alone, so each includes <GL/glcorearb.h> before this one.
+// Internal. GL headers are included only in .cpp files, <GL/glcorearb.h> before this one.
 #ifndef __gl_glcorearb_h_
 #error "include <GL/glcorearb.h> first"
 #endif
@@ -9,7 +9,7 @@
 
 #include "render/gl/gl_context.h"
 
-// Every function used, all of OpenGL 3.3 core or older: Mesa hands out 4.5, whatever was asked for.
+// All functions used, none newer than OpenGL 3.3 core: Mesa provides 4.5 whatever was requested.
 #define CAREEN_GL_FUNCTIONS(X)                                               \
   X(PFNGLGETSTRINGPROC, GetString)                                           \
   X(PFNGLGETERRORPROC, GetError)                                             \
@@ -75,8 +75,8 @@
 
 namespace careen {
 
-/// The functions of OpenGL by their names without "gl". GL's objects go with their context, so nobody deletes
-/// them one by one.
+/// OpenGL functions, named without the "gl" prefix. GL objects are destroyed with their context, not one by
+/// one.
 struct Gl {
   explicit Gl(const GlContext& context);
 
@@ -85,11 +85,11 @@ struct Gl {
 #undef CAREEN_GL_MEMBER
 
   int integer(unsigned what) const;
-  /// Library, renderer and version, for reports and messages.
+  /// Library, renderer and version, for reports and error messages.
   std::string description;
 };
 
-/// MachineError if GL has an error to tell.
+/// MachineError if GL reports an error.
 void checkGl(const Gl& gl, const char* doing);
 
 }  // namespace careen

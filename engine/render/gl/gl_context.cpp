@@ -3,7 +3,8 @@
 namespace careen {
 namespace {
 
-// Each library remembers only its own context: it would take one for current that another's has replaced.
+// Each library tracks only its own context: it would still consider it current after another library's
+// context has replaced it.
 thread_local GlContext* current = nullptr;
 
 }  // namespace

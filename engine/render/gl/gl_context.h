@@ -4,9 +4,8 @@
 
 namespace careen {
 
-/// An OpenGL 3.3 core context. But for a window's it is without display, and whoever draws brings a
-/// framebuffer of their own. Made, used and destroyed on one thread. There may be several, of several
-/// libraries.
+/// An OpenGL 3.3 core context. Except for a window's context it has no display, and the caller provides the
+/// framebuffer. Created, used and destroyed on one thread. Several contexts, of several libraries, may exist.
 class GlContext {
  public:
   GlContext() = default;
@@ -16,15 +15,15 @@ class GlContext {
   GlContext(GlContext&&) = delete;
   GlContext& operator=(GlContext&&) = delete;
 
-  /// Further GL calls of this thread go to this context; MachineError if that cannot be.
+  /// Makes this context current on this thread; MachineError if that fails.
   void makeCurrent();
-  /// Address of a GL function; MachineError if there is none of that name.
+  /// Address of a GL function; MachineError if it does not exist.
   virtual void* function(const char* name) const = 0;
-  /// Name of the library it comes from.
+  /// Name of the library that provides it.
   virtual const std::string& library() const = 0;
 
  protected:
-  /// For destructors: no context is current any more if this one was.
+  /// For destructors: unbinds this context if it is current.
   void release();
 
  private:

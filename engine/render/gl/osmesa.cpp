@@ -12,8 +12,8 @@ namespace {
 
 constexpr const char* kRemedy = "install it: apt install libosmesa6";
 
-// What is used of GL/osmesa.h: it went from Mesa with the library, and where it is gone this must build to
-// draw through EGL.
+// The constants used from GL/osmesa.h: Mesa removed the header with the library, and this must still build
+// there to draw through EGL.
 enum Attribute : int {
   kFormat = 0x22,
   kDepthBits = 0x30,

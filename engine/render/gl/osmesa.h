@@ -5,11 +5,11 @@
 
 namespace careen {
 
-/// Mesa's off-screen library: draws on the processor, needs nothing else of the machine. Mesa has it no more
-/// from version 25.1 on.
+/// Mesa's off-screen library: draws on the CPU and has no other requirements. Removed from Mesa in version
+/// 25.1.
 class OsMesa final : public GlContext {
  public:
-  /// Loads `library`, if empty the usual one. MachineError tells what is missing and what to install.
+  /// Loads `library`, or the default one if empty. MachineError says what is missing and what to install.
   explicit OsMesa(const std::string& library);
   ~OsMesa() override;
   OsMesa(const OsMesa&) = delete;
@@ -26,7 +26,7 @@ class OsMesa final : public GlContext {
 
   SharedLibrary library_;
   void* context_ = nullptr;
-  unsigned pixel_ = 0;  // a context must have some image of its own; drawing goes elsewhere
+  unsigned pixel_ = 0;  // a context needs an image of its own; drawing goes to a framebuffer
 };
 
 }  // namespace careen

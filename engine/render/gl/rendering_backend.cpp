@@ -21,7 +21,7 @@ std::string_view nameOf(RenderingBackend backend) {
   return kRenderingBackends.at(static_cast<std::size_t>(backend));
 }
 
-// Read by Mesa when a library of its makes the first context.
+// Mesa reads these variables when one of its libraries creates the first context.
 void prepareEnvironment(const std::optional<int>& threads) {
   if (threads) {
     if (*threads < 0 || *threads > kMostThreads) {
@@ -30,7 +30,7 @@ void prepareEnvironment(const std::optional<int>& threads) {
     }
     setenv("LP_NUM_THREADS", std::to_string(*threads).c_str(), 1);
   }
-  // Code for vectors of 512 bits crashes in Mesa 22.3; those of 256 give the same pixels.
+  // 512-bit vector code crashes in Mesa 22.3; 256-bit vectors give the same pixels.
   const char* const width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
   if (width != nullptr && std::atoi(width) > 256) {
     setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);

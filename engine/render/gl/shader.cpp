@@ -76,7 +76,7 @@ unsigned linkProgram(const Gl& gl, const std::filesystem::path& folder,
   for (const std::string& name : names) {
     const GLuint shader = compile(gl, folder, name);
     gl.AttachShader(program, shader);
-    gl.DeleteShader(shader);  // lives on as part of the program
+    gl.DeleteShader(shader);  // freed with the program
     list += (list.empty() ? "" : ", ") + name;
   }
   gl.LinkProgram(program);

@@ -17,7 +17,7 @@ VertexBuffer::VertexBuffer(const Gl& gl, std::initializer_list<Attribute> attrib
   const std::size_t stride = floatsPerRecord_ * sizeof(float);
   std::uintptr_t place = 0;
   for (const Attribute& attribute : attributes) {
-    // GL takes an offset into the buffer in the guise of an address.
+    // GL takes the offset into the buffer as a pointer.
     const void* const offset = reinterpret_cast<const void*>(place);  // NOLINT(performance-no-int-to-ptr)
     gl.EnableVertexAttribArray(attribute.location);
     gl.VertexAttribPointer(attribute.location, attribute.floats, GL_FLOAT, GL_FALSE,

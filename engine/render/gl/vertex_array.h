@@ -11,18 +11,19 @@ namespace careen {
 
 struct Gl;
 
-/// One attribute of a vertex shader: so many floats of each record, in the order of the shader's locations.
+/// One attribute of a vertex shader: `floats` consecutive floats of each record, in the order of the
+/// locations.
 struct Attribute {
   unsigned location = 0;
   int floats = 0;
 };
 
-/// A buffer of records of floats, one record for each vertex or for each instance.
+/// A buffer of float records, one for each vertex or each instance.
 class VertexBuffer {
  public:
   enum class Step { kVertex, kInstance };
 
-  /// Becomes part of the vertex array that is bound.
+  /// Attaches the buffer to the bound vertex array.
   VertexBuffer(const Gl& gl, std::initializer_list<Attribute> attributes, Step step);
   void fill(std::span<const float> records);
   int count() const { return count_; }
@@ -34,7 +35,7 @@ class VertexBuffer {
   int count_ = 0;
 };
 
-/// Adds three floats to a record.
+/// Appends three floats to the records.
 void append(std::vector<float>& records, const Vec3& v);
 
 unsigned makeVertexArray(const Gl& gl);
