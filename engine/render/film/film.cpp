@@ -23,7 +23,7 @@
 namespace careen {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience(100);  // between looks whether to stop
+constexpr std::chrono::milliseconds kPatience(100);  // between checks of the stop token
 
 double wallSeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -67,7 +67,7 @@ int jobCount(const FilmSettings& settings, std::size_t framesToDraw) {
   return static_cast<int>(std::min(static_cast<std::size_t>(jobs), framesToDraw));
 }
 
-// A job that has a core to itself is fastest without threads.
+// A job with one core is fastest without threads.
 RenderOptions optionsOfJob(const FilmSettings& settings, int jobs) {
   RenderOptions options = settings.render;
   if (!options.context.threads) {
@@ -93,10 +93,10 @@ std::unique_ptr<VideoPipe> startVideo(const FilmSettings& settings, const Pictur
   return std::make_unique<VideoPipe>(std::move(video));
 }
 
-// What a job does, in its own process. The ring has places if there is a video.
+// Sets up a job in its own process. The ring has slots if there is a video.
 FrameWorkshop openWorkshop(const Filming& filming, const Trajectory& run, const FilmSettings& settings,
                            const std::optional<Overlays>& overlays, int jobs, const PictureRing& ring) {
-  if (glWasOpened()) {  // rather than wait for threads that were not forked
+  if (glWasOpened()) {  // otherwise it would wait for threads that were not forked
     throw MachineError("no job can draw: GL had been opened before it was forked");
   }
   RenderOptions options = optionsOfJob(settings, jobs);
@@ -125,8 +125,8 @@ FrameWorkshop openWorkshop(const Filming& filming, const Trajectory& run, const 
   return {.renderer = renderer->rendererName(), .work = work};
 }
 
-/// Frames go to whoever is idle and come back in any order. A video gets them in theirs: the ring keeps those
-/// whose turn it is not, and no frame is begun that has no place there.
+/// Gives frames to idle workers; they finish in any order. A video needs them in frame order: the ring
+/// buffers those that are early, and no frame is started without a free slot.
 class FrameFlow {
  public:
   FrameFlow(const FilmFolder& folder, const std::vector<std::int64_t>& asked,
@@ -179,7 +179,7 @@ class FrameFlow {
     }
   }
 
-  // As much of the next frame as ffmpeg takes now.
+  // Writes as much of the next frame as ffmpeg accepts now.
   void show() {
     std::span<const std::uint8_t> pixels;
     if (old_[place(shown_)]) {
@@ -219,12 +219,12 @@ class FrameFlow {
   FilmWorkers& workers_;
   const PictureRing& ring_;
   VideoPipe* video_;
-  std::vector<bool> written_;  // of those asked for, by index
-  std::vector<bool> old_;      // were there before
+  std::vector<bool> written_;  // requested frames, by index
+  std::vector<bool> old_;      // existed before
   std::int64_t toDraw_ = 0;
-  std::int64_t next_ = 0;   // index to give out
-  std::int64_t shown_ = 0;  // frames that the video has whole
-  std::size_t sent_ = 0;    // [bytes] of the one after them
+  std::int64_t next_ = 0;   // next index to assign
+  std::int64_t shown_ = 0;  // frames completely written to the video
+  std::size_t sent_ = 0;    // [bytes] of the frame after those
   Picture oldPicture_;
   double begun_ = 0;  // [s]
   FilmFigures figures_;
@@ -246,7 +246,7 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
   }
   const std::vector<std::int64_t> missing = settings.resume ? folder.missing(asked) : asked.frames;
 
-  // All that may fail comes before the film that is there is touched. What is there already needs no GL.
+  // Everything that may fail comes before the existing film is changed. Existing frames need no GL.
   std::optional<Overlays> overlays;
   if (!missing.empty() && picture.overlays.any()) {
     overlays.emplace(run, picture.overlays, picture.rate.frameTime(1));
@@ -259,7 +259,7 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
     refuseAnotherFilm(folder, asked);
   }
   const std::unique_ptr<VideoPipe> video =
-      startVideo(settings, picture);  // after the workers: its pipe is not theirs
+      startVideo(settings, picture);  // after forking the workers, so they do not inherit its pipe
   folder.begin(asked, settings.resume);
 
   FilmFigures figures =

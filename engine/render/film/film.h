@@ -15,66 +15,65 @@
 
 namespace careen {
 
-/// How a film is made; what its pictures are like is the run's (Stage::picture).
+/// How a film is made; the picture settings are part of the run (Stage::picture).
 struct FilmSettings {
-  std::filesystem::path folder;    ///< of the frames: 000000.png, …
+  std::filesystem::path folder;    ///< for the frames: 000000.png, …
   std::vector<FrameRange> frames;  ///< empty: all
-  /// Film of the frames asked for, by ffmpeg; its size and rate are taken from the run's pictures.
+  /// Video of the requested frames, encoded by ffmpeg; its size and rate are those of the run's pictures.
   std::optional<VideoSettings> video;
-  bool resume = false;  ///< frames of the same film that are there already are left as they are
-  /// Processes that draw, each a frame at a time; absent: one for each core. Never more than there are frames
-  /// to draw.
+  bool resume = false;  ///< existing frames of the same film are kept
+  /// Number of worker processes, each drawing one frame at a time; absent: one per core. Never more than
+  /// there are frames to draw.
   std::optional<int> jobs;
-  /// Its threads: for each job; absent: as many as there are cores for it, none for a core of its own.
+  /// Its thread count applies to each job; absent: cores per job, or none if that is one.
   RenderOptions render;
-  std::string program;  ///< name and version, to be kept with the film
+  std::string program;  ///< name and version, stored in the manifest
 };
 
 inline constexpr int kMostJobs = 1024;
 
-/// What a frame took, by the clock of the process that drew it.
+/// Timings of one frame, measured by the process that drew it.
 struct FrameFigures {
   std::int64_t frame = -1;
   double time = 0;           ///< [s] of the film
   double drawSeconds = 0;    ///< [s]
   double readSeconds = 0;    ///< [s] reading back
-  double encodeSeconds = 0;  ///< [s] making and writing the PNG file
+  double encodeSeconds = 0;  ///< [s] encoding and writing the PNG file
 };
 
 struct FilmProgress {
-  std::int64_t done = 0;       ///< frames there, old ones too
-  std::int64_t total = 0;      ///< frames asked for
-  double framesPerSecond = 0;  ///< drawn by this run
+  std::int64_t done = 0;       ///< finished frames, existing ones included
+  std::int64_t total = 0;      ///< requested frames
+  double framesPerSecond = 0;  ///< drawn in this call
   double secondsLeft = 0;      ///< [s] at that rate
-  FrameFigures frame;          ///< the one just done; they come in any order
+  FrameFigures frame;          ///< the one just finished; in any order
 };
 using FilmCallback = std::function<void(const FilmProgress&)>;
 
-/// What a film took.
+/// Totals of one film.
 struct FilmFigures {
   std::int64_t drawn = 0;
-  std::int64_t skipped = 0;  ///< were there already
-  int jobs = 0;              ///< processes that drew
+  std::int64_t skipped = 0;  ///< existed already
+  int jobs = 0;              ///< worker processes
   double drawSeconds = 0;    ///< [s] sum over all frames
   double readSeconds = 0;    ///< [s] likewise, reading back
-  double encodeSeconds = 0;  ///< [s] likewise, making and writing PNG files
-  double wallSeconds = 0;    ///< [s] all of it
-  double coreSeconds = 0;    ///< [s] of all cores; ffmpeg's not counted
-  std::string renderer;      ///< empty if nothing had to be drawn
+  double encodeSeconds = 0;  ///< [s] likewise, encoding and writing PNG files
+  double wallSeconds = 0;    ///< [s] in total
+  double coreSeconds = 0;    ///< [s] CPU time over all cores, without ffmpeg's
+  std::string renderer;      ///< empty if nothing was drawn
 };
 
-/// Films a run: frame k shows film time k/fps exactly, as the stage's camera and time map want it, by the
-/// same bytes however the work is split. Frames appear whole or not at all, so a run that was interrupted
-/// (Interrupted, after the frames at hand) or killed can be completed, to the same bytes. A film of careen's
-/// that is in the folder already is replaced, or with `resume` completed if it is the same one, drawn by the
-/// same program and renderer; nothing else there is touched. A job that dies ends the film, with
-/// MachineError.
+/// Renders a film of a run: frame k shows film time k/fps exactly, with the stage's camera and time map, and
+/// with the same bytes however the work is split. Frames are written atomically, so a render that was
+/// interrupted (Interrupted, after the frames in progress) or killed can be completed to the same bytes. An
+/// existing careen film in the folder is replaced, or with `resume` completed if it is the same film by the
+/// same program and renderer; nothing else there is changed. MachineError if a job dies.
 ///
-/// Memory does not grow with the film, but for 9 bytes a frame: with J jobs and P pixels it is the run, once,
-/// 60 MB, and J times GL (about 40 MB and 20 P bytes with Mesa on the processor); with a video, (J + 2)·3 P
-/// bytes more, for frames that wait for their turn, and what ffmpeg takes.
+/// Apart from 9 bytes a frame, memory does not grow with the film: with J jobs and P pixels it is the run,
+/// once, 60 MB, and J times GL (about 40 MB and 20 P bytes with Mesa on the CPU); with a video, (J + 2)·3 P
+/// bytes more to buffer frames, and what ffmpeg needs.
 ///
-/// Jobs are forked, so this process must not have opened GL before (GL's threads are not forked with it).
+/// Jobs are forked, so this process must not have opened GL before (its threads do not survive a fork).
 FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, const FilmCallback& progress = {},
                        const std::stop_token& stop = {});
 

@@ -12,7 +12,7 @@
 namespace careen {
 namespace {
 
-// What is to be drawn, and how many samples see just that.
+// What to draw, and how many shutter samples are identical to it.
 struct Sample {
   std::vector<Pose> poses;
   Camera camera;
@@ -43,7 +43,7 @@ Camera Filming::camera(double filmTime) const {
 
 void Filming::checkCamera(std::span<const std::int64_t> frames, const FrameRate& rate) const {
   if (!path_.hasKeys()) {
-    return;  // its eye keeps its distance and its height above the target
+    return;  // without keys the eye keeps its distance and height above the target
   }
   for (const std::int64_t frame : frames) {
     const Camera there = camera(rate.frameTime(frame));
@@ -65,7 +65,7 @@ Picture Filming::draw(Renderer& renderer, double filmTime, const Shutter& shutte
     const double time = filmTime + open * ((i + 0.5) / count - 0.5);
     Sample sample{.poses = run_.poses(sceneTime(time)), .camera = camera(time)};
     if (!samples.empty() && isSame(samples.back(), sample)) {
-      ++samples.back().weight;  // nothing moves: nothing more to draw
+      ++samples.back().weight;  // identical to the last sample: no need to draw it again
     } else {
       samples.push_back(std::move(sample));
     }

@@ -17,32 +17,32 @@ namespace careen {
 class Overlays;
 class Renderer;
 
-/// What the film of a run shows at each of its moments: from where, and where the boxes are, both exact at
-/// any time. Keeps the run by reference.
+/// What the film of a run shows at each moment: camera and box poses, both exact at any time. Keeps a
+/// reference to the run.
 class Filming {
  public:
-  /// InputError if the film begins after the run's end.
+  /// InputError if the film begins after the end of the run.
   explicit Filming(const Trajectory& run);
 
   double duration() const { return clock_.duration(); }  ///< [s] of the film
-  /// [s] of the scene; before the film's beginning and after its end all stands still, the camera too.
+  /// [s] of the scene; before the start and after the end of the film everything stands still, the camera
+  /// too.
   double sceneTime(double filmTime) const { return clock_.sceneTime(filmTime); }
   Camera camera(double filmTime) const;
-  /// From now on the camera is turned so, against where the film has it.
+  /// Sets the camera's orbit relative to the film's camera.
   void turnCamera(const Orbit& orbit) { orbit_ = orbit; }
 
-  /// InputError if there is a frame in which the camera's keys leave it nothing to look at or no upward.
+  /// InputError if in any of the frames the camera keys leave the view or up direction undefined.
   void checkCamera(std::span<const std::int64_t> frames, const FrameRate& rate) const;
 
-  /// The picture at a moment. With a shutter that is open it is the average of pictures at the middles of
-  /// `samples` equal parts of the time that it is open, half of it before the moment and half after.
+  /// The picture at a moment. With an open shutter (motion blur) it is the average of pictures at the
+  /// midpoints of `samples` equal parts of the exposure time, which is centred on the moment.
   Picture draw(Renderer& renderer, double filmTime, const Shutter& shutter, const FrameRate& rate) const;
 
-  /// What explains the picture of that moment, over it.
+  /// Draws the overlays of that moment over its picture.
   void explain(Renderer& renderer, Picture& picture, double filmTime, const Overlays& overlays) const;
 
-  /// One picture with the boxes as they are at every one of the moments, from where the camera is at the
-  /// first.
+  /// One picture with the boxes at all of the moments, seen by the camera of the first.
   Picture drawStrobe(Renderer& renderer, std::span<const double> filmTimes) const;
 
  private:

@@ -5,8 +5,8 @@
 
 namespace careen {
 
-/// "0:2:0.1", from, to and step [s]: the moments 0, 0.1 … 2, each a rounding away from from + k·step, the
-/// last one included if a step ends there. InputError otherwise, and beyond a thousand moments.
+/// "0:2:0.1", i.e. FROM:TO:STEP [s]: the moments 0, 0.1 … 2, each FROM + k·STEP up to rounding, TO included
+/// if a step ends there. InputError otherwise, and for more than a thousand moments.
 std::vector<double> parseStrobe(std::string_view text);
 
 }  // namespace careen

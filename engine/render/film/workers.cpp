@@ -21,12 +21,12 @@ struct Order {
   std::int64_t frame = 0;
 };
 
-// What a worker says: first that it is ready, then of every frame that it is done, or what went wrong.
+// Message from a worker: first that it is ready, then for each frame that it is done, or an error.
 struct Report {
   ExitCode code = ExitCode::kDone;
   std::int64_t index = -1;
   FrameFigures figures;
-  std::array<char, kLongestText> text{};  // who draws, or what went wrong
+  std::array<char, kLongestText> text{};  // renderer name or error message
 
   void say(std::string_view words) {
     words = words.substr(0, text.size() - 1);

@@ -12,50 +12,50 @@
 
 namespace careen {
 
-/// What a worker does with a frame, in its own process.
+/// Draws one frame, in the worker's process.
 using FrameWork = std::function<FrameFigures(std::int64_t index, std::int64_t frame)>;
 
-/// Makes ready to work, in the process that will: opens GL and says who draws.
+/// Result of setting up a worker in its own process, which opens GL: renderer name and drawing function.
 struct FrameWorkshop {
   std::string renderer;
   FrameWork work;
 };
 
-/// Processes that draw frames side by side. Several contexts of software GL in one process take turns, those
-/// of several processes do not. Forked, so that every one has the scene and its run in memory.
+/// Processes that draw frames in parallel. Software GL serializes several contexts of one process, but not
+/// those of several processes. Forked, so that each has the scene and its run in memory.
 class FilmWorkers {
  public:
-  /// Returns when all of them are ready. What cannot be made ready there is thrown here.
+  /// Returns when all workers are ready. Rethrows errors of `prepare` in a worker.
   FilmWorkers(int count, const std::function<FrameWorkshop()>& prepare);
-  /// Each finishes the frame at hand.
+  /// Each worker finishes its current frame.
   ~FilmWorkers();
   FilmWorkers(const FilmWorkers&) = delete;
   FilmWorkers& operator=(const FilmWorkers&) = delete;
   FilmWorkers(FilmWorkers&&) = delete;
   FilmWorkers& operator=(FilmWorkers&&) = delete;
 
-  /// Who draws; empty if there are no workers.
+  /// Renderer name; empty if there are no workers.
   const std::string& renderer() const { return renderer_; }
   bool hasIdle() const;
-  /// Hands frame to an idle worker; the index comes back with it.
+  /// Assigns a frame to an idle worker; `index` is returned with the result.
   void give(std::int64_t index, std::int64_t frame);
 
   struct Done {
     std::int64_t index = 0;
     FrameFigures figures;
   };
-  /// Waits until a frame is done, `writable` can be written to (-1: none such) or the time is over. What went
-  /// wrong in a worker is thrown; MachineError if one died.
+  /// Waits until a frame is done, the descriptor `writable` can be written to (-1: none) or the timeout
+  /// `most` expires. Rethrows errors of workers; MachineError if one died.
   std::vector<Done> wait(int writable, std::chrono::milliseconds most);
 
-  /// Ends them all; [s] that they took of all cores.
+  /// Ends all workers; returns their CPU time over all cores [s].
   double finish();
 
  private:
   struct Desk {
     explicit Desk(const std::function<void(const Channel&)>& work) : worker(work) {}
     Worker worker;
-    std::int64_t frame = -1;  // at hand, -1: idle
+    std::int64_t frame = -1;  // current frame, -1: idle
   };
   [[noreturn]] static void failWith(Desk& desk);
 
