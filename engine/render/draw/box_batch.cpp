@@ -28,7 +28,7 @@ std::vector<float> cube() {
       std::array<float, 3> normal{};
       corner[static_cast<std::size_t>(axis)] = side;
       normal[static_cast<std::size_t>(axis)] = side;
-      // Seen from outside the triangles turn left on either side of the cube.
+      // Triangles are counterclockwise seen from outside, on both sides of the cube.
       corner[static_cast<std::size_t>((axis + 1) % 3)] = static_cast<float>(u) * side;
       corner[static_cast<std::size_t>((axis + 2) % 3)] = static_cast<float>(v);
       records.insert(records.end(), corner.begin(), corner.end());
@@ -57,7 +57,7 @@ bool isSame(const Pose& a, const Pose& b) {
   return a.position == b.position && a.worldFromBody == b.worldFromBody;
 }
 
-// `before` are the poses of the moment before, if there is one: what rests is there already.
+// `before`: poses of the previous moment, if any; boxes that have not moved since are already there.
 void appendBoxes(std::vector<DrawnBox>& boxes, const World& world, const Stage& stage,
                  std::span<const Pose> poses, std::span<const Pose> before, double springThickness) {
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {

@@ -13,7 +13,7 @@ namespace careen {
 
 struct Gl;
 
-/// One box to draw. Boxes of a run carry marks on their faces, springs are boxes without.
+/// One box to draw. Boxes of a run have marks on their faces; springs are boxes without marks.
 struct DrawnBox {
   Pose pose;
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
@@ -21,8 +21,9 @@ struct DrawnBox {
   bool marked = true;
 };
 
-/// The run's boxes, then its springs as thin rods, so thick [m], from end to end. With poses for several
-/// moments one after the other: all of that for each of them, less boxes that have not moved since.
+/// The run's boxes, then its springs as thin rods of thickness `springThickness` [m] from end to end. With
+/// poses of several consecutive moments: the same for each, without boxes that have not moved since the
+/// previous one.
 std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::span<const Pose> poses,
                                  double springThickness);
 
@@ -31,10 +32,10 @@ class BoxBatch {
  public:
   BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const std::vector<std::string>& light);
 
-  /// Nearest to the eye first, so that hidden pixels are not shaded.
+  /// Sorts front to back, so that hidden pixels are not shaded.
   void place(std::vector<DrawnBox> boxes, const Vec3& eye);
   void draw() const;
-  /// The same by the program in use, for the shadow map.
+  /// Draws with the program in use, for the shadow map.
   void drawDepth() const;
 
  private:

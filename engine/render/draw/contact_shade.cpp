@@ -14,14 +14,14 @@ namespace {
 
 using Mat2 = Eigen::Matrix2d;
 
-/// [1] of a box's size: so far from the surface its shade has vanished, and so wide it is at least beyond it.
+/// [1] of a box's size: distance at which its shade vanishes, and least width of the shade beyond the
+/// outline.
 constexpr double kFarthest = 1.2;
 constexpr double kWidth = 0.45;
-constexpr double kWidening = 0.5;  // with the distance
-constexpr double kLift = 0.02;     // off the surface, or rounding would decide which is in front
+constexpr double kWidening = 0.5;  // increase of that width per distance
+constexpr double kLift = 0.02;     // above the surface, to avoid z-fighting
 
-/// [1] of a half extent squared: a rectangle's own second moment is a third, but then its rim would lie in
-/// light.
+/// [1] of a half extent squared: a rectangle's second moment is 1/3, but that would leave its rim lit.
 constexpr double kMoment = 0.75;
 
 bool holds(const Surface& surface, const Vec3& point, double margin) {

@@ -8,24 +8,24 @@
 
 namespace careen {
 
-/// A soft dark spot on a surface, where a box near it keeps off what comes from all around.
+/// A soft dark spot on a surface where a nearby box blocks ambient light (ambient occlusion).
 struct ContactShade {
-  Vec3 centre = Vec3::Zero();  ///< [m] a little off the surface
-  Vec3 first = Vec3::Zero();   ///< [m] half an axis of the spot, one standard deviation long
-  Vec3 second = Vec3::Zero();  ///< [m] the other, at right angles
-  double strength = 0;         ///< [1] of the light taken in the middle
+  Vec3 centre = Vec3::Zero();  ///< [m] slightly above the surface
+  Vec3 first = Vec3::Zero();   ///< [m] semi-axis of the spot, one standard deviation long
+  Vec3 second = Vec3::Zero();  ///< [m] the other semi-axis, perpendicular
+  double strength = 0;         ///< [1] part of the light removed at the centre
 };
 
-/// Reach of a spot in standard deviations.
+/// Radius of a spot in standard deviations.
 inline constexpr double kShadeReach = 3;
 
-/// One for each marked box and surface that are near each other: the box's outline on the surface, taken for
-/// the ellipse of the same moments, widened and weakened with the distance [m] of its lowest corner. Nothing
-/// in it depends on other boxes or on the eye, so it stays put. `strength` is that of a box which touches.
+/// One for each marked box and surface near each other: the box's projection onto the surface, approximated
+/// by the ellipse of its second moments, widened and weakened with the distance [m] of its lowest corner.
+/// Independent of other boxes and the eye, so it does not flicker. `strength` is that of a touching box.
 std::vector<ContactShade> contactShades(std::span<const DrawnBox> boxes, std::span<const Surface> surfaces,
                                         double strength);
 
-/// All spots of a frame, drawn at once onto the surfaces there are; alpha stays.
+/// All spots of a frame, drawn in one call onto the surfaces; alpha is unchanged.
 class ContactShadeBatch {
  public:
   ContactShadeBatch(const Gl& gl, const std::filesystem::path& shaders);

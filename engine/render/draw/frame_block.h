@@ -9,21 +9,21 @@ namespace careen {
 using Float4 = std::array<float, 4>;
 using Float16 = std::array<float, 16>;
 
-/// What all shaders of a frame share; laid out as GLSL's std140 wants it. Points are offsets from the eye.
+/// Uniform block shared by all shaders of a frame, in GLSL's std140 layout. Points are offsets from the eye.
 struct FrameBlock {
   Float16 clipFromOffset{};
   Float16 shadowFromOffset{};  ///< to texture coordinates and depth, 0 … 1
-  Float4 shadowBounds{};       ///< of what casts shadows, in texture coordinates: least, then greatest
+  Float4 shadowBounds{};       ///< of shadow casters, in texture coordinates: min, then max
   Float4 towardsLight{};       ///< unit
-  Float4 lightColor{};         ///< linear, all of it 0 where there is no light
-  Float4 up{};                 ///< unit; where the sky is
+  Float4 lightColor{};         ///< linear; all 0 without a light
+  Float4 up{};                 ///< unit; towards the sky
   Float4 sky{};                ///< linear
   Float4 ground{};             ///< linear
   Float4 backgroundTop{};      ///< linear
   Float4 backgroundBottom{};   ///< linear
-  Float4 finish{};             ///< start of the tone curve's shoulder, 1 with edges in alpha, dither
-  Float4 boxLook{};            ///< roughness, 1 with marks, part of its own colour, lines along edges
-  Float4 material{};           ///< linear; of all boxes, as far as they have no colour of their own
+  Float4 finish{};             ///< start of the tone curve's shoulder, 1 if edges are in alpha, dither
+  Float4 boxLook{};            ///< roughness, 1 if marked, part of the box's own colour, width of edge lines
+  Float4 material{};           ///< linear; of all boxes, for the part that is not their own colour
   Float4 lines{};              ///< linear; w: 1 if joints have this colour
   Float4 surfaceLook{};        ///< roughness of tiles and of walls, contrast of tiles, strength of joints
 };
@@ -33,7 +33,7 @@ inline Float4 floats(const Vec3& v, double w = 0) {
           static_cast<float>(w)};
 }
 
-/// Columns first, as GLSL reads them.
+/// Column-major, as in GLSL.
 inline Float16 floats(const Mat4& m) {
   Float16 values{};
   for (int i = 0; i < 16; ++i) {

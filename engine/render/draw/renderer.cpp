@@ -25,7 +25,7 @@
 namespace careen {
 namespace {
 
-constexpr double kShadowReach = 4;  // [px] farther than the filter of the shadow map reaches
+constexpr double kShadowReach = 4;  // [px] more than the radius of the shadow map filter
 
 using Clock = std::chrono::steady_clock;
 
@@ -37,7 +37,7 @@ std::filesystem::path shaderFolder(const RenderOptions& options) {
   return options.shaders.empty() ? resourceFolder() / "shaders" : options.shaders;
 }
 
-// What shades: no file of what is not there.
+// The lighting shaders needed for this lighting.
 std::vector<std::string> lightShaders(const Lighting& lighting, bool shadows) {
   if (!lighting.light) {
     return {"ambient.frag", "finish.frag"};
@@ -45,7 +45,7 @@ std::vector<std::string> lightShaders(const Lighting& lighting, bool shadows) {
   return {"light.frag", "finish.frag", shadows ? "shadow.frag" : "no_shadow.frag"};
 }
 
-// A room holds its boxes, so its shadows keep still; elsewhere the map follows them.
+// A room contains its boxes, so its shadow map is fixed; otherwise the map follows the boxes.
 Extent castersOf(const Stage& stage, const Extent& extent, const std::vector<DrawnBox>& boxes) {
   if (stage.room) {
     return extent;
@@ -59,7 +59,7 @@ Extent castersOf(const Stage& stage, const Extent& extent, const std::vector<Dra
   return casters;
 }
 
-// Where in the shadow map boxes are at all; elsewhere nobody needs to look into it.
+// Bounds of the boxes in the shadow map; the shader need not sample it elsewhere.
 Float4 shadowBounds(const Mat4& shadowFromWorld, const std::vector<DrawnBox>& boxes) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Vec3 min = Vec3::Constant(kInfinity);
@@ -78,7 +78,7 @@ Float4 shadowBounds(const Mat4& shadowFromWorld, const std::vector<DrawnBox>& bo
   return floats(Vec3(least.x(), least.y(), greatest.x()), greatest.y());
 }
 
-// Springs thinner than this many pixels would break into dots.
+// [px] Thinner springs would be drawn with gaps.
 constexpr double kThinnest = 1.5;
 void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAngle) {
   for (DrawnBox& box : boxes) {
@@ -90,7 +90,7 @@ void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAng
   }
 }
 
-// Texture coordinates and depth of a point given as an offset from the eye.
+// Converts a matrix for world points to one for offsets from the eye.
 Mat4 fromOffset(const Mat4& fromWorld, const Vec3& eye) {
   Mat4 result = fromWorld;
   result.topRightCorner<3, 1>() += fromWorld.topLeftCorner<3, 3>() * eye;
@@ -120,7 +120,7 @@ struct Renderer::Parts {
   Gl gl;
   Canvas canvas;
   std::filesystem::path shaders;
-  std::optional<OverlayBatch> overlays;  // from the first picture on that has any
+  std::optional<OverlayBatch> overlays;  // created for the first picture with overlays
   std::optional<ShadowMap> shadowMap;
   BoxBatch boxes;
   SurfaceBatch surfaces;
@@ -157,7 +157,7 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
     contactShades.emplace(gl, shaders);
   }
   gl.GenBuffers(1, &blockBuffer);
-  gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, blockBuffer);  // block 0 is where every program looks
+  gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, blockBuffer);  // all programs use binding 0
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_LEQUAL);
   gl.Enable(GL_CULL_FACE);

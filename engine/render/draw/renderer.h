@@ -21,37 +21,37 @@ namespace careen {
 
 struct RenderOptions {
   ContextOptions context;
-  std::optional<Lighting> lighting;    ///< absent: that of the picture's look
-  std::optional<Materials> materials;  ///< absent: those of the picture's look
-  std::optional<Camera> camera;        ///< by which the light is set up; absent: cameraOf(setup)
+  std::optional<Lighting> lighting;    ///< absent: from the picture's look
+  std::optional<Materials> materials;  ///< absent: from the picture's look
+  std::optional<Camera> camera;        ///< that the light is placed relative to; absent: cameraOf(setup)
   std::filesystem::path shaders;       ///< folder; empty: the program's own
 };
 
-/// What drawing took so far.
+/// Timings and counts of drawing so far.
 struct DrawFigures {
   int frames = 0;
   int shadowPasses = 0;
   int overlayPasses = 0;
-  double drawSeconds = 0;  ///< [s] by the clock, until the last pixel is done
+  double drawSeconds = 0;  ///< [s] wall time until drawing is complete
   double readSeconds = 0;  ///< [s] reading back and flipping
 };
 
-/// Shapes to draw over a picture that is seen so.
+/// Shapes to draw over a picture with this view.
 using OverlaySource = std::function<OverlayShapes(const View&)>;
 
 /// A picture to be drawn.
 struct Shot {
-  std::span<const Pose> poses;  ///< one for each body of the world, in its order; or so for several moments,
-                                ///< one after the other, all of which are drawn
+  std::span<const Pose> poses;  ///< one for each body of the world, in its order; or the same for several
+                                ///< moments, one after the other, all drawn
   Camera camera;
 };
 
-/// Draws a run's boxes where they are told to be, on its stage, as stage.picture says. The same shot gives
+/// Draws a run's boxes at given poses on its stage, with the settings of stage.picture. The same shot gives
 /// the same bytes, whatever was drawn before.
 class Renderer {
  public:
-  /// InputError for a size beyond what GL can do, MachineError where there is no GL to do it, or it has fewer
-  /// samples a pixel than asked for.
+  /// InputError if GL does not support the size, MachineError if there is no GL or it supports fewer samples
+  /// a pixel than requested.
   explicit Renderer(const RunSetup& setup, const RenderOptions& options = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
@@ -59,11 +59,11 @@ class Renderer {
   Renderer(Renderer&&) = delete;
   Renderer& operator=(Renderer&&) = delete;
 
-  /// MachineError if the frame comes out blank.
+  /// MachineError if the frame is blank.
   Picture draw(const Shot& shot);
-  /// Seen by the camera that the light is set up by.
+  /// Draws with the camera that the light is placed relative to.
   Picture draw(std::span<const Pose> poses);
-  /// What `overlay` gives over a picture of this size, as seen by the camera.
+  /// Draws the shapes that `overlay` returns for this camera over the picture.
   void drawOver(Picture& picture, const Camera& camera, const OverlaySource& overlay);
 
   /// GL's renderer and version, such as "llvmpipe (…), OpenGL … Mesa 22.3.6, libOSMesa.so.8".

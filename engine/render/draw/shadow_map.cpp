@@ -29,7 +29,7 @@ Mat4 shadowFromWorld(const Extent& casters, const Vec3& towards) {
     min = min.cwiseMin(corner);
     max = max.cwiseMax(corner);
   }
-  // Depth grows away from the light, along −z; a little room keeps casters off the edge.
+  // Depth increases away from the light, along −z; a margin keeps casters off the edge.
   const Vec3 margin = 0.01 * (max - min) + Vec3::Constant(1e-6 * casters.radius());
   const Vec3 scale = (max - min + 2 * margin).cwiseInverse();
   Mat4 shadow = Mat4::Identity();
@@ -52,7 +52,7 @@ ShadowMap::ShadowMap(const Gl& gl, const std::filesystem::path& shaders)
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  // Outside the map nothing casts shadows.
+  // Outside the map there is no shadow.
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
   const std::array<float, 4> farthest = {1, 1, 1, 1};

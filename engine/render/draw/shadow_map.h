@@ -9,18 +9,18 @@ namespace careen {
 
 struct Gl;
 
-inline constexpr int kShadowMapSize = 2048;  // [px] each way
+inline constexpr int kShadowMapSize = 2048;  // [px] width and height
 
-/// From the world to the shadow map's texture coordinates and depth, 0 … 1 for all that `casters` holds, as
-/// seen from a light far away in the direction `towards`.
+/// From the world to the shadow map's texture coordinates and depth, 0 … 1 for everything in `casters`, for a
+/// directional light in the direction `towards`.
 Mat4 shadowFromWorld(const Extent& casters, const Vec3& towards);
 
-/// How far each texel of the light's view is from the light.
+/// Depth of the scene as seen from the light.
 class ShadowMap {
  public:
   ShadowMap(const Gl& gl, const std::filesystem::path& shaders);
-  /// Drawing goes into the map from now on: depth alone, and of solid bodies the faces turned from the light,
-  /// so that no lit face shades itself.
+  /// Binds the map for drawing: depth only, and only back faces as seen from the light, which avoids shadow
+  /// acne.
   void begin() const;
   void end() const;
 

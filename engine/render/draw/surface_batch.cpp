@@ -15,7 +15,7 @@ void appendVertex(std::vector<float>& records, const Surface& surface, const Vec
                   double tileSize, const Vec3& eye) {
   append(records, corner - eye);
   append(records, surface.normal);
-  // Lengths on a surface are counted in tiles from here on.
+  // Lengths on a surface are in units of tiles from here on.
   for (const double length :
        {surface.across.dot(corner - surface.origin), surface.along.dot(corner - surface.origin),
         surface.size.x(), surface.size.y()}) {
@@ -29,7 +29,7 @@ void appendVertex(std::vector<float>& records, const Surface& surface, const Vec
   records.push_back(static_cast<float>(fromRim));
 }
 
-// A convex outline is a fan of triangles around its middle, each with one edge of the outline.
+// A convex outline becomes a triangle fan around its middle, one triangle per edge.
 std::vector<float> triangles(const std::vector<Surface>& surfaces, double tileSize, const Vec3& eye) {
   std::vector<float> records;
   for (const Surface& surface : surfaces) {

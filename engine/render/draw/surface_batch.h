@@ -12,7 +12,7 @@ namespace careen {
 
 struct Gl;
 
-/// Floor and walls. They stand still: they are laid down again only for an eye that has moved.
+/// Floor and walls. They are static: vertices are recomputed only when the eye has moved.
 class SurfaceBatch {
  public:
   SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders, const std::vector<std::string>& light,
