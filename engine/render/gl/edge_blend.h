@@ -10,8 +10,8 @@ namespace careen {
 /// each pixel that an edge crosses is then blended with its neighbour by coverage, as exactly as the edge is
 /// known, at the cost of reading each alpha once.
 ///
-/// Alpha, 0 … 255: 255: no edge near; 1 + 63 d + floor(63 t): an edge crosses the line to the next pixel to
-/// the right, left, above or below (d = 0, 1, 2, 3) at fraction t, 0 <= t < 1; 0: nothing was drawn.
+/// Alpha values, 0 … 255. 255: no edge near; 1 + 63 d + floor(63 t): an edge crosses the line to the next
+/// pixel to the right, left, above or below (d = 0, 1, 2, 3) at fraction t, 0 <= t < 1; 0: nothing was drawn.
 inline constexpr int kEdgeSteps = 63;
 inline constexpr std::uint8_t kNoEdge = 255;
 
