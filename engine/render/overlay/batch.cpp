@@ -13,14 +13,14 @@
 namespace careen {
 namespace {
 
-// As overlay.frag knows them.
+// Values as in overlay.frag.
 enum class Kind { kStroke, kPlate, kGlyph, kRibbon };
 
-constexpr double kSoft = 1;             // [px] beyond an edge that are still partly covered
-constexpr double kSharpestBend = 0.2;   // cosine; sharper ones end a ribbon and begin another
-constexpr double kShortestPiece = 0.5;  // [px] of a ribbon
+constexpr double kSoft = 1;             // [px] beyond an edge that are still partly covered, for antialiasing
+constexpr double kSharpestBend = 0.2;   // cosine; at sharper bends a ribbon is split
+constexpr double kShortestPiece = 0.5;  // [px] of a ribbon's segments
 constexpr int kHighestAtlas = 2048;     // [px]
-constexpr int kAtlasUnit = 1;           // the shadow map has unit 0
+constexpr int kAtlasUnit = 1;           // texture unit; the shadow map uses unit 0
 
 using Values = std::array<double, 4>;
 
@@ -33,7 +33,7 @@ class Triangles {
     shape_ = shape;
     shape_[3] = static_cast<double>(kind);
   }
-  /// Corners around it; how far across a ribbon each is, and how wide that is there.
+  /// Corners are in order around the quad. For ribbons: position across, and half width there.
   struct Corner {
     Vec2 at;
     Ink ink;
@@ -105,7 +105,7 @@ void add(Triangles& triangles, const AtlasGlyph& glyph, const Ink& ink) {
   triangles.addRectangle(min, min + Vec2(glyph.width, glyph.height), ink);
 }
 
-// Points that are too near to the last one to tell a direction are left out, but for the last one of all.
+// Drops points too close to the previous one to define a direction, but keeps the last point.
 std::vector<RibbonPoint> spread(const std::vector<RibbonPoint>& points) {
   std::vector<RibbonPoint> result;
   for (const RibbonPoint& point : points) {
@@ -119,12 +119,12 @@ std::vector<RibbonPoint> spread(const std::vector<RibbonPoint>& points) {
   return result;
 }
 
-// Pieces share their edges, on the halves of the bends, so that no pixel is covered twice.
+// Segments share edges along the bisectors of the bends, so that no pixel is covered twice.
 void add(Triangles& triangles, const Ribbon& ribbon) {
   triangles.begin(Kind::kRibbon, {}, {});
   const std::vector<RibbonPoint> points = spread(ribbon.points);
   const auto directionFrom = [&](std::size_t i) { return directionOf(points[i].at, points[i + 1].at); };
-  // Half the width at a joint, with what is soft, along the line that the pieces meet in.
+  // Half width at a joint, including the soft edge, along the line where the segments meet.
   const auto edgeAt = [&](std::size_t joint, std::size_t piece) -> Vec2 {
     Vec2 own = leftOf(directionFrom(piece));
     const bool isFirst = joint == piece;
@@ -223,7 +223,7 @@ void OverlayBatch::drawLayer(const OverlayShapes& shapes) {
   gl_.Clear(GL_COLOR_BUFFER_BIT);
   gl_.UseProgram(program_);
   gl_.BindVertexArray(array_);
-  // Inks are mixed as sRGB, so that they look as they were chosen.
+  // Inks are blended in sRGB, so that they look as chosen.
   gl_.Disable(GL_FRAMEBUFFER_SRGB);
   gl_.Disable(GL_CULL_FACE);
   gl_.Enable(GL_BLEND);

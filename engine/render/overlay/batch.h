@@ -13,15 +13,15 @@ namespace careen {
 
 struct Gl;
 
-/// Draws overlays over a finished picture, all of them at once. Edges are smooth because every pixel works
-/// out how much of it is covered.
+/// Draws overlays over a finished picture in one call. Edges are antialiased by computing the coverage of
+/// each pixel.
 class OverlayBatch {
  public:
-  /// For pictures of this size [px].
+  /// `width`, `height` of the pictures [px].
   OverlayBatch(const Gl& gl, const std::filesystem::path& shaders, int width, int height);
 
-  /// Onto a layer of its own, which then covers the picture, whatever way its edges were smoothed.
-  /// MachineError if text is to be written and there is no font.
+  /// Draws to a separate layer, which is then composited over the picture, independent of its antialiasing.
+  /// MachineError if there is text and no font.
   void drawOver(Picture& picture, const OverlayShapes& shapes);
 
  private:
@@ -41,7 +41,7 @@ class OverlayBatch {
   int sentRevision_ = 0;
 };
 
-/// Triangles for the shaders, 16 floats a vertex; glyphs go into the atlas.
+/// Triangles for the shaders, 16 floats a vertex; adds glyphs to the atlas.
 std::vector<float> overlayVertices(const OverlayShapes& shapes, GlyphAtlas& atlas);
 
 }  // namespace careen

@@ -1,4 +1,4 @@
-// What is drawn at boxes: arrows, trails and names.
+// Overlays drawn at boxes: arrows, trails and names.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,13 +11,13 @@ namespace careen {
 namespace {
 
 constexpr double kShortestArrow = 2;              // [px]
-constexpr double kTrailBudget = 16000;            // states looked up for the trails of one frame
-constexpr int kTrailMostSamples = 600;            // of one trail
-constexpr std::ptrdiff_t kTrailMostTimes = 1200;  // impacts among them
-constexpr double kTrailTurn = 0.15;               // [rad] that a box may turn between two of them
-constexpr double kBehindItsBox = 0.3;             // how much of a trail is seen there
-constexpr std::size_t kMostNames = 16;            // that nobody gave
-constexpr std::size_t kCornerFollowed = 0;        // the one at +x +y +z
+constexpr double kTrailBudget = 16000;            // states evaluated for the trails of one frame
+constexpr int kTrailMostSamples = 600;            // per trail
+constexpr std::ptrdiff_t kTrailMostTimes = 1200;  // sample times per trail, including impacts
+constexpr double kTrailTurn = 0.15;               // [rad] largest rotation of a box between two samples
+constexpr double kBehindItsBox = 0.3;             // opacity of a trail behind its own box
+constexpr std::size_t kMostNames = 16;            // above this number of boxes, default names are not shown
+constexpr std::size_t kCornerFollowed = 0;        // the corner at +x +y +z
 
 template <class Vector>
 void addArrows(OverlayShapes& shapes, const OverlayFrame& frame, double largest, const Color& color,
@@ -44,8 +44,8 @@ bool concerns(const Impact& impact, std::size_t body) {
   return impact.a.value == index || impact.b.isBody(index);
 }
 
-// Moments a trail goes through: on a grid that stays where it is from frame to frame, where the box was
-// struck, and now.
+// Sample times of a trail: a time grid that is the same for all frames, impacts of the box, and the current
+// time.
 std::vector<double> trailTimes(const OverlayFrame& frame, std::size_t body) {
   const double perBox = kTrailBudget / static_cast<double>(frame.states.size());
   double step = kTrailSeconds / std::clamp(perBox, 12.0, 180.0);
@@ -81,7 +81,7 @@ bool isResting(const OverlayFrame& frame, std::size_t body) {
   return std::max({moved(kTrailSeconds), moved(0.61 * kTrailSeconds), moved(0.2 * kTrailSeconds)}) < seen;
 }
 
-// A third of the way to ivory: a box's own colour would drown in its own face.
+// One third towards ivory: a box's own colour would not stand out against its face.
 Color lightened(const Color& color) {
   const auto mixed = [](std::uint8_t a, std::uint8_t b) {
     return static_cast<std::uint8_t>((2 * a + b) / 3);
@@ -89,13 +89,12 @@ Color lightened(const Color& color) {
   return {mixed(color.red, kIvory.red), mixed(color.green, kIvory.green), mixed(color.blue, kIvory.blue)};
 }
 
-// Whether a box stands between the eye and a point: by the part of the way that lies between each pair of
-// faces.
+// Whether a box occludes a point seen from the eye (slab method).
 bool hides(const Pose& pose, const Vec3& halfExtents, const Vec3& eye, const Vec3& point) {
   const Vec3 from = pose.worldFromBody.transpose() * (eye - pose.position);
   const Vec3 way = pose.worldFromBody.transpose() * (point - eye);
   double enter = 0;
-  double leave = 1 - 1e-6;  // the point itself may be the box's
+  double leave = 1 - 1e-6;  // the point itself may lie on the box
   for (int axis = 0; axis < 3; ++axis) {
     if (way[axis] == 0) {
       leave = std::abs(from[axis]) < halfExtents[axis] ? leave : -1;
@@ -150,7 +149,7 @@ bool overlap(const Plate& a, const Plate& b) {
   return (a.min.array() < b.max.array()).all() && (b.min.array() < a.max.array()).all();
 }
 
-// What a box covers of the picture, along its edges.
+// Bounding rectangle of a box in the picture.
 struct Covered {
   Vec2 min;
   Vec2 max;
@@ -168,7 +167,7 @@ Covered coveredBy(const OverlayFrame& frame, std::size_t body, const Vec2& centr
   return covered;
 }
 
-// A name's plate above its box, and the one below it; within the picture's left and right edge.
+// A name's plate above its box and one below it; within the left and right edges of the picture.
 std::array<Plate, 2> placesFor(const OverlayFrame& frame, const Covered& box, double middle,
                                const Vec2& size) {
   const double gap = 0.45 * frame.style.text;
@@ -186,7 +185,7 @@ bool isFree(const OverlayFrame& frame, const Plate& place, const std::vector<Pla
          std::none_of(taken.begin(), taken.end(), [&](const Plate& other) { return overlap(place, other); });
 }
 
-// Where there is room for a name, if the box is on the picture.
+// Adds a name where there is room, if the box is in the picture.
 void addName(OverlayShapes& shapes, const OverlayFrame& frame, std::size_t body, std::vector<Plate>& taken) {
   const std::optional<Vec2> centre = frame.screen.at(frame.states[body].pose.position);
   const Vec2 picture(frame.screen.width(), frame.screen.height());
@@ -260,7 +259,7 @@ void addAngularMomenta(OverlayShapes& shapes, const OverlayFrame& frame) {
 }
 
 void addSpinAxes(OverlayShapes& shapes, const OverlayFrame& frame) {
-  // The axis goes on backwards as a thin line, so that it is seen to go through the centre.
+  // The axis continues backwards as a thin line to show that it passes through the centre.
   for (std::size_t body = 0; body < frame.states.size(); ++body) {
     const Vec3& centre = frame.states[body].pose.position;
     std::optional<Stroke> back =
@@ -282,7 +281,7 @@ void addNames(OverlayShapes& shapes, const OverlayFrame& frame) {
   std::stable_sort(nearestFirst.begin(), nearestFirst.end(),
                    [&](std::size_t a, std::size_t b) { return depth(a) < depth(b); });
   std::vector<Plate> taken;
-  for (const OverlayShape& shape : shapes) {  // panels keep their places
+  for (const OverlayShape& shape : shapes) {  // the panels' plates are fixed
     if (const Plate* const plate = std::get_if<Plate>(&shape)) {
       taken.push_back(*plate);
     }

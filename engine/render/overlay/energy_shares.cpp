@@ -6,9 +6,9 @@
 namespace careen {
 namespace {
 
-constexpr int kSamples = 256;  // of the run, to find its largest sum
+constexpr int kSamples = 256;  // of the run, to find the largest energy sum
 
-// Least −g·x of a box's centre over the run.
+// Minimum of −g·x of a box's centre over the run.
 double lowestOf(const Trajectory& trajectory, std::size_t body, const Vec3& gravity) {
   double lowest = -gravity.dot(trajectory.state(body, trajectory.settings.duration).pose.position);
   for (const Segment& segment : trajectory.tracks[body].segments) {

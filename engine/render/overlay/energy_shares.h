@@ -7,7 +7,7 @@
 
 namespace careen {
 
-/// What a run's energy is made of at a moment [J].
+/// The parts of a run's energy at a moment [J].
 struct EnergyShares {
   double translation = 0;  ///< Σ ½ M v²
   double rotation = 0;     ///< Σ ½ ω·L
@@ -16,16 +16,16 @@ struct EnergyShares {
   double sum() const { return translation + rotation + potential + springs; }
 };
 
-/// The account of a run's energy. Each box's potential is counted from x₀, the lowest place that its centre
-/// reaches in the run, so that no share is ever negative: in flight the lowest is at one of the ends.
+/// Energy balance of a run. Each box's potential energy is relative to x₀, the lowest position its centre
+/// reaches in the run, so that no part is negative: in free flight the minimum is at one of the ends.
 class EnergyBook {
  public:
   explicit EnergyBook(const Trajectory& trajectory);
 
-  /// One state for each box, at the same moment.
+  /// `states`: one for each box, at the same moment.
   EnergyShares sharesOf(std::span<const BodyState> states) const;
   double atStart() const { return atStart_; }
-  /// The largest sum found: not much above the start, but for what adds energy by its errors.
+  /// The largest sum found: close to that at the start unless numerical errors add energy.
   double largest() const { return largest_; }
   bool hasSprings() const { return !springs_.empty(); }
 
@@ -33,12 +33,12 @@ class EnergyBook {
   Vec3 gravity_;
   std::vector<Spring> springs_;
   std::vector<MassProperties> masses_;
-  std::vector<double> lowest_;  // [J/kg] least −g·x of each box
+  std::vector<double> lowest_;  // [J/kg] minimum of −g·x of each box
   double atStart_ = 0;
   double largest_ = 0;
 };
 
-/// One for each box, at a time within the run [s].
+/// One state for each box, at a time within the run [s].
 std::vector<BodyState> statesAt(const Trajectory& trajectory, double time);
 
 }  // namespace careen

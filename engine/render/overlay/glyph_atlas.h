@@ -21,22 +21,22 @@ struct AtlasGlyph {
   int y = 0;       ///< [px]
 };
 
-/// Glyphs drawn once for each size they are used in, side by side in one image that is as wide as kWidth and
-/// grows downward. A glyph stands at a whole row and at a quarter of a column: text stays crisp.
+/// Caches rasterized glyphs, once for each size used, in one image of width kWidth that grows downward.
+/// Glyphs are placed at whole rows and quarter columns, so that text is crisp.
 class GlyphAtlas {
  public:
   static constexpr int kWidth = 1024;  ///< [px]
 
-  /// Where the glyphs of a label are and go; those without pixels, such as spaces, are left out. MachineError
-  /// if there is no font.
+  /// The glyphs of a label, with positions in the atlas and the picture; those without pixels, such as
+  /// spaces, are omitted. MachineError if there is no font.
   std::vector<AtlasGlyph> glyphsOf(const Label& label);
 
   int height() const { return static_cast<int>(coverage_.size()) / kWidth; }
-  /// Changes whenever something is drawn into it.
+  /// Changes whenever a glyph is added.
   int revision() const { return revision_; }
-  /// Rows from the top, a byte a pixel.
+  /// Top row first, one byte a pixel.
   const std::vector<std::uint8_t>& coverage() const { return coverage_; }
-  /// Starts anew if it is higher than that [px]. Between pictures only.
+  /// Clears the atlas if it is higher than this [px]. Call only between pictures.
   void keepBelow(int height);
 
  private:
@@ -53,7 +53,7 @@ class GlyphAtlas {
   std::optional<Font> monospaced_;
   std::map<Key, Entry> entries_;
   std::vector<std::uint8_t> coverage_;
-  int column_ = 0;  // where the next glyph goes
+  int column_ = 0;  // position of the next glyph
   int row_ = 0;
   int rowHeight_ = 0;
   int revision_ = 0;

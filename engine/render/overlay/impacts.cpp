@@ -1,4 +1,4 @@
-// What is drawn where boxes struck something in the last few frames.
+// Overlays at the impacts of the last few frames.
 #include <algorithm>
 #include <span>
 #include <variant>
@@ -8,7 +8,7 @@
 namespace careen {
 namespace {
 
-constexpr std::ptrdiff_t kMostImpacts = 400;  // a rattling box strikes more often than anybody can see
+constexpr std::ptrdiff_t kMostImpacts = 400;  // a chattering box has more impacts than can be seen
 constexpr double kNormalLength = 0.45;        // of the longest arrow
 
 std::span<const Impact> recentImpacts(const OverlayFrame& frame) {
@@ -21,7 +21,7 @@ std::span<const Impact> recentImpacts(const OverlayFrame& frame) {
   return {last - std::min(last - first, kMostImpacts), last};
 }
 
-// 1 at the impact, 0 when it is over.
+// 1 at the impact, 0 when it has faded out.
 double strengthOf(const OverlayFrame& frame, const Impact& impact) {
   return 1 - (frame.time - impact.time) / (kImpactFrames * frame.frameSeconds);
 }
@@ -52,7 +52,7 @@ void addContacts(OverlayShapes& shapes, const OverlayFrame& frame) {
 void addImpulses(OverlayShapes& shapes, const OverlayFrame& frame) {
   for (const Impact& impact : recentImpacts(frame)) {
     const Vec3 impulse = impact.impulse * impact.normal;
-    for (const double side : {1.0, -1.0}) {  // another box gets as much the other way
+    for (const double side : {1.0, -1.0}) {  // the other box gets the opposite impulse
       if (side < 0 && impact.b.isWall()) {
         continue;
       }

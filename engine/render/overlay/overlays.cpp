@@ -12,7 +12,7 @@ struct NamedAdd {
   Add add;
 };
 
-// From the back to the front.
+// Back to front.
 constexpr std::array<NamedAdd, 8> kInOrder = {{{Overlay::kTrail, addTrails},
                                                {Overlay::kSpinAxis, addSpinAxes},
                                                {Overlay::kAngularMomentum, addAngularMomenta},
@@ -34,7 +34,7 @@ bool isWritten(const OverlaySet& shown) {
   return hasAny(shown, kWritten) || hasAny(shown, kArrows);
 }
 
-// Looked for at moments all over the run, fewer where there are many boxes.
+// Sampled over the whole run, with fewer samples if there are many boxes.
 OverlayScales scalesOf(const Trajectory& trajectory) {
   OverlayScales scales;
   const int samples = 100'000 / static_cast<int>(std::max<std::size_t>(1, trajectory.tracks.size()));
@@ -92,7 +92,7 @@ OverlayShapes Overlays::shapesAt(double time, const View& view, int width, int h
   if (hasAny(shown_, kArrows)) {
     addLegend(shapes, frame, shown_);
   }
-  if (shown_.has(Overlay::kNames)) {  // last: they keep clear of what stands at the edges
+  if (shown_.has(Overlay::kNames)) {  // last, because names avoid the panels at the edges
     addNames(shapes, frame);
   }
   return shapes;

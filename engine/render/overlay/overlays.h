@@ -10,16 +10,16 @@
 
 namespace careen {
 
-/// What explains a film: shapes over its pictures, made from the run alone. What the whole film decides, such
-/// as the longest arrow, is found once; only what is shown is looked for.
+/// Overlay shapes for the pictures of a film, made from the run alone. Values of the whole film, such as the
+/// longest arrow, are computed once, and only for the overlays shown.
 class Overlays {
  public:
-  /// The run must live as long; `frameSeconds` [s] from one frame to the next. MachineError,
-  /// which names the package to install, if something is to be written and there is no font in the folders.
+  /// Keeps a reference to the run. `frameSeconds` [s]: from one frame to the next. MachineError, naming the
+  /// package to install, if there is text and no font in the folders.
   Overlays(const Trajectory& trajectory, const OverlaySet& shown, double frameSeconds,
            std::span<const std::filesystem::path> folders = fontFolders());
 
-  /// At a time within the run [s], for a picture of this size [px] that is seen so.
+  /// `time` within the run [s]; `width`, `height` of the picture [px].
   OverlayShapes shapesAt(double time, const View& view, int width, int height) const;
   const OverlayScales& scales() const { return scales_; }
 

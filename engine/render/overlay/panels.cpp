@@ -1,4 +1,4 @@
-// What stands at the picture's edges: time, energy, and what arrows mean.
+// Panels at the picture's edges: time, energy, and the legend of the arrows.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,7 +35,7 @@ std::string formatted(const char* format, double value) {
   return text.data();
 }
 
-// Writes energies with the digits and the unit that suit the largest: four digits of that, kJ above 1000 J.
+// Formats energies with the unit and decimals that suit the largest: four digits of it, kJ above 1000 J.
 class EnergyText {
  public:
   explicit EnergyText(double largest) {
@@ -50,7 +50,7 @@ class EnergyText {
   std::string operator()(double energy) const {
     std::array<char, 64> text{};
     const double steps = std::pow(10.0, digits_);
-    const double rounded = std::round(energy / unit_ * steps) / steps + 0.0;  // 0.0 makes −0 a 0
+    const double rounded = std::round(energy / unit_ * steps) / steps + 0.0;  // + 0.0 turns −0 into 0
     std::snprintf(text.data(), text.size(), "%.*f", digits_, rounded);
     return text.data() + name_;
   }
@@ -85,8 +85,7 @@ Plate filled(const OverlayFrame& frame, const Vec2& min, const Vec2& max, const 
           .ink = {share.color, share.hatched ? 0.9 : 1}};
 }
 
-// Shares end to end. Each is drawn from the bar's start, the last one first, so that no seam shows between
-// two.
+// Shares end to end. Each is drawn from the bar's start, last one first, to avoid seams between them.
 void addBar(OverlayShapes& shapes, const OverlayFrame& frame, const Vec2& min, const Vec2& size,
             const std::vector<Share>& shares) {
   const double perJoule = size.x() / frame.energy->largest();
@@ -99,7 +98,7 @@ void addBar(OverlayShapes& shapes, const OverlayFrame& frame, const Vec2& min, c
   for (std::size_t i = shares.size(); i-- > 0;) {
     shapes.emplace_back(filled(frame, min, min + Vec2(ends[i], size.y()), shares[i]));
   }
-  // What there was at the start.
+  // Mark for the energy at the start.
   const double mark = frame.energy->atStart() * perJoule;
   const double reach = 0.18 * frame.style.text;
   shapes.emplace_back(Stroke{.from = min + Vec2(mark, -reach),
@@ -161,7 +160,7 @@ void addTimeCode(OverlayShapes& shapes, const OverlayFrame& frame) {
 
 void addEnergy(OverlayShapes& shapes, const OverlayFrame& frame) {
   if (!(frame.energy->atStart() > 0 && std::isfinite(frame.energy->largest()))) {
-    return;  // nothing that could be shown to stay
+    return;  // no finite, positive energy to show
   }
   const double em = frame.style.text;
   const EnergyShares energy = frame.energy->sharesOf(frame.states);
@@ -203,7 +202,7 @@ void addEnergy(OverlayShapes& shapes, const OverlayFrame& frame) {
                              .ink = {kIvory, 0.5}});
   addRow("sum", energy.sum());
   if (text(lost).starts_with("-")) {
-    addRow("gained", -lost);  // by errors of the method
+    addRow("gained", -lost);  // by numerical errors
   } else {
     addShare(rest);
   }

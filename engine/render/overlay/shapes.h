@@ -9,44 +9,43 @@
 
 namespace careen {
 
-// What overlays are made of. Points are in pixels from the picture's upper left corner, x rightward, y
-// downward.
+// Shapes of overlays. Points are in pixels from the picture's upper left corner, x rightward, y downward.
 
-/// sRGB, and how much of it covers what is below.
+/// sRGB colour with opacity.
 struct Ink {
   Color color;
   double alpha = 1;  ///< 0 … 1
 };
 
-/// A line with round ends, or an arrow; with both ends in one place, a disc.
+/// A line with round ends, or an arrow; a disc if both ends coincide.
 struct Stroke {
   Vec2 from = Vec2::Zero();
   Vec2 to = Vec2::Zero();  ///< the arrow's tip
   double width = 1;        ///< [px]
   double head = 0;         ///< [px] length of the arrow's head; 0: none
-  double halo = 0;         ///< [px] width of the dark rim that sets it off
+  double halo = 0;         ///< [px] width of the dark rim around it
   Ink ink = {};
 };
 
 struct RibbonPoint {
   Vec2 at = Vec2::Zero();
-  double strength = 1;  ///< 0 … 1, of width and ink
-  double alpha = 1;     ///< 0 … 1, of ink alone
+  double strength = 1;  ///< 0 … 1, scales width and ink
+  double alpha = 1;     ///< 0 … 1, scales ink only
 };
 
-/// A line through many points, without seams where it is translucent.
+/// A polyline without seams where it is translucent.
 struct Ribbon {
   std::vector<RibbonPoint> points;
-  double width = 1;  ///< [px] where it is strongest
+  double width = 1;  ///< [px] at strength 1
   Ink ink = {};
 };
 
-/// A rectangle along the picture's edges.
+/// An axis-aligned rectangle.
 struct Plate {
   Vec2 min = Vec2::Zero();
   Vec2 max = Vec2::Zero();
   double rounding = 0;  ///< [px] radius of its corners
-  double hatching = 0;  ///< [px] from stripe to stripe; 0: filled
+  double hatching = 0;  ///< [px] distance of the stripes; 0: filled
   Ink ink = {};
 };
 

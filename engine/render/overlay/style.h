@@ -6,23 +6,23 @@
 
 namespace careen {
 
-// How overlays look: muted colours that go with the scene's, told apart on light walls and dark background
-// alike by a dark rim or a dark plate.
+// Style of overlays: muted colours that suit the scene, with a dark rim or plate for contrast on both light
+// walls and dark background.
 
 inline constexpr Color kIvory{242, 238, 228};
 inline constexpr Color kSlate{19, 23, 28};
-inline constexpr Color kTeal{72, 164, 176};     // velocity, and the energy in it
-inline constexpr Color kViolet{158, 132, 204};  // angular momentum, and the energy in it
+inline constexpr Color kTeal{72, 164, 176};     // velocity and translational energy
+inline constexpr Color kViolet{158, 132, 204};  // angular momentum and rotational energy
 inline constexpr Color kMoss{132, 172, 98};     // spin axis
 inline constexpr Color kAmber{232, 168, 62};    // impulses
 inline constexpr Color kSand{205, 186, 140};    // potential energy
-inline constexpr Color kRose{200, 122, 116};    // energy of springs
+inline constexpr Color kRose{200, 122, 116};    // spring energy
 inline constexpr Color kGrey{132, 136, 140};    // lost energy
 
 inline constexpr double kPlateAlpha = 0.70;
 inline constexpr double kSmallestText = 12;  // [px] em square
 
-/// Sizes [px] for a picture so high [px]: in proportion, but never too small to be read.
+/// Sizes [px] in proportion to the picture height [px], but never too small to read.
 struct OverlayStyle {
   explicit OverlayStyle(int height)
       : text(std::max(kSmallestText, 0.0236 * height)),
@@ -35,7 +35,7 @@ struct OverlayStyle {
   double line;          ///< width of an arrow's shaft
   double halo;          ///< width of its dark rim
   double head;          ///< length of its head
-  double longestArrow;  ///< for the largest value of the film, at right angles to the line of sight
+  double longestArrow;  ///< for the largest value of the film, perpendicular to the line of sight
 };
 
 }  // namespace careen
