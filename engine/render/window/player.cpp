@@ -13,7 +13,7 @@ void Player::update(double now) {
   if (!playing_) {
     return;
   }
-  // A pause of hours (a suspended machine) must not overflow; beyond the end nothing is lost.
+  // Limits the elapsed time to the film's length, so that hours (a suspended machine) do not overflow.
   const double whole = rate_.frameTime(last_ + 1);
   const double played = std::min(now_ - begun_, whole);
   const double frames =

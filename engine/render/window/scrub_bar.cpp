@@ -9,10 +9,10 @@ namespace careen {
 namespace {
 
 constexpr int kMargin = 8;  // [px] left and right of the groove
-constexpr int kKnob = 4;    // [px] half of its width
+constexpr int kKnob = 4;    // [px] half its width
 constexpr Color kGroove{70, 76, 82};
 
-// A groove's length; a picture may be narrower than its margins.
+// Length of the groove; the picture may be narrower than the margins.
 double grooveLength(int width) { return std::max(1, width - 1 - 2 * kMargin); }
 
 }  // namespace
@@ -22,7 +22,7 @@ Picture withScrubBar(const Picture& picture, double part) {
   whole.rgb.reserve(whole.rowBytes() * static_cast<std::size_t>(whole.height));
   const double knob = kMargin + part * grooveLength(picture.width);
   for (int y = 0; y < kScrubBarHeight; ++y) {
-    const double off = std::abs(y + 0.5 - 0.5 * kScrubBarHeight);  // [px] from the bar's middle
+    const double off = std::abs(y + 0.5 - 0.5 * kScrubBarHeight);  // [px] distance from the bar's middle
     for (int x = 0; x < picture.width; ++x) {
       Color color = kSlate;
       if (std::abs(x - knob) < kKnob && off < 0.4 * kScrubBarHeight) {

@@ -4,13 +4,13 @@
 
 namespace careen {
 
-/// A bar below a film's picture that shows where in the film it is: of the picture itself it hides nothing.
+/// A bar below the picture, not covering it, that shows the position in the film.
 inline constexpr int kScrubBarHeight = 16;  ///< [px]
 
-/// `part` of the film is over, 0 … 1.
+/// `part`: position in the film, 0 … 1.
 Picture withScrubBar(const Picture& picture, double part);
 
-/// The part of the film that a place on the bar [px] of a picture so wide [px] stands for, 0 … 1.
+/// The position in the film, 0 … 1, for `x` on the bar [px]; `width` of the picture [px].
 double partOnScrubBar(double x, int width);
 
 }  // namespace careen

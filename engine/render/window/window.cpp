@@ -16,7 +16,7 @@
 #include "render/gl/gl_context.h"
 #include "render/gl/shared_library.h"
 
-// Every function used, of GLFW 3.3.
+// All GLFW functions used, from version 3.3.
 #define CAREEN_GLFW_FUNCTIONS(X) \
   X(Init)                        \
   X(GetError)                    \
@@ -50,7 +50,7 @@ namespace {
 
 constexpr const char* kRemedy = "install it: apt install libglfw3";
 
-/// GLFW. Never ended, but with the process: it would unload the driver, which Mesa's are not made for.
+/// GLFW. Never terminated before the process ends: that would unload the driver, which Mesa's do not support.
 class Glfw {
  public:
   Glfw() : library_({"libglfw.so.3"}, kRemedy) {
@@ -87,7 +87,7 @@ class Glfw {
 class HiddenWindow {
  public:
   HiddenWindow(const Glfw& glfw, const std::string& title) : glfw_(glfw) {
-    constexpr int kSomeSize = 320;  // [px] until there is a picture
+    constexpr int kSomeSize = 320;  // [px] until the first picture
     constexpr std::array<std::pair<int, int>, 6> kHints = {{{GLFW_VISIBLE, GLFW_FALSE},
                                                             {GLFW_CONTEXT_VERSION_MAJOR, 3},
                                                             {GLFW_CONTEXT_VERSION_MINOR, 3},
@@ -116,7 +116,7 @@ class HiddenWindow {
   GLFWwindow* handle_ = nullptr;
 };
 
-/// What GLFW draws into the window with.
+/// The GL context of a GLFW window.
 class WindowContext final : public GlContext {
  public:
   WindowContext(const Glfw& glfw, GLFWwindow* window) : glfw_(glfw), window_(window) { makeCurrent(); }
@@ -156,17 +156,17 @@ char32_t keyOf(int key) {
     case GLFW_KEY_ESCAPE:
       return kKeyEscape;
     default:
-      return 0;  // writes a character, or means nothing
+      return 0;  // a character key, or ignored
   }
 }
 
-// A picture in a space of another size: as large as goes in, in the middle.
+// Scales a picture to fit a space of another size, centred.
 struct Fit {
   Fit(const Vec2& picture, const Vec2& space)
       : scale((space.array() / picture.array()).minCoeff()), corner(0.5 * (space - scale * picture)) {}
 
   double scale;
-  Vec2 corner;  // upper left, in the space
+  Vec2 corner;  // upper left, in space coordinates
 };
 
 }  // namespace
@@ -192,20 +192,20 @@ struct Window::Parts {
   Gl gl;
   unsigned texture = 0;
   unsigned framebuffer = 0;
-  Vec2 size = Vec2::Zero();  // [px] of the picture; none yet
-  bool lost = false;         // whether the picture is to be shown once more
+  Vec2 size = Vec2::Zero();  // [px] of the picture; zero: none yet
+  bool lost = false;         // whether the picture must be redrawn
   Vec2 pointer = Vec2::Zero();
   std::optional<PointerDrag> drag;
   WindowEvents events;
 
-  static Parts* open;  // GLFW's callbacks get no more than a handle
+  static Parts* open;  // GLFW callbacks get only a handle
 };
 
 Window::Parts* Window::Parts::open = nullptr;
 
 Window::Parts::Parts(const std::string& title)
     : window(glfw, title), context(glfw, window.handle()), gl(context) {
-  glfw.SwapInterval(0);  // some compositors would have a window wait that nobody sees
+  glfw.SwapInterval(0);  // no vsync: some compositors block hidden windows
   gl.GenTextures(1, &texture);
   gl.BindTexture(GL_TEXTURE_2D, texture);
   gl.GenFramebuffers(1, &framebuffer);
@@ -306,7 +306,7 @@ void Window::Parts::present() {
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
   gl.ClearColor(0, 0, 0, 1);
   gl.Clear(GL_COLOR_BUFFER_BIT);
-  // Upside down, for rows of pictures go downward.
+  // Flipped, because picture rows go downward.
   gl.BlitFramebuffer(0, 0, pictureWidth, pictureHeight, left, height - below, width - left, below,
                      GL_COLOR_BUFFER_BIT, sameSize ? GL_NEAREST : GL_LINEAR);
   checkGl(gl, "showing a picture");
