@@ -30,7 +30,7 @@ Lighting lightingOf(Look look, const Camera& camera) {
     case Look::kStudio:
       lighting.light = Light{.towards = towards, .color = Vec3(0.78, 0.70, 0.58)};
       break;
-    case Look::kBlueprint:  // paper shows no sun, only enough of it to tell faces apart
+    case Look::kBlueprint:  // just enough directional light to tell faces apart
       lighting = {.light = Light{.towards = towards, .color = Vec3(0.45, 0.45, 0.45)},
                   .sky = Vec3(0.80, 0.80, 0.80),
                   .ground = Vec3(0.60, 0.60, 0.60),

@@ -9,27 +9,27 @@
 
 namespace careen {
 
-/// Linear light, red green blue: 1 is a white sheet at its brightest.
+/// Linear RGB: 1 is a fully lit white surface.
 Vec3 linearFromSrgb(const Color& color);
 
-/// A light as far away as the sun.
+/// A directional light.
 struct Light {
-  Vec3 towards = Vec3::UnitZ();  ///< where it stands, world frame; any length but 0
-  Vec3 color = Vec3::Ones();     ///< linear; what a white face turned to it sends back
+  Vec3 towards = Vec3::UnitZ();  ///< direction towards the light, world frame; any length but 0
+  Vec3 color = Vec3::Ones();     ///< linear; as reflected by a white face turned towards it
   bool castsShadow = true;
 };
 
-/// Everything that shines. No light, no shadow pass.
+/// All lighting. Without `light` there is no shadow pass.
 struct Lighting {
   std::optional<Light> light;
-  Vec3 sky = Vec3(0.36, 0.40, 0.46);     ///< linear; what a white face turned up gets from all around
-  Vec3 ground = Vec3(0.24, 0.21, 0.19);  ///< linear; the same for one turned down
+  Vec3 sky = Vec3(0.36, 0.40, 0.46);     ///< linear; ambient light on a white face that points up
+  Vec3 ground = Vec3(0.24, 0.21, 0.19);  ///< linear; likewise, pointing down
   Vec3 backgroundTop = Vec3(0.035, 0.055, 0.080);
   Vec3 backgroundBottom = Vec3(0.19, 0.225, 0.255);
 };
 
-/// A look's light. It comes over the left shoulder of the camera; in the studio it is warm, and a soft blue
-/// comes from above.
+/// The lighting of a look. The light comes over the camera's left shoulder; in the studio look it is warm,
+/// with soft blue ambient light from above.
 Lighting lightingOf(Look look, const Camera& camera);
 
 }  // namespace careen

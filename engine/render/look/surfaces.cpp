@@ -15,7 +15,7 @@ Surface roomSide(const RoomShape& room, std::size_t side, const Materials& mater
   surface.along = axis == 2 ? Vec3::UnitY() : Vec3::UnitZ();
   surface.across = surface.along.cross(surface.normal);
   const Vec3 extent = room.max - room.min;
-  // The corner of the side from which both directions lead into it.
+  // The corner of the side from which both directions point into it.
   const Vec3 sum = surface.across + surface.along;
   for (Eigen::Index k = 0; k < 3; ++k) {
     surface.origin[k] = (k == axis ? isMax : sum[k] < 0) ? room.max[k] : room.min[k];
@@ -38,7 +38,7 @@ Surface roomSide(const RoomShape& room, std::size_t side, const Materials& mater
   return surface;
 }
 
-// What of a convex outline lies where normal·x >= offset.
+// The part of a convex outline where normal·x >= offset.
 std::vector<Vec3> clipped(const std::vector<Vec3>& outline, const Vec3& normal, double offset) {
   std::vector<Vec3> kept;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -56,7 +56,7 @@ std::vector<Vec3> clipped(const std::vector<Vec3>& outline, const Vec3& normal, 
   return kept;
 }
 
-// A square of the wall's plane, large enough to hold all of it that the extent holds, then cut to the extent.
+// A square in the wall's plane, large enough to cover the extent, clipped to the extent.
 Surface slab(const Plane& wall, const Extent& extent, const Materials& materials) {
   Surface surface;
   surface.normal = wall.normal;
@@ -102,7 +102,7 @@ std::vector<Surface> surfacesOf(const Stage& stage, const Extent& extent, const 
       }
     }
   }
-  // Where no room bounds it, a wall reaches beyond what happens in front of it.
+  // Without a room to bound it, a wall extends beyond the extent.
   Extent reach = extent;
   if (!stage.room) {
     const Vec3 margin = Vec3::Constant(extent.radius());
