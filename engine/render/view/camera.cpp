@@ -58,7 +58,7 @@ Camera cameraThatSees(const Extent& extent, double aspect) {
   const double tangent = std::tan(0.5 * radians(camera.fovDegrees));
   double distance = 0;
   for (int index = 0; index < 8; ++index) {
-    // A corner at (x, y, z) is in sight from as far away as z + |y| / tan(fov/2); x likewise.
+    // A corner at (x, y, z) is in view from a distance of z + |y| / tan(fov/2) on; x likewise.
     const Vec3 corner = worldFromCamera.transpose() * (extent.corner(index) - camera.target);
     distance = std::max(distance, corner.z() + kMargin * std::max(std::abs(corner.x()) / (tangent * aspect),
                                                                   std::abs(corner.y()) / tangent));
@@ -79,8 +79,8 @@ View viewOf(const Camera& camera, const Extent& extent, double aspect) {
   View view;
   view.eye = camera.eye;
   view.worldFromCamera = lookAt(camera.eye, camera.target, camera.up);
-  // The nearest and farthest that a scene of this size can want; between them depth keeps 1e-4 m in 10 m. A
-  // look at a trifle in a vast room is closer.
+  // Near and far planes for a scene of this size, with a depth resolution of 1e-4 m in 10 m. The near plane
+  // is closer for a near target in a large room.
   const double reach = (camera.eye - extent.centre()).norm() + extent.radius();
   const double near = std::min(0.004 * reach, 0.1 * (camera.eye - camera.target).norm());
   Mat4 cameraFromOffset = Mat4::Identity();

@@ -13,11 +13,11 @@ namespace careen {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFilled = 0.92;  // of the picture, from its middle to its edge: the rest is margin
+constexpr double kFilled = 0.92;  // of the picture from its middle to its edge; the rest is margin
 
-// Finds the place nearest to points, in a given direction, from where all of them are in sight. Of a point
-// (x, y, z) of the camera's frame the eye sees |x − x₀| <= s (z₀ − z), s being the slope of the picture's
-// edge: two planes for either side, and the largest of each over all points is all one needs to know.
+// Finds the nearest eye position, for a given direction, from which all points are in view. In the camera
+// frame a point (x, y, z) is in view if |x − x₀| <= s (z₀ − z), where s is the slope of the picture's edge:
+// two half-spaces per axis, so the largest bound of each over all points is sufficient.
 class Framing {
  public:
   Framing(const Camera& towards, double aspect)
@@ -39,7 +39,7 @@ class Framing {
 
   Camera camera() const {
     Vec3 eye = Vec3::Zero();
-    eye.z() = nearest_ + 0.02 * (nearest_ - farthest_);  // of a needle's end something is to be seen
+    eye.z() = nearest_ + 0.02 * (nearest_ - farthest_);  // so that a thin object seen end-on is still visible
     for (std::size_t axis = 0; axis < 2; ++axis) {
       eye[static_cast<Eigen::Index>(axis)] = 0.5 * slope_[axis] * (most_[axis] - least_[axis]);
       eye.z() = std::max(eye.z(), 0.5 * (most_[axis] + least_[axis]));
@@ -70,7 +70,7 @@ Coordinates coordinatesOf(const CameraKey& key) {
           key.target.y(), key.target.z(), key.fovDegrees};
 }
 
-// Slope at a key, from the slopes of the lines to its neighbours, `before` and `after` [s] away.
+// Slope at a key, from the slopes of the lines to its neighbours at distances `before` and `after` [s].
 double slopeAt(double slopeBefore, double slopeAfter, double before, double after) {
   if (!(slopeBefore * slopeAfter > 0)) {
     return 0;
@@ -119,7 +119,7 @@ CameraKey between(std::span<const CameraKey> keys, double time) {
 }
 
 Camera cameraThatFrames(const Trajectory& run, const TimeMap& clock, double aspect) {
-  constexpr std::size_t kMostPoses = 200'000;  // what is looked at in a fraction of a second
+  constexpr std::size_t kMostPoses = 200'000;  // evaluated in a fraction of a second
   const std::size_t moments = std::clamp<std::size_t>(kMostPoses / run.world.bodies.size(), 60, 600);
   Camera towards;
   towards.eye = kDefaultDirection;
@@ -154,7 +154,8 @@ CameraPath::CameraPath(const Trajectory& run, TimeMap clock, double aspect)
   }
 }
 
-// Beyond the film's ends the way is reflected in its end points, so that it goes on as fast as it was.
+// Beyond the ends of the film the path is point-reflected at its end points, so that its velocity is
+// continuous.
 Vec3 CameraPath::followedCentre(double filmTime) const {
   const double end = clock_.duration();
   const auto centre = [&](double time) {
@@ -169,8 +170,8 @@ Vec3 CameraPath::followedCentre(double filmTime) const {
   return centre(filmTime);
 }
 
-// A cubic B-spline over the places at multiples of kFollowStep: its acceleration never jumps, whatever the
-// box strikes; it is exact for steady motion, and for a throw h² g / 6 off, 7 cm on earth.
+// A cubic B-spline over the positions at multiples of kFollowStep: its acceleration is continuous even at
+// impacts; it is exact for uniform motion, and off by h² g / 6 in free flight (7 cm on Earth).
 Vec3 CameraPath::followedSmoothly(double filmTime) const {
   const double steps = filmTime / kFollowStep;
   const double whole = std::floor(steps);

@@ -10,14 +10,14 @@
 
 namespace careen {
 
-/// The film time between the points that carry the path of a camera that follows a box [s]. Blows are spread
-/// over twice of this before and after.
+/// Film time between the control points of the path of a camera that follows a box [s]. Impacts are smoothed
+/// over twice this time before and after.
 inline constexpr double kFollowStep = 0.2;
 
-/// Where the camera is at every moment of a film: nothing but run, film time and aspect decide it.
+/// The camera at every moment of a film; depends only on run, film time and aspect.
 class CameraPath {
  public:
-  /// `clock` has keys. Keeps the run by reference.
+  /// `clock` has keys. Keeps a reference to the run.
   CameraPath(const Trajectory& run, TimeMap clock, double aspect);
 
   bool hasKeys() const { return !move_.keys.empty(); }
@@ -35,16 +35,15 @@ class CameraPath {
   Vec3 followedStart_ = Vec3::Zero();
 };
 
-/// A camera that stands still and has all boxes in its picture whenever the film shows them, and where
-/// springs are held: as near as it can be, in the direction of cameraThatSees. Looks at moments spread evenly
-/// over the film, at 60 at least.
+/// A fixed camera that sees all boxes at all times of the film, and the fixed ends of springs: as near as
+/// possible, in the direction of cameraThatSees. Samples the film at 60 or more evenly spaced moments.
 Camera cameraThatFrames(const Trajectory& run, const TimeMap& clock, double aspect);
 
-/// Between keys every coordinate of eye and target and the angle follow a cubic that takes on the keys'
-/// values and turns round at keys alone (F. N. Fritsch, J. Butland, "A method for constructing local monotone
-/// piecewise cubic interpolants", 1984): the speed does not jump, nothing overshoots, what is equal in two
-/// keys stays so between them. Stands still before the first key and after the last, where it also starts and
-/// ends its way at rest. There must be keys, in order.
+/// Monotone piecewise cubic interpolation of every coordinate of eye and target and the angle (F. N. Fritsch,
+/// J. Butland, "A method for constructing local monotone piecewise cubic interpolants", 1984): the velocity
+/// is continuous, extrema occur only at keys, without overshoot, and values equal in two keys stay constant
+/// between them. Constant before the first key and after the last, with zero velocity at both. `keys` must be
+/// sorted and not empty.
 CameraKey between(std::span<const CameraKey> keys, double time);
 
 }  // namespace careen

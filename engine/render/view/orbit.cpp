@@ -11,7 +11,7 @@ double elevationOf(const Camera& camera) {
   return std::asin(std::clamp(back.dot(camera.up.normalized()), -1.0, 1.0));
 }
 
-// The film's elevation and what is added to it.
+// The film's elevation plus `added`, within limits.
 double withinReach(double film, double added) {
   const double reach = std::max(kSteepest, std::abs(film));
   return std::clamp(film + added, -reach, reach);

@@ -4,21 +4,21 @@
 
 namespace careen {
 
-/// How far someone has turned a camera about its target, from where the film has it at the moment.
+/// Rotation of a camera about its target by the user, relative to the film's current camera.
 struct Orbit {
-  double azimuth = 0;    ///< [rad] of the eye about up, by the right-hand rule
+  double azimuth = 0;    ///< [rad] of the eye about `up`, by the right-hand rule
   double elevation = 0;  ///< [rad] of the eye, upward
-  double distance = 1;   ///< [1] of the film's
+  double distance = 1;   ///< [1] relative to the film's
 
   friend bool operator==(const Orbit&, const Orbit&) = default;
 };
 
-/// The camera turned so. It never comes nearer to looking along its up than kSteepest, or than the film's own
-/// if that is steeper. Without any turn it is the film's, bit for bit.
+/// The rotated camera. Its elevation is limited to kSteepest, or the film's own if that is steeper. Without
+/// rotation it is the film's camera, bit for bit.
 Camera orbited(const Camera& film, const Orbit& orbit);
 
-/// What is left of further turns where `film` is the camera: no more than orbited() follows, so that turning
-/// back begins at once; and the distance within kNearest … kFarthest.
+/// `orbit` rotated further by `by`, with `film` as the camera: limited to what orbited() applies, so that
+/// turning back takes effect at once, and the distance to kNearest … kFarthest.
 Orbit turned(const Orbit& orbit, const Camera& film, const Orbit& by);
 
 inline constexpr double kSteepest = 1.55;  ///< [rad] elevation

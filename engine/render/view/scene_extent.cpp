@@ -54,7 +54,7 @@ Extent extentOf(const RunSetup& setup) {
       }
     }
   }
-  if (!(extent.radius() > 0 && extent.radius() < kInfinity)) {  // nothing to see: show where it would be
+  if (!(extent.radius() > 0 && extent.radius() < kInfinity)) {  // empty or unbounded: use a default
     return {.min = Vec3::Constant(-1), .max = Vec3::Constant(1)};
   }
   return extent;

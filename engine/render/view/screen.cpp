@@ -3,7 +3,7 @@
 namespace careen {
 namespace {
 
-// Positive beyond the near plane.
+// Positive for points beyond the near plane.
 double beyondNear(const Vec4& clip) { return clip.z() + clip.w(); }
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 namespace careen {
 
-/// Where the world appears on a picture [px], from its upper left corner, for what is drawn over it: points
-/// that are not before the camera have no place.
+/// Maps world points to picture coordinates [px], from the upper left corner, for overlays: points that are
+/// not in front of the camera have none.
 class Screen {
  public:
   /// Size in pixels.
@@ -20,11 +20,11 @@ class Screen {
   const Vec3& eye() const { return view_.eye; }
 
   std::optional<Vec2> at(const Vec3& point) const;
-  /// The part of a straight line that is before the camera.
+  /// The part of a line segment in front of the camera.
   std::optional<std::pair<Vec2, Vec2>> line(const Vec3& from, const Vec3& to) const;
-  /// Size of a pixel at a point's distance, for lines across the line of sight.
+  /// Size of a pixel at a point's depth, perpendicular to the line of sight.
   double metresPerPixel(const Vec3& point) const;
-  /// Depth along the line of sight: nearer is less.
+  /// Depth along the line of sight; smaller is nearer.
   double depth(const Vec3& point) const { return view_.clipFromWorld(point).w(); }
 
  private:
