@@ -7,10 +7,10 @@
 namespace careen {
 namespace {
 
-// A line of sight closer to `up` than this [rad] has no sideways.
+// With a smaller angle [rad] between line of sight and `up`, the sideways direction is undefined.
 constexpr double kLeastTilt = 1e-9;
 
-// `node` has the eye and the target, `camera` may have the up.
+// `node` holds eye and target, `camera` may hold up.
 void checkSight(const JsonTree& tree, const JsonNode& camera, const JsonNode& node, const Vec3& sight,
                 const Vec3& up) {
   const double distance = sight.norm();

@@ -5,8 +5,8 @@
 
 namespace careen {
 
-/// What the values of a scene's camera and film say about each other: the camera looks somewhere, keys are in
-/// order, the film shows no moment after the run's end. InputError at the place in `tree`.
+/// Checks the values of a scene's camera and film against each other: the camera looks somewhere, keys are
+/// in order, and the film shows no time after the end of the run. InputError at the place in `tree`.
 void checkFilm(const JsonTree& tree, const Scene& scene);
 
 }  // namespace careen

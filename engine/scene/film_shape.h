@@ -5,9 +5,9 @@
 
 namespace careen {
 
-/// The scene's camera and how it moves; whom it follows is found by checkScene.
+/// Reads the scene's camera and its movement; checkScene finds the box that it follows.
 void readCamera(const JsonValue& value, Scene& scene);
-/// Its pictures, and which moments it shows.
+/// Reads the film's picture settings and the times it shows.
 void readFilm(const JsonValue& value, Scene& scene);
 
 }  // namespace careen

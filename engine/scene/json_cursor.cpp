@@ -41,7 +41,7 @@ std::size_t JsonCursor::next() {
   return start;
 }
 
-// `start` itself if no whole comment is there.
+// Returns `start` if there is no complete comment.
 std::size_t JsonCursor::endOfComment(std::size_t start) const {
   const std::string_view rest = text_.substr(start);
   if (rest.starts_with("//")) {

@@ -5,23 +5,23 @@
 
 namespace careen {
 
-/// Some editors put it at the start of a file.
+/// Some editors write it at the start of a file.
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Walks a JSON text token by token in step with a parser that does not say where its tokens stand. It relies
-/// on the parser having accepted every token it passes.
+/// Walks a JSON text token by token, in step with a parser that does not report token positions. Relies on
+/// the parser having accepted every token passed.
 class JsonCursor {
  public:
   explicit JsonCursor(std::string_view text);
 
-  /// What lies between two tokens.
+  /// The text between two tokens.
   struct Gap {
     std::size_t end = 0;    ///< offset of the next token, or of the limit
     char separator = '\0';  ///< the last comma or colon passed
   };
-  /// Skips white space, comments, commas and colons, up to `limit`, and moves nothing.
+  /// Skips white space, comments, commas and colons, up to `limit`; does not move the cursor.
   Gap gap(std::size_t limit) const;
-  /// Steps over the next token; its offset.
+  /// Steps over the next token and returns its offset.
   std::size_t next();
 
  private:

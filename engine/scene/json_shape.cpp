@@ -17,7 +17,7 @@ std::string withUnit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " [" + unit + "]";
 }
 
-// Words, not numbers, where a bound is the natural one; the number where it is only careen's own limit.
+// The range in words where the bound is a natural one; the number where it is only a limit of careen.
 std::string expectedNumber(const NumberRange& range, double found) {
   if (found > range.max && range.max == kLargestNumber) {
     return withUnit("a number of at most 1e60", range.unit);
@@ -31,7 +31,7 @@ std::string expectedNumber(const NumberRange& range, double found) {
   return withUnit(range.plain, range.unit);
 }
 
-// Edits of one letter that turn one word into the other (Levenshtein), upper and lower case being the same.
+// Levenshtein distance (edits of one letter), ignoring case.
 std::size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -61,7 +61,7 @@ std::string shown(const std::string& label) { return label.empty() ? "the scene"
 
 std::optional<std::string_view> nearest(std::string_view word, const std::vector<std::string_view>& known) {
   std::optional<std::string_view> best;
-  std::size_t fewest = 2 + word.size() / 4;  // this many edits are too many
+  std::size_t fewest = 2 + word.size() / 4;  // at this many edits the words are unrelated
   for (const std::string_view each : known) {
     if (each.size() < word.size() + fewest && word.size() < each.size() + fewest) {
       const std::size_t edits = editDistance(word, each);
@@ -127,7 +127,7 @@ Vec3 JsonValue::direction() const {
   if (largest == 0) {
     failAs("a zero vector", "a direction");
   }
-  return (value / largest).normalized();  // tiny ones would square to 0
+  return (value / largest).normalized();  // tiny components would square to 0
 }
 
 std::vector<JsonValue> JsonValue::elements(const std::string& expected,

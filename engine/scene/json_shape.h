@@ -13,15 +13,15 @@
 
 namespace careen {
 
-/// What a number may be. Whatever a scene says stays within ±kLargestNumber, and what must be positive above
-/// kSmallestPositive, so that no product the engine forms of a few of them overflows.
+/// The allowed range of a number. All numbers of a scene lie within ±kLargestNumber, and positive ones above
+/// kSmallestPositive, so that no product of a few of them overflows in the engine.
 inline constexpr double kLargestNumber = 1e60;
 inline constexpr double kSmallestPositive = 1e-60;
 struct NumberRange {
   double min = -kLargestNumber;
   double max = kLargestNumber;
-  const char* unit = "";           ///< "kg"; none for a pure number
-  const char* plain = "a number";  ///< how to say it: "a number above 0"
+  const char* unit = "";           ///< "kg"; empty for a dimensionless number
+  const char* plain = "a number";  ///< the range in words: "a number above 0"
 };
 constexpr NumberRange anyNumber(const char* unit = "") { return {.unit = unit}; }
 constexpr NumberRange positiveNumber(const char* unit = "") {
@@ -33,7 +33,7 @@ constexpr NumberRange nonNegativeNumber(const char* unit = "") {
 
 class JsonObject;
 
-/// A value being read as the type it should have. What does not fit is an InputError at its place, which
+/// A JSON value with checked access by type. A value that does not fit is an InputError at its place, which
 /// names the value by its label ("mass", "position[1]").
 class JsonValue {
  public:
@@ -49,20 +49,20 @@ class JsonValue {
   int integer(int min, int max, const char* unit) const;
   bool boolean() const;
   const std::string& string(const std::string& expected) const;
-  /// One of a list of words; its index.
+  /// Index of the value in a list of known words.
   std::size_t word(const std::vector<std::string_view>& known, const std::string& what) const;
   /// [x, y, z]
   Vec3 vector(const NumberRange& range) const;
-  /// [x, y, z], not all 0, made a unit vector.
+  /// [x, y, z], not all 0, normalised to a unit vector.
   Vec3 direction() const;
-  /// `size` elements; any number if it is none.
+  /// `size` elements; any number of elements if `size` is absent.
   std::vector<JsonValue> elements(const std::string& expected, std::optional<std::size_t> size = {}) const;
-  /// An object with no keys but these.
+  /// An object with no other keys than these.
   JsonObject object(std::initializer_list<std::string_view> keys) const;
 
   /// "found <this> for <label>, expected <expected>"
   [[noreturn]] void fail(const std::string& expected) const;
-  /// The same where `found` says more than the value itself.
+  /// The same, with a description of what was found in place of the value itself.
   [[noreturn]] void failAs(const std::string& found, const std::string& expected) const;
 
  private:
@@ -71,7 +71,7 @@ class JsonValue {
   std::string label_;
 };
 
-/// An object all of whose keys are known.
+/// An object whose keys are all known.
 class JsonObject {
  public:
   JsonObject(const JsonTree& tree, const JsonNode& node, std::string label)
@@ -93,7 +93,7 @@ class JsonObject {
   std::string label_;
 };
 
-/// The known word that `word` was probably meant to be, if one is near.
+/// The known word most similar to `word`, if one is close enough.
 std::optional<std::string_view> nearest(std::string_view word, const std::vector<std::string_view>& known);
 
 }  // namespace careen

@@ -16,11 +16,11 @@ using Kind = JsonNode::Kind;
 
 constexpr std::size_t kDeepest = 64;
 constexpr std::size_t kLongestQuote = 40;  // bytes
-constexpr int kNumberOverflows = 406;      // nlohmann-json's number for it
+constexpr int kNumberOverflows = 406;      // error id of nlohmann-json
 
 bool continuesCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
-// The letters, digits and signs from there on: a number, a literal, or what was meant as one.
+// The letters, digits and signs from `offset` on: a number, a literal, or an attempt at one.
 std::string wordAt(std::string_view text, std::size_t offset) {
   std::size_t end = offset;
   while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) != 0 ||
@@ -37,7 +37,7 @@ bool isNotFinite(std::string word) {
   return word == "nan" || word == "inf" || word == "infinity";
 }
 
-// What stands where the parser stopped.
+// Describes the text where the parser stopped.
 std::string describeToken(std::string_view text, std::size_t offset) {
   if (offset >= text.size()) {
     return "the end of the file";
@@ -56,7 +56,7 @@ std::string describeToken(std::string_view text, std::size_t offset) {
                                                          : "a character outside a string";
 }
 
-// Hears the parser's events and builds the tree; the cursor finds where each token stands.
+// Builds the tree from the parser's events; the cursor finds the position of each token.
 class TreeBuilder : public nlohmann::json_sax<Json> {
  public:
   TreeBuilder(const JsonTree& tree, JsonNode& root) : tree_(tree), root_(root), cursor_(tree.text()) {}
@@ -76,7 +76,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     leaf(Kind::kString).text = value;
     return true;
   }
-  bool binary(binary_t& /*value*/) override { return false; }  // no token of a text gives one
+  bool binary(binary_t& /*value*/) override { return false; }  // no token of a JSON text produces it
 
   bool start_object(std::size_t /*size*/) override { return open(Kind::kObject); }
   bool start_array(std::size_t /*size*/) override { return open(Kind::kArray); }
@@ -102,9 +102,9 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   const JsonTree& tree_;
   JsonNode& root_;
   JsonCursor cursor_;
-  std::vector<JsonNode*> open_;  // from the root to the innermost; only the innermost grows
+  std::vector<JsonNode*> open_;  // from the root to the innermost, the only one that grows
   bool begun_ = false;
-  bool keyPending_ = false;  // the innermost's last member has no value yet
+  bool keyPending_ = false;  // the innermost object's last member has no value yet
 };
 
 JsonNode& TreeBuilder::leaf(Kind kind) {
@@ -195,7 +195,7 @@ void TreeBuilder::failInString(std::size_t start, std::size_t offset) const {
 bool TreeBuilder::parse_error(std::size_t bytesRead, const std::string& /*lastToken*/,
                               const nlohmann::detail::exception& error) {
   const std::string& text = tree_.text();
-  // The parser stopped behind this byte; the token it could not use begins there or before.
+  // The parser stopped after this byte; the token it rejected begins there or earlier.
   const std::size_t last = std::min(std::max<std::size_t>(bytesRead, 1) - 1, text.size());
   const JsonCursor::Gap gap = cursor_.gap(last);
   const std::size_t start = std::min(gap.end, last);
@@ -222,7 +222,7 @@ const JsonNode* JsonNode::find(std::string_view name) const {
 }
 
 JsonTree::JsonTree(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
-  // The parser would take it for the end of the text.
+  // The parser would take a zero byte for the end of the text.
   const std::size_t zero = text_.find('\0');
   if (zero != std::string::npos) {
     fail(zero, "a zero byte", "JSON text");

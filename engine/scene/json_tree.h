@@ -7,29 +7,29 @@
 
 namespace careen {
 
-/// A JSON value that knows where in the file it stands.
+/// A JSON value with its position in the file.
 struct JsonNode {
   enum class Kind { kNull, kBoolean, kNumber, kString, kArray, kObject };
 
   Kind kind = Kind::kNull;
   std::size_t offset = 0;  ///< of its first byte
-  std::string key;         ///< if it is a member of an object
+  std::string key;         ///< if it is a member of an object, else empty
   std::size_t keyOffset = 0;
   bool boolean = false;
   double number = 0;
-  std::string text;                ///< a string's characters; a number as it is written
-  std::vector<JsonNode> children;  ///< elements or members, in the file's order
+  std::string text;                ///< the characters of a string; a number as written
+  std::vector<JsonNode> children;  ///< elements or members, in file order
 
-  /// The member of that name, or null.
+  /// The member with this name, or null.
   const JsonNode* find(std::string_view name) const;
 };
 
-/// A JSON text with comments (// and /* */), read into nodes. Keys are unique, numbers finite, nesting is at
-/// most 64 deep; anything else is an InputError "file:line:column: found …, expected …". Lines and columns
-/// count from 1, columns in characters.
+/// A JSON text with comments (// and /* */), parsed into nodes. Keys must be unique, numbers finite, nesting
+/// at most 64 deep; otherwise InputError "file:line:column: found …, expected …". Lines and columns count
+/// from 1, columns in characters.
 class JsonTree {
  public:
-  /// `name` stands for the file in messages.
+  /// `name` is the file's name in messages.
   JsonTree(std::string text, std::string name);
 
   const JsonNode& root() const { return root_; }
@@ -46,9 +46,9 @@ class JsonTree {
   JsonNode root_;
 };
 
-/// What a message says it found: "null", "true", "-1.5", "\"crate\"", "an array of 2", "an object".
+/// Description of a value for messages: "null", "true", "-1.5", "\"crate\"", "an array of 2", "an object".
 std::string describe(const JsonNode& node);
-/// In quotes, cut where it is long, control characters replaced: fit for a message.
+/// Text in quotes for a message: cut if long, control characters replaced.
 std::string inQuotes(std::string_view text);
 
 }  // namespace careen

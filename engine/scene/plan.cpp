@@ -8,16 +8,16 @@
 namespace careen {
 namespace {
 
-// What a scene asks for that more than one item turns on.
+// What the scene needs, where more than one item of the plan depends on it.
 struct Wants {
   std::vector<Wall> walls;
   std::size_t movingBoxes = 0;
   bool meetsWalls = false;
-  bool meetsBoxes = false;  // two boxes could meet, if the method lets them
-  bool meets = false;       // some two things meet by this method
+  bool meetsBoxes = false;  // two boxes could collide, if the method allows it
+  bool meets = false;       // some pair can collide with this method
   bool rebounds = false;    // … and have restitution
-  bool rubs = false;        // … or friction
-  bool stops = false;       // … and are pulled together without parting again at full speed
+  bool rubs = false;        // … have friction
+  bool stops = false;       // … are pulled together and do not separate at full speed
 };
 
 void meet(Wants& wants, const Material& pair, bool pulled) {

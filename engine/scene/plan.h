@@ -8,20 +8,20 @@
 
 namespace careen {
 
-/// What the scene's physics calls for, and what its method has of it.
+/// Which physics the scene needs, and which of it the scene's method models.
 Plan plan(const Scene& scene);
 
-/// The world with what the plan models, and nothing else: what is left out is never executed. Bodies are in
-/// the order of the scene's boxes; fixed ones are immovable. Whether boxes start apart is not asked here: the
-/// reader has done so for the scene's own method, see checkApart for another one.
+/// The world with what the plan models and nothing else: what is left out is never executed. Bodies are in
+/// the order of the scene's boxes; fixed ones are immovable. Does not check that boxes start apart: the
+/// reader has done so for the scene's own method; for another method see checkApart.
 World assemble(const Scene& scene, const Plan& plan);
 
 RunSettings settingsOf(const Scene& scene);
 
-/// What of the scene is to be seen, and how.
+/// What is drawn of the scene, and how.
 Stage stageOf(const Scene& scene);
 
-/// Plan, world and stage of the scene, and its settings: all that a run takes of it.
+/// Plan, world, stage and settings of the scene: all that a run needs of it.
 RunSetup setupOf(const Scene& scene);
 
 }  // namespace careen

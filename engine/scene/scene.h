@@ -33,30 +33,30 @@ struct SceneBox {
   Color color;
 };
 
-/// A scene file, read and checked. Angles are radians but for the camera's.
+/// A scene file, read and checked. Angles are in radians, except the camera's.
 struct Scene {
   std::string text;  ///< the file, byte for byte
   std::string name = "untitled";
   double duration = 0;          ///< [s]
   Vec3 gravity = Vec3::Zero();  ///< [m/s²]
   std::optional<Room> room;
-  std::vector<Wall> walls;  ///< those written out; the room's come from `room`
+  std::vector<Wall> walls;  ///< the explicit walls; the room's come from `room`
   std::vector<SceneBox> boxes;
   std::vector<Spring> springs;
   std::optional<Drag> drag;
   Method method = Method::kExact;
   double dt = 1.0 / 240;         ///< [s]
-  double tolerance = 1e-6;       ///< of methods that choose their own steps
-  std::optional<Camera> camera;  ///< absent: one that sees all that happens is chosen
-  CameraMove cameraMove;         ///< none where there is no camera
+  double tolerance = 1e-6;       ///< of methods with adaptive step size
+  std::optional<Camera> camera;  ///< absent: a camera that sees the whole motion is chosen
+  CameraMove cameraMove;         ///< empty if there is no camera
   TimeMap timeMap;
   PictureSettings picture;
 };
 
-/// "room-x" for side 0: what the room's walls are called.
+/// Name of a wall of the room: "room-x" for side 0.
 std::string roomWallName(std::size_t side);
 
-/// The room's walls, less its open sides, named room-x room+x … room+z, then those written out.
+/// The room's walls without its open sides, named room-x room+x … room+z, then the explicit walls.
 std::vector<Wall> wallsOf(const Scene& scene);
 
 }  // namespace careen

@@ -14,7 +14,7 @@
 namespace careen {
 namespace {
 
-// The member's node if the object has it, else the object's own.
+// The node of the member if the object has it, else that of the object.
 const JsonNode& memberOrSelf(const JsonNode& object, std::string_view key) {
   const JsonNode* const child = object.find(key);
   return child == nullptr ? object : *child;
@@ -38,7 +38,7 @@ void checkRoom(const JsonTree& tree, const Scene& scene) {
   }
 }
 
-// Boxes and walls stand in the same column of impacts.csv.
+// Boxes and walls share a column of impacts.csv.
 void checkNames(const JsonTree& tree, const Scene& scene) {
   std::map<std::string, std::string> owners;
   for (std::size_t side = 0; side < kRoomSides.size(); ++side) {

@@ -6,11 +6,11 @@
 
 namespace careen {
 
-/// Second half of reading a scene: what its values say about each other. Finds the boxes that springs and
-/// the camera name; names are unique among boxes and walls, room walls included; the film can be made
-/// (film_check.h); every box starts on the free side of every wall and, where boxes meet, outside every
-/// other, but for kGapAllowance; unless they may overlap. InputError at the place in `tree`, which the scene
-/// was read from.
+/// Second half of reading a scene: checks its values against each other. Resolves the boxes named by springs
+/// and the camera; names must be unique among boxes and walls, room walls included; the film must be
+/// possible (film_check.h); unless overlap is allowed, every box must start on the free side of every wall
+/// and, if boxes collide, outside every other box, to within kGapAllowance. InputError at the place in
+/// `tree`, from which the scene was read.
 void checkScene(const JsonTree& tree, Scene& scene, Starts starts = Starts::kApart);
 
 }  // namespace careen

@@ -17,7 +17,7 @@ using Kind = JsonNode::Kind;
 constexpr int kFormatVersion = 1;
 constexpr NumberRange kRestitution = {.min = 0, .max = 1, .plain = "a number from 0 to 1"};
 
-// Names go to CSV files as they are.
+// Names are written to CSV files unescaped.
 std::string readName(const JsonObject& object, const std::string& whenAbsent) {
   const std::optional<JsonValue> value = object.find("name");
   if (!value) {
@@ -67,7 +67,7 @@ Mat3 readQuaternion(const JsonValue& value) {
   if (largest == 0) {
     value.failAs("a zero quaternion", "a rotation");
   }
-  rotation.coeffs() /= largest;  // tiny ones would square to 0
+  rotation.coeffs() /= largest;  // tiny components would square to 0
   return rotation.normalized().toRotationMatrix();
 }
 
@@ -139,7 +139,7 @@ SceneBox readBox(const JsonValue& value, std::size_t index) {
   return box;
 }
 
-// [x, y, z] of the world, or [name, [x, y, z]] of a box.
+// [x, y, z] in the world, or [name, [x, y, z]] on a box.
 SpringEnd readSpringEnd(const JsonValue& value) {
   const std::string expected = "a world point [x, y, z] or [name of a box, [x, y, z]]";
   const std::vector<JsonValue> parts = value.elements(expected);
@@ -181,7 +181,7 @@ OverlaySet readOverlays(const JsonValue& value) {
   return overlays;
 }
 
-// Before all else: another version may have other keys.
+// Read first: another version may have other keys.
 void readVersion(const JsonTree& tree, const JsonValue& root) {
   const JsonNode* const version = root.node().find("careen");
   if (version == nullptr) {
@@ -230,7 +230,7 @@ Scene readShape(const JsonTree& tree) {
     scene.name = name->string("a string");
   }
   if (const std::optional<JsonValue> schema = object.find("$schema")) {
-    schema->string("a string");  // editors read it, and find the keys they complete
+    schema->string("a string");  // editors read it, for completion of keys
   }
   scene.duration = object.require("duration").number(positiveNumber("s"));
   scene.gravity = object.vector("gravity", anyNumber("m/s²"));

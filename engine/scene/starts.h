@@ -7,18 +7,18 @@
 
 namespace careen {
 
-/// Whether boxes may share space, or stand behind walls, when a scene starts.
+/// Whether boxes may overlap, or be behind walls, at the start of a scene.
 enum class Starts { kApart, kMayOverlap };
 
-/// The first two boxes in the scene's order that overlap, if its method lets boxes meet.
+/// The first two overlapping boxes in the scene's order, if its method lets boxes collide.
 std::optional<Overlap> findOverlap(const Scene& scene);
 
-/// InputError if two boxes overlap that the scene's method lets meet: for who puts another method in place of
-/// the one that the scene was read with.
+/// InputError if two boxes overlap and the scene's method lets boxes collide: for callers that replace the
+/// method with which the scene was read.
 void checkApart(const Scene& scene);
 
-/// Moves the scene's boxes out of walls and, if its method lets boxes meet, out of each other; see the
-/// engine's moveApart. InputError if there is no room.
+/// Moves the scene's boxes out of walls and, if its method lets boxes collide, out of each other; see
+/// moveApart of the engine. InputError if there is no room.
 Parted moveApart(Scene& scene);
 
 }  // namespace careen
