@@ -15,7 +15,7 @@ struct Camera {
   double fovDegrees = 40;      ///< [deg] vertical
 };
 
-/// Where the camera is at a moment of the film.
+/// Camera at a film time.
 struct CameraKey {
   double time = 0;             ///< [s] of the film
   Vec3 eye = Vec3::Zero();     ///< [m]
@@ -23,11 +23,12 @@ struct CameraKey {
   double fovDegrees = 40;      ///< [deg] vertical
 };
 
-/// How the camera moves from where it starts. Keys and an orbit exclude each other.
+/// How the camera moves from its start. Keys and an orbit are mutually exclusive.
 struct CameraMove {
-  double orbitDegrees = 0;  ///< [deg/s] of the film: the eye about target and up, by the right-hand rule
-  std::optional<std::size_t> followed;  ///< box that eye and target go along with
-  std::vector<CameraKey> keys;          ///< in order of time; the first is where the camera starts
+  double orbitDegrees =
+      0;  ///< [deg/s] in film time: the eye turns about target and up, by the right-hand rule
+  std::optional<std::size_t> followed;  ///< box with which eye and target move
+  std::vector<CameraKey> keys;          ///< in order of time; the first is the camera's start
 };
 
 }  // namespace careen

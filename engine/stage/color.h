@@ -4,7 +4,7 @@
 
 namespace careen {
 
-/// sRGB, 8 bits a channel.
+/// sRGB, 8 bits per channel.
 struct Color {
   std::uint8_t red = 200;
   std::uint8_t green = 200;

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::int64_t kMillion = 1'000'000;
 
-// 24, 30, 60 and 120 slowed by 1000/1001, as colour television left them. Their usual spellings (23.976 …)
-// are all 1e-6 of themselves away from them.
+// 24, 30, 60 and 120 slowed by 1000/1001, a legacy of colour television. Their usual spellings (23.976 …)
+// differ from them by a relative 1e-6.
 constexpr std::array<std::int64_t, 4> kBroadcast = {24, 30, 60, 120};
 constexpr double kBroadcastTolerance = 2e-6;
 
@@ -60,7 +60,7 @@ bool inRange(double framesPerSecond) {
 }  // namespace
 
 double FrameRate::frameTime(std::int64_t frame) const {
-  // Below 2⁵³, so that neither conversion rounds: 10⁹ frames times 10⁶.
+  // Products stay below 2⁵³ (10⁹ frames times 10⁶), so neither conversion rounds.
   return static_cast<double>(frame * denominator) / static_cast<double>(numerator);
 }
 
@@ -74,7 +74,7 @@ std::int64_t FrameRate::frameCount(double duration) const {
     throw InputError("found a film longer than " + std::to_string(kMostFrames) +
                      " frames, expected a shorter duration or fewer frames per second");
   }
-  // `about` has rounded twice; the times themselves decide.
+  // `about` was rounded twice; the frame times decide.
   auto count = static_cast<std::int64_t>(about);
   while (count > 0 && frameTime(count - 1) >= duration) {
     --count;

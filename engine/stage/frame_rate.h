@@ -7,15 +7,15 @@
 namespace careen {
 
 /// Frames per second as a ratio in lowest terms, so that frame k is at exactly k/fps, rounded once, never a
-/// running sum. Made by parseFrameRate and frameRateFrom, which keep the denominator within 10⁶.
+/// running sum. Created by parseFrameRate and frameRateFrom, which keep the denominator within 10⁶.
 struct FrameRate {
   std::int64_t numerator = 30;
   std::int64_t denominator = 1;
 
-  /// k · denominator / numerator [s]: the integers are multiplied exactly, so the division alone rounds.
-  /// Holds for frames up to kMostFrames.
+  /// k · denominator / numerator [s]: the integer product is exact, so only the division rounds. Valid for
+  /// frames up to kMostFrames.
   double frameTime(std::int64_t frame) const;
-  /// Frames with 0 <= time < duration [s]: 10 s at 60 fps is 600. InputError beyond kMostFrames.
+  /// Number of frames with 0 <= time < duration [s]: 10 s at 60 fps is 600. InputError beyond kMostFrames.
   std::int64_t frameCount(double duration) const;
   std::string text() const;  ///< "30", "24000/1001"
 

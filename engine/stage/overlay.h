@@ -7,30 +7,30 @@
 
 namespace careen {
 
-/// What may be drawn over a film's pictures to explain them.
+/// Explanatory drawings over a film's pictures.
 enum class Overlay {
-  kContacts,         ///< where boxes struck something, and the normals there
-  kImpulses,         ///< what they got from it
+  kContacts,         ///< contact points and normals of impacts
+  kImpulses,         ///< impulses of these impacts
   kAngularMomentum,  ///< about the centre of mass
-  kSpinAxis,         ///< what a box turns about at the moment
-  kTrail,            ///< where a corner of each box came from
+  kSpinAxis,         ///< instantaneous axis of rotation
+  kTrail,            ///< path of a corner of each box
   kVelocity,         ///< of the centre of mass
   kNames,            ///< of boxes
-  kTime,             ///< of the scene, as a time code
-  kEnergy            ///< its parts, and what of it is lost
+  kTime,             ///< scene time, as a time code
+  kEnergy            ///< its parts, and the loss
 };
 
-/// In the order of Overlay: as scenes and commands spell them.
+/// Names in scenes and on the command line, in the order of Overlay.
 inline constexpr std::array<std::string_view, 9> kOverlayNames = {
     "contacts", "impulses", "angular-momentum", "spin-axis", "trail", "velocity", "names", "time", "energy"};
 
-/// Which overlays a film has.
+/// The overlays of a film.
 class OverlaySet {
  public:
   void add(Overlay overlay) { shown_.at(static_cast<std::size_t>(overlay)) = true; }
   bool has(Overlay overlay) const { return shown_.at(static_cast<std::size_t>(overlay)); }
   bool any() const;
-  /// Names with commas between; "none" if there is none.
+  /// Names separated by commas; "none" if empty.
   std::string text() const;
 
   friend bool operator==(const OverlaySet&, const OverlaySet&) = default;
@@ -39,7 +39,7 @@ class OverlaySet {
   std::array<bool, kOverlayNames.size()> shown_{};
 };
 
-/// Reads what text() writes, names in any order. InputError, with the names there are, for any other.
+/// Parses what text() writes, names in any order. InputError for an unknown name; it lists the known ones.
 OverlaySet overlaysNamed(std::string_view text);
 
 }  // namespace careen

@@ -10,31 +10,31 @@
 
 namespace careen {
 
-/// How a film looks; each is a small set of numbers of the renderer's.
+/// Look of a film; each is a small set of the renderer's numbers.
 enum class Look { kStudio, kBlueprint, kClay };
 inline constexpr std::array<std::string_view, 3> kLooks = {"studio", "blueprint",
                                                            "clay"};  ///< their names, in order
 
-/// How edges are kept smooth.
+/// How edges are smoothed.
 enum class Antialiasing {
   kOff,
-  kEdges,         ///< every pixel that an edge crosses gets its share of both sides: nearly as cheap as off
-  kMultisampled,  ///< four samples a pixel
-  kSupersampled,  ///< drawn twice as large each way, for stills: patterns are smooth too
+  kEdges,         ///< pixels on an edge blend both sides by coverage: nearly as cheap as off
+  kMultisampled,  ///< four samples per pixel
+  kSupersampled,  ///< drawn at twice the width and height, for stills: patterns are smooth too
 };
 inline constexpr std::array<std::string_view, 4> kAntialiasings = {"off", "edges", "4x", "supersampled"};
 
 std::string nameOf(Look look);
 std::string nameOf(Antialiasing antialiasing);
-/// InputError, with the names there are, for any other.
+/// InputError for an unknown name; it lists the known ones.
 Look lookNamed(std::string_view name);
 Antialiasing antialiasingNamed(std::string_view name);
 
-/// [px] in width and height: what GL drivers draw into.
+/// [px] width and height: limit of GL drivers.
 inline constexpr int kLargestFilm = 16384;
 
-/// What the pictures of a film are like, whatever they show: the one description that scene, run, command
-/// line, renderer and film.json share.
+/// Format and look of a film's pictures, whatever they show: the one description shared by scene, run,
+/// command line, renderer and film.json.
 struct PictureSettings {
   int width = 1280;  ///< [px] 1 … kLargestFilm
   int height = 720;  ///< [px] likewise

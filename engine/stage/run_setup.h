@@ -9,10 +9,10 @@
 
 namespace careen {
 
-/// What a run starts from, made of a scene once: all that it takes to simulate it, and to draw and measure
-/// what came of it.
+/// What a run starts from, made once from a scene: all that is needed to simulate it and to draw and measure
+/// the result.
 struct RunSetup {
-  std::string sceneText;  ///< the scene file, byte for byte: where the run came from, not needed to show it
+  std::string sceneText;  ///< the scene file, byte for byte: the run's origin, not needed to show it
   RunSettings settings;
   World world;  ///< as simulated
   Stage stage;

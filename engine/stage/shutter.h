@@ -6,14 +6,14 @@
 namespace careen {
 
 inline constexpr double kWidestShutter = 360;    ///< [deg]
-inline constexpr int kMostShutterSamples = 256;  ///< what LightAverage has room for
+inline constexpr int kMostShutterSamples = 256;  ///< capacity of LightAverage
 
-/// How long each frame looks.
+/// Exposure of each frame.
 struct Shutter {
-  double degrees = 0;  ///< [deg] 360 is the time from one frame to the next, 0 a moment
-  int samples = 8;     ///< moments averaged
+  double degrees = 0;  ///< [deg] 360 is the full frame interval, 0 an instant
+  int samples = 8;     ///< times averaged
 
-  /// "180:8", or "none" for a moment.
+  /// "180:8", or "none" for an instant.
   std::string text() const;
 };
 

@@ -20,23 +20,23 @@ inline constexpr std::array<const char*, 6> kRoomSides = {"-x", "+x", "-y", "+y"
 struct RoomShape {
   Vec3 min = Vec3::Zero();     ///< [m]
   Vec3 max = Vec3::Zero();     ///< [m]
-  std::array<bool, 6> open{};  ///< no wall on that side; order of kRoomSides
+  std::array<bool, 6> open{};  ///< no wall on this side; order of kRoomSides
 };
 
-/// Points x with normal·x = offset, seen from where normal·x is greater.
+/// Points x with normal·x = offset, visible from where normal·x is greater.
 struct Plane {
   Vec3 normal = Vec3::UnitZ();  ///< [1] unit
   double offset = 0;            ///< [m]
 };
 
-/// How a run is shown. Walls are drawn whether or not anything that moves could meet them.
+/// How a run is shown. Walls are drawn whether or not anything that moves can hit them.
 struct Stage {
   std::string name = "untitled";  ///< the scene's
   std::optional<RoomShape> room;
-  std::vector<Plane> planes;     ///< walls beside the room's
+  std::vector<Plane> planes;     ///< walls other than the room's
   std::vector<Color> colors;     ///< of the boxes, in their order
-  std::optional<Camera> camera;  ///< absent: one that sees all that happens is chosen
-  CameraMove cameraMove;         ///< none where there is no camera
+  std::optional<Camera> camera;  ///< absent: a camera that sees the whole motion is chosen
+  CameraMove cameraMove;         ///< empty if there is no camera
   TimeMap timeMap;
   PictureSettings picture;
 };

@@ -4,24 +4,24 @@
 
 namespace careen {
 
-/// At this moment of the film one sees this moment of the scene.
+/// Maps a film time to a scene time.
 struct TimeKey {
   double film = 0;   ///< [s]
   double scene = 0;  ///< [s]
 };
 
-/// Which moment of the scene a film shows: linear between keys, the first key's before it, the last one's
-/// after it. Equal scene times are a freeze frame, a slope below 1 is slow motion. Without keys the two are
-/// the same.
+/// Scene time as a function of film time: linear between keys; before the first key and after the last,
+/// their scene times. Equal scene times are a freeze frame, a slope below 1 is slow motion. Without keys
+/// both times are equal.
 struct TimeMap {
-  std::vector<TimeKey> keys;  ///< film times rise, scene times do not fall
+  std::vector<TimeKey> keys;  ///< film times increase, scene times do not decrease
 
   /// [s] Exact at keys.
   double sceneTime(double filmTime) const;
-  /// The part of it that shows a run of this length [s]; it has keys, and its last one is the film's end.
-  /// InputError if the film begins after the run's end.
+  /// The part of the map that shows a run of this length [s]; it has keys, and its last one is the film's
+  /// end. InputError if the film begins after the run's end.
   TimeMap within(double runDuration) const;
-  /// [s] of the film; there must be keys.
+  /// [s] in film time; needs keys.
   double duration() const { return keys.back().film; }
 };
 

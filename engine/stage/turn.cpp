@@ -8,10 +8,10 @@
 namespace careen {
 
 Turn turnFrom(double degrees) {
-  int quarters = 0;                                           // its last bits
-  const double rest = std::remquo(degrees, 90.0, &quarters);  // exact by its definition
+  int quarters = 0;                                           // low bits of the quotient
+  const double rest = std::remquo(degrees, 90.0, &quarters);  // exact by definition
   const double x = rest * (std::numbers::pi / 180);
-  // Taylor series by Horner's rule; for |x| <= π/4 the first term left out is below 5e-17.
+  // Taylor series by Horner's rule; for |x| <= π/4 the first omitted term is below 5e-17.
   double cosine = 1;
   double sine = 1;
   for (int n = 16; n > 0; n -= 2) {

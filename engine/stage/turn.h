@@ -10,11 +10,11 @@ struct Turn {
   double sine = 0;
 };
 
-/// Within 2e-16, exact at multiples of 90°. No libm function that rounds: those give other last bits on other
-/// processors, and a scene must not.
+/// Error at most 2e-16, exact at multiples of 90°. Uses no libm function that rounds: their last bits depend
+/// on the processor, and a scene must not.
 Turn turnFrom(double degrees);
 
-/// Eq. 6 as a matrix: what turns a vector about a unit axis.
+/// Eq. 6 as a matrix: rotation of a vector about a unit axis.
 Mat3 rotationAbout(const Vec3& unitAxis, const Turn& turn);
 
 }  // namespace careen
