@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A frame of both folders; a path is empty where there is none.
+/// A frame in both folders; a missing file has an empty path.
 struct Pair {
   std::string name;
   fs::path expected;
@@ -73,7 +73,7 @@ FrameComparison compareFiles(const Pair& pair, const ComparisonSettings& setting
   return frame;
 }
 
-// Missing and broken frames are differences here.
+// Missing and broken frames count as differences.
 FrameComparison compareFrame(const Pair& pair, const ComparisonSettings& settings) {
   FrameComparison frame;
   frame.name = pair.name;
@@ -123,7 +123,7 @@ std::vector<Pair> pairsOf(const fs::path& expected, const fs::path& actual,
   return pairs;
 }
 
-/// Compares frames side by side; the first error ends it.
+/// Compares frames in parallel; stops at the first error.
 class Crew {
  public:
   Crew(const std::vector<Pair>& pairs, const ComparisonSettings& settings, const ComparisonCallback& progress,
@@ -171,7 +171,7 @@ class Crew {
   const std::stop_token& stop_;
   std::vector<FrameComparison> frames_;
   std::atomic<std::size_t> next_ = 0;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   std::size_t done_ = 0;
   std::exception_ptr error_;
 };
@@ -182,7 +182,7 @@ bool same(const fs::path& expected, const fs::path& actual, const ComparisonSett
              Verdict::kDifferent;
 }
 
-// Of the first frame that is another picture: whether it is the one before or after it.
+// Reports whether the first different frame shows the previous or the next one.
 void tellShift(const std::vector<Pair>& pairs, const ComparisonSettings& settings,
                std::vector<FrameComparison>& frames) {
   const auto first = std::find_if(frames.begin(), frames.end(), [](const FrameComparison& frame) {

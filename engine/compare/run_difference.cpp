@@ -14,9 +14,9 @@
 namespace careen {
 namespace {
 
-// Less says little of impacts' doing.
+// With fewer impacts the growth cannot be attributed to them.
 constexpr std::size_t kLeastImpactsToGrowBy = 3;
-constexpr double kLeastGrowth = 10;  // beyond that of another speed, which grows as time does
+constexpr double kLeastGrowth = 10;  // beyond linear growth in time, which a different speed causes
 
 bool sameBits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -36,8 +36,8 @@ bool sameBits(const Impact& a, const Impact& b) {
          sameBits(a.tangential, b.tangential);
 }
 
-// How boxes move, in the order of their names, and nothing of how that was computed or what the scene's file
-// says beside it.
+// The motion of the boxes, in the order of their names, without how it was computed and without the rest of
+// the scene file.
 std::string motionBytes(const Trajectory& run) {
   Trajectory bare;
   bare.settings.duration = run.settings.duration;
@@ -54,7 +54,7 @@ std::string motionBytes(const Trajectory& run) {
   return encodeTrajectory(bare);
 }
 
-/// Both runs' states, box by box under the expected run's order.
+/// States of both runs, box by box in the order of the expected run.
 class Pair {
  public:
   Pair(const Trajectory& expected, const Trajectory& actual, double until, RunDifference& found)
@@ -99,7 +99,7 @@ class Pair {
     return sample;
   }
 
-  // Looked for where a segment begins, and at the end.
+  // Compares states at the start of each segment and at the end.
   std::optional<double> firstDifference() const {
     std::optional<double> first;
     for (std::size_t body = 0; body < places_.size(); ++body) {
@@ -159,9 +159,9 @@ class Pair {
 
   const Trajectory& expected_;
   const Trajectory& actual_;
-  std::vector<std::size_t> places_;  // of each expected box in the actual run
+  std::vector<std::size_t> places_;  // index of each expected box in the actual run
   double duration_;
-  double last_;  // nothing later is looked at: where one run ends, another that goes on may have jumped
+  double last_;  // no later time is compared: where one run ends, a longer one may have jumped
 };
 
 std::string howItDiffers(const Impact& a, const Impact& b) {
@@ -185,7 +185,7 @@ std::string bodiesOf(const Impact& impact, const Trajectory& run) {
          run.partnerName(impact);
 }
 
-// Those that `found` counts.
+// Uses the impacts that `found` counts.
 ImpactDifference impactsAt(std::size_t index, const Trajectory& expected, const Trajectory& actual,
                            const RunDifference& found) {
   ImpactDifference pair{
@@ -240,7 +240,7 @@ void compareImpacts(const Trajectory& expected, const Trajectory& actual, double
   }
 }
 
-// From the first difference after the start to the last before the horizon.
+// Measured from the first difference after the start to the last before the horizon.
 std::optional<double> growthPerImpact(const RunDifference& found, const std::vector<Impact>& impacts) {
   const auto differs = [](const RunSample& sample) {
     return sample.difference.relative > 0 && sample.time > 0;
