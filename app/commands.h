@@ -11,10 +11,10 @@ class App;
 
 namespace careen {
 
-/// What the command line asked for; runs until done or until asked to stop.
+/// The command chosen on the command line; runs until done or asked to stop.
 using Command = std::function<ExitCode(const std::stop_token&)>;
 
-// Each adds one command, with its options, to the command line; parsing it sets `chosen`.
+// Each adds one command with its options to the command line; parsing sets `chosen`.
 void addRender(CLI::App& commandLine, Command& chosen);
 void addSimulate(CLI::App& commandLine, Command& chosen);
 void addCompare(CLI::App& commandLine, Command& chosen);

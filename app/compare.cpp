@@ -25,7 +25,7 @@ namespace {
 constexpr int kMostThreads = 256;
 constexpr std::size_t kMostFramesTold = 10;
 
-/// An option that puts one number in place of a threshold's.
+/// An option that overrides one number of a threshold.
 struct Override {
   const char* option;
   const char* help;
@@ -33,7 +33,7 @@ struct Override {
   double most;
 };
 
-// idiff's words, where it has one.
+// Names as in idiff, where it has one.
 constexpr double kAny = Tolerance::kAny;
 constexpr std::array<Override, 10> kOverrides = {{
     {"--fail", "A pixel fails if a channel differs by more, of 1", &Tolerance::fail, 1},
@@ -81,7 +81,7 @@ const char* nameOf(Kind kind) {
   return kind == Kind::kPicture ? "a picture" : kind == Kind::kFolder ? "a folder" : "a run";
 }
 
-// What the films say of themselves, where both do.
+// What the films' manifests say, if both folders have one.
 struct Films {
   std::vector<Fact> facts;
   std::optional<bool> sameMotion;
@@ -258,7 +258,7 @@ void tell(const Comparison& comparison, bool logsFrames) {
   }
   std::ostream& out = logsFrames ? std::cerr : std::cout;
   print(out, comparison);
-  out.flush();  // the verdict is told even if what follows fails
+  out.flush();  // the verdict is printed even if a later step fails
 }
 
 ExitCode exitCodeOf(const Comparison& comparison) {
@@ -269,7 +269,7 @@ void addCompare(CLI::App& commandLine, Command& chosen) {
   struct Arguments {
     std::filesystem::path expected, actual;
     CompareOptions options;
-    std::filesystem::path report;  // empty: none
+    std::filesystem::path report;  // empty: no report
     std::string log = "text";
   };
   CLI::App* command =

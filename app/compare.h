@@ -16,28 +16,29 @@ class App;
 
 namespace careen {
 
-/// How two things are compared, as the command line says it.
+/// Options of a comparison, as given on the command line.
 struct CompareOptions {
   std::string threshold = "same-picture";
-  std::map<std::string, double> limits;  ///< in place of the threshold's, by option: "--fail" and so on
+  std::map<std::string, double>
+      limits;  ///< overrides of the threshold's limits, by option: "--fail" and so on
   std::string motion = "same";
   std::optional<double> until;  ///< [s]
   bool flip = false;
   std::optional<int> threads;
-  std::set<std::string> only;  ///< frames by their names; empty: all there are
+  std::set<std::string> only;  ///< frames by name; empty: all
 
-  /// All but --threads, which is another thing to a command that draws.
+  /// Adds all options but --threads, which has another meaning for a command that draws.
   void addTo(CLI::App& command);
-  /// InputError: what can be found wrong before anything is compared.
+  /// InputError for everything that can be found wrong before the comparison.
   ComparisonSettings settings() const;
 };
 
-/// Two pictures, two folders of frames, or two runs. InputError if they are not of one kind.
+/// Compares two pictures, two folders of frames, or two runs. InputError if they are not of one kind.
 Comparison compare(const std::filesystem::path& expected, const std::filesystem::path& actual,
                    const ComparisonSettings& settings, const std::stop_token& stop);
 
-/// Tells what was found, in words, and in lines of JSON, one for each frame, if so wanted. Words go to the
-/// standard output, or to the standard error where JSON has that.
+/// Prints the result in words and, if `logsFrames`, as one line of JSON per frame. Words go to standard
+/// output, or to standard error if the JSON goes to standard output.
 void tell(const Comparison& comparison, bool logsFrames);
 
 ExitCode exitCodeOf(const Comparison& comparison);

@@ -6,15 +6,15 @@
 
 namespace careen {
 
-/// Tells when a file has been written, by the time of its last write.
+/// Detects by its modification time that a file was written.
 class FileWatch {
  public:
-  /// Make it before the file is read, so that nothing written meanwhile is missed.
+  /// Create it before the file is read, so that no write in between is missed.
   explicit FileWatch(std::filesystem::path path)
       : path_(std::move(path)), known_(lastWrite()), seen_(known_) {}
 
-  /// To be asked a few times a second: true once for each change, when the file has kept still since the last
-  /// time it was asked, for whoever writes it may not be done. A file that is gone has not changed.
+  /// Poll a few times a second: true once per change, as soon as the modification time is unchanged since
+  /// the previous call, because the writer may not be done. A deleted file has not changed.
   bool hasChanged() {
     const Time now = lastWrite();
     const bool still = std::exchange(seen_, now) == now;

@@ -19,7 +19,7 @@ Interruption::~Interruption() {
   pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
 }
 
-// sigwait instead of a handler: here any code may run, a handler may call almost none.
+// sigwait instead of a handler: any code may run here, almost none in a signal handler.
 void Interruption::wait() {
   int signal = 0;
   sigwait(&signals_, &signal);

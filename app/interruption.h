@@ -7,9 +7,9 @@
 
 namespace careen {
 
-/// Turns SIGINT and SIGTERM into a request to stop, so that whatever is being written is finished or undone.
-/// Make it before any other thread: they inherit the mask that leaves the signals to its own thread. A second
-/// signal ends the process at once.
+/// Turns SIGINT and SIGTERM into a stop request, so that whatever is being written is finished or undone.
+/// Create it before any other thread: they inherit the mask that leaves the signals to its own thread. A
+/// second signal ends the process at once.
 class Interruption {
  public:
   Interruption();
@@ -20,7 +20,7 @@ class Interruption {
   Interruption& operator=(Interruption&&) = delete;
 
   std::stop_token token() const { return source_.get_token(); }
-  /// The signal that came, 0 if none.
+  /// The signal received, 0 if none.
   int signal() const { return signal_; }
 
  private:

@@ -15,7 +15,7 @@ namespace {
 
 int exitWith(ExitCode code) { return static_cast<int>(code); }
 
-// A negative number is a signal that the caller should see the process die of.
+// A negative result is a signal; the process then ends by it, so that the caller sees it.
 int runCommandLine(int argc, char** argv, Interruption& interruption) {
   CLI::App commandLine("Films rigid boxes that tumble and collide with walls.", "careen");
   commandLine.set_version_flag("--version", "careen " CAREEN_VERSION);
@@ -51,8 +51,8 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   }
 }
 
-// Pictures of a megabyte or ten come and go: memory that is given back and asked for anew each time costs a
-// quarter of all time when frames are compared.
+// Keeps freed memory: pictures of 1 to 10 MB are allocated all the time, and returning them to the system
+// and asking for them again costs a quarter of the time of comparing frames.
 void keepMemory() {
   constexpr int kOnlyLarger = 64 << 20;  // [bytes]
   mallopt(M_MMAP_THRESHOLD, kOnlyLarger);

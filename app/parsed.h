@@ -6,7 +6,7 @@
 
 namespace careen {
 
-/// What `parse` makes of an option's text; its error names the option.
+/// Parses an option's text; an InputError of `parse` is prefixed with the option.
 template <class Parse>
 auto parsed(const char* option, const std::string& text, Parse parse) {
   try {

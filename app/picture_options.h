@@ -13,7 +13,7 @@ class App;
 
 namespace careen {
 
-/// What the command line puts in place of what the scene says of its film's pictures, and what draws them.
+/// Command-line options that override the scene's picture settings, and the rendering backend.
 struct PictureOptions {
   std::optional<std::string> size;
   std::optional<std::string> rate;
@@ -26,10 +26,10 @@ struct PictureOptions {
 
   void addTo(CLI::App& command);
 
-  /// Puts what is given in place of the picture's own.
+  /// Overrides the picture's settings with those that were given.
   void applyTo(PictureSettings& picture) const;
   ContextOptions contextOptions() const;
-  /// InputError: all that can be found wrong before anything is simulated.
+  /// InputError for everything that can be found wrong before the simulation.
   void check() const;
 };
 

@@ -36,7 +36,7 @@ void Progress::update(const FilmProgress& film) {
   if (film.framesPerSecond > 0) {
     line << ", " << film.framesPerSecond << " frames/s, " << film.secondsLeft << " s left";
   }
-  // Blanks cover what a longer line left on a terminal.
+  // Blanks erase the rest of a longer line on a terminal.
   line << (terminal_ ? (last ? "    \n" : "    ") : "\n");
   out_ << line.str() << std::flush;
 }

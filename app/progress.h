@@ -7,7 +7,8 @@
 
 namespace careen {
 
-/// Tells how far a film is: one line that fills on a terminal, plain lines every few seconds anywhere else.
+/// Reports the progress of a film: one line that fills on a terminal, otherwise plain lines every few
+/// seconds.
 class Progress {
  public:
   Progress(std::ostream& out, bool terminal) : out_(out), terminal_(terminal) {}

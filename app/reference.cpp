@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// How many those are. Only what was made for the comparison goes: the folder may hold other things.
+// Returns how many frames differ. Deletes only what was made for the comparison: the folder may hold other
+// files.
 std::size_t keepFramesThatDiffer(const fs::path& folder, const Comparison& comparison) {
   std::set<std::string> different;
   for (const FrameComparison& frame : comparison.frames) {
@@ -37,7 +38,7 @@ std::size_t keepFramesThatDiffer(const fs::path& folder, const Comparison& compa
     writeManifest(folder, film);
   } else {
     for (const char* const name : {kManifestName, "index.html", "junit.xml", "report.json"}) {
-      fs::remove(folder / name);  // reports of a comparison before this one would say that it differs
+      fs::remove(folder / name);  // reports of an earlier comparison would say that it differs
     }
     std::error_code holdsMore;
     fs::remove(folder, holdsMore);
@@ -94,7 +95,7 @@ ExitCode compareWithReference(const Reference& reference, const FilmSettings& fi
   const Comparison comparison = compare(reference.folder, film.folder, options.settings(), stop);
   tell(comparison, logsFrames);
   if (comparison.verdict == Verdict::kDifferent) {
-    writeReport(film.folder, comparison);  // while all its pictures are there
+    writeReport(film.folder, comparison);  // while all pictures are still there
   }
   const std::size_t kept = keepFramesThatDiffer(film.folder, comparison);
   std::ostream& out = logsFrames ? std::cerr : std::cout;

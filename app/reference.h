@@ -11,23 +11,23 @@
 
 namespace careen {
 
-/// The film that another is to be like: what `render --ref` names.
+/// The reference film, named by `render --ref`.
 struct Reference {
   std::filesystem::path folder;
   FilmManifest film;
 };
 
-/// InputError if there is no film, or not one of its frames.
+/// InputError if there is no film, or none of its frames.
 Reference readReference(const std::filesystem::path& folder);
 
-/// What the command line left open is to be as in the reference, not as in the scene: size, rate, look,
-/// antialiasing, shutter, overlays, and which frames. Given frames are compared with those of the same
-/// numbers.
+/// Takes what the command line left open from the reference instead of the scene: size, rate, look,
+/// antialiasing, shutter, overlays, and which frames. If frames are given, they are compared with those of
+/// the same numbers.
 void takeFromReference(const Reference& reference, PictureOptions& picture, std::string& frames,
                        CompareOptions& compare);
 
-/// Compares the film just made with the reference and tells what was found. Of the film the frames that
-/// differ stay, its film.json, which then tells of those, and a report (compare/report.h); nothing if it is
+/// Compares the film just made with the reference and prints the result. Keeps of the film only the frames
+/// that differ, a film.json that lists only those, and a report (compare/report.h); nothing if the film is
 /// the same.
 ExitCode compareWithReference(const Reference& reference, const FilmSettings& film,
                               const CompareOptions& options, bool logsFrames, const std::stop_token& stop);

@@ -58,7 +58,7 @@ std::optional<VideoSettings> videoOf(const FilmOptions& options) {
   return video;
 }
 
-// What can be found wrong before anything is simulated.
+// Checks everything that can be found wrong before the simulation.
 void check(const FilmOptions& options) {
   const auto fail = [](const char* option, const std::string& found, const std::string& expected) {
     throw InputError(std::string(option) + ": found " + found + ", expected " + expected);
@@ -74,7 +74,7 @@ void check(const FilmOptions& options) {
   }
 }
 
-// What the options alone say: all that can be found wrong before anything is simulated.
+// Settings from the options alone: finds everything that can be found wrong before the simulation.
 FilmSettings settingsOf(const FilmOptions& options) {
   check(options);
   options.picture.check();
@@ -92,7 +92,7 @@ FilmSettings settingsOf(const FilmOptions& options) {
   return settings;
 }
 
-// What only the film's own rate can make wrong.
+// Checks that need the film's own rate.
 void checkVideoOf(const PictureSettings& picture, FilmSettings& settings) {
   if (settings.video) {
     settings.video->rateNumerator = picture.rate.numerator;
@@ -126,7 +126,7 @@ void printFrame(const FilmSettings& settings, const FrameFigures& frame) {
                                        {"draw", frame.drawSeconds},
                                        {"read", frame.readSeconds},
                                        {"encode", frame.encodeSeconds}};
-  std::cout << line.dump() << std::endl;  // at once: somebody may be waiting for it
+  std::cout << line.dump() << std::endl;  // flushed: somebody may be waiting for it
 }
 
 void printFilm(std::ostream& out, const FilmSettings& settings, const PictureSettings& picture,
@@ -161,7 +161,7 @@ ExitCode listBackends(const ContextOptions& options) {
   return ExitCode::kDone;
 }
 
-// Before anything is simulated, as whatever the options say.
+// Runs before the simulation, like all checks of options.
 Reference openReference(FilmOptions& options) {
   Reference reference = readReference(*options.reference);
   takeFromReference(reference, options.picture, options.frames, options.compare);

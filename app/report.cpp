@@ -10,7 +10,7 @@
 namespace careen {
 namespace {
 
-/// How long a body flew, was in contact, and rested [s].
+/// Time [s] that a body spent in flight, in contact and at rest.
 struct Life {
   double flight = 0;
   double contact = 0;
@@ -59,7 +59,7 @@ void printItems(std::ostream& out, const char* title, const Plan& plan, bool mod
   }
 }
 
-// null where the repeated run could not be finished.
+// null if the second run could not be finished.
 nlohmann::ordered_json estimateReport(const std::optional<ErrorEstimate>& estimate) {
   if (!estimate) {
     return nullptr;

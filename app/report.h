@@ -9,12 +9,12 @@
 
 namespace careen {
 
-/// report.json of a run (keys as in the contract); what drew it adds its own part.
+/// report.json of a run (keys as in the contract); the renderer adds its own part.
 nlohmann::ordered_json runReport(const Run& run, double wallSeconds);
 
-/// The same for a person: what was modelled, then speed and error next to each other.
+/// The same in words: what was modelled, then speed and error next to each other.
 void printSummary(std::ostream& out, const Run& run, double wallSeconds);
-/// Parts of it.
+/// Parts of the summary.
 void printPlan(std::ostream& out, const std::string& scene, std::size_t boxes, const RunSettings& settings,
                const Plan& plan);
 void printPlan(std::ostream& out, const RunSetup& setup);

@@ -23,9 +23,9 @@
 namespace careen {
 namespace {
 
-constexpr double kCheapPart = 0.1;  // of the whole: what an error estimate may cost unasked
+constexpr double kCheapPart = 0.1;  // of the run: the largest cost of an estimate by default
 
-// The scene file says one thing, the command line another: the user should see which one counts.
+// Scene file and command line differ: tell the user which one counts.
 template <class T>
 void announce(std::string_view what, const T& given, const T& inFile) {
   if (given != inFile) {
@@ -65,7 +65,7 @@ void apply(const Overrides& overrides, Scene& scene) {
   override("duration", overrides.duration, true, scene.method, scene.duration);
 }
 
-// Tells on the standard error what was moved.
+// Reports on standard error what was moved.
 void partBoxes(Scene& scene) {
   const Parted parted = moveApart(scene);
   if (parted.pairs + parted.behindWalls == 0) {
@@ -83,7 +83,7 @@ void partBoxes(Scene& scene) {
 
 Run simulateText(const std::filesystem::path& path, const std::string& text, const Overrides& overrides,
                  const std::stop_token& stop) {
-  const DefaultFloatEnvironment usual;  // GL may be open, in a window
+  const DefaultFloatEnvironment usual;  // GL may be open in a window
   Scene scene =
       parseScene(text, path.string(), overrides.allowOverlap ? Starts::kMayOverlap : Starts::kApart);
   const Method method = scene.method;
@@ -91,7 +91,7 @@ Run simulateText(const std::filesystem::path& path, const std::string& text, con
   if (overrides.allowOverlap) {
     partBoxes(scene);
   } else if (scene.method != method) {
-    checkApart(scene);  // the reader asked it for the method in the file
+    checkApart(scene);  // the reader checked it for the method in the file
   }
   Run run;
   run.source = path;
@@ -101,7 +101,7 @@ Run simulateText(const std::filesystem::path& path, const std::string& text, con
   return run;
 }
 
-// What a run of an older format lacks. Boxes that overlapped had been moved apart.
+// Makes what a run of an older format lacks. Boxes that overlapped had been moved apart.
 RunSetup setupOfText(const std::string& text, const RunSettings& settings, const std::string& name) {
   Scene scene = parseScene(text, name + " (its scene)", Starts::kMayOverlap);
   scene.method = settings.method;

@@ -11,21 +11,21 @@
 
 namespace careen {
 
-/// A run and all that it takes to draw its film in this process, a picture at a time: the same bytes as the
-/// film's frames.
+/// A run and all that is needed to draw its film in this process, one picture at a time, with the same bytes
+/// as the film's frames.
 class Screening {
  public:
-  /// InputError if there is a frame whose camera sees nothing.
+  /// InputError if the camera sees nothing in some frame.
   Screening(Run run, const PictureOptions& options);
 
   const Run& run() const { return run_; }
   const FrameRate& rate() const { return picture().rate; }
   std::int64_t frameCount() const { return rate().frameCount(filming_.duration()); }
-  /// Where the film has the camera.
+  /// The film's camera at this time.
   Camera filmCamera(double filmTime) const { return filming_.camera(filmTime); }
   int pictureHeight() const { return picture().height; }  ///< [px]
 
-  /// The picture at a moment of the film [s], overlays and all, with the camera turned so.
+  /// Draws the picture at a film time [s], overlays included, with the camera turned by `orbit`.
   Picture draw(double filmTime, const Orbit& orbit);
 
  private:

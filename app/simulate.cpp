@@ -29,7 +29,8 @@ struct SimulateOptions {
   EstimateChoice estimate;
 };
 
-// All or nothing: every file is written beside its place first, and none is put there unless all could be.
+// All or nothing: every file is first written beside its target, and none is renamed unless all were
+// written.
 class Outputs {
  public:
   void add(const std::filesystem::path& path, const std::function<void(const TextSink&)>& write) {
@@ -46,7 +47,7 @@ class Outputs {
   }
 
  private:
-  std::list<AtomicFile> files_;  // a list, because an AtomicFile stays where it is
+  std::list<AtomicFile> files_;  // a list, because an AtomicFile must not move
 };
 
 ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& stop) {

@@ -59,7 +59,7 @@ ExitCode drawStill(const Run& run, RenderOptions options, const Still& still) {
   }
   const std::filesystem::path path = std::filesystem::absolute(placeOf(run, still)).lexically_normal();
   std::error_code error;
-  std::filesystem::create_directories(path.parent_path(), error);  // writing tells if there is none
+  std::filesystem::create_directories(path.parent_path(), error);  // if it failed, writing reports it
   writePng(path, picture);
   std::cout << "picture      " << (still.strobe ? std::to_string(moments.size()) + " moments, " : "")
             << path.string() << '\n';

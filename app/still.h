@@ -10,14 +10,14 @@
 
 namespace careen {
 
-/// One picture in place of a film.
+/// One picture instead of a film.
 struct Still {
-  std::filesystem::path path;         ///< empty: out/ and the scene's name
+  std::filesystem::path path;         ///< empty: in out/, named after the scene
   double moment = 0;                  ///< [s] of the film
-  std::optional<std::string> strobe;  ///< FROM:TO:STEP, in place of the moment
+  std::optional<std::string> strobe;  ///< FROM:TO:STEP, instead of one time
 };
 
-/// Writes the picture and says where it is.
+/// Writes the picture and prints its path.
 ExitCode drawStill(const Run& run, RenderOptions options, const Still& still);
 
 }  // namespace careen

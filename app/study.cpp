@@ -47,7 +47,7 @@ void checkCases(const std::vector<std::string>& chosen, const std::vector<std::s
   }
 }
 
-// Those named, in the order of all.
+// The named contestants, in the order of the full list.
 Contestants chosenContestants(const std::vector<std::string>& names) {
   Contestants all = allContestants();
   if (names.empty()) {

@@ -30,7 +30,7 @@ ExitCode verifyCommand(const std::filesystem::path& folder) {
     frames.push_back(fault.frame);
   }
   std::cout << manifest->frames.size() << " frames, " << faults.size() << " missing or broken\n";
-  if (!frames.empty()) {  // the last line is what draws them again
+  if (!frames.empty()) {  // the last line can be pasted to draw them again
     std::cout << "--frames " << rangesText(frames) << '\n';
   }
   return faults.empty() ? ExitCode::kDone : ExitCode::kDifferent;

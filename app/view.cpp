@@ -14,8 +14,8 @@ ExitCode viewCommand(ViewOptions options, const std::stop_token& stop) {
   if (options.source.empty()) {
     options.source = defaultScene();
   }
-  options.picture.check();  // what is wrong with them is said before anything is done …
-  Window window("careen");  // … and that there is no display before anything is simulated
+  options.picture.check();  // errors in the options are reported first …
+  Window window("careen");  // … then a missing display, before the simulation
   std::cout << "The space bar plays and pauses; the key h tells what else there is.\n" << std::flush;
   Viewer viewer(window, options);
   viewer.run(stop);

@@ -33,12 +33,13 @@ const char* const kViewerHelp =
 namespace {
 
 constexpr int kMomentDigits = 6;                    // enough to tell frames apart
-constexpr double kPatience = 0.1;                   // [s] between looks whether to stop
-constexpr double kLookEvery = 0.2;                  // [s] at the file
-constexpr double kZoomOfNotch = 1 / 1.1;            // of the distance
-constexpr double kTurnOfHeight = std::numbers::pi;  // [rad] for a drag as long as the picture is high
+constexpr double kPatience = 0.1;                   // [s] interval of checks for a stop request
+constexpr double kLookEvery = 0.2;                  // [s] polling interval of the file
+constexpr double kZoomOfNotch = 1 / 1.1;            // factor on the distance
+constexpr double kTurnOfHeight = std::numbers::pi;  // [rad] for a drag over the height of the picture
 
-// The file so many further in its folder, by name, of those with the same ending; round and round.
+// The file `by` places further among the files of its folder with the same extension, sorted by name,
+// cyclic.
 std::filesystem::path neighbour(const std::filesystem::path& path, int by) {
   std::vector<std::filesystem::path> names = {path.filename()};
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
@@ -76,12 +77,12 @@ void Viewer::run(const std::stop_token& stop) {
     show();
     entitle();
     const WindowEvents events = window_.wait(patience());
-    player_->update(clock_.seconds());  // what follows counts from now
+    player_->update(clock_.seconds());  // input applies from now on
     handle(events);
   }
 }
 
-// Goes on where the last one was.
+// Continues at the position of the previous film.
 void Viewer::open(Run run) {
   auto screening = std::make_unique<Screening>(std::move(run), options_.picture);
   Player player(screening->rate(), screening->frameCount());
@@ -140,7 +141,7 @@ void Viewer::lookAtFile() {
   }
 }
 
-// If anything is to be seen that is not.
+// Redraws only if the picture has changed.
 void Viewer::show() {
   if (!stale_ && player_->frame() == frame_) {
     return;
@@ -241,10 +242,10 @@ void Viewer::turn(const Orbit& by) {
   stale_ = stale_ || orbit_ != before;
 }
 
-// What is seen. Where the camera is the film's, that is the film's picture and replaces itself; else a number
-// keeps it from replacing another.
+// Saves the picture shown. With the film's own camera it is the film's picture and overwrites itself;
+// otherwise a number keeps it from overwriting another.
 void Viewer::takeStill() {
-  show();  // the key may have come together with others
+  show();  // the key may have come together with other input
   const std::string name =
       screening_->run().source.stem().string() + "-" + brief(player_->time(), kMomentDigits);
   std::filesystem::path path = options_.folder / (name + ".png");
@@ -252,10 +253,10 @@ void Viewer::takeStill() {
     path = options_.folder / (name + "-turned-" + std::to_string(number) + ".png");
   }
   std::error_code error;
-  std::filesystem::create_directories(options_.folder, error);  // writing tells if there is none
+  std::filesystem::create_directories(options_.folder, error);  // if it failed, writing reports it
   try {
     writePng(path, picture_);
-  } catch (const MachineError& problem) {  // no reason to end
+  } catch (const MachineError& problem) {  // not fatal to the viewer
     std::cerr << "careen: " << problem.what() << '\n';
     return;
   }

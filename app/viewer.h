@@ -21,18 +21,18 @@ namespace careen {
 
 struct ViewOptions {
   std::filesystem::path source;          ///< scene or trajectory file
-  std::filesystem::path folder = "out";  ///< of the stills
+  std::filesystem::path folder = "out";  ///< for stills
   PictureOptions picture;
   Overrides overrides;
 };
 
-/// What its keys and its mouse do, a line each.
+/// Help text: keys and mouse, one line each.
 extern const char* const kViewerHelp;
 
-/// Shows the film of a scene in a window and does what the user wants of it.
+/// Shows the film of a scene in a window and handles user input.
 class Viewer {
  public:
-  /// Keeps both by reference.
+  /// Keeps references to both.
   Viewer(Window& window, const ViewOptions& options);
   ~Viewer();
   Viewer(const Viewer&) = delete;
@@ -40,12 +40,13 @@ class Viewer {
   Viewer(Viewer&&) = delete;
   Viewer& operator=(Viewer&&) = delete;
 
-  /// Until the user has enough, or Interrupted. A scene that is wrong ends it only if it is the first.
+  /// Runs until the user quits; throws Interrupted if asked to stop. An invalid scene ends it only if it is
+  /// the first one.
   void run(const std::stop_token& stop);
 
   int picturesShown() const { return shown_; }
-  double drawSeconds() const { return drawSeconds_; }  ///< [s] of all of them, until they could be shown
-  double showSeconds() const { return showSeconds_; }  ///< [s] of all of them, to show them
+  double drawSeconds() const { return drawSeconds_; }  ///< [s] of all pictures, until they could be shown
+  double showSeconds() const { return showSeconds_; }  ///< [s] of all pictures, to show them
 
  private:
   void open(Run run);
@@ -65,17 +66,17 @@ class Viewer {
   Window& window_;
   const ViewOptions& options_;
   Stopwatch clock_;
-  std::filesystem::path picked_;  ///< what was asked for last; where it is wrong another is shown
+  std::filesystem::path picked_;  ///< file requested last; if it is invalid, another one is shown
   FileWatch watch_;
-  double lookedAt_ = 0;  ///< [s] when the file was looked at
+  double lookedAt_ = 0;  ///< [s] when the file was last polled
   std::future<Run> loading_;
   std::stop_source stopLoading_;
   std::unique_ptr<Screening> screening_;
   std::optional<Player> player_;
   Orbit orbit_;
-  Picture picture_;  ///< the film's, as shown
+  Picture picture_;  ///< the film's picture, as shown
   std::int64_t frame_ = 0;
-  bool stale_ = true;  ///< whether the picture is not what it should be
+  bool stale_ = true;  ///< whether the picture must be redrawn
   bool done_ = false;
   std::string title_;
   int shown_ = 0;
