@@ -82,7 +82,7 @@ void Viewer::run(const std::stop_token& stop) {
   }
 }
 
-// Continues at the position of the previous film.
+// A reloaded file continues at its previous position.
 void Viewer::open(Run run) {
   auto screening = std::make_unique<Screening>(std::move(run), options_.picture);
   Player player(screening->rate(), screening->frameCount());
