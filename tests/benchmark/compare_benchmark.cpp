@@ -1,11 +1,12 @@
-// What comparing a pair of frames costs, 1280x720, from the bytes of their PNGs to all metrics but FLIP, and
-// parts of it: frames that differ by grain (another processor), by edges too (another renderer), and wholly.
+// Cost of comparing a pair of frames, 1280x720, from the bytes of their PNGs to all metrics but FLIP, and
+// parts of it: frames that differ by grain (another processor), also by edges (another renderer), and
+// completely.
 //
-// Measured (g++ 12 -O3, AMD EPYC), ms of one core, with memory kept as app/main.cpp does (GLIBC_TUNABLES=
+// Measured (g++ 12 -O3, AMD EPYC), ms of one core, with malloc set as in app/main.cpp (GLIBC_TUNABLES=
 // glibc.malloc.mmap_threshold=67108864:glibc.malloc.trim_threshold=67108864): reading a rendered frame 3.8,
-// one with grain 5.9; a pair: equal 7.7, grained 31.8, shifted 27.6, wholly other 233; FLIP 314. On a busy
-// machine, noisy frames of 1.0 and 0.68 MB: 13.3 and 11.8, by stb 32.6 and 24.5, libspng 39.9 and 34.1,
-// libpng 26.0 and 22.4.
+// one with grain 5.9; comparing a pair: equal 7.7, with grain 31.8, shifted 27.6, completely different 233;
+// FLIP 314. On a busy machine, noisy frames of 1.0 and 0.68 MB: 13.3 and 11.8, with stb 32.6 and 24.5,
+// libspng 39.9 and 34.1, libpng 26.0 and 22.4.
 #include <benchmark/benchmark.h>
 
 #include <string>

@@ -1,5 +1,5 @@
-// What a run of method exact costs, and that what a scene does not need costs nothing: compare within one run
-// (--benchmark_enable_random_interleaving=true --benchmark_repetitions=9, minimum of each).
+// Cost of a run of method exact, and evidence that what a scene does not need costs nothing: compare within
+// one run (--benchmark_enable_random_interleaving=true --benchmark_repetitions=9, minimum of each).
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -34,7 +34,7 @@ void run(benchmark::State& state, const World& world, const RunSettings& setting
   state.counters["impacts"] = benchmark::Counter(impacts, benchmark::Counter::kIsRate);
 }
 
-// One box in a room, e = 1, for a minute: the same by both methods.
+// One box in a room, e = 1, for a minute: the same with both methods.
 void elasticRoomByExact(benchmark::State& state) { run(state, elasticRoom(), {.duration = 60}); }
 BENCHMARK(elasticRoomByExact);
 void elasticRoomByListing1(benchmark::State& state) {
@@ -42,7 +42,7 @@ void elasticRoomByListing1(benchmark::State& state) {
 }
 BENCHMARK(elasticRoomByListing1);
 
-// Boxes without gravity, e = 1, as in assets/scenes/gas.json: a cube of n³ of them, each with as much room.
+// Boxes without gravity, e = 1, as in assets/scenes/gas.json: a cube of n³ boxes, each with the same space.
 // Measured per impact: 22 µs for 125 boxes, 32 for 1000, 54 for 8000, which no longer fit the cache.
 void gas(benchmark::State& state) {
   const auto n = static_cast<int>(state.range(0));
@@ -62,9 +62,9 @@ void gas(benchmark::State& state) {
 }
 BENCHMARK(gas)->Arg(5)->Arg(10)->Arg(20);
 
-// One box between floor and ceiling, then one thing more at a time. Gravity and friction change the number of
-// impacts: compare the time of each. Measured against oneBox: gravity 1.06, friction 1.18, a second box far
-// away or near 1.05.
+// One box between floor and ceiling, then one feature more at a time. Gravity and friction change the number
+// of impacts: compare the time per impact. Measured relative to oneBox: gravity 1.06, friction 1.18, a
+// second box far away or near 1.05.
 World hop() {
   World world;
   world.walls = {wall("floor", Vec3(0, 0, 1), 0), wall("ceiling", Vec3(0, 0, -1), -6)};
@@ -104,9 +104,9 @@ void oneBoxAndOneNear(benchmark::State& state) {
   run(state, world, {.duration = 60});
 }
 BENCHMARK(oneBoxAndOneNear);
-// What stands is left alone: cubes on each other, far enough away, for a minute and for a hundred. Measured:
-// five cost 0.12 ms and ten 0.3 ms at the start, when their forces are found; after that the other's impacts
-// cost 1.2 and 1.4 of what they do alone, for whom it could meet is asked of all.
+// Bodies at rest cost nothing: a stack of cubes, far away, for a minute and for a hundred. Measured: five
+// cost 0.12 ms and ten 0.3 ms at the start, when their contact forces are found; after that the impacts of
+// the other box cost 1.2 and 1.4 times as much as alone, because its search for partners covers all bodies.
 void oneBoxAndAStackAtRest(benchmark::State& state) {
   World world = hop();
   world.gravity = Vec3(0, 0, -1);

@@ -1,8 +1,8 @@
-// A film's frames by renderFilm, beside the same frames drawn in turn and written by stb: ten boxes,
-// 1280x720, 60 frames. Compare within one run: --benchmark_filter=Film --benchmark_repetitions=5, minimum of
-// each.
+// Frames of a film by renderFilm, compared with the same frames drawn sequentially and written by stb: ten
+// boxes, 1280x720, 60 frames. Compare within one run: --benchmark_filter=Film --benchmark_repetitions=5,
+// minimum of each.
 //
-// GL is opened in forked processes only, for a film's jobs are forked from a process that has none.
+// GL is opened in forked processes only, because a film's jobs must be forked from a process without GL.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
@@ -55,7 +55,7 @@ FilmSettings settingsIn(const TemporaryFolder& folder, std::int64_t jobs) {
   return settings;
 }
 
-// [s] the processes it forked included.
+// [s] CPU time, forked processes included.
 double coreSeconds() {
   double seconds = 0;
   for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
@@ -68,7 +68,7 @@ double coreSeconds() {
   return seconds;
 }
 
-// Argument: jobs, 0 for one on each core.
+// Argument: jobs, 0 for one per core.
 void Film(benchmark::State& state) {
   const Scene drawn = scene();
   const Trajectory run = driftingAll(drawn);
@@ -94,7 +94,7 @@ struct Took {
   double coreSeconds = 0;  // drawing and writing alone
 };
 
-// Arguments: threads of Mesa, −1 for its own choice; whether stb writes.
+// Arguments: threads of Mesa, −1 for its default; whether stb writes.
 void FilmInTurn(benchmark::State& state) {
   const Scene drawn = scene();
   const Trajectory run = driftingAll(drawn);
@@ -109,7 +109,7 @@ void FilmInTurn(benchmark::State& state) {
       Renderer renderer(setupOf(drawn, 1280, 720), options);
       const FrameRate rate;
       Took took;
-      renderer.draw(run.poses(0));  // the first frame makes its code
+      renderer.draw(run.poses(0));  // the first frame compiles its code
       const double begun = coreSeconds();
       for (; took.frames < static_cast<double>(rate.frameCount(drawn.duration)); ++took.frames) {
         const auto frame = static_cast<std::int64_t>(took.frames);

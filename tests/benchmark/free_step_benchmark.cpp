@@ -1,13 +1,13 @@
-// What one step of each method costs, beside the exact attitude and its set-up.
+// Cost of one step of each method, compared with the exact attitude and its set-up.
 //
-// Read the ratios within one run (items per second against exactAttitude): absolute times differ from machine
-// to machine, the ratios hardly. Every body takes a run of 100 steps, so that what a run needs once is shared
-// as it is in use; a step is a twentieth of a radian. What a step is worth differs more than what it costs: a
-// method of order 10 takes few.
+// Read the ratios within one run (items per second against exactAttitude): absolute times depend on the
+// machine, the ratios hardly. Every body takes a run of 100 steps, so that the set-up of a run is shared as
+// in use; a step is a twentieth of a radian. Accuracy per step differs more than cost: a method of order 10
+// needs few steps.
 //
-// Measured (g++ 12 -O3, AMD EPYC), in exact attitudes: strang 0.72, runge-kutta-4 1.13, splitting-6 6.4,
-// taylor-8 3.5, moser-veselov-10 1.8, Listing 1 1.9, the exact set-up 11.4; a step
-// alone 2.9, 1.2, 8.5, 5.5, 3.5.
+// Measured (g++ 12 -O3, AMD EPYC), relative to an exact attitude: strang 0.72, runge-kutta-4 1.13,
+// splitting-6 6.4, taylor-8 3.5, moser-veselov-10 1.8, Listing 1 1.9, the exact set-up 11.4; a step alone
+// 2.9, 1.2, 8.5, 5.5, 3.5.
 
 #include <benchmark/benchmark.h>
 
@@ -65,7 +65,7 @@ void step(benchmark::State& state, const FreeMethod& method) {
   countSteps(state, bodies.size(), kSteps);
 }
 
-/// One call per step, as where every step is looked at.
+/// One call per step, as where every step is inspected.
 void lonelyStep(benchmark::State& state, const FreeMethod& method) {
   std::vector<FreeBody> bodies = makeBodies();
   for (auto _ : state) {

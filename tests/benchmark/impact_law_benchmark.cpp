@@ -9,8 +9,8 @@ namespace {
 
 using namespace careen;
 
-/// A box in the corner of a room: one wall and `corners` of its corners there, or all twelve contacts of
-/// three walls.
+/// A box in the corner of a room: `corners` of its corners on one wall, or all twelve contacts with three
+/// walls.
 void resolve(benchmark::State& state, std::size_t count, double restitution, double friction) {
   const Vec3 half(0.5, 0.3, 0.2);
   const MassProperties mass = solidBox(half, 2);
@@ -40,7 +40,7 @@ void resolve(benchmark::State& state, std::size_t count, double restitution, dou
   }
 }
 
-// What is not needed costs nothing: compare friction with its absence, and one contact with several.
+// What is not needed costs nothing: compare friction with no friction, and one contact with several.
 BENCHMARK_CAPTURE(resolve, one_contact, 1, 0.8, 0.0);
 BENCHMARK_CAPTURE(resolve, one_contact_friction, 1, 0.8, 0.3);
 BENCHMARK_CAPTURE(resolve, four_contacts_elastic, 4, 1.0, 0.0);

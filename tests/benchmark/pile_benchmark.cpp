@@ -1,6 +1,6 @@
-// What pouring boxes into a pit costs, per frame of 1/60 s, and how that grows with their number; beside it
-// Bullet's double library, as it ships, on the same scene (-DCAREEN_PEERS=ON). Compare within one run:
-// --benchmark_enable_random_interleaving=true --benchmark_repetitions=5, minimum of each.
+// Cost of pouring boxes into a pit, per frame of 1/60 s, and its growth with their number; compared with
+// Bullet's double-precision library, as shipped, on the same scene (-DCAREEN_PEERS=ON). Compare within one
+// run: --benchmark_enable_random_interleaving=true --benchmark_repetitions=5, minimum of each.
 //
 // Measured, 1000 boxes, ms per frame, minimum of 3: over 10 s 9.0 (Bullet 11.0), because all sleep from the
 // sixth second on and few substeps do before; in the first 3 s, with boxes arriving at 20 m/s, 22.7 (Bullet
@@ -55,7 +55,7 @@ void pour(benchmark::State& state) {
   perFrame(state, frames);
 }
 BENCHMARK(pour)->Args({1000, 10, 6})->Iterations(1)->Unit(benchmark::kMillisecond);
-// While they fall on each other; the same depth, so the same work for each box.
+// Boxes still falling on each other; the same depth, so the same work per box.
 BENCHMARK(pour)
     ->Args({250, 3, 3})
     ->Args({1000, 3, 6})
@@ -63,7 +63,7 @@ BENCHMARK(pour)
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 
-// After everything sleeps.
+// After all bodies sleep.
 void settled(benchmark::State& state) {
   const World world = sceneOf(state);
   Pile pile(world, startOf(world), kFrame);
@@ -110,7 +110,7 @@ class BulletPit {
     info.m_startWorldTransform = btTransform(
         btMatrix3x3(a(0, 0), a(0, 1), a(0, 2), a(1, 0), a(1, 1), a(1, 2), a(2, 0), a(2, 1), a(2, 2)),
         toBullet(body.initial.pose.position));
-    // Bullet multiplies what two bodies have; here all have the same.
+    // Bullet multiplies the coefficients of two bodies; here all have the same.
     info.m_friction = std::sqrt(body.material.friction);
     objects_.push_back(std::make_unique<btRigidBody>(info));
     shapes_.push_back(std::move(shape));

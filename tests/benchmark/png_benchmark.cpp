@@ -1,11 +1,11 @@
-// What a frame's PNG costs and how large it is, beside stb's own writer on the same pixels: a rendered frame
-// (assets/pictures/careen.png, 1280x720), and one as large with grain in a sixth of the pixels. Compare
+// Cost and size of a frame's PNG, compared with stb's writer on the same pixels: a rendered frame
+// (assets/pictures/careen.png, 1280x720), and one of that size with grain in a sixth of the pixels. Compare
 // within one run: --benchmark_enable_random_interleaving=true --benchmark_repetitions=5, minimum of each.
 //
-// Measured (g++ 12 -O3, AMD EPYC), minimum of 3, ms and bytes, stb's: rendered 1.45, 213,930 (46.9, 271,842);
-// grained 3.58, 412,248 (51.6, 427,854). With stb's filters and libdeflate, of another rendered frame that
-// ours takes 1.17 and 151,812 for: 15.6, 150,082. Of the 1.17: 0.21 filter (0.46 without AVX2), 0.45 to find
-// runs, 0.11 to count, 0.06 codes, 0.18 to send.
+// Measured (g++ 12 -O3, AMD EPYC), minimum of 3, in ms and bytes (stb's in parentheses): rendered 1.45,
+// 213,930 (46.9, 271,842); with grain 3.58, 412,248 (51.6, 427,854). Another rendered frame: ours 1.17,
+// 151,812; stb's filters and libdeflate 15.6, 150,082. Of the 1.17: 0.21 filters (0.46 without AVX2), 0.45
+// finding runs, 0.11 counting, 0.06 codes, 0.18 output.
 #include <benchmark/benchmark.h>
 
 #define STB_IMAGE_WRITE_STATIC

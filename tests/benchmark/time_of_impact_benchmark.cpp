@@ -31,7 +31,7 @@ void attitude(benchmark::State& state) {
 }
 BENCHMARK(attitude);
 
-// The next impact of a box in a room of six walls.
+// Next impact of a box in a room of six walls.
 void nextImpact(benchmark::State& state, const std::vector<TumblingBox>& boxes) {
   std::size_t k = 0;
   double evaluations = 0;
@@ -54,7 +54,7 @@ void nextImpact(benchmark::State& state, const std::vector<TumblingBox>& boxes) 
 void boxInRoom(benchmark::State& state) { nextImpact(state, flights(256)); }
 BENCHMARK(boxInRoom);
 
-// The same from a bounce: the box has just left the floor with one of its corners.
+// The same after a bounce: one corner of the box has just left the floor.
 void bounceInRoom(benchmark::State& state) {
   std::vector<TumblingBox> boxes = flights(256);
   for (TumblingBox& box : boxes) {
@@ -65,7 +65,7 @@ void bounceInRoom(benchmark::State& state) {
 }
 BENCHMARK(bounceInRoom);
 
-// One wall, where there is a contact.
+// One wall, with an impact.
 void boxOnWall(benchmark::State& state) {
   const std::vector<TumblingBox> boxes = flights(256);
   std::size_t k = 0;
@@ -80,14 +80,14 @@ void boxOnWall(benchmark::State& state) {
 }
 BENCHMARK(boxOnWall);
 
-// Two boxes under the same gravity that meet after a second or so.
+// Two boxes under the same gravity that collide after about a second.
 void boxOnBox(benchmark::State& state) {
   const std::vector<TumblingBox> boxes = flights(256);
   std::vector<TumblingBox> others = flights(512);
   others.erase(others.begin(), others.begin() + 256);
   for (std::size_t i = 0; i < others.size(); ++i) {
     Dice dice(i);
-    // Aimed to pass within half a metre after a second or so.
+    // Aimed to pass within half a metre after about a second.
     others[i].position = boxes[i].position + 4 * dice.direction();
     others[i].velocity = boxes[i].velocity + (boxes[i].position - others[i].position) + dice.vector(0.5);
   }

@@ -1,10 +1,10 @@
-// What one exact attitude and one set-up cost, in steps of the classical Runge–Kutta method on the same
+// Cost of one exact attitude and one set-up, in steps of the classical Runge–Kutta method on the same
 // bodies.
 //
 // Read the ratios within one run (items per second against rungeKutta4UnitStep, the step of the study, which
-// brings the quaternion back to unit length as the exact attitude does): absolute times differ from machine
-// to machine, the ratios hardly. Measured (g++ 12 -O3, AMD EPYC, best of 15): attitude 1.12, set-up with both
-// bounds 11.3; against the bare rungeKutta4Step 1.24 and 12.5.
+// normalises the quaternion as the exact attitude does): absolute times depend on the machine, the ratios
+// hardly. Measured (g++ 12 -O3, AMD EPYC, best of 15): attitude 1.12, set-up with both bounds 11.3; against
+// the bare rungeKutta4Step 1.24 and 12.5.
 
 #include "physics/attitude/torque_free_rotation.h"
 
@@ -97,7 +97,7 @@ void oneAttitude(benchmark::State& state) {
 }
 BENCHMARK(oneAttitude);
 
-/// With both bounds; what depends on the body alone is worked out once per body.
+/// With both bounds; what depends on the body alone is computed once per body.
 void oneSetUp(benchmark::State& state) {
   const std::vector<Body> bodies = makeBodies();
   std::vector<PrincipalMoments<double>> moments;
