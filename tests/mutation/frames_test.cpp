@@ -1,5 +1,4 @@
-// Films of which something went wrong after they were drawn, and what a comparison of two renderers must
-// catch.
+// Films damaged after they were drawn, and what a comparison of two renderers must catch.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +29,7 @@ constexpr int kHeight = 90;
 
 fs::path frame(const fs::path& film, int index) { return film / ("00000" + std::to_string(index) + ".png"); }
 
-// The crate in flight, 30 frames a second.
+// The crate in flight, 30 frames per second.
 const std::vector<Picture>& film() {
   static const std::vector<Picture> kFilm = [] {
     const Subject crate = thrownCrate();
@@ -55,7 +54,7 @@ void write(const fs::path& folder, const std::vector<Picture>& pictures) {
   }
 }
 
-/// What goes wrong with the pictures, or with their files.
+/// A fault of the pictures, or of their files.
 struct FilmMutation {
   const char* name;
   std::function<void(std::vector<Picture>&)> pictures;
@@ -63,7 +62,7 @@ struct FilmMutation {
 };
 
 using Pixel = std::array<std::uint8_t, 3>;
-// Frame 4 with every pixel made of that at another place, by x and y.
+// Frame 4 with every pixel taken from another place, by x and y.
 FilmMutation moved(const char* name, const std::function<std::pair<int, int>(int, int)>& from) {
   return {name, [from](std::vector<Picture>& pictures) {
             Picture& picture = pictures.at(4);
@@ -94,7 +93,7 @@ FilmMutation colored(const char* name, const std::function<Pixel(const Pixel&)>&
           }};
 }
 
-// Frame 4 of another size, of the pixels nearest by.
+// Frame 4 in another size, by nearest pixels.
 FilmMutation sized(const char* name, int width, int height) {
   return {name, [width, height](std::vector<Picture>& pictures) {
             const Picture before = pictures.at(4);
@@ -254,7 +253,7 @@ TEST(FilmMutations, areAnotherFilm) {
   std::printf("caught %zu of %zu\n", caught, mutations.size());
 }
 
-// What must not pass even between two renderers.
+// Faults that must not pass even between two renderers.
 TEST(OtherRenderer, catchesLostFrames) {
   const TemporaryFolder folder;
   write(folder / "film", film());

@@ -127,7 +127,7 @@ Mutations materialMutations() {
   return list;
 }
 
-// No dither is caught all the same, by a third of the limit; the others are let pass.
+// "No dither" is caught nevertheless, by a third of the limit; the others pass.
 Mutations unseenMutations() {
   return {
       made("no dither", [](Materials& it) { it.dither = 0; }),

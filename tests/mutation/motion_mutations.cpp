@@ -10,7 +10,7 @@ namespace careen {
 namespace {
 
 void nextUp(double& value) { value = std::nextafter(value, std::numeric_limits<double>::infinity()); }
-// Of what is 0: by a millionth of a millionth, in its unit.
+// The next double; for 0, 1e-12 in its unit.
 void slightlyMore(double& value) {
   if (value == 0) {
     value = 1e-12;
@@ -20,7 +20,7 @@ void slightlyMore(double& value) {
 }
 const std::array<const char*, 3> kAxes = {"x", "y", "z"};
 
-/// Which number of a subject is changed in its last bit.
+/// The number of a subject that is changed in its last bit.
 using Number = std::function<double&(Subject&)>;
 
 void add(Mutations& list, const std::function<Subject()>& subject, const std::string& name,

@@ -1,5 +1,4 @@
-// Small changes, each of which a person could see or a hash would show, and whether the comparison catches
-// them.
+// Small changes, each visible to a person or to a hash, and whether the comparison catches them.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,7 +20,7 @@ struct NamedTable {
   const char* name;
   Mutations (*list)();
 };
-// What gtest calls it by, which would be its bytes.
+// Name in gtest's output, which would otherwise be its bytes.
 std::ostream& operator<<(std::ostream& out, const NamedTable& table) { return out << table.name; }
 
 const std::array kSeen = {NamedTable{"scenes", sceneMutations},
@@ -102,7 +101,7 @@ TEST(MotionMutations, areAnotherRun) {
   std::printf("caught %zu of %zu\n", caught, mutations.size());
 }
 
-// What is left out above, and why.
+// The changes left out above, and why.
 TEST(UnseenMutations, areOnesThatNobodySees) {
   for (const Mutation& mutation : unseenMutations()) {
     const PictureDifference difference = differenceBy(mutation);

@@ -1,5 +1,4 @@
-// Films that must pass for the same, each by its own tolerance: other threads, jobs, ways to draw,
-// processors.
+// Films that must count as the same, each by its own tolerance: other threads, jobs, renderers, processors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,11 +20,11 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-// Mesa reads its variables when a process opens GL, so each way to draw is a process of its own.
+// Mesa reads its variables when a process opens GL, so each way of drawing is a process of its own.
 struct Way {
   const char* name;
   const char* tolerance;
-  const char* renderer;  ///< a piece of what GL says of itself then
+  const char* renderer;  ///< part of the GL renderer string then
   Words variables;
   Words options;
 };
@@ -33,8 +32,8 @@ struct Way {
 const Words kOneJob = {"--jobs", "1", "--threads", "0"};
 const Way kPlain = {"plain", "exact", "llvmpipe", {}, kOneJob};
 
-// With vectors of 128 bits llvmpipe of Mesa 22.3 dies where the processor has wider ones, and 512 are 256:
-// see rendering_backend.cpp. Processors without AVX have 128.
+// With 128-bit vectors llvmpipe of Mesa 22.3 crashes on processors with wider ones, and 512 acts as 256: see
+// rendering_backend.cpp. Processors without AVX have 128.
 const std::vector<Way>& ways() {
   static const std::vector<Way> kWays = {
       {"1 thread", "exact", "llvmpipe", {}, {"--jobs", "1", "--threads", "1"}},
@@ -54,7 +53,7 @@ const std::vector<Way>& ways() {
 const std::array kFrames = {"000000", "000012", "000040"};
 const char* const kFrameList = "0,12,40";
 
-// Half of them are others than those the tolerances were measured with.
+// Half of them were not used to measure the tolerances.
 const std::array kScenes = {"careen", "wall",    "gas",         "hecker_1997",
                             "stack",  "incline", "galperin_pi", "housner"};
 

@@ -13,38 +13,38 @@
 
 namespace careen {
 
-/// A piece of a shader, which is there exactly once, and what stands in its place.
+/// A piece of a shader, which occurs exactly once, and its replacement.
 struct ShaderEdit {
   std::string file;
   std::string piece;
   std::string instead;
 };
 
-/// All that a picture comes from.
+/// Everything that determines a picture.
 struct Subject {
   std::string name;
   Scene scene;
-  double moment = 0;  ///< [s] that is drawn
+  double moment = 0;  ///< [s] scene time drawn
   RenderOptions look;
   std::vector<ShaderEdit> edits;
 };
 
-/// A crate that is thrown into a room, strikes the floor, the back and a side; drawn in flight.
+/// A crate thrown into a room that hits the floor, the back wall and a side wall; drawn in flight.
 Subject thrownCrate();
-/// Two boxes that strike each other in free fall, off their centres, with friction.
+/// Two boxes that collide off-centre in free fall, with friction.
 Subject strikingPair();
 /// Two boxes on springs, with drag.
 Subject sprungChain();
-/// A crate that flies into a corner, by a method that steps.
+/// A crate that flies into a corner, by a stepping method.
 Subject steppedCrate(Method method);
-/// Every sort of thing that is drawn: boxes pale and dark, cubes, one that stands, one that hovers, floor,
-/// ramp, walls, at the moment 0.
+/// Every kind of thing that is drawn: boxes pale and dark, cubes, one standing, one hovering, floor, ramp,
+/// walls, at time 0.
 Subject stillLife();
-/// The same with nothing but light from all around.
+/// The same with ambient light only.
 Subject stillLifeWithoutLight();
-/// The same from low down, the light opposite: what shines does so most there.
+/// The same from a low eye against the light, where reflections are strongest.
 Subject againstTheLight();
-/// A row of six on a floor without end.
+/// A row of six on an unbounded floor.
 Subject row();
 
 /// A change to a subject.
@@ -55,7 +55,7 @@ struct Mutation {
 };
 using Mutations = std::vector<Mutation>;
 
-/// Changes of physics, most of them of the last bit, which the motion shows.
+/// Changes of physics, most of them in the last bit, which the motion shows.
 Mutations motionMutations();
 /// Changes that the picture shows: of scenes; of camera, light and materials; of shaders.
 Mutations sceneMutations();
@@ -68,20 +68,20 @@ Mutations lightShaderMutations();
 /// Changes that nobody sees: at 320 x 180 no channel is more than 2/255 off.
 Mutations unseenMutations();
 
-/// [px] Of all pictures but films': 320 x 180, or CAREEN_MUTATION_HEIGHT=720, say, to do the whole by hand in
-/// the size of a film.
+/// [px] Size of all pictures but those of films: 320 x 180, or for example CAREEN_MUTATION_HEIGHT=720, to
+/// run everything by hand at film size.
 int pictureHeight();
 int pictureWidth();
 
-/// [m] What a pixel covers at a place of the subject's.
+/// [m] Width of a pixel at a place of the subject.
 double pixelAt(const Subject& subject, const Vec3& place);
 
-/// Draws the subject's moment. What was drawn of an unchanged subject is kept by its name.
+/// Draws the subject at its time. Pictures of unchanged subjects are cached by name.
 DeepPicture pictureOf(const Subject& subject);
 const DeepPicture& unchangedPicture(const Subject& subject);
 
-/// How near a difference is to a tolerance's limits: what was found over what is allowed, of the criterion
-/// where that is greatest. More than 1 is too much.
+/// Ratio of a difference to the tolerance's limit, for the criterion where it is largest. More than 1 is too
+/// much.
 struct Margin {
   double ratio = 0;
   std::string criterion;
