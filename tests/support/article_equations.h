@@ -6,17 +6,17 @@
 #include "core/math/rotation.h"
 #include "physics/world/kinematics.h"
 
-// Equations of the article that this project grew from which nothing in the engine evaluates: it has them in
-// closed form, or in another shape. The tests compare with them. Those the engine does evaluate stand in
+// Equations of the article this project grew from that the engine does not evaluate: it has them in closed
+// form, or in another form. The tests compare with them. Those that the engine evaluates are in
 // core/math/rotation.h, physics/world/body.h and physics/world/kinematics.h.
 //
-// Turns by an angle use the library's sine and cosine, whose last bits are nobody's promise; rotationAbout of
-// stage/turn.h has the same bits everywhere.
+// Rotations by an angle use the library's sine and cosine, whose last bits are not guaranteed; rotationAbout
+// of stage/turn.h has the same bits everywhere.
 
 namespace careen {
 
-/// r taken apart about a unit axis n: r = along + radial, and ahead = n × r completes the right-handed frame
-/// in which r turns (Eqs. 3–5).
+/// r decomposed about a unit axis n: r = along + radial, and ahead = n × r completes the right-handed frame
+/// in which r rotates (Eqs. 3–5).
 struct AxisDecomposition {
   Vec3 along;   ///< o = (nᵀr) n
   Vec3 radial;  ///< x = r − o
@@ -27,13 +27,13 @@ inline AxisDecomposition decomposeAboutAxis(const Vec3& unitAxis, const Vec3& r)
   return {.along = along, .radial = r - along, .ahead = unitAxis.cross(r)};
 }
 
-/// r turned about a unit axis by `angle` [rad] (Eq. 6).
+/// r rotated about a unit axis by `angle` [rad] (Eq. 6).
 inline Vec3 rotateAboutAxis(const Vec3& unitAxis, double angle, const Vec3& r) {
   const AxisDecomposition parts = decomposeAboutAxis(unitAxis, r);
   return parts.along + std::cos(angle) * parts.radial + std::sin(angle) * parts.ahead;
 }
 
-/// The matrix that does what rotateAboutAxis does: Eq. 6 with r pulled out.
+/// Rotation matrix of rotateAboutAxis: Eq. 6 with r factored out.
 inline Mat3 axisAngle(const Vec3& unitAxis, double angle) {
   const Mat3 along = unitAxis * unitAxis.transpose();
   return along + std::cos(angle) * (Mat3::Identity() - along) + std::sin(angle) * tilde(unitAxis);
@@ -50,7 +50,7 @@ struct PointMass {
   Vec3 r = Vec3::Zero();  ///< [m] from the centre of mass
 };
 
-/// I = Σ −mᵢ r̃ᵢ r̃ᵢ, [kg m²]: in world coordinates Eq. 17, in the body's Eq. 19. For a solid box the sum
+/// I = Σ −mᵢ r̃ᵢ r̃ᵢ, [kg m²]: Eq. 17 in world coordinates, Eq. 19 in the body's. For a solid box the sum
 /// becomes an integral, which solidBox has in closed form.
 inline Mat3 inertia(const std::vector<PointMass>& points) {
   Mat3 sum = Mat3::Zero();
@@ -61,7 +61,7 @@ inline Mat3 inertia(const std::vector<PointMass>& points) {
   return sum;
 }
 
-/// L = Σ rᵢ × mᵢ (ω × rᵢ), [kg m²/s]: what Eq. 17 says equals I ω, before ω is taken out of the sum.
+/// L = Σ rᵢ × mᵢ (ω × rᵢ), [kg m²/s]: equals I ω by Eq. 17; here before ω is factored out.
 inline Vec3 angularMomentum(const std::vector<PointMass>& points, const Vec3& angularVelocity) {
   Vec3 sum = Vec3::Zero();
   for (const PointMass& point : points) {

@@ -21,8 +21,8 @@
 
 namespace careen {
 
-/// Debian's Chromium without a display, told what to do through the pipe of its DevTools protocol: real keys,
-/// real sizes, and every error of the page.
+/// Debian's Chromium, headless, driven over a pipe by its DevTools protocol: real keys, real sizes, and
+/// every error of the page.
 class Browser {
  public:
   using Json = nlohmann::json;
@@ -45,7 +45,7 @@ class Browser {
     }
   }
   ~Browser() {
-    close(in_);  // it ends when nobody tells it anything any more
+    close(in_);  // it ends when the pipe is closed
     kill(pid_, SIGTERM);
     int status = 0;
     waitpid(pid_, &status, 0);
@@ -70,7 +70,7 @@ class Browser {
     waitUntilLoaded();
     settle();
   }
-  /// The value of an expression of JavaScript.
+  /// Value of a JavaScript expression.
   Json evaluate(const std::string& expression) {
     const Json result = call("Runtime.evaluate",
                              {{"expression", expression}, {"returnByValue", true}, {"awaitPromise", true}});
@@ -84,7 +84,7 @@ class Browser {
     Json event = {{"type", "keyDown"}, {"key", key}, {"modifiers", shift ? 8 : 0}};
     if (key.size() == 1) {
       event["text"] = key;
-    } else if (key == "Tab" || key == "Escape") {  // the browser's own keys go by their numbers
+    } else if (key == "Tab" || key == "Escape") {  // the browser identifies its own keys by number
       event["windowsVirtualKeyCode"] = key == "Tab" ? 9 : 27;
     }
     call("Input.dispatchKeyEvent", event);
@@ -105,12 +105,12 @@ class Browser {
          {{"type", "mouseWheel"}, {"x", x}, {"y", y}, {"deltaX", 0}, {"deltaY", down}});
     settle();
   }
-  /// What is to be seen, as a PNG.
+  /// Screenshot of the page as a PNG.
   std::string screenshot() { return fromBase64(call("Page.captureScreenshot").at("data")); }
 
-  /// Exceptions, errors and warnings of pages, in words.
+  /// Exceptions, errors and warnings of pages, as text.
   const std::vector<std::string>& complaints() const { return complaints_; }
-  /// What pages asked for, beside files and data.
+  /// Requests of pages, other than for files and data.
   const std::vector<std::string>& requests() const { return requests_; }
 
  private:
@@ -131,7 +131,7 @@ class Browser {
   }
 
   void start(int in, int out) {
-    // Its sandbox needs what containers and root do not have; all it opens is our own.
+    // Its sandbox needs what containers and root lack; it opens only our own pages.
     const std::string profile = "--user-data-dir=" + (folder_.path() / "profile").string();
     std::vector<std::string> command = {"chromium",
                                         "--headless",
@@ -152,7 +152,7 @@ class Browser {
     arguments.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    // The pipe's ends may have the numbers that it expects, the one's the other's.
+    // The pipe's ends may have the numbers that it expects, even swapped.
     posix_spawn_file_actions_adddup2(&actions, in, 100);
     posix_spawn_file_actions_adddup2(&actions, out, 101);
     posix_spawn_file_actions_adddup2(&actions, 100, 3);
@@ -177,7 +177,7 @@ class Browser {
       message["sessionId"] = session_;
     }
     const std::string text = message.dump();
-    for (std::size_t sent = 0; sent <= text.size();) {  // with the zero at its end
+    for (std::size_t sent = 0; sent <= text.size();) {  // including the terminating zero
       const ssize_t count = write(in_, text.c_str() + sent, text.size() + 1 - sent);
       if (count < 0) {
         throw std::runtime_error("chromium has ended");
@@ -236,7 +236,7 @@ class Browser {
     loaded_ = false;
   }
 
-  /// Until what was asked for is drawn.
+  /// Waits until the page is drawn.
   void settle() {
     evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))");
   }

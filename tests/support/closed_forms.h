@@ -18,7 +18,7 @@ inline QuadTurn turnAbout(const QuadVector& axis, const Quad& angle) {
   return {cos(angle / 2), v[0], v[1], v[2]};
 }
 
-/// A symmetric top, free of forces: it precesses about L and spins about its own axis, both steadily.
+/// A torque-free symmetric top: it precesses about L and spins about its own axis, both at constant rates.
 inline QuadPoses precessed(const QuadScene& scene, std::span<const double> times) {
   const QuadBox& box = scene.boxes.at(0);
   std::size_t axis = 0;
@@ -42,8 +42,8 @@ inline QuadPoses precessed(const QuadScene& scene, std::span<const double> times
   return poses;
 }
 
-/// A box dropped flat, at rest, on the floor z = 0: hops of 2 vₙ/g with vₙ = eⁿ sqrt(2 g h), at rest after
-/// sqrt(2 h/g) (1+e)/(1−e).
+/// A box dropped flat, from rest, on the floor z = 0: bounces of duration 2 vₙ/g with vₙ = eⁿ sqrt(2 g h),
+/// at rest after sqrt(2 h/g) (1+e)/(1−e).
 inline QuadPoses dropped(const QuadScene& scene, std::span<const double> times) {
   const QuadBox& box = scene.boxes.at(0);
   const Quad g = -scene.gravity[2];
@@ -77,7 +77,8 @@ inline QuadPoses dropped(const QuadScene& scene, std::span<const double> times) 
   return poses;
 }
 
-/// A cube that flies along the diagonal into the corner of three walls at 0 and comes straight back, e = 1.
+/// A cube that flies along the diagonal into the corner of three walls at 0 and returns straight back, e =
+/// 1.
 inline QuadPoses intoCornerAndBack(const QuadScene& scene, std::span<const double> times) {
   const QuadBox& box = scene.boxes.at(0);
   for (int i = 1; i < 3; ++i) {
@@ -97,10 +98,10 @@ inline QuadPoses intoCornerAndBack(const QuadScene& scene, std::span<const doubl
   return poses;
 }
 
-/// A wall at x = 0, a light box at rest, a heavy one that slides in from the right, e = 1: [box][moment].
+/// A wall at x = 0, a light box at rest, a heavy one sliding in from the right, e = 1: [box][time].
 using QuadPair = std::array<QuadPoses, 2>;
 
-// Places without the boxes' widths: 0 ≤ light ≤ heavy.
+// Positions with the boxes' widths subtracted: 0 ≤ light ≤ heavy.
 struct QuadRow {
   explicit QuadRow(const QuadScene& scene)
       : light(scene.boxes.at(0)), heavy(scene.boxes.at(1)), width(2 * light.halfExtents[0]) {}
@@ -118,8 +119,8 @@ struct QuadRow {
   }
 };
 
-/// By unfolding: in (sqrt(M) x_heavy, sqrt(m) x_light) the motion is a ray of light in a wedge of angle
-/// atan(sqrt(m/M)), straight where the wedge is laid out again and again (G. Galperin 2003).
+/// By unfolding: in (sqrt(M) x_heavy, sqrt(m) x_light) the motion is a light ray in a wedge of angle
+/// atan(sqrt(m/M)), a straight line through repeated images of the wedge (G. Galperin 2003).
 inline QuadPair galperinUnfolded(const QuadScene& scene, std::span<const double> times) {
   const QuadRow row(scene);
   const Quad rootLight = sqrt(row.light.mass);
@@ -139,7 +140,7 @@ inline QuadPair galperinUnfolded(const QuadScene& scene, std::span<const double>
   return pair;
 }
 
-/// Impact by impact; their number goes to `impacts`.
+/// Impact by impact; `impacts` receives their number.
 inline QuadPair galperinStruck(const QuadScene& scene, std::span<const double> times, int& impacts) {
   const QuadRow row(scene);
   const Quad total = row.light.mass + row.heavy.mass;

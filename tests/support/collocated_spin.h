@@ -8,10 +8,10 @@
 
 namespace careen::oracle {
 
-/// A second oracle of a box that slides and spins to its stop, which shares neither variables nor method with
-/// SlidingSpin: velocities of the world against time, the four loads out of one system of four equations, and
-/// collocation at Gauss's points, of order 20. Steps are a part of what time is left, so they shrink towards
-/// the stop and come as near as one likes.
+/// A second oracle of a box that slides and spins to a stop, independent of SlidingSpin in variables and
+/// method: world velocities against time, the four loads from one system of four equations, and collocation
+/// at Gauss points, of order 20. Steps are a fraction of the time left, so they shrink towards the stop and
+/// come arbitrarily close.
 class CollocatedSpin {
  public:
   CollocatedSpin(const QuadBox& box, const Quad& gravity, const Quad& friction)
@@ -33,7 +33,7 @@ class CollocatedSpin {
       advance(step < rest ? step : rest);
     }
   }
-  /// To where the speed is this part of that at the start.
+  /// Advances until the speed is this fraction of the initial one.
   void advanceToStop(const Quad& part) {
     const Quad end = part * speed();
     while (speed() > end) {
@@ -48,7 +48,7 @@ class CollocatedSpin {
   Quad speed() const {
     return sqrt(state_[3] * state_[3] + state_[4] * state_[4] + gyration_ * state_[5] * state_[5]);
   }
-  // [s] until it, or one of its corners, stops, as it is slowed now.
+  // [s] until the box, or one of its corners, stops at the present deceleration.
   Quad left() const {
     const State now = rate(state_);
     Quad left = speed() / sqrt(now[3] * now[3] + now[4] * now[4] + gyration_ * now[5] * now[5]);
@@ -68,8 +68,8 @@ class CollocatedSpin {
     return left;
   }
 
-  // Roots of the Legendre polynomial, shifted to 0…1, and ∫₀^cᵢ of the Lagrange polynomials: their values at
-  // the powers of t give one system of equations for each i.
+  // Roots of the Legendre polynomial, shifted to 0…1, and ∫₀^cᵢ of the Lagrange polynomials, each i from a
+  // system of equations: their values at the powers of t.
   void findPoints() {
     using Matrix = Eigen::Matrix<Bits192, kStages, kStages>;
     Matrix powers;
@@ -127,8 +127,8 @@ class CollocatedSpin {
       arm = QuadVector(cosine * x - sine * y, sine * x + cosine * y, Quad(-half_[2]));
       slip = QuadVector(q[3] - q[5] * arm[1], q[4] + q[5] * arm[0], Quad(0));
       slip /= slip.norm();
-      // One newton up on this corner and its friction: their sum and moments; and the pattern that no moment
-      // shows, which is to be absent.
+      // One newton upward on this corner, with its friction: sum and moments; and the load pattern without
+      // moment, whose amount must be 0.
       const QuadVector force = QuadVector(Quad(0), Quad(0), Quad(1)) - friction_ * slip;
       const QuadVector moment = arm.cross(force);
       balance.col(i) << Quad(1), moment[0], moment[1], Quad(i == 0 || i == 3 ? 1 : -1);
@@ -149,7 +149,7 @@ class CollocatedSpin {
   void advance(const Quad& step) {
     std::array<State, kStages> rates;
     rates.fill(rate(state_));
-    // Each round multiplies what is wrong by about a tenth of the step's share.
+    // Each iteration reduces the error by about a tenth of the step's fraction.
     for (int round = 0; round < 60; ++round) {
       Quad change = 0;
       for (std::size_t i = 0; i < kStages; ++i) {

@@ -9,11 +9,11 @@
 #include "support/oracle_runs.h"
 #include "support/quad_scene.h"
 
-// Truths of boxes that stay in contact: standing, sliding, spinning, struck in a row. Those that turn about
-// an edge are in pivot_oracles.h.
+// Exact solutions of boxes in resting contact: standing, sliding, spinning, hit in a row. Those that rotate
+// about an edge are in pivot_oracles.h.
 namespace careen::oracle {
 
-/// Coulomb's μ of a pair is the geometric mean.
+/// Coulomb friction coefficient μ of a pair: the geometric mean.
 inline Quad frictionOf(const QuadBox& box, const QuadWall& wall) {
   return sqrt(box.friction * wall.friction);
 }
@@ -22,8 +22,8 @@ inline QuadPoses stood(const QuadBox& box, std::span<const double> times) {
   return QuadPoses(times.size(), QuadPose{box.position, box.attitude});
 }
 
-/// A box flat on the plane it starts on, not spinning, that keeps to a line: from rest, or on a level plane.
-/// Friction acts against the way it goes, at no azimuth otherwise than at another.
+/// A box flat on the plane it starts on, not spinning, that moves along a line: from rest, or on a level
+/// plane. Friction opposes the motion and is the same in all directions.
 class QuadSlide {
  public:
   QuadSlide(const QuadBox& box, const QuadVector& gravity, const QuadWall& plane) : box_(box) {
@@ -45,9 +45,9 @@ class QuadSlide {
     }
   }
 
-  /// [s] when it stops; past every moment if it does not, 0 if it is held from the start.
+  /// [s] time of the stop; beyond all times if it does not stop, 0 if it sticks from the start.
   const Quad& stop() const { return stop_; }
-  /// [m] how far it has gone.
+  /// [m] distance travelled.
   Quad way(const Quad& time) const {
     const Quad t = time < stop_ ? time : stop_;
     return t * (speed_ + t / 2 * rate_);
@@ -64,12 +64,12 @@ class QuadSlide {
   QuadBox box_;
   QuadVector way_ = QuadVector::Zero();  // [1]
   Quad speed_ = 0;                       // [m/s] at the start
-  Quad rate_ = 0;                        // [m/s²] of the speed
+  Quad rate_ = 0;                        // [m/s²] rate of the speed
   Quad stop_ = 0;
 };
 
-/// A box spinning flat in its place about the vertical, μ λ = μ m g/4 on each corner against its slip:
-/// α = μ m g sqrt(a²+b²)/I, with stop at w/α and angle w²/(2α).
+/// A box spinning flat in place about the vertical; friction μ λ = μ m g/4 on each corner against its slip:
+/// α = μ m g sqrt(a²+b²)/I, stop at w/α and angle w²/(2α).
 class QuadSpin {
  public:
   QuadSpin(const QuadBox& box, const Quad& gravity, const Quad& friction) : box_(box) {
@@ -98,8 +98,8 @@ class QuadSpin {
   Quad slowing_;  // [rad/s²]
 };
 
-/// Equal cubes in a row along x, touching, on a floor without friction; the first comes from the left, e = 1:
-/// it stops where it touches, and the last leaves with its speed.
+/// Equal cubes in a row along x, touching, on a frictionless floor; the first comes from the left, e = 1: it
+/// stops where it touches, and the last leaves with its speed.
 inline std::vector<QuadPoses> rowStruck(const QuadScene& scene, std::span<const double> times) {
   const QuadBox& first = scene.boxes.front();
   const QuadBox& next = scene.boxes.at(1);
@@ -117,7 +117,7 @@ inline std::vector<QuadPoses> rowStruck(const QuadScene& scene, std::span<const 
   return poses;
 }
 
-/// What each box of a stack, lowest first, carries [N]: the weights above it.
+/// Load [N] that each box of a stack, lowest first, carries: the weights above it.
 inline std::vector<Quad> weightsAbove(const std::vector<QuadBox>& stack, const Quad& gravity) {
   std::vector<Quad> carried(stack.size(), Quad(0));
   for (std::size_t k = stack.size(); k-- > 1;) {
@@ -126,8 +126,8 @@ inline std::vector<Quad> weightsAbove(const std::vector<QuadBox>& stack, const Q
   return carried;
 }
 
-/// Whether a stack of upright boxes, lowest first, stands: above each joint the common centre of mass is over
-/// the part in touch. By how much, of that part's half widths; negative if it falls.
+/// Stability margin of a stack of upright boxes, lowest first: above each joint the common centre of mass
+/// must be over the contact area. In half widths of that area; negative if the stack falls.
 inline Quad standsBy(const std::vector<QuadBox>& stack) {
   Quad margin = 1;
   QuadVector moment = QuadVector::Zero();

@@ -7,7 +7,7 @@
 
 namespace careen {
 
-/// A variable of the environment with another value, or with none, while it lives.
+/// Sets or unsets an environment variable during its lifetime.
 class EnvironmentVariable {
  public:
   EnvironmentVariable(std::string name, const std::optional<std::string>& value) : name_(std::move(name)) {

@@ -9,13 +9,13 @@
 
 namespace careen {
 
-/// What a run told its recorder.
+/// What a run sent to its recorder.
 struct Recorded {
   RunFigures figures;
   std::vector<Impact> impacts;
   std::vector<std::vector<std::pair<double, Motion>>> motions;  // of each body
 
-  /// Moments at which anything struck anything: a face that lands is one of them, its corners four rows.
+  /// Number of different impact times: a face that lands is one, its corners are four rows.
   std::size_t moments() const {
     std::set<double> times;
     for (const Impact& impact : impacts) {

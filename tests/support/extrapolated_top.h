@@ -8,10 +8,10 @@
 
 namespace careen::oracle {
 
-/// A second oracle of free turning, which shares neither equations nor method with the Taylor series: the
-/// attitude alone by q' = ½ ω q with ω = A I⁻¹ Aᵀ L in the world, L constant; the midpoint rule, extrapolated
-/// to step 0 (W. B. Gragg 1965; R. Bulirsch, J. Stoer 1966). In 192 bits, because extrapolation multiplies
-/// roundings.
+/// A second oracle of torque-free rotation, independent of the Taylor series in equations and method: only
+/// the attitude, by q' = ½ ω q with ω = A I⁻¹ Aᵀ L in the world, L constant; the midpoint rule, extrapolated
+/// to step 0 (W. B. Gragg 1965; R. Bulirsch, J. Stoer 1966). In 192 bits, because extrapolation amplifies
+/// rounding errors.
 class ExtrapolatedTop {
  public:
   explicit ExtrapolatedTop(const QuadBox& box)
@@ -23,8 +23,8 @@ class ExtrapolatedTop {
   QuadTurn attitude() const { return converted<Quad>(attitude_); }
 
   void advance(const Quad& duration) {
-    // |L|/I, I the smallest moment, bounds how fast the rate can change: with these columns the remainder of
-    // such a step is under the rounding. No way to follow a needle, whose bound is far above its spin.
+    // |L|/I, with I the smallest moment, bounds how fast the rate can change: with this many columns the
+    // remainder of such a step is below rounding. Not suited to a needle, whose bound is far above its spin.
     Bits192 smallest = moments_[0];
     for (const Bits192& moment : moments_) {
       smallest = moment < smallest ? moment : smallest;
@@ -62,7 +62,7 @@ class ExtrapolatedTop {
   }
   static int intervals(std::size_t column) { return 2 * (static_cast<int>(column) + 1); }
 
-  // Gragg's, whose error has only even powers of the step.
+  // Gragg's midpoint rule, whose error has only even powers of the step.
   Turn<Bits192> midpoints(const Bits192& duration, int count) const {
     const Bits192 h = duration / count;
     Turn<Bits192> before = attitude_;
@@ -93,7 +93,7 @@ class ExtrapolatedTop {
     return m;
   }
 
-  // ½ ω q, of any length.
+  // ½ ω q, for q of any length.
   Turn<Bits192> rate(const Turn<Bits192>& q) const {
     const Matrix3<Bits192> worldFromBody = matrix(q);
     Vector3<Bits192> inBody = worldFromBody.transpose() * angularMomentum_;

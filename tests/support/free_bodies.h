@@ -10,14 +10,14 @@
 
 namespace careen::oracle {
 
-/// How a free body starts: what TorqueFreeRotation takes.
+/// Initial state of a free body: what TorqueFreeRotation takes.
 struct Start {
   Vec3 moments;
   Quat attitude;
   Vec3 momentum;
 };
 
-/// The kinds of body and spin that need different parts of the closed form, or strain them.
+/// Kinds of body and spin that use different branches of the closed form, or are hard for it.
 enum class Draw {
   kGeneric,
   kExtremeShape,    // needles and plates, edges 1 : 10⁴
@@ -94,7 +94,7 @@ class StartSource {
   std::mt19937_64 generator_;
 };
 
-/// The oracle's body in the same state; the quaternion counts as a direction, whatever its rounding.
+/// The oracle's body in the same state; the quaternion is normalised, so its rounding does not matter.
 template <class Real>
 FreeBody<Real> freeBody(const Start& start) {
   using std::sqrt;
@@ -130,8 +130,8 @@ double angleBetween(const FreeBody<Real>& body, const Quaternion<Got>& got) {
   return static_cast<double>(2 * sqrt(same < opposite ? same : opposite));
 }
 
-/// How far [rad] the attitude after t can move when every given number moves by half a unit in its last
-/// place: no method that takes doubles can be asked for more.
+/// How far [rad] the attitude after t can move if every input moves by half a unit in its last place: no
+/// method that takes doubles can be more accurate.
 template <class Real>
 double angleFromRoundingOfInput(const Start& start, const Real& t) {
   FreeBody<Real> exact = freeBody<Real>(start);

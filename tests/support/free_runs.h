@@ -18,7 +18,7 @@ namespace careen {
 template <class Real>
 using FreeSteps = void (*)(const Vector3<Real>&, FreeState<Real>&, const Real&, std::int64_t);
 
-/// A free body and what it must keep.
+/// A free body and its conserved quantities.
 template <class Real>
 struct FreeRun {
   Vector3<Real> moments;
@@ -32,7 +32,7 @@ struct FreeRun {
   Real length() const { return state.bodyMomentum.norm(); }
 };
 
-/// Relative changes from one moment of a run to another.
+/// Relative changes between two times of a run.
 struct FreeChange {
   double energy, length, world;
 
@@ -56,11 +56,11 @@ struct Orders {
   double leastAttitudeError = 0;
 };
 
-/// How many halvings of the error each of three halvings of the step gives, for five bodies together that
-/// turn by about 3 rad in `count`, 2 `count`, 4 `count`, 8 `count` steps. In quadruple precision, so that
-/// high orders do not end in rounding.
+/// Observed orders: halvings of the error per halving of the step, for three halvings, over five bodies
+/// together that rotate by about 3 rad in `count`, 2 `count`, 4 `count`, 8 `count` steps. In quadruple
+/// precision, so that high orders are not limited by rounding.
 inline Orders observedOrders(FreeSteps<Quad> steps, std::int64_t count) {
-  const WithoutTraps withoutTraps;  // the oracle's step size of a series that ends
+  const WithoutTraps withoutTraps;  // the oracle's step size for a series that ends
   oracle::StartSource source(1);
   std::array<double, 4> attitude{};
   std::array<double, 4> energy{};

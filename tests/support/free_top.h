@@ -7,9 +7,9 @@
 
 namespace careen {
 
-/// Oracle: how a torque-free body turns, by classical Runge–Kutta on the quaternion in extended precision. L
-/// is constant in the world, so that only q̇ = ½ q ω is integrated. Shares nothing with the engine but the
-/// vector type.
+/// Oracle of torque-free rotation: classical Runge–Kutta on the quaternion in extended precision. L is
+/// constant in the world, so only q̇ = ½ q ω is integrated. Shares nothing with the engine but the vector
+/// type.
 class FreeTop {
  public:
   using Real = long double;
@@ -46,7 +46,7 @@ class FreeTop {
   static Q sum(const Q& a, Real h, const Q& b) {
     return {a[0] + h * b[0], a[1] + h * b[1], a[2] + h * b[2], a[3] + h * b[3]};
   }
-  // ½ q ω with ω in the body's frame.
+  // ½ q ω with ω in the body frame.
   Q rate(const Q& q) const {
     FreeTop here(*this);
     here.q_ = q;
@@ -65,7 +65,7 @@ class FreeTop {
 /// Angle between two orientations [rad].
 inline double angleBetween(const Matrix3<long double>& a, const Mat3& b) {
   const Matrix3<long double> turn = a.transpose() * b.cast<long double>();
-  // From the skew part and the trace: accurate for small angles and near a half turn alike.
+  // From the skew part and the trace: accurate for small angles and near a half turn.
   const Vector3<long double> skew(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
   return static_cast<double>(std::atan2(skew.norm(), turn.trace() - 1));
 }

@@ -14,7 +14,7 @@ struct Plane {
   double offset = 0;
 };
 
-// The oracles know corners only, no half extents along axes and no bounds.
+// The oracles use corners only, no half extents along axes and no bounds.
 
 template <class Real>
 Real heightOverWall(const TumblingBox& box, const Plane& wall, const Real& t) {
@@ -39,18 +39,18 @@ struct Shadow {
   }
 };
 
-// A box as its corners and the directions of its edges.
+// A box given by its corners and edge directions.
 template <class Real>
 struct Skeleton {
   std::array<Vector3<Real>, 8> corners;
   Matrix3<Real> edges;
 };
 
-// The widest interval between the corners' shadows on the 15 directions; `towardsA` receives its direction.
+// The largest separation of the corners' projections on the 15 axes; `towardsA` receives its axis.
 template <class Real>
 Real separation(const Skeleton<Real>& a, const Skeleton<Real>& b, Vec3* towardsA = nullptr) {
   using std::sqrt;
-  // Shorter, and the cross product is rounding alone; a precise type resolves what double cannot.
+  // Below this length the cross product is only rounding error; a precise type resolves what double cannot.
   const Real parallel = std::numeric_limits<Real>::epsilon() * 100;
   std::vector<Vector3<Real>> directions;
   for (int i = 0; i < 3; ++i) {
@@ -87,7 +87,7 @@ Real separation(const TumblingBox& a, const TumblingBox& b, const Real& t, Vec3*
                           {b.corners<Real>(t), b.orientation<Real>(t)}, towardsA);
 }
 
-// Boxes, thin plates, needles 1e4:1 and bullets, by turns.
+// Boxes, thin plates, needles 1e4:1 and bullets, in turn.
 inline TumblingBox roomFlight(Dice& dice, int k) {
   const std::array<Vec3, 4> shapes = {Vec3(0.5, 0.3, 0.2), Vec3(0.6, 0.4, 1e-3), Vec3(1, 1e-4, 1e-4),
                                       Vec3(0.1, 0.1, 0.1)};

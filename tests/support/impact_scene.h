@@ -13,7 +13,7 @@ namespace careen::testing {
 using careen::Quad;
 using Quad3 = Vector3<Quad>;
 
-/// Bodies and contacts of one impact, with what a test measures of them in quadruple precision.
+/// Bodies and contacts of one impact, and what a test measures of them in quadruple precision.
 struct ImpactScene {
   std::vector<Vec3> halfExtents;
   std::vector<MassProperties> masses;
@@ -113,8 +113,7 @@ inline double relativeChange(const Quad& after, const Quad& before) {
   return static_cast<double>(Quad((after - before) / before));
 }
 
-/// A cube of half size `half` above a floor, standing on its four lower corners (odd indices), turned about
-/// z.
+/// A cube of half size `half` on a floor, standing on its four lower corners (odd indices), rotated about z.
 inline ImpactScene flatCube(double angle, double restitution, double friction, const Vec3& velocity,
                             const Vec3& half = Vec3(0.5, 0.5, 0.5), double mass = 2) {
   ImpactScene scene;
@@ -128,8 +127,8 @@ inline ImpactScene flatCube(double angle, double restitution, double friction, c
   return scene;
 }
 
-/// A box that turns and flies, driven by its corner 7 into the corner of a room: each of the four corners of
-/// the three faces there touches its wall, as when the box stands in the corner.
+/// A rotating box driven with its corner 7 into the corner of a room: each of the four corners of the three
+/// faces there touches its wall, as if the box stood in the corner.
 inline ImpactScene roomCorner(Random& random, double restitution) {
   ImpactScene scene;
   BodyState state;
@@ -147,7 +146,7 @@ inline ImpactScene roomCorner(Random& random, double restitution) {
   return scene;
 }
 
-/// One or two free boxes that touch in up to `most` points at random, normals in a common half-space.
+/// One or two free boxes with up to `most` random contact points, normals in a common half-space.
 inline ImpactScene randomImpact(Random& random, int most, bool friction) {
   ImpactScene scene;
   const int bodies = 1 + random.below(2);
@@ -167,7 +166,8 @@ inline ImpactScene randomImpact(Random& random, int most, bool friction) {
     Vec3 normal = (common + 0.8 * random.direction()).normalized();
     const bool wall = bodies == 1 || random.below(3) == 0;
     const int a = wall ? random.below(bodies) : 0;
-    const int index = random.below(kCorners);  // named: the order of arguments' evaluation is the compiler's
+    const int index =
+        random.below(kCorners);  // a variable, because compilers evaluate arguments in any order
     const Material material{.restitution = random.below(4) == 0 ? 1 : random.between(0, 1),
                             .friction = friction ? random.between(0, 1.5) : 0};
     scene.addCorner(a, index, normal, material);

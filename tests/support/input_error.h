@@ -6,7 +6,7 @@
 
 namespace careen {
 
-/// What an InputError thrown by `action` says; "no error" if it throws none.
+/// Message of the InputError thrown by `action`; "no error" if it throws none.
 template <class Action>
 std::string inputErrorOf(Action action) {
   try {

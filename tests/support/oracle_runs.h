@@ -12,14 +12,14 @@
 
 namespace careen::oracle {
 
-using QuadPoses = std::vector<QuadPose>;  // one per moment
+using QuadPoses = std::vector<QuadPose>;  // one per time
 
 inline QuadVector fallen(const QuadScene& scene, const Quad& time) {
   const QuadBox& box = scene.boxes.at(0);
   return box.position + time * (box.velocity + time / 2 * scene.gravity);
 }
 
-/// Free flight, turning by the Taylor series. Of a Quad, order 30 serves; of a Bits192, 48.
+/// Free flight, rotation by the Taylor series. Order 30 suffices for Quad, 48 for Bits192.
 template <class Real = Quad, std::size_t kOrder = 30>
 QuadPoses flown(const QuadScene& scene, std::span<const double> times) {
   const QuadBox& box = scene.boxes.at(0);
@@ -35,7 +35,7 @@ QuadPoses flown(const QuadScene& scene, std::span<const double> times) {
   return poses;
 }
 
-/// Free flight, turning by extrapolation.
+/// Free flight, rotation by extrapolation.
 inline QuadPoses flownByExtrapolation(const QuadScene& scene, std::span<const double> times) {
   ExtrapolatedTop top(scene.boxes.at(0));
   QuadPoses poses;
@@ -48,7 +48,7 @@ inline QuadPoses flownByExtrapolation(const QuadScene& scene, std::span<const do
   return poses;
 }
 
-/// What an oracle that goes from impact to impact, a QuadRoom or a PlanarBox, says of the moments.
+/// Poses at these times by an oracle that advances from impact to impact, a QuadRoom or a PlanarBox.
 template <class Oracle>
 QuadPoses struck(Oracle oracle, std::span<const double> times, int impacts) {
   QuadPoses poses;

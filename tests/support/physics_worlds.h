@@ -14,7 +14,7 @@
 
 namespace careen {
 
-/// What a box of a test is made from; the 1997 sample's density.
+/// Parameters of a test's box; density of the 1997 sample.
 struct BoxSpec {
   Vec3 halfExtents = Vec3::Constant(0.2);
   Vec3 position = Vec3::Zero();
@@ -56,7 +56,7 @@ inline Wall floorAt(double height) {
   return {.name = "floor", .normal = Vec3::UnitZ(), .offset = height, .material = {}};
 }
 
-/// The 1997 sample's room, 8 m wide and centred.
+/// Room of the 1997 sample, 8 m wide and centred.
 inline World sampleRoom(Body body) {
   World world;
   world.walls = roomWalls(Vec3::Constant(-4), Vec3::Constant(4));
@@ -64,7 +64,7 @@ inline World sampleRoom(Body body) {
   return world;
 }
 
-/// Remembers all it is told.
+/// Records everything it receives.
 class Memory : public Recorder {
  public:
   struct Move {
@@ -80,7 +80,7 @@ class Memory : public Recorder {
   }
   void strikes(const Impact& impact) override { impacts.push_back(impact); }
 
-  /// The last state told of a body, which a run ends in.
+  /// Last recorded state of a body: its final one after a run.
   BodyState last(int body = 0) const {
     const auto move =
         std::find_if(moved.rbegin(), moved.rend(), [body](const Move& each) { return each.body == body; });

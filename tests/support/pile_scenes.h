@@ -34,8 +34,8 @@ class Pourer {
   std::uint64_t state_;
 };
 
-/// `count` boxes of 0.4 to 0.6 m, layer over layer of 6 × 6, that fall into a pit of 6 × 6 m; everything
-/// `scale` times as long, at the same gravity. Larger counts get a wider pit, so that depth stays the same.
+/// `count` boxes of 0.4 to 0.6 m, in layers of 6 × 6, that fall into a pit of 6 × 6 m; all lengths times
+/// `scale`, at the same gravity. Larger counts get a wider pit, so that the depth stays the same.
 inline World pouring(int count, double friction = 0.5, double restitution = 0, double scale = 1,
                      int across = 6) {
   World world;
@@ -63,7 +63,7 @@ inline World pouring(int count, double friction = 0.5, double restitution = 0, d
     body.halfExtents = scale * pourer.vector(0.2, 0.3);
     body.mass = solidBox(body.halfExtents, 1000 * 8 * body.halfExtents.prod());
     body.material = {.restitution = restitution, .friction = friction};
-    const double spacing = 0.98;  // no two overlap, nor a wall
+    const double spacing = 0.98;  // no box overlaps another or a wall
     const double askewX = pourer.between(-0.02, 0.02);
     const double askewY = pourer.between(-0.02, 0.02);
     body.initial.pose.position = scale * Vec3((x + 0.5 - half) * spacing + askewX,

@@ -11,10 +11,11 @@
 #include "support/oracle_runs.h"
 #include "support/quad_scene.h"
 
-// Truths of boxes that turn about an edge without slipping: rocking, tipping, falling over a table's edge.
+// Exact solutions of boxes that rotate about an edge without slipping: rocking, tipping, falling over a
+// table's edge.
 namespace careen::oracle {
 
-/// A body that turns about a fixed axis under gravity: β'' = A cos β − B sin β, followed by its Taylor
+/// A body rotating about a fixed axis under gravity: β'' = A cos β − B sin β, integrated by its Taylor
 /// series: with S = sin β and C = cos β, S' = C β' and C' = −S β'.
 class QuadPendulum {
  public:
@@ -34,14 +35,15 @@ class QuadPendulum {
     }
   }
 
-  /// On to the angle `to`, which it must reach going the way it goes first; [s] that it takes.
+  /// Advances to the angle `to`, which must be reached in the initial direction; returns the time needed
+  /// [s].
   Quad advanceTo(const Quad& to) {
     Quad time = 0;
     for (int step = 0; step < 10000; ++step) {
       const Series series = expanded();
       const Quad end = valueOf(series.angle, series.reach);
       const bool up = to > angle_;
-      // Past it, or turned round on the way and past it: the first root is the only one on the way out.
+      // Past it, or past it and back after turning round: the first root is the only one on the way out.
       if (up ? end >= to : end <= to) {
         const Quad root = rootOf(series, to);
         angle_ = to;
@@ -85,7 +87,8 @@ class QuadPendulum {
       sine[n + 1] = sineSum / next;
       cosine[n + 1] = cosineSum / next;
     }
-    // |β''| ≤ k²: all turns by less than a radian in 1/k and in 1/|β'|, where the terms fall by 2⁻⁴ each.
+    // |β''| ≤ k²: everything rotates by less than a radian in 1/k and in 1/|β'|, where the terms decrease by
+    // 2⁻⁴ each.
     const Quad k = sqrt(sqrt(a_ * a_ + b_ * b_));
     series.reach = 1 / (16 * (k + abs(rate_)));
     return series;
@@ -104,7 +107,7 @@ class QuadPendulum {
     }
     return sum;
   }
-  // Bisected to where Newton's method is safe.
+  // Bisection to where Newton's method is safe.
   static Quad rootOf(const Series& series, const Quad& to) {
     const bool up = valueOf(series.angle, series.reach) > to;
     Quad low = 0;
@@ -126,12 +129,12 @@ class QuadPendulum {
   Quad rate_;
 };
 
-/// A box that turns from rest about a fixed line, with one of its own axes along it: a pendulum that stands
-/// on its head. Nothing slips and nothing lifts off as long as the force there stays in its cone, which
-/// `forceAt` serves to check.
+/// A box that rotates from rest about a fixed line along one of its own axes: an inverted pendulum. It
+/// neither slips nor lifts off as long as the contact force stays in the friction cone; check with
+/// `forceAt`.
 class QuadPivot {
  public:
-  /// `point` [m] on the line; `line`: the box's axis 0…2 that lies along it; `angles` count about its sense.
+  /// `point` [m] on the line; `line`: the box axis 0…2 along it; `angles` are positive about it.
   QuadPivot(const QuadBox& box, const QuadVector& gravity, const QuadVector& point, std::size_t line)
       : box_(box), gravity_(gravity), point_(point), arm_(box.position - point) {
     QuadVector own = QuadVector::Zero();
@@ -163,7 +166,7 @@ class QuadPivot {
     }
     return poses;
   }
-  /// [N/kg] what the line's support pushes with.
+  /// [N/kg] force of the line's support.
   QuadVector forceAt(const QuadPendulum& pendulum) const {
     const Quad& angle = pendulum.angle();
     const QuadVector arm = turnedArm(angle);
@@ -184,13 +187,13 @@ class QuadPivot {
   Quad b_;
 };
 
-/// A box on a slope that falls towards +x, about its lower edge along its own y.
+/// A box on a slope that descends towards +x, about its lower edge along its own y.
 inline QuadPivot aboutLowerEdge(const QuadBox& box, const QuadVector& gravity) {
   const QuadVector edge(box.halfExtents[0], Quad(0), Quad(-box.halfExtents[2]));
   return {box, gravity, box.position + turned(box.attitude, edge), 1};
 }
 
-/// A box on an upright, held table, about the table's edge at +x, along its own y.
+/// A box on an upright, fixed table, about the table's edge at +x, along its own y.
 inline QuadPivot overEdge(const QuadBox& table, const QuadBox& box, const QuadVector& gravity) {
   QuadVector edge = table.position;
   edge[0] += table.halfExtents[0];
@@ -199,8 +202,8 @@ inline QuadPivot overEdge(const QuadBox& table, const QuadBox& box, const QuadVe
 }
 
 /// A block that rocks on its two lower edges without slipping or bouncing, on the floor z = 0, about the
-/// world's y: on one edge a pendulum, and at each impact ω falls to 1 − 1.5 sin²α of itself, tan α = b/h
-/// (G. W. Housner 1963: the angular momentum about the edge that lands is kept).
+/// world's y: a pendulum on one edge, and each impact multiplies ω by 1 − 1.5 sin²α, tan α = b/h (G. W.
+/// Housner 1963: the angular momentum about the landing edge is conserved).
 class QuadRocking {
  public:
   QuadRocking(const QuadBox& box, const Quad& gravity)
@@ -219,7 +222,7 @@ class QuadRocking {
     place_[0] -= side_ * (half_ - reach_ * sin(slenderness_ - tilt_));
   }
 
-  /// Loss of ω at an impact.
+  /// Factor of ω at an impact.
   Quad ratio() const {
     const Quad sine = half_ / reach_;
     return 1 - Quad(3) / 2 * sine * sine;
@@ -229,12 +232,12 @@ class QuadRocking {
   const Quad& squareRate() const { return squareRate_; }
   const Quad& startTilt() const { return tilt_; }
 
-  /// θ from the side it leans to: θ'' = −p² (sin α cos θ − cos α sin θ).
+  /// θ measured from the side it leans to: θ'' = −p² (sin α cos θ − cos α sin θ).
   QuadPendulum pendulum(const Quad& tilt, const Quad& rate) const {
     return {Quad(-squareRate_ * sin(slenderness_)), Quad(-squareRate_ * cos(slenderness_)), tilt, rate};
   }
 
-  /// [s] of the first impacts.
+  /// [s] times of the first impacts.
   std::vector<Quad> impacts(int count) const {
     std::vector<Quad> times;
     QuadPendulum now = pendulum(tilt_, Quad(0));
@@ -270,7 +273,7 @@ class QuadRocking {
   }
 
  private:
-  // Up and down again; the way down mirrors the way up, so it lands with the rate it left with.
+  // Up and down again; the way down mirrors the way up, so it lands with the initial rate.
   Quad halfSwing(QuadPendulum& now) const {
     const Quad rate = now.rate();
     // θ at the top: cos(α − θ) = cos α + θ'²/(2p²).
@@ -301,7 +304,7 @@ class QuadRocking {
   Quad squareRate_;   // [1/s²] p²
   Quad tilt_;         // [rad] at the start, towards side_
   int side_ = 1;
-  QuadVector place_;  // [m] of the centre when upright
+  QuadVector place_;  // [m] centre when upright
 };
 
 }  // namespace careen::oracle

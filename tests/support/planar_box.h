@@ -9,12 +9,12 @@
 
 namespace careen::oracle {
 
-/// A box over the floor z = 0 that turns only about the world's y, an axis of its own: x, z and the angle are
-/// elementary functions of time between impacts, and each of its four edges along y strikes as one point.
-/// Quadruple precision; however soon one impact follows another.
+/// A box over the floor z = 0 that rotates only about the world's y, one of its own axes: x, z and the angle
+/// are elementary functions of time between impacts, and each of its four edges along y collides as one
+/// point. Quadruple precision; impacts may follow each other at any interval.
 class PlanarBox {
  public:
-  /// The scene's first box; `step` [s] between the samples that look for contact.
+  /// The scene's first box; `step` [s] between the samples in the search for contact.
   explicit PlanarBox(const QuadScene& scene, double step = 1.0 / 512)
       : box_(scene.boxes.at(0)), gravity_(-scene.gravity[2]), step_(step) {
     const QuadTurn& q = box_.attitude;
@@ -35,7 +35,7 @@ class PlanarBox {
 
   const Quad& time() const { return time_; }
 
-  /// On to the next impact, and through it; false, and nothing done, if there is none up to the moment
+  /// Advances to and through the next impact; returns false, unchanged, if there is none up to the time
   /// `until`.
   bool strike(double until) {
     const Quad left = Quad(until) - time_;
@@ -88,7 +88,7 @@ class PlanarBox {
   }
   Quad climb(std::size_t corner) const { return box_.velocity[2] - spin_ * arm(corner); }
 
-  // The height; of the edge that has just struck, which leaves the floor at height 0 exactly, height over
+  // The height; for the edge that has just hit, which leaves the floor at exactly height 0, height over
   // time.
   Quad reduced(std::size_t corner, const Quad& elapsed) const {
     if (corner != struck_) {
@@ -102,7 +102,7 @@ class PlanarBox {
     Quad atHigh = reduced(corner, high);
     Quad root = high;
     for (int i = 0; i < 200 && high - low > Quad(1e-33) * high; ++i) {
-      // Illinois: the end that stays twice counts half.
+      // Illinois method: the value at an end kept twice is halved.
       root = high - atHigh * (high - low) / (atHigh - atLow);
       const Quad at = reduced(corner, root);
       if (at == 0) {

@@ -33,7 +33,7 @@ inline std::string zlibStream(std::string_view bytes) {
   return stream;
 }
 
-/// A PNG put together for a test, of any kind the format has, straight from the specification.
+/// A PNG assembled for a test, of any kind in the format, directly from the specification.
 struct PngByHand {
   std::uint32_t width = 1;
   std::uint32_t height = 1;
@@ -41,7 +41,7 @@ struct PngByHand {
   int color = 2;  ///< 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGB and alpha
   bool interlaced = false;
   std::string before{};  ///< chunks between header and data
-  std::string rows{};    ///< each with its filter's number, as they go into the compression
+  std::string rows{};    ///< each with its filter number, as input of the compression
 
   std::string header() const {
     std::string body = bigEndianBytes(width) + bigEndianBytes(height);

@@ -17,9 +17,9 @@
 
 namespace careen {
 
-/// How a program ended and what it said.
+/// Exit status and output of a program.
 struct Ended {
-  int exitCode = -1;  ///< −1: it died of `signal`
+  int exitCode = -1;  ///< −1: ended by `signal`
   int signal = 0;
   std::string out;
   std::string err;
@@ -32,7 +32,7 @@ inline std::string textOf(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// A folder of its own for one test, gone with it.
+/// A temporary folder for one test, deleted with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -69,7 +69,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// A program at work. Its output goes to files beside `folder`, so that no pipe fills up.
+/// A running program. Its output goes to files beside `folder`, so that no pipe fills up.
 class Process {
  public:
   Process(const std::vector<std::string>& command, const std::filesystem::path& folder) {
@@ -96,7 +96,7 @@ class Process {
 
   pid_t id() const { return pid_; }
   void send(int signal) const { kill(pid_, signal); }
-  /// What it said until now.
+  /// Output so far.
   std::string outSoFar() const { return textOf(out_); }
   std::string errSoFar() const { return textOf(err_); }
   Ended wait() {

@@ -11,31 +11,30 @@
 
 namespace careen::oracle {
 
-/// One box among walls without friction, followed in quadruple precision from impact to impact: Taylor series
-/// for the turning, samples and regula falsi for the contact, Fig. 4's impulse at the corner that touches.
-/// Shares nothing with the engine but the numbers of the start.
+/// One box among frictionless walls, in quadruple precision from impact to impact: Taylor series for
+/// rotation, samples and regula falsi for the contact, Fig. 4's impulse at the corner that touches. Shares
+/// only the initial values with the engine.
 ///
-/// Where several corners touch one wall at once the impulse acts in their middle: right for an edge or a face
-/// that lands without rolling along it, by symmetry, and for nothing else.
+/// If several corners touch one wall at once, the impulse acts at their centre: correct by symmetry for an
+/// edge or face that lands without rolling along it, and for nothing else.
 class QuadRoom {
  public:
-  /// The scene's first box; `step` [s] between the samples that look for contact, shorter than any dip behind
-  /// a wall.
+  /// The scene's first box; `step` [s] between the samples in the search for contact, shorter than any
+  /// penetration of a wall.
   explicit QuadRoom(const QuadScene& scene, double step = 1.0 / 512)
       : walls_(scene.walls), body_(scene.boxes.at(0)), gravity_(scene.gravity), step_(step) {
     state_ = {body_.position, body_.velocity, body_.freeBody()};
   }
 
-  /// The attitude must be the identity. Every number of the start is changed by this part of itself, up or
-  /// down.
+  /// The attitude must be the identity. Every initial value is changed by this relative amount, up or down.
   explicit QuadRoom(const World& world, double nudge = 0) : QuadRoom(sceneOf(world, nudge)) {}
 
   const Quad& time() const { return time_; }
 
-  /// On to the next impact, and through it; false, and nothing done, if there is none up to the moment
+  /// Advances to and through the next impact; returns false, unchanged, if there is none up to the time
   /// `until`.
   bool strike(double until = 1e300) {
-    // Doubles tell between which two samples it is.
+    // Doubles find the two samples between which it lies.
     const State<double> rough = state_.rounded();
     const double left = until - static_cast<double>(time_);
     int sample = 1;
@@ -45,7 +44,7 @@ class QuadRoom {
       }
       ++sample;
     }
-    // It leaves first what it has just struck.
+    // It must first leave the wall it has just hit.
     const double from = sample == 1 ? step_ / 64 : (sample - 1) * step_;
     const State<Quad> before = after(state_, Quad(from));
     const Quad root = firstTouch(before, sample * step_ - from);
@@ -58,7 +57,7 @@ class QuadRoom {
     return true;
   }
 
-  /// The corners `elapsed` after the last impact, which must be before the next; in the order of corner().
+  /// The corners at `elapsed` after the last impact, before the next one; in the order of corner().
   std::array<Vector3<Quad>, 8> corners(const Quad& elapsed) const {
     return cornersOf(after(state_, elapsed));
   }
@@ -72,7 +71,7 @@ class QuadRoom {
   struct State {
     Vector3<Real> position;
     Vector3<Real> velocity;
-    FreeBody<Real> rotation;  // momentum in the body's frame
+    FreeBody<Real> rotation;  // momentum in the body frame
 
     State<double> rounded() const {
       State<double> state{position.template cast<double>(), velocity.template cast<double>(), {}};
@@ -116,8 +115,8 @@ class QuadRoom {
     return scene;
   }
 
-  // The moment within `high` [s] at which the lowest corner touches: Illinois, the end that stays twice
-  // counts half. To the rounding of the lengths that a gap is the difference of.
+  // The time within `high` [s] at which the lowest corner touches, by the Illinois method (the value at an
+  // end kept twice is halved), to the rounding of the lengths whose difference is the gap.
   Quad firstTouch(const State<Quad>& before, Quad high) const {
     const Quad small = Quad(1e-31) * (body_.halfExtents.norm() + Quad(before.position.norm()) / 100);
     Quad low = 0;
@@ -189,7 +188,7 @@ class QuadRoom {
     return found;
   }
 
-  // Of the corners as low as the lowest.
+  // Centre of the corners that are as low as the lowest.
   Vector3<Quad> middleOfTouch(const Lowest<Quad>& contact) const {
     const QuadWall& wall = walls_[contact.wall];
     const Quad as = Quad(1e-26) * body_.halfExtents.norm();
@@ -204,7 +203,7 @@ class QuadRoom {
     return sum / Quad(count);
   }
 
-  // In the body's frame, where the inertia is constant.
+  // Computed in the body frame, where the inertia is constant.
   void reflect() {
     const Lowest<Quad> contact = lowest(state_);
     const Matrix3<Quad> turn = matrix(state_.rotation);

@@ -13,7 +13,7 @@ namespace careen::oracle {
 
 using QuadVector = Vector3<Quad>;
 template <class Real>
-using Turn = std::array<Real, 4>;  // w x y z, a unit
+using Turn = std::array<Real, 4>;  // w x y z, unit
 using QuadTurn = Turn<Quad>;
 
 /// Product of quaternions.
@@ -46,13 +46,13 @@ inline QuadVector turned(const QuadTurn& q, const QuadVector& v) {
   return {r[1], r[2], r[3]};
 }
 
-/// Where a box is at a moment.
+/// Pose of a box at a time.
 struct QuadPose {
   QuadVector position;
   QuadTurn attitude;
 };
 
-/// How far two poses lie apart: the larger of the distance [m] and the angle [rad].
+/// Difference of two poses: the larger of the distance [m] and the angle [rad].
 inline double apart(const QuadPose& a, const QuadPose& b) {
   const QuadTurn turn = times(inverse(a.attitude), b.attitude);
   const Quad angle = 2 * sqrt(turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);
@@ -79,12 +79,12 @@ struct QuadBox {
   QuadVector position;
   QuadVector velocity;
   QuadTurn attitude = {1, 0, 0, 0};
-  std::array<Quad, 3> momentum;  // [kg m²/s] angular, in the body's frame
+  std::array<Quad, 3> momentum;  // [kg m²/s] angular, body frame
 
   FreeBody<Quad> freeBody() const { return {moments, momentum, attitude}; }
 };
 
-/// A scene in quadruple precision, read apart from the engine: what the oracles start from.
+/// A scene in quadruple precision, read independently of the engine: input of the oracles.
 struct QuadScene {
   double duration = 0;
   QuadVector gravity;

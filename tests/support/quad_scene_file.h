@@ -63,8 +63,8 @@ inline QuadBox boxIn(const nlohmann::json& object) {
   return box;
 }
 
-/// What the hard cases use of the format: orientations as quaternions, every box with a mass or fixed. The
-/// numbers are exactly the doubles that the file's decimals round to.
+/// Reads the part of the format used by the hard cases: orientations as quaternions, every box with a mass
+/// or fixed. The numbers are exactly the doubles to which the file's decimals round.
 inline QuadScene sceneIn(const std::filesystem::path& path) {
   const nlohmann::json file = jsonIn(path);
   QuadScene scene;

@@ -41,7 +41,7 @@ inline const std::string kEveryKey = R"({
   "overlays": ["time", "energy"]
 })";
 
-/// The same with one piece of text, which must be there exactly once, in place of another.
+/// The same with one piece of text, which must occur exactly once, replaced by another.
 inline std::string everyKeyBut(const std::string& piece, const std::string& instead) {
   const std::size_t at = kEveryKey.find(piece);
   if (at == std::string::npos || kEveryKey.find(piece, at + 1) != std::string::npos) {
@@ -50,15 +50,14 @@ inline std::string everyKeyBut(const std::string& piece, const std::string& inst
   return std::string(kEveryKey).replace(at, piece.size(), instead);
 }
 
-/// What makes that scene wrong, and what is then said.
+/// An edit that makes the scene invalid, and the resulting message.
 struct BadPiece {
   const char* piece;
-  const char* instead;  ///< '@' stands before what the message points at
+  const char* instead;  ///< '@' marks the place the message points at
   const char* message;
 };
 
-/// A text in which an '@' marks a place: the text without it, and the place as messages give it. ASCII up to
-/// there.
+/// A text with a place marked by '@': the text without it, and the place as in messages. ASCII up to there.
 struct MarkedText {
   explicit MarkedText(const std::string& marked) : text(marked) {
     const std::size_t at = marked.find('@');

@@ -12,19 +12,19 @@
 
 namespace careen::oracle {
 
-/// A box that slides and spins, flat on a level floor with friction, down to its stop. The model of corners:
-/// four of them carry normal forces λᵢ ≥ 0 with friction μ λᵢ against each corner's own slip. The λᵢ add up
-/// to m g and balance the moment of friction, which acts the half height c below the centre: Σ λᵢ ρᵢ = −c F.
-/// Of all such forces those with the least Σ λᵢ² given F are meant: λᵢ = m g/4 + β·ρᵢ, what four equal stiff
-/// springs would carry too.
+/// A box that slides and spins, flat on a level floor with friction, until it stops. Model: the four corners
+/// carry normal forces λᵢ ≥ 0 with friction μ λᵢ against each corner's own slip. The λᵢ add up to m g and
+/// balance the moment of friction, which acts the half height c below the centre: Σ λᵢ ρᵢ = −c F. Of all
+/// such forces the model takes those with least Σ λᵢ² for given F: λᵢ = m g/4 + β·ρᵢ, which four equal stiff
+/// springs would also carry.
 ///
-/// (Least Σ λᵢ² with F following λ would give other λᵢ where a box both slides and spins.)
+/// (Least Σ λᵢ² with F depending on λ would give other λᵢ when a box both slides and spins.)
 ///
-/// The equations are homogeneous, of degree 0, in the velocities, which vanish together. So the time is
-/// measured by dt = s dσ, with s² = vx² + vy² + (I/m) w²: then s falls exponentially, nothing is singular,
-/// and the stop lies at σ → ∞; at s = 1e-27 of the start it is taken as there, less than that part of the
-/// whole away. In the body's frame; the midpoint rule extrapolated to step 0, which
-/// costs four of a Quad's 34 digits.
+/// The equations are homogeneous, of degree 0, in the velocities, which vanish together. So time is
+/// transformed by dt = s dσ, with s² = vx² + vy² + (I/m) w²: then s decreases exponentially, nothing is
+/// singular, and the stop is at σ → ∞; it is taken as reached at s = 1e-27 of the initial value, less than
+/// that fraction of the whole away. In the body frame; the midpoint rule extrapolated to step 0, which costs
+/// four of a Quad's 34 digits.
 class SlidingSpin {
  public:
   SlidingSpin(const QuadBox& box, const Quad& gravity, const Quad& friction, double step = 0.5)
@@ -56,7 +56,7 @@ class SlidingSpin {
         state_ = next;
         continue;
       }
-      // Newton on the part of a step that ends just there.
+      // Newton's method for the fraction of a step that ends at this time.
       Real part = whole * (until - state_[6]) / (next[6] - state_[6]);
       State there = advanced(state_, part);
       for (int i = 0; i < 50 && abs(there[6] - until) > Real(1e-32) * (1 + until); ++i) {
@@ -69,7 +69,7 @@ class SlidingSpin {
     return placed();
   }
 
-  /// [s] when it stops; runs to the end.
+  /// [s] time of the stop; runs to the end.
   Quad stop() {
     while (!stopped()) {
       state_ = advanced(state_, stepLength());
@@ -77,18 +77,18 @@ class SlidingSpin {
     return static_cast<Quad>(state_[6]);
   }
 
-  /// [1] the least λᵢ seen so far, of m g/4: negative would lift a corner.
+  /// [1] the least λᵢ so far, relative to m g/4: a negative one would lift a corner.
   double leastLoad() const { return leastLoad_; }
 
  private:
   using Real = Quad;
-  using State = std::array<Real, 7>;  // x y [m] from the start as it was turned, turn [rad], vx vy of the
-                                      // body's frame, w, time
+  using State = std::array<Real, 7>;  // x y [m] from the start, in its axes; turn [rad]; vx vy in the
+                                      // body frame, w; time
   static constexpr std::size_t kColumns = 13;
 
   Real speed(const State& q) const { return sqrt(q[3] * q[3] + q[4] * q[4] + gyration_ * q[5] * q[5]); }
   bool stopped() const { return speed(state_) < Real(1e-27) * first_; }
-  // Of σ: part of what changes the whole slip, or that of a corner, by itself.
+  // Step of σ: a fraction of what changes the whole slip, or that of a corner, by its own amount.
   Real stepLength() const {
     const Real& w = state_[5];
     const Real reach = sqrt(a_ * a_ + b_ * b_);
@@ -117,7 +117,7 @@ class SlidingSpin {
     Real turn = 0;  // [rad/s²]
   };
   Friction frictionAt(const Real& vx, const Real& vy, const Real& w) {
-    std::array<std::array<Real, 4>, 4> corners;  // ρ and the direction of the slip
+    std::array<std::array<Real, 4>, 4> corners;  // ρ and direction of slip
     Real xx = 4 * a_ * a_;
     Real yy = 4 * b_ * b_;
     Real xy = 0;

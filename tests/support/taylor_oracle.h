@@ -7,12 +7,12 @@
 
 namespace careen::oracle {
 
-/// A free rigid body followed by its Taylor series in time, for checking closed forms: it shares no code and
-/// no formula with the engine, and is right to the rounding of `Real`.
+/// A free rigid body integrated by its Taylor series in time, to check closed forms: shares no code and no
+/// formula with the engine, and is accurate to the rounding of `Real`.
 ///
 /// The equations are m' = m × ω (Euler, body-frame momentum) and q' = ½ q ω, with ωᵢ = mᵢ/Iᵢ. The
-/// coefficients follow from one another by Cauchy products: (n+1) x[n+1] = Σ y[j] z[n−j]. A step is as long
-/// as lets the last two terms fall below rounding.
+/// coefficients follow by Cauchy products: (n+1) x[n+1] = Σ y[j] z[n−j]. A step is as long as possible with
+/// the last two terms below rounding.
 template <class Real>
 struct FreeBody {
   std::array<Real, 3> moments;   // [kg m²]
@@ -62,7 +62,7 @@ void advance(FreeBody<Real>& body, Real duration) {
         q[i][n + 1] = spin[i] / (2 * next);
       }
     }
-    // The longest step that keeps the last two terms under a rounding of the state.
+    // The longest step that keeps the last two terms below a rounding of the state.
     Real size = 0;
     Real last = 0;
     Real lastButOne = 0;

@@ -5,8 +5,8 @@
 
 namespace careen {
 
-/// Two boxes and a wall by hand: "drifter" moves at (2, 0, 0) m/s from x = 1 m without forces, at 0.5 s it is
-/// struck and comes back; "anchor" stays at (0, 5, 0). 1 s long.
+/// Two boxes and a wall, made by hand: "drifter" moves at (2, 0, 0) m/s from x = 1 m without forces, is hit
+/// at 0.5 s and returns; "anchor" stays at (0, 5, 0). Duration 1 s.
 inline Trajectory driftAndReturn() {
   Trajectory trajectory;
   trajectory.sceneText = "{ \"a scene\": 1 }\n";

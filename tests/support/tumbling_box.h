@@ -10,8 +10,7 @@
 
 namespace careen::test {
 
-// r turned about a unit axis, by the half angle; written for any scalar and apart from the engine's
-// rotations.
+// Rotation about a unit axis, by the half angle; for any scalar and independent of the engine's rotations.
 template <class Real>
 Matrix3<Real> turned(const Vector3<Real>& axis, const Real& angle) {
   using std::cos;
@@ -28,8 +27,9 @@ Matrix3<Real> turned(const Vector3<Real>& axis, const Real& angle) {
   return m;
 }
 
-/// Free flight of a symmetric top in closed form: A(t) = turn(L̂, Ωp t) · A₀ · turn(ê, Ωs t). Precession about
-/// L and spin about the body's axis are both steady, so |ω| and |ω̇| are constant: the bounds are exact.
+/// Free flight of a symmetric top in closed form: A(t) = turn(L̂, Ωp t) · A₀ · turn(ê, Ωs t). Precession
+/// about L and spin about the body's axis are both steady, so |ω| and |ω̇| are constant: the bounds are
+/// exact.
 struct TumblingBox {
   Vec3 halfExtents = Vec3::Ones();
   Vec3 position = Vec3::Zero();
@@ -37,7 +37,7 @@ struct TumblingBox {
   Vec3 gravity = Vec3::Zero();
   Mat3 start = Mat3::Identity();
   Vec3 momentumAxis = Vec3::UnitZ();
-  Vec3 spinAxis = Vec3::UnitX();  // body
+  Vec3 spinAxis = Vec3::UnitX();  // body frame
   double precession = 0;
   double spin = 0;
 
@@ -106,7 +106,7 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-/// The same box seen in a mirror across x = 0, or running backwards from `end`, by changes of sign alone.
+/// The same box mirrored across x = 0, or running backwards from `end`, by sign changes alone.
 struct MirroredBox {
   const TumblingBox& box;
   Attitude operator()(double t) const {

@@ -4,7 +4,7 @@
 
 namespace careen {
 
-/// Lets floating-point exceptions pass while it lives: for tests of how the engine meets infinities.
+/// Disables floating-point traps during its lifetime: for tests of how the engine handles infinities.
 class WithoutTraps {
  public:
   WithoutTraps() { feholdexcept(&environment_); }

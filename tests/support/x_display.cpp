@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A window that goes while it is looked at is no fault.
+// A window that disappears during a query is not an error.
 int ignore(Display*, XErrorEvent*) { return 0; }
 
 std::uint8_t channel(unsigned long pixel, unsigned long mask) {
@@ -56,7 +56,7 @@ struct XDisplay::Parts {
   Parts(Parts&&) = delete;
   Parts& operator=(Parts&&) = delete;
 
-  // 0 if there is none.
+  // Returns 0 if there is no window.
   Window window(XWindowAttributes& attributes) const {
     Window root = 0;
     Window parent = 0;

@@ -7,7 +7,7 @@
 
 namespace careen {
 
-/// A display of its own for one test, by Xvfb, and somebody who sits at it. There is one window at a time.
+/// A display for one test, by Xvfb, with simulated user input. At most one window at a time.
 class XDisplay {
  public:
   /// Size of its screen [px].
@@ -18,19 +18,19 @@ class XDisplay {
   XDisplay(XDisplay&&) = delete;
   XDisplay& operator=(XDisplay&&) = delete;
 
-  /// As the environment variable DISPLAY has it.
+  /// Value for the environment variable DISPLAY.
   const std::string& name() const;
 
-  /// The window's title; empty while none is to be seen.
+  /// The window's title; empty if no window is visible.
   std::string title() const;
-  /// What is to be seen of the window; of no size while there is none.
+  /// Screenshot of the window; of size 0 if there is none.
   Picture screenshot() const;
 
-  /// A key by X's name for it, pressed and let go.
+  /// Presses and releases a key, by its X name.
   void press(const std::string& key) const;
-  /// The left button from one place in the window to another [px].
+  /// Drags with the left button from one place in the window to another [px].
   void drag(int fromX, int fromY, int toX, int toY) const;
-  /// The wheel, a notch upward, over the middle of the window.
+  /// Turns the wheel one notch upward, over the middle of the window.
   void scroll() const;
 
  private:
