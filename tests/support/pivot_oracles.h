@@ -43,7 +43,7 @@ class QuadPendulum {
       const Series series = expanded();
       const Quad end = valueOf(series.angle, series.reach);
       const bool up = to > angle_;
-      // Past it, or past it and back after turning round: the first root is the only one on the way out.
+      // Past it, perhaps turned round beyond it: the first root is the only one on the way out.
       if (up ? end >= to : end <= to) {
         const Quad root = rootOf(series, to);
         angle_ = to;

@@ -82,7 +82,7 @@ class SlidingSpin {
 
  private:
   using Real = Quad;
-  using State = std::array<Real, 7>;  // x y [m] from the start, in its axes; turn [rad]; vx vy in the
+  using State = std::array<Real, 7>;  // x y [m] from the start, in its frame; turn [rad]; vx vy in the
                                       // body frame, w; time
   static constexpr std::size_t kColumns = 13;
 
