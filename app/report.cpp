@@ -7,6 +7,9 @@
 #include <variant>
 #include <vector>
 
+#include "physics/world/method.h"
+#include "physics/world/run_settings.h"
+
 namespace careen {
 namespace {
 

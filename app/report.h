@@ -5,6 +5,7 @@
 #include <ostream>
 #include <string>
 
+#include "physics/world/run_settings.h"
 #include "run.h"
 
 namespace careen {

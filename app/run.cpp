@@ -15,6 +15,7 @@
 #include "core/system/resource.h"
 #include "parsed.h"
 #include "physics/world/method.h"
+#include "physics/world/run_settings.h"
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
 #include "scene/starts.h"

@@ -370,6 +370,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"physics/search/time_of_impact_boxes",
      "the half of time_of_impact.h for two boxes, tested through time_of_impact"},
     {"physics/world/plan", "data and look-ups, tested through scene/plan"},
+    {"physics/world/run_settings", "data only"},
     {"physics/world/world", "data only"},
     {"render/draw/surface_batch", "sends what surfaces and renderer test"},
     {"render/overlay/boxes", "one overlay of several in frame.h, tested through overlays"},

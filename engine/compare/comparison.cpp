@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/system/file.h"
 #include "image/deep_picture.h"
+#include "physics/world/method.h"
 #include "trajectory/trajectory_file.h"
 
 namespace careen {

@@ -7,6 +7,8 @@
 #include "physics/compared/loop1997.h"
 #include "physics/compared/stepped_world.h"
 #include "physics/exact/exact_world.h"
+#include "physics/world/method.h"
+#include "physics/world/run_settings.h"
 
 namespace careen {
 

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "core/error.h"
+#include "physics/world/method.h"
+#include "physics/world/run_settings.h"
 
 namespace careen {
 namespace {

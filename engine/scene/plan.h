@@ -1,6 +1,7 @@
 #pragma once
 
 #include "physics/world/plan.h"
+#include "physics/world/run_settings.h"
 #include "physics/world/world.h"
 #include "scene/scene.h"
 #include "stage/run_setup.h"

@@ -7,7 +7,6 @@
 
 #include "core/math/linear_algebra.h"
 #include "physics/world/body.h"
-#include "physics/world/method.h"
 #include "physics/world/world.h"
 #include "stage/camera.h"
 #include "stage/color.h"
@@ -16,6 +15,8 @@
 #include "stage/time_map.h"
 
 namespace careen {
+
+enum class Method : int;  // see physics/world/method.h
 
 struct Room : RoomShape {
   Material material;
@@ -44,7 +45,7 @@ struct Scene {
   std::vector<SceneBox> boxes;
   std::vector<Spring> springs;
   std::optional<Drag> drag;
-  Method method = Method::kExact;
+  Method method{};               ///< kExact unless said otherwise
   double dt = 1.0 / 240;         ///< [s]
   double tolerance = 1e-6;       ///< of methods with adaptive step size
   std::optional<Camera> camera;  ///< absent: a camera that sees the whole motion is chosen

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 
+#include "physics/world/method.h"
 #include "scene/film_shape.h"
 #include "scene/json_shape.h"
 #include "stage/turn.h"

@@ -6,6 +6,7 @@
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "physics/world/method.h"
 
 namespace careen {
 namespace {

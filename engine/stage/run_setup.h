@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "physics/world/method.h"
 #include "physics/world/plan.h"
+#include "physics/world/run_settings.h"
 #include "physics/world/world.h"
 #include "stage/stage.h"
 

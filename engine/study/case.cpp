@@ -9,6 +9,7 @@
 #include "core/system/file.h"
 #include "core/system/resource.h"
 #include "physics/simulate.h"
+#include "physics/world/method.h"
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
 #include "scene/starts.h"

@@ -6,6 +6,8 @@
 
 #include "core/error.h"
 #include "physics/simulate.h"
+#include "physics/world/method.h"
+#include "physics/world/run_settings.h"
 #include "study/difference.h"
 #include "study/sampled_states.h"
 

@@ -2,6 +2,7 @@
 
 #include "physics/simulate.h"
 #include "physics/world/method.h"
+#include "physics/world/run_settings.h"
 #include "study/sampled_states.h"
 
 namespace careen {

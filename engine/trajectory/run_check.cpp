@@ -10,6 +10,7 @@
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "physics/world/run_settings.h"
 
 namespace careen {
 namespace {

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "physics/simulate.h"
+#include "physics/world/run_settings.h"
 
 namespace careen {
 namespace {

@@ -9,7 +9,7 @@
 #include "physics/motion/motion.h"
 #include "physics/motion/recorder.h"
 #include "physics/world/body.h"
-#include "physics/world/method.h"
+#include "physics/world/run_settings.h"
 #include "physics/world/world.h"
 #include "stage/run_setup.h"
 

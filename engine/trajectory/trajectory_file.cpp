@@ -17,6 +17,8 @@
 #include "core/hash.h"
 #include "core/names.h"
 #include "core/system/file.h"
+#include "physics/world/method.h"
+#include "physics/world/run_settings.h"
 #include "trajectory/compression.h"
 #include "trajectory/run_check.h"
 

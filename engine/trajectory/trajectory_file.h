@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "physics/world/run_settings.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {

@@ -19,6 +19,7 @@
 #include "physics/attitude/free_methods.h"
 #include "physics/attitude/torque_free_rotation.h"
 #include "physics/motion/listing1.h"
+#include "physics/world/method.h"
 
 namespace careen {
 namespace {

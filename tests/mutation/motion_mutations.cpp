@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mutation/subject.h"
+#include "physics/world/method.h"
 #include "support/article_equations.h"
 
 namespace careen {

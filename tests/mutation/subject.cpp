@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "compare/pictures_to_compare.h"
+#include "physics/world/method.h"
 #include "render/stage.h"
 #include "render/view/camera.h"
 #include "support/article_equations.h"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "physics/world/method.h"
 #include "support/physics_worlds.h"
 
 namespace careen {

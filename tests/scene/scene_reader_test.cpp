@@ -10,6 +10,7 @@
 
 #include "core/math/rotation.h"
 #include "core/system/file.h"
+#include "physics/world/method.h"
 #include "support/input_error.h"
 #include "support/scenes.h"
 

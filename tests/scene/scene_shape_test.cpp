@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/system/file.h"
+#include "physics/world/method.h"
 #include "support/input_error.h"
 #include "support/scenes.h"
 

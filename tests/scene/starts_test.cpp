@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "physics/world/method.h"
 
 namespace careen {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/world/method.h"
 #include "study/difference.h"
 #include "support/exact_runs.h"
 #include "support/quad_room.h"

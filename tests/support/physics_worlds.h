@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "physics/motion/recorder.h"
-#include "physics/world/method.h"
 #include "physics/world/world.h"
 
 namespace careen {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "physics/world/body.h"
+#include "physics/world/method.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "core/error.h"
+#include "physics/world/method.h"
 #include "support/input_error.h"
 #include "support/trajectories.h"
 #include "trajectory/trajectory_file.h"

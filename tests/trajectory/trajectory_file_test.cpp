@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/system/file.h"
+#include "physics/world/method.h"
 #include "support/exact_runs.h"
 #include "support/trajectories.h"
 #include "trajectory/compression.h"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "physics/world/method.h"
 #include "support/trajectories.h"
 
 namespace careen {

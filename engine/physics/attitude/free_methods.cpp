@@ -7,6 +7,7 @@
 #include "physics/attitude/moser_veselov.h"
 #include "physics/attitude/runge_kutta4.h"
 #include "physics/attitude/taylor8.h"
+#include "physics/world/method.h"
 
 namespace careen {
 

@@ -4,9 +4,10 @@
 #include <span>
 
 #include "physics/attitude/free_step.h"
-#include "physics/world/method.h"
 
 namespace careen {
+
+enum class Method : int;  // see world/method.h
 
 /// A method that steps a free body, and its claimed properties, which are tested.
 struct FreeMethod {

@@ -11,6 +11,7 @@
 #include "physics/compared/collision1997.h"
 #include "physics/motion/listing1.h"
 #include "physics/world/diagnostics.h"
+#include "physics/world/run_settings.h"
 
 namespace careen {
 namespace {

@@ -3,7 +3,7 @@
 #include <stop_token>
 
 #include "physics/motion/recorder.h"
-#include "physics/world/method.h"
+#include "physics/world/run_settings.h"
 #include "physics/world/world.h"
 
 namespace careen {

@@ -16,6 +16,8 @@
 #include "physics/world/diagnostics.h"
 #include "physics/world/flight_account.h"
 #include "physics/world/gap.h"
+#include "physics/world/method.h"
+#include "physics/world/run_settings.h"
 
 namespace careen {
 namespace {

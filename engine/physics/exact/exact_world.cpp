@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/names.h"
 #include "physics/exact/next_contact.h"
+#include "physics/world/run_settings.h"
 
 namespace careen {
 namespace {

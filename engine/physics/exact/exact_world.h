@@ -13,7 +13,7 @@
 #include "physics/motion/recorder.h"
 #include "physics/search/neighbors.h"
 #include "physics/world/flight_account.h"
-#include "physics/world/method.h"
+#include "physics/world/run_settings.h"
 #include "physics/world/world.h"
 
 namespace careen {

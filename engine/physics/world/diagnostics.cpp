@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "core/math/rotation.h"
+#include "physics/world/run_settings.h"
 
 namespace careen {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "physics/world/forces.h"
-#include "physics/world/method.h"
+#include "physics/world/run_settings.h"
 #include "physics/world/world.h"
 
 namespace careen {

@@ -5,6 +5,7 @@
 
 #include "core/math/rotation.h"
 #include "physics/world/forces.h"
+#include "physics/world/run_settings.h"
 
 namespace careen {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "physics/world/method.h"
+#include "physics/world/run_settings.h"
 #include "physics/world/world.h"
 
 namespace careen {

@@ -42,6 +42,9 @@ inline constexpr std::array kMethods = {
     steppedFlight(Method::kTaylor8, "taylor-8", 8),
     steppedFlight(Method::kMoserVeselov10, "moser-veselov-10", 10)};
 
+/// What RunSettings says unless told otherwise.
+static_assert(Method{} == Method::kExact);
+
 inline constexpr auto kMethodNames = [] {
   std::array<std::string_view, kMethods.size()> names;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -66,24 +69,5 @@ constexpr std::optional<Method> methodNamed(std::string_view name) {
   }
   return std::nullopt;
 }
-
-/// Error figures of a run.
-struct RunFigures {
-  double energyChange = 0;  ///< [1] largest change not accounted for by impacts, springs, drag and friction,
-                            ///< relative to the largest kinetic plus spring energy the run should have had
-  double momentumChange =
-      0;  ///< [1] largest relative change in flight, linear and angular, beyond what forces give
-  double orthogonality = 0;                ///< [1] largest ‖AAᵀ−1‖
-  double deepestPenetration = 0;           ///< [m]
-  std::optional<double> boundedFrom = {};  ///< [s] time at which method exact switched to a pile, if it did
-};
-
-struct RunSettings {
-  Method method = Method::kExact;
-  double duration = 0;    ///< [s]
-  double dt = 1.0 / 240;  ///< [s] time step of stepping methods
-  double tolerance =
-      1e-6;  ///< [m] error tolerance of positions and corners for methods with step size control
-};
 
 }  // namespace careen

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "physics/attitude/torque_free_rotation.h"
+#include "physics/world/method.h"
 #include "support/free_runs.h"
 #include "support/without_traps.h"
 

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "physics/simulate.h"
 #include "physics/world/diagnostics.h"
+#include "physics/world/method.h"
 #include "support/free_top.h"
 #include "support/physics_worlds.h"
 

@@ -12,6 +12,7 @@
 #include "core/math/rotation.h"
 #include "physics/compared/collision1997.h"
 #include "physics/simulate.h"
+#include "physics/world/method.h"
 #include "support/article_equations.h"
 #include "support/physics_worlds.h"
 #include "support/without_traps.h"

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "physics/attitude/free_methods.h"
+#include "physics/world/method.h"
 #include "support/exact_runs.h"
 #include "support/free_runs.h"
 

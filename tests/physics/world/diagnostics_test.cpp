@@ -7,6 +7,7 @@
 
 #include "core/math/rotation.h"
 #include "physics/simulate.h"
+#include "physics/world/method.h"
 #include "support/physics_worlds.h"
 
 namespace careen {
