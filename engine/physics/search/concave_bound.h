@@ -26,7 +26,7 @@ class ConcaveBound {
   void beginSecondBox() { first_ = count_; }
 
   double value() const;
-  /// F'(0+); kinks within `tie` of zero count with the sign that makes the rate lower.
+  /// F'(0+); kinks whose term is within `tie` of zero count with the sign that makes the rate lower.
   double rateAhead(double tie) const;
   double curvature() const { return curvature_; }
   /// First δ in (0, most] where F(δ) = floor, given F(0) > floor; `most` if F stays above.

@@ -168,8 +168,7 @@ double BoxApproach::skipInSteps(double time) const {
 }
 
 // In straight flight the distance of the centres is a convex function of time: it stays below R_a + R_b until
-// the spheres separate for good. Otherwise the bounds hold for a time step in which it moves half that
-// length.
+// the spheres separate for good. Otherwise the bounds hold until the centres can have moved half that length.
 void BoxApproach::boundTranslation(double time) {
   if (gravity_ == 0 && !steps_) {
     mostSpeed_ = velocity_.norm();
@@ -179,8 +178,8 @@ void BoxApproach::boundTranslation(double time) {
     const double discriminant = squaredSpeed * spheres_ * spheres_ - offset_.cross(velocity_).squaredNorm();
     const double ahead = discriminant > 0 ? std::sqrt(discriminant) - along : -along;
     validity_ = squaredSpeed > 0 && ahead < kNever * squaredSpeed ? ahead / squaredSpeed : kNever;
-    // At the very edge of the spheres rounding may leave nothing: any time step with this distance bound is
-    // valid.
+    // At the very edge of the spheres rounding may leave no time: a tiny distance, added to the bound, gives
+    // some.
     const double least = 0x1p-20 * spheres_;
     if (squaredSpeed > 0 && validity_ * mostSpeed_ < least) {
       validity_ = least / mostSpeed_;
