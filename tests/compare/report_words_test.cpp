@@ -78,10 +78,10 @@ TEST(ReportWords, sayThatFilesAreTheSame) {
 // 2/255 is the larger of the two.
 TEST(ReportWords, sayByHowMuchFilesDifferWithinTheTolerance) {
   EXPECT_EQ(reasonOf(comparisonOf({nearlySame("0", 1 / 255.0)})),
-            "Not the same files, but within the tolerance: no channel differs by more than 1/255.");
+            "The files differ, but within the tolerance: no channel differs by more than 1/255.");
   EXPECT_EQ(reasonOf(comparisonOf({sameFrame("0"), nearlySame("1", 2 / 255.0), nearlySame("2", 1 / 255.0)})),
-            "Not the same files, but within the tolerance: no channel differs by more than 2/255, which 1 "
-            "does.");
+            "The files differ, but within the tolerance: no channel differs by more than 2/255, the largest "
+            "difference, in 1.");
 }
 
 TEST(ReportWords, nameTheFirstFrameThatDiffersAndTheWorst) {
@@ -105,7 +105,7 @@ std::string reasonOfRun(const RunDifference& run) {
 TEST(ReportWords, sayWhatRunsHaveInCommonAndWhatNot) {
   RunDifference run;
   run.incomparable = {"2 boxes and 3", "other names"};
-  EXPECT_EQ(reasonOfRun(run), "The two cannot be of one scene: 2 boxes and 3; other names.");
+  EXPECT_EQ(reasonOfRun(run), "The runs cannot be of the same scene: 2 boxes and 3; other names.");
   run = {};
   run.sameBits = true;
   EXPECT_EQ(reasonOfRun(run), "Every motion and every impact is the same, bit for bit.");
@@ -120,11 +120,11 @@ TEST(ReportWords, sayWhatRunsHaveInCommonAndWhatNot) {
   run.worst.difference.relative = 0.125;
   EXPECT_EQ(reasonOfRun(run),
             "The first impact that differs is number 7: 8.5 N s, not 8 N s. States differ from 0.5 s on. "
-            "They are never farther apart than 0.125 of a box's half diagonal, or radians.");
+            "Their largest difference is 0.125 half diagonals of a box, or radians.");
   run.firstImpact.reset();
   run.horizon = 4;
   EXPECT_TRUE(reasonOfRun(run).starts_with(
-      "States differ from 0.5 s on. From 4 s on places say nothing any more, since"));
+      "States differ from 0.5 s on. From 4 s on positions mean nothing any more, because"));
 }
 
 }  // namespace
