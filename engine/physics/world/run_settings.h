@@ -22,10 +22,6 @@ struct RunSettings {
   double duration = 0;      ///< [s]
   double dt = 1.0 / 240;    ///< [s] time step of stepping methods
   double tolerance = 1e-6;  ///< [m] of positions and corners, for methods with step size control
-};                          ///< kExact unless said otherwise
-double duration = 0;        ///< [s]
-double dt = 1.0 / 240;      ///< [s] time step of stepping methods
-double tolerance = 1e-6;  ///< [m] error tolerance of positions and corners for methods with step size control
 };
 
 }  // namespace careen
