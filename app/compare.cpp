@@ -1,6 +1,5 @@
 #include "compare.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -178,21 +177,20 @@ void print(std::ostream& out, const Comparison& comparison) {
 
 }  // namespace
 
-void CompareOptions::addTo(CLI::App& command) {
-  command.add_option("--threshold", threshold, "What may differ, by name: " + listed(kToleranceNames))
-      ->capture_default_str();
+void CompareOptions::addTo(const CommandLine& command) {
+  command.add("--threshold", threshold, "What may differ, by name: " + listed(kToleranceNames))
+      .showsDefault();
   for (const Override& each : kOverrides) {
-    command.add_option_function<double>(
+    command.add(
         each.option, [this, &each](double value) { limits[each.option] = value; }, each.help);
   }
   command
-      .add_option(
-          "--motion", motion,
-          "Of runs and films: same, bit for bit; any; or how far apart boxes may be in runs, in their "
-          "half diagonals or radians")
-      ->capture_default_str();
-  command.add_option("--until", until, "Of runs: compare up to this moment, s");
-  command.add_flag("--flip", flip, "Measure FLIP, too, which takes longer");
+      .add("--motion", motion,
+           "Of runs and films: same, bit for bit; any; or how far apart boxes may be in runs, in their "
+           "half diagonals or radians")
+      .showsDefault();
+  command.add("--until", until, "Of runs: compare up to this moment, s");
+  command.addFlag("--flip", flip, "Measure FLIP, too, which takes longer");
 }
 
 ComparisonSettings CompareOptions::settings() const {
@@ -265,39 +263,36 @@ ExitCode exitCodeOf(const Comparison& comparison) {
   return comparison.verdict == Verdict::kDifferent ? ExitCode::kDifferent : ExitCode::kDone;
 }
 
-void addCompare(CLI::App& commandLine, Command& chosen) {
+void addCompare(const CommandLine& commandLine) {
   struct Arguments {
     std::filesystem::path expected, actual;
     CompareOptions options;
     std::filesystem::path report;  // empty: no report
     std::string log = "text";
   };
-  CLI::App* command =
-      commandLine.add_subcommand("compare", "Whether two pictures, folders of frames, or runs are the same");
+  const CommandLine command =
+      commandLine.addCommand("compare", "Whether two pictures, folders of frames, or runs are the same");
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("expected", arguments->expected, "Picture (PNG), folder of frames, or run.careen")
-      ->required();
-  command->add_option("actual", arguments->actual, "What is to be the same")->required();
-  arguments->options.addTo(*command);
-  command->add_option("--out", arguments->report, "Folder for a report: index.html, report.json, junit.xml");
-  command->add_option("--threads", arguments->options.threads,
-                      "Frames compared side by side; as many as there are cores");
-  command->add_option("--log", arguments->log, "text, or json: a line for each frame on the standard output")
-      ->check(CLI::IsMember({"text", "json"}));
-  command->callback([arguments, &chosen] {
-    chosen = [arguments](const std::stop_token& stop) {
-      const bool logsFrames = arguments->log == "json";
-      const Comparison comparison =
-          compare(arguments->expected, arguments->actual, arguments->options.settings(), stop);
-      tell(comparison, logsFrames);
-      if (const std::filesystem::path& folder = arguments->report; !folder.empty()) {
-        writeReport(folder, comparison);
-        (logsFrames ? std::cerr : std::cout)
-            << "report: " << std::filesystem::absolute(folder / "index.html").lexically_normal().string()
-            << '\n';
-      }
-      return exitCodeOf(comparison);
-    };
+  command.add("expected", arguments->expected, "Picture (PNG), folder of frames, or run.careen").required();
+  command.add("actual", arguments->actual, "What is to be the same").required();
+  arguments->options.addTo(command);
+  command.add("--out", arguments->report, "Folder for a report: index.html, report.json, junit.xml");
+  command.add("--threads", arguments->options.threads,
+              "Frames compared side by side; as many as there are cores");
+  command.add("--log", arguments->log, "text, or json: a line for each frame on the standard output")
+      .oneOf({"text", "json"});
+  command.runs([arguments](const std::stop_token& stop) {
+    const bool logsFrames = arguments->log == "json";
+    const Comparison comparison =
+        compare(arguments->expected, arguments->actual, arguments->options.settings(), stop);
+    tell(comparison, logsFrames);
+    if (const std::filesystem::path& folder = arguments->report; !folder.empty()) {
+      writeReport(folder, comparison);
+      (logsFrames ? std::cerr : std::cout)
+          << "report: " << std::filesystem::absolute(folder / "index.html").lexically_normal().string()
+          << '\n';
+    }
+    return exitCodeOf(comparison);
   });
 }
 

@@ -10,11 +10,9 @@
 #include "compare/comparison.h"
 #include "core/error.h"
 
-namespace CLI {
-class App;
-}
-
 namespace careen {
+
+class CommandLine;
 
 /// Options of a comparison, as given on the command line.
 struct CompareOptions {
@@ -28,7 +26,7 @@ struct CompareOptions {
   std::set<std::string> only;  ///< frames by name; empty: all
 
   /// Adds all options but --threads, which has another meaning for a command that draws.
-  void addTo(CLI::App& command);
+  void addTo(const CommandLine& command);
   /// InputError for everything that can be found wrong before the comparison.
   ComparisonSettings settings() const;
 };

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <filesystem>
 #include <iostream>
@@ -40,13 +39,12 @@ ExitCode infoCommand(std::filesystem::path path, const std::stop_token& stop) {
 
 }  // namespace
 
-void addInfo(CLI::App& commandLine, Command& chosen) {
-  CLI::App* command =
-      commandLine.add_subcommand("info", "What a scene's run models, what it leaves out, and why");
+void addInfo(const CommandLine& commandLine) {
+  const CommandLine command =
+      commandLine.addCommand("info", "What a scene's run models, what it leaves out, and why");
   const auto path = std::make_shared<std::filesystem::path>();
-  command->add_option("file", *path, "Scene or trajectory file; the default scene if none is named");
-  command->callback(
-      [path, &chosen] { chosen = [path](const std::stop_token& stop) { return infoCommand(*path, stop); }; });
+  command.add("file", *path, "Scene or trajectory file; the default scene if none is named");
+  command.runs([path](const std::stop_token& stop) { return infoCommand(*path, stop); });
 }
 
 }  // namespace careen

@@ -1,6 +1,5 @@
 #include <malloc.h>
 
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -17,31 +16,28 @@ int exitWith(ExitCode code) { return static_cast<int>(code); }
 
 // A negative result is a signal; the process then ends by it, so that the caller sees it.
 int runCommandLine(int argc, char** argv, Interruption& interruption) {
-  CLI::App commandLine("Films rigid boxes that tumble and collide with walls.", "careen");
-  commandLine.set_version_flag("--version", "careen " CAREEN_VERSION);
-  commandLine.require_subcommand(1);
-  Command chosen;
+  const CommandLine commandLine("Films rigid boxes that tumble and collide with walls.", "careen",
+                                "careen " CAREEN_VERSION);
 #ifdef CAREEN_RENDER
-  addRender(commandLine, chosen);
+  addRender(commandLine);
 #endif
-  addSimulate(commandLine, chosen);
-  addStudy(commandLine, chosen);
-  addCompare(commandLine, chosen);
-  addInfo(commandLine, chosen);
-  addVerify(commandLine, chosen);
+  addSimulate(commandLine);
+  addStudy(commandLine);
+  addCompare(commandLine);
+  addInfo(commandLine);
+  addVerify(commandLine);
 #ifdef CAREEN_RENDER
-  addView(commandLine, chosen);
+  addView(commandLine);
 #endif
   commandLine.footer(
       "Exit codes: 0 done, 1 frames or states differ, 2 bad usage or bad input, 3 the machine failed,\n"
       "4 the numbers failed. 'careen COMMAND --help' tells a command's options.");
-  try {
-    commandLine.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return exitWith(commandLine.exit(error) == 0 ? ExitCode::kDone : ExitCode::kBadInput);
+  const CommandLine::Parsed parsed = commandLine.parse(argc, argv);
+  if (!parsed.command) {
+    return exitWith(parsed.exitCode);
   }
   try {
-    return exitWith(chosen(interruption.token()));
+    return exitWith(parsed.command(interruption.token()));
   } catch (const Interrupted&) {
     std::cerr << "careen: interrupted\n";
     return -interruption.signal();

@@ -1,11 +1,11 @@
 #include "picture_options.h"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <string_view>
 #include <tuple>
 #include <utility>
 
+#include "command_line.h"
 #include "parsed.h"
 
 namespace careen {
@@ -29,25 +29,21 @@ std::pair<int, int> parseSize(const std::string& text) {
 
 }  // namespace
 
-void PictureOptions::addTo(CLI::App& command) {
-  command.add_option("--size", size, "WIDTHxHEIGHT in place of the scene's [px]");
-  command.add_option("--fps", rate, "Frames per second in place of the scene's, such as 25 or 24000/1001");
-  command.add_option("--shutter", shutter,
-                     "Motion blur in place of the scene's: how long the shutter is open, 360 from frame to "
-                     "frame, and how many moments are averaged, such as 180:8; 0: none");
-  command.add_option("--look", look, "studio, blueprint or clay in place of the scene's look");
-  command.add_option("--antialiasing", antialiasing,
-                     "off, edges, 4x or supersampled in place of the scene's");
-  command.add_option(
-      "--overlays", overlays,
-      "What to draw over the film in place of the scene's, such as time,energy; none: nothing");
-  command.add_option(
-      "--rendering-backend", backend,
-      "What draws: auto, osmesa or egl (default: auto, the first of the others that there is)");
-  command.add_option(
-      "--threads", context.threads,
-      "Threads that fill pixels in each process that draws; 0: none but its main one (default: "
-      "what cores there are for it)");
+void PictureOptions::addTo(const CommandLine& command) {
+  command.add("--size", size, "WIDTHxHEIGHT in place of the scene's [px]");
+  command.add("--fps", rate, "Frames per second in place of the scene's, such as 25 or 24000/1001");
+  command.add("--shutter", shutter,
+              "Motion blur in place of the scene's: how long the shutter is open, 360 from frame to "
+              "frame, and how many moments are averaged, such as 180:8; 0: none");
+  command.add("--look", look, "studio, blueprint or clay in place of the scene's look");
+  command.add("--antialiasing", antialiasing, "off, edges, 4x or supersampled in place of the scene's");
+  command.add("--overlays", overlays,
+              "What to draw over the film in place of the scene's, such as time,energy; none: nothing");
+  command.add("--rendering-backend", backend,
+              "What draws: auto, osmesa or egl (default: auto, the first of the others that there is)");
+  command.add("--threads", context.threads,
+              "Threads that fill pixels in each process that draws; 0: none but its main one (default: "
+              "what cores there are for it)");
 }
 
 void PictureOptions::applyTo(PictureSettings& picture) const {

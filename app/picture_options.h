@@ -7,11 +7,9 @@
 #include "render/gl/rendering_backend.h"
 #include "stage/picture_settings.h"
 
-namespace CLI {
-class App;
-}
-
 namespace careen {
+
+class CommandLine;
 
 /// Command-line options that override the scene's picture settings, and the rendering backend.
 struct PictureOptions {
@@ -24,7 +22,7 @@ struct PictureOptions {
   std::string backend = "auto";
   ContextOptions context;
 
-  void addTo(CLI::App& command);
+  void addTo(const CommandLine& command);
 
   /// Overrides the picture's settings with those that were given.
   void applyTo(PictureSettings& picture) const;

@@ -1,6 +1,5 @@
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <filesystem>
 #include <iostream>
@@ -221,61 +220,54 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
 
 }  // namespace
 
-void addRender(CLI::App& commandLine, Command& chosen) {
-  CLI::App* command = commandLine.add_subcommand("render", "Make a film of a scene, or of a run");
+void addRender(const CommandLine& commandLine) {
+  const CommandLine command = commandLine.addCommand("render", "Make a film of a scene, or of a run");
   const auto options = std::make_shared<FilmOptions>();
-  command->add_option("file", options->source,
-                      "Scene or trajectory file; the default scene if none is named");
-  command->add_option(
-      "--out", options->folder,
-      "Folder for the frames, or file of a single picture (default: out/ and the scene's name)");
-  CLI::Option* frames =
-      command->add_option("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
-  options->picture.addTo(*command);
-  CLI::Option* video = command->add_option(
+  command.add("file", options->source, "Scene or trajectory file; the default scene if none is named");
+  command.add("--out", options->folder,
+              "Folder for the frames, or file of a single picture (default: out/ and the scene's name)");
+  const CommandOption frames =
+      command.add("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
+  options->picture.addTo(command);
+  const CommandOption video = command.add(
       "--video", options->video, "Film to make of the frames, by ffmpeg: .mp4, .mkv, .webm, .webp or .gif");
-  command
-      ->add_option("--codec", options->codec,
-                   "h264, vp9 or av1 (default: h264 for .mp4 and .mkv, vp9 for .webm)")
-      ->needs(video);
-  command->add_option("--quality", options->quality, "The video's: draft, good or best (default: good)")
-      ->needs(video);
-  command->add_option("--jobs", options->jobs,
-                      "Frames drawn at once, each in a process of its own (default: one for each core)");
-  CLI::Option* resume =
-      command->add_flag("--resume", options->resume,
-                        "Keep the frames of the same film that are there and whole, and draw the others");
-  CLI::Option* still = command
-                           ->add_option("--still", options->still,
-                                        "One picture, of this moment of the film [s], in place of the film")
-                           ->excludes(frames, video, resume);
-  CLI::Option* strobe =
+  command.add("--codec", options->codec, "h264, vp9 or av1 (default: h264 for .mp4 and .mkv, vp9 for .webm)")
+      .needs(video);
+  command.add("--quality", options->quality, "The video's: draft, good or best (default: good)").needs(video);
+  command.add("--jobs", options->jobs,
+              "Frames drawn at once, each in a process of its own (default: one for each core)");
+  const CommandOption resume =
+      command.addFlag("--resume", options->resume,
+                      "Keep the frames of the same film that are there and whole, and draw the others");
+  const CommandOption still =
       command
-          ->add_option("--strobe", options->strobe,
-                       "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
-          ->excludes(frames, video, resume, still);
-  CLI::App* comparing = command->add_option_group(
-      "Comparing", "With a film that was made before: exit code 1 if this one differs");
-  CLI::Option* reference =
+          .add("--still", options->still, "One picture, of this moment of the film [s], in place of the film")
+          .excludes(frames, video, resume);
+  const CommandOption strobe =
+      command
+          .add("--strobe", options->strobe,
+               "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
+          .excludes(frames, video, resume, still);
+  const CommandLine comparing =
+      command.addGroup("Comparing", "With a film that was made before: exit code 1 if this one differs");
+  const CommandOption reference =
       comparing
-          ->add_option("--ref", options->reference,
-                       "Folder of that film. Its frames are drawn, of its size, rate and look unless told "
-                       "otherwise; those that differ stay in --out")
-          ->excludes(still, strobe, video, resume);
-  CLI::App* how = comparing->add_option_group("How", "What counts as different");
-  options->compare.addTo(*how);
-  how->needs(reference);
-  command->add_flag("--list-rendering-backends", options->listBackends,
-                    "Tell which of them are available, and make no film");
-  command->add_option("--log", options->log,
-                      "text, or json: a line for each frame drawn on the standard output, and nothing else "
-                      "there (default: text)");
-  options->overrides.addAllowOverlapTo(*command);
-  options->estimate.addTo(*command);
-  command->callback([options, &chosen] {
-    chosen = [options](const std::stop_token& stop) {
-      return options->listBackends ? listBackends(options->picture.context) : renderCommand(*options, stop);
-    };
+          .add("--ref", options->reference,
+               "Folder of that film. Its frames are drawn, of its size, rate and look unless told "
+               "otherwise; those that differ stay in --out")
+          .excludes(still, strobe, video, resume);
+  const CommandLine how = comparing.addGroup("How", "What counts as different");
+  options->compare.addTo(how);
+  how.needs(reference);
+  command.addFlag("--list-rendering-backends", options->listBackends,
+                  "Tell which of them are available, and make no film");
+  command.add("--log", options->log,
+              "text, or json: a line for each frame drawn on the standard output, and nothing else "
+              "there (default: text)");
+  options->overrides.addAllowOverlapTo(command);
+  options->estimate.addTo(command);
+  command.runs([options](const std::stop_token& stop) {
+    return options->listBackends ? listBackends(options->picture.context) : renderCommand(*options, stop);
   });
 }
 

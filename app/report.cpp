@@ -131,6 +131,10 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
   return report;
 }
 
+std::string runReportText(const Run& run, double wallSeconds) {
+  return runReport(run, wallSeconds).dump(2) + "\n";
+}
+
 void printPlan(std::ostream& out, const std::string& scene, std::size_t boxes, const RunSettings& settings,
                const Plan& plan) {
   out << "scene        " << scene << ", " << boxes << (boxes == 1 ? " box, " : " boxes, ")

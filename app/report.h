@@ -12,6 +12,8 @@ namespace careen {
 
 /// report.json of a run (keys as in the contract); the renderer adds its own part.
 nlohmann::ordered_json runReport(const Run& run, double wallSeconds);
+/// Without that part, as text.
+std::string runReportText(const Run& run, double wallSeconds);
 
 /// The same in words: what was modelled, then speed and error next to each other.
 void printSummary(std::ostream& out, const Run& run, double wallSeconds);

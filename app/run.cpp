@@ -1,6 +1,5 @@
 #include "run.h"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstddef>
 #include <iostream>
@@ -8,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "command_line.h"
 #include "core/error.h"
 #include "core/math/arithmetic.h"
 #include "core/names.h"
@@ -120,18 +120,18 @@ Trajectory decodeRun(const std::string& bytes, const std::string& name) {
 
 }  // namespace
 
-void Overrides::addTo(CLI::App& command) {
-  command.add_option("--method", method, "Method of motion in place of the scene's");
-  command.add_option("--dt", dt, "Step in place of the scene's [s], for methods that step");
-  command.add_option("--tolerance", tolerance,
-                     "Tolerance in place of the scene's, for methods that choose their own");
-  command.add_option("--duration", duration, "Length of the run in place of the scene's [s]");
+void Overrides::addTo(const CommandLine& command) {
+  command.add("--method", method, "Method of motion in place of the scene's");
+  command.add("--dt", dt, "Step in place of the scene's [s], for methods that step");
+  command.add("--tolerance", tolerance,
+              "Tolerance in place of the scene's, for methods that choose their own");
+  command.add("--duration", duration, "Length of the run in place of the scene's [s]");
   addAllowOverlapTo(command);
 }
 
-void Overrides::addAllowOverlapTo(CLI::App& command) {
-  command.add_flag("--allow-overlap", allowOverlap,
-                   "Move boxes that overlap at the start apart, in place of refusing the scene");
+void Overrides::addAllowOverlapTo(const CommandLine& command) {
+  command.addFlag("--allow-overlap", allowOverlap,
+                  "Move boxes that overlap at the start apart, in place of refusing the scene");
 }
 
 const char* Overrides::given() const {
@@ -143,14 +143,14 @@ const char* Overrides::given() const {
                         : nullptr;
 }
 
-void EstimateChoice::addTo(CLI::App& command) {
-  CLI::Option* yes = command.add_flag_callback(
+void EstimateChoice::addTo(const CommandLine& command) {
+  const CommandOption yes = command.addFlag(
       "--estimate-error", [this] { asked = true; },
       "Run it a second time to tell how wrong it is (default: if that takes less than a tenth of the whole)");
   command
-      .add_flag_callback(
+      .addFlag(
           "--no-estimate-error", [this] { asked = false; }, "Do not")
-      ->excludes(yes);
+      .excludes(yes);
 }
 
 void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const std::stop_token& stop) {

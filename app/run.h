@@ -9,11 +9,9 @@
 #include "study/error_estimate.h"
 #include "trajectory/trajectory.h"
 
-namespace CLI {
-class App;
-}
-
 namespace careen {
+
+class CommandLine;
 
 /// A run, its origin and its cost.
 struct Run {
@@ -28,7 +26,7 @@ struct Run {
 struct EstimateChoice {
   std::optional<bool> asked;
 
-  void addTo(CLI::App& command);
+  void addTo(const CommandLine& command);
 };
 
 /// Estimates the run's error if asked to; by default only if that costs less than 10 % of the time spent so
@@ -43,8 +41,8 @@ struct Overrides {
   std::optional<double> duration;  ///< [s]
   bool allowOverlap = false;       ///< first move boxes apart that overlap at the start
 
-  void addTo(CLI::App& command);
-  void addAllowOverlapTo(CLI::App& command);
+  void addTo(const CommandLine& command);
+  void addAllowOverlapTo(const CommandLine& command);
   /// The first option that was given; null if none was.
   const char* given() const;
 };

@@ -1,10 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <iostream>
 #include <list>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
@@ -64,8 +62,7 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   outputs.add(options.poses,
               [&](const TextSink& sink) { writePosesCsv(run.trajectory, options.every, sink); });
   outputs.add(options.impacts, [&](const TextSink& sink) { writeImpactsCsv(run.trajectory, sink); });
-  outputs.add(options.report,
-              [&](const TextSink& sink) { sink(runReport(run, stopwatch.seconds()).dump(2) + "\n"); });
+  outputs.add(options.report, [&](const TextSink& sink) { sink(runReportText(run, stopwatch.seconds())); });
   outputs.commit();
 
   printSummary(std::cout, run, stopwatch.seconds());
@@ -75,22 +72,20 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
 
 }  // namespace
 
-void addSimulate(CLI::App& commandLine, Command& chosen) {
-  CLI::App* command = commandLine.add_subcommand("simulate", "Run a scene and keep what happened");
+void addSimulate(const CommandLine& commandLine) {
+  const CommandLine command = commandLine.addCommand("simulate", "Run a scene and keep what happened");
   const auto options = std::make_shared<SimulateOptions>();
-  command->add_option("scene", options->scene, "Scene file; the default scene if none is named");
-  command->add_option("-o,--output", options->output, "Trajectory file (default: the scene's name, .careen)");
-  CLI::Option* poses = command->add_option("--poses", options->poses, "Table of poses (CSV)");
-  command->add_option("--every", options->every, "Time between rows of the table of poses [s]")
-      ->needs(poses)
-      ->capture_default_str();
-  command->add_option("--impacts", options->impacts, "Table of impacts (CSV)");
-  command->add_option("--report", options->report, "What was modelled, speed and error (JSON)");
-  options->overrides.addTo(*command);
-  options->estimate.addTo(*command);
-  command->callback([options, &chosen] {
-    chosen = [options](const std::stop_token& stop) { return simulateCommand(*options, stop); };
-  });
+  command.add("scene", options->scene, "Scene file; the default scene if none is named");
+  command.add("-o,--output", options->output, "Trajectory file (default: the scene's name, .careen)");
+  const CommandOption poses = command.add("--poses", options->poses, "Table of poses (CSV)");
+  command.add("--every", options->every, "Time between rows of the table of poses [s]")
+      .needs(poses)
+      .showsDefault();
+  command.add("--impacts", options->impacts, "Table of impacts (CSV)");
+  command.add("--report", options->report, "What was modelled, speed and error (JSON)");
+  options->overrides.addTo(command);
+  options->estimate.addTo(command);
+  command.runs([options](const std::stop_token& stop) { return simulateCommand(*options, stop); });
 }
 
 }  // namespace careen

@@ -1,6 +1,5 @@
 #include "study/study.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iomanip>
@@ -131,21 +130,18 @@ ExitCode studyCommand(const StudyOptions& options, const std::stop_token& stop) 
 
 }  // namespace
 
-void addStudy(CLI::App& commandLine, Command& chosen) {
-  CLI::App* command =
-      commandLine.add_subcommand("study", "Speed against error, on cases whose truth is known");
+void addStudy(const CommandLine& commandLine) {
+  const CommandLine command =
+      commandLine.addCommand("study", "Speed against error, on cases whose truth is known");
   const auto options = std::make_shared<StudyOptions>();
-  command->add_option("cases", options->cases,
-                      "Names of cases, or scene files of your own; all cases if none");
-  command->add_option("--methods", options->methods, "Only these, with commas between")->delimiter(',');
-  command->add_option("--out", options->out, "Folder for tables, plots and page")->capture_default_str();
-  command->add_flag("--quick", options->quick, "Few steps, few repeats: a minute for all");
-  command->add_flag("--resume", options->resume, "Take over what is finished in the folder");
-  command->add_flag("--no-plots", options->noPlots, "Tables and page only; gnuplot is not needed");
-  command->add_flag("--list", options->list, "Only list the cases");
-  command->callback([options, &chosen] {
-    chosen = [options](const std::stop_token& stop) { return studyCommand(*options, stop); };
-  });
+  command.add("cases", options->cases, "Names of cases, or scene files of your own; all cases if none");
+  command.add("--methods", options->methods, "Only these, with commas between").delimiter(',');
+  command.add("--out", options->out, "Folder for tables, plots and page").showsDefault();
+  command.addFlag("--quick", options->quick, "Few steps, few repeats: a minute for all");
+  command.addFlag("--resume", options->resume, "Take over what is finished in the folder");
+  command.addFlag("--no-plots", options->noPlots, "Tables and page only; gnuplot is not needed");
+  command.addFlag("--list", options->list, "Only list the cases");
+  command.runs([options](const std::stop_token& stop) { return studyCommand(*options, stop); });
 }
 
 }  // namespace careen

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -38,12 +37,12 @@ ExitCode verifyCommand(const std::filesystem::path& folder) {
 
 }  // namespace
 
-void addVerify(CLI::App& commandLine, Command& chosen) {
-  CLI::App* command = commandLine.add_subcommand("verify", "Which frames of a film are missing or broken");
+void addVerify(const CommandLine& commandLine) {
+  const CommandLine command =
+      commandLine.addCommand("verify", "Which frames of a film are missing or broken");
   const auto path = std::make_shared<std::filesystem::path>();
-  command->add_option("folder", *path, "Folder of frames")->required();
-  command->callback(
-      [path, &chosen] { chosen = [path](const std::stop_token&) { return verifyCommand(*path); }; });
+  command.add("folder", *path, "Folder of frames").required();
+  command.runs([path](const std::stop_token&) { return verifyCommand(*path); });
 }
 
 }  // namespace careen

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -28,19 +27,16 @@ ExitCode viewCommand(ViewOptions options, const std::stop_token& stop) {
 
 }  // namespace
 
-void addView(CLI::App& commandLine, Command& chosen) {
-  CLI::App* command =
-      commandLine.add_subcommand("view", "Show the film of a scene, or of a run, in a window");
+void addView(const CommandLine& commandLine) {
+  const CommandLine command =
+      commandLine.addCommand("view", "Show the film of a scene, or of a run, in a window");
   const auto options = std::make_shared<ViewOptions>();
-  command->add_option("file", options->source,
-                      "Scene or trajectory file; the default scene if none is named");
-  command->add_option("--out", options->folder, "Folder for stills (default: out)");
-  options->picture.addTo(*command);
-  options->overrides.addTo(*command);
-  command->footer(std::string("Keys and mouse:\n") + kViewerHelp);
-  command->callback([options, &chosen] {
-    chosen = [options](const std::stop_token& stop) { return viewCommand(*options, stop); };
-  });
+  command.add("file", options->source, "Scene or trajectory file; the default scene if none is named");
+  command.add("--out", options->folder, "Folder for stills (default: out)");
+  options->picture.addTo(command);
+  options->overrides.addTo(command);
+  command.footer(std::string("Keys and mouse:\n") + kViewerHelp);
+  command.runs([options](const std::stop_token& stop) { return viewCommand(*options, stop); });
 }
 
 }  // namespace careen

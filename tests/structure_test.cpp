@@ -263,7 +263,7 @@ TEST(Structure, foreignHeadersStayWhereTheyBelong) {
       {std::regex("^(GL|EGL|GLFW)/.*"), {"render"}},
       {std::regex("^(stb/)?stb_.*"), {"image"}},
       {std::regex("^nlohmann/.*"), {"scene", "study", "compare", "film", "app"}},
-      {std::regex("^CLI/.*"), {"app"}},
+      {std::regex("^CLI/.*"), {"app"}, "command_line"},
       {std::regex("^(bt[A-Z]|Bullet|LinearMath/).*"), {"study"}, "peer_bullet"},
       {std::regex("^ode/.*"), {"study"}, "peer_ode"},
   };
