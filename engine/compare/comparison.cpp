@@ -13,7 +13,6 @@
 #include "core/error.h"
 #include "core/system/file.h"
 #include "image/deep_picture.h"
-#include "physics/world/method.h"
 #include "trajectory/trajectory_file.h"
 
 namespace careen {
@@ -265,7 +264,7 @@ std::vector<Fact> factsOf(const Trajectory& expected, const Trajectory& actual) 
   };
   add("scene hash", [](const Trajectory& run) { return run.sceneHash(); });
   add("state hash", [](const Trajectory& run) { return run.stateHash(); });
-  add("method", [](const Trajectory& run) { return std::string(traitsOf(run.settings.method).name); });
+  add("method", [](const Trajectory& run) { return run.methodName(); });
   add("tolerance [m]", [](const Trajectory& run) { return brief(run.settings.tolerance); });
   add("energy change [1]", [](const Trajectory& run) { return brief(run.figures.energyChange); });
   add("deepest penetration [m]", [](const Trajectory& run) { return brief(run.figures.deepestPenetration); });

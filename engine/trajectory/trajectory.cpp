@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "physics/simulate.h"
+#include "physics/world/method.h"
 #include "physics/world/run_settings.h"
 
 namespace careen {
@@ -71,6 +72,8 @@ const std::string& Trajectory::partnerName(const Impact& impact) const {
   return impact.b.isWall() ? world.walls.at(impact.b.wall()).name
                            : world.bodies.at(static_cast<std::size_t>(impact.b.body())).name;
 }
+
+std::string Trajectory::methodName() const { return std::string(traitsOf(settings.method).name); }
 
 std::string Trajectory::sceneHash() const {
   Hash hash;

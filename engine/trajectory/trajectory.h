@@ -40,6 +40,9 @@ struct Trajectory : RunSetup {
   /// Name of the box or wall that body a struck.
   const std::string& partnerName(const Impact& impact) const;
 
+  /// As scene files spell it.
+  std::string methodName() const;
+
   /// Hash of the scene file's bytes.
   std::string sceneHash() const;
   /// Hash of the final states of all bodies, bit for bit, in order of the bodies' names.
