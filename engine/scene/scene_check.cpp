@@ -150,7 +150,7 @@ void checkStart(const JsonTree& tree, const Scene& scene) {
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
     const SceneBox& box = scene.boxes[i];
     for (const Wall& wall : walls) {
-      const LowestGap lowest = lowestGap(wall, box.halfExtents, box.pose);
+      const LowestGap lowest = lowestGap(wall, {box.pose, box.halfExtents});
       if (lowest.overlaps()) {
         tree.fail(
             memberOrSelf(elementOf(tree, "boxes", i), "position").offset,

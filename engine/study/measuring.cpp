@@ -83,7 +83,7 @@ double deepestOverlap(const World& world, const std::vector<BodyState>& states) 
   }
   for (const PlacedBox& box : boxes) {
     for (const Wall& wall : world.walls) {
-      const double gap = box.inverseMass > 0 ? lowestGap(wall, box.halfExtents, box.pose).gap : 0;
+      const double gap = box.inverseMass > 0 ? lowestGap(wall, box.at()).gap : 0;
       worst = std::max(worst, std::isfinite(gap) ? -gap / box.halfExtents.norm() : INFINITY);
     }
   }

@@ -59,7 +59,7 @@ void bounceInRoom(benchmark::State& state) {
   std::vector<TumblingBox> boxes = flights(256);
   for (TumblingBox& box : boxes) {
     box.velocity.z() = 5;
-    box.position.z() -= wallGap(box.moving().poseAt(0), box.halfExtents, Vec3::UnitZ(), -kRoom, 0).gap;
+    box.position.z() -= gapToPlane({box.moving().poseAt(0), box.halfExtents}, Vec3::UnitZ(), -kRoom);
   }
   nextImpact(state, boxes);
 }

@@ -195,6 +195,7 @@ Flying SteppedBody::after(double h, std::int64_t count) const {
   return next;
 }
 
+// Adds in another order than gapToPlane: results of the study keep their bits.
 double SteppedBody::gapOf(const Flying& flying) const {
   double lowest = std::numeric_limits<double>::infinity();
   const Mat3 columns = flying.rotation.worldFromBody.toRotationMatrix();

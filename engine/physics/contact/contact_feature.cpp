@@ -171,8 +171,9 @@ ContactState contactState(const ContactFeature& feature, const Kinematics& a, co
   return state;
 }
 
-ContactFeature featureAt(const ContactPoint& point, double apart, int a, const Pose& poseA,
-                         const Vec3& halfExtentsA, int b, const Pose& poseB, const Vec3& halfExtentsB) {
+ContactFeature featureAt(const ContactPoint& point, double apart, int a, BoxAt boxA, int b, BoxAt boxB) {
+  const auto& [poseA, halfExtentsA] = boxA;
+  const auto& [poseB, halfExtentsB] = boxB;
   const Vec3 placeA = poseA.worldFromBody.transpose() * point.armA;
   const Vec3 placeB = poseB.worldFromBody.transpose() * point.armB;
   const Sides sidesA = sidesAt(placeA, halfExtentsA, apart);

@@ -60,7 +60,6 @@ ContactState contactState(const ContactFeature& feature, const Kinematics& a, co
 
 /// The feature of two boxes at a point of boxContactPoints. `apart` [m] is their gap, negative for
 /// penetration: a crossing of edges lies halfway between them.
-ContactFeature featureAt(const ContactPoint& point, double apart, int a, const Pose& poseA,
-                         const Vec3& halfExtentsA, int b, const Pose& poseB, const Vec3& halfExtentsB);
+ContactFeature featureAt(const ContactPoint& point, double apart, int a, BoxAt boxA, int b, BoxAt boxB);
 
 }  // namespace careen

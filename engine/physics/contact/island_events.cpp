@@ -25,7 +25,7 @@ constexpr double kTimeStepDepth = 0.5;
 }  // namespace
 
 double Island::touching(std::size_t body) const {
-  return touchingWithin(system_.kinematics(body).pose, bodies()[body].body->halfExtents);
+  return touchingWithin({system_.kinematics(body).pose, bodies()[body].body->halfExtents});
 }
 
 void Island::listEventFunctions() {
@@ -216,7 +216,7 @@ double Island::deepWithin(double h, const EventFunction& event) const {
     const double time = h * k / kMoments;
     const Pose poseA = stateAt(ofA, bodies()[a].body->mass, time).pose;
     const Pose poseB = stateAt(ofB, bodies()[b].body->mass, time).pose;
-    if (BoxAxes(poseA, bodies()[a].body->halfExtents, poseB, bodies()[b].body->halfExtents).gap() <
+    if (BoxAxes({poseA, bodies()[a].body->halfExtents}, {poseB, bodies()[b].body->halfExtents}).gap() <
         -tolerance_) {
       return time;
     }
@@ -246,8 +246,8 @@ double Island::value(const EventFunction& event) const {
       const ContactFeature& feature = system_.features()[c];
       const auto a = static_cast<std::size_t>(feature.a);
       const auto b = static_cast<std::size_t>(feature.b.body());
-      return BoxAxes(system_.kinematics(a).pose, bodies()[a].body->halfExtents, system_.kinematics(b).pose,
-                     bodies()[b].body->halfExtents)
+      return BoxAxes({system_.kinematics(a).pose, bodies()[a].body->halfExtents},
+                     {system_.kinematics(b).pose, bodies()[b].body->halfExtents})
                  .gap() +
              event.margin;
     }

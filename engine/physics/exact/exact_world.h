@@ -95,6 +95,7 @@ class ExactWorld {
                   std::vector<ContactFeature>& features) const;
   void addOverlaps(const Encounter& encounter, std::vector<ContactFeature>& features) const;
   void addNear(Encounter& encounter) const;
+  BoxAt boxOf(const Encounter& encounter, std::size_t index) const;
   double gapOf(const Encounter& encounter, std::size_t a, std::size_t b) const;
   static std::size_t indexOf(const Encounter& encounter, int rank);
 

@@ -77,7 +77,6 @@ void ExactWorld::reach(const Event& event, Encounter& encounter) {
   }
   std::vector<Neighbors::Key> candidates;
   for (std::size_t reached = 0; reached < encounter.ranks.size(); ++reached) {
-    const Body& body = *mover(encounter.ranks[reached]).body;
     if (mover(encounter.ranks[reached]).isHeld()) {
       continue;
     }
@@ -85,8 +84,8 @@ void ExactWorld::reach(const Event& event, Encounter& encounter) {
     for (const Neighbors::Key candidate : candidates) {
       const Mover& other = mover(candidate);
       if (std::find(encounter.ranks.begin(), encounter.ranks.end(), candidate) == encounter.ranks.end() &&
-          areTouching(body, encounter.before[reached].pose, *other.body,
-                      other.stateAt(encounter.time).pose)) {
+          areTouching(boxOf(encounter, reached),
+                      {other.stateAt(encounter.time).pose, other.body->halfExtents})) {
         join(encounter, candidate);
       }
     }
@@ -111,12 +110,12 @@ void ExactWorld::addPairContacts(Encounter& encounter, std::size_t indexA, std::
                                  double apart) const {
   const Body& a = *mover(encounter.ranks[indexA]).body;
   const Body& b = *mover(encounter.ranks[indexB]).body;
-  const Pose& poseA = encounter.before[indexA].pose;
-  const Pose& poseB = encounter.before[indexB].pose;
-  if ((isImmovable(a.mass) && isImmovable(b.mass)) || !areTouching(a, poseA, b, poseB, apart)) {
+  const BoxAt boxA = boxOf(encounter, indexA);
+  const BoxAt boxB = boxOf(encounter, indexB);
+  if ((isImmovable(a.mass) && isImmovable(b.mass)) || !areTouching(boxA, boxB, apart)) {
     return;
   }
-  for (const ContactPoint& at : boxContactPoints(poseA, a.halfExtents, poseB, b.halfExtents, apart)) {
+  for (const ContactPoint& at : boxContactPoints(boxA, boxB, apart)) {
     encounter.contacts.push_back({.a = static_cast<int>(indexA),
                                   .b = Partner::ofBody(static_cast<int>(indexB)),
                                   .armA = at.armA,

@@ -107,11 +107,10 @@ MovingBox Mover::moving(const Instant& clockZero) const {
           .accelerationBound = accelerationBound};
 }
 
-bool areTouching(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, double apart) {
-  const double within = std::max(apart, touchingWithin(poseA, a.halfExtents, poseB, b.halfExtents));
+bool areTouching(BoxAt a, BoxAt b, double apart) {
+  const double within = std::max(apart, touchingWithin(a, b));
   const double reach = a.halfExtents.norm() + b.halfExtents.norm() + within;
-  return (poseA.position - poseB.position).norm() <= reach &&
-         BoxAxes(poseA, a.halfExtents, poseB, b.halfExtents).gap() <= within;
+  return (a.pose.position - b.pose.position).norm() <= reach && BoxAxes(a, b).gap() <= within;
 }
 
 }  // namespace careen

@@ -75,6 +75,6 @@ struct Mover {
 };
 
 /// Whether the gap of two boxes is within the contact-group tolerance, or within `apart` [m] if that is more.
-bool areTouching(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, double apart = 0);
+bool areTouching(BoxAt a, BoxAt b, double apart = 0);
 
 }  // namespace careen

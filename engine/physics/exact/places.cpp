@@ -78,7 +78,7 @@ void ExactWorld::addHeld(const Encounter& encounter, std::vector<ContactFeature>
       ContactFeature feature = system.features()[c];
       const auto a = static_cast<std::size_t>(feature.a);
       const double within =
-          kAligned * touchingWithin(system.kinematics(a).pose, system.bodies()[a].body->halfExtents);
+          kAligned * touchingWithin({system.kinematics(a).pose, system.bodies()[a].body->halfExtents});
       const double past = system.states()[c].beyond;
       if (std::fabs(system.states()[c].gap) > within || past > within / 16) {
         continue;
@@ -99,7 +99,7 @@ void ExactWorld::addCorners(const Encounter& encounter, std::vector<ContactFeatu
     const Mover& body = mover(encounter.ranks[i]);
     const Pose& pose = encounter.before[i].pose;
     const Vec3& half = body.body->halfExtents;
-    const double within = kAligned * touchingWithin(pose, half);
+    const double within = kAligned * touchingWithin({pose, half});
     for (std::size_t w = 0; w < (body.isHeld() ? 0 : world_.walls.size()); ++w) {
       for (int k = 0; k < kCorners; ++k) {
         const Vec3 at = corner(half, k);
@@ -114,23 +114,22 @@ void ExactWorld::addCorners(const Encounter& encounter, std::vector<ContactFeatu
   }
 }
 
+BoxAt ExactWorld::boxOf(const Encounter& encounter, std::size_t index) const {
+  return {encounter.before[index].pose, mover(encounter.ranks[index]).body->halfExtents};
+}
+
 double ExactWorld::gapOf(const Encounter& encounter, std::size_t a, std::size_t b) const {
-  return BoxAxes(encounter.before[a].pose, mover(encounter.ranks[a]).body->halfExtents,
-                 encounter.before[b].pose, mover(encounter.ranks[b]).body->halfExtents)
-      .gap();
+  return BoxAxes(boxOf(encounter, a), boxOf(encounter, b)).gap();
 }
 
 // Adds the contact manifold of two boxes that are near each other.
 void ExactWorld::addMeeting(const Encounter& encounter, std::size_t a, std::size_t b,
                             std::vector<ContactFeature>& features) const {
-  const Pose& poseA = encounter.before[a].pose;
-  const Pose& poseB = encounter.before[b].pose;
-  const Vec3& halfA = mover(encounter.ranks[a]).body->halfExtents;
-  const Vec3& halfB = mover(encounter.ranks[b]).body->halfExtents;
+  const BoxAt boxA = boxOf(encounter, a);
+  const BoxAt boxB = boxOf(encounter, b);
   const double apart = gapOf(encounter, a, b);
-  for (const ContactPoint& at : boxContactPoints(poseA, halfA, poseB, halfB)) {
-    features.push_back(
-        featureAt(at, apart, static_cast<int>(a), poseA, halfA, static_cast<int>(b), poseB, halfB));
+  for (const ContactPoint& at : boxContactPoints(boxA, boxB)) {
+    features.push_back(featureAt(at, apart, static_cast<int>(a), boxA, static_cast<int>(b), boxB));
   }
 }
 
@@ -144,7 +143,7 @@ void ExactWorld::addOverlaps(const Encounter& encounter, std::vector<ContactFeat
       if ((!isImmovable(a.mass) || !isImmovable(b.mass)) &&
           (pose.position - encounter.before[j].pose.position).norm() <=
               a.halfExtents.norm() + b.halfExtents.norm() &&
-          gapOf(encounter, i, j) < -kAligned * touchingWithin(pose, a.halfExtents)) {
+          gapOf(encounter, i, j) < -kAligned * touchingWithin({pose, a.halfExtents})) {
         addMeeting(encounter, i, j, features);
       }
     }

@@ -33,9 +33,10 @@ struct Feature {
   }
 };
 
-Feature furthest(const Pose& box, const Vec3& halfExtents, const Vec3& direction, double within) {
+Feature furthest(BoxAt box, const Vec3& direction, double within) {
+  const auto& [pose, halfExtents] = box;
   Feature feature{.axis = {Vec3::Zero(), Vec3::Zero()}};
-  const Vec3 along = box.worldFromBody.transpose() * direction;
+  const Vec3 along = pose.worldFromBody.transpose() * direction;
   // A box thinner than the tolerance still has two sides: its steepest axis never counts as level.
   int steepest = 0;
   for (int i = 1; i < 3; ++i) {
@@ -46,11 +47,11 @@ Feature furthest(const Pose& box, const Vec3& halfExtents, const Vec3& direction
   for (int i = 0; i < 3; ++i) {
     if (i != steepest && 2 * halfExtents(i) * std::fabs(along(i)) <= within) {
       const auto k = static_cast<std::size_t>(feature.freedom);
-      feature.axis[k] = box.worldFromBody.col(i);
+      feature.axis[k] = pose.worldFromBody.col(i);
       feature.half[k] = halfExtents(i);
       ++feature.freedom;
     } else {
-      feature.centre += (along(i) > 0 ? halfExtents(i) : -halfExtents(i)) * box.worldFromBody.col(i);
+      feature.centre += (along(i) > 0 ? halfExtents(i) : -halfExtents(i)) * pose.worldFromBody.col(i);
     }
   }
   return feature;
@@ -185,16 +186,15 @@ BoxAxis contactAxis(const BoxAxes& axes, double within) {
 
 }  // namespace
 
-ContactPoints boxContactPoints(const Pose& a, const Vec3& halfExtentsA, const Pose& b,
-                               const Vec3& halfExtentsB, double apart) {
-  const double within = std::max(apart, touchingWithin(a, halfExtentsA, b, halfExtentsB));
-  const Vec3 bToA = a.position - b.position;
-  const BoxAxes axes(a, halfExtentsA, b, halfExtentsB);
+ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart) {
+  const double within = std::max(apart, touchingWithin(a, b));
+  const Vec3 bToA = a.pose.position - b.pose.position;
+  const BoxAxes axes(a, b);
   const BoxAxis axis = contactAxis(axes, within);
   const Vec3 normal = axes.normal(axis);
 
-  const Feature ofA = furthest(a, halfExtentsA, -normal, within);
-  const Feature ofB = furthest(b, halfExtentsB, normal, within);
+  const Feature ofA = furthest(a, -normal, within);
+  const Feature ofB = furthest(b, normal, within);
   Manifold manifold(normal, bToA, within);
   if (ofA.freedom == 0 || ofB.freedom == 0) {
     // Of two corners, the contact point is the one that meets the other box's face or edge.

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "core/math/linear_algebra.h"
-#include "core/math/pose.h"
+#include "physics/geometry/box_at.h"
 #include "physics/geometry/separation.h"
 
 namespace careen {
@@ -44,7 +44,6 @@ class ContactPoints {
 /// cornerwise) define no unique normal: the first axis listed, a's before b's, is taken.
 ///
 /// Points with a gap up to `apart` [m], if more than kSimultaneous, also count as contact.
-ContactPoints boxContactPoints(const Pose& a, const Vec3& halfExtentsA, const Pose& b,
-                               const Vec3& halfExtentsB, double apart = 0);
+ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart = 0);
 
 }  // namespace careen

@@ -34,28 +34,33 @@ double reach(const Vec3& direction, const Mat3& worldFromBox, const Vec3& halfEx
 
 }  // namespace
 
-double touchingWithin(const Pose& box, const Vec3& halfExtents) {
-  const double radius = halfExtents.norm();
-  return touchingWithin(radius, box.position.cwiseAbs().sum() + radius);
+double touchingWithin(BoxAt box) {
+  const double radius = box.halfExtents.norm();
+  return touchingWithin(radius, box.pose.position.cwiseAbs().sum() + radius);
 }
 
-double touchingWithin(const Pose& a, const Vec3& halfExtentsA, const Pose& b, const Vec3& halfExtentsB) {
-  const double radiusA = halfExtentsA.norm();
-  const double radiusB = halfExtentsB.norm();
-  return touchingWithin(std::min(radiusA, radiusB),
-                        (a.position.cwiseAbs().sum() + b.position.cwiseAbs().sum()) + (radiusA + radiusB));
+double touchingWithin(BoxAt a, BoxAt b) {
+  const double radiusA = a.halfExtents.norm();
+  const double radiusB = b.halfExtents.norm();
+  return touchingWithin(
+      std::min(radiusA, radiusB),
+      (a.pose.position.cwiseAbs().sum() + b.pose.position.cwiseAbs().sum()) + (radiusA + radiusB));
 }
 
 double cornerGap(const Pose& box, const Vec3& corner, const Vec3& normal, double offset) {
   return normal.dot(box.position) + normal.dot(box.worldFromBody * corner) - offset;
 }
 
-WallGap wallGap(const Pose& box, const Vec3& halfExtents, const Vec3& normal, double offset, double within) {
-  const double height = normal.dot(box.position) - offset;
-  WallGap result{.gap = height - reach(normal, box.worldFromBody, halfExtents)};
-  const Vec3 upInBody = box.worldFromBody.transpose() * normal;
+double gapToPlane(BoxAt box, const Vec3& normal, double offset) {
+  return normal.dot(box.pose.position) - offset - reach(normal, box.pose.worldFromBody, box.halfExtents);
+}
+
+WallGap wallGap(BoxAt box, const Vec3& normal, double offset, double within) {
+  const double height = normal.dot(box.pose.position) - offset;
+  WallGap result{.gap = gapToPlane(box, normal, offset)};
+  const Vec3 upInBody = box.pose.worldFromBody.transpose() * normal;
   for (int i = 0; i < kCorners; ++i) {
-    if (height + upInBody.dot(corner(halfExtents, i)) <= result.gap + within) {
+    if (height + upInBody.dot(corner(box.halfExtents, i)) <= result.gap + within) {
       result.corners |= 1U << static_cast<unsigned>(i);
     }
   }

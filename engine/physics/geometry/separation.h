@@ -5,6 +5,7 @@
 
 #include "core/math/linear_algebra.h"
 #include "core/math/pose.h"
+#include "physics/geometry/box_at.h"
 
 namespace careen {
 
@@ -29,8 +30,8 @@ inline double touchingWithin(double radius, double lengths) {
 }
 
 /// Likewise for a box and a fixed body, and for two boxes.
-double touchingWithin(const Pose& box, const Vec3& halfExtents);
-double touchingWithin(const Pose& a, const Vec3& halfExtentsA, const Pose& b, const Vec3& halfExtentsB);
+double touchingWithin(BoxAt box);
+double touchingWithin(BoxAt a, BoxAt b);
 
 /// [m] Signed gap of one corner, given in the box's frame, to the half-space normal·x > offset.
 double cornerGap(const Pose& box, const Vec3& corner, const Vec3& normal, double offset);
@@ -38,13 +39,16 @@ double cornerGap(const Pose& box, const Vec3& corner, const Vec3& normal, double
 /// Corner k of a box is bit k of a set; corners as in corner().
 using CornerSet = unsigned;
 
-/// Signed gap of a box to the half-space normal·x > offset: n·x − Σ hᵢ|n·aᵢ| − offset, where aᵢ are the
-/// columns of worldFromBody.
+/// [m] Signed gap of a box to the half-space normal·x > offset: n·x − offset − Σ hᵢ|n·aᵢ|, where aᵢ are the
+/// columns of worldFromBody. Negative: inside the wall.
+double gapToPlane(BoxAt box, const Vec3& normal, double offset);
+
+/// The same with the corners that attain it.
 struct WallGap {
-  double gap = 0;         ///< [m] of the lowest corner; negative: inside the wall
+  double gap = 0;         ///< [m] of the lowest corner
   CornerSet corners = 0;  ///< corners at most `within` above the lowest
 };
-WallGap wallGap(const Pose& box, const Vec3& halfExtents, const Vec3& normal, double offset, double within);
+WallGap wallGap(BoxAt box, const Vec3& normal, double offset, double within);
 
 /// The 15 separating-axis candidates of two boxes: face normals of each and cross products of their edges
 /// (Gottschalk, Lin, Manocha 1996). The boxes are disjoint exactly when one of them separates.
@@ -67,8 +71,9 @@ struct BoxAxis {
 class BoxAxes {
  public:
   BoxAxes(Mat3 worldFromA, Vec3 halfExtentsA, Mat3 worldFromB, Vec3 halfExtentsB, Vec3 bToA);
-  BoxAxes(const Pose& a, const Vec3& halfExtentsA, const Pose& b, const Vec3& halfExtentsB)
-      : BoxAxes(a.worldFromBody, halfExtentsA, b.worldFromBody, halfExtentsB, a.position - b.position) {}
+  BoxAxes(BoxAt a, BoxAt b)
+      : BoxAxes(a.pose.worldFromBody, a.halfExtents, b.pose.worldFromBody, b.halfExtents,
+                a.pose.position - b.pose.position) {}
 
   /// [m] Largest separation, and the first axis that attains it. Positive: a lower bound of the distance.
   /// Zero: touching. Negative: penetration depth along that axis.

@@ -8,11 +8,11 @@ namespace careen {
 
 double addWallContacts(const World& world, const Body& body, const Pose& pose, int index,
                        std::vector<ImpactContact>& contacts) {
-  const double within = touchingWithin(pose, body.halfExtents);
+  const double within = touchingWithin({pose, body.halfExtents});
   double deepest = 0;
   for (std::size_t w = 0; w < world.walls.size(); ++w) {
     const Wall& wall = world.walls[w];
-    const WallGap gap = wallGap(pose, body.halfExtents, wall.normal, wall.offset, within);
+    const WallGap gap = wallGap({pose, body.halfExtents}, wall.normal, wall.offset, within);
     if (gap.gap > within) {
       continue;
     }

@@ -26,12 +26,12 @@ std::optional<double> firstFall(double d, double v, double a) {
 
 FirstContact firstContactTranslating(const MovingBox& box, const Vec3& normal, double offset, double until) {
   const Pose pose = box.poseAt(0);
-  const WallGap at = wallGap(pose, box.halfExtents, normal, offset, 0);
+  const double gap = gapToPlane({pose, box.halfExtents}, normal, offset);
   const double rounding =
       kGapRounding * (std::abs(normal.dot(pose.position)) + std::abs(offset) + box.halfExtents.norm());
   const double v = normal.dot(box.velocityAt(0));
   const double a = normal.dot(box.acceleration);
-  const double d = at.gap > rounding ? at.gap : 0;
+  const double d = gap > rounding ? gap : 0;
   FirstContact contact;
   contact.time = until;
   contact.normal = normal;

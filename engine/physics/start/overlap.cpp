@@ -47,6 +47,7 @@ void forBoundsThatMeet(std::span<const PlacedBox> boxes, std::span<const Vec3> p
   }
 }
 
+// Of boxes that have been moved: their separation is given.
 BoxAxes axesOf(const PlacedBox& a, const PlacedBox& b, const Vec3& bToA) {
   return {a.pose.worldFromBody, a.halfExtents, b.pose.worldFromBody, b.halfExtents, bToA};
 }
@@ -190,7 +191,7 @@ class Parting {
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
       const Pose pose{.position = now_[i], .worldFromBody = boxes_[i].pose.worldFromBody};
       for (std::size_t w = 0; w < walls_.size() && ease_[i] > 0; ++w) {
-        const LowestGap lowest = lowestGap(walls_[w], boxes_[i].halfExtents, pose);
+        const LowestGap lowest = lowestGap(walls_[w], {pose, boxes_[i].halfExtents});
         if (lowest.overlaps() && behind_.insert({i, w}).second) {
           const double centre = walls_[w].normal.dot(now_[i]);
           barriers_.push_back({.a = i,
@@ -324,11 +325,11 @@ class Parting {
 
 }  // namespace
 
-LowestGap lowestGap(const Wall& wall, const Vec3& halfExtents, const Pose& pose) {
-  const double centre = wall.normal.dot(pose.position);
+LowestGap lowestGap(const Wall& wall, BoxAt box) {
+  const auto& [pose, halfExtents] = box;
   const double reach = (pose.worldFromBody.transpose() * wall.normal).cwiseAbs().dot(halfExtents);
   const double size = wall.normal.cwiseAbs().dot(pose.position.cwiseAbs());
-  return {.gap = centre - reach - wall.offset, .lengths = size + reach + std::fabs(wall.offset)};
+  return {.gap = gapToPlane(box, wall.normal, wall.offset), .lengths = size + reach + std::fabs(wall.offset)};
 }
 
 std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes) {
@@ -337,7 +338,7 @@ std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes) {
     const auto [first, second] = std::minmax(i, j);
     const PlacedBox& a = boxes[first];
     const PlacedBox& b = boxes[second];
-    const double gap = axesOf(a, b, a.pose.position - b.pose.position).gap();
+    const double gap = BoxAxes(a.at(), b.at()).gap();
     if (gap < -kGapAllowance * lengthsOf(a, b, a.pose.position, b.pose.position)) {
       all.push_back({.first = first, .second = second, .depth = -gap});
     }

@@ -8,6 +8,7 @@
 
 #include "core/math/linear_algebra.h"
 #include "core/math/pose.h"
+#include "physics/geometry/box_at.h"
 #include "physics/world/world.h"
 
 namespace careen {
@@ -21,6 +22,8 @@ struct PlacedBox {
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
   Pose pose = {};
   double inverseMass = 0;  ///< [1/kg] 0: fixed
+
+  BoxAt at() const { return {pose, halfExtents}; }
 };
 
 /// Two overlapping boxes, and the penetration depth [m].
@@ -35,14 +38,13 @@ std::optional<Overlap> firstOverlap(std::span<const PlacedBox> boxes);
 /// All overlapping pairs, in unspecified order.
 std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes);
 
-/// Gap of a box's lowest corner to a wall, n·x − Σ hᵢ|n·aᵢ| − offset [m], and the lengths whose difference it
-/// is.
+/// Gap of a box to a wall [m], see gapToPlane, and the lengths whose difference it is.
 struct LowestGap {
   double gap = 0;
   double lengths = 0;
   bool overlaps() const { return gap < -kGapAllowance * lengths; }
 };
-LowestGap lowestGap(const Wall& wall, const Vec3& halfExtents, const Pose& pose);
+LowestGap lowestGap(const Wall& wall, BoxAt box);
 
 /// What boxes can collide with.
 enum class Meeting { kWalls, kAll };

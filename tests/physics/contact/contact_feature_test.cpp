@@ -105,8 +105,8 @@ TEST(FeatureAt, tellsCornersOnFacesFromCrossings) {
   const Pose b{};
   int corners = 0;
   int crossings = 0;
-  for (const ContactPoint& point : boxContactPoints(a, kHalfA, b, kHalfB)) {
-    const ContactFeature feature = featureAt(point, 0, 0, a, kHalfA, 1, b, kHalfB);
+  for (const ContactPoint& point : boxContactPoints({a, kHalfA}, {b, kHalfB})) {
+    const ContactFeature feature = featureAt(point, 0, 0, {a, kHalfA}, 1, {b, kHalfB});
     corners += feature.kind == ContactFeature::Kind::kPointOnFace ? 1 : 0;
     crossings += feature.kind == ContactFeature::Kind::kEdgeOnEdge ? 1 : 0;
   }

@@ -121,12 +121,12 @@ Verdict judge(const RandomScene& scene, const Recorded& run) {
       poses.push_back(stateAt(how, bodies[k].mass, time - start).pose);
       verdict.finite = verdict.finite && poses.back().position.allFinite();
       for (const Wall& each : scene.world.walls) {
-        const double gap = wallGap(poses[k], bodies[k].halfExtents, each.normal, each.offset, 0).gap;
+        const double gap = gapToPlane({poses[k], bodies[k].halfExtents}, each.normal, each.offset);
         verdict.deepest = std::max(verdict.deepest, -gap);
       }
       for (std::size_t other = 0; other < k; ++other) {
         const double gap =
-            BoxAxes(poses[k], bodies[k].halfExtents, poses[other], bodies[other].halfExtents).gap();
+            BoxAxes({poses[k], bodies[k].halfExtents}, {poses[other], bodies[other].halfExtents}).gap();
         verdict.deepest = std::max(verdict.deepest, -gap);
       }
     }

@@ -98,7 +98,8 @@ TEST(Mover, isSeenByTheSearchFromAnyMomentOn) {
 TEST(Mover, touchesAnotherWithinRoundingOrTheGapAllowed) {
   const Body cube = makeBox({});
   const auto touching = [&](double distance, double apart) {
-    return areTouching(cube, {}, cube, {.position = {distance, 0, 0}}, apart);
+    return areTouching({Pose{}, cube.halfExtents}, {Pose{.position = {distance, 0, 0}}, cube.halfExtents},
+                       apart);
   };
   EXPECT_TRUE(touching(0.4, 0));
   EXPECT_TRUE(touching(0.3, 0));

@@ -32,7 +32,7 @@ bool holds(const ContactPoints& points, const Pose& a, const Pose& b, const Vec3
 TEST(BoxContactPoints, faceOnFaceIsTheCommonRectangle) {
   const Pose a = at({0.5, 0.75, 2});
   const Pose b = at({0, 0, 0});
-  const ContactPoints points = boxContactPoints(a, Vec3(1, 1, 1), b, Vec3(1, 1, 1));
+  const ContactPoints points = boxContactPoints({a, Vec3(1, 1, 1)}, {b, Vec3(1, 1, 1)});
   ASSERT_EQ(points.size(), 4U);
   for (const double x : {-0.5, 1.0}) {
     for (const double y : {-0.25, 1.0}) {
@@ -43,14 +43,15 @@ TEST(BoxContactPoints, faceOnFaceIsTheCommonRectangle) {
 }
 
 TEST(BoxContactPoints, equalFacesGiveTheirFourCorners) {
-  const ContactPoints points = boxContactPoints(at({0, 0, 2}), Vec3(1, 1, 1), at({0, 0, 0}), Vec3(1, 1, 1));
+  const ContactPoints points =
+      boxContactPoints({at({0, 0, 2}), Vec3(1, 1, 1)}, {at({0, 0, 0}), Vec3(1, 1, 1)});
   EXPECT_EQ(points.size(), 4U);
 }
 
 // A square on a square turned 45°: a regular octagon of in-radius 1.
 TEST(BoxContactPoints, turnedFaceOnFaceIsAnOctagon) {
-  const ContactPoints points = boxContactPoints(at({0, 0, 2}, turned<double>(Vec3::UnitZ(), kEighth)),
-                                                Vec3(1, 1, 1), at({0, 0, 0}), Vec3(1, 1, 1));
+  const ContactPoints points = boxContactPoints(
+      {at({0, 0, 2}, turned<double>(Vec3::UnitZ(), kEighth)), Vec3(1, 1, 1)}, {at({0, 0, 0}), Vec3(1, 1, 1)});
   ASSERT_EQ(points.size(), 8U);
   for (const ContactPoint& contact : points) {
     EXPECT_NEAR(std::hypot(contact.armB.x(), contact.armB.y()), 1 / std::cos(kEighth / 2), 1e-14);
@@ -62,7 +63,7 @@ TEST(BoxContactPoints, edgeOnFaceIsASegmentCutAtTheFace) {
   const double height = 1 + std::sqrt(2.0);
   const Pose a = at({0.5, 0, height}, turned<double>(Vec3::UnitX(), kEighth));
   const Pose b = at({0, 0, 0});
-  const ContactPoints points = boxContactPoints(a, Vec3(2, 1, 1), b, Vec3(1, 1, 1));
+  const ContactPoints points = boxContactPoints({a, Vec3(2, 1, 1)}, {b, Vec3(1, 1, 1)});
   ASSERT_EQ(points.size(), 2U);
   EXPECT_TRUE(holds(points, a, b, {-1, 0, 1}));
   EXPECT_TRUE(holds(points, a, b, {1, 0, 1}));
@@ -73,11 +74,11 @@ TEST(BoxContactPoints, cornerOnFaceIsTheCornerWhicheverBoxHasIt) {
       turned<double>(Vec3::UnitY(), std::atan(std::sqrt(0.5))) * turned<double>(Vec3::UnitX(), kEighth);
   const Pose above = at({0.25, 0.5, 1 + std::sqrt(3.0)}, onCorner);
   const Pose below = at({0, 0, 0});
-  const ContactPoints points = boxContactPoints(above, Vec3(1, 1, 1), below, Vec3(1, 1, 1));
+  const ContactPoints points = boxContactPoints({above, Vec3(1, 1, 1)}, {below, Vec3(1, 1, 1)});
   ASSERT_EQ(points.size(), 1U);
   EXPECT_TRUE(holds(points, above, below, {0.25, 0.5, 1}));
   EXPECT_NEAR(points[0].normal.z(), 1, 1e-15);
-  const ContactPoints other = boxContactPoints(below, Vec3(1, 1, 1), above, Vec3(1, 1, 1));
+  const ContactPoints other = boxContactPoints({below, Vec3(1, 1, 1)}, {above, Vec3(1, 1, 1)});
   ASSERT_EQ(other.size(), 1U);
   EXPECT_TRUE(holds(other, below, above, {0.25, 0.5, 1}));
   EXPECT_NEAR(other[0].normal.z(), -1, 1e-15);
@@ -86,7 +87,7 @@ TEST(BoxContactPoints, cornerOnFaceIsTheCornerWhicheverBoxHasIt) {
 TEST(BoxContactPoints, crossedEdgesMeetInAPoint) {
   const Pose a = at({0.25, 0.5, 2 * std::sqrt(2.0)}, turned<double>(Vec3::UnitX(), kEighth));
   const Pose b = at({0, 0, 0}, turned<double>(Vec3::UnitY(), kEighth));
-  const ContactPoints points = boxContactPoints(a, Vec3(1, 1, 1), b, Vec3(1, 1, 1));
+  const ContactPoints points = boxContactPoints({a, Vec3(1, 1, 1)}, {b, Vec3(1, 1, 1)});
   ASSERT_EQ(points.size(), 1U);
   EXPECT_TRUE(holds(points, a, b, {0, 0.5, std::sqrt(2.0)}));
 }
@@ -107,7 +108,7 @@ TEST(BoxContactPoints, ofRandomImpactsLieOnBothBoxesAndCloseAsTheGapDoes) {
     ++impacts;
     const Pose a = pair.a.moving().poseAt(hit.time);
     const Pose b = pair.b.moving().poseAt(hit.time);
-    const ContactPoints points = boxContactPoints(a, pair.a.halfExtents, b, pair.b.halfExtents);
+    const ContactPoints points = boxContactPoints({a, pair.a.halfExtents}, {b, pair.b.halfExtents});
     ASSERT_EQ(points.size(), 1U) << k;
     const auto outside = [](const Pose& pose, const Vec3& half, const Vec3& arm) {
       const Vec3 local = pose.worldFromBody.transpose() * arm;
@@ -135,9 +136,9 @@ TEST(BoxContactPoints, theMirrorImageAndTheSwapGiveTheSamePoints) {
   const Pose a = at({0.3, 0.1, 1.5}, turned<double>(Vec3::UnitZ(), 0.7));
   const Pose b = at({0, 0, 0}, turned<double>(Vec3::UnitZ(), 0.2));
   const Vec3 half(1, 0.5, 0.75);
-  const ContactPoints points = boxContactPoints(a, half, b, half);
-  const ContactPoints mirrored = boxContactPoints(image(a), half, image(b), half);
-  const ContactPoints swapped = boxContactPoints(b, half, a, half);
+  const ContactPoints points = boxContactPoints({a, half}, {b, half});
+  const ContactPoints mirrored = boxContactPoints({image(a), half}, {image(b), half});
+  const ContactPoints swapped = boxContactPoints({b, half}, {a, half});
   ASSERT_EQ(mirrored.size(), points.size());
   ASSERT_EQ(swapped.size(), points.size());
   for (const ContactPoint& contact : points) {
@@ -153,7 +154,7 @@ TEST(BoxContactPoints, ofABoxLaidOnABoxAreItsCornersToTheBit) {
   const Vec3 half(0.3, 0.2, 0.1);
   const Mat3 turn = turned<double>(Vec3::UnitZ(), 0.4);
   const ContactPoints points =
-      boxContactPoints(at({0.11, 0.7, 1.31}, turn), half, at({0.13, 0.77, 0.9}), Vec3(0.7, 0.6, 0.31));
+      boxContactPoints({at({0.11, 0.7, 1.31}, turn), half}, {at({0.13, 0.77, 0.9}), Vec3(0.7, 0.6, 0.31)});
   ASSERT_EQ(points.size(), 4U);
   for (const ContactPoint& contact : points) {
     EXPECT_TRUE(std::any_of(points.begin(), points.end(), [&](const ContactPoint& other) {

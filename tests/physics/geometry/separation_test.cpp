@@ -19,7 +19,7 @@ const Mat3 kUpright = Mat3::Identity();
 TEST(WallGap, isThatOfTheLowestEdge) {
   const Pose pose{.position = Vec3(7, 6, 3),
                   .worldFromBody = test::turned<double>(Vec3::UnitZ(), std::acos(-1.0) / 4)};
-  const WallGap gap = wallGap(pose, Vec3(1, 1, 1), Vec3::UnitY(), 1, 1e-9);
+  const WallGap gap = wallGap({pose, Vec3(1, 1, 1)}, Vec3::UnitY(), 1, 1e-9);
   EXPECT_NEAR(gap.gap, 5 - std::sqrt(2.0), 1e-15);
   // Body corners (−,−,±): bits 2 and 1 set.
   EXPECT_EQ(gap.corners, 1U << 6U | 1U << 7U);
@@ -31,7 +31,7 @@ TEST(WallGap, groupsCornersWithinTheTolerance) {
   const auto corners = [&](double rise) {
     const Pose pose{.position = Vec3(0, 0, 1),
                     .worldFromBody = test::turned<double>(Vec3::UnitY(), rise / 2)};
-    return std::popcount(wallGap(pose, Vec3(1, 1, 1), Vec3::UnitZ(), 0, within).corners);
+    return std::popcount(wallGap({pose, Vec3(1, 1, 1)}, Vec3::UnitZ(), 0, within).corners);
   };
   EXPECT_EQ(corners(0.9 * within), 4);
   EXPECT_EQ(corners(1.1 * within), 2);

@@ -42,11 +42,7 @@ std::vector<PlacedBox> heap(int count, double edge, unsigned seed) {
   return boxes;
 }
 
-double gapOf(const PlacedBox& a, const PlacedBox& b) {
-  return BoxAxes(a.pose.worldFromBody, a.halfExtents, b.pose.worldFromBody, b.halfExtents,
-                 a.pose.position - b.pose.position)
-      .gap();
-}
+double gapOf(const PlacedBox& a, const PlacedBox& b) { return BoxAxes(a.at(), b.at()).gap(); }
 
 std::vector<PlacedBox> movedTo(std::vector<PlacedBox> boxes, const Parted& parted) {
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -154,7 +150,7 @@ TEST(MoveApart, endsWithoutOverlapInAHeapWhateverTheOrder) {
     const std::vector<PlacedBox> after = movedTo(boxes, parted);
     EXPECT_FALSE(firstOverlap(after));
     for (const PlacedBox& box : after) {
-      EXPECT_FALSE(lowestGap(floor[0], box.halfExtents, box.pose).overlaps());
+      EXPECT_FALSE(lowestGap(floor[0], box.at()).overlaps());
     }
     std::vector<PlacedBox> reversed(boxes.rbegin(), boxes.rend());
     Parted other = moveApart(reversed, floor);
