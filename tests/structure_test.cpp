@@ -360,6 +360,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"physics/exact/islands", "part of class ExactWorld, tested through exact_world"},
     {"physics/exact/pile", "part of class ExactWorld, tested through exact_world"},
     {"physics/exact/places", "part of class ExactWorld, tested through exact_world"},
+    {"physics/geometry/box_at", "data only"},
     {"physics/impact/impact_solver", "rebuilt with the contact solver; until then tested through impact_law"},
     {"physics/impact/single_impact", "rebuilt with the contact solver; until then tested through impact_law"},
     {"physics/motion/recorder", "data and an interface"},
