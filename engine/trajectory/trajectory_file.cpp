@@ -239,7 +239,7 @@ void visit(Archive& archive, Visited<Archive, Method> method) {
   if constexpr (Archive::kReads) {
     const std::optional<Method> known = methodNamed(name);
     if (!known) {
-      archive.fail("was made by the method '" + name + "', which this version does not know");
+      archive.fail("was made by the method '" + name + "', expected one of " + listed(kMethodNames));
     }
     method = *known;
   }

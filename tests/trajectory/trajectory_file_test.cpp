@@ -38,15 +38,31 @@ std::uint64_t numberAt(const std::string& bytes, std::size_t at) {
   return number;
 }
 
+std::string inBytes(std::uint64_t number) {
+  std::string bytes;
+  for (int shift = 0; shift < 64; shift += 8) {
+    bytes.push_back(static_cast<char>(number >> shift));
+  }
+  return bytes;
+}
+
 // A file changed on purpose, with a checksum that is right again: what the checksum cannot find.
 std::string withRightChecksum(std::string bytes) {
   bytes.resize(bytes.size() - 8);
   Hash hash;
   hash.add(bytes);
-  for (int shift = 0; shift < 64; shift += 8) {
-    bytes.push_back(static_cast<char>(hash.value() >> shift));
-  }
-  return bytes;
+  return bytes + inBytes(hash.value());
+}
+
+std::string recordOf(const std::string& bytes) {
+  return decompressed(bytes.substr(kRecord, bytes.size() - 8 - kRecord), numberAt(bytes, kRecord - 8))
+      .value();
+}
+
+// The file with another record, and with size and checksum that fit it.
+std::string withRecord(const std::string& bytes, const std::string& record) {
+  return withRightChecksum(bytes.substr(0, kRecord - 8) + inBytes(record.size()) + compressed(record) +
+                           "checksum");
 }
 
 TEST(TrajectoryFile, bringsBackARunOfEveryMethod) {
@@ -58,6 +74,21 @@ TEST(TrajectoryFile, bringsBackARunOfEveryMethod) {
     EXPECT_EQ(back.settings.method, method.method);
     EXPECT_EQ(back.state(0, 0.7).pose.worldFromBody, run.state(0, 0.7).pose.worldFromBody) << method.name;
   }
+}
+
+// Methods are stored by name. This one came with earlier versions.
+TEST(TrajectoryFile, refusesARunOfAMethodThatIsNoMore) {
+  const std::string bytes =
+      encodeTrajectory(record(elasticRoom(), {.method = Method::kStrang, .duration = 1}, "{}"));
+  std::string record = recordOf(bytes);
+  const std::string strang = inBytes(6) + "strang";
+  const std::string former = inBytes(11) + "splitting-6";
+  const std::size_t at = record.find(strang);
+  ASSERT_NE(at, std::string::npos);
+  record.replace(at, strang.size(), former);
+  EXPECT_EQ(messageOf(withRecord(bytes, record)),
+            "run.careen: this trajectory file was made by the method 'splitting-6', expected one of exact, "
+            "listing1, strang, runge-kutta-4, taylor-8, moser-veselov-10");
 }
 
 TEST(TrajectoryFile, bringsBackEveryBit) {
@@ -248,16 +279,12 @@ TEST(TrajectoryFile, refusesAnyChangedByte) {
 // Whatever stands in it, reading ends in a message: no crash, no endless memory.
 TEST(TrajectoryFile, survivesAnyChangedByteBehindARightChecksum) {
   const std::string bytes = encodeTrajectory(driftAndReturn());
-  const std::string record =
-      decompressed(bytes.substr(kRecord, bytes.size() - 8 - kRecord), numberAt(bytes, kRecord - 8)).value();
+  const std::string record = recordOf(bytes);
   int refused = 0;
   for (std::size_t at = 0; at < record.size(); ++at) {
     std::string changed = record;
     changed[at] = static_cast<char>(changed[at] ^ 0xff);
-    refused += messageOf(withRightChecksum(bytes.substr(0, kRecord) + compressed(changed) + "checksum")) ==
-                       "accepted"
-                   ? 0
-                   : 1;
+    refused += messageOf(withRecord(bytes, changed)) == "accepted" ? 0 : 1;
   }
   for (std::size_t at = 8; at + 8 < bytes.size(); ++at) {  // and of the packed record itself
     std::string changed = bytes;

@@ -12,10 +12,9 @@
 namespace careen {
 
 std::span<const FreeMethod> freeMethods() {
-  static constexpr std::array<FreeMethod, 5> kFreeMethods = {{
+  static constexpr std::array<FreeMethod, 4> kFreeMethods = {{
       {Method::kStrang, strangSteps<double>, false, true, true},
       {Method::kRungeKutta4, rungeKutta4Steps<double>, false, false, false},
-      {Method::kSplitting6, splitting6Steps<double>, false, true, true},
       {Method::kTaylor8, taylor8Steps<double>, false, false, false},
       {Method::kMoserVeselov10, moserVeselovSteps<double>, true, true, true},
   }};

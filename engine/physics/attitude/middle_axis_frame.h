@@ -26,16 +26,14 @@ namespace careen {
 /// 30 times as large (smallest; measured at 1/60 s), and a symmetric top is exact only with the right one.
 template <class Real>
 struct MiddleAxisFrame {
-  enum class X { kSmallerRate, kLargerRate };
-
-  int x = 0;  // the body axes
+  int x = 0;  // the body axes, x with the larger rate
   int y = 2;
   int z = 1;
   Real sign;            // of z
   Real alphaX, alphaY;  // [1/(kg m²)] 1/I − 1/Ib
   Real perMiddle;       // [1/(kg m²)] 1/Ib
 
-  MiddleAxisFrame(const Vector3<Real>& inertia, X which) {
+  explicit MiddleAxisFrame(const Vector3<Real>& inertia) {
     using std::abs;
     const auto sort = [&](int& low, int& high) {
       if (inertia[high] < inertia[low]) {
@@ -49,7 +47,7 @@ struct MiddleAxisFrame {
     const auto rate = [&](int axis) {
       return Real((inertia[z] - inertia[axis]) / inertia[axis] * perMiddle);
     };
-    if ((abs(rate(x)) < abs(rate(y))) == (which == X::kLargerRate)) {
+    if (abs(rate(x)) < abs(rate(y))) {
       std::swap(x, y);
     }
     alphaX = rate(x);

@@ -87,7 +87,7 @@ void taylor8Step(MiddleAxisState<Real>& s, const Real& hAlphaX, const Real& hAlp
 /// I, I.8.
 template <class Real>
 void taylor8Steps(const Vector3<Real>& inertia, FreeState<Real>& state, const Real& dt, std::int64_t count) {
-  const MiddleAxisFrame<Real> frame(inertia, MiddleAxisFrame<Real>::X::kLargerRate);
+  const MiddleAxisFrame<Real> frame(inertia);
   MiddleAxisState<Real> s(frame, state);
   for (std::int64_t i = 0; i < count; ++i) {
     detail::taylor8Step<Real>(s, dt * frame.alphaX, dt * frame.alphaY);

@@ -7,7 +7,7 @@
 namespace careen {
 
 /// Simulation methods. To add one: one line here, one in kMethods, one in simulate or in freeMethods().
-enum class Method : int { kExact, kListing1, kStrang, kRungeKutta4, kSplitting6, kTaylor8, kMoserVeselov10 };
+enum class Method : int { kExact, kListing1, kStrang, kRungeKutta4, kTaylor8, kMoserVeselov10 };
 
 /// Name and capabilities of a method.
 struct MethodTraits {
@@ -38,7 +38,6 @@ inline constexpr std::array kMethods = {
     MethodTraits{.method = Method::kListing1, .name = "listing1", .order = 1, .forces = true},
     steppedFlight(Method::kStrang, "strang", 2),
     steppedFlight(Method::kRungeKutta4, "runge-kutta-4", 4),
-    steppedFlight(Method::kSplitting6, "splitting-6", 6),
     steppedFlight(Method::kTaylor8, "taylor-8", 8),
     steppedFlight(Method::kMoserVeselov10, "moser-veselov-10", 10)};
 

@@ -58,14 +58,14 @@ TEST(FreeMethods, keepWhatTheySayOver100000StepsAndNothingElse) {
       }
     }
     // measured, energy / |m| / momentum: strang 7e-4 / 2e-14 / 8e-14, runge-kutta-4 0.1 / 0.2 / 0.2,
-    // splitting-6 2e-10 / 1e-13 / 2e-13, taylor-8 2e-6 / 1e-6 / 1e-6, moser-veselov-10 2e-13 / 2e-13 / 2e-13
+    // taylor-8 2e-6 / 1e-6 / 1e-6, moser-veselov-10 2e-13 / 2e-13 / 2e-13
     EXPECT_PRED2(isKept, energy, method.keepsEnergy) << nameOf(method);
     EXPECT_PRED2(isKept, length, method.keepsMomentum) << nameOf(method);
     EXPECT_PRED2(isKept, world, method.keepsMomentum) << nameOf(method);
   }
 }
 
-// Not keeping the energy is two things: the splittings' error comes and goes, the others' grows with time.
+// Not keeping the energy is two things: the splitting's error comes and goes, the others' grows with time.
 TEST(FreeMethods, letTheEnergyDriftOnlyWhereTheyAreNotSymmetric) {
   for (const FreeMethod& method : freeMethods()) {
     if (method.keepsEnergy) {
@@ -120,14 +120,14 @@ TEST(FreeMethods, followTheExactAttitudeOfSpheresAndSymmetricTops) {
       FreeRun<double> run(start);
       const int count = method.method == Method::kStrang ? 8000 : 800;
       advance(method, run, 8.0 / count, count);
-      // measured 1.4e-8 (runge-kutta-4) and 6.3e-13; of the splittings, exact, that is 8000 and 800 roundings
+      // measured 1.4e-8 (runge-kutta-4) and 6.3e-13; of the splitting, exact, that is 8000 and 800 roundings
       EXPECT_LT(angleToExact(start, run, 8), method.method == Method::kRungeKutta4 ? 1e-7 : 2e-12)
           << nameOf(method) << ' ' << moments.transpose();
     }
   }
 }
 
-TEST(FreeMethods, splittingsAndTaylorTurnSpheresExactlyWithAnyStep) {
+TEST(FreeMethods, splittingAndTaylorTurnSpheresExactlyWithAnyStep) {
   const oracle::Start start{Vec3(2, 2, 2), Quat(0.5, 0.5, -0.5, 0.5), Vec3(30, -20, 10)};
   for (const FreeMethod& method : freeMethods()) {
     if (method.method == Method::kRungeKutta4 || method.method == Method::kMoserVeselov10) {
