@@ -1,0 +1,355 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/names.h"
+#include "physics/world/method.h"
+#include "physics/world/run_settings.h"
+#include "trajectory/archive.h"
+#include "trajectory/trajectory.h"
+
+namespace careen {
+
+// The record of a trajectory file, type by type: visit(archive, value) reads and writes. A change here is
+// another format version.
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Vec3> vector) {
+  for (int i = 0; i < 3; ++i) {
+    archive.visit(vector[i]);
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Pose> pose) {
+  visit(archive, pose.position);
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      archive.visit(pose.worldFromBody(row, column));
+    }
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, BodyState> state) {
+  visit(archive, state.pose);
+  visit(archive, state.velocity);
+  visit(archive, state.angularMomentum);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Rest> rest) {
+  visit(archive, rest.pose);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, EulerStep> step) {
+  visit(archive, step.start);
+  visit(archive, step.force);
+  visit(archive, step.torque);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Flight> flight) {
+  visit(archive, flight.position);
+  visit(archive, flight.velocity);
+  visit(archive, flight.acceleration);
+  for (int i = 0; i < 4; ++i) {
+    archive.visit(flight.worldFromBody.coeffs()[i]);
+  }
+  visit(archive, flight.angularMomentum);
+}
+
+/// By name: the methods' values may change.
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Method> method) {
+  std::string name;
+  if constexpr (!Archive::kReads) {
+    name = traitsOf(method).name;
+  }
+  archive.visit(name);
+  if constexpr (Archive::kReads) {
+    const std::optional<Method> known = methodNamed(name);
+    if (!known) {
+      archive.fail("was made by the method '" + name + "', expected one of " + listed(kMethodNames));
+    }
+    method = *known;
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, SteppedFlight> stepped) {
+  visit(archive, stepped.method);
+  archive.visit(stepped.dt);
+  visit(archive, stepped.start);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, ContactStep> step) {
+  archive.visit(step.duration);
+  for (std::size_t k = 0; k < step.position.size(); ++k) {
+    visit(archive, step.position[k]);
+    for (int i = 0; i < 4; ++i) {
+      archive.visit(step.worldFromBody[k][i]);
+    }
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, MassProperties> mass) {
+  archive.visit(mass.mass);
+  archive.visit(mass.inverseMass);
+  visit(archive, mass.inertiaBody);
+  visit(archive, mass.inverseInertiaBody);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Motion> motion) {
+  visitVariant(archive, motion);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Segment> segment) {
+  archive.visit(segment.start);
+  visit(archive, segment.motion);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, BodyIndex> body) {
+  visitIndex(archive, body.value);
+}
+
+/// 0 for a wall or 1 for a body, then its index.
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Partner> partner) {
+  auto kind = static_cast<std::uint8_t>(partner.isWall() ? 0 : 1);
+  archive.visit(kind);
+  int index = partner.isWall() ? static_cast<int>(partner.wall()) : partner.body();
+  visitIndex(archive, index);
+  if constexpr (Archive::kReads) {
+    if (kind > 1) {
+      archive.fail("holds a kind of record this version does not know");
+    }
+    if (index < 0) {
+      archive.fail("names a body or wall it does not hold");
+    }
+    partner = kind == 0 ? Partner::ofWall(static_cast<std::size_t>(index)) : Partner::ofBody(index);
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Impact> impact) {
+  archive.visit(impact.time);
+  visit(archive, impact.a);
+  visit(archive, impact.b);
+  visit(archive, impact.point);
+  visit(archive, impact.normal);
+  archive.visit(impact.approach);
+  archive.visit(impact.impulse);
+  archive.visit(impact.tangential);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Material> material) {
+  archive.visit(material.restitution);
+  archive.visit(material.friction);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Body> body) {
+  archive.visit(body.name);
+  visit(archive, body.halfExtents);
+  visit(archive, body.mass);
+  visit(archive, body.material);
+  visit(archive, body.initial);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Wall> wall) {
+  archive.visit(wall.name);
+  visit(archive, wall.normal);
+  archive.visit(wall.offset);
+  visit(archive, wall.material);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, SpringEnd> end) {
+  visitOptional(archive, end.body);
+  visit(archive, end.point);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Spring> spring) {
+  visit(archive, spring.from);
+  visit(archive, spring.to);
+  archive.visit(spring.stiffness);
+  archive.visit(spring.damping);
+  archive.visit(spring.restLength);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Drag> drag) {
+  archive.visit(drag.linear);
+  archive.visit(drag.angular);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, World> world) {
+  visit(archive, world.gravity);
+  visitAll(archive, world.bodies);
+  visitAll(archive, world.walls);
+  visitAll(archive, world.springs);
+  visitOptional(archive, world.drag);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, RoomShape> room) {
+  visit(archive, room.min);
+  visit(archive, room.max);
+  for (std::size_t side = 0; side < room.open.size(); ++side) {
+    visit(archive, room.open[side]);
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Plane> plane) {
+  visit(archive, plane.normal);
+  archive.visit(plane.offset);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Color> color) {
+  archive.visit(color.red);
+  archive.visit(color.green);
+  archive.visit(color.blue);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Camera> camera) {
+  visit(archive, camera.eye);
+  visit(archive, camera.target);
+  visit(archive, camera.up);
+  archive.visit(camera.fovDegrees);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, CameraKey> key) {
+  archive.visit(key.time);
+  visit(archive, key.eye);
+  visit(archive, key.target);
+  archive.visit(key.fovDegrees);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, CameraMove> move) {
+  archive.visit(move.orbitDegrees);
+  visitOptional(archive, move.followed);
+  visitAll(archive, move.keys);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, TimeKey> key) {
+  archive.visit(key.film);
+  archive.visit(key.scene);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, FrameRate> rate) {
+  std::string text = rate.text();
+  archive.visit(text);
+  if constexpr (Archive::kReads) {
+    rate = parseFrameRate(text);
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, OverlaySet> overlays) {
+  std::string text = overlays.text();
+  archive.visit(text);
+  if constexpr (Archive::kReads) {
+    overlays = overlaysNamed(text);
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, PictureSettings> picture) {
+  visitIndex(archive, picture.width);
+  visitIndex(archive, picture.height);
+  visit(archive, picture.rate);
+  visitNamed(archive, picture.look, kLooks);
+  visitNamed(archive, picture.antialiasing, kAntialiasings);
+  archive.visit(picture.shutter.degrees);
+  visitIndex(archive, picture.shutter.samples);
+  visit(archive, picture.overlays);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Stage> stage) {
+  archive.visit(stage.name);
+  visitOptional(archive, stage.room);
+  visitAll(archive, stage.planes);
+  visitAll(archive, stage.colors);
+  visitOptional(archive, stage.camera);
+  visit(archive, stage.cameraMove);
+  visitAll(archive, stage.timeMap.keys);
+  visit(archive, stage.picture);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, PlanItem> item) {
+  archive.visit(item.what);
+  visit(archive, item.modelled);
+  archive.visit(item.reason);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Track> track) {
+  visitAll(archive, track.segments);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, RunFigures> figures) {
+  archive.visit(figures.energyChange);
+  archive.visit(figures.momentumChange);
+  archive.visit(figures.orthogonality);
+  archive.visit(figures.deepestPenetration);
+  constexpr double kNever = -1;
+  double boundedFrom = figures.boundedFrom.value_or(kNever);
+  archive.visit(boundedFrom);
+  if constexpr (Archive::kReads) {
+    figures.boundedFrom = boundedFrom >= 0 ? std::optional(boundedFrom) : std::nullopt;
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, RunSettings> settings) {
+  visit(archive, settings.method);
+  archive.visit(settings.dt);
+  archive.visit(settings.tolerance);
+  archive.visit(settings.duration);
+}
+
+template <class Archive>
+void visitBeginning(Archive& archive, Visited<Archive, Trajectory> run) {
+  archive.visit(run.sceneText);
+  std::string sceneHash = run.sceneHash();
+  archive.visit(sceneHash);
+  visit(archive, run.settings);
+  visit(archive, run.figures);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Trajectory> run) {
+  visitBeginning(archive, run);
+  visit(archive, run.world);
+  visit(archive, run.stage);
+  visitAll(archive, run.plan.items);
+  visitAll(archive, run.tracks);
+  visitAll(archive, run.impacts);
+}
+
+}  // namespace careen
