@@ -111,11 +111,6 @@ void checkImpacts(const Trajectory& run) {
 
 // ---- World.
 
-bool isSame(const MassProperties& a, const MassProperties& b) {
-  return a.mass == b.mass && a.inverseMass == b.inverseMass && a.inertiaBody == b.inertiaBody &&
-         a.inverseInertiaBody == b.inverseInertiaBody;
-}
-
 void checkMaterial(const Material& material, const std::string& owner) {
   require(isNotNegative(material.restitution) && material.restitution <= 1, "a restitution not from 0 to 1",
           owner);
@@ -127,10 +122,10 @@ void checkBody(const Body& body) {
   require(std::all_of(body.halfExtents.begin(), body.halfExtents.end(), isPositive),
           "half extents that are not positive numbers", owner);
   if (isImmovable(body.mass)) {
-    require(isSame(body.mass, immovable()), "a mass though it cannot be moved", owner);
+    require(body.mass == immovable(), "a mass though it cannot be moved", owner);
   } else {
     require(isPositive(body.mass.mass), "a mass that is no positive number", owner);
-    require(isSame(body.mass, solidBox(body.halfExtents, body.mass.mass)),
+    require(body.mass == solidBox(body.halfExtents, body.mass.mass),
             "another inertia than a solid box of its size and mass", owner);
   }
   checkMaterial(body.material, owner);

@@ -13,11 +13,6 @@
 namespace careen {
 namespace {
 
-bool isSame(const MassProperties& a, const MassProperties& b) {
-  return a.mass == b.mass && a.inverseMass == b.inverseMass && a.inertiaBody == b.inertiaBody &&
-         a.inverseInertiaBody == b.inverseInertiaBody;
-}
-
 // An old file's bodies and walls must match its scene. Initial positions come from the tracks alone:
 // overlapping boxes had been moved apart.
 void takeSetup(const ArchiveReader& reader, RunSetup setup, const std::vector<std::string>& wallNames,
@@ -31,7 +26,7 @@ void takeSetup(const ArchiveReader& reader, RunSetup setup, const std::vector<st
     if (body.name != bodies[i].name) {
       reader.fail("has a body '" + bodies[i].name + "' where its scene has '" + body.name + "'");
     }
-    if (!isSame(body.mass, bodies[i].mass)) {
+    if (body.mass != bodies[i].mass) {
       reader.fail("has another mass or inertia of body '" + body.name + "' than its scene gives that box");
     }
   }

@@ -14,6 +14,8 @@ struct MassProperties {
   double inverseMass = 0;                  ///< [1/kg]
   Vec3 inertiaBody = Vec3::Zero();         ///< [kg m²] diagonal of Ī about the centre of mass (Eq. 19)
   Vec3 inverseInertiaBody = Vec3::Zero();  ///< [1/(kg m²)] diagonal of Ī⁻¹
+
+  bool operator==(const MassProperties&) const = default;
 };
 
 /// Solid box of constant density with full sizes (a,b,c): Ī = M/12 diag(b²+c², a²+c², a²+b²), Eq. 19

@@ -60,6 +60,23 @@ TEST(Immovable, cannotBeMoved) {
   EXPECT_EQ(inverseInertiaWorld(immovable(), kTurned), Mat3::Zero());
 }
 
+TEST(MassProperties, areEqualIfEveryNumberIs) {
+  const MassProperties box = solidBox(Vec3(1, 2, 3), 4);
+  EXPECT_EQ(box, solidBox(Vec3(1, 2, 3), 4));
+  MassProperties other = box;
+  other.mass = 5;
+  EXPECT_NE(box, other);
+  other = box;
+  other.inverseMass = 5;
+  EXPECT_NE(box, other);
+  other = box;
+  other.inertiaBody.z() = 5;
+  EXPECT_NE(box, other);
+  other = box;
+  other.inverseInertiaBody.x() = 5;
+  EXPECT_NE(box, other);
+}
+
 TEST(Touching, takesTheLivelierRestitutionAndTheMeanFriction) {
   const Material pair =
       touching({.restitution = 0.2, .friction = 0.9}, {.restitution = 0.7, .friction = 0.4});
