@@ -9,6 +9,7 @@
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "core/names.h"
 #include "trajectory/trajectory_file.h"
 
 namespace careen {
@@ -41,14 +42,13 @@ bool sameBits(const Impact& a, const Impact& b) {
 std::string motionBytes(const Trajectory& run) {
   Trajectory bare;
   bare.settings.duration = run.settings.duration;
-  std::map<std::string, std::size_t> byName;
-  for (std::size_t body = 0; body < run.tracks.size(); ++body) {
-    byName[run.world.bodies[body].name] = body;
-  }
-  for (const auto& [name, body] : byName) {
+  for (const std::size_t body : orderByName(run.world.bodies)) {
     const Body& moved = run.world.bodies[body];
-    bare.world.bodies.push_back(
-        {.name = name, .halfExtents = moved.halfExtents, .mass = moved.mass, .material = {}, .initial = {}});
+    bare.world.bodies.push_back({.name = moved.name,
+                                 .halfExtents = moved.halfExtents,
+                                 .mass = moved.mass,
+                                 .material = {},
+                                 .initial = {}});
     bare.tracks.push_back(run.tracks[body]);
   }
   return encodeTrajectory(bare);

@@ -1,12 +1,13 @@
 #include "trajectory/trajectory.h"
 
 #include <algorithm>
-#include <numeric>
+#include <iterator>
 #include <utility>
 #include <variant>
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/names.h"
 #include "physics/simulate.h"
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
@@ -82,12 +83,8 @@ std::string Trajectory::sceneHash() const {
 }
 
 std::string Trajectory::stateHash() const {
-  std::vector<std::size_t> byName(tracks.size());
-  std::iota(byName.begin(), byName.end(), std::size_t{0});
-  std::sort(byName.begin(), byName.end(),
-            [this](std::size_t a, std::size_t b) { return world.bodies[a].name < world.bodies[b].name; });
   Hash hash;
-  for (const std::size_t body : byName) {
+  for (const std::size_t body : orderByName(world.bodies)) {
     add(hash, state(body, settings.duration));
   }
   return hash.text();
