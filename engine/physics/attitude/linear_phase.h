@@ -16,7 +16,7 @@ struct TurnedAngle {
 };
 
 /// An angle linear in time, kept in quarter turns so that whole turns drop out without error however many
-/// there are: after t seconds its error is 2⁻⁷⁹ of rate · t plus a rounding of one radian.
+/// there are: after t seconds its error is at most 2⁻⁷⁸ of rate · t (measured) plus a rounding of one radian.
 template <class Real>
 class LinearPhase {
  public:
