@@ -31,8 +31,24 @@ const std::map<std::string, Measure> kMeasures = {{"poses", Measure::kPoses},
                                                   {"scaled", Measure::kScaled},
                                                   {"overlap", Measure::kOverlap}};
 
-std::filesystem::path scenePath(const std::string& relative) {
-  return findResource(std::filesystem::path("assets/scenes") / relative);
+constexpr const char* kScenes = "assets/scenes";
+
+// The scene file that a truth names by this key.
+std::filesystem::path scenePath(const Json& truth, const char* key) {
+  const std::string relative = truth.at(key).get<std::string>();
+  std::filesystem::path path = findResource(kScenes) / relative;
+  if (!std::filesystem::exists(path)) {
+    throw InputError(std::string(key) + ": found \"" + relative + "\", expected a file of " + kScenes);
+  }
+  return path;
+}
+
+std::filesystem::path truthPath(const std::string& name) {
+  std::filesystem::path path = findResource("assets/truths") / (name + ".json");
+  if (!std::filesystem::exists(path)) {
+    throw InputError(path.string() + ": found no file, expected the truth of the case " + name);
+  }
+  return path;
 }
 
 // The whole scene, as exact models it, so that every contestant gets all of it.
@@ -79,10 +95,10 @@ void readTruth(const Json& truth, Case& study) {
   study.whyHard = truth.at("why_hard").get<std::string>();
   study.source = truth.at("source").get<std::string>();
   study.measure = kMeasures.at(truth.at("measure").get<std::string>());
-  study.scene = readScene(scenePath(truth.at("scene").get<std::string>()));
+  study.scene = readScene(scenePath(truth, "scene"));
   study.world = worldOf(study.scene);
   if (study.measure == Measure::kScaled) {
-    study.original = worldOf(readScene(scenePath(truth.at("of").get<std::string>())));
+    study.original = worldOf(readScene(scenePath(truth, "of")));
     study.lengths = truth.at("lengths").get<double>();
     study.durations = truth.at("times").get<double>();
     study.times = {study.scene.duration};
@@ -115,7 +131,7 @@ std::vector<std::string> caseNames() {
 }
 
 Case readCase(const std::string& name) {
-  const std::filesystem::path path = findResource("assets/truths/" + name + ".json");
+  const std::filesystem::path path = truthPath(name);
   Case study;
   study.name = name;
   try {

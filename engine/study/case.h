@@ -46,7 +46,7 @@ struct Case {
 /// Names of all cases that come with the program, in the order of the study.
 std::vector<std::string> caseNames();
 
-/// Reads one of them. InputError names the file and the fault.
+/// Reads one of them. InputError names the file and the fault, also where the file itself is missing.
 Case readCase(const std::string& name);
 
 /// A case made from any scene: its truth is method exact, up to half the horizon of its own error estimate.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "support/environment_variable.h"
 #include "support/input_error.h"
 #include "support/process.h"
 
@@ -56,14 +57,36 @@ TEST(Case, ofEveryNameCanBeReadAndIsWhole) {
   EXPECT_EQ(measures.size(), 5U);
 }
 
-// Which names there are is checked before: a truth that cannot be found is a fault of the installation.
-TEST(Case, withoutItsFileIsTheMachinesFault) {
-  try {
-    readCase("no-such-case");
-    ADD_FAILURE() << "it was read";
-  } catch (const MachineError& error) {
-    EXPECT_NE(std::string(error.what()).find("assets/truths/no-such-case.json"), std::string::npos);
-  }
+TEST(Case, withoutItsTruthIsRefused) {
+  const std::string message = inputErrorOf([] { readCase("no-such-case"); });
+  EXPECT_TRUE(message.ends_with(
+      "assets/truths/no-such-case.json: found no file, expected the truth of the case no-such-case"))
+      << message;
+}
+
+// What reading a truth says where the program's data are it and one scene.
+std::string messageOfTruth(const std::string& truth) {
+  const TemporaryFolder data;
+  std::filesystem::create_directories(data / "assets/truths");
+  std::filesystem::create_directories(data / "assets/scenes");
+  data.write("assets/truths/fall.json", truth);
+  data.write("assets/scenes/fall.json", R"({ "careen": 1, "name": "a fall", "duration": 0.5,
+    "boxes": [ { "half_extents": [1, 1, 1], "mass": 1 } ] })");
+  const EnvironmentVariable folder("CAREEN_DATA", data.path().string());
+  return inputErrorOf([] { readCase("fall"); });
+}
+
+TEST(Case, withoutItsSceneNamesFileAndKey) {
+  const std::string head = R"({"title": "t", "why_hard": "w", "source": "s", )";
+  const std::string message = messageOfTruth(head + R"("measure": "energy", "scene": "hard/none.json"})");
+  EXPECT_TRUE(message.ends_with(
+      R"(assets/truths/fall.json: scene: found "hard/none.json", expected a file of assets/scenes)"))
+      << message;
+  const std::string of =
+      messageOfTruth(head + R"("measure": "scaled", "scene": "fall.json", "of": "none.json"})");
+  EXPECT_TRUE(
+      of.ends_with(R"(assets/truths/fall.json: of: found "none.json", expected a file of assets/scenes)"))
+      << of;
 }
 
 // x = t, z = −5 t².
