@@ -159,7 +159,7 @@ void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const 
     return;
   }
   run.estimated = true;
-  run.estimate = estimateError(run.trajectory.world, run.trajectory, stop);
+  run.estimate = estimateError(run.trajectory, stop);
 }
 
 std::filesystem::path defaultScene() { return findResource("assets/scenes/careen.json"); }

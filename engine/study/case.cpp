@@ -154,7 +154,7 @@ Case caseOfScene(const std::filesystem::path& scene, const std::stop_token& stop
   study.world = worldOf(study.scene);
   const Trajectory run = record(study.world, {.method = Method::kExact, .duration = study.scene.duration},
                                 study.scene.text, stop);
-  const std::optional<ErrorEstimate> estimate = estimateError(study.world, run, stop);
+  const std::optional<ErrorEstimate> estimate = estimateError(run, stop);
   // One rounding error for exact is a larger error for others, and grows as fast: their runs diverge earlier.
   const double until = estimate ? estimate->until * (estimate->horizon ? 0.5 : 1) : 0;
   if (until <= 0) {

@@ -50,8 +50,8 @@ World oneRoundingAway(const World& world) {
   return moved;
 }
 
-std::optional<ErrorEstimate> estimateError(const World& world, const Trajectory& run,
-                                           const std::stop_token& stop) {
+std::optional<ErrorEstimate> estimateError(const Trajectory& run, const std::stop_token& stop) {
+  const World& world = run.world;
   const int order = traitsOf(run.settings.method).order;
   RunSettings settings = run.settings;
   settings.dt /= order > 0 ? 2 : 1;

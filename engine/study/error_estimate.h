@@ -24,11 +24,10 @@ inline constexpr int kEstimateSamples = 256;
 /// The cost of the estimate, in runs.
 double estimateCost(Method method);
 
-/// Estimates the error of `run`, which is `world` moved with run.settings. For a method of order p with a
-/// fixed time step, the difference to half the step is multiplied by 2^p/(2^p−1) (Richardson). std::nullopt
-/// if the second run fails although the first did not.
-std::optional<ErrorEstimate> estimateError(const World& world, const Trajectory& run,
-                                           const std::stop_token& stop = {});
+/// Estimates the error of `run`. For a method of order p with a fixed time step, the difference to half the
+/// step is multiplied by 2^p/(2^p−1) (Richardson). std::nullopt if the second run fails although the first
+/// did not.
+std::optional<ErrorEstimate> estimateError(const Trajectory& run, const std::stop_token& stop = {});
 
 /// The same world, every component of position, velocity and angular momentum one rounding larger.
 World oneRoundingAway(const World& world);

@@ -43,7 +43,7 @@ TEST(ErrorEstimate, ofAMethodThatStepsIsItsTrueError) {
                                           : 1.0 / 15;
     const World world = tumble();
     const Trajectory run = record(world, {.method = method.method, .duration = 2, .dt = dt}, "");
-    const std::optional<ErrorEstimate> estimate = estimateError(world, run);
+    const std::optional<ErrorEstimate> estimate = estimateError(run);
     ASSERT_TRUE(estimate.has_value());
     EXPECT_EQ(estimate->by, "half the time step");
     EXPECT_EQ(estimate->until, 2);
@@ -63,7 +63,7 @@ TEST(ErrorEstimate, ofExactIsItsErrorAgainstAQuadrupleRun) {
   }
   const double end = static_cast<double>(room.time()) + 0.01;
   const Trajectory run = record(world, {.method = Method::kExact, .duration = end}, "");
-  const std::optional<ErrorEstimate> estimate = estimateError(world, run);
+  const std::optional<ErrorEstimate> estimate = estimateError(run);
   ASSERT_TRUE(estimate.has_value());
   EXPECT_EQ(estimate->by, "a start one rounding error away and a tenth of the tolerance");
   double error = 0;
@@ -83,7 +83,7 @@ TEST(ErrorEstimate, ofExactIsItsErrorAgainstAQuadrupleRun) {
 TEST(ErrorEstimate, findsWhereChaosTakesOver) {
   const World world = elasticRoom();
   const Trajectory run = record(world, {.method = Method::kExact, .duration = 30}, "");
-  const std::optional<ErrorEstimate> estimate = estimateError(world, run);
+  const std::optional<ErrorEstimate> estimate = estimateError(run);
   ASSERT_TRUE(estimate.has_value());
   ASSERT_TRUE(estimate->horizon.has_value());
   // This run and the quadruple run diverge after some 17 impacts.
@@ -100,7 +100,7 @@ TEST(ErrorEstimate, saysNothingWhereTheRunCannotBeRepeated) {
   world.walls = {wall("floor", Vec3(0, 0, 1), 0, 0)};
   world.bodies = {box("cube", Vec3(0.5, 0.5, 0.5), 1, Vec3(0, 0, 1), Vec3::Zero(), Vec3::Zero(), 0)};
   const Trajectory run = record(world, {.method = Method::kListing1, .duration = 0.33, .dt = 1.0 / 30}, "");
-  EXPECT_FALSE(estimateError(world, run).has_value());
+  EXPECT_FALSE(estimateError(run).has_value());
 }
 
 TEST(ErrorEstimate, aStartOneRoundingAwayMovesNothingElse) {
