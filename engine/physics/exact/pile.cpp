@@ -52,7 +52,10 @@ void ExactWorld::runAsPile(const std::stop_token& stop) {
   std::vector<char> slept(movers_.size(), 0);
   for (std::int64_t frame = 0; !pile.atRest(); ++frame) {
     // By multiplication: a running sum would drift from the frames of a film.
-    const Instant time = instantAfter(start, static_cast<double>(frame) * kFrame);
+    const auto frameStart = [&](std::int64_t k) {
+      return instantAfter(start, static_cast<double>(k) * kFrame);
+    };
+    const Instant time = frameStart(frame);
     if (!earlier(time, end_)) {
       break;
     }
@@ -70,7 +73,7 @@ void ExactWorld::runAsPile(const std::stop_token& stop) {
       }
       recorder_.moves(body.listed, time.hi, between(states[i], next));
       if (sleeps) {
-        recorder_.moves(body.listed, instantAfter(time, kFrame).hi, Rest{next.pose});
+        recorder_.moves(body.listed, frameStart(frame + 1).hi, Rest{next.pose});
       }
       slept[i] = sleeps ? 1 : 0;
       account_.departs(i, next);

@@ -140,7 +140,7 @@ TEST(ExactWorldContact, springsSwingWithinTheTolerance) {
   }
 }
 
-TEST(ExactWorldContact, goesOnAsAPileWhereTooManyTouch) {
+World fourLayers() {
   World world = onAFloor(0.5);
   for (int k = 0; k < 40; ++k) {
     world.bodies.push_back(rough(box("box-" + std::to_string(10 + k), Vec3(0.2, 0.2, 0.2), 1,
@@ -148,12 +148,36 @@ TEST(ExactWorldContact, goesOnAsAPileWhereTooManyTouch) {
                                           0.42 * (k / 3 % 3) + 0.2 * (k / 9 % 2), 0.3 + 0.45 * (k / 9))),
                                  0.5));
   }
+  return world;
+}
+
+TEST(ExactWorldContact, goesOnAsAPileWhereTooManyTouch) {
+  const World world = fourLayers();
   const Recorded run = runFor(world, 5);
   ASSERT_TRUE(run.figures.boundedFrom);
   EXPECT_LT(run.figures.deepestPenetration, 5e-4);  // measured 1.6e-4
   for (std::size_t k = 0; k < world.bodies.size(); ++k) {
     EXPECT_TRUE(run.last(world, k, 5).pose.position.allFinite());
     EXPECT_GT(run.last(world, k, 5).pose.position.z(), 0.19);
+  }
+}
+
+// A body may rest for a single frame: a rest begins where frames do, to the bit.
+TEST(ExactWorldContact, beginsEveryMotionOfAPileWithAFrame) {
+  const Recorded run = runFor(fourLayers(), 5);
+  std::vector<double> starts;
+  for (const auto& motions : run.motions) {
+    for (const auto& [start, motion] : motions) {
+      if (start >= run.figures.boundedFrom) {
+        starts.push_back(start);
+      }
+    }
+  }
+  std::sort(starts.begin(), starts.end());
+  starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
+  ASSERT_GT(starts.size(), 10U);
+  for (std::size_t k = 1; k < starts.size(); ++k) {
+    EXPECT_NEAR(starts[k] - starts[k - 1], 1.0 / 60, 1e-12) << k;
   }
 }
 
