@@ -1,20 +1,43 @@
 #include "interruption.h"
 
 #include <pthread.h>
+#include <unistd.h>
+
+#include <ctime>
+#include <string_view>
+
+#include "core/system/cleanup.h"
 
 namespace careen {
+namespace {
+
+// [s] A command may end in its own way for so long; somebody who asked it to stop waits no longer.
+constexpr timespec kPatience = {.tv_sec = 0, .tv_nsec = 700'000'000};
+
+const int kWake = SIGRTMIN;  // from the destructor
+
+bool isIgnored(int signal) {
+  struct sigaction action = {};
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+}  // namespace
 
 Interruption::Interruption() {
   sigemptyset(&signals_);
-  sigaddset(&signals_, SIGINT);
-  sigaddset(&signals_, SIGTERM);
+  sigaddset(&signals_, kWake);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    if (!isIgnored(signal)) {  // a shell ignores them for its background jobs
+      sigaddset(&signals_, signal);
+    }
+  }
   pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
   waiter_ = std::thread([this] { wait(); });
 }
 
 Interruption::~Interruption() {
   over_ = true;
-  pthread_kill(waiter_.native_handle(), SIGINT);
+  pthread_kill(waiter_.native_handle(), kWake);
   waiter_.join();
   pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
 }
@@ -28,10 +51,16 @@ void Interruption::wait() {
   }
   signal_ = signal;
   source_.request_stop();
-  sigwait(&signals_, &signal);
-  if (over_) {
-    return;
+  sigtimedwait(&signals_, nullptr, &kPatience);  // until the end, a second signal, or the end of patience
+  if (!over_) {
+    endNow(signal);
   }
+}
+
+void Interruption::endNow(int signal) {
+  cleanUpToEnd();
+  constexpr std::string_view kMessage = "careen: interrupted\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kMessage.data(), kMessage.size());
   std::signal(signal, SIG_DFL);
   pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
   std::raise(signal);

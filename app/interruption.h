@@ -7,9 +7,12 @@
 
 namespace careen {
 
-/// Turns SIGINT and SIGTERM into a stop request, so that whatever is being written is finished or undone.
-/// Create it before any other thread: they inherit the mask that leaves the signals to its own thread. A
-/// second signal ends the process at once.
+/// Turns SIGINT and SIGTERM into a stop request, so that whatever is being written is finished or undone. If
+/// the command has not ended 0.7 s later, or at a second signal, what is unfinished is undone here (see
+/// Cleanup) and the process ends by the signal, whatever it is doing. A signal that was ignored when the
+/// program started stays ignored.
+///
+/// Create it before any other thread: they inherit the mask that leaves the signals to its own thread.
 class Interruption {
  public:
   Interruption();
@@ -25,6 +28,7 @@ class Interruption {
 
  private:
   void wait();
+  void endNow(int signal);
 
   sigset_t signals_{};
   std::stop_source source_;

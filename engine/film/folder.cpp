@@ -66,6 +66,10 @@ FilmFolder::FilmFolder(fs::path path) : path_(std::move(path)) {
   if (error) {
     throw MachineError(path_.string() + ": cannot be made a folder: " + error.message());
   }
+  cleanup_.emplace([this] {
+    removePartials();
+    removeIfEmpty();
+  });
   lock_.emplace(path_);
   manifest_ = readManifest(path_);
   if (!manifest_ && hasPng(path_)) {
@@ -74,11 +78,21 @@ FilmFolder::FilmFolder(fs::path path) : path_(std::move(path)) {
 }
 
 FilmFolder::~FilmFolder() {
+  cleanup_.reset();
+  removePartials();
+  lock_.reset();  // removes the lock file, which is in the folder
+  removeIfEmpty();
+}
+
+// Our own and those of killed runs.
+void FilmFolder::removePartials() const {
   try {
-    removeAll(path_, isPartial);     // our own and those of killed runs
+    removeAll(path_, isPartial);
   } catch (const std::exception&) {  // left for the next film to remove
   }
-  lock_.reset();  // removes the lock file, which is in the folder
+}
+
+void FilmFolder::removeIfEmpty() const {
   if (made_) {
     std::error_code notEmpty;
     fs::remove(path_, notEmpty);

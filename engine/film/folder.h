@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/system/cleanup.h"
 #include "film/folder_lock.h"
 #include "film/manifest.h"
 
@@ -38,8 +39,12 @@ class FilmFolder {
   void begin(const FilmManifest& asked, bool resume);
 
  private:
+  void removePartials() const;
+  void removeIfEmpty() const;
+
   std::filesystem::path path_;
   bool made_ = false;
+  std::optional<Cleanup> cleanup_;  // before the lock: its file goes first
   std::optional<FolderLock> lock_;
   std::optional<FilmManifest> manifest_;
 };

@@ -31,6 +31,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".c
   while ((descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) >= 0) {
     const bool taken = flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     if (!taken && isAt(descriptor_, file_)) {
+      cleanup_.emplace([this] { unlink(file_.c_str()); });
       return;
     }
     close(descriptor_);  // taken, or just removed by its previous owner
@@ -43,6 +44,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".c
 }
 
 FolderLock::~FolderLock() {
+  cleanup_.reset();
   if (descriptor_ >= 0) {
     std::error_code ignored;
     std::filesystem::remove(file_, ignored);  // while locked, so it cannot be another process's

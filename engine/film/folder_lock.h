@@ -1,6 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+
+#include "core/system/cleanup.h"
 
 namespace careen {
 
@@ -21,6 +24,7 @@ class FolderLock {
  private:
   std::filesystem::path file_;
   int descriptor_ = -1;  ///< −1: locks are not supported
+  std::optional<Cleanup> cleanup_;
 };
 
 }  // namespace careen

@@ -61,6 +61,12 @@ VideoPipe::VideoPipe(VideoSettings settings) : settings_(std::move(settings)) {
     throw MachineError(settings_.path.string() + ": cannot be written: " + std::strerror(errno));
   }
   close(probe);
+  cleanup_.emplace([this] {
+    if (process_ != 0) {
+      kill(process_, SIGKILL);
+    }
+    unlink(partial_.c_str());
+  });
   try {
     start();
   } catch (...) {
@@ -113,6 +119,7 @@ void VideoPipe::finish() {
   if (error) {
     throw MachineError(settings_.path.string() + ": cannot be put in place: " + error.message());
   }
+  cleanup_.reset();
   closeAndForget(log_);
   partial_.clear();
 }
@@ -132,6 +139,7 @@ void VideoPipe::fail(const std::string& what) {
 }
 
 void VideoPipe::undo() {
+  cleanup_.reset();
   if (process_ != 0) {
     kill(process_, SIGKILL);
     wait();

@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
+#include "core/system/cleanup.h"
 #include "image/video_format.h"
 
 namespace careen {
@@ -40,6 +42,7 @@ class VideoPipe {
   int frames_ = -1;  // socket to ffmpeg's standard input
   int log_ = -1;     // ffmpeg's messages
   int process_ = 0;  // 0: not running
+  std::optional<Cleanup> cleanup_;
 };
 
 }  // namespace careen

@@ -1,5 +1,7 @@
 // The program as its user meets it: what it prints, what it leaves behind, how it ends.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -281,6 +283,35 @@ TEST_F(CommandLine, interruptedSimulationWritesNothing) {
     EXPECT_NE(ended.err.find("interrupted"), std::string::npos);
     EXPECT_EQ(folder_.files(), std::vector<std::string>{"scene.json"});
   }
+}
+
+// Reading a pipe into which nobody writes never ends, whatever the stop request.
+TEST_F(CommandLine, obeysTheFirstSignalEvenWhereItWaitsForever) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe.json").c_str(), 0600), 0);
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"simulate", "pipe.json"}, {"info", "pipe.json"}}) {
+    std::vector<std::string> command = {program()};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    Process process(command, folder_.path());
+    usleep(200'000);
+    process.send(SIGTERM);
+    const Ended ended = process.wait();
+    EXPECT_EQ(ended.signal, SIGTERM) << ended.exitCode << ended.err;
+    EXPECT_EQ(ended.err, "careen: interrupted\n");
+    EXPECT_EQ(folder_.files(), std::vector<std::string>{"pipe.json"});
+  }
+}
+
+// As a shell starts jobs in the background of a script.
+TEST_F(CommandLine, keepsIgnoringAnIgnoredSignal) {
+  folder_.write("scene.json", kScene);
+  Process process({"bash", "-c", "trap '' INT; exec \"$0\" simulate scene.json --duration 100000", program()},
+                  folder_.path());
+  usleep(300'000);
+  process.send(SIGINT);
+  usleep(300'000);
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait().signal, SIGTERM);
 }
 
 }  // namespace

@@ -299,6 +299,27 @@ TEST_F(Render, interruptedFilmIsCompletedByASecondRun) {
   }
 }
 
+// An ffmpeg that takes no frame and does not end.
+TEST_F(Render, interruptedFilmEndsAnEncoderThatHangs) {
+  std::filesystem::create_directory(folder_ / "bin");
+  folder_.write("bin/ffmpeg", "#!/bin/sh\nexec sleep 1000\n");
+  std::filesystem::permissions(folder_ / "bin/ffmpeg", std::filesystem::perms::owner_all);
+  Process process(
+      {"bash", "-c", "PATH=$PWD/bin:$PATH exec \"$0\" render scene.json --out film --video film.mp4",
+       CAREEN_BINARY},
+      folder_.path());
+  waitUntilInTheMiddle();
+  const std::vector<pid_t> programs = childrenOf(process.id());
+  EXPECT_FALSE(programs.empty());
+  process.send(SIGINT);
+  EXPECT_EQ(process.wait().signal, SIGINT);
+  for (const pid_t program : programs) {
+    EXPECT_NE(kill(program, 0), 0);
+  }
+  EXPECT_FALSE(hasPartials());
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "film.mp4"));
+}
+
 TEST_F(Render, killedFilmIsCompletedByASecondRun) {
   ASSERT_EQ(careen({"render", "scene.json", "--out", "whole", "--fps", "100"}).exitCode, 0);
   Process process(longFilm("3"), folder_.path());

@@ -25,7 +25,8 @@ std::filesystem::path partialPath(const std::filesystem::path& path) {
 AtomicFile::AtomicFile(std::filesystem::path path)
     : path_(std::move(path)),
       partial_(partialPath(path_)),
-      stream_(partial_, std::ios::binary | std::ios::trunc) {
+      stream_(partial_, std::ios::binary | std::ios::trunc),
+      cleanup_([this] { unlink(partial_.c_str()); }) {
   if (!stream_) {
     fail("cannot be written");
   }

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/system/cleanup.h"
+
 namespace careen {
 
 /// A file that appears whole or not at all: it is written beside its place under a hidden name, moved there
@@ -28,6 +30,7 @@ class AtomicFile {
   std::filesystem::path partial_;
   std::ofstream stream_;
   bool committed_ = false;
+  Cleanup cleanup_;
 };
 
 /// The whole file; InputError if it is missing or cannot be read.

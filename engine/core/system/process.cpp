@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/system/cleanup.h"
 
 namespace careen {
 
@@ -59,6 +60,7 @@ void runProgram(const std::vector<std::string>& command) {
   const int error = startProgram(command, nothing, log, process);
   int status = 0;
   if (error == 0) {
+    const Cleanup cleanup([process] { kill(-process, SIGKILL); });
     while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
     }
   }

@@ -88,6 +88,10 @@ Worker::Worker(const std::function<void(const Channel&)>& work) {
   if (process_ < 0) {
     throw MachineError(std::string("no worker process can be made: ") + std::strerror(error));
   }
+  cleanup_.emplace([this] {
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);  // it may be writing
+  });
 }
 
 Worker::~Worker() { end(); }
@@ -105,6 +109,7 @@ const WorkerEnd& Worker::end() {
       process_ = 0;
     }
   }
+  cleanup_.reset();
   return end_;
 }
 

@@ -5,9 +5,12 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
+
+#include "core/system/cleanup.h"
 
 namespace careen {
 
@@ -74,6 +77,7 @@ class Worker {
   std::unique_ptr<Channel> channel_;
   pid_t process_ = 0;  // 0: ended
   WorkerEnd end_;
+  std::optional<Cleanup> cleanup_;
 };
 
 }  // namespace careen
