@@ -62,7 +62,7 @@ Reference readReference(const fs::path& folder) {
   if (std::none_of(film->frames.begin(), film->frames.end(),
                    [&](std::int64_t frame) { return fs::exists(folder / frameFileName(frame), none); })) {
     throw InputError("--ref: " + folder.string() + " has none of the frames that its " + kManifestName +
-                     " tells of" + expected);
+                     " lists" + expected);
   }
   return {.folder = folder, .film = std::move(*film)};
 }

@@ -139,7 +139,7 @@ class Pair {
     if (!(state.pose.position.allFinite() && state.pose.worldFromBody.allFinite() &&
           state.velocity.allFinite() && state.angularMomentum.allFinite())) {
       throw InputError(std::string(name) + ": box " + run.world.bodies[body].name + " has a state at " +
-                       brief(time) + " s that is no number");
+                       brief(time) + " s that is not finite");
     }
     return state;
   }

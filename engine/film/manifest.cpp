@@ -71,7 +71,7 @@ std::optional<FilmManifest> readManifest(const std::filesystem::path& folder) {
   try {
     return fromJson(nlohmann::json::parse(readFile(path)));
   } catch (const std::exception& error) {
-    throw InputError(path.string() + ": does not tell of a film: " + error.what());
+    throw InputError(path.string() + ": is not a film manifest: " + error.what());
   }
 }
 

@@ -11,44 +11,44 @@ namespace careen {
 namespace {
 
 // What the scene needs, where more than one item of the plan depends on it.
-struct Wants {
+struct Needs {
   std::vector<Wall> walls;
   std::size_t movingBoxes = 0;
-  bool meetsWalls = false;
-  bool meetsBoxes = false;  // two boxes could collide, if the method allows it
-  bool meets = false;       // some pair can collide with this method
-  bool rebounds = false;    // … and have restitution
-  bool rubs = false;        // … have friction
-  bool stops = false;       // … are pulled together and do not separate at full speed
+  bool hitsWalls = false;
+  bool hitsBoxes = false;    // two boxes could collide, if the method allows it
+  bool collides = false;     // some pair can collide with this method
+  bool rebounds = false;     // … and have restitution
+  bool hasFriction = false;  // … have friction
+  bool stops = false;        // … are pulled together and do not separate at full speed
 };
 
-void meet(Wants& wants, const Material& pair, bool pulled) {
-  wants.meets = true;
-  wants.rebounds = wants.rebounds || pair.restitution > 0;
-  wants.rubs = wants.rubs || pair.friction > 0;
-  wants.stops = wants.stops || (pulled && pair.restitution < 1);
+void addPair(Needs& needs, const Material& pair, bool pulled) {
+  needs.collides = true;
+  needs.rebounds = needs.rebounds || pair.restitution > 0;
+  needs.hasFriction = needs.hasFriction || pair.friction > 0;
+  needs.stops = needs.stops || (pulled && pair.restitution < 1);
 }
 
-Wants wantsOf(const Scene& scene) {
-  Wants wants{.walls = wallsOf(scene)};
+Needs needsOf(const Scene& scene) {
+  Needs needs{.walls = wallsOf(scene)};
   const bool pulled = !scene.gravity.isZero(0);
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
     const SceneBox& box = scene.boxes[i];
-    wants.movingBoxes += box.fixed ? 0U : 1U;
-    for (std::size_t w = 0; w < wants.walls.size() && !box.fixed; ++w) {
-      meet(wants, touching(box.material, wants.walls[w].material), pulled);
+    needs.movingBoxes += box.fixed ? 0U : 1U;
+    for (std::size_t w = 0; w < needs.walls.size() && !box.fixed; ++w) {
+      addPair(needs, touching(box.material, needs.walls[w].material), pulled);
     }
     for (std::size_t j = 0; j < i; ++j) {
       const SceneBox& other = scene.boxes[j];
       const bool could = !box.fixed || !other.fixed;
-      wants.meetsBoxes = wants.meetsBoxes || could;
+      needs.hitsBoxes = needs.hitsBoxes || could;
       if (could && traitsOf(scene.method).boxBox) {
-        meet(wants, touching(box.material, other.material), pulled);
+        addPair(needs, touching(box.material, other.material), pulled);
       }
     }
   }
-  wants.meetsWalls = wants.movingBoxes > 0 && !wants.walls.empty();
-  return wants;
+  needs.hitsWalls = needs.movingBoxes > 0 && !needs.walls.empty();
+  return needs;
 }
 
 std::string counted(std::size_t count, const std::string& one, const std::string& many) {
@@ -79,49 +79,49 @@ PlanItem springs(const Scene& scene) {
              : modelled("springs", counted(scene.springs.size(), "spring", "springs") + " in the scene");
 }
 
-PlanItem boxWall(const Wants& wants) {
-  if (wants.walls.empty()) {
+PlanItem boxWall(const Needs& needs) {
+  if (needs.walls.empty()) {
     return leftOut("box-wall", "the scene has no walls");
   }
-  if (!wants.meetsWalls) {
+  if (!needs.hitsWalls) {
     return leftOut("box-wall", "every box is fixed");
   }
-  return modelled("box-wall", counted(wants.walls.size(), "wall", "walls") + " and " +
-                                  counted(wants.movingBoxes, "box", "boxes") + " that can move");
+  return modelled("box-wall", counted(needs.walls.size(), "wall", "walls") + " and " +
+                                  counted(needs.movingBoxes, "box", "boxes") + " that can move");
 }
 
-PlanItem boxBox(const Scene& scene, const Wants& wants) {
-  if (!wants.meetsBoxes) {
-    return leftOut("box-box", "no two boxes could meet");
+PlanItem boxBox(const Scene& scene, const Needs& needs) {
+  if (!needs.hitsBoxes) {
+    return leftOut("box-box", "no two boxes can collide");
   }
   return traitsOf(scene.method).boxBox
-             ? modelled("box-box", counted(scene.boxes.size(), "box", "boxes") + " that could meet")
+             ? modelled("box-box", counted(scene.boxes.size(), "box", "boxes") + " that can collide")
              : leftOut("box-box",
                        "method " + nameOf(scene.method) + " has none: boxes pass through one another");
 }
 
-const char* nothingMeets(const Scene& scene) {
-  return traitsOf(scene.method).boxBox ? "nothing meets anything" : "nothing meets a wall";
+const char* noCollision(const Scene& scene) {
+  return traitsOf(scene.method).boxBox ? "nothing can collide" : "no box can hit a wall";
 }
-const char* zeroWhereTheyMeet(const Scene& scene) {
-  return traitsOf(scene.method).boxBox ? "it is 0 wherever two things meet"
-                                       : "it is 0 wherever a box meets a wall";
-}
-
-PlanItem restitution(const Scene& scene, const Wants& wants) {
-  if (!wants.meets) {
-    return leftOut("restitution", nothingMeets(scene));
-  }
-  return wants.rebounds ? modelled("restitution", "the scene sets it")
-                        : leftOut("restitution", zeroWhereTheyMeet(scene));
+const char* zeroInEveryPair(const Scene& scene) {
+  return traitsOf(scene.method).boxBox ? "it is 0 for every pair that can collide"
+                                       : "it is 0 for every box and wall";
 }
 
-PlanItem friction(const Scene& scene, const Wants& wants) {
-  if (!wants.meets) {
-    return leftOut("friction", nothingMeets(scene));
+PlanItem restitution(const Scene& scene, const Needs& needs) {
+  if (!needs.collides) {
+    return leftOut("restitution", noCollision(scene));
   }
-  if (!wants.rubs) {
-    return leftOut("friction", zeroWhereTheyMeet(scene));
+  return needs.rebounds ? modelled("restitution", "the scene sets it")
+                        : leftOut("restitution", zeroInEveryPair(scene));
+}
+
+PlanItem friction(const Scene& scene, const Needs& needs) {
+  if (!needs.collides) {
+    return leftOut("friction", noCollision(scene));
+  }
+  if (!needs.hasFriction) {
+    return leftOut("friction", zeroInEveryPair(scene));
   }
   return traitsOf(scene.method).friction
              ? modelled("friction", traitsOf(scene.method).rests
@@ -131,25 +131,25 @@ PlanItem friction(const Scene& scene, const Wants& wants) {
                                        " has none: everything slides freely");
 }
 
-PlanItem resting(const Scene& scene, const Wants& wants) {
-  if (!wants.meets) {
-    return leftOut("resting", nothingMeets(scene));
+PlanItem resting(const Scene& scene, const Needs& needs) {
+  if (!needs.collides) {
+    return leftOut("resting", noCollision(scene));
   }
   if (!traitsOf(scene.method).rests) {
     return leftOut("resting", "method " + nameOf(scene.method) +
                                   " cannot rest: where a box would come to lie, the run ends in an error");
   }
-  return wants.stops
+  return needs.stops
              ? modelled("resting", "bounces die out; what touches slides, rocks, stacks and comes to rest")
-             : leftOut("resting", "nothing that meets loses speed and is pulled back");
+             : leftOut("resting", "no collision under gravity has a restitution below 1");
 }
 
 }  // namespace
 
 Plan plan(const Scene& scene) {
-  const Wants wants = wantsOf(scene);
-  return {{gravity(scene), drag(scene), springs(scene), boxWall(wants), boxBox(scene, wants),
-           restitution(scene, wants), friction(scene, wants), resting(scene, wants)}};
+  const Needs needs = needsOf(scene);
+  return {{gravity(scene), drag(scene), springs(scene), boxWall(needs), boxBox(scene, needs),
+           restitution(scene, needs), friction(scene, needs), resting(scene, needs)}};
 }
 
 World assemble(const Scene& scene, const Plan& plan) {

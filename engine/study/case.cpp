@@ -80,7 +80,8 @@ void readPoses(const Json& boxes, Case& study) {
       return each.name == box.at("name").get<std::string>();
     });
     if (body == bodies.end()) {
-      throw InputError("no box " + box.at("name").get<std::string>() + " in its scene");
+      throw InputError("boxes: found \"" + box.at("name").get<std::string>() +
+                       "\", expected boxes of its scene");
     }
     for (std::size_t k = 0; k < study.times.size(); ++k) {
       study.poses[k][static_cast<std::size_t>(body - bodies.begin())] = {
@@ -106,7 +107,7 @@ void readTruth(const Json& truth, Case& study) {
   }
   study.times = truth.at("times").get<std::vector<double>>();
   if (study.times.empty() || !std::is_sorted(study.times.begin(), study.times.end())) {
-    throw InputError("its times do not ascend");
+    throw InputError("times: found a time before the one it follows, expected ascending times");
   }
   if (study.measure == Measure::kPoses) {
     readPoses(truth.at("boxes"), study);

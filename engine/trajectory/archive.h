@@ -141,8 +141,7 @@ void visitNamed(Archive& archive, Enum& value, const std::array<std::string_view
   if constexpr (Archive::kReads) {
     const auto known = std::find(names.begin(), names.end(), name);
     if (known == names.end()) {
-      archive.fail("has '" + name + "', which this version does not know, where it expects one of " +
-                   listed(names));
+      archive.fail("has '" + name + "', expected one of " + listed(names));
     }
     value = static_cast<Enum>(known - names.begin());
   }
@@ -202,7 +201,7 @@ void visitVariant(Archive& archive, Variant& variant) {
   archive.visit(index);
   if constexpr (Archive::kReads) {
     if (!emplaceAlternative(variant, index)) {
-      archive.fail("holds a kind of record this version does not know");
+      archive.fail("has an unknown kind of record");
     }
   }
   std::visit([&archive](auto& held) { visit(archive, held); }, variant);

@@ -18,7 +18,8 @@ namespace {
 constexpr double kUnit = 1e-6;       // [1] tolerance of the length of a direction, quaternion or orientation
 constexpr double kSamePlace = 1e-6;  // of a box size: between initial position and start of its track
 constexpr double kMostSteps = 4096;  // per stepped flight; the methods end one after 64
-constexpr double kRounding = 1e-12;  // of the duration: times summed in two ways
+constexpr double kRounding =
+    1e-12;  // of the duration: earlier versions summed the times of a pile in two ways
 constexpr double kLeastTilt = 1e-9;  // [rad] between line of sight and the camera's up
 
 [[noreturn]] void fail(const std::string& what) { throw InputError(what); }
@@ -77,7 +78,7 @@ struct Soundness {
 void checkTrack(const Track& track, const std::string& name, const RunSettings& settings) {
   const std::string owner = "a track of body '" + name + "'";
   if (track.segments.empty() || track.segments.front().start != 0) {
-    fail("does not tell where body '" + name + "' begins");
+    fail("has no motion of body '" + name + "' at the start");
   }
   for (std::size_t k = 0; k < track.segments.size(); ++k) {
     const Segment& segment = track.segments[k];
@@ -87,7 +88,7 @@ void checkTrack(const Track& track, const std::string& name, const RunSettings& 
     require(end >= segment.start - kRounding * settings.duration && std::isfinite(end),
             "segments out of order", owner);
     require(std::visit(Soundness{.settings = settings, .seconds = end - segment.start}, segment.motion),
-            "a motion that makes no sense", owner);
+            "an invalid motion", owner);
   }
 }
 
@@ -98,13 +99,13 @@ void checkImpacts(const Trajectory& run) {
                        (impact.b.isWall() ? impact.b.wall() < run.world.walls.size()
                                           : isWithin(impact.b.body(), run.world.bodies.size()));
     if (!known) {
-      fail("names a body or wall it does not hold");
+      fail("names an unknown body or wall");
     }
     require(impact.time >= before && impact.time <= run.settings.duration,
             "a time out of order or beyond the run's end", "an impact");
     require(impact.point.allFinite() && isUnit(impact.normal.norm()) && std::isfinite(impact.approach) &&
                 std::isfinite(impact.impulse) && std::isfinite(impact.tangential),
-            "numbers that make no sense", "an impact");
+            "invalid numbers", "an impact");
     before = impact.time;
   }
 }
@@ -112,9 +113,9 @@ void checkImpacts(const Trajectory& run) {
 // ---- World.
 
 void checkMaterial(const Material& material, const std::string& owner) {
-  require(isNotNegative(material.restitution) && material.restitution <= 1, "a restitution not from 0 to 1",
+  require(isNotNegative(material.restitution) && material.restitution <= 1, "a restitution outside 0 to 1",
           owner);
-  require(isNotNegative(material.friction), "a friction that is no number from 0 on", owner);
+  require(isNotNegative(material.friction), "a friction that is negative or not finite", owner);
 }
 
 void checkBody(const Body& body) {
@@ -124,16 +125,16 @@ void checkBody(const Body& body) {
   if (isImmovable(body.mass)) {
     require(body.mass == immovable(), "a mass though it cannot be moved", owner);
   } else {
-    require(isPositive(body.mass.mass), "a mass that is no positive number", owner);
+    require(isPositive(body.mass.mass), "a mass that is not positive", owner);
     require(body.mass == solidBox(body.halfExtents, body.mass.mass),
-            "another inertia than a solid box of its size and mass", owner);
+            "another inertia than that of a solid box of its size and mass", owner);
   }
   checkMaterial(body.material, owner);
-  require(isSound(body.initial), "a start that makes no sense", owner);
+  require(isSound(body.initial), "an invalid initial state", owner);
 }
 
 void checkWall(const Vec3& normal, double offset, const std::string& owner) {
-  require(isUnit(normal.norm()) && std::isfinite(offset), "a place that makes no sense", owner);
+  require(isUnit(normal.norm()) && std::isfinite(offset), "an invalid plane", owner);
 }
 
 void checkNames(const World& world) {
@@ -153,17 +154,17 @@ void checkNames(const World& world) {
 
 void checkSpring(const Spring& spring, std::size_t bodies) {
   for (const SpringEnd& end : {spring.from, spring.to}) {
-    require(!end.body || isWithin(*end.body, bodies), "an end at a body there is not", "a spring");
-    require(end.point.allFinite(), "an end that is nowhere", "a spring");
+    require(!end.body || isWithin(*end.body, bodies), "an end at an unknown body", "a spring");
+    require(end.point.allFinite(), "an end that is not finite", "a spring");
   }
   require(spring.from.body != spring.to.body, "both ends at one body", "a spring");
   require(
       isNotNegative(spring.stiffness) && isNotNegative(spring.damping) && isNotNegative(spring.restLength),
-      "numbers that make no sense", "a spring");
+      "invalid numbers", "a spring");
 }
 
 void checkWorld(const World& world) {
-  require(world.gravity.allFinite(), "a gravity that is no number", "a world");
+  require(world.gravity.allFinite(), "a gravity that is not finite", "a world");
   checkNames(world);
   for (const Body& body : world.bodies) {
     checkBody(body);
@@ -177,7 +178,7 @@ void checkWorld(const World& world) {
     checkSpring(spring, world.bodies.size());
   }
   require(!world.drag || (isNotNegative(world.drag->linear) && isNotNegative(world.drag->angular)),
-          "a drag that makes no sense", "a world");
+          "an invalid drag", "a world");
 }
 
 // A track starts at its body's initial state, up to the rounding of a motion.
@@ -187,7 +188,7 @@ void checkStart(const Trajectory& run, std::size_t body) {
   const Pose& start = moved.initial.pose;
   require((first.position - start.position).norm() <= kSamePlace * moved.halfExtents.norm() &&
               (first.worldFromBody - start.worldFromBody).cwiseAbs().maxCoeff() <= kSamePlace,
-          "a track that begins elsewhere than it starts", "a body '" + moved.name + "'");
+          "a track that does not begin at its initial pose", "a body '" + moved.name + "'");
 }
 
 // ---- Stage.
@@ -196,21 +197,21 @@ void checkSight(const Vec3& eye, const Vec3& target, const Vec3& up, double fovD
   const Vec3 sight = target - eye;
   require(eye.allFinite() && target.allFinite() && sight.norm() > 0 && isUnit(up.norm()) &&
               sight.normalized().cross(up).norm() > kLeastTilt,
-          "nothing to look at or no upward", "a camera");
+          "its target at its eye or its up along its view", "a camera");
   require(isPositive(fovDegrees) && fovDegrees < 180, "an angle not between 0 and 180", "a camera");
 }
 
 void checkCamera(const Stage& stage, std::size_t bodies) {
   const CameraMove& move = stage.cameraMove;
   const bool moves = move.orbitDegrees != 0 || move.followed || !move.keys.empty();
-  require(stage.camera || !moves, "a move but no place", "a camera");
+  require(stage.camera || !moves, "a movement but no position", "a camera");
   if (!stage.camera) {
     return;
   }
   checkSight(stage.camera->eye, stage.camera->target, stage.camera->up, stage.camera->fovDegrees);
   require(std::isfinite(move.orbitDegrees) && (move.orbitDegrees == 0 || move.keys.empty()),
-          "an orbit that makes no sense", "a camera");
-  require(!move.followed || *move.followed < bodies, "a body to follow that there is not", "a camera");
+          "an invalid orbit", "a camera");
+  require(!move.followed || *move.followed < bodies, "an unknown body to follow", "a camera");
   double before = -1;
   for (const CameraKey& key : move.keys) {
     checkSight(key.eye, key.target, stage.camera->up, key.fovDegrees);
@@ -233,7 +234,7 @@ void checkPicture(const PictureSettings& picture) {
   require(isSize(picture.width) && isSize(picture.height), "a size beyond what can be drawn", "a picture");
   require(isNotNegative(picture.shutter.degrees) && picture.shutter.degrees <= kWidestShutter &&
               picture.shutter.samples >= 1 && picture.shutter.samples <= kMostShutterSamples,
-          "a shutter that makes no sense", "a picture");
+          "an invalid shutter", "a picture");
 }
 
 void checkStage(const Stage& stage, std::size_t bodies) {
@@ -243,7 +244,7 @@ void checkStage(const Stage& stage, std::size_t bodies) {
   if (stage.room) {
     require(stage.room->min.allFinite() && stage.room->max.allFinite() &&
                 (stage.room->min.array() < stage.room->max.array()).all(),
-            "no inside", "a room");
+            "a min that is not below its max", "a room");
   }
   for (const Plane& plane : stage.planes) {
     checkWall(plane.normal, plane.offset, "a wall to be drawn");
@@ -258,7 +259,7 @@ void checkStage(const Stage& stage, std::size_t bodies) {
 void checkMotions(const Trajectory& run) {
   require(
       isPositive(run.settings.duration) && isPositive(run.settings.dt) && isPositive(run.settings.tolerance),
-      "a duration, step or tolerance that is no positive number", "settings");
+      "a duration, time step or tolerance that is not positive", "settings");
   if (run.tracks.size() != run.world.bodies.size()) {
     fail("has " + std::to_string(run.tracks.size()) + " tracks for " +
          std::to_string(run.world.bodies.size()) + " bodies");

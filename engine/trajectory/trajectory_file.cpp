@@ -46,7 +46,7 @@ std::string unpacked(ArchiveReader& reader) {
 Unwrapped unwrapped(const std::string& bytes, const std::string& name) {
   ArchiveReader reader(bytes, name);
   if (!looksLikeTrajectory(bytes)) {
-    reader.fail("does not begin as one: expected a file written by 'careen simulate'");
+    reader.fail("has the wrong first bytes, expected a file written by 'careen simulate'");
   }
   if (bytes.size() < kMagic.size() + 3 * sizeof(std::uint64_t)) {
     reader.fail("is cut short");
@@ -97,7 +97,7 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name, c
   std::string stateHash;
   reader.visit(stateHash);
   if (!reader.atEnd()) {
-    reader.fail("goes on after its end");
+    reader.fail("has bytes after its end");
   }
   try {
     if (file.version != kVersion) {
@@ -109,7 +109,7 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name, c
   }
   if (stateHash != trajectory.stateHash()) {
     reader.fail(
-        "ends in another state than its hash says: it was made by a version that moves bodies otherwise");
+        "ends in a state that does not match its hash: another version of the program computed its motion");
   }
   return trajectory;
 }

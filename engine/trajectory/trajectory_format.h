@@ -132,10 +132,10 @@ void visit(Archive& archive, Visited<Archive, Partner> partner) {
   visitIndex(archive, index);
   if constexpr (Archive::kReads) {
     if (kind > 1) {
-      archive.fail("holds a kind of record this version does not know");
+      archive.fail("has an unknown kind of record");
     }
     if (index < 0) {
-      archive.fail("names a body or wall it does not hold");
+      archive.fail("names an unknown body or wall");
     }
     partner = kind == 0 ? Partner::ofWall(static_cast<std::size_t>(index)) : Partner::ofBody(index);
   }

@@ -58,7 +58,7 @@ void readFormat3(ArchiveReader& reader, const SetupReader& setupOf, Trajectory& 
   }
   visitAll(reader, run.impacts);
   if (!setupOf) {
-    reader.fail("has format version 3, which takes its scene to complete it; expected 4");
+    reader.fail("has format version 3, which is read only together with its scene; expected 4");
   }
   takeSetup(reader, setupOf(run.sceneText, run.settings), wallNames, bodies, run);
 }

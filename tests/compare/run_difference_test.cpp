@@ -189,9 +189,9 @@ TEST(RunDifference, aStateThatIsNoNumberIsAnError) {
       std::numeric_limits<double>::quiet_NaN();
   const Trajectory whole = driftAndReturn();
   EXPECT_EQ(inputErrorOf([&] { differenceOf(run, whole); }),
-            "the expected run: box drifter has a state at 0.5 s that is no number");
+            "the expected run: box drifter has a state at 0.5 s that is not finite");
   EXPECT_EQ(inputErrorOf([&] { differenceOf(whole, run); }),
-            "the actual run: box drifter has a state at 0.5 s that is no number");
+            "the actual run: box drifter has a state at 0.5 s that is not finite");
   EXPECT_NE(inputErrorOf([&] { differenceOf(run, run); }), "no error");
 }
 

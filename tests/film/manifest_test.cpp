@@ -69,7 +69,7 @@ TEST(Manifest, thatCannotBeUnderstoodIsNamed) {
     folder.write(kManifestName, bytes);
     return inputErrorOf([&] { readManifest(folder.path()); });
   };
-  const std::string start = (folder / kManifestName).string() + ": does not tell of a film: ";
+  const std::string start = (folder / kManifestName).string() + ": is not a film manifest: ";
   EXPECT_TRUE(saysOf("").starts_with(start));
   EXPECT_TRUE(saysOf("[]").starts_with(start));
   EXPECT_TRUE(saysOf(text.substr(0, text.size() / 2)).starts_with(start));

@@ -72,9 +72,9 @@ TEST(Plan, saysWhatTheMethodLacks) {
 
 TEST(Plan, saysWhatTheExactMethodModels) {
   const Scene scene = withParts(kFloor + R"(, "boxes": [)" + kBox + ", " + kFixed + "]");
-  EXPECT_EQ(reasonFor(scene, "box-box"), "modelled: 2 boxes that could meet");
+  EXPECT_EQ(reasonFor(scene, "box-box"), "modelled: 2 boxes that can collide");
   EXPECT_EQ(reasonFor(scene, "friction"), "modelled: the scene sets it; at impacts and in contact");
-  EXPECT_EQ(reasonFor(scene, "resting"), "left out: nothing that meets loses speed and is pulled back");
+  EXPECT_EQ(reasonFor(scene, "resting"), "left out: no collision under gravity has a restitution below 1");
   const Scene pulled = withParts(R"("gravity": [0, 0, -1], )" + kFloor + R"(, "boxes": [)" + kBox + "]");
   EXPECT_EQ(reasonFor(pulled, "resting"),
             "modelled: bounces die out; what touches slides, rocks, stacks and comes to rest");
@@ -86,17 +86,17 @@ TEST(Plan, saysWhatTheSceneDoesNotAskFor) {
   EXPECT_EQ(reasonFor(lone, "drag"), "left out: the scene has none");
   EXPECT_EQ(reasonFor(lone, "springs"), "left out: the scene has none");
   EXPECT_EQ(reasonFor(lone, "box-wall"), "left out: the scene has no walls");
-  EXPECT_EQ(reasonFor(lone, "box-box"), "left out: no two boxes could meet");
+  EXPECT_EQ(reasonFor(lone, "box-box"), "left out: no two boxes can collide");
   for (const char* what : {"restitution", "friction", "resting"}) {
-    EXPECT_EQ(reasonFor(lone, what), "left out: nothing meets anything");
+    EXPECT_EQ(reasonFor(lone, what), "left out: nothing can collide");
   }
   const Scene held = withParts(kFloor + R"(, "drag": {}, "boxes": [)" + kFixed + "]");
   EXPECT_EQ(reasonFor(held, "box-wall"), "left out: every box is fixed");
   EXPECT_EQ(reasonFor(held, "drag"), "left out: both its coefficients are 0");
   const Scene smooth =
       withParts(R"("walls": [{"point": [0, 0, -1], "normal": [0, 0, 1]}], "boxes": [)" + kBox + "]");
-  EXPECT_EQ(reasonFor(smooth, "restitution"), "left out: it is 0 wherever two things meet");
-  EXPECT_EQ(reasonFor(smooth, "friction"), "left out: it is 0 wherever two things meet");
+  EXPECT_EQ(reasonFor(smooth, "restitution"), "left out: it is 0 for every pair that can collide");
+  EXPECT_EQ(reasonFor(smooth, "friction"), "left out: it is 0 for every pair that can collide");
 }
 
 TEST(Plan, knowsNoOtherItems) {

@@ -98,11 +98,10 @@ TEST(Archive, refusesANameOrAnAlternativeItDoesNotKnow) {
   name.visit(std::string("plum"));
   Fruit fruit = Fruit::kApple;
   EXPECT_EQ(messageOf(name.bytes(), [&](ArchiveReader& reader) { visitNamed(reader, fruit, kFruits); }),
-            "a file: this trajectory file has 'plum', which this version does not know, where it expects one "
-            "of apple, pear");
+            "a file: this trajectory file has 'plum', expected one of apple, pear");
   Either either = 1;
   EXPECT_EQ(messageOf(std::string(1, '\2'), [&](ArchiveReader& reader) { visitVariant(reader, either); }),
-            "a file: this trajectory file holds a kind of record this version does not know");
+            "a file: this trajectory file has an unknown kind of record");
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ struct Fault {
 
 const std::vector<Fault> kFaults = {
     // The world.
-    {"has a world with a gravity that is no number",
+    {"has a world with a gravity that is not finite",
      [](Trajectory& run) { run.world.gravity.z() = kNoNumber; }},
     {"has two bodies or walls of the name 'anchor'",
      [](Trajectory& run) { run.world.bodies[0].name = "anchor"; }},
@@ -45,40 +45,40 @@ const std::vector<Fault> kFaults = {
      [](Trajectory& run) { run.world.bodies[0].halfExtents.y() = 0; }},
     {"has a body 'anchor' with half extents that are not positive numbers",
      [](Trajectory& run) { run.world.bodies[1].halfExtents.y() = kInfinity; }},
-    {"has a body 'drifter' with a mass that is no positive number",
+    {"has a body 'drifter' with a mass that is not positive",
      [](Trajectory& run) { run.world.bodies[0].mass.mass = -1; }},
-    {"has a body 'drifter' with another inertia than a solid box of its size and mass",
+    {"has a body 'drifter' with another inertia than that of a solid box of its size and mass",
      [](Trajectory& run) { run.world.bodies[0].halfExtents.x() = 0.1000001; }},
-    {"has a body 'drifter' with another inertia than a solid box of its size and mass",
+    {"has a body 'drifter' with another inertia than that of a solid box of its size and mass",
      [](Trajectory& run) { run.world.bodies[0].mass.mass = 3; }},
     {"has a body 'anchor' with a mass though it cannot be moved",
      [](Trajectory& run) { run.world.bodies[1].mass.mass = 1; }},
-    {"has a body 'drifter' with a restitution not from 0 to 1",
+    {"has a body 'drifter' with a restitution outside 0 to 1",
      [](Trajectory& run) { run.world.bodies[0].material.restitution = 1.5; }},
-    {"has a body 'drifter' with a start that makes no sense",
+    {"has a body 'drifter' with an invalid initial state",
      [](Trajectory& run) { run.world.bodies[0].initial.pose.worldFromBody *= 2; }},
-    {"has a wall 'room+x' with a friction that is no number from 0 on",
+    {"has a wall 'room+x' with a friction that is negative or not finite",
      [](Trajectory& run) { run.world.walls[1].material.friction = kNoNumber; }},
-    {"has a wall 'room-x' with a place that makes no sense",
+    {"has a wall 'room-x' with an invalid plane",
      [](Trajectory& run) { run.world.walls[0].normal = Vec3(1, 1, 0); }},
-    {"has a spring with an end at a body there is not",
+    {"has a spring with an end at an unknown body",
      [](Trajectory& run) { run.world.springs.push_back({.from = {.body = 2}, .to = {}}); }},
     {"has a spring with both ends at one body",
      [](Trajectory& run) { run.world.springs.push_back({.from = {.body = 1}, .to = {.body = 1}}); }},
-    {"has a spring with numbers that make no sense",
+    {"has a spring with invalid numbers",
      [](Trajectory& run) {
        run.world.springs.push_back({.from = {.body = 1}, .to = {.body = 0}, .stiffness = kInfinity});
      }},
-    {"has a world with a drag that makes no sense",
+    {"has a world with an invalid drag",
      [](Trajectory& run) { run.world.drag = Drag{.linear = -1, .angular = 0}; }},
     // The motions.
-    {"has settings with a duration, step or tolerance that is no positive number",
+    {"has settings with a duration, time step or tolerance that is not positive",
      [](Trajectory& run) { run.settings.duration = kInfinity; }},
-    {"has settings with a duration, step or tolerance that is no positive number",
+    {"has settings with a duration, time step or tolerance that is not positive",
      [](Trajectory& run) { run.settings.dt = 0; }},
     {"has 1 tracks for 2 bodies", [](Trajectory& run) { run.tracks.pop_back(); }},
-    {"does not tell where body 'anchor' begins", [](Trajectory& run) { run.tracks[1].segments.clear(); }},
-    {"does not tell where body 'drifter' begins",
+    {"has no motion of body 'anchor' at the start", [](Trajectory& run) { run.tracks[1].segments.clear(); }},
+    {"has no motion of body 'drifter' at the start",
      [](Trajectory& run) { run.tracks[0].segments[0].start = 0.1; }},
     {"has a track of body 'drifter' with segments out of order",
      [](Trajectory& run) { run.tracks[0].segments[1].start = -0.5; }},
@@ -86,33 +86,33 @@ const std::vector<Fault> kFaults = {
      [](Trajectory& run) { run.tracks[0].segments[1].start = kInfinity; }},
     {"has a track of body 'drifter' with segments out of order",
      [](Trajectory& run) { run.tracks[0].segments[1].start = kNoNumber; }},
-    {"has a track of body 'drifter' with a motion that makes no sense",
+    {"has a track of body 'drifter' with an invalid motion",
      [](Trajectory& run) { firstStep(run).force.x() = kNoNumber; }},
-    {"has a track of body 'drifter' with a motion that makes no sense",
+    {"has a track of body 'drifter' with an invalid motion",
      [](Trajectory& run) { firstStep(run).start.pose.worldFromBody(0, 0) = 1.1; }},
-    {"has a track of body 'drifter' with a motion that makes no sense",
+    {"has a track of body 'drifter' with an invalid motion",
      [](Trajectory& run) { firstStep(run).start.pose.worldFromBody = -Mat3::Identity(); }},
-    {"has a track of body 'anchor' with a motion that makes no sense",
+    {"has a track of body 'anchor' with an invalid motion",
      [](Trajectory& run) { std::get<Rest>(run.tracks[1].segments[0].motion).pose.position.x() = kInfinity; }},
-    {"has a track of body 'drifter' with a motion that makes no sense",
+    {"has a track of body 'drifter' with an invalid motion",
      [](Trajectory& run) { instead<Flight>(run).worldFromBody.w() = 2; }},
-    {"has a track of body 'drifter' with a motion that makes no sense",  // its duration is 0
+    {"has a track of body 'drifter' with an invalid motion",  // its duration is 0
      [](Trajectory& run) { instead<ContactStep>(run).worldFromBody[0].w() = 1; }},
-    {"has a track of body 'drifter' with a motion that makes no sense",  // by another method than the run
+    {"has a track of body 'drifter' with an invalid motion",  // by another method than the run
      [](Trajectory& run) {
        instead<SteppedFlight>(run) = {.method = Method::kStrang, .dt = 0.5, .start = {}};
      }},
-    {"has a track of body 'drifter' with a motion that makes no sense",  // steps that nobody would wait for
+    {"has a track of body 'drifter' with an invalid motion",  // steps that nobody would wait for
      [](Trajectory& run) {
        run.settings.method = Method::kStrang;
        run.settings.dt = 1e-9;
        instead<SteppedFlight>(run) = {.method = Method::kStrang, .dt = 1e-9, .start = {}};
      }},
-    {"has a body 'drifter' with a track that begins elsewhere than it starts",
+    {"has a body 'drifter' with a track that does not begin at its initial pose",
      [](Trajectory& run) { run.world.bodies[0].initial.pose.position.x() += 0.01; }},
     // The impacts.
-    {"names a body or wall it does not hold", [](Trajectory& run) { run.impacts[0].b = Partner::ofWall(2); }},
-    {"names a body or wall it does not hold", [](Trajectory& run) { run.impacts[0].b = Partner::ofBody(7); }},
+    {"names an unknown body or wall", [](Trajectory& run) { run.impacts[0].b = Partner::ofWall(2); }},
+    {"names an unknown body or wall", [](Trajectory& run) { run.impacts[0].b = Partner::ofBody(7); }},
     {"has an impact with a time out of order or beyond the run's end",
      [](Trajectory& run) { run.impacts[0].time = 1.01; }},
     {"has an impact with a time out of order or beyond the run's end",
@@ -120,21 +120,21 @@ const std::vector<Fault> kFaults = {
        run.impacts.push_back(run.impacts[0]);
        run.impacts[1].time = 0.25;
      }},
-    {"has an impact with numbers that make no sense",
-     [](Trajectory& run) { run.impacts[0].impulse = kNoNumber; }},
+    {"has an impact with invalid numbers", [](Trajectory& run) { run.impacts[0].impulse = kNoNumber; }},
     // The stage.
     {"has 3 colours for 2 bodies", [](Trajectory& run) { run.stage.colors.emplace_back(); }},
-    {"has a room with no inside", [](Trajectory& run) { run.stage.room.emplace(); }},
-    {"has a wall to be drawn with a place that makes no sense",
+    {"has a room with a min that is not below its max", [](Trajectory& run) { run.stage.room.emplace(); }},
+    {"has a wall to be drawn with an invalid plane",
      [](Trajectory& run) { run.stage.planes.push_back({.normal = Vec3::UnitX(), .offset = kNoNumber}); }},
-    {"has a camera with a move but no place", [](Trajectory& run) { run.stage.cameraMove.orbitDegrees = 1; }},
-    {"has a camera with nothing to look at or no upward",
+    {"has a camera with a movement but no position",
+     [](Trajectory& run) { run.stage.cameraMove.orbitDegrees = 1; }},
+    {"has a camera with its target at its eye or its up along its view",
      [](Trajectory& run) { run.stage.camera.emplace(); }},
-    {"has a camera with nothing to look at or no upward",
+    {"has a camera with its target at its eye or its up along its view",
      [](Trajectory& run) { run.stage.camera = Camera{.eye = Vec3::UnitZ()}; }},
     {"has a camera with an angle not between 0 and 180",
      [](Trajectory& run) { run.stage.camera = Camera{.eye = Vec3::UnitX(), .fovDegrees = 180}; }},
-    {"has a camera with a body to follow that there is not",
+    {"has a camera with an unknown body to follow",
      [](Trajectory& run) {
        run.stage.camera = Camera{.eye = Vec3::UnitX()};
        run.stage.cameraMove.followed = 2;
@@ -152,8 +152,7 @@ const std::vector<Fault> kFaults = {
      [](Trajectory& run) { run.stage.picture.width = kLargestFilm + 1; }},
     {"has a picture with a size beyond what can be drawn",
      [](Trajectory& run) { run.stage.picture.height = 0; }},
-    {"has a picture with a shutter that makes no sense",
-     [](Trajectory& run) { run.stage.picture.shutter.samples = 0; }},
+    {"has a picture with an invalid shutter", [](Trajectory& run) { run.stage.picture.shutter.samples = 0; }},
 };
 
 TEST(RunCheck, acceptsWhatMakesSense) { EXPECT_NO_THROW(checkRun(driftAndReturn())); }

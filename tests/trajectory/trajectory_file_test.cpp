@@ -139,7 +139,7 @@ TEST(TrajectoryFile, namesAnotherVersion) {
 
 TEST(TrajectoryFile, refusesAnotherKindOfFile) {
   EXPECT_FALSE(looksLikeTrajectory("{ \"careen\": 1 }"));
-  EXPECT_NE(messageOf("{ \"careen\": 1 }").find("does not begin as one"), std::string::npos);
+  EXPECT_NE(messageOf("{ \"careen\": 1 }").find("has the wrong first bytes"), std::string::npos);
 }
 
 TEST(TrajectoryFile, saysWhichFileIsMissing) {

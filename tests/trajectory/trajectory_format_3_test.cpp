@@ -78,8 +78,8 @@ TEST(TrajectoryFormat3, refusesARunThatItsSceneDoesNotFit) {
 
 TEST(TrajectoryFormat3, refusesARunWhereNobodyKnowsScenes) {
   EXPECT_EQ(inputErrorOf([] { decodeTrajectory(readFile(kOldRun), "old.careen"); }),
-            "old.careen: this trajectory file has format version 3, which takes its scene to complete it; "
-            "expected 4");
+            "old.careen: this trajectory file has format version 3, which is read only together with its "
+            "scene; expected 4");
 }
 
 }  // namespace

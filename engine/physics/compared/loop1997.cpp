@@ -122,7 +122,7 @@ void Loop1997::resolve(CornerCheck found, double time) {
   for (int impulses = 0; found.state == CornerState::kColliding; ++impulses) {
     if (impulses == kMostImpulses) {
       throw NumericalError(
-          where(time, found.corner) + "still closing in after " + std::to_string(kMostImpulses) +
+          where(time, found.corner) + "still approaching after " + std::to_string(kMostImpulses) +
           " impulses at one moment; the 1997 method cannot let a box rest: more restitution or a "
           "shorter run may avoid it");
     }
@@ -136,9 +136,10 @@ void Loop1997::resolve(CornerCheck found, double time) {
 double Loop1997::halved(double target, const CornerCheck& found) const {
   const double half = (time_ + target) / 2;
   if (half - time_ <= kShortestStep) {
-    throw NumericalError(where(time_, found.corner) + "every step longer than " + inSeconds(kShortestStep) +
-                         " ends that deep; the 1997 method cannot let a box rest or roll on a wall: more "
-                         "restitution, a smaller dt or a shorter run may avoid it");
+    throw NumericalError(
+        where(time_, found.corner) + "every step longer than " + inSeconds(kShortestStep) +
+        " penetrates that far; the 1997 method cannot let a box rest or roll on a wall: more "
+        "restitution, a smaller dt or a shorter run may avoid it");
   }
   return half;
 }
@@ -151,7 +152,7 @@ void Loop1997::integrate(double h) {
     next_[i] = listing1Step(world_.bodies[i].mass, now_[i], loads_[i], h);
     if (!isFinite(next_[i])) {
       throw NumericalError("after " + inSeconds(time_) + " box " + world_.bodies[i].name +
-                           " is nowhere: its state is no longer finite; take a smaller dt or softer springs");
+                           ": its state is not finite; take a smaller dt or softer springs");
     }
   }
 }

@@ -181,7 +181,7 @@ void SteppedBody::moveTo(const Flying& next, double time) {
   time_ = time;
   const BodyState state = now_.state();
   if (!isFinite(state)) {
-    throw NumericalError(where() + "is nowhere: its state is no longer finite; take a smaller dt");
+    throw NumericalError(where() + "has a state that is not finite; take a smaller dt");
   }
   account_.passes(static_cast<std::size_t>(index_), state);
 }

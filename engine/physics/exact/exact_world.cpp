@@ -260,7 +260,7 @@ void ExactWorld::begins(int rank, const Instant& time) {
   if (body.atOneMoment > kMostAtOneMoment && canPile()) {
     pileFrom_ = time;
   } else if (body.atOneMoment > kMostAtOneMoment) {
-    throw NumericalError(where(rank, time) + "is struck again and again at one moment");
+    throw NumericalError(where(rank, time) + "collides again and again without time passing");
   }
   if (secondsBetween(body.windowStart, time) > kChatterWindow * timeStep_) {
     body.windowStart = time;

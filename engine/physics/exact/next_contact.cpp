@@ -19,7 +19,7 @@ FirstContact searchUntil(double until, const Search& search) {
     const double from = found.time;
     found = search(SearchWindow{.from = from, .until = until});
     if (found.kind == ContactKind::kNone && found.time < until && !(found.time > from)) {
-      throw NumericalError("the search for the next impact does not come forward");
+      throw NumericalError("the search for the next impact made no progress");
     }
   } while (found.kind == ContactKind::kNone && found.time < until);
   return found;

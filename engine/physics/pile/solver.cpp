@@ -128,8 +128,8 @@ void PileSolver::wakeAll() {
 
 void PileSolver::wakeRow(int row) { put(at(blockOfRow_[at(row)])); }
 
-void PileSolver::tell(int body) {
-  moving_[at(body)].untold = 0;
+void PileSolver::queueBlocksOf(int body) {
+  moving_[at(body)].unqueuedChange = 0;
   for (int k = firstBlock_[at(body)]; k < firstBlock_[at(body) + 1]; ++k) {
     put(at(blocksOfBody_[at(k)]));
   }
@@ -228,13 +228,13 @@ void PileSolver::store(int body, const Vec3& velocity, const Vec3& omega) {
     return;
   }
   Moving& moving = moving_[at(body)];
-  moving.untold += (velocity - moving.velocity).cwiseAbs().sum() +
-                   inertia.radius * (omega - moving.omega).cwiseAbs().sum();
+  moving.unqueuedChange += (velocity - moving.velocity).cwiseAbs().sum() +
+                           inertia.radius * (omega - moving.omega).cwiseAbs().sum();
   moving.velocity = velocity;
   moving.omega = omega;
   moving.pushed = true;
-  if (moving.untold > inertia.change) {
-    tell(body);
+  if (moving.unqueuedChange > inertia.change) {
+    queueBlocksOf(body);
   }
 }
 

@@ -72,7 +72,7 @@ class PileSolver {
  private:
   struct Moving {
     Vec3 velocity = Vec3::Zero();
-    double untold = 0;  // [m/s] change since its manifolds were last put on the list
+    double unqueuedChange = 0;  // [m/s] change since its manifolds were last put on the list
     Vec3 omega = Vec3::Zero();
     bool pushed = false;
   };
@@ -135,7 +135,7 @@ class PileSolver {
   template <bool kFriction>
   void solveBlock(const Block& block);
   void store(int body, const Vec3& velocity, const Vec3& omega);
-  void tell(int body);
+  void queueBlocksOf(int body);
   void put(std::size_t block) { waiting_[block / 64] |= std::uint64_t{1} << (block % 64); }
 
   std::vector<Moving> moving_;

@@ -53,7 +53,7 @@ std::unique_ptr<GlContext> openFirst(const ContextOptions& options) {
       reasons += "\n  " + std::string(nameOf(each)) + ": " + error.what();
     }
   }
-  throw MachineError("no rendering backend can be had:" + reasons);
+  throw MachineError("no rendering backend is available:" + reasons);
 }
 
 }  // namespace

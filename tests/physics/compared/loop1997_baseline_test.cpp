@@ -124,7 +124,8 @@ TEST(PublishedMethod, isStuckHalvingAtALandingWithoutRestitution) {
     EXPECT_NE(message.find("at 1.41635 s box crate at wall room-z, its corner 1 mm behind it"),
               std::string::npos)
         << message;
-    EXPECT_NE(message.find("every step longer than 1e-05 s ends that deep"), std::string::npos) << message;
+    EXPECT_NE(message.find("every step longer than 1e-05 s penetrates that far"), std::string::npos)
+        << message;
   }
   EXPECT_GT(memory.impacts.front().time, 1.2) << "measured 1.22: it had just landed";
 }

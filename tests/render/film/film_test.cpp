@@ -397,7 +397,7 @@ TEST_F(FilmTest, faultsAreFound) {
 TEST_F(FilmTest, damagedManifestIsNamed) {
   film(settings_);
   folder_.write("film/film.json", "{ \"careen_film\": 1 }");
-  EXPECT_NE(errorOf(settings_).find("film.json: does not tell of a film"), std::string::npos);
+  EXPECT_NE(errorOf(settings_).find("film.json: is not a film manifest"), std::string::npos);
 }
 
 // The last ones, for they open GL in this process, after which no job can draw.
