@@ -1,12 +1,12 @@
-# Correct digits of every contestant in every case, from matrix.csv.
-#   gnuplot -c matrix.gp MATRIX.csv ROWS COLUMNS OUT
-load ARG0[:strstrt(ARG0, "matrix.gp") - 1] . "style.gp"
-csv = ARG1
-rows = int(ARG2)
-columns = int(ARG3)
-out = ARG4
+# Correct digits of every contestant in every case.
+#   texts.txt   title
+#   data.txt    row, column (from 0), "=" and case, "=" and contestant, digits, error
+load "style.gp"
+stats "data.txt" using 1:2 nooutput
+rows = int(STATS_max_x) + 1
+columns = int(STATS_max_y) + 1
 
-set title "Correct digits at the usual step" noenhanced
+set title texts[1] noenhanced
 unset key
 unset grid
 set xrange [-0.5 : columns - 0.5]
@@ -25,8 +25,8 @@ do for [kind in "svg png"] {
   set rmargin at screen 1 - 90.0 / width
   set tmargin at screen 1 - 40.0 / height
   set bmargin at screen 130.0 / height
-  plot csv every ::1 using 2:1:(0.5):(0.5):(column(5) >= 0 ? column(5) : NaN):xticlabels(4):yticlabels(3) \
+  plot "data.txt" using 2:1:(0.5):(0.5):(column(5) >= 0 ? column(5) : NaN):xticlabels(strcol(4)[2:]):yticlabels(strcol(3)[2:]) \
       with boxxyerror fillstyle solid noborder fillcolor palette, \
-    csv every ::1 using 2:1:6 with labels font ",9" noenhanced
+    "data.txt" using 2:1:6 with labels font ",9" noenhanced
   unset output
 }

@@ -1,14 +1,10 @@
-# Work-precision diagram: error against cost of every attempt at one case, from results.csv.
-#   gnuplot -c work_precision.gp RESULTS.csv CASE TITLE "CONTESTANT …" OUT YLABEL
-load ARG0[:strstrt(ARG0, "work_precision.gp") - 1] . "style.gp"
-csv = ARG1
-case = ARG2
-contestants = ARG4
-out = ARG5
-
-set title ARG3 noenhanced
+# Work-precision diagram: error against cost of every attempt at one case.
+#   texts.txt   title, label of the errors, contestants
+#   data.txt    contestant (from 1), cost, error
+load "style.gp"
+set title texts[1] noenhanced
 set xlabel "cost: µs of one core per simulated second"
-set ylabel ARG6 noenhanced
+set ylabel texts[2] noenhanced
 set logscale xy
 set format x "10^{%T}"
 set format y "10^{%T}"
@@ -18,8 +14,7 @@ shown(e) = e > 1e-16 ? (e < 1e2 ? e : 1e2) : 1e-16
 
 do for [kind in "svg png"] {
   if (kind eq "svg") { eval svg(820, 480) } else { eval png(820, 480) }
-  plot for [name in contestants] csv every ::1 \
-    using (strcol(1) eq case && strcol(2) eq name && strlen(strcol(5)) > 0 ? column(6) : NaN):(shown(column(5))) \
-    with linespoints lc rgb colourOf(name) pt pointOf(name) ps sizeOf(name) title name noenhanced
+  plot for [k = 3:lines] "data.txt" using (column(1) == k - 2 ? column(2) : NaN):(shown(column(3))) \
+    with linespoints lc rgb colourOf(texts[k]) pt pointOf(texts[k]) ps sizeOf(texts[k]) title texts[k] noenhanced
   unset output
 }

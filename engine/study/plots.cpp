@@ -3,10 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "core/brief.h"
 #include "core/error.h"
 #include "core/system/file.h"
 #include "core/system/process.h"
 #include "core/system/resource.h"
+#include "core/system/scratch_folder.h"
 #include "study/study.h"
 
 namespace careen {
@@ -14,15 +16,48 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) {
-    all += (all.empty() ? "" : " ") + word;
+// One cell of the files that gnuplot reads. It cannot read a double quote inside a cell; a backslash begins
+// an escape there, and control characters would end the cell or the line.
+std::string cell(const std::string& text) {
+  std::string result = "=";
+  for (const char c : text) {
+    result += c == '"'                                            ? "”"
+              : c == '\\'                                         ? "\\\\"
+              : static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? " "
+                                                                  : std::string(1, c);
   }
-  return all;
+  return result;
 }
 
-std::string script(const std::string& name) { return findResource("assets/plots/" + name).string(); }
+std::string linesOf(const std::vector<std::string>& texts) {
+  std::string lines;
+  for (const std::string& text : texts) {
+    lines += cell(text) + '\n';
+  }
+  return lines;
+}
+
+struct Plot {
+  const char* script;  // in assets/plots
+  std::vector<std::string> texts;
+  std::string data;
+};
+
+// Draws a plot as `out`.png and `out`.svg and returns the latter. Names of files and folders never reach
+// gnuplot, which obeys some of them: "<command" as data, "|command" as output.
+std::string draw(const Plot& plot, const fs::path& out) {
+  const ScratchFolder scratch;
+  for (const char* const script : {"style.gp", plot.script}) {
+    writeFile(scratch / script, readFile(findResource(fs::path("assets/plots") / script)));
+  }
+  writeFile(scratch / "texts.txt", linesOf(plot.texts));
+  writeFile(scratch / "data.txt", plot.data);
+  runProgram({"gnuplot", "-d", plot.script}, scratch.path());  // -d: no settings of the user's
+  std::string svg = readFile(scratch / "plot.svg");
+  writeFile(out.string() + ".svg", svg);
+  writeFile(out.string() + ".png", readFile(scratch / "plot.png"));
+  return svg;
+}
 
 // Contestants with at least one answer to draw.
 std::vector<std::string> answering(const CaseResult& result) {
@@ -38,6 +73,59 @@ std::vector<std::string> answering(const CaseResult& result) {
 
 bool showsEnergy(const CaseResult& result) {
   return result.measure == "energy" && !answering(result).empty();
+}
+
+Plot matrixOf(const StudyResult& study) {
+  std::string data;
+  const std::vector<std::string> contestants = study.contestants();
+  for (std::size_t row = 0; row < study.cases.size(); ++row) {
+    for (std::size_t column = 0; column < contestants.size(); ++column) {
+      const Attempt* const attempt = usualAttempt(study.cases[row], contestants[column]);
+      const bool answered = attempt != nullptr && attempt->failure.empty();
+      data += std::to_string(row) + '\t' + std::to_string(column) + '\t' + cell(study.cases[row].name) +
+              '\t' + cell(contestants[column]) + '\t' +
+              (answered ? brief(correctDigits(attempt->judgement.error), 4) : "-1") + '\t' +
+              (answered             ? inShort(attempt->judgement.error)
+               : attempt == nullptr ? ""
+                                    : "–") +
+              '\n';
+    }
+  }
+  return {.script = "matrix.gp", .texts = {"Correct digits at the usual step"}, .data = std::move(data)};
+}
+
+Plot workPrecisionOf(const CaseResult& result) {
+  Plot plot{.script = "work_precision.gp",
+            .texts = {result.title, result.measure == "energy" ? "error: relative change of energy"
+                                                               : "error: half diagonals, or radians"},
+            .data = {}};
+  std::size_t number = 0;
+  for (const std::string& contestant : answering(result)) {
+    plot.texts.push_back(contestant);
+    ++number;
+    for (const Attempt& attempt : result.attempts) {
+      if (attempt.contestant == contestant && attempt.failure.empty()) {
+        plot.data += std::to_string(number) + '\t' + brief(attempt.cost, 6) + '\t' +
+                     inFull(attempt.judgement.error) + '\n';
+      }
+    }
+  }
+  return plot;
+}
+
+Plot energyOf(const CaseResult& result) {
+  Plot plot{.script = "energy.gp", .texts = {result.title}, .data = {}};
+  std::size_t number = 0;
+  for (const std::string& contestant : answering(result)) {
+    plot.texts.push_back(contestant);
+    ++number;
+    const Attempt* const attempt = usualAttempt(result, contestant);
+    for (std::size_t k = 0; attempt != nullptr && k < attempt->judgement.energy.size(); ++k) {
+      plot.data += std::to_string(number) + '\t' + inFull(result.times.at(k)) + '\t' +
+                   inFull(attempt->judgement.energy[k]) + '\n';
+    }
+  }
+  return plot;
 }
 
 }  // namespace
@@ -62,26 +150,15 @@ void writeTables(const StudyResult& study, const fs::path& folder) {
 std::vector<std::string> drawPlots(const StudyResult& study, const fs::path& folder) {
   const fs::path plots = folder / "plots";
   fs::create_directories(plots);
-  runProgram({"gnuplot", "-c", script("matrix.gp"), (folder / "matrix.csv").string(),
-              std::to_string(study.cases.size()), std::to_string(study.contestants().size()),
-              (plots / "matrix").string()});
+  draw(matrixOf(study), plots / "matrix");
   std::vector<std::string> drawn;
   for (const CaseResult& result : study.cases) {
     std::string all;
-    const std::vector<std::string> contestants = answering(result);
-    if (!contestants.empty()) {
-      const fs::path out = plots / result.name;
-      runProgram({"gnuplot", "-c", script("work_precision.gp"), (folder / "results.csv").string(),
-                  result.name, result.title, joined(contestants), out.string(),
-                  result.measure == "energy" ? "error: relative change of energy"
-                                             : "error: half diagonals, or radians"});
-      all += readFile(out.string() + ".svg");
+    if (!answering(result).empty()) {
+      all += draw(workPrecisionOf(result), plots / result.name);
     }
     if (showsEnergy(result)) {
-      const fs::path out = plots / (result.name + "-energy");
-      runProgram({"gnuplot", "-c", script("energy.gp"), (folder / "energy.csv").string(), result.name,
-                  result.title, joined(contestants), out.string()});
-      all += readFile(out.string() + ".svg");
+      all += draw(energyOf(result), plots / (result.name + "-energy"));
     }
     drawn.push_back(std::move(all));
   }

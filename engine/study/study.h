@@ -36,8 +36,9 @@ std::string machineLine();
 /// Writes results.csv, energy.csv, matrix.csv, results.json, results.md.
 void writeTables(const StudyResult& study, const std::filesystem::path& folder);
 
-/// Draws the tables in `folder` as SVG and PNG in plots/: the matrix, every case, energy over time. Returns
-/// the SVG of each case, in order. MachineError if gnuplot fails.
+/// Draws the study as SVG and PNG in plots/ of `folder`: the matrix, every case, energy over time. Returns
+/// the SVG of each case, in order. MachineError if gnuplot fails. Names and titles are data: gnuplot runs in
+/// a folder of ours, on files whose names are fixed.
 std::vector<std::string> drawPlots(const StudyResult& study, const std::filesystem::path& folder);
 /// MachineError, with what to install, if gnuplot is missing.
 void checkPlotter();

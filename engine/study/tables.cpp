@@ -1,18 +1,27 @@
+#include <algorithm>
 #include <sstream>
 
 #include "core/brief.h"
+#include "core/csv.h"
 #include "study/results.h"
 
 namespace careen {
 namespace {
 
-// A message may contain commas, quotes and line ends.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    result += c == '"' ? "\"\"" : c == '\n' ? " " : std::string(1, c);
+// A message may contain line ends; many readers of tables take one line for one row.
+std::string onOneLine(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
+// A cell of a table in Markdown.
+std::string markdownCell(const std::string& text) {
+  std::string result;
+  for (const char c : onOneLine(text)) {
+    result += c == '|' ? "\\|" : std::string(1, c);
   }
-  return result + "\"";
+  return result;
 }
 
 std::string cell(const Attempt* attempt) {
@@ -36,7 +45,7 @@ void addTable(std::ostream& text, const StudyResult& study, CellOf cellOf) {
   }
   text << '\n';
   for (const CaseResult& result : study.cases) {
-    text << "| " << result.name << " |";
+    text << "| " << markdownCell(result.name) << " |";
     for (const std::string& contestant : contestants) {
       text << ' ' << cellOf(usualAttempt(result, contestant)) << " |";
     }
@@ -63,7 +72,7 @@ void addFindings(std::ostream& text, const StudyResult& study) {
       continue;
     }
     any = true;
-    text << "- " << result.name << ": ";
+    text << "- " << onOneLine(result.name) << ": ";
     if (!exact->failure.empty()) {
       text << exact->failure << '\n';
       continue;
@@ -90,13 +99,14 @@ std::string resultsCsv(const StudyResult& study) {
   csv << "case,contestant,dt,tolerance,error,cost_us,spread,repeats,front,failure\n";
   for (const CaseResult& result : study.cases) {
     for (const Attempt& attempt : result.attempts) {
-      csv << result.name << ',' << attempt.contestant << ',' << (attempt.dt > 0 ? inFull(attempt.dt) : "")
-          << ',' << (attempt.tolerance > 0 ? inFull(attempt.tolerance) : "") << ',';
+      csv << csvCell(onOneLine(result.name)) << ',' << csvCell(onOneLine(attempt.contestant)) << ','
+          << (attempt.dt > 0 ? inFull(attempt.dt) : "") << ','
+          << (attempt.tolerance > 0 ? inFull(attempt.tolerance) : "") << ',';
       if (attempt.failure.empty()) {
         csv << inFull(attempt.judgement.error) << ',' << brief(attempt.cost, 6) << ','
             << brief(attempt.spread, 3) << ',' << attempt.repeats << ',' << onFront(result, attempt) << ",\n";
       } else {
-        csv << ",,,,0," << quoted(attempt.failure) << '\n';
+        csv << ",,,,0," << csvCell(onOneLine(attempt.failure)) << '\n';
       }
     }
   }
@@ -111,8 +121,8 @@ std::string energyCsv(const StudyResult& study) {
     for (const std::string& contestant : contestants) {
       const Attempt* const attempt = usualAttempt(result, contestant);
       for (std::size_t k = 0; attempt != nullptr && k < attempt->judgement.energy.size(); ++k) {
-        csv << result.name << ',' << contestant << ',' << inFull(result.times[k]) << ','
-            << inFull(attempt->judgement.energy[k]) << '\n';
+        csv << csvCell(onOneLine(result.name)) << ',' << csvCell(onOneLine(contestant)) << ','
+            << inFull(result.times[k]) << ',' << inFull(attempt->judgement.energy[k]) << '\n';
       }
     }
   }
@@ -127,7 +137,8 @@ std::string matrixCsv(const StudyResult& study) {
     for (std::size_t column = 0; column < contestants.size(); ++column) {
       const Attempt* const attempt = usualAttempt(study.cases[row], contestants[column]);
       const bool answered = attempt != nullptr && attempt->failure.empty();
-      csv << row << ',' << column << ',' << study.cases[row].name << ',' << contestants[column] << ','
+      csv << row << ',' << column << ',' << csvCell(onOneLine(study.cases[row].name)) << ','
+          << csvCell(onOneLine(contestants[column])) << ','
           << (answered ? brief(correctDigits(attempt->judgement.error), 4) : "-1") << ',' << cell(attempt)
           << '\n';
     }

@@ -64,6 +64,16 @@ TEST(VideoPipe, makesAFilmOfTheExactRateThatPlaysWhileItLoads) {
   EXPECT_EQ(folder.files(), std::vector<std::string>{"film.mp4"});
 }
 
+// ffmpeg takes names for options, protocols and patterns of many files.
+TEST(VideoPipe, takesANameForANameOnly) {
+  for (const std::string name : {"-y.mp4", "|touch made;.mp4", "%03d.mp4", "file:x.mp4", "pipe:1.mp4",
+                                 "concat:a|b.mp4", "it's \"so\", and\nso.mp4", "$(touch made).mp4"}) {
+    const TemporaryFolder folder;
+    film({.path = folder / name, .width = 16, .height = 16}, 2);
+    EXPECT_EQ(folder.files(), std::vector<std::string>{name});
+  }
+}
+
 TEST(VideoPipe, everyKindOfFilmIsMadeAndTellsItsColours) {
   struct Case {
     std::string name;

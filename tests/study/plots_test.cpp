@@ -47,6 +47,28 @@ TEST(Plots, areDrawnOfTheMatrixOfEachCaseAndOfItsEnergy) {
   }
 }
 
+// gnuplot reads "<command" from a program and writes "|command" to one.
+TEST(Plots, takeNamesForNamesAndNotForCommands) {
+  const TemporaryFolder folder;
+  const std::string name = "a';system('touch made');'";
+  const std::string title = "`touch made`, \"q\" it's {/:=40 100%} \\n\nend";
+  for (const std::string out : {"|touch made", "< touch made", "it's", "a,\"b\"\nc", "-e", "$(touch made)"}) {
+    StudyResult study = someStudy();
+    study.cases[0].name = name;
+    study.cases[0].title = title;
+    fs::create_directories(folder / out);
+    const std::vector<std::string> plots = drawPlots(study, folder / out);
+    EXPECT_NE(plots.at(0).find("`touch made`, ”q” it's {/:=40 100%} \\n end"), std::string::npos) << plots[0];
+    for (const std::string& plot : {std::string("matrix"), name, name + "-energy"}) {
+      EXPECT_TRUE(fs::exists(folder / out / "plots" / (plot + ".png"))) << out;
+    }
+    EXPECT_NE(readFile(folder / out / "plots" / "matrix.svg").find("system('touch made')"),
+              std::string::npos);
+    EXPECT_FALSE(fs::exists(folder / "made")) << out;
+    EXPECT_FALSE(fs::exists("made")) << out;
+  }
+}
+
 TEST(Plots, sayWhatToInstallWhereTheyCannotBeDrawn) {
   const TemporaryFolder empty;
   const EnvironmentVariable path("PATH", empty.path().string());

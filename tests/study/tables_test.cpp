@@ -50,6 +50,16 @@ TEST(Tables, giveErrorsWithTwoDigits) {
   EXPECT_EQ(inShort(0.99), "0.99");
 }
 
+TEST(Tables, holdNamesAsCells) {
+  StudyResult study{.machine = "here", .command = "careen study", .cases = {someCase()}};
+  study.cases[0].name = "=a,\"b\"\nc|d";
+  EXPECT_NE(matrixCsv(study).find("\n0,0,\"'=a,\"\"b\"\" c|d\",exact,15,1e-15\n"), std::string::npos)
+      << matrixCsv(study);
+  EXPECT_NE(resultsCsv(study).find("\n\"'=a,\"\"b\"\" c|d\",exact,"), std::string::npos);
+  EXPECT_NE(energyCsv(study).find("\n\"'=a,\"\"b\"\" c|d\",exact,"), std::string::npos);
+  EXPECT_NE(resultsMarkdown(study).find("| =a,\"b\" c\\|d | 1e-15 |"), std::string::npos);
+}
+
 // What a contestant was never asked is not what it failed at.
 TEST(Tables, leaveOutWhatWasNeverTried) {
   CaseResult other = someCase();

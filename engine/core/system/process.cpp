@@ -18,7 +18,8 @@
 
 namespace careen {
 
-int startProgram(std::vector<std::string> command, int input, int log, pid_t& process) {
+int startProgram(std::vector<std::string> command, int input, int log, pid_t& process,
+                 const std::filesystem::path& folder) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
   for (std::string& argument : command) {
@@ -30,6 +31,9 @@ int startProgram(std::vector<std::string> command, int input, int log, pid_t& pr
   posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
   posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&files, log, STDERR_FILENO);
+  if (!folder.empty()) {
+    posix_spawn_file_actions_addchdir_np(&files, folder.c_str());
+  }
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t none;
@@ -53,11 +57,11 @@ std::string tailOf(int file) {
   return std::string(tail);
 }
 
-void runProgram(const std::vector<std::string>& command) {
+void runProgram(const std::vector<std::string>& command, const std::filesystem::path& folder) {
   const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
   const int log = memfd_create("log", MFD_CLOEXEC);
   pid_t process = 0;
-  const int error = startProgram(command, nothing, log, process);
+  const int error = startProgram(command, nothing, log, process, folder);
   int status = 0;
   if (error == 0) {
     const Cleanup cleanup([process] { kill(-process, SIGKILL); });

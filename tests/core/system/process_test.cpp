@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "support/process.h"
 
 namespace careen {
 namespace {
@@ -28,6 +29,12 @@ TEST(Process, showsTheEndOfTheLogOfAFailure) {
             "sh failed: first\nthe cause");
   EXPECT_EQ(messageOf({"false"}), "false failed");
   EXPECT_EQ(messageOf({"sh", "-c", "kill -9 $$"}), "sh failed");
+}
+
+TEST(Process, runsInTheFolderItIsGiven) {
+  const TemporaryFolder folder;
+  runProgram({"touch", "here"}, folder.path());
+  EXPECT_EQ(folder.files(), std::vector<std::string>{"here"});
 }
 
 TEST(Process, saysWhatCannotBeStarted) {
