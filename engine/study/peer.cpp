@@ -19,7 +19,11 @@ std::vector<std::vector<BodyState>> Peer::run(const World& world, double dt, std
   double now = 0;
   for (const double time : times) {
     // The factor prevents rounding from splitting an interval of n steps into n + 1.
-    const auto count = static_cast<std::int64_t>(std::ceil((time - now) / dt * (1 - 1e-12)));
+    const double steps = std::ceil((time - now) / dt * (1 - 1e-12));
+    if (!(steps < 0x1p53)) {
+      throw NumericalError(name() + ": its steps are too many to be counted");
+    }
+    const auto count = static_cast<std::int64_t>(steps);
     for (std::int64_t k = 0; k < count; ++k) {
       if (stop.stop_requested()) {
         throw Interrupted();

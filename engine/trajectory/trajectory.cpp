@@ -5,10 +5,12 @@
 #include <utility>
 #include <variant>
 
+#include "core/brief.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/names.h"
 #include "physics/simulate.h"
+#include "physics/world/diagnostics.h"
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
 
@@ -17,17 +19,52 @@ namespace {
 
 class TrajectoryRecorder : public Recorder {
  public:
-  explicit TrajectoryRecorder(Trajectory& trajectory) : trajectory_(trajectory) {}
+  TrajectoryRecorder(Trajectory& trajectory, std::uint64_t most) : trajectory_(trajectory), most_(most) {}
 
   void moves(BodyIndex body, double time, const Motion& motion) override {
+    count(time);
     trajectory_.tracks.at(static_cast<std::size_t>(body.value))
         .segments.push_back({.start = time, .motion = motion});
   }
-  void strikes(const Impact& impact) override { trajectory_.impacts.push_back(impact); }
+  void strikes(const Impact& impact) override {
+    count(impact.time);
+    trajectory_.impacts.push_back(impact);
+  }
 
  private:
+  void count(double time) {
+    if (++count_ > most_) {
+      throw InputError("the run takes more than " + std::to_string(most_) +
+                       " pieces of motion and impacts, at " + brief(time) + " s of " +
+                       brief(trajectory_.settings.duration) +
+                       " s; expected a shorter run, longer steps, or a higher --limit");
+    }
+  }
+
   Trajectory& trajectory_;
+  const std::uint64_t most_;
+  std::uint64_t count_ = 0;
 };
+
+// Sizes, masses and speeds far from 1 may underflow or overflow in between: no such run may end as if it were
+// a right one.
+void checkFinite(const Trajectory& run) {
+  for (std::size_t body = 0; body < run.tracks.size(); ++body) {
+    const Body& moved = run.world.bodies[body];
+    const auto fail = [&moved](double time) {
+      throw NumericalError("box " + moved.name + ": its state is not finite from " + brief(time) +
+                           " s on; its size, mass or speed is beyond what the method can compute with");
+    };
+    for (const Segment& segment : run.tracks[body].segments) {
+      if (!isFinite(stateAt(segment.motion, moved.mass, 0))) {
+        fail(segment.start);
+      }
+    }
+    if (!isFinite(run.state(body, run.settings.duration))) {
+      fail(run.settings.duration);
+    }
+  }
+}
 
 void add(Hash& hash, const BodyState& state) {
   for (const Vec3& vector : {state.pose.position, state.velocity, state.angularMomentum}) {
@@ -90,12 +127,13 @@ std::string Trajectory::stateHash() const {
   return hash.text();
 }
 
-Trajectory record(RunSetup setup, const std::stop_token& stop) {
+Trajectory record(RunSetup setup, const std::stop_token& stop, std::uint64_t most) {
   Trajectory trajectory;
   static_cast<RunSetup&>(trajectory) = std::move(setup);
   trajectory.tracks.resize(trajectory.world.bodies.size());
-  TrajectoryRecorder recorder(trajectory);
+  TrajectoryRecorder recorder(trajectory, most);
   trajectory.figures = simulate(trajectory.world, trajectory.settings, recorder, stop);
+  checkFinite(trajectory);
   return trajectory;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -49,8 +50,13 @@ struct Trajectory : RunSetup {
   std::string stateHash() const;
 };
 
-/// Simulates the setup's world by its method and records the trajectory.
-Trajectory record(RunSetup setup, const std::stop_token& stop = {});
+/// The most segments and impacts of a run unless more are asked for: 2 GB, three times that while they are
+/// recorded.
+inline constexpr std::uint64_t kMostRecords = 5'000'000;
+
+/// Simulates the setup's world by its method and records the trajectory. InputError if it has more than
+/// `most` segments and impacts, NumericalError if a state of it is not finite.
+Trajectory record(RunSetup setup, const std::stop_token& stop = {}, std::uint64_t most = kMostRecords);
 /// The same for a world without a scene: it is shown with a scene's default stage.
 Trajectory record(const World& world, const RunSettings& settings, std::string sceneText,
                   const std::stop_token& stop = {});

@@ -1,8 +1,11 @@
 // No input reaches a shell, crashes the program, or takes endless time or memory.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "support/process.h"
@@ -36,6 +39,36 @@ TEST_F(HostileInput, namesReachNoShell) {
     EXPECT_TRUE(
         std::filesystem::exists(folder_ / out / "plots" / (scene.substr(0, scene.size() - 5) + ".svg")));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "made")) << out;
+  }
+}
+
+// Sizes, masses and speeds that the schema allows: a run, or a message why there is none. A limit on memory
+// turns what would be endless into a failure.
+TEST_F(HostileInput, extremeNumbersEndInARunOrInAMessage) {
+  const std::string head = R"({ "careen": 1, "duration": 1, )";
+  for (const std::string& rest :
+       {std::string(R"("boxes": [ { "half_extents": [2.4e-14, 4.8e-14, 7.2e-14], "mass": 5.6e-28,
+          "angular_velocity": [1, 2, 3] } ] })"),
+        std::string(
+            R"("boxes": [ { "half_extents": [1e-30, 2e-30, 3e-30], "mass": 1e-20, "velocity": [1, 2, 3],
+          "angular_velocity": [1e-25, 2e-25, 0] } ] })"),
+        std::string(R"("boxes": [ { "half_extents": [1e60, 1e-60, 1], "mass": 1e60, "velocity": [1e60, 0, 0],
+          "angular_velocity": [1e60, 1e60, 1e-60] } ] })"),
+        std::string(R"("gravity": [0, 0, -1e60], "room": { "min": [-1, -1, -1], "max": [1, 1, 1] },
+          "boxes": [ { "half_extents": [0.1, 0.2, 0.3], "mass": 1, "angular_velocity": [1e30, 1, 1e-30] } ] })")}) {
+    folder_.write("scene.json", head + rest);
+    const Ended ended =
+        Process({"bash", "-c",
+                 "ulimit -v 8000000; exec \"$0\" simulate scene.json -o run.careen --poses p.csv", program()},
+                folder_.path())
+            .wait();
+    EXPECT_TRUE(ended.exitCode == 0 || ended.exitCode == 2 || ended.exitCode == 4)
+        << ended.exitCode << ' ' << ended.signal << ended.err << rest;
+    if (ended.exitCode == 0) {
+      EXPECT_EQ(textOf(folder_ / "p.csv").find("nan"), std::string::npos) << rest;
+    } else {
+      EXPECT_NE(ended.err, "") << rest;
+    }
   }
 }
 

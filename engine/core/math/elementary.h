@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "core/math/double_double.h"
+#include "core/math/to_integer.h"
 
 /// sin, cos, exp, log and atan2 from + − * / sqrt and bit patterns alone.
 ///
@@ -140,8 +141,8 @@ inline SinCos<double> sinCosQuarterTurns(double quarterTurns, double rest) {
 
 /// e^x. 0 below −708 (where the result would lose digits), infinite above 709.78.
 inline double exp(double x) {
-  if (x > 709.782712893384) {
-    return std::numeric_limits<double>::infinity();
+  if (!(x <= 709.782712893384)) {
+    return x > 0 ? std::numeric_limits<double>::infinity() : x;  // or not a number
   }
   if (x < -708) {
     return 0;
@@ -213,9 +214,13 @@ inline constexpr std::array<DoubleDouble, 9> kArcTangentOfEighths = {{
     {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55},
 }};
 
-/// atan(y/x) for 0 ≤ y ≤ x, x > 0, as hi + lo: atan(k/8) + atan((y − x k/8)/(x + y k/8)).
+/// atan(y/x) for 0 ≤ y ≤ x, x > 0, as hi + lo: atan(k/8) + atan((y − x k/8)/(x + y k/8)). Not a number for
+/// any others, which have no entry in the table.
 inline DoubleDouble arcTangent(double y, double x) {
   const double rounding = 8 * (y / x) + 0.5;
+  if (!(rounding >= 0 && rounding < 9)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   const int k = static_cast<int>(rounding);
   const double c = 0.125 * k;
   const DoubleDouble cx = twoProduct(c, x);
@@ -233,7 +238,8 @@ inline DoubleDouble arcTangent(double y, double x) {
 
 }  // namespace detail
 
-/// The angle [rad] from the x axis to (x, y), in [−π, π]; 0 for (0, 0). Finite arguments.
+/// The angle [rad] from the x axis to (x, y), in [−π, π]; 0 for (0, 0). Not a number where both are infinite
+/// or one is not a number.
 inline double atan2(double y, double x) {
   const double ay = std::fabs(y);
   const double ax = std::fabs(x);
@@ -281,7 +287,7 @@ Real nearestInteger(const Real& x) {
 template <class Real>
 SinCos<Real> sinCosQuarterTurns(const Real& quarterTurns, const Real& rest) {
   const SinCos<Real> near = sinCos(rest);
-  switch (static_cast<std::int64_t>(quarterTurns) & 3) {
+  switch (toInteger<std::int64_t>(quarterTurns, std::int64_t{0}) & 3) {
     case 0:
       return near;
     case 1:

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/math/elementary.h"
+#include "core/math/to_integer.h"
 #include "physics/attitude/cayley_klein.h"
 #include "physics/attitude/linear_phase.h"
 
@@ -112,7 +113,7 @@ class TiltSeries {
     Real quarters = angle.quarterTurns;
     bool odd = false;
     if (mode_ == Mode::kTransformed) {
-      const auto count = static_cast<std::int64_t>(angle.quarterTurns);
+      const auto count = toInteger<std::int64_t>(angle.quarterTurns, std::int64_t{0});
       const std::int64_t left = count % 2 == 0 ? 0 : angle.rest > 0 ? -1 : 1;
       quarters = static_cast<Real>(left);
       odd = (count - left) / 2 % 2 != 0;

@@ -11,11 +11,20 @@
 namespace careen {
 namespace {
 
+// Of one flight: 10⁸ evaluations, some 20 s. Only a body that turns that often beside a wall needs as many.
+constexpr int kMostSearches = 2000;
+
 // Continues a search that ran out of evaluations.
 template <class Search>
 FirstContact searchUntil(double until, const Search& search) {
   FirstContact found;
+  int searches = 0;
   do {
+    if (++searches > kMostSearches) {
+      throw NumericalError(
+          "the search for the next impact found none in 100 million evaluations: a body turns too fast to be "
+          "followed; expected slower ones, or a shorter run");
+    }
     const double from = found.time;
     found = search(SearchWindow{.from = from, .until = until});
     if (found.kind == ContactKind::kNone && found.time < until && !(found.time > from)) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/math/to_integer.h"
 #include "physics/attitude/free_methods.h"
 #include "physics/attitude/torque_free_rotation.h"
 #include "physics/motion/listing1.h"
@@ -32,7 +33,7 @@ BodyState stateIn(const SteppedFlight& stepped, const MassProperties& mass, doub
   const FreeMethod& method = freeMethod(stepped.method);
   FreeState<double> rotation{flight.worldFromBody, flight.worldFromBody.conjugate() * flight.angularMomentum};
   const double whole = std::floor(elapsed / stepped.dt);
-  method.steps(mass.inertiaBody, rotation, stepped.dt, static_cast<std::int64_t>(whole));
+  method.steps(mass.inertiaBody, rotation, stepped.dt, toInteger<std::int64_t>(whole, std::int64_t{0}));
   if (const double rest = elapsed - whole * stepped.dt; rest > 0) {
     method.steps(mass.inertiaBody, rotation, rest, 1);
   }

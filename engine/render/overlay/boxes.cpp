@@ -55,8 +55,9 @@ std::vector<double> trailTimes(const OverlayFrame& frame, std::size_t body) {
   }
   const double begin = std::max(0.0, frame.time - std::min(kTrailSeconds, kTrailMostSamples * step));
   std::vector<double> times = {begin};
-  for (std::int64_t k = static_cast<std::int64_t>(begin / step) + 1;
-       static_cast<double>(k) * step < frame.time; ++k) {
+  // Beyond 2⁵² steps the times of the grid would be no different ones.
+  for (std::int64_t k = begin / step < 0x1p52 ? static_cast<std::int64_t>(begin / step) + 1 : 0;
+       k > 0 && static_cast<double>(k) * step < frame.time; ++k) {
     times.push_back(static_cast<double>(k) * step);
   }
   const std::vector<Impact>& impacts = frame.trajectory.impacts;

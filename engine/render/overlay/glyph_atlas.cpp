@@ -50,6 +50,10 @@ const GlyphAtlas::Entry& GlyphAtlas::entry(const Label& label, char32_t characte
 }
 
 std::vector<AtlasGlyph> GlyphAtlas::glyphsOf(const Label& label) {
+  constexpr double kFar = 1e6;  // [px] of any picture: nothing is seen there
+  if (!(std::fabs(label.at.x()) < kFar && std::fabs(label.at.y()) < kFar)) {
+    return {};
+  }
   std::vector<AtlasGlyph> glyphs;
   const int baseline = static_cast<int>(std::lround(label.at.y()));
   for (const PlacedGlyph& placed : font(label.typeface).place(label.text, label.size)) {

@@ -41,7 +41,7 @@ class EnergyText {
   explicit EnergyText(double largest) {
     constexpr std::array<const char*, 9> kPrefixes = {"p", "n", "µ", "m", "", "k", "M", "G", "T"};
     const int thousands =
-        largest > 0 ? std::clamp(static_cast<int>(std::floor(std::log10(largest) / 3)), -4, 4) : 0;
+        largest > 0 ? static_cast<int>(std::clamp(std::floor(std::log10(largest) / 3), -4.0, 4.0)) : 0;
     unit_ = std::pow(10.0, 3 * thousands);
     const double inUnit = largest / unit_;
     digits_ = inUnit >= 100 ? 1 : (inUnit >= 10 ? 2 : 3);

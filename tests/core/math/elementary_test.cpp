@@ -8,6 +8,7 @@
 #include <random>
 
 #include "support/quad.h"
+#include "support/without_traps.h"
 
 namespace careen {
 namespace {
@@ -136,6 +137,21 @@ TEST(Elementary, atan2IsRightToOneUlpInEveryQuadrant) {
   EXPECT_EQ(elementary::atan2(0.0, 2.0), 0);
   EXPECT_EQ(elementary::atan2(0.0, -2.0), 0x1.921fb54442d18p+1);
   EXPECT_EQ(elementary::atan2(-3.0, 0.0), -0x1.921fb54442d18p+0);
+}
+
+// No entry of a table belongs to them.
+TEST(Elementary, ofWhatIsNoNumberIsNoNumber) {
+  const WithoutTraps quiet;
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(std::isnan(elementary::exp(kNaN)));
+  EXPECT_EQ(elementary::exp(kInfinite), kInfinite);
+  EXPECT_EQ(elementary::exp(-kInfinite), 0);
+  EXPECT_TRUE(std::isnan(elementary::atan2(kNaN, 1)));
+  EXPECT_TRUE(std::isnan(elementary::atan2(1, kNaN)));
+  EXPECT_TRUE(std::isnan(elementary::atan2(kNaN, kNaN)));
+  EXPECT_TRUE(std::isnan(elementary::atan2(kInfinite, kInfinite)));
+  EXPECT_TRUE(std::isnan(elementary::sinCosQuarterTurns(kNaN, kNaN).sin));
 }
 
 }  // namespace
