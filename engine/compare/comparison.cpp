@@ -29,8 +29,8 @@ struct Pair {
 
 void measure(const Pair& pair, const std::string& expectedBytes, const std::string& actualBytes,
              const ComparisonSettings& settings, FrameComparison& frame) {
-  const DeepPicture expected = decodeDeepPng(expectedBytes, pair.expected.string());
-  const DeepPicture actual = decodeDeepPng(actualBytes, pair.actual.string());
+  const DeepPicture expected = decodeDeepPng(expectedBytes, pair.expected.string(), kMostPixelsCompared);
+  const DeepPicture actual = decodeDeepPng(actualBytes, pair.actual.string(), kMostPixelsCompared);
   const PictureDifference difference = differenceOf(expected, actual);
   const auto percent = [&difference](std::size_t pixels) {
     return 100 * static_cast<double>(pixels) / static_cast<double>(difference.pixels);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -82,8 +83,11 @@ struct ComparisonSettings {
 /// Reports how many frames of how many are compared.
 using ComparisonCallback = std::function<void(std::size_t done, std::size_t total)>;
 
-/// Compares two PNG files; InputError if one is not a PNG. Files identical byte for byte are not decoded,
-/// but their checksums must be right.
+/// Pictures that differ are compared up to this size [px], 8192 x 8192: two take about 14 bytes for each.
+inline constexpr std::uint64_t kMostPixelsCompared = std::uint64_t{1} << 26U;
+
+/// Compares two PNG files; InputError if one is not a PNG or beyond kMostPixelsCompared. Files identical byte
+/// for byte are not decoded, but their checksums must be right.
 Comparison comparePictures(const std::filesystem::path& expected, const std::filesystem::path& actual,
                            const ComparisonSettings& settings);
 

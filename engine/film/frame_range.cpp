@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <numeric>
 
 #include "core/error.h"
@@ -42,12 +43,21 @@ FrameRange parseRange(std::string_view text) {
   return range;
 }
 
+void checkCount(std::int64_t count) {
+  if (count > kMostFramesNamed) {
+    throw InputError("frames: found " + std::to_string(count) + " frames, expected at most " +
+                     std::to_string(kMostFramesNamed) + " at once, such as --frames 0-" +
+                     std::to_string(kMostFramesNamed - 1));
+  }
+}
+
 void append(std::vector<std::int64_t>& frames, const FrameRange& range, std::int64_t frameCount) {
   const std::int64_t last = range.last.value_or(frameCount - 1);
   if (range.first >= frameCount || last >= frameCount) {
     throw InputError("frames: found " + std::to_string(std::max(range.first, last)) +
                      ", expected frames from 0 to " + std::to_string(frameCount - 1));
   }
+  checkCount(std::ssize(frames) + 1 + (last - range.first) / range.step);
   // Counts down the rest, because frame + step may overflow.
   for (std::int64_t left = last - range.first;; left -= range.step) {
     frames.push_back(last - left);
@@ -74,6 +84,7 @@ std::vector<FrameRange> parseFrameRanges(std::string_view text) {
 std::vector<std::int64_t> framesOf(std::span<const FrameRange> ranges, std::int64_t frameCount) {
   std::vector<std::int64_t> frames;
   if (ranges.empty()) {
+    checkCount(frameCount);
     frames.resize(static_cast<std::size_t>(frameCount));
     std::iota(frames.begin(), frames.end(), 0);
   }

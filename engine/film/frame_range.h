@@ -20,8 +20,12 @@ struct FrameRange {
 /// frame of the film). InputError otherwise.
 std::vector<FrameRange> parseFrameRanges(std::string_view text);
 
+/// The most frames that may be named at once, repeated ones counted again: 80 MB of numbers. At 30 frames per
+/// second they are four days of film.
+inline constexpr std::int64_t kMostFramesNamed = 10'000'000;
+
 /// The frames of the ranges, sorted and without duplicates; all frames if there are no ranges. InputError if
-/// a frame is outside the film.
+/// a frame is outside the film, or if they are more than kMostFramesNamed.
 std::vector<std::int64_t> framesOf(std::span<const FrameRange> ranges, std::int64_t frameCount);
 
 /// Sorted frames as ranges in the shortest form: "0-119,200".

@@ -18,11 +18,24 @@ std::string sizeText(const PictureSettings& picture) {
   return std::to_string(picture.width) + "x" + std::to_string(picture.height);
 }
 
+// A number in the file may be of any size and have a fraction; converting that would be undefined.
+std::int64_t wholeNumber(const nlohmann::json& json, const std::string& key, std::int64_t least,
+                         std::int64_t most) {
+  const bool fits = json.is_number_integer() &&
+                    !(json.is_number_unsigned() && json.get<std::uint64_t>() > std::uint64_t{INT64_MAX});
+  if (!fits || json.get<std::int64_t>() < least || json.get<std::int64_t>() > most) {
+    throw InputError("found " + json.dump() + " for " + key + ", expected a whole number from " +
+                     std::to_string(least) + " to " + std::to_string(most));
+  }
+  return json.get<std::int64_t>();
+}
+
 // Fields missing in old manifests take their default, which is the behaviour of that time.
 PictureSettings pictureFrom(const nlohmann::json& json) {
   PictureSettings picture;
-  picture.width = json.at("size").at(0).get<int>();
-  picture.height = json.at("size").at(1).get<int>();
+  const nlohmann::json& size = json.at("size");
+  picture.width = static_cast<int>(wholeNumber(size.at(0), "size", 1, kLargestFilm));
+  picture.height = static_cast<int>(wholeNumber(size.at(1), "size", 1, kLargestFilm));
   picture.rate = parseFrameRate(json.at("fps").get<std::string>());
   picture.look = lookNamed(json.value("look", nameOf(picture.look)));
   picture.antialiasing = antialiasingNamed(json.value("antialiasing", nameOf(picture.antialiasing)));
@@ -33,7 +46,7 @@ PictureSettings pictureFrom(const nlohmann::json& json) {
 }
 
 FilmManifest fromJson(const nlohmann::json& json) {
-  if (json.at("careen_film").get<int>() != kVersion) {
+  if (json.at("careen_film") != kVersion) {
     throw InputError("another version");
   }
   FilmManifest manifest;
@@ -43,7 +56,7 @@ FilmManifest fromJson(const nlohmann::json& json) {
   manifest.sceneHash = json.at("scene_hash").get<std::string>();
   manifest.stateHash = json.at("state_hash").get<std::string>();
   manifest.picture = pictureFrom(json);
-  manifest.frameCount = json.at("frame_count").get<std::int64_t>();
+  manifest.frameCount = wholeNumber(json.at("frame_count"), "frame_count", 0, kMostFrames);
   if (const std::string frames = json.at("frames").get<std::string>(); !frames.empty()) {
     manifest.frames = framesOf(parseFrameRanges(frames), manifest.frameCount);
   }

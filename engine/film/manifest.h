@@ -29,7 +29,8 @@ std::string librariesHere();
 
 inline constexpr const char* kManifestName = "film.json";
 
-/// The folder's manifest, nullopt if it has none. InputError if it cannot be parsed.
+/// The folder's manifest, nullopt if it has none. InputError if it cannot be parsed, or lists more frames
+/// than kMostFramesNamed: a few bytes may list any number.
 std::optional<FilmManifest> readManifest(const std::filesystem::path& folder);
 void writeManifest(const std::filesystem::path& folder, const FilmManifest& manifest);
 

@@ -15,7 +15,7 @@
 namespace careen {
 namespace {
 
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28U;
+constexpr std::uint64_t kFewBytes = std::uint64_t{64} << 20U;  // of samples, whatever the file
 constexpr std::uint64_t kMostInflation = 1032;  // DEFLATE cannot do more: 258 bytes of two bits
 
 enum ColorType : int { kGrey = 0, kRgb = 2, kPalette = 3, kGreyAlpha = 4, kRgbAlpha = 6 };
@@ -262,12 +262,30 @@ class Spreader {
   std::array<int, 3> key_{};
 };
 
+void checkPixels(const Chunks& chunks, std::uint64_t most, const std::string& name) {
+  if (static_cast<std::uint64_t>(chunks.width) * static_cast<std::uint64_t>(chunks.height) > most) {
+    fail(name, "has " + std::to_string(chunks.width) + " x " + std::to_string(chunks.height) +
+                   " pixels; expected at most " + std::to_string(most) + " of them here");
+  }
+}
+
+// Grey and palettes take more room as RGB than in the file.
+void checkSpread(const Chunks& chunks, std::uint64_t bytes, const std::string& name) {
+  if (bytes > std::max(kFewBytes, kMostInflation * chunks.data.size())) {
+    fail(name, "has " + std::to_string(chunks.width) + " x " + std::to_string(chunks.height) +
+                   " pixels, which take " + std::to_string(bytes) + " bytes, in " +
+                   std::to_string(chunks.data.size()) + "; expected at most 64 MiB, or " +
+                   std::to_string(kMostInflation) + " times as many as in the file");
+  }
+}
+
 template <class Sample>
 std::vector<Sample> unpacked(const Chunks& chunks, const Spreader& spreader, const std::string& name) {
   std::vector<std::uint8_t> rows = inflate(chunks, name);
   const auto channels = static_cast<std::size_t>(spreader.channels());
   const auto width = static_cast<std::size_t>(chunks.width);
   const bool asIs = sizeof(Sample) == 1 && chunks.fileChannels() == channels && !chunks.interlaced;
+  checkSpread(chunks, width * static_cast<std::size_t>(chunks.height) * channels * sizeof(Sample), name);
   std::vector<Sample> samples(width * static_cast<std::size_t>(chunks.height) * channels);
   std::span<std::uint8_t> left(rows);
   for (const Pass& pass : passesOf(chunks)) {
@@ -308,10 +326,11 @@ std::vector<Sample> opaque(const std::vector<Sample>& rgb) {
 
 }  // namespace
 
-DeepPicture decodeDeepPng(std::string_view bytes, const std::string& name) {
+DeepPicture decodeDeepPng(std::string_view bytes, const std::string& name, std::uint64_t most) {
   Chunks chunks;
   readChunks(chunks, bytes, name);
   const Spreader spreader(chunks, name);
+  checkPixels(chunks, most, name);
   DeepPicture picture{.width = chunks.width,
                       .height = chunks.height,
                       .channels = spreader.channels(),

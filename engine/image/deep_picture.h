@@ -31,9 +31,14 @@ struct DeepPicture {
 /// What every PNG begins with.
 inline constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
+inline constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28U;  ///< 16384 x 16384
+
 /// Any PNG: every colour type, depth and filter, interlaced or not. InputError, naming `name`, if a byte of
-/// it is missing, a checksum is wrong, or it claims more pixels than its data can hold or than 2^28.
-DeepPicture decodeDeepPng(std::string_view bytes, const std::string& name);
+/// it is missing, a checksum is wrong, or it claims more pixels than its data can hold or than `most`. Memory
+/// is bounded by the file: the samples take at most 64 MiB or 1032 times the bytes of its data, whichever is
+/// more, and while they are unpacked at most twice that. (DEFLATE makes 1032 bytes of one; one bit of grey
+/// would become three bytes of RGB.)
+DeepPicture decodeDeepPng(std::string_view bytes, const std::string& name, std::uint64_t most = kMostPixels);
 
 /// InputError if the file is missing, cut short or changed.
 DeepPicture readDeepPng(const std::filesystem::path& path);

@@ -49,6 +49,12 @@ Json toJson(const Attempt& attempt) {
   return json;
 }
 
+// A float in the file must not be converted: beyond int that is undefined.
+int wholeNumber(const Json& json) {
+  const auto value = json.get<double>();
+  return value >= 0 && value <= 1e9 ? static_cast<int>(value) : 0;
+}
+
 Attempt attemptFrom(const Json& json) {
   Attempt attempt;
   attempt.contestant = json.at("contestant").get<std::string>();
@@ -61,7 +67,7 @@ Attempt attemptFrom(const Json& json) {
     attempt.judgement.energy = json.at("energy").get<std::vector<double>>();
     attempt.cost = json.at("cost_us").get<double>();
     attempt.spread = json.at("spread").get<double>();
-    attempt.repeats = json.at("repeats").get<int>();
+    attempt.repeats = wholeNumber(json.at("repeats"));
   }
   return attempt;
 }
@@ -112,7 +118,10 @@ std::optional<CaseResult> decodeResult(const std::string& text) {
     for (const Json& attempt : json.at("attempts")) {
       result.attempts.push_back(attemptFrom(attempt));
     }
-    return result;
+    const bool fits = std::all_of(
+        result.attempts.begin(), result.attempts.end(),
+        [&](const Attempt& attempt) { return attempt.judgement.energy.size() <= result.times.size(); });
+    return fits ? std::optional(std::move(result)) : std::nullopt;
   } catch (const Json::exception&) {
     return std::nullopt;
   }

@@ -9,20 +9,24 @@ namespace careen {
 namespace {
 
 constexpr int kLevel = 1;
-// Deflate's largest compression ratio is 1:1032: limits the memory a corrupted size can request.
-constexpr std::size_t kMostRatio = 1032;
+constexpr int kStored = 0;
 
-}  // namespace
-
-std::string compressed(std::string_view bytes) {
+std::string compressedAt(int level, std::string_view bytes) {
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-      libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
+      libdeflate_alloc_compressor(level), libdeflate_free_compressor);
   if (!compressor) {
     throw std::bad_alloc();
   }
   std::string out(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
   out.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), out.data(), out.size()));
   return out;
+}
+
+}  // namespace
+
+std::string compressed(std::string_view bytes) {
+  std::string out = compressedAt(kLevel, bytes);
+  return bytes.size() / kMostRatio > out.size() ? compressedAt(kStored, bytes) : out;
 }
 
 std::optional<std::string> decompressed(std::string_view bytes, std::size_t size) {

@@ -72,5 +72,16 @@ TEST_F(HostileInput, extremeNumbersEndInARunOrInAMessage) {
   }
 }
 
+// 10¹¹ frames in 130 bytes.
+TEST_F(HostileInput, aManifestListsNoMoreFramesThanFitInMemory) {
+  folder_.write("film.json", R"({"careen_film":1,"scene_hash":"a","state_hash":"b","size":[1,1],"fps":"30",
+    "frame_count":1000000000,"frames":"0-999999999"})");
+  const Ended ended =
+      Process({"bash", "-c", "ulimit -v 1000000; exec \"$0\" verify .", program()}, folder_.path()).wait();
+  EXPECT_EQ(ended.exitCode, 2) << ended.err;
+  EXPECT_NE(ended.err.find("found 1000000000 frames, expected at most 10000000 at once"), std::string::npos)
+      << ended.err;
+}
+
 }  // namespace
 }  // namespace careen

@@ -46,6 +46,14 @@ TEST(FrameRange, refusesFramesTheFilmHasNot) {
   }
 }
 
+TEST(FrameRange, refusesMoreFramesThanCanBeListed) {
+  constexpr std::int64_t kLong = 1'000'000'000'000;
+  EXPECT_THROW(framesOf({}, kLong), InputError);
+  EXPECT_THROW(frames("0-99999999999", kLong), InputError);
+  EXPECT_THROW(frames("0-5999999,0-5999999", kLong), InputError);
+  EXPECT_EQ(frames("0-99999999999:99999999999", kLong), (Frames{0, 99999999999}));
+}
+
 TEST(FrameRange, writesFramesShortestForm) {
   EXPECT_EQ(rangesText(Frames{0, 1, 2, 3, 7, 9, 10}), "0-3,7,9-10");
   EXPECT_EQ(rangesText(Frames{}), "");

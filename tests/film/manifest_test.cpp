@@ -80,7 +80,27 @@ TEST(Manifest, thatCannotBeUnderstoodIsNamed) {
   EXPECT_TRUE(saysOf(with("\"frame_count\": 240", "\"frame_count\": 11")).starts_with(start))
       << "frame 12 of 11";
   EXPECT_TRUE(saysOf(with("24000/1001", "fast")).starts_with(start));
+  EXPECT_EQ(saysOf(with("\"frame_count\": 240", "\"frame_count\": 1e60")),
+            start + "found 1e+60 for frame_count, expected a whole number from 0 to 1000000000");
+  EXPECT_EQ(saysOf(with("\"frame_count\": 240", "\"frame_count\": [240]")),
+            start + "found [240] for frame_count, expected a whole number from 0 to 1000000000");
+  EXPECT_TRUE(saysOf(with("640", "1e60")).starts_with(start + "found 1e+60 for size"));
+  EXPECT_TRUE(saysOf(with("640", "18446744073709551615")).starts_with(start + "found 18446744073709551615"));
+  EXPECT_TRUE(saysOf(with("\"careen_film\": 1", "\"careen_film\": 1e60")).starts_with(start));
   EXPECT_EQ(saysOf(text), "no error");
+}
+
+// 140 bytes that list 1e11 frames.
+TEST(Manifest, ofMoreFramesThanCanBeListedIsRefused) {
+  const TemporaryFolder folder;
+  FilmManifest manifest = everyField();
+  manifest.frameCount = kMostFrames;
+  writeManifest(folder.path(), manifest);
+  std::string text = textOf(folder / kManifestName);
+  text.replace(text.find("0-2,10,12"), 9, "0-999999999");
+  folder.write(kManifestName, text);
+  EXPECT_NE(inputErrorOf([&] { readManifest(folder.path()); }).find("expected at most 10000000 at once"),
+            std::string::npos);
 }
 
 TEST(Manifest, ofAnotherFilmDiffersInWhatItSays) {

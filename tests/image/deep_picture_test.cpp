@@ -59,6 +59,25 @@ TEST(DeepPicture, greyOfEveryDepthIsSpreadToItsShareOfFull) {
   EXPECT_EQ(deep.samples16, (Words{258, 258, 258, 65534, 65534, 65534}));
 }
 
+// One bit of grey becomes three bytes: 8192 x 8192 of them in 8 kB would be 200 MB.
+TEST(DeepPicture, isNoMoreThanAThousandTimesItsFile) {
+  const PngByHand bomb{
+      .width = 8192, .height = 8192, .bits = 1, .color = 0, .rows = std::string(8192 * 1025, '\0')};
+  const std::string error = errorOf(bomb.bytes());
+  EXPECT_NE(error.find("frame.png: has 8192 x 8192 pixels, which take 201326592 bytes, in "),
+            std::string::npos)
+      << error;
+  const PngByHand few{
+      .width = 4096, .height = 4096, .bits = 1, .color = 0, .rows = std::string(4096 * 513, '\0')};
+  EXPECT_EQ(decodeDeepPng(few.bytes(), "").samples(), std::size_t{4096} * 4096 * 3);
+}
+
+TEST(DeepPicture, isRefusedBeyondThePixelsAskedFor) {
+  const std::string bytes = encodePng(noise(20, 10, 1));
+  EXPECT_EQ(decodeDeepPng(bytes, "", 200).width, 20);
+  EXPECT_THROW(decodeDeepPng(bytes, "", 199), InputError);
+}
+
 TEST(DeepPicture, keepsSixteenBitsAndAlpha) {
   using namespace std::string_literals;
   const PngByHand rgb{.bits = 16, .color = 2, .rows = "\0\x00\x01\x10\x00\xff\xff"s};

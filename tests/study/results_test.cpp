@@ -72,5 +72,16 @@ TEST(Results, ofAWholeStudyAreJson) {
   EXPECT_EQ(study.contestants(), (std::vector<std::string>{"exact", "strang", "ode"}));
 }
 
+// More energies than times would be read beyond the end of the times.
+TEST(Results, whoseNumbersDoNotFitAreNone) {
+  std::string text = encodeResult(someCase());
+  text.replace(text.find("\"times\": ["), 10, "\"times\": [],\n \"other\": [");
+  EXPECT_FALSE(decodeResult(text).has_value());
+  text = encodeResult(someCase());
+  text.replace(text.find("\"repeats\": 3"), 12, "\"repeats\": 1e60");
+  ASSERT_TRUE(decodeResult(text).has_value());
+  EXPECT_EQ(decodeResult(text)->attempts[0].repeats, 0);
+}
+
 }  // namespace
 }  // namespace careen
