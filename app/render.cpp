@@ -265,6 +265,7 @@ void addRender(const CommandLine& commandLine) {
               "text, or json: a line for each frame drawn on the standard output, and nothing else "
               "there (default: text)");
   options->overrides.addAllowOverlapTo(command);
+  options->overrides.addLimitTo(command);
   options->estimate.addTo(command);
   command.runs([options](const std::stop_token& stop) {
     return options->listBackends ? listBackends(options->picture.context) : renderCommand(*options, stop);

@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <iostream>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "command_line.h"
+#include "core/brief.h"
 #include "core/error.h"
 #include "core/math/arithmetic.h"
 #include "core/names.h"
@@ -82,6 +84,28 @@ void partBoxes(Scene& scene) {
             << parted.furthest << " m\n";
 }
 
+std::uint64_t limitOf(const Overrides& overrides) {
+  if (!overrides.limit) {
+    return kMostRecords;
+  }
+  if (!(*overrides.limit >= 1 && *overrides.limit < 1e18)) {
+    throw InputError("--limit: found " + brief(*overrides.limit) + ", expected 1 or more, below 1e18");
+  }
+  return static_cast<std::uint64_t>(*overrides.limit);
+}
+
+// A method that steps may take very many steps for each segment that it records.
+void checkSteps(const Scene& scene, std::uint64_t limit) {
+  constexpr double kStepsOfRecord = 200;
+  const double most = kStepsOfRecord * static_cast<double>(limit);
+  const double steps = scene.duration / scene.dt * static_cast<double>(scene.boxes.size());
+  if (traitsOf(scene.method).steps() && !(steps <= most)) {
+    throw InputError("dt: found " + brief(scene.dt) + " s for " + brief(scene.duration) + " s, which makes " +
+                     brief(steps) + " steps of boxes, expected at most " + brief(most) +
+                     "; --limit allows more");
+  }
+}
+
 Run simulateText(const std::filesystem::path& path, const std::string& text, const Overrides& overrides,
                  const std::stop_token& stop) {
   const DefaultFloatEnvironment usual;  // GL may be open in a window
@@ -94,10 +118,12 @@ Run simulateText(const std::filesystem::path& path, const std::string& text, con
   } else if (scene.method != method) {
     checkApart(scene);  // the reader checked it for the method in the file
   }
+  const std::uint64_t limit = limitOf(overrides);
+  checkSteps(scene, limit);
   Run run;
   run.source = path;
   const Stopwatch stopwatch;
-  run.trajectory = record(setupOf(scene), stop);
+  run.trajectory = record(setupOf(scene), stop, limit);
   run.simulateSeconds = stopwatch.seconds();
   return run;
 }
@@ -127,11 +153,18 @@ void Overrides::addTo(const CommandLine& command) {
               "Tolerance in place of the scene's, for methods that choose their own");
   command.add("--duration", duration, "Length of the run in place of the scene's [s]");
   addAllowOverlapTo(command);
+  addLimitTo(command);
 }
 
 void Overrides::addAllowOverlapTo(const CommandLine& command) {
   command.addFlag("--allow-overlap", allowOverlap,
                   "Move boxes that overlap at the start apart, in place of refusing the scene");
+}
+
+void Overrides::addLimitTo(const CommandLine& command) {
+  command.add("--limit", limit,
+              "Most segments and impacts of the run (default: 5000000, 2 GB); methods that step may take 200 "
+              "steps of a box for each");
 }
 
 const char* Overrides::given() const {

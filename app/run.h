@@ -40,9 +40,11 @@ struct Overrides {
   std::optional<double> tolerance;
   std::optional<double> duration;  ///< [s]
   bool allowOverlap = false;       ///< first move boxes apart that overlap at the start
+  std::optional<double> limit;     ///< of segments and impacts, instead of kMostRecords
 
   void addTo(const CommandLine& command);
   void addAllowOverlapTo(const CommandLine& command);
+  void addLimitTo(const CommandLine& command);
   /// The first option that was given; null if none was.
   const char* given() const;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
+#include <unordered_set>
 #include <utility>
 
 #include "core/error.h"
@@ -103,6 +104,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   JsonNode& root_;
   JsonCursor cursor_;
   std::vector<JsonNode*> open_;  // from the root to the innermost, the only one that grows
+  std::vector<std::unordered_set<std::string>> keys_;  // of each of them
   bool begun_ = false;
   bool keyPending_ = false;  // the innermost object's last member has no value yet
 };
@@ -133,18 +135,21 @@ bool TreeBuilder::open(Kind kind) {
     tree_.fail(node.offset, "values nested deeper than " + std::to_string(kDeepest), "a flatter file");
   }
   open_.push_back(&node);
+  keys_.emplace_back();
   return true;
 }
 
 bool TreeBuilder::close() {
   cursor_.next();
   open_.pop_back();
+  keys_.pop_back();
   return true;
 }
 
 bool TreeBuilder::key(string_t& name) {
   const std::size_t offset = cursor_.next();
-  if (const JsonNode* first = open_.back()->find(name)) {
+  if (!keys_.back().insert(name).second) {
+    const JsonNode* const first = open_.back()->find(name);
     tree_.fail(offset, "the key " + inQuotes(name) + " again",
                "each key once; it stands at " + tree_.place(first->keyOffset) + " already");
   }

@@ -26,7 +26,8 @@ struct JsonNode {
 
 /// A JSON text with comments (// and /* */), parsed into nodes. Keys must be unique, numbers finite, nesting
 /// at most 64 deep; otherwise InputError "file:line:column: found …, expected …". Lines and columns count
-/// from 1, columns in characters.
+/// from 1, columns in characters. Time is linear in the text's length, memory at most 256 bytes for each of
+/// its bytes (an array of numbers of one digit).
 class JsonTree {
  public:
   /// `name` is the file's name in messages.

@@ -72,6 +72,23 @@ TEST_F(HostileInput, extremeNumbersEndInARunOrInAMessage) {
   }
 }
 
+TEST_F(HostileInput, stepsWithoutEndAreRefusedUnlessAskedFor) {
+  folder_.write("scene.json", R"({ "careen": 1, "duration": 10, "method": "listing1", "dt": 1e-60,
+    "boxes": [ { "half_extents": [0.1, 0.1, 0.1], "mass": 1, "velocity": [3, 1, 0] } ] })");
+  Ended ended = careen({"simulate", "scene.json"});
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_NE(ended.err.find("which makes 1e+61 steps of boxes, expected at most 1e+09; --limit allows more"),
+            std::string::npos)
+      << ended.err;
+  ended = careen({"simulate", "scene.json", "--dt", "0.001", "--limit", "1000"});
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_NE(ended.err.find("the run takes more than 1000 pieces of motion and impacts, at 1 s of 10 s"),
+            std::string::npos)
+      << ended.err;
+  EXPECT_EQ(careen({"simulate", "scene.json", "--dt", "0.001", "--limit", "20000"}).exitCode, 0);
+  EXPECT_EQ(careen({"simulate", "scene.json", "--limit", "0"}).exitCode, 2);
+}
+
 // 10¹¹ frames in 130 bytes.
 TEST_F(HostileInput, aManifestListsNoMoreFramesThanFitInMemory) {
   folder_.write("film.json", R"({"careen_film":1,"scene_hash":"a","state_hash":"b","size":[1,1],"fps":"30",
@@ -81,6 +98,17 @@ TEST_F(HostileInput, aManifestListsNoMoreFramesThanFitInMemory) {
   EXPECT_EQ(ended.exitCode, 2) << ended.err;
   EXPECT_NE(ended.err.find("found 1000000000 frames, expected at most 10000000 at once"), std::string::npos)
       << ended.err;
+}
+
+TEST_F(HostileInput, manyKeysAreReadInLinearTime) {
+  std::string scene = "{";
+  for (int i = 0; i < 200'000; ++i) {
+    scene += "\"key" + std::to_string(i) + "\": 1,";
+  }
+  folder_.write("scene.json", scene + "\"careen\": 1 }");
+  const auto begun = std::chrono::steady_clock::now();
+  EXPECT_EQ(careen({"info", "scene.json"}).exitCode, 2);
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(20));  // quadratic: minutes
 }
 
 }  // namespace
