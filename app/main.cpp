@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "core/error.h"
+#include "core/system/standard_streams.h"
 #include "interruption.h"
 
 namespace careen {
@@ -59,6 +60,7 @@ void keepMemory() {
 }  // namespace careen
 
 int main(int argc, char** argv) {
+  careen::openStandardStreams();
   careen::keepMemory();
   int result = 0;
   try {

@@ -95,7 +95,8 @@ std::unique_ptr<VideoPipe> startVideo(const FilmSettings& settings, const Pictur
 
 // Sets up a job in its own process. The ring has slots if there is a video.
 FrameWorkshop openWorkshop(const Filming& filming, const Trajectory& run, const FilmSettings& settings,
-                           const std::optional<Overlays>& overlays, int jobs, const PictureRing& ring) {
+                           const std::vector<std::int64_t>& frames, const std::optional<Overlays>& overlays,
+                           int jobs, const PictureRing& ring) {
   if (glWasOpened()) {  // otherwise it would wait for threads that were not forked
     throw MachineError("no job can draw: GL had been opened before it was forked");
   }
@@ -103,8 +104,11 @@ FrameWorkshop openWorkshop(const Filming& filming, const Trajectory& run, const 
   options.camera = filming.camera(0);
   const auto renderer = std::make_shared<Renderer>(run, options);
   const PictureSettings& settingsOfPicture = run.stage.picture;
-  const auto work = [renderer, &filming, &settings, &settingsOfPicture, &overlays, &ring](
+  const auto work = [renderer, &filming, &settings, &settingsOfPicture, &frames, &overlays, &ring](
                         std::int64_t index, std::int64_t frame) {
+    if (index < 0 || index >= std::ssize(frames) || frames[static_cast<std::size_t>(index)] != frame) {
+      throw MachineError("a job was asked for frame " + std::to_string(frame) + ", which nobody ordered");
+    }
     FrameFigures figures{.frame = frame, .time = settingsOfPicture.rate.frameTime(frame)};
     const DrawFigures before = renderer->figures();
     Picture picture =
@@ -253,7 +257,8 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
   }
   const int jobs = jobCount(settings, missing.size());
   const PictureRing ring(settings.video ? jobs + 2 : 0, bytesOf(picture));
-  FilmWorkers workers(jobs, [&] { return openWorkshop(filming, run, settings, overlays, jobs, ring); });
+  FilmWorkers workers(
+      jobs, [&] { return openWorkshop(filming, run, settings, asked.frames, overlays, jobs, ring); });
   asked.renderer = workers.renderer();
   if (settings.resume) {
     refuseAnotherFilm(folder, asked);
