@@ -1,0 +1,311 @@
+#include "audit/audit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "audit/findings.h"
+#include "audit/groups.h"
+#include "audit/ledger.h"
+#include "audit/moments.h"
+#include "audit/near_pairs.h"
+#include "audit/overlap.h"
+#include "audit/samples.h"
+#include "audit/seams.h"
+#include "core/brief.h"
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+// Budgets, in states looked at.
+constexpr std::size_t kStatesAtMoments = 5'000;
+constexpr std::size_t kStatesAtMomentsInFull = 400'000;
+constexpr std::size_t kSeamsOfAll = 2'000;
+constexpr std::size_t kStatesAroundWorst = 1'500;
+constexpr std::size_t kMostMoments = 1'000;
+constexpr std::size_t kFewestMoments = 16;
+constexpr std::size_t kWorst = 4;
+
+class Auditor {
+ public:
+  Auditor(const Trajectory& run, AuditDepth depth, const std::stop_token& stop)
+      : run_(run),
+        depth_(depth),
+        stop_(stop),
+        findings_(run.settings, run.figures.boundedFrom),
+        impacts_(impactsOfBodies(run)),
+        badness_(run.tracks.size(), 0) {}
+
+  Audit run();
+
+ private:
+  bool isFull() const { return depth_ == AuditDepth::kFull; }
+  std::size_t bodies() const { return run_.tracks.size(); }
+  const Body& body(std::size_t index) const { return run_.world.bodies[index]; }
+  double radius(std::size_t index) const { return body(index).halfExtents.norm(); }
+
+  std::vector<double> moments() const;
+  bool areMotionsFinite();
+  void lookAtMoments(const Samples& samples);
+  void lookAtWalls(std::size_t body, const Pose& pose, double time);
+  void lookAtPair(std::size_t a, const Pose& poseA, std::size_t b, const Pose& poseB, double time);
+  void lookAtSeams();
+  void lookAround(std::size_t body, double time);
+  void lookAtWorst();
+  void lookAtEverySegment(std::size_t body, std::size_t stride);
+  void found(AuditKind kind, double rounding, Finding finding);
+  void rest() const;
+  Audit result() const;
+  std::vector<std::string> namesOf(const Finding& finding) const;
+
+  const Trajectory& run_;
+  AuditDepth depth_;
+  const std::stop_token& stop_;
+  Findings findings_;
+  std::vector<std::vector<std::size_t>> impacts_;  // of each body
+  std::vector<double> badness_;                    // of each body: how far it is from what it should be
+  std::size_t looks_ = 0;
+};
+
+void Auditor::rest() const {
+  if (stop_.stop_requested()) {
+    throw Interrupted();
+  }
+}
+
+std::vector<double> Auditor::moments() const {
+  const std::size_t budget = isFull() ? kStatesAtMomentsInFull : kStatesAtMoments;
+  const std::size_t each = budget / std::max<std::size_t>(bodies(), 1);
+  return goldenMoments(run_.settings.duration,
+                       std::clamp(each, kFewestMoments, (isFull() ? 10 : 1) * kMostMoments));
+}
+
+void Auditor::found(AuditKind kind, double rounding, Finding finding) {
+  for (const std::size_t body : finding.bodies) {
+    badness_[body] = std::max(badness_[body], finding.size);
+  }
+  findings_.add(kind, rounding, finding);
+}
+
+void Auditor::lookAtWalls(std::size_t index, const Pose& pose, double time) {
+  if (isImmovable(body(index).mass)) {
+    return;
+  }
+  for (std::size_t wall = 0; wall < run_.world.walls.size(); ++wall) {
+    const double depth = -separationOf(AuditBox{body(index).halfExtents, pose}, run_.world.walls[wall]);
+    if (!(depth <= 0)) {
+      found(AuditKind::kWallOverlap, placeRounding(body(index), pose.position),
+            {.size = depth, .time = time, .bodies = {index}, .wall = wall});
+    }
+  }
+}
+
+void Auditor::lookAtPair(std::size_t a, const Pose& poseA, std::size_t b, const Pose& poseB, double time) {
+  if (isImmovable(body(a).mass) && isImmovable(body(b).mass)) {
+    return;
+  }
+  const double depth =
+      -separationOf(AuditBox{body(a).halfExtents, poseA}, AuditBox{body(b).halfExtents, poseB});
+  if (!(depth <= 0)) {
+    found(AuditKind::kBoxOverlap,
+          placeRounding(body(a), poseA.position) + placeRounding(body(b), poseB.position),
+          {.size = depth, .time = time, .bodies = {a, b}, .wall = {}});
+  }
+}
+
+void Auditor::lookAtMoments(const Samples& samples) {
+  std::vector<Ball> balls(bodies());
+  for (std::size_t moment = 0; moment < samples.moments(); ++moment) {
+    rest();
+    const double time = samples.times()[moment];
+    for (std::size_t index = 0; index < bodies(); ++index) {
+      const BodyState& state = samples.state(moment, index);
+      checkState(state, index, time, findings_);
+      balls[index] = {state.pose.position, radius(index)};
+      if (state.pose.position.allFinite()) {
+        lookAtWalls(index, state.pose, time);
+      }
+    }
+    for (const auto& [a, b] : nearPairs(balls)) {
+      lookAtPair(a, samples.state(moment, a).pose, b, samples.state(moment, b).pose, time);
+    }
+  }
+  looks_ += samples.moments() * bodies();
+}
+
+// A body among the others at one moment; of those that are far away only the place is computed.
+void Auditor::lookAround(std::size_t index, double time) {
+  const BodyState state = run_.state(index, time);
+  ++looks_;
+  checkState(state, index, time, findings_);
+  if (!state.pose.position.allFinite()) {
+    return;
+  }
+  lookAtWalls(index, state.pose, time);
+  for (std::size_t other = 0; other < bodies(); ++other) {
+    const Track& track = run_.tracks[other];
+    const Segment& segment = track.segments[segmentAt(track, time)];
+    const double reach = radius(index) + radius(other);
+    if (other != index &&
+        (centerAt(segment.motion, time - segment.start) - state.pose.position).squaredNorm() <=
+            reach * reach) {
+      ++looks_;
+      const BodyState there = stateAt(segment.motion, body(other).mass, time - segment.start);
+      lookAtPair(std::min(index, other), index < other ? state.pose : there.pose, std::max(index, other),
+                 index < other ? there.pose : state.pose, time);
+    }
+  }
+}
+
+// Both sides of the seams of all bodies, or of as many as the budget allows, evenly spread.
+void Auditor::lookAtSeams() {
+  std::size_t all = 0;
+  for (const Track& track : run_.tracks) {
+    all += track.segments.size();
+  }
+  const std::size_t stride = isFull() ? 1 : 1 + all / kSeamsOfAll;
+  std::size_t number = 0;
+  for (std::size_t index = 0; index < bodies(); ++index) {
+    rest();
+    for (const Seam& seam : seamsOf(run_.tracks[index])) {
+      const double time = run_.tracks[index].segments[seam.after].start;
+      if (number++ % stride == 0 && time <= run_.settings.duration) {
+        checkSeam(run_, index, seam, impacts_[index], findings_);
+        looks_ += 2;
+      }
+    }
+  }
+}
+
+// Start and middle of segments of a body; its end is the start of the next one.
+void Auditor::lookAtEverySegment(std::size_t index, std::size_t stride) {
+  const std::vector<Segment>& segments = run_.tracks[index].segments;
+  for (std::size_t k = 0; k < segments.size(); k += stride) {
+    rest();
+    const double end = k + 1 < segments.size() ? segments[k + 1].start : run_.settings.duration;
+    if (segments[k].start <= run_.settings.duration) {
+      lookAround(index, segments[k].start);
+      lookAround(index, std::clamp(segments[k].start + (end - segments[k].start) / 2, segments[k].start,
+                                   run_.settings.duration));
+    }
+  }
+}
+
+void Auditor::lookAtWorst() {
+  std::vector<std::size_t> order(bodies());
+  for (std::size_t index = 0; index < bodies(); ++index) {
+    order[index] = index;
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t x, std::size_t y) { return badness_[x] > badness_[y]; });
+  if (!isFull()) {
+    order.resize(std::min(order.size(), kWorst));
+  }
+  for (const std::size_t index : order) {
+    const std::size_t cost = 2 * run_.tracks[index].segments.size() * (1 + bodies() / 16) * kWorst;
+    lookAtEverySegment(index, isFull() ? 1 : 1 + cost / kStatesAroundWorst);
+  }
+}
+
+// Whether every motion has states; each box that has a motion without is found.
+bool Auditor::areMotionsFinite() {
+  bool all = true;
+  for (std::size_t index = 0; index < bodies(); ++index) {
+    const std::vector<Segment>& segments = run_.tracks[index].segments;
+    const auto broken = std::find_if(segments.begin(), segments.end(),
+                                     [](const Segment& segment) { return !isFinite(segment.motion); });
+    if (broken != segments.end()) {
+      all = false;
+      findings_.add(AuditKind::kNotFinite, 0,
+                    {.size = 1, .time = broken->start, .bodies = {index}, .wall = {}});
+    }
+  }
+  return all;
+}
+
+Audit Auditor::run() {
+  if (!areMotionsFinite()) {
+    return result();
+  }
+  const Samples samples(run_, moments(), stop_);
+  lookAtMoments(samples);
+  lookAtSeams();
+  checkBalances(run_, samples, exchangeGroups(run_, samples), findings_);
+  lookAtWorst();
+  return result();
+}
+
+std::vector<std::string> Auditor::namesOf(const Finding& finding) const {
+  std::vector<std::string> names;
+  for (const std::size_t index : finding.bodies) {
+    names.push_back(body(index).name);
+  }
+  if (finding.wall) {
+    names.push_back(run_.world.walls[*finding.wall].name);
+  }
+  return names;
+}
+
+Audit Auditor::result() const {
+  Audit audit;
+  audit.depth = depth_;
+  audit.looks = looks_;
+  for (const AuditKindTraits& traits : kAuditKinds) {
+    const Finding& largest = findings_.largest(traits.kind);
+    audit.figures[indexOf(traits.kind)] = {
+        .size = largest.size,
+        .time = largest.time,
+        .bodies = namesOf(largest),
+        .promised = findings_.promise(traits.kind, largest.time).has_value()};
+    if (const std::optional<Finding>& breach = findings_.firstBreach(traits.kind)) {
+      audit.breaches.push_back(
+          {.kind = traits.kind,
+           .size = breach->size,
+           .allowed = allowed(*findings_.promise(traits.kind, breach->time), run_.settings, breach->length),
+           .largest = largest.size,
+           .time = breach->time,
+           .bodies = namesOf(*breach)});
+    }
+  }
+  std::stable_sort(audit.breaches.begin(), audit.breaches.end(),
+                   [](const AuditBreach& x, const AuditBreach& y) { return x.time < y.time; });
+  return audit;
+}
+
+}  // namespace
+
+Audit audit(const Trajectory& run, AuditDepth depth, const std::stop_token& stop) {
+  if (depth == AuditDepth::kNone) {
+    return {};
+  }
+  return Auditor(run, depth, stop).run();
+}
+
+std::string describe(const AuditBreach& breach, const Trajectory& run) {
+  constexpr std::size_t kMostNamed = 4;
+  std::string names;
+  for (std::size_t i = 0; i < breach.bodies.size() && i < kMostNamed; ++i) {
+    names += (i == 0 ? "" : ", ") + breach.bodies[i];
+  }
+  if (breach.bodies.size() > kMostNamed) {
+    names += " and " + std::to_string(breach.bodies.size() - kMostNamed) + " more";
+  }
+  const AuditKindTraits& traits = traitsOf(breach.kind);
+  std::string unit;
+  if (traits.unit != "1") {
+    unit.append(" ").append(traits.unit);
+  }
+  std::string text = "at " + brief(breach.time) + " s " + names + ": ";
+  text.append(traits.what).append(": ").append(brief(breach.size)).append(unit);
+  if (breach.largest > breach.size) {
+    text.append(", later ").append(brief(breach.largest)).append(unit);
+  }
+  return text.append(", where method ")
+      .append(run.methodName())
+      .append(" promises at most ")
+      .append(brief(breach.allowed))
+      .append(unit);
+}
+
+}  // namespace careen

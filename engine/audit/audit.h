@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "audit/kinds.h"
+#include "trajectory/trajectory.h"
+
+namespace careen {
+
+/// How much of a run is looked at.
+enum class AuditDepth : int {
+  kUsual,  ///< moments and seams within a budget that depends on the run alone, never on the clock
+  kFull,   ///< also both ends and the middle of every segment
+  kNone
+};
+inline constexpr std::array<std::string_view, 3> kAuditDepthNames = {"usual", "full", "none"};
+
+/// The largest finding of one kind.
+struct AuditFigure {
+  double size = 0;                  ///< in the kind's unit; 0: nothing found
+  double time = 0;                  ///< [s]
+  std::vector<std::string> bodies;  ///< and walls, by name
+  bool promised = false;            ///< the method promises a bound for this kind at this time
+};
+
+/// A promise of the method that the run breaks, where it first does.
+struct AuditBreach {
+  AuditKind kind{};
+  double size = 0;     ///< there, in the kind's unit
+  double allowed = 0;  ///< likewise
+  double largest = 0;  ///< likewise, of the whole run
+  double time = 0;     ///< [s]
+  std::vector<std::string> bodies;
+};
+
+/// What a run is worth, measured by code that shares with the methods only the definition of the world and
+/// the motions of the trajectory.
+struct Audit {
+  AuditDepth depth = AuditDepth::kNone;
+  std::array<AuditFigure, kAuditKindCount> figures;  ///< in the order of AuditKind
+  std::vector<AuditBreach> breaches;                 ///< the first of each kind, in order of time
+  std::size_t looks = 0;                             ///< states that were looked at
+
+  const AuditFigure& figure(AuditKind kind) const { return figures[indexOf(kind)]; }
+};
+
+/// The same for the same run, on every machine. Throws Interrupted.
+Audit audit(const Trajectory& run, AuditDepth depth, const std::stop_token& stop = {});
+
+/// "at 0.4284 s a, b: boxes overlap: 1.451e-05 m, later 0.092 m, where method exact promises at most 4e-06 m"
+std::string describe(const AuditBreach& breach, const Trajectory& run);
+
+}  // namespace careen

@@ -1,0 +1,213 @@
+#include "audit/external.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <variant>
+
+#include "audit/overlap.h"
+#include "physics/world/forces.h"
+
+namespace careen {
+namespace {
+
+// Gauss–Legendre with three nodes on [0, 1]: exact for polynomials of degree 5, such as contact steps.
+struct Node {
+  double at;
+  double weight;
+};
+constexpr double kRootOf3Fifths = 0.77459666924148337704;
+constexpr std::array<Node, 3> kNodes = {Node{(1 - kRootOf3Fifths) / 2, 5.0 / 18}, Node{0.5, 8.0 / 18},
+                                        Node{(1 + kRootOf3Fifths) / 2, 5.0 / 18}};
+
+bool isMovable(const World& world, const std::optional<int>& body) {
+  return body && !isImmovable(world.bodies[static_cast<std::size_t>(*body)].mass);
+}
+
+// Places of a body where it begins a motion and where that ends.
+std::vector<Pose> placesOf(const Motion& motion) {
+  if (const Rest* const rest = std::get_if<Rest>(&motion)) {
+    return {rest->pose};
+  }
+  const ContactStep& step = std::get<ContactStep>(motion);
+  Vec3 position = Vec3::Zero();
+  Vec4 turn = Vec4::Zero();
+  for (std::size_t k = 0; k < step.position.size(); ++k) {
+    position += step.position[k];
+    turn += step.worldFromBody[k];
+  }
+  return {{step.position[0], Quat(step.worldFromBody[0]).normalized().toRotationMatrix()},
+          {position, Quat(turn).normalized().toRotationMatrix()}};
+}
+
+}  // namespace
+
+ExternalOf::ExternalOf(const Trajectory& run, const ExchangeGroup& group, const Vec3& origin)
+    : run_(run), group_(group), origin_(origin), followers_(group.bodies.size()) {
+  for (std::size_t body = 0; body < run.world.bodies.size(); ++body) {
+    if (isImmovable(run.world.bodies[body].mass)) {
+      immovables_.push_back(body);
+    }
+  }
+  integrates_ = run.world.drag.has_value() ||
+                std::any_of(group.springs.begin(), group.springs.end(), [&](std::size_t spring) {
+                  return !isMovable(run.world, run.world.springs[spring].from.body) ||
+                         !isMovable(run.world, run.world.springs[spring].to.body);
+                });
+}
+
+External ExternalOf::until(double time) {
+  External external;
+  for (std::size_t member = 0; member < group_.bodies.size(); ++member) {
+    follow(member, time, external);
+  }
+  addImpacts(time, external);
+  time_ = time;
+  return external;
+}
+
+void ExternalOf::follow(std::size_t member, double time, External& external) {
+  const std::size_t body = group_.bodies[member];
+  const std::vector<Segment>& segments = run_.tracks[body].segments;
+  std::size_t& k = followers_[member].segment;
+  double from = time_;
+  while (true) {
+    const bool isLast = k + 1 >= segments.size() || segments[k + 1].start > time;
+    const double to = isLast ? time : std::max(from, segments[k + 1].start);
+    if (mayTouch(segments[k].motion)) {
+      addTouches(member, k, external);
+    }
+    if (to > from) {
+      addLoads(body, segments[k], from, to, external);
+    }
+    from = to;
+    if (isLast) {
+      return;
+    }
+    ++k;
+  }
+}
+
+// Gravity, drag, and springs with one end on this body and the other on the world or an immovable body:
+// springs between bodies of the group give it nothing.
+void ExternalOf::addLoads(std::size_t body, const Segment& segment, double from, double to,
+                          External& external) const {
+  const World& world = run_.world;
+  const MassProperties& mass = world.bodies[body].mass;
+  const Vec3 weight = mass.mass * world.gravity;
+  const double length = to - from;
+  external.impulse += length * weight;
+  if (world.gravity.isZero(0) && !integrates_) {
+    return;
+  }
+  std::vector<BodyState> states;
+  for (const Node& node : kNodes) {
+    const double elapsed = from + node.at * length - segment.start;
+    const double seconds = node.weight * length;
+    if (!integrates_) {
+      external.angularImpulse += seconds * (centerAt(segment.motion, elapsed) - origin_).cross(weight);
+      continue;
+    }
+    const BodyState state = stateAt(segment.motion, mass, elapsed);
+    const Vec3 arm = state.pose.position - origin_;
+    Load load{.force = Vec3::Zero(), .torque = Vec3::Zero()};
+    if (world.drag) {
+      load = dragLoad(*world.drag, state.velocity, angularVelocity(mass, state));
+      external.impulse += seconds * load.force;
+    }
+    external.angularImpulse += seconds * (arm.cross(load.force + weight) + load.torque);
+    for (const std::size_t index : group_.springs) {
+      const Spring& spring = world.springs[index];
+      const bool isFrom = spring.from.body && static_cast<std::size_t>(*spring.from.body) == body;
+      const bool isTo = spring.to.body && static_cast<std::size_t>(*spring.to.body) == body;
+      if (isFrom == isTo || isMovable(world, isFrom ? spring.to.body : spring.from.body)) {
+        continue;
+      }
+      states.resize(world.bodies.size());
+      states[body] = state;
+      for (const std::size_t fixed : immovables_) {
+        states[fixed] = {.pose = world.bodies[fixed].initial.pose};
+      }
+      const Stretch stretch = stretchOf(spring, world, states);
+      const Vec3 force = (isFrom ? 1 : -1) * springForce(spring, stretch) * stretch.direction;
+      external.impulse += seconds * force;
+      external.angularImpulse += seconds * ((isFrom ? stretch.from : stretch.to) - origin_).cross(force);
+    }
+  }
+}
+
+void ExternalOf::addTouches(std::size_t member, std::size_t segment, External& external) {
+  Follower& follower = followers_[member];
+  const std::size_t body = group_.bodies[member];
+  if (follower.known != segment + 1) {
+    follower.touches = touchesOf(body, run_.tracks[body].segments[segment].motion);
+    follower.known = segment + 1;
+  }
+  external.lies = true;
+  external.liesOnImmovable = external.liesOnImmovable || follower.touches.immovable;
+  for (const std::size_t wall : follower.touches.walls) {
+    addWall(wall, touching(run_.world.bodies[body].material, run_.world.walls[wall].material).friction,
+            external);
+  }
+}
+
+void ExternalOf::addWall(std::size_t wall, double friction, External& external) const {
+  const Vec3& normal = run_.world.walls[wall].normal;
+  const auto known = std::find_if(external.walls.begin(), external.walls.end(),
+                                  [&](const WallForce& force) { return force.normal == normal; });
+  if (known == external.walls.end()) {
+    external.walls.push_back({.normal = normal, .friction = friction});
+  } else {
+    known->friction = std::max(known->friction, friction);
+  }
+}
+
+ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, const Motion& motion) const {
+  const Body& owner = run_.world.bodies[body];
+  const double near = touchingDistance(owner, run_.settings);
+  Touches touches;
+  for (const Pose& place : placesOf(motion)) {
+    const AuditBox box{owner.halfExtents, place};
+    for (std::size_t wall = 0; wall < run_.world.walls.size(); ++wall) {
+      if (separationOf(box, run_.world.walls[wall]) <= near) {
+        touches.walls.push_back(wall);
+      }
+    }
+    for (const std::size_t fixed : immovables_) {
+      const Body& other = run_.world.bodies[fixed];
+      const double reach = owner.halfExtents.norm() + other.halfExtents.norm() + near;
+      const Pose& where = other.initial.pose;
+      touches.immovable = touches.immovable || ((place.position - where.position).norm() <= reach &&
+                                                separationOf(box, {other.halfExtents, where}) <= near);
+    }
+  }
+  return touches;
+}
+
+void ExternalOf::addImpacts(double time, External& external) {
+  const World& world = run_.world;
+  for (; nextImpact_ < group_.impacts.size() && run_.impacts[group_.impacts[nextImpact_]].time <= time;
+       ++nextImpact_) {
+    const Impact& impact = run_.impacts[group_.impacts[nextImpact_]];
+    const auto a = static_cast<std::size_t>(impact.a.value);
+    const Material& other = impact.b.isWall()
+                                ? world.walls[impact.b.wall()].material
+                                : world.bodies[static_cast<std::size_t>(impact.b.body())].material;
+    const Material pair = touching(world.bodies[a].material, other);
+    external.losesInImpacts = external.losesInImpacts || pair.restitution < 1 || pair.friction > 0;
+    const bool isA = group_.holds(a);
+    const bool isB = !impact.b.isWall() && group_.holds(static_cast<std::size_t>(impact.b.body()));
+    if (isA != isB) {
+      const Vec3 impulse = (isA ? 1 : -1) * impact.impulse * impact.normal;
+      const Vec3 arm = impact.point - origin_;
+      external.impulse += impulse;
+      external.angularImpulse += arm.cross(impulse);
+      external.friction += impact.tangential;
+      external.angularFriction += impact.tangential * arm.norm();
+    }
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "audit/cone.h"
+#include "audit/groups.h"
+#include "audit/samples.h"
+#include "trajectory/trajectory.h"
+
+namespace careen {
+
+/// What acted on a group of bodies from outside over some time.
+struct External {
+  Vec3 impulse = Vec3::Zero();         ///< [N s] of gravity, drag, springs to the world and recorded impacts
+  Vec3 angularImpulse = Vec3::Zero();  ///< [N m s] likewise, about the group's origin
+  double friction = 0;                 ///< [N s] of recorded impacts; its direction is not recorded
+  double angularFriction = 0;          ///< [N m s] likewise
+  std::vector<WallForce> walls;        ///< that bodies of the group lay on, each once
+  bool lies = false;                   ///< on a wall or an immovable body, or on another of the group
+  bool liesOnImmovable = false;
+  bool losesInImpacts = false;  ///< of restitution or friction
+};
+
+/// Follows a group through its run, from moment to moment.
+class ExternalOf {
+ public:
+  /// Torques are about `origin` [m]. Keeps references.
+  ExternalOf(const Trajectory& run, const ExchangeGroup& group, const Vec3& origin);
+
+  /// From the last moment (at first 0 s) to this one [s].
+  External until(double time);
+
+ private:
+  void follow(std::size_t member, double time, External& external);
+  void addLoads(std::size_t body, const Segment& segment, double from, double to, External& external) const;
+  void addTouches(std::size_t member, std::size_t segment, External& external);
+  void addImpacts(double time, External& external);
+  void addWall(std::size_t wall, double friction, External& external) const;
+
+  /// What a body touches while it does not fly.
+  struct Touches {
+    std::vector<std::size_t> walls;
+    bool immovable = false;
+  };
+  Touches touchesOf(std::size_t body, const Motion& motion) const;
+
+  struct Follower {
+    std::size_t segment = 0;
+    std::size_t known = 0;  // segment that `touches` is of, plus 1
+    Touches touches;
+  };
+
+  const Trajectory& run_;
+  const ExchangeGroup& group_;
+  Vec3 origin_;
+  double time_ = 0;
+  std::vector<Follower> followers_;  // of each member
+  std::size_t nextImpact_ = 0;
+  std::vector<std::size_t> immovables_;  // bodies
+  bool integrates_ = false;              // springs or drag need quadrature
+};
+
+}  // namespace careen

@@ -1,0 +1,167 @@
+#include "audit/groups.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <unordered_map>
+#include <variant>
+
+#include "audit/near_pairs.h"
+#include "audit/overlap.h"
+#include "core/disjoint_sets.h"
+
+namespace careen {
+namespace {
+
+class Joining {
+ public:
+  explicit Joining(const Trajectory& run) : run_(run), sets_(run.world.bodies.size()) {}
+
+  bool isMovable(std::size_t body) const { return !isImmovable(run_.world.bodies[body].mass); }
+  void join(std::size_t a, std::size_t b) {
+    if (isMovable(a) && isMovable(b)) {
+      sets_.join(a, b);
+    }
+  }
+  std::size_t root(std::size_t body) { return sets_.root(body); }
+  bool areJoined(std::size_t a, std::size_t b) { return sets_.root(a) == sets_.root(b); }
+
+ private:
+  const Trajectory& run_;
+  DisjointSets sets_;
+};
+
+void joinByImpacts(const Trajectory& run, Joining& joining) {
+  for (const Impact& impact : run.impacts) {
+    if (!impact.b.isWall()) {
+      joining.join(static_cast<std::size_t>(impact.a.value), static_cast<std::size_t>(impact.b.body()));
+    }
+  }
+}
+
+void joinBySprings(const World& world, Joining& joining) {
+  for (const Spring& spring : world.springs) {
+    if (spring.from.body && spring.to.body) {
+      joining.join(static_cast<std::size_t>(*spring.from.body), static_cast<std::size_t>(*spring.to.body));
+    }
+  }
+}
+
+// Bodies in contact with each other are stepped together: their contact steps begin at the same bits of time.
+void joinBySteps(const Trajectory& run, Joining& joining) {
+  if (run.tracks.size() < 2) {
+    return;
+  }
+  std::unordered_map<std::uint64_t, std::size_t> firstAt;
+  for (std::size_t body = 0; body < run.tracks.size(); ++body) {
+    for (const Segment& segment : run.tracks[body].segments) {
+      if (std::holds_alternative<ContactStep>(segment.motion) &&
+          !(run.figures.boundedFrom && segment.start >= *run.figures.boundedFrom)) {
+        const auto [at, isFirst] = firstAt.try_emplace(std::bit_cast<std::uint64_t>(segment.start), body);
+        if (!isFirst) {
+          joining.join(at->second, body);
+        }
+      }
+    }
+  }
+}
+
+// Bodies that lie on each other, and those of a pile, which meet between the moments too.
+void joinByPlaces(const Trajectory& run, const Samples& samples, Joining& joining) {
+  const std::size_t count = run.tracks.size();
+  std::vector<Ball> balls(count);
+  std::vector<double> margins(count);
+  for (std::size_t moment = 0; moment < samples.moments() && count > 1; ++moment) {
+    const double time = samples.times()[moment];
+    const double before = moment > 0 ? samples.times()[moment - 1] : time;
+    const double after = moment + 1 < samples.moments() ? samples.times()[moment + 1] : time;
+    const bool isPile = run.figures.boundedFrom && after >= *run.figures.boundedFrom;
+    for (std::size_t body = 0; body < count; ++body) {
+      const BodyState& state = samples.state(moment, body);
+      margins[body] = touchingDistance(run.world.bodies[body], run.settings) +
+                      (isPile ? std::max(after - time, time - before) * state.velocity.norm() : 0);
+      balls[body] = {state.pose.position, run.world.bodies[body].halfExtents.norm() + margins[body]};
+    }
+    for (const auto& [a, b] : nearPairs(balls)) {
+      const auto touches = [&](std::size_t body) {
+        return mayTouch(run.tracks[body].segments[segmentAt(run.tracks[body], time)].motion);
+      };
+      if (!joining.areJoined(a, b) && (touches(a) || touches(b)) &&
+          separationOf(AuditBox{run.world.bodies[a].halfExtents, samples.state(moment, a).pose},
+                       AuditBox{run.world.bodies[b].halfExtents, samples.state(moment, b).pose}) <=
+              margins[a] + margins[b]) {
+        joining.join(a, b);
+      }
+    }
+  }
+}
+
+bool mayLose(const Material& a, const Material& b) {
+  const Material pair = touching(a, b);
+  return pair.restitution < 1 || pair.friction > 0;
+}
+
+// Restitution is the larger, and friction the geometric mean, of both: the least elastic and the roughest
+// body of the run decide.
+bool mayLose(const World& world, const ExchangeGroup& group) {
+  return std::any_of(group.bodies.begin(), group.bodies.end(), [&](std::size_t member) {
+    const Material& own = world.bodies[member].material;
+    return std::any_of(world.walls.begin(), world.walls.end(),
+                       [&](const Wall& wall) { return mayLose(own, wall.material); }) ||
+           std::any_of(world.bodies.begin(), world.bodies.end(), [&](const Body& other) {
+             return &other != &world.bodies[member] && mayLose(own, other.material);
+           });
+  });
+}
+
+}  // namespace
+
+double touchingDistance(const Body& body, const RunSettings& settings) {
+  constexpr double kOfSize = 1e-3;
+  constexpr double kTolerances = 64;
+  return kOfSize * body.halfExtents.norm() + kTolerances * settings.tolerance;
+}
+
+std::vector<ExchangeGroup> exchangeGroups(const Trajectory& run, const Samples& samples) {
+  Joining joining(run);
+  joinByImpacts(run, joining);
+  joinBySprings(run.world, joining);
+  joinBySteps(run, joining);
+  joinByPlaces(run, samples, joining);
+  std::vector<ExchangeGroup> groups;
+  std::vector<std::size_t> groupOf(run.tracks.size(), run.tracks.size());
+  for (std::size_t body = 0; body < run.tracks.size(); ++body) {
+    if (joining.isMovable(body)) {
+      std::size_t& group = groupOf[joining.root(body)];
+      if (group == run.tracks.size()) {
+        group = groups.size();
+        groups.emplace_back();
+      }
+      groups[group].bodies.push_back(body);
+      groupOf[body] = group;
+    }
+  }
+  for (std::size_t spring = 0; spring < run.world.springs.size(); ++spring) {
+    for (const SpringEnd* end : {&run.world.springs[spring].from, &run.world.springs[spring].to}) {
+      if (end->body && joining.isMovable(static_cast<std::size_t>(*end->body))) {
+        groups[groupOf[static_cast<std::size_t>(*end->body)]].springs.push_back(spring);
+        break;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < run.impacts.size(); ++k) {
+    const auto a = static_cast<std::size_t>(run.impacts[k].a.value);
+    const std::size_t hit = joining.isMovable(a) || run.impacts[k].b.isWall()
+                                ? a
+                                : static_cast<std::size_t>(run.impacts[k].b.body());
+    if (joining.isMovable(hit)) {
+      groups[groupOf[hit]].impacts.push_back(k);
+    }
+  }
+  for (ExchangeGroup& group : groups) {
+    group.mayLose = mayLose(run.world, group);
+  }
+  return groups;
+}
+
+}  // namespace careen

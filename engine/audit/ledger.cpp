@@ -1,0 +1,246 @@
+#include "audit/ledger.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "audit/external.h"
+#include "audit/seams.h"
+#include "physics/world/forces.h"
+
+namespace careen {
+namespace {
+
+constexpr double kUlps = 1024 * std::numeric_limits<double>::epsilon();
+// A group that hardly moves is compared with this part of what falling by its own size would give it.
+constexpr double kStill = 1.0 / 64;
+constexpr double kParallel = 1e-9;  // [1] walls whose normals differ by less have the same
+
+/// What a group has at a moment, and the scales that its changes are compared with.
+struct Holdings {
+  Vec3 momentum = Vec3::Zero();         // [kg m/s]
+  Vec3 angularMomentum = Vec3::Zero();  // [kg m²/s] about the group's origin
+  double energy = 0;                    // [J] kinetic, gravitational from the origin, of springs
+  double momentumScale = 0;
+  double angularScale = 0;
+  double energyScale = 0;  // kinetic and of springs
+  double far = 0;          // [m] largest coordinate
+  double turned = 0;       // [kg m²/s] of the whole group about the origin
+  double weight = 0;       // [N]
+
+  bool isFinite() const { return std::isfinite(energy + momentum.sum() + angularMomentum.sum()); }
+};
+
+class Books {
+ public:
+  Books(const Trajectory& run, const Samples& samples, const ExchangeGroup& group, Findings& findings)
+      : run_(run), samples_(samples), group_(group), findings_(findings) {}
+
+  void check();
+
+ private:
+  double mass(std::size_t body) const { return run_.world.bodies[body].mass.mass; }
+  Vec3 center(std::size_t moment) const;
+  Holdings at(std::size_t moment) const;
+  double springEnergyAt(std::size_t moment) const;
+  void include(const Holdings& now);
+  void balance(double time, const Holdings& now, External& external);
+  void balanceMomentum(double time, const Holdings& now, const External& external);
+  void balanceAngularMomentum(double time, const Holdings& now, const External& external);
+  void balanceEnergy(double time, const Holdings& now, const External& external);
+  void report(AuditKind kind, double time, double amount, double scale, double rounding);
+
+  const Trajectory& run_;
+  const Samples& samples_;
+  const ExchangeGroup& group_;
+  Findings& findings_;
+  Vec3 origin_ = Vec3::Zero();
+  Holdings due_;
+  Holdings largest_;  // its scales only
+  bool takesEnergy_ = false;
+  double length_ = std::numeric_limits<double>::infinity();  // [m] that the tolerance is relative to
+};
+
+Vec3 Books::center(std::size_t moment) const {
+  Vec3 sum = Vec3::Zero();
+  double all = 0;
+  for (const std::size_t body : group_.bodies) {
+    sum += mass(body) * samples_.state(moment, body).pose.position;
+    all += mass(body);
+  }
+  return sum / all;
+}
+
+Holdings Books::at(std::size_t moment) const {
+  Holdings now;
+  double all = 0;
+  for (const std::size_t body : group_.bodies) {
+    now.momentum += mass(body) * samples_.state(moment, body).velocity;
+    all += mass(body);
+  }
+  const Vec3 middle = center(moment);
+  const Vec3 drift = now.momentum / all;
+  for (const std::size_t body : group_.bodies) {
+    const BodyState& state = samples_.state(moment, body);
+    const Vec3 arm = state.pose.position - origin_;
+    const double kinetic = kineticEnergy(run_.world.bodies[body].mass, state);
+    now.angularMomentum += state.angularMomentum + mass(body) * arm.cross(state.velocity);
+    now.energy += kinetic - mass(body) * run_.world.gravity.dot(arm);
+    now.momentumScale += mass(body) * state.velocity.norm();
+    now.angularScale += state.angularMomentum.norm() +
+                        mass(body) * (state.pose.position - middle).norm() * (state.velocity - drift).norm();
+    now.energyScale += kinetic;
+    now.far = std::max(now.far, state.pose.position.norm());
+    now.turned += mass(body) * arm.norm() * state.velocity.norm();
+  }
+  const double springs = springEnergyAt(moment);
+  now.energy += springs;
+  now.energyScale += springs;
+  return now;
+}
+
+double Books::springEnergyAt(std::size_t moment) const {
+  if (group_.springs.empty()) {
+    return 0;
+  }
+  std::vector<BodyState> states(run_.world.bodies.size());
+  for (std::size_t body = 0; body < states.size(); ++body) {
+    states[body] = samples_.state(moment, body);
+  }
+  double energy = 0;
+  for (const std::size_t index : group_.springs) {
+    const Spring& spring = run_.world.springs[index];
+    const double extension = stretchOf(spring, run_.world, states).length - spring.restLength;
+    energy += 0.5 * spring.stiffness * extension * extension;
+  }
+  return energy;
+}
+
+void Books::include(const Holdings& now) {
+  largest_.momentumScale = std::max(largest_.momentumScale, now.momentumScale);
+  largest_.angularScale = std::max(largest_.angularScale, now.angularScale);
+  largest_.energyScale = std::max(largest_.energyScale, now.energyScale);
+  largest_.far = std::max(largest_.far, now.far);
+  largest_.turned = std::max(largest_.turned, now.turned);
+}
+
+void Books::check() {
+  origin_ = center(0);
+  takesEnergy_ = run_.world.drag.has_value() ||
+                 std::any_of(group_.springs.begin(), group_.springs.end(),
+                             [&](std::size_t spring) { return run_.world.springs[spring].damping != 0; });
+  std::vector<Holdings> all;
+  for (std::size_t moment = 0; moment < samples_.moments(); ++moment) {
+    all.push_back(at(moment));
+    if (!all.back().isFinite()) {
+      return;  // found elsewhere
+    }
+    include(all.back());
+  }
+  Holdings still;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const std::size_t body : group_.bodies) {
+    const double size = run_.world.bodies[body].halfExtents.norm();
+    smallest = std::min(smallest, size);
+    const double momentum = mass(body) * fallingSpeed(run_.world, run_.world.bodies[body]);
+    still.momentumScale += kStill * momentum;
+    still.angularScale += kStill * momentum * size;
+    largest_.weight += mass(body) * run_.world.gravity.norm();
+    still.energyScale += kStill * mass(body) * run_.world.gravity.norm() * size;
+  }
+  include(still);
+  // Only contact depends on the tolerance.
+  if (std::any_of(group_.bodies.begin(), group_.bodies.end(), [&](std::size_t body) {
+        const std::vector<Segment>& segments = run_.tracks[body].segments;
+        return std::any_of(segments.begin(), segments.end(),
+                           [](const Segment& segment) { return mayTouch(segment.motion); });
+      })) {
+    length_ = smallest;
+  }
+  ExternalOf following(run_, group_, origin_);
+  following.until(samples_.times().front());
+  due_ = all.front();
+  for (std::size_t moment = 1; moment < all.size(); ++moment) {
+    const double time = samples_.times()[moment];
+    External external = following.until(time);
+    balance(time, all[moment], external);
+  }
+}
+
+void Books::balance(double time, const Holdings& now, External& external) {
+  due_.momentum += external.impulse;
+  due_.angularMomentum += external.angularImpulse;
+  balanceMomentum(time, now, external);
+  balanceAngularMomentum(time, now, external);
+  balanceEnergy(time, now, external);
+}
+
+void Books::balanceMomentum(double time, const Holdings& now, const External& external) {
+  Vec3 excess = now.momentum - due_.momentum;
+  if (external.liesOnImmovable) {
+    excess.setZero();
+  } else if (!external.walls.empty()) {
+    excess = beyondWalls(excess, external.walls);
+  }
+  if (external.friction > 0) {
+    excess *= 1 - std::min(1.0, external.friction / std::max(excess.norm(), external.friction));
+  }
+  due_.momentum = now.momentum - excess;
+  report(AuditKind::kLinearMomentum, time, excess.norm(), largest_.momentumScale,
+         kUlps * largest_.momentumScale);
+}
+
+void Books::balanceAngularMomentum(double time, const Holdings& now, const External& external) {
+  Vec3 excess = now.angularMomentum - due_.angularMomentum;
+  if (external.liesOnImmovable) {
+    excess.setZero();
+  } else if (!external.walls.empty()) {
+    const Vec3 normal = external.walls.front().normal;
+    const bool keepsTurn =
+        std::all_of(external.walls.begin(), external.walls.end(), [&](const WallForce& wall) {
+          return wall.friction == 0 && wall.normal.cross(normal).norm() < kParallel;
+        });
+    excess = keepsTurn ? Vec3(excess.dot(normal) * normal) : Vec3::Zero();
+  }
+  if (external.angularFriction > 0) {
+    excess *= 1 - std::min(1.0, external.angularFriction / std::max(excess.norm(), external.angularFriction));
+  }
+  due_.angularMomentum = now.angularMomentum - excess;
+  report(AuditKind::kAngularMomentum, time, excess.norm(), largest_.angularScale,
+         kUlps * (largest_.angularScale + largest_.turned + largest_.far * largest_.momentumScale));
+}
+
+void Books::balanceEnergy(double time, const Holdings& now, const External& external) {
+  const double rounding = kUlps * (largest_.energyScale + largest_.far * largest_.weight);
+  const bool mayFall = takesEnergy_ || external.losesInImpacts || (external.lies && group_.mayLose);
+  const double excess = now.energy - due_.energy;
+  if (excess > 0) {
+    report(AuditKind::kEnergyRise, time, excess, largest_.energyScale, rounding);
+  } else if (mayFall) {
+    due_.energy = now.energy;
+  } else {
+    report(AuditKind::kEnergyLoss, time, -excess, largest_.energyScale, rounding);
+  }
+}
+
+void Books::report(AuditKind kind, double time, double amount, double scale, double rounding) {
+  const double least = std::numeric_limits<double>::min();
+  findings_.add(kind, rounding / std::max(scale, least),
+                {.size = amount / std::max(scale, least),
+                 .time = time,
+                 .bodies = group_.bodies,
+                 .wall = {},
+                 .length = length_});
+}
+
+}  // namespace
+
+void checkBalances(const Trajectory& run, const Samples& samples, const std::vector<ExchangeGroup>& groups,
+                   Findings& findings) {
+  for (const ExchangeGroup& group : groups) {
+    Books(run, samples, group, findings).check();
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "audit/findings.h"
+#include "audit/groups.h"
+#include "audit/samples.h"
+#include "trajectory/trajectory.h"
+
+namespace careen {
+
+/// Balances of linear momentum, angular momentum and energy of every group, from each moment to the next.
+///
+/// What a group has at a moment must be what it had at the last one, plus what gravity, drag and springs
+/// gave, plus the recorded impulses of walls and immovable bodies, plus what the walls that it lies on may
+/// have given: no more than a sum of forces away from them with Coulomb friction. Energy may only fall, and
+/// only where restitution, friction, drag or damping can take it. An excess is carried on: many small ones
+/// add up.
+///
+/// The angular momentum of a group that lies on walls is balanced only about their common normal, and only if
+/// they are without friction: where the forces act is not recorded. A group that lies on an immovable body is
+/// not balanced meanwhile.
+void checkBalances(const Trajectory& run, const Samples& samples, const std::vector<ExchangeGroup>& groups,
+                   Findings& findings);
+
+}  // namespace careen

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "audit/kinds.h"
+#include "physics/world/run_settings.h"
+
+namespace careen {
+
+/// The largest size of one kind of finding that a method promises not to exceed; none: it promises nothing.
+/// Beyond it, an audit always allows for the rounding of the numbers compared.
+struct Promise {
+  double absolute = 0;    ///< in the kind's own unit
+  double tolerances = 0;  ///< [1] added: so many times RunSettings::tolerance, for kinds in metres; for kinds
+                          ///< without a unit, relative to half the diagonal of the smallest box concerned
+};
+
+using Promises = std::array<std::optional<Promise>, kAuditKindCount>;
+
+/// What a method promises; `pile`: method exact from RunFigures::boundedFrom on. The README has the same
+/// table.
+Promises promisesOf(Method method, bool pile);
+
+/// The largest size that is no breach; `length` [m] is what the tolerance is relative to, 1 for kinds in
+/// metres.
+double allowed(const Promise& promise, const RunSettings& settings, double length);
+
+/// As the README spells it: "4 tolerances", "1e-07 + 20 tolerances/size", "0", "nothing".
+std::string textOf(const std::optional<Promise>& promise);
+
+}  // namespace careen

@@ -1,0 +1,162 @@
+#include "audit/seams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <variant>
+
+#include "audit/samples.h"
+
+namespace careen {
+namespace {
+
+constexpr double kUlps = 256 * std::numeric_limits<double>::epsilon();
+
+bool isFinite(const BodyState& state) {
+  return state.pose.position.allFinite() && state.pose.worldFromBody.allFinite() &&
+         state.velocity.allFinite() && state.angularMomentum.allFinite();
+}
+
+// The farthest that a point of the box moves, to first order of the turn.
+double jumpOf(const Body& body, const Pose& before, const Pose& after) {
+  return (after.position - before.position).norm() +
+         (after.worldFromBody - before.worldFromBody).norm() / std::numbers::sqrt2 * body.halfExtents.norm();
+}
+
+/// What impacts gave a body.
+struct Given {
+  Vec3 momentum = Vec3::Zero();
+  Vec3 angularMomentum = Vec3::Zero();
+  double all = 0;          // [N s] of all impulses
+  double friction = 0;     // [N s] whose direction is not recorded
+  double frictionArm = 0;  // [N m s] likewise, about the centre of mass
+};
+
+Given givenBy(const Trajectory& run, std::size_t body, const Vec3& center,
+              const std::vector<std::size_t>& impacts, double from, double to) {
+  Given given;
+  const auto later = [&](double time, std::size_t k) { return time < run.impacts[k].time; };
+  for (auto k = std::upper_bound(impacts.begin(), impacts.end(), from, later);
+       k != impacts.end() && run.impacts[*k].time <= to; ++k) {
+    const Impact& impact = run.impacts[*k];
+    const double sign = impact.a.value == static_cast<int>(body) ? 1 : -1;
+    const Vec3 impulse = sign * impact.impulse * impact.normal;
+    const Vec3 arm = impact.point - center;
+    given.momentum += impulse;
+    given.angularMomentum += arm.cross(impulse);
+    given.all += impact.impulse + impact.tangential;
+    given.friction += impact.tangential;
+    given.frictionArm += impact.tangential * arm.norm();
+  }
+  return given;
+}
+
+// [s] The time that speeds are derived from.
+double lengthOf(const Motion& motion) {
+  const ContactStep* const step = std::get_if<ContactStep>(&motion);
+  return step != nullptr ? step->duration : std::numeric_limits<double>::infinity();
+}
+
+void checkImpulse(const Trajectory& run, std::size_t body, const Seam& seam, const BodyState& before,
+                  const BodyState& after, const std::vector<std::size_t>& impacts, Findings& findings) {
+  const Body& owner = run.world.bodies[body];
+  const std::vector<Segment>& segments = run.tracks[body].segments;
+  const double time = segments[seam.after].start;
+  const Given given = givenBy(run, body, after.pose.position, impacts, segments[seam.before].start, time);
+  const double mass = owner.mass.mass;
+  const double size = owner.halfExtents.norm();
+  const double still = mass * fallingSpeed(run.world, owner);
+  const double linearScale =
+      mass * std::max(before.velocity.norm(), after.velocity.norm()) + given.all + still;
+  const double angularScale =
+      std::max(before.angularMomentum.norm(), after.angularMomentum.norm()) + size * (given.all + still);
+  const double linear = (mass * (after.velocity - before.velocity) - given.momentum).norm() - given.friction;
+  const double angular =
+      (after.angularMomentum - before.angularMomentum - given.angularMomentum).norm() - given.frictionArm;
+  // Points and centres are known to their rounding; speeds of contact steps to that of places over their
+  // length.
+  const double reach = after.pose.position.norm() + size + time * before.velocity.norm();
+  const double shortest =
+      std::min(lengthOf(segments[seam.before].motion), lengthOf(segments[seam.after].motion));
+  const double rounding =
+      kUlps * (1 + reach / size) + (linearScale > 0 ? kUlps * reach / shortest * mass / linearScale : 0.0);
+  const double worst =
+      std::max(linearScale > 0 ? linear / linearScale : 0.0, angularScale > 0 ? angular / angularScale : 0.0);
+  // Resting contacts record no impacts.
+  const bool flies = !mayTouch(segments[seam.before].motion) && !mayTouch(segments[seam.after].motion);
+  findings.add(AuditKind::kImpulse, rounding,
+               {.size = worst, .time = time, .bodies = {body}, .wall = {}, .promised = flies});
+}
+
+}  // namespace
+
+std::vector<Seam> seamsOf(const Track& track) {
+  std::vector<Seam> seams;
+  std::size_t before = 0;
+  for (std::size_t k = 1; k < track.segments.size(); ++k) {
+    const double start = track.segments[k].start;
+    if (k + 1 < track.segments.size() && track.segments[k + 1].start == start) {
+      continue;
+    }
+    if (start > track.segments[before].start) {
+      seams.push_back({.before = before, .after = k});
+    }
+    before = k;
+  }
+  return seams;
+}
+
+std::vector<std::vector<std::size_t>> impactsOfBodies(const Trajectory& run) {
+  std::vector<std::vector<std::size_t>> impacts(run.tracks.size());
+  for (std::size_t k = 0; k < run.impacts.size(); ++k) {
+    impacts[static_cast<std::size_t>(run.impacts[k].a.value)].push_back(k);
+    if (!run.impacts[k].b.isWall()) {
+      impacts[static_cast<std::size_t>(run.impacts[k].b.body())].push_back(k);
+    }
+  }
+  return impacts;
+}
+
+double placeRounding(const Body& body, const Vec3& position) {
+  return kUlps * (position.norm() + body.halfExtents.norm());
+}
+
+double fallingSpeed(const World& world, const Body& body) {
+  return std::sqrt(2 * world.gravity.norm() * body.halfExtents.norm());
+}
+
+void checkState(const BodyState& state, std::size_t body, double time, Findings& findings) {
+  if (!isFinite(state)) {
+    findings.add(AuditKind::kNotFinite, 0, {.size = 1, .time = time, .bodies = {body}, .wall = {}});
+    return;
+  }
+  const Mat3& a = state.pose.worldFromBody;
+  findings.add(
+      AuditKind::kOrthogonality, 0,
+      {.size = (a * a.transpose() - Mat3::Identity()).norm(), .time = time, .bodies = {body}, .wall = {}});
+}
+
+void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam,
+               const std::vector<std::size_t>& impacts, Findings& findings) {
+  const Body& owner = run.world.bodies[body];
+  const std::vector<Segment>& segments = run.tracks[body].segments;
+  const double time = segments[seam.after].start;
+  const BodyState before =
+      stateAt(segments[seam.before].motion, owner.mass, time - segments[seam.before].start);
+  const BodyState after = stateAt(segments[seam.after].motion, owner.mass, 0);
+  checkState(before, body, time, findings);
+  checkState(after, body, time, findings);
+  if (!isFinite(before) || !isFinite(after)) {
+    return;
+  }
+  const double rounding = 4 * placeRounding(owner, after.pose.position) +
+                          kUlps * time * (before.velocity.norm() + after.velocity.norm());
+  findings.add(AuditKind::kContinuity, rounding,
+               {.size = jumpOf(owner, before.pose, after.pose), .time = time, .bodies = {body}, .wall = {}});
+  if (!isImmovable(owner.mass)) {
+    checkImpulse(run, body, seam, before, after, impacts, findings);
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "audit/findings.h"
+#include "trajectory/trajectory.h"
+
+namespace careen {
+
+/// Where one motion of a body ends and the next begins: several segments may begin at one moment.
+struct Seam {
+  std::size_t before = 0;  ///< last segment that began earlier
+  std::size_t after = 0;   ///< last segment that begins at this moment
+};
+std::vector<Seam> seamsOf(const Track& track);
+
+/// Impacts of each body, as indices into the run's, in order of time.
+std::vector<std::vector<std::size_t>> impactsOfBodies(const Trajectory& run);
+
+/// Looks at both sides of a seam: are both states finite, is the place the same, and did the impacts since
+/// the last seam give the velocity its jump? `impacts` are those of the body.
+void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam,
+               const std::vector<std::size_t>& impacts, Findings& findings);
+
+/// Finiteness and |AAᵀ−1| of a state.
+void checkState(const BodyState& state, std::size_t body, double time, Findings& findings);
+
+/// [m] Rounding of a body's places.
+double placeRounding(const Body& body, const Vec3& position);
+
+/// [m/s] Speed that a body gains when it falls by its size: a scale for speeds where it hardly moves.
+double fallingSpeed(const World& world, const Body& body);
+
+}  // namespace careen

@@ -1,0 +1,82 @@
+#include "audit/ledger.h"
+
+#include <gtest/gtest.h>
+
+#include "audit/moments.h"
+#include "support/exact_runs.h"
+
+namespace careen {
+namespace {
+
+Trajectory falling() {
+  Trajectory run;
+  run.settings = {.duration = 1, .tolerance = 1e-6};
+  run.world.gravity = Vec3(0, 0, -10);
+  run.world.bodies = {box("stone", Vec3(0.1, 0.1, 0.1), 1, Vec3(1e3, 0, 0), Vec3(1, 2, 3), Vec3(1, 1, 0))};
+  Flight flight;
+  flight.position = Vec3(1e3, 0, 0);
+  flight.velocity = Vec3(1, 2, 3);
+  flight.acceleration = run.world.gravity;
+  flight.angularMomentum = run.world.bodies[0].initial.angularMomentum;
+  run.tracks = {{.segments = {{.start = 0, .motion = flight}}}};
+  return run;
+}
+
+Findings balanced(const Trajectory& run) {
+  Findings findings(run.settings, std::nullopt);
+  const Samples samples(run, goldenMoments(run.settings.duration, 20));
+  checkBalances(run, samples, exchangeGroups(run, samples), findings);
+  return findings;
+}
+
+TEST(Ledger, balancesAFallFarFromTheOrigin) {
+  const Findings findings = balanced(falling());
+  for (const AuditKind kind : {AuditKind::kLinearMomentum, AuditKind::kAngularMomentum,
+                               AuditKind::kEnergyRise, AuditKind::kEnergyLoss}) {
+    EXPECT_EQ(findings.largest(kind).size, 0) << traitsOf(kind).name;
+  }
+}
+
+// 0.1 % less gravity than the world has: after 1 s 0.01 kg m/s of |(1, 2, −7)| are missing.
+TEST(Ledger, missesWhatGravityShouldHaveGiven) {
+  Trajectory run = falling();
+  std::get<Flight>(run.tracks[0].segments[0].motion).acceleration *= 0.999;
+  const Findings findings = balanced(run);
+  EXPECT_NEAR(findings.largest(AuditKind::kLinearMomentum).size, 0.01 / std::sqrt(1 + 4 + 49), 1e-4);
+  EXPECT_EQ(findings.largest(AuditKind::kLinearMomentum).time, 1);
+}
+
+// Many excesses, each a hundredth of what is allowed, are carried on.
+TEST(Ledger, smallExcessesAddUp) {
+  Trajectory run = falling();
+  const auto first = std::get<Flight>(run.tracks[0].segments[0].motion);
+  for (int k = 1; k < 20; ++k) {
+    Flight later = first;
+    later.position = first.positionAt(0.05 * k);
+    later.velocity = first.velocityAt(0.05 * k) + Vec3(1e-4 * k, 0, 0);
+    run.tracks[0].segments.push_back({.start = 0.05 * k, .motion = later});
+  }
+  EXPECT_NEAR(balanced(run).largest(AuditKind::kLinearMomentum).size, 19e-4 / std::sqrt(1 + 4 + 49), 2e-5);
+}
+
+TEST(Ledger, groupsWithoutFrictionKeepTheirTurnAboutTheFloorsNormal) {
+  Trajectory run = falling();
+  run.world.gravity.setZero();
+  run.world.walls = {wall("floor", Vec3(0, 0, 1), -0.1)};
+  const auto turning = [&](double rate) {
+    ContactStep step{.duration = 1};
+    step.position.fill(Vec3::Zero());
+    step.worldFromBody.fill(Vec4::Zero());
+    step.worldFromBody[0] = Vec4(0, 0, 0, 1);
+    step.worldFromBody[1] = Vec4(0, 0, rate / 2, 0);
+    return step;
+  };
+  run.world.bodies[0].initial.pose.position.setZero();
+  run.tracks[0].segments = {{.start = 0, .motion = turning(0.1)}, {.start = 0.5, .motion = turning(0.2)}};
+  EXPECT_GT(balanced(run).largest(AuditKind::kAngularMomentum).size, 0.3);
+  run.world.walls[0].material.friction = run.world.bodies[0].material.friction = 0.5;
+  EXPECT_EQ(balanced(run).largest(AuditKind::kAngularMomentum).size, 0);
+}
+
+}  // namespace
+}  // namespace careen

@@ -1,0 +1,54 @@
+#include "audit/promises.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "physics/world/method.h"
+
+namespace careen {
+namespace {
+
+std::string readme() {
+  std::ifstream stream(std::filesystem::path(CAREEN_SOURCE_DIR) / "README.md");
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+TEST(Promises, readmeHasTheSameTable) {
+  const std::string text = readme();
+  for (const AuditKindTraits& traits : kAuditKinds) {
+    std::string row = "| `" + std::string(traits.name) + "` |";
+    const auto cell = [&](Method method, bool pile) {
+      row += " " + textOf(promisesOf(method, pile)[indexOf(traits.kind)]) + " |";
+    };
+    cell(Method::kExact, false);
+    cell(Method::kExact, true);
+    cell(Method::kListing1, false);
+    cell(Method::kStrang, false);
+    EXPECT_NE(text.find(row + "\n"), std::string::npos) << row;
+  }
+}
+
+TEST(Promises, everyMethodPromisesNumbers) {
+  for (const MethodTraits& method : kMethods) {
+    for (const bool pile : {false, true}) {
+      const Promises promises = promisesOf(method.method, pile);
+      EXPECT_TRUE(promises[indexOf(AuditKind::kNotFinite)].has_value()) << method.name;
+      EXPECT_TRUE(promises[indexOf(AuditKind::kOrthogonality)].has_value()) << method.name;
+      EXPECT_TRUE(promises[indexOf(AuditKind::kContinuity)].has_value()) << method.name;
+    }
+  }
+}
+
+TEST(Promises, toleranceCountsInMetresOrPartsOfASize) {
+  const RunSettings settings{.tolerance = 1e-4};
+  EXPECT_DOUBLE_EQ(allowed({.tolerances = 4}, settings, 1), 4e-4);
+  EXPECT_DOUBLE_EQ(allowed({.absolute = 1e-3, .tolerances = 2}, settings, 0.1), 3e-3);
+}
+
+}  // namespace
+}  // namespace careen
