@@ -25,16 +25,17 @@ ExitCode infoCommand(std::filesystem::path path, const std::stop_token& stop) {
     printPlan(std::cout, scene.name, scene.boxes.size(), settingsOf(scene), plan(scene));
     return ExitCode::kDone;
   }
-  const Run run = loadRun(path, {}, stop);
+  Run run = loadRun(path, {}, stop);
+  auditRun(run, {.keepGoing = true}, stop);  // what is broken is told below
   printPlan(std::cout, run.trajectory);
-  printError(std::cout, run.trajectory);
+  printError(std::cout, run);
   std::size_t segments = 0;
   for (const Track& track : run.trajectory.tracks) {
     segments += track.segments.size();
   }
   std::cout << "trajectory   " << bytes.size() << " bytes, " << segments << " segments\n"
             << "scene hash   " << run.trajectory.sceneHash() << '\n';
-  return ExitCode::kDone;
+  return run.audit.breaches.empty() ? ExitCode::kDone : ExitCode::kNumbersFailed;
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ struct FilmOptions {
   CompareOptions compare;
   Overrides overrides;
   EstimateChoice estimate;
+  AuditChoice audit;
 };
 
 std::optional<VideoSettings> videoOf(const FilmOptions& options) {
@@ -189,6 +190,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
     refuseToOverwrite(*reference, settings.folder);
   }
   Run run = loadRun(options.source, options.overrides, stop);
+  auditRun(run, options.audit, stop);
   PictureSettings& picture = run.trajectory.stage.picture;
   options.picture.applyTo(picture);
   checkVideoOf(picture, settings);
@@ -207,7 +209,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
         }
       },
       stop);
-  estimate(run, options.estimate, stopwatch.seconds(), stop);
+  estimate(run, options.estimate, stopwatch.seconds() - run.auditSeconds, stop);
   if (!reference) {
     writeReport(run, settings, figures, stopwatch.seconds());
   }
@@ -267,6 +269,7 @@ void addRender(const CommandLine& commandLine) {
   options->overrides.addAllowOverlapTo(command);
   options->overrides.addLimitTo(command);
   options->estimate.addTo(command);
+  options->audit.addTo(command);
   command.runs([options](const std::stop_token& stop) {
     return options->listBackends ? listBackends(options->picture.context) : renderCommand(*options, stop);
   });

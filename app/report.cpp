@@ -98,11 +98,63 @@ void printEstimate(std::ostream& out, const Run& run) {
   out << " (by " << estimate.by << ")\n";
 }
 
+nlohmann::ordered_json auditReport(const Audit& audit) {
+  nlohmann::ordered_json report;
+  for (const AuditKindTraits& traits : kAuditKinds) {
+    const AuditFigure& figure = audit.figure(traits.kind);
+    report[std::string(traits.name)] = {{"size", figure.size},
+                                        {"unit", traits.unit},
+                                        {"time", figure.time},
+                                        {"bodies", figure.bodies},
+                                        {"promised", figure.promised}};
+  }
+  return report;
+}
+
+nlohmann::ordered_json breachReport(const Run& run) {
+  nlohmann::ordered_json breaches = nlohmann::ordered_json::array();
+  for (const AuditBreach& breach : run.audit.breaches) {
+    breaches.push_back({{"kind", traitsOf(breach.kind).name},
+                        {"time", breach.time},
+                        {"bodies", breach.bodies},
+                        {"size", breach.size},
+                        {"allowed", breach.allowed},
+                        {"largest", breach.largest},
+                        {"unit", traitsOf(breach.kind).unit}});
+  }
+  return breaches;
+}
+
+void printDisagreement(std::ostream& out, const char* what, double own, double stated) {
+  if (stated != own) {
+    out << "             " << what << ": the method says " << own << ", the audit found " << stated
+        << ", which stands above\n";
+  }
+}
+
+void printAudit(std::ostream& out, const Run& run) {
+  const Audit& audit = run.audit;
+  if (audit.depth == AuditDepth::kNone) {
+    return;
+  }
+  out << "audit        " << inWords(audit) << "; " << audit.looks << " states in " << run.auditSeconds
+      << " s\n";
+  const RunFigures& own = run.trajectory.figures;
+  const RunFigures stated = run.statedFigures();
+  printDisagreement(out, "energy", own.energyChange, stated.energyChange);
+  printDisagreement(out, "momentum", own.momentumChange, stated.momentumChange);
+  printDisagreement(out, "|AAᵀ-1|", own.orthogonality, stated.orthogonality);
+  printDisagreement(out, "deepest penetration", own.deepestPenetration, stated.deepestPenetration);
+  for (const AuditBreach& breach : audit.breaches) {
+    out << "BROKEN       " << describe(breach, run.trajectory) << '\n';
+  }
+}
+
 }  // namespace
 
 nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
   const Trajectory& trajectory = run.trajectory;
-  const RunFigures& figures = trajectory.figures;
+  const RunFigures figures = run.statedFigures();
   const bool steps = traitsOf(trajectory.settings.method).steps();
   nlohmann::ordered_json report = {
       {"scene", trajectory.stage.name},
@@ -124,6 +176,11 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
   };
   if (figures.boundedFrom) {
     report["bounded_from"] = *figures.boundedFrom;
+  }
+  if (run.audit.depth != AuditDepth::kNone) {
+    report["audit"] = auditReport(run.audit);
+    report["audit_seconds"] = run.auditSeconds;
+    report["breaches"] = breachReport(run);
   }
   if (run.estimated) {
     report["error_estimate"] = estimateReport(run.estimate);
@@ -151,11 +208,13 @@ void printPlan(std::ostream& out, const RunSetup& setup) {
   printPlan(out, setup.stage.name, setup.world.bodies.size(), setup.settings, setup.plan);
 }
 
-void printError(std::ostream& out, const Trajectory& trajectory) {
-  const RunFigures& figures = trajectory.figures;
+void printError(std::ostream& out, const Run& run) {
+  const Trajectory& trajectory = run.trajectory;
+  const RunFigures figures = run.statedFigures();
   out << std::setprecision(3) << "error        energy " << figures.energyChange << ", momentum "
       << figures.momentumChange << ", |AAᵀ-1| " << figures.orthogonality << ", deepest penetration "
       << figures.deepestPenetration << " m\n";
+  printAudit(out, run);
   if (figures.boundedFrom) {
     out << "bounded      from " << *figures.boundedFrom
         << " s on: too many bodies touch to be exact; they go on as a pile\n";
@@ -185,7 +244,7 @@ void printSummary(std::ostream& out, const Run& run, double wallSeconds) {
         << run.trajectory.settings.duration / run.simulateSeconds << " times real time";
   }
   out << '\n';
-  printError(out, run.trajectory);
+  printError(out, run);
   printEstimate(out, run);
 }
 

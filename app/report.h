@@ -21,6 +21,6 @@ void printSummary(std::ostream& out, const Run& run, double wallSeconds);
 void printPlan(std::ostream& out, const std::string& scene, std::size_t boxes, const RunSettings& settings,
                const Plan& plan);
 void printPlan(std::ostream& out, const RunSetup& setup);
-void printError(std::ostream& out, const Trajectory& trajectory);
+void printError(std::ostream& out, const Run& run);
 
 }  // namespace careen

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <iostream>
 #include <sstream>
 #include <string_view>
@@ -26,7 +27,9 @@
 namespace careen {
 namespace {
 
-constexpr double kCheapPart = 0.1;  // of the run: the largest cost of an estimate by default
+constexpr double kDisagreement = 2;   // factor between the audit's figure and the method's own
+constexpr double kAgreement = 1e-12;  // figures below are rounding
+constexpr double kCheapPart = 0.1;    // of the run: the largest cost of an estimate by default
 
 // Scene file and command line differ: tell the user which one counts.
 template <class T>
@@ -193,6 +196,55 @@ void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const 
   }
   run.estimated = true;
   run.estimate = estimateError(run.trajectory, stop);
+}
+
+RunFigures Run::statedFigures() const {
+  RunFigures figures = trajectory.figures;
+  const auto state = [this](double& own, std::initializer_list<AuditKind> kinds) {
+    for (const AuditKind kind : kinds) {
+      const double found = audit.figure(kind).size;
+      if (found > kDisagreement * own && found > kAgreement) {
+        own = found;
+      }
+    }
+  };
+  state(figures.energyChange, {AuditKind::kEnergyRise, AuditKind::kEnergyLoss});
+  state(figures.momentumChange, {AuditKind::kLinearMomentum, AuditKind::kAngularMomentum});
+  state(figures.orthogonality, {AuditKind::kOrthogonality});
+  state(figures.deepestPenetration, {AuditKind::kBoxOverlap, AuditKind::kWallOverlap});
+  return figures;
+}
+
+void AuditChoice::addTo(const CommandLine& command) {
+  addDepthTo(command);
+  command.addFlag("--keep-going", keepGoing,
+                  "Write a run that breaks a promise of its method, marked, and exit with 0, in place of 4");
+}
+
+void AuditChoice::addDepthTo(const CommandLine& command) {
+  const std::vector<std::string> depths(kAuditDepthNames.begin(), kAuditDepthNames.end());
+  command
+      .add("--audit", depth,
+           "How closely the run is audited: usual, full (every segment of every box), none (default: usual)")
+      .oneOf(depths);
+}
+
+void auditRun(Run& run, const AuditChoice& choice, const std::stop_token& stop) {
+  const DefaultFloatEnvironment usual;  // GL may be open in a window
+  const auto depth = static_cast<AuditDepth>(indexAmong(choice.depth, kAuditDepthNames));
+  const Stopwatch stopwatch;
+  run.audit = audit(run.trajectory, depth, stop);
+  run.auditSeconds = stopwatch.seconds();
+  if (run.audit.breaches.empty() || choice.keepGoing) {
+    return;
+  }
+  std::string broken;
+  for (const AuditBreach& breach : run.audit.breaches) {
+    broken += (broken.empty() ? "" : "\n  ") + describe(breach, run.trajectory);
+  }
+  throw NumericalError("the run of " + run.source.string() +
+                       " breaks what its method promises; nothing is written without --keep-going:\n  " +
+                       broken);
 }
 
 std::filesystem::path defaultScene() { return findResource("assets/scenes/careen.json"); }

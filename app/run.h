@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <string>
 
+#include "audit/audit.h"
 #include "study/error_estimate.h"
 #include "trajectory/trajectory.h"
 
@@ -20,7 +21,26 @@ struct Run {
   double simulateSeconds = 0;  ///< [s] 0 if the trajectory was read from a file
   bool estimated = false;      ///< whether estimating its error was attempted
   std::optional<ErrorEstimate> estimate;
+  Audit audit;
+  double auditSeconds = 0;  ///< [s]
+
+  /// The method's own figures, or the audit's where it found more than twice as much.
+  RunFigures statedFigures() const;
 };
+
+/// How closely a run is audited, and what follows from a broken promise.
+struct AuditChoice {
+  std::string depth = "usual";
+  bool keepGoing = false;  ///< write the run nevertheless, marked
+
+  void addTo(const CommandLine& command);
+  /// Without --keep-going.
+  void addDepthTo(const CommandLine& command);
+};
+
+/// Audits the run; NumericalError, exit code 4, if it breaks a promise of its method, unless told to keep
+/// going.
+void auditRun(Run& run, const AuditChoice& choice, const std::stop_token& stop);
 
 /// Whether to run the scene a second time to estimate its error.
 struct EstimateChoice {

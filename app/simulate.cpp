@@ -25,6 +25,7 @@ struct SimulateOptions {
   std::filesystem::path report;
   Overrides overrides;
   EstimateChoice estimate;
+  AuditChoice audit;
 };
 
 // All or nothing: every file is first written beside its target, and none is renamed unless all were
@@ -54,8 +55,9 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(source.stem().string() + ".careen") : options.output;
   Run run = simulateScene(source, options.overrides, stop);
+  auditRun(run, options.audit, stop);
   const std::string trajectory = encodeTrajectory(run.trajectory);
-  estimate(run, options.estimate, stopwatch.seconds(), stop);
+  estimate(run, options.estimate, stopwatch.seconds() - run.auditSeconds, stop);
 
   Outputs outputs;
   outputs.add(output, [&](const TextSink& sink) { sink(trajectory); });
@@ -85,6 +87,7 @@ void addSimulate(const CommandLine& commandLine) {
   command.add("--report", options->report, "What was modelled, speed and error (JSON)");
   options->overrides.addTo(command);
   options->estimate.addTo(command);
+  options->audit.addTo(command);
   command.runs([options](const std::stop_token& stop) { return simulateCommand(*options, stop); });
 }
 

@@ -84,11 +84,20 @@ void printCase(const CaseResult& result, bool takenOver) {
   std::cout << std::left << std::setw(24) << result.name;
   if (exact != nullptr && exact->failure.empty()) {
     std::cout << "exact: error " << std::setw(8) << inShort(exact->judgement.error) << inShort(exact->cost)
-              << " us/s" << (betterThan(result, *exact).empty() ? "" : ", not the best");
+              << " us/s" << (betterThan(result, *exact).empty() ? "" : ", not the best")
+              << "; audit: " << (exact->audit.empty() ? "none" : exact->audit);
   } else if (exact != nullptr) {
     std::cout << "exact: " << exact->failure;
   }
-  std::cout << (takenOver ? " (taken over)" : "") << std::endl;  // flushed: progress
+  std::cout << (takenOver ? " (taken over)" : "") << '\n';
+  for (const Attempt& attempt : result.attempts) {
+    if (attempt.audit.starts_with("BROKEN") && &attempt != exact) {
+      std::cout << "    " << attempt.contestant << (attempt.dt > 0 ? " dt " : " tolerance ")
+                << inShort(attempt.dt > 0 ? attempt.dt : attempt.tolerance) << ": error "
+                << inShort(attempt.judgement.error) << "; audit: " << attempt.audit << '\n';
+    }
+  }
+  std::cout << std::flush;  // progress
 }
 
 ExitCode studyCommand(const StudyOptions& options, const std::stop_token& stop) {

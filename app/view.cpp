@@ -35,6 +35,7 @@ void addView(const CommandLine& commandLine) {
   command.add("--out", options->folder, "Folder for stills (default: out)");
   options->picture.addTo(command);
   options->overrides.addTo(command);
+  options->audit.addDepthTo(command);
   command.footer(std::string("Keys and mouse:\n") + kViewerHelp);
   command.runs([options](const std::stop_token& stop) { return viewCommand(*options, stop); });
 }

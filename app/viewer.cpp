@@ -60,13 +60,29 @@ char32_t lowerCase(char32_t key) { return key >= U'A' && key <= U'Z' ? key - U'A
 
 }  // namespace
 
+namespace {
+
+// A broken run is shown too: to look at it is the quickest way to understand it.
+Run loadAudited(const std::filesystem::path& path, const ViewOptions& options, const std::stop_token& stop) {
+  Run run = loadRun(path, options.overrides, stop);
+  AuditChoice choice = options.audit;
+  choice.keepGoing = true;
+  auditRun(run, choice, stop);
+  for (const AuditBreach& breach : run.audit.breaches) {
+    std::cerr << "careen: broken promise " << describe(breach, run.trajectory) << '\n';
+  }
+  return run;
+}
+
+}  // namespace
+
 Viewer::Viewer(Window& window, const ViewOptions& options)
     : window_(window), options_(options), picked_(options.source), watch_(options.source) {}
 
 Viewer::~Viewer() { cancelLoading(); }
 
 void Viewer::run(const std::stop_token& stop) {
-  open(loadRun(picked_, options_.overrides, stop));
+  open(loadAudited(picked_, options_, stop));
   while (!done_ && !window_.isClosing()) {
     if (stop.stop_requested()) {
       throw Interrupted();
@@ -107,7 +123,7 @@ void Viewer::beginLoading(const std::filesystem::path& path) {
   watch_ = FileWatch(path);
   stopLoading_ = {};
   loading_ = std::async(std::launch::async, [this, path, stop = stopLoading_.get_token()] {
-    return loadRun(path, options_.overrides, stop);
+    return loadAudited(path, options_, stop);
   });
 }
 

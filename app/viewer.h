@@ -24,6 +24,7 @@ struct ViewOptions {
   std::filesystem::path folder = "out";  ///< for stills
   PictureOptions picture;
   Overrides overrides;
+  AuditChoice audit;
 };
 
 /// Help text: keys and mouse, one line each.

@@ -257,7 +257,7 @@ Audit Auditor::result() const {
         .size = largest.size,
         .time = largest.time,
         .bodies = namesOf(largest),
-        .promised = findings_.promise(traits.kind, largest.time).has_value()};
+        .promised = largest.promised && findings_.promise(traits.kind, largest.time)};
     if (const std::optional<Finding>& breach = findings_.firstBreach(traits.kind)) {
       audit.breaches.push_back(
           {.kind = traits.kind,
@@ -306,6 +306,22 @@ std::string describe(const AuditBreach& breach, const Trajectory& run) {
       .append(" promises at most ")
       .append(brief(breach.allowed))
       .append(unit);
+}
+
+std::string inWords(const Audit& audit) {
+  std::string text;
+  for (const AuditKindTraits& traits : kAuditKinds) {
+    const AuditFigure& figure = audit.figure(traits.kind);
+    if (figure.size > 0) {
+      text.append(text.empty() ? "" : ", ").append(traits.name).append(" ").append(brief(figure.size, 3));
+      text.append(traits.unit == "1" ? "" : " ").append(traits.unit == "1" ? "" : traits.unit);
+      text.append(figure.promised ? "" : " (not promised)");
+    }
+  }
+  if (text.empty()) {
+    return "nothing found";
+  }
+  return audit.breaches.empty() ? text : "BROKEN: " + text;
 }
 
 }  // namespace careen

@@ -56,4 +56,7 @@ Audit audit(const Trajectory& run, AuditDepth depth, const std::stop_token& stop
 /// "at 0.4284 s a, b: boxes overlap: 1.451e-05 m, later 0.092 m, where method exact promises at most 4e-06 m"
 std::string describe(const AuditBreach& breach, const Trajectory& run);
 
+/// "box_overlap 0.092 m, impulse 0.84 (not promised)", "BROKEN: …" if a promise is; "nothing found".
+std::string inWords(const Audit& audit);
+
 }  // namespace careen

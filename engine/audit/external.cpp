@@ -142,7 +142,7 @@ void ExternalOf::addTouches(std::size_t member, std::size_t segment, External& e
   Follower& follower = followers_[member];
   const std::size_t body = group_.bodies[member];
   if (follower.known != segment + 1) {
-    follower.touches = touchesOf(body, run_.tracks[body].segments[segment].motion);
+    follower.touches = touchesOf(body, segment);
     follower.known = segment + 1;
   }
   external.lies = true;
@@ -164,11 +164,28 @@ void ExternalOf::addWall(std::size_t wall, double friction, External& external) 
   }
 }
 
-ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, const Motion& motion) const {
+// [m] A pile's frames tell where bodies begin and end, not what they touch between: the farthest that a body
+// moves in this frame or one beside it.
+double ExternalOf::wayWithin(std::size_t body, std::size_t segment) const {
+  const std::vector<Segment>& segments = run_.tracks[body].segments;
+  if (!run_.figures.boundedFrom || segments[segment].start < *run_.figures.boundedFrom) {
+    return 0;
+  }
+  double way = 0;
+  for (std::size_t k = segment > 0 ? segment - 1 : 0; k < std::min(segment + 2, segments.size()); ++k) {
+    if (const ContactStep* const step = std::get_if<ContactStep>(&segments[k].motion)) {
+      way = std::max(way, step->position[1].norm() +
+                              2 * step->worldFromBody[1].norm() * run_.world.bodies[body].halfExtents.norm());
+    }
+  }
+  return way;
+}
+
+ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment) const {
   const Body& owner = run_.world.bodies[body];
-  const double near = touchingDistance(owner, run_.settings);
+  const double near = touchingDistance(owner, run_.settings) + wayWithin(body, segment);
   Touches touches;
-  for (const Pose& place : placesOf(motion)) {
+  for (const Pose& place : placesOf(run_.tracks[body].segments[segment].motion)) {
     const AuditBox box{owner.halfExtents, place};
     for (std::size_t wall = 0; wall < run_.world.walls.size(); ++wall) {
       if (separationOf(box, run_.world.walls[wall]) <= near) {

@@ -43,7 +43,8 @@ class ExternalOf {
     std::vector<std::size_t> walls;
     bool immovable = false;
   };
-  Touches touchesOf(std::size_t body, const Motion& motion) const;
+  Touches touchesOf(std::size_t body, std::size_t segment) const;
+  double wayWithin(std::size_t body, std::size_t segment) const;
 
   struct Follower {
     std::size_t segment = 0;

@@ -9,7 +9,8 @@ namespace {
 // In the order of AuditKind; {} is no promise.
 constexpr Promise kNever{};
 constexpr Promise kRotation{.absolute = 1e-12};
-constexpr Promise kSamePlace{.tolerances = 4};
+constexpr Promise kApart{.tolerances = 4};
+constexpr Promise kSamePlace{.tolerances = 8};  // both sides of a contact are corrected
 constexpr Promise kRounding{.absolute = 1e-9};
 // Impulses of several bodies at once are found by iteration.
 constexpr Promise kImpulse{.absolute = 1e-7};
@@ -17,7 +18,7 @@ constexpr Promise kImpulse{.absolute = 1e-7};
 // random scenes, at most a third of this.
 constexpr Promise kByTolerance{.absolute = 1e-7, .tolerances = 20};
 
-constexpr Promises kOfExact = {kNever,   kSamePlace,   kSamePlace,   kRotation,    kSamePlace,
+constexpr Promises kOfExact = {kNever,   kApart,       kApart,       kRotation,    kSamePlace,
                                kImpulse, kByTolerance, kByTolerance, kByTolerance, kByTolerance};
 // Between one frame and the next a pile interpolates, so that nothing jumps.
 constexpr Promises kOfPile = {kNever, {}, {}, kRotation, kSamePlace, {}, {}, {}, {}, {}};

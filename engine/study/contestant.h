@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
 
+#include "audit/audit.h"
 #include "physics/world/body.h"
 #include "physics/world/world.h"
 
@@ -32,6 +34,13 @@ class Contestant {
   virtual std::vector<std::vector<BodyState>> run(const World& world, double fineness,
                                                   std::span<const double> times,
                                                   const std::stop_token& stop) const = 0;
+
+  /// What the audit finds in such a run of `duration` [s]; none for engines that have no motions between
+  /// times.
+  virtual std::optional<Audit> audited(const World& /*world*/, double /*fineness*/, double /*duration*/,
+                                       const std::stop_token& /*stop*/) const {
+    return std::nullopt;
+  }
 
  protected:
   Contestant() = default;

@@ -122,6 +122,22 @@ bool isSame(const Answer& x, const Answer& y) {
   return same(x.states, y.states) && same(x.second, y.second);
 }
 
+// Repeats the run, untimed, with its motions kept. One that takes too long has no audit.
+std::string auditOf(const Case& study, const Contestant& contestant, double fineness, double allowed,
+                    const std::stop_token& stop) {
+  const Deadline deadline(allowed, stop);
+  try {
+    const std::optional<Audit> found =
+        contestant.audited(study.world, fineness, study.duration(), deadline.token());
+    return found ? inWords(*found) : "";
+  } catch (const Interrupted&) {
+    if (stop.stop_requested()) {
+      throw;
+    }
+    return "";
+  }
+}
+
 // Measures the error and a first estimate of the run time.
 double attempt(const Case& study, const Contestant& contestant, const Effort& effort,
                const std::stop_token& stop, Attempt& result, Answer& answer) {
@@ -142,7 +158,11 @@ double attempt(const Case& study, const Contestant& contestant, const Effort& ef
   } catch (const Error& error) {
     result.failure = error.what();
   }
-  return secondsSince(start);
+  const double seconds = secondsSince(start);
+  if (result.failure.empty()) {
+    result.audit = auditOf(study, contestant, finenessOf(result, study), allowed, stop);
+  }
+  return seconds;
 }
 
 double timeOnce(const Case& study, const Timed& timed, double fineness, double shortest,

@@ -4,6 +4,7 @@
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
 #include "study/sampled_states.h"
+#include "trajectory/trajectory.h"
 
 namespace careen {
 namespace {
@@ -36,13 +37,22 @@ class OwnMethod : public Contestant {
   std::vector<std::vector<BodyState>> run(const World& world, double fineness, std::span<const double> times,
                                           const std::stop_token& stop) const override {
     SampledStates states(world, times);
-    RunSettings settings{.method = traits_.method, .duration = times.back()};
-    (traits_.steps() ? settings.dt : settings.tolerance) = fineness;
-    simulate(world, settings, states, stop);
+    simulate(world, settingsOf(fineness, times.back()), states, stop);
     return states.finish();
   }
 
+  std::optional<Audit> audited(const World& world, double fineness, double duration,
+                               const std::stop_token& stop) const override {
+    return audit(record(world, settingsOf(fineness, duration), "", stop), AuditDepth::kUsual, stop);
+  }
+
  private:
+  RunSettings settingsOf(double fineness, double duration) const {
+    RunSettings settings{.method = traits_.method, .duration = duration};
+    (traits_.steps() ? settings.dt : settings.tolerance) = fineness;
+    return settings;
+  }
+
   const MethodTraits& traits_;
 };
 

@@ -68,7 +68,8 @@ std::string matrix(const StudyResult& study) {
 
 std::string attemptsOf(const CaseResult& result) {
   std::ostringstream table;
-  table << "<table><tr><th>contestant</th><th>dt [s]</th><th>tolerance [m]</th><th>error</th><th>µs per "
+  table << "<table><tr><th>contestant</th><th>dt [s]</th><th>tolerance "
+           "[m]</th><th>error</th><th>audit</th><th>µs per "
            "simulated "
            "s</th><th>spread</th>"
            "<th>repeats</th><th>Pareto front</th></tr>\n";
@@ -77,11 +78,11 @@ std::string attemptsOf(const CaseResult& result) {
           << (attempt.dt > 0 ? inShort(attempt.dt) : "") << "</td><td>"
           << (attempt.tolerance > 0 ? inShort(attempt.tolerance) : "") << "</td>";
     if (attempt.failure.empty()) {
-      table << "<td>" << inShort(attempt.judgement.error) << "</td><td>" << inShort(attempt.cost)
-            << "</td><td>" << inShort(attempt.spread) << "</td><td>" << attempt.repeats << "</td><td>"
-            << (onFront(result, attempt) ? "yes" : "") << "</td></tr>\n";
+      table << "<td>" << inShort(attempt.judgement.error) << "</td><td>" << escapedForMarkup(attempt.audit)
+            << "</td><td>" << inShort(attempt.cost) << "</td><td>" << inShort(attempt.spread) << "</td><td>"
+            << attempt.repeats << "</td><td>" << (onFront(result, attempt) ? "yes" : "") << "</td></tr>\n";
     } else {
-      table << R"(<td colspan="5" class="none">)" << escapedForMarkup(attempt.failure) << "</td></tr>\n";
+      table << R"(<td colspan="6" class="none">)" << escapedForMarkup(attempt.failure) << "</td></tr>\n";
     }
   }
   table << "</table>\n";

@@ -42,6 +42,7 @@ Json toJson(const Attempt& attempt) {
     return json;
   }
   json["error"] = attempt.judgement.error;
+  json["audit"] = attempt.audit;
   json["cost_us"] = attempt.cost;
   json["spread"] = attempt.spread;
   json["repeats"] = attempt.repeats;
@@ -65,6 +66,7 @@ Attempt attemptFrom(const Json& json) {
   if (attempt.failure.empty()) {
     attempt.judgement.error = json.at("error").get<double>();
     attempt.judgement.energy = json.at("energy").get<std::vector<double>>();
+    attempt.audit = json.at("audit").get<std::string>();
     attempt.cost = json.at("cost_us").get<double>();
     attempt.spread = json.at("spread").get<double>();
     attempt.repeats = wholeNumber(json.at("repeats"));
