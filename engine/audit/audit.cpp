@@ -19,9 +19,9 @@ namespace careen {
 namespace {
 
 // Budgets, in states looked at.
-constexpr std::size_t kStatesAtMoments = 5'000;
+constexpr std::size_t kStatesAtMoments = 4'000;
 constexpr std::size_t kStatesAtMomentsInFull = 400'000;
-constexpr std::size_t kSeamsOfAll = 2'000;
+constexpr std::size_t kSeamsOfAll = 1'500;
 constexpr std::size_t kStatesAroundWorst = 1'500;
 constexpr std::size_t kMostMoments = 1'000;
 constexpr std::size_t kFewestMoments = 16;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <variant>
 
 #include "audit/overlap.h"
@@ -13,23 +12,19 @@
 namespace careen {
 namespace {
 
-// Gauss–Legendre with three nodes on [0, 1]: exact for polynomials of degree 5, such as contact steps.
-struct Node {
-  double at;
-  double weight;
-};
-constexpr double kRootOf3Fifths = 0.77459666924148337704;
-constexpr std::array<Node, 3> kNodes = {Node{(1 - kRootOf3Fifths) / 2, 5.0 / 18}, Node{0.5, 8.0 / 18},
-                                        Node{(1 + kRootOf3Fifths) / 2, 5.0 / 18}};
+// Gauss–Legendre with two nodes on [0, 1]: exact for polynomials of degree 3. Steps are short; a place in
+// flight has degree 2.
+constexpr double kRootOfThird = 0.57735026918962576451;
+constexpr std::array<double, 2> kNodes = {(1 - kRootOfThird) / 2, (1 + kRootOfThird) / 2};
 
 bool isMovable(const World& world, const std::optional<int>& body) {
   return body && !isImmovable(world.bodies[static_cast<std::size_t>(*body)].mass);
 }
 
 // Places of a body where it begins a motion and where that ends.
-std::vector<Pose> placesOf(const Motion& motion) {
+std::array<Pose, 2> placesOf(const Motion& motion) {
   if (const Rest* const rest = std::get_if<Rest>(&motion)) {
-    return {rest->pose};
+    return {rest->pose, rest->pose};
   }
   const ContactStep& step = std::get<ContactStep>(motion);
   Vec3 position = Vec3::Zero();
@@ -38,8 +33,8 @@ std::vector<Pose> placesOf(const Motion& motion) {
     position += step.position[k];
     turn += step.worldFromBody[k];
   }
-  return {{step.position[0], Quat(step.worldFromBody[0]).normalized().toRotationMatrix()},
-          {position, Quat(turn).normalized().toRotationMatrix()}};
+  return {Pose{step.position[0], Quat(step.worldFromBody[0]).normalized().toRotationMatrix()},
+          Pose{position, Quat(turn).normalized().toRotationMatrix()}};
 }
 
 }  // namespace
@@ -49,6 +44,12 @@ ExternalOf::ExternalOf(const Trajectory& run, const ExchangeGroup& group, const 
   for (std::size_t body = 0; body < run.world.bodies.size(); ++body) {
     if (isImmovable(run.world.bodies[body].mass)) {
       immovables_.push_back(body);
+    }
+  }
+  if (!group.springs.empty()) {
+    states_.resize(run.world.bodies.size());
+    for (const std::size_t fixed : immovables_) {
+      states_[fixed] = {.pose = run.world.bodies[fixed].initial.pose};
     }
   }
   integrates_ = run.world.drag.has_value() ||
@@ -93,7 +94,7 @@ void ExternalOf::follow(std::size_t member, double time, External& external) {
 // Gravity, drag, and springs with one end on this body and the other on the world or an immovable body:
 // springs between bodies of the group give it nothing.
 void ExternalOf::addLoads(std::size_t body, const Segment& segment, double from, double to,
-                          External& external) const {
+                          External& external) {
   const World& world = run_.world;
   const MassProperties& mass = world.bodies[body].mass;
   const Vec3 weight = mass.mass * world.gravity;
@@ -102,10 +103,9 @@ void ExternalOf::addLoads(std::size_t body, const Segment& segment, double from,
   if (world.gravity.isZero(0) && !integrates_) {
     return;
   }
-  std::vector<BodyState> states;
-  for (const Node& node : kNodes) {
-    const double elapsed = from + node.at * length - segment.start;
-    const double seconds = node.weight * length;
+  for (const double node : kNodes) {
+    const double elapsed = from + node * length - segment.start;
+    const double seconds = length / kNodes.size();
     if (!integrates_) {
       external.angularImpulse += seconds * (centerAt(segment.motion, elapsed) - origin_).cross(weight);
       continue;
@@ -125,12 +125,8 @@ void ExternalOf::addLoads(std::size_t body, const Segment& segment, double from,
       if (isFrom == isTo || isMovable(world, isFrom ? spring.to.body : spring.from.body)) {
         continue;
       }
-      states.resize(world.bodies.size());
-      states[body] = state;
-      for (const std::size_t fixed : immovables_) {
-        states[fixed] = {.pose = world.bodies[fixed].initial.pose};
-      }
-      const Stretch stretch = stretchOf(spring, world, states);
+      states_[body] = state;
+      const Stretch stretch = stretchOf(spring, world, states_);
       const Vec3 force = (isFrom ? 1 : -1) * springForce(spring, stretch) * stretch.direction;
       external.impulse += seconds * force;
       external.angularImpulse += seconds * ((isFrom ? stretch.from : stretch.to) - origin_).cross(force);

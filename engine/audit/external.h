@@ -33,7 +33,7 @@ class ExternalOf {
 
  private:
   void follow(std::size_t member, double time, External& external);
-  void addLoads(std::size_t body, const Segment& segment, double from, double to, External& external) const;
+  void addLoads(std::size_t body, const Segment& segment, double from, double to, External& external);
   void addTouches(std::size_t member, std::size_t segment, External& external);
   void addImpacts(double time, External& external);
   void addWall(std::size_t wall, double friction, External& external) const;
@@ -59,6 +59,7 @@ class ExternalOf {
   std::vector<Follower> followers_;  // of each member
   std::size_t nextImpact_ = 0;
   std::vector<std::size_t> immovables_;  // bodies
+  std::vector<BodyState> states_;        // of all bodies, for springs: only those at its ends are up to date
   bool integrates_ = false;              // springs or drag need quadrature
 };
 
