@@ -6,11 +6,15 @@
 namespace careen {
 namespace {
 
+// Steps are repeated from the start of a segment, with a last one that is shorter or longer by rounding.
+constexpr Promise kRepeated{.absolute = 1e-6};
+
 // In the order of AuditKind; {} is no promise.
 constexpr Promise kNever{};
 constexpr Promise kRotation{.absolute = 1e-12};
-constexpr Promise kApart{.tolerances = 4};
-constexpr Promise kSamePlace{.tolerances = 8};  // both sides of a contact are corrected
+// Hops too short to follow end in rest, up to 1e-9 m aside.
+constexpr Promise kApart{.absolute = 1e-9, .tolerances = 4};
+constexpr Promise kSamePlace{.absolute = 1e-9, .tolerances = 8};  // both sides of a contact are corrected
 constexpr Promise kRounding{.absolute = 1e-9};
 // Impulses of several bodies at once are found by iteration.
 constexpr Promise kImpulse{.absolute = 1e-7};
@@ -26,7 +30,7 @@ constexpr Promises kOfPile = {kNever, {}, {}, kRotation, kSamePlace, {}, {}, {},
 // between them.
 constexpr Promises kOfListing1 = {kNever, {}, {}, kRotation, kRounding, kRounding, {}, {}, {}, {}};
 // The centre of mass moves in closed form, only the attitude is integrated.
-constexpr Promises kOfSteppers = {kNever, {}, {}, kRotation, kRounding, kRounding, kRounding, {}, {}, {}};
+constexpr Promises kOfSteppers = {kNever, {}, {}, kRotation, kRepeated, kRounding, kRounding, {}, {}, {}};
 
 }  // namespace
 
@@ -45,15 +49,16 @@ double allowed(const Promise& promise, const RunSettings& settings, double lengt
   return promise.absolute + promise.tolerances * settings.tolerance / length;
 }
 
-std::string textOf(const std::optional<Promise>& promise) {
+std::string textOf(AuditKind kind, const std::optional<Promise>& promise) {
   if (!promise) {
     return "nothing";
   }
-  const std::string times = brief(promise->tolerances) + " tolerances";
-  if (promise->tolerances == 0) {
-    return brief(promise->absolute);
+  std::string text = brief(promise->absolute);
+  if (promise->tolerances > 0) {
+    text.append(" + ").append(brief(promise->tolerances)).append(" tolerances");
+    text.append(traitsOf(kind).unit == "1" ? "/size" : "");
   }
-  return promise->absolute == 0 ? times : brief(promise->absolute) + " + " + times + "/size";
+  return text;
 }
 
 }  // namespace careen

@@ -151,7 +151,9 @@ void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam,
     return;
   }
   const double rounding = 4 * placeRounding(owner, after.pose.position) +
-                          kUlps * time * (before.velocity.norm() + after.velocity.norm());
+                          kUlps * time *
+                              (before.velocity.norm() + after.velocity.norm() +
+                               angularVelocity(owner.mass, before).norm() * owner.halfExtents.norm());
   findings.add(AuditKind::kContinuity, rounding,
                {.size = jumpOf(owner, before.pose, after.pose), .time = time, .bodies = {body}, .wall = {}});
   if (!isImmovable(owner.mass)) {

@@ -23,7 +23,7 @@ TEST(Promises, readmeHasTheSameTable) {
   for (const AuditKindTraits& traits : kAuditKinds) {
     std::string row = "| `" + std::string(traits.name) + "` |";
     const auto cell = [&](Method method, bool pile) {
-      row += " " + textOf(promisesOf(method, pile)[indexOf(traits.kind)]) + " |";
+      row += " " + textOf(traits.kind, promisesOf(method, pile)[indexOf(traits.kind)]) + " |";
     };
     cell(Method::kExact, false);
     cell(Method::kExact, true);
