@@ -27,7 +27,7 @@ Promises promisesOf(Method method, bool pile);
 /// metres.
 double allowed(const Promise& promise, const RunSettings& settings, double length);
 
-/// As the README spells it: "1e-09 + 4 tolerances", "1e-07 + 20 tolerances/size", "0", "nothing".
+/// As the README spells it: "1e-09 + 4 tolerances", "1e-07 + 100 tolerances/size", "0", "nothing".
 std::string textOf(AuditKind kind, const std::optional<Promise>& promise);
 
 }  // namespace careen
