@@ -2,9 +2,26 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <iostream>
+#include <sstream>
 #include <utility>
 
+#include "core/characters.h"
+
 namespace careen {
+namespace {
+
+// An argument that is refused is part of the message.
+std::string printableLines(const std::string& text) {
+  std::istringstream stream(text);
+  std::string lines;
+  for (std::string line; std::getline(stream, line);) {
+    lines += printableName(line) + '\n';
+  }
+  return lines;
+}
+
+}  // namespace
 
 CommandOption CommandOption::required() const {
   option_->required();
@@ -93,7 +110,14 @@ CommandLine::Parsed CommandLine::parse(int argc, const char* const* argv) const 
   try {
     app_->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return {.command = nullptr, .exitCode = app_->exit(error) == 0 ? ExitCode::kDone : ExitCode::kBadInput};
+    std::ostringstream wrong;
+    const int code = app_->exit(error, std::cout, wrong);
+    if (code != 0 && argc < 2) {
+      std::cerr << app_->help();
+    } else {
+      std::cerr << printableLines(wrong.str());
+    }
+    return {.command = nullptr, .exitCode = code == 0 ? ExitCode::kDone : ExitCode::kBadInput};
   }
   return {.command = *chosen_};
 }

@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "compare/report.h"
 #include "core/brief.h"
+#include "core/characters.h"
 #include "core/names.h"
 #include "core/system/processor.h"
 #include "film/manifest.h"
@@ -109,13 +110,13 @@ Films filmsIn(const std::filesystem::path& expected, const std::filesystem::path
 
 void printFrame(std::ostream& out, const FrameComparison& frame) {
   for (const std::string& reason : frame.reasons) {
-    out << "  " << frame.name << ": " << reason << '\n';
+    out << "  " << printableName(frame.name + ": " + reason) << '\n';
   }
 }
 
 void printRun(std::ostream& out, const RunDifference& run) {
   for (const std::string& reason : run.incomparable) {
-    out << "  " << reason << '\n';
+    out << "  " << printableName(reason) << '\n';
   }
   if (run.firstTime) {
     out << "  first difference of a state at " << brief(*run.firstTime) << " s\n";
@@ -123,15 +124,15 @@ void printRun(std::ostream& out, const RunDifference& run) {
   if (run.worst.difference.relative > 0) {
     out << "  largest difference" << (run.horizon ? " before that horizon" : "") << ' '
         << brief(run.worst.difference.position) << " m, " << brief(run.worst.difference.angle) << " rad, at "
-        << brief(run.worst.time) << " s, " << run.worst.body << '\n';
+        << brief(run.worst.time) << " s, " << printableName(run.worst.body) << '\n';
   }
   if (run.firstImpact) {
     out << "  first impact that differs, number " << run.firstImpact->index + 1 << ": "
-        << run.firstImpact->what << '\n';
+        << printableName(run.firstImpact->what) << '\n';
   }
   if (run.firstOtherEvent && run.firstOtherEvent->what != run.firstImpact->what) {
     out << "  first other impact, number " << run.firstOtherEvent->index + 1 << ": "
-        << run.firstOtherEvent->what << '\n';
+        << printableName(run.firstOtherEvent->what) << '\n';
   }
   if (run.expectedDuration != run.actualDuration && !run.until) {
     out << "  they last " << brief(run.expectedDuration) << " and " << brief(run.actualDuration) << " s\n";
@@ -145,7 +146,8 @@ void printRun(std::ostream& out, const RunDifference& run) {
 
 void print(std::ostream& out, const Comparison& comparison) {
   constexpr std::array<const char*, 3> kVerdicts = {"same", "same, with a warning", "differs"};
-  out << kVerdicts.at(static_cast<std::size_t>(comparison.verdict)) << ": " << comparison.headline;
+  out << kVerdicts.at(static_cast<std::size_t>(comparison.verdict)) << ": "
+      << printableName(comparison.headline);
   if (!comparison.frames.empty()) {
     out << " (" << comparison.toleranceName << ')';
   }
@@ -169,7 +171,7 @@ void print(std::ostream& out, const Comparison& comparison) {
   if (comparison.verdict != Verdict::kSame) {
     for (const Fact& fact : comparison.facts) {
       if (fact.expected != fact.actual) {
-        out << "  " << fact.name << ": " << fact.expected << ", found " << fact.actual << '\n';
+        out << "  " << printableName(fact.name + ": " + fact.expected + ", found " + fact.actual) << '\n';
       }
     }
   }

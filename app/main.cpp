@@ -1,11 +1,16 @@
 #include <malloc.h>
 
+#include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
 
 #include "commands.h"
+#include "core/characters.h"
 #include "core/error.h"
 #include "core/system/standard_streams.h"
 #include "interruption.h"
@@ -14,6 +19,39 @@ namespace careen {
 namespace {
 
 int exitWith(ExitCode code) { return static_cast<int>(code); }
+
+// Messages hold names from files and the command line, which could steer a terminal.
+void tell(const char* message) { std::cerr << "careen: " << printableMessage(message) << '\n'; }
+
+// What could not be printed is lost, as on a full disk; the command has not done its work then.
+int afterPrinting(int result) {
+  errno = 0;
+  if (std::cout.flush()) {
+    return result;
+  }
+  const std::string reason = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
+  tell(("standard output cannot be written" + reason).c_str());
+  return result < 0 ? result : exitWith(ExitCode::kMachineFailed);
+}
+
+// Ends by the signal, so that the caller sees it, also where the signal was ignored.
+int endBy(int signal) {
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+  return 128 + signal;
+}
+
+#ifdef CAREEN_RENDER
+// With vectors of less than 256 bits Mesa overwrites memory on processors that have 512.
+void refuseNarrowVectors() {
+  const char* const name = "LP_NATIVE_VECTOR_WIDTH";
+  const char* const width = std::getenv(name);
+  if (width != nullptr && std::atoi(width) < 256) {
+    std::cerr << "careen: the environment's " << name << " of less than 256 is ignored: Mesa fails with it\n";
+    unsetenv(name);
+  }
+}
+#endif
 
 // A negative result is a signal; the process then ends by it, so that the caller sees it.
 int runCommandLine(int argc, char** argv, Interruption& interruption) {
@@ -43,7 +81,7 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
     std::cerr << "careen: interrupted\n";
     return -interruption.signal();
   } catch (const Error& error) {
-    std::cerr << "careen: " << error.what() << '\n';
+    tell(error.what());
     return exitWith(error.code());
   }
 }
@@ -62,6 +100,9 @@ void keepMemory() {
 int main(int argc, char** argv) {
   careen::openStandardStreams();
   careen::keepMemory();
+#ifdef CAREEN_RENDER
+  careen::refuseNarrowVectors();
+#endif
   int result = 0;
   try {
     careen::Interruption interruption;
@@ -70,11 +111,9 @@ int main(int argc, char** argv) {
     std::cerr << "careen: out of memory\n";
     return careen::exitWith(careen::ExitCode::kMachineFailed);
   } catch (const std::exception& error) {
-    std::cerr << "careen: " << error.what() << '\n';
+    careen::tell(error.what());
     return careen::exitWith(careen::ExitCode::kMachineFailed);
   }
-  if (result < 0) {
-    std::raise(-result);
-  }
-  return result;
+  result = careen::afterPrinting(result);
+  return result < 0 ? careen::endBy(-result) : result;
 }

@@ -12,6 +12,7 @@
 
 #include "commands.h"
 #include "compare.h"
+#include "core/characters.h"
 #include "core/error.h"
 #include "core/system/file.h"
 #include "film/folder.h"
@@ -71,6 +72,10 @@ void check(const FilmOptions& options) {
   }
   if (const std::optional<VideoSettings> video = videoOf(options)) {
     checkVideo(*video);
+    std::error_code none;
+    if (std::filesystem::is_directory(video->path, none)) {
+      fail("--video", "the folder " + video->path.string(), "a file");
+    }
   }
 }
 
@@ -140,10 +145,10 @@ void printFilm(std::ostream& out, const FilmSettings& settings, const PictureSet
   out << "frames       " << figures.drawn + figures.skipped << " at " << picture.rate.text()
       << " per second, " << picture.width << 'x' << picture.height << ", " << figures.skipped
       << " of them were there already: "
-      << std::filesystem::absolute(settings.folder).lexically_normal().string() << '\n';
+      << printableName(std::filesystem::absolute(settings.folder).lexically_normal().string()) << '\n';
   if (settings.video) {
-    out << "film         " << std::filesystem::absolute(settings.video->path).lexically_normal().string()
-        << '\n';
+    out << "film         "
+        << printableName(std::filesystem::absolute(settings.video->path).lexically_normal().string()) << '\n';
   }
 }
 

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/characters.h"
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
 
@@ -56,7 +57,7 @@ void printItems(std::ostream& out, const char* title, const Plan& plan, bool mod
   const char* indent = title;
   for (const PlanItem& item : plan.items) {
     if (item.modelled == modelled) {
-      out << indent << item.what << ": " << item.reason << '\n';
+      out << indent << printableName(item.what) << ": " << printableName(item.reason) << '\n';
       indent = "             ";
     }
   }
@@ -194,7 +195,7 @@ std::string runReportText(const Run& run, double wallSeconds) {
 
 void printPlan(std::ostream& out, const std::string& scene, std::size_t boxes, const RunSettings& settings,
                const Plan& plan) {
-  out << "scene        " << scene << ", " << boxes << (boxes == 1 ? " box, " : " boxes, ")
+  out << "scene        " << printableName(scene) << ", " << boxes << (boxes == 1 ? " box, " : " boxes, ")
       << settings.duration << " s by " << traitsOf(settings.method).name;
   if (traitsOf(settings.method).steps()) {
     out << ", dt " << settings.dt << " s";

@@ -5,8 +5,11 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "commands.h"
+#include "core/characters.h"
 #include "core/system/file.h"
 #include "report.h"
 #include "run.h"
@@ -49,11 +52,31 @@ class Outputs {
   std::list<AtomicFile> files_;  // a list, because an AtomicFile must not move
 };
 
+// Before the run: nothing may be written over the scene, nor over another output.
+void checkOutputs(const std::filesystem::path& source, const std::filesystem::path& output,
+                  const SimulateOptions& options) {
+  std::vector<std::pair<const char*, std::filesystem::path>> known = {{"the scene", source}};
+  for (const auto& [option, path] :
+       {std::pair("--output", output), std::pair("--poses", options.poses),
+        std::pair("--impacts", options.impacts), std::pair("--report", options.report)}) {
+    for (const auto& [what, other] : known) {
+      if (!path.empty() && isSameFile(path, other)) {
+        throw InputError(std::string(option) + ": found " + path.string() + ", which is " + what +
+                         " too, expected a file of its own");
+      }
+    }
+    if (!path.empty()) {
+      known.emplace_back(option, path);
+    }
+  }
+}
+
 ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& stop) {
   const Stopwatch stopwatch;
   const std::filesystem::path source = options.scene.empty() ? defaultScene() : options.scene;
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(source.stem().string() + ".careen") : options.output;
+  checkOutputs(source, output, options);
   Run run = simulateScene(source, options.overrides, stop);
   auditRun(run, options.audit, stop);
   const std::string trajectory = encodeTrajectory(run.trajectory);
@@ -68,7 +91,7 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   outputs.commit();
 
   printSummary(std::cout, run, stopwatch.seconds());
-  std::cout << "trajectory   " << output.string() << '\n';
+  std::cout << "trajectory   " << printableName(output.string()) << '\n';
   return ExitCode::kDone;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/brief.h"
+#include "core/characters.h"
 #include "image/png.h"
 #include "render/draw/renderer.h"
 #include "render/film/filming.h"
@@ -62,7 +63,7 @@ ExitCode drawStill(const Run& run, RenderOptions options, const Still& still) {
   std::filesystem::create_directories(path.parent_path(), error);  // if it failed, writing reports it
   writePng(path, picture);
   std::cout << "picture      " << (still.strobe ? std::to_string(moments.size()) + " moments, " : "")
-            << path.string() << '\n';
+            << printableName(path.string()) << '\n';
   return ExitCode::kDone;
 }
 

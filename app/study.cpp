@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "core/characters.h"
 #include "core/error.h"
 #include "core/system/file.h"
 #include "run.h"
@@ -81,7 +82,7 @@ std::string commandOf(const StudyOptions& options) {
 
 void printCase(const CaseResult& result, bool takenOver) {
   const Attempt* const exact = usualAttempt(result, "exact");
-  std::cout << std::left << std::setw(24) << result.name;
+  std::cout << std::left << std::setw(24) << printableName(result.name);
   if (exact != nullptr && exact->failure.empty()) {
     std::cout << "exact: error " << std::setw(8) << inShort(exact->judgement.error) << inShort(exact->cost)
               << " us/s" << (betterThan(result, *exact).empty() ? "" : ", not the best")
@@ -132,8 +133,8 @@ ExitCode studyCommand(const StudyOptions& options, const std::stop_token& stop) 
   const std::vector<std::string> plots =
       options.noPlots ? std::vector<std::string>{} : drawPlots(study, options.out);
   writeFile(options.out / "index.html", resultsPage(study, plots));
-  std::cout << "study        " << (options.out / "index.html").string() << ", " << std::setprecision(3)
-            << stopwatch.seconds() << " s\n";
+  std::cout << "study        " << printableName((options.out / "index.html").string()) << ", "
+            << std::setprecision(3) << stopwatch.seconds() << " s\n";
   return ExitCode::kDone;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "core/characters.h"
 #include "core/error.h"
 #include "film/faults.h"
 #include "film/folder.h"
@@ -25,7 +26,7 @@ ExitCode verifyCommand(const std::filesystem::path& folder) {
   const std::vector<FrameFault> faults = findFaults(folder, *manifest);
   std::vector<std::int64_t> frames;
   for (const FrameFault& fault : faults) {
-    std::cout << (folder / frameFileName(fault.frame)).string() << ": " << fault.what << '\n';
+    std::cout << printableName((folder / frameFileName(fault.frame)).string() + ": " + fault.what) << '\n';
     frames.push_back(fault.frame);
   }
   std::cout << manifest->frames.size() << " frames, " << faults.size() << " missing or broken\n";

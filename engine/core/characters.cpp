@@ -54,6 +54,22 @@ bool mayBeInMarkup(char32_t character) {
          (character >= 0xA0 && character != 0xFFFE && character != 0xFFFF);
 }
 
+// Control characters of both sets, line and paragraph separators, and marks that reorder text.
+bool steersTerminals(char32_t character) {
+  return character < 0x20 || (character >= 0x7F && character < 0xA0) ||
+         (character >= 0x200E && character <= 0x200F) || (character >= 0x2028 && character <= 0x202E) ||
+         (character >= 0x2066 && character <= 0x2069);
+}
+
+std::string escaped(char32_t character) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text = character < 0x100 ? "\\x" : "\\u";
+  for (int shift = character < 0x100 ? 4 : 12; shift >= 0; shift -= 4) {
+    text += kDigits[(character >> static_cast<unsigned>(shift)) & 0xFU];
+  }
+  return text;
+}
+
 }  // namespace
 
 std::u32string charactersOf(std::string_view utf8) {
@@ -78,6 +94,28 @@ std::string utf8Of(char32_t character) {
     return {static_cast<char>(0xE0U | (character >> 12U)), more(6), more(0)};
   }
   return {static_cast<char>(0xF0U | (character >> 18U)), more(12), more(6), more(0)};
+}
+
+std::string printableName(std::string_view utf8) {
+  std::string result;
+  for (std::size_t at = 0; at < utf8.size();) {
+    const char32_t character = next(utf8, at);
+    result += steersTerminals(character) ? escaped(character) : utf8Of(character);
+  }
+  return result;
+}
+
+std::string printableMessage(std::string_view utf8) {
+  std::string result;
+  for (std::size_t at = 0; at < utf8.size();) {
+    const char32_t character = next(utf8, at);
+    if (character == U'\n') {
+      result += "\n  ";
+    } else {
+      result += steersTerminals(character) && character != U'\t' ? escaped(character) : utf8Of(character);
+    }
+  }
+  return result;
 }
 
 std::string escapedForMarkup(std::string_view utf8) {

@@ -118,7 +118,9 @@ void FilmFolder::begin(const FilmManifest& asked, bool resume) {
                    asked.frames.end(), std::back_inserter(frames));
     manifest.frames = std::move(frames);
   } else if (manifest_) {
-    removeAll(path_, isFrame);
+    for (const std::int64_t frame : manifest_->frames) {  // and no other file of such a name
+      fs::remove(path_ / frameFileName(frame));
+    }
   }
   writeManifest(path_, manifest);
   manifest_ = std::move(manifest);

@@ -35,7 +35,8 @@ class FilmFolder {
 
   /// The requested frames that are missing or incomplete.
   std::vector<std::int64_t> missing(const FilmManifest& asked) const;
-  /// Prepares the folder for a film: with `resume`, existing frames are kept; otherwise they are removed.
+  /// Prepares the folder for a film: with `resume`, existing frames are kept; otherwise those that the
+  /// manifest of the film there lists are removed, and nothing else.
   void begin(const FilmManifest& asked, bool resume);
 
  private:

@@ -28,7 +28,7 @@ bool isAt(int descriptor, const std::filesystem::path& path) {
 // only: flock(2), "NFS details".
 FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".careen.lock") {
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
-  while ((descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) >= 0) {
+  while ((descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) >= 0) {
     const bool taken = flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     if (!taken && isAt(descriptor_, file_)) {
       cleanup_.emplace([this] { unlink(file_.c_str()); });

@@ -56,7 +56,7 @@ VideoPipe::VideoPipe(VideoSettings settings) : settings_(std::move(settings)) {
   partial_ = settings_.path.parent_path() / ("." + settings_.path.filename().string() + "." +
                                              std::to_string(getpid()) + std::string(kPartialSuffix));
   // Fail now rather than after the last frame.
-  const int probe = open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int probe = createNew(partial_);
   if (probe < 0) {
     throw MachineError(settings_.path.string() + ": cannot be written: " + std::strerror(errno));
   }

@@ -111,5 +111,67 @@ TEST_F(HostileInput, manyKeysAreReadInLinearTime) {
   EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(20));  // quadratic: minutes
 }
 
+TEST_F(HostileInput, outputsAreWrittenOverNoInputAndNotOverEachOther) {
+  folder_.write("s.json", kFall);
+  std::filesystem::create_symlink("s.json", folder_ / "link.careen");
+  std::filesystem::create_hard_link(folder_ / "s.json", folder_ / "hard.csv");
+  std::filesystem::create_directory_symlink(".", folder_ / "here");
+  const std::vector<std::vector<std::string>> wrong = {{"-o", "s.json"},
+                                                       {"-o", "link.careen"},
+                                                       {"--poses", "hard.csv"},
+                                                       {"--report", "./s.json"},
+                                                       {"--poses", "t.csv", "--impacts", "here/t.csv"},
+                                                       {"-o", "t", "--report", "t"}};
+  for (const std::vector<std::string>& options : wrong) {
+    std::vector<std::string> arguments = {"simulate", "s.json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Ended ended = careen(arguments);
+    EXPECT_EQ(ended.exitCode, 2) << options[1];
+    EXPECT_NE(ended.err.find("expected a file of its own"), std::string::npos) << ended.err;
+    EXPECT_EQ(textOf(folder_ / "s.json"), kFall);
+  }
+}
+
+TEST_F(HostileInput, namesDoNotSteerTheTerminal) {
+  folder_.write("scene.json",
+                R"({ "careen": 1, "duration": 0.1, "name": "\u001b]0;OWNED\u0007\u009b2J\nfake line",
+    "boxes": [ { "half_extents": [0.4, 0.2, 0.1], "mass": 1, "name": "\u202egnp" } ] })");
+  const Ended done = careen({"simulate", "scene.json"});
+  EXPECT_EQ(done.exitCode, 0);
+  EXPECT_NE(done.out.find(R"(scene        \x1b]0;OWNED\x07\x9b2J\x0afake line, 1 box)"), std::string::npos)
+      << done.out;
+  for (const Ended& ended : {done, careen({"simulate", "\x1b[2J.json"}), careen({"\x1b[2J"})}) {
+    EXPECT_EQ((ended.out + ended.err).find('\x1b'), std::string::npos) << ended.err;
+  }
+}
+
+TEST_F(HostileInput, whatCannotBePrintedIsAFailure) {
+  folder_.write("scene.json", kFall);
+  const Ended ended =
+      Process({"bash", "-c", "exec \"$0\" info scene.json > /dev/full", program()}, folder_.path()).wait();
+  EXPECT_EQ(ended.exitCode, 3);
+  EXPECT_NE(ended.err.find("standard output cannot be written"), std::string::npos) << ended.err;
+}
+
+// As under nohup, or in the background of a script.
+TEST_F(HostileInput, anIgnoredSignalStaysIgnored) {
+  folder_.write("scene.json", kFall);
+  Process process(
+      {"bash", "-c", "trap '' INT; exec \"$0\" simulate scene.json --method listing1 --dt 1e-6 --duration 10",
+       program()},
+      folder_.path());
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  process.send(SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait().signal, SIGTERM);
+}
+
+TEST_F(HostileInput, withoutACommandTheHelpIsShown) {
+  const Ended ended = careen({});
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_NE(ended.err.find("simulate"), std::string::npos) << ended.err;
+}
+
 }  // namespace
 }  // namespace careen

@@ -27,6 +27,18 @@ TEST(Characters, thatMeanSomethingInMarkupAreEscaped) {
   EXPECT_EQ(escapedForMarkup("<b a=\"1\" b='2'>&amp;é"), "&lt;b a=&quot;1&quot; b=&#39;2&#39;&gt;&amp;amp;é");
 }
 
+TEST(Characters, thatSteerATerminalAreEscaped) {
+  EXPECT_EQ(printableName("\x1B]0;OWNED\x07\x1B[2J\nfake\tline"),
+            "\\x1b]0;OWNED\\x07\\x1b[2J\\x0afake\\x09line");
+  EXPECT_EQ(printableName("\u009b31mred\u202egnp\u2028"), "\\x9b31mred\\u202egnp\\u2028");
+  EXPECT_EQ(printableName("é→𝄞 \x9B"), "é→𝄞 \uFFFD");
+}
+
+TEST(Characters, ofAMessageMayEndALine) {
+  EXPECT_EQ(printableMessage("ffmpeg failed: a\n\tb\x1B[m\ncareen: done"),
+            "ffmpeg failed: a\n  \tb\\x1b[m\n  careen: done");
+}
+
 TEST(Characters, thatMayNotBeInMarkupAreReplaced) {
   EXPECT_EQ(escapedForMarkup("a\tb\nc\r"), "a\tb\nc\r");
   EXPECT_EQ(escapedForMarkup(std::string_view("a\0b\x1B[m\x7F", 7)), "a\uFFFDb\uFFFD[m\uFFFD");

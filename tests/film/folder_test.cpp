@@ -122,7 +122,8 @@ TEST(FilmFolder, ofAnotherFilmLosesItsFramesAndNothingElse) {
     FilmFolder film(folder.path());
     film.begin(filmOf({5}), false);
   }
-  EXPECT_EQ(folder.files(), (Names{"00001.png", "film.json", "frame-000000.png", "notes.txt"}));
+  EXPECT_EQ(folder.files(),
+            (Names{"00001.png", "1234567.png", "film.json", "frame-000000.png", "notes.txt"}));
   EXPECT_EQ(readManifest(folder.path())->frames, (Frames{5}));
 }
 

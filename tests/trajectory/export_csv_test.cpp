@@ -40,6 +40,20 @@ TEST(PosesCsv, leavesOutASampleBehindTheEnd) {
   EXPECT_EQ(posesOf(driftAndReturn(), 5).size(), 1U + 2U);
 }
 
+// 24 · 0.05 is 1.2000000000000002.
+TEST(PosesCsv, keepsTheLastSampleThatRoundingPutsBehindTheEnd) {
+  Trajectory trajectory = driftAndReturn();
+  trajectory.settings.duration = 1.2;
+  const std::vector<std::string> lines = posesOf(trajectory, 0.05);
+  ASSERT_EQ(lines.size(), 1U + 25U * 2U);
+  EXPECT_TRUE(lines.back().starts_with("1.2,") || lines.back().starts_with("1.19999999999999"))
+      << lines.back();
+}
+
+TEST(PosesCsv, refusesMoreSamplesThanAnybodyReads) {
+  EXPECT_THROW(posesOf(driftAndReturn(), 1e-300), InputError);
+}
+
 TEST(PosesCsv, writesDoublesThatComeBackBitForBit) {
   Trajectory trajectory = driftAndReturn();
   const double third = 1. / 3;

@@ -1,9 +1,13 @@
 #include "core/system/file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -22,33 +26,68 @@ std::filesystem::path partialPath(const std::filesystem::path& path) {
 
 }  // namespace
 
+int createNew(const std::filesystem::path& path) {
+  constexpr int kHow = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  const int made = open(path.c_str(), kHow, 0666);
+  if (made >= 0 || errno != EEXIST) {
+    return made;
+  }
+  unlink(path.c_str());  // the link itself, not what it names
+  return open(path.c_str(), kHow, 0666);
+}
+
+bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other) {
+  std::error_code none;
+  if (std::filesystem::equivalent(one, other, none)) {  // device and inode
+    return true;
+  }
+  const auto place = [&none](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, none), none);
+  };
+  return place(one) == place(other);
+}
+
 AtomicFile::AtomicFile(std::filesystem::path path)
     : path_(std::move(path)),
       partial_(partialPath(path_)),
-      stream_(partial_, std::ios::binary | std::ios::trunc),
+      descriptor_(createNew(partial_)),
       cleanup_([this] { unlink(partial_.c_str()); }) {
-  if (!stream_) {
+  if (descriptor_ < 0) {
     fail("cannot be written");
   }
 }
 
 AtomicFile::~AtomicFile() {
-  if (!committed_) {
-    stream_.close();
-    std::error_code ignored;
-    std::filesystem::remove(partial_, ignored);
+  if (descriptor_ >= 0) {
+    close(descriptor_);
+  }
+  if (!committed_ && !partial_.empty()) {
+    unlink(partial_.c_str());
   }
 }
 
 void AtomicFile::write(std::string_view bytes) {
-  if (!stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-    fail("cannot be written");
+  constexpr std::size_t kPiece = std::size_t{1} << 16U;
+  pending_ += bytes;
+  if (pending_.size() >= kPiece) {
+    flush();
   }
 }
 
+void AtomicFile::flush() {
+  for (std::string_view left = pending_; !left.empty();) {
+    const ssize_t count = ::write(descriptor_, left.data(), left.size());
+    if (count < 0 && errno != EINTR) {
+      fail("cannot be written");
+    }
+    left.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(0, count)));
+  }
+  pending_.clear();
+}
+
 void AtomicFile::commit() {
-  stream_.close();  // flushes, so a full disk is noticed here at the latest
-  if (!stream_) {
+  flush();
+  if (close(std::exchange(descriptor_, -1)) != 0) {  // some disks say only here that they are full
     fail("cannot be written");
   }
   std::error_code error;
@@ -73,7 +112,15 @@ std::string readFile(const std::filesystem::path& path) {
   if (!stream) {
     throw InputError(path.string() + ": cannot be read: " + std::strerror(errno));
   }
-  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  const bool onDisk = std::filesystem::is_regular_file(path);
+  std::string text;
+  std::array<char, 65536> piece{};
+  while (stream.read(piece.data(), piece.size()) || stream.gcount() > 0) {
+    text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+    if (!onDisk && text.size() > kMostStreamed) {
+      throw InputError(path.string() + ": found more than 1 GiB that is no file on a disk, expected less");
+    }
+  }
   if (stream.bad()) {
     throw InputError(path.string() + ": cannot be read: " + std::strerror(errno));
   }

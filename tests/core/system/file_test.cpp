@@ -91,6 +91,30 @@ TEST_F(FileTest, writesIntoTheCurrentFolder) {
   EXPECT_EQ(readFile(inFolder("bare-name")), "here");
 }
 
+TEST_F(FileTest, followsNoLinkUnderThePartialFilesName) {
+  writeFile(inFolder("victim"), "precious");
+  fs::create_symlink("victim", inFolder(".run." + std::to_string(getpid()) + ".partial"));
+  writeFile(inFolder("run"), "bytes");
+  EXPECT_EQ(readFile(inFolder("victim")), "precious");
+  EXPECT_EQ(readFile(inFolder("run")), "bytes");
+  EXPECT_FALSE(fs::is_symlink(inFolder("run")));
+}
+
+TEST_F(FileTest, isTheSameUnderAllItsNames) {
+  writeFile(inFolder("one"), "");
+  fs::create_symlink("one", inFolder("link"));
+  fs::create_hard_link(inFolder("one"), inFolder("hard"));
+  fs::create_directory_symlink(folder_, inFolder("folder"));
+  for (const char* const name : {"one", "link", "hard", "./one", "folder/one"}) {
+    EXPECT_TRUE(isSameFile(inFolder("one"), inFolder(name))) << name;
+  }
+  EXPECT_TRUE(isSameFile(inFolder("new"), inFolder("folder/new"))) << "neither is there yet";
+  EXPECT_FALSE(isSameFile(inFolder("one"), inFolder("new")));
+  EXPECT_FALSE(isSameFile(inFolder("new"), inFolder("newer")));
+}
+
+TEST_F(FileTest, thatHasNoEndIsNotRead) { EXPECT_THROW(readFile("/dev/zero"), InputError); }
+
 // Permissions would not stop root, and root may run the tests: nobody can write into these folders.
 TEST_F(FileTest, saysWhichFileCannotBeWritten) {
   const std::string missing = messageOf([&] { writeFile(inFolder("no/such/run"), "x"); });
