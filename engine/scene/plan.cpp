@@ -1,7 +1,10 @@
 #include "scene/plan.h"
 
+#include <array>
 #include <cstddef>
+#include <map>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "physics/world/method.h"
@@ -29,6 +32,19 @@ void addPair(Needs& needs, const Material& pair, bool pulled) {
   needs.stops = needs.stops || (pulled && pair.restitution < 1);
 }
 
+// What a pair of boxes asks for depends on these alone, so two of each kind stand for all pairs.
+std::vector<const SceneBox*> twoOfEachKind(const Scene& scene) {
+  std::map<std::array<bool, 4>, int> known;
+  std::vector<const SceneBox*> boxes;
+  for (const SceneBox& box : scene.boxes) {
+    const Material& material = box.material;
+    if (++known[{box.fixed, material.restitution > 0, material.restitution<1, material.friction> 0}] <= 2) {
+      boxes.push_back(&box);
+    }
+  }
+  return boxes;
+}
+
 Needs needsOf(const Scene& scene) {
   Needs needs{.walls = wallsOf(scene)};
   const bool pulled = !scene.gravity.isZero(0);
@@ -38,12 +54,14 @@ Needs needsOf(const Scene& scene) {
     for (std::size_t w = 0; w < needs.walls.size() && !box.fixed; ++w) {
       addPair(needs, touching(box.material, needs.walls[w].material), pulled);
     }
+  }
+  const std::vector<const SceneBox*> boxes = twoOfEachKind(scene);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const SceneBox& other = scene.boxes[j];
-      const bool could = !box.fixed || !other.fixed;
+      const bool could = !boxes[i]->fixed || !boxes[j]->fixed;
       needs.hitsBoxes = needs.hitsBoxes || could;
       if (could && traitsOf(scene.method).boxBox) {
-        addPair(needs, touching(box.material, other.material), pulled);
+        addPair(needs, touching(boxes[i]->material, boxes[j]->material), pulled);
       }
     }
   }
