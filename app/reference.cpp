@@ -34,6 +34,7 @@ std::size_t keepFramesThatDiffer(const fs::path& folder, const Comparison& compa
     }
   }
   std::erase_if(film.frames, isSame);
+  std::erase_if(film.hashes, [&](const auto& each) { return isSame(each.first); });
   if (comparison.verdict == Verdict::kDifferent) {
     writeManifest(folder, film);
   } else {

@@ -14,7 +14,8 @@ struct FrameFault {
   std::string what;  ///< "is missing", …
 };
 
-/// Frames of the manifest that are missing, corrupt or of another size. Reads every file completely.
+/// Frames of the manifest that are missing, corrupt, of another size or, where it has their hash, of other
+/// bytes than were drawn. Reads every file completely.
 std::vector<FrameFault> findFaults(const std::filesystem::path& folder, const FilmManifest& manifest);
 
 }  // namespace careen

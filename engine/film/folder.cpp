@@ -102,9 +102,25 @@ void FilmFolder::removeIfEmpty() const {
 std::vector<std::int64_t> FilmFolder::missing(const FilmManifest& asked) const {
   std::vector<std::int64_t> frames;
   std::copy_if(asked.frames.begin(), asked.frames.end(), std::back_inserter(frames), [&](std::int64_t frame) {
-    return !isWholePng(path_ / frameFileName(frame), asked.picture.width, asked.picture.height);
+    const fs::path path = path_ / frameFileName(frame);
+    return !isWholePng(path, asked.picture.width, asked.picture.height) || !isAsDrawn(path, frame);
   });
   return frames;
+}
+
+bool FilmFolder::isAsDrawn(const fs::path& path, std::int64_t frame) const {
+  if (!manifest_) {
+    return true;
+  }
+  const auto hash = manifest_->hashes.find(frame);
+  return hash == manifest_->hashes.end() || hash->second == frameHash(readFile(path));
+}
+
+void FilmFolder::keep(const std::map<std::int64_t, std::string>& hashes) {
+  for (const auto& [frame, hash] : hashes) {
+    manifest_->hashes[frame] = hash;
+  }
+  writeManifest(path_, *manifest_);
 }
 
 void FilmFolder::begin(const FilmManifest& asked, bool resume) {
@@ -117,6 +133,7 @@ void FilmFolder::begin(const FilmManifest& asked, bool resume) {
     std::set_union(manifest_->frames.begin(), manifest_->frames.end(), asked.frames.begin(),
                    asked.frames.end(), std::back_inserter(frames));
     manifest.frames = std::move(frames);
+    manifest.hashes = manifest_->hashes;
   } else if (manifest_) {
     for (const std::int64_t frame : manifest_->frames) {  // and no other file of such a name
       fs::remove(path_ / frameFileName(frame));

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,15 +34,18 @@ class FilmFolder {
   /// The film already in the folder.
   const std::optional<FilmManifest>& manifest() const { return manifest_; }
 
-  /// The requested frames that are missing or incomplete.
+  /// The requested frames that are missing, incomplete or other than the manifest there says.
   std::vector<std::int64_t> missing(const FilmManifest& asked) const;
   /// Prepares the folder for a film: with `resume`, existing frames are kept; otherwise those that the
   /// manifest of the film there lists are removed, and nothing else.
   void begin(const FilmManifest& asked, bool resume);
+  /// Adds hashes of frames that were drawn to the manifest; begin() has been called.
+  void keep(const std::map<std::int64_t, std::string>& hashes);
 
  private:
   void removePartials() const;
   void removeIfEmpty() const;
+  bool isAsDrawn(const std::filesystem::path& path, std::int64_t frame) const;
 
   std::filesystem::path path_;
   bool made_ = false;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/system/file.h"
 #include "film/frame_range.h"
 
@@ -60,10 +61,33 @@ FilmManifest fromJson(const nlohmann::json& json) {
   if (const std::string frames = json.at("frames").get<std::string>(); !frames.empty()) {
     manifest.frames = framesOf(parseFrameRanges(frames), manifest.frameCount);
   }
+  if (const auto hashes = json.find("hashes"); hashes != json.end()) {
+    for (const auto& [frame, hash] : hashes->items()) {
+      const std::vector<std::int64_t> one = framesOf(parseFrameRanges(frame), manifest.frameCount);
+      if (one.size() != 1) {
+        throw InputError("found a hash of " + frame + ", expected one of a single frame");
+      }
+      manifest.hashes[one[0]] = hash.get<std::string>();
+    }
+  }
   return manifest;
 }
 
+nlohmann::ordered_json hashesOf(const FilmManifest& manifest) {
+  nlohmann::ordered_json::object_t hashes;
+  for (const auto& [frame, hash] : manifest.hashes) {
+    hashes.emplace_back(std::to_string(frame), hash);  // at its end, without a search for the key
+  }
+  return hashes;
+}
+
 }  // namespace
+
+std::string frameHash(std::string_view bytes) {
+  Hash hash;
+  hash.add(bytes);
+  return hash.text();
+}
 
 std::string librariesHere() {
   const auto version = [](int major, int minor, int patch) {
@@ -90,7 +114,7 @@ std::optional<FilmManifest> readManifest(const std::filesystem::path& folder) {
 
 void writeManifest(const std::filesystem::path& folder, const FilmManifest& manifest) {
   const PictureSettings& picture = manifest.picture;
-  const nlohmann::ordered_json json = {
+  nlohmann::ordered_json json = {
       {"careen_film", kVersion},
       {"program", manifest.program},
       {"renderer", manifest.renderer},
@@ -106,6 +130,9 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
       {"frame_count", manifest.frameCount},
       {"frames", rangesText(manifest.frames)},
   };
+  if (!manifest.hashes.empty()) {
+    json["hashes"] = hashesOf(manifest);
+  }
   writeFile(folder / kManifestName, json.dump(2) + "\n");
 }
 

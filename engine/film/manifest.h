@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "stage/picture_settings.h"
@@ -22,7 +24,12 @@ struct FilmManifest {
   PictureSettings picture;
   std::int64_t frameCount = 0;       ///< of the whole film
   std::vector<std::int64_t> frames;  ///< requested so far, sorted
+  /// Hash (core/hash.h) of the bytes of frames drawn so far, as text; older manifests have none.
+  std::map<std::int64_t, std::string> hashes;
 };
+
+/// The value of `hashes` for a frame's file of these bytes.
+std::string frameHash(std::string_view bytes);
 
 /// The value of `libraries` for a film made by this program on this machine.
 std::string librariesHere();

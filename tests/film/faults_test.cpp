@@ -45,6 +45,28 @@ TEST(Faults, areToldOfEveryFrameThatIsNotAsTheManifestHasIt) {
   EXPECT_EQ(faults[2].what, "is missing");
 }
 
+TEST(Faults, areFramesThatShowAnotherPicture) {
+  const TemporaryFolder folder;
+  FilmManifest manifest;
+  manifest.picture.width = 8;
+  manifest.picture.height = 6;
+  manifest.frames = {0, 1};
+  for (const std::int64_t frame : manifest.frames) {
+    Picture picture = grey(8, 6);
+    picture.rgb[0] = static_cast<std::uint8_t>(frame);
+    writePng(folder / frameFileName(frame), picture);
+    manifest.hashes[frame] = frameHash(textOf(folder / frameFileName(frame)));
+  }
+  EXPECT_TRUE(findFaults(folder.path(), manifest).empty());
+  folder.write(frameFileName(0), textOf(folder / frameFileName(1)));
+  const std::vector<FrameFault> faults = findFaults(folder.path(), manifest);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].frame, 0);
+  EXPECT_EQ(faults[0].what, "is another picture than was drawn");
+  manifest.hashes.clear();
+  EXPECT_TRUE(findFaults(folder.path(), manifest).empty()) << "an older manifest has none";
+}
+
 TEST(Faults, areNoneInAWholeFilm) {
   const TemporaryFolder folder;
   FilmManifest manifest;

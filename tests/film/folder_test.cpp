@@ -127,6 +127,22 @@ TEST(FilmFolder, ofAnotherFilmLosesItsFramesAndNothingElse) {
   EXPECT_EQ(readManifest(folder.path())->frames, (Frames{5}));
 }
 
+TEST(FilmFolder, missesFramesThatShowAnotherPicture) {
+  const TemporaryFolder folder;
+  const FilmManifest asked = filmOf({0, 1});
+  {
+    FilmFolder film(folder.path());
+    film.begin(asked, false);
+    writePng(folder / frameFileName(0), black(4, 2));
+    writePng(folder / frameFileName(1), black(4, 2));
+    film.keep({{0, frameHash(textOf(folder / frameFileName(0)))}, {1, frameHash("another")}});
+  }
+  FilmFolder film(folder.path());
+  EXPECT_EQ(film.missing(asked), (Frames{1}));
+  film.begin(asked, true);
+  EXPECT_EQ(readManifest(folder.path())->hashes.size(), 2U);
+}
+
 TEST(FilmFolder, takesWhatAKilledRunLeftUnfinishedWithItself) {
   const TemporaryFolder folder;
   const Names ours = {".000012.png.4711.partial", ".film.json.1.partial"};

@@ -31,6 +31,7 @@ FilmManifest everyField() {
   manifest.picture.overlays = overlaysNamed("time,energy");
   manifest.frameCount = 240;
   manifest.frames = {0, 1, 2, 10, 12};
+  manifest.hashes = {{1, frameHash("one")}, {12, frameHash("twelve")}};
   return manifest;
 }
 
@@ -45,6 +46,7 @@ TEST(Manifest, comesBackFromItsFile) {
   EXPECT_EQ(back->libraries, manifest.libraries);
   EXPECT_EQ(back->renderer, manifest.renderer);
   EXPECT_EQ(back->frames, manifest.frames);
+  EXPECT_EQ(back->hashes, manifest.hashes);
   EXPECT_EQ(back->picture.rate, manifest.picture.rate);
 }
 
@@ -87,6 +89,8 @@ TEST(Manifest, thatCannotBeUnderstoodIsNamed) {
   EXPECT_TRUE(saysOf(with("640", "1e60")).starts_with(start + "found 1e+60 for size"));
   EXPECT_TRUE(saysOf(with("640", "18446744073709551615")).starts_with(start + "found 18446744073709551615"));
   EXPECT_TRUE(saysOf(with("\"careen_film\": 1", "\"careen_film\": 1e60")).starts_with(start));
+  EXPECT_TRUE(saysOf(with("\"12\": ", "\"0-12\": ")).starts_with(start + "found a hash of 0-12"));
+  EXPECT_TRUE(saysOf(with("\"12\": ", "\"240\": ")).starts_with(start)) << "frame 240 of 240";
   EXPECT_EQ(saysOf(text), "no error");
 }
 

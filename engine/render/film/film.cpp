@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
+#include <map>
 #include <memory>
 #include <span>
 #include <utility>
 
 #include "core/error.h"
+#include "core/system/file.h"
 #include "core/system/processor.h"
 #include "film/folder.h"
 #include "film/manifest.h"
@@ -46,7 +49,8 @@ FilmManifest manifestOf(const Trajectory& run, const FilmSettings& settings, dou
                         .stateHash = run.stateHash(),
                         .picture = run.stage.picture,
                         .frameCount = run.stage.picture.rate.frameCount(duration),
-                        .frames = {}};
+                        .frames = {},
+                        .hashes = {}};
   manifest.frames = framesOf(settings.frames, manifest.frameCount);
   return manifest;
 }
@@ -122,7 +126,9 @@ FrameWorkshop openWorkshop(const Filming& filming, const Trajectory& run, const 
     if (ring.places() > 0) {
       std::copy(picture.rgb.begin(), picture.rgb.end(), ring[index].begin());
     }
-    writePng(settings.folder / frameFileName(frame), picture);
+    const std::string bytes = encodePng(picture);
+    writeFile(settings.folder / frameFileName(frame), bytes);
+    frameHash(bytes).copy(figures.hash.data(), figures.hash.size());
     figures.encodeSeconds = wallSeconds() - begun;
     return figures;
   };
@@ -155,6 +161,7 @@ class FrameFlow {
       const bool shows = video_ != nullptr && shown_ < next_ && written_[place(shown_)];
       for (const FilmWorkers::Done& done : workers_.wait(shows ? video_->descriptor() : -1, kPatience)) {
         written_[place(done.index)] = true;
+        hashes_[done.figures.frame] = std::string(done.figures.hash.begin(), done.figures.hash.end());
         count(done.figures);
         if (progress) {
           progress(progressNow(done.figures));
@@ -166,6 +173,9 @@ class FrameFlow {
     }
     return figures_;
   }
+
+  /// Of the frames drawn so far.
+  const std::map<std::int64_t, std::string>& hashes() const { return hashes_; }
 
  private:
   static std::size_t place(std::int64_t index) { return static_cast<std::size_t>(index); }
@@ -232,7 +242,16 @@ class FrameFlow {
   Picture oldPicture_;
   double begun_ = 0;  // [s]
   FilmFigures figures_;
+  std::map<std::int64_t, std::string> hashes_;
 };
+
+// For who resumes the film. What stopped it may keep this from being written, too.
+void keepHashes(FilmFolder& folder, const FrameFlow& flow) {
+  try {
+    folder.keep(flow.hashes());
+  } catch (const std::exception&) {  // the frames are there; only their hashes are not
+  }
+}
 
 }  // namespace
 
@@ -267,8 +286,15 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
       startVideo(settings, picture);  // after forking the workers, so they do not inherit its pipe
   folder.begin(asked, settings.resume);
 
-  FilmFigures figures =
-      FrameFlow(folder, asked.frames, missing, workers, ring, video.get()).film(progress, stop);
+  FrameFlow flow(folder, asked.frames, missing, workers, ring, video.get());
+  FilmFigures figures;
+  try {
+    figures = flow.film(progress, stop);
+  } catch (...) {
+    keepHashes(folder, flow);
+    throw;
+  }
+  folder.keep(flow.hashes());
   const double coreOfWorkers = workers.finish();
   if (video) {
     video->finish();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -35,10 +36,11 @@ inline constexpr int kMostJobs = 1024;
 /// Timings of one frame, measured by the process that drew it.
 struct FrameFigures {
   std::int64_t frame = -1;
-  double time = 0;           ///< [s] of the film
-  double drawSeconds = 0;    ///< [s]
-  double readSeconds = 0;    ///< [s] reading back
-  double encodeSeconds = 0;  ///< [s] encoding and writing the PNG file
+  double time = 0;              ///< [s] of the film
+  double drawSeconds = 0;       ///< [s]
+  double readSeconds = 0;       ///< [s] reading back
+  double encodeSeconds = 0;     ///< [s] encoding and writing the PNG file
+  std::array<char, 16> hash{};  ///< of the bytes of the PNG file, as text
 };
 
 struct FilmProgress {
