@@ -120,6 +120,14 @@ void FilmFolder::keep(const std::map<std::int64_t, std::string>& hashes) {
   for (const auto& [frame, hash] : hashes) {
     manifest_->hashes[frame] = hash;
   }
+  // A run that was killed told nobody of its last frames.
+  for (const std::int64_t frame : manifest_->frames) {
+    const fs::path path = path_ / frameFileName(frame);
+    if (!manifest_->hashes.contains(frame) &&
+        isWholePng(path, manifest_->picture.width, manifest_->picture.height)) {
+      manifest_->hashes[frame] = frameHash(readFile(path));
+    }
+  }
   writeManifest(path_, *manifest_);
 }
 

@@ -39,7 +39,8 @@ class FilmFolder {
   /// Prepares the folder for a film: with `resume`, existing frames are kept; otherwise those that the
   /// manifest of the film there lists are removed, and nothing else.
   void begin(const FilmManifest& asked, bool resume);
-  /// Adds hashes of frames that were drawn to the manifest; begin() has been called.
+  /// Adds hashes of frames that were drawn to the manifest, and of whole frames there that have none; begin()
+  /// has been called.
   void keep(const std::map<std::int64_t, std::string>& hashes);
 
  private:
