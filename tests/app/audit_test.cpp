@@ -15,7 +15,7 @@ namespace {
 // Three boxes that method exact lets pass through each other, for which the contact solver has to be rebuilt;
 // then these tests need another broken run.
 const std::string kSqueezed =
-    (std::filesystem::path(CAREEN_SOURCE_DIR) / "tests/scenes/squeezed.json").string();
+    (std::filesystem::path(CAREEN_SOURCE_DIR) / "tests/scenes/broken/squeezed.json").string();
 
 class AuditOfRuns : public testing::Test {
  protected:
