@@ -138,8 +138,7 @@ void printAudit(std::ostream& out, const Run& run) {
   if (audit.depth == AuditDepth::kNone) {
     return;
   }
-  out << "audit        " << inWords(audit) << "; " << audit.looks << " states in " << run.auditSeconds
-      << " s\n";
+  out << "audit        " << inWords(audit) << "; " << audit.looks << " states\n";
   const RunFigures& own = run.trajectory.figures;
   const RunFigures stated = run.statedFigures();
   printDisagreement(out, "energy", own.energyChange, stated.energyChange);
@@ -243,6 +242,9 @@ void printSummary(std::ostream& out, const Run& run, double wallSeconds) {
   if (run.simulateSeconds > 0) {
     out << "; simulated in " << run.simulateSeconds << " s, "
         << run.trajectory.settings.duration / run.simulateSeconds << " times real time";
+  }
+  if (run.audit.depth != AuditDepth::kNone) {
+    out << "; audited in " << run.auditSeconds << " s";
   }
   out << '\n';
   printError(out, run);

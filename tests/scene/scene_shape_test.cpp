@@ -13,6 +13,7 @@
 #include <valijson/validator.hpp>
 #include <vector>
 
+#include "core/names.h"
 #include "core/system/file.h"
 #include "physics/world/method.h"
 #include "support/input_error.h"
@@ -380,7 +381,7 @@ const std::vector<BadPiece> kBadValues = {
     {R"("angular": 0.25)", R"("angular": @-1)",
      "found -1 for drag.angular, expected a number not below 0 [N m s]"},
     {R"("listing1")", R"(@"guess")",
-     R"(found the unknown method "guess", expected one of exact, listing1, strang, runge-kutta-4, taylor-8, moser-veselov-10)"},
+     R"(found the unknown method "guess", expected one of )" + listed(kMethodNames)},
     {R"("listing1")", "@1", "found 1 for method, expected the name of a method"},
     {"0.001", "@0", "found 0 for dt, expected a number above 0 [s]"},
     {"0.001", "@-0.001", "found -0.001 for dt, expected a number above 0 [s]"},

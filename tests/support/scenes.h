@@ -54,7 +54,7 @@ inline std::string everyKeyBut(const std::string& piece, const std::string& inst
 struct BadPiece {
   const char* piece;
   const char* instead;  ///< '@' marks the place the message points at
-  const char* message;
+  std::string message;
 };
 
 /// A text with a place marked by '@': the text without it, and the place as in messages. ASCII up to there.

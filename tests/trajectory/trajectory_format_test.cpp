@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/hash.h"
+#include "core/names.h"
+#include "physics/world/method.h"
 #include "support/exact_runs.h"
 #include "support/input_error.h"
 #include "support/trajectories.h"
@@ -124,8 +126,8 @@ TEST(TrajectoryFormat, refusesARunOfAMethodThatIsNoMore) {
   bytes.replace(at, 6, "splitting-6");
   bytes[at - 8] = 11;  // the name's length
   EXPECT_EQ(inputErrorOf([&] { readAgain(bytes); }),
-            "run.careen: this trajectory file was made by the method 'splitting-6', expected one of exact, "
-            "listing1, strang, runge-kutta-4, taylor-8, moser-veselov-10");
+            "run.careen: this trajectory file was made by the method 'splitting-6', expected one of " +
+                listed(kMethodNames));
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ struct StepBounds {
 };
 StepBounds boundsOf(const ContactStep& step);
 
-/// Motion of one body until its next event. To add a motion: one more type here and one more line in stateAt.
+/// Motion of one body until its next event. To add a motion: one more type here, the last,
+/// because files store its index, and one more stateIn in motion.cpp.
 using Motion = std::variant<Rest, EulerStep, Flight, SteppedFlight, ContactStep>;
 
 /// State of the body `elapsed` [s] after the motion began.
