@@ -3,14 +3,12 @@
 #include <string>
 #include <string_view>
 
+#include "compare/page_files.h"
 #include "compare/page_pictures.h"
 #include "compare/report.h"
 #include "compare/report_words.h"
 #include "core/brief.h"
 #include "core/characters.h"
-#include "core/error.h"
-#include "core/system/file.h"
-#include "core/system/resource.h"
 
 namespace careen {
 namespace {
@@ -109,18 +107,10 @@ std::string forScript(const std::string& json) {
   return text;
 }
 
-std::string asset(const char* name) {
-  try {
-    return readFile(findResource(std::filesystem::path("assets/compare") / name));
-  } catch (const InputError& error) {
-    throw MachineError(error.what());
-  }
-}
-
 std::string scripts() {
   std::string all;
   for (const char* name : {"strip.js", "frames.js", "viewer.js", "run.js", "page.js"}) {
-    all += asset(name);
+    all += pageFile(name);
   }
   return all;
 }
@@ -142,8 +132,8 @@ std::string filled(const std::string& skeleton, const std::map<std::string, std:
 std::string reportPage(const Comparison& comparison) {
   const std::string facts = factsTable(comparison);
   const bool hasImpacts = comparison.run && !comparison.run->impactsAround.empty();
-  return filled(asset("page.html"),
-                {{"style", asset("page.css")},
+  return filled(pageFile("page.html"),
+                {{"style", pageFile("page.css")},
                  {"script", scripts()},
                  {"verdict", nameOf(comparison.verdict)},
                  {"badge", badge(comparison.verdict)},

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "core/characters.h"
-#include "core/system/file.h"
-#include "core/system/resource.h"
+#include "study/plot_files.h"
 #include "study/study.h"
 
 namespace careen {
@@ -163,7 +162,7 @@ std::string verdict(const StudyResult& study) {
 }  // namespace
 
 std::string resultsPage(const StudyResult& study, const std::vector<std::string>& plots) {
-  std::string page = readFile(findResource("assets/plots/page.html"));
+  std::string page = plotFile("page.html");
   const std::vector<std::pair<std::string, std::string>> parts = {
       {"{{verdict}}", verdict(study)},
       {"{{machine}}", escapedForMarkup(study.machine)},

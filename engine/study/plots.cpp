@@ -7,8 +7,8 @@
 #include "core/error.h"
 #include "core/system/file.h"
 #include "core/system/process.h"
-#include "core/system/resource.h"
 #include "core/system/scratch_folder.h"
+#include "study/plot_files.h"
 #include "study/study.h"
 
 namespace careen {
@@ -48,7 +48,7 @@ struct Plot {
 std::string draw(const Plot& plot, const fs::path& out) {
   const ScratchFolder scratch;
   for (const char* const script : {"style.gp", plot.script}) {
-    writeFile(scratch / script, readFile(findResource(fs::path("assets/plots") / script)));
+    writeFile(scratch / script, plotFile(script));
   }
   writeFile(scratch / "texts.txt", linesOf(plot.texts));
   writeFile(scratch / "data.txt", plot.data);

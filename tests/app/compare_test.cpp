@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "support/copied_program.h"
 #include "support/process.h"
 #include "support/program.h"
 
@@ -51,6 +52,20 @@ TEST_F(Compare, picturesAreSameOrNot) {
   EXPECT_EQ(other.exitCode, 1);
   EXPECT_TRUE(other.out.starts_with("differs: other picture (same-picture)\n  stack.png: ")) << other.out;
   EXPECT_EQ(other.err, "");
+}
+
+TEST_F(Compare, scriptsBesideTheProgramAreIgnored) {
+  const CopiedProgram copy(program());
+  copy.plantAll("assets/compare");
+  copy.plant("assets/compare/page.js", "planted();\n");
+  const Ended ended =
+      Process({copy.path(), "compare", kGallery + "wall.png", kGallery + "stack.png", "--out", "report"},
+              folder_.path())
+          .wait();
+  EXPECT_EQ(ended.exitCode, 1) << ended.err;
+  const std::string page = textOf(folder_ / "report/index.html");
+  EXPECT_NE(page.find(textOf(CAREEN_SOURCE_DIR "/assets/compare/page.js")), std::string::npos);
+  EXPECT_EQ(page.find("planted"), std::string::npos);
 }
 
 TEST_F(Compare, everyNumberOfAThresholdCanBeGiven) {

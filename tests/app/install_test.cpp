@@ -1,4 +1,4 @@
-// An installed program uses its own copies of scenes and shaders, in any folder.
+// An installed program uses its own copies of scenes, in any folder; its code is built in.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,7 +16,10 @@ TEST(Install, programFindsItsOwnScenes) {
       Process({CAREEN_CMAKE, "--install", CAREEN_BUILD_DIR, "--prefix", folder / "there"}, folder.path())
           .wait();
   ASSERT_EQ(installed.exitCode, 0) << installed.err;
-  EXPECT_TRUE(std::filesystem::exists(folder / "there/share/careen/shaders"));
+  for (const char* const code : {"shaders", "assets/plots", "assets/compare/page.js"}) {
+    EXPECT_FALSE(std::filesystem::exists(folder / "there/share/careen" / code)) << code;
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "there/share/careen/assets/compare/report.schema.json"));
 
   const std::filesystem::path scene = folder / "there/share/careen/assets/scenes/careen.json";
   std::string text = textOf(scene);

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "support/copied_program.h"
+#include "support/environment_variable.h"
 #include "support/process.h"
 
 namespace careen {
@@ -103,6 +105,24 @@ TEST_F(Render, filmsASceneInOneCommand) {
   }
   EXPECT_NE(std::string(report["renderer"]).find("llvmpipe"), std::string::npos);
   EXPECT_NE(ended.out.find("state hash"), std::string::npos) << ended.out;
+}
+
+TEST_F(Render, shadersBesideTheProgramAreIgnoredUnlessTheEnvironmentNamesThem) {
+  const CopiedProgram copy(CAREEN_BINARY);
+  for (const auto& entry : std::filesystem::directory_iterator(CAREEN_SOURCE_DIR "/shaders")) {
+    copy.plant("shaders" / entry.path().filename(), "not GLSL\n");
+  }
+  std::vector<std::string> command = {copy.path(), "render", "scene.json", "--frames",
+                                      "3",         "--out",  "copied"};
+  Ended ended = Process(command, folder_.path()).wait();
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_EQ(textOf(folder_ / "copied/000003.png"), frameOf({"scene.json"}, "own"));
+
+  const EnvironmentVariable data("CAREEN_DATA", copy.data().string());
+  command.back() = "told";
+  ended = Process(command, folder_.path()).wait();
+  EXPECT_EQ(ended.exitCode, 3);
+  EXPECT_NE(ended.err.find((copy.data() / "shaders").string()), std::string::npos) << ended.err;
 }
 
 TEST_F(Render, trajectoryGivesTheSameFilmAsItsScene) {

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "support/copied_program.h"
+#include "support/environment_variable.h"
 #include "support/process.h"
 #include "support/program.h"
 
@@ -72,6 +74,28 @@ TEST_F(StudyCommand, refusesWhatItDoesNotKnow) {
     EXPECT_NE(ended.err.find(message), std::string::npos) << ended.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "study/index.html"));
   }
+}
+
+// gnuplot's system() runs any command.
+TEST_F(StudyCommand, plotScriptsBesideTheProgramAreIgnoredUnlessTheEnvironmentNamesThem) {
+  const CopiedProgram copy(program());
+  copy.plant("assets/study/cases.json", R"(["planted"])");  // data, which may come from there
+  copy.plantAll("assets/plots");
+  copy.plant("assets/plots/style.gp", "system(\"touch '" + (folder_ / "made").string() + "'\")\n" +
+                                          textOf(CAREEN_SOURCE_DIR "/assets/plots/style.gp"));
+  folder_.write("fall.json", kScene);
+  const auto study = [&] {
+    const Ended ended =
+        Process({copy.path(), "study", "fall.json", "--quick", "--methods", "exact"}, folder_.path()).wait();
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "study/plots/fall.svg"));
+  };
+  study();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "made"));
+
+  const EnvironmentVariable data("CAREEN_DATA", copy.data().string());
+  study();
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "made"));
 }
 
 TEST_F(StudyCommand, saysWhatPlotsNeed) {

@@ -33,8 +33,13 @@ double secondsSince(Clock::time_point begun) {
   return std::chrono::duration<double>(Clock::now() - begun).count();
 }
 
+// Empty: the program's own shaders only.
 std::filesystem::path shaderFolder(const RenderOptions& options) {
-  return options.shaders.empty() ? resourceFolder() / "shaders" : options.shaders;
+  if (!options.shaders.empty()) {
+    return options.shaders;
+  }
+  const std::filesystem::path code = codeFolder();
+  return code.empty() ? code : code / "shaders";
 }
 
 // The lighting shaders needed for this lighting.

@@ -24,7 +24,7 @@ struct RenderOptions {
   std::optional<Lighting> lighting;    ///< absent: from the picture's look
   std::optional<Materials> materials;  ///< absent: from the picture's look
   std::optional<Camera> camera;        ///< that the light is placed relative to; absent: cameraOf(setup)
-  std::filesystem::path shaders;       ///< folder; empty: the program's own
+  std::filesystem::path shaders;       ///< folder; empty: $CAREEN_DATA, else built in
 };
 
 /// Timings and counts of drawing so far.

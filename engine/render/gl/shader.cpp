@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "core/system/file.h"
+#include "core/system/resource.h"
 #include "render/gl/gl.h"
 
 namespace careen {
@@ -36,15 +36,7 @@ GLuint compile(const Gl& gl, const std::filesystem::path& folder, const std::str
 }
 
 std::string rawText(const std::filesystem::path& folder, const std::string& name) {
-  std::error_code none;
-  if (std::filesystem::exists(folder / name, none)) {
-    return readFile(folder / name);
-  }
-  const std::string_view embedded = embeddedShader(name);
-  if (embedded.empty()) {
-    throw MachineError((folder / name).string() + ": no such shader");
-  }
-  return std::string(embedded);
+  return codeText(folder, name, embeddedShader(name));
 }
 
 }  // namespace
@@ -85,7 +77,7 @@ unsigned linkProgram(const Gl& gl, const std::filesystem::path& folder,
   if (linked == GL_FALSE) {
     std::string log(kLogBytes, '\0');
     gl.GetProgramInfoLog(program, kLogBytes, nullptr, log.data());
-    fail(gl, list + " in " + folder.string() + " cannot be linked", log);
+    fail(gl, list + (folder.empty() ? "" : " in " + folder.string()) + " cannot be linked", log);
   }
   return program;
 }

@@ -13,7 +13,7 @@ struct Gl;
 std::string_view embeddedShader(std::string_view name);
 
 /// Text of a shader: the file in `folder` if it exists, else the embedded one, with lines #include "other"
-/// replaced by that file. MachineError if there is neither.
+/// replaced by that file. An empty `folder` is none. MachineError if there is neither.
 std::string shaderText(const std::filesystem::path& folder, const std::string& name);
 
 /// The files of a program: its own, then the lighting shaders.

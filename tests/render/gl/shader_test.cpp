@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/error.h"
-#include "core/system/resource.h"
 #include "render/draw/renderer.h"
 #include "render/stage.h"
+#include "support/environment_variable.h"
 #include "support/process.h"
 
 namespace careen {
@@ -40,6 +40,15 @@ TEST(Shader, fileComesFirstAndTheProgramsOwnWhereThereIsNone) {
   EXPECT_EQ(shaderText(folder.path(), "caster.frag"), "changed\n");
   EXPECT_EQ(shaderText(folder.path(), "no_shadow.frag"), embeddedShader("no_shadow.frag"));
   EXPECT_THROW(shaderText(folder.path(), "none.frag"), MachineError);
+}
+
+TEST(Shader, filesOfTheEnvironmentsDataAreDrawnWith) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "shaders");
+  folder.write("shaders/box.frag", "not GLSL\n");
+  const EnvironmentVariable data("CAREEN_DATA", folder.path().string());
+  const std::string said = errorOfDrawingWith("");
+  EXPECT_TRUE(said.starts_with((folder / "shaders/box.frag").string() + " cannot be compiled")) << said;
 }
 
 TEST(Shader, includedFileStandsInItsPlaceAndLinesKeepTheirNumbers) {
