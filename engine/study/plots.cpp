@@ -150,7 +150,7 @@ void writeTables(const StudyResult& study, const fs::path& folder) {
 std::vector<std::string> drawPlots(const StudyResult& study, const fs::path& folder) {
   const fs::path plots = folder / "plots";
   fs::create_directories(plots);
-  draw(matrixOf(study), plots / "matrix");
+  draw(matrixOf(study), plots / kMatrixPlot);
   std::vector<std::string> drawn;
   for (const CaseResult& result : study.cases) {
     std::string all;
@@ -158,7 +158,7 @@ std::vector<std::string> drawPlots(const StudyResult& study, const fs::path& fol
       all += draw(workPrecisionOf(result), plots / result.name);
     }
     if (showsEnergy(result)) {
-      all += draw(energyOf(result), plots / (result.name + "-energy"));
+      all += draw(energyOf(result), plots / (result.name + kEnergyPlot));
     }
     drawn.push_back(std::move(all));
   }

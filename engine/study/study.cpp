@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -21,8 +22,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool isScene(const std::string& name) { return fs::path(name).extension() == ".json"; }
+
 Case caseNamed(const std::string& name, const std::stop_token& stop) {
-  return fs::path(name).extension() == ".json" ? caseOfScene(name, stop) : readCase(name);
+  return isScene(name) ? caseOfScene(name, stop) : readCase(name);
+}
+
+// Cases give their names to cases/NAME.json and to plots. InputError if two files would be the same.
+void checkNames(const std::vector<std::string>& cases) {
+  std::set<std::string> names;
+  std::map<std::string, std::string> taken = {{kMatrixPlot, "the plot of all cases"}};
+  for (const std::string& each : cases) {
+    const std::string name = isScene(each) ? fs::path(each).stem().string() : each;
+    if (!names.insert(name).second) {
+      throw InputError("found two cases named " + name + ", expected different names");
+    }
+    // Scenes of one's own have no plot of energy.
+    if (!isScene(each) && readCase(each).measure == Measure::kEnergy) {
+      taken.emplace(name + kEnergyPlot, "the energy of case " + name);
+    }
+  }
+  for (const auto& [name, owner] : taken) {
+    if (names.contains(name)) {
+      throw InputError("found a case named " + name + ", expected another name: plots/" + name +
+                       ".svg shows " + owner);
+    }
+  }
 }
 
 // A hash of everything that a result depends on.
@@ -80,6 +105,7 @@ std::string processor() {
 
 std::vector<CaseResult> runStudy(const StudySettings& settings, const Contestants& contestants,
                                  const CaseDone& done, const std::stop_token& stop) {
+  checkNames(settings.cases);
   const fs::path folder = settings.folder / "cases";
   std::error_code error;
   fs::create_directories(folder, error);
@@ -87,12 +113,8 @@ std::vector<CaseResult> runStudy(const StudySettings& settings, const Contestant
     throw MachineError(folder.string() + ": cannot be made: " + error.message());
   }
   std::vector<CaseResult> results;
-  std::set<std::string> names;
   for (const std::string& name : settings.cases) {
     const Case study = caseNamed(name, stop);
-    if (!names.insert(study.name).second) {
-      throw InputError("found two cases named " + study.name + ", expected different names");
-    }
     const fs::path path = folder / (study.name + ".json");
     const std::string stamp = stampOf(study, contestants, settings);
     std::optional<CaseResult> result = settings.resume ? finished(path, stamp) : std::nullopt;

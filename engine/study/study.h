@@ -23,7 +23,8 @@ struct StudySettings {
 /// Called after every case; `takenOver`: the case was already finished.
 using CaseDone = std::function<void(const CaseResult& result, bool takenOver)>;
 
-/// Runs the cases one by one. Finished cases are kept if it is interrupted.
+/// Runs the cases one by one. Finished cases are kept if it is interrupted. InputError, before the first one
+/// runs, if two have the same name or one has that of another plot of the study.
 std::vector<CaseResult> runStudy(const StudySettings& settings, const Contestants& contestants,
                                  const CaseDone& done, const std::stop_token& stop);
 
@@ -35,6 +36,11 @@ std::string machineLine();
 
 /// Writes results.csv, energy.csv, matrix.csv, results.json, results.md.
 void writeTables(const StudyResult& study, const std::filesystem::path& folder);
+
+/// Plots of a study in plots/: this, one named as each case, and for a case that measures energy one with
+/// this suffix.
+inline constexpr const char* kMatrixPlot = "matrix";
+inline constexpr const char* kEnergyPlot = "-energy";
 
 /// Draws the study as SVG and PNG in plots/ of `folder`: the matrix, every case, energy over time. Returns
 /// the SVG of each case, in order. MachineError if gnuplot fails. Names and titles are data: gnuplot runs in

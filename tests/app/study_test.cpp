@@ -98,6 +98,16 @@ TEST_F(StudyCommand, plotScriptsBesideTheProgramAreIgnoredUnlessTheEnvironmentNa
   EXPECT_TRUE(std::filesystem::exists(folder_ / "made"));
 }
 
+TEST_F(StudyCommand, overwritesNoPlotWithThatOfASceneOfTheSameName) {
+  folder_.write("matrix.json", kScene);
+  const Ended ended = careen({"study", "matrix.json", "--quick"});
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_NE(ended.err.find("found a case named matrix, expected another name: plots/matrix.svg shows"),
+            std::string::npos)
+      << ended.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "study"));
+}
+
 TEST_F(StudyCommand, saysWhatPlotsNeed) {
   const Ended ended =
       Process({"/usr/bin/env", "PATH=/nowhere", program(), "study", "free-fall", "--quick"}, folder_.path())

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,24 @@ TEST_F(Study, wantsDifferentNames) {
   folder_.write("free-fall.json",
                 R"({ "careen": 1, "duration": 1, "boxes": [ { "half_extents": [1, 1, 1], "mass": 1 } ] })");
   EXPECT_THROW(run(settings({"free-fall", (folder_ / "free-fall.json").string()})), InputError);
+}
+
+TEST_F(Study, wantsNamesThatNoOtherPlotHas) {
+  const std::string scene =
+      R"({ "careen": 1, "duration": 1, "boxes": [ { "half_extents": [1, 1, 1], "mass": 1 } ] })";
+  for (const char* const name : {"matrix.json", "room-minute-energy.json", "free-fall-energy.json"}) {
+    folder_.write(name, scene);
+  }
+  const std::string energy = (folder_ / "room-minute-energy.json").string();
+  for (const std::vector<std::string>& cases : {std::vector<std::string>{(folder_ / "matrix.json").string()},
+                                                {"room-minute", energy},
+                                                {energy, "room-minute"}}) {
+    EXPECT_THROW(run(settings(cases)), InputError) << cases[0];
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "cases")) << "found before anything ran";
+  }
+  // Case free-fall measures poses: nothing else is called free-fall-energy.
+  EXPECT_EQ(run(settings({"free-fall", (folder_ / "free-fall-energy.json").string()})),
+            (Reported{"free-fall", "free-fall-energy"}));
 }
 
 }  // namespace
