@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "fuzz/fuzz.h"
-#include "support/process.h"
 #include "study/case.h"
+#include "support/process.h"
 
 namespace careen {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 
-// What the fuzzers share. Each reads one kind of input from arbitrary bytes; a crash, a sanitizer's finding, an exception
-// that is no Error, more than 1 GB or more than 10 s is a finding.
+// What the fuzzers share. Each reads one kind of input from arbitrary bytes; a crash, a sanitizer's finding,
+// an exception that is no Error, more than 1 GB or more than 10 s is a finding.
 
 namespace careen::fuzz {
 

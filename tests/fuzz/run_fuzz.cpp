@@ -1,5 +1,5 @@
-// Trajectory files. A mutation is made in the unpacked record and packed again, with a checksum that fits: what a
-// hostile file has.
+// Trajectory files. A mutation is made in the unpacked record and packed again, with a checksum that fits:
+// what a hostile file has.
 
 #include <algorithm>
 #include <cstring>
