@@ -39,7 +39,9 @@ TEST(Promises, everyMethodPromisesNumbers) {
       const Promises promises = promisesOf(method.method, pile);
       EXPECT_TRUE(promises[indexOf(AuditKind::kNotFinite)].has_value()) << method.name;
       EXPECT_TRUE(promises[indexOf(AuditKind::kOrthogonality)].has_value()) << method.name;
-      EXPECT_TRUE(promises[indexOf(AuditKind::kContinuity)].has_value()) << method.name;
+      // A stepper comes to the same moment in two ways, which differ by its own error.
+      const bool stepper = method.steps() && method.method != Method::kListing1;
+      EXPECT_NE(promises[indexOf(AuditKind::kContinuity)].has_value(), stepper) << method.name;
     }
   }
 }
