@@ -54,7 +54,7 @@ class Auditor {
   void lookAround(std::size_t body, double time);
   void lookAtWorst();
   void lookAtEverySegment(std::size_t body, std::size_t stride);
-  void found(AuditKind kind, double rounding, Finding finding);
+  void found(AuditKind kind, double rounding, const Finding& finding);
   void rest() const;
   Audit result() const;
   std::vector<std::string> namesOf(const Finding& finding) const;
@@ -81,7 +81,7 @@ std::vector<double> Auditor::moments() const {
                        std::clamp(each, kFewestMoments, (isFull() ? 10 : 1) * kMostMoments));
 }
 
-void Auditor::found(AuditKind kind, double rounding, Finding finding) {
+void Auditor::found(AuditKind kind, double rounding, const Finding& finding) {
   for (const std::size_t body : finding.bodies) {
     badness_[body] = std::max(badness_[body], finding.size);
   }

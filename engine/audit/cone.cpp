@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace careen {
 namespace {
@@ -35,8 +36,8 @@ std::vector<Vec3> edgesOf(const std::vector<WallForce>& walls) {
 /// most three edges carry.
 class NearestInCone {
  public:
-  NearestInCone(const Vec3& target, const std::vector<Vec3>& edges)
-      : target_(target), edges_(edges), shares_(edges.size(), 0) {}
+  NearestInCone(Vec3 target, const std::vector<Vec3>& edges)
+      : target_(std::move(target)), edges_(edges), shares_(edges.size(), 0) {}
 
   Vec3 residual() {
     for (int pass = 0; pass < kMostPasses && enter(); ++pass) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "audit/overlap.h"
@@ -26,7 +27,7 @@ std::array<Pose, 2> placesOf(const Motion& motion) {
   if (const Rest* const rest = std::get_if<Rest>(&motion)) {
     return {rest->pose, rest->pose};
   }
-  const ContactStep& step = std::get<ContactStep>(motion);
+  const auto& step = std::get<ContactStep>(motion);
   Vec3 position = Vec3::Zero();
   Vec4 turn = Vec4::Zero();
   for (std::size_t k = 0; k < step.position.size(); ++k) {
@@ -39,8 +40,8 @@ std::array<Pose, 2> placesOf(const Motion& motion) {
 
 }  // namespace
 
-ExternalOf::ExternalOf(const Trajectory& run, const ExchangeGroup& group, const Vec3& origin)
-    : run_(run), group_(group), origin_(origin), followers_(group.bodies.size()) {
+ExternalOf::ExternalOf(const Trajectory& run, const ExchangeGroup& group, Vec3 origin)
+    : run_(run), group_(group), origin_(std::move(origin)), followers_(group.bodies.size()) {
   for (std::size_t body = 0; body < run.world.bodies.size(); ++body) {
     if (isImmovable(run.world.bodies[body].mass)) {
       immovables_.push_back(body);

@@ -26,7 +26,7 @@ struct External {
 class ExternalOf {
  public:
   /// Torques are about `origin` [m]. Keeps references.
-  ExternalOf(const Trajectory& run, const ExchangeGroup& group, const Vec3& origin);
+  ExternalOf(const Trajectory& run, const ExchangeGroup& group, Vec3 origin);
 
   /// From the last moment (at first 0 s) to this one [s].
   External until(double time);

@@ -41,7 +41,7 @@ std::vector<std::pair<std::size_t, std::size_t>> nearPairs(std::span<const Ball>
       const Ball& b = balls[order[second]];
       const double reach = a.radius + b.radius;
       if ((a.center - b.center).squaredNorm() <= reach * reach) {
-        pairs.push_back(std::minmax(order[first], order[second]));
+        pairs.emplace_back(std::minmax(order[first], order[second]));
       }
     }
   }
