@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace careen {
+
+/// Velocities after impulses in friction cones; with accelerations in place of velocities, accelerations under
+/// contact forces. Time steps, impacts, contact forces and the test for rest are this one problem.
+///
+/// Velocities q are six numbers per body, that of the centre of mass in the world frame and ω in the body's
+/// frame, so that M is diagonal. Contact c has a normal row n and two tangential rows t, orthonormal in the
+/// world; u = J q − target is its relative velocity (normal, tangent, tangent), λ its impulse on a along the
+/// rows.
+///
+///   q = q₀ + M⁻¹ Jᵀ λ
+///   0 ≤ λ_n ⊥ u_n ≥ 0,   |λ_t| ≤ μ λ_n,   λ_t = −μ λ_n u_t/|u_t| where u_t ≠ 0   (Signorini, Coulomb)
+///   a contact that slips: λ_t = −μ λ_n · slip, whatever u_t is
+///
+/// The same in one line (G. De Saxcé, Z.-Q. Feng, Math. Comput. Modelling 28, 1998):
+/// K = {|λ_t| ≤ μ λ_n} ∋ λ ⊥ (u_n + μ|u_t|, u_t) ∈ K*.
+///
+/// Redundant contacts leave λ undetermined, friction sometimes even q; and accelerations, or contacts that
+/// slip, may leave no solution (P. Painlevé, C. R. Acad. Sci. 121, 1895).
+struct ContactProblem {
+  static constexpr std::size_t kAxes = 6;
+  static constexpr int kNobody = -1;             ///< what never moves: its part of the rows is zero
+  using Row = std::array<double, 2 * kAxes>;     ///< a's six, then b's
+  using Triple = std::array<double, 3>;          ///< normal, tangent, tangent
+
+  struct Contact {
+    int a = kNobody;  ///< index of a body, or kNobody; at least one is a body
+    int b = kNobody;
+    std::array<Row, 3> rows{};
+    double friction = 0;  ///< [1] μ ≥ 0; may be very large
+    Triple target{};      ///< [m/s]
+    bool slips = false;   ///< friction has the given direction
+    std::array<double, 2> slip{};  ///< [1] unit
+  };
+
+  std::vector<double> inverseMass;  ///< six per body [1/kg, 1/(kg m²)], all positive
+  std::vector<double> free;         ///< q₀, six per body [m/s, rad/s]
+  std::vector<Contact> contacts;
+};
+
+struct ContactSolution {
+  std::vector<double> velocities;                ///< q, six per body [m/s, rad/s]
+  std::vector<ContactProblem::Triple> impulses;  ///< λ [N s]; on entry the warm start, if as many as contacts
+  double residual = 0;     ///< [m/s] largest of the contacts' natural maps (contact_cone.h), of what is returned
+  double scale = 0;        ///< [m/s] V, the largest contact speed |J q₀ − target|: what the residual is measured against
+  bool solved = false;     ///< the residual is small enough, see ContactSolver; otherwise the best iterate is kept
+  int factorisations = 0;  ///< of the matrix of all bodies
+};
+
+}  // namespace careen

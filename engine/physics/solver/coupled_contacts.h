@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "physics/solver/block_lu.h"
+#include "physics/solver/contact_cone.h"
+#include "physics/solver/contact_problem.h"
+
+namespace careen {
+
+/// A ContactProblem in the order in which it is eliminated, and the linear algebra that all its methods share.
+///
+/// Bodies are eliminated by minimum degree (A. George, J. W. H. Liu, SIAM Review 31, 1989); which of several comes first
+/// follows from the graph and the masses, then from the velocities, and only then from the listing. The order and the
+/// pattern of the factors are kept while the graph stays the same.
+class CoupledContacts {
+ public:
+  static constexpr std::size_t kAxes = ContactProblem::kAxes;
+  static constexpr int kNobody = ContactProblem::kNobody;
+  using Row = ContactProblem::Row;
+  using Triple = ContactProblem::Triple;
+
+  struct Contact : ContactCone {
+    int a = kNobody;  // position in the order of elimination
+    int b = kNobody;
+    std::array<Row, 3> rows{};
+    Triple target{};
+    std::array<std::size_t, 4> blocks{};  // of (a, a), (a, b), (b, a), (b, b)
+  };
+
+  void set(const ContactProblem& problem);
+
+  std::size_t bodies() const { return order_.size(); }
+  const std::vector<Contact>& contacts() const { return contacts_; }
+  /// [m/s] V, see ContactSolution.
+  double scale() const { return scale_; }
+  /// [m/s] What rounding errors in u may amount to.
+  double noise() const { return noise_; }
+
+  // Velocities q below are in the order of elimination, impulses in that of contacts().
+  void velocities(std::span<const Triple> impulses, std::span<double> q) const;
+  void relativeVelocities(std::span<const double> q, std::span<Triple> u) const;
+  Triple relativeVelocity(const Contact& contact, std::span<const double> q) const;
+  /// J dq of one contact.
+  Triple change(const Contact& contact, std::span<const double> dq) const;
+
+  /// M + Σ Jᵀ stiffness J. Returns false if it could not be factorised.
+  bool factorise(std::span<const ContactAnswer> answers);
+  /// dq of the velocities q + dq at which q + dq = q₀ + M⁻¹Jᵀ(given − stiffness J dq).
+  void step(std::span<const ContactAnswer> answers, std::span<const double> q, std::span<double> dq) const;
+
+  void importImpulses(std::span<const Triple> listed, std::span<Triple> impulses) const;
+  void exportImpulses(std::span<const Triple> impulses, std::vector<Triple>& listed) const;
+  void exportVelocities(std::span<const double> q, std::vector<double>& listed) const;
+
+ private:
+  bool hasGraphOf(const ContactProblem& problem) const;
+  void order(const ContactProblem& problem);
+  void copyContacts(const ContactProblem& problem);
+  void push(const Contact& contact, const Triple& impulse, std::span<double> onto) const;
+  void add(const Contact& contact, const std::array<double, 9>& stiffness);
+
+  std::vector<std::array<int, 2>> graph_;  // of the listing
+  std::vector<std::size_t> order_;         // listed index of the body eliminated as k-th
+  std::vector<std::size_t> place_;         // its inverse
+  std::vector<std::array<std::size_t, 4>> blocks_;  // of each contact as listed
+  std::vector<std::size_t> listed_;        // listed index of each of contacts_
+  std::vector<Contact> contacts_;
+  std::vector<double> mass_;
+  std::vector<double> inverseMass_;
+  std::vector<double> free_;
+  BlockLu matrix_;
+  double scale_ = 0;
+  double noise_ = 0;
+};
+
+}  // namespace careen
