@@ -44,7 +44,7 @@ BodyState TouchingBody::state() const {
 
 ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodies,
                              std::vector<ContactFeature> features)
-    : world_(world),
+    : world_(&world),
       bodies_(std::move(bodies)),
       features_(std::move(features)),
       modes_(features_.size(), Mode::kOff),
@@ -115,7 +115,7 @@ void ContactSystem::look(std::span<const double> y) {
     states_[c] =
         contactState(feature, kinematics_[a], bodies_[a].body->halfExtents,
                      onWall ? nullptr : &kinematics_[b], onWall ? Vec3::Zero() : bodies_[b].body->halfExtents,
-                     onWall ? &world_.walls[feature.b.wall()] : nullptr);
+                     onWall ? &world_->walls[feature.b.wall()] : nullptr);
   }
 }
 
@@ -170,14 +170,14 @@ void ContactSystem::findFree() {
           .velocity = kinematics_[i].velocity,
           .angularMomentum = careen::angularMomentum(at.body->mass, columns, kinematics_[i].angularVelocity)};
     }
-    computeLoads(world_, worldStates_, loads);
+    computeLoads(*world_, worldStates_, loads);
   }
   for (std::size_t m = 0; m < movers_.size(); ++m) {
     const std::size_t i = movers_[m];
     const MassProperties& mass = bodies_[i].body->mass;
     const Mat3& columns = kinematics_[i].pose.worldFromBody;
     const Vec3 spin = columns.transpose() * kinematics_[i].angularVelocity;
-    Vec3 linear = world_.gravity;
+    Vec3 linear = world_->gravity;
     Vec3 torque = mass.inertiaBody.cwiseProduct(spin).cross(spin);
     if (!loads.empty()) {
       const Load& load = loads[static_cast<std::size_t>(bodies_[i].index)];
@@ -310,38 +310,6 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
 bool ContactSystem::project(std::vector<double>& y) {
   const bool moved = projectPositions(y);
   return projectVelocities(y) || moved;
-}
-
-void ContactSystem::takeImpulseStep(std::vector<double>& y, double h) {
-  look(y);
-  fillContacts();
-  findFree();
-  for (std::size_t c = 0; c < features_.size(); ++c) {
-    ContactForces::Contact& contact = forces_.contacts()[c];
-    contact.target = {-std::max(0.0, states_[c].gap) / h, 0, 0};
-    contact.slips = false;
-  }
-  std::vector<double> before(inverseMass_.size());
-  for (std::size_t m = 0; m < movers_.size(); ++m) {
-    setThree(before, m * kSix, threeAt(y, m * kNumbers + 7));
-    setThree(before, m * kSix + 3, threeAt(y, m * kNumbers + 10));
-  }
-  std::vector<double> accelerated = before;
-  for (std::size_t k = 0; k < accelerated.size(); ++k) {
-    accelerated[k] += h * free_[k];
-  }
-  forces_.solveImpulses(accelerated, modes_);
-  for (std::size_t m = 0; m < movers_.size(); ++m) {
-    const std::size_t at = m * kNumbers;
-    const Vec3 velocity = threeAt(forces_.accelerations(), m * kSix);
-    const Vec3 spin = threeAt(forces_.accelerations(), m * kSix + 3);
-    setThree(y, at, threeAt(y, at) + 0.5 * h * (threeAt(before, m * kSix) + velocity));
-    const Vec3 half = 0.25 * h * (threeAt(before, m * kSix + 3) + spin);
-    setQuat(y, at + 3, (quatAt(y, at + 3) * Quat(1, half[0], half[1], half[2])).normalized());
-    setThree(y, at + 7, velocity);
-    setThree(y, at + 10, spin);
-  }
-  projectPositions(y);
 }
 
 double ContactSystem::slipSpeedRate(std::size_t c) const {

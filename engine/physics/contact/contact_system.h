@@ -55,10 +55,6 @@ class ContactSystem {
   bool projectPositions(std::vector<double>& y);
   bool projectVelocities(std::vector<double>& y);
 
-  /// One first-order time step, whose impulses act at once (D. E. Stewart, J. C. Trinkle, Int. J. Numer.
-  /// Methods Eng. 39, 1996): it exists where accelerations do not.
-  void takeImpulseStep(std::vector<double>& y, double h);
-
   /// Contact states as of the last rate(), findModes() or look().
   const std::vector<ContactState>& states() const { return states_; }
   const ContactForces& forces() const { return forces_; }
@@ -79,7 +75,7 @@ class ContactSystem {
   void fillContacts();
   void solveGiven(std::span<const double> free);
 
-  const World& world_;
+  const World* world_;
   std::vector<TouchingBody> bodies_;
   std::vector<std::size_t> places_;  // by body: index among the movable ones, or kHeld
   std::vector<std::size_t> movers_;  // by movable body: index in bodies_

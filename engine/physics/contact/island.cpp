@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/contact/hermite_step.h"
 #include "physics/geometry/separation.h"
 
 namespace careen {
@@ -38,14 +39,28 @@ constexpr double kTension = 0x1p-20;
 /// [1] of the error allowed per step: a step that ends at an event may have a little more.
 constexpr double kMostLocated = 4;
 constexpr int kMostAttempts = 60;
+/// Time steps where no smooth motion was found, before it is tried again.
+constexpr int kFewTimeSteps = 8;
+/// Time steps before it is asked again whether the bodies rest.
+constexpr int kBeforeRest = 16;
 
 Vec3 threeAt(const DormandPrince5::State& y, std::size_t at) { return {y[at], y[at + 1], y[at + 2]}; }
 
 }  // namespace
 
-double timeStepOf(const World& world, double tolerance) {
+double timeScaleOf(const World& world, double tolerance) {
   const double gravity = world.gravity.norm();
-  return gravity > 0 ? std::sqrt(tolerance / gravity) : kInfinity;
+  if (gravity > 0) {
+    return std::sqrt(tolerance / gravity);
+  }
+  double scale = kInfinity;
+  for (const Body& body : world.bodies) {
+    const double radius = body.halfExtents.norm();
+    const double speed =
+        body.initial.velocity.norm() + radius * angularVelocity(body.mass, body.initial).norm();
+    scale = speed > 0 ? std::min(scale, std::sqrt(tolerance * radius) / speed) : scale;
+  }
+  return scale;
 }
 
 Island::Island(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features,
@@ -54,22 +69,30 @@ Island::Island(const World& world, std::vector<TouchingBody> bodies, std::vector
   end_ = system_.pack();
 }
 
-void Island::begin(Stepping stepping) {
-  smooth_ = stepping == Stepping::kSmooth;
-  if (smooth_) {
-    std::fill(system_.modes().begin(), system_.modes().end(), Mode::kOn);
-    system_.projectVelocities(end_);
+void Island::begin() {
+  stepper_.reset();
+  timeStepsLeft_ = 0;
+  std::fill(system_.modes().begin(), system_.modes().end(), Mode::kOn);
+  system_.projectVelocities(end_);
+  smooth_ = system_.findModes(end_);
+  if (smooth_ && system_.projectVelocities(end_)) {  // removes the rest of the slip of sticking contacts
     smooth_ = system_.findModes(end_);
-    if (smooth_ && system_.projectVelocities(end_)) {  // removes the rest of the slip of sticking contacts
-      smooth_ = system_.findModes(end_);
-    }
-    if (smooth_ && stop()) {
-      smooth_ = system_.findModes(end_);
-    }
-    system_.unpack(end_);
   }
+  if (smooth_ && stop()) {
+    smooth_ = system_.findModes(end_);
+  }
+  system_.unpack(end_);
   known_ = false;
   listEventFunctions();
+}
+
+void Island::beginTimeSteps(int count) {
+  smooth_ = false;
+  quiet_ = false;
+  timeStepsTaken_ = 0;
+  known_ = false;
+  stepper_.reset();
+  timeStepsLeft_ = count;
 }
 
 bool Island::pushes() const {
@@ -183,18 +206,6 @@ bool Island::try5(double h) {
 }
 
 void Island::restep(double h) {
-  // Constant accelerations; the correction by projection at the end is spread with the square of time.
-  if (tookTimeStep_) {
-    const double part = h / length_;
-    for (std::size_t k = 0; k < end_.size(); ++k) {
-      const double steady = startRate_[k] + endRate_[k];
-      end_[k] = start_[k] + part * part * (timeStepEnd_[k] - start_[k] - 0.5 * length_ * steady) +
-                h * (startRate_[k] + 0.5 * part * (endRate_[k] - startRate_[k]));
-    }
-    system_.projectPositions(end_);
-    system_.look(end_);
-    return;
-  }
   if (h > 0) {
     try5(h);
   } else {
@@ -265,54 +276,70 @@ bool Island::stop() {
 Island::Step Island::takeTimeStep(double most) {
   tookTimeStep_ = true;
   known_ = false;
-  length_ = std::min(most, timeStepOf(world_, tolerance_));
-  system_.look(start_);
-  noteStart();
-  system_.takeImpulseStep(end_, length_);
-  system_.look(end_);
-  endTimeStep(length_);
-  Step done{.length = length_};
-  locate(done);
-  done.end = End::kChanges;
-  endTimeStep(done.length);
-  system_.unpack(end_);
+  if (!stepper_) {
+    stepper_ = std::make_unique<TimeStepper>(world_, bodies(), tolerance_);
+    timeStepsLeft_ = std::max(timeStepsLeft_, kFewTimeSteps);
+  }
+  Step done{.length = stepper_->step(most)};
+  --timeStepsLeft_;
+  ++timeStepsTaken_;
+  adopt();
+  quiet_ = timeStepsTaken_ >= kBeforeRest && stepper_->isQuiet();
+  if (timeStepsLeft_ <= 0 || quiet_) {
+    done.end = End::kChanges;
+  }
   return done;
 }
 
-// Makes start_ to end_ the time step.
-void Island::endTimeStep(double length) {
-  length_ = length;
-  timeStepEnd_ = end_;
-  if (!(length_ > 0)) {
+// Takes over the state at the end of a time step.
+void Island::adopt() {
+  length_ = stepper_->length();
+  deepest_ = std::max(deepest_, stepper_->deepest());
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < bodies().size(); ++i) {
+    if (bodies()[i].isHeld()) {
+      continue;
+    }
+    const GroupBody& body = stepper_->state()[i];
+    const Vec3 spin = bodies()[i].body->mass.inverseInertiaBody.cwiseProduct(body.worldFromBody.conjugate() *
+                                                                             body.angularMomentum);
+    const Quat& q = body.worldFromBody;
+    const std::array<double, ContactSystem::kNumbers> numbers{
+        body.position[0], body.position[1], body.position[2], q.w(),   q.x(),   q.y(),  q.z(),
+        body.velocity[0], body.velocity[1], body.velocity[2], spin[0], spin[1], spin[2]};
+    std::copy(numbers.begin(), numbers.end(), end_.begin() + static_cast<std::ptrdiff_t>(at));
+    at += ContactSystem::kNumbers;
+  }
+  system_.unpack(end_);
+}
+
+const std::vector<GroupImpact>& Island::impacts() const {
+  static const std::vector<GroupImpact> none;
+  return tookTimeStep_ ? stepper_->impacts() : none;
+}
+
+void Island::endTimeSteps() {
+  if (!tookTimeStep_) {
     return;
   }
-  startRate_.assign(start_.size(), 0);
-  endRate_.assign(start_.size(), 0);
-  for (std::size_t at = 0; at < start_.size(); at += ContactSystem::kNumbers) {
-    const auto fill = [&](const State& y, State& dy) {
-      const Quat q(y[at + 3], y[at + 4], y[at + 5], y[at + 6]);
-      const Quat turning = q * Quat(0, y[at + 10], y[at + 11], y[at + 12]);
-      const std::array<double, 4> rates{turning.w(), turning.x(), turning.y(), turning.z()};
-      for (std::size_t k = 0; k < 3; ++k) {
-        dy[at + k] = y[at + 7 + k];
-        dy[at + 7 + k] = (end_[at + 7 + k] - start_[at + 7 + k]) / length_;
-        dy[at + 10 + k] = (end_[at + 10 + k] - start_[at + 10 + k]) / length_;
-      }
-      for (std::size_t k = 0; k < 4; ++k) {
-        dy[at + 3 + k] = 0.5 * rates[k];
-      }
-    };
-    fill(start_, startRate_);
-    fill(end_, endRate_);
+  std::vector<ContactFeature> features;
+  for (const ContactFeature& feature : quiet_ ? stepper_->touching() : stepper_->pressed()) {
+    features.push_back(feature);
   }
+  system_ = ContactSystem(world_, system_.bodies(), std::move(features));
+  std::fill(system_.modes().begin(), system_.modes().end(), Mode::kOn);
+  system_.projectPositions(end_);
+  system_.look(end_);
+  system_.unpack(end_);
 }
 
 Island::Step Island::step(double most) {
   start_ = end_;
-  tookTimeStep_ = false;
-  if (!smooth_) {
+  if (!smooth_ || timeStepsLeft_ > 0) {
     return takeTimeStep(most);
   }
+  tookTimeStep_ = false;
+  stepper_.reset();
   if (known_) {
     startRate_ = endRate_;
     system_.look(start_);
@@ -330,8 +357,7 @@ Island::Step Island::step(double most) {
   double error = 0;
   int attempts = 0;
   for (;; ++attempts) {
-    if (attempts > kMostAttempts ||
-        (attempts > 0 && system_.gravityMagnitude() > 0 && h < kStiff * timeStepOf(world_, tolerance_))) {
+    if (attempts > kMostAttempts || (attempts > 0 && h < kStiff * timeScaleOf(world_, tolerance_))) {
       end_ = start_;
       return takeTimeStep(most);
     }
@@ -367,49 +393,31 @@ Island::Step Island::step(double most) {
 }
 
 void Island::cutTo(double length) {
+  if (tookTimeStep_) {
+    stepper_->cutTo(length);
+    adopt();
+    return;
+  }
   restep(length);
   length_ = length;
-  if (tookTimeStep_) {
-    endTimeStep(length);
-  }
   known_ = false;
   system_.unpack(end_);
 }
 
 ContactStep Island::motion(std::size_t body, double h) const {
+  if (tookTimeStep_) {
+    return stepper_->motion(body);
+  }
   const std::size_t at = system_.placeOf(body) * ContactSystem::kNumbers;
-  ContactStep step{.duration = h > 0 ? h : 1};
-  const auto hermite = [h](const auto& p0, const auto& v0, const auto& a0, const auto& p1, const auto& v1,
-                           const auto& a1, auto& c) {
-    using Vector = std::decay_t<decltype(c[0])>;
-    const Vector d = p1 - p0;
-    c[0] = p0;
-    c[1] = h * v0;
-    c[2] = (0.5 * h * h) * a0;
-    c[3] = 10 * d - h * (6 * v0 + 4 * v1) - (h * h) * (1.5 * a0 - 0.5 * a1);
-    c[4] = -15 * d + h * (8 * v0 + 7 * v1) + (h * h) * (1.5 * a0 - a1);
-    c[5] = 6 * d - h * (3 * v0 + 3 * v1) - (h * h) * (0.5 * a0 - 0.5 * a1);
+  const auto end = [at](const State& y, const State& dy) {
+    return StepEnd{.position = threeAt(y, at),
+                   .velocity = threeAt(dy, at),
+                   .acceleration = threeAt(dy, at + 7),
+                   .worldFromBody = Quat(y[at + 3], y[at + 4], y[at + 5], y[at + 6]),
+                   .spinBody = threeAt(y, at + 10),
+                   .spinRateBody = threeAt(dy, at + 10)};
   };
-  hermite(threeAt(start_, at), threeAt(startRate_, at), threeAt(startRate_, at + 7), threeAt(end_, at),
-          threeAt(endRate_, at), threeAt(endRate_, at + 7), step.position);
-  struct Turn {
-    Vec4 value;
-    Vec4 rate;
-    Vec4 acceleration;
-  };
-  const auto turn = [at](const State& y, const State& dy) {
-    const auto quat = [](const State& from, std::size_t k) {
-      return Quat(from[k], from[k + 1], from[k + 2], from[k + 3]);
-    };
-    const auto pure = [](const Vec3& v) { return Quat(0, v[0], v[1], v[2]); };
-    const Vec4 bent = (quat(dy, at + 3) * pure(threeAt(y, at + 10))).coeffs() +
-                      (quat(y, at + 3) * pure(threeAt(dy, at + 10))).coeffs();
-    return Turn{quat(y, at + 3).coeffs(), quat(dy, at + 3).coeffs(), 0.5 * bent};
-  };
-  const Turn from = turn(start_, startRate_);
-  const Turn to = turn(end_, endRate_);
-  hermite(from.value, from.rate, from.acceleration, to.value, to.rate, to.acceleration, step.worldFromBody);
-  return step;
+  return hermiteStep(end(start_, startRate_), end(end_, endRate_), h);
 }
 
 }  // namespace careen

@@ -2,18 +2,20 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "physics/contact/contact_system.h"
 #include "physics/contact/dormand_prince5.h"
+#include "physics/contact/time_stepper.h"
 #include "physics/motion/motion.h"
 
 namespace careen {
 
-/// [s] Length of the first-order time step used where no smooth motion exists: its error is about the
-/// tolerance.
-double timeStepOf(const World& world, double tolerance);
+/// [s] Time in which a body at rest falls by the tolerance; without gravity, in which the fastest body moves
+/// by the root of tolerance × size. Steps much shorter do not pay: contacts that change that often chatter.
+double timeScaleOf(const World& world, double tolerance);
 
 /// The motion Contact: bodies that slide, roll, rock, lean or stand on walls and on each other, from one
 /// change of their contacts to the next. While the same contacts are active, each in its mode (stick or
@@ -28,11 +30,18 @@ class Island {
   Island(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features,
          double tolerance);
 
-  /// Finds the mode of each contact. Where no forces meet the conditions (Painlevé's paradox, or many
-  /// contacts close to a change of mode), the next step is a short first-order time step, by impulses.
-  enum class Stepping { kSmooth, kTimeSteps };
-  void begin(Stepping stepping);
+  /// Finds the mode of each contact. Where no forces meet the conditions (Painlevé's paradox, jams), the
+  /// motion begins with a few time steps.
+  void begin();
+  /// Goes on by so many time steps (TimeStepper), which find their contacts themselves.
+  void beginTimeSteps(int count);
   bool isSmooth() const { return smooth_; }
+  /// Time steps yet to be taken.
+  int timeStepsLeft() const { return timeStepsLeft_; }
+  /// Impacts at the start of the last step.
+  const std::vector<GroupImpact>& impacts() const;
+  /// The contacts at the end of the last step, if it was a time step, become those of system().
+  void endTimeSteps();
   /// Whether some contact is active.
   bool pushes() const;
   /// Whether nothing moves or begins to. Call after begin().
@@ -93,7 +102,7 @@ class Island {
   double touching(std::size_t body) const;
   double longestStep();
   Step takeTimeStep(double most);
-  void endTimeStep(double length);
+  void adopt();
   bool try5(double h);
   void restep(double h);
   void finish();
@@ -113,7 +122,6 @@ class Island {
   State start_;
   State startRate_;
   State end_;
-  State timeStepEnd_;
   State endRate_;
   State error_;
   double length_ = 0;  // of the last step
@@ -122,6 +130,10 @@ class Island {
   bool known_ = false;         // endRate_ is the next startRate_
   bool smooth_ = true;         // forces were found
   bool tookTimeStep_ = false;  // the last step was a time step
+  int timeStepsLeft_ = 0;
+  int timeStepsTaken_ = 0;
+  bool quiet_ = false;  // they end because hardly anything moves
+  std::unique_ptr<TimeStepper> stepper_;
   double deepest_ = 0;
 };
 

@@ -19,8 +19,6 @@ constexpr double kRootWidth = 0x1p-50;
 constexpr double kRootValue = 0x1p-42;
 constexpr double kShortestHop = 0x1p-30;
 constexpr double kShortestStep = 0x1p-40;
-/// [1] of the tolerance.
-constexpr double kTimeStepDepth = 0.5;
 
 }  // namespace
 
@@ -67,12 +65,11 @@ void Island::listEventFunctions() {
   }
 }
 
-// Events of forces are checked in smooth motion only: a time step distributes the forces itself.
 void Island::noteStart() {
   atStart_.clear();
   for (EventFunction& event : eventFunctions_) {
     event.margin = 0;
-    const double bare = tookTimeStep_ && !EventFunction::isOfPlaces(event.kind) ? 0 : value(event);
+    const double bare = value(event);
     if (EventFunction::isOfPlaces(event.kind)) {
       event.margin = marginOf(event, bare);
     }
@@ -89,10 +86,8 @@ double Island::marginOf(const EventFunction& event, double gap) const {
     return gap > within ? 0 : kTouching * within;
   }
   const ContactFeature& feature = system_.features()[event.contact];
-  const double within = kTouching * std::max(touching(static_cast<std::size_t>(feature.a)),
-                                             touching(static_cast<std::size_t>(feature.b.body())));
-  // Touching bodies are projected back to zero gap at the end of a time step, not during it.
-  return tookTimeStep_ && gap <= within ? kTimeStepDepth * tolerance_ : within;
+  return kTouching * std::max(touching(static_cast<std::size_t>(feature.a)),
+                              touching(static_cast<std::size_t>(feature.b.body())));
 }
 
 // Ends the step where the first event function falls below zero. Functions checked at the former end may be
@@ -104,9 +99,7 @@ void Island::locate(Step& step) {
   for (int pass = 0; pass < kMostPasses && shorter; ++pass) {
     shorter = false;
     for (std::size_t w = 0; w < eventFunctions_.size(); ++w) {
-      if (!tookTimeStep_ || EventFunction::isOfPlaces(eventFunctions_[w].kind)) {
-        shorter = locate(w, shortest, step) || shorter;
-      }
+      shorter = locate(w, shortest, step) || shorter;
     }
   }
 }
@@ -137,6 +130,9 @@ bool Island::locate(std::size_t event, double shortest, Step& step) {
 }
 
 bool Island::handlesPair(std::size_t a, std::size_t b) const {
+  if (tookTimeStep_) {
+    return true;
+  }
   const std::vector<ContactFeature>& features = system_.features();
   const auto isBetween = [&](std::size_t c) {
     const auto first = static_cast<std::size_t>(features[c].a);
@@ -176,7 +172,7 @@ double Island::lowestWithin(double h, std::size_t event, double atEnd) const {
     case EventFunction::Kind::kCorner:
       return atStart_[event] >= 0 ? lowestOfCorner(h, event, atEnd) : 0;
     case EventFunction::Kind::kOverlap:
-      return tookTimeStep_ ? 0 : deepWithin(h, eventFunctions_[event]);
+      return deepWithin(h, eventFunctions_[event]);
     default:
       return 0;
   }

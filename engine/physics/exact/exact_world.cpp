@@ -32,7 +32,7 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
     : world_(world),
       end_(settings.duration),
       tolerance_(settings.tolerance),
-      timeStep_(timeStepOf(world, settings.tolerance)),
+      timeScale_(timeScaleOf(world, settings.tolerance)),
       recorder_(recorder),
       neighbors_(radiiOf(world)),
       queue_(world.bodies.size()),
@@ -225,6 +225,7 @@ void ExactWorld::touch(const std::shared_ptr<ContactGroup>& contactGroup, const 
     }
   }
   account_.penetrates(island.deepest());
+  record(*contactGroup);
 }
 
 void ExactWorld::advance(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time) {
@@ -262,11 +263,6 @@ void ExactWorld::begins(int rank, const Instant& time) {
   } else if (body.atOneMoment > kMostAtOneMoment) {
     throw NumericalError(where(rank, time) + "collides again and again without time passing");
   }
-  if (secondsBetween(body.windowStart, time) > kChatterWindow * timeStep_) {
-    body.windowStart = time;
-    body.changesInWindow = 0;
-  }
-  ++body.changesInWindow;
   body.start = time;
   ++body.motion;
 }

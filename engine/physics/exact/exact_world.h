@@ -43,12 +43,8 @@ class ExactWorld {
   static constexpr std::size_t kMostInContact = 64;
 
  private:
-  /// [1] of a time step: changes of contact within it are counted together.
-  static constexpr double kChatterWindow = 0.5;
-  /// Where bodies chatter: gaps of this many tolerances are near, and speeds of this many times that gained
-  /// by gravity in a time step are slow.
-  static constexpr double kNear = 4;
-  static constexpr double kSlow = 2;
+  /// [1] of timeScaleOf: changes of contact within it are counted together.
+  static constexpr double kChatterWindow = 8;
 
   /// What a body does after an event.
   enum class Next { kGoesOn, kFlies, kRests, kTouches };
@@ -67,8 +63,8 @@ class ExactWorld {
     std::vector<Next> next;      ///< of each body
     std::vector<Instant> since;  ///< of each body: when that begins
     std::vector<std::shared_ptr<ContactGroup>> islands;
-    bool chattering = false;  ///< it is integrated by time steps
-    bool passes = false;      ///< contacts without an impulse persist
+    int timeSteps = 0;    ///< its islands go on by so many
+    bool passes = false;  ///< contacts without an impulse persist
   };
 
   void begin();
@@ -83,9 +79,10 @@ class ExactWorld {
   Encounter gather(const Event& event);
   void reach(const Event& event, Encounter& encounter);
   void join(Encounter& encounter, int rank);
-  void addPairContacts(Encounter& encounter, std::size_t indexA, std::size_t indexB, double apart) const;
+  void addPairContacts(Encounter& encounter, std::size_t indexA, std::size_t indexB) const;
   void resolve(Encounter& encounter);
   void record(const Encounter& encounter);
+  void record(const ContactGroup& contactGroup);
 
   // Position correction and contacts to consider.
   void alignPlaces(Encounter& encounter, const Event& event) const;
@@ -94,7 +91,6 @@ class ExactWorld {
   void addMeeting(const Encounter& encounter, std::size_t a, std::size_t b,
                   std::vector<ContactFeature>& features) const;
   void addOverlaps(const Encounter& encounter, std::vector<ContactFeature>& features) const;
-  void addNear(Encounter& encounter) const;
   BoxAt boxOf(const Encounter& encounter, std::size_t index) const;
   double gapOf(const Encounter& encounter, std::size_t a, std::size_t b) const;
   static std::size_t indexOf(const Encounter& encounter, int rank);
@@ -111,7 +107,7 @@ class ExactWorld {
   Parting partingAt(const Encounter& encounter, std::size_t contact) const;
   void formIslands(Encounter& encounter) const;
   void formIsland(Encounter& encounter, const std::vector<std::size_t>& members) const;
-  bool beginsAtRest(Island& island, bool chattering) const;
+  bool beginsAtRest(Island& island, int timeSteps) const;
   TouchingBody touchingBody(const Encounter& encounter, std::size_t index) const;
   ContactFeature featureOf(const Encounter& encounter, std::size_t contact) const;
   double lengthsAt(const Encounter& encounter, std::size_t k) const;
@@ -139,7 +135,7 @@ class ExactWorld {
   Instant end_;
   std::optional<Instant> pileFrom_;  // set when too many bodies touch
   double tolerance_;                 // [m]
-  double timeStep_;                  // [s] of Island, where no smooth motion exists
+  double timeScale_;                 // [s] see timeScaleOf
   Recorder& recorder_;
   std::vector<Mover> movers_;
   Neighbors neighbors_;

@@ -31,7 +31,7 @@ ExactWorld::Encounter ExactWorld::gather(const Event& event) {
                                           encounter.contacts));
     }
     for (std::size_t j = i + 1; j < encounter.ranks.size(); ++j) {
-      addPairContacts(encounter, i, j, 0);
+      addPairContacts(encounter, i, j);
     }
   }
   encounter.shares.resize(encounter.contacts.size());
@@ -57,6 +57,8 @@ void ExactWorld::join(Encounter& encounter, int rank) {
       with.step.length = secondsBetween(with.start, encounter.time);
       with.island.cutTo(with.step.length);
     }
+    encounter.timeSteps = std::max(encounter.timeSteps, with.island.timeStepsLeft());
+    with.island.endTimeSteps();
     const TouchingBody& here = with.island.bodies()[body.place];
     encounter.attitudes.push_back(here.worldFromBody);
     encounter.before.push_back(here.state());
@@ -105,17 +107,16 @@ void ExactWorld::reach(const Event& event, Encounter& encounter) {
   encounter.before = std::move(sorted.before);
 }
 
-// Adds the contacts of two bodies that touch or have a gap of at most `apart` [m].
-void ExactWorld::addPairContacts(Encounter& encounter, std::size_t indexA, std::size_t indexB,
-                                 double apart) const {
+// Adds the contacts of two bodies that touch.
+void ExactWorld::addPairContacts(Encounter& encounter, std::size_t indexA, std::size_t indexB) const {
   const Body& a = *mover(encounter.ranks[indexA]).body;
   const Body& b = *mover(encounter.ranks[indexB]).body;
   const BoxAt boxA = boxOf(encounter, indexA);
   const BoxAt boxB = boxOf(encounter, indexB);
-  if ((isImmovable(a.mass) && isImmovable(b.mass)) || !areTouching(boxA, boxB, apart)) {
+  if ((isImmovable(a.mass) && isImmovable(b.mass)) || !areTouching(boxA, boxB)) {
     return;
   }
-  for (const ContactPoint& at : boxContactPoints(boxA, boxB, apart)) {
+  for (const ContactPoint& at : boxContactPoints(boxA, boxB)) {
     encounter.contacts.push_back({.a = static_cast<int>(indexA),
                                   .b = Partner::ofBody(static_cast<int>(indexB)),
                                   .armA = at.armA,
@@ -164,6 +165,31 @@ void ExactWorld::record(const Encounter& encounter) {
            .approach = share.approach,
            .impulse = share.impulse,
            .tangential = share.tangential});
+    }
+  }
+}
+
+// Impacts during time steps; what gravity alone gives in a step is no impact but a force.
+void ExactWorld::record(const ContactGroup& contactGroup) {
+  const Island& island = contactGroup.island;
+  const double least = 2 * world_.gravity.norm() * contactGroup.step.length;
+  for (const GroupImpact& impact : island.impacts()) {
+    if (impact.share.approach > least) {
+      const auto listed = [&](int place) {
+        return mover(contactGroup.ranks[static_cast<std::size_t>(place)]).listed;
+      };
+      const ImpactContact& contact = impact.contact;
+      const BodyState at =
+          mover(contactGroup.ranks[static_cast<std::size_t>(contact.a)]).stateAt(contactGroup.start);
+      recorder_.strikes(
+          {.time = contactGroup.start.hi,
+           .a = listed(contact.a),
+           .b = contact.b.isWall() ? contact.b : Partner::ofBody(listed(contact.b.body()).value),
+           .point = at.pose.position + contact.armA,
+           .normal = contact.normal,
+           .approach = impact.share.approach,
+           .impulse = impact.share.impulse,
+           .tangential = impact.share.tangential});
     }
   }
 }

@@ -15,8 +15,8 @@ namespace {
 
 /// [1] Separation speeds, and accelerations, this small relative to those of the bodies count as zero.
 constexpr double kParting = 0x1p-40;
-/// [1] of the speed gained by gravity in a time step: below it chattering has ended.
-constexpr double kAllButStill = 0x1p-12;
+/// [1] of the speed gained by falling through the tolerance: below it chattering has ended.
+constexpr double kAllButStill = 0x1p-4;
 
 bool movesAlike(const BodyState& x, const BodyState& y) {
   return x.velocity == y.velocity && x.angularMomentum == y.angularMomentum;
@@ -24,39 +24,41 @@ bool movesAlike(const BodyState& x, const BodyState& y) {
 
 }  // namespace
 
-// Chattering bodies, with more changes of contact within a time step than are worth following one by one,
-// continue by time steps: first one, then twice as many each time that was not enough.
+// Bodies whose contacts change too often to follow each change go on by time steps: first a few, then twice
+// as many each time that was not enough.
 void ExactWorld::findChattering(Encounter& encounter) {
   constexpr int kMostInWindow = 12;
-  constexpr int kMostTimeSteps = 1024;
-  if (world_.gravity.isZero(0)) {
-    return;
-  }
+  constexpr int kFirstTimeSteps = 16;
+  constexpr int kMostTimeSteps = 4096;
+  constexpr double kAgain = 256;  // windows
+  const double window = kChatterWindow * timeScale_;
   bool chatters = false;
-  int timeSteps = 1;
+  int before = 0;
   int movable = 0;
   bool touching = false;
   for (const int rank : encounter.ranks) {
-    const Mover& body = mover(rank);
-    movable += body.isHeld() ? 0 : 1;
+    Mover& body = mover(rank);
+    if (body.isHeld()) {
+      continue;
+    }
+    if (secondsBetween(body.windowStart, encounter.time) > window) {
+      body.windowStart = encounter.time;
+      body.changesInWindow = 0;
+    }
+    ++body.changesInWindow;
+    ++movable;
     touching = touching || body.touches();
-    chatters = chatters || (body.changesInWindow > kMostInWindow &&
-                            secondsBetween(body.windowStart, encounter.time) < kChatterWindow * timeStep_);
-    encounter.chattering = encounter.chattering || earlier(encounter.time, body.chatteringUntil);
-    if (body.timeSteps > 0 &&
-        secondsBetween(body.chatteringUntil, encounter.time) < 4 * body.timeSteps * timeStep_) {
-      timeSteps = std::max(timeSteps, std::min(kMostTimeSteps, 2 * body.timeSteps));
+    chatters = chatters || body.changesInWindow > kMostInWindow;
+    if (body.timeSteps > 0 && secondsBetween(body.chatteredFrom, encounter.time) < kAgain * window) {
+      before = std::max(before, body.timeSteps);
     }
   }
   // A single bouncing body is followed to the end: the time at which it comes to rest is exact.
-  if (chatters && !encounter.chattering && (touching || movable > 1)) {
-    encounter.chattering = true;
-    if (movable > kMostChattering && canPile()) {
-      pileFrom_ = encounter.time;
-    }
+  if (chatters && encounter.timeSteps == 0 && (touching || movable > 1)) {
+    encounter.timeSteps = std::clamp(2 * before, kFirstTimeSteps, kMostTimeSteps);
     for (const int rank : encounter.ranks) {
-      mover(rank).timeSteps = timeSteps;
-      mover(rank).chatteringUntil = instantAfter(encounter.time, timeSteps * timeStep_);
+      mover(rank).timeSteps = encounter.timeSteps;
+      mover(rank).chatteredFrom = encounter.time;
     }
   }
 }
@@ -69,7 +71,7 @@ void ExactWorld::settle(Encounter& encounter) {
       continue;
     }
     encounter.next[i] = Next::kFlies;
-    if (!world_.gravity.isZero(0) && !encounter.chattering) {
+    if (!world_.gravity.isZero(0) && encounter.timeSteps == 0) {
       settleBody(encounter, i);
     }
   }
@@ -163,18 +165,15 @@ ExactWorld::Parting ExactWorld::partingAt(const Encounter& encounter, std::size_
   return parting;
 }
 
-// Contacts that neither approach nor separate persist; so do those that close again within a time step, if
-// bodies chatter or the search has found that their gap stays zero.
+// Contacts that neither approach nor separate persist; so do those that close again soon, if bodies chatter
+// or the search has found that their gap stays zero.
 void ExactWorld::findPersisting(Encounter& encounter) const {
-  const bool hops = encounter.chattering || encounter.cause == EventKind::kTouching;
-  const double slow = hops && !world_.gravity.isZero(0) ? world_.gravity.norm() * timeStep_ : 0;
-  if (encounter.chattering) {
-    addNear(encounter);
-  }
+  const bool hops = encounter.cause == EventKind::kTouching;
+  const double slow = hops && !world_.gravity.isZero(0) ? world_.gravity.norm() * timeScale_ : 0;
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
     const Parting parting = partingAt(encounter, k);
     const bool passes = encounter.passes && !(encounter.shares[k].impulse > 0);
-    if (passes || parting.speed <= std::max(slow, parting.rounding)) {
+    if (encounter.timeSteps > 0 || passes || parting.speed <= std::max(slow, parting.rounding)) {
       encounter.persists[k] = 1;
     }
   }
@@ -246,29 +245,28 @@ ContactFeature ExactWorld::featureOf(const Encounter& encounter, std::size_t k) 
   } else {
     const auto b = static_cast<std::size_t>(contact.b.body());
     feature =
-        featureAt({contact.armA, contact.armB, contact.normal}, encounter.chattering ? kNear * tolerance_ : 0,
-                  contact.a, {pose, half}, contact.b.body(),
+        featureAt({contact.armA, contact.armB, contact.normal}, 0, contact.a, {pose, half}, contact.b.body(),
                   {encounter.after[b].pose, mover(encounter.ranks[b]).body->halfExtents});
   }
   feature.material = contact.material;
   return feature;
 }
 
-// Begins the island's motion; returns whether it rests. A chattering island tries smooth motion only if
-// nearly at rest.
-bool ExactWorld::beginsAtRest(Island& island, bool chattering) const {
+// Begins the island's motion; returns whether it rests. One that goes on by time steps tries smooth motion
+// only if nearly at rest.
+bool ExactWorld::beginsAtRest(Island& island, int timeSteps) const {
   double speed = 0;
   for (const TouchingBody& body : island.bodies()) {
     speed = std::max(
         {speed, body.velocity.norm(), body.angularVelocityBody.norm() * body.body->halfExtents.norm()});
   }
-  if (!chattering || speed <= kAllButStill * world_.gravity.norm() * timeStep_) {
-    island.begin(Island::Stepping::kSmooth);
-    if (!chattering || island.rests()) {
+  if (timeSteps == 0 || speed <= kAllButStill * world_.gravity.norm() * timeScale_) {
+    island.begin();
+    if (timeSteps == 0 || island.rests()) {
       return island.rests();
     }
   }
-  island.begin(Island::Stepping::kTimeSteps);
+  island.beginTimeSteps(timeSteps);
   return false;
 }
 
@@ -307,7 +305,7 @@ void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>
       encounter.next[i] = next;
     }
   };
-  if (features.empty() && !forced) {
+  if (features.empty() && !forced && encounter.timeSteps == 0) {
     all(Next::kFlies);
     return;
   }
@@ -320,7 +318,7 @@ void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>
   auto contactGroup = std::make_shared<ContactGroup>(
       ContactGroup{Island(world_, std::move(bodies), std::move(features), tolerance_), std::move(ranks), {}});
   Island& island = contactGroup->island;
-  if (beginsAtRest(island, encounter.chattering)) {
+  if (beginsAtRest(island, encounter.timeSteps)) {
     for (const std::size_t i : members) {
       const Mover& body = mover(encounter.ranks[i]);
       if (body.moves() || !movesAlike(encounter.before[i], encounter.after[i])) {

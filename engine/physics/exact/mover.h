@@ -49,8 +49,8 @@ struct Mover {
   int atOneMoment = 0;           ///< how many of them began at `start`
   Instant windowStart{};         ///< see ExactWorld::findChattering
   int changesInWindow = 0;       ///< motions begun since
-  Instant chatteringUntil{};     ///< until then it is integrated by time steps
-  int timeSteps = 0;             ///< how many of them that was
+  int timeSteps = 0;             ///< taken since it chattered
+  Instant chatteredFrom{};       ///< when they began
   std::optional<Event> wall;     ///< the flight's first contact with a wall
   bool crosses = false;          ///< it can enter other cells
   Neighbors::Crossing crossing;  ///< the next such event

@@ -47,6 +47,8 @@ struct ContactProblem {
 struct ContactSolution {
   std::vector<double> velocities;                ///< q, six per body [m/s, rad/s]
   std::vector<ContactProblem::Triple> impulses;  ///< λ [N s]; on entry the warm start, if as many as contacts
+  /// [m/s] On entry: a residual that is as good as none to the caller, if the impulses are much larger.
+  double enough = 0;
   double residual = 0;     ///< [m/s] largest of the contacts' natural maps (contact_cone.h), of what is returned
   double scale = 0;        ///< [m/s] V, the largest contact speed |J q₀ − target|: what the residual is measured against
   bool solved = false;     ///< the residual is small enough, see ContactSolver; otherwise the best iterate is kept

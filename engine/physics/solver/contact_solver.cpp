@@ -9,6 +9,7 @@ namespace {
 constexpr double kEnough = 1e-9;           // [1] of V
 constexpr double kSmall = 1e-13;           // [1] of V
 constexpr double kOfImpulses = 1e-6;       // [1] of the largest λ/mass
+constexpr double kGhost = 1e-3;            // [1] of the largest λ/mass
 constexpr double kGoal = 0x1p-50;          // [1] of V
 constexpr double kFall = 0x1p-7;           // of the gap, until Newton's method is tried again
 
@@ -20,8 +21,8 @@ bool ContactSolver::isEnough() const {
     largest = std::max(largest, impulses_[c][0] / contacts_.contacts()[c].mass);
   }
   const double scale = contacts_.scale();
-  return residual_ <= std::max(std::min(kEnough * scale, std::max(kSmall * scale, kOfImpulses * largest)),
-                               contacts_.noise());
+  const double exact = std::min(kEnough * scale, std::max(kSmall * scale, kOfImpulses * largest));
+  return residual_ <= std::max({exact, contacts_.noise(), std::min(enough_, kGhost * largest)});
 }
 
 /// Takes the trial if it is better than the best. Returns whether the best is enough.
@@ -77,6 +78,7 @@ void ContactSolver::search() {
 
 bool ContactSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
   contacts_.set(problem);
+  enough_ = solution.enough;
   const std::size_t count = problem.contacts.size();
   impulses_.assign(count, {});
   trial_.resize(count);

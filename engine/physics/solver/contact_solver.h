@@ -39,6 +39,7 @@ class ContactSolver {
   std::vector<Triple> impulses_;  // the best
   std::vector<double> q_;
   double residual_ = 0;
+  double enough_ = 0;
   std::vector<Triple> trial_;
   std::vector<double> trialQ_;
   int factorisations_ = 0;

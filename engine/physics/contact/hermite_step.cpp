@@ -1,0 +1,49 @@
+#include "physics/contact/hermite_step.h"
+
+#include <type_traits>
+
+namespace careen {
+namespace {
+
+// A quantity with its first and second derivative.
+template <class Vector>
+struct Course {
+  Vector value;
+  Vector rate;
+  Vector acceleration;
+};
+
+template <class Vector>
+void fill(const Course<Vector>& from, const Course<Vector>& to, double h, std::array<Vector, 6>& c) {
+  const Vector d = to.value - from.value;
+  c[0] = from.value;
+  c[1] = h * from.rate;
+  c[2] = (0.5 * h * h) * from.acceleration;
+  c[3] = 10 * d - h * (6 * from.rate + 4 * to.rate) -
+         (h * h) * (1.5 * from.acceleration - 0.5 * to.acceleration);
+  c[4] = -15 * d + h * (8 * from.rate + 7 * to.rate) + (h * h) * (1.5 * from.acceleration - to.acceleration);
+  c[5] =
+      6 * d - h * (3 * from.rate + 3 * to.rate) - (h * h) * (0.5 * from.acceleration - 0.5 * to.acceleration);
+}
+
+Quat pure(const Vec3& v) { return {0, v[0], v[1], v[2]}; }
+
+// q̇ = ½ q ω, q̈ = ½ (q̇ ω + q ω̇), with ω in the body's frame.
+Course<Vec4> turning(const StepEnd& end) {
+  const Vec4 rate = 0.5 * (end.worldFromBody * pure(end.spinBody)).coeffs();
+  const Vec4 bent =
+      (Quat(rate) * pure(end.spinBody)).coeffs() + (end.worldFromBody * pure(end.spinRateBody)).coeffs();
+  return {end.worldFromBody.coeffs(), rate, 0.5 * bent};
+}
+
+}  // namespace
+
+ContactStep hermiteStep(const StepEnd& from, const StepEnd& to, double length) {
+  ContactStep step{.duration = length > 0 ? length : 1};
+  fill<Vec3>({from.position, from.velocity, from.acceleration}, {to.position, to.velocity, to.acceleration},
+             length, step.position);
+  fill<Vec4>(turning(from), turning(to), length, step.worldFromBody);
+  return step;
+}
+
+}  // namespace careen

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "core/math/linear_algebra.h"
+#include "physics/motion/motion.h"
+
+namespace careen {
+
+/// One end of a contact step: place, velocity and acceleration of a body.
+struct StepEnd {
+  Vec3 position = Vec3::Zero();      ///< [m]
+  Vec3 velocity = Vec3::Zero();      ///< [m/s]
+  Vec3 acceleration = Vec3::Zero();  ///< [m/s²]
+  Quat worldFromBody = Quat::Identity();
+  Vec3 spinBody = Vec3::Zero();      ///< [rad/s] body frame
+  Vec3 spinRateBody = Vec3::Zero();  ///< [rad/s²] body frame
+};
+
+/// The polynomials of degree 5 through both ends of a step of `length` [s].
+ContactStep hermiteStep(const StepEnd& from, const StepEnd& to, double length);
+
+}  // namespace careen

@@ -1,0 +1,399 @@
+#include "physics/contact/implicit_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/elementary.h"
+#include "physics/geometry/tangents.h"
+
+namespace careen {
+namespace {
+
+constexpr std::size_t kSix = ContactProblem::kAxes;
+/// Rows at the middle and law at the end depend on the step's own result: one pass alone is of first order.
+constexpr int kPasses = 2;
+/// [1] of the speed after falling a half diagonal: a residual of the law that is as good as none.
+constexpr double kEnough = 0x1p-34;
+
+Quat rotationBy(const Vec3& angle) {
+  const double size = angle.norm();
+  if (size == 0) {
+    return Quat::Identity();
+  }
+  const auto half = elementary::sinCos(size / 2);
+  const Vec3 axis = (half.sin / size) * angle;
+  return {half.cos, axis[0], axis[1], axis[2]};
+}
+
+void setThree(std::vector<double>& to, std::size_t at, const Vec3& v) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    to[at + k] = v[static_cast<Eigen::Index>(k)];
+  }
+}
+Vec3 threeAt(const std::vector<double>& of, std::size_t at) { return {of[at], of[at + 1], of[at + 2]}; }
+
+}  // namespace
+
+ImplicitStep::ImplicitStep(const World& world, const std::vector<TouchingBody>& bodies)
+    : world_(world), bodies_(bodies), loads_(bodies.size()), turned_(bodies.size()) {
+  double radius = 0;
+  for (const TouchingBody& body : bodies) {
+    radius = body.isHeld() ? radius : std::max(radius, body.body->halfExtents.norm());
+  }
+  enough_ = kEnough * std::sqrt(world.gravity.norm() * radius);
+  if (!world.springs.empty() || world.drag) {
+    for (const Body& body : world.bodies) {
+      worldStates_.push_back(body.initial);
+    }
+  }
+}
+
+Vec3 ImplicitStep::spinOf(std::size_t body, const Mat3& turned, const Vec3& angularMomentum) const {
+  return turned *
+         bodies_[body].body->mass.inverseInertiaBody.cwiseProduct(turned.transpose() * angularMomentum);
+}
+
+Kinematics ImplicitStep::kinematics(std::size_t body, const GroupBody& at) const {
+  Kinematics kinematics;
+  kinematics.pose = {at.position, at.worldFromBody.toRotationMatrix()};
+  if (!bodies_[body].isHeld()) {
+    kinematics.velocity = at.velocity;
+    kinematics.angularVelocity = spinOf(body, kinematics.pose.worldFromBody, at.angularMomentum);
+  }
+  return kinematics;
+}
+
+ContactState ImplicitStep::contactAt(const ContactFeature& feature, const GroupState& state) const {
+  const auto a = static_cast<std::size_t>(feature.a);
+  const Kinematics ofA = kinematics(a, state[a]);
+  ContactState at;
+  if (feature.b.isWall()) {
+    at = contactState(feature, ofA, bodies_[a].body->halfExtents, nullptr, Vec3::Zero(),
+                      &world_.walls[feature.b.wall()]);
+  } else {
+    const auto b = static_cast<std::size_t>(feature.b.body());
+    const Kinematics ofB = kinematics(b, state[b]);
+    at =
+        contactState(feature, ofA, bodies_[a].body->halfExtents, &ofB, bodies_[b].body->halfExtents, nullptr);
+    // One point for both, else the pair's impulses would change angular momentum by gap × friction.
+    const Vec3 link = (state[a].position - state[b].position) + at.armA - at.armB;
+    at.armA -= 0.5 * link;
+    at.armB += 0.5 * link;
+  }
+  return at;
+}
+
+// Force and torque on each body without contacts.
+void ImplicitStep::findLoads(const GroupState& at) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    loads_[i] = {};
+    if (!bodies_[i].isHeld()) {
+      loads_[i].force = bodies_[i].body->mass.mass * world_.gravity;
+    }
+  }
+  if (worldStates_.empty()) {
+    return;
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].isHeld()) {
+      worldStates_[static_cast<std::size_t>(bodies_[i].index)] = {
+          .pose = {at[i].position, at[i].worldFromBody.toRotationMatrix()},
+          .velocity = at[i].velocity,
+          .angularMomentum = at[i].angularMomentum};
+    }
+  }
+  computeLoads(world_, worldStates_, worldLoads_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].isHeld()) {
+      loads_[i] = worldLoads_[static_cast<std::size_t>(bodies_[i].index)];
+    }
+  }
+}
+
+double ImplicitStep::freeAcceleration(const GroupState& state) {
+  findLoads(state);
+  double largest = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].isHeld()) {
+      const MassProperties& mass = bodies_[i].body->mass;
+      const double turning =
+          loads_[i].torque.norm() * mass.inverseInertiaBody.maxCoeff() * bodies_[i].body->halfExtents.norm();
+      largest = std::max(largest, mass.inverseMass * loads_[i].force.norm() + turning);
+    }
+  }
+  return largest;
+}
+
+// Only bodies with contacts are part of the problem.
+void ImplicitStep::placeBodies(std::span<const ContactFeature> contacts) {
+  places_.assign(bodies_.size(), ContactProblem::kNobody);
+  movers_.clear();
+  problem_.inverseMass.clear();
+  problem_.contacts.clear();
+  std::vector<char> touched(bodies_.size(), 0);
+  for (const ContactFeature& feature : contacts) {
+    touched[static_cast<std::size_t>(feature.a)] = 1;
+    if (!feature.b.isWall()) {
+      touched[static_cast<std::size_t>(feature.b.body())] = 1;
+    }
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (touched[i] != 0 && !bodies_[i].isHeld()) {
+      places_[i] = static_cast<int>(movers_.size());
+      movers_.push_back(i);
+      const MassProperties& mass = bodies_[i].body->mass;
+      problem_.inverseMass.insert(problem_.inverseMass.end(), 3, mass.inverseMass);
+      for (int k = 0; k < 3; ++k) {
+        problem_.inverseMass.push_back(mass.inverseInertiaBody[k]);
+      }
+    }
+  }
+  problem_.free.assign(problem_.inverseMass.size(), 0.0);
+}
+
+// Rows of a contact: arms and normal of `geometry`, angular velocities in the frames `turned_`.
+void ImplicitStep::addRows(const ContactFeature& feature, const ContactState& geometry) {
+  ContactProblem::Contact contact;
+  const Tangents tangents = tangentsOf(geometry.normal);
+  const std::array<Vec3, 3> directions{geometry.normal, tangents.first, tangents.second};
+  const auto side = [&](std::size_t body, const Vec3& arm, double sign, std::size_t offset) {
+    if (places_[body] == ContactProblem::kNobody) {
+      return ContactProblem::kNobody;
+    }
+    for (std::size_t row = 0; row < 3; ++row) {
+      const Vec3 turning = turned_[body].transpose() * arm.cross(directions[row]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto axis = static_cast<Eigen::Index>(k);
+        contact.rows[row][offset + k] = sign * directions[row][axis];
+        contact.rows[row][offset + 3 + k] = sign * turning[axis];
+      }
+    }
+    return places_[body];
+  };
+  contact.a = side(static_cast<std::size_t>(feature.a), geometry.armA, 1, 0);
+  if (!feature.b.isWall()) {
+    contact.b = side(static_cast<std::size_t>(feature.b.body()), geometry.armB, -1, kSix);
+  }
+  contact.friction = feature.material.friction;
+  problem_.contacts.push_back(contact);
+}
+
+bool ImplicitStep::solve() {
+  solution_.enough = enough_;
+  const bool solved = solver_.solve(problem_, solution_);
+  factorisations_ += solution_.factorisations;
+  return solved;
+}
+
+// Positions and attitudes at the end, from the velocities and angular momenta there.
+void ImplicitStep::turn(const GroupState& from, double h, GroupState& to) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].isHeld()) {
+      continue;
+    }
+    to[i].position = from[i].position + (0.5 * h) * (from[i].velocity + to[i].velocity);
+    const Quat middle = Quat(from[i].worldFromBody.coeffs() + to[i].worldFromBody.coeffs()).normalized();
+    const Vec3 spin =
+        spinOf(i, middle.toRotationMatrix(), 0.5 * (from[i].angularMomentum + to[i].angularMomentum));
+    to[i].worldFromBody = (rotationBy(h * spin) * from[i].worldFromBody).normalized();
+  }
+}
+
+// Velocities and angular momenta at the end, given the contacts' impulses; then places.
+void ImplicitStep::move(const GroupState& from, double h, GroupState& to) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].isHeld()) {
+      to[i].velocity =
+          from[i].velocity + bodies_[i].body->mass.inverseMass * (h * loads_[i].force + push_[i]);
+      to[i].angularMomentum = from[i].angularMomentum + (h * loads_[i].torque + twist_[i]);
+    }
+  }
+  turn(from, h, to);
+}
+
+void ImplicitStep::findMiddle(const GroupState& from, const GroupState& to) {
+  middle_ = from;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].isHeld()) {
+      middle_[i].position = 0.5 * (from[i].position + to[i].position);
+      middle_[i].worldFromBody =
+          Quat(from[i].worldFromBody.coeffs() + to[i].worldFromBody.coeffs()).normalized();
+      middle_[i].velocity = 0.5 * (from[i].velocity + to[i].velocity);
+      middle_[i].angularMomentum = 0.5 * (from[i].angularMomentum + to[i].angularMomentum);
+    }
+  }
+}
+
+// Velocities of the problem's bodies without contacts, `h` [s] after a state.
+void ImplicitStep::fillFree(const GroupState& from, double h) {
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    const std::size_t i = movers_[m];
+    const MassProperties& mass = bodies_[i].body->mass;
+    setThree(problem_.free, m * kSix, from[i].velocity + (h * mass.inverseMass) * loads_[i].force);
+    const Vec3 angular = from[i].angularMomentum + h * loads_[i].torque;
+    setThree(problem_.free, m * kSix + 3,
+             mass.inverseInertiaBody.cwiseProduct(turned_[i].transpose() * angular));
+  }
+}
+
+// The law holds for the velocities at the end of the step, where arms and normal are others than in the rows.
+void ImplicitStep::aimAtEnd(const ContactFeature& feature, const GroupState& to) {
+  ContactProblem::Contact& contact = problem_.contacts.back();
+  const Tangents tangents = tangentsOf(geometry_.back().normal);
+  const ContactState end = contactAt(feature, to);
+  const std::array<double, 3> actual{end.rate, end.slip.dot(tangents.first), end.slip.dot(tangents.second)};
+  for (std::size_t row = 0; row < 3; ++row) {
+    double speed = 0;
+    const std::array<int, 2> sides{contact.a, contact.b};
+    const std::array<int, 2> bodies{feature.a, feature.b.isWall() ? 0 : feature.b.body()};
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (sides[side] == ContactProblem::kNobody) {
+        continue;
+      }
+      const auto i = static_cast<std::size_t>(bodies[side]);
+      const Vec3 spin = bodies_[i].body->mass.inverseInertiaBody.cwiseProduct(turned_[i].transpose() *
+                                                                              to[i].angularMomentum);
+      const double* values = &contact.rows[row][side * kSix];
+      speed += Vec3(values[0], values[1], values[2]).dot(to[i].velocity) +
+               Vec3(values[3], values[4], values[5]).dot(spin);
+    }
+    contact.target[row] = speed - actual[row];
+  }
+}
+
+void ImplicitStep::addImpulse(const ContactFeature& feature, const ContactState& geometry,
+                              const ContactProblem::Triple& impulse) {
+  const Tangents tangents = tangentsOf(geometry.normal);
+  const Vec3 total =
+      impulse[0] * geometry.normal + (impulse[1] * tangents.first + impulse[2] * tangents.second);
+  const auto a = static_cast<std::size_t>(feature.a);
+  push_[a] += total;
+  twist_[a] += geometry.armA.cross(total);
+  if (!feature.b.isWall()) {
+    const auto b = static_cast<std::size_t>(feature.b.body());
+    push_[b] -= total;
+    twist_[b] -= geometry.armB.cross(total);
+  }
+}
+
+void ImplicitStep::clearImpulses() {
+  push_.assign(bodies_.size(), Vec3::Zero());
+  twist_.assign(bodies_.size(), Vec3::Zero());
+}
+
+// The step's impulses, with rows at its middle; `to` is the last estimate of its end.
+bool ImplicitStep::findImpulses(const GroupState& from, double h, bool first,
+                                std::vector<ClosedContact>& contacts, const GroupState& to) {
+  placeBodies(features_);
+  for (const std::size_t i : movers_) {
+    turned_[i] = to[i].worldFromBody.toRotationMatrix();
+  }
+  fillFree(from, h);
+  geometry_.clear();
+  solution_.impulses.clear();
+  for (const ClosedContact& contact : contacts) {
+    geometry_.push_back(contactAt(contact.feature, middle_));
+    addRows(contact.feature, geometry_.back());
+    if (!first) {
+      aimAtEnd(contact.feature, to);
+    }
+    solution_.impulses.push_back({h * contact.force[0], h * contact.force[1], h * contact.force[2]});
+  }
+  if (!solve()) {
+    return false;
+  }
+  clearImpulses();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const ContactProblem::Triple& impulse = solution_.impulses[c];
+    contacts[c].force = {impulse[0] / h, impulse[1] / h, impulse[2] / h};
+    addImpulse(contacts[c].feature, geometry_[c], impulse);
+  }
+  return true;
+}
+
+bool ImplicitStep::advance(const GroupState& from, double h, std::vector<ClosedContact>& contacts,
+                           GroupState& to) {
+  to = from;
+  features_.clear();
+  for (const ClosedContact& contact : contacts) {
+    features_.push_back(contact.feature);
+  }
+  clearImpulses();
+  findLoads(from);
+  move(from, h, to);
+  move(from, h, to);
+  const bool depends = !worldStates_.empty();
+  for (int pass = 0; pass < kPasses && (depends || !contacts.empty()); ++pass) {
+    findMiddle(from, to);
+    if (depends) {
+      findLoads(middle_);
+    }
+    if (!contacts.empty() && !findImpulses(from, h, pass == 0, contacts, to)) {
+      return false;
+    }
+    move(from, h, to);
+  }
+  return true;
+}
+
+bool ImplicitStep::compress(GroupState& state, std::span<const ContactFeature> contacts,
+                            std::vector<ContactProblem::Triple>& impulses) {
+  placeBodies(contacts);
+  for (const std::size_t i : movers_) {
+    turned_[i] = state[i].worldFromBody.toRotationMatrix();
+  }
+  fillFree(state, 0);
+  geometry_.clear();
+  for (const ContactFeature& feature : contacts) {
+    geometry_.push_back(contactAt(feature, state));
+    addRows(feature, geometry_.back());
+  }
+  solution_.impulses.clear();
+  if (!solve()) {
+    return false;
+  }
+  clearImpulses();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    addImpulse(contacts[c], geometry_[c], solution_.impulses[c]);
+  }
+  impulses = solution_.impulses;
+  for (const std::size_t i : movers_) {
+    state[i].velocity += bodies_[i].body->mass.inverseMass * push_[i];
+    state[i].angularMomentum += twist_[i];
+  }
+  return true;
+}
+
+bool ImplicitStep::separate(GroupState& state, std::span<const ContactFeature> contacts, double deepest) {
+  constexpr int kMostPasses = 4;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    placeBodies(contacts);
+    for (const std::size_t i : movers_) {
+      turned_[i] = state[i].worldFromBody.toRotationMatrix();
+    }
+    bool deep = false;
+    for (const ContactFeature& feature : contacts) {
+      const ContactState at = contactAt(feature, state);
+      addRows(feature, at);
+      problem_.contacts.back().friction = 0;
+      problem_.contacts.back().target[0] = -at.gap;
+      deep = deep || at.gap < -deepest;
+    }
+    if (!deep) {
+      return true;
+    }
+    solution_.impulses.clear();
+    if (!solve()) {
+      return false;
+    }
+    for (std::size_t m = 0; m < movers_.size(); ++m) {
+      GroupBody& body = state[movers_[m]];
+      body.position += threeAt(solution_.velocities, m * kSix);
+      body.worldFromBody =
+          (body.worldFromBody * rotationBy(threeAt(solution_.velocities, m * kSix + 3))).normalized();
+    }
+  }
+  return true;
+}
+
+}  // namespace careen

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "physics/contact/contact_feature.h"
+#include "physics/contact/contact_system.h"
+#include "physics/solver/contact_problem.h"
+#include "physics/solver/contact_solver.h"
+#include "physics/world/forces.h"
+#include "physics/world/world.h"
+
+namespace careen {
+
+/// State of one body of a group, world frame. L is primary, as in BodyState; the attitude is a quaternion.
+struct GroupBody {
+  Vec3 position = Vec3::Zero();  ///< [m]
+  Quat worldFromBody = Quat::Identity();
+  Vec3 velocity = Vec3::Zero();         ///< [m/s]
+  Vec3 angularMomentum = Vec3::Zero();  ///< [kg m²/s]
+};
+using GroupState = std::vector<GroupBody>;
+
+/// A contact whose law holds during a step.
+struct ClosedContact {
+  ContactFeature feature;
+  ContactProblem::Triple force{};  ///< [N] mean over the step: found last, and the next step's warm start
+};
+
+/// One time step of a group of bodies in contact, of second order: positions by the trapezoid of the
+/// velocities at both ends, attitudes by the angular velocity at the mean angular momentum, contact forces at
+/// the middle of the step, their law (Signorini, Coulomb) at its end (Eqs. 10, 13–18). So linear and angular
+/// momentum are exchanged to rounding, and forces exist where accelerations do not.
+class ImplicitStep {
+ public:
+  ImplicitStep(const World& world, const std::vector<TouchingBody>& bodies);
+
+  /// The state `h` [s] later. Returns false if the contact problem was not solved.
+  bool advance(const GroupState& from, double h, std::vector<ClosedContact>& contacts, GroupState& to);
+  /// The impulse without restitution: velocities after which no contact approaches. Likewise.
+  bool compress(GroupState& state, std::span<const ContactFeature> contacts,
+                std::vector<ContactProblem::Triple>& impulses);
+  /// Moves the bodies by the least displacement (in the mass metric) out of each other, where contacts are
+  /// deeper than `deepest` [m].
+  bool separate(GroupState& state, std::span<const ContactFeature> contacts, double deepest);
+
+  Kinematics kinematics(std::size_t body, const GroupBody& at) const;
+  ContactState contactAt(const ContactFeature& feature, const GroupState& state) const;
+  /// [m/s²] Largest acceleration without contact forces at that state.
+  double freeAcceleration(const GroupState& state);
+  /// Factorisations so far: the cost.
+  long factorisations() const { return factorisations_; }
+
+ private:
+  void findLoads(const GroupState& at);
+  void placeBodies(std::span<const ContactFeature> contacts);
+  void addRows(const ContactFeature& feature, const ContactState& geometry);
+  void fillFree(const GroupState& from, double h);
+  void aimAtEnd(const ContactFeature& feature, const GroupState& to);
+  bool solve();
+  void clearImpulses();
+  void addImpulse(const ContactFeature& feature, const ContactState& geometry,
+                  const ContactProblem::Triple& impulse);
+  bool findImpulses(const GroupState& from, double h, bool first, std::vector<ClosedContact>& contacts,
+                    const GroupState& to);
+  void findMiddle(const GroupState& from, const GroupState& to);
+  void move(const GroupState& from, double h, GroupState& to) const;
+  void turn(const GroupState& from, double h, GroupState& to) const;
+  Vec3 spinOf(std::size_t body, const Mat3& turned, const Vec3& angularMomentum) const;
+
+  const World& world_;
+  const std::vector<TouchingBody>& bodies_;
+  std::vector<int> places_;          // by body: index in the problem, or kNobody
+  std::vector<std::size_t> movers_;  // by index in the problem
+  ContactProblem problem_;
+  ContactSolution solution_;
+  ContactSolver solver_;
+  std::vector<BodyState> worldStates_;  // for springs and drag
+  std::vector<Load> loads_;             // by body of the group
+  std::vector<Load> worldLoads_;
+  std::vector<Vec3> push_;    // [N s] by body, of the contacts
+  std::vector<Vec3> twist_;   // [N m s] likewise
+  std::vector<Mat3> turned_;  // by body: worldFromBody at the end of the step
+  std::vector<ContactFeature> features_;
+  std::vector<ContactState> geometry_;  // by contact, as in the rows
+  GroupState middle_;
+  double enough_ = 0;  // [m/s] residual
+  long factorisations_ = 0;
+};
+
+}  // namespace careen

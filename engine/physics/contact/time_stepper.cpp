@@ -1,0 +1,312 @@
+#include "physics/contact/time_stepper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/error.h"
+#include "core/math/falling_bracket.h"
+#include "physics/contact/hermite_step.h"
+
+// Step control. Contacts and impacts are in time_stepper_contacts.cpp.
+
+namespace careen {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// [1] of the tolerance: the error allowed per step.
+constexpr double kShare = 0.25;
+/// [rad] Largest rotation in one step, so that the polynomials are accurate.
+constexpr double kMostTurn = 0.25;
+/// [1] of the smallest half extent: largest way in one step, so that no gap closes and opens within it
+/// unseen.
+constexpr double kMostWay = 0.25;
+/// [1] of the time in which a body falls or moves its own size: the first step.
+constexpr double kFirst = 0x1p-8;
+constexpr int kMostAttempts = 60;
+constexpr int kMostRefinements = 50;
+constexpr int kMostUnsolved = 10;
+
+}  // namespace
+
+TimeStepper::TimeStepper(const World& world, const std::vector<TouchingBody>& bodies, double tolerance)
+    : world_(world), bodies_(bodies), tolerance_(tolerance), equations_(world, bodies) {
+  for (const TouchingBody& body : bodies) {
+    const BodyState state = body.state();
+    end_.push_back({.position = body.position,
+                    .worldFromBody = body.worldFromBody,
+                    .velocity = body.isHeld() ? Vec3(Vec3::Zero()) : state.velocity,
+                    .angularMomentum = body.isHeld() ? Vec3(Vec3::Zero()) : state.angularMomentum});
+  }
+  acceleration_ = equations_.freeAcceleration(end_);
+  findContacts(end_);
+}
+
+// [s] Time in which nothing moves by more than what counts as closed.
+double TimeStepper::shortestStep() {
+  double fastest = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].isHeld()) {
+      const Kinematics at = equations_.kinematics(i, start_[i]);
+      fastest = std::max(
+          fastest, at.velocity.norm() + at.angularVelocity.norm() * bodies_[i].body->halfExtents.norm());
+    }
+  }
+  const double acceleration = std::max(acceleration_, equations_.freeAcceleration(start_));
+  double shortest = kInfinity;
+  if (fastest > 0) {
+    shortest = 0.25 * closed() / fastest;
+  }
+  if (acceleration > 0) {
+    shortest = std::min(shortest, std::sqrt(0.25 * closed() / acceleration));
+  }
+  return shortest;
+}
+
+double TimeStepper::longestStep() const {
+  double most = kInfinity;
+  double first = kInfinity;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].isHeld()) {
+      continue;
+    }
+    const Kinematics at = equations_.kinematics(i, start_[i]);
+    const double turning = at.angularVelocity.norm();
+    const double radius = bodies_[i].body->halfExtents.norm();
+    const double speed = at.velocity.norm() + turning * radius;
+    if (turning > 0) {
+      most = std::min(most, kMostTurn / turning);
+    }
+    if (speed > 0) {
+      most = std::min(most, kMostWay * bodies_[i].body->halfExtents.minCoeff() / speed);
+      first = std::min(first, kFirst * radius / speed);
+    }
+    if (acceleration_ > 0) {
+      first = std::min(first, kFirst * std::sqrt(radius / acceleration_));
+    }
+  }
+  return std::min(most, proposed_ > 0 ? proposed_ : first);
+}
+
+// The error of a step relative to the error allowed. Velocities count by the displacement they cause in
+// another such step.
+double TimeStepper::errorOf(const GroupState& coarse, const GroupState& fine, double h) const {
+  double worst = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].isHeld()) {
+      continue;
+    }
+    const double radius = bodies_[i].body->halfExtents.norm();
+    const Vec3& inverse = bodies_[i].body->mass.inverseInertiaBody;
+    const Vec3 spun = inverse.cwiseProduct(fine[i].worldFromBody.conjugate() *
+                                           (coarse[i].angularMomentum - fine[i].angularMomentum));
+    const Vec4 turned = coarse[i].worldFromBody.coeffs() - fine[i].worldFromBody.coeffs();
+    worst = std::max({worst, (coarse[i].position - fine[i].position).norm(), 2 * radius * turned.norm(),
+                      h * (coarse[i].velocity - fine[i].velocity).norm(), h * radius * spun.norm()});
+  }
+  return worst / (3 * kShare * tolerance_);
+}
+
+// The step's end by one step of that length, with the contacts chosen for it.
+bool TimeStepper::tryStep(double h) { return equations_.advance(start_, h, law_, coarse_); }
+
+// Shortens the step to the moment where the first event function falls below zero. Returns false if the
+// impulses were not found.
+bool TimeStepper::locate(double& h) {
+  FallingBracket bracket{.high = h, .valueLow = lowest(start_), .valueHigh = lowest(coarse_)};
+  if (!(bracket.valueHigh < -0.5 * closed()) || watches_.empty()) {
+    return true;
+  }
+  for (int k = 0; k < kMostRefinements; ++k) {
+    double middle = bracket.cut();
+    if (k % 3 == 2 || !(middle > bracket.low && middle < bracket.high)) {
+      middle = 0.5 * (bracket.low + bracket.high);
+    }
+    if (!tryStep(middle)) {
+      return false;
+    }
+    const double at = lowest(coarse_);
+    h = middle;
+    if (std::fabs(at) <= 0.125 * closed()) {
+      return true;
+    }
+    if (at < 0) {
+      bracket.moveHigh(middle, at);
+    } else {
+      bracket.moveLow(middle, at);
+    }
+  }
+  h = bracket.low;
+  return tryStep(h);
+}
+
+// The step's end by two steps of half the length.
+bool TimeStepper::tryHalves(double h) {
+  choose(0.5 * h);
+  if (!equations_.advance(start_, 0.5 * h, law_, middle_)) {
+    return false;
+  }
+  lookAgain(middle_);
+  choose(0.5 * h);
+  const bool solved = equations_.advance(middle_, 0.5 * h, law_, end_);
+  lookAgain(start_);
+  return solved;
+}
+
+// One attempt at a step; `h` becomes shorter where an event ends it, or for the next attempt.
+TimeStepper::Attempt TimeStepper::attempt(double& h, double shortest) {
+  choose(h);
+  if (h <= shortest) {
+    if (!tryStep(h)) {
+      return Attempt::kUnsolved;
+    }
+    end_ = coarse_;
+    proposed_ = 4 * h;
+    return Attempt::kDone;
+  }
+  listWatches(h);
+  const double whole = h;
+  if (!tryStep(h) || !locate(h)) {
+    return Attempt::kUnsolved;
+  }
+  if (h < shortest) {
+    h = shortest;
+    return Attempt::kShorter;
+  }
+  if (!tryHalves(h)) {
+    return Attempt::kUnsolved;
+  }
+  const double error = errorOf(coarse_, end_, h);
+  const double factor = error > 1e-3 ? std::clamp(0.9 / std::sqrt(std::sqrt(error)), 0.2, 2.0) : 2.0;
+  if (error > 1) {
+    h = std::max(shortest, std::min(factor, 0.9) * h);
+    return Attempt::kShorter;
+  }
+  length_ = h;
+  if (const double dip = firstDip(); dip > 0) {
+    h = std::max(shortest, dip);
+    return Attempt::kShorter;
+  }
+  proposed_ = h < whole ? std::max(proposed_, h) : factor * h;
+  return Attempt::kDone;
+}
+
+double TimeStepper::step(double most) {
+  start_ = end_;
+  impacts_.clear();
+  collide();
+  const double shortest = std::min(shortestStep(), most);
+  double h = std::min(longestStep(), most);
+  int unsolved = 0;
+  for (int k = 0;; ++k) {
+    h = k < kMostAttempts ? h : shortest;
+    const Attempt made = attempt(h, shortest);
+    if (made == Attempt::kDone) {
+      break;
+    }
+    if (made == Attempt::kUnsolved) {
+      h *= 0.5;
+      if (++unsolved > kMostUnsolved) {
+        throw NumericalError("no impulses of " + std::to_string(law_.size()) + " contacts of box " +
+                             bodies_[0].body->name +
+                             " and its neighbours were found, however short the step");
+      }
+    }
+  }
+  length_ = h;
+  known_ = law_;
+  correct();
+  return length_;
+}
+
+// Places at the end of a step: contacts found anew, and moved apart where drift has made them deep.
+void TimeStepper::correct() {
+  acceleration_ = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (length_ > 0) {
+      acceleration_ = std::max(acceleration_, (end_[i].velocity - start_[i].velocity).norm() / length_);
+    }
+  }
+  findContacts(end_);
+  std::vector<ContactFeature> features;
+  for (const Found& found : found_) {
+    features.push_back(found.feature);
+    deepest_ = std::max(deepest_, -found.gap);
+  }
+  if (equations_.separate(end_, features, 0.125 * closed())) {
+    lookAgain(end_);
+  }
+}
+
+void TimeStepper::cutTo(double length) {
+  if (!(length < length_)) {
+    return;
+  }
+  if (length > 0) {
+    findContacts(start_);
+    choose(length);
+    if (!tryStep(length)) {
+      throw NumericalError("no impulses of box " + bodies_[0].body->name + " were found");
+    }
+    end_ = coarse_;
+  } else {
+    end_ = start_;
+  }
+  length_ = length;
+  correct();
+}
+
+std::vector<ContactFeature> TimeStepper::touching() const {
+  std::vector<ContactFeature> touching;
+  for (const Found& found : found_) {
+    touching.push_back(found.feature);
+  }
+  return touching;
+}
+
+std::vector<ContactFeature> TimeStepper::pressed() const {
+  std::vector<ContactFeature> pressed;
+  for (const ClosedContact& contact : known_) {
+    const ContactState at = equations_.contactAt(contact.feature, end_);
+    if (contact.force[0] > 0 && std::fabs(at.gap) <= closed() && at.beyond <= 0) {
+      pressed.push_back(contact.feature);
+    }
+  }
+  return pressed;
+}
+
+bool TimeStepper::isQuiet() const {
+  const double gravity = world_.gravity.norm();
+  double fastest = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Kinematics at = equations_.kinematics(i, end_[i]);
+    fastest = std::max(
+        {fastest, at.velocity.norm(), at.angularVelocity.norm() * bodies_[i].body->halfExtents.norm()});
+  }
+  return fastest * fastest <= 0x1p-6 * gravity * closed();
+}
+
+ContactStep TimeStepper::motion(std::size_t body) const {
+  const auto end = [&](const GroupState& at) {
+    const MassProperties& mass = bodies_[body].body->mass;
+    const Vec3 spin =
+        mass.inverseInertiaBody.cwiseProduct(at[body].worldFromBody.conjugate() * at[body].angularMomentum);
+    return StepEnd{.position = at[body].position,
+                   .velocity = at[body].velocity,
+                   .worldFromBody = at[body].worldFromBody,
+                   .spinBody = spin};
+  };
+  StepEnd from = end(start_);
+  StepEnd to = end(end_);
+  if (to.worldFromBody.coeffs().dot(from.worldFromBody.coeffs()) < 0) {
+    to.worldFromBody.coeffs() = -to.worldFromBody.coeffs();
+  }
+  if (length_ > 0) {
+    from.acceleration = to.acceleration = (to.velocity - from.velocity) / length_;
+    from.spinRateBody = to.spinRateBody = (to.spinBody - from.spinBody) / length_;
+  }
+  return hermiteStep(from, to, length_);
+}
+
+}  // namespace careen

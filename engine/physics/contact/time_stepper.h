@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "physics/contact/contact_feature.h"
+#include "physics/contact/implicit_step.h"
+#include "physics/impact/impact_law.h"
+#include "physics/motion/motion.h"
+#include "physics/world/world.h"
+
+namespace careen {
+
+/// An impact of a group of bodies: one of its contacts.
+struct GroupImpact {
+  ImpactContact contact;  ///< its bodies are indices into the group
+  ImpactShare share;
+};
+
+/// Time steps of bodies that touch, where no smooth motion exists (Painlevé's paradox, jams) or contacts
+/// change more often than it pays to follow each. It needs no list of contacts: every step finds those of its
+/// bodies with each other and with the walls.
+///
+/// A step is an ImplicitStep. Its length follows from the tolerance: the difference between one step and two
+/// of half the length, and ends where a gap closes (regula falsi on the length); there all points of the
+/// manifold strike together, by the impact law. Gaps up to `closed()` count as none. No step is shorter than
+/// the time in which nothing moves that far: so chattering ends, at first order, and steps exist where forces
+/// do not: the impulse without approach of a jam.
+class TimeStepper {
+ public:
+  /// `tolerance` [m]: of positions, corners included.
+  TimeStepper(const World& world, const std::vector<TouchingBody>& bodies, double tolerance);
+
+  /// Takes one step, at most so long [s], and returns its length. Throws NumericalError if no impulses were
+  /// found however short the step.
+  double step(double most);
+  /// Cuts the last step to `length` [s] from its start.
+  void cutTo(double length);
+  /// [s] of the last step.
+  double length() const { return length_; }
+  /// Contacts that are closed at the end of the last step; those of them that had a force in it.
+  std::vector<ContactFeature> touching() const;
+  std::vector<ContactFeature> pressed() const;
+
+  const GroupState& state() const { return end_; }
+  /// Motion of a body in the last step.
+  ContactStep motion(std::size_t body) const;
+  /// Impacts at the start of the last step.
+  const std::vector<GroupImpact>& impacts() const { return impacts_; }
+  /// Whether nothing moves faster than what falling through a small part of the tolerance gives.
+  bool isQuiet() const;
+  /// [m] deepest gap of a contact seen at the end of a step.
+  double deepest() const { return deepest_; }
+  /// [m] Gaps up to this count as none.
+  double closed() const { return 0.25 * tolerance_; }
+  const ImplicitStep& equations() const { return equations_; }
+
+ private:
+  struct Watch {  // an event function: a gap that may close, or a contact's way to the end of its face
+    enum class Kind { kFeature, kPair, kBeyond };
+    Kind kind = Kind::kFeature;
+    ContactFeature feature;  // or a pair, as its a and b
+    double margin = 0;       // [m]
+    double atStart = 0;      // [m]
+  };
+  struct Found {  // a contact feature near closing
+    ContactFeature feature;
+    double gap = 0;   // [m]
+    double rate = 0;  // [m/s]
+  };
+
+  void findContacts(const GroupState& at);
+  void addWallContacts(std::size_t body);
+  void addPairContacts(std::size_t a, std::size_t b);
+  void lookAgain(const GroupState& at);
+  void collide();
+  bool collideOnce();
+  bool obeys(const Found& found, double h) const;
+  void choose(double h);
+  void listWatches(double h);
+  void watchWalls(std::size_t body, double reach);
+  void watch(const Watch& watch);
+  GroupState stateWithin(double time) const;
+  double curvatureBound(const Watch& watch) const;
+  double dipWithin(const Watch& watch, double curvature, double from, double valueFrom, double to,
+                   double valueTo, int depth) const;
+  double firstDip();
+  double value(const Watch& watch, const GroupState& at) const;
+  double lowest(const GroupState& at) const;
+  enum class Attempt { kDone, kShorter, kUnsolved };
+  Attempt attempt(double& h, double shortest);
+  bool tryStep(double h);
+  bool tryHalves(double h);
+  bool locate(double& h);
+  double errorOf(const GroupState& coarse, const GroupState& fine, double h) const;
+  double shortestStep();
+  double longestStep() const;
+  void correct();
+  bool near(const GroupState& at, std::size_t a, std::size_t b, double within) const;
+  BoxAt boxOf(std::size_t body) const;
+  Material materialOf(const ContactFeature& feature) const;
+
+  const World& world_;
+  const std::vector<TouchingBody>& bodies_;
+  double tolerance_;
+  ImplicitStep equations_;
+  GroupState start_;
+  GroupState end_;
+  GroupState middle_;
+  GroupState coarse_;
+  std::vector<Found> found_;        // contacts at the start
+  std::vector<ClosedContact> law_;  // those whose law holds in the step
+  std::vector<Watch> watches_;
+  std::vector<ClosedContact> known_;  // of the last step: forces to start from
+  std::vector<GroupImpact> impacts_;
+  std::vector<Pose> poses_;
+  std::vector<ContactStep> motions_;
+  double length_ = 0;
+  double proposed_ = 0;
+  double acceleration_ = 0;  // [m/s²] largest of the last step
+  double deepest_ = 0;
+};
+
+}  // namespace careen

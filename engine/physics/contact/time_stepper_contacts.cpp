@@ -1,0 +1,375 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/disjoint_sets.h"
+#include "physics/contact/time_stepper.h"
+#include "physics/geometry/contact_points.h"
+#include "physics/geometry/separation.h"
+
+// Contacts of a time step: which there are, which obey their law, which are watched; impacts at its start.
+
+namespace careen {
+namespace {
+
+/// [1] of a closed gap: how far a contact may open within a step and still obey its law.
+constexpr double kOpens = 0x1p-4;
+/// [1] of a closed gap: hops no higher are not followed.
+constexpr double kHop = 0x1p-4;
+constexpr int kMostRounds = 8;
+
+bool isSame(const ContactFeature& x, const ContactFeature& y) {
+  return x.kind == y.kind && x.a == y.a && x.b == y.b && x.axisA == y.axisA && x.axisB == y.axisB &&
+         x.sign == y.sign && (x.onA - y.onA).isZero(1e-9 * x.onA.norm()) &&
+         (x.onB - y.onB).isZero(1e-9 * x.onB.norm());
+}
+
+}  // namespace
+
+BoxAt TimeStepper::boxOf(std::size_t body) const { return {poses_[body], bodies_[body].body->halfExtents}; }
+
+Material TimeStepper::materialOf(const ContactFeature& feature) const {
+  const Material& ofA = bodies_[static_cast<std::size_t>(feature.a)].body->material;
+  return careen::touching(ofA, feature.b.isWall()
+                                   ? world_.walls[feature.b.wall()].material
+                                   : bodies_[static_cast<std::size_t>(feature.b.body())].body->material);
+}
+
+bool TimeStepper::near(const GroupState& at, std::size_t a, std::size_t b, double within) const {
+  const double reach = bodies_[a].body->halfExtents.norm() + bodies_[b].body->halfExtents.norm() + within;
+  return (at[a].position - at[b].position).squaredNorm() <= reach * reach;
+}
+
+void TimeStepper::addWallContacts(std::size_t body) {
+  for (std::size_t w = 0; w < world_.walls.size(); ++w) {
+    const Wall& wall = world_.walls[w];
+    if (gapToPlane(boxOf(body), wall.normal, wall.offset) > closed()) {
+      continue;
+    }
+    for (int k = 0; k < kCorners; ++k) {
+      ContactFeature feature{.a = static_cast<int>(body),
+                             .b = Partner::ofWall(w),
+                             .onA = corner(bodies_[body].body->halfExtents, k)};
+      if (cornerGap(poses_[body], feature.onA, wall.normal, wall.offset) <= closed()) {
+        feature.material = materialOf(feature);
+        found_.push_back({.feature = feature});
+      }
+    }
+  }
+}
+
+void TimeStepper::addPairContacts(std::size_t a, std::size_t b) {
+  const double gap = BoxAxes(boxOf(a), boxOf(b)).gap();
+  if (gap > closed()) {
+    return;
+  }
+  for (const ContactPoint& point : boxContactPoints(boxOf(a), boxOf(b), closed())) {
+    ContactFeature feature =
+        featureAt(point, closed(), static_cast<int>(a), boxOf(a), static_cast<int>(b), boxOf(b));
+    feature.material = materialOf(feature);
+    found_.push_back({.feature = feature});
+  }
+}
+
+// All contact features with a gap that counts as none.
+void TimeStepper::findContacts(const GroupState& at) {
+  found_.clear();
+  poses_.clear();
+  for (const GroupBody& body : at) {
+    poses_.push_back({body.position, body.worldFromBody.toRotationMatrix()});
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].isHeld()) {
+      addWallContacts(i);
+    }
+    for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
+      if (!(bodies_[i].isHeld() && bodies_[j].isHeld()) && near(at, i, j, closed())) {
+        addPairContacts(i, j);
+      }
+    }
+  }
+  lookAgain(at);
+}
+
+void TimeStepper::lookAgain(const GroupState& at) {
+  for (Found& found : found_) {
+    const ContactState state = equations_.contactAt(found.feature, at);
+    found.gap = state.gap;
+    found.rate = state.rate;
+  }
+}
+
+// Contacts that obey their law in a step of length h. One that parts so fast that it would open within the
+// step is in flight instead.
+bool TimeStepper::obeys(const Found& found, double h) const {
+  return found.gap <= closed() && found.rate * h <= kOpens * closed();
+}
+
+void TimeStepper::choose(double h) {
+  const std::vector<ClosedContact> forces = law_.empty() ? known_ : law_;
+  law_.clear();
+  for (const Found& found : found_) {
+    if (!obeys(found, h)) {
+      continue;
+    }
+    ClosedContact& contact = law_.emplace_back(ClosedContact{.feature = found.feature});
+    const auto before = std::find_if(forces.begin(), forces.end(), [&](const ClosedContact& other) {
+      return isSame(other.feature, found.feature);
+    });
+    if (before != forces.end()) {
+      contact.force = before->force;
+    }
+  }
+}
+
+// The event functions of a step of length h from its start: gaps that may close, contacts that may leave
+// their face.
+void TimeStepper::listWatches(double h) {
+  watches_.clear();
+  for (const Found& found : found_) {
+    if (!obeys(found, h)) {
+      watch({.kind = Watch::Kind::kFeature, .feature = found.feature});
+    } else if (found.feature.kind != ContactFeature::Kind::kPointOnWall) {
+      watch({.kind = Watch::Kind::kBeyond, .feature = found.feature});
+    }
+  }
+  std::vector<double> reach;  // [m] by body: how far a point of it may come
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Kinematics at = equations_.kinematics(i, start_[i]);
+    const double speed = at.velocity.norm() + at.angularVelocity.norm() * bodies_[i].body->halfExtents.norm();
+    reach.push_back(bodies_[i].isHeld() ? 0 : 2 * h * (speed + h * acceleration_) + closed());
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].isHeld()) {
+      watchWalls(i, reach[i]);
+    }
+    for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
+      if (!(bodies_[i].isHeld() && bodies_[j].isHeld()) && near(start_, i, j, reach[i] + reach[j])) {
+        watch({.kind = Watch::Kind::kPair,
+               .feature = {.a = static_cast<int>(i), .b = Partner::ofBody(static_cast<int>(j))}});
+      }
+    }
+  }
+}
+
+void TimeStepper::watchWalls(std::size_t body, double reach) {
+  const double radius = bodies_[body].body->halfExtents.norm();
+  for (std::size_t w = 0; w < world_.walls.size(); ++w) {
+    const Wall& wall = world_.walls[w];
+    if (wall.normal.dot(start_[body].position) - wall.offset > radius + reach) {
+      continue;
+    }
+    for (int k = 0; k < kCorners; ++k) {
+      const ContactFeature feature{.a = static_cast<int>(body),
+                                   .b = Partner::ofWall(w),
+                                   .onA = corner(bodies_[body].body->halfExtents, k)};
+      if (std::none_of(found_.begin(), found_.end(),
+                       [&](const Found& found) { return isSame(found.feature, feature); })) {
+        watch({.kind = Watch::Kind::kFeature, .feature = feature});
+      }
+    }
+  }
+}
+
+// Adds an event function; one that is already near zero may fall a little further.
+void TimeStepper::watch(const Watch& added) {
+  const double now = value(added, start_);
+  if (added.kind == Watch::Kind::kBeyond && now < closed()) {
+    return;
+  }
+  Watch& watch = watches_.emplace_back(added);
+  watch.margin = std::max(0.0, 0.25 * closed() - now);
+  watch.atStart = now + watch.margin;
+}
+
+double TimeStepper::value(const Watch& watch, const GroupState& at) const {
+  if (watch.kind == Watch::Kind::kPair) {
+    const auto a = static_cast<std::size_t>(watch.feature.a);
+    const auto b = static_cast<std::size_t>(watch.feature.b.body());
+    return watch.margin +
+           BoxAxes({{at[a].position, at[a].worldFromBody.toRotationMatrix()}, bodies_[a].body->halfExtents},
+                   {{at[b].position, at[b].worldFromBody.toRotationMatrix()}, bodies_[b].body->halfExtents})
+               .gap();
+  }
+  const ContactState state = equations_.contactAt(watch.feature, at);
+  return watch.margin + (watch.kind == Watch::Kind::kBeyond ? -state.beyond : state.gap);
+}
+
+double TimeStepper::lowest(const GroupState& at) const {
+  double lowest = 0;
+  for (std::size_t k = 0; k < watches_.size(); ++k) {
+    const double now = value(watches_[k], at);
+    lowest = k == 0 ? now : std::min(lowest, now);
+  }
+  return lowest;
+}
+
+GroupState TimeStepper::stateWithin(double time) const {
+  GroupState at = end_;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].isHeld()) {
+      const BodyState state = stateAt(Motion(motions_[i]), bodies_[i].body->mass, time);
+      at[i] = {.position = state.pose.position,
+               .worldFromBody = Quat(state.pose.worldFromBody),
+               .velocity = state.velocity,
+               .angularMomentum = state.angularMomentum};
+    }
+  }
+  return at;
+}
+
+// [m/s²] Bound on the second derivative of an event function in the step.
+double TimeStepper::curvatureBound(const Watch& watch) const {
+  double linear = 0;
+  double turning = 0;  // [1/s²]
+  double spin = 0;
+  double speed = 0;
+  double lengths = 0;
+  const auto add = [&](std::size_t body) {
+    lengths += bodies_[body].body->halfExtents.norm();
+    if (!bodies_[body].isHeld()) {
+      const StepBounds bounds = boundsOf(motions_[body]);
+      linear += bounds.acceleration;
+      speed += bounds.speed;
+      spin += bounds.angularSpeed;
+      turning += bounds.angularSpeed * bounds.angularSpeed + bounds.angularAcceleration;
+    }
+  };
+  add(static_cast<std::size_t>(watch.feature.a));
+  const bool isPair = !watch.feature.b.isWall();
+  if (isPair) {
+    add(static_cast<std::size_t>(watch.feature.b.body()));
+  }
+  return linear + (isPair ? 2 * spin * speed + 2 * turning * lengths : turning * lengths);
+}
+
+// A time within the step where a gap is closed that is open at both its ends; else 0. A function whose second
+// derivative is at most c lies at most c h²/8 below its chord; halved until that decides.
+double TimeStepper::dipWithin(const Watch& watch, double curvature, double from, double valueFrom, double to,
+                              double valueTo, int depth) const {
+  const double span = to - from;
+  if (depth == 0 || std::min(valueFrom, valueTo) - 0.125 * curvature * span * span >= -0.5 * closed()) {
+    return 0;
+  }
+  const double middle = 0.5 * (from + to);
+  const double now = value(watch, stateWithin(middle));
+  if (now < -0.5 * closed()) {
+    return middle;
+  }
+  const double before = dipWithin(watch, curvature, from, valueFrom, middle, now, depth - 1);
+  return before > 0 ? before : dipWithin(watch, curvature, middle, now, to, valueTo, depth - 1);
+}
+
+double TimeStepper::firstDip() {
+  constexpr int kDepth = 8;
+  motions_.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].isHeld()) {
+      motions_[i] = motion(i);
+    }
+  }
+  double first = 0;
+  for (const Watch& watch : watches_) {
+    const double atEnd = value(watch, end_);
+    if (watch.kind == Watch::Kind::kBeyond || atEnd < -0.5 * closed()) {
+      continue;
+    }
+    const double dip = dipWithin(watch, curvatureBound(watch), 0, watch.atStart, length_, atEnd, kDepth);
+    first = dip > 0 && (first == 0 || dip < first) ? dip : first;
+  }
+  return first;
+}
+
+// Impacts at the start of a step, until no closed contact approaches.
+void TimeStepper::collide() {
+  for (int round = 0; round < kMostRounds && collideOnce(); ++round) {
+    lookAgain(start_);
+  }
+}
+
+bool TimeStepper::collideOnce() {
+  double speeds = 0;
+  for (const GroupBody& body : start_) {
+    speeds = std::max(speeds, body.velocity.norm());
+  }
+  DisjointSets joined(bodies_.size());
+  std::vector<char> approaching(found_.size(), 0);
+  for (std::size_t c = 0; c < found_.size(); ++c) {
+    const ContactFeature& feature = found_[c].feature;
+    approaching[c] = found_[c].rate < -0x1p-40 * speeds ? 1 : 0;
+    if (!feature.b.isWall() && !bodies_[static_cast<std::size_t>(feature.b.body())].isHeld() &&
+        !bodies_[static_cast<std::size_t>(feature.a)].isHeld()) {
+      joined.join(static_cast<std::size_t>(feature.a), static_cast<std::size_t>(feature.b.body()));
+    }
+  }
+  const auto rootOf = [&](const ContactFeature& feature) {
+    const auto a = static_cast<std::size_t>(feature.a);
+    return joined.root(bodies_[a].isHeld() ? static_cast<std::size_t>(feature.b.body()) : a);
+  };
+  std::vector<char> struck(bodies_.size(), 0);
+  bool any = false;
+  bool bounces = false;
+  for (std::size_t c = 0; c < found_.size(); ++c) {
+    if (approaching[c] != 0) {
+      any = true;
+      struck[rootOf(found_[c].feature)] = 1;
+      const double parting = -found_[c].feature.material.restitution * found_[c].rate;
+      bounces = bounces || parting * parting > 2 * acceleration_ * kHop * closed();
+    }
+  }
+  if (!any) {
+    return false;
+  }
+  std::vector<ContactFeature> features;
+  std::vector<ImpactContact> contacts;
+  for (const Found& found : found_) {
+    if (struck[rootOf(found.feature)] != 0) {
+      features.push_back(found.feature);
+      const ContactState state = equations_.contactAt(found.feature, start_);
+      contacts.push_back({.a = found.feature.a,
+                          .b = found.feature.b,
+                          .armA = state.armA,
+                          .armB = state.armB,
+                          .normal = state.normal,
+                          .material = found.feature.material});
+    }
+  }
+  std::vector<ImpactShare> shares(contacts.size());
+  if (bounces) {
+    std::vector<BodyState> states;
+    std::vector<ImpactBody> bodies;
+    for (const GroupBody& body : start_) {
+      states.push_back({.pose = {body.position, body.worldFromBody.toRotationMatrix()},
+                        .velocity = body.velocity,
+                        .angularMomentum = body.angularMomentum});
+    }
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      bodies.push_back({.mass = &bodies_[i].body->mass, .state = &states[i]});
+    }
+    resolveImpact(bodies, contacts, shares);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      start_[i].velocity = states[i].velocity;
+      start_[i].angularMomentum = states[i].angularMomentum;
+    }
+  } else {
+    std::vector<ContactProblem::Triple> impulses;
+    const GroupState before = start_;
+    if (!equations_.compress(start_, features, impulses)) {
+      return false;
+    }
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      shares[c] = {
+          .approach = -equations_.contactAt(features[c], before).rate,
+          .impulse = impulses[c][0],
+          .tangential = std::sqrt(impulses[c][1] * impulses[c][1] + impulses[c][2] * impulses[c][2])};
+    }
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (shares[c].impulse > 0 && shares[c].approach > 0) {
+      impacts_.push_back({contacts[c], shares[c]});
+    }
+  }
+  return true;
+}
+
+}  // namespace careen
