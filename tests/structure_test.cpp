@@ -46,6 +46,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"start", {"geometry", "world"}},
       {"search", {"geometry", "motion"}},
       {"impact", {"geometry", "world"}},
+      {"solver", {"world"}},
       {"contact", {"geometry", "impact", "motion", "world"}},
       {"pile", {"attitude", "geometry", "world"}},
       {"exact", {"attitude", "contact", "geometry", "impact", "motion", "pile", "search", "world"}},

@@ -121,9 +121,8 @@ std::size_t BlockLu::find(int i, int j) const {
     return diagonal_[column];
   }
   const std::vector<Entry>& entries = columns_[column];
-  const auto entry =
-      std::lower_bound(entries.begin(), entries.end(), std::max(i, j),
-                       [](const Entry& candidate, int row) { return candidate.row < row; });
+  const auto entry = std::lower_bound(entries.begin(), entries.end(), std::max(i, j),
+                                      [](const Entry& candidate, int row) { return candidate.row < row; });
   return i > j ? entry->lower : entry->upper;
 }
 

@@ -1,6 +1,8 @@
 #include "physics/solver/contact_cone.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 namespace careen {
 namespace {
@@ -8,6 +10,38 @@ namespace {
 using Triple = ContactProblem::Triple;
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
+/// Radius μ x_n > 0, |x_t| > radius. Along τ = x_t/|x_t|, λ_t follows μ λ_n; across it, it turns with u_t:
+/// A = [1, 0; μ τ, κ (I − τ τᵀ)] with κ = radius/|x_t|.
+ContactAnswer slippingAnswer(const ContactCone& cone, const ContactEquation& equation, const Triple& impulse,
+                             const Triple& centre, const Triple& u, const std::array<double, 2>& x,
+                             double radius) {
+  const double epsilon = equation.epsilon;
+  const double stiff = equation.rho / epsilon;
+  const double mu = cone.friction;
+  const double size = length(x[0], x[1]);
+  const double kappa = radius / size;
+  const std::array<double, 2> to{x[0] / size, x[1] / size};
+  const std::array<double, 2> across{-to[1], to[0]};
+  const auto part = [](const Triple& of, const std::array<double, 2>& direction) {
+    return of[1] * direction[0] + of[2] * direction[1];
+  };
+  const double normal = centre[0] - stiff * u[0];
+  const double along = (radius + epsilon * part(centre, to) + mu * (normal - impulse[0])) / (1 + epsilon);
+  const double aside =
+      (epsilon * part(centre, across) - kappa * part(impulse, across)) / (1 + epsilon - kappa);
+  const double turn = equation.rho * kappa / (1 + epsilon - kappa);
+  ContactAnswer answer;
+  answer.given = {normal, along * to[0] + aside * across[0], along * to[1] + aside * across[1]};
+  answer.stiffness[0] = stiff;
+  for (std::size_t row = 0; row < 2; ++row) {
+    double* of = &answer.stiffness[3 * (row + 1)];
+    of[0] = mu * stiff * to[row];
+    of[1] = turn * (across[row] * across[0]);
+    of[2] = turn * (across[row] * across[1]);
+  }
+  return answer;
+}
 
 }  // namespace
 
@@ -20,8 +54,8 @@ double ContactCone::violation(const Triple& impulse, const Triple& u) const {
   const double x = impulse[1] / mass - u[1];
   const double y = impulse[2] / mass - u[2];
   const double size = length(x, y);
-  const double limit = friction * std::max(0.0, normal);
-  const double shrink = size > limit ? limit / size : 1;
+  const double radius = friction * std::max(0.0, normal);
+  const double shrink = size > radius ? radius / size : 1;
   const double dx = impulse[1] / mass - shrink * x;
   const double dy = impulse[2] / mass - shrink * y;
   return std::sqrt(open * open + (dx * dx + dy * dy));
@@ -35,69 +69,57 @@ Triple ContactCone::admissible(const Triple& impulse) const {
     return {impulse[0], drag[0] * impulse[0], drag[1] * impulse[0]};
   }
   const double size = length(impulse[1], impulse[2]);
-  const double limit = friction * impulse[0];
-  if (size <= limit) {
+  const double radius = friction * impulse[0];
+  if (size <= radius) {
     return impulse;
   }
-  const double shrink = limit / size;
+  const double shrink = radius / size;
   return {impulse[0], shrink * impulse[1], shrink * impulse[2]};
 }
 
-void answerSticking(const ContactCone& cone, const Triple& impulse, const Triple& u, double rho, double epsilon,
-                    ContactAnswer& answer) {
-  const double stiff = rho / epsilon;
-  const double normal = impulse[0] - stiff * u[0];
-  answer.stiffness = {};
+ContactAnswer stickingAnswer(const ContactCone& cone, const ContactEquation& equation, const Triple& centre,
+                             const Triple& u) {
+  const double stiff = equation.rho / equation.epsilon;
+  ContactAnswer answer;
+  answer.given[0] = centre[0] - stiff * u[0];
   answer.stiffness[0] = stiff;
-  if (cone.onLine) {
-    answer.given = {normal, cone.drag[0] * normal, cone.drag[1] * normal};
-    answer.stiffness[3] = cone.drag[0] * stiff;
-    answer.stiffness[6] = cone.drag[1] * stiff;
-    return;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (cone.onLine) {
+      answer.given[k] = cone.drag[k - 1] * answer.given[0];
+      answer.stiffness[3 * k] = cone.drag[k - 1] * stiff;
+    } else {
+      answer.given[k] = centre[k] - stiff * u[k];
+      answer.stiffness[4 * k] = stiff;
+    }
   }
-  answer.given = {normal, impulse[1] - stiff * u[1], impulse[2] - stiff * u[2]};
-  answer.stiffness[4] = stiff;
-  answer.stiffness[8] = stiff;
+  return answer;
 }
 
-ContactMode answerByNewton(const ContactCone& cone, const Triple& impulse, const Triple& u, double rho,
-                           double epsilon, ContactAnswer& answer) {
-  const double normal = impulse[0] - rho * u[0];
+ContactAnswer newtonAnswer(const ContactCone& cone, const ContactEquation& equation, const Triple& impulse,
+                           const Triple& centre, const Triple& u) {
+  const double normal = impulse[0] - equation.rho * u[0];
   if (!(normal > 0)) {
-    answer = {};
-    return ContactMode::kOpen;
+    return {};
   }
-  const double x = impulse[1] - rho * u[1];
-  const double y = impulse[2] - rho * u[2];
-  const double size = length(x, y);
-  const double mu = cone.friction;
-  const double limit = mu * normal;
-  if (cone.onLine || size <= limit) {
-    answerSticking(cone, impulse, u, rho, epsilon, answer);
-    return ContactMode::kStick;
+  const std::array<double, 2> x{impulse[1] - equation.rho * u[1], impulse[2] - equation.rho * u[2]};
+  const double radius = cone.friction * normal;
+  if (cone.onLine || length(x[0], x[1]) <= radius) {
+    return stickingAnswer(cone, equation, centre, u);
   }
-  const double stiff = rho / epsilon;
-  const std::array<double, 2> to{x / size, y / size};
-  const std::array<double, 2> across{-to[1], to[0]};
-  const double kappa = limit / size;
-  // Along τ: λ_t → μ λ_n; across it, the direction turns with u_t.
-  const double given = impulse[0] - stiff * u[0];
-  const double along = impulse[1] * to[0] + impulse[2] * to[1];
-  const double aside = impulse[1] * across[0] + impulse[2] * across[1];
-  const double newAlong = along + ((limit - along) - mu * stiff * u[0]) / (1 + epsilon);
-  const double newAside = aside - aside / (1 + epsilon - kappa);
-  const double turn = rho * kappa / (1 + epsilon - kappa);
-  answer.given = {given, newAlong * to[0] + newAside * across[0], newAlong * to[1] + newAside * across[1]};
-  answer.stiffness = {stiff,
-                      0,
-                      0,
-                      mu * stiff * to[0],
-                      turn * (across[0] * across[0]),
-                      turn * (across[0] * across[1]),
-                      mu * stiff * to[1],
-                      turn * (across[0] * across[1]),
-                      turn * (across[1] * across[1])};
-  return ContactMode::kSlip;
+  return slippingAnswer(cone, equation, impulse, centre, u, x, radius);
+}
+
+double equationError(const ContactCone& cone, const ContactEquation& equation, const Triple& impulse,
+                     const Triple& centre, const Triple& u) {
+  const double rho = equation.rho;
+  const Triple x =
+      cone.admissible({impulse[0] - rho * u[0], impulse[1] - rho * u[1], impulse[2] - rho * u[2]});
+  double sum = 0;
+  for (std::size_t k = 0; k < (cone.onLine ? 1 : 3); ++k) {
+    const double error = (impulse[k] - x[k] + equation.epsilon * (impulse[k] - centre[k])) / rho;
+    sum += error * error;
+  }
+  return std::sqrt(sum);
 }
 
 }  // namespace careen

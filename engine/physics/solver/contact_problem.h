@@ -6,8 +6,8 @@
 
 namespace careen {
 
-/// Velocities after impulses in friction cones; with accelerations in place of velocities, accelerations under
-/// contact forces. Time steps, impacts, contact forces and the test for rest are this one problem.
+/// Velocities after impulses in friction cones; with accelerations in place of velocities, accelerations
+/// under contact forces. Time steps, impacts, contact forces and the test for rest are this one problem.
 ///
 /// Velocities q are six numbers per body, that of the centre of mass in the world frame and ω in the body's
 /// frame, so that M is diagonal. Contact c has a normal row n and two tangential rows t, orthonormal in the
@@ -25,17 +25,17 @@ namespace careen {
 /// slip, may leave no solution (P. Painlevé, C. R. Acad. Sci. 121, 1895).
 struct ContactProblem {
   static constexpr std::size_t kAxes = 6;
-  static constexpr int kNobody = -1;             ///< what never moves: its part of the rows is zero
-  using Row = std::array<double, 2 * kAxes>;     ///< a's six, then b's
-  using Triple = std::array<double, 3>;          ///< normal, tangent, tangent
+  static constexpr int kNobody = -1;          ///< what never moves: its part of the rows is zero
+  using Row = std::array<double, 2 * kAxes>;  ///< a's six, then b's
+  using Triple = std::array<double, 3>;       ///< normal, tangent, tangent
 
   struct Contact {
     int a = kNobody;  ///< index of a body, or kNobody; at least one is a body
     int b = kNobody;
     std::array<Row, 3> rows{};
-    double friction = 0;  ///< [1] μ ≥ 0; may be very large
-    Triple target{};      ///< [m/s]
-    bool slips = false;   ///< friction has the given direction
+    double friction = 0;           ///< [1] μ ≥ 0; may be very large
+    Triple target{};               ///< [m/s]
+    bool slips = false;            ///< friction has the given direction
     std::array<double, 2> slip{};  ///< [1] unit
   };
 
@@ -49,9 +49,11 @@ struct ContactSolution {
   std::vector<ContactProblem::Triple> impulses;  ///< λ [N s]; on entry the warm start, if as many as contacts
   /// [m/s] On entry: a residual that is as good as none to the caller, if the impulses are much larger.
   double enough = 0;
-  double residual = 0;     ///< [m/s] largest of the contacts' natural maps (contact_cone.h), of what is returned
-  double scale = 0;        ///< [m/s] V, the largest contact speed |J q₀ − target|: what the residual is measured against
-  bool solved = false;     ///< the residual is small enough, see ContactSolver; otherwise the best iterate is kept
+  double residual = 0;  ///< [m/s] largest of the contacts' natural maps (contact_cone.h), of what is returned
+  double scale =
+      0;  ///< [m/s] V, the largest contact speed |J q₀ − target|: what the residual is measured against
+  bool solved =
+      false;  ///< the residual is small enough, see ContactSolver; otherwise the best iterate is kept
   int factorisations = 0;  ///< of the matrix of all bodies
 };
 

@@ -1,17 +1,36 @@
 #include "physics/solver/contact_solver.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cstddef>
 
 namespace careen {
 namespace {
 
-constexpr double kEnough = 1e-9;           // [1] of V
-constexpr double kSmall = 1e-13;           // [1] of V
-constexpr double kOfImpulses = 1e-6;       // [1] of the largest λ/mass
-constexpr double kGhost = 1e-3;            // [1] of the largest λ/mass
-constexpr double kGoal = 0x1p-50;          // [1] of V
-constexpr double kFall = 0x1p-7;           // of the gap, until Newton's method is tried again
+// [1] of V
+constexpr double kEnough = 1e-9;
+constexpr double kSmall = 1e-13;
+constexpr double kGoal = 0x1p-50;  // where Newton's method stops
+constexpr double kPolished = 0x1p-43;
+// [1] of the largest λ/mass
+constexpr double kOfImpulses = 1e-6;
+constexpr double kGhost = 1e-3;
+
+constexpr double kFall = 0x1p-10;  // of the gap, until Newton's method is tried again
+constexpr int kIterations = 60;
+/// The interior-point method is stuck after so many strides this short: then it starts anew, once, around its
+/// impulses.
+constexpr double kShortStride = 0.1;
+constexpr int kShortStrides = 3;
+constexpr double kMostShift = 0.1;    // [1] of V
+constexpr double kLeastShift = 1e-8;  // [1] of V
+constexpr InteriorPoint::Options kCautious{
+    .start = 1, .stride = 0.9, .leastCentering = 0.1, .secondOrder = false};
+
+constexpr ContactNewton::Options kDescent{.rho = 1, .epsilon = 0x1p-10, .steps = 3, .enough = 0};
+constexpr int kProximalSteps = 100;  // of a round
+constexpr int kFirstSweeps = 64;
+constexpr int kDoublings = 8;
 
 }  // namespace
 
@@ -20,13 +39,13 @@ bool ContactSolver::isEnough() const {
   for (std::size_t c = 0; c < impulses_.size(); ++c) {
     largest = std::max(largest, impulses_[c][0] / contacts_.contacts()[c].mass);
   }
-  const double scale = contacts_.scale();
-  const double exact = std::min(kEnough * scale, std::max(kSmall * scale, kOfImpulses * largest));
-  return residual_ <= std::max({exact, contacts_.noise(), std::min(enough_, kGhost * largest)});
+  const double enough = std::min(inScale(kEnough), std::max(inScale(kSmall), kOfImpulses * largest));
+  return residual_ <= std::max({enough, contacts_.noise(), std::min(enough_, kGhost * largest)});
 }
 
 /// Takes the trial if it is better than the best. Returns whether the best is enough.
 bool ContactSolver::keepIfBetter(double residual) {
+  factorisations_ += newton_.factorisations();
   if (residual < residual_) {
     residual_ = residual;
     std::swap(impulses_, trial_);
@@ -35,66 +54,133 @@ bool ContactSolver::keepIfBetter(double residual) {
   return isEnough();
 }
 
-bool ContactSolver::tryNewton(std::span<const Triple> from, const ContactNewton::Options& options) {
+bool ContactSolver::tryNewton(std::span<const Triple> from, ContactNewton::Options options, bool sticking) {
   std::copy(from.begin(), from.end(), trial_.begin());
-  const double goal = kGoal * contacts_.scale();
-  const double residual = newton_.improve(contacts_, trial_, trialQ_, options, goal);
-  factorisations_ += newton_.factorisations();
-  return keepIfBetter(residual);
+  options.enough = inScale(kGoal);
+  return keepIfBetter(newton_.improve(contacts_, trial_, trialQ_, options, sticking));
+}
+
+bool ContactSolver::tryDescent(std::span<const Triple> from) {
+  std::copy(from.begin(), from.end(), trial_.begin());
+  return keepIfBetter(newton_.descend(contacts_, trial_, trialQ_, kDescent));
+}
+
+bool ContactSolver::tryApproach(std::span<const Triple> from, ContactNewton::Options options) {
+  std::copy(from.begin(), from.end(), trial_.begin());
+  return keepIfBetter(newton_.approach(contacts_, trial_, trialQ_, options));
 }
 
 bool ContactSolver::tryInterior(const InteriorPoint::Options& options, int iterations) {
   interior_.start(contacts_, options);
   double polished = interior_.gap();
-  for (int k = 0; k < iterations; ++k) {
+  int slow = 0;
+  bool restarted = false;
+  for (int k = 0; k < iterations && mayGoOn(); ++k) {
     ++factorisations_;
     const bool goesOn = interior_.advance(contacts_);
     if (interior_.gap() < kFall * polished || !goesOn) {
       polished = interior_.gap();
-      if (tryNewton(interior_.impulses(), {})) {
+      if (tryNewton(interior_.impulses(), {}) || tryDescent(interior_.impulses())) {
         return true;
       }
     }
-    if (!goesOn) {
+    slow = interior_.lastStride() < kShortStride ? slow + 1 : 0;
+    if (goesOn && slow < kShortStrides) {
+      continue;
+    }
+    if (restarted) {
       break;
+    }
+    restarted = true;
+    std::copy(interior_.impulses().begin(), interior_.impulses().end(), from_.begin());
+    const double residual = ContactNewton::residual(contacts_, from_, trialQ_);
+    const double shift = std::clamp(10 * residual, inScale(kLeastShift), inScale(kMostShift));
+    interior_.startAt(contacts_, from_, shift, kCautious);
+    polished = interior_.gap();
+    slow = 0;
+  }
+  return false;
+}
+
+/// From the best iterate. Rounds alternate between two ρ: what is stuck with one often moves with the other.
+bool ContactSolver::tryProximal(int rounds) {
+  std::copy(impulses_.begin(), impulses_.end(), from_.begin());
+  for (int round = 0; round < rounds && mayGoOn(); ++round) {
+    const double rho = round % 2 == 0 ? 0x1p-2 : 0x1p-5;
+    if (tryApproach(
+            from_,
+            {.rho = rho, .epsilon = 0x1p-10, .steps = kProximalSteps, .enough = inScale(kEnough / 8)})) {
+      return true;
+    }
+    std::copy(newton_.lastCentre().begin(), newton_.lastCentre().end(), from_.begin());
+    if (newton_.factorisations() >= kProximalSteps) {
+      continue;
+    }
+    sweeps_.start(contacts_, from_);
+    sweeps_.sweep(contacts_, kFirstSweeps << std::min(round, kDoublings));
+    std::copy(sweeps_.impulses().begin(), sweeps_.impulses().end(), from_.begin());
+    if (tryNewton(from_, {})) {
+      return true;
     }
   }
   return false;
 }
 
-void ContactSolver::search() {
-  if (tryNewton(impulses_, {.steps = 8, .stickFirst = true})) {
+void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
+  std::fill(impulses_.begin(), impulses_.end(), Triple{});
+  residual_ = ContactNewton::residual(contacts_, impulses_, q_);
+  if (isEnough()) {
     return;
   }
-  if (tryInterior({}, 60)) {
+  if (solution.impulses.size() == impulses_.size()) {
+    contacts_.importImpulses(solution.impulses, from_);
+    if (tryNewton(from_, {.steps = 8})) {
+      return;
+    }
+  }
+  std::fill(from_.begin(), from_.end(), Triple{});
+  if (tryNewton(from_, {.steps = 8}, true) || tryInterior({}, kIterations) || tryProximal(8)) {
     return;
   }
-  for (const double start : {1.0, 1e4, 0.1, 100.0, 0.01, 10.0, 1e6}) {
-    if (tryInterior({.start = start, .stride = 0.9, .leastCentering = 0.1, .secondOrder = false}, 150)) {
+  for (const double start : {1e4, 0.01, 1.0, 100.0, 0.1, 1e6}) {
+    InteriorPoint::Options options = kCautious;
+    options.start = start;
+    if (tryInterior(options, 2 * kIterations) || tryProximal(16)) {
       return;
     }
   }
 }
 
-bool ContactSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
+/// Where nearly redundant contacts leave the accepted residual far above rounding errors.
+void ContactSolver::polish() {
+  for (const double rho : {1.0, 0x1p5, 0x1p-6}) {
+    if (residual_ > std::max(inScale(kPolished), contacts_.noise())) {
+      std::copy(impulses_.begin(), impulses_.end(), from_.begin());
+      tryNewton(from_, {.rho = rho, .steps = 6});
+    }
+  }
+  if (residual_ > std::max(inScale(kPolished), contacts_.noise())) {
+    std::copy(impulses_.begin(), impulses_.end(), from_.begin());
+    tryApproach(from_, {.epsilon = 0x1p-16, .steps = 60, .enough = inScale(kPolished)});
+  }
+}
+
+bool ContactSolver::solve(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations) {
   contacts_.set(problem);
   enough_ = solution.enough;
   const std::size_t count = problem.contacts.size();
-  impulses_.assign(count, {});
+  impulses_.resize(count);
   trial_.resize(count);
+  from_.resize(count);
   q_.resize(problem.free.size());
   trialQ_.resize(problem.free.size());
   factorisations_ = 0;
-  residual_ = ContactNewton::residual(contacts_, impulses_, q_);
-  bool solved = isEnough();
-  if (!solved && solution.impulses.size() == count) {
-    contacts_.importImpulses(solution.impulses, trial_);
-    solved = tryNewton(trial_, {.steps = 8});
-  }
-  if (!solved) {
-    search();
-  }
+  most_ = mostFactorisations;
+  solveWithoutPolish(solution);
   solution.solved = isEnough();
+  if (solution.solved) {
+    polish();
+  }
   solution.residual = residual_;
   solution.scale = contacts_.scale();
   solution.factorisations = factorisations_;

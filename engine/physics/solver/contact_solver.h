@@ -1,48 +1,71 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "physics/solver/contact_newton.h"
 #include "physics/solver/contact_problem.h"
+#include "physics/solver/contact_sweeps.h"
 #include "physics/solver/coupled_contacts.h"
 #include "physics/solver/interior_point.h"
 
 namespace careen {
 
-/// Solves a ContactProblem, or says honestly that it did not. In this order, until the residual is small enough:
+/// Solves a ContactProblem, or says that it did not. In this order, until the residual is small enough:
 ///
-///   1. Newton's method from the warm start, or with every contact closed and sticking at first;
-///   2. the interior-point method; whenever its gap fell 100 times, Newton's method from there;
-///   3. the interior-point method from other starts, with other parameters.
+///   1. no impulses;
+///   2. Newton's method from the warm start; from every contact closed and sticking;
+///   3. the interior-point method; whenever its gap fell a thousand times, Newton's method from there;
+///   4. proximal points from the best iterate; where they are stuck, sweeps of Gauss–Seidel, ever more of
+///   them;
+///   5. the interior-point method from other starts and with other parameters.
 ///
-/// Small enough: residual ≤ 1e-9 V and ≤ max(1e-13 V, 1e-6 of the largest λ/mass). Without the second condition impulses of
-/// 1e-8 V can pass where the answer is large. What is accepted is improved as far as rounding errors allow.
+/// Small enough: residual ≤ 1e-9 V, and ≤ max(1e-13 V, 1e-6 of the largest λ/mass): without the second
+/// condition impulses of 1e-8 V can pass where the answer is large. Below the rounding error of the relative
+/// velocities themselves it is always small enough. What is accepted is then improved as far as a few steps
+/// do.
 ///
-/// An object keeps the order of elimination and its memory while bodies and contacts touch each other as before.
+/// Redundant contacts share evenly: the impulses are nearest to the warm start, or to zero, or central. Where
+/// a problem has several answers (friction can have that), this order chooses, and nothing that depends on
+/// names.
+///
+/// An object keeps the order of elimination and its memory while bodies and contacts touch each other as
+/// before.
 class ContactSolver {
  public:
-  bool solve(const ContactProblem& problem, ContactSolution& solution);
+  /// `solution.impulses` is the warm start if there is one for each contact. Gives up, with the best iterate,
+  /// after about `mostFactorisations`; problems without a solution take all of them.
+  bool solve(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations = kMost);
+  static constexpr int kMost = 3000;
 
  private:
   using Triple = ContactProblem::Triple;
 
-  bool tryNewton(std::span<const Triple> from, const ContactNewton::Options& options);
+  void solveWithoutPolish(const ContactSolution& solution);
+  bool tryNewton(std::span<const Triple> from, ContactNewton::Options options, bool sticking = false);
+  bool tryDescent(std::span<const Triple> from);
+  bool tryApproach(std::span<const Triple> from, ContactNewton::Options options);
   bool tryInterior(const InteriorPoint::Options& options, int iterations);
+  bool tryProximal(int rounds);
+  void polish();
   bool keepIfBetter(double residual);
   bool isEnough() const;
-  void polish();
-  void search();
+  bool mayGoOn() const { return factorisations_ < most_; }
+  double inScale(double part) const { return part * contacts_.scale(); }
 
   CoupledContacts contacts_;
   ContactNewton newton_;
   InteriorPoint interior_;
+  ContactSweeps sweeps_;
   std::vector<Triple> impulses_;  // the best
   std::vector<double> q_;
   double residual_ = 0;
   double enough_ = 0;
   std::vector<Triple> trial_;
   std::vector<double> trialQ_;
+  std::vector<Triple> from_;
   int factorisations_ = 0;
+  int most_ = kMost;
 };
 
 }  // namespace careen

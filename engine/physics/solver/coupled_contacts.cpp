@@ -9,10 +9,14 @@ namespace careen {
 
 namespace {
 
-constexpr double kRounding = 0x1p-52;
+/// [1] Of the largest term of a relative velocity.
+constexpr double kNoise = 0x1p-50;
 
 using Row = ContactProblem::Row;
 using Triple = ContactProblem::Triple;
+
+/// Without order there is no sorting.
+double numberOr0(double x) { return std::isfinite(x) ? x : 0; }
 
 double product(const double* row, const double* part) {
   double sum = 0;
@@ -46,7 +50,6 @@ void CoupledContacts::order(const ContactProblem& problem) {
   for (std::size_t k = 0; k < order_.size(); ++k) {
     place_[order_[k]] = k;
   }
-  const auto placeOf = [&](int body) { return static_cast<int>(place_[static_cast<std::size_t>(body)]); };
   std::vector<std::pair<int, int>> edges;
   for (const auto& [a, b] : graph_) {
     if (a != kNobody && b != kNobody) {
@@ -85,45 +88,81 @@ void CoupledContacts::set(const ContactProblem& problem) {
   copyContacts(problem);
 }
 
+/// The contacts, in an order that does not follow the listing.
 void CoupledContacts::copyContacts(const ContactProblem& problem) {
-  contacts_.resize(problem.contacts.size());
-  listed_.resize(contacts_.size());
+  const std::size_t count = problem.contacts.size();
+  contacts_.resize(count);
+  keys_.resize(count);
+  for (std::size_t c = 0; c < count; ++c) {
+    keys_[c] = keyOf(problem.contacts[c], c);
+  }
+  std::sort(keys_.begin(), keys_.end());
   scale_ = 0;
   noise_ = 0;
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const ContactProblem::Contact& from = problem.contacts[c];
+  for (std::size_t c = 0; c < count; ++c) {
+    const ContactProblem::Contact& from = problem.contacts[keys_[c].listed];
     Contact& contact = contacts_[c];
-    listed_[c] = c;
-    contact.a = from.a == kNobody ? kNobody : static_cast<int>(place_[static_cast<std::size_t>(from.a)]);
-    contact.b = from.b == kNobody ? kNobody : static_cast<int>(place_[static_cast<std::size_t>(from.b)]);
+    contact.a = placeOf(from.a);
+    contact.b = placeOf(from.b);
     contact.rows = from.rows;
     contact.target = from.target;
-    contact.blocks = blocks_[c];
+    contact.blocks = blocks_[keys_[c].listed];
     contact.onLine = from.slips || !(from.friction > 0);
     contact.friction = contact.onLine ? 0 : from.friction;
-    contact.drag = from.slips ? std::array<double, 2>{-from.friction * from.slip[0], -from.friction * from.slip[1]}
-                              : std::array<double, 2>{};
-    double inverse = 0;
-    double noise = 0;
-    for (std::size_t side = 0; side < 2; ++side) {
-      const int body = side == 0 ? contact.a : contact.b;
-      for (std::size_t k = 0; body != kNobody && k < kAxes; ++k) {
-        const std::size_t at = static_cast<std::size_t>(body) * kAxes + k;
-        const double n = contact.rows[0][side * kAxes + k];
-        inverse += inverseMass_[at] * (n * n);
-        for (std::size_t row = 0; row < 3; ++row) {
-          noise = std::max(noise, std::fabs(contact.rows[row][side * kAxes + k] * free_[at]));
-        }
-      }
+    contact.drag = {};
+    if (from.slips) {
+      contact.drag = {-from.friction * from.slip[0], -from.friction * from.slip[1]};
     }
-    contact.mass = 1 / inverse;
-    const Triple u = relativeVelocity(contact, free_);
-    scale_ = std::max(scale_, std::sqrt(u[0] * u[0] + (u[1] * u[1] + u[2] * u[2])));
-    for (const double part : contact.target) {
-      noise = std::max(noise, std::fabs(part));
-    }
-    noise_ = std::max(noise_, 4 * kRounding * noise);
+    weigh(contact);
   }
+}
+
+int CoupledContacts::placeOf(int listed) const {
+  return listed == kNobody ? kNobody : static_cast<int>(place_[static_cast<std::size_t>(listed)]);
+}
+
+/// Neither names nor mirroring change these numbers, and powers of two as units do not change their order.
+CoupledContacts::Key CoupledContacts::keyOf(const ContactProblem::Contact& from, std::size_t listed) const {
+  Triple u{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const int body = placeOf(side == 0 ? from.a : from.b);
+    for (std::size_t row = 0; body != kNobody && row < 3; ++row) {
+      u[row] += product(&from.rows[row][side * kAxes], &free_[static_cast<std::size_t>(body) * kAxes]);
+    }
+  }
+  const double normal = u[0] - from.target[0];
+  const double x = u[1] - from.target[1];
+  const double y = u[2] - from.target[2];
+  return {.bodies = std::minmax(placeOf(from.a), placeOf(from.b)),
+          .numbers = {numberOr0(from.friction), numberOr0(normal), numberOr0(x * x + y * y)},
+          .listed = listed};
+}
+
+/// Effective masses, and what the contact adds to the scale of speeds and of their rounding errors.
+void CoupledContacts::weigh(Contact& contact) {
+  double normal = 0;
+  double tangential = 0;
+  double largest = 0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const int body = side == 0 ? contact.a : contact.b;
+    for (std::size_t k = 0; body != kNobody && k < kAxes; ++k) {
+      const std::size_t at = static_cast<std::size_t>(body) * kAxes + k;
+      const std::size_t i = side * kAxes + k;
+      const auto& [n, t, s] = contact.rows;
+      normal += inverseMass_[at] * (n[i] * n[i]);
+      tangential += inverseMass_[at] * (t[i] * t[i] + s[i] * s[i]);
+      const double widest = std::max({std::fabs(n[i]), std::fabs(t[i]), std::fabs(s[i])});
+      largest = std::max(largest, widest * std::fabs(free_[at]));
+    }
+  }
+  contact.mass = 1 / normal;
+  contact.tangentialMass = 2 / tangential;
+  const Triple u = relativeVelocity(contact, free_);
+  scale_ = std::max(scale_, std::sqrt(u[0] * u[0] + (u[1] * u[1] + u[2] * u[2])));
+  for (const double part : contact.target) {
+    largest = std::max(largest, std::fabs(part));
+  }
+  noise_ = std::max(noise_, kNoise * largest);
 }
 
 Triple CoupledContacts::change(const Contact& contact, std::span<const double> dq) const {
@@ -182,6 +221,21 @@ void CoupledContacts::velocities(std::span<const Triple> impulses, std::span<dou
   }
 }
 
+void CoupledContacts::apply(const Contact& contact, const Triple& impulse, std::span<double> q) const {
+  const auto& [n, t, s] = contact.rows;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const int body = side == 0 ? contact.a : contact.b;
+    if (body == kNobody) {
+      continue;
+    }
+    const std::size_t first = static_cast<std::size_t>(body) * kAxes;
+    for (std::size_t k = 0; k < kAxes; ++k) {
+      const std::size_t i = side * kAxes + k;
+      q[first + k] += inverseMass_[first + k] * (n[i] * impulse[0] + t[i] * impulse[1] + s[i] * impulse[2]);
+    }
+  }
+}
+
 void CoupledContacts::add(const Contact& contact, const std::array<double, 9>& d) {
   const auto& [n, t, s] = contact.rows;
   std::array<Row, 3> stiff;  // D J
@@ -211,7 +265,7 @@ void CoupledContacts::add(const Contact& contact, const std::array<double, 9>& d
 bool CoupledContacts::factorise(std::span<const ContactAnswer> answers) {
   matrix_.setZero();
   for (std::size_t body = 0; body < bodies(); ++body) {
-    BlockLu::Block& block = matrix_.block(matrix_.find(static_cast<int>(body), static_cast<int>(body)));
+    BlockLu::Block& block = matrix_.block(matrix_.diagonal(body));
     for (std::size_t k = 0; k < kAxes; ++k) {
       block[k * kAxes + k] = mass_[body * kAxes + k];
     }
@@ -236,16 +290,30 @@ void CoupledContacts::step(std::span<const ContactAnswer> answers, std::span<con
   matrix_.solve(dq);
 }
 
+Triple CoupledContacts::answerTo(std::size_t c, const ContactAnswer& answer,
+                                 std::span<const double> dq) const {
+  if (answer.stiffness[0] == 0) {
+    return answer.given;
+  }
+  const Triple du = change(contacts_[c], dq);
+  Triple impulse = answer.given;
+  for (std::size_t k = 0; k < impulse.size(); ++k) {
+    const double* row = &answer.stiffness[3 * k];
+    impulse[k] -= row[0] * du[0] + (row[1] * du[1] + row[2] * du[2]);
+  }
+  return impulse;
+}
+
 void CoupledContacts::importImpulses(std::span<const Triple> listed, std::span<Triple> impulses) const {
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    impulses[c] = listed[listed_[c]];
+    impulses[c] = listed[keys_[c].listed];
   }
 }
 
 void CoupledContacts::exportImpulses(std::span<const Triple> impulses, std::vector<Triple>& listed) const {
   listed.resize(contacts_.size());
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    listed[listed_[c]] = impulses[c];
+    listed[keys_[c].listed] = impulses[c];
   }
 }
 

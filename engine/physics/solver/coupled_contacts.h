@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "physics/solver/block_lu.h"
@@ -11,11 +12,12 @@
 
 namespace careen {
 
-/// A ContactProblem in the order in which it is eliminated, and the linear algebra that all its methods share.
+/// A ContactProblem in the order in which it is eliminated, and the linear algebra that all its methods
+/// share.
 ///
-/// Bodies are eliminated by minimum degree (A. George, J. W. H. Liu, SIAM Review 31, 1989); which of several comes first
-/// follows from the graph and the masses, then from the velocities, and only then from the listing. The order and the
-/// pattern of the factors are kept while the graph stays the same.
+/// Bodies are eliminated by minimum degree (A. George, J. W. H. Liu, SIAM Review 31, 1989); which of several
+/// comes first follows from the graph and the masses, then from the velocities, and only then from the
+/// listing. The order and the pattern of the factors are kept while the graph stays the same.
 class CoupledContacts {
  public:
   static constexpr std::size_t kAxes = ContactProblem::kAxes;
@@ -28,6 +30,7 @@ class CoupledContacts {
     int b = kNobody;
     std::array<Row, 3> rows{};
     Triple target{};
+    double tangentialMass = 0;            // [kg] 2/(trace of t M⁻¹ tᵀ)
     std::array<std::size_t, 4> blocks{};  // of (a, a), (a, b), (b, a), (b, b)
   };
 
@@ -47,10 +50,16 @@ class CoupledContacts {
   /// J dq of one contact.
   Triple change(const Contact& contact, std::span<const double> dq) const;
 
+  /// q += M⁻¹Jᵀ impulse.
+  void apply(const Contact& contact, const Triple& impulse, std::span<double> q) const;
+
   /// M + Σ Jᵀ stiffness J. Returns false if it could not be factorised.
   bool factorise(std::span<const ContactAnswer> answers);
   /// dq of the velocities q + dq at which q + dq = q₀ + M⁻¹Jᵀ(given − stiffness J dq).
   void step(std::span<const ContactAnswer> answers, std::span<const double> q, std::span<double> dq) const;
+
+  /// λ of contact `c` after the step dq.
+  Triple answerTo(std::size_t c, const ContactAnswer& answer, std::span<const double> dq) const;
 
   void importImpulses(std::span<const Triple> listed, std::span<Triple> impulses) const;
   void exportImpulses(std::span<const Triple> impulses, std::vector<Triple>& listed) const;
@@ -59,15 +68,25 @@ class CoupledContacts {
  private:
   bool hasGraphOf(const ContactProblem& problem) const;
   void order(const ContactProblem& problem);
+  struct Key {
+    std::pair<int, int> bodies;
+    std::array<double, 3> numbers{};
+    std::size_t listed = 0;
+    auto operator<=>(const Key&) const = default;
+  };
+
   void copyContacts(const ContactProblem& problem);
+  int placeOf(int listed) const;
+  Key keyOf(const ContactProblem::Contact& from, std::size_t listed) const;
+  void weigh(Contact& contact);
   void push(const Contact& contact, const Triple& impulse, std::span<double> onto) const;
   void add(const Contact& contact, const std::array<double, 9>& stiffness);
 
-  std::vector<std::array<int, 2>> graph_;  // of the listing
-  std::vector<std::size_t> order_;         // listed index of the body eliminated as k-th
-  std::vector<std::size_t> place_;         // its inverse
+  std::vector<std::array<int, 2>> graph_;           // of the listing
+  std::vector<std::size_t> order_;                  // listed index of the body eliminated as k-th
+  std::vector<std::size_t> place_;                  // its inverse
   std::vector<std::array<std::size_t, 4>> blocks_;  // of each contact as listed
-  std::vector<std::size_t> listed_;        // listed index of each of contacts_
+  std::vector<Key> keys_;                           // of contacts_
   std::vector<Contact> contacts_;
   std::vector<double> mass_;
   std::vector<double> inverseMass_;

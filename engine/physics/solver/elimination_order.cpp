@@ -1,36 +1,118 @@
 #include "physics/solver/elimination_order.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <set>
-#include <tuple>
+#include <utility>
 
 namespace careen {
+namespace {
 
-std::vector<std::size_t> eliminationOrder(const ContactProblem& problem) {
-  const std::size_t bodies = problem.free.size() / ContactProblem::kAxes;
-  std::vector<std::set<std::size_t>> neighbors(bodies);
+constexpr std::size_t kAxes = ContactProblem::kAxes;
+using Graph = std::vector<std::vector<std::size_t>>;  // of each body, the other one of each of its contacts
+using Ranks = std::vector<std::size_t>;
+
+Graph graphOf(const ContactProblem& problem) {
+  Graph graph(problem.free.size() / kAxes);
   for (const ContactProblem::Contact& contact : problem.contacts) {
     if (contact.a != ContactProblem::kNobody && contact.b != ContactProblem::kNobody) {
-      const auto a = static_cast<std::size_t>(contact.a);
-      const auto b = static_cast<std::size_t>(contact.b);
-      neighbors[a].insert(b);
-      neighbors[b].insert(a);
+      graph[static_cast<std::size_t>(contact.a)].push_back(static_cast<std::size_t>(contact.b));
+      graph[static_cast<std::size_t>(contact.b)].push_back(static_cast<std::size_t>(contact.a));
     }
   }
-  std::set<std::pair<std::size_t, std::size_t>> next;  // degree, body
+  return graph;
+}
+
+/// Equal keys have equal ranks.
+template <class Key>
+Ranks ranksOf(const std::vector<Key>& keys) {
+  std::vector<std::size_t> order(keys.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return keys[i] < keys[j]; });
+  Ranks ranks(keys.size());
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    ranks[order[k]] = ranks[order[k - 1]] + (keys[order[k - 1]] < keys[order[k]] ? 1 : 0);
+  }
+  return ranks;
+}
+
+std::size_t distinct(const Ranks& ranks) {
+  return ranks.empty() ? 0 : *std::max_element(ranks.begin(), ranks.end()) + 1;
+}
+
+/// Splits equal ranks by the ranks of neighbours, again and again (B. Weisfeiler, A. Leman, 1968).
+Ranks refined(Ranks ranks, const Graph& graph) {
+  constexpr int kRounds = 8;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<std::pair<std::size_t, Ranks>> keys(ranks.size());
+    for (std::size_t body = 0; body < ranks.size(); ++body) {
+      keys[body].first = ranks[body];
+      for (const std::size_t other : graph[body]) {
+        keys[body].second.push_back(ranks[other]);
+      }
+      std::sort(keys[body].second.begin(), keys[body].second.end());
+    }
+    const std::size_t before = distinct(ranks);
+    ranks = ranksOf(keys);
+    if (distinct(ranks) == before) {
+      break;
+    }
+  }
+  return ranks;
+}
+
+double squareSum(const double* x) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[2]; }
+
+/// Bodies from first to last where degree does not decide.
+std::vector<std::size_t> preference(const ContactProblem& problem, const Graph& graph) {
+  const std::size_t bodies = graph.size();
+  std::vector<std::array<double, kAxes>> masses(bodies);
   for (std::size_t body = 0; body < bodies; ++body) {
-    next.emplace(neighbors[body].size(), body);
+    std::copy_n(&problem.inverseMass[body * kAxes], kAxes, masses[body].begin());
+  }
+  const Ranks ranks = refined(ranksOf(masses), graph);
+  std::vector<std::array<double, 3>> keys(bodies);
+  for (std::size_t body = 0; body < bodies; ++body) {
+    const double* q = &problem.free[body * kAxes];
+    keys[body] = {static_cast<double>(ranks[body]), squareSum(q), squareSum(q + 3)};
+  }
+  std::vector<std::size_t> order(bodies);
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return keys[i] < keys[j]; });
+  return order;
+}
+
+}  // namespace
+
+std::vector<std::size_t> eliminationOrder(const ContactProblem& problem) {
+  const Graph graph = graphOf(problem);
+  const std::vector<std::size_t> preferred = preference(problem, graph);
+  Ranks place(preferred.size());
+  for (std::size_t k = 0; k < preferred.size(); ++k) {
+    place[preferred[k]] = k;
+  }
+  std::vector<std::set<std::size_t>> neighbors(preferred.size());  // of what is left, by place
+  for (std::size_t body = 0; body < graph.size(); ++body) {
+    for (const std::size_t other : graph[body]) {
+      neighbors[place[body]].insert(place[other]);
+    }
+  }
+  std::set<std::pair<std::size_t, std::size_t>> next;  // degree, place
+  for (std::size_t k = 0; k < neighbors.size(); ++k) {
+    next.emplace(neighbors[k].size(), k);
   }
   std::vector<std::size_t> order;
   while (!next.empty()) {
-    const std::size_t body = next.begin()->second;
+    const std::size_t k = next.begin()->second;
     next.erase(next.begin());
-    order.push_back(body);
-    const std::set<std::size_t> others = neighbors[body];
-    for (const std::size_t other : others) {
+    order.push_back(preferred[k]);
+    for (const std::size_t other : neighbors[k]) {
       next.erase({neighbors[other].size(), other});
-      neighbors[other].erase(body);
-      neighbors[other].insert(others.begin(), others.end());
+      neighbors[other].insert(neighbors[k].begin(), neighbors[k].end());
+      neighbors[other].erase(k);
       neighbors[other].erase(other);
       next.emplace(neighbors[other].size(), other);
     }
