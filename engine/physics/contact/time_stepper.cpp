@@ -240,21 +240,12 @@ void TimeStepper::correct() {
 }
 
 void TimeStepper::cutTo(double length) {
-  if (!(length < length_)) {
-    return;
+  if (length < length_) {
+    setMotions();
+    end_ = stateWithin(length);
+    length_ = length;
+    findContacts(end_);
   }
-  if (length > 0) {
-    findContacts(start_);
-    choose(length);
-    if (!tryStep(length)) {
-      throw NumericalError("no impulses of box " + bodies_[0].body->name + " were found");
-    }
-    end_ = coarse_;
-  } else {
-    end_ = start_;
-  }
-  length_ = length;
-  correct();
 }
 
 std::vector<ContactFeature> TimeStepper::touching() const {

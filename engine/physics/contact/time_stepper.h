@@ -80,6 +80,7 @@ class TimeStepper {
   void listWatches(double h);
   void watchWalls(std::size_t body, double reach);
   void watch(const Watch& watch);
+  void setMotions();
   GroupState stateWithin(double time) const;
   double curvatureBound(const Watch& watch) const;
   double dipWithin(const Watch& watch, double curvature, double from, double valueFrom, double to,

@@ -260,14 +260,18 @@ double TimeStepper::dipWithin(const Watch& watch, double curvature, double from,
   return before > 0 ? before : dipWithin(watch, curvature, middle, now, to, valueTo, depth - 1);
 }
 
-double TimeStepper::firstDip() {
-  constexpr int kDepth = 8;
+void TimeStepper::setMotions() {
   motions_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].isHeld()) {
       motions_[i] = motion(i);
     }
   }
+}
+
+double TimeStepper::firstDip() {
+  constexpr int kDepth = 8;
+  setMotions();
   double first = 0;
   for (const Watch& watch : watches_) {
     const double atEnd = value(watch, end_);

@@ -178,7 +178,7 @@ bool ContactSolver::solve(const ContactProblem& problem, ContactSolution& soluti
   most_ = mostFactorisations;
   solveWithoutPolish(solution);
   solution.solved = isEnough();
-  if (solution.solved) {
+  if (solution.solved && residual_ > enough_) {
     polish();
   }
   solution.residual = residual_;
