@@ -111,34 +111,50 @@ double TimeStepper::errorOf(const GroupState& coarse, const GroupState& fine, do
 // The step's end by one step of that length, with the contacts chosen for it.
 bool TimeStepper::tryStep(double h) { return equations_.advance(start_, h, law_, coarse_); }
 
-// Shortens the step to the moment where the first event function falls below zero. Returns false if the
-// impulses were not found.
+// Shortens the step to the moment where the first event function falls through zero, or a little before:
+// found on the polynomials of the longer step, then tried. Returns false if the impulses were not found.
 bool TimeStepper::locate(double& h) {
-  FallingBracket bracket{.high = h, .valueLow = lowest(start_), .valueHigh = lowest(coarse_)};
-  if (!(bracket.valueHigh < -0.5 * closed()) || watches_.empty()) {
-    return true;
+  for (int k = 0; k < kMostRefinements; ++k) {
+    length_ = h;
+    end_ = coarse_;
+    setMotions();
+    double first = h;
+    for (const Watch& watch : watches_) {
+      if (const double atEnd = value(watch, end_); atEnd < -0.5 * closed()) {
+        first = std::min(first, rootOf(watch, h, atEnd));
+      }
+    }
+    if (first == h) {
+      return true;
+    }
+    h = first;
+    if (!tryStep(h)) {
+      return false;
+    }
   }
+  return true;
+}
+
+// Time at which an event function falls to about zero, on the polynomials of the step.
+double TimeStepper::rootOf(const Watch& watch, double h, double atEnd) {
+  const double aim = 0.0625 * closed();
+  FallingBracket bracket{.high = h, .valueLow = watch.atStart - aim, .valueHigh = atEnd - aim};
   for (int k = 0; k < kMostRefinements; ++k) {
     double middle = bracket.cut();
     if (k % 3 == 2 || !(middle > bracket.low && middle < bracket.high)) {
       middle = 0.5 * (bracket.low + bracket.high);
     }
-    if (!tryStep(middle)) {
-      return false;
+    const double now = valueWithin(watch, middle) - aim;
+    if (std::fabs(now) <= aim) {
+      return middle;
     }
-    const double at = lowest(coarse_);
-    h = middle;
-    if (std::fabs(at) <= 0.125 * closed()) {
-      return true;
-    }
-    if (at < 0) {
-      bracket.moveHigh(middle, at);
+    if (now < 0) {
+      bracket.moveHigh(middle, now);
     } else {
-      bracket.moveLow(middle, at);
+      bracket.moveLow(middle, now);
     }
   }
-  h = bracket.low;
-  return tryStep(h);
+  return bracket.low;
 }
 
 // The step's end by two steps of half the length.
@@ -242,7 +258,9 @@ void TimeStepper::correct() {
 void TimeStepper::cutTo(double length) {
   if (length < length_) {
     setMotions();
-    end_ = stateWithin(length);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      end_[i] = bodyWithin(i, length);
+    }
     length_ = length;
     findContacts(end_);
   }

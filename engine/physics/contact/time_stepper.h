@@ -81,18 +81,19 @@ class TimeStepper {
   void watchWalls(std::size_t body, double reach);
   void watch(const Watch& watch);
   void setMotions();
-  GroupState stateWithin(double time) const;
+  GroupBody bodyWithin(std::size_t body, double time) const;
+  double valueWithin(const Watch& watch, double time);
   double curvatureBound(const Watch& watch) const;
   double dipWithin(const Watch& watch, double curvature, double from, double valueFrom, double to,
-                   double valueTo, int depth) const;
+                   double valueTo, int depth);
   double firstDip();
   double value(const Watch& watch, const GroupState& at) const;
-  double lowest(const GroupState& at) const;
   enum class Attempt { kDone, kShorter, kUnsolved };
   Attempt attempt(double& h, double shortest);
   bool tryStep(double h);
   bool tryHalves(double h);
   bool locate(double& h);
+  double rootOf(const Watch& watch, double h, double atEnd);
   double errorOf(const GroupState& coarse, const GroupState& fine, double h) const;
   double shortestStep();
   double longestStep() const;
@@ -116,6 +117,7 @@ class TimeStepper {
   std::vector<GroupImpact> impacts_;
   std::vector<Pose> poses_;
   std::vector<ContactStep> motions_;
+  GroupState within_;
   double length_ = 0;
   double proposed_ = 0;
   double acceleration_ = 0;  // [m/s²] largest of the last step

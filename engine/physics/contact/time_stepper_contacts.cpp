@@ -195,27 +195,26 @@ double TimeStepper::value(const Watch& watch, const GroupState& at) const {
   return watch.margin + (watch.kind == Watch::Kind::kBeyond ? -state.beyond : state.gap);
 }
 
-double TimeStepper::lowest(const GroupState& at) const {
-  double lowest = 0;
-  for (std::size_t k = 0; k < watches_.size(); ++k) {
-    const double now = value(watches_[k], at);
-    lowest = k == 0 ? now : std::min(lowest, now);
+GroupBody TimeStepper::bodyWithin(std::size_t body, double time) const {
+  if (bodies_[body].isHeld()) {
+    return start_[body];
   }
-  return lowest;
+  const BodyState state = stateAt(Motion(motions_[body]), bodies_[body].body->mass, time);
+  return {.position = state.pose.position,
+          .worldFromBody = Quat(state.pose.worldFromBody),
+          .velocity = state.velocity,
+          .angularMomentum = state.angularMomentum};
 }
 
-GroupState TimeStepper::stateWithin(double time) const {
-  GroupState at = end_;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!bodies_[i].isHeld()) {
-      const BodyState state = stateAt(Motion(motions_[i]), bodies_[i].body->mass, time);
-      at[i] = {.position = state.pose.position,
-               .worldFromBody = Quat(state.pose.worldFromBody),
-               .velocity = state.velocity,
-               .angularMomentum = state.angularMomentum};
-    }
+double TimeStepper::valueWithin(const Watch& watch, double time) {
+  const auto a = static_cast<std::size_t>(watch.feature.a);
+  within_.resize(bodies_.size());
+  within_[a] = bodyWithin(a, time);
+  if (!watch.feature.b.isWall()) {
+    const auto b = static_cast<std::size_t>(watch.feature.b.body());
+    within_[b] = bodyWithin(b, time);
   }
-  return at;
+  return value(watch, within_);
 }
 
 // [m/s²] Bound on the second derivative of an event function in the step.
@@ -246,13 +245,13 @@ double TimeStepper::curvatureBound(const Watch& watch) const {
 // A time within the step where a gap is closed that is open at both its ends; else 0. A function whose second
 // derivative is at most c lies at most c h²/8 below its chord; halved until that decides.
 double TimeStepper::dipWithin(const Watch& watch, double curvature, double from, double valueFrom, double to,
-                              double valueTo, int depth) const {
+                              double valueTo, int depth) {
   const double span = to - from;
   if (depth == 0 || std::min(valueFrom, valueTo) - 0.125 * curvature * span * span >= -0.5 * closed()) {
     return 0;
   }
   const double middle = 0.5 * (from + to);
-  const double now = value(watch, stateWithin(middle));
+  const double now = valueWithin(watch, middle);
   if (now < -0.5 * closed()) {
     return middle;
   }
