@@ -193,7 +193,7 @@ bool ContactSystem::findModes(std::span<const double> y) {
   look(y);
   fillContacts();
   findFree();
-  const bool found = forces_.solve(free_, modes_, ContactForces::Modes::kFound);
+  const bool found = forces_.findModes(free_, modes_);
   guess_.assign(forces_.forces().begin(), forces_.forces().end());
   for (std::size_t c = 0; c < features_.size(); ++c) {
     if (modes_[c] == Mode::kSlip) {
@@ -209,7 +209,7 @@ bool ContactSystem::rate(std::span<const double> y, std::vector<double>& dy) {
   look(y);
   fillContacts();
   findFree();
-  const bool found = forces_.solve(free_, modes_, ContactForces::Modes::kGiven, guess_);
+  const bool found = forces_.solveGiven(free_, modes_, guess_);
   dy.resize(y.size());
   for (std::size_t m = 0; m < movers_.size(); ++m) {
     const std::size_t at = m * kNumbers;
@@ -224,9 +224,7 @@ bool ContactSystem::rate(std::span<const double> y, std::vector<double>& dy) {
   return found;
 }
 
-void ContactSystem::solveGiven(std::span<const double> free) {
-  forces_.solve(free, modes_, ContactForces::Modes::kGiven);
-}
+void ContactSystem::solveGiven(std::span<const double> free) { forces_.solveGiven(free, modes_); }
 
 bool ContactSystem::projectPositions(std::vector<double>& y) {
   const std::vector<Mode> kept = modes_;

@@ -4,33 +4,32 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <memory_resource>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "physics/geometry/tangents.h"
-#include "physics/impact/impact_solver.h"
 #include "physics/impact/order_free_sum.h"
-#include "physics/impact/secant_iteration.h"
 #include "physics/impact/single_impact.h"
+#include "physics/solver/contact_solver.h"
 
 namespace careen {
 namespace {
 
-using Impulse = ImpactSolver::Impulse;
-using Demand = ImpactSolver::Demand;
-constexpr std::size_t kSix = ImpactSolver::kAxes;
-/// Friction limits count normal impulses up to this many times the largest of the frictionless impact.
-constexpr double kWedged = 0x1p10;
+using Impulse = ContactProblem::Triple;
+using Impulses = std::vector<Impulse>;
+constexpr std::size_t kSix = ContactProblem::kAxes;
+/// [1] of the contacts' speeds: a residual with which an impact may go on although the solver aims at less.
+constexpr double kTolerable = 0x1p-24;
 
 bool movable(const MassProperties& mass) {
   return mass.inverseMass > 0 || !mass.inverseInertiaBody.isZero(0);
 }
 
 /// One body's part of a Jacobian row: the speed of its point along `direction`, per unit of its velocities.
-void fillSide(ImpactSolver::Row& row, std::size_t side, const Vec3& direction, const Vec3& arm, const Mat3& a,
-              double sign) {
+void fillSide(ContactProblem::Row& row, std::size_t side, const Vec3& direction, const Vec3& arm,
+              const Mat3& a, double sign) {
   const Vec3 turning = a.transpose() * arm.cross(direction);
   for (std::size_t k = 0; k < 3; ++k) {
     row[side * kSix + k] = sign * direction[static_cast<Eigen::Index>(k)];
@@ -40,49 +39,45 @@ void fillSide(ImpactSolver::Row& row, std::size_t side, const Vec3& direction, c
 
 /// The impact in the coordinates of the solver: only the bodies that can move.
 struct Setup {
-  explicit Setup(std::pmr::memory_resource* memory)
-      : movableOf(memory), velocity(memory), inverseMass(memory), contacts(memory) {}
-
-  ImpactVector<int> movableOf;  // by body: index among the movable, or kNobody
-  ImpactVector<double> velocity;
-  ImpactVector<double> inverseMass;
-  ImpactVector<ImpactSolver::Contact> contacts;
+  std::vector<int> movableOf;  // by body: index among the movable, or kNobody
+  ContactProblem problem;      // free: the velocities before
 };
 
 void addBodies(Setup& setup, std::span<const ImpactBody> bodies) {
   for (const ImpactBody& body : bodies) {
     if (!movable(*body.mass)) {
-      setup.movableOf.push_back(ImpactSolver::kNobody);
+      setup.movableOf.push_back(ContactProblem::kNobody);
       continue;
     }
-    setup.movableOf.push_back(static_cast<int>(setup.velocity.size() / kSix));
+    setup.movableOf.push_back(static_cast<int>(setup.problem.free.size() / kSix));
     const Vec3 momentumBody = body.state->pose.worldFromBody.transpose() * body.state->angularMomentum;
     const Vec3 spin = body.mass->inverseInertiaBody.cwiseProduct(momentumBody);
     for (Eigen::Index k = 0; k < 3; ++k) {
-      setup.velocity.push_back(body.state->velocity[k]);
-      setup.inverseMass.push_back(body.mass->inverseMass);
+      setup.problem.free.push_back(body.state->velocity[k]);
+      setup.problem.inverseMass.push_back(body.mass->inverseMass);
     }
     for (Eigen::Index k = 0; k < 3; ++k) {
-      setup.velocity.push_back(spin[k]);
-      setup.inverseMass.push_back(body.mass->inverseInertiaBody[k]);
+      setup.problem.free.push_back(spin[k]);
+      setup.problem.inverseMass.push_back(body.mass->inverseInertiaBody[k]);
     }
   }
 }
 
-double inverseEffectiveMass(const Setup& setup, const ImpactSolver::Contact& contact, std::size_t row) {
+double inverseEffectiveMass(const Setup& setup, const ContactProblem::Contact& contact) {
   std::array<double, 2> sum{};
   const std::array<int, 2> sides{contact.a, contact.b};
   for (std::size_t side = 0; side < 2; ++side) {
-    for (std::size_t k = 0; sides[side] != ImpactSolver::kNobody && k < kSix; ++k) {
-      const double value = contact.rows[row][side * kSix + k];
-      sum[side] += setup.inverseMass[static_cast<std::size_t>(sides[side]) * kSix + k] * (value * value);
+    for (std::size_t k = 0; sides[side] != ContactProblem::kNobody && k < kSix; ++k) {
+      const double value = contact.rows[0][side * kSix + k];
+      sum[side] +=
+          setup.problem.inverseMass[static_cast<std::size_t>(sides[side]) * kSix + k] * (value * value);
     }
   }
   return sum[0] + sum[1];
 }
 
 void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactContact& contact) {
-  ImpactSolver::Contact added;
+  ContactProblem::Contact added;
   const Tangents tangents = tangentsOf(contact.normal);
   const std::array<Vec3, 3> directions{contact.normal, tangents.first, tangents.second};
   const auto a = static_cast<std::size_t>(contact.a);
@@ -97,66 +92,131 @@ void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactCo
       fillSide(added.rows[row], 1, directions[row], contact.armB, bodies[b].state->pose.worldFromBody, -1);
     }
   }
-  const double normal = inverseEffectiveMass(setup, added, 0);
-  const double tangential = inverseEffectiveMass(setup, added, 1) + inverseEffectiveMass(setup, added, 2);
-  if (!(normal > 0) || !std::isfinite(normal + tangential)) {
+  const double normal = inverseEffectiveMass(setup, added);
+  if (!(normal > 0) || !std::isfinite(normal)) {
     throw NumericalError(
         "impact: a contact between two sides that cannot move, or a number that is not finite");
   }
-  added.normalMass = 1 / normal;
-  added.tangentialMass = 2 / tangential;
-  setup.contacts.push_back(added);
+  added.friction = contact.material.friction;
+  setup.problem.contacts.push_back(added);
 }
 
 /// The laws for several contacts, all in terms of impulses from the velocity before.
 class Law {
  public:
-  Law(Setup setup, std::span<const ImpactContact> contacts)
-      : memory_(setup.velocity.get_allocator().resource()),
-        before_(std::move(setup.velocity)),
-        solver_(std::move(setup.inverseMass), std::move(setup.contacts)),
-        contacts_(contacts),
-        rounding_(kApproachRounding * solver_.speedScale(before_)),
-        plastic_(memory_),
-        projected_(contacts.size(), memory_),
-        demands_(contacts.size(), memory_) {}
-
-  ImpactVector<Impulse> resolve() {
-    Chosen approaches(memory_);
-    findApproaching(before_, approaches);
-    if (std::none_of(approaches.begin(), approaches.end(), [](char yes) { return yes != 0; })) {
-      return Impulses(contacts_.size(), memory_);
+  Law(ContactProblem problem, std::span<const ImpactContact> contacts)
+      : problem_(std::move(problem)), before_(problem_.free), contacts_(contacts) {
+    double scale = 0;  // [m/s] Σ|n_k q_k| of a contact: its speeds are rounded by parts of that
+    for (const ContactProblem::Contact& contact : problem_.contacts) {
+      double sum = 0;
+      forEachTerm(contact, 0, before_, [&](double term) { sum += std::fabs(term); });
+      scale = std::max(scale, sum);
     }
-    ImpactVector<Impulse> impulses = frictionless();
-    const bool rough = std::any_of(contacts_.begin(), contacts_.end(),
-                                   [](const ImpactContact& c) { return c.material.friction > 0; });
-    if (rough) {
-      return withFriction(impulses);
-    }
-    return impulses;
+    rounding_ = kApproachRounding * scale;
   }
 
-  double approach(std::size_t contact) const { return -solver_.speed(contact, 0, before_); }
+  Impulses resolve() {
+    Chosen approaches;
+    findApproaching(before_, approaches);
+    if (std::none_of(approaches.begin(), approaches.end(), [](char yes) { return yes != 0; })) {
+      return Impulses(contacts_.size());
+    }
+    const bool rough = std::any_of(contacts_.begin(), contacts_.end(),
+                                   [](const ImpactContact& c) { return c.material.friction > 0; });
+    const bool elastic = std::any_of(contacts_.begin(), contacts_.end(),
+                                     [](const ImpactContact& c) { return c.material.restitution > 0; });
+    if (rough && !elastic) {
+      return solve(problem_);
+    }
+    Impulses impulses = frictionless();
+    return rough ? withFriction(impulses) : impulses;
+  }
+
+  double approach(std::size_t contact) const { return -speed(contact, 0, before_); }
 
  private:
-  using Impulses = ImpactVector<Impulse>;
-  using Chosen = ImpactVector<char>;  // of the contacts
+  using Chosen = std::vector<char>;  // of the contacts
+
+  template <class Use>
+  static void forEachTerm(const ContactProblem::Contact& contact, std::size_t row, std::span<const double> q,
+                          const Use& use) {
+    const std::array<int, 2> sides{contact.a, contact.b};
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (std::size_t k = 0; sides[side] != ContactProblem::kNobody && k < kSix; ++k) {
+        use(contact.rows[row][side * kSix + k] * q[static_cast<std::size_t>(sides[side]) * kSix + k]);
+      }
+    }
+  }
+
+  /// n q, t₁ q or t₂ q of a contact [m/s].
+  double speed(std::size_t contact, std::size_t row, std::span<const double> q) const {
+    double sum = 0;
+    forEachTerm(problem_.contacts[contact], row, q, [&](double term) { sum += term; });
+    return sum;
+  }
+
+  /// q₀ + M⁻¹ Jᵀλ, from the velocities before.
+  std::vector<double> after(const Impulses& impulses) const {
+    std::vector<double> q = before_;
+    for (std::size_t c = 0; c < impulses.size(); ++c) {
+      const ContactProblem::Contact& contact = problem_.contacts[c];
+      const std::array<int, 2> sides{contact.a, contact.b};
+      for (std::size_t side = 0; side < 2; ++side) {
+        for (std::size_t k = 0; sides[side] != ContactProblem::kNobody && k < kSix; ++k) {
+          const std::size_t at = static_cast<std::size_t>(sides[side]) * kSix + k;
+          double sum = 0;
+          for (std::size_t row = 0; row < 3; ++row) {
+            sum += contact.rows[row][side * kSix + k] * impulses[c][row];
+          }
+          q[at] += problem_.inverseMass[at] * sum;
+        }
+      }
+    }
+    return q;
+  }
+
+  /// ½ qᵀ M q [J].
+  double energy(std::span<const double> q) const {
+    double twice = 0;
+    for (std::size_t k = 0; k < q.size(); ++k) {
+      twice += q[k] * q[k] / problem_.inverseMass[k];
+    }
+    return twice / 2;
+  }
+
+  Impulses solve(const ContactProblem& problem) {
+    ContactSolution solution;
+    if (!solver_.solve(problem, solution) && !(solution.residual <= kTolerable * solution.scale)) {
+      throw NumericalError("impact: no impulses of its " + std::to_string(problem.contacts.size()) +
+                           " contacts were found");
+    }
+    return solution.impulses;
+  }
 
   void findApproaching(std::span<const double> q, Chosen& approaches) const {
     approaches.clear();
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      approaches.push_back(solver_.speed(c, 0, q) < -rounding_ ? 1 : 0);
+      approaches.push_back(speed(c, 0, q) < -rounding_ ? 1 : 0);
     }
   }
 
   /// Impulses that project q onto the motions in which the chosen contacts do not approach.
-  const Impulses& projection(std::span<const double> q, std::span<const char> chosen) {
+  Impulses projection(std::span<const double> q, std::span<const char> chosen) {
+    ContactProblem chosenOnly{
+        .inverseMass = problem_.inverseMass, .free = {q.begin(), q.end()}, .contacts = {}};
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      demands_[c].included = chosen[c] != 0;
-      projected_[c] = {};
+      if (chosen[c] != 0) {
+        chosenOnly.contacts.push_back(problem_.contacts[c]);
+        chosenOnly.contacts.back().friction = 0;
+      }
     }
-    solver_.solve(q, demands_, projected_);
-    return projected_;
+    const Impulses found = solve(chosenOnly);
+    Impulses all(contacts_.size());
+    std::size_t next = 0;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      all[c] = chosen[c] != 0 ? found[next++] : Impulse{};
+    }
+    return all;
   }
 
   static void add(Impulses& sum, double factor, const Impulses& impulses) {
@@ -170,7 +230,7 @@ class Law {
   /// P: Moreau's projection.
   const Impulses& plastic() {
     if (plastic_.empty()) {
-      plastic_ = projection(before_, Chosen(contacts_.size(), 1, memory_));
+      plastic_ = projection(before_, Chosen(contacts_.size(), 1));
     }
     return plastic_;
   }
@@ -178,10 +238,10 @@ class Law {
   /// Xₜ: reflections about the contacts with e > t, projections onto the others, until nothing approaches.
   /// Reflections alone terminate; a mixture that does not within the cap is ended by the plastic law.
   Impulses reflected(double threshold) {
-    Impulses total(contacts_.size(), memory_);
-    ImpactVector<double> q(before_, memory_);
-    Chosen violated(memory_);
-    Chosen elastic(memory_);
+    Impulses total(contacts_.size());
+    std::vector<double> q = before_;
+    Chosen violated;
+    Chosen elastic;
     const std::size_t cap = 100 + 10 * contacts_.size() * contacts_.size();
     for (std::size_t pass = 0; pass < cap; ++pass) {
       findApproaching(q, violated);
@@ -199,24 +259,22 @@ class Law {
       const Chosen& chosen = anyElastic ? elastic : violated;
       const bool isPlastic = pass == 0 && std::find(chosen.begin(), chosen.end(), 0) == chosen.end();
       add(total, anyElastic ? 2 : 1, isPlastic ? plastic() : projection(q, chosen));
-      solver_.after(before_, total, q);
+      q = after(total);
     }
-    add(total, 1, projection(q, Chosen(contacts_.size(), 1, memory_)));
+    add(total, 1, projection(q, Chosen(contacts_.size(), 1)));
     return total;
   }
 
   Impulses frictionless() {
-    ImpactVector<double> levels(memory_);  // the distinct e above 0, ascending
-    bool somePlastic = false;
+    std::vector<double> levels;  // the distinct e above 0, ascending
     for (const ImpactContact& contact : contacts_) {
       if (contact.material.restitution > 0) {
         levels.push_back(contact.material.restitution);
       }
-      somePlastic = somePlastic || contact.material.restitution < 1;
     }
     std::sort(levels.begin(), levels.end());
     levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
-    Impulses total(contacts_.size(), memory_);
+    Impulses total(contacts_.size());
     double below = 0;
     for (const double level : levels) {
       add(total, level - below, reflected(below));
@@ -229,98 +287,38 @@ class Law {
   }
 
   Impulses withFriction(const Impulses& smooth);
-  Impulses shortened(const Impulses& smooth, Impulses rough);
+  Impulses shortened(const Impulses& smooth, Impulses rough) const;
 
-  std::pmr::memory_resource* memory_;
-  ImpactVector<double> before_;
-  ImpactSolver solver_;
+  ContactProblem problem_;
+  std::vector<double> before_;
   std::span<const ImpactContact> contacts_;
-  double rounding_;
-  Impulses plastic_;    // empty: not yet computed
-  Impulses projected_;  // the last projection
-  ImpactVector<Demand> demands_;
+  ContactSolver solver_;
+  double rounding_ = 0;
+  Impulses plastic_;  // empty: not yet computed
 };
 
-/// The Coulomb friction limits depend on the normal impulses and these on friction: fixed-point iteration
-/// makes them agree, with a convex problem each time.
-Law::Impulses Law::withFriction(const Impulses& smooth) {
-  ImpactVector<double> parting(memory_);
-  ImpactVector<double> compressed(memory_);
-  solver_.after(before_, smooth, parting);
-  solver_.after(before_, plastic(), compressed);
-  ImpactVector<double> restituted(parting, memory_);
+/// The contact problem whose targets are the normal speeds that restitution sets and the slip that it adds.
+Impulses Law::withFriction(const Impulses& smooth) {
+  const std::vector<double> parting = after(smooth);
+  std::vector<double> restituted = parting;
+  const std::vector<double> compressed = after(plastic());
   for (std::size_t k = 0; k < restituted.size(); ++k) {
     restituted[k] -= compressed[k];
   }
-  ImpactVector<Demand> demands(contacts_.size(), memory_);
+  ContactProblem rough = problem_;
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    demands[c].partingSpeed = smooth[c][0] > 0 ? solver_.speed(c, 0, parting) : 0;
-    demands[c].frictionLimit = contacts_[c].material.friction * smooth[c][0];
-    demands[c].slip = {solver_.speed(c, 1, restituted), solver_.speed(c, 2, restituted)};
+    rough.contacts[c].target = {smooth[c][0] > 0 ? speed(c, 0, parting) : 0, speed(c, 1, restituted),
+                                speed(c, 2, restituted)};
   }
-  // For a box with friction wedged between walls, the impulses are not bounded and the iteration could
-  // diverge: impulses that cancel are limited to a size whose rounding error does not matter.
-  double most = 0;
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    most = std::max(most, kWedged * smooth[c][0]);
-  }
-  ImpactVector<double> limits(contacts_.size(), memory_);
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    limits[c] = demands[c].frictionLimit;
-  }
-  constexpr int kCap = 100;
-  constexpr int kUndamped = 30;
-  constexpr int kPatience = 16;  // iterations without improvement
-  constexpr double kAgree = 0x1p-46;
-  // Each problem is solved only as accurately as the limits are known.
-  constexpr double kAhead = 0x1p-10;
-  double accuracy = kAhead;
-  Impulses rough(smooth, memory_);
-  Impulses best(smooth, memory_);
-  double bestChange = std::numeric_limits<double>::infinity();
-  int bestAt = 0;
-  SecantIteration iteration(contacts_.size(), memory_);
-  ImpactVector<double> found(contacts_.size(), memory_);
-  for (int k = 0; k < kCap; ++k) {
-    solver_.solve(before_, demands, rough, accuracy);
-    double change = 0;
-    double largest = 0;
-    for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      found[c] = contacts_[c].material.friction * std::min(rough[c][0], most);
-      change = std::max(change, std::fabs(found[c] - limits[c]));
-      largest = std::max(largest, std::max(found[c], limits[c]));
-    }
-    const double relative = largest > 0 ? change / largest : 0;
-    const bool full = accuracy == ImpactSolver::kFullAccuracy;
-    if (relative <= kAgree && full) {
-      return shortened(smooth, std::move(rough));
-    }
-    if (relative < bestChange && (full || accuracy <= relative / 8)) {
-      bestChange = relative;
-      bestAt = k;
-      best = rough;
-    }
-    if (k - bestAt >= kPatience) {
-      break;
-    }
-    iteration.step(limits, found, k < kUndamped ? 1 : 0.5);
-    for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      limits[c] = std::max(0.0, limits[c]);
-      demands[c].frictionLimit = limits[c];
-    }
-    accuracy = std::clamp(kAhead * relative, ImpactSolver::kFullAccuracy, kAhead);
-  }
-  return shortened(smooth, std::move(best));
+  return shortened(smooth, solve(rough));
 }
 
 /// Goes from the frictionless solution towards the one with friction, as far as energy, the friction cones
-/// and the walls allow: all the way, unless the iteration above did not converge or a lifted contact would
-/// gain energy. All three constraints are convex and hold at the start.
-Law::Impulses Law::shortened(const Impulses& smooth, Impulses rough) {
-  ImpactVector<double> start(memory_);
-  ImpactVector<double> end(memory_);
-  solver_.after(before_, smooth, start);
-  solver_.after(before_, rough, end);
+/// and the walls allow: all the way, unless a lifted contact would gain energy. All three constraints are
+/// convex and hold at the start.
+Impulses Law::shortened(const Impulses& smooth, Impulses rough) const {
+  const std::vector<double> start = after(smooth);
+  const std::vector<double> end = after(rough);
   double fraction = 1;
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const double size = std::sqrt(rough[c][1] * rough[c][1] + rough[c][2] * rough[c][2]);
@@ -329,27 +327,27 @@ Law::Impulses Law::shortened(const Impulses& smooth, Impulses rough) {
     if (over > 0x1p-44 * size) {
       fraction = std::min(fraction, limit / (limit + over));
     }
-    const double closing = -solver_.speed(c, 0, end);
+    const double closing = -speed(c, 0, end);
     if (closing > rounding_) {
-      const double parting = std::max(0.0, solver_.speed(c, 0, start));
+      const double parting = std::max(0.0, speed(c, 0, start));
       fraction = std::min(fraction, parting / (parting + closing));
     }
   }
-  ImpactVector<double> way(end, memory_);
+  std::vector<double> way = end;
   double slope = 0;  // dE/dfraction at the start
   for (std::size_t k = 0; k < way.size(); ++k) {
     way[k] -= start[k];
-    slope += solver_.inverseMass()[k] > 0 ? start[k] * way[k] / solver_.inverseMass()[k] : 0;
+    slope += start[k] * way[k] / problem_.inverseMass[k];
   }
-  const double curvature = 2 * solver_.energy(way);
-  const double full = solver_.energy(start);
+  const double curvature = 2 * energy(way);
+  const double full = energy(start);
   if (fraction * slope + fraction * fraction * curvature / 2 > 0x1p-50 * full) {
     fraction = slope < 0 ? std::min(fraction, -slope / curvature) : 0;
   }
   if (fraction == 1) {
     return rough;
   }
-  Impulses result(smooth, memory_);
+  Impulses result = smooth;
   for (std::size_t c = 0; c < result.size(); ++c) {
     for (std::size_t row = 0; row < 3; ++row) {
       result[c][row] += fraction * (rough[c][row] - smooth[c][row]);
@@ -361,10 +359,10 @@ Law::Impulses Law::shortened(const Impulses& smooth, Impulses rough) {
 /// Adds the impulses of the contacts to velocity and angular momentum; a component below the rounding error
 /// of its terms becomes zero.
 void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> contacts,
-             std::span<const Vec3> impulses, std::pmr::memory_resource* memory) {
+             std::span<const Vec3> impulses) {
   using Six = std::array<double, kSix>;
   BodyState& state = *body.state;
-  ImpactVector<Six> terms(memory);
+  std::vector<Six> terms;
   terms.reserve(1 + 2 * contacts.size());
   const auto add = [&terms](const Vec3& linear, const Vec3& angular) {
     terms.push_back({linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]});
@@ -402,18 +400,14 @@ void resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactCon
     shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)], b, only);
     return;
   }
-  // Usual impacts need no heap: a dozen contacts of one body fit.
-  std::array<std::byte, std::size_t{1} << 15U> room;
-  std::pmr::monotonic_buffer_resource memory(room.data(), room.size());
-  Setup setup(&memory);
+  Setup setup;
   addBodies(setup, bodies);
-  setup.contacts.reserve(contacts.size());
   for (const ImpactContact& contact : contacts) {
     addContact(setup, bodies, contact);
   }
-  Law law(std::move(setup), contacts);
-  const ImpactVector<Impulse> impulses = law.resolve();
-  ImpactVector<Vec3> world(contacts.size(), &memory);
+  Law law(std::move(setup.problem), contacts);
+  const Impulses impulses = law.resolve();
+  std::vector<Vec3> world(contacts.size());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Tangents tangents = tangentsOf(contacts[c].normal);
     const Impulse& j = impulses[c];
@@ -425,7 +419,7 @@ void resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactCon
     }
   }
   for (std::size_t index = 0; index < bodies.size(); ++index) {
-    applyTo(static_cast<int>(index), bodies[index], contacts, world, &memory);
+    applyTo(static_cast<int>(index), bodies[index], contacts, world);
   }
 }
 
