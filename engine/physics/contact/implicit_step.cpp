@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kSix = ContactProblem::kAxes;
 /// Rows at the middle and law at the end depend on the step's own result: one pass alone is of first order.
 constexpr int kPasses = 2;
+/// [1] Cosine of the angle of two normals that count as one: what the tolerance allows for a thin box.
+constexpr double kParallel = 1 - 0x1p-27;
 /// [1] of the speed after falling a half diagonal: a residual of the law that is as good as none.
 constexpr double kEnough = 0x1p-34;
 
@@ -63,24 +65,64 @@ Kinematics ImplicitStep::kinematics(std::size_t body, const GroupBody& at) const
   return kinematics;
 }
 
+ContactState ImplicitStep::stateOf(const ContactFeature& feature, const Kinematics& a,
+                                   const Kinematics* b) const {
+  const Vec3& halfExtentsA = bodies_[static_cast<std::size_t>(feature.a)].body->halfExtents;
+  if (b == nullptr) {
+    return contactState(feature, a, halfExtentsA, nullptr, Vec3::Zero(), &world_.walls[feature.b.wall()]);
+  }
+  const Vec3& halfExtentsB = bodies_[static_cast<std::size_t>(feature.b.body())].body->halfExtents;
+  ContactState at = contactState(feature, a, halfExtentsA, b, halfExtentsB, nullptr);
+  // One point for both, else the pair's impulses would change angular momentum by gap × friction.
+  const Vec3 link = (a.pose.position - b->pose.position) + at.armA - at.armB;
+  at.armA -= 0.5 * link;
+  at.armB += 0.5 * link;
+  return at;
+}
+
 ContactState ImplicitStep::contactAt(const ContactFeature& feature, const GroupState& state) const {
   const auto a = static_cast<std::size_t>(feature.a);
   const Kinematics ofA = kinematics(a, state[a]);
-  ContactState at;
   if (feature.b.isWall()) {
-    at = contactState(feature, ofA, bodies_[a].body->halfExtents, nullptr, Vec3::Zero(),
-                      &world_.walls[feature.b.wall()]);
-  } else {
-    const auto b = static_cast<std::size_t>(feature.b.body());
-    const Kinematics ofB = kinematics(b, state[b]);
-    at =
-        contactState(feature, ofA, bodies_[a].body->halfExtents, &ofB, bodies_[b].body->halfExtents, nullptr);
-    // One point for both, else the pair's impulses would change angular momentum by gap × friction.
-    const Vec3 link = (state[a].position - state[b].position) + at.armA - at.armB;
-    at.armA -= 0.5 * link;
-    at.armB += 0.5 * link;
+    return stateOf(feature, ofA, nullptr);
   }
-  return at;
+  const auto b = static_cast<std::size_t>(feature.b.body());
+  const Kinematics ofB = kinematics(b, state[b]);
+  return stateOf(feature, ofA, &ofB);
+}
+
+// Points of one manifold lie on faces of either body, which are parallel only to within the tolerance. Given
+// one normal, their conditions agree exactly: else a problem asks which of them part by a billionth of a
+// speed.
+void ImplicitStep::contactsAt(std::span<const ContactFeature> features, const GroupState& state,
+                              std::vector<ContactState>& contacts) {
+  kinematics_.clear();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    kinematics_.push_back(kinematics(i, state[i]));
+  }
+  contacts.clear();
+  for (std::size_t c = 0; c < features.size(); ++c) {
+    const ContactFeature& feature = features[c];
+    const Kinematics& ofA = kinematics_[static_cast<std::size_t>(feature.a)];
+    if (feature.b.isWall()) {
+      contacts.push_back(stateOf(feature, ofA, nullptr));
+      continue;
+    }
+    ContactState& at = contacts.emplace_back(
+        stateOf(feature, ofA, &kinematics_[static_cast<std::size_t>(feature.b.body())]));
+    for (std::size_t k = 0; k < c; ++k) {
+      const bool same = features[k].a == feature.a && features[k].b == feature.b;
+      const bool swapped = feature.b.isBody(features[k].a) && features[k].b.isBody(feature.a);
+      const Vec3 normal = swapped ? Vec3(-contacts[k].normal) : contacts[k].normal;
+      if ((same || swapped) && normal.dot(at.normal) >= kParallel) {
+        const Vec3 velocity = at.slip + at.rate * at.normal;
+        at.normal = normal;
+        at.rate = normal.dot(velocity);
+        at.slip = velocity - at.rate * normal;
+        break;
+      }
+    }
+  }
 }
 
 // Force and torque on each body without contacts.
@@ -237,10 +279,10 @@ void ImplicitStep::fillFree(const GroupState& from, double h) {
 }
 
 // The law holds for the velocities at the end of the step, where arms and normal are others than in the rows.
-void ImplicitStep::aimAtEnd(const ContactFeature& feature, const GroupState& to) {
-  ContactProblem::Contact& contact = problem_.contacts.back();
-  const Tangents tangents = tangentsOf(geometry_.back().normal);
-  const ContactState end = contactAt(feature, to);
+void ImplicitStep::aimAtEnd(std::size_t index, const ContactFeature& feature, const GroupState& to) {
+  ContactProblem::Contact& contact = problem_.contacts[index];
+  const Tangents tangents = tangentsOf(geometry_[index].normal);
+  const ContactState& end = ends_[index];
   const std::array<double, 3> actual{end.rate, end.slip.dot(tangents.first), end.slip.dot(tangents.second)};
   for (std::size_t row = 0; row < 3; ++row) {
     double speed = 0;
@@ -289,15 +331,18 @@ bool ImplicitStep::findImpulses(const GroupState& from, double h, bool first,
     turned_[i] = to[i].worldFromBody.toRotationMatrix();
   }
   fillFree(from, h);
-  geometry_.clear();
+  contactsAt(features_, middle_, geometry_);
+  if (!first) {
+    contactsAt(features_, to, ends_);
+  }
   solution_.impulses.clear();
-  for (const ClosedContact& contact : contacts) {
-    geometry_.push_back(contactAt(contact.feature, middle_));
-    addRows(contact.feature, geometry_.back());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    addRows(features_[c], geometry_[c]);
     if (!first) {
-      aimAtEnd(contact.feature, to);
+      aimAtEnd(c, features_[c], to);
     }
-    solution_.impulses.push_back({h * contact.force[0], h * contact.force[1], h * contact.force[2]});
+    const ContactProblem::Triple& force = contacts[c].force;
+    solution_.impulses.push_back({h * force[0], h * force[1], h * force[2]});
   }
   if (!solve()) {
     return false;
@@ -343,10 +388,9 @@ bool ImplicitStep::compress(GroupState& state, std::span<const ContactFeature> c
     turned_[i] = state[i].worldFromBody.toRotationMatrix();
   }
   fillFree(state, 0);
-  geometry_.clear();
-  for (const ContactFeature& feature : contacts) {
-    geometry_.push_back(contactAt(feature, state));
-    addRows(feature, geometry_.back());
+  contactsAt(contacts, state, geometry_);
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    addRows(contacts[c], geometry_[c]);
   }
   solution_.impulses.clear();
   if (!solve()) {
@@ -372,12 +416,12 @@ bool ImplicitStep::separate(GroupState& state, std::span<const ContactFeature> c
       turned_[i] = state[i].worldFromBody.toRotationMatrix();
     }
     bool deep = false;
-    for (const ContactFeature& feature : contacts) {
-      const ContactState at = contactAt(feature, state);
-      addRows(feature, at);
+    contactsAt(contacts, state, geometry_);
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      addRows(contacts[c], geometry_[c]);
       problem_.contacts.back().friction = 0;
-      problem_.contacts.back().target[0] = -at.gap;
-      deep = deep || at.gap < -deepest;
+      problem_.contacts.back().target[0] = -geometry_[c].gap;
+      deep = deep || geometry_[c].gap < -deepest;
     }
     if (!deep) {
       return true;

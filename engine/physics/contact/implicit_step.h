@@ -47,6 +47,9 @@ class ImplicitStep {
 
   Kinematics kinematics(std::size_t body, const GroupBody& at) const;
   ContactState contactAt(const ContactFeature& feature, const GroupState& state) const;
+  /// All of them, points of one manifold with one normal.
+  void contactsAt(std::span<const ContactFeature> features, const GroupState& state,
+                  std::vector<ContactState>& contacts);
   /// [m/s²] Largest acceleration without contact forces at that state.
   double freeAcceleration(const GroupState& state);
   /// Factorisations so far: the cost.
@@ -57,7 +60,8 @@ class ImplicitStep {
   void placeBodies(std::span<const ContactFeature> contacts);
   void addRows(const ContactFeature& feature, const ContactState& geometry);
   void fillFree(const GroupState& from, double h);
-  void aimAtEnd(const ContactFeature& feature, const GroupState& to);
+  void aimAtEnd(std::size_t index, const ContactFeature& feature, const GroupState& to);
+  ContactState stateOf(const ContactFeature& feature, const Kinematics& a, const Kinematics* b) const;
   bool solve();
   void clearImpulses();
   void addImpulse(const ContactFeature& feature, const ContactState& geometry,
@@ -84,6 +88,8 @@ class ImplicitStep {
   std::vector<Mat3> turned_;  // by body: worldFromBody at the end of the step
   std::vector<ContactFeature> features_;
   std::vector<ContactState> geometry_;  // by contact, as in the rows
+  std::vector<ContactState> ends_;      // likewise, at the end of the step
+  std::vector<Kinematics> kinematics_;
   GroupState middle_;
   double enough_ = 0;  // [m/s] residual
   long factorisations_ = 0;

@@ -92,10 +92,14 @@ void TimeStepper::findContacts(const GroupState& at) {
 }
 
 void TimeStepper::lookAgain(const GroupState& at) {
-  for (Found& found : found_) {
-    const ContactState state = equations_.contactAt(found.feature, at);
-    found.gap = state.gap;
-    found.rate = state.rate;
+  features_.clear();
+  for (const Found& found : found_) {
+    features_.push_back(found.feature);
+  }
+  equations_.contactsAt(features_, at, states_);
+  for (std::size_t c = 0; c < found_.size(); ++c) {
+    found_[c].gap = states_[c].gap;
+    found_[c].rate = states_[c].rate;
   }
 }
 
@@ -285,6 +289,7 @@ double TimeStepper::firstDip() {
 
 // Impacts at the start of a step, until no closed contact approaches.
 void TimeStepper::collide() {
+  lookAgain(start_);
   for (int round = 0; round < kMostRounds && collideOnce(); ++round) {
     lookAgain(start_);
   }
@@ -325,10 +330,11 @@ bool TimeStepper::collideOnce() {
   }
   std::vector<ContactFeature> features;
   std::vector<ImpactContact> contacts;
-  for (const Found& found : found_) {
+  for (std::size_t c = 0; c < found_.size(); ++c) {
+    const Found& found = found_[c];
     if (struck[rootOf(found.feature)] != 0) {
       features.push_back(found.feature);
-      const ContactState state = equations_.contactAt(found.feature, start_);
+      const ContactState& state = states_[c];
       contacts.push_back({.a = found.feature.a,
                           .b = found.feature.b,
                           .armA = state.armA,
