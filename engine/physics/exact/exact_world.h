@@ -45,6 +45,8 @@ class ExactWorld {
  private:
   /// [1] of timeScaleOf: changes of contact within it are counted together.
   static constexpr double kChatterWindow = 8;
+  /// [1] of the tolerance: bodies that go on by time steps are one group up to this gap.
+  static constexpr double kNear = 64;
 
   /// What a body does after an event.
   enum class Next { kGoesOn, kFlies, kRests, kTouches };
@@ -79,6 +81,7 @@ class ExactWorld {
   Encounter gather(const Event& event);
   void reach(const Event& event, Encounter& encounter);
   void join(Encounter& encounter, int rank);
+  double nearness(const Encounter& encounter) const;
   void addPairContacts(Encounter& encounter, std::size_t indexA, std::size_t indexB) const;
   void resolve(Encounter& encounter);
   void record(const Encounter& encounter);

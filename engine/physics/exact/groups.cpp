@@ -71,6 +71,12 @@ void ExactWorld::join(Encounter& encounter, int rank) {
   }
 }
 
+// [m] Bodies that go on by time steps take those with them that they would meet at once: an arrival costs
+// more.
+double ExactWorld::nearness(const Encounter& encounter) const {
+  return encounter.timeSteps > 0 ? kNear * tolerance_ : 0;
+}
+
 // An impact propagates to every body that touches one it reaches, except through immovable bodies.
 void ExactWorld::reach(const Event& event, Encounter& encounter) {
   join(encounter, event.body);
@@ -87,7 +93,7 @@ void ExactWorld::reach(const Event& event, Encounter& encounter) {
       const Mover& other = mover(candidate);
       if (std::find(encounter.ranks.begin(), encounter.ranks.end(), candidate) == encounter.ranks.end() &&
           areTouching(boxOf(encounter, reached),
-                      {other.stateAt(encounter.time).pose, other.body->halfExtents})) {
+                      {other.stateAt(encounter.time).pose, other.body->halfExtents}, nearness(encounter))) {
         join(encounter, candidate);
       }
     }

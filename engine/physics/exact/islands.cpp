@@ -18,7 +18,8 @@ constexpr double kParting = 0x1p-40;
 /// [1] of the speed gained by falling through the tolerance: below it chattering has ended.
 constexpr double kAllButStill = 0x1p-4;
 
-/// Of more bodies that touch, some contact changes before a smooth step ends: they go on by so many time steps.
+/// Of more bodies that touch, some contact changes before a smooth step ends: they go on by so many time
+/// steps.
 constexpr std::size_t kMostSmooth = 6;
 constexpr int kTimeStepsOfMany = 64;
 
@@ -200,6 +201,12 @@ void ExactWorld::formIslands(Encounter& encounter) const {
     }
   }
   for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 1; encounter.timeSteps > 0 && j < count; ++j) {
+      if (takesPart(i) && takesPart(j) &&
+          areTouching(boxOf(encounter, i), boxOf(encounter, j), nearness(encounter))) {
+        joined.join(i, j);
+      }
+    }
     for (const int other : springs_[static_cast<std::size_t>(encounter.ranks[i])]) {
       const auto at = std::find(encounter.ranks.begin(), encounter.ranks.end(), other);
       const auto j = static_cast<std::size_t>(at - encounter.ranks.begin());
