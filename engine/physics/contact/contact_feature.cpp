@@ -77,6 +77,87 @@ ContactState onEdge(const ContactFeature& feature, const Kinematics& a, const Ve
   return state;
 }
 
+// [1] The least component of a direction along the outward normals of the faces through a point.
+double marginAt(const Vec3& direction, const Mat3& worldFromBody, const Vec3& point,
+                const Vec3& halfExtents) {
+  double least = 1;
+  for (int i = 0; i < 3; ++i) {
+    if (std::fabs(point[i]) == halfExtents[i]) {
+      least = std::min(least, (point[i] < 0 ? -1 : 1) * direction.dot(worldFromBody.col(i)));
+    }
+  }
+  return least;
+}
+
+// A direction and its rate.
+struct Turning {
+  Vec3 direction = Vec3::Zero();
+  Vec3 rate = Vec3::Zero();
+};
+
+// Mean of the normals kept by both bodies, perpendicular to an edge (or to a zero vector), of length 1.
+Turning meanNormal(const Turning& a, const Turning& b, const Turning& edge) {
+  const Vec3 mean = a.direction + b.direction;
+  const Vec3 meanRate = a.rate + b.rate;
+  const double along = mean.dot(edge.direction);
+  const double alongRate = meanRate.dot(edge.direction) + mean.dot(edge.rate);
+  const Vec3 across = mean - along * edge.direction;
+  const Vec3 acrossRate = meanRate - alongRate * edge.direction - along * edge.rate;
+  const double size = across.norm();
+  const Vec3 normal = across / size;
+  return {.direction = normal, .rate = (acrossRate - normal.dot(acrossRate) * normal) / size};
+}
+
+ContactState inCone(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,
+                    const Kinematics& b, const Vec3& halfExtentsB) {
+  const auto turning = [](const Kinematics& body, const Vec3& inBody) {
+    const Vec3 direction = body.pose.worldFromBody * inBody;
+    return Turning{.direction = direction, .rate = body.angularVelocity.cross(direction)};
+  };
+  const bool movesOnA = feature.axisA != ContactFeature::kNoEdge;
+  const bool movesOnB = feature.axisB != ContactFeature::kNoEdge;
+  Turning edge;
+  if (movesOnA || movesOnB) {
+    edge = movesOnA ? turning(a, Vec3::Unit(feature.axisA)) : turning(b, Vec3::Unit(feature.axisB));
+  }
+  const Turning normal = meanNormal(turning(a, feature.normalA), turning(b, feature.normalB), edge);
+  const Vec3& n = normal.direction;
+  ContactState state;
+  state.normal = n;
+  state.armA = a.pose.worldFromBody * feature.onA;
+  state.armB = b.pose.worldFromBody * feature.onB;
+  const Vec3 link = (a.pose.position - b.pose.position) + state.armA - state.armB;
+  const double along = link.dot(edge.direction);
+  state.gap = n.dot(link);
+  state.offset = link - state.gap * n - along * edge.direction;
+  const double reach = std::min(halfExtentsA.norm(), halfExtentsB.norm());
+  const double margin = std::min(marginAt(-n, a.pose.worldFromBody, feature.onA, halfExtentsA),
+                                 marginAt(n, b.pose.worldFromBody, feature.onB, halfExtentsB));
+  state.beyond = std::max(state.offset.norm(), -margin * reach);
+  if (movesOnA) {
+    state.armA -= along * edge.direction;
+    state.beyond = std::max(state.beyond, std::fabs(along) - halfExtentsA[feature.axisA]);
+  } else if (movesOnB) {
+    state.armB += along * edge.direction;
+    state.beyond = std::max(state.beyond, std::fabs(along) - halfExtentsB[feature.axisB]);
+  }
+
+  const Vec3& spinA = a.angularVelocity;
+  const Vec3& spinB = b.angularVelocity;
+  const Vec3 velocityA = a.velocity + spinA.cross(state.armA);
+  const Vec3 velocityB = b.velocity + spinB.cross(state.armB);
+  state.slip = velocityA - velocityB;
+  state.rate = n.dot(state.slip);
+  state.slip -= state.rate * n;
+  state.gapBias = n.dot(spinA.cross(spinA.cross(state.armA)) - spinB.cross(spinB.cross(state.armB))) +
+                  2 * normal.rate.dot(state.slip);
+  // The contact moves with the body whose point it is.
+  const Vec3 mean = 0.5 * (velocityA + velocityB);
+  const Vec3& contact = movesOnA ? velocityB : movesOnB ? velocityA : mean;
+  state.slipBias = spinA.cross(contact - a.velocity) - spinB.cross(contact - b.velocity);
+  return state;
+}
+
 // The axes along which the point lies on the box's surface.
 struct Sides {
   std::array<bool, 3> at{};
@@ -129,6 +210,35 @@ int edgeThrough(const Sides& sides, const Mat3& worldFromBody, const Vec3& norma
   return best;
 }
 
+// The edge through a point on two sides, along which the contact can move.
+int freeEdge(const Sides& sides) {
+  for (int i = 0; i < 3; ++i) {
+    if (sides.count == 2 && !sides.at[static_cast<std::size_t>(i)]) {
+      return i;
+    }
+  }
+  return ContactFeature::kNoEdge;
+}
+
+// Of two edges the ends of the common part touch, each a corner of one of them; if of neither, b's moves.
+ContactFeature pointInCone(int a, BoxAt boxA, const Vec3& placeA, const Sides& sidesA, int b, BoxAt boxB,
+                           const Vec3& placeB, const Sides& sidesB, const Vec3& normal) {
+  ContactFeature feature{.kind = ContactFeature::Kind::kInCone,
+                         .a = a,
+                         .b = Partner::ofBody(b),
+                         .axisA = freeEdge(sidesA),
+                         .axisB = freeEdge(sidesB),
+                         .normalA = boxA.pose.worldFromBody.transpose() * normal,
+                         .normalB = boxB.pose.worldFromBody.transpose() * normal};
+  feature.onA = atSides(placeA, boxA.halfExtents, feature.axisA);
+  feature.onB = atSides(placeB, boxB.halfExtents, feature.axisB);
+  if (feature.axisA != ContactFeature::kNoEdge && feature.axisB != ContactFeature::kNoEdge) {
+    feature.onA[feature.axisA] = placeA[feature.axisA];
+    feature.axisA = ContactFeature::kNoEdge;
+  }
+  return feature;
+}
+
 ContactFeature pointOnFace(int a, const Vec3& point, int b, const Mat3& worldFromB, int face,
                            const Vec3& normal) {
   return {.kind = ContactFeature::Kind::kPointOnFace,
@@ -151,6 +261,9 @@ ContactState contactState(const ContactFeature& feature, const Kinematics& a, co
                           const Kinematics* b, const Vec3& halfExtentsB, const Wall* wall) {
   if (feature.kind == ContactFeature::Kind::kEdgeOnEdge) {
     return onEdge(feature, a, halfExtentsA, *b, halfExtentsB);
+  }
+  if (feature.kind == ContactFeature::Kind::kInCone) {
+    return inCone(feature, a, halfExtentsA, *b, halfExtentsB);
   }
   const Vec3 arm = a.pose.worldFromBody * feature.onA;
   if (feature.kind == ContactFeature::Kind::kPointOnWall) {
@@ -178,6 +291,9 @@ ContactFeature featureAt(const ContactPoint& point, double apart, int a, BoxAt b
   const Vec3 placeB = poseB.worldFromBody.transpose() * point.armB;
   const Sides sidesA = sidesAt(placeA, halfExtentsA, apart);
   const Sides sidesB = sidesAt(placeB, halfExtentsB, apart);
+  if (point.inCone) {
+    return pointInCone(a, boxA, placeA, sidesA, b, boxB, placeB, sidesB, point.normal);
+  }
   const int faceA = faceAlong(poseA.worldFromBody, point.normal);
   const int faceB = faceAlong(poseB.worldFromBody, point.normal);
   if (sidesA.count == 3 && faceB >= 0) {

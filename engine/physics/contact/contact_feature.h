@@ -24,17 +24,22 @@ struct ContactFeature {
     kPointOnWall,
     kPointOnFace,  ///< a point of a on a face of b
     kEdgeOnEdge,   ///< the crossing of an edge of a and one of b
+    kInCone,       ///< points on an edge or a corner of each, with a cone of normals (NormalCone)
   };
 
   Kind kind = Kind::kPointOnWall;
-  int a = 0;                ///< index of a body; the normal points to it
-  Partner b = {};           ///< a wall, or the index of a body
-  Vec3 onA = Vec3::Zero();  ///< [m] in a's frame: the point, or its edge's middle
-  Vec3 onB = Vec3::Zero();  ///< [m] in b's frame: its edge's middle
-  int axisA = 0;            ///< body axis along a's edge
-  int axisB = 0;            ///< body axis along b's edge, or normal to b's face
-  double sign = 1;          ///< of the face's outward normal, or of the edges' cross product
-  Material material = {};   ///< of the pair
+  int a = 0;                    ///< index of a body; the normal points to it
+  Partner b = {};               ///< a wall, or the index of a body
+  Vec3 onA = Vec3::Zero();      ///< [m] in a's frame: the point, or its edge's middle
+  Vec3 onB = Vec3::Zero();      ///< [m] in b's frame: the point, or its edge's middle
+  int axisA = 0;                ///< body axis along a's edge; kNoEdge for a point
+  int axisB = 0;                ///< body axis along b's edge, or normal to b's face; kNoEdge for a point
+  double sign = 1;              ///< of the face's outward normal, or of the edges' cross product
+  Material material = {};       ///< of the pair
+  Vec3 normalA = Vec3::Zero();  ///< [1] kInCone: the normal when it began, in a's frame
+  Vec3 normalB = Vec3::Zero();  ///< [1] likewise in b's
+
+  static constexpr int kNoEdge = -1;
 };
 
 /// A feature at one moment. Its gap d and its slip change with accelerations v̇ and ω̇ of both sides:
@@ -48,13 +53,22 @@ struct ContactState {
   Vec3 slip = Vec3::Zero();      ///< [m/s] tangential velocity of a relative to b
   double gapBias = 0;            ///< [m/s²]
   Vec3 slipBias = Vec3::Zero();  ///< [m/s²]
-  double beyond = 0;  ///< [m] how far the contact is past the end of its face or edge; negative within
+  /// [m] How far the contact is past the end of its face or edge, negative within. kInCone: also how far
+  /// apart its points are sideways, and how far its normal has left the cone, at the smaller box's half
+  /// diagonal.
+  double beyond = 0;
+  Vec3 offset = Vec3::Zero();  ///< [m] kInCone: sideways, from b's point to a's
 };
 
 /// Whether the features include that corner of a at that wall.
 bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, const Vec3& corner);
 
 /// `b` is null for a wall. Eq. 13 and its derivative; n rotates with b's face, or with both edges.
+///
+/// In a cone n is the mean of the two directions that it had in each body's frame when the contact began,
+/// perpendicular to the edge on which the contact can move: the bodies carry it half way each, so it stays
+/// symmetric. For parallel edges that is the bisector of the fan as it moves. With w from b's point to a's,
+/// d = n·w, and where they touch d̈ = n·ẅ + 2ṅ·ẇ.
 ContactState contactState(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,
                           const Kinematics* b, const Vec3& halfExtentsB, const Wall* wall);
 

@@ -226,10 +226,16 @@ bool ContactSystem::rate(std::span<const double> y, std::vector<double>& dy) {
 
 void ContactSystem::solveGiven(std::span<const double> free) { forces_.solveGiven(free, modes_); }
 
+// Where two edges or corners stick to each other they also stay together sideways: an offset would make the
+// contact one of an edge on a face.
+bool ContactSystem::holdsSideways(std::size_t contact) const {
+  return modes_[contact] == Mode::kStick && features_[contact].kind == ContactFeature::Kind::kInCone;
+}
+
 bool ContactSystem::projectPositions(std::vector<double>& y) {
   const std::vector<Mode> kept = modes_;
-  for (Mode& mode : modes_) {
-    mode = mode == Mode::kOff ? Mode::kOff : Mode::kOn;
+  for (std::size_t c = 0; c < modes_.size(); ++c) {
+    modes_[c] = modes_[c] == Mode::kOff || holdsSideways(c) ? modes_[c] : Mode::kOn;
   }
   const std::vector<double> still(inverseMass_.size(), 0.0);
   int pass = 0;
@@ -240,7 +246,8 @@ bool ContactSystem::projectPositions(std::vector<double>& y) {
       if (modes_[c] != Mode::kOff) {
         const auto a = static_cast<std::size_t>(features_[c].a);
         const double lengths = kinematics_[a].pose.position.cwiseAbs().sum() + states_[c].armA.norm();
-        worst = std::max(worst, std::fabs(states_[c].gap) / lengths);
+        const double sideways = holdsSideways(c) ? states_[c].offset.norm() : 0;
+        worst = std::max(worst, std::max(std::fabs(states_[c].gap), sideways) / lengths);
       }
     }
     if (worst <= kProjected) {
@@ -248,7 +255,13 @@ bool ContactSystem::projectPositions(std::vector<double>& y) {
     }
     fillContacts();
     for (std::size_t c = 0; c < features_.size(); ++c) {
-      forces_.contacts()[c].target = {-states_[c].gap, 0, 0};
+      ContactForces::Contact& contact = forces_.contacts()[c];
+      contact.target = {-states_[c].gap, 0, 0};
+      if (holdsSideways(c)) {
+        const Tangents tangents = tangentsOf(states_[c].normal);
+        contact.target = {-states_[c].gap, -states_[c].offset.dot(tangents.first),
+                          -states_[c].offset.dot(tangents.second)};
+      }
     }
     solveGiven(still);
     for (std::size_t m = 0; m < movers_.size(); ++m) {

@@ -48,9 +48,9 @@ class ContactSystem {
   /// Computes dy with the current modes. Returns false if no forces were found.
   bool rate(std::span<const double> y, std::vector<double>& dy);
 
-  /// Projects the gaps of active contacts to zero by the least displacement (in the mass metric), their rates
-  /// by the least impulse; removes the slip of sticking contacts. Returns false if there was only rounding
-  /// error.
+  /// Projects the gaps of active contacts to zero by the least displacement (in the mass metric), and the
+  /// sideways offsets of those in a cone that stick; their rates by the least impulse; removes the slip of
+  /// sticking contacts. Returns false if there was only rounding error.
   bool project(std::vector<double>& y);
   bool projectPositions(std::vector<double>& y);
   bool projectVelocities(std::vector<double>& y);
@@ -71,6 +71,7 @@ class ContactSystem {
   double gravityMagnitude() const { return gravityMagnitude_; }
 
  private:
+  bool holdsSideways(std::size_t contact) const;
   void findFree();
   void fillContacts();
   void solveGiven(std::span<const double> free);

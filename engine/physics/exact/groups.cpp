@@ -128,7 +128,8 @@ void ExactWorld::addPairContacts(Encounter& encounter, std::size_t indexA, std::
                                   .armA = at.armA,
                                   .armB = at.armB,
                                   .normal = at.normal,
-                                  .material = touching(a.material, b.material)});
+                                  .material = touching(a.material, b.material),
+                                  .inCone = at.inCone});
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/disjoint_sets.h"
 #include "physics/exact/exact_world.h"
+#include "physics/geometry/contact_points.h"
 #include "physics/geometry/separation.h"
 #include "physics/impact/settling.h"
 
@@ -126,8 +127,10 @@ void ExactWorld::settleBody(Encounter& encounter, std::size_t index) const {
     const double normalAcceleration = normal.dot(acceleration);
     const bool returns =
         std::fabs(normalAcceleration) > kParting * acceleration.norm();  // along a wall it is rounding
+    const double departure =
+        contact.inCone ? partingAt(encounter, k).speed : normal.dot(state.velocity + omega.cross(arm));
     const Bouncing bouncing{.acceleration = returns ? normalAcceleration : 0,
-                            .departure = std::max(0.0, normal.dot(state.velocity + omega.cross(arm))),
+                            .departure = std::max(0.0, departure),
                             .restitution = contact.material.restitution,
                             .gapRounding = kGapRounding * lengthsAt(encounter, k)};
     if (!settles(bouncing, body.halfExtents.minCoeff())) {
@@ -155,17 +158,24 @@ void ExactWorld::settleBody(Encounter& encounter, std::size_t index) const {
 ExactWorld::Parting ExactWorld::partingAt(const Encounter& encounter, std::size_t contact) const {
   const ImpactContact& at = encounter.contacts[contact];
   Parting parting;
+  Vec3 velocity = Vec3::Zero();
   const auto add = [&](int index, const Vec3& arm, double sign) {
     const auto i = static_cast<std::size_t>(index);
     const Body& body = *mover(encounter.ranks[i]).body;
     const Vec3 spin = careen::angularVelocity(body.mass, encounter.after[i]);
-    parting.speed += sign * at.normal.dot(encounter.after[i].velocity + spin.cross(arm));
+    const Vec3 ofPoint = encounter.after[i].velocity + spin.cross(arm);
+    velocity += sign * ofPoint;
+    parting.speed += sign * at.normal.dot(ofPoint);
     parting.rounding += kParting * (encounter.after[i].velocity.norm() + spin.norm() * arm.norm() +
                                     kParting * std::sqrt(world_.gravity.norm() * body.halfExtents.norm()));
   };
   add(at.a, at.armA, 1);
   if (!at.b.isWall()) {
     add(at.b.body(), at.armB, -1);
+  }
+  if (at.inCone) {
+    parting.speed = partingSpeed(boxOf(encounter, static_cast<std::size_t>(at.a)),
+                                 boxOf(encounter, static_cast<std::size_t>(at.b.body())), velocity);
   }
   return parting;
 }
@@ -256,7 +266,8 @@ ContactFeature ExactWorld::featureOf(const Encounter& encounter, std::size_t k) 
   } else {
     const auto b = static_cast<std::size_t>(contact.b.body());
     feature =
-        featureAt({contact.armA, contact.armB, contact.normal}, 0, contact.a, {pose, half}, contact.b.body(),
+        featureAt({contact.armA, contact.armB, contact.normal, contact.inCone}, 0, contact.a, {pose, half},
+                  contact.b.body(),
                   {encounter.after[b].pose, mover(encounter.ranks[b]).body->halfExtents});
   }
   feature.material = contact.material;

@@ -24,6 +24,7 @@ struct ImpactContact {
   Vec3 armB = Vec3::Zero();     ///< [m] world, from b's; not read for a wall
   Vec3 normal = Vec3::UnitZ();  ///< [1] unit, from b to a
   Material material;            ///< of the pair, see touching()
+  bool inCone = false;          ///< the normal is one of many, see ContactPoint
 };
 
 /// What an impact did at one contact.
