@@ -111,15 +111,11 @@ void ExactWorld::happen(const Event& event) {
     advance(mover(event.body).contactGroup, event.time);
   } else {
     Encounter encounter = gather(event);
-    if (needsPile(encounter)) {
-      pileFrom_ = event.time;
-      return;
-    }
     resolve(encounter);
     settle(encounter);
     record(encounter);
     moveOn(encounter);
-    if (canPile() && movers_.size() > kMostInContact && !encounter.islands.empty()) {
+    if (needsPile(encounter)) {
       pileFrom_ = event.time;
     }
   }

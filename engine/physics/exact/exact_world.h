@@ -22,9 +22,8 @@ namespace careen {
 /// Contact in steps chosen by the tolerance, or Rest. Between events nothing is computed, and an event
 /// affects only the bodies involved in it.
 ///
-/// If more than kMostInIsland bodies touch, more than kMostChattering chatter, or any body is in Contact in a
-/// world of more than kMostInContact, the whole world continues as a Pile from there: bounded, not exact.
-/// RunFigures reports it.
+/// If more than kMostInIsland bodies that touch move, the whole world continues as a Pile from there:
+/// bounded, not exact. RunFigures reports it.
 ///
 /// Bodies are identified by rank, their position in the order of names, so that their order in the scene
 /// changes no bit.
@@ -33,14 +32,9 @@ class ExactWorld {
   ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder);
   RunFigures run(const std::stop_token& stop);
 
-  /// Most bodies of one island that is solved exactly: the cost of forces grows with the cube of their
-  /// number.
-  static constexpr int kMostInIsland = 1200;
-  /// The same where they chatter: eleven take 4 ms per time step, and there are thousands in a second.
-  static constexpr int kMostChattering = 8;
-  /// Most bodies in a world with Contact: at each step each body in contact searches for contacts with its
-  /// neighbours.
-  static constexpr std::size_t kMostInContact = 6400;
+  /// Most bodies of one island that moves: the cost of each of its steps grows with their number, and so does
+  /// the number of steps. Bodies at rest are not counted.
+  static constexpr int kMostInIsland = 12;
 
  private:
   /// [1] of timeScaleOf: changes of contact within it are counted together.

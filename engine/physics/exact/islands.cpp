@@ -267,8 +267,7 @@ ContactFeature ExactWorld::featureOf(const Encounter& encounter, std::size_t k) 
     const auto b = static_cast<std::size_t>(contact.b.body());
     feature =
         featureAt({contact.armA, contact.armB, contact.normal, contact.inCone}, 0, contact.a, {pose, half},
-                  contact.b.body(),
-                  {encounter.after[b].pose, mover(encounter.ranks[b]).body->halfExtents});
+                  contact.b.body(), {encounter.after[b].pose, mover(encounter.ranks[b]).body->halfExtents});
   }
   feature.material = contact.material;
   return feature;

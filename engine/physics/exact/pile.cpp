@@ -30,8 +30,12 @@ ContactStep between(const BodyState& from, const BodyState& to) {
 }  // namespace
 
 bool ExactWorld::needsPile(const Encounter& encounter) const {
-  return canPile() && std::count_if(encounter.ranks.begin(), encounter.ranks.end(),
-                                    [&](int rank) { return !mover(rank).isHeld(); }) > kMostInIsland;
+  return canPile() &&
+         std::any_of(encounter.islands.begin(), encounter.islands.end(),
+                     [&](const std::shared_ptr<ContactGroup>& contactGroup) {
+                       return std::count_if(contactGroup->ranks.begin(), contactGroup->ranks.end(),
+                                            [&](int rank) { return !mover(rank).isHeld(); }) > kMostInIsland;
+                     });
 }
 
 // From here on all bodies advance together, frame by frame.
