@@ -382,6 +382,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"render/overlay/impacts", "one overlay of several in frame.h, tested through overlays"},
     {"render/overlay/shapes", "data only"},
     {"render/window/window", "needs a display; tested by app/view_test"},
+    {"physics/solver/contact_problem", "data only"},
     {"stage/camera", "data only"},
     {"stage/color", "data only"},
     {"stage/run_setup", "data only"},

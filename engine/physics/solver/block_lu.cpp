@@ -10,11 +10,14 @@ namespace {
 constexpr std::size_t kSize = BlockLu::kSize;
 using Block = BlockLu::Block;
 
-/// L U of a block, with ones on L's diagonal and reciprocals on U's.
-bool factoriseBlock(Block& a) {
+/// [1] Smaller pivots would overflow sooner or later.
+constexpr double kLeastPivot = 0x1p-64;
+
+/// L U of a block, with ones on L's diagonal and reciprocals on U's; `before` as in factorise().
+bool factoriseBlock(Block& a, const double* before) {
   for (std::size_t k = 0; k < kSize; ++k) {
     const double pivot = a[k * kSize + k];
-    if (!(std::fabs(pivot) > 0) || !std::isfinite(pivot)) {
+    if (!(std::fabs(pivot) > kLeastPivot * std::fabs(before[k])) || !std::isfinite(pivot)) {
       return false;
     }
     const double inverse = 1 / pivot;
@@ -95,6 +98,7 @@ void BlockLu::setPattern(std::size_t rows, std::span<const std::pair<int, int>> 
     }
   }
   diagonal_.resize(rows);
+  before_.resize(rows * kSize);
   columns_.assign(rows, {});
   std::size_t next = 0;
   for (std::size_t k = 0; k < rows; ++k) {
@@ -134,7 +138,12 @@ void BlockLu::setZero() {
 
 bool BlockLu::factorise() {
   for (std::size_t k = 0; k < rows(); ++k) {
-    if (!factoriseBlock(blocks_[diagonal_[k]])) {
+    for (std::size_t i = 0; i < kSize; ++i) {
+      before_[k * kSize + i] = blocks_[diagonal_[k]][i * kSize + i];
+    }
+  }
+  for (std::size_t k = 0; k < rows(); ++k) {
+    if (!factoriseBlock(blocks_[diagonal_[k]], &before_[k * kSize])) {
       return false;
     }
     eliminate(k);

@@ -30,7 +30,8 @@ class BlockLu {
   Block& block(std::size_t index) { return blocks_[index]; }
   void setZero();
 
-  /// In place. Returns false if a pivot is zero or no number.
+  /// In place. Returns false if a pivot is no number, or nothing but rounding errors far below what was there
+  /// before.
   bool factorise();
   /// A x = b in place, six numbers per row.
   void solve(std::span<double> x) const;
@@ -45,6 +46,7 @@ class BlockLu {
 
   std::vector<Block> blocks_;
   std::vector<std::size_t> diagonal_;
+  std::vector<double> before_;  // the numbers on the diagonal
   std::vector<std::vector<Entry>> columns_;
   std::vector<std::vector<std::size_t>>
       updated_;  // per column k: index of block (i, j), for all entries i, then j

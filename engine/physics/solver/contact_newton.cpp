@@ -16,6 +16,8 @@ constexpr double kMostEpsilon = 1;
 /// [1] A descending step is worth taking if it leaves at most so much of the residual.
 constexpr double kFalls = 0.9;
 constexpr double kShortest = 0.125;
+/// [1] of V: beyond, the iteration has diverged, and would overflow.
+constexpr double kDiverged = 0x1p100;
 /// A proximal point is found if its equations hold to so much of the last residual, within so many steps.
 constexpr double kProximal = 0.01;
 constexpr int kProximalSteps = 6;
@@ -53,7 +55,7 @@ double ContactNewton::begin(const CoupledContacts& contacts, std::span<const Tri
   return residual(contacts, impulses, q);
 }
 
-/// Moves impulses_ by one full step.
+/// Moves impulses_ by one full step. Returns false if that leads nowhere.
 bool ContactNewton::step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres,
                          bool sticking) {
   contacts.velocities(impulses_, q_);
@@ -69,10 +71,14 @@ bool ContactNewton::step(CoupledContacts& contacts, const Options& options, std:
     return false;
   }
   contacts.step(answers_, q_, dq_);
+  double largest = 0;
   for (std::size_t c = 0; c < impulses_.size(); ++c) {
     impulses_[c] = contacts.answerTo(c, answers_[c], dq_);
+    for (const double part : impulses_[c]) {
+      largest = std::max(largest, std::fabs(part) / contacts.contacts()[c].mass);
+    }
   }
-  return true;
+  return largest <= kDiverged * contacts.scale();
 }
 
 /// Residual of impulses_ brought into their cones.
@@ -97,7 +103,7 @@ double ContactNewton::improve(CoupledContacts& contacts, std::span<Triple> impul
       break;
     }
     const double now = admit(contacts);
-    if (!std::isfinite(now)) {
+    if (!(now <= kDiverged * contacts.scale())) {
       break;
     }
     stalled = now < best / 2 ? 0 : stalled + 1;
@@ -166,6 +172,9 @@ bool ContactNewton::solveProximal(CoupledContacts& contacts, const Options& opti
     }
     if (worst <= error) {
       return true;
+    }
+    if (!(worst <= kDiverged * contacts.scale())) {
+      return false;
     }
   }
   return false;

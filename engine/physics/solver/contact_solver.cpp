@@ -11,6 +11,7 @@ namespace {
 constexpr double kEnough = 1e-9;
 constexpr double kSmall = 1e-13;
 constexpr double kGoal = 0x1p-50;  // where Newton's method stops
+constexpr double kWarmGoal = 0x1p-46;
 constexpr double kPolished = 0x1p-43;
 // [1] of the largest λ/mass
 constexpr double kOfImpulses = 1e-6;
@@ -56,7 +57,7 @@ bool ContactSolver::keepIfBetter(double residual) {
 
 bool ContactSolver::tryNewton(std::span<const Triple> from, ContactNewton::Options options, bool sticking) {
   std::copy(from.begin(), from.end(), trial_.begin());
-  options.enough = inScale(kGoal);
+  options.enough = std::max({options.enough, inScale(kGoal), contacts_.noise()});
   return keepIfBetter(newton_.improve(contacts_, trial_, trialQ_, options, sticking));
 }
 
@@ -117,7 +118,9 @@ bool ContactSolver::tryProximal(int rounds) {
       continue;
     }
     sweeps_.start(contacts_, from_);
-    sweeps_.sweep(contacts_, kFirstSweeps << std::min(round, kDoublings));
+    if (!sweeps_.sweep(contacts_, kFirstSweeps << std::min(round, kDoublings))) {
+      return false;
+    }
     std::copy(sweeps_.impulses().begin(), sweeps_.impulses().end(), from_.begin());
     if (tryNewton(from_, {})) {
       return true;
@@ -134,7 +137,7 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
   }
   if (solution.impulses.size() == impulses_.size()) {
     contacts_.importImpulses(solution.impulses, from_);
-    if (tryNewton(from_, {.steps = 8})) {
+    if (tryNewton(from_, {.steps = 8, .enough = inScale(kWarmGoal)})) {
       return;
     }
   }
@@ -145,6 +148,7 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
   for (const double start : {1e4, 0.01, 1.0, 100.0, 0.1, 1e6}) {
     InteriorPoint::Options options = kCautious;
     options.start = start;
+    options.mostFriction = start == 1e4 ? 0x1p10 : start == 0.01 ? 8 : 0x1p16;
     if (tryInterior(options, 2 * kIterations) || tryProximal(16)) {
       return;
     }

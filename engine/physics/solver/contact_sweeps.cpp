@@ -1,8 +1,14 @@
 #include "physics/solver/contact_sweeps.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace careen {
+namespace {
+
+constexpr double kDiverged = 0x1p40;  // [1] of V
+
+}  // namespace
 
 void ContactSweeps::start(const CoupledContacts& contacts, std::span<const Triple> impulses) {
   impulses_.assign(impulses.begin(), impulses.end());
@@ -10,8 +16,9 @@ void ContactSweeps::start(const CoupledContacts& contacts, std::span<const Tripl
   contacts.velocities(impulses_, q_);
 }
 
-void ContactSweeps::sweep(const CoupledContacts& contacts, int times) {
+bool ContactSweeps::sweep(const CoupledContacts& contacts, int times) {
   for (int k = 0; k < times; ++k) {
+    double largest = 0;
     for (std::size_t c = 0; c < impulses_.size(); ++c) {
       const CoupledContacts::Contact& contact = contacts.contacts()[c];
       const Triple before = impulses_[c];
@@ -21,8 +28,13 @@ void ContactSweeps::sweep(const CoupledContacts& contacts, int times) {
                               before[2] - contact.tangentialMass * u[2]});
       contacts.apply(contact, {now[0] - before[0], now[1] - before[1], now[2] - before[2]}, q_);
       impulses_[c] = now;
+      largest = std::max(largest, now[0] / contact.mass);
+    }
+    if (!(largest <= kDiverged * contacts.scale())) {
+      return false;
     }
   }
+  return true;
 }
 
 }  // namespace careen

@@ -14,7 +14,8 @@ class ContactSweeps {
   using Triple = ContactProblem::Triple;
 
   void start(const CoupledContacts& contacts, std::span<const Triple> impulses);
-  void sweep(const CoupledContacts& contacts, int times);
+  /// Returns false if the impulses diverge, as they can where friction has a given direction.
+  bool sweep(const CoupledContacts& contacts, int times);
   std::span<const Triple> impulses() const { return impulses_; }
 
  private:

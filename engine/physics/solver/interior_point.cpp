@@ -23,6 +23,9 @@ void InteriorPoint::resize(const CoupledContacts& contacts, const Options& optio
   q_.resize(contacts.bodies() * CoupledContacts::kAxes);
   dq_.resize(q_.size());
   lastStride_ = 1;
+  for (std::size_t c = 0; c < count; ++c) {
+    states_[c].friction = std::min(contacts.contacts()[c].friction, options.mostFriction);
+  }
 }
 
 void InteriorPoint::start(const CoupledContacts& contacts, const Options& options) {
@@ -49,8 +52,8 @@ void InteriorPoint::startAt(const CoupledContacts& contacts, std::span<const Tri
     } else {
       state.r = {0, impulse[1] / contact.mass, impulse[2] / contact.mass};
       state.r[0] =
-          std::max(contact.friction * (impulse[0] / contact.mass), lorentz::tangentialSize(state.r)) + shift;
-      state.w = {std::max(0.0, u[0] / contact.friction) + lorentz::tangentialSize(u) + shift, u[1], u[2]};
+          std::max(state.friction * (impulse[0] / contact.mass), lorentz::tangentialSize(state.r)) + shift;
+      state.w = {std::max(0.0, u[0] / state.friction) + lorentz::tangentialSize(u) + shift, u[1], u[2]};
     }
   }
   refresh(contacts);
@@ -60,11 +63,11 @@ void InteriorPoint::startAt(const CoupledContacts& contacts, std::span<const Tri
 void InteriorPoint::refresh(const CoupledContacts& contacts) {
   for (std::size_t c = 0; c < states_.size(); ++c) {
     const Contact& contact = contacts.contacts()[c];
-    const Triple& r = states_[c].r;
+    const State& state = states_[c];
+    const Triple& r = state.r;
     const double normal = contact.mass * r[0];
-    impulses_[c] = contact.onLine
-                       ? Triple{normal, contact.drag[0] * normal, contact.drag[1] * normal}
-                       : Triple{normal / contact.friction, contact.mass * r[1], contact.mass * r[2]};
+    impulses_[c] = contact.onLine ? Triple{normal, contact.drag[0] * normal, contact.drag[1] * normal}
+                                  : Triple{normal / state.friction, contact.mass * r[1], contact.mass * r[2]};
   }
   contacts.velocities(impulses_, q_);
   double sum = 0;
@@ -77,7 +80,7 @@ void InteriorPoint::refresh(const CoupledContacts& contacts) {
     } else {
       const double slip = lorentz::tangentialSize(u);
       state.slip = slip > 0 ? std::array<double, 2>{u[1] / slip, u[2] / slip} : std::array<double, 2>{};
-      state.residual = {state.w[0] - (u[0] / contact.friction + slip), state.w[1] - u[1], state.w[2] - u[2]};
+      state.residual = {state.w[0] - (u[0] / state.friction + slip), state.w[1] - u[1], state.w[2] - u[2]};
     }
     sum += dot(state.r, state.w);
   }
@@ -96,7 +99,7 @@ void InteriorPoint::scale(const Contact& contact, State& state, std::array<doubl
   }
   state.size2 = lorentz::scalingPoint(state.r, state.w, state.point);
   state.scaled = scaledOnce(state.point, std::sqrt(state.size2), state.w);
-  const double inverse = 1 / contact.friction;
+  const double inverse = 1 / state.friction;
   const std::array<Triple, 3> columns{
       {{inverse, 0, 0}, {state.slip[0], 1, 0}, {state.slip[1], 0, 1}}};  // of D̃ S
   for (std::size_t column = 0; column < 3; ++column) {
@@ -137,12 +140,13 @@ ContactProblem::Triple InteriorPoint::given(const Contact& contact, const State&
 void InteriorPoint::solve(const CoupledContacts& contacts, double centering, bool corrected) {
   for (std::size_t c = 0; c < states_.size(); ++c) {
     const Contact& contact = contacts.contacts()[c];
-    const Triple r = given(contact, states_[c], centering * gap_, corrected);
-    states_[c].changeR = {r[0] - states_[c].r[0], r[1] - states_[c].r[1], r[2] - states_[c].r[2]};
+    State& state = states_[c];
+    const Triple r = given(contact, state, centering * gap_, corrected);
+    state.changeR = {r[0] - state.r[0], r[1] - state.r[1], r[2] - state.r[2]};
     const double normal = contact.mass * r[0];
     answers_[c].given = contact.onLine
                             ? Triple{normal, contact.drag[0] * normal, contact.drag[1] * normal}
-                            : Triple{normal / contact.friction, contact.mass * r[1], contact.mass * r[2]};
+                            : Triple{normal / state.friction, contact.mass * r[1], contact.mass * r[2]};
   }
   contacts.step(answers_, q_, dq_);
   for (std::size_t c = 0; c < states_.size(); ++c) {
@@ -154,7 +158,7 @@ void InteriorPoint::solve(const CoupledContacts& contacts, double centering, boo
       state.changeR[0] -= state.size2 * du[0];
       continue;
     }
-    const Triple dw{du[0] / contact.friction + (state.slip[0] * du[1] + state.slip[1] * du[2]), du[1], du[2]};
+    const Triple dw{du[0] / state.friction + (state.slip[0] * du[1] + state.slip[1] * du[2]), du[1], du[2]};
     const Triple answer = scaledTwice(state.point, state.size2, dw);
     for (std::size_t k = 0; k < 3; ++k) {
       state.changeW[k] = dw[k] - state.residual[k];

@@ -21,10 +21,11 @@ namespace careen {
 class InteriorPoint {
  public:
   struct Options {
-    double start = 1;           ///< [1] r starts at this multiple of V, w at V
-    double stride = 0.995;      ///< [1] of the way to the surface of the cones
-    double leastCentering = 0;  ///< [1] lower bound of σ
-    bool secondOrder = true;    ///< Mehrotra's corrector
+    double start = 1;             ///< [1] r starts at this multiple of V, w at V
+    double stride = 0.995;        ///< [1] of the way to the surface of the cones
+    double leastCentering = 0;    ///< [1] lower bound of σ
+    bool secondOrder = true;      ///< Mehrotra's corrector
+    double mostFriction = 0x1p6;  ///< [1] larger μ count as this: u_n/μ must not drown in |u_t|
   };
 
   void start(const CoupledContacts& contacts, const Options& options);
@@ -43,7 +44,8 @@ class InteriorPoint {
  private:
   using Triple = ContactProblem::Triple;
   using Contact = CoupledContacts::Contact;
-  struct State {  // of one contact; of a half-line, the first numbers only
+  struct State {          // of one contact; of a half-line, the first numbers only
+    double friction = 0;  // μ
     Triple r{};
     Triple w{};
     Triple point{};                // w̄, the scaling point, of length 1

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -62,11 +63,8 @@ inline double reach(const Vector& x, const Vector& d) {
   const double a = d[0] * d[0] - (d[1] * d[1] + d[2] * d[2]);
   const double b = x[0] * d[0] - (x[1] * d[1] + x[2] * d[2]);
   const double c = determinant(x);
-  const double discriminant = b * b - a * c;
-  if (discriminant < 0) {
-    return kFar;
-  }
-  const double root = std::sqrt(discriminant);
+  // b² ≥ a c by the reversed inequality of Cauchy and Schwarz; what rounding errors leave below 0 is 0.
+  const double root = std::sqrt(std::max(0.0, b * b - a * c));
   if (b < 0) {
     return c / (root - b);
   }

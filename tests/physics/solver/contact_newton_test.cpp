@@ -1,0 +1,70 @@
+#include "physics/solver/contact_newton.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "physics/solver/contact_scene.h"
+
+namespace careen {
+namespace {
+
+using Triple = ContactProblem::Triple;
+
+struct Iterate {
+  explicit Iterate(const ContactScene& scene)
+      : impulses(scene.problem.contacts.size()), q(scene.problem.free.size()) {
+    contacts.set(scene.problem);
+  }
+  CoupledContacts contacts;
+  std::vector<Triple> impulses;
+  std::vector<double> q;
+  ContactNewton method;
+};
+
+/// A cube that slides, of which all contacts are closed.
+ContactScene sliding() {
+  ContactScene scene = cubeStack(1, 2, 1, 0.1);
+  scene.problem.free[0] = 3;
+  scene.problem.free[1] = -2;
+  return scene;
+}
+
+TEST(ContactNewton, stackAtRestTakesThreeSteps) {
+  Iterate at(cubeStack(5, 1, 1, 0.5));
+  EXPECT_LE(at.method.improve(at.contacts, at.impulses, at.q, {.enough = 1e-15}, true), 1e-15);
+  EXPECT_LE(at.method.factorisations(), 3);
+  for (const double speed : at.q) {
+    EXPECT_NEAR(speed, 0, 1e-15);
+  }
+}
+
+TEST(ContactNewton, allWaysLeadToTheSolution) {
+  for (const int way : {0, 1, 2}) {
+    Iterate at(sliding());
+    const ContactNewton::Options options{.rho = 1, .epsilon = 0x1p-10, .steps = 60, .enough = 1e-13};
+    const double residual = way == 0   ? at.method.improve(at.contacts, at.impulses, at.q, options)
+                            : way == 1 ? at.method.descend(at.contacts, at.impulses, at.q, options)
+                                       : at.method.approach(at.contacts, at.impulses, at.q, options);
+    EXPECT_LE(residual, 1e-13) << way;
+    EXPECT_LE(ContactNewton::residual(at.contacts, at.impulses, at.q), 1e-13);
+    EXPECT_GT(at.q[0], 2);
+  }
+}
+
+// Redundant contacts keep the uneven distribution that they start from, but for what has to change.
+TEST(ContactNewton, keepsTheDistribution) {
+  Iterate at(cubeStack(1, 1, 1, 0.5));
+  std::vector<Triple> listed{{0.5, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0.5, 0, 0}};
+  listed[1][0] = 1e-3;
+  listed[2][0] = 1e-3;
+  at.contacts.importImpulses(listed, at.impulses);
+  at.method.improve(at.contacts, at.impulses, at.q, {.enough = 1e-15});
+  at.contacts.exportImpulses(at.impulses, listed);
+  EXPECT_NEAR(listed[0][0], 0.4995, 1e-6);
+  EXPECT_NEAR(listed[1][0], 0.0005, 1e-6);
+}
+
+}  // namespace
+}  // namespace careen

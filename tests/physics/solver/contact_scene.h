@@ -1,0 +1,204 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "physics/solver/contact_problem.h"
+#include "support/quad.h"
+
+namespace careen {
+
+/// Boxes without rotation that touch each other and the world, as a ContactProblem; for tests.
+class ContactScene {
+ public:
+  using Vector = std::array<double, 3>;
+
+  ContactProblem problem;
+
+  /// `half`: half the edges [m]. Returns the body's index.
+  int add(double mass, const Vector& half, const Vector& place, const Vector& velocity,
+          const Vector& spin = {}) {
+    problem.inverseMass.insert(problem.inverseMass.end(), 3, 1 / mass);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = half[(k + 1) % 3];
+      const double y = half[(k + 2) % 3];
+      problem.inverseMass.push_back(3 / (mass * (x * x + y * y)));
+    }
+    problem.free.insert(problem.free.end(), velocity.begin(), velocity.end());
+    problem.free.insert(problem.free.end(), spin.begin(), spin.end());
+    places_.push_back(place);
+    return static_cast<int>(places_.size()) - 1;
+  }
+
+  /// A contact at `point` whose normal, +1 or −1 along `axis`, points from b to a.
+  ContactProblem::Contact& touch(int a, int b, const Vector& point, std::size_t axis, double sign,
+                                 double friction) {
+    ContactProblem::Contact contact{.a = a, .b = b, .friction = friction};
+    for (std::size_t row = 0; row < 3; ++row) {
+      Vector direction{};
+      direction[(axis + row) % 3] = row == 0 ? sign : 1;
+      fill(contact.rows[row], 0, a, point, direction, 1);
+      fill(contact.rows[row], 6, b, point, direction, -1);
+    }
+    problem.contacts.push_back(contact);
+    return problem.contacts.back();
+  }
+
+  /// Four contacts at the corners of a rectangle at height z.
+  void touchFlat(int a, int b, double x, double y, double halfX, double halfY, double z, double friction) {
+    for (const double i : {-1.0, 1.0}) {
+      for (const double j : {-1.0, 1.0}) {
+        touch(a, b, {x + i * halfX, y + j * halfY, z}, 2, 1, friction);
+      }
+    }
+  }
+
+ private:
+  void fill(ContactProblem::Row& row, std::size_t first, int body, const Vector& point,
+            const Vector& direction, double sign) const {
+    if (body == ContactProblem::kNobody) {
+      return;
+    }
+    const Vector& place = places_[static_cast<std::size_t>(body)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t i = (k + 1) % 3;
+      const std::size_t j = (k + 2) % 3;
+      row[first + k] = sign * direction[k];
+      row[first + 3 + k] =
+          sign * ((point[i] - place[i]) * direction[j] - (point[j] - place[j]) * direction[i]);
+    }
+  }
+
+  std::vector<Vector> places_;
+};
+
+/// n equal cubes of 1 m on each other and on the floor, after a time h of free fall that starts from rest.
+inline ContactScene cubeStack(int n, double mass, double speed, double friction) {
+  ContactScene scene;
+  for (int k = 0; k < n; ++k) {
+    scene.add(mass, {0.5, 0.5, 0.5}, {0, 0, k + 0.5}, {0, 0, -speed});
+    scene.touchFlat(k, k - 1, 0, 0, 0.5, 0.5, k, friction);
+  }
+  return scene;
+}
+
+/// A wall in running bond: bricks of 2 m by 1 m by 1 m, `columns` of them in each row, every other row moved
+/// by half a brick; each brick rests on the two below.
+inline ContactScene brickWall(int rows, int columns, double speed, double friction) {
+  ContactScene scene;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const double x = 2 * column + row % 2;
+      const int brick = scene.add(1, {1, 0.5, 0.5}, {x, 0, row + 0.5}, {0, 0, -speed});
+      if (row == 0) {
+        scene.touchFlat(brick, ContactProblem::kNobody, x, 0, 1, 0.5, 0, friction);
+        continue;
+      }
+      for (const int other : {column + row % 2 - 1, column + row % 2}) {
+        if (other >= 0 && other < columns) {
+          const double below = 2 * other + (row - 1) % 2;
+          scene.touchFlat(brick, (row - 1) * columns + other, (x + below) / 2, 0, 0.5, 0.5, row, friction);
+        }
+      }
+    }
+  }
+  return scene;
+}
+
+/// What ContactSolution claims, recomputed in quadruple precision from the problem and the impulses alone.
+struct Verified {
+  double residual = 0;  ///< [m/s] as ContactCone::violation defines it
+  double velocities = 0;  ///< [m/s, rad/s] largest difference between q₀ + M⁻¹Jᵀλ and the velocities given
+  double cone = 0;        ///< [m/s] how far λ/mass is outside its cone
+};
+
+inline Verified verified(const ContactProblem& problem, const ContactSolution& solution) {
+  std::vector<Quad> q(problem.free.begin(), problem.free.end());
+  const auto forSides = [](const ContactProblem::Contact& contact, const auto& action) {
+    for (const std::size_t side : {0U, 1U}) {
+      if (const int body = side == 0 ? contact.a : contact.b; body != ContactProblem::kNobody) {
+        for (std::size_t k = 0; k < 6; ++k) {
+          action(static_cast<std::size_t>(body) * 6 + k, side * 6 + k);
+        }
+      }
+    }
+  };
+  for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
+    forSides(problem.contacts[c], [&](std::size_t at, std::size_t i) {
+      for (std::size_t row = 0; row < 3; ++row) {
+        q[at] += Quad(problem.inverseMass[at]) * problem.contacts[c].rows[row][i] * solution.impulses[c][row];
+      }
+    });
+  }
+  Verified result;
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    result.velocities =
+        std::max(result.velocities, std::fabs(static_cast<double>(q[k] - solution.velocities[k])));
+  }
+  for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
+    const ContactProblem::Contact& contact = problem.contacts[c];
+    std::array<Quad, 3> u{Quad(-contact.target[0]), Quad(-contact.target[1]), Quad(-contact.target[2])};
+    Quad inverse = 0;
+    forSides(contact, [&](std::size_t at, std::size_t i) {
+      inverse += Quad(problem.inverseMass[at]) * contact.rows[0][i] * contact.rows[0][i];
+      for (std::size_t row = 0; row < 3; ++row) {
+        u[row] += q[at] * contact.rows[row][i];
+      }
+    });
+    std::array<Quad, 3> l{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      l[k] = inverse * solution.impulses[c][k];
+    }
+    const Quad open = l[0] - u[0] > 0 ? u[0] : l[0];
+    Quad square = open * open;
+    Quad outside = l[0] < 0 ? Quad(-l[0]) : Quad(0);
+    if (contact.slips || !(contact.friction > 0)) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Quad off = l[1 + k] + (contact.slips ? contact.friction * contact.slip[k] * l[0] : Quad(0));
+        outside = std::max(outside, Quad(abs(off)));
+      }
+    } else {
+      const Quad x = l[1] - u[1];
+      const Quad y = l[2] - u[2];
+      const Quad size = sqrt(x * x + y * y);
+      const Quad radius = contact.friction * (l[0] > 0 ? l[0] : Quad(0));
+      const Quad shrink = size > radius ? Quad(radius / size) : Quad(1);
+      square += (l[1] - shrink * x) * (l[1] - shrink * x) + (l[2] - shrink * y) * (l[2] - shrink * y);
+      outside = std::max(outside, Quad(sqrt(l[1] * l[1] + l[2] * l[2]) - radius));
+    }
+    result.residual = std::max(result.residual, static_cast<double>(sqrt(square)));
+    result.cone = std::max(result.cone, static_cast<double>(outside));
+  }
+  return result;
+}
+
+/// What every solution must be, whoever asked for it: in its cones, with the velocities that follow, and with
+/// the residual it claims, all to rounding errors.
+inline void expectHonest(const ContactProblem& problem, const ContactSolution& solution) {
+  const Verified truth = verified(problem, solution);
+  double speed = solution.scale;
+  double load = 0;
+  for (std::size_t k = 0; k < problem.free.size(); ++k) {
+    speed = std::max({speed, std::fabs(problem.free[k]), std::fabs(solution.velocities[k])});
+  }
+  for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
+    const double invere = *std::max_element(problem.inverseMass.begin(), problem.inverseMass.end());
+    for (const double part : solution.impulses[c]) {
+      load = std::max(load, std::fabs(part) * invere);
+    }
+  }
+  const double rounding = 0x1p-46 * (speed + load);
+  EXPECT_NEAR(truth.residual, solution.residual, rounding);
+  EXPECT_LE(truth.velocities, rounding);
+  EXPECT_LE(truth.cone, rounding);
+  if (solution.solved) {
+    EXPECT_LE(truth.residual, 1.001e-9 * solution.scale + rounding);
+  }
+}
+
+}  // namespace careen
