@@ -237,26 +237,32 @@ void CoupledContacts::apply(const Contact& contact, const Triple& impulse, std::
 }
 
 void CoupledContacts::add(const Contact& contact, const std::array<double, 9>& d) {
+  using Six = std::array<double, kAxes>;
   const auto& [n, t, s] = contact.rows;
-  std::array<Row, 3> stiff;  // D J
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t k = 0; k < 2 * kAxes; ++k) {
-      stiff[row][k] = d[3 * row] * n[k] + d[3 * row + 1] * t[k] + d[3 * row + 2] * s[k];
-    }
-  }
   const std::array<int, 2> sides{contact.a, contact.b};
-  for (std::size_t from = 0; from < 2; ++from) {
-    for (std::size_t to = 0; to < 2; ++to) {
-      if (sides[from] == kNobody || sides[to] == kNobody) {
+  for (std::size_t to = 0; to < 2; ++to) {
+    if (sides[to] == kNobody) {
+      continue;
+    }
+    std::array<Six, 3> stiff;  // the columns `to` of D J
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t k = 0; k < kAxes; ++k) {
+        const std::size_t i = to * kAxes + k;
+        stiff[row][k] = d[3 * row] * n[i] + d[3 * row + 1] * t[i] + d[3 * row + 2] * s[i];
+      }
+    }
+    for (std::size_t from = 0; from < 2; ++from) {
+      if (sides[from] == kNobody) {
         continue;
       }
       BlockLu::Block& block = matrix_.block(contact.blocks[2 * from + to]);
       for (std::size_t i = 0; i < kAxes; ++i) {
         const std::size_t k = from * kAxes + i;
+        Six row;  // a copy, which cannot overlap with what is read
         for (std::size_t j = 0; j < kAxes; ++j) {
-          const std::size_t l = to * kAxes + j;
-          block[i * kAxes + j] += n[k] * stiff[0][l] + t[k] * stiff[1][l] + s[k] * stiff[2][l];
+          row[j] = block[i * kAxes + j] + (n[k] * stiff[0][j] + t[k] * stiff[1][j] + s[k] * stiff[2][j]);
         }
+        std::copy(row.begin(), row.end(), &block[i * kAxes]);
       }
     }
   }

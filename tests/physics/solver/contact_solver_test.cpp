@@ -148,6 +148,17 @@ TEST(ContactSolver, whatPartsIsLeftAlone) {
   EXPECT_EQ(solution.factorisations, 0);
 }
 
+// No impulses leave a residual of 1e-10 V only, but are far from the answer.
+TEST(ContactSolver, slowApproachBesideFastSlipIsNotOverlooked) {
+  const ContactSolution solution = solved([] {
+    ContactScene scene = obliqueImpact(1, 0.3);
+    scene.problem.free[2] = -1e-10;
+    return scene;
+  }());
+  EXPECT_NEAR(solution.velocities[2], 0, 1e-15);
+  EXPECT_NEAR(solution.impulses[0][0], 1e-10, 1e-15);
+}
+
 TEST(ContactSolver, noContacts) {
   ContactScene scene;
   scene.add(1, {1, 1, 1}, {}, {1, 2, 3}, {4, 5, 6});
