@@ -15,7 +15,7 @@ constexpr double kLeastEpsilon = 0x1p-26;
 constexpr double kMostEpsilon = 1;
 /// [1] A descending step is worth taking if it leaves at most so much of the residual.
 constexpr double kFalls = 0.9;
-constexpr double kShortest = 0.125;
+constexpr int kHalvings = 3;
 /// [1] of V: beyond, the iteration has diverged, and would overflow.
 constexpr double kDiverged = 0x1p100;
 /// A proximal point is found if its equations hold to so much of the last residual, within so many steps.
@@ -119,7 +119,8 @@ double ContactNewton::improve(CoupledContacts& contacts, std::span<Triple> impul
 /// Returns the fraction taken, 0 if none.
 double ContactNewton::fractionThatFalls(const CoupledContacts& contacts, std::span<const Triple> from,
                                         double best) {
-  for (double fraction = 1; fraction >= kShortest; fraction /= 2) {
+  double fraction = 1;
+  for (int halvings = 0; halvings <= kHalvings; ++halvings, fraction /= 2) {
     for (std::size_t c = 0; c < from.size(); ++c) {
       Triple between = impulses_[c];
       for (std::size_t k = 0; k < between.size(); ++k) {

@@ -27,6 +27,7 @@ TEST(ContactCone, violationsAreMeasured) {
   EXPECT_EQ(cone(0.5).violation({0, 0, 0}, {-1, 0, 0}), 1);       // approaches
   EXPECT_EQ(cone(0.5).violation({4, 0, 0}, {0.25, 0, 0}), 0.25);  // parts though pushed
   EXPECT_EQ(cone(0.5).violation({-4, 0, 0}, {1, 0, 0}), 2);       // pulls
+  EXPECT_EQ(cone(0.5).violation({-3, 4, 0}, {0, 0, 0}), 2.5);     // the same: no normal part, no friction
   EXPECT_EQ(cone(0.5).violation({4, 0, 0}, {0, 0, 0.5}), 0.5);    // creeps though it could stick
   EXPECT_NEAR(cone(0.5).violation({2, -1, 0}, {0, 0, 4}), std::sqrt(0.5), 0.1);  // slides elsewhere
   EXPECT_EQ(cone(0.5).violation({2, 2, 0}, {0, 0, 0}), 0.5);                     // friction above its limit
