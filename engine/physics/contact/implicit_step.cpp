@@ -14,8 +14,8 @@ constexpr std::size_t kSix = ContactProblem::kAxes;
 constexpr int kPasses = 2;
 /// [1] Cosine of the angle of two normals that count as one: what the tolerance allows for a thin box.
 constexpr double kParallel = 1 - 0x1p-27;
-/// [1] of the speed after falling a half diagonal: a residual of the law that is as good as none.
-constexpr double kEnough = 0x1p-34;
+/// [1] of the tolerance in the time to fall a half diagonal: a residual of the law that is as good as none.
+constexpr double kEnough = 0x1p-8;
 
 Quat rotationBy(const Vec3& angle) {
   const double size = angle.norm();
@@ -36,13 +36,13 @@ Vec3 threeAt(const std::vector<double>& of, std::size_t at) { return {of[at], of
 
 }  // namespace
 
-ImplicitStep::ImplicitStep(const World& world, const std::vector<TouchingBody>& bodies)
+ImplicitStep::ImplicitStep(const World& world, const std::vector<TouchingBody>& bodies, double tolerance)
     : world_(world), bodies_(bodies), loads_(bodies.size()), turned_(bodies.size()) {
   double radius = 0;
   for (const TouchingBody& body : bodies) {
     radius = body.isHeld() ? radius : std::max(radius, body.body->halfExtents.norm());
   }
-  enough_ = kEnough * std::sqrt(world.gravity.norm() * radius);
+  enough_ = kEnough * tolerance * std::sqrt(world.gravity.norm() / radius);
   if (!world.springs.empty() || world.drag) {
     for (const Body& body : world.bodies) {
       worldStates_.push_back(body.initial);

@@ -34,7 +34,8 @@ struct ClosedContact {
 /// momentum are exchanged to rounding, and forces exist where accelerations do not.
 class ImplicitStep {
  public:
-  ImplicitStep(const World& world, const std::vector<TouchingBody>& bodies);
+  /// `tolerance` [m]: the law is solved so accurately that its residual matters less.
+  ImplicitStep(const World& world, const std::vector<TouchingBody>& bodies, double tolerance);
 
   /// The state `h` [s] later. Returns false if the contact problem was not solved.
   bool advance(const GroupState& from, double h, std::vector<ClosedContact>& contacts, GroupState& to);

@@ -31,7 +31,7 @@ constexpr int kMostUnsolved = 10;
 }  // namespace
 
 TimeStepper::TimeStepper(const World& world, const std::vector<TouchingBody>& bodies, double tolerance)
-    : world_(world), bodies_(bodies), tolerance_(tolerance), equations_(world, bodies) {
+    : world_(world), bodies_(bodies), tolerance_(tolerance), equations_(world, bodies, tolerance) {
   for (const TouchingBody& body : bodies) {
     const BodyState state = body.state();
     end_.push_back({.position = body.position,

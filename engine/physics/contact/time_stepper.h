@@ -110,10 +110,10 @@ class TimeStepper {
   GroupState end_;
   GroupState middle_;
   GroupState coarse_;
-  std::vector<Found> found_;        // contacts at the start
+  std::vector<Found> found_;              // contacts at the start
   std::vector<ContactFeature> features_;  // of them
   std::vector<ContactState> states_;      // of them, as last seen
-  std::vector<ClosedContact> law_;  // those whose law holds in the step
+  std::vector<ClosedContact> law_;        // those whose law holds in the step
   std::vector<Watch> watches_;
   std::vector<ClosedContact> known_;  // of the last step: forces to start from
   std::vector<GroupImpact> impacts_;

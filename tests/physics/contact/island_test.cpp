@@ -35,7 +35,7 @@ struct Lying {
                            .velocity = velocity,
                            .angularVelocityBody = Vec3(0, 0, spin)};
     Island island(world, {box}, features, tolerance);
-    for (island.begin(Island::Stepping::kSmooth); !island.rests(); island.begin(Island::Stepping::kSmooth)) {
+    for (island.begin(); !island.rests(); island.begin()) {
       Island::Step step;
       do {
         step = island.step(1);
@@ -139,7 +139,7 @@ TEST(Island, forcesOfAStackAreSumsOfWeights) {
       }
     }
     Island island(world, bodies, features, 1e-6);
-    island.begin(Island::Stepping::kSmooth);
+    island.begin();
     double worst = 0;
     for (int k = 0; k < kCubes; ++k) {
       const double above = kGravity * (kCubes - 1 - k + top);
