@@ -59,8 +59,10 @@ void ExactWorld::findChattering(Encounter& encounter) {
       before = std::max(before, body.timeSteps);
     }
   }
-  // A single bouncing body is followed to the end: the time at which it comes to rest is exact.
-  if (chatters && encounter.timeSteps == 0 && (touching || movable > 1)) {
+  // A single bouncing body is followed to the end: the time at which it comes to rest is exact. So are bodies
+  // that only fly and strike without gravity: their impacts are finite in number.
+  const bool returns = !world_.gravity.isZero(0) && movable > 1;
+  if (chatters && encounter.timeSteps == 0 && (touching || returns)) {
     encounter.timeSteps = std::clamp(2 * before, kFirstTimeSteps, kMostTimeSteps);
     for (const int rank : encounter.ranks) {
       mover(rank).timeSteps = encounter.timeSteps;

@@ -4,13 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "core/math/order_free_sum.h"
 #include "physics/geometry/tangents.h"
-#include "physics/impact/order_free_sum.h"
 #include "physics/impact/single_impact.h"
 #include "physics/solver/contact_solver.h"
 
@@ -22,6 +23,9 @@ using Impulses = std::vector<Impulse>;
 constexpr std::size_t kSix = ContactProblem::kAxes;
 /// [1] of the contacts' speeds: a residual with which an impact may go on although the solver aims at less.
 constexpr double kTolerable = 0x1p-24;
+constexpr double kLeastRestitution = 0.125;
+/// Until impulses count as impossible.
+constexpr int kMostFactorisations = 400;
 
 bool movable(const MassProperties& mass) {
   return mass.inverseMass > 0 || !mass.inverseInertiaBody.isZero(0);
@@ -184,13 +188,22 @@ class Law {
     return twice / 2;
   }
 
-  Impulses solve(const ContactProblem& problem) {
+  std::optional<Impulses> trySolve(const ContactProblem& problem, int mostFactorisations) {
     ContactSolution solution;
-    if (!solver_.solve(problem, solution) && !(solution.residual <= kTolerable * solution.scale)) {
+    if (!solver_.solve(problem, solution, mostFactorisations) &&
+        !(solution.residual <= kTolerable * solution.scale)) {
+      return std::nullopt;
+    }
+    return solution.impulses;
+  }
+
+  Impulses solve(const ContactProblem& problem) {
+    const std::optional<Impulses> impulses = trySolve(problem, ContactSolver::kMost);
+    if (!impulses) {
       throw NumericalError("impact: no impulses of its " + std::to_string(problem.contacts.size()) +
                            " contacts were found");
     }
-    return solution.impulses;
+    return *impulses;
   }
 
   void findApproaching(std::span<const double> q, Chosen& approaches) const {
@@ -297,7 +310,9 @@ class Law {
   Impulses plastic_;  // empty: not yet computed
 };
 
-/// The contact problem whose targets are the normal speeds that restitution sets and the slip that it adds.
+/// The contact problem whose targets are the normal speeds that restitution sets and the slip that it adds. A
+/// body wedged between rough sides may not be able to part so fast with any impulses in the cones: then it
+/// parts with half that speed, or a quarter, …, or sticks, which is always possible.
 Impulses Law::withFriction(const Impulses& smooth) {
   const std::vector<double> parting = after(smooth);
   std::vector<double> restituted = parting;
@@ -306,11 +321,16 @@ Impulses Law::withFriction(const Impulses& smooth) {
     restituted[k] -= compressed[k];
   }
   ContactProblem rough = problem_;
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    rough.contacts[c].target = {smooth[c][0] > 0 ? speed(c, 0, parting) : 0, speed(c, 1, restituted),
-                                speed(c, 2, restituted)};
+  for (double part = 1; part >= kLeastRestitution; part /= 2) {
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      rough.contacts[c].target = {smooth[c][0] > 0 ? part * speed(c, 0, parting) : 0,
+                                  part * speed(c, 1, restituted), part * speed(c, 2, restituted)};
+    }
+    if (std::optional<Impulses> impulses = trySolve(rough, kMostFactorisations)) {
+      return part == 1 ? shortened(smooth, std::move(*impulses)) : *impulses;
+    }
   }
-  return shortened(smooth, solve(rough));
+  return solve(problem_);
 }
 
 /// Goes from the frictionless solution towards the one with friction, as far as energy, the friction cones

@@ -183,6 +183,8 @@ bool ContactSolver::solve(const ContactProblem& problem, ContactSolution& soluti
   solveWithoutPolish(solution);
   solution.solved = isEnough();
   if (solution.solved && residual_ > enough_) {
+    std::copy(impulses_.begin(), impulses_.end(), from_.begin());
+    tryNewton(from_, {.steps = 3});
     polish();
   }
   solution.residual = residual_;

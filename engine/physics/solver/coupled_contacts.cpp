@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/order_free_sum.h"
 #include "physics/solver/elimination_order.h"
 
 namespace careen {
@@ -115,6 +116,7 @@ void CoupledContacts::copyContacts(const ContactProblem& problem) {
     }
     weigh(contact);
   }
+  findTies();
 }
 
 int CoupledContacts::placeOf(int listed) const {
@@ -211,11 +213,35 @@ void CoupledContacts::push(const Contact& contact, const Triple& impulse, std::s
   }
 }
 
-void CoupledContacts::velocities(std::span<const Triple> impulses, std::span<double> q) const {
-  std::fill(q.begin(), q.end(), 0.0);
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    push(contacts_[c], impulses[c], q);
+/// Jᵀ impulses.
+template <class ImpulseOf>
+void CoupledContacts::pushAll(const ImpulseOf& impulseOf, std::span<double> onto) const {
+  std::fill(onto.begin(), onto.end(), 0.0);
+  if (!hasTies_) {
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      push(contacts_[c], impulseOf(c), onto);
+    }
+    return;
   }
+  std::vector<Six> terms;
+  for (std::size_t body = 0; body < bodies(); ++body) {
+    terms.clear();
+    for (const auto& [c, side] : touches_[body]) {
+      const auto& [n, t, s] = contacts_[c].rows;
+      const Triple& impulse = impulseOf(c);
+      Six& term = terms.emplace_back();
+      for (std::size_t k = 0; k < kAxes; ++k) {
+        const std::size_t i = side * kAxes + k;
+        term[k] = n[i] * impulse[0] + (t[i] * impulse[1] + s[i] * impulse[2]);
+      }
+    }
+    const Six sum = orderFreeSums<kAxes>(terms);
+    std::copy(sum.begin(), sum.end(), &onto[body * kAxes]);
+  }
+}
+
+void CoupledContacts::velocities(std::span<const Triple> impulses, std::span<double> q) const {
+  pushAll([&](std::size_t c) -> const Triple& { return impulses[c]; }, q);
   for (std::size_t k = 0; k < q.size(); ++k) {
     q[k] = free_[k] + inverseMass_[k] * q[k];
   }
@@ -237,7 +263,6 @@ void CoupledContacts::apply(const Contact& contact, const Triple& impulse, std::
 }
 
 void CoupledContacts::add(const Contact& contact, const std::array<double, 9>& d) {
-  using Six = std::array<double, kAxes>;
   const auto& [n, t, s] = contact.rows;
   const std::array<int, 2> sides{contact.a, contact.b};
   for (std::size_t to = 0; to < 2; ++to) {
@@ -268,6 +293,68 @@ void CoupledContacts::add(const Contact& contact, const std::array<double, 9>& d
   }
 }
 
+/// The blocks of M + Σ Jᵀ stiffness J, each entry summed in no order.
+void CoupledContacts::addWithoutOrder(std::span<const ContactAnswer> answers) {
+  std::vector<Six> terms;
+  for (auto part = parts_.begin(); part != parts_.end();) {
+    const auto end = std::find_if(part, parts_.end(), [&](const Part& p) { return p.block != part->block; });
+    BlockLu::Block& block = matrix_.block(part->block);
+    for (std::size_t i = 0; i < kAxes; ++i) {
+      terms.assign(1, {});
+      std::copy_n(&block[i * kAxes], kAxes, terms.front().begin());
+      for (auto p = part; p != end; ++p) {
+        const auto& [n, t, s] = contacts_[p->contact].rows;
+        const std::array<double, 9>& d = answers[p->contact].stiffness;
+        if (d[0] == 0) {
+          continue;
+        }
+        const std::size_t k = p->from * kAxes + i;
+        const Triple row{n[k] * d[0] + (t[k] * d[3] + s[k] * d[6]), n[k] * d[1] + (t[k] * d[4] + s[k] * d[7]),
+                         n[k] * d[2] + (t[k] * d[5] + s[k] * d[8])};
+        Six& term = terms.emplace_back();
+        for (std::size_t j = 0; j < kAxes; ++j) {
+          const std::size_t l = p->to * kAxes + j;
+          term[j] = row[0] * n[l] + (row[1] * t[l] + row[2] * s[l]);
+        }
+      }
+      const Six sum = orderFreeSums<kAxes>(terms);
+      std::copy(sum.begin(), sum.end(), &block[i * kAxes]);
+    }
+    part = end;
+  }
+}
+
+/// Contacts that only their listing tells apart: mirror images of each other. Sums over them must not depend
+/// on an order, or a scene that is its own image would not stay so.
+void CoupledContacts::findTies() {
+  hasTies_ = false;
+  for (std::size_t c = 1; c < keys_.size(); ++c) {
+    hasTies_ =
+        hasTies_ || (keys_[c].bodies == keys_[c - 1].bodies && keys_[c].numbers == keys_[c - 1].numbers);
+  }
+  if (!hasTies_) {
+    return;
+  }
+  touches_.assign(bodies(), {});
+  parts_.clear();
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const std::array<int, 2> sides{contacts_[c].a, contacts_[c].b};
+    for (std::size_t from = 0; from < 2; ++from) {
+      if (sides[from] == kNobody) {
+        continue;
+      }
+      touches_[static_cast<std::size_t>(sides[from])].push_back({c, from});
+      for (std::size_t to = 0; to < 2; ++to) {
+        if (sides[to] != kNobody) {
+          parts_.push_back({contacts_[c].blocks[2 * from + to], c, from, to});
+        }
+      }
+    }
+  }
+  std::stable_sort(parts_.begin(), parts_.end(),
+                   [](const Part& x, const Part& y) { return x.block < y.block; });
+}
+
 bool CoupledContacts::factorise(std::span<const ContactAnswer> answers) {
   matrix_.setZero();
   for (std::size_t body = 0; body < bodies(); ++body) {
@@ -275,6 +362,10 @@ bool CoupledContacts::factorise(std::span<const ContactAnswer> answers) {
     for (std::size_t k = 0; k < kAxes; ++k) {
       block[k * kAxes + k] = mass_[body * kAxes + k];
     }
+  }
+  if (hasTies_) {
+    addWithoutOrder(answers);
+    return matrix_.factorise();
   }
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     if (answers[c].stiffness[0] != 0) {
@@ -286,10 +377,7 @@ bool CoupledContacts::factorise(std::span<const ContactAnswer> answers) {
 
 void CoupledContacts::step(std::span<const ContactAnswer> answers, std::span<const double> q,
                            std::span<double> dq) const {
-  std::fill(dq.begin(), dq.end(), 0.0);
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    push(contacts_[c], answers[c].given, dq);
-  }
+  pushAll([&](std::size_t c) -> const Triple& { return answers[c].given; }, dq);
   for (std::size_t k = 0; k < dq.size(); ++k) {
     dq[k] -= mass_[k] * (q[k] - free_[k]);
   }

@@ -79,6 +79,21 @@ class CoupledContacts {
   int placeOf(int listed) const;
   Key keyOf(const ContactProblem::Contact& from, std::size_t listed) const;
   void weigh(Contact& contact);
+  using Six = std::array<double, kAxes>;
+  struct Touch {  // one side of a contact
+    std::size_t contact;
+    std::size_t side;
+  };
+  struct Part {  // what a contact adds to a block
+    std::size_t block;
+    std::size_t contact;
+    std::size_t from;
+    std::size_t to;
+  };
+  void findTies();
+  void addWithoutOrder(std::span<const ContactAnswer> answers);
+  template <class ImpulseOf>
+  void pushAll(const ImpulseOf& impulseOf, std::span<double> onto) const;
   void push(const Contact& contact, const Triple& impulse, std::span<double> onto) const;
   void add(const Contact& contact, const std::array<double, 9>& stiffness);
 
@@ -94,6 +109,9 @@ class CoupledContacts {
   BlockLu matrix_;
   double scale_ = 0;
   double noise_ = 0;
+  bool hasTies_ = false;                     // then sums are formed without order, from these
+  std::vector<std::vector<Touch>> touches_;  // by body
+  std::vector<Part> parts_;                  // by block
 };
 
 }  // namespace careen

@@ -1,4 +1,4 @@
-#include "physics/impact/order_free_sum.h"
+#include "core/math/order_free_sum.h"
 
 #include <gtest/gtest.h>
 
