@@ -318,6 +318,16 @@ void ImplicitStep::addImpulse(const ContactFeature& feature, const ContactState&
   }
 }
 
+// The points at which the impulses act are those of the last estimate of the middle; the centres of mass are
+// by now known to be elsewhere there. About them angular momentum is exchanged exactly.
+void ImplicitStep::moveArms(const GroupState& from, double h) {
+  for (const std::size_t i : movers_) {
+    const Vec3 gained = bodies_[i].body->mass.inverseMass * (h * loads_[i].force + push_[i]);
+    const Vec3 middle = from[i].position + (0.5 * h) * (from[i].velocity + 0.5 * gained);
+    twist_[i] += (middle_[i].position - middle).cross(push_[i]);
+  }
+}
+
 void ImplicitStep::clearImpulses() {
   push_.assign(bodies_.size(), Vec3::Zero());
   twist_.assign(bodies_.size(), Vec3::Zero());
@@ -351,8 +361,9 @@ bool ImplicitStep::findImpulses(const GroupState& from, double h, bool first,
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const ContactProblem::Triple& impulse = solution_.impulses[c];
     contacts[c].force = {impulse[0] / h, impulse[1] / h, impulse[2] / h};
-    addImpulse(contacts[c].feature, geometry_[c], impulse);
+    addImpulse(features_[c], geometry_[c], impulse);
   }
+  moveArms(from, h);
   return true;
 }
 

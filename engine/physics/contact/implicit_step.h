@@ -64,6 +64,7 @@ class ImplicitStep {
   void aimAtEnd(std::size_t index, const ContactFeature& feature, const GroupState& to);
   ContactState stateOf(const ContactFeature& feature, const Kinematics& a, const Kinematics* b) const;
   bool solve();
+  void moveArms(const GroupState& from, double h);
   void clearImpulses();
   void addImpulse(const ContactFeature& feature, const ContactState& geometry,
                   const ContactProblem::Triple& impulse);

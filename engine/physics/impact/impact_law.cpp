@@ -161,19 +161,28 @@ class Law {
 
   /// q₀ + M⁻¹ Jᵀλ, from the velocities before.
   std::vector<double> after(const Impulses& impulses) const {
-    std::vector<double> q = before_;
+    using Six = std::array<double, kSix>;
+    std::vector<std::vector<Six>> terms(before_.size() / kSix);
     for (std::size_t c = 0; c < impulses.size(); ++c) {
       const ContactProblem::Contact& contact = problem_.contacts[c];
+      const auto& [n, t, s] = contact.rows;
       const std::array<int, 2> sides{contact.a, contact.b};
       for (std::size_t side = 0; side < 2; ++side) {
-        for (std::size_t k = 0; sides[side] != ContactProblem::kNobody && k < kSix; ++k) {
-          const std::size_t at = static_cast<std::size_t>(sides[side]) * kSix + k;
-          double sum = 0;
-          for (std::size_t row = 0; row < 3; ++row) {
-            sum += contact.rows[row][side * kSix + k] * impulses[c][row];
-          }
-          q[at] += problem_.inverseMass[at] * sum;
+        if (sides[side] == ContactProblem::kNobody) {
+          continue;
         }
+        Six& term = terms[static_cast<std::size_t>(sides[side])].emplace_back();
+        for (std::size_t k = 0; k < kSix; ++k) {
+          const std::size_t i = side * kSix + k;
+          term[k] = n[i] * impulses[c][0] + (t[i] * impulses[c][1] + s[i] * impulses[c][2]);
+        }
+      }
+    }
+    std::vector<double> q = before_;
+    for (std::size_t body = 0; body < terms.size(); ++body) {
+      const Six sum = orderFreeSums<kSix>(terms[body]);
+      for (std::size_t k = 0; k < kSix; ++k) {
+        q[body * kSix + k] += problem_.inverseMass[body * kSix + k] * sum[k];
       }
     }
     return q;

@@ -16,9 +16,11 @@ constexpr double kPolished = 0x1p-43;
 // [1] of the largest λ/mass
 constexpr double kOfImpulses = 1e-6;
 constexpr double kGhost = 1e-3;
+constexpr double kRounding = 0x1p-49;  // of velocities that large impulses give and cancel
 
 constexpr double kFall = 0x1p-10;  // of the gap, until Newton's method is tried again
 constexpr int kIterations = 60;
+constexpr double kHeavyOnLight = 0x1p-40;
 /// The interior-point method is stuck after so many strides this short: then it starts anew, once, around its
 /// impulses.
 constexpr double kShortStride = 0.1;
@@ -41,7 +43,8 @@ bool ContactSolver::isEnough() const {
     largest = std::max(largest, impulses_[c][0] / contacts_.contacts()[c].mass);
   }
   const double enough = std::min(inScale(kEnough), std::max(inScale(kSmall), kOfImpulses * largest));
-  return residual_ <= std::max({enough, contacts_.noise(), std::min(enough_, kGhost * largest)});
+  const double rounding = std::max(contacts_.noise(), kRounding * largest);
+  return residual_ <= std::max({enough, rounding, std::min(enough_, kGhost * largest)});
 }
 
 /// Takes the trial if it is better than the best. Returns whether the best is enough.
@@ -142,7 +145,13 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
     }
   }
   std::fill(from_.begin(), from_.end(), Triple{});
-  if (tryNewton(from_, {.steps = 8}, true) || tryInterior({}, kIterations) || tryProximal(8)) {
+  if (tryNewton(from_, {.steps = 8}, true)) {
+    return;
+  }
+  // Heavy bodies on light ones: with the usual ε each step leaves (their mass ratio) ε of the residual.
+  std::fill(from_.begin(), from_.end(), Triple{});
+  if (tryNewton(from_, {.epsilon = kHeavyOnLight, .steps = 8}, true) || tryInterior({}, kIterations) ||
+      tryProximal(8)) {
     return;
   }
   for (const double start : {1e4, 0.01, 1.0, 100.0, 0.1, 1e6}) {

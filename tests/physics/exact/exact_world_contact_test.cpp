@@ -140,13 +140,14 @@ TEST(ExactWorldContact, springsSwingWithinTheTolerance) {
   }
 }
 
+// Layers that tumble onto each other.
 World fourLayers() {
   World world = onAFloor(0.5);
   for (int k = 0; k < 40; ++k) {
-    world.bodies.push_back(rough(box("box-" + std::to_string(10 + k), Vec3(0.2, 0.2, 0.2), 1,
-                                     Vec3(0.42 * (k % 3) + 0.2 * (k / 9 % 2),
-                                          0.42 * (k / 3 % 3) + 0.2 * (k / 9 % 2), 0.3 + 0.45 * (k / 9))),
-                                 0.5));
+    const Vec3 position(0.75 * (k % 3), 0.75 * (k / 3 % 3), 0.4 + 0.75 * (k / 9));
+    const Vec3 spin(k % 5 - 2, k % 3 - 1, k % 4);
+    world.bodies.push_back(rough(
+        box("box-" + std::to_string(10 + k), Vec3(0.2, 0.2, 0.2), 1, position, Vec3::Zero(), spin, 0), 0.5));
   }
   return world;
 }

@@ -33,7 +33,8 @@ TEST(ImpactLaw, orderOfTheContactsChangesNoBit) {
     scene.resolve();
     other.resolve();
     for (std::size_t b = 0; b < scene.states.size(); ++b) {
-      ASSERT_TRUE(sameBits(scene.states[b], other.states[b])) << k;
+      EXPECT_TRUE(sameBits(scene.states[b], other.states[b]))
+          << k << " " << (scene.states[b].velocity - other.states[b].velocity).norm();
     }
     for (std::size_t i = 0; i < order.size(); ++i) {
       ASSERT_EQ(other.shares[i].impulse, scene.shares[order[i]].impulse) << k;

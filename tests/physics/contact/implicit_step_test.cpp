@@ -1,0 +1,130 @@
+#include "physics/contact/implicit_step.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "support/exact_runs.h"
+
+namespace careen {
+namespace {
+
+TouchingBody bodyOf(const World& world, int index) {
+  const Body& body = world.bodies[static_cast<std::size_t>(index)];
+  return {.body = &body, .index = index, .position = body.initial.pose.position};
+}
+
+GroupState stateOf(const World& world) {
+  GroupState state;
+  for (const Body& body : world.bodies) {
+    state.push_back({.position = body.initial.pose.position,
+                     .worldFromBody = Quat(body.initial.pose.worldFromBody),
+                     .velocity = body.initial.velocity,
+                     .angularMomentum = body.initial.angularMomentum});
+  }
+  return state;
+}
+
+// A cube on a floor, all four corners in contact.
+struct CubeOnFloor {
+  explicit CubeOnFloor(double friction, const Vec3& velocity) {
+    world.gravity = Vec3(0, 0, -10);
+    world.walls.push_back({.name = "floor", .normal = Vec3::UnitZ(), .offset = 0, .material = {}});
+    world.bodies.push_back(box("cube", Vec3(0.1, 0.1, 0.1), 1, Vec3(0, 0, 0.1), velocity));
+    for (int k = 0; k < kCorners; ++k) {
+      const Vec3 at = corner(world.bodies[0].halfExtents, k);
+      if (at.z() < 0) {
+        contacts.push_back({.feature = {.a = 0, .b = Partner::ofWall(0), .onA = at}});
+        contacts.back().feature.material.friction = friction;
+      }
+    }
+    bodies.push_back(bodyOf(world, 0));
+  }
+  GroupState after(double length, int steps) {
+    ImplicitStep step(world, bodies, 1e-9);
+    GroupState state = stateOf(world);
+    for (int k = 0; k < steps; ++k) {
+      GroupState next;
+      EXPECT_TRUE(step.advance(state, length / steps, contacts, next));
+      state = next;
+    }
+    return state;
+  }
+  World world;
+  std::vector<TouchingBody> bodies;
+  std::vector<ClosedContact> contacts;
+};
+
+TEST(ImplicitStep, slidesByTheParabolaOfItsFriction) {
+  CubeOnFloor scene(0.2, Vec3(1, 0, 0));  // 2 m/s² back
+  const GroupState end = scene.after(0.25, 5);
+  EXPECT_NEAR(end[0].velocity.x(), 0.5, 1e-12);
+  EXPECT_NEAR(end[0].position.x(), 0.25 - 0.0625, 1e-12);
+  EXPECT_NEAR(end[0].position.z(), 0.1, 1e-12);
+}
+
+// It stops after 0.5 s and 0.25 m, within a step: the error is of the second order in its length.
+TEST(ImplicitStep, stopsWithAnErrorOfTheSecondOrder) {
+  std::vector<double> errors;
+  for (const int steps : {7, 14, 28, 56}) {
+    CubeOnFloor scene(0.2, Vec3(1, 0, 0));
+    const GroupState end = scene.after(0.77, steps);
+    EXPECT_LT(end[0].velocity.norm(), 1e-9);
+    errors.push_back(std::fabs(end[0].position.x() - 0.25));
+  }
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    const double h = 0.77 / (7 << k);
+    EXPECT_LT(errors[k], 0.25 * h * h * 2 * 1.01) << k;  // a quarter of a h² at most: the mean of two speeds
+  }
+}
+
+// Two bodies that collide and push: what one loses the other gains, about any point.
+TEST(ImplicitStep, exchangesMomentaToRounding) {
+  World world;
+  world.bodies.push_back(
+      box("a", Vec3(0.1, 0.2, 0.3), 1, Vec3(0.3, 0.05, -0.04), Vec3(-1, 0.2, 0), Vec3(1, 2, 3)));
+  world.bodies.push_back(
+      box("b", Vec3(0.2, 0.3, 0.4), 50, Vec3(0, 0, 0), Vec3(0.3, 0, 0.1), Vec3(0.1, 0, 0)));
+  const std::vector<TouchingBody> bodies{bodyOf(world, 0), bodyOf(world, 1)};
+  std::vector<ClosedContact> contacts(1);
+  contacts[0].feature = {.kind = ContactFeature::Kind::kPointOnFace,
+                         .a = 0,
+                         .b = Partner::ofBody(1),
+                         .onA = {-0.1, 0.2, 0.3},
+                         .axisB = 0};
+  contacts[0].feature.material.friction = 0.7;
+  ImplicitStep step(world, bodies, 1e-9);
+  const GroupState from = stateOf(world);
+  GroupState to;
+  ASSERT_TRUE(step.advance(from, 1e-3, contacts, to));
+  EXPECT_GT(contacts[0].force[0], 100);
+  const auto momenta = [&](const GroupState& state) {
+    std::array<Vec3, 2> sums{Vec3::Zero(), Vec3::Zero()};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vec3 momentum = world.bodies[i].mass.mass * state[i].velocity;
+      sums[0] += momentum;
+      sums[1] += state[i].position.cross(momentum) + state[i].angularMomentum;
+    }
+    return sums;
+  };
+  EXPECT_LT((momenta(to)[0] - momenta(from)[0]).norm(), 1e-14);
+  EXPECT_LT((momenta(to)[1] - momenta(from)[1]).norm(), 1e-14);
+}
+
+TEST(ImplicitStep, movesApartWhatIsDeep) {
+  CubeOnFloor scene(0, Vec3::Zero());
+  ImplicitStep step(scene.world, scene.bodies, 1e-9);
+  GroupState state = stateOf(scene.world);
+  state[0].position.z() -= 1e-5;
+  std::vector<ContactFeature> features;
+  for (const ClosedContact& contact : scene.contacts) {
+    features.push_back(contact.feature);
+  }
+  ASSERT_TRUE(step.separate(state, features, 1e-9));
+  EXPECT_NEAR(state[0].position.z(), 0.1, 1e-9);
+  EXPECT_LT((state[0].worldFromBody.toRotationMatrix() - Mat3::Identity()).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace careen
