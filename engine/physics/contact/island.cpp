@@ -39,6 +39,7 @@ constexpr double kTension = 0x1p-20;
 /// [1] of the error allowed per step: a step that ends at an event may have a little more.
 constexpr double kMostLocated = 4;
 constexpr int kMostAttempts = 60;
+constexpr int kMostHalvings = 20;
 /// Time steps where no smooth motion was found, before it is tried again.
 constexpr int kFewTimeSteps = 8;
 /// Time steps before it is asked again whether the bodies rest.
@@ -372,6 +373,11 @@ Island::Step Island::step(double most) {
   finish();
   Step done{.length = h};
   locate(done);
+  // Where forces grow fast the polynomials between both ends may leave the contacts that hold at them.
+  for (int halvings = 0; halvings < kMostHalvings && dips(done.length); ++halvings) {
+    done = {.length = 0.5 * done.length};
+    restep(done.length);
+  }
   // If the event was located past a moment where forces cease to exist, the end state means nothing.
   if (done.end == End::kChanges && sizeOf(error_, done.length) > kMostLocated) {
     end_ = start_;

@@ -96,6 +96,7 @@ class Island {
   double lowestWithin(double h, std::size_t event, double atEnd) const;
   double lowestOfCorner(double h, std::size_t event, double atEnd) const;
   double deepWithin(double h, const EventFunction& event) const;
+  bool dips(double h) const;
   ContactStep motion(std::size_t body, double h) const;
   double value(const EventFunction& event) const;
   double marginOf(const EventFunction& event, double gap) const;

@@ -202,7 +202,7 @@ double Island::lowestOfCorner(double h, std::size_t event, double atEnd) const {
 
 // The first of a few sampled times at which the penetration exceeds the tolerance.
 double Island::deepWithin(double h, const EventFunction& event) const {
-  constexpr int kMoments = 4;
+  constexpr int kMoments = 16;
   const ContactFeature& feature = system_.features()[event.contact];
   const auto a = static_cast<std::size_t>(feature.a);
   const auto b = static_cast<std::size_t>(feature.b.body());
@@ -218,6 +218,12 @@ double Island::deepWithin(double h, const EventFunction& event) const {
     }
   }
   return 0;
+}
+
+bool Island::dips(double h) const {
+  return std::any_of(eventFunctions_.begin(), eventFunctions_.end(), [&](const EventFunction& event) {
+    return event.kind == EventFunction::Kind::kOverlap && deepWithin(h, event) > 0;
+  });
 }
 
 double Island::value(const EventFunction& event) const {
