@@ -35,6 +35,8 @@ class ExactWorld {
   /// Most bodies of one island that moves: the cost of each of its steps grows with their number, and so does
   /// the number of steps. Bodies at rest are not counted.
   static constexpr int kMostInIsland = 12;
+  /// The same of all islands together.
+  static constexpr int kMostInContact = 64;
 
  private:
   /// [1] of timeScaleOf: changes of contact within it are counted together.

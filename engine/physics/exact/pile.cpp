@@ -29,13 +29,20 @@ ContactStep between(const BodyState& from, const BodyState& to) {
 
 }  // namespace
 
+// Asked of an encounter that begins Contact: of all bodies that touch and move, wherever they are.
 bool ExactWorld::needsPile(const Encounter& encounter) const {
-  return canPile() &&
-         std::any_of(encounter.islands.begin(), encounter.islands.end(),
+  if (!canPile() || encounter.islands.empty()) {
+    return false;
+  }
+  const auto moving = [&](const std::vector<int>& ranks) {
+    return std::count_if(ranks.begin(), ranks.end(), [&](int rank) { return !mover(rank).isHeld(); });
+  };
+  return std::any_of(encounter.islands.begin(), encounter.islands.end(),
                      [&](const std::shared_ptr<ContactGroup>& contactGroup) {
-                       return std::count_if(contactGroup->ranks.begin(), contactGroup->ranks.end(),
-                                            [&](int rank) { return !mover(rank).isHeld(); }) > kMostInIsland;
-                     });
+                       return moving(contactGroup->ranks) > kMostInIsland;
+                     }) ||
+         std::count_if(movers_.begin(), movers_.end(), [](const Mover& body) { return body.touches(); }) >
+             kMostInContact;
 }
 
 // From here on all bodies advance together, frame by frame.
