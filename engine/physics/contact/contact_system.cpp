@@ -18,6 +18,8 @@ constexpr double kRestSpeed = 0x1p-44;
 constexpr double kProjected = 0x1p-51;
 constexpr double kProjectedSpeed = 0x1p-46;
 constexpr int kMostProjections = 4;
+/// [1] of the largest gap: no projection moves a body further.
+constexpr double kMostShift = 64;
 
 Vec3 threeAt(std::span<const double> y, std::size_t at) { return {y[at], y[at + 1], y[at + 2]}; }
 void setThree(std::span<double> y, std::size_t at, const Vec3& v) {
@@ -232,6 +234,17 @@ bool ContactSystem::holdsSideways(std::size_t contact) const {
   return modes_[contact] == Mode::kStick && features_[contact].kind == ContactFeature::Kind::kInCone;
 }
 
+// [m] How far a displacement of all bodies moves one of them, its corners included.
+double ContactSystem::shiftOf(std::span<const double> displacement) const {
+  double most = 0;
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    const double radius = bodies_[movers_[m]].body->halfExtents.norm();
+    most = std::max(
+        most, threeAt(displacement, m * kSix).norm() + radius * threeAt(displacement, m * kSix + 3).norm());
+  }
+  return most;
+}
+
 bool ContactSystem::projectPositions(std::vector<double>& y) {
   const std::vector<Mode> kept = modes_;
   for (std::size_t c = 0; c < modes_.size(); ++c) {
@@ -242,11 +255,13 @@ bool ContactSystem::projectPositions(std::vector<double>& y) {
   for (; pass < kMostProjections; ++pass) {
     look(y);
     double worst = 0;
+    double deepest = 0;  // [m]
     for (std::size_t c = 0; c < features_.size(); ++c) {
       if (modes_[c] != Mode::kOff) {
         const auto a = static_cast<std::size_t>(features_[c].a);
         const double lengths = kinematics_[a].pose.position.cwiseAbs().sum() + states_[c].armA.norm();
         const double sideways = holdsSideways(c) ? states_[c].offset.norm() : 0;
+        deepest = std::max({deepest, std::fabs(states_[c].gap), sideways});
         worst = std::max(worst, std::max(std::fabs(states_[c].gap), sideways) / lengths);
       }
     }
@@ -264,6 +279,9 @@ bool ContactSystem::projectPositions(std::vector<double>& y) {
       }
     }
     solveGiven(still);
+    if (shiftOf(forces_.accelerations()) > kMostShift * deepest) {
+      break;  // contacts nearly redundant but not quite: better some gap than a jump
+    }
     for (std::size_t m = 0; m < movers_.size(); ++m) {
       const std::size_t at = m * kNumbers;
       setThree(y, at, threeAt(y, at) + threeAt(forces_.accelerations(), m * kSix));

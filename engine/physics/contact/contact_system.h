@@ -72,6 +72,7 @@ class ContactSystem {
 
  private:
   bool holdsSideways(std::size_t contact) const;
+  double shiftOf(std::span<const double> displacement) const;
   void findFree();
   void fillContacts();
   void solveGiven(std::span<const double> free);

@@ -118,6 +118,8 @@ class ExactWorld {
   void rest(int rank, const Instant& time, const Pose& pose);
   void touch(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time);
   double withinCell(const Island& island) const;
+  /// [m/s] gained by falling through the tolerance; without gravity the time that takes is infinite.
+  double fallSpeed() const { return world_.gravity.isZero(0) ? 0 : world_.gravity.norm() * timeScale_; }
   void begins(int rank, const Instant& time);
   void arrive(const Mover& body, const Instant& time, const BodyState& state);
 

@@ -186,7 +186,7 @@ ExactWorld::Parting ExactWorld::partingAt(const Encounter& encounter, std::size_
 // or the search has found that their gap stays zero.
 void ExactWorld::findPersisting(Encounter& encounter) const {
   const bool hops = encounter.cause == EventKind::kTouching;
-  const double slow = hops && !world_.gravity.isZero(0) ? world_.gravity.norm() * timeScale_ : 0;
+  const double slow = hops ? fallSpeed() : 0;
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
     const Parting parting = partingAt(encounter, k);
     const bool passes = encounter.passes && !(encounter.shares[k].impulse > 0);
@@ -283,7 +283,7 @@ bool ExactWorld::beginsAtRest(Island& island, int timeSteps) const {
     speed = std::max(
         {speed, body.velocity.norm(), body.angularVelocityBody.norm() * body.body->halfExtents.norm()});
   }
-  if (timeSteps == 0 || speed <= kAllButStill * world_.gravity.norm() * timeScale_) {
+  if (timeSteps == 0 || speed <= kAllButStill * fallSpeed()) {
     island.begin();
     if (timeSteps == 0 || island.rests()) {
       return island.rests();

@@ -1,0 +1,116 @@
+// Many in contact at once: what is at rest stays, what is jammed does not pass through itself.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "physics/geometry/separation.h"
+#include "support/exact_runs.h"
+#include "support/impact_scene.h"
+
+namespace careen {
+namespace {
+
+World floorWith(double friction) {
+  World world;
+  world.gravity = Vec3(0, 0, -9.81);
+  world.walls.push_back({.name = "floor",
+                         .normal = Vec3::UnitZ(),
+                         .offset = 0,
+                         .material = {.restitution = 0, .friction = friction}});
+  return world;
+}
+
+void addStill(World& world, const Vec3& halfExtents, const Vec3& position) {
+  world.bodies.push_back(box("b" + std::to_string(100 + world.bodies.size()), halfExtents, 1, position,
+                             Vec3::Zero(), Vec3::Zero(), 0));
+  world.bodies.back().material.friction = 0.5;
+}
+
+// To the bit, for an hour: forces inside the cones balance the weights, however many bodies there are.
+void expectUnmoved(const World& world) {
+  const Recorded run = runFor(world, 3600);
+  EXPECT_FALSE(run.figures.boundedFrom);
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    EXPECT_EQ(run.last(world, i, 3600).pose.position, world.bodies[i].initial.pose.position) << i;
+  }
+}
+
+TEST(ExactWorldJam, aStackOfAnyHeightStands) {
+  for (const int cubes : {13, 20, 40}) {
+    World world = floorWith(0.5);
+    for (int k = 0; k < cubes; ++k) {
+      addStill(world, Vec3(0.25, 0.25, 0.25), Vec3(0, 0, 0.25 + 0.5 * k));
+    }
+    expectUnmoved(world);
+  }
+}
+
+TEST(ExactWorldJam, aBondedWallStands) {
+  World world = floorWith(0.5);
+  for (int course = 0; course < 8; ++course) {
+    for (int k = 0; k < 6; ++k) {
+      addStill(world, Vec3(0.25, 0.125, 0.125),
+               Vec3(0.5 * k + 0.25 * (course % 2), 0, 0.125 + 0.25 * course));
+    }
+  }
+  expectUnmoved(world);
+}
+
+// A light box between two heavy ones that come together, with friction and without gravity. Looked at at
+// moments the method does not choose.
+TEST(ExactWorldJam, squeezedBoxesStayOutOfEachOther) {
+  testing::Random random(3059);
+  double deepest = 0;
+  double turned = 0;
+  for (int k = 0; k < 60; ++k) {
+    World world;
+    const double heavy = std::pow(10.0, random.between(0, 4));
+    const double friction = random.between(0, 2);
+    for (const int at : {-1, 0, 1}) {
+      const Vec3 half(random.between(.16, .3), random.between(.16, .3), random.between(.16, .3));
+      Body body =
+          box(std::string(1, static_cast<char>('b' + at)), half, at == 0 ? 1 : heavy,
+              Vec3(0.9 * at, 0.05 * at, -0.03 * at), Vec3(-at, 0, 0), random.inCube(2), 0.3 * (k % 3));
+      body.initial.pose.worldFromBody = random.rotation();
+      body.material.friction = friction;
+      world.bodies.push_back(body);
+    }
+    const auto momentum = [&](auto&& stateOf) {
+      Vec3 sum = Vec3::Zero();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const BodyState state = stateOf(i);
+        sum += state.pose.position.cross(world.bodies[i].mass.mass * state.velocity) + state.angularMomentum;
+      }
+      return sum;
+    };
+    const double duration = 0.8;
+    const Recorded run = runFor(world, duration);
+    const auto at = [&](std::size_t i, double time) {
+      const auto& motions = run.motions[i];
+      const auto after = std::upper_bound(motions.begin(), motions.end(), time,
+                                          [](double t, const auto& motion) { return t < motion.first; });
+      const auto& [start, motion] = *(after - 1);
+      return stateAt(motion, world.bodies[i].mass, time - start);
+    };
+    for (int moment = 1; moment < 400; ++moment) {
+      const double time = duration * std::fmod(0.6180339887498949 * moment, 1.0);
+      for (std::size_t i = 0; i < 2; ++i) {
+        deepest = std::max(deepest, -BoxAxes({at(i, time).pose, world.bodies[i].halfExtents},
+                                             {at(i + 1, time).pose, world.bodies[i + 1].halfExtents})
+                                         .gap());
+      }
+    }
+    const Vec3 before = momentum([&](std::size_t i) { return world.bodies[i].initial; });
+    const Vec3 after = momentum([&](std::size_t i) { return at(i, duration); });
+    turned = std::max(turned, (after - before).norm() / heavy);
+  }
+  EXPECT_LT(deepest, 3e-6);  // the tolerance is 1e-6
+  EXPECT_LT(turned, 1e-5);
+  RecordProperty("deepest", std::to_string(deepest * 1e9) + "e-9");
+  RecordProperty("turned", std::to_string(turned * 1e9) + "e-9");
+}
+
+}  // namespace
+}  // namespace careen
