@@ -26,6 +26,9 @@ constexpr double kBeforeStop = 1 - 0x1p-10;
 constexpr double kLifetime = 4;
 /// Slip of less than this many tolerances, in the time to fall one's own size, counts as stopped.
 constexpr double kStopped = 16;
+/// [1] of a tolerance, in the time to fall one's own size: slip that counts as none where contacts are found
+/// anew.
+constexpr double kCreeps = 0.25;
 /// [1] Accelerations this small relative to gravity count as zero.
 constexpr double kStill = 0x1p-32;
 /// [1] The same relative to the accelerations by the contact forces.
@@ -73,7 +76,10 @@ Island::Island(const World& world, std::vector<TouchingBody> bodies, std::vector
 void Island::begin() {
   stepper_.reset();
   timeStepsLeft_ = 0;
-  std::fill(system_.modes().begin(), system_.modes().end(), Mode::kOn);
+  system_.look(end_);
+  for (std::size_t c = 0; c < system_.modes().size(); ++c) {
+    system_.modes()[c] = creeps(c) ? Mode::kStick : Mode::kOn;
+  }
   system_.projectVelocities(end_);
   smooth_ = system_.findModes(end_);
   if (smooth_ && system_.projectVelocities(end_)) {  // removes the rest of the slip of sticking contacts
@@ -255,6 +261,14 @@ bool Island::allButStands(std::size_t contact) const {
   const double speed = system_.states()[contact].slip.norm();
   const double rate = system_.slipSpeedRate(contact);
   return speed > 0 && rate < 0 && speed <= kStopped * tolerance_ * std::sqrt(-rate / system_.radius());
+}
+
+// Slip this slow is what time steps and impacts leave of sticking contacts: its direction means nothing, and
+// friction would end it at once.
+bool Island::creeps(std::size_t contact) const {
+  return system_.features()[contact].material.friction > 0 &&
+         system_.states()[contact].slip.norm() <=
+             kCreeps * tolerance_ * std::sqrt(system_.gravityMagnitude() / system_.radius());
 }
 
 // Stops slip that has nearly ended: integrated up to its end it would take ever shorter steps.

@@ -110,6 +110,7 @@ class Island {
   bool isClear() const;
   bool hasTension() const;
   bool allButStands(std::size_t contact) const;
+  bool creeps(std::size_t contact) const;
   bool stop();
   double sizeOf(const State& difference, double h) const;
   double rootWithin(double h, std::size_t event, double atEnd);
