@@ -44,9 +44,6 @@ struct ContactAnswer {
 ContactAnswer newtonAnswer(const ContactCone& cone, const ContactEquation& equation,
                            const ContactProblem::Triple& impulse, const ContactProblem::Triple& centre,
                            const ContactProblem::Triple& u);
-/// The same with the contact closed and sticking, whatever λ and u say.
-ContactAnswer stickingAnswer(const ContactCone& cone, const ContactEquation& equation,
-                             const ContactProblem::Triple& centre, const ContactProblem::Triple& u);
 /// |λ − P(λ − ρ u) + ε (λ − centre)|/ρ [m/s].
 double equationError(const ContactCone& cone, const ContactEquation& equation,
                      const ContactProblem::Triple& impulse, const ContactProblem::Triple& centre,

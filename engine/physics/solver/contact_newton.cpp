@@ -13,14 +13,15 @@ constexpr int kPatience = 3;
 /// [1] ε stays in this range.
 constexpr double kLeastEpsilon = 0x1p-26;
 constexpr double kMostEpsilon = 1;
-/// [1] A descending step is worth taking if it leaves at most so much of the residual.
-constexpr double kFalls = 0.9;
-constexpr int kHalvings = 3;
 /// [1] of V: beyond, the iteration has diverged, and would overflow.
 constexpr double kDiverged = 0x1p100;
-/// A proximal point is found if its equations hold to so much of the last residual, within so many steps.
-constexpr double kProximal = 0.01;
+/// A proximal point is found if its equations hold to so much of the last residual, within so many steps;
+/// sooner it is given up where later steps leave a larger error than the first.
+constexpr double kProximal = 0.3;
 constexpr int kProximalSteps = 6;
+constexpr int kProximalTrials = 3;
+/// [1] Of the largest λ/mass.
+constexpr double kGhost = 1e-3;
 
 ContactEquation equationOf(const Contact& contact, const ContactNewton::Options& options) {
   return {.rho = options.rho * contact.mass, .epsilon = options.epsilon};
@@ -42,6 +43,11 @@ double ContactNewton::residual(const CoupledContacts& contacts, std::span<const 
   return worst;
 }
 
+bool ContactNewton::isGood(const CoupledContacts& contacts, std::span<const Triple> impulses, double residual,
+                           double good) {
+  return residual <= good && residual <= kGhost * contacts.largest(impulses);
+}
+
 double ContactNewton::begin(const CoupledContacts& contacts, std::span<const Triple> impulses,
                             std::span<double> q) {
   const std::size_t count = impulses.size();
@@ -56,15 +62,12 @@ double ContactNewton::begin(const CoupledContacts& contacts, std::span<const Tri
 }
 
 /// Moves impulses_ by one full step. Returns false if that leads nowhere.
-bool ContactNewton::step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres,
-                         bool sticking) {
+bool ContactNewton::step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres) {
   contacts.velocities(impulses_, q_);
   contacts.relativeVelocities(q_, u_);
   for (std::size_t c = 0; c < impulses_.size(); ++c) {
     const Contact& contact = contacts.contacts()[c];
-    const ContactEquation equation = equationOf(contact, options);
-    answers_[c] = sticking ? stickingAnswer(contact, equation, centres[c], u_[c])
-                           : newtonAnswer(contact, equation, impulses_[c], centres[c], u_[c]);
+    answers_[c] = newtonAnswer(contact, equationOf(contact, options), impulses_[c], centres[c], u_[c]);
   }
   ++factorisations_;
   if (!contacts.factorise(answers_)) {
@@ -95,11 +98,12 @@ void ContactNewton::keep(std::span<Triple> impulses, std::span<double> q) const 
 }
 
 double ContactNewton::improve(CoupledContacts& contacts, std::span<Triple> impulses, std::span<double> q,
-                              const Options& options, bool sticking) {
+                              const Options& options) {
   double best = begin(contacts, impulses, q);
   int stalled = 0;
-  while (factorisations_ < options.steps && best > options.enough && stalled < kPatience) {
-    if (!step(contacts, options, impulses_, sticking && factorisations_ == 0)) {
+  while (factorisations_ < options.steps && best > options.enough && stalled < kPatience &&
+         !isGood(contacts, impulses, best, options.good)) {
+    if (!step(contacts, options, impulses_)) {
       break;
     }
     const double now = admit(contacts);
@@ -115,66 +119,38 @@ double ContactNewton::improve(CoupledContacts& contacts, std::span<Triple> impul
   return best;
 }
 
-/// Shortens the step from `from` to impulses_ until the residual falls; leaves the result in admissible_.
-/// Returns the fraction taken, 0 if none.
-double ContactNewton::fractionThatFalls(const CoupledContacts& contacts, std::span<const Triple> from,
-                                        double best) {
-  double fraction = 1;
-  for (int halvings = 0; halvings <= kHalvings; ++halvings, fraction /= 2) {
-    for (std::size_t c = 0; c < from.size(); ++c) {
-      Triple between = impulses_[c];
-      for (std::size_t k = 0; k < between.size(); ++k) {
-        between[k] = from[c][k] + fraction * (between[k] - from[c][k]);
-      }
-      admissible_[c] = contacts.contacts()[c].admissible(between);
-    }
-    if (residual(contacts, admissible_, q_) < kFalls * best) {
-      return fraction;
+/// Of impulses_, with centres_.
+double ContactNewton::equationsError(const CoupledContacts& contacts, const Options& options) {
+  contacts.velocities(impulses_, q_);
+  double worst = 0;
+  for (std::size_t c = 0; c < impulses_.size(); ++c) {
+    const Contact& contact = contacts.contacts()[c];
+    const Triple u = contacts.relativeVelocity(contact, q_);
+    const double error = equationError(contact, equationOf(contact, options), impulses_[c], centres_[c], u);
+    if (!(error <= worst)) {
+      worst = error;
     }
   }
-  return 0;
+  return worst;
 }
 
-double ContactNewton::descend(CoupledContacts& contacts, std::span<Triple> impulses, std::span<double> q,
-                              Options options) {
-  double best = begin(contacts, impulses, q);
-  while (factorisations_ < options.steps && best > options.enough && options.epsilon < kMostEpsilon) {
-    std::copy(impulses.begin(), impulses.end(), impulses_.begin());
-    if (!step(contacts, options, impulses_, false)) {
-      break;
-    }
-    const double fraction = fractionThatFalls(contacts, impulses, best);
-    if (fraction > 0) {
-      keep(impulses, q);
-      best = residual(contacts, impulses, q);
-    }
-    options.epsilon *= fraction == 1 ? 0.25 : fraction > 0 ? 1 : 64;
-  }
-  return best;
-}
-
-/// From centres_. `error` [m/s]: how well the equations have to hold.
-bool ContactNewton::solveProximal(CoupledContacts& contacts, const Options& options, double error,
+/// From centres_. `wanted` [m/s]: how well the equations have to hold.
+bool ContactNewton::solveProximal(CoupledContacts& contacts, const Options& options, double wanted,
                                   int& steps) {
   std::copy(centres_.begin(), centres_.end(), impulses_.begin());
+  double most = kDiverged * contacts.scale();
   for (steps = 1; steps <= kProximalSteps && factorisations_ < options.steps; ++steps) {
-    if (!step(contacts, options, centres_, false)) {
+    if (!step(contacts, options, centres_)) {
       return false;
     }
-    contacts.velocities(impulses_, q_);
-    double worst = 0;
-    for (std::size_t c = 0; c < impulses_.size(); ++c) {
-      const Contact& contact = contacts.contacts()[c];
-      const Triple u = contacts.relativeVelocity(contact, q_);
-      const double of = equationError(contact, equationOf(contact, options), impulses_[c], centres_[c], u);
-      if (!(of <= worst)) {
-        worst = of;
-      }
-    }
-    if (worst <= error) {
+    const double error = equationsError(contacts, options);
+    if (error <= wanted) {
       return true;
     }
-    if (!(worst <= kDiverged * contacts.scale())) {
+    if (steps == 1) {
+      most = std::min(most, error);
+    }
+    if (!(error <= most) && steps >= kProximalTrials) {
       return false;
     }
   }
@@ -186,7 +162,11 @@ double ContactNewton::approach(CoupledContacts& contacts, std::span<Triple> impu
   double best = begin(contacts, impulses, q);
   centres_.assign(impulses.begin(), impulses.end());
   double now = best;
-  while (factorisations_ < options.steps && best > options.enough && options.epsilon < kMostEpsilon) {
+  double halved = best;
+  int lastHalved = 0;
+  while (factorisations_ < options.steps && best > options.enough && options.epsilon < kMostEpsilon &&
+         factorisations_ - lastHalved <= options.patience &&
+         !isGood(contacts, impulses, best, options.good)) {
     int steps = 0;
     if (!solveProximal(contacts, options, std::max(kProximal * now, options.enough), steps)) {
       options.epsilon *= 4;
@@ -197,6 +177,10 @@ double ContactNewton::approach(CoupledContacts& contacts, std::span<Triple> impu
     if (now < best) {
       best = now;
       keep(impulses, q);
+    }
+    if (best < halved / 2) {
+      halved = best;
+      lastHalved = factorisations_;
     }
     options.epsilon = std::max(kLeastEpsilon, options.epsilon / (steps <= 2               ? 8
                                                                  : steps < kProximalSteps ? 2

@@ -7,9 +7,9 @@
 
 namespace careen {
 
-/// Newton's method on all contacts' equations (ContactEquation) at once, in three degrees of caution. Each
-/// improves given impulses and returns the best residual [m/s] it met; `impulses` and `q` become those of the
-/// best iterate, in their cones. Residual: the largest violation of a contact's law.
+/// Newton's method on all contacts' equations (ContactEquation) at once. Both ways improve given impulses and
+/// return the best residual [m/s] they met; `impulses` and `q` become those of the best iterate, in their
+/// cones. Residual: the largest violation of a contact's law.
 class ContactNewton {
  public:
   using Triple = ContactProblem::Triple;
@@ -17,17 +17,17 @@ class ContactNewton {
     double rho = 1;            ///< [1] ρ, in effective masses of each contact
     double epsilon = 0x1p-24;  ///< [1] ε
     int steps = 10;            ///< at most so many factorisations
+    int patience = 30;         ///< approach() ends after so many of them that did not halve the residual
     double enough = 0;         ///< [m/s] residual at which to stop
+    double good = 0;           ///< [m/s] the same, if it is small against the impulses, see isGood()
   };
 
   /// Full steps, each centred at the last iterate; gives up after three in a row that do not halve the
-  /// residual. `sticking`: the first step takes every contact as closed and sticking.
+  /// residual.
   double improve(CoupledContacts& contacts, std::span<Triple> impulses, std::span<double> q,
-                 const Options& options, bool sticking = false);
-  /// Shortened steps, with ε ever larger until the residual falls.
-  double descend(CoupledContacts& contacts, std::span<Triple> impulses, std::span<double> q, Options options);
-  /// Proximal points (R. T. Rockafellar, SIAM J. Control Optim. 14, 1976): each is a solution of the
-  /// equations with ε, the next is centred there; ε follows the success. The residual need not fall: nearly
+                 const Options& options);
+  /// Proximal points (R. T. Rockafellar, SIAM J. Control Optim. 14, 1976): each solves the equations with ε
+  /// more or less, the next is centred there; ε follows the success. The residual need not fall: nearly
   /// redundant contacts have directions in which the impulses must go far before the residual changes.
   double approach(CoupledContacts& contacts, std::span<Triple> impulses, std::span<double> q,
                   Options options);
@@ -40,13 +40,16 @@ class ContactNewton {
   /// Residual [m/s] of these impulses with the velocities that follow from them.
   static double residual(const CoupledContacts& contacts, std::span<const Triple> impulses,
                          std::span<double> q);
+  /// Whether such a residual of these impulses is at most `good`, and not a ghost: a small residual where
+  /// impulses that are as small were to be found.
+  static bool isGood(const CoupledContacts& contacts, std::span<const Triple> impulses, double residual,
+                     double good);
 
  private:
   double begin(const CoupledContacts& contacts, std::span<const Triple> impulses, std::span<double> q);
-  bool step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres,
-            bool sticking);
+  bool step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres);
+  double equationsError(const CoupledContacts& contacts, const Options& options);
   bool solveProximal(CoupledContacts& contacts, const Options& options, double error, int& steps);
-  double fractionThatFalls(const CoupledContacts& contacts, std::span<const Triple> from, double best);
   double admit(const CoupledContacts& contacts);
   void keep(std::span<Triple> impulses, std::span<double> q) const;
 

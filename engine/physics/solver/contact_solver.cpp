@@ -15,12 +15,10 @@ constexpr double kWarmGoal = 0x1p-46;
 constexpr double kPolished = 0x1p-43;
 // [1] of the largest λ/mass
 constexpr double kOfImpulses = 1e-6;
-constexpr double kGhost = 1e-3;
 constexpr double kRounding = 0x1p-49;  // of velocities that large impulses give and cancel
 
 constexpr double kFall = 0x1p-10;  // of the gap, until Newton's method is tried again
 constexpr int kIterations = 60;
-constexpr double kHeavyOnLight = 0x1p-40;
 /// The interior-point method is stuck after so many strides this short: then it starts anew, once, around its
 /// impulses.
 constexpr double kShortStride = 0.1;
@@ -30,7 +28,10 @@ constexpr double kLeastShift = 1e-8;  // [1] of V
 constexpr InteriorPoint::Options kCautious{
     .start = 1, .stride = 0.9, .leastCentering = 0.1, .secondOrder = false};
 
-constexpr ContactNewton::Options kDescent{.rho = 1, .epsilon = 0x1p-10, .steps = 3, .enough = 0};
+// [1] ε of the first proximal point
+constexpr double kWarmEpsilon = 0x1p-13;
+constexpr double kColdEpsilon = 0x1p-7;
+constexpr int kFirstSteps = 100;
 constexpr int kProximalSteps = 100;  // of a round
 constexpr int kFirstSweeps = 64;
 constexpr int kDoublings = 8;
@@ -38,13 +39,11 @@ constexpr int kDoublings = 8;
 }  // namespace
 
 bool ContactSolver::isEnough() const {
-  double largest = 0;
-  for (std::size_t c = 0; c < impulses_.size(); ++c) {
-    largest = std::max(largest, impulses_[c][0] / contacts_.contacts()[c].mass);
-  }
+  const double largest = contacts_.largest(impulses_);
   const double enough = std::min(inScale(kEnough), std::max(inScale(kSmall), kOfImpulses * largest));
   const double rounding = std::max(contacts_.noise(), kRounding * largest);
-  return residual_ <= std::max({enough, rounding, std::min(enough_, kGhost * largest)});
+  return residual_ <= std::max(enough, rounding) ||
+         ContactNewton::isGood(contacts_, impulses_, residual_, enough_);
 }
 
 /// Takes the trial if it is better than the best. Returns whether the best is enough.
@@ -58,19 +57,17 @@ bool ContactSolver::keepIfBetter(double residual) {
   return isEnough();
 }
 
-bool ContactSolver::tryNewton(std::span<const Triple> from, ContactNewton::Options options, bool sticking) {
+bool ContactSolver::tryNewton(std::span<const Triple> from, ContactNewton::Options options) {
   std::copy(from.begin(), from.end(), trial_.begin());
   options.enough = std::max({options.enough, inScale(kGoal), contacts_.noise()});
-  return keepIfBetter(newton_.improve(contacts_, trial_, trialQ_, options, sticking));
-}
-
-bool ContactSolver::tryDescent(std::span<const Triple> from) {
-  std::copy(from.begin(), from.end(), trial_.begin());
-  return keepIfBetter(newton_.descend(contacts_, trial_, trialQ_, kDescent));
+  options.good = enough_;
+  return keepIfBetter(newton_.improve(contacts_, trial_, trialQ_, options));
 }
 
 bool ContactSolver::tryApproach(std::span<const Triple> from, ContactNewton::Options options) {
   std::copy(from.begin(), from.end(), trial_.begin());
+  options.enough = std::max(options.enough, contacts_.noise());
+  options.good = enough_;
   return keepIfBetter(newton_.approach(contacts_, trial_, trialQ_, options));
 }
 
@@ -84,7 +81,7 @@ bool ContactSolver::tryInterior(const InteriorPoint::Options& options, int itera
     const bool goesOn = interior_.advance(contacts_);
     if (interior_.gap() < kFall * polished || !goesOn) {
       polished = interior_.gap();
-      if (tryNewton(interior_.impulses(), {}) || tryDescent(interior_.impulses())) {
+      if (tryNewton(interior_.impulses(), {})) {
         return true;
       }
     }
@@ -111,9 +108,11 @@ bool ContactSolver::tryProximal(int rounds) {
   std::copy(impulses_.begin(), impulses_.end(), from_.begin());
   for (int round = 0; round < rounds && mayGoOn(); ++round) {
     const double rho = round % 2 == 0 ? 0x1p-2 : 0x1p-5;
-    if (tryApproach(
-            from_,
-            {.rho = rho, .epsilon = 0x1p-10, .steps = kProximalSteps, .enough = inScale(kEnough / 8)})) {
+    if (tryApproach(from_, {.rho = rho,
+                            .epsilon = 0x1p-10,
+                            .steps = kProximalSteps,
+                            .patience = kProximalSteps,
+                            .enough = inScale(kEnough / 8)})) {
       return true;
     }
     std::copy(newton_.lastCentre().begin(), newton_.lastCentre().end(), from_.begin());
@@ -138,20 +137,16 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
   if (isEnough()) {
     return;
   }
+  ContactNewton::Options first{.epsilon = kWarmEpsilon, .steps = kFirstSteps, .enough = inScale(kWarmGoal)};
   if (solution.impulses.size() == impulses_.size()) {
     contacts_.importImpulses(solution.impulses, from_);
-    if (tryNewton(from_, {.steps = 8, .enough = inScale(kWarmGoal)})) {
+    if (tryApproach(from_, first)) {
       return;
     }
   }
   std::fill(from_.begin(), from_.end(), Triple{});
-  if (tryNewton(from_, {.steps = 8}, true)) {
-    return;
-  }
-  // Heavy bodies on light ones: with the usual ε each step leaves (their mass ratio) ε of the residual.
-  std::fill(from_.begin(), from_.end(), Triple{});
-  if (tryNewton(from_, {.epsilon = kHeavyOnLight, .steps = 8}, true) || tryInterior({}, kIterations) ||
-      tryProximal(8)) {
+  first.epsilon = kColdEpsilon;
+  if (tryApproach(from_, first) || tryInterior({}, kIterations) || tryProximal(8)) {
     return;
   }
   for (const double start : {1e4, 0.01, 1.0, 100.0, 0.1, 1e6}) {

@@ -14,10 +14,10 @@ namespace careen {
 /// Solves a ContactProblem, or says that it did not. In this order, until the residual is small enough:
 ///
 ///   1. no impulses;
-///   2. Newton's method from the warm start; from every contact closed and sticking;
+///   2. proximal points from the warm start; from no impulses;
 ///   3. the interior-point method; whenever its gap fell a thousand times, Newton's method from there;
-///   4. proximal points from the best iterate; where they are stuck, sweeps of Gauss–Seidel, ever more of
-///   them;
+///   4. more proximal points, from the best iterate; where they are stuck, sweeps of Gauss–Seidel, ever more
+///   of them;
 ///   5. the interior-point method from other starts and with other parameters.
 ///
 /// Small enough: residual ≤ 1e-9 V, and ≤ max(1e-13 V, 1e-6 of the largest λ/mass): without the second
@@ -42,8 +42,7 @@ class ContactSolver {
   using Triple = ContactProblem::Triple;
 
   void solveWithoutPolish(const ContactSolution& solution);
-  bool tryNewton(std::span<const Triple> from, ContactNewton::Options options, bool sticking = false);
-  bool tryDescent(std::span<const Triple> from);
+  bool tryNewton(std::span<const Triple> from, ContactNewton::Options options);
   bool tryApproach(std::span<const Triple> from, ContactNewton::Options options);
   bool tryInterior(const InteriorPoint::Options& options, int iterations);
   bool tryProximal(int rounds);

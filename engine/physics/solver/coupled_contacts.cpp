@@ -198,6 +198,14 @@ void CoupledContacts::relativeVelocities(std::span<const double> q, std::span<Tr
   }
 }
 
+double CoupledContacts::largest(std::span<const Triple> impulses) const {
+  double largest = 0;
+  for (std::size_t c = 0; c < impulses.size(); ++c) {
+    largest = std::max(largest, impulses[c][0] / contacts_[c].mass);
+  }
+  return largest;
+}
+
 void CoupledContacts::push(const Contact& contact, const Triple& impulse, std::span<double> onto) const {
   const auto& [n, t, s] = contact.rows;
   for (std::size_t side = 0; side < 2; ++side) {

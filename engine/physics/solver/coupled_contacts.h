@@ -43,6 +43,9 @@ class CoupledContacts {
   /// [m/s] What rounding errors in u may amount to.
   double noise() const { return noise_; }
 
+  /// [m/s] λ/mass, of normal impulses.
+  double largest(std::span<const Triple> impulses) const;
+
   // Velocities q below are in the order of elimination, impulses in that of contacts().
   void velocities(std::span<const Triple> impulses, std::span<double> q) const;
   void relativeVelocities(std::span<const double> q, std::span<Triple> u) const;

@@ -31,26 +31,39 @@ ContactScene sliding() {
   return scene;
 }
 
-TEST(ContactNewton, stackAtRestTakesThreeSteps) {
+TEST(ContactNewton, stackAtRestTakesTenSteps) {
   Iterate at(cubeStack(5, 1, 1, 0.5));
-  EXPECT_LE(at.method.improve(at.contacts, at.impulses, at.q, {.enough = 1e-15}, true), 1e-15);
-  EXPECT_LE(at.method.factorisations(), 3);
+  EXPECT_LE(at.method.approach(at.contacts, at.impulses, at.q, {.epsilon = 0x1p-7, .enough = 1e-15}), 1e-15);
+  EXPECT_LE(at.method.factorisations(), 10);
   for (const double speed : at.q) {
     EXPECT_NEAR(speed, 0, 1e-15);
   }
 }
 
-TEST(ContactNewton, allWaysLeadToTheSolution) {
-  for (const int way : {0, 1, 2}) {
+TEST(ContactNewton, bothWaysLeadToTheSolution) {
+  for (const bool proximal : {false, true}) {
     Iterate at(sliding());
     const ContactNewton::Options options{.rho = 1, .epsilon = 0x1p-10, .steps = 60, .enough = 1e-13};
-    const double residual = way == 0   ? at.method.improve(at.contacts, at.impulses, at.q, options)
-                            : way == 1 ? at.method.descend(at.contacts, at.impulses, at.q, options)
-                                       : at.method.approach(at.contacts, at.impulses, at.q, options);
-    EXPECT_LE(residual, 1e-13) << way;
+    const double residual = proximal ? at.method.approach(at.contacts, at.impulses, at.q, options)
+                                     : at.method.improve(at.contacts, at.impulses, at.q, options);
+    EXPECT_LE(residual, 1e-13) << proximal;
     EXPECT_LE(ContactNewton::residual(at.contacts, at.impulses, at.q), 1e-13);
     EXPECT_GT(at.q[0], 2);
   }
+}
+
+TEST(ContactNewton, stopsWhereTheCallerIsContentButNotAtGhosts) {
+  Iterate at(sliding());
+  at.method.approach(at.contacts, at.impulses, at.q, {.epsilon = 0x1p-7, .enough = 1e-15, .good = 1e-2});
+  const double residual = ContactNewton::residual(at.contacts, at.impulses, at.q);
+  EXPECT_LE(residual, 1e-2);
+  EXPECT_GT(residual, 1e-9);
+  EXPECT_TRUE(ContactNewton::isGood(at.contacts, at.impulses, 1e-4, 1e-2));
+  EXPECT_FALSE(ContactNewton::isGood(at.contacts, at.impulses, 1e-1, 1e-2));
+  for (Triple& impulse : at.impulses) {
+    impulse[0] *= 1e-6;
+  }
+  EXPECT_FALSE(ContactNewton::isGood(at.contacts, at.impulses, 1e-4, 1e-2));
 }
 
 // Redundant contacts keep the uneven distribution that they start from, but for what has to change.
