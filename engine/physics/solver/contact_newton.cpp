@@ -27,6 +27,9 @@ ContactEquation equationOf(const Contact& contact, const ContactNewton::Options&
   return {.rho = options.rho * contact.mass, .epsilon = options.epsilon};
 }
 
+/// No number is worst of all, and stays.
+double worseOf(double worst, double error) { return std::isnan(worst) || error <= worst ? worst : error; }
+
 }  // namespace
 
 double ContactNewton::residual(const CoupledContacts& contacts, std::span<const Triple> impulses,
@@ -35,10 +38,7 @@ double ContactNewton::residual(const CoupledContacts& contacts, std::span<const 
   double worst = 0;
   for (std::size_t c = 0; c < impulses.size(); ++c) {
     const Contact& contact = contacts.contacts()[c];
-    const double violation = contact.violation(impulses[c], contacts.relativeVelocity(contact, q));
-    if (!(violation <= worst)) {  // no number is worst of all, and stays
-      worst = violation;
-    }
+    worst = worseOf(worst, contact.violation(impulses[c], contacts.relativeVelocity(contact, q)));
   }
   return worst;
 }
@@ -57,14 +57,25 @@ double ContactNewton::begin(const CoupledContacts& contacts, std::span<const Tri
   answers_.resize(count);
   q_.resize(q.size());
   dq_.resize(q.size());
+  admissibleQ_.resize(q.size());
   factorisations_ = 0;
-  return residual(contacts, impulses, q);
+  follow(contacts);
+  std::copy(q_.begin(), q_.end(), q.begin());
+  double worst = 0;
+  for (std::size_t c = 0; c < count; ++c) {
+    worst = worseOf(worst, contacts.contacts()[c].violation(impulses_[c], u_[c]));
+  }
+  return worst;
+}
+
+/// The velocities that follow from impulses_.
+void ContactNewton::follow(const CoupledContacts& contacts) {
+  contacts.velocities(impulses_, q_);
+  contacts.relativeVelocities(q_, u_);
 }
 
 /// Moves impulses_ by one full step. Returns false if that leads nowhere.
 bool ContactNewton::step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres) {
-  contacts.velocities(impulses_, q_);
-  contacts.relativeVelocities(q_, u_);
   for (std::size_t c = 0; c < impulses_.size(); ++c) {
     const Contact& contact = contacts.contacts()[c];
     answers_[c] = newtonAnswer(contact, equationOf(contact, options), impulses_[c], centres[c], u_[c]);
@@ -81,6 +92,7 @@ bool ContactNewton::step(CoupledContacts& contacts, const Options& options, std:
       largest = std::max(largest, std::fabs(part) / contacts.contacts()[c].mass);
     }
   }
+  follow(contacts);
   return largest <= kDiverged * contacts.scale();
 }
 
@@ -89,12 +101,12 @@ double ContactNewton::admit(const CoupledContacts& contacts) {
   for (std::size_t c = 0; c < impulses_.size(); ++c) {
     admissible_[c] = contacts.contacts()[c].admissible(impulses_[c]);
   }
-  return residual(contacts, admissible_, q_);
+  return residual(contacts, admissible_, admissibleQ_);
 }
 
 void ContactNewton::keep(std::span<Triple> impulses, std::span<double> q) const {
   std::copy(admissible_.begin(), admissible_.end(), impulses.begin());
-  std::copy(q_.begin(), q_.end(), q.begin());
+  std::copy(admissibleQ_.begin(), admissibleQ_.end(), q.begin());
 }
 
 double ContactNewton::improve(CoupledContacts& contacts, std::span<Triple> impulses, std::span<double> q,
@@ -120,16 +132,12 @@ double ContactNewton::improve(CoupledContacts& contacts, std::span<Triple> impul
 }
 
 /// Of impulses_, with centres_.
-double ContactNewton::equationsError(const CoupledContacts& contacts, const Options& options) {
-  contacts.velocities(impulses_, q_);
+double ContactNewton::equationsError(const CoupledContacts& contacts, const Options& options) const {
   double worst = 0;
   for (std::size_t c = 0; c < impulses_.size(); ++c) {
     const Contact& contact = contacts.contacts()[c];
-    const Triple u = contacts.relativeVelocity(contact, q_);
-    const double error = equationError(contact, equationOf(contact, options), impulses_[c], centres_[c], u);
-    if (!(error <= worst)) {
-      worst = error;
-    }
+    worst = worseOf(worst,
+                    equationError(contact, equationOf(contact, options), impulses_[c], centres_[c], u_[c]));
   }
   return worst;
 }
@@ -137,7 +145,10 @@ double ContactNewton::equationsError(const CoupledContacts& contacts, const Opti
 /// From centres_. `wanted` [m/s]: how well the equations have to hold.
 bool ContactNewton::solveProximal(CoupledContacts& contacts, const Options& options, double wanted,
                                   int& steps) {
-  std::copy(centres_.begin(), centres_.end(), impulses_.begin());
+  if (impulses_ != centres_) {
+    std::copy(centres_.begin(), centres_.end(), impulses_.begin());
+    follow(contacts);
+  }
   double most = kDiverged * contacts.scale();
   for (steps = 1; steps <= kProximalSteps && factorisations_ < options.steps; ++steps) {
     if (!step(contacts, options, centres_)) {

@@ -48,7 +48,8 @@ class ContactNewton {
  private:
   double begin(const CoupledContacts& contacts, std::span<const Triple> impulses, std::span<double> q);
   bool step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres);
-  double equationsError(const CoupledContacts& contacts, const Options& options);
+  void follow(const CoupledContacts& contacts);
+  double equationsError(const CoupledContacts& contacts, const Options& options) const;
   bool solveProximal(CoupledContacts& contacts, const Options& options, double error, int& steps);
   double admit(const CoupledContacts& contacts);
   void keep(std::span<Triple> impulses, std::span<double> q) const;
@@ -56,9 +57,10 @@ class ContactNewton {
   std::vector<Triple> impulses_;
   std::vector<Triple> centres_;
   std::vector<Triple> admissible_;
-  std::vector<Triple> u_;
+  std::vector<double> admissibleQ_;
   std::vector<ContactAnswer> answers_;
-  std::vector<double> q_;
+  std::vector<double> q_;  // of impulses_, like u_
+  std::vector<Triple> u_;
   std::vector<double> dq_;
   int factorisations_ = 0;
 };
