@@ -19,12 +19,9 @@ constexpr double kRounding = 0x1p-49;  // of velocities that large impulses give
 
 constexpr double kFall = 0x1p-10;  // of the gap, until Newton's method is tried again
 constexpr int kIterations = 60;
-/// The interior-point method is stuck after so many strides this short: then it starts anew, once, around its
-/// impulses.
+/// The interior-point method is stuck after so many strides this short.
 constexpr double kShortStride = 0.1;
 constexpr int kShortStrides = 3;
-constexpr double kMostShift = 0.1;    // [1] of V
-constexpr double kLeastShift = 1e-8;  // [1] of V
 constexpr InteriorPoint::Options kCautious{
     .start = 1, .stride = 0.9, .leastCentering = 0.1, .secondOrder = false};
 
@@ -33,8 +30,6 @@ constexpr double kWarmEpsilon = 0x1p-13;
 constexpr double kColdEpsilon = 0x1p-7;
 constexpr int kFirstSteps = 100;
 constexpr int kProximalSteps = 100;  // of a round
-constexpr int kFirstSweeps = 64;
-constexpr int kDoublings = 8;
 
 }  // namespace
 
@@ -75,10 +70,10 @@ bool ContactSolver::tryInterior(const InteriorPoint::Options& options, int itera
   interior_.start(contacts_, options);
   double polished = interior_.gap();
   int slow = 0;
-  bool restarted = false;
-  for (int k = 0; k < iterations && mayGoOn(); ++k) {
+  bool goesOn = true;
+  for (int k = 0; k < iterations && goesOn && slow < kShortStrides && mayGoOn(); ++k) {
     ++factorisations_;
-    const bool goesOn = interior_.advance(contacts_);
+    goesOn = interior_.advance(contacts_);
     if (interior_.gap() < kFall * polished || !goesOn) {
       polished = interior_.gap();
       if (tryNewton(interior_.impulses(), {})) {
@@ -86,19 +81,6 @@ bool ContactSolver::tryInterior(const InteriorPoint::Options& options, int itera
       }
     }
     slow = interior_.lastStride() < kShortStride ? slow + 1 : 0;
-    if (goesOn && slow < kShortStrides) {
-      continue;
-    }
-    if (restarted) {
-      break;
-    }
-    restarted = true;
-    std::copy(interior_.impulses().begin(), interior_.impulses().end(), from_.begin());
-    const double residual = ContactNewton::residual(contacts_, from_, trialQ_);
-    const double shift = std::clamp(10 * residual, inScale(kLeastShift), inScale(kMostShift));
-    interior_.startAt(contacts_, from_, shift, kCautious);
-    polished = interior_.gap();
-    slow = 0;
   }
   return false;
 }
@@ -116,17 +98,6 @@ bool ContactSolver::tryProximal(int rounds) {
       return true;
     }
     std::copy(newton_.lastCentre().begin(), newton_.lastCentre().end(), from_.begin());
-    if (newton_.factorisations() >= kProximalSteps) {
-      continue;
-    }
-    sweeps_.start(contacts_, from_);
-    if (!sweeps_.sweep(contacts_, kFirstSweeps << std::min(round, kDoublings))) {
-      return false;
-    }
-    std::copy(sweeps_.impulses().begin(), sweeps_.impulses().end(), from_.begin());
-    if (tryNewton(from_, {})) {
-      return true;
-    }
   }
   return false;
 }

@@ -5,7 +5,6 @@
 
 #include "physics/solver/contact_newton.h"
 #include "physics/solver/contact_problem.h"
-#include "physics/solver/contact_sweeps.h"
 #include "physics/solver/coupled_contacts.h"
 #include "physics/solver/interior_point.h"
 
@@ -16,8 +15,7 @@ namespace careen {
 ///   1. no impulses;
 ///   2. proximal points from the warm start; from no impulses;
 ///   3. the interior-point method; whenever its gap fell a thousand times, Newton's method from there;
-///   4. more proximal points, from the best iterate; where they are stuck, sweeps of Gauss–Seidel, ever more
-///   of them;
+///   4. more proximal points, from the best iterate, with two other ρ in turn;
 ///   5. the interior-point method from other starts and with other parameters.
 ///
 /// Small enough: residual ≤ 1e-9 V, and ≤ max(1e-13 V, 1e-6 of the largest λ/mass): without the second
@@ -55,7 +53,6 @@ class ContactSolver {
   CoupledContacts contacts_;
   ContactNewton newton_;
   InteriorPoint interior_;
-  ContactSweeps sweeps_;
   std::vector<Triple> impulses_;  // the best
   std::vector<double> q_;
   double residual_ = 0;

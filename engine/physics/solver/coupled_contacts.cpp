@@ -143,7 +143,6 @@ CoupledContacts::Key CoupledContacts::keyOf(const ContactProblem::Contact& from,
 /// Effective masses, and what the contact adds to the scale of speeds and of their rounding errors.
 void CoupledContacts::weigh(Contact& contact) {
   double normal = 0;
-  double tangential = 0;
   double largest = 0;
   for (std::size_t side = 0; side < 2; ++side) {
     const int body = side == 0 ? contact.a : contact.b;
@@ -152,13 +151,11 @@ void CoupledContacts::weigh(Contact& contact) {
       const std::size_t i = side * kAxes + k;
       const auto& [n, t, s] = contact.rows;
       normal += inverseMass_[at] * (n[i] * n[i]);
-      tangential += inverseMass_[at] * (t[i] * t[i] + s[i] * s[i]);
       const double widest = std::max({std::fabs(n[i]), std::fabs(t[i]), std::fabs(s[i])});
       largest = std::max(largest, widest * std::fabs(free_[at]));
     }
   }
   contact.mass = 1 / normal;
-  contact.tangentialMass = 2 / tangential;
   const Triple u = relativeVelocity(contact, free_);
   scale_ = std::max(scale_, std::sqrt(u[0] * u[0] + (u[1] * u[1] + u[2] * u[2])));
   for (const double part : contact.target) {
@@ -252,21 +249,6 @@ void CoupledContacts::velocities(std::span<const Triple> impulses, std::span<dou
   pushAll([&](std::size_t c) -> const Triple& { return impulses[c]; }, q);
   for (std::size_t k = 0; k < q.size(); ++k) {
     q[k] = free_[k] + inverseMass_[k] * q[k];
-  }
-}
-
-void CoupledContacts::apply(const Contact& contact, const Triple& impulse, std::span<double> q) const {
-  const auto& [n, t, s] = contact.rows;
-  for (std::size_t side = 0; side < 2; ++side) {
-    const int body = side == 0 ? contact.a : contact.b;
-    if (body == kNobody) {
-      continue;
-    }
-    const std::size_t first = static_cast<std::size_t>(body) * kAxes;
-    for (std::size_t k = 0; k < kAxes; ++k) {
-      const std::size_t i = side * kAxes + k;
-      q[first + k] += inverseMass_[first + k] * (n[i] * impulse[0] + t[i] * impulse[1] + s[i] * impulse[2]);
-    }
   }
 }
 

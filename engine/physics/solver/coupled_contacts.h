@@ -30,7 +30,6 @@ class CoupledContacts {
     int b = kNobody;
     std::array<Row, 3> rows{};
     Triple target{};
-    double tangentialMass = 0;            // [kg] 2/(trace of t M⁻¹ tᵀ)
     std::array<std::size_t, 4> blocks{};  // of (a, a), (a, b), (b, a), (b, b)
   };
 
@@ -52,9 +51,6 @@ class CoupledContacts {
   Triple relativeVelocity(const Contact& contact, std::span<const double> q) const;
   /// J dq of one contact.
   Triple change(const Contact& contact, std::span<const double> dq) const;
-
-  /// q += M⁻¹Jᵀ impulse.
-  void apply(const Contact& contact, const Triple& impulse, std::span<double> q) const;
 
   /// M + Σ Jᵀ stiffness J. Returns false if it could not be factorised.
   bool factorise(std::span<const ContactAnswer> answers);

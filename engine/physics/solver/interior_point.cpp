@@ -14,7 +14,7 @@ using lorentz::dot;
 using lorentz::scaledOnce;
 using lorentz::scaledTwice;
 
-void InteriorPoint::resize(const CoupledContacts& contacts, const Options& options) {
+void InteriorPoint::start(const CoupledContacts& contacts, const Options& options) {
   options_ = options;
   const std::size_t count = contacts.contacts().size();
   states_.resize(count);
@@ -25,36 +25,8 @@ void InteriorPoint::resize(const CoupledContacts& contacts, const Options& optio
   lastStride_ = 1;
   for (std::size_t c = 0; c < count; ++c) {
     states_[c].friction = std::min(contacts.contacts()[c].friction, options.mostFriction);
-  }
-}
-
-void InteriorPoint::start(const CoupledContacts& contacts, const Options& options) {
-  resize(contacts, options);
-  for (State& state : states_) {
-    state.r = {options.start * contacts.scale(), 0, 0};
-    state.w = {contacts.scale(), 0, 0};
-  }
-  refresh(contacts);
-}
-
-void InteriorPoint::startAt(const CoupledContacts& contacts, std::span<const Triple> impulses, double shift,
-                            const Options& options) {
-  resize(contacts, options);
-  contacts.velocities(impulses, q_);
-  for (std::size_t c = 0; c < states_.size(); ++c) {
-    const Contact& contact = contacts.contacts()[c];
-    const Triple u = contacts.relativeVelocity(contact, q_);
-    const Triple& impulse = impulses[c];
-    State& state = states_[c];
-    if (contact.onLine) {
-      state.r = {std::max(0.0, impulse[0] / contact.mass) + shift, 0, 0};
-      state.w = {std::max(0.0, u[0]) + shift, 0, 0};
-    } else {
-      state.r = {0, impulse[1] / contact.mass, impulse[2] / contact.mass};
-      state.r[0] =
-          std::max(state.friction * (impulse[0] / contact.mass), lorentz::tangentialSize(state.r)) + shift;
-      state.w = {std::max(0.0, u[0] / state.friction) + lorentz::tangentialSize(u) + shift, u[1], u[2]};
-    }
+    states_[c].r = {options.start * contacts.scale(), 0, 0};
+    states_[c].w = {contacts.scale(), 0, 0};
   }
   refresh(contacts);
 }

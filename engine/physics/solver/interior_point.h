@@ -29,9 +29,6 @@ class InteriorPoint {
   };
 
   void start(const CoupledContacts& contacts, const Options& options);
-  /// From given impulses and the velocities that follow, both shifted into the cones by `shift` [m/s].
-  void startAt(const CoupledContacts& contacts, std::span<const ContactProblem::Triple> impulses,
-               double shift, const Options& options);
   /// One iteration, one factorisation. Returns false if there is no next one.
   bool advance(CoupledContacts& contacts);
   /// Mean r·w [m²/s²].
@@ -57,7 +54,6 @@ class InteriorPoint {
     Triple changeW{};
   };
 
-  void resize(const CoupledContacts& contacts, const Options& options);
   void refresh(const CoupledContacts& contacts);
   static void scale(const Contact& contact, State& state, std::array<double, 9>& stiffness);
   Triple given(const Contact& contact, const State& state, double target, bool corrected) const;

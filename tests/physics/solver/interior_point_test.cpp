@@ -35,19 +35,5 @@ TEST(InteriorPoint, endsAtTheCentre) {
   }
 }
 
-TEST(InteriorPoint, startsAtGivenImpulses) {
-  const ContactScene scene = cubeStack(2, 2, 0.5, 0.5);
-  CoupledContacts contacts;
-  contacts.set(scene.problem);
-  const std::vector<ContactProblem::Triple> none(8);
-  InteriorPoint method;
-  method.startAt(contacts, none, 1e-3, {});
-  for (std::size_t c = 0; c < 8; ++c) {
-    EXPECT_NEAR(method.impulses()[c][0], 1e-3 / 0.5 * contacts.contacts()[c].mass, 1e-15);
-  }
-  EXPECT_TRUE(method.advance(contacts));
-  EXPECT_GT(method.lastStride(), 0);
-}
-
 }  // namespace
 }  // namespace careen
