@@ -132,15 +132,11 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
 
 /// Where nearly redundant contacts leave the accepted residual far above rounding errors.
 void ContactSolver::polish() {
-  for (const double rho : {1.0, 0x1p5, 0x1p-6}) {
-    if (residual_ > std::max(inScale(kPolished), contacts_.noise())) {
-      std::copy(impulses_.begin(), impulses_.end(), from_.begin());
-      tryNewton(from_, {.rho = rho, .steps = 6});
-    }
-  }
+  std::copy(impulses_.begin(), impulses_.end(), from_.begin());
+  tryNewton(from_, {.steps = 3});
   if (residual_ > std::max(inScale(kPolished), contacts_.noise())) {
     std::copy(impulses_.begin(), impulses_.end(), from_.begin());
-    tryApproach(from_, {.epsilon = 0x1p-16, .steps = 60, .enough = inScale(kPolished)});
+    tryApproach(from_, {.epsilon = 0x1p-16, .steps = 60, .patience = 20, .enough = inScale(kPolished)});
   }
 }
 
@@ -158,8 +154,6 @@ bool ContactSolver::solve(const ContactProblem& problem, ContactSolution& soluti
   solveWithoutPolish(solution);
   solution.solved = isEnough();
   if (solution.solved && residual_ > enough_) {
-    std::copy(impulses_.begin(), impulses_.end(), from_.begin());
-    tryNewton(from_, {.steps = 3});
     polish();
   }
   solution.residual = residual_;
