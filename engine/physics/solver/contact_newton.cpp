@@ -20,6 +20,7 @@ constexpr double kDiverged = 0x1p100;
 constexpr double kProximal = 0.3;
 constexpr int kProximalSteps = 6;
 constexpr int kProximalTrials = 3;
+constexpr double kRetreat = 16;  // [1] of ε, after one that was not found
 /// [1] Of the largest λ/mass.
 constexpr double kGhost = 1e-3;
 
@@ -48,10 +49,11 @@ bool ContactNewton::isGood(const CoupledContacts& contacts, std::span<const Trip
   return residual <= good && residual <= kGhost * contacts.largest(impulses);
 }
 
-double ContactNewton::begin(const CoupledContacts& contacts, std::span<const Triple> impulses,
+/// Brings the impulses into their cones; the residual of that.
+double ContactNewton::begin(const CoupledContacts& contacts, std::span<Triple> impulses,
                             std::span<double> q) {
   const std::size_t count = impulses.size();
-  impulses_.assign(impulses.begin(), impulses.end());
+  impulses_.resize(count);
   admissible_.resize(count);
   u_.resize(count);
   answers_.resize(count);
@@ -59,7 +61,11 @@ double ContactNewton::begin(const CoupledContacts& contacts, std::span<const Tri
   dq_.resize(q.size());
   admissibleQ_.resize(q.size());
   factorisations_ = 0;
+  for (std::size_t c = 0; c < count; ++c) {
+    impulses_[c] = contacts.contacts()[c].admissible(impulses[c]);
+  }
   follow(contacts);
+  std::copy(impulses_.begin(), impulses_.end(), impulses.begin());
   std::copy(q_.begin(), q_.end(), q.begin());
   double worst = 0;
   for (std::size_t c = 0; c < count; ++c) {
@@ -180,7 +186,7 @@ double ContactNewton::approach(CoupledContacts& contacts, std::span<Triple> impu
          !isGood(contacts, impulses, best, options.good)) {
     int steps = 0;
     if (!solveProximal(contacts, options, std::max(kProximal * now, options.enough), steps)) {
-      options.epsilon *= 4;
+      options.epsilon *= kRetreat;
       continue;
     }
     std::copy(impulses_.begin(), impulses_.end(), centres_.begin());

@@ -46,7 +46,7 @@ class ContactNewton {
                      double good);
 
  private:
-  double begin(const CoupledContacts& contacts, std::span<const Triple> impulses, std::span<double> q);
+  double begin(const CoupledContacts& contacts, std::span<Triple> impulses, std::span<double> q);
   bool step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres);
   void follow(const CoupledContacts& contacts);
   double equationsError(const CoupledContacts& contacts, const Options& options) const;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kEnough = 1e-9;
 constexpr double kSmall = 1e-13;
 constexpr double kGoal = 0x1p-50;  // where Newton's method stops
-constexpr double kWarmGoal = 0x1p-46;
+constexpr double kFirstGoal = 0x1p-46;
 constexpr double kPolished = 0x1p-43;
 // [1] of the largest λ/mass
 constexpr double kOfImpulses = 1e-6;
@@ -108,16 +108,16 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
   if (isEnough()) {
     return;
   }
-  ContactNewton::Options first{.epsilon = kWarmEpsilon, .steps = kFirstSteps, .enough = inScale(kWarmGoal)};
-  if (solution.impulses.size() == impulses_.size()) {
+  const bool warm = solution.impulses.size() == impulses_.size();
+  if (warm) {
     contacts_.importImpulses(solution.impulses, from_);
-    if (tryApproach(from_, first)) {
-      return;
-    }
+  } else {
+    std::fill(from_.begin(), from_.end(), Triple{});
   }
-  std::fill(from_.begin(), from_.end(), Triple{});
-  first.epsilon = kColdEpsilon;
-  if (tryApproach(from_, first) || tryInterior({}, kIterations) || tryProximal(8)) {
+  if (tryApproach(from_, {.epsilon = warm ? kWarmEpsilon : kColdEpsilon,
+                          .steps = kFirstSteps,
+                          .enough = inScale(kFirstGoal)}) ||
+      tryInterior({}, kIterations) || tryProximal(8)) {
     return;
   }
   for (const double start : {1e4, 0.01, 1.0, 100.0, 0.1, 1e6}) {

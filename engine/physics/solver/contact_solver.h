@@ -13,7 +13,7 @@ namespace careen {
 /// Solves a ContactProblem, or says that it did not. In this order, until the residual is small enough:
 ///
 ///   1. no impulses;
-///   2. proximal points from the warm start; from no impulses;
+///   2. proximal points from the warm start, or from no impulses if there is none;
 ///   3. the interior-point method; whenever its gap fell a thousand times, Newton's method from there;
 ///   4. more proximal points, from the best iterate, with two other ρ in turn;
 ///   5. the interior-point method from other starts and with other parameters.

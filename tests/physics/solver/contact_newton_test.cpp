@@ -66,6 +66,22 @@ TEST(ContactNewton, stopsWhereTheCallerIsContentButNotAtGhosts) {
   EXPECT_FALSE(ContactNewton::isGood(at.contacts, at.impulses, 1e-4, 1e-2));
 }
 
+TEST(ContactNewton, givenImpulsesOutsideTheirConesAreBroughtIn) {
+  for (const bool proximal : {false, true}) {
+    Iterate at(sliding());
+    for (Triple& impulse : at.impulses) {
+      impulse = {0.25, 1, 0};
+    }
+    const ContactNewton::Options none{.steps = 0};
+    const double residual = proximal ? at.method.approach(at.contacts, at.impulses, at.q, none)
+                                     : at.method.improve(at.contacts, at.impulses, at.q, none);
+    for (const Triple& impulse : at.impulses) {
+      EXPECT_NEAR(impulse[1], 0.1 * 0.25, 1e-15);
+    }
+    EXPECT_EQ(residual, ContactNewton::residual(at.contacts, at.impulses, at.q));
+  }
+}
+
 // Redundant contacts keep the uneven distribution that they start from, but for what has to change.
 TEST(ContactNewton, keepsTheDistribution) {
   Iterate at(cubeStack(1, 1, 1, 0.5));
