@@ -15,8 +15,8 @@ constexpr double kLeastEpsilon = 0x1p-26;
 constexpr double kMostEpsilon = 1;
 /// [1] of V: beyond, the iteration has diverged, and would overflow.
 constexpr double kDiverged = 0x1p100;
-/// A proximal point is found if its equations hold to so much of the last residual, within so many steps;
-/// sooner it is given up where later steps leave a larger error than the first.
+/// A proximal point is found if its equations hold to so much of the last residual, within so many steps; it
+/// is given up if any step from the third on leaves a larger error than the first.
 constexpr double kProximal = 0.3;
 constexpr int kProximalSteps = 6;
 constexpr int kProximalTrials = 3;

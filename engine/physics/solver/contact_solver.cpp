@@ -108,12 +108,11 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
   if (isEnough()) {
     return;
   }
-  const bool warm = solution.impulses.size() == impulses_.size();
-  if (warm) {
+  std::fill(from_.begin(), from_.end(), Triple{});
+  if (solution.impulses.size() == impulses_.size()) {
     contacts_.importImpulses(solution.impulses, from_);
-  } else {
-    std::fill(from_.begin(), from_.end(), Triple{});
   }
+  const bool warm = contacts_.largest(from_) > 0;
   if (tryApproach(from_, {.epsilon = warm ? kWarmEpsilon : kColdEpsilon,
                           .steps = kFirstSteps,
                           .enough = inScale(kFirstGoal)}) ||

@@ -20,7 +20,8 @@ namespace careen {
 ///
 /// Small enough: residual ≤ 1e-9 V, and ≤ max(1e-13 V, 1e-6 of the largest λ/mass): without the second
 /// condition impulses of 1e-8 V can pass where the answer is large. Below the rounding error of the relative
-/// velocities themselves it is always small enough. What is accepted is then improved as far as a few steps
+/// velocities themselves it is always small enough, and so is what the caller calls enough where impulses are
+/// 1000 times larger: every stage stops there. What else is accepted is then improved as far as a few steps
 /// do.
 ///
 /// Redundant contacts share evenly: the impulses are nearest to the warm start, or to zero, or central. Where
