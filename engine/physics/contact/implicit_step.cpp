@@ -223,7 +223,7 @@ void ImplicitStep::addRows(const ContactFeature& feature, const ContactState& ge
 bool ImplicitStep::solve() {
   solution_.enough = enough_;
   const bool solved = solver_.solve(problem_, solution_);
-  factorisations_ += solution_.factorisations;
+  work_ += solution_.factorisations * static_cast<double>(movers_.size() + problem_.contacts.size());
   return solved;
 }
 

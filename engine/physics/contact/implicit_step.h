@@ -53,8 +53,8 @@ class ImplicitStep {
                   std::vector<ContactState>& contacts);
   /// [m/s²] Largest acceleration without contact forces at that state.
   double freeAcceleration(const GroupState& state);
-  /// Factorisations so far: the cost.
-  long factorisations() const { return factorisations_; }
+  /// Factorisations so far, each times the bodies and contacts in it: the cost.
+  double work() const { return work_; }
 
  private:
   void findLoads(const GroupState& at);
@@ -94,7 +94,7 @@ class ImplicitStep {
   std::vector<Kinematics> kinematics_;
   GroupState middle_;
   double enough_ = 0;  // [m/s] residual
-  long factorisations_ = 0;
+  double work_ = 0;
 };
 
 }  // namespace careen

@@ -45,6 +45,7 @@ constexpr int kMostAttempts = 60;
 constexpr int kMostHalvings = 20;
 /// Time steps where no smooth motion was found, before it is tried again.
 constexpr int kFewTimeSteps = 8;
+constexpr double kWorkOfGeometry = 60;
 /// Time steps before it is asked again whether the bodies rest.
 constexpr int kBeforeRest = 16;
 
@@ -295,7 +296,9 @@ Island::Step Island::takeTimeStep(double most) {
     stepper_ = std::make_unique<TimeStepper>(world_, bodies(), tolerance_);
     timeStepsLeft_ = std::max(timeStepsLeft_, kFewTimeSteps);
   }
+  const double before = stepper_->equations().work();
   Step done{.length = stepper_->step(most)};
+  work_ = stepper_->equations().work() - before + kWorkOfGeometry * static_cast<double>(bodies().size());
   --timeStepsLeft_;
   ++timeStepsTaken_;
   adopt();
@@ -354,6 +357,7 @@ Island::Step Island::step(double most) {
     return takeTimeStep(most);
   }
   tookTimeStep_ = false;
+  work_ = 0;
   stepper_.reset();
   if (known_) {
     startRate_ = endRate_;

@@ -69,6 +69,9 @@ class Island {
   ContactStep motion(std::size_t body) const { return motion(body, length_); }
   /// [m] deepest penetration at the end of a step.
   double deepest() const { return deepest_; }
+  /// Cost of the last step, if it was a time step: contacts and bodies in factorisations, and geometry, whose
+  /// cost for a body is that of about sixty.
+  double work() const { return work_; }
   /// Whether the last step may have dissipated energy: by friction, or because it was a time step.
   bool mayLose() const;
 
@@ -137,6 +140,7 @@ class Island {
   bool quiet_ = false;  // they end because hardly anything moves
   std::unique_ptr<TimeStepper> stepper_;
   double deepest_ = 0;
+  double work_ = 0;
 };
 
 }  // namespace careen

@@ -16,6 +16,9 @@ namespace {
 // Most events of one body at one moment before the run gives up: more than any impact needs, and a bound on
 // endless repetition.
 constexpr int kMostAtOneMoment = 1000;
+constexpr double kUsualTolerance = 1e-6;  // [m]
+/// [s] of bodies in contact.
+constexpr double kLongestStep = 1024;
 
 std::vector<double> radiiOf(const World& world) {
   std::vector<double> radii;
@@ -45,7 +48,9 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
     Mover& mover = movers_.emplace_back();
     mover.body = &world.bodies[listed];
     mover.listed = {static_cast<int>(listed)};
+    workShare_ += mover.isHeld() ? 0 : 1;
   }
+  workShare_ *= std::sqrt(std::max(1.0, kUsualTolerance / tolerance_));
   for (const Spring& spring : world.springs) {
     for (const SpringEnd* end : {&spring.from, &spring.to}) {
       const SpringEnd& other = end == &spring.from ? spring.to : spring.from;
@@ -191,20 +196,47 @@ void ExactWorld::rest(int rank, const Instant& time, const Pose& pose) {
   account_.departs(static_cast<std::size_t>(body.listed.value), {.pose = pose});
 }
 
-// Takes the next step of an island and records the motion of its bodies in it.
-void ExactWorld::touch(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time) {
-  Island& island = contactGroup->island;
-  double most = secondsBetween(time, end_);
+// Takes the next step of an island. Returns false if its bodies go on as a pile instead.
+bool ExactWorld::step(ContactGroup& contactGroup, const Instant& time) {
+  Island& island = contactGroup.island;
+  double most = kLongestStep;  // not the end of the run, so that the motion does not depend on it
   if (neighbors_.cellEdge() > 0) {
     most = std::min(most, withinCell(island));
   }
-  for (const TouchingBody& body : island.bodies()) {
+  const std::vector<TouchingBody> before = island.bodies();
+  try {
+    contactGroup.step = island.step(most);
+  } catch (const NumericalError&) {
+    if (!canPile()) {
+      throw;
+    }
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      if (!before[i].isHeld()) {
+        fly(contactGroup.ranks[i], time, before[i].state(), before[i].worldFromBody);
+      }
+    }
+    pileFrom_ = time;
+    return false;
+  }
+  for (const TouchingBody& body : before) {
     if (!body.isHeld()) {
       account_.departs(static_cast<std::size_t>(body.index), body.state());
     }
   }
+  work_ += island.work();
+  if (work_ > workShare_ * (kWorkAtOnce + kWorkPerSecond * time.hi) && canPile()) {
+    pileFrom_ = time;
+  }
+  return true;
+}
+
+// Takes the next step of an island and records the motion of its bodies in it.
+void ExactWorld::touch(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time) {
+  const Island& island = contactGroup->island;
   contactGroup->start = time;
-  contactGroup->step = island.step(most);
+  if (!step(*contactGroup, time)) {
+    return;
+  }
   contactGroup->motions.resize(contactGroup->ranks.size());
   for (std::size_t i = 0; i < contactGroup->ranks.size(); ++i) {
     if (island.bodies()[i].isHeld()) {
@@ -238,7 +270,7 @@ void ExactWorld::advance(const std::shared_ptr<ContactGroup>& contactGroup, cons
 // [s] Time in which no body of the island leaves the margin of its cell.
 double ExactWorld::withinCell(const Island& island) const {
   const double margin = neighbors_.cellEdge() / 32;
-  double most = secondsBetween({}, end_);
+  double most = kLongestStep;
   for (const TouchingBody& body : island.bodies()) {
     const double speed = body.velocity.norm();
     const double acceleration = 8 * island.system().gravityMagnitude();

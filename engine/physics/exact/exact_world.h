@@ -22,8 +22,8 @@ namespace careen {
 /// Contact in steps chosen by the tolerance, or Rest. Between events nothing is computed, and an event
 /// affects only the bodies involved in it.
 ///
-/// If more than kMostInIsland bodies that touch move, the whole world continues as a Pile from there:
-/// bounded, not exact. RunFigures reports it.
+/// Where contact costs too much, or its equations are not solved, the whole world continues as a Pile from
+/// there: bounded, not exact. RunFigures reports it.
 ///
 /// Bodies are identified by rank, their position in the order of names, so that their order in the scene
 /// changes no bit.
@@ -32,11 +32,14 @@ class ExactWorld {
   ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder);
   RunFigures run(const std::stop_token& stop);
 
-  /// Most bodies of one island that moves: the cost of each of its steps grows with their number, and so does
-  /// the number of steps. Bodies at rest are not counted.
-  static constexpr int kMostInIsland = 12;
-  /// The same of all islands together.
-  static constexpr int kMostInContact = 64;
+  /// Island::work() that a run may spend before it goes on as a pile: for each body that can move so much at
+  /// once, and so much per simulated second; at a tolerance below 1e-6 m more, as steps get shorter. A unit
+  /// takes about 1 µs. Counted, not timed, so that the motion is the same on every machine, and independent
+  /// of when the run ends.
+  static constexpr double kWorkAtOnce = 4.5e5;
+  static constexpr double kWorkPerSecond = 5e4;
+  /// Of more bodies in contact that move, time steps cost so much that it does not pay to begin.
+  static constexpr int kMostInContact = 100;
 
  private:
   /// [1] of timeScaleOf: changes of contact within it are counted together.
@@ -117,6 +120,7 @@ class ExactWorld {
   void fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude);
   void rest(int rank, const Instant& time, const Pose& pose);
   void touch(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time);
+  bool step(ContactGroup& contactGroup, const Instant& time);
   double withinCell(const Island& island) const;
   /// [m/s] gained by falling through the tolerance; without gravity the time that takes is infinite.
   double fallSpeed() const { return world_.gravity.isZero(0) ? 0 : world_.gravity.norm() * timeScale_; }
@@ -134,7 +138,9 @@ class ExactWorld {
 
   const World& world_;
   Instant end_;
-  std::optional<Instant> pileFrom_;  // set when too many bodies touch
+  std::optional<Instant> pileFrom_;  // set when contact costs too much
+  double work_ = 0;                  // of contact so far
+  double workShare_ = 0;             // [1] of the work per body that the run may spend
   double tolerance_;                 // [m]
   double timeScale_;                 // [s] see timeScaleOf
   Recorder& recorder_;

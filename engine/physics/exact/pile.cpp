@@ -31,16 +31,7 @@ ContactStep between(const BodyState& from, const BodyState& to) {
 
 // Asked of an encounter that begins Contact: of all bodies that touch and move, wherever they are.
 bool ExactWorld::needsPile(const Encounter& encounter) const {
-  if (!canPile() || encounter.islands.empty()) {
-    return false;
-  }
-  const auto moving = [&](const std::vector<int>& ranks) {
-    return std::count_if(ranks.begin(), ranks.end(), [&](int rank) { return !mover(rank).isHeld(); });
-  };
-  return std::any_of(encounter.islands.begin(), encounter.islands.end(),
-                     [&](const std::shared_ptr<ContactGroup>& contactGroup) {
-                       return moving(contactGroup->ranks) > kMostInIsland;
-                     }) ||
+  return canPile() && !encounter.islands.empty() &&
          std::count_if(movers_.begin(), movers_.end(), [](const Mover& body) { return body.touches(); }) >
              kMostInContact;
 }
