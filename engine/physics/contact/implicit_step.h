@@ -53,6 +53,8 @@ class ImplicitStep {
                   std::vector<ContactState>& contacts);
   /// [m/s²] Largest acceleration without contact forces at that state.
   double freeAcceleration(const GroupState& state);
+  /// [m/s] To which impulses are solved.
+  double residual() const { return enough_; }
   /// Factorisations so far, each times the bodies and contacts in it: the cost.
   double work() const { return work_; }
 

@@ -13,8 +13,8 @@
 
 namespace careen {
 
-/// [s] Time in which a body at rest falls by the tolerance; without gravity, in which the fastest body moves
-/// by the root of tolerance × size. Steps much shorter do not pay: contacts that change that often chatter.
+/// [s] Time in which a body at rest falls by the tolerance; without gravity, in which the body that is the
+/// fastest at the start moves by the root of tolerance × size: infinite if none moves. Steps much shorter do not pay: contacts that change that often chatter.
 double timeScaleOf(const World& world, double tolerance);
 
 /// The motion Contact: bodies that slide, roll, rock, lean or stand on walls and on each other, from one
@@ -116,6 +116,7 @@ class Island {
   bool creeps(std::size_t contact) const;
   bool stop();
   double sizeOf(const State& difference, double h) const;
+  double errorBetween(double h);
   double rootWithin(double h, std::size_t event, double atEnd);
 
   double tolerance_;

@@ -16,6 +16,8 @@ namespace {
 constexpr double kOpens = 0x1p-4;
 /// [1] of a closed gap: hops no higher are not followed.
 constexpr double kHop = 0x1p-4;
+/// [1] of the residual to which impulses are solved: approach no faster is none.
+constexpr double kResiduals = 4;
 constexpr int kMostRounds = 8;
 
 bool isSame(const ContactFeature& x, const ContactFeature& y) {
@@ -304,7 +306,7 @@ bool TimeStepper::collideOnce() {
   std::vector<char> approaching(found_.size(), 0);
   for (std::size_t c = 0; c < found_.size(); ++c) {
     const ContactFeature& feature = found_[c].feature;
-    approaching[c] = found_[c].rate < -0x1p-40 * speeds ? 1 : 0;
+    approaching[c] = found_[c].rate < -std::max(0x1p-40 * speeds, kResiduals * equations_.residual()) ? 1 : 0;
     if (!feature.b.isWall() && !bodies_[static_cast<std::size_t>(feature.b.body())].isHeld() &&
         !bodies_[static_cast<std::size_t>(feature.a)].isHeld()) {
       joined.join(static_cast<std::size_t>(feature.a), static_cast<std::size_t>(feature.b.body()));

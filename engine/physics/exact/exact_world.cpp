@@ -18,7 +18,7 @@ namespace {
 constexpr int kMostAtOneMoment = 1000;
 constexpr double kUsualTolerance = 1e-6;  // [m]
 /// [s] of bodies in contact.
-constexpr double kLongestStep = 1024;
+constexpr double kLongestStep = 1;
 
 std::vector<double> radiiOf(const World& world) {
   std::vector<double> radii;

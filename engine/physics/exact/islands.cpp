@@ -37,7 +37,8 @@ void ExactWorld::findChattering(Encounter& encounter) {
   constexpr int kFirstTimeSteps = 16;
   constexpr int kMostTimeSteps = 4096;
   constexpr double kAgain = 256;  // windows
-  const double window = kChatterWindow * timeScale_;
+  // Infinite if nothing moves at the start and there is no gravity.
+  const double window = std::isfinite(timeScale_) ? kChatterWindow * timeScale_ : 0;
   bool chatters = false;
   int before = 0;
   int movable = 0;

@@ -188,7 +188,7 @@ TEST(ExactWorldContact, movesTheSameHoweverLongTheRun) {
   const Recorded part = runFor(world, 0.7);
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     ASSERT_GT(part.motions[i].size(), 5U);
-    ASSERT_LT(part.motions[i].size(), whole.motions[i].size());
+    ASSERT_LE(part.motions[i].size(), whole.motions[i].size());
     for (std::size_t k = 0; k < part.motions[i].size(); ++k) {
       const auto& [start, motion] = part.motions[i][k];
       const auto& [startOfWhole, motionOfWhole] = whole.motions[i][k];
