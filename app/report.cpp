@@ -217,7 +217,7 @@ void printError(std::ostream& out, const Run& run) {
   printAudit(out, run);
   if (figures.boundedFrom) {
     out << "bounded      from " << *figures.boundedFrom
-        << " s on: exact contact costs too much there; all bodies go on as a pile\n";
+        << " s on: exact contact costs too much there, or has no solution; all bodies go on as a pile\n";
   }
   Life all;
   for (const Track& track : trajectory.tracks) {

@@ -358,6 +358,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"physics/contact/contact_system", "rebuilt with the contact solver; until then tested through island"},
     {"physics/contact/time_stepper_contacts", "part of class TimeStepper, tested through time_stepper"},
     {"physics/contact/island_events", "part of class Island, tested through island"},
+    {"physics/contact/island_time_steps", "part of class Island, tested through island and time_stepper"},
     {"physics/exact/groups", "part of class ExactWorld, tested through exact_world"},
     {"physics/exact/islands", "part of class ExactWorld, tested through exact_world"},
     {"physics/exact/pile", "part of class ExactWorld, tested through exact_world"},
