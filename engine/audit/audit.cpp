@@ -33,7 +33,7 @@ class Auditor {
       : run_(run),
         depth_(depth),
         stop_(stop),
-        findings_(run.settings, run.figures.boundedFrom),
+        findings_(run.settings, crowdBeginnings(run)),
         impacts_(impactsOfBodies(run)),
         badness_(run.tracks.size(), 0) {}
 
@@ -257,12 +257,12 @@ Audit Auditor::result() const {
         .size = largest.size,
         .time = largest.time,
         .bodies = namesOf(largest),
-        .promised = largest.promised && findings_.promise(traits.kind, largest.time)};
+        .promised = largest.promised && findings_.promise(traits.kind, largest)};
     if (const std::optional<Finding>& breach = findings_.firstBreach(traits.kind)) {
       audit.breaches.push_back(
           {.kind = traits.kind,
            .size = breach->size,
-           .allowed = allowed(*findings_.promise(traits.kind, breach->time), run_.settings, breach->length),
+           .allowed = allowed(*findings_.promise(traits.kind, *breach), run_.settings, breach->length),
            .largest = largest.size,
            .time = breach->time,
            .bodies = namesOf(*breach)});

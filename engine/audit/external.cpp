@@ -27,7 +27,8 @@ std::array<Pose, 2> placesOf(const Motion& motion) {
   if (const Rest* const rest = std::get_if<Rest>(&motion)) {
     return {rest->pose, rest->pose};
   }
-  const auto& step = std::get<ContactStep>(motion);
+  const CrowdStep* const crowd = std::get_if<CrowdStep>(&motion);
+  const ContactStep step = crowd != nullptr ? asContactStep(*crowd) : std::get<ContactStep>(motion);
   Vec3 position = Vec3::Zero();
   Vec4 turn = Vec4::Zero();
   for (std::size_t k = 0; k < step.position.size(); ++k) {
@@ -161,18 +162,16 @@ void ExternalOf::addWall(std::size_t wall, double friction, External& external) 
   }
 }
 
-// [m] A pile's frames tell where bodies begin and end, not what they touch between: the farthest that a body
-// moves in this frame or one beside it.
+// [m] Several steps of a crowd are recorded as one, which does not tell what they touched: the farthest that
+// a body moves in this one or one beside it.
 double ExternalOf::wayWithin(std::size_t body, std::size_t segment) const {
   const std::vector<Segment>& segments = run_.tracks[body].segments;
-  if (!run_.figures.boundedFrom || segments[segment].start < *run_.figures.boundedFrom) {
-    return 0;
-  }
   double way = 0;
   for (std::size_t k = segment > 0 ? segment - 1 : 0; k < std::min(segment + 2, segments.size()); ++k) {
-    if (const ContactStep* const step = std::get_if<ContactStep>(&segments[k].motion)) {
-      way = std::max(way, step->position[1].norm() +
-                              2 * step->worldFromBody[1].norm() * run_.world.bodies[body].halfExtents.norm());
+    if (const CrowdStep* const step = std::get_if<CrowdStep>(&segments[k].motion)) {
+      const StepBounds bounds = boundsOf(asContactStep(*step));
+      way = std::max(way, step->duration * (bounds.speed + bounds.angularSpeed *
+                                                               run_.world.bodies[body].halfExtents.norm()));
     }
   }
   return way;

@@ -1,5 +1,6 @@
 #include "physics/motion/motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/math/to_integer.h"
@@ -73,7 +74,20 @@ BodyState stateIn(const ContactStep& step, const MassProperties& mass, double el
           .angularMomentum = angularMomentum(mass, columns, omega)};
 }
 
+BodyState stateIn(const CrowdStep& step, const MassProperties& mass, double elapsed) {
+  return stateIn(asContactStep(step), mass, elapsed);
+}
+
 }  // namespace
+
+ContactStep asContactStep(const CrowdStep& step) {
+  ContactStep full{.duration = step.duration};
+  full.position.fill(Vec3::Zero());
+  full.worldFromBody.fill(Vec4::Zero());
+  std::copy(step.position.begin(), step.position.end(), full.position.begin());
+  std::copy(step.worldFromBody.begin(), step.worldFromBody.end(), full.worldFromBody.begin());
+  return full;
+}
 
 Vec3 positionAt(const ContactStep& step, double elapsed) {
   return evaluate(step.position, elapsed / step.duration).value;
@@ -81,6 +95,10 @@ Vec3 positionAt(const ContactStep& step, double elapsed) {
 
 Vec3 velocityAt(const ContactStep& step, double elapsed) {
   return evaluate(step.position, elapsed / step.duration).slope / step.duration;
+}
+
+Quat attitudeAt(const ContactStep& step, double elapsed) {
+  return Quat(evaluate(step.worldFromBody, elapsed / step.duration).value).normalized();
 }
 
 StepBounds boundsOf(const ContactStep& step) {
