@@ -22,23 +22,6 @@ bool isMovable(const World& world, const std::optional<int>& body) {
   return body && !isImmovable(world.bodies[static_cast<std::size_t>(*body)].mass);
 }
 
-// Places of a body where it begins a motion and where that ends.
-std::array<Pose, 2> placesOf(const Motion& motion) {
-  if (const Rest* const rest = std::get_if<Rest>(&motion)) {
-    return {rest->pose, rest->pose};
-  }
-  const CrowdStep* const crowd = std::get_if<CrowdStep>(&motion);
-  const ContactStep step = crowd != nullptr ? asContactStep(*crowd) : std::get<ContactStep>(motion);
-  Vec3 position = Vec3::Zero();
-  Vec4 turn = Vec4::Zero();
-  for (std::size_t k = 0; k < step.position.size(); ++k) {
-    position += step.position[k];
-    turn += step.worldFromBody[k];
-  }
-  return {Pose{step.position[0], Quat(step.worldFromBody[0]).normalized().toRotationMatrix()},
-          Pose{position, Quat(turn).normalized().toRotationMatrix()}};
-}
-
 }  // namespace
 
 ExternalOf::ExternalOf(const Trajectory& run, const ExchangeGroup& group, Vec3 origin)
@@ -180,8 +163,14 @@ double ExternalOf::wayWithin(std::size_t body, std::size_t segment) const {
 ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment) const {
   const Body& owner = run_.world.bodies[body];
   const double near = touchingDistance(owner, run_.settings) + wayWithin(body, segment);
+  const std::vector<Segment>& segments = run_.tracks[body].segments;
+  const double start = segments[segment].start;
+  // A step may have been cut: where its polynomial ends the body never was.
+  const double length =
+      (segment + 1 < segments.size() ? segments[segment + 1].start : run_.settings.duration) - start;
   Touches touches;
-  for (const Pose& place : placesOf(run_.tracks[body].segments[segment].motion)) {
+  for (const double elapsed : {0.0, length}) {
+    const Pose place = stateAt(segments[segment].motion, owner.mass, elapsed).pose;
     const AuditBox box{owner.halfExtents, place};
     for (std::size_t wall = 0; wall < run_.world.walls.size(); ++wall) {
       if (separationOf(box, run_.world.walls[wall]) <= near) {
