@@ -18,7 +18,8 @@ constexpr double kRestSpeed = 0x1p-44;
 constexpr double kProjected = 0x1p-51;
 constexpr double kProjectedSpeed = 0x1p-46;
 constexpr int kMostProjections = 4;
-/// [1] of the largest gap: no projection moves a body further.
+/// [1] of the largest gap, or rate: no projection moves a body further. Where contacts are nearly redundant
+/// but not quite, better some gap than a jump.
 constexpr double kMostShift = 64;
 
 Vec3 threeAt(std::span<const double> y, std::size_t at) { return {y[at], y[at + 1], y[at + 2]}; }
@@ -245,14 +246,14 @@ double ContactSystem::shiftOf(std::span<const double> displacement) const {
   return most;
 }
 
-bool ContactSystem::projectPositions(std::vector<double>& y) {
+double ContactSystem::projectPositions(std::vector<double>& y, double most) {
   const std::vector<Mode> kept = modes_;
   for (std::size_t c = 0; c < modes_.size(); ++c) {
     modes_[c] = modes_[c] == Mode::kOff || holdsSideways(c) ? modes_[c] : Mode::kOn;
   }
   const std::vector<double> still(inverseMass_.size(), 0.0);
-  int pass = 0;
-  for (; pass < kMostProjections; ++pass) {
+  double moved = 0;
+  for (int pass = 0; pass < kMostProjections; ++pass) {
     look(y);
     double worst = 0;
     double deepest = 0;  // [m]
@@ -279,9 +280,11 @@ bool ContactSystem::projectPositions(std::vector<double>& y) {
       }
     }
     solveGiven(still);
-    if (shiftOf(forces_.accelerations()) > kMostShift * deepest) {
-      break;  // contacts nearly redundant but not quite: better some gap than a jump
+    const double shift = shiftOf(forces_.accelerations());
+    if (shift > kMostShift * deepest || moved + shift > most) {
+      break;
     }
+    moved += shift;
     for (std::size_t m = 0; m < movers_.size(); ++m) {
       const std::size_t at = m * kNumbers;
       setThree(y, at, threeAt(y, at) + threeAt(forces_.accelerations(), m * kSix));
@@ -290,7 +293,7 @@ bool ContactSystem::projectPositions(std::vector<double>& y) {
     }
   }
   modes_ = kept;
-  return pass > 0;
+  return moved;
 }
 
 bool ContactSystem::projectVelocities(std::vector<double>& y) {
@@ -312,22 +315,25 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
       modes_[c] = Mode::kOn;
     }
   }
-  const bool moves = worst > kProjectedSpeed * scale;
+  bool moves = worst > kProjectedSpeed * scale;
   if (moves) {
     fillContacts();
     for (ContactForces::Contact& contact : forces_.contacts()) {
       contact.target = {};
+      contact.slips = false;
     }
     std::vector<double> before(inverseMass_.size());
     for (std::size_t m = 0; m < movers_.size(); ++m) {
       setThree(before, m * kSix, threeAt(y, m * kNumbers + 7));
       setThree(before, m * kSix + 3, threeAt(y, m * kNumbers + 10));
     }
-    for (ContactForces::Contact& contact : forces_.contacts()) {
-      contact.slips = false;
-    }
     solveGiven(before);
-    for (std::size_t m = 0; m < movers_.size(); ++m) {
+    std::vector<double> change(forces_.accelerations().begin(), forces_.accelerations().end());
+    for (std::size_t k = 0; k < change.size(); ++k) {
+      change[k] -= before[k];
+    }
+    moves = shiftOf(change) <= kMostShift * worst;
+    for (std::size_t m = 0; moves && m < movers_.size(); ++m) {
       setThree(y, m * kNumbers + 7, threeAt(forces_.accelerations(), m * kSix));
       setThree(y, m * kNumbers + 10, threeAt(forces_.accelerations(), m * kSix + 3));
     }
@@ -336,8 +342,8 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
   return moves;
 }
 
-bool ContactSystem::project(std::vector<double>& y) {
-  const bool moved = projectPositions(y);
+bool ContactSystem::project(std::vector<double>& y, double most) {
+  const bool moved = projectPositions(y, most) > 0;
   return projectVelocities(y) || moved;
 }
 

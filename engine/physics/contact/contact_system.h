@@ -31,6 +31,9 @@ class ContactSystem {
  public:
   using Mode = ContactForces::Mode;
   static constexpr std::size_t kNumbers = 13;
+  /// [1] of the tolerance: how far positions are projected at an event. Bodies whose contacts are nearly
+  /// redundant would jump.
+  static constexpr double kMostMoved = 3;
 
   ContactSystem(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features);
 
@@ -50,9 +53,11 @@ class ContactSystem {
 
   /// Projects the gaps of active contacts to zero by the least displacement (in the mass metric), and the
   /// sideways offsets of those in a cone that stick; their rates by the least impulse; removes the slip of
-  /// sticking contacts. Returns false if there was only rounding error.
-  bool project(std::vector<double>& y);
-  bool projectPositions(std::vector<double>& y);
+  /// sticking contacts. Returns false if there was only rounding error. No body moves by more than `most`
+  /// [m]: rather some gap.
+  bool project(std::vector<double>& y, double most);
+  /// Returns how far the bodies were moved [m].
+  double projectPositions(std::vector<double>& y, double most);
   bool projectVelocities(std::vector<double>& y);
 
   /// Contact states as of the last rate(), findModes() or look().

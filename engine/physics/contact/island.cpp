@@ -217,7 +217,7 @@ void Island::finish() {
       end_[k] /= size;
     }
   }
-  if (system_.project(end_)) {
+  if (system_.project(end_, ContactSystem::kMostMoved * tolerance_)) {
     system_.rate(end_, endRate_);
   }
 }
@@ -378,9 +378,12 @@ Island::Step Island::step(double most) {
   for (int halvings = 0; halvings < kMostHalvings && dips(done.length); ++halvings) {
     done = {.length = 0.5 * done.length};
     restep(done.length);
+    locate(done);
   }
-  // If the event was located past a moment where forces cease to exist, the end state means nothing.
-  if (done.end == End::kChanges && sizeOf(error_, done.length) > kMostLocated) {
+  // If the event was located past a moment where forces cease to exist, the end state means nothing, or its
+  // accelerations are so large that the polynomial between swings.
+  if (done.length < h && ((done.end == End::kChanges && sizeOf(error_, done.length) > kMostLocated) ||
+                          errorBetween(done.length) > kMostLocated)) {
     end_ = start_;
     return takeTimeStep(most);
   }

@@ -87,7 +87,7 @@ void Island::endTimeSteps() {
   }
   system_ = ContactSystem(world_, system_.bodies(), std::move(features));
   std::fill(system_.modes().begin(), system_.modes().end(), ContactForces::Mode::kOn);
-  system_.projectPositions(end_);
+  system_.projectPositions(end_, ContactSystem::kMostMoved * tolerance_);
   system_.look(end_);
   system_.unpack(end_);
 }

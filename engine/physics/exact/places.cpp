@@ -32,6 +32,7 @@ void ExactWorld::alignPlaces(Encounter& encounter, const Event& event) const {
     addMeeting(encounter, indexOf(encounter, event.body), indexOf(encounter, event.partner.body()), features);
   }
   constexpr int kMostPasses = 8;
+  double mayMove = ContactSystem::kMostMoved * tolerance_;
   for (int pass = 0; pass < kMostPasses; ++pass) {
     std::vector<TouchingBody> bodies;
     for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
@@ -40,7 +41,8 @@ void ExactWorld::alignPlaces(Encounter& encounter, const Event& event) const {
     ContactSystem system(world_, std::move(bodies), features);
     std::fill(system.modes().begin(), system.modes().end(), ContactForces::Mode::kOn);
     std::vector<double> y = system.pack();
-    if (system.projectPositions(y)) {
+    if (const double way = system.projectPositions(y, mayMove); way > 0) {
+      mayMove -= way;
       system.unpack(y);
       for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
         if (!mover(encounter.ranks[i]).isHeld()) {
