@@ -52,6 +52,9 @@ class ExactWorld {
   /// [1] of the tolerance: bodies that go on by time steps are one group up to this gap.
   static constexpr double kNear = 64;
 
+  /// [1] roundings: contacts that meet again and again, and part no faster, pass each other.
+  static constexpr double kHardlyParts = 0x1p20;
+
   /// What a body does after an event.
   enum class Next { kGoesOn, kFlies, kRests, kTouches };
 
@@ -71,7 +74,7 @@ class ExactWorld {
     std::vector<std::shared_ptr<ContactGroup>> islands;
     std::vector<std::shared_ptr<ContactGroup>> crowds;  ///< that these bodies meet
     int timeSteps = 0;                                  ///< its islands go on by so many
-    bool passes = false;                                ///< contacts without an impulse persist
+    double passing = 0;  ///< [1] contacts without an impulse persist that part with so many roundings
   };
 
   void begin();

@@ -5,6 +5,7 @@
 #include "physics/exact/exact_world.h"
 #include "physics/geometry/contact_points.h"
 #include "physics/impact/wall_contacts.h"
+#include "physics/search/first_contact_search.h"
 
 // Contact groups: bodies that touch at one moment, and the impact on them.
 
@@ -16,10 +17,12 @@ ExactWorld::Encounter ExactWorld::gather(const Event& event) {
   Encounter encounter;
   encounter.time = event.time;
   // The same pair triggers again without approaching (edges passing within rounding): hand it to contact
-  // stepping.
+  // stepping. At first only what hardly parts persists: the rest would lose its restitution.
   constexpr int kMostMeetings = 2;
-  encounter.passes = event.kind != EventKind::kStep && mover(event.body).atOneMoment > kMostMeetings;
-  encounter.cause = encounter.passes ? EventKind::kTouching : event.kind;
+  constexpr int kMostSlowMeetings = 8;
+  const int meetings = event.kind == EventKind::kStep ? 0 : mover(event.body).atOneMoment;
+  encounter.passing = meetings > kMostSlowMeetings ? kNever : meetings > kMostMeetings ? kHardlyParts : 0;
+  encounter.cause = meetings > kMostMeetings ? EventKind::kTouching : event.kind;
   reach(event, encounter);
   return encounter;
 }

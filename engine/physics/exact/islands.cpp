@@ -31,15 +31,17 @@ bool movesAlike(const BodyState& x, const BodyState& y) {
 }  // namespace
 
 // Bodies whose contacts change too often to follow each change go on by time steps: first a few, then twice
-// as many each time that was not enough.
+// as many each time that was not enough. Those that meet without an impact pass each other.
 void ExactWorld::findChattering(Encounter& encounter) {
   constexpr int kMostInWindow = 12;
+  constexpr int kMostAlone = 64;  // 2e-9 m high at a tolerance of 1e-6 m
+  constexpr double kEndless = 1 - 0x1p-12;
   constexpr int kFirstTimeSteps = 16;
   constexpr int kMostTimeSteps = 4096;
   constexpr double kAgain = 256;  // windows
   // Infinite if nothing moves at the start and there is no gravity.
   const double window = std::isfinite(timeScale_) ? kChatterWindow * timeScale_ : 0;
-  bool chatters = false;
+  int most = 0;
   int before = 0;
   int movable = 0;
   bool touching = false;
@@ -55,20 +57,30 @@ void ExactWorld::findChattering(Encounter& encounter) {
     ++body.changesInWindow;
     ++movable;
     touching = touching || body.touches();
-    chatters = chatters || body.changesInWindow > kMostInWindow;
+    most = std::max(most, body.changesInWindow);
     if (body.timeSteps > 0 && secondsBetween(body.chatteredFrom, encounter.time) < kAgain * window) {
       before = std::max(before, body.timeSteps);
     }
   }
-  // A single bouncing body is followed to the end: the time at which it comes to rest is exact. So are bodies
-  // that only fly and strike without gravity: their impacts are finite in number.
-  const bool returns = !world_.gravity.isZero(0) && movable > 1;
-  if (chatters && encounter.timeSteps == 0 && (touching || returns)) {
+  // A single bouncing body is followed to the end: the time at which it comes to rest is exact. If it loses
+  // nothing, there is none, and hops so low that they do not show would go on for ever. Bodies that only fly
+  // and strike without gravity are followed too: their impacts are finite in number.
+  const bool falls = !world_.gravity.isZero(0);
+  const bool endless =
+      std::any_of(encounter.contacts.begin(), encounter.contacts.end(),
+                  [](const ImpactContact& contact) { return contact.material.restitution > kEndless; });
+  const bool returns = falls && (movable > 1 || (endless && most > kMostAlone));
+  if (most > kMostInWindow && encounter.timeSteps == 0 && (touching || returns)) {
     encounter.timeSteps = std::clamp(2 * before, kFirstTimeSteps, kMostTimeSteps);
     for (const int rank : encounter.ranks) {
       mover(rank).timeSteps = encounter.timeSteps;
       mover(rank).chatteredFrom = encounter.time;
     }
+  } else if (most > kMostInWindow && encounter.cause != EventKind::kStep &&
+             std::none_of(encounter.shares.begin(), encounter.shares.end(),
+                          [](const ImpactShare& share) { return share.impulse > 0; })) {
+    encounter.passing = std::max(encounter.passing, kHardlyParts);
+    encounter.cause = EventKind::kTouching;
   }
 }
 
@@ -130,10 +142,8 @@ void ExactWorld::settleBody(Encounter& encounter, std::size_t index) const {
     const double normalAcceleration = normal.dot(acceleration);
     const bool returns =
         std::fabs(normalAcceleration) > kParting * acceleration.norm();  // along a wall it is rounding
-    const double departure =
-        contact.inCone ? partingAt(encounter, k).speed : normal.dot(state.velocity + omega.cross(arm));
     const Bouncing bouncing{.acceleration = returns ? normalAcceleration : 0,
-                            .departure = std::max(0.0, departure),
+                            .departure = std::max(0.0, partingAt(encounter, k).speed),
                             .restitution = contact.material.restitution,
                             .gapRounding = kGapRounding * lengthsAt(encounter, k)};
     if (!settles(bouncing, body.halfExtents.minCoeff())) {
@@ -190,7 +200,8 @@ void ExactWorld::findPersisting(Encounter& encounter) const {
   const double slow = hops ? fallSpeed() : 0;
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
     const Parting parting = partingAt(encounter, k);
-    const bool passes = encounter.passes && !(encounter.shares[k].impulse > 0);
+    const bool passes =
+        !(encounter.shares[k].impulse > 0) && parting.speed < encounter.passing * parting.rounding;
     if (encounter.timeSteps > 0 || passes || parting.speed <= std::max(slow, parting.rounding)) {
       encounter.persists[k] = 1;
     }
