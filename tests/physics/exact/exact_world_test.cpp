@@ -78,6 +78,21 @@ TEST(ExactWorld, bouncesOnABoxEndInRestToo) {
   }
 }
 
+// A turning slide without loss: friction at every hop tilts the box a little, and hops of 1e-10 m would go on
+// for ever (they did, 100,000 in a second).
+TEST(ExactWorld, hopsWithoutLossTooLowToSeeEnd) {
+  World world;
+  world.gravity = Vec3(0, 0, -9.81);
+  world.walls = {wall("floor", Vec3(0, 0, 1), 0, 1)};
+  world.walls[0].material.friction = 1;
+  world.bodies = {
+      box("box", Vec3(0.18, 0.13, 0.1), 1, Vec3(0, 0, 0.1 + 1e-10), Vec3(1, 0, 0), Vec3(0, 0, 1.7), 1)};
+  world.bodies[0].material.friction = 1;
+  const Recorded run = runFor(world, 2);
+  EXPECT_TRUE(std::holds_alternative<Rest>(run.motions[0].back().second));
+  EXPECT_LT(run.moments(), 1000);  // more than 200,000 if each is followed
+}
+
 // A thin plate clatters down to its last hops long before they are short for its thickness: they must not
 // feed on the rounding of the gap for ever (they did, 4 times in a microsecond). It ends flat and turning,
 // and then at rest.
