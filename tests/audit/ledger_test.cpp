@@ -1,4 +1,5 @@
 #include "audit/ledger.h"
+#include "audit/samples.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ Trajectory falling() {
 }
 
 Findings balanced(const Trajectory& run) {
-  Findings findings(run.settings, std::nullopt);
+  Findings findings(run.settings, crowdBeginnings(run));
   const Samples samples(run, goldenMoments(run.settings.duration, 20));
   checkBalances(run, samples, exchangeGroups(run, samples), findings);
   return findings;

@@ -1,6 +1,9 @@
 #include "audit/seams.h"
+#include "audit/samples.h"
 
 #include <gtest/gtest.h>
+
+#include <limits>
 
 #include "support/trajectories.h"
 
@@ -30,7 +33,7 @@ TEST(Seams, impactsGoToBothBodies) {
 }
 
 Findings checked(const Trajectory& run) {
-  Findings findings(run.settings, std::nullopt);
+  Findings findings(run.settings, crowdBeginnings(run));
   const std::vector<Seam> seams = seamsOf(run.tracks[0]);
   EXPECT_EQ(seams.size(), 1U);
   checkSeam(run, 0, seams.at(0), impactsOfBodies(run)[0], findings);
@@ -67,7 +70,7 @@ TEST(Seams, jumpsAreInMetresOfTheFarthestPoint) {
 }
 
 TEST(Seams, statesMustBeFiniteAndRotations) {
-  Findings findings({.tolerance = 1e-6}, std::nullopt);
+  Findings findings({.tolerance = 1e-6}, {std::numeric_limits<double>::infinity()});
   BodyState state;
   checkState(state, 0, 1, findings);
   EXPECT_EQ(findings.largest(AuditKind::kOrthogonality).size, 0);

@@ -27,6 +27,13 @@ struct Recorded {
     const auto& [start, motion] = motions[body].back();
     return stateAt(motion, world.bodies[body].mass, duration - start);
   }
+  BodyState at(const World& world, std::size_t body, double time) const {
+    std::size_t k = 0;
+    while (k + 1 < motions[body].size() && motions[body][k + 1].first <= time) {
+      ++k;
+    }
+    return stateAt(motions[body][k].second, world.bodies[body].mass, time - motions[body][k].first);
+  }
 };
 
 class Notes : public Recorder {

@@ -1,0 +1,260 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "physics/exact/exact_world.h"
+#include "physics/geometry/separation.h"
+#include "support/article_equations.h"
+#include "support/exact_runs.h"
+
+// Crowds among the other groups of the event queue.
+
+namespace careen {
+namespace {
+
+constexpr double kTolerance = 3e-4;
+
+Recorded crowdRun(const World& world, double duration, double tolerance = kTolerance, int above = 0) {
+  Recorded run;
+  run.motions.resize(world.bodies.size());
+  Notes notes(run);
+  const RunSettings settings{
+      .duration = duration,
+      .crowds = {.when = CrowdSettings::When::kAbove, .above = above, .tolerance = tolerance}};
+  run.figures = ExactWorld(world, settings, notes).run({});
+  return run;
+}
+
+World onAFloor(double friction, double restitution = 0) {
+  World world;
+  world.gravity = Vec3(0, 0, -9.81);
+  world.walls = {wall("floor", Vec3(0, 0, 1), 0, restitution)};
+  world.walls[0].material.friction = friction;
+  return world;
+}
+
+Body rough(Body body, double friction, double restitution = 0) {
+  body.material = {.restitution = restitution, .friction = friction};
+  return body;
+}
+
+// Layers that tumble onto each other.
+World layers() {
+  World world = onAFloor(0.5);
+  for (int k = 0; k < 40; ++k) {
+    const Vec3 position(0.75 * (k % 3), 0.75 * (k / 3 % 3), 0.4 + 0.75 * (k / 9));
+    const Vec3 spin(k % 5 - 2, k % 3 - 1, k % 4);
+    world.bodies.push_back(rough(
+        box("box-" + std::to_string(10 + k), Vec3(0.2, 0.2, 0.2), 1, position, Vec3::Zero(), spin, 0), 0.5));
+  }
+  return world;
+}
+
+bool isCrowd(const Motion& motion) { return std::holds_alternative<CrowdStep>(motion); }
+
+std::size_t crowdSteps(const Recorded& run, std::size_t body) {
+  return static_cast<std::size_t>(std::count_if(run.motions[body].begin(), run.motions[body].end(),
+                                                [](const auto& each) { return isCrowd(each.second); }));
+}
+
+TEST(ExactWorldCrowd, isLeftToItsMembers) {
+  World world = layers();
+  Body brick =
+      rough(box("brick", Vec3(0.1, 0.2, 0.3), 1, Vec3(-6, 0, 1.5), Vec3(0, 0.2, 0), Vec3(1, 2, 3), 0), 0, 1);
+  brick.name = "a-brick";
+  World alone = onAFloor(0.5);
+  world.walls[0].material.restitution = alone.walls[0].material.restitution = 1;
+  alone.bodies = {brick};
+  world.bodies.push_back(brick);
+  const Recorded both = crowdRun(world, 3);
+  const Recorded single = crowdRun(alone, 3);
+  ASSERT_TRUE(both.figures.boundedFrom);
+  ASSERT_EQ(both.motions.back().size(), single.motions[0].size());
+  ASSERT_GT(single.motions[0].size(), 4U);
+  for (std::size_t k = 0; k < single.motions[0].size(); ++k) {
+    EXPECT_EQ(both.motions.back()[k].first, single.motions[0][k].first);
+  }
+  for (double time = 0; time < 3; time += 0.0137) {
+    EXPECT_EQ(both.at(world, world.bodies.size() - 1, time).pose.position,
+              single.at(alone, 0, time).pose.position);
+  }
+}
+
+// By geometry that shares nothing with the crowd's, at moments that no step chooses.
+TEST(ExactWorldCrowd, keepsApartToItsToleranceBetweenStepsToo) {
+  const World world = layers();
+  for (const double tolerance : {3e-4, 3e-5}) {
+    const Recorded run = crowdRun(world, 2, tolerance);
+    double deepest = 0;
+    for (double time = 0.00137; time < 2; time += 0.00618) {
+      for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+        const Pose a = run.at(world, i, time).pose;
+        for (std::size_t j = i + 1; j < world.bodies.size(); ++j) {
+          const Pose b = run.at(world, j, time).pose;
+          if ((a.position - b.position).norm() < 0.7) {
+            deepest = std::max(
+                deepest, -BoxAxes({a, world.bodies[i].halfExtents}, {b, world.bodies[j].halfExtents}).gap());
+          }
+        }
+      }
+    }
+    EXPECT_LT(deepest, 3 * tolerance);
+    EXPECT_GT(deepest, 0);
+  }
+}
+
+// Places never jump; speeds only where something strikes.
+TEST(ExactWorldCrowd, movesContinuously) {
+  const World world = layers();
+  const Recorded run = crowdRun(world, 2);
+  std::size_t joins = 0;
+  std::size_t kinks = 0;
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    const auto& motions = run.motions[i];
+    for (std::size_t k = 1; k < motions.size(); ++k) {
+      const auto& [start, motion] = motions[k];
+      const BodyState before =
+          stateAt(motions[k - 1].second, world.bodies[i].mass, start - motions[k - 1].first);
+      const BodyState after = stateAt(motion, world.bodies[i].mass, 0);
+      EXPECT_LT((before.pose.position - after.pose.position).norm(), 1e-9) << i << " at " << start;
+      EXPECT_LT((before.pose.worldFromBody - after.pose.worldFromBody).norm(), 1e-6) << i << " at " << start;
+      joins += isCrowd(motion) ? 1 : 0;
+      kinks += isCrowd(motion) && (before.velocity - after.velocity).norm() > 0.05 ? 1 : 0;
+    }
+  }
+  ASSERT_GT(joins, 1000U);
+  EXPECT_LT(kinks, joins / 2);
+}
+
+TEST(ExactWorldCrowd, releasesWhatNothingTouches) {
+  World world = onAFloor(0.3, 0.8);
+  world.bodies = {rough(box("a", Vec3(0.2, 0.2, 0.2), 1, Vec3(0, 0, 0.2)), 0.3, 0.8),
+                  rough(box("b", Vec3(0.2, 0.2, 0.2), 1, Vec3(0.05, 0, 1.2)), 0.3, 0.8)};
+  const Recorded run = crowdRun(world, 1);
+  ASSERT_GT(crowdSteps(run, 1), 0U);
+  const auto& motions = run.motions[1];
+  const auto first =
+      std::find_if(motions.begin(), motions.end(), [](const auto& each) { return isCrowd(each.second); });
+  EXPECT_TRUE(std::any_of(first, motions.end(),
+                          [](const auto& each) { return std::holds_alternative<Flight>(each.second); }));
+  EXPECT_GT(run.at(world, 1, 0.8).pose.position.z(), 0.7);  // it bounced
+}
+
+// Without gravity, springs, walls: what strikes in a crowd exchanges momentum to rounding.
+TEST(ExactWorldCrowd, exchangesMomentum) {
+  World world;
+  for (int k = 0; k < 12; ++k) {
+    const Vec3 at(1.1 * (k % 3), 1.1 * (k / 3 % 2), 1.1 * (k / 6));
+    const Vec3 center(1.1, 0.55, 0.55);
+    world.bodies.push_back(rough(box("box-" + std::to_string(10 + k), Vec3(0.3, 0.4, 0.5), 1 + k, at,
+                                     2 * (center - at), Vec3(k % 3, 1, k % 2), 0),
+                                 0.4, 0.5));
+  }
+  const Recorded run = crowdRun(world, 1);
+  ASSERT_TRUE(run.figures.boundedFrom);
+  const auto momentum = [&](double time) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+      sum += world.bodies[i].mass.mass * run.at(world, i, time).velocity;
+    }
+    return sum;
+  };
+  EXPECT_LT((momentum(1) - momentum(0)).norm(), 1e-10 * 100);
+}
+
+// A spring pulls a crowd's members as it pulls an island's.
+TEST(ExactWorldCrowd, feelsSpringsAndDrag) {
+  World world = onAFloor(0);
+  world.bodies = {rough(box("a", Vec3(0.2, 0.2, 0.2), 1, Vec3(0, 0, 0.2)), 0),
+                  rough(box("b", Vec3(0.2, 0.2, 0.2), 1, Vec3(1.5, 0, 0.2)), 0)};
+  world.springs = {{.from = {.body = 0}, .to = {.body = 1}, .stiffness = 20, .restLength = 1}};
+  world.drag = Drag{.linear = 0.3, .angular = 0};
+  Recorded exact;
+  exact.motions.resize(2);
+  Notes notes(exact);
+  exact.figures = ExactWorld(world, {.duration = 2}, notes).run({});
+  for (const double tolerance : {3e-4, 3e-6}) {
+    World moving = world;
+    moving.bodies[0].initial.velocity = Vec3(1e-9, 0, 0);  // else both only rest on the floor
+    const Recorded crowd = crowdRun(moving, 2, tolerance);
+    ASSERT_GT(crowdSteps(crowd, 0), 10U);
+    const double error =
+        (crowd.at(moving, 0, 1.9).pose.position - exact.at(world, 0, 1.9).pose.position).norm();
+    EXPECT_LT(error, 30 * std::sqrt(tolerance * 1e-4)) << tolerance;  // first order in the step
+  }
+}
+
+TEST(ExactWorldCrowd, neverMeansNever) {
+  const World world = layers();
+  Recorded run;
+  run.motions.resize(world.bodies.size());
+  Notes notes(run);
+  const RunSettings settings{.duration = 0.45, .crowds = {.when = CrowdSettings::When::kNever}};
+  run.figures = ExactWorld(world, settings, notes).run({});
+  EXPECT_FALSE(run.figures.boundedFrom);
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    EXPECT_EQ(crowdSteps(run, i), 0U);
+  }
+}
+
+TEST(ExactWorldCrowd, listingChangesNoBit) {
+  const World world = layers();
+  World shuffled = world;
+  for (std::size_t k = 0; k < world.bodies.size(); ++k) {
+    shuffled.bodies[k] = world.bodies[(7 * k + 3) % world.bodies.size()];
+  }
+  const Recorded run = crowdRun(world, 1.2);
+  const Recorded other = crowdRun(shuffled, 1.2);
+  for (std::size_t k = 0; k < world.bodies.size(); ++k) {
+    EXPECT_EQ(run.at(world, (7 * k + 3) % world.bodies.size(), 1.2).pose.position,
+              other.at(shuffled, k, 1.2).pose.position);
+  }
+}
+
+// The arrivals of a crowd's dominoes converge to those of exact contact, at first order in the step.
+TEST(ExactWorldCrowd, convergesToExactContact) {
+  World world = onAFloor(0.4);
+  for (int k = 0; k < 6; ++k) {
+    world.bodies.push_back(
+        rough(box("d" + std::to_string(k), Vec3(0.05, 0.2, 0.4), 1, Vec3(0.42 * k, 0, 0.4)), 0.4));
+  }
+  const double tilt = 0.2;
+  world.bodies[0].initial.pose = {.position = Vec3(0.05 - 0.05 * std::cos(tilt) + 0.4 * std::sin(tilt), 0,
+                                                   0.05 * std::sin(tilt) + 0.4 * std::cos(tilt)),
+                                  .worldFromBody = axisAngle(Vec3::UnitY(), tilt)};
+  const auto arrival = [&](const Recorded& run, std::size_t body) {
+    double low = 0;
+    double high = 2;
+    const auto isTilted = [&](double time) {
+      return run.at(world, body, time).pose.worldFromBody(2, 2) < std::cos(0.1);
+    };
+    for (int k = 0; k < 40; ++k) {
+      const double middle = 0.5 * (low + high);
+      (isTilted(middle) ? high : low) = middle;
+    }
+    return high;
+  };
+  Recorded exact;
+  exact.motions.resize(world.bodies.size());
+  Notes notes(exact);
+  exact.figures =
+      ExactWorld(world, {.duration = 2, .crowds = {.when = CrowdSettings::When::kNever}}, notes).run({});
+  double before = 1;
+  for (const double tolerance : {3e-4, 3e-6}) {
+    const Recorded crowd = crowdRun(world, 2, tolerance);
+    double worst = 0;
+    for (std::size_t body = 1; body < 5; ++body) {
+      worst = std::max(worst, std::fabs(arrival(crowd, body) - arrival(exact, body)));
+    }
+    EXPECT_LT(worst, tolerance > 1e-4 ? 4e-3 : 4e-4) << tolerance;
+    EXPECT_LT(worst, 0.5 * before);
+    before = worst;
+  }
+}
+
+}  // namespace
+}  // namespace careen
