@@ -27,6 +27,9 @@ std::array<Pose, 2> placesOf(const Motion& motion) {
   if (const Rest* const rest = std::get_if<Rest>(&motion)) {
     return {rest->pose, rest->pose};
   }
+  if (const SampledStep* const step = std::get_if<SampledStep>(&motion)) {
+    return {step->start.pose, step->end.pose};
+  }
   const auto& step = std::get<ContactStep>(motion);
   Vec3 position = Vec3::Zero();
   Vec4 turn = Vec4::Zero();
@@ -161,18 +164,28 @@ void ExternalOf::addWall(std::size_t wall, double friction, External& external) 
   }
 }
 
-// [m] A pile's frames tell where bodies begin and end, not what they touch between: the farthest that a body
-// moves in this frame or one beside it.
+// [m] The frames of a pile and the rows of a table tell where bodies are at their ends, not what they touch
+// between: the farthest that a body moves in this frame or one beside it.
 double ExternalOf::wayWithin(std::size_t body, std::size_t segment) const {
   const std::vector<Segment>& segments = run_.tracks[body].segments;
-  if (!run_.figures.boundedFrom || segments[segment].start < *run_.figures.boundedFrom) {
+  const bool isPile = run_.figures.boundedFrom && segments[segment].start >= *run_.figures.boundedFrom;
+  if (!isPile && !run_.given) {
     return 0;
   }
+  const Body& owner = run_.world.bodies[body];
+  const double size = owner.halfExtents.norm();
   double way = 0;
-  for (std::size_t k = segment > 0 ? segment - 1 : 0; k < std::min(segment + 2, segments.size()); ++k) {
+  // Velocities that were estimated from rows beside an impact may be off two rows further.
+  const std::size_t beside = run_.given && !run_.given->velocities ? 3 : 1;
+  for (std::size_t k = segment - std::min(segment, beside);
+       k < std::min(segment + beside + 1, segments.size()); ++k) {
     if (const ContactStep* const step = std::get_if<ContactStep>(&segments[k].motion)) {
-      way = std::max(way, step->position[1].norm() +
-                              2 * step->worldFromBody[1].norm() * run_.world.bodies[body].halfExtents.norm());
+      way = std::max(way, step->position[1].norm() + 2 * step->worldFromBody[1].norm() * size);
+    } else if (const SampledStep* const row = std::get_if<SampledStep>(&segments[k].motion)) {
+      for (const BodyState& state : {row->start, row->end}) {
+        way = std::max(
+            way, row->duration * (state.velocity.norm() + size * angularVelocity(owner.mass, state).norm()));
+      }
     }
   }
   return way;

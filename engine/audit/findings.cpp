@@ -4,11 +4,12 @@
 
 namespace careen {
 
-Findings::Findings(const RunSettings& settings, std::optional<double> pileFrom)
+Findings::Findings(const RunSettings& settings, const Promises& before, const Promises& after,
+                   std::optional<double> pileFrom)
     : settings_(settings),
       pileFrom_(pileFrom.value_or(std::numeric_limits<double>::infinity())),
-      before_(promisesOf(settings.method, false)),
-      after_(promisesOf(settings.method, true)) {}
+      before_(before),
+      after_(after) {}
 
 const std::optional<Promise>& Findings::promise(AuditKind kind, double time) const {
   return (isPile(time) ? after_ : before_)[indexOf(kind)];

@@ -25,8 +25,12 @@ struct Finding {
 /// Collects findings.
 class Findings {
  public:
-  /// From `pileFrom` [s] on the run is a pile's.
-  Findings(const RunSettings& settings, std::optional<double> pileFrom);
+  /// From `pileFrom` [s] on the run is a pile's, of which `after` is promised.
+  Findings(const RunSettings& settings, const Promises& before, const Promises& after,
+           std::optional<double> pileFrom);
+  /// With what the method promises.
+  Findings(const RunSettings& settings, std::optional<double> pileFrom)
+      : Findings(settings, promisesOf(settings.method, false), promisesOf(settings.method, true), pileFrom) {}
 
   /// `rounding`: up to this the size says nothing; in the kind's unit.
   void add(AuditKind kind, double rounding, const Finding& found);

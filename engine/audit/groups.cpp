@@ -66,7 +66,7 @@ void joinBySteps(const Trajectory& run, Joining& joining) {
   }
 }
 
-// Bodies that lie on each other, and those of a pile, which meet between the moments too.
+// Bodies that lie on each other, and those of a pile or a table, which meet between the moments too.
 void joinByPlaces(const Trajectory& run, const Samples& samples, Joining& joining) {
   const std::size_t count = run.tracks.size();
   std::vector<Ball> balls(count);
@@ -75,7 +75,7 @@ void joinByPlaces(const Trajectory& run, const Samples& samples, Joining& joinin
     const double time = samples.times()[moment];
     const double before = moment > 0 ? samples.times()[moment - 1] : time;
     const double after = moment + 1 < samples.moments() ? samples.times()[moment + 1] : time;
-    const bool isPile = run.figures.boundedFrom && after >= *run.figures.boundedFrom;
+    const bool isPile = run.given || (run.figures.boundedFrom && after >= *run.figures.boundedFrom);
     for (std::size_t body = 0; body < count; ++body) {
       const BodyState& state = samples.state(moment, body);
       margins[body] = touchingDistance(run.world.bodies[body], run.settings) +

@@ -60,7 +60,8 @@ class Books {
   Holdings due_;
   Holdings largest_;  // its scales only
   bool takesEnergy_ = false;
-  // [J] A pile's speeds are means over frames, near 0 where a body bounces: one low energy is no loss.
+  // [J] A pile's speeds are means over frames, near 0 where a body bounces, and other engines store energy in
+  // contacts: one low energy is no loss.
   std::array<double, 4> last_{};
   std::size_t number_ = 0;
   double length_ = std::numeric_limits<double>::infinity();  // [m] that the tolerance is relative to
@@ -224,8 +225,9 @@ void Books::balanceEnergy(double time, const Holdings& now, const External& exte
   if (excess > 0) {
     report(AuditKind::kEnergyRise, time, excess, largest_.energyScale, rounding);
   } else if (mayFall) {
-    due_.energy = std::max(
-        now.energy, findings_.isPile(time) ? *std::max_element(last_.begin(), last_.end()) : now.energy);
+    due_.energy = std::max(now.energy, run_.given || findings_.isPile(time)
+                                           ? *std::max_element(last_.begin(), last_.end())
+                                           : now.energy);
   } else {
     report(AuditKind::kEnergyLoss, time, -excess, largest_.energyScale, rounding);
   }

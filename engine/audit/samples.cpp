@@ -19,6 +19,10 @@ Vec3 centerIn(const EulerStep& step, double elapsed) {
 Vec3 centerIn(const Flight& flight, double elapsed) { return flight.positionAt(elapsed); }
 Vec3 centerIn(const SteppedFlight& stepped, double elapsed) { return stepped.start.positionAt(elapsed); }
 Vec3 centerIn(const ContactStep& step, double elapsed) { return positionAt(step, elapsed); }
+Vec3 centerIn(const SampledStep& step, double elapsed) {
+  // The mass matters only for the attitude.
+  return stateAt(step, immovable(), elapsed).pose.position;
+}
 
 bool areFinite(const Pose& pose) { return pose.position.allFinite() && pose.worldFromBody.allFinite(); }
 bool areFinite(const Flight& flight) {
@@ -26,11 +30,14 @@ bool areFinite(const Flight& flight) {
          flight.worldFromBody.coeffs().allFinite() && flight.angularMomentum.allFinite();
 }
 
+bool areFinite(const BodyState& state) {
+  return areFinite(state.pose) && state.velocity.allFinite() && state.angularMomentum.allFinite();
+}
+
 struct AllFinite {
   bool operator()(const Rest& rest) const { return areFinite(rest.pose); }
   bool operator()(const EulerStep& step) const {
-    return areFinite(step.start.pose) && step.start.velocity.allFinite() &&
-           step.start.angularMomentum.allFinite() && step.force.allFinite() && step.torque.allFinite();
+    return areFinite(step.start) && step.force.allFinite() && step.torque.allFinite();
   }
   bool operator()(const Flight& flight) const { return areFinite(flight); }
   bool operator()(const SteppedFlight& stepped) const { return areFinite(stepped.start); }
@@ -39,6 +46,7 @@ struct AllFinite {
     return std::all_of(step.position.begin(), step.position.end(), finite) &&
            std::all_of(step.worldFromBody.begin(), step.worldFromBody.end(), finite);
   }
+  bool operator()(const SampledStep& step) const { return areFinite(step.start) && areFinite(step.end); }
 };
 
 }  // namespace
@@ -75,7 +83,8 @@ std::size_t segmentAt(const Track& track, double time) {
 bool isFinite(const Motion& motion) { return std::visit(AllFinite{}, motion); }
 
 bool mayTouch(const Motion& motion) {
-  return std::holds_alternative<Rest>(motion) || std::holds_alternative<ContactStep>(motion);
+  return std::holds_alternative<Rest>(motion) || std::holds_alternative<ContactStep>(motion) ||
+         std::holds_alternative<SampledStep>(motion);
 }
 
 }  // namespace careen

@@ -100,6 +100,13 @@ void visit(Archive& archive, Visited<Archive, ContactStep> step) {
 }
 
 template <class Archive>
+void visit(Archive& archive, Visited<Archive, SampledStep> step) {
+  archive.visit(step.duration);
+  visit(archive, step.start);
+  visit(archive, step.end);
+}
+
+template <class Archive>
 void visit(Archive& archive, Visited<Archive, MassProperties> mass) {
   archive.visit(mass.mass);
   archive.visit(mass.inverseMass);
