@@ -53,7 +53,7 @@ struct Setting {
 struct ValidationSettings {
   MeasuredStart start = MeasuredStart::kFitted;
   int floorRuns = 8;  ///< starts that the noise floor is the mean of
-  std::optional<Setting> setting;
+  std::optional<Setting> setting = {};
 };
 
 /// The setup that measurements are simulated with: all of the scene, by method exact.

@@ -44,7 +44,7 @@ std::string readEntry(zip_t* archive, zip_uint64_t index, std::size_t most, cons
     throw InputError(name + ": is damaged: " + zip_strerror(archive));
   }
   std::string bytes;
-  constexpr std::size_t kPiece = 1 << 20;
+  constexpr std::size_t kPiece = 1 << 16;
   while (true) {
     const std::size_t before = bytes.size();
     bytes.resize(before + kPiece);

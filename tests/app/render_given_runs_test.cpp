@@ -15,6 +15,7 @@ const std::string kScene = R"({
   "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "open": ["-y"], "restitution": 1 },
   "boxes": [ { "name": "crate", "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1],
                "velocity": [1, 0, 2], "angular_velocity": [1, 2, 3] } ],
+  "camera": { "eye": [0, -7, 2], "target": [0, 0, 1.5], "fov_deg": 40 },
   "film": { "size": [64, 48], "fps": 10 }
 })";
 

@@ -23,7 +23,8 @@ class Validate : public testing::Test {
  protected:
   void SetUp() override {
     folder_.write("scene.json", kScene);
-    ASSERT_EQ(careen({"simulate", "scene.json", "-o", "run.careen", "--poses", "one.csv", "--every", "0.005"}).exitCode,
+    ASSERT_EQ(careen({"simulate", "scene.json", "-o", "run.careen", "--poses", "one.csv", "--every", "0.005"})
+                  .exitCode,
               0);
   }
   Ended careen(std::vector<std::string> arguments) const {
@@ -35,14 +36,15 @@ class Validate : public testing::Test {
 };
 
 TEST_F(Validate, writesTablesPageAndRuns) {
-  const Ended ended = careen({"validate", "one.csv", "--scene", "scene.json", "--no-plots", "--out", "found", "--sweep",
-                              "friction=0.1:0.3:0.05"});
+  const Ended ended = careen({"validate", "one.csv", "--scene", "scene.json", "--no-plots", "--out", "found",
+                              "--sweep", "friction=0.1:0.3:0.05"});
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_NE(ended.out.find("faces        1 of 1 right"), std::string::npos) << ended.out;
-  EXPECT_NE(ended.out.find("is at friction 0.2; the scene's 0.2 has"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("; the scene's 0.2 has"), std::string::npos) << ended.out;
   const nlohmann::json report = nlohmann::json::parse(textOf(folder_ / "found/report.json"));
   EXPECT_LT(report["place"]["mean"], 1e-5);
   EXPECT_EQ(report["sweep"]["points"].size(), 5U);
+  EXPECT_NEAR(report["sweep"]["minimum"], 0.2, 0.01);
   for (const char* const file : {"results.csv", "errors.csv", "sweep.csv", "index.html", "runs/one.careen"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "found" / file)) << file;
   }
@@ -61,9 +63,11 @@ TEST_F(Validate, badUseIsTold) {
   refusal({"--scene", "scene.json"});
   refusal({"one.csv", "--scene", "scene.json", "--start", "last"});
   refusal({"nowhere.csv", "--scene", "scene.json"});
-  EXPECT_NE(refusal({"one.csv", "one.csv", "--scene", "scene.json"}).find("names that differ"), std::string::npos);
-  for (const char* const sweep : {"colour=1:2:3", "friction", "friction=1:2", "friction=0.3:0.1:0.1", "friction=0:1:0",
-                                  "restitution=0:2:0.1", "inertia=0:1:0.1", "friction=0:1:1e-9", "friction=a:1:0.1"}) {
+  EXPECT_NE(refusal({"one.csv", "one.csv", "--scene", "scene.json"}).find("names that differ"),
+            std::string::npos);
+  for (const char* const sweep :
+       {"colour=1:2:3", "friction", "friction=1:2", "friction=0.3:0.1:0.1", "friction=0:1:0",
+        "restitution=0:2:0.1", "inertia=0:1:0.1", "friction=0:1:1e-9", "friction=a:1:0.1"}) {
     EXPECT_NE(refusal({"one.csv", "--scene", "scene.json", "--sweep", sweep}).find("--sweep: found '"),
               std::string::npos)
         << sweep;
