@@ -18,8 +18,9 @@ namespace {
 struct Life {
   double flight = 0;
   double contact = 0;
+  double crowd = 0;
   double rest = 0;
-  std::size_t steps = 0;  // of Contact
+  std::size_t steps = 0;  // of Contact and of crowds
 };
 
 Life lifeOf(const Track& track, double duration) {
@@ -32,6 +33,9 @@ Life lifeOf(const Track& track, double duration) {
       life.rest += seconds;
     } else if (std::holds_alternative<ContactStep>(motion)) {
       life.contact += seconds;
+      ++life.steps;
+    } else if (std::holds_alternative<CrowdStep>(motion)) {
+      life.crowd += seconds;
       ++life.steps;
     } else {
       life.flight += seconds;
@@ -47,6 +51,7 @@ nlohmann::ordered_json lifeReport(const Trajectory& trajectory) {
     lives.push_back({{"box", trajectory.world.bodies[body].name},
                      {"flight", life.flight},
                      {"contact", life.contact},
+                     {"crowd", life.crowd},
                      {"rest", life.rest},
                      {"steps", life.steps}});
   }
@@ -232,21 +237,27 @@ void printError(std::ostream& out, const Run& run) {
       << figures.deepestPenetration << " m\n";
   printAudit(out, run);
   if (figures.boundedFrom) {
-    out << "bounded      from " << *figures.boundedFrom
-        << " s on: exact contact costs too much there, or has no solution; all bodies go on as a pile\n";
+    out << "crowd        from " << *figures.boundedFrom
+        << " s on, where exact contact costs too much or has no solution: only those bodies, with a bounded "
+           "error of about "
+        << trajectory.settings.crowds.tolerance << " m\n";
   }
   Life all;
   for (const Track& track : trajectory.tracks) {
     const Life life = lifeOf(track, trajectory.settings.duration);
     all.flight += life.flight;
     all.contact += life.contact;
+    all.crowd += life.crowd;
     all.rest += life.rest;
     all.steps += life.steps;
   }
-  const double whole = all.flight + all.contact + all.rest;
+  const double whole = all.flight + all.contact + all.crowd + all.rest;
   if (whole > 0 && !trajectory.given) {
-    out << "life         flight " << 100 * all.flight / whole << " %, contact " << 100 * all.contact / whole
-        << " % in " << all.steps << " steps, rest " << 100 * all.rest / whole << " %\n";
+    out << "life         flight " << 100 * all.flight / whole << " %, contact " << 100 * all.contact / whole;
+    if (figures.boundedFrom) {
+      out << " %, crowd " << 100 * all.crowd / whole;
+    }
+    out << " % in " << all.steps << " steps, rest " << 100 * all.rest / whole << " %\n";
   }
   out << "impacts      " << trajectory.impacts.size() << '\n';
   out << "state hash   " << trajectory.stateHash() << '\n';

@@ -237,7 +237,7 @@ RunFigures Run::statedFigures() const {
   RunFigures figures = trajectory.figures;
   const auto state = [this](double& own, std::initializer_list<AuditKind> kinds) {
     for (const AuditKind kind : kinds) {
-      const double found = audit.figure(kind).size;
+      const double found = audit.figure(kind).promised ? audit.figure(kind).size : 0;
       if (found > kDisagreement * own && found > kAgreement) {
         own = found;
       }

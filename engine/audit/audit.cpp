@@ -47,7 +47,7 @@ class Auditor {
         depth_(depth),
         stop_(stop),
         settings_(settingsOf(run, limits)),
-        findings_(settings_, promises(limits, false), promises(limits, true), run.figures.boundedFrom),
+        findings_(settings_, promises(limits, false), promises(limits, true), crowdBeginnings(run)),
         impacts_(impactsOfBodies(run)),
         badness_(run.tracks.size(), 0) {}
 
@@ -288,12 +288,12 @@ Audit Auditor::result() const {
         .size = largest.size,
         .time = largest.time,
         .bodies = namesOf(largest),
-        .promised = largest.promised && findings_.promise(traits.kind, largest.time)};
+        .promised = largest.promised && findings_.promise(traits.kind, largest)};
     if (const std::optional<Finding>& breach = findings_.firstBreach(traits.kind)) {
       audit.breaches.push_back(
           {.kind = traits.kind,
            .size = breach->size,
-           .allowed = allowed(*findings_.promise(traits.kind, breach->time), settings_, breach->length),
+           .allowed = allowed(*findings_.promise(traits.kind, *breach), settings_, breach->length),
            .largest = largest.size,
            .time = breach->time,
            .bodies = namesOf(*breach)});

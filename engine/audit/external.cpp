@@ -27,10 +27,11 @@ std::array<Pose, 2> placesOf(const Motion& motion) {
   if (const Rest* const rest = std::get_if<Rest>(&motion)) {
     return {rest->pose, rest->pose};
   }
-  if (const SampledStep* const step = std::get_if<SampledStep>(&motion)) {
-    return {step->start.pose, step->end.pose};
+  if (const SampledStep* const row = std::get_if<SampledStep>(&motion)) {
+    return {row->start.pose, row->end.pose};
   }
-  const auto& step = std::get<ContactStep>(motion);
+  const CrowdStep* const crowd = std::get_if<CrowdStep>(&motion);
+  const ContactStep step = crowd != nullptr ? asContactStep(*crowd) : std::get<ContactStep>(motion);
   Vec3 position = Vec3::Zero();
   Vec4 turn = Vec4::Zero();
   for (std::size_t k = 0; k < step.position.size(); ++k) {
@@ -164,14 +165,10 @@ void ExternalOf::addWall(std::size_t wall, double friction, External& external) 
   }
 }
 
-// [m] The frames of a pile and the rows of a table tell where bodies are at their ends, not what they touch
-// between: the farthest that a body moves in this frame or one beside it.
+// [m] Several steps of a crowd are recorded as one, which does not tell what they touched, and nor do the
+// rows of a table: the farthest that a body moves in this one or one beside it.
 double ExternalOf::wayWithin(std::size_t body, std::size_t segment) const {
   const std::vector<Segment>& segments = run_.tracks[body].segments;
-  const bool isPile = run_.figures.boundedFrom && segments[segment].start >= *run_.figures.boundedFrom;
-  if (!isPile && !run_.given) {
-    return 0;
-  }
   const Body& owner = run_.world.bodies[body];
   const double size = owner.halfExtents.norm();
   double way = 0;
@@ -179,8 +176,9 @@ double ExternalOf::wayWithin(std::size_t body, std::size_t segment) const {
   const std::size_t beside = run_.given && !run_.given->velocities ? 3 : 1;
   for (std::size_t k = segment - std::min(segment, beside);
        k < std::min(segment + beside + 1, segments.size()); ++k) {
-    if (const ContactStep* const step = std::get_if<ContactStep>(&segments[k].motion)) {
-      way = std::max(way, step->position[1].norm() + 2 * step->worldFromBody[1].norm() * size);
+    if (const CrowdStep* const step = std::get_if<CrowdStep>(&segments[k].motion)) {
+      const StepBounds bounds = boundsOf(asContactStep(*step));
+      way = std::max(way, step->duration * (bounds.speed + bounds.angularSpeed * size));
     } else if (const SampledStep* const row = std::get_if<SampledStep>(&segments[k].motion)) {
       for (const BodyState& state : {row->start, row->end}) {
         way = std::max(

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "audit/kinds.h"
@@ -25,12 +27,13 @@ struct Finding {
 /// Collects findings.
 class Findings {
  public:
-  /// From `pileFrom` [s] on the run is a pile's, of which `after` is promised.
+  /// `crowdFrom` [s], by body: from when on `after` is promised of it, see crowdBeginnings.
   Findings(const RunSettings& settings, const Promises& before, const Promises& after,
-           std::optional<double> pileFrom);
+           std::vector<double> crowdFrom);
   /// With what the method promises.
-  Findings(const RunSettings& settings, std::optional<double> pileFrom)
-      : Findings(settings, promisesOf(settings.method, false), promisesOf(settings.method, true), pileFrom) {}
+  Findings(const RunSettings& settings, std::vector<double> crowdFrom)
+      : Findings(settings, promisesOf(settings.method, false), promisesOf(settings.method, true),
+                 std::move(crowdFrom)) {}
 
   /// `rounding`: up to this the size says nothing; in the kind's unit.
   void add(AuditKind kind, double rounding, const Finding& found);
@@ -39,13 +42,14 @@ class Findings {
   const Finding& largest(AuditKind kind) const { return largest_[indexOf(kind)]; }
   /// The first in time that is larger than promised.
   const std::optional<Finding>& firstBreach(AuditKind kind) const { return breaches_[indexOf(kind)]; }
-  /// What is promised at a time.
-  const std::optional<Promise>& promise(AuditKind kind, double time) const;
-  bool isPile(double time) const { return time >= pileFrom_; }
+  /// What is promised of the finding's bodies at its time.
+  const std::optional<Promise>& promise(AuditKind kind, const Finding& finding) const;
+  /// Whether one of the bodies is in a crowd at that time, or was before.
+  bool isCrowd(double time, std::span<const std::size_t> bodies) const;
 
  private:
   RunSettings settings_;
-  double pileFrom_;
+  std::vector<double> crowdFrom_;
   Promises before_;
   Promises after_;
   std::array<Finding, kAuditKindCount> largest_;

@@ -55,8 +55,7 @@ void joinBySteps(const Trajectory& run, Joining& joining) {
   std::unordered_map<std::uint64_t, std::size_t> firstAt;
   for (std::size_t body = 0; body < run.tracks.size(); ++body) {
     for (const Segment& segment : run.tracks[body].segments) {
-      if (std::holds_alternative<ContactStep>(segment.motion) &&
-          !(run.figures.boundedFrom && segment.start >= *run.figures.boundedFrom)) {
+      if (std::holds_alternative<ContactStep>(segment.motion)) {
         const auto [at, isFirst] = firstAt.try_emplace(std::bit_cast<std::uint64_t>(segment.start), body);
         if (!isFirst) {
           joining.join(at->second, body);
@@ -66,20 +65,21 @@ void joinBySteps(const Trajectory& run, Joining& joining) {
   }
 }
 
-// Bodies that lie on each other, and those of a pile or a table, which meet between the moments too.
+// Bodies that lie on each other, and those of a crowd or a table, which meet between the moments too.
 void joinByPlaces(const Trajectory& run, const Samples& samples, Joining& joining) {
   const std::size_t count = run.tracks.size();
   std::vector<Ball> balls(count);
   std::vector<double> margins(count);
+  const std::vector<double> crowdFrom = crowdBeginnings(run);
   for (std::size_t moment = 0; moment < samples.moments() && count > 1; ++moment) {
     const double time = samples.times()[moment];
     const double before = moment > 0 ? samples.times()[moment - 1] : time;
     const double after = moment + 1 < samples.moments() ? samples.times()[moment + 1] : time;
-    const bool isPile = run.given || (run.figures.boundedFrom && after >= *run.figures.boundedFrom);
     for (std::size_t body = 0; body < count; ++body) {
       const BodyState& state = samples.state(moment, body);
-      margins[body] = touchingDistance(run.world.bodies[body], run.settings) +
-                      (isPile ? std::max(after - time, time - before) * state.velocity.norm() : 0);
+      margins[body] =
+          touchingDistance(run.world.bodies[body], run.settings) +
+          (crowdFrom[body] <= after ? std::max(after - time, time - before) * state.velocity.norm() : 0);
       balls[body] = {state.pose.position, run.world.bodies[body].halfExtents.norm() + margins[body]};
     }
     for (const auto& [a, b] : nearPairs(balls)) {

@@ -60,7 +60,7 @@ class Books {
   Holdings due_;
   Holdings largest_;  // its scales only
   bool takesEnergy_ = false;
-  // [J] A pile's speeds are means over frames, near 0 where a body bounces, and other engines store energy in
+  // [J] A crowd's speeds are means over steps, near 0 where a body bounces, and other engines store energy in
   // contacts: one low energy is no loss.
   std::array<double, 4> last_{};
   std::size_t number_ = 0;
@@ -225,7 +225,7 @@ void Books::balanceEnergy(double time, const Holdings& now, const External& exte
   if (excess > 0) {
     report(AuditKind::kEnergyRise, time, excess, largest_.energyScale, rounding);
   } else if (mayFall) {
-    due_.energy = std::max(now.energy, run_.given || findings_.isPile(time)
+    due_.energy = std::max(now.energy, findings_.isCrowd(time, group_.bodies)
                                            ? *std::max_element(last_.begin(), last_.end())
                                            : now.energy);
   } else {

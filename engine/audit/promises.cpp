@@ -21,8 +21,10 @@ constexpr Promise kByTolerance{.absolute = 1e-7, .tolerances = 100};
 
 constexpr Promises kOfExact = {kNever,   kApart,       kApart,       kRotation,    kSamePlace,
                                kImpulse, kByTolerance, kByTolerance, kByTolerance, kByTolerance};
-// Between one frame and the next a pile interpolates, so that nothing jumps.
-constexpr Promises kOfPile = {kNever, {}, {}, kRotation, kSamePlace, {}, {}, {}, {}, {}};
+// A crowd's members move continuously, so that nothing jumps.
+constexpr Promise kApartInCrowd{.absolute = 1e-9, .crowdTolerances = 3};
+constexpr Promises kOfCrowd = {kNever, kApartInCrowd, kApartInCrowd, kRotation, kSamePlace, {}, {}, {}, {},
+                               {}};
 // Explicit Euler: nothing about energy; corners may be 1 mm behind a wall at the ends of steps, and more
 // between them.
 constexpr Promises kOfListing1 = {kNever, {}, {}, kRotation, kRounding, kRounding, {}, {}, {}, {}};
@@ -32,10 +34,10 @@ constexpr Promises kOfSteppers = {kNever, {}, {}, kRotation, {}, {}, kRounding, 
 
 }  // namespace
 
-Promises promisesOf(Method method, bool pile) {
+Promises promisesOf(Method method, bool crowd) {
   switch (method) {
     case Method::kExact:
-      return pile ? kOfPile : kOfExact;
+      return crowd ? kOfCrowd : kOfExact;
     case Method::kListing1:
       return kOfListing1;
     default:
@@ -51,7 +53,8 @@ Promises promisesOfTable(double tolerance) {
 }
 
 double allowed(const Promise& promise, const RunSettings& settings, double length) {
-  return promise.absolute + promise.tolerances * settings.tolerance / length;
+  return promise.absolute + promise.tolerances * settings.tolerance / length +
+         promise.crowdTolerances * settings.crowds.tolerance;
 }
 
 std::string textOf(AuditKind kind, const std::optional<Promise>& promise) {
@@ -62,6 +65,9 @@ std::string textOf(AuditKind kind, const std::optional<Promise>& promise) {
   if (promise->tolerances > 0) {
     text.append(" + ").append(brief(promise->tolerances)).append(" tolerances");
     text.append(traitsOf(kind).unit == "1" ? "/size" : "");
+  }
+  if (promise->crowdTolerances > 0) {
+    text.append(" + ").append(brief(promise->crowdTolerances)).append(" tolerances of crowds");
   }
   return text;
 }

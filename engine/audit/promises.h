@@ -15,13 +15,14 @@ struct Promise {
   double absolute = 0;    ///< in the kind's own unit
   double tolerances = 0;  ///< [1] added: so many times RunSettings::tolerance, for kinds in metres; for kinds
                           ///< without a unit, relative to half the diagonal of the smallest box concerned
+  double crowdTolerances = 0;  ///< [1] added: so many times CrowdSettings::tolerance
 };
 
 using Promises = std::array<std::optional<Promise>, kAuditKindCount>;
 
-/// What a method promises; `pile`: method exact from RunFigures::boundedFrom on. The README has the same
+/// What a method promises; `crowd`: of bodies that are, or were, members of a crowd. The README has the same
 /// table.
-Promises promisesOf(Method method, bool pile);
+Promises promisesOf(Method method, bool crowd);
 
 /// What a run that comes from a table of poses is held to, though nobody promised it: `tolerance` [1] of what
 /// momenta and energies are relative to, and as many times RunSettings::tolerance [m] where boxes overlap or

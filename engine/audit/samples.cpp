@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -19,6 +20,7 @@ Vec3 centerIn(const EulerStep& step, double elapsed) {
 Vec3 centerIn(const Flight& flight, double elapsed) { return flight.positionAt(elapsed); }
 Vec3 centerIn(const SteppedFlight& stepped, double elapsed) { return stepped.start.positionAt(elapsed); }
 Vec3 centerIn(const ContactStep& step, double elapsed) { return positionAt(step, elapsed); }
+Vec3 centerIn(const CrowdStep& step, double elapsed) { return positionAt(asContactStep(step), elapsed); }
 Vec3 centerIn(const SampledStep& step, double elapsed) {
   // The mass matters only for the attitude.
   return stateAt(step, immovable(), elapsed).pose.position;
@@ -41,6 +43,7 @@ struct AllFinite {
   }
   bool operator()(const Flight& flight) const { return areFinite(flight); }
   bool operator()(const SteppedFlight& stepped) const { return areFinite(stepped.start); }
+  bool operator()(const CrowdStep& step) const { return (*this)(asContactStep(step)); }
   bool operator()(const ContactStep& step) const {
     const auto finite = [](const auto& vector) { return vector.allFinite(); };
     return std::all_of(step.position.begin(), step.position.end(), finite) &&
@@ -80,11 +83,23 @@ std::size_t segmentAt(const Track& track, double time) {
   return next == track.segments.begin() ? 0 : static_cast<std::size_t>(next - track.segments.begin()) - 1;
 }
 
+std::vector<double> crowdBeginnings(const Trajectory& run) {
+  std::vector<double> beginnings(run.tracks.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t body = 0; body < run.tracks.size(); ++body) {
+    const std::vector<Segment>& segments = run.tracks[body].segments;
+    const auto first = std::find_if(segments.begin(), segments.end(), [](const Segment& segment) {
+      return std::holds_alternative<CrowdStep>(segment.motion);
+    });
+    beginnings[body] = run.given ? 0 : first != segments.end() ? first->start : beginnings[body];
+  }
+  return beginnings;
+}
+
 bool isFinite(const Motion& motion) { return std::visit(AllFinite{}, motion); }
 
 bool mayTouch(const Motion& motion) {
   return std::holds_alternative<Rest>(motion) || std::holds_alternative<ContactStep>(motion) ||
-         std::holds_alternative<SampledStep>(motion);
+         std::holds_alternative<CrowdStep>(motion) || std::holds_alternative<SampledStep>(motion);
 }
 
 }  // namespace careen

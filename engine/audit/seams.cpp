@@ -54,6 +54,9 @@ Given givenBy(const Trajectory& run, std::size_t body, const Vec3& center,
 
 // [s] The time that speeds are derived from.
 double lengthOf(const Motion& motion) {
+  if (const CrowdStep* const step = std::get_if<CrowdStep>(&motion)) {
+    return step->duration;
+  }
   const ContactStep* const step = std::get_if<ContactStep>(&motion);
   return step != nullptr ? step->duration : std::numeric_limits<double>::infinity();
 }

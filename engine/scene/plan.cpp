@@ -215,7 +215,11 @@ World assemble(const Scene& scene, const Plan& plan) {
 }
 
 RunSettings settingsOf(const Scene& scene) {
-  return {.method = scene.method, .duration = scene.duration, .dt = scene.dt, .tolerance = scene.tolerance};
+  return {.method = scene.method,
+          .duration = scene.duration,
+          .dt = scene.dt,
+          .tolerance = scene.tolerance,
+          .crowds = scene.crowds};
 }
 
 Stage stageOf(const Scene& scene) {

@@ -7,6 +7,7 @@
 
 #include "core/math/linear_algebra.h"
 #include "physics/world/body.h"
+#include "physics/world/run_settings.h"
 #include "physics/world/world.h"
 #include "stage/camera.h"
 #include "stage/color.h"
@@ -49,6 +50,7 @@ struct Scene {
   Method method{};               ///< kExact unless said otherwise
   double dt = 1.0 / 240;         ///< [s]
   double tolerance = 1e-6;       ///< of methods with adaptive step size
+  CrowdSettings crowds;
   std::optional<Camera> camera;  ///< absent: a camera that sees the whole motion is chosen
   CameraMove cameraMove;         ///< empty if there is no camera
   TimeMap timeMap;

@@ -231,6 +231,23 @@ Method readMethod(const JsonValue& value) {
   return kMethods.at(value.word({kMethodNames.begin(), kMethodNames.end()}, "method")).method;
 }
 
+// "when" is a word, or a number of bodies.
+CrowdSettings readCrowds(const JsonValue& value) {
+  const JsonObject object = value.object({"when", "tolerance"});
+  CrowdSettings crowds;
+  if (const std::optional<JsonValue> when = object.find("when")) {
+    if (when->is(Kind::kNumber)) {
+      constexpr int kMost = 1'000'000'000;
+      crowds.when = CrowdSettings::When::kAbove;
+      crowds.above = when->integer(0, kMost, "boxes");
+    } else {
+      crowds.when = static_cast<CrowdSettings::When>(when->word({"auto", "never"}, "time of crowds"));
+    }
+  }
+  crowds.tolerance = object.number("tolerance", positiveNumber("m"), crowds.tolerance);
+  return crowds;
+}
+
 }  // namespace
 
 Scene readShape(const JsonTree& tree) {
@@ -240,7 +257,7 @@ Scene readShape(const JsonTree& tree) {
   }
   const JsonObject object =
       root.object({"careen", "name", "duration", "gravity", "room", "walls", "boxes", "springs", "drag",
-                   "method", "dt", "tolerance", "camera", "film", "look", "overlays", "$schema"});
+                   "method", "dt", "tolerance", "crowds", "camera", "film", "look", "overlays", "$schema"});
   Scene scene;
   scene.text = tree.text();
   if (const std::optional<JsonValue> name = object.find("name")) {
@@ -265,6 +282,9 @@ Scene readShape(const JsonTree& tree) {
   }
   scene.dt = object.number("dt", positiveNumber("s"), scene.dt);
   scene.tolerance = object.number("tolerance", positiveNumber(), scene.tolerance);
+  if (const std::optional<JsonValue> crowds = object.find("crowds")) {
+    scene.crowds = readCrowds(*crowds);
+  }
   if (const std::optional<JsonValue> camera = object.find("camera")) {
     readCamera(*camera, scene);
   }

@@ -68,6 +68,7 @@ struct Soundness {
     return stepped.method == settings.method && stepped.dt == settings.dt &&
            seconds <= kMostSteps * stepped.dt && isSound(stepped.start);
   }
+  bool operator()(const CrowdStep& step) const { return (*this)(asContactStep(step)); }
   bool operator()(const ContactStep& step) const {
     const auto isFinite = [](const auto& vector) { return vector.allFinite(); };
     return isPositive(step.duration) && std::all_of(step.position.begin(), step.position.end(), isFinite) &&
@@ -86,7 +87,7 @@ void checkTrack(const Track& track, const std::string& name, const RunSettings& 
   }
   for (std::size_t k = 0; k < track.segments.size(); ++k) {
     const Segment& segment = track.segments[k];
-    // A pile's last frame may end after the run.
+    // The last step may end after the run.
     const double end = k + 1 < track.segments.size() ? track.segments[k + 1].start
                                                      : std::max(segment.start, settings.duration);
     require(end >= segment.start - kRounding * settings.duration && std::isfinite(end),

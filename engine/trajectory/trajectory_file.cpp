@@ -19,7 +19,8 @@ namespace {
 
 // The line ends in the magic word reveal a transfer in text mode.
 constexpr std::string_view kMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 4;
+constexpr std::uint64_t kVersion = 5;
+constexpr std::uint64_t kVersionWithoutCrowds = 4;
 
 std::uint64_t checksum(std::string_view bytes) {
   Hash hash;
@@ -55,7 +56,7 @@ Unwrapped unwrapped(const std::string& bytes, const std::string& name) {
   reader = ArchiveReader(body.substr(kMagic.size()), name);
   Unwrapped file;
   reader.visit(file.version);
-  if (file.version != kVersion && file.version != 3) {
+  if (file.version != kVersion && file.version != kVersionWithoutCrowds && file.version != 3) {
     reader.fail("has format version " + std::to_string(file.version) + ", expected " +
                 std::to_string(kVersion));
   }
@@ -73,6 +74,7 @@ Unwrapped unwrapped(const std::string& bytes, const std::string& name) {
 std::string encodeTrajectory(const Trajectory& trajectory) {
   ArchiveWriter record;
   visit(record, trajectory);
+  visit(record, trajectory.settings.crowds);
   record.visit(trajectory.stateHash());
   ArchiveWriter file;
   file.bytes() += kMagic;
@@ -89,8 +91,11 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name, c
   const Unwrapped file = unwrapped(bytes, name);
   ArchiveReader reader(file.record, name);
   Trajectory trajectory;
-  if (file.version == kVersion) {
+  if (file.version >= kVersionWithoutCrowds) {
     visit(reader, trajectory);
+    if (file.version == kVersion) {
+      visit(reader, trajectory.settings.crowds);
+    }
   } else {
     readFormat3(reader, setupOf, trajectory);
   }
@@ -100,7 +105,7 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name, c
     reader.fail("has bytes after its end");
   }
   try {
-    if (file.version != kVersion) {
+    if (file.version < kVersionWithoutCrowds) {
       startWhereTracksDo(trajectory);
     }
     checkRun(trajectory);

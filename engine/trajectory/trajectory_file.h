@@ -18,9 +18,9 @@ std::string encodeTrajectory(const Trajectory& trajectory);
 using SetupReader = std::function<RunSetup(const std::string& sceneText, const RunSettings& settings)>;
 
 /// InputError if the bytes are not a trajectory, of another version, truncated or modified, or inconsistent
-/// (run_check.h). Every count is checked against the bytes that are left, and the run takes at most 1000 times
-/// the memory of the bytes. `name` stands for the file in messages. Files of version 3 contain no world and no stage:
-/// `setupOf` supplies them, and without it they are rejected.
+/// (run_check.h). Every count is checked against the bytes that are left, and the run takes at most 1000
+/// times the memory of the bytes. `name` stands for the file in messages. Files of version 3 contain no world
+/// and no stage: `setupOf` supplies them, and without it they are rejected.
 Trajectory decodeTrajectory(const std::string& bytes, const std::string& name,
                             const SetupReader& setupOf = {});
 

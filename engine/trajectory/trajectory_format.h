@@ -88,8 +88,8 @@ void visit(Archive& archive, Visited<Archive, SteppedFlight> stepped) {
   visit(archive, stepped.start);
 }
 
-template <class Archive>
-void visit(Archive& archive, Visited<Archive, ContactStep> step) {
+template <class Archive, class Step>
+void visitStep(Archive& archive, Step& step) {
   archive.visit(step.duration);
   for (std::size_t k = 0; k < step.position.size(); ++k) {
     visit(archive, step.position[k]);
@@ -104,6 +104,16 @@ void visit(Archive& archive, Visited<Archive, SampledStep> step) {
   archive.visit(step.duration);
   visit(archive, step.start);
   visit(archive, step.end);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, CrowdStep> step) {
+  visitStep(archive, step);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, ContactStep> step) {
+  visitStep(archive, step);
 }
 
 template <class Archive>
@@ -329,6 +339,21 @@ void visit(Archive& archive, Visited<Archive, RunFigures> figures) {
   archive.visit(boundedFrom);
   if constexpr (Archive::kReads) {
     figures.boundedFrom = boundedFrom >= 0 ? std::optional(boundedFrom) : std::nullopt;
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, CrowdSettings> crowds) {
+  int when = static_cast<int>(crowds.when);
+  visitIndex(archive, when);
+  visitIndex(archive, crowds.above);
+  archive.visit(crowds.tolerance);
+  if constexpr (Archive::kReads) {
+    if (when < 0 || when > static_cast<int>(CrowdSettings::When::kAbove) || crowds.above < 0 ||
+        !(crowds.tolerance > 0)) {
+      archive.fail("has invalid settings of crowds");
+    }
+    crowds.when = static_cast<CrowdSettings::When>(when);
   }
 }
 

@@ -287,17 +287,27 @@ TEST(Audit, mayLoseEnergyWhereSomethingTakesIt) {
   EXPECT_EQ(breachOf(audit(run, AuditDepth::kUsual), AuditKind::kEnergyLoss), nullptr);
 }
 
-// A pile promises neither places nor energy; what is found is named.
-TEST(Audit, namesWhatAPileDoesWithoutBlame) {
+// A crowd promises no energy, and places only to its own tolerance; what is found is named.
+TEST(Audit, judgesTheMembersOfACrowdByItsTolerance) {
   Trajectory run = runOf(kThree);
-  run.figures.boundedFrom = 0.1;
   run.impacts.clear();
-  run.tracks[0].segments.resize(1);
-  run.tracks[1].segments.resize(1);
-  const Audit found = audit(run, AuditDepth::kUsual);
-  EXPECT_EQ(textOf(found, run), "");
-  EXPECT_GT(found.figure(AuditKind::kBoxOverlap).size, 0.05);
-  EXPECT_FALSE(found.figure(AuditKind::kBoxOverlap).promised);
+  for (std::size_t body = 0; body < 2; ++body) {
+    const BodyState start = run.state(body, 0);
+    CrowdStep still{.duration = run.settings.duration};
+    still.position.fill(Vec3::Zero());
+    still.worldFromBody.fill(Vec4::Zero());
+    still.position[0] = start.pose.position;
+    still.position[1] = run.settings.duration * start.velocity;
+    still.worldFromBody[0] = Quat(start.pose.worldFromBody).coeffs();
+    run.tracks[body].segments.resize(1);
+    run.tracks[body].segments[0].motion = still;
+  }
+  run.settings.crowds.tolerance = 1;
+  const Audit lax = audit(run, AuditDepth::kUsual);
+  EXPECT_EQ(textOf(lax, run), "");
+  EXPECT_GT(lax.figure(AuditKind::kBoxOverlap).size, 0.05);
+  run.settings.crowds.tolerance = 1e-3;
+  EXPECT_NE(breachOf(audit(run, AuditDepth::kUsual), AuditKind::kBoxOverlap), nullptr);
 }
 
 TEST(Audit, fullLooksAtEverySegment) {

@@ -22,8 +22,8 @@ TEST(Promises, readmeHasTheSameTable) {
   const std::string text = readme();
   for (const AuditKindTraits& traits : kAuditKinds) {
     std::string row = "| `" + std::string(traits.name) + "` |";
-    const auto cell = [&](Method method, bool pile) {
-      row += " " + textOf(traits.kind, promisesOf(method, pile)[indexOf(traits.kind)]) + " |";
+    const auto cell = [&](Method method, bool crowd) {
+      row += " " + textOf(traits.kind, promisesOf(method, crowd)[indexOf(traits.kind)]) + " |";
     };
     cell(Method::kExact, false);
     cell(Method::kExact, true);
@@ -35,8 +35,8 @@ TEST(Promises, readmeHasTheSameTable) {
 
 TEST(Promises, everyMethodPromisesNumbers) {
   for (const MethodTraits& method : kMethods) {
-    for (const bool pile : {false, true}) {
-      const Promises promises = promisesOf(method.method, pile);
+    for (const bool crowd : {false, true}) {
+      const Promises promises = promisesOf(method.method, crowd);
       EXPECT_TRUE(promises[indexOf(AuditKind::kNotFinite)].has_value()) << method.name;
       EXPECT_TRUE(promises[indexOf(AuditKind::kOrthogonality)].has_value()) << method.name;
       // A stepper comes to the same moment in two ways, which differ by its own error.
@@ -50,6 +50,7 @@ TEST(Promises, toleranceCountsInMetresOrPartsOfASize) {
   const RunSettings settings{.tolerance = 1e-4};
   EXPECT_DOUBLE_EQ(allowed({.tolerances = 4}, settings, 1), 4e-4);
   EXPECT_DOUBLE_EQ(allowed({.absolute = 1e-3, .tolerances = 2}, settings, 0.1), 3e-3);
+  EXPECT_DOUBLE_EQ(allowed({.crowdTolerances = 3}, settings, 0.1), 9e-4);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 // 8.0). 250, 1000, 8028 boxes in the first 3 s: 5.0, 22.7, 318. A settled pile: 2 ns.
 #include <benchmark/benchmark.h>
 
-#include "physics/pile/pile.h"
+#include "support/crowd_run.h"
 #include "support/pile_scenes.h"
 
 #ifdef CAREEN_PEERS
@@ -46,11 +46,11 @@ void pour(benchmark::State& state) {
   const World world = sceneOf(state);
   const std::int64_t frames = 60 * state.range(1);
   for (auto _ : state) {
-    Pile pile(world, startOf(world), kFrame);
+    test::CrowdRun crowd(world);
     for (std::int64_t k = 0; k < frames; ++k) {
-      pile.step();
+      crowd.step();
     }
-    benchmark::DoNotOptimize(pile.states().data());
+    benchmark::DoNotOptimize(crowd.states().data());
   }
   perFrame(state, frames);
 }
@@ -66,14 +66,14 @@ BENCHMARK(pour)
 // After all bodies sleep.
 void settled(benchmark::State& state) {
   const World world = sceneOf(state);
-  Pile pile(world, startOf(world), kFrame);
-  for (std::int64_t k = 0; k < 60 * state.range(1) && !pile.atRest(); ++k) {
-    pile.step();
+  test::CrowdRun crowd(world);
+  for (std::int64_t k = 0; k < 60 * state.range(1) && !crowd.atRest(); ++k) {
+    crowd.step();
   }
   for (auto _ : state) {
-    pile.step();
+    crowd.step();
   }
-  state.counters["atRest"] = pile.atRest() ? 1 : 0;
+  state.counters["atRest"] = crowd.atRest() ? 1 : 0;
 }
 BENCHMARK(settled)->Args({200, 20, 6});
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/contact/hermite_step.h"
+#include "physics/motion/hermite_step.h"
 #include "physics/geometry/separation.h"
 
 namespace careen {

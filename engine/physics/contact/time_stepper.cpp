@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/math/falling_bracket.h"
-#include "physics/contact/hermite_step.h"
+#include "physics/motion/hermite_step.h"
 
 // Step control. Contacts and impacts are in time_stepper_contacts.cpp.
 

@@ -13,9 +13,6 @@
 namespace careen {
 namespace {
 
-// Most events of one body at one moment before the run gives up: more than any impact needs, and a bound on
-// endless repetition.
-constexpr int kMostAtOneMoment = 1000;
 constexpr double kUsualTolerance = 1e-6;  // [m]
 /// [s] of bodies in contact.
 constexpr double kLongestStep = 1;
@@ -35,6 +32,7 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
     : world_(world),
       end_(settings.duration),
       tolerance_(settings.tolerance),
+      crowds_(settings.crowds),
       timeScale_(timeScaleOf(world, settings.tolerance)),
       recorder_(recorder),
       neighbors_(radiiOf(world)),
@@ -43,14 +41,16 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
       forced_(world.bodies.size(), world.drag ? 1 : 0),
       springs_(world.bodies.size()) {
   std::vector<int> rankOf(world.bodies.size());
+  double movable = 0;
   for (const std::size_t listed : orderByName(world.bodies)) {
     rankOf[listed] = static_cast<int>(movers_.size());
     Mover& mover = movers_.emplace_back();
     mover.body = &world.bodies[listed];
     mover.listed = {static_cast<int>(listed)};
-    workShare_ += mover.isHeld() ? 0 : 1;
+    movable += mover.isHeld() ? 0 : 1;
   }
-  workShare_ *= std::sqrt(std::max(1.0, kUsualTolerance / tolerance_));
+  const double part = std::min(1.0, kMostInContact / std::max(1.0, movable));
+  workShare_ = part * part * part * std::sqrt(std::max(1.0, kUsualTolerance / tolerance_));
   for (const Spring& spring : world.springs) {
     for (const SpringEnd* end : {&spring.from, &spring.to}) {
       const SpringEnd& other = end == &spring.from ? spring.to : spring.from;
@@ -69,18 +69,14 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
 
 RunFigures ExactWorld::run(const std::stop_token& stop) {
   begin();
-  for (std::optional<Event> event = queue_.next(); event && !pileFrom_ && !earlier(end_, event->time);
+  for (std::optional<Event> event = queue_.next(); event && !earlier(end_, event->time);
        event = queue_.next()) {
     if (stop.stop_requested()) {
       throw Interrupted();
     }
     happen(*event);
   }
-  if (pileFrom_) {
-    runAsPile(stop);
-  } else {
-    end();
-  }
+  end();
   return account_.figures();
 }
 
@@ -111,18 +107,34 @@ void ExactWorld::happen(const Event& event) {
     predict(event.body);
   } else if (!event.partner.isWall() && mover(event.partner.body()).motion != event.partnerMotion) {
     predict(event.body);
+  } else if (event.kind == EventKind::kStep && mover(event.body).contactGroup->crowd) {
+    advanceCrowd(mover(event.body).contactGroup, event.time);
   } else if (event.kind == EventKind::kStep &&
              mover(event.body).contactGroup->step.end == Island::End::kGoesOn) {
     advance(mover(event.body).contactGroup, event.time);
   } else {
     Encounter encounter = gather(event);
-    resolve(encounter);
-    settle(encounter);
+    if (goesOnAsCrowd(encounter)) {
+      formCrowd(encounter);
+      return;
+    }
+    try {
+      findContacts(event, encounter);
+      resolve(encounter);
+      settle(encounter);
+    } catch (const NumericalError&) {
+      if (crowds_.when == CrowdSettings::When::kNever) {
+        throw;
+      }
+      formCrowd(encounter);
+      return;
+    }
+    if (hasSpent(encounter)) {
+      formCrowd(encounter);
+      return;
+    }
     record(encounter);
     moveOn(encounter);
-    if (needsPile(encounter)) {
-      pileFrom_ = event.time;
-    }
   }
 }
 
@@ -165,10 +177,14 @@ void ExactWorld::end() {
       arrive(body, end_, body.stateAt(end_));
     }
   }
-  for (const Mover& body : movers_) {
+  for (Mover& body : movers_) {
     if (body.touches()) {
       account_.departs(static_cast<std::size_t>(body.listed.value), body.stateAt(end_));
-      mayLose = mayLose || body.contactGroup->island.mayLose();
+      mayLose = mayLose || body.contactGroup->crowd || body.contactGroup->island->mayLose();
+      if (body.contactGroup->crowd) {
+        endStep(*body.contactGroup, body.place);
+        body.contactGroup->merged[body.place].flush(recorder_, body.listed);
+      }
     }
   }
   account_.strikes(mayLose);
@@ -196,54 +212,58 @@ void ExactWorld::rest(int rank, const Instant& time, const Pose& pose) {
   account_.departs(static_cast<std::size_t>(body.listed.value), {.pose = pose});
 }
 
-// Takes the next step of an island. Returns false if its bodies go on as a pile instead.
+// Takes the next step of an island. Returns false if its bodies go on as a crowd instead.
 bool ExactWorld::step(ContactGroup& contactGroup, const Instant& time) {
-  Island& island = contactGroup.island;
+  Island& island = *contactGroup.island;
   double most = kLongestStep;  // not the end of the run, so that the motion does not depend on it
-  if (neighbors_.cellEdge() > 0) {
-    most = std::min(most, withinCell(island));
+  double movable = 0;
+  for (const TouchingBody& body : island.bodies()) {
+    most = std::min(most, withinCell(body.velocity.norm()));
+    movable += body.isHeld() ? 0 : 1;
   }
   const std::vector<TouchingBody> before = island.bodies();
   try {
     contactGroup.step = island.step(most);
   } catch (const NumericalError&) {
-    if (!canPile()) {
+    if (crowds_.when == CrowdSettings::When::kNever) {
       throw;
     }
+    Encounter encounter;
+    encounter.time = time;
     for (std::size_t i = 0; i < before.size(); ++i) {
-      if (!before[i].isHeld()) {
-        fly(contactGroup.ranks[i], time, before[i].state(), before[i].worldFromBody);
-      }
+      encounter.ranks.push_back(contactGroup.ranks[i]);
+      encounter.attitudes.push_back(before[i].worldFromBody);
+      encounter.before.push_back(before[i].state());
     }
-    pileFrom_ = time;
+    formCrowd(encounter);
     return false;
   }
-  for (const TouchingBody& body : before) {
-    if (!body.isHeld()) {
-      account_.departs(static_cast<std::size_t>(body.index), body.state());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (!before[i].isHeld()) {
+      account_.departs(static_cast<std::size_t>(before[i].index), before[i].state());
+      mover(contactGroup.ranks[i]).work += island.work() / movable;
     }
-  }
-  work_ += island.work();
-  if (work_ > workShare_ * (kWorkAtOnce + kWorkPerSecond * time.hi) && canPile()) {
-    pileFrom_ = time;
   }
   return true;
 }
 
 // Takes the next step of an island and records the motion of its bodies in it.
 void ExactWorld::touch(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time) {
-  const Island& island = contactGroup->island;
+  const Island& island = *contactGroup->island;
   contactGroup->start = time;
   if (!step(*contactGroup, time)) {
     return;
   }
   contactGroup->motions.resize(contactGroup->ranks.size());
+  bool any = false;
   for (std::size_t i = 0; i < contactGroup->ranks.size(); ++i) {
     if (island.bodies()[i].isHeld()) {
       continue;
     }
     const int rank = contactGroup->ranks[i];
     Mover& body = mover(rank);
+    contactGroup->leader = any ? contactGroup->leader : rank;
+    any = true;
     begins(rank, time);
     contactGroup->motions[i] = island.motion(i);
     body.touch(contactGroup, i);
@@ -257,38 +277,35 @@ void ExactWorld::touch(const std::shared_ptr<ContactGroup>& contactGroup, const 
 }
 
 void ExactWorld::advance(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time) {
-  account_.strikes(contactGroup->island.mayLose());
+  account_.strikes(contactGroup->island->mayLose());
   touch(contactGroup, time);
   account_.parted();
   for (std::size_t i = 0; i < contactGroup->ranks.size(); ++i) {
-    if (!contactGroup->island.bodies()[i].isHeld()) {
+    if (!mover(contactGroup->ranks[i]).isHeld()) {
       predict(contactGroup->ranks[i]);
     }
   }
 }
 
-// [s] Time in which no body of the island leaves the margin of its cell.
-double ExactWorld::withinCell(const Island& island) const {
-  const double margin = neighbors_.cellEdge() / 32;
-  double most = kLongestStep;
-  for (const TouchingBody& body : island.bodies()) {
-    const double speed = body.velocity.norm();
-    const double acceleration = 8 * island.system().gravityMagnitude();
-    // speed t + acceleration t²/2 ≤ margin
-    if (speed + acceleration > 0) {
-      most = std::min(most, 2 * margin / (speed + std::sqrt(speed * speed + 2 * acceleration * margin)));
-    }
+// [s] Time in which a body of this speed does not leave the margin of its cell.
+double ExactWorld::withinCell(double speed) const {
+  if (!(neighbors_.cellEdge() > 0)) {
+    return kLongestStep;
   }
-  return most;
+  const double margin = neighbors_.cellEdge() / 32;
+  const double acceleration = 8 * world_.gravity.norm();
+  // speed t + acceleration t²/2 ≤ margin
+  return speed + acceleration > 0
+             ? std::min(kLongestStep,
+                        2 * margin / (speed + std::sqrt(speed * speed + 2 * acceleration * margin)))
+             : kLongestStep;
 }
 
 void ExactWorld::begins(int rank, const Instant& time) {
   Mover& body = mover(rank);
   const bool again = body.motion > 0 && !earlier(body.start, time);
   body.atOneMoment = again ? body.atOneMoment + 1 : 0;
-  if (body.atOneMoment > kMostAtOneMoment && canPile()) {
-    pileFrom_ = time;
-  } else if (body.atOneMoment > kMostAtOneMoment) {
+  if (body.atOneMoment > 2 * kMostAtOneMoment) {
     throw NumericalError(where(rank, time) + "collides again and again without time passing");
   }
   body.start = time;
@@ -308,7 +325,7 @@ void ExactWorld::predict(int rank) {
     return;
   }
   std::optional<Event> first = body.wall;
-  if (body.touches() && body.contactGroup->leader() == rank && earlier(body.contactGroup->end(), end_)) {
+  if (body.touches() && body.contactGroup->leader == rank && earlier(body.contactGroup->end(), end_)) {
     first = {.time = body.contactGroup->end(), .kind = EventKind::kStep, .body = rank};
   }
   if (body.crosses) {
@@ -316,7 +333,11 @@ void ExactWorld::predict(int rank) {
         first,
         {.time = instantAfter(body.start, body.crossing.time), .kind = EventKind::kCrossing, .body = rank});
   }
-  neighbors_.findCandidates(rank, candidates_);
+  // What a crowd meets is found when it takes its step.
+  candidates_.clear();
+  if (!body.crowd) {
+    neighbors_.findCandidates(rank, candidates_);
+  }
   for (const Neighbors::Key candidate : candidates_) {
     if (body.touches() && seesTo(*body.contactGroup, body.place, candidate)) {
       continue;
@@ -338,7 +359,8 @@ void ExactWorld::predict(int rank) {
 bool ExactWorld::seesTo(const ContactGroup& contactGroup, std::size_t place, int rank) {
   const auto other = std::find(contactGroup.ranks.begin(), contactGroup.ranks.end(), rank);
   return other != contactGroup.ranks.end() &&
-         contactGroup.island.handlesPair(place, static_cast<std::size_t>(other - contactGroup.ranks.begin()));
+         (contactGroup.crowd || contactGroup.island->handlesPair(
+                                    place, static_cast<std::size_t>(other - contactGroup.ranks.begin())));
 }
 
 void ExactWorld::sooner(std::optional<Event>& first, const Event& candidate) {

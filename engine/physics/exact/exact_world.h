@@ -22,8 +22,9 @@ namespace careen {
 /// Contact in steps chosen by the tolerance, or Rest. Between events nothing is computed, and an event
 /// affects only the bodies involved in it.
 ///
-/// Where contact costs too much, or its equations are not solved, the whole world continues as a Pile from
-/// there: bounded, not exact. RunFigures reports it.
+/// Bodies in contact are an Island, exact to the tolerance. Where that costs too much, or its equations are
+/// not solved, they go on as a Crowd, which takes in what it meets and releases what nothing touches; the
+/// others do not notice. RunFigures reports it.
 ///
 /// Bodies are identified by rank, their position in the order of names, so that their order in the scene
 /// changes no bit.
@@ -32,16 +33,20 @@ class ExactWorld {
   ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder);
   RunFigures run(const std::stop_token& stop);
 
-  /// Island::work() that a run may spend before it goes on as a pile: for each body that can move so much at
-  /// once, and so much per simulated second; at a tolerance below 1e-6 m more, as steps get shorter. A unit
-  /// takes about 1 µs. Counted, not timed, so that the motion is the same on every machine, and independent
-  /// of when the run ends.
+  /// Island::work() that bodies may spend together before they go on as a crowd: each so much at once, and so
+  /// much per simulated second; at a tolerance below 1e-6 m more, as steps get shorter; of more than
+  /// kMostInContact bodies in the scene each less, so that the scene takes no longer. A unit takes about 1
+  /// µs. Counted, not timed, so that the motion is the same on every machine, and independent of when the run
+  /// ends.
   static constexpr double kWorkAtOnce = 4.5e5;
   static constexpr double kWorkPerSecond = 5e4;
-  /// Of more bodies in contact that move, time steps cost so much that it does not pay to begin.
+  /// Of more bodies in contact, time steps cost so much that it does not pay to begin.
   static constexpr int kMostInContact = 100;
 
  private:
+  /// Most events of one body at one moment before it goes on in a crowd, and of twice as many the run gives
+  /// up: more than any impact needs, and a bound on endless repetition.
+  static constexpr int kMostAtOneMoment = 1000;
   /// [1] of timeScaleOf: changes of contact within it are counted together.
   static constexpr double kChatterWindow = 8;
   /// [1] of the tolerance: bodies that go on by time steps are one group up to this gap.
@@ -64,20 +69,40 @@ class ExactWorld {
     std::vector<Next> next;      ///< of each body
     std::vector<Instant> since;  ///< of each body: when that begins
     std::vector<std::shared_ptr<ContactGroup>> islands;
-    int timeSteps = 0;    ///< its islands go on by so many
-    bool passes = false;  ///< contacts without an impulse persist
+    std::vector<std::shared_ptr<ContactGroup>> crowds;  ///< that these bodies meet
+    int timeSteps = 0;                                  ///< its islands go on by so many
+    bool passes = false;                                ///< contacts without an impulse persist
   };
 
   void begin();
   void happen(const Event& event);
-  bool needsPile(const Encounter& encounter) const;
-  bool canPile() const { return !world_.gravity.isZero(0) && world_.springs.empty() && !world_.drag; }
-  void runAsPile(const std::stop_token& stop);
   void moveOn(Encounter& encounter);
   void end();
 
+  // Crowds.
+  bool goesOnAsCrowd(const Encounter& encounter) const;
+  bool hasSpent(const Encounter& encounter) const;
+  void formCrowd(const Encounter& encounter);
+  void enlist(const std::shared_ptr<ContactGroup>& crowd, int rank, const Instant& time,
+              const BodyState& state, const Quat& attitude);
+  void enlistAtRest(const std::shared_ptr<ContactGroup>& crowd, int rank);
+  void keepPlace(const std::shared_ptr<ContactGroup>& crowd, int rank, std::size_t place);
+  void merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup& other);
+  void advanceCrowd(std::shared_ptr<ContactGroup> crowd, const Instant& time);
+  void endAt(ContactGroup& crowd, const Instant& time);
+  void commit(ContactGroup& crowd, const Instant& time);
+  std::vector<int> release(ContactGroup& crowd, const Instant& time);
+  void go(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
+  void endStep(ContactGroup& crowd, std::size_t place);
+  std::vector<int> admitNear(const std::shared_ptr<ContactGroup>& crowd, const Instant& time, double length);
+  enum class Nearness { kFar, kNear, kMeets };
+  Nearness nearnessTo(const ContactGroup& crowd, int rank, const Instant& time, double length);
+  bool meetsWithin(const ContactGroup& crowd, int rank, const Mover& member, const Instant& time,
+                   double length) const;
+
   // Detection of contacts, and impacts.
   Encounter gather(const Event& event);
+  void findContacts(const Event& event, Encounter& encounter);
   void reach(const Event& event, Encounter& encounter);
   void join(Encounter& encounter, int rank);
   double nearness(const Encounter& encounter) const;
@@ -121,7 +146,7 @@ class ExactWorld {
   void rest(int rank, const Instant& time, const Pose& pose);
   void touch(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time);
   bool step(ContactGroup& contactGroup, const Instant& time);
-  double withinCell(const Island& island) const;
+  double withinCell(double speed) const;
   /// [m/s] gained by falling through the tolerance; without gravity the time that takes is infinite.
   double fallSpeed() const { return world_.gravity.isZero(0) ? 0 : world_.gravity.norm() * timeScale_; }
   void begins(int rank, const Instant& time);
@@ -138,11 +163,10 @@ class ExactWorld {
 
   const World& world_;
   Instant end_;
-  std::optional<Instant> pileFrom_;  // set when contact costs too much
-  double work_ = 0;                  // of contact so far
-  double workShare_ = 0;             // [1] of the work per body that the run may spend
-  double tolerance_;                 // [m]
-  double timeScale_;                 // [s] see timeScaleOf
+  double workShare_ = 0;  // [1] of the work per body above that each may spend
+  double tolerance_;      // [m]
+  CrowdSettings crowds_;
+  double timeScale_;  // [s] see timeScaleOf
   Recorder& recorder_;
   std::vector<Mover> movers_;
   Neighbors neighbors_;

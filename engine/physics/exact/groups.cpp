@@ -21,6 +21,10 @@ ExactWorld::Encounter ExactWorld::gather(const Event& event) {
   encounter.passes = event.kind != EventKind::kStep && mover(event.body).atOneMoment > kMostMeetings;
   encounter.cause = encounter.passes ? EventKind::kTouching : event.kind;
   reach(event, encounter);
+  return encounter;
+}
+
+void ExactWorld::findContacts(const Event& event, Encounter& encounter) {
   encounter.after = encounter.before;
   alignPlaces(encounter, event);
   encounter.after = encounter.before;
@@ -38,7 +42,6 @@ ExactWorld::Encounter ExactWorld::gather(const Event& event) {
   encounter.persists.assign(encounter.contacts.size(), 0);
   encounter.next.assign(encounter.ranks.size(), Next::kGoesOn);
   encounter.since.assign(encounter.ranks.size(), encounter.time);
-  return encounter;
 }
 
 // Adds a body to an encounter, once, together with its island, which is advanced to this moment.
@@ -47,6 +50,12 @@ void ExactWorld::join(Encounter& encounter, int rank) {
     return;
   }
   const Mover& body = mover(rank);
+  if (body.crowd) {
+    if (std::find(encounter.crowds.begin(), encounter.crowds.end(), body.crowd) == encounter.crowds.end()) {
+      encounter.crowds.push_back(body.crowd);
+    }
+    return;
+  }
   encounter.ranks.push_back(rank);
   if (!body.touches()) {
     encounter.attitudes.push_back(body.attitudeAt(encounter.time));
@@ -55,11 +64,11 @@ void ExactWorld::join(Encounter& encounter, int rank) {
     ContactGroup& with = *body.contactGroup;
     if (earlier(encounter.time, with.end())) {
       with.step.length = secondsBetween(with.start, encounter.time);
-      with.island.cutTo(with.step.length);
+      with.island->cutTo(with.step.length);
     }
-    encounter.timeSteps = std::max(encounter.timeSteps, with.island.timeStepsLeft());
-    with.island.endTimeSteps();
-    const TouchingBody& here = with.island.bodies()[body.place];
+    encounter.timeSteps = std::max(encounter.timeSteps, with.island->timeStepsLeft());
+    with.island->endTimeSteps();
+    const TouchingBody& here = with.island->bodies()[body.place];
     encounter.attitudes.push_back(here.worldFromBody);
     encounter.before.push_back(here.state());
     for (const int each : with.ranks) {
@@ -178,7 +187,7 @@ void ExactWorld::record(const Encounter& encounter) {
 
 // Impacts during time steps; what gravity alone gives in a step is no impact but a force.
 void ExactWorld::record(const ContactGroup& contactGroup) {
-  const Island& island = contactGroup.island;
+  const Island& island = *contactGroup.island;
   const double least = 2 * world_.gravity.norm() * contactGroup.step.length;
   for (const GroupImpact& impact : island.impacts()) {
     if (impact.share.approach > least) {

@@ -339,9 +339,10 @@ void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>
     bodies.push_back(touchingBody(encounter, i));
     ranks.push_back(encounter.ranks[i]);
   }
-  auto contactGroup = std::make_shared<ContactGroup>(
-      ContactGroup{Island(world_, std::move(bodies), std::move(features), tolerance_), std::move(ranks), {}});
-  Island& island = contactGroup->island;
+  auto contactGroup = std::make_shared<ContactGroup>();
+  contactGroup->island = std::make_unique<Island>(world_, std::move(bodies), std::move(features), tolerance_);
+  contactGroup->ranks = std::move(ranks);
+  Island& island = *contactGroup->island;
   const int timeSteps =
       encounter.timeSteps == 0 && members.size() > kMostSmooth ? kTimeStepsOfMany : encounter.timeSteps;
   if (beginsAtRest(island, timeSteps)) {

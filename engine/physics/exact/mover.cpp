@@ -7,14 +7,6 @@
 
 namespace careen {
 
-int ContactGroup::leader() const {
-  std::size_t first = 0;
-  while (island.bodies()[first].isHeld()) {
-    ++first;
-  }
-  return ranks[first];
-}
-
 void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravity) {
   flies = true;
   contactGroup.reset();

@@ -9,23 +9,27 @@
 #include "physics/contact/island.h"
 #include "physics/exact/event_queue.h"
 #include "physics/motion/flight.h"
+#include "physics/motion/merged_steps.h"
 #include "physics/motion/recorder.h"
+#include "physics/pile/crowd.h"
 #include "physics/search/neighbors.h"
 #include "physics/search/time_of_impact.h"
 #include "physics/world/body.h"
 
 namespace careen {
 
-/// An island in the world: the ranks of its bodies and its current step.
+/// Bodies that advance together, and their current step: an island, exact, or a crowd, fast and of bounded
+/// error.
 struct ContactGroup {
-  Island island;
-  std::vector<int> ranks;            ///< of island.bodies()
+  std::unique_ptr<Island> island;  ///< this or the other
+  std::unique_ptr<Crowd> crowd;
+  std::vector<int> ranks;            ///< of island->bodies(), or by the crowd's places: -1 where left
   std::vector<ContactStep> motions;  ///< of the movable ones, in this step
   Instant start{};                   ///< of this step
   Island::Step step{};
+  int leader = 0;                   ///< rank of the body whose event is the end of the step
+  std::vector<MergedSteps> merged;  ///< of a crowd, by place: not yet recorded
 
-  /// The body whose event is the end of the step.
-  int leader() const;
   Instant end() const { return instantAfter(start, step.length); }
 };
 
@@ -36,7 +40,9 @@ struct Mover {
   bool flies = false;
   Flight flight;                                    ///< if it flies
   std::shared_ptr<ContactGroup> contactGroup;       ///< if it is in Contact
-  std::size_t place = 0;                            ///< its index in that group
+  std::size_t place = 0;                            ///< its index in that group, or in the crowd
+  std::shared_ptr<ContactGroup> crowd;              ///< of which it is a member, perhaps asleep
+  double work = 0;                                  ///< its share of Island::work() so far
   std::optional<PrincipalMoments<double>> moments;  ///< if it was ever in Flight
   std::optional<TorqueFreeRotation<double>> rotation;
   double speedBound = 0;                ///< [m/s] if it is in Contact

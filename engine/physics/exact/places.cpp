@@ -73,7 +73,7 @@ void ExactWorld::addHeld(const Encounter& encounter, std::vector<ContactFeature>
       continue;
     }
     known.push_back(with);
-    const ContactSystem& system = with->island.system();
+    const ContactSystem& system = with->island->system();
     for (std::size_t c = 0; c < system.features().size(); ++c) {
       ContactFeature feature = system.features()[c];
       const auto a = static_cast<std::size_t>(feature.a);

@@ -1,5 +1,6 @@
 #include "physics/motion/motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/math/to_integer.h"
@@ -77,6 +78,10 @@ BodyState stateIn(const ContactStep& step, const MassProperties& mass, double el
   return stateOf(evaluate(step.position, s), evaluate(step.worldFromBody, s), step.duration, mass);
 }
 
+BodyState stateIn(const CrowdStep& step, const MassProperties& mass, double elapsed) {
+  return stateIn(asContactStep(step), mass, elapsed);
+}
+
 // Cubic Hermite interpolation between values `from` and `to` with slopes `rateFrom` and `rateTo`, by s.
 template <class Vector>
 Polynomial<Vector> cubic(const Vector& from, const Vector& rateFrom, const Vector& to, const Vector& rateTo,
@@ -119,12 +124,25 @@ BodyState stateIn(const SampledStep& step, const MassProperties& mass, double el
 
 }  // namespace
 
+ContactStep asContactStep(const CrowdStep& step) {
+  ContactStep full{.duration = step.duration};
+  full.position.fill(Vec3::Zero());
+  full.worldFromBody.fill(Vec4::Zero());
+  std::copy(step.position.begin(), step.position.end(), full.position.begin());
+  std::copy(step.worldFromBody.begin(), step.worldFromBody.end(), full.worldFromBody.begin());
+  return full;
+}
+
 Vec3 positionAt(const ContactStep& step, double elapsed) {
   return evaluate(step.position, elapsed / step.duration).value;
 }
 
 Vec3 velocityAt(const ContactStep& step, double elapsed) {
   return evaluate(step.position, elapsed / step.duration).slope / step.duration;
+}
+
+Quat attitudeAt(const ContactStep& step, double elapsed) {
+  return Quat(evaluate(step.worldFromBody, elapsed / step.duration).value).normalized();
 }
 
 StepBounds boundsOf(const ContactStep& step) {

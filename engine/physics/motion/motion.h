@@ -41,8 +41,17 @@ struct ContactStep {
   std::array<Vec4, 6> worldFromBody{};
 };
 
+/// Steps of a crowd's member, of bounded error: a cubic in place and attitude.
+struct CrowdStep {
+  double duration = 0;                  ///< [s]
+  std::array<Vec3, 4> position{};       ///< [m] as in ContactStep
+  std::array<Vec4, 4> worldFromBody{};  ///< likewise
+};
+ContactStep asContactStep(const CrowdStep& step);
+
 Vec3 positionAt(const ContactStep& step, double elapsed);
 Vec3 velocityAt(const ContactStep& step, double elapsed);
+Quat attitudeAt(const ContactStep& step, double elapsed);
 /// Upper bounds over a contact step.
 struct StepBounds {
   double speed = 0;                ///< [m/s] of the centre
@@ -64,7 +73,7 @@ struct SampledStep {
 
 /// Motion of one body until its next event. To add a motion: one more type here, the last,
 /// because files store its index, and one more stateIn in motion.cpp.
-using Motion = std::variant<Rest, EulerStep, Flight, SteppedFlight, ContactStep, SampledStep>;
+using Motion = std::variant<Rest, EulerStep, Flight, SteppedFlight, ContactStep, CrowdStep, SampledStep>;
 
 /// State of the body `elapsed` [s] after the motion began.
 BodyState stateAt(const Motion& motion, const MassProperties& mass, double elapsed);

@@ -31,9 +31,10 @@ struct PileBody {
   int cluster = -1;  ///< if asleep: its cluster; all bodies of a cluster wake together
   bool held = false;
   bool asleep = false;
+  bool absent = false;  ///< a place that was left
 
-  /// Does not move in this substep.
-  bool still() const { return held || asleep; }
+  /// Does not move in this step.
+  bool still() const { return held || asleep || absent; }
 };
 
 PileBody pileBody(const Body& body, const BodyState& state);

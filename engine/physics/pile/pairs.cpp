@@ -19,6 +19,9 @@ std::uint64_t keyOf(int a, Partner b) { return (static_cast<std::uint64_t>(a) <<
 
 }  // namespace
 
+const PilePairs::Box PilePairs::kNowhere = {.low = Vec3::Constant(std::numeric_limits<double>::max()),
+                                            .high = Vec3::Constant(-std::numeric_limits<double>::max())};
+
 bool PilePairs::Box::overlaps(const Box& other) const {
   return low.x() <= other.high.x() && other.low.x() <= high.x() && low.y() <= other.high.y() &&
          other.low.y() <= high.y() && low.z() <= other.high.z() && other.low.z() <= high.z();
@@ -34,12 +37,21 @@ void PilePairs::Box::include(const Box& other) {
   high = high.cwiseMax(other.high);
 }
 
-PilePairs::PilePairs(std::span<const PileBody> bodies, std::span<const Wall> walls)
-    : walls_(walls.begin(), walls.end()), fat_(bodies.size()), left_(bodies.size()) {
-  constexpr double kNowhere = std::numeric_limits<double>::max();
-  for (Box& box : fat_) {
-    box = {.low = Vec3::Constant(kNowhere), .high = Vec3::Constant(-kNowhere)};
-  }
+void PilePairs::addPlace() {
+  fat_.push_back(kNowhere);
+  left_.push_back(0);
+  nodes_.clear();
+}
+
+void PilePairs::clearPlace(int body) {
+  fat_[at(body)] = kNowhere;
+  std::erase_if(pairs_, [&](const PilePair& pair) {
+    const bool gone = pair.a == body || pair.b.isBody(body);
+    if (gone && pair.slot >= 0) {
+      freed_.push_back(pair.slot);
+    }
+    return gone;
+  });
 }
 
 // AABB of the box over `time` at its current velocities; rotation moves no corner farther than 2 radii, and
@@ -61,6 +73,9 @@ void PilePairs::update(std::span<const PileBody> bodies, const Vec3& gravity, do
   bool any = false;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     left_[i] = 0;
+    if (bodies[i].absent) {
+      continue;
+    }
     if (bodies[i].still() && fat_[i].low.x() <= fat_[i].high.x()) {
       continue;
     }

@@ -28,7 +28,12 @@ struct PilePair {
 /// Pairs are sorted by key, independent of history.
 class PilePairs {
  public:
-  PilePairs(std::span<const PileBody> bodies, std::span<const Wall> walls);
+  explicit PilePairs(std::span<const Wall> walls) : walls_(walls.begin(), walls.end()) {}
+
+  /// One more body, the next index.
+  void addPlace();
+  /// Removes all pairs of a body that is to be replaced by another.
+  void clearPlace(int body);
 
   /// Ensures that all pairs that can touch within `time` [s] at current velocities are listed. New fat AABBs
   /// are sized for `lookAhead` [s] ≥ time.
@@ -47,6 +52,7 @@ class PilePairs {
     bool holds(const Box& other) const;
     void include(const Box& other);
   };
+  static const Box kNowhere;
   struct Node {
     Box box;
     int first = 0;  // index of its first body in order_

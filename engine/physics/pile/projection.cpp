@@ -51,7 +51,7 @@ bool PileProjection::collect(std::span<const PileBody> bodies, std::span<PileMan
   bool any = false;
   for (const int slot : near) {
     const PileManifold& manifold = manifolds[at(slot)];
-    if (lowestGap(manifold) < -kTolerance * manifold.length) {
+    if (lowestGap(manifold) < -tolerated(manifold.length)) {
       mark(manifold, 1);
       any = true;
     }
@@ -88,7 +88,7 @@ bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> ma
   solver_.begin(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (reached_[i] != 0) {
-      solver_.setBody(static_cast<int>(i), bodies[i], kTell * kTolerance * bodies[i].length);
+      solver_.setBody(static_cast<int>(i), bodies[i], kTell * tolerated(bodies[i].length));
     }
   }
   for (const int slot : chosen_) {
@@ -97,7 +97,7 @@ bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> ma
                            ? Vec3::Zero()
                            : Vec3(bodies[at(manifold.a)].position - bodies[at(manifold.b.body())].position);
     solver_.beginManifold(manifold.a, manifold.b, 0);
-    const double left = kLeft * kTolerance * manifold.length;
+    const double left = kLeft * tolerated(manifold.length);
     for (int k = 0; k < manifold.count; ++k) {
       const PilePoint& point = manifold.points[at(k)];
       if (point.gap < kNear * manifold.length) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -14,8 +15,8 @@ namespace careen {
 /// penetrate by more than a tolerance. Linear in δ, hence iterated in passes with gaps updated in between.
 class PileProjection {
  public:
-  /// [1] of the smaller box's smallest size: penetration tolerance. 2e-4 m for boxes of 0.4 m.
-  static constexpr double kTolerance = 0x1p-11;
+  /// `tolerance` [m] of the crowd: penetration of two thirds of it remains, and of tiny boxes less.
+  explicit PileProjection(double tolerance) : tolerance_(tolerance) {}
 
   /// One pass over the listed manifolds, whose gaps must be up to date. Only penetrating bodies and their
   /// neighbours, up to `layers` layers (at most 127), move. False if nothing was to be done.
@@ -28,6 +29,9 @@ class PileProjection {
   bool collect(std::span<const PileBody> bodies, std::span<PileManifold> manifolds, std::span<const int> near,
                int layers);
 
+  double tolerated(double length) const { return std::min(2.0 / 3 * tolerance_, 0x1p-8 * length); }
+
+  double tolerance_;  // [m]
   PileSolver solver_;
   std::vector<char> reached_;
   std::vector<char> moved_;

@@ -128,6 +128,32 @@ void PileSolver::wakeAll() {
 
 void PileSolver::wakeRow(int row) { put(at(blockOfRow_[at(row)])); }
 
+PileSolver::RowView PileSolver::row(int row) const {
+  const SolvedRow& at = rows_[PileSolver::at(row)];
+  const Block& block = blocks_[PileSolver::at(blockOfRow_[PileSolver::at(row)])];
+  return {.a = block.a,
+          .b = block.b,
+          .armA = firstOf(at.arms),
+          .armB = secondOf(at.arms),
+          .directions = {at.normal, at.tangent1, at.tangent2},
+          .friction = block.friction,
+          .bound = at.bound,
+          .impulse = {at.normalImpulse, at.tangential1, at.tangential2}};
+}
+
+void PileSolver::setImpulse(int row, const std::array<double, 3>& impulse) {
+  SolvedRow& at = rows_[PileSolver::at(row)];
+  const Block& block = blocks_[PileSolver::at(blockOfRow_[PileSolver::at(row)])];
+  const bool changed = impulse[0] != at.normalImpulse || impulse[0] > 0;
+  at.normalImpulse = impulse[0];
+  at.tangential1 = impulse[1];
+  at.tangential2 = impulse[2];
+  for (const int body : {block.a, block.b}) {
+    Moving& moving = moving_[PileSolver::at(body)];
+    moving.pushed = moving.pushed || (changed && inertia_[PileSolver::at(body)].inverseMass > 0);
+  }
+}
+
 void PileSolver::queueBlocksOf(int body) {
   moving_[at(body)].unqueuedChange = 0;
   for (int k = firstBlock_[at(body)]; k < firstBlock_[at(body) + 1]; ++k) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -56,6 +57,21 @@ class PileSolver {
   void warmStart();
   /// After the last add(): at most `sweeps` sweeps. Returns the number of manifold solves.
   std::int64_t solve(int sweeps, bool withFriction);
+
+  /// One row as it stands.
+  struct RowView {
+    int a = 0;  ///< as in velocity()
+    int b = 0;
+    Vec3 armA;
+    Vec3 armB;
+    std::array<Vec3, 3> directions;  ///< normal, tangent, tangent
+    double friction = 0;
+    double bound = 0;
+    std::array<double, 3> impulse{};
+  };
+  RowView row(int row) const;
+  /// Of a solution found otherwise, whose velocities are set too.
+  void setImpulse(int row, const std::array<double, 3>& impulse);
 
   std::size_t blockCount() const { return blocks_.size(); }
   std::size_t rowCount() const { return rows_.size(); }

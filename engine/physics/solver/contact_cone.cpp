@@ -11,24 +11,6 @@ using Triple = ContactProblem::Triple;
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-ContactAnswer stickingAnswer(const ContactCone& cone, const ContactEquation& equation, const Triple& centre,
-                             const Triple& u) {
-  const double stiff = equation.rho / equation.epsilon;
-  ContactAnswer answer;
-  answer.given[0] = centre[0] - stiff * u[0];
-  answer.stiffness[0] = stiff;
-  for (std::size_t k = 1; k < 3; ++k) {
-    if (cone.onLine) {
-      answer.given[k] = cone.drag[k - 1] * answer.given[0];
-      answer.stiffness[3 * k] = cone.drag[k - 1] * stiff;
-    } else {
-      answer.given[k] = centre[k] - stiff * u[k];
-      answer.stiffness[4 * k] = stiff;
-    }
-  }
-  return answer;
-}
-
 /// Radius μ x_n > 0, |x_t| > radius. Along τ = x_t/|x_t|, λ_t follows μ λ_n; across it, it turns with u_t:
 /// A = [1, 0; μ τ, κ (I − τ τᵀ)] with κ = radius/|x_t|.
 ContactAnswer slippingAnswer(const ContactCone& cone, const ContactEquation& equation, const Triple& impulse,
@@ -96,6 +78,24 @@ Triple ContactCone::admissible(const Triple& impulse) const {
   }
   const double shrink = radius / size;
   return {impulse[0], shrink * impulse[1], shrink * impulse[2]};
+}
+
+ContactAnswer stickingAnswer(const ContactCone& cone, const ContactEquation& equation, const Triple& centre,
+                             const Triple& u) {
+  const double stiff = equation.rho / equation.epsilon;
+  ContactAnswer answer;
+  answer.given[0] = centre[0] - stiff * u[0];
+  answer.stiffness[0] = stiff;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (cone.onLine) {
+      answer.given[k] = cone.drag[k - 1] * answer.given[0];
+      answer.stiffness[3 * k] = cone.drag[k - 1] * stiff;
+    } else {
+      answer.given[k] = centre[k] - stiff * u[k];
+      answer.stiffness[4 * k] = stiff;
+    }
+  }
+  return answer;
 }
 
 ContactAnswer newtonAnswer(const ContactCone& cone, const ContactEquation& equation, const Triple& impulse,

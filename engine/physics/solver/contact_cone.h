@@ -44,6 +44,9 @@ struct ContactAnswer {
 ContactAnswer newtonAnswer(const ContactCone& cone, const ContactEquation& equation,
                            const ContactProblem::Triple& impulse, const ContactProblem::Triple& centre,
                            const ContactProblem::Triple& u);
+/// The same with every contact closed and, unless its friction has a direction, sticking.
+ContactAnswer stickingAnswer(const ContactCone& cone, const ContactEquation& equation,
+                             const ContactProblem::Triple& centre, const ContactProblem::Triple& u);
 /// |λ − P(λ − ρ u) + ε (λ − centre)|/ρ [m/s].
 double equationError(const ContactCone& cone, const ContactEquation& equation,
                      const ContactProblem::Triple& impulse, const ContactProblem::Triple& centre,

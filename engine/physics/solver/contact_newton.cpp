@@ -81,10 +81,13 @@ void ContactNewton::follow(const CoupledContacts& contacts) {
 }
 
 /// Moves impulses_ by one full step. Returns false if that leads nowhere.
-bool ContactNewton::step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres) {
+bool ContactNewton::step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres,
+                         bool sticking) {
   for (std::size_t c = 0; c < impulses_.size(); ++c) {
     const Contact& contact = contacts.contacts()[c];
-    answers_[c] = newtonAnswer(contact, equationOf(contact, options), impulses_[c], centres[c], u_[c]);
+    const ContactEquation equation = equationOf(contact, options);
+    answers_[c] = sticking ? stickingAnswer(contact, equation, centres[c], u_[c])
+                           : newtonAnswer(contact, equation, impulses_[c], centres[c], u_[c]);
   }
   ++factorisations_;
   if (!contacts.factorise(answers_)) {
@@ -121,7 +124,7 @@ double ContactNewton::improve(CoupledContacts& contacts, std::span<Triple> impul
   int stalled = 0;
   while (factorisations_ < options.steps && best > options.enough && stalled < kPatience &&
          !isGood(contacts, impulses, best, options.good)) {
-    if (!step(contacts, options, impulses_)) {
+    if (!step(contacts, options, impulses_, options.sticking && factorisations_ == 0)) {
       break;
     }
     const double now = admit(contacts);

@@ -20,6 +20,7 @@ class ContactNewton {
     int patience = 30;         ///< approach() ends after so many of them that did not halve the residual
     double enough = 0;         ///< [m/s] residual at which to stop
     double good = 0;           ///< [m/s] the same, if it is small against the impulses, see isGood()
+    bool sticking = false;     ///< improve() takes every contact as closed and sticking in the first step
   };
 
   /// Full steps, each centred at the last iterate; gives up after three in a row that do not halve the
@@ -47,7 +48,8 @@ class ContactNewton {
 
  private:
   double begin(const CoupledContacts& contacts, std::span<Triple> impulses, std::span<double> q);
-  bool step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres);
+  bool step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres,
+            bool sticking = false);
   void follow(const CoupledContacts& contacts);
   double equationsError(const CoupledContacts& contacts, const Options& options) const;
   bool solveProximal(CoupledContacts& contacts, const Options& options, double error, int& steps);

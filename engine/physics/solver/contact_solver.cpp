@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace careen {
@@ -29,6 +30,12 @@ constexpr InteriorPoint::Options kCautious{
 constexpr double kWarmEpsilon = 0x1p-13;
 constexpr double kColdEpsilon = 0x1p-7;
 constexpr int kFirstSteps = 100;
+/// [1] ε where everything may stand: a heavy body on light ones needs contacts this much stiffer.
+constexpr double kStandingEpsilon = 0x1p-40;
+constexpr double kNearlyStands = 0x1p-10;  // [1] of V
+constexpr int kStandingSteps = 3;
+constexpr double kStickingEpsilon = 0x1p-24;
+constexpr int kStickingSteps = 8;
 constexpr int kProximalSteps = 100;  // of a round
 
 }  // namespace
@@ -85,6 +92,45 @@ bool ContactSolver::tryInterior(const InteriorPoint::Options& options, int itera
   return false;
 }
 
+/// From no impulses, with every contact closed and sticking in the first step.
+bool ContactSolver::trySticking(double epsilon, int steps) {
+  std::fill(from_.begin(), from_.end(), Triple{});
+  return tryNewton(from_, {.epsilon = epsilon, .steps = steps, .sticking = true});
+}
+
+/// Whether nothing moves at any contact, to rounding errors.
+bool ContactSolver::stands() const {
+  const double still =
+      std::max({inScale(kPolished), contacts_.noise(), kRounding * contacts_.largest(impulses_)});
+  return residual_ <= still &&
+         std::all_of(contacts_.contacts().begin(), contacts_.contacts().end(),
+                     [&](const CoupledContacts::Contact& contact) {
+                       const Triple u = contacts_.relativeVelocity(contact, q_);
+                       return std::max({std::fabs(u[0]), std::fabs(u[1]), std::fabs(u[2])}) <= still;
+                     });
+}
+
+/// The bodies stand, or the attempt cost one factorisation.
+bool ContactSolver::tryStanding() {
+  bool found = trySticking(kStandingEpsilon, 1);
+  if (residual_ <= inScale(kNearlyStands)) {
+    std::copy(impulses_.begin(), impulses_.end(), from_.begin());
+    found = tryNewton(from_, {.epsilon = kStandingEpsilon, .steps = kStandingSteps});
+  }
+  if (found && stands()) {
+    return true;
+  }
+  std::fill(from_.begin(), from_.end(), Triple{});
+  forget();
+  return false;
+}
+
+/// Back to no impulses.
+void ContactSolver::forget() {
+  std::fill(impulses_.begin(), impulses_.end(), Triple{});
+  residual_ = ContactNewton::residual(contacts_, impulses_, q_);
+}
+
 /// From the best iterate. Rounds alternate between two ρ: what is stuck with one often moves with the other.
 bool ContactSolver::tryProximal(int rounds) {
   std::copy(impulses_.begin(), impulses_.end(), from_.begin());
@@ -103,8 +149,7 @@ bool ContactSolver::tryProximal(int rounds) {
 }
 
 void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
-  std::fill(impulses_.begin(), impulses_.end(), Triple{});
-  residual_ = ContactNewton::residual(contacts_, impulses_, q_);
+  forget();
   if (isEnough()) {
     return;
   }
@@ -113,10 +158,13 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
     contacts_.importImpulses(solution.impulses, from_);
   }
   const bool warm = contacts_.largest(from_) > 0;
+  if (!warm && enough_ == 0 && tryStanding()) {
+    return;
+  }
   if (tryApproach(from_, {.epsilon = warm ? kWarmEpsilon : kColdEpsilon,
                           .steps = kFirstSteps,
                           .enough = inScale(kFirstGoal)}) ||
-      tryInterior({}, kIterations) || tryProximal(8)) {
+      tryInterior({}, kIterations) || trySticking(kStickingEpsilon, kStickingSteps) || tryProximal(8)) {
     return;
   }
   for (const double start : {1e4, 0.01, 1.0, 100.0, 0.1, 1e6}) {

@@ -13,10 +13,14 @@ namespace careen {
 /// Solves a ContactProblem, or says that it did not. In this order, until the residual is small enough:
 ///
 ///   1. no impulses;
-///   2. proximal points from the warm start, or from no impulses if there is none;
-///   3. the interior-point method; whenever its gap fell a thousand times, Newton's method from there;
-///   4. more proximal points, from the best iterate, with two other ρ in turn;
-///   5. the interior-point method from other starts and with other parameters.
+///   2. without a warm start, and where only small residuals will do: Newton's method, all contacts sticking
+///      in its first step; accepted if everything stands (however heavy the top of a stack);
+///   3. proximal points from the warm start, or from no impulses if there is none;
+///   4. the interior-point method; whenever its gap fell a thousand times, Newton's method from there;
+///   5. the same again, with softer contacts, whatever it leads to (jams: impulses may be 1000 times what
+///      comes in);
+///   6. more proximal points, from the best iterate, with two other ρ in turn;
+///   7. the interior-point method from other starts and with other parameters.
 ///
 /// Small enough: residual ≤ 1e-9 V, and ≤ max(1e-13 V, 1e-6 of the largest λ/mass): without the second
 /// condition impulses of 1e-8 V can pass where the answer is large. Below the rounding error of the relative
@@ -44,6 +48,10 @@ class ContactSolver {
   bool tryNewton(std::span<const Triple> from, ContactNewton::Options options);
   bool tryApproach(std::span<const Triple> from, ContactNewton::Options options);
   bool tryInterior(const InteriorPoint::Options& options, int iterations);
+  bool trySticking(double epsilon, int steps);
+  bool tryStanding();
+  bool stands() const;
+  void forget();
   bool tryProximal(int rounds);
   void polish();
   bool keepIfBetter(double residual);

@@ -29,8 +29,8 @@ class FlightAccount {
   /// All bodies of the impact have departed.
   void parted();
   void penetrates(double depth);
-  /// From this time [s] on the run is bounded, not exact.
-  void bounds(double time) { boundedFrom_ = time; }
+  /// From this time [s] on some bodies are a crowd, not exact.
+  void bounds(double time) { boundedFrom_ = boundedFrom_.value_or(time); }
 
   RunFigures figures() const;
 

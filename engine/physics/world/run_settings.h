@@ -14,7 +14,19 @@ struct RunFigures {
       0;  ///< [1] largest relative change in flight, linear and angular, beyond what forces give
   double orthogonality = 0;                ///< [1] largest ‖AAᵀ−1‖
   double deepestPenetration = 0;           ///< [m]
-  std::optional<double> boundedFrom = {};  ///< [s] time at which method exact switched to a pile, if it did
+  std::optional<double> boundedFrom = {};  ///< [s] when the first bodies went on as a crowd, if any did
+};
+
+/// When bodies in contact go on as a crowd (physics/pile/crowd.h).
+struct CrowdSettings {
+  enum class When {
+    kAuto,   ///< where exact contact costs too much, or has no solution
+    kNever,  ///< the run then takes as long as it takes, or fails
+    kAbove,  ///< groups of more bodies than `above`, and where kAuto would
+  };
+  When when = When::kAuto;
+  int above = 0;
+  double tolerance = 3e-4;  ///< [m] of penetration; steps are its root
 };
 
 struct RunSettings {
@@ -22,6 +34,7 @@ struct RunSettings {
   double duration = 0;      ///< [s]
   double dt = 1.0 / 240;    ///< [s] time step of stepping methods
   double tolerance = 1e-6;  ///< [m] of positions and corners, for methods with step size control
+  CrowdSettings crowds = {};
 };
 
 }  // namespace careen

@@ -1,4 +1,4 @@
-#include "physics/contact/hermite_step.h"
+#include "physics/motion/hermite_step.h"
 
 #include <gtest/gtest.h>
 

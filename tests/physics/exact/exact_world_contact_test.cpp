@@ -140,44 +140,6 @@ TEST(ExactWorldContact, springsSwingWithinTheTolerance) {
   }
 }
 
-// Layers that tumble onto each other.
-World fourLayers() {
-  World world = onAFloor(0.5);
-  for (int k = 0; k < 40; ++k) {
-    const Vec3 position(0.75 * (k % 3), 0.75 * (k / 3 % 3), 0.4 + 0.75 * (k / 9));
-    const Vec3 spin(k % 5 - 2, k % 3 - 1, k % 4);
-    world.bodies.push_back(rough(
-        box("box-" + std::to_string(10 + k), Vec3(0.2, 0.2, 0.2), 1, position, Vec3::Zero(), spin, 0), 0.5));
-  }
-  return world;
-}
-
-// A body may rest for a single frame: a rest begins where frames do, to the bit.
-TEST(ExactWorldContact, goesOnAsAPileWhereContactCostsTooMuch) {
-  const World world = fourLayers();
-  const Recorded run = runFor(world, 3);
-  ASSERT_TRUE(run.figures.boundedFrom);
-  EXPECT_LT(run.figures.deepestPenetration, 5e-4);  // measured 1.6e-4
-  for (std::size_t k = 0; k < world.bodies.size(); ++k) {
-    EXPECT_TRUE(run.last(world, k, 3).pose.position.allFinite());
-    EXPECT_GT(run.last(world, k, 3).pose.position.z(), 0.19);
-  }
-  std::vector<double> starts;
-  for (const auto& motions : run.motions) {
-    for (const auto& [start, motion] : motions) {
-      if (start >= run.figures.boundedFrom) {
-        starts.push_back(start);
-      }
-    }
-  }
-  std::sort(starts.begin(), starts.end());
-  starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
-  ASSERT_GT(starts.size(), 10U);
-  for (std::size_t k = 1; k < starts.size(); ++k) {
-    EXPECT_NEAR(starts[k] - starts[k - 1], 1.0 / 60, 1e-12) << k;
-  }
-}
-
 // The last step may go on beyond the end of a run.
 TEST(ExactWorldContact, movesTheSameHoweverLongTheRun) {
   World world = onAFloor(0.5);

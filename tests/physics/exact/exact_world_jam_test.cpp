@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "core/error.h"
 #include "physics/geometry/separation.h"
 #include "support/exact_runs.h"
 #include "support/impact_scene.h"
@@ -39,7 +38,7 @@ void expectUnmoved(const World& world) {
 }
 
 TEST(ExactWorldJam, aStackOfAnyHeightStands) {
-  for (const int cubes : {13, 20, 40}) {
+  for (const int cubes : {13, 20, 40, 100}) {
     World world = floorWith(0.5);
     for (int k = 0; k < cubes; ++k) {
       addStill(world, Vec3(0.25, 0.25, 0.25), Vec3(0, 0, 0.25 + 0.5 * k));
@@ -49,14 +48,53 @@ TEST(ExactWorldJam, aStackOfAnyHeightStands) {
 }
 
 TEST(ExactWorldJam, aBondedWallStands) {
-  World world = floorWith(0.5);
-  for (int course = 0; course < 8; ++course) {
-    for (int k = 0; k < 6; ++k) {
-      addStill(world, Vec3(0.25, 0.125, 0.125),
-               Vec3(0.5 * k + 0.25 * (course % 2), 0, 0.125 + 0.25 * course));
+  for (const int courses : {8, 20}) {
+    World world = floorWith(0.5);
+    for (int course = 0; course < courses; ++course) {
+      for (int k = 0; k < 6; ++k) {
+        addStill(world, Vec3(0.25, 0.125, 0.125),
+                 Vec3(0.5 * k + 0.25 * (course % 2), 0, 0.125 + 0.25 * course));
+      }
+    }
+    expectUnmoved(world);
+  }
+}
+
+TEST(ExactWorldJam, pyramidsStand) {
+  World flat = floorWith(0.5);
+  World square = floorWith(0.5);
+  for (int layer = 0; layer < 12; ++layer) {
+    for (int i = 0; i < 12 - layer; ++i) {
+      addStill(flat, Vec3(0.25, 0.25, 0.25), Vec3(0.5 * i + 0.25 * layer, 0, 0.25 + 0.5 * layer));
+      for (int j = 0; j < 12 - layer && layer >= 7; ++j) {
+        addStill(square, Vec3(0.25, 0.25, 0.25),
+                 Vec3(0.5 * i + 0.25 * layer, 0.5 * j + 0.25 * layer, 0.25 + 0.5 * (layer - 7)));
+      }
     }
   }
-  expectUnmoved(world);
+  expectUnmoved(flat);
+  expectUnmoved(square);
+}
+
+/// Cubes of 1 m, the k-th from the top beyond the next by 1/(2k) less the slack: without slack the centre of
+/// those above is on the edge, of every cube.
+World harmonicOverhang(int cubes, double slack) {
+  World world = floorWith(0.5);
+  double x = 0;
+  for (int k = 1; k <= cubes; ++k) {
+    addStill(world, Vec3(0.5, 0.5, 0.5), Vec3(x, 0, cubes - k + 0.5));
+    x -= 1.0 / (2 * k) - slack;
+  }
+  return world;
+}
+
+TEST(ExactWorldJam, harmonicOverhangsStandByAHair) {
+  for (const int cubes : {13, 30}) {
+    expectUnmoved(harmonicOverhang(cubes, 1e-9));
+    const World falls = harmonicOverhang(cubes, -1e-9);
+    const Recorded run = runFor(falls, 1);
+    EXPECT_NE(run.last(falls, 0, 1).pose.position, falls.bodies[0].initial.pose.position);
+  }
 }
 
 // A light box between two heavy ones that come together, with friction and without gravity. Looked at at
@@ -65,7 +103,6 @@ TEST(ExactWorldJam, squeezedBoxesStayOutOfEachOther) {
   testing::Random random(3059);
   double deepest = 0;
   double turned = 0;
-  int unsolved = 0;
   for (int k = 0; k < 60; ++k) {
     World world;
     const double heavy = std::pow(10.0, random.between(0, 4));
@@ -88,13 +125,7 @@ TEST(ExactWorldJam, squeezedBoxesStayOutOfEachOther) {
       return sum;
     };
     const double duration = 0.8;
-    Recorded run;
-    try {
-      run = runFor(world, duration);
-    } catch (const NumericalError&) {
-      ++unsolved;  // said, not silent
-      continue;
-    }
+    const Recorded run = runFor(world, duration);
     const auto at = [&](std::size_t i, double time) {
       const auto& motions = run.motions[i];
       const auto after = std::upper_bound(motions.begin(), motions.end(), time,
@@ -114,7 +145,6 @@ TEST(ExactWorldJam, squeezedBoxesStayOutOfEachOther) {
     const Vec3 after = momentum([&](std::size_t i) { return at(i, duration); });
     turned = std::max(turned, (after - before).norm() / heavy);
   }
-  EXPECT_LE(unsolved, 1);    // measured 1
   EXPECT_LT(deepest, 3e-6);  // the tolerance is 1e-6
   EXPECT_LT(turned, 1e-5);
   RecordProperty("deepest", std::to_string(deepest * 1e9) + "e-9");

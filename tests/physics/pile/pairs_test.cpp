@@ -24,7 +24,10 @@ TEST(PilePairs, listsEveryPairThatCanTouchThroughoutAFlight) {
     body.initial.velocity = pourer.vector(-6, 6);
     bodies.push_back(pileBody(body, body.initial));
   }
-  PilePairs pairs(bodies, world.walls);
+  PilePairs pairs(world.walls);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    pairs.addPlace();
+  }
   const auto bounds = [](const PileBody& body) {
     const Vec3 reach = body.axes.cwiseAbs() * body.halfExtents;
     return std::pair<Vec3, Vec3>(body.position - reach, body.position + reach);

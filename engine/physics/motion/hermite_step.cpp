@@ -1,4 +1,4 @@
-#include "physics/contact/hermite_step.h"
+#include "physics/motion/hermite_step.h"
 
 #include <type_traits>
 
@@ -26,6 +26,15 @@ void fill(const Course<Vector>& from, const Course<Vector>& to, double h, std::a
       6 * d - h * (3 * from.rate + 3 * to.rate) - (h * h) * (0.5 * from.acceleration - 0.5 * to.acceleration);
 }
 
+template <class Vector>
+void fillCubic(const Course<Vector>& from, const Course<Vector>& to, double h, std::array<Vector, 4>& c) {
+  const Vector d = to.value - from.value;
+  c[0] = from.value;
+  c[1] = h * from.rate;
+  c[2] = 3 * d - h * (2 * from.rate + to.rate);
+  c[3] = h * (from.rate + to.rate) - 2 * d;
+}
+
 Quat pure(const Vec3& v) { return {0, v[0], v[1], v[2]}; }
 
 // q̇ = ½ q ω, q̈ = ½ (q̇ ω + q ω̇), with ω in the body's frame.
@@ -43,6 +52,17 @@ ContactStep hermiteStep(const StepEnd& from, const StepEnd& to, double length) {
   fill<Vec3>({from.position, from.velocity, from.acceleration}, {to.position, to.velocity, to.acceleration},
              length, step.position);
   fill<Vec4>(turning(from), turning(to), length, step.worldFromBody);
+  return step;
+}
+
+CrowdStep cubicStep(const StepEnd& from, const StepEnd& to, double length) {
+  CrowdStep step{.duration = length > 0 ? length : 1};
+  fillCubic<Vec3>({from.position, from.velocity, {}}, {to.position, to.velocity, {}}, length, step.position);
+  Course<Vec4> end = turning(to);
+  if (end.value.dot(from.worldFromBody.coeffs()) < 0) {
+    end = {-end.value, -end.rate, -end.acceleration};
+  }
+  fillCubic<Vec4>(turning(from), end, length, step.worldFromBody);
   return step;
 }
 

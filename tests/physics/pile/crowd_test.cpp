@@ -1,4 +1,4 @@
-#include "physics/pile/pile.h"
+#include "physics/pile/crowd.h"
 
 #include <gtest/gtest.h>
 
@@ -10,23 +10,13 @@
 #include <vector>
 
 #include "physics/world/diagnostics.h"
+#include "support/crowd_run.h"
 #include "support/pile_scenes.h"
 
 namespace careen {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;
 constexpr double kGravity = 9.81;
-
-std::vector<BodyState> startOf(const World& world) {
-  std::vector<BodyState> states;
-  for (const Body& body : world.bodies) {
-    states.push_back(body.initial);
-  }
-  return states;
-}
-
-Pile pileOf(const World& world, double frame = kFrame) { return {world, startOf(world), frame}; }
 
 Body crate(const std::string& name, const Vec3& half, const Vec3& position, const Material& material,
            double density = 1000) {
@@ -51,32 +41,32 @@ bool sameBits(const BodyState& a, const BodyState& b) {
          a.velocity == b.velocity && a.angularMomentum == b.angularMomentum;
 }
 
-TEST(Pile, droppedBoxComesToRestOnTheFloorAndSleeps) {
+TEST(Crowd, droppedBoxComesToRestOnTheFloorAndSleeps) {
   for (const double restitution : {0.0, 0.5}) {
     const Material material{.restitution = restitution, .friction = 0.5};
     World world = floorWorld(material);
     world.bodies.push_back(crate("a", Vec3(0.25, 0.2, 0.3), Vec3(0, 0, 1.3), material));
-    Pile pile = pileOf(world);
+    test::CrowdRun crowd(world);
     int frames = 0;
-    for (; frames < 300 && !pile.atRest(); ++frames) {
-      pile.step();
+    for (; frames < 300 && !crowd.atRest(); ++frames) {
+      crowd.step();
     }
     EXPECT_LT(frames, 240) << restitution;
-    EXPECT_TRUE(pile.sleeps(0));
-    EXPECT_NEAR(pile.states()[0].pose.position.z(), 0.3, 1e-4);
-    EXPECT_NEAR(pile.states()[0].pose.worldFromBody(2, 2), 1, 1e-6);
+    EXPECT_TRUE(crowd.sleeps(0));
+    EXPECT_NEAR(crowd.states()[0].pose.position.z(), 0.3, 1e-4);
+    EXPECT_NEAR(crowd.states()[0].pose.worldFromBody(2, 2), 1, 1e-6);
   }
 }
 
 // A thrown box: the centre on its parabola, L kept, the attitude that of steps 16 times as short.
-TEST(Pile, flightIsRightToTenThousandths) {
+TEST(Crowd, flightIsRightToTenThousandths) {
   World world = floorWorld({});
   Body body = crate("a", Vec3(0.25, 0.2, 0.3), Vec3(0, 0, 20), {});
   body.initial.velocity = Vec3(3, 1, 4);
   body.initial.angularMomentum = angularMomentum(body.mass, Mat3::Identity(), Vec3(5, 0.1, 3));
   world.bodies.push_back(body);
-  Pile coarse = pileOf(world);
-  Pile fine = pileOf(world, kFrame / 16);
+  test::CrowdRun coarse(world);
+  test::CrowdRun fine(world, Crowd::kUsualTolerance / 256, test::CrowdRun::kFrame / 16);
   for (int k = 0; k < 60; ++k) {
     coarse.step();
   }
@@ -89,7 +79,7 @@ TEST(Pile, flightIsRightToTenThousandths) {
   EXPECT_EQ(coarse.states()[0].angularMomentum, body.initial.angularMomentum);
 }
 
-TEST(Pile, slidingBoxStopsWhereCoulombSaysAtEveryAzimuth) {
+TEST(Crowd, slidingBoxStopsWhereCoulombSaysAtEveryAzimuth) {
   const double friction = 0.4;
   const double speed = 3;
   const Material material{.restitution = 0, .friction = friction};
@@ -100,41 +90,41 @@ TEST(Pile, slidingBoxStopsWhereCoulombSaysAtEveryAzimuth) {
     Body body = crate("a", Vec3(0.3, 0.3, 0.1), Vec3(0, 0, 0.1), material);
     body.initial.velocity = speed * direction;
     world.bodies.push_back(body);
-    Pile pile = pileOf(world);
+    test::CrowdRun crowd(world);
     for (int frame = 0; frame < 120; ++frame) {
-      pile.step();
+      crowd.step();
     }
-    const Vec3 way = pile.states()[0].pose.position - body.initial.pose.position;
+    const Vec3 way = crowd.states()[0].pose.position - body.initial.pose.position;
     const double expected = speed * speed / (2 * friction * kGravity);
     // The velocity at a substep's end acts in all of it: short by v h/2 = 8.3e-3 m, measured 7.6e-3.
     EXPECT_NEAR(way.dot(direction), expected, 8.4e-3) << angle;
     EXPECT_NEAR(way.cross(direction).norm(), 0, 1e-3) << angle;
-    EXPECT_TRUE(pile.atRest());
+    EXPECT_TRUE(crowd.atRest());
   }
 }
 
-TEST(Pile, overlapStaysSmallAtEveryFrameOfPouring) {
+TEST(Crowd, overlapStaysSmallAtEveryFrameOfPouring) {
   const World world = test::pouring(60, 0.5, 0, 1, 3);
-  Pile pile = pileOf(world);
+  test::CrowdRun crowd(world);
   double deepest = 0;
   for (int frame = 0; frame < 360; ++frame) {
-    pile.step();
-    deepest = std::max(deepest, pile.deepest());
+    crowd.step();
+    deepest = std::max(deepest, crowd.deepest());
   }
   EXPECT_LT(deepest, 1e-3);
-  EXPECT_LT(pile.deepest(), 3e-4);
+  EXPECT_LT(crowd.deepest(), 3e-4);
   EXPECT_GT(deepest, 0);
 }
 
-TEST(Pile, energyNeverRises) {
+TEST(Crowd, energyNeverRises) {
   for (const double restitution : {0.0, 0.5}) {
     const World world = test::pouring(40, 0.5, restitution, 1, 3);
-    Pile pile = pileOf(world);
-    double before = energyOf(world, pile.states()).total();
+    test::CrowdRun crowd(world);
+    double before = energyOf(world, crowd.states()).total();
     const double start = before;
     for (int frame = 0; frame < 300; ++frame) {
-      pile.step();
-      const double now = energyOf(world, pile.states()).total();
+      crowd.step();
+      const double now = energyOf(world, crowd.states()).total();
       EXPECT_LT(now - before, 1e-5 * start) << frame << " e " << restitution;
       before = now;
     }
@@ -142,7 +132,7 @@ TEST(Pile, energyNeverRises) {
   }
 }
 
-TEST(Pile, frozenPileIsConstantToTheBitCostsNothingAndWakesWhenHit) {
+TEST(Crowd, frozenCrowdIsConstantToTheBitCostsNothingAndWakesWhenHit) {
   const Material material{.restitution = 0, .friction = 0.5};
   World world = floorWorld(material);
   for (int k = 0; k < 3; ++k) {
@@ -151,50 +141,50 @@ TEST(Pile, frozenPileIsConstantToTheBitCostsNothingAndWakesWhenHit) {
   }
   // Arrives after 1.4 s.
   world.bodies.push_back(crate("late", Vec3::Constant(0.2), Vec3(0.1, 0.05, 11), material));
-  Pile pile = pileOf(world);
+  test::CrowdRun crowd(world);
   for (int frame = 0; frame < 30; ++frame) {
-    pile.step();
+    crowd.step();
   }
-  ASSERT_TRUE(pile.sleeps(0) && pile.sleeps(1) && pile.sleeps(2));
-  EXPECT_FALSE(pile.sleeps(3));
-  const std::vector<BodyState> frozen(pile.states().begin(), pile.states().end());
-  const std::int64_t manifolds = pile.figures().manifolds;
-  const std::int64_t solves = pile.figures().solves;
+  ASSERT_TRUE(crowd.sleeps(0) && crowd.sleeps(1) && crowd.sleeps(2));
+  EXPECT_FALSE(crowd.sleeps(3));
+  const std::vector<BodyState> frozen(crowd.states().begin(), crowd.states().end());
+  const std::int64_t manifolds = crowd.figures().manifolds;
+  const std::int64_t solves = crowd.figures().solves;
   for (int frame = 0; frame < 30; ++frame) {
-    pile.step();
+    crowd.step();
     for (std::size_t k = 0; k < 3; ++k) {
-      ASSERT_TRUE(sameBits(pile.states()[k], frozen[k])) << frame;
+      ASSERT_TRUE(sameBits(crowd.states()[k], frozen[k])) << frame;
     }
   }
-  EXPECT_EQ(pile.figures().manifolds, manifolds);
-  EXPECT_EQ(pile.figures().solves, solves);
+  EXPECT_EQ(crowd.figures().manifolds, manifolds);
+  EXPECT_EQ(crowd.figures().solves, solves);
   bool woke = false;
   for (int frame = 0; frame < 240; ++frame) {
-    pile.step();
-    woke = woke || !pile.sleeps(0);
+    crowd.step();
+    woke = woke || !crowd.sleeps(0);
   }
   EXPECT_TRUE(woke);
-  EXPECT_TRUE(pile.atRest());
+  EXPECT_TRUE(crowd.atRest());
 }
 
-TEST(Pile, listingOrderChangesNoBit) {
+TEST(Crowd, listingOrderChangesNoBit) {
   const World world = test::pouring(30, 0.5, 0.3, 1, 3);
   World shuffled = world;
   for (std::size_t k = 0; k < world.bodies.size(); ++k) {
     shuffled.bodies[k] = world.bodies[(7 * k + 3) % world.bodies.size()];
   }
-  Pile pile = pileOf(world);
-  Pile other = pileOf(shuffled);
+  test::CrowdRun crowd(world);
+  test::CrowdRun other(shuffled);
   for (int frame = 0; frame < 150; ++frame) {
-    pile.step();
+    crowd.step();
     other.step();
   }
   for (std::size_t k = 0; k < world.bodies.size(); ++k) {
-    EXPECT_TRUE(sameBits(other.states()[k], pile.states()[(7 * k + 3) % world.bodies.size()])) << k;
+    EXPECT_TRUE(sameBits(other.states()[k], crowd.states()[(7 * k + 3) % world.bodies.size()])) << k;
   }
 }
 
-TEST(Pile, hitKeepsMomentum) {
+TEST(Crowd, hitKeepsMomentum) {
   const Material material{.restitution = 0.4, .friction = 0.3};
   World world;
   world.bodies.push_back(crate("a", Vec3(0.25, 0.2, 0.3), Vec3(0, 0, 0), material));
@@ -208,67 +198,67 @@ TEST(Pile, hitKeepsMomentum) {
     }
     return sum;
   };
-  Pile pile = pileOf(world);
-  const Vec3 linearBefore = linearMomentum(world, pile.states());
-  const Vec3 angularBefore = angular(pile.states());
+  test::CrowdRun crowd(world);
+  const Vec3 linearBefore = linearMomentum(world, crowd.states());
+  const Vec3 angularBefore = angular(crowd.states());
   for (int frame = 0; frame < 60; ++frame) {
-    pile.step();
+    crowd.step();
   }
-  ASSERT_LT(pile.states()[0].velocity.x(), 3.5);
-  EXPECT_LT((linearMomentum(world, pile.states()) - linearBefore).norm(), 1e-12 * linearBefore.norm());
+  ASSERT_LT(crowd.states()[0].velocity.x(), 3.5);
+  EXPECT_LT((linearMomentum(world, crowd.states()) - linearBefore).norm(), 1e-12 * linearBefore.norm());
   // The parts of an impulse act before the substep's motion, along which it is then carried: a little is
   // lost.
-  EXPECT_LT((angular(pile.states()) - angularBefore).norm(), 1e-9 * linearBefore.norm());
+  EXPECT_LT((angular(crowd.states()) - angularBefore).norm(), 1e-9 * linearBefore.norm());
 }
 
-TEST(Pile, separatesOverlapWithoutEnergy) {
+TEST(Crowd, separatesOverlapWithoutEnergy) {
   World world;
   world.bodies.push_back(crate("a", Vec3::Constant(0.25), Vec3(0, 0, 0), {}));
   world.bodies.push_back(crate("b", Vec3::Constant(0.25), Vec3(0.45, 0.02, 0.01), {}));
   world.bodies.push_back(crate("c", Vec3::Constant(0.2), Vec3(0.2, 0.3, 0.1), {}));
-  Pile pile = pileOf(world);
+  test::CrowdRun crowd(world);
   for (int frame = 0; frame < 30; ++frame) {
-    pile.step();
-    EXPECT_EQ(energyOf(world, pile.states()).kinetic, 0) << frame;
+    crowd.step();
+    EXPECT_EQ(energyOf(world, crowd.states()).kinetic, 0) << frame;
   }
-  EXPECT_LT(pile.deepest(), 3e-4);
+  EXPECT_LT(crowd.deepest(), 3e-4);
 }
 
-TEST(Pile, lengthsTimesFourAndTimesTimesTwoAreTheSameBits) {
+TEST(Crowd, lengthsTimesFourAndTimesTimesTwoAreTheSameBits) {
   const World world = test::pouring(30, 0.5, 0.3, 1, 3);
   World large = test::pouring(30, 0.5, 0.3, 4, 3);
-  Pile pile = pileOf(world);
-  Pile other = pileOf(large, 2 * kFrame);
+  test::CrowdRun crowd(world);
+  test::CrowdRun other(large, 4 * Crowd::kUsualTolerance, 2 * test::CrowdRun::kFrame);
   for (int frame = 0; frame < 180; ++frame) {
-    pile.step();
+    crowd.step();
     other.step();
   }
   for (std::size_t k = 0; k < world.bodies.size(); ++k) {
-    EXPECT_EQ(Vec3(4 * pile.states()[k].pose.position), other.states()[k].pose.position) << k;
-    EXPECT_EQ(pile.states()[k].pose.worldFromBody, other.states()[k].pose.worldFromBody) << k;
-    EXPECT_EQ(Vec3(2 * pile.states()[k].velocity), other.states()[k].velocity) << k;
+    EXPECT_EQ(Vec3(4 * crowd.states()[k].pose.position), other.states()[k].pose.position) << k;
+    EXPECT_EQ(crowd.states()[k].pose.worldFromBody, other.states()[k].pose.worldFromBody) << k;
+    EXPECT_EQ(Vec3(2 * crowd.states()[k].velocity), other.states()[k].velocity) << k;
   }
 }
 
-TEST(Pile, stackOfTenStands) {
+TEST(Crowd, stackOfTenStands) {
   const Material material{.restitution = 0, .friction = 0.5};
   World world = floorWorld(material);
   for (int k = 0; k < 10; ++k) {
     world.bodies.push_back(crate("box" + std::to_string(k), Vec3::Constant(0.25),
                                  Vec3(0.01 * (k % 3), -0.01 * (k % 2), 0.25 + 0.5 * k), material));
   }
-  Pile pile = pileOf(world);
+  test::CrowdRun crowd(world);
   for (int frame = 0; frame < 600; ++frame) {
-    pile.step();
+    crowd.step();
   }
   for (std::size_t k = 0; k < 10; ++k) {
-    EXPECT_LT((pile.states()[k].pose.position - world.bodies[k].initial.pose.position).norm(), 2e-3) << k;
+    EXPECT_LT((crowd.states()[k].pose.position - world.bodies[k].initial.pose.position).norm(), 2e-3) << k;
   }
-  EXPECT_TRUE(pile.atRest());
+  EXPECT_TRUE(crowd.atRest());
 }
 
 // Sizes from 0.02 to 1 m, masses over six orders, speeds to 100 m/s: stays finite and inside its room.
-TEST(Pile, wildScenesStayFiniteAndInside) {
+TEST(Crowd, wildScenesStayFiniteAndInside) {
   for (int scene = 0; scene < 12; ++scene) {
     test::Pourer pourer(static_cast<std::uint64_t>(100 + scene));
     World world;
@@ -291,13 +281,13 @@ TEST(Pile, wildScenesStayFiniteAndInside) {
           angularMomentum(body.mass, body.initial.pose.worldFromBody, pourer.vector(-20, 20));
       world.bodies.push_back(body);
     }
-    Pile pile = pileOf(world);
-    const double start = energyOf(world, pile.states()).kinetic;
+    test::CrowdRun crowd(world);
+    const double start = energyOf(world, crowd.states()).kinetic;
     for (int frame = 0; frame < 120; ++frame) {
-      pile.step();
+      crowd.step();
     }
-    EXPECT_LT(energyOf(world, pile.states()).kinetic, 1.5 * start + 1e5) << scene;
-    for (const BodyState& state : pile.states()) {
+    EXPECT_LT(energyOf(world, crowd.states()).kinetic, 1.5 * start + 1e5) << scene;
+    for (const BodyState& state : crowd.states()) {
       ASSERT_TRUE(isFinite(state)) << scene;
       EXPECT_LT(state.pose.position.cwiseAbs().maxCoeff(), room) << scene;
     }

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/pile/pile.h"
+#include "physics/pile/crowd.h"
 
 namespace careen {
 namespace {
@@ -15,7 +15,7 @@ constexpr double kFrictionless = 0x1p-20;  // μ below which friction stops noth
 // balance on every body: then it would not move, and these impulses, which lie in their friction cones, hold
 // it indefinitely. Motion at constant speed passes that test too, so the speed must also be one that friction
 // can stop within the substep, μ g h.
-bool Pile::freeze() {
+bool Crowd::freeze() {
   grip_.assign(bodies_.size(), kFrictionless);
   clusters_.reset(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -46,7 +46,7 @@ bool Pile::freeze() {
   };
   std::vector<char> quiet(bodies_.size(), 1);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!bodies_[i].held && !isQuiet(i)) {
+    if (!bodies_[i].held && !bodies_[i].absent && !isQuiet(i)) {
       quiet[clusters_.root(i)] = 0;
     }
   }
@@ -54,7 +54,7 @@ bool Pile::freeze() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     PileBody& body = bodies_[i];
     const std::size_t root = clusters_.root(i);
-    if (body.held || (body.asleep && quiet[root] == 0)) {
+    if (body.held || body.absent || (body.asleep && quiet[root] == 0)) {
       continue;
     }
     if (quiet[root] == 0) {
@@ -71,7 +71,7 @@ bool Pile::freeze() {
   return all;
 }
 
-double Pile::deepest() const {
+double Crowd::penetration() const {
   double deepest = 0;
   for (const PilePair& pair : pairs_.pairs()) {
     const PileBody& a = bodies_[at(pair.a)];

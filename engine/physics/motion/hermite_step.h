@@ -18,4 +18,7 @@ struct StepEnd {
 /// The polynomials of degree 5 through both ends of a step of `length` [s].
 ContactStep hermiteStep(const StepEnd& from, const StepEnd& to, double length);
 
+/// The polynomials of degree 3, which leave the accelerations free.
+CrowdStep cubicStep(const StepEnd& from, const StepEnd& to, double length);
+
 }  // namespace careen

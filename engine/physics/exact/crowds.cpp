@@ -1,0 +1,443 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "physics/exact/exact_world.h"
+#include "physics/geometry/separation.h"
+
+// Crowds: groups of the event queue as islands are, with steps of their own.
+
+namespace careen {
+namespace {
+
+/// [1] of the tolerance: how far recorded steps may differ from those computed, so that fewer are recorded.
+constexpr double kMerged = 0.25;
+
+/// Motion of a member if nothing touches it, for the contact search.
+class Unpushed {
+ public:
+  Unpushed(const Crowd& crowd, std::size_t place, const Vec3& gravity, double length)
+      : mass_(&crowd.listedBody(place).mass) {
+    PileBody body = crowd.body(place);
+    const StepEnd from{.position = body.position,
+                       .velocity = body.velocity,
+                       .worldFromBody = body.attitude,
+                       .spinBody = body.attitude.conjugate() * body.omega};
+    turnFree(body, length);
+    const StepEnd to{.position = body.position + length * (body.velocity + 0.5 * length * gravity),
+                     .velocity = body.velocity + length * gravity,
+                     .worldFromBody = body.attitude,
+                     .spinBody = body.attitude.conjugate() * body.omega};
+    step_ = asContactStep(cubicStep(from, to, length));
+    bounds_ = boundsOf(step_);
+    halfExtents_ = body.halfExtents;
+  }
+  Attitude operator()(double elapsed) const {
+    const BodyState state = stateAt(Motion(step_), *mass_, elapsed);
+    return {.worldFromBody = state.pose.worldFromBody, .angularVelocity = angularVelocity(*mass_, state)};
+  }
+  MovingBox moving() const {
+    return {.halfExtents = halfExtents_,
+            .position = step_.position[0],
+            .velocity = Vec3::Zero(),
+            .acceleration = Vec3::Zero(),
+            .angularSpeedBound = bounds_.angularSpeed,
+            .angularAccelerationBound = bounds_.angularAcceleration,
+            .attitude = AttitudeView(*this),
+            .step = &step_,
+            .speedBound = bounds_.speed,
+            .accelerationBound = bounds_.acceleration};
+  }
+
+ private:
+  const MassProperties* mass_;
+  ContactStep step_;
+  StepBounds bounds_;
+  Vec3 halfExtents_;
+};
+
+}  // namespace
+
+// ---- When bodies become a crowd.
+
+// Before their contacts are looked at: bodies that meet a crowd, too many that move, or endless repetition.
+bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
+  if (!encounter.crowds.empty()) {
+    return true;
+  }
+  if (crowds_.when == CrowdSettings::When::kNever) {
+    return false;
+  }
+  int movable = 0;
+  bool moves = false;
+  for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
+    const Mover& body = mover(encounter.ranks[i]);
+    if (body.isHeld()) {
+      continue;
+    }
+    ++movable;
+    const double spin = angularVelocity(body.body->mass, encounter.before[i]).norm();
+    moves = moves || encounter.before[i].velocity.norm() + spin * body.body->halfExtents.norm() > fallSpeed();
+    if (body.atOneMoment > kMostAtOneMoment) {
+      return true;
+    }
+  }
+  const int most = crowds_.when == CrowdSettings::When::kAbove ? crowds_.above : kMostInContact;
+  return moves && movable > most;
+}
+
+// Afterwards, where they would go on in contact: whether they have spent the work that they may.
+bool ExactWorld::hasSpent(const Encounter& encounter) const {
+  if (crowds_.when == CrowdSettings::When::kNever || encounter.islands.empty()) {
+    return false;
+  }
+  double left = 0;
+  for (const int rank : encounter.ranks) {
+    if (!mover(rank).isHeld()) {
+      left += workShare_ * (kWorkAtOnce + kWorkPerSecond * encounter.time.hi) - mover(rank).work;
+    }
+  }
+  return left < 0;
+}
+
+// ---- Members.
+
+// The bodies of an encounter, and the crowds that they meet, are one crowd from there on.
+void ExactWorld::formCrowd(const Encounter& encounter) {
+  account_.bounds(encounter.time.hi);
+  std::shared_ptr<ContactGroup> crowd;
+  for (const std::shared_ptr<ContactGroup>& met : encounter.crowds) {
+    endAt(*met, encounter.time);
+    if (!crowd) {
+      crowd = met;
+    } else {
+      merge(crowd, *met);
+    }
+  }
+  if (!crowd) {
+    crowd = std::make_shared<ContactGroup>();
+    crowd->crowd = std::make_unique<Crowd>(world_, crowds_.tolerance);
+  }
+  for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
+    enlist(crowd, encounter.ranks[i], encounter.time, encounter.before[i], encounter.attitudes[i]);
+  }
+  go(crowd, encounter.time);
+}
+
+void ExactWorld::keepPlace(const std::shared_ptr<ContactGroup>& crowd, int rank, std::size_t place) {
+  if (place >= crowd->ranks.size()) {
+    crowd->ranks.resize(place + 1, -1);
+    crowd->merged.resize(place + 1, MergedSteps(kMerged * crowds_.tolerance));
+    crowd->motions.resize(place + 1);
+  }
+  crowd->ranks[place] = rank;
+  if (!mover(rank).isHeld()) {
+    mover(rank).crowd = crowd;
+    mover(rank).place = place;
+  }
+}
+
+// Adds a body in this state, once, with those that springs join to it. Bodies at rest stay so until pushed.
+void ExactWorld::enlist(const std::shared_ptr<ContactGroup>& crowd, int rank, const Instant& time,
+                        const BodyState& state, const Quat& attitude) {
+  Mover& body = mover(rank);
+  if (body.crowd == crowd) {
+    return;
+  }
+  if (!body.moves()) {
+    enlistAtRest(crowd, rank);
+    return;
+  }
+  if (body.flies) {
+    arrive(body, time, state);
+  }
+  body.rest(state.pose);
+  keepPlace(crowd, rank, crowd->crowd->admit(static_cast<std::size_t>(body.listed.value), state, attitude));
+  for (const int other : springs_[static_cast<std::size_t>(rank)]) {
+    const Quat turned = mover(other).attitudeAt(time);
+    enlist(crowd, other, time, mover(other).stateAt(time, turned), turned);
+  }
+}
+
+// Adds a body at rest or immovable, and all at rest that it touches, directly or through others: they are
+// pushed together.
+void ExactWorld::enlistAtRest(const std::shared_ptr<ContactGroup>& crowd, int rank) {
+  std::vector<int> reached{rank};
+  std::vector<Neighbors::Key> candidates;
+  std::optional<std::size_t> cluster;
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const Mover& body = mover(reached[k]);
+    const bool known =
+        body.isHeld() ? std::find(crowd->ranks.begin(), crowd->ranks.end(), reached[k]) != crowd->ranks.end()
+                      : body.crowd == crowd;
+    if (!known) {
+      const std::size_t place = crowd->crowd->admitAtRest(static_cast<std::size_t>(body.listed.value),
+                                                          body.pose, body.isHeld() ? std::nullopt : cluster);
+      keepPlace(crowd, reached[k], place);
+      if (!body.isHeld()) {
+        cluster = cluster.value_or(place);
+      }
+    }
+    if (body.isHeld()) {
+      continue;
+    }
+    neighbors_.findCandidates(reached[k], candidates);
+    for (const Neighbors::Key candidate : candidates) {
+      const Mover& other = mover(candidate);
+      if (!other.moves() && !other.crowd &&
+          std::find(reached.begin(), reached.end(), candidate) == reached.end() &&
+          areTouching({body.pose, body.body->halfExtents}, {other.pose, other.body->halfExtents},
+                      crowds_.tolerance)) {
+        reached.push_back(candidate);
+      }
+    }
+  }
+}
+
+// Takes over all members of another crowd, whose step has ended.
+void ExactWorld::merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup& other) {
+  std::vector<std::optional<std::size_t>> clusters(other.ranks.size());
+  for (std::size_t place = 0; place < other.ranks.size(); ++place) {
+    const int rank = other.ranks[place];
+    if (rank < 0) {
+      continue;
+    }
+    Mover& body = mover(rank);
+    if (body.isHeld()) {
+      enlistAtRest(crowd, rank);
+      continue;
+    }
+    other.merged[place].flush(recorder_, body.listed);
+    if (other.crowd->sleeps(place)) {
+      std::optional<std::size_t>& cluster =
+          clusters[static_cast<std::size_t>(other.crowd->body(place).cluster)];
+      const std::size_t at =
+          crowd->crowd->admitAtRest(static_cast<std::size_t>(body.listed.value), body.pose, cluster);
+      cluster = cluster.value_or(at);
+      keepPlace(crowd, rank, at);
+    } else {
+      keepPlace(crowd, rank,
+                crowd->crowd->admit(static_cast<std::size_t>(body.listed.value), other.crowd->state(place),
+                                    other.crowd->attitude(place)));
+    }
+  }
+  other.ranks.clear();
+}
+
+// ---- Steps.
+
+void ExactWorld::advanceCrowd(std::shared_ptr<ContactGroup> crowd, const Instant& time) {
+  commit(*crowd, time);
+  const std::vector<int> released = release(*crowd, time);
+  if (crowd->crowd->atRest()) {
+    for (const int rank : crowd->ranks) {
+      if (rank >= 0 && !mover(rank).isHeld()) {
+        mover(rank).crowd.reset();
+      }
+    }
+  } else {
+    go(crowd, time);
+  }
+  for (const int rank : released) {
+    predict(rank);
+  }
+}
+
+// Ends the crowd's step now, perhaps early.
+void ExactWorld::endAt(ContactGroup& group, const Instant& time) {
+  if (earlier(time, group.end())) {
+    group.step.length = secondsBetween(group.start, time);
+    group.crowd->stepAgain(group.step.length);
+  }
+  commit(group, time);
+}
+
+// Records the step that ends now. Members that fell asleep rest from now on.
+void ExactWorld::commit(ContactGroup& group, const Instant& time) {
+  const Crowd& crowd = *group.crowd;
+  for (const Crowd::Struck& struck : crowd.impacts()) {
+    const auto listed = [&](int place) { return mover(group.ranks[static_cast<std::size_t>(place)]).listed; };
+    recorder_.strikes({.time = time.hi,
+                       .a = listed(struck.a),
+                       .b = struck.b.isWall() ? struck.b : Partner::ofBody(listed(struck.b.body()).value),
+                       .point = struck.point,
+                       .normal = struck.normal,
+                       .approach = struck.approach,
+                       .impulse = struck.impulse,
+                       .tangential = struck.tangential});
+  }
+  for (std::size_t place = 0; place < group.ranks.size(); ++place) {
+    if (group.ranks[place] < 0 || !crowd.moved(place)) {
+      continue;
+    }
+    endStep(group, place);
+    if (crowd.sleeps(place)) {
+      const int rank = group.ranks[place];
+      group.merged[place].flush(recorder_, mover(rank).listed);
+      rest(rank, time, crowd.state(place).pose);
+      queue_.clear(rank);
+      predictAround(rank);
+    }
+  }
+}
+
+void ExactWorld::endStep(ContactGroup& group, std::size_t place) {
+  const Crowd& crowd = *group.crowd;
+  group.merged[place].add(recorder_, mover(group.ranks[place]).listed, group.start.hi, crowd.begin(place),
+                          crowd.end(place), crowd.length(), crowd.body(place).radius);
+}
+
+// Members that nothing is near go on in Flight.
+std::vector<int> ExactWorld::release(ContactGroup& group, const Instant& time) {
+  std::vector<int> released;
+  for (std::size_t place = 0; place < group.ranks.size(); ++place) {
+    const int rank = group.ranks[place];
+    if (rank < 0 || !group.crowd->isFree(place) || isForced(rank)) {
+      continue;
+    }
+    const BodyState state = group.crowd->state(place);
+    const Quat attitude = group.crowd->attitude(place);
+    group.merged[place].flush(recorder_, mover(rank).listed);
+    group.crowd->dismiss(place);
+    group.ranks[place] = -1;
+    mover(rank).crowd.reset();
+    fly(rank, time, state, attitude);
+    released.push_back(rank);
+  }
+  account_.strikes(true);
+  account_.parted();
+  return released;
+}
+
+// The next step. What it will meet becomes a member first: that costs less than to cut the step.
+void ExactWorld::go(const std::shared_ptr<ContactGroup>& group, const Instant& time) {
+  Crowd& crowd = *group->crowd;
+  const double most = withinCell(crowd.fastest());
+  const std::vector<int> near = admitNear(group, time, crowd.nextLength(most));
+  account_.strikes(true);
+  for (std::size_t place = 0; place < group->ranks.size(); ++place) {
+    if (group->ranks[place] >= 0 && !crowd.isHeld(place) && !crowd.sleeps(place)) {
+      account_.departs(static_cast<std::size_t>(mover(group->ranks[place]).listed.value), crowd.state(place));
+    }
+  }
+  account_.parted();
+  group->start = time;
+  group->step = {.length = crowd.step(most)};
+  bool any = false;
+  for (std::size_t place = 0; place < group->ranks.size(); ++place) {
+    const int rank = group->ranks[place];
+    if (rank < 0 || !crowd.moved(place)) {
+      continue;
+    }
+    begins(rank, time);
+    group->motions[place] = asContactStep(cubicStep(crowd.begin(place), crowd.end(place), crowd.length()));
+    mover(rank).touch(group, place);
+    queue_.clear(rank);
+    if (neighbors_.isFiled(rank)) {
+      neighbors_.move(rank, neighbors_.cellOf(crowd.body(place).position));
+    }
+    group->leader = any ? group->leader : rank;
+    any = true;
+  }
+  account_.penetrates(crowd.deepest());
+  if (any && earlier(group->end(), end_)) {
+    queue_.set({.time = group->end(), .kind = EventKind::kStep, .body = group->leader});
+  }
+  for (const int rank : near) {
+    predict(rank);
+  }
+}
+
+// ---- What a crowd is about to meet.
+
+// Admits what its members meet within the next step if nothing pushes them, and bodies at rest near them.
+// Returns the others that are near, which may meet them all the same.
+std::vector<int> ExactWorld::admitNear(const std::shared_ptr<ContactGroup>& group, const Instant& time,
+                                       double length) {
+  std::vector<int> near;
+  for (bool added = true; added;) {
+    added = false;
+    near.clear();
+    const Crowd::Extent extent = group->crowd->extent(length);
+    for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
+      const Mover& body = mover(rank);
+      const double radius = body.body->halfExtents.norm();
+      if (body.crowd == group) {
+        continue;
+      }
+      const double way =
+          body.flies
+              ? length * (body.flight.velocityAt(body.elapsed(time)).norm() + length * world_.gravity.norm())
+          : body.touches() ? length * body.speedBound
+                           : 0;
+      const Vec3 reach = Vec3::Constant(radius + way);
+      const Vec3 center = body.moves() ? body.positionAt(time) : body.pose.position;
+      if (((center + reach).array() < extent.low.array()).any() ||
+          ((center - reach).array() > extent.high.array()).any() ||
+          (body.isHeld() &&
+           std::find(group->ranks.begin(), group->ranks.end(), rank) != group->ranks.end())) {
+        continue;
+      }
+      const Nearness nearness = nearnessTo(*group, rank, time, length);
+      if (nearness == Nearness::kMeets) {
+        if (body.crowd) {
+          const std::shared_ptr<ContactGroup> other = body.crowd;
+          endAt(*other, time);
+          merge(group, *other);
+        } else if (body.moves()) {
+          const Quat attitude = body.attitudeAt(time);
+          enlist(group, rank, time, body.stateAt(time, attitude), attitude);
+        } else {
+          enlistAtRest(group, rank);
+        }
+        added = true;
+      } else if (nearness == Nearness::kNear) {
+        near.push_back(rank);
+      }
+    }
+  }
+  return near;
+}
+
+ExactWorld::Nearness ExactWorld::nearnessTo(const ContactGroup& group, int rank, const Instant& time,
+                                            double length) {
+  const Mover& body = mover(rank);
+  const BodyState state = body.stateAt(time);
+  const double radius = body.body->halfExtents.norm();
+  const double turning = body.moves() ? angularVelocity(body.body->mass, state).norm() * radius : 0;
+  Nearness found = Nearness::kFar;
+  neighbors_.findCandidates(rank, candidates_);
+  for (const Neighbors::Key candidate : candidates_) {
+    const Mover& member = mover(candidate);
+    if (member.crowd.get() != &group || (!body.moves() && group.crowd->sleeps(member.place))) {
+      continue;
+    }
+    const PileBody& at = group.crowd->body(member.place);
+    const double way =
+        crowds_.tolerance + length * ((state.velocity - at.velocity).norm() + turning +
+                                      at.radius * at.omega.norm() + length * world_.gravity.norm());
+    if ((state.pose.position - at.position).norm() > radius + at.radius + way ||
+        BoxAxes({state.pose, body.body->halfExtents}, {{at.position, at.axes}, at.halfExtents}).gap() > way) {
+      continue;
+    }
+    found = Nearness::kNear;
+    if (!body.moves() || body.crowd || (body.flies && meetsWithin(group, rank, member, time, length))) {
+      return Nearness::kMeets;
+    }
+  }
+  return found;
+}
+
+bool ExactWorld::meetsWithin(const ContactGroup& group, int rank, const Mover& member, const Instant& time,
+                             double length) const {
+  const MovingBox body = mover(rank).moving(time);
+  const SearchWindow window{.from = 0, .until = length};
+  const Unpushed unpushed(*group.crowd, member.place, world_.gravity, length);
+  const FirstContact contact = group.crowd->sleeps(member.place)
+                                   ? firstContactOfBoxes(body, member.moving(time), window)
+                                   : firstContactOfBoxes(body, unpushed.moving(), window);
+  return contact.kind != ContactKind::kNone;
+}
+
+}  // namespace careen

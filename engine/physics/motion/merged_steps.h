@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "physics/motion/hermite_step.h"
+#include "physics/motion/recorder.h"
+
+namespace careen {
+
+/// Merges short steps of one body into longer ones before they are recorded: as many as one cubic through the
+/// first start and the last end, with the velocities there, follows to `within` [m] at the ends of all steps,
+/// corners included. So a body that hardly turns or falls freely costs one record for many steps.
+class MergedSteps {
+ public:
+  explicit MergedSteps(double within = 0) : within_(within) {}
+
+  /// A step from `time` [s] on of `length` [s]; `radius` [m] of the body. Records what came before if this
+  /// step does not continue it: its velocity jumps, or the cubic would not follow.
+  void add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,
+           double length, double radius);
+  /// Records what is left.
+  void flush(Recorder& recorder, BodyIndex body);
+
+ private:
+  static constexpr std::size_t kMost = 8;
+  struct Sample {
+    double elapsed = 0;
+    Vec3 position = Vec3::Zero();
+    Vec4 worldFromBody = Vec4::Zero();
+  };
+  bool follows(const ContactStep& step, double radius) const;
+
+  double within_;
+  double time_ = 0;
+  double length_ = 0;
+  StepEnd from_;
+  StepEnd to_;
+  std::array<Sample, kMost> samples_;  // ends of the steps between
+  std::size_t count_ = 0;
+};
+
+}  // namespace careen

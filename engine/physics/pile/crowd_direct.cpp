@@ -1,0 +1,108 @@
+// Direct solution of small crowds: by the solver of exact contact.
+#include <algorithm>
+#include <cstddef>
+
+#include "physics/pile/crowd.h"
+
+namespace careen {
+namespace {
+
+/// Of more contact points Gauss–Seidel costs less than factorisations do.
+constexpr std::size_t kMostRows = 600;
+constexpr int kMostFactorisations = 60;
+/// [1] of the tolerance: what the residual of a step may move a body by in it.
+constexpr double kResidual = 0x1p-10;
+
+}  // namespace
+
+// Solves the rows of solver_ for the impulses of which friction and complementarity hold to a verified
+// residual; false, and nothing changed, where there are too many or none were found.
+bool Crowd::solveDirectly() {
+  const std::size_t count = solver_.rowCount();
+  if (count == 0 || count > kMostRows) {
+    return false;
+  }
+  std::vector<int> index(bodies_.size(), ContactProblem::kNobody);
+  std::vector<std::size_t> movers;
+  problem_.inverseMass.clear();
+  problem_.free.clear();
+  const auto indexOf = [&](int body) {
+    if (at(body) >= bodies_.size() || bodies_[at(body)].still()) {
+      return ContactProblem::kNobody;
+    }
+    if (index[at(body)] < 0) {
+      const PileBody& mover = bodies_[at(body)];
+      index[at(body)] = static_cast<int>(movers.size());
+      movers.push_back(at(body));
+      const Vec3 spin = mover.axes.transpose() * solver_.omega(body);
+      for (int i = 0; i < 3; ++i) {
+        problem_.inverseMass.push_back(mover.inverseMass);
+        problem_.free.push_back(solver_.velocity(body)[i]);
+      }
+      for (int i = 0; i < 3; ++i) {
+        problem_.inverseMass.push_back(mover.inverseInertiaBody[i]);
+        problem_.free.push_back(spin[i]);
+      }
+    }
+    return index[at(body)];
+  };
+  problem_.contacts.assign(count, {});
+  solution_.impulses.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const PileSolver::RowView row = solver_.row(static_cast<int>(k));
+    ContactProblem::Contact& contact = problem_.contacts[k];
+    contact.a = indexOf(row.a);
+    contact.b = indexOf(row.b);
+    contact.friction = row.friction;
+    contact.target = {row.bound, 0, 0};
+    solution_.impulses[k] = row.impulse;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const auto fill = [&](int body, const Vec3& arm, double sign, std::size_t from) {
+        if (at(body) < bodies_.size() && !bodies_[at(body)].still()) {
+          const Vec3 turning = bodies_[at(body)].axes.transpose() * arm.cross(row.directions[d]);
+          for (int i = 0; i < 3; ++i) {
+            contact.rows[d][from + at(i)] = sign * row.directions[d][i];
+            contact.rows[d][from + 3 + at(i)] = sign * turning[i];
+          }
+        }
+      };
+      fill(row.a, row.armA, 1, 0);
+      fill(row.b, row.armB, -1, ContactProblem::kAxes);
+    }
+  }
+  addImpulses(-1);
+  solution_.enough = kResidual * tolerance_ / h_;
+  if (!direct_.solve(problem_, solution_, kMostFactorisations)) {
+    return false;
+  }
+  for (std::size_t m = 0; m < movers.size(); ++m) {
+    const double* q = &solution_.velocities[m * ContactProblem::kAxes];
+    const int body = static_cast<int>(movers[m]);
+    solver_.velocity(body) = Vec3(q[0], q[1], q[2]);
+    solver_.omega(body) = bodies_[movers[m]].axes * Vec3(q[3], q[4], q[5]);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    solver_.setImpulse(static_cast<int>(k), solution_.impulses[k]);
+  }
+  return true;
+}
+
+// To the problem's velocities.
+void Crowd::addImpulses(double sign) {
+  for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
+    const ContactProblem::Contact& contact = problem_.contacts[k];
+    for (std::size_t d = 0; d < 3; ++d) {
+      const auto push = [&](int body, std::size_t from) {
+        for (std::size_t i = 0; body >= 0 && i < ContactProblem::kAxes; ++i) {
+          const std::size_t number = at(body) * ContactProblem::kAxes + i;
+          problem_.free[number] +=
+              sign * problem_.inverseMass[number] * contact.rows[d][from + i] * solution_.impulses[k][d];
+        }
+      };
+      push(contact.a, 0);
+      push(contact.b, ContactProblem::kAxes);
+    }
+  }
+}
+
+}  // namespace careen
