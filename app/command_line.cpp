@@ -38,6 +38,11 @@ CommandOption CommandOption::delimiter(char separator) const {
   return *this;
 }
 
+CommandOption CommandOption::onePerUse() const {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
 CommandOption CommandOption::oneOf(const std::vector<std::string>& texts) const {
   option_->check(CLI::IsMember(texts));
   return *this;

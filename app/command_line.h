@@ -28,6 +28,8 @@ class CommandOption {
   CommandOption showsDefault() const;
   /// The text is a list, with this between its elements.
   CommandOption delimiter(char separator) const;
+  /// Each use of the option takes one text, and what follows that is another argument.
+  CommandOption onePerUse() const;
   CommandOption oneOf(const std::vector<std::string>& texts) const;
   CommandOption needs(CommandOption other) const;
   template <class... Others>

@@ -8,8 +8,10 @@ namespace careen {
 void addRender(const CommandLine& commandLine);
 void addSimulate(const CommandLine& commandLine);
 void addCompare(const CommandLine& commandLine);
+void addAudit(const CommandLine& commandLine);
 void addInfo(const CommandLine& commandLine);
 void addStudy(const CommandLine& commandLine);
+void addValidate(const CommandLine& commandLine);
 void addVerify(const CommandLine& commandLine);
 void addView(const CommandLine& commandLine);
 

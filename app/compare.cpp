@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <memory>
 
@@ -17,7 +18,6 @@
 #include "film/manifest.h"
 #include "parsed.h"
 #include "run.h"
-#include "trajectory/trajectory_file.h"
 
 namespace careen {
 namespace {
@@ -68,13 +68,11 @@ Kind kindOf(const std::filesystem::path& path) {
     return Kind::kFolder;
   }
   std::ifstream stream(path, std::ios::binary);
-  std::string begin(64, '\0');
-  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  if (!stream && stream.gcount() == 0) {
+  if (stream.peek() == std::ifstream::traits_type::eof()) {
     throw InputError(path.string() + (std::filesystem::exists(path, none) ? ": is empty" : ": is not there") +
                      ", expected a picture, a folder of frames, or a run");
   }
-  return looksLikeTrajectory(begin) ? Kind::kRun : Kind::kPicture;
+  return isRun(path) ? Kind::kRun : Kind::kPicture;
 }
 
 const char* nameOf(Kind kind) {
@@ -134,6 +132,13 @@ void printRun(std::ostream& out, const RunDifference& run) {
     out << "  first other impact, number " << run.firstOtherEvent->index + 1 << ": "
         << printableName(run.firstOtherEvent->what) << '\n';
   }
+  if (run.lastImpact) {
+    out << "  after impact number " << run.lastImpact->index + 1 << ": "
+        << printableName(run.lastImpact->what) << '\n';
+  }
+  if (!run.firstBroken.empty()) {
+    out << "  broken first, " << printableName(run.firstBroken) << '\n';
+  }
   if (run.expectedDuration != run.actualDuration && !run.until) {
     out << "  they last " << brief(run.expectedDuration) << " and " << brief(run.actualDuration) << " s\n";
   }
@@ -142,6 +147,31 @@ void printRun(std::ostream& out, const RunDifference& run) {
         << ", kinetic energy at the end " << brief(run.expectedEnergy) << " and " << brief(run.actualEnergy)
         << " J\n";
   }
+}
+
+// Tables are read with the scene named, or else with that of the other run, and audited.
+Comparison compareRunsOrTables(const std::filesystem::path& expected, const std::filesystem::path& actual,
+                               const ComparisonSettings& settings, const SceneOfTable& scene,
+                               const std::stop_token& stop) {
+  const bool areBoth = isTable(expected) && isTable(actual);
+  if (scene.path && !isTable(expected) && !isTable(actual)) {
+    throw InputError("--scene: found two runs, which have their scenes; expected a table of poses");
+  }
+  std::string broken;
+  const auto read = [&](const std::filesystem::path& path) {
+    const auto setupOfOther = [&]() -> RunSetup { return readRun(path == expected ? actual : expected, {}); };
+    Trajectory run = isTable(path)
+                         ? readRun(path, scene, areBoth ? std::function<RunSetup()>() : setupOfOther)
+                         : readRun(path, {});
+    if (run.given && path == actual) {
+      const Audit found = audit(run, AuditDepth::kFull, stop);
+      broken = found.breaches.empty() ? "" : describe(found.breaches.front(), run);
+    }
+    return run;
+  };
+  Comparison comparison = compareRuns(expected, actual, settings, read);
+  comparison.run->firstBroken = broken;
+  return comparison;
 }
 
 void print(std::ostream& out, const Comparison& comparison) {
@@ -232,7 +262,8 @@ ComparisonSettings CompareOptions::settings() const {
 }
 
 Comparison compare(const std::filesystem::path& expected, const std::filesystem::path& actual,
-                   const ComparisonSettings& settings, const std::stop_token& stop) {
+                   const ComparisonSettings& settings, const SceneOfTable& scene,
+                   const std::stop_token& stop) {
   const Kind kind = kindOf(expected);
   if (const Kind other = kindOf(actual); other != kind) {
     throw InputError("found " + std::string(nameOf(kind)) + " and " + nameOf(other) +
@@ -242,7 +273,10 @@ Comparison compare(const std::filesystem::path& expected, const std::filesystem:
     return comparePictures(expected, actual, settings);
   }
   if (kind == Kind::kRun) {
-    return compareRuns(expected, actual, settings, readRun);
+    return compareRunsOrTables(expected, actual, settings, scene, stop);
+  }
+  if (scene.path) {
+    throw InputError("--scene: found " + std::string(nameOf(kind)) + ", expected a table of poses");
   }
   Films films = filmsIn(expected, actual);
   Comparison comparison = compareFolders(expected, actual, settings, films.sameMotion, {}, stop);
@@ -269,14 +303,18 @@ void addCompare(const CommandLine& commandLine) {
   struct Arguments {
     std::filesystem::path expected, actual;
     CompareOptions options;
+    SceneOfTable scene;
     std::filesystem::path report;  // empty: no report
     std::string log = "text";
   };
   const CommandLine command =
       commandLine.addCommand("compare", "Whether two pictures, folders of frames, or runs are the same");
   const auto arguments = std::make_shared<Arguments>();
-  command.add("expected", arguments->expected, "Picture (PNG), folder of frames, or run.careen").required();
+  command
+      .add("expected", arguments->expected, "Picture (PNG), folder of frames, run.careen, or table of poses")
+      .required();
   command.add("actual", arguments->actual, "What is to be the same").required();
+  arguments->scene.addTo(command);
   arguments->options.addTo(command);
   command.add("--out", arguments->report, "Folder for a report: index.html, report.json, junit.xml");
   command.add("--threads", arguments->options.threads,
@@ -285,8 +323,8 @@ void addCompare(const CommandLine& commandLine) {
       .oneOf({"text", "json"});
   command.runs([arguments](const std::stop_token& stop) {
     const bool logsFrames = arguments->log == "json";
-    const Comparison comparison =
-        compare(arguments->expected, arguments->actual, arguments->options.settings(), stop);
+    const Comparison comparison = compare(arguments->expected, arguments->actual,
+                                          arguments->options.settings(), arguments->scene, stop);
     tell(comparison, logsFrames);
     if (const std::filesystem::path& folder = arguments->report; !folder.empty()) {
       writeReport(folder, comparison);

@@ -9,6 +9,7 @@
 
 #include "compare/comparison.h"
 #include "core/error.h"
+#include "run.h"
 
 namespace careen {
 
@@ -31,9 +32,11 @@ struct CompareOptions {
   ComparisonSettings settings() const;
 };
 
-/// Compares two pictures, two folders of frames, or two runs. InputError if they are not of one kind.
+/// Compares two pictures, two folders of frames, or two runs. InputError if they are not of one kind. A table
+/// of poses is a run; if `scene` is empty it is one of the scene of the other run.
 Comparison compare(const std::filesystem::path& expected, const std::filesystem::path& actual,
-                   const ComparisonSettings& settings, const std::stop_token& stop);
+                   const ComparisonSettings& settings, const SceneOfTable& scene,
+                   const std::stop_token& stop);
 
 /// Prints the result in words and, if `logsFrames`, as one line of JSON per frame. Words go to standard
 /// output, or to standard error if the JSON goes to standard output.

@@ -10,22 +10,21 @@
 #include "run.h"
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
-#include "trajectory/trajectory_file.h"
 
 namespace careen {
 namespace {
 
-ExitCode infoCommand(std::filesystem::path path, const std::stop_token& stop) {
+ExitCode infoCommand(std::filesystem::path path, const SceneOfTable& ofTable, const std::stop_token& stop) {
   if (path.empty()) {
     path = defaultScene();
   }
   const std::string bytes = readFile(path);
-  if (!looksLikeTrajectory(bytes)) {
+  if (!ofTable.path && !isRun(path)) {
     const Scene scene = parseScene(bytes, path.string());
     printPlan(std::cout, scene.name, scene.boxes.size(), settingsOf(scene), plan(scene));
     return ExitCode::kDone;
   }
-  Run run = loadRun(path, {}, stop);
+  Run run = loadRun(path, {}, ofTable, stop);
   auditRun(run, {.keepGoing = true}, stop);  // what is broken is told below
   printPlan(std::cout, run.trajectory);
   printError(std::cout, run);
@@ -33,9 +32,10 @@ ExitCode infoCommand(std::filesystem::path path, const std::stop_token& stop) {
   for (const Track& track : run.trajectory.tracks) {
     segments += track.segments.size();
   }
-  std::cout << "trajectory   " << bytes.size() << " bytes, " << segments << " segments\n"
+  std::cout << (run.trajectory.given ? "table        " : "trajectory   ") << bytes.size() << " bytes, "
+            << segments << " segments\n"
             << "scene hash   " << run.trajectory.sceneHash() << '\n';
-  return run.audit.breaches.empty() ? ExitCode::kDone : ExitCode::kNumbersFailed;
+  return run.audit.breaches.empty() || run.trajectory.given ? ExitCode::kDone : ExitCode::kNumbersFailed;
 }
 
 }  // namespace
@@ -43,9 +43,17 @@ ExitCode infoCommand(std::filesystem::path path, const std::stop_token& stop) {
 void addInfo(const CommandLine& commandLine) {
   const CommandLine command =
       commandLine.addCommand("info", "What a scene's run models, what it leaves out, and why");
-  const auto path = std::make_shared<std::filesystem::path>();
-  command.add("file", *path, "Scene or trajectory file; the default scene if none is named");
-  command.runs([path](const std::stop_token& stop) { return infoCommand(*path, stop); });
+  struct Arguments {
+    std::filesystem::path path;
+    SceneOfTable scene;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  command.add("file", arguments->path,
+              "Scene, trajectory file or table of poses; the default scene if none is named");
+  arguments->scene.addTo(command);
+  command.runs([arguments](const std::stop_token& stop) {
+    return infoCommand(arguments->path, arguments->scene, stop);
+  });
 }
 
 }  // namespace careen

@@ -63,7 +63,9 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   addSimulate(commandLine);
   addStudy(commandLine);
   addCompare(commandLine);
+  addAudit(commandLine);
   addInfo(commandLine);
+  addValidate(commandLine);
   addVerify(commandLine);
 #ifdef CAREEN_RENDER
   addView(commandLine);

@@ -93,7 +93,7 @@ void takeFromReference(const Reference& reference, PictureOptions& picture, std:
 
 ExitCode compareWithReference(const Reference& reference, const FilmSettings& film,
                               const CompareOptions& options, bool logsFrames, const std::stop_token& stop) {
-  const Comparison comparison = compare(reference.folder, film.folder, options.settings(), stop);
+  const Comparison comparison = compare(reference.folder, film.folder, options.settings(), {}, stop);
   tell(comparison, logsFrames);
   if (comparison.verdict == Verdict::kDifferent) {
     writeReport(film.folder, comparison);  // while all pictures are still there

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iostream>
@@ -45,6 +46,8 @@ struct FilmOptions {
   bool listBackends = false;
   std::optional<std::filesystem::path> reference;
   CompareOptions compare;
+  SceneOfTable scene;
+  std::optional<std::filesystem::path> ghost;
   Overrides overrides;
   EstimateChoice estimate;
   AuditChoice audit;
@@ -181,6 +184,25 @@ void refuseToOverwrite(const Reference& reference, const std::filesystem::path& 
   }
 }
 
+// The other run that is shown as outlines. A table is one of the same scene.
+Trajectory readGhost(const std::filesystem::path& path, const SceneOfTable& scene, const Trajectory& run) {
+  if (!isRun(path)) {
+    static_cast<void>(readFile(path));  // tells if it is not there
+    throw InputError("--ghost: found " + path.string() + ", expected a trajectory file or a table of poses");
+  }
+  Trajectory ghost = readRun(path, scene, [&run] { return static_cast<const RunSetup&>(run); });
+  const auto isInRun = [&run](const Body& body) {
+    return !isImmovable(body.mass) &&
+           std::any_of(run.world.bodies.begin(), run.world.bodies.end(),
+                       [&body](const Body& other) { return other.name == body.name; });
+  };
+  if (std::none_of(ghost.world.bodies.begin(), ghost.world.bodies.end(), isInRun)) {
+    throw InputError("--ghost: found no box in " + path.string() +
+                     " that the film shows too, expected a run of the same boxes");
+  }
+  return ghost;
+}
+
 ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   const Stopwatch stopwatch;
   if (options.source.empty()) {
@@ -194,14 +216,22 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (reference) {
     refuseToOverwrite(*reference, settings.folder);
   }
-  Run run = loadRun(options.source, options.overrides, stop);
+  Run run = loadRun(options.source, options.overrides, options.scene, stop);
   auditRun(run, options.audit, stop);
+  std::optional<Trajectory> ghost;
+  if (options.ghost) {
+    ghost = readGhost(*options.ghost, options.scene, run.trajectory);
+    settings.ghost = &*ghost;
+  }
   PictureSettings& picture = run.trajectory.stage.picture;
   options.picture.applyTo(picture);
   checkVideoOf(picture, settings);
   if (options.still || options.strobe) {
     return drawStill(run, settings.render,
-                     {.path = options.folder, .moment = options.still.value_or(0), .strobe = options.strobe});
+                     {.path = options.folder,
+                      .moment = options.still.value_or(0),
+                      .strobe = options.strobe,
+                      .ghost = settings.ghost});
   }
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0);
   const bool logsFrames = options.log == "json";
@@ -230,11 +260,16 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
 void addRender(const CommandLine& commandLine) {
   const CommandLine command = commandLine.addCommand("render", "Make a film of a scene, or of a run");
   const auto options = std::make_shared<FilmOptions>();
-  command.add("file", options->source, "Scene or trajectory file; the default scene if none is named");
+  command.add("file", options->source,
+              "Scene, trajectory file or table of poses; the default scene if none is named");
+  options->scene.addTo(command);
   command.add("--out", options->folder,
               "Folder for the frames, or file of a single picture (default: out/ and the scene's name)");
   const CommandOption frames =
       command.add("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
+  command.add("--ghost", options->ghost,
+              "Another run of these boxes (trajectory file or table of poses): drawn as outlines, with the "
+              "distance");
   options->picture.addTo(command);
   const CommandOption video = command.add(
       "--video", options->video, "Film to make of the frames, by ffmpeg: .mp4, .mkv, .webm, .webp or .gif");

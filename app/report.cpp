@@ -146,10 +146,12 @@ void printAudit(std::ostream& out, const Run& run) {
   out << "audit        " << inWords(audit) << "; " << audit.looks << " states\n";
   const RunFigures& own = run.trajectory.figures;
   const RunFigures stated = run.statedFigures();
-  printDisagreement(out, "energy", own.energyChange, stated.energyChange);
-  printDisagreement(out, "momentum", own.momentumChange, stated.momentumChange);
-  printDisagreement(out, "|AAᵀ-1|", own.orthogonality, stated.orthogonality);
-  printDisagreement(out, "deepest penetration", own.deepestPenetration, stated.deepestPenetration);
+  if (!run.trajectory.given) {
+    printDisagreement(out, "energy", own.energyChange, stated.energyChange);
+    printDisagreement(out, "momentum", own.momentumChange, stated.momentumChange);
+    printDisagreement(out, "|AAᵀ-1|", own.orthogonality, stated.orthogonality);
+    printDisagreement(out, "deepest penetration", own.deepestPenetration, stated.deepestPenetration);
+  }
   for (const AuditBreach& breach : audit.breaches) {
     out << "BROKEN       " << describe(breach, run.trajectory) << '\n';
   }
@@ -164,7 +166,7 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
   nlohmann::ordered_json report = {
       {"scene", trajectory.stage.name},
       {"scene_hash", trajectory.sceneHash()},
-      {"method", traitsOf(trajectory.settings.method).name},
+      {"method", trajectory.methodName()},
       {steps ? "dt" : "tolerance", steps ? trajectory.settings.dt : trajectory.settings.tolerance},
       {"simulated_seconds", trajectory.settings.duration},
       {"wall_seconds", wallSeconds},
@@ -179,6 +181,14 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
       {"left_out", trajectory.plan.leftOut()},
       {"seconds", {{"simulate", run.simulateSeconds}}},
   };
+  if (trajectory.given) {
+    for (const char* const key : {"tolerance", "life"}) {
+      report.erase(key);
+    }
+    report["given"] = {{"velocities", trajectory.given->velocities},
+                       {"angular_velocities", trajectory.given->angularVelocities},
+                       {"quaternion_error", trajectory.given->quaternionError}};
+  }
   if (figures.boundedFrom) {
     report["bounded_from"] = *figures.boundedFrom;
   }
@@ -209,8 +219,14 @@ void printPlan(std::ostream& out, const std::string& scene, std::size_t boxes, c
   printItems(out, "left out     ", plan, false);
 }
 
-void printPlan(std::ostream& out, const RunSetup& setup) {
-  printPlan(out, setup.stage.name, setup.world.bodies.size(), setup.settings, setup.plan);
+void printPlan(std::ostream& out, const Trajectory& run) {
+  if (!run.given) {
+    printPlan(out, run.stage.name, run.world.bodies.size(), run.settings, run.plan);
+    return;
+  }
+  out << "scene        " << printableName(run.stage.name) << ", " << run.world.bodies.size()
+      << (run.world.bodies.size() == 1 ? " box, " : " boxes, ") << run.settings.duration
+      << " s of given poses; velocities " << (run.given->velocities ? "given" : "estimated") << '\n';
 }
 
 void printError(std::ostream& out, const Run& run) {
@@ -236,7 +252,7 @@ void printError(std::ostream& out, const Run& run) {
     all.steps += life.steps;
   }
   const double whole = all.flight + all.contact + all.crowd + all.rest;
-  if (whole > 0) {
+  if (whole > 0 && !trajectory.given) {
     out << "life         flight " << 100 * all.flight / whole << " %, contact " << 100 * all.contact / whole;
     if (figures.boundedFrom) {
       out << " %, crowd " << 100 * all.crowd / whole;

@@ -20,7 +20,7 @@ void printSummary(std::ostream& out, const Run& run, double wallSeconds);
 /// Parts of the summary.
 void printPlan(std::ostream& out, const std::string& scene, std::size_t boxes, const RunSettings& settings,
                const Plan& plan);
-void printPlan(std::ostream& out, const RunSetup& setup);
+void printPlan(std::ostream& out, const Trajectory& run);
 void printError(std::ostream& out, const Run& run);
 
 }  // namespace careen

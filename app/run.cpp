@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <fstream>
 #include <initializer_list>
 #include <iostream>
 #include <sstream>
@@ -22,6 +23,8 @@
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
 #include "scene/starts.h"
+#include "trajectory/given_run.h"
+#include "trajectory/pose_table.h"
 #include "trajectory/trajectory_file.h"
 
 namespace careen {
@@ -147,6 +150,31 @@ Trajectory decodeRun(const std::string& bytes, const std::string& name) {
   });
 }
 
+// Enough of a file to tell what it is.
+std::string beginningOf(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string begin(1024, '\0');
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(stream.gcount()));
+  return begin;
+}
+
+Trajectory readRunOf(const std::string& bytes, const std::filesystem::path& path, const SceneOfTable& scene,
+                     const std::function<RunSetup()>& setup) {
+  if (!looksLikeTrajectory(bytes) && looksLikePoseTable(bytes, path.string())) {
+    if (!scene.path && !setup) {
+      throw InputError(path.string() +
+                       ": is a table of poses, without sizes and walls; expected --scene with the scene");
+    }
+    return givenRun(scene.path ? setupOfScene(*scene.path) : setup(), readPoseTable(bytes, path.string()));
+  }
+  if (scene.path && !setup) {
+    throw InputError("--scene: found the run " + path.string() +
+                     ", which has its scene; expected a table of poses");
+  }
+  return decodeRun(bytes, path.string());
+}
+
 }  // namespace
 
 void Overrides::addTo(const CommandLine& command) {
@@ -190,6 +218,13 @@ void EstimateChoice::addTo(const CommandLine& command) {
 }
 
 void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const std::stop_token& stop) {
+  if (run.trajectory.given) {
+    if (choice.asked.value_or(false)) {
+      throw InputError("--estimate-error: found the table of poses " + run.source.string() +
+                       ", expected a run that this program can repeat");
+    }
+    return;
+  }
   const double expected = run.simulateSeconds * estimateCost(run.trajectory.settings.method);
   if (!choice.asked.value_or(expected > 0 && expected < kCheapPart * wallSeconds)) {
     return;
@@ -215,6 +250,15 @@ RunFigures Run::statedFigures() const {
   return figures;
 }
 
+void SceneOfTable::addTo(const CommandLine& command) {
+  command.add("--scene", path,
+              "Scene of a run that is a table of poses (CSV, NPZ): sizes, masses, walls, camera");
+}
+
+AuditDepth AuditChoice::auditDepth() const {
+  return static_cast<AuditDepth>(indexAmong(depth, kAuditDepthNames));
+}
+
 void AuditChoice::addTo(const CommandLine& command) {
   addDepthTo(command);
   command.addFlag("--keep-going", keepGoing,
@@ -231,11 +275,11 @@ void AuditChoice::addDepthTo(const CommandLine& command) {
 
 void auditRun(Run& run, const AuditChoice& choice, const std::stop_token& stop) {
   const DefaultFloatEnvironment usual;  // GL may be open in a window
-  const auto depth = static_cast<AuditDepth>(indexAmong(choice.depth, kAuditDepthNames));
   const Stopwatch stopwatch;
-  run.audit = audit(run.trajectory, depth, stop);
+  run.audit = audit(run.trajectory, choice.auditDepth(), stop);
   run.auditSeconds = stopwatch.seconds();
-  if (run.audit.breaches.empty() || choice.keepGoing) {
+  // Nobody promised anything of a table; `audit` is the command that holds it to something.
+  if (run.audit.breaches.empty() || choice.keepGoing || run.trajectory.given) {
     return;
   }
   std::string broken;
@@ -254,9 +298,33 @@ Run simulateScene(const std::filesystem::path& path, const Overrides& overrides,
   return simulateText(path, readFile(path), overrides, stop);
 }
 
-Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop) {
+bool isTable(const std::filesystem::path& path) {
+  const std::string begin = beginningOf(path);
+  return !looksLikeTrajectory(begin) && looksLikePoseTable(begin, path.string());
+}
+
+bool isRun(const std::filesystem::path& path) {
+  return looksLikeTrajectory(beginningOf(path)) || isTable(path);
+}
+
+RunSetup setupOfScene(const std::filesystem::path& scene) {
+  Scene read = parseScene(readFile(scene), scene.string(), Starts::kMayOverlap);
+  read.method = Method::kExact;
+  return setupOf(read);
+}
+
+Trajectory readRun(const std::filesystem::path& path, const SceneOfTable& scene,
+                   const std::function<RunSetup()>& setup) {
+  return readRunOf(readFile(path), path, scene, setup);
+}
+
+Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const SceneOfTable& scene,
+            const std::stop_token& stop) {
   const std::string bytes = readFile(path);
-  if (!looksLikeTrajectory(bytes)) {
+  if (!looksLikeTrajectory(bytes) && !looksLikePoseTable(bytes, path.string())) {
+    if (scene.path) {
+      throw InputError("--scene: found the scene " + path.string() + " to be run, expected a table of poses");
+    }
     return simulateText(path, bytes, overrides, stop);
   }
   if (const char* const option = overrides.given()) {
@@ -265,10 +333,8 @@ Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const
   }
   Run run;
   run.source = path;
-  run.trajectory = decodeRun(bytes, path.string());
+  run.trajectory = readRunOf(bytes, path, scene, {});
   return run;
 }
-
-Trajectory readRun(const std::filesystem::path& path) { return decodeRun(readFile(path), path.string()); }
 
 }  // namespace careen

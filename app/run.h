@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -36,6 +37,14 @@ struct AuditChoice {
   void addTo(const CommandLine& command);
   /// Without --keep-going.
   void addDepthTo(const CommandLine& command);
+  AuditDepth auditDepth() const;
+};
+
+/// The scene of a run that is given as a table of poses (CSV or NPZ): its boxes' sizes and masses, its walls.
+struct SceneOfTable {
+  std::optional<std::filesystem::path> path;
+
+  void addTo(const CommandLine& command);
 };
 
 /// Audits the run; NumericalError, exit code 4, if it breaks a promise of its method, unless told to keep
@@ -75,11 +84,24 @@ std::filesystem::path defaultScene();
 /// Reads a scene file and runs it. Reports overrides on standard error.
 Run simulateScene(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop);
 
-/// Reads a trajectory file of any version: what an incomplete one lacks is made from the scene text in it.
-Trajectory readRun(const std::filesystem::path& path);
+/// Whether the file is a run: a trajectory, or a table of poses.
+bool isRun(const std::filesystem::path& path);
+/// Whether it is a table of poses.
+bool isTable(const std::filesystem::path& path);
 
-/// Runs a scene file, or reads a trajectory file; with the latter nothing can be overridden.
-Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop);
+/// What a run of this scene starts from, by method exact, which models all of it.
+RunSetup setupOfScene(const std::filesystem::path& scene);
+
+/// Reads a trajectory file of any version: what an incomplete one lacks is made from the scene text in it. Or
+/// a table of poses, with its scene, or else with the setup that `setup` gives. InputError for a table
+/// without either; and, if there is no `setup`, for a scene with a trajectory.
+Trajectory readRun(const std::filesystem::path& path, const SceneOfTable& scene,
+                   const std::function<RunSetup()>& setup = {});
+
+/// Runs a scene file, or reads a trajectory file or a table of poses; with the latter two nothing can be
+/// overridden.
+Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const SceneOfTable& scene,
+            const std::stop_token& stop);
 
 class Stopwatch {
  public:

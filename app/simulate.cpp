@@ -14,16 +14,20 @@
 #include "report.h"
 #include "run.h"
 #include "trajectory/export_csv.h"
+#include "trajectory/export_npz.h"
 #include "trajectory/trajectory_file.h"
 
 namespace careen {
 namespace {
 
+constexpr double kUsualSampling = 1.0 / 60;  // [s]
+
 struct SimulateOptions {
   std::filesystem::path scene;
   std::filesystem::path output;
   std::filesystem::path poses;
-  double every = 1.0 / 60;  // [s]
+  std::optional<double> every;  // [s]
+  std::filesystem::path npz;
   std::filesystem::path impacts;
   std::filesystem::path report;
   Overrides overrides;
@@ -57,7 +61,7 @@ void checkOutputs(const std::filesystem::path& source, const std::filesystem::pa
                   const SimulateOptions& options) {
   std::vector<std::pair<const char*, std::filesystem::path>> known = {{"the scene", source}};
   for (const auto& [option, path] :
-       {std::pair("--output", output), std::pair("--poses", options.poses),
+       {std::pair("--output", output), std::pair("--poses", options.poses), std::pair("--npz", options.npz),
         std::pair("--impacts", options.impacts), std::pair("--report", options.report)}) {
     for (const auto& [what, other] : known) {
       if (!path.empty() && isSameFile(path, other)) {
@@ -77,6 +81,9 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(source.stem().string() + ".careen") : options.output;
   checkOutputs(source, output, options);
+  if (options.every && options.poses.empty() && options.npz.empty()) {
+    throw InputError("--every: found neither --poses nor --npz, expected one of them");
+  }
   Run run = simulateScene(source, options.overrides, stop);
   auditRun(run, options.audit, stop);
   const std::string trajectory = encodeTrajectory(run.trajectory);
@@ -84,8 +91,9 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
 
   Outputs outputs;
   outputs.add(output, [&](const TextSink& sink) { sink(trajectory); });
-  outputs.add(options.poses,
-              [&](const TextSink& sink) { writePosesCsv(run.trajectory, options.every, sink); });
+  const double every = options.every.value_or(kUsualSampling);
+  outputs.add(options.poses, [&](const TextSink& sink) { writePosesCsv(run.trajectory, every, sink); });
+  outputs.add(options.npz, [&](const TextSink& sink) { sink(encodeNpz(run.trajectory, every)); });
   outputs.add(options.impacts, [&](const TextSink& sink) { writeImpactsCsv(run.trajectory, sink); });
   outputs.add(options.report, [&](const TextSink& sink) { sink(runReportText(run, stopwatch.seconds())); });
   outputs.commit();
@@ -102,10 +110,9 @@ void addSimulate(const CommandLine& commandLine) {
   const auto options = std::make_shared<SimulateOptions>();
   command.add("scene", options->scene, "Scene file; the default scene if none is named");
   command.add("-o,--output", options->output, "Trajectory file (default: the scene's name, .careen)");
-  const CommandOption poses = command.add("--poses", options->poses, "Table of poses (CSV)");
-  command.add("--every", options->every, "Time between rows of the table of poses [s]")
-      .needs(poses)
-      .showsDefault();
+  command.add("--poses", options->poses, "Table of poses (CSV)");
+  command.add("--npz", options->npz, "Poses, impacts, names and units as NumPy loads them (NPZ)");
+  command.add("--every", options->every, "Time between two poses of --poses and --npz [s] (default: 1/60)");
   command.add("--impacts", options->impacts, "Table of impacts (CSV)");
   command.add("--report", options->report, "What was modelled, speed and error (JSON)");
   options->overrides.addTo(command);

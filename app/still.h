@@ -15,6 +15,7 @@ struct Still {
   std::filesystem::path path;         ///< empty: in out/, named after the scene
   double moment = 0;                  ///< [s] of the film
   std::optional<std::string> strobe;  ///< FROM:TO:STEP, instead of one time
+  const Trajectory* ghost = nullptr;  ///< shown as outlines, except in a strobe
 };
 
 /// Writes the picture and prints its path.

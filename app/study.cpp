@@ -1,6 +1,8 @@
 #include "study/study.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -15,6 +17,7 @@
 #include "core/system/file.h"
 #include "run.h"
 #include "study/case.h"
+#include "study/given_contestant.h"
 
 namespace careen {
 namespace {
@@ -22,6 +25,9 @@ namespace {
 struct StudyOptions {
   std::vector<std::string> cases;
   std::vector<std::string> methods;
+  std::vector<std::string> runs;     // tables of poses
+  std::vector<std::string> labels;   // of them
+  std::vector<std::string> seconds;  // that they took
   std::filesystem::path out = "study";
   bool quick = false;
   bool resume = false;
@@ -69,6 +75,48 @@ Contestants chosenContestants(const std::vector<std::string>& names) {
   return chosen;
 }
 
+double secondsIn(const std::string& text) {
+  double seconds = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(seconds) || seconds <= 0) {
+    throw InputError("--seconds: found '" + text + "', expected a positive number of seconds");
+  }
+  return seconds;
+}
+
+// Other people's answers to the one case that is studied.
+void addGiven(const StudyOptions& options, const std::stop_token& stop, Contestants& contestants) {
+  const auto expectAsMany = [&](const char* option, const std::vector<std::string>& texts, bool isNeeded) {
+    if (texts.size() != options.runs.size() && (isNeeded || !texts.empty())) {
+      throw InputError(std::string(option) + ": found " + std::to_string(texts.size()) + " for " +
+                       std::to_string(options.runs.size()) + " of --run, expected one for each");
+    }
+  };
+  expectAsMany("--label", options.labels, true);
+  expectAsMany("--seconds", options.seconds, false);
+  if (options.runs.empty()) {
+    return;
+  }
+  if (options.cases.size() != 1) {
+    throw InputError("--run: found " + std::to_string(options.cases.size()) +
+                     " cases, expected the one that it is a run of");
+  }
+  const Case study = caseNamed(options.cases.front(), stop);
+  for (std::size_t i = 0; i < options.runs.size(); ++i) {
+    const std::string& label = options.labels[i];
+    const bool isTaken = std::any_of(contestants.begin(), contestants.end(),
+                                     [&](const auto& other) { return other->name() == label; });
+    if (label.empty() || isTaken) {
+      throw InputError("--label: found '" + label + "', expected a name that no other has");
+    }
+    GivenAnswer answer{.label = label, .file = options.runs[i], .seconds = {}};
+    if (!options.seconds.empty()) {
+      answer.seconds = secondsIn(options.seconds[i]);
+    }
+    contestants.push_back(givenContestant(answer, study));
+  }
+}
+
 std::string commandOf(const StudyOptions& options) {
   std::string command = "careen study";
   for (const std::string& name : options.cases) {
@@ -76,6 +124,9 @@ std::string commandOf(const StudyOptions& options) {
   }
   for (std::size_t i = 0; i < options.methods.size(); ++i) {
     command += (i == 0 ? " --methods " : ",") + options.methods[i];
+  }
+  for (std::size_t i = 0; i < options.runs.size(); ++i) {
+    command += " --run " + options.runs[i] + " --label '" + options.labels[i] + "'";
   }
   return command + (options.quick ? " --quick" : "");
 }
@@ -92,6 +143,12 @@ void printCase(const CaseResult& result, bool takenOver) {
   }
   std::cout << (takenOver ? " (taken over)" : "") << '\n';
   for (const Attempt& attempt : result.attempts) {
+    if (attempt.settings.starts_with("a table of poses")) {
+      std::cout << "    " << printableName(attempt.contestant) << ": "
+                << (attempt.failure.empty() ? "error " + inShort(attempt.judgement.error) : attempt.failure)
+                << "; audit: " << attempt.audit << '\n';
+      continue;
+    }
     if (attempt.audit.starts_with("BROKEN") && &attempt != exact) {
       std::cout << "    " << attempt.contestant << (attempt.dt > 0 ? " dt " : " tolerance ")
                 << inShort(attempt.dt > 0 ? attempt.dt : attempt.tolerance) << ": error "
@@ -110,7 +167,8 @@ ExitCode studyCommand(const StudyOptions& options, const std::stop_token& stop) 
     return ExitCode::kDone;
   }
   checkCases(options.cases, known);
-  const Contestants contestants = chosenContestants(options.methods);
+  Contestants contestants = chosenContestants(options.methods);
+  addGiven(options, stop, contestants);
   if (!options.noPlots) {
     checkPlotter();
   }
@@ -146,6 +204,13 @@ void addStudy(const CommandLine& commandLine) {
   const auto options = std::make_shared<StudyOptions>();
   command.add("cases", options->cases, "Names of cases, or scene files of your own; all cases if none");
   command.add("--methods", options->methods, "Only these, with commas between").delimiter(',');
+  command
+      .add("--run", options->runs,
+           "Table of poses (CSV, NPZ) of the one case that is named: takes part in it; may be repeated")
+      .onePerUse();
+  command.add("--label", options->labels, "Name of each --run in tables and plots").onePerUse();
+  command.add("--seconds", options->seconds, "Time of one core that each --run took [s] (default: unknown)")
+      .onePerUse();
   command.add("--out", options->out, "Folder for tables, plots and page").showsDefault();
   command.addFlag("--quick", options->quick, "Few steps, few repeats: a minute for all");
   command.addFlag("--resume", options->resume, "Take over what is finished in the folder");

@@ -31,7 +31,9 @@ void addView(const CommandLine& commandLine) {
   const CommandLine command =
       commandLine.addCommand("view", "Show the film of a scene, or of a run, in a window");
   const auto options = std::make_shared<ViewOptions>();
-  command.add("file", options->source, "Scene or trajectory file; the default scene if none is named");
+  command.add("file", options->source,
+              "Scene, trajectory file or table of poses; the default scene if none is named");
+  options->scene.addTo(command);
   command.add("--out", options->folder, "Folder for stills (default: out)");
   options->picture.addTo(command);
   options->overrides.addTo(command);

@@ -20,9 +20,10 @@
 namespace careen {
 
 struct ViewOptions {
-  std::filesystem::path source;          ///< scene or trajectory file
+  std::filesystem::path source;          ///< scene, trajectory file or table of poses
   std::filesystem::path folder = "out";  ///< for stills
   PictureOptions picture;
+  SceneOfTable scene;
   Overrides overrides;
   AuditChoice audit;
 };

@@ -266,6 +266,7 @@ TEST(Structure, foreignHeadersStayWhereTheyBelong) {
       {std::regex("^(stb/)?stb_.*"), {"image"}},
       {std::regex("^nlohmann/.*"), {"scene", "study", "compare", "film", "app"}},
       {std::regex("^CLI/.*"), {"app"}, "command_line"},
+      {std::regex(R"(^zip\.h)"), {"trajectory"}, "zip_archive"},
       {std::regex("^(bt[A-Z]|Bullet|LinearMath/).*"), {"study"}, "peer_bullet"},
       {std::regex("^ode/.*"), {"study"}, "peer_ode"},
   };

@@ -18,6 +18,19 @@
 namespace careen {
 namespace {
 
+// A table is held to a part of the size of its boxes.
+RunSettings settingsOf(const Trajectory& run, const AuditLimits& limits) {
+  RunSettings settings = run.settings;
+  if (run.given) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Body& body : run.world.bodies) {
+      smallest = isImmovable(body.mass) ? smallest : std::min(smallest, body.halfExtents.norm());
+    }
+    settings.tolerance = limits.table * smallest;
+  }
+  return settings;
+}
+
 // Budgets, in states looked at.
 constexpr std::size_t kStatesAtMoments = 4'000;
 constexpr std::size_t kStatesAtMomentsInFull = 400'000;
@@ -29,17 +42,19 @@ constexpr std::size_t kWorst = 4;
 
 class Auditor {
  public:
-  Auditor(const Trajectory& run, AuditDepth depth, const std::stop_token& stop)
+  Auditor(const Trajectory& run, AuditDepth depth, const AuditLimits& limits, const std::stop_token& stop)
       : run_(run),
         depth_(depth),
         stop_(stop),
-        findings_(run.settings, crowdBeginnings(run)),
+        settings_(settingsOf(run, limits)),
+        findings_(settings_, promises(limits, false), promises(limits, true), crowdBeginnings(run)),
         impacts_(impactsOfBodies(run)),
         badness_(run.tracks.size(), 0) {}
 
   Audit run();
 
  private:
+  Promises promises(const AuditLimits& limits, bool pile) const;
   bool isFull() const { return depth_ == AuditDepth::kFull; }
   std::size_t bodies() const { return run_.tracks.size(); }
   const Body& body(std::size_t index) const { return run_.world.bodies[index]; }
@@ -62,11 +77,20 @@ class Auditor {
   const Trajectory& run_;
   AuditDepth depth_;
   const std::stop_token& stop_;
+  RunSettings settings_;
   Findings findings_;
   std::vector<std::vector<std::size_t>> impacts_;  // of each body
   std::vector<double> badness_;                    // of each body: how far it is from what it should be
   std::size_t looks_ = 0;
 };
+
+Promises Auditor::promises(const AuditLimits& limits, bool pile) const {
+  Promises promises = run_.given ? promisesOfTable(limits.table) : promisesOf(run_.settings.method, pile);
+  for (const auto& [kind, size] : limits.sizes) {
+    promises.at(indexOf(kind)) = size ? std::optional(Promise{.absolute = *size}) : std::nullopt;
+  }
+  return promises;
+}
 
 void Auditor::rest() const {
   if (stop_.stop_requested()) {
@@ -76,9 +100,9 @@ void Auditor::rest() const {
 
 std::vector<double> Auditor::moments() const {
   const std::size_t budget = isFull() ? kStatesAtMomentsInFull : kStatesAtMoments;
-  const std::size_t each = budget / std::max<std::size_t>(bodies(), 1);
-  return goldenMoments(run_.settings.duration,
-                       std::clamp(each, kFewestMoments, (isFull() ? 10 : 1) * kMostMoments));
+  const std::size_t each = std::clamp(budget / std::max<std::size_t>(bodies(), 1), kFewestMoments,
+                                      (isFull() ? 10 : 1) * kMostMoments);
+  return run_.given ? momentsOfRows(run_, each) : goldenMoments(run_.settings.duration, each);
 }
 
 void Auditor::found(AuditKind kind, double rounding, const Finding& finding) {
@@ -160,6 +184,13 @@ void Auditor::lookAround(std::size_t index, double time) {
 
 // Both sides of the seams of all bodies, or of as many as the budget allows, evenly spread.
 void Auditor::lookAtSeams() {
+  if (run_.given) {
+    for (std::size_t index = 0; index < bodies(); ++index) {
+      rest();
+      checkSteps(run_, index, findings_);
+    }
+    return;
+  }
   std::size_t all = 0;
   for (const Track& track : run_.tracks) {
     all += track.segments.size();
@@ -262,7 +293,7 @@ Audit Auditor::result() const {
       audit.breaches.push_back(
           {.kind = traits.kind,
            .size = breach->size,
-           .allowed = allowed(*findings_.promise(traits.kind, *breach), run_.settings, breach->length),
+           .allowed = allowed(*findings_.promise(traits.kind, *breach), settings_, breach->length),
            .largest = largest.size,
            .time = breach->time,
            .bodies = namesOf(*breach)});
@@ -275,11 +306,11 @@ Audit Auditor::result() const {
 
 }  // namespace
 
-Audit audit(const Trajectory& run, AuditDepth depth, const std::stop_token& stop) {
+Audit audit(const Trajectory& run, AuditDepth depth, const std::stop_token& stop, const AuditLimits& limits) {
   if (depth == AuditDepth::kNone) {
     return {};
   }
-  return Auditor(run, depth, stop).run();
+  return Auditor(run, depth, limits, stop).run();
 }
 
 std::string describe(const AuditBreach& breach, const Trajectory& run) {
@@ -301,11 +332,10 @@ std::string describe(const AuditBreach& breach, const Trajectory& run) {
   if (breach.largest > breach.size) {
     text.append(", later ").append(brief(breach.largest)).append(unit);
   }
-  return text.append(", where method ")
-      .append(run.methodName())
-      .append(" promises at most ")
-      .append(brief(breach.allowed))
-      .append(unit);
+  const std::string most = "at most " + brief(breach.allowed) + unit;
+  return run.given
+             ? text.append(", where ").append(most).append(" is allowed")
+             : text.append(", where method ").append(run.methodName()).append(" promises ").append(most);
 }
 
 std::string inWords(const Audit& audit) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -20,6 +21,15 @@ enum class AuditDepth : int {
   kNone
 };
 inline constexpr std::array<std::string_view, 3> kAuditDepthNames = {"usual", "full", "none"};
+
+/// What a run is held to, in place of what its method promises.
+struct AuditLimits {
+  /// [1] Of a run that comes from a table of poses: boxes may overlap and jump by this part of half the
+  /// diagonal of the smallest box that can move, and momenta and energies may be off by this part.
+  double table = 0.01;
+  /// Of single kinds, in the kind's unit; nullopt: whatever is found is only reported.
+  std::map<AuditKind, std::optional<double>> sizes = {};
+};
 
 /// The largest finding of one kind.
 struct AuditFigure {
@@ -50,10 +60,14 @@ struct Audit {
   const AuditFigure& figure(AuditKind kind) const { return figures[indexOf(kind)]; }
 };
 
-/// The same for the same run, on every machine. Throws Interrupted.
-Audit audit(const Trajectory& run, AuditDepth depth, const std::stop_token& stop = {});
+/// The same for the same run, on every machine. A run that comes from a table of poses is looked at only at
+/// the times of its rows, and is taken to touch whatever it may have met between two of them. Throws
+/// Interrupted.
+Audit audit(const Trajectory& run, AuditDepth depth, const std::stop_token& stop = {},
+            const AuditLimits& limits = {});
 
-/// "at 0.4284 s a, b: boxes overlap: 1.451e-05 m, later 0.092 m, where method exact promises at most 4e-06 m"
+/// "at 0.4284 s a, b: boxes overlap: 1.451e-05 m, later 0.092 m, where method exact promises at most 4e-06
+/// m"; of a table, "… where at most 4e-06 m is allowed".
 std::string describe(const AuditBreach& breach, const Trajectory& run);
 
 /// "box_overlap 0.092 m, impulse 0.84 (not promised)", "BROKEN: …" if a promise is; "nothing found".

@@ -145,16 +145,25 @@ void ExternalOf::addWall(std::size_t wall, double friction, External& external) 
   }
 }
 
-// [m] Several steps of a crowd are recorded as one, which does not tell what they touched: the farthest that
-// a body moves in this one or one beside it.
+// [m] Several steps of a crowd are recorded as one, which does not tell what they touched, and nor do the
+// rows of a table: the farthest that a body moves in this one or one beside it.
 double ExternalOf::wayWithin(std::size_t body, std::size_t segment) const {
   const std::vector<Segment>& segments = run_.tracks[body].segments;
+  const Body& owner = run_.world.bodies[body];
+  const double size = owner.halfExtents.norm();
   double way = 0;
-  for (std::size_t k = segment > 0 ? segment - 1 : 0; k < std::min(segment + 2, segments.size()); ++k) {
+  // Velocities that were estimated from rows beside an impact may be off two rows further.
+  const std::size_t beside = run_.given && !run_.given->velocities ? 3 : 1;
+  for (std::size_t k = segment - std::min(segment, beside);
+       k < std::min(segment + beside + 1, segments.size()); ++k) {
     if (const CrowdStep* const step = std::get_if<CrowdStep>(&segments[k].motion)) {
       const StepBounds bounds = boundsOf(asContactStep(*step));
-      way = std::max(way, step->duration * (bounds.speed + bounds.angularSpeed *
-                                                               run_.world.bodies[body].halfExtents.norm()));
+      way = std::max(way, step->duration * (bounds.speed + bounds.angularSpeed * size));
+    } else if (const SampledStep* const row = std::get_if<SampledStep>(&segments[k].motion)) {
+      for (const BodyState& state : {row->start, row->end}) {
+        way = std::max(
+            way, row->duration * (state.velocity.norm() + size * angularVelocity(owner.mass, state).norm()));
+      }
     }
   }
   return way;

@@ -6,11 +6,9 @@
 
 namespace careen {
 
-Findings::Findings(const RunSettings& settings, std::vector<double> crowdFrom)
-    : settings_(settings),
-      crowdFrom_(std::move(crowdFrom)),
-      before_(promisesOf(settings.method, false)),
-      after_(promisesOf(settings.method, true)) {}
+Findings::Findings(const RunSettings& settings, const Promises& before, const Promises& after,
+                   std::vector<double> crowdFrom)
+    : settings_(settings), crowdFrom_(std::move(crowdFrom)), before_(before), after_(after) {}
 
 bool Findings::isCrowd(double time, std::span<const std::size_t> bodies) const {
   return std::any_of(bodies.begin(), bodies.end(),

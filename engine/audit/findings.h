@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "audit/kinds.h"
@@ -26,8 +27,13 @@ struct Finding {
 /// Collects findings.
 class Findings {
  public:
-  /// `crowdFrom` [s], by body: from when on less is promised of it, see crowdBeginnings.
-  Findings(const RunSettings& settings, std::vector<double> crowdFrom);
+  /// `crowdFrom` [s], by body: from when on `after` is promised of it, see crowdBeginnings.
+  Findings(const RunSettings& settings, const Promises& before, const Promises& after,
+           std::vector<double> crowdFrom);
+  /// With what the method promises.
+  Findings(const RunSettings& settings, std::vector<double> crowdFrom)
+      : Findings(settings, promisesOf(settings.method, false), promisesOf(settings.method, true),
+                 std::move(crowdFrom)) {}
 
   /// `rounding`: up to this the size says nothing; in the kind's unit.
   void add(AuditKind kind, double rounding, const Finding& found);

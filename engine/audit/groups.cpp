@@ -65,7 +65,7 @@ void joinBySteps(const Trajectory& run, Joining& joining) {
   }
 }
 
-// Bodies that lie on each other, and those of a crowd, which meet between the moments too.
+// Bodies that lie on each other, and those of a crowd or a table, which meet between the moments too.
 void joinByPlaces(const Trajectory& run, const Samples& samples, Joining& joining) {
   const std::size_t count = run.tracks.size();
   std::vector<Ball> balls(count);

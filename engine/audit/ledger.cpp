@@ -60,7 +60,8 @@ class Books {
   Holdings due_;
   Holdings largest_;  // its scales only
   bool takesEnergy_ = false;
-  // [J] A crowd's speeds are means over steps, near 0 where a body bounces: one low energy is no loss.
+  // [J] A crowd's speeds are means over steps, near 0 where a body bounces, and other engines store energy in
+  // contacts: one low energy is no loss.
   std::array<double, 4> last_{};
   std::size_t number_ = 0;
   double length_ = std::numeric_limits<double>::infinity();  // [m] that the tolerance is relative to

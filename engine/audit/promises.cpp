@@ -45,6 +45,13 @@ Promises promisesOf(Method method, bool crowd) {
   }
 }
 
+Promises promisesOfTable(double tolerance) {
+  const Promise part{.absolute = tolerance};
+  const Promise places{.tolerances = 1};
+  // Impulses are unknown: tables have no impacts.
+  return {kNever, places, places, kRotation, places, {}, part, part, part, part};
+}
+
 double allowed(const Promise& promise, const RunSettings& settings, double length) {
   return promise.absolute + promise.tolerances * settings.tolerance / length +
          promise.crowdTolerances * settings.crowds.tolerance;

@@ -24,6 +24,11 @@ using Promises = std::array<std::optional<Promise>, kAuditKindCount>;
 /// table.
 Promises promisesOf(Method method, bool crowd);
 
+/// What a run that comes from a table of poses is held to, though nobody promised it: `tolerance` [1] of what
+/// momenta and energies are relative to, and as many times RunSettings::tolerance [m] where boxes overlap or
+/// jump. Numbers are finite, and quaternions were normalised, as the table was read.
+Promises promisesOfTable(double tolerance);
+
 /// The largest size that is no breach; `length` [m] is what the tolerance is relative to, 1 for kinds in
 /// metres.
 double allowed(const Promise& promise, const RunSettings& settings, double length);

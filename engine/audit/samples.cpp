@@ -21,6 +21,10 @@ Vec3 centerIn(const Flight& flight, double elapsed) { return flight.positionAt(e
 Vec3 centerIn(const SteppedFlight& stepped, double elapsed) { return stepped.start.positionAt(elapsed); }
 Vec3 centerIn(const ContactStep& step, double elapsed) { return positionAt(step, elapsed); }
 Vec3 centerIn(const CrowdStep& step, double elapsed) { return positionAt(asContactStep(step), elapsed); }
+Vec3 centerIn(const SampledStep& step, double elapsed) {
+  // The mass matters only for the attitude.
+  return stateAt(step, immovable(), elapsed).pose.position;
+}
 
 bool areFinite(const Pose& pose) { return pose.position.allFinite() && pose.worldFromBody.allFinite(); }
 bool areFinite(const Flight& flight) {
@@ -28,11 +32,14 @@ bool areFinite(const Flight& flight) {
          flight.worldFromBody.coeffs().allFinite() && flight.angularMomentum.allFinite();
 }
 
+bool areFinite(const BodyState& state) {
+  return areFinite(state.pose) && state.velocity.allFinite() && state.angularMomentum.allFinite();
+}
+
 struct AllFinite {
   bool operator()(const Rest& rest) const { return areFinite(rest.pose); }
   bool operator()(const EulerStep& step) const {
-    return areFinite(step.start.pose) && step.start.velocity.allFinite() &&
-           step.start.angularMomentum.allFinite() && step.force.allFinite() && step.torque.allFinite();
+    return areFinite(step.start) && step.force.allFinite() && step.torque.allFinite();
   }
   bool operator()(const Flight& flight) const { return areFinite(flight); }
   bool operator()(const SteppedFlight& stepped) const { return areFinite(stepped.start); }
@@ -42,6 +49,7 @@ struct AllFinite {
     return std::all_of(step.position.begin(), step.position.end(), finite) &&
            std::all_of(step.worldFromBody.begin(), step.worldFromBody.end(), finite);
   }
+  bool operator()(const SampledStep& step) const { return areFinite(step.start) && areFinite(step.end); }
 };
 
 }  // namespace
@@ -82,7 +90,7 @@ std::vector<double> crowdBeginnings(const Trajectory& run) {
     const auto first = std::find_if(segments.begin(), segments.end(), [](const Segment& segment) {
       return std::holds_alternative<CrowdStep>(segment.motion);
     });
-    beginnings[body] = first != segments.end() ? first->start : beginnings[body];
+    beginnings[body] = run.given ? 0 : first != segments.end() ? first->start : beginnings[body];
   }
   return beginnings;
 }
@@ -91,7 +99,7 @@ bool isFinite(const Motion& motion) { return std::visit(AllFinite{}, motion); }
 
 bool mayTouch(const Motion& motion) {
   return std::holds_alternative<Rest>(motion) || std::holds_alternative<ContactStep>(motion) ||
-         std::holds_alternative<CrowdStep>(motion);
+         std::holds_alternative<CrowdStep>(motion) || std::holds_alternative<SampledStep>(motion);
 }
 
 }  // namespace careen

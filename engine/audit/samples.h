@@ -39,7 +39,8 @@ bool isFinite(const Motion& motion);
 /// Whether forces of contact may act: the body rests or is moved by contact steps.
 bool mayTouch(const Motion& motion);
 
-/// [s] By body: since when it is, or was, a member of a crowd; infinite: never.
+/// [s] By body: since when it is, or was, a member of a crowd; infinite: never. In a run that comes from a
+/// table all bodies count as such from the beginning: what happens between two rows is not known.
 std::vector<double> crowdBeginnings(const Trajectory& run);
 
 }  // namespace careen

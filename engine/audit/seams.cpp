@@ -164,4 +164,24 @@ void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam,
   }
 }
 
+void checkSteps(const Trajectory& run, std::size_t body, Findings& findings) {
+  if (!run.given || !run.given->velocities) {
+    return;
+  }
+  for (const Segment& segment : run.tracks[body].segments) {
+    const SampledStep* const step = std::get_if<SampledStep>(&segment.motion);
+    if (step == nullptr) {
+      continue;
+    }
+    const Vec3 way = step->end.pose.position - step->start.pose.position;
+    const Vec3 mean = 0.5 * (step->start.velocity + step->end.velocity);
+    const Vec3 change = 0.5 * (step->end.velocity - step->start.velocity);
+    const double jump = (way - step->duration * mean).norm() - step->duration * change.norm();
+    findings.add(
+        AuditKind::kContinuity,
+        placeRounding(run.world.bodies[body], step->end.pose.position) + kUlps * step->duration * mean.norm(),
+        {.size = jump, .time = segment.start, .bodies = {body}, .wall = {}});
+  }
+}
+
 }  // namespace careen

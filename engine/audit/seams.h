@@ -23,6 +23,10 @@ std::vector<std::vector<std::size_t>> impactsOfBodies(const Trajectory& run);
 void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam,
                const std::vector<std::size_t>& impacts, Findings& findings);
 
+/// Looks at a body's way from row to row of a table that has velocities: how much farther it is than every
+/// velocity between those of the two rows takes it.
+void checkSteps(const Trajectory& run, std::size_t body, Findings& findings);
+
 /// Finiteness and |AAᵀ−1| of a state.
 void checkState(const BodyState& state, std::size_t body, double time, Findings& findings);
 

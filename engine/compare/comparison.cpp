@@ -248,6 +248,9 @@ std::string runHeadline(const RunDifference& run, bool same) {
            brief(run.expectedDuration) + " s";
   }
   std::string text = "other motion from " + brief(run.firstTime.value_or(0)) + " s on";
+  if (run.lastImpact) {
+    text += ", after impact number " + std::to_string(run.lastImpact->index + 1) + " " + run.lastImpact->what;
+  }
   if (run.horizon && run.growthPerImpact) {
     text += "; the difference grows " + brief(*run.growthPerImpact) +
             "-fold from impact to impact, and from " + brief(*run.horizon) + " s on chaos has taken over";
@@ -333,11 +336,15 @@ Comparison compareRuns(const fs::path& expected, const fs::path& actual, const C
   const Trajectory expectedRun = read(expected);
   const Trajectory actualRun = read(actual);
   comparison.facts = factsOf(expectedRun, actualRun);
-  RunDifference run = differenceOf(expectedRun, actualRun, settings.until);
-  const bool within =
-      settings.motionTolerance > 0 && run.incomparable.empty() && !run.horizon &&
-      std::min(run.expectedDuration, settings.until) == std::min(run.actualDuration, settings.until) &&
-      run.worst.difference.relative <= settings.motionTolerance;
+  const bool isTable = expectedRun.given || actualRun.given;
+  const double tolerance =
+      isTable ? std::max(settings.motionTolerance, kTableRounding) : settings.motionTolerance;
+  RunDifference run = differenceOf(expectedRun, actualRun, settings.until, tolerance);
+  // The last row of a table need not be at the end of the scene.
+  const bool isWhole = isTable || std::min(run.expectedDuration, settings.until) ==
+                                      std::min(run.actualDuration, settings.until);
+  const bool within = tolerance > 0 && run.incomparable.empty() && !run.horizon && isWhole &&
+                      run.worst.difference.relative <= tolerance;
   comparison.verdict = run.sameBits || within ? Verdict::kSame : Verdict::kDifferent;
   comparison.headline = runHeadline(run, within);
   comparison.run = std::move(run);

@@ -127,6 +127,8 @@ Json runJson(const RunDifference& run) {
           {"worst", sampleJson(run.worst)},
           {"first_impact", impactsJson(run.firstImpact)},
           {"first_other_event", impactsJson(run.firstOtherEvent)},
+          {"last_impact", impactsJson(run.lastImpact)},
+          {"first_broken", run.firstBroken.empty() ? Json(nullptr) : Json(run.firstBroken)},
           {"impacts_around", around},
           {"impacts", bothJson(run.expectedImpacts, run.actualImpacts)},
           {"duration", bothJson(number(run.expectedDuration), number(run.actualDuration))},

@@ -56,7 +56,15 @@ std::string reasonOfRun(const RunDifference& run) {
            run.firstImpact->what + ".";
   }
   if (run.firstTime) {
-    text += (text.empty() ? "" : " ") + std::string("States differ from ") + brief(*run.firstTime) + " s on.";
+    text += (text.empty() ? "" : " ") + std::string("States differ from ") + brief(*run.firstTime) + " s on";
+    text += run.lastImpact ? ", after impact number " + std::to_string(run.lastImpact->index + 1) + " " +
+                                 run.lastImpact->what + "."
+                           : ".";
+  }
+  if (!run.firstBroken.empty()) {
+    text +=
+        (text.empty() ? "The audit of the table found first: " : " The audit of the table found first: ") +
+        run.firstBroken + ".";
   }
   if (run.horizon) {
     text += " From " + brief(*run.horizon) +

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -211,6 +212,58 @@ ImpactDifference impactsAt(std::size_t index, const Trajectory& expected, const 
   return pair;
 }
 
+// The times of the table's rows up to `until` [s]; if both are tables, of the actual one's.
+std::vector<double> rowTimes(const Trajectory& expected, const Trajectory& actual, double until) {
+  const Trajectory& table = actual.given ? actual : expected;
+  std::vector<double> times = {until};
+  for (const Track& track : table.tracks) {
+    for (const Segment& segment : track.segments) {
+      if (segment.start <= until) {
+        times.push_back(segment.start);
+      }
+    }
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+void compareRows(const Trajectory& expected, const Trajectory& actual, const Pair& pair, double tolerance,
+                 RunDifference& found) {
+  const std::vector<double> times = rowTimes(expected, actual, pair.duration());
+  const std::size_t stride = 1 + times.size() / kRunSamples;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const RunSample sample = pair.sampleAt(times[k]);
+    if (!found.firstTime && sample.difference.relative > tolerance) {
+      found.firstTime = sample.time;
+    }
+    if (!found.horizon && sample.difference.relative > kHorizonDifference) {
+      found.horizon = k == 0 ? 0 : times[k - 1];
+    }
+    if (!found.horizon && (k == 0 || sample.difference.relative > found.worst.difference.relative)) {
+      found.worst = sample;
+    }
+    if (k % stride == 0 || k + 1 == times.size()) {
+      found.growth.push_back(sample);
+    }
+  }
+  const Trajectory& struck = expected.given ? actual : expected;
+  const auto next = std::find_if(struck.impacts.begin(), struck.impacts.end(), [&](const Impact& impact) {
+    return found.firstTime && impact.time > *found.firstTime;
+  });
+  if (found.firstTime && next != struck.impacts.begin()) {
+    const auto index = static_cast<std::size_t>(std::prev(next) - struck.impacts.begin());
+    ImpactDifference last{
+        .index = index, .expected = {}, .actual = {}, .expectedBodies = {}, .actualBodies = {}, .what = {}};
+    (expected.given ? last.actual : last.expected) = struck.impacts[index];
+    (expected.given ? last.actualBodies : last.expectedBodies) = bodiesOf(struck.impacts[index], struck);
+    last.what = describe(struck.impacts[index], struck);
+    found.lastImpact = last;
+  }
+  found.expectedImpacts = expected.impacts.size();
+  found.actualImpacts = actual.impacts.size();
+}
+
 std::size_t impactsUntil(const Trajectory& run, double until) {
   return static_cast<std::size_t>(
       std::count_if(run.impacts.begin(), run.impacts.end(),
@@ -270,13 +323,22 @@ std::string describe(const Impact& impact, const Trajectory& run) {
          " N s";
 }
 
-RunDifference differenceOf(const Trajectory& expected, const Trajectory& actual, double until) {
+RunDifference differenceOf(const Trajectory& expected, const Trajectory& actual, double until,
+                           double tolerance) {
   RunDifference found;
   const Pair pair(expected, actual, until, found);
-  compareImpacts(expected, actual, until, found);
+  const bool isTable = expected.given || actual.given;
+  if (!isTable) {
+    compareImpacts(expected, actual, until, found);
+  }
   found.expectedDuration = expected.settings.duration;
   found.actualDuration = actual.settings.duration;
   if (!found.incomparable.empty()) {
+    return found;
+  }
+  if (isTable) {
+    compareRows(expected, actual, pair, tolerance, found);
+    std::tie(found.expectedEnergy, found.actualEnergy) = pair.energies();
     return found;
   }
   found.firstTime = pair.firstDifference();

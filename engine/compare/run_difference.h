@@ -34,8 +34,9 @@ struct RunDifference {
       incomparable;                 ///< why the two cannot be the same scene, in words; empty if they can
   bool sameBits = false;            ///< of every motion and every impact
   std::optional<double> until;      ///< [s] later times were left out on request
-  std::optional<double> firstTime;  ///< [s] from here on a state differs, by any bit
-  std::vector<RunSample> growth;    ///< kRunSamples + 1 times, evenly spaced
+  std::optional<double> firstTime;  ///< [s] from here on a state differs, by any bit; of a table a pose, by
+                                    ///< more than the tolerance
+  std::vector<RunSample> growth;    ///< kRunSamples + 1 times, evenly spaced; of a table as many of its rows
   RunSample worst;                  ///< largest of `growth` up to the horizon
   /// [s] until kHorizonDifference is exceeded. By then a small difference has grown so large that positions
   /// mean nothing any more: compare energies and counts.
@@ -46,6 +47,11 @@ struct RunDifference {
   std::optional<double> growthPerImpact;
   std::optional<ImpactDifference> firstImpact;      ///< differs in any bit
   std::optional<ImpactDifference> firstOtherEvent;  ///< other bodies, or missing
+  /// If one of the runs comes from a table, which has no impacts: the other's last one before firstTime.
+  std::optional<ImpactDifference> lastImpact;
+  /// What the audit of a run that comes from a table found first to be beyond what is allowed, in words. Left
+  /// empty here, for who audits it.
+  std::string firstBroken;
   std::vector<ImpactDifference>
       impactsAround;  ///< kImpactsBefore before the first different one and kImpactsAfter after it
   std::size_t expectedImpacts = 0;
@@ -63,10 +69,15 @@ inline constexpr int kRunSamples = 1000;
 inline constexpr std::size_t kImpactsBefore = 3;
 inline constexpr std::size_t kImpactsAfter = 8;
 
+/// Of a run that comes from a table, differences up to this [1] are rounding, not another motion.
+inline constexpr double kTableRounding = 1e-12;
+
 /// Compares the motion, not how it was computed, up to the time `until` [s]: later impacts and states do not
-/// count. InputError, naming the run, if a number is not finite.
+/// count. A run that comes from a table is compared at the times of its rows, and only by its poses, up to
+/// `tolerance` [1]; see PoseDifference. InputError, naming the run, if a number is not finite.
 RunDifference differenceOf(const Trajectory& expected, const Trajectory& actual,
-                           double until = std::numeric_limits<double>::infinity());
+                           double until = std::numeric_limits<double>::infinity(),
+                           double tolerance = kTableRounding);
 
 /// An impact in words: time, bodies, impulse.
 std::string describe(const Impact& impact, const Trajectory& run);

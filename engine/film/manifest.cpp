@@ -56,6 +56,7 @@ FilmManifest fromJson(const nlohmann::json& json) {
   manifest.libraries = json.value("libraries", "");
   manifest.sceneHash = json.at("scene_hash").get<std::string>();
   manifest.stateHash = json.at("state_hash").get<std::string>();
+  manifest.ghost = json.value("ghost", "");
   manifest.picture = pictureFrom(json);
   manifest.frameCount = wholeNumber(json.at("frame_count"), "frame_count", 0, kMostFrames);
   if (const std::string frames = json.at("frames").get<std::string>(); !frames.empty()) {
@@ -130,6 +131,9 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
       {"frame_count", manifest.frameCount},
       {"frames", rangesText(manifest.frames)},
   };
+  if (!manifest.ghost.empty()) {
+    json["ghost"] = manifest.ghost;
+  }
   if (!manifest.hashes.empty()) {
     json["hashes"] = hashesOf(manifest);
   }
@@ -142,6 +146,8 @@ std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
   };
   std::string text =
       compare("scene", there.sceneHash, asked.sceneHash) + compare("run", there.stateHash, asked.stateHash) +
+      compare("ghost", there.ghost.empty() ? "none" : there.ghost,
+              asked.ghost.empty() ? "none" : asked.ghost) +
       compare("size", sizeText(there.picture), sizeText(asked.picture)) +
       compare("fps", there.picture.rate.text(), asked.picture.rate.text()) +
       compare("look", nameOf(there.picture.look), nameOf(asked.picture.look)) +

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "physics/world/given_inertia.h"
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
 
@@ -162,6 +163,12 @@ PlanItem resting(const Scene& scene, const Needs& needs) {
              : leftOut("resting", "no collision under gravity has a restitution below 1");
 }
 
+// Of a box that can move.
+MassProperties massOf(const SceneBox& box) {
+  return box.inertia ? massWithInertia(box.mass, box.inertia->diagonal())
+                     : solidBox(box.halfExtents, box.mass);
+}
+
 }  // namespace
 
 Plan plan(const Scene& scene) {
@@ -183,7 +190,7 @@ World assemble(const Scene& scene, const Plan& plan) {
   for (const SceneBox& box : scene.boxes) {
     Body body{.name = box.name,
               .halfExtents = box.halfExtents,
-              .mass = box.fixed ? immovable() : solidBox(box.halfExtents, box.mass),
+              .mass = box.fixed ? immovable() : massOf(box),
               .material = modelledPart(box.material),
               .initial = {.pose = box.pose, .velocity = box.velocity}};
     body.initial.angularMomentum = angularMomentum(body.mass, box.pose.worldFromBody, box.angularVelocity);

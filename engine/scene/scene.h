@@ -27,6 +27,7 @@ struct SceneBox {
   std::string name;
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
   double mass = 0;                  ///< [kg] 0 if the box is fixed and the scene gives none
+  std::optional<Mat3> inertia;      ///< [kg m²] about the centre, box's axes, diagonal; absent: solid
   Pose pose;
   Vec3 velocity = Vec3::Zero();         ///< [m/s]
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s] world frame

@@ -7,6 +7,7 @@
 
 #include "core/brief.h"
 #include "physics/start/overlap.h"
+#include "physics/world/given_inertia.h"
 #include "scene/film_check.h"
 #include "scene/json_shape.h"
 #include "scene/starts.h"
@@ -71,6 +72,32 @@ void checkMasses(const JsonTree& tree, const Scene& scene) {
                 describe(*density) + " for the density of box " + inQuotes(box.name) +
                     ", whose mass it makes " + brief(box.mass) + " kg",
                 "a mass from 1e-60 to 1e60 kg");
+    }
+  }
+}
+
+void checkInertias(const JsonTree& tree, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    const SceneBox& box = scene.boxes[i];
+    if (!box.inertia) {
+      continue;
+    }
+    const std::size_t place = elementOf(tree, "boxes", i).find("inertia")->offset;
+    if (box.fixed) {
+      tree.fail(place, "inertia for the fixed box " + inQuotes(box.name), "none, as it stays where it is");
+    }
+    const std::string found = "the inertia of box " + inQuotes(box.name);
+    const Mat3 beside = *box.inertia - Mat3(box.inertia->diagonal().asDiagonal());
+    if (!beside.isZero(0)) {
+      tree.fail(place, found + " with " + brief(beside.cwiseAbs().maxCoeff()) + " kg m² beside the diagonal",
+                "0 there: the box's axes are principal axes");
+    }
+    if (const std::string why = whyNoInertia(box.inertia->diagonal()); !why.empty()) {
+      const Vec3 moments = box.inertia->diagonal();
+      tree.fail(place,
+                found + " with moments " + brief(moments.x()) + ", " + brief(moments.y()) + ", " +
+                    brief(moments.z()) + " kg m²",
+                why);
     }
   }
 }
@@ -177,6 +204,7 @@ void checkScene(const JsonTree& tree, Scene& scene, Starts starts) {
   checkRoom(tree, scene);
   checkNames(tree, scene);
   checkMasses(tree, scene);
+  checkInertias(tree, scene);
   checkFixed(tree, scene);
   const BodiesByName bodies = bodiesOf(scene);
   connectSprings(tree, bodies, scene);

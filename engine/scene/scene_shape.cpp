@@ -115,10 +115,23 @@ double readMass(const JsonObject& object, const Vec3& halfExtents, bool fixed) {
   return mass ? mass->number(positiveNumber("kg")) : 0;
 }
 
+// Three principal moments, or a tensor.
+Mat3 readInertia(const JsonValue& value) {
+  const std::vector<JsonValue> rows = value.elements("[Ix, Iy, Iz] or a tensor of three rows [kg m²]", 3);
+  if (!rows[0].is(Kind::kArray)) {
+    return value.vector(positiveNumber("kg m²")).asDiagonal();
+  }
+  Mat3 tensor;
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    tensor.row(row) = rows[static_cast<std::size_t>(row)].vector(anyNumber("kg m²"));
+  }
+  return tensor;
+}
+
 SceneBox readBox(const JsonValue& value, std::size_t index) {
   const JsonObject object =
-      value.object({"name", "half_extents", "mass", "density", "position", "orientation", "velocity",
-                    "angular_velocity", "restitution", "friction", "fixed", "color"});
+      value.object({"name", "half_extents", "mass", "density", "inertia", "position", "orientation",
+                    "velocity", "angular_velocity", "restitution", "friction", "fixed", "color"});
   SceneBox box;
   box.name = readName(object, "box-" + std::to_string(index));
   box.halfExtents = object.require("half_extents").vector(positiveNumber("m"));
@@ -126,6 +139,9 @@ SceneBox readBox(const JsonValue& value, std::size_t index) {
     box.fixed = fixed->boolean();
   }
   box.mass = readMass(object, box.halfExtents, box.fixed);
+  if (const std::optional<JsonValue> inertia = object.find("inertia")) {
+    box.inertia = readInertia(*inertia);
+  }
   box.pose.position = object.vector("position", anyNumber("m"));
   if (const std::optional<JsonValue> orientation = object.find("orientation")) {
     box.pose.worldFromBody =

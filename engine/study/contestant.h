@@ -35,6 +35,11 @@ class Contestant {
                                                   std::span<const double> times,
                                                   const std::stop_token& stop) const = 0;
 
+  /// Whether its answer is given once and for all: then it is asked for it once, and not timed.
+  virtual bool isGiven() const { return false; }
+  /// [s] of one core that a given answer took, if that is known.
+  virtual std::optional<double> secondsGiven() const { return std::nullopt; }
+
   /// What the audit finds in such a run of `duration` [s]; none for engines that have no motions between
   /// times.
   virtual std::optional<Audit> audited(const World& /*world*/, double /*fineness*/, double /*duration*/,

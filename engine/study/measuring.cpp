@@ -293,6 +293,13 @@ std::vector<Attempt> attemptAll(const Case& study, const Contestants& contestant
       attempts.back().failure = refusal;
       continue;
     }
+    if (contestant->isGiven()) {
+      attempts.push_back(blank);
+      Answer answer;
+      attempt(study, *contestant, effort, stop, attempts.back(), answer);
+      attempts.back().cost = 1e6 * contestant->secondsGiven().value_or(0) / study.simulated();
+      continue;
+    }
     const bool steps = contestant->steps();
     const double usual = usualFineness(study, *contestant);
     Answer coarser;

@@ -41,7 +41,7 @@ struct Attempt {
   std::string failure;   ///< why there is no answer; empty if there is one
   Judgement judgement;
   std::string audit;  ///< what the audit found, in words; empty if it could not look
-  double cost = 0;    ///< [µs] of one core per simulated second; 0: not timed
+  double cost = 0;    ///< [µs] of one core per simulated second; 0: not timed, or unknown
   double spread = 0;  ///< [1] relative excess of the median of the repeats over the shortest
   int repeats = 0;
 };

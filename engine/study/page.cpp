@@ -78,8 +78,9 @@ std::string attemptsOf(const CaseResult& result) {
           << (attempt.tolerance > 0 ? inShort(attempt.tolerance) : "") << "</td>";
     if (attempt.failure.empty()) {
       table << "<td>" << inShort(attempt.judgement.error) << "</td><td>" << escapedForMarkup(attempt.audit)
-            << "</td><td>" << inShort(attempt.cost) << "</td><td>" << inShort(attempt.spread) << "</td><td>"
-            << attempt.repeats << "</td><td>" << (onFront(result, attempt) ? "yes" : "") << "</td></tr>\n";
+            << "</td><td>" << (attempt.cost > 0 ? inShort(attempt.cost) : "") << "</td><td>"
+            << inShort(attempt.spread) << "</td><td>" << attempt.repeats << "</td><td>"
+            << (onFront(result, attempt) ? "yes" : "") << "</td></tr>\n";
     } else {
       table << R"(<td colspan="6" class="none">)" << escapedForMarkup(attempt.failure) << "</td></tr>\n";
     }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -8,6 +9,7 @@
 #include "core/system/file.h"
 #include "core/system/process.h"
 #include "core/system/scratch_folder.h"
+#include "study/plots.h"
 #include "study/plot_files.h"
 #include "study/study.h"
 
@@ -35,28 +37,6 @@ std::string linesOf(const std::vector<std::string>& texts) {
     lines += cell(text) + '\n';
   }
   return lines;
-}
-
-struct Plot {
-  const char* script;  // in assets/plots
-  std::vector<std::string> texts;
-  std::string data;
-};
-
-// Draws a plot as `out`.png and `out`.svg and returns the latter. Names of files and folders never reach
-// gnuplot, which obeys some of them: "<command" as data, "|command" as output.
-std::string draw(const Plot& plot, const fs::path& out) {
-  const ScratchFolder scratch;
-  for (const char* const script : {"style.gp", plot.script}) {
-    writeFile(scratch / script, plotFile(script));
-  }
-  writeFile(scratch / "texts.txt", linesOf(plot.texts));
-  writeFile(scratch / "data.txt", plot.data);
-  runProgram({"gnuplot", "-d", plot.script}, scratch.path());  // -d: no settings of the user's
-  std::string svg = readFile(scratch / "plot.svg");
-  writeFile(out.string() + ".svg", svg);
-  writeFile(out.string() + ".png", readFile(scratch / "plot.png"));
-  return svg;
 }
 
 // Contestants with at least one answer to draw.
@@ -94,19 +74,40 @@ Plot matrixOf(const StudyResult& study) {
   return {.script = "matrix.gp", .texts = {"Correct digits at the usual step"}, .data = std::move(data)};
 }
 
+/// The least and the largest cost of the answers of a case; an answer of unknown cost is drawn over all.
+struct CostRange {
+  double least = 0;
+  double most = 0;
+};
+
+CostRange costsOf(const CaseResult& result) {
+  CostRange range;
+  for (const Attempt& attempt : result.attempts) {
+    if (attempt.failure.empty() && attempt.cost > 0) {
+      range.least = range.least > 0 ? std::min(range.least, attempt.cost) : attempt.cost;
+      range.most = std::max(range.most, attempt.cost);
+    }
+  }
+  return range.most > 0 ? range : CostRange{.least = 1, .most = 10};
+}
+
 Plot workPrecisionOf(const CaseResult& result) {
   Plot plot{.script = "work_precision.gp",
             .texts = {result.title, result.measure == "energy" ? "error: relative change of energy"
                                                                : "error: half diagonals, or radians"},
             .data = {}};
+  const CostRange costs = costsOf(result);
   std::size_t number = 0;
   for (const std::string& contestant : answering(result)) {
     plot.texts.push_back(contestant);
     ++number;
     for (const Attempt& attempt : result.attempts) {
       if (attempt.contestant == contestant && attempt.failure.empty()) {
-        plot.data += std::to_string(number) + '\t' + brief(attempt.cost, 6) + '\t' +
-                     inFull(attempt.judgement.error) + '\n';
+        const std::string error = inFull(attempt.judgement.error);
+        for (const double cost : attempt.cost > 0 ? std::vector<double>{attempt.cost}
+                                                  : std::vector<double>{costs.least, costs.most}) {
+          plot.data += std::to_string(number) + '\t' + brief(cost, 6) + '\t' + error + '\n';
+        }
       }
     }
   }
@@ -130,6 +131,22 @@ Plot energyOf(const CaseResult& result) {
 
 }  // namespace
 
+// Names of files and folders never reach gnuplot, which obeys some of them: "<command" as data, "|command" as
+// output.
+std::string drawPlot(const Plot& plot, const fs::path& out) {
+  const ScratchFolder scratch;
+  for (const char* const script : {"style.gp", plot.script}) {
+    writeFile(scratch / script, plotFile(script));
+  }
+  writeFile(scratch / "texts.txt", linesOf(plot.texts));
+  writeFile(scratch / "data.txt", plot.data);
+  runProgram({"gnuplot", "-d", plot.script}, scratch.path());  // -d: no settings of the user's
+  std::string svg = readFile(scratch / "plot.svg");
+  writeFile(out.string() + ".svg", svg);
+  writeFile(out.string() + ".png", readFile(scratch / "plot.png"));
+  return svg;
+}
+
 void checkPlotter() {
   try {
     runProgram({"gnuplot", "--version"});
@@ -150,15 +167,15 @@ void writeTables(const StudyResult& study, const fs::path& folder) {
 std::vector<std::string> drawPlots(const StudyResult& study, const fs::path& folder) {
   const fs::path plots = folder / "plots";
   fs::create_directories(plots);
-  draw(matrixOf(study), plots / kMatrixPlot);
+  drawPlot(matrixOf(study), plots / kMatrixPlot);
   std::vector<std::string> drawn;
   for (const CaseResult& result : study.cases) {
     std::string all;
     if (!answering(result).empty()) {
-      all += draw(workPrecisionOf(result), plots / result.name);
+      all += drawPlot(workPrecisionOf(result), plots / result.name);
     }
     if (showsEnergy(result)) {
-      all += draw(energyOf(result), plots / (result.name + kEnergyPlot));
+      all += drawPlot(energyOf(result), plots / (result.name + kEnergyPlot));
     }
     drawn.push_back(std::move(all));
   }

@@ -75,7 +75,7 @@ Attempt attemptFrom(const Json& json) {
 }
 
 bool isBetter(const Attempt& attempt, const Attempt& other) {
-  return attempt.failure.empty() && attempt.cost < other.cost &&
+  return attempt.failure.empty() && attempt.cost > 0 && attempt.cost < other.cost &&
          attempt.judgement.error < other.judgement.error;
 }
 
@@ -151,7 +151,7 @@ const Attempt* usualAttempt(const CaseResult& result, const std::string& contest
 }
 
 bool onFront(const CaseResult& result, const Attempt& attempt) {
-  return attempt.failure.empty() &&
+  return attempt.failure.empty() && attempt.cost > 0 &&
          std::none_of(result.attempts.begin(), result.attempts.end(),
                       [&](const Attempt& other) { return isBetter(other, attempt); });
 }

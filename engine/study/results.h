@@ -40,7 +40,7 @@ struct StudyResult {
 /// The contestant's answer at the case's usual time step or, without a fixed time step, tolerance. Null if it
 /// was never tried.
 const Attempt* usualAttempt(const CaseResult& result, const std::string& contestant);
-/// Whether no other answer is both cheaper and more accurate. False without an answer.
+/// Whether no other answer is both cheaper and more accurate. False without an answer or its cost.
 bool onFront(const CaseResult& result, const Attempt& attempt);
 /// Answers of other contestants that are both cheaper and more accurate than this one.
 std::vector<const Attempt*> betterThan(const CaseResult& result, const Attempt& attempt);

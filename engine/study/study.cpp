@@ -24,10 +24,6 @@ namespace fs = std::filesystem;
 
 bool isScene(const std::string& name) { return fs::path(name).extension() == ".json"; }
 
-Case caseNamed(const std::string& name, const std::stop_token& stop) {
-  return isScene(name) ? caseOfScene(name, stop) : readCase(name);
-}
-
 // Cases give their names to cases/NAME.json and to plots. InputError if two files would be the same.
 void checkNames(const std::vector<std::string>& cases) {
   std::set<std::string> names;
@@ -102,6 +98,10 @@ std::string processor() {
 }
 
 }  // namespace
+
+Case caseNamed(const std::string& name, const std::stop_token& stop) {
+  return isScene(name) ? caseOfScene(name, stop) : readCase(name);
+}
 
 std::vector<CaseResult> runStudy(const StudySettings& settings, const Contestants& contestants,
                                  const CaseDone& done, const std::stop_token& stop) {

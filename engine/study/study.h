@@ -6,11 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "study/case.h"
 #include "study/contestant.h"
 #include "study/measuring.h"
 #include "study/results.h"
 
 namespace careen {
+
+/// One of the cases that come with the program, by its name, or one made of a scene file.
+Case caseNamed(const std::string& name, const std::stop_token& stop);
 
 struct StudySettings {
   std::vector<std::string> cases;  ///< names, or paths of scene files

@@ -103,8 +103,9 @@ std::string resultsCsv(const StudyResult& study) {
           << (attempt.dt > 0 ? inFull(attempt.dt) : "") << ','
           << (attempt.tolerance > 0 ? inFull(attempt.tolerance) : "") << ',';
       if (attempt.failure.empty()) {
-        csv << inFull(attempt.judgement.error) << ',' << brief(attempt.cost, 6) << ','
-            << brief(attempt.spread, 3) << ',' << attempt.repeats << ',' << onFront(result, attempt) << ",\n";
+        csv << inFull(attempt.judgement.error) << ',' << (attempt.cost > 0 ? brief(attempt.cost, 6) : "")
+            << ',' << brief(attempt.spread, 3) << ',' << attempt.repeats << ',' << onFront(result, attempt)
+            << ",\n";
       } else {
         csv << ",,,,0," << csvCell(onOneLine(attempt.failure)) << '\n';
       }
@@ -157,7 +158,8 @@ std::string resultsMarkdown(const StudyResult& study) {
   addTable(text, study, [](const Attempt* attempt) { return cell(attempt); });
   text << "\n## Costs\n\nµs of one core per simulated second, at the usual time step.\n\n";
   addTable(text, study, [](const Attempt* attempt) {
-    return attempt != nullptr && attempt->failure.empty() ? brief(attempt->cost, 3) : std::string("–");
+    return attempt != nullptr && attempt->failure.empty() && attempt->cost > 0 ? brief(attempt->cost, 3)
+                                                                               : std::string("–");
   });
   addFindings(text, study);
   return text.str();

@@ -10,6 +10,7 @@
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "physics/world/given_inertia.h"
 #include "physics/world/run_settings.h"
 
 namespace careen {
@@ -74,6 +75,9 @@ struct Soundness {
            std::all_of(step.worldFromBody.begin(), step.worldFromBody.end(), isFinite) &&
            isUnit(step.worldFromBody[0].norm());
   }
+  bool operator()(const SampledStep& step) const {
+    return isPositive(step.duration) && isSound(step.start) && isSound(step.end);
+  }
 };
 
 void checkTrack(const Track& track, const std::string& name, const RunSettings& settings) {
@@ -127,8 +131,9 @@ void checkBody(const Body& body) {
     require(body.mass == immovable(), "a mass though it cannot be moved", owner);
   } else {
     require(isPositive(body.mass.mass), "a mass that is not positive", owner);
-    require(body.mass == solidBox(body.halfExtents, body.mass.mass),
-            "another inertia than that of a solid box of its size and mass", owner);
+    require(whyNoInertia(body.mass.inertiaBody).empty() &&
+                body.mass == massWithInertia(body.mass.mass, body.mass.inertiaBody),
+            "an inertia that no body has", owner);
   }
   checkMaterial(body.material, owner);
   require(isSound(body.initial), "an invalid initial state", owner);

@@ -111,7 +111,9 @@ const std::string& Trajectory::partnerName(const Impact& impact) const {
                            : world.bodies.at(static_cast<std::size_t>(impact.b.body())).name;
 }
 
-std::string Trajectory::methodName() const { return std::string(traitsOf(settings.method).name); }
+std::string Trajectory::methodName() const {
+  return given ? "given poses" : std::string(traitsOf(settings.method).name);
+}
 
 std::string Trajectory::sceneHash() const {
   Hash hash;

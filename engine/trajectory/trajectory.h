@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -26,12 +27,22 @@ struct Track {
   std::vector<Segment> segments;
 };
 
+/// What is known of a run that careen did not compute but read from a table of poses.
+struct GivenPoses {
+  bool velocities = false;         ///< the table has them; else they are estimated from positions
+  bool angularVelocities = false;  ///< likewise
+  double quaternionError = 0;      ///< [1] the largest |length − 1| of its quaternions
+};
+
 /// A recorded run: its initial state and settings, and every body's state at any time. Sufficient to draw,
 /// measure and export it.
 struct Trajectory : RunSetup {
   RunFigures figures;
   std::vector<Track> tracks;    ///< one per body of the world, in its order
   std::vector<Impact> impacts;  ///< in order of time
+  /// Present if the run comes from a table of poses: then it has no impacts, and method and tolerance of its
+  /// settings mean nothing. Not stored in files.
+  std::optional<GivenPoses> given;
 
   /// State of a body at a time in [0, duration] [s]; InputError outside. Where two segments meet, the later
   /// one.
@@ -41,7 +52,7 @@ struct Trajectory : RunSetup {
   /// Name of the box or wall that body a struck.
   const std::string& partnerName(const Impact& impact) const;
 
-  /// As scene files spell it.
+  /// As scene files spell it; "given poses" if it comes from a table.
   std::string methodName() const;
 
   /// Hash of the scene file's bytes.

@@ -100,6 +100,13 @@ void visitStep(Archive& archive, Step& step) {
 }
 
 template <class Archive>
+void visit(Archive& archive, Visited<Archive, SampledStep> step) {
+  archive.visit(step.duration);
+  visit(archive, step.start);
+  visit(archive, step.end);
+}
+
+template <class Archive>
 void visit(Archive& archive, Visited<Archive, CrowdStep> step) {
   visitStep(archive, step);
 }

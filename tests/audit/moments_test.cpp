@@ -30,5 +30,36 @@ TEST(Moments, areNotThoseOfFramesOrSteps) {
   }
 }
 
+// Movable bodies with rows at 0, ½, 1 … and one with rows between as well.
+Trajectory withRows(std::size_t rows) {
+  Trajectory run;
+  run.settings.duration = 0.5 * static_cast<double>(rows);
+  for (const std::size_t times : {std::size_t{1}, std::size_t{2}}) {
+    run.world.bodies.push_back({.name = "b",
+                                .halfExtents = Vec3::Ones(),
+                                .mass = solidBox(Vec3::Ones(), 1),
+                                .material = {},
+                                .initial = {}});
+    Track& track = run.tracks.emplace_back();
+    for (std::size_t k = 0; k < times * rows; ++k) {
+      track.segments.push_back(
+          {.start = 0.5 * static_cast<double>(k) / static_cast<double>(times), .motion = Rest{}});
+    }
+  }
+  return run;
+}
+
+TEST(Moments, ofATableAreTheRowsThatAllBoxesHave) {
+  EXPECT_EQ(momentsOfRows(withRows(4), 100), (std::vector<double>{0, 0.5, 1, 1.5, 2}));
+  const std::vector<double> few = momentsOfRows(withRows(1000), 10);
+  EXPECT_LE(few.size(), 12U);
+  EXPECT_GE(few.size(), 10U);
+  EXPECT_EQ(few.front(), 0);
+  EXPECT_EQ(few.back(), 500);
+  for (const double moment : few) {
+    EXPECT_EQ(moment * 2, std::floor(moment * 2));
+  }
+}
+
 }  // namespace
 }  // namespace careen

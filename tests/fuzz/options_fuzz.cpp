@@ -27,7 +27,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     addSimulate(commandLine);
     addStudy(commandLine);
     addCompare(commandLine);
+    addAudit(commandLine);
     addInfo(commandLine);
+    addValidate(commandLine);
     addVerify(commandLine);
     commandLine.parse(static_cast<int>(arguments.size()), arguments.data());
   });

@@ -97,6 +97,37 @@ TEST(SceneCheck, massesMadeByDensityKeepToTheRange) {
             std::string::npos);
 }
 
+TEST(SceneCheck, inertiaIsThatOfSomeBody) {
+  const auto errorOf = [](const std::string& inertia) {
+    const MarkedText marked(withBoxes(
+        R"({"half_extents": [1, 1, 1], "mass": 1, "position": [0, 0, 1], "inertia": @)" + inertia + "}"));
+    const std::string error = sceneErrorOf(marked.text);
+    const std::string place = "f:" + marked.place + ": ";
+    return error.starts_with(place) ? error.substr(place.size()) : error;
+  };
+  EXPECT_EQ(errorOf("[1, 2, 2.5]"), "no error");
+  EXPECT_EQ(errorOf("[1, 2, 3]"), "no error");  // a flat plate
+  EXPECT_EQ(errorOf("[[1, 0, 0], [0, 2, 0], [0, 0, 2.5]]"), "no error");
+  EXPECT_EQ(
+      errorOf("[1, 2, 3.5]"),
+      "found the inertia of box \"box-0\" with moments 1, 2, 3.5 kg m², expected no moment of inertia above "
+      "the sum of the two others, 3 kg m²");
+  EXPECT_EQ(errorOf("[[1, 0, 0], [0, -2, 0], [0, 0, 2.5]]"),
+            "found the inertia of box \"box-0\" with moments 1, -2, 2.5 kg m², expected moments of inertia "
+            "that are "
+            "positive");
+  EXPECT_EQ(errorOf("[[1, 0.5, 0], [0.5, 2, 0], [0, 0, 2.5]]"),
+            "found the inertia of box \"box-0\" with 0.5 kg m² beside the diagonal, expected 0 there: the "
+            "box's axes "
+            "are principal axes");
+  const MarkedText fixed(withBoxes(
+      R"({"half_extents": [1, 1, 1], "fixed": true, "position": [0, 0, 1], "inertia": @[1, 1, 1]})"));
+  EXPECT_EQ(sceneErrorOf(fixed.text),
+            "f:" + fixed.place +
+                R"(: found inertia for the fixed box "box-0", expected none, as it )"
+                "stays where it is");
+}
+
 TEST(SceneCheck, boxWithoutAPositionIsToldAtItsBrace) {
   const MarkedText marked(withBoxes(R"(@{"half_extents": [1, 1, 1], "mass": 1})"));
   EXPECT_EQ(sceneErrorOf(marked.text),

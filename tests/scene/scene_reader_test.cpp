@@ -86,7 +86,8 @@ TEST(SceneReader, readsBoxes) {
   EXPECT_EQ(crate.color.green, 0x55);
   EXPECT_EQ(crate.color.blue, 0x3d);
   EXPECT_EQ(scene.boxes[1].name, "box-1");
-  EXPECT_EQ(scene.boxes[1].mass, 8);                               // density 8 kg/m³, 1 m³
+  EXPECT_EQ(scene.boxes[1].mass, 8);  // density 8 kg/m³, 1 m³
+  EXPECT_EQ(*scene.boxes[1].inertia, Mat3(Vec3(1, 2, 2.25).asDiagonal()));
   EXPECT_EQ(scene.boxes[1].pose.worldFromBody, Mat3::Identity());  // of the quaternion 2
   EXPECT_TRUE(scene.boxes[2].fixed);
 }

@@ -12,8 +12,14 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/system/file.h"
+#include "core/system/scratch_folder.h"
 #include "physics/attitude/torque_free_rotation.h"
+#include "study/case.h"
+#include "study/given_contestant.h"
+#include "study/measuring.h"
 #include "support/article_equations.h"
+#include "support/given_tables.h"
 #include "support/physics_worlds.h"
 
 namespace careen {
@@ -285,6 +291,23 @@ TEST_F(Peers, sayWhenABodyIsLost) {
       ADD_FAILURE() << "went on";
     } catch (const NumericalError& error) {
       EXPECT_EQ(error.what(), peer.name() + ": the state of comet is not finite by t = 10.000000 s");
+    }
+  });
+}
+
+// A run of an engine, written as a table, has in the study the figures that its adapter has.
+TEST_F(Peers, aTableOfTheirRunHasTheFiguresOfTheirAdapter) {
+  const ScratchFolder folder;
+  forEach([&](const Contestant& peer) {
+    for (const char* const name : {"tumble-generic", "corner-impact", "incline-slide", "stack-10", "pile"}) {
+      const Case study = readCase(name);
+      const Answer answer = answerOf(study, peer, study.scene.dt, {});
+      writeFile(folder / "theirs.csv", tableOf(study.world, study.times, answer.states));
+      const auto given = givenContestant(
+          {.label = "theirs", .file = (folder / "theirs.csv").string(), .seconds = {}}, study);
+      const double error = judge(study, answer).error;
+      EXPECT_GT(error, 0);
+      EXPECT_NEAR(judge(study, answerOf(study, *given, 1, {})).error / error, 1, 1e-9) << name;
     }
   });
 }

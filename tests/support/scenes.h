@@ -22,7 +22,8 @@ inline const std::string kEveryKey = R"({
     { "name": "crate", "half_extents": [0.5, 0.25, 0.125], "mass": 2, "position": [1, 0.5, 2],
       "orientation": { "axis": [0, 0, 2], "angle_deg": 90 }, "velocity": [6, 1.5, 0], "angular_velocity": [3, 7, -2],
       "restitution": 0.75, "friction": 0.5, "fixed": false, "color": "#C8553d" },
-    { "half_extents": [0.5, 0.5, 0.5], "density": 8, "position": [0, 0, 2], "orientation": [2, 0, 0, 0] },
+    { "half_extents": [0.5, 0.5, 0.5], "density": 8, "inertia": [1, 2, 2.25], "position": [0, 0, 2],
+      "orientation": [2, 0, 0, 0] },
     { "name": "post", "half_extents": [0.1, 0.1, 0.1], "fixed": true, "position": [2, 1, 0.5], "velocity": [0, 0, 0] }
   ],
   "springs": [

@@ -60,22 +60,66 @@ Polynomial<Vector> evaluate(const std::array<Vector, 6>& coefficients, double s)
   return at;
 }
 
-BodyState stateIn(const ContactStep& step, const MassProperties& mass, double elapsed) {
-  const double s = elapsed / step.duration;
-  const auto position = evaluate(step.position, s);
-  const auto turn = evaluate(step.worldFromBody, s);
+// The state of a body whose position and quaternion, of any length, are polynomials of elapsed/duration.
+BodyState stateOf(const Polynomial<Vec3>& position, const Polynomial<Vec4>& turn, double duration,
+                  const MassProperties& mass) {
   // ω = 2 q̇ q*, for a quaternion of any length.
   const Quat q(turn.value);
   const Quat rate(turn.slope);
-  const Vec3 omega = (2 / (step.duration * turn.value.squaredNorm())) * (rate * q.conjugate()).vec();
+  const Vec3 omega = (2 / (duration * turn.value.squaredNorm())) * (rate * q.conjugate()).vec();
   const Mat3 columns = q.normalized().toRotationMatrix();
   return {.pose = {.position = position.value, .worldFromBody = columns},
-          .velocity = position.slope / step.duration,
+          .velocity = position.slope / duration,
           .angularMomentum = angularMomentum(mass, columns, omega)};
+}
+
+BodyState stateIn(const ContactStep& step, const MassProperties& mass, double elapsed) {
+  const double s = elapsed / step.duration;
+  return stateOf(evaluate(step.position, s), evaluate(step.worldFromBody, s), step.duration, mass);
 }
 
 BodyState stateIn(const CrowdStep& step, const MassProperties& mass, double elapsed) {
   return stateIn(asContactStep(step), mass, elapsed);
+}
+
+// Cubic Hermite interpolation between values `from` and `to` with slopes `rateFrom` and `rateTo`, by s.
+template <class Vector>
+Polynomial<Vector> cubic(const Vector& from, const Vector& rateFrom, const Vector& to, const Vector& rateTo,
+                         double s) {
+  const Vector way = to - from;
+  return evaluate<Vector>({from, rateFrom, 3 * way - 2 * rateFrom - rateTo, rateFrom + rateTo - 2 * way,
+                           Vector::Zero(), Vector::Zero()},
+                          s);
+}
+
+BodyState stateIn(const SampledStep& step, const MassProperties& mass, double elapsed) {
+  if (elapsed <= 0 || elapsed >= step.duration) {
+    return elapsed <= 0 ? step.start : step.end;
+  }
+  const double s = elapsed / step.duration;
+  const Quat from(step.start.pose.worldFromBody);
+  Quat to(step.end.pose.worldFromBody);
+  if (from.dot(to) < 0) {
+    to.coeffs() = -to.coeffs();
+  }
+  // q̇ = ½ ω q
+  const auto rateOf = [&](const BodyState& state, const Quat& q) -> Vec4 {
+    const Vec3 turn = 0.5 * step.duration * angularVelocity(mass, state);
+    return (Quat(0, turn.x(), turn.y(), turn.z()) * q).coeffs();
+  };
+  const Vec4 chord = to.coeffs() - from.coeffs();
+  Vec4 rateFrom = rateOf(step.start, from);
+  Vec4 rateTo = rateOf(step.end, to);
+  // The chord is at least √½ from zero; rates that differ from it bend the way by at most 4/27 of their
+  // differences, so that the quaternion stays longer than ½.
+  constexpr double kAgreeing = 1;
+  if (!((rateFrom - chord).norm() + (rateTo - chord).norm() <= kAgreeing)) {
+    rateFrom = chord;
+    rateTo = chord;
+  }
+  return stateOf(cubic<Vec3>(step.start.pose.position, step.duration * step.start.velocity,
+                             step.end.pose.position, step.duration * step.end.velocity, s),
+                 cubic<Vec4>(from.coeffs(), rateFrom, to.coeffs(), rateTo, s), step.duration, mass);
 }
 
 }  // namespace

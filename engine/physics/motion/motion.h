@@ -61,9 +61,19 @@ struct StepBounds {
 };
 StepBounds boundsOf(const ContactStep& step);
 
+/// From one row of a table of poses to the next: its states at both ends, bit for bit. Between them positions
+/// are cubic in time, with the velocities at the ends. So is the quaternion, with the angular velocities at
+/// the ends, where these agree with the rotation from one end to the other; where they do not, as across an
+/// impact or if the box turns by half a turn and more between two rows, it is linear.
+struct SampledStep {
+  double duration = 0;  ///< [s]
+  BodyState start;
+  BodyState end;
+};
+
 /// Motion of one body until its next event. To add a motion: one more type here, the last,
 /// because files store its index, and one more stateIn in motion.cpp.
-using Motion = std::variant<Rest, EulerStep, Flight, SteppedFlight, ContactStep, CrowdStep>;
+using Motion = std::variant<Rest, EulerStep, Flight, SteppedFlight, ContactStep, CrowdStep, SampledStep>;
 
 /// State of the body `elapsed` [s] after the motion began.
 BodyState stateAt(const Motion& motion, const MassProperties& mass, double elapsed);

@@ -47,6 +47,7 @@ FilmManifest manifestOf(const Trajectory& run, const FilmSettings& settings, dou
                         .libraries = librariesHere(),
                         .sceneHash = run.sceneHash(),
                         .stateHash = run.stateHash(),
+                        .ghost = settings.ghost != nullptr ? settings.ghost->stateHash() : "",
                         .picture = run.stage.picture,
                         .frameCount = run.stage.picture.rate.frameCount(duration),
                         .frames = {},
@@ -271,8 +272,8 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
 
   // Everything that may fail comes before the existing film is changed. Existing frames need no GL.
   std::optional<Overlays> overlays;
-  if (!missing.empty() && picture.overlays.any()) {
-    overlays.emplace(run, picture.overlays, picture.rate.frameTime(1));
+  if (!missing.empty() && (picture.overlays.any() || settings.ghost != nullptr)) {
+    overlays.emplace(run, picture.overlays, picture.rate.frameTime(1), settings.ghost);
   }
   const int jobs = jobCount(settings, missing.size());
   const PictureRing ring(settings.video ? jobs + 2 : 0, bytesOf(picture));

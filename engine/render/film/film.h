@@ -23,6 +23,8 @@ struct FilmSettings {
   /// Video of the requested frames, encoded by ffmpeg; its size and rate are those of the run's pictures.
   std::optional<VideoSettings> video;
   bool resume = false;  ///< existing frames of the same film are kept
+  /// Another run of the boxes, shown as outlines; null: none. It must last until the film is done.
+  const Trajectory* ghost = nullptr;
   /// Number of worker processes, each drawing one frame at a time; absent: one per core. Never more than
   /// there are frames to draw.
   std::optional<int> jobs;

@@ -35,6 +35,7 @@ struct OverlayFrame {
   const OverlayScales& scales;
   const OverlayFonts* fonts = nullptr;  ///< non-null if there is text
   const EnergyBook* energy = nullptr;   ///< non-null if the energy is shown
+  const Trajectory* ghost = nullptr;    ///< non-null if another run is shown as outlines
   const Screen& screen;
   OverlayStyle style;
 };
@@ -52,6 +53,10 @@ void addImpulses(OverlayShapes& shapes, const OverlayFrame& frame);
 void addNames(OverlayShapes& shapes, const OverlayFrame& frame);
 void addTimeCode(OverlayShapes& shapes, const OverlayFrame& frame);
 void addEnergy(OverlayShapes& shapes, const OverlayFrame& frame);
+/// Outlines of the other run's movable boxes, those edges paler that their own boxes would hide; lines from
+/// each centre to its ghost's; and, in the lower right corner, the largest distance and angle of a box from
+/// its ghost. Nothing after the end of the other run but a note.
+void addGhost(OverlayShapes& shapes, const OverlayFrame& frame);
 /// The meaning of the arrows of `shown`, with an arrow of a round value as scale.
 void addLegend(OverlayShapes& shapes, const OverlayFrame& frame, const OverlaySet& shown);
 

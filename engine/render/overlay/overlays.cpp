@@ -57,12 +57,12 @@ OverlayScales scalesOf(const Trajectory& trajectory) {
 }  // namespace
 
 Overlays::Overlays(const Trajectory& trajectory, const OverlaySet& shown, double frameSeconds,
-                   std::span<const std::filesystem::path> folders)
-    : trajectory_(trajectory), shown_(shown), frameSeconds_(frameSeconds) {
+                   const Trajectory* ghost, std::span<const std::filesystem::path> folders)
+    : trajectory_(trajectory), shown_(shown), frameSeconds_(frameSeconds), ghost_(ghost) {
   if (hasAny(shown, kArrows)) {
     scales_ = scalesOf(trajectory);
   }
-  if (isWritten(shown)) {
+  if (isWritten(shown) || ghost != nullptr) {
     fonts_ = OverlayFonts{.plain = findFont(kPlainFont, folders),
                           .monospaced = findFont(kMonospacedFont, folders)};
   }
@@ -81,9 +81,13 @@ OverlayShapes Overlays::shapesAt(double time, const View& view, int width, int h
                            .scales = scales_,
                            .fonts = fonts_ ? &*fonts_ : nullptr,
                            .energy = energy_ ? &*energy_ : nullptr,
+                           .ghost = ghost_,
                            .screen = screen,
                            .style = OverlayStyle(height)};
   OverlayShapes shapes;
+  if (ghost_ != nullptr) {
+    addGhost(shapes, frame);
+  }
   for (const NamedAdd& each : kInOrder) {
     if (shown_.has(each.overlay)) {
       each.add(shapes, frame);

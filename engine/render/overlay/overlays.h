@@ -14,10 +14,11 @@ namespace careen {
 /// longest arrow, are computed once, and only for the overlays shown.
 class Overlays {
  public:
-  /// Keeps a reference to the run. `frameSeconds` [s]: from one frame to the next. MachineError, naming the
-  /// package to install, if there is text and no font in the folders.
+  /// Keeps references to the runs. `frameSeconds` [s]: from one frame to the next. `ghost`, if not null, is
+  /// another run of the boxes: shown as outlines, with their distance. MachineError, naming the package to
+  /// install, if there is text and no font in the folders.
   Overlays(const Trajectory& trajectory, const OverlaySet& shown, double frameSeconds,
-           std::span<const std::filesystem::path> folders = fontFolders());
+           const Trajectory* ghost = nullptr, std::span<const std::filesystem::path> folders = fontFolders());
 
   /// `time` within the run [s]; `width`, `height` of the picture [px].
   OverlayShapes shapesAt(double time, const View& view, int width, int height) const;
@@ -27,6 +28,7 @@ class Overlays {
   const Trajectory& trajectory_;
   OverlaySet shown_;
   double frameSeconds_;
+  const Trajectory* ghost_;
   OverlayScales scales_;
   std::optional<OverlayFonts> fonts_;
   std::optional<EnergyBook> energy_;

@@ -301,9 +301,9 @@ TEST_F(OverlaysTest, onlyWhatIsShownIsLookedFor) {
 
 TEST_F(OverlaysTest, fontIsNeededOnlyForWhatIsWritten) {
   const std::array<std::filesystem::path, 1> nowhere = {"/nowhere"};
-  EXPECT_NO_THROW(Overlays(run_, overlaysNamed("trail,contacts"), kFrame, nowhere));
+  EXPECT_NO_THROW(Overlays(run_, overlaysNamed("trail,contacts"), kFrame, nullptr, nowhere));
   for (const char* name : {"time", "names", "energy", "velocity", "impulses"}) {
-    EXPECT_THROW(Overlays(run_, overlaysNamed(name), kFrame, nowhere), MachineError) << name;
+    EXPECT_THROW(Overlays(run_, overlaysNamed(name), kFrame, nullptr, nowhere), MachineError) << name;
   }
 }
 

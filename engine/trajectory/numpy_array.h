@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace careen {
+
+/// An array of NumPy: numbers or texts, the last index running fastest.
+struct NumpyArray {
+  std::vector<std::size_t> shape;
+  std::vector<double> numbers;  ///< if it is not of texts
+  std::vector<std::string> texts;
+  bool isText = false;
+
+  static NumpyArray of(std::vector<double> numbers, std::vector<std::size_t> shape);
+  static NumpyArray of(std::vector<std::string> texts, std::vector<std::size_t> shape);
+
+  std::size_t size() const { return isText ? texts.size() : numbers.size(); }
+};
+
+/// The bytes of a .npy file, format 1.0 (NumPy Enhancement Proposal 1): '<f8', or '<U' for texts, C order.
+std::string encodeNumpy(const NumpyArray& array);
+
+/// Reads formats 1 to 3, floats of 4 and 8 bytes, integers, booleans, texts '<U', '>U' and '|S', of either
+/// byte order, in C or Fortran order. InputError, which `name` begins, for everything else.
+NumpyArray decodeNumpy(std::string_view bytes, const std::string& name);
+
+}  // namespace careen
