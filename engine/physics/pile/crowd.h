@@ -124,6 +124,8 @@ class Crowd {
   /// [1] relative to gravity: tolerated force imbalance of a body at rest.
   static constexpr double kFeasible = 0x1p-10;
   static constexpr int kStepsAlone = 2;
+  static constexpr double kLongestStep = 1.0 / 180;  // [s] at the usual tolerance
+  double longestStep() const { return kLongestStep * scale_; }
   struct Bounce {
     int row = 0;
     double speed = 0;     // [m/s] separation speed

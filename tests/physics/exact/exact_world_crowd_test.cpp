@@ -173,17 +173,16 @@ TEST(ExactWorldCrowd, feelsSpringsAndDrag) {
                   rough(box("b", Vec3(0.2, 0.2, 0.2), 1, Vec3(1.5, 0, 0.2)), 0)};
   world.springs = {{.from = {.body = 0}, .to = {.body = 1}, .stiffness = 20, .restLength = 1}};
   world.drag = Drag{.linear = 0.3, .angular = 0};
+  world.bodies[0].initial.velocity = Vec3(0.3, 0, 0);
   Recorded exact;
   exact.motions.resize(2);
   Notes notes(exact);
   exact.figures = ExactWorld(world, {.duration = 2}, notes).run({});
   for (const double tolerance : {3e-4, 3e-6}) {
-    World moving = world;
-    moving.bodies[0].initial.velocity = Vec3(1e-9, 0, 0);  // else both only rest on the floor
-    const Recorded crowd = crowdRun(moving, 2, tolerance);
+    const Recorded crowd = crowdRun(world, 2, tolerance);
     ASSERT_GT(crowdSteps(crowd, 0), 10U);
     const double error =
-        (crowd.at(moving, 0, 1.9).pose.position - exact.at(world, 0, 1.9).pose.position).norm();
+        (crowd.at(world, 0, 1.9).pose.position - exact.at(world, 0, 1.9).pose.position).norm();
     EXPECT_LT(error, 30 * std::sqrt(tolerance * 1e-4)) << tolerance;  // first order in the step
   }
 }

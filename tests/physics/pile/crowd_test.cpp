@@ -224,22 +224,6 @@ TEST(Crowd, separatesOverlapWithoutEnergy) {
   EXPECT_LT(crowd.deepest(), 3e-4);
 }
 
-TEST(Crowd, lengthsTimesFourAndTimesTimesTwoAreTheSameBits) {
-  const World world = test::pouring(30, 0.5, 0.3, 1, 3);
-  World large = test::pouring(30, 0.5, 0.3, 4, 3);
-  test::CrowdRun crowd(world);
-  test::CrowdRun other(large, 4 * Crowd::kUsualTolerance, 2 * test::CrowdRun::kFrame);
-  for (int frame = 0; frame < 180; ++frame) {
-    crowd.step();
-    other.step();
-  }
-  for (std::size_t k = 0; k < world.bodies.size(); ++k) {
-    EXPECT_EQ(Vec3(4 * crowd.states()[k].pose.position), other.states()[k].pose.position) << k;
-    EXPECT_EQ(crowd.states()[k].pose.worldFromBody, other.states()[k].pose.worldFromBody) << k;
-    EXPECT_EQ(Vec3(2 * crowd.states()[k].velocity), other.states()[k].velocity) << k;
-  }
-}
-
 TEST(Crowd, stackOfTenStands) {
   const Material material{.restitution = 0, .friction = 0.5};
   World world = floorWorld(material);

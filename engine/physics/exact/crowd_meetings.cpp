@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <memory>
+
+#include "physics/exact/exact_world.h"
+#include "physics/geometry/separation.h"
+
+// What a crowd is about to meet.
+
+namespace careen {
+namespace {
+
+/// Motion of a member if nothing touches it, for the contact search.
+class Unpushed {
+ public:
+  Unpushed(const Crowd& crowd, std::size_t place, const Vec3& gravity, double length)
+      : mass_(&crowd.listedBody(place).mass) {
+    PileBody body = crowd.body(place);
+    const StepEnd from{.position = body.position,
+                       .velocity = body.velocity,
+                       .worldFromBody = body.attitude,
+                       .spinBody = body.attitude.conjugate() * body.omega};
+    turnFree(body, length);
+    const StepEnd to{.position = body.position + length * (body.velocity + 0.5 * length * gravity),
+                     .velocity = body.velocity + length * gravity,
+                     .worldFromBody = body.attitude,
+                     .spinBody = body.attitude.conjugate() * body.omega};
+    step_ = asContactStep(cubicStep(from, to, length));
+    bounds_ = boundsOf(step_);
+    halfExtents_ = body.halfExtents;
+  }
+  Attitude operator()(double elapsed) const {
+    const BodyState state = stateAt(Motion(step_), *mass_, elapsed);
+    return {.worldFromBody = state.pose.worldFromBody, .angularVelocity = angularVelocity(*mass_, state)};
+  }
+  MovingBox moving() const {
+    return {.halfExtents = halfExtents_,
+            .position = step_.position[0],
+            .velocity = Vec3::Zero(),
+            .acceleration = Vec3::Zero(),
+            .angularSpeedBound = bounds_.angularSpeed,
+            .angularAccelerationBound = bounds_.angularAcceleration,
+            .attitude = AttitudeView(*this),
+            .step = &step_,
+            .speedBound = bounds_.speed,
+            .accelerationBound = bounds_.acceleration};
+  }
+
+ private:
+  const MassProperties* mass_;
+  ContactStep step_;
+  StepBounds bounds_;
+  Vec3 halfExtents_;
+};
+
+}  // namespace
+
+// Admits what its members meet within the next step if nothing pushes them, and bodies at rest near them.
+// Returns the others that are near, which may meet them all the same.
+std::vector<int> ExactWorld::admitNear(const std::shared_ptr<ContactGroup>& group, const Instant& time,
+                                       double length) {
+  std::vector<int> near;
+  for (bool added = true; added;) {
+    added = false;
+    near.clear();
+    const Crowd::Extent extent = group->crowd->extent(length);
+    for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
+      const Mover& body = mover(rank);
+      const double radius = body.body->halfExtents.norm();
+      if (body.crowd == group) {
+        continue;
+      }
+      const double way =
+          body.flies
+              ? length * (body.flight.velocityAt(body.elapsed(time)).norm() + length * world_.gravity.norm())
+          : body.touches() ? length * body.speedBound
+                           : 0;
+      const Vec3 reach = Vec3::Constant(radius + way);
+      const Vec3 center = body.moves() ? body.positionAt(time) : body.pose.position;
+      if (((center + reach).array() < extent.low.array()).any() ||
+          ((center - reach).array() > extent.high.array()).any() ||
+          (body.isHeld() &&
+           std::find(group->ranks.begin(), group->ranks.end(), rank) != group->ranks.end())) {
+        continue;
+      }
+      const Nearness nearness = nearnessTo(*group, rank, time, length);
+      if (nearness == Nearness::kMeets) {
+        if (body.crowd) {
+          const std::shared_ptr<ContactGroup> other = body.crowd;
+          endAt(*other, time);
+          merge(group, *other);
+        } else if (body.moves()) {
+          const Quat attitude = body.attitudeAt(time);
+          enlist(group, rank, time, body.stateAt(time, attitude), attitude);
+        } else {
+          enlistAtRest(group, rank);
+        }
+        added = true;
+      } else if (nearness == Nearness::kNear) {
+        near.push_back(rank);
+      }
+    }
+  }
+  return near;
+}
+
+ExactWorld::Nearness ExactWorld::nearnessTo(const ContactGroup& group, int rank, const Instant& time,
+                                            double length) {
+  const Mover& body = mover(rank);
+  const BodyState state = body.stateAt(time);
+  const double radius = body.body->halfExtents.norm();
+  const double turning = body.moves() ? angularVelocity(body.body->mass, state).norm() * radius : 0;
+  Nearness found = Nearness::kFar;
+  neighbors_.findCandidates(rank, candidates_);
+  for (const Neighbors::Key candidate : candidates_) {
+    const Mover& member = mover(candidate);
+    if (member.crowd.get() != &group || (!body.moves() && group.crowd->sleeps(member.place))) {
+      continue;
+    }
+    const PileBody& at = group.crowd->body(member.place);
+    const double way =
+        crowds_.tolerance + length * ((state.velocity - at.velocity).norm() + turning +
+                                      at.radius * at.omega.norm() + length * world_.gravity.norm());
+    if ((state.pose.position - at.position).norm() > radius + at.radius + way ||
+        BoxAxes({state.pose, body.body->halfExtents}, {{at.position, at.axes}, at.halfExtents}).gap() > way) {
+      continue;
+    }
+    found = Nearness::kNear;
+    if (!body.moves() || body.crowd || (body.flies && meetsWithin(group, rank, member, time, length))) {
+      return Nearness::kMeets;
+    }
+  }
+  return found;
+}
+
+bool ExactWorld::meetsWithin(const ContactGroup& group, int rank, const Mover& member, const Instant& time,
+                             double length) const {
+  const MovingBox body = mover(rank).moving(time);
+  const SearchWindow window{.from = 0, .until = length};
+  const Unpushed unpushed(*group.crowd, member.place, world_.gravity, length);
+  const FirstContact contact = group.crowd->sleeps(member.place)
+                                   ? firstContactOfBoxes(body, member.moving(time), window)
+                                   : firstContactOfBoxes(body, unpushed.moving(), window);
+  return contact.kind != ContactKind::kNone;
+}
+
+}  // namespace careen

@@ -1,0 +1,255 @@
+// Contacts of a crowd: broad and narrow phase, rows of the solver, position projection.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "physics/pile/crowd.h"
+
+namespace careen {
+namespace {
+
+constexpr double kLookAhead = 6;  // longest steps for which a fat AABB should stay valid
+constexpr int kPasses = 8;
+constexpr double kGrowth = 1.5;    // [1] largest growth of an impulse per step that the warm start accepts
+constexpr double kBounceFrom = 4;  // [1] of gravity × step: slower impacts do not bounce
+constexpr double kAllowance = 0x1p-6;  // [1] of the smallest size: gaps that may close during a step
+constexpr double kTogether = 3;        // [1] of the tolerance: points of one manifold that meet together
+
+}  // namespace
+
+// Broad and narrow phase: pairs, and manifolds of the near ones. A contact that would push a sleeping body
+// wakes its cluster, whose pairs are then tested too.
+void Crowd::lookAround() {
+  for (PileBody& body : bodies_) {
+    body.ahead = body.still()
+                     ? 0
+                     : h_ * (body.velocity.norm() + body.radius * body.omega.norm() + h_ * gravityMagnitude_);
+  }
+  pairs_.update(bodies_, world_.gravity, h_, std::max(h_, kLookAhead * longestStep()));
+  unused_.insert(unused_.end(), pairs_.freed().begin(), pairs_.freed().end());
+  pairs_.freed().clear();
+  std::vector<PilePair>& pairs = pairs_.pairs();
+  looked_.assign(pairs.size(), 0);
+  for (bool woke = true; woke;) {
+    woke = false;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      PilePair& pair = pairs[k];
+      const PileBody& a = bodies_[at(pair.a)];
+      const bool stillB = pair.b.isWall() || bodyAt(pair.b).still();
+      if (looked_[k] != 0 || (a.still() && stillB)) {
+        continue;
+      }
+      looked_[k] = lookAt(pair) ? 2 : 1;
+      if (looked_[k] == 2 && (a.asleep || (!pair.b.isWall() && bodyAt(pair.b).asleep)) &&
+          wouldPush(pair, manifolds_[at(pair.slot)])) {
+        wakeCluster(a.asleep ? a.cluster : bodyAt(pair.b).cluster);
+        woke = true;
+      }
+    }
+  }
+  near_.clear();
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (looked_[k] == 2) {
+      near_.push_back(pairs[k].slot);
+    }
+  }
+  figures_.manifolds += static_cast<std::int64_t>(near_.size());
+}
+
+// Whether the pair has a manifold with points.
+bool Crowd::lookAt(PilePair& pair) {
+  ++figures_.pairs;
+  const PileBody& a = bodies_[at(pair.a)];
+  const bool hasWall = pair.b.isWall();
+  const double pathB = hasWall ? 0 : bodyAt(pair.b).path;
+  const double aheadB = hasWall ? 0 : bodyAt(pair.b).ahead;
+  if (pair.slot < 0 && a.path + pathB + a.ahead + aheadB < pair.until) {
+    return false;
+  }
+  PileManifold& manifold = manifoldOf(pair);
+  const double motion = hasWall ? a.ahead : relativeMotion(a, bodyAt(pair.b), h_);
+  manifold.moved += motion;
+  const double length = manifold.length;
+  bool touching = manifold.count > 0;
+  if (!touching || manifold.moved > PileLengths::kRebuild * length ||
+      manifold.moved + motion + 0.5 * PileLengths::kReach * length > manifold.reach) {
+    ++figures_.rebuilt;
+    manifold.reach = PileLengths::kReach * length + 1.5 * motion;
+    touching = hasWall ? buildManifold(a, wallAt(pair.b), manifold.reach, manifold)
+                       : buildManifold(a, bodyAt(pair.b), manifold.reach, manifold);
+  } else if (hasWall) {
+    refreshManifold(a, wallAt(pair.b), manifold);
+  } else {
+    refreshManifold(a, bodyAt(pair.b), manifold);
+  }
+  if (!touching) {
+    pair.until = a.path + pathB + manifold.separation - PileLengths::kReach * length;
+    unused_.push_back(pair.slot);
+    pair.slot = -1;
+    return false;
+  }
+  return manifold.count > 0;
+}
+
+PileManifold& Crowd::manifoldOf(PilePair& pair) {
+  if (pair.slot >= 0) {
+    return manifolds_[at(pair.slot)];
+  }
+  if (unused_.empty()) {
+    unused_.push_back(static_cast<int>(manifolds_.size()));
+    manifolds_.emplace_back();
+  }
+  pair.slot = unused_.back();
+  unused_.pop_back();
+  PileManifold& manifold = manifolds_[at(pair.slot)];
+  manifold = {};
+  manifold.a = pair.a;
+  manifold.b = pair.b;
+  const PileBody& a = bodies_[at(pair.a)];
+  const Material material =
+      touching(a.material, pair.b.isWall() ? wallAt(pair.b).material : bodyAt(pair.b).material);
+  manifold.friction = material.friction;
+  manifold.restitution = material.restitution;
+  manifold.length = pair.b.isWall() ? a.length : std::min(a.length, bodyAt(pair.b).length);
+  return manifold;
+}
+
+// Whether the moving body would push the sleeping one by more than the tolerated imbalance at rest.
+bool Crowd::wouldPush(const PilePair& pair, const PileManifold& manifold) const {
+  const PileBody& a = bodies_[at(pair.a)];
+  const PileBody& b = bodyAt(pair.b);
+  const auto speed = [&](const PileBody& body, const Vec3& arm) {
+    return body.still() ? Vec3(Vec3::Zero())
+                        : Vec3(body.velocity + h_ * world_.gravity + body.omega.cross(arm));
+  };
+  const double heavy = a.asleep ? a.inverseMass : b.inverseMass;
+  const double light = a.asleep ? b.inverseMass : a.inverseMass;
+  for (int k = 0; k < manifold.count; ++k) {
+    const PilePoint& point = manifold.points[at(k)];
+    const Vec3 relative = speed(a, point.world) - speed(b, point.world + a.position - b.position);
+    const double approach = -manifold.frameOf(k).normal.dot(relative) - std::max(0.0, point.gap) / h_;
+    if (approach * heavy > kFeasible * gravityMagnitude_ * h_ * (heavy + light)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void Crowd::wakeCluster(int cluster) {
+  for (PileBody& body : bodies_) {
+    if (body.asleep && body.cluster == cluster) {
+      body.asleep = false;
+      body.cluster = -1;
+      ++figures_.woken;
+    }
+  }
+}
+
+// Where a point strikes within the step, those of its manifold that are almost closed strike with it.
+void Crowd::addRows(int slot) {
+  PileManifold& manifold = manifolds_[at(slot)];
+  const bool hasWall = manifold.b.isWall();
+  const PileBody& a = bodies_[at(manifold.a)];
+  const int indexB = solver_.indexOf(manifold.b);
+  const Vec3 apart = hasWall ? Vec3::Zero() : Vec3(a.position - bodyAt(manifold.b).position);
+  const Vec3 vA = solver_.velocity(manifold.a);
+  const Vec3 vB = solver_.velocity(indexB);
+  std::array<double, PileManifold::kMost> speeds{};
+  bool meets = false;
+  for (int k = 0; k < manifold.count; ++k) {
+    const PilePoint& point = manifold.points[at(k)];
+    const Vec3 relative = vA + solver_.omega(manifold.a).cross(point.world) - vB -
+                          solver_.omega(indexB).cross(point.world + apart);
+    speeds[at(k)] = manifold.frameOf(k).normal.dot(relative);
+    meets = meets ||
+            (point.gap + speeds[at(k)] * h_ <= 0 && -speeds[at(k)] > kBounceFrom * gravityMagnitude_ * h_);
+  }
+  const double together = kTogether * tolerance_;
+  bool begun = false;
+  for (int k = 0; k < manifold.count; ++k) {
+    PilePoint& point = manifold.points[at(k)];
+    const PileFrame& frame = manifold.frameOf(k);
+    const double speed = speeds[at(k)];
+    point.row = -1;
+    if (point.gap + std::min(0.0, speed) * h_ > kAllowance * manifold.length) {
+      point.normalImpulse = point.normalImpulseBefore = 0;
+      continue;
+    }
+    if (!begun) {
+      solver_.beginManifold(manifold.a, manifold.b, manifold.friction);
+      begun = true;
+    }
+    PileSolver::Row row{.armA = point.world, .armB = point.world + apart, .frame = frame};
+    row.bound = meets && point.gap <= together ? 0 : -std::max(0.0, point.gap) / h_;
+    row.normalImpulse = impulseScale_ * std::min(point.normalImpulse, kGrowth * point.normalImpulseBefore);
+    if (row.normalImpulse > 0) {
+      const double part = row.normalImpulse / point.normalImpulse;
+      row.tangential1 = part * point.tangential1;
+      row.tangential2 = part * point.tangential2;
+    }
+    point.row = static_cast<int>(solver_.rowCount());
+    solver_.add(row);
+    if (-speed > kBounceFrom * gravityMagnitude_ * h_) {
+      // Only the part of gravity before the time of contact counts, or bouncing would gain energy.
+      const double before = std::clamp(point.gap / (-speed * h_), 0.0, 1.0);
+      const Vec3 fallA = a.still() ? Vec3(Vec3::Zero()) : acceleration(at(manifold.a));
+      const Vec3 fallB =
+          hasWall || bodyAt(manifold.b).still() ? Vec3(Vec3::Zero()) : acceleration(at(manifold.b.body()));
+      const double fall = h_ * frame.normal.dot(fallA - fallB);
+      const double approach = std::max(0.0, -(speed - (1 - before) * fall));
+      bounces_.push_back({.row = point.row,
+                          .speed = manifold.restitution * approach,
+                          .approach = approach,
+                          .slot = slot,
+                          .point = k});
+    }
+  }
+}
+
+void Crowd::keepImpulses() {
+  for (const int slot : near_) {
+    PileManifold& manifold = manifolds_[at(slot)];
+    for (int k = 0; k < manifold.count; ++k) {
+      PilePoint& point = manifold.points[at(k)];
+      if (point.row >= 0) {
+        point.normalImpulseBefore = point.normalImpulse;
+        point.normalImpulse = solver_.normalImpulse(point.row);
+        point.tangential1 = solver_.tangential1(point.row);
+        point.tangential2 = solver_.tangential2(point.row);
+      }
+    }
+  }
+}
+
+void Crowd::project() {
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (const int slot : near_) {
+      PileManifold& manifold = manifolds_[at(slot)];
+      const PileBody& a = bodies_[at(manifold.a)];
+      if (manifold.b.isWall()) {
+        refreshManifold(a, wallAt(manifold.b), manifold);
+        continue;
+      }
+      const PileBody& b = bodyAt(manifold.b);
+      const double unseen = pass == 0 ? relativeMotion(a, b, h_) : 0;
+      if (manifold.moved + unseen > PileLengths::kRebuild * manifold.length) {
+        ++figures_.rebuilt;
+        buildManifold(a, b, manifold.reach, manifold);
+      } else {
+        refreshManifold(a, b, manifold);
+      }
+    }
+    if (!projection_.pass(bodies_, manifolds_, near_, 3 << std::min(pass, 4))) {
+      break;
+    }
+    ++figures_.projections;
+  }
+  for (const int slot : near_) {
+    const PileManifold& manifold = manifolds_[at(slot)];
+    for (int k = 0; k < manifold.count; ++k) {
+      deepest_ = std::max(deepest_, -manifold.points[at(k)].gap);
+    }
+  }
+}
+
+}  // namespace careen
