@@ -299,7 +299,7 @@ const std::vector<BadPiece> kBadValues = {
      R"(found the unknown key "gravitiy" in the scene, expected "gravity")"},
     {R"("gravity")", R"(@"wind")",
      R"(found the unknown key "wind" in the scene, expected one of careen, name, duration, gravity, room, )"
-     "walls, boxes, springs, drag, method, dt, tolerance, camera, film, look, overlays, $schema"},
+     "walls, boxes, springs, drag, method, dt, tolerance, crowds, camera, film, look, overlays, $schema"},
     {"[0, 0, -9.81]", "@-9.81", "found -9.81 for gravity, expected [x, y, z] [m/s²]"},
     {"[0, 0, -9.81]", "@[0, -9.81]", "found an array of 2 for gravity, expected [x, y, z] [m/s²]"},
     {R"({ "min": [-3, -2, 0], )", "@{ ", "found no min in room, expected that key"},

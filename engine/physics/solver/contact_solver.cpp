@@ -110,15 +110,18 @@ bool ContactSolver::stands() const {
                      });
 }
 
-/// The bodies stand, or the attempt cost one factorisation.
+/// The bodies stand, or the attempt cost two factorisations. First with the ε that lets equal contacts share
+/// evenly.
 bool ContactSolver::tryStanding() {
-  bool found = trySticking(kStandingEpsilon, 1);
-  if (residual_ <= inScale(kNearlyStands)) {
-    std::copy(impulses_.begin(), impulses_.end(), from_.begin());
-    found = tryNewton(from_, {.epsilon = kStandingEpsilon, .steps = kStandingSteps});
-  }
-  if (found && stands()) {
-    return true;
+  for (const double epsilon : {kStickingEpsilon, kStandingEpsilon}) {
+    bool found = trySticking(epsilon, 1);
+    if (residual_ <= inScale(kNearlyStands)) {
+      std::copy(impulses_.begin(), impulses_.end(), from_.begin());
+      found = tryNewton(from_, {.epsilon = epsilon, .steps = kStandingSteps});
+    }
+    if (found && stands()) {
+      return true;
+    }
   }
   std::fill(from_.begin(), from_.end(), Triple{});
   forget();
