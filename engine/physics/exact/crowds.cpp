@@ -184,7 +184,7 @@ void ExactWorld::merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup&
 
 // ---- Steps.
 
-void ExactWorld::advanceCrowd(std::shared_ptr<ContactGroup> crowd, const Instant& time) {
+void ExactWorld::advanceCrowd(const std::shared_ptr<ContactGroup>& crowd, const Instant& time) {
   commit(*crowd, time);
   const std::vector<int> released = release(*crowd, time);
   if (crowd->crowd->atRest()) {

@@ -108,7 +108,8 @@ void ExactWorld::happen(const Event& event) {
   } else if (!event.partner.isWall() && mover(event.partner.body()).motion != event.partnerMotion) {
     predict(event.body);
   } else if (event.kind == EventKind::kStep && mover(event.body).contactGroup->crowd) {
-    advanceCrowd(mover(event.body).contactGroup, event.time);
+    const std::shared_ptr<ContactGroup> crowd = mover(event.body).contactGroup;  // its body may leave it
+    advanceCrowd(crowd, event.time);
   } else if (event.kind == EventKind::kStep &&
              mover(event.body).contactGroup->step.end == Island::End::kGoesOn) {
     advance(mover(event.body).contactGroup, event.time);
@@ -280,9 +281,9 @@ void ExactWorld::advance(const std::shared_ptr<ContactGroup>& contactGroup, cons
   account_.strikes(contactGroup->island->mayLose());
   touch(contactGroup, time);
   account_.parted();
-  for (std::size_t i = 0; i < contactGroup->ranks.size(); ++i) {
-    if (!mover(contactGroup->ranks[i]).isHeld()) {
-      predict(contactGroup->ranks[i]);
+  for (const int rank : contactGroup->ranks) {
+    if (!mover(rank).isHeld()) {
+      predict(rank);
     }
   }
 }

@@ -91,7 +91,7 @@ class ExactWorld {
   void enlistAtRest(const std::shared_ptr<ContactGroup>& crowd, int rank);
   void keepPlace(const std::shared_ptr<ContactGroup>& crowd, int rank, std::size_t place);
   void merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup& other);
-  void advanceCrowd(std::shared_ptr<ContactGroup> crowd, const Instant& time);
+  void advanceCrowd(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
   void endAt(ContactGroup& crowd, const Instant& time);
   void commit(ContactGroup& crowd, const Instant& time);
   std::vector<int> release(ContactGroup& crowd, const Instant& time);
