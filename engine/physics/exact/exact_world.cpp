@@ -107,12 +107,14 @@ void ExactWorld::happen(const Event& event) {
     predict(event.body);
   } else if (!event.partner.isWall() && mover(event.partner.body()).motion != event.partnerMotion) {
     predict(event.body);
-  } else if (event.kind == EventKind::kStep && mover(event.body).contactGroup->crowd) {
-    const std::shared_ptr<ContactGroup> crowd = mover(event.body).contactGroup;  // its body may leave it
-    advanceCrowd(crowd, event.time);
   } else if (event.kind == EventKind::kStep &&
              mover(event.body).contactGroup->step.end == Island::End::kGoesOn) {
-    advance(mover(event.body).contactGroup, event.time);
+    const std::shared_ptr<ContactGroup> group = mover(event.body).contactGroup;  // its bodies may leave it
+    if (group->crowd) {
+      advanceCrowd(group, event.time);
+    } else {
+      advance(group, event.time);
+    }
   } else {
     Encounter encounter = gather(event);
     if (goesOnAsCrowd(encounter)) {
