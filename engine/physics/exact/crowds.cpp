@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
+#include <memory>
+#include <optional>
 
 #include "physics/exact/exact_world.h"
-#include "physics/geometry/separation.h"
 
 // Crowds: groups of the event queue as islands are, with steps of their own.
 
@@ -280,7 +278,7 @@ void ExactWorld::go(const std::shared_ptr<ContactGroup>& group, const Instant& t
   }
   account_.parted();
   group->start = time;
-  group->step = {.length = crowd.step(most)};
+  group->step = {.length = crowd.step(std::min(most, withinCell(crowd.fastest())))};  // of those admitted too
   bool any = false;
   for (std::size_t place = 0; place < group->ranks.size(); ++place) {
     const int rank = group->ranks[place];

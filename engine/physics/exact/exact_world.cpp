@@ -362,8 +362,8 @@ void ExactWorld::predict(int rank) {
 bool ExactWorld::seesTo(const ContactGroup& contactGroup, std::size_t place, int rank) {
   const auto other = std::find(contactGroup.ranks.begin(), contactGroup.ranks.end(), rank);
   return other != contactGroup.ranks.end() &&
-         (contactGroup.crowd || contactGroup.island->handlesPair(
-                                    place, static_cast<std::size_t>(other - contactGroup.ranks.begin())));
+         contactGroup.island->handlesPair(place,
+                                          static_cast<std::size_t>(other - contactGroup.ranks.begin()));
 }
 
 void ExactWorld::sooner(std::optional<Event>& first, const Event& candidate) {

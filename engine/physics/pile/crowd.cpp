@@ -1,10 +1,8 @@
 #include "physics/pile/crowd.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace careen {
 namespace {
@@ -24,9 +22,9 @@ constexpr double kTellLeast = 0x1p-36;
 constexpr std::int64_t kEasy = 4;
 constexpr std::int64_t kHard = 8;
 constexpr int kMostHalvings = 6;
-constexpr double kDeep = 1.5;  // [1] of the tolerance: penetration for which a step is halved
-constexpr double kMostScaled = 4;
-constexpr double kKink = 0.25;  // [1] of the tolerance: what smoothing a change of velocity may bend
+constexpr double kDeep = 1.5;      // [1] of the tolerance: penetration for which a step is halved
+constexpr double kMostScaled = 4;  // [1] of stored impulses, to a longer step
+constexpr double kKink = 0.25;     // [1] of the tolerance: what smoothing a change of velocity may bend
 
 }  // namespace
 

@@ -19,16 +19,18 @@
 namespace careen {
 
 /// Many boxes in contact that advance together in steps: the fast kind of contact group, of bounded error.
-/// Not exact: its impulses come from a Gauss–Seidel solver that stops early, and impacts are placed at the
-/// ends of steps. What holds: linear momentum is exchanged to rounding, impulses add no energy, penetration
-/// stays near `tolerance`, and members at rest cost nothing.
+/// Not exact: impacts are placed at the ends of steps, and the impulses of more than a few hundred contact
+/// points come from a Gauss–Seidel solver that stops early; those of fewer from the ContactSolver. What
+/// holds: linear momentum is exchanged to rounding, restitution adds no energy, penetration stays near
+/// `tolerance`, and members at rest cost nothing.
 ///
 /// A step consists of: broad and narrow phase; gravity, springs and drag; solve for impulses such that no gap
 /// becomes negative within the step at its current rate, v_n ≥ −gap/h; integrate positions; restitution.
-/// Where one point of a manifold meets, all its points within a few tolerances meet, with v_n ≥ 0: else the
-/// corners of one edge would strike in different steps, and each would turn the body. Remaining penetration
-/// is removed by a position projection every few steps and never becomes velocity (no Baumgarte
-/// stabilisation, no slop).
+/// Where one point of a manifold strikes, all its points within a few tolerances strike, with v_n ≥ 0: else
+/// the corners of one edge would strike in different steps, and each would turn the body. A step in which
+/// bodies went into each other is taken again with half its length. Remaining penetration is removed by a
+/// position projection every few steps, or at once, and never becomes velocity (no Baumgarte stabilisation,
+/// no slop).
 ///
 /// `tolerance` [m] scales all of it: the length of steps with its root, penetration in proportion.
 ///
@@ -70,9 +72,6 @@ class Crowd {
   };
   Extent extent(double length) const;
 
-  /// Number of places, some perhaps left.
-  std::size_t places() const { return bodies_.size(); }
-  bool isMember(std::size_t place) const { return !bodies_[place].absent; }
   bool isHeld(std::size_t place) const { return bodies_[place].held; }
   /// Asleep: its pose is bitwise constant until another body pushes it.
   bool sleeps(std::size_t place) const { return bodies_[place].asleep; }
