@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/contact/lu.h"
-
 namespace careen {
 namespace {
 
@@ -30,86 +28,49 @@ constexpr int kOuterCap = 40;
 /// Factorisations before it counts as certain that no forces exist: then impulses do.
 constexpr int kMostFactorisations = 300;
 
+std::array<double, 2> dragOf(const ContactProblem::Contact& contact) {
+  return {-contact.friction * contact.slip[0], -contact.friction * contact.slip[1]};
+}
+
 }  // namespace
 
 void ContactForces::setBodies(std::span<const double> inverseMass) {
   problem_.inverseMass.assign(inverseMass.begin(), inverseMass.end());
-  mass_.resize(inverseMass.size());
-  for (std::size_t k = 0; k < mass_.size(); ++k) {
-    mass_[k] = 1 / inverseMass[k];
-  }
   problem_.contacts.clear();
 }
 
-double ContactForces::along(const Contact& contact, std::size_t row, std::span<const double> of) const {
-  const Row& values = contact.rows[row];
-  double sum = 0;
-  if (contact.a != kNobody) {
-    const double* part = &of[static_cast<std::size_t>(contact.a) * kAxes];
-    for (std::size_t k = 0; k < kAxes; ++k) {
-      sum += values[k] * part[k];
-    }
-  }
-  if (contact.b != kNobody) {
-    const double* part = &of[static_cast<std::size_t>(contact.b) * kAxes];
-    for (std::size_t k = 0; k < kAxes; ++k) {
-      sum += values[kAxes + k] * part[k];
-    }
-  }
-  return sum;
-}
-
-void ContactForces::push(const Contact& contact, const Force& force, std::span<double> onto) const {
-  const auto& [n, t, u] = contact.rows;
-  const std::array<int, 2> sides{contact.a, contact.b};
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (sides[side] != kNobody) {
-      double* part = &onto[static_cast<std::size_t>(sides[side]) * kAxes];
-      for (std::size_t k = 0; k < kAxes; ++k) {
-        const std::size_t i = side * kAxes + k;
-        part[k] += n[i] * force[0] + t[i] * force[1] + u[i] * force[2];
-      }
-    }
+void ContactForces::set(std::span<const double> free) {
+  problem_.free.assign(free.begin(), free.end());
+  coupled_.set(problem_);
+  const std::size_t count = contacts().size();
+  multipliers_.resize(count);
+  u_.resize(count);
+  excess_.resize(count);
+  masses_.resize(count);
+  answers_.resize(count);
+  q_.resize(free.size());
+  dq_.resize(free.size());
+  for (std::size_t c = 0; c < count; ++c) {
+    masses_[coupled_.listed(c)] = coupled_.contacts()[c].mass;
   }
 }
 
-void ContactForces::weigh() {
-  masses_.resize(contacts().size());
-  for (std::size_t c = 0; c < contacts().size(); ++c) {
-    const Contact& contact = contacts()[c];
-    std::array<double, 3> inverseEffectiveMass{};
-    const std::array<int, 2> sides{contact.a, contact.b};
-    for (std::size_t side = 0; side < 2; ++side) {
-      for (std::size_t k = 0; sides[side] != kNobody && k < kAxes; ++k) {
-        const double inverse = problem_.inverseMass[static_cast<std::size_t>(sides[side]) * kAxes + k];
-        for (std::size_t row = 0; row < 3; ++row) {
-          const double value = contact.rows[row][side * kAxes + k];
-          inverseEffectiveMass[row] += inverse * (value * value);
-        }
-      }
-    }
-    masses_[c] = {1 / inverseEffectiveMass[0], 2 / (inverseEffectiveMass[1] + inverseEffectiveMass[2])};
-  }
-}
-
-void ContactForces::accelerate(std::span<const double> free) {
+/// The accelerations that follow from the multipliers.
+void ContactForces::look() {
+  coupled_.velocities(multipliers_, q_);
+  coupled_.relativeVelocities(q_, u_);
   scale_ = 0;
-  excess_.resize(contacts().size());
-  std::fill(a_.begin(), a_.end(), 0.0);
-  for (std::size_t c = 0; c < contacts().size(); ++c) {
-    push(contacts()[c], forces_[c], a_);
-  }
-  for (std::size_t k = 0; k < a_.size(); ++k) {
-    a_[k] = free[k] + problem_.inverseMass[k] * a_[k];
-  }
-  for (std::size_t c = 0; c < contacts().size(); ++c) {
+  for (std::size_t c = 0; c < u_.size(); ++c) {
+    const CoupledContacts::Contact& contact = coupled_.contacts()[c];
     for (std::size_t row = 0; row < 3; ++row) {
-      const double part = along(contacts()[c], row, a_);
-      excess_[c][row] = part - contacts()[c].target[row];
-      scale_ = std::max(scale_, std::fabs(part) + std::fabs(contacts()[c].target[row]));
+      const double target = contact.target[row];
+      scale_ = std::max(scale_, std::fabs(u_[c][row] + target) + std::fabs(target));
     }
-    scale_ = std::max(scale_, std::fabs(forces_[c][0]) / masses_[c][0]);
+    scale_ = std::max(scale_, std::fabs(multipliers_[c][0]) / contact.mass);
+    excess_[coupled_.listed(c)] = u_[c];
   }
+  coupled_.exportVelocities(q_, a_);
+  coupled_.exportImpulses(multipliers_, forces_);
 }
 
 /// The mode that a force implies. A force this close to zero, or to the friction limit, counts as equal to
@@ -117,7 +78,7 @@ void ContactForces::accelerate(std::span<const double> free) {
 ContactForces::Mode ContactForces::modeOf(std::size_t c) {
   Contact& contact = contacts()[c];
   const Force& force = forces_[c];
-  if (force[0] <= kNear * scale_ * masses_[c][0]) {
+  if (force[0] <= kNear * scale_ * masses_[c]) {
     return Mode::kOff;
   }
   if (contact.friction <= 0) {
@@ -152,13 +113,11 @@ bool ContactForces::stands(std::span<Mode> modes) const {
 }
 
 bool ContactForces::findModes(std::span<const double> free, std::span<Mode> modes) {
-  weigh();
-  problem_.free.assign(free.begin(), free.end());
+  set(free);
   solution_.impulses.clear();
   const bool solved = solver_.solve(problem_, solution_, kMostFactorisations);
-  forces_ = solution_.impulses;
-  a_.resize(free.size());
-  accelerate(free);
+  coupled_.importImpulses(solution_.impulses, multipliers_);
+  look();
   for (std::size_t c = 0; c < contacts().size(); ++c) {
     modes[c] = modeOf(c);
   }
@@ -180,124 +139,48 @@ double ContactForces::violation(std::span<const Mode> modes) const {
   return worst;
 }
 
-/// −d force / d excess of the augmented Lagrangian, by rows.
-std::array<double, 9> ContactForces::stiffnessOf(std::size_t c, Mode mode) const {
-  std::array<double, 9> stiffness{};
-  const Contact& contact = contacts()[c];
-  if (mode != Mode::kOff) {
-    stiffness[0] = penalty_ * masses_[c][0];
-  }
-  if (mode == Mode::kStick) {
-    stiffness[4] = stiffness[8] = penalty_ * masses_[c][1];
-  } else if (mode == Mode::kSlip) {
-    stiffness[3] = -contact.friction * stiffness[0] * contact.slip[0];
-    stiffness[6] = -contact.friction * stiffness[0] * contact.slip[1];
-  }
-  return stiffness;
-}
-
-/// M + Jᵀ D J.
-void ContactForces::assemble(std::span<const Mode> modes) {
-  const std::size_t axes = mass_.size();
-  matrix_.assign(axes * axes, 0.0);
-  for (std::size_t k = 0; k < axes; ++k) {
-    matrix_[k * axes + k] = mass_[k];
-  }
-  for (std::size_t c = 0; c < contacts().size(); ++c) {
-    if (modes[c] == Mode::kOff) {
+/// How the multipliers follow the accelerations.
+void ContactForces::answer(std::span<const Mode> modes) {
+  for (std::size_t c = 0; c < answers_.size(); ++c) {
+    const CoupledContacts::Contact& contact = coupled_.contacts()[c];
+    const Mode mode = modes[coupled_.listed(c)];
+    if (mode == Mode::kOff) {
+      answers_[c] = {};
       continue;
     }
-    const Contact& contact = contacts()[c];
-    const std::array<double, 9> d = stiffnessOf(c, modes[c]);
-    const auto& [n, t, u] = contact.rows;
-    std::array<Row, 3> stiff{};  // D J
-    for (std::size_t row = 0; row < 3; ++row) {
-      for (std::size_t k = 0; k < 2 * kAxes; ++k) {
-        stiff[row][k] = d[3 * row] * n[k] + d[3 * row + 1] * t[k] + d[3 * row + 2] * u[k];
-      }
+    ContactCone law{.mass = contact.mass, .onLine = mode != Mode::kStick};
+    if (mode == Mode::kSlip) {
+      law.drag = dragOf(contacts()[coupled_.listed(c)]);
     }
-    const std::array<int, 2> sides{contact.a, contact.b};
-    for (std::size_t from = 0; from < 2; ++from) {
-      for (std::size_t to = 0; to < 2; ++to) {
-        if (sides[from] == kNobody || sides[to] == kNobody) {
-          continue;
-        }
-        const std::size_t top = static_cast<std::size_t>(sides[from]) * kAxes;
-        const std::size_t left = static_cast<std::size_t>(sides[to]) * kAxes;
-        for (std::size_t i = 0; i < kAxes; ++i) {
-          double* row = &matrix_[(top + i) * axes + left];
-          const std::size_t k = from * kAxes + i;
-          const double* s0 = &stiff[0][to * kAxes];
-          const double* s1 = &stiff[1][to * kAxes];
-          const double* s2 = &stiff[2][to * kAxes];
-          for (std::size_t j = 0; j < kAxes; ++j) {
-            row[j] += n[k] * s0[j] + t[k] * s1[j] + u[k] * s2[j];
-          }
-        }
-      }
-    }
+    answers_[c] = stickingAnswer(law, {.rho = penalty_ * law.mass, .epsilon = 1}, multipliers_[c], u_[c]);
   }
-}
-
-void ContactForces::factorise(std::span<const Mode> modes) {
-  assemble(modes);
-  pivots_.resize(mass_.size());
-  factoriseLu(matrix_, pivots_);
 }
 
 /// One iteration of the multipliers. Returns the largest change of an acceleration at the contacts [m/s²].
-double ContactForces::improve(std::span<const Mode> modes) {
-  const auto respond = [&](std::size_t c, const Force& excess) {
-    const std::array<double, 9> d = stiffnessOf(c, modes[c]);
-    Force force = modes[c] == Mode::kOff ? Force{} : forces_[c];
-    if (modes[c] == Mode::kOn) {
-      force[1] = force[2] = 0;
-    }
-    for (std::size_t row = 0; row < 3; ++row) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        force[row] -= d[3 * row + k] * excess[k];
-      }
-    }
-    if (modes[c] == Mode::kSlip) {
-      const Contact& contact = contacts()[c];
-      force[1] = -contact.friction * force[0] * contact.slip[0];
-      force[2] = -contact.friction * force[0] * contact.slip[1];
-    }
-    return force;
-  };
-  z_.assign(mass_.size(), 0.0);
-  for (std::size_t c = 0; c < contacts().size(); ++c) {
-    Force change = respond(c, excess_[c]);
-    for (std::size_t row = 0; row < 3; ++row) {
-      change[row] -= forces_[c][row];
-    }
-    push(contacts()[c], change, z_);
-  }
-  solveLu(matrix_, pivots_, z_);
+double ContactForces::improve() {
+  coupled_.step(answers_, q_, dq_);
   double most = 0;
-  for (std::size_t c = 0; c < contacts().size(); ++c) {
-    Force excess = excess_[c];
-    for (std::size_t row = 0; row < 3; ++row) {
-      const double gained = along(contacts()[c], row, z_);
-      excess[row] += gained;
+  for (std::size_t c = 0; c < answers_.size(); ++c) {
+    for (const double gained : coupled_.change(coupled_.contacts()[c], dq_)) {
       most = std::max(most, std::fabs(gained));
     }
-    forces_[c] = respond(c, excess);
+    multipliers_[c] = coupled_.answerTo(c, answers_[c], dq_);
   }
   return most;
 }
 
 bool ContactForces::solveGiven(std::span<const double> free, std::span<const Mode> modes,
                                std::span<const Force> guess) {
-  weigh();
-  a_.assign(free.begin(), free.end());
-  forces_.assign(contacts().size(), {});
-  std::copy(guess.begin(), guess.end(), forces_.begin());
-  for (std::size_t c = 0; c < guess.size(); ++c) {  // the slip direction may have changed
-    if (modes[c] == Mode::kSlip) {
-      const Contact& contact = contacts()[c];
-      forces_[c][1] = -contact.friction * forces_[c][0] * contact.slip[0];
-      forces_[c][2] = -contact.friction * forces_[c][0] * contact.slip[1];
+  set(free);
+  std::fill(multipliers_.begin(), multipliers_.end(), Force{});
+  if (!guess.empty()) {
+    coupled_.importImpulses(guess, multipliers_);
+  }
+  for (std::size_t c = 0; c < multipliers_.size(); ++c) {  // the slip direction may have changed
+    if (modes[coupled_.listed(c)] == Mode::kSlip) {
+      const auto drag = dragOf(contacts()[coupled_.listed(c)]);
+      Force& force = multipliers_[c];
+      force = {force[0], drag[0] * force[0], drag[1] * force[0]};
     }
   }
   penalty_ = kPenalty;
@@ -307,7 +190,7 @@ bool ContactForces::solveGiven(std::span<const double> free, std::span<const Mod
   int stalled = 0;
   best_.clear();
   for (int iteration = 0; iteration < kOuterCap; ++iteration) {
-    accelerate(free);
+    look();
     const double now = violation(modes);
     if (!(now <= kDiverged * bestViolation)) {
       break;
@@ -321,24 +204,25 @@ bool ContactForces::solveGiven(std::span<const double> free, std::span<const Mod
     }
     if (now < bestViolation) {
       bestViolation = now;
-      best_ = forces_;
+      best_ = multipliers_;
     }
     if (now <= kEnough * scale_ || change <= kNoise * scale_ ||
         stalled >= (bestViolation <= kNoise * scale_ ? 1 : 4)) {
       break;
     }
-    if (!factorised) {
-      factorise(modes);
-      factorised = true;
+    answer(modes);
+    if (!factorised && !coupled_.factorise(answers_)) {
+      break;
     }
-    change = improve(modes);
+    factorised = true;
+    change = improve();
   }
-  if (best_.size() != forces_.size()) {
+  if (best_.size() != multipliers_.size()) {
     return false;
   }
-  if (forces_ != best_) {
-    forces_ = best_;
-    accelerate(free);
+  if (multipliers_ != best_) {
+    multipliers_ = best_;
+    look();
   }
   return bestViolation <= kNoise * scale_ ||
          (change <= kNoise * scale_ && bestViolation <= kInconsistent * scale_);

@@ -7,6 +7,7 @@
 
 #include "physics/solver/contact_problem.h"
 #include "physics/solver/contact_solver.h"
+#include "physics/solver/coupled_contacts.h"
 
 namespace careen {
 
@@ -19,7 +20,7 @@ namespace careen {
 /// (multipliers of Hestenes and Powell), so that the matrix M + Jᵀ D J stays nonsingular however redundant
 /// the contacts are. Of all force distributions it finds that of least norm, weighted by effective mass,
 /// because the multipliers start from 0 and only move along the rows. Friction of slipping contacts makes the
-/// matrix unsymmetric.
+/// matrix unsymmetric. Both share the sparse factorisation of CoupledContacts.
 class ContactForces {
  public:
   static constexpr std::size_t kAxes = ContactProblem::kAxes;
@@ -57,33 +58,33 @@ class ContactForces {
   /// [m/s²] Scale for the rounding error of the excess.
   double scale() const { return scale_; }
   /// [kg] Effective mass of the contact along its normal.
-  double normalMass(std::size_t contact) const { return masses_[contact][0]; }
+  double normalMass(std::size_t contact) const { return masses_[contact]; }
 
  private:
-  double along(const Contact& contact, std::size_t row, std::span<const double> of) const;
-  void push(const Contact& contact, const Force& force, std::span<double> onto) const;
-  void weigh();
-  void accelerate(std::span<const double> free);
+  void set(std::span<const double> free);
+  void look();
   Mode modeOf(std::size_t contact);
   bool stands(std::span<Mode> modes) const;
   double violation(std::span<const Mode> modes) const;
-  void factorise(std::span<const Mode> modes);
-  void assemble(std::span<const Mode> modes);
-  std::array<double, 9> stiffnessOf(std::size_t contact, Mode mode) const;
-  double improve(std::span<const Mode> modes);
+  void answer(std::span<const Mode> modes);
+  double improve();
 
   ContactProblem problem_;
   ContactSolution solution_;
   ContactSolver solver_;
-  std::vector<double> mass_;
-  std::vector<std::array<double, 2>> masses_;  // [kg] effective: normal, tangential
+  CoupledContacts coupled_;
+  // As listed:
+  std::vector<double> masses_;  // [kg] effective, along the normal
   std::vector<double> a_;
   std::vector<Force> forces_;
-  std::vector<Force> best_;
   std::vector<Force> excess_;
-  std::vector<double> z_;
-  std::vector<double> matrix_;
-  std::vector<std::size_t> pivots_;
+  // In the order of coupled_:
+  std::vector<Force> multipliers_;
+  std::vector<Force> best_;
+  std::vector<Force> u_;
+  std::vector<ContactAnswer> answers_;
+  std::vector<double> q_;
+  std::vector<double> dq_;
   double scale_ = 0;
   double penalty_ = 0;  // [1]
 };

@@ -37,6 +37,8 @@ class CoupledContacts {
 
   std::size_t bodies() const { return order_.size(); }
   const std::vector<Contact>& contacts() const { return contacts_; }
+  /// Index in the problem of contact `c`.
+  std::size_t listed(std::size_t c) const { return keys_[c].listed; }
   /// [m/s] V, see ContactSolution.
   double scale() const { return scale_; }
   /// [m/s] What rounding errors in u may amount to.
