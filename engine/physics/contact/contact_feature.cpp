@@ -48,7 +48,7 @@ ContactState onEdge(const ContactFeature& feature, const Kinematics& a, const Ve
   const Vec3 edgeB = b.pose.worldFromBody.col(feature.axisB);
   const Vec3 middleA = a.pose.worldFromBody * feature.onA;
   const Vec3 middleB = b.pose.worldFromBody * feature.onB;
-  const Vec3 link = (a.pose.position - b.pose.position) + middleA - middleB;
+  const Vec3 link = (a.pose.position - b.pose.position) + (middleA - middleB);
   const Vec3 cross = feature.sign * edgeA.cross(edgeB);
   const double sine = cross.norm();
   const Vec3& n = state.normal = cross / sine;
@@ -63,7 +63,7 @@ ContactState onEdge(const ContactFeature& feature, const Kinematics& a, const Ve
   const Vec3& spinA = a.angularVelocity;
   const Vec3& spinB = b.angularVelocity;
   const Vec3 velocityA = a.velocity + spinA.cross(state.armA);
-  state.slip = velocityA - b.velocity - spinB.cross(state.armB);
+  state.slip = velocityA - (b.velocity + spinB.cross(state.armB));
   state.rate = n.dot(state.slip);
   state.slip -= state.rate * n;
   const Vec3 turning = feature.sign * (spinA.cross(edgeA).cross(edgeB) + edgeA.cross(spinB.cross(edgeB)));
@@ -126,7 +126,7 @@ ContactState inCone(const ContactFeature& feature, const Kinematics& a, const Ve
   state.normal = n;
   state.armA = a.pose.worldFromBody * feature.onA;
   state.armB = b.pose.worldFromBody * feature.onB;
-  const Vec3 link = (a.pose.position - b.pose.position) + state.armA - state.armB;
+  const Vec3 link = (a.pose.position - b.pose.position) + (state.armA - state.armB);
   const double along = link.dot(edge.direction);
   state.gap = n.dot(link);
   state.offset = link - state.gap * n - along * edge.direction;
@@ -249,42 +249,7 @@ ContactFeature pointOnFace(int a, const Vec3& point, int b, const Mat3& worldFro
           .sign = worldFromB.col(face).dot(normal) < 0 ? -1.0 : 1.0};
 }
 
-}  // namespace
-
-bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, const Vec3& corner) {
-  return std::any_of(features.begin(), features.end(), [&](const ContactFeature& feature) {
-    return feature.a == a && feature.b == wall && feature.onA == corner;
-  });
-}
-
-ContactState contactState(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,
-                          const Kinematics* b, const Vec3& halfExtentsB, const Wall* wall) {
-  if (feature.kind == ContactFeature::Kind::kEdgeOnEdge) {
-    return onEdge(feature, a, halfExtentsA, *b, halfExtentsB);
-  }
-  if (feature.kind == ContactFeature::Kind::kInCone) {
-    return inCone(feature, a, halfExtentsA, *b, halfExtentsB);
-  }
-  const Vec3 arm = a.pose.worldFromBody * feature.onA;
-  if (feature.kind == ContactFeature::Kind::kPointOnWall) {
-    ContactState state = onPlane(arm, a, nullptr, wall->normal, wall->offset);
-    state.beyond = -std::numeric_limits<double>::infinity();
-    return state;
-  }
-  const int face = feature.axisB;
-  const Vec3 normal = feature.sign * b->pose.worldFromBody.col(face);
-  ContactState state = onPlane(arm, a, b, normal, halfExtentsB[face]);
-  const Vec3 place = b->pose.worldFromBody.transpose() * state.armB;
-  state.beyond = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    if (i != face) {
-      state.beyond = std::max(state.beyond, std::fabs(place[i]) - halfExtentsB[i]);
-    }
-  }
-  return state;
-}
-
-ContactFeature featureAt(const ContactPoint& point, double apart, int a, BoxAt boxA, int b, BoxAt boxB) {
+ContactFeature featureInOrder(const ContactPoint& point, double apart, int a, BoxAt boxA, int b, BoxAt boxB) {
   const auto& [poseA, halfExtentsA] = boxA;
   const auto& [poseB, halfExtentsB] = boxB;
   const Vec3 placeA = poseA.worldFromBody.transpose() * point.armA;
@@ -341,6 +306,48 @@ ContactFeature featureAt(const ContactPoint& point, double apart, int a, BoxAt b
     return pointOnFace(a, placeA, b, poseB.worldFromBody, face, point.normal);
   }
   return pointOnFace(b, placeB, a, poseA.worldFromBody, faceA, -point.normal);
+}
+
+}  // namespace
+
+bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, const Vec3& corner) {
+  return std::any_of(features.begin(), features.end(), [&](const ContactFeature& feature) {
+    return feature.a == a && feature.b == wall && feature.onA == corner;
+  });
+}
+
+ContactState contactState(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,
+                          const Kinematics* b, const Vec3& halfExtentsB, const Wall* wall) {
+  if (feature.kind == ContactFeature::Kind::kEdgeOnEdge) {
+    return onEdge(feature, a, halfExtentsA, *b, halfExtentsB);
+  }
+  if (feature.kind == ContactFeature::Kind::kInCone) {
+    return inCone(feature, a, halfExtentsA, *b, halfExtentsB);
+  }
+  const Vec3 arm = a.pose.worldFromBody * feature.onA;
+  if (feature.kind == ContactFeature::Kind::kPointOnWall) {
+    ContactState state = onPlane(arm, a, nullptr, wall->normal, wall->offset);
+    state.beyond = -std::numeric_limits<double>::infinity();
+    return state;
+  }
+  const int face = feature.axisB;
+  const Vec3 normal = feature.sign * b->pose.worldFromBody.col(face);
+  ContactState state = onPlane(arm, a, b, normal, halfExtentsB[face]);
+  const Vec3 place = b->pose.worldFromBody.transpose() * state.armB;
+  state.beyond = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    if (i != face) {
+      state.beyond = std::max(state.beyond, std::fabs(place[i]) - halfExtentsB[i]);
+    }
+  }
+  return state;
+}
+
+ContactFeature featureAt(const ContactPoint& point, double apart, int a, BoxAt boxA, int b, BoxAt boxB) {
+  if (!comesFirst(boxB, boxA)) {
+    return featureInOrder(point, apart, a, boxA, b, boxB);
+  }
+  return featureInOrder(swapped(point), apart, b, boxB, a, boxA);
 }
 
 }  // namespace careen

@@ -198,9 +198,11 @@ bool ContactSystem::findModes(std::span<const double> y) {
   findFree();
   const bool found = forces_.findModes(free_, modes_);
   guess_.assign(forces_.forces().begin(), forces_.forces().end());
+  guessedFriction_.resize(features_.size());
   for (std::size_t c = 0; c < features_.size(); ++c) {
+    const Tangents tangents = tangentsOf(states_[c].normal);
+    guessedFriction_[c] = guess_[c][1] * tangents.first + guess_[c][2] * tangents.second;
     if (modes_[c] == Mode::kSlip) {
-      const Tangents tangents = tangentsOf(states_[c].normal);
       const auto& slip = forces_.contacts()[c].slip;
       onset_[c] = slip[0] * tangents.first + slip[1] * tangents.second;
     }
@@ -212,6 +214,11 @@ bool ContactSystem::rate(std::span<const double> y, std::vector<double>& dy) {
   look(y);
   fillContacts();
   findFree();
+  for (std::size_t c = 0; c < guess_.size(); ++c) {
+    const Tangents tangents = tangentsOf(states_[c].normal);
+    guess_[c][1] = guessedFriction_[c].dot(tangents.first);
+    guess_[c][2] = guessedFriction_[c].dot(tangents.second);
+  }
   const bool found = forces_.solveGiven(free_, modes_, guess_);
   dy.resize(y.size());
   for (std::size_t m = 0; m < movers_.size(); ++m) {

@@ -89,7 +89,8 @@ class ContactSystem {
   std::vector<ContactFeature> features_;
   std::vector<Mode> modes_;
   std::vector<ContactForces::Force> guess_;  // forces found with the modes
-  std::vector<Vec3> onset_;                  // [1] direction in which a sticking contact begins to slip
+  std::vector<Vec3> guessedFriction_;  // theirs [N], in the world: tangents may jump where a normal turns
+  std::vector<Vec3> onset_;            // [1] direction in which a sticking contact begins to slip
   std::vector<Kinematics> kinematics_;
   std::vector<ContactState> states_;
   std::vector<double> inverseMass_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/elementary.h"
+#include "core/math/order_free_sum.h"
 #include "physics/geometry/tangents.h"
 
 namespace careen {
@@ -74,7 +75,7 @@ ContactState ImplicitStep::stateOf(const ContactFeature& feature, const Kinemati
   const Vec3& halfExtentsB = bodies_[static_cast<std::size_t>(feature.b.body())].body->halfExtents;
   ContactState at = contactState(feature, a, halfExtentsA, b, halfExtentsB, nullptr);
   // One point for both, else the pair's impulses would change angular momentum by gap × friction.
-  const Vec3 link = (a.pose.position - b->pose.position) + at.armA - at.armB;
+  const Vec3 link = (a.pose.position - b->pose.position) + (at.armA - at.armB);
   at.armA -= 0.5 * link;
   at.armB += 0.5 * link;
   return at;
@@ -91,9 +92,6 @@ ContactState ImplicitStep::contactAt(const ContactFeature& feature, const GroupS
   return stateOf(feature, ofA, &ofB);
 }
 
-// Points of one manifold lie on faces of either body, which are parallel only to within the tolerance. Given
-// one normal, their conditions agree exactly: else a problem asks which of them part by a billionth of a
-// speed.
 void ImplicitStep::contactsAt(std::span<const ContactFeature> features, const GroupState& state,
                               std::vector<ContactState>& contacts) {
   kinematics_.clear();
@@ -108,19 +106,40 @@ void ImplicitStep::contactsAt(std::span<const ContactFeature> features, const Gr
       contacts.push_back(stateOf(feature, ofA, nullptr));
       continue;
     }
-    ContactState& at = contacts.emplace_back(
-        stateOf(feature, ofA, &kinematics_[static_cast<std::size_t>(feature.b.body())]));
-    for (std::size_t k = 0; k < c; ++k) {
-      const bool same = features[k].a == feature.a && features[k].b == feature.b;
-      const bool swapped = feature.b.isBody(features[k].a) && features[k].b.isBody(feature.a);
-      const Vec3 normal = swapped ? Vec3(-contacts[k].normal) : contacts[k].normal;
-      if ((same || swapped) && normal.dot(at.normal) >= kParallel) {
-        const Vec3 velocity = at.slip + at.rate * at.normal;
-        at.normal = normal;
-        at.rate = normal.dot(velocity);
-        at.slip = velocity - at.rate * normal;
-        break;
+    contacts.push_back(stateOf(feature, ofA, &kinematics_[static_cast<std::size_t>(feature.b.body())]));
+  }
+  alignNormals(features, contacts);
+}
+
+// Points of one manifold lie on faces of either body, which are parallel only to within the tolerance. Given
+// one normal, the mean of theirs, their conditions agree exactly: else a problem asks which of them part by a
+// billionth of a speed.
+void ImplicitStep::alignNormals(std::span<const ContactFeature> features,
+                                std::vector<ContactState>& contacts) {
+  normals_.clear();
+  for (const ContactState& at : contacts) {
+    normals_.push_back(at.normal);
+  }
+  std::vector<std::array<double, 3>> different;
+  for (std::size_t c = 0; c < features.size(); ++c) {
+    different.clear();
+    for (std::size_t k = 0; !features[c].b.isWall() && k < features.size(); ++k) {
+      const bool same = features[k].a == features[c].a && features[k].b == features[c].b;
+      const bool swapped = features[c].b.isBody(features[k].a) && features[k].b.isBody(features[c].a);
+      const Vec3 normal = swapped ? Vec3(-normals_[k]) : normals_[k];
+      const std::array<double, 3> parts{normal[0], normal[1], normal[2]};
+      if ((same || swapped) && normal.dot(normals_[c]) >= kParallel &&
+          std::find(different.begin(), different.end(), parts) == different.end()) {
+        different.push_back(parts);
       }
+    }
+    if (different.size() > 1) {
+      const std::array<double, 3> sum = orderFreeSums<3>(different);
+      ContactState& at = contacts[c];
+      const Vec3 velocity = at.slip + at.rate * at.normal;
+      at.normal = Vec3(sum[0], sum[1], sum[2]).normalized();
+      at.rate = at.normal.dot(velocity);
+      at.slip = velocity - at.rate * at.normal;
     }
   }
 }
@@ -303,18 +322,33 @@ void ImplicitStep::aimAtEnd(std::size_t index, const ContactFeature& feature, co
   }
 }
 
-void ImplicitStep::addImpulse(const ContactFeature& feature, const ContactState& geometry,
-                              const ContactProblem::Triple& impulse) {
-  const Tangents tangents = tangentsOf(geometry.normal);
-  const Vec3 total =
-      impulse[0] * geometry.normal + (impulse[1] * tangents.first + impulse[2] * tangents.second);
-  const auto a = static_cast<std::size_t>(feature.a);
-  push_[a] += total;
-  twist_[a] += geometry.armA.cross(total);
-  if (!feature.b.isWall()) {
-    const auto b = static_cast<std::size_t>(feature.b.body());
-    push_[b] -= total;
-    twist_[b] -= geometry.armB.cross(total);
+// Sums over contacts do not depend on their order, which names and mirroring change.
+void ImplicitStep::addImpulses(std::span<const ContactFeature> features) {
+  parts_.resize(bodies_.size());
+  for (std::vector<Six>& parts : parts_) {
+    parts.clear();
+  }
+  for (std::size_t c = 0; c < features.size(); ++c) {
+    const Tangents tangents = tangentsOf(geometry_[c].normal);
+    const ContactProblem::Triple& impulse = solution_.impulses[c];
+    const Vec3 push =
+        impulse[0] * geometry_[c].normal + (impulse[1] * tangents.first + impulse[2] * tangents.second);
+    const auto add = [&](int body, const Vec3& arm, double sign) {
+      const Vec3 twist = sign * arm.cross(push);
+      parts_[static_cast<std::size_t>(body)].push_back(
+          {sign * push[0], sign * push[1], sign * push[2], twist[0], twist[1], twist[2]});
+    };
+    add(features[c].a, geometry_[c].armA, 1);
+    if (!features[c].b.isWall()) {
+      add(features[c].b.body(), geometry_[c].armB, -1);
+    }
+  }
+  push_.resize(bodies_.size());
+  twist_.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Six sum = orderFreeSums<kSix>(parts_[i]);
+    push_[i] = {sum[0], sum[1], sum[2]};
+    twist_[i] = {sum[3], sum[4], sum[5]};
   }
 }
 
@@ -351,18 +385,21 @@ bool ImplicitStep::findImpulses(const GroupState& from, double h, bool first,
     if (!first) {
       aimAtEnd(c, features_[c], to);
     }
-    const ContactProblem::Triple& force = contacts[c].force;
-    solution_.impulses.push_back({h * force[0], h * force[1], h * force[2]});
+    const Tangents tangents = tangentsOf(geometry_[c].normal);
+    const Vec3 friction = h * contacts[c].friction;
+    solution_.impulses.push_back(
+        {h * contacts[c].push, friction.dot(tangents.first), friction.dot(tangents.second)});
   }
   if (!solve()) {
     return false;
   }
-  clearImpulses();
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const ContactProblem::Triple& impulse = solution_.impulses[c];
-    contacts[c].force = {impulse[0] / h, impulse[1] / h, impulse[2] / h};
-    addImpulse(features_[c], geometry_[c], impulse);
+    const Tangents tangents = tangentsOf(geometry_[c].normal);
+    contacts[c].push = impulse[0] / h;
+    contacts[c].friction = (impulse[1] * tangents.first + impulse[2] * tangents.second) / h;
   }
+  addImpulses(features_);
   moveArms(from, h);
   return true;
 }
@@ -407,10 +444,7 @@ bool ImplicitStep::compress(GroupState& state, std::span<const ContactFeature> c
   if (!solve()) {
     return false;
   }
-  clearImpulses();
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    addImpulse(contacts[c], geometry_[c], solution_.impulses[c]);
-  }
+  addImpulses(contacts);
   impulses = solution_.impulses;
   for (const std::size_t i : movers_) {
     state[i].velocity += bodies_[i].body->mass.inverseMass * push_[i];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -25,7 +26,10 @@ using GroupState = std::vector<GroupBody>;
 /// A contact whose law holds during a step.
 struct ClosedContact {
   ContactFeature feature;
-  ContactProblem::Triple force{};  ///< [N] mean over the step: found last, and the next step's warm start
+  // Mean over the step, found last, and the next step's warm start: [N] normal, and friction in the world, as
+  // tangents may jump where the normal turns.
+  double push = 0;
+  Vec3 friction = Vec3::Zero();
 };
 
 /// One time step of a group of bodies in contact, of second order: positions by the trapezoid of the
@@ -59,6 +63,8 @@ class ImplicitStep {
   double work() const { return work_; }
 
  private:
+  using Six = std::array<double, ContactProblem::kAxes>;
+
   void findLoads(const GroupState& at);
   void placeBodies(std::span<const ContactFeature> contacts);
   void addRows(const ContactFeature& feature, const ContactState& geometry);
@@ -68,8 +74,8 @@ class ImplicitStep {
   bool solve();
   void moveArms(const GroupState& from, double h);
   void clearImpulses();
-  void addImpulse(const ContactFeature& feature, const ContactState& geometry,
-                  const ContactProblem::Triple& impulse);
+  void addImpulses(std::span<const ContactFeature> features);
+  void alignNormals(std::span<const ContactFeature> features, std::vector<ContactState>& contacts);
   bool findImpulses(const GroupState& from, double h, bool first, std::vector<ClosedContact>& contacts,
                     const GroupState& to);
   void findMiddle(const GroupState& from, const GroupState& to);
@@ -87,13 +93,15 @@ class ImplicitStep {
   std::vector<BodyState> worldStates_;  // for springs and drag
   std::vector<Load> loads_;             // by body of the group
   std::vector<Load> worldLoads_;
-  std::vector<Vec3> push_;    // [N s] by body, of the contacts
-  std::vector<Vec3> twist_;   // [N m s] likewise
-  std::vector<Mat3> turned_;  // by body: worldFromBody at the end of the step
+  std::vector<Vec3> push_;               // [N s] by body, of the contacts
+  std::vector<Vec3> twist_;              // [N m s] likewise
+  std::vector<std::vector<Six>> parts_;  // of both, by body
+  std::vector<Mat3> turned_;             // by body: worldFromBody at the end of the step
   std::vector<ContactFeature> features_;
   std::vector<ContactState> geometry_;  // by contact, as in the rows
   std::vector<ContactState> ends_;      // likewise, at the end of the step
   std::vector<Kinematics> kinematics_;
+  std::vector<Vec3> normals_;  // by contact, before they are aligned
   GroupState middle_;
   double enough_ = 0;  // [m/s] residual
   double work_ = 0;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -92,10 +93,17 @@ class Island {
     double rate = 0;    // [m/s] of a corner, at the start of the step
   };
 
+  struct Fall {  // of an event function below zero
+    std::size_t event = 0;
+    double until = 0;     // [s] from the start of the step: where it is below
+    double value = 0;     // there
+    double estimate = 0;  // [s] when, by linear interpolation
+  };
+
   void listEventFunctions();
   void noteStart();
   void locate(Step& step);
-  bool locate(std::size_t event, double shortest, Step& step);
+  std::optional<Fall> fallOf(std::size_t event, double length);
   double rateOf(const EventFunction& corner) const;
   double lowestWithin(double h, std::size_t event, double atEnd) const;
   double lowestOfCorner(double h, std::size_t event, double atEnd) const;
@@ -118,7 +126,7 @@ class Island {
   bool stop();
   double sizeOf(const State& difference, double h) const;
   double errorBetween(double h);
-  double rootWithin(double h, std::size_t event, double atEnd);
+  double rootWithin(const Fall& fall);
 
   double tolerance_;
   const World& world_;

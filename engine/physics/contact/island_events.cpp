@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/math/falling_bracket.h"
 #include "physics/contact/island.h"
@@ -90,43 +91,48 @@ double Island::marginOf(const EventFunction& event, double gap) const {
                               touching(static_cast<std::size_t>(feature.b.body())));
 }
 
-// Ends the step where the first event function falls below zero. Functions checked at the former end may be
-// negative at the new one, hence several passes.
+// Ends the step where the first event function falls below zero. The one that seems to fall first is located
+// first, so that the order of listing decides nothing; functions checked at the former end may be negative at
+// the new one, hence several passes.
 void Island::locate(Step& step) {
-  constexpr int kMostPasses = 4;
   const double shortest = kShortestStep * step.length;  // for events at the very start
-  bool shorter = true;
-  for (int pass = 0; pass < kMostPasses && shorter; ++pass) {
-    shorter = false;
+  std::vector<char> located(eventFunctions_.size(), 0);
+  for (;;) {
+    std::optional<Fall> first;
     for (std::size_t w = 0; w < eventFunctions_.size(); ++w) {
-      shorter = locate(w, shortest, step) || shorter;
+      const std::optional<Fall> fall = located[w] == 0 ? fallOf(w, step.length) : std::nullopt;
+      if (fall && (!first || fall->estimate < first->estimate)) {
+        first = fall;
+      }
     }
+    if (!first) {
+      return;
+    }
+    located[first->event] = 1;
+    step.length = std::min(step.length, std::max(shortest, rootWithin(*first)));
+    step.end = End::kChanges;
+    restep(step.length);
   }
 }
 
-bool Island::locate(std::size_t event, double shortest, Step& step) {
-  double until = step.length;
-  double now = value(eventFunctions_[event]);
-  if (const double lowest = lowestWithin(step.length, event, now); lowest > 0) {
+// Whether an event function falls below zero within a step of that length, which is the last one taken.
+std::optional<Island::Fall> Island::fallOf(std::size_t event, double length) {
+  Fall fall{.event = event, .until = length, .value = value(eventFunctions_[event])};
+  if (const double lowest = lowestWithin(length, event, fall.value); lowest > 0) {
     restep(lowest);
     const double there = value(eventFunctions_[event]);
+    restep(length);
     if (there < 0) {
-      until = lowest;
-      now = there;
-    } else {
-      restep(step.length);
+      fall.until = lowest;
+      fall.value = there;
     }
   }
-  const bool fell = now < 0 && (atStart_[event] >= 0 || now < 2 * atStart_[event]);
-  if (!fell) {
-    return false;
+  const double atStart = atStart_[event];
+  if (!(fall.value < 0 && (atStart >= 0 || fall.value < 2 * atStart))) {
+    return std::nullopt;
   }
-  const double length = std::min(step.length, std::max(shortest, rootWithin(until, event, now)));
-  const bool shorter = length < step.length;
-  step.length = length;
-  step.end = End::kChanges;
-  restep(step.length);
-  return shorter;
+  fall.estimate = atStart > 0 ? fall.until * (atStart / (atStart - fall.value)) : 0;
+  return fall;
 }
 
 bool Island::handlesPair(std::size_t a, std::size_t b) const {
@@ -263,10 +269,12 @@ double Island::value(const EventFunction& event) const {
   return 0;
 }
 
-// Time in (0, h] where the event function falls to zero: the end of the bracket where it is negative.
-double Island::rootWithin(double h, std::size_t event, double atEnd) {
-  double valueLow = atStart_[event];
-  double valueHigh = atEnd;
+// Time where the event function falls to zero: the end of the bracket where it is negative.
+double Island::rootWithin(const Fall& fall) {
+  const double h = fall.until;
+  const EventFunction& event = eventFunctions_[fall.event];
+  double valueLow = atStart_[fall.event];
+  double valueHigh = fall.value;
   FallingBracket bracket{.high = h};
   // Just after a separation the value is positive in between.
   for (double part = 0.5; !(valueLow > 0); part /= 2) {
@@ -274,7 +282,7 @@ double Island::rootWithin(double h, std::size_t event, double atEnd) {
       return bracket.high;
     }
     restep(part * h);
-    const double at = value(eventFunctions_[event]);
+    const double at = value(event);
     if (at > 0) {
       bracket.low = part * h;
       valueLow = at;
@@ -295,7 +303,7 @@ double Island::rootWithin(double h, std::size_t event, double atEnd) {
       middle = 0.5 * (bracket.low + bracket.high);
     }
     restep(middle);
-    const double at = value(eventFunctions_[event]);
+    const double at = value(event);
     if (at < 0) {
       bracket.moveHigh(middle, at);
       valueHigh = at;
@@ -305,7 +313,7 @@ double Island::rootWithin(double h, std::size_t event, double atEnd) {
       if (at <= kRootValue * valueLow) {
         const double beyond = std::min(bracket.high, middle + 0x1p-44 * h);
         restep(beyond);
-        if (value(eventFunctions_[event]) < 0) {
+        if (value(event) < 0) {
           return beyond;
         }
         bracket.low = beyond;

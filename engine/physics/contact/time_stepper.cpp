@@ -278,7 +278,7 @@ std::vector<ContactFeature> TimeStepper::pressed() const {
   std::vector<ContactFeature> pressed;
   for (const ClosedContact& contact : known_) {
     const ContactState at = equations_.contactAt(contact.feature, end_);
-    if (contact.force[0] > 0 && std::fabs(at.gap) <= closed() && at.beyond <= 0) {
+    if (contact.push > 0 && std::fabs(at.gap) <= closed() && at.beyond <= 0) {
       pressed.push_back(contact.feature);
     }
   }

@@ -123,7 +123,8 @@ void TimeStepper::choose(double h) {
       return isSame(other.feature, found.feature);
     });
     if (before != forces.end()) {
-      contact.force = before->force;
+      contact.push = before->push;
+      contact.friction = before->friction;
     }
   }
 }

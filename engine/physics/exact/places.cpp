@@ -145,7 +145,7 @@ void ExactWorld::addOverlaps(const Encounter& encounter, std::vector<ContactFeat
       if ((!isImmovable(a.mass) || !isImmovable(b.mass)) &&
           (pose.position - encounter.before[j].pose.position).norm() <=
               a.halfExtents.norm() + b.halfExtents.norm() &&
-          gapOf(encounter, i, j) < -kAligned * touchingWithin({pose, a.halfExtents})) {
+          gapOf(encounter, i, j) < -kAligned * touchingWithin(boxOf(encounter, i), boxOf(encounter, j))) {
         addMeeting(encounter, i, j, features);
       }
     }

@@ -72,23 +72,38 @@ class Manifold {
   void add(const Vec3& armA, const Vec3& armB) {
     add({.armA = armA, .armB = armB, .normal = normal_, .inCone = inCone_});
   }
-  const ContactPoints& points() const { return points_; }
+  // Of points closer together than the tolerance, the one furthest from both centres: none for being listed
+  // first, which mirrors would change.
+  ContactPoints points() const {
+    ContactPoints points;
+    for (std::size_t k = 0; k < count_; ++k) {
+      if (std::none_of(points.begin(), points.end(), [&](const ContactPoint& other) {
+            return (other.armA - all_[k].armA).squaredNorm() <= within_ * within_;
+          })) {
+        points.add(all_[k]);
+      }
+    }
+    return points;
+  }
 
  private:
+  static double squaredArms(const ContactPoint& point) {
+    return point.armA.squaredNorm() + point.armB.squaredNorm();
+  }
   void add(const ContactPoint& point) {
-    const bool known = std::any_of(points_.begin(), points_.end(), [&](const ContactPoint& other) {
-      return (other.armA - point.armA).squaredNorm() <= within_ * within_;
-    });
-    if (!known && !points_.full()) {
-      points_.add(point);
+    std::size_t k = count_++;
+    for (; k > 0 && squaredArms(all_[k - 1]) < squaredArms(point); --k) {
+      all_[k] = all_[k - 1];
     }
+    all_[k] = point;
   }
 
   Vec3 normal_;
   Vec3 bToA_;
   double within_;
   bool inCone_;
-  ContactPoints points_;
+  std::array<ContactPoint, ContactPoints::kMost> all_;  // furthest first
+  std::size_t count_ = 0;
 };
 
 // A convex polygon of at most four corners, clipped by at most four lines.
@@ -103,21 +118,25 @@ struct Polygon {
   }
 };
 
-// The part of a polygon (or of a segment, a polygon of two) where outward·x ≤ limit (Sutherland and Hodgman
-// 1974). The intersection on an edge is computed from its inner end, whichever way the edge runs.
-Polygon cut(const Polygon& polygon, const Vec3& outward, double limit, double within) {
+// The part of a polygon (or of a segment, a polygon of two) where low ≤ axis·x ≤ high (Sutherland and Hodgman
+// 1974). Both lines at once, and each intersection from the inner end of its edge, whichever way that runs:
+// the lines are alike.
+Polygon cut(const Polygon& polygon, const Vec3& axis, double low, double high, double within) {
   Polygon left;
   const std::size_t edges = polygon.count == 2 ? 1 : polygon.count;
   for (std::size_t k = 0; k < polygon.count; ++k) {
     const Vec3& from = polygon.corner[k];
     const Vec3& to = polygon.corner[(k + 1) % polygon.count];
-    const double outsideFrom = outward.dot(from) - limit;
-    const double outsideTo = outward.dot(to) - limit;
-    if (outsideFrom <= within) {
+    const double atFrom = axis.dot(from);
+    const double atTo = axis.dot(to);
+    if (std::max(atFrom - high, low - atFrom) <= within) {
       left.add(from);
     }
-    if (k < edges && (outsideFrom <= within) != (outsideTo <= within)) {
+    const auto cross = [&](double outsideFrom, double outsideTo) {
       const bool fromIn = outsideFrom <= within;
+      if (k >= edges || fromIn == (outsideTo <= within)) {
+        return;
+      }
       const Vec3& inner = fromIn ? from : to;
       const Vec3& outer = fromIn ? to : from;
       const double in = fromIn ? outsideFrom : outsideTo;
@@ -126,7 +145,10 @@ Polygon cut(const Polygon& polygon, const Vec3& outward, double limit, double wi
       if (in < 0) {
         left.add(inner + (in / (in - out)) * (outer - inner));
       }
-    }
+    };
+    const bool rises = atFrom < atTo;
+    cross(rises ? low - atFrom : atFrom - high, rises ? low - atTo : atTo - high);
+    cross(rises ? atFrom - high : low - atFrom, rises ? atTo - high : low - atTo);
   }
   return left;
 }
@@ -142,8 +164,7 @@ Polygon clip(const Feature& incident, const Feature& face, double within) {
   }
   for (std::size_t k = 0; k < 2 && polygon.count > 0; ++k) {
     const double middle = face.axis[k].dot(face.centre);
-    polygon = cut(polygon, face.axis[k], middle + face.half[k], within);
-    polygon = cut(polygon, -face.axis[k], face.half[k] - middle, within);
+    polygon = cut(polygon, face.axis[k], middle - face.half[k], middle + face.half[k], within);
   }
   if (polygon.count == 0) {
     // Disjoint by rounding: the midpoint of the incident feature, clamped to the face.
@@ -326,9 +347,7 @@ std::optional<ContactPoints> pointsInCone(BoxAt a, BoxAt b, const BoxAxes& axes,
   return manifold.points();
 }
 
-}  // namespace
-
-ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart) {
+ContactPoints pointsInOrder(BoxAt a, BoxAt b, double apart) {
   const double within = std::max(apart, touchingWithin(a, b));
   const Vec3 bToA = a.pose.position - b.pose.position;
   const BoxAxes axes(a, b);
@@ -364,6 +383,23 @@ ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart) {
     }
   }
   return manifold.points();
+}
+
+}  // namespace
+
+ContactPoint swapped(const ContactPoint& point) {
+  return {.armA = point.armB, .armB = point.armA, .normal = -point.normal, .inCone = point.inCone};
+}
+
+ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart) {
+  if (!comesFirst(b, a)) {
+    return pointsInOrder(a, b, apart);
+  }
+  ContactPoints points;
+  for (const ContactPoint& point : pointsInOrder(b, a, apart)) {
+    points.add(swapped(point));
+  }
+  return points;
 }
 
 double partingSpeed(BoxAt a, BoxAt b, const Vec3& velocity) {

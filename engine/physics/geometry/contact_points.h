@@ -18,6 +18,9 @@ struct ContactPoint {
   bool inCone = false;         ///< the normal is the centre of a cone, see below
 };
 
+/// The same with a and b in each other's place.
+ContactPoint swapped(const ContactPoint& point);
+
 /// Contact manifold of one pair: at most the points of two intersecting quadrilaterals.
 class ContactPoints {
  public:
@@ -25,7 +28,6 @@ class ContactPoints {
 
   void add(const ContactPoint& point) { points_[count_++] = point; }
   std::size_t size() const { return count_; }
-  bool full() const { return count_ == kMost; }
   const ContactPoint& operator[](std::size_t k) const { return points_[k]; }
   const ContactPoint* begin() const { return points_.data(); }
   const ContactPoint* end() const { return points_.data() + count_; }

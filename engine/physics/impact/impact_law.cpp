@@ -112,9 +112,7 @@ class Law {
       : problem_(std::move(problem)), before_(problem_.free), contacts_(contacts) {
     double scale = 0;  // [m/s] Σ|n_k q_k| of a contact: its speeds are rounded by parts of that
     for (const ContactProblem::Contact& contact : problem_.contacts) {
-      double sum = 0;
-      forEachTerm(contact, 0, before_, [&](double term) { sum += std::fabs(term); });
-      scale = std::max(scale, sum);
+      scale = std::max(scale, sumOfTerms(contact, 0, before_, [](double term) { return std::fabs(term); }));
     }
     rounding_ = kApproachRounding * scale;
   }
@@ -141,22 +139,24 @@ class Law {
  private:
   using Chosen = std::vector<char>;  // of the contacts
 
+  /// Each side for itself, since which of both is a must not matter.
   template <class Use>
-  static void forEachTerm(const ContactProblem::Contact& contact, std::size_t row, std::span<const double> q,
-                          const Use& use) {
+  static double sumOfTerms(const ContactProblem::Contact& contact, std::size_t row, std::span<const double> q,
+                           const Use& use) {
+    std::array<double, 2> sums{};
     const std::array<int, 2> sides{contact.a, contact.b};
     for (std::size_t side = 0; side < 2; ++side) {
       for (std::size_t k = 0; sides[side] != ContactProblem::kNobody && k < kSix; ++k) {
-        use(contact.rows[row][side * kSix + k] * q[static_cast<std::size_t>(sides[side]) * kSix + k]);
+        sums[side] +=
+            use(contact.rows[row][side * kSix + k] * q[static_cast<std::size_t>(sides[side]) * kSix + k]);
       }
     }
+    return sums[0] + sums[1];
   }
 
   /// n q, t₁ q or t₂ q of a contact [m/s].
   double speed(std::size_t contact, std::size_t row, std::span<const double> q) const {
-    double sum = 0;
-    forEachTerm(problem_.contacts[contact], row, q, [&](double term) { sum += term; });
-    return sum;
+    return sumOfTerms(problem_.contacts[contact], row, q, [](double term) { return term; });
   }
 
   /// q₀ + M⁻¹ Jᵀλ, from the velocities before.
@@ -188,13 +188,13 @@ class Law {
     return q;
   }
 
-  /// ½ qᵀ M q [J].
-  double energy(std::span<const double> q) const {
-    double twice = 0;
+  /// pᵀ M q [J], in no order of the bodies.
+  double product(std::span<const double> p, std::span<const double> q) const {
+    std::vector<std::array<double, 1>> ofBodies(q.size() / kSix);
     for (std::size_t k = 0; k < q.size(); ++k) {
-      twice += q[k] * q[k] / problem_.inverseMass[k];
+      ofBodies[k / kSix][0] += p[k] * q[k] / problem_.inverseMass[k];
     }
-    return twice / 2;
+    return orderFreeSums<1>(ofBodies)[0];
   }
 
   std::optional<Impulses> trySolve(const ContactProblem& problem, int mostFactorisations) {
@@ -363,13 +363,12 @@ Impulses Law::shortened(const Impulses& smooth, Impulses rough) const {
     }
   }
   std::vector<double> way = end;
-  double slope = 0;  // dE/dfraction at the start
   for (std::size_t k = 0; k < way.size(); ++k) {
     way[k] -= start[k];
-    slope += start[k] * way[k] / problem_.inverseMass[k];
   }
-  const double curvature = 2 * energy(way);
-  const double full = energy(start);
+  const double slope = product(start, way);  // dE/dfraction at the start
+  const double curvature = product(way, way);
+  const double full = product(start, start) / 2;
   if (fraction * slope + fraction * fraction * curvature / 2 > 0x1p-50 * full) {
     fraction = slope < 0 ? std::min(fraction, -slope / curvature) : 0;
   }

@@ -126,8 +126,11 @@ int CoupledContacts::placeOf(int listed) const {
 /// Neither names nor mirroring change these numbers, and powers of two as units do not change their order.
 CoupledContacts::Key CoupledContacts::keyOf(const ContactProblem::Contact& from, std::size_t listed) const {
   Triple u{};
+  std::array<double, 2> squaredArm{};  // across the normal
   for (std::size_t side = 0; side < 2; ++side) {
     const int body = placeOf(side == 0 ? from.a : from.b);
+    const double* turning = &from.rows[0][side * kAxes + 3];
+    squaredArm[side] = turning[0] * turning[0] + (turning[1] * turning[1] + turning[2] * turning[2]);
     for (std::size_t row = 0; body != kNobody && row < 3; ++row) {
       u[row] += product(&from.rows[row][side * kAxes], &free_[static_cast<std::size_t>(body) * kAxes]);
     }
@@ -136,13 +139,14 @@ CoupledContacts::Key CoupledContacts::keyOf(const ContactProblem::Contact& from,
   const double x = u[1] - from.target[1];
   const double y = u[2] - from.target[2];
   return {.bodies = std::minmax(placeOf(from.a), placeOf(from.b)),
-          .numbers = {numberOr0(from.friction), numberOr0(normal), numberOr0(x * x + y * y)},
+          .numbers = {numberOr0(from.friction), numberOr0(normal), numberOr0(x * x + y * y),
+                      numberOr0(squaredArm[0] + squaredArm[1])},
           .listed = listed};
 }
 
 /// Effective masses, and what the contact adds to the scale of speeds and of their rounding errors.
 void CoupledContacts::weigh(Contact& contact) {
-  double normal = 0;
+  std::array<double, 2> normal{};  // by side, since which of both is a must not matter
   double largest = 0;
   for (std::size_t side = 0; side < 2; ++side) {
     const int body = side == 0 ? contact.a : contact.b;
@@ -150,12 +154,12 @@ void CoupledContacts::weigh(Contact& contact) {
       const std::size_t at = static_cast<std::size_t>(body) * kAxes + k;
       const std::size_t i = side * kAxes + k;
       const auto& [n, t, s] = contact.rows;
-      normal += inverseMass_[at] * (n[i] * n[i]);
+      normal[side] += inverseMass_[at] * (n[i] * n[i]);
       const double widest = std::max({std::fabs(n[i]), std::fabs(t[i]), std::fabs(s[i])});
       largest = std::max(largest, widest * std::fabs(free_[at]));
     }
   }
-  contact.mass = 1 / normal;
+  contact.mass = 1 / (normal[0] + normal[1]);
   const Triple u = relativeVelocity(contact, free_);
   scale_ = std::max(scale_, std::sqrt(u[0] * u[0] + (u[1] * u[1] + u[2] * u[2])));
   for (const double part : contact.target) {

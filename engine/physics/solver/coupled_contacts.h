@@ -16,7 +16,7 @@ namespace careen {
 /// share.
 ///
 /// Bodies are eliminated by minimum degree (A. George, J. W. H. Liu, SIAM Review 31, 1989); which of several
-/// comes first follows from the graph and the masses, then from the velocities, and only then from the
+/// comes first follows from masses, velocities, contacts and those of neighbours, and only then from the
 /// listing. The order and the pattern of the factors are kept while the graph stays the same.
 class CoupledContacts {
  public:
@@ -71,7 +71,7 @@ class CoupledContacts {
   void order(const ContactProblem& problem);
   struct Key {
     std::pair<int, int> bodies;
-    std::array<double, 3> numbers{};
+    std::array<double, 4> numbers{};
     std::size_t listed = 0;
     auto operator<=>(const Key&) const = default;
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -65,23 +66,43 @@ Ranks refined(Ranks ranks, const Graph& graph) {
 
 double squareSum(const double* x) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[2]; }
 
+/// What tells bodies apart, whatever they are called, in mirrors and with powers of two as units.
+struct Marks {
+  std::array<double, kAxes> inverseMass{};
+  std::array<double, 2> speeds{};               // squared
+  std::vector<std::array<double, 3>> contacts;  // sorted: friction, normal target, squared arm across normal
+  auto operator<=>(const Marks&) const = default;
+};
+
+std::vector<Marks> marksOf(const ContactProblem& problem) {
+  std::vector<Marks> marks(problem.free.size() / kAxes);
+  for (std::size_t body = 0; body < marks.size(); ++body) {
+    std::copy_n(&problem.inverseMass[body * kAxes], kAxes, marks[body].inverseMass.begin());
+    const double* q = &problem.free[body * kAxes];
+    marks[body].speeds = {squareSum(q), squareSum(q + 3)};
+  }
+  for (const ContactProblem::Contact& contact : problem.contacts) {
+    const std::array<int, 2> sides{contact.a, contact.b};
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (sides[side] != ContactProblem::kNobody) {
+        marks[static_cast<std::size_t>(sides[side])].contacts.push_back(
+            {contact.friction, contact.target[0], squareSum(&contact.rows[0][side * kAxes + 3])});
+      }
+    }
+  }
+  for (Marks& each : marks) {
+    std::sort(each.contacts.begin(), each.contacts.end());
+  }
+  return marks;
+}
+
 /// Bodies from first to last where degree does not decide.
 std::vector<std::size_t> preference(const ContactProblem& problem, const Graph& graph) {
-  const std::size_t bodies = graph.size();
-  std::vector<std::array<double, kAxes>> masses(bodies);
-  for (std::size_t body = 0; body < bodies; ++body) {
-    std::copy_n(&problem.inverseMass[body * kAxes], kAxes, masses[body].begin());
-  }
-  const Ranks ranks = refined(ranksOf(masses), graph);
-  std::vector<std::array<double, 3>> keys(bodies);
-  for (std::size_t body = 0; body < bodies; ++body) {
-    const double* q = &problem.free[body * kAxes];
-    keys[body] = {static_cast<double>(ranks[body]), squareSum(q), squareSum(q + 3)};
-  }
-  std::vector<std::size_t> order(bodies);
+  const Ranks ranks = refined(ranksOf(marksOf(problem)), graph);
+  std::vector<std::size_t> order(ranks.size());
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return keys[i] < keys[j]; });
+                   [&](std::size_t i, std::size_t j) { return ranks[i] < ranks[j]; });
   return order;
 }
 

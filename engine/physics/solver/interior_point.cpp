@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/math/order_free_sum.h"
 #include "physics/solver/lorentz_cone.h"
 
 namespace careen {
@@ -42,7 +43,7 @@ void InteriorPoint::refresh(const CoupledContacts& contacts) {
                                   : Triple{normal / state.friction, contact.mass * r[1], contact.mass * r[2]};
   }
   contacts.velocities(impulses_, q_);
-  double sum = 0;
+  products_.clear();
   for (std::size_t c = 0; c < states_.size(); ++c) {
     const Contact& contact = contacts.contacts()[c];
     State& state = states_[c];
@@ -54,9 +55,9 @@ void InteriorPoint::refresh(const CoupledContacts& contacts) {
       state.slip = slip > 0 ? std::array<double, 2>{u[1] / slip, u[2] / slip} : std::array<double, 2>{};
       state.residual = {state.w[0] - (u[0] / state.friction + slip), state.w[1] - u[1], state.w[2] - u[2]};
     }
-    sum += dot(state.r, state.w);
+    products_.push_back({dot(state.r, state.w)});
   }
-  gap_ = sum / static_cast<double>(states_.size());
+  gap_ = orderFreeSums<1>(products_)[0] / static_cast<double>(states_.size());
 }
 
 /// The contact's scaling and its stiffness, mass S W² D̃ S.

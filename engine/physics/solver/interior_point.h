@@ -68,6 +68,7 @@ class InteriorPoint {
   std::vector<double> q_;
   std::vector<double> dq_;
   double gap_ = 0;
+  std::vector<std::array<double, 1>> products_;  // r·w of each contact
   double lastStride_ = 1;
 };
 
