@@ -9,8 +9,9 @@
 namespace careen {
 
 /// An answer to a scene that was published with its answer is right if its error, Judgement::error, is never
-/// above this: a hundredth of a half diagonal, or a hundredth of a radian.
-inline constexpr double kRight = 0.01;
+/// above this: a tenth of a half diagonal, or a tenth of a radian. What was published is what happens (it
+/// holds, stands, comes back), not to how many digits: those are the error's.
+inline constexpr double kRight = 0.1;
 
 /// "right", "wrong", or "–" without an answer.
 std::string verdictOf(const Attempt* attempt);

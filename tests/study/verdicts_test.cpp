@@ -11,13 +11,13 @@
 namespace careen {
 namespace {
 
-TEST(Verdicts, areRightUpToAHundredthOfAHalfDiagonal) {
+TEST(Verdicts, areRightUpToATenthOfAHalfDiagonal) {
   EXPECT_EQ(verdictOf(nullptr), "–");
   const Attempt none = failed("ode", 0.1);
   EXPECT_EQ(verdictOf(&none), "–");
-  Attempt attempt = answered("bullet", 0.1, 0.01, 1);
+  Attempt attempt = answered("bullet", 0.1, 0.1, 1);
   EXPECT_EQ(verdictOf(&attempt), "right");
-  attempt.judgement.error = 0.0101;
+  attempt.judgement.error = 0.101;
   EXPECT_EQ(verdictOf(&attempt), "wrong");
 }
 
@@ -50,7 +50,7 @@ TEST(Promises, andVerdictsAreInPageTableAndJson) {
   result.published = "somebody & co";
   result.attempts = {exactAt(1e2, 1e2, 3e-5), exactAt(1, 1, 2e-6), answered("bullet", 0.1, 1e-3, 1),
                      failed("ode", 0.1)};
-  result.attempts[1].judgement.error = 0.02;
+  result.attempts[1].judgement.error = 0.2;
   const std::string page = resultsPage(study, {});
   EXPECT_NE(page.find("<td>somebody &amp; co</td><td class=\"bad\">wrong</td><td>right</td><td>–</td>"),
             std::string::npos);
