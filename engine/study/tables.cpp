@@ -67,10 +67,9 @@ void addPublished(std::ostream& text, const StudyResult& study) {
   if (published.cases.empty()) {
     return;
   }
-  text
-      << "\n## Scenes that others published with their answers\n\n"
-      << "Right: never further than a tenth of a half diagonal, or of a radian, from the answer, at the\n"
-      << "usual time step.\n\n";
+  text << "\n## Scenes that others published with their answers\n\n"
+       << "Right: never further than a tenth of a half diagonal, or of a radian, from the answer, at the\n"
+       << "usual time step.\n\n";
   addTable(text, published, [](const Attempt* attempt) { return verdictOf(attempt); });
   text << "\nPublished by:\n\n";
   for (const CaseResult& result : published.cases) {
