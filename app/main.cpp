@@ -62,6 +62,7 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
 #endif
   addSimulate(commandLine);
   addStudy(commandLine);
+  addDice(commandLine);
   addCompare(commandLine);
   addAudit(commandLine);
   addInfo(commandLine);

@@ -18,6 +18,7 @@
 #include "run.h"
 #include "study/case.h"
 #include "study/given_contestant.h"
+#include "study/verdicts.h"
 
 namespace careen {
 namespace {
@@ -135,8 +136,9 @@ void printCase(const CaseResult& result, bool takenOver) {
   const Attempt* const exact = usualAttempt(result, "exact");
   std::cout << std::left << std::setw(24) << printableName(result.name);
   if (exact != nullptr && exact->failure.empty()) {
-    std::cout << "exact: error " << std::setw(8) << inShort(exact->judgement.error) << inShort(exact->cost)
-              << " us/s" << (betterThan(result, *exact).empty() ? "" : ", not the best")
+    std::cout << (result.published.empty() ? "" : verdictOf(exact) + "; ") << "exact: error " << std::setw(8)
+              << inShort(exact->judgement.error) << inShort(exact->cost) << " us/s"
+              << (betterThan(result, *exact).empty() ? "" : ", not the best")
               << "; audit: " << (exact->audit.empty() ? "none" : exact->audit);
   } else if (exact != nullptr) {
     std::cout << "exact: " << exact->failure;

@@ -35,6 +35,7 @@ class JsonTree {
 
   const JsonNode& root() const { return root_; }
   const std::string& text() const { return text_; }
+  const std::string& name() const { return name_; }
 
   /// "3:14"
   std::string place(std::size_t offset) const;

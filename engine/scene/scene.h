@@ -28,6 +28,7 @@ struct SceneBox {
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
   double mass = 0;                  ///< [kg] 0 if the box is fixed and the scene gives none
   std::optional<Mat3> inertia;      ///< [kg m²] about the centre, box's axes, diagonal; absent: solid
+  std::string massFrom;             ///< file of the mesh that mass and inertia are of; empty: none
   Pose pose;
   Vec3 velocity = Vec3::Zero();         ///< [m/s]
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s] world frame
@@ -47,9 +48,9 @@ struct Scene {
   std::vector<SceneBox> boxes;
   std::vector<Spring> springs;
   std::optional<Drag> drag;
-  Method method{};               ///< kExact unless said otherwise
-  double dt = 1.0 / 240;         ///< [s]
-  double tolerance = 1e-6;       ///< of methods with adaptive step size
+  Method method{};          ///< kExact unless said otherwise
+  double dt = 1.0 / 240;    ///< [s]
+  double tolerance = 1e-6;  ///< of methods with adaptive step size
   CrowdSettings crowds;
   std::optional<Camera> camera;  ///< absent: a camera that sees the whole motion is chosen
   CameraMove cameraMove;         ///< empty if there is no camera

@@ -10,6 +10,7 @@
 #include "physics/world/given_inertia.h"
 #include "scene/film_check.h"
 #include "scene/json_shape.h"
+#include "scene/mesh_mass.h"
 #include "scene/starts.h"
 
 namespace careen {
@@ -205,6 +206,7 @@ void checkScene(const JsonTree& tree, Scene& scene, Starts starts) {
   checkNames(tree, scene);
   checkMasses(tree, scene);
   checkInertias(tree, scene);
+  takeMassesFromMeshes(tree, scene);
   checkFixed(tree, scene);
   const BodiesByName bodies = bodiesOf(scene);
   connectSprings(tree, bodies, scene);

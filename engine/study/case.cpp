@@ -95,6 +95,7 @@ void readTruth(const Json& truth, Case& study) {
   study.title = truth.at("title").get<std::string>();
   study.whyHard = truth.at("why_hard").get<std::string>();
   study.source = truth.at("source").get<std::string>();
+  study.published = truth.value("published", "");
   study.measure = kMeasures.at(truth.at("measure").get<std::string>());
   study.scene = readScene(scenePath(truth, "scene"));
   study.world = worldOf(study.scene);

@@ -25,7 +25,8 @@ struct Case {
   std::string name;
   std::string title;
   std::string whyHard;
-  std::string source;  ///< where the truth comes from
+  std::string source;          ///< where the truth comes from
+  std::string published = {};  ///< by whom the scene was published with its answer; empty if by nobody
   Measure measure = Measure::kPoses;
   Scene scene;
   World world;

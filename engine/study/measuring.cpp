@@ -69,25 +69,35 @@ double energyChange(const World& world, const std::vector<BodyState>& states) {
   return (energyOf(world, states).total() - start.total()) / start.kinetic;
 }
 
-// The deepest penetration, in half diagonals of the smaller of the two bodies.
-double deepestOverlap(const World& world, const std::vector<BodyState>& states) {
+// The deepest penetration is put into the judgement, in half diagonals of the smaller of the two bodies and
+// in metres.
+void includeOverlap(const World& world, const std::vector<BodyState>& states, Judgement& judgement) {
+  const auto include = [&](double depth, double size) {
+    judgement.error = std::max(judgement.error, depth / size);
+    judgement.displacement = std::max(judgement.displacement.value_or(0), depth);
+  };
   std::vector<PlacedBox> boxes;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const Body& body = world.bodies[i];
     boxes.push_back({body.name, body.halfExtents, states[i].pose, body.mass.inverseMass});
   }
-  double worst = 0;
   for (const Overlap& each : overlaps(boxes)) {
-    const double size = std::min(boxes[each.first].halfExtents.norm(), boxes[each.second].halfExtents.norm());
-    worst = std::max(worst, each.depth / size);
+    include(each.depth,
+            std::min(boxes[each.first].halfExtents.norm(), boxes[each.second].halfExtents.norm()));
   }
   for (const PlacedBox& box : boxes) {
     for (const Wall& wall : world.walls) {
       const double gap = box.inverseMass > 0 ? lowestGap(wall, box.at()).gap : 0;
-      worst = std::max(worst, std::isfinite(gap) ? -gap / box.halfExtents.norm() : INFINITY);
+      include(std::isfinite(gap) ? -gap : INFINITY, box.halfExtents.norm());
     }
   }
-  return worst;
+}
+
+void includeDifference(const Case& study, const std::vector<BodyState>& states,
+                       const std::vector<BodyState>& truth, Judgement& judgement) {
+  judgement.error = std::max(judgement.error, differenceOf(study.world, states, truth).relative);
+  judgement.displacement =
+      std::max(judgement.displacement.value_or(0), displacementOf(study.world, states, truth));
 }
 
 // The index of an attempt and what is known of its run time.
@@ -207,7 +217,7 @@ Effort fullEffort() {
           .longestStep = 0.5,
           .timing = 6,
           .steps = {8, 4, 2, 1, 1. / 2, 1. / 4, 1. / 8, 1. / 16, 1. / 32, 1. / 64},
-          .tolerances = {1, 1e-2, 1e-4}};
+          .tolerances = {1e2, 1, 1e-2, 1e-4}};
 }
 
 Effort quickEffort() {
@@ -251,8 +261,7 @@ Judgement judge(const Case& study, const Answer& answer) {
     case Measure::kPoses:
       judgement.error = study.uncertainty;
       for (std::size_t k = 0; k < study.times.size(); ++k) {
-        judgement.error = std::max(
-            judgement.error, differenceOf(study.world, answer.states[k], withPoses(study.poses[k])).relative);
+        includeDifference(study, answer.states[k], withPoses(study.poses[k]), judgement);
       }
       break;
     case Measure::kEnergy:
@@ -262,18 +271,18 @@ Judgement judge(const Case& study, const Answer& answer) {
       break;
     case Measure::kOverlap:
       for (const std::vector<BodyState>& states : answer.states) {
-        judgement.error = std::max(judgement.error, deepestOverlap(study.world, states));
+        includeOverlap(study.world, states, judgement);
       }
       break;
     case Measure::kReversal:
-      judgement.error = differenceOf(study.world, answer.second.back(), initialStates(study.world)).relative;
+      includeDifference(study, answer.second.back(), initialStates(study.world), judgement);
       break;
     case Measure::kScaled: {
       std::vector<BodyState> scaled = answer.second.back();
       for (BodyState& state : scaled) {
         state.pose.position *= study.lengths;
       }
-      judgement.error = differenceOf(study.world, answer.states.back(), scaled).relative;
+      includeDifference(study, answer.states.back(), scaled, judgement);
       break;
     }
   }
@@ -305,20 +314,24 @@ std::vector<Attempt> attemptAll(const Case& study, const Contestants& contestant
     Answer coarser;
     for (const double factor : steps ? effort.steps : effort.tolerances) {
       const double dt = steps ? factor * usual : 0;
+      const double tolerance = steps ? 0 : factor * usual;
       if (dt > kLongestStepOfRun * study.duration() && factor > 1) {
         continue;
       }
       attempts.push_back(blank);
       attempts.back().dt = dt;
-      attempts.back().tolerance = steps ? 0 : factor * usual;
+      attempts.back().tolerance = tolerance;
+      attempts.back().sameTo = tolerance;
       Answer answer;
       const double seconds = attempt(study, *contestant, effort, stop, attempts.back(), answer);
-      if (!steps && factor < 1 && isSame(answer, coarser)) {
+      if (!steps && attempts.back().failure.empty() && isSame(answer, coarser)) {
         attempts.pop_back();
-        if (factor == effort.tolerances[1]) {
+        attempts.back().sameTo = tolerance;
+        if (factor == effort.tolerances.back() &&
+            attempts.back().tolerance == effort.tolerances.front() * usual) {
           attempts.back().tolerance = 0;
         }
-        break;
+        continue;
       }
       coarser = std::move(answer);
       if (attempts.back().failure.empty()) {
@@ -330,6 +343,7 @@ std::vector<Attempt> attemptAll(const Case& study, const Contestants& contestant
       // A table needs the usual time step of everything, the others only while they are fast.
       if (seconds > effort.longestRun && !attempts.back().failure.empty()) {
         attempts.back().dt = std::min(dt, usual);
+        attempts.back().tolerance = std::min(tolerance, usual);
         break;
       }
       if (factor <= 1 && seconds > effort.longestStep) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -14,8 +15,11 @@ struct Judgement {
   double error = 0;  ///< [1] poses: largest over all times and boxes of distance / half diagonal and angle
                      ///< [rad]; overlap: deepest penetration of all times / half diagonal; energy: largest
                      ///< change of energy relative to the initial kinetic energy
-  std::vector<double> energy;  ///< [1] the change of energy at every time of the case; empty if impacts may
-                               ///< dissipate energy
+  std::vector<double> energy = {};  ///< [1] the change of energy at every time of the case; empty if impacts
+                                    ///< may dissipate energy
+  /// [m] What a tolerance promises to bound: the largest distance of a point of a box from its truth, or the
+  /// deepest penetration; none where the case measures energy.
+  std::optional<double> displacement = {};
 };
 
 /// States at every time of the case: [time][body].
@@ -38,6 +42,7 @@ struct Attempt {
   std::string settings;
   double dt = 0;         ///< [s] 0: no fixed time step
   double tolerance = 0;  ///< [m] 0: a fixed time step, or the answer depends on no tolerance
+  double sameTo = 0;     ///< [m] the answer is the same, bit for bit, down to this tolerance
   std::string failure;   ///< why there is no answer; empty if there is one
   Judgement judgement;
   std::string audit;  ///< what the audit found, in words; empty if it could not look
@@ -55,14 +60,14 @@ struct Effort {
   int rounds = 7;             ///< of timings
   double shortest = 2e-3;     ///< [s] a timing repeats its run until it has taken this long
   std::vector<double> steps;  ///< in units of the scene's own dt
-  std::vector<double> tolerances = {
-      1};  ///< in units of the scene's own, for contestants without a fixed time step; the first is 1
+  std::vector<double> tolerances = {1};  ///< in units of the scene's own, for contestants without a fixed
+                                         ///< time step; descending, 1 among them
 };
 Effort fullEffort();
 Effort quickEffort();
 
 /// Runs every contestant with every time step or tolerance: first all errors, then all timings in rotating
-/// order. It skips a tolerance that changes no bit of the answer, and those after it.
+/// order. It skips a tolerance that changes no bit of the answer to the one before.
 std::vector<Attempt> attemptAll(const Case& study, const Contestants& contestants, const Effort& effort,
                                 const std::stop_token& stop);
 

@@ -9,6 +9,7 @@
 #include "core/characters.h"
 #include "study/plot_files.h"
 #include "study/study.h"
+#include "study/verdicts.h"
 
 namespace careen {
 namespace {
@@ -59,6 +60,48 @@ std::string matrix(const StudyResult& study) {
              "</a></th>";
     for (const std::string& contestant : contestants) {
       table += cell(usualAttempt(result, contestant));
+    }
+    table += "</tr>\n";
+  }
+  return table + "</table>\n";
+}
+
+std::string published(const StudyResult& study) {
+  const std::vector<std::string> contestants = study.contestants();
+  std::string rows;
+  for (const CaseResult& result : study.cases) {
+    if (result.published.empty()) {
+      continue;
+    }
+    rows += "<tr><th><a href=\"#" + escapedForMarkup(result.name) + "\">" + escapedForMarkup(result.name) +
+            "</a></th><td>" + escapedForMarkup(result.published) + "</td>";
+    for (const std::string& contestant : contestants) {
+      const std::string verdict = verdictOf(usualAttempt(result, contestant));
+      rows += (verdict == "wrong" ? "<td class=\"bad\">" : "<td>") + verdict + "</td>";
+    }
+    rows += "</tr>\n";
+  }
+  if (rows.empty()) {
+    return "<p>None of them was asked for.</p>\n";
+  }
+  std::string head = headOf(contestants);
+  head.insert(head.find("</th>") + 5, "<th>published by</th>");
+  return "<table class=\"matrix\">\n" + head + rows + "</table>\n";
+}
+
+std::string promises(const StudyResult& study) {
+  std::string table = "<table class=\"matrix\">\n<tr><th>case</th>";
+  for (const double factor : kPromisedTolerances) {
+    table += "<th>" + (factor == 1 ? "tolerance of the scene" : inShort(factor) + " of it") + "</th>";
+  }
+  table += "</tr>\n";
+  for (const CaseResult& result : study.cases) {
+    table += "<tr><th><a href=\"#" + escapedForMarkup(result.name) + "\">" + escapedForMarkup(result.name) +
+             "</a></th>";
+    for (const double factor : kPromisedTolerances) {
+      const std::optional<double> ratio = promiseOf(result, factor);
+      table +=
+          (ratio && *ratio > 1 ? "<td class=\"bad\">" : "<td>") + (ratio ? inShort(*ratio) : "–") + "</td>";
     }
     table += "</tr>\n";
   }
@@ -169,6 +212,8 @@ std::string resultsPage(const StudyResult& study, const std::vector<std::string>
       {"{{machine}}", escapedForMarkup(study.machine)},
       {"{{command}}", escapedForMarkup(study.command)},
       {"{{matrix}}", matrix(study)},
+      {"{{published}}", published(study)},
+      {"{{promises}}", promises(study)},
       {"{{settings}}", settingsOf(study)},
       {"{{cases}}", sections(study, plots)}};
   for (const auto& [mark, text] : parts) {

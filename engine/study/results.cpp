@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "study/verdicts.h"
+
 namespace careen {
 namespace {
 
@@ -37,11 +39,17 @@ Json toJson(const Attempt& attempt) {
   if (attempt.tolerance > 0) {
     json["tolerance"] = attempt.tolerance;
   }
+  if (attempt.sameTo > 0) {
+    json["same_to"] = attempt.sameTo;
+  }
   if (!attempt.failure.empty()) {
     json["failure"] = attempt.failure;
     return json;
   }
   json["error"] = attempt.judgement.error;
+  if (attempt.judgement.displacement) {
+    json["displacement"] = *attempt.judgement.displacement;
+  }
   json["audit"] = attempt.audit;
   json["cost_us"] = attempt.cost;
   json["spread"] = attempt.spread;
@@ -62,9 +70,13 @@ Attempt attemptFrom(const Json& json) {
   attempt.settings = json.at("settings").get<std::string>();
   attempt.dt = json.value("dt", 0.0);
   attempt.tolerance = json.value("tolerance", 0.0);
+  attempt.sameTo = json.value("same_to", 0.0);
   attempt.failure = json.value("failure", "");
   if (attempt.failure.empty()) {
     attempt.judgement.error = json.at("error").get<double>();
+    if (json.contains("displacement")) {
+      attempt.judgement.displacement = json["displacement"].get<double>();
+    }
     attempt.judgement.energy = json.at("energy").get<std::vector<double>>();
     attempt.audit = json.at("audit").get<std::string>();
     attempt.cost = json.at("cost_us").get<double>();
@@ -84,9 +96,31 @@ Json toJson(const CaseResult& result) {
   for (const Attempt& attempt : result.attempts) {
     attempts.push_back(toJson(attempt));
   }
-  return {{"case", result.name},          {"title", result.title},     {"why_hard", result.whyHard},
-          {"truth", result.source},       {"measure", result.measure}, {"stamp", result.stamp},
-          {"usual_dt", result.usualStep}, {"times", result.times},     {"attempts", std::move(attempts)}};
+  Json json = {{"case", result.name},
+               {"title", result.title},
+               {"why_hard", result.whyHard},
+               {"truth", result.source},
+               {"measure", result.measure}};
+  if (!result.published.empty()) {
+    json["published"] = result.published;
+    for (const std::string& contestant :
+         StudyResult{.machine = {}, .command = {}, .cases = {result}}.contestants()) {
+      json["verdicts"][contestant] = verdictOf(usualAttempt(result, contestant));
+    }
+  }
+  json["stamp"] = result.stamp;
+  json["usual_dt"] = result.usualStep;
+  json["usual_tolerance"] = result.usualTolerance;
+  json["times"] = result.times;
+  Json promises = Json::array();
+  for (const double factor : kPromisedTolerances) {
+    if (const std::optional<double> kept = promiseOf(result, factor)) {
+      promises.push_back({{"tolerance", factor * result.usualTolerance}, {"error_over_tolerance", *kept}});
+    }
+  }
+  json["promises"] = std::move(promises);
+  json["attempts"] = std::move(attempts);
+  return json;
 }
 
 }  // namespace
@@ -97,8 +131,10 @@ CaseResult resultOf(const Case& study, std::vector<Attempt> attempts, std::strin
           .whyHard = study.whyHard,
           .source = study.source,
           .measure = nameOf(study.measure),
+          .published = study.published,
           .stamp = std::move(stamp),
           .usualStep = study.scene.dt,
+          .usualTolerance = study.scene.tolerance,
           .times = study.times,
           .attempts = std::move(attempts)};
 }
@@ -113,8 +149,10 @@ std::optional<CaseResult> decodeResult(const std::string& text) {
                       .whyHard = json.at("why_hard").get<std::string>(),
                       .source = json.at("truth").get<std::string>(),
                       .measure = json.at("measure").get<std::string>(),
+                      .published = json.value("published", ""),
                       .stamp = json.at("stamp").get<std::string>(),
                       .usualStep = json.at("usual_dt").get<double>(),
+                      .usualTolerance = json.at("usual_tolerance").get<double>(),
                       .times = json.at("times").get<std::vector<double>>(),
                       .attempts = {}};
     for (const Json& attempt : json.at("attempts")) {
@@ -145,7 +183,9 @@ std::vector<std::string> StudyResult::contestants() const {
 const Attempt* usualAttempt(const CaseResult& result, const std::string& contestant) {
   const auto found =
       std::find_if(result.attempts.begin(), result.attempts.end(), [&](const Attempt& attempt) {
-        return attempt.contestant == contestant && (attempt.dt == 0 || attempt.dt == result.usualStep);
+        return attempt.contestant == contestant && (attempt.dt == 0 || attempt.dt == result.usualStep) &&
+               (attempt.tolerance == 0 ||
+                (attempt.sameTo <= result.usualTolerance && result.usualTolerance <= attempt.tolerance));
       });
   return found == result.attempts.end() ? nullptr : &*found;
 }

@@ -14,9 +14,11 @@ struct CaseResult {
   std::string title;
   std::string whyHard;
   std::string source;
-  std::string measure;   ///< "poses", "energy", "reversal", "scaled"
-  std::string stamp;     ///< hash of everything that the result depends on
-  double usualStep = 0;  ///< [s]
+  std::string measure;         ///< "poses", "energy", "reversal", "scaled"
+  std::string published = {};  ///< as Case::published
+  std::string stamp;           ///< hash of everything that the result depends on
+  double usualStep = 0;        ///< [s]
+  double usualTolerance = 0;   ///< [m]
   std::vector<double> times;
   std::vector<Attempt> attempts;
 };

@@ -51,6 +51,7 @@ std::string stampOf(const Case& study, const Contestants& contestants, const Stu
   Hash hash;
   hash.add(study.scene.text);
   hash.add(settings.version);
+  hash.add(study.published);
   for (const auto& contestant : contestants) {
     hash.add(contestant->name() + contestant->settings());
   }
@@ -59,7 +60,7 @@ std::string stampOf(const Case& study, const Contestants& contestants, const Stu
                               static_cast<double>(effort.rounds), effort.shortest}) {
     hash.add(number);
   }
-  for (const std::vector<double>& numbers : {effort.steps, study.times}) {
+  for (const std::vector<double>& numbers : {effort.steps, effort.tolerances, study.times}) {
     for (const double number : numbers) {
       hash.add(number);
     }

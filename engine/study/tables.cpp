@@ -4,6 +4,7 @@
 #include "core/brief.h"
 #include "core/csv.h"
 #include "study/results.h"
+#include "study/verdicts.h"
 
 namespace careen {
 namespace {
@@ -57,6 +58,50 @@ std::string finenessOf(const Attempt& attempt) {
   return attempt.dt > 0          ? " (dt " + brief(attempt.dt, 3) + ")"
          : attempt.tolerance > 0 ? " (tolerance " + brief(attempt.tolerance, 3) + ")"
                                  : "";
+}
+
+// One row per published scene, one column per contestant.
+void addPublished(std::ostream& text, const StudyResult& study) {
+  StudyResult published = study;
+  std::erase_if(published.cases, [](const CaseResult& result) { return result.published.empty(); });
+  if (published.cases.empty()) {
+    return;
+  }
+  text << "\n## Scenes that others published with their answers\n\n"
+       << "Right: never further than a tenth of a half diagonal, or of a radian, from the answer, at the\n"
+       << "usual time step.\n\n";
+  addTable(text, published, [](const Attempt* attempt) { return verdictOf(attempt); });
+  text << "\nPublished by:\n\n";
+  for (const CaseResult& result : published.cases) {
+    text << "- " << onOneLine(result.name) << ": " << onOneLine(result.published) << '\n';
+  }
+}
+
+void addPromises(std::ostream& text, const StudyResult& study) {
+  text
+      << "\n## Promises kept by exact\n\n"
+      << "Largest distance of a point of a box from its truth (of a pile: the deepest penetration), over the "
+         "tolerance\nasked for. **Bold**: above 1, broken.\n\n| case |";
+  for (const double factor : kPromisedTolerances) {
+    text << ' ' << (factor == 1 ? "tolerance of the scene" : brief(factor) + " of it") << " |";
+  }
+  text << "\n|---|";
+  for (std::size_t i = 0; i < kPromisedTolerances.size(); ++i) {
+    text << "---|";
+  }
+  text << '\n';
+  for (const CaseResult& result : study.cases) {
+    text << "| " << markdownCell(result.name) << " |";
+    for (const double factor : kPromisedTolerances) {
+      const std::optional<double> ratio = promiseOf(result, factor);
+      text << ' '
+           << (!ratio       ? std::string("–")
+               : *ratio > 1 ? "**" + inShort(*ratio) + "**"
+                            : inShort(*ratio))
+           << " |";
+    }
+    text << '\n';
+  }
 }
 
 void addFindings(std::ostream& text, const StudyResult& study) {
@@ -161,6 +206,8 @@ std::string resultsMarkdown(const StudyResult& study) {
     return attempt != nullptr && attempt->failure.empty() && attempt->cost > 0 ? brief(attempt->cost, 3)
                                                                                : std::string("–");
   });
+  addPublished(text, study);
+  addPromises(text, study);
   addFindings(text, study);
   return text.str();
 }

@@ -26,6 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const CommandLine commandLine("", "careen", "careen");
     addSimulate(commandLine);
     addStudy(commandLine);
+    addDice(commandLine);
     addCompare(commandLine);
     addAudit(commandLine);
     addInfo(commandLine);

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "study/results.h"
 #include "support/exact_runs.h"
 
 namespace careen {
@@ -182,6 +183,38 @@ TEST(Measuring, triesTolerancesWhereTheyMatter) {
   const std::vector<Attempt> same = attemptAll(study, contestants, effort, {});
   ASSERT_EQ(same.size(), 1U);
   EXPECT_EQ(same[0].tolerance, 0);
+}
+
+// Its error is its tolerance down to a floor.
+class Floored : public Chooser {
+ public:
+  States run(const World& world, double tolerance, std::span<const double> times,
+             const std::stop_token& stop) const override {
+    return Chooser::run(world, std::max(tolerance, 0.15), times, stop);
+  }
+};
+
+TEST(Measuring, triesCoarserTolerancesTooAndSaysWhereAnswersStayTheSame) {
+  Contestants contestants;
+  contestants.push_back(std::make_unique<Floored>());
+  const Effort effort{.longestRun = 1,
+                      .longestStep = 1,
+                      .timing = 0,
+                      .rounds = 1,
+                      .steps = {1},
+                      .tolerances = {4, 2, 1, 0.5}};
+  Case study = drift(Measure::kPoses);
+  study.scene.tolerance = 0.1;
+  const CaseResult result = resultOf(study, attemptAll(study, contestants, effort, {}), "");
+  ASSERT_EQ(result.attempts.size(), 3U);
+  const std::vector<double> expected = {0.4, 0.2, 0.15};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_DOUBLE_EQ(result.attempts[k].judgement.displacement.value(), 4 * expected[k]);  // in metres
+    EXPECT_DOUBLE_EQ(result.attempts[k].judgement.error, 4 * expected[k] / 3);
+  }
+  EXPECT_EQ(result.attempts[2].tolerance, 0.1);
+  EXPECT_EQ(result.attempts[2].sameTo, 0.05);
+  EXPECT_EQ(usualAttempt(result, "chooser"), &result.attempts[2]);
 }
 
 TEST(Measuring, endsWhenInterrupted) {

@@ -36,6 +36,7 @@ inline CaseResult someCase() {
   result.measure = "energy";
   result.stamp = "0123456789abcdef";
   result.usualStep = 0.1;
+  result.usualTolerance = 1e-6;
   result.times = {1, 2};
   result.attempts = {answered("exact", 0, 1e-15, 0.1), answered("strang", 0.2, 1e-2, 0.2),
                      answered("strang", 0.1, 1. / 300, 0.4), failed("ode", 0.1)};

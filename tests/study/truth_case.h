@@ -20,11 +20,14 @@ struct TruthCase {
   std::string whyHard;
   std::string source;
   std::string measure = "poses";
+  std::string published = {};  // by whom, of a scene that others published with its answer
   int samples = 8;
   Oracle oracle = {};
 };
 
 /// The cases with persistent contact: sliding, rocking, tipping or standing boxes.
 std::vector<TruthCase> contactCases();
+/// The scenes that others published with their answers.
+std::vector<TruthCase> publishedCases();
 
 }  // namespace careen::study

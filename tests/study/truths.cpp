@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstddef>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -262,8 +263,8 @@ std::vector<TruthCase> casesOfFlight() {
 const std::vector<TruthCase>& cases() {
   static const std::vector<TruthCase> kCases = [] {
     std::vector<TruthCase> all = casesOfFlight();
-    for (TruthCase& each : contactCases()) {
-      all.push_back(std::move(each));
+    for (std::vector<TruthCase> more : {contactCases(), publishedCases()}) {
+      std::move(more.begin(), more.end(), std::back_inserter(all));
     }
     return all;
   }();
@@ -358,7 +359,8 @@ Truth computeTruth(const std::string& name) {
               .title = found.title,
               .whyHard = found.whyHard,
               .source = found.source,
-              .measure = found.measure};
+              .measure = found.measure,
+              .published = found.published};
   if (found.measure == "scaled") {
     truth.of = "corner-impact";
     truth.lengths = 4;
@@ -383,6 +385,9 @@ std::string toText(const Truth& truth) {
   text << "{\n  \"scene\": " << quoted("hard/" + truth.name + ".json")
        << ",\n  \"title\": " << quoted(truth.title) << ",\n  \"why_hard\": " << quoted(truth.whyHard)
        << ",\n  \"source\": " << quoted(truth.source) << ",\n  \"measure\": " << quoted(truth.measure);
+  if (!truth.published.empty()) {
+    text << ",\n  \"published\": " << quoted(truth.published);
+  }
   if (truth.measure == "scaled") {
     text << ",\n  \"of\": " << quoted("hard/" + truth.of + ".json")
          << ",\n  \"lengths\": " << number(truth.lengths) << ",\n  \"times\": " << number(truth.timesBy);

@@ -24,6 +24,7 @@ struct Truth {
   std::string whyHard;
   std::string source;
   std::string measure;             // poses, energy, reversal or scaled
+  std::string published = {};      // by whom; empty if by nobody
   std::vector<double> times = {};  // [s]
   std::vector<TruthBox> boxes = {};
   std::string of = {};  // scaled: the other case

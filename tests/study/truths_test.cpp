@@ -80,6 +80,19 @@ TEST(Truths, ofContactAreThoseOfTheFiles) {
                   "stack-heavy-100", "stack-heavy-1e6", "row-of-boxes", "overhang"});
 }
 
+TEST(Truths, ofPublishedScenesAreThoseOfTheFiles) {
+  const std::vector<std::string> published = {
+      "friction-threshold", "cube-1000-on-1", "land-corner-corner", "land-edge-edge",    "land-crossed-edges",
+      "land-corner-face",   "tent",           "card-house-2",       "card-house-3",      "card-house-4",
+      "bernoulli",          "cradle-two",     "painleve-rod",       "omnibench-incline", "omnibench-stack",
+      "omnibench-spin",     "kapla-tower"};
+  expectTheFiles(published);
+  for (const std::string& name : truthNames()) {
+    const bool isOne = std::find(published.begin(), published.end(), name) != published.end();
+    EXPECT_EQ(oracle::jsonIn(truthPath(name)).contains("published"), isOne) << name;
+  }
+}
+
 std::set<std::string> namesIn(const std::filesystem::path& folder) {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

@@ -42,13 +42,10 @@ inline QuadPoses precessed(const QuadScene& scene, std::span<const double> times
   return poses;
 }
 
-/// A box dropped flat, from rest, on the floor z = 0: bounces of duration 2 vₙ/g with vₙ = eⁿ sqrt(2 g h),
-/// at rest after sqrt(2 h/g) (1+e)/(1−e).
-inline QuadPoses dropped(const QuadScene& scene, std::span<const double> times) {
-  const QuadBox& box = scene.boxes.at(0);
-  const Quad g = -scene.gravity[2];
-  const Quad e = restitutionOf(box, scene.walls.at(0));
-  const Quad ground = box.halfExtents[2];
+/// A box that falls straight, from rest, until its centre is at `ground`: bounces of duration 2 vₙ/g with
+/// vₙ = eⁿ sqrt(2 g h), at rest after sqrt(2 h/g) (1+e)/(1−e).
+inline QuadPoses bounced(const QuadBox& box, const Quad& ground, const Quad& e, const Quad& g,
+                         std::span<const double> times) {
   const Quad h = box.position[2] - ground;
   const Quad fall = sqrt(2 * h / g);
   QuadPoses poses;
@@ -75,6 +72,12 @@ inline QuadPoses dropped(const QuadScene& scene, std::span<const double> times) 
     poses.push_back({position, box.attitude});
   }
   return poses;
+}
+
+/// A box dropped flat, from rest, on the floor z = 0.
+inline QuadPoses dropped(const QuadScene& scene, std::span<const double> times) {
+  const QuadBox& box = scene.boxes.at(0);
+  return bounced(box, box.halfExtents[2], restitutionOf(box, scene.walls.at(0)), -scene.gravity[2], times);
 }
 
 /// A cube that flies along the diagonal into the corner of three walls at 0 and returns straight back, e =

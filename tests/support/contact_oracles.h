@@ -98,21 +98,28 @@ class QuadSpin {
   Quad slowing_;  // [rad/s²]
 };
 
-/// Equal cubes in a row along x, touching, on a frictionless floor; the first comes from the left, e = 1: it
-/// stops where it touches, and the last leaves with its speed.
+/// Equal cubes in a row along x on a frictionless floor, e = 1: the first ones, which touch, come from the
+/// left, stop where they touch the others, and as many leave at the other end with their speed.
 inline std::vector<QuadPoses> rowStruck(const QuadScene& scene, std::span<const double> times) {
-  const QuadBox& first = scene.boxes.front();
-  const QuadBox& next = scene.boxes.at(1);
-  const Quad way = next.position[0] - first.position[0] - next.halfExtents[0] - first.halfExtents[0];
-  const Quad strikes = way / first.velocity[0];
+  std::size_t coming = 0;
+  while (scene.boxes.at(coming).velocity[0] != 0) {
+    ++coming;
+  }
+  const QuadBox& last = scene.boxes.at(coming - 1);
+  const QuadBox& next = scene.boxes.at(coming);
+  const Quad& speed = last.velocity[0];
+  const Quad way = next.position[0] - last.position[0] - next.halfExtents[0] - last.halfExtents[0];
+  const Quad strikes = way / speed;
   std::vector<QuadPoses> poses;
   for (const QuadBox& box : scene.boxes) {
     poses.push_back(stood(box, times));
   }
   for (std::size_t k = 0; k < times.size(); ++k) {
     const Quad t = times[k];
-    poses.front()[k].position[0] += first.velocity[0] * (t < strikes ? t : strikes);
-    poses.back()[k].position[0] += t < strikes ? Quad(0) : Quad(first.velocity[0] * (t - strikes));
+    for (std::size_t i = 0; i < coming; ++i) {
+      poses.at(i)[k].position[0] += speed * (t < strikes ? t : strikes);
+      poses.at(poses.size() - 1 - i)[k].position[0] += t < strikes ? Quad(0) : Quad(speed * (t - strikes));
+    }
   }
   return poses;
 }

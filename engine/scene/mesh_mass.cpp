@@ -1,0 +1,107 @@
+#include "scene/mesh_mass.h"
+
+#include <filesystem>
+#include <string>
+
+#include "core/brief.h"
+#include "core/error.h"
+#include "core/system/file.h"
+#include "physics/world/given_inertia.h"
+#include "scene/json_shape.h"
+#include "scene/obj_file.h"
+#include "scene/solid_mesh.h"
+
+namespace careen {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string inBrief(const Vec3& v) {
+  return "(" + brief(v.x()) + ", " + brief(v.y()) + ", " + brief(v.z()) + ")";
+}
+
+// Nothing that waits for another program, as a pipe does, is opened.
+TriangleMesh readMesh(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) {
+    throw InputError(path.string() + ": found no such file, expected a mesh, .obj");
+  }
+  return parseObj(readFile(path), path.string());
+}
+
+void checkWithin(const TriangleMesh& mesh, const Vec3& halfExtents) {
+  const Vec3 most = halfExtents + Vec3::Constant(kFitsBox * halfExtents.norm());
+  for (const Vec3& point : mesh.points) {
+    if ((point.cwiseAbs().array() > most.array()).any()) {
+      throw InputError("found a vertex at " + inBrief(point) + " m, outside the box of half extents " +
+                       inBrief(halfExtents) + " m, expected a mesh in metres within its box");
+    }
+  }
+}
+
+void checkFits(const SolidMoments& moments, const Vec3& halfExtents) {
+  if (moments.center.norm() > kFitsBox * halfExtents.norm()) {
+    throw InputError("found a centre of mass at " + inBrief(moments.center) +
+                     " m, expected it at the centre of the box, (0, 0, 0)");
+  }
+  const Mat3 beside = moments.inertia - Mat3(moments.inertia.diagonal().asDiagonal());
+  const double most = beside.cwiseAbs().maxCoeff();
+  if (most > kFitsBox * moments.inertia.trace()) {
+    throw InputError("found an inertia with " + brief(most / moments.inertia.trace()) +
+                     " of its trace beside the diagonal, expected principal axes along the box's");
+  }
+}
+
+void takeMass(const JsonTree& tree, const JsonNode& node, SceneBox& box) {
+  const std::size_t place = node.find("mass_from")->offset;
+  const std::string found = "mass_from for box " + inQuotes(box.name);
+  for (const char* const key : {"mass", "inertia"}) {
+    if (node.find(key) != nullptr) {
+      tree.fail(place, found + " beside " + key, "one of them: the mesh gives both mass and inertia");
+    }
+  }
+  if (box.fixed) {
+    tree.fail(place, found + ", which is fixed", "none, as it stays where it is");
+  }
+  const JsonNode* const density = node.find("density");
+  if (density == nullptr) {
+    tree.fail(place, found + " without density", "a density [kg/m³]");
+  }
+  const fs::path path = fs::path(tree.name()).parent_path() / box.massFrom;
+  const auto fail = [&](const std::string& why) {
+    throw InputError(tree.name() + ":" + tree.place(place) + ": mass_from of box " + inQuotes(box.name) +
+                     ": " + why);
+  };
+  TriangleMesh mesh;
+  try {
+    mesh = readMesh(path);
+  } catch (const InputError& error) {
+    fail(error.what());
+  }
+  try {
+    checkWithin(mesh, box.halfExtents);
+    const SolidMoments moments = momentsOf(mesh);
+    checkFits(moments, box.halfExtents);
+    box.mass = density->number * moments.volume;
+    const Vec3 principal = density->number * moments.inertia.diagonal();
+    if (const std::string why = whyNoInertia(principal); !why.empty() || box.mass < kSmallestPositive) {
+      throw InputError("found a mass of " + brief(box.mass) + " kg and moments " + inBrief(principal) +
+                       " kg m², expected those of a body");
+    }
+    box.inertia = principal.asDiagonal();
+  } catch (const InputError& error) {
+    fail(path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+void takeMassesFromMeshes(const JsonTree& tree, Scene& scene) {
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    if (!scene.boxes[i].massFrom.empty()) {
+      takeMass(tree, tree.root().find("boxes")->children[i], scene.boxes[i]);
+    }
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,97 @@
+#include "scene/solid_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/brief.h"
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+using Edge = std::pair<std::size_t, std::size_t>;  // from, to
+
+std::string placeOf(const TriangleMesh& mesh, std::size_t point) {
+  const Vec3& at = mesh.points[point];
+  return "(" + brief(at.x(), 6) + ", " + brief(at.y(), 6) + ", " + brief(at.z(), 6) + ")";
+}
+
+std::string describe(const TriangleMesh& mesh, const Edge& edge) {
+  return "the edge from " + placeOf(mesh, edge.first) + " to " + placeOf(mesh, edge.second);
+}
+
+// Every edge must be run along once in each direction.
+void checkEdges(const TriangleMesh& mesh) {
+  std::vector<Edge> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const std::array<std::size_t, 3>& triangle : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges.emplace_back(triangle.at(k), triangle.at((k + 1) % 3));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  const auto twice = std::adjacent_find(edges.begin(), edges.end());
+  if (twice != edges.end()) {
+    throw InputError("found two faces that run along " + describe(mesh, *twice) +
+                     " in the same direction, expected one in each: a face is turned over, or more than two "
+                     "meet there");
+  }
+  for (const Edge& edge : edges) {
+    if (!std::binary_search(edges.begin(), edges.end(), Edge(edge.second, edge.first))) {
+      throw InputError("found " + describe(mesh, edge) + " of one face alone, expected a closed mesh");
+    }
+  }
+}
+
+Vec3 middleOf(const TriangleMesh& mesh) {
+  Vec3 least = mesh.points.front();
+  Vec3 most = least;
+  for (const Vec3& point : mesh.points) {
+    least = least.cwiseMin(point);
+    most = most.cwiseMax(point);
+  }
+  return 0.5 * least + 0.5 * most;
+}
+
+}  // namespace
+
+SolidMoments momentsOf(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) {
+    throw InputError("found no faces, expected a closed mesh");
+  }
+  checkEdges(mesh);
+  const Vec3 middle = middleOf(mesh);  // near all of it, so that little cancels
+  double volume = 0;
+  double size = 0;
+  Vec3 first = Vec3::Zero();
+  Mat3 second = Mat3::Zero();
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vec3 a = mesh.points[i] - middle;
+    const Vec3 b = mesh.points[j] - middle;
+    const Vec3 c = mesh.points[k] - middle;
+    const Vec3 sum = a + b + c;
+    const double determinant = a.dot(b.cross(c));
+    volume += determinant / 6;
+    size += std::fabs(determinant) / 6;
+    first += determinant / 24 * sum;
+    second += determinant / 120 *
+              (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+  }
+  constexpr double kNothing = 1e-12;  // of the tetrahedra: rounding
+  if (!(std::fabs(volume) > kNothing * size)) {
+    throw InputError("found a mesh that encloses nothing, expected a closed mesh around a volume");
+  }
+  if (volume < 0) {
+    throw InputError("found a mesh inside out, of volume " + brief(volume) +
+                     " m³, expected faces that run anticlockwise when seen from outside");
+  }
+  SolidMoments moments{.volume = volume, .center = middle + first / volume};
+  const Vec3 off = first / volume;
+  const Mat3 spread = second - volume * (off * off.transpose());
+  moments.inertia = spread.trace() * Mat3::Identity() - spread;
+  return moments;
+}
+
+}  // namespace careen
