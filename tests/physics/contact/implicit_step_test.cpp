@@ -98,7 +98,7 @@ TEST(ImplicitStep, exchangesMomentaToRounding) {
   const GroupState from = stateOf(world);
   GroupState to;
   ASSERT_TRUE(step.advance(from, 1e-3, contacts, to));
-  EXPECT_GT(contacts[0].force[0], 100);
+  EXPECT_GT(contacts[0].push, 100);
   const auto momenta = [&](const GroupState& state) {
     std::array<Vec3, 2> sums{Vec3::Zero(), Vec3::Zero()};
     for (std::size_t i = 0; i < 2; ++i) {
