@@ -223,9 +223,9 @@ TEST(Crowd, spinningBoxesStayOutOfWalls) {
     World world = floorWorld(material);
     Body body = crate("a", pourer.vector(0.1, 0.4), Vec3(0, 0, 0.8), material);
     body.initial.pose.worldFromBody = pourer.attitude().toRotationMatrix();
-    body.initial.velocity = pourer.vector(-5, 0);
+    body.initial.velocity = pourer.vector(-1, 0);
     body.initial.angularMomentum =
-        angularMomentum(body.mass, body.initial.pose.worldFromBody, pourer.vector(-15, 15));
+        angularMomentum(body.mass, body.initial.pose.worldFromBody, pourer.vector(-40, 40));
     world.bodies.push_back(body);
     test::CrowdRun crowd(world, Crowd::kUsualTolerance, 1.0 / 180);
     for (int step = 0; step < 180; ++step) {
@@ -235,7 +235,8 @@ TEST(Crowd, spinningBoxesStayOutOfWalls) {
   }
   EXPECT_LT(deepest, 3 * Crowd::kUsualTolerance);
   EXPECT_GT(deepest, 0);
-  RecordProperty("deepest", std::to_string(deepest));
+  RecordProperty("deepest",
+                 std::to_string(deepest));  // measured 3.4e-4; 1.4e-3 if walls and spin do not count
 }
 
 TEST(Crowd, listingOrderChangesNoBit) {
