@@ -9,6 +9,7 @@ void addRender(const CommandLine& commandLine);
 void addSimulate(const CommandLine& commandLine);
 void addCompare(const CommandLine& commandLine);
 void addAudit(const CommandLine& commandLine);
+void addExport(const CommandLine& commandLine);
 void addInfo(const CommandLine& commandLine);
 void addStudy(const CommandLine& commandLine);
 void addValidate(const CommandLine& commandLine);

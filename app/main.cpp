@@ -64,6 +64,7 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   addStudy(commandLine);
   addCompare(commandLine);
   addAudit(commandLine);
+  addExport(commandLine);
   addInfo(commandLine);
   addValidate(commandLine);
   addVerify(commandLine);

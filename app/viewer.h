@@ -11,7 +11,7 @@
 #include "file_watch.h"
 #include "image/picture.h"
 #include "picture_options.h"
-#include "render/view/orbit.h"
+#include "view/orbit.h"
 #include "render/window/player.h"
 #include "render/window/window.h"
 #include "run.h"

@@ -28,6 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     addStudy(commandLine);
     addCompare(commandLine);
     addAudit(commandLine);
+    addExport(commandLine);
     addInfo(commandLine);
     addValidate(commandLine);
     addVerify(commandLine);

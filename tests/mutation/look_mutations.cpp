@@ -3,7 +3,7 @@
 
 #include "mutation/subject.h"
 #include "render/look/lighting.h"
-#include "render/look/materials.h"
+#include "view/materials.h"
 #include "support/article_equations.h"
 
 namespace careen {

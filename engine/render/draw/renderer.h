@@ -11,9 +11,9 @@
 #include "image/picture.h"
 #include "render/gl/rendering_backend.h"
 #include "render/look/lighting.h"
-#include "render/look/materials.h"
+#include "view/materials.h"
 #include "render/overlay/shapes.h"
-#include "render/view/camera.h"
+#include "view/camera.h"
 #include "stage/camera.h"
 #include "stage/run_setup.h"
 

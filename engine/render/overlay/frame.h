@@ -8,7 +8,7 @@
 #include "render/overlay/energy_shares.h"
 #include "render/overlay/shapes.h"
 #include "render/overlay/style.h"
-#include "render/view/screen.h"
+#include "view/screen.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {

@@ -8,7 +8,7 @@
 
 #include "render/overlay/overlays.h"
 #include "render/stage.h"
-#include "render/view/scene_extent.h"
+#include "view/scene_extent.h"
 #include "scene/plan.h"
 
 namespace careen {

@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "render/stage.h"
-#include "render/view/scene_extent.h"
+#include "view/scene_extent.h"
 #include "scene/plan.h"
 
 namespace careen {

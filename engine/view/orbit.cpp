@@ -1,4 +1,4 @@
-#include "render/view/orbit.h"
+#include "view/orbit.h"
 
 #include <algorithm>
 #include <cmath>

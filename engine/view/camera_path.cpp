@@ -1,10 +1,9 @@
-#include "render/view/camera_path.h"
+#include "view/camera_path.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "stage/turn.h"
@@ -22,7 +21,7 @@ class Framing {
  public:
   Framing(const Camera& towards, double aspect)
       : camera_(towards), worldFromCamera_(lookAt(towards.eye, towards.target, towards.up)) {
-    const double slope = kFilled * std::tan(0.5 * towards.fovDegrees * std::numbers::pi / 180);
+    const double slope = kFilled * slopeOfView(towards.fovDegrees);
     slope_ = {slope * aspect, slope};
   }
 

@@ -1,9 +1,13 @@
 #pragma once
 
 #include "core/math/linear_algebra.h"
+#include "stage/color.h"
 #include "stage/picture_settings.h"
 
 namespace careen {
+
+/// Linear RGB: 1 is a fully lit white surface.
+Vec3 linearFromSrgb(const Color& color);
 
 /// Materials and tone mapping; together with Lighting they make up a look. Colours are linear.
 struct Materials {

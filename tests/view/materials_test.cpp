@@ -1,4 +1,4 @@
-#include "render/look/materials.h"
+#include "view/materials.h"
 
 #include <gtest/gtest.h>
 

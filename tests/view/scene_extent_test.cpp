@@ -1,8 +1,8 @@
-#include "render/view/scene_extent.h"
+#include "view/scene_extent.h"
 
 #include <gtest/gtest.h>
 
-#include "render/stage.h"
+#include "support/stages.h"
 
 namespace careen {
 namespace {

@@ -1,8 +1,8 @@
-#include "render/view/screen.h"
+#include "view/screen.h"
 
 #include <gtest/gtest.h>
 
-#include "render/stage.h"
+#include "support/stages.h"
 
 namespace careen {
 namespace {

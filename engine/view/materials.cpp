@@ -1,6 +1,22 @@
-#include "render/look/materials.h"
+#include "view/materials.h"
+
+#include <cmath>
+#include <cstdint>
 
 namespace careen {
+namespace {
+
+// IEC 61966-2-1.
+double linear(std::uint8_t channel) {
+  const double value = channel / 255.0;
+  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+}  // namespace
+
+Vec3 linearFromSrgb(const Color& color) {
+  return {linear(color.red), linear(color.green), linear(color.blue)};
+}
 
 Materials materialsOf(Look look) {
   switch (look) {

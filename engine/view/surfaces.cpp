@@ -1,4 +1,4 @@
-#include "render/look/surfaces.h"
+#include "view/surfaces.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "render/view/camera_path.h"
+#include "view/camera_path.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "render/stage.h"
+#include "support/stages.h"
 #include "scene/scene_reader.h"
 
 namespace careen {

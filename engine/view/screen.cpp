@@ -1,4 +1,4 @@
-#include "render/view/screen.h"
+#include "view/screen.h"
 
 namespace careen {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/view/camera.h"
+#include "view/camera.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/math/rotation.h"
-#include "render/stage.h"
+#include "support/stages.h"
 
 namespace careen {
 namespace {

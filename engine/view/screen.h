@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "render/view/camera.h"
+#include "view/camera.h"
 
 namespace careen {
 

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "core/math/linear_algebra.h"
-#include "render/look/materials.h"
-#include "render/view/scene_extent.h"
 #include "stage/stage.h"
+#include "view/materials.h"
+#include "view/scene_extent.h"
 
 namespace careen {
 

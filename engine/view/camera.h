@@ -1,9 +1,9 @@
 #pragma once
 
 #include "core/math/linear_algebra.h"
-#include "render/view/scene_extent.h"
 #include "stage/camera.h"
 #include "stage/run_setup.h"
+#include "view/scene_extent.h"
 
 namespace careen {
 
@@ -20,11 +20,15 @@ struct View {
   Vec3 pixelFromWorld(const Vec3& point, int width, int height) const;
 };
 
+/// Tangent of half an angle given in degrees, 0 … 180: the slope of the edge of a picture with this field of
+/// view. The same bits everywhere.
+double slopeOfView(double fovDegrees);
+
 /// Rotation of a camera that looks from eye to target with `up` upward. InputError if it is undefined.
 Mat3 lookAt(const Vec3& eye, const Vec3& target, const Vec3& up);
 
-/// OpenGL perspective matrix; `fov` [rad] is the vertical angle, `aspect` width over height, near < far [m].
-Mat4 perspective(double fov, double aspect, double near, double far);
+/// OpenGL perspective matrix; `fovDegrees` is the vertical angle, `aspect` width over height, near < far [m].
+Mat4 perspective(double fovDegrees, double aspect, double near, double far);
 
 /// Direction of the default camera as seen from the scene: in front, to the right and above.
 inline const Vec3 kDefaultDirection = Vec3(0.42, -1, 0.42).normalized();

@@ -1,11 +1,11 @@
-#include "render/look/surfaces.h"
+#include "view/surfaces.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "render/stage.h"
+#include "support/stages.h"
 
 namespace careen {
 namespace {

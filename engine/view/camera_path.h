@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <span>
 
-#include "render/view/camera.h"
 #include "stage/camera.h"
 #include "stage/time_map.h"
 #include "trajectory/trajectory.h"
+#include "view/camera.h"
 
 namespace careen {
 

@@ -1,18 +1,11 @@
-#include "render/view/camera.h"
+#include "view/camera.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "core/error.h"
+#include "stage/turn.h"
 
 namespace careen {
-namespace {
-
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
-
-}  // namespace
-
 Vec4 View::clipFromWorld(const Vec3& point) const {
   const Vec3 offset = point - eye;
   return clipFromOffset * Vec4(offset.x(), offset.y(), offset.z(), 1);
@@ -22,6 +15,11 @@ Vec3 View::pixelFromWorld(const Vec3& point, int width, int height) const {
   const Vec4 clip = clipFromWorld(point);
   return {0.5 * width * (1 + clip.x() / clip.w()), 0.5 * height * (1 - clip.y() / clip.w()),
           clip.z() / clip.w()};
+}
+
+double slopeOfView(double fovDegrees) {
+  const Turn half = turnFrom(0.5 * fovDegrees);
+  return half.sine / half.cosine;
 }
 
 Mat3 lookAt(const Vec3& eye, const Vec3& target, const Vec3& up) {
@@ -39,8 +37,8 @@ Mat3 lookAt(const Vec3& eye, const Vec3& target, const Vec3& up) {
   return worldFromCamera;
 }
 
-Mat4 perspective(double fov, double aspect, double near, double far) {
-  const double scale = 1 / std::tan(0.5 * fov);
+Mat4 perspective(double fovDegrees, double aspect, double near, double far) {
+  const double scale = 1 / slopeOfView(fovDegrees);
   Mat4 clipFromCamera = Mat4::Zero();
   clipFromCamera(0, 0) = scale / aspect;
   clipFromCamera(1, 1) = scale;
@@ -55,7 +53,7 @@ Camera cameraThatSees(const Extent& extent, double aspect) {
   Camera camera;
   camera.target = extent.centre();
   const Mat3 worldFromCamera = lookAt(kDefaultDirection, Vec3::Zero(), camera.up);
-  const double tangent = std::tan(0.5 * radians(camera.fovDegrees));
+  const double tangent = slopeOfView(camera.fovDegrees);
   double distance = 0;
   for (int index = 0; index < 8; ++index) {
     // A corner at (x, y, z) is in view from a distance of z + |y| / tan(fov/2) on; x likewise.
@@ -71,9 +69,7 @@ Camera cameraOf(const RunSetup& setup, double aspect) {
   return setup.stage.camera ? *setup.stage.camera : cameraThatSees(extentOf(setup), aspect);
 }
 
-double pixelAngle(const Camera& camera, int height) {
-  return 2 * std::tan(0.5 * radians(camera.fovDegrees)) / height;
-}
+double pixelAngle(const Camera& camera, int height) { return 2 * slopeOfView(camera.fovDegrees) / height; }
 
 View viewOf(const Camera& camera, const Extent& extent, double aspect) {
   View view;
@@ -85,7 +81,7 @@ View viewOf(const Camera& camera, const Extent& extent, double aspect) {
   const double near = std::min(0.004 * reach, 0.1 * (camera.eye - camera.target).norm());
   Mat4 cameraFromOffset = Mat4::Identity();
   cameraFromOffset.topLeftCorner<3, 3>() = view.worldFromCamera.transpose();
-  view.clipFromOffset = perspective(radians(camera.fovDegrees), aspect, near, 50 * reach) * cameraFromOffset;
+  view.clipFromOffset = perspective(camera.fovDegrees, aspect, near, 50 * reach) * cameraFromOffset;
   return view;
 }
 

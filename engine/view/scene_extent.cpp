@@ -1,4 +1,4 @@
-#include "render/view/scene_extent.h"
+#include "view/scene_extent.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,11 +1,11 @@
-#include "render/view/orbit.h"
+#include "view/orbit.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "render/view/camera.h"
+#include "view/camera.h"
 
 namespace careen {
 namespace {
