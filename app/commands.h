@@ -12,6 +12,7 @@ void addAudit(const CommandLine& commandLine);
 void addExport(const CommandLine& commandLine);
 void addInfo(const CommandLine& commandLine);
 void addStudy(const CommandLine& commandLine);
+void addSweep(const CommandLine& commandLine);
 void addTruth(const CommandLine& commandLine);
 void addValidate(const CommandLine& commandLine);
 void addVerify(const CommandLine& commandLine);

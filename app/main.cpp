@@ -66,6 +66,7 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   addAudit(commandLine);
   addExport(commandLine);
   addInfo(commandLine);
+  addSweep(commandLine);
   addTruth(commandLine);
   addValidate(commandLine);
   addVerify(commandLine);

@@ -33,6 +33,7 @@ const std::map<std::string, Names> kMayInclude = {
     {"compare", {"image", "trajectory", "core"}},
     {"view", {"trajectory", "physics", "stage", "core"}},
     {"truth", {"view", "film", "trajectory", "stage", "physics", "core"}},
+    {"sweep", {"scene", "trajectory", "audit", "physics", "stage", "core"}},
     {"exchange", {"scene", "view", "trajectory", "physics", "stage", "core"}},
     {"render", {"view", "trajectory", "film", "stage", "image", "core"}},
 };
@@ -266,7 +267,7 @@ TEST(Structure, foreignHeadersStayWhereTheyBelong) {
   const std::vector<Rule> rules = {
       {std::regex("^(GL|EGL|GLFW)/.*"), {"render"}},
       {std::regex("^(stb/)?stb_.*"), {"image"}},
-      {std::regex("^nlohmann/.*"), {"scene", "study", "compare", "film", "exchange", "truth", "app"}},
+      {std::regex("^nlohmann/.*"), {"scene", "study", "compare", "film", "exchange", "truth", "sweep", "app"}},
       {std::regex("^CLI/.*"), {"app"}, "command_line"},
       {std::regex(R"(^zip\.h)"), {"trajectory"}, "zip_archive"},
       {std::regex("^(bt[A-Z]|Bullet|LinearMath/).*"), {"study"}, "peer_bullet"},
