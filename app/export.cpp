@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/system/file.h"
 #include "exchange/export_glb.h"
+#include "exchange/export_mjcf.h"
 #include "run.h"
 #include "trajectory/export_csv.h"
 #include "trajectory/export_npz.h"
@@ -29,22 +30,25 @@ struct ExportOptions {
   AuditChoice audit;
 };
 
-enum class Format { kGlb, kNpz, kCsv };
+enum class Format { kGlb, kMjcf, kNpz, kCsv };
 
 Format formatOf(const ExportOptions& options) {
   const std::string suffix = options.output.extension().string();
-  if (suffix != ".glb" && suffix != ".npz" && suffix != ".csv") {
+  if (suffix != ".glb" && suffix != ".xml" && suffix != ".npz" && suffix != ".csv") {
     throw InputError("--out: found '" + options.output.string() +
-                     "', expected a file that ends in .glb, .npz or .csv");
+                     "', expected a file that ends in .glb, .xml, .npz or .csv");
   }
-  const Format format = suffix == ".glb" ? Format::kGlb : suffix == ".npz" ? Format::kNpz : Format::kCsv;
+  const Format format = suffix == ".glb"   ? Format::kGlb
+                        : suffix == ".xml" ? Format::kMjcf
+                        : suffix == ".npz" ? Format::kNpz
+                                           : Format::kCsv;
   if (options.within && format != Format::kGlb) {
     throw InputError("--within: found the file " + options.output.string() +
-                     ", which has samples; expected --every, or a .glb");
+                     ", which has no keys; expected a .glb");
   }
-  if (options.every && format == Format::kGlb) {
+  if (options.every && (format == Format::kGlb || format == Format::kMjcf)) {
     throw InputError("--every: found the file " + options.output.string() +
-                     ", whose keys are chosen by error; expected --within, or a table");
+                     ", which has no rows; expected a table");
   }
   const double within = options.within.value_or(kUsualGlbError);
   if (!(within >= kLeastGlbError && within <= kMostGlbError)) {
@@ -65,6 +69,14 @@ void writeGlb(const ExportOptions& options, const Trajectory& run) {
             << brief(glb.positionError, 2) << " m and " << brief(glb.attitudeError, 2) << " rad\n";
 }
 
+void writeMjcf(const ExportOptions& options, const Trajectory& run) {
+  const MjcfFile mjcf = encodeMjcf(run, "careen " CAREEN_VERSION);
+  writeFile(options.output, mjcf.text);
+  for (const std::string& words : mjcf.leftOut) {
+    std::cout << "left out     " << words << '\n';
+  }
+}
+
 ExitCode exportCommand(const ExportOptions& options, const std::stop_token& stop) {
   const Format format = formatOf(options);
   Run run = loadRun(options.source, {}, options.scene, stop);
@@ -73,6 +85,9 @@ ExitCode exportCommand(const ExportOptions& options, const std::stop_token& stop
   switch (format) {
     case Format::kGlb:
       writeGlb(options, run.trajectory);
+      break;
+    case Format::kMjcf:
+      writeMjcf(options, run.trajectory);
       break;
     case Format::kNpz:
       writeFile(options.output, encodeNpz(run.trajectory, every));
@@ -95,9 +110,9 @@ void addExport(const CommandLine& commandLine) {
   const auto options = std::make_shared<ExportOptions>();
   command.add("run", options->source, "Trajectory file, table of poses, or scene").required();
   command
-      .add(
-          "--out", options->output,
-          "The file: .glb (a film for Blender, three.js and viewers of glTF), .npz or .csv (tables of poses)")
+      .add("--out", options->output,
+           "The file: .glb (a film for Blender, three.js and viewers of glTF), .xml (its start, for MuJoCo), "
+           ".npz or .csv (tables of poses)")
       .required();
   command.add("--within", options->within,
               "How far a .glb may be off between its keys, in m and rad (default: 1e-4)");

@@ -53,6 +53,14 @@ TEST_F(Export, writesTheFormatThatTheSuffixNames) {
   EXPECT_EQ(textOf(folder_ / "run.npz").substr(0, 2), "PK");
 }
 
+TEST_F(Export, tellsWhatMjcfCannotSay) {
+  const Ended ended = careen({"export", "run.careen", "--out", "scene.xml"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.out.find("left out     restitution, up to 0.3"), std::string::npos) << ended.out;
+  EXPECT_NE(textOf(folder_ / "scene.xml").find("<body name=\"die\""), std::string::npos);
+  EXPECT_NE(refusal({"run.careen", "--out", "f.xml", "--every", "1"}).find("--every"), std::string::npos);
+}
+
 TEST_F(Export, takesScenesAndTablesToo) {
   EXPECT_EQ(careen({"export", "scene.json", "--out", "a.glb"}).exitCode, 0);
   EXPECT_EQ(careen({"export", "expected.csv", "--scene", "scene.json", "--out", "b.glb"}).exitCode, 0);
@@ -70,7 +78,8 @@ TEST_F(Export, refusesWhatItCannotDo) {
       std::string::npos);
   EXPECT_NE(refusal({"run.careen", "--out", "f.glb", "--within", "nan"}).find("--within: found nan"),
             std::string::npos);
-  EXPECT_NE(refusal({"run.careen", "--out", "f.glb", "--every", "1"}).find("--every: found the file f.glb"),
+  EXPECT_NE(refusal({"run.careen", "--out", "f.glb", "--every", "1"})
+                .find("--every: found the file f.glb, which has no rows"),
             std::string::npos);
   EXPECT_NE(refusal({"run.careen", "--out", "f.csv", "--within", "1"}).find("--within: found the file f.csv"),
             std::string::npos);
