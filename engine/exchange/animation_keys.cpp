@@ -4,14 +4,20 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string>
 #include <utility>
 
+#include "core/brief.h"
+#include "core/error.h"
 #include "core/math/elementary.h"
 
 namespace careen {
 namespace {
 
-double single(double value) { return static_cast<double>(static_cast<float>(value)); }
+double single(double value) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return static_cast<double>(static_cast<float>(std::clamp(value, -kLargest, kLargest)));
+}
 Vec3 single(const Vec3& value) { return {single(value.x()), single(value.y()), single(value.z())}; }
 Quat single(const Quat& value) {
   return {single(value.w()), single(value.x()), single(value.y()), single(value.z())};
@@ -109,13 +115,25 @@ class Chooser {
   }
 
  private:
+  static constexpr std::size_t kMostKeys = 10'000'000;
   static constexpr double kPart = 0.97;  // of the bound: errors are found at single moments
 
   void add(float time) {
     if (!keys_.times.empty() && time <= keys_.times.back()) {
       return;
     }
-    Value value = single(exact(time));
+    const Value there = exact(time);
+    Value value = single(there);
+    if (const double rounding = errorAt(value, value, 0, there); !(rounding <= within_)) {
+      throw InputError("found a motion that single precision, which is all that glTF has, holds only to " +
+                       brief(rounding, 2) + " at " + brief(time) + " s, expected a larger --within than " +
+                       brief(within_ / kPart));
+    }
+    if (keys_.times.size() >= kMostKeys) {
+      throw InputError("found a motion that needs more than " + std::to_string(kMostKeys) +
+                       " keys, expected a shorter or slower one, or a larger --within than " +
+                       brief(within_ / kPart));
+    }
     if (!keys_.times.empty()) {
       align(keys_.values.back(), value);
     }
@@ -204,8 +222,10 @@ class Chooser {
       const double least = good.to > from ? reached + 0.02 * (tooFar - reached) : 0.05 * tooFar;
       step = std::clamp(wanted, least, tooFar - 0.02 * (tooFar - reached));
     }
-    if (good.to <= from) {  // no key between can help
-      const float next = after(from);
+    if (good.to <= from) {                // no key between can help
+      constexpr double kShortest = 1e-8;  // of the whole: numbers near 0 are much closer together
+      const float next =
+          std::min(end, std::max(after(from), static_cast<float>(from + kShortest * span_.duration)));
       return {.to = next, .error = errorUntil(next)};
     }
     step_ = static_cast<double>(good.to) - from;

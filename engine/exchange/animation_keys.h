@@ -46,6 +46,8 @@ LinePlacement linePlacement(const Vec3& from, const Vec3& to);
 /// both by spherical and by normalised linear interpolation (three.js and VTK do the first, Blender the
 /// second); distance of a line's ends [m]. Signs of quaternions are such that neighbours have a positive
 /// product. `at` maps a time in [0, duration] to a value.
+/// InputError if the rounding alone is more than the bound, as 1e6 m from the origin, and beyond ten million
+/// keys.
 AnimationKeys<Vec3> positionKeys(const AnimatedSpan& span, double within,
                                  const std::function<Vec3(double)>& at);
 AnimationKeys<Quat> rotationKeys(const AnimatedSpan& span, double within,

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/error.h"
 #include "core/math/linear_algebra.h"
 
 namespace careen {
@@ -92,6 +93,18 @@ TEST(AnimationKeys, ofALineHoldBothItsEnds) {
     EXPECT_LT((keys.values[i].to() - to(keys.times[i])).norm(), 1e-6);
   }
   EXPECT_GT(keys.times.size(), 50U);
+}
+
+TEST(AnimationKeys, boundThatRoundingAloneExceedsIsRefused) {
+  for (const double far : {1e6, 1e60}) {
+    EXPECT_THROW(positionKeys({.duration = 1, .kinks = {}, .seams = {}}, 1e-4,
+                              [far](double time) { return Vec3(far + time / 3, 0, 0); }),
+                 InputError);
+  }
+  EXPECT_LT(positionKeys({.duration = 1, .kinks = {}, .seams = {}}, 0.1,
+                         [](double time) { return Vec3(1e6 + time / 3, 0, 0); })
+                .times.size(),
+            5U);
 }
 
 TEST(LinePlacement, reachesEveryDirection) {
