@@ -78,10 +78,10 @@ class MjcfWriter {
     line("<mujoco" + attribute("model", setup_.stage.name) + ">");
     line("  <compiler angle=\"radian\"/>");
     line("  <option" + attribute("gravity", numbers(world_.gravity)) +
-         " timestep=\"0.001\" integrator=\"RK4\" cone=\"elliptic\"/>");
+         R"( timestep="0.001" integrator="RK4" cone="elliptic"/>)");
     line("  <worldbody>");
     for (const Wall& wall : world_.walls) {
-      line("    <geom" + attribute("name", wall.name) + " type=\"plane\" size=\"0 0 1\"" +
+      line("    <geom" + attribute("name", wall.name) + R"( type="plane" size="0 0 1")" +
            attribute("pos", numbers(Vec3(wall.offset * wall.normal))) +
            attribute("quat", numbers(turnOfPlane(wall.normal))) + frictionOf(wall.material) + "/>");
     }

@@ -21,8 +21,9 @@ using Kind = JsonNode::Kind;
 
 constexpr std::array<std::string_view, 7> kDistributions = {
     "uniform", "uniform_integer", "normal", "log_uniform", "choice", "unit_vector", "rotation"};
-constexpr std::int64_t kMostCopies = 100'000;
-constexpr double kLargest = 1e15;  // of whole numbers
+constexpr std::int64_t kMostCopies = 10'000;
+constexpr std::size_t kMostBoxesTried = 200'000;  // in all attempts at one run: a minute
+constexpr double kLargest = 1e15;                 // of whole numbers
 
 bool isDistributionKey(const std::string& key) {
   return std::find(kDistributions.begin(), kDistributions.end(), key) != kDistributions.end();
@@ -323,7 +324,9 @@ std::string Family::sceneText(std::uint64_t run, std::uint64_t attempt) const {
 Family::Member Family::member(std::uint64_t run) const {
   const std::string name = name_ + " (run " + std::to_string(run) + ")";
   std::string why;
-  for (int attempt = 0; attempt < tries_; ++attempt) {
+  std::size_t boxesTried = 0;
+  int attempt = 0;
+  for (; attempt < tries_ && boxesTried < kMostBoxesTried; ++attempt) {
     RandomStream random(seed_, run, static_cast<std::uint64_t>(attempt));
     Member member;
     const std::string text = FamilyWriter(tree_, random, &member.drawn, nullptr).scene();
@@ -332,11 +335,12 @@ Family::Member Family::member(std::uint64_t run) const {
       member.attempts = attempt + 1;
       return member;
     } catch (const InputError& error) {
-      static_cast<void>(parseScene(text, name, Starts::kMayOverlap));  // what else is wrong stays wrong
+      // What else is wrong stays wrong.
+      boxesTried += parseScene(text, name, Starts::kMayOverlap).boxes.size();
       why = error.what();
     }
   }
-  throw InputError(name + ": found no start without overlap in " + std::to_string(tries_) +
+  throw InputError(name + ": found no start without overlap in " + std::to_string(attempt) +
                    " tries, expected one; the last: " + why);
 }
 

@@ -30,7 +30,8 @@ struct Varying {
 /// A box may have a "count", a whole number or a distribution of one: so many boxes, whose values are drawn
 /// one by one, named NAME-1, NAME-2 … . `"sweep": {"seed": 1, "tries": 1000}` at the top are the defaults.
 /// Boxes that overlap, or are behind walls, at the start are drawn again, all values of the run, up to that
-/// many times.
+/// many times, and as long as these are
+/// not more than 200,000 boxes.
 class Family {
  public:
   /// InputError "file:line:column: found …, expected …" for what is no distribution, and if run 0 cannot be
