@@ -267,7 +267,8 @@ TEST(Structure, foreignHeadersStayWhereTheyBelong) {
   const std::vector<Rule> rules = {
       {std::regex("^(GL|EGL|GLFW)/.*"), {"render"}},
       {std::regex("^(stb/)?stb_.*"), {"image"}},
-      {std::regex("^nlohmann/.*"), {"scene", "study", "compare", "film", "exchange", "truth", "sweep", "app"}},
+      {std::regex("^nlohmann/.*"),
+       {"scene", "study", "compare", "film", "exchange", "truth", "sweep", "app"}},
       {std::regex("^CLI/.*"), {"app"}, "command_line"},
       {std::regex(R"(^zip\.h)"), {"trajectory"}, "zip_archive"},
       {std::regex("^(bt[A-Z]|Bullet|LinearMath/).*"), {"study"}, "peer_bullet"},

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "support/stages.h"
 #include "scene/scene_reader.h"
+#include "support/stages.h"
 
 namespace careen {
 namespace {

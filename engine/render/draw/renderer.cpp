@@ -17,10 +17,10 @@
 #include "render/gl/canvas.h"
 #include "render/gl/gl.h"
 #include "render/gl/shader.h"
-#include "view/surfaces.h"
 #include "render/overlay/batch.h"
 #include "view/camera.h"
 #include "view/scene_extent.h"
+#include "view/surfaces.h"
 
 namespace careen {
 namespace {
