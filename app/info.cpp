@@ -5,14 +5,27 @@
 #include <string>
 
 #include "commands.h"
+#include "core/characters.h"
 #include "core/system/file.h"
 #include "report.h"
 #include "run.h"
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
+#include "sweep/family.h"
 
 namespace careen {
 namespace {
+
+void printFamily(const Family& family) {
+  const Scene first = family.member(0).scene;
+  std::cout << "family       " << printableName(first.name) << ", seed " << family.seed() << ", up to "
+            << family.tries() << " tries for a start without overlap; run 0 has " << first.boxes.size()
+            << (first.boxes.size() == 1 ? " box\n" : " boxes\n");
+  for (const Varying& each : family.varying()) {
+    std::cout << "varies       " << printableName(each.path) << ": " << each.range << '\n';
+  }
+  printPlan(std::cout, first.name, first.boxes.size(), settingsOf(first), plan(first));
+}
 
 ExitCode infoCommand(std::filesystem::path path, const SceneOfTable& ofTable, const std::stop_token& stop) {
   if (path.empty()) {
@@ -20,6 +33,10 @@ ExitCode infoCommand(std::filesystem::path path, const SceneOfTable& ofTable, co
   }
   const std::string bytes = readFile(path);
   if (!ofTable.path && !isRun(path)) {
+    if (looksLikeFamily(bytes)) {
+      printFamily(Family(bytes, path.string()));
+      return ExitCode::kDone;
+    }
     const Scene scene = parseScene(bytes, path.string());
     printPlan(std::cout, scene.name, scene.boxes.size(), settingsOf(scene), plan(scene));
     return ExitCode::kDone;

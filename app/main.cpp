@@ -65,7 +65,10 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   addDice(commandLine);
   addCompare(commandLine);
   addAudit(commandLine);
+  addExport(commandLine);
   addInfo(commandLine);
+  addSweep(commandLine);
+  addTruth(commandLine);
   addValidate(commandLine);
   addVerify(commandLine);
 #ifdef CAREEN_RENDER

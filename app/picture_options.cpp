@@ -1,34 +1,13 @@
 #include "picture_options.h"
 
-#include <charconv>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "command_line.h"
 #include "parsed.h"
+#include "picture_size.h"
 
 namespace careen {
-namespace {
-
-std::pair<int, int> parseSize(const std::string& text) {
-  int width = 0;
-  int height = 0;
-  const char* const end = text.data() + text.size();
-  const std::from_chars_result first = std::from_chars(text.data(), end, width);
-  if (first.ec == std::errc() && first.ptr != end && *first.ptr == 'x') {
-    const std::from_chars_result second = std::from_chars(first.ptr + 1, end, height);
-    if (second.ec == std::errc() && second.ptr == end && width > 0 && height > 0 && width <= kLargestFilm &&
-        height <= kLargestFilm) {
-      return {width, height};
-    }
-  }
-  throw InputError("--size: found '" + text + "', expected WIDTHxHEIGHT, each from 1 to " +
-                   std::to_string(kLargestFilm) + ", such as 1280x720");
-}
-
-}  // namespace
-
 void PictureOptions::addTo(const CommandLine& command) {
   command.add("--size", size, "WIDTHxHEIGHT in place of the scene's [px]");
   command.add("--fps", rate, "Frames per second in place of the scene's, such as 25 or 24000/1001");

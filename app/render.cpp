@@ -16,6 +16,7 @@
 #include "core/characters.h"
 #include "core/error.h"
 #include "core/system/file.h"
+#include "core/system/processor.h"
 #include "film/folder.h"
 #include "film/frame_range.h"
 #include "parsed.h"
@@ -26,6 +27,7 @@
 #include "report.h"
 #include "run.h"
 #include "still.h"
+#include "truth/truth_film.h"
 
 namespace careen {
 namespace {
@@ -48,6 +50,7 @@ struct FilmOptions {
   CompareOptions compare;
   SceneOfTable scene;
   std::optional<std::filesystem::path> ghost;
+  std::optional<std::string> truth;
   Overrides overrides;
   EstimateChoice estimate;
   AuditChoice audit;
@@ -98,6 +101,20 @@ FilmSettings settingsOf(const FilmOptions& options) {
   settings.program = "careen " CAREEN_VERSION;
   settings.resume = options.resume;
   return settings;
+}
+
+// Labels of the film's frames, beside them.
+std::optional<TruthSettings> truthOf(const FilmOptions& options, const FilmSettings& film) {
+  if (!options.truth) {
+    return std::nullopt;
+  }
+  TruthSettings truth;
+  truth.folder = film.folder;
+  truth.frames = film.frames;
+  truth.channels = parsed("--truth", *options.truth, channelsNamed);
+  truth.jobs = options.jobs.value_or(std::min(usableCores(), kMostJobs));
+  truth.program = film.program;
+  return truth;
 }
 
 // Checks that need the film's own rate.
@@ -213,6 +230,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
     reference = openReference(options);
   }
   FilmSettings settings = settingsOf(options);
+  const std::optional<TruthSettings> truth = truthOf(options, settings);
   if (reference) {
     refuseToOverwrite(*reference, settings.folder);
   }
@@ -244,6 +262,9 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
         }
       },
       stop);
+  if (truth) {
+    writeTruth(run.trajectory, *truth, {}, stop);
+  }
   estimate(run, options.estimate, stopwatch.seconds() - run.auditSeconds, stop);
   if (!reference) {
     writeReport(run, settings, figures, stopwatch.seconds());
@@ -270,6 +291,10 @@ void addRender(const CommandLine& commandLine) {
   command.add("--ghost", options->ghost,
               "Another run of these boxes (trajectory file or table of poses): drawn as outlines, with the "
               "distance");
+  const CommandOption truth =
+      command.add("--truth", options->truth,
+                  "Labels of every pixel of the frames too, as by 'careen truth': all, or names such as "
+                  "depth,instance,flow");
   options->picture.addTo(command);
   const CommandOption video = command.add(
       "--video", options->video, "Film to make of the frames, by ffmpeg: .mp4, .mkv, .webm, .webp or .gif");
@@ -284,12 +309,12 @@ void addRender(const CommandLine& commandLine) {
   const CommandOption still =
       command
           .add("--still", options->still, "One picture, of this moment of the film [s], in place of the film")
-          .excludes(frames, video, resume);
+          .excludes(frames, video, resume, truth);
   const CommandOption strobe =
       command
           .add("--strobe", options->strobe,
                "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
-          .excludes(frames, video, resume, still);
+          .excludes(frames, video, resume, truth, still);
   const CommandLine comparing =
       command.addGroup("Comparing", "With a film that was made before: exit code 1 if this one differs");
   const CommandOption reference =
@@ -297,7 +322,7 @@ void addRender(const CommandLine& commandLine) {
           .add("--ref", options->reference,
                "Folder of that film. Its frames are drawn, of its size, rate and look unless told "
                "otherwise; those that differ stay in --out")
-          .excludes(still, strobe, video, resume);
+          .excludes(still, strobe, video, resume, truth);
   const CommandLine how = comparing.addGroup("How", "What counts as different");
   options->compare.addTo(how);
   how.needs(reference);

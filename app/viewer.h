@@ -11,11 +11,11 @@
 #include "file_watch.h"
 #include "image/picture.h"
 #include "picture_options.h"
-#include "render/view/orbit.h"
 #include "render/window/player.h"
 #include "render/window/window.h"
 #include "run.h"
 #include "screening.h"
+#include "view/orbit.h"
 
 namespace careen {
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <charconv>
 #include <cstdint>
+#include <cstring>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -261,6 +262,38 @@ std::string textOf(const std::vector<std::size_t>& shape) {
   return text + ")";
 }
 
+// All before the elements.
+std::string beginningOf(const std::string& type, const std::vector<std::size_t>& shape) {
+  std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': " + textOf(shape) + ", }";
+  constexpr std::size_t kBefore = 10;  // magic word, version, length
+  header.append((kAlignment - (kBefore + header.size() + 1) % kAlignment) % kAlignment, ' ');
+  header += '\n';
+  std::string bytes(kMagic);
+  bytes += '\1';
+  bytes += '\0';
+  append(bytes, header.size(), 2);
+  return bytes + header;
+}
+
+template <class Number>
+std::string encodeSmall(const char* type, std::span<const Number> numbers,
+                        const std::vector<std::size_t>& shape) {
+  std::string bytes = beginningOf(type, shape);
+  const std::size_t begin = bytes.size();
+  bytes.resize(begin + numbers.size_bytes());
+  if constexpr (std::endian::native == std::endian::little || sizeof(Number) == 1) {
+    std::memcpy(bytes.data() + begin, numbers.data(), numbers.size_bytes());
+  } else {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const auto bits = std::bit_cast<std::uint32_t>(numbers[i]);
+      for (std::size_t k = 0; k < sizeof(Number); ++k) {
+        bytes[begin + sizeof(Number) * i + k] = static_cast<char>(bits >> (8 * k));
+      }
+    }
+  }
+  return bytes;
+}
+
 }  // namespace
 
 NumpyArray NumpyArray::of(std::vector<double> numbers, std::vector<std::size_t> shape) {
@@ -278,16 +311,8 @@ std::string encodeNumpy(const NumpyArray& array) {
     letters.push_back(lettersOf(text));
     longest = std::max(longest, letters.back().size());
   }
-  std::string header = "{'descr': '" + (array.isText ? "<U" + std::to_string(longest) : std::string("<f8")) +
-                       "', 'fortran_order': False, 'shape': " + textOf(array.shape) + ", }";
-  constexpr std::size_t kBefore = 10;  // magic word, version, length
-  header.append((kAlignment - (kBefore + header.size() + 1) % kAlignment) % kAlignment, ' ');
-  header += '\n';
-  std::string bytes(kMagic);
-  bytes += '\1';
-  bytes += '\0';
-  append(bytes, header.size(), 2);
-  bytes += header;
+  std::string bytes =
+      beginningOf(array.isText ? "<U" + std::to_string(longest) : std::string("<f8"), array.shape);
   bytes.reserve(bytes.size() + 8 * array.numbers.size() + kLetter * longest * letters.size());
   for (const double number : array.numbers) {
     append(bytes, std::bit_cast<std::uint64_t>(number), sizeof(double));
@@ -298,6 +323,16 @@ std::string encodeNumpy(const NumpyArray& array) {
     }
   }
   return bytes;
+}
+
+std::string encodeNumpy(std::span<const float> numbers, const std::vector<std::size_t>& shape) {
+  return encodeSmall("<f4", numbers, shape);
+}
+std::string encodeNumpy(std::span<const std::int32_t> numbers, const std::vector<std::size_t>& shape) {
+  return encodeSmall("<i4", numbers, shape);
+}
+std::string encodeNumpy(std::span<const std::uint8_t> numbers, const std::vector<std::size_t>& shape) {
+  return encodeSmall("|u1", numbers, shape);
 }
 
 NumpyArray decodeNumpy(std::string_view bytes, const std::string& name) {

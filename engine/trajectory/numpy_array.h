@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +24,11 @@ struct NumpyArray {
 
 /// The bytes of a .npy file, format 1.0 (NumPy Enhancement Proposal 1): '<f8', or '<U' for texts, C order.
 std::string encodeNumpy(const NumpyArray& array);
+
+/// Arrays of numbers of four and one bytes, '<f4', '<i4' and '|u1': for pictures, which are large.
+std::string encodeNumpy(std::span<const float> numbers, const std::vector<std::size_t>& shape);
+std::string encodeNumpy(std::span<const std::int32_t> numbers, const std::vector<std::size_t>& shape);
+std::string encodeNumpy(std::span<const std::uint8_t> numbers, const std::vector<std::size_t>& shape);
 
 /// Reads formats 1 to 3, floats of 4 and 8 bytes, integers, booleans, texts '<U', '>U' and '|S', of either
 /// byte order, in C or Fortran order. InputError, which `name` begins, for everything else.

@@ -144,6 +144,24 @@ TEST_F(Render, choosesFramesSizeAndRate) {
   EXPECT_EQ(png[23], 24);
 }
 
+TEST_F(Render, truthStandsBesideThePicturesAndIsThatOfItsOwnCommand) {
+  ASSERT_EQ(
+      careen({"render", "scene.json", "--frames", "2-3", "--out", "film", "--truth", "depth,flow"}).exitCode,
+      0);
+  ASSERT_EQ(careen({"truth", "scene.json", "--frames", "2-3", "--out", "truth", "--channels", "depth,flow"})
+                .exitCode,
+            0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "film/000003.png"));
+  for (const char* const file : {"000002.npz", "000003.npz", "truth.json"}) {
+    EXPECT_EQ(textOf(folder_ / "film" / file), textOf(folder_ / "truth" / file)) << file;
+    EXPECT_FALSE(textOf(folder_ / "film" / file).empty());
+  }
+  const Ended refused = careen({"render", "scene.json", "--out", "no", "--truth", "color"});
+  EXPECT_EQ(refused.exitCode, 2);
+  EXPECT_NE(refused.err.find("--truth: found 'color'"), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "no"));
+}
+
 TEST_F(Render, refusesWhatCannotBeFilmed) {
   for (const std::vector<std::string>& options :
        std::vector<std::vector<std::string>>{{"--size", "0x10"},

@@ -29,7 +29,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     addDice(commandLine);
     addCompare(commandLine);
     addAudit(commandLine);
+    addExport(commandLine);
     addInfo(commandLine);
+    addSweep(commandLine);
+    addTruth(commandLine);
     addValidate(commandLine);
     addVerify(commandLine);
     commandLine.parse(static_cast<int>(arguments.size()), arguments.data());

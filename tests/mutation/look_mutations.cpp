@@ -3,8 +3,8 @@
 
 #include "mutation/subject.h"
 #include "render/look/lighting.h"
-#include "render/look/materials.h"
 #include "support/article_equations.h"
+#include "view/materials.h"
 
 namespace careen {
 namespace {

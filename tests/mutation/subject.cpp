@@ -13,9 +13,9 @@
 #include "compare/pictures_to_compare.h"
 #include "physics/world/method.h"
 #include "render/stage.h"
-#include "render/view/camera.h"
 #include "support/article_equations.h"
 #include "support/process.h"
+#include "view/camera.h"
 
 namespace careen {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -109,6 +110,19 @@ TEST(NumpyArray, damagedFilesNeverDoHarm) {
     }
   }
   EXPECT_GT(refused, 100U);  // measured 205
+}
+
+TEST(NumpyArray, writesSmallNumbersThatItReadsBack) {
+  const std::vector<float> floats = {1.5F, -0.1F, 3e38F, -0.0F};
+  const std::vector<std::int32_t> integers = {1, -2, 2147483647, -2147483647};
+  const std::vector<std::uint8_t> bytes = {0, 1, 255, 128};
+  EXPECT_EQ(decodeNumpy(encodeNumpy(floats, {2, 2}), "test").numbers,
+            std::vector<double>(floats.begin(), floats.end()));
+  EXPECT_EQ(decodeNumpy(encodeNumpy(integers, {2, 2}), "test").numbers,
+            std::vector<double>(integers.begin(), integers.end()));
+  const NumpyArray read = decodeNumpy(encodeNumpy(bytes, {4, 1}), "test");
+  EXPECT_EQ(read.numbers, std::vector<double>(bytes.begin(), bytes.end()));
+  EXPECT_EQ(read.shape, (std::vector<std::size_t>{4, 1}));
 }
 
 }  // namespace

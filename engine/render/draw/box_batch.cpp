@@ -10,6 +10,7 @@
 #include "render/gl/gl.h"
 #include "render/gl/shader.h"
 #include "render/look/lighting.h"
+#include "view/materials.h"
 
 namespace careen {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "render/draw/box_batch.h"
-#include "render/look/surfaces.h"
+#include "view/surfaces.h"
 
 namespace careen {
 

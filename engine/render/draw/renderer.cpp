@@ -17,10 +17,10 @@
 #include "render/gl/canvas.h"
 #include "render/gl/gl.h"
 #include "render/gl/shader.h"
-#include "render/look/surfaces.h"
 #include "render/overlay/batch.h"
-#include "render/view/camera.h"
-#include "render/view/scene_extent.h"
+#include "view/camera.h"
+#include "view/scene_extent.h"
+#include "view/surfaces.h"
 
 namespace careen {
 namespace {

@@ -11,11 +11,11 @@
 #include "image/picture.h"
 #include "render/gl/rendering_backend.h"
 #include "render/look/lighting.h"
-#include "render/look/materials.h"
 #include "render/overlay/shapes.h"
-#include "render/view/camera.h"
 #include "stage/camera.h"
 #include "stage/run_setup.h"
+#include "view/camera.h"
+#include "view/materials.h"
 
 namespace careen {
 

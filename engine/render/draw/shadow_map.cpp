@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "render/gl/gl.h"
 #include "render/gl/shader.h"
-#include "render/view/camera.h"
+#include "view/camera.h"
 
 namespace careen {
 namespace {

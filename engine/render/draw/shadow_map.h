@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "core/math/linear_algebra.h"
-#include "render/view/scene_extent.h"
+#include "view/scene_extent.h"
 
 namespace careen {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/gl/vertex_array.h"
-#include "render/look/surfaces.h"
+#include "view/surfaces.h"
 
 namespace careen {
 

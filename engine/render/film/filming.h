@@ -6,11 +6,11 @@
 
 #include "core/math/pose.h"
 #include "image/picture.h"
-#include "render/view/camera_path.h"
-#include "render/view/orbit.h"
 #include "stage/camera.h"
 #include "stage/time_map.h"
 #include "trajectory/trajectory.h"
+#include "view/camera_path.h"
+#include "view/orbit.h"
 
 namespace careen {
 

@@ -1,24 +1,8 @@
 #include "render/look/lighting.h"
 
-#include <cmath>
-
-#include "render/view/camera.h"
+#include "view/camera.h"
 
 namespace careen {
-namespace {
-
-// IEC 61966-2-1.
-double linear(std::uint8_t channel) {
-  const double value = channel / 255.0;
-  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-}
-
-}  // namespace
-
-Vec3 linearFromSrgb(const Color& color) {
-  return {linear(color.red), linear(color.green), linear(color.blue)};
-}
-
 Lighting lightingOf(Look look, const Camera& camera) {
   const Mat3 worldFromCamera = lookAt(camera.eye, camera.target, camera.up);
   const Vec3 up = camera.up.normalized();

@@ -4,13 +4,9 @@
 
 #include "core/math/linear_algebra.h"
 #include "stage/camera.h"
-#include "stage/color.h"
 #include "stage/picture_settings.h"
 
 namespace careen {
-
-/// Linear RGB: 1 is a fully lit white surface.
-Vec3 linearFromSrgb(const Color& color);
 
 /// A directional light.
 struct Light {

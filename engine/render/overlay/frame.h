@@ -8,8 +8,8 @@
 #include "render/overlay/energy_shares.h"
 #include "render/overlay/shapes.h"
 #include "render/overlay/style.h"
-#include "render/view/screen.h"
 #include "trajectory/trajectory.h"
+#include "view/screen.h"
 
 namespace careen {
 

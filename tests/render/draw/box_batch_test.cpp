@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "render/stage.h"
+#include "view/materials.h"
 
 namespace careen {
 namespace {

@@ -19,6 +19,7 @@
 #include "render/stage.h"
 #include "support/article_equations.h"
 #include "support/process.h"
+#include "view/materials.h"
 
 namespace careen {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "render/draw/renderer.h"
 #include "render/stage.h"
+#include "view/materials.h"
 
 namespace careen {
 namespace {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render/stage.h"
+#include "view/materials.h"
 
 namespace careen {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "render/overlay/overlays.h"
 #include "render/stage.h"
-#include "render/view/scene_extent.h"
 #include "scene/plan.h"
+#include "view/scene_extent.h"
 
 namespace careen {
 namespace {

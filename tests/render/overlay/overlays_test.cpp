@@ -11,8 +11,8 @@
 
 #include "core/error.h"
 #include "render/stage.h"
-#include "render/view/scene_extent.h"
 #include "scene/plan.h"
+#include "view/scene_extent.h"
 
 namespace careen {
 namespace {

@@ -1,0 +1,248 @@
+#include "sweep/sweep.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <vector>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/system/file.h"
+#include "core/system/shared_work.h"
+#include "scene/plan.h"
+#include "sweep/outcome_rows.h"
+#include "trajectory/trajectory.h"
+#include "trajectory/trajectory_file.h"
+
+namespace careen {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Reads "A<separator>B".
+template <class Integer>
+bool readPair(const std::string& text, char separator, Integer& first, Integer& second) {
+  const char* const end = text.data() + text.size();
+  const std::from_chars_result one = std::from_chars(text.data(), end, first);
+  if (one.ec != std::errc() || one.ptr == end || *one.ptr != separator) {
+    return false;
+  }
+  const std::from_chars_result two = std::from_chars(one.ptr + 1, end, second);
+  return two.ec == std::errc() && two.ptr == end;
+}
+
+std::string padded(std::int64_t number) {
+  const std::string digits = std::to_string(number);
+  constexpr std::size_t kDigits = 7;
+  return std::string(kDigits - std::min(kDigits, digits.size()), '0') + digits;
+}
+
+/// The blocks of a sweep and their files.
+class Blocks {
+ public:
+  explicit Blocks(const SweepSettings& settings) : settings_(settings), range_(settings.runs) {}
+
+  std::int64_t count() const { return (runs() + kRunsOfBlock - 1) / kRunsOfBlock; }
+  std::int64_t runs() const { return range_.last - range_.first + 1; }
+  RunRange range(std::int64_t block) const {
+    const std::int64_t first = range_.first + block * kRunsOfBlock;
+    return {.first = first, .last = std::min(range_.last, first + kRunsOfBlock - 1)};
+  }
+  std::int64_t size(std::int64_t block) const { return range(block).last - range(block).first + 1; }
+  fs::path folder() const { return settings_.folder / "rows"; }
+  fs::path file(std::int64_t block) const {
+    return folder() / (padded(range(block).first) + "-" + padded(range(block).last) + ".csv");
+  }
+  bool isThere(std::int64_t block) const {
+    std::error_code none;
+    return fs::exists(file(block), none);
+  }
+  bool isOurs(std::int64_t block) const { return block % settings_.share.count == settings_.share.index; }
+
+ private:
+  const SweepSettings& settings_;
+  RunRange range_;
+};
+
+void makeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw MachineError(folder.string() + ": cannot be created: " + error.message());
+  }
+}
+
+std::string manifestOf(const std::string& familyText, const SweepSettings& settings) {
+  Hash hash;
+  hash.add(familyText);
+  const nlohmann::ordered_json manifest = {
+      {"program", settings.program},
+      {"family_hash", hash.text()},
+      {"runs", std::to_string(settings.runs.first) + "-" + std::to_string(settings.runs.last)},
+      {"audit", std::string(kAuditDepthNames.at(static_cast<std::size_t>(settings.audit)))}};
+  return manifest.dump(2) + "\n";
+}
+
+// What an earlier sweep left there is kept only if it is the same one.
+void openFolder(const std::string& manifest, const SweepSettings& settings, const Blocks& blocks) {
+  std::error_code none;
+  const fs::path file = settings.folder / "sweep.json";
+  const bool isThere = fs::exists(file, none);
+  if (settings.resume || settings.share.count > 1) {
+    if (isThere && readFile(file) != manifest) {
+      throw InputError(
+          settings.folder.string() +
+          ": holds another sweep (sweep.json: family, runs, audit or version differ), expected the same "
+          "one or another --out");
+    }
+  } else if (isThere) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(blocks.folder(), none)) {
+      if (entry.path().extension() == ".csv") {
+        fs::remove(entry.path(), none);
+      }
+    }
+    fs::remove(settings.folder / "table.csv", none);
+    fs::remove(settings.folder / "table.npz", none);
+  } else if (fs::exists(settings.folder, none) && !fs::is_empty(settings.folder, none)) {
+    throw InputError(settings.folder.string() +
+                     ": holds other files, expected an empty folder or that of a sweep");
+  }
+  makeFolder(blocks.folder());
+  if (settings.keepRuns) {
+    makeFolder(settings.folder / "runs");
+  }
+  writeFile(file, manifest);
+}
+
+std::string simulateBlock(const Family& family, const RunRange& range, const SweepSettings& settings,
+                          const std::stop_token& stop) {
+  std::string rows;
+  for (std::int64_t k = range.first; k <= range.last; ++k) {
+    const auto run = static_cast<std::uint64_t>(k);
+    const Family::Member member = family.member(run);
+    try {
+      const Trajectory trajectory = record(setupOf(member.scene), stop);
+      rows += outcomeRows(run, member, trajectory, audit(trajectory, settings.audit, stop));
+      if (settings.keepRuns) {
+        writeFile(settings.folder / "runs" / (padded(k) + ".careen"), encodeTrajectory(trajectory));
+      }
+    } catch (const Error& error) {
+      throw Error(error.code(), family.name() + " (run " + std::to_string(k) + "): " + error.what());
+    }
+  }
+  return rows;
+}
+
+SweepFigures join(const Family& family, const SweepSettings& settings, const Blocks& blocks,
+                  SweepFigures figures) {
+  std::string rows;
+  for (std::int64_t block = 0; block < blocks.count(); ++block) {
+    rows += readFile(blocks.file(block));
+  }
+  const OutcomeTable table(family, rows, blocks.folder().string());
+  figures.rows = std::ssize(table.boxes);
+  const std::vector<double>& broken = table.numbers.back();
+  figures.broken = std::count_if(broken.begin(), broken.end(), [](double count) { return count > 0; });
+  AtomicFile csv(settings.folder / "table.csv");
+  AtomicFile npz(settings.folder / "table.npz");
+  csv.write(outcomeHeader(family));
+  csv.write(rows);
+  npz.write(table.archive());
+  npz.commit();
+  csv.commit();
+  std::error_code none;
+  for (std::int64_t block = 0; block < blocks.count(); ++block) {
+    fs::remove(blocks.file(block), none);
+  }
+  fs::remove(blocks.folder(), none);
+  return figures;
+}
+
+}  // namespace
+
+RunRange parseRuns(const std::string& text) {
+  RunRange range;
+  const char* const end = text.data() + text.size();
+  const std::from_chars_result one = std::from_chars(text.data(), end, range.first);
+  const bool isSingle = one.ec == std::errc() && one.ptr == end;
+  if (isSingle) {
+    range.last = range.first;
+  }
+  if (!(isSingle || readPair(text, '-', range.first, range.last)) || range.first < 0 ||
+      range.last < range.first || range.last > kMostRuns * 1000 || range.last - range.first >= kMostRuns) {
+    throw InputError("found '" + text + "', expected numbers of runs such as 0-9999, at most " +
+                     std::to_string(kMostRuns) + " of them");
+  }
+  return range;
+}
+
+Share parseShare(const std::string& text) {
+  Share share;
+  if (!readPair(text, '/', share.index, share.count) || share.count < 1 || share.count > 1'000'000 ||
+      share.index < 0 || share.index >= share.count) {
+    throw InputError("found '" + text + "', expected a part and how many there are, such as 0/10 … 9/10");
+  }
+  return share;
+}
+
+SweepFigures runSweep(const Family& family, const std::string& familyText, const SweepSettings& settings,
+                      const std::function<void(const SweepProgress&)>& progress,
+                      const std::stop_token& stop) {
+  const Blocks blocks(settings);
+  const std::string manifest = manifestOf(familyText, settings);
+  std::error_code none;
+  const fs::path table = settings.folder / "table.csv";
+  SweepFigures figures;
+  const bool keeps = settings.resume || settings.share.count > 1;
+  if (keeps && fs::exists(table, none) && fs::exists(settings.folder / "sweep.json", none) &&
+      readFile(settings.folder / "sweep.json") == manifest) {
+    figures.skipped = blocks.runs();
+    return figures;
+  }
+  openFolder(manifest, settings, blocks);
+  std::vector<std::int64_t> missing;
+  SweepProgress now;
+  for (std::int64_t block = 0; block < blocks.count(); ++block) {
+    if (!blocks.isOurs(block)) {
+      continue;
+    }
+    now.total += blocks.size(block);
+    if (blocks.isThere(block)) {
+      now.done += blocks.size(block);
+    } else {
+      missing.push_back(block);
+    }
+  }
+  figures.skipped = now.done;
+  const auto begun = std::chrono::steady_clock::now();
+  shareWork(
+      std::ssize(missing), settings.jobs,
+      [&](std::int64_t index) {
+        const std::int64_t block = missing[static_cast<std::size_t>(index)];
+        writeFile(blocks.file(block), simulateBlock(family, blocks.range(block), settings, stop));
+      },
+      [&](std::int64_t index) {
+        const std::int64_t size = blocks.size(missing[static_cast<std::size_t>(index)]);
+        figures.simulated += size;
+        now.done += size;
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+        now.secondsLeft =
+            seconds / static_cast<double>(figures.simulated) * static_cast<double>(now.total - now.done);
+        if (progress) {
+          progress(now);
+        }
+      },
+      stop);
+  for (std::int64_t block = 0; block < blocks.count(); ++block) {
+    figures.missing += blocks.isThere(block) ? 0 : blocks.size(block);
+  }
+  // Of several shares that end at once, none may take the others' files away.
+  return figures.missing == 0 && settings.share.count == 1 ? join(family, settings, blocks, figures)
+                                                           : figures;
+}
+
+}  // namespace careen

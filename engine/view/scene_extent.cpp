@@ -1,0 +1,63 @@
+#include "view/scene_extent.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace careen {
+namespace {
+
+constexpr int kSamples = 60;
+
+void include(Extent& extent, const Vec3& point, double radius) {
+  extent.min = extent.min.cwiseMin(point - Vec3::Constant(radius));
+  extent.max = extent.max.cwiseMax(point + Vec3::Constant(radius));
+}
+
+bool isBehindAWall(const Stage& stage, const Vec3& point) {
+  return std::any_of(stage.planes.begin(), stage.planes.end(),
+                     [&](const Plane& wall) { return wall.normal.dot(point) < wall.offset; });
+}
+
+void includeFlight(Extent& extent, const RunSetup& setup, const Body& box) {
+  const double radius = box.halfExtents.norm();
+  for (int sample = 0; sample <= kSamples; ++sample) {
+    const double time = setup.settings.duration * sample / kSamples;
+    const Vec3 point =
+        box.initial.pose.position + time * box.initial.velocity + 0.5 * time * time * setup.world.gravity;
+    if (sample > 0 && (isImmovable(box.mass) || isBehindAWall(setup.stage, point))) {
+      return;
+    }
+    include(extent, point, radius);
+  }
+}
+
+}  // namespace
+
+Vec3 Extent::corner(int index) const {
+  return {(index & 4) == 0 ? max.x() : min.x(), (index & 2) == 0 ? max.y() : min.y(),
+          (index & 1) == 0 ? max.z() : min.z()};
+}
+
+Extent extentOf(const RunSetup& setup) {
+  if (const std::optional<RoomShape>& room = setup.stage.room) {
+    return {.min = room->min, .max = room->max};
+  }
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Extent extent{.min = Vec3::Constant(kInfinity), .max = Vec3::Constant(-kInfinity)};
+  for (const Body& box : setup.world.bodies) {
+    includeFlight(extent, setup, box);
+  }
+  for (const Spring& spring : setup.world.springs) {
+    for (const SpringEnd& end : {spring.from, spring.to}) {
+      if (!end.body) {
+        include(extent, end.point, 0);
+      }
+    }
+  }
+  if (!(extent.radius() > 0 && extent.radius() < kInfinity)) {  // empty or unbounded: use a default
+    return {.min = Vec3::Constant(-1), .max = Vec3::Constant(1)};
+  }
+  return extent;
+}
+
+}  // namespace careen

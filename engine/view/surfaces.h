@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "core/math/linear_algebra.h"
+#include "stage/stage.h"
+#include "view/materials.h"
+#include "view/scene_extent.h"
+
+namespace careen {
+
+/// Pattern on a flat surface.
+enum class Covering { kPlain, kSkirted, kTiles };
+
+/// A flat convex piece of floor or wall, seen from the side its normal points to.
+struct Surface {
+  std::vector<Vec3> outline;  ///< [m] world; counterclockwise seen from that side
+  Vec3 normal = Vec3::UnitZ();
+  Vec3 origin = Vec3::Zero();     ///< [m] the point of the surface where both coordinates are 0
+  Vec3 across = Vec3::UnitX();    ///< direction of the first coordinate; horizontal on a wall
+  Vec3 along = Vec3::UnitY();     ///< direction of the second; upward on a wall
+  Vec3 size = Vec3::Zero();       ///< [m] of a room's side: extent of both coordinates; 0 if not a rectangle
+  std::array<bool, 4> adjoins{};  ///< whether another surface adjoins at the start and end of the first
+                                  ///< coordinate, and of the second
+  Covering covering = Covering::kPlain;
+  Vec3 color = Vec3::Ones();  ///< linear
+};
+
+/// Side length of tiles that suits this extent: 1, 2 or 5 times a power of ten [m].
+double tileSize(const Extent& extent);
+
+/// Floor and walls: the room's closed sides, and the part of every other wall within the extent.
+std::vector<Surface> surfacesOf(const Stage& stage, const Extent& extent, const Materials& materials = {});
+
+}  // namespace careen

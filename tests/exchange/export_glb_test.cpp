@@ -1,0 +1,84 @@
+#include "exchange/export_glb.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "scene/plan.h"
+#include "scene/scene_reader.h"
+#include "support/glb.h"
+
+namespace careen {
+namespace {
+
+// Every kind of thing that a film shows, and names that readers could take for each other.
+const char* const kAll = R"({ "careen": 1, "name": "all", "duration": 1, "gravity": [0, 0, -9.81],
+  "room": { "min": [-2, -2, 0], "max": [2, 2, 3], "open": ["-y", "+z"], "restitution": 0.9 },
+  "boxes": [
+    { "name": "a.b", "half_extents": [0.4, 0.2, 0.1], "mass": 2, "position": [0, 0, 1], "color": "#ff0000",
+      "velocity": [1, 0, 0], "angular_velocity": [1, 5, 0] },
+    { "name": "ab", "half_extents": [0.1, 0.1, 0.1], "fixed": true, "position": [1.5, 1, 0.5], "color": "#ff0000" } ],
+  "springs": [ { "from": ["a.b", [0.4, 0.2, 0.1]], "to": [0, 0, 3], "stiffness": 3 } ],
+  "film": { "time": [[0, 0], [1, 0.5], [2, 0.5], [2.5, 1]] } })";
+
+Trajectory runOf(const std::string& text) { return record(setupOf(parseScene(text, "test"))); }
+
+TEST(ExportGlb, hasBoxesWallsSpringsAndACamera) {
+  const GlbFile file = encodeGlb(runOf(kAll), {.program = "the test"});
+  const Glb glb(file.bytes);
+  const nlohmann::json& nodes = glb.json.at("nodes");
+  ASSERT_EQ(nodes.size(), 1 + 2 + 4 + 1 + 1U);
+  EXPECT_EQ(nodes.at(1).at("name"), "a.b");
+  EXPECT_EQ(nodes.at(2).at("name"), "ab-2") << "three.js takes a.b for ab";
+  EXPECT_EQ(nodes.at(2).at("extras").at("name"), "ab");
+  EXPECT_EQ(nodes.at(1).at("mesh"), nodes.at(2).at("mesh")) << "of one colour";
+  EXPECT_FLOAT_EQ(nodes.at(1).at("scale").at(1).get<float>(), 0.2F);
+  EXPECT_EQ(nodes.at(7).at("name"), "spring 0");
+  const nlohmann::json& line = glb.json.at("meshes").at(nodes.at(7).at("mesh").get<std::size_t>());
+  EXPECT_EQ(line.at("primitives").at(0).at("mode"), 1);
+  const nlohmann::json& camera = glb.json.at("cameras").at(0).at("perspective");
+  EXPECT_NEAR(camera.at("yfov").get<double>(), 40 * M_PI / 180, 1e-12);
+  EXPECT_NEAR(camera.at("aspectRatio").get<double>(), 16. / 9, 1e-12);
+  EXPECT_GT(camera.at("znear").get<double>(), 0);
+  EXPECT_NEAR(camera.at("zfar").get<double>() / camera.at("znear").get<double>(), 50 / 0.004,
+              1e-6 * 50 / 0.004);
+  const nlohmann::json& paint =
+      glb.json.at("materials").at(0).at("pbrMetallicRoughness").at("baseColorFactor");
+  EXPECT_EQ(paint, nlohmann::json({1, 0, 0, 1}));
+  EXPECT_EQ(glb.json.at("asset").at("generator"), "the test");
+  const nlohmann::json& extras = glb.json.at("asset").at("extras");
+  EXPECT_EQ(extras.at("within"), 1e-4);
+  EXPECT_EQ(extras.at("position_error_m"), file.positionError);
+  EXPECT_GT(file.positionError, 0.7e-4);
+  EXPECT_LE(file.positionError, 1e-4);
+  EXPECT_LE(file.attitudeError, 1e-4);
+}
+
+TEST(ExportGlb, animatesOnlyWhatMovesInTimeOfTheFilm) {
+  const Glb glb(encodeGlb(runOf(kAll)).bytes);
+  const nlohmann::json& animation = glb.json.at("animations").at(0);
+  ASSERT_EQ(animation.at("channels").size(), 2 + 3U);  // box: place, attitude; spring: and length
+  for (const nlohmann::json& channel : animation.at("channels")) {
+    EXPECT_NE(channel.at("target").at("node"), 2) << "the fixed box";
+    const nlohmann::json& sampler = animation.at("samplers").at(channel.at("sampler").get<std::size_t>());
+    EXPECT_EQ(sampler.at("interpolation"), "LINEAR");
+    const std::vector<float> times = glb.floats(sampler.at("input"));
+    EXPECT_EQ(times.front(), 0);
+    EXPECT_EQ(times.back(), 2.5F) << "the film is 2.5 s long, the run 1 s";
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      ASSERT_LT(times[i - 1], times[i]);
+      EXPECT_FALSE(times[i] > 1.00001F && times[i] < 1.99999F) << "a key while all stands still";
+    }
+  }
+}
+
+TEST(ExportGlb, refusesABoundThatSinglePrecisionCannotHold) {
+  const Trajectory run = runOf(kAll);
+  EXPECT_THROW(encodeGlb(run, {.within = 1e-8}), InputError);
+  EXPECT_THROW(encodeGlb(run, {.within = std::nan("")}), InputError);
+  EXPECT_GT(encodeGlb(run, {.within = 1e-6}).keys, 5 * encodeGlb(run, {.within = 1e-4}).keys);
+}
+
+}  // namespace
+}  // namespace careen

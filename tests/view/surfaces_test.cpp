@@ -1,0 +1,109 @@
+#include "view/surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/stages.h"
+
+namespace careen {
+namespace {
+
+double areaAlong(const Surface& surface, const Vec3& normal) {
+  Vec3 twice = Vec3::Zero();
+  for (std::size_t i = 0; i < surface.outline.size(); ++i) {
+    twice += surface.outline[i].cross(surface.outline[(i + 1) % surface.outline.size()]);
+  }
+  return 0.5 * twice.dot(normal);
+}
+
+TEST(Surfaces, roomHasItsClosedSidesOnly) {
+  const Scene scene = crateInRoom();
+  const std::vector<Surface> surfaces = surfacesOf(stageOf(scene), extentOf(setupOf(scene)));
+  ASSERT_EQ(surfaces.size(), 4U);
+  for (const Surface& surface : surfaces) {
+    EXPECT_NE(surface.normal, Vec3(0, 1, 0));   // -y is open
+    EXPECT_NE(surface.normal, Vec3(0, 0, -1));  // +z is open
+  }
+}
+
+// Anticlockwise from inside: the area along the normal is the side's own, and positive.
+TEST(Surfaces, sidesFaceInwardWithTheirWholeArea) {
+  Scene scene = crateInRoom();
+  scene.room->open = {};
+  for (const Surface& surface : surfacesOf(stageOf(scene), extentOf(setupOf(scene)))) {
+    const Vec3 inward = extentOf(setupOf(scene)).centre() - surface.origin;
+    EXPECT_GT(inward.dot(surface.normal), 0);
+    const Vec3 size = Vec3(6, 4, 3);
+    const double area = 72 / std::abs(surface.normal.dot(size));
+    EXPECT_NEAR(areaAlong(surface, surface.normal), area, 1e-12);
+    EXPECT_NEAR(surface.size.x() * surface.size.y(), area, 1e-12);
+    for (const Vec3& corner : surface.outline) {
+      EXPECT_NEAR((corner - surface.origin).dot(surface.normal), 0, 1e-15);
+      EXPECT_GE((corner - surface.origin).dot(surface.across), 0);
+      EXPECT_GE((corner - surface.origin).dot(surface.along), 0);
+    }
+  }
+}
+
+TEST(Surfaces, wallsStandUprightOnTheFloor) {
+  const Scene scene = crateInRoom();
+  for (const Surface& surface : surfacesOf(stageOf(scene), extentOf(setupOf(scene)))) {
+    if (surface.covering == Covering::kSkirted) {
+      EXPECT_EQ(surface.along, Vec3::UnitZ());
+      EXPECT_EQ(surface.origin.z(), 0);
+      EXPECT_TRUE(surface.adjoins[2]);   // the floor
+      EXPECT_FALSE(surface.adjoins[3]);  // open above
+    }
+  }
+}
+
+// The plane x + z = 1 cuts a cube of side 2 about the origin in a rectangle, from (0,·,1) to (1,·,0): 2√2 m².
+TEST(Surfaces, furtherWallIsCutToTheRoom) {
+  Scene scene;
+  scene.room.emplace();
+  scene.room->min = Vec3::Constant(-1);
+  scene.room->max = Vec3::Constant(1);
+  scene.room->open.fill(true);
+  const double half = std::sqrt(0.5);
+  scene.walls.push_back(wallAt(Vec3(-half, 0, -half), -half));
+  const std::vector<Surface> surfaces = surfacesOf(stageOf(scene), extentOf(setupOf(scene)));
+  ASSERT_EQ(surfaces.size(), 1U);
+  EXPECT_NEAR(areaAlong(surfaces[0], surfaces[0].normal), 2 * std::sqrt(2.0), 1e-12);
+  for (const Vec3& corner : surfaces[0].outline) {
+    EXPECT_NEAR(corner.x() + corner.z(), 1, 1e-12);
+    EXPECT_LE(corner.cwiseAbs().maxCoeff(), 1 + 1e-12);
+  }
+}
+
+TEST(Surfaces, wallOutsideTheRoomIsNotThere) {
+  Scene scene = crateInRoom();
+  scene.room->open.fill(true);
+  scene.walls.push_back(wallAt(Vec3::UnitZ(), -100));
+  EXPECT_TRUE(surfacesOf(stageOf(scene), extentOf(setupOf(scene))).empty());
+}
+
+TEST(Surfaces, floorWithoutRoomReachesBeyondTheScene) {
+  Scene scene;
+  scene.boxes.push_back(boxAt(Vec3(0, 0, 1), Vec3(0.5, 0.5, 0.5)));
+  scene.walls.push_back(wallAt(Vec3::UnitZ(), 0));
+  const Extent extent = extentOf(setupOf(scene));
+  const std::vector<Surface> surfaces = surfacesOf(stageOf(scene), extent);
+  ASSERT_EQ(surfaces.size(), 1U);
+  double reach = 0;
+  for (const Vec3& corner : surfaces[0].outline) {
+    EXPECT_NEAR(corner.z(), 0, 1e-12);
+    reach = std::max(reach, corner.x());
+  }
+  EXPECT_GT(reach, extent.max.x());
+}
+
+TEST(Surfaces, tilesSuitTheScene) {
+  EXPECT_DOUBLE_EQ(tileSize(extentOf(setupOf(crateInRoom()))), 0.5);
+  EXPECT_DOUBLE_EQ(tileSize({.min = Vec3::Zero(), .max = Vec3(600, 400, 300)}), 50);
+  EXPECT_DOUBLE_EQ(tileSize({.min = Vec3::Zero(), .max = Vec3(0.2, 0.2, 0.2)}), 0.02);
+}
+
+}  // namespace
+}  // namespace careen
