@@ -41,6 +41,8 @@ constexpr double kStiff = 0x1p-4;
 constexpr double kTension = 0x1p-20;
 /// [1] of the error allowed per step: a step that ends at an event may have a little more.
 constexpr double kMostLocated = 4;
+/// A trial step too long for its forces diverges; squares of larger numbers would overflow.
+constexpr double kDiverged = 0x1p200;
 constexpr int kMostAttempts = 60;
 constexpr int kMostHalvings = 20;
 
@@ -192,7 +194,14 @@ double Island::longestStep() {
 
 bool Island::try5(double h) {
   bool found = true;
-  const auto rate = [&](const State& y, State& dy) { found = system_.rate(y, dy) && found; };
+  const auto rate = [&](const State& y, State& dy) {
+    if (std::any_of(y.begin(), y.end(), [](double each) { return !(std::fabs(each) < kDiverged); })) {
+      dy.assign(y.size(), 0.0);
+      found = false;
+      return;
+    }
+    found = system_.rate(y, dy) && found;
+  };
   integrator_.step(start_, startRate_, h, rate, end_);
   rate(end_, endRate_);
   integrator_.error(h, endRate_, error_);

@@ -14,8 +14,6 @@ namespace careen {
 namespace {
 
 constexpr double kUsualTolerance = 1e-6;  // [m]
-/// [s] of bodies in contact.
-constexpr double kLongestStep = 1;
 
 std::vector<double> radiiOf(const World& world) {
   std::vector<double> radii;
@@ -26,6 +24,18 @@ std::vector<double> radiiOf(const World& world) {
   return radii;
 }
 
+// [s] Of bodies in contact: some times that in which they fall, or move, their own size; a second where
+// nothing tells a time.
+double longestStepOf(const World& world) {
+  constexpr double kSizes = 64;
+  double largest = 0;
+  for (const Body& body : world.bodies) {
+    largest = std::max(largest, isImmovable(body.mass) ? 0 : body.halfExtents.norm());
+  }
+  const double longest = largest > 0 ? timeScaleOf(world, kSizes * largest) : 1;
+  return std::isfinite(longest) ? longest : 1;
+}
+
 }  // namespace
 
 ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder)
@@ -34,6 +44,7 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
       tolerance_(settings.tolerance),
       crowds_(settings.crowds),
       timeScale_(timeScaleOf(world, settings.tolerance)),
+      longestStep_(longestStepOf(world)),
       recorder_(recorder),
       neighbors_(radiiOf(world)),
       queue_(world.bodies.size()),
@@ -218,7 +229,7 @@ void ExactWorld::rest(int rank, const Instant& time, const Pose& pose) {
 // Takes the next step of an island. Returns false if its bodies go on as a crowd instead.
 bool ExactWorld::step(ContactGroup& contactGroup, const Instant& time) {
   Island& island = *contactGroup.island;
-  double most = kLongestStep;  // not the end of the run, so that the motion does not depend on it
+  double most = longestStep_;  // not the end of the run, so that the motion does not depend on it
   double movable = 0;
   for (const TouchingBody& body : island.bodies()) {
     most = std::min(most, withinCell(body.velocity.norm()));
@@ -293,15 +304,15 @@ void ExactWorld::advance(const std::shared_ptr<ContactGroup>& contactGroup, cons
 // [s] Time in which a body of this speed does not leave the margin of its cell.
 double ExactWorld::withinCell(double speed) const {
   if (!(neighbors_.cellEdge() > 0)) {
-    return kLongestStep;
+    return longestStep_;
   }
   const double margin = neighbors_.cellEdge() / 32;
   const double acceleration = 8 * world_.gravity.norm();
   // speed t + acceleration t²/2 ≤ margin
   return speed + acceleration > 0
-             ? std::min(kLongestStep,
+             ? std::min(longestStep_,
                         2 * margin / (speed + std::sqrt(speed * speed + 2 * acceleration * margin)))
-             : kLongestStep;
+             : longestStep_;
 }
 
 void ExactWorld::begins(int rank, const Instant& time) {

@@ -169,7 +169,8 @@ class ExactWorld {
   double workShare_ = 0;  // [1] of the work per body above that each may spend
   double tolerance_;      // [m]
   CrowdSettings crowds_;
-  double timeScale_;  // [s] see timeScaleOf
+  double timeScale_;    // [s] see timeScaleOf
+  double longestStep_;  // [s] of an island
   Recorder& recorder_;
   std::vector<Mover> movers_;
   Neighbors neighbors_;
