@@ -1,24 +1,8 @@
 #include "physics/motion/merged_steps.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace careen {
-namespace {
-
-// [1] of the bound, as a power of two: the grid to which coefficients are rounded.
-constexpr int kGrid = -24;
-
-template <class Vectors>
-void roundTo(double grid, Vectors& coefficients) {
-  for (auto& coefficient : coefficients) {
-    for (double& x : coefficient) {
-      x = std::nearbyint(x / grid) * grid;
-    }
-  }
-}
-
-}  // namespace
 
 // The quaternions of one path keep their sign: those of the cubic are compared as they are.
 bool MergedSteps::follows(const ContactStep& step, double radius) const {
@@ -33,7 +17,9 @@ bool MergedSteps::follows(const ContactStep& step, double radius) const {
 
 void MergedSteps::add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,
                       double length, double radius) {
-  if (length_ > 0 && count_ < kMost && from.position == to_.position) {
+  const bool continues = length_ > 0 && count_ < kMost && from.velocity == to_.velocity &&
+                         from.spinBody == to_.spinBody && from.position == to_.position;
+  if (continues) {
     samples_[count_++] = {
         .elapsed = length_, .position = from.position, .worldFromBody = from.worldFromBody.coeffs()};
     if (follows(asContactStep(cubicStep(from_, to, length_ + length)), radius)) {
@@ -52,13 +38,7 @@ void MergedSteps::add(Recorder& recorder, BodyIndex body, double time, const Ste
 
 void MergedSteps::flush(Recorder& recorder, BodyIndex body) {
   if (length_ > 0) {
-    CrowdStep step = cubicStep(from_, to_, length_);
-    if (within_ > 0) {
-      const double grid = std::ldexp(1.0, std::ilogb(within_) + kGrid);  // a power of two
-      roundTo(grid, step.position);
-      roundTo(grid, step.worldFromBody);
-    }
-    recorder.moves(body, time_, step);
+    recorder.moves(body, time_, cubicStep(from_, to_, length_));
   }
   length_ = 0;
   count_ = 0;

@@ -17,13 +17,12 @@ constexpr double kProjected = 3;        // longest steps between two projections
 constexpr int kSweeps = 20;
 constexpr std::int64_t kMostSweeps = 400;
 constexpr std::int64_t kFewManifolds = 256;
-constexpr double kTell = 0x1p-12;  // [1] of the smallest size, change per step that re-solves neighbours
+constexpr double kTell = 0x1p-14;  // [1] of the smallest size, change per step that re-solves neighbours
 constexpr double kTellLeast = 0x1p-36;
 constexpr std::int64_t kEasy = 4;
 constexpr std::int64_t kHard = 8;
 constexpr int kMostHalvings = 6;
-constexpr double kTooDeep = 3;     // [1] of the tolerance: new penetration for which a step is halved
-constexpr double kMostBent = 1;    // [1] of the tolerance: how far corners may leave their tangents in a step
+constexpr double kDeep = 1.5;      // [1] of the tolerance: penetration for which a step is halved
 constexpr double kMostScaled = 4;  // [1] of stored impulses, to a longer step
 constexpr double kKink = 0.25;     // [1] of the tolerance: what smoothing a change of velocity may bend
 
@@ -71,8 +70,6 @@ std::size_t Crowd::place(const PileBody& body, std::size_t listed) {
     before_.emplace_back();
     untouchedSteps_.emplace_back();
     unrest_.emplace_back();
-    quietChecks_.emplace_back();
-    woken_.emplace_back();
     pairs_.addPlace();
   }
   const std::size_t index = at(free_.back());
@@ -80,7 +77,6 @@ std::size_t Crowd::place(const PileBody& body, std::size_t listed) {
   bodies_[index] = body;
   listed_[index] = listed;
   untouchedSteps_[index] = 0;
-  quietChecks_[index] = 0;
   unrest_[index] = std::numeric_limits<double>::max();
   limitBySprings(listed);
   return index;
@@ -122,15 +118,29 @@ double Crowd::step(double most) {
   }
   start_ = bodies_;
   take(chooseLength(most));
-  double depth = newDepth();
-  for (int halving = 0; halving < kMostHalvings && depth > kTooDeep * tolerance_; ++halving) {
+  for (int halving = 0; halving < kMostHalvings && wentDeep(); ++halving) {
     stepAgain(0.5 * h_);
-    depth = newDepth();
-  }
-  if (depth > 0) {
-    project();
   }
   return h_;
+}
+
+// Whether fast bodies went into each other in this step, by all 15 axes: the features of the manifolds of its
+// start were not all that met.
+bool Crowd::wentDeep() const {
+  return std::any_of(near_.begin(), near_.end(), [&](int slot) {
+    const PileManifold& manifold = manifolds_[at(slot)];
+    const PileBody& a = bodies_[at(manifold.a)];
+    if (manifold.b.isWall()) {
+      return false;
+    }
+    const PileBody& b = bodyAt(manifold.b);
+    if (relativeMotion(a, b, h_) < tolerance_) {
+      return false;
+    }
+    const double depth = overlapOf(a, b);
+    return depth > kDeep * tolerance_ &&
+           depth > overlapOf(start_[at(manifold.a)], start_[at(manifold.b.body())]) + 0.5 * tolerance_;
+  });
 }
 
 void Crowd::stepAgain(double length) {
@@ -174,26 +184,19 @@ void Crowd::sortManifolds() {
   near_.clear();
 }
 
-// [s] What the fastest body requires, relative to its size, and the one that turns fastest: its corners leave
-// their tangents by r ω² h²/2.
+// [s] What the fastest body requires, relative to its size.
 double Crowd::chooseLength(double most) const {
   const double longest = longestStep();
   double fastest = 0;
-  double bending = 0;  // [m/s²]
   for (const PileBody& body : bodies_) {
     if (!body.still()) {
       fastest = std::max(fastest, (body.velocity.norm() + longest * gravityMagnitude_) / body.length);
-      bending = std::max(bending, body.radius * body.omega.squaredNorm());
     }
   }
   double h = longest;
   if (fastest > 0) {
-    h = std::min(h, kMostMoved * scale_ / fastest);
+    h = std::clamp(kMostMoved * scale_ / fastest, kShortestStep * scale_, longest);
   }
-  if (bending > 0) {
-    h = std::min(h, std::sqrt(2 * kMostBent * tolerance_ / bending));
-  }
-  h = std::max(h, kShortestStep * scale_);
   return std::min({h, springLimit_, most});
 }
 
@@ -232,14 +235,12 @@ void Crowd::take(double length) {
   impulseScale_ = std::min(length / h_, kMostScaled);
   h_ = length;
   findLoads();
-  wakeDisturbed();
   lookAround();
   loadSolver();
   solver_.link();
   solver_.wakeAll();
   solve(kSweeps);
   keepImpulses();
-  findDisturbed();
   move();
   bounce();
   noteImpacts();
