@@ -1,12 +1,14 @@
 #include "command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
 #include <utility>
 
 #include "core/characters.h"
+#include "nearest.h"
 
 namespace careen {
 namespace {
@@ -107,21 +109,45 @@ void CommandLine::needs(CommandOption option) const { app_->needs(option.option_
 
 void CommandLine::footer(const std::string& text) const { app_->footer(text); }
 
+std::vector<std::string> CommandLine::commands() const {
+  std::vector<std::string> names;
+  for (const CLI::App* const command : app_->get_subcommands(nullptr)) {
+    if (!command->get_name().empty()) {  // a group of options has none
+      names.push_back(command->get_name());
+    }
+  }
+  return names;
+}
+
+std::string CommandLine::helpOf(const std::string& command) const {
+  return app_->get_subcommand(command)->help("careen " + command);
+}
+
 void CommandLine::runs(Command command) const {
   app_->callback([chosen = chosen_, command = std::move(command)] { *chosen = command; });
 }
 
 CommandLine::Parsed CommandLine::parse(int argc, const char* const* argv) const {
+  if (argc < 2) {
+    std::cout << app_->help();
+    return {.command = nullptr, .exitCode = ExitCode::kDone};
+  }
+  const std::string first = argv[1];
+  const std::vector<std::string> names = commands();
+  if (!first.starts_with('-') && std::find(names.begin(), names.end(), first) == names.end()) {
+    std::error_code none;
+    std::cerr << printableLines(
+        "careen: found '" + first + "', expected a command" + didYouMean(first, names) +
+        (std::filesystem::is_regular_file(first, none) ? "; to film it: careen render " + first
+                                                       : "; 'careen --help' lists them"));
+    return {.command = nullptr, .exitCode = ExitCode::kBadInput};
+  }
   try {
     app_->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     std::ostringstream wrong;
     const int code = app_->exit(error, std::cout, wrong);
-    if (code != 0 && argc < 2) {
-      std::cerr << app_->help();
-    } else {
-      std::cerr << printableLines(wrong.str());
-    }
+    std::cerr << printableLines(wrong.str());
     return {.command = nullptr, .exitCode = code == 0 ? ExitCode::kDone : ExitCode::kBadInput};
   }
   return {.command = *chosen_};

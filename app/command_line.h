@@ -67,6 +67,10 @@ class CommandLine {
   /// A group may only be used together with that option.
   void needs(CommandOption option) const;
   void footer(const std::string& text) const;
+  /// Names of the commands that were added, in that order.
+  std::vector<std::string> commands() const;
+  /// What `command`, one of these, prints with --help.
+  std::string helpOf(const std::string& command) const;
   /// What this command does.
   void runs(Command command) const;
 

@@ -10,6 +10,7 @@ void addSimulate(const CommandLine& commandLine);
 void addCompare(const CommandLine& commandLine);
 void addAudit(const CommandLine& commandLine);
 void addDice(const CommandLine& commandLine);
+void addHelp(const CommandLine& commandLine);
 void addExport(const CommandLine& commandLine);
 void addInfo(const CommandLine& commandLine);
 void addStudy(const CommandLine& commandLine);

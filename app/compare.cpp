@@ -101,7 +101,8 @@ Films filmsIn(const std::filesystem::path& expected, const std::filesystem::path
                    {"look", nameOf(one->picture.look), nameOf(other->picture.look)},
                    {"antialiasing", nameOf(one->picture.antialiasing), nameOf(other->picture.antialiasing)},
                    {"shutter", one->picture.shutter.text(), other->picture.shutter.text()},
-                   {"overlays", one->picture.overlays.text(), other->picture.overlays.text()}};
+                   {"overlays", one->picture.overlays.text(), other->picture.overlays.text()},
+                   {"light", one->picture.light.text(), other->picture.light.text()}};
   }
   return films;
 }

@@ -99,7 +99,7 @@ ExitCode diceCommand(const DiceOptions& options, const std::stop_token& stop) {
     throw MachineError(options.out.string() + ": cannot be made: " + error.message());
   }
   writeFile(options.out / "dice.csv", diceCsv(results));
-  writeFile(options.out / "dice.md", diceMarkdown(results));
+  writeFile(options.out / "dice.md", diceMarkdown(results) + "\nMade by careen " CAREEN_VERSION ".\n");
   std::cout << "dice         " << (options.out / "dice.md").string() << ", " << brief(stopwatch.seconds(), 3)
             << " s\n";
   return ExitCode::kDone;

@@ -9,6 +9,7 @@
 #include <new>
 #include <string>
 
+#include "advice.h"
 #include "commands.h"
 #include "core/characters.h"
 #include "core/error.h"
@@ -66,6 +67,7 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   addCompare(commandLine);
   addAudit(commandLine);
   addExport(commandLine);
+  addHelp(commandLine);
   addInfo(commandLine);
   addSweep(commandLine);
   addTruth(commandLine);
@@ -75,6 +77,9 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   addView(commandLine);
 #endif
   commandLine.footer(
+      "First steps: 'careen render' films the default scene into out/careen, 'careen help tutorial' goes on "
+      "from\n"
+      "there, and 'careen help' lists the manual.\n\n"
       "Exit codes: 0 done, 1 frames or states differ, 2 bad usage or bad input, 3 the machine failed,\n"
       "4 the numbers failed. 'careen COMMAND --help' tells a command's options.");
   const CommandLine::Parsed parsed = commandLine.parse(argc, argv);
@@ -88,6 +93,9 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
     return -interruption.signal();
   } catch (const Error& error) {
     tell(error.what());
+    if (const std::string advice = adviceOn(error.what()); !advice.empty()) {
+      tell(advice.c_str());
+    }
     return exitWith(error.code());
   }
 }

@@ -15,6 +15,9 @@ void PictureOptions::addTo(const CommandLine& command) {
               "Motion blur in place of the scene's: how long the shutter is open, 360 from frame to "
               "frame, and how many moments are averaged, such as 180:8; 0: none");
   command.add("--look", look, "studio, blueprint or clay in place of the scene's look");
+  command.add("--light", light,
+              "Parts of the light in place of the scene's, such as shadows,occlusion (the others: bounce); "
+              "none: nothing but plain light");
   command.add("--antialiasing", antialiasing, "off, edges, 4x or supersampled in place of the scene's");
   command.add("--overlays", overlays,
               "What to draw over the film in place of the scene's, such as time,energy; none: nothing");
@@ -38,11 +41,14 @@ void PictureOptions::applyTo(PictureSettings& picture) const {
   if (look) {
     picture.look = parsed("--look", *look, lookNamed);
   }
+  if (light) {
+    picture.light = parsed("--light", *light, LightParts::named);
+  }
   if (antialiasing) {
     picture.antialiasing = parsed("--antialiasing", *antialiasing, antialiasingNamed);
   }
   if (overlays) {
-    picture.overlays = parsed("--overlays", *overlays, overlaysNamed);
+    picture.overlays = parsed("--overlays", *overlays, OverlaySet::named);
   }
 }
 

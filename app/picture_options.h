@@ -18,6 +18,7 @@ struct PictureOptions {
   std::optional<std::string> shutter;
   std::optional<std::string> overlays;
   std::optional<std::string> look;
+  std::optional<std::string> light;
   std::optional<std::string> antialiasing;
   std::string backend = "auto";
   ContextOptions context;

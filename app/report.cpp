@@ -164,6 +164,7 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
   const RunFigures figures = run.statedFigures();
   const bool steps = traitsOf(trajectory.settings.method).steps();
   nlohmann::ordered_json report = {
+      {"program", "careen " CAREEN_VERSION},
       {"scene", trajectory.stage.name},
       {"scene_hash", trajectory.sceneHash()},
       {"method", trajectory.methodName()},

@@ -225,7 +225,7 @@ void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const 
     }
     return;
   }
-  const double expected = run.simulateSeconds * estimateCost(run.trajectory.settings.method);
+  const double expected = run.simulateSeconds * estimateCost(run.trajectory);
   if (!choice.asked.value_or(expected > 0 && expected < kCheapPart * wallSeconds)) {
     return;
   }

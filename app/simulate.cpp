@@ -20,7 +20,7 @@
 namespace careen {
 namespace {
 
-constexpr double kUsualSampling = 1.0 / 60;  // [s]
+constexpr double kSimulatedSampling = 1.0 / 60;  // [s]
 
 struct SimulateOptions {
   std::filesystem::path scene;
@@ -91,7 +91,7 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
 
   Outputs outputs;
   outputs.add(output, [&](const TextSink& sink) { sink(trajectory); });
-  const double every = options.every.value_or(kUsualSampling);
+  const double every = options.every.value_or(kSimulatedSampling);
   outputs.add(options.poses, [&](const TextSink& sink) { writePosesCsv(run.trajectory, every, sink); });
   outputs.add(options.npz, [&](const TextSink& sink) { sink(encodeNpz(run.trajectory, every)); });
   outputs.add(options.impacts, [&](const TextSink& sink) { writeImpactsCsv(run.trajectory, sink); });

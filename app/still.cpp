@@ -54,9 +54,10 @@ ExitCode drawStill(const Run& run, RenderOptions options, const Still& still) {
   Renderer renderer(run.trajectory, options);
   Picture picture = still.strobe ? filming.drawStrobe(renderer, moments)
                                  : filming.draw(renderer, moments[0], asked.shutter, asked.rate);
-  if ((asked.overlays.any() || still.ghost != nullptr) && !still.strobe) {
-    const Overlays overlays(run.trajectory, asked.overlays, asked.rate.frameTime(1), still.ghost);
-    filming.explain(renderer, picture, moments[0], overlays);
+  if (asked.overlays.any() || (still.ghost != nullptr && !still.strobe)) {
+    const Overlays overlays(run.trajectory, asked.overlays, asked.rate.frameTime(1),
+                            still.strobe ? nullptr : still.ghost);
+    filming.explainStrobe(renderer, picture, moments, overlays);
   }
   const std::filesystem::path path = std::filesystem::absolute(placeOf(run, still)).lexically_normal();
   std::error_code error;

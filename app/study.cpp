@@ -180,7 +180,8 @@ ExitCode studyCommand(const StudyOptions& options, const std::stop_token& stop) 
                                .folder = options.out,
                                .resume = options.resume};
   const Stopwatch stopwatch;
-  StudyResult study{.machine = machineLine(), .command = commandOf(options), .cases = {}};
+  StudyResult study{
+      .machine = machineLine() + ", careen " CAREEN_VERSION, .command = commandOf(options), .cases = {}};
   std::size_t number = 0;
   study.cases = runStudy(
       settings, contestants,

@@ -123,7 +123,8 @@ ExitCode validateCommand(const ValidateOptions& options, const std::stop_token& 
   const RunSetup setup = setupOfMeasured(scene);
   ValidationSettings settings;
   settings.start = options.start == "first" ? MeasuredStart::kFirst : MeasuredStart::kFitted;
-  Validation found{.scene = scene.name,
+  Validation found{.program = "careen " CAREEN_VERSION,
+                   .scene = scene.name,
                    .size = sizeOf(setup.world),
                    .tosses = {},
                    .swept = {},

@@ -35,6 +35,7 @@ void addView(const CommandLine& commandLine) {
               "Scene, trajectory file or table of poses; the default scene if none is named");
   options->scene.addTo(command);
   command.add("--out", options->folder, "Folder for stills (default: out)");
+  command.addFlag("--paused", options->paused, "Begin at the first frame, paused, in place of playing");
   options->picture.addTo(command);
   options->overrides.addTo(command);
   options->audit.addDepthTo(command);

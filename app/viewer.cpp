@@ -33,7 +33,7 @@ const char* const kViewerHelp =
 namespace {
 
 constexpr int kMomentDigits = 6;                    // enough to tell frames apart
-constexpr double kPatience = 0.1;                   // [s] interval of checks for a stop request
+constexpr double kStopPatience = 0.1;               // [s] interval of checks for a stop request
 constexpr double kLookEvery = 0.2;                  // [s] polling interval of the file
 constexpr double kZoomOfNotch = 1 / 1.1;            // factor on the distance
 constexpr double kTurnOfHeight = std::numbers::pi;  // [rad] for a drag over the height of the picture
@@ -83,6 +83,11 @@ Viewer::~Viewer() { cancelLoading(); }
 
 void Viewer::run(const std::stop_token& stop) {
   open(loadAudited(picked_, options_, stop));
+  if (!options_.paused) {
+    show();  // the first picture takes the longest: it is not skipped
+    player_->update(clock_.seconds());
+    player_->toggle();
+  }
   while (!done_ && !window_.isClosing()) {
     if (stop.stop_requested()) {
       throw Interrupted();
@@ -186,7 +191,7 @@ void Viewer::entitle() {
 }
 
 double Viewer::patience() const {
-  return player_->isPlaying() ? std::min(kPatience, player_->secondsToNext()) : kPatience;
+  return player_->isPlaying() ? std::min(kStopPatience, player_->secondsToNext()) : kStopPatience;
 }
 
 void Viewer::handle(const WindowEvents& events) {

@@ -26,6 +26,7 @@ struct ViewOptions {
   SceneOfTable scene;
   Overrides overrides;
   AuditChoice audit;
+  bool paused = false;  ///< at the first frame, in place of playing
 };
 
 /// Help text: keys and mouse, one line each.

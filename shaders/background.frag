@@ -2,9 +2,11 @@
 
 #include "frame.glsl"
 
-vec4 finished(vec3 color, float alpha);
+void write(vec3 dark, vec3 bright, float alpha);
 
 in float height;
-out vec4 result;
 
-void main() { result = finished(mix(backgroundBottom.rgb, backgroundTop.rgb, smoothstep(0.0, 1.0, height)), 1.0); }
+void main() {
+  vec3 color = mix(backgroundBottom.rgb, backgroundTop.rgb, smoothstep(0.0, 1.0, height));
+  write(color, color, 1.0);
+}

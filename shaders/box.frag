@@ -4,6 +4,7 @@
 #include "frame.glsl"
 
 in vec3 offset;
+in vec3 openness;
 in vec2 onFace;
 flat in vec2 halfFace;
 flat in vec3 faceNormal;
@@ -11,12 +12,12 @@ flat in vec3 faceAcross;
 flat in vec3 faceAlong;
 flat in vec4 baseColor;
 flat in float pips;
+flat in float thickness;
 
-out vec4 result;
-
-vec3 lit(vec3 albedo, float roughness, vec3 normal, vec3 offset);
+vec3 ambient(vec3 albedo, vec3 normal);
+vec3 direct(vec3 albedo, float roughness, vec3 normal, vec3 offset);
 float edgeAlpha(float inside, vec2 slope);
-vec4 finished(vec3 color, float alpha);
+void write(vec3 dark, vec3 bright, float alpha);
 
 const vec3 kIvory = vec3(0.86, 0.82, 0.72);
 const vec3 kInk = vec3(0.05, 0.05, 0.06);
@@ -63,18 +64,25 @@ void main() {
     float panel = length(max(beyond, 0.0)) + min(max(beyond.x, beyond.y), 0.0) - rounding;
     bool isLight = dot(baseColor.rgb, vec3(0.2126, 0.7152, 0.0722)) > 0.4;
     float pip = pipDistance(onFace, 0.44 * unit, 0.165 * unit);
-    albedo = mix(0.42 * albedo, albedo, covered(panel));
-    albedo = mix(albedo, isLight ? kInk : kIvory, covered(pip));
+    vec3 plain = 0.72 * albedo;  // the mean of panel and frame, where a face is too thin for them
+    vec3 marked = mix(0.42 * albedo, albedo, covered(panel));
+    marked = mix(marked, isLight ? kInk : kIvory, covered(pip));
+    albedo = mix(plain, marked, clamp((thickness - 1.0) / 3.0, 0.0, 1.0));
 
     // Edges reflect light as if worn round.
     vec2 worn = clamp(1.0 - (halfFace - abs(onFace)) / (0.07 * unit), 0.0, 1.0) * sign(onFace);
     normal = normalize(normal + 0.7 * (worn.x * faceAcross + worn.y * faceAlong));
   }
-  vec3 color = lit(albedo, boxLook.x, normal, offset);
+  vec3 dark = ambient(albedo, normal) * openness;
+  // A face turned away from the light has no shadows of others: its worn edges have no light either.
+  float turned = smoothstep(0.0, 0.06, dot(faceNormal, towardsLight.xyz));
+  vec3 bright = dark + turned * direct(albedo, boxLook.x, normal, offset);
   if (boxLook.w > 0.0) {
     vec2 inside = halfFace - abs(onFace);
     float edge = min(inside.x, inside.y) - boxLook.w * min(halfFace.x, halfFace.y);
-    color = mix(color, lines.rgb, covered(edge));
+    float line = covered(edge);
+    dark = mix(dark, lines.rgb, line);
+    bright = mix(bright, lines.rgb, line);
   }
-  result = finished(color, nearestEdge());
+  write(dark, bright, nearestEdge());
 }

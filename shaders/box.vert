@@ -3,16 +3,17 @@
 
 #include "frame.glsl"
 
-layout(location = 0) in vec3 corner;  // of the cube from -1 to 1
+layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 position;
-layout(location = 3) in vec3 axisX;  // columns of the body's rotation
-layout(location = 4) in vec3 axisY;
-layout(location = 5) in vec3 axisZ;
-layout(location = 6) in vec3 halfExtents;
-layout(location = 7) in vec4 color;  // alpha 1: with marks on the faces
+layout(location = 2) in vec3 across;
+layout(location = 3) in vec3 along;
+layout(location = 4) in vec4 place;  // [m] on the face, from its centre; half its size
+layout(location = 5) in vec4 color;  // alpha 1: with marks on the faces
+layout(location = 6) in vec4 about;  // pips, smaller width [px], place and length of the list of neighbours
 
+invariant gl_Position;
 out vec3 offset;
+out vec3 openness;          // part of ambient light that neighbours leave
 out vec2 onFace;            // [m] from the centre of the face
 flat out vec2 halfFace;     // [m]
 flat out vec3 faceNormal;
@@ -20,33 +21,20 @@ flat out vec3 faceAcross;   // directions of onFace
 flat out vec3 faceAlong;
 flat out vec4 baseColor;
 flat out float pips;        // opposite faces add up to seven
+flat out float thickness;   // [px] smaller width of the face
+
+vec3 openAt(vec3 offset, vec3 normal, vec2 list);
 
 void main() {
-  mat3 worldFromBody = mat3(axisX, axisY, axisZ);
-  offset = position + worldFromBody * (halfExtents * corner);
-  faceNormal = worldFromBody * normal;
-
-  vec3 size = abs(normal);
-  vec3 at = halfExtents * corner;
-  if (size.x > 0.5) {
-    onFace = at.yz;
-    halfFace = halfExtents.yz;
-    faceAcross = axisY;
-    faceAlong = axisZ;
-    pips = normal.x > 0.0 ? 1.0 : 6.0;
-  } else if (size.y > 0.5) {
-    onFace = at.zx;
-    halfFace = halfExtents.zx;
-    faceAcross = axisZ;
-    faceAlong = axisX;
-    pips = normal.y > 0.0 ? 2.0 : 5.0;
-  } else {
-    onFace = at.xy;
-    halfFace = halfExtents.xy;
-    faceAcross = axisX;
-    faceAlong = axisY;
-    pips = normal.z > 0.0 ? 3.0 : 4.0;
-  }
+  offset = position;
+  onFace = place.xy;
+  halfFace = place.zw;
+  faceNormal = normal;
+  faceAcross = across;
+  faceAlong = along;
   baseColor = color;
-  gl_Position = clipFromOffset * vec4(offset, 1.0);
+  pips = about.x;
+  thickness = about.y;
+  openness = openAt(offset, faceNormal, about.zw);
+  gl_Position = clipFromOffset * vec4(position, 1.0);
 }

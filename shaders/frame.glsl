@@ -2,9 +2,7 @@
 // the eye.
 layout(std140) uniform Frame {
   mat4 clipFromOffset;
-  mat4 shadowFromOffset;  // to texture coordinates and depth, 0 to 1
-  vec4 shadowBounds;      // of shadow casters, in texture coordinates: minimum, then maximum
-  vec4 towardsLight;      // unit
+  vec4 towardsLight;      // unit; w: tangent of the angle that half the light covers
   vec4 lightColor;        // linear, like all colours here; radiance of a white face turned to the light
   vec4 up;                // unit
   vec4 sky;               // ambient radiance of a white face turned up
@@ -16,4 +14,5 @@ layout(std140) uniform Frame {
   vec4 material;  // colour of all boxes, for the share without a colour of their own
   vec4 lines;     // colour of lines along edges, and of floor joints
   vec4 surfaceLook;  // roughness of tiles and of walls, contrast of tiles, strength of joints
+  vec4 occlusion;    // shade of a room's corners, least form factor drawn on surfaces, 1 / size of the picture [px]
 };

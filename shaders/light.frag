@@ -3,8 +3,6 @@
 
 #include "frame.glsl"
 
-float lightArriving(vec3 offset, float facing);
-
 // Cook and Torrance's specular term with the GGX distribution of Walter et al. (2007) and Smith visibility in
 // Karis's approximation. Fresnel by Schlick, 0.04 at normal incidence: paint, stone.
 float glossy(float roughness, vec3 normal, vec3 toEye, float facing) {
@@ -19,10 +17,12 @@ float glossy(float roughness, vec3 normal, vec3 toEye, float facing) {
   return a2 / (spread * spread) * visible * fresnel;  // times pi, because lightColor is divided by it
 }
 
-vec3 lit(vec3 albedo, float roughness, vec3 normal, vec3 offset) {
-  vec3 around = mix(ground.rgb, sky.rgb, 0.5 + 0.5 * dot(normal, up.xyz));
+vec3 ambient(vec3 albedo, vec3 normal) {
+  return albedo * mix(ground.rgb, sky.rgb, 0.5 + 0.5 * dot(normal, up.xyz));
+}
+
+vec3 direct(vec3 albedo, float roughness, vec3 normal, vec3 offset) {
   float facing = max(dot(normal, towardsLight.xyz), 0.0);
-  float arriving = facing * lightArriving(offset, facing);
   float gloss = glossy(roughness, normal, normalize(-offset), facing);
-  return albedo * around + (albedo + gloss) * arriving * lightColor.rgb;
+  return (albedo + gloss) * facing * lightColor.rgb;
 }

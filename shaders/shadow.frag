@@ -1,22 +1,33 @@
 #version 330 core
-// Fraction of the light that arrives: 3 x 3 filtered comparisons with the shadow map.
+// The part of a light of finite size that a box covers. Parts add up.
 
 #include "frame.glsl"
 
-uniform sampler2DShadow shadowMap;
+in vec3 fromAxis;
+in vec3 passing;
+flat in vec3 halfSlab;
+flat in vec3 halfPassing;
+flat in float weight;
 
-const float kSpread = 1.6 / 2048.0;  // between comparisons: each blends 2 x 2 texels already
+out vec4 result;
 
-// A loop, because llvmpipe exits a loop early if no pixel of a block needs it, but runs both sides of an if.
-float lightArriving(vec3 offset, float facing) {
-  vec3 at = (shadowFromOffset * vec4(offset, 1.0)).xyz;
-  at.z = min(at.z, 1.0);  // nothing beyond the map's range is in shadow
-  bool needed = facing > 0.0 && all(greaterThan(at.xy, shadowBounds.xy)) && all(lessThan(at.xy, shadowBounds.zw));
-  int taps = needed ? 9 : 0;
-  float sum = needed ? 0.0 : 9.0;
-  for (int tap = 0; tap < taps; ++tap) {
-    vec2 place = vec2(float(tap % 3), float(tap / 3)) - 1.0;
-    sum += textureLod(shadowMap, at + vec3(kSpread * place, 0.0), 0.0);
-  }
-  return sum / 9.0;
+// The disc of the light seen over a straight edge, within 4 %: `at` in units of the penumbra's half width.
+vec3 covered(vec3 at) {
+  vec3 t = clamp(0.5 + 0.5 * at, 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+void main() {
+  vec3 enters = passing - halfPassing;
+  vec3 leaves = passing + halfPassing;
+  float first = max(enters.x, max(enters.y, enters.z));
+  float last = min(leaves.x, min(leaves.y, leaves.z));
+  float penumbra = towardsLight.w * max(0.5 * (first + last), 0.0);
+  // A pixel's own width, so that edges are smooth where the penumbra is narrower.
+  vec3 right = dFdx(fromAxis);
+  vec3 above = dFdy(fromAxis);
+  vec3 scale = inversesqrt(penumbra * penumbra + 0.5 * (right * right + above * above) + 1e-20);
+  vec3 inside = covered((halfSlab - fromAxis) * scale) + covered((halfSlab + fromAxis) * scale) - 1.0;
+  float part = last > 0.0 ? weight * inside.x * inside.y * inside.z : 0.0;
+  result = vec4(vec3(part), 0.0);
 }

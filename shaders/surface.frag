@@ -12,11 +12,11 @@ flat in vec2 size;
 flat in vec4 edges;
 flat in vec4 baseColor;
 
-out vec4 result;
-
-vec3 lit(vec3 albedo, float roughness, vec3 normal, vec3 offset);
+vec3 ambient(vec3 albedo, vec3 normal);
+vec3 direct(vec3 albedo, float roughness, vec3 normal, vec3 offset);
+vec3 opennessHere();
 float edgeAlpha(float inside, vec2 slope);
-vec4 finished(vec3 color, float alpha);
+void write(vec3 dark, vec3 bright, float alpha);
 
 const float kSkirted = 1.0;
 const float kTiles = 2.0;
@@ -63,7 +63,7 @@ float rim() {
 // Ambient occlusion: corners of a room receive less ambient light.
 float openness() {
   vec4 inward = vec4(onSurface.x, size.x - onSurface.x, onSurface.y, size.y - onSurface.y);
-  vec4 shade = 1.0 - 0.30 * edges * exp(-1.6 * max(inward, 0.0));
+  vec4 shade = 1.0 - occlusion.x * edges * exp(-1.6 * max(inward, 0.0));
   return shade.x * shade.y * shade.z * shade.w;
 }
 
@@ -77,6 +77,8 @@ void main() {
     albedo = skirted(albedo);
   }
   albedo *= 1.0 - 0.45 * rim();
-  vec3 color = lit(albedo * openness(), roughness, surfaceNormal, offset);
-  result = finished(color, edgeAlpha(inside, vec2(dFdx(inside), dFdy(inside))));
+  albedo *= openness();
+  vec3 dark = ambient(albedo, surfaceNormal) * opennessHere();
+  vec3 bright = dark + direct(albedo, roughness, surfaceNormal, offset);
+  write(dark, bright, edgeAlpha(inside, vec2(dFdx(inside), dFdy(inside))));
 }

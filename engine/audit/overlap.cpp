@@ -9,7 +9,7 @@ namespace {
 
 /// Sine of the angle between two edges below which they count as parallel: their cross product is then
 /// rounding, and the normals of the faces tell the same.
-constexpr double kParallel = 1e-6;
+constexpr double kParallelEdges = 1e-6;
 
 // Half the extent of a box along a unit direction.
 double reach(const AuditBox& box, const Vec3& direction) {
@@ -35,7 +35,7 @@ double separationOf(const AuditBox& a, const AuditBox& b) {
     for (int j = 0; j < 3; ++j) {
       const Vec3 across = a.pose.worldFromBody.col(i).cross(b.pose.worldFromBody.col(j));
       const double sine = across.norm();
-      if (sine > kParallel) {
+      if (sine > kParallelEdges) {
         look(across / sine);
       }
     }

@@ -20,7 +20,7 @@ struct Promise {
 
 using Promises = std::array<std::optional<Promise>, kAuditKindCount>;
 
-/// What a method promises; `crowd`: of bodies that are, or were, members of a crowd. The README has the same
+/// What a method promises; `crowd`: of bodies that are, or were, members of a crowd. The manual has the same
 /// table.
 Promises promisesOf(Method method, bool crowd);
 
@@ -33,7 +33,7 @@ Promises promisesOfTable(double tolerance);
 /// metres.
 double allowed(const Promise& promise, const RunSettings& settings, double length);
 
-/// As the README spells it: "1e-09 + 4 tolerances", "1e-07 + 100 tolerances/size", "0", "nothing".
+/// As the manual spells it: "1e-09 + 4 tolerances", "1e-07 + 100 tolerances/size", "0", "nothing".
 std::string textOf(AuditKind kind, const std::optional<Promise>& promise);
 
 }  // namespace careen

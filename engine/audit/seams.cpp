@@ -11,7 +11,7 @@
 namespace careen {
 namespace {
 
-constexpr double kUlps = 256 * std::numeric_limits<double>::epsilon();
+constexpr double kSeamUlps = 256 * std::numeric_limits<double>::epsilon();
 
 bool isFinite(const BodyState& state) {
   return state.pose.position.allFinite() && state.pose.worldFromBody.allFinite() &&
@@ -82,8 +82,8 @@ void checkImpulse(const Trajectory& run, std::size_t body, const Seam& seam, con
   const double reach = after.pose.position.norm() + size + time * before.velocity.norm();
   const double shortest =
       std::min(lengthOf(segments[seam.before].motion), lengthOf(segments[seam.after].motion));
-  const double rounding =
-      kUlps * (1 + reach / size) + (linearScale > 0 ? kUlps * reach / shortest * mass / linearScale : 0.0);
+  const double rounding = kSeamUlps * (1 + reach / size) +
+                          (linearScale > 0 ? kSeamUlps * reach / shortest * mass / linearScale : 0.0);
   const double worst =
       std::max(linearScale > 0 ? linear / linearScale : 0.0, angularScale > 0 ? angular / angularScale : 0.0);
   // Resting contacts record no impacts.
@@ -122,7 +122,7 @@ std::vector<std::vector<std::size_t>> impactsOfBodies(const Trajectory& run) {
 }
 
 double placeRounding(const Body& body, const Vec3& position) {
-  return kUlps * (position.norm() + body.halfExtents.norm());
+  return kSeamUlps * (position.norm() + body.halfExtents.norm());
 }
 
 double fallingSpeed(const World& world, const Body& body) {
@@ -154,7 +154,7 @@ void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam,
     return;
   }
   const double rounding = 4 * placeRounding(owner, after.pose.position) +
-                          kUlps * time *
+                          kSeamUlps * time *
                               (before.velocity.norm() + after.velocity.norm() +
                                angularVelocity(owner.mass, before).norm() * owner.halfExtents.norm());
   findings.add(AuditKind::kContinuity, rounding,
@@ -177,10 +177,10 @@ void checkSteps(const Trajectory& run, std::size_t body, Findings& findings) {
     const Vec3 mean = 0.5 * (step->start.velocity + step->end.velocity);
     const Vec3 change = 0.5 * (step->end.velocity - step->start.velocity);
     const double jump = (way - step->duration * mean).norm() - step->duration * change.norm();
-    findings.add(
-        AuditKind::kContinuity,
-        placeRounding(run.world.bodies[body], step->end.pose.position) + kUlps * step->duration * mean.norm(),
-        {.size = jump, .time = segment.start, .bodies = {body}, .wall = {}});
+    findings.add(AuditKind::kContinuity,
+                 placeRounding(run.world.bodies[body], step->end.pose.position) +
+                     kSeamUlps * step->duration * mean.norm(),
+                 {.size = jump, .time = segment.start, .bodies = {body}, .wall = {}});
   }
 }
 

@@ -21,13 +21,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A frame in both folders; a missing file has an empty path.
-struct Pair {
+struct FramePair {
   std::string name;
   fs::path expected;
   fs::path actual;
 };
 
-void measure(const Pair& pair, const std::string& expectedBytes, const std::string& actualBytes,
+void measure(const FramePair& pair, const std::string& expectedBytes, const std::string& actualBytes,
              const ComparisonSettings& settings, FrameComparison& frame) {
   const DeepPicture expected = decodeDeepPng(expectedBytes, pair.expected.string(), kMostPixelsCompared);
   const DeepPicture actual = decodeDeepPng(actualBytes, pair.actual.string(), kMostPixelsCompared);
@@ -49,12 +49,12 @@ void measure(const Pair& pair, const std::string& expectedBytes, const std::stri
   if (settings.flip) {
     frame.flip = flipOf(expected, actual).mean;
   }
-  Judgement judgement = judge(difference, settings.tolerance);
+  PictureJudgement judgement = judge(difference, settings.tolerance);
   frame.verdict = judgement.verdict;
   frame.reasons = std::move(judgement.reasons);
 }
 
-FrameComparison compareFiles(const Pair& pair, const ComparisonSettings& settings) {
+FrameComparison compareFiles(const FramePair& pair, const ComparisonSettings& settings) {
   FrameComparison frame;
   frame.name = pair.name;
   const std::string expected = readFile(pair.expected);
@@ -74,7 +74,7 @@ FrameComparison compareFiles(const Pair& pair, const ComparisonSettings& setting
 }
 
 // Missing and broken frames count as differences.
-FrameComparison compareFrame(const Pair& pair, const ComparisonSettings& settings) {
+FrameComparison compareFrame(const FramePair& pair, const ComparisonSettings& settings) {
   FrameComparison frame;
   frame.name = pair.name;
   frame.verdict = Verdict::kDifferent;
@@ -94,11 +94,11 @@ FrameComparison compareFrame(const Pair& pair, const ComparisonSettings& setting
   return frame;
 }
 
-void list(const fs::path& folder, std::map<std::string, Pair>& pairs, fs::path Pair::*side) {
+void list(const fs::path& folder, std::map<std::string, FramePair>& pairs, fs::path FramePair::*side) {
   bool any = false;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".png") {
-      Pair& pair = pairs[entry.path().filename().string()];
+      FramePair& pair = pairs[entry.path().filename().string()];
       pair.name = entry.path().filename().string();
       pair.*side = entry.path();
       any = true;
@@ -109,12 +109,12 @@ void list(const fs::path& folder, std::map<std::string, Pair>& pairs, fs::path P
   }
 }
 
-std::vector<Pair> pairsOf(const fs::path& expected, const fs::path& actual,
-                          const std::set<std::string>& only) {
-  std::map<std::string, Pair> byName;
-  list(expected, byName, &Pair::expected);
-  list(actual, byName, &Pair::actual);
-  std::vector<Pair> pairs;
+std::vector<FramePair> pairsOf(const fs::path& expected, const fs::path& actual,
+                               const std::set<std::string>& only) {
+  std::map<std::string, FramePair> byName;
+  list(expected, byName, &FramePair::expected);
+  list(actual, byName, &FramePair::actual);
+  std::vector<FramePair> pairs;
   for (auto& [name, pair] : byName) {
     if (only.empty() || only.contains(name)) {
       pairs.push_back(std::move(pair));
@@ -126,8 +126,8 @@ std::vector<Pair> pairsOf(const fs::path& expected, const fs::path& actual,
 /// Compares frames in parallel; stops at the first error.
 class Crew {
  public:
-  Crew(const std::vector<Pair>& pairs, const ComparisonSettings& settings, const ComparisonCallback& progress,
-       const std::stop_token& stop)
+  Crew(const std::vector<FramePair>& pairs, const ComparisonSettings& settings,
+       const ComparisonCallback& progress, const std::stop_token& stop)
       : pairs_(pairs), settings_(settings), progress_(progress), stop_(stop), frames_(pairs.size()) {}
 
   std::vector<FrameComparison> compare() {
@@ -165,7 +165,7 @@ class Crew {
     }
   }
 
-  const std::vector<Pair>& pairs_;
+  const std::vector<FramePair>& pairs_;
   const ComparisonSettings& settings_;
   const ComparisonCallback& progress_;
   const std::stop_token& stop_;
@@ -183,7 +183,7 @@ bool same(const fs::path& expected, const fs::path& actual, const ComparisonSett
 }
 
 // Reports whether the first different frame shows the previous or the next one.
-void tellShift(const std::vector<Pair>& pairs, const ComparisonSettings& settings,
+void tellShift(const std::vector<FramePair>& pairs, const ComparisonSettings& settings,
                std::vector<FrameComparison>& frames) {
   const auto first = std::find_if(frames.begin(), frames.end(), [](const FrameComparison& frame) {
     return frame.verdict == Verdict::kDifferent && frame.measured;
@@ -316,7 +316,7 @@ Comparison compareFolders(const fs::path& expected, const fs::path& actual,
                           const ComparisonSettings& settings, std::optional<bool> sameMotion,
                           const ComparisonCallback& progress, const std::stop_token& stop) {
   Comparison comparison = begun(expected, actual, settings);
-  const std::vector<Pair> pairs = pairsOf(expected, actual, settings.only);
+  const std::vector<FramePair> pairs = pairsOf(expected, actual, settings.only);
   comparison.frames = Crew(pairs, settings, progress, stop).compare();
   tellShift(pairs, settings, comparison.frames);
   comparison.verdict = worstVerdict(comparison.frames);

@@ -12,9 +12,9 @@ namespace {
 using Rgb = std::array<int, 3>;  // of 65535
 
 /// Two pictures in a common format: 16 bits, with alpha if either has it.
-class Pair {
+class PicturePair {
  public:
-  Pair(const DeepPicture& expected, const DeepPicture& actual) {
+  PicturePair(const DeepPicture& expected, const DeepPicture& actual) {
     requireOneSize(expected, actual);
     const bool alpha = expected.channels == 4 || actual.channels == 4;
     expected_ = deepened(alpha ? withAlpha(expected) : expected);
@@ -45,7 +45,7 @@ constexpr int kFull = 65535;
 }  // namespace
 
 int amplificationOf(const DeepPicture& expected, const DeepPicture& actual) {
-  const Pair pair(expected, actual);
+  const PicturePair pair(expected, actual);
   std::vector<int> differences;
   for (std::size_t pixel = 0; pixel < pair.pixels(); ++pixel) {
     const Rgb difference = pair.differenceAt(pixel);
@@ -68,7 +68,7 @@ int amplificationOf(const DeepPicture& expected, const DeepPicture& actual) {
 }
 
 Picture differenceImage(const DeepPicture& expected, const DeepPicture& actual, int factor) {
-  const Pair pair(expected, actual);
+  const PicturePair pair(expected, actual);
   Picture image{.width = expected.width, .height = expected.height, .rgb = {}};
   image.rgb.reserve(pair.pixels() * 3);
   for (std::size_t pixel = 0; pixel < pair.pixels(); ++pixel) {

@@ -7,7 +7,7 @@
 namespace careen {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kPiFloat = std::numbers::pi_v<float>;
 
 float labRoot(float t) {
   constexpr float kDelta = 6.0F / 29.0F;
@@ -27,10 +27,10 @@ float shareOfLargeChroma(float chroma) {
 
 float hueOf(float a, float b) {
   const float angle = a == 0 && b == 0 ? 0.0F : std::atan2(b, a);
-  return angle < 0 ? angle + 2 * kPi : angle;
+  return angle < 0 ? angle + 2 * kPiFloat : angle;
 }
 
-constexpr float radians(float degrees) { return degrees * kPi / 180; }
+constexpr float radians(float degrees) { return degrees * kPiFloat / 180; }
 
 }  // namespace
 
@@ -68,9 +68,9 @@ float ciede2000(const Lab& one, const Lab& other) {
   float hueStep = grey ? 0 : hue2 - hue1;
   float hue = hue1 + hue2;
   if (!grey) {
-    const bool across = std::abs(hueStep) > kPi;
-    hue = !across ? hue / 2 : hue < 2 * kPi ? hue / 2 + kPi : hue / 2 - kPi;
-    hueStep += !across ? 0 : hueStep > 0 ? -2 * kPi : 2 * kPi;
+    const bool across = std::abs(hueStep) > kPiFloat;
+    hue = !across ? hue / 2 : hue < 2 * kPiFloat ? hue / 2 + kPiFloat : hue / 2 - kPiFloat;
+    hueStep += !across ? 0 : hueStep > 0 ? -2 * kPiFloat : 2 * kPiFloat;
   }
   const float dL = other.L - one.L;
   const float dC = chroma2 - chroma1;

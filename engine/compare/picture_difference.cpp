@@ -176,14 +176,14 @@ class Measuring {
   }
 
   StructuralSimilarity similarity() const {
-    Plane one{.width = width_, .height = height_, .values = {}};
+    SamplePlane one{.width = width_, .height = height_, .values = {}};
     one.values.reserve(result_.pixels);
     for (int y = 0; y < height_; ++y) {
       for (int x = 0; x < width_; ++x) {
         one.values.push_back(lumaAt(expected_, x, y));
       }
     }
-    Plane other = one;
+    SamplePlane other = one;
     for (const Block& block : differing_) {
       for (int x = block.x; x < block.x + block.width; ++x) {
         other.row(block.y)[static_cast<std::size_t>(x)] = lumaAt(actual_, x, block.y);

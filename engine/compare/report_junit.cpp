@@ -87,7 +87,9 @@ std::string reportJunit(const Comparison& comparison) {
   const std::string counts = " tests=\"" + std::to_string(cases.size()) + "\" failures=\"" +
                              std::to_string(failures) + R"(" errors="0" skipped="0")";
   std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"careen compare\"" +
-                    counts + ">\n  <testsuite name=\"" + suite + "\"" + counts + ">\n";
+                    counts + ">\n  <testsuite name=\"" + suite + "\"" + counts + ">\n" +
+                    R"(    <properties><property name="program" value=")" +
+                    escapedForMarkup(comparison.program) + "\"/></properties>\n";
   for (const TestCase& test : cases) {
     xml += xmlOf(test, className);
   }

@@ -39,7 +39,7 @@ struct Range {
 /// Finds the windows that contain a difference; all others have an SSIM of exactly 1.
 class Differing {
  public:
-  Differing(const Plane& one, const Plane& other)
+  Differing(const SamplePlane& one, const SamplePlane& other)
       : one_(one), other_(other), counts_(static_cast<std::size_t>(one.width)) {}
 
   /// Adds or removes a row of the next windows.
@@ -72,8 +72,8 @@ class Differing {
     }
   }
 
-  const Plane& one_;
-  const Plane& other_;
+  const SamplePlane& one_;
+  const SamplePlane& other_;
   std::vector<int> counts_;  ///< per column: number of differing rows in the windows
   std::vector<Range> ranges_;
 };
@@ -133,7 +133,7 @@ void similarities(const Sums& sums, const Window& window, Range range, float* re
 
 }  // namespace
 
-StructuralSimilarity similarityOf(const Plane& one, const Plane& other) {
+StructuralSimilarity similarityOf(const SamplePlane& one, const SamplePlane& other) {
   const int width = one.width;
   const Window wide(width);
   const Window high(one.height);

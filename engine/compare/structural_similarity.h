@@ -6,7 +6,7 @@
 namespace careen {
 
 /// One number per pixel, rows from the top.
-struct Plane {
+struct SamplePlane {
   int width = 0;   ///< [px]
   int height = 0;  ///< [px]
   std::vector<float> values;
@@ -35,6 +35,6 @@ struct StructuralSimilarity {
 /// entirely within the picture count, all with equal weight, and the picture is not downsampled. For a
 /// picture less than 11 px wide or high, the window is the largest odd number of pixels that fits. Equal
 /// windows give exactly 1.
-StructuralSimilarity similarityOf(const Plane& one, const Plane& other);
+StructuralSimilarity similarityOf(const SamplePlane& one, const SamplePlane& other);
 
 }  // namespace careen

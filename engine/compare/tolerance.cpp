@@ -121,7 +121,7 @@ void compareLook(Reasons& reasons, const PictureDifference& difference, const To
 
 Tolerance toleranceOf(std::string_view name) { return kTolerances.at(indexAmong(name, kToleranceNames)); }
 
-Judgement judge(const PictureDifference& difference, const Tolerance& tolerance) {
+PictureJudgement judge(const PictureDifference& difference, const Tolerance& tolerance) {
   if (difference.differing == 0) {
     return {};
   }

@@ -49,11 +49,11 @@ Tolerance toleranceOf(std::string_view name);
 
 enum class Verdict { kSame, kWarning, kDifferent };
 
-struct Judgement {
+struct PictureJudgement {
   Verdict verdict = Verdict::kSame;
   std::vector<std::string> reasons;  ///< what was found and what is allowed; only reasons for the verdict
 };
 
-Judgement judge(const PictureDifference& difference, const Tolerance& tolerance);
+PictureJudgement judge(const PictureDifference& difference, const Tolerance& tolerance);
 
 }  // namespace careen

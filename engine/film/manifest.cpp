@@ -42,7 +42,8 @@ PictureSettings pictureFrom(const nlohmann::json& json) {
   picture.antialiasing = antialiasingNamed(json.value("antialiasing", nameOf(picture.antialiasing)));
   const std::string shutter = json.value("shutter", "none");
   picture.shutter = shutter == "none" ? Shutter() : parseShutter(shutter);
-  picture.overlays = overlaysNamed(json.value("overlays", "none"));
+  picture.overlays = OverlaySet::named(json.value("overlays", "none"));
+  picture.light = LightParts::named(json.value("light", picture.light.text()));
   return picture;
 }
 
@@ -128,6 +129,7 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
       {"antialiasing", nameOf(picture.antialiasing)},
       {"shutter", picture.shutter.text()},
       {"overlays", picture.overlays.text()},
+      {"light", picture.light.text()},
       {"frame_count", manifest.frameCount},
       {"frames", rangesText(manifest.frames)},
   };
@@ -154,6 +156,7 @@ std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
       compare("antialiasing", nameOf(there.picture.antialiasing), nameOf(asked.picture.antialiasing)) +
       compare("shutter", there.picture.shutter.text(), asked.picture.shutter.text()) +
       compare("overlays", there.picture.overlays.text(), asked.picture.overlays.text()) +
+      compare("light", there.picture.light.text(), asked.picture.light.text()) +
       compare("frames in all", std::to_string(there.frameCount), std::to_string(asked.frameCount)) +
       compare("program", there.program, asked.program) +
       (there.renderer.empty() || asked.renderer.empty()

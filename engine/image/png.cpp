@@ -18,7 +18,7 @@
 namespace careen {
 namespace {
 
-constexpr std::string_view kEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
+constexpr std::string_view kEndChunk("\0\0\0\0IEND\xae\x42\x60\x82", 12);
 
 void appendBigEndian(std::string& bytes, std::uint32_t value) {
   for (const unsigned shift : {24U, 16U, 8U, 0U}) {
@@ -97,7 +97,7 @@ std::string encodePng(const Picture& picture) {
   Chunk data(bytes, "IDAT");
   appendPixels(bytes, picture);
   data.finish();
-  bytes += kEnd;
+  bytes += kEndChunk;
   return bytes;
 }
 

@@ -191,17 +191,19 @@ Drag readDrag(const JsonValue& value) {
           .angular = object.number("angular", nonNegativeNumber("N m s"), 0)};
 }
 
-OverlaySet readOverlays(const JsonValue& value) {
-  OverlaySet overlays;
-  const std::vector<std::string_view> names(kOverlayNames.begin(), kOverlayNames.end());
-  for (const JsonValue& each : value.elements("an array of overlays such as [\"energy\"]")) {
-    const auto overlay = static_cast<Overlay>(each.word(names, "overlay"));
-    if (overlays.has(overlay)) {
-      each.fail("each overlay once");
+// `one`: what a name stands for; `example`: a name.
+template <class Enum, const auto& kNames>
+NameSet<Enum, kNames> readNames(const JsonValue& value, const std::string& one, const std::string& example) {
+  NameSet<Enum, kNames> set;
+  const std::vector<std::string_view> names(kNames.begin(), kNames.end());
+  for (const JsonValue& each : value.elements("an array of " + one + "s such as [\"" + example + "\"]")) {
+    const auto named = static_cast<Enum>(each.word(names, one));
+    if (set.has(named)) {
+      each.fail("each " + one + " once");
     }
-    overlays.add(overlay);
+    set.add(named);
   }
-  return overlays;
+  return set;
 }
 
 // Read first: another version may have other keys.
@@ -261,9 +263,9 @@ Scene readShape(const JsonTree& tree) {
   if (root.is(Kind::kObject)) {
     readVersion(tree, root);
   }
-  const JsonObject object =
-      root.object({"careen", "name", "duration", "gravity", "room", "walls", "boxes", "springs", "drag",
-                   "method", "dt", "tolerance", "crowds", "camera", "film", "look", "overlays", "$schema"});
+  const JsonObject object = root.object({"careen", "name", "duration", "gravity", "room", "walls", "boxes",
+                                         "springs", "drag", "method", "dt", "tolerance", "crowds", "camera",
+                                         "film", "look", "light", "overlays", "$schema"});
   Scene scene;
   scene.text = tree.text();
   if (const std::optional<JsonValue> name = object.find("name")) {
@@ -301,7 +303,10 @@ Scene readShape(const JsonTree& tree) {
     scene.picture.look = static_cast<Look>(look->word({kLooks.begin(), kLooks.end()}, "look"));
   }
   if (const std::optional<JsonValue> overlays = object.find("overlays")) {
-    scene.picture.overlays = readOverlays(*overlays);
+    scene.picture.overlays = readNames<Overlay, kOverlayNames>(*overlays, "overlay", "energy");
+  }
+  if (const std::optional<JsonValue> light = object.find("light")) {
+    scene.picture.light = readNames<LightPart, kLightPartNames>(*light, "light part", "shadows");
   }
   return scene;
 }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <string>
 #include <string_view>
+
+#include "stage/name_set.h"
 
 namespace careen {
 
@@ -25,21 +25,6 @@ inline constexpr std::array<std::string_view, 9> kOverlayNames = {
     "contacts", "impulses", "angular-momentum", "spin-axis", "trail", "velocity", "names", "time", "energy"};
 
 /// The overlays of a film.
-class OverlaySet {
- public:
-  void add(Overlay overlay) { shown_.at(static_cast<std::size_t>(overlay)) = true; }
-  bool has(Overlay overlay) const { return shown_.at(static_cast<std::size_t>(overlay)); }
-  bool any() const;
-  /// Names separated by commas; "none" if empty.
-  std::string text() const;
-
-  friend bool operator==(const OverlaySet&, const OverlaySet&) = default;
-
- private:
-  std::array<bool, kOverlayNames.size()> shown_{};
-};
-
-/// Parses what text() writes, names in any order. InputError for an unknown name; it lists the known ones.
-OverlaySet overlaysNamed(std::string_view text);
+using OverlaySet = NameSet<Overlay, kOverlayNames>;
 
 }  // namespace careen

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "stage/frame_rate.h"
+#include "stage/light_part.h"
 #include "stage/overlay.h"
 #include "stage/shutter.h"
 
@@ -43,6 +44,7 @@ struct PictureSettings {
   Antialiasing antialiasing = Antialiasing::kEdges;
   Shutter shutter;
   OverlaySet overlays;
+  LightParts light = LightParts::all();  ///< those the look has; a look may have fewer
 
   double aspect() const { return static_cast<double>(width) / height; }
 };

@@ -9,8 +9,8 @@
 namespace careen {
 
 /// An error estimate from a second, slightly different run: with half the time step for a method with a fixed
-/// time step, else from a start one rounding away and with a tenth of the tolerance, because rounding and the
-/// time steps of contact are then the only errors.
+/// time step, else from a start one rounding away and with a tenth of the tolerances, because rounding and the
+/// time steps of contact and of crowds are then the only errors.
 struct ErrorEstimate {
   std::string by;                 ///< the difference of the second run, as text
   double position = 0;            ///< [m] largest over all bodies, up to `until`
@@ -22,11 +22,11 @@ struct ErrorEstimate {
 /// Number of times, evenly spread, at which the two runs are compared.
 inline constexpr int kEstimateSamples = 256;
 /// The cost of the estimate, in runs.
-double estimateCost(Method method);
+double estimateCost(const Trajectory& run);
 
 /// Estimates the error of `run`. For a method of order p with a fixed time step, the difference to half the
-/// step is multiplied by 2^p/(2^p−1) (Richardson). std::nullopt if the second run fails although the first
-/// did not.
+/// step is multiplied by 2^p/(2^p−1) (Richardson); where crowds took part, by four. std::nullopt if the second
+/// run fails although the first did not.
 std::optional<ErrorEstimate> estimateError(const Trajectory& run, const std::stop_token& stop = {});
 
 /// The same world, every component of position, velocity and angular momentum one rounding larger.

@@ -3,11 +3,11 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <sstream>
 
 #include "core/error.h"
+#include "core/system/clock.h"
 #include "physics/start/overlap.h"
 #include "physics/world/diagnostics.h"
 #include "study/deadline.h"
@@ -19,12 +19,6 @@ namespace {
 constexpr int kLeastRounds = 2;
 constexpr double kRunsWithoutSteps = 4;     // see Effort::longestRun
 constexpr double kLongestStepOfRun = 0.25;  // [1] of the run: no step is longer
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 World startingFrom(const World& world, const std::vector<BodyState>& states) {
   World next = world;

@@ -32,7 +32,7 @@ std::string colourOf(double digits) {
   return colour.str() + ")";
 }
 
-std::string cell(const Attempt* attempt) {
+std::string cellOf(const Attempt* attempt) {
   if (attempt == nullptr) {
     return "<td></td>";
   }
@@ -59,7 +59,7 @@ std::string matrix(const StudyResult& study) {
     table += "<tr><th><a href=\"#" + escapedForMarkup(result.name) + "\">" + escapedForMarkup(result.name) +
              "</a></th>";
     for (const std::string& contestant : contestants) {
-      table += cell(usualAttempt(result, contestant));
+      table += cellOf(usualAttempt(result, contestant));
     }
     table += "</tr>\n";
   }

@@ -11,7 +11,7 @@
 namespace careen {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kMostDigits = 16;
 
@@ -31,8 +31,8 @@ const char* nameOf(Measure measure) {
   return "";
 }
 
-Json toJson(const Attempt& attempt) {
-  Json json = {{"contestant", attempt.contestant}, {"settings", attempt.settings}};
+OrderedJson toJson(const Attempt& attempt) {
+  OrderedJson json = {{"contestant", attempt.contestant}, {"settings", attempt.settings}};
   if (attempt.dt > 0) {
     json["dt"] = attempt.dt;
   }
@@ -59,12 +59,12 @@ Json toJson(const Attempt& attempt) {
 }
 
 // A float in the file must not be converted: beyond int that is undefined.
-int wholeNumber(const Json& json) {
+int wholeNumber(const OrderedJson& json) {
   const auto value = json.get<double>();
   return value >= 0 && value <= 1e9 ? static_cast<int>(value) : 0;
 }
 
-Attempt attemptFrom(const Json& json) {
+Attempt attemptFrom(const OrderedJson& json) {
   Attempt attempt;
   attempt.contestant = json.at("contestant").get<std::string>();
   attempt.settings = json.at("settings").get<std::string>();
@@ -91,16 +91,16 @@ bool isBetter(const Attempt& attempt, const Attempt& other) {
          attempt.judgement.error < other.judgement.error;
 }
 
-Json toJson(const CaseResult& result) {
-  Json attempts = Json::array();
+OrderedJson toJson(const CaseResult& result) {
+  OrderedJson attempts = OrderedJson::array();
   for (const Attempt& attempt : result.attempts) {
     attempts.push_back(toJson(attempt));
   }
-  Json json = {{"case", result.name},
-               {"title", result.title},
-               {"why_hard", result.whyHard},
-               {"truth", result.source},
-               {"measure", result.measure}};
+  OrderedJson json = {{"case", result.name},
+                      {"title", result.title},
+                      {"why_hard", result.whyHard},
+                      {"truth", result.source},
+                      {"measure", result.measure}};
   if (!result.published.empty()) {
     json["published"] = result.published;
     for (const std::string& contestant :
@@ -112,7 +112,7 @@ Json toJson(const CaseResult& result) {
   json["usual_dt"] = result.usualStep;
   json["usual_tolerance"] = result.usualTolerance;
   json["times"] = result.times;
-  Json promises = Json::array();
+  OrderedJson promises = OrderedJson::array();
   for (const double factor : kPromisedTolerances) {
     if (const std::optional<double> kept = promiseOf(result, factor)) {
       promises.push_back({{"tolerance", factor * result.usualTolerance}, {"error_over_tolerance", *kept}});
@@ -143,7 +143,7 @@ std::string encodeResult(const CaseResult& result) { return toJson(result).dump(
 
 std::optional<CaseResult> decodeResult(const std::string& text) {
   try {
-    const Json json = Json::parse(text);
+    const OrderedJson json = OrderedJson::parse(text);
     CaseResult result{.name = json.at("case").get<std::string>(),
                       .title = json.at("title").get<std::string>(),
                       .whyHard = json.at("why_hard").get<std::string>(),
@@ -155,14 +155,14 @@ std::optional<CaseResult> decodeResult(const std::string& text) {
                       .usualTolerance = json.at("usual_tolerance").get<double>(),
                       .times = json.at("times").get<std::vector<double>>(),
                       .attempts = {}};
-    for (const Json& attempt : json.at("attempts")) {
+    for (const OrderedJson& attempt : json.at("attempts")) {
       result.attempts.push_back(attemptFrom(attempt));
     }
     const bool fits = std::all_of(
         result.attempts.begin(), result.attempts.end(),
         [&](const Attempt& attempt) { return attempt.judgement.energy.size() <= result.times.size(); });
     return fits ? std::optional(std::move(result)) : std::nullopt;
-  } catch (const Json::exception&) {
+  } catch (const OrderedJson::exception&) {
     return std::nullopt;
   }
 }
@@ -211,11 +211,12 @@ double correctDigits(double error) {
 }
 
 std::string resultsJson(const StudyResult& study) {
-  Json cases = Json::array();
+  OrderedJson cases = OrderedJson::array();
   for (const CaseResult& result : study.cases) {
     cases.push_back(toJson(result));
   }
-  return Json{{"machine", study.machine}, {"command", study.command}, {"cases", std::move(cases)}}.dump(1) +
+  return OrderedJson{{"machine", study.machine}, {"command", study.command}, {"cases", std::move(cases)}}
+             .dump(1) +
          "\n";
 }
 

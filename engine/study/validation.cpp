@@ -1,7 +1,6 @@
 #include "study/validation.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -11,6 +10,7 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/math/pose_difference.h"
+#include "core/system/clock.h"
 #include "physics/world/given_inertia.h"
 #include "physics/world/method.h"
 #include "scene/plan.h"
@@ -21,10 +21,6 @@ namespace careen {
 namespace {
 
 constexpr int kMostRefits = 3;
-
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 bool canMove(const Body& body) { return !isImmovable(body.mass); }
 
@@ -106,16 +102,16 @@ Rows rowsBefore(const Trajectory& measured, std::size_t body, double time) {
 }
 
 /// The starts of all bodies, and the fits that they come from or could.
-struct Starts {
+struct TossStarts {
   std::vector<BodyState> states;
   std::vector<std::optional<FlightFit>> fits;
   std::size_t rows = 0;  // of the fits
 };
 
 // When a body first strikes depends on its start, and its start on the rows before that.
-Starts startsOf(const RunSetup& setup, const Trajectory& measured, const std::stop_token& stop) {
+TossStarts startsOf(const RunSetup& setup, const Trajectory& measured, const std::stop_token& stop) {
   const std::vector<Body>& bodies = setup.world.bodies;
-  Starts starts;
+  TossStarts starts;
   starts.fits.resize(bodies.size());
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     starts.states.push_back(measured.state(body, 0));
@@ -181,8 +177,8 @@ double meanOf(const std::vector<double>& values) {
 }
 
 // Runs from starts as likely as the fitted one, against the run from that one.
-void findFloor(const RunSetup& setup, const Starts& starts,
-               const ValidationSettings& settings, const std::stop_token& stop, Toss& toss) {
+void findFloor(const RunSetup& setup, const TossStarts& starts, const ValidationSettings& settings,
+               const std::stop_token& stop, Toss& toss) {
   const bool isKnown =
       std::any_of(starts.fits.begin(), starts.fits.end(), [](const auto& fit) { return fit.has_value(); });
   if (!isKnown || settings.floorRuns < 1) {
@@ -228,7 +224,7 @@ Toss validate(const RunSetup& scene, const PoseTable& measuredTable, const Valid
   }
   const Trajectory measured = givenRun(setup, fromItsStart(measuredTable));
   setup.settings.duration = measured.settings.duration;
-  const Starts starts = startsOf(setup, measured, stop);
+  const TossStarts starts = startsOf(setup, measured, stop);
   Toss toss;
   toss.name = measuredTable.name;
   toss.fitted = starts.rows;
@@ -245,7 +241,7 @@ Toss validate(const RunSetup& scene, const PoseTable& measuredTable, const Valid
     }
     toss.fitted = 0;
   }
-  const auto begun = std::chrono::steady_clock::now();
+  const auto begun = Clock::now();
   const Trajectory run = simulated(setup, states, stop);
   toss.seconds = secondsSince(begun);
   toss.impacts = run.impacts.size();
@@ -356,9 +352,9 @@ std::string tossesCsv(const std::vector<Toss>& tosses, double size) {
     for (const std::size_t count : {toss.times.size(), toss.fitted, toss.impacts}) {
       csv.append(",").append(std::to_string(count));
     }
-    for (const double number :
-         {toss.meanPlace, toss.largestPlace, 100 * toss.meanPlace / size, toss.meanAttitude, toss.largestAttitude,
-          toss.floorPlace, toss.floorAttitude, toss.positionNoise, toss.attitudeNoise}) {
+    for (const double number : {toss.meanPlace, toss.largestPlace, 100 * toss.meanPlace / size,
+                                toss.meanAttitude, toss.largestAttitude, toss.floorPlace, toss.floorAttitude,
+                                toss.positionNoise, toss.attitudeNoise}) {
       csv.append(",").append(brief(number, 6));
     }
     csv.append(",").append(toss.measuredFace).append(",").append(toss.simulatedFace);

@@ -9,8 +9,8 @@
 #include "core/brief.h"
 #include "core/characters.h"
 #include "core/math/to_integer.h"
-#include "study/plots.h"
 #include "study/plot_files.h"
+#include "study/plots.h"
 
 namespace careen {
 namespace {
@@ -174,7 +174,8 @@ std::string validationJson(const Validation& validation) {
     const Spread found = spreadOf(validation.tosses, figure);
     return {{"mean", found.mean}, {"deviation", found.deviation}};
   };
-  Json report = {{"scene", validation.scene},
+  Json report = {{"program", validation.program},
+                 {"scene", validation.scene},
                  {"size", validation.size},
                  {"place", spread(&Toss::meanPlace)},
                  {"attitude", spread(&Toss::meanAttitude)},
@@ -215,6 +216,7 @@ std::string validationPage(const Validation& validation, const std::vector<std::
   for (const std::string& plot : plots) {
     drawn += plot.substr(std::min(plot.find("<svg"), plot.size())) + "\n";
   }
+  summary += "made by      " + escapedForMarkup(validation.program) + "<br>\n";
   for (const auto& [mark, text] : {std::pair<std::string, std::string>{"{{summary}}", summary},
                                    {"{{plots}}", drawn},
                                    {"{{tosses}}", tossTable(validation)}}) {

@@ -11,8 +11,9 @@ namespace careen {
 
 /// All that `careen validate` found.
 struct Validation {
-  std::string scene;  ///< its name
-  double size = 1;    ///< [m] see sizeOf()
+  std::string program;  ///< name and version of the program that found it
+  std::string scene;    ///< its name
+  double size = 1;      ///< [m] see sizeOf()
   std::vector<Toss> tosses;
   std::optional<Parameter> swept;
   std::vector<SweepPoint> sweep;

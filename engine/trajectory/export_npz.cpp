@@ -55,7 +55,7 @@ std::array<double, kPoseColumns.size()> numbersOf(const PoseRow& row) {
           w.z()};
 }
 
-class Archive {
+class NumpyArchive {
  public:
   void add(const std::string& name, const std::string& unit, const NumpyArray& array) {
     entries_.emplace_back(name + ".npy", encodeNumpy(array));
@@ -73,7 +73,7 @@ class Archive {
   std::vector<std::string> units_;  // name, unit, name, unit …
 };
 
-void addPoses(const Trajectory& run, std::vector<double> times, Archive& archive) {
+void addPoses(const Trajectory& run, std::vector<double> times, NumpyArchive& archive) {
   const std::size_t bodies = run.tracks.size();
   std::vector<std::string> names;
   for (const Body& body : run.world.bodies) {
@@ -97,7 +97,7 @@ void addPoses(const Trajectory& run, std::vector<double> times, Archive& archive
   }
 }
 
-void addImpacts(const Trajectory& run, Archive& archive) {
+void addImpacts(const Trajectory& run, NumpyArchive& archive) {
   const std::size_t count = run.impacts.size();
   std::vector<std::string> a;
   std::vector<std::string> b;
@@ -126,7 +126,7 @@ std::string encodeNpz(const Trajectory& trajectory, double every) {
     throw InputError("poses are written every " + brief(every) + " s, which makes " + brief(rows) +
                      " rows, expected at most " + brief(kMostRows) + " in NPZ; --poses has no such limit");
   }
-  Archive archive;
+  NumpyArchive archive;
   addPoses(trajectory, std::move(times), archive);
   addImpacts(trajectory, archive);
   return archive.bytes();

@@ -17,7 +17,7 @@
 namespace careen {
 namespace {
 
-constexpr double kSamePlace =
+constexpr double kGivenPlace =
     1e-6;  // [1] of half diagonals or radians: a fixed box's pose in scene and table
 
 // The rotation [rad] along its axis; of a unit quaternion with w < 0 it is more than half a turn.
@@ -184,7 +184,7 @@ void Giving::checkFixed(std::size_t body) {
   for (const PoseRow* const row : rows_[body]) {
     const Pose pose{.position = row->position, .worldFromBody = row->worldFromBody.toRotationMatrix()};
     const PoseDifference moved = differenceOf(pose, fixed.initial.pose, fixed.halfExtents.norm());
-    if (!(moved.relative <= kSamePlace)) {
+    if (!(moved.relative <= kGivenPlace)) {
       table_.fail(*row,
                   "the fixed box '" + fixed.name + "' " + brief(moved.position) + " m and " +
                       brief(moved.angle) + " rad away from where the scene has it",

@@ -18,9 +18,10 @@ namespace careen {
 namespace {
 
 // The line ends in the magic word reveal a transfer in text mode.
-constexpr std::string_view kMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 5;
+constexpr std::string_view kFileMagic = "careen\r\n";
+constexpr std::uint64_t kVersion = 6;
 constexpr std::uint64_t kVersionWithoutCrowds = 4;
+constexpr std::uint64_t kVersionWithoutLight = 5;
 
 std::uint64_t checksum(std::string_view bytes) {
   Hash hash;
@@ -49,14 +50,14 @@ Unwrapped unwrapped(const std::string& bytes, const std::string& name) {
   if (!looksLikeTrajectory(bytes)) {
     reader.fail("has the wrong first bytes, expected a file written by 'careen simulate'");
   }
-  if (bytes.size() < kMagic.size() + 3 * sizeof(std::uint64_t)) {
+  if (bytes.size() < kFileMagic.size() + 3 * sizeof(std::uint64_t)) {
     reader.fail("is cut short");
   }
   const std::string_view body = std::string_view(bytes).substr(0, bytes.size() - sizeof(std::uint64_t));
-  reader = ArchiveReader(body.substr(kMagic.size()), name);
+  reader = ArchiveReader(body.substr(kFileMagic.size()), name);
   Unwrapped file;
   reader.visit(file.version);
-  if (file.version != kVersion && file.version != kVersionWithoutCrowds && file.version != 3) {
+  if (file.version < 3 || file.version > kVersion) {
     reader.fail("has format version " + std::to_string(file.version) + ", expected " +
                 std::to_string(kVersion));
   }
@@ -75,9 +76,10 @@ std::string encodeTrajectory(const Trajectory& trajectory) {
   ArchiveWriter record;
   visit(record, trajectory);
   visit(record, trajectory.settings.crowds);
+  visitNames(record, trajectory.stage.picture.light);
   record.visit(trajectory.stateHash());
   ArchiveWriter file;
-  file.bytes() += kMagic;
+  file.bytes() += kFileMagic;
   file.visit(kVersion);
   file.visit(static_cast<std::uint64_t>(record.bytes().size()));
   file.bytes() += compressed(record.bytes());
@@ -85,7 +87,7 @@ std::string encodeTrajectory(const Trajectory& trajectory) {
   return std::move(file.bytes());
 }
 
-bool looksLikeTrajectory(const std::string& bytes) { return bytes.starts_with(kMagic); }
+bool looksLikeTrajectory(const std::string& bytes) { return bytes.starts_with(kFileMagic); }
 
 Trajectory decodeTrajectory(const std::string& bytes, const std::string& name, const SetupReader& setupOf) {
   const Unwrapped file = unwrapped(bytes, name);
@@ -93,8 +95,11 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name, c
   Trajectory trajectory;
   if (file.version >= kVersionWithoutCrowds) {
     visit(reader, trajectory);
-    if (file.version == kVersion) {
+    if (file.version >= kVersionWithoutLight) {
       visit(reader, trajectory.settings.crowds);
+    }
+    if (file.version == kVersion) {
+      visitNames(reader, trajectory.stage.picture.light);
     }
   } else {
     readFormat3(reader, setupOf, trajectory);

@@ -283,12 +283,13 @@ void visit(Archive& archive, Visited<Archive, FrameRate> rate) {
   }
 }
 
-template <class Archive>
-void visit(Archive& archive, Visited<Archive, OverlaySet> overlays) {
-  std::string text = overlays.text();
+// A NameSet.
+template <class Archive, class Set>
+void visitNames(Archive& archive, Set& set) {
+  std::string text = set.text();
   archive.visit(text);
   if constexpr (Archive::kReads) {
-    overlays = overlaysNamed(text);
+    set = Set::named(text);
   }
 }
 
@@ -301,7 +302,7 @@ void visit(Archive& archive, Visited<Archive, PictureSettings> picture) {
   visitNamed(archive, picture.antialiasing, kAntialiasings);
   archive.visit(picture.shutter.degrees);
   visitIndex(archive, picture.shutter.samples);
-  visit(archive, picture.overlays);
+  visitNames(archive, picture.overlays);
 }
 
 template <class Archive>

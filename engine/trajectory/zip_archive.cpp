@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "core/error.h"
+#include "trajectory/compression.h"
 
 namespace careen {
 namespace {
 
-constexpr std::size_t kMostRatio = 64;            // as of trajectory files
 constexpr std::size_t kAlwaysAllowed = 16 << 20;  // [bytes]
 constexpr zip_uint16_t kFirstDay = 0x21;          // 1980-01-01, where DOS begins to count
 

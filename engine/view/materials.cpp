@@ -37,7 +37,7 @@ Materials materialsOf(Look look) {
               .floor = Vec3(0.010, 0.040, 0.120),
               .wall = Vec3(0.012, 0.048, 0.140),
               .slab = Vec3(0.012, 0.048, 0.140),
-              .contactShade = 0};
+              .occlusion = false};
     case Look::kClay:
       return {.boxRoughness = 0.9,
               .ownColor = 0.30,
@@ -49,8 +49,7 @@ Materials materialsOf(Look look) {
               .joints = 0.18,
               .floor = Vec3(0.66, 0.63, 0.60),
               .wall = Vec3(0.70, 0.68, 0.66),
-              .slab = Vec3(0.60, 0.60, 0.60),
-              .contactShade = 0.85};
+              .slab = Vec3(0.60, 0.60, 0.60)};
   }
   return {};
 }

@@ -26,9 +26,11 @@ struct Materials {
   Vec3 floor = Vec3(0.56, 0.51, 0.45);
   Vec3 wall = Vec3(0.72, 0.69, 0.64);
   Vec3 slab = Vec3(0.45, 0.50, 0.52);  ///< a sloping wall
-  double contactShade = 0.7;  ///< [1] part of the ambient light blocked by a touching box; 0: no pass
-  double shoulder = 0.8;      ///< [1] brightness where the tone curve's shoulder starts
-  double dither = 1;          ///< [1] in 8-bit steps
+  bool occlusion = true;               ///< boxes keep ambient light from surfaces and from each other
+  double bounce = 0.6;    ///< [1] of an occluder's colour that comes back, times what it is lit with
+  double corners = 0.30;  ///< [1] shade of a room's corners
+  double shoulder = 0.8;  ///< [1] brightness where the tone curve's shoulder starts
+  double dither = 1;      ///< [1] in 8-bit steps
 };
 
 Materials materialsOf(Look look);

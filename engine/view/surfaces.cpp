@@ -38,24 +38,6 @@ Surface roomSide(const RoomShape& room, std::size_t side, const Materials& mater
   return surface;
 }
 
-// The part of a convex outline where normal·x >= offset.
-std::vector<Vec3> clipped(const std::vector<Vec3>& outline, const Vec3& normal, double offset) {
-  std::vector<Vec3> kept;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec3& from = outline[i];
-    const Vec3& to = outline[(i + 1) % outline.size()];
-    const double before = normal.dot(from) - offset;
-    const double after = normal.dot(to) - offset;
-    if (before >= 0) {
-      kept.push_back(from);
-    }
-    if ((before >= 0) != (after >= 0)) {
-      kept.emplace_back(from + before / (before - after) * (to - from));
-    }
-  }
-  return kept;
-}
-
 // A square in the wall's plane, large enough to cover the extent, clipped to the extent.
 Surface slab(const Plane& wall, const Extent& extent, const Materials& materials) {
   Surface surface;
@@ -81,6 +63,23 @@ Surface slab(const Plane& wall, const Extent& extent, const Materials& materials
 }
 
 }  // namespace
+
+std::vector<Vec3> clipped(const std::vector<Vec3>& outline, const Vec3& normal, double offset) {
+  std::vector<Vec3> kept;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec3& from = outline[i];
+    const Vec3& to = outline[(i + 1) % outline.size()];
+    const double before = normal.dot(from) - offset;
+    const double after = normal.dot(to) - offset;
+    if (before >= 0) {
+      kept.push_back(from);
+    }
+    if ((before >= 0) != (after >= 0)) {
+      kept.emplace_back(from + before / (before - after) * (to - from));
+    }
+  }
+  return kept;
+}
 
 double tileSize(const Extent& extent) {
   const double wanted = extent.radius() / 7;

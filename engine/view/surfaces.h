@@ -26,6 +26,9 @@ struct Surface {
   Vec3 color = Vec3::Ones();  ///< linear
 };
 
+/// The part of a convex outline where normal·x >= offset.
+std::vector<Vec3> clipped(const std::vector<Vec3>& outline, const Vec3& normal, double offset);
+
 /// Side length of tiles that suits this extent: 1, 2 or 5 times a power of ten [m].
 double tileSize(const Extent& extent);
 

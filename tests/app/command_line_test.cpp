@@ -58,8 +58,7 @@ TEST_F(CommandLine, explainsItself) {
 
 TEST_F(CommandLine, refusesWhatItDoesNotKnow) {
   for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{},
-                                             {"fly"},
+       std::vector<std::vector<std::string>>{{"fly"},
                                              {"simulate", "--fast"},
                                              {"simulate", "--dt"},
                                              {"simulate", "--dt", "soon"},

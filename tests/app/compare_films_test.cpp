@@ -10,7 +10,7 @@
 namespace careen {
 namespace {
 
-std::string scene(const std::string& speed, const std::string& color) {
+std::string filmScene(const std::string& speed, const std::string& color) {
   return R"({ "careen": 1, "duration": 1, "gravity": [0, 0, -10],
     "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "open": ["-y"], "restitution": 1 },
     "boxes": [ { "name": "crate", "half_extents": [0.6, 0.4, 0.2], "mass": 1, "position": [0, 0, 1],
@@ -36,10 +36,10 @@ class CompareFilms : public testing::Test {
 };
 
 TEST_F(CompareFilms, motionAndPicturesAreToldApart) {
-  film("one", scene("1", "#C8553D"));
-  film("same", "// but for a comment\n" + scene("1", "#C8553D"), {"--jobs", "3"});
-  film("colour", scene("1", "#3D55C8"));
-  film("motion", scene("1.0000000000000002", "#C8553D"));
+  film("one", filmScene("1", "#C8553D"));
+  film("same", "// but for a comment\n" + filmScene("1", "#C8553D"), {"--jobs", "3"});
+  film("colour", filmScene("1", "#3D55C8"));
+  film("motion", filmScene("1.0000000000000002", "#C8553D"));
   Ended ended = careen({"compare", "one", "same"});
   EXPECT_EQ(ended.exitCode, 0) << ended.out;
   EXPECT_EQ(ended.out, "same: same motion, same files (same-picture)\n");
@@ -56,8 +56,8 @@ TEST_F(CompareFilms, motionAndPicturesAreToldApart) {
 }
 
 TEST_F(CompareFilms, lostFramesAreNamed) {
-  film("one", scene("1", "#C8553D"));
-  film("part", scene("1", "#C8553D"), {"--frames", "0-7,9"});
+  film("one", filmScene("1", "#C8553D"));
+  film("part", filmScene("1", "#C8553D"), {"--frames", "0-7,9"});
   const Ended ended = careen({"compare", "one", "part"});
   EXPECT_EQ(ended.exitCode, 1);
   EXPECT_NE(ended.out.find("  000008.png: it is missing\n"), std::string::npos) << ended.out;

@@ -15,7 +15,7 @@ namespace {
 
 const std::string kGallery = CAREEN_SOURCE_DIR "/assets/gallery/";
 
-std::string scene(const std::string& speed, const std::string& name = "crate") {
+std::string crateScene(const std::string& speed, const std::string& name = "crate") {
   return R"({ "careen": 1, "duration": 3, "gravity": [0, 0, -10],
     "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "restitution": 1 },
     "boxes": [ { "name": ")" +
@@ -93,9 +93,9 @@ TEST_F(Compare, framesAreLoggedAsLinesOfJson) {
 }
 
 TEST_F(Compare, runsAreComparedBitByBitAndEventByEvent) {
-  simulate("one", "// a comment\n" + scene("1"));
-  simulate("same", scene("1"));
-  simulate("other", scene("1.001"));
+  simulate("one", "// a comment\n" + crateScene("1"));
+  simulate("same", crateScene("1"));
+  simulate("other", crateScene("1.001"));
   const Ended same = compare({"one.careen", "same.careen"});
   EXPECT_EQ(same.exitCode, 0);
   EXPECT_EQ(same.out, "same: same motion, bit for bit\n");
@@ -108,8 +108,8 @@ TEST_F(Compare, runsAreComparedBitByBitAndEventByEvent) {
 }
 
 TEST_F(Compare, otherBoxesAreOtherMotion) {
-  simulate("one", scene("1"));
-  simulate("other", scene("1", "chest"));
+  simulate("one", crateScene("1"));
+  simulate("other", crateScene("1", "chest"));
   const Ended ended = compare({"one.careen", "other.careen", "--motion", "0.5"});
   EXPECT_EQ(ended.exitCode, 1);
   EXPECT_NE(ended.out.find("box crate is not there"), std::string::npos) << ended.out;
@@ -117,8 +117,8 @@ TEST_F(Compare, otherBoxesAreOtherMotion) {
 }
 
 TEST_F(Compare, motionMayBeComparedWithinATolerance) {
-  simulate("one", scene("1"));
-  simulate("near", scene("1.00000001"));
+  simulate("one", crateScene("1"));
+  simulate("near", crateScene("1.00000001"));
   EXPECT_EQ(compare({"one.careen", "near.careen"}).exitCode, 1);
   EXPECT_EQ(compare({"one.careen", "near.careen", "--motion", "1e-3"}).exitCode, 1);  // chaos, from 2.8 s on
   const Ended ended = compare({"one.careen", "near.careen", "--motion", "1e-3", "--until", "1.5"});

@@ -12,7 +12,7 @@
 namespace careen {
 namespace {
 
-const std::string kScene = R"({
+const std::string kTossScene = R"({
   "careen": 1, "name": "toss", "duration": 0.8, "gravity": [0, 0, -9.81],
   "walls": [ { "name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1], "friction": 0.2, "restitution": 0.3 } ],
   "boxes": [ { "name": "die", "half_extents": [0.05, 0.05, 0.05], "mass": 0.3,
@@ -22,7 +22,7 @@ const std::string kScene = R"({
 class Export : public testing::Test {
  protected:
   void SetUp() override {
-    folder_.write("scene.json", kScene);
+    folder_.write("scene.json", kTossScene);
     ASSERT_EQ(careen({"simulate", "scene.json", "-o", "run.careen", "--poses", "expected.csv"}).exitCode, 0);
   }
   Ended careen(std::vector<std::string> arguments) const {
@@ -85,7 +85,7 @@ TEST_F(Export, refusesWhatItCannotDo) {
             std::string::npos);
   EXPECT_NE(refusal({"missing.careen", "--out", "f.glb"}).find("missing.careen"), std::string::npos);
   EXPECT_NE(refusal({"scene.json", "--out", "scene.json"}).find("--out"), std::string::npos);
-  EXPECT_EQ(textOf(folder_ / "scene.json"), kScene);
+  EXPECT_EQ(textOf(folder_ / "scene.json"), kTossScene);
   folder_.write("cut.careen", textOf(folder_ / "run.careen").substr(0, 900));
   EXPECT_NE(refusal({"cut.careen", "--out", "f.glb"}).find("cut.careen"), std::string::npos);
 }

@@ -13,7 +13,7 @@
 namespace careen {
 namespace {
 
-const std::string kScene = R"({
+const std::string kGivenScene = R"({
   "careen": 1, "name": "toss", "duration": 1, "gravity": [0, 0, -10],
   "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "open": ["-y"], "restitution": 0.8, "friction": 0.2 },
   "boxes": [ { "name": "crate", "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1], "friction": 0.2,
@@ -24,7 +24,7 @@ const std::string kScene = R"({
 class GivenRuns : public testing::Test {
  protected:
   void SetUp() override {
-    folder_.write("scene.json", kScene);
+    folder_.write("scene.json", kGivenScene);
     const Ended ended = careen({"simulate", "scene.json", "-o", "run.careen", "--poses", "run.csv", "--npz",
                                 "run.npz", "--every", "0.01"});
     ASSERT_EQ(ended.exitCode, 0) << ended.err;

@@ -10,7 +10,7 @@
 namespace careen {
 namespace {
 
-const std::string kScene = R"({
+const std::string kDrawnScene = R"({
   "careen": 1, "name": "toss", "duration": 1, "gravity": [0, 0, -10],
   "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "open": ["-y"], "restitution": 1 },
   "boxes": [ { "name": "crate", "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1],
@@ -22,7 +22,7 @@ const std::string kScene = R"({
 class RenderGivenRuns : public testing::Test {
  protected:
   void SetUp() override {
-    folder_.write("scene.json", kScene);
+    folder_.write("scene.json", kDrawnScene);
     ASSERT_EQ(careen({"simulate", "scene.json", "-o", "run.careen", "--poses", "run.csv", "--every", "0.05"})
                   .exitCode,
               0);
@@ -65,7 +65,7 @@ TEST_F(RenderGivenRuns, aGhostIsDrawnAndKnownToTheFilm) {
 }
 
 TEST_F(RenderGivenRuns, aGhostMustBeARunOfTheBoxes) {
-  std::string other = kScene;
+  std::string other = kDrawnScene;
   other.replace(other.find("crate"), 5, "other");
   folder_.write("other.json", other);
   ASSERT_EQ(careen({"simulate", "other.json", "-o", "stranger.careen"}).exitCode, 0);

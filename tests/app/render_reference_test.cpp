@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kScene = R"({
+const std::string kReferenceScene = R"({
   "careen": 1, "duration": 1, "gravity": [0, 0, -10],
   "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "open": ["-y"], "restitution": 1 },
   "boxes": [ { "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1], "velocity": [1, 0, 2],
@@ -22,7 +22,7 @@ const std::string kScene = R"({
   "film": { "size": [64, 48], "fps": 10 }
 })";
 
-std::string replaced(std::string text, const std::string& from, const std::string& by) {
+std::string withReplaced(std::string text, const std::string& from, const std::string& by) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), by);
@@ -31,7 +31,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 class RenderReference : public testing::Test {
  protected:
   void SetUp() override {
-    folder_.write("scene.json", kScene);
+    folder_.write("scene.json", kReferenceScene);
     // Nothing of it is as the scene says.
     const Ended ended =
         careen({"scene.json", "--out", "ref", "--frames", "2,5", "--size", "80x60", "--fps", "20", "--look",
@@ -101,7 +101,7 @@ TEST_F(RenderReference, missingFrameIsADifference) {
 
 // Gravity differs in its last bit: no pixel shows it.
 TEST_F(RenderReference, otherMotionIsADifferenceEvenIfNoPictureShowsIt) {
-  folder_.write("other.json", replaced(kScene, "-10]", "-10.000000000000002]"));
+  folder_.write("other.json", withReplaced(kReferenceScene, "-10]", "-10.000000000000002]"));
   const Ended ended = compared({}, "other.json");
   EXPECT_EQ(ended.exitCode, 1) << ended.err;
   EXPECT_NE(ended.out.find("differs: other motion, same"), std::string::npos) << ended.out;

@@ -18,7 +18,7 @@
 namespace careen {
 namespace {
 
-const std::string kScene = R"({
+const std::string kFilmScene = R"({
   "careen": 1, "name": "toss", "duration": 1, "gravity": [0, 0, -10], "method": "listing1", "dt": 0.001,
   "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "open": ["-y"], "restitution": 1 },
   "boxes": [ { "name": "crate", "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1],
@@ -43,7 +43,7 @@ std::vector<pid_t> childrenOf(pid_t parent) {
 
 class Render : public testing::Test {
  protected:
-  void SetUp() override { folder_.write("scene.json", kScene); }
+  void SetUp() override { folder_.write("scene.json", kFilmScene); }
 
   std::string frameOf(const std::vector<std::string>& options, const std::string& out) {
     std::vector<std::string> arguments = {"render", "--frames", "3", "--out", out};
@@ -195,7 +195,7 @@ TEST_F(Render, refusesWhatCannotBeFilmed) {
 }
 
 TEST_F(Render, drawsTheOverlaysOfTheSceneOrThoseAskedFor) {
-  std::string text = kScene;
+  std::string text = kFilmScene;
   text.insert(text.rfind('}'), R"(, "overlays": ["velocity"])");
   folder_.write("explained.json", text);
   const std::string bare = frameOf({"scene.json"}, "bare");

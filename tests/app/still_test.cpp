@@ -11,7 +11,7 @@
 namespace careen {
 namespace {
 
-const std::string kScene = R"({
+const std::string kStillScene = R"({
   "careen": 1, "name": "toss", "duration": 1, "gravity": [0, 0, -10],
   "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "open": ["-y"], "restitution": 1 },
   "boxes": [ { "name": "crate", "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1],
@@ -21,7 +21,7 @@ const std::string kScene = R"({
 
 class Still : public testing::Test {
  protected:
-  void SetUp() override { folder_.write("scene.json", kScene); }
+  void SetUp() override { folder_.write("scene.json", kStillScene); }
 
   Ended render(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {CAREEN_BINARY, "render", "scene.json"});

@@ -18,7 +18,7 @@
 namespace careen {
 namespace {
 
-const std::string kScene = R"({ "careen": 1, "name": "fall", "duration": 1, "gravity": [0, 0, -10],
+const std::string kFallScene = R"({ "careen": 1, "name": "fall", "duration": 1, "gravity": [0, 0, -10],
   "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "restitution": 1 },
   "boxes": [ { "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 1], "angular_velocity": [1, 2, 3] } ] })";
 
@@ -52,7 +52,7 @@ TEST_F(StudyCommand, doesOneCaseInSeconds) {
 }
 
 TEST_F(StudyCommand, takesASceneOfOnesOwn) {
-  folder_.write("my scene.json", kScene);
+  folder_.write("my scene.json", kFallScene);
   const Ended ended = careen({"study", "my scene.json", "--quick", "--no-plots"});
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_EQ(jsonOf("study/results.json").at("cases").at(0).at("title"), "fall");
@@ -83,7 +83,7 @@ TEST_F(StudyCommand, plotScriptsBesideTheProgramAreIgnoredUnlessTheEnvironmentNa
   copy.plantAll("assets/plots");
   copy.plant("assets/plots/style.gp", "system(\"touch '" + (folder_ / "made").string() + "'\")\n" +
                                           textOf(CAREEN_SOURCE_DIR "/assets/plots/style.gp"));
-  folder_.write("fall.json", kScene);
+  folder_.write("fall.json", kFallScene);
   const auto study = [&] {
     const Ended ended =
         Process({copy.path(), "study", "fall.json", "--quick", "--methods", "exact"}, folder_.path()).wait();
@@ -99,7 +99,7 @@ TEST_F(StudyCommand, plotScriptsBesideTheProgramAreIgnoredUnlessTheEnvironmentNa
 }
 
 TEST_F(StudyCommand, overwritesNoPlotWithThatOfASceneOfTheSameName) {
-  folder_.write("matrix.json", kScene);
+  folder_.write("matrix.json", kFallScene);
   const Ended ended = careen({"study", "matrix.json", "--quick"});
   EXPECT_EQ(ended.exitCode, 2);
   EXPECT_NE(ended.err.find("found a case named matrix, expected another name: plots/matrix.svg shows"),
@@ -132,7 +132,7 @@ TEST_F(StudyCommand, leavesNoHalfFinishedCaseWhenInterrupted) {
 }
 
 TEST_F(StudyCommand, runsTellTheirOwnErrorWhenAsked) {
-  folder_.write("scene.json", kScene);
+  folder_.write("scene.json", kFallScene);
   Ended ended = careen({"simulate", "scene.json", "--estimate-error", "--report", "report.json"});
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_NE(ended.out.find("to the end (by a start one rounding error away and a tenth of the tolerance)"),

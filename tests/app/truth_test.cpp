@@ -11,7 +11,7 @@
 namespace careen {
 namespace {
 
-const std::string kScene = R"({
+const std::string kTruthScene = R"({
   "careen": 1, "name": "toss", "duration": 0.5, "gravity": [0, 0, -9.81],
   "walls": [ { "name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1], "friction": 0.2, "restitution": 0.3 } ],
   "boxes": [ { "name": "die", "half_extents": [0.05, 0.05, 0.05], "mass": 0.3,
@@ -21,7 +21,7 @@ const std::string kScene = R"({
 
 class Truth : public testing::Test {
  protected:
-  void SetUp() override { folder_.write("scene.json", kScene); }
+  void SetUp() override { folder_.write("scene.json", kTruthScene); }
   Ended careen(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), program());
     return Process(arguments, folder_.path()).wait();

@@ -12,7 +12,7 @@
 namespace careen {
 namespace {
 
-const std::string kScene = R"({
+const std::string kThrownScene = R"({
   "careen": 1, "name": "toss", "duration": 0.8, "gravity": [0, 0, -9.81],
   "walls": [ { "name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1], "friction": 0.2, "restitution": 0.3 } ],
   "boxes": [ { "name": "die", "half_extents": [0.05, 0.05, 0.05], "mass": 0.3, "inertia": [6e-4, 6e-4, 6e-4],
@@ -22,7 +22,7 @@ const std::string kScene = R"({
 class Validate : public testing::Test {
  protected:
   void SetUp() override {
-    folder_.write("scene.json", kScene);
+    folder_.write("scene.json", kThrownScene);
     ASSERT_EQ(careen({"simulate", "scene.json", "-o", "run.careen", "--poses", "one.csv", "--every", "0.005"})
                   .exitCode,
               0);

@@ -53,6 +53,8 @@ class View : public testing::Test {
     arguments.insert(arguments.begin(), CAREEN_BINARY);
     return {arguments, folder_.path()};
   }
+  /// Shows a scene, paused at its first frame.
+  Process viewPaused(const std::string& file) const { return careen({"view", file, "--paused"}); }
   /// Frame of a film that another command has drawn.
   Picture frame(const std::string& file, int number) const {
     const std::string folder = "film-" + file;
@@ -92,7 +94,7 @@ class View : public testing::Test {
 };
 
 TEST_F(View, stepsThroughTheFilmsFramesByteForByte) {
-  Process view = careen({"view", "scene.json"});
+  Process view = viewPaused("scene.json");
   ASSERT_TRUE(says("scene.json: frame 0 of 0-9, 0 s, paused"));
   EXPECT_TRUE(shows(frame("scene.json", 0)));
   const std::vector<std::pair<std::string, int>> keys = {
@@ -107,7 +109,7 @@ TEST_F(View, stepsThroughTheFilmsFramesByteForByte) {
 }
 
 TEST_F(View, takesStillsOfTheFilm) {
-  Process view = careen({"view", "scene.json", "--out", "stills"});
+  Process view = careen({"view", "scene.json", "--paused", "--out", "stills"});
   ASSERT_TRUE(says("frame 0"));
   display_.press("3");
   display_.press("s");  // at once: the picture may not have been drawn
@@ -118,7 +120,7 @@ TEST_F(View, takesStillsOfTheFilm) {
 }
 
 TEST_F(View, playsAtTheFilmsSpeedAndPausesAtItsEnd) {
-  Process view = careen({"view", "scene.json"});
+  Process view = viewPaused("scene.json");
   ASSERT_TRUE(says("paused"));
   const Clock::time_point begun = Clock::now();
   display_.press("space");
@@ -133,8 +135,16 @@ TEST_F(View, playsAtTheFilmsSpeedAndPausesAtItsEnd) {
   quit(view);
 }
 
-TEST_F(View, goesWhereTheBarIsDragged) {
+TEST_F(View, playsWithoutBeingAsked) {
   Process view = careen({"view", "scene.json"});
+  EXPECT_TRUE(says("playing"));
+  EXPECT_TRUE(says("frame 9 of 0-9, 0.9 s, paused"));
+  EXPECT_TRUE(shows(frame("scene.json", 9)));
+  quit(view);
+}
+
+TEST_F(View, goesWhereTheBarIsDragged) {
+  Process view = viewPaused("scene.json");
   ASSERT_TRUE(says("frame 0"));
   display_.drag(10, kHeight + 8, kWidth - 2, kHeight + 4);
   EXPECT_TRUE(says("frame 9"));
@@ -145,7 +155,7 @@ TEST_F(View, goesWhereTheBarIsDragged) {
 }
 
 TEST_F(View, turnsTheCameraAndGoesBackToTheFilms) {
-  Process view = careen({"view", "scene.json"});
+  Process view = viewPaused("scene.json");
   ASSERT_TRUE(shows(frame("scene.json", 0)));
   display_.drag(60, 30, 40, 35);
   ASSERT_TRUE(says("camera turned"));
@@ -167,7 +177,7 @@ TEST_F(View, turnsTheCameraAndGoesBackToTheFilms) {
 TEST_F(View, readsTheFileAgainWhenItChanges) {
   folder_.write("blue.json", scene("#0000ff"));
   const Picture blue = frame("blue.json", 5);
-  Process view = careen({"view", "scene.json"});
+  Process view = viewPaused("scene.json");
   ASSERT_TRUE(says("frame 0"));
   display_.press("6");
   ASSERT_TRUE(shows(frame("scene.json", 5)));
@@ -185,7 +195,7 @@ TEST_F(View, picksTheNextSceneOfTheFolder) {
   folder_.write("blue.json", scene("#0000ff"));
   folder_.write("broken.json", "{}");
   folder_.write("aside.txt", "no scene");
-  Process view = careen({"view", "scene.json"});
+  Process view = viewPaused("scene.json");
   ASSERT_TRUE(says("scene.json: frame 0"));
   display_.press("n");
   EXPECT_TRUE(says("blue.json: frame 0"));
@@ -206,7 +216,7 @@ TEST_F(View, staysAtHandWhileItLoads) {
   folder_.write("slow.json", R"({
   "careen": 1, "duration": 1e7, "gravity": [0, 0, -10], "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "restitution": 1 },
   "boxes": [ { "half_extents": [0.5, 0.4, 0.3], "mass": 1, "position": [0, 0, 1], "velocity": [9, 5, 2] } ] })");
-  Process view = careen({"view", "scene.json"});
+  Process view = viewPaused("scene.json");
   ASSERT_TRUE(says("frame 0"));
   display_.press("n");
   ASSERT_TRUE(says("scene.json: frame 0 of 0-9, 0 s, paused, loading slow.json"));
@@ -217,8 +227,8 @@ TEST_F(View, staysAtHandWhileItLoads) {
 }
 
 TEST_F(View, fitsOnTheScreen) {
-  Process view =
-      careen({"view", "scene.json", "--size", "1280x704", "--threads", "0"});  // 1280x720 with the bar
+  Process view = careen(
+      {"view", "scene.json", "--paused", "--size", "1280x704", "--threads", "0"});  // 1280x720 with the bar
   ASSERT_TRUE(says("frame 0"));
   EXPECT_TRUE(eventually([&] { return display_.screenshot().width == 640; }));
   EXPECT_EQ(display_.screenshot().height, 360);
@@ -226,7 +236,7 @@ TEST_F(View, fitsOnTheScreen) {
 }
 
 TEST_F(View, signalEndsIt) {
-  Process view = careen({"view", "scene.json"});
+  Process view = viewPaused("scene.json");
   ASSERT_TRUE(says("frame 0"));
   view.send(SIGTERM);
   const Ended ended = view.wait();

@@ -17,7 +17,7 @@ namespace {
 const std::string kTumbling = R"({"careen": 1, "duration": 1, "gravity": [0, 0, -9.81], "boxes": [
   {"name": "crate", "half_extents": [0.1, 0.2, 0.3], "mass": 2, "position": [0, 0, 9],
    "velocity": [1, 0, 2], "angular_velocity": [3, 2, 1]}]})";
-const std::string kBouncing = R"({"careen": 1, "duration": 2, "gravity": [0, 0, -9.81],
+const std::string kBouncingTable = R"({"careen": 1, "duration": 2, "gravity": [0, 0, -9.81],
   "walls": [{"name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1], "restitution": 0.6, "friction": 0.4}],
   "boxes": [{"name": "crate", "half_extents": [0.1, 0.2, 0.3], "mass": 2, "position": [0, 0, 1], "friction": 0.4,
              "angular_velocity": [1, 2, 3], "velocity": [1, 0, 0]}]})";
@@ -26,7 +26,7 @@ const std::string kMeeting = R"({"careen": 1, "duration": 2, "boxes": [
    "angular_velocity": [1, 2, 3], "restitution": 1},
   {"name": "right", "half_extents": [0.1, 0.2, 0.1], "mass": 2, "position": [1, 0.05, 0], "velocity": [-1, 0, 0],
    "restitution": 1}]})";
-const std::string kSliding = R"({"careen": 1, "duration": 1, "gravity": [0, 0, -9.81],
+const std::string kSlidingTable = R"({"careen": 1, "duration": 1, "gravity": [0, 0, -9.81],
   "walls": [{"name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1], "friction": 0.5}],
   "boxes": [{"name": "slider", "half_extents": [0.3, 0.2, 0.1], "mass": 2, "position": [0, 0, 0.1],
              "velocity": [2, 0, 0], "friction": 0.5},
@@ -53,7 +53,7 @@ std::string kindsOf(const Audit& audit) {
 }
 
 TEST(AuditOfTables, soundTablesPass) {
-  for (const std::string& scene : {kTumbling, kBouncing, kMeeting, kSliding}) {
+  for (const std::string& scene : {kTumbling, kBouncingTable, kMeeting, kSlidingTable}) {
     PoseTable table = tableOf(scene);
     for (const bool hasVelocities : {true, false}) {
       table.hasVelocities = hasVelocities;
@@ -70,7 +70,7 @@ TEST(AuditOfTables, aFlightThatIsGivenIsHeldToRounding) {
   EXPECT_EQ(kindsOf(auditOf(kTumbling, tableOf(kTumbling), {.table = 1e-9})), "");
 }
 
-struct Wrong {
+struct WrongTable {
   const char* what;
   std::string scene;
   std::function<void(PoseTable&)> make;
@@ -87,7 +87,7 @@ TEST(AuditOfTables, everyKindOfWrongIsFound) {
       }
     };
   };
-  const std::vector<Wrong> wrongs = {
+  const std::vector<WrongTable> wrongs = {
       {"another gravity", kTumbling,
        [](PoseTable& table) {
          for (PoseRow& row : table.rows) {
@@ -125,7 +125,7 @@ TEST(AuditOfTables, everyKindOfWrongIsFound) {
          }
        },
        "continuity"},
-      {"a box in the floor", kBouncing, after(0.3, [](PoseRow& row) { row.position.z() -= 0.05; }),
+      {"a box in the floor", kBouncingTable, after(0.3, [](PoseRow& row) { row.position.z() -= 0.05; }),
        "continuity wall_overlap"},
       {"boxes in each other", kMeeting,
        after(-1,
@@ -134,7 +134,7 @@ TEST(AuditOfTables, everyKindOfWrongIsFound) {
                row.velocity.x() *= row.box == 0 ? 0.95 : 1;
              }),
        "box_overlap"},
-      {"restitution above 1", kBouncing,
+      {"restitution above 1", kBouncingTable,
        [](PoseTable& table) {
          bool isUp = false;
          for (PoseRow& row : table.rows) {
@@ -144,7 +144,7 @@ TEST(AuditOfTables, everyKindOfWrongIsFound) {
        },
        "energy_rise"},
   };
-  for (const Wrong& wrong : wrongs) {
+  for (const WrongTable& wrong : wrongs) {
     PoseTable table = tableOf(wrong.scene);
     wrong.make(table);
     const Audit found = auditOf(wrong.scene, table);

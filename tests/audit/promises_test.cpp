@@ -11,15 +11,15 @@
 namespace careen {
 namespace {
 
-std::string readme() {
-  std::ifstream stream(std::filesystem::path(CAREEN_SOURCE_DIR) / "README.md");
+std::string pageOfTheManual() {
+  std::ifstream stream(std::filesystem::path(CAREEN_SOURCE_DIR) / "assets/manual/audit.md");
   std::stringstream text;
   text << stream.rdbuf();
   return text.str();
 }
 
-TEST(Promises, readmeHasTheSameTable) {
-  const std::string text = readme();
+TEST(Promises, manualHasTheSameTable) {
+  const std::string text = pageOfTheManual();
   for (const AuditKindTraits& traits : kAuditKinds) {
     std::string row = "| `" + std::string(traits.name) + "` |";
     const auto cell = [&](Method method, bool crowd) {

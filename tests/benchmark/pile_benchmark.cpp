@@ -23,14 +23,6 @@ namespace {
 
 constexpr double kFrame = 1.0 / 60;
 
-std::vector<BodyState> startOf(const World& world) {
-  std::vector<BodyState> states;
-  for (const Body& body : world.bodies) {
-    states.push_back(body.initial);
-  }
-  return states;
-}
-
 // Arguments: boxes, seconds, boxes across a layer.
 World sceneOf(const benchmark::State& state) {
   return test::pouring(static_cast<int>(state.range(0)), 0.5, 0, 1, static_cast<int>(state.range(2)));

@@ -10,7 +10,9 @@
 namespace careen {
 namespace {
 
-Trajectory bouncing(double duration = 2) { return record(elasticRoom(), {.duration = duration}, "a scene"); }
+Trajectory recordedBouncing(double duration = 2) {
+  return record(elasticRoom(), {.duration = duration}, "a scene");
+}
 
 PoseTable tableOf(const Trajectory& run, double every) {
   std::string text;
@@ -19,12 +21,12 @@ PoseTable tableOf(const Trajectory& run, double every) {
 }
 
 Trajectory given(const PoseTable& table) {
-  RunSetup setup = bouncing();
+  RunSetup setup = recordedBouncing();
   return givenRun(std::move(setup), table);
 }
 
 TEST(RunDifferenceOfTables, aTableOfARunIsThatRun) {
-  const Trajectory run = bouncing();
+  const Trajectory run = recordedBouncing();
   for (const double every : {0.01, 0.0007, 0.3}) {
     const RunDifference found = differenceOf(run, given(tableOf(run, every)));
     EXPECT_FALSE(found.firstTime || found.horizon || found.firstImpact || found.lastImpact);
@@ -36,7 +38,7 @@ TEST(RunDifferenceOfTables, aTableOfARunIsThatRun) {
 
 // From 0.9 s on a box is off, at first by little.
 TEST(RunDifferenceOfTables, fromWhenByHowMuchAndAfterWhichImpact) {
-  const Trajectory run = bouncing();
+  const Trajectory run = recordedBouncing();
   PoseTable table = tableOf(run, 0.01);
   for (PoseRow& row : table.rows) {
     row.position.x() += row.time > 0.9 ? 1e-3 * (row.time - 0.9) : 0;
@@ -62,7 +64,7 @@ TEST(RunDifferenceOfTables, fromWhenByHowMuchAndAfterWhichImpact) {
 }
 
 TEST(RunDifferenceOfTables, oneThatLeavesHasAHorizon) {
-  const Trajectory run = bouncing();
+  const Trajectory run = recordedBouncing();
   PoseTable table = tableOf(run, 0.01);
   for (PoseRow& row : table.rows) {
     row.position.x() += row.time > 0.5 ? row.time - 0.5 : 0;

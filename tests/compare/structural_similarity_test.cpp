@@ -10,8 +10,8 @@
 namespace careen {
 namespace {
 
-Plane planeOf(const Picture& picture) {
-  Plane plane{.width = picture.width, .height = picture.height, .values = {}};
+SamplePlane planeOf(const Picture& picture) {
+  SamplePlane plane{.width = picture.width, .height = picture.height, .values = {}};
   for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
     plane.values.push_back(static_cast<float>(picture.rgb[i]));
   }
@@ -20,13 +20,13 @@ Plane planeOf(const Picture& picture) {
 
 // Equation 13 of the paper, window by window, in doubles: weights by the Euclidean distance, variances in two
 // passes.
-StructuralSimilarity straightforward(const Plane& one, const Plane& other) {
+StructuralSimilarity straightforward(const SamplePlane& one, const SamplePlane& other) {
   constexpr double kC1 = 6.5025;
   constexpr double kC2 = 58.5225;
   const auto reachOf = [](int size) { return std::min(5, (size - 1) / 2); };
   const int wide = reachOf(one.width);
   const int high = reachOf(one.height);
-  const auto at = [](const Plane& plane, int x, int y) {
+  const auto at = [](const SamplePlane& plane, int x, int y) {
     return static_cast<double>(plane.row(y)[static_cast<std::size_t>(x)]);
   };
   StructuralSimilarity result{.mean = 0, .worst = 2};
@@ -64,7 +64,7 @@ StructuralSimilarity straightforward(const Plane& one, const Plane& other) {
   return result;
 }
 
-void expectAsStraightforward(const Plane& one, const Plane& other) {
+void expectAsStraightforward(const SamplePlane& one, const SamplePlane& other) {
   const StructuralSimilarity measured = similarityOf(one, other);
   const StructuralSimilarity expected = straightforward(one, other);
   EXPECT_NEAR(measured.mean, expected.mean, 2e-6);
@@ -88,9 +88,9 @@ TEST(StructuralSimilarity, picturesSmallerThanTheWindowHaveASmallerOne) {
 
 // Windows without any change are skipped, and count as 1.
 TEST(StructuralSimilarity, changesInACornerAndInTheMiddleAreFound) {
-  const Plane plane = planeOf(shadedTiles(80, 60));
+  const SamplePlane plane = planeOf(shadedTiles(80, 60));
   for (const auto& [x, y] : {std::pair{0, 0}, {79, 59}, {40, 30}, {79, 0}, {6, 59}, {73, 20}}) {
-    Plane changed = plane;
+    SamplePlane changed = plane;
     changed.values[static_cast<std::size_t>(y) * 80 + static_cast<std::size_t>(x)] += 90;
     expectAsStraightforward(plane, changed);
   }
@@ -98,9 +98,9 @@ TEST(StructuralSimilarity, changesInACornerAndInTheMiddleAreFound) {
 
 // Windows are processed in ranges; none between two ranges is skipped, however far apart they are.
 TEST(StructuralSimilarity, changesApartAreBothFound) {
-  const Plane plane = planeOf(shadedTiles(80, 24));
+  const SamplePlane plane = planeOf(shadedTiles(80, 24));
   for (int apart = 1; apart < 40; ++apart) {
-    Plane changed = plane;
+    SamplePlane changed = plane;
     changed.values[std::size_t{12} * 80 + 20] += 30;
     changed.values[std::size_t{11} * 80 + 20 + static_cast<std::size_t>(apart)] += 90;
     expectAsStraightforward(plane, changed);
@@ -108,7 +108,7 @@ TEST(StructuralSimilarity, changesApartAreBothFound) {
 }
 
 TEST(StructuralSimilarity, isExactlyOneOfEqualPlanesAndFollowsFromMeansOfFlatOnes) {
-  const Plane plane = planeOf(noise(100, 80, 3));
+  const SamplePlane plane = planeOf(noise(100, 80, 3));
   EXPECT_EQ(similarityOf(plane, plane).mean, 1);
   EXPECT_EQ(similarityOf(plane, plane).worst, 1);
   const double flatOnes = (2 * 100.0 * 150 + 6.5025) / (100.0 * 100 + 150.0 * 150 + 6.5025);

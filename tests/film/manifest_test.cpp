@@ -28,7 +28,7 @@ FilmManifest everyField() {
   manifest.picture.look = Look::kClay;
   manifest.picture.antialiasing = Antialiasing::kMultisampled;
   manifest.picture.shutter = parseShutter("180");
-  manifest.picture.overlays = overlaysNamed("time,energy");
+  manifest.picture.overlays = OverlaySet::named("time,energy");
   manifest.frameCount = 240;
   manifest.frames = {0, 1, 2, 10, 12};
   manifest.hashes = {{1, frameHash("one")}, {12, frameHash("twelve")}};
@@ -122,7 +122,7 @@ TEST(Manifest, ofAnotherFilmDiffersInWhatItSays) {
        [](FilmManifest& film) { film.picture.antialiasing = Antialiasing::kEdges; }},
       {"shutter 180:8 there, none now", [](FilmManifest& film) { film.picture.shutter = {}; }},
       {"overlays time,energy there, time now",
-       [](FilmManifest& film) { film.picture.overlays = overlaysNamed("time"); }},
+       [](FilmManifest& film) { film.picture.overlays = OverlaySet::named("time"); }},
       {"frames in all 240 there, 241 now", [](FilmManifest& film) { film.frameCount = 241; }},
       {"program careen 1.2.3 there, careen 2 now", [](FilmManifest& film) { film.program = "careen 2"; }},
       {"renderer llvmpipe there, other now", [](FilmManifest& film) { film.renderer = "other"; }},

@@ -30,6 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     addCompare(commandLine);
     addAudit(commandLine);
     addExport(commandLine);
+    addHelp(commandLine);
     addInfo(commandLine);
     addSweep(commandLine);
     addTruth(commandLine);

@@ -70,7 +70,7 @@ std::size_t expectReadable(const std::vector<Bytes>& pieces) {
   return stream.size();
 }
 
-Bytes noise(std::size_t size, unsigned seed, unsigned values = 256) {
+Bytes noiseBytes(std::size_t size, unsigned seed, unsigned values = 256) {
   std::mt19937 random(seed);
   Bytes bytes(size);
   std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<std::uint8_t>(random() % values); });
@@ -100,9 +100,9 @@ TEST(DeflateWriter, aFlatPieceIsNearlyNothing) {
 }
 
 TEST(DeflateWriter, whatIsNoisyIsStoredAndGrowsByFiveBytesInSixtyFourThousand) {
-  EXPECT_EQ(expectReadable({noise(65535, 1)}), 65535U + 5);
-  EXPECT_EQ(expectReadable({noise(65536, 1)}), 65536U + 10);
-  EXPECT_EQ(expectReadable({noise(200000, 1)}), 200000U + 20);
+  EXPECT_EQ(expectReadable({noiseBytes(65535, 1)}), 65535U + 5);
+  EXPECT_EQ(expectReadable({noiseBytes(65536, 1)}), 65536U + 10);
+  EXPECT_EQ(expectReadable({noiseBytes(200000, 1)}), 200000U + 20);
 }
 
 // Stored pieces start at a whole byte wherever the previous one ended.
@@ -112,7 +112,7 @@ TEST(DeflateWriter, piecesOfAllKindsFollowEachOther) {
     std::vector<Bytes> pieces;
     for (unsigned i = 0; i < 6; ++i) {
       const unsigned values = 1U << (random() % 9);
-      pieces.push_back(noise(random() % 300, seed * 6 + i, values));
+      pieces.push_back(noiseBytes(random() % 300, seed * 6 + i, values));
     }
     expectReadable(pieces);
   }
@@ -120,7 +120,7 @@ TEST(DeflateWriter, piecesOfAllKindsFollowEachOther) {
 
 // Of 16 values 15 get four bits and one gets five, because the end symbol needs a code as well.
 TEST(DeflateWriter, isAsSmallAsTheCodesAllow) {
-  const std::size_t size = expectReadable({noise(100000, 4, 16)});
+  const std::size_t size = expectReadable({noiseBytes(100000, 4, 16)});
   EXPECT_GE(size, 50000U);
   EXPECT_LT(size, 50800U);  // measured 50780; 50000 and an eighth of the 6250 of one value are 50781
 }

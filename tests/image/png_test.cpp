@@ -22,7 +22,7 @@ namespace {
 
 double coreSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-std::string errorOf(std::string_view bytes) {
+std::string pngErrorOf(std::string_view bytes) {
   try {
     decodePng(bytes, "frame.png");
   } catch (const InputError& error) {
@@ -181,15 +181,15 @@ TEST(Png, isSmallerThanStbsOwnAndTakesLessThanASeventhOfTheTime) {
 
 TEST(Png, damageIsToldAndNamed) {
   const std::string whole = encodePng(shadedTiles(64, 48));
-  ASSERT_EQ(errorOf(whole), "");
-  EXPECT_EQ(errorOf(""), "frame.png: is no PNG");
-  EXPECT_EQ(errorOf("GIF89a"), "frame.png: is no PNG");
-  EXPECT_EQ(errorOf(whole.substr(0, whole.size() / 2)), "frame.png: is a PNG cut short");
-  EXPECT_EQ(errorOf(whole.substr(0, whole.size() - 1)), "frame.png: is a PNG cut short");
+  ASSERT_EQ(pngErrorOf(whole), "");
+  EXPECT_EQ(pngErrorOf(""), "frame.png: is no PNG");
+  EXPECT_EQ(pngErrorOf("GIF89a"), "frame.png: is no PNG");
+  EXPECT_EQ(pngErrorOf(whole.substr(0, whole.size() / 2)), "frame.png: is a PNG cut short");
+  EXPECT_EQ(pngErrorOf(whole.substr(0, whole.size() - 1)), "frame.png: is a PNG cut short");
   for (const std::size_t place : {std::size_t{18}, whole.size() / 2, whole.size() - 20}) {
     std::string changed = whole;
     changed[place] = static_cast<char>(changed[place] ^ 4);
-    EXPECT_EQ(errorOf(changed), "frame.png: is a damaged PNG: a checksum is wrong") << place;
+    EXPECT_EQ(pngErrorOf(changed), "frame.png: is a damaged PNG: a checksum is wrong") << place;
   }
 }
 

@@ -34,14 +34,14 @@ int predictionOf(int type, int a, int b, int c) {
 }
 
 /// Rows as they are and as their filters leave them, each behind its type.
-struct Picture {
+struct FilteredRows {
   Bytes plain;
   Bytes filtered;
 };
 
-Picture filtered(const std::vector<int>& types, std::size_t rowBytes, std::size_t pixel,
-                 std::mt19937& random) {
-  Picture picture;
+FilteredRows filtered(const std::vector<int>& types, std::size_t rowBytes, std::size_t pixel,
+                      std::mt19937& random) {
+  FilteredRows picture;
   Bytes above(rowBytes);
   for (const int type : types) {
     Bytes row(rowBytes);
@@ -73,7 +73,7 @@ TEST(RowFilterUndo, bringsBackRowsOfAnyTypeOneAfterAnother) {
       for (int k = 0; k < 12; ++k) {
         types.push_back(static_cast<int>(random() % 5));
       }
-      Picture picture = filtered(types, width * pixel, pixel, random);
+      FilteredRows picture = filtered(types, width * pixel, pixel, random);
       EXPECT_EQ(undoFilters(picture.filtered, width * pixel, pixel), std::nullopt);
       EXPECT_EQ(picture.filtered, picture.plain) << pixel << " bytes, width " << width;
     }

@@ -50,7 +50,7 @@ const std::vector<Way>& ways() {
   return kWays;
 }
 
-const std::array kFrames = {"000000", "000012", "000040"};
+const std::array kFrameNames = {"000000", "000012", "000040"};
 const char* const kFrameList = "0,12,40";
 
 // Half of them were not used to measure the tolerances.
@@ -93,12 +93,12 @@ class Pairs : public testing::TestWithParam<const char*> {
     EXPECT_NE(manifest->renderer.find(way.renderer), std::string::npos)
         << way.name << ": " << manifest->renderer;
     const Tolerance tolerance = toleranceOf(way.tolerance);
-    for (const std::string frame : kFrames) {
+    for (const std::string frame : kFrameNames) {
       const fs::path expected = folder_ / kPlain.name / (frame + ".png");
       const fs::path actual = folder_ / way.name / (frame + ".png");
       const bool identical = textOf(expected) == textOf(actual);
       const PictureDifference difference = differenceOf(readDeepPng(expected), readDeepPng(actual));
-      const Judgement judgement = judge(difference, tolerance);
+      const PictureJudgement judgement = judge(difference, tolerance);
       EXPECT_NE(judgement.verdict, Verdict::kDifferent)
           << way.name << ", " << frame << ": " << judgement.reasons.at(0);
       const Margin margin = marginOf(difference, tolerance);
@@ -121,7 +121,7 @@ TEST_P(Pairs, passWhicheverWayTheyAreDrawn) {
   }
   Way inParts = kPlain;
   inParts.name = "in parts";
-  for (const char* const frame : {kFrames[2], kFrames[0], kFrames[1]}) {
+  for (const char* const frame : {kFrameNames[2], kFrameNames[0], kFrameNames[1]}) {
     draw(inParts, frame, {"--resume"});
   }
   expectSame(inParts);
@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Pairs, testing::ValuesIn(kScenes),
                          [](const auto& scene) { return std::string(scene.param); });
 
 TEST(AllPairs, areTwoHundred) {
-  const std::size_t count = kScenes.size() * kFrames.size() * (ways().size() + 1);
+  const std::size_t count = kScenes.size() * kFrameNames.size() * (ways().size() + 1);
   EXPECT_GE(count, 200U);
   std::printf("%zu pairs\n", count);
 }

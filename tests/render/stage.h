@@ -40,7 +40,7 @@ inline Lighting evenLighting(const Vec3& background = Vec3::Zero()) {
 inline RenderOptions lit(const Lighting& lighting) {
   RenderOptions options;
   options.lighting = lighting;
-  options.materials = Materials{.contactShade = 0, .shoulder = 1e9, .dither = 0};  // light stays as it is
+  options.materials = Materials{.occlusion = false, .shoulder = 1e9, .dither = 0};  // light stays as it is
   return options;
 }
 

@@ -12,7 +12,7 @@
 namespace careen {
 namespace {
 
-const std::vector<BadPiece> kBadScenes = {
+const std::vector<BadPiece> kBadFilms = {
     {R"("target": [0, 0, 1])", R"("target": @[6, -8, 4])",
      "found the camera's target where its eye is, expected another place to look at"},
     {R"("target": [0, 0, 1], "up": [0, 0, 4])", R"("target": [6, -8, 1], "up": @[0, 0, 4])",
@@ -30,7 +30,7 @@ const std::vector<BadPiece> kBadScenes = {
 };
 
 TEST(FilmCheck, badScenesAreToldWhereAndWhy) {
-  for (const BadPiece& bad : kBadScenes) {
+  for (const BadPiece& bad : kBadFilms) {
     const MarkedText marked(everyKeyBut(bad.piece, bad.instead));
     EXPECT_EQ(inputErrorOf([&marked] { parseScene(marked.text, "f"); }),
               "f:" + marked.place + ": " + bad.message);

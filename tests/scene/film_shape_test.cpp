@@ -12,11 +12,11 @@
 namespace careen {
 namespace {
 
-std::string shapeErrorOf(const std::string& text) {
+std::string filmShapeErrorOf(const std::string& text) {
   return inputErrorOf([&text] { readShape(JsonTree(text, "f")); });
 }
 
-const std::vector<BadPiece> kBadValues = {
+const std::vector<BadPiece> kBadFilmValues = {
     {R"({ "eye": [6, -8, 4], )", "@{ ", "found no eye in camera, expected that key"},
     {R"("up": [0, 0, 4])", R"("up": @[0, 0, 0])", "found a zero vector for camera.up, expected a direction"},
     {R"("fov_deg": 35)", R"("fov_deg": @0)",
@@ -55,11 +55,11 @@ const std::vector<BadPiece> kBadValues = {
 };
 
 TEST(FilmShape, badValuesAreToldWhereAndWhy) {
-  for (const BadPiece& bad : kBadValues) {
+  for (const BadPiece& bad : kBadFilmValues) {
     const MarkedText marked(everyKeyBut(bad.piece, bad.instead));
-    EXPECT_EQ(shapeErrorOf(marked.text), "f:" + marked.place + ": " + bad.message);
+    EXPECT_EQ(filmShapeErrorOf(marked.text), "f:" + marked.place + ": " + bad.message);
   }
-  EXPECT_NE(shapeErrorOf(everyKeyBut(R"("shutter_deg": 90, )", ""))
+  EXPECT_NE(filmShapeErrorOf(everyKeyBut(R"("shutter_deg": 90, )", ""))
                 .find("found shutter_samples without shutter_deg in film, expected both, or neither"),
             std::string::npos);
 }

@@ -147,7 +147,7 @@ TEST(SceneReader, fillsInWhatASceneDoesNotSay) {
 
 TEST(SceneReader, smallestSceneOfTheReadmeParses) {
   const std::string readme = readFile(kSource / "README.md");
-  const std::string fence = "```jsonc\n";
+  const std::string fence = "```jsonc fall.json\n";
   const std::size_t start = readme.find(fence);
   ASSERT_NE(start, std::string::npos);
   const std::size_t end = readme.find("```", start + fence.size());

@@ -227,7 +227,7 @@ TEST(SceneShape, schemaTellsTheDefaultsOfTheReader) {
                      {"film", json::object()}};
   json filled = bare;
   for (const char* key :
-       {"name", "gravity", "walls", "springs", "method", "dt", "tolerance", "look", "overlays"}) {
+       {"name", "gravity", "walls", "springs", "method", "dt", "tolerance", "look", "light", "overlays"}) {
     filled[key] = keys[key]["default"];
   }
   for (const char* key : {"up", "fov_deg"}) {
@@ -249,6 +249,7 @@ TEST(SceneShape, schemaTellsTheDefaultsOfTheReader) {
   EXPECT_EQ(with.camera->up, without.camera->up);
   EXPECT_EQ(with.camera->fovDegrees, without.camera->fovDegrees);
   EXPECT_EQ(with.picture.overlays, without.picture.overlays);
+  EXPECT_EQ(with.picture.light, without.picture.light);
   EXPECT_EQ(with.picture.width, without.picture.width);
   EXPECT_EQ(with.picture.height, without.picture.height);
   EXPECT_EQ(with.picture.rate, without.picture.rate);
@@ -276,6 +277,10 @@ TEST(SceneShape, schemaListsTheMethodsThereAre) {
   EXPECT_EQ(schemaFile()["properties"]["method"]["enum"], json(names));
 }
 
+TEST(SceneShape, schemaListsThePartsOfTheLightThereAre) {
+  EXPECT_EQ(schemaFile()["properties"]["light"]["items"]["enum"], json(kLightPartNames));
+}
+
 TEST(SceneShape, schemaListsTheOverlaysThereAre) {
   EXPECT_EQ(schemaFile()["properties"]["overlays"]["items"]["enum"], json(kOverlayNames));
 }
@@ -299,7 +304,8 @@ const std::vector<BadPiece> kBadValues = {
      R"(found the unknown key "gravitiy" in the scene, expected "gravity")"},
     {R"("gravity")", R"(@"wind")",
      R"(found the unknown key "wind" in the scene, expected one of careen, name, duration, gravity, room, )"
-     "walls, boxes, springs, drag, method, dt, tolerance, crowds, camera, film, look, overlays, $schema"},
+     "walls, boxes, springs, drag, method, dt, tolerance, crowds, camera, film, look, light, overlays, "
+     "$schema"},
     {"[0, 0, -9.81]", "@-9.81", "found -9.81 for gravity, expected [x, y, z] [m/s²]"},
     {"[0, 0, -9.81]", "@[0, -9.81]", "found an array of 2 for gravity, expected [x, y, z] [m/s²]"},
     {R"({ "min": [-3, -2, 0], )", "@{ ", "found no min in room, expected that key"},

@@ -12,27 +12,27 @@ namespace {
 TEST(Overlay, everyNameIsReadAndWrittenBack) {
   std::string all;
   for (std::size_t i = 0; i < kOverlayNames.size(); ++i) {
-    const OverlaySet set = overlaysNamed(kOverlayNames.at(i));
+    const OverlaySet set = OverlaySet::named(kOverlayNames.at(i));
     EXPECT_TRUE(set.has(static_cast<Overlay>(i)));
     EXPECT_TRUE(set.any());
     EXPECT_EQ(set.text(), kOverlayNames.at(i));
     all.append(all.empty() ? "" : ",").append(kOverlayNames.at(i));
   }
-  EXPECT_EQ(overlaysNamed(all).text(), all);
-  EXPECT_EQ(overlaysNamed("time,names"), overlaysNamed("names,time"));
+  EXPECT_EQ(OverlaySet::named(all).text(), all);
+  EXPECT_EQ(OverlaySet::named("time,names"), OverlaySet::named("names,time"));
 }
 
 TEST(Overlay, noneIsNone) {
-  EXPECT_FALSE(overlaysNamed("none").any());
+  EXPECT_FALSE(OverlaySet::named("none").any());
   EXPECT_EQ(OverlaySet().text(), "none");
 }
 
 TEST(Overlay, unknownNamesAreToldWithThoseThereAre) {
   for (const char* text : {"", "enrgy", "time,", "time,none", "Time", "time, names"}) {
-    const std::string said = inputErrorOf([&] { overlaysNamed(text); });
+    const std::string said = inputErrorOf([&] { OverlaySet::named(text); });
     EXPECT_NE(said.find("expected one or more of: none, contacts, impulses"), std::string::npos) << said;
   }
-  EXPECT_TRUE(inputErrorOf([] { overlaysNamed("time,wind"); }).starts_with("found 'wind'"));
+  EXPECT_TRUE(inputErrorOf([] { OverlaySet::named("time,wind"); }).starts_with("found 'wind'"));
 }
 
 }  // namespace

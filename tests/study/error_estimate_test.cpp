@@ -80,6 +80,54 @@ TEST(ErrorEstimate, ofExactIsItsErrorAgainstAQuadrupleRun) {
   RecordProperty("estimated over true", std::to_string(estimated / error));
 }
 
+// A row of six dominoes, the first one leaning over its edge by an angle with sine 0.2.
+World dominoes() {
+  World world;
+  world.gravity = Vec3(0, 0, -9.81);
+  world.walls = {wall("floor", Vec3(0, 0, 1), 0, 0)};
+  const Vec3 half(0.05, 0.2, 0.4);
+  for (int k = 0; k < 6; ++k) {
+    world.bodies.push_back(box("domino-" + std::to_string(k), half, 40, Vec3(0.42 * k, 0, half.z()),
+                               Vec3::Zero(), Vec3::Zero(), 0));
+    world.bodies.back().material.friction = 0.4;
+  }
+  world.walls[0].material.friction = 0.4;
+  const double sine = 0.2;
+  const double cosine = std::sqrt(1 - sine * sine);
+  Pose& first = world.bodies[0].initial.pose;
+  first.worldFromBody << cosine, 0, sine, 0, 1, 0, -sine, 0, cosine;
+  const Vec3 pivot(half.x(), 0, -half.z());
+  first.position = Vec3(half.x(), 0, 0) - first.worldFromBody * pivot;
+  return world;
+}
+
+TEST(ErrorEstimate, ofCrowdsCoversTheDifferenceFromExactContact) {
+  const World world = dominoes();
+  RunSettings settings{.method = Method::kExact, .duration = 1.2};
+  settings.crowds.when = CrowdSettings::When::kNever;
+  settings.tolerance = 1e-8;
+  const Trajectory truth = record(world, settings, "");
+  settings.crowds = {.when = CrowdSettings::When::kAbove, .above = 1, .tolerance = 3e-4};
+  settings.tolerance = 1e-6;
+  const Trajectory run = record(world, settings, "");
+  ASSERT_TRUE(run.figures.boundedFrom.has_value());
+  const std::optional<ErrorEstimate> estimate = estimateError(run);
+  ASSERT_TRUE(estimate.has_value());
+  double error = 0;
+  for (int k = 1; k <= kEstimateSamples; ++k) {
+    const double time = settings.duration * k / kEstimateSamples;
+    for (std::size_t body = 0; body < world.bodies.size() && time <= estimate->until; ++body) {
+      error = std::max(error,
+                       (run.state(body, time).pose.position - truth.state(body, time).pose.position).norm());
+    }
+  }
+  EXPECT_GT(estimate->until, 0.5);
+  EXPECT_GT(error, 1e-5);  // there is something to estimate
+  EXPECT_GT(estimate->position, error);
+  EXPECT_LT(estimate->position, 30 * error);
+  RecordProperty("estimated over true", std::to_string(estimate->position / error));
+}
+
 TEST(ErrorEstimate, findsWhereChaosTakesOver) {
   const World world = elasticRoom();
   const Trajectory run = record(world, {.method = Method::kExact, .duration = 30}, "");

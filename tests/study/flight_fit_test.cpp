@@ -12,11 +12,11 @@
 namespace careen {
 namespace {
 
-constexpr double kRate = 148;  // [1/s]
-const Vec3 kGravity(0, 0, -9.81);
+constexpr double kRateOfFlight = 148;  // [1/s]
+const Vec3 kGravityOfFlight(0, 0, -9.81);
 
 /// A box of random size and motion, measured with noise.
-struct Measured {
+struct MeasuredFlight {
   MassProperties mass;
   BodyState start;
   Vec3 spin = Vec3::Zero();
@@ -24,7 +24,7 @@ struct Measured {
   std::vector<Vec3> positions;
   std::vector<Quat> attitudes;
 
-  Measured(std::mt19937_64& random, int rows, double positionNoise, double attitudeNoise) {
+  MeasuredFlight(std::mt19937_64& random, int rows, double positionNoise, double attitudeNoise) {
     std::uniform_real_distribution<double> number(-1, 1);
     std::normal_distribution<double> normal;
     const auto vector = [&](auto& from) -> Vec3 { return {from(random), from(random), from(random)}; };
@@ -38,30 +38,32 @@ struct Measured {
     Flight flight;
     flight.position = start.pose.position;
     flight.velocity = start.velocity;
-    flight.acceleration = kGravity;
+    flight.acceleration = kGravityOfFlight;
     flight.worldFromBody = Quat(start.pose.worldFromBody);
     flight.angularMomentum = start.angularMomentum;
     for (int k = 0; k < rows; ++k) {
-      const double time = k / kRate;
+      const double time = k / kRateOfFlight;
       const Pose pose = stateAt(flight, mass, time).pose;
       const Vec3 turn = attitudeNoise * vector(normal);
       times.push_back(time);
       positions.push_back(pose.position + positionNoise * vector(normal));
-      attitudes.push_back((Quat(1, turn.x() / 2, turn.y() / 2, turn.z() / 2) * Quat(pose.worldFromBody)).normalized());
+      attitudes.push_back(
+          (Quat(1, turn.x() / 2, turn.y() / 2, turn.z() / 2) * Quat(pose.worldFromBody)).normalized());
       if (random() % 2 == 0) {
         attitudes.back().coeffs() = -attitudes.back().coeffs();
       }
     }
   }
   FlightFit fit() const {
-    return fitFlight(mass, kGravity, {.times = times, .positions = positions, .attitudes = attitudes});
+    return fitFlight(mass, kGravityOfFlight,
+                     {.times = times, .positions = positions, .attitudes = attitudes});
   }
 };
 
 TEST(FlightFit, ofExactPosesIsTheirFlight) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 100; ++trial) {
-    const Measured measured(random, 30, 0, 0);
+    const MeasuredFlight measured(random, 30, 0, 0);
     const FlightFit fit = measured.fit();
     EXPECT_LT((fit.start.pose.position - measured.start.pose.position).norm(), 1e-14);
     EXPECT_LT((fit.start.velocity - measured.start.velocity).norm(), 1e-12);
@@ -81,7 +83,7 @@ TEST(FlightFit, knowsHowWellItKnows) {
   double noise = 0;
   double turning = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const Measured measured(random, 40, 55e-6, 0.44e-3);
+    const MeasuredFlight measured(random, 40, 55e-6, 0.44e-3);
     const FlightFit fit = measured.fit();
     position += (fit.start.pose.position - measured.start.pose.position).squaredNorm() / 3 /
                 (fit.linear[0] * fit.linear[0]) / kTrials;
@@ -99,7 +101,7 @@ TEST(FlightFit, knowsHowWellItKnows) {
 // Starts that are drawn scatter as the fits of repeated measurements do.
 TEST(FlightFit, drawnStartsScatterAsMeasurementsDo) {
   std::mt19937_64 random(3);
-  const Measured measured(random, 40, 55e-6, 0.44e-3);
+  const MeasuredFlight measured(random, 40, 55e-6, 0.44e-3);
   const FlightFit fit = measured.fit();
   constexpr int kDraws = 4000;
   Vec3 spins = Vec3::Zero();
@@ -127,8 +129,9 @@ TEST(FlightFit, drawnStartsScatterAsMeasurementsDo) {
 
 TEST(FlightFit, tooFewRowsAreRefused) {
   std::mt19937_64 random(4);
-  const Measured measured(random, 3, 0, 0);
-  EXPECT_EQ(inputErrorOf([&] { measured.fit(); }), "found 3 poses in free flight, expected at least 4 to fit");
+  const MeasuredFlight measured(random, 3, 0, 0);
+  EXPECT_EQ(inputErrorOf([&] { measured.fit(); }),
+            "found 3 poses in free flight, expected at least 4 to fit");
 }
 
 TEST(FlightFit, rotationsAreTheShorterWayRound) {

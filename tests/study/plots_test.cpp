@@ -17,19 +17,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-StudyResult someStudy() { return {.machine = "here", .command = "careen study", .cases = {someCase()}}; }
+StudyResult plottedStudy() { return {.machine = "here", .command = "careen study", .cases = {someCase()}}; }
 
 TEST(Plots, areMadeFromTablesThatAreAllWritten) {
   const TemporaryFolder folder;
-  writeTables(someStudy(), folder.path());
+  writeTables(plottedStudy(), folder.path());
   EXPECT_EQ(folder.files(), (std::vector<std::string>{"energy.csv", "matrix.csv", "results.csv",
                                                       "results.json", "results.md"}));
-  EXPECT_EQ(readFile(folder / "matrix.csv"), matrixCsv(someStudy()));
+  EXPECT_EQ(readFile(folder / "matrix.csv"), matrixCsv(plottedStudy()));
 }
 
 TEST(Plots, areDrawnOfTheMatrixOfEachCaseAndOfItsEnergy) {
   const TemporaryFolder folder;
-  StudyResult study = someStudy();
+  StudyResult study = plottedStudy();
   study.cases.push_back(someCase());
   study.cases[1].name = "lost";
   study.cases[1].attempts = {failed("ode", 0.1)};
@@ -53,7 +53,7 @@ TEST(Plots, takeNamesForNamesAndNotForCommands) {
   const std::string name = "a';system('touch made');'";
   const std::string title = "`touch made`, \"q\" it's {/:=40 100%} \\n\nend";
   for (const std::string out : {"|touch made", "< touch made", "it's", "a,\"b\"\nc", "-e", "$(touch made)"}) {
-    StudyResult study = someStudy();
+    StudyResult study = plottedStudy();
     study.cases[0].name = name;
     study.cases[0].title = title;
     fs::create_directories(folder / out);

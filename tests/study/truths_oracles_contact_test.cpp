@@ -32,7 +32,7 @@ double printedDifference(const std::string& what, const Quad& one, const Quad& o
   return by;
 }
 
-double furthest(const QuadPoses& some, const QuadPoses& others) {
+double furthestApart(const QuadPoses& some, const QuadPoses& others) {
   EXPECT_EQ(some.size(), others.size());
   double worst = 0;
   for (std::size_t k = 0; k < std::min(some.size(), others.size()); ++k) {
@@ -64,7 +64,7 @@ TEST(TruthsOfContact, ofSlidingAtEveryAzimuthStopAfterTheSquareOfTheSpeed) {
     EXPECT_LT(abs(Quad(slide.way(Quad(1)) - squared / (2 * slows))), Quad(1e-30));
     EXPECT_LT(slide.stop(), Quad(scene.duration));
     if (k % 5 == 1) {  // only some, to save time
-      worst = std::max(worst, furthest(slide.poses(times), slidAndSpun(scene, box, times)));
+      worst = std::max(worst, furthestApart(slide.poses(times), slidAndSpun(scene, box, times)));
     }
   }
   std::cout << "sliding-azimuths: two oracles apart by " << worst << '\n';
@@ -80,7 +80,7 @@ TEST(TruthsOfContact, ofSpinningFlatEndAtTheAngleOfTheClosedForm) {
   oracle::SlidingSpin other(box, -scene.gravity[2], friction);
   EXPECT_LT(printedDifference("spinning-stop: stops at", spin.stop(), other.stop()), 1e-25);
   EXPECT_LT(spin.stop(), Quad(scene.duration));
-  const double worst = furthest(spin.poses(times), slidAndSpun(scene, box, times));
+  const double worst = furthestApart(spin.poses(times), slidAndSpun(scene, box, times));
   std::cout << "spinning-stop: two oracles apart by " << worst << '\n';
   EXPECT_LT(worst, 1e-25);
 }

@@ -20,12 +20,12 @@ using oracle::QuadPoses;
 using oracle::QuadScene;
 using oracle::QuadVector;
 
-QuadScene sceneOf(const std::string& name) { return oracle::sceneIn(scenePath(name)); }
+QuadScene publishedScene(const std::string& name) { return oracle::sceneIn(scenePath(name)); }
 double rounded(const Quad& number) { return static_cast<double>(number); }
 
 // tan 26.565° = 0.5 = μ of the box that holds; the other has 0.49.
 TEST(TruthsOfPublished, ofTheThresholdLieOnItsSides) {
-  const QuadScene scene = sceneOf("friction-threshold");
+  const QuadScene scene = publishedScene("friction-threshold");
   const oracle::QuadWall& slope = scene.walls.at(0);
   EXPECT_LE(abs(Quad(slope.normal[0] / slope.normal[2] - Quad(1) / 2)), Quad(1e-30));
   EXPECT_EQ(frictionOf(scene.boxes.at(0), slope), Quad(1) / 2);
@@ -48,7 +48,7 @@ TEST(TruthsOfPublished, ofLandingsTouchAtTheHeightOfTheirCorners) {
                               Landing{"land-edge-edge", std::sqrt(2), std::sqrt(2)},
                               Landing{"land-crossed-edges", std::sqrt(2), std::sqrt(2)},
                               Landing{"land-corner-face", 1, std::sqrt(3)}}) {
-    const QuadScene scene = sceneOf(each.name);
+    const QuadScene scene = publishedScene(each.name);
     const double half = rounded(scene.boxes.at(0).halfExtents[0]);
     EXPECT_NEAR(rounded(oracle::heightOf(scene.boxes.at(0))), half * each.below, 1e-15) << each.name;
     EXPECT_NEAR(rounded(oracle::heightOf(scene.boxes.at(1))), half * each.above, 1e-15) << each.name;
@@ -130,7 +130,7 @@ class ConstrainedCard {
 };
 
 TEST(TruthsOfPublished, ofTheTentsAgreeWithCartesianCoordinates) {
-  const QuadScene scene = sceneOf("tent");
+  const QuadScene scene = publishedScene("tent");
   const std::vector<QuadCard> cards = cardsOf(scene);
   ASSERT_EQ(cards.size(), 4U);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -165,7 +165,7 @@ TEST(TruthsOfPublished, ofTheTentsAgreeWithCartesianCoordinates) {
 // half of that, straight down, on its outer upper edge. Moments about the foot give the thrust.
 TEST(TruthsOfPublished, ofHousesOfCardsAreHeldByForcesWithinTheCones) {
   for (const int levels : {2, 3, 4}) {
-    const QuadScene scene = sceneOf("card-house-" + std::to_string(levels));
+    const QuadScene scene = publishedScene("card-house-" + std::to_string(levels));
     double above = 0;  // [N]
     double most = 0;
     std::size_t end = scene.boxes.size();
@@ -215,7 +215,7 @@ TEST(TruthsOfPublished, ofHousesOfCardsAreHeldByForcesWithinTheCones) {
 }
 
 TEST(TruthsOfPublished, ofTheThreeBoxesKeepMomentumAndEnergy) {
-  const QuadScene scene = sceneOf("bernoulli");
+  const QuadScene scene = publishedScene("bernoulli");
   const std::vector<double> times = {0.25, 0.5};
   const std::vector<QuadPoses> poses = struckAtOnce(scene, times);
   Quad momentum = 0;
@@ -243,7 +243,7 @@ TEST(TruthsOfPublished, ofTheThreeBoxesKeepMomentumAndEnergy) {
 // Then the rod turns about it without slipping, and neither energy nor, at the stop, the angular momentum
 // about it changes.
 TEST(TruthsOfPublished, ofPainlevesRodAreInTheParadoxAndDoNotSlip) {
-  const QuadScene scene = sceneOf("painleve-rod");
+  const QuadScene scene = publishedScene("painleve-rod");
   const QuadBox& box = scene.boxes.at(0);
   const Quad friction = frictionOf(box, scene.walls.at(0));
   EXPECT_EQ(friction, 2);
@@ -282,7 +282,7 @@ TEST(TruthsOfPublished, ofPainlevesRodAreInTheParadoxAndDoNotSlip) {
 
 // Three hold, two slide by g (sin θ − μ cos θ) t²/2.
 TEST(TruthsOfPublished, ofRampsSlideWhereTheyAreSteeperThanFriction) {
-  const QuadScene scene = sceneOf("omnibench-incline");
+  const QuadScene scene = publishedScene("omnibench-incline");
   ASSERT_EQ(scene.boxes.size(), 10U);
   const std::array<double, 5> degrees = {15, 20, 25, 30, 35};
   for (std::size_t i = 0; i < 5; ++i) {
@@ -300,7 +300,7 @@ TEST(TruthsOfPublished, ofRampsSlideWhereTheyAreSteeperThanFriction) {
 
 // Box k falls k mm and finds the one below at rest since √(2 · 1 mm/g) (√k − √(k−1)) before.
 TEST(TruthsOfPublished, ofTheStackLandOneAfterTheOther) {
-  const QuadScene scene = sceneOf("omnibench-stack");
+  const QuadScene scene = publishedScene("omnibench-stack");
   double before = 0;
   for (std::size_t k = 0; k < scene.boxes.size(); ++k) {
     const double fall = rounded(scene.boxes[k].position[2]) - 0.05 * static_cast<double>(2 * k + 1);
@@ -314,7 +314,7 @@ TEST(TruthsOfPublished, ofTheStackLandOneAfterTheOther) {
 
 // Each layer of two planks is symmetric about the middle of those it rests on.
 TEST(TruthsOfPublished, ofTheTowerRestAmidTheirSupports) {
-  const QuadScene scene = sceneOf("kapla-tower");
+  const QuadScene scene = publishedScene("kapla-tower");
   ASSERT_EQ(scene.boxes.size(), 32U);
   for (std::size_t k = 0; k < 16; ++k) {
     const QuadBox& a = scene.boxes.at(2 * k);

@@ -24,12 +24,14 @@ Toss toss(const std::string& name, double place, const std::string& simulated) {
 }
 
 Validation found() {
-  return {.scene = "cube",
-          .size = 0.1,
-          .tosses = {toss("a<b.csv", 0.01, "+x"), toss("c.csv", 0.02, "-z")},
-          .swept = Parameter::kFriction,
-          .sweep = {{.value = 0.1, .place = 0.03}, {.value = 0.2, .place = 0.01}, {.value = 0.3, .place = 0.03}},
-          .sceneValue = 0.15};
+  return {
+      .program = "careen 1.2.3",
+      .scene = "cube",
+      .size = 0.1,
+      .tosses = {toss("a<b.csv", 0.01, "+x"), toss("c.csv", 0.02, "-z")},
+      .swept = Parameter::kFriction,
+      .sweep = {{.value = 0.1, .place = 0.03}, {.value = 0.2, .place = 0.01}, {.value = 0.3, .place = 0.03}},
+      .sceneValue = 0.15};
 }
 
 TEST(ValidationPage, theSummaryHasTheMeansAndTheMinimum) {
@@ -43,6 +45,7 @@ TEST(ValidationPage, theSummaryHasTheMeansAndTheMinimum) {
 TEST(ValidationPage, jsonHasAllOfIt) {
   const nlohmann::json report = nlohmann::json::parse(validationJson(found()));
   EXPECT_EQ(report["faces_right"], 1);
+  EXPECT_EQ(report["program"], "careen 1.2.3");
   EXPECT_EQ(report["tosses"][1]["simulated_face"], "-z");
   EXPECT_DOUBLE_EQ(report["place"]["mean"], 0.015);
   EXPECT_EQ(report["sweep"]["parameter"], "friction");

@@ -8,7 +8,7 @@
 #include "physics/impact/impact_law.h"
 #include "support/quad.h"
 
-namespace careen::testing {
+namespace careen::test {
 
 using careen::Quad;
 using Quad3 = Vector3<Quad>;
@@ -184,4 +184,4 @@ inline bool sameBits(const BodyState& a, const BodyState& b) {
   return a.velocity == b.velocity && a.angularMomentum == b.angularMomentum;
 }
 
-}  // namespace careen::testing
+}  // namespace careen::test

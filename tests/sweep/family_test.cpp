@@ -13,7 +13,7 @@
 namespace careen {
 namespace {
 
-const std::string kFamily =
+const std::string kMixedFamily =
     R"({ "careen": 1, "duration": 1, "gravity": [0, 0, { "choice": [-9.81, -1.62, { "uniform": [-4, -3] }] }],
   "sweep": { "seed": 3, "tries": 200 },
   "walls": [ { "point": [0, 0, 0], "normal": [0, 0, 1], "friction": { "log_uniform": [0.01, 1] } } ],
@@ -24,7 +24,7 @@ const std::string kFamily =
       "orientation": { "rotation": "uniform" }, "velocity": { "unit_vector": 2 } } ] })";
 
 TEST(Family, drawsEveryKindOfValueInItsRange) {
-  const Family family(kFamily, "family.json");
+  const Family family(kMixedFamily, "family.json");
   std::set<std::size_t> counts;
   std::set<double> gravities;
   int retried = 0;
@@ -53,19 +53,19 @@ TEST(Family, drawsEveryKindOfValueInItsRange) {
 }
 
 TEST(Family, runIsTheSameWhateverElseIsAsked) {
-  const Family one(kFamily, "family.json");
-  const Family two(kFamily, "elsewhere.json");
+  const Family one(kMixedFamily, "family.json");
+  const Family two(kMixedFamily, "elsewhere.json");
   static_cast<void>(two.member(5));
   EXPECT_EQ(one.sceneText(41, 0), two.sceneText(41, 0));
   EXPECT_NE(one.sceneText(41, 0), one.sceneText(42, 0));
   EXPECT_NE(one.sceneText(41, 0), one.sceneText(41, 1));
-  std::string other = kFamily;
+  std::string other = kMixedFamily;
   other.replace(other.find("\"seed\": 3"), 9, "\"seed\": 4");
   EXPECT_NE(one.sceneText(41, 0), Family(other, "family.json").sceneText(41, 0));
 }
 
 TEST(Family, tellsWhatVaries) {
-  const Family family(kFamily, "family.json");
+  const Family family(kMixedFamily, "family.json");
   EXPECT_EQ(family.columns(),
             (std::vector<std::string>{"gravity[2]", "gravity[2].choice[2]", "walls[0].friction"}));
   ASSERT_EQ(family.varying().size(), 3 + 1 + 3 + 4 + 3U);
@@ -79,13 +79,13 @@ TEST(Family, ofAPlainSceneIsThatScene) {
   EXPECT_TRUE(family.varying().empty());
   EXPECT_EQ(family.member(9).scene.boxes[0].velocity, Vec3(6, 1.5, 0));
   EXPECT_FALSE(looksLikeFamily(kEveryKey));
-  EXPECT_TRUE(looksLikeFamily(kFamily));
+  EXPECT_TRUE(looksLikeFamily(kMixedFamily));
   EXPECT_FALSE(looksLikeFamily("{ nonsense"));
 }
 
 TEST(Family, refusesWhatIsNoDistribution) {
   const auto refusal = [](const std::string& piece, const std::string& marked) {
-    std::string text = kFamily;
+    std::string text = kMixedFamily;
     text.replace(text.find(piece), piece.size(), marked);
     const MarkedText bad(text);
     try {
@@ -115,7 +115,7 @@ TEST(Family, refusesWhatIsNoDistribution) {
 }
 
 TEST(Family, whatIsNoSceneIsToldWithTheRun) {
-  std::string text = kFamily;
+  std::string text = kMixedFamily;
   text.replace(text.find("\"mass\": 1"), 9, "\"mass\": { \"uniform\": [-2, -1] }");
   try {
     const Family family(text, "f.json");
@@ -127,7 +127,7 @@ TEST(Family, whatIsNoSceneIsToldWithTheRun) {
 }
 
 TEST(Family, startsThatCannotBeAreGivenUpAfterTheBound) {
-  std::string text = kFamily;
+  std::string text = kMixedFamily;
   text.replace(text.find("{ \"uniform_integer\": [1, 4] }"), 29, "60");
   try {
     const Family family(text, "f.json");

@@ -13,7 +13,7 @@ namespace careen {
 namespace {
 
 // Two boxes like those of driftAndReturn(), the fixed one second.
-const std::string kFamily = R"({ "careen": 1, "duration": 1, "gravity": [0, 0, { "uniform": [-2, -1] }],
+const std::string kDrifters = R"({ "careen": 1, "duration": 1, "gravity": [0, 0, { "uniform": [-2, -1] }],
   "boxes": [ { "name": "drifter", "half_extents": [0.1, 0.2, 0.3], "mass": 2, "position": [1, 0, 0], "restitution": 0.5 },
              { "name": "anchor", "half_extents": [1, 1, 1], "fixed": true, "position": [0, 5, 0] } ] })";
 
@@ -30,7 +30,7 @@ class OutcomeRows : public testing::Test {
     return 0;
   }
 
-  Family family_{kFamily, "family.json"};
+  Family family_{kDrifters, "family.json"};
   Trajectory run_ = driftAndReturn();
 };
 

@@ -134,7 +134,7 @@ TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
   bytes[8] = 77;
   EXPECT_EQ(messageOf(withRightChecksum(bytes)),
-            "run.careen: this trajectory file has format version 77, expected 5");
+            "run.careen: this trajectory file has format version 77, expected 6");
 }
 
 TEST(TrajectoryFile, refusesAnotherKindOfFile) {

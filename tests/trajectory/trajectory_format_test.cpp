@@ -52,7 +52,7 @@ Stage everyPart() {
                    .look = Look::kClay,
                    .antialiasing = Antialiasing::kMultisampled,
                    .shutter = {.degrees = 123.456, .samples = 7},
-                   .overlays = overlaysNamed("trail,energy")};
+                   .overlays = OverlaySet::named("trail,energy")};
   return stage;
 }
 

@@ -12,12 +12,12 @@
 namespace careen {
 namespace {
 
-constexpr double kAspect = 16.0 / 9;
+constexpr double kWideAspect = 16.0 / 9;
 
 // Looks along +y from 10 m away with a vertical field of 90°: half the picture's height is 10 m there.
 View straightView() {
   const Camera camera = cameraAt(Vec3(1, -10, 2), Vec3(1, 0, 2), 90);
-  return viewOf(camera, {.min = Vec3(-5, -5, -5), .max = Vec3(5, 5, 5)}, kAspect);
+  return viewOf(camera, {.min = Vec3(-5, -5, -5), .max = Vec3(5, 5, 5)}, kWideAspect);
 }
 
 TEST(Camera, targetIsInTheMiddleOfThePicture) {
@@ -58,7 +58,7 @@ TEST(Camera, refusesToLookNowhereOrAlongItsUp) {
 // Every corner within the picture, and one of them near its edge: neither cut off nor lost in the distance.
 TEST(Camera, defaultSeesTheWholeSceneAndNotMuchMore) {
   for (const Vec3& size : {Vec3(6, 4, 3), Vec3(1, 1, 9), Vec3(0.01, 0.02, 0.01), Vec3(500, 10, 10)}) {
-    for (const double aspect : {kAspect, 0.5}) {
+    for (const double aspect : {kWideAspect, 0.5}) {
       const Extent extent{.min = Vec3(7, -3, 2), .max = Vec3(7, -3, 2) + size};
       const View view = viewOf(cameraThatSees(extent, aspect), extent, aspect);
       double farthestOut = 0;
@@ -75,9 +75,9 @@ TEST(Camera, defaultSeesTheWholeSceneAndNotMuchMore) {
 
 TEST(Camera, ofTheSceneComesFirst) {
   Scene scene = crateInRoom();
-  EXPECT_EQ(cameraOf(setupOf(scene), kAspect).eye, Vec3(-1.5, -7, 3));
+  EXPECT_EQ(cameraOf(setupOf(scene), kWideAspect).eye, Vec3(-1.5, -7, 3));
   scene.camera.reset();
-  EXPECT_EQ(cameraOf(setupOf(scene), kAspect).target, Vec3(0, 0, 1.5));
+  EXPECT_EQ(cameraOf(setupOf(scene), kWideAspect).target, Vec3(0, 0, 1.5));
 }
 
 }  // namespace

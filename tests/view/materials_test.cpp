@@ -14,9 +14,9 @@ bool isPart(double value) { return value >= 0 && value <= 1; }
 TEST(Materials, ofEveryLookArePartsAndColours) {
   for (const Look look : kAllLooks) {
     const Materials materials = materialsOf(look);
-    for (const double part :
-         {materials.boxRoughness, materials.ownColor, materials.tileRoughness, materials.wallRoughness,
-          materials.tileContrast, materials.joints, materials.contactShade, materials.shoulder}) {
+    for (const double part : {materials.boxRoughness, materials.ownColor, materials.tileRoughness,
+                              materials.wallRoughness, materials.tileContrast, materials.joints,
+                              materials.bounce, materials.corners, materials.shoulder}) {
       EXPECT_TRUE(isPart(part));
     }
     for (const Vec3& color :
@@ -32,7 +32,8 @@ TEST(Materials, letBoxesBeSeen) {
   EXPECT_TRUE(studio.marks);
   EXPECT_EQ(studio.ownColor, 1);
   EXPECT_GT(materialsOf(Look::kBlueprint).edgeLine, 0);
-  EXPECT_GT(materialsOf(Look::kClay).contactShade, studio.contactShade);
+  EXPECT_TRUE(studio.occlusion);
+  EXPECT_TRUE(materialsOf(Look::kClay).occlusion);
   for (const Look look : kAllLooks) {
     EXPECT_GT(materialsOf(look).ownColor, 0) << "boxes of two colours look alike";
   }
@@ -41,7 +42,7 @@ TEST(Materials, letBoxesBeSeen) {
 // What is drawn of blueprints is lines: neither shade nor tiles.
 TEST(Materials, ofBlueprintsHaveNeitherShadeNorTiles) {
   const Materials blueprint = materialsOf(Look::kBlueprint);
-  EXPECT_EQ(blueprint.contactShade, 0);
+  EXPECT_FALSE(blueprint.occlusion);
   EXPECT_EQ(blueprint.tileContrast, 0);
   EXPECT_TRUE(blueprint.ownJoints);
   EXPECT_GT(blueprint.lineColor.minCoeff(), blueprint.boxColor.maxCoeff()) << "light on dark";

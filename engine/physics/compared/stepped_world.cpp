@@ -23,7 +23,7 @@ namespace careen {
 namespace {
 
 constexpr std::int64_t kStepsAtOnce = 64;  // steps per call of a method and per recorded segment
-constexpr double kSliver = 1e-6;           // [1] of dt: a shorter last step is merged with the one before
+constexpr double kSliverStep = 1e-6;       // [1] of dt: a shorter last step is merged with the one before
 constexpr double kShortestHop = 0x1p-40;   // [1] of a step
 constexpr int kMostRefinements = 200;
 
@@ -231,17 +231,13 @@ double SteppedBody::contactWithin(double h, double gapAtEnd) const {
   }
   double best = bracket.low;
   for (int k = 0; k < kMostRefinements && bracket.width() > std::numeric_limits<double>::epsilon() * h; ++k) {
-    const double middle = bracket.cut();
+    const double middle = bracket.next(std::numeric_limits<double>::epsilon() * h);
     const double gap = gapOf(after(middle));
     best = middle;
     if (std::fabs(gap) <= gapRounding() / 8) {
       break;
     }
-    if (gap < 0) {
-      bracket.moveHigh(middle, gap);
-    } else {
-      bracket.moveLow(middle, gap);
-    }
+    bracket.add(middle, gap);
   }
   return best;
 }
@@ -249,7 +245,7 @@ double SteppedBody::contactWithin(double h, double gapAtEnd) const {
 // By multiplication: a running sum would drift away from the video frames.
 double SteppedBody::stepEnd(std::int64_t step) const {
   const double end = static_cast<double>(step) * settings_.dt;
-  return end < settings_.duration - kSliver * settings_.dt ? end : settings_.duration;
+  return end < settings_.duration - kSliverStep * settings_.dt ? end : settings_.duration;
 }
 
 // Whole steps in which the bounding sphere reaches no wall.

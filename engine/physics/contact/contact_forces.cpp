@@ -19,7 +19,7 @@ constexpr double kNear = 0x1p-38;
 /// Conditions that contradict each other by this much are met as well as possible.
 constexpr double kInconsistent = 0x1p-10;
 /// [1] of the smallest violation: the iteration has diverged.
-constexpr double kDiverged = 0x1p20;
+constexpr double kForcesDiverged = 0x1p20;
 /// [1] of the accelerations, with given modes: gaps and rates are projected anyway.
 constexpr double kEnough = 0x1p-50;
 /// [1] of the current accelerations: bodies count as not moving.
@@ -192,7 +192,7 @@ bool ContactForces::solveGiven(std::span<const double> free, std::span<const Mod
   for (int iteration = 0; iteration < kOuterCap; ++iteration) {
     look();
     const double now = violation(modes);
-    if (!(now <= kDiverged * bestViolation)) {
+    if (!(now <= kForcesDiverged * bestViolation)) {
       break;
     }
     stalled = now < bestViolation / 2 ? 0 : stalled + 1;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/contact/three_at.h"
 #include "physics/geometry/tangents.h"
 #include "physics/world/forces.h"
 
 namespace careen {
 namespace {
 
-constexpr std::size_t kSix = ContactForces::kAxes;
 constexpr std::size_t kHeld = std::numeric_limits<std::size_t>::max();
 /// [1] of the speed after falling a half diagonal: rounding error of a body at rest.
 constexpr double kRestSpeed = 0x1p-44;
@@ -22,12 +22,6 @@ constexpr int kMostProjections = 4;
 /// but not quite, better some gap than a jump.
 constexpr double kMostShift = 64;
 
-Vec3 threeAt(std::span<const double> y, std::size_t at) { return {y[at], y[at + 1], y[at + 2]}; }
-void setThree(std::span<double> y, std::size_t at, const Vec3& v) {
-  y[at] = v[0];
-  y[at + 1] = v[1];
-  y[at + 2] = v[2];
-}
 Quat quatAt(std::span<const double> y, std::size_t at) { return {y[at], y[at + 1], y[at + 2], y[at + 3]}; }
 void setQuat(std::span<double> y, std::size_t at, const Quat& q) {
   y[at] = q.w();

@@ -5,18 +5,18 @@
 
 #include "core/math/elementary.h"
 #include "core/math/order_free_sum.h"
+#include "physics/contact/three_at.h"
 #include "physics/geometry/tangents.h"
 
 namespace careen {
 namespace {
 
-constexpr std::size_t kSix = ContactProblem::kAxes;
 /// Rows at the middle and law at the end depend on the step's own result: one pass alone is of first order.
 constexpr int kPasses = 2;
 /// [1] Cosine of the angle of two normals that count as one: what the tolerance allows for a thin box.
 constexpr double kParallel = 1 - 0x1p-27;
 /// [1] of the tolerance in the time to fall a half diagonal: a residual of the law that is as good as none.
-constexpr double kEnough = 0x1p-8;
+constexpr double kEnoughProgress = 0x1p-8;
 
 Quat rotationBy(const Vec3& angle) {
   const double size = angle.norm();
@@ -28,13 +28,6 @@ Quat rotationBy(const Vec3& angle) {
   return {half.cos, axis[0], axis[1], axis[2]};
 }
 
-void setThree(std::vector<double>& to, std::size_t at, const Vec3& v) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    to[at + k] = v[static_cast<Eigen::Index>(k)];
-  }
-}
-Vec3 threeAt(const std::vector<double>& of, std::size_t at) { return {of[at], of[at + 1], of[at + 2]}; }
-
 }  // namespace
 
 ImplicitStep::ImplicitStep(const World& world, const std::vector<TouchingBody>& bodies, double tolerance)
@@ -43,7 +36,7 @@ ImplicitStep::ImplicitStep(const World& world, const std::vector<TouchingBody>& 
   for (const TouchingBody& body : bodies) {
     radius = body.isHeld() ? radius : std::max(radius, body.body->halfExtents.norm());
   }
-  enough_ = kEnough * tolerance * std::sqrt(world.gravity.norm() / radius);
+  enough_ = kEnoughProgress * tolerance * std::sqrt(world.gravity.norm() / radius);
   if (!world.springs.empty() || world.drag) {
     for (const Body& body : world.bodies) {
       worldStates_.push_back(body.initial);

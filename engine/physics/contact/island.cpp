@@ -4,8 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/motion/hermite_step.h"
+#include "physics/contact/three_at.h"
 #include "physics/geometry/separation.h"
+#include "physics/motion/hermite_step.h"
 
 namespace careen {
 namespace {
@@ -45,8 +46,6 @@ constexpr double kMostLocated = 4;
 constexpr double kDiverged = 0x1p200;
 constexpr int kMostAttempts = 60;
 constexpr int kMostHalvings = 20;
-
-Vec3 threeAt(const DormandPrince5::State& y, std::size_t at) { return {y[at], y[at + 1], y[at + 2]}; }
 
 }  // namespace
 
@@ -253,6 +252,39 @@ double Island::sizeOf(const State& difference, double h) const {
   return worst / (kShare * tolerance_);
 }
 
+// The motions of the last step, of that length, of the bodies that move.
+std::vector<ContactStep> Island::motions(double h) const {
+  std::vector<ContactStep> path;
+  for (std::size_t i = 0; i < bodies().size(); ++i) {
+    if (!bodies()[i].isHeld()) {
+      path.push_back(motion(i, h));
+    }
+  }
+  return path;
+}
+
+Island::State Island::stateWithin(std::span<const ContactStep> path, double time) const {
+  State state;
+  for (std::size_t i = 0; i < bodies().size(); ++i) {
+    if (bodies()[i].isHeld()) {
+      continue;
+    }
+    const MassProperties& mass = bodies()[i].body->mass;
+    const BodyState at = stateAt(Motion(path[system_.placeOf(i)]), mass, time);
+    const Quat turned(at.pose.worldFromBody);
+    const Vec3 spin =
+        mass.inverseInertiaBody.cwiseProduct(at.pose.worldFromBody.transpose() * at.angularMomentum);
+    for (const Vec3& part : {at.pose.position, Vec3(turned.w(), turned.x(), turned.y())}) {
+      state.insert(state.end(), part.begin(), part.end());
+    }
+    state.push_back(turned.z());
+    for (const Vec3& part : {at.velocity, spin}) {
+      state.insert(state.end(), part.begin(), part.end());
+    }
+  }
+  return state;
+}
+
 // The error of the motion halfway through a step, relative to the error allowed. The polynomial has the right
 // accelerations at both ends; halfway they differ by e, and where that goes with t³(h − t)³ the position
 // there differs by e h²/24.
@@ -264,39 +296,14 @@ double Island::errorBetween(double h) {
   if (fastest * h * h < tolerance_) {
     return 0;
   }
-  State middle(end_.size());
+  const std::vector<ContactStep> path = motions(h);
   State rate;
-  for (std::size_t i = 0; i < bodies().size(); ++i) {
-    if (bodies()[i].isHeld()) {
-      continue;
-    }
-    const std::size_t at = system_.placeOf(i) * ContactSystem::kNumbers;
-    const MassProperties& mass = bodies()[i].body->mass;
-    const BodyState state = stateAt(Motion(motion(i, h)), mass, 0.5 * h);
-    const Quat turned(state.pose.worldFromBody);
-    const Vec3 spin =
-        mass.inverseInertiaBody.cwiseProduct(state.pose.worldFromBody.transpose() * state.angularMomentum);
-    const std::array<double, ContactSystem::kNumbers> numbers{state.pose.position[0],
-                                                              state.pose.position[1],
-                                                              state.pose.position[2],
-                                                              turned.w(),
-                                                              turned.x(),
-                                                              turned.y(),
-                                                              turned.z(),
-                                                              state.velocity[0],
-                                                              state.velocity[1],
-                                                              state.velocity[2],
-                                                              spin[0],
-                                                              spin[1],
-                                                              spin[2]};
-    std::copy(numbers.begin(), numbers.end(), middle.begin() + static_cast<std::ptrdiff_t>(at));
-  }
-  system_.rate(middle, rate);
+  system_.rate(stateWithin(path, 0.5 * h), rate);
   double worst = 0;
   for (std::size_t i = 0; i < bodies().size(); ++i) {
     if (!bodies()[i].isHeld()) {
       const std::size_t at = system_.placeOf(i) * ContactSystem::kNumbers;
-      const std::array<Vec3, 6> c = motion(i, h).position;
+      const std::array<Vec3, 6>& c = path[system_.placeOf(i)].position;
       const Vec3 bend = 2 * c[2] + 3 * c[3] + 3 * c[4] + 2.5 * c[5];  // h² times the acceleration halfway
       worst = std::max(worst, (h * h * threeAt(rate, at + 7) - bend).norm());
     }

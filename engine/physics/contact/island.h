@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/math/falling_bracket.h"
 #include "physics/contact/contact_system.h"
 #include "physics/contact/dormand_prince5.h"
 #include "physics/contact/time_stepper.h"
@@ -85,6 +86,7 @@ class Island {
   struct EventFunction {  // positive until the event happens
     enum class Kind { kPush, kStick, kGap, kWithin, kOverlap, kCorner };
     static bool isOfPlaces(Kind kind) { return kind == Kind::kOverlap || kind == Kind::kCorner; }
+    static bool isOfForces(Kind kind) { return kind == Kind::kPush || kind == Kind::kStick; }
     Kind kind;
     std::size_t contact = 0;  // or the pair, or the body
     int wall = 0;
@@ -93,11 +95,19 @@ class Island {
     double rate = 0;    // [m/s] of a corner, at the start of the step
   };
 
-  struct Fall {  // of an event function below zero
-    std::size_t event = 0;
-    double until = 0;     // [s] from the start of the step: where it is below
-    double value = 0;     // there
+  struct Fall {                       // of event functions of one kind below zero, of the lowest of them
+    std::vector<std::size_t> events;  // located together
+    EventFunction::Kind kind{};
+    double until = 0;  // [s] from the start of the step: where it is below
+    double atStart = 0;
+    double value = 0;     // then
     double estimate = 0;  // [s] when, by linear interpolation
+  };
+
+  struct Estimate {    // of the root of an event function
+    double time = 0;   // [s] from the start of the step
+    double value = 0;  // there
+    double slope = 0;  // [1/s] of it
   };
 
   void listEventFunctions();
@@ -126,7 +136,14 @@ class Island {
   bool stop();
   double sizeOf(const State& difference, double h) const;
   double errorBetween(double h);
-  double rootWithin(const Fall& fall);
+  static Fall firstOf(std::span<const Fall> falls);
+  double depthOf(const Fall& fall) const;
+  double valueOf(const Fall& fall) const;
+  FallingBracket bracketOf(const Fall& fall);
+  Estimate estimateOf(const Fall& fall, FallingBracket bracket, std::span<const ContactStep> path);
+  double rootWithin(const Fall& fall, double length);
+  std::vector<ContactStep> motions(double h) const;
+  State stateWithin(std::span<const ContactStep> path, double time) const;
 
   double tolerance_;
   const World& world_;

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
-#include "core/math/falling_bracket.h"
 #include "physics/contact/island.h"
 #include "physics/geometry/separation.h"
 
@@ -17,7 +17,21 @@ using Kind = ContactFeature::Kind;
 constexpr int kMostRefinements = 60;
 /// [1] of a step: accuracy of a root.
 constexpr double kRootWidth = 0x1p-50;
-constexpr double kRootValue = 0x1p-42;
+/// How far below zero an event is located: [1] of what counts as touching, for gaps; of the accelerations,
+/// for forces.
+constexpr double kRootGap = 0x1p-10;
+constexpr double kRootForce = 0x1p-44;
+/// A first estimate is good enough this near to zero, [1] of that depth, and of the value at the start; or
+/// this near to the root, [1] of a step.
+constexpr double kEstimateDepth = 0x1p12;
+constexpr double kEstimateValue = 0x1p-6;
+constexpr double kEstimateWidth = 0x1p-40;
+/// [1] of that depth: values this small have too much rounding error to tell a slope.
+constexpr double kNoisy = 16;
+/// [1] of a step: event functions that seem to fall this close together are located together.
+constexpr double kAtOnce = 0x1p-20;
+/// Steps taken by the slope of the estimate; then the bracket decides.
+constexpr int kMostByEstimate = 6;
 constexpr double kShortestHop = 0x1p-30;
 constexpr double kShortestStep = 0x1p-40;
 
@@ -92,32 +106,55 @@ double Island::marginOf(const EventFunction& event, double gap) const {
 }
 
 // Ends the step where the first event function falls below zero. The one that seems to fall first is located
-// first, so that the order of listing decides nothing; functions checked at the former end may be negative at
-// the new one, hence several passes.
+// first, so that the order of listing decides nothing, together with those that seem to fall at once with it,
+// as at the two ends of an edge; functions checked at the former end may be negative at the new one, hence
+// several passes.
 void Island::locate(Step& step) {
   const double shortest = kShortestStep * step.length;  // for events at the very start
   std::vector<char> located(eventFunctions_.size(), 0);
   for (;;) {
-    std::optional<Fall> first;
+    std::vector<Fall> falls;
     for (std::size_t w = 0; w < eventFunctions_.size(); ++w) {
-      const std::optional<Fall> fall = located[w] == 0 ? fallOf(w, step.length) : std::nullopt;
-      if (fall && (!first || fall->estimate < first->estimate)) {
-        first = fall;
+      if (const std::optional<Fall> fall = located[w] == 0 ? fallOf(w, step.length) : std::nullopt) {
+        falls.push_back(*fall);
       }
     }
-    if (!first) {
+    if (falls.empty()) {
       return;
     }
-    located[first->event] = 1;
-    step.length = std::min(step.length, std::max(shortest, rootWithin(*first)));
+    const Fall first = firstOf(falls);
+    for (const std::size_t event : first.events) {
+      located[event] = 1;
+    }
+    step.length = std::min(step.length, std::max(shortest, rootWithin(first, step.length)));
     step.end = End::kChanges;
     restep(step.length);
   }
 }
 
+Island::Fall Island::firstOf(std::span<const Fall> falls) {
+  Fall first = *std::min_element(falls.begin(), falls.end(), [](const Fall& x, const Fall& y) {
+    return std::pair(x.estimate, x.kind) < std::pair(y.estimate, y.kind);
+  });
+  const double within = first.estimate + kAtOnce * first.until;
+  first.events.clear();
+  for (const Fall& fall : falls) {
+    if (fall.kind == first.kind && fall.until == first.until && fall.estimate <= within) {
+      first.events.push_back(fall.events.front());
+      first.atStart = std::min(first.atStart, fall.atStart);
+      first.value = std::min(first.value, fall.value);
+    }
+  }
+  return first;
+}
+
 // Whether an event function falls below zero within a step of that length, which is the last one taken.
 std::optional<Island::Fall> Island::fallOf(std::size_t event, double length) {
-  Fall fall{.event = event, .until = length, .value = value(eventFunctions_[event])};
+  Fall fall{.events = {event},
+            .kind = eventFunctions_[event].kind,
+            .until = length,
+            .atStart = atStart_[event],
+            .value = value(eventFunctions_[event])};
   if (const double lowest = lowestWithin(length, event, fall.value); lowest > 0) {
     restep(lowest);
     const double there = value(eventFunctions_[event]);
@@ -127,11 +164,10 @@ std::optional<Island::Fall> Island::fallOf(std::size_t event, double length) {
       fall.value = there;
     }
   }
-  const double atStart = atStart_[event];
-  if (!(fall.value < 0 && (atStart >= 0 || fall.value < 2 * atStart))) {
+  if (!(fall.value < 0 && (fall.atStart >= 0 || fall.value < 2 * fall.atStart))) {
     return std::nullopt;
   }
-  fall.estimate = atStart > 0 ? fall.until * (atStart / (atStart - fall.value)) : 0;
+  fall.estimate = fall.atStart > 0 ? fall.until * (fall.atStart / (fall.atStart - fall.value)) : 0;
   return fall;
 }
 
@@ -269,55 +305,100 @@ double Island::value(const EventFunction& event) const {
   return 0;
 }
 
-// Time where the event function falls to zero: the end of the bracket where it is negative.
-double Island::rootWithin(const Fall& fall) {
-  const double h = fall.until;
-  const EventFunction& event = eventFunctions_[fall.event];
-  double valueLow = atStart_[fall.event];
-  double valueHigh = fall.value;
-  FallingBracket bracket{.high = h};
-  // Just after a separation the value is positive in between.
-  for (double part = 0.5; !(valueLow > 0); part /= 2) {
-    if (part < kShortestHop) {
-      return bracket.high;
-    }
-    restep(part * h);
-    const double at = value(event);
-    if (at > 0) {
-      bracket.low = part * h;
-      valueLow = at;
+// How far below zero an event function is located, at most four times that: a part of what the contacts count
+// as zero anyway, above rounding errors.
+double Island::depthOf(const Fall& fall) const {
+  if (EventFunction::isOfForces(fall.kind)) {
+    return kRootForce * system_.forces().scale();
+  }
+  double within = 0;
+  for (const std::size_t event : fall.events) {
+    const std::size_t c = eventFunctions_[event].contact;
+    within = std::max(within, touching(fall.kind == EventFunction::Kind::kCorner
+                                           ? c
+                                           : static_cast<std::size_t>(system_.features()[c].a)));
+  }
+  return kRootGap * within;
+}
+
+double Island::valueOf(const Fall& fall) const {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const std::size_t event : fall.events) {
+    lowest = std::min(lowest, value(eventFunctions_[event]));
+  }
+  return lowest;
+}
+
+// Just after a separation the event function is positive in between.
+FallingBracket Island::bracketOf(const Fall& fall) {
+  FallingBracket bracket{.high = fall.until, .valueLow = fall.atStart, .valueHigh = fall.value};
+  for (double part = 0.5; !(bracket.valueLow > 0) && part >= kShortestHop; part /= 2) {
+    const double at = part * fall.until;
+    restep(at);
+    const double there = valueOf(fall);
+    if (there > 0) {
+      bracket.low = at;
+      bracket.valueLow = there;
     } else {
-      bracket.high = part * h;
-      valueHigh = at < 0 ? at : valueHigh;
+      bracket.high = at;
+      bracket.valueHigh = there < 0 ? there : bracket.valueHigh;
     }
   }
-  bracket.valueLow = valueLow;
-  bracket.valueHigh = valueHigh;
-  for (int k = 0; k < kMostRefinements && bracket.width() > kRootWidth * h; ++k) {
-    if (-valueHigh <= kRootValue * valueLow) {
+  return bracket;
+}
+
+// The first estimate of a root, on the polynomials of the step, and how fast the event function falls there.
+Island::Estimate Island::estimateOf(const Fall& fall, FallingBracket bracket,
+                                    std::span<const ContactStep> path) {
+  const double least = kEstimateWidth * bracket.high;
+  const double valueLow = bracket.valueLow;
+  Estimate estimate{.time = bracket.low, .value = bracket.valueLow};
+  State rate;
+  while (bracket.width() > least) {
+    const double at = bracket.next(least);
+    const State between = stateWithin(path, at);
+    if (EventFunction::isOfForces(fall.kind)) {
+      system_.rate(between, rate);
+    } else {
+      system_.look(between);
+    }
+    const double there = valueOf(fall);
+    bracket.add(at, there);
+    estimate = {.time = at, .value = there, .slope = (there - estimate.value) / (at - estimate.time)};
+    if (std::fabs(there) <= std::min(kEstimateDepth * depthOf(fall), kEstimateValue * valueLow)) {
       break;
     }
-    // An event function may be flat and then fall: every third step bisects.
-    double middle = bracket.cut();
-    if (k % 3 == 2 || !(middle > bracket.low && middle < bracket.high)) {
-      middle = 0.5 * (bracket.low + bracket.high);
+  }
+  return estimate;
+}
+
+// Time where the event function falls to zero: the end of the bracket where it is negative. Each look at it
+// costs a whole step from the start, a look at the step's polynomials hardly anything.
+double Island::rootWithin(const Fall& fall, double length) {
+  const std::vector<ContactStep> path = motions(length);
+  FallingBracket bracket = bracketOf(fall);
+  if (!(bracket.valueLow > 0)) {
+    return bracket.high;
+  }
+  const double least = kRootWidth * fall.until;
+  Estimate at = estimateOf(fall, bracket, path);
+  for (int k = 0; k < kMostRefinements && bracket.width() > least; ++k) {
+    const double aim = at.value + depthOf(fall);
+    double next = bracket.next(least);
+    if (k < kMostByEstimate && std::fabs(aim) < -at.slope * bracket.width()) {
+      const double estimate = at.time - aim / at.slope;
+      next = estimate > bracket.low && estimate < bracket.high ? estimate : next;
     }
-    restep(middle);
-    const double at = value(event);
-    if (at < 0) {
-      bracket.moveHigh(middle, at);
-      valueHigh = at;
-    } else {
-      // Finally a small step past the root: regula falsi would stay on this side.
-      bracket.moveLow(middle, at);
-      if (at <= kRootValue * valueLow) {
-        const double beyond = std::min(bracket.high, middle + 0x1p-44 * h);
-        restep(beyond);
-        if (value(event) < 0) {
-          return beyond;
-        }
-        bracket.low = beyond;
-      }
+    restep(next);
+    const double there = valueOf(fall);
+    if (k > 0 && std::fabs(there) > kNoisy * depthOf(fall)) {
+      at.slope = (there - at.value) / (next - at.time);
+    }
+    at.time = next;
+    at.value = there;
+    bracket.add(next, there);
+    if (at.value < 0 && at.value >= -4 * depthOf(fall)) {
+      break;
     }
   }
   return bracket.high;

@@ -14,19 +14,21 @@
 namespace careen {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kForever = std::numeric_limits<double>::infinity();
 /// [1] of the tolerance: the error allowed per step.
-constexpr double kShare = 0.25;
+constexpr double kStepShare = 0.25;
 /// [rad] Largest rotation in one step, so that the polynomials are accurate.
-constexpr double kMostTurn = 0.25;
+constexpr double kStepTurn = 0.25;
 /// [1] of the smallest half extent: largest way in one step, so that no gap closes and opens within it
 /// unseen.
 constexpr double kMostWay = 0.25;
 /// [1] of the time in which a body falls or moves its own size: the first step.
 constexpr double kFirst = 0x1p-8;
-constexpr int kMostAttempts = 60;
-constexpr int kMostRefinements = 50;
+constexpr int kStepAttempts = 60;
+constexpr int kStepRefinements = 50;
 constexpr int kMostUnsolved = 10;
+/// [1] of a step: roots are told apart.
+constexpr double kPolynomialRootWidth = 0x1p-50;
 
 }  // namespace
 
@@ -54,7 +56,7 @@ double TimeStepper::shortestStep() {
     }
   }
   const double acceleration = std::max(acceleration_, equations_.freeAcceleration(start_));
-  double shortest = kInfinity;
+  double shortest = kForever;
   if (fastest > 0) {
     shortest = 0.25 * closed() / fastest;
   }
@@ -65,8 +67,8 @@ double TimeStepper::shortestStep() {
 }
 
 double TimeStepper::longestStep() const {
-  double most = kInfinity;
-  double first = kInfinity;
+  double most = kForever;
+  double first = kForever;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (bodies_[i].isHeld()) {
       continue;
@@ -76,7 +78,7 @@ double TimeStepper::longestStep() const {
     const double radius = bodies_[i].body->halfExtents.norm();
     const double speed = at.velocity.norm() + turning * radius;
     if (turning > 0) {
-      most = std::min(most, kMostTurn / turning);
+      most = std::min(most, kStepTurn / turning);
     }
     if (speed > 0) {
       most = std::min(most, kMostWay * bodies_[i].body->halfExtents.minCoeff() / speed);
@@ -105,7 +107,7 @@ double TimeStepper::errorOf(const GroupState& coarse, const GroupState& fine, do
     worst = std::max({worst, (coarse[i].position - fine[i].position).norm(), 2 * radius * turned.norm(),
                       h * (coarse[i].velocity - fine[i].velocity).norm(), h * radius * spun.norm()});
   }
-  return worst / (3 * kShare * tolerance_);
+  return worst / (3 * kStepShare * tolerance_);
 }
 
 // The step's end by one step of that length, with the contacts chosen for it.
@@ -114,7 +116,7 @@ bool TimeStepper::tryStep(double h) { return equations_.advance(start_, h, law_,
 // Shortens the step to the moment where the first event function falls through zero, or a little before:
 // found on the polynomials of the longer step, then tried. Returns false if the impulses were not found.
 bool TimeStepper::locate(double& h) {
-  for (int k = 0; k < kMostRefinements; ++k) {
+  for (int k = 0; k < kStepRefinements; ++k) {
     length_ = h;
     end_ = coarse_;
     setMotions();
@@ -138,21 +140,14 @@ bool TimeStepper::locate(double& h) {
 // Time at which an event function falls to about zero, on the polynomials of the step.
 double TimeStepper::rootOf(const Watch& watch, double h, double atEnd) {
   const double aim = 0.0625 * closed();
-  FallingBracket bracket{.high = h, .valueLow = watch.atStart - aim, .valueHigh = atEnd - aim};
-  for (int k = 0; k < kMostRefinements; ++k) {
-    double middle = bracket.cut();
-    if (k % 3 == 2 || !(middle > bracket.low && middle < bracket.high)) {
-      middle = 0.5 * (bracket.low + bracket.high);
-    }
+  FallingBracket bracket{.high = h, .valueLow = watch.start.value - aim, .valueHigh = atEnd - aim};
+  for (int k = 0; k < kStepRefinements; ++k) {
+    const double middle = bracket.next(kPolynomialRootWidth * h);
     const double now = valueWithin(watch, middle) - aim;
     if (std::fabs(now) <= aim) {
       return middle;
     }
-    if (now < 0) {
-      bracket.moveHigh(middle, now);
-    } else {
-      bracket.moveLow(middle, now);
-    }
+    bracket.add(middle, now);
   }
   return bracket.low;
 }
@@ -216,7 +211,7 @@ double TimeStepper::step(double most) {
   double h = std::min(longestStep(), most);
   int unsolved = 0;
   for (int k = 0;; ++k) {
-    h = k < kMostAttempts ? h : shortest;
+    h = k < kStepAttempts ? h : shortest;
     const Attempt made = attempt(h, shortest);
     if (made == Attempt::kDone) {
       break;

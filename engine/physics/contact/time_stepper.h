@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "physics/contact/contact_feature.h"
 #include "physics/contact/implicit_step.h"
+#include "physics/geometry/separation.h"
 #include "physics/impact/impact_law.h"
 #include "physics/motion/motion.h"
 #include "physics/world/world.h"
@@ -56,12 +58,23 @@ class TimeStepper {
   const ImplicitStep& equations() const { return equations_; }
 
  private:
+  struct Moment {                   // of an event function
+    double time = 0;                // [s] from the start of the step
+    double value = 0;               // [m]
+    std::array<double, 6> faces{};  // [m] of a pair: separation along the faces' normals
+    bool onEdges = false;           // of a pair: its gap is along the normal of two edges
+  };
   struct Watch {  // an event function: a gap that may close, or a contact's way to the end of its face
     enum class Kind { kFeature, kPair, kBeyond };
     Kind kind = Kind::kFeature;
     ContactFeature feature;  // or a pair, as its a and b
     double margin = 0;       // [m]
-    double atStart = 0;      // [m]
+    Moment start = {};
+  };
+  struct Bounds {          // on an event function in the step
+    double curvature = 0;  // [m/s²] second derivative
+    double rate = 0;       // [m/s] of the gap of a pair
+    double fixed = 0;      // [m/s²] second derivative of its separation along a direction fixed in space
   };
   struct Found {  // a contact feature near closing
     ContactFeature feature;
@@ -69,6 +82,7 @@ class TimeStepper {
     double rate = 0;  // [m/s]
   };
 
+  static bool isSame(const ContactFeature& x, const ContactFeature& y);
   void findContacts(const GroupState& at);
   void addWallContacts(std::size_t body);
   void addPairContacts(std::size_t a, std::size_t b);
@@ -82,11 +96,16 @@ class TimeStepper {
   void watch(const Watch& watch);
   void setMotions();
   GroupBody bodyWithin(std::size_t body, double time) const;
+  void setWithin(const Watch& watch, double time);
   double valueWithin(const Watch& watch, double time);
-  double curvatureBound(const Watch& watch) const;
-  double dipWithin(const Watch& watch, double curvature, double from, double valueFrom, double to,
-                   double valueTo, int depth);
+  Bounds boundsOn(const Watch& watch) const;
+  Pose poseWithin(std::size_t body, double time) const;
+  Moment momentOf(const Watch& watch, double time, const GroupState& at) const;
+  bool staysOpenOnEdges(const Watch& watch, double below, const Moment& from, const Moment& to) const;
+  bool staysOpen(const Watch& watch, const Bounds& bounds, const Moment& from, const Moment& to) const;
+  double dipWithin(const Watch& watch, const Bounds& bounds, const Moment& from, const Moment& to, int depth);
   double firstDip();
+  BoxAxes axesOf(const Watch& pair, const GroupState& at) const;
   double value(const Watch& watch, const GroupState& at) const;
   enum class Attempt { kDone, kShorter, kUnsolved };
   Attempt attempt(double& h, double shortest);

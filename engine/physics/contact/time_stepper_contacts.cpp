@@ -7,7 +7,7 @@
 #include "physics/geometry/contact_points.h"
 #include "physics/geometry/separation.h"
 
-// Contacts of a time step: which there are, which obey their law, which are watched; impacts at its start.
+// Contacts of a time step: which there are, which obey their law; impacts at its start.
 
 namespace careen {
 namespace {
@@ -20,13 +20,13 @@ constexpr double kHop = 0x1p-4;
 constexpr double kResiduals = 4;
 constexpr int kMostRounds = 8;
 
-bool isSame(const ContactFeature& x, const ContactFeature& y) {
+}  // namespace
+
+bool TimeStepper::isSame(const ContactFeature& x, const ContactFeature& y) {
   return x.kind == y.kind && x.a == y.a && x.b == y.b && x.axisA == y.axisA && x.axisB == y.axisB &&
          x.sign == y.sign && (x.onA - y.onA).isZero(1e-9 * x.onA.norm()) &&
          (x.onB - y.onB).isZero(1e-9 * x.onB.norm());
 }
-
-}  // namespace
 
 BoxAt TimeStepper::boxOf(std::size_t body) const { return {poses_[body], bodies_[body].body->halfExtents}; }
 
@@ -127,167 +127,6 @@ void TimeStepper::choose(double h) {
       contact.friction = before->friction;
     }
   }
-}
-
-// The event functions of a step of length h from its start: gaps that may close, contacts that may leave
-// their face.
-void TimeStepper::listWatches(double h) {
-  watches_.clear();
-  for (const Found& found : found_) {
-    if (!obeys(found, h)) {
-      watch({.kind = Watch::Kind::kFeature, .feature = found.feature});
-    } else if (found.feature.kind != ContactFeature::Kind::kPointOnWall) {
-      watch({.kind = Watch::Kind::kBeyond, .feature = found.feature});
-    }
-  }
-  std::vector<double> reach;  // [m] by body: how far a point of it may come
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Kinematics at = equations_.kinematics(i, start_[i]);
-    const double speed = at.velocity.norm() + at.angularVelocity.norm() * bodies_[i].body->halfExtents.norm();
-    reach.push_back(bodies_[i].isHeld() ? 0 : 2 * h * (speed + h * acceleration_) + closed());
-  }
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!bodies_[i].isHeld()) {
-      watchWalls(i, reach[i]);
-    }
-    for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
-      if (!(bodies_[i].isHeld() && bodies_[j].isHeld()) && near(start_, i, j, reach[i] + reach[j])) {
-        watch({.kind = Watch::Kind::kPair,
-               .feature = {.a = static_cast<int>(i), .b = Partner::ofBody(static_cast<int>(j))}});
-      }
-    }
-  }
-}
-
-void TimeStepper::watchWalls(std::size_t body, double reach) {
-  const double radius = bodies_[body].body->halfExtents.norm();
-  for (std::size_t w = 0; w < world_.walls.size(); ++w) {
-    const Wall& wall = world_.walls[w];
-    if (wall.normal.dot(start_[body].position) - wall.offset > radius + reach) {
-      continue;
-    }
-    for (int k = 0; k < kCorners; ++k) {
-      const ContactFeature feature{.a = static_cast<int>(body),
-                                   .b = Partner::ofWall(w),
-                                   .onA = corner(bodies_[body].body->halfExtents, k)};
-      if (std::none_of(found_.begin(), found_.end(),
-                       [&](const Found& found) { return isSame(found.feature, feature); })) {
-        watch({.kind = Watch::Kind::kFeature, .feature = feature});
-      }
-    }
-  }
-}
-
-// Adds an event function; one that is already near zero may fall a little further.
-void TimeStepper::watch(const Watch& added) {
-  const double now = value(added, start_);
-  if (added.kind == Watch::Kind::kBeyond && now < closed()) {
-    return;
-  }
-  Watch& watch = watches_.emplace_back(added);
-  watch.margin = std::max(0.0, 0.25 * closed() - now);
-  watch.atStart = now + watch.margin;
-}
-
-double TimeStepper::value(const Watch& watch, const GroupState& at) const {
-  if (watch.kind == Watch::Kind::kPair) {
-    const auto a = static_cast<std::size_t>(watch.feature.a);
-    const auto b = static_cast<std::size_t>(watch.feature.b.body());
-    return watch.margin +
-           BoxAxes({{at[a].position, at[a].worldFromBody.toRotationMatrix()}, bodies_[a].body->halfExtents},
-                   {{at[b].position, at[b].worldFromBody.toRotationMatrix()}, bodies_[b].body->halfExtents})
-               .gap();
-  }
-  const ContactState state = equations_.contactAt(watch.feature, at);
-  return watch.margin + (watch.kind == Watch::Kind::kBeyond ? -state.beyond : state.gap);
-}
-
-GroupBody TimeStepper::bodyWithin(std::size_t body, double time) const {
-  if (bodies_[body].isHeld()) {
-    return start_[body];
-  }
-  const BodyState state = stateAt(Motion(motions_[body]), bodies_[body].body->mass, time);
-  return {.position = state.pose.position,
-          .worldFromBody = Quat(state.pose.worldFromBody),
-          .velocity = state.velocity,
-          .angularMomentum = state.angularMomentum};
-}
-
-double TimeStepper::valueWithin(const Watch& watch, double time) {
-  const auto a = static_cast<std::size_t>(watch.feature.a);
-  within_.resize(bodies_.size());
-  within_[a] = bodyWithin(a, time);
-  if (!watch.feature.b.isWall()) {
-    const auto b = static_cast<std::size_t>(watch.feature.b.body());
-    within_[b] = bodyWithin(b, time);
-  }
-  return value(watch, within_);
-}
-
-// [m/s²] Bound on the second derivative of an event function in the step.
-double TimeStepper::curvatureBound(const Watch& watch) const {
-  double linear = 0;
-  double turning = 0;  // [1/s²]
-  double spin = 0;
-  double speed = 0;
-  double lengths = 0;
-  const auto add = [&](std::size_t body) {
-    lengths += bodies_[body].body->halfExtents.norm();
-    if (!bodies_[body].isHeld()) {
-      const StepBounds bounds = boundsOf(motions_[body]);
-      linear += bounds.acceleration;
-      speed += bounds.speed;
-      spin += bounds.angularSpeed;
-      turning += bounds.angularSpeed * bounds.angularSpeed + bounds.angularAcceleration;
-    }
-  };
-  add(static_cast<std::size_t>(watch.feature.a));
-  const bool isPair = !watch.feature.b.isWall();
-  if (isPair) {
-    add(static_cast<std::size_t>(watch.feature.b.body()));
-  }
-  return linear + (isPair ? 2 * spin * speed + 2 * turning * lengths : turning * lengths);
-}
-
-// A time within the step where a gap is closed that is open at both its ends; else 0. A function whose second
-// derivative is at most c lies at most c h²/8 below its chord; halved until that decides.
-double TimeStepper::dipWithin(const Watch& watch, double curvature, double from, double valueFrom, double to,
-                              double valueTo, int depth) {
-  const double span = to - from;
-  if (depth == 0 || std::min(valueFrom, valueTo) - 0.125 * curvature * span * span >= -0.5 * closed()) {
-    return 0;
-  }
-  const double middle = 0.5 * (from + to);
-  const double now = valueWithin(watch, middle);
-  if (now < -0.5 * closed()) {
-    return middle;
-  }
-  const double before = dipWithin(watch, curvature, from, valueFrom, middle, now, depth - 1);
-  return before > 0 ? before : dipWithin(watch, curvature, middle, now, to, valueTo, depth - 1);
-}
-
-void TimeStepper::setMotions() {
-  motions_.resize(bodies_.size());
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!bodies_[i].isHeld()) {
-      motions_[i] = motion(i);
-    }
-  }
-}
-
-double TimeStepper::firstDip() {
-  constexpr int kDepth = 8;
-  setMotions();
-  double first = 0;
-  for (const Watch& watch : watches_) {
-    const double atEnd = value(watch, end_);
-    if (watch.kind == Watch::Kind::kBeyond || atEnd < -0.5 * closed()) {
-      continue;
-    }
-    const double dip = dipWithin(watch, curvatureBound(watch), 0, watch.atStart, length_, atEnd, kDepth);
-    first = dip > 0 && (first == 0 || dip < first) ? dip : first;
-  }
-  return first;
 }
 
 // Impacts at the start of a step, until no closed contact approaches.

@@ -54,67 +54,66 @@ class Unpushed {
 
 }  // namespace
 
-// Admits what its members meet within the next step if nothing pushes them, and bodies at rest near them.
-// Returns the others that are near, which may meet them all the same.
-std::vector<int> ExactWorld::admitNear(const std::shared_ptr<ContactGroup>& group, const Instant& time,
-                                       double length) {
-  std::vector<int> near;
-  for (bool added = true; added;) {
-    added = false;
-    near.clear();
-    const Crowd::Extent extent = group->crowd->extent(length);
-    for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
-      const Mover& body = mover(rank);
-      const double radius = body.body->halfExtents.norm();
-      if (body.crowd == group) {
-        continue;
-      }
-      const double way =
-          body.flies
-              ? length * (body.flight.velocityAt(body.elapsed(time)).norm() + length * world_.gravity.norm())
-          : body.touches() ? length * body.speedBound
-                           : 0;
-      const Vec3 reach = Vec3::Constant(radius + way);
-      const Vec3 center = body.moves() ? body.positionAt(time) : body.pose.position;
-      if (((center + reach).array() < extent.low.array()).any() ||
-          ((center - reach).array() > extent.high.array()).any() ||
-          (body.isHeld() &&
-           std::find(group->ranks.begin(), group->ranks.end(), rank) != group->ranks.end())) {
-        continue;
-      }
-      const Nearness nearness = nearnessTo(*group, rank, time, length);
-      if (nearness == Nearness::kMeets) {
-        if (body.crowd) {
-          const std::shared_ptr<ContactGroup> other = body.crowd;
-          endAt(*other, time);
-          merge(group, *other);
-        } else if (body.moves()) {
-          const Quat attitude = body.attitudeAt(time);
-          enlist(group, rank, time, body.stateAt(time, attitude), attitude);
-        } else {
-          enlistAtRest(group, rank);
-        }
-        added = true;
-      } else if (nearness == Nearness::kNear) {
-        near.push_back(rank);
-      }
+// Bodies that are no members and may get into that space within that time.
+std::vector<int> ExactWorld::outsidersIn(const Crowd::Extent& extent, const ContactGroup& group,
+                                         const Instant& time, double length) const {
+  std::vector<int> found;
+  for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
+    const Mover& body = mover(rank);
+    if (body.crowd.get() == &group) {
+      continue;
+    }
+    const double way =
+        body.flies
+            ? length * (body.flight.velocityAt(body.elapsed(time)).norm() + length * world_.gravity.norm())
+        : body.touches() ? length * body.speedBound
+                         : 0;
+    const Vec3 reach = Vec3::Constant(body.body->halfExtents.norm() + way);
+    const Vec3 center = body.moves() ? body.positionAt(time) : body.pose.position;
+    const bool inside = ((center + reach).array() >= extent.low.array()).all() &&
+                        ((center - reach).array() <= extent.high.array()).all();
+    if (inside &&
+        !(body.isHeld() && std::find(group.ranks.begin(), group.ranks.end(), rank) != group.ranks.end())) {
+      found.push_back(rank);
     }
   }
-  return near;
+  return found;
 }
 
-ExactWorld::Nearness ExactWorld::nearnessTo(const ContactGroup& group, int rank, const Instant& time,
-                                            double length) {
+// Admits what its members meet within the next step if nothing pushes them, and bodies at rest near them.
+void ExactWorld::admitNear(const std::shared_ptr<ContactGroup>& group, const Instant& time, double length) {
+  for (bool added = true; added;) {
+    added = false;
+    for (const int rank : outsidersIn(group->crowd->extent(length), *group, time, length)) {
+      const Mover& body = mover(rank);
+      if (body.crowd == group || !meetsNext(*group, rank, time, length)) {
+        continue;
+      }
+      if (body.crowd) {
+        const std::shared_ptr<ContactGroup> other = body.crowd;
+        endAt(*other, time);
+        merge(group, *other);
+      } else if (body.moves()) {
+        const Quat attitude = body.attitudeAt(time);
+        enlist(group, rank, time, body.stateAt(time, attitude), attitude);
+      } else {
+        enlistAtRest(group, rank);
+      }
+      added = true;
+    }
+  }
+}
+
+bool ExactWorld::meetsNext(const ContactGroup& group, int rank, const Instant& time, double length) {
   const Mover& body = mover(rank);
   const BodyState state = body.stateAt(time);
   const double radius = body.body->halfExtents.norm();
   const double turning = body.moves() ? angularVelocity(body.body->mass, state).norm() * radius : 0;
-  Nearness found = Nearness::kFar;
   neighbors_.findCandidates(rank, candidates_);
-  for (const Neighbors::Key candidate : candidates_) {
+  return std::any_of(candidates_.begin(), candidates_.end(), [&](Neighbors::Key candidate) {
     const Mover& member = mover(candidate);
     if (member.crowd.get() != &group || (!body.moves() && group.crowd->sleeps(member.place))) {
-      continue;
+      return false;
     }
     const PileBody& at = group.crowd->body(member.place);
     const double way =
@@ -122,14 +121,32 @@ ExactWorld::Nearness ExactWorld::nearnessTo(const ContactGroup& group, int rank,
                                       at.radius * at.omega.norm() + length * world_.gravity.norm());
     if ((state.pose.position - at.position).norm() > radius + at.radius + way ||
         BoxAxes({state.pose, body.body->halfExtents}, {{at.position, at.axes}, at.halfExtents}).gap() > way) {
-      continue;
+      return false;
     }
-    found = Nearness::kNear;
-    if (!body.moves() || body.crowd || (body.flies && meetsWithin(group, rank, member, time, length))) {
-      return Nearness::kMeets;
+    return !body.moves() || body.crowd || (body.flies && meetsWithin(group, rank, member, time, length));
+  });
+}
+
+// Who may meet a member in the step that it has taken, perhaps another way than it was going.
+std::vector<int> ExactWorld::nearStep(const ContactGroup& group) {
+  const double length = group.step.length;
+  std::vector<int> near = outsidersIn(group.crowd->swept(), group, group.start, length);
+  std::erase_if(near, [&](int rank) {
+    const Mover& body = mover(rank);
+    if (!body.moves()) {
+      return true;
     }
-  }
-  return found;
+    const BodyState state = body.stateAt(group.start);
+    const Vec3& size = body.body->halfExtents;
+    const double speed = state.velocity.norm() + angularVelocity(body.body->mass, state).norm() * size.norm();
+    const double way = length * (body.touches() ? body.speedBound : speed + length * world_.gravity.norm());
+    neighbors_.findCandidates(rank, candidates_);
+    return std::none_of(candidates_.begin(), candidates_.end(), [&](Neighbors::Key candidate) {
+      const Mover& member = mover(candidate);
+      return member.crowd.get() == &group && group.crowd->cameNear(member.place, state.pose, size, way);
+    });
+  });
+  return near;
 }
 
 bool ExactWorld::meetsWithin(const ContactGroup& group, int rank, const Mover& member, const Instant& time,

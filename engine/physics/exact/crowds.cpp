@@ -9,6 +9,8 @@
 namespace careen {
 namespace {
 
+/// [s] What rounding leaves of a step's length.
+constexpr double kMoment = 0x1p-40;
 /// [1] of the tolerance: how far recorded steps may differ from those computed, so that fewer are recorded.
 constexpr double kMerged = 0.25;
 
@@ -63,6 +65,9 @@ void ExactWorld::formCrowd(const Encounter& encounter) {
   account_.bounds(encounter.time.hi);
   std::shared_ptr<ContactGroup> crowd;
   for (const std::shared_ptr<ContactGroup>& met : encounter.crowds) {
+    if (encounter.crowds.size() == 1) {
+      joinStep(met, encounter);
+    }
     endAt(*met, encounter.time);
     if (!crowd) {
       crowd = met;
@@ -78,6 +83,22 @@ void ExactWorld::formCrowd(const Encounter& encounter) {
     enlist(crowd, encounter.ranks[i], encounter.time, encounter.before[i], encounter.attitudes[i]);
   }
   go(crowd, encounter.time);
+}
+
+// Whom a crowd meets within a step is a member from the start of that step, if it has been in Flight since:
+// the shorter step would move the others elsewhere than to where they were met.
+void ExactWorld::joinStep(const std::shared_ptr<ContactGroup>& crowd, const Encounter& encounter) {
+  if (!earlier(encounter.time, crowd->end())) {
+    return;
+  }
+  for (const int rank : encounter.ranks) {
+    const Mover& body = mover(rank);
+    if (body.flies && !body.crowd && springs_[static_cast<std::size_t>(rank)].empty() &&
+        !earlier(crowd->start, body.start)) {
+      const Quat attitude = body.attitudeAt(crowd->start);
+      enlist(crowd, rank, crowd->start, body.stateAt(crowd->start, attitude), attitude);
+    }
+  }
 }
 
 void ExactWorld::keepPlace(const std::shared_ptr<ContactGroup>& crowd, int rank, std::size_t place) {
@@ -199,11 +220,16 @@ void ExactWorld::advanceCrowd(const std::shared_ptr<ContactGroup>& crowd, const 
   }
 }
 
-// Ends the crowd's step now, perhaps early.
+// Ends the crowd's step now, perhaps early: then in more than one, if it needs shorter ones.
 void ExactWorld::endAt(ContactGroup& group, const Instant& time) {
   if (earlier(time, group.end())) {
-    group.step.length = secondsBetween(group.start, time);
-    group.crowd->stepAgain(group.step.length);
+    group.step.length = group.crowd->stepAgain(secondsBetween(group.start, time));
+    while (secondsBetween(group.end(), time) > kMoment) {
+      const Instant end = group.end();
+      commit(group, end);
+      group.start = end;
+      group.step.length = group.crowd->step(secondsBetween(end, time));
+    }
   }
   commit(group, time);
 }
@@ -269,7 +295,7 @@ std::vector<int> ExactWorld::release(ContactGroup& group, const Instant& time) {
 void ExactWorld::go(const std::shared_ptr<ContactGroup>& group, const Instant& time) {
   Crowd& crowd = *group->crowd;
   const double most = withinCell(crowd.fastest());
-  const std::vector<int> near = admitNear(group, time, crowd.nextLength(most));
+  admitNear(group, time, crowd.nextLength(most));
   account_.strikes(true);
   for (std::size_t place = 0; place < group->ranks.size(); ++place) {
     if (group->ranks[place] >= 0 && !crowd.isHeld(place) && !crowd.sleeps(place)) {
@@ -299,7 +325,7 @@ void ExactWorld::go(const std::shared_ptr<ContactGroup>& group, const Instant& t
   if (any && earlier(group->end(), end_)) {
     queue_.set({.time = group->end(), .kind = EventKind::kStep, .body = group->leader});
   }
-  for (const int rank : near) {
+  for (const int rank : nearStep(*group)) {
     predict(rank);
   }
 }

@@ -92,14 +92,17 @@ class ExactWorld {
   void keepPlace(const std::shared_ptr<ContactGroup>& crowd, int rank, std::size_t place);
   void merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup& other);
   void advanceCrowd(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
+  void joinStep(const std::shared_ptr<ContactGroup>& crowd, const Encounter& encounter);
   void endAt(ContactGroup& crowd, const Instant& time);
   void commit(ContactGroup& crowd, const Instant& time);
   std::vector<int> release(ContactGroup& crowd, const Instant& time);
   void go(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
   void endStep(ContactGroup& crowd, std::size_t place);
-  std::vector<int> admitNear(const std::shared_ptr<ContactGroup>& crowd, const Instant& time, double length);
-  enum class Nearness { kFar, kNear, kMeets };
-  Nearness nearnessTo(const ContactGroup& crowd, int rank, const Instant& time, double length);
+  std::vector<int> outsidersIn(const Crowd::Extent& extent, const ContactGroup& crowd, const Instant& time,
+                               double length) const;
+  void admitNear(const std::shared_ptr<ContactGroup>& crowd, const Instant& time, double length);
+  bool meetsNext(const ContactGroup& crowd, int rank, const Instant& time, double length);
+  std::vector<int> nearStep(const ContactGroup& crowd);
   bool meetsWithin(const ContactGroup& crowd, int rank, const Mover& member, const Instant& time,
                    double length) const;
 

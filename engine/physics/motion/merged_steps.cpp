@@ -1,8 +1,24 @@
 #include "physics/motion/merged_steps.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace careen {
+namespace {
+
+// [1] of the bound, as a power of two: the grid to which coefficients are rounded.
+constexpr int kGrid = -24;
+
+template <class Vectors>
+void roundTo(double grid, Vectors& coefficients) {
+  for (auto& coefficient : coefficients) {
+    for (double& x : coefficient) {
+      x = std::rint(x / grid) * grid;
+    }
+  }
+}
+
+}  // namespace
 
 // The quaternions of one path keep their sign: those of the cubic are compared as they are.
 bool MergedSteps::follows(const ContactStep& step, double radius) const {
@@ -17,9 +33,7 @@ bool MergedSteps::follows(const ContactStep& step, double radius) const {
 
 void MergedSteps::add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,
                       double length, double radius) {
-  const bool continues = length_ > 0 && count_ < kMost && from.velocity == to_.velocity &&
-                         from.spinBody == to_.spinBody && from.position == to_.position;
-  if (continues) {
+  if (length_ > 0 && count_ < kMost && from.position == to_.position) {
     samples_[count_++] = {
         .elapsed = length_, .position = from.position, .worldFromBody = from.worldFromBody.coeffs()};
     if (follows(asContactStep(cubicStep(from_, to, length_ + length)), radius)) {
@@ -38,7 +52,15 @@ void MergedSteps::add(Recorder& recorder, BodyIndex body, double time, const Ste
 
 void MergedSteps::flush(Recorder& recorder, BodyIndex body) {
   if (length_ > 0) {
-    recorder.moves(body, time_, cubicStep(from_, to_, length_));
+    CrowdStep step = cubicStep(from_, to_, length_);
+    if (within_ > 0) {
+      int exponent = 0;
+      std::frexp(within_, &exponent);
+      const double grid = std::ldexp(1.0, exponent - 1 + kGrid);  // a power of two
+      roundTo(grid, step.position);
+      roundTo(grid, step.worldFromBody);
+    }
+    recorder.moves(body, time_, step);
   }
   length_ = 0;
   count_ = 0;

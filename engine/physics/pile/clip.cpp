@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "physics/pile/index.h"
+
 namespace careen {
 namespace {
 
@@ -11,8 +13,6 @@ struct Corner {
   std::uint32_t line = 0;
 };
 using Polygon = std::array<Corner, 12>;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 int clip(const Polygon& in, int count, Polygon& out, int axis, double sign, double limit,
          std::uint32_t line) {

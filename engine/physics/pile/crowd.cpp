@@ -17,14 +17,14 @@ constexpr double kProjected = 3;        // longest steps between two projections
 constexpr int kSweeps = 20;
 constexpr std::int64_t kMostSweeps = 400;
 constexpr std::int64_t kFewManifolds = 256;
-constexpr double kTell = 0x1p-14;  // [1] of the smallest size, change per step that re-solves neighbours
+constexpr double kTell = 0x1p-12;  // [1] of the smallest size, change per step that re-solves neighbours
 constexpr double kTellLeast = 0x1p-36;
 constexpr std::int64_t kEasy = 4;
 constexpr std::int64_t kHard = 8;
 constexpr int kMostHalvings = 6;
-constexpr double kDeep = 1.5;      // [1] of the tolerance: penetration for which a step is halved
+constexpr double kTooDeep = 1.5;   // [1] of the tolerance: new penetration for which a step is halved
+constexpr double kMostBent = 1;    // [1] of the tolerance: how far corners may leave their tangents in a step
 constexpr double kMostScaled = 4;  // [1] of stored impulses, to a longer step
-constexpr double kKink = 0.25;     // [1] of the tolerance: what smoothing a change of velocity may bend
 
 }  // namespace
 
@@ -70,13 +70,18 @@ std::size_t Crowd::place(const PileBody& body, std::size_t listed) {
     before_.emplace_back();
     untouchedSteps_.emplace_back();
     unrest_.emplace_back();
+    quietChecks_.emplace_back();
+    woken_.emplace_back();
     pairs_.addPlace();
   }
   const std::size_t index = at(free_.back());
   free_.pop_back();
   bodies_[index] = body;
+  start_.resize(bodies_.size());
+  start_[index] = body;
   listed_[index] = listed;
   untouchedSteps_[index] = 0;
+  quietChecks_[index] = 0;
   unrest_[index] = std::numeric_limits<double>::max();
   limitBySprings(listed);
   return index;
@@ -86,6 +91,7 @@ void Crowd::dismiss(std::size_t place) {
   pairs_.clearPlace(static_cast<int>(place));
   bodies_[place] = {};
   bodies_[place].absent = true;
+  start_[place] = bodies_[place];
   free_.push_back(static_cast<int>(place));
 }
 
@@ -118,32 +124,38 @@ double Crowd::step(double most) {
   }
   start_ = bodies_;
   take(chooseLength(most));
-  for (int halving = 0; halving < kMostHalvings && wentDeep(); ++halving) {
-    stepAgain(0.5 * h_);
+  return keepApart();
+}
+
+double Crowd::stepAgain(double length) {
+  goBack();
+  if (length > 0) {
+    take(length);
+    return keepApart();
+  }
+  impacts_.clear();
+  for (Before& before : before_) {
+    before.moved = false;
+  }
+  return 0;
+}
+
+// Takes the step again with half its length while bodies went deep into each other in it; returns its length.
+double Crowd::keepApart() {
+  double depth = newDepth();
+  for (int halving = 0; halving < kMostHalvings && depth > kTooDeep * tolerance_; ++halving) {
+    goBack();
+    take(0.5 * h_);
+    depth = newDepth();
+  }
+  if (depth > 0) {
+    project();
   }
   return h_;
 }
 
-// Whether fast bodies went into each other in this step, by all 15 axes: the features of the manifolds of its
-// start were not all that met.
-bool Crowd::wentDeep() const {
-  return std::any_of(near_.begin(), near_.end(), [&](int slot) {
-    const PileManifold& manifold = manifolds_[at(slot)];
-    const PileBody& a = bodies_[at(manifold.a)];
-    if (manifold.b.isWall()) {
-      return false;
-    }
-    const PileBody& b = bodyAt(manifold.b);
-    if (relativeMotion(a, b, h_) < tolerance_) {
-      return false;
-    }
-    const double depth = overlapOf(a, b);
-    return depth > kDeep * tolerance_ &&
-           depth > overlapOf(start_[at(manifold.a)], start_[at(manifold.b.body())]) + 0.5 * tolerance_;
-  });
-}
-
-void Crowd::stepAgain(double length) {
+// To the start of the step, but for what it woke.
+void Crowd::goBack() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const bool woken = start_[i].asleep && !bodies_[i].asleep;
     const double path = bodies_[i].path;
@@ -158,14 +170,6 @@ void Crowd::stepAgain(double length) {
     manifolds_[at(slot)].moved = std::numeric_limits<double>::max();  // they were those of other places
   }
   atRest_ = false;
-  if (length > 0) {
-    take(length);
-  } else {
-    impacts_.clear();
-    for (Before& before : before_) {
-      before.moved = false;
-    }
-  }
 }
 
 // Stores manifolds in processing order, for cache locality with thousands of boxes. The storage order does
@@ -181,22 +185,30 @@ void Crowd::sortManifolds() {
   }
   manifolds_.swap(sorted);
   unused_.clear();
+  pairs_.freed().clear();  // of members that left since the last step: slots of the old order
   near_.clear();
 }
 
-// [s] What the fastest body requires, relative to its size.
+// [s] What the fastest body requires, relative to its size, and the one that turns fastest: its corners leave
+// their tangents by r ω² h²/2.
 double Crowd::chooseLength(double most) const {
   const double longest = longestStep();
   double fastest = 0;
+  double bending = 0;  // [m/s²]
   for (const PileBody& body : bodies_) {
     if (!body.still()) {
       fastest = std::max(fastest, (body.velocity.norm() + longest * gravityMagnitude_) / body.length);
+      bending = std::max(bending, body.radius * body.omega.squaredNorm());
     }
   }
   double h = longest;
   if (fastest > 0) {
-    h = std::clamp(kMostMoved * scale_ / fastest, kShortestStep * scale_, longest);
+    h = std::min(h, kMostMoved * scale_ / fastest);
   }
+  if (bending > 0) {
+    h = std::min(h, std::sqrt(2 * kMostBent * tolerance_ / bending));
+  }
+  h = std::max(h, kShortestStep * scale_);
   return std::min({h, springLimit_, most});
 }
 
@@ -209,38 +221,19 @@ bool Crowd::isDeep() const {
   });
 }
 
-double Crowd::fastest() const {
-  double fastest = 0;
-  for (const PileBody& body : bodies_) {
-    fastest = body.still() ? fastest : std::max(fastest, body.velocity.norm());
-  }
-  return fastest;
-}
-
-Crowd::Extent Crowd::extent(double length) const {
-  Extent extent{.low = Vec3::Constant(std::numeric_limits<double>::max()),
-                .high = Vec3::Constant(-std::numeric_limits<double>::max())};
-  for (const PileBody& body : bodies_) {
-    if (!body.absent && !body.held) {
-      const double way = body.asleep ? 0 : length * (body.velocity.norm() + length * gravityMagnitude_);
-      extent.low = extent.low.cwiseMin(body.position - Vec3::Constant(body.radius + way));
-      extent.high = extent.high.cwiseMax(body.position + Vec3::Constant(body.radius + way));
-    }
-  }
-  return extent;
-}
-
 void Crowd::take(double length) {
   // Stored impulses are those of the last step. If that was much shorter, they are those of impacts.
   impulseScale_ = std::min(length / h_, kMostScaled);
   h_ = length;
   findLoads();
+  wakeDisturbed();
   lookAround();
   loadSolver();
   solver_.link();
   solver_.wakeAll();
   solve(kSweeps);
   keepImpulses();
+  findDisturbed();
   move();
   bounce();
   noteImpacts();
@@ -372,50 +365,6 @@ void Crowd::countUntouched() {
       untouchedSteps_[at(manifold.b.body())] = 0;
     }
   }
-}
-
-// ---- Motion within the step.
-
-// The change of velocity is spread over the step, unless that bends the path by more than a part of the
-// tolerance: the cubic through both ends with both velocities differs from the straight line by 4/27 of it.
-bool Crowd::isSmooth(std::size_t place) const {
-  const Before& from = before_[place];
-  const double change =
-      (from.endVelocity - from.velocity).norm() + bodies_[place].radius * (from.endOmega - from.omega).norm();
-  return !from.pushed || h_ * change * (4.0 / 27) <= kKink * tolerance_;
-}
-
-// [rad/s] Body frame: of the turn from one end to the other, to third order in the angle.
-Vec3 Crowd::meanSpin(std::size_t place) const {
-  const Quat turn = before_[place].attitude.conjugate() * bodies_[place].attitude;
-  return (turn.w() < 0 ? -2 : 2) / h_ * turn.vec();
-}
-
-StepEnd Crowd::begin(std::size_t place) const {
-  const Before& from = before_[place];
-  StepEnd end{.position = from.position, .worldFromBody = from.attitude};
-  if (isSmooth(place)) {
-    end.velocity = from.velocity;
-    end.spinBody = from.attitude.conjugate() * from.omega;
-  } else {
-    end.velocity = (bodies_[place].position - from.position) / h_;
-    end.spinBody = meanSpin(place);
-  }
-  return end;
-}
-
-StepEnd Crowd::end(std::size_t place) const {
-  const Before& from = before_[place];
-  const PileBody& to = bodies_[place];
-  StepEnd end{.position = to.position, .worldFromBody = to.attitude};
-  if (isSmooth(place)) {
-    end.velocity = from.endVelocity;
-    end.spinBody = to.attitude.conjugate() * from.endOmega;
-  } else {
-    end.velocity = (to.position - from.position) / h_;
-    end.spinBody = meanSpin(place);
-  }
-  return end;
 }
 
 }  // namespace careen

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -28,9 +29,12 @@ namespace careen {
 /// becomes negative within the step at its current rate, v_n ≥ −gap/h; integrate positions; restitution.
 /// Where one point of a manifold strikes, all its points within a few tolerances strike, with v_n ≥ 0: else
 /// the corners of one edge would strike in different steps, and each would turn the body. A step in which
-/// bodies went into each other is taken again with half its length. Remaining penetration is removed by a
-/// position projection every few steps, or at once, and never becomes velocity (no Baumgarte stabilisation,
-/// no slop).
+/// bodies went deep into each other, or into a wall, is taken again with half its length; what is less deep
+/// is projected at once. Remaining penetration is removed by a position projection every few steps, and never
+/// becomes velocity (no Baumgarte stabilisation, no slop).
+///
+/// Bodies sleep with all that they touch, or, where some of that still moves, beyond a few contacts from it:
+/// then until what the ones awake push them with changes by kMayChange of that and their weight.
 ///
 /// `tolerance` [m] scales all of it: the length of steps with its root, penetration in proportion.
 ///
@@ -58,8 +62,9 @@ class Crowd {
 
   /// Advances by one step of at most `most` [s] and returns its length.
   double step(double most);
-  /// Takes the last step again with that length [s], shorter than it was.
-  void stepAgain(double length);
+  /// Takes the last step again with that length [s], shorter than it was, and with those admitted since, who
+  /// begin where it began. Returns its length, perhaps shorter still.
+  double stepAgain(double length);
 
   /// [s] What step() would take.
   double nextLength(double most) const { return chooseLength(most); }
@@ -67,10 +72,15 @@ class Crowd {
   double fastest() const;
   /// The space that members that are awake or asleep can reach within that time [s].
   struct Extent {
-    Vec3 low;
-    Vec3 high;
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::max());
+    Vec3 high = Vec3::Constant(-std::numeric_limits<double>::max());
+    void include(const Vec3& center, double radius);
   };
   Extent extent(double length) const;
+  /// The space that the last step took.
+  Extent swept() const;
+  /// Whether a member came that near [m] to a box, as far as that can be said before a search.
+  bool cameNear(std::size_t place, const Pose& pose, const Vec3& halfExtents, double distance) const;
 
   bool isHeld(std::size_t place) const { return bodies_[place].held; }
   /// Asleep: its pose is bitwise constant until another body pushes it.
@@ -122,6 +132,8 @@ class Crowd {
  private:
   /// [1] relative to gravity: tolerated force imbalance of a body at rest.
   static constexpr double kFeasible = 0x1p-10;
+  /// [1] of a body's weight and of what another pushes it with: change of the latter that wakes it.
+  static constexpr double kMayChange = 0x1p-3;
   static constexpr int kStepsAlone = 2;
   static constexpr double kLongestStep = 1.0 / 180;  // [s] at the usual tolerance
   double longestStep() const { return kLongestStep * scale_; }
@@ -154,12 +166,22 @@ class Crowd {
   void sortManifolds();
   double chooseLength(double most) const;
   void take(double length);
+  double keepApart();
+  void goBack();
   void findLoads();
   Vec3 acceleration(std::size_t place) const;
   void lookAround();
   bool lookAt(PilePair& pair);
   bool wouldPush(const PilePair& pair, const PileManifold& manifold) const;
   void wakeCluster(int cluster);
+  void wakeNeighbours();
+  bool isAsleep(Partner partner) const { return !partner.isWall() && bodyAt(partner).asleep; }
+  bool isHalfAsleep(const PileManifold& manifold) const;
+  Vec3 forceOf(const PileManifold& manifold) const;
+  void findQuiet(std::vector<char>& quiet);
+  void freezeParts(const std::vector<char>& quiet);
+  void findDisturbed();
+  void wakeDisturbed();
   void loadSolver();
   void solve(int sweeps);
   bool solveDirectly();
@@ -174,7 +196,8 @@ class Crowd {
   void takeVelocity(PileBody& body, int index);
   void countUntouched();
   bool isDeep() const;
-  bool wentDeep() const;
+  double newDepth();
+  double depthSince(const PilePair& pair) const;
   void project();
   bool freeze();
   PileManifold& manifoldOf(PilePair& pair);
@@ -209,9 +232,12 @@ class Crowd {
   double tell_;  // [1] of the smallest size: change per step above which neighbours are re-solved
   std::vector<Bounce> bounces_;
   std::vector<Struck> impacts_;
-  std::vector<double> unrest_;  // [m/s] net velocity change of the last step
-  std::vector<double> grip_;    // [1] largest friction coefficient at a body's contacts
-  DisjointSets clusters_;       // of bodies in resting contact
+  std::vector<double> unrest_;    // [m/s] net velocity change of the last step
+  std::vector<double> grip_;      // [1] largest friction coefficient at a body's contacts
+  DisjointSets clusters_;         // of bodies in resting contact
+  std::vector<int> quietChecks_;  // by place: since when it and all that is near it could sleep
+  std::vector<char> woken_;       // by place: in this step
+  std::vector<int> disturbed_;    // clusters that the last step pushed otherwise than when they fell asleep
   bool atRest_ = false;
   double deepest_ = 0;
   Figures figures_;

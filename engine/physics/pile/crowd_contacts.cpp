@@ -40,11 +40,14 @@ void Crowd::lookAround() {
         continue;
       }
       looked_[k] = lookAt(pair) ? 2 : 1;
-      if (looked_[k] == 2 && (a.asleep || (!pair.b.isWall() && bodyAt(pair.b).asleep)) &&
+      if (looked_[k] == 2 && (a.asleep || isAsleep(pair.b)) && !manifolds_[at(pair.slot)].carries &&
           wouldPush(pair, manifolds_[at(pair.slot)])) {
         wakeCluster(a.asleep ? a.cluster : bodyAt(pair.b).cluster);
         woke = true;
       }
+    }
+    if (woke) {
+      wakeNeighbours();
     }
   }
   near_.clear();
@@ -53,6 +56,7 @@ void Crowd::lookAround() {
       near_.push_back(pairs[k].slot);
     }
   }
+  std::fill(woken_.begin(), woken_.end(), 0);
   figures_.manifolds += static_cast<std::int64_t>(near_.size());
 }
 
@@ -135,16 +139,6 @@ bool Crowd::wouldPush(const PilePair& pair, const PileManifold& manifold) const 
   return false;
 }
 
-void Crowd::wakeCluster(int cluster) {
-  for (PileBody& body : bodies_) {
-    if (body.asleep && body.cluster == cluster) {
-      body.asleep = false;
-      body.cluster = -1;
-      ++figures_.woken;
-    }
-  }
-}
-
 // Where a point strikes within the step, those of its manifold that are almost closed strike with it.
 void Crowd::addRows(int slot) {
   PileManifold& manifold = manifolds_[at(slot)];
@@ -225,8 +219,12 @@ void Crowd::project() {
   for (int pass = 0; pass < kPasses; ++pass) {
     for (const int slot : near_) {
       PileManifold& manifold = manifolds_[at(slot)];
+      const bool hasWall = manifold.b.isWall();
+      if (pass > 0 && !projection_.moved(manifold.a) && (hasWall || !projection_.moved(manifold.b.body()))) {
+        continue;
+      }
       const PileBody& a = bodies_[at(manifold.a)];
-      if (manifold.b.isWall()) {
+      if (hasWall) {
         refreshManifold(a, wallAt(manifold.b), manifold);
         continue;
       }

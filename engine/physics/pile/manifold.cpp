@@ -8,6 +8,7 @@
 #include "physics/geometry/tangents.h"
 #include "physics/pile/axes.h"
 #include "physics/pile/clip.h"
+#include "physics/pile/index.h"
 #include "physics/world/gap.h"
 
 namespace careen {
@@ -22,22 +23,29 @@ constexpr int kMostProjections = 40;
 constexpr std::uint32_t kEdgeFeature = 0x100;
 constexpr std::uint32_t kClosestFeature = 0x200;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+// What a rebuilt manifold may inherit; not cleared first, as this is done for most manifolds in every step.
+struct FormerPoint {
+  Vec3 world;
+  std::uint32_t feature;
+  double normalImpulse;
+  double normalImpulseBefore;
+  double tangential1;
+  double tangential2;
+};
 
 // The manifold before rebuilding.
 struct Former {
-  std::array<PilePoint, PileManifold::kMost> points;
-  int count = 0;
-  bool hadEdges = false;
-  std::uint32_t faces = 0;
-  PileFrame plane;
+  std::array<FormerPoint, PileManifold::kMost> points;  // of these, `count`
+  int count;
+  std::uint32_t faces;
+  Vec3 tangent1;  // of the plane
 };
 
 void inherit(const Former& former, PileManifold& manifold) {
   const double near = kSamePlace * manifold.length;
   const bool sameFaces = former.faces == manifold.faces;
   // Rotated tangents lose their friction impulses: they would have another direction.
-  const bool sameTangents = sameFaces || former.plane.tangent1.dot(manifold.plane.tangent1) > 0.99;
+  const bool sameTangents = sameFaces || former.tangent1.dot(manifold.plane.tangent1) > 0.99;
   std::array<bool, PileManifold::kMost> taken{};
   for (int k = 0; k < manifold.count; ++k) {
     PilePoint& point = manifold.points[at(k)];
@@ -47,7 +55,7 @@ void inherit(const Former& former, PileManifold& manifold) {
       if (taken[at(i)]) {
         continue;
       }
-      const PilePoint& old = former.points[at(i)];
+      const FormerPoint& old = former.points[at(i)];
       const bool comparable = sameFaces || point.feature == kEdgeFeature;
       if (comparable && old.feature == point.feature) {
         best = i;
@@ -62,7 +70,7 @@ void inherit(const Former& former, PileManifold& manifold) {
     if (best < 0) {
       continue;
     }
-    const PilePoint& old = former.points[at(best)];
+    const FormerPoint& old = former.points[at(best)];
     taken[at(best)] = true;
     point.normalImpulse = old.normalImpulse;
     point.normalImpulseBefore = old.normalImpulseBefore;
@@ -74,11 +82,19 @@ void inherit(const Former& former, PileManifold& manifold) {
 }
 
 Former formerOf(const PileManifold& manifold) {
-  Former former;
+  Former former;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   former.count = manifold.count;
-  std::copy_n(manifold.points.begin(), manifold.count, former.points.begin());
+  for (int k = 0; k < manifold.count; ++k) {
+    const PilePoint& point = manifold.points[at(k)];
+    former.points[at(k)] = {.world = point.world,
+                            .feature = point.feature,
+                            .normalImpulse = point.normalImpulse,
+                            .normalImpulseBefore = point.normalImpulseBefore,
+                            .tangential1 = point.tangential1,
+                            .tangential2 = point.tangential2};
+  }
   former.faces = manifold.faces;
-  former.plane = manifold.plane;
+  former.tangent1 = manifold.plane.tangent1;
   return former;
 }
 

@@ -70,6 +70,9 @@ struct PileManifold {
   int count = 0;
   std::array<PilePoint, kMost> points;
 
+  bool carries = false;         ///< one of the two fell asleep, and nothing woke it since
+  Vec3 carried = Vec3::Zero();  ///< [N] on a, when it did
+
   double moved = 0;       ///< [m] bound on the relative motion since the last rebuild
   double separation = 0;  ///< [m] along the best axis at the last rebuild
   double reach = 0;       ///< [m] all points with smaller gaps are included

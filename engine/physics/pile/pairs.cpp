@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/pile/index.h"
+
 namespace careen {
 namespace {
 
@@ -12,8 +14,6 @@ constexpr double kFat = 0.1;  // [1] of the smallest size, on every side
 constexpr int kLeaf = 4;
 constexpr int kMostRefits = 16;
 constexpr std::size_t kDeepest = 128;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::uint64_t keyOf(int a, Partner b) { return (static_cast<std::uint64_t>(a) << 32U) | b.key(); }
 

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/pile/index.h"
+
 namespace careen {
 namespace {
 
-constexpr int kSweeps = 20;
-constexpr double kLeft = 0.5;      // [1] of the tolerance: penetration kept, so that contacts persist
-constexpr double kTell = 0.125;    // [1] of the tolerance: smallest displacement that re-solves neighbours
-constexpr double kLongest = 0.25;  // [1] of the smallest size: largest displacement per pass
-constexpr double kNear = 0x1p-6;   // [1] of the smallest size: larger gaps are ignored
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr int kProjectionSweeps = 20;
+constexpr double kLeft = 0.5;        // [1] of the tolerance: penetration kept, so that contacts persist
+constexpr double kTellPush = 0.125;  // [1] of the tolerance: smallest displacement that re-solves neighbours
+constexpr double kLongest = 0.25;    // [1] of the smallest size: largest displacement per pass
+constexpr double kNear = 0x1p-6;     // [1] of the smallest size: larger gaps are ignored
 
 double lowestGap(const PileManifold& manifold) {
   double gap = manifold.length;
@@ -88,7 +88,7 @@ bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> ma
   solver_.begin(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (reached_[i] != 0) {
-      solver_.setBody(static_cast<int>(i), bodies[i], kTell * tolerated(bodies[i].length));
+      solver_.setBody(static_cast<int>(i), bodies[i], kTellPush * tolerated(bodies[i].length));
     }
   }
   for (const int slot : chosen_) {
@@ -110,7 +110,7 @@ bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> ma
   }
   solver_.link();
   solver_.wakeAll();
-  solver_.solve(kSweeps, false);
+  solver_.solve(kProjectionSweeps, false);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const int index = static_cast<int>(i);
     if (reached_[i] == 0 || !solver_.pushed(index)) {

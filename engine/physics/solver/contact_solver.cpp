@@ -36,7 +36,7 @@ constexpr double kNearlyStands = 0x1p-10;  // [1] of V
 constexpr int kStandingSteps = 3;
 constexpr double kStickingEpsilon = 0x1p-24;
 constexpr int kStickingSteps = 8;
-constexpr int kProximalSteps = 100;  // of a round
+constexpr int kStepsOfRound = 100;  // of a round
 
 }  // namespace
 
@@ -141,8 +141,8 @@ bool ContactSolver::tryProximal(int rounds) {
     const double rho = round % 2 == 0 ? 0x1p-2 : 0x1p-5;
     if (tryApproach(from_, {.rho = rho,
                             .epsilon = 0x1p-10,
-                            .steps = kProximalSteps,
-                            .patience = kProximalSteps,
+                            .steps = kStepsOfRound,
+                            .patience = kStepsOfRound,
                             .enough = inScale(kEnough / 8)})) {
       return true;
     }

@@ -5,130 +5,260 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include "render/gl/gl.h"
 #include "render/gl/shader.h"
-#include "render/look/lighting.h"
-#include "view/materials.h"
 
 namespace careen {
 namespace {
 
-constexpr int kVertices = 36;
-const Vec3 kSteel(0.30, 0.32, 0.35);
+constexpr std::array<float, 2> kCoarse = {-1, 1};
+// Occlusion changes most beside an edge that another box touches.
+constexpr std::array<float, 4> kFine = {-1, -0.6F, 0.6F, 1};
+constexpr double kFineWidth = 12;  // [px] of a box's widest face, from which the fine grid shows
+constexpr double kFewBoxes = 20;   // of more boxes, only larger ones
 
-// Two triangles for each face of the cube from −1 to 1: corner, then normal.
-std::vector<float> cube() {
-  std::vector<float> records;
-  for (int face = 0; face < 6; ++face) {
-    const int axis = face / 2;
-    const float side = face % 2 == 0 ? 1.0F : -1.0F;
-    for (const auto& [u, v] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, 1}, {-1, 1}}) {
-      std::array<float, 3> corner{};
-      std::array<float, 3> normal{};
-      corner[static_cast<std::size_t>(axis)] = side;
-      normal[static_cast<std::size_t>(axis)] = side;
-      // Triangles are counterclockwise seen from outside, on both sides of the cube.
-      corner[static_cast<std::size_t>((axis + 1) % 3)] = static_cast<float>(u) * side;
-      corner[static_cast<std::size_t>((axis + 2) % 3)] = static_cast<float>(v);
-      records.insert(records.end(), corner.begin(), corner.end());
-      records.insert(records.end(), normal.begin(), normal.end());
+constexpr unsigned kNeighborUnit = 1;
+constexpr std::size_t kTexturePower = 10;  // of two texels in a row, see neighbors.vert
+constexpr std::size_t kTexelsPerBox = 5;
+constexpr double kReturned = 1.5;  // boxes are lit from more sides than surfaces: relative to these
+
+constexpr std::initializer_list<Attribute> kFaceAttributes = {{0, 3}, {1, 3}, {2, 3}, {3, 3},
+                                                              {4, 4}, {5, 4}, {6, 4}};
+constexpr std::array<int, 6> kPips = {1, 6, 2, 5, 3, 4};  // by side; opposite faces add up to seven
+
+std::span<const float> linesOf(bool isFine) {
+  return isFine ? std::span<const float>(kFine) : std::span<const float>(kCoarse);
+}
+
+// Records of vertices, and triangles between them.
+struct Records {
+  std::vector<float> vertices;
+  std::vector<std::uint32_t> triangles;
+  std::uint32_t count = 0;
+
+  // Triangles of a grid whose vertices follow; counterclockwise seen from outside.
+  void addGrid(std::size_t lines, bool mirrored) {
+    const auto width = static_cast<std::uint32_t>(lines);
+    for (std::uint32_t v = 0; v + 1 < width; ++v) {
+      for (std::uint32_t u = 0; u + 1 < width; ++u) {
+        const std::uint32_t at = count + v * width + u;
+        const std::uint32_t right = mirrored ? at + width : at + 1;
+        const std::uint32_t above = mirrored ? at + 1 : at + width;
+        triangles.insert(triangles.end(), {at, right, at + width + 1, at, at + width + 1, above});
+      }
+    }
+    count += width * width;
+  }
+};
+
+// Does something with the points of a face's grid: calls with the point and its place on the face, −1 … 1.
+// Neighbouring faces have the very same points on the edge between them, so that there are no cracks.
+template <class Do>
+void forGrid(const DrawnBox& box, const DrawnFace& face, bool isFine, const Do& doWith) {
+  const int axis = face.side / 2;
+  Vec3 place;
+  place[axis] = face.side % 2 == 0 ? 1 : -1;
+  for (const float v : linesOf(isFine)) {
+    for (const float u : linesOf(isFine)) {
+      place[(axis + 1) % 3] = u;
+      place[(axis + 2) % 3] = v;
+      doWith(box.pose.worldPoint(box.halfExtents.cwiseProduct(place)), u, v);
     }
   }
-  return records;
 }
 
-Vec3 endOf(const SpringEnd& end, std::span<const Pose> poses) {
-  return end.body ? poses[static_cast<std::size_t>(*end.body)].worldPoint(end.point) : end.point;
-}
-
-DrawnBox rod(const Vec3& from, const Vec3& to, double thickness) {
-  const Vec3 line = to - from;
-  DrawnBox box;
-  box.pose.position = 0.5 * (from + to);
-  box.pose.worldFromBody = Quat::FromTwoVectors(Vec3::UnitX(), line).toRotationMatrix();
-  box.halfExtents = Vec3(0.5 * line.norm(), 0.5 * thickness, 0.5 * thickness);
-  box.color = kSteel;
-  box.marked = false;
-  return box;
-}
-
-bool isSame(const Pose& a, const Pose& b) {
-  return a.position == b.position && a.worldFromBody == b.worldFromBody;
-}
-
-// `before`: poses of the previous moment, if any; boxes that have not moved since are already there.
-void appendBoxes(std::vector<DrawnBox>& boxes, const World& world, const Stage& stage,
-                 std::span<const Pose> poses, std::span<const Pose> before, double springThickness) {
-  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-    if (!before.empty() && isSame(poses[i], before[i])) {
-      continue;
+// See neighbors.vert.
+std::vector<float> neighborTexels(std::span<const DrawnBox> boxes, const Neighbors& neighbors,
+                                  const Vec3& eye) {
+  std::vector<float> texels;
+  texels.reserve(4 * (kTexelsPerBox * boxes.size() + neighbors.entries.size()));
+  for (const DrawnBox& box : boxes) {
+    const Vec3 centre = box.pose.worldFromBody.transpose() * (box.pose.position - eye);
+    for (int axis = 0; axis < 3; ++axis) {
+      append(texels, box.pose.worldFromBody.col(axis));
+      texels.push_back(static_cast<float>(-centre[axis]));
     }
-    boxes.push_back({.pose = poses[i],
-                     .halfExtents = world.bodies[i].halfExtents,
-                     .color = linearFromSrgb(stage.colors[i])});
+    append(texels, box.halfExtents);
+    texels.push_back(0);
+    append(texels, kReturned * box.returned);
+    texels.push_back(0);
   }
-  for (const Spring& spring : world.springs) {
-    const Vec3 from = endOf(spring.from, poses);
-    const Vec3 to = endOf(spring.to, poses);
-    if ((to - from).norm() > 0.1 * springThickness) {
-      boxes.push_back(rod(from, to, springThickness));
-    }
+  for (const Neighbors::Entry& entry : neighbors.entries) {
+    texels.insert(texels.end(),
+                  {static_cast<float>(kTexelsPerBox * entry.box), static_cast<float>(entry.weight), 0, 0});
   }
+  return texels;
 }
 
 }  // namespace
 
-std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::span<const Pose> poses,
-                                 double springThickness) {
-  const std::size_t count = world.bodies.size();
-  std::vector<DrawnBox> boxes;
-  boxes.reserve(poses.size() + world.springs.size());
-  for (std::size_t first = 0; first < poses.size() || first == 0; first += std::max<std::size_t>(count, 1)) {
-    const std::span<const Pose> before =
-        first == 0 ? std::span<const Pose>() : poses.subspan(first - count, count);
-    appendBoxes(boxes, world, stage, poses.subspan(first, count), before, springThickness);
-  }
-  return boxes;
-}
+BoxBatch::Mesh::Mesh(const Gl& gl, std::initializer_list<Attribute> attributes)
+    : array(makeVertexArray(gl)), vertices(gl, attributes, VertexBuffer::Step::kVertex), indices(gl) {}
 
-BoxBatch::BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const std::vector<std::string>& light)
+BoxBatch::BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const LightShaders& light)
     : gl_(gl),
-      array_(makeVertexArray(gl)),
-      corners_(gl, {{0, 3}, {1, 3}}, VertexBuffer::Step::kVertex),
-      instances_(gl, {{2, 3}, {3, 3}, {4, 3}, {5, 3}, {6, 3}, {7, 4}}, VertexBuffer::Step::kInstance),
-      program_(linkProgram(gl, shaders, with({"box.vert", "box.frag"}, light))) {
-  corners_.fill(cube());
-}
-
-void BoxBatch::place(std::vector<DrawnBox> boxes, const Vec3& eye) {
-  const auto distance = [&](const DrawnBox& box) { return (box.pose.position - eye).squaredNorm(); };
-  std::stable_sort(boxes.begin(), boxes.end(),
-                   [&](const DrawnBox& a, const DrawnBox& b) { return distance(a) < distance(b); });
-  std::vector<float> records;
-  records.reserve(boxes.size() * 19);
-  for (const DrawnBox& box : boxes) {
-    append(records, box.pose.position - eye);
-    for (int axis = 0; axis < 3; ++axis) {
-      append(records, box.pose.worldFromBody.col(axis));
+      neighbors_(light.neighbors),
+      lit_(gl, kFaceAttributes),
+      dark_(gl, kFaceAttributes),
+      shaded_(gl, kFaceAttributes),
+      shadows_(gl, kShadowAttributes) {
+  const char* const openness = light.neighbors ? "neighbors.vert" : "open_everywhere.vert";
+  const auto program = [&](const char* write) {
+    const unsigned linked =
+        linkProgram(gl, shaders, with({"box.vert", openness, "box.frag", write}, light.common));
+    if (light.neighbors) {
+      gl.UseProgram(linked);
+      gl.Uniform1i(gl.GetUniformLocation(linked, "neighbors"), kNeighborUnit);
     }
-    append(records, box.halfExtents);
-    append(records, box.color);
-    records.push_back(box.marked ? 1.0F : 0.0F);
+    return linked;
+  };
+  litProgram_ = program("write_lit.frag");
+  if (light.light) {
+    darkProgram_ = program("write_dark.frag");
   }
-  instances_.fill(records);
+  if (light.shadows) {
+    shadedProgram_ = program("write_shaded.frag");
+    depthProgram_ = linkProgram(gl, shaders, {"depth.vert", "black.frag"});
+    shadowProgram_ = linkProgram(gl, shaders, {"shadow.vert", "shadow.frag"});
+  }
+  if (light.occlusion) {
+    shrunkProgram_ = linkProgram(gl, shaders, {"box_shrunk.vert", "black.frag"});
+    shrinkPlace_ = gl.GetUniformLocation(shrunkProgram_, "shrink");
+  }
+  if (light.neighbors) {
+    gl.GenTextures(1, &neighborTexture_);
+    gl.ActiveTexture(GL_TEXTURE0 + kNeighborUnit);
+    gl.BindTexture(GL_TEXTURE_2D, neighborTexture_);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl.ActiveTexture(GL_TEXTURE0);
+  }
 }
 
-void BoxBatch::draw() const {
-  gl_.UseProgram(program_);
-  gl_.BindVertexArray(array_);
-  gl_.DrawArraysInstanced(GL_TRIANGLES, 0, kVertices, instances_.count());
+void BoxBatch::place(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces,
+                     const FaceShadows& shadows, const Neighbors& neighbors, const Vec3& towardsLight,
+                     const Vec3& eye) {
+  // All faces of a box have the same grid.
+  std::vector<bool> isFine(boxes.size());
+  if (neighbors_) {
+    const double many = std::max(1.0, static_cast<double>(boxes.size()) / kFewBoxes);
+    const double fineWidth = kFineWidth * std::sqrt(many * std::sqrt(many));
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (faces[i].widestOfBox >= fineWidth && !neighbors.of(i).empty()) {
+        isFine[faces[i].box] = true;
+      }
+    }
+  }
+  std::vector<bool> isShaded(faces.size());
+  for (const ShadowPair& pair : shadows.pairs) {
+    isShaded[pair.face] = true;
+  }
+  const std::size_t lists = kTexelsPerBox * boxes.size();
+  Records lit;
+  Records dark;
+  Records shaded;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const DrawnFace& face = faces[i];
+    const DrawnBox& box = boxes[face.box];
+    const bool hasList = neighbors_ && !neighbors.of(i).empty();
+    const int axis = face.side / 2;
+    const Vec3 across = box.pose.worldFromBody.col((axis + 1) % 3);
+    const Vec3 along = box.pose.worldFromBody.col((axis + 2) % 3);
+    const double width = box.halfExtents[(axis + 1) % 3];
+    const double height = box.halfExtents[(axis + 2) % 3];
+    Records& records = shadows.isDark[i] ? dark : isShaded[i] ? shaded : lit;
+    records.addGrid(linesOf(isFine[face.box]).size(), face.side % 2 != 0);
+    forGrid(box, face, isFine[face.box], [&](const Vec3& point, double u, double v) {
+      std::vector<float>& vertices = records.vertices;
+      append(vertices, point - eye);
+      append(vertices, face.normal);
+      append(vertices, across);
+      append(vertices, along);
+      for (const double value : {u * width, v * height, width, height}) {
+        vertices.push_back(static_cast<float>(value));
+      }
+      append(vertices, box.color);
+      vertices.push_back(box.marked ? 1.0F : 0.0F);
+      vertices.push_back(static_cast<float>(kPips.at(static_cast<std::size_t>(face.side))));
+      vertices.push_back(static_cast<float>(face.width));
+      vertices.push_back(hasList ? static_cast<float>(lists + neighbors.begins[i]) : 0.0F);
+      vertices.push_back(hasList ? static_cast<float>(neighbors.of(i).size()) : 0.0F);
+    });
+  }
+  Records cast;
+  std::vector<std::optional<Zonogon>> zonogons(boxes.size());
+  for (const ShadowPair& pair : shadows.pairs) {
+    const DrawnFace& face = faces[pair.face];
+    std::optional<Zonogon>& zonogon = zonogons[pair.caster];
+    zonogon = zonogon ? zonogon : zonogonOf(boxes[pair.caster], towardsLight);
+    cast.addGrid(linesOf(isFine[face.box]).size(), face.side % 2 != 0);
+    forGrid(boxes[face.box], face, isFine[face.box], [&](const Vec3& point, double, double) {
+      appendShadow(cast.vertices, *zonogon, point, offsetOf(point, eye), pair.weight);
+    });
+  }
+  const auto fill = [&](Mesh& mesh, const Records& records) {
+    gl_.BindVertexArray(mesh.array);
+    mesh.vertices.fill(records.vertices);
+    mesh.indices.fill(records.triangles);
+  };
+  fill(lit_, lit);
+  fill(dark_, dark);
+  fill(shaded_, shaded);
+  fill(shadows_, cast);
+  if (neighbors_) {
+    fillNeighbors(neighborTexels(boxes, neighbors, eye));
+  }
 }
 
-void BoxBatch::drawDepth() const {
-  gl_.BindVertexArray(array_);
-  gl_.DrawArraysInstanced(GL_TRIANGLES, 0, kVertices, instances_.count());
+void BoxBatch::fillNeighbors(std::vector<float> texels) const {
+  constexpr std::size_t kRow = std::size_t{1} << kTexturePower;
+  const std::size_t rows = std::max<std::size_t>(1, (texels.size() / 4 + kRow - 1) / kRow);
+  texels.resize(4 * kRow * rows);
+  gl_.ActiveTexture(GL_TEXTURE0 + kNeighborUnit);
+  gl_.BindTexture(GL_TEXTURE_2D, neighborTexture_);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, kRow, static_cast<GLsizei>(rows), 0, GL_RGBA, GL_FLOAT,
+                 texels.data());
+  gl_.ActiveTexture(GL_TEXTURE0);
+}
+
+void BoxBatch::draw(const Mesh& mesh) const {
+  if (mesh.indices.count() > 0) {
+    gl_.BindVertexArray(mesh.array);
+    gl_.DrawElements(GL_TRIANGLES, mesh.indices.count(), GL_UNSIGNED_INT, nullptr);
+  }
+}
+
+void BoxBatch::drawUnshaded() const {
+  gl_.UseProgram(litProgram_);
+  draw(lit_);
+  gl_.UseProgram(darkProgram_);
+  draw(dark_);
+}
+
+void BoxBatch::drawShadedDepth() const {
+  gl_.UseProgram(depthProgram_);
+  draw(shaded_);
+}
+
+void BoxBatch::drawShadows() const {
+  gl_.UseProgram(shadowProgram_);
+  draw(shadows_);
+}
+
+void BoxBatch::drawShaded() const {
+  gl_.UseProgram(shadedProgram_);
+  draw(shaded_);
+}
+
+void BoxBatch::drawShrunk(double angle) const {
+  gl_.UseProgram(shrunkProgram_);
+  gl_.Uniform1f(shrinkPlace_, static_cast<float>(angle));
+  draw(lit_);
+  draw(dark_);
+  draw(shaded_);
 }
 
 }  // namespace careen

@@ -1,49 +1,75 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/math/pose.h"
+#include "render/draw/drawn_box.h"
+#include "render/draw/neighbors.h"
+#include "render/draw/shadow_pairs.h"
 #include "render/gl/vertex_array.h"
-#include "stage/run_setup.h"
 
 namespace careen {
 
 struct Gl;
 
-/// One box to draw. Boxes of a run have marks on their faces; springs are boxes without marks.
-struct DrawnBox {
-  Pose pose;
-  Vec3 halfExtents = Vec3::Zero();  ///< [m]
-  Vec3 color = Vec3::Ones();        ///< linear
-  bool marked = true;
+/// Shaders of a frame that depend on its light.
+struct LightShaders {
+  std::vector<std::string> common;  ///< light and finish
+  bool light = false;               ///< there is a source, from which faces may be turned away
+  bool shadows = false;             ///< some faces may be in shadow
+  bool occlusion = false;           ///< of surfaces by boxes
+  bool neighbors = false;           ///< boxes occlude boxes
 };
 
-/// The run's boxes, then its springs as thin rods of thickness `springThickness` [m] from end to end. With
-/// poses of several consecutive moments: the same for each, without boxes that have not moved since the
-/// previous one.
-std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::span<const Pose> poses,
-                                 double springThickness);
-
-/// All boxes of a frame, drawn at once.
+/// The faces of boxes that the eye sees: those that shadows reach, those without direct light, and the
+/// others.
 class BoxBatch {
  public:
-  BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const std::vector<std::string>& light);
+  BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const LightShaders& light);
 
-  /// Sorts front to back, so that hidden pixels are not shaded.
-  void place(std::vector<DrawnBox> boxes, const Vec3& eye);
-  void draw() const;
-  /// Draws with the program in use, for the shadow map.
-  void drawDepth() const;
+  /// What is drawn from now on. `shadows` are of these faces, and so are the lists of `neighbors`, which are
+  /// ignored if boxes do not occlude boxes.
+  void place(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, const FaceShadows& shadows,
+             const Neighbors& neighbors, const Vec3& towardsLight, const Vec3& eye);
+
+  bool hasShaded() const { return shaded_.indices.count() > 0; }
+  /// Faces that no shadow reaches, in full light, and those that have no direct light.
+  void drawUnshaded() const;
+  /// Faces that shadows may reach: black, for their depth; their shadows, to be added; then their colours, to
+  /// be blended.
+  void drawShadedDepth() const;
+  void drawShadows() const;
+  void drawShaded() const;
+  /// Depth of all faces of boxes shrunk by this angle [rad].
+  void drawShrunk(double angle) const;
 
  private:
+  struct Mesh {
+    Mesh(const Gl& gl, std::initializer_list<Attribute> attributes);
+    unsigned array;
+    VertexBuffer vertices;
+    IndexBuffer indices;
+  };
+  void draw(const Mesh& mesh) const;
+  void fillNeighbors(std::vector<float> texels) const;
+
   const Gl& gl_;
-  unsigned array_;
-  VertexBuffer corners_;
-  VertexBuffer instances_;
-  unsigned program_ = 0;
+  bool neighbors_;
+  Mesh lit_;
+  Mesh dark_;
+  Mesh shaded_;
+  Mesh shadows_;
+  unsigned litProgram_ = 0;
+  unsigned darkProgram_ = 0;
+  unsigned depthProgram_ = 0;
+  unsigned shrunkProgram_ = 0;
+  unsigned shadedProgram_ = 0;
+  unsigned shadowProgram_ = 0;
+  int shrinkPlace_ = 0;
+  unsigned neighborTexture_ = 0;
 };
 
 }  // namespace careen

@@ -12,20 +12,20 @@ using Float16 = std::array<float, 16>;
 /// Uniform block shared by all shaders of a frame, in GLSL's std140 layout. Points are offsets from the eye.
 struct FrameBlock {
   Float16 clipFromOffset{};
-  Float16 shadowFromOffset{};  ///< to texture coordinates and depth, 0 … 1
-  Float4 shadowBounds{};       ///< of shadow casters, in texture coordinates: min, then max
-  Float4 towardsLight{};       ///< unit
-  Float4 lightColor{};         ///< linear; all 0 without a light
-  Float4 up{};                 ///< unit; towards the sky
-  Float4 sky{};                ///< linear
-  Float4 ground{};             ///< linear
-  Float4 backgroundTop{};      ///< linear
-  Float4 backgroundBottom{};   ///< linear
-  Float4 finish{};             ///< start of the tone curve's shoulder, 1 if edges are in alpha, dither
-  Float4 boxLook{};            ///< roughness, 1 if marked, part of the box's own colour, width of edge lines
-  Float4 material{};           ///< linear; of all boxes, for the part that is not their own colour
-  Float4 lines{};              ///< linear; w: 1 if joints have this colour
-  Float4 surfaceLook{};        ///< roughness of tiles and of walls, contrast of tiles, strength of joints
+  Float4 towardsLight{};      ///< unit; w: tangent of half the light's angle
+  Float4 lightColor{};        ///< linear; all 0 without a light
+  Float4 up{};                ///< unit; towards the sky
+  Float4 sky{};               ///< linear
+  Float4 ground{};            ///< linear
+  Float4 backgroundTop{};     ///< linear
+  Float4 backgroundBottom{};  ///< linear
+  Float4 finish{};            ///< start of the tone curve's shoulder, 1 if edges are in alpha, dither
+  Float4 boxLook{};           ///< roughness, 1 if marked, part of the box's own colour, width of edge lines
+  Float4 material{};          ///< linear; of all boxes, for the part that is not their own colour
+  Float4 lines{};             ///< linear; w: 1 if joints have this colour
+  Float4 surfaceLook{};       ///< roughness of tiles and of walls, contrast of tiles, strength of joints
+  Float4 occlusion{};         ///< shade of a room's corners; least form factor drawn on surfaces,
+                              ///< 1 / width and 1 / height of the picture [px]
 };
 
 inline Float4 floats(const Vec3& v, double w = 0) {

@@ -3,17 +3,22 @@
 #include "render/draw/renderer.h"
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
+#include <cmath>
 #include <utility>
 
 #include "core/error.h"
+#include "core/system/clock.h"
 #include "core/system/resource.h"
 #include "render/draw/box_batch.h"
-#include "render/draw/contact_shade.h"
 #include "render/draw/frame_block.h"
-#include "render/draw/shadow_map.h"
+#include "render/draw/light_plane.h"
+#include "render/draw/neighbors.h"
+#include "render/draw/occlusion_map.h"
+#include "render/draw/picture_cells.h"
+#include "render/draw/shadow_batch.h"
+#include "render/draw/shadow_pairs.h"
 #include "render/draw/surface_batch.h"
+#include "render/draw/visible_faces.h"
 #include "render/gl/canvas.h"
 #include "render/gl/gl.h"
 #include "render/gl/shader.h"
@@ -25,13 +30,10 @@
 namespace careen {
 namespace {
 
-constexpr double kShadowReach = 4;  // [px] more than the radius of the shadow map filter
+constexpr double kShrunk = 3;  // [px] boxes in the map of occlusion, whose pixels reach so far
 
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point begun) {
-  return std::chrono::duration<double>(Clock::now() - begun).count();
-}
+constexpr double kSnapped = 0.02;       // [px] GL rounds corners by less
+constexpr std::size_t kManyBoxes = 20;  // which hide so many faces that finding them pays
 
 // Empty: the program's own shaders only.
 std::filesystem::path shaderFolder(const RenderOptions& options) {
@@ -42,45 +44,16 @@ std::filesystem::path shaderFolder(const RenderOptions& options) {
   return code.empty() ? code : code / "shaders";
 }
 
-// The lighting shaders needed for this lighting.
-std::vector<std::string> lightShaders(const Lighting& lighting, bool shadows) {
-  if (!lighting.light) {
-    return {"ambient.frag", "finish.frag"};
-  }
-  return {"light.frag", "finish.frag", shadows ? "shadow.frag" : "no_shadow.frag"};
+std::vector<std::string> lightShaders(const Lighting& lighting) {
+  return {lighting.light ? "light.frag" : "ambient.frag", "finish.frag"};
 }
 
-// A room contains its boxes, so its shadow map is fixed; otherwise the map follows the boxes.
-Extent castersOf(const Stage& stage, const Extent& extent, const std::vector<DrawnBox>& boxes) {
-  if (stage.room) {
-    return extent;
-  }
-  Extent casters{.min = boxes[0].pose.position, .max = boxes[0].pose.position};
-  for (const DrawnBox& box : boxes) {
-    const Vec3 reach = box.pose.worldFromBody.cwiseAbs() * box.halfExtents;
-    casters.min = casters.min.cwiseMin(box.pose.position - reach);
-    casters.max = casters.max.cwiseMax(box.pose.position + reach);
-  }
-  return casters;
-}
+// Walls that are no room's may hide each other.
+bool mayOverlap(const Stage& stage) { return stage.planes.size() + (stage.room ? 1 : 0) > 1; }
 
-// Bounds of the boxes in the shadow map; the shader need not sample it elsewhere.
-Float4 shadowBounds(const Mat4& shadowFromWorld, const std::vector<DrawnBox>& boxes) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3 min = Vec3::Constant(kInfinity);
-  Vec3 max = Vec3::Constant(-kInfinity);
-  const Mat3 rotation = shadowFromWorld.topLeftCorner<3, 3>();
-  const Vec3 shift = shadowFromWorld.topRightCorner<3, 1>();
-  for (const DrawnBox& box : boxes) {
-    const Vec3 centre = rotation * box.pose.position + shift;
-    const Vec3 reach = (rotation * box.pose.worldFromBody).cwiseAbs() * box.halfExtents;
-    min = min.cwiseMin(centre - reach);
-    max = max.cwiseMax(centre + reach);
-  }
-  const double margin = kShadowReach / kShadowMapSize;
-  const Vec3 least = min - Vec3::Constant(margin);
-  const Vec3 greatest = max + Vec3::Constant(margin);
-  return floats(Vec3(least.x(), least.y(), greatest.x()), greatest.y());
+// [1] The more boxes there are, the more they hide each other, and the less each has to be drawn far away.
+double leastOcclusion(std::size_t boxes) {
+  return std::clamp(0.004 * std::sqrt(static_cast<double>(boxes) / 100), 0.004, 0.012);
 }
 
 // [px] Thinner springs would be drawn with gaps.
@@ -95,19 +68,14 @@ void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAng
   }
 }
 
-// Converts a matrix for world points to one for offsets from the eye.
-Mat4 fromOffset(const Mat4& fromWorld, const Vec3& eye) {
-  Mat4 result = fromWorld;
-  result.topRightCorner<3, 1>() += fromWorld.topLeftCorner<3, 3>() * eye;
-  return result;
-}
-
 }  // namespace
 
 struct Renderer::Parts {
   Parts(const RunSetup& setup, const RenderOptions& options);
   void look(const Camera& from);
-  void drawShadows(const std::vector<DrawnBox>& drawn);
+  void place(std::span<const Pose> poses, const Camera& from);
+  void drawOcclusion();
+  void drawShaded();
   void drawPicture();
   void drawOver(Picture& picture, const OverlayShapes& shapes);
   void upload() const;
@@ -121,15 +89,20 @@ struct Renderer::Parts {
   Lighting lighting;
   Materials materials;
   bool shadows;
+  bool occlusion;
+  bool severalMoments = false;
+  double pixel = 0;  // [rad] as drawn
+  PictureCells shadedCells{View()};
+  PictureCells occludedCells{View()};
   std::unique_ptr<GlContext> context;
   Gl gl;
   Canvas canvas;
   std::filesystem::path shaders;
   std::optional<OverlayBatch> overlays;  // created for the first picture with overlays
-  std::optional<ShadowMap> shadowMap;
   BoxBatch boxes;
   SurfaceBatch surfaces;
-  std::optional<ContactShadeBatch> contactShades;
+  std::optional<ShadowBatch> shadowBatch;
+  std::optional<OcclusionMap> occlusionMap;
   unsigned backgroundArray;
   unsigned backgroundProgram;
   unsigned blockBuffer = 0;
@@ -145,21 +118,29 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
       camera(options.camera ? *options.camera : cameraOf(setup, aspect)),
       lighting(options.lighting ? *options.lighting : lightingOf(stage.picture.look, camera)),
       materials(options.materials ? *options.materials : materialsOf(stage.picture.look)),
-      shadows(lighting.light && lighting.light->castsShadow && !world.bodies.empty()),
+      shadows(lighting.light && lighting.light->castsShadow && stage.picture.light.has(LightPart::kShadows) &&
+              !world.bodies.empty()),
+      occlusion(materials.occlusion && stage.picture.light.has(LightPart::kOcclusion) &&
+                !world.bodies.empty()),
       context(openContext(options.context)),
       gl(*context),
       canvas(gl, stage.picture.width, stage.picture.height, stage.picture.antialiasing),
       shaders(shaderFolder(options)),
-      boxes(gl, shaders, lightShaders(lighting, shadows)),
-      surfaces(gl, shaders, lightShaders(lighting, shadows), surfacesOf(stage, extent, materials),
-               tileSize(extent)),
+      boxes(gl, shaders,
+            {.common = lightShaders(lighting),
+             .light = lighting.light.has_value(),
+             .shadows = shadows,
+             .occlusion = occlusion,
+             .neighbors = occlusion && world.bodies.size() > 1}),
+      surfaces(gl, shaders, lightShaders(lighting), surfacesOf(stage, extent, materials), tileSize(extent)),
       backgroundArray(makeVertexArray(gl)),
-      backgroundProgram(linkProgram(gl, shaders, {"background.vert", "background.frag", "finish.frag"})) {
+      backgroundProgram(
+          linkProgram(gl, shaders, {"background.vert", "background.frag", "write_lit.frag", "finish.frag"})) {
   if (shadows) {
-    shadowMap.emplace(gl, shaders);
+    shadowBatch.emplace(gl, shaders);
   }
-  if (materials.contactShade > 0 && !surfaces.surfaces().empty()) {
-    contactShades.emplace(gl, shaders);
+  if (occlusion && !surfaces.surfaces().empty()) {
+    occlusionMap.emplace(gl, shaders, canvas.drawnWidth(), canvas.drawnHeight());
   }
   gl.GenBuffers(1, &blockBuffer);
   gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, blockBuffer);  // all programs use binding 0
@@ -179,8 +160,11 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
   block.lines = floats(materials.lineColor, materials.ownJoints ? 1 : 0);
   block.surfaceLook = floats(Vec3(materials.tileRoughness, materials.wallRoughness, materials.tileContrast),
                              materials.joints);
+  block.occlusion = floats(Vec3(stage.picture.light.has(LightPart::kOcclusion) ? materials.corners : 0,
+                                leastOcclusion(world.bodies.size()), 1.0 / canvas.drawnWidth()),
+                           1.0 / canvas.drawnHeight());
   if (lighting.light) {
-    block.towardsLight = floats(lighting.light->towards.normalized());
+    block.towardsLight = floats(lighting.light->towards.normalized(), lighting.light->spread);
     block.lightColor = floats(lighting.light->color);
   }
   checkGl(gl, "preparing to draw");
@@ -197,24 +181,114 @@ void Renderer::Parts::look(const Camera& from) {
   surfaces.place(view.eye);
 }
 
-void Renderer::Parts::drawShadows(const std::vector<DrawnBox>& drawn) {
-  const Mat4 fromWorld = shadowFromWorld(castersOf(stage, extent, drawn), lighting.light->towards);
-  block.shadowFromOffset = floats(fromOffset(fromWorld, view.eye));
-  block.shadowBounds = shadowBounds(fromWorld, drawn);
-  upload();
-  shadowMap->begin();
-  boxes.drawDepth();
-  shadowMap->end();
+void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
+  std::vector<DrawnBox> drawn = drawnBoxes(world, stage, poses, 0.004 * extent.radius());
+  widenSprings(drawn, view.eye, pixelAngle(from, stage.picture.height));
+  sortFromEye(drawn, view.eye);
+  pixel = pixelAngle(from, canvas.drawnHeight());
+  severalMoments = poses.size() > world.bodies.size();
+  std::vector<DrawnFace> faces = facesTowards(drawn, view.eye, pixel);
+  HiddenTiles hidden;
+  if (drawn.size() >= kManyBoxes) {
+    const bool isMultisampled = stage.picture.antialiasing == Antialiasing::kMultisampled;
+    Visible visible = visibleFaces(faces, view,
+                                   {.width = canvas.drawnWidth(),
+                                    .height = canvas.drawnHeight(),
+                                    .within = kSnapped + (isMultisampled ? 0.5 : 0)});
+    faces = std::move(visible.faces);
+    hidden = std::move(visible.hidden);
+  }
+  shadedCells = PictureCells(view);
+  occludedCells = PictureCells(view);
+  FaceShadows cast{.pairs = {}, .isDark = std::vector<bool>(faces.size())};
+  const Vec3 towards = lighting.light ? Vec3(lighting.light->towards.normalized()) : Vec3(Vec3::UnitZ());
+  if (shadows) {
+    const ShadowLight light{.towards = towards, .spread = lighting.light->spread};
+    LightPlane plane(light.towards, drawn);
+    cast = shadowsOnFaces(plane, drawn, faces, view.eye, light.spread, pixel);
+    shadowBatch->place(drawn, surfaces.surfaces(), light, view.eye, pixel, hidden, shadedCells);
+  } else if (lighting.light) {
+    std::transform(faces.begin(), faces.end(), cast.isDark.begin(),
+                   [&](const DrawnFace& face) { return face.normal.dot(towards) <= 0; });
+  }
+  Neighbors neighbors;
+  if (occlusion) {
+    if (stage.picture.light.has(LightPart::kBounce)) {
+      for (DrawnBox& box : drawn) {
+        const Vec3 albedo = (1 - materials.ownColor) * materials.boxColor + materials.ownColor * box.color;
+        box.returned = materials.bounce * albedo;
+      }
+    }
+    const double least = leastOcclusion(world.bodies.size());
+    if (world.bodies.size() > 1) {
+      neighbors = neighborsOf(drawn, faces, 3 * least);
+    }
+    if (occlusionMap) {
+      occlusionMap->place(drawn, surfaces.surfaces(),
+                          {.eye = view.eye, .pixelAngle = pixel, .least = least, .leastOnly = severalMoments},
+                          hidden, occludedCells);
+    }
+  }
+  if (stage.picture.antialiasing == Antialiasing::kMultisampled) {
+    // llvmpipe draws samples at the border of a scissor's rectangle twice.
+    if (shadows) {
+      shadedCells.markAll();
+    }
+    if (occlusionMap) {
+      occludedCells.markAll();
+    }
+  }
+  boxes.place(drawn, faces, cast, neighbors, towards, view.eye);
+}
+
+void Renderer::Parts::drawOcclusion() {
+  occlusionMap->beginFar();
+  if (mayOverlap(stage)) {
+    surfaces.drawDepth();
+  }
+  occlusionMap->drawFar();
+  occlusionMap->beginNear();
+  boxes.drawShrunk(kShrunk * pixel);
+  if (mayOverlap(stage)) {
+    surfaces.drawDepth();
+  }
+  occlusionMap->drawNear();
+  ++figures.occlusionPasses;
+}
+
+// The part of the light that shadows keep off is added up in the picture itself, which is black before, for
+// every sample of a pixel; then it takes the colours in full light and in full shadow by that part.
+void Renderer::Parts::drawShaded() {
+  if (boxes.hasShaded()) {
+    boxes.drawShadedDepth();
+  }
+  if (mayOverlap(stage)) {
+    surfaces.drawDepth();
+  }
+  gl.Enable(GL_BLEND);
+  gl.BlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
+  gl.DepthMask(GL_FALSE);
+  boxes.drawShadows();
+  gl.Disable(GL_CULL_FACE);
+  shadowBatch->draw();
+  gl.Enable(GL_CULL_FACE);
+  gl.DepthMask(GL_TRUE);
+  gl.BlendFuncSeparate(GL_ONE_MINUS_DST_COLOR, GL_SRC1_COLOR, GL_ONE, GL_ZERO);
+  boxes.drawShaded();
+  gl.Disable(GL_BLEND);
   ++figures.shadowPasses;
 }
 
 void Renderer::Parts::drawPicture() {
   canvas.begin();
-  boxes.draw();
-  surfaces.draw();
-  if (contactShades) {
-    contactShades->draw();
+  if (occlusionMap) {
+    occlusionMap->bind();
   }
+  boxes.drawUnshaded();
+  if (shadows) {
+    drawShaded();
+  }
+  surfaces.draw(shadedCells, occludedCells, canvas.drawnWidth(), canvas.drawnHeight());
   gl.UseProgram(backgroundProgram);
   gl.BindVertexArray(backgroundArray);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
@@ -249,18 +323,10 @@ Picture Renderer::draw(const Shot& shot) {
   const Clock::time_point begun = Clock::now();
   parts.context->makeCurrent();
   parts.look(shot.camera);
-  std::vector<DrawnBox> drawn =
-      drawnBoxes(parts.world, parts.stage, shot.poses, 0.004 * parts.extent.radius());
-  widenSprings(drawn, parts.view.eye, pixelAngle(shot.camera, parts.stage.picture.height));
-  parts.boxes.place(drawn, parts.view.eye);
-  if (parts.contactShades) {
-    parts.contactShades->place(contactShades(drawn, parts.surfaces.surfaces(), parts.materials.contactShade),
-                               parts.view.eye);
-  }
-  if (parts.shadows) {
-    parts.drawShadows(drawn);
-  } else {
-    parts.upload();
+  parts.place(shot.poses, shot.camera);
+  parts.upload();
+  if (parts.occlusionMap) {
+    parts.drawOcclusion();
   }
   parts.drawPicture();
   parts.figures.drawSeconds += secondsSince(begun);

@@ -31,6 +31,7 @@ struct RenderOptions {
 struct DrawFigures {
   int frames = 0;
   int shadowPasses = 0;
+  int occlusionPasses = 0;
   int overlayPasses = 0;
   double drawSeconds = 0;  ///< [s] wall time until drawing is complete
   double readSeconds = 0;  ///< [s] reading back and flipping

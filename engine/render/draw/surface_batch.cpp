@@ -56,7 +56,9 @@ SurfaceBatch::SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders,
     : gl_(gl),
       array_(makeVertexArray(gl)),
       vertices_(gl, {{0, 3}, {1, 3}, {2, 4}, {3, 4}, {4, 4}, {5, 1}}, VertexBuffer::Step::kVertex),
-      program_(linkProgram(gl, shaders, with({"surface.vert", "surface.frag"}, light))),
+      shaders_(shaders),
+      light_(light),
+      depthProgram_(linkProgram(gl, shaders, {"depth.vert", "black.frag"})),
       surfaces_(std::move(surfaces)),
       tileSize_(tileSize) {}
 
@@ -67,10 +69,65 @@ void SurfaceBatch::place(const Vec3& eye) {
   }
 }
 
-void SurfaceBatch::draw() const {
-  gl_.UseProgram(program_);
+unsigned SurfaceBatch::programOf(bool shadows, bool occlusion) {
+  unsigned& program = programs_.at((shadows ? 1 : 0) + (occlusion ? 2 : 0));
+  if (program == 0) {
+    program = linkProgram(
+        gl_, shaders_,
+        with({"surface.vert", "surface.frag", occlusion ? "open_map.frag" : "open_everywhere.frag",
+              shadows ? "write_shaded.frag" : "write_lit.frag"},
+             light_));
+  }
+  return program;
+}
+
+void SurfaceBatch::draw(const PictureCells& shadows, const PictureCells& occlusion, int width, int height) {
+  using Row = std::array<int, PictureCells::kColumns>;
+  const auto rowOf = [&](int row) {
+    Row needs{};
+    for (int column = 0; column < PictureCells::kColumns; ++column) {
+      needs.at(static_cast<std::size_t>(column)) =
+          (shadows.isMarked(column, row) ? 1 : 0) + (occlusion.isMarked(column, row) ? 2 : 0);
+    }
+    return needs;
+  };
   gl_.BindVertexArray(array_);
+  gl_.Enable(GL_SCISSOR_TEST);
+  for (int row = 0; row < PictureCells::kRows;) {
+    const Row needs = rowOf(row);
+    int end = row + 1;
+    while (end < PictureCells::kRows && rowOf(end) == needs) {
+      ++end;
+    }
+    const int bottom = height * row / PictureCells::kRows;
+    const int top = height * end / PictureCells::kRows;
+    for (std::size_t column = 0; column < needs.size();) {
+      std::size_t last = column;
+      while (last < needs.size() && needs.at(last) == needs.at(column)) {
+        ++last;
+      }
+      const int left = width * static_cast<int>(column) / PictureCells::kColumns;
+      const int right = width * static_cast<int>(last) / PictureCells::kColumns;
+      const bool isShaded = needs.at(column) % 2 != 0;
+      (isShaded ? gl_.Enable : gl_.Disable)(GL_BLEND);
+      gl_.UseProgram(programOf(isShaded, needs.at(column) >= 2));
+      gl_.Scissor(left, bottom, right - left, top - bottom);
+      gl_.DrawArrays(GL_TRIANGLES, 0, vertices_.count());
+      column = last;
+    }
+    row = end;
+  }
+  gl_.Disable(GL_SCISSOR_TEST);
+  gl_.Disable(GL_BLEND);
+}
+
+void SurfaceBatch::drawDepth() const {
+  gl_.UseProgram(depthProgram_);
+  gl_.BindVertexArray(array_);
+  gl_.Enable(GL_POLYGON_OFFSET_FILL);
+  gl_.PolygonOffset(1, 4);
   gl_.DrawArrays(GL_TRIANGLES, 0, vertices_.count());
+  gl_.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
 }  // namespace careen

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "render/draw/picture_cells.h"
 #include "render/gl/vertex_array.h"
 #include "view/surfaces.h"
 
@@ -19,13 +21,22 @@ class SurfaceBatch {
                std::vector<Surface> surfaces, double tileSize);
   const std::vector<Surface>& surfaces() const { return surfaces_; }
   void place(const Vec3& eye);
-  void draw() const;
+  /// Draws to a canvas of this size [px]: where shadows may reach by blending full light and full shadow,
+  /// where boxes occlude with the map of occlusion.
+  void draw(const PictureCells& shadows, const PictureCells& occlusion, int width, int height);
+  /// Black, a little farther away, for their depth.
+  void drawDepth() const;
 
  private:
   const Gl& gl_;
   unsigned array_;
   VertexBuffer vertices_;
-  unsigned program_;
+  unsigned programOf(bool shadows, bool occlusion);
+
+  std::filesystem::path shaders_;
+  std::vector<std::string> light_;
+  std::array<unsigned, 4> programs_{};  // made when first used; 1: shadows, 2: occlusion
+  unsigned depthProgram_;
   std::vector<Surface> surfaces_;
   double tileSize_;
   std::optional<Vec3> eye_;

@@ -81,8 +81,13 @@ Picture Filming::draw(Renderer& renderer, double filmTime, const Shutter& shutte
 }
 
 void Filming::explain(Renderer& renderer, Picture& picture, double filmTime, const Overlays& overlays) const {
-  renderer.drawOver(picture, camera(filmTime), [&](const View& view) {
-    return overlays.shapesAt(sceneTime(filmTime), view, picture.width, picture.height);
+  explainStrobe(renderer, picture, {&filmTime, 1}, overlays);
+}
+
+void Filming::explainStrobe(Renderer& renderer, Picture& picture, std::span<const double> filmTimes,
+                            const Overlays& overlays) const {
+  renderer.drawOver(picture, camera(filmTimes.front()), [&](const View& view) {
+    return overlays.shapesAt(sceneTime(filmTimes.back()), view, picture.width, picture.height);
   });
 }
 

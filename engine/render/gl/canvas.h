@@ -25,6 +25,10 @@ class Canvas {
   /// Antialiases and reads back the frame. MachineError if it is blank.
   Picture read();
 
+  /// [px] of what is drawn, before it is averaged to the picture.
+  int drawnWidth() const { return scale_ * width_; }
+  int drawnHeight() const { return scale_ * height_; }
+
   /// Whether shaders must write edge distances to alpha, see edge_blend.h.
   bool wantsEdges() const;
 

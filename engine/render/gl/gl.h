@@ -17,6 +17,7 @@
   X(PFNGLENABLEPROC, Enable)                                                 \
   X(PFNGLDISABLEPROC, Disable)                                               \
   X(PFNGLVIEWPORTPROC, Viewport)                                             \
+  X(PFNGLSCISSORPROC, Scissor)                                               \
   X(PFNGLCLEARCOLORPROC, ClearColor)                                         \
   X(PFNGLCLEARPROC, Clear)                                                   \
   X(PFNGLDEPTHFUNCPROC, DepthFunc)                                           \
@@ -36,6 +37,9 @@
   X(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)                       \
   X(PFNGLDRAWARRAYSPROC, DrawArrays)                                         \
   X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)                       \
+  X(PFNGLDRAWELEMENTSPROC, DrawElements)                                     \
+  X(PFNGLBLENDEQUATIONPROC, BlendEquation)                                   \
+  X(PFNGLUNIFORM1FPROC, Uniform1f)                                           \
   X(PFNGLCREATESHADERPROC, CreateShader)                                     \
   X(PFNGLDELETESHADERPROC, DeleteShader)                                     \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                                     \
@@ -54,7 +58,6 @@
   X(PFNGLBINDTEXTUREPROC, BindTexture)                                       \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                         \
   X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                   \
-  X(PFNGLTEXPARAMETERFVPROC, TexParameterfv)                                 \
   X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                               \
   X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                               \
   X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                     \

@@ -10,11 +10,11 @@
 namespace careen {
 namespace {
 
-constexpr const char* kRemedy = "install it: apt install libosmesa6";
+constexpr const char* kOsmesaRemedy = "install it: apt install libosmesa6";
 
 // The constants used from GL/osmesa.h: Mesa removed the header with the library, and this must still build
 // there to draw through EGL.
-enum Attribute : int {
+enum OsmesaAttribute : int {
   kFormat = 0x22,
   kDepthBits = 0x30,
   kProfile = 0x33,
@@ -33,12 +33,12 @@ std::vector<std::string> namesOf(const std::string& library) {
 
 }  // namespace
 
-OsMesa::OsMesa(const std::string& library) : library_(namesOf(library), kRemedy) {
+OsMesa::OsMesa(const std::string& library) : library_(namesOf(library), kOsmesaRemedy) {
   constexpr std::array<int, 11> kCore33 = {kFormat,       GL_RGBA, kDepthBits,    0, kProfile, kCoreProfile,
                                            kMajorVersion, 3,       kMinorVersion, 3, 0};
   context_ = library_.function<CreateContext>("OSMesaCreateContextAttribs")(kCore33.data(), nullptr);
   if (context_ == nullptr) {
-    throw MachineError(library_.name() + " makes no OpenGL 3.3 core context; " + kRemedy);
+    throw MachineError(library_.name() + " makes no OpenGL 3.3 core context; " + kOsmesaRemedy);
   }
   makeCurrent();
 }
@@ -51,7 +51,7 @@ OsMesa::~OsMesa() {
 void OsMesa::bind() {
   const auto make = library_.function<MakeCurrent>("OSMesaMakeCurrent");
   if (make(context_, &pixel_, GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
-    throw MachineError(library_.name() + " cannot use the context it made; " + kRemedy);
+    throw MachineError(library_.name() + " cannot use the context it made; " + kOsmesaRemedy);
   }
 }
 
@@ -62,7 +62,7 @@ void OsMesa::unbind() {
 void* OsMesa::function(const char* name) const {
   void* const address = library_.function<GetProcAddress>("OSMesaGetProcAddress")(name);
   if (address == nullptr) {
-    throw MachineError(library_.name() + " has no " + name + " of OpenGL 3.3; " + kRemedy);
+    throw MachineError(library_.name() + " has no " + name + " of OpenGL 3.3; " + kOsmesaRemedy);
   }
   return address;
 }

@@ -34,6 +34,18 @@ void VertexBuffer::fill(std::span<const float> records) {
   count_ = static_cast<int>(records.size() / floatsPerRecord_);
 }
 
+IndexBuffer::IndexBuffer(const Gl& gl) : gl_(gl) {
+  gl.GenBuffers(1, &buffer_);
+  gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer_);
+}
+
+void IndexBuffer::fill(std::span<const std::uint32_t> indices) {
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer_);
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size_bytes()), indices.data(),
+                 GL_STREAM_DRAW);
+  count_ = static_cast<int>(indices.size());
+}
+
 void append(std::vector<float>& records, const Vec3& v) {
   for (const double value : v) {
     records.push_back(static_cast<float>(value));

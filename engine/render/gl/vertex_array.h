@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <span>
 #include <vector>
@@ -32,6 +33,21 @@ class VertexBuffer {
   const Gl& gl_;
   unsigned buffer_ = 0;
   std::size_t floatsPerRecord_ = 0;
+  int count_ = 0;
+};
+
+/// Indices of vertices, in threes.
+class IndexBuffer {
+ public:
+  /// Attaches the buffer to the bound vertex array.
+  explicit IndexBuffer(const Gl& gl);
+  /// The vertex array that it is attached to must be bound.
+  void fill(std::span<const std::uint32_t> indices);
+  int count() const { return count_; }
+
+ private:
+  const Gl& gl_;
+  unsigned buffer_ = 0;
   int count_ = 0;
 };
 

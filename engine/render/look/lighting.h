@@ -13,6 +13,7 @@ struct Light {
   Vec3 towards = Vec3::UnitZ();  ///< direction towards the light, world frame; any length but 0
   Vec3 color = Vec3::Ones();     ///< linear; as reflected by a white face turned towards it
   bool castsShadow = true;
+  double spread = 0.03;  ///< tangent of half the angle that it covers: penumbrae are that slope wide
 };
 
 /// All lighting. Without `light` there is no shadow pass.

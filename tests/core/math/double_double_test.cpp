@@ -15,7 +15,7 @@ namespace {
 /// Quadruple precision (113 bits) cannot hold every pair (2 × 53 bits and a gap) but gets within 2⁻¹¹³ of it.
 Quad exact(const DoubleDouble& x) { return Quad(x.hi) + Quad(x.lo); }
 
-class Random {
+class RandomDoubles {
  public:
   DoubleDouble positive() {
     const double hi = std::ldexp(fraction() + 0.5, static_cast<int>(generator_() % 40) - 20);
@@ -39,7 +39,7 @@ struct Worst {
 constexpr int kCases = 50000;
 
 TEST(DoubleDouble, sumsAndProductsOfTwoDoublesAreExact) {
-  Random random;
+  RandomDoubles random;
   for (int i = 0; i < kCases; ++i) {
     const double a = random.any().hi;
     const double b = random.any().hi;
@@ -54,7 +54,7 @@ TEST(DoubleDouble, sumsAndProductsOfTwoDoublesAreExact) {
 }
 
 TEST(DoubleDouble, operationsHoldTheirStatedErrors) {
-  Random random;
+  RandomDoubles random;
   Worst sum;
   Worst product;
   Worst ratio;

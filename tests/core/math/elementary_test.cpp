@@ -23,7 +23,7 @@ double errorInUlps(double got, const Quad& exact) {
   return static_cast<double>(abs(ldexp(Quad(got) - exact, 53 - exponent)));
 }
 
-class Random {
+class RandomNumbers {
  public:
   double uniform(double low, double high) {
     return low + (high - low) * static_cast<double>(generator_() >> 11U) * 0x1p-53;
@@ -36,7 +36,7 @@ class Random {
 };
 
 double worstSinCos(int count, const auto& draw) {
-  Random random;
+  RandomNumbers random;
   double worst = 0;
   for (int i = 0; i < count; ++i) {
     const double x = draw(random);
@@ -48,13 +48,13 @@ double worstSinCos(int count, const auto& draw) {
 
 TEST(Elementary, sinAndCosAreRightToOneUlpUpToAHundredMillion) {
   // measured 0.77, asserts < 1
-  EXPECT_LT(worstSinCos(60000, [](Random& r) { return r.sign() * r.logUniform(1e-13, 1e8); }), 1);
+  EXPECT_LT(worstSinCos(60000, [](RandomNumbers& r) { return r.sign() * r.logUniform(1e-13, 1e8); }), 1);
 }
 
 TEST(Elementary, sinAndCosAreRightToOneUlpNextToTheirZeros) {
   // The doubles nearest to multiples of π/2, where almost all digits cancel. measured 0.50, asserts < 1
   EXPECT_LT(worstSinCos(30000,
-                        [](Random& r) {
+                        [](RandomNumbers& r) {
                           const double multiple = std::floor(r.uniform(1, 6e7)) * 0x1.921fb54442d18p+0;
                           return std::nextafter(multiple, r.sign() * 1e300);
                         }),
@@ -63,7 +63,7 @@ TEST(Elementary, sinAndCosAreRightToOneUlpNextToTheirZeros) {
 
 TEST(Elementary, sinAndCosAreRightToOneUlpUpToTwoToTheFifty) {
   // measured 0.98, asserts < 1
-  EXPECT_LT(worstSinCos(30000, [](Random& r) { return r.sign() * r.logUniform(1e8, 0x1p50); }), 1);
+  EXPECT_LT(worstSinCos(30000, [](RandomNumbers& r) { return r.sign() * r.logUniform(1e8, 0x1p50); }), 1);
 }
 
 TEST(Elementary, sinAndCosOfAnAngleWithoutDigitsAreNotNumbers) {
@@ -73,7 +73,7 @@ TEST(Elementary, sinAndCosOfAnAngleWithoutDigitsAreNotNumbers) {
 }
 
 TEST(Elementary, sinIsOddAndCosIsEvenToTheBit) {
-  Random random;
+  RandomNumbers random;
   for (int i = 0; i < 100000; ++i) {
     const double x = random.logUniform(1e-3, 1e9);
     EXPECT_EQ(elementary::sinCos(-x).sin, -elementary::sinCos(x).sin) << x;
@@ -96,7 +96,7 @@ TEST(Elementary, quarterTurnsAreSinAndCosOfTheAngleTheyAddUpTo) {
 }
 
 TEST(Elementary, expIsRightToOneUlp) {
-  Random random;
+  RandomNumbers random;
   double worst = 0;
   for (int i = 0; i < 60000; ++i) {
     const double x = i % 2 == 0 ? random.uniform(-708, 709.7) : random.uniform(-1, 1);
@@ -109,7 +109,7 @@ TEST(Elementary, expIsRightToOneUlp) {
 }
 
 TEST(Elementary, logIsRightToOneUlp) {
-  Random random;
+  RandomNumbers random;
   double worst = 0;
   for (int i = 0; i < 60000; ++i) {
     const double x = i % 3 == 0   ? random.logUniform(1e-300, 1e300)
@@ -125,7 +125,7 @@ TEST(Elementary, logIsRightToOneUlp) {
 }
 
 TEST(Elementary, atan2IsRightToOneUlpInEveryQuadrant) {
-  Random random;
+  RandomNumbers random;
   double worst = 0;
   for (int i = 0; i < 60000; ++i) {
     const double y = random.sign() * random.logUniform(1e-5, 1e5);

@@ -12,8 +12,8 @@
 namespace careen {
 namespace {
 
-using testing::Quad;
-using testing::Random;
+using test::Quad;
+using test::Random;
 
 double orderFreeSum(const std::vector<double>& terms) {
   std::vector<std::array<double, 1>> columns;

@@ -12,8 +12,6 @@
 namespace careen {
 namespace {
 
-Quad quadOf(const DoubleDouble& x) { return Quad(x.hi) + Quad(x.lo); }
-
 class WideType : public testing::Test {
  protected:
   double number() {

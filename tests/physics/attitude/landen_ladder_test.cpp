@@ -11,10 +11,6 @@
 namespace careen {
 namespace {
 
-const Quad kQuadPi = acos(Quad(-1));
-
-Quad quadOf(const DoubleDouble& x) { return Quad(x.hi) + Quad(x.lo); }
-
 // Arithmetic-geometric mean, as it stands in the books.
 Quad meanOf(Quad a, Quad b) {
   for (int i = 0; i < 40; ++i) {

@@ -12,17 +12,13 @@
 namespace careen {
 namespace {
 
-const Quad kQuadPi = acos(Quad(-1));
-
 /// The same angle in quadruple precision.
 struct Angle {
   DoubleDouble rate{0};
   double quarterTurns = 0;
   double rest = 0;
 
-  Quad at(double t) const {
-    return (Quad(rate.hi) + Quad(rate.lo)) * Quad(t) + Quad(quarterTurns) * kQuadPi / 2 + Quad(rest);
-  }
+  Quad at(double t) const { return quadOf(rate) * Quad(t) + Quad(quarterTurns) * kQuadPi / 2 + Quad(rest); }
   LinearPhase<double> phase() const { return {rate, quarterTurns, rest}; }
 };
 

@@ -13,8 +13,6 @@ namespace {
 
 using Kind = Polhode<double>::Kind;
 
-Quad quadOf(const DoubleDouble& x) { return Quad(x.hi) + Quad(x.lo); }
-
 std::array<DoubleDouble, 3> wide(const Vec3& m) { return {m.x(), m.y(), m.z()}; }
 
 double relativeError(const Quad& got, const Quad& exact) {

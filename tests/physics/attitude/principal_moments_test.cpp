@@ -12,8 +12,6 @@
 namespace careen {
 namespace {
 
-Quad quadOf(const DoubleDouble& x) { return Quad(x.hi) + Quad(x.lo); }
-
 double relativeError(const DoubleDouble& got, const Quad& exact) {
   return std::fabs(static_cast<double>(quadOf(got) / exact - 1));
 }

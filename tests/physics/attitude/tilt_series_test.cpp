@@ -11,8 +11,6 @@
 namespace careen {
 namespace {
 
-const Quad kQuadPi = acos(Quad(-1));
-
 elementary::SinCos<Quad> sinCosOf(const Quad& v) { return {sin(v), cos(v)}; }
 
 /// θ₄(v + iσ | q²) and −i θ₁(v + iσ | q²) from the series of the books, in q and σ.

@@ -25,7 +25,7 @@ struct Outcome {
   double kineticRatio = 0;  ///< of the kinetic energy alone
 };
 
-Outcome run(const World& world, double duration, double dt) {
+Outcome outcomeOf(const World& world, double duration, double dt) {
   Outcome result;
   result.figures =
       simulate(world, {.method = Method::kListing1, .duration = duration, .dt = dt}, result.memory);
@@ -47,7 +47,7 @@ World alone(Body body) {
 // Half sizes (.1, .2, .3), ω = (1, 2, 3), 5 s, dt 0.01: E/E₀ 1.241, 97° off.
 TEST(PublishedMethod, givesATumblingBoxAQuarterMoreEnergy) {
   const World world = alone(makeBox({.halfExtents = {0.1, 0.2, 0.3}, .angularVelocity = {1, 2, 3}}));
-  const Outcome result = run(world, 5, 0.01);
+  const Outcome result = outcomeOf(world, 5, 0.01);
   EXPECT_NEAR(result.energyRatio, 1.241, 0.002);           // measured 1.2409
   EXPECT_NEAR(result.figures.energyChange, 0.241, 0.002);  // measured 0.2409: the run says so itself
 
@@ -61,7 +61,7 @@ TEST(PublishedMethod, givesATumblingBoxAQuarterMoreEnergy) {
 // Needle, half sizes (.005, .005, .5), ω = (1, .1, 100), 5 s, dt 1/60: E/E₀ 190.
 TEST(PublishedMethod, multipliesTheEnergyOfANeedle) {
   const World world = alone(makeBox({.halfExtents = {0.005, 0.005, 0.5}, .angularVelocity = {1, 0.1, 100}}));
-  EXPECT_NEAR(run(world, 5, 1.0 / 60).energyRatio, 190, 1);  // measured 190.25
+  EXPECT_NEAR(outcomeOf(world, 5, 1.0 / 60).energyRatio, 190, 1);  // measured 190.25
 }
 
 // A cube of half size 0.1 let go flat 1 m over the floor, g = 10, e = 1, 20 s, dt 1/60: E/E₀ 2.50, heights of
@@ -70,7 +70,7 @@ TEST(PublishedMethod, letsABouncingCubeRiseEverHigher) {
   World world = alone(makeBox({.halfExtents = {0.1, 0.1, 0.1}, .position = {0, 0, 1.1}, .restitution = 1}));
   world.walls = {floorAt(0)};
   world.gravity = {0, 0, -10};
-  const Outcome result = run(world, 20, 1.0 / 60);
+  const Outcome result = outcomeOf(world, 20, 1.0 / 60);
   EXPECT_NEAR(result.energyRatio, 2.50, 0.005);  // measured 2.5006
 }
 
@@ -86,7 +86,7 @@ World flatLanding(double restitution) {
 // corner in turn is sent back at half its speed, but the later ones set the earlier in motion again.
 TEST(PublishedMethod, landsAFlatCubeSpinning) {
   const World world = flatLanding(0.5);
-  const Outcome result = run(world, 0.15, 1.0 / 60);
+  const Outcome result = outcomeOf(world, 0.15, 1.0 / 60);
   EXPECT_EQ(result.memory.impacts.size(), 5U);
   EXPECT_NEAR(result.kineticRatio, 0.31, 0.005);  // measured 0.3096
   const double spin = angularVelocity(world.bodies[0].mass, result.memory.last()).norm();
@@ -158,7 +158,7 @@ TEST(PublishedMethod, losesAThirdOfTheEnergyInAnElasticRoom) {
                                           .velocity = {3, 2, 1},
                                           .angularVelocity = {1, 2, 3},
                                           .restitution = 1}));
-  const Outcome result = run(world, 10, 1.0 / 60);
+  const Outcome result = outcomeOf(world, 10, 1.0 / 60);
   EXPECT_NEAR(result.energyRatio, 0.659, 0.001);  // measured 0.6585
   EXPECT_EQ(result.memory.impacts.size(), 8U);
 }

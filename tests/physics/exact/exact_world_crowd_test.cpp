@@ -10,6 +10,7 @@
 #include "physics/geometry/separation.h"
 #include "support/article_equations.h"
 #include "support/exact_runs.h"
+#include "support/tumbling_box.h"
 
 // Crowds among the other groups of the event queue.
 
@@ -29,7 +30,7 @@ Recorded crowdRun(const World& world, double duration, double tolerance = kToler
   return run;
 }
 
-World onAFloor(double friction, double restitution = 0) {
+World onARoughFloor(double friction, double restitution = 0) {
   World world;
   world.gravity = Vec3(0, 0, -9.81);
   world.walls = {wall("floor", Vec3(0, 0, 1), 0, restitution)};
@@ -37,18 +38,18 @@ World onAFloor(double friction, double restitution = 0) {
   return world;
 }
 
-Body rough(Body body, double friction, double restitution = 0) {
+Body ofMaterial(Body body, double friction, double restitution = 0) {
   body.material = {.restitution = restitution, .friction = friction};
   return body;
 }
 
 // Layers that tumble onto each other.
 World layers() {
-  World world = onAFloor(0.5);
+  World world = onARoughFloor(0.5);
   for (int k = 0; k < 40; ++k) {
     const Vec3 position(0.75 * (k % 3), 0.75 * (k / 3 % 3), 0.4 + 0.75 * (k / 9));
     const Vec3 spin(k % 5 - 2, k % 3 - 1, k % 4);
-    world.bodies.push_back(rough(
+    world.bodies.push_back(ofMaterial(
         box("box-" + std::to_string(10 + k), Vec3(0.2, 0.2, 0.2), 1, position, Vec3::Zero(), spin, 0), 0.5));
   }
   return world;
@@ -63,10 +64,10 @@ std::size_t crowdSteps(const Recorded& run, std::size_t body) {
 
 TEST(ExactWorldCrowd, isLeftToItsMembers) {
   World world = layers();
-  Body brick =
-      rough(box("brick", Vec3(0.1, 0.2, 0.3), 1, Vec3(-6, 0, 1.5), Vec3(0, 0.2, 0), Vec3(1, 2, 3), 0), 0, 1);
+  Body brick = ofMaterial(
+      box("brick", Vec3(0.1, 0.2, 0.3), 1, Vec3(-6, 0, 1.5), Vec3(0, 0.2, 0), Vec3(1, 2, 3), 0), 0, 1);
   brick.name = "a-brick";
-  World alone = onAFloor(0.5);
+  World alone = onARoughFloor(0.5);
   world.walls[0].material.restitution = alone.walls[0].material.restitution = 1;
   alone.bodies = {brick};
   world.bodies.push_back(brick);
@@ -84,26 +85,51 @@ TEST(ExactWorldCrowd, isLeftToItsMembers) {
   }
 }
 
-// By geometry that shares nothing with the crowd's, at moments that no step chooses.
-TEST(ExactWorldCrowd, keepsApartToItsToleranceBetweenStepsToo) {
-  const World world = layers();
-  for (const double tolerance : {3e-4, 3e-5}) {
-    const Recorded run = crowdRun(world, 2, tolerance);
-    double deepest = 0;
-    for (double time = 0.00137; time < 2; time += 0.00618) {
-      for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-        const Pose a = run.at(world, i, time).pose;
-        for (std::size_t j = i + 1; j < world.bodies.size(); ++j) {
-          const Pose b = run.at(world, j, time).pose;
-          if ((a.position - b.position).norm() < 0.7) {
-            deepest = std::max(
-                deepest, -BoxAxes({a, world.bodies[i].halfExtents}, {b, world.bodies[j].halfExtents}).gap());
-          }
+// [m] By geometry that shares nothing with the crowd's, at moments that no step chooses.
+double deepestOverlap(const World& world, const Recorded& run, double until, double every) {
+  double deepest = 0;
+  for (double time = 0.22 * every; time < until; time += every) {
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+      const Body& first = world.bodies[i];
+      const Pose a = run.at(world, i, time).pose;
+      for (std::size_t j = i + 1; j < world.bodies.size(); ++j) {
+        const Body& second = world.bodies[j];
+        const Pose b = run.at(world, j, time).pose;
+        if ((a.position - b.position).norm() < first.halfExtents.norm() + second.halfExtents.norm()) {
+          deepest = std::max(deepest, -BoxAxes({a, first.halfExtents}, {b, second.halfExtents}).gap());
         }
       }
     }
+  }
+  return deepest;
+}
+
+TEST(ExactWorldCrowd, keepsApartToItsToleranceBetweenStepsToo) {
+  const World world = layers();
+  for (const double tolerance : {3e-4, 3e-5}) {
+    const double deepest = deepestOverlap(world, crowdRun(world, 2, tolerance), 2, 0.00618);
     EXPECT_LT(deepest, 3 * tolerance);
     EXPECT_GT(deepest, 0);
+  }
+}
+
+// What falls after a member that is stopped within a step meets it within that step.
+TEST(ExactWorldCrowd, keepsApartFromWhoArrivesWithinAStep) {
+  test::Dice dice(11);
+  for (int scene = 0; scene < 300; ++scene) {
+    World world = onARoughFloor(0.7, 0.3);
+    double height = 0;
+    for (int k = 0; k < 5; ++k) {
+      const Vec3 size{dice.between(0.1, 0.2), dice.between(0.1, 0.2), dice.between(0.06, 0.12)};
+      height += size.z() + dice.between(0.002, 0.03);
+      const Vec3 place(0.02 * k, -0.01 * k, height);
+      const Vec3 velocity(0, 0, dice.between(-1, -0.5));
+      const double mass = dice.between(0.2, 5);
+      world.bodies.push_back(ofMaterial(
+          box("box-" + std::to_string(k), size, mass, place, velocity, dice.vector(1), 0), 0.7, 0.3));
+      height += size.z();
+    }
+    EXPECT_LT(deepestOverlap(world, crowdRun(world, 0.3), 0.3, 0.0013), 3 * kTolerance) << scene;
   }
 }
 
@@ -131,9 +157,9 @@ TEST(ExactWorldCrowd, movesContinuously) {
 }
 
 TEST(ExactWorldCrowd, releasesWhatNothingTouches) {
-  World world = onAFloor(0.3, 0.8);
-  world.bodies = {rough(box("a", Vec3(0.2, 0.2, 0.2), 1, Vec3(0, 0, 0.2)), 0.3, 0.8),
-                  rough(box("b", Vec3(0.2, 0.2, 0.2), 1, Vec3(0.05, 0, 1.2)), 0.3, 0.8)};
+  World world = onARoughFloor(0.3, 0.8);
+  world.bodies = {ofMaterial(box("a", Vec3(0.2, 0.2, 0.2), 1, Vec3(0, 0, 0.2)), 0.3, 0.8),
+                  ofMaterial(box("b", Vec3(0.2, 0.2, 0.2), 1, Vec3(0.05, 0, 1.2)), 0.3, 0.8)};
   const Recorded run = crowdRun(world, 1);
   ASSERT_GT(crowdSteps(run, 1), 0U);
   const auto& motions = run.motions[1];
@@ -150,9 +176,9 @@ TEST(ExactWorldCrowd, exchangesMomentum) {
   for (int k = 0; k < 12; ++k) {
     const Vec3 at(1.1 * (k % 3), 1.1 * (k / 3 % 2), 1.1 * (k / 6));
     const Vec3 center(1.1, 0.55, 0.55);
-    world.bodies.push_back(rough(box("box-" + std::to_string(10 + k), Vec3(0.3, 0.4, 0.5), 1 + k, at,
-                                     2 * (center - at), Vec3(k % 3, 1, k % 2), 0),
-                                 0.4, 0.5));
+    world.bodies.push_back(ofMaterial(box("box-" + std::to_string(10 + k), Vec3(0.3, 0.4, 0.5), 1 + k, at,
+                                          2 * (center - at), Vec3(k % 3, 1, k % 2), 0),
+                                      0.4, 0.5));
   }
   const Recorded run = crowdRun(world, 1);
   ASSERT_TRUE(run.figures.boundedFrom);
@@ -168,9 +194,9 @@ TEST(ExactWorldCrowd, exchangesMomentum) {
 
 // A spring pulls a crowd's members as it pulls an island's.
 TEST(ExactWorldCrowd, feelsSpringsAndDrag) {
-  World world = onAFloor(0);
-  world.bodies = {rough(box("a", Vec3(0.2, 0.2, 0.2), 1, Vec3(0, 0, 0.2)), 0),
-                  rough(box("b", Vec3(0.2, 0.2, 0.2), 1, Vec3(1.5, 0, 0.2)), 0)};
+  World world = onARoughFloor(0);
+  world.bodies = {ofMaterial(box("a", Vec3(0.2, 0.2, 0.2), 1, Vec3(0, 0, 0.2)), 0),
+                  ofMaterial(box("b", Vec3(0.2, 0.2, 0.2), 1, Vec3(1.5, 0, 0.2)), 0)};
   world.springs = {{.from = {.body = 0}, .to = {.body = 1}, .stiffness = 20, .restLength = 1}};
   world.drag = Drag{.linear = 0.3, .angular = 0};
   world.bodies[0].initial.velocity = Vec3(0.3, 0, 0);
@@ -216,10 +242,10 @@ TEST(ExactWorldCrowd, listingChangesNoBit) {
 
 // The arrivals of a crowd's dominoes converge to those of exact contact, at first order in the step.
 TEST(ExactWorldCrowd, convergesToExactContact) {
-  World world = onAFloor(0.4);
+  World world = onARoughFloor(0.4);
   for (int k = 0; k < 6; ++k) {
     world.bodies.push_back(
-        rough(box("d" + std::to_string(k), Vec3(0.05, 0.2, 0.4), 1, Vec3(0.42 * k, 0, 0.4)), 0.4));
+        ofMaterial(box("d" + std::to_string(k), Vec3(0.05, 0.2, 0.4), 1, Vec3(0.42 * k, 0, 0.4)), 0.4));
   }
   const double tilt = 0.2;
   world.bodies[0].initial.pose = {.position = Vec3(0.05 - 0.05 * std::cos(tilt) + 0.4 * std::sin(tilt), 0,

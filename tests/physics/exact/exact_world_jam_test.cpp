@@ -100,7 +100,7 @@ TEST(ExactWorldJam, harmonicOverhangsStandByAHair) {
 // A light box between two heavy ones that come together, with friction and without gravity. Looked at at
 // moments the method does not choose.
 TEST(ExactWorldJam, squeezedBoxesStayOutOfEachOther) {
-  testing::Random random(3059);
+  test::Random random(3059);
   double deepest = 0;
   double turned = 0;
   for (int k = 0; k < 60; ++k) {

@@ -23,7 +23,7 @@
 namespace careen {
 namespace {
 
-using testing::Random;
+using test::Random;
 
 double spread(Random& random, double low, double high) {
   return std::exp(random.between(std::log(low), std::log(high)));

@@ -11,13 +11,13 @@
 namespace careen {
 namespace {
 
-using testing::flatCube;
-using testing::ImpactScene;
-using testing::Quad;
-using testing::Quad3;
-using testing::Random;
-using testing::randomImpact;
-using testing::relativeChange;
+using test::flatCube;
+using test::ImpactScene;
+using test::Quad;
+using test::Quad3;
+using test::Random;
+using test::randomImpact;
+using test::relativeChange;
 
 TEST(ImpactLaw, millionRandomImpactsWithFrictionGainNoEnergy) {
   Random random(11);

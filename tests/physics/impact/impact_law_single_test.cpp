@@ -12,12 +12,12 @@
 namespace careen {
 namespace {
 
-using testing::ImpactScene;
-using testing::Quad;
-using testing::Quad3;
-using testing::Random;
-using testing::randomImpact;
-using testing::relativeChange;
+using test::ImpactScene;
+using test::Quad;
+using test::Quad3;
+using test::Random;
+using test::randomImpact;
+using test::relativeChange;
 
 /// Fig. 4 written again in quadruple precision, with the world inertia inverted as a matrix.
 BodyState quadrupleFig4(const ImpactScene& scene, int body, double sign) {

@@ -12,10 +12,10 @@
 namespace careen {
 namespace {
 
-using testing::ImpactScene;
-using testing::Random;
-using testing::randomImpact;
-using testing::sameBits;
+using test::ImpactScene;
+using test::Random;
+using test::randomImpact;
+using test::sameBits;
 
 TEST(ImpactLaw, orderOfTheContactsChangesNoBit) {
   Random random(6);

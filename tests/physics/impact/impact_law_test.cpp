@@ -12,14 +12,14 @@
 namespace careen {
 namespace {
 
-using testing::flatCube;
-using testing::ImpactScene;
-using testing::Quad;
-using testing::Random;
-using testing::randomImpact;
-using testing::relativeChange;
-using testing::roomCorner;
-using testing::sameBits;
+using test::flatCube;
+using test::ImpactScene;
+using test::Quad;
+using test::Random;
+using test::randomImpact;
+using test::relativeChange;
+using test::roomCorner;
+using test::sameBits;
 
 TEST(ImpactLaw, cubeLandingFlatNeitherTiltsNorMovesSideways) {
   Random random(2);

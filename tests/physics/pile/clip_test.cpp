@@ -16,7 +16,7 @@
 namespace careen {
 namespace {
 
-PileBody boxAt(const Vec3& half, const Vec3& position, const Mat3& axes = Mat3::Identity()) {
+PileBody clippedBoxAt(const Vec3& half, const Vec3& position, const Mat3& axes = Mat3::Identity()) {
   const Body body = makeBox({.halfExtents = half, .position = position, .worldFromBody = axes});
   return pileBody(body, body.initial);
 }
@@ -45,8 +45,8 @@ double areaOf(const ClippedFace& face, int axis) {
 
 // A box of 0.4 × 0.6 m, 1 mm above a plate: its own four corners.
 TEST(Clip, keepsAFaceThatLiesWithinTheOther) {
-  const PileBody plate = boxAt({1, 1, 0.5}, Vec3::Zero());
-  const PileBody box = boxAt({0.2, 0.3, 0.25}, {0.1, 0.2, 0.751});
+  const PileBody plate = clippedBoxAt({1, 1, 0.5}, Vec3::Zero());
+  const PileBody box = clippedBoxAt({0.2, 0.3, 0.25}, {0.1, 0.2, 0.751});
   const ClippedFace face = clipped(plate, box, 2, 1);
   ASSERT_EQ(face.count, 4);
   for (const ClippedPoint& point : pointsOf(face)) {
@@ -59,8 +59,8 @@ TEST(Clip, keepsAFaceThatLiesWithinTheOther) {
 
 // Hanging over by half: x from 0.5 to 1, the two new corners on the plate's edge.
 TEST(Clip, cutsWhatHangsOver) {
-  const PileBody plate = boxAt({1, 1, 0.5}, Vec3::Zero());
-  const PileBody box = boxAt({0.5, 0.25, 0.25}, {1, 0, 0.75});
+  const PileBody plate = clippedBoxAt({1, 1, 0.5}, Vec3::Zero());
+  const PileBody box = clippedBoxAt({0.5, 0.25, 0.25}, {1, 0, 0.75});
   const ClippedFace face = clipped(plate, box, 2, 1);
   ASSERT_EQ(face.count, 4);
   EXPECT_NEAR(areaOf(face, 2), 0.5 * 0.5, 1e-15);
@@ -71,13 +71,15 @@ TEST(Clip, cutsWhatHangsOver) {
 }
 
 TEST(Clip, ofFacesBesideEachOtherIsNothing) {
-  EXPECT_EQ(clipped(boxAt(Vec3::Ones(), Vec3::Zero()), boxAt(Vec3::Ones(), {2.5, 0, 2}), 2, 1).count, 0);
+  EXPECT_EQ(
+      clipped(clippedBoxAt(Vec3::Ones(), Vec3::Zero()), clippedBoxAt(Vec3::Ones(), {2.5, 0, 2}), 2, 1).count,
+      0);
 }
 
 // A square turned by 45° over an equal one: a regular octagon of area 8 (√2 − 1) in units of half sizes.
 TEST(Clip, ofTurnedSquaresIsAnOctagon) {
-  const PileBody below = boxAt(Vec3::Ones(), Vec3::Zero());
-  const PileBody above = boxAt(Vec3::Ones(), {0, 0, 2}, axisAngle(Vec3::UnitZ(), std::atan(1.0)));
+  const PileBody below = clippedBoxAt(Vec3::Ones(), Vec3::Zero());
+  const PileBody above = clippedBoxAt(Vec3::Ones(), {0, 0, 2}, axisAngle(Vec3::UnitZ(), std::atan(1.0)));
   const ClippedFace face = clipped(below, above, 2, 1);
   ASSERT_EQ(face.count, 8);
   EXPECT_NEAR(areaOf(face, 2), 8 * (std::sqrt(2.0) - 1), 1e-14);
@@ -93,18 +95,18 @@ TEST(Clip, ofTurnedSquaresIsAnOctagon) {
 
 // Features name edges, not places: they stay when boxes slide a little, and faces tell which two touch.
 TEST(Clip, featuresStayWhileTheSameEdgesCross) {
-  const PileBody below = boxAt(Vec3::Ones(), Vec3::Zero());
+  const PileBody below = clippedBoxAt(Vec3::Ones(), Vec3::Zero());
   const ClippedFace before =
-      clipped(below, boxAt(Vec3::Ones(), {0.5, 0.3, 2}, axisAngle(Vec3::UnitZ(), 0.3)), 2, 1);
+      clipped(below, clippedBoxAt(Vec3::Ones(), {0.5, 0.3, 2}, axisAngle(Vec3::UnitZ(), 0.3)), 2, 1);
   const ClippedFace after =
-      clipped(below, boxAt(Vec3::Ones(), {0.51, 0.29, 2.01}, axisAngle(Vec3::UnitZ(), 0.31)), 2, 1);
+      clipped(below, clippedBoxAt(Vec3::Ones(), {0.51, 0.29, 2.01}, axisAngle(Vec3::UnitZ(), 0.31)), 2, 1);
   ASSERT_EQ(before.count, after.count);
   EXPECT_EQ(before.faces, after.faces);
   for (int k = 0; k < before.count; ++k) {
     EXPECT_EQ(before.points[static_cast<std::size_t>(k)].feature,
               after.points[static_cast<std::size_t>(k)].feature);
   }
-  EXPECT_NE(clipped(below, boxAt(Vec3::Ones(), {0, 0, -2}), 2, -1).faces, before.faces);
+  EXPECT_NE(clipped(below, clippedBoxAt(Vec3::Ones(), {0, 0, -2}), 2, -1).faces, before.faces);
 }
 
 // Every corner lies on the incident face and within the owner's sides, and the area is that of a grid count.
@@ -112,10 +114,10 @@ TEST(Clip, isTheCommonPartOfBothShadows) {
   test::Dice dice(3);
   int cut = 0;
   for (int k = 0; k < 400; ++k) {
-    const PileBody owner = boxAt({dice.between(0.3, 1), dice.between(0.3, 1), dice.between(0.3, 1)},
-                                 dice.vector(1), dice.orientation());
-    const PileBody incident = boxAt({dice.between(0.3, 1), dice.between(0.3, 1), dice.between(0.3, 1)},
-                                    owner.position + dice.vector(1), dice.orientation());
+    const PileBody owner = clippedBoxAt({dice.between(0.3, 1), dice.between(0.3, 1), dice.between(0.3, 1)},
+                                        dice.vector(1), dice.orientation());
+    const PileBody incident = clippedBoxAt({dice.between(0.3, 1), dice.between(0.3, 1), dice.between(0.3, 1)},
+                                           owner.position + dice.vector(1), dice.orientation());
     const int axis = k % 3;
     const double sign = k % 2 == 0 ? 1 : -1;
     const ClippedFace face = clipped(owner, incident, axis, sign);

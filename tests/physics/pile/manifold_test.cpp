@@ -11,7 +11,7 @@
 namespace careen {
 namespace {
 
-PileBody boxAt(const Vec3& half, const Vec3& position, const Mat3& axes = Mat3::Identity()) {
+PileBody boxOfMassOneAt(const Vec3& half, const Vec3& position, const Mat3& axes = Mat3::Identity()) {
   Body body;
   body.halfExtents = half;
   body.mass = solidBox(half, 1);
@@ -35,8 +35,8 @@ double lowest(const PileManifold& manifold) {
 }
 
 TEST(PileManifold, faceOnFaceHasTheFourCornersOfTheSmaller) {
-  const PileBody floor = boxAt(Vec3(1, 1, 0.5), Vec3(0, 0, 0));
-  const PileBody box = boxAt(Vec3(0.2, 0.3, 0.25), Vec3(0.1, 0.2, 0.751));
+  const PileBody floor = boxOfMassOneAt(Vec3(1, 1, 0.5), Vec3(0, 0, 0));
+  const PileBody box = boxOfMassOneAt(Vec3(0.2, 0.3, 0.25), Vec3(0.1, 0.2, 0.751));
   const PileManifold manifold = between(box, floor);
   ASSERT_EQ(manifold.count, 4);
   EXPECT_LT((manifold.plane.normal - Vec3::UnitZ()).norm(), 1e-15);
@@ -53,8 +53,9 @@ TEST(PileManifold, crossedEdgesTouchAtTheirCrossing) {
   const double eighth = std::atan(1.0);
   const Vec3 half = Vec3::Constant(0.25);
   const double ridge = 0.25 * std::sqrt(2.0);
-  const PileBody below = boxAt(half, Vec3(0, 0, 0), axisAngle(Vec3::UnitX(), eighth));
-  const PileBody above = boxAt(half, Vec3(0.05, -0.1, 2 * ridge + 0.001), axisAngle(Vec3::UnitY(), eighth));
+  const PileBody below = boxOfMassOneAt(half, Vec3(0, 0, 0), axisAngle(Vec3::UnitX(), eighth));
+  const PileBody above =
+      boxOfMassOneAt(half, Vec3(0.05, -0.1, 2 * ridge + 0.001), axisAngle(Vec3::UnitY(), eighth));
   const PileManifold manifold = between(above, below);
   ASSERT_TRUE(manifold.hasEdges);
   const PilePoint& point = manifold.points[static_cast<std::size_t>(manifold.count - 1)];
@@ -67,8 +68,8 @@ TEST(PileManifold, crossedEdgesTouchAtTheirCrossing) {
 // Diagonally beside each other no face lies over another: the nearest corners are the contact.
 TEST(PileManifold, cornersBesideEachOtherTouchAtTheNearestPoints) {
   const Vec3 half = Vec3::Constant(0.25);
-  const PileBody a = boxAt(half, Vec3::Zero());
-  const PileBody b = boxAt(half, Vec3(0.51, 0.52, 0.51));
+  const PileBody a = boxOfMassOneAt(half, Vec3::Zero());
+  const PileBody b = boxOfMassOneAt(half, Vec3(0.51, 0.52, 0.51));
   const PileManifold manifold = between(a, b);
   ASSERT_EQ(manifold.count, 1);
   EXPECT_NEAR(manifold.points[0].gap, std::sqrt(0.01 * 0.01 + 0.02 * 0.02 + 0.01 * 0.01), 1e-9);
@@ -80,10 +81,11 @@ TEST(PileManifold, refreshedGapsAreThoseOfANewManifold) {
   test::Pourer pourer(3);
   int compared = 0;
   for (int k = 0; k < 400; ++k) {
-    const PileBody a = boxAt(pourer.vector(0.2, 0.3), Vec3::Zero(), pourer.attitude().toRotationMatrix());
+    const PileBody a =
+        boxOfMassOneAt(pourer.vector(0.2, 0.3), Vec3::Zero(), pourer.attitude().toRotationMatrix());
     Vec3 direction = pourer.vector(-1, 1);
     direction.normalize();
-    PileBody b = boxAt(pourer.vector(0.2, 0.3), direction, pourer.attitude().toRotationMatrix());
+    PileBody b = boxOfMassOneAt(pourer.vector(0.2, 0.3), direction, pourer.attitude().toRotationMatrix());
     // Brought to touch.
     for (int i = 0; i < 60 && overlapOf(a, b) == 0; ++i) {
       b.position -= 0.01 * direction;
@@ -103,8 +105,8 @@ TEST(PileManifold, refreshedGapsAreThoseOfANewManifold) {
 
 // A manifold built anew takes over the impulses of the points that stay.
 TEST(PileManifold, impulsesStayWithTheirFeatures) {
-  const PileBody floor = boxAt(Vec3(1, 1, 0.5), Vec3(0, 0, 0));
-  PileBody box = boxAt(Vec3(0.2, 0.3, 0.25), Vec3(0.1, 0.2, 0.75));
+  const PileBody floor = boxOfMassOneAt(Vec3(1, 1, 0.5), Vec3(0, 0, 0));
+  PileBody box = boxOfMassOneAt(Vec3(0.2, 0.3, 0.25), Vec3(0.1, 0.2, 0.75));
   PileManifold manifold = between(box, floor);
   for (int k = 0; k < 4; ++k) {
     manifold.points[static_cast<std::size_t>(k)].normalImpulse = k + 1;

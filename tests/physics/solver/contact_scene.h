@@ -13,6 +13,8 @@
 
 namespace careen {
 
+inline constexpr int kNobody = ContactProblem::kNobody;
+
 /// Boxes without rotation that touch each other and the world, as a ContactProblem; for tests.
 class ContactScene {
  public:

@@ -19,8 +19,6 @@ namespace careen {
 namespace {
 
 using Vector = std::array<double, 3>;
-constexpr int kNobody = ContactProblem::kNobody;
-
 Vector sum(const Vector& a, double factor, const Vector& b) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }

@@ -12,9 +12,9 @@
 namespace careen {
 namespace {
 
-class Dice {
+class ProblemDice {
  public:
-  explicit Dice(unsigned seed) : generator_(seed) {}
+  explicit ProblemDice(unsigned seed) : generator_(seed) {}
   /// Uniform in (−1, 1), the same everywhere.
   double number() { return static_cast<double>(generator_()) * 0x1p-31 - 1; }
   int upTo(int n) { return static_cast<int>(generator_() % static_cast<unsigned>(n)); }
@@ -25,7 +25,7 @@ class Dice {
 
 /// Bodies at random places; each contact joins a random body to another or to the world, at a random point
 /// near.
-ContactScene randomScene(Dice& dice, int bodies, int contacts, double largeFriction) {
+ContactScene randomScene(ProblemDice& dice, int bodies, int contacts, double largeFriction) {
   ContactScene scene;
   const std::array<double, 6> frictions{0, 0.1, 0.4, 0.9, 3, largeFriction};
   constexpr std::array<double, 5> kMasses{1, 1, 2, 1e-3, 1e3};
@@ -58,15 +58,15 @@ ContactScene randomScene(Dice& dice, int bodies, int contacts, double largeFrict
   return scene;
 }
 
-struct Tally {
+struct SolvedTally {
   int solved = 0;
   int tight = 0;  // to 1e-12 V
   int failed = 0;
 };
 
-Tally solveMany(unsigned seed, int times, int bodies, int contacts, double largeFriction = 10) {
-  Dice dice(seed);
-  Tally tally;
+SolvedTally solveMany(unsigned seed, int times, int bodies, int contacts, double largeFriction = 10) {
+  ProblemDice dice(seed);
+  SolvedTally tally;
   ContactSolver solver;
   for (int k = 0; k < times; ++k) {
     const int most = 1 + dice.upTo(bodies);
@@ -82,27 +82,27 @@ Tally solveMany(unsigned seed, int times, int bodies, int contacts, double large
 }
 
 TEST(ContactSolverRandom, oneBody) {
-  const Tally tally = solveMany(1, 4000, 1, 4);
+  const SolvedTally tally = solveMany(1, 4000, 1, 4);
   EXPECT_EQ(tally.failed, 0);
   EXPECT_GE(tally.tight, 3995);
 }
 
 TEST(ContactSolverRandom, threeBodies) {
-  const Tally tally = solveMany(2, 2000, 3, 8);
+  const SolvedTally tally = solveMany(2, 2000, 3, 8);
   EXPECT_LE(tally.failed, 1);  // measured: 0
   EXPECT_GE(tally.tight, 1980);
 }
 
 // Up to 40 contacts that cross each other at random: some are beyond it.
 TEST(ContactSolverRandom, tenBodies) {
-  const Tally tally = solveMany(3, 200, 10, 40);
+  const SolvedTally tally = solveMany(3, 200, 10, 40);
   EXPECT_LE(tally.failed, 15);  // measured: 9
 }
 
 // Where a contact ought to pull, only an impulse along the surface is left, |λ_t| = 1e9 λ_n: not always
 // found.
 TEST(ContactSolverRandom, infiniteFriction) {
-  const Tally tally = solveMany(4, 1000, 1, 4, 1e9);
+  const SolvedTally tally = solveMany(4, 1000, 1, 4, 1e9);
   EXPECT_LE(tally.failed, 8);  // measured: 4
 }
 

@@ -15,8 +15,6 @@
 namespace careen {
 namespace {
 
-constexpr int kNobody = ContactProblem::kNobody;
-
 /// A stack in which nothing is symmetric: boxes of different size and mass, some of which slide or tip.
 ContactScene untidyStack() {
   ContactScene scene;

@@ -11,8 +11,6 @@
 namespace careen {
 namespace {
 
-constexpr int kNobody = ContactProblem::kNobody;
-
 ContactSolution solved(const ContactScene& scene) {
   ContactSolver solver;
   ContactSolution solution;

@@ -11,12 +11,11 @@ namespace {
 // order.
 TEST(FrameBlock, isLaidOutAsTheShadersReadIt) {
   EXPECT_EQ(offsetof(FrameBlock, clipFromOffset), 0U);
-  EXPECT_EQ(offsetof(FrameBlock, shadowFromOffset), 64U);
-  EXPECT_EQ(offsetof(FrameBlock, shadowBounds), 128U);
-  EXPECT_EQ(offsetof(FrameBlock, towardsLight), 144U);
-  EXPECT_EQ(offsetof(FrameBlock, finish), 256U);
-  EXPECT_EQ(offsetof(FrameBlock, surfaceLook), 320U);
-  EXPECT_EQ(sizeof(FrameBlock), 336U);
+  EXPECT_EQ(offsetof(FrameBlock, towardsLight), 64U);
+  EXPECT_EQ(offsetof(FrameBlock, finish), 176U);
+  EXPECT_EQ(offsetof(FrameBlock, surfaceLook), 240U);
+  EXPECT_EQ(offsetof(FrameBlock, occlusion), 256U);
+  EXPECT_EQ(sizeof(FrameBlock), 272U);
 }
 
 TEST(FrameBlock, matricesGoColumnByColumn) {

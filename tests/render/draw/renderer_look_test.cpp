@@ -18,11 +18,11 @@
 namespace careen {
 namespace {
 
-constexpr int kWidth = 320;
-constexpr int kHeight = 180;
+constexpr int kWidthOfLook = 320;
+constexpr int kHeightOfLook = 180;
 
-Picture drawn(const Scene& scene, const RenderOptions& options = {}) {
-  return Renderer(setupOf(scene, kWidth, kHeight), options).draw(posesOf(scene));
+Picture drawnLook(const Scene& scene, const RenderOptions& options = {}) {
+  return Renderer(setupOf(scene, kWidthOfLook, kHeightOfLook), options).draw(posesOf(scene));
 }
 
 // A black plate before white: what is left of the light in a pixel is the part of it that the plate leaves
@@ -36,19 +36,19 @@ double edgeError(double angle, Antialiasing antialiasing) {
   scene.camera = cameraAt(Vec3(0, -10, 0), Vec3::Zero(), 20);
   const RenderOptions options = lit(evenLighting(Vec3::Ones()));
   scene.picture.antialiasing = antialiasing;
-  const Picture picture = drawn(scene, options);
-  const double pixels = 0.5 * kHeight / std::tan(10 * std::numbers::pi / 180) / 10;
+  const Picture picture = drawnLook(scene, options);
+  const double pixels = 0.5 * kHeightOfLook / std::tan(10 * std::numbers::pi / 180) / 10;
   std::vector<Vec3> corners;
   for (const auto& [x, z] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
     const Vec3 at = scene.boxes[0].pose.worldPoint(Vec3(x * 1.3, 0, z * 0.9));
-    corners.emplace_back(0.5 * kWidth + pixels * at.x(), 0.5 * kHeight - pixels * at.z(), 0);
+    corners.emplace_back(0.5 * kWidthOfLook + pixels * at.x(), 0.5 * kHeightOfLook - pixels * at.z(), 0);
   }
   const std::vector<Vec3> outline = hull(corners);
   constexpr int kPoints = 32;
   double sum = 0;
   int count = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kHeightOfLook; ++y) {
+    for (int x = 0; x < kWidthOfLook; ++x) {
       if (std::abs(depthInside(outline, Vec3(x + 0.5, y + 0.5, 0))) > 0.75) {
         continue;  // no edge comes near
       }
@@ -88,11 +88,11 @@ TEST(Renderer, supersamplingDrawsFourPixelsForOne) {
   RenderOptions options;
   scene.picture.antialiasing = Antialiasing::kSupersampled;
   options.materials = Materials{.dither = 0};
-  const Picture fine = drawn(scene, options);
-  EXPECT_EQ(fine.width, kWidth);
-  EXPECT_EQ(fine.height, kHeight);
+  const Picture fine = drawnLook(scene, options);
+  EXPECT_EQ(fine.width, kWidthOfLook);
+  EXPECT_EQ(fine.height, kHeightOfLook);
   scene.picture.antialiasing = Antialiasing::kOff;
-  const Picture coarse = drawn(scene, options);
+  const Picture coarse = drawnLook(scene, options);
   int differ = 0;
   for (std::size_t k = 0; k < fine.rgb.size(); ++k) {
     differ += std::abs(fine.rgb[k] - coarse.rgb[k]) > 8 ? 1 : 0;
@@ -110,7 +110,7 @@ TEST(Renderer, brightLightIsPressedBelowWhiteAndLosesColour) {
     options.lighting = evenLighting();
     options.lighting->sky = options.lighting->ground = Vec3::Constant(brightness);
     options.materials = Materials{.marks = false, .dither = 0};
-    return pixelAt(drawn(scene, options), kWidth / 2, kHeight / 2);
+    return pixelAt(drawnLook(scene, options), kWidthOfLook / 2, kHeightOfLook / 2);
   };
   const std::array<int, 3> dim = middle(0.7);  // below the shoulder: as it is
   EXPECT_NEAR(dim[0], srgbFromLinear(0.7), 1);
@@ -128,7 +128,7 @@ TEST(Renderer, ditherKeepsTheAverage) {
   const double between = 0.5 * (SrgbTables::get().linear(100) + SrgbTables::get().linear(101)) / 65535.0;
   RenderOptions options;
   options.lighting = evenLighting(Vec3::Constant(between));
-  const Picture picture = drawn(scene, options);
+  const Picture picture = drawnLook(scene, options);
   double sum = 0;
   std::set<int> codes;
   for (int y = 0; y < 64; ++y) {
@@ -148,22 +148,41 @@ TEST(Renderer, boxesDarkenTheFloorTheyStandOn) {
   Scene scene = crateInRoom();
   scene.boxes[0].pose.worldFromBody = Mat3::Identity();
   scene.camera = Camera{.eye = Vec3(0, 0, 5), .target = Vec3::Zero(), .up = Vec3::UnitY(), .fovDegrees = 35};
-  const auto beside = [&](double height, double shade) {
+  const auto beside = [&](double height, bool occlusion) {
     scene.boxes[0].pose.position = Vec3(0, 0, height);
     RenderOptions options = lit(evenLighting(Vec3::Constant(0.1)));
-    options.materials->contactShade = shade;
-    return pixelAt(drawn(scene, options), kWidth / 2 + 45, kHeight / 2 + 3)[0];  // 0.6 m from the middle
+    options.materials->occlusion = occlusion;
+    return pixelAt(drawnLook(scene, options), kWidthOfLook / 2 + 45,
+                   kHeightOfLook / 2 + 3)[0];  // 0.6 m from the middle
   };
-  const int bare = beside(0.2, 0);
-  EXPECT_LT(beside(0.2, 0.7), bare - 10);
-  EXPECT_EQ(beside(2.5, 0.7), beside(2.5, 0));
+  const int bare = beside(0.2, false);
+  // Measured 9: what the crate covers of the point's view, as Light.occlusionIsThatOfRays holds it against
+  // rays.
+  EXPECT_LT(beside(0.2, true), bare - 7);
+  EXPECT_NEAR(beside(2.5, true), beside(2.5, false), 4);
+}
+
+// Walls of no room may hide each other, so they are drawn for their depth first.
+TEST(Renderer, freeWallsLeaveTheFloorsShadeAsItIs) {
+  Scene scene = crateInRoom();
+  scene.camera = Camera{.eye = Vec3(0, 0, 5), .target = Vec3::Zero(), .up = Vec3::UnitY(), .fovDegrees = 35};
+  const auto shade = [&] {
+    RenderOptions options = lit(evenLighting(Vec3::Constant(0.1)));
+    const int bare = pixelAt(drawnLook(scene, options), kWidthOfLook / 2 + 45, kHeightOfLook / 2 + 3)[0];
+    options.materials->occlusion = true;
+    return bare - pixelAt(drawnLook(scene, options), kWidthOfLook / 2 + 45, kHeightOfLook / 2 + 3)[0];
+  };
+  const int alone = shade();
+  EXPECT_GT(alone, 2);
+  scene.walls.push_back({.name = "far", .normal = -Vec3::UnitX(), .offset = -20, .material = {}});
+  EXPECT_NEAR(shade(), alone, 1);
 }
 
 TEST(Renderer, looksDiffer) {
   Scene scene = crateInRoom();
   const auto as = [&](Look look) {
     scene.picture.look = look;
-    return drawn(scene).rgb;
+    return drawnLook(scene).rgb;
   };
   const std::vector<std::uint8_t> studio = as(Look::kStudio);
   const std::vector<std::uint8_t> blueprint = as(Look::kBlueprint);

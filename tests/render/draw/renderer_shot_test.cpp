@@ -8,11 +8,11 @@
 namespace careen {
 namespace {
 
-constexpr int kWidth = 160;
-constexpr int kHeight = 90;
+constexpr int kWidthOfShot = 160;
+constexpr int kHeightOfShot = 90;
 
-Picture drawn(const Scene& scene, const RenderOptions& options = {}) {
-  return Renderer(setupOf(scene, kWidth, kHeight), options).draw(posesOf(scene));
+Picture drawnShot(const Scene& scene, const RenderOptions& options = {}) {
+  return Renderer(setupOf(scene, kWidthOfShot, kHeightOfShot), options).draw(posesOf(scene));
 }
 
 RenderOptions litFrom(const Camera& camera) {
@@ -25,7 +25,7 @@ TEST(RendererShot, sameShotGivesTheSameBytesWhateverWasSeenBefore) {
   const Scene scene = crateInRoom();
   const std::vector<Pose> poses = posesOf(scene);
   const Camera elsewhere = cameraAt(Vec3(2, -6, 2), Vec3(0.5, 0, 1), 50);
-  Renderer renderer(setupOf(scene, kWidth, kHeight));
+  Renderer renderer(setupOf(scene, kWidthOfShot, kHeightOfShot));
   const Picture first = renderer.draw(poses);
   const Picture other = renderer.draw({.poses = poses, .camera = elsewhere});
   EXPECT_NE(other.rgb, first.rgb);
@@ -34,18 +34,18 @@ TEST(RendererShot, sameShotGivesTheSameBytesWhateverWasSeenBefore) {
   // Floor and walls move with the eye: a scene that has its camera there looks the same.
   Scene there = scene;
   there.camera = elsewhere;
-  EXPECT_EQ(drawn(there, litFrom(*scene.camera)).rgb, other.rgb);
+  EXPECT_EQ(drawnShot(there, litFrom(*scene.camera)).rgb, other.rgb);
 }
 
 TEST(RendererShot, lightStaysWhereTheFirstCameraPutsIt) {
   Scene scene = crateInRoom();
   RenderOptions options;
   options.camera = cameraAt(Vec3(4, -6, 2), Vec3(0, 0, 1), 50);
-  EXPECT_EQ(Renderer(setupOf(scene, kWidth, kHeight), options)
+  EXPECT_EQ(Renderer(setupOf(scene, kWidthOfShot, kHeightOfShot), options)
                 .draw({.poses = posesOf(scene), .camera = *scene.camera})
                 .rgb,
-            drawn(scene, litFrom(*options.camera)).rgb);
-  EXPECT_NE(drawn(scene).rgb, drawn(scene, litFrom(*options.camera)).rgb);
+            drawnShot(scene, litFrom(*options.camera)).rgb);
+  EXPECT_NE(drawnShot(scene).rgb, drawnShot(scene, litFrom(*options.camera)).rgb);
 }
 
 }  // namespace

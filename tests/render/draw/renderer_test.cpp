@@ -24,11 +24,11 @@
 namespace careen {
 namespace {
 
-constexpr int kWidth = 320;
-constexpr int kHeight = 180;
+constexpr int kFrameWidth = 320;
+constexpr int kFrameHeight = 180;
 
-Picture drawn(const Scene& scene, const RenderOptions& options = {}, int width = kWidth,
-              int height = kHeight) {
+Picture drawn(const Scene& scene, const RenderOptions& options = {}, int width = kFrameWidth,
+              int height = kFrameHeight) {
   return Renderer(setupOf(scene, width, height), options).draw(posesOf(scene));
 }
 
@@ -128,17 +128,17 @@ TEST(Renderer, projectedCornersLieWithinHalfAPixel) {
   const Vec3 ahead = (target - eye).normalized();
   const Vec3 right = ahead.cross(Vec3::UnitZ()).normalized();
   const Vec3 above = right.cross(ahead);
-  const double pixels = 0.5 * kHeight / std::tan(0.5 * 35 * std::numbers::pi / 180);
+  const double pixels = 0.5 * kFrameHeight / std::tan(0.5 * 35 * std::numbers::pi / 180);
   std::vector<Vec3> corners;
   for (int index = 0; index < kCorners; ++index) {
     const Vec3 to = scene.boxes[0].pose.worldPoint(corner(scene.boxes[0].halfExtents, index)) - eye;
-    corners.emplace_back(0.5 * kWidth + pixels * to.dot(right) / to.dot(ahead),
-                         0.5 * kHeight - pixels * to.dot(above) / to.dot(ahead), 0);
+    corners.emplace_back(0.5 * kFrameWidth + pixels * to.dot(right) / to.dot(ahead),
+                         0.5 * kFrameHeight - pixels * to.dot(above) / to.dot(ahead), 0);
   }
   const std::vector<Vec3> outline = hull(corners);
   int inside = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kFrameHeight; ++y) {
+    for (int x = 0; x < kFrameWidth; ++x) {
       const std::array<int, 3> pixel = pixelAt(picture, x, y);
       const bool isBackground = pixel == std::array<int, 3>{255, 0, 0};
       const double depth = depthInside(outline, Vec3(x + 0.5, y + 0.5, 0));
@@ -164,12 +164,12 @@ TEST(Renderer, multisampledEdgesAreAveragesOfLight) {
   scene.picture.antialiasing = Antialiasing::kMultisampled;
   const Picture picture = drawn(scene, options);
   std::set<int> outer;
-  for (int y = 0; y < kHeight; ++y) {
+  for (int y = 0; y < kFrameHeight; ++y) {
     int x = 0;
-    while (x < kWidth && pixelAt(picture, x, y)[0] == 255) {
+    while (x < kFrameWidth && pixelAt(picture, x, y)[0] == 255) {
       ++x;
     }
-    if (x < kWidth) {
+    if (x < kFrameWidth) {
       outer.insert(pixelAt(picture, x, y)[0]);  // the first pixel in its row that is not all background
     }
   }
@@ -213,7 +213,7 @@ TEST(Renderer, boxesCastShadowsWhereTheyKeepTheLightOff) {
   lighting.light->castsShadow = false;
   const Picture bare = drawn(scene, lit(lighting));
   const auto at = [&](const Picture& picture, const Vec3& point) {  // 90 / tan 20° = 247 px at 1 m
-    const double scale = 0.5 * kHeight / std::tan(20 * std::numbers::pi / 180) / (point.y() + 6);
+    const double scale = 0.5 * kFrameHeight / std::tan(20 * std::numbers::pi / 180) / (point.y() + 6);
     return pixelAt(picture, static_cast<int>(160 + scale * point.x()),
                    static_cast<int>(90 - scale * (point.z() - 0.6)))[0];
   };
@@ -227,7 +227,7 @@ TEST(Renderer, boxesCastShadowsWhereTheyKeepTheLightOff) {
 
 TEST(Renderer, samePosesGiveTheSameBytes) {
   const Scene scene = crateInRoom();
-  Renderer renderer(setupOf(scene, kWidth, kHeight));
+  Renderer renderer(setupOf(scene, kFrameWidth, kFrameHeight));
   const Picture first = renderer.draw(posesOf(scene));
   std::vector<Pose> elsewhere = posesOf(scene);
   elsewhere[0].position = Vec3(1, 1, 2);
@@ -296,7 +296,7 @@ TEST(Renderer, frameThatComesOutBlankIsAnError) {
         folder.write(name, "#version 330 core\nout vec4 result;\nvoid main() { " + result + " }\n");
       }
     }
-    RenderOptions options;
+    RenderOptions options = lit(evenLighting());
     options.shaders = folder.path();
     try {
       drawn(scene, options);
@@ -348,7 +348,7 @@ TEST(Renderer, tellsWhoDrawsAndHowLongItTook) {
 TEST(Renderer, wallsThatFaceAwayAreNotDrawn) {
   Scene scene = crateInRoom();
   const RenderOptions options = lit(evenLighting(Vec3(1, 0, 1)));
-  const auto middle = [&] { return pixelAt(drawn(scene, options), kWidth / 2, 60); };
+  const auto middle = [&] { return pixelAt(drawn(scene, options), kFrameWidth / 2, 60); };
   const std::array<int, 3> background = {255, 0, 255};
   scene.camera = cameraAt(Vec3(0, -7, 1.5), Vec3(0, 0, 1.5), 30);
   scene.room->open = {};
@@ -364,13 +364,13 @@ TEST(Renderer, floorHasTilesOfTwoShades) {
   scene.boxes[0].pose.position = Vec3(2.5, 1.5, 0.5);
   scene.camera = Camera{.eye = Vec3(0, 0, 4), .target = Vec3::Zero(), .up = Vec3::UnitY(), .fovDegrees = 30};
   const Picture picture = drawn(scene, lit(evenLighting(Vec3::Constant(0.1))));
-  const double pixels = 0.5 * kHeight / std::tan(15 * std::numbers::pi / 180) / 4;  // 84 to the metre
+  const double pixels = 0.5 * kFrameHeight / std::tan(15 * std::numbers::pi / 180) / 4;  // 84 to the metre
   const int quarter = static_cast<int>(0.25 * pixels);
   const Vec3 floor(0.56, 0.51, 0.45);
   // Corners of the room shade the middle by less than 0.5 %, which the tolerance holds.
-  expectColor(pixelAt(picture, kWidth / 2 + quarter, kHeight / 2 - quarter), 1.1 * floor, 1);
-  expectColor(pixelAt(picture, kWidth / 2 - quarter, kHeight / 2 - quarter), 0.9 * floor, 1);
-  expectColor(pixelAt(picture, kWidth / 2 - quarter, kHeight / 2 + quarter), 1.1 * floor, 1);
+  expectColor(pixelAt(picture, kFrameWidth / 2 + quarter, kFrameHeight / 2 - quarter), 1.1 * floor, 1);
+  expectColor(pixelAt(picture, kFrameWidth / 2 - quarter, kFrameHeight / 2 - quarter), 0.9 * floor, 1);
+  expectColor(pixelAt(picture, kFrameWidth / 2 - quarter, kFrameHeight / 2 + quarter), 1.1 * floor, 1);
 }
 
 TEST(Renderer, springsAreDrawnFromEndToEnd) {
@@ -382,9 +382,9 @@ TEST(Renderer, springsAreDrawnFromEndToEnd) {
   scene.springs.push_back(spring);
   scene.camera = cameraAt(Vec3(0, -10, 0), Vec3::Zero(), 20);
   const Picture picture = drawn(scene, lit(evenLighting(Vec3(1, 0, 0))));
-  const double pixels = 0.5 * kHeight / std::tan(10 * std::numbers::pi / 180) / 10;  // 51 to the metre
+  const double pixels = 0.5 * kFrameHeight / std::tan(10 * std::numbers::pi / 180) / 10;  // 51 to the metre
   const auto onLine = [&](double x) {
-    return pixelAt(picture, static_cast<int>(160 + pixels * x), kHeight / 2)[1];
+    return pixelAt(picture, static_cast<int>(160 + pixels * x), kFrameHeight / 2)[1];
   };
   EXPECT_GT(onLine(-1.4), 30);
   EXPECT_GT(onLine(1.9), 30);

@@ -16,8 +16,8 @@
 namespace careen {
 namespace {
 
-constexpr int kWidth = 320;
-constexpr int kHeight = 180;
+constexpr int kWidthOfTruth = 320;
+constexpr int kHeightOfTruth = 180;
 
 // Boxes of colours that tell them apart, lit evenly and without marks: a pixel's colour is its box.
 Scene manyBoxes(unsigned seed, bool inRoom) {
@@ -59,7 +59,7 @@ TEST(RendererTruth, silhouettesAgreeWithIdsToThePixel) {
   int edges = 0;
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const Scene scene = manyBoxes(seed, seed % 2 == 0);
-    RunSetup setup = setupOf(scene, kWidth, kHeight);
+    RunSetup setup = setupOf(scene, kWidthOfTruth, kHeightOfTruth);
     setup.stage.picture.antialiasing = Antialiasing::kOff;
     RenderOptions options = lit(evenLighting());
     options.materials->marks = false;
@@ -68,14 +68,14 @@ TEST(RendererTruth, silhouettesAgreeWithIdsToThePixel) {
     for (const SceneBox& box : scene.boxes) {
       boxes.push_back({.pose = box.pose, .halfExtents = box.halfExtents});
     }
-    const CastPicture cast =
-        castRays(PixelRays(*scene.camera, kWidth, kHeight), boxes, surfacesOf(setup.stage, extentOf(setup)));
+    const CastPicture cast = castRays(PixelRays(*scene.camera, kWidthOfTruth, kHeightOfTruth), boxes,
+                                      surfacesOf(setup.stage, extentOf(setup)));
     const auto idAt = [&](int x, int y) {
-      const std::int32_t id = cast.instance[static_cast<std::size_t>(y * kWidth + x)];
+      const std::int32_t id = cast.instance[static_cast<std::size_t>(y * kWidthOfTruth + x)];
       return id <= 30 ? id : 0;  // walls have no colour of their own
     };
-    for (int y = 1; y + 1 < kHeight; ++y) {
-      for (int x = 1; x + 1 < kWidth; ++x) {
+    for (int y = 1; y + 1 < kHeightOfTruth; ++y) {
+      for (int x = 1; x + 1 < kWidthOfTruth; ++x) {
         const std::int32_t shown = shownBox(pixelAt(picture, x, y), scene);
         ++pixels;
         edges += idAt(x, y) != idAt(x - 1, y) || idAt(x, y) != idAt(x, y - 1) ? 1 : 0;

@@ -109,7 +109,7 @@ TEST_F(FilmTest, keysThatLeaveTheCameraNothingToLookAtAreToldBeforeAnyFrame) {
 
 TEST_F(FilmTest, overlaysAreDrawnOverTheirFrames) {
   film(filmIn("bare"));
-  scene_.picture.overlays = overlaysNamed("velocity");
+  scene_.picture.overlays = OverlaySet::named("velocity");
   film(settings_);
   ASSERT_EQ(files("film"), files("bare"));
   for (const std::string& name : filmOf(10)) {
@@ -338,7 +338,7 @@ TEST_F(FilmTest, fullDiskEndsTheFilmWithWholeFramesOnly) {
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit limit{.rlim_cur = 500, .rlim_max = before.rlim_max};  // room for film.json, not for a frame
+  const rlimit limit{.rlim_cur = 650, .rlim_max = before.rlim_max};  // room for film.json, not for a frame
   setrlimit(RLIMIT_FSIZE, &limit);
   const std::string said = errorOf(settings_);
   setrlimit(RLIMIT_FSIZE, &before);

@@ -95,7 +95,7 @@ TEST_F(FilmingTest, strobeHasEveryMoment) {
   RenderOptions options;
   options.lighting = evenLighting(Vec3::Constant(0.1));  // without shadows boxes leave the rest as it is
   options.materials = materialsOf(scene_.picture.look);
-  options.materials->contactShade = 0;
+  options.materials->occlusion = false;
   Renderer renderer(setupOf(scene_, kWidth, kHeight), options);
   run_ = drifting(scene_, Vec3(2.5, 0, 0));
   scene_.boxes[0].pose.position.x() = 0;

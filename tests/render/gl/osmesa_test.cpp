@@ -9,7 +9,7 @@
 namespace careen {
 namespace {
 
-std::string errorOf(const std::string& library) {
+std::string osmesaErrorOf(const std::string& library) {
   try {
     const OsMesa osMesa(library);
   } catch (const MachineError& error) {
@@ -19,13 +19,13 @@ std::string errorOf(const std::string& library) {
 }
 
 TEST(OsMesa, missingLibraryIsNamedWithWhatToInstall) {
-  const std::string said = errorOf("libNoSuchMesa.so.8");
+  const std::string said = osmesaErrorOf("libNoSuchMesa.so.8");
   EXPECT_NE(said.find("libNoSuchMesa.so.8"), std::string::npos) << said;
   EXPECT_NE(said.find("apt install libosmesa6"), std::string::npos) << said;
 }
 
 TEST(OsMesa, libraryOfSomethingElseIsToldSo) {
-  const std::string said = errorOf("libm.so.6");
+  const std::string said = osmesaErrorOf("libm.so.6");
   EXPECT_NE(said.find("libm.so.6 has no OSMesaCreateContextAttribs"), std::string::npos) << said;
 }
 

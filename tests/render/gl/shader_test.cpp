@@ -36,9 +36,9 @@ TEST(Shader, everyFileIsBuiltIntoTheProgramToo) {
 
 TEST(Shader, fileComesFirstAndTheProgramsOwnWhereThereIsNone) {
   const TemporaryFolder folder;
-  folder.write("caster.frag", "changed\n");
-  EXPECT_EQ(shaderText(folder.path(), "caster.frag"), "changed\n");
-  EXPECT_EQ(shaderText(folder.path(), "no_shadow.frag"), embeddedShader("no_shadow.frag"));
+  folder.write("black.frag", "changed\n");
+  EXPECT_EQ(shaderText(folder.path(), "black.frag"), "changed\n");
+  EXPECT_EQ(shaderText(folder.path(), "write_lit.frag"), embeddedShader("write_lit.frag"));
   EXPECT_THROW(shaderText(folder.path(), "none.frag"), MachineError);
 }
 

@@ -13,8 +13,8 @@
 namespace careen {
 namespace {
 
-constexpr int kWidth = 160;
-constexpr int kHeight = 90;
+constexpr int kWidthOfBatch = 160;
+constexpr int kHeightOfBatch = 90;
 
 class OverlayBatchTest : public testing::Test {
  protected:
@@ -27,8 +27,8 @@ class OverlayBatchTest : public testing::Test {
   Picture bare() { return renderer_.draw(posesOf(scene_)); }
   static std::size_t differences(const Picture& a, const Picture& b) {
     std::size_t found = 0;
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kHeightOfBatch; ++y) {
+      for (int x = 0; x < kWidthOfBatch; ++x) {
         found += pixelAt(a, x, y) == pixelAt(b, x, y) ? 0U : 1U;
       }
     }
@@ -36,7 +36,7 @@ class OverlayBatchTest : public testing::Test {
   }
 
   Scene scene_ = crateInRoom();
-  Renderer renderer_{setupOf(scene_, kWidth, kHeight)};
+  Renderer renderer_{setupOf(scene_, kWidthOfBatch, kHeightOfBatch)};
 };
 
 const Color kRed{200, 40, 10};
@@ -45,8 +45,8 @@ const std::array<int, 3> kRedPixel = {200, 40, 10};
 TEST_F(OverlayBatchTest, plateCoversItsPixelsAndNoOthers) {
   const Picture without = bare();
   const Picture with = over({Plate{.min = Vec2(20, 30), .max = Vec2(50, 40), .ink = {kRed, 1}}});
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kHeightOfBatch; ++y) {
+    for (int x = 0; x < kWidthOfBatch; ++x) {
       const bool inside = x >= 20 && x < 50 && y >= 30 && y < 40;
       ASSERT_EQ(pixelAt(with, x, y), inside ? kRedPixel : pixelAt(without, x, y)) << x << ' ' << y;
     }
@@ -93,7 +93,7 @@ TEST_F(OverlayBatchTest, ribbonHasNoSeams) {
   RenderOptions options;
   options.lighting = evenLighting(Vec3::Ones());
   scene_.boxes[0].pose.position = Vec3(100, 0, 0);
-  Renderer renderer(setupOf(scene_, kWidth, kHeight), options);
+  Renderer renderer(setupOf(scene_, kWidthOfBatch, kHeightOfBatch), options);
   Ribbon ribbon{.points = {}, .width = 8, .ink = {kRed, 0.5}};
   for (int i = 0; i <= 60; ++i) {
     const double turn = 0.04 * i;
@@ -103,8 +103,8 @@ TEST_F(OverlayBatchTest, ribbonHasNoSeams) {
   Picture picture = below;
   renderer.drawOver(picture, *scene_.camera, [&](const View&) { return OverlayShapes{ribbon}; });
   int covered = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kHeightOfBatch; ++y) {
+    for (int x = 0; x < kWidthOfBatch; ++x) {
       const double once = 0.5 * (pixelAt(below, x, y)[1] + kRedPixel[1]);
       EXPECT_GE(pixelAt(picture, x, y)[1], once - 2) << x << ' ' << y;
       covered += pixelAt(picture, x, y)[1] <= once + 2 ? 1 : 0;
@@ -120,8 +120,8 @@ TEST_F(OverlayBatchTest, textIsWrittenWhereItBelongs) {
   const double width = findFont(kPlainFont).width(label.text, label.size);
   EXPECT_GT(differences(with, without), 60U);
   std::size_t full = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kHeightOfBatch; ++y) {
+    for (int x = 0; x < kWidthOfBatch; ++x) {
       const bool inside = x >= 30 && x < 30 + width + 1 && y >= 30 && y < 51;
       ASSERT_TRUE(inside || pixelAt(with, x, y) == pixelAt(without, x, y)) << x << ' ' << y;
       full += pixelAt(with, x, y) == kRedPixel ? 1U : 0U;
@@ -138,7 +138,7 @@ TEST_F(OverlayBatchTest, sameShapesGiveTheSameBytes) {
   const Picture first = over(shapes);
   over({Label{.text = "something else first", .at = Vec2(1, 60), .size = 13}});
   EXPECT_EQ(over(shapes).rgb, first.rgb);
-  Renderer another(setupOf(scene_, kWidth, kHeight));
+  Renderer another(setupOf(scene_, kWidthOfBatch, kHeightOfBatch));
   EXPECT_EQ(over(another, shapes).rgb, first.rgb);
 }
 

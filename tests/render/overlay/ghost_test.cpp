@@ -14,8 +14,8 @@
 namespace careen {
 namespace {
 
-constexpr int kWidth = 1280;
-constexpr int kHeight = 720;
+constexpr int kWidthOfGhost = 1280;
+constexpr int kHeightOfGhost = 720;
 
 // The crate's room seen straight on from 10 m in front of y = 0, 60° upward.
 class Ghost : public testing::Test {
@@ -23,7 +23,8 @@ class Ghost : public testing::Test {
   OverlayShapes shapesAt(double time) const {
     const Trajectory run = shownAs(scene_, run_);
     const Overlays overlays(run, {}, 1.0 / 30, &ghost_);
-    return overlays.shapesAt(time, viewOf(*scene_.camera, extentOf(run), 16.0 / 9), kWidth, kHeight);
+    return overlays.shapesAt(time, viewOf(*scene_.camera, extentOf(run), 16.0 / 9), kWidthOfGhost,
+                             kHeightOfGhost);
   }
   template <class Shape>
   static std::vector<Shape> only(const OverlayShapes& shapes) {
@@ -51,7 +52,7 @@ class Ghost : public testing::Test {
   Trajectory ghost_ = drifting(scene_, Vec3(1, 0, 0));
 };
 
-Vec2 onPicture(const Vec3& point) {
+Vec2 ghostOnPicture(const Vec3& point) {
   const double scale = 360 / std::tan(std::numbers::pi / 6) / (point.y() + 10);
   return {640 + scale * point.x(), 360 - scale * (point.z() - 1.5)};
 }
@@ -65,15 +66,15 @@ TEST_F(Ghost, isDrawnAsTheEdgesOfItsBox) {
     for (const Vec2& end : {strokes[k].from, strokes[k].to}) {
       double nearest = 1e9;
       for (int index = 0; index < kCorners; ++index) {
-        nearest =
-            std::min(nearest, (onPicture(place.worldPoint(corner(crate.halfExtents, index))) - end).norm());
+        nearest = std::min(nearest,
+                           (ghostOnPicture(place.worldPoint(corner(crate.halfExtents, index))) - end).norm());
       }
       EXPECT_LT(nearest, 1e-6);
     }
     EXPECT_GT((strokes[k].to - strokes[k].from).norm(), 1);
   }
-  EXPECT_LT((strokes[12].from - onPicture(run_.state(0, 0.5).pose.position)).norm(), 1e-6);
-  EXPECT_LT((strokes[12].to - onPicture(place.position)).norm(), 1e-6);
+  EXPECT_LT((strokes[12].from - ghostOnPicture(run_.state(0, 0.5).pose.position)).norm(), 1e-6);
+  EXPECT_LT((strokes[12].to - ghostOnPicture(place.position)).norm(), 1e-6);
 }
 
 // Seen straight on, the box shows one face: its four edges are in front, those of the sides too, as their

@@ -39,7 +39,7 @@ class OverlaysTest : public testing::Test {
   OverlayShapes shapesAt(const std::string& names, double time, int width = kWidth,
                          int height = kHeight) const {
     const Trajectory run = shown();
-    const Overlays overlays(run, overlaysNamed(names), kFrame);
+    const Overlays overlays(run, OverlaySet::named(names), kFrame);
     const double aspect = static_cast<double>(width) / height;
     return overlays.shapesAt(time, viewOf(*scene_.camera, extentOf(run), aspect), width, height);
   }
@@ -293,7 +293,7 @@ TEST_F(OverlaysTest, everythingStaysOnThePictureThatStandsAtItsEdges) {
 
 TEST_F(OverlaysTest, onlyWhatIsShownIsLookedFor) {
   const auto scalesWith = [&](const std::string& names) {
-    return Overlays(run_, overlaysNamed(names), kFrame).scales().speed;
+    return Overlays(run_, OverlaySet::named(names), kFrame).scales().speed;
   };
   EXPECT_EQ(scalesWith("time,energy,trail,names,contacts"), 0);
   EXPECT_GT(scalesWith("velocity"), 0);
@@ -301,9 +301,9 @@ TEST_F(OverlaysTest, onlyWhatIsShownIsLookedFor) {
 
 TEST_F(OverlaysTest, fontIsNeededOnlyForWhatIsWritten) {
   const std::array<std::filesystem::path, 1> nowhere = {"/nowhere"};
-  EXPECT_NO_THROW(Overlays(run_, overlaysNamed("trail,contacts"), kFrame, nullptr, nowhere));
+  EXPECT_NO_THROW(Overlays(run_, OverlaySet::named("trail,contacts"), kFrame, nullptr, nowhere));
   for (const char* name : {"time", "names", "energy", "velocity", "impulses"}) {
-    EXPECT_THROW(Overlays(run_, overlaysNamed(name), kFrame, nullptr, nowhere), MachineError) << name;
+    EXPECT_THROW(Overlays(run_, OverlaySet::named(name), kFrame, nullptr, nowhere), MachineError) << name;
   }
 }
 

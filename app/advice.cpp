@@ -1,0 +1,50 @@
+#include "advice.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace careen {
+namespace {
+
+struct Advice {
+  std::string_view sign;  ///< part of the message
+  std::string_view next;
+};
+
+// The first that fits. Signs are parts of messages of the engine; tests/app/first_hour_test.cpp meets each.
+constexpr std::array kAdvice = {
+    Advice{"cannot be read: No such file",
+           "look at the name and the folder; 'careen help scenes' has a scene to start from"},
+    Advice{"is not there, expected a picture",
+           "look at the names and the folder; 'careen help comparing' makes two films to compare"},
+    Advice{"Permission denied",
+           "choose a place you may write to or read from: --out FOLDER, simulate's -o FILE"},
+    Advice{"no rendering backend is available", "install one: apt install libosmesa6"},
+    Advice{"no display", "make a film in place of a window: careen render"},
+    Advice{"inside box ", "move one of them, or let --allow-overlap do it"},
+};
+
+// "fall.json:3:5: …" is a fault within a file.
+bool namesALine(const std::string& message) {
+  constexpr std::string_view kName = ".json:";
+  const std::size_t at = message.find(kName);
+  return at != std::string::npos && at + kName.size() < message.size() && message[at + kName.size()] >= '1' &&
+         message[at + kName.size()] <= '9';
+}
+
+}  // namespace
+
+std::string adviceOn(const std::string& message) {
+  const auto* const found = std::find_if(kAdvice.begin(), kAdvice.end(), [&](const Advice& advice) {
+    return message.find(advice.sign) != std::string::npos;
+  });
+  if (found != kAdvice.end()) {
+    return "next: " + std::string(found->next);
+  }
+  return namesALine(message)
+             ? "next: 'careen help scenes' explains scenes, their keys are in assets/scene.schema.json"
+             : "";
+}
+
+}  // namespace careen

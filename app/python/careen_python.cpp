@@ -1,0 +1,221 @@
+// careen in Python: NumPy arrays over the library. The interpreter's lock is released wherever something is
+// computed.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "library/careen.h"
+
+namespace py = pybind11;
+using careen::v1::Image;
+using careen::v1::Impact;
+using careen::v1::Run;
+using careen::v1::Scene;
+using careen::v1::SceneError;
+using careen::v1::State;
+
+namespace {
+
+using Times = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Size = std::optional<std::array<int, 2>>;
+
+// A path, or a dictionary as a scene file has it.
+Scene sceneOf(const py::object& scene) {
+  if (py::isinstance<py::dict>(scene)) {
+    return Scene::parse(py::module_::import("json").attr("dumps")(scene).cast<std::string>(), "scene");
+  }
+  return Scene::read(scene.cast<std::filesystem::path>());
+}
+
+Run simulate(const py::object& given, const std::optional<std::string>& method,
+             std::optional<double> tolerance) {
+  Scene scene = sceneOf(given);
+  if (method) {
+    scene.method(*method);
+  }
+  if (tolerance) {
+    scene.tolerance(*tolerance);
+  }
+  const py::gil_scoped_release unlocked;
+  return Run(scene);
+}
+
+// An array of the shape of the times, then of boxes, then `count` numbers.
+py::array_t<double> arrayOf(const Times& times, std::size_t boxes, std::size_t count) {
+  std::vector<py::ssize_t> shape(times.shape(), times.shape() + times.ndim());
+  shape.push_back(static_cast<py::ssize_t>(boxes));
+  shape.push_back(static_cast<py::ssize_t>(count));
+  return py::array_t<double>(shape);
+}
+
+py::dict statesOf(const Run& run, const Times& times) {
+  const std::size_t boxes = run.boxes().size();
+  py::array_t<double> position = arrayOf(times, boxes, 3);
+  py::array_t<double> orientation = arrayOf(times, boxes, 4);
+  py::array_t<double> velocity = arrayOf(times, boxes, 3);
+  py::array_t<double> angular = arrayOf(times, boxes, 3);
+  {
+    const double* const at = times.data();
+    const auto count = static_cast<std::size_t>(times.size());
+    double* p = position.mutable_data();
+    double* q = orientation.mutable_data();
+    double* v = velocity.mutable_data();
+    double* w = angular.mutable_data();
+    const py::gil_scoped_release unlocked;
+    for (std::size_t k = 0; k < count; ++k) {
+      for (std::size_t box = 0; box < boxes; ++box) {
+        const State state = run.state(box, at[k]);
+        p = std::copy(state.position.begin(), state.position.end(), p);
+        q = std::copy(state.orientation.begin(), state.orientation.end(), q);
+        v = std::copy(state.velocity.begin(), state.velocity.end(), v);
+        w = std::copy(state.angularVelocity.begin(), state.angularVelocity.end(), w);
+      }
+    }
+  }
+  py::dict states;
+  states["position"] = position;
+  states["orientation"] = orientation;
+  states["velocity"] = velocity;
+  states["angular_velocity"] = angular;
+  return states;
+}
+
+py::dict impactsOf(const Run& run) {
+  const std::vector<Impact>& impacts = run.impacts();
+  const auto numbers = [&](auto&& of) {
+    py::array_t<double> array(static_cast<py::ssize_t>(impacts.size()));
+    std::transform(impacts.begin(), impacts.end(), array.mutable_data(), of);
+    return array;
+  };
+  const auto vectors = [&](auto&& of) {
+    py::array_t<double> array({static_cast<py::ssize_t>(impacts.size()), py::ssize_t{3}});
+    double* to = array.mutable_data();
+    for (const Impact& impact : impacts) {
+      to = std::copy(of(impact).begin(), of(impact).end(), to);
+    }
+    return array;
+  };
+  py::list a;
+  py::list b;
+  for (const Impact& impact : impacts) {
+    a.append(impact.a);
+    b.append(impact.b);
+  }
+  py::dict found;
+  found["time"] = numbers([](const Impact& each) { return each.time; });
+  found["a"] = a;
+  found["b"] = b;
+  found["point"] = vectors([](const Impact& each) -> const auto& { return each.point; });
+  found["normal"] = vectors([](const Impact& each) -> const auto& { return each.normal; });
+  found["approach"] = numbers([](const Impact& each) { return each.approach; });
+  found["impulse"] = numbers([](const Impact& each) { return each.impulse; });
+  found["tangential"] = numbers([](const Impact& each) { return each.tangential; });
+  return found;
+}
+
+py::dict auditOf(const Run& run) {
+  careen::v1::Audit audit;
+  {
+    const py::gil_scoped_release unlocked;
+    audit = run.audit();
+  }
+  py::dict found;
+  for (const careen::v1::AuditFigure& figure : audit.figures) {
+    py::dict each;
+    each["size"] = figure.size;
+    each["unit"] = figure.unit;
+    each["time"] = figure.time;
+    each["bodies"] = figure.bodies;
+    each["promised"] = figure.promised;
+    found[figure.kind.c_str()] = each;
+  }
+  found["breaches"] = audit.breaches;
+  return found;
+}
+
+py::array_t<std::uint8_t> frameOf(const Run& run, double time, const Size& size) {
+  Image image;
+  {
+    const py::gil_scoped_release unlocked;
+    image = run.frame(time, size);
+  }
+  py::array_t<std::uint8_t> array({py::ssize_t{image.height}, py::ssize_t{image.width}, py::ssize_t{3}});
+  std::copy(image.rgb.begin(), image.rgb.end(), array.mutable_data());
+  return array;
+}
+
+// Exceptions of the module: careen.Error, and careen.SceneError with file, line and column.
+void addErrors(py::module_& module) {
+  static const py::object error = py::exception<careen::v1::Error>(module, "Error", PyExc_RuntimeError);
+  static const py::object sceneError = py::exception<SceneError>(module, "SceneError", error);
+  sceneError.attr("__doc__") =
+      "A scene or file that cannot be used: file (str), line and column (int, from 1; 0: no place is to "
+      "blame).";
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(std::move(thrown));
+    } catch (const SceneError& fault) {
+      const py::object raised = sceneError(fault.what());
+      raised.attr("file") = fault.file();
+      raised.attr("line") = fault.line();
+      raised.attr("column") = fault.column();
+      PyErr_SetObject(sceneError.ptr(), raised.ptr());
+    } catch (const careen::v1::Error& fault) {
+      PyErr_SetString(error.ptr(), fault.what());
+    }
+  });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(careen, module) {
+  module.doc() =
+      "Rigid boxes that tumble and collide. SI units, z up, angles in radians, quaternions as w x y z.";
+  module.attr("__version__") = std::string(careen::v1::version()).substr(sizeof("careen"));
+  // Loads NumPy now: pybind11 does it where the first array is made, and two threads that do so wait for each
+  // other.
+  static_cast<void>(py::array_t<double>(0));
+  addErrors(module);
+
+  py::class_<Run>(module, "Run", "A finished run; careen.simulate and careen.read_run make one.")
+      .def_property_readonly("duration", &Run::duration, "float [s]")
+      .def_property_readonly("boxes", &Run::boxes,
+                             "Names of the boxes, in the order of the scene: list of N str.")
+      .def_property_readonly("hash", &Run::hash, "Hash of the final states, bit for bit: str.")
+      .def("states", &statesOf, py::arg("t"),
+           "States at times t [s], an array of any shape S within [0, duration]. A dictionary of arrays: "
+           "position "
+           "S+(N, 3) [m] of the centres; orientation S+(N, 4), w x y z, world from body; velocity S+(N, 3) "
+           "[m/s]; "
+           "angular_velocity S+(N, 3) [rad/s], world frame.")
+      .def_property_readonly(
+          "impacts", &impactsOf,
+          "All K impacts in order of time, a dictionary: time (K,) [s]; a, b: lists of K str, what "
+          "struck what; point (K, 3) [m]; normal (K, 3), from b to a; approach (K,) [m/s]; impulse "
+          "(K,) [N s] along the normal; tangential (K,) [N s] of friction.")
+      .def_property_readonly(
+          "audit", &auditOf,
+          "What the run is worth, by code that shares nothing with the method: for each kind a "
+          "dictionary of size, unit, time [s], bodies and promised; and breaches, a list of str, "
+          "empty if the run keeps all promises of its method.")
+      .def("frame", &frameOf, py::arg("t"), py::arg("size") = py::none(),
+           "The picture at film time t [s], an array of uint8 (height, width, 3); size is (width, height) "
+           "[px], that "
+           "of the scene if there is none.")
+      .def("save", &Run::save, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+           "Writes the run as a file that careen render and careen.read_run take.");
+  module.def(
+      "simulate", &simulate, py::arg("scene"), py::kw_only(), py::arg("method") = py::none(),
+      py::arg("tolerance") = py::none(),
+      "Simulates a scene: the path of a scene file, or a dictionary with the same keys. method (str) and "
+      "tolerance [m] replace those of the scene. SceneError says what is wrong with a scene, and where.");
+  module.def("read_run", &Run::read, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+             "Reads a run that Run.save or careen simulate wrote.");
+}

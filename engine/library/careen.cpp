@@ -1,0 +1,324 @@
+#include "library/careen.h"
+
+#include <algorithm>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "audit/audit.h"
+#include "core/error.h"
+#include "core/math/arithmetic.h"
+#include "core/system/file.h"
+#include "physics/world/method.h"
+#include "scene/plan.h"
+#include "scene/scene_reader.h"
+#include "scene/starts.h"
+#include "trajectory/pose_samples.h"
+#include "trajectory/trajectory.h"
+#include "trajectory/trajectory_file.h"
+#ifdef CAREEN_RENDER
+#include "render/draw/renderer.h"
+#include "render/film/filming.h"
+#include "render/overlay/overlays.h"
+#endif
+
+namespace careen::v1 {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Vector vectorOf(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+// Messages of the engine begin with "file:line:column: " where a place in a file is to blame.
+SceneError placed(const std::string& message, const std::string& name) {
+  std::size_t line = 0;
+  std::size_t column = 0;
+  if (message.starts_with(name + ":")) {
+    const char* at = message.c_str() + name.size() + 1;
+    char* end = nullptr;
+    const unsigned long first = std::strtoul(at, &end, 10);
+    if (end != at && *end == ':') {
+      at = end + 1;
+      const unsigned long second = std::strtoul(at, &end, 10);
+      if (end != at && *end == ':') {
+        line = first;
+        column = second;
+      }
+    }
+  }
+  return {message, message.starts_with(name) ? name : "", line, column};
+}
+
+// Errors of the engine become those of the header; `name` is what messages call the scene.
+template <class Work>
+auto translated(const std::string& name, Work&& work) {
+  try {
+    return work();
+  } catch (const careen::InputError& error) {
+    throw placed(error.what(), name);
+  } catch (const careen::Error& error) {
+    throw Error(error.what());
+  }
+}
+
+Method methodNamed(const std::string& name) {
+  const auto found = std::find_if(kMethods.begin(), kMethods.end(),
+                                  [&](const MethodTraits& each) { return each.name == name; });
+  if (found == kMethods.end()) {
+    throw SceneError("found the unknown method '" + name + "'", "", 0, 0);
+  }
+  return found->method;
+}
+
+}  // namespace
+
+const char* version() { return "careen " CAREEN_VERSION; }
+
+Scene::Scene(double duration, Vector gravity) : name_("scene"), built_(true) {
+  text_ = Json{{"careen", 1}, {"duration", duration}, {"gravity", gravity}}.dump();
+}
+
+Scene Scene::read(const std::filesystem::path& path) {
+  return {path.string(), translated(path.string(), [&] { return readFile(path); })};
+}
+
+Scene Scene::parse(std::string text, std::string name) { return {std::move(name), std::move(text)}; }
+
+Scene& Scene::add(const Box& box) {
+  if (!built_) {
+    throw Error(name_ + ": found a scene of a file, expected one that was begun in code");
+  }
+  Json json = {{"half_extents", box.halfExtents},
+               {"mass", box.mass},
+               {"position", box.position},
+               {"orientation", box.orientation},
+               {"velocity", box.velocity},
+               {"angular_velocity", box.angularVelocity},
+               {"restitution", box.restitution},
+               {"friction", box.friction},
+               {"fixed", box.fixed}};
+  if (!box.name.empty()) {
+    json["name"] = box.name;
+  }
+  boxes_.push_back(json.dump());
+  return *this;
+}
+
+Scene& Scene::add(const Wall& wall) {
+  if (!built_) {
+    throw Error(name_ + ": found a scene of a file, expected one that was begun in code");
+  }
+  Json json = {{"point", wall.point},
+               {"normal", wall.normal},
+               {"restitution", wall.restitution},
+               {"friction", wall.friction}};
+  if (!wall.name.empty()) {
+    json["name"] = wall.name;
+  }
+  walls_.push_back(json.dump());
+  return *this;
+}
+
+Scene& Scene::method(const std::string& name) {
+  static_cast<void>(methodNamed(name));
+  method_ = name;
+  return *this;
+}
+
+Scene& Scene::tolerance(double metres) {
+  if (!(metres > 0 && metres < 1)) {
+    throw SceneError(
+        "found the tolerance " + std::to_string(metres) + ", expected more than 0 and less than 1 m", "", 0,
+        0);
+  }
+  tolerance_ = metres;
+  return *this;
+}
+
+std::string Scene::text() const {
+  if (!built_) {
+    return text_;
+  }
+  Json json = Json::parse(text_);
+  const auto list = [&json](const char* key, const std::vector<std::string>& items) {
+    for (const std::string& item : items) {
+      json[key].push_back(Json::parse(item));
+    }
+  };
+  list("walls", walls_);
+  list("boxes", boxes_);
+  return json.dump(1);
+}
+
+struct Run::Data {
+  explicit Data(Trajectory run) : trajectory(std::move(run)) {
+    for (const Body& body : trajectory.world.bodies) {
+      names.push_back(body.name);
+    }
+    for (const careen::Impact& each : trajectory.impacts) {
+      impacts.push_back({.time = each.time,
+                         .a = trajectory.world.bodies.at(static_cast<std::size_t>(each.a.value)).name,
+                         .b = trajectory.partnerName(each),
+                         .point = vectorOf(each.point),
+                         .normal = vectorOf(each.normal),
+                         .approach = each.approach,
+                         .impulse = each.impulse,
+                         .tangential = each.tangential});
+    }
+  }
+
+  Trajectory trajectory;
+  std::vector<std::string> names;
+  std::vector<Impact> impacts;
+};
+
+Run::Run(const Scene& scene) {
+  const DefaultFloatEnvironment usual;
+  data_ = translated(scene.name(), [&] {
+    careen::Scene read = parseScene(scene.text(), scene.name());
+    if (scene.method_) {
+      read.method = methodNamed(*scene.method_);
+      checkApart(read);  // the reader checked it for the method in the file
+    }
+    read.tolerance = scene.tolerance_.value_or(read.tolerance);
+    return std::make_shared<Data>(record(setupOf(read)));
+  });
+}
+
+Run Run::read(const std::filesystem::path& path) {
+  return Run(translated(path.string(), [&] {
+    return std::make_shared<Data>(decodeTrajectory(readFile(path), path.string()));
+  }));
+}
+
+void Run::save(const std::filesystem::path& path) const {
+  translated(path.string(), [&] { writeFile(path, encodeTrajectory(data_->trajectory)); });
+}
+
+double Run::duration() const { return data_->trajectory.settings.duration; }
+
+const std::vector<std::string>& Run::boxes() const { return data_->names; }
+
+const std::vector<Impact>& Run::impacts() const { return data_->impacts; }
+
+State Run::state(std::size_t box, double time) const {
+  if (box >= data_->names.size()) {
+    throw Error("found box " + std::to_string(box) + ", expected less than " +
+                std::to_string(data_->names.size()));
+  }
+  const DefaultFloatEnvironment usual;
+  return translated("", [&] {
+    const PoseRow row = poseRow(data_->trajectory, box, time);
+    const Quat& q = row.worldFromBody;
+    return State{.position = vectorOf(row.position),
+                 .orientation = {q.w(), q.x(), q.y(), q.z()},
+                 .velocity = vectorOf(row.velocity),
+                 .angularVelocity = vectorOf(row.angularVelocity)};
+  });
+}
+
+Audit Run::audit() const {
+  const DefaultFloatEnvironment usual;
+  return translated("", [&] {
+    const careen::Audit found = careen::audit(data_->trajectory, AuditDepth::kUsual);
+    Audit audit;
+    for (const AuditKindTraits& kind : kAuditKinds) {
+      const careen::AuditFigure& figure = found.figure(kind.kind);
+      audit.figures.push_back({.kind = std::string(kind.name),
+                               .unit = std::string(kind.unit),
+                               .size = figure.size,
+                               .time = figure.time,
+                               .bodies = figure.bodies,
+                               .promised = figure.promised});
+    }
+    for (const AuditBreach& breach : found.breaches) {
+      audit.breaches.push_back(describe(breach, data_->trajectory));
+    }
+    return audit;
+  });
+}
+
+std::string Run::hash() const { return data_->trajectory.stateHash(); }
+
+#ifdef CAREEN_RENDER
+namespace {
+
+// Of the process: GL is current to one thread at a time, and the size of a run's pictures stands in the run.
+std::mutex& drawing() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+// Sets the size for as long as it lives.
+class OfSize {
+ public:
+  OfSize(PictureSettings& picture, const std::optional<std::array<int, 2>>& size)
+      : picture_(picture), before_(picture) {
+    if (!size) {
+      return;
+    }
+    for (const int side : *size) {
+      if (side < 1 || side > kLargestFilm) {
+        throw Error("found a picture of " + std::to_string((*size)[0]) + "x" + std::to_string((*size)[1]) +
+                    ", expected 1 to " + std::to_string(kLargestFilm) + " px each");
+      }
+    }
+    picture_.width = (*size)[0];
+    picture_.height = (*size)[1];
+  }
+  ~OfSize() { picture_ = before_; }
+  OfSize(const OfSize&) = delete;
+  OfSize& operator=(const OfSize&) = delete;
+
+ private:
+  PictureSettings& picture_;
+  PictureSettings before_;
+};
+
+}  // namespace
+
+std::vector<Image> Run::frames(const std::vector<double>& filmTimes,
+                               std::optional<std::array<int, 2>> size) const {
+  const std::scoped_lock alone(drawing());
+  const DefaultFloatEnvironment usual;
+  return translated("", [&] {
+    Trajectory& run = data_->trajectory;
+    const OfSize sized(run.stage.picture, size);
+    const PictureSettings& picture = run.stage.picture;
+    const Filming filming(run);
+    for (const double time : filmTimes) {
+      if (!(time >= 0 && time <= filming.duration())) {
+        throw Error("found the moment " + std::to_string(time) + " s, expected one of the film, from 0 to " +
+                    std::to_string(filming.duration()) + " s");
+      }
+    }
+    RenderOptions options;
+    options.camera = filming.camera(0);
+    Renderer renderer(run, options);
+    std::optional<Overlays> overlays;
+    if (picture.overlays.any()) {
+      overlays.emplace(run, picture.overlays, picture.rate.frameTime(1));
+    }
+    std::vector<Image> images;
+    for (const double time : filmTimes) {
+      Picture drawn = filming.draw(renderer, time, picture.shutter, picture.rate);
+      if (overlays) {
+        filming.explain(renderer, drawn, time, *overlays);
+      }
+      images.push_back({.width = drawn.width, .height = drawn.height, .rgb = std::move(drawn.rgb)});
+    }
+    return images;
+  });
+}
+#else
+std::vector<Image> Run::frames(const std::vector<double>& /*filmTimes*/,
+                               std::optional<std::array<int, 2>> /*size*/) const {
+  throw Error("this build of careen draws nothing (CAREEN_RENDER=OFF)");
+}
+#endif
+
+Image Run::frame(double filmTime, std::optional<std::array<int, 2>> size) const {
+  return frames({filmTime}, size).front();
+}
+
+}  // namespace careen::v1

@@ -1,0 +1,177 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+// careen as a library: read a scene or build one, simulate it, and ask for states at any moment, impacts, the
+// audit, a hash, and pictures. SI units, z up, right-handed frames, angles in radians. Everything here may be
+// used by several threads at once, each with runs of its own or with the same one; pictures are drawn one at
+// a time.
+//
+// This header needs the standard library alone. What is in careen::v1 keeps its meaning.
+namespace careen::v1 {
+
+/// Name and version, such as "careen 0.1.0".
+const char* version();
+
+using Vector = std::array<double, 3>;
+using Quaternion = std::array<double, 4>;  ///< w x y z, of length 1
+
+/// Anything that went wrong; what() says what was found and what was expected.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A scene, or a file, that cannot be used.
+class SceneError : public Error {
+ public:
+  SceneError(const std::string& message, std::string file, std::size_t line, std::size_t column)
+      : Error(message), file_(std::move(file)), line_(line), column_(column) {}
+  const std::string& file() const { return file_; }  ///< empty if none is to blame
+  std::size_t line() const { return line_; }         ///< from 1; 0: no line is to blame
+  std::size_t column() const { return column_; }     ///< likewise
+
+ private:
+  std::string file_;
+  std::size_t line_;
+  std::size_t column_;
+};
+
+/// A box of a scene that is built in code; keys of scene files have the same names and defaults.
+struct Box {
+  std::string name;                       ///< empty: box-0, box-1 …
+  Vector halfExtents = {0.5, 0.5, 0.5};   ///< [m]
+  double mass = 1;                        ///< [kg]
+  Vector position = {0, 0, 0};            ///< [m] of the centre
+  Quaternion orientation = {1, 0, 0, 0};  ///< world from body
+  Vector velocity = {0, 0, 0};            ///< [m/s]
+  Vector angularVelocity = {0, 0, 0};     ///< [rad/s] world frame
+  double restitution = 0;                 ///< [1]
+  double friction = 0;                    ///< [1]
+  bool fixed = false;
+};
+
+/// A plane that keeps boxes on the side that its normal points to.
+struct Wall {
+  std::string name;           ///< empty: wall-0, wall-1 …
+  Vector point = {0, 0, 0};   ///< [m]
+  Vector normal = {0, 0, 1};  ///< of any length but 0
+  double restitution = 0;     ///< [1]
+  double friction = 0;        ///< [1]
+};
+
+/// A scene: text in the format of scene files, checked when it is simulated.
+class Scene {
+ public:
+  /// An empty one, that boxes and walls are added to.
+  explicit Scene(double duration, Vector gravity = {0, 0, -9.81});
+  /// SceneError if the file cannot be read.
+  static Scene read(const std::filesystem::path& path);
+  /// `name` stands for the file in messages.
+  static Scene parse(std::string text, std::string name = "scene");
+
+  /// Error if the scene was not begun in code.
+  Scene& add(const Box& box);
+  Scene& add(const Wall& wall);
+  /// Method ("exact", "listing1" …) and tolerance [m] in place of those of the scene.
+  Scene& method(const std::string& name);
+  Scene& tolerance(double metres);
+
+  std::string text() const;
+  const std::string& name() const { return name_; }
+
+ private:
+  friend class Run;
+  Scene(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {}
+
+  std::string name_;
+  std::string text_;
+  bool built_ = false;
+  std::vector<std::string> boxes_;  // each as JSON
+  std::vector<std::string> walls_;  // likewise
+  std::optional<std::string> method_;
+  std::optional<double> tolerance_;
+};
+
+struct State {
+  Vector position;         ///< [m] of the centre
+  Quaternion orientation;  ///< world from body
+  Vector velocity;         ///< [m/s]
+  Vector angularVelocity;  ///< [rad/s] world frame
+};
+
+struct Impact {
+  double time;        ///< [s]
+  std::string a;      ///< the box that the normal points to
+  std::string b;      ///< the box or wall that it struck
+  Vector point;       ///< [m] world
+  Vector normal;      ///< from b to a, of length 1
+  double approach;    ///< [m/s] along the normal, before the impact
+  double impulse;     ///< [N s] along the normal
+  double tangential;  ///< [N s] of friction
+};
+
+/// The largest finding of a kind, by code that shares nothing with the method.
+struct AuditFigure {
+  std::string kind;                 ///< such as "box_overlap"
+  std::string unit;                 ///< of the size: "m", "1", "states"
+  double size;                      ///< 0: nothing found
+  double time;                      ///< [s]
+  std::vector<std::string> bodies;  ///< boxes and walls, by name
+  bool promised;                    ///< the method promises a bound for it
+};
+
+struct Audit {
+  std::vector<AuditFigure> figures;   ///< one for each kind
+  std::vector<std::string> breaches;  ///< broken promises, in words; empty if the run keeps them all
+};
+
+/// A picture, rows from the top, three bytes a pixel: red, green, blue.
+struct Image {
+  int width = 0;   ///< [px]
+  int height = 0;  ///< [px]
+  std::vector<std::uint8_t> rgb;
+};
+
+/// A finished run. Copies share it.
+class Run {
+ public:
+  /// Simulates. SceneError if the scene is invalid, Error if the method cannot go on.
+  explicit Run(const Scene& scene);
+  /// A file that save() or `careen simulate` wrote. SceneError if it cannot be read.
+  static Run read(const std::filesystem::path& path);
+  void save(const std::filesystem::path& path) const;
+
+  double duration() const;                        ///< [s]
+  const std::vector<std::string>& boxes() const;  ///< names, in the order of the scene
+  /// State of a box, by its place in boxes(), at a time in [0, duration()] [s]; exact at every moment. Error
+  /// outside.
+  State state(std::size_t box, double time) const;
+  const std::vector<Impact>& impacts() const;  ///< in order of time
+  Audit audit() const;
+  std::string hash() const;  ///< of the final states, bit for bit
+
+  /// The pictures at film times [s], as `careen render --still` draws them, overlays included; film time is
+  /// scene time unless the scene says otherwise. Without a size, that of the scene. Error if there is no GL.
+  std::vector<Image> frames(const std::vector<double>& filmTimes,
+                            std::optional<std::array<int, 2>> size = std::nullopt) const;
+  Image frame(double filmTime, std::optional<std::array<int, 2>> size = std::nullopt) const;
+
+ private:
+  struct Data;
+  explicit Run(std::shared_ptr<Data> data) : data_(std::move(data)) {}
+  std::shared_ptr<Data> data_;
+};
+
+inline Run simulate(const Scene& scene) { return Run(scene); }
+
+}  // namespace careen::v1

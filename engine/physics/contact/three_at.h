@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/math/linear_algebra.h"
+#include "physics/solver/contact_problem.h"
+
+namespace careen {
+
+// Vectors within the long ones of equations: three numbers from `at` on.
+
+inline constexpr std::size_t kSix = ContactProblem::kAxes;
+
+inline Vec3 threeAt(std::span<const double> y, std::size_t at) { return {y[at], y[at + 1], y[at + 2]}; }
+
+inline void setThree(std::span<double> y, std::size_t at, const Vec3& v) {
+  y[at] = v[0];
+  y[at + 1] = v[1];
+  y[at + 2] = v[2];
+}
+
+}  // namespace careen

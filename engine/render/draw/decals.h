@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/draw/drawn_box.h"
+#include "view/surfaces.h"
+
+namespace careen {
+
+/// The part of a surface that the shadow of a box may reach with its penumbra, as a convex outline [m] world;
+/// empty if there is none. `towards` is the unit vector to the light, `spread` the tangent of half its angle;
+/// `pixel` [m] is the width of a pixel on the surface there.
+std::vector<Vec3> shadowOutline(const DrawnBox& box, const Surface& surface, const Vec3& towards,
+                                double spread, double pixel);
+
+/// The part of a surface where a box covers more than about `least` of what it sees, no farther from the
+/// box's centre than `within` [m]; as shadowOutline.
+std::vector<Vec3> occlusionOutline(const DrawnBox& box, const Surface& surface, double least, double within);
+
+/// Vertices of outlines, each with what belongs to all its vertices, and triangles between them.
+struct Decals {
+  std::vector<float> vertices;
+  std::vector<std::uint32_t> triangles;
+  std::uint32_t count = 0;  ///< of vertices
+
+  /// Appends the triangles of a convex outline whose vertices follow.
+  void addFan(std::size_t corners);
+};
+
+}  // namespace careen

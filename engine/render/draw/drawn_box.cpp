@@ -1,0 +1,129 @@
+#include "render/draw/drawn_box.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "view/materials.h"
+
+namespace careen {
+namespace {
+
+const Vec3 kSteel(0.30, 0.32, 0.35);
+
+Vec3 endOf(const SpringEnd& end, std::span<const Pose> poses) {
+  return end.body ? poses[static_cast<std::size_t>(*end.body)].worldPoint(end.point) : end.point;
+}
+
+DrawnBox rod(const Vec3& from, const Vec3& to, double thickness) {
+  const Vec3 line = to - from;
+  DrawnBox box;
+  box.pose.position = 0.5 * (from + to);
+  box.pose.worldFromBody = Quat::FromTwoVectors(Vec3::UnitX(), line).toRotationMatrix();
+  box.halfExtents = Vec3(0.5 * line.norm(), 0.5 * thickness, 0.5 * thickness);
+  box.color = kSteel;
+  box.marked = false;
+  return box;
+}
+
+bool isSame(const Pose& a, const Pose& b) {
+  return a.position == b.position && a.worldFromBody == b.worldFromBody;
+}
+
+// `before`: poses of the previous moment, if any; boxes that have not moved since are already there.
+void appendBoxes(std::vector<DrawnBox>& boxes, const World& world, const Stage& stage,
+                 std::span<const Pose> poses, std::span<const Pose> before, double springThickness) {
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    if (!before.empty() && isSame(poses[i], before[i])) {
+      continue;
+    }
+    boxes.push_back({.pose = poses[i],
+                     .halfExtents = world.bodies[i].halfExtents,
+                     .color = linearFromSrgb(stage.colors[i]),
+                     .body = i});
+  }
+  for (std::size_t i = 0; i < world.springs.size(); ++i) {
+    const Vec3 from = endOf(world.springs[i].from, poses);
+    const Vec3 to = endOf(world.springs[i].to, poses);
+    if ((to - from).norm() > 0.1 * springThickness) {
+      boxes.push_back(rod(from, to, springThickness));
+      boxes.back().body = world.bodies.size() + i;
+    }
+  }
+}
+
+// [px] The smaller height of a face's parallelogram in the picture.
+double widthOf(const DrawnFace& face, const Vec3& toEye, double distance, double pixelAngle) {
+  const auto flat = [&](const Vec3& v) { return Vec3(v - v.dot(toEye) * toEye); };
+  const Vec3 across = 2 * flat(face.across);
+  const Vec3 along = 2 * flat(face.along);
+  const double longer = std::max(across.norm(), along.norm());
+  return longer > 0 ? across.cross(along).norm() / longer / (pixelAngle * distance) : 0;
+}
+
+// Of one box.
+void lightThinFaces(std::span<DrawnFace> faces) {
+  const auto widest = std::max_element(
+      faces.begin(), faces.end(), [](const DrawnFace& a, const DrawnFace& b) { return a.width < b.width; });
+  for (DrawnFace& face : faces) {
+    face.widestOfBox = widest->width;
+    const double own = std::clamp(face.width / kThinFace - 0.5, 0.0, 1.0);
+    if (own < 1 && widest->width > face.width) {
+      face.normal = (own * face.normal + (1 - own) * widest->normal).normalized();
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::span<const Pose> poses,
+                                 double springThickness) {
+  const std::size_t count = world.bodies.size();
+  std::vector<DrawnBox> boxes;
+  boxes.reserve(poses.size() + world.springs.size());
+  for (std::size_t first = 0; first < poses.size() || first == 0; first += std::max<std::size_t>(count, 1)) {
+    const std::span<const Pose> before =
+        first == 0 ? std::span<const Pose>() : poses.subspan(first - count, count);
+    appendBoxes(boxes, world, stage, poses.subspan(first, count), before, springThickness);
+  }
+  return boxes;
+}
+
+void sortFromEye(std::vector<DrawnBox>& boxes, const Vec3& eye) {
+  const auto distance = [&](const DrawnBox& box) { return (box.pose.position - eye).squaredNorm(); };
+  std::stable_sort(boxes.begin(), boxes.end(),
+                   [&](const DrawnBox& a, const DrawnBox& b) { return distance(a) < distance(b); });
+}
+
+std::vector<DrawnFace> facesTowards(std::span<const DrawnBox> boxes, const Vec3& eye, double pixelAngle) {
+  std::vector<DrawnFace> faces;
+  faces.reserve(3 * boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const DrawnBox& box = boxes[i];
+    const std::size_t first = faces.size();
+    const Vec3 toEye = eye - box.pose.position;
+    const double distance = toEye.norm();
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 direction = box.pose.worldFromBody.col(axis);
+      const double height = direction.dot(toEye);
+      if (!(std::abs(height) > box.halfExtents[axis])) {
+        continue;
+      }
+      const double sign = height > 0 ? 1 : -1;
+      const int u = (axis + 1) % 3;
+      const int v = (axis + 2) % 3;
+      DrawnFace face{.box = i,
+                     .side = 2 * axis + (height > 0 ? 0 : 1),
+                     .normal = sign * direction,
+                     .centre = box.pose.position + sign * box.halfExtents[axis] * direction,
+                     .across = box.halfExtents[u] * box.pose.worldFromBody.col(u),
+                     .along = box.halfExtents[v] * box.pose.worldFromBody.col(v)};
+      const Vec3 sight = eye - face.centre;
+      face.width = widthOf(face, sight.normalized(), distance, pixelAngle);
+      faces.push_back(face);
+    }
+    lightThinFaces(std::span(faces).subspan(first));
+  }
+  return faces;
+}
+
+}  // namespace careen

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/math/pose.h"
+#include "stage/run_setup.h"
+
+namespace careen {
+
+/// One box to draw. Boxes of a run have marks on their faces; springs are boxes without marks.
+struct DrawnBox {
+  Pose pose;
+  Vec3 halfExtents = Vec3::Zero();  ///< [m]
+  Vec3 color = Vec3::Ones();        ///< linear
+  bool marked = true;
+  Vec3 returned = Vec3::Zero();  ///< [1] part of ambient light that comes back where it keeps light off
+  std::size_t body = 0;          ///< index of the body it shows; of springs, after all bodies
+};
+
+/// The run's boxes, then its springs as thin rods of thickness `springThickness` [m] from end to end. With
+/// poses of several consecutive moments: the same for each, without boxes that have not moved since the
+/// previous one.
+std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::span<const Pose> poses,
+                                 double springThickness);
+
+/// Sorts front to back, so that hidden pixels are not shaded, and the order of a scene's boxes does not
+/// matter.
+void sortFromEye(std::vector<DrawnBox>& boxes, const Vec3& eye);
+
+/// A face turned to the eye.
+struct DrawnFace {
+  std::size_t box = 0;
+  int side = 0;            ///< 0 … 5: +x, −x, +y, −y, +z, −z of the body
+  double width = 0;        ///< [px] its smaller width in the picture, about
+  double widestOfBox = 0;  ///< [px] of the box's faces, hidden ones included
+  Vec3 normal = Vec3::UnitZ();
+  Vec3 centre = Vec3::Zero();  ///< [m] world
+  Vec3 across = Vec3::Zero();  ///< [m] from the centre to the middle of an edge
+  Vec3 along = Vec3::Zero();   ///< [m] likewise, perpendicular to it
+};
+
+/// [px] Faces thinner than this are lit more and more like the widest face of their box: a face thinner than
+/// a pixel is a row of dots, which then do not stand out.
+inline constexpr double kThinFace = 2;
+
+/// The faces that the eye sees of boxes, box by box; `pixelAngle` [rad]. Normals of thin faces are those that
+/// they are lit by.
+std::vector<DrawnFace> facesTowards(std::span<const DrawnBox> boxes, const Vec3& eye, double pixelAngle);
+
+/// A point as it is drawn: minus the eye, in single precision.
+inline std::array<float, 3> offsetOf(const Vec3& point, const Vec3& eye) {
+  const Vec3 offset = point - eye;
+  return {static_cast<float>(offset.x()), static_cast<float>(offset.y()), static_cast<float>(offset.z())};
+}
+
+}  // namespace careen

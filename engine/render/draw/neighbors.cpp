@@ -1,0 +1,171 @@
+#include "render/draw/neighbors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+namespace careen {
+namespace {
+
+constexpr double kFlush = 1e-3;   // [1] of a box's size: in front of a face by less, it does not count
+constexpr double kInFront = 0.5;  // by so much, it counts fully: less covers only a rim of the face
+constexpr double kFading = 0.3;   // [1] of what the first one that is left out covers, where weights fall
+
+double smoothstep(double from, double to, double x) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+struct Candidate {
+  std::size_t box = 0;
+  double covers = 0;
+  double inFront = 0;  // [1] of what it covers if enough of it is in front of the face
+};
+
+// About the part of what a face sees that a box covers, at the face's point nearest to it.
+Candidate candidateOf(const DrawnBox& box, double area, const DrawnFace& face) {
+  const Vec3 to = box.pose.position - face.centre;
+  const Vec3 axes = box.pose.worldFromBody.transpose() * face.normal;
+  const double front = face.normal.dot(to) + axes.cwiseAbs().dot(box.halfExtents);
+  const double size = box.halfExtents.minCoeff();
+  if (front <= kFlush * size) {
+    return {};
+  }
+  const auto beyond = [&](const Vec3& half) {
+    const double size2 = half.squaredNorm();
+    const double part = size2 > 0 ? std::clamp(half.dot(to) / size2, -1.0, 1.0) : 0;
+    return Vec3(part * half);
+  };
+  const Vec3 apart = to - beyond(face.across) - beyond(face.along);
+  const double inFront = smoothstep(kFlush * size, kInFront * size, front);
+  const double most = std::min(0.5, area / (std::numbers::pi * std::max(apart.squaredNorm(), 1e-300)));
+  return {.box = 0, .covers = inFront * most, .inFront = inFront};
+}
+
+// Boxes by cells of space.
+class Cells {
+ public:
+  Cells(std::span<const DrawnBox> boxes, double size) : size_(size) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (boxes[i].marked) {
+        content_[key(cellOf(boxes[i].pose.position))].push_back(i);
+      }
+    }
+  }
+
+  template <class Do>
+  void around(const Vec3& point, const Do& doWith) const {
+    const std::array<std::int64_t, 3> cell = cellOf(point);
+    for (int k = 0; k < 27; ++k) {
+      const auto found =
+          content_.find(key({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1}));
+      if (found != content_.end()) {
+        std::for_each(found->second.begin(), found->second.end(), doWith);
+      }
+    }
+  }
+
+ private:
+  std::array<std::int64_t, 3> cellOf(const Vec3& point) const {
+    const auto index = [&](double x) {
+      return static_cast<std::int64_t>(std::floor(std::clamp(x / size_, -1e15, 1e15)));
+    };
+    return {index(point.x()), index(point.y()), index(point.z())};
+  }
+  static std::uint64_t key(const std::array<std::int64_t, 3>& cell) {
+    std::uint64_t mixed = 0;
+    for (const std::int64_t index : cell) {
+      mixed = (mixed ^ static_cast<std::uint64_t>(index)) * 0x9E3779B97F4A7C15U;
+      mixed ^= mixed >> 29U;
+    }
+    return mixed;
+  }
+
+  double size_;
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> content_;
+};
+
+}  // namespace
+
+double largestSilhouette(const DrawnBox& box) {
+  const Vec3& h = box.halfExtents;
+  return 4 * Vec3(h.x() * h.y(), h.y() * h.z(), h.z() * h.x()).norm();
+}
+
+Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, double least) {
+  std::vector<double> areas;
+  double reach = 0;  // [m] from a face's nearest point to the centre of a box that it still sees
+  double radius = 0;
+  for (const DrawnBox& box : boxes) {
+    areas.push_back(largestSilhouette(box));
+    radius = std::max(radius, box.halfExtents.norm());
+    reach = std::max(reach, std::sqrt(areas.back() / (std::numbers::pi * least)));
+  }
+  reach += radius;  // from a box's centre, of which a face's points are no farther away than its corners
+  const Cells cells(boxes, std::max(reach, 1e-300));
+  Neighbors neighbors;
+  std::vector<std::size_t> near;
+  std::size_t nearOf = boxes.size();
+  std::vector<Candidate> found;
+  for (const DrawnFace& face : faces) {
+    const DrawnBox& own = boxes[face.box];
+    neighbors.begins.push_back(neighbors.entries.size());
+    if (!own.marked) {
+      continue;
+    }
+    if (face.box != nearOf) {
+      near.clear();
+      cells.around(own.pose.position, [&](std::size_t box) {
+        if (boxes[box].body != own.body &&
+            (boxes[box].pose.position - own.pose.position).squaredNorm() <= reach * reach) {
+          near.push_back(box);
+        }
+      });
+      nearOf = face.box;
+    }
+    found.clear();
+    for (const std::size_t box : near) {
+      if (face.normal.dot(boxes[box].pose.position - face.centre) <= -radius) {
+        continue;
+      }
+      Candidate candidate = candidateOf(boxes[box], areas[box], face);
+      if (candidate.covers > least) {
+        candidate.box = box;
+        found.push_back(candidate);
+      }
+    }
+    std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+      return a.covers != b.covers ? a.covers > b.covers : a.box < b.box;
+    });
+    // What is left out, or as much as nothing.
+    double out = least;
+    std::vector<std::size_t> bodies;
+    std::vector<double> inFront;
+    const std::size_t first = neighbors.entries.size();
+    for (const Candidate& candidate : found) {
+      const std::size_t body = boxes[candidate.box].body;
+      if (std::find(bodies.begin(), bodies.end(), body) != bodies.end()) {
+        continue;
+      }
+      if (bodies.size() == kMostNeighbors) {
+        out = candidate.covers;
+        break;
+      }
+      bodies.push_back(body);
+      inFront.push_back(candidate.inFront);
+      neighbors.entries.push_back({.box = candidate.box, .weight = candidate.covers});
+    }
+    for (std::size_t i = first; i < neighbors.entries.size(); ++i) {
+      double& weight = neighbors.entries[i].weight;
+      // As much as is left out is never more than half of what a face can see.
+      weight = out < 0.5 ? std::min(1.0, (weight - out) / std::min(kFading * out, 0.5 - out)) : 1;
+      weight *= inFront[i - first];
+    }
+  }
+  neighbors.begins.push_back(neighbors.entries.size());
+  return neighbors;
+}
+
+}  // namespace careen

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "render/draw/decals.h"
+#include "render/draw/picture_cells.h"
+#include "render/draw/visible_faces.h"
+#include "render/gl/vertex_array.h"
+
+namespace careen {
+
+struct Gl;
+
+/// Which boxes keep ambient light from surfaces, and how it is seen.
+struct OcclusionView {
+  Vec3 eye = Vec3::Zero();  ///< [m]
+  double pixelAngle = 0;    ///< [rad]
+  double least = 0;         ///< [1] boxes that cover no more of what a point sees are left out
+  /// Of several moments: at each point the box that covers most counts, and no other one.
+  bool leastOnly = false;
+};
+
+/// The part of ambient light that boxes leave to floor and walls: the product over boxes, or the least of
+/// all. Near a box it is drawn at half the picture's width and height; far from it, where it varies little,
+/// at an eighth.
+class OcclusionMap {
+ public:
+  /// Size of the picture [px].
+  OcclusionMap(const Gl& gl, const std::filesystem::path& shaders, int width, int height);
+
+  /// Marks the cells that boxes may reach; those that `hidden` hides are left out.
+  void place(std::span<const DrawnBox> boxes, std::span<const Surface> surfaces, const OcclusionView& view,
+             const HiddenTiles& hidden, PictureCells& cells);
+  /// To draw depths of surfaces that may hide others, then what is far from boxes.
+  void beginFar() const;
+  void drawFar() const;
+  /// To draw depths of surfaces and boxes, then all of it.
+  void beginNear() const;
+  void drawNear() const;
+  /// For programs that draw surfaces.
+  void bind() const;
+
+ private:
+  struct Target {
+    Target(const Gl& gl, int width, int height);
+    int width;
+    int height;
+    unsigned texture = 0;
+    unsigned framebuffer = 0;
+  };
+  void begin(const Target& target) const;
+  void drawDecals(unsigned program, std::size_t from, std::size_t to) const;
+
+  const Gl& gl_;
+  Target near_;
+  Target far_;
+  unsigned array_;
+  VertexBuffer vertices_;
+  IndexBuffer indices_;
+  unsigned nearProgram_;
+  unsigned farProgram_;
+  unsigned copyArray_;
+  unsigned copyProgram_;
+  std::size_t farIndices_ = 0;  // the first ones
+  std::size_t allIndices_ = 0;
+  bool leastOnly_ = false;
+};
+
+}  // namespace careen

@@ -1,0 +1,58 @@
+#include <GL/glcorearb.h>
+
+#include "render/draw/shadow_batch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/draw/light_plane.h"
+#include "render/gl/gl.h"
+#include "render/gl/shader.h"
+
+namespace careen {
+
+ShadowBatch::ShadowBatch(const Gl& gl, const std::filesystem::path& shaders)
+    : gl_(gl),
+      array_(makeVertexArray(gl)),
+      vertices_(gl, kShadowAttributes, VertexBuffer::Step::kVertex),
+      indices_(gl),
+      program_(linkProgram(gl, shaders, {"shadow.vert", "shadow.frag"})) {}
+
+void ShadowBatch::place(std::span<const DrawnBox> boxes, std::span<const Surface> surfaces,
+                        const ShadowLight& light, const Vec3& eye, double pixelAngle,
+                        const HiddenTiles& hidden, PictureCells& cells) {
+  Decals decals;
+  for (const Surface& surface : surfaces) {
+    const double eyeHeight = surface.normal.dot(eye - surface.outline[0]);
+    if (eyeHeight <= 0) {
+      continue;
+    }
+    for (const DrawnBox& box : boxes) {
+      // Wide enough for the box's own place and its shadow's, which may be farther away.
+      const double distance = (box.pose.position - eye).norm() + box.halfExtents.norm();
+      const double steep = std::max(eyeHeight / distance, 0.05);
+      const std::vector<Vec3> outline =
+          shadowOutline(box, surface, light.towards, light.spread, 2 * pixelAngle * distance / steep);
+      if (outline.empty() || hidden.hide(outline)) {
+        continue;
+      }
+      const Zonogon zonogon = zonogonOf(box, light.towards);
+      for (const Vec3& corner : outline) {
+        appendShadow(decals.vertices, zonogon, corner, offsetOf(corner, eye), 1);
+      }
+      cells.mark(outline);
+      decals.addFan(outline.size());
+    }
+  }
+  gl_.BindVertexArray(array_);
+  vertices_.fill(decals.vertices);
+  indices_.fill(decals.triangles);
+}
+
+void ShadowBatch::draw() const {
+  gl_.UseProgram(program_);
+  gl_.BindVertexArray(array_);
+  gl_.DrawElements(GL_TRIANGLES, indices_.count(), GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace careen

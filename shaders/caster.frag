@@ -1,4 +1,0 @@
-#version 330 core
-// Only depth is written.
-
-void main() {}

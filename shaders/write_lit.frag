@@ -1,0 +1,8 @@
+#version 330 core
+// A pixel that no shadow reaches.
+
+out vec4 result;
+
+vec4 finished(vec3 color, float alpha);
+
+void write(vec3 dark, vec3 bright, float alpha) { result = finished(bright, alpha); }

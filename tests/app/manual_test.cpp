@@ -1,0 +1,203 @@
+// The manual and the README: what they name is there, and what is there is named. tests/manual runs their
+// commands.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/process.h"
+#include "support/program.h"
+
+namespace careen {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kSource = CAREEN_SOURCE_DIR;
+const fs::path kManual = kSource / "assets/manual";
+
+std::vector<fs::path> pages() {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(kManual)) {
+    found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+Ended careen(std::vector<std::string> arguments) {
+  const TemporaryFolder folder;
+  arguments.insert(arguments.begin(), program());
+  return Process(arguments, folder.path()).wait();
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+// Every match of the expression's first group.
+std::vector<std::string> matches(const std::string& text, const std::string& expression) {
+  const std::regex regex(expression);
+  std::vector<std::string> found;
+  for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match) {
+    found.push_back((*match)[1]);
+  }
+  return found;
+}
+
+// As GitHub names a heading: small letters, blanks as hyphens, no other signs.
+std::set<std::string> headingsOf(const fs::path& page) {
+  std::set<std::string> headings;
+  for (const std::string& title : matches(textOf(page), "\n#+ ([^\n]*)")) {
+    std::string name;
+    for (const char letter : title) {
+      if (letter == ' ' || letter == '-') {
+        name += '-';
+      } else if (std::isalnum(static_cast<unsigned char>(letter)) != 0) {
+        name += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+      }
+    }
+    headings.insert(name);
+  }
+  return headings;
+}
+
+TEST(Manual, readmeIsShort) {
+  const std::string readme = textOf(kSource / "README.md");
+  EXPECT_LE(linesOf(readme).size(), 150U);
+  std::istringstream stream(readme);
+  const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+  EXPECT_LE(words.size(), 1200U);
+}
+
+TEST(Manual, linksLeadSomewhere) {
+  std::vector<fs::path> all = pages();
+  all.push_back(kSource / "README.md");
+  std::size_t links = 0;
+  for (const fs::path& page : all) {
+    for (const std::string& link : matches(textOf(page), R"(\]\(([^)\s]+)\))")) {
+      ++links;
+      const std::size_t hash = link.find('#');
+      const fs::path target = hash == 0 ? page : page.parent_path() / link.substr(0, hash);
+      EXPECT_TRUE(fs::exists(target)) << page << ": " << link;
+      if (hash != std::string::npos) {
+        EXPECT_EQ(headingsOf(target).count(link.substr(hash + 1)), 1U) << page << ": " << link;
+      }
+    }
+  }
+  EXPECT_GT(links, 60U);
+}
+
+TEST(Manual, helpListsAndShowsEveryPage) {
+  const Ended list = careen({"help"});
+  ASSERT_EQ(list.exitCode, 0) << list.err;
+  const std::vector<std::string> named = matches(list.out, "\n  ([a-z-]+) ");
+  EXPECT_EQ(named.size(), pages().size());
+  const std::string readme = textOf(kSource / "README.md");
+  for (const fs::path& page : pages()) {
+    const std::string name = page.stem();
+    EXPECT_EQ(std::count(named.begin(), named.end(), name), 1) << name;
+    EXPECT_EQ(careen({"help", name}).out, textOf(page));
+    EXPECT_NE(readme.find("| [" + name + "](assets/manual/" + name + ".md) |"), std::string::npos) << name;
+  }
+}
+
+TEST(Manual, helpShowsACommandsOptionsAndKnowsNothingElse) {
+  EXPECT_NE(careen({"help", "simulate"}).out.find("--tolerance"), std::string::npos);
+  const Ended ended = careen({"help", "tutorail"});
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_NE(ended.err.find("did you mean 'tutorial'?"), std::string::npos) << ended.err;
+  EXPECT_EQ(careen({"help", "tutorail"}).out, "");
+  EXPECT_EQ(careen({"help", "../README"}).exitCode, 2);
+}
+
+// The options in the lines of commands.md, by command.
+std::map<std::string, std::set<std::string>> usage() {
+  const std::string page = textOf(kManual / "commands.md");
+  const std::size_t begin = page.find("```usage\n");
+  const std::size_t end = page.find("\n```\n", begin);
+  std::map<std::string, std::set<std::string>> options;
+  std::string command;
+  for (const std::string& line : linesOf(page.substr(begin, end - begin))) {
+    if (line.starts_with("careen ")) {
+      command = line.substr(7, line.find(' ', 7) - 7);
+      options[command];
+    }
+    for (const std::string& option : matches(line, "(--[a-z-]+)")) {
+      options[command].insert(option);
+    }
+  }
+  return options;
+}
+
+TEST(Manual, usageNamesCommandsAndOptionsThatThereAre) {
+  const std::string all = careen({"--help"}).out;
+  const auto used = usage();
+  const std::vector<std::string> commands = matches(all.substr(all.find("Subcommands:")), "\n  ([a-z]+)  ");
+  EXPECT_GE(commands.size(), 12U);
+  for (const std::string& command : commands) {
+    ASSERT_EQ(used.count(command), 1U) << command;
+    const std::string help = careen({command, "--help"}).out;
+    for (const std::string& option : used.at(command)) {
+      EXPECT_NE(help.find(option), std::string::npos) << command << ' ' << option;
+    }
+  }
+}
+
+TEST(Manual, namesEveryOption) {
+  std::string manual;
+  for (const fs::path& page : pages()) {
+    manual += textOf(page);
+  }
+  const std::string all = careen({"--help"}).out;
+  std::size_t options = 0;
+  for (const std::string& command : matches(all.substr(all.find("Subcommands:")), "\n  ([a-z]+)  ")) {
+    for (const std::string& option :
+         matches(careen({command, "--help"}).out, "\n *(?:-[a-z],)?(--[a-z-]+)")) {
+      ++options;
+      EXPECT_TRUE(std::regex_search(manual, std::regex(option + "(?![a-z-])"))) << command << ' ' << option;
+    }
+  }
+  EXPECT_GT(options, 80U);
+}
+
+TEST(Manual, readmeHasTheFiguresOfTheStudy) {
+  std::vector<std::string> names;
+  std::map<std::string, std::map<std::string, std::string>> errors;  // by case and contestant
+  const auto cells = [](const std::string& line) { return matches(line, R"(\| ([^|]*) (?=\|))"); };
+  for (const std::string& line : linesOf(textOf(kSource / "assets/study/results.md"))) {
+    if (line.starts_with("| case | exact |") && names.empty()) {
+      names = cells(line);
+    } else if (line.starts_with("| ") && !names.empty()) {
+      const std::vector<std::string> row = cells(line);
+      for (std::size_t i = 0; i < std::min(row.size(), names.size()); ++i) {
+        errors[row[0]].emplace(names[i], row[i]);  // the first table is that of errors
+      }
+    }
+  }
+  int rows = 0;
+  for (const std::string& line : linesOf(textOf(kSource / "README.md"))) {
+    std::smatch match;
+    if (std::regex_match(line, match, std::regex(R"(\| .*\(`(.*)`\) \| (.*) \| (.*) \| (.*) \|)"))) {
+      ++rows;
+      EXPECT_EQ(errors[match[1]]["exact"], match[2]) << line;
+      EXPECT_EQ(errors[match[1]]["bullet-best"], match[3]) << line;
+      EXPECT_EQ(errors[match[1]]["ode-best"], match[4]) << line;
+    }
+  }
+  EXPECT_GE(rows, 5);
+}
+
+}  // namespace
+}  // namespace careen

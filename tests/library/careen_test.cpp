@@ -1,0 +1,247 @@
+// The library beside the program: the same states, impacts, hashes and pictures, to the bit.
+#include "library/careen.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "image/png.h"
+#include "support/process.h"
+
+namespace careen::v1 {
+namespace {
+
+const std::filesystem::path kScenes = std::filesystem::path(CAREEN_SOURCE_DIR) / "assets/scenes";
+
+// Rows of a table without its heading; names of boxes and walls become 0.
+std::vector<std::vector<double>> rowsOf(const std::filesystem::path& path) {
+  std::istringstream stream(textOf(path));
+  std::vector<std::vector<double>> rows;
+  std::string line;
+  std::getline(stream, line);
+  while (std::getline(stream, line)) {
+    rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      char* end = nullptr;
+      const double number = std::strtod(cell.c_str(), &end);
+      rows.back().push_back(*end == '\0' ? number : 0);
+    }
+  }
+  return rows;
+}
+
+class Library : public testing::Test {
+ protected:
+  Ended program(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), CAREEN_BINARY);
+    const Ended ended = Process(arguments, folder_.path()).wait();
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    return ended;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Library, givesTheStatesImpactsAndHashesOfTheProgram) {
+  for (const char* const name : {"careen", "zeno", "stack"}) {
+    const std::string file = kScenes / (std::string(name) + ".json");
+    const Ended told = program({"simulate", file, "-o", "run.careen", "--poses", "poses.csv", "--impacts",
+                                "impacts.csv", "--every", "0.01"});
+    const v1::Run run = simulate(Scene::read(file));
+    EXPECT_NE(told.out.find("state hash   " + run.hash()), std::string::npos) << run.hash();
+
+    const auto poses = rowsOf(folder_ / "poses.csv");
+    ASSERT_GT(poses.size(), 100U);
+    ASSERT_EQ(poses.size() % run.boxes().size(), 0U);
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      const std::vector<double>& row = poses[k];
+      const State state = run.state(k % run.boxes().size(), row[0]);
+      const std::vector<double> found = {
+          state.position[0],       state.position[1],    state.position[2],        state.orientation[0],
+          state.orientation[1],    state.orientation[2], state.orientation[3],     state.velocity[0],
+          state.velocity[1],       state.velocity[2],    state.angularVelocity[0], state.angularVelocity[1],
+          state.angularVelocity[2]};
+      ASSERT_EQ(found, std::vector<double>(row.begin() + 2, row.end())) << name << " row " << k;
+    }
+
+    const auto impacts = rowsOf(folder_ / "impacts.csv");
+    ASSERT_EQ(impacts.size(), run.impacts().size());
+    for (std::size_t k = 0; k < impacts.size(); ++k) {
+      const Impact& impact = run.impacts()[k];
+      const std::vector<double> found = {impact.time,
+                                         0,
+                                         0,
+                                         impact.point[0],
+                                         impact.point[1],
+                                         impact.point[2],
+                                         impact.normal[0],
+                                         impact.normal[1],
+                                         impact.normal[2],
+                                         impact.approach,
+                                         impact.impulse,
+                                         impact.tangential};
+      ASSERT_EQ(found, impacts[k]) << name << " impact " << k;
+    }
+    EXPECT_EQ(v1::Run::read(folder_ / "run.careen").hash(), run.hash());
+    run.save(folder_ / "saved.careen");
+    EXPECT_EQ(textOf(folder_ / "saved.careen"), textOf(folder_ / "run.careen"));
+  }
+}
+
+// A cube falls from 2 m, e = 0.5: it meets the floor at sqrt(2 h / g), h = 2 - 0.5.
+TEST_F(Library, simulatesASceneThatWasBuiltInCode) {
+  Scene scene(1.0, {0, 0, -9.81});
+  scene.add(Box{.name = "crate", .position = {0, 0, 2}, .restitution = 0.5});
+  scene.add(Wall{.name = "floor", .restitution = 0.5});
+  const v1::Run run = simulate(scene);
+  ASSERT_FALSE(run.impacts().empty());
+  const Impact& first = run.impacts().front();
+  const double time = std::sqrt(2 * 1.5 / 9.81);
+  EXPECT_NEAR(first.time, time, 1e-12);
+  EXPECT_EQ(first.a, "crate");
+  EXPECT_EQ(first.b, "floor");
+  EXPECT_NEAR(first.approach, 9.81 * time, 1e-12);
+  EXPECT_NEAR(run.state(0, 0.25).position[2], 2 - 9.81 / 2 * 0.0625, 1e-14);
+  EXPECT_NEAR(run.state(0, 0.25).velocity[2], -9.81 * 0.25, 1e-14);
+  EXPECT_EQ(run.boxes(), std::vector<std::string>{"crate"});
+  EXPECT_EQ(run.duration(), 1.0);
+  // It is the scene that a file with its text is.
+  folder_.write("built.json", scene.text());
+  EXPECT_EQ(simulate(Scene::read(folder_ / "built.json")).hash(), run.hash());
+}
+
+TEST_F(Library, auditsAsTheProgramDoes) {
+  const v1::Run run = simulate(Scene::read(kScenes / "zeno.json"));
+  const Audit audit = run.audit();
+  EXPECT_TRUE(audit.breaches.empty());
+  ASSERT_GE(audit.figures.size(), 10U);
+  EXPECT_EQ(audit.figures[1].kind, "box_overlap");
+  EXPECT_EQ(audit.figures[1].unit, "m");
+  program({"simulate", kScenes / "zeno.json", "--report", "report.json"});
+  const std::string report = textOf(folder_ / "report.json");
+  for (const AuditFigure& figure : audit.figures) {
+    EXPECT_NE(report.find('"' + figure.kind + '"'), std::string::npos) << figure.kind;
+  }
+}
+
+TEST_F(Library, errorsNameThePlace) {
+  const auto fault = [](const std::string& text) -> SceneError {
+    try {
+      simulate(Scene::parse(text, "mine"));
+    } catch (const SceneError& error) {
+      return error;
+    }
+    return {"none", "", 0, 0};
+  };
+  const SceneError unknown = fault("{ \"careen\": 1, \"duration\": 1,\n  \"boxen\": [] }");
+  EXPECT_EQ(unknown.file(), "mine") << unknown.what();
+  EXPECT_EQ(unknown.line(), 2U);
+  EXPECT_EQ(unknown.column(), 3U);
+  EXPECT_NE(std::string(unknown.what()).find("boxen"), std::string::npos);
+  EXPECT_THROW(Scene::read("nowhere.json"), SceneError);
+  EXPECT_THROW(v1::Run::read(kScenes / "careen.json"), SceneError);
+  EXPECT_THROW(Scene::read(kScenes / "careen.json").add(Box{}), Error);
+  EXPECT_THROW(Scene(1).method("guess"), SceneError);
+  for (const double tolerance : {0.0, -1.0, std::nan(""), 1e9}) {
+    EXPECT_THROW(Scene(1).tolerance(tolerance), SceneError) << tolerance;
+  }
+  Scene overlapping(1);
+  overlapping.add(Box{}).add(Box{});
+  EXPECT_THROW(simulate(overlapping), SceneError);
+  EXPECT_THROW(simulate(Scene(1).add(Box{.name = "a", .mass = std::nan("")})), SceneError);
+  const v1::Run run = simulate(Scene(1).add(Box{}));
+  EXPECT_THROW(static_cast<void>(run.state(1, 0)), Error);
+  for (const double time : {-1e-9, 1.0000001, std::nan("")}) {
+    EXPECT_THROW(static_cast<void>(run.state(0, time)), Error) << time;
+  }
+  EXPECT_THROW(run.save("no/such/folder/run.careen"), Error);
+}
+
+TEST_F(Library, methodAndToleranceReplaceThoseOfTheScene) {
+  const std::string file = kScenes / "careen.json";
+  for (const char* const method : {"exact", "listing1", "taylor-8"}) {
+    const Ended told = program({"simulate", file, "--method", method});
+    EXPECT_NE(told.out.find("state hash   " + simulate(Scene::read(file).method(method)).hash()),
+              std::string::npos);
+  }
+  const std::string stack = kScenes / "stack.json";
+  const Ended told = program({"simulate", stack, "--tolerance", "1e-4"});
+  EXPECT_NE(told.out.find("state hash   " + simulate(Scene::read(stack).tolerance(1e-4)).hash()),
+            std::string::npos);
+}
+
+TEST_F(Library, simulatesInSeveralThreadsAtOnce) {
+  std::vector<std::string> alone;
+  const std::vector<std::string> names = {"careen", "zeno", "hecker-1997", "housner"};
+  for (const std::string& name : names) {
+    alone.push_back(simulate(Scene::read(kScenes / (name + ".json"))).hash());
+  }
+  std::vector<std::string> together(names.size());
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    threads.emplace_back([&, i] {
+      const v1::Run run = simulate(Scene::read(kScenes / (names[i] + ".json")));
+      together[i] = run.audit().breaches.empty() ? run.hash() : "broken";
+    });
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  EXPECT_EQ(together, alone);
+}
+
+// What else it is made from stays within: another version of it may be in the same process.
+TEST_F(Library, showsNothingButItsHeader) {
+  const Ended symbols =
+      Process({"nm", "--dynamic", "--defined-only", "--demangle", CAREEN_SHARED_LIBRARY}, folder_.path())
+          .wait();
+  std::istringstream lines(symbols.out);
+  int seen = 0;
+  for (std::string line; std::getline(lines, line); ++seen) {
+    EXPECT_NE(line.find("careen::v1::"), std::string::npos) << line;
+  }
+  EXPECT_GT(seen, 20) << symbols.err;
+}
+
+#ifdef CAREEN_RENDER
+TEST_F(Library, drawsTheBytesOfTheProgram) {
+  const std::string file = kScenes / "careen.json";
+  const v1::Run run = simulate(Scene::read(file));
+  const std::vector<Image> images = run.frames({0.3, 2.5}, std::array{160, 90});
+  for (const auto& [time, image] : {std::pair{"0.3", images.at(0)}, std::pair{"2.5", images.at(1)}}) {
+    program({"render", file, "--still", time, "--size", "160x90", "--out", "still.png"});
+    const Picture still = readPng(folder_ / "still.png");
+    EXPECT_EQ(image.width, 160);
+    EXPECT_EQ(image.height, 90);
+    EXPECT_TRUE(image.rgb == still.rgb) << time;
+  }
+  EXPECT_EQ(run.frame(0).width, 1280);  // the scene's own size, again
+  EXPECT_THROW(static_cast<void>(run.frame(99)), Error);
+  EXPECT_THROW(static_cast<void>(run.frame(0, std::array{0, 90})), Error);
+}
+
+TEST_F(Library, drawsFromSeveralThreads) {
+  const v1::Run run = simulate(Scene::read(kScenes / "careen.json"));
+  const Image expected = run.frame(1, std::array{64, 36});
+  std::vector<Image> images(4);
+  std::vector<std::thread> threads;
+  for (Image& image : images) {
+    threads.emplace_back([&] { image = run.frame(1, std::array{64, 36}); });
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  for (const Image& image : images) {
+    EXPECT_TRUE(image.rgb == expected.rgb);
+  }
+}
+#endif
+
+}  // namespace
+}  // namespace careen::v1

@@ -1,0 +1,128 @@
+"""The Python module beside the program: the same numbers and pictures, to the bit.
+
+    module_test.py CAREEN SCENES
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy
+
+import careen
+
+PROGRAM, SCENES = sys.argv[1], pathlib.Path(sys.argv[2])
+NAMES = ("careen", "zeno", "stack")
+
+
+def program(folder, *arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], cwd=folder, check=True, capture_output=True, text=True).stdout
+
+
+class Module(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def test_states_and_impacts_are_those_of_the_program(self):
+        for name in NAMES:
+            scene = SCENES / f"{name}.json"
+            told = program(self.folder, "simulate", scene, "--npz", "run.npz", "--every", "0.01", "-o", "run.careen")
+            run = careen.simulate(scene)
+            self.assertIn("state hash   " + run.hash, told)
+            self.assertEqual(careen.read_run(self.folder / "run.careen").hash, run.hash)
+            table = numpy.load(self.folder / "run.npz")
+            self.assertEqual(list(table["box"]), run.boxes)
+            states = run.states(table["time"])
+            columns = {"position": "x y z", "orientation": "qw qx qy qz", "velocity": "vx vy vz",
+                       "angular_velocity": "wx wy wz"}
+            for key, names in columns.items():
+                expected = numpy.stack([table[column] for column in names.split()], axis=-1)
+                numpy.testing.assert_array_equal(states[key], expected, err_msg=f"{name} {key}")
+            numpy.testing.assert_array_equal(run.impacts["time"], table["impact_time"])
+            numpy.testing.assert_array_equal(run.impacts["impulse"], table["impact_impulse"])
+            self.assertEqual(run.impacts["a"], list(table["impact_a"]))
+            self.assertEqual(run.impacts["b"], list(table["impact_b"]))
+            self.assertEqual(run.impacts["point"].shape, (len(table["impact_time"]), 3))
+
+    def test_times_have_any_shape(self):
+        run = careen.simulate(SCENES / "zeno.json")
+        boxes = len(run.boxes)
+        self.assertEqual(run.states(0.5)["position"].shape, (boxes, 3))
+        self.assertEqual(run.states([])["orientation"].shape, (0, boxes, 4))
+        grid = numpy.linspace(0, run.duration, 24).reshape(2, 3, 4)
+        found = run.states(grid)["velocity"]
+        self.assertEqual(found.shape, (2, 3, 4, boxes, 3))
+        numpy.testing.assert_array_equal(found[1, 2, 0], run.states(grid[1, 2, 0])["velocity"])
+        numpy.testing.assert_array_equal(run.states(grid.T)["velocity"], numpy.transpose(found, (2, 1, 0, 3, 4)))
+        for time_of in (-1e-9, run.duration + 1e-9, float("nan")):
+            self.assertRaises(careen.Error, run.states, [0, time_of])
+
+    def test_pictures_are_those_of_the_program(self):
+        scene = SCENES / "careen.json"
+        program(self.folder, "render", scene, "--still", "1.5", "--size", "160x90", "--out", "still.png")
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-i", "still.png", "-f", "rawvideo", "-pix_fmt", "rgb24", "raw"],
+                       cwd=self.folder, check=True)
+        expected = numpy.fromfile(self.folder / "raw", dtype=numpy.uint8).reshape(90, 160, 3)
+        numpy.testing.assert_array_equal(careen.simulate(scene).frame(1.5, size=(160, 90)), expected)
+
+    def test_errors_have_a_place(self):
+        bad = self.folder / "bad.json"
+        bad.write_text('{ "careen": 1, "duration": 1,\n  "boxen": [] }')
+        with self.assertRaises(careen.SceneError) as caught:
+            careen.simulate(bad)
+        self.assertEqual((caught.exception.file, caught.exception.line, caught.exception.column), (str(bad), 2, 3))
+        self.assertIn("boxen", str(caught.exception))
+        self.assertIsInstance(caught.exception, careen.Error)
+        for scene in ({}, {"careen": 1}, self.folder / "nowhere.json"):
+            self.assertRaises(careen.SceneError, careen.simulate, scene)
+        self.assertRaises(careen.SceneError, careen.simulate, SCENES / "careen.json", method="guess")
+        self.assertRaises(careen.SceneError, careen.simulate, SCENES / "careen.json", tolerance=-1)
+        run = careen.simulate(SCENES / "careen.json")
+        self.assertRaises(careen.Error, run.frame, 99)
+        self.assertRaises(careen.Error, run.frame, 0, size=(0, 1))
+
+    def test_the_lock_is_free_while_it_simulates(self):
+        stack = SCENES / "stack.json"
+        begun = time.perf_counter()
+        alone = careen.simulate(stack).hash
+        seconds = time.perf_counter() - begun
+        hashes, ticks = [], 0
+        threads = [threading.Thread(target=lambda: hashes.append(careen.simulate(stack).hash))
+                   for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        while any(thread.is_alive() for thread in threads):
+            time.sleep(seconds / 50)
+            ticks += 1
+        self.assertEqual(hashes, [alone, alone])
+        self.assertGreater(ticks, 10)  # one or two if the lock were held; measured about 50
+
+    # In a process of its own, where no array has been made before: NumPy was once loaded by the first two threads.
+    def test_threads_may_make_the_first_arrays(self):
+        code = ("import careen\nfrom concurrent.futures import ThreadPoolExecutor\n"
+                f"run = careen.simulate({str(SCENES / 'careen.json')!r})\n"
+                "with ThreadPoolExecutor(8) as pool: print(len(list(pool.map(lambda k: run.states(k / 20), range(40)))))")
+        for _ in range(5):
+            told = subprocess.run([sys.executable, "-c", code], timeout=30, check=True, capture_output=True, text=True)
+            self.assertEqual(told.stdout, "40\n")
+
+    def test_the_audit_tells_kinds_and_breaches(self):
+        audit = careen.simulate(SCENES / "zeno.json").audit
+        self.assertEqual(audit["breaches"], [])
+        self.assertEqual(audit["box_overlap"]["unit"], "m")
+        self.assertTrue(audit["not_finite"]["promised"])
+
+    def test_everything_says_what_it_is(self):
+        for thing in (careen, careen.simulate, careen.read_run, careen.Run, careen.SceneError, careen.Run.states,
+                      careen.Run.impacts, careen.Run.audit, careen.Run.frame, careen.Run.save, careen.Run.hash):
+            self.assertGreater(len(thing.__doc__), 15, thing)
+        self.assertEqual("careen " + careen.__version__, program(self.folder, "--version").strip())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
