@@ -119,9 +119,12 @@ void ImplicitStep::alignNormals(std::span<const ContactFeature> features,
     for (std::size_t k = 0; !features[c].b.isWall() && k < features.size(); ++k) {
       const bool same = features[k].a == features[c].a && features[k].b == features[c].b;
       const bool swapped = features[c].b.isBody(features[k].a) && features[k].b.isBody(features[c].a);
+      if (!same && !swapped) {
+        continue;
+      }
       const Vec3 normal = swapped ? Vec3(-normals_[k]) : normals_[k];
       const std::array<double, 3> parts{normal[0], normal[1], normal[2]};
-      if ((same || swapped) && normal.dot(normals_[c]) >= kParallel &&
+      if (normal.dot(normals_[c]) >= kParallel &&
           std::find(different.begin(), different.end(), parts) == different.end()) {
         different.push_back(parts);
       }

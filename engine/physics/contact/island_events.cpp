@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -32,8 +33,39 @@ constexpr double kNoisy = 16;
 constexpr double kAtOnce = 0x1p-20;
 /// Steps taken by the slope of the estimate; then the bracket decides.
 constexpr int kMostByEstimate = 6;
+/// [1] of the tolerance: bodies that are deeper than it in each other may go so much deeper in a step.
+constexpr double kDeeper = 0x1p-4;
+/// [1] of the tolerance: sampled gaps that differ by less are not searched between.
+constexpr double kLower = 0x1p-6;
+constexpr int kMostSearches = 12;
 constexpr double kShortestHop = 0x1p-30;
 constexpr double kShortestStep = 0x1p-40;
+
+/// Where a function with one minimum between two times is lowest, to 1/300 of the way: golden sections.
+template <class Value>
+double lowestBetween(double from, double to, const Value& valueAt) {
+  constexpr double kGolden = 0.6180339887498949;
+  double left = to - kGolden * (to - from);
+  double right = from + kGolden * (to - from);
+  double ofLeft = valueAt(left);
+  double ofRight = valueAt(right);
+  for (int k = 0; k < kMostSearches; ++k) {
+    if (ofLeft < ofRight) {
+      to = right;
+      right = left;
+      ofRight = ofLeft;
+      left = to - kGolden * (to - from);
+      ofLeft = valueAt(left);
+    } else {
+      from = left;
+      left = right;
+      ofLeft = ofRight;
+      right = from + kGolden * (to - from);
+      ofRight = valueAt(right);
+    }
+  }
+  return ofLeft < ofRight ? left : right;
+}
 
 }  // namespace
 
@@ -242,7 +274,9 @@ double Island::lowestOfCorner(double h, std::size_t event, double atEnd) const {
   return atStart_[event] + s * (from + s * (b + s * c)) < 0 ? s * h : 0;
 }
 
-// The first of a few sampled times at which the penetration exceeds the tolerance.
+// The first of a few sampled times at which the penetration exceeds the tolerance, or what there was of it at
+// the start: no step, however short, would be without that. Around a lowest sample it is
+// searched more closely: an edge that passes below an edge may do so between two of them.
 double Island::deepWithin(double h, const EventFunction& event) const {
   constexpr int kMoments = 16;
   const ContactFeature& feature = system_.features()[event.contact];
@@ -250,13 +284,31 @@ double Island::deepWithin(double h, const EventFunction& event) const {
   const auto b = static_cast<std::size_t>(feature.b.body());
   const Motion ofA = bodies()[a].isHeld() ? Motion(Rest{system_.kinematics(a).pose}) : motion(a, h);
   const Motion ofB = bodies()[b].isHeld() ? Motion(Rest{system_.kinematics(b).pose}) : motion(b, h);
-  for (int k = 1; k < kMoments; ++k) {
-    const double time = h * k / kMoments;
+  const auto gapAt = [&](double time) {
     const Pose poseA = stateAt(ofA, bodies()[a].body->mass, time).pose;
     const Pose poseB = stateAt(ofB, bodies()[b].body->mass, time).pose;
-    if (BoxAxes({poseA, bodies()[a].body->halfExtents}, {poseB, bodies()[b].body->halfExtents}).gap() <
-        -tolerance_) {
+    return BoxAxes({poseA, bodies()[a].body->halfExtents}, {poseB, bodies()[b].body->halfExtents}).gap();
+  };
+  std::array<double, kMoments + 1> gaps{};
+  const auto deep = [&] { return std::min(-tolerance_, gaps[0] - kDeeper * tolerance_); };
+  for (std::size_t k = 0; k <= kMoments; ++k) {
+    const double time = h * static_cast<double>(k) / kMoments;
+    gaps[k] = gapAt(time);
+    if (k > 0 && k < kMoments && gaps[k] < deep()) {
       return time;
+    }
+  }
+  for (std::size_t k = 0; k <= kMoments; ++k) {
+    const std::size_t before = k > 0 ? k - 1 : k;
+    const std::size_t after = k < kMoments ? k + 1 : k;
+    const bool isLowest = gaps[k] <= gaps[before] && gaps[k] <= gaps[after] && gaps[k] < tolerance_ &&
+                          gaps[k] < std::max(gaps[before], gaps[after]) - kLower * tolerance_;
+    if (isLowest) {
+      const double lowest = lowestBetween(h * static_cast<double>(before) / kMoments,
+                                          h * static_cast<double>(after) / kMoments, gapAt);
+      if (gapAt(lowest) < deep()) {
+        return lowest;
+      }
     }
   }
   return 0;

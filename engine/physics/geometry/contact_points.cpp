@@ -225,6 +225,8 @@ double accurateDot(const Vec3& a, const Vec3& b) {
 constexpr double kOffset = 8;
 // Normals count as different if their angle moves the thinnest part by this many touching tolerances.
 constexpr double kDifferent = 8;
+// Sine of half the angle of a cone below which it is one direction: rounding would decide on its middle.
+constexpr double kNarrow = 0x1p-27;
 // Squared sine below which a bound is parallel to an edge.
 constexpr double kAlongEdgeSquared = 0x1p-80;
 
@@ -330,7 +332,7 @@ std::optional<ContactPoints> pointsInCone(BoxAt a, BoxAt b, const BoxAxes& axes,
     edge = nullptr;  // all bounds are perpendicular to both
   }
   const NormalCone::Centre centre = coneOf(a, ofA, b, ofB, edge, *inside).centre();
-  if (!(centre.margin > 0)) {
+  if (!(centre.margin > kNarrow)) {
     return std::nullopt;
   }
   Manifold manifold(centre.direction, bToA, within, true);
