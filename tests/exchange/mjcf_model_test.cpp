@@ -54,12 +54,12 @@ TEST(MjcfModel, sitesAreInTheAxesOfTheirBox) {
 
 TEST(MjcfModel, aKeyFrameMovesBodiesNotTheirSprings) {
   const MjcfModel model = modelOf(kTwo + R"(<keyframe><key name="start" qpos="0 0 0 1 0 0 0  5 5 5 0 0 0 2"
-      qvel="1 2 3 0 0 4  0 0 0 0 0 1"/></keyframe><tendon><spatial><site site="on a"/><site site="on b"/></spatial></tendon>)");
+      qvel="1 2 3 0 0 4  0 0 0 1 0 0"/></keyframe><tendon><spatial><site site="on a"/><site site="on b"/></spatial></tendon>)");
   EXPECT_EQ(model.surfaces[0].frame.position, Vec3(1, 0, 0));
   EXPECT_EQ(model.surfaces[0].velocity, Vec3(1, 6, 3)) << "of the box, 1 m from the body's origin";
   EXPECT_EQ(model.surfaces[1].frame.position, Vec3(5, 5, 5));
   EXPECT_LT((model.surfaces[1].frame.turn * Vec3::UnitX() + Vec3::UnitX()).norm(), 1e-15);
-  EXPECT_EQ(model.surfaces[1].angularVelocity, Vec3(0, 0, 1));
+  EXPECT_LT((model.surfaces[1].angularVelocity + Vec3::UnitX()).norm(), 1e-15) << "half a turn about z";
   EXPECT_NEAR(model.springs[0].restLength, std::sqrt(65), 1e-14);
 }
 

@@ -90,4 +90,4 @@ def cover(still, other):
 if __name__ == "__main__":
     command, *arguments = sys.argv[sys.argv.index("--") + 1:]
     good = {"poses": poses, "cover": cover, "beginning": beginning}[command](*arguments)
-    sys.exit(1 if good is False else 0)
+    sys.exit(0 if good is None or good else 1)
