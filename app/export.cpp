@@ -13,6 +13,7 @@
 #include "exchange/export_glb.h"
 #include "exchange/export_mjcf.h"
 #include "run.h"
+#include "scene/scene_reader.h"
 #include "trajectory/export_csv.h"
 #include "trajectory/export_npz.h"
 
@@ -30,23 +31,29 @@ struct ExportOptions {
   AuditChoice audit;
 };
 
-enum class Format { kGlb, kMjcf, kNpz, kCsv };
+enum class Format { kGlb, kMjcf, kNpz, kCsv, kScene };
 
 Format formatOf(const ExportOptions& options) {
   const std::string suffix = options.output.extension().string();
-  if (suffix != ".glb" && suffix != ".xml" && suffix != ".npz" && suffix != ".csv") {
+  if (suffix != ".glb" && suffix != ".xml" && suffix != ".npz" && suffix != ".csv" && suffix != ".json") {
     throw InputError("--out: found '" + options.output.string() +
-                     "', expected a file that ends in .glb, .xml, .npz or .csv");
+                     "', expected a file that ends in .glb, .xml, .npz or .csv, or in .json for a model of "
+                     "MuJoCo as a scene");
   }
   const Format format = suffix == ".glb"   ? Format::kGlb
                         : suffix == ".xml" ? Format::kMjcf
                         : suffix == ".npz" ? Format::kNpz
-                                           : Format::kCsv;
+                        : suffix == ".csv" ? Format::kCsv
+                                           : Format::kScene;
+  if (format == Format::kScene && !isMujocoModel(options.source)) {
+    throw InputError("--out: found the scene file " + options.output.string() + " to be made of " +
+                     options.source.string() + ", expected a model of MuJoCo, .xml");
+  }
   if (options.within && format != Format::kGlb) {
     throw InputError("--within: found the file " + options.output.string() +
                      ", which has no keys; expected a .glb");
   }
-  if (options.every && (format == Format::kGlb || format == Format::kMjcf)) {
+  if (options.every && format != Format::kNpz && format != Format::kCsv) {
     throw InputError("--every: found the file " + options.output.string() +
                      ", which has no rows; expected a table");
   }
@@ -77,8 +84,20 @@ void writeMjcf(const ExportOptions& options, const Trajectory& run) {
   }
 }
 
+// Boxes may overlap, as in MuJoCo: whoever runs the scene decides what then.
+void writeScene(const ExportOptions& options) {
+  const auto [text, name] = sceneTextOf(options.source, readFile(options.source));
+  static_cast<void>(parseScene(text, name, Starts::kMayOverlap));
+  writeFile(options.output, text);
+}
+
 ExitCode exportCommand(const ExportOptions& options, const std::stop_token& stop) {
   const Format format = formatOf(options);
+  if (format == Format::kScene) {
+    writeScene(options);
+    std::cout << "written      " << printableName(options.output.string()) << '\n';
+    return ExitCode::kDone;
+  }
   Run run = loadRun(options.source, {}, options.scene, stop);
   auditRun(run, options.audit, stop);
   const double every = options.every.value_or(kUsualSampling);
@@ -98,6 +117,8 @@ ExitCode exportCommand(const ExportOptions& options, const std::stop_token& stop
       file.commit();
       break;
     }
+    case Format::kScene:
+      break;  // done above: it needs no run
   }
   std::cout << "written      " << printableName(options.output.string()) << '\n';
   return ExitCode::kDone;
@@ -108,11 +129,12 @@ ExitCode exportCommand(const ExportOptions& options, const std::stop_token& stop
 void addExport(const CommandLine& commandLine) {
   const CommandLine command = commandLine.addCommand("export", "A run as a file of other programs");
   const auto options = std::make_shared<ExportOptions>();
-  command.add("run", options->source, "Trajectory file, table of poses, or scene").required();
+  command.add("run", options->source, "Trajectory file, table of poses, scene, or model of MuJoCo (.xml)")
+      .required();
   command
       .add("--out", options->output,
            "The file: .glb (a film for Blender, three.js and viewers of glTF), .xml (its start, for MuJoCo), "
-           ".npz or .csv (tables of poses)")
+           ".npz or .csv (tables of poses); of a model of MuJoCo also .json (a scene)")
       .required();
   command.add("--within", options->within,
               "How far a .glb may be off between its keys, in m and rad (default: 1e-4)");

@@ -33,11 +33,12 @@ ExitCode infoCommand(std::filesystem::path path, const SceneOfTable& ofTable, co
   }
   const std::string bytes = readFile(path);
   if (!ofTable.path && !isRun(path)) {
-    if (looksLikeFamily(bytes)) {
+    if (!isMujocoModel(path) && looksLikeFamily(bytes)) {
       printFamily(Family(bytes, path.string()));
       return ExitCode::kDone;
     }
-    const Scene scene = parseScene(bytes, path.string());
+    const auto [text, name] = sceneTextOf(path, bytes);
+    const Scene scene = parseScene(text, name);
     printPlan(std::cout, scene.name, scene.boxes.size(), settingsOf(scene), plan(scene));
     return ExitCode::kDone;
   }
@@ -66,7 +67,8 @@ void addInfo(const CommandLine& commandLine) {
   };
   const auto arguments = std::make_shared<Arguments>();
   command.add("file", arguments->path,
-              "Scene, trajectory file or table of poses; the default scene if none is named");
+              "Scene (or model of MuJoCo, .xml), trajectory file or table of poses; the default scene if "
+              "none is named");
   arguments->scene.addTo(command);
   command.runs([arguments](const std::stop_token& stop) {
     return infoCommand(arguments->path, arguments->scene, stop);

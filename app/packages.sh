@@ -1,7 +1,7 @@
 # Sourced by app/demo and tests/run: the packages that the build needs on Debian 12, and functions to install and build.
 
 kBuildPackages=(g++ cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libcli11-dev libdeflate-dev
-  libzip-dev libstb-dev libosmesa6 libgl-dev libegl-dev libglfw3-dev fonts-dejavu-core)
+  libzip-dev libpugixml-dev libstb-dev libosmesa6 libgl-dev libegl-dev libglfw3-dev fonts-dejavu-core)
 
 # Installs those of the named packages that are missing, after listing them. It needs no network if none is missing.
 install_missing() {

@@ -12,11 +12,13 @@
 
 #include "command_line.h"
 #include "core/brief.h"
+#include "core/characters.h"
 #include "core/error.h"
 #include "core/math/arithmetic.h"
 #include "core/names.h"
 #include "core/system/file.h"
 #include "core/system/resource.h"
+#include "exchange/import_mjcf.h"
 #include "parsed.h"
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
@@ -112,11 +114,11 @@ void checkSteps(const Scene& scene, std::uint64_t limit) {
   }
 }
 
-Run simulateText(const std::filesystem::path& path, const std::string& text, const Overrides& overrides,
+Run simulateText(const std::filesystem::path& path, const std::string& bytes, const Overrides& overrides,
                  const std::stop_token& stop) {
   const DefaultFloatEnvironment usual;  // GL may be open in a window
-  Scene scene =
-      parseScene(text, path.string(), overrides.allowOverlap ? Starts::kMayOverlap : Starts::kApart);
+  const auto [text, name] = sceneTextOf(path, bytes);
+  Scene scene = parseScene(text, name, overrides.allowOverlap ? Starts::kMayOverlap : Starts::kApart);
   const Method method = scene.method;
   apply(overrides, scene);
   if (overrides.allowOverlap) {
@@ -291,6 +293,19 @@ void auditRun(Run& run, const AuditChoice& choice, const std::stop_token& stop) 
                        broken);
 }
 
+bool isMujocoModel(const std::filesystem::path& path) { return path.extension() == ".xml"; }
+
+SceneText sceneTextOf(const std::filesystem::path& path, const std::string& bytes) {
+  if (!isMujocoModel(path)) {
+    return {.text = bytes, .name = path.string()};
+  }
+  ImportedScene imported = importMjcf(bytes, path.string());
+  for (const std::string& each : imported.notes) {
+    std::cerr << "careen: " << printableName(path.string()) << ": " << printableName(each) << '\n';
+  }
+  return {.text = std::move(imported.text), .name = path.string() + " (its scene)"};
+}
+
 std::filesystem::path defaultScene() { return findResource("assets/scenes/careen.json"); }
 
 Run simulateScene(const std::filesystem::path& path, const Overrides& overrides,
@@ -300,7 +315,7 @@ Run simulateScene(const std::filesystem::path& path, const Overrides& overrides,
 
 bool isTable(const std::filesystem::path& path) {
   const std::string begin = beginningOf(path);
-  return !looksLikeTrajectory(begin) && looksLikePoseTable(begin, path.string());
+  return !isMujocoModel(path) && !looksLikeTrajectory(begin) && looksLikePoseTable(begin, path.string());
 }
 
 bool isRun(const std::filesystem::path& path) {
@@ -308,7 +323,8 @@ bool isRun(const std::filesystem::path& path) {
 }
 
 RunSetup setupOfScene(const std::filesystem::path& scene) {
-  Scene read = parseScene(readFile(scene), scene.string(), Starts::kMayOverlap);
+  const auto [text, name] = sceneTextOf(scene, readFile(scene));
+  Scene read = parseScene(text, name, Starts::kMayOverlap);
   read.method = Method::kExact;
   return setupOf(read);
 }
@@ -321,7 +337,7 @@ Trajectory readRun(const std::filesystem::path& path, const SceneOfTable& scene,
 Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const SceneOfTable& scene,
             const std::stop_token& stop) {
   const std::string bytes = readFile(path);
-  if (!looksLikeTrajectory(bytes) && !looksLikePoseTable(bytes, path.string())) {
+  if (isMujocoModel(path) || (!looksLikeTrajectory(bytes) && !looksLikePoseTable(bytes, path.string()))) {
     if (scene.path) {
       throw InputError("--scene: found the scene " + path.string() + " to be run, expected a table of poses");
     }

@@ -78,6 +78,18 @@ struct Overrides {
   const char* given() const;
 };
 
+/// A scene's text, and its name in messages.
+struct SceneText {
+  std::string text;
+  std::string name;
+};
+
+/// The scene that a file has: its bytes, or, of a model of MuJoCo (.xml), the scene that it is; what was left
+/// out is told on standard error.
+SceneText sceneTextOf(const std::filesystem::path& path, const std::string& bytes);
+/// Whether the file is a model of MuJoCo, by its name.
+bool isMujocoModel(const std::filesystem::path& path);
+
 /// The default scene of all commands.
 std::filesystem::path defaultScene();
 

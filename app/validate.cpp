@@ -115,7 +115,8 @@ void print(const Toss& toss, double size) {
 ExitCode validateCommand(const ValidateOptions& options, const std::stop_token& stop) {
   const std::optional<Sweep> sweep =
       options.sweep.empty() ? std::nullopt : std::optional(sweepOf(options.sweep));
-  const Scene scene = parseScene(readFile(options.scene), options.scene.string(), Starts::kMayOverlap);
+  const auto [text, name] = sceneTextOf(options.scene, readFile(options.scene));
+  const Scene scene = parseScene(text, name, Starts::kMayOverlap);
   const std::vector<PoseTable> measured = readMeasured(options.measured);
   if (!options.noPlots) {
     checkPlotter();

@@ -272,6 +272,7 @@ TEST(Structure, foreignHeadersStayWhereTheyBelong) {
        {"scene", "study", "compare", "film", "exchange", "truth", "sweep", "library", "app"}},
       {std::regex("^CLI/.*"), {"app"}, "command_line"},
       {std::regex(R"(^zip\.h)"), {"trajectory"}, "zip_archive"},
+      {std::regex("^pugixml.*"), {"exchange"}, "xml_tree"},
       {std::regex("^(bt[A-Z]|Bullet|LinearMath/).*"), {"study"}, "peer_bullet"},
       {std::regex("^ode/.*"), {"study"}, "peer_ode"},
   };

@@ -32,6 +32,15 @@ void appendChunk(std::string& bytes, std::uint32_t type, const std::string& chun
 
 }  // namespace
 
+std::array<float, 3> floatsOf(const Vec3& value) {
+  return {static_cast<float>(value.x()), static_cast<float>(value.y()), static_cast<float>(value.z())};
+}
+
+std::array<float, 4> floatsOf(const Quat& value) {
+  return {static_cast<float>(value.x()), static_cast<float>(value.y()), static_cast<float>(value.z()),
+          static_cast<float>(value.w())};
+}
+
 std::size_t GltfBuffer::addView(std::size_t offset, int target) {
   views_.push_back({.offset = offset, .length = bytes_.size() - offset, .target = target});
   pad(bytes_, '\0');

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -7,7 +8,18 @@
 #include <string>
 #include <vector>
 
+#include "core/math/linear_algebra.h"
+
 namespace careen {
+
+/// In single precision; quaternions as x y z w, as glTF has them.
+std::array<float, 3> floatsOf(const Vec3& value);
+std::array<float, 4> floatsOf(const Quat& value);
+template <class Value>
+void appendFloats(std::vector<float>& numbers, const Value& value) {
+  const auto floats = floatsOf(value);
+  numbers.insert(numbers.end(), floats.begin(), floats.end());
+}
 
 /// The binary part of a glTF 2.0 file, with its views and accessors.
 class GltfBuffer {

@@ -236,8 +236,10 @@ JsonTree::JsonTree(std::string text, std::string name) : text_(std::move(text)),
   Json::sax_parse(text_, &builder, Json::input_format_t::json, true, true);
 }
 
-std::string JsonTree::place(std::size_t offset) const {
-  const std::string_view before = std::string_view(text_).substr(0, offset);
+std::string JsonTree::place(std::size_t offset) const { return placeIn(text_, offset); }
+
+std::string placeIn(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   std::string_view inLine = before.substr(before.rfind('\n') + 1);
   if (line == 1 && inLine.starts_with(kByteOrderMark)) {

@@ -48,6 +48,8 @@ class JsonTree {
   JsonNode root_;
 };
 
+/// A place in a text as "3:14": line and column, which count from 1; columns in characters.
+std::string placeIn(std::string_view text, std::size_t offset);
 /// Description of a value for messages: "null", "true", "-1.5", "\"crate\"", "an array of 2", "an object".
 std::string describe(const JsonNode& node);
 /// Text in quotes for a message: cut if long, control characters replaced.

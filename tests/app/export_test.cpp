@@ -61,6 +61,80 @@ TEST_F(Export, tellsWhatMjcfCannotSay) {
   EXPECT_NE(refusal({"run.careen", "--out", "f.xml", "--every", "1"}).find("--every"), std::string::npos);
 }
 
+const std::string kModel = R"(<mujoco model="model">
+  <option timestep="0.01"/>
+  <worldbody>
+    <geom name="floor" type="plane" size="0 0 1"/>
+    <body name="die" pos="0 0 0.3"><freejoint/><geom type="box" size="0.05 0.05 0.05"/></body>
+  </worldbody>
+</mujoco>
+)";
+
+TEST_F(Export, takesModelsOfMujocoWhereverScenesAre) {
+  folder_.write("model.xml", kModel);
+  const Ended ended = careen({"export", "model.xml", "--out", "model.json"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.out.find("written      model.json"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.err.find("careen: model.xml: MJCF has no restitution: 0\n"), std::string::npos)
+      << ended.err;
+  EXPECT_NE(ended.err.find("careen: model.xml: ignored: option timestep\n"), std::string::npos) << ended.err;
+  const auto hashOf = [this](const std::string& file) {
+    const Ended run = careen({"simulate", file, "-o", "of.careen", "--duration", "1"});
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    const std::size_t at = run.out.find("state hash");
+    EXPECT_NE(at, std::string::npos) << run.out;
+    return run.out.substr(at, 29);
+  };
+  EXPECT_EQ(hashOf("model.xml"), hashOf("model.json"));
+  EXPECT_NE(careen({"info", "model.xml"}).out.find("scene        model, 1 box, 10 s by exact"),
+            std::string::npos);
+  EXPECT_EQ(careen({"export", "model.xml", "--out", "model.glb"}).exitCode, 0);
+  // A table of poses has its scene in it as well.
+  EXPECT_EQ(careen({"export", "expected.csv", "--scene", "model.xml", "--out", "b.glb"}).exitCode, 0);
+}
+
+TEST_F(Export, refusesModelsThatAreNoScenes) {
+  const auto refused = [this](const std::string& text, const std::string& message) {
+    folder_.write("model.xml", text);
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"export", "model.xml", "--out", "m.json"},
+          {"simulate", "model.xml", "-o", "m.careen"},
+          {"info", "model.xml"}}) {
+      const std::vector<std::string> before = folder_.files();
+      const Ended ended = careen(command);
+      EXPECT_EQ(ended.exitCode, 2) << ended.out;
+      EXPECT_NE(ended.err.find(message), std::string::npos) << ended.err;
+      EXPECT_EQ(folder_.files(), before);
+    }
+  };
+  std::string ball = kModel;
+  ball.replace(ball.find("box"), 3, "sphere");
+  refused(ball, "model.xml:5:54: found a <geom> of type \"sphere\", expected type=\"box\" or type=\"plane\"");
+  refused(kModel.substr(0, 200), "model.xml:5:");
+  refused("", "model.xml:1:1: found no document element found");
+  refused(std::string("PK\3\4\0\0", 6), "model.xml:1:5: found a zero byte, expected XML text");
+  refused("time,box,x\n", "model.xml:");
+  std::string deep;
+  for (int i = 0; i < 1'000'000; ++i) {
+    deep += "<body>";
+  }
+  refused("<mujoco><worldbody>" + deep, "expected well-formed XML");
+  refused(std::string(100'000'000, '<'), "found 100000000 bytes of XML, expected at most 67108864");
+  // Of a scene from another place the message says so.
+  std::string low = kModel;
+  low.replace(low.find("0 0 0.3"), 7, "0 0 -1.");
+  folder_.write("model.xml", low);
+  const Ended ended = careen({"simulate", "model.xml", "-o", "m.careen"});
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_NE(ended.err.find("model.xml (its scene):"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("behind wall \"floor\""), std::string::npos) << ended.err;
+  EXPECT_NE(refusal({"run.careen", "--out", "m.json"}).find("run.careen, expected a model of MuJoCo, .xml"),
+            std::string::npos);
+  EXPECT_NE(refusal({"model.xml", "--out", "m.json", "--every", "1"}).find("--every"), std::string::npos);
+  EXPECT_NE(refusal({"model.xml", "--out", "m.json", "--within", "1"}).find("--within"), std::string::npos);
+  EXPECT_NE(refusal({"model.xml", "--out", "model.xml"}).find("--out"), std::string::npos);
+}
+
 TEST_F(Export, takesScenesAndTablesToo) {
   EXPECT_EQ(careen({"export", "scene.json", "--out", "a.glb"}).exitCode, 0);
   EXPECT_EQ(careen({"export", "expected.csv", "--scene", "scene.json", "--out", "b.glb"}).exitCode, 0);
@@ -100,6 +174,12 @@ TEST_F(Export, aFullDiskLeavesTheOldFileWhole) {
   const Ended full = Process({"bash", "-c", limited}, folder_.path()).wait();
   EXPECT_NE(full.exitCode, 0);
   EXPECT_EQ(textOf(folder_ / "film.glb"), "old");
+  folder_.write("model.xml", kModel);
+  folder_.write("scene.json", "old");
+  const std::string none = "ulimit -f 0; exec " + program() + " export model.xml --out scene.json";
+  EXPECT_NE(Process({"bash", "-c", none}, folder_.path()).wait().exitCode, 0);
+  EXPECT_EQ(textOf(folder_ / "scene.json"), "old");
+  EXPECT_EQ(careen({"export", "model.xml", "--out", "nowhere/scene.json"}).exitCode, 3);
 }
 
 }  // namespace

@@ -2,64 +2,18 @@
 #include "exchange/export_mjcf.h"
 
 #include <gtest/gtest.h>
-#include <mujoco/mujoco.h>
 
 #include <array>
 #include <cmath>
-#include <memory>
 #include <string>
 
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
-#include "support/process.h"
+#include "support/in_mujoco.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {
 namespace {
-
-struct DeleteModel {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DeleteData {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-
-/// A model at its key frame "start".
-class InMujoco {
- public:
-  explicit InMujoco(const std::string& text) {
-    const TemporaryFolder folder;
-    folder.write("scene.xml", text);
-    std::array<char, 1000> error{};
-    model.reset(
-        mj_loadXML((folder / "scene.xml").c_str(), nullptr, error.data(), static_cast<int>(error.size())));
-    if (!model) {
-      throw std::runtime_error(std::string(error.data()) + "\n" + text);
-    }
-    data.reset(mj_makeData(model.get()));
-    mj_resetDataKeyframe(model.get(), data.get(), mj_name2id(model.get(), mjOBJ_KEY, "start"));
-  }
-  int body(const std::string& name) const { return mj_name2id(model.get(), mjOBJ_BODY, name.c_str()); }
-  Vec3 position(const std::string& name) const {
-    const mjtNum* const at = data->xpos + 3 * body(name);
-    return {at[0], at[1], at[2]};
-  }
-  Mat3 attitude(const std::string& name) const {
-    const mjtNum* const m = data->xmat + 9 * body(name);
-    Mat3 turn;
-    turn << m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8];
-    return turn;
-  }
-  void stepTo(double time) {
-    while (data->time < time - 1e-9) {
-      mj_step(model.get(), data.get());
-    }
-    mj_kinematics(model.get(), data.get());
-  }
-
-  std::unique_ptr<mjModel, DeleteModel> model;
-  std::unique_ptr<mjData, DeleteData> data;
-};
 
 RunSetup setupOfText(const std::string& text) { return setupOf(parseScene(text, "test")); }
 

@@ -25,6 +25,13 @@ TEST(GltfBuffer, packsWhatTheSpecificationAsksFor) {
   EXPECT_EQ(glb.floats(2), (std::vector<float>{0, 0.5F}));
 }
 
+TEST(GltfBuffer, quaternionsEndWithTheirScalar) {
+  std::vector<float> numbers;
+  appendFloats(numbers, Vec3(1, 2, 3));
+  appendFloats(numbers, Quat(0.5, -0.5, 0.25, 0.125));
+  EXPECT_EQ(numbers, (std::vector<float>{1, 2, 3, -0.5F, 0.25F, 0.125F, 0.5F}));
+}
+
 TEST(GltfBuffer, keepsAFileWholeWhoseNamesAreNoText) {
   GltfBuffer buffer;
   buffer.addFloats(GltfBuffer::Kind::kScalar, {0}, true);

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/math/linear_algebra.h"
+#include "exchange/mjcf_document.h"
+
+namespace careen {
+
+/// What a <geom> says once the defaults of its class are in it. Those here are MuJoCo's own.
+struct MjcfGeom {
+  const XmlElement* element = nullptr;
+  std::string name;
+  std::string type = "sphere";
+  std::vector<double> size;                    ///< [m]
+  Vec3 position = Vec3::Zero();                ///< [m] in its body
+  Quat turn = Quat::Identity();                ///< its body from it
+  std::optional<double> mass;                  ///< [kg]
+  double density = 1000;                       ///< [kg/m³] if there is no mass
+  double friction = 1;                         ///< [1] sliding
+  int condim = 3;                              ///< dimension of contact forces: 1 is without friction
+  int contype = 1;                             ///< bits: what it is
+  int conaffinity = 1;                         ///< bits: what it collides with
+  int priority = 0;                            ///< the contact takes after the geom with the larger one
+  std::optional<std::array<double, 3>> color;  ///< [1] red, green, blue in sRGB
+};
+
+/// What the joint of a free body says likewise.
+struct MjcfFreeJoint {
+  bool isFree = true;
+  std::string type = "free";
+  double damping = 0;  ///< [N s/m, N m s]
+};
+
+/// The classes of <default>, each with the settings of those above it.
+class MjcfDefaults {
+ public:
+  explicit MjcfDefaults(MjcfDocument& document);
+
+  /// The class that an element names, else that of its body; InputError if there is none of that name.
+  const std::string& classOf(const XmlElement& element, std::string_view attribute,
+                             const std::string& whenAbsent) const;
+  MjcfGeom geom(const XmlElement& element, const std::string& ofBody) const;
+  /// <joint> or <freejoint>; the latter takes no defaults.
+  MjcfFreeJoint joint(const XmlElement& element, const std::string& ofBody) const;
+
+  static const std::string kMain;
+
+ private:
+  struct Class {
+    MjcfGeom geom;
+    MjcfFreeJoint joint;
+  };
+  void read(const XmlElement& element, const Class& above, bool isTop);
+  void readMaterials();
+  void apply(const XmlElement& element, MjcfGeom& geom) const;
+  void apply(const XmlElement& element, MjcfFreeJoint& joint) const;
+
+  MjcfDocument& document_;
+  std::map<std::string, Class> classes_;
+  std::map<std::string, std::array<double, 3>> materials_;  // colours
+};
+
+}  // namespace careen

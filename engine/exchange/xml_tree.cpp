@@ -1,0 +1,103 @@
+#include "exchange/xml_tree.h"
+
+#include <algorithm>
+#include <pugixml.hpp>
+#include <utility>
+
+#include "core/brief.h"
+#include "core/error.h"
+#include "scene/json_tree.h"
+
+namespace careen {
+namespace {
+
+constexpr std::string_view kXmlBlanks = " \t\r\n";
+
+// pugixml knows where elements begin. It has found them to be whole, so that their attributes are names, an
+// equals sign and a value in quotes.
+class ElementReader {
+ public:
+  ElementReader(const XmlTree& tree, std::string_view text) : tree_(tree), text_(text) {}
+
+  XmlElement element(const pugi::xml_node& node, int depth) const {
+    XmlElement read{.name = node.name(),
+                    .offset = static_cast<std::size_t>(node.offset_debug()),
+                    .attributes = {},
+                    .children = {}};
+    if (depth > kDeepestXml) {
+      tree_.fail(read.offset, "elements nested deeper than " + std::to_string(kDeepestXml), "a flatter file");
+    }
+    std::size_t at = read.offset + read.name.size();
+    for (const pugi::xml_attribute& attribute : node.attributes()) {
+      at = text_.find_first_not_of(kXmlBlanks, at);
+      if (const XmlAttribute* const first = read.find(attribute.name()); first != nullptr) {
+        tree_.fail(at, "the attribute " + first->name + " again",
+                   "each once; it stands at " + tree_.place(first->offset) + " already");
+      }
+      read.attributes.push_back({.name = attribute.name(), .value = attribute.value(), .offset = at});
+      const std::size_t open = text_.find_first_of("\"'", at);
+      at = text_.find(text_[open], open + 1) + 1;
+    }
+    for (const pugi::xml_node& child : node.children()) {
+      if (child.type() == pugi::node_element) {
+        read.children.push_back(element(child, depth + 1));
+      }
+    }
+    return read;
+  }
+
+ private:
+  const XmlTree& tree_;
+  std::string_view text_;
+};
+
+}  // namespace
+
+const XmlAttribute* XmlElement::find(std::string_view attribute) const {
+  const auto found = std::find_if(attributes.begin(), attributes.end(),
+                                  [attribute](const XmlAttribute& each) { return each.name == attribute; });
+  return found == attributes.end() ? nullptr : &*found;
+}
+
+std::string XmlElement::text(std::string_view attribute) const {
+  const XmlAttribute* const found = find(attribute);
+  return found == nullptr ? std::string() : found->value;
+}
+
+XmlTree::XmlTree(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
+  if (text_.size() > kMostXmlBytes) {
+    throw InputError(name_ + ": found " + std::to_string(text_.size()) + " bytes of XML, expected at most " +
+                     std::to_string(kMostXmlBytes));
+  }
+  // The parser would take a zero byte for the end of the text.
+  if (const std::size_t zero = text_.find('\0'); zero != std::string::npos) {
+    fail(zero, "a zero byte", "XML text");
+  }
+  pugi::xml_document document;
+  const pugi::xml_parse_result result = document.load_buffer(
+      text_.data(), text_.size(), pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
+  if (!result) {
+    std::string why = result.description();
+    why.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(why.front())));
+    fail(std::min(static_cast<std::size_t>(result.offset), text_.size()), why, "well-formed XML");
+  }
+  const pugi::xml_node root = document.document_element();
+  for (const pugi::xml_node& child : document.children()) {
+    if (child.type() == pugi::node_doctype) {
+      fail(text_.find("<!DOCTYPE"), "a document type", "none: no entity is expanded");
+    }
+    if (child.type() == pugi::node_element && child != root) {
+      fail(static_cast<std::size_t>(child.offset_debug()),
+           "a second element <" + std::string(child.name()) + ">", "the end of the file");
+    }
+  }
+  root_ = ElementReader(*this, text_).element(root, 1);
+}
+
+std::string XmlTree::place(std::size_t offset) const { return placeIn(text_, offset); }
+
+void XmlTree::fail(std::size_t offset, const std::string& found, const std::string& expected) const {
+  throw InputError(name_ + ":" + place(offset) + ": found " + found + ", expected " + expected);
+}
+
+}  // namespace careen
