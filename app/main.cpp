@@ -69,7 +69,11 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   addExport(commandLine);
   addHelp(commandLine);
   addInfo(commandLine);
+#ifdef CAREEN_RENDER
+  addSweep(commandLine, drawFilmOfRun);
+#else
   addSweep(commandLine);
+#endif
   addTruth(commandLine);
   addValidate(commandLine);
   addVerify(commandLine);

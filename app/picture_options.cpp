@@ -1,16 +1,12 @@
 #include "picture_options.h"
 
-#include <tuple>
-#include <utility>
-
 #include "command_line.h"
 #include "parsed.h"
-#include "picture_size.h"
 
 namespace careen {
+
 void PictureOptions::addTo(const CommandLine& command) {
-  command.add("--size", size, "WIDTHxHEIGHT in place of the scene's [px]");
-  command.add("--fps", rate, "Frames per second in place of the scene's, such as 25 or 24000/1001");
+  SizeAndRate::addTo(command);
   command.add("--shutter", shutter,
               "Motion blur in place of the scene's: how long the shutter is open, 360 from frame to "
               "frame, and how many moments are averaged, such as 180:8; 0: none");
@@ -29,12 +25,7 @@ void PictureOptions::addTo(const CommandLine& command) {
 }
 
 void PictureOptions::applyTo(PictureSettings& picture) const {
-  if (size) {
-    std::tie(picture.width, picture.height) = parseSize(*size);
-  }
-  if (rate) {
-    picture.rate = parsed("--fps", *rate, parseFrameRate);
-  }
+  SizeAndRate::applyTo(picture);
   if (shutter) {
     picture.shutter = parsed("--shutter", *shutter, parseShutter);
   }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "picture_size.h"
 #include "render/gl/rendering_backend.h"
 #include "stage/picture_settings.h"
 
@@ -12,9 +13,7 @@ namespace careen {
 class CommandLine;
 
 /// Command-line options that override the scene's picture settings, and the rendering backend.
-struct PictureOptions {
-  std::optional<std::string> size;
-  std::optional<std::string> rate;
+struct PictureOptions : SizeAndRate {
   std::optional<std::string> shutter;
   std::optional<std::string> overlays;
   std::optional<std::string> look;

@@ -1,9 +1,11 @@
 #include "picture_size.h"
 
 #include <charconv>
+#include <tuple>
 
+#include "command_line.h"
 #include "core/error.h"
-#include "stage/picture_settings.h"
+#include "parsed.h"
 
 namespace careen {
 
@@ -21,6 +23,20 @@ std::pair<int, int> parseSize(const std::string& text) {
   }
   throw InputError("--size: found '" + text + "', expected WIDTHxHEIGHT, each from 1 to " +
                    std::to_string(kLargestFilm) + ", such as 1280x720");
+}
+
+void SizeAndRate::addTo(const CommandLine& command) {
+  command.add("--size", size, "WIDTHxHEIGHT in place of the scene's [px]");
+  command.add("--fps", rate, "Frames per second in place of the scene's, such as 25 or 24000/1001");
+}
+
+void SizeAndRate::applyTo(PictureSettings& picture) const {
+  if (size) {
+    std::tie(picture.width, picture.height) = parseSize(*size);
+  }
+  if (rate) {
+    picture.rate = parsed("--fps", *rate, parseFrameRate);
+  }
 }
 
 }  // namespace careen

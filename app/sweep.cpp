@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "commands.h"
 #include "core/brief.h"
@@ -14,9 +15,13 @@
 #include "core/system/file.h"
 #include "core/system/processor.h"
 #include "core/system/shared_work.h"
+#include "film/frame_range.h"
 #include "parsed.h"
+#include "picture_size.h"
 #include "run.h"
 #include "sweep/sweep.h"
+#include "trajectory/trajectory.h"
+#include "truth/truth_film.h"
 
 namespace careen {
 namespace {
@@ -27,12 +32,58 @@ struct SweepOptions {
   std::string runs = "0-99";
   std::string share;
   std::string keep;
+  bool film = false;
+  std::optional<std::string> truth;
+  std::string frames;
+  SizeAndRate picture;
   std::optional<int> jobs;
   bool resume = false;
   AuditChoice audit;
 };
 
-SweepSettings settingsOf(const SweepOptions& options) {
+// Films and labels of single runs, in one folder for each.
+void addFiles(SweepSettings& settings, const SweepOptions& options, const DrawFilm& drawFilm) {
+  if (!options.film && !options.truth) {
+    const char* const given = options.picture.size      ? "--size"
+                              : options.picture.rate    ? "--fps"
+                              : !options.frames.empty() ? "--frames"
+                                                        : nullptr;
+    if (given != nullptr) {
+      throw InputError(std::string(given) + ": found no frames that it is for, expected " +
+                       (drawFilm ? "--film or --truth" : "--truth") + " too");
+    }
+    return;
+  }
+  PictureSettings checked;
+  options.picture.applyTo(checked);
+  const std::vector<FrameRange> frames =
+      options.frames.empty() ? std::vector<FrameRange>() : parseFrameRanges(options.frames);
+  TruthSettings truth{.folder = {}, .frames = frames, .channels = {}, .program = settings.program};
+  if (options.film) {
+    settings.written.emplace_back("film", "yes");
+  }
+  if (options.truth) {
+    truth.channels = parsed("--truth", *options.truth, channelsNamed);
+    settings.written.emplace_back("truth", truth.channels.text());
+  }
+  settings.written.emplace_back("size", options.picture.size.value_or("of the family"));
+  settings.written.emplace_back("fps", options.picture.rate.value_or("of the family"));
+  settings.written.emplace_back("frames", options.frames.empty() ? "all" : options.frames);
+  settings.writeRun = [options, drawFilm, truth, frames](Trajectory& run, const std::filesystem::path& folder,
+                                                         const std::stop_token& stop) {
+    options.picture.applyTo(run.stage.picture);
+    if (options.film) {
+      drawFilm(run, folder, frames, stop);
+    }
+    if (options.truth) {
+      TruthSettings here = truth;
+      here.folder = folder;
+      writeTruth(run, here, {}, stop);
+    }
+  };
+}
+
+SweepSettings settingsOf(const SweepOptions& options, const DrawFilm& drawFilm) {
   SweepSettings settings;
   settings.folder =
       options.folder.empty() ? std::filesystem::path("out") / options.family.stem() : options.folder;
@@ -49,6 +100,7 @@ SweepSettings settingsOf(const SweepOptions& options) {
   settings.keepRuns = !options.keep.empty();
   settings.audit = options.audit.auditDepth();
   settings.program = "careen " CAREEN_VERSION;
+  addFiles(settings, options, drawFilm);
   return settings;
 }
 
@@ -72,8 +124,8 @@ class SweepReport {
   double toldAt_ = 0;  // [s]
 };
 
-ExitCode sweepCommand(const SweepOptions& options, const std::stop_token& stop) {
-  const SweepSettings settings = settingsOf(options);
+ExitCode sweepCommand(const SweepOptions& options, const DrawFilm& drawFilm, const std::stop_token& stop) {
+  const SweepSettings settings = settingsOf(options, drawFilm);
   const std::string text = readFile(options.family);
   const Family family(text, options.family.string());
   const Stopwatch stopwatch;
@@ -93,6 +145,9 @@ ExitCode sweepCommand(const SweepOptions& options, const std::stop_token& stop) 
     std::cout << ": " << figures.rows << " rows";
   }
   std::cout << '\n';
+  if (settings.writeRun) {
+    std::cout << "files        " << folder << "/runs: a folder for each run\n";
+  }
   if (figures.broken > 0) {
     std::cerr << "careen: " << figures.broken
               << " rows of the table are of runs that break a promise of their method "
@@ -103,7 +158,7 @@ ExitCode sweepCommand(const SweepOptions& options, const std::stop_token& stop) 
 
 }  // namespace
 
-void addSweep(const CommandLine& commandLine) {
+void addSweep(const CommandLine& commandLine, const DrawFilm& drawFilm) {
   const CommandLine command =
       commandLine.addCommand("sweep", "Many runs of a family: a scene whose numbers may be distributions");
   const auto options = std::make_shared<SweepOptions>();
@@ -119,9 +174,19 @@ void addSweep(const CommandLine& commandLine) {
       .excludes(share);
   command.add("--keep", options->keep, "runs: each run's trajectory too, as runs/0000017.careen")
       .oneOf({"runs"});
+  if (drawFilm) {
+    command.addFlag("--film", options->film,
+                    "Each run's film too, as by 'careen render', in a folder such as runs/0000017");
+  }
+  command.add("--truth", options->truth,
+              "Labels of every pixel of each run's frames, as by 'careen truth': all, or names such as "
+              "depth,instance,flow");
+  command.add("--frames", options->frames, "Which frames of each run, such as 0-119,200:2 (default: all)");
+  options->picture.addTo(command);
   command.add("--jobs", options->jobs, "Processes (default: one for each core)");
   options->audit.addTo(command);
-  command.runs([options](const std::stop_token& stop) { return sweepCommand(*options, stop); });
+  command.runs(
+      [options, drawFilm](const std::stop_token& stop) { return sweepCommand(*options, drawFilm, stop); });
 }
 
 }  // namespace careen

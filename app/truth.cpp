@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
 
 #include "commands.h"
 #include "core/characters.h"
@@ -27,21 +26,11 @@ struct TruthOptions {
   std::filesystem::path folder;
   std::string channels = "all";
   std::string frames;
-  std::optional<std::string> size;
-  std::optional<std::string> rate;
+  SizeAndRate picture;
   std::optional<int> jobs;
   SceneOfTable scene;
   AuditChoice audit;
 };
-
-void applyTo(PictureSettings& picture, const TruthOptions& options) {
-  if (options.size) {
-    std::tie(picture.width, picture.height) = parseSize(*options.size);
-  }
-  if (options.rate) {
-    picture.rate = parsed("--fps", *options.rate, parseFrameRate);
-  }
-}
 
 ExitCode truthCommand(TruthOptions options, const std::stop_token& stop) {
   if (options.source.empty()) {
@@ -61,11 +50,11 @@ ExitCode truthCommand(TruthOptions options, const std::stop_token& stop) {
                      std::to_string(kMostProcesses));
   }
   PictureSettings checked;
-  applyTo(checked, options);
+  options.picture.applyTo(checked);
   Run run = loadRun(options.source, {}, options.scene, stop);
   auditRun(run, options.audit, stop);
   PictureSettings& picture = run.trajectory.stage.picture;
-  applyTo(picture, options);
+  options.picture.applyTo(picture);
   const Stopwatch stopwatch;
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const std::int64_t frames = writeTruth(
@@ -97,8 +86,7 @@ void addTruth(const CommandLine& commandLine) {
               "Names with commas between, of: depth, distance, instance, face, normal, coordinates, flow, "
               "visibility (default: all)");
   command.add("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
-  command.add("--size", options->size, "WIDTHxHEIGHT in place of the scene's [px]");
-  command.add("--fps", options->rate, "Frames per second in place of the scene's");
+  options->picture.addTo(command);
   command.add("--jobs", options->jobs,
               "Frames at once, each in a process of its own (default: one for each core)");
   options->audit.addTo(command);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/system/cleanup.h"
-#include "film/folder_lock.h"
+#include "core/system/folder_lock.h"
 #include "film/manifest.h"
 
 namespace careen {

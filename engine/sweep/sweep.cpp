@@ -10,10 +10,12 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/system/atomic_folder.h"
 #include "core/system/file.h"
 #include "core/system/shared_work.h"
 #include "scene/plan.h"
 #include "sweep/outcome_rows.h"
+#include "sweep/sweep_folder.h"
 #include "trajectory/trajectory.h"
 #include "trajectory/trajectory_file.h"
 
@@ -40,81 +42,62 @@ std::string padded(std::int64_t number) {
   return std::string(kDigits - std::min(kDigits, digits.size()), '0') + digits;
 }
 
+fs::path runFolder(const SweepSettings& settings, std::int64_t run) {
+  return settings.folder / "runs" / padded(run);
+}
+
 /// The blocks of a sweep and their files.
 class Blocks {
  public:
-  explicit Blocks(const SweepSettings& settings) : settings_(settings), range_(settings.runs) {}
+  explicit Blocks(const SweepSettings& settings)
+      : settings_(settings), range_(settings.runs), most_(settings.writeRun ? 1 : kRunsOfBlock) {}
 
-  std::int64_t count() const { return (runs() + kRunsOfBlock - 1) / kRunsOfBlock; }
+  std::int64_t count() const { return (runs() + most_ - 1) / most_; }
   std::int64_t runs() const { return range_.last - range_.first + 1; }
   RunRange range(std::int64_t block) const {
-    const std::int64_t first = range_.first + block * kRunsOfBlock;
-    return {.first = first, .last = std::min(range_.last, first + kRunsOfBlock - 1)};
+    const std::int64_t first = range_.first + block * most_;
+    return {.first = first, .last = std::min(range_.last, first + most_ - 1)};
   }
   std::int64_t size(std::int64_t block) const { return range(block).last - range(block).first + 1; }
-  fs::path folder() const { return settings_.folder / "rows"; }
   fs::path file(std::int64_t block) const {
-    return folder() / (padded(range(block).first) + "-" + padded(range(block).last) + ".csv");
+    return settings_.folder / "rows" /
+           (padded(range(block).first) + "-" + padded(range(block).last) + ".csv");
   }
   bool isThere(std::int64_t block) const {
     std::error_code none;
-    return fs::exists(file(block), none);
+    // With files of its own a run is a block.
+    return fs::exists(file(block), none) &&
+           (!settings_.writeRun || fs::exists(runFolder(settings_, range(block).first), none));
   }
   bool isOurs(std::int64_t block) const { return block % settings_.share.count == settings_.share.index; }
 
  private:
   const SweepSettings& settings_;
   RunRange range_;
+  std::int64_t most_;
 };
-
-void makeFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw MachineError(folder.string() + ": cannot be created: " + error.message());
-  }
-}
 
 std::string manifestOf(const std::string& familyText, const SweepSettings& settings) {
   Hash hash;
   hash.add(familyText);
-  const nlohmann::ordered_json manifest = {
+  nlohmann::ordered_json manifest = {
       {"program", settings.program},
       {"family_hash", hash.text()},
       {"runs", std::to_string(settings.runs.first) + "-" + std::to_string(settings.runs.last)},
       {"audit", std::string(kAuditDepthNames.at(static_cast<std::size_t>(settings.audit)))}};
+  if (settings.keepRuns) {
+    manifest["keep"] = "runs";
+  }
+  for (const auto& [name, what] : settings.written) {
+    manifest[name] = what;
+  }
   return manifest.dump(2) + "\n";
 }
 
-// What an earlier sweep left there is kept only if it is the same one.
-void openFolder(const std::string& manifest, const SweepSettings& settings, const Blocks& blocks) {
-  std::error_code none;
-  const fs::path file = settings.folder / "sweep.json";
-  const bool isThere = fs::exists(file, none);
-  if (settings.resume || settings.share.count > 1) {
-    if (isThere && readFile(file) != manifest) {
-      throw InputError(
-          settings.folder.string() +
-          ": holds another sweep (sweep.json: family, runs, audit or version differ), expected the same "
-          "one or another --out");
-    }
-  } else if (isThere) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(blocks.folder(), none)) {
-      if (entry.path().extension() == ".csv") {
-        fs::remove(entry.path(), none);
-      }
-    }
-    fs::remove(settings.folder / "table.csv", none);
-    fs::remove(settings.folder / "table.npz", none);
-  } else if (fs::exists(settings.folder, none) && !fs::is_empty(settings.folder, none)) {
-    throw InputError(settings.folder.string() +
-                     ": holds other files, expected an empty folder or that of a sweep");
-  }
-  makeFolder(blocks.folder());
-  if (settings.keepRuns) {
-    makeFolder(settings.folder / "runs");
-  }
-  writeFile(file, manifest);
+SweepOpening openingOf(const SweepSettings& settings) {
+  return settings.share.count > 1 ? SweepOpening::kShared
+         : settings.resume        ? SweepOpening::kResumed
+                                  : SweepOpening::kAnew;
 }
 
 std::string simulateBlock(const Family& family, const RunRange& range, const SweepSettings& settings,
@@ -124,10 +107,15 @@ std::string simulateBlock(const Family& family, const RunRange& range, const Swe
     const auto run = static_cast<std::uint64_t>(k);
     const Family::Member member = family.member(run);
     try {
-      const Trajectory trajectory = record(setupOf(member.scene), stop);
+      Trajectory trajectory = record(setupOf(member.scene), stop);
       rows += outcomeRows(run, member, trajectory, audit(trajectory, settings.audit, stop));
       if (settings.keepRuns) {
         writeFile(settings.folder / "runs" / (padded(k) + ".careen"), encodeTrajectory(trajectory));
+      }
+      if (settings.writeRun) {
+        AtomicFolder folder(runFolder(settings, k));
+        settings.writeRun(trajectory, folder.path(), stop);
+        folder.commit();
       }
     } catch (const Error& error) {
       throw Error(error.code(), family.name() + " (run " + std::to_string(k) + "): " + error.what());
@@ -136,18 +124,18 @@ std::string simulateBlock(const Family& family, const RunRange& range, const Swe
   return rows;
 }
 
-SweepFigures join(const Family& family, const SweepSettings& settings, const Blocks& blocks,
+SweepFigures join(const Family& family, const SweepFolder& folder, const Blocks& blocks,
                   SweepFigures figures) {
   std::string rows;
   for (std::int64_t block = 0; block < blocks.count(); ++block) {
     rows += readFile(blocks.file(block));
   }
-  const OutcomeTable table(family, rows, blocks.folder().string());
+  const OutcomeTable table(family, rows, folder.rows().string());
   figures.rows = std::ssize(table.boxes);
   const std::vector<double>& broken = table.numbers.back();
   figures.broken = std::count_if(broken.begin(), broken.end(), [](double count) { return count > 0; });
-  AtomicFile csv(settings.folder / "table.csv");
-  AtomicFile npz(settings.folder / "table.npz");
+  AtomicFile csv(folder.table(".csv"));
+  AtomicFile npz(folder.table(".npz"));
   csv.write(outcomeHeader(family));
   csv.write(rows);
   npz.write(table.archive());
@@ -157,7 +145,6 @@ SweepFigures join(const Family& family, const SweepSettings& settings, const Blo
   for (std::int64_t block = 0; block < blocks.count(); ++block) {
     fs::remove(blocks.file(block), none);
   }
-  fs::remove(blocks.folder(), none);
   return figures;
 }
 
@@ -193,16 +180,13 @@ SweepFigures runSweep(const Family& family, const std::string& familyText, const
                       const std::stop_token& stop) {
   const Blocks blocks(settings);
   const std::string manifest = manifestOf(familyText, settings);
-  std::error_code none;
-  const fs::path table = settings.folder / "table.csv";
   SweepFigures figures;
-  const bool keeps = settings.resume || settings.share.count > 1;
-  if (keeps && fs::exists(table, none) && fs::exists(settings.folder / "sweep.json", none) &&
-      readFile(settings.folder / "sweep.json") == manifest) {
+  const SweepOpening opening = openingOf(settings);
+  if (opening != SweepOpening::kAnew && SweepFolder::isFinished(settings.folder, manifest)) {
     figures.skipped = blocks.runs();
     return figures;
   }
-  openFolder(manifest, settings, blocks);
+  const SweepFolder folder(settings.folder, manifest, opening);
   std::vector<std::int64_t> missing;
   SweepProgress now;
   for (std::int64_t block = 0; block < blocks.count(); ++block) {
@@ -241,8 +225,7 @@ SweepFigures runSweep(const Family& family, const std::string& familyText, const
     figures.missing += blocks.isThere(block) ? 0 : blocks.size(block);
   }
   // Of several shares that end at once, none may take the others' files away.
-  return figures.missing == 0 && settings.share.count == 1 ? join(family, settings, blocks, figures)
-                                                           : figures;
+  return figures.missing == 0 && settings.share.count == 1 ? join(family, folder, blocks, figures) : figures;
 }
 
 }  // namespace careen

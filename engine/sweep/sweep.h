@@ -5,9 +5,12 @@
 #include <functional>
 #include <stop_token>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "audit/audit.h"
 #include "sweep/family.h"
+#include "trajectory/trajectory.h"
 
 namespace careen {
 
@@ -36,6 +39,12 @@ struct SweepSettings {
   bool resume = false;    ///< keep the blocks that are there
   bool keepRuns = false;  ///< each run's trajectory, in runs/
   AuditDepth audit = AuditDepth::kUsual;
+  /// Writes other files of a run, such as its film, into `folder`: runs/0000017, which appears whole or not
+  /// at all, before the run's row. It may change the run. None: there is no such folder.
+  std::function<void(Trajectory& run, const std::filesystem::path& folder, const std::stop_token& stop)>
+      writeRun;
+  /// What that depends on, as names and values for sweep.json, which must be the same to resume.
+  std::vector<std::pair<std::string, std::string>> written;
   std::string program;  ///< name and version
 };
 
@@ -54,11 +63,14 @@ struct SweepFigures {
 };
 
 /// Simulates the runs of a family and writes one table of them, table.csv and table.npz (outcome_rows.h).
-/// While it works, blocks of kRunsOfBlock runs are files in `rows`, each whole or not there; shares write
-/// theirs into the same folder, or into others whose files are copied together. Then the same without a
-/// share, resumed, simulates what is missing, makes the table of all blocks and removes them. The table's
-/// bytes depend on the family and the runs alone. sweep.json says what the folder is of; InputError if it is
-/// of something else. Throws the errors of runs, whose names they begin with; what is done stays.
+/// While it works, blocks of kRunsOfBlock runs, of one with writeRun, are files in `rows`, each whole or not
+/// there; shares write theirs into the same folder, or into others whose files are copied together. Then the
+/// same without a share, resumed, simulates what is missing, makes the table of all blocks and removes them.
+/// The table's bytes depend on the family and the runs alone. sweep.json says what the folder is of;
+/// InputError if it is of something else, or if another process works there, unless both are shares. Throws
+/// the errors of runs, whose names they begin with; what is done stays.
+///
+/// Runs are simulated in forked processes, so writeRun may fork others that open GL, if this process has not.
 SweepFigures runSweep(const Family& family, const std::string& familyText, const SweepSettings& settings,
                       const std::function<void(const SweepProgress&)>& progress = {},
                       const std::stop_token& stop = {});

@@ -390,7 +390,7 @@ TEST_F(Render, processesThatMeetInOneFolderLoseNothing) {
       const Ended ended = processes[i]->wait();
       if (ended.exitCode != 0) {
         EXPECT_EQ(ended.exitCode, 2) << ended.err;
-        EXPECT_NE(ended.err.find("another careen is writing a film there"), std::string::npos) << ended.err;
+        EXPECT_NE(ended.err.find("another careen is writing there"), std::string::npos) << ended.err;
         again.push_back(waiting[i]);
       }
     }

@@ -1,6 +1,7 @@
 // Many runs of a family, as their user meets them.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,45 @@ TEST_F(SweepCommand, refusesWhatItCannotDo) {
   EXPECT_NE(refusal({"family.json", "--share", "3/3"}).find("--share: found '3/3'"), std::string::npos);
   EXPECT_NE(refusal({"family.json", "--jobs", "0"}).find("--jobs: found 0"), std::string::npos);
   EXPECT_NE(refusal({"missing.json"}).find("missing.json"), std::string::npos);
+  EXPECT_NE(refusal({"family.json", "--truth", "colour"}).find("--truth: "), std::string::npos);
+  EXPECT_NE(
+      refusal({"family.json", "--out", "toss", "--truth", "depth", "--frames", "9"}).find("frames: found 9"),
+      std::string::npos);
+  EXPECT_NE(refusal({"family.json", "--frames", "0"}).find("--frames: found no frames that it is for"),
+            std::string::npos);
+  EXPECT_NE(refusal({"family.json", "--size", "4x4"}).find("--size: found no frames"), std::string::npos);
+}
+
+// The manual's way for machines that share no files: each part has a folder of its own.
+TEST_F(SweepCommand, partsOfSeveralMachinesAreCopiedTogether) {
+  ASSERT_EQ(careen({"sweep", "family.json", "--runs", "0-149", "--out", "whole"}).exitCode, 0);
+  const std::string script = "seq 0 2 | xargs -P 2 -I{} " + program() +
+                             " sweep family.json --runs 0-149 --share {}/3 --out part-{} --jobs 1 &&"
+                             " mkdir parts && cp part-0/sweep.json parts && cp -r part-*/rows parts";
+  const Ended copied = Process({"bash", "-c", script}, folder_.path()).wait();
+  ASSERT_EQ(copied.exitCode, 0) << copied.err;
+  const Ended join = careen({"sweep", "family.json", "--runs", "0-149", "--out", "parts", "--resume"});
+  ASSERT_EQ(join.exitCode, 0) << join.err;
+  EXPECT_NE(join.out.find("runs         0 in "), std::string::npos) << join.out;
+  EXPECT_EQ(textOf(folder_ / "parts/table.csv"), textOf(folder_ / "whole/table.csv"));
+}
+
+TEST_F(SweepCommand, labelsOfARunAreThoseOfTruth) {
+  const Ended ended =
+      careen({"sweep", "family.json", "--runs", "7-8", "--out", "toss", "--truth", "depth,face", "--size",
+              "32x18", "--fps", "10", "--frames", "0:2", "--keep", "runs"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  ASSERT_EQ(careen({"truth", "toss/runs/0000008.careen", "--channels", "depth,face", "--size", "32x18",
+                    "--fps", "10", "--frames", "0:2", "--out", "one"})
+                .exitCode,
+            0);
+  for (const char* const name : {"000000.npz", "000002.npz", "truth.json"}) {
+    ASSERT_FALSE(textOf(folder_ / (std::string("one/") + name)).empty()) << name;
+    EXPECT_EQ(textOf(folder_ / (std::string("toss/runs/0000008/") + name)),
+              textOf(folder_ / (std::string("one/") + name)))
+        << name;
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "toss/runs/0000007/truth.json"));
 }
 
 TEST_F(SweepCommand, aFullDiskLeavesWholeRowsAndIsResumed) {

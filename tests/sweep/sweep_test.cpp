@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
+#include "core/system/file.h"
 #include "support/process.h"
 
 namespace careen {
@@ -100,6 +104,107 @@ TEST_F(Sweep, keepsTrajectoriesIfAsked) {
   runSweep(family_, kFamily, keep);
   EXPECT_GT(textOf(folder_ / "keep/runs/0000007.careen").size(), 100U);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "keep/runs/0000008.careen"));
+}
+
+// Stands for a film: two files of each run.
+void writeTwoFiles(Trajectory& run, const std::filesystem::path& folder, const std::stop_token& /*stop*/) {
+  writeFile(folder / "film.json", run.stateHash());
+  writeFile(folder / "truth.json", "2");
+}
+
+TEST_F(Sweep, filesOfRunsAreWholeFoldersAndThoseThatAreThereAreNotMadeAgain) {
+  SweepSettings filmed = settings("filmed", "3-12", 2);
+  filmed.writeRun = writeTwoFiles;
+  filmed.written = {{"film", "yes"}};
+  runSweep(family_, kFamily, settings("plain", "3-12", 2));
+  runSweep(family_, kFamily, filmed);
+  EXPECT_EQ(table("filmed"), table("plain"));
+  const std::vector<std::string> whole = folder_.files();
+  EXPECT_EQ(std::count_if(whole.begin(), whole.end(),
+                          [](const std::string& name) { return name.ends_with("/truth.json"); }),
+            10);
+  // Killed where run 7 had its first file, and another run's folder was lost.
+  SweepSettings cut = settings("cut", "3-12", 1);
+  cut.written = filmed.written;
+  const std::filesystem::path lost = cut.folder / "runs/0000005";
+  cut.writeRun = [](Trajectory& run, const std::filesystem::path& folder, const std::stop_token& stop) {
+    writeTwoFiles(run, folder, stop);
+    if (folder.filename().string().starts_with(".0000007")) {
+      std::filesystem::remove(folder / "truth.json");
+      raise(SIGKILL);
+    }
+  };
+  EXPECT_THROW(runSweep(family_, kFamily, cut), MachineError);
+  EXPECT_TRUE(std::filesystem::exists(cut.folder / "runs/0000006"));
+  EXPECT_FALSE(std::filesystem::exists(cut.folder / "runs/0000007"));
+  std::filesystem::remove_all(lost);
+  cut.writeRun = writeTwoFiles;
+  cut.resume = true;
+  const SweepFigures figures = runSweep(family_, kFamily, cut);
+  EXPECT_EQ(figures.skipped, 3) << "runs 3, 4 and 6";
+  EXPECT_EQ(figures.simulated, 7);
+  EXPECT_EQ(table("cut"), table("filmed"));
+  EXPECT_EQ(textOf(lost / "film.json"), textOf(filmed.folder / "runs/0000005/film.json"));
+  cut.written.clear();
+  EXPECT_THROW(runSweep(family_, kFamily, cut), InputError) << "without the films it is another sweep";
+}
+
+TEST_F(Sweep, oneWhoseFirstFileCannotBeWrittenLeavesNothing) {
+  SweepSettings broken = settings("broken", "0-9", 2);
+  broken.writeRun = [](Trajectory&, const std::filesystem::path& folder, const std::stop_token&) {
+    writeFile(folder / "film.json", "");
+    throw InputError("frames: found 90, expected frames from 0 to 8");
+  };
+  try {
+    runSweep(family_, kFamily, broken);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_TRUE(std::string(error.what()).starts_with("family.json (run ")) << error.what();
+  }
+  EXPECT_EQ(folder_.files(), std::vector<std::string>());
+}
+
+// A sweep that begins anew would remove the rows of the one that is working.
+TEST_F(Sweep, secondOneInAFolderIsRefusedWhileTheFirstWorks) {
+  SweepSettings first = settings("toss", "0-199", 1);
+  SweepSettings second = first;
+  SweepSettings resumed = first;
+  resumed.resume = true;
+  int refused = 0;
+  const SweepFigures figures = runSweep(family_, kFamily, first, [&](const SweepProgress& now) {
+    if (now.done == 50) {
+      for (const SweepSettings& other : {second, resumed}) {
+        try {
+          runSweep(family_, kFamily, other);
+        } catch (const InputError& error) {
+          refused += std::string(error.what()).find("another careen is writing there") != std::string::npos;
+        }
+      }
+    }
+  });
+  EXPECT_EQ(refused, 2);
+  EXPECT_EQ(figures.rows, 200);
+  EXPECT_EQ(runSweep(family_, kFamily, second).rows, 200) << "the folder is free again";
+}
+
+TEST_F(Sweep, sharesWorkInOneFolderAtTheSameTime) {
+  runSweep(family_, kFamily, settings("whole", "0-199", 1));
+  SweepSettings first = settings("parts", "0-199", 1);
+  first.share = {.index = 0, .count = 2};
+  SweepSettings second = first;
+  second.share.index = 1;
+  std::int64_t simulated = 0;
+  runSweep(family_, kFamily, first, [&](const SweepProgress& now) {
+    if (now.done == 50) {
+      simulated = runSweep(family_, kFamily, second).simulated;
+    }
+  });
+  EXPECT_EQ(simulated, 100);
+  SweepSettings join = settings("parts", "0-199", 1);
+  join.resume = true;
+  EXPECT_EQ(runSweep(family_, kFamily, join).simulated, 0);
+  EXPECT_EQ(table("parts"), table("whole"));
 }
 
 TEST_F(Sweep, runThatCannotBeMadeEndsItWithItsName) {

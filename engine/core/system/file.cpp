@@ -14,7 +14,6 @@
 #include "core/error.h"
 
 namespace careen {
-namespace {
 
 // Two processes may write the same file: each has its own partial file, and the last one to finish replaces
 // the file as a whole.
@@ -23,8 +22,6 @@ std::filesystem::path partialPath(const std::filesystem::path& path) {
       "." + path.filename().string() + "." + std::to_string(getpid()) + std::string(kPartialSuffix);
   return path.parent_path() / name;
 }
-
-}  // namespace
 
 int createNew(const std::filesystem::path& path) {
   constexpr int kHow = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;

@@ -51,5 +51,7 @@ inline constexpr std::size_t kMostStreamed = std::size_t{1} << 30U;  ///< [bytes
 
 /// Suffix of partial files; a run that was killed leaves them behind.
 inline constexpr std::string_view kPartialSuffix = ".partial";
+/// Where this process writes what will be at `path`: beside it, hidden.
+std::filesystem::path partialPath(const std::filesystem::path& path);
 
 }  // namespace careen

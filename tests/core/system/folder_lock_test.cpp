@@ -1,4 +1,4 @@
-#include "film/folder_lock.h"
+#include "core/system/folder_lock.h"
 
 #include <gtest/gtest.h>
 
@@ -32,6 +32,20 @@ TEST(FolderLock, isWaitedForAMoment) {
     held.reset();
   });
   EXPECT_NO_THROW(FolderLock next(folder.path()));
+}
+
+TEST(FolderLock, sharedOnesExcludeOnlyExclusiveOnes) {
+  const TemporaryFolder folder;
+  std::optional<FolderLock> one(std::in_place, folder.path(), LockKind::kShared);
+  std::optional<FolderLock> other(std::in_place, folder.path(), LockKind::kShared);
+  EXPECT_THROW(FolderLock alone(folder.path()), InputError);
+  one.reset();
+  EXPECT_TRUE(std::filesystem::exists(folder / ".careen.lock")) << "the other one still holds it";
+  EXPECT_THROW(FolderLock alone(folder.path()), InputError);
+  other.reset();
+  EXPECT_EQ(folder.files(), std::vector<std::string>());
+  const FolderLock alone(folder.path());
+  EXPECT_THROW(FolderLock third(folder.path(), LockKind::kShared), InputError);
 }
 
 TEST(FolderLock, leavesNothing) {

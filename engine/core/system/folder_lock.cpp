@@ -1,4 +1,4 @@
-#include "film/folder_lock.h"
+#include "core/system/folder_lock.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -7,7 +7,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <system_error>
 #include <thread>
 
 #include "core/error.h"
@@ -26,18 +25,19 @@ bool isAt(int descriptor, const std::filesystem::path& path) {
 
 // Locks a file open for writing, because NFS cannot lock a folder exclusively, nor a file open for reading
 // only: flock(2), "NFS details".
-FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".careen.lock") {
+FolderLock::FolderLock(const std::filesystem::path& folder, LockKind kind)
+    : file_(folder / kFileName), kind_(kind) {
+  const int how = (kind == LockKind::kShared ? LOCK_SH : LOCK_EX) | LOCK_NB;
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
   while ((descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) >= 0) {
-    const bool taken = flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    const bool taken = flock(descriptor_, how) != 0 && errno == EWOULDBLOCK;
     if (!taken && isAt(descriptor_, file_)) {
-      cleanup_.emplace([this] { unlink(file_.c_str()); });
+      cleanup_.emplace([this] { removeFile(); });
       return;
     }
     close(descriptor_);  // taken, or just removed by its previous owner
     if (std::chrono::steady_clock::now() > patience) {
-      throw InputError(folder.string() +
-                       ": another careen is writing a film there; expected a folder for each");
+      throw InputError(folder.string() + ": another careen is writing there; expected a folder for each");
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
@@ -46,9 +46,16 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".c
 FolderLock::~FolderLock() {
   cleanup_.reset();
   if (descriptor_ >= 0) {
-    std::error_code ignored;
-    std::filesystem::remove(file_, ignored);  // while locked, so it cannot be another process's
+    removeFile();
     close(descriptor_);
+  }
+}
+
+// Only while the lock is exclusive, so that no other process holds one on this file. Of several that end
+// together, the last gets it so.
+void FolderLock::removeFile() const {
+  if (kind_ == LockKind::kExclusive || flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {
+    unlink(file_.c_str());
   }
 }
 
