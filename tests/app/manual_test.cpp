@@ -146,10 +146,14 @@ TEST(Manual, usageNamesCommandsAndOptionsThatThereAre) {
   const auto used = usage();
   const std::vector<std::string> commands = matches(all.substr(all.find("Subcommands:")), "\n  ([a-z]+)  ");
   EXPECT_GE(commands.size(), 12U);
+  const bool draws = std::find(commands.begin(), commands.end(), "render") != commands.end();
   for (const std::string& command : commands) {
     ASSERT_EQ(used.count(command), 1U) << command;
     const std::string help = careen({command, "--help"}).out;
     for (const std::string& option : used.at(command)) {
+      if (option == "--film" && !draws) {  // the program built without GL
+        continue;
+      }
       EXPECT_NE(help.find(option), std::string::npos) << command << ' ' << option;
     }
   }
