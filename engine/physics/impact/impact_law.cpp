@@ -257,28 +257,29 @@ class Law {
     return plastic_;
   }
 
-  /// Xₜ: reflections about the contacts with e > t, projections onto the others, until nothing approaches.
-  /// Reflections alone terminate; a mixture that does not within the cap is ended by the plastic law.
+  /// Xₜ: reflections about the contacts with e > t; where none of those approaches, projection onto the
+  /// motions in which no other contact does, approaching yet or not: one after the other they would take
+  /// thousands of passes. Reflections alone terminate; a mixture that does not within the cap is ended by the
+  /// plastic law.
   Impulses reflected(double threshold) {
     Impulses total(contacts_.size());
     std::vector<double> q = before_;
-    Chosen violated;
-    Chosen elastic;
+    Chosen approaches;
+    Chosen elastic(contacts_.size());
+    Chosen others(contacts_.size());
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      others[c] = contacts_[c].material.restitution > threshold ? 0 : 1;
+    }
     const std::size_t cap = 100 + 10 * contacts_.size() * contacts_.size();
     for (std::size_t pass = 0; pass < cap; ++pass) {
-      findApproaching(q, violated);
-      elastic = violated;
-      bool any = false;
-      bool anyElastic = false;
-      for (std::size_t c = 0; c < contacts_.size(); ++c) {
-        elastic[c] = violated[c] != 0 && contacts_[c].material.restitution > threshold ? 1 : 0;
-        any = any || violated[c] != 0;
-        anyElastic = anyElastic || elastic[c] != 0;
-      }
-      if (!any) {
+      findApproaching(q, approaches);
+      if (std::find(approaches.begin(), approaches.end(), 1) == approaches.end()) {
         return total;
       }
-      const Chosen& chosen = anyElastic ? elastic : violated;
+      std::transform(approaches.begin(), approaches.end(), others.begin(), elastic.begin(),
+                     [](char yes, char other) { return static_cast<char>(yes != 0 && other == 0 ? 1 : 0); });
+      const bool anyElastic = std::find(elastic.begin(), elastic.end(), 1) != elastic.end();
+      const Chosen& chosen = anyElastic ? elastic : others;
       const bool isPlastic = pass == 0 && std::find(chosen.begin(), chosen.end(), 0) == chosen.end();
       add(total, anyElastic ? 2 : 1, isPlastic ? plastic() : projection(q, chosen));
       q = after(total);
