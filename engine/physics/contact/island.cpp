@@ -42,6 +42,8 @@ constexpr double kStiff = 0x1p-4;
 constexpr double kTension = 0x1p-20;
 /// [1] of the error allowed per step: a step that ends at an event may have a little more.
 constexpr double kMostLocated = 4;
+/// [1] of the energy of motion: a step that gains more is wrong.
+constexpr double kGained = 0x1p-4;
 /// A trial step too long for its forces diverges; squares of larger numbers would overflow.
 constexpr double kDiverged = 0x1p200;
 constexpr int kMostAttempts = 60;
@@ -312,6 +314,36 @@ double Island::errorBetween(double h) {
   return worst / 24 / tolerance_;
 }
 
+// Contacts give no energy. A step that gained some passed a moment at which the forces are without bound, in
+// a wedge for one, and went on with forces that pull.
+bool Island::gainsEnergy() const {
+  if (!world_.springs.empty()) {
+    return false;
+  }
+  double motion = 0;  // [J] before and after
+  double gained = 0;  // [J] not by gravity
+  double weight = 0;  // [N]
+  std::size_t at = 0;
+  for (const TouchingBody& body : bodies()) {
+    if (body.isHeld()) {
+      continue;
+    }
+    const MassProperties& mass = body.body->mass;
+    const auto energy = [&](const State& y) {
+      const Vec3 spin = threeAt(y, at + 10);
+      return 0.5 *
+             (mass.mass * threeAt(y, at + 7).squaredNorm() + spin.dot(mass.inertiaBody.cwiseProduct(spin)));
+    };
+    const double before = energy(start_);
+    const double after = energy(end_);
+    motion += before + after;
+    gained += after - before - mass.mass * world_.gravity.dot(threeAt(end_, at) - threeAt(start_, at));
+    weight += mass.mass * system_.gravityMagnitude();
+    at += ContactSystem::kNumbers;
+  }
+  return gained > kGained * motion + weight * tolerance_;
+}
+
 bool Island::allButStands(std::size_t contact) const {
   const double speed = system_.states()[contact].slip.norm();
   const double rate = system_.slipSpeedRate(contact);
@@ -398,8 +430,10 @@ Island::Step Island::step(double most) {
   }
   // If the event was located past a moment where forces cease to exist, the end state means nothing, or its
   // accelerations are so large that the polynomial between swings.
-  if (done.length < h && ((done.end == End::kChanges && sizeOf(error_, done.length) > kMostLocated) ||
-                          errorBetween(done.length) > kMostLocated)) {
+  const bool swings =
+      done.length < h && ((done.end == End::kChanges && sizeOf(error_, done.length) > kMostLocated) ||
+                          errorBetween(done.length) > kMostLocated);
+  if (swings || gainsEnergy()) {
     end_ = start_;
     return takeTimeStep(most);
   }

@@ -136,6 +136,7 @@ class Island {
   bool stop();
   double sizeOf(const State& difference, double h) const;
   double errorBetween(double h);
+  bool gainsEnergy() const;
   static Fall firstOf(std::span<const Fall> falls);
   double depthOf(const Fall& fall) const;
   double valueOf(const Fall& fall) const;
