@@ -275,8 +275,8 @@ double Island::lowestOfCorner(double h, std::size_t event, double atEnd) const {
 }
 
 // The first of a few sampled times at which the penetration exceeds the tolerance, or what there was of it at
-// the start: no step, however short, would be without that. Around a lowest sample it is
-// searched more closely: an edge that passes below an edge may do so between two of them.
+// the start: no step, however short, would be without that. Around a lowest sample it is searched more
+// closely: an edge that passes below an edge may do so between two of them.
 double Island::deepWithin(double h, const EventFunction& event) const {
   constexpr int kMoments = 16;
   const ContactFeature& feature = system_.features()[event.contact];
