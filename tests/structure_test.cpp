@@ -377,6 +377,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"physics/motion/recorder", "data and an interface"},
     {"physics/pile/crowd_bounce", "part of class Crowd, tested through crowd"},
     {"physics/pile/crowd_contacts", "part of class Crowd, tested through crowd"},
+    {"physics/pile/crowd_depth", "part of class Crowd, tested through crowd"},
     {"physics/pile/crowd_direct", "part of class Crowd, tested through crowd"},
     {"physics/pile/crowd_motion", "part of class Crowd, tested through crowd"},
     {"physics/pile/crowd_rest", "part of class Crowd, tested through crowd"},

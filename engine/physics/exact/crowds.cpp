@@ -249,12 +249,15 @@ void ExactWorld::commit(ContactGroup& group, const Instant& time) {
                        .tangential = struck.tangential});
   }
   for (std::size_t place = 0; place < group.ranks.size(); ++place) {
-    if (group.ranks[place] < 0 || !crowd.moved(place)) {
+    const int rank = group.ranks[place];
+    if (rank < 0) {
       continue;
     }
-    endStep(group, place);
-    if (crowd.sleeps(place)) {
-      const int rank = group.ranks[place];
+    if (crowd.moved(place)) {
+      endStep(group, place);
+    }
+    // Perhaps without having moved: woken in this step, and asleep again when that was taken once more.
+    if (crowd.sleeps(place) && mover(rank).moves()) {
       group.merged[place].flush(recorder_, mover(rank).listed);
       rest(rank, time, crowd.state(place).pose);
       queue_.clear(rank);

@@ -212,15 +212,6 @@ double Crowd::chooseLength(double most) const {
   return std::min({h, springLimit_, most});
 }
 
-// Whether a gap of the start of this step should not wait for the next projection.
-bool Crowd::isDeep() const {
-  return std::any_of(near_.begin(), near_.end(), [&](int slot) {
-    const PileManifold& manifold = manifolds_[at(slot)];
-    return std::any_of(manifold.points.begin(), manifold.points.begin() + manifold.count,
-                       [&](const PilePoint& point) { return point.gap < -tolerance_; });
-  });
-}
-
 void Crowd::take(double length) {
   // Stored impulses are those of the last step. If that was much shorter, they are those of impacts.
   impulseScale_ = std::min(length / h_, kMostScaled);
@@ -234,16 +225,14 @@ void Crowd::take(double length) {
   solve(kSweeps);
   keepImpulses();
   findDisturbed();
+  findShifts();
   move();
   bounce();
   noteImpacts();
   countUntouched();
   sinceProjection_ += length;
-  const bool due = sinceProjection_ >= kProjected * longestStep();
-  if (due || isDeep()) {
+  if (sinceProjection_ >= kProjected * longestStep()) {
     project();
-  }
-  if (due) {
     sinceProjection_ = 0;
     atRest_ = freeze();
   }
@@ -335,12 +324,20 @@ void Crowd::move() {
                    body.radius * (solver_.omega(index) - body.omega).norm();
       body.path += h_ * unrest_[i];
     }
+    const bool shifted = shifts_ && solver_.isShifted(index);
+    if (shifted) {
+      body.position += solver_.displacement(index);
+      body.path += solver_.displacement(index).norm() + body.radius * solver_.turn(index).norm();
+    }
     if (before.pushed || !loads_.empty()) {
       takeVelocity(body, index);
     } else {
       body.velocity = solver_.velocity(index);
     }
     turnFree(body, h_);
+    if (shifted) {
+      turnBy(body, solver_.turn(index));
+    }
     before.endVelocity = body.velocity;
     before.endOmega = body.omega;
   }

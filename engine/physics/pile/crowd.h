@@ -30,11 +30,13 @@ namespace careen {
 /// Where one point of a manifold strikes, all its points within a few tolerances strike, with v_n ≥ 0: else
 /// the corners of one edge would strike in different steps, and each would turn the body. A step in which
 /// bodies went deep into each other, or into a wall, is taken again with half its length; what is less deep
-/// is projected at once. Remaining penetration is removed by a position projection every few steps, and never
-/// becomes velocity (no Baumgarte stabilisation, no slop).
+/// is projected at once. Penetration that is left at the rates found is undone by shifts in the same step,
+/// the rest by a position projection every few steps; neither becomes velocity (no Baumgarte stabilisation,
+/// no slop).
 ///
-/// Bodies sleep with all that they touch, or, where some of that still moves, beyond a few contacts from it:
-/// then until what the ones awake push them with changes by kMayChange of that and their weight.
+/// Bodies sleep with all that they touch, or, where some of that still moves, beyond a few contacts from it,
+/// if forces within their cones balance on them at rest, those of the ones awake being as they are: then
+/// until what the ones awake push them with changes by kMayChange of that and their weight.
 ///
 /// `tolerance` [m] scales all of it: the length of steps with its root, penetration in proportion.
 ///
@@ -178,8 +180,13 @@ class Crowd {
   bool isAsleep(Partner partner) const { return !partner.isWall() && bodyAt(partner).asleep; }
   bool isHalfAsleep(const PileManifold& manifold) const;
   Vec3 forceOf(const PileManifold& manifold) const;
-  void findQuiet(std::vector<char>& quiet);
-  void freezeParts(const std::vector<char>& quiet);
+  bool isQuiet(std::size_t place, double imbalance, double part) const;
+  static Vec3 impulseOf(const PileManifold& manifold, int k);
+  void addPresentRows(const PileManifold& manifold);
+  void freezeParts();
+  void keepFar(std::vector<char>& marked) const;
+  void certify(std::vector<char>& chosen);
+  void restoreImpulses(const std::vector<int>& slots, const std::vector<char>& sleeping);
   void findDisturbed();
   void wakeDisturbed();
   void loadSolver();
@@ -189,13 +196,13 @@ class Crowd {
   void limitBounce();
   void addRows(int slot);
   void keepImpulses();
+  void findShifts();
   void move();
   void bounce();
   void noteImpacts();
   void refreshNear();
   void takeVelocity(PileBody& body, int index);
   void countUntouched();
-  bool isDeep() const;
   double newDepth();
   double depthSince(const PilePair& pair) const;
   void project();
@@ -238,6 +245,7 @@ class Crowd {
   std::vector<int> quietChecks_;  // by place: since when it and all that is near it could sleep
   std::vector<char> woken_;       // by place: in this step
   std::vector<int> disturbed_;    // clusters that the last step pushed otherwise than when they fell asleep
+  bool shifts_ = false;           // in this step
   bool atRest_ = false;
   double deepest_ = 0;
   Figures figures_;

@@ -200,6 +200,31 @@ void Crowd::addRows(int slot) {
   }
 }
 
+// The rows of the last step, at the gaps and with the impulses of now.
+void Crowd::addPresentRows(const PileManifold& manifold) {
+  const Vec3 apart = manifold.b.isWall()
+                         ? Vec3(Vec3::Zero())
+                         : Vec3(bodies_[at(manifold.a)].position - bodyAt(manifold.b).position);
+  bool begun = false;
+  for (int k = 0; k < manifold.count; ++k) {
+    const PilePoint& point = manifold.points[at(k)];
+    if (point.row < 0) {
+      continue;
+    }
+    if (!begun) {
+      solver_.beginManifold(manifold.a, manifold.b, manifold.friction);
+      begun = true;
+    }
+    solver_.add({.armA = point.world,
+                 .armB = point.world + apart,
+                 .frame = manifold.frameOf(k),
+                 .bound = -std::max(0.0, point.gap) / h_,
+                 .normalImpulse = point.normalImpulse,
+                 .tangential1 = point.tangential1,
+                 .tangential2 = point.tangential2});
+  }
+}
+
 void Crowd::keepImpulses() {
   for (const int slot : near_) {
     PileManifold& manifold = manifolds_[at(slot)];

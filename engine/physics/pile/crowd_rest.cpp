@@ -1,4 +1,4 @@
-// Sleeping, and how deep bodies are in each other.
+// Sleeping.
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +10,11 @@ namespace {
 constexpr double kFrictionless = 0x1p-20;  // μ below which friction stops nothing
 constexpr int kLayers = 3;  // contacts from a body that is not quiet within which all stay awake
 constexpr int kChecks = 4;  // that a part of a cluster must pass before it sleeps
-
-constexpr double kDeep = 1.5;  // [1] of the tolerance: new penetration that is projected at once
+constexpr double kLoose =
+    0x1p-4;  // [1] relative to gravity: force imbalance from which a certificate is tried
+constexpr double kSlow = 0x1p-3;  // [1] of what friction stops in a step: speed from which
+constexpr int kRestSweeps = 200;
+constexpr double kRestChange = 0x1p-3;  // [1] of the tolerated imbalance: change that re-solves neighbours
 
 bool pushes(const PileManifold& manifold) {
   return std::any_of(manifold.points.begin(), manifold.points.begin() + manifold.count,
@@ -45,11 +48,9 @@ bool Crowd::freeze() {
       }
     }
   }
-  std::vector<char> quietBody;
-  findQuiet(quietBody);
   std::vector<char> quiet(bodies_.size(), 1);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (quietBody[i] == 0) {
+    if (!isQuiet(i, kFeasible, 1)) {
       quiet[clusters_.root(i)] = 0;
     }
   }
@@ -72,7 +73,7 @@ bool Crowd::freeze() {
     }
   }
   if (!all) {
-    freezeParts(quietBody);
+    freezeParts();
   }
   for (const int slot : near_) {
     PileManifold& manifold = manifolds_[at(slot)];
@@ -85,31 +86,57 @@ bool Crowd::freeze() {
   return all;
 }
 
-void Crowd::findQuiet(std::vector<char>& quiet) {
-  quiet.assign(bodies_.size(), 1);
+// At rest, or nearly so: the forces of the last step balanced but for that part of gravity, and its speed is
+// that part of what friction stops in a step.
+bool Crowd::isQuiet(std::size_t place, double imbalance, double part) const {
+  const PileBody& body = bodies_[place];
+  const double speed = body.velocity.norm() + body.radius * body.omega.norm();
+  return body.still() || (unrest_[place] <= imbalance * gravityMagnitude_ * h_ &&
+                          speed <= part * grip_[place] * gravityMagnitude_ * h_);
+}
+
+// One restless body keeps only those awake that are a few contacts from it. The others sleep if forces within
+// their cones balance on each of them, those of the ones awake being what they were in the last step.
+void Crowd::freezeParts() {
+  std::vector<char> calm(bodies_.size(), 1);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const PileBody& body = bodies_[i];
-    const double speed = body.velocity.norm() + body.radius * body.omega.norm();
-    quiet[i] = body.still() || (unrest_[i] <= kFeasible * gravityMagnitude_ * h_ &&
-                                speed <= grip_[i] * gravityMagnitude_ * h_)
-                   ? 1
-                   : 0;
+    calm[i] = isQuiet(i, kLoose, kSlow) ? 1 : 0;
+  }
+  keepFar(calm);
+  bool any = false;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    quietChecks_[i] = bodies_[i].still() || calm[i] == 0 ? 0 : quietChecks_[i] + 1;
+    calm[i] = quietChecks_[i] >= kChecks ? 1 : 0;
+    quietChecks_[i] = calm[i] != 0 ? 0 : quietChecks_[i];
+    any = any || calm[i] != 0;
+  }
+  if (!any) {
+    return;
+  }
+  certify(calm);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (calm[i] != 0) {
+      PileBody& body = bodies_[i];
+      body.asleep = true;
+      body.cluster = static_cast<int>(i);
+      body.velocity = body.angularMomentum = body.omega = Vec3::Zero();
+      ++figures_.frozen;
+    }
   }
 }
 
-// One restless body keeps only those awake that are a few contacts from it. The others sleep under the load
-// of the last ones awake, which are quiet, until it changes.
-void Crowd::freezeParts(const std::vector<char>& quiet) {
+// Leaves those marked that are more than kLayers contacts from one that is not.
+void Crowd::keepFar(std::vector<char>& marked) const {
   std::vector<int> layer(bodies_.size(), kLayers + 1);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (quiet[i] == 0) {
+    if (marked[i] == 0) {
       layer[i] = 0;
     }
   }
   for (int next = 1; next <= kLayers; ++next) {
     for (const int slot : near_) {
       const PileManifold& manifold = manifolds_[at(slot)];
-      if (!manifold.b.isWall()) {
+      if (!manifold.b.isWall() && !bodies_[at(manifold.a)].held && !bodyAt(manifold.b).held) {
         const std::size_t a = at(manifold.a);
         const std::size_t b = at(manifold.b.body());
         layer[b] = layer[a] == next - 1 ? std::min(layer[b], next) : layer[b];
@@ -118,14 +145,84 @@ void Crowd::freezeParts(const std::vector<char>& quiet) {
     }
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    PileBody& body = bodies_[i];
-    quietChecks_[i] = body.still() || layer[i] <= kLayers ? 0 : quietChecks_[i] + 1;
-    if (quietChecks_[i] >= kChecks) {
-      quietChecks_[i] = 0;
-      body.asleep = true;
-      body.cluster = static_cast<int>(i);
-      body.velocity = body.angularMomentum = body.omega = Vec3::Zero();
-      ++figures_.frozen;
+    marked[i] = layer[i] > kLayers ? 1 : 0;
+  }
+}
+
+// Solves a step of the chosen bodies from rest. Those that stay at rest in it, and are far from those that do
+// not, stay chosen, and keep its impulses.
+void Crowd::certify(std::vector<char>& chosen) {
+  const double balanced = kFeasible * gravityMagnitude_ * h_;
+  solver_.begin(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (chosen[i] != 0) {
+      solver_.setBody(static_cast<int>(i), bodies_[i], kRestChange * balanced);
+      solver_.velocity(static_cast<int>(i)) = h_ * acceleration(i);
+    }
+  }
+  const auto isChosen = [&](Partner partner) { return !partner.isWall() && chosen[at(partner.body())] != 0; };
+  std::vector<int> slots;
+  for (const int slot : near_) {
+    const PileManifold& manifold = manifolds_[at(slot)];
+    const bool a = chosen[at(manifold.a)] != 0;
+    const bool b = isChosen(manifold.b);
+    if (!a && !b) {
+      continue;
+    }
+    const bool meetsMoving = (!a && !bodies_[at(manifold.a)].still()) ||
+                             (!b && !manifold.b.isWall() && !bodyAt(manifold.b).still());
+    if (meetsMoving) {
+      const Vec3 apart = bodies_[at(manifold.a)].position - bodyAt(manifold.b).position;
+      for (int k = 0; k < manifold.count; ++k) {
+        const PilePoint& point = manifold.points[at(k)];
+        const Vec3 impulse = impulseOf(manifold, k);
+        if (a) {
+          solver_.push(manifold.a, point.world, impulse);
+        } else {
+          solver_.push(manifold.b.body(), point.world + apart, -impulse);
+        }
+      }
+      continue;
+    }
+    slots.push_back(slot);
+    addPresentRows(manifold);
+  }
+  solver_.warmStart();
+  solver_.link();
+  solver_.wakeAll();
+  figures_.solves += solver_.solve(kRestSweeps, true);
+  std::vector<char> resting(bodies_.size(), 1);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const int index = static_cast<int>(i);
+    const double speed =
+        chosen[i] == 0 ? 0 : solver_.velocity(index).norm() + bodies_[i].radius * solver_.omega(index).norm();
+    resting[i] = speed <= balanced ? 1 : 0;
+  }
+  keepFar(resting);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    chosen[i] = chosen[i] != 0 && resting[i] != 0 ? 1 : 0;
+  }
+  restoreImpulses(slots, chosen);
+}
+
+// Of the manifolds in the solver, those at bodies that fall asleep keep its impulses.
+void Crowd::restoreImpulses(const std::vector<int>& slots, const std::vector<char>& sleeping) {
+  int row = 0;
+  for (const int slot : slots) {
+    PileManifold& manifold = manifolds_[at(slot)];
+    const bool sleeps =
+        sleeping[at(manifold.a)] != 0 || (!manifold.b.isWall() && sleeping[at(manifold.b.body())] != 0);
+    for (int k = 0; k < manifold.count; ++k) {
+      PilePoint& point = manifold.points[at(k)];
+      if (point.row < 0) {
+        continue;
+      }
+      if (sleeps) {
+        point.normalImpulse = solver_.normalImpulse(row);
+        point.tangential1 = solver_.tangential1(row);
+        point.tangential2 = solver_.tangential2(row);
+      }
+      ++row;
     }
   }
 }
@@ -142,12 +239,17 @@ bool Crowd::isHalfAsleep(const PileManifold& manifold) const {
 Vec3 Crowd::forceOf(const PileManifold& manifold) const {
   Vec3 impulse = Vec3::Zero();
   for (int k = 0; k < manifold.count; ++k) {
-    const PilePoint& point = manifold.points[at(k)];
-    const PileFrame& frame = manifold.frameOf(k);
-    impulse += point.normalImpulse * frame.normal + point.tangential1 * frame.tangent1 +
-               point.tangential2 * frame.tangent2;
+    impulse += impulseOf(manifold, k);
   }
   return impulse / h_;
+}
+
+// [N s] On a, in the last step.
+Vec3 Crowd::impulseOf(const PileManifold& manifold, int k) {
+  const PilePoint& point = manifold.points[at(k)];
+  const PileFrame& frame = manifold.frameOf(k);
+  return point.normalImpulse * frame.normal + point.tangential1 * frame.tangent1 +
+         point.tangential2 * frame.tangent2;
 }
 
 void Crowd::findDisturbed() {
@@ -212,47 +314,6 @@ void Crowd::wakeNeighbours() {
       wakeCluster(cluster);
     }
   }
-}
-
-// [m] How deep fast bodies went into each other and into walls in this step, if more than kDeep: the features
-// of the manifolds of its start were not all that met.
-double Crowd::newDepth() {
-  double deepest = 0;
-  for (const PilePair& pair : pairs_.pairs()) {
-    const double depth = depthSince(pair);
-    deepest = std::max(deepest, depth);
-    if (depth > 0 && pair.slot >= 0) {
-      manifolds_[at(pair.slot)].moved = std::numeric_limits<double>::max();  // to be rebuilt
-    }
-  }
-  return deepest;
-}
-
-double Crowd::depthSince(const PilePair& pair) const {
-  const PileBody& a = bodies_[at(pair.a)];
-  const PileBody* b = pair.b.isWall() ? nullptr : &bodyAt(pair.b);
-  const bool apart = pair.slot < 0 && a.path + (b == nullptr ? 0 : b->path) < pair.until;
-  if (apart || (b == nullptr ? a.path - start_[at(pair.a)].path : relativeMotion(a, *b, h_)) < tolerance_) {
-    return 0;
-  }
-  const double depth = b == nullptr ? overlapOf(a, wallAt(pair.b)) : overlapOf(a, *b);
-  if (depth <= kDeep * tolerance_) {
-    return 0;
-  }
-  const PileBody& start = start_[at(pair.a)];
-  const double before =
-      b == nullptr ? overlapOf(start, wallAt(pair.b)) : overlapOf(start, start_[at(pair.b.body())]);
-  return depth > before + 0.5 * tolerance_ ? depth : 0;
-}
-
-double Crowd::penetration() const {
-  double deepest = 0;
-  for (const PilePair& pair : pairs_.pairs()) {
-    const PileBody& a = bodies_[at(pair.a)];
-    deepest =
-        std::max(deepest, pair.b.isWall() ? overlapOf(a, wallAt(pair.b)) : overlapOf(a, bodyAt(pair.b)));
-  }
-  return deepest;
 }
 
 }  // namespace careen

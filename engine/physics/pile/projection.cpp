@@ -9,10 +9,11 @@ namespace careen {
 namespace {
 
 constexpr int kProjectionSweeps = 20;
-constexpr double kLeft = 0.5;        // [1] of the tolerance: penetration kept, so that contacts persist
-constexpr double kTellPush = 0.125;  // [1] of the tolerance: smallest displacement that re-solves neighbours
-constexpr double kLongest = 0.25;    // [1] of the smallest size: largest displacement per pass
-constexpr double kNear = 0x1p-6;     // [1] of the smallest size: larger gaps are ignored
+constexpr double kLeft = 1.0 / 3;  // [1] of the tolerance: penetration kept, so that contacts persist
+constexpr double kTellPush =
+    1.0 / 12;                      // [1] of the tolerance: smallest displacement that re-solves neighbours
+constexpr double kLongest = 0.25;  // [1] of the smallest size: largest displacement per pass
+constexpr double kNear = 0x1p-6;   // [1] of the smallest size: larger gaps are ignored
 
 double lowestGap(const PileManifold& manifold) {
   double gap = manifold.length;

@@ -15,7 +15,7 @@ namespace careen {
 /// penetrate by more than a tolerance. Linear in δ, hence iterated in passes with gaps updated in between.
 class PileProjection {
  public:
-  /// `tolerance` [m] of the crowd: penetration of two thirds of it remains, and of tiny boxes less.
+  /// `tolerance` [m] of the crowd: penetration of less than that remains, and of tiny boxes less.
   explicit PileProjection(double tolerance) : tolerance_(tolerance) {}
 
   /// One pass over the listed manifolds, whose gaps must be up to date. Only penetrating bodies and their
@@ -23,13 +23,14 @@ class PileProjection {
   bool pass(std::span<PileBody> bodies, std::span<PileManifold> manifolds, std::span<const int> near,
             int layers);
 
+  /// [m] For boxes of that smallest size [m].
+  double tolerated(double length) const { return std::min(tolerance_, 0x1.8p-8 * length); }
+
   bool moved(int body) const { return moved_[static_cast<std::size_t>(body)] != 0; }
 
  private:
   bool collect(std::span<const PileBody> bodies, std::span<PileManifold> manifolds, std::span<const int> near,
                int layers);
-
-  double tolerated(double length) const { return std::min(2.0 / 3 * tolerance_, 0x1p-8 * length); }
 
   double tolerance_;  // [m]
   PileSolver solver_;

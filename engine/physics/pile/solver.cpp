@@ -155,31 +155,50 @@ void PileSolver::setImpulse(int row, const std::array<double, 3>& impulse) {
 }
 
 void PileSolver::queueBlocksOf(int body) {
-  moving_[at(body)].unqueuedChange = 0;
   for (int k = firstBlock_[at(body)]; k < firstBlock_[at(body) + 1]; ++k) {
     put(at(blocksOfBody_[at(k)]));
   }
 }
 
 std::int64_t PileSolver::solve(int sweeps, bool withFriction) {
+  return sweep(sweeps, [&](const Block& block) {
+    if (withFriction && block.friction > 0) {
+      solveBlock<Kind::kFriction>(block);
+    } else {
+      solveBlock<Kind::kFrictionless>(block);
+    }
+  });
+}
+
+double PileSolver::normalSpeed(int row) const {
+  const SolvedRow& solved = rows_[at(row)];
+  const Block& block = blocks_[at(blockOfRow_[at(row)])];
+  const Moving& a = moving_[at(block.a)];
+  const Moving& b = moving_[at(block.b)];
+  return solved.normal.dot(a.velocity + a.omega.cross(firstOf(solved.arms)) - b.velocity -
+                           b.omega.cross(secondOf(solved.arms)));
+}
+
+std::int64_t PileSolver::shift(int sweeps, double change) {
+  shiftChange_ = change;
+  return sweep(sweeps, [&](const Block& block) { solveBlock<Kind::kShift>(block); });
+}
+
+// Blocks put on the list ahead of the present position are solved in this sweep, those behind in the next.
+// The word is read again each time; only bits past the last one solved count.
+template <class Solve>
+std::int64_t PileSolver::sweep(int sweeps, const Solve& solve) {
   std::int64_t solved = 0;
   bool any = true;
   for (int sweep = 0; sweep < sweeps && any; ++sweep) {
     any = false;
     for (std::size_t word = 0; word < waiting_.size(); ++word) {
-      // Blocks put on the list ahead of this position are solved in this sweep, those behind in the next. The
-      // word is read again each time; only bits past the last one solved count.
       std::uint64_t ahead = ~std::uint64_t{0};
       while ((waiting_[word] & ahead) != 0) {
         const int bit = std::countr_zero(waiting_[word] & ahead);
         ahead = bit == 63 ? 0 : ~std::uint64_t{0} << (bit + 1);
         waiting_[word] &= ~(std::uint64_t{1} << bit);
-        const Block& block = blocks_[word * 64 + static_cast<std::size_t>(bit)];
-        if (withFriction && block.friction > 0) {
-          solveBlock<true>(block);
-        } else {
-          solveBlock<false>(block);
-        }
+        solve(blocks_[word * 64 + static_cast<std::size_t>(bit)]);
         ++solved;
         any = true;
       }
@@ -188,11 +207,12 @@ std::int64_t PileSolver::solve(int sweeps, bool withFriction) {
   return solved;
 }
 
-template <bool kFriction>
+template <PileSolver::Kind kKind>
 void PileSolver::solveBlock(const Block& block) {
   constexpr Pair kOpposite = {1, -1};
-  Moving& movingA = moving_[at(block.a)];
-  Moving& movingB = moving_[at(block.b)];
+  std::vector<Moving>& moving = kKind == Kind::kShift ? shifts_ : moving_;
+  const Moving& movingA = moving[at(block.a)];
+  const Moving& movingB = moving[at(block.b)];
   const PairInertia inertia(inertia_[at(block.a)], inertia_[at(block.b)]);
   PairVec v = pairOf(movingA.velocity, movingB.velocity);
   PairVec w = pairOf(movingA.omega, movingB.omega);
@@ -207,15 +227,17 @@ void PileSolver::solveBlock(const Block& block) {
     const double uy = y[0] - y[1];
     const double uz = z[0] - z[1];
     const auto along = [&](const Vec3& d) { return d.x() * ux + d.y() * uy + d.z() * uz; };
-    const double before = row.normalImpulse;
-    const double normal = std::max(0.0, before - row.massNormal * (along(row.normal) - row.bound));
+    double& sum = kKind == Kind::kShift ? row.shiftImpulse : row.normalImpulse;
+    const double bound = kKind == Kind::kShift ? row.shiftBound : row.bound;
+    const double before = sum;
+    const double normal = std::max(0.0, before - row.massNormal * (along(row.normal) - bound));
     const double change = normal - before;
     if (normal == 0 && change == 0) {
       continue;
     }
-    row.normalImpulse = normal;
+    sum = normal;
     Vec3 impulse = change * row.normal;
-    if constexpr (kFriction) {
+    if constexpr (kKind == Kind::kFriction) {
       const double u1 = along(row.tangent1) + row.normalToTangent1 * change;
       const double u2 = along(row.tangent2) + row.normalToTangent2 * change;
       const double limit = block.friction * normal;
@@ -243,23 +265,25 @@ void PileSolver::solveBlock(const Block& block) {
     changed = true;
   }
   if (changed) {
-    store(block.a, firstOf(v), firstOf(w));
-    store(block.b, secondOf(v), secondOf(w));
+    store<kKind>(block.a, firstOf(v), firstOf(w));
+    store<kKind>(block.b, secondOf(v), secondOf(w));
   }
 }
 
+template <PileSolver::Kind kKind>
 void PileSolver::store(int body, const Vec3& velocity, const Vec3& omega) {
   const Inertia& inertia = inertia_[at(body)];
   if (inertia.inverseMass == 0) {
     return;
   }
-  Moving& moving = moving_[at(body)];
+  Moving& moving = (kKind == Kind::kShift ? shifts_ : moving_)[at(body)];
   moving.unqueuedChange += (velocity - moving.velocity).cwiseAbs().sum() +
                            inertia.radius * (omega - moving.omega).cwiseAbs().sum();
   moving.velocity = velocity;
   moving.omega = omega;
   moving.pushed = true;
-  if (moving.unqueuedChange > inertia.change) {
+  if (moving.unqueuedChange > (kKind == Kind::kShift ? shiftChange_ : inertia.change)) {
+    moving.unqueuedChange = 0;
     queueBlocksOf(body);
   }
 }

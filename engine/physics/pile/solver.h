@@ -24,6 +24,9 @@ namespace careen {
 /// point's 2×2 matrix; if it leaves the disc, a step along the sliding velocity is projected back onto the
 /// disc: its fixed point slides against its impulse, as Coulomb friction requires, while that of the matrix
 /// step does not.
+///
+/// What a step would leave of penetration at the velocities found is undone by shifts: displacements δ of the
+/// bodies, with n·δ ≥ bound at the same rows, which never become velocity (split impulses).
 class PileSolver {
  public:
   /// Clears it for that many bodies; one more, the last, represents all walls.
@@ -37,6 +40,11 @@ class PileSolver {
   Vec3& omega(int body) { return moving_[at(body)].omega; }
   int indexOf(Partner partner) const {
     return partner.isWall() ? static_cast<int>(moving_.size()) - 1 : partner.body();
+  }
+  /// An impulse [N s] from outside, at that arm [m].
+  void push(int body, const Vec3& arm, const Vec3& impulse) {
+    moving_[at(body)].velocity += inertia_[at(body)].inverseMass * impulse;
+    moving_[at(body)].omega += inertia_[at(body)].times(arm.cross(impulse));
   }
   /// Whether any impulse acted on it since begin().
   bool pushed(int body) const { return moving_[at(body)].pushed; }
@@ -57,6 +65,17 @@ class PileSolver {
   void warmStart();
   /// After the last add(): at most `sweeps` sweeps. Returns the number of manifold solves.
   std::int64_t solve(int sweeps, bool withFriction);
+
+  /// Shifts, after solve(): beginShifts(), a bound [m] for each row, wakeRow() for those that are below
+  /// theirs, shift(). `change` [m] of a body's displacement puts its manifolds back on the list.
+  void beginShifts() { shifts_.assign(moving_.size(), {}); }
+  void setShiftBound(int row, double bound) { rows_[at(row)].shiftBound = bound; }
+  std::int64_t shift(int sweeps, double change);
+  bool isShifted(int body) const { return shifts_[at(body)].pushed; }
+  const Vec3& displacement(int body) const { return shifts_[at(body)].velocity; }  ///< [m]
+  const Vec3& turn(int body) const { return shifts_[at(body)].omega; }             ///< [rad]
+  /// [m/s] v_n of the row as it stands.
+  double normalSpeed(int row) const;
 
   /// One row as it stands.
   struct RowView {
@@ -139,6 +158,7 @@ class PileSolver {
     double stop11 = 0, stop12 = 0, stop22 = 0;          // (2×2 matrix)⁻¹
     double slide = 0;                                   // 1/largest eigenvalue of the 2×2 matrix
     double normalImpulse = 0, tangential1 = 0, tangential2 = 0;
+    double shiftBound = 0, shiftImpulse = 0;
   };
   struct Block {
     int a = 0;
@@ -148,13 +168,19 @@ class PileSolver {
     double friction = 0;
   };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  template <bool kFriction>
+  enum class Kind : std::uint8_t { kFriction, kFrictionless, kShift };
+  template <class Solve>
+  std::int64_t sweep(int sweeps, const Solve& solve);
+  template <Kind kKind>
   void solveBlock(const Block& block);
+  template <Kind kKind>
   void store(int body, const Vec3& velocity, const Vec3& omega);
   void queueBlocksOf(int body);
   void put(std::size_t block) { waiting_[block / 64] |= std::uint64_t{1} << (block % 64); }
 
   std::vector<Moving> moving_;
+  std::vector<Moving> shifts_;  // displacements and turns in place of velocities
+  double shiftChange_ = 0;      // [m]
   std::vector<Inertia> inertia_;
   std::vector<SolvedRow> rows_;
   std::vector<Block> blocks_;

@@ -318,6 +318,45 @@ TEST(Crowd, separatesOverlapWithoutEnergy) {
   EXPECT_LT(crowd.deepest(), 3e-4);
 }
 
+// What Gauss–Seidel leaves of penetration is undone within the step that finds it, and gives no speed.
+TEST(Crowd, stepUndoesPenetrationThatIsInIt) {
+  World world;
+  const double depth = 0.9 * Crowd::kUsualTolerance;
+  world.bodies.push_back(crate("a", Vec3(0.3, 0.3, 0.3), Vec3(0, 0, 0), {}));
+  world.bodies.push_back(crate("b", Vec3(0.2, 0.2, 0.2), Vec3(0.5 - depth, 0.05, 0), {}));
+  test::CrowdRun crowd(world, Crowd::kUsualTolerance, 1e-3);
+  crowd.step();
+  EXPECT_EQ(crowd.figures().steps, 1);
+  EXPECT_NEAR(crowd.deepest(), 0.5 * Crowd::kUsualTolerance, 1e-5);
+  for (const BodyState& state : crowd.states()) {
+    EXPECT_EQ(state.velocity.norm(), 0);
+    EXPECT_EQ(state.angularMomentum.norm(), 0);
+  }
+  const double of = world.bodies[1].mass.mass / world.bodies[0].mass.mass;
+  EXPECT_NEAR(crowd.states()[0].pose.position.x(),
+              -of * (crowd.states()[1].pose.position.x() - world.bodies[1].initial.pose.position.x()), 1e-12);
+}
+
+// Forces on a slope that is steeper by so little than friction holds all but balance: the block begins so
+// slowly that only the certificate of rest tells it from one that stands.
+TEST(Crowd, blockThatBeginsToSlideIsNotTakenForOneAtRest) {
+  const double friction = 0.4;
+  for (const double steeper : {-0.003, 0.003}) {
+    World world = floorWorld({.restitution = 0, .friction = friction});
+    const double tangent = friction + steeper;
+    const double cosine = 1 / std::sqrt(1 + tangent * tangent);
+    world.gravity = kGravity * cosine * Vec3(tangent, 0, -1);
+    world.bodies.push_back(crate("a", Vec3(0.3, 0.3, 0.1), Vec3(0, 0, 0.1), {.friction = friction}));
+    test::CrowdRun crowd(world);
+    for (int k = 0; k < 120; ++k) {
+      crowd.step();
+    }
+    const double way = 0.5 * kGravity * cosine * std::max(0.0, steeper) * 2 * 2;
+    EXPECT_NEAR(crowd.states()[0].pose.position.x(), way, 0.05 * way + 1e-6) << steeper;
+    EXPECT_EQ(crowd.sleeps(0), steeper < 0);
+  }
+}
+
 TEST(Crowd, stackOfTenStands) {
   const Material material{.restitution = 0, .friction = 0.5};
   World world = floorWorld(material);
