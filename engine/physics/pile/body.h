@@ -26,9 +26,11 @@ struct PileBody {
   Vec3 angularMomentum = Vec3::Zero();  ///< [kg m²/s] primary state: ω is derived from it
   Vec3 omega = Vec3::Zero();            ///< [rad/s]
 
-  double path = 0;   ///< [m] upper bound on the total path length of any of its points; never decreases
-  double ahead = 0;  ///< [m] the same for the next substep
-  int cluster = -1;  ///< if asleep: its cluster; all bodies of a cluster wake together
+  double path = 0;     ///< [m] upper bound on the total path length of any of its points; never decreases
+  double ahead = 0;    ///< [m] the same for the next substep
+  double turned = 0;   ///< [m] the part of `path` that its rotation about its centre accounts for
+  double turning = 0;  ///< [m] the same for the next substep
+  int cluster = -1;    ///< if asleep: its cluster; all bodies of a cluster wake together
   bool held = false;
   bool asleep = false;
   bool absent = false;  ///< a place that was left

@@ -148,7 +148,7 @@ double Crowd::keepApart() {
     take(0.5 * h_);
     depth = newDepth();
   }
-  if (depth > 0) {
+  if (depth > 0 || deep_) {
     project();
   }
   return h_;
@@ -159,8 +159,10 @@ void Crowd::goBack() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const bool woken = start_[i].asleep && !bodies_[i].asleep;
     const double path = bodies_[i].path;
+    const double turned = bodies_[i].turned;
     bodies_[i] = start_[i];
     bodies_[i].path = path;
+    bodies_[i].turned = turned;
     if (woken) {
       bodies_[i].asleep = false;
       bodies_[i].cluster = -1;
@@ -315,19 +317,22 @@ void Crowd::move() {
               .pushed = solver_.pushed(index),
               .moved = true};
     body.path += body.ahead;
+    body.turned += body.turning;
     if (!before.pushed) {
       body.position += h_ * (body.velocity + 0.5 * h_ * acceleration(i));
       unrest_[i] = std::numeric_limits<double>::max();
     } else {
       body.position += h_ * solver_.velocity(index);
-      unrest_[i] = (solver_.velocity(index) - body.velocity).norm() +
-                   body.radius * (solver_.omega(index) - body.omega).norm();
+      const double turning = body.radius * (solver_.omega(index) - body.omega).norm();
+      unrest_[i] = (solver_.velocity(index) - body.velocity).norm() + turning;
       body.path += h_ * unrest_[i];
+      body.turned += h_ * turning;
     }
     const bool shifted = shifts_ && solver_.isShifted(index);
     if (shifted) {
       body.position += solver_.displacement(index);
-      body.path += solver_.displacement(index).norm() + body.radius * solver_.turn(index).norm();
+      body.path += shiftOf(index);
+      body.turned += body.radius * solver_.turn(index).norm();
     }
     if (before.pushed || !loads_.empty()) {
       takeVelocity(body, index);

@@ -173,6 +173,9 @@ class Crowd {
   void findLoads();
   Vec3 acceleration(std::size_t place) const;
   void lookAround();
+  double wayLeft(const PilePair& pair) const;
+  double wayAhead(const PilePair& pair) const;
+  double rebuildAfter(double length) const;
   bool lookAt(PilePair& pair);
   bool wouldPush(const PilePair& pair, const PileManifold& manifold) const;
   void wakeCluster(int cluster);
@@ -204,7 +207,10 @@ class Crowd {
   void takeVelocity(PileBody& body, int index);
   void countUntouched();
   double newDepth();
-  double depthSince(const PilePair& pair) const;
+  double shiftOf(int body) const;
+  double depthNow(const PilePair& pair) const;
+  double depthBefore(const PilePair& pair) const;
+  bool startedDeep(const PilePair& pair) const;
   void project();
   bool freeze();
   PileManifold& manifoldOf(PilePair& pair);
@@ -246,6 +252,7 @@ class Crowd {
   std::vector<char> woken_;       // by place: in this step
   std::vector<int> disturbed_;    // clusters that the last step pushed otherwise than when they fell asleep
   bool shifts_ = false;           // in this step
+  bool deep_ = false;             // after it
   bool atRest_ = false;
   double deepest_ = 0;
   Figures figures_;

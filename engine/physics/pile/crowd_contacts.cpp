@@ -14,6 +14,7 @@ constexpr double kGrowth = 1.5;    // [1] largest growth of an impulse per step 
 constexpr double kBounceFrom = 4;  // [1] of gravity × step: slower impacts do not bounce
 constexpr double kAllowance = 0x1p-6;  // [1] of the smallest size: gaps that may close during a step
 constexpr double kTogether = 3;        // [1] of the tolerance: points of one manifold that meet together
+constexpr double kUnseen = 2;          // [1] of the tolerance: motion after which other features may be deep
 
 }  // namespace
 
@@ -21,9 +22,8 @@ constexpr double kTogether = 3;        // [1] of the tolerance: points of one ma
 // wakes its cluster, whose pairs are then tested too.
 void Crowd::lookAround() {
   for (PileBody& body : bodies_) {
-    body.ahead = body.still()
-                     ? 0
-                     : h_ * (body.velocity.norm() + body.radius * body.omega.norm() + h_ * gravityMagnitude_);
+    body.turning = body.still() ? 0 : h_ * body.radius * body.omega.norm();
+    body.ahead = body.still() ? 0 : h_ * (body.velocity.norm() + h_ * gravityMagnitude_) + body.turning;
   }
   pairs_.update(bodies_, world_.gravity, h_, std::max(h_, kLookAhead * longestStep()));
   unused_.insert(unused_.end(), pairs_.freed().begin(), pairs_.freed().end());
@@ -60,14 +60,41 @@ void Crowd::lookAround() {
   figures_.manifolds += static_cast<std::int64_t>(near_.size());
 }
 
+// [m] By how much the two may still come nearer than when they were last looked at, at the least, before
+// there can be contact points.
+double Crowd::wayLeft(const PilePair& pair) const {
+  const PileBody& a = bodies_[at(pair.a)];
+  if (pair.b.isWall()) {
+    return pair.clear - std::abs(wallAt(pair.b).normal.dot(a.position - pair.apart)) -
+           (a.turned - pair.turned);
+  }
+  const PileBody& b = bodyAt(pair.b);
+  return pair.clear - (a.position - b.position - pair.apart).norm() - (a.turned + b.turned - pair.turned);
+}
+
+// [m] By how much they come nearer in this step, at the most, if nothing pushes them.
+double Crowd::wayAhead(const PilePair& pair) const {
+  const PileBody& a = bodies_[at(pair.a)];
+  if (pair.b.isWall()) {
+    return a.ahead;
+  }
+  const PileBody& b = bodyAt(pair.b);
+  const Vec3 relative =
+      (a.still() ? Vec3(Vec3::Zero()) : a.velocity) - (b.still() ? Vec3(Vec3::Zero()) : b.velocity);
+  return h_ * (relative.norm() + h_ * gravityMagnitude_) + a.turning + b.turning;
+}
+
+// [m] Relative motion after which a manifold of boxes of that smallest size [m] is rebuilt.
+double Crowd::rebuildAfter(double length) const {
+  return std::min(PileLengths::kRebuild * length, kUnseen * tolerance_);
+}
+
 // Whether the pair has a manifold with points.
 bool Crowd::lookAt(PilePair& pair) {
   ++figures_.pairs;
   const PileBody& a = bodies_[at(pair.a)];
   const bool hasWall = pair.b.isWall();
-  const double pathB = hasWall ? 0 : bodyAt(pair.b).path;
-  const double aheadB = hasWall ? 0 : bodyAt(pair.b).ahead;
-  if (pair.slot < 0 && a.path + pathB + a.ahead + aheadB < pair.until) {
+  if (pair.slot < 0 && pair.clear > 0 && wayAhead(pair) < wayLeft(pair)) {
     return false;
   }
   PileManifold& manifold = manifoldOf(pair);
@@ -75,7 +102,7 @@ bool Crowd::lookAt(PilePair& pair) {
   manifold.moved += motion;
   const double length = manifold.length;
   bool touching = manifold.count > 0;
-  if (!touching || manifold.moved > PileLengths::kRebuild * length ||
+  if (!touching || manifold.moved > rebuildAfter(length) ||
       manifold.moved + motion + 0.5 * PileLengths::kReach * length > manifold.reach) {
     ++figures_.rebuilt;
     manifold.reach = PileLengths::kReach * length + 1.5 * motion;
@@ -87,7 +114,10 @@ bool Crowd::lookAt(PilePair& pair) {
     refreshManifold(a, bodyAt(pair.b), manifold);
   }
   if (!touching) {
-    pair.until = a.path + pathB + manifold.separation - PileLengths::kReach * length;
+    const PileBody* b = hasWall ? nullptr : &bodyAt(pair.b);
+    pair.apart = b == nullptr ? a.position : Vec3(a.position - b->position);
+    pair.turned = a.turned + (b == nullptr ? 0 : b->turned);
+    pair.clear = manifold.separation - PileLengths::kReach * length;
     unused_.push_back(pair.slot);
     pair.slot = -1;
     return false;
@@ -255,7 +285,7 @@ void Crowd::project() {
       }
       const PileBody& b = bodyAt(manifold.b);
       const double unseen = pass == 0 ? relativeMotion(a, b, h_) : 0;
-      if (manifold.moved + unseen > PileLengths::kRebuild * manifold.length) {
+      if (manifold.moved + unseen > rebuildAfter(manifold.length)) {
         ++figures_.rebuilt;
         buildManifold(a, b, manifold.reach, manifold);
       } else {

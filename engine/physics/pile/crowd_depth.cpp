@@ -1,12 +1,14 @@
 // How deep bodies are in each other, and what undoes it within a step.
 #include <algorithm>
+#include <limits>
 
 #include "physics/pile/crowd.h"
 
 namespace careen {
 namespace {
 
-constexpr double kDeep = 1.5;  // [1] of the tolerance: new penetration that is projected at once
+constexpr double kDeep = 1.5;    // [1] of the tolerance: new penetration that is projected at once
+constexpr double kMostDeep = 2;  // [1] the same for any
 // Of what the projection tolerates: penetration from which bodies are shifted, what is left of it, so that
 // contacts persist, and the change that re-solves neighbours.
 constexpr double kShifted = 0.8;
@@ -43,42 +45,66 @@ void Crowd::findShifts() {
   figures_.solves += solver_.shift(kShiftSweeps, kShiftChange * tolerance_);
   for (const int slot : near_) {
     PileManifold& manifold = manifolds_[at(slot)];
-    for (const int body : {manifold.a, manifold.b.isWall() ? manifold.a : manifold.b.body()}) {
-      manifold.moved +=
-          solver_.displacement(body).norm() + bodies_[at(body)].radius * solver_.turn(body).norm();
-    }
+    manifold.moved += shiftOf(manifold.a) + (manifold.b.isWall() ? 0 : shiftOf(manifold.b.body()));
   }
 }
 
-// [m] How deep fast bodies went into each other and into walls in this step, if more than kDeep: the features
-// of the manifolds of its start were not all that met.
+// [m] How deep bodies went into each other and into walls in this step, if more than kDeep: the features of
+// the manifolds of its start were not all that met. `deep_` says whether any are too deep, since when ever.
 double Crowd::newDepth() {
   double deepest = 0;
+  deep_ = false;
   for (const PilePair& pair : pairs_.pairs()) {
-    const double depth = depthSince(pair);
-    deepest = std::max(deepest, depth);
-    if (depth > 0 && pair.slot >= 0) {
+    const double depth = depthNow(pair);
+    if (depth == 0) {
+      continue;
+    }
+    const bool grew = depth > depthBefore(pair) + 0.5 * tolerance_;
+    deepest = grew ? std::max(deepest, depth) : deepest;
+    deep_ = deep_ || depth > kMostDeep * tolerance_;
+    if (pair.slot >= 0 && (grew || depth > kMostDeep * tolerance_)) {
       manifolds_[at(pair.slot)].moved = std::numeric_limits<double>::max();  // to be rebuilt
     }
   }
   return deepest;
 }
 
-double Crowd::depthSince(const PilePair& pair) const {
+// [m] How far points of it were shifted in the last step, at the most.
+double Crowd::shiftOf(int body) const {
+  return shifts_ && solver_.isShifted(body)
+             ? solver_.displacement(body).norm() + bodies_[at(body)].radius * solver_.turn(body).norm()
+             : 0;
+}
+
+// [m] Overlap by all axes, 0 if it cannot be or is not more than kDeep.
+double Crowd::depthNow(const PilePair& pair) const {
   const PileBody& a = bodies_[at(pair.a)];
   const PileBody* b = pair.b.isWall() ? nullptr : &bodyAt(pair.b);
-  const bool apart = pair.slot < 0 && a.path + (b == nullptr ? 0 : b->path) < pair.until;
-  if (apart || (b == nullptr ? a.path - start_[at(pair.a)].path : relativeMotion(a, *b, h_)) < tolerance_) {
+  if ((a.still() && (b == nullptr || b->still())) || (pair.slot < 0 && pair.clear > 0 && wayLeft(pair) > 0)) {
+    return 0;
+  }
+  const double motion = b == nullptr ? a.path - start_[at(pair.a)].path
+                                     : relativeMotion(a, *b, h_) + shiftOf(pair.a) + shiftOf(pair.b.body());
+  if (motion < tolerance_ && !startedDeep(pair)) {
     return 0;
   }
   const double depth = b == nullptr ? overlapOf(a, wallAt(pair.b)) : overlapOf(a, *b);
-  if (depth <= kDeep * tolerance_) {
-    return 0;
+  return depth > kDeep * tolerance_ ? depth : 0;
+}
+
+// Whether a gap was below the tolerance before the step.
+bool Crowd::startedDeep(const PilePair& pair) const {
+  if (pair.slot < 0) {
+    return false;
   }
-  const PileBody& start = start_[at(pair.a)];
-  const double before =
-      b == nullptr ? overlapOf(start, wallAt(pair.b)) : overlapOf(start, start_[at(pair.b.body())]);
-  return depth > before + 0.5 * tolerance_ ? depth : 0;
+  const PileManifold& manifold = manifolds_[at(pair.slot)];
+  return std::any_of(manifold.points.begin(), manifold.points.begin() + manifold.count,
+                     [&](const PilePoint& point) { return point.gap < -tolerance_; });
+}
+
+double Crowd::depthBefore(const PilePair& pair) const {
+  const PileBody& a = start_[at(pair.a)];
+  return pair.b.isWall() ? overlapOf(a, wallAt(pair.b)) : overlapOf(a, start_[at(pair.b.body())]);
 }
 
 double Crowd::penetration() const {

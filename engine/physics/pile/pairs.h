@@ -16,8 +16,11 @@ struct PilePair {
   std::uint64_t key = 0;  ///< from a and b; sorts by a, then b
   int a = 0;
   Partner b = {};
-  int slot = -1;     ///< index of its manifold, −1: none
-  double until = 0;  ///< [m] no contact possible while the sum of both paths is less
+  int slot = -1;  ///< index of its manifold, −1: none
+  // Where there was no manifold when the two were last looked at:
+  Vec3 apart = Vec3::Zero();  ///< [m] a's centre from b's, or from the origin
+  double turned = 0;          ///< [m] the turned paths of both, together
+  double clear = 0;           ///< [m] that they must come nearer for contact points; 0: look again
 };
 
 /// Broad phase: each body has a fat AABB, its own enlarged by a fraction of its size and by its motion over

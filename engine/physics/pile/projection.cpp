@@ -129,6 +129,7 @@ bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> ma
     body.position += shift;
     turnBy(body, turn);
     body.path += std::min(far, most);
+    body.turned += body.radius * turn.norm();
     moved_[i] = 1;
   }
   for (const int slot : near) {
