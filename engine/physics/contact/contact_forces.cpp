@@ -215,6 +215,7 @@ bool ContactForces::solveGiven(std::span<const double> free, std::span<const Mod
       break;
     }
     factorised = true;
+    turned_ = coupled_.isNegative();
     change = improve();
   }
   if (best_.size() != multipliers_.size()) {

@@ -57,6 +57,10 @@ class ContactForces {
   double excess(std::size_t contact, std::size_t row) const { return excess_[contact][row]; }
   /// [m/s²] Scale for the rounding error of the excess.
   double scale() const { return scale_; }
+  /// Whether the determinant of the last forces with given modes was negative. Friction makes their equations
+  /// unsymmetric: the determinant passes zero at a moment at which the forces have no bound (Painlevé), and
+  /// contacts that push before it pull after it.
+  bool isTurned() const { return turned_; }
   /// [kg] Effective mass of the contact along its normal.
   double normalMass(std::size_t contact) const { return masses_[contact]; }
 
@@ -87,6 +91,7 @@ class ContactForces {
   std::vector<double> dq_;
   double scale_ = 0;
   double penalty_ = 0;  // [1]
+  bool turned_ = false;
 };
 
 }  // namespace careen

@@ -57,8 +57,8 @@ class ImplicitStep {
                   std::vector<ContactState>& contacts);
   /// [m/s²] Largest acceleration without contact forces at that state.
   double freeAcceleration(const GroupState& state);
-  /// [m/s] To which impulses are solved.
-  double residual() const { return enough_; }
+  /// [m/s] To which the last impulses were solved.
+  double residual() const { return residual_; }
   /// Factorisations so far, each times the bodies and contacts in it: the cost.
   double work() const { return work_; }
 
@@ -71,7 +71,8 @@ class ImplicitStep {
   void fillFree(const GroupState& from, double h);
   void aimAtEnd(std::size_t index, const ContactFeature& feature, const GroupState& to);
   ContactState stateOf(const ContactFeature& feature, const Kinematics& a, const Kinematics* b) const;
-  bool solve();
+  void chooseResidual(const GroupState& at);
+  bool solve(double enough);
   void moveArms(const GroupState& from, double h);
   void clearImpulses();
   void addImpulses(std::span<const ContactFeature> features);
@@ -85,6 +86,8 @@ class ImplicitStep {
 
   const World& world_;
   const std::vector<TouchingBody>& bodies_;
+  double tolerance_;                 // [m]
+  double radius_ = 0;                // [m] largest half diagonal of those that move
   std::vector<int> places_;          // by body: index in the problem, or kNobody
   std::vector<std::size_t> movers_;  // by index in the problem
   ContactProblem problem_;
@@ -103,7 +106,7 @@ class ImplicitStep {
   std::vector<Kinematics> kinematics_;
   std::vector<Vec3> normals_;  // by contact, before they are aligned
   GroupState middle_;
-  double enough_ = 0;  // [m/s] residual
+  double residual_ = 0;  // [m/s]
   double work_ = 0;
 };
 

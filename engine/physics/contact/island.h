@@ -115,10 +115,11 @@ class Island {
   void locate(Step& step);
   std::optional<Fall> fallOf(std::size_t event, double length);
   double rateOf(const EventFunction& corner) const;
-  double lowestWithin(double h, std::size_t event, double atEnd) const;
+  double lowestWithin(double h, std::size_t event, double atEnd);
   double lowestOfCorner(double h, std::size_t event, double atEnd) const;
   double deepWithin(double h, const EventFunction& event) const;
-  bool dips(double h) const;
+  double dipOf(double h, std::size_t event);
+  bool dips(double h);
   ContactStep motion(std::size_t body, double h) const;
   double value(const EventFunction& event) const;
   double marginOf(const EventFunction& event, double gap) const;
@@ -165,7 +166,11 @@ class Island {
   bool tookTimeStep_ = false;  // the last step was a time step
   int timeStepsLeft_ = 0;
   int timeStepsTaken_ = 0;
-  bool quiet_ = false;  // they end because hardly anything moves
+  bool quiet_ = false;        // they end because hardly anything moves
+  bool startTurned_ = false;  // of the forces at both ends of a step, see ContactForces::isTurned()
+  bool endTurned_ = false;
+  std::size_t moves_ = 0;                             // counts the motions tried
+  std::vector<std::pair<std::size_t, double>> dips_;  // of an event function: of which motion, deepWithin()
   std::unique_ptr<TimeStepper> stepper_;
   double deepest_ = 0;
   double work_ = 0;

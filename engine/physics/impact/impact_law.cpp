@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/math/order_free_sum.h"
 #include "physics/geometry/tangents.h"
+#include "physics/impact/impact_problem.h"
 #include "physics/impact/single_impact.h"
 #include "physics/solver/contact_solver.h"
 
@@ -23,87 +24,10 @@ using Impulses = std::vector<Impulse>;
 constexpr std::size_t kSix = ContactProblem::kAxes;
 /// [1] of the contacts' speeds: a residual with which an impact may go on although the solver aims at less.
 constexpr double kTolerable = 0x1p-24;
-constexpr double kLeastRestitution = 0.125;
+/// [1] of the restitution that is tried, one after the other, where bodies are wedged.
+constexpr std::array<double, 4> kParts{1, 0.5, 0.25, 0.125};
 /// Until impulses count as impossible.
 constexpr int kMostFactorisations = 400;
-
-bool movable(const MassProperties& mass) {
-  return mass.inverseMass > 0 || !mass.inverseInertiaBody.isZero(0);
-}
-
-/// One body's part of a Jacobian row: the speed of its point along `direction`, per unit of its velocities.
-void fillSide(ContactProblem::Row& row, std::size_t side, const Vec3& direction, const Vec3& arm,
-              const Mat3& a, double sign) {
-  const Vec3 turning = a.transpose() * arm.cross(direction);
-  for (std::size_t k = 0; k < 3; ++k) {
-    row[side * kSix + k] = sign * direction[static_cast<Eigen::Index>(k)];
-    row[side * kSix + 3 + k] = sign * turning[static_cast<Eigen::Index>(k)];
-  }
-}
-
-/// The impact in the coordinates of the solver: only the bodies that can move.
-struct Setup {
-  std::vector<int> movableOf;  // by body: index among the movable, or kNobody
-  ContactProblem problem;      // free: the velocities before
-};
-
-void addBodies(Setup& setup, std::span<const ImpactBody> bodies) {
-  for (const ImpactBody& body : bodies) {
-    if (!movable(*body.mass)) {
-      setup.movableOf.push_back(ContactProblem::kNobody);
-      continue;
-    }
-    setup.movableOf.push_back(static_cast<int>(setup.problem.free.size() / kSix));
-    const Vec3 momentumBody = body.state->pose.worldFromBody.transpose() * body.state->angularMomentum;
-    const Vec3 spin = body.mass->inverseInertiaBody.cwiseProduct(momentumBody);
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      setup.problem.free.push_back(body.state->velocity[k]);
-      setup.problem.inverseMass.push_back(body.mass->inverseMass);
-    }
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      setup.problem.free.push_back(spin[k]);
-      setup.problem.inverseMass.push_back(body.mass->inverseInertiaBody[k]);
-    }
-  }
-}
-
-double inverseEffectiveMass(const Setup& setup, const ContactProblem::Contact& contact) {
-  std::array<double, 2> sum{};
-  const std::array<int, 2> sides{contact.a, contact.b};
-  for (std::size_t side = 0; side < 2; ++side) {
-    for (std::size_t k = 0; sides[side] != ContactProblem::kNobody && k < kSix; ++k) {
-      const double value = contact.rows[0][side * kSix + k];
-      sum[side] +=
-          setup.problem.inverseMass[static_cast<std::size_t>(sides[side]) * kSix + k] * (value * value);
-    }
-  }
-  return sum[0] + sum[1];
-}
-
-void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactContact& contact) {
-  ContactProblem::Contact added;
-  const Tangents tangents = tangentsOf(contact.normal);
-  const std::array<Vec3, 3> directions{contact.normal, tangents.first, tangents.second};
-  const auto a = static_cast<std::size_t>(contact.a);
-  added.a = setup.movableOf[a];
-  for (std::size_t row = 0; row < 3; ++row) {
-    fillSide(added.rows[row], 0, directions[row], contact.armA, bodies[a].state->pose.worldFromBody, 1);
-  }
-  if (!contact.b.isWall()) {
-    const auto b = static_cast<std::size_t>(contact.b.body());
-    added.b = setup.movableOf[b];
-    for (std::size_t row = 0; row < 3; ++row) {
-      fillSide(added.rows[row], 1, directions[row], contact.armB, bodies[b].state->pose.worldFromBody, -1);
-    }
-  }
-  const double normal = inverseEffectiveMass(setup, added);
-  if (!(normal > 0) || !std::isfinite(normal)) {
-    throw NumericalError(
-        "impact: a contact between two sides that cannot move, or a number that is not finite");
-  }
-  added.friction = contact.material.friction;
-  setup.problem.contacts.push_back(added);
-}
 
 /// The laws for several contacts, all in terms of impulses from the velocity before.
 class Law {
@@ -281,7 +205,11 @@ class Law {
       const bool anyElastic = std::find(elastic.begin(), elastic.end(), 1) != elastic.end();
       const Chosen& chosen = anyElastic ? elastic : others;
       const bool isPlastic = pass == 0 && std::find(chosen.begin(), chosen.end(), 0) == chosen.end();
-      add(total, anyElastic ? 2 : 1, isPlastic ? plastic() : projection(q, chosen));
+      const Impulses change = isPlastic ? plastic() : projection(q, chosen);
+      if (std::all_of(change.begin(), change.end(), [](const Impulse& impulse) { return impulse[0] == 0; })) {
+        return total;  // what is left of their approach is rounding
+      }
+      add(total, anyElastic ? 2 : 1, change);
       q = after(total);
     }
     add(total, 1, projection(q, Chosen(contacts_.size(), 1)));
@@ -331,7 +259,7 @@ Impulses Law::withFriction(const Impulses& smooth) {
     restituted[k] -= compressed[k];
   }
   ContactProblem rough = problem_;
-  for (double part = 1; part >= kLeastRestitution; part /= 2) {
+  for (const double part : kParts) {
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       rough.contacts[c].target = {smooth[c][0] > 0 ? part * speed(c, 0, parting) : 0,
                                   part * speed(c, 1, restituted), part * speed(c, 2, restituted)};
@@ -429,12 +357,7 @@ void resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactCon
     shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)], b, only);
     return;
   }
-  Setup setup;
-  addBodies(setup, bodies);
-  for (const ImpactContact& contact : contacts) {
-    addContact(setup, bodies, contact);
-  }
-  Law law(std::move(setup.problem), contacts);
+  Law law(impactProblemOf(bodies, contacts), contacts);
   const Impulses impulses = law.resolve();
   std::vector<Vec3> world(contacts.size());
   for (std::size_t c = 0; c < contacts.size(); ++c) {

@@ -35,7 +35,7 @@ inline double newtonStep(double gap, double approach, double curvature) {
 ///       closing()            the gap's rate ahead is negative beyond rounding
 ///       closesHard()         closes faster than falling from rest through a few tolerances could
 ///       freeStep(floor, most) [s] proved time step in which the gap stays above `floor`, at most `most`
-///       polish()             [s] Newton step from here to the root, 0 where it is not safe
+///       polish(level)        [s] Newton step from here to where the gap is `level`, 0 where it is not safe
 ///       describe()           the contact at this time
 template <class Approach>
 FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
@@ -72,8 +72,8 @@ FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
       FirstContact impact = approach.describe();
       impact.kind = ContactKind::kImpact;
       // A root before the start of the search does not count: boxes that overlap by rounding may have touched
-      // ever since.
-      const double root = t + approach.polish();
+      // ever since. They meet anew where they are as deep as they were, when other corners come down to it.
+      const double root = t + approach.polish(grazing ? base : 0);
       impact.time = root < (grazing ? touch.time : window.from) ? t : std::min(root, window.until);
       impact.evaluations = evaluations;
       return impact;

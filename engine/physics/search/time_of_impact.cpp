@@ -51,7 +51,7 @@ class WallApproach {
   bool closing() const { return approach_ > rateTolerance_; }
   bool closesHard() const { return fasterThanSinking(approach_, curvature_, tolerance_); }
   double freeStep(double floor, double most) const { return bound_.firstReach(floor, most); }
-  double polish() const { return newtonStep(gap_, approach_, curvature_); }
+  double polish(double level) const { return newtonStep(gap_ - level, approach_, curvature_); }
 
   FirstContact describe() const {
     FirstContact contact;

@@ -47,7 +47,7 @@ class BoxApproach {
   }
   bool closesHard() const { return fasterThanSinking(approach_, curvature_, tolerance_); }
   double freeStep(double floor, double most) const;
-  double polish() const { return newtonStep(gap(), approach_, curvature_); }
+  double polish(double level) const { return newtonStep(gap() - level, approach_, curvature_); }
   FirstContact describe() {
     findRates();
     FirstContact contact;

@@ -166,6 +166,16 @@ void BlockLu::eliminate(std::size_t k) {
   }
 }
 
+bool BlockLu::isNegative() const {
+  bool negative = false;
+  for (const std::size_t diagonal : diagonal_) {
+    for (std::size_t i = 0; i < kSize; ++i) {
+      negative = negative != (blocks_[diagonal][i * kSize + i] < 0);
+    }
+  }
+  return negative;
+}
+
 void BlockLu::solve(std::span<double> x) const {
   for (std::size_t k = 0; k < rows(); ++k) {
     const Block& lu = blocks_[diagonal_[k]];

@@ -33,6 +33,8 @@ class BlockLu {
   /// In place. Returns false if a pivot is no number, or nothing but rounding errors far below what was there
   /// before.
   bool factorise();
+  /// Whether the determinant of what was factorised is negative.
+  bool isNegative() const;
   /// A x = b in place, six numbers per row.
   void solve(std::span<double> x) const;
 

@@ -37,6 +37,7 @@ constexpr int kStandingSteps = 3;
 constexpr double kStickingEpsilon = 0x1p-24;
 constexpr int kStickingSteps = 8;
 constexpr int kStepsOfRound = 100;  // of a round
+constexpr int kMostSets = 20;       // of contacts that push, without friction
 
 }  // namespace
 
@@ -128,6 +129,24 @@ bool ContactSolver::tryStanding() {
   return false;
 }
 
+bool ContactSolver::hasFriction() const {
+  return std::any_of(contacts_.contacts().begin(), contacts_.contacts().end(),
+                     [](const CoupledContacts::Contact& contact) {
+                       return !contact.onLine || contact.drag != std::array<double, 2>{};
+                     });
+}
+
+/// Without friction a problem is convex, and Newton's method a search for the contacts that push: those that
+/// would pull, or approach, change sides.
+bool ContactSolver::trySets() {
+  if (trySticking(kStickingEpsilon, kMostSets)) {
+    return true;
+  }
+  std::fill(from_.begin(), from_.end(), Triple{});
+  forget();
+  return false;
+}
+
 /// Back to no impulses.
 void ContactSolver::forget() {
   std::fill(impulses_.begin(), impulses_.end(), Triple{});
@@ -161,7 +180,7 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
     contacts_.importImpulses(solution.impulses, from_);
   }
   const bool warm = contacts_.largest(from_) > 0;
-  if (!warm && enough_ == 0 && tryStanding()) {
+  if (!warm && (hasFriction() ? enough_ == 0 && tryStanding() : trySets())) {
     return;
   }
   if (tryApproach(from_, {.epsilon = warm ? kWarmEpsilon : kColdEpsilon,

@@ -14,7 +14,8 @@ namespace careen {
 ///
 ///   1. no impulses;
 ///   2. without a warm start, and where only small residuals will do: Newton's method, all contacts sticking
-///      in its first step; accepted if everything stands (however heavy the top of a stack);
+///      in its first step; accepted if everything stands (however heavy the top of a stack). Without friction
+///      at any contact it is accepted whatever moves: the velocities are unique;
 ///   3. proximal points from the warm start, or from no impulses if there is none;
 ///   4. the interior-point method; whenever its gap fell a thousand times, Newton's method from there;
 ///   5. the same again, with softer contacts, whatever it leads to (jams: impulses may be 1000 times what
@@ -51,6 +52,8 @@ class ContactSolver {
   bool trySticking(double epsilon, int steps);
   bool tryStanding();
   bool stands() const;
+  bool hasFriction() const;
+  bool trySets();
   void forget();
   bool tryProximal(int rounds);
   void polish();

@@ -56,6 +56,8 @@ class CoupledContacts {
 
   /// M + Σ Jᵀ stiffness J. Returns false if it could not be factorised.
   bool factorise(std::span<const ContactAnswer> answers);
+  /// Whether the determinant of what was factorised is negative.
+  bool isNegative() const { return matrix_.isNegative(); }
   /// dq of the velocities q + dq at which q + dq = q₀ + M⁻¹Jᵀ(given − stiffness J dq).
   void step(std::span<const ContactAnswer> answers, std::span<const double> q, std::span<double> dq) const;
 

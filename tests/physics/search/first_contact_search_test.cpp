@@ -36,7 +36,7 @@ struct Curve {
                                                            : (rate + root) / curvature;
     return std::min(step, most);
   }
-  double polish() const { return newtonStep(gap(), -rateAt(time), curvature); }
+  double polish(double level) const { return newtonStep(gap() - level, -rateAt(time), curvature); }
   FirstContact describe() const {
     FirstContact contact;
     contact.approach = -rateAt(time);

@@ -55,6 +55,21 @@ TEST(Touching, whatClosesFromNoGapStrikesAtOnce) {
   EXPECT_EQ(hit.time, 0);
 }
 
+// Two corners that lie 1e-11 m in the floor rise while the other two, on its surface, come down at 0.3 m/s:
+// these strike when they are as deep as the others were. Were it at once, the impact, of which they are too
+// high to take part, would be found for ever.
+TEST(Touching, otherCornersStrikeWhereTheyAreAsDeep) {
+  const FirstContact hit = onFloor({.halfExtents = kHalf,
+                                    .position = Vec3(0, 0, 0.125 - 5e-12),
+                                    .velocity = Vec3(0, 0, 0.2),
+                                    .start = test::turned<double>(Vec3::UnitY(), -1e-11),
+                                    .momentumAxis = Vec3::UnitY(),
+                                    .precession = 1},
+                                   10);
+  EXPECT_EQ(hit.kind, ContactKind::kImpact);
+  EXPECT_NEAR(hit.time, 1e-11 / 0.3, 1e-14);
+}
+
 TEST(Touching, whatRestsOrTipsIsTouching) {
   EXPECT_EQ(onFloor({.halfExtents = kHalf, .position = Vec3(0, 0, 0.125), .gravity = kGravity}, 10).kind,
             ContactKind::kTouching);

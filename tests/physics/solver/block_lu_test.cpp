@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <cstddef>
 #include <random>
@@ -66,6 +67,39 @@ TEST(BlockLu, keepsToThePattern) {
   EXPECT_NE(lu.find(0, 1), lu.find(1, 0));
   EXPECT_NE(lu.find(1, 2), lu.find(2, 1));
   EXPECT_EQ(lu.diagonal(2), lu.find(2, 2));
+}
+
+// Against Eigen's dense determinants, of both signs.
+TEST(BlockLu, knowsTheSignOfTheDeterminant) {
+  std::mt19937 generator(7);
+  const auto number = [&] { return static_cast<double>(generator()) * 0x1p-31 - 1; };
+  int negative = 0;
+  for (int round = 0; round < 300; ++round) {
+    BlockLu lu;
+    const Edges edges{{0, 1}, {1, 2}};
+    lu.setPattern(3, edges);
+    lu.setZero();
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(18, 18);
+    const auto fill = [&](int i, int j) {
+      BlockLu::Block& block = lu.block(lu.find(i, j));
+      for (std::size_t k = 0; k < kSize * kSize; ++k) {
+        block[k] = number() + (i == j && k % (kSize + 1) == 0 ? 1 : 0);
+        dense(i * 6 + static_cast<int>(k / kSize), j * 6 + static_cast<int>(k % kSize)) = block[k];
+      }
+    };
+    for (int i = 0; i < 3; ++i) {
+      fill(i, i);
+    }
+    for (const auto& [i, j] : edges) {
+      fill(i, j);
+      fill(j, i);
+    }
+    ASSERT_TRUE(lu.factorise());
+    EXPECT_EQ(lu.isNegative(), dense.determinant() < 0) << round;
+    negative += lu.isNegative() ? 1 : 0;
+  }
+  EXPECT_GT(negative, 50);
+  EXPECT_LT(negative, 250);
 }
 
 TEST(BlockLu, zeroPivotIsReported) {

@@ -1,0 +1,275 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/order_free_sum.h"
+#include "physics/contact/implicit_step.h"
+#include "physics/contact/three_at.h"
+#include "physics/geometry/tangents.h"
+
+// Contacts of a step: where they are, their equations, the impulses that solve them.
+
+namespace careen {
+namespace {
+
+/// [1] Cosine of the angle of two normals that count as one: what the tolerance allows for a thin box.
+constexpr double kParallel = 1 - 0x1p-27;
+
+}  // namespace
+
+ContactState ImplicitStep::stateOf(const ContactFeature& feature, const Kinematics& a,
+                                   const Kinematics* b) const {
+  const Vec3& halfExtentsA = bodies_[static_cast<std::size_t>(feature.a)].body->halfExtents;
+  if (b == nullptr) {
+    return contactState(feature, a, halfExtentsA, nullptr, Vec3::Zero(), &world_.walls[feature.b.wall()]);
+  }
+  const Vec3& halfExtentsB = bodies_[static_cast<std::size_t>(feature.b.body())].body->halfExtents;
+  ContactState at = contactState(feature, a, halfExtentsA, b, halfExtentsB, nullptr);
+  // One point for both, else the pair's impulses would change angular momentum by gap × friction.
+  const Vec3 link = (a.pose.position - b->pose.position) + (at.armA - at.armB);
+  at.armA -= 0.5 * link;
+  at.armB += 0.5 * link;
+  return at;
+}
+
+ContactState ImplicitStep::contactAt(const ContactFeature& feature, const GroupState& state) const {
+  const auto a = static_cast<std::size_t>(feature.a);
+  const Kinematics ofA = kinematics(a, state[a]);
+  if (feature.b.isWall()) {
+    return stateOf(feature, ofA, nullptr);
+  }
+  const auto b = static_cast<std::size_t>(feature.b.body());
+  const Kinematics ofB = kinematics(b, state[b]);
+  return stateOf(feature, ofA, &ofB);
+}
+
+void ImplicitStep::contactsAt(std::span<const ContactFeature> features, const GroupState& state,
+                              std::vector<ContactState>& contacts) {
+  kinematics_.clear();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    kinematics_.push_back(kinematics(i, state[i]));
+  }
+  contacts.clear();
+  for (std::size_t c = 0; c < features.size(); ++c) {
+    const ContactFeature& feature = features[c];
+    const Kinematics& ofA = kinematics_[static_cast<std::size_t>(feature.a)];
+    if (feature.b.isWall()) {
+      contacts.push_back(stateOf(feature, ofA, nullptr));
+      continue;
+    }
+    contacts.push_back(stateOf(feature, ofA, &kinematics_[static_cast<std::size_t>(feature.b.body())]));
+  }
+  alignNormals(features, contacts);
+}
+
+// Points of one manifold lie on faces of either body, which are parallel only to within the tolerance. Given
+// one normal, the mean of theirs, their conditions agree exactly: else a problem asks which of them part by a
+// billionth of a speed.
+void ImplicitStep::alignNormals(std::span<const ContactFeature> features,
+                                std::vector<ContactState>& contacts) {
+  normals_.clear();
+  for (const ContactState& at : contacts) {
+    normals_.push_back(at.normal);
+  }
+  std::vector<std::array<double, 3>> different;
+  for (std::size_t c = 0; c < features.size(); ++c) {
+    different.clear();
+    for (std::size_t k = 0; !features[c].b.isWall() && k < features.size(); ++k) {
+      const bool same = features[k].a == features[c].a && features[k].b == features[c].b;
+      const bool swapped = features[c].b.isBody(features[k].a) && features[k].b.isBody(features[c].a);
+      if (!same && !swapped) {
+        continue;
+      }
+      const Vec3 normal = swapped ? Vec3(-normals_[k]) : normals_[k];
+      const std::array<double, 3> parts{normal[0], normal[1], normal[2]};
+      if (normal.dot(normals_[c]) >= kParallel &&
+          std::find(different.begin(), different.end(), parts) == different.end()) {
+        different.push_back(parts);
+      }
+    }
+    if (different.size() > 1) {
+      const std::array<double, 3> sum = orderFreeSums<3>(different);
+      ContactState& at = contacts[c];
+      const Vec3 velocity = at.slip + at.rate * at.normal;
+      at.normal = Vec3(sum[0], sum[1], sum[2]).normalized();
+      at.rate = at.normal.dot(velocity);
+      at.slip = velocity - at.rate * at.normal;
+    }
+  }
+}
+
+// Only bodies with contacts are part of the problem.
+void ImplicitStep::placeBodies(std::span<const ContactFeature> contacts) {
+  places_.assign(bodies_.size(), ContactProblem::kNobody);
+  movers_.clear();
+  problem_.inverseMass.clear();
+  problem_.contacts.clear();
+  std::vector<char> touched(bodies_.size(), 0);
+  for (const ContactFeature& feature : contacts) {
+    touched[static_cast<std::size_t>(feature.a)] = 1;
+    if (!feature.b.isWall()) {
+      touched[static_cast<std::size_t>(feature.b.body())] = 1;
+    }
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (touched[i] != 0 && !bodies_[i].isHeld()) {
+      places_[i] = static_cast<int>(movers_.size());
+      movers_.push_back(i);
+      const MassProperties& mass = bodies_[i].body->mass;
+      problem_.inverseMass.insert(problem_.inverseMass.end(), 3, mass.inverseMass);
+      for (int k = 0; k < 3; ++k) {
+        problem_.inverseMass.push_back(mass.inverseInertiaBody[k]);
+      }
+    }
+  }
+  problem_.free.assign(problem_.inverseMass.size(), 0.0);
+}
+
+// Rows of a contact: arms and normal of `geometry`, angular velocities in the frames `turned_`.
+void ImplicitStep::addRows(const ContactFeature& feature, const ContactState& geometry) {
+  ContactProblem::Contact contact;
+  const Tangents tangents = tangentsOf(geometry.normal);
+  const std::array<Vec3, 3> directions{geometry.normal, tangents.first, tangents.second};
+  const auto side = [&](std::size_t body, const Vec3& arm, double sign, std::size_t offset) {
+    if (places_[body] == ContactProblem::kNobody) {
+      return ContactProblem::kNobody;
+    }
+    for (std::size_t row = 0; row < 3; ++row) {
+      const Vec3 turning = turned_[body].transpose() * arm.cross(directions[row]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto axis = static_cast<Eigen::Index>(k);
+        contact.rows[row][offset + k] = sign * directions[row][axis];
+        contact.rows[row][offset + 3 + k] = sign * turning[axis];
+      }
+    }
+    return places_[body];
+  };
+  contact.a = side(static_cast<std::size_t>(feature.a), geometry.armA, 1, 0);
+  if (!feature.b.isWall()) {
+    contact.b = side(static_cast<std::size_t>(feature.b.body()), geometry.armB, -1, kSix);
+  }
+  contact.friction = feature.material.friction;
+  problem_.contacts.push_back(contact);
+}
+
+bool ImplicitStep::solve(double enough) {
+  solution_.enough = enough;
+  const bool solved = solver_.solve(problem_, solution_);
+  work_ += solution_.factorisations * static_cast<double>(movers_.size() + problem_.contacts.size());
+  return solved;
+}
+
+// Velocities of the problem's bodies without contacts, `h` [s] after a state.
+void ImplicitStep::fillFree(const GroupState& from, double h) {
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    const std::size_t i = movers_[m];
+    const MassProperties& mass = bodies_[i].body->mass;
+    setThree(problem_.free, m * kSix, from[i].velocity + (h * mass.inverseMass) * loads_[i].force);
+    const Vec3 angular = from[i].angularMomentum + h * loads_[i].torque;
+    setThree(problem_.free, m * kSix + 3,
+             mass.inverseInertiaBody.cwiseProduct(turned_[i].transpose() * angular));
+  }
+}
+
+// The law holds for the velocities at the end of the step, where arms and normal are others than in the rows.
+void ImplicitStep::aimAtEnd(std::size_t index, const ContactFeature& feature, const GroupState& to) {
+  ContactProblem::Contact& contact = problem_.contacts[index];
+  const Tangents tangents = tangentsOf(geometry_[index].normal);
+  const ContactState& end = ends_[index];
+  const std::array<double, 3> actual{end.rate, end.slip.dot(tangents.first), end.slip.dot(tangents.second)};
+  for (std::size_t row = 0; row < 3; ++row) {
+    double speed = 0;
+    const std::array<int, 2> sides{contact.a, contact.b};
+    const std::array<int, 2> bodies{feature.a, feature.b.isWall() ? 0 : feature.b.body()};
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (sides[side] == ContactProblem::kNobody) {
+        continue;
+      }
+      const auto i = static_cast<std::size_t>(bodies[side]);
+      const Vec3 spin = bodies_[i].body->mass.inverseInertiaBody.cwiseProduct(turned_[i].transpose() *
+                                                                              to[i].angularMomentum);
+      const double* values = &contact.rows[row][side * kSix];
+      speed += Vec3(values[0], values[1], values[2]).dot(to[i].velocity) +
+               Vec3(values[3], values[4], values[5]).dot(spin);
+    }
+    contact.target[row] = speed - actual[row];
+  }
+}
+
+// Sums over contacts do not depend on their order, which names and mirroring change.
+void ImplicitStep::addImpulses(std::span<const ContactFeature> features) {
+  parts_.resize(bodies_.size());
+  for (std::vector<Six>& parts : parts_) {
+    parts.clear();
+  }
+  for (std::size_t c = 0; c < features.size(); ++c) {
+    const Tangents tangents = tangentsOf(geometry_[c].normal);
+    const ContactProblem::Triple& impulse = solution_.impulses[c];
+    const Vec3 push =
+        impulse[0] * geometry_[c].normal + (impulse[1] * tangents.first + impulse[2] * tangents.second);
+    const auto add = [&](int body, const Vec3& arm, double sign) {
+      const Vec3 twist = sign * arm.cross(push);
+      parts_[static_cast<std::size_t>(body)].push_back(
+          {sign * push[0], sign * push[1], sign * push[2], twist[0], twist[1], twist[2]});
+    };
+    add(features[c].a, geometry_[c].armA, 1);
+    if (!features[c].b.isWall()) {
+      add(features[c].b.body(), geometry_[c].armB, -1);
+    }
+  }
+  push_.resize(bodies_.size());
+  twist_.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Six sum = orderFreeSums<kSix>(parts_[i]);
+    push_[i] = {sum[0], sum[1], sum[2]};
+    twist_[i] = {sum[3], sum[4], sum[5]};
+  }
+}
+
+// The points at which the impulses act are those of the last estimate of the middle; the centres of mass are
+// by now known to be elsewhere there. About them angular momentum is exchanged exactly.
+void ImplicitStep::moveArms(const GroupState& from, double h) {
+  for (const std::size_t i : movers_) {
+    const Vec3 gained = bodies_[i].body->mass.inverseMass * (h * loads_[i].force + push_[i]);
+    const Vec3 middle = from[i].position + (0.5 * h) * (from[i].velocity + 0.5 * gained);
+    twist_[i] += (middle_[i].position - middle).cross(push_[i]);
+  }
+}
+
+// The step's impulses, with rows at its middle; `to` is the last estimate of its end.
+bool ImplicitStep::findImpulses(const GroupState& from, double h, bool first,
+                                std::vector<ClosedContact>& contacts, const GroupState& to) {
+  placeBodies(features_);
+  for (const std::size_t i : movers_) {
+    turned_[i] = to[i].worldFromBody.toRotationMatrix();
+  }
+  fillFree(from, h);
+  contactsAt(features_, middle_, geometry_);
+  if (!first) {
+    contactsAt(features_, to, ends_);
+  }
+  solution_.impulses.clear();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    addRows(features_[c], geometry_[c]);
+    if (!first) {
+      aimAtEnd(c, features_[c], to);
+    }
+    const Tangents tangents = tangentsOf(geometry_[c].normal);
+    const Vec3 friction = h * contacts[c].friction;
+    solution_.impulses.push_back(
+        {h * contacts[c].push, friction.dot(tangents.first), friction.dot(tangents.second)});
+  }
+  if (!solve(residual_)) {
+    return false;
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const ContactProblem::Triple& impulse = solution_.impulses[c];
+    const Tangents tangents = tangentsOf(geometry_[c].normal);
+    contacts[c].push = impulse[0] / h;
+    contacts[c].friction = (impulse[1] * tangents.first + impulse[2] * tangents.second) / h;
+  }
+  addImpulses(features_);
+  moveArms(from, h);
+  return true;
+}
+
+}  // namespace careen

@@ -1,0 +1,105 @@
+#include "physics/impact/impact_problem.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "physics/geometry/tangents.h"
+
+namespace careen {
+namespace {
+
+bool movable(const MassProperties& mass) {
+  return mass.inverseMass > 0 || !mass.inverseInertiaBody.isZero(0);
+}
+
+/// One body's part of a Jacobian row: the speed of its point along `direction`, per unit of its velocities.
+void fillSide(ContactProblem::Row& row, std::size_t side, const Vec3& direction, const Vec3& arm,
+              const Mat3& a, double sign) {
+  const Vec3 turning = a.transpose() * arm.cross(direction);
+  for (std::size_t k = 0; k < 3; ++k) {
+    row[side * ContactProblem::kAxes + k] = sign * direction[static_cast<Eigen::Index>(k)];
+    row[side * ContactProblem::kAxes + 3 + k] = sign * turning[static_cast<Eigen::Index>(k)];
+  }
+}
+
+/// The impact in the coordinates of the solver: only the bodies that can move.
+struct Setup {
+  std::vector<int> movableOf;  // by body: index among the movable, or kNobody
+  ContactProblem problem;      // free: the velocities before
+};
+
+void addBodies(Setup& setup, std::span<const ImpactBody> bodies) {
+  for (const ImpactBody& body : bodies) {
+    if (!movable(*body.mass)) {
+      setup.movableOf.push_back(ContactProblem::kNobody);
+      continue;
+    }
+    setup.movableOf.push_back(static_cast<int>(setup.problem.free.size() / ContactProblem::kAxes));
+    const Vec3 momentumBody = body.state->pose.worldFromBody.transpose() * body.state->angularMomentum;
+    const Vec3 spin = body.mass->inverseInertiaBody.cwiseProduct(momentumBody);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      setup.problem.free.push_back(body.state->velocity[k]);
+      setup.problem.inverseMass.push_back(body.mass->inverseMass);
+    }
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      setup.problem.free.push_back(spin[k]);
+      setup.problem.inverseMass.push_back(body.mass->inverseInertiaBody[k]);
+    }
+  }
+}
+
+double inverseEffectiveMass(const Setup& setup, const ContactProblem::Contact& contact) {
+  std::array<double, 2> sum{};
+  const std::array<int, 2> sides{contact.a, contact.b};
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t k = 0; sides[side] != ContactProblem::kNobody && k < ContactProblem::kAxes; ++k) {
+      const double value = contact.rows[0][side * ContactProblem::kAxes + k];
+      sum[side] +=
+          setup.problem.inverseMass[static_cast<std::size_t>(sides[side]) * ContactProblem::kAxes + k] *
+          (value * value);
+    }
+  }
+  return sum[0] + sum[1];
+}
+
+void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactContact& contact) {
+  ContactProblem::Contact added;
+  const Tangents tangents = tangentsOf(contact.normal);
+  const std::array<Vec3, 3> directions{contact.normal, tangents.first, tangents.second};
+  const auto a = static_cast<std::size_t>(contact.a);
+  added.a = setup.movableOf[a];
+  for (std::size_t row = 0; row < 3; ++row) {
+    fillSide(added.rows[row], 0, directions[row], contact.armA, bodies[a].state->pose.worldFromBody, 1);
+  }
+  if (!contact.b.isWall()) {
+    const auto b = static_cast<std::size_t>(contact.b.body());
+    added.b = setup.movableOf[b];
+    for (std::size_t row = 0; row < 3; ++row) {
+      fillSide(added.rows[row], 1, directions[row], contact.armB, bodies[b].state->pose.worldFromBody, -1);
+    }
+  }
+  const double normal = inverseEffectiveMass(setup, added);
+  if (!(normal > 0) || !std::isfinite(normal)) {
+    throw NumericalError(
+        "impact: a contact between two sides that cannot move, or a number that is not finite");
+  }
+  added.friction = contact.material.friction;
+  setup.problem.contacts.push_back(added);
+}
+
+}  // namespace
+
+ContactProblem impactProblemOf(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts) {
+  Setup setup;
+  addBodies(setup, bodies);
+  for (const ImpactContact& contact : contacts) {
+    addContact(setup, bodies, contact);
+  }
+  return std::move(setup.problem);
+}
+
+}  // namespace careen
