@@ -136,7 +136,7 @@ void GltfAnimation::moveWithBody(std::size_t index, AnimationJson& node, std::si
   std::vector<double> seams;
   addKinks(body, kinks, seams);
   const AnimatedSpan times = span(std::move(kinks), seams);
-  const auto pose = [this, body](double time) { return run_.state(body, sceneTime(time)).pose; };
+  const auto pose = [this, body](double time) { return run_.boxPoseAt(body, sceneTime(time)); };
   animate(index, node, positionKeys(times, within_, [&](double time) { return pose(time).position; }));
   animate(index, node, rotationKeys(times, within_, [&](double time) {
             return Quat(pose(time).worldFromBody).normalized();

@@ -27,10 +27,11 @@ struct SceneBox {
   std::string name;
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
   double mass = 0;                  ///< [kg] 0 if the box is fixed and the scene gives none
-  std::optional<Mat3> inertia;      ///< [kg m²] about the centre, box's axes, diagonal; absent: solid
-  std::string massFrom;             ///< file of the mesh that mass and inertia are of; empty: none
-  Pose pose;
-  Vec3 velocity = Vec3::Zero();         ///< [m/s]
+  std::optional<Mat3> inertia;      ///< [kg m²] about the centre of mass, box's axes; absent: solid
+  Vec3 center = Vec3::Zero();       ///< [m] centre of mass, from the box's middle along its axes
+  std::string massFrom;             ///< file of the mesh that mass, centre and inertia are of; empty: none
+  Pose pose;                        ///< of the box's middle
+  Vec3 velocity = Vec3::Zero();     ///< [m/s] of the box's middle
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s] world frame
   Material material;
   bool fixed = false;

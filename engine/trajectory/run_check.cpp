@@ -131,10 +131,18 @@ void checkBody(const Body& body) {
     require(body.mass == immovable(), "a mass though it cannot be moved", owner);
   } else {
     require(isPositive(body.mass.mass), "a mass that is not positive", owner);
+    MassProperties along = body.mass;
+    along.turned = false;
+    along.bodyFromPrincipal = Mat3::Identity();
     require(whyNoInertia(body.mass.inertiaBody).empty() &&
-                body.mass == massWithInertia(body.mass.mass, body.mass.inertiaBody),
+                along == massWithInertia(body.mass.mass, body.mass.inertiaBody),
             "an inertia that no body has", owner);
+    require(isRotation(body.mass.bodyFromPrincipal) &&
+                (body.mass.turned || body.mass.bodyFromPrincipal == Mat3::Identity()),
+            "principal axes that are none", owner);
   }
+  require((body.boxCenter.cwiseAbs().array() <= body.halfExtents.array()).all(),
+          "a centre of mass outside its box", owner);
   checkMaterial(body.material, owner);
   require(isSound(body.initial), "an invalid initial state", owner);
 }

@@ -124,6 +124,18 @@ void visit(Archive& archive, Visited<Archive, MassProperties> mass) {
   visit(archive, mass.inverseInertiaBody);
 }
 
+/// What a body has since format version 7, stored after the rest.
+template <class Archive>
+void visitPlacement(Archive& archive, Visited<Archive, Body> body) {
+  visit(archive, body.boxCenter);
+  archive.visit(body.mass.turned);
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      archive.visit(body.mass.bodyFromPrincipal(row, column));
+    }
+  }
+}
+
 template <class Archive>
 void visit(Archive& archive, Visited<Archive, Motion> motion) {
   visitVariant(archive, motion);

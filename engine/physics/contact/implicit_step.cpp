@@ -34,7 +34,7 @@ ImplicitStep::ImplicitStep(const World& world, const std::vector<TouchingBody>& 
     : world_(world), bodies_(bodies), loads_(bodies.size()), turned_(bodies.size()) {
   double radius = 0;
   for (const TouchingBody& body : bodies) {
-    radius = body.isHeld() ? radius : std::max(radius, body.body->halfExtents.norm());
+    radius = body.isHeld() ? radius : std::max(radius, radiusOf(*body.body));
   }
   enough_ = kEnoughProgress * tolerance * std::sqrt(world.gravity.norm() / radius);
   if (!world.springs.empty() || world.drag) {
@@ -45,8 +45,12 @@ ImplicitStep::ImplicitStep(const World& world, const std::vector<TouchingBody>& 
 }
 
 Vec3 ImplicitStep::spinOf(std::size_t body, const Mat3& turned, const Vec3& angularMomentum) const {
-  return turned *
-         bodies_[body].body->mass.inverseInertiaBody.cwiseProduct(turned.transpose() * angularMomentum);
+  return turned * bodies_[body].body->mass.inverseInertiaTimes(turned.transpose() * angularMomentum);
+}
+
+// Attitude of a body's principal axes.
+Mat3 ImplicitStep::principalAt(std::size_t body, const GroupBody& at) const {
+  return bodies_[body].body->mass.worldFromPrincipal(at.worldFromBody.toRotationMatrix());
 }
 
 Kinematics ImplicitStep::kinematics(std::size_t body, const GroupBody& at) const {
@@ -61,12 +65,12 @@ Kinematics ImplicitStep::kinematics(std::size_t body, const GroupBody& at) const
 
 ContactState ImplicitStep::stateOf(const ContactFeature& feature, const Kinematics& a,
                                    const Kinematics* b) const {
-  const Vec3& halfExtentsA = bodies_[static_cast<std::size_t>(feature.a)].body->halfExtents;
+  const BoxShape boxA = shapeOf(*bodies_[static_cast<std::size_t>(feature.a)].body);
   if (b == nullptr) {
-    return contactState(feature, a, halfExtentsA, nullptr, Vec3::Zero(), &world_.walls[feature.b.wall()]);
+    return contactState(feature, a, boxA, nullptr, boxA, &world_.walls[feature.b.wall()]);
   }
-  const Vec3& halfExtentsB = bodies_[static_cast<std::size_t>(feature.b.body())].body->halfExtents;
-  ContactState at = contactState(feature, a, halfExtentsA, b, halfExtentsB, nullptr);
+  const BoxShape boxB = shapeOf(*bodies_[static_cast<std::size_t>(feature.b.body())].body);
+  ContactState at = contactState(feature, a, boxA, b, boxB, nullptr);
   // One point for both, else the pair's impulses would change angular momentum by gap × friction.
   const Vec3 link = (a.pose.position - b->pose.position) + (at.armA - at.armB);
   at.armA -= 0.5 * link;
@@ -174,7 +178,7 @@ double ImplicitStep::freeAcceleration(const GroupState& state) {
     if (!bodies_[i].isHeld()) {
       const MassProperties& mass = bodies_[i].body->mass;
       const double turning =
-          loads_[i].torque.norm() * mass.inverseInertiaBody.maxCoeff() * bodies_[i].body->halfExtents.norm();
+          loads_[i].torque.norm() * mass.inverseInertiaBody.maxCoeff() * radiusOf(*bodies_[i].body);
       largest = std::max(largest, mass.inverseMass * loads_[i].force.norm() + turning);
     }
   }
@@ -368,7 +372,7 @@ bool ImplicitStep::findImpulses(const GroupState& from, double h, bool first,
                                 std::vector<ClosedContact>& contacts, const GroupState& to) {
   placeBodies(features_);
   for (const std::size_t i : movers_) {
-    turned_[i] = to[i].worldFromBody.toRotationMatrix();
+    turned_[i] = principalAt(i, to[i]);
   }
   fillFree(from, h);
   contactsAt(features_, middle_, geometry_);
@@ -429,7 +433,7 @@ bool ImplicitStep::compress(GroupState& state, std::span<const ContactFeature> c
                             std::vector<ContactProblem::Triple>& impulses) {
   placeBodies(contacts);
   for (const std::size_t i : movers_) {
-    turned_[i] = state[i].worldFromBody.toRotationMatrix();
+    turned_[i] = principalAt(i, state[i]);
   }
   fillFree(state, 0);
   contactsAt(contacts, state, geometry_);
@@ -454,7 +458,7 @@ bool ImplicitStep::separate(GroupState& state, std::span<const ContactFeature> c
   for (int pass = 0; pass < kMostPasses; ++pass) {
     placeBodies(contacts);
     for (const std::size_t i : movers_) {
-      turned_[i] = state[i].worldFromBody.toRotationMatrix();
+      turned_[i] = principalAt(i, state[i]);
     }
     bool deep = false;
     contactsAt(contacts, state, geometry_);
@@ -474,8 +478,9 @@ bool ImplicitStep::separate(GroupState& state, std::span<const ContactFeature> c
     for (std::size_t m = 0; m < movers_.size(); ++m) {
       GroupBody& body = state[movers_[m]];
       body.position += threeAt(solution_.velocities, m * kSix);
-      body.worldFromBody =
-          (body.worldFromBody * rotationBy(threeAt(solution_.velocities, m * kSix + 3))).normalized();
+      const Vec3 turn =
+          bodies_[movers_[m]].body->mass.fromPrincipal(threeAt(solution_.velocities, m * kSix + 3));
+      body.worldFromBody = (body.worldFromBody * rotationBy(turn)).normalized();
     }
   }
   return true;

@@ -70,7 +70,7 @@ double lowestBetween(double from, double to, const Value& valueAt) {
 }  // namespace
 
 double Island::touching(std::size_t body) const {
-  return touchingWithin({system_.kinematics(body).pose, bodies()[body].body->halfExtents});
+  return touchingWithin(boxAt(system_.kinematics(body).pose, *bodies()[body].body));
 }
 
 void Island::listEventFunctions() {
@@ -102,7 +102,7 @@ void Island::listEventFunctions() {
   for (std::size_t i = 0; i < bodies().size(); ++i) {
     for (std::size_t w = 0; w < (bodies()[i].isHeld() ? 0 : world_.walls.size()); ++w) {
       for (int k = 0; k < kCorners; ++k) {
-        const Vec3 at = corner(bodies()[i].body->halfExtents, k);
+        const Vec3 at = corner(*bodies()[i].body, k);
         if (!hasCorner(features, static_cast<int>(i), Partner::ofWall(w), at)) {
           eventFunctions_.push_back(
               {.kind = EventFunction::Kind::kCorner, .contact = i, .wall = static_cast<int>(w), .corner = k});
@@ -231,8 +231,7 @@ bool Island::handlesPair(std::size_t a, std::size_t b) const {
 // [m/s] Rate of a corner's gap.
 double Island::rateOf(const EventFunction& corner) const {
   const Kinematics& at = system_.kinematics(corner.contact);
-  const Vec3 arm =
-      at.pose.worldFromBody * careen::corner(bodies()[corner.contact].body->halfExtents, corner.corner);
+  const Vec3 arm = at.pose.worldFromBody * careen::corner(*bodies()[corner.contact].body, corner.corner);
   return world_.walls[static_cast<std::size_t>(corner.wall)].normal.dot(at.velocity +
                                                                         at.angularVelocity.cross(arm));
 }
@@ -287,7 +286,7 @@ double Island::deepWithin(double h, const EventFunction& event) const {
   const auto gapAt = [&](double time) {
     const Pose poseA = stateAt(ofA, bodies()[a].body->mass, time).pose;
     const Pose poseB = stateAt(ofB, bodies()[b].body->mass, time).pose;
-    return BoxAxes({poseA, bodies()[a].body->halfExtents}, {poseB, bodies()[b].body->halfExtents}).gap();
+    return BoxAxes(boxAt(poseA, *bodies()[a].body), boxAt(poseB, *bodies()[b].body)).gap();
   };
   std::array<double, kMoments + 1> gaps{};
   const auto deep = [&] { return std::min(-tolerance_, gaps[0] - kDeeper * tolerance_); };
@@ -342,15 +341,15 @@ double Island::value(const EventFunction& event) const {
       const ContactFeature& feature = system_.features()[c];
       const auto a = static_cast<std::size_t>(feature.a);
       const auto b = static_cast<std::size_t>(feature.b.body());
-      return BoxAxes({system_.kinematics(a).pose, bodies()[a].body->halfExtents},
-                     {system_.kinematics(b).pose, bodies()[b].body->halfExtents})
+      return BoxAxes(boxAt(system_.kinematics(a).pose, *bodies()[a].body),
+                     boxAt(system_.kinematics(b).pose, *bodies()[b].body))
                  .gap() +
              event.margin;
     }
     case EventFunction::Kind::kCorner: {
       const Wall& wall = world_.walls[static_cast<std::size_t>(event.wall)];
-      return cornerGap(system_.kinematics(c).pose, corner(bodies()[c].body->halfExtents, event.corner),
-                       wall.normal, wall.offset) +
+      return cornerGap(system_.kinematics(c).pose, corner(*bodies()[c].body, event.corner), wall.normal,
+                       wall.offset) +
              event.margin;
     }
   }
