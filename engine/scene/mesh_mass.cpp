@@ -50,6 +50,30 @@ void roundToBox(SolidMoments& moments, const Vec3& halfExtents) {
   }
 }
 
+// Does something with the mesh that a key of a box names, once it lies within the box; an InputError of it is
+// told with the key's place.
+template <class Use>
+void useMesh(const JsonTree& tree, std::size_t place, const char* key, const std::string& name,
+             const SceneBox& box, const Use& use) {
+  const fs::path path = fs::path(tree.name()).parent_path() / name;
+  const auto fail = [&](const std::string& why) {
+    throw InputError(tree.name() + ":" + tree.place(place) + ": " + key + " of box " + inQuotes(box.name) +
+                     ": " + why);
+  };
+  TriangleMesh mesh;
+  try {
+    mesh = readMesh(path);
+  } catch (const InputError& error) {
+    fail(error.what());
+  }
+  try {
+    checkWithin(mesh, box.halfExtents);
+    use(mesh);
+  } catch (const InputError& error) {
+    fail(path.string() + ": " + error.what());
+  }
+}
+
 void takeMass(const JsonTree& tree, const JsonNode& node, SceneBox& box) {
   const std::size_t place = node.find("mass_from")->offset;
   const std::string found = "mass_from for box " + inQuotes(box.name);
@@ -65,19 +89,7 @@ void takeMass(const JsonTree& tree, const JsonNode& node, SceneBox& box) {
   if (density == nullptr) {
     tree.fail(place, found + " without density", "a density [kg/m³]");
   }
-  const fs::path path = fs::path(tree.name()).parent_path() / box.massFrom;
-  const auto fail = [&](const std::string& why) {
-    throw InputError(tree.name() + ":" + tree.place(place) + ": mass_from of box " + inQuotes(box.name) +
-                     ": " + why);
-  };
-  TriangleMesh mesh;
-  try {
-    mesh = readMesh(path);
-  } catch (const InputError& error) {
-    fail(error.what());
-  }
-  try {
-    checkWithin(mesh, box.halfExtents);
+  useMesh(tree, place, "mass_from", box.massFrom, box, [&](const TriangleMesh& mesh) {
     SolidMoments moments = momentsOf(mesh);
     roundToBox(moments, box.halfExtents);
     box.mass = density->number * moments.volume;
@@ -87,9 +99,7 @@ void takeMass(const JsonTree& tree, const JsonNode& node, SceneBox& box) {
       throw InputError("found a mass of " + brief(box.mass) + " kg and an inertia with " +
                        inBrief(box.inertia->diagonal()) + " kg m² on the diagonal, expected those of a body");
     }
-  } catch (const InputError& error) {
-    fail(path.string() + ": " + error.what());
-  }
+  });
 }
 
 }  // namespace
@@ -98,6 +108,19 @@ void takeMassesFromMeshes(const JsonTree& tree, Scene& scene) {
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
     if (!scene.boxes[i].massFrom.empty()) {
       takeMass(tree, tree.root().find("boxes")->children[i], scene.boxes[i]);
+    }
+  }
+}
+
+void takeDrawnMeshes(const JsonTree& tree, Scene& scene) {
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    SceneBox& box = scene.boxes[i];
+    if (!box.drawFrom.empty()) {
+      const std::size_t place = tree.root().find("boxes")->children[i].find("draw")->offset;
+      useMesh(tree, place, "draw", box.drawFrom, box, [&](const TriangleMesh& mesh) {
+        momentsOf(mesh);  // refuses what is not closed
+        box.drawn = mesh;
+      });
     }
   }
 }

@@ -12,6 +12,9 @@ namespace careen {
 /// mass_from stands without density, beside mass, inertia or center, or in a fixed box.
 void takeMassesFromMeshes(const JsonTree& tree, Scene& scene);
 
+/// Reads the meshes that boxes are drawn as: closed, and within their boxes, as above, else InputError.
+void takeDrawnMeshes(const JsonTree& tree, Scene& scene);
+
 inline constexpr double kFitsBox = 1e-6;
 
 }  // namespace careen

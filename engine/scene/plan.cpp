@@ -253,8 +253,12 @@ Stage stageOf(const Scene& scene) {
   for (const Wall& wall : scene.walls) {
     stage.planes.push_back({.normal = wall.normal, .offset = wall.offset});
   }
-  for (const SceneBox& box : scene.boxes) {
+  for (std::size_t body = 0; body < scene.boxes.size(); ++body) {
+    const SceneBox& box = scene.boxes[body];
     stage.colors.push_back(box.color);
+    if (!box.drawn.triangles.empty()) {
+      stage.parts.push_back({.body = body, .mesh = box.drawn});
+    }
   }
   return stage;
 }

@@ -240,6 +240,7 @@ void checkScene(const JsonTree& tree, Scene& scene, Starts starts) {
   checkInertias(tree, scene);
   checkCenters(tree, scene);
   takeMassesFromMeshes(tree, scene);
+  takeDrawnMeshes(tree, scene);
   checkFixed(tree, scene);
   const BodiesByName bodies = bodiesOf(scene);
   connectSprings(tree, bodies, scene);

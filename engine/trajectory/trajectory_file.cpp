@@ -81,6 +81,7 @@ std::string encodeTrajectory(const Trajectory& trajectory) {
   for (const Body& body : trajectory.world.bodies) {
     visitPlacement(record, body);
   }
+  visitAll(record, trajectory.stage.parts);
   record.visit(trajectory.stateHash());
   ArchiveWriter file;
   file.bytes() += kFileMagic;
@@ -109,6 +110,7 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name, c
       for (Body& body : trajectory.world.bodies) {
         visitPlacement(reader, body);
       }
+      visitAll(reader, trajectory.stage.parts);
     }
   } else {
     readFormat3(reader, setupOf, trajectory);

@@ -134,6 +134,25 @@ TEST_F(MeshMass, isRefusedWhereTheBoxCannotHaveIt) {
       std::string::npos);
 }
 
+TEST_F(MeshMass, aDrawnMeshChangesThePictureAlone) {
+  folder_.write("part.obj", asObj(boxMesh(Vec3(0.3, 0.2, 0.05), Vec3(0, 0, 0.05))));
+  writeScene(R"("mass": 2, "draw": "part.obj")");
+  const Scene scene = read();
+  const Stage stage = stageOf(scene);
+  ASSERT_EQ(stage.parts.size(), 1U);
+  EXPECT_EQ(stage.parts[0].body, 0U);
+  EXPECT_EQ(stage.parts[0].mesh.triangles.size(), 12U);
+  EXPECT_EQ(assemble(scene, plan(scene)).bodies[0].mass, solidBox(Vec3(0.3, 0.2, 0.1), 2));
+  folder_.write("part.obj", asObj(boxMesh(Vec3(0.3, 0.2, 0.2), Vec3::Zero())));
+  EXPECT_NE(message().find("draw of box \"box-0\": part.obj: found a vertex at"), std::string::npos);
+  TriangleMesh open = boxMesh(Vec3(0.3, 0.2, 0.1), Vec3::Zero());
+  open.triangles.pop_back();
+  folder_.write("part.obj", asObj(open));
+  EXPECT_NE(message().find("expected a closed mesh"), std::string::npos);
+  writeScene(R"("mass": 2, "draw": "")");
+  EXPECT_NE(message().find("the name of a mesh, .obj"), std::string::npos);
+}
+
 TEST_F(MeshMass, isRefusedWithTheEdgeThatIsOpen) {
   TriangleMesh open = boxMesh(Vec3(0.3, 0.2, 0.1), Vec3::Zero());
   open.triangles.pop_back();

@@ -103,6 +103,20 @@ TEST(TrajectoryFile, bringsBackWhereTheCentreOfMassLiesAndItsAxes) {
   EXPECT_EQ(back.poses(0.7)[0].position, run.poses(0.7)[0].position);
 }
 
+TEST(TrajectoryFile, bringsBackTheMeshesThatAreDrawn) {
+  Trajectory run = record(elasticRoom(), {.duration = 1}, "{}");
+  const TriangleMesh mesh{.points = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()}, .triangles = {{0, 2, 1}}};
+  run.stage.parts = {{.body = 0, .mesh = mesh}};
+  const Trajectory back = decodeTrajectory(encodeTrajectory(run), "run.careen");
+  ASSERT_EQ(back.stage.parts.size(), 1U);
+  EXPECT_EQ(back.stage.parts[0].mesh.points, mesh.points);
+  EXPECT_EQ(back.stage.parts[0].mesh.triangles, mesh.triangles);
+  run.stage.parts[0].mesh.triangles[0][1] = 3;
+  EXPECT_NE(messageOf(encodeTrajectory(run)).find("a mesh to be drawn"), std::string::npos);
+  run.stage.parts[0].body = 7;
+  EXPECT_NE(messageOf(encodeTrajectory(run)).find("an unknown body"), std::string::npos);
+}
+
 TEST(TrajectoryFile, refusesAFileCutShortAnywhere) {
   const std::string bytes = encodeTrajectory(driftAndReturn());
   for (std::size_t size = 0; size < bytes.size(); ++size) {

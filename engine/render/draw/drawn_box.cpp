@@ -30,6 +30,13 @@ DrawnBox rod(const Vec3& from, const Vec3& to, double thickness) {
   return box;
 }
 
+const TriangleMesh* meshOf(const Stage& stage, std::size_t body) {
+  const auto part =
+      std::lower_bound(stage.parts.begin(), stage.parts.end(), body,
+                       [](const DrawnPart& each, std::size_t index) { return each.body < index; });
+  return part != stage.parts.end() && part->body == body ? &part->mesh : nullptr;
+}
+
 bool isSame(const Pose& a, const Pose& b) {
   return a.position == b.position && a.worldFromBody == b.worldFromBody;
 }
@@ -44,7 +51,8 @@ void appendBoxes(std::vector<DrawnBox>& boxes, const World& world, const Stage& 
     boxes.push_back({.pose = poses[i],
                      .halfExtents = world.bodies[i].halfExtents,
                      .color = linearFromSrgb(stage.colors[i]),
-                     .body = i});
+                     .body = i,
+                     .mesh = meshOf(stage, i)});
   }
   for (std::size_t i = 0; i < world.springs.size(); ++i) {
     const Vec3 from = endOf(world.springs[i].from, world, poses);
