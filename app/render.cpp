@@ -28,6 +28,7 @@
 #include "run.h"
 #include "still.h"
 #include "truth/truth_film.h"
+#include "truth/truth_frame.h"
 
 namespace careen {
 namespace {
@@ -235,6 +236,9 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
     refuseToOverwrite(*reference, settings.folder);
   }
   Run run = loadRun(options.source, options.overrides, options.scene, stop);
+  if (truth) {
+    checkLabels(run.trajectory);
+  }
   auditRun(run, options.audit, stop);
   std::optional<Trajectory> ghost;
   if (options.ghost) {

@@ -58,7 +58,7 @@ class Auditor {
   bool isFull() const { return depth_ == AuditDepth::kFull; }
   std::size_t bodies() const { return run_.tracks.size(); }
   const Body& body(std::size_t index) const { return run_.world.bodies[index]; }
-  double radius(std::size_t index) const { return body(index).halfExtents.norm(); }
+  double radius(std::size_t index) const { return radiusOf(body(index)); }
 
   std::vector<double> moments() const;
   bool areMotionsFinite();
@@ -117,7 +117,7 @@ void Auditor::lookAtWalls(std::size_t index, const Pose& pose, double time) {
     return;
   }
   for (std::size_t wall = 0; wall < run_.world.walls.size(); ++wall) {
-    const double depth = -separationOf(AuditBox{body(index).halfExtents, pose}, run_.world.walls[wall]);
+    const double depth = -separationOf(auditBox(body(index), pose), run_.world.walls[wall]);
     if (!(depth <= 0)) {
       found(AuditKind::kWallOverlap, placeRounding(body(index), pose.position),
             {.size = depth, .time = time, .bodies = {index}, .wall = wall});
@@ -129,8 +129,7 @@ void Auditor::lookAtPair(std::size_t a, const Pose& poseA, std::size_t b, const 
   if (isImmovable(body(a).mass) && isImmovable(body(b).mass)) {
     return;
   }
-  const double depth =
-      -separationOf(AuditBox{body(a).halfExtents, poseA}, AuditBox{body(b).halfExtents, poseB});
+  const double depth = -separationOf(auditBox(body(a), poseA), auditBox(body(b), poseB));
   if (!(depth <= 0)) {
     found(AuditKind::kBoxOverlap,
           placeRounding(body(a), poseA.position) + placeRounding(body(b), poseB.position),

@@ -150,7 +150,7 @@ void ExternalOf::addWall(std::size_t wall, double friction, External& external) 
 double ExternalOf::wayWithin(std::size_t body, std::size_t segment) const {
   const std::vector<Segment>& segments = run_.tracks[body].segments;
   const Body& owner = run_.world.bodies[body];
-  const double size = owner.halfExtents.norm();
+  const double size = radiusOf(owner);
   double way = 0;
   // Velocities that were estimated from rows beside an impact may be off two rows further.
   const std::size_t beside = run_.given && !run_.given->velocities ? 3 : 1;
@@ -180,7 +180,7 @@ ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment)
   Touches touches;
   for (const double elapsed : {0.0, length}) {
     const Pose place = stateAt(segments[segment].motion, owner.mass, elapsed).pose;
-    const AuditBox box{owner.halfExtents, place};
+    const AuditBox box = auditBox(owner, place);
     for (std::size_t wall = 0; wall < run_.world.walls.size(); ++wall) {
       if (separationOf(box, run_.world.walls[wall]) <= near) {
         touches.walls.push_back(wall);
@@ -188,10 +188,10 @@ ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment)
     }
     for (const std::size_t fixed : immovables_) {
       const Body& other = run_.world.bodies[fixed];
-      const double reach = owner.halfExtents.norm() + other.halfExtents.norm() + near;
+      const double reach = radiusOf(owner) + radiusOf(other) + near;
       const Pose& where = other.initial.pose;
       touches.immovable = touches.immovable || ((place.position - where.position).norm() <= reach &&
-                                                separationOf(box, {other.halfExtents, where}) <= near);
+                                                separationOf(box, auditBox(other, where)) <= near);
     }
   }
   return touches;

@@ -80,15 +80,15 @@ void joinByPlaces(const Trajectory& run, const Samples& samples, Joining& joinin
       margins[body] =
           touchingDistance(run.world.bodies[body], run.settings) +
           (crowdFrom[body] <= after ? std::max(after - time, time - before) * state.velocity.norm() : 0);
-      balls[body] = {state.pose.position, run.world.bodies[body].halfExtents.norm() + margins[body]};
+      balls[body] = {state.pose.position, radiusOf(run.world.bodies[body]) + margins[body]};
     }
     for (const auto& [a, b] : nearPairs(balls)) {
       const auto touches = [&](std::size_t body) {
         return mayTouch(run.tracks[body].segments[segmentAt(run.tracks[body], time)].motion);
       };
       if (!joining.areJoined(a, b) && (touches(a) || touches(b)) &&
-          separationOf(AuditBox{run.world.bodies[a].halfExtents, samples.state(moment, a).pose},
-                       AuditBox{run.world.bodies[b].halfExtents, samples.state(moment, b).pose}) <=
+          separationOf(auditBox(run.world.bodies[a], samples.state(moment, a).pose),
+                       auditBox(run.world.bodies[b], samples.state(moment, b).pose)) <=
               margins[a] + margins[b]) {
         joining.join(a, b);
       }

@@ -18,6 +18,16 @@ double reach(const AuditBox& box, const Vec3& direction) {
 
 }  // namespace
 
+AuditBox auditBox(const Body& body, const Pose& pose) {
+  AuditBox box{body.halfExtents, pose};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (body.boxCenter[axis] != 0) {
+      box.pose.position += body.boxCenter[axis] * pose.worldFromBody.col(axis);
+    }
+  }
+  return box;
+}
+
 double separationOf(const AuditBox& a, const AuditBox& b) {
   const Vec3 between = b.pose.position - a.pose.position;
   double widest = -std::numeric_limits<double>::infinity();

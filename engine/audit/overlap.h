@@ -5,11 +5,14 @@
 
 namespace careen {
 
-/// A solid box at a place; half sizes [m].
+/// A solid box at a place, that of its middle; half sizes [m].
 struct AuditBox {
   Vec3 halfExtents;
   Pose pose;
 };
+
+/// The box of a body, given the body's pose.
+AuditBox auditBox(const Body& body, const Pose& pose);
 
 /// Signed distance [m] of two boxes by separating axes: the three face normals of each and the nine cross
 /// products of their edges. Negative: they overlap, and it is the least translation that parts them, as far

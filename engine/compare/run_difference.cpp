@@ -47,6 +47,7 @@ std::string motionBytes(const Trajectory& run) {
     const Body& moved = run.world.bodies[body];
     bare.world.bodies.push_back({.name = moved.name,
                                  .halfExtents = moved.halfExtents,
+                                 .boxCenter = moved.boxCenter,
                                  .mass = moved.mass,
                                  .material = {},
                                  .initial = {}});
@@ -90,8 +91,10 @@ class Pair {
       if (isImmovable(moved.mass)) {
         continue;
       }
-      const PoseDifference difference = differenceOf(expectedState(body, time).pose,
-                                                     actualState(body, time).pose, moved.halfExtents.norm());
+      const PoseDifference difference =
+          differenceOf(boxPose(moved, expectedState(body, time).pose),
+                       boxPose(actual_.world.bodies[places_[body]], actualState(body, time).pose),
+                       moved.halfExtents.norm());
       if (difference.relative > sample.difference.relative) {
         sample.body = moved.name;
       }

@@ -1,5 +1,6 @@
 #include "exchange/export_glb.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -26,8 +27,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kVertices = 34962;  // target of a view
-constexpr int kLines = 1;         // mode of a primitive
+constexpr int kVertices = 34962;                       // target of a view
+constexpr int kLines = 1;                              // mode of a primitive
+constexpr std::size_t kTrianglesOfPrimitive = 20'000;  // whose corners 16 bits can number
 
 double rounded(double value) { return std::round(value * 1e6) / 1e6; }
 
@@ -124,10 +126,14 @@ class GlbWriter {
     return cube_;
   }
 
-  std::size_t boxMesh(const Color& color) {
+  std::size_t paintOf(const Color& color) {
     const Vec3 own = linearFromSrgb(color);
     const Vec3 seen = materials_.ownColor * own + (1 - materials_.ownColor) * materials_.boxColor;
-    const std::size_t paint = material(seen, materials_.boxRoughness);
+    return material(seen, materials_.boxRoughness);
+  }
+
+  std::size_t boxMesh(const Color& color) {
+    const std::size_t paint = paintOf(color);
     const auto [found, isNew] = boxMeshes_.emplace(paint, meshes_.size());
     if (isNew) {
       Json primitive = cube();
@@ -137,14 +143,47 @@ class GlbWriter {
     return found->second;
   }
 
+  // With corners of its own for each triangle: its faces are flat.
+  std::size_t partMesh(const TriangleMesh& mesh, std::size_t paint) {
+    Json primitives = Json::array();
+    for (std::size_t first = 0; first < mesh.triangles.size(); first += kTrianglesOfPrimitive) {
+      std::vector<float> positions;
+      std::vector<float> normals;
+      std::vector<std::uint16_t> indices;
+      const std::size_t end = std::min(first + kTrianglesOfPrimitive, mesh.triangles.size());
+      for (std::size_t t = first; t < end; ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        const Vec3 normal =
+            (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).normalized();
+        for (const std::size_t corner : {a, b, c}) {
+          appendFloats(positions, mesh.points[corner]);
+          appendFloats(normals, normal);
+          indices.push_back(static_cast<std::uint16_t>(indices.size()));
+        }
+      }
+      primitives.push_back(
+          {{"attributes",
+            {{"POSITION", buffer_.addFloats(GltfBuffer::Kind::kVec3, positions, true, kVertices)},
+             {"NORMAL", buffer_.addFloats(GltfBuffer::Kind::kVec3, normals, false, kVertices)}}},
+           {"indices", buffer_.addIndices(indices)},
+           {"material", paint}});
+    }
+    meshes_.push_back({{"primitives", primitives}});
+    return meshes_.size() - 1;
+  }
+
   void addBoxes() {
+    auto part = run_.stage.parts.begin();
     for (std::size_t body = 0; body < run_.tracks.size(); ++body) {
       const Body& box = run_.world.bodies[body];
       const std::size_t node = nodes_.size();
+      const bool isPart = part != run_.stage.parts.end() && part->body == body;
+      const Color& color = run_.stage.colors[body];
       nodes_.push_back({{"name", names_.unique(box.name)},
-                        {"mesh", boxMesh(run_.stage.colors[body])},
-                        {"scale", floatsOf(box.halfExtents)},
+                        {"mesh", isPart ? partMesh(part->mesh, paintOf(color)) : boxMesh(color)},
+                        {"scale", floatsOf(isPart ? Vec3(Vec3::Ones()) : box.halfExtents)},
                         {"extras", {{"name", box.name}, {"mass", box.mass.mass}}}});
+      part += isPart ? 1 : 0;
       animation_.moveWithBody(node, nodes_[node], body);
     }
   }

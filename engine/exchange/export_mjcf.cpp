@@ -50,6 +50,11 @@ std::string attribute(const char* name, const std::string& value) {
   return std::string(" ") + name + "=\"" + escaped(value) + "\"";
 }
 
+// MJCF's body frame is the box's: its origin is the middle.
+Vec3 inBoxFrame(const Body& body, const Vec3& point) {
+  return body.boxCenter.isZero(0) ? point : Vec3(point - body.boxCenter);
+}
+
 // The shortest turn of z to this direction.
 Quat turnOfPlane(const Vec3& normal) {
   return normal.z() < -1 + 1e-12 ? Quat(0, 1, 0, 0)
@@ -135,12 +140,16 @@ class MjcfWriter {
     const bool isFixed = isImmovable(body.mass);
     const Color& color = setup_.stage.colors[index];
     const Quat turn = Quat(body.initial.pose.worldFromBody).normalized();
-    line("    <body" + attribute("name", body.name) + attribute("pos", numbers(body.initial.pose.position)) +
+    const Vec3 middle = boxPose(body, body.initial.pose).position;
+    line("    <body" + attribute("name", body.name) + attribute("pos", numbers(middle)) +
          attribute("quat", numbers(turn)) + ">");
     if (!isFixed) {
       line(std::string("      <joint type=\"free\"") +
            (damping > 0 ? attribute("damping", inFull(damping)) : std::string()) + "/>");
-      line("      <inertial pos=\"0 0 0\"" + attribute("mass", inFull(body.mass.mass)) +
+      const Quat principal = Quat(body.mass.bodyFromPrincipal).normalized();
+      line("      <inertial" + attribute("pos", numbers(inBoxFrame(body, Vec3::Zero()))) +
+           (body.mass.turned ? attribute("quat", numbers(principal)) : std::string()) +
+           attribute("mass", inFull(body.mass.mass)) +
            attribute("diaginertia", numbers(body.mass.inertiaBody)) + "/>");
     }
     line("      <geom" + attribute("name", body.name) + " type=\"box\"" +
@@ -157,7 +166,10 @@ class MjcfWriter {
       for (const auto& [end, which] : {std::pair(&spring.from, "from"), std::pair(&spring.to, "to")}) {
         if (end->body == body) {
           line(indent + "<site" + attribute("name", siteName(i, which)) +
-               attribute("pos", numbers(end->point)) + "/>");
+               attribute("pos",
+                         numbers(body ? inBoxFrame(world_.bodies[static_cast<std::size_t>(*body)], end->point)
+                                      : end->point)) +
+               "/>");
         }
       }
     }
@@ -226,9 +238,9 @@ class MjcfWriter {
     for (const Body& body : world_.bodies) {
       if (!isImmovable(body.mass)) {
         const Mat3& turn = body.initial.pose.worldFromBody;
-        append(places, numbers(body.initial.pose.position));
+        append(places, numbers(boxPose(body, body.initial.pose).position));
         append(places, numbers(Quat(turn).normalized()));
-        append(speeds, numbers(body.initial.velocity));
+        append(speeds, numbers(boxVelocity(body, body.initial)));
         append(speeds, numbers(Vec3(turn.transpose() * angularVelocity(body.mass, body.initial))));
       }
     }

@@ -1,7 +1,9 @@
 #include "exchange/gltf_animation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <utility>
 #include <variant>
 
@@ -65,6 +67,29 @@ void GltfAnimation::addKinks(std::size_t body, std::vector<double>& kinks, std::
                        std::holds_alternative<Rest>(segments[i - 1].motion);
     (rests ? kinks : seams).push_back(segments[i].start);
   }
+  addTurns(body, seams);
+}
+
+// Keys are looked for at eighths of the time between two: of a body that turns as often there, it would not
+// be seen that it turns. Seams at golden angles are nowhere in step with that.
+void GltfAnimation::addTurns(std::size_t body, std::vector<double>& seams) const {
+  constexpr double kMostTurns = 7;
+  constexpr double kGoldenAngle = 2.399963229728653;  // [rad]
+  constexpr double kMostSeams = 1e5;
+  const std::vector<Segment>& segments = run_.tracks[body].segments;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const double end = i + 1 < segments.size() ? segments[i + 1].start : run_.settings.duration;
+    const MassProperties& mass = run_.world.bodies[body].mass;
+    const double spin = angularVelocity(mass, stateAt(segments[i].motion, mass, 0)).norm();
+    const double angle = spin * (end - segments[i].start);
+    if (angle > 2 * std::numbers::pi * kMostTurns) {
+      const double step = std::max(kGoldenAngle, angle / kMostSeams) / spin;
+      for (double time = segments[i].start + step; time < end; time += step) {
+        seams.push_back(time);
+      }
+    }
+  }
+  std::sort(seams.begin(), seams.end());
 }
 
 // ---- Channels
@@ -136,7 +161,7 @@ void GltfAnimation::moveWithBody(std::size_t index, AnimationJson& node, std::si
   std::vector<double> seams;
   addKinks(body, kinks, seams);
   const AnimatedSpan times = span(std::move(kinks), seams);
-  const auto pose = [this, body](double time) { return run_.state(body, sceneTime(time)).pose; };
+  const auto pose = [this, body](double time) { return run_.boxPoseAt(body, sceneTime(time)); };
   animate(index, node, positionKeys(times, within_, [&](double time) { return pose(time).position; }));
   animate(index, node, rotationKeys(times, within_, [&](double time) {
             return Quat(pose(time).worldFromBody).normalized();

@@ -45,6 +45,7 @@ class GltfAnimation {
   double sceneTime(double filmTime) const { return clock_.sceneTime(filmTime); }
   std::vector<double> filmTimes(const std::vector<double>& sceneTimes) const;
   AnimatedSpan span(std::vector<double> sceneKinks, const std::vector<double>& sceneSeams) const;
+  void addTurns(std::size_t body, std::vector<double>& seams) const;
   void addKinks(std::size_t body, std::vector<double>& kinks, std::vector<double>& seams) const;
   std::size_t timesAccessor(const std::vector<float>& times);
   void animate(std::size_t index, nlohmann::ordered_json& node, const AnimationKeys<Vec3>& keys);

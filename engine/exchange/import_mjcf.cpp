@@ -284,13 +284,26 @@ class MjcfReader {
     }
   }
 
+  // None where a solid box has it.
+  static void writeInertia(const Mat3& inertia, const Vec3& solid, SceneJson& item) {
+    if (inertia != Mat3(inertia.diagonal().asDiagonal())) {
+      item["inertia"] = {arrayOf(Vec3(inertia.row(0))), arrayOf(Vec3(inertia.row(1))),
+                         arrayOf(Vec3(inertia.row(2)))};
+    } else if (inertia.diagonal() != solid) {
+      item["inertia"] = arrayOf(Vec3(inertia.diagonal()));
+    }
+  }
+
   static void writeBox(const MjcfSurface& box, SceneJson& item) {
     const Vec3 size(box.geom.size[0], box.geom.size[1], box.geom.size[2]);
     item["half_extents"] = arrayOf(size);
     if (box.movable) {
       item["mass"] = box.mass.mass;
-      if (box.mass.inertia && *box.mass.inertia != solidBox(size, box.mass.mass).inertiaBody) {
-        item["inertia"] = arrayOf(*box.mass.inertia);
+      if (box.mass.inertia) {
+        writeInertia(*box.mass.inertia, solidBox(size, box.mass.mass).inertiaBody, item);
+      }
+      if (!box.mass.center.isZero(0)) {
+        item["center"] = arrayOf(box.mass.center);
       }
     } else {
       item["fixed"] = true;

@@ -11,7 +11,7 @@ namespace careen {
 namespace {
 
 // In the box's axes, from what <inertial> says in its own, or, if full, in the body's.
-Vec3 inertiaOf(const MjcfDocument& document, const MjcfGeom& box, const XmlElement& inertial) {
+Mat3 inertiaOf(const MjcfDocument& document, const MjcfGeom& box, const XmlElement& inertial) {
   const std::vector<double> diagonal = document.numbers(inertial, "diaginertia", 3, 3);
   const std::vector<double> full = document.numbers(inertial, "fullinertia", 6, 6);
   if (diagonal.empty() == full.empty()) {
@@ -33,20 +33,19 @@ Vec3 inertiaOf(const MjcfDocument& document, const MjcfGeom& box, const XmlEleme
     inertia << full[0], full[3], full[4], full[3], full[1], full[5], full[4], full[5], full[2];
   }
   const Mat3 turn = boxFromIt.normalized().toRotationMatrix();
-  const Mat3 found = turn * inertia * turn.transpose();
-  const double beside = (found - Mat3(found.diagonal().asDiagonal())).cwiseAbs().maxCoeff();
-  if (beside > kMjcfCentered * found.trace()) {
-    document.fail(inertial,
-                  "an inertia with " + brief(beside) + " kg m² beside the diagonal in the box's axes",
-                  "principal axes along the box's");
+  Mat3 found = turn * inertia * turn.transpose();
+  found = (0.5 * (found + found.transpose())).eval();  // the product is symmetric but for rounding
+  const Mat3 along = found.diagonal().asDiagonal();
+  if ((found - along).cwiseAbs().maxCoeff() <= kMjcfCentered * found.trace()) {
+    found = along;
   }
-  if (const std::string why = whyNoInertia(found.diagonal()); !why.empty()) {
+  if (const std::string why = whyNoTensor(found); !why.empty()) {
     document.fail(
         inertial,
         "moments " + brief(found(0, 0)) + ", " + brief(found(1, 1)) + ", " + brief(found(2, 2)) + " kg m²",
         why);
   }
-  return found.diagonal();
+  return found;
 }
 
 }  // namespace
@@ -63,7 +62,10 @@ MjcfMass massOf(MjcfDocument& document, const MjcfGeom& box, const XmlElement* i
       document.fail(*inertial, "<inertial> without pos or without mass", "both");
     }
     if ((center - box.position).norm() > kMjcfCentered * size.norm()) {
-      document.fail(*inertial, *inertial->find("pos"), "the centre of the box");
+      result.center = box.turn.conjugate() * (center - box.position);
+      if (!(result.center.cwiseAbs().array() < size.array()).all()) {
+        document.fail(*inertial, *inertial->find("pos"), "a place inside the box");
+      }
     }
     result.mass = document.number(*inertial, "mass", 0);
     if (result.mass < kSmallestPositive) {

@@ -9,12 +9,14 @@ namespace careen {
 
 struct MjcfMass {
   double mass = 0;              ///< [kg]
-  std::optional<Vec3> inertia;  ///< [kg m²] along the box's axes; none: of a solid box
+  Vec3 center = Vec3::Zero();   ///< [m] centre of mass, from the box's middle along its axes
+  std::optional<Mat3> inertia;  ///< [kg m²] about it, along the box's axes; none: of a solid box
 };
 
 /// The mass of a body with one box: of <inertial> if there is one and <compiler inertiafromgeom> lets it
-/// count, else of the box, by its mass or density. The centre of mass must be the box's centre, and the
-/// principal axes its axes, to kMjcfCentered of its size and of the inertia's trace; else InputError.
+/// count, else of the box, by its mass or density. Where the centre of mass is the box's middle, or the
+/// principal axes its axes, to kMjcfCentered of its size and of the inertia's trace, they are taken to be
+/// that. InputError if it lies outside the box, or if no body has that inertia.
 MjcfMass massOf(MjcfDocument& document, const MjcfGeom& box, const XmlElement* inertial);
 inline constexpr double kMjcfCentered = 1e-9;
 

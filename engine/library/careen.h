@@ -51,7 +51,7 @@ struct Box {
   std::string name;                       ///< empty: box-0, box-1 …
   Vector halfExtents = {0.5, 0.5, 0.5};   ///< [m]
   double mass = 1;                        ///< [kg]
-  Vector position = {0, 0, 0};            ///< [m] of the centre
+  Vector position = {0, 0, 0};            ///< [m] of the middle
   Quaternion orientation = {1, 0, 0, 0};  ///< world from body
   Vector velocity = {0, 0, 0};            ///< [m/s]
   Vector angularVelocity = {0, 0, 0};     ///< [rad/s] world frame
@@ -103,9 +103,9 @@ class Scene {
 };
 
 struct State {
-  Vector position;         ///< [m] of the centre
+  Vector position;         ///< [m] of the box's middle
   Quaternion orientation;  ///< world from body
-  Vector velocity;         ///< [m/s]
+  Vector velocity;         ///< [m/s] of the box's middle
   Vector angularVelocity;  ///< [rad/s] world frame
 };
 

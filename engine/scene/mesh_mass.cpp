@@ -39,37 +39,25 @@ void checkWithin(const TriangleMesh& mesh, const Vec3& halfExtents) {
   }
 }
 
-void checkFits(const SolidMoments& moments, const Vec3& halfExtents) {
-  if (moments.center.norm() > kFitsBox * halfExtents.norm()) {
-    throw InputError("found a centre of mass at " + inBrief(moments.center) +
-                     " m, expected it at the centre of the box, (0, 0, 0)");
+// A mesh in a file has few digits: what is as good as centred, or along the axes, is.
+void roundToBox(SolidMoments& moments, const Vec3& halfExtents) {
+  if (moments.center.norm() <= kFitsBox * halfExtents.norm()) {
+    moments.center = Vec3::Zero();
   }
-  const Mat3 beside = moments.inertia - Mat3(moments.inertia.diagonal().asDiagonal());
-  const double most = beside.cwiseAbs().maxCoeff();
-  if (most > kFitsBox * moments.inertia.trace()) {
-    throw InputError("found an inertia with " + brief(most / moments.inertia.trace()) +
-                     " of its trace beside the diagonal, expected principal axes along the box's");
+  const Mat3 along = moments.inertia.diagonal().asDiagonal();
+  if ((moments.inertia - along).cwiseAbs().maxCoeff() <= kFitsBox * moments.inertia.trace()) {
+    moments.inertia = along;
   }
 }
 
-void takeMass(const JsonTree& tree, const JsonNode& node, SceneBox& box) {
-  const std::size_t place = node.find("mass_from")->offset;
-  const std::string found = "mass_from for box " + inQuotes(box.name);
-  for (const char* const key : {"mass", "inertia"}) {
-    if (node.find(key) != nullptr) {
-      tree.fail(place, found + " beside " + key, "one of them: the mesh gives both mass and inertia");
-    }
-  }
-  if (box.fixed) {
-    tree.fail(place, found + ", which is fixed", "none, as it stays where it is");
-  }
-  const JsonNode* const density = node.find("density");
-  if (density == nullptr) {
-    tree.fail(place, found + " without density", "a density [kg/m³]");
-  }
-  const fs::path path = fs::path(tree.name()).parent_path() / box.massFrom;
+// Does something with the mesh that a key of a box names, once it lies within the box; an InputError of it is
+// told with the key's place.
+template <class Use>
+void useMesh(const JsonTree& tree, std::size_t place, const char* key, const std::string& name,
+             const SceneBox& box, const Use& use) {
+  const fs::path path = fs::path(tree.name()).parent_path() / name;
   const auto fail = [&](const std::string& why) {
-    throw InputError(tree.name() + ":" + tree.place(place) + ": mass_from of box " + inQuotes(box.name) +
+    throw InputError(tree.name() + ":" + tree.place(place) + ": " + key + " of box " + inQuotes(box.name) +
                      ": " + why);
   };
   TriangleMesh mesh;
@@ -80,18 +68,38 @@ void takeMass(const JsonTree& tree, const JsonNode& node, SceneBox& box) {
   }
   try {
     checkWithin(mesh, box.halfExtents);
-    const SolidMoments moments = momentsOf(mesh);
-    checkFits(moments, box.halfExtents);
-    box.mass = density->number * moments.volume;
-    const Vec3 principal = density->number * moments.inertia.diagonal();
-    if (const std::string why = whyNoInertia(principal); !why.empty() || box.mass < kSmallestPositive) {
-      throw InputError("found a mass of " + brief(box.mass) + " kg and moments " + inBrief(principal) +
-                       " kg m², expected those of a body");
-    }
-    box.inertia = principal.asDiagonal();
+    use(mesh);
   } catch (const InputError& error) {
     fail(path.string() + ": " + error.what());
   }
+}
+
+void takeMass(const JsonTree& tree, const JsonNode& node, SceneBox& box) {
+  const std::size_t place = node.find("mass_from")->offset;
+  const std::string found = "mass_from for box " + inQuotes(box.name);
+  for (const char* const key : {"mass", "inertia", "center"}) {
+    if (node.find(key) != nullptr) {
+      tree.fail(place, found + " beside " + key, "one of them: the mesh gives mass, centre and inertia");
+    }
+  }
+  if (box.fixed) {
+    tree.fail(place, found + ", which is fixed", "none, as it stays where it is");
+  }
+  const JsonNode* const density = node.find("density");
+  if (density == nullptr) {
+    tree.fail(place, found + " without density", "a density [kg/m³]");
+  }
+  useMesh(tree, place, "mass_from", box.massFrom, box, [&](const TriangleMesh& mesh) {
+    SolidMoments moments = momentsOf(mesh);
+    roundToBox(moments, box.halfExtents);
+    box.mass = density->number * moments.volume;
+    box.inertia = density->number * moments.inertia;
+    box.center = moments.center;
+    if (const std::string why = whyNoTensor(*box.inertia); !why.empty() || box.mass < kSmallestPositive) {
+      throw InputError("found a mass of " + brief(box.mass) + " kg and an inertia with " +
+                       inBrief(box.inertia->diagonal()) + " kg m² on the diagonal, expected those of a body");
+    }
+  });
 }
 
 }  // namespace
@@ -100,6 +108,19 @@ void takeMassesFromMeshes(const JsonTree& tree, Scene& scene) {
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
     if (!scene.boxes[i].massFrom.empty()) {
       takeMass(tree, tree.root().find("boxes")->children[i], scene.boxes[i]);
+    }
+  }
+}
+
+void takeDrawnMeshes(const JsonTree& tree, Scene& scene) {
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    SceneBox& box = scene.boxes[i];
+    if (!box.drawFrom.empty()) {
+      const std::size_t place = tree.root().find("boxes")->children[i].find("draw")->offset;
+      useMesh(tree, place, "draw", box.drawFrom, box, [&](const TriangleMesh& mesh) {
+        momentsOf(mesh);  // refuses what is not closed
+        box.drawn = mesh;
+      });
     }
   }
 }

@@ -5,12 +5,15 @@
 
 namespace careen {
 
-/// Gives boxes with `mass_from` the mass and the inertia of their mesh at their density. Files are looked for
-/// beside the scene's. The mesh lies in the box's frame and within the box, its centre of mass at the box's
-/// centre and its principal axes along the box's, all to kFitsBox of the half diagonal: a box that turns
-/// about another point or other axes is not modelled. InputError otherwise, and where mass_from stands
-/// without density, beside mass or inertia, or in a fixed box.
+/// Gives boxes with `mass_from` the mass, centre of mass and inertia of their mesh at their density. Files
+/// are looked for beside the scene's. Gives its centre of mass too. The mesh lies in the box's frame and
+/// within the box, to kFitsBox of the half diagonal; where its centre of mass is the box's middle, or its
+/// principal axes the box's, to kFitsBox likewise, they are taken to be that. InputError otherwise, and where
+/// mass_from stands without density, beside mass, inertia or center, or in a fixed box.
 void takeMassesFromMeshes(const JsonTree& tree, Scene& scene);
+
+/// Reads the meshes that boxes are drawn as: closed, and within their boxes, as above, else InputError.
+void takeDrawnMeshes(const JsonTree& tree, Scene& scene);
 
 inline constexpr double kFitsBox = 1e-6;
 

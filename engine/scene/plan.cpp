@@ -165,8 +165,28 @@ PlanItem resting(const Scene& scene, const Needs& needs) {
 
 // Of a box that can move.
 MassProperties massOf(const SceneBox& box) {
-  return box.inertia ? massWithInertia(box.mass, box.inertia->diagonal())
-                     : solidBox(box.halfExtents, box.mass);
+  return box.inertia ? massWithTensor(box.mass, *box.inertia) : solidBox(box.halfExtents, box.mass);
+}
+
+// A scene places boxes by their middles, a world bodies by their centres of mass.
+Body bodyOf(const SceneBox& box, const Material& material) {
+  Body body{.name = box.name,
+            .halfExtents = box.halfExtents,
+            .boxCenter = box.center.isZero(0) ? box.center : Vec3(-box.center),
+            .mass = box.fixed ? immovable() : massOf(box),
+            .material = material,
+            .initial = {}};
+  body.initial.pose = bodyPose(body, box.pose);
+  body.initial.velocity = bodyVelocity(body, box.pose.worldFromBody, box.velocity, box.angularVelocity);
+  body.initial.angularMomentum = angularMomentum(body.mass, box.pose.worldFromBody, box.angularVelocity);
+  return body;
+}
+
+SpringEnd fromCenterOfMass(SpringEnd end, const World& world) {
+  if (end.body) {
+    end.point += world.bodies[static_cast<std::size_t>(*end.body)].boxCenter;
+  }
+  return end;
 }
 
 }  // namespace
@@ -188,13 +208,7 @@ World assemble(const Scene& scene, const Plan& plan) {
   }
   World world;
   for (const SceneBox& box : scene.boxes) {
-    Body body{.name = box.name,
-              .halfExtents = box.halfExtents,
-              .mass = box.fixed ? immovable() : massOf(box),
-              .material = modelledPart(box.material),
-              .initial = {.pose = box.pose, .velocity = box.velocity}};
-    body.initial.angularMomentum = angularMomentum(body.mass, box.pose.worldFromBody, box.angularVelocity);
-    world.bodies.push_back(std::move(body));
+    world.bodies.push_back(bodyOf(box, modelledPart(box.material)));
   }
   if (plan.models("gravity")) {
     world.gravity = scene.gravity;
@@ -206,7 +220,11 @@ World assemble(const Scene& scene, const Plan& plan) {
     }
   }
   if (plan.models("springs")) {
-    world.springs = scene.springs;
+    for (Spring spring : scene.springs) {
+      spring.from = fromCenterOfMass(spring.from, world);
+      spring.to = fromCenterOfMass(spring.to, world);
+      world.springs.push_back(spring);
+    }
   }
   if (plan.models("drag")) {
     world.drag = scene.drag;
@@ -235,8 +253,12 @@ Stage stageOf(const Scene& scene) {
   for (const Wall& wall : scene.walls) {
     stage.planes.push_back({.normal = wall.normal, .offset = wall.offset});
   }
-  for (const SceneBox& box : scene.boxes) {
+  for (std::size_t body = 0; body < scene.boxes.size(); ++body) {
+    const SceneBox& box = scene.boxes[body];
     stage.colors.push_back(box.color);
+    if (!box.drawn.triangles.empty()) {
+      stage.parts.push_back({.body = body, .mesh = box.drawn});
+    }
   }
   return stage;
 }

@@ -14,6 +14,7 @@
 #include "stage/picture_settings.h"
 #include "stage/stage.h"
 #include "stage/time_map.h"
+#include "stage/triangle_mesh.h"
 
 namespace careen {
 
@@ -27,10 +28,13 @@ struct SceneBox {
   std::string name;
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
   double mass = 0;                  ///< [kg] 0 if the box is fixed and the scene gives none
-  std::optional<Mat3> inertia;      ///< [kg m²] about the centre, box's axes, diagonal; absent: solid
-  std::string massFrom;             ///< file of the mesh that mass and inertia are of; empty: none
-  Pose pose;
-  Vec3 velocity = Vec3::Zero();         ///< [m/s]
+  std::optional<Mat3> inertia;      ///< [kg m²] about the centre of mass, box's axes; absent: solid
+  Vec3 center = Vec3::Zero();       ///< [m] centre of mass, from the box's middle along its axes
+  std::string massFrom;             ///< file of the mesh that mass, centre and inertia are of; empty: none
+  std::string drawFrom;             ///< file of the mesh that is drawn in place of the box; empty: none
+  TriangleMesh drawn;               ///< that mesh, in the box's frame
+  Pose pose;                        ///< of the box's middle
+  Vec3 velocity = Vec3::Zero();     ///< [m/s] of the box's middle
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s] world frame
   Material material;
   bool fixed = false;

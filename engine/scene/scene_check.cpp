@@ -77,6 +77,24 @@ void checkMasses(const JsonTree& tree, const Scene& scene) {
   }
 }
 
+std::string inertiaInWords(const Mat3& inertia) {
+  std::string words = "with ";
+  const auto add = [&](const Vec3& row) {
+    words += brief(row.x()) + ", " + brief(row.y()) + ", " + brief(row.z());
+  };
+  if (inertia == Mat3(inertia.diagonal().asDiagonal())) {
+    words += "moments ";
+    add(inertia.diagonal());
+  } else {
+    words += "rows ";
+    for (Eigen::Index row = 0; row < 3; ++row) {
+      words += row == 0 ? "" : "; ";
+      add(inertia.row(row));
+    }
+  }
+  return words + " kg m²";
+}
+
 void checkInertias(const JsonTree& tree, const Scene& scene) {
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
     const SceneBox& box = scene.boxes[i];
@@ -88,17 +106,31 @@ void checkInertias(const JsonTree& tree, const Scene& scene) {
       tree.fail(place, "inertia for the fixed box " + inQuotes(box.name), "none, as it stays where it is");
     }
     const std::string found = "the inertia of box " + inQuotes(box.name);
-    const Mat3 beside = *box.inertia - Mat3(box.inertia->diagonal().asDiagonal());
-    if (!beside.isZero(0)) {
-      tree.fail(place, found + " with " + brief(beside.cwiseAbs().maxCoeff()) + " kg m² beside the diagonal",
-                "0 there: the box's axes are principal axes");
+    if (const std::string why = whyNoTensor(*box.inertia); !why.empty()) {
+      tree.fail(place, found + " " + inertiaInWords(*box.inertia), why);
     }
-    if (const std::string why = whyNoInertia(box.inertia->diagonal()); !why.empty()) {
-      const Vec3 moments = box.inertia->diagonal();
-      tree.fail(place,
-                found + " with moments " + brief(moments.x()) + ", " + brief(moments.y()) + ", " +
-                    brief(moments.z()) + " kg m²",
-                why);
+  }
+}
+
+void checkCenters(const JsonTree& tree, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    const SceneBox& box = scene.boxes[i];
+    const JsonNode* const center = elementOf(tree, "boxes", i).find("center");
+    if (center == nullptr) {
+      continue;
+    }
+    if (box.fixed) {
+      tree.fail(center->offset, "center for the fixed box " + inQuotes(box.name),
+                "none, as it stays where it is");
+    }
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if (!(std::fabs(box.center[axis]) < box.halfExtents[axis])) {
+        const JsonNode& node = center->children[static_cast<std::size_t>(axis)];
+        tree.fail(node.offset,
+                  describe(node) + " for center[" + std::to_string(axis) + "] of box " + inQuotes(box.name) +
+                      ", whose half extent is " + brief(box.halfExtents[axis]) + " m",
+                  "a centre of mass inside the box");
+      }
     }
   }
 }
@@ -206,7 +238,9 @@ void checkScene(const JsonTree& tree, Scene& scene, Starts starts) {
   checkNames(tree, scene);
   checkMasses(tree, scene);
   checkInertias(tree, scene);
+  checkCenters(tree, scene);
   takeMassesFromMeshes(tree, scene);
+  takeDrawnMeshes(tree, scene);
   checkFixed(tree, scene);
   const BodiesByName bodies = bodiesOf(scene);
   connectSprings(tree, bodies, scene);

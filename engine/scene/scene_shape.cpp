@@ -129,9 +129,9 @@ Mat3 readInertia(const JsonValue& value) {
 }
 
 SceneBox readBox(const JsonValue& value, std::size_t index) {
-  const JsonObject object = value.object({"name", "half_extents", "mass", "density", "mass_from", "inertia",
-                                          "position", "orientation", "velocity", "angular_velocity",
-                                          "restitution", "friction", "fixed", "color"});
+  const JsonObject object = value.object({"name", "half_extents", "mass", "density", "mass_from", "draw",
+                                          "inertia", "center", "position", "orientation", "velocity",
+                                          "angular_velocity", "restitution", "friction", "fixed", "color"});
   SceneBox box;
   box.name = readName(object, "box-" + std::to_string(index));
   box.halfExtents = object.require("half_extents").vector(positiveNumber("m"));
@@ -142,9 +142,16 @@ SceneBox readBox(const JsonValue& value, std::size_t index) {
   if (const std::optional<JsonValue> inertia = object.find("inertia")) {
     box.inertia = readInertia(*inertia);
   }
+  box.center = object.vector("center", anyNumber("m"));
   if (const std::optional<JsonValue> mesh = object.find("mass_from")) {
     box.massFrom = mesh->string("the name of a mesh, .obj");
     if (box.massFrom.empty()) {
+      mesh->fail("the name of a mesh, .obj");
+    }
+  }
+  if (const std::optional<JsonValue> mesh = object.find("draw")) {
+    box.drawFrom = mesh->string("the name of a mesh, .obj");
+    if (box.drawFrom.empty()) {
       mesh->fail("the name of a mesh, .obj");
     }
   }

@@ -1,18 +1,9 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <vector>
-
 #include "core/math/linear_algebra.h"
+#include "stage/triangle_mesh.h"
 
 namespace careen {
-
-/// Triangles whose corners run anticlockwise when seen from outside.
-struct TriangleMesh {
-  std::vector<Vec3> points;  ///< [m]
-  std::vector<std::array<std::size_t, 3>> triangles;
-};
 
 /// Of a body that fills a closed mesh, at a density of 1 kg/m³.
 struct SolidMoments {

@@ -11,6 +11,7 @@
 #include "stage/color.h"
 #include "stage/picture_settings.h"
 #include "stage/time_map.h"
+#include "stage/triangle_mesh.h"
 
 namespace careen {
 
@@ -35,6 +36,7 @@ struct Stage {
   std::optional<RoomShape> room;
   std::vector<Plane> planes;     ///< walls other than the room's
   std::vector<Color> colors;     ///< of the boxes, in their order
+  std::vector<DrawnPart> parts;  ///< meshes drawn in place of boxes, by ascending body
   std::optional<Camera> camera;  ///< absent: a camera that sees the whole motion is chosen
   CameraMove cameraMove;         ///< empty if there is no camera
   TimeMap timeMap;

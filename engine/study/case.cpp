@@ -71,7 +71,7 @@ Quat quaternionFrom(const Json& value) {
 void readPoses(const Json& boxes, Case& study) {
   std::vector<Pose> still;
   for (const Body& body : study.world.bodies) {
-    still.push_back(body.initial.pose);
+    still.push_back(boxPose(body, body.initial.pose));
   }
   study.poses.assign(study.times.size(), still);
   for (const Json& box : boxes) {
@@ -174,7 +174,8 @@ Case caseOfScene(const std::filesystem::path& scene, const std::stop_token& stop
   const std::vector<std::vector<BodyState>> states = again.finish();
   for (std::size_t k = 0; k < study.times.size(); ++k) {
     study.uncertainty =
-        std::max(study.uncertainty, differenceOf(study.world, states[k], withPoses(study.poses[k])).relative);
+        std::max(study.uncertainty,
+                 differenceOf(study.world, states[k], withPoses(study.world, study.poses[k])).relative);
   }
   return study;
 }

@@ -5,10 +5,10 @@
 
 namespace careen {
 
-std::vector<BodyState> withPoses(std::span<const Pose> poses) {
+std::vector<BodyState> withPoses(const World& world, std::span<const Pose> boxes) {
   std::vector<BodyState> states;
-  for (const Pose& pose : poses) {
-    states.push_back({.pose = pose});
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    states.push_back({.pose = bodyPose(world.bodies[i], boxes[i])});
   }
   return states;
 }

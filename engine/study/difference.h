@@ -15,7 +15,7 @@ PoseDifference differenceOf(const World& world, std::span<const BodyState> a, st
 /// |Δx| + 2 R sin(angle/2), R the half diagonal. Infinite if a number is not finite.
 double displacementOf(const World& world, std::span<const BodyState> a, std::span<const BodyState> b);
 
-/// Bodies at these poses, at rest.
-std::vector<BodyState> withPoses(std::span<const Pose> poses);
+/// Bodies whose boxes have these poses, at rest.
+std::vector<BodyState> withPoses(const World& world, std::span<const Pose> boxes);
 
 }  // namespace careen

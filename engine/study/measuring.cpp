@@ -73,7 +73,7 @@ void includeOverlap(const World& world, const std::vector<BodyState>& states, Ju
   std::vector<PlacedBox> boxes;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const Body& body = world.bodies[i];
-    boxes.push_back({body.name, body.halfExtents, states[i].pose, body.mass.inverseMass});
+    boxes.push_back({body.name, body.halfExtents, boxPose(body, states[i].pose), body.mass.inverseMass});
   }
   for (const Overlap& each : overlaps(boxes)) {
     include(each.depth,
@@ -255,7 +255,7 @@ Judgement judge(const Case& study, const Answer& answer) {
     case Measure::kPoses:
       judgement.error = study.uncertainty;
       for (std::size_t k = 0; k < study.times.size(); ++k) {
-        includeDifference(study, answer.states[k], withPoses(study.poses[k]), judgement);
+        includeDifference(study, answer.states[k], withPoses(study.world, study.poses[k]), judgement);
       }
       break;
     case Measure::kEnergy:

@@ -63,7 +63,7 @@ class BulletEngine : public Peer::Engine {
   explicit BulletEngine(const World& world) {
     world_.setGravity(toBullet(world.gravity));
     for (const Body& body : world.bodies) {
-      add(std::make_unique<btBoxShape>(toBullet(body.halfExtents)), body);
+      addBox(body);
     }
     for (const Wall& wall : world.walls) {
       add(std::make_unique<btStaticPlaneShape>(toBullet(wall.normal), wall.offset),
@@ -76,24 +76,43 @@ class BulletEngine : public Peer::Engine {
   // Bullet takes no substeps: this is one time step of that length.
   void step(double h) override { world_.stepSimulation(h, 0); }
 
+  // Bullet's body frame lies at the centre of mass along the principal axes; the shape may lie elsewhere in
+  // it.
   BodyState state(std::size_t body) const override {
     const btRigidBody& object = *objects_[body];
     // Bullet leaves a body without a finite bounding box where it was.
     if (object.getActivationState() == DISABLE_SIMULATION) {
       return {.pose = {.position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN())}};
     }
-    BodyState state{.pose = fromBullet(object.getWorldTransform()),
-                    .velocity = fromBullet(object.getLinearVelocity())};
+    Pose pose = fromBullet(object.getWorldTransform());
+    if (masses_[body].turned) {
+      pose.worldFromBody = pose.worldFromBody * masses_[body].bodyFromPrincipal.transpose();
+    }
+    BodyState state{.pose = pose, .velocity = fromBullet(object.getLinearVelocity())};
     state.angularMomentum =
         angularMomentum(masses_[body], state.pose.worldFromBody, fromBullet(object.getAngularVelocity()));
     return state;
   }
 
  private:
+  void addBox(const Body& body) {
+    auto box = std::make_unique<btBoxShape>(toBullet(body.halfExtents));
+    if (body.boxCenter.isZero(0) && !body.mass.turned) {
+      add(std::move(box), body);
+      return;
+    }
+    auto placed = std::make_unique<btCompoundShape>();
+    const Mat3 principalFromBody = body.mass.bodyFromPrincipal.transpose();
+    placed->addChildShape(toBullet(Pose{principalFromBody * body.boxCenter, principalFromBody}), box.get());
+    shapes_.push_back(std::move(box));
+    add(std::move(placed), body);
+  }
+
   void add(std::unique_ptr<btCollisionShape> shape, const Body& body) {
     btRigidBody::btRigidBodyConstructionInfo info(body.mass.mass, nullptr, shape.get(),
                                                   toBullet(body.mass.inertiaBody));
-    info.m_startWorldTransform = toBullet(body.initial.pose);
+    info.m_startWorldTransform = toBullet(
+        Pose{body.initial.pose.position, body.mass.worldFromPrincipal(body.initial.pose.worldFromBody)});
     auto object = std::make_unique<btRigidBody>(info);
     object->setUserIndex(static_cast<int>(objects_.size()));
     if (!isImmovable(body.mass)) {

@@ -76,8 +76,9 @@ class OdeEngine : public Peer::Engine {
     dBodyID id = nullptr;
     if (!isImmovable(body.mass)) {
       dMass mass;
-      dMassSetParameters(&mass, body.mass.mass, 0, 0, 0, body.mass.inertiaBody.x(), body.mass.inertiaBody.y(),
-                         body.mass.inertiaBody.z(), 0, 0, 0);
+      const Mat3 inertia = body.mass.inertiaTensor();
+      dMassSetParameters(&mass, body.mass.mass, 0, 0, 0, inertia(0, 0), inertia(1, 1), inertia(2, 2),
+                         inertia(0, 1), inertia(0, 2), inertia(1, 2));
       id = dBodyCreate(world_.get());
       dBodySetMass(id, &mass);
       dGeomSetBody(box, id);
@@ -91,6 +92,9 @@ class OdeEngine : public Peer::Engine {
     }
     dGeomSetPosition(box, initial.pose.position.x(), initial.pose.position.y(), initial.pose.position.z());
     dGeomSetRotation(box, rotation);
+    if (!body.boxCenter.isZero(0)) {
+      dGeomSetOffsetPosition(box, body.boxCenter.x(), body.boxCenter.y(), body.boxCenter.z());
+    }
     bodies_.push_back(id);
     masses_.push_back(body.mass);
   }

@@ -44,7 +44,9 @@ void apply(const Setting& setting, World& world) {
     if (setting.parameter != Parameter::kInertia) {
       set(body.material);
     } else if (canMove(body)) {
-      body.mass = massWithInertia(body.mass.mass, setting.value * body.mass.inertiaBody);
+      const MassProperties scaled = massWithInertia(body.mass.mass, setting.value * body.mass.inertiaBody);
+      body.mass.inertiaBody = scaled.inertiaBody;
+      body.mass.inverseInertiaBody = scaled.inverseInertiaBody;
     }
   }
   for (Wall& wall : world.walls) {

@@ -183,7 +183,8 @@ void Giving::checkFixed(std::size_t body) {
   const Body& fixed = bodies()[body];
   for (const PoseRow* const row : rows_[body]) {
     const Pose pose{.position = row->position, .worldFromBody = row->worldFromBody.toRotationMatrix()};
-    const PoseDifference moved = differenceOf(pose, fixed.initial.pose, fixed.halfExtents.norm());
+    const PoseDifference moved =
+        differenceOf(pose, boxPose(fixed, fixed.initial.pose), fixed.halfExtents.norm());
     if (!(moved.relative <= kGivenPlace)) {
       table_.fail(*row,
                   "the fixed box '" + fixed.name + "' " + brief(moved.position) + " m and " +
@@ -204,7 +205,7 @@ Samples Giving::samplesOf(std::size_t body) {
   const auto add = [&](double time, const BodyState& state, const Vec3& spin) {
     samples.times.push_back(time);
     samples.states.push_back(state);
-    positions.push_back(state.pose.position);
+    positions.push_back(boxPose(bodies()[body], state.pose).position);
     attitudes.emplace_back(state.pose.worldFromBody);
     angularVelocities.push_back(spin);
   };
@@ -212,10 +213,8 @@ Samples Giving::samplesOf(std::size_t body) {
     add(0, initial, angularVelocity(mass, initial));
   }
   for (const PoseRow* const row : rows) {
-    add(row->time,
-        {.pose = {.position = row->position, .worldFromBody = row->worldFromBody.toRotationMatrix()},
-         .velocity = row->velocity},
-        row->angularVelocity);
+    const Pose box{.position = row->position, .worldFromBody = row->worldFromBody.toRotationMatrix()};
+    add(row->time, {.pose = bodyPose(bodies()[body], box), .velocity = row->velocity}, row->angularVelocity);
   }
   const std::vector<Vec3> velocities =
       table_.hasVelocities ? std::vector<Vec3>() : estimatedRates(samples.times, positions);
@@ -226,6 +225,10 @@ Samples Giving::samplesOf(std::size_t body) {
     BodyState& state = samples.states[k];
     if (!table_.hasVelocities) {
       state.velocity = velocities[k];
+    }
+    if (k > 0 || !(rows.front()->time > 0) || !table_.hasVelocities) {  // else of the scene, not of a row
+      state.velocity =
+          bodyVelocity(bodies()[body], state.pose.worldFromBody, state.velocity, angularVelocities[k]);
     }
     state.angularMomentum = angularMomentum(mass, state.pose.worldFromBody, angularVelocities[k]);
   }

@@ -46,13 +46,14 @@ std::vector<double> sampleTimes(const Trajectory& trajectory, double every) {
 
 PoseRow poseRow(const Trajectory& trajectory, std::size_t body, double time) {
   const BodyState state = trajectory.state(body, time);
+  const Body& moved = trajectory.world.bodies[body];
   PoseRow row;
   row.time = time;
   row.box = body;
-  row.position = state.pose.position;
+  row.position = boxPose(moved, state.pose).position;
   row.worldFromBody = quaternionOf(state.pose.worldFromBody);
-  row.velocity = state.velocity;
-  row.angularVelocity = angularVelocity(trajectory.world.bodies[body].mass, state);
+  row.velocity = boxVelocity(moved, state);
+  row.angularVelocity = angularVelocity(moved.mass, state);
   return row;
 }
 

@@ -131,10 +131,18 @@ void checkBody(const Body& body) {
     require(body.mass == immovable(), "a mass though it cannot be moved", owner);
   } else {
     require(isPositive(body.mass.mass), "a mass that is not positive", owner);
+    MassProperties along = body.mass;
+    along.turned = false;
+    along.bodyFromPrincipal = Mat3::Identity();
     require(whyNoInertia(body.mass.inertiaBody).empty() &&
-                body.mass == massWithInertia(body.mass.mass, body.mass.inertiaBody),
+                along == massWithInertia(body.mass.mass, body.mass.inertiaBody),
             "an inertia that no body has", owner);
+    require(isRotation(body.mass.bodyFromPrincipal) &&
+                (body.mass.turned || body.mass.bodyFromPrincipal == Mat3::Identity()),
+            "principal axes that are none", owner);
   }
+  require((body.boxCenter.cwiseAbs().array() <= body.halfExtents.array()).all(),
+          "a centre of mass outside its box", owner);
   checkMaterial(body.material, owner);
   require(isSound(body.initial), "an invalid initial state", owner);
 }
@@ -243,7 +251,25 @@ void checkPicture(const PictureSettings& picture) {
           "an invalid shutter", "a picture");
 }
 
+void checkParts(const std::vector<DrawnPart>& parts, std::size_t bodies) {
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const TriangleMesh& mesh = parts[k].mesh;
+    require(parts[k].body < bodies && (k == 0 || parts[k - 1].body < parts[k].body), "an unknown body",
+            "a mesh to be drawn");
+    require(std::all_of(mesh.points.begin(), mesh.points.end(),
+                        [](const Vec3& point) { return point.allFinite(); }) &&
+                std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
+                            [&](const auto& triangle) {
+                              return std::all_of(triangle.begin(), triangle.end(), [&](std::size_t corner) {
+                                return corner < mesh.points.size();
+                              });
+                            }),
+            "invalid corners", "a mesh to be drawn");
+  }
+}
+
 void checkStage(const Stage& stage, std::size_t bodies) {
+  checkParts(stage.parts, bodies);
   if (stage.colors.size() != bodies) {
     fail("has " + std::to_string(stage.colors.size()) + " colours for " + std::to_string(bodies) + " bodies");
   }

@@ -97,11 +97,15 @@ BodyState Trajectory::state(std::size_t body, double time) const {
   return stateAt(segment.motion, moved.mass, time - segment.start);
 }
 
+Pose Trajectory::boxPoseAt(std::size_t body, double time) const {
+  return boxPose(world.bodies.at(body), state(body, time).pose);
+}
+
 std::vector<Pose> Trajectory::poses(double time) const {
   std::vector<Pose> poses;
   poses.reserve(tracks.size());
   for (std::size_t body = 0; body < tracks.size(); ++body) {
-    poses.push_back(state(body, time).pose);
+    poses.push_back(boxPoseAt(body, time));
   }
   return poses;
 }

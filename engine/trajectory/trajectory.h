@@ -47,6 +47,9 @@ struct Trajectory : RunSetup {
   /// State of a body at a time in [0, duration] [s]; InputError outside. Where two segments meet, the later
   /// one.
   BodyState state(std::size_t body, double time) const;
+  /// Of a body's box: where its middle is, which need not be the centre of mass.
+  Pose boxPoseAt(std::size_t body, double time) const;
+  /// Of all boxes.
   std::vector<Pose> poses(double time) const;
 
   /// Name of the box or wall that body a struck.

@@ -19,9 +19,10 @@ namespace {
 
 // The line ends in the magic word reveal a transfer in text mode.
 constexpr std::string_view kFileMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 6;
+constexpr std::uint64_t kVersion = 7;
 constexpr std::uint64_t kVersionWithoutCrowds = 4;
 constexpr std::uint64_t kVersionWithoutLight = 5;
+constexpr std::uint64_t kVersionWithoutPlacement = 6;
 
 std::uint64_t checksum(std::string_view bytes) {
   Hash hash;
@@ -77,6 +78,10 @@ std::string encodeTrajectory(const Trajectory& trajectory) {
   visit(record, trajectory);
   visit(record, trajectory.settings.crowds);
   visitNames(record, trajectory.stage.picture.light);
+  for (const Body& body : trajectory.world.bodies) {
+    visitPlacement(record, body);
+  }
+  visitAll(record, trajectory.stage.parts);
   record.visit(trajectory.stateHash());
   ArchiveWriter file;
   file.bytes() += kFileMagic;
@@ -98,8 +103,14 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name, c
     if (file.version >= kVersionWithoutLight) {
       visit(reader, trajectory.settings.crowds);
     }
-    if (file.version == kVersion) {
+    if (file.version >= kVersionWithoutPlacement) {
       visitNames(reader, trajectory.stage.picture.light);
+    }
+    if (file.version > kVersionWithoutPlacement) {
+      for (Body& body : trajectory.world.bodies) {
+        visitPlacement(reader, body);
+      }
+      visitAll(reader, trajectory.stage.parts);
     }
   } else {
     readFormat3(reader, setupOf, trajectory);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -124,6 +125,18 @@ void visit(Archive& archive, Visited<Archive, MassProperties> mass) {
   visit(archive, mass.inverseInertiaBody);
 }
 
+/// What a body has since format version 7, stored after the rest.
+template <class Archive>
+void visitPlacement(Archive& archive, Visited<Archive, Body> body) {
+  visit(archive, body.boxCenter);
+  archive.visit(body.mass.turned);
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      archive.visit(body.mass.bodyFromPrincipal(row, column));
+    }
+  }
+}
+
 template <class Archive>
 void visit(Archive& archive, Visited<Archive, Motion> motion) {
   visitVariant(archive, motion);
@@ -243,6 +256,28 @@ void visit(Archive& archive, Visited<Archive, Color> color) {
   archive.visit(color.red);
   archive.visit(color.green);
   archive.visit(color.blue);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, std::array<std::size_t, 3>> triangle) {
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    auto index = static_cast<int>(triangle[corner]);
+    visitIndex(archive, index);
+    if constexpr (Archive::kReads) {
+      triangle[corner] = static_cast<std::size_t>(std::max(index, 0));
+    }
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, DrawnPart> part) {
+  auto body = static_cast<int>(part.body);
+  visitIndex(archive, body);
+  if constexpr (Archive::kReads) {
+    part.body = static_cast<std::size_t>(std::max(body, 0));
+  }
+  visitAll(archive, part.mesh.points);
+  visitAll(archive, part.mesh.triangles);
 }
 
 template <class Archive>

@@ -26,15 +26,17 @@ Json boxesJson(const Trajectory& run) {
   for (std::size_t i = 0; i < run.world.bodies.size(); ++i) {
     const Body& body = run.world.bodies[i];
     const Color& color = run.stage.colors[i];
-    boxes.push_back({{"id", i + 1},
-                     {"name", body.name},
-                     {"half_extents", jsonOf(body.halfExtents)},
-                     {"fixed", isImmovable(body.mass)},
-                     {"mass", body.mass.mass},
-                     {"inertia", jsonOf(body.mass.inertiaBody)},
-                     {"restitution", body.material.restitution},
-                     {"friction", body.material.friction},
-                     {"color", {color.red, color.green, color.blue}}});
+    boxes.push_back(
+        {{"id", i + 1},
+         {"name", body.name},
+         {"half_extents", jsonOf(body.halfExtents)},
+         {"fixed", isImmovable(body.mass)},
+         {"mass", body.mass.mass},
+         {"inertia", body.mass.turned ? jsonOf(body.mass.inertiaTensor()) : jsonOf(body.mass.inertiaBody)},
+         {"center", jsonOf(Vec3(Vec3::Zero() - body.boxCenter))},
+         {"restitution", body.material.restitution},
+         {"friction", body.material.friction},
+         {"color", {color.red, color.green, color.blue}}});
   }
   return boxes;
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/error.h"
 #include "trajectory/numpy_array.h"
 #include "trajectory/pose_samples.h"
 #include "trajectory/zip_archive.h"
@@ -183,11 +184,20 @@ void addStates(const Trajectory& run, double filmTime, double sceneTime, std::ve
 
 }  // namespace
 
+void checkLabels(const RunSetup& setup) {
+  if (!setup.stage.parts.empty()) {
+    throw InputError("found box " + setup.world.bodies[setup.stage.parts[0].body].name +
+                     " drawn as a mesh, expected boxes: rays for labels meet boxes only");
+  }
+}
+
 TruthFrames::TruthFrames(const Trajectory& run)
     : run_(run),
       clock_(run.stage.timeMap.within(run.settings.duration)),
       path_(run, clock_, run.stage.picture.aspect()),
-      surfaces_(surfacesOf(run.stage, extentOf(run))) {}
+      surfaces_(surfacesOf(run.stage, extentOf(run))) {
+  checkLabels(run);
+}
 
 PixelRays TruthFrames::rays(double filmTime) const {
   const PictureSettings& picture = run_.stage.picture;

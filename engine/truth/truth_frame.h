@@ -11,6 +11,9 @@
 
 namespace careen {
 
+/// InputError if a box is drawn as a mesh: what is labelled are boxes.
+void checkLabels(const RunSetup& setup);
+
 /// Labels of the frames of a film: for each pixel's centre the exact answer, from the run and in double
 /// precision, not from a picture.
 ///

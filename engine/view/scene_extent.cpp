@@ -19,7 +19,7 @@ bool isBehindAWall(const Stage& stage, const Vec3& point) {
 }
 
 void includeFlight(Extent& extent, const RunSetup& setup, const Body& box) {
-  const double radius = box.halfExtents.norm();
+  const double radius = radiusOf(box);
   for (int sample = 0; sample <= kSamples; ++sample) {
     const double time = setup.settings.duration * sample / kSamples;
     const Vec3 point =

@@ -8,6 +8,7 @@
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
 #include "support/glb.h"
+#include "support/meshes.h"
 
 namespace careen {
 namespace {
@@ -53,6 +54,42 @@ TEST(ExportGlb, hasBoxesWallsSpringsAndACamera) {
   EXPECT_GT(file.positionError, 0.7e-4);
   EXPECT_LE(file.positionError, 1e-4);
   EXPECT_LE(file.attitudeError, 1e-4);
+}
+
+// The middle of a loaded box that spins circles its centre of mass: 64 turns a second, so that it is where it
+// was at each eighth of the film.
+TEST(ExportGlb, followsTheMiddleOfALoadedBox) {
+  const Trajectory run = runOf(R"({ "careen": 1, "duration": 1,
+    "boxes": [ { "half_extents": [0.1, 0.1, 0.1], "mass": 1, "center": [0.05, 0, 0],
+                 "angular_velocity": [0, 0, 402.12385965949352], "velocity": [0, -20.106192982974676, 0] } ] })");
+  const GlbFile file = encodeGlb(run, {.within = 1e-3});
+  EXPECT_GT(file.positionError, 0.5e-3);
+  EXPECT_LE(file.positionError, 1e-3);
+  EXPECT_GT(file.keys, 500U);
+}
+
+// Each triangle has corners of its own; the node is not scaled, as the mesh has its size.
+TEST(ExportGlb, hasTheMeshThatIsDrawnInPlaceOfABox) {
+  Trajectory run = runOf(kAll);
+  const TriangleMesh mesh = boxMesh(Vec3(0.4, 0.2, 0.05), Vec3(0, 0, 0.05));
+  run.stage.parts = {{.body = 0, .mesh = mesh}};
+  const Glb glb(encodeGlb(run).bytes);
+  const nlohmann::json& node = glb.json.at("nodes").at(1);
+  EXPECT_EQ(node.at("scale"), nlohmann::json({1, 1, 1}));
+  const nlohmann::json& primitives =
+      glb.json.at("meshes").at(node.at("mesh").get<std::size_t>()).at("primitives");
+  ASSERT_EQ(primitives.size(), 1U);
+  const nlohmann::json& attributes = primitives.at(0).at("attributes");
+  const std::vector<float> positions = glb.floats(attributes.at("POSITION").get<std::size_t>());
+  const std::vector<float> normals = glb.floats(attributes.at("NORMAL").get<std::size_t>());
+  ASSERT_EQ(positions.size(), 12U * 9);
+  for (std::size_t k = 0; k < positions.size(); k += 3) {
+    // Outward: the corner lies that way from the middle.
+    EXPECT_GT(normals[k] * positions[k] + normals[k + 1] * positions[k + 1] +
+                  normals[k + 2] * (positions[k + 2] - 0.05F),
+              0.04F);
+  }
+  EXPECT_NE(glb.json.at("nodes").at(2).at("mesh"), node.at("mesh"));
 }
 
 TEST(ExportGlb, animatesOnlyWhatMovesInTimeOfTheFilm) {

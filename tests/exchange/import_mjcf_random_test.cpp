@@ -45,7 +45,7 @@ struct Differences {
     for (const Body& body : setup.world.bodies) {
       const int geom = mj_name2id(model, mjOBJ_GEOM, body.name.c_str());
       ASSERT_GE(geom, 0) << body.name;
-      const Pose& pose = body.initial.pose;
+      const Pose pose = boxPose(body, body.initial.pose);
       most(position, (pose.position - Eigen::Map<const Vec3>(data->geom_xpos + 3 * geom)).norm());
       most(attitude, (pose.worldFromBody - matrixOf(data->geom_xmat + 9 * geom)).norm());
       most(size, (body.halfExtents - Eigen::Map<const Vec3>(model->geom_size + 3 * geom)).norm());
@@ -59,13 +59,14 @@ struct Differences {
       const Mat3 inertiaThere =
           axes * Eigen::Map<const Vec3>(model->body_inertia + 3 * id).asDiagonal() * axes.transpose();
       const Mat3 inertiaHere =
-          pose.worldFromBody * body.mass.inertiaBody.asDiagonal() * pose.worldFromBody.transpose();
+          pose.worldFromBody * body.mass.inertiaTensor() * pose.worldFromBody.transpose();
       most(inertia, (inertiaHere - inertiaThere).norm() / inertiaThere.norm());
+      most(position, (body.initial.pose.position - Eigen::Map<const Vec3>(data->xipos + 3 * id)).norm());
       std::array<mjtNum, 6> speeds{};
       mj_objectVelocity(model, data, mjOBJ_GEOM, geom, speeds.data(), 0);
       most(velocity,
            (angularVelocity(body.mass, body.initial) - Vec3(speeds[0], speeds[1], speeds[2])).norm());
-      most(velocity, (body.initial.velocity - Vec3(speeds[3], speeds[4], speeds[5])).norm());
+      most(velocity, (boxVelocity(body, body.initial) - Vec3(speeds[3], speeds[4], speeds[5])).norm());
     }
     for (const Wall& wall : setup.world.walls) {
       const int geom = mj_name2id(model, mjOBJ_GEOM, wall.name.c_str());

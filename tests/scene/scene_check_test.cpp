@@ -97,6 +97,27 @@ TEST(SceneCheck, massesMadeByDensityKeepToTheRange) {
             std::string::npos);
 }
 
+TEST(SceneCheck, theCentreOfMassLiesInsideTheBox) {
+  const auto errorOf = [](const std::string& center) {
+    const MarkedText marked(withBoxes(
+        R"({"half_extents": [0.5, 0.6, 0.7], "mass": 1, "position": [0, 0, 1], "center": )" + center + "}"));
+    const std::string error = sceneErrorOf(marked.text);
+    const std::string place = "f:" + marked.place + ": ";
+    return error.starts_with(place) ? error.substr(place.size()) : error;
+  };
+  EXPECT_EQ(errorOf("@[0.49, -0.59, 0.69]"), "no error");
+  EXPECT_EQ(errorOf("[0, @-0.6, 0]"),
+            "found -0.6 for center[1] of box \"box-0\", whose half extent is 0.6 m, expected a centre of "
+            "mass inside "
+            "the box");
+  const MarkedText fixed(withBoxes(
+      R"({"half_extents": [1, 1, 1], "fixed": true, "position": [0, 0, 1], "center": @[0.1, 0, 0]})"));
+  EXPECT_EQ(sceneErrorOf(fixed.text),
+            "f:" + fixed.place +
+                R"(: found center for the fixed box "box-0", expected none, as it stays )"
+                "where it is");
+}
+
 TEST(SceneCheck, inertiaIsThatOfSomeBody) {
   const auto errorOf = [](const std::string& inertia) {
     const MarkedText marked(withBoxes(
@@ -116,10 +137,15 @@ TEST(SceneCheck, inertiaIsThatOfSomeBody) {
             "found the inertia of box \"box-0\" with moments 1, -2, 2.5 kg m², expected moments of inertia "
             "that are "
             "positive");
-  EXPECT_EQ(errorOf("[[1, 0.5, 0], [0.5, 2, 0], [0, 0, 2.5]]"),
-            "found the inertia of box \"box-0\" with 0.5 kg m² beside the diagonal, expected 0 there: the "
-            "box's axes "
-            "are principal axes");
+  EXPECT_EQ(errorOf("[[1, 0.5, 0], [0.5, 2, 0], [0, 0, 2.5]]"), "no error");
+  EXPECT_EQ(errorOf("[[1, 0.5, 0], [0.4, 2, 0], [0, 0, 2.5]]"),
+            "found the inertia of box \"box-0\" with rows 1, 0.5, 0; 0.4, 2, 0; 0, 0, 2.5 kg m², expected a "
+            "symmetric tensor");
+  // Principal moments 0.5, 1.5 and 2.5.
+  EXPECT_EQ(errorOf("[[1, 0.5, 0], [0.5, 1, 0], [0, 0, 2.5]]")
+                    .find("expected no moment of inertia above the "
+                          "sum of the two others, 2 kg m²") == std::string::npos,
+            false);
   const MarkedText fixed(withBoxes(
       R"({"half_extents": [1, 1, 1], "fixed": true, "position": [0, 0, 1], "inertia": @[1, 1, 1]})"));
   EXPECT_EQ(sceneErrorOf(fixed.text),

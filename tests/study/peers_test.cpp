@@ -15,6 +15,7 @@
 #include "core/system/file.h"
 #include "core/system/scratch_folder.h"
 #include "physics/attitude/torque_free_rotation.h"
+#include "physics/world/given_inertia.h"
 #include "study/case.h"
 #include "study/given_contestant.h"
 #include "study/measuring.h"
@@ -88,6 +89,45 @@ TEST_F(Peers, areEachEngineByDefaultAndAtItsBest) {
     EXPECT_EQ(peer.settings().find('\n'), std::string::npos);
   });
   EXPECT_EQ(names, (std::set<std::string>{"bullet", "bullet-best", "ode", "ode-best"}));
+}
+
+// A loaded box with axes of its own, in flight: the engines' errors of first order in the step, halved with
+// it.
+TEST_F(Peers, flyLoadedBoxes) {
+  World world =
+      worldOf({{.halfExtents = kLong, .velocity = Vec3(1, 2, 0), .angularVelocity = Vec3(0.5, 0.2, 1)}});
+  Body& body = world.bodies[0];
+  Mat3 tensor = body.mass.inertiaTensor();
+  tensor += 0.2 * tensor.trace() * Mat3::Identity();  // so that parts beside the diagonal are possible
+  tensor(0, 1) = tensor(1, 0) = 0.1 * tensor(0, 0);
+  tensor(1, 2) = tensor(2, 1) = -0.05 * tensor(2, 2);
+  body.mass = massWithTensor(body.mass.mass, tensor);
+  body.boxCenter = Vec3(0.1, -0.2, 0.3);
+  body.initial.angularMomentum = angularMomentum(body.mass, Mat3::Identity(), Vec3(0.5, 0.2, 1));
+  const TorqueFreeRotation<double> truth(
+      body.mass.inertiaBody, body.mass.worldFromPrincipal(Quat::Identity()), body.initial.angularMomentum);
+  const Mat3 expected = body.mass.worldFromBody(truth.worldFromBody(1)).toRotationMatrix();
+  forEach([&](const Contestant& peer) {
+    const auto error = [&](double dt) {
+      const BodyState at = after(peer, world, 1, dt)[0];
+      return std::max(angleBetween(expected, at.pose.worldFromBody),
+                      (at.pose.position - Vec3(1, 2, 0)).norm());
+    };
+    EXPECT_LT(error(1.0 / 960), 0.005);
+    EXPECT_LT(error(1.0 / 1920), 0.6 * error(1.0 / 960));
+  });
+}
+
+// It lies on a floor where its box does, not where it would if its middle were its centre of mass.
+TEST_F(Peers, layLoadedBoxesOnTheirFaces) {
+  World world = worldOf({{.halfExtents = Vec3(0.3, 0.2, 0.1), .position = Vec3(0.05, 0.03, 0.15)}});
+  world.gravity = Vec3(0, 0, -kGravity);
+  world.walls = {floorAt(0)};
+  world.bodies[0].boxCenter = Vec3(-0.05, -0.03, -0.05);
+  forEach([&](const Contestant& peer) {
+    const BodyState at = after(peer, world, 1, 1.0 / 240)[0];
+    EXPECT_LT((boxPose(world.bodies[0], at.pose).position - Vec3(0, 0, 0.1)).norm(), 0.01);
+  });
 }
 
 TEST_F(Peers, refuseSpringsAndDrag) {

@@ -128,11 +128,22 @@ class RandomMjcf {
     if (kind == 2) {
       return text + geom + box + turn + (chance(2) ? " mass=\"" + positive() + "\"" : "") + "/></body>\n";
     }
-    // The axes of <inertial> are those of the box.
     const double least = real(0.1, 1);
-    return text + geom + box + turn + "/><inertial" + place + turn + " mass=\"" + positive() +
-           "\" diaginertia=\"" + inFull(least) + " " + inFull(least * 1.3) + " " + inFull(least * 1.7) +
-           "\"/></body>\n";
+    const std::string mass = " mass=\"" + positive() + "\" diaginertia=\"" + inFull(least) + " " +
+                             inFull(least * 1.3) + " " + inFull(least * 1.7) + "\"/></body>\n";
+    if (chance(2)) {  // about a place of its own, as near as the smallest box allows, along axes of its own
+      std::string middle;
+      std::string near;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double at = real(-1, 1);
+        middle += (axis > 0 ? " " : "") + inFull(at);
+        near += (axis > 0 ? " " : "") + inFull(at + real(-0.05, 0.05));
+      }
+      return text + geom + " type=\"box\" size=\"" + positives(3) + "\" pos=\"" + middle + "\" " + turn +
+             "/><inertial pos=\"" + near + "\" " + orientation() + mass;
+    }
+    // The axes of <inertial> are those of the box.
+    return text + geom + box + turn + "/><inertial" + place + turn + mass;
   }
 
   std::mt19937 random_;

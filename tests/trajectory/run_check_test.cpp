@@ -53,6 +53,15 @@ const std::vector<Fault> kFaults = {
      [](Trajectory& run) { run.world.bodies[0].mass.inverseInertiaBody.x() *= 1.0000001; }},
     {"has a body 'drifter' with an inertia that no body has",
      [](Trajectory& run) { run.world.bodies[0].mass.mass = 3; }},
+    {"has a body 'drifter' with principal axes that are none",
+     [](Trajectory& run) { run.world.bodies[0].mass.bodyFromPrincipal(0, 0) = 1.1; }},
+    {"has a body 'drifter' with principal axes that are none",
+     [](Trajectory& run) {
+       run.world.bodies[0].mass.bodyFromPrincipal =
+           Vec3(-1, -1, 1).asDiagonal();  // and not said to be turned
+     }},
+    {"has a body 'drifter' with a centre of mass outside its box",
+     [](Trajectory& run) { run.world.bodies[0].boxCenter.z() = 99; }},
     {"has a body 'anchor' with a mass though it cannot be moved",
      [](Trajectory& run) { run.world.bodies[1].mass.mass = 1; }},
     {"has a body 'drifter' with a restitution outside 0 to 1",

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "physics/world/given_inertia.h"
 #include "physics/world/method.h"
 #include "support/exact_runs.h"
 #include "support/trajectories.h"
@@ -89,6 +90,33 @@ TEST(TrajectoryFile, bringsBackEveryBit) {
   EXPECT_EQ(back.state(0, 0.75).pose.position, Vec3(1.5, 0, 0));
 }
 
+TEST(TrajectoryFile, bringsBackWhereTheCentreOfMassLiesAndItsAxes) {
+  World world = elasticRoom();
+  world.bodies[0].boxCenter = Vec3(0.1, -0.05, 0.02);
+  Mat3 tensor = world.bodies[0].mass.inertiaTensor();
+  tensor(0, 1) = tensor(1, 0) = 0.01;
+  world.bodies[0].mass = massWithTensor(1, tensor);
+  const Trajectory run = record(world, {.duration = 1}, "{}");
+  const Trajectory back = decodeTrajectory(encodeTrajectory(run), "run.careen");
+  EXPECT_EQ(back.world.bodies[0].boxCenter, world.bodies[0].boxCenter);
+  EXPECT_EQ(back.world.bodies[0].mass, world.bodies[0].mass);
+  EXPECT_EQ(back.poses(0.7)[0].position, run.poses(0.7)[0].position);
+}
+
+TEST(TrajectoryFile, bringsBackTheMeshesThatAreDrawn) {
+  Trajectory run = record(elasticRoom(), {.duration = 1}, "{}");
+  const TriangleMesh mesh{.points = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()}, .triangles = {{0, 2, 1}}};
+  run.stage.parts = {{.body = 0, .mesh = mesh}};
+  const Trajectory back = decodeTrajectory(encodeTrajectory(run), "run.careen");
+  ASSERT_EQ(back.stage.parts.size(), 1U);
+  EXPECT_EQ(back.stage.parts[0].mesh.points, mesh.points);
+  EXPECT_EQ(back.stage.parts[0].mesh.triangles, mesh.triangles);
+  run.stage.parts[0].mesh.triangles[0][1] = 3;
+  EXPECT_NE(messageOf(encodeTrajectory(run)).find("a mesh to be drawn"), std::string::npos);
+  run.stage.parts[0].body = 7;
+  EXPECT_NE(messageOf(encodeTrajectory(run)).find("an unknown body"), std::string::npos);
+}
+
 TEST(TrajectoryFile, refusesAFileCutShortAnywhere) {
   const std::string bytes = encodeTrajectory(driftAndReturn());
   for (std::size_t size = 0; size < bytes.size(); ++size) {
@@ -134,7 +162,7 @@ TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
   bytes[8] = 77;
   EXPECT_EQ(messageOf(withRightChecksum(bytes)),
-            "run.careen: this trajectory file has format version 77, expected 6");
+            "run.careen: this trajectory file has format version 77, expected 7");
 }
 
 TEST(TrajectoryFile, refusesAnotherKindOfFile) {

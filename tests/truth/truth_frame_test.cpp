@@ -8,6 +8,7 @@
 #include "core/hash.h"
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
+#include "support/input_error.h"
 #include "trajectory/numpy_array.h"
 #include "trajectory/zip_archive.h"
 #include "view/camera.h"
@@ -33,6 +34,12 @@ std::map<std::string, NumpyArray> arraysOf(const std::string& archive) {
     arrays[name.substr(0, name.size() - 4)] = decodeNumpy(bytes, name);
   }
   return arrays;
+}
+
+TEST(TruthFrame, refusesBoxesThatAreDrawnAsMeshes) {
+  Trajectory run = toss();
+  run.stage.parts = {{.body = 1, .mesh = {}}};
+  EXPECT_NE(inputErrorOf([&] { TruthFrames{run}; }).find("found box b drawn as a mesh"), std::string::npos);
 }
 
 TEST(TruthFrame, everyLabelFollowsFromTheRunByAnotherWay) {

@@ -51,8 +51,8 @@ CornerCheck checkCorners(const World& world, std::span<const BodyState> states) 
     }
     const Vec3 omega = angularVelocity(body.mass, states[i]);
     for (int c = 0; c < kCorners; ++c) {
-      if (!lookAtCorner(world.walls, BodyIndex{static_cast<int>(i)}, states[i], omega,
-                        corner(body.halfExtents, c), check)) {
+      if (!lookAtCorner(world.walls, BodyIndex{static_cast<int>(i)}, states[i], omega, corner(body, c),
+                        check)) {
         return check;
       }
     }

@@ -31,10 +31,11 @@ constexpr int kMostRefinements = 200;
 struct Flying {
   Vec3 position = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
-  FreeState<double> rotation;
+  FreeState<double> rotation;  // of the principal axes
 
-  BodyState state() const {
-    return {.pose = {.position = position, .worldFromBody = rotation.worldFromBody.toRotationMatrix()},
+  BodyState state(const MassProperties& mass) const {
+    return {.pose = {.position = position,
+                     .worldFromBody = mass.worldFromBody(rotation.worldFromBody).toRotationMatrix()},
             .velocity = velocity,
             .angularMomentum = rotation.angularMomentumWorld()};
   }
@@ -92,7 +93,7 @@ class SteppedBody {
 
 void SteppedBody::run(const std::stop_token& stop) {
   const BodyState& start = body_.initial;
-  const Quat attitude = Quat(start.pose.worldFromBody).normalized();
+  const Quat attitude = body_.mass.worldFromPrincipal(Quat(start.pose.worldFromBody).normalized());
   now_ = {start.pose.position, start.velocity, {attitude, attitude.conjugate() * start.angularMomentum}};
   depart();
   account_.parted();
@@ -107,7 +108,7 @@ void SteppedBody::run(const std::stop_token& stop) {
       ++step_;
     }
   }
-  account_.arrives(static_cast<std::size_t>(index_), now_.state(), time_ - departure_);
+  account_.arrives(static_cast<std::size_t>(index_), now_.state(body_.mass), time_ - departure_);
 }
 
 void SteppedBody::takeSteps(std::int64_t count) {
@@ -134,7 +135,7 @@ void SteppedBody::step(double end) {
 }
 
 void SteppedBody::strike() {
-  const BodyState before = now_.state();
+  const BodyState before = now_.state(body_.mass);
   BodyState after = before;
   contacts_.clear();
   account_.penetrates(addWallContacts(world_, body_, before.pose, 0, contacts_));
@@ -165,21 +166,22 @@ void SteppedBody::strike() {
 
 void SteppedBody::depart() {
   departure_ = time_;
-  account_.departs(static_cast<std::size_t>(index_), now_.state());
+  account_.departs(static_cast<std::size_t>(index_), now_.state(body_.mass));
 }
 
 void SteppedBody::moveTo(const Flying& next, double time) {
-  recorder_.moves({index_}, time_,
-                  SteppedFlight{.method = method_.method,
-                                .dt = settings_.dt,
-                                .start = {.position = now_.position,
-                                          .velocity = now_.velocity,
-                                          .acceleration = world_.gravity,
-                                          .worldFromBody = now_.rotation.worldFromBody,
-                                          .angularMomentum = now_.rotation.angularMomentumWorld()}});
+  recorder_.moves(
+      {index_}, time_,
+      SteppedFlight{.method = method_.method,
+                    .dt = settings_.dt,
+                    .start = {.position = now_.position,
+                              .velocity = now_.velocity,
+                              .acceleration = world_.gravity,
+                              .worldFromBody = body_.mass.worldFromBody(now_.rotation.worldFromBody),
+                              .angularMomentum = now_.rotation.angularMomentumWorld()}});
   now_ = next;
   time_ = time;
-  const BodyState state = now_.state();
+  const BodyState state = now_.state(body_.mass);
   if (!isFinite(state)) {
     throw NumericalError(where() + "has a state that is not finite; take a smaller dt");
   }
@@ -198,16 +200,17 @@ Flying SteppedBody::after(double h, std::int64_t count) const {
 // Adds in another order than gapToPlane: results of the study keep their bits.
 double SteppedBody::gapOf(const Flying& flying) const {
   double lowest = std::numeric_limits<double>::infinity();
-  const Mat3 columns = flying.rotation.worldFromBody.toRotationMatrix();
+  const Mat3 columns = body_.mass.worldFromBody(flying.rotation.worldFromBody).toRotationMatrix();
+  const Vec3 middle = boxAt({flying.position, columns}, body_).middle();
   for (const Wall& wall : world_.walls) {
     const double reach = body_.halfExtents.dot((columns.transpose() * wall.normal).cwiseAbs());
-    lowest = std::min(lowest, wall.normal.dot(flying.position) - reach - wall.offset);
+    lowest = std::min(lowest, wall.normal.dot(middle) - reach - wall.offset);
   }
   return lowest;
 }
 
 double SteppedBody::gapRounding() const {
-  return kGapRounding * (now_.position.cwiseAbs().sum() + body_.halfExtents.norm());
+  return kGapRounding * (now_.position.cwiseAbs().sum() + radiusOf(body_));
 }
 
 // Requires a gap positive somewhere in (0, h) and negative at h.
@@ -253,7 +256,7 @@ std::int64_t SteppedBody::stepsOutOfReach() const {
   if (time_ != stepEnd(step_)) {
     return 0;
   }
-  const double radius = body_.halfExtents.norm();
+  const double radius = radiusOf(body_);
   double safe = static_cast<double>(kStepsAtOnce) * settings_.dt;
   for (const Wall& wall : world_.walls) {
     const double room = careen::gap(wall, now_.position) - radius;

@@ -78,12 +78,15 @@ ContactState onEdge(const ContactFeature& feature, const Kinematics& a, const Ve
 }
 
 // [1] The least component of a direction along the outward normals of the faces through a point.
-double marginAt(const Vec3& direction, const Mat3& worldFromBody, const Vec3& point,
-                const Vec3& halfExtents) {
+double marginAt(const Vec3& direction, const Mat3& worldFromBody, const Vec3& point, BoxShape box) {
   double least = 1;
   for (int i = 0; i < 3; ++i) {
-    if (std::fabs(point[i]) == halfExtents[i]) {
-      least = std::min(least, (point[i] < 0 ? -1 : 1) * direction.dot(worldFromBody.col(i)));
+    const double place = point[i] - box.center[i];
+    // The sum of middle and half extent is rounded.
+    const double rounding =
+        box.center[i] == 0 ? 0 : 0x1p-50 * (box.halfExtents[i] + std::fabs(box.center[i]));
+    if (std::fabs(std::fabs(place) - box.halfExtents[i]) <= rounding) {
+      least = std::min(least, (place < 0 ? -1 : 1) * direction.dot(worldFromBody.col(i)));
     }
   }
   return least;
@@ -108,8 +111,8 @@ Turning meanNormal(const Turning& a, const Turning& b, const Turning& edge) {
   return {.direction = normal, .rate = (acrossRate - normal.dot(acrossRate) * normal) / size};
 }
 
-ContactState inCone(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,
-                    const Kinematics& b, const Vec3& halfExtentsB) {
+ContactState inCone(const ContactFeature& feature, const Kinematics& a, BoxShape boxA, const Kinematics& b,
+                    BoxShape boxB) {
   const auto turning = [](const Kinematics& body, const Vec3& inBody) {
     const Vec3 direction = body.pose.worldFromBody * inBody;
     return Turning{.direction = direction, .rate = body.angularVelocity.cross(direction)};
@@ -130,16 +133,16 @@ ContactState inCone(const ContactFeature& feature, const Kinematics& a, const Ve
   const double along = link.dot(edge.direction);
   state.gap = n.dot(link);
   state.offset = link - state.gap * n - along * edge.direction;
-  const double reach = std::min(halfExtentsA.norm(), halfExtentsB.norm());
-  const double margin = std::min(marginAt(-n, a.pose.worldFromBody, feature.onA, halfExtentsA),
-                                 marginAt(n, b.pose.worldFromBody, feature.onB, halfExtentsB));
+  const double reach = std::min(boxA.halfExtents.norm(), boxB.halfExtents.norm());
+  const double margin = std::min(marginAt(-n, a.pose.worldFromBody, feature.onA, boxA),
+                                 marginAt(n, b.pose.worldFromBody, feature.onB, boxB));
   state.beyond = std::max(state.offset.norm(), -margin * reach);
   if (movesOnA) {
     state.armA -= along * edge.direction;
-    state.beyond = std::max(state.beyond, std::fabs(along) - halfExtentsA[feature.axisA]);
+    state.beyond = std::max(state.beyond, std::fabs(along) - boxA.halfExtents[feature.axisA]);
   } else if (movesOnB) {
     state.armB += along * edge.direction;
-    state.beyond = std::max(state.beyond, std::fabs(along) - halfExtentsB[feature.axisB]);
+    state.beyond = std::max(state.beyond, std::fabs(along) - boxB.halfExtents[feature.axisB]);
   }
 
   const Vec3& spinA = a.angularVelocity;
@@ -249,11 +252,14 @@ ContactFeature pointOnFace(int a, const Vec3& point, int b, const Mat3& worldFro
           .sign = worldFromB.col(face).dot(normal) < 0 ? -1.0 : 1.0};
 }
 
+// Places of the feature are from the boxes' middles.
 ContactFeature featureInOrder(const ContactPoint& point, double apart, int a, BoxAt boxA, int b, BoxAt boxB) {
-  const auto& [poseA, halfExtentsA] = boxA;
-  const auto& [poseB, halfExtentsB] = boxB;
-  const Vec3 placeA = poseA.worldFromBody.transpose() * point.armA;
-  const Vec3 placeB = poseB.worldFromBody.transpose() * point.armB;
+  const Pose& poseA = boxA.pose;
+  const Pose& poseB = boxB.pose;
+  const Vec3& halfExtentsA = boxA.halfExtents;
+  const Vec3& halfExtentsB = boxB.halfExtents;
+  const Vec3 placeA = poseA.worldFromBody.transpose() * point.armA - boxA.center;
+  const Vec3 placeB = poseB.worldFromBody.transpose() * point.armB - boxB.center;
   const Sides sidesA = sidesAt(placeA, halfExtentsA, apart);
   const Sides sidesB = sidesAt(placeB, halfExtentsB, apart);
   if (point.inCone) {
@@ -316,13 +322,13 @@ bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, co
   });
 }
 
-ContactState contactState(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,
-                          const Kinematics* b, const Vec3& halfExtentsB, const Wall* wall) {
+ContactState contactState(const ContactFeature& feature, const Kinematics& a, BoxShape boxA,
+                          const Kinematics* b, BoxShape boxB, const Wall* wall) {
   if (feature.kind == ContactFeature::Kind::kEdgeOnEdge) {
-    return onEdge(feature, a, halfExtentsA, *b, halfExtentsB);
+    return onEdge(feature, a, boxA.halfExtents, *b, boxB.halfExtents);
   }
   if (feature.kind == ContactFeature::Kind::kInCone) {
-    return inCone(feature, a, halfExtentsA, *b, halfExtentsB);
+    return inCone(feature, a, boxA, *b, boxB);
   }
   const Vec3 arm = a.pose.worldFromBody * feature.onA;
   if (feature.kind == ContactFeature::Kind::kPointOnWall) {
@@ -332,22 +338,27 @@ ContactState contactState(const ContactFeature& feature, const Kinematics& a, co
   }
   const int face = feature.axisB;
   const Vec3 normal = feature.sign * b->pose.worldFromBody.col(face);
-  ContactState state = onPlane(arm, a, b, normal, halfExtentsB[face]);
+  ContactState state = onPlane(arm, a, b, normal, boxB.halfExtents[face] + feature.sign * boxB.center[face]);
   const Vec3 place = b->pose.worldFromBody.transpose() * state.armB;
   state.beyond = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     if (i != face) {
-      state.beyond = std::max(state.beyond, std::fabs(place[i]) - halfExtentsB[i]);
+      state.beyond = std::max(state.beyond, std::fabs(place[i] - boxB.center[i]) - boxB.halfExtents[i]);
     }
   }
   return state;
 }
 
 ContactFeature featureAt(const ContactPoint& point, double apart, int a, BoxAt boxA, int b, BoxAt boxB) {
-  if (!comesFirst(boxB, boxA)) {
-    return featureInOrder(point, apart, a, boxA, b, boxB);
+  ContactFeature feature = comesFirst(boxB, boxA) ? featureInOrder(swapped(point), apart, b, boxB, a, boxA)
+                                                  : featureInOrder(point, apart, a, boxA, b, boxB);
+  if (!boxA.isCentered() || !boxB.isCentered()) {
+    feature.onA += (feature.a == a ? boxA : boxB).center;
+    if (feature.kind != ContactFeature::Kind::kPointOnFace) {
+      feature.onB += (feature.a == a ? boxB : boxA).center;
+    }
   }
-  return featureInOrder(swapped(point), apart, b, boxB, a, boxA);
+  return feature;
 }
 
 }  // namespace careen

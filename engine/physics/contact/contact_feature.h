@@ -60,6 +60,15 @@ struct ContactState {
   Vec3 offset = Vec3::Zero();  ///< [m] kInCone: sideways, from b's point to a's
 };
 
+/// A body's box, as an argument: a view of its size and place in the body, not to be stored.
+struct BoxShape {
+  const Vec3& halfExtents;                ///< [m]
+  const Vec3& center = BoxAt::kCentered;  ///< [m] its middle, body frame
+};
+inline BoxShape shapeOf(const Body& body) {
+  return {.halfExtents = body.halfExtents, .center = body.boxCenter};
+}
+
 /// Whether the features include that corner of a at that wall.
 bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, const Vec3& corner);
 
@@ -69,8 +78,8 @@ bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, co
 /// perpendicular to the edge on which the contact can move: the bodies carry it half way each, so it stays
 /// symmetric. For parallel edges that is the bisector of the fan as it moves. With w from b's point to a's,
 /// d = n·w, and where they touch d̈ = n·ẅ + 2ṅ·ẇ.
-ContactState contactState(const ContactFeature& feature, const Kinematics& a, const Vec3& halfExtentsA,
-                          const Kinematics* b, const Vec3& halfExtentsB, const Wall* wall);
+ContactState contactState(const ContactFeature& feature, const Kinematics& a, BoxShape boxA,
+                          const Kinematics* b, BoxShape boxB, const Wall* wall);
 
 /// The feature of two boxes at a point of boxContactPoints. `apart` [m] is their gap, negative for
 /// penetration: a crossing of edges lies halfway between them.

@@ -36,7 +36,7 @@ BodyState TouchingBody::state() const {
   const Mat3 columns = worldFromBody.toRotationMatrix();
   return {.pose = {.position = position, .worldFromBody = columns},
           .velocity = velocity,
-          .angularMomentum = columns * body->mass.inertiaBody.cwiseProduct(angularVelocityBody)};
+          .angularMomentum = columns * body->mass.inertiaTimes(angularVelocityBody)};
 }
 
 ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodies,
@@ -55,7 +55,7 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
     kinematics_[i].pose = {each.position, each.worldFromBody.toRotationMatrix()};
     if (!each.isHeld()) {
       movers_.push_back(i);
-      radius_ = std::max(radius_, each.body->halfExtents.norm());
+      radius_ = std::max(radius_, radiusOf(*each.body));
       const MassProperties& mass = each.body->mass;
       inverseMass_.insert(inverseMass_.end(), 3, mass.inverseMass);
       for (int k = 0; k < 3; ++k) {
@@ -110,13 +110,13 @@ void ContactSystem::look(std::span<const double> y) {
     const bool onWall = feature.b.isWall();
     const auto b = static_cast<std::size_t>(onWall ? 0 : feature.b.body());
     states_[c] =
-        contactState(feature, kinematics_[a], bodies_[a].body->halfExtents,
-                     onWall ? nullptr : &kinematics_[b], onWall ? Vec3::Zero() : bodies_[b].body->halfExtents,
-                     onWall ? &world_->walls[feature.b.wall()] : nullptr);
+        contactState(feature, kinematics_[a], shapeOf(*bodies_[a].body), onWall ? nullptr : &kinematics_[b],
+                     shapeOf(*bodies_[b].body), onWall ? &world_->walls[feature.b.wall()] : nullptr);
   }
 }
 
-// Jacobian rows and targets of every contact, from the last look().
+// Jacobian rows and targets of every contact, from the last look(). Rows of rotation are along the bodies'
+// principal axes, where the mass matrix is diagonal.
 void ContactSystem::fillContacts() {
   for (std::size_t c = 0; c < features_.size(); ++c) {
     const ContactFeature& feature = features_[c];
@@ -129,7 +129,7 @@ void ContactSystem::fillContacts() {
       if (places_[body] == kHeld) {
         return ContactForces::kNobody;
       }
-      const Mat3& turn = kinematics_[body].pose.worldFromBody;
+      const Mat3 turn = bodies_[body].body->mass.worldFromPrincipal(kinematics_[body].pose.worldFromBody);
       for (std::size_t row = 0; row < 3; ++row) {
         const Vec3 turning = turn.transpose() * arm.cross(directions[row]);
         for (int k = 0; k < 3; ++k) {
@@ -172,7 +172,7 @@ void ContactSystem::findFree() {
   for (std::size_t m = 0; m < movers_.size(); ++m) {
     const std::size_t i = movers_[m];
     const MassProperties& mass = bodies_[i].body->mass;
-    const Mat3& columns = kinematics_[i].pose.worldFromBody;
+    const Mat3 columns = mass.worldFromPrincipal(kinematics_[i].pose.worldFromBody);
     const Vec3 spin = columns.transpose() * kinematics_[i].angularVelocity;
     Vec3 linear = world_->gravity;
     Vec3 torque = mass.inertiaBody.cwiseProduct(spin).cross(spin);
@@ -184,6 +184,11 @@ void ContactSystem::findFree() {
     setThree(free_, m * kSix, linear);
     setThree(free_, m * kSix + 3, mass.inverseInertiaBody.cwiseProduct(torque));
   }
+}
+
+// The rotational part of a solution, body frame.
+Vec3 ContactSystem::angularOf(std::span<const double> solution, std::size_t mover) const {
+  return bodies_[movers_[mover]].body->mass.fromPrincipal(threeAt(solution, mover * kSix + 3));
 }
 
 bool ContactSystem::findModes(std::span<const double> y) {
@@ -223,7 +228,7 @@ bool ContactSystem::rate(std::span<const double> y, std::vector<double>& dy) {
     setThree(dy, at, threeAt(y, at + 7));
     setQuat(dy, at + 3, Quat(0.5 * turning.w(), 0.5 * turning.x(), 0.5 * turning.y(), 0.5 * turning.z()));
     setThree(dy, at + 7, threeAt(forces_.accelerations(), m * kSix));
-    setThree(dy, at + 10, threeAt(forces_.accelerations(), m * kSix + 3));
+    setThree(dy, at + 10, angularOf(forces_.accelerations(), m));
   }
   return found;
 }
@@ -240,7 +245,7 @@ bool ContactSystem::holdsSideways(std::size_t contact) const {
 double ContactSystem::shiftOf(std::span<const double> displacement) const {
   double most = 0;
   for (std::size_t m = 0; m < movers_.size(); ++m) {
-    const double radius = bodies_[movers_[m]].body->halfExtents.norm();
+    const double radius = radiusOf(*bodies_[movers_[m]].body);
     most = std::max(
         most, threeAt(displacement, m * kSix).norm() + radius * threeAt(displacement, m * kSix + 3).norm());
   }
@@ -289,7 +294,7 @@ double ContactSystem::projectPositions(std::vector<double>& y, double most) {
     for (std::size_t m = 0; m < movers_.size(); ++m) {
       const std::size_t at = m * kNumbers;
       setThree(y, at, threeAt(y, at) + threeAt(forces_.accelerations(), m * kSix));
-      const Vec3 half = 0.5 * threeAt(forces_.accelerations(), m * kSix + 3);
+      const Vec3 half = 0.5 * angularOf(forces_.accelerations(), m);
       setQuat(y, at + 3, (quatAt(y, at + 3) * Quat(1, half[0], half[1], half[2])).normalized());
     }
   }
@@ -326,7 +331,8 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
     std::vector<double> before(inverseMass_.size());
     for (std::size_t m = 0; m < movers_.size(); ++m) {
       setThree(before, m * kSix, threeAt(y, m * kNumbers + 7));
-      setThree(before, m * kSix + 3, threeAt(y, m * kNumbers + 10));
+      setThree(before, m * kSix + 3,
+               bodies_[movers_[m]].body->mass.toPrincipal(threeAt(y, m * kNumbers + 10)));
     }
     solveGiven(before);
     std::vector<double> change(forces_.accelerations().begin(), forces_.accelerations().end());
@@ -336,7 +342,7 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
     moves = shiftOf(change) <= kMostShift * worst;
     for (std::size_t m = 0; moves && m < movers_.size(); ++m) {
       setThree(y, m * kNumbers + 7, threeAt(forces_.accelerations(), m * kSix));
-      setThree(y, m * kNumbers + 10, threeAt(forces_.accelerations(), m * kSix + 3));
+      setThree(y, m * kNumbers + 10, angularOf(forces_.accelerations(), m));
     }
   }
   modes_ = std::move(kept);

@@ -78,6 +78,7 @@ class ContactSystem {
  private:
   bool holdsSideways(std::size_t contact) const;
   double shiftOf(std::span<const double> displacement) const;
+  Vec3 angularOf(std::span<const double> solution, std::size_t mover) const;
   void findFree();
   void fillContacts();
   void solveGiven(std::span<const double> free);

@@ -32,7 +32,7 @@ Quat rotationBy(const Vec3& angle) {
 ImplicitStep::ImplicitStep(const World& world, const std::vector<TouchingBody>& bodies, double tolerance)
     : world_(world), bodies_(bodies), tolerance_(tolerance), loads_(bodies.size()), turned_(bodies.size()) {
   for (const TouchingBody& body : bodies) {
-    radius_ = body.isHeld() ? radius_ : std::max(radius_, body.body->halfExtents.norm());
+    radius_ = body.isHeld() ? radius_ : std::max(radius_, radiusOf(*body.body));
   }
   if (!world.springs.empty() || world.drag) {
     for (const Body& body : world.bodies) {
@@ -42,8 +42,12 @@ ImplicitStep::ImplicitStep(const World& world, const std::vector<TouchingBody>& 
 }
 
 Vec3 ImplicitStep::spinOf(std::size_t body, const Mat3& turned, const Vec3& angularMomentum) const {
-  return turned *
-         bodies_[body].body->mass.inverseInertiaBody.cwiseProduct(turned.transpose() * angularMomentum);
+  return turned * bodies_[body].body->mass.inverseInertiaTimes(turned.transpose() * angularMomentum);
+}
+
+// Attitude of a body's principal axes.
+Mat3 ImplicitStep::principalAt(std::size_t body, const GroupBody& at) const {
+  return bodies_[body].body->mass.worldFromPrincipal(at.worldFromBody.toRotationMatrix());
 }
 
 Kinematics ImplicitStep::kinematics(std::size_t body, const GroupBody& at) const {
@@ -102,7 +106,7 @@ double ImplicitStep::freeAcceleration(const GroupState& state) {
     if (!bodies_[i].isHeld()) {
       const MassProperties& mass = bodies_[i].body->mass;
       const double turning =
-          loads_[i].torque.norm() * mass.inverseInertiaBody.maxCoeff() * bodies_[i].body->halfExtents.norm();
+          loads_[i].torque.norm() * mass.inverseInertiaBody.maxCoeff() * radiusOf(*bodies_[i].body);
       largest = std::max(largest, mass.inverseMass * loads_[i].force.norm() + turning);
     }
   }
@@ -184,7 +188,7 @@ bool ImplicitStep::compress(GroupState& state, std::span<const ContactFeature> c
   chooseResidual(state);
   placeBodies(contacts);
   for (const std::size_t i : movers_) {
-    turned_[i] = state[i].worldFromBody.toRotationMatrix();
+    turned_[i] = principalAt(i, state[i]);
   }
   fillFree(state, 0);
   contactsAt(contacts, state, geometry_);
@@ -209,7 +213,7 @@ bool ImplicitStep::separate(GroupState& state, std::span<const ContactFeature> c
   for (int pass = 0; pass < kMostPasses; ++pass) {
     placeBodies(contacts);
     for (const std::size_t i : movers_) {
-      turned_[i] = state[i].worldFromBody.toRotationMatrix();
+      turned_[i] = principalAt(i, state[i]);
     }
     bool deep = false;
     contactsAt(contacts, state, geometry_);
@@ -229,8 +233,9 @@ bool ImplicitStep::separate(GroupState& state, std::span<const ContactFeature> c
     for (std::size_t m = 0; m < movers_.size(); ++m) {
       GroupBody& body = state[movers_[m]];
       body.position += threeAt(solution_.velocities, m * kSix);
-      body.worldFromBody =
-          (body.worldFromBody * rotationBy(threeAt(solution_.velocities, m * kSix + 3))).normalized();
+      const Vec3 turn =
+          bodies_[movers_[m]].body->mass.fromPrincipal(threeAt(solution_.velocities, m * kSix + 3));
+      body.worldFromBody = (body.worldFromBody * rotationBy(turn)).normalized();
     }
   }
   return true;

@@ -83,6 +83,7 @@ class ImplicitStep {
   void move(const GroupState& from, double h, GroupState& to) const;
   void turn(const GroupState& from, double h, GroupState& to) const;
   Vec3 spinOf(std::size_t body, const Mat3& turned, const Vec3& angularMomentum) const;
+  Mat3 principalAt(std::size_t body, const GroupBody& at) const;
 
   const World& world_;
   const std::vector<TouchingBody>& bodies_;
@@ -99,7 +100,7 @@ class ImplicitStep {
   std::vector<Vec3> push_;               // [N s] by body, of the contacts
   std::vector<Vec3> twist_;              // [N m s] likewise
   std::vector<std::vector<Six>> parts_;  // of both, by body
-  std::vector<Mat3> turned_;             // by body: worldFromBody at the end of the step
+  std::vector<Mat3> turned_;             // by body: principal axes at the end of the step
   std::vector<ContactFeature> features_;
   std::vector<ContactState> geometry_;  // by contact, as in the rows
   std::vector<ContactState> ends_;      // likewise, at the end of the step

@@ -18,12 +18,12 @@ constexpr double kParallel = 1 - 0x1p-27;
 
 ContactState ImplicitStep::stateOf(const ContactFeature& feature, const Kinematics& a,
                                    const Kinematics* b) const {
-  const Vec3& halfExtentsA = bodies_[static_cast<std::size_t>(feature.a)].body->halfExtents;
+  const BoxShape boxA = shapeOf(*bodies_[static_cast<std::size_t>(feature.a)].body);
   if (b == nullptr) {
-    return contactState(feature, a, halfExtentsA, nullptr, Vec3::Zero(), &world_.walls[feature.b.wall()]);
+    return contactState(feature, a, boxA, nullptr, boxA, &world_.walls[feature.b.wall()]);
   }
-  const Vec3& halfExtentsB = bodies_[static_cast<std::size_t>(feature.b.body())].body->halfExtents;
-  ContactState at = contactState(feature, a, halfExtentsA, b, halfExtentsB, nullptr);
+  const BoxShape boxB = shapeOf(*bodies_[static_cast<std::size_t>(feature.b.body())].body);
+  ContactState at = contactState(feature, a, boxA, b, boxB, nullptr);
   // One point for both, else the pair's impulses would change angular momentum by gap × friction.
   const Vec3 link = (a.pose.position - b->pose.position) + (at.armA - at.armB);
   at.armA -= 0.5 * link;
@@ -240,7 +240,7 @@ bool ImplicitStep::findImpulses(const GroupState& from, double h, bool first,
                                 std::vector<ClosedContact>& contacts, const GroupState& to) {
   placeBodies(features_);
   for (const std::size_t i : movers_) {
-    turned_[i] = to[i].worldFromBody.toRotationMatrix();
+    turned_[i] = principalAt(i, to[i]);
   }
   fillFree(from, h);
   contactsAt(features_, middle_, geometry_);

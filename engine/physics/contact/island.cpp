@@ -42,7 +42,7 @@ double timeScaleOf(const World& world, double tolerance) {
   }
   double scale = kInfinity;
   for (const Body& body : world.bodies) {
-    const double radius = body.halfExtents.norm();
+    const double radius = radiusOf(body);
     const double speed =
         body.initial.velocity.norm() + radius * angularVelocity(body.mass, body.initial).norm();
     scale = speed > 0 ? std::min(scale, std::sqrt(tolerance * radius) / speed) : scale;
@@ -122,7 +122,7 @@ bool Island::rests() const {
     if (body.isHeld()) {
       continue;
     }
-    const double radius = body.body->halfExtents.norm();
+    const double radius = radiusOf(*body.body);
     const double* a = &system_.forces().accelerations()[m * ContactForces::kAxes];
     const double linear = Vec3(a[0], a[1], a[2]).norm();
     const double turning = Vec3(a[3], a[4], a[5]).norm() * radius;

@@ -47,8 +47,7 @@ double lowestBetween(double from, double to, const Value& valueAt) {
 // [m/s] Rate of a corner's gap.
 double Island::rateOf(const EventFunction& corner) const {
   const Kinematics& at = system_.kinematics(corner.contact);
-  const Vec3 arm =
-      at.pose.worldFromBody * careen::corner(bodies()[corner.contact].body->halfExtents, corner.corner);
+  const Vec3 arm = at.pose.worldFromBody * careen::corner(*bodies()[corner.contact].body, corner.corner);
   return world_.walls[static_cast<std::size_t>(corner.wall)].normal.dot(at.velocity +
                                                                         at.angularVelocity.cross(arm));
 }
@@ -103,7 +102,7 @@ double Island::deepWithin(double h, const EventFunction& event) const {
   const auto gapAt = [&](double time) {
     const Pose poseA = stateAt(ofA, bodies()[a].body->mass, time).pose;
     const Pose poseB = stateAt(ofB, bodies()[b].body->mass, time).pose;
-    return BoxAxes({poseA, bodies()[a].body->halfExtents}, {poseB, bodies()[b].body->halfExtents}).gap();
+    return BoxAxes(boxAt(poseA, *bodies()[a].body), boxAt(poseB, *bodies()[b].body)).gap();
   };
   std::array<double, kMoments + 1> gaps{};
   const auto deep = [&] { return std::min(-tolerance_, gaps[0] - kDeeper * tolerance_); };

@@ -38,7 +38,7 @@ constexpr double kShortestStep = 0x1p-40;
 }  // namespace
 
 double Island::touching(std::size_t body) const {
-  return touchingWithin({system_.kinematics(body).pose, bodies()[body].body->halfExtents});
+  return touchingWithin(boxAt(system_.kinematics(body).pose, *bodies()[body].body));
 }
 
 void Island::listEventFunctions() {
@@ -70,7 +70,7 @@ void Island::listEventFunctions() {
   for (std::size_t i = 0; i < bodies().size(); ++i) {
     for (std::size_t w = 0; w < (bodies()[i].isHeld() ? 0 : world_.walls.size()); ++w) {
       for (int k = 0; k < kCorners; ++k) {
-        const Vec3 at = corner(bodies()[i].body->halfExtents, k);
+        const Vec3 at = corner(*bodies()[i].body, k);
         if (!hasCorner(features, static_cast<int>(i), Partner::ofWall(w), at)) {
           eventFunctions_.push_back(
               {.kind = EventFunction::Kind::kCorner, .contact = i, .wall = static_cast<int>(w), .corner = k});
@@ -218,15 +218,15 @@ double Island::value(const EventFunction& event) const {
       const ContactFeature& feature = system_.features()[c];
       const auto a = static_cast<std::size_t>(feature.a);
       const auto b = static_cast<std::size_t>(feature.b.body());
-      return BoxAxes({system_.kinematics(a).pose, bodies()[a].body->halfExtents},
-                     {system_.kinematics(b).pose, bodies()[b].body->halfExtents})
+      return BoxAxes(boxAt(system_.kinematics(a).pose, *bodies()[a].body),
+                     boxAt(system_.kinematics(b).pose, *bodies()[b].body))
                  .gap() +
              event.margin;
     }
     case EventFunction::Kind::kCorner: {
       const Wall& wall = world_.walls[static_cast<std::size_t>(event.wall)];
-      return cornerGap(system_.kinematics(c).pose, corner(bodies()[c].body->halfExtents, event.corner),
-                       wall.normal, wall.offset) +
+      return cornerGap(system_.kinematics(c).pose, corner(*bodies()[c].body, event.corner), wall.normal,
+                       wall.offset) +
              event.margin;
     }
   }

@@ -117,7 +117,7 @@ double Island::sizeOf(const State& difference, double h) const {
     if (body.isHeld()) {
       continue;
     }
-    const double radius = body.body->halfExtents.norm();
+    const double radius = radiusOf(*body.body);
     const double time = system_.gravityMagnitude() > 0
                             ? std::max(h, std::min(std::sqrt(radius / system_.gravityMagnitude()), lifetime_))
                             : h;
@@ -150,8 +150,7 @@ Island::State Island::stateWithin(std::span<const ContactStep> path, double time
     const MassProperties& mass = bodies()[i].body->mass;
     const BodyState at = stateAt(Motion(path[system_.placeOf(i)]), mass, time);
     const Quat turned(at.pose.worldFromBody);
-    const Vec3 spin =
-        mass.inverseInertiaBody.cwiseProduct(at.pose.worldFromBody.transpose() * at.angularMomentum);
+    const Vec3 spin = mass.inverseInertiaTimes(at.pose.worldFromBody.transpose() * at.angularMomentum);
     for (const Vec3& part : {at.pose.position, Vec3(turned.w(), turned.x(), turned.y())}) {
       state.insert(state.end(), part.begin(), part.end());
     }
@@ -207,8 +206,7 @@ bool Island::gainsEnergy() const {
     const MassProperties& mass = body.body->mass;
     const auto energy = [&](const State& y) {
       const Vec3 spin = threeAt(y, at + 10);
-      return 0.5 *
-             (mass.mass * threeAt(y, at + 7).squaredNorm() + spin.dot(mass.inertiaBody.cwiseProduct(spin)));
+      return 0.5 * (mass.mass * threeAt(y, at + 7).squaredNorm() + spin.dot(mass.inertiaTimes(spin)));
     };
     const double before = energy(start_);
     const double after = energy(end_);

@@ -60,8 +60,8 @@ void Island::adopt() {
       continue;
     }
     const GroupBody& body = stepper_->state()[i];
-    const Vec3 spin = bodies()[i].body->mass.inverseInertiaBody.cwiseProduct(body.worldFromBody.conjugate() *
-                                                                             body.angularMomentum);
+    const Vec3 spin =
+        bodies()[i].body->mass.inverseInertiaTimes(body.worldFromBody.conjugate() * body.angularMomentum);
     const Quat& q = body.worldFromBody;
     const std::array<double, ContactSystem::kNumbers> numbers{
         body.position[0], body.position[1], body.position[2], q.w(),   q.x(),   q.y(),  q.z(),

@@ -51,8 +51,8 @@ double TimeStepper::shortestStep() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].isHeld()) {
       const Kinematics at = equations_.kinematics(i, start_[i]);
-      fastest = std::max(
-          fastest, at.velocity.norm() + at.angularVelocity.norm() * bodies_[i].body->halfExtents.norm());
+      fastest =
+          std::max(fastest, at.velocity.norm() + at.angularVelocity.norm() * radiusOf(*bodies_[i].body));
     }
   }
   const double acceleration = std::max(acceleration_, equations_.freeAcceleration(start_));
@@ -75,7 +75,7 @@ double TimeStepper::longestStep() const {
     }
     const Kinematics at = equations_.kinematics(i, start_[i]);
     const double turning = at.angularVelocity.norm();
-    const double radius = bodies_[i].body->halfExtents.norm();
+    const double radius = radiusOf(*bodies_[i].body);
     const double speed = at.velocity.norm() + turning * radius;
     if (turning > 0) {
       most = std::min(most, kStepTurn / turning);
@@ -99,10 +99,9 @@ double TimeStepper::errorOf(const GroupState& coarse, const GroupState& fine, do
     if (bodies_[i].isHeld()) {
       continue;
     }
-    const double radius = bodies_[i].body->halfExtents.norm();
-    const Vec3& inverse = bodies_[i].body->mass.inverseInertiaBody;
-    const Vec3 spun = inverse.cwiseProduct(fine[i].worldFromBody.conjugate() *
-                                           (coarse[i].angularMomentum - fine[i].angularMomentum));
+    const double radius = radiusOf(*bodies_[i].body);
+    const Vec3 spun = bodies_[i].body->mass.inverseInertiaTimes(
+        fine[i].worldFromBody.conjugate() * (coarse[i].angularMomentum - fine[i].angularMomentum));
     const Vec4 turned = coarse[i].worldFromBody.coeffs() - fine[i].worldFromBody.coeffs();
     worst = std::max({worst, (coarse[i].position - fine[i].position).norm(), 2 * radius * turned.norm(),
                       h * (coarse[i].velocity - fine[i].velocity).norm(), h * radius * spun.norm()});
@@ -285,8 +284,7 @@ bool TimeStepper::isQuiet() const {
   double fastest = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Kinematics at = equations_.kinematics(i, end_[i]);
-    fastest = std::max(
-        {fastest, at.velocity.norm(), at.angularVelocity.norm() * bodies_[i].body->halfExtents.norm()});
+    fastest = std::max({fastest, at.velocity.norm(), at.angularVelocity.norm() * radiusOf(*bodies_[i].body)});
   }
   return fastest * fastest <= 0x1p-6 * gravity * closed();
 }
@@ -294,8 +292,7 @@ bool TimeStepper::isQuiet() const {
 ContactStep TimeStepper::motion(std::size_t body) const {
   const auto end = [&](const GroupState& at) {
     const MassProperties& mass = bodies_[body].body->mass;
-    const Vec3 spin =
-        mass.inverseInertiaBody.cwiseProduct(at[body].worldFromBody.conjugate() * at[body].angularMomentum);
+    const Vec3 spin = mass.inverseInertiaTimes(at[body].worldFromBody.conjugate() * at[body].angularMomentum);
     return StepEnd{.position = at[body].position,
                    .velocity = at[body].velocity,
                    .worldFromBody = at[body].worldFromBody,

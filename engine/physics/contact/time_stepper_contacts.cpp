@@ -28,7 +28,7 @@ bool TimeStepper::isSame(const ContactFeature& x, const ContactFeature& y) {
          (x.onB - y.onB).isZero(1e-9 * x.onB.norm());
 }
 
-BoxAt TimeStepper::boxOf(std::size_t body) const { return {poses_[body], bodies_[body].body->halfExtents}; }
+BoxAt TimeStepper::boxOf(std::size_t body) const { return boxAt(poses_[body], *bodies_[body].body); }
 
 Material TimeStepper::materialOf(const ContactFeature& feature) const {
   const Material& ofA = bodies_[static_cast<std::size_t>(feature.a)].body->material;
@@ -38,7 +38,7 @@ Material TimeStepper::materialOf(const ContactFeature& feature) const {
 }
 
 bool TimeStepper::near(const GroupState& at, std::size_t a, std::size_t b, double within) const {
-  const double reach = bodies_[a].body->halfExtents.norm() + bodies_[b].body->halfExtents.norm() + within;
+  const double reach = radiusOf(*bodies_[a].body) + radiusOf(*bodies_[b].body) + within;
   return (at[a].position - at[b].position).squaredNorm() <= reach * reach;
 }
 
@@ -49,9 +49,8 @@ void TimeStepper::addWallContacts(std::size_t body) {
       continue;
     }
     for (int k = 0; k < kCorners; ++k) {
-      ContactFeature feature{.a = static_cast<int>(body),
-                             .b = Partner::ofWall(w),
-                             .onA = corner(bodies_[body].body->halfExtents, k)};
+      ContactFeature feature{
+          .a = static_cast<int>(body), .b = Partner::ofWall(w), .onA = corner(*bodies_[body].body, k)};
       if (cornerGap(poses_[body], feature.onA, wall.normal, wall.offset) <= closed()) {
         feature.material = materialOf(feature);
         found_.push_back({.feature = feature});

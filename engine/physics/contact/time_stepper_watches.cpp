@@ -23,7 +23,7 @@ void TimeStepper::listWatches(double h) {
   std::vector<double> reach;  // [m] by body: how far a point of it may come
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Kinematics at = equations_.kinematics(i, start_[i]);
-    const double speed = at.velocity.norm() + at.angularVelocity.norm() * bodies_[i].body->halfExtents.norm();
+    const double speed = at.velocity.norm() + at.angularVelocity.norm() * radiusOf(*bodies_[i].body);
     reach.push_back(bodies_[i].isHeld() ? 0 : 2 * h * (speed + h * acceleration_) + closed());
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -40,16 +40,15 @@ void TimeStepper::listWatches(double h) {
 }
 
 void TimeStepper::watchWalls(std::size_t body, double reach) {
-  const double radius = bodies_[body].body->halfExtents.norm();
+  const double radius = radiusOf(*bodies_[body].body);
   for (std::size_t w = 0; w < world_.walls.size(); ++w) {
     const Wall& wall = world_.walls[w];
     if (wall.normal.dot(start_[body].position) - wall.offset > radius + reach) {
       continue;
     }
     for (int k = 0; k < kCorners; ++k) {
-      const ContactFeature feature{.a = static_cast<int>(body),
-                                   .b = Partner::ofWall(w),
-                                   .onA = corner(bodies_[body].body->halfExtents, k)};
+      const ContactFeature feature{
+          .a = static_cast<int>(body), .b = Partner::ofWall(w), .onA = corner(*bodies_[body].body, k)};
       if (std::none_of(found_.begin(), found_.end(),
                        [&](const Found& found) { return isSame(found.feature, feature); })) {
         watch({.kind = Watch::Kind::kFeature, .feature = feature});
@@ -76,8 +75,9 @@ void TimeStepper::watch(const Watch& added) {
 BoxAxes TimeStepper::axesOf(const Watch& pair, const GroupState& at) const {
   const auto a = static_cast<std::size_t>(pair.feature.a);
   const auto b = static_cast<std::size_t>(pair.feature.b.body());
-  return {{{at[a].position, at[a].worldFromBody.toRotationMatrix()}, bodies_[a].body->halfExtents},
-          {{at[b].position, at[b].worldFromBody.toRotationMatrix()}, bodies_[b].body->halfExtents}};
+  const Pose ofA{at[a].position, at[a].worldFromBody.toRotationMatrix()};
+  const Pose ofB{at[b].position, at[b].worldFromBody.toRotationMatrix()};
+  return {boxAt(ofA, *bodies_[a].body), boxAt(ofB, *bodies_[b].body)};
 }
 
 double TimeStepper::value(const Watch& watch, const GroupState& at) const {
@@ -123,7 +123,7 @@ TimeStepper::Bounds TimeStepper::boundsOn(const Watch& watch) const {
   double speed = 0;
   double lengths = 0;
   const auto add = [&](std::size_t body) {
-    const double radius = bodies_[body].body->halfExtents.norm();
+    const double radius = radiusOf(*bodies_[body].body);
     lengths += radius;
     if (!bodies_[body].isHeld()) {
       const StepBounds of = boundsOf(motions_[body]);
@@ -190,17 +190,17 @@ bool TimeStepper::staysOpenOnEdges(const Watch& watch, double below, const Momen
                                    const Moment& to) const {
   const auto a = static_cast<std::size_t>(watch.feature.a);
   const auto b = static_cast<std::size_t>(watch.feature.b.body());
-  const Vec3& sizeA = bodies_[a].body->halfExtents;
-  const Vec3& sizeB = bodies_[b].body->halfExtents;
+  const Body& bodyA = *bodies_[a].body;
+  const Body& bodyB = *bodies_[b].body;
   const std::array<Pose, 2> first{poseWithin(a, from.time), poseWithin(b, from.time)};
   const std::array<Pose, 2> second{poseWithin(a, to.time), poseWithin(b, to.time)};
   const auto along = [&](const Vec3& direction, const std::array<Pose, 2>& poses) {
-    return direction.dot(poses[0].position - poses[1].position) -
-           (poses[0].worldFromBody.transpose() * direction).cwiseAbs().dot(sizeA) -
-           (poses[1].worldFromBody.transpose() * direction).cwiseAbs().dot(sizeB);
+    return direction.dot(boxAt(poses[0], bodyA).middle() - boxAt(poses[1], bodyB).middle()) -
+           (poses[0].worldFromBody.transpose() * direction).cwiseAbs().dot(bodyA.halfExtents) -
+           (poses[1].worldFromBody.transpose() * direction).cwiseAbs().dot(bodyB.halfExtents);
   };
   const auto isOpenAlongNormalOf = [&](const std::array<Pose, 2>& poses) {
-    const BoxAxes axes({poses[0], sizeA}, {poses[1], sizeB});
+    const BoxAxes axes(boxAt(poses[0], bodyA), boxAt(poses[1], bodyB));
     const Vec3 direction = axes.normal(axes.best());
     const double lowest = std::min(along(direction, first), along(direction, second));
     return watch.margin + lowest - below >= -0.5 * closed();

@@ -13,7 +13,7 @@ namespace {
 class Unpushed {
  public:
   Unpushed(const Crowd& crowd, std::size_t place, const Vec3& gravity, double length)
-      : mass_(&crowd.listedBody(place).mass) {
+      : body_(crowd.listedBody(place)) {
     PileBody body = crowd.body(place);
     const StepEnd from{.position = body.position,
                        .velocity = body.velocity,
@@ -26,14 +26,14 @@ class Unpushed {
                      .spinBody = body.attitude.conjugate() * body.omega};
     step_ = asContactStep(cubicStep(from, to, length));
     bounds_ = boundsOf(step_);
-    halfExtents_ = body.halfExtents;
   }
   Attitude operator()(double elapsed) const {
-    const BodyState state = stateAt(Motion(step_), *mass_, elapsed);
-    return {.worldFromBody = state.pose.worldFromBody, .angularVelocity = angularVelocity(*mass_, state)};
+    const BodyState state = stateAt(Motion(step_), body_.mass, elapsed);
+    return {.worldFromBody = state.pose.worldFromBody, .angularVelocity = angularVelocity(body_.mass, state)};
   }
   MovingBox moving() const {
-    return {.halfExtents = halfExtents_,
+    return {.halfExtents = body_.halfExtents,
+            .center = body_.boxCenter,
             .position = step_.position[0],
             .velocity = Vec3::Zero(),
             .acceleration = Vec3::Zero(),
@@ -46,10 +46,9 @@ class Unpushed {
   }
 
  private:
-  const MassProperties* mass_;
+  const Body& body_;
   ContactStep step_;
   StepBounds bounds_;
-  Vec3 halfExtents_;
 };
 
 }  // namespace
@@ -68,7 +67,7 @@ std::vector<int> ExactWorld::outsidersIn(const Crowd::Extent& extent, const Cont
             ? length * (body.flight.velocityAt(body.elapsed(time)).norm() + length * world_.gravity.norm())
         : body.touches() ? length * body.speedBound
                          : 0;
-    const Vec3 reach = Vec3::Constant(body.body->halfExtents.norm() + way);
+    const Vec3 reach = Vec3::Constant(radiusOf(*body.body) + way);
     const Vec3 center = body.moves() ? body.positionAt(time) : body.pose.position;
     const bool inside = ((center + reach).array() >= extent.low.array()).all() &&
                         ((center - reach).array() <= extent.high.array()).all();
@@ -107,7 +106,7 @@ void ExactWorld::admitNear(const std::shared_ptr<ContactGroup>& group, const Ins
 bool ExactWorld::meetsNext(const ContactGroup& group, int rank, const Instant& time, double length) {
   const Mover& body = mover(rank);
   const BodyState state = body.stateAt(time);
-  const double radius = body.body->halfExtents.norm();
+  const double radius = radiusOf(*body.body);
   const double turning = body.moves() ? angularVelocity(body.body->mass, state).norm() * radius : 0;
   neighbors_.findCandidates(rank, candidates_);
   return std::any_of(candidates_.begin(), candidates_.end(), [&](Neighbors::Key candidate) {
@@ -120,7 +119,7 @@ bool ExactWorld::meetsNext(const ContactGroup& group, int rank, const Instant& t
         crowds_.tolerance + length * ((state.velocity - at.velocity).norm() + turning +
                                       at.radius * at.omega.norm() + length * world_.gravity.norm());
     if ((state.pose.position - at.position).norm() > radius + at.radius + way ||
-        BoxAxes({state.pose, body.body->halfExtents}, {{at.position, at.axes}, at.halfExtents}).gap() > way) {
+        BoxAxes(boxAt(state.pose, *body.body), boxAt(stateOf(at).pose, *member.body)).gap() > way) {
       return false;
     }
     return !body.moves() || body.crowd || (body.flies && meetsWithin(group, rank, member, time, length));
@@ -137,13 +136,14 @@ std::vector<int> ExactWorld::nearStep(const ContactGroup& group) {
       return true;
     }
     const BodyState state = body.stateAt(group.start);
-    const Vec3& size = body.body->halfExtents;
-    const double speed = state.velocity.norm() + angularVelocity(body.body->mass, state).norm() * size.norm();
+    const double speed =
+        state.velocity.norm() + angularVelocity(body.body->mass, state).norm() * radiusOf(*body.body);
     const double way = length * (body.touches() ? body.speedBound : speed + length * world_.gravity.norm());
     neighbors_.findCandidates(rank, candidates_);
     return std::none_of(candidates_.begin(), candidates_.end(), [&](Neighbors::Key candidate) {
       const Mover& member = mover(candidate);
-      return member.crowd.get() == &group && group.crowd->cameNear(member.place, state.pose, size, way);
+      return member.crowd.get() == &group &&
+             group.crowd->cameNear(member.place, boxAt(state.pose, *body.body), way);
     });
   });
   return near;

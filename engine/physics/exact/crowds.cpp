@@ -35,7 +35,7 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
     }
     ++movable;
     const double spin = angularVelocity(body.body->mass, encounter.before[i]).norm();
-    moves = moves || encounter.before[i].velocity.norm() + spin * body.body->halfExtents.norm() > fallSpeed();
+    moves = moves || encounter.before[i].velocity.norm() + spin * radiusOf(*body.body) > fallSpeed();
     if (body.atOneMoment > kMostAtOneMoment) {
       return true;
     }
@@ -163,8 +163,7 @@ void ExactWorld::enlistAtRest(const std::shared_ptr<ContactGroup>& crowd, int ra
       const Mover& other = mover(candidate);
       if (!other.moves() && !other.crowd &&
           std::find(reached.begin(), reached.end(), candidate) == reached.end() &&
-          areTouching({body.pose, body.body->halfExtents}, {other.pose, other.body->halfExtents},
-                      crowds_.tolerance)) {
+          areTouching(boxAt(body.pose, *body.body), boxAt(other.pose, *other.body), crowds_.tolerance)) {
         reached.push_back(candidate);
       }
     }

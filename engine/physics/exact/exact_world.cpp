@@ -19,7 +19,7 @@ std::vector<double> radiiOf(const World& world) {
   std::vector<double> radii;
   radii.reserve(world.bodies.size());
   for (const Body& body : world.bodies) {
-    radii.push_back(body.halfExtents.norm());
+    radii.push_back(radiusOf(body));
   }
   return radii;
 }
@@ -30,7 +30,7 @@ double longestStepOf(const World& world) {
   constexpr double kSizes = 64;
   double largest = 0;
   for (const Body& body : world.bodies) {
-    largest = std::max(largest, isImmovable(body.mass) ? 0 : body.halfExtents.norm());
+    largest = std::max(largest, isImmovable(body.mass) ? 0 : radiusOf(body));
   }
   const double longest = largest > 0 ? timeScaleOf(world, kSizes * largest) : 1;
   return std::isfinite(longest) ? longest : 1;
@@ -94,7 +94,7 @@ RunFigures ExactWorld::run(const std::stop_token& stop) {
 void ExactWorld::begin() {
   for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
     const Body& body = *mover(rank).body;
-    neighbors_.insert(rank, body.initial.pose.position, body.halfExtents.norm());
+    neighbors_.insert(rank, body.initial.pose.position, radiusOf(body));
     if (mover(rank).isHeld()) {
       rest(rank, {}, body.initial.pose);
     } else {

@@ -104,8 +104,8 @@ void ExactWorld::reach(const Event& event, Encounter& encounter) {
     for (const Neighbors::Key candidate : candidates) {
       const Mover& other = mover(candidate);
       if (std::find(encounter.ranks.begin(), encounter.ranks.end(), candidate) == encounter.ranks.end() &&
-          areTouching(boxOf(encounter, reached),
-                      {other.stateAt(encounter.time).pose, other.body->halfExtents}, nearness(encounter))) {
+          areTouching(boxOf(encounter, reached), boxAt(other.stateAt(encounter.time).pose, *other.body),
+                      nearness(encounter))) {
         join(encounter, candidate);
       }
     }

@@ -105,8 +105,7 @@ void ExactWorld::settle(Encounter& encounter) {
 double ExactWorld::lengthsAt(const Encounter& encounter, std::size_t k) const {
   const auto of = [&](int index) {
     const auto i = static_cast<std::size_t>(index);
-    return encounter.after[i].pose.position.cwiseAbs().sum() +
-           mover(encounter.ranks[i]).body->halfExtents.norm();
+    return encounter.after[i].pose.position.cwiseAbs().sum() + radiusOf(*mover(encounter.ranks[i]).body);
   };
   const ImpactContact& contact = encounter.contacts[k];
   return of(contact.a) + of(contact.b.isWall() ? contact.a : contact.b.body());
@@ -180,7 +179,7 @@ ExactWorld::Parting ExactWorld::partingAt(const Encounter& encounter, std::size_
     velocity += sign * ofPoint;
     parting.speed += sign * at.normal.dot(ofPoint);
     parting.rounding += kParting * (encounter.after[i].velocity.norm() + spin.norm() * arm.norm() +
-                                    kParting * std::sqrt(world_.gravity.norm() * body.halfExtents.norm()));
+                                    kParting * std::sqrt(world_.gravity.norm() * radiusOf(body)));
   };
   add(at.a, at.armA, 1);
   if (!at.b.isWall()) {
@@ -260,28 +259,28 @@ TouchingBody ExactWorld::touchingBody(const Encounter& encounter, std::size_t in
           .position = state.pose.position,
           .worldFromBody = encounter.attitudes[index],
           .velocity = state.velocity,
-          .angularVelocityBody = body.body->mass.inverseInertiaBody.cwiseProduct(
-              state.pose.worldFromBody.transpose() * state.angularMomentum)};
+          .angularVelocityBody = body.body->mass.inverseInertiaTimes(state.pose.worldFromBody.transpose() *
+                                                                     state.angularMomentum)};
 }
 
 ContactFeature ExactWorld::featureOf(const Encounter& encounter, std::size_t k) const {
   const ImpactContact& contact = encounter.contacts[k];
   const auto a = static_cast<std::size_t>(contact.a);
   const Pose& pose = encounter.after[a].pose;
-  const Vec3& half = mover(encounter.ranks[a]).body->halfExtents;
+  const Body& body = *mover(encounter.ranks[a]).body;
   ContactFeature feature;
   if (contact.b.isWall()) {
-    const Vec3 at = pose.worldFromBody.transpose() * contact.armA;
+    const Vec3 at = pose.worldFromBody.transpose() * contact.armA - body.boxCenter;
     feature.a = contact.a;
     feature.b = contact.b;
     for (int i = 0; i < 3; ++i) {
-      feature.onA[i] = at[i] < 0 ? -half[i] : half[i];
+      feature.onA[i] = body.boxCenter[i] + (at[i] < 0 ? -body.halfExtents[i] : body.halfExtents[i]);
     }
   } else {
     const auto b = static_cast<std::size_t>(contact.b.body());
-    feature =
-        featureAt({contact.armA, contact.armB, contact.normal, contact.inCone}, 0, contact.a, {pose, half},
-                  contact.b.body(), {encounter.after[b].pose, mover(encounter.ranks[b]).body->halfExtents});
+    feature = featureAt({contact.armA, contact.armB, contact.normal, contact.inCone}, 0, contact.a,
+                        boxAt(pose, body), contact.b.body(),
+                        boxAt(encounter.after[b].pose, *mover(encounter.ranks[b]).body));
   }
   feature.material = contact.material;
   return feature;
@@ -292,8 +291,7 @@ ContactFeature ExactWorld::featureOf(const Encounter& encounter, std::size_t k) 
 bool ExactWorld::beginsAtRest(Island& island, int timeSteps) const {
   double speed = 0;
   for (const TouchingBody& body : island.bodies()) {
-    speed = std::max(
-        {speed, body.velocity.norm(), body.angularVelocityBody.norm() * body.body->halfExtents.norm()});
+    speed = std::max({speed, body.velocity.norm(), body.angularVelocityBody.norm() * radiusOf(*body.body)});
   }
   if (timeSteps == 0 || speed <= kAllButStill * fallSpeed()) {
     island.begin();

@@ -18,7 +18,7 @@ void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravit
   if (!moments) {
     moments.emplace(body->mass.inertiaBody);
   }
-  rotation.emplace(*moments, attitude, state.angularMomentum);
+  rotation.emplace(*moments, body->mass.worldFromPrincipal(attitude), state.angularMomentum);
   const TorqueFreeRotation<double>::Bounds& bounds = rotation->bounds();
   angularSpeedBound = bounds.angularSpeed;
   angularAccelerationBound = bounds.angularAcceleration;
@@ -56,7 +56,7 @@ Quat Mover::attitudeAt(const Instant& time) const {
   if (touches()) {
     return Quat(careen::stateAt(contactGroup->motions[place], body->mass, elapsed(time)).pose.worldFromBody);
   }
-  return rotation ? rotation->worldFromBody(elapsed(time)) : flight.worldFromBody;
+  return rotation ? body->mass.worldFromBody(rotation->worldFromBody(elapsed(time))) : flight.worldFromBody;
 }
 
 BodyState Mover::stateAt(const Instant& time, const Quat& attitude) const {
@@ -80,13 +80,14 @@ Attitude Mover::operator()(double elapsed) const {
   if (!rotation) {
     return {.worldFromBody = pose.worldFromBody};
   }
-  const Quat attitude = rotation->worldFromBody(elapsed);
-  return {.worldFromBody = attitude.toRotationMatrix(),
-          .angularVelocity = rotation->angularVelocityWorld(attitude)};
+  const Quat principal = rotation->worldFromBody(elapsed);
+  return {.worldFromBody = body->mass.worldFromBody(principal).toRotationMatrix(),
+          .angularVelocity = rotation->angularVelocityWorld(principal)};
 }
 
 MovingBox Mover::moving(const Instant& clockZero) const {
   return {.halfExtents = body->halfExtents,
+          .center = body->boxCenter,
           .position = flight.position,
           .velocity = flight.velocity,
           .acceleration = flight.acceleration,
@@ -101,7 +102,7 @@ MovingBox Mover::moving(const Instant& clockZero) const {
 
 bool areTouching(BoxAt a, BoxAt b, double apart) {
   const double within = std::max(apart, touchingWithin(a, b));
-  const double reach = a.halfExtents.norm() + b.halfExtents.norm() + within;
+  const double reach = a.radius() + b.radius() + within;
   return (a.pose.position - b.pose.position).norm() <= reach && BoxAxes(a, b).gap() <= within;
 }
 

@@ -80,7 +80,7 @@ void ExactWorld::addHeld(const Encounter& encounter, std::vector<ContactFeature>
       ContactFeature feature = system.features()[c];
       const auto a = static_cast<std::size_t>(feature.a);
       const double within =
-          kAligned * touchingWithin({system.kinematics(a).pose, system.bodies()[a].body->halfExtents});
+          kAligned * touchingWithin(boxAt(system.kinematics(a).pose, *system.bodies()[a].body));
       const double past = system.states()[c].beyond;
       if (std::fabs(system.states()[c].gap) > within || past > within / 16) {
         continue;
@@ -100,11 +100,10 @@ void ExactWorld::addCorners(const Encounter& encounter, std::vector<ContactFeatu
   for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
     const Mover& body = mover(encounter.ranks[i]);
     const Pose& pose = encounter.before[i].pose;
-    const Vec3& half = body.body->halfExtents;
-    const double within = kAligned * touchingWithin({pose, half});
+    const double within = kAligned * touchingWithin(boxAt(pose, *body.body));
     for (std::size_t w = 0; w < (body.isHeld() ? 0 : world_.walls.size()); ++w) {
       for (int k = 0; k < kCorners; ++k) {
-        const Vec3 at = corner(half, k);
+        const Vec3 at = corner(*body.body, k);
         const int index = static_cast<int>(i);
         const Partner wall = Partner::ofWall(w);
         if (cornerGap(pose, at, world_.walls[w].normal, world_.walls[w].offset) <= within &&
@@ -117,7 +116,7 @@ void ExactWorld::addCorners(const Encounter& encounter, std::vector<ContactFeatu
 }
 
 BoxAt ExactWorld::boxOf(const Encounter& encounter, std::size_t index) const {
-  return {encounter.before[index].pose, mover(encounter.ranks[index]).body->halfExtents};
+  return boxAt(encounter.before[index].pose, *mover(encounter.ranks[index]).body);
 }
 
 double ExactWorld::gapOf(const Encounter& encounter, std::size_t a, std::size_t b) const {
@@ -143,8 +142,7 @@ void ExactWorld::addOverlaps(const Encounter& encounter, std::vector<ContactFeat
     for (std::size_t j = i + 1; j < encounter.ranks.size(); ++j) {
       const Body& b = *mover(encounter.ranks[j]).body;
       if ((!isImmovable(a.mass) || !isImmovable(b.mass)) &&
-          (pose.position - encounter.before[j].pose.position).norm() <=
-              a.halfExtents.norm() + b.halfExtents.norm() &&
+          (pose.position - encounter.before[j].pose.position).norm() <= radiusOf(a) + radiusOf(b) &&
           gapOf(encounter, i, j) < -kAligned * touchingWithin(boxOf(encounter, i), boxOf(encounter, j))) {
         addMeeting(encounter, i, j, features);
       }

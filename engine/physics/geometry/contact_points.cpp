@@ -13,7 +13,7 @@ namespace careen {
 namespace {
 
 // Support feature: the corner, edge or face of a box that lies furthest along a direction. Positions are
-// relative to a box's centre of mass: what is symmetric about it stays so bitwise wherever the boxes are.
+// relative to a box's middle: what is symmetric about it stays so bitwise wherever the boxes are.
 struct Feature {
   Vec3 centre = Vec3::Zero();
   int freedom = 0;               // 0 corner, 1 edge, 2 face
@@ -39,7 +39,8 @@ struct Feature {
 };
 
 Feature furthest(BoxAt box, const Vec3& direction, double within) {
-  const auto& [pose, halfExtents] = box;
+  const Pose& pose = box.pose;
+  const Vec3& halfExtents = box.halfExtents;
   Feature feature{.axis = {Vec3::Zero(), Vec3::Zero()}};
   const Vec3 along = pose.worldFromBody.transpose() * direction;
   // A box thinner than the tolerance still has two sides: its steepest axis never counts as level.
@@ -351,7 +352,7 @@ std::optional<ContactPoints> pointsInCone(BoxAt a, BoxAt b, const BoxAxes& axes,
 
 ContactPoints pointsInOrder(BoxAt a, BoxAt b, double apart) {
   const double within = std::max(apart, touchingWithin(a, b));
-  const Vec3 bToA = a.pose.position - b.pose.position;
+  const Vec3 bToA = a.middle() - b.middle();
   const BoxAxes axes(a, b);
   if (const std::optional<ContactPoints> points = pointsInCone(a, b, axes, bToA, within)) {
     return *points;
@@ -394,12 +395,20 @@ ContactPoint swapped(const ContactPoint& point) {
 }
 
 ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart) {
-  if (!comesFirst(b, a)) {
-    return pointsInOrder(a, b, apart);
+  const bool swaps = comesFirst(b, a);
+  const bool centered = a.isCentered() && b.isCentered();
+  const ContactPoints found = swaps ? pointsInOrder(b, a, apart) : pointsInOrder(a, b, apart);
+  if (!swaps && centered) {
+    return found;
   }
   ContactPoints points;
-  for (const ContactPoint& point : pointsInOrder(b, a, apart)) {
-    points.add(swapped(point));
+  for (const ContactPoint& each : found) {
+    ContactPoint point = swaps ? swapped(each) : each;
+    if (!centered) {
+      point.armA += a.arm();
+      point.armB += b.arm();
+    }
+    points.add(point);
   }
   return points;
 }

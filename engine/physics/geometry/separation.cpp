@@ -35,13 +35,13 @@ double reach(const Vec3& direction, const Mat3& worldFromBox, const Vec3& halfEx
 }  // namespace
 
 double touchingWithin(BoxAt box) {
-  const double radius = box.halfExtents.norm();
+  const double radius = box.radius();
   return touchingWithin(radius, box.pose.position.cwiseAbs().sum() + radius);
 }
 
 double touchingWithin(BoxAt a, BoxAt b) {
-  const double radiusA = a.halfExtents.norm();
-  const double radiusB = b.halfExtents.norm();
+  const double radiusA = a.radius();
+  const double radiusB = b.radius();
   return touchingWithin(
       std::min(radiusA, radiusB),
       (a.pose.position.cwiseAbs().sum() + b.pose.position.cwiseAbs().sum()) + (radiusA + radiusB));
@@ -52,11 +52,11 @@ double cornerGap(const Pose& box, const Vec3& corner, const Vec3& normal, double
 }
 
 double gapToPlane(BoxAt box, const Vec3& normal, double offset) {
-  return normal.dot(box.pose.position) - offset - reach(normal, box.pose.worldFromBody, box.halfExtents);
+  return normal.dot(box.middle()) - offset - reach(normal, box.pose.worldFromBody, box.halfExtents);
 }
 
 WallGap wallGap(BoxAt box, const Vec3& normal, double offset, double within) {
-  const double height = normal.dot(box.pose.position) - offset;
+  const double height = normal.dot(box.middle()) - offset;
   WallGap result{.gap = gapToPlane(box, normal, offset)};
   const Vec3 upInBody = box.pose.worldFromBody.transpose() * normal;
   for (int i = 0; i < kCorners; ++i) {

@@ -33,14 +33,14 @@ inline double touchingWithin(double radius, double lengths) {
 double touchingWithin(BoxAt box);
 double touchingWithin(BoxAt a, BoxAt b);
 
-/// [m] Signed gap of one corner, given in the box's frame, to the half-space normal·x > offset.
+/// [m] Signed gap of one corner, given in the body's frame, to the half-space normal·x > offset.
 double cornerGap(const Pose& box, const Vec3& corner, const Vec3& normal, double offset);
 
 /// Corner k of a box is bit k of a set; corners as in corner().
 using CornerSet = unsigned;
 
-/// [m] Signed gap of a box to the half-space normal·x > offset: n·x − offset − Σ hᵢ|n·aᵢ|, where aᵢ are the
-/// columns of worldFromBody. Negative: inside the wall.
+/// [m] Signed gap of a box to the half-space normal·x > offset: n·x − offset − Σ hᵢ|n·aᵢ|, where x is the
+/// box's middle and aᵢ are the columns of worldFromBody. Negative: inside the wall.
 double gapToPlane(BoxAt box, const Vec3& normal, double offset);
 
 /// The same with the corners that attain it.
@@ -73,7 +73,7 @@ class BoxAxes {
   BoxAxes(Mat3 worldFromA, Vec3 halfExtentsA, Mat3 worldFromB, Vec3 halfExtentsB, Vec3 bToA);
   BoxAxes(BoxAt a, BoxAt b)
       : BoxAxes(a.pose.worldFromBody, a.halfExtents, b.pose.worldFromBody, b.halfExtents,
-                a.pose.position - b.pose.position) {}
+                a.middle() - b.middle()) {}
 
   /// [m] Largest separation, and the first axis that attains it. Positive: a lower bound of the distance.
   /// Zero: touching. Negative: penetration depth along that axis.

@@ -16,6 +16,11 @@ bool movable(const MassProperties& mass) {
   return mass.inverseMass > 0 || !mass.inverseInertiaBody.isZero(0);
 }
 
+/// Along them the mass matrix is diagonal.
+Mat3 principalAxes(const ImpactBody& body) {
+  return body.mass->worldFromPrincipal(body.state->pose.worldFromBody);
+}
+
 /// One body's part of a Jacobian row: the speed of its point along `direction`, per unit of its velocities.
 void fillSide(ContactProblem::Row& row, std::size_t side, const Vec3& direction, const Vec3& arm,
               const Mat3& a, double sign) {
@@ -39,7 +44,7 @@ void addBodies(Setup& setup, std::span<const ImpactBody> bodies) {
       continue;
     }
     setup.movableOf.push_back(static_cast<int>(setup.problem.free.size() / ContactProblem::kAxes));
-    const Vec3 momentumBody = body.state->pose.worldFromBody.transpose() * body.state->angularMomentum;
+    const Vec3 momentumBody = principalAxes(body).transpose() * body.state->angularMomentum;
     const Vec3 spin = body.mass->inverseInertiaBody.cwiseProduct(momentumBody);
     for (Eigen::Index k = 0; k < 3; ++k) {
       setup.problem.free.push_back(body.state->velocity[k]);
@@ -73,13 +78,13 @@ void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactCo
   const auto a = static_cast<std::size_t>(contact.a);
   added.a = setup.movableOf[a];
   for (std::size_t row = 0; row < 3; ++row) {
-    fillSide(added.rows[row], 0, directions[row], contact.armA, bodies[a].state->pose.worldFromBody, 1);
+    fillSide(added.rows[row], 0, directions[row], contact.armA, principalAxes(bodies[a]), 1);
   }
   if (!contact.b.isWall()) {
     const auto b = static_cast<std::size_t>(contact.b.body());
     added.b = setup.movableOf[b];
     for (std::size_t row = 0; row < 3; ++row) {
-      fillSide(added.rows[row], 1, directions[row], contact.armB, bodies[b].state->pose.worldFromBody, -1);
+      fillSide(added.rows[row], 1, directions[row], contact.armB, principalAxes(bodies[b]), -1);
     }
   }
   const double normal = inverseEffectiveMass(setup, added);

@@ -40,9 +40,9 @@ Side sideOf(const ImpactBody& body, const Vec3& arm, const Vec3& normal) {
   const Vec3& v = state.velocity;
   const Vec3& momentum = state.angularMomentum;
   Side side{wideCross(arm, normal), 0, 0};
-  const Wide3 torqueBody = wideInBody(state.pose.worldFromBody, side.torque);
-  const Wide3 momentumBody =
-      wideInBody(state.pose.worldFromBody, Wide3{momentum.x(), momentum.y(), momentum.z()});
+  const Mat3 worldFromPrincipal = mass.worldFromPrincipal(state.pose.worldFromBody);
+  const Wide3 torqueBody = wideInBody(worldFromPrincipal, side.torque);
+  const Wide3 momentumBody = wideInBody(worldFromPrincipal, Wide3{momentum.x(), momentum.y(), momentum.z()});
   side.speed = twoProduct(normal.x(), v.x()) + twoProduct(normal.y(), v.y()) + twoProduct(normal.z(), v.z());
   // n·n differs from 1 by rounding, which would make the energy drift.
   side.inverseEffectiveMass =
@@ -81,14 +81,14 @@ void push(const ImpactBody& body, const Vec3& arm, const Vec3& impulse) {
 Vec3 yield(const ImpactBody& body, const Vec3& arm, const Vec3& impulse) {
   const Mat3& a = body.state->pose.worldFromBody;
   const Vec3 torqueBody = a.transpose() * arm.cross(impulse);
-  const Vec3 spin = a * body.mass->inverseInertiaBody.cwiseProduct(torqueBody);
+  const Vec3 spin = a * body.mass->inverseInertiaTimes(torqueBody);
   return body.mass->inverseMass * impulse + spin.cross(arm);
 }
 
 Vec3 pointVelocity(const ImpactBody& body, const Vec3& arm) {
   const Mat3& a = body.state->pose.worldFromBody;
   const Vec3 momentumBody = a.transpose() * body.state->angularMomentum;
-  const Vec3 spin = a * body.mass->inverseInertiaBody.cwiseProduct(momentumBody);
+  const Vec3 spin = a * body.mass->inverseInertiaTimes(momentumBody);
   return body.state->velocity + spin.cross(arm);
 }
 

@@ -8,11 +8,11 @@ namespace careen {
 
 double addWallContacts(const World& world, const Body& body, const Pose& pose, int index,
                        std::vector<ImpactContact>& contacts) {
-  const double within = touchingWithin({pose, body.halfExtents});
+  const double within = touchingWithin(boxAt(pose, body));
   double deepest = 0;
   for (std::size_t w = 0; w < world.walls.size(); ++w) {
     const Wall& wall = world.walls[w];
-    const WallGap gap = wallGap({pose, body.halfExtents}, wall.normal, wall.offset, within);
+    const WallGap gap = wallGap(boxAt(pose, body), wall.normal, wall.offset, within);
     if (gap.gap > within) {
       continue;
     }
@@ -21,7 +21,7 @@ double addWallContacts(const World& world, const Body& body, const Pose& pose, i
       if ((gap.corners >> static_cast<unsigned>(k) & 1U) != 0) {
         contacts.push_back({.a = index,
                             .b = Partner::ofWall(w),
-                            .armA = pose.worldFromBody * corner(body.halfExtents, k),
+                            .armA = pose.worldFromBody * corner(body, k),
                             .normal = wall.normal,
                             .material = touching(body.material, wall.material)});
       }

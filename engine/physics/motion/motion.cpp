@@ -22,9 +22,10 @@ BodyState stateIn(const EulerStep& step, const MassProperties& mass, double elap
 }
 
 BodyState stateIn(const Flight& flight, const MassProperties& mass, double elapsed) {
-  const TorqueFreeRotation<double> rotation(mass.inertiaBody, flight.worldFromBody, flight.angularMomentum);
+  const TorqueFreeRotation<double> rotation(mass.inertiaBody, mass.worldFromPrincipal(flight.worldFromBody),
+                                            flight.angularMomentum);
   return {.pose = {.position = flight.positionAt(elapsed),
-                   .worldFromBody = rotation.worldFromBody(elapsed).toRotationMatrix()},
+                   .worldFromBody = mass.worldFromBody(rotation.worldFromBody(elapsed)).toRotationMatrix()},
           .velocity = flight.velocityAt(elapsed),
           .angularMomentum = flight.angularMomentum};
 }
@@ -32,14 +33,15 @@ BodyState stateIn(const Flight& flight, const MassProperties& mass, double elaps
 BodyState stateIn(const SteppedFlight& stepped, const MassProperties& mass, double elapsed) {
   const Flight& flight = stepped.start;
   const FreeMethod& method = freeMethod(stepped.method);
-  FreeState<double> rotation{flight.worldFromBody, flight.worldFromBody.conjugate() * flight.angularMomentum};
+  const Quat principal = mass.worldFromPrincipal(flight.worldFromBody);
+  FreeState<double> rotation{principal, principal.conjugate() * flight.angularMomentum};
   const double whole = std::floor(elapsed / stepped.dt);
   method.steps(mass.inertiaBody, rotation, stepped.dt, toInteger<std::int64_t>(whole, std::int64_t{0}));
   if (const double rest = elapsed - whole * stepped.dt; rest > 0) {
     method.steps(mass.inertiaBody, rotation, rest, 1);
   }
   return {.pose = {.position = flight.positionAt(elapsed),
-                   .worldFromBody = rotation.worldFromBody.toRotationMatrix()},
+                   .worldFromBody = mass.worldFromBody(rotation.worldFromBody).toRotationMatrix()},
           .velocity = flight.velocityAt(elapsed),
           .angularMomentum = rotation.angularMomentumWorld()};
 }

@@ -12,7 +12,7 @@ constexpr double kParallelSquared = 0x1p-14;
 
 bool PileAxes::find(const PileBody& a, const PileBody& b, double reach, int last, double tie) {
   cosines.noalias() = a.axes.transpose() * b.axes;
-  const Vec3 apart = a.position - b.position;
+  const Vec3 apart = a.middle() - b.middle();
   apartA.noalias() = a.axes.transpose() * apart;
   apartB.noalias() = b.axes.transpose() * apart;
   const Vec3& halfA = a.halfExtents;

@@ -12,7 +12,7 @@ namespace careen {
 /// where the loss is below the allowed penetration.
 struct PileAxes {
   Mat3 cosines;   ///< Aᵀ B
-  Vec3 apartA;    ///< [m] from b's centre to a's, in a's frame
+  Vec3 apartA;    ///< [m] from b's middle to a's, in a's frame
   Vec3 apartB;    ///< [m] the same in b's
   int face = 0;   ///< 0…5 best face axis, see BoxAxis
   int edges = 0;  ///< 6 … 14 best edge axis

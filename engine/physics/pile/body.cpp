@@ -31,11 +31,13 @@ void setAttitude(PileBody& body, const Quat& attitude) {
 
 PileBody pileBody(const Body& body, const BodyState& state) {
   PileBody result{.halfExtents = body.halfExtents,
-                  .radius = body.halfExtents.norm(),
+                  .center = body.boxCenter.isZero(0) ? nullptr : &body.boxCenter,
+                  .radius = radiusOf(body),
                   .length = 2 * body.halfExtents.minCoeff(),
                   .inverseMass = body.mass.inverseMass,
                   .inertiaBody = body.mass.inertiaBody,
                   .inverseInertiaBody = body.mass.inverseInertiaBody,
+                  .bodyFromPrincipal = body.mass.turned ? &body.mass.bodyFromPrincipal : nullptr,
                   .material = body.material,
                   .position = state.pose.position,
                   .attitude = Quat(state.pose.worldFromBody).normalized(),
@@ -58,20 +60,23 @@ BodyState stateOf(const PileBody& body) {
 }
 
 void deriveOmega(PileBody& body) {
-  const Vec3 momentum = body.axes.transpose() * body.angularMomentum;
-  body.omega = body.axes * body.inverseInertiaBody.cwiseProduct(momentum);
+  const Mat3 axes = body.principalAxes();
+  const Vec3 momentum = axes.transpose() * body.angularMomentum;
+  body.omega = axes * body.inverseInertiaBody.cwiseProduct(momentum);
 }
 
 void turnFree(PileBody& body, double h) {
-  const Vec3 m = body.axes.transpose() * body.angularMomentum;
+  const Vec3 m = body.principalAxes().transpose() * body.angularMomentum;
   const Vec3 omega = body.inverseInertiaBody.cwiseProduct(m);
   const double angle = omega.norm() * h;
   if (angle > kLongTurn) {
-    FreeState<double> state{body.attitude, m};
+    const bool turned = body.bodyFromPrincipal != nullptr;
+    const Quat principal = turned ? Quat(*body.bodyFromPrincipal) : Quat::Identity();
+    FreeState<double> state{turned ? body.attitude * principal : body.attitude, m};
     const double steps = std::min(1 + angle / kTurnPerStrang, kMostStrang);
     const auto count = static_cast<std::int64_t>(steps);
     strangSteps<double>(body.inertiaBody, state, h / static_cast<double>(count), count);
-    setAttitude(body, state.worldFromBody);
+    setAttitude(body, turned ? state.worldFromBody * principal.conjugate() : state.worldFromBody);
     return;
   }
   const Vec3 mRate = m.cross(omega);
@@ -79,7 +84,9 @@ void turnFree(PileBody& body, double h) {
   const Vec3 rateOfRate = body.inverseInertiaBody.cwiseProduct(mRate.cross(omega) + m.cross(rate));
   const Vec3 theta =
       h * (omega + h * (0.5 * rate + h * (rateOfRate * (1.0 / 6) + omega.cross(rate) * (1.0 / 12))));
-  setAttitude(body, body.attitude * turnOf(theta));
+  setAttitude(body,
+              body.attitude *
+                  turnOf(body.bodyFromPrincipal == nullptr ? theta : Vec3(*body.bodyFromPrincipal * theta)));
 }
 
 void turnBy(PileBody& body, const Vec3& rotation) { setAttitude(body, turnOf(rotation) * body.attitude); }

@@ -11,12 +11,14 @@ namespace careen {
 /// A body of a pile: the parts of Body and BodyState that the inner loops read, and its motion between
 /// contacts.
 struct PileBody {
-  Vec3 halfExtents = Vec3::Zero();         ///< [m]
-  double radius = 0;                       ///< [m] bounding sphere about the centre
-  double length = 0;                       ///< [m] smallest size: tolerances are relative to it
-  double inverseMass = 0;                  ///< [1/kg] 0: fixed body
-  Vec3 inertiaBody = Vec3::Zero();         ///< [kg m²]
-  Vec3 inverseInertiaBody = Vec3::Zero();  ///< [1/(kg m²)]
+  Vec3 halfExtents = Vec3::Zero();          ///< [m]
+  const Vec3* center = nullptr;             ///< [m] middle of the box, body frame; null: the centre of mass
+  double radius = 0;                        ///< [m] bounding sphere about the centre of mass
+  double length = 0;                        ///< [m] smallest size: tolerances are relative to it
+  double inverseMass = 0;                   ///< [1/kg] 0: fixed body
+  Vec3 inertiaBody = Vec3::Zero();          ///< [kg m²]
+  Vec3 inverseInertiaBody = Vec3::Zero();   ///< [1/(kg m²)]
+  const Mat3* bodyFromPrincipal = nullptr;  ///< null: the principal axes are the body's
   Material material;
 
   Vec3 position = Vec3::Zero();         ///< [m]
@@ -37,8 +39,15 @@ struct PileBody {
 
   /// Does not move in this step.
   bool still() const { return held || asleep || absent; }
+
+  /// [m] World: from the centre of mass to the middle of the box, and the middle's place.
+  Vec3 boxArm() const { return center == nullptr ? Vec3(Vec3::Zero()) : Vec3(axes * *center); }
+  Vec3 middle() const { return center == nullptr ? position : Vec3(position + axes * *center); }
+  /// The principal axes, along which the inertia is diagonal, in the world.
+  Mat3 principalAxes() const { return bodyFromPrincipal == nullptr ? axes : Mat3(axes * *bodyFromPrincipal); }
 };
 
+/// `body` must outlive it.
 PileBody pileBody(const Body& body, const BodyState& state);
 BodyState stateOf(const PileBody& body);
 

@@ -286,8 +286,9 @@ void Crowd::loadSolver() {
       solver_.velocity(index) = body.velocity + h_ * acceleration(i);
       solver_.omega(index) = body.omega;
       if (!loads_.empty()) {
-        const Vec3 turned = body.axes.transpose() * loads_[listed_[i]].torque;
-        solver_.omega(index) += h_ * (body.axes * body.inverseInertiaBody.cwiseProduct(turned));
+        const Mat3 axes = body.principalAxes();
+        const Vec3 turned = axes.transpose() * loads_[listed_[i]].torque;
+        solver_.omega(index) += h_ * (axes * body.inverseInertiaBody.cwiseProduct(turned));
       }
     }
   }
@@ -350,8 +351,9 @@ void Crowd::move() {
 
 // Impulses change L at the attitude at which they were solved.
 void Crowd::takeVelocity(PileBody& body, int index) {
-  const Vec3 change = body.axes.transpose() * (solver_.omega(index) - body.omega);
-  body.angularMomentum += body.axes * body.inertiaBody.cwiseProduct(change);
+  const Mat3 axes = body.principalAxes();
+  const Vec3 change = axes.transpose() * (solver_.omega(index) - body.omega);
+  body.angularMomentum += axes * body.inertiaBody.cwiseProduct(change);
   body.velocity = solver_.velocity(index);
 }
 

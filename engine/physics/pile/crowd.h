@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/disjoint_sets.h"
+#include "physics/geometry/box_at.h"
 #include "physics/motion/hermite_step.h"
 #include "physics/pile/body.h"
 #include "physics/pile/manifold.h"
@@ -82,7 +83,7 @@ class Crowd {
   /// The space that the last step took.
   Extent swept() const;
   /// Whether a member came that near [m] to a box, as far as that can be said before a search.
-  bool cameNear(std::size_t place, const Pose& pose, const Vec3& halfExtents, double distance) const;
+  bool cameNear(std::size_t place, BoxAt box, double distance) const;
 
   bool isHeld(std::size_t place) const { return bodies_[place].held; }
   /// Asleep: its pose is bitwise constant until another body pushes it.

@@ -75,7 +75,7 @@ void Crowd::limitBounce() {
   }
   std::vector<Energies> energies(bodies_.size());
   const auto kinetic = [](const PileBody& body, const Vec3& velocity, const Vec3& omega) {
-    const Vec3 spin = body.axes.transpose() * omega;
+    const Vec3 spin = body.principalAxes().transpose() * omega;
     return 0.5 * (velocity.squaredNorm() / body.inverseMass + body.inertiaBody.dot(spin.cwiseProduct(spin)));
   };
   for (std::size_t i = 0; i < bodies_.size(); ++i) {

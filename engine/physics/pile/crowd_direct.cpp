@@ -34,7 +34,7 @@ bool Crowd::solveDirectly() {
       const PileBody& mover = bodies_[at(body)];
       index[at(body)] = static_cast<int>(movers.size());
       movers.push_back(at(body));
-      const Vec3 spin = mover.axes.transpose() * solver_.omega(body);
+      const Vec3 spin = mover.principalAxes().transpose() * solver_.omega(body);
       for (int i = 0; i < 3; ++i) {
         problem_.inverseMass.push_back(mover.inverseMass);
         problem_.free.push_back(solver_.velocity(body)[i]);
@@ -59,7 +59,7 @@ bool Crowd::solveDirectly() {
     for (std::size_t d = 0; d < 3; ++d) {
       const auto fill = [&](int body, const Vec3& arm, double sign, std::size_t from) {
         if (at(body) < bodies_.size() && !bodies_[at(body)].still()) {
-          const Vec3 turning = bodies_[at(body)].axes.transpose() * arm.cross(row.directions[d]);
+          const Vec3 turning = bodies_[at(body)].principalAxes().transpose() * arm.cross(row.directions[d]);
           for (int i = 0; i < 3; ++i) {
             contact.rows[d][from + at(i)] = sign * row.directions[d][i];
             contact.rows[d][from + 3 + at(i)] = sign * turning[i];
@@ -79,7 +79,7 @@ bool Crowd::solveDirectly() {
     const double* q = &solution_.velocities[m * ContactProblem::kAxes];
     const int body = static_cast<int>(movers[m]);
     solver_.velocity(body) = Vec3(q[0], q[1], q[2]);
-    solver_.omega(body) = bodies_[movers[m]].axes * Vec3(q[3], q[4], q[5]);
+    solver_.omega(body) = bodies_[movers[m]].principalAxes() * Vec3(q[3], q[4], q[5]);
   }
   for (std::size_t k = 0; k < count; ++k) {
     solver_.setImpulse(static_cast<int>(k), solution_.impulses[k]);

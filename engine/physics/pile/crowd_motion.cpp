@@ -47,14 +47,16 @@ void Crowd::Extent::include(const Vec3& center, double radius) {
   high = high.cwiseMax(center + Vec3::Constant(radius));
 }
 
-bool Crowd::cameNear(std::size_t place, const Pose& pose, const Vec3& halfExtents, double distance) const {
+bool Crowd::cameNear(std::size_t place, BoxAt box, double distance) const {
   if (!before_[place].moved) {
     return false;
   }
   const PileBody& start = start_[place];
   const double within = distance + bodies_[place].path - start.path + tolerance_;
-  return (pose.position - start.position).norm() <= halfExtents.norm() + start.radius + within &&
-         BoxAxes({pose, halfExtents}, {{start.position, start.axes}, start.halfExtents}).gap() <= within;
+  return (box.pose.position - start.position).norm() <= box.radius() + start.radius + within &&
+         BoxAxes(box.pose.worldFromBody, box.halfExtents, start.axes, start.halfExtents,
+                 box.middle() - start.middle())
+                 .gap() <= within;
 }
 
 // The change of velocity is spread over the step, unless that bends the path by more than a part of the

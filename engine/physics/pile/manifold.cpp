@@ -137,7 +137,7 @@ void addEdges(const PileBody& a, const PileBody& b, const PileAxes& axes, PileMa
   const int i = (axes.edges - 6) / 3;
   const int j = (axes.edges - 6) % 3;
   Vec3 normal = a.axes.col(i).cross(b.axes.col(j));
-  const Vec3 apart = a.position - b.position;
+  const Vec3 apart = a.middle() - b.middle();
   manifold.edgeSign = normal.dot(apart) < 0 ? -1 : 1;
   normal *= manifold.edgeSign;
   const Vec3 normalA = a.axes.transpose() * normal;
@@ -164,14 +164,15 @@ void addEdges(const PileBody& a, const PileBody& b, const PileAxes& axes, PileMa
 }
 
 Vec3 nearestIn(const PileBody& box, const Vec3& point) {
-  const Vec3 local = box.axes.transpose() * (point - box.position);
-  return box.position + box.axes * local.cwiseMax(-box.halfExtents).cwiseMin(box.halfExtents);
+  const Vec3 middle = box.middle();
+  const Vec3 local = box.axes.transpose() * (point - middle);
+  return middle + box.axes * local.cwiseMax(-box.halfExtents).cwiseMin(box.halfExtents);
 }
 
 // Corner against corner or edge, outside every face: closest points by alternating projections (von Neumann)
 // onto the two boxes. The plane belongs to a, the point to b.
 void addClosest(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
-  Vec3 onB = nearestIn(b, a.position);
+  Vec3 onB = nearestIn(b, a.middle());
   Vec3 onA = nearestIn(a, onB);
   const double still = kSlack * kSlack * manifold.length;
   for (int k = 0; k < kMostProjections; ++k) {
@@ -193,8 +194,8 @@ void addClosest(const PileBody& a, const PileBody& b, double reach, PileManifold
   manifold.faces = kClosestFeature;
   manifold.planeNormal = a.axes.transpose() * (apart / distance);
   manifold.planeTangent = tangentsOf(manifold.planeNormal).first;
-  manifold.planeOffset = manifold.planeNormal.dot(a.axes.transpose() * (onA - a.position));
-  addPoint(manifold, b.axes.transpose() * (onB - b.position), kClosestFeature);
+  manifold.planeOffset = manifold.planeNormal.dot(a.axes.transpose() * (onA - a.middle()));
+  addPoint(manifold, b.axes.transpose() * (onB - b.middle()), kClosestFeature);
 }
 
 }  // namespace
@@ -235,7 +236,7 @@ bool buildManifold(const PileBody& a, const Wall& wall, double reach, PileManifo
   const Tangents tangents = tangentsOf(wall.normal);
   manifold.plane = {.normal = wall.normal, .tangent1 = tangents.first, .tangent2 = tangents.second};
   const Vec3 up = a.axes.transpose() * wall.normal;
-  const double height = gap(wall, a.position);
+  const double height = gap(wall, a.middle());
   manifold.separation = height - a.halfExtents.dot(up.cwiseAbs());
   if (manifold.separation > reach) {
     return false;
@@ -252,7 +253,8 @@ bool buildManifold(const PileBody& a, const Wall& wall, double reach, PileManifo
 }
 
 void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifold) {
-  const Vec3 apart = a.position - b.position;
+  const Vec3 apart = a.middle() - b.middle();
+  const Vec3 toMiddle = a.boxArm();
   const PileBody& owner = manifold.planeOfB ? b : a;
   const PileBody& other = manifold.planeOfB ? a : b;
   const double sign = manifold.planeOfB ? 1 : -1;
@@ -263,7 +265,7 @@ void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifol
     manifold.plane.tangent1 = owner.axes * manifold.planeTangent;
     manifold.plane.tangent2 = manifold.plane.normal.cross(manifold.plane.tangent1);
     const double center = sign * outward.dot(apart) - manifold.planeOffset;
-    const Vec3 toOther = manifold.planeOfB ? Vec3::Zero() : Vec3(-apart);
+    const Vec3 toOther = manifold.planeOfB ? toMiddle : Vec3(toMiddle - apart);
     for (int k = 0; k < planePoints; ++k) {
       PilePoint& point = manifold.points[at(k)];
       const Vec3 arm = other.axes * point.local;
@@ -289,15 +291,16 @@ void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifol
     const double square = std::max(1 - cosine * cosine, kSlack * kSlack);
     const double along = (cosine * alongB.dot(between) - alongA.dot(between)) / square;
     const double half = a.halfExtents[manifold.edgeA];
-    point.world = armA + std::clamp(along, -half, half) * alongA;
+    point.world = (toMiddle + armA) + std::clamp(along, -half, half) * alongA;
   }
 }
 
 void refreshManifold(const PileBody& a, const Wall& wall, PileManifold& manifold) {
   const double height = gap(wall, a.position);
+  const Vec3 toMiddle = a.boxArm();
   for (int k = 0; k < manifold.count; ++k) {
     PilePoint& point = manifold.points[at(k)];
-    point.world = a.axes * point.local;
+    point.world = toMiddle + a.axes * point.local;
     point.gap = height + wall.normal.dot(point.world);
   }
 }
@@ -310,13 +313,13 @@ double relativeMotion(const PileBody& a, const PileBody& b, double h) {
 }
 
 double overlapOf(const PileBody& a, const PileBody& b) {
-  const BoxAxes axes(a.axes, a.halfExtents, b.axes, b.halfExtents, a.position - b.position);
+  const BoxAxes axes(a.axes, a.halfExtents, b.axes, b.halfExtents, a.middle() - b.middle());
   return std::max(0.0, -axes.gap());
 }
 
 double overlapOf(const PileBody& a, const Wall& wall) {
   const Vec3 up = a.axes.transpose() * wall.normal;
-  return std::max(0.0, -(gap(wall, a.position) - a.halfExtents.dot(up.cwiseAbs())));
+  return std::max(0.0, -(gap(wall, a.middle()) - a.halfExtents.dot(up.cwiseAbs())));
 }
 
 }  // namespace careen

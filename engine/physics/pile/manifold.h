@@ -19,8 +19,8 @@ struct PileLengths {
 
 /// A contact point with its accumulated impulses, matched by feature when the manifold is rebuilt.
 struct PilePoint {
-  Vec3 local = Vec3::Zero();  ///< [m] in the frame of the box it belongs to
-  Vec3 world = Vec3::Zero();  ///< [m] from a's centre
+  Vec3 local = Vec3::Zero();  ///< [m] from the middle of the box it belongs to, in its frame
+  Vec3 world = Vec3::Zero();  ///< [m] from a's centre of mass
   double gap = 0;             ///< [m]
   std::uint32_t feature = 0;
   double normalImpulse = 0;        ///< [N s] of the last substep
@@ -61,7 +61,7 @@ struct PileManifold {
   bool hasEdges = false;  ///< the last point is the edge pair
   int edgeA = 0;
   int edgeB = 0;
-  Vec3 middleA = Vec3::Zero();  ///< [m] edge midpoint, a's frame
+  Vec3 middleA = Vec3::Zero();  ///< [m] edge midpoint from the box's middle, a's frame
   Vec3 middleB = Vec3::Zero();  ///< [m] b's frame
   double edgeSign = 1;          ///< sign for which a's edge × b's edge points from b to a
 

@@ -58,7 +58,8 @@ void PilePairs::clearPlace(int body) {
 // no side farther than angle × radius.
 PilePairs::Box PilePairs::sweptBox(const PileBody& body, const Vec3& gravity, double time) {
   const Vec3 reach = body.axes.cwiseAbs() * body.halfExtents;
-  Box box{.low = body.position - reach, .high = body.position + reach};
+  const Vec3 middle = body.middle();
+  Box box{.low = middle - reach, .high = middle + reach};
   if (body.still()) {
     return box;
   }

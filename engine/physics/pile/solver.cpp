@@ -22,8 +22,9 @@ void PileSolver::setBody(int index, const PileBody& body, double change) {
     return;
   }
   inertia.inverseMass = body.inverseMass;
-  const Mat3 scaled = body.axes * body.inverseInertiaBody.asDiagonal();
-  const auto entry = [&](int i, int j) { return scaled.row(i).dot(body.axes.row(j)); };
+  const Mat3 axes = body.principalAxes();
+  const Mat3 scaled = axes * body.inverseInertiaBody.asDiagonal();
+  const auto entry = [&](int i, int j) { return scaled.row(i).dot(axes.row(j)); };
   inertia.xx = entry(0, 0);
   inertia.yy = entry(1, 1);
   inertia.zz = entry(2, 2);

@@ -18,7 +18,8 @@ class WallApproach {
         height_(normal.dot(box.position) - offset),
         rate_(normal.dot(box.velocity)),
         acceleration_(normal.dot(box.acceleration)),
-        radius_(box.halfExtents.norm()),
+        radius_(box.radius()),
+        offCenter_(!box.center.isZero(0)),
         curvature_(std::max(0.0, radius_ * turningBound(box) - acceleration_)) {
     const Vec3 weights = normal.cwiseAbs();
     sizes_ = {weights.dot(box.position.cwiseAbs()) + std::fabs(offset) + radius_,
@@ -35,7 +36,14 @@ class WallApproach {
     const double elapsed = box_.age + time;
     const Attitude now = box_.attitude(elapsed);
     const Vec3 turning = normal_.cross(now.angularVelocity);
-    bound_ = ConcaveBound(heightAt(elapsed), rateAt(elapsed), curvature_);
+    double height = heightAt(elapsed);
+    double rate = rateAt(elapsed);
+    if (offCenter_) {
+      const Vec3 arm = now.worldFromBody * box_.center;
+      height += normal_.dot(arm);
+      rate += turning.dot(arm);
+    }
+    bound_ = ConcaveBound(height, rate, curvature_);
     for (int i = 0; i < 3; ++i) {
       up_(i) = normal_.dot(now.worldFromBody.col(i));
       bound_.addKink(box_.halfExtents(i), up_(i), turning.dot(now.worldFromBody.col(i)));
@@ -83,6 +91,7 @@ class WallApproach {
   const double rate_;
   const double acceleration_;
   const double radius_;
+  const bool offCenter_;
   const double curvature_;
   std::array<double, 3> sizes_{};  // magnitudes of lengths, speeds and accelerations, for rounding bounds
   Vec3 up_ = Vec3::Zero();

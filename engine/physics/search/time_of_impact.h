@@ -23,6 +23,8 @@
 //     u rotating with b's face  M = K_b|Δ| + 2 W_b V + G + K_ab R_a   (f = u·Δ + u·r_a; likewise a's face)
 //     N = aᵢ×bⱼ rotating        M = K_ab|Δ| + 2 (W_a+W_b) V + G + K_ab (ρ_a+ρ_b)
 //     u fixed in space          M = K_a R_a + K_b R_b − u·g
+// Where the middle of a box is not its centre of mass, Δ is that of the centres of mass, R the distance to
+// the furthest corner, and the constant part of f moves with the boxes: the bounds M stay.
 // ρ is the half diagonal across the edge. In a ContactStep the centre's path is no parabola: G then bounds
 // the relative acceleration in any direction. N keeps its length sin θ: its root is that of the unit
 // direction and M does not grow as θ → 0. Directions that rotate with the boxes converge quadratically; the
@@ -61,7 +63,8 @@ class AttitudeView {
 /// A box in flight, at rest (velocity, acceleration and bounds zero), or in a ContactStep.
 struct MovingBox {
   Vec3 halfExtents;
-  Vec3 position;                        ///< [m] of the centre when the flight began, world
+  Vec3 center = Vec3::Zero();           ///< [m] middle of the box, body frame
+  Vec3 position;                        ///< [m] of the centre of mass when the flight began, world
   Vec3 velocity;                        ///< [m/s] likewise
   Vec3 acceleration;                    ///< [m/s²] constant
   double age = 0;                       ///< [s] time since the flight began, at search time 0
@@ -81,6 +84,8 @@ struct MovingBox {
     const double elapsed = age + time;
     return step != nullptr ? careen::velocityAt(*step, elapsed) : velocity + elapsed * acceleration;
   }
+  /// [m] From the centre of mass to the furthest corner.
+  double radius() const { return (center.cwiseAbs() + halfExtents).norm(); }
   Pose poseAt(double time) const {
     return {.position = positionAt(time), .worldFromBody = attitude(age + time).worldFromBody};
   }

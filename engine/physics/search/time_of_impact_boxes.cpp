@@ -26,8 +26,9 @@ class BoxApproach {
         bToA_(a.positionAt(0) - b.positionAt(0)),
         velocity_(a.velocityAt(0) - b.velocityAt(0)),
         acceleration_(a.acceleration - b.acceleration),
-        radiusA_(a.halfExtents.norm()),
-        radiusB_(b.halfExtents.norm()),
+        radiusA_(a.radius()),
+        radiusB_(b.radius()),
+        offCenter_(!a.center.isZero(0) || !b.center.isZero(0)),
         spheres_((radiusA_ + radiusB_) * kSphere),
         turningA_(turningBound(a)),
         turningB_(turningBound(b)),
@@ -97,6 +98,7 @@ class BoxApproach {
   const Vec3 acceleration_;
   const double radiusA_;
   const double radiusB_;
+  const bool offCenter_;
   const double spheres_;
   const double turningA_;
   const double turningB_;
@@ -204,8 +206,14 @@ void BoxApproach::moveTo(double time) {
   offset_ = offsetAt(time);
   rate_ = velocityAt(time);
   relativeTurning_ = nowA_.angularVelocity - nowB_.angularVelocity;
-  axes_.emplace(nowA_.worldFromBody, a_.halfExtents, nowB_.worldFromBody, b_.halfExtents, offset_);
   boundTranslation(time);
+  if (offCenter_) {  // from here on, of the boxes' middles
+    const Vec3 armA = nowA_.worldFromBody * a_.center;
+    const Vec3 armB = nowB_.worldFromBody * b_.center;
+    offset_ += armA - armB;
+    rate_ += nowA_.angularVelocity.cross(armA) - nowB_.angularVelocity.cross(armB);
+  }
+  axes_.emplace(nowA_.worldFromBody, a_.halfExtents, nowB_.worldFromBody, b_.halfExtents, offset_);
 
   const auto lengths = [](const MovingBox& box, double elapsed) {
     if (box.step != nullptr) {

@@ -26,9 +26,9 @@ std::optional<double> firstFall(double d, double v, double a) {
 
 FirstContact firstContactTranslating(const MovingBox& box, const Vec3& normal, double offset, double until) {
   const Pose pose = box.poseAt(0);
-  const double gap = gapToPlane({pose, box.halfExtents}, normal, offset);
+  const double gap = gapToPlane({pose, box.halfExtents, box.center}, normal, offset);
   const double rounding =
-      kGapRounding * (std::abs(normal.dot(pose.position)) + std::abs(offset) + box.halfExtents.norm());
+      kGapRounding * (std::abs(normal.dot(pose.position)) + std::abs(offset) + box.radius());
   const double v = normal.dot(box.velocityAt(0));
   const double a = normal.dot(box.acceleration);
   const double d = gap > rounding ? gap : 0;

@@ -326,9 +326,9 @@ class Parting {
 }  // namespace
 
 LowestGap lowestGap(const Wall& wall, BoxAt box) {
-  const auto& [pose, halfExtents] = box;
-  const double reach = (pose.worldFromBody.transpose() * wall.normal).cwiseAbs().dot(halfExtents);
-  const double size = wall.normal.cwiseAbs().dot(pose.position.cwiseAbs());
+  const Vec3& halfExtents = box.halfExtents;
+  const double reach = (box.pose.worldFromBody.transpose() * wall.normal).cwiseAbs().dot(halfExtents);
+  const double size = wall.normal.cwiseAbs().dot(box.middle().cwiseAbs());
   return {.gap = gapToPlane(box, wall.normal, wall.offset), .lengths = size + reach + std::fabs(wall.offset)};
 }
 

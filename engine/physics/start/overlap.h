@@ -16,7 +16,7 @@ namespace careen {
 /// Allowed initial penetration due to rounding, relative to the lengths whose difference is the gap.
 inline constexpr double kGapAllowance = 1e-12;
 
-/// A box with its pose, for overlap tests.
+/// A box with its pose, that of its middle, for overlap tests.
 struct PlacedBox {
   std::string name;
   Vec3 halfExtents = Vec3::Zero();  ///< [m]

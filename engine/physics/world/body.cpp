@@ -31,8 +31,8 @@ Material touching(const Material& a, const Material& b) {
 }
 
 Mat3 inverseInertiaWorld(const MassProperties& mass, const Mat3& worldFromBody) {
-  const Mat3 inverseInertiaBody = mass.inverseInertiaBody.asDiagonal();
-  return similarityTransform(worldFromBody, inverseInertiaBody);
+  const Mat3 inverse = mass.inverseInertiaBody.asDiagonal();
+  return similarityTransform(mass.worldFromPrincipal(worldFromBody), inverse);
 }
 
 // Eqs. 18 and 17 through Eq. 20, evaluated right to left: three matrix-vector products instead of two of
@@ -40,17 +40,38 @@ Mat3 inverseInertiaWorld(const MassProperties& mass, const Mat3& worldFromBody) 
 Vec3 angularVelocity(const MassProperties& mass, const BodyState& state) {
   const Mat3& worldFromBody = state.pose.worldFromBody;
   const Vec3 momentumBody = worldFromBody.transpose() * state.angularMomentum;
-  return worldFromBody * mass.inverseInertiaBody.cwiseProduct(momentumBody);
+  return worldFromBody * mass.inverseInertiaTimes(momentumBody);
 }
 
 Vec3 angularMomentum(const MassProperties& mass, const Mat3& worldFromBody, const Vec3& angularVelocity) {
   const Vec3 velocityBody = worldFromBody.transpose() * angularVelocity;
-  return worldFromBody * mass.inertiaBody.cwiseProduct(velocityBody);
+  return worldFromBody * mass.inertiaTimes(velocityBody);
 }
 
 double kineticEnergy(const MassProperties& mass, const BodyState& state) {
   return 0.5 * mass.mass * state.velocity.squaredNorm() +
          0.5 * angularVelocity(mass, state).dot(state.angularMomentum);
+}
+
+Pose boxPose(const Body& body, const Pose& pose) {
+  return body.boxCenter.isZero(0) ? pose : Pose{pose.worldPoint(body.boxCenter), pose.worldFromBody};
+}
+
+Pose bodyPose(const Body& body, const Pose& box) {
+  return body.boxCenter.isZero(0) ? box : Pose{box.worldPoint(-body.boxCenter), box.worldFromBody};
+}
+
+Vec3 boxVelocity(const Body& body, const BodyState& state) {
+  return body.boxCenter.isZero(0)
+             ? state.velocity
+             : Vec3(state.velocity +
+                    angularVelocity(body.mass, state).cross(state.pose.worldFromBody * body.boxCenter));
+}
+
+Vec3 bodyVelocity(const Body& body, const Mat3& worldFromBody, const Vec3& boxVelocity,
+                  const Vec3& angularVelocity) {
+  return body.boxCenter.isZero(0) ? boxVelocity
+                                  : Vec3(boxVelocity - angularVelocity.cross(worldFromBody * body.boxCenter));
 }
 
 }  // namespace careen

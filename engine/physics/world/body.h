@@ -10,10 +10,40 @@ namespace careen {
 /// Mass and inertia of a body. Infinite mass is inverse mass 0; mass and inertia are then 0 as well, so that
 /// the weight and energy of an immovable body are zero.
 struct MassProperties {
-  double mass = 0;                         ///< [kg]
-  double inverseMass = 0;                  ///< [1/kg]
-  Vec3 inertiaBody = Vec3::Zero();         ///< [kg m²] diagonal of Ī about the centre of mass (Eq. 19)
-  Vec3 inverseInertiaBody = Vec3::Zero();  ///< [1/(kg m²)] diagonal of Ī⁻¹
+  double mass = 0;                  ///< [kg]
+  double inverseMass = 0;           ///< [1/kg]
+  Vec3 inertiaBody = Vec3::Zero();  ///< [kg m²] principal moments of Ī about the centre of mass (Eq. 19)
+  Vec3 inverseInertiaBody = Vec3::Zero();     ///< [1/(kg m²)] of Ī⁻¹
+  bool turned = false;                        ///< the principal axes are not the body's
+  Mat3 bodyFromPrincipal = Mat3::Identity();  ///< [1] a rotation whose columns are the principal axes
+
+  /// Ī v and Ī⁻¹ v, body frame.
+  Vec3 inertiaTimes(const Vec3& v) const {
+    return turned ? Vec3(bodyFromPrincipal * inertiaBody.cwiseProduct(bodyFromPrincipal.transpose() * v))
+                  : Vec3(inertiaBody.cwiseProduct(v));
+  }
+  Vec3 inverseInertiaTimes(const Vec3& v) const {
+    return turned
+               ? Vec3(bodyFromPrincipal * inverseInertiaBody.cwiseProduct(bodyFromPrincipal.transpose() * v))
+               : Vec3(inverseInertiaBody.cwiseProduct(v));
+  }
+  /// [kg m²] Ī, body frame.
+  Mat3 inertiaTensor() const {
+    return bodyFromPrincipal * inertiaBody.asDiagonal() * bodyFromPrincipal.transpose();
+  }
+  /// A vector along the principal axes, given along the body's, and back.
+  Vec3 toPrincipal(const Vec3& v) const { return turned ? Vec3(bodyFromPrincipal.transpose() * v) : v; }
+  Vec3 fromPrincipal(const Vec3& v) const { return turned ? Vec3(bodyFromPrincipal * v) : v; }
+  /// Attitude of the principal axes, given the body's, and back.
+  Mat3 worldFromPrincipal(const Mat3& worldFromBody) const {
+    return turned ? Mat3(worldFromBody * bodyFromPrincipal) : worldFromBody;
+  }
+  Quat worldFromPrincipal(const Quat& worldFromBody) const {
+    return turned ? worldFromBody * Quat(bodyFromPrincipal) : worldFromBody;
+  }
+  Quat worldFromBody(const Quat& worldFromPrincipal) const {
+    return turned ? worldFromPrincipal * Quat(bodyFromPrincipal).conjugate() : worldFromPrincipal;
+  }
 
   bool operator==(const MassProperties&) const = default;
 };
@@ -50,9 +80,12 @@ Vec3 angularMomentum(const MassProperties& mass, const Mat3& worldFromBody, cons
 /// ½ M v² + ½ ω·L, [J]; 0 for immovable bodies.
 double kineticEnergy(const MassProperties& mass, const BodyState& state);
 
+/// A rigid body and the box that it collides as. The body's frame has its origin at the centre of mass and
+/// its axes along the box's edges; the box's middle is the centre of mass unless `boxCenter` says otherwise.
 struct Body {
   std::string name;
   Vec3 halfExtents = Vec3::Zero();  ///< [m] half sizes along the body's axes
+  Vec3 boxCenter = Vec3::Zero();    ///< [m] middle of the box, body frame
   MassProperties mass;
   Material material;
   BodyState initial;
@@ -65,5 +98,16 @@ inline Vec3 corner(const Vec3& halfExtents, int index) {
   return halfExtents.cwiseProduct(Vec3(signOfBit(4), signOfBit(2), signOfBit(1)));
 }
 inline constexpr int kCorners = 8;
+inline Vec3 corner(const Body& body, int index) { return body.boxCenter + corner(body.halfExtents, index); }
+/// [m] From the centre of mass to the box's furthest corner.
+inline double radiusOf(const Body& body) { return (body.boxCenter.cwiseAbs() + body.halfExtents).norm(); }
+
+/// Pose of the box, whose origin is its middle, given the body's; and back.
+Pose boxPose(const Body& body, const Pose& pose);
+Pose bodyPose(const Body& body, const Pose& box);
+/// [m/s] Velocity of the box's middle, given the body's state; and of the centre of mass, given the other.
+Vec3 boxVelocity(const Body& body, const BodyState& state);
+Vec3 bodyVelocity(const Body& body, const Mat3& worldFromBody, const Vec3& boxVelocity,
+                  const Vec3& angularVelocity);
 
 }  // namespace careen

@@ -5,8 +5,29 @@
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "physics/world/principal_axes.h"
 
 namespace careen {
+namespace {
+
+/// [1] of the trace: parts of a tensor this small are rounding.
+constexpr double kNone = 0x1p-50;
+constexpr double kSymmetric = 1e-9;
+
+bool isDiagonal(const Mat3& inertia) {
+  const double most = kNone * inertia.trace();
+  return std::fabs(inertia(0, 1)) <= most && std::fabs(inertia(0, 2)) <= most &&
+         std::fabs(inertia(1, 2)) <= most;
+}
+
+PrincipalAxes axesOf(const Mat3& inertia) {
+  if (isDiagonal(inertia)) {
+    return {.moments = inertia.diagonal(), .axes = Mat3::Identity()};
+  }
+  return principalAxes(inertia);
+}
+
+}  // namespace
 
 std::string whyNoInertia(const Vec3& moments) {
   constexpr double kRounding = 1e-12;  // of the moments
@@ -22,6 +43,27 @@ std::string whyNoInertia(const Vec3& moments) {
     }
   }
   return "";
+}
+
+std::string whyNoTensor(const Mat3& inertia) {
+  if (!inertia.allFinite() || !(inertia.trace() > 0)) {
+    return "moments of inertia that are positive";
+  }
+  if (!((inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= kSymmetric * inertia.trace())) {
+    return "a symmetric tensor";
+  }
+  return whyNoInertia(axesOf(inertia).moments);
+}
+
+MassProperties massWithTensor(double mass, const Mat3& inertia) {
+  if (const std::string why = whyNoTensor(inertia); !why.empty()) {
+    throw InputError("a body needs " + why);
+  }
+  const PrincipalAxes found = axesOf(inertia);
+  MassProperties result = massWithInertia(mass, found.moments);
+  result.turned = !isDiagonal(inertia);
+  result.bodyFromPrincipal = found.axes;
+  return result;
 }
 
 MassProperties massWithInertia(double mass, const Vec3& moments) {

@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 
+#include "render/draw/mesh_faces.h"
 #include "render/gl/gl.h"
 #include "render/gl/shader.h"
 
@@ -93,6 +95,180 @@ std::vector<float> neighborTexels(std::span<const DrawnBox> boxes, const Neighbo
   return texels;
 }
 
+// What BoxBatch::place is given; `neighbors` is null if boxes do not occlude boxes.
+struct Placed {
+  std::span<const DrawnBox> boxes;
+  std::span<const DrawnFace> faces;
+  const FaceShadows& shadows;
+  const Neighbors* neighbors;
+  std::optional<Vec3> towardsLight;
+  Vec3 eye;
+};
+
+// The records of all faces and their shadows.
+class FaceRecords {
+ public:
+  explicit FaceRecords(const Placed& placed)
+      : in_(placed),
+        isFine_(placed.boxes.size()),
+        isShaded_(placed.faces.size()),
+        zonogons_(placed.boxes.size()) {
+    if (in_.neighbors != nullptr) {
+      findFine();
+    }
+    for (const ShadowPair& pair : in_.shadows.pairs) {
+      isShaded_[pair.face] = true;
+    }
+  }
+
+  void add() {
+    for (std::size_t i = 0; i < in_.faces.size(); ++i) {
+      if (!isMesh(i)) {
+        addFace(i);
+      } else if (i == 0 || in_.faces[i - 1].box != in_.faces[i].box) {
+        addMesh(i);
+      }
+    }
+    for (const ShadowPair& pair : in_.shadows.pairs) {
+      if (!isMesh(pair.face)) {
+        addShadow(pair);
+      }
+    }
+  }
+
+  Records lit;
+  Records dark;
+  Records shaded;
+  Records cast;
+
+ private:
+  // All faces of a box have the same grid.
+  void findFine() {
+    const double many = std::max(1.0, static_cast<double>(in_.boxes.size()) / kFewBoxes);
+    const double fineWidth = kFineWidth * std::sqrt(many * std::sqrt(many));
+    for (std::size_t i = 0; i < in_.faces.size(); ++i) {
+      if (in_.faces[i].widestOfBox >= fineWidth && hasList(i)) {
+        isFine_[in_.faces[i].box] = true;
+      }
+    }
+  }
+
+  bool isMesh(std::size_t face) const { return in_.boxes[in_.faces[face].box].mesh != nullptr; }
+  bool hasList(std::size_t face) const {
+    return in_.neighbors != nullptr && !in_.neighbors->of(face).empty();
+  }
+
+  void appendAbout(std::vector<float>& vertices, double pips, std::size_t face, bool withList) const {
+    vertices.push_back(static_cast<float>(pips));
+    vertices.push_back(static_cast<float>(in_.faces[face].width));
+    const std::size_t lists = kTexelsPerBox * in_.boxes.size();
+    vertices.push_back(withList ? static_cast<float>(lists + in_.neighbors->begins[face]) : 0.0F);
+    vertices.push_back(withList ? static_cast<float>(in_.neighbors->of(face).size()) : 0.0F);
+  }
+
+  void addFace(std::size_t i) {
+    const DrawnFace& face = in_.faces[i];
+    const DrawnBox& box = in_.boxes[face.box];
+    const int axis = face.side / 2;
+    const Vec3 across = box.pose.worldFromBody.col((axis + 1) % 3);
+    const Vec3 along = box.pose.worldFromBody.col((axis + 2) % 3);
+    const double width = box.halfExtents[(axis + 1) % 3];
+    const double height = box.halfExtents[(axis + 2) % 3];
+    Records& records = in_.shadows.isDark[i] ? dark : isShaded_[i] ? shaded : lit;
+    records.addGrid(linesOf(isFine_[face.box]).size(), face.side % 2 != 0);
+    forGrid(box, face, isFine_[face.box], [&](const Vec3& point, double u, double v) {
+      std::vector<float>& vertices = records.vertices;
+      append(vertices, point - in_.eye);
+      append(vertices, face.normal);
+      append(vertices, across);
+      append(vertices, along);
+      for (const double value : {u * width, v * height, width, height}) {
+        vertices.push_back(static_cast<float>(value));
+      }
+      append(vertices, box.color);
+      vertices.push_back(box.marked ? 1.0F : 0.0F);
+      appendAbout(vertices, kPips.at(static_cast<std::size_t>(face.side)), i, hasList(i));
+    });
+  }
+
+  const Zonogon& zonogonOfCaster(std::size_t caster) {
+    std::optional<Zonogon>& zonogon = zonogons_[caster];
+    zonogon = zonogon ? zonogon : zonogonOf(in_.boxes[caster], *in_.towardsLight);
+    return *zonogon;
+  }
+
+  void addShadow(const ShadowPair& pair) {
+    const DrawnFace& face = in_.faces[pair.face];
+    const Zonogon& zonogon = zonogonOfCaster(pair.caster);
+    cast.addGrid(linesOf(isFine_[face.box]).size(), face.side % 2 != 0);
+    forGrid(in_.boxes[face.box], face, isFine_[face.box], [&](const Vec3& point, double, double) {
+      appendShadow(cast.vertices, zonogon, point, offsetOf(point, in_.eye), pair.weight);
+    });
+  }
+
+  // In place of a box's faces, which are `first` and those that follow it. The boxes that shade or occlude
+  // one of them do so with the mesh: each triangle is occluded as the face that it looks most like.
+  void addMesh(std::size_t first) {
+    const DrawnBox& box = in_.boxes[in_.faces[first].box];
+    std::size_t end = first;
+    while (end < in_.faces.size() && in_.faces[end].box == in_.faces[first].box) {
+      ++end;
+    }
+    std::map<std::size_t, double> casters;
+    for (const ShadowPair& pair : in_.shadows.pairs) {
+      if (pair.face >= first && pair.face < end) {
+        casters[pair.caster] = std::max(casters[pair.caster], pair.weight);
+      }
+    }
+    for (const MeshFace& face : meshFacesTowards(*box.mesh, box.pose, in_.eye)) {
+      std::size_t alike = first;
+      const auto likeness = [&](std::size_t i) { return in_.faces[i].normal.dot(face.normal); };
+      for (std::size_t i = first; i < end; ++i) {
+        alike = likeness(i) > likeness(alike) ? i : alike;
+      }
+      const bool isDark = in_.towardsLight && !(face.normal.dot(*in_.towardsLight) > 0);
+      Records& records = isDark ? dark : casters.empty() ? lit : shaded;
+      addTriangle(records, face, box.color, alike, likeness(alike) > 0 && hasList(alike));
+      if (!isDark) {
+        for (const auto& [caster, weight] : casters) {
+          addShadow(face, zonogonOfCaster(caster), weight);
+        }
+      }
+    }
+  }
+
+  void addTriangle(Records& records, const MeshFace& face, const Vec3& color, std::size_t alike,
+                   bool withList) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      std::vector<float>& vertices = records.vertices;
+      records.triangles.push_back(records.count++);
+      append(vertices, face.corners.at(corner) - in_.eye);
+      append(vertices, face.normal);
+      append(vertices, face.outward[0]);
+      append(vertices, face.outward[1]);
+      for (const double value :
+           {face.place.at(corner)[0], face.place.at(corner)[1], face.height[0], face.height[1]}) {
+        vertices.push_back(static_cast<float>(value));
+      }
+      append(vertices, color);
+      vertices.push_back(0);  // no marks
+      appendAbout(vertices, 0, alike, withList);
+    }
+  }
+
+  void addShadow(const MeshFace& face, const Zonogon& zonogon, double weight) {
+    for (const Vec3& corner : face.corners) {
+      cast.triangles.push_back(cast.count++);
+      appendShadow(cast.vertices, zonogon, corner, offsetOf(corner, in_.eye), weight);
+    }
+  }
+
+  const Placed in_;
+  std::vector<bool> isFine_;
+  std::vector<bool> isShaded_;
+  std::vector<std::optional<Zonogon>> zonogons_;
+};
+
 }  // namespace
 
 BoxBatch::Mesh::Mesh(const Gl& gl, std::initializer_list<Attribute> attributes)
@@ -101,6 +277,7 @@ BoxBatch::Mesh::Mesh(const Gl& gl, std::initializer_list<Attribute> attributes)
 BoxBatch::BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const LightShaders& light)
     : gl_(gl),
       neighbors_(light.neighbors),
+      hasLight_(light.light),
       lit_(gl, kFaceAttributes),
       dark_(gl, kFaceAttributes),
       shaded_(gl, kFaceAttributes),
@@ -141,73 +318,22 @@ BoxBatch::BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const Lig
 void BoxBatch::place(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces,
                      const FaceShadows& shadows, const Neighbors& neighbors, const Vec3& towardsLight,
                      const Vec3& eye) {
-  // All faces of a box have the same grid.
-  std::vector<bool> isFine(boxes.size());
-  if (neighbors_) {
-    const double many = std::max(1.0, static_cast<double>(boxes.size()) / kFewBoxes);
-    const double fineWidth = kFineWidth * std::sqrt(many * std::sqrt(many));
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      if (faces[i].widestOfBox >= fineWidth && !neighbors.of(i).empty()) {
-        isFine[faces[i].box] = true;
-      }
-    }
-  }
-  std::vector<bool> isShaded(faces.size());
-  for (const ShadowPair& pair : shadows.pairs) {
-    isShaded[pair.face] = true;
-  }
-  const std::size_t lists = kTexelsPerBox * boxes.size();
-  Records lit;
-  Records dark;
-  Records shaded;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const DrawnFace& face = faces[i];
-    const DrawnBox& box = boxes[face.box];
-    const bool hasList = neighbors_ && !neighbors.of(i).empty();
-    const int axis = face.side / 2;
-    const Vec3 across = box.pose.worldFromBody.col((axis + 1) % 3);
-    const Vec3 along = box.pose.worldFromBody.col((axis + 2) % 3);
-    const double width = box.halfExtents[(axis + 1) % 3];
-    const double height = box.halfExtents[(axis + 2) % 3];
-    Records& records = shadows.isDark[i] ? dark : isShaded[i] ? shaded : lit;
-    records.addGrid(linesOf(isFine[face.box]).size(), face.side % 2 != 0);
-    forGrid(box, face, isFine[face.box], [&](const Vec3& point, double u, double v) {
-      std::vector<float>& vertices = records.vertices;
-      append(vertices, point - eye);
-      append(vertices, face.normal);
-      append(vertices, across);
-      append(vertices, along);
-      for (const double value : {u * width, v * height, width, height}) {
-        vertices.push_back(static_cast<float>(value));
-      }
-      append(vertices, box.color);
-      vertices.push_back(box.marked ? 1.0F : 0.0F);
-      vertices.push_back(static_cast<float>(kPips.at(static_cast<std::size_t>(face.side))));
-      vertices.push_back(static_cast<float>(face.width));
-      vertices.push_back(hasList ? static_cast<float>(lists + neighbors.begins[i]) : 0.0F);
-      vertices.push_back(hasList ? static_cast<float>(neighbors.of(i).size()) : 0.0F);
-    });
-  }
-  Records cast;
-  std::vector<std::optional<Zonogon>> zonogons(boxes.size());
-  for (const ShadowPair& pair : shadows.pairs) {
-    const DrawnFace& face = faces[pair.face];
-    std::optional<Zonogon>& zonogon = zonogons[pair.caster];
-    zonogon = zonogon ? zonogon : zonogonOf(boxes[pair.caster], towardsLight);
-    cast.addGrid(linesOf(isFine[face.box]).size(), face.side % 2 != 0);
-    forGrid(boxes[face.box], face, isFine[face.box], [&](const Vec3& point, double, double) {
-      appendShadow(cast.vertices, *zonogon, point, offsetOf(point, eye), pair.weight);
-    });
-  }
-  const auto fill = [&](Mesh& mesh, const Records& records) {
+  FaceRecords records({.boxes = boxes,
+                       .faces = faces,
+                       .shadows = shadows,
+                       .neighbors = neighbors_ ? &neighbors : nullptr,
+                       .towardsLight = hasLight_ ? std::optional(towardsLight) : std::nullopt,
+                       .eye = eye});
+  records.add();
+  const auto fill = [&](Mesh& mesh, const Records& of) {
     gl_.BindVertexArray(mesh.array);
-    mesh.vertices.fill(records.vertices);
-    mesh.indices.fill(records.triangles);
+    mesh.vertices.fill(of.vertices);
+    mesh.indices.fill(of.triangles);
   };
-  fill(lit_, lit);
-  fill(dark_, dark);
-  fill(shaded_, shaded);
-  fill(shadows_, cast);
+  fill(lit_, records.lit);
+  fill(dark_, records.dark);
+  fill(shaded_, records.shaded);
+  fill(shadows_, records.cast);
   if (neighbors_) {
     fillNeighbors(neighborTexels(boxes, neighbors, eye));
   }

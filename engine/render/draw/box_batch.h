@@ -58,6 +58,7 @@ class BoxBatch {
 
   const Gl& gl_;
   bool neighbors_;
+  bool hasLight_;
   Mesh lit_;
   Mesh dark_;
   Mesh shaded_;

@@ -10,8 +10,13 @@ namespace {
 
 const Vec3 kSteel(0.30, 0.32, 0.35);
 
-Vec3 endOf(const SpringEnd& end, std::span<const Pose> poses) {
-  return end.body ? poses[static_cast<std::size_t>(*end.body)].worldPoint(end.point) : end.point;
+// The end's point is from the centre of mass, a pose of the box's middle.
+Vec3 endOf(const SpringEnd& end, const World& world, std::span<const Pose> poses) {
+  if (!end.body) {
+    return end.point;
+  }
+  const auto body = static_cast<std::size_t>(*end.body);
+  return poses[body].worldPoint(end.point - world.bodies[body].boxCenter);
 }
 
 DrawnBox rod(const Vec3& from, const Vec3& to, double thickness) {
@@ -23,6 +28,13 @@ DrawnBox rod(const Vec3& from, const Vec3& to, double thickness) {
   box.color = kSteel;
   box.marked = false;
   return box;
+}
+
+const TriangleMesh* meshOf(const Stage& stage, std::size_t body) {
+  const auto part =
+      std::lower_bound(stage.parts.begin(), stage.parts.end(), body,
+                       [](const DrawnPart& each, std::size_t index) { return each.body < index; });
+  return part != stage.parts.end() && part->body == body ? &part->mesh : nullptr;
 }
 
 bool isSame(const Pose& a, const Pose& b) {
@@ -39,11 +51,12 @@ void appendBoxes(std::vector<DrawnBox>& boxes, const World& world, const Stage& 
     boxes.push_back({.pose = poses[i],
                      .halfExtents = world.bodies[i].halfExtents,
                      .color = linearFromSrgb(stage.colors[i]),
-                     .body = i});
+                     .body = i,
+                     .mesh = meshOf(stage, i)});
   }
   for (std::size_t i = 0; i < world.springs.size(); ++i) {
-    const Vec3 from = endOf(world.springs[i].from, poses);
-    const Vec3 to = endOf(world.springs[i].to, poses);
+    const Vec3 from = endOf(world.springs[i].from, world, poses);
+    const Vec3 to = endOf(world.springs[i].to, world, poses);
     if ((to - from).norm() > 0.1 * springThickness) {
       boxes.push_back(rod(from, to, springThickness));
       boxes.back().body = world.bodies.size() + i;

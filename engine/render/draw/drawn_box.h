@@ -16,8 +16,9 @@ struct DrawnBox {
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
   Vec3 color = Vec3::Ones();        ///< linear
   bool marked = true;
-  Vec3 returned = Vec3::Zero();  ///< [1] part of ambient light that comes back where it keeps light off
-  std::size_t body = 0;          ///< index of the body it shows; of springs, after all bodies
+  Vec3 returned = Vec3::Zero();        ///< [1] part of ambient light that comes back where it keeps light off
+  std::size_t body = 0;                ///< index of the body it shows; of springs, after all bodies
+  const TriangleMesh* mesh = nullptr;  ///< drawn in its place, if any; the stage owns it
 };
 
 /// The run's boxes, then its springs as thin rods of thickness `springThickness` [m] from end to end. With

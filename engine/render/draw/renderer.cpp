@@ -189,7 +189,7 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
   severalMoments = poses.size() > world.bodies.size();
   std::vector<DrawnFace> faces = facesTowards(drawn, view.eye, pixel);
   HiddenTiles hidden;
-  if (drawn.size() >= kManyBoxes) {
+  if (drawn.size() >= kManyBoxes && stage.parts.empty()) {  // a mesh does not hide what its box would
     const bool isMultisampled = stage.picture.antialiasing == Antialiasing::kMultisampled;
     Visible visible = visibleFaces(faces, view,
                                    {.width = canvas.drawnWidth(),

@@ -36,7 +36,7 @@ Vec3 spinOf(const OverlayFrame& frame, std::size_t body) {
 
 Vec3 cornerAt(const OverlayFrame& frame, std::size_t body, double time) {
   return frame.trajectory.state(body, time)
-      .pose.worldPoint(corner(frame.trajectory.world.bodies[body].halfExtents, kCornerFollowed));
+      .pose.worldPoint(corner(frame.trajectory.world.bodies[body], kCornerFollowed));
 }
 
 bool concerns(const Impact& impact, std::size_t body) {
@@ -111,8 +111,8 @@ bool hides(const Pose& pose, const Vec3& halfExtents, const Vec3& eye, const Vec
 
 void addTrail(OverlayShapes& shapes, const OverlayFrame& frame, std::size_t body) {
   const auto visibility = [&](const Vec3& point) {
-    return hides(frame.states[body].pose, frame.trajectory.world.bodies[body].halfExtents, frame.screen.eye(),
-                 point)
+    const Body& moved = frame.trajectory.world.bodies[body];
+    return hides(boxPose(moved, frame.states[body].pose), moved.halfExtents, frame.screen.eye(), point)
                ? kBehindItsBox
                : 1.0;
   };
@@ -158,8 +158,7 @@ struct Covered {
 Covered coveredBy(const OverlayFrame& frame, std::size_t body, const Vec2& centre) {
   Covered covered{centre, centre};
   for (int index = 0; index < kCorners; ++index) {
-    const Vec3 at =
-        frame.states[body].pose.worldPoint(corner(frame.trajectory.world.bodies[body].halfExtents, index));
+    const Vec3 at = frame.states[body].pose.worldPoint(corner(frame.trajectory.world.bodies[body], index));
     if (const std::optional<Vec2> seen = frame.screen.at(at)) {
       covered.min = covered.min.cwiseMin(*seen);
       covered.max = covered.max.cwiseMax(*seen);

@@ -32,10 +32,15 @@ std::vector<Pair> pairsOf(const OverlayFrame& frame) {
     if (named != bodies.end() && !isImmovable(ghost.mass)) {
       pairs.push_back({.body = static_cast<std::size_t>(named - bodies.begin()),
                        .ghost = &ghost,
-                       .pose = frame.ghost->state(other, frame.time).pose});
+                       .pose = frame.ghost->boxPoseAt(other, frame.time)});
     }
   }
   return pairs;
+}
+
+// Of the box in the run itself.
+Pose ownPose(const OverlayFrame& frame, std::size_t body) {
+  return boxPose(frame.trajectory.world.bodies[body], frame.states[body].pose);
 }
 
 // Whether the face with this outward normal, through this point, is turned to the eye.
@@ -73,7 +78,7 @@ void addOutline(OverlayShapes& shapes, const OverlayFrame& frame, const Pair& pa
 }
 
 void addWay(OverlayShapes& shapes, const OverlayFrame& frame, const Pair& pair) {
-  const auto line = frame.screen.line(frame.states[pair.body].pose.position, pair.pose.position);
+  const auto line = frame.screen.line(ownPose(frame, pair.body).position, pair.pose.position);
   if (line && (line->second - line->first).norm() >= kShortestWay) {
     shapes.emplace_back(Stroke{.from = line->first,
                                .to = line->second,
@@ -88,7 +93,7 @@ std::string textOf(const OverlayFrame& frame, const std::vector<Pair>& pairs) {
   std::string name;
   for (const Pair& pair : pairs) {
     const PoseDifference apart =
-        differenceOf(frame.states[pair.body].pose, pair.pose, pair.ghost->halfExtents.norm());
+        differenceOf(ownPose(frame, pair.body), pair.pose, pair.ghost->halfExtents.norm());
     if (apart.relative > worst.relative) {
       worst = apart;
       name = pairs.size() > 1 ? pair.ghost->name + "  " : "";

@@ -48,7 +48,7 @@ void expectDerivatives(const ContactFeature& feature, const Wall* wall) {
   const auto state = [&](double t) {
     const Kinematics a = kPathA.at(t);
     const Kinematics b = kPathB.at(t);
-    return contactState(feature, a, kHalfA, wall == nullptr ? &b : nullptr, kHalfB, wall);
+    return contactState(feature, a, {kHalfA}, wall == nullptr ? &b : nullptr, {kHalfB}, wall);
   };
   const double h = 1e-4;
   const ContactState now = state(0);
@@ -86,7 +86,7 @@ TEST(ContactState, ofTwoEdgesChangesAsItSays) {
     Kinematics a = kPathA.at(t);
     a.pose.position += shift;
     const Kinematics b = kPathB.at(t);
-    return contactState(feature, a, kHalfA, &b, kHalfB, nullptr);
+    return contactState(feature, a, {kHalfA}, &b, {kHalfB}, nullptr);
   };
   const ContactState apart = state(0, Vec3::Zero());
   const Vec3 shift = -apart.gap * apart.normal;
@@ -129,7 +129,7 @@ TEST(ContactState, inAConeChangesAsItSays) {
       a.pose.position += shift + t * drift;
       a.velocity += drift;
       const Kinematics b = kPathB.at(t);
-      return contactState(feature, a, kHalfA, &b, kHalfB, nullptr);
+      return contactState(feature, a, {kHalfA}, &b, {kHalfB}, nullptr);
     };
     shift = kPathB.position + kPathB.attitude * feature.onB + along - kPathA.position -
             kPathA.attitude * feature.onA;
@@ -177,18 +177,18 @@ TEST(FeatureAt, ofEdgesInAConeKeepsTheBisector) {
     ASSERT_EQ(feature.kind, ContactFeature::Kind::kInCone);
     for (const auto& [phi, psi] : {std::pair{0.3, -0.1}, std::pair{0.0, 0.7}, std::pair{-0.4, 0.2}}) {
       const Kinematics ofB = turned(-psi, -1);
-      const ContactState state = contactState(feature, turned(phi, 1), half, &ofB, half, nullptr);
+      const ContactState state = contactState(feature, turned(phi, 1), {half}, &ofB, {half}, nullptr);
       const Vec3 bisector = axisAngle(Vec3::UnitY(), (phi - psi) / 2) * Vec3::UnitX();
       EXPECT_NEAR((state.normal - bisector).norm(), 0, 1e-15);
       EXPECT_NEAR(state.gap, 0, 1e-15);
       EXPECT_LT(state.beyond, 1e-15);
     }
     const Kinematics ofB = turned(-0.8, -1);
-    EXPECT_GT(contactState(feature, turned(0.8, 1), half, &ofB, half, nullptr).beyond, 1e-3);
+    EXPECT_GT(contactState(feature, turned(0.8, 1), {half}, &ofB, {half}, nullptr).beyond, 1e-3);
     Kinematics aside = turned(0, 1);
     aside.pose.position.z() += 1e-9;
     const Kinematics straight = turned(0, -1);
-    EXPECT_NEAR(contactState(feature, aside, half, &straight, half, nullptr).beyond, 1e-9, 1e-15);
+    EXPECT_NEAR(contactState(feature, aside, {half}, &straight, {half}, nullptr).beyond, 1e-9, 1e-15);
   }
 }
 
