@@ -10,6 +10,7 @@ namespace {
 constexpr std::int64_t kStepsPerSorting = 16;
 // Lengths of steps, at the usual tolerance.
 constexpr double kShortestStep = 1.0 / 720;  // [s]
+constexpr double kShortestTurn = 0x1p-4;     // [1] of it: for boxes that spin fast
 constexpr double kMostMoved =
     0x1p-4;  // [1] of the smallest size, motion per step: faster bodies take shorter steps
 constexpr double kMostOfSpring = 0.25;  // [rad] phase of the stiffest spring per step
@@ -140,12 +141,13 @@ double Crowd::stepAgain(double length) {
   return 0;
 }
 
-// Takes the step again with half its length while bodies went deep into each other in it; returns its length.
+// Takes the step again with half its length, and without shifts, which are as long in a shorter one, while
+// bodies went deep into each other in it; returns its length.
 double Crowd::keepApart() {
   double depth = newDepth();
   for (int halving = 0; halving < kMostHalvings && depth > kTooDeep * tolerance_; ++halving) {
     goBack();
-    take(0.5 * h_);
+    take(0.5 * h_, false);
     depth = newDepth();
   }
   if (depth > 0 || deep_) {
@@ -207,14 +209,15 @@ double Crowd::chooseLength(double most) const {
   if (fastest > 0) {
     h = std::min(h, kMostMoved * scale_ / fastest);
   }
-  if (bending > 0) {
-    h = std::min(h, std::sqrt(2 * kMostBent * tolerance_ / bending));
-  }
   h = std::max(h, kShortestStep * scale_);
+  if (bending > 0) {
+    const double straight = std::sqrt(2 * kMostBent * tolerance_ / bending);
+    h = std::min(h, std::max(straight, kShortestTurn * kShortestStep * scale_));
+  }
   return std::min({h, springLimit_, most});
 }
 
-void Crowd::take(double length) {
+void Crowd::take(double length, bool mayShift) {
   // Stored impulses are those of the last step. If that was much shorter, they are those of impacts.
   impulseScale_ = std::min(length / h_, kMostScaled);
   h_ = length;
@@ -227,7 +230,10 @@ void Crowd::take(double length) {
   solve(kSweeps);
   keepImpulses();
   findDisturbed();
-  findShifts();
+  shifts_ = false;
+  if (mayShift) {
+    findShifts();
+  }
   move();
   bounce();
   noteImpacts();

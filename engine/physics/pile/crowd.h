@@ -168,7 +168,7 @@ class Crowd {
   void limitBySprings(std::size_t listed);
   void sortManifolds();
   double chooseLength(double most) const;
-  void take(double length);
+  void take(double length, bool mayShift = true);
   double keepApart();
   void goBack();
   void findLoads();

@@ -7,8 +7,8 @@
 namespace careen {
 namespace {
 
-constexpr double kDeep = 1.5;    // [1] of the tolerance: new penetration that is projected at once
-constexpr double kMostDeep = 2;  // [1] the same for any
+constexpr double kDeep = 1.5;       // [1] of the tolerance: new penetration that is projected at once
+constexpr double kMostDeep = 1.75;  // [1] the same for any
 // Of what the projection tolerates: penetration from which bodies are shifted, what is left of it, so that
 // contacts persist, and the change that re-solves neighbours.
 constexpr double kShifted = 0.8;
@@ -21,7 +21,6 @@ constexpr int kShiftSweeps = 20;
 // Shifts that undo the penetration which the step would end with at the rates found: Gauss–Seidel stops
 // early, and gaps below zero are no bound to it. They need no rows of their own, unlike a projection.
 void Crowd::findShifts() {
-  shifts_ = false;
   for (const int slot : near_) {
     const PileManifold& manifold = manifolds_[at(slot)];
     const double tolerated = projection_.tolerated(manifold.length);
