@@ -49,8 +49,7 @@ void ImplicitStep::contactsAt(std::span<const ContactFeature> features, const Gr
     kinematics_.push_back(kinematics(i, state[i]));
   }
   contacts.clear();
-  for (std::size_t c = 0; c < features.size(); ++c) {
-    const ContactFeature& feature = features[c];
+  for (const ContactFeature& feature : features) {
     const Kinematics& ofA = kinematics_[static_cast<std::size_t>(feature.a)];
     if (feature.b.isWall()) {
       contacts.push_back(stateOf(feature, ofA, nullptr));

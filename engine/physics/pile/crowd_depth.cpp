@@ -49,7 +49,8 @@ void Crowd::findShifts() {
 }
 
 // [m] How deep bodies went into each other and into walls in this step, if more than kDeep: the features of
-// the manifolds of its start were not all that met. `deep_` says whether any are too deep, since when ever.
+// the manifolds of its start were not all that met. `deep_` says whether any are too deep, even if
+// they were before.
 double Crowd::newDepth() {
   double deepest = 0;
   deep_ = false;

@@ -10,9 +10,10 @@ namespace {
 constexpr double kFrictionless = 0x1p-20;  // μ below which friction stops nothing
 constexpr int kLayers = 3;  // contacts from a body that is not quiet within which all stay awake
 constexpr int kChecks = 4;  // that a part of a cluster must pass before it sleeps
-constexpr double kLoose =
-    0x1p-4;  // [1] relative to gravity: force imbalance from which a certificate is tried
-constexpr double kSlow = 0x1p-3;  // [1] of what friction stops in a step: speed from which
+// A certificate of rest is tried where forces are off balance by less than that part of gravity, and the
+// speed is less than that part of what friction stops in a step.
+constexpr double kLoose = 0x1p-4;
+constexpr double kSlow = 0x1p-3;
 constexpr int kRestSweeps = 200;
 constexpr double kRestChange = 0x1p-3;  // [1] of the tolerated imbalance: change that re-solves neighbours
 

@@ -197,7 +197,7 @@ std::int64_t PileSolver::sweep(int sweeps, const Solve& solve) {
       std::uint64_t ahead = ~std::uint64_t{0};
       while ((waiting_[word] & ahead) != 0) {
         const int bit = std::countr_zero(waiting_[word] & ahead);
-        ahead = bit == 63 ? 0 : ~std::uint64_t{0} << (bit + 1);
+        ahead = (~std::uint64_t{0} << bit) << 1;
         waiting_[word] &= ~(std::uint64_t{1} << bit);
         solve(blocks_[word * 64 + static_cast<std::size_t>(bit)]);
         ++solved;
