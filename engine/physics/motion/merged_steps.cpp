@@ -31,23 +31,35 @@ bool MergedSteps::follows(const ContactStep& step, double radius) const {
       });
 }
 
+MergedSteps::Sample MergedSteps::middleOf(const StepEnd& from, const StepEnd& to, double length) {
+  const ContactStep step = asContactStep(cubicStep(from, to, length));
+  return {.elapsed = 0.5 * length,
+          .position = positionAt(step, 0.5 * length),
+          .worldFromBody = attitudeAt(step, 0.5 * length).coeffs()};
+}
+
 void MergedSteps::add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,
                       double length, double radius) {
+  Sample middle = middleOf(from, to, length);
   if (length_ > 0 && count_ < kMost && from.position == to_.position) {
     samples_[count_++] = {
         .elapsed = length_, .position = from.position, .worldFromBody = from.worldFromBody.coeffs()};
+    middle.elapsed += length_;
+    samples_[count_++] = middle;
     if (follows(asContactStep(cubicStep(from_, to, length_ + length)), radius)) {
       to_ = to;
       length_ += length;
       return;
     }
-    --count_;
+    count_ -= 2;
+    middle.elapsed -= length_;
   }
   flush(recorder, body);
   time_ = time;
   from_ = from;
   to_ = to;
   length_ = length;
+  samples_[count_++] = middle;
 }
 
 void MergedSteps::flush(Recorder& recorder, BodyIndex body) {

@@ -54,6 +54,26 @@ TEST(MergedSteps, aFallIsFewOfThem) {
   }
 }
 
+// One step in which the velocity changes, of a hundredth of the next, which is straight: the cubic through
+// both passes their joint, but not where the long one goes.
+TEST(MergedSteps, keepsWithinItsBoundInTheMiddleOfALongStepAfterAShortOne) {
+  constexpr double kShort = 1e-5;  // [s]
+  const StepEnd begin{.velocity = Vec3(-15, 0, 0)};
+  const StepEnd joint{.position = Vec3(-12e-5, 0, 0), .velocity = Vec3(-9, 0, 0)};
+  const StepEnd end{.position = Vec3(-12e-5 - 9e-3, 0, 0), .velocity = Vec3(-9, 0, 0)};
+  Kept kept;
+  MergedSteps merged(1e-4);
+  merged.add(kept, {}, 0, begin, joint, kShort, 0.5);
+  merged.add(kept, {}, kShort, joint, end, kStep, 0.5);
+  merged.flush(kept, {});
+  const auto& [time, motion] = kept.motions.back();
+  const ContactStep step = asContactStep(std::get<CrowdStep>(motion));
+  for (double late = 0; late <= kStep; late += 0.1 * kStep) {
+    const Vec3 there = positionAt(step, kShort - time + late);
+    EXPECT_LT((there - (joint.position - 9 * late * Vec3::UnitX())).norm(), 1e-4) << late;
+  }
+}
+
 TEST(MergedSteps, keepsWithinItsBoundAtTheEndsOfAllSteps) {
   const Kept kept = recorded(shaken, 40);
   EXPECT_GT(kept.motions.size(), 15U);
