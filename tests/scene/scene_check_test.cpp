@@ -97,13 +97,18 @@ TEST(SceneCheck, massesMadeByDensityKeepToTheRange) {
             std::string::npos);
 }
 
+// What is said of the marked place of a box; whole if it is said of another place.
+std::string errorAtMark(const std::string& box) {
+  const MarkedText marked(withBoxes(box));
+  const std::string error = sceneErrorOf(marked.text);
+  const std::string place = "f:" + marked.place + ": ";
+  return error.starts_with(place) ? error.substr(place.size()) : error;
+}
+
 TEST(SceneCheck, theCentreOfMassLiesInsideTheBox) {
   const auto errorOf = [](const std::string& center) {
-    const MarkedText marked(withBoxes(
-        R"({"half_extents": [0.5, 0.6, 0.7], "mass": 1, "position": [0, 0, 1], "center": )" + center + "}"));
-    const std::string error = sceneErrorOf(marked.text);
-    const std::string place = "f:" + marked.place + ": ";
-    return error.starts_with(place) ? error.substr(place.size()) : error;
+    return errorAtMark(R"({"half_extents": [0.5, 0.6, 0.7], "mass": 1, "position": [0, 0, 1], "center": )" +
+                       center + "}");
   };
   EXPECT_EQ(errorOf("@[0.49, -0.59, 0.69]"), "no error");
   EXPECT_EQ(errorOf("[0, @-0.6, 0]"),
@@ -120,11 +125,8 @@ TEST(SceneCheck, theCentreOfMassLiesInsideTheBox) {
 
 TEST(SceneCheck, inertiaIsThatOfSomeBody) {
   const auto errorOf = [](const std::string& inertia) {
-    const MarkedText marked(withBoxes(
-        R"({"half_extents": [1, 1, 1], "mass": 1, "position": [0, 0, 1], "inertia": @)" + inertia + "}"));
-    const std::string error = sceneErrorOf(marked.text);
-    const std::string place = "f:" + marked.place + ": ";
-    return error.starts_with(place) ? error.substr(place.size()) : error;
+    return errorAtMark(R"({"half_extents": [1, 1, 1], "mass": 1, "position": [0, 0, 1], "inertia": @)" +
+                       inertia + "}");
   };
   EXPECT_EQ(errorOf("[1, 2, 2.5]"), "no error");
   EXPECT_EQ(errorOf("[1, 2, 3]"), "no error");  // a flat plate
