@@ -97,6 +97,12 @@ Scene& Scene::add(const Box& box) {
                {"restitution", box.restitution},
                {"friction", box.friction},
                {"fixed", box.fixed}};
+  if (box.inertia) {
+    json["inertia"] = *box.inertia;
+  }
+  if (box.center != Vector{}) {
+    json["center"] = box.center;
+  }
   if (!box.name.empty()) {
     json["name"] = box.name;
   }

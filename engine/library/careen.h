@@ -24,6 +24,12 @@ const char* version();
 
 using Vector = std::array<double, 3>;
 using Quaternion = std::array<double, 4>;  ///< w x y z, of length 1
+using Tensor = std::array<Vector, 3>;      ///< symmetric, in rows
+
+/// The tensor whose principal axes are those of the frame.
+constexpr Tensor diagonal(double x, double y, double z) {
+  return {Vector{x, 0, 0}, Vector{0, y, 0}, Vector{0, 0, z}};
+}
 
 /// Anything that went wrong; what() says what was found and what was expected.
 class Error : public std::runtime_error {
@@ -58,6 +64,11 @@ struct Box {
   double restitution = 0;                 ///< [1]
   double friction = 0;                    ///< [1]
   bool fixed = false;
+  /// [kg m²] About the centre of mass, along the box's axes; none: a solid box. No principal moment may
+  /// exceed the sum of the two others. Not of a fixed box.
+  std::optional<Tensor> inertia = std::nullopt;
+  /// [m] Centre of mass, from the middle along the box's axes; inside the box. Not of a fixed box.
+  Vector center = {0, 0, 0};
 };
 
 /// A plane that keeps boxes on the side that its normal points to.

@@ -116,6 +116,57 @@ TEST_F(Library, simulatesASceneThatWasBuiltInCode) {
   EXPECT_EQ(simulate(Scene::read(folder_ / "built.json")).hash(), run.hash());
 }
 
+// Euler's equations with a torque-free top: L = I ω keeps its direction, and the middle of the box circles
+// the centre of mass, which flies straight.
+TEST_F(Library, boxesHaveTheInertiaAndTheCentreThatAreGiven) {
+  const Vector center = {0.1, -0.05, 0.02};
+  const Vector spin = {1, 2, 3};
+  const Tensor inertia = {Vector{0.3, 0.05, 0}, Vector{0.05, 0.4, -0.02}, Vector{0, -0.02, 0.5}};
+  Scene scene(1.0, {0, 0, 0});
+  scene.add(Box{.name = "die", .mass = 2, .angularVelocity = spin, .inertia = inertia, .center = center});
+  scene.add(Box{.name = "top",
+                .position = {9, 0, 0},
+                .angularVelocity = {0, 0, 1},
+                .inertia = diagonal(0.2, 0.3, 0.4)});
+  const v1::Run run = simulate(scene);
+  const auto turned = [](const Quaternion& q, const Vector& v) {
+    const auto cross = [](const Vector& a, const Vector& b) {
+      return Vector{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    };
+    const Vector axis = {q[1], q[2], q[3]};
+    const Vector once = cross(axis, v);
+    const Vector twice = cross(axis, once);
+    return Vector{v[0] + 2 * (q[0] * once[0] + twice[0]), v[1] + 2 * (q[0] * once[1] + twice[1]),
+                  v[2] + 2 * (q[0] * once[2] + twice[2])};
+  };
+  const auto times = [](const Tensor& tensor, const Vector& v) {
+    Vector product{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      product[i] = tensor[i][0] * v[0] + tensor[i][1] * v[1] + tensor[i][2] * v[2];
+    }
+    return product;
+  };
+  const Vector momentum = times(inertia, spin);
+  // The velocity given is that of the middle: v of the centre of mass is ω × center.
+  const Vector drift = {spin[1] * center[2] - spin[2] * center[1], spin[2] * center[0] - spin[0] * center[2],
+                        spin[0] * center[1] - spin[1] * center[0]};
+  for (const double time : {0.0, 0.3, 1.0}) {
+    const State state = run.state(0, time);
+    const Quaternion back = {state.orientation[0], -state.orientation[1], -state.orientation[2],
+                             -state.orientation[3]};
+    const Vector kept = turned(state.orientation, times(inertia, turned(back, state.angularVelocity)));
+    const Vector arm = turned(state.orientation, center);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(kept[i], momentum[i], 1e-13) << time;
+      EXPECT_NEAR(state.position[i] + arm[i], center[i] + time * drift[i], 1e-13) << time;
+    }
+  }
+  // About a principal axis it turns steadily.
+  EXPECT_NEAR(2 * std::atan2(run.state(1, 1).orientation[3], run.state(1, 1).orientation[0]), 1, 1e-14);
+  EXPECT_THROW(simulate(Scene(1).add(Box{.name = "a", .inertia = diagonal(1, 1, 3)})), SceneError);
+  EXPECT_THROW(simulate(Scene(1).add(Box{.name = "a", .center = {0.6, 0, 0}})), SceneError);
+}
+
 TEST_F(Library, auditsAsTheProgramDoes) {
   const v1::Run run = simulate(Scene::read(kScenes / "zeno.json"));
   const Audit audit = run.audit();

@@ -49,6 +49,22 @@ class Module(unittest.TestCase):
             self.assertEqual(run.impacts["b"], list(table["impact_b"]))
             self.assertEqual(run.impacts["point"].shape, (len(table["impact_time"]), 3))
 
+    def test_boxes_have_the_inertia_and_the_centre_that_are_given(self):
+        tensor = numpy.array([[0.3, 0.05, 0], [0.05, 0.4, -0.02], [0, -0.02, 0.5]])
+        center, spin = numpy.array([0.1, -0.05, 0.02]), numpy.array([1.0, 2, 3])
+        run = careen.simulate({"careen": 1, "duration": 1, "boxes": [
+            {"name": "die", "half_extents": [0.5, 0.5, 0.5], "mass": 2, "position": [0, 0, 0],
+             "angular_velocity": spin.tolist(), "inertia": tensor.tolist(), "center": center.tolist()}]})
+        times = numpy.linspace(0, 1, 11)
+        states = {key: value[:, 0] for key, value in run.states(times).items()}
+        w, v = states["orientation"][:, :1], states["orientation"][:, 1:]
+        cross, identity = numpy.cross, numpy.eye(3)
+        turn = numpy.stack([e + 2 * (w * cross(v, e) + cross(v, cross(v, e))) for e in identity], axis=-1)
+        momentum = turn @ tensor @ turn.transpose(0, 2, 1) @ states["angular_velocity"][:, :, None]
+        numpy.testing.assert_allclose(momentum[:, :, 0], numpy.tile(tensor @ spin, (11, 1)), rtol=0, atol=1e-13)
+        middle = center + times[:, None] * cross(spin, center) - turn @ center
+        numpy.testing.assert_allclose(states["position"], middle, rtol=0, atol=1e-13)
+
     def test_times_have_any_shape(self):
         run = careen.simulate(SCENES / "zeno.json")
         boxes = len(run.boxes)
