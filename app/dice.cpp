@@ -16,6 +16,8 @@
 #include "core/error.h"
 #include "core/system/file.h"
 #include "run.h"
+#include "study/dice_plots.h"
+#include "study/study.h"
 
 namespace careen {
 namespace {
@@ -29,6 +31,7 @@ struct DiceOptions {
   double throws = 10000;
   std::optional<int> threads;
   std::filesystem::path out = "dice";
+  bool noPlots = false;
 };
 
 std::vector<double> numbersIn(const char* option, const std::vector<std::string>& texts, double least,
@@ -80,6 +83,9 @@ std::vector<ThrowSettings> settingsOf(const DiceOptions& options) {
 
 ExitCode diceCommand(const DiceOptions& options, const std::stop_token& stop) {
   const Stopwatch stopwatch;
+  if (!options.noPlots) {
+    checkPlotter();
+  }
   std::vector<DiceResult> results;
   for (const ThrowSettings& settings : settingsOf(options)) {
     DiceResult& result = results.emplace_back();
@@ -100,6 +106,11 @@ ExitCode diceCommand(const DiceOptions& options, const std::stop_token& stop) {
   }
   writeFile(options.out / "dice.csv", diceCsv(results));
   writeFile(options.out / "dice.md", diceMarkdown(results) + "\nMade by careen " CAREEN_VERSION ".\n");
+  if (!options.noPlots) {
+    for (const DicePlot& each : dicePlots(results)) {
+      drawPlot(each.plot, options.out / each.of);
+    }
+  }
   std::cout << "dice         " << (options.out / "dice.md").string() << ", " << brief(stopwatch.seconds(), 3)
             << " s\n";
   return ExitCode::kDone;
@@ -126,7 +137,8 @@ void addDice(const CommandLine& commandLine) {
       .delimiter(',')
       .showsDefault();
   command.add("--threads", options->threads, "Threads (default: one for each core)");
-  command.add("--out", options->out, "Folder for the tables").showsDefault();
+  command.add("--out", options->out, "Folder for the tables and plots").showsDefault();
+  command.addFlag("--no-plots", options->noPlots, "Tables only; gnuplot is not needed");
   command.runs([options](const std::stop_token& stop) { return diceCommand(*options, stop); });
 }
 

@@ -29,12 +29,16 @@ TEST_F(Dice, writeTablesOfEverySetting) {
   const std::string csv = textOf(folder_ / "found/dice.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3 * 15);
   EXPECT_NE(textOf(folder_ / "found/dice.md").find("| 0.5 | 0.3 | 0.2 | 1 | 20 | "), std::string::npos);
+  for (const char* const plot : {"friction.svg", "friction.png", "spin.svg", "spin.png"}) {
+    EXPECT_GT(std::filesystem::file_size(folder_ / "found" / plot), 5000U) << plot;
+  }
   // The same throws, in whatever threads.
-  ASSERT_EQ(careen({"--throws", "3", "--friction", "0.3,0.1", "--spin", "40,20", "--threads", "3", "--out",
-                    "again"})
+  ASSERT_EQ(careen({"--throws", "3", "--friction", "0.3,0.1", "--spin", "40,20", "--threads", "3",
+                    "--no-plots", "--out", "again"})
                 .exitCode,
             0);
   EXPECT_EQ(textOf(folder_ / "again/dice.csv"), csv);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "again/friction.svg"));
 }
 
 TEST_F(Dice, badUseIsTold) {
