@@ -131,6 +131,20 @@ nlohmann::ordered_json breachReport(const Run& run) {
   return breaches;
 }
 
+nlohmann::ordered_json residualReport(const ContactResiduals& residuals) {
+  return {{"problems", residuals.problems},
+          {"primal", residuals.primal},
+          {"dual", residuals.dual},
+          {"complementarity", residuals.complementarity}};
+}
+
+void printResiduals(std::ostream& out, const char* of, const ContactResiduals& residuals) {
+  if (residuals.problems > 0) {
+    out << of << "primal " << residuals.primal << ", dual " << residuals.dual << ", complementarity "
+        << residuals.complementarity << " of " << residuals.problems << " contact problems\n";
+  }
+}
+
 void printDisagreement(std::ostream& out, const char* what, double own, double stated) {
   if (stated != own) {
     out << "             " << what << ": the method says " << own << ", the audit found " << stated
@@ -190,6 +204,10 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
                        {"angular_velocities", trajectory.given->angularVelocities},
                        {"quaternion_error", trajectory.given->quaternionError}};
   }
+  if (!trajectory.given) {
+    report["contact_residuals"] = {{"exact", residualReport(figures.contact)},
+                                   {"crowds", residualReport(figures.crowds)}};
+  }
   if (figures.boundedFrom) {
     report["bounded_from"] = *figures.boundedFrom;
   }
@@ -243,6 +261,8 @@ void printError(std::ostream& out, const Run& run) {
            "error of about "
         << trajectory.settings.crowds.tolerance << " m\n";
   }
+  printResiduals(out, "residuals    ", figures.contact);
+  printResiduals(out, "  of crowds  ", figures.crowds);
   Life all;
   for (const Track& track : trajectory.tracks) {
     const Life life = lifeOf(track, trajectory.settings.duration);

@@ -19,10 +19,11 @@ namespace {
 
 // The line ends in the magic word reveal a transfer in text mode.
 constexpr std::string_view kFileMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 7;
+constexpr std::uint64_t kVersion = 8;
 constexpr std::uint64_t kVersionWithoutCrowds = 4;
 constexpr std::uint64_t kVersionWithoutLight = 5;
 constexpr std::uint64_t kVersionWithoutPlacement = 6;
+constexpr std::uint64_t kVersionWithoutResiduals = 7;
 
 std::uint64_t checksum(std::string_view bytes) {
   Hash hash;
@@ -82,6 +83,7 @@ std::string encodeTrajectory(const Trajectory& trajectory) {
     visitPlacement(record, body);
   }
   visitAll(record, trajectory.stage.parts);
+  visitResiduals(record, trajectory.figures);
   record.visit(trajectory.stateHash());
   ArchiveWriter file;
   file.bytes() += kFileMagic;
@@ -111,6 +113,9 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name, c
         visitPlacement(reader, body);
       }
       visitAll(reader, trajectory.stage.parts);
+    }
+    if (file.version > kVersionWithoutResiduals) {
+      visitResiduals(reader, trajectory.figures);
     }
   } else {
     readFormat3(reader, setupOf, trajectory);

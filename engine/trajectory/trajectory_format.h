@@ -378,6 +378,21 @@ void visit(Archive& archive, Visited<Archive, RunFigures> figures) {
   }
 }
 
+/// What figures have since format version 8, stored after the rest.
+template <class Archive>
+void visitResiduals(Archive& archive, Visited<Archive, RunFigures> figures) {
+  for (auto* residuals : {&figures.contact, &figures.crowds}) {
+    auto problems = static_cast<std::uint64_t>(residuals->problems);
+    archive.visit(problems);
+    if constexpr (Archive::kReads) {
+      residuals->problems = static_cast<std::int64_t>(problems);
+    }
+    archive.visit(residuals->primal);
+    archive.visit(residuals->dual);
+    archive.visit(residuals->complementarity);
+  }
+}
+
 template <class Archive>
 void visit(Archive& archive, Visited<Archive, CrowdSettings> crowds) {
   int when = static_cast<int>(crowds.when);

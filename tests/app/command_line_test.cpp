@@ -109,6 +109,27 @@ TEST_F(CommandLine, reportHasTheKeysOfTheContract) {
   EXPECT_TRUE(report["modelled"].is_array());
 }
 
+// A cube slides with another on it.
+TEST_F(CommandLine, reportsTheResidualsOfContact) {
+  folder_.write("scene.json", R"({ "careen": 1, "duration": 1, "gravity": [0, 0, -10],
+    "walls": [ { "name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1], "friction": 0.5 } ],
+    "boxes": [ { "name": "lower", "half_extents": [0.5, 0.5, 0.5], "mass": 1, "position": [0, 0, 0.5],
+                 "velocity": [1, 0, 0], "friction": 0.5 },
+               { "name": "upper", "half_extents": [0.5, 0.5, 0.5], "mass": 1, "position": [0, 0, 1.5],
+                 "friction": 0.5 } ] })");
+  const Ended ended = careen({"simulate", "scene.json", "--report", "report.json"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.out.find("\nresiduals    primal "), std::string::npos) << ended.out;
+  const nlohmann::json report = nlohmann::json::parse(textOf(folder_ / "report.json"));
+  const nlohmann::json& exact = report.at("contact_residuals").at("exact");
+  EXPECT_GT(exact.at("problems"), 0);
+  for (const char* const key : {"primal", "dual", "complementarity"}) {
+    EXPECT_GE(exact.at(key), 0) << key;
+    EXPECT_LT(exact.at(key), 1e-6) << key;  // measured 4e-8: time steps are solved as the tolerance needs
+  }
+  EXPECT_EQ(report.at("contact_residuals").at("crowds").at("problems"), 0);
+}
+
 TEST_F(CommandLine, sameSceneGivesTheSameBytes) {
   folder_.write("scene.json", kScene);
   ASSERT_EQ(careen({"simulate", "scene.json", "-o", "a.careen"}).exitCode, 0);

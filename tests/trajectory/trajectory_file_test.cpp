@@ -90,6 +90,20 @@ TEST(TrajectoryFile, bringsBackEveryBit) {
   EXPECT_EQ(back.state(0, 0.75).pose.position, Vec3(1.5, 0, 0));
 }
 
+TEST(TrajectoryFile, bringsBackTheResidualsOfContact) {
+  Trajectory run = driftAndReturn();
+  run.figures.contact = {.problems = 7, .primal = 1e-15, .dual = 2e-16, .complementarity = 3e-17};
+  run.figures.crowds = {.problems = 5'000'000'000, .primal = 1e-3, .dual = 0, .complementarity = 0.25};
+  const Trajectory back = decodeTrajectory(encodeTrajectory(run), "run.careen");
+  EXPECT_EQ(back.figures.contact.problems, 7);
+  EXPECT_EQ(back.figures.contact.primal, 1e-15);
+  EXPECT_EQ(back.figures.contact.dual, 2e-16);
+  EXPECT_EQ(back.figures.contact.complementarity, 3e-17);
+  EXPECT_EQ(back.figures.crowds.problems, 5'000'000'000);
+  EXPECT_EQ(back.figures.crowds.primal, 1e-3);
+  EXPECT_EQ(back.figures.crowds.complementarity, 0.25);
+}
+
 TEST(TrajectoryFile, bringsBackWhereTheCentreOfMassLiesAndItsAxes) {
   World world = elasticRoom();
   world.bodies[0].boxCenter = Vec3(0.1, -0.05, 0.02);
@@ -162,7 +176,7 @@ TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
   bytes[8] = 77;
   EXPECT_EQ(messageOf(withRightChecksum(bytes)),
-            "run.careen: this trajectory file has format version 77, expected 7");
+            "run.careen: this trajectory file has format version 77, expected 8");
 }
 
 TEST(TrajectoryFile, refusesAnotherKindOfFile) {

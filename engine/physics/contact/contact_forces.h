@@ -51,6 +51,9 @@ class ContactForces {
   bool solveGiven(std::span<const double> free, std::span<const Mode> modes,
                   std::span<const Force> guess = {});
 
+  /// Of the modes found since it was last asked.
+  ContactResiduals takeResiduals() { return solver_.takeResiduals(); }
+
   std::span<const double> accelerations() const { return a_; }
   std::span<const Force> forces() const { return forces_; }
   /// Residual n a − target_n or a tangent's [m/s²], of the last solution.

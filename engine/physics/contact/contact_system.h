@@ -63,6 +63,7 @@ class ContactSystem {
   /// Contact states as of the last rate(), findModes() or look().
   const std::vector<ContactState>& states() const { return states_; }
   const ContactForces& forces() const { return forces_; }
+  ContactResiduals takeResiduals() { return forces_.takeResiduals(); }
   void look(std::span<const double> y);
   /// [m/s²] rate of the slip speed of contact c.
   double slipSpeedRate(std::size_t contact) const;

@@ -61,6 +61,8 @@ class ImplicitStep {
   double residual() const { return residual_; }
   /// Factorisations so far, each times the bodies and contacts in it: the cost.
   double work() const { return work_; }
+  /// Of the problems solved since it was last asked.
+  ContactResiduals takeResiduals() { return solver_.takeResiduals(); }
 
  private:
   using Six = std::array<double, ContactProblem::kAxes>;

@@ -267,4 +267,12 @@ void Island::cutTo(double length) {
   system_.unpack(end_);
 }
 
+ContactResiduals Island::takeResiduals() {
+  ContactResiduals all = system_.takeResiduals();
+  if (stepper_) {
+    all.add(stepper_->takeResiduals());
+  }
+  return all;
+}
+
 }  // namespace careen

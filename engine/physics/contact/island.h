@@ -75,6 +75,8 @@ class Island {
   /// Cost of the last step, if it was a time step: contacts and bodies in factorisations, and geometry, whose
   /// cost for a body is that of about sixty.
   double work() const { return work_; }
+  /// Of the contact problems solved since it was last asked.
+  ContactResiduals takeResiduals();
   /// Whether the last step may have dissipated energy: by friction, or because it was a time step.
   bool mayLose() const;
 

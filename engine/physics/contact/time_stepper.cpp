@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "core/math/falling_bracket.h"
@@ -308,6 +309,12 @@ ContactStep TimeStepper::motion(std::size_t body) const {
     from.spinRateBody = to.spinRateBody = (to.spinBody - from.spinBody) / length_;
   }
   return hermiteStep(from, to, length_);
+}
+
+ContactResiduals TimeStepper::takeResiduals() {
+  ContactResiduals all = std::exchange(residuals_, {});
+  all.add(equations_.takeResiduals());
+  return all;
 }
 
 }  // namespace careen

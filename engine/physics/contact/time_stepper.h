@@ -56,6 +56,8 @@ class TimeStepper {
   /// [m] Gaps up to this count as none.
   double closed() const { return 0.25 * tolerance_; }
   const ImplicitStep& equations() const { return equations_; }
+  /// Of the contact problems solved since it was last asked.
+  ContactResiduals takeResiduals();
 
  private:
   struct Moment {                   // of an event function
@@ -141,7 +143,8 @@ class TimeStepper {
   GroupState within_;
   double length_ = 0;
   double proposed_ = 0;
-  double acceleration_ = 0;  // [m/s²] largest of the last step
+  ContactResiduals residuals_;  // of impacts
+  double acceleration_ = 0;     // [m/s²] largest of the last step
   double deepest_ = 0;
 };
 

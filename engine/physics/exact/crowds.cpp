@@ -229,6 +229,7 @@ void ExactWorld::endAt(ContactGroup& group, const Instant& time) {
       group.start = end;
       group.step.length = group.crowd->step(secondsBetween(end, time));
     }
+    account_.solvedCrowd(group.crowd->takeResiduals());
   }
   commit(group, time);
 }
@@ -324,6 +325,7 @@ void ExactWorld::go(const std::shared_ptr<ContactGroup>& group, const Instant& t
     any = true;
   }
   account_.penetrates(crowd.deepest());
+  account_.solvedCrowd(crowd.takeResiduals());
   if (any && earlier(group->end(), end_)) {
     queue_.set({.time = group->end(), .kind = EventKind::kStep, .body = group->leader});
   }

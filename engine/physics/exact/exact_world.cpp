@@ -147,6 +147,7 @@ void ExactWorld::happen(const Event& event) {
       formCrowd(encounter);
       return;
     }
+    account_.solved(encounter.residuals);
     record(encounter);
     moveOn(encounter);
   }
@@ -287,6 +288,7 @@ void ExactWorld::touch(const std::shared_ptr<ContactGroup>& contactGroup, const 
     }
   }
   account_.penetrates(island.deepest());
+  account_.solved(contactGroup->island->takeResiduals());
   record(*contactGroup);
 }
 

@@ -73,6 +73,7 @@ class ExactWorld {
     std::vector<Instant> since;  ///< of each body: when that begins
     std::vector<std::shared_ptr<ContactGroup>> islands;
     std::vector<std::shared_ptr<ContactGroup>> crowds;  ///< that these bodies meet
+    ContactResiduals residuals;                         ///< of the islands' first forces
     int timeSteps = 0;                                  ///< its islands go on by so many
     double passing = 0;  ///< [1] contacts without an impulse persist that part with so many roundings
   };

@@ -163,7 +163,7 @@ void ExactWorld::resolve(Encounter& encounter) {
     }
   }
   account_.strikes(mayLose);
-  resolveImpact(bodies, encounter.contacts, encounter.shares);
+  account_.solved(resolveImpact(bodies, encounter.contacts, encounter.shares));
 }
 
 void ExactWorld::record(const Encounter& encounter) {

@@ -354,7 +354,9 @@ void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>
   Island& island = *contactGroup->island;
   const int timeSteps =
       encounter.timeSteps == 0 && members.size() > kMostSmooth ? kTimeStepsOfMany : encounter.timeSteps;
-  if (beginsAtRest(island, timeSteps)) {
+  const bool rests = beginsAtRest(island, timeSteps);
+  encounter.residuals.add(island.takeResiduals());
+  if (rests) {
     for (const std::size_t i : members) {
       const Mover& body = mover(encounter.ranks[i]);
       if (body.moves() || !movesAlike(encounter.before[i], encounter.after[i])) {

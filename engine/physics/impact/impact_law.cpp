@@ -59,6 +59,7 @@ class Law {
   }
 
   double approach(std::size_t contact) const { return -speed(contact, 0, before_); }
+  ContactResiduals takeResiduals() { return solver_.takeResiduals(); }
 
  private:
   using Chosen = std::vector<char>;  // of the contacts
@@ -349,13 +350,13 @@ void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> c
 
 }  // namespace
 
-void resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts,
-                   std::span<ImpactShare> shares) {
+ContactResiduals resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts,
+                               std::span<ImpactShare> shares) {
   if (contacts.size() == 1) {
     const ImpactContact& only = contacts[0];
     const ImpactBody* b = only.b.isWall() ? nullptr : &bodies[static_cast<std::size_t>(only.b.body())];
     shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)], b, only);
-    return;
+    return {};
   }
   Law law(impactProblemOf(bodies, contacts), contacts);
   const Impulses impulses = law.resolve();
@@ -373,6 +374,7 @@ void resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactCon
   for (std::size_t index = 0; index < bodies.size(); ++index) {
     applyTo(static_cast<int>(index), bodies[index], contacts, world);
   }
+  return law.takeResiduals();
 }
 
 }  // namespace careen

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "physics/world/body.h"
+#include "physics/world/contact_residuals.h"
 #include "physics/world/partner.h"
 
 namespace careen {
@@ -68,8 +69,10 @@ struct ImpactShare {
 /// bit; that of the bodies may change the last one, so give them in an order that does not depend on the
 /// scene's listing. Mirrored in a coordinate plane, and scaled by powers of two, the same impact has the same
 /// bits. Rounding residue in a component that should vanish is set to zero.
-void resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts,
-                   std::span<ImpactShare> shares);
+///
+/// Returns the residuals of the contact problems that were solved for it; one contact needs none.
+ContactResiduals resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts,
+                               std::span<ImpactShare> shares);
 
 /// Speed below which a contact counts as not approaching, as a fraction of Σ|n_k q_k| at its contacts:
 /// rounding error.

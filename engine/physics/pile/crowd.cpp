@@ -268,12 +268,14 @@ Vec3 Crowd::acceleration(std::size_t place) const {
 // impacts, finer as the crowd comes to rest. Few manifolds are allowed more sweeps.
 void Crowd::solve(int sweeps) {
   if (solveDirectly()) {
+    residuals_.add(direct_.takeResiduals());
     return;
   }
   const auto manifolds = static_cast<std::int64_t>(solver_.blockCount()) + 1;
   const std::int64_t effort = 1 + kFewManifolds / manifolds;
   const std::int64_t solves = solver_.solve(static_cast<int>(std::min(sweeps * effort, kMostSweeps)), true);
   figures_.solves += solves;
+  residuals_.add(solver_.residuals(speed_));
   if (solves < kEasy * effort * manifolds) {
     tell_ = std::max(tell_ * 0.5, kTellLeast);
   } else if (solves > kHard * effort * manifolds) {
@@ -284,6 +286,7 @@ void Crowd::solve(int sweeps) {
 void Crowd::loadSolver() {
   solver_.begin(bodies_.size());
   bounces_.clear();
+  speed_ = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const PileBody& body = bodies_[i];
     const int index = static_cast<int>(i);
@@ -296,6 +299,8 @@ void Crowd::loadSolver() {
         const Vec3 turned = axes.transpose() * loads_[listed_[i]].torque;
         solver_.omega(index) += h_ * (axes * body.inverseInertiaBody.cwiseProduct(turned));
       }
+      speed_ = std::max({speed_, solver_.velocity(index).cwiseAbs().maxCoeff(),
+                         body.radius * solver_.omega(index).cwiseAbs().maxCoeff()});
     }
   }
   for (const int slot : near_) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/disjoint_sets.h"
@@ -117,6 +118,8 @@ class Crowd {
     double impulse = 0;           ///< [N s]
     double tangential = 0;        ///< [N s]
   };
+  /// Of the solves of steps since it was last asked, before bounces and shifts.
+  ContactResiduals takeResiduals() { return std::exchange(residuals_, {}); }
   const std::vector<Struck>& impacts() const { return impacts_; }
 
   struct Figures {
@@ -256,6 +259,8 @@ class Crowd {
   bool deep_ = false;             // after it
   bool atRest_ = false;
   double deepest_ = 0;
+  ContactResiduals residuals_;
+  double speed_ = 0;  // [m/s] largest of its bodies, before impulses: S of the residuals
   Figures figures_;
 };
 

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "physics/solver/residual_sum.h"
+
 namespace careen {
 
 void PileSolver::begin(std::size_t bodies) {
@@ -178,6 +180,33 @@ double PileSolver::normalSpeed(int row) const {
   const Moving& b = moving_[at(block.b)];
   return solved.normal.dot(a.velocity + a.omega.cross(firstOf(solved.arms)) - b.velocity -
                            b.omega.cross(secondOf(solved.arms)));
+}
+
+ContactResiduals PileSolver::residuals(double speed) const {
+  double largest = 0;
+  for (const SolvedRow& row : rows_) {
+    largest = std::max(largest, row.normalImpulse * row.normalImpulse +
+                                    (row.tangential1 * row.tangential1 + row.tangential2 * row.tangential2));
+  }
+  ResidualSum sum(speed, std::sqrt(largest));
+  for (const Block& block : blocks_) {
+    const Moving& a = moving_[at(block.a)];
+    const Moving& b = moving_[at(block.b)];
+    const ContactCone cone{.friction = block.friction, .onLine = !(block.friction > 0)};
+    const PairVec v = pairOf(a.velocity, b.velocity);
+    const PairVec w = pairOf(a.omega, b.omega);
+    for (int k = block.first; k < block.first + block.count; ++k) {
+      const SolvedRow& row = rows_[at(k)];
+      const PairVec turning = cross(w, row.arms);
+      const Pair x = v.x + turning.x;
+      const Pair y = v.y + turning.y;
+      const Pair z = v.z + turning.z;
+      const Vec3 u(x[0] - x[1], y[0] - y[1], z[0] - z[1]);
+      sum.add(cone, {row.normalImpulse, row.tangential1, row.tangential2},
+              {row.normal.dot(u) - row.bound, row.tangent1.dot(u), row.tangent2.dot(u)});
+    }
+  }
+  return sum.residuals();
 }
 
 std::int64_t PileSolver::shift(int sweeps, double change) {

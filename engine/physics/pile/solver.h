@@ -9,6 +9,7 @@
 #include "core/math/linear_algebra.h"
 #include "physics/pile/body.h"
 #include "physics/pile/manifold.h"
+#include "physics/world/contact_residuals.h"
 
 namespace careen {
 
@@ -65,6 +66,9 @@ class PileSolver {
   void warmStart();
   /// After the last add(): at most `sweeps` sweeps. Returns the number of manifold solves.
   std::int64_t solve(int sweeps, bool withFriction);
+
+  /// Of the rows as they stand, bounds being targets; S [m/s] is `speed`.
+  ContactResiduals residuals(double speed) const;
 
   /// Shifts, after solve(): beginShifts(), a bound [m] for each row, wakeRow() for those that are below
   /// theirs, shift(). `change` [m] of a body's displacement puts its manifolds back on the list.

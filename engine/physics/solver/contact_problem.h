@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "physics/world/contact_residuals.h"
+
 namespace careen {
 
 /// Velocities after impulses in friction cones; with accelerations in place of velocities, accelerations
@@ -54,7 +56,8 @@ struct ContactSolution {
       0;  ///< [m/s] V, the largest contact speed |J q₀ − target|: what the residual is measured against
   bool solved =
       false;  ///< the residual is small enough, see ContactSolver; otherwise the best iterate is kept
-  int factorisations = 0;  ///< of the matrix of all bodies
+  ContactResiduals residuals = {};  ///< of what is returned
+  int factorisations = 0;           ///< of the matrix of all bodies
 };
 
 }  // namespace careen

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "physics/solver/residual_sum.h"
+
 namespace careen {
 namespace {
 
@@ -209,6 +211,20 @@ void ContactSolver::polish() {
   }
 }
 
+ContactResiduals ContactSolver::residuals() const {
+  double largest = 0;
+  for (const Triple& impulse : impulses_) {
+    largest = std::max(
+        largest, std::sqrt(impulse[0] * impulse[0] + (impulse[1] * impulse[1] + impulse[2] * impulse[2])));
+  }
+  ResidualSum sum(contacts_.speed(), largest);
+  for (std::size_t c = 0; c < impulses_.size(); ++c) {
+    const CoupledContacts::Contact& contact = contacts_.contacts()[c];
+    sum.add(contact, impulses_[c], contacts_.relativeVelocity(contact, q_));
+  }
+  return sum.residuals();
+}
+
 bool ContactSolver::solve(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations) {
   contacts_.set(problem);
   enough_ = solution.enough;
@@ -228,6 +244,10 @@ bool ContactSolver::solve(const ContactProblem& problem, ContactSolution& soluti
   solution.residual = residual_;
   solution.scale = contacts_.scale();
   solution.factorisations = factorisations_;
+  solution.residuals = residuals();
+  if (solution.solved) {
+    residuals_.add(solution.residuals);
+  }
   contacts_.exportImpulses(impulses_, solution.impulses);
   contacts_.exportVelocities(q_, solution.velocities);
   return solution.solved;

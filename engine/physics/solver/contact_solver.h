@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "physics/solver/contact_newton.h"
@@ -41,6 +42,8 @@ class ContactSolver {
   /// after about `mostFactorisations`; problems without a solution take all of them.
   bool solve(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations = kMost);
   static constexpr int kMost = 3000;
+  /// Of all problems that were solved since it was last asked.
+  ContactResiduals takeResiduals() { return std::exchange(residuals_, {}); }
 
  private:
   using Triple = ContactProblem::Triple;
@@ -55,6 +58,7 @@ class ContactSolver {
   bool hasFriction() const;
   bool trySets();
   void forget();
+  ContactResiduals residuals() const;
   bool tryProximal(int rounds);
   void polish();
   bool keepIfBetter(double residual);
@@ -74,6 +78,7 @@ class ContactSolver {
   std::vector<Triple> from_;
   int factorisations_ = 0;
   int most_ = kMost;
+  ContactResiduals residuals_;
 };
 
 }  // namespace careen

@@ -11,7 +11,6 @@ namespace careen {
 namespace {
 
 /// [1] Of the largest term of a relative velocity.
-constexpr double kNoise = 0x1p-50;
 
 using Row = ContactProblem::Row;
 using Triple = ContactProblem::Triple;

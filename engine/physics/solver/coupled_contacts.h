@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -41,6 +42,8 @@ class CoupledContacts {
   std::size_t listed(std::size_t c) const { return keys_[c].listed; }
   /// [m/s] V, see ContactSolution.
   double scale() const { return scale_; }
+  /// [m/s] S, see ContactResiduals: V, or the largest |J_ij q₀_j| or |target_i| if that is larger.
+  double speed() const { return std::max(scale_, noise_ / kNoise); }
   /// [m/s] What rounding errors in u may amount to.
   double noise() const { return noise_; }
 
@@ -69,6 +72,7 @@ class CoupledContacts {
   void exportVelocities(std::span<const double> q, std::vector<double>& listed) const;
 
  private:
+  static constexpr double kNoise = 0x1p-50;
   bool hasGraphOf(const ContactProblem& problem) const;
   void order(const ContactProblem& problem);
   struct Key {

@@ -83,7 +83,9 @@ RunFigures FlightAccount::figures() const {
           .momentumChange = momentumError_,
           .orthogonality = orthogonality_,
           .deepestPenetration = deepest_,
-          .boundedFrom = boundedFrom_};
+          .boundedFrom = boundedFrom_,
+          .contact = contact_,
+          .crowds = crowds_};
 }
 
 }  // namespace careen

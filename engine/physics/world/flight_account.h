@@ -32,6 +32,9 @@ class FlightAccount {
   /// From this time [s] on some bodies are a crowd, not exact.
   void bounds(double time) { boundedFrom_ = boundedFrom_.value_or(time); }
 
+  void solved(const ContactResiduals& residuals) { contact_.add(residuals); }
+  void solvedCrowd(const ContactResiduals& residuals) { crowds_.add(residuals); }
+
   RunFigures figures() const;
 
  private:
@@ -59,6 +62,8 @@ class FlightAccount {
   double orthogonality_ = 0;
   double deepest_ = 0;                 // [m]
   std::optional<double> boundedFrom_;  // [s]
+  ContactResiduals contact_;
+  ContactResiduals crowds_;
 };
 
 }  // namespace careen

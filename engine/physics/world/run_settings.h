@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "physics/world/contact_residuals.h"
+
 namespace careen {
 
 enum class Method : int;  // see world/method.h
@@ -15,6 +17,8 @@ struct RunFigures {
   double orthogonality = 0;                ///< [1] largest ‖AAᵀ−1‖
   double deepestPenetration = 0;           ///< [m]
   std::optional<double> boundedFrom = {};  ///< [s] when the first bodies went on as a crowd, if any did
+  ContactResiduals contact = {};           ///< of impacts of several contacts, contact forces and time steps
+  ContactResiduals crowds = {};            ///< of the steps of crowds
 };
 
 /// When bodies in contact go on as a crowd (physics/pile/crowd.h).

@@ -117,6 +117,8 @@ struct Verified {
   double residual = 0;  ///< [m/s] as ContactCone::violation defines it
   double velocities = 0;  ///< [m/s, rad/s] largest difference between q₀ + M⁻¹Jᵀλ and the velocities given
   double cone = 0;        ///< [m/s] how far λ/mass is outside its cone
+  double speed = 0;       ///< [m/s] S of ContactResiduals
+  ContactResiduals residuals;
 };
 
 inline Verified verified(const ContactProblem& problem, const ContactSolution& solution) {
@@ -138,6 +140,14 @@ inline Verified verified(const ContactProblem& problem, const ContactSolution& s
     });
   }
   Verified result;
+  Quad largest = 0;  // Λ
+  for (const ContactProblem::Triple& l : solution.impulses) {
+    largest = std::max(largest, Quad(sqrt(Quad(l[0]) * l[0] + Quad(l[1]) * l[1] + Quad(l[2]) * l[2])));
+  }
+  Quad primal = 0;
+  Quad dual = 0;
+  Quad power = 0;
+  Quad speed = 0;
   for (std::size_t k = 0; k < q.size(); ++k) {
     result.velocities =
         std::max(result.velocities, std::fabs(static_cast<double>(q[k] - solution.velocities[k])));
@@ -152,6 +162,34 @@ inline Verified verified(const ContactProblem& problem, const ContactSolution& s
         u[row] += q[at] * contact.rows[row][i];
       }
     });
+    std::array<Quad, 3> before{Quad(-contact.target[0]), Quad(-contact.target[1]), Quad(-contact.target[2])};
+    forSides(contact, [&](std::size_t at, std::size_t i) {
+      for (std::size_t row = 0; row < 3; ++row) {
+        const Quad part = Quad(problem.free[at]) * contact.rows[row][i];
+        before[row] += part;
+        speed = std::max(speed, Quad(abs(part)));
+      }
+    });
+    speed =
+        std::max(speed, Quad(sqrt(before[0] * before[0] + before[1] * before[1] + before[2] * before[2])));
+    const auto& [n, t, s] = solution.impulses[c];
+    primal = std::max(primal, Quad(-u[0]));
+    Quad lost = n * u[0];
+    Quad beyond = -Quad(n);
+    const Quad limit = Quad(contact.friction) * n;
+    if (contact.slips || !(contact.friction > 0)) {
+      const Quad x = t + (contact.slips ? Quad(limit * contact.slip[0]) : Quad(0));
+      const Quad y = s + (contact.slips ? Quad(limit * contact.slip[1]) : Quad(0));
+      beyond = std::max(beyond, Quad(sqrt(x * x + y * y)));
+    } else {
+      beyond = std::max(beyond, Quad(sqrt(Quad(t) * t + Quad(s) * s) - limit));
+      lost += std::min(limit, largest) * sqrt(u[1] * u[1] + u[2] * u[2]) + t * u[1] + s * u[2];
+    }
+    dual = std::max(dual, beyond);
+    power = std::max(power, Quad(abs(lost)));
+    for (const double target : contact.target) {
+      speed = std::max(speed, Quad(std::fabs(target)));
+    }
     std::array<Quad, 3> l{};
     for (std::size_t k = 0; k < 3; ++k) {
       l[k] = inverse * solution.impulses[c][k];
@@ -176,6 +214,12 @@ inline Verified verified(const ContactProblem& problem, const ContactSolution& s
     result.residual = std::max(result.residual, static_cast<double>(sqrt(square)));
     result.cone = std::max(result.cone, static_cast<double>(outside));
   }
+  result.speed = static_cast<double>(speed);
+  result.residuals = {
+      .problems = 1,
+      .primal = speed > 0 ? static_cast<double>(primal / speed) : 0,
+      .dual = largest > 0 ? static_cast<double>(dual / largest) : 0,
+      .complementarity = speed > 0 && largest > 0 ? static_cast<double>(power / speed / largest) : 0};
   return result;
 }
 
@@ -198,6 +242,11 @@ inline void expectHonest(const ContactProblem& problem, const ContactSolution& s
   EXPECT_NEAR(truth.residual, solution.residual, rounding);
   EXPECT_LE(truth.velocities, rounding);
   EXPECT_LE(truth.cone, rounding);
+  // Relative to S they are as exact as the velocities; its parts are multiplied by rows of any size.
+  const double relative = truth.speed > 0 ? 4 * rounding / truth.speed : 0;
+  EXPECT_NEAR(truth.residuals.primal, solution.residuals.primal, relative);
+  EXPECT_NEAR(truth.residuals.dual, solution.residuals.dual, 0x1p-48);
+  EXPECT_NEAR(truth.residuals.complementarity, solution.residuals.complementarity, 2 * relative + 0x1p-48);
   if (solution.solved) {
     EXPECT_LE(truth.residual, 1.001e-9 * solution.scale + rounding);
   }

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/solver/contact_cone.h"
+#include "physics/world/contact_residuals.h"
+
+namespace careen {
+
+/// The residuals of one problem, contact by contact.
+class ResidualSum {
+ public:
+  using Triple = ContactProblem::Triple;
+
+  /// `speed` is S [m/s], `impulse` is Λ [N s].
+  ResidualSum(double speed, double impulse) : speed_(speed), impulse_(impulse) {}
+
+  /// A contact with impulse λ [N s] and relative velocity u [m/s].
+  void add(const ContactCone& cone, const Triple& impulse, const Triple& u) {
+    const auto& [n, t, s] = impulse;
+    primal_ = std::max(primal_, -u[0]);
+    double power = n * u[0];
+    if (cone.onLine) {
+      dual_ = std::max({dual_, -n, norm(t - cone.drag[0] * n, s - cone.drag[1] * n)});
+    } else {
+      const double limit = cone.friction * n;
+      dual_ = std::max({dual_, -n, norm(t, s) - limit});
+      power += std::min(limit, impulse_) * norm(u[1], u[2]) + (t * u[1] + s * u[2]);
+    }
+    power_ = std::max(power_, std::fabs(power));
+  }
+
+  ContactResiduals residuals() const {
+    ContactResiduals all{.problems = 1};
+    all.primal = speed_ > 0 ? primal_ / speed_ : 0;
+    all.dual = impulse_ > 0 ? dual_ / impulse_ : 0;
+    all.complementarity = speed_ > 0 && impulse_ > 0 ? power_ / impulse_ / speed_ : 0;
+    return all;
+  }
+
+ private:
+  static double norm(double x, double y) { return std::sqrt(x * x + y * y); }
+
+  double speed_;
+  double impulse_;
+  double primal_ = 0;
+  double dual_ = 0;
+  double power_ = 0;
+};
+
+}  // namespace careen
