@@ -252,7 +252,54 @@ double ContactSystem::shiftOf(std::span<const double> displacement) const {
   return most;
 }
 
+std::vector<GroupMember> ContactSystem::membersAt(std::span<const double> y,
+                                                  std::span<const std::size_t> group) const {
+  std::vector<GroupMember> members;
+  for (const std::size_t i : group) {
+    const MassProperties& mass = bodies_[i].body->mass;
+    const std::size_t at = places_[i] * kNumbers;
+    const Mat3 turned = quatAt(y, at + 3).normalized().toRotationMatrix();
+    members.push_back({.mass = &mass,
+                       .state = {.pose = {threeAt(y, at), turned},
+                                 .velocity = threeAt(y, at + 7),
+                                 .angularMomentum = turned * mass.inertiaTimes(threeAt(y, at + 10))}});
+  }
+  return members;
+}
+
+bool ContactSystem::keepMomenta(std::span<const double> before, double h, std::vector<double>& y) const {
+  if (!worldStates_.empty()) {
+    return false;
+  }
+  std::vector<ContactFeature> pushing;
+  for (std::size_t c = 0; c < features_.size(); ++c) {
+    if (pushes(c)) {
+      pushing.push_back(features_[c]);
+    }
+  }
+  std::vector<char> held;
+  for (const TouchingBody& body : bodies_) {
+    held.push_back(body.isHeld() ? 1 : 0);
+  }
+  bool changed = false;
+  for (const std::vector<std::size_t>& group : freeGroups(held, pushing)) {
+    const std::vector<GroupMember> members = membersAt(y, group);
+    const std::optional<RigidChange> change =
+        changeTo(momentumOf(membersAt(before, group)), h, world_->gravity, momentumOf(members));
+    for (std::size_t k = 0; change && k < group.size(); ++k) {
+      const BodyState& state = members[k].state;
+      const std::size_t at = places_[group[k]] * kNumbers;
+      setThree(y, at, state.pose.position + change->shift);
+      setThree(y, at + 7, state.velocity + change->velocityAt(state.pose.position));
+      setThree(y, at + 10, threeAt(y, at + 10) + state.pose.worldFromBody.transpose() * change->turning);
+      changed = true;
+    }
+  }
+  return changed;
+}
+
 double ContactSystem::projectPositions(std::vector<double>& y, double most) {
+  const std::vector<double> before = y;
   const std::vector<Mode> kept = modes_;
   for (std::size_t c = 0; c < modes_.size(); ++c) {
     modes_[c] = modes_[c] == Mode::kOff || holdsSideways(c) ? modes_[c] : Mode::kOn;
@@ -298,11 +345,15 @@ double ContactSystem::projectPositions(std::vector<double>& y, double most) {
       setQuat(y, at + 3, (quatAt(y, at + 3) * Quat(1, half[0], half[1], half[2])).normalized());
     }
   }
+  if (moved > 0) {
+    keepMomenta(before, 0, y);
+  }
   modes_ = kept;
   return moved;
 }
 
 bool ContactSystem::projectVelocities(std::vector<double>& y) {
+  const std::vector<double> unprojected = y;
   look(y);
   std::vector<Mode> kept = modes_;
   double worst = 0;
@@ -344,6 +395,9 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
       setThree(y, m * kNumbers + 7, threeAt(forces_.accelerations(), m * kSix));
       setThree(y, m * kNumbers + 10, angularOf(forces_.accelerations(), m));
     }
+  }
+  if (moves) {
+    keepMomenta(unprojected, 0, y);
   }
   modes_ = std::move(kept);
   return moves;

@@ -6,6 +6,7 @@
 
 #include "physics/contact/contact_feature.h"
 #include "physics/contact/contact_forces.h"
+#include "physics/contact/group_momentum.h"
 #include "physics/world/world.h"
 
 namespace careen {
@@ -59,6 +60,9 @@ class ContactSystem {
   /// Returns how far the bodies were moved [m].
   double projectPositions(std::vector<double>& y, double most);
   bool projectVelocities(std::vector<double>& y);
+  /// Gives groups of bodies that only push each other the momenta that they had `h` [s] before, by rigid
+  /// motions (GroupMomentum). Returns false if there was only rounding error.
+  bool keepMomenta(std::span<const double> before, double h, std::vector<double>& y) const;
 
   /// Contact states as of the last rate(), findModes() or look().
   const std::vector<ContactState>& states() const { return states_; }
@@ -77,6 +81,7 @@ class ContactSystem {
   double gravityMagnitude() const { return gravityMagnitude_; }
 
  private:
+  std::vector<GroupMember> membersAt(std::span<const double> y, std::span<const std::size_t> group) const;
   bool holdsSideways(std::size_t contact) const;
   double shiftOf(std::span<const double> displacement) const;
   Vec3 angularOf(std::span<const double> solution, std::size_t mover) const;

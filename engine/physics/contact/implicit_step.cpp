@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/elementary.h"
+#include "physics/contact/group_momentum.h"
 #include "physics/contact/three_at.h"
 
 // Motion in a step, and apart. Contacts are in implicit_step_contacts.cpp.
@@ -28,6 +29,10 @@ Quat rotationBy(const Vec3& angle) {
 }
 
 }  // namespace
+
+double tolerableResidual(double tolerance, double radius, double rate, double gravity) {
+  return kEnoughProgress * tolerance * std::max(rate, std::sqrt(gravity / radius));
+}
 
 ImplicitStep::ImplicitStep(const World& world, const std::vector<TouchingBody>& bodies, double tolerance)
     : world_(world), bodies_(bodies), tolerance_(tolerance), loads_(bodies.size()), turned_(bodies.size()) {
@@ -62,14 +67,14 @@ Kinematics ImplicitStep::kinematics(std::size_t body, const GroupBody& at) const
 
 // How well the law is to be solved from that state.
 void ImplicitStep::chooseResidual(const GroupState& at) {
-  double rate = std::sqrt(world_.gravity.norm() / radius_);  // [1/s]
+  double rate = 0;  // [1/s]
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].isHeld()) {
       const Kinematics now = kinematics(i, at[i]);
       rate = std::max(rate, now.velocity.norm() / radius_ + now.angularVelocity.norm());
     }
   }
-  residual_ = kEnoughProgress * tolerance_ * rate;
+  residual_ = tolerableResidual(tolerance_, radius_, rate, world_.gravity.norm());
 }
 
 // Force and torque on each body without contacts.
@@ -208,8 +213,41 @@ bool ImplicitStep::compress(GroupState& state, std::span<const ContactFeature> c
   return true;
 }
 
+void ImplicitStep::keepMomenta(const GroupState& before, double h, std::span<const ContactFeature> pushing,
+                               GroupState& to) const {
+  if (!worldStates_.empty()) {
+    return;
+  }
+  std::vector<char> held;
+  for (const TouchingBody& body : bodies_) {
+    held.push_back(body.isHeld() ? 1 : 0);
+  }
+  for (const std::vector<std::size_t>& group : freeGroups(held, pushing)) {
+    const auto momentum = [&](const GroupState& at) {
+      std::vector<GroupMember> members;
+      for (const std::size_t i : group) {
+        members.push_back({.mass = &bodies_[i].body->mass,
+                           .state = {.pose = {at[i].position, at[i].worldFromBody.toRotationMatrix()},
+                                     .velocity = at[i].velocity,
+                                     .angularMomentum = at[i].angularMomentum}});
+      }
+      return momentumOf(members);
+    };
+    const std::optional<RigidChange> change = changeTo(momentum(before), h, world_.gravity, momentum(to));
+    for (std::size_t k = 0; change && k < group.size(); ++k) {
+      GroupBody& body = to[group[k]];
+      body.velocity += change->velocityAt(body.position);
+      body.position += change->shift;
+      body.angularMomentum += careen::angularMomentum(bodies_[group[k]].body->mass,
+                                                      body.worldFromBody.toRotationMatrix(), change->turning);
+    }
+  }
+}
+
 bool ImplicitStep::separate(GroupState& state, std::span<const ContactFeature> contacts, double deepest) {
   constexpr int kMostPasses = 4;
+  const GroupState before = state;
+  std::vector<ContactFeature> pushing;
   for (int pass = 0; pass < kMostPasses; ++pass) {
     placeBodies(contacts);
     for (const std::size_t i : movers_) {
@@ -224,11 +262,16 @@ bool ImplicitStep::separate(GroupState& state, std::span<const ContactFeature> c
       deep = deep || geometry_[c].gap < -deepest;
     }
     if (!deep) {
-      return true;
+      break;
     }
     solution_.impulses.clear();
     if (!solve(kEnoughProgress * tolerance_)) {
       return false;
+    }
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      if (solution_.impulses[c][0] > 0) {
+        pushing.push_back(contacts[c]);
+      }
     }
     for (std::size_t m = 0; m < movers_.size(); ++m) {
       GroupBody& body = state[movers_[m]];
@@ -237,6 +280,9 @@ bool ImplicitStep::separate(GroupState& state, std::span<const ContactFeature> c
           bodies_[movers_[m]].body->mass.fromPrincipal(threeAt(solution_.velocities, m * kSix + 3));
       body.worldFromBody = (body.worldFromBody * rotationBy(turn)).normalized();
     }
+  }
+  if (!pushing.empty()) {
+    keepMomenta(before, 0, pushing, state);
   }
   return true;
 }

@@ -32,6 +32,11 @@ struct ClosedContact {
   Vec3 friction = Vec3::Zero();
 };
 
+/// [m/s] A residual of the contacts' law that is as good as none, for bodies of that size [m], speed over
+/// size and gravity: a small part of the tolerance [m] in the time in which they fall, or move, their own
+/// size.
+double tolerableResidual(double tolerance, double radius, double rate, double gravity);
+
 /// One time step of a group of bodies in contact, of second order: positions by the trapezoid of the
 /// velocities at both ends, attitudes by the angular velocity at the mean angular momentum, contact forces at
 /// the middle of the step, their law (Signorini, Coulomb) at its end (Eqs. 10, 13–18). So linear and angular
@@ -49,6 +54,10 @@ class ImplicitStep {
   /// Moves the bodies by the least displacement (in the mass metric) out of each other, where contacts are
   /// deeper than `deepest` [m].
   bool separate(GroupState& state, std::span<const ContactFeature> contacts, double deepest);
+
+  /// As ContactSystem::keepMomenta; `pushing`: the contacts with forces.
+  void keepMomenta(const GroupState& before, double h, std::span<const ContactFeature> pushing,
+                   GroupState& to) const;
 
   Kinematics kinematics(std::size_t body, const GroupBody& at) const;
   ContactState contactAt(const ContactFeature& feature, const GroupState& state) const;

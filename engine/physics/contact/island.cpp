@@ -222,7 +222,7 @@ Island::Step Island::step(double most) {
     h *= found && error < 1e10 ? std::max(0.2, 0.9 / std::sqrt(std::sqrt(error))) : 0.2;
   }
   proposed_ = h * (error > 1e-4 ? std::clamp(0.9 / std::sqrt(std::sqrt(error)), 0.2, 4.0) : 4.0);
-  finish();
+  finish(h);
   Step done{.length = h};
   locate(done);
   // Where forces grow fast the polynomials between both ends may leave the contacts that hold at them.

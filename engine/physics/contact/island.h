@@ -131,7 +131,7 @@ class Island {
   void adopt();
   bool try5(double h);
   void restep(double h);
-  void finish();
+  void finish(double h);
   bool isClear() const;
   bool hasTension() const;
   bool allButStands(std::size_t contact) const;

@@ -90,10 +90,10 @@ void Island::restep(double h) {
     endRate_ = startRate_;
     endTurned_ = startTurned_;
   }
-  finish();
+  finish(h);
 }
 
-void Island::finish() {
+void Island::finish(double h) {
   for (std::size_t at = 3; at < end_.size(); at += ContactSystem::kNumbers) {
     const double size = std::sqrt(end_[at] * end_[at] + end_[at + 1] * end_[at + 1] +
                                   end_[at + 2] * end_[at + 2] + end_[at + 3] * end_[at + 3]);
@@ -102,7 +102,8 @@ void Island::finish() {
     }
   }
   ++moves_;
-  if (system_.project(end_, ContactSystem::kMostMoved * tolerance_)) {
+  const bool kept = system_.keepMomenta(start_, h, end_);
+  if (system_.project(end_, ContactSystem::kMostMoved * tolerance_) || kept) {
     system_.rate(end_, endRate_);
     endTurned_ = system_.forces().isTurned();
   }

@@ -256,6 +256,13 @@ void TimeStepper::cutTo(double length) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       end_[i] = bodyWithin(i, length);
     }
+    std::vector<ContactFeature> pushing;
+    for (const ClosedContact& contact : known_) {
+      if (contact.push > 0) {
+        pushing.push_back(contact.feature);
+      }
+    }
+    equations_.keepMomenta(start_, length, pushing, end_);
     length_ = length;
     findContacts(end_);
   }

@@ -196,7 +196,8 @@ bool TimeStepper::collideOnce() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       bodies.push_back({.mass = &bodies_[i].body->mass, .state = &states[i]});
     }
-    residuals_.add(resolveImpact(bodies, contacts, shares));
+    const double residual = equations_.residual();
+    residuals_.add(resolveImpact(bodies, contacts, shares, {.enough = residual, .tolerable = residual}));
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       start_[i].velocity = states[i].velocity;
       start_[i].angularMomentum = states[i].angularMomentum;

@@ -2,6 +2,7 @@
 #include <numeric>
 #include <utility>
 
+#include "physics/contact/implicit_step.h"
 #include "physics/exact/exact_world.h"
 #include "physics/geometry/contact_points.h"
 #include "physics/impact/wall_contacts.h"
@@ -10,6 +11,12 @@
 // Contact groups: bodies that touch at one moment, and the impact on them.
 
 namespace careen {
+namespace {
+
+/// [1] of the lengths at a contact: its two points count as one.
+constexpr double kOnePoint = 0x1p-42;
+
+}  // namespace
 
 // ---- Detection of contacts.
 
@@ -147,6 +154,22 @@ void ExactWorld::addPairContacts(Encounter& encounter, std::size_t indexA, std::
 
 // ---- Impacts.
 
+// Lets both bodies' impulses act at one point: at two, a gap apart, friction would change angular momentum.
+// Where the gap is only rounding the arms stay as they are, or a cube that lands flat would tilt.
+void ExactWorld::joinPoints(const Encounter& encounter, std::size_t index, ImpactContact& contact) const {
+  if (contact.b.isWall()) {
+    return;
+  }
+  const auto place = [&](int body) -> const Vec3& {
+    return encounter.after[static_cast<std::size_t>(body)].pose.position;
+  };
+  const Vec3 link = (place(contact.a) - place(contact.b.body())) + (contact.armA - contact.armB);
+  if (link.norm() > kOnePoint * lengthsAt(encounter, index)) {
+    contact.armA -= 0.5 * link;
+    contact.armB += 0.5 * link;
+  }
+}
+
 void ExactWorld::resolve(Encounter& encounter) {
   std::vector<ImpactBody> bodies;
   for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
@@ -163,7 +186,24 @@ void ExactWorld::resolve(Encounter& encounter) {
     }
   }
   account_.strikes(mayLose);
-  account_.solved(resolveImpact(bodies, encounter.contacts, encounter.shares));
+  std::vector<ImpactContact> contacts = encounter.contacts;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    joinPoints(encounter, k, contacts[k]);
+  }
+  double radius = 0;
+  double rate = 0;  // [1/s]
+  for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
+    const Body& body = *mover(encounter.ranks[i]).body;
+    if (!isImmovable(body.mass)) {
+      const BodyState& state = encounter.before[i];
+      radius = std::max(radius, radiusOf(body));
+      rate = std::max(
+          rate, state.velocity.norm() / radiusOf(body) + careen::angularVelocity(body.mass, state).norm());
+    }
+  }
+  account_.solved(
+      resolveImpact(bodies, contacts, encounter.shares,
+                    {.tolerable = tolerableResidual(tolerance_, radius, rate, world_.gravity.norm())}));
 }
 
 void ExactWorld::record(const Encounter& encounter) {

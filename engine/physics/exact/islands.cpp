@@ -34,6 +34,7 @@ bool movesAlike(const BodyState& x, const BodyState& y) {
 // as many each time that was not enough. Those that meet without an impact pass each other.
 void ExactWorld::findChattering(Encounter& encounter) {
   constexpr int kMostInWindow = 12;
+  constexpr int kMostPassing = 256;
   constexpr int kMostAlone = 64;  // 2e-9 m high at a tolerance of 1e-6 m
   constexpr double kEndless = 1 - 0x1p-12;
   constexpr int kFirstTimeSteps = 16;
@@ -79,7 +80,7 @@ void ExactWorld::findChattering(Encounter& encounter) {
   } else if (most > kMostInWindow && encounter.cause != EventKind::kStep &&
              std::none_of(encounter.shares.begin(), encounter.shares.end(),
                           [](const ImpactShare& share) { return share.impulse > 0; })) {
-    encounter.passing = std::max(encounter.passing, kHardlyParts);
+    encounter.passing = most > kMostPassing ? kNever : std::max(encounter.passing, kHardlyParts);
     encounter.cause = EventKind::kTouching;
   }
 }

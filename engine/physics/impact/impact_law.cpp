@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,8 +31,8 @@ constexpr int kMostFactorisations = 400;
 /// The laws for several contacts, all in terms of impulses from the velocity before.
 class Law {
  public:
-  Law(ContactProblem problem, std::span<const ImpactContact> contacts)
-      : problem_(std::move(problem)), before_(problem_.free), contacts_(contacts) {
+  Law(ContactProblem problem, std::span<const ImpactContact> contacts, ImpactAccuracy accuracy)
+      : problem_(std::move(problem)), before_(problem_.free), contacts_(contacts), accuracy_(accuracy) {
     double scale = 0;  // [m/s] Σ|n_k q_k| of a contact: its speeds are rounded by parts of that
     for (const ContactProblem::Contact& contact : problem_.contacts) {
       scale = std::max(scale, sumOfTerms(contact, 0, before_, [](double term) { return std::fabs(term); }));
@@ -122,22 +121,20 @@ class Law {
     return orderFreeSums<1>(ofBodies)[0];
   }
 
-  std::optional<Impulses> trySolve(const ContactProblem& problem, int mostFactorisations) {
-    ContactSolution solution;
-    if (!solver_.solve(problem, solution, mostFactorisations) &&
-        !(solution.residual <= kTolerable * solution.scale)) {
-      return std::nullopt;
-    }
-    return solution.impulses;
+  /// From the solution's impulses, if it has some; they are the best that were found.
+  bool trySolve(const ContactProblem& problem, int mostFactorisations, ContactSolution& solution) {
+    return solver_.solve(problem, solution, mostFactorisations) ||
+           solution.residual <= std::max(kTolerable * solution.scale, accuracy_.tolerable);
   }
 
   Impulses solve(const ContactProblem& problem) {
-    const std::optional<Impulses> impulses = trySolve(problem, ContactSolver::kMost);
-    if (!impulses) {
+    ContactSolution solution;
+    if (!trySolve(problem, ContactSolver::kMost, solution) &&
+        !trySolve(problem, ContactSolver::kMost, solution)) {
       throw NumericalError("impact: no impulses of its " + std::to_string(problem.contacts.size()) +
                            " contacts were found");
     }
-    return *impulses;
+    return solution.impulses;
   }
 
   void findApproaching(std::span<const double> q, Chosen& approaches) const {
@@ -245,8 +242,9 @@ class Law {
   std::vector<double> before_;
   std::span<const ImpactContact> contacts_;
   ContactSolver solver_;
-  double rounding_ = 0;
-  Impulses plastic_;  // empty: not yet computed
+  ImpactAccuracy accuracy_;
+  double rounding_ = 0;  // [m/s]
+  Impulses plastic_;     // empty: not yet computed
 };
 
 /// The contact problem whose targets are the normal speeds that restitution sets and the slip that it adds. A
@@ -265,8 +263,13 @@ Impulses Law::withFriction(const Impulses& smooth) {
       rough.contacts[c].target = {smooth[c][0] > 0 ? part * speed(c, 0, parting) : 0,
                                   part * speed(c, 1, restituted), part * speed(c, 2, restituted)};
     }
-    if (std::optional<Impulses> impulses = trySolve(rough, kMostFactorisations)) {
-      return part == 1 ? shortened(smooth, std::move(*impulses)) : *impulses;
+    ContactSolution solution;
+    solution.enough = accuracy_.enough;
+    if (accuracy_.enough > 0) {
+      solution.impulses = smooth;
+    }
+    if (trySolve(rough, kMostFactorisations, solution)) {
+      return part == 1 ? shortened(smooth, std::move(solution.impulses)) : solution.impulses;
     }
   }
   return solve(problem_);
@@ -351,14 +354,14 @@ void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> c
 }  // namespace
 
 ContactResiduals resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts,
-                               std::span<ImpactShare> shares) {
+                               std::span<ImpactShare> shares, ImpactAccuracy accuracy) {
   if (contacts.size() == 1) {
     const ImpactContact& only = contacts[0];
     const ImpactBody* b = only.b.isWall() ? nullptr : &bodies[static_cast<std::size_t>(only.b.body())];
     shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)], b, only);
     return {};
   }
-  Law law(impactProblemOf(bodies, contacts), contacts);
+  Law law(impactProblemOf(bodies, contacts), contacts, accuracy);
   const Impulses impulses = law.resolve();
   std::vector<Vec3> world(contacts.size());
   for (std::size_t c = 0; c < contacts.size(); ++c) {

@@ -35,6 +35,12 @@ struct ImpactShare {
   double tangential = 0;  ///< [N s] size of the friction part, ≤ μ · impulse
 };
 
+/// Residuals of the equations of several contacts [m/s] that the caller can do with; 0: rounding.
+struct ImpactAccuracy {
+  double enough = 0;     ///< of friction's: no better one is looked for
+  double tolerable = 0;  ///< where no better one is found
+};
+
 /// Resolves all contacts at once: changes velocities and angular momenta, and fills one share per contact.
 /// Contacts that do not approach take part: impulses may reach them through their neighbours. Throws
 /// NumericalError if a number is not finite or neither side of a contact can move.
@@ -72,7 +78,7 @@ struct ImpactShare {
 ///
 /// Returns the residuals of the contact problems that were solved for it; one contact needs none.
 ContactResiduals resolveImpact(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts,
-                               std::span<ImpactShare> shares);
+                               std::span<ImpactShare> shares, ImpactAccuracy accuracy = {});
 
 /// Speed below which a contact counts as not approaching, as a fraction of Σ|n_k q_k| at its contacts:
 /// rounding error.

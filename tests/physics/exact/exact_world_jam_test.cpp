@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <stdexcept>
 #include <string>
+#include <variant>
 
 #include "physics/geometry/separation.h"
 #include "support/exact_runs.h"
@@ -97,12 +100,59 @@ TEST(ExactWorldJam, harmonicOverhangsStandByAHair) {
   }
 }
 
+struct Balance {
+  double turned = 0;  // [1] largest change of angular momentum
+  double gained = 0;  // [1] largest rise of energy
+};
+
+// At the moments where motions of all bodies that touch begin: between them they are polynomials.
+Balance balanceOf(const World& world, const Recorded& run) {
+  std::set<double> times;
+  for (const auto& motions : run.motions) {
+    for (const auto& [start, motion] : motions) {
+      times.insert(start);
+    }
+  }
+  Balance balance;
+  Vec3 first = Vec3::Zero();
+  double energy = 0;
+  double energyAtFirst = 0;
+  for (const double time : times) {
+    Vec3 angular = Vec3::Zero();
+    double kinetic = 0;
+    double scale = 0;
+    bool begins = true;
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+      const auto after = std::upper_bound(run.motions[i].begin(), run.motions[i].end(), time,
+                                          [](double t, const auto& motion) { return t < motion.first; });
+      const auto& [start, motion] = *(after - 1);
+      begins = begins && (start == time || std::holds_alternative<Flight>(motion));
+      const MassProperties& mass = world.bodies[i].mass;
+      const BodyState state = stateAt(motion, mass, time - start);
+      const Vec3 orbital = mass.mass * state.pose.position.cross(state.velocity);
+      angular += orbital + state.angularMomentum;
+      scale += orbital.norm() + state.angularMomentum.norm();
+      kinetic += kineticEnergy(mass, state);
+    }
+    if (time == 0) {
+      first = angular;
+      energy = energyAtFirst = kinetic;
+    } else if (begins) {
+      balance.turned = std::max(balance.turned, (angular - first).norm() / scale);
+      balance.gained = std::max(balance.gained, (kinetic - energy) / energyAtFirst);
+      energy = kinetic;
+    }
+  }
+  return balance;
+}
+
 // A light box between two heavy ones that come together, with friction and without gravity. Looked at at
 // moments the method does not choose.
 TEST(ExactWorldJam, squeezedBoxesStayOutOfEachOther) {
   test::Random random(3059);
   double deepest = 0;
   double turned = 0;
+  double gained = 0;
   for (int k = 0; k < 60; ++k) {
     World world;
     const double heavy = std::pow(10.0, random.between(0, 4));
@@ -116,14 +166,6 @@ TEST(ExactWorldJam, squeezedBoxesStayOutOfEachOther) {
       body.material.friction = friction;
       world.bodies.push_back(body);
     }
-    const auto momentum = [&](auto&& stateOf) {
-      Vec3 sum = Vec3::Zero();
-      for (std::size_t i = 0; i < 3; ++i) {
-        const BodyState state = stateOf(i);
-        sum += state.pose.position.cross(world.bodies[i].mass.mass * state.velocity) + state.angularMomentum;
-      }
-      return sum;
-    };
     const double duration = 0.8;
     const Recorded run = runFor(world, duration);
     const auto at = [&](std::size_t i, double time) {
@@ -141,14 +183,16 @@ TEST(ExactWorldJam, squeezedBoxesStayOutOfEachOther) {
                                          .gap());
       }
     }
-    const Vec3 before = momentum([&](std::size_t i) { return world.bodies[i].initial; });
-    const Vec3 after = momentum([&](std::size_t i) { return at(i, duration); });
-    turned = std::max(turned, (after - before).norm() / heavy);
+    const Balance balance = balanceOf(world, run);
+    turned = std::max(turned, balance.turned);
+    gained = std::max(gained, balance.gained);
   }
   EXPECT_LT(deepest, 3e-6);  // the tolerance is 1e-6
-  EXPECT_LT(turned, 1e-5);
+  EXPECT_LT(turned, 1e-12);
+  EXPECT_LT(gained, 1e-8);  // measured 2.4e-9: of time steps, which are of second order
   RecordProperty("deepest", std::to_string(deepest * 1e9) + "e-9");
-  RecordProperty("turned", std::to_string(turned * 1e9) + "e-9");
+  RecordProperty("turned", std::to_string(turned * 1e15) + "e-15");
+  RecordProperty("gained", std::to_string(gained * 1e12) + "e-12");
 }
 
 // A light box jammed between two heavy ones that a spring pulls together, without gravity. Near the jam no
@@ -232,6 +276,52 @@ void expectNoGainInASteepGroove(bool spring) {
 TEST(ExactWorldJam, aBoxInASteepGrooveGainsNoEnergy) {
   expectNoGainInASteepGroove(false);
   expectNoGainInASteepGroove(true);
+}
+
+class Impatient : public Recorder {
+ public:
+  void moves(BodyIndex /*body*/, double /*time*/, const Motion& /*motion*/) override {
+    if (++motions > 100000) {
+      throw std::runtime_error("it does not end");
+    }
+  }
+  void strikes(const Impact& /*impact*/) override {}
+  int motions = 0;
+};
+
+// A row of boxes in touch, struck askew: two faces at 1e-3 rad pass each other, a contact opens while the gap
+// along its edges stays closed to rounding, and the search found the same meeting again every 3e-14 s.
+TEST(ExactWorldJam, facesThatPassWithoutAnImpactPass) {
+  struct Size {
+    double y, z, mass;
+  };
+  const std::vector<Size> row{{0.13817279920391487, 0.10900478832976741, 1},
+                              {0.13042995421203804, 0.11302109031074202, 1},
+                              {0.11312380772329596, 0.14861492719423747, 0.45812277722841077},
+                              {0.15186632768207398, 0.16086749544501533, 1},
+                              {0.18011744111585928, 0.12439356136617495, 1},
+                              {0.16684855312554064, 0.12402336258047558, 0.6685472986663396},
+                              {0.14582247969783996, 0.11381003558724329, 1},
+                              {0.18674612158630494, 0.1339543895798859, 1},
+                              {0.13580349952295209, 0.10369290400725867, 1},
+                              {0.16710154337320543, 0.18783250542666496, 1},
+                              {0.11709563871603017, 0.14042067263986999, 1}};
+  const double x = 0.11109539982056495;
+  World world;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const auto k = static_cast<double>(i + 1);
+    world.bodies.push_back(box("b" + std::to_string(10 + i), {x, row[i].y, row[i].z}, row[i].mass,
+                               {2 * x * k, 0, 0}, Vec3::Zero(), Vec3::Zero(), 0.3189776739302128));
+  }
+  world.bodies.push_back(box("b99", {x, x, x}, 4000 * x * x * x, {-1, 0.03, 0}, {3.011839912293995, 0, 0},
+                             {1.6671351843305655, 0.1935561920050608, 0.503481080352798},
+                             0.3189776739302128));
+  for (Body& body : world.bodies) {
+    body.material.friction = 0.3;
+  }
+  Impatient recorder;
+  EXPECT_NO_THROW(
+      ExactWorld(world, {.duration = 2, .crowds = {.when = CrowdSettings::When::kNever}}, recorder).run({}));
 }
 
 }  // namespace
