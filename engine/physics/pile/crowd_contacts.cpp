@@ -40,8 +40,7 @@ void Crowd::lookAround() {
         continue;
       }
       looked_[k] = lookAt(pair) ? 2 : 1;
-      if (looked_[k] == 2 && (a.asleep || isAsleep(pair.b)) && !manifolds_[at(pair.slot)].carries &&
-          wouldPush(pair, manifolds_[at(pair.slot)])) {
+      if (looked_[k] == 2 && (a.asleep || isAsleep(pair.b)) && wouldPush(pair, manifolds_[at(pair.slot)])) {
         wakeCluster(a.asleep ? a.cluster : bodyAt(pair.b).cluster);
         woke = true;
       }
@@ -148,7 +147,8 @@ PileManifold& Crowd::manifoldOf(PilePair& pair) {
   return manifold;
 }
 
-// Whether the moving body would push the sleeping one by more than the tolerated imbalance at rest.
+// Whether the moving body would push the sleeping one by more than the tolerated imbalance at rest, or strike
+// it, if forces between them are part of the balance: how those change is known after the step.
 bool Crowd::wouldPush(const PilePair& pair, const PileManifold& manifold) const {
   const PileBody& a = bodies_[at(pair.a)];
   const PileBody& b = bodyAt(pair.b);
@@ -162,7 +162,8 @@ bool Crowd::wouldPush(const PilePair& pair, const PileManifold& manifold) const 
     const PilePoint& point = manifold.points[at(k)];
     const Vec3 relative = speed(a, point.world) - speed(b, point.world + a.position - b.position);
     const double approach = -manifold.frameOf(k).normal.dot(relative) - std::max(0.0, point.gap) / h_;
-    if (approach * heavy > kFeasible * gravityMagnitude_ * h_ * (heavy + light)) {
+    const double tolerated = manifold.carries ? kBounceFrom : kFeasible * (heavy + light) / heavy;
+    if (approach > tolerated * gravityMagnitude_ * h_) {
       return true;
     }
   }

@@ -53,12 +53,14 @@ void FlightAccount::arrives(std::size_t body, const BodyState& state, double ela
   passes(body, state);
   const BodyAccount& begun = bodies_[body];
   const double mass = world_.bodies[body].mass.mass;
-  expect(mass * state.velocity, begun.momentum + elapsed * mass * world_.gravity);
-  expect(state.angularMomentum, begun.angularMomentum);
+  const Vec3 due = begun.momentum + elapsed * mass * world_.gravity;
+  expect(mass * state.velocity, due, 0);
+  // A box that hardly turns has an angular momentum of rounding.
+  expect(state.angularMomentum, begun.angularMomentum, world_.bodies[body].halfExtents.norm() * due.norm());
 }
 
-void FlightAccount::expect(const Vec3& momentum, const Vec3& due) {
-  const double size = std::max(momentum.norm(), due.norm());
+void FlightAccount::expect(const Vec3& momentum, const Vec3& due, double least) {
+  const double size = std::max({momentum.norm(), due.norm(), least});
   if (size > 0) {
     momentumError_ = std::max(momentumError_, (momentum - due).norm() / size);
   }

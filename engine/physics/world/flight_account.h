@@ -46,7 +46,7 @@ class FlightAccount {
   };
   void see(std::size_t body, const BodyState& state);
   double energy() const;
-  void expect(const Vec3& momentum, const Vec3& due);
+  void expect(const Vec3& momentum, const Vec3& due, double least);
 
   const World& world_;
   std::vector<BodyAccount> bodies_;

@@ -236,6 +236,27 @@ TEST(Crowd, oneRestlessBodyKeepsOnlyItsNeighboursAwake) {
   EXPECT_TRUE(woke);
 }
 
+// One that nearly touches a box asleep, and that another throws against it: what sleeps takes the momentum.
+TEST(Crowd, boxThatIsStruckInItsSleepByOneBesideItTakesTheMomentum) {
+  const Material smooth{.restitution = 0, .friction = 0.001};
+  World world = floorWorld(smooth);
+  const Vec3 half = Vec3::Constant(0.25);
+  world.bodies.push_back(crate("asleep", half, Vec3(0, 0, 0.25), smooth));
+  // Slides by 1 mm in 0.1 s and stops at some 3 mm from it, then is thrown against it.
+  world.bodies.push_back(crate("beside", half, Vec3(0.503, 0, 0.25), smooth));
+  world.bodies.push_back(crate("thrown", half, Vec3(3.0, 0, 0.25), smooth));
+  world.bodies[2].initial.velocity = Vec3(-4, 0, 0);
+  world.bodies[1].initial.velocity = Vec3(0, 0.3, 0);
+  test::CrowdRun crowd(world);
+  double least = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    crowd.step();
+    least = std::min(least, linearMomentum(world, crowd.states()).x());
+  }
+  RecordProperty("momentum", std::to_string(linearMomentum(world, crowd.states()).x()));
+  EXPECT_LT(linearMomentum(world, crowd.states()).x(), 0.97 * least);
+}
+
 // Corners of boxes that spin strike walls beside the points that were nearest when the step began.
 TEST(Crowd, spinningBoxesStayOutOfWalls) {
   const Material material{.restitution = 0, .friction = 0.5};
