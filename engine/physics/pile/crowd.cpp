@@ -219,15 +219,18 @@ double Crowd::chooseLength(double most) const {
 
 void Crowd::take(double length, bool mayShift) {
   // Stored impulses are those of the last step. If that was much shorter, they are those of impacts.
-  impulseScale_ = std::min(length / h_, kMostScaled);
+  const double scale = std::min(length / h_, kMostScaled);
   h_ = length;
   findLoads();
   wakeDisturbed();
-  lookAround();
-  loadSolver();
-  solver_.link();
-  solver_.wakeAll();
-  solve(kSweeps);
+  for (bool struck = true; struck; struck = wakeStruck()) {
+    impulseScale_ = scale;
+    lookAround();
+    loadSolver();
+    solver_.link();
+    solver_.wakeAll();
+    solve(kSweeps);
+  }
   keepImpulses();
   findDisturbed();
   shifts_ = false;

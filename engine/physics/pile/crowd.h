@@ -140,6 +140,8 @@ class Crowd {
   static constexpr double kFeasible = 0x1p-10;
   /// [1] of a body's weight and of what another pushes it with: change of the latter that wakes it.
   static constexpr double kMayChange = 0x1p-3;
+  /// [1] of the same: change that is a strike, to which it must not have been a wall.
+  static constexpr double kStrike = 4;
   static constexpr int kStepsAlone = 2;
   static constexpr double kLongestStep = 1.0 / 180;  // [s] at the usual tolerance
   double longestStep() const { return kLongestStep * scale_; }
@@ -196,6 +198,7 @@ class Crowd {
   void restoreImpulses(const std::vector<int>& slots, const std::vector<char>& sleeping);
   void findDisturbed();
   void wakeDisturbed();
+  bool wakeStruck();
   void loadSolver();
   void solve(int sweeps);
   bool solveDirectly();

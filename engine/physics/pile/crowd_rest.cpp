@@ -284,6 +284,33 @@ void Crowd::wakeDisturbed() {
   wakeNeighbours();
 }
 
+// Wakes what an impulse of this step went through as if it were a wall: the step is to be solved anew.
+bool Crowd::wakeStruck() {
+  bool woke = false;
+  for (const int slot : near_) {
+    const PileManifold& manifold = manifolds_[at(slot)];
+    if (!isHalfAsleep(manifold)) {
+      continue;
+    }
+    Vec3 impulse = Vec3::Zero();
+    for (int k = 0; k < manifold.count; ++k) {
+      const int row = manifold.points[at(k)].row;
+      impulse += row < 0 ? Vec3(Vec3::Zero()) : Vec3(solver_.normalImpulse(row) * manifold.frameOf(k).normal);
+    }
+    const PileBody& sleeper = bodies_[at(manifold.a)].asleep ? bodies_[at(manifold.a)] : bodyAt(manifold.b);
+    const Vec3 carried = manifold.carries ? manifold.carried : Vec3(Vec3::Zero());
+    const double load = carried.norm() + gravityMagnitude_ / sleeper.inverseMass;
+    if ((impulse / h_ - carried).norm() > kStrike * load) {
+      wakeCluster(sleeper.cluster);
+      woke = true;
+    }
+  }
+  if (woke) {
+    wakeNeighbours();
+  }
+  return woke;
+}
+
 void Crowd::wakeCluster(int cluster) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     PileBody& body = bodies_[i];
