@@ -14,7 +14,7 @@ shades = "#4477aa #228833 #aa3377 #66ccee #ccbb44 #332288"
 do for [kind in "svg png"] {
   if (kind eq "svg") { eval svg(900, 480) } else { eval png(900, 480) }
   plot "data.txt" using (shown(1, 2)):4:5 with filledcurves lc rgb "#f0c9c0" notitle, \
-    for [k = 2:series] "data.txt" using (shown(k, 2)):3 with lines lc rgb word(shades, 1 + (k - 2) % 6) title texts[2 + (k > series ? series : k)] noenhanced, \
+    for [n = 2:series] "data.txt" using (shown(n, 2)):3 with lines lc rgb word(shades, 1 + (n - 2) % 6) title texts[2 + (n)] noenhanced, \
     "data.txt" using (shown(1, 2)):3 with lines lw 2 lc rgb "#c8553d" title texts[3] noenhanced, \
     "data.txt" using (shown(0, 2)):3:4:5 with yerrorbars pt 7 ps 0.7 lc rgb "#222222" title texts[2] noenhanced
   unset output

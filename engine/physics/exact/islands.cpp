@@ -8,6 +8,7 @@
 #include "physics/geometry/contact_points.h"
 #include "physics/geometry/separation.h"
 #include "physics/impact/settling.h"
+#include "physics/search/first_contact_search.h"
 
 // The next motion of touching bodies: Flight, Contact or Rest.
 
