@@ -9,6 +9,7 @@ set yrange [0 : 1]
 stats "data.txt" using 1 nooutput
 series = int(STATS_max)
 shown(k, c) = column(1) == k ? column(c) : NaN
+# gnuplot asks for one title more than it draws series.
 label(n) = n > series ? "" : texts[2 + n]
 shades = "#4477aa #228833 #aa3377 #66ccee #ccbb44 #332288"
 
