@@ -2,12 +2,13 @@
 #   texts.txt   title, then a label for each series
 #   data.txt    series (0: measured, 1: the usual throw, from 2 on: others), x/y, part, low, high
 load "style.gp"
+# Before the range is set: stats ignores what lies outside it.
+stats "data.txt" using 1 nooutput
+series = int(STATS_max)
 set title texts[1] noenhanced
 set xlabel "x/y"
 set ylabel "part with a square face up"
 set yrange [0 : 1]
-stats "data.txt" using 1 nooutput
-series = int(STATS_max)
 shown(k, c) = column(1) == k ? column(c) : NaN
 # gnuplot asks for one title more than it draws series.
 label(n) = n > series ? "" : texts[2 + n]
