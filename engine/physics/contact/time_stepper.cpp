@@ -233,6 +233,7 @@ double TimeStepper::step(double most) {
 
 // Places at the end of a step: contacts found anew, and moved apart where drift has made them deep.
 void TimeStepper::correct() {
+  reached_ = end_;
   acceleration_ = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (length_ > 0) {
@@ -264,6 +265,7 @@ void TimeStepper::cutTo(double length) {
     }
     equations_.keepMomenta(start_, length, pushing, end_);
     length_ = length;
+    reached_ = end_;
     findContacts(end_);
   }
 }
@@ -297,7 +299,7 @@ bool TimeStepper::isQuiet() const {
   return fastest * fastest <= 0x1p-6 * gravity * closed();
 }
 
-ContactStep TimeStepper::motion(std::size_t body) const {
+ContactStep TimeStepper::motion(std::size_t body, const GroupState& reached) const {
   const auto end = [&](const GroupState& at) {
     const MassProperties& mass = bodies_[body].body->mass;
     const Vec3 spin = mass.inverseInertiaTimes(at[body].worldFromBody.conjugate() * at[body].angularMomentum);
@@ -307,7 +309,7 @@ ContactStep TimeStepper::motion(std::size_t body) const {
                    .spinBody = spin};
   };
   StepEnd from = end(start_);
-  StepEnd to = end(end_);
+  StepEnd to = end(reached);
   if (to.worldFromBody.coeffs().dot(from.worldFromBody.coeffs()) < 0) {
     to.worldFromBody.coeffs() = -to.worldFromBody.coeffs();
   }

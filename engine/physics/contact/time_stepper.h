@@ -44,9 +44,11 @@ class TimeStepper {
   std::vector<ContactFeature> touching() const;
   std::vector<ContactFeature> pressed() const;
 
+  /// At the end of the last step, contacts moved apart where drift has made them deep: in the motion during
+  /// it they are not, as that way, far smaller than the tolerance, would be a speed in a short step.
   const GroupState& state() const { return end_; }
   /// Motion of a body in the last step.
-  ContactStep motion(std::size_t body) const;
+  ContactStep motion(std::size_t body) const { return motion(body, reached_); }
   /// Impacts at the start of the last step.
   const std::vector<GroupImpact>& impacts() const { return impacts_; }
   /// Whether nothing moves faster than what falling through a small part of the tolerance gives.
@@ -96,6 +98,7 @@ class TimeStepper {
   void listWatches(double h);
   void watchWalls(std::size_t body, double reach);
   void watch(const Watch& watch);
+  ContactStep motion(std::size_t body, const GroupState& to) const;
   void setMotions();
   GroupBody bodyWithin(std::size_t body, double time) const;
   void setWithin(const Watch& watch, double time);
@@ -129,6 +132,7 @@ class TimeStepper {
   ImplicitStep equations_;
   GroupState start_;
   GroupState end_;
+  GroupState reached_;  // the end before correct()
   GroupState middle_;
   GroupState coarse_;
   std::vector<Found> found_;              // contacts at the start

@@ -228,7 +228,7 @@ void TimeStepper::setMotions() {
   motions_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].isHeld()) {
-      motions_[i] = motion(i);
+      motions_[i] = motion(i, end_);
     }
   }
 }

@@ -23,12 +23,14 @@ constexpr double kOnePoint = 0x1p-42;
 ExactWorld::Encounter ExactWorld::gather(const Event& event) {
   Encounter encounter;
   encounter.time = event.time;
-  // The same pair triggers again without approaching (edges passing within rounding): hand it to contact
-  // stepping. At first only what hardly parts persists: the rest would lose its restitution.
+  // The same pair triggers again without approaching (edges passing within rounding): what hardly parts
+  // persists. If that does not help, they go on by a few time steps, which need no list of contacts.
   constexpr int kMostMeetings = 2;
   constexpr int kMostSlowMeetings = 8;
+  constexpr int kTimeStepsOfMeeting = 8;
   const int meetings = event.kind == EventKind::kStep ? 0 : mover(event.body).atOneMoment;
-  encounter.passing = meetings > kMostSlowMeetings ? kNever : meetings > kMostMeetings ? kHardlyParts : 0;
+  encounter.passing = meetings > kMostMeetings ? kHardlyParts : 0;
+  encounter.timeSteps = meetings > kMostSlowMeetings ? kTimeStepsOfMeeting : 0;
   encounter.cause = meetings > kMostMeetings ? EventKind::kTouching : event.kind;
   reach(event, encounter);
   return encounter;
@@ -208,9 +210,10 @@ void ExactWorld::resolve(Encounter& encounter) {
 
 void ExactWorld::record(const Encounter& encounter) {
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
-    const ImpactContact& contact = encounter.contacts[k];
     const ImpactShare& share = encounter.shares[k];
     if (share.impulse > 0) {
+      ImpactContact contact = encounter.contacts[k];
+      joinPoints(encounter, k, contact);
       const auto a = static_cast<std::size_t>(contact.a);
       const auto listed = [&](int index) {
         return mover(encounter.ranks[static_cast<std::size_t>(index)]).listed;

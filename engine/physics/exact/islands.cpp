@@ -81,7 +81,8 @@ void ExactWorld::findChattering(Encounter& encounter) {
   } else if (most > kMostInWindow && encounter.cause != EventKind::kStep &&
              std::none_of(encounter.shares.begin(), encounter.shares.end(),
                           [](const ImpactShare& share) { return share.impulse > 0; })) {
-    encounter.passing = most > kMostPassing ? kNever : std::max(encounter.passing, kHardlyParts);
+    encounter.passing = kHardlyParts;
+    encounter.timeSteps = most > kMostPassing ? kFirstTimeSteps : 0;
     encounter.cause = EventKind::kTouching;
   }
 }

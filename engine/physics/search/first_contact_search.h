@@ -40,9 +40,11 @@ inline double newtonStep(double gap, double approach, double curvature) {
 template <class Approach>
 FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
   // Evaluation budget: when exceeded, the search returns what it has proved. Evaluations with the gap within
-  // rounding: when exceeded, the pair is in lasting contact.
+  // rounding, or so near to it that hardly any time is proved free, as where edges that were parallel turn on
+  // each other: when exceeded, the pair is in lasting contact.
   constexpr int kMostEvaluations = 50'000;
   constexpr int kMostGrazing = 500;
+  constexpr double kNearRounding = 0x1p12;
   const auto noneUntil = [](double time, int evaluations) {
     FirstContact none;
     none.time = time;
@@ -50,12 +52,22 @@ FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
     return none;
   };
 
+  int evaluations = 1;
+  const auto found = [&](ContactKind kind, double time) {
+    FirstContact contact = approach.describe();
+    contact.kind = kind;
+    contact.time = time;
+    contact.evaluations = evaluations;
+    return contact;
+  };
+
   double t = window.from;
   bool grazing = false;  // gap zero within rounding, not closing
   double base = 0;       // gap when grazing began, at most 0
   int grazes = 0;
+  int creeps = 0;
   FirstContact touch;
-  for (int evaluations = 1; evaluations <= kMostEvaluations; ++evaluations) {
+  for (; evaluations <= kMostEvaluations; ++evaluations) {
     if (!grazing) {
       t = approach.skip(t);
     }
@@ -66,25 +78,24 @@ FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
     const double gap = approach.gap();
     const double tolerance = approach.tolerance();
     double floor = 0;
+    creeps += gap <= kNearRounding * tolerance ? 1 : 0;
     if (gap > tolerance) {
       grazing = false;
+      if (creeps > kMostGrazing) {
+        return found(ContactKind::kTouching, t);
+      }
     } else if (approach.closing() && (!grazing || approach.closesHard())) {
-      FirstContact impact = approach.describe();
-      impact.kind = ContactKind::kImpact;
       // A root before the start of the search does not count: boxes that overlap by rounding may have touched
       // ever since. They meet anew where they are as deep as they were, when other corners come down to it.
       const double root = t + approach.polish(grazing ? base : 0);
-      impact.time = root < (grazing ? touch.time : window.from) ? t : std::min(root, window.until);
-      impact.evaluations = evaluations;
-      return impact;
+      return found(ContactKind::kImpact,
+                   root < (grazing ? touch.time : window.from) ? t : std::min(root, window.until));
     } else {
       if (!grazing) {
         grazing = true;
         grazes = 0;
         base = std::min(gap, 0.0);
-        touch = approach.describe();
-        touch.kind = ContactKind::kTouching;
-        touch.time = t;
+        touch = found(ContactKind::kTouching, t);
       }
       ++grazes;
       touch.evaluations = evaluations;
@@ -96,11 +107,7 @@ FirstContact findFirstContact(Approach& approach, const SearchWindow& window) {
     const double next = t + approach.freeStep(floor, window.until - t);
     if (next <= t) {
       // The gap closes within one ulp of the time.
-      FirstContact now = approach.describe();
-      now.kind = approach.closing() ? ContactKind::kImpact : ContactKind::kTouching;
-      now.time = t;
-      now.evaluations = evaluations;
-      return now;
+      return found(approach.closing() ? ContactKind::kImpact : ContactKind::kTouching, t);
     }
     t = next;
   }

@@ -142,5 +142,16 @@ TEST(FirstContactSearch, itsThresholdsByHand) {
   EXPECT_EQ(turningBound(box), 11);
 }
 
+// Where edges that were parallel turn on each other, no direction proves more than the gap over their speed,
+// though the gap opens: a thousand proofs of 1e-11 s each tell that this will not end.
+TEST(FirstContactSearch, givesUpWhereHardlyAnyTimeIsProvedFree) {
+  Curve opening{.gapAt = [](double t) { return 1e-12 + 1e-4 * t * t; },
+                .rateAt = [](double) { return -0.1; }};
+  const FirstContact contact = findFirstContact(opening, {.from = 0, .until = 1});
+  EXPECT_EQ(contact.kind, ContactKind::kTouching);
+  EXPECT_LT(contact.evaluations, 1000);
+  EXPECT_LT(contact.time, 1e-7);
+}
+
 }  // namespace
 }  // namespace careen
