@@ -28,6 +28,13 @@ constexpr double kFirst = 0x1p-8;
 constexpr int kStepAttempts = 60;
 constexpr int kStepRefinements = 50;
 constexpr int kMostUnsolved = 10;
+/// [1] of a step: a moment, in which forces do next to nothing and only impulses count. In a much shorter one
+/// what gravity gives would count as none, and no impulses be found.
+constexpr double kMoment = 0x1p-6;
+/// [1] of the fastest speed, and of the change in a step: a change of velocity that is looked at again, and
+/// one that stays however short the step.
+constexpr double kJolt = 0x1p-4;
+constexpr double kStays = 0.5;
 /// [1] of a step: roots are told apart.
 constexpr double kPolynomialRootWidth = 0x1p-50;
 
@@ -46,16 +53,32 @@ TimeStepper::TimeStepper(const World& world, const std::vector<TouchingBody>& bo
   findContacts(end_);
 }
 
-// [s] Time in which nothing moves by more than what counts as closed.
-double TimeStepper::shortestStep() {
+// [m/s] Of the bodies and their corners, at most.
+double TimeStepper::fastestOf(const GroupState& state) const {
   double fastest = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].isHeld()) {
-      const Kinematics at = equations_.kinematics(i, start_[i]);
+      const Kinematics at = equations_.kinematics(i, state[i]);
       fastest =
           std::max(fastest, at.velocity.norm() + at.angularVelocity.norm() * radiusOf(*bodies_[i].body));
     }
   }
+  return fastest;
+}
+
+// [m/s] The largest change of a velocity from the step's start, corners included.
+double TimeStepper::changeTo(const GroupState& end) const {
+  GroupState change = start_;
+  for (std::size_t i = 0; i < change.size(); ++i) {
+    change[i].velocity = end[i].velocity - start_[i].velocity;
+    change[i].angularMomentum = end[i].angularMomentum - start_[i].angularMomentum;
+  }
+  return fastestOf(change);
+}
+
+// [s] Time in which nothing moves by more than what counts as closed.
+double TimeStepper::shortestStep() {
+  const double fastest = fastestOf(start_);
   const double acceleration = std::max(acceleration_, equations_.freeAcceleration(start_));
   double shortest = kForever;
   if (fastest > 0) {
@@ -165,6 +188,25 @@ bool TimeStepper::tryHalves(double h) {
   return solved;
 }
 
+// Where the impulses of a step stay finite as it shrinks, they are impulses without approach: they act in a
+// moment, and the step becomes that moment. Else it would go on with the velocities before while they grow.
+void TimeStepper::shortenJolt(double& h) {
+  const double change = changeTo(end_);
+  if (change <= kJolt * fastestOf(start_)) {
+    return;
+  }
+  choose(h);
+  jolted_ = tryStep(kMoment * h) && changeTo(coarse_) > kStays * change;
+  if (jolted_) {
+    end_ = coarse_;
+    h *= kMoment;
+    for (ClosedContact& contact : law_) {  // what the next step starts from
+      contact.push *= kMoment;
+      contact.friction *= kMoment;
+    }
+  }
+}
+
 // One attempt at a step; `h` becomes shorter where an event ends it, or for the next attempt.
 TimeStepper::Attempt TimeStepper::attempt(double& h, double shortest) {
   choose(h);
@@ -205,6 +247,7 @@ TimeStepper::Attempt TimeStepper::attempt(double& h, double shortest) {
 
 double TimeStepper::step(double most) {
   start_ = end_;
+  jolted_ = false;
   impacts_.clear();
   collide();
   const double shortest = std::min(shortestStep(), most);
@@ -225,6 +268,7 @@ double TimeStepper::step(double most) {
       }
     }
   }
+  shortenJolt(h);
   length_ = h;
   known_ = law_;
   correct();
@@ -236,7 +280,7 @@ void TimeStepper::correct() {
   reached_ = end_;
   acceleration_ = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (length_ > 0) {
+    if (length_ > 0 && !jolted_) {
       acceleration_ = std::max(acceleration_, (end_[i].velocity - start_[i].velocity).norm() / length_);
     }
   }

@@ -118,6 +118,9 @@ class TimeStepper {
   bool tryHalves(double h);
   bool locate(double& h);
   double rootOf(const Watch& watch, double h, double atEnd);
+  void shortenJolt(double& h);
+  double fastestOf(const GroupState& state) const;
+  double changeTo(const GroupState& end) const;
   double errorOf(const GroupState& coarse, const GroupState& fine, double h) const;
   double shortestStep();
   double longestStep() const;
@@ -150,6 +153,7 @@ class TimeStepper {
   ContactResiduals residuals_;  // of impacts
   double acceleration_ = 0;     // [m/s²] largest of the last step
   double deepest_ = 0;
+  bool jolted_ = false;  // the last step is a moment, see shortenJolt()
 };
 
 }  // namespace careen
