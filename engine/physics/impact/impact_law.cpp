@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,11 @@ constexpr std::size_t kSix = ContactProblem::kAxes;
 constexpr double kTolerable = 0x1p-24;
 /// [1] of the restitution that is tried, one after the other, where bodies are wedged.
 constexpr std::array<double, 4> kParts{1, 0.5, 0.25, 0.125};
+/// Of reflections and projections in turn: it is asked whether they have settled after so many passes, and
+/// again after each as many more.
+constexpr std::size_t kManyPasses = 32;
+/// [1] of the rounding error of approaches: speeds this small are none.
+constexpr double kSettled = 64;
 /// Until impulses count as impossible.
 constexpr int kMostFactorisations = 400;
 
@@ -84,7 +90,8 @@ class Law {
   }
 
   /// q₀ + M⁻¹ Jᵀλ, from the velocities before.
-  std::vector<double> after(const Impulses& impulses) const {
+  std::vector<double> after(const Impulses& impulses) const { return after(impulses, before_); }
+  std::vector<double> after(const Impulses& impulses, std::span<const double> from) const {
     using Six = std::array<double, kSix>;
     std::vector<std::vector<Six>> terms(before_.size() / kSix);
     for (std::size_t c = 0; c < impulses.size(); ++c) {
@@ -102,7 +109,7 @@ class Law {
         }
       }
     }
-    std::vector<double> q = before_;
+    std::vector<double> q(from.begin(), from.end());
     for (std::size_t body = 0; body < terms.size(); ++body) {
       const Six sum = orderFreeSums<kSix>(terms[body]);
       for (std::size_t k = 0; k < kSix; ++k) {
@@ -179,19 +186,35 @@ class Law {
     return plastic_;
   }
 
+  /// Where reflections and projections end that go on at the recent contacts, ever slower: they change q by
+  /// impulses of these contacts only, until none of them moves. Nothing if something else happens before.
+  std::optional<Impulses> endOf(std::span<const double> q, const Chosen& recent) {
+    Impulses last = projection(q, recent);
+    const std::vector<double> end = after(last, q);
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const double parting = speed(c, 0, end);
+      if (parting < -kSettled * rounding_ || (recent[c] != 0 && parting > kSettled * rounding_)) {
+        return std::nullopt;
+      }
+    }
+    return last;
+  }
+
   /// Xₜ: reflections about the contacts with e > t; where none of those approaches, projection onto the
   /// motions in which no other contact does, approaching yet or not: one after the other they would take
-  /// thousands of passes. Reflections alone terminate; a mixture that does not within the cap is ended by the
-  /// plastic law.
+  /// thousands of passes. Reflections alone terminate; a mixture may go on for ever, at the same contacts: it
+  /// ends with the projection to which that converges. What does not within the cap is ended by it too.
   Impulses reflected(double threshold) {
     Impulses total(contacts_.size());
     std::vector<double> q = before_;
     Chosen approaches;
     Chosen elastic(contacts_.size());
     Chosen others(contacts_.size());
+    Chosen recent(contacts_.size());  // that took an impulse since it was last asked
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       others[c] = contacts_[c].material.restitution > threshold ? 0 : 1;
     }
+    const bool isMixture = std::find(others.begin(), others.end(), 1) != others.end();
     const std::size_t cap = 100 + 10 * contacts_.size() * contacts_.size();
     for (std::size_t pass = 0; pass < cap; ++pass) {
       findApproaching(q, approaches);
@@ -200,6 +223,13 @@ class Law {
       }
       std::transform(approaches.begin(), approaches.end(), others.begin(), elastic.begin(),
                      [](char yes, char other) { return static_cast<char>(yes != 0 && other == 0 ? 1 : 0); });
+      if (isMixture && pass > 0 && pass % kManyPasses == 0) {
+        if (const std::optional<Impulses> last = endOf(q, recent)) {
+          add(total, 1, *last);
+          return total;
+        }
+        recent.assign(contacts_.size(), 0);
+      }
       const bool anyElastic = std::find(elastic.begin(), elastic.end(), 1) != elastic.end();
       const Chosen& chosen = anyElastic ? elastic : others;
       const bool isPlastic = pass == 0 && std::find(chosen.begin(), chosen.end(), 0) == chosen.end();
@@ -208,6 +238,9 @@ class Law {
         return total;  // what is left of their approach is rounding
       }
       add(total, anyElastic ? 2 : 1, change);
+      for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        recent[c] = recent[c] != 0 || change[c][0] > 0 ? 1 : 0;
+      }
       q = after(total);
     }
     add(total, 1, projection(q, Chosen(contacts_.size(), 1)));

@@ -59,6 +59,8 @@ struct ImpactAccuracy {
 ///   −e times its speed (Fig. 4).
 /// * e different per contact: ∫₀¹ Xₜ(q) dt, where Xₜ treats contact i as e = 1 if eᵢ > t, else as e = 0; a
 ///   finite sum, since the eᵢ are few. If all are equal it is the line above; it holds for the same reasons.
+///   Reflections and projections that go on for ever at the same contacts end where that leads: with the
+///   projection at these.
 /// * friction: let w = (the result above) − P(q) be what restitution adds. Friction takes the tangential
 ///   impulses of least energy within |j_t| ≤ μ j_n at the end of compression, q⁺ − w, while normal impulses
 ///   adapt so that contacts that stay active keep the normal speeds set by restitution. So friction opposes

@@ -237,5 +237,55 @@ TEST(ImpactLaw, refusesWhatCannotMoveAndWhatIsNoNumber) {
   EXPECT_THROW(scene.resolve(), NumericalError);
 }
 
+/// Of contacts with e = 1 and e = 0, one pass after the other until none approaches: reflections about those
+/// with e = 1 that approach, else the projection by the others. Returns their number.
+int goThroughAllPasses(ImpactScene& scene) {
+  for (int pass = 0; pass < 20'000; ++pass) {
+    std::vector<ImpactContact> elastic;
+    std::vector<ImpactContact> plastic;
+    bool approaches = false;
+    for (ImpactContact contact : scene.contacts) {
+      const bool closes = static_cast<double>(scene.partingSpeed(contact)) < -1e-13;
+      approaches = approaches || closes;
+      const bool isElastic = contact.material.restitution > 0;
+      contact.material.restitution = 0;
+      if (isElastic ? closes : true) {
+        (isElastic ? elastic : plastic).push_back(contact);
+      }
+    }
+    if (!approaches) {
+      return pass;
+    }
+    ImpactScene projected = scene;
+    projected.contacts = elastic.empty() ? plastic : elastic;
+    projected.resolve();
+    const double factor = elastic.empty() ? 1 : 2;
+    for (std::size_t k = 0; k < scene.states.size(); ++k) {
+      BodyState& state = scene.states[k];
+      state.velocity += factor * (projected.states[k].velocity - state.velocity);
+      state.angularMomentum += factor * (projected.states[k].angularMomentum - state.angularMomentum);
+    }
+  }
+  return -1;
+}
+
+// Reflections at some contacts and projections at others may go on for ever, ever slower. The law knows where
+// that ends. Of 1500 random scenes those with more than 64 passes.
+TEST(ImpactLaw, aMixtureEndsWhereAllItsPassesLead) {
+  for (const unsigned seed : {117U, 321U, 467U, 484U, 1138U, 1257U, 1298U}) {
+    Random random(seed);
+    ImpactScene scene = randomImpact(random, 16, false);
+    for (ImpactContact& contact : scene.contacts) {
+      contact.material.restitution = random.below(2);
+    }
+    ImpactScene slow = scene;
+    EXPECT_GT(goThroughAllPasses(slow), 64);
+    scene.resolve();
+    for (std::size_t k = 0; k < scene.states.size(); ++k) {
+      EXPECT_LT((scene.states[k].velocity - slow.states[k].velocity).norm(), 1e-10) << seed;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace careen
