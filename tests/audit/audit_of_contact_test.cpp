@@ -33,6 +33,8 @@ INSTANTIATE_TEST_SUITE_P(
         "flying-aligned",
         // Bodies moved apart at the end of a short time step, which was a speed in its motion.
         "corrected-step",
+        // The forces of a step's two halves, recorded as if they had been one: friction beyond its cone.
+        "two-halves",
         // Edges that were parallel turn on each other, 1e-15 and 1e-12 m apart: 50,000 proofs that a
         // nanosecond is free of contact, again and again: 71 s and 12 s, now 0.7 and 0.2.
         "edges-turning", "edges-turning-slowly"));

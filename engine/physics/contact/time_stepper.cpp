@@ -142,7 +142,7 @@ bool TimeStepper::locate(double& h) {
   for (int k = 0; k < kStepRefinements; ++k) {
     length_ = h;
     end_ = coarse_;
-    setMotions();
+    setMotions(end_);
     double first = h;
     for (const Watch& watch : watches_) {
       if (const double atEnd = value(watch, end_); atEnd < -0.5 * closed()) {
@@ -198,6 +198,7 @@ void TimeStepper::shortenJolt(double& h) {
   choose(h);
   jolted_ = tryStep(kMoment * h) && changeTo(coarse_) > kStays * change;
   if (jolted_) {
+    halved_ = false;
     end_ = coarse_;
     h *= kMoment;
     for (ClosedContact& contact : law_) {  // what the next step starts from
@@ -209,6 +210,7 @@ void TimeStepper::shortenJolt(double& h) {
 
 // One attempt at a step; `h` becomes shorter where an event ends it, or for the next attempt.
 TimeStepper::Attempt TimeStepper::attempt(double& h, double shortest) {
+  halved_ = false;
   choose(h);
   if (h <= shortest) {
     if (!tryStep(h)) {
@@ -237,6 +239,7 @@ TimeStepper::Attempt TimeStepper::attempt(double& h, double shortest) {
     return Attempt::kShorter;
   }
   length_ = h;
+  halved_ = true;
   if (const double dip = firstDip(); dip > 0) {
     h = std::max(shortest, dip);
     return Attempt::kShorter;
@@ -297,7 +300,7 @@ void TimeStepper::correct() {
 
 void TimeStepper::cutTo(double length) {
   if (length < length_) {
-    setMotions();
+    setMotions(reached_);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       end_[i] = bodyWithin(i, length);
     }
@@ -310,6 +313,7 @@ void TimeStepper::cutTo(double length) {
     equations_.keepMomenta(start_, length, pushing, end_);
     length_ = length;
     reached_ = end_;
+    halved_ = false;
     findContacts(end_);
   }
 }
@@ -358,8 +362,16 @@ ContactStep TimeStepper::motion(std::size_t body, const GroupState& reached) con
     to.worldFromBody.coeffs() = -to.worldFromBody.coeffs();
   }
   if (length_ > 0) {
-    from.acceleration = to.acceleration = (to.velocity - from.velocity) / length_;
-    from.spinRateBody = to.spinRateBody = (to.spinBody - from.spinBody) / length_;
+    const double half = 0.5 * length_;
+    StepEnd middle = halved_ ? end(middle_) : from;
+    if (!halved_) {
+      middle.velocity = 0.5 * (from.velocity + to.velocity);
+      middle.spinBody = 0.5 * (from.spinBody + to.spinBody);
+    }
+    from.acceleration = (middle.velocity - from.velocity) / half;
+    to.acceleration = (to.velocity - middle.velocity) / half;
+    from.spinRateBody = (middle.spinBody - from.spinBody) / half;
+    to.spinRateBody = (to.spinBody - middle.spinBody) / half;
   }
   return hermiteStep(from, to, length_);
 }

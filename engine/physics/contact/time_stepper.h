@@ -99,7 +99,7 @@ class TimeStepper {
   void watchWalls(std::size_t body, double reach);
   void watch(const Watch& watch);
   ContactStep motion(std::size_t body, const GroupState& to) const;
-  void setMotions();
+  void setMotions(const GroupState& to);
   GroupBody bodyWithin(std::size_t body, double time) const;
   void setWithin(const Watch& watch, double time);
   double valueWithin(const Watch& watch, double time);
@@ -153,6 +153,7 @@ class TimeStepper {
   ContactResiduals residuals_;  // of impacts
   double acceleration_ = 0;     // [m/s²] largest of the last step
   double deepest_ = 0;
+  bool halved_ = false;  // the last step is two of half its length, joined at middle_
   bool jolted_ = false;  // the last step is a moment, see shortenJolt()
 };
 

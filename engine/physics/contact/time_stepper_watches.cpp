@@ -224,18 +224,18 @@ double TimeStepper::dipWithin(const Watch& watch, const Bounds& bounds, const Mo
   return before > 0 ? before : dipWithin(watch, bounds, middle, to, depth - 1);
 }
 
-void TimeStepper::setMotions() {
+void TimeStepper::setMotions(const GroupState& to) {
   motions_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].isHeld()) {
-      motions_[i] = motion(i, end_);
+      motions_[i] = motion(i, to);
     }
   }
 }
 
 double TimeStepper::firstDip() {
   constexpr int kDepth = 8;
-  setMotions();
+  setMotions(end_);
   double first = 0;
   for (const Watch& watch : watches_) {
     if (watch.kind == Watch::Kind::kBeyond) {
