@@ -46,6 +46,16 @@ bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& o
 
 namespace {
 
+// A link stays, and what it names is written.
+std::filesystem::path placeOf(std::filesystem::path path) {
+  std::error_code none;
+  if (std::filesystem::is_symlink(path, none)) {
+    const std::filesystem::path named = std::filesystem::canonical(path, none);
+    return named.empty() ? path : named;
+  }
+  return path;
+}
+
 // A file in the place of a device or a pipe would end it for everyone.
 bool isStream(const std::filesystem::path& path) {
   std::error_code none;
@@ -57,7 +67,7 @@ bool isStream(const std::filesystem::path& path) {
 }  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path path)
-    : path_(std::move(path)),
+    : path_(placeOf(std::move(path))),
       partial_(isStream(path_) ? std::filesystem::path() : partialPath(path_)),
       descriptor_(partial_.empty() ? open(path_.c_str(), O_WRONLY | O_CLOEXEC) : createNew(partial_)),
       cleanup_([this] { unlink(partial_.c_str()); }) {

@@ -148,6 +148,18 @@ TEST_F(FileTest, writesDevicesAndPipesAsTheyAre) {
   EXPECT_EQ(entries(), 2U);
 }
 
+TEST_F(FileTest, writesWhatALinkNames) {
+  writeFile(inFolder("run"), "old");
+  fs::create_symlink("run", inFolder("link"));
+  writeFile(inFolder("link"), "new");
+  EXPECT_TRUE(fs::is_symlink(inFolder("link")));
+  EXPECT_EQ(readFile(inFolder("run")), "new");
+  fs::create_symlink("nowhere", inFolder("loose"));  // becomes the file
+  writeFile(inFolder("loose"), "bytes");
+  EXPECT_EQ(readFile(inFolder("loose")), "bytes");
+  EXPECT_EQ(entries(), 3U);
+}
+
 TEST_F(FileTest, removesThePartialFileWhenTheNameIsTaken) {
   fs::create_directories(inFolder("taken/by/a/folder"));
   const std::string message = messageOf([&] { writeFile(inFolder("taken"), "x"); });
