@@ -183,8 +183,8 @@ class MujocoEngine : public Peer::Engine {
   }
 
  private:
-  static constexpr int kPlaces = 7;  // of a free body: position, quaternion
-  static constexpr int kSpeeds = 6;  // velocity; angular velocity in the body's frame
+  static constexpr std::ptrdiff_t kPlaces = 7;  // of a free body: position, quaternion
+  static constexpr std::ptrdiff_t kSpeeds = 6;  // velocity; angular velocity in the body's frame
 
   // What a step begins from.
   struct Moment {
