@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -51,8 +52,8 @@ std::vector<double> numbersIn(const char* option, const std::vector<std::string>
 
 // The first of every list, then each list's others with the first of all the rest.
 std::vector<ThrowSettings> settingsOf(const DiceOptions& options) {
-  if (!(options.throws >= 1 && options.throws <= 1e8)) {
-    throw InputError("--throws: found " + brief(options.throws) + ", expected a number from 1 to 1e8");
+  if (!(options.throws >= 1 && options.throws <= 1e8) || options.throws != std::floor(options.throws)) {
+    throw InputError("--throws: found " + brief(options.throws) + ", expected a whole number from 1 to 1e8");
   }
   if (options.threads && !(*options.threads >= 1 && *options.threads <= 1000)) {
     throw InputError("--threads: found " + std::to_string(*options.threads) +
@@ -86,8 +87,10 @@ ExitCode diceCommand(const DiceOptions& options, const std::stop_token& stop) {
   if (!options.noPlots) {
     checkPlotter();
   }
+  const std::vector<ThrowSettings> all = settingsOf(options);
+  makeFolder(options.out);
   std::vector<DiceResult> results;
-  for (const ThrowSettings& settings : settingsOf(options)) {
+  for (const ThrowSettings& settings : all) {
     DiceResult& result = results.emplace_back();
     result.settings = settings;
     for (const MeasuredDie& die : kMeasuredDice) {
@@ -98,11 +101,6 @@ ExitCode diceCommand(const DiceOptions& options, const std::stop_token& stop) {
               << brief(settings.spin) << " rad/s: " << result.within() << " of " << result.faces.size()
               << " within two standard deviations\n"
               << std::flush;  // progress
-  }
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (error) {
-    throw MachineError(options.out.string() + ": cannot be made: " + error.message());
   }
   writeFile(options.out / "dice.csv", diceCsv(results));
   writeFile(options.out / "dice.md", diceMarkdown(results) + "\nMade by careen " CAREEN_VERSION ".\n");

@@ -132,7 +132,7 @@ ExitCode validateCommand(const ValidateOptions& options, const std::stop_token& 
                    .sweep = {},
                    .sceneValue = {}};
   const std::filesystem::path runs = options.out / "runs";
-  std::filesystem::create_directories(runs);
+  makeFolder(runs);
   for (const PoseTable& table : measured) {
     Trajectory run;
     found.tosses.push_back(validate(setup, table, settings, stop, &run));

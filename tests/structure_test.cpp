@@ -275,6 +275,7 @@ TEST(Structure, foreignHeadersStayWhereTheyBelong) {
       {std::regex("^pugixml.*"), {"exchange"}, "xml_tree"},
       {std::regex("^(bt[A-Z]|Bullet|LinearMath/).*"), {"study"}, "peer_bullet"},
       {std::regex("^ode/.*"), {"study"}, "peer_ode"},
+      {std::regex("^mujoco/.*"), {"study"}, "peer_mujoco"},
   };
   for (const char* top : {"engine", "app"}) {
     for (const fs::path& source : sourcesIn(kRoot / top)) {
@@ -414,6 +415,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"stage/triangle_mesh", "data only"},
     {"study/contestant", "an interface"},
     {"study/peer_bullet", "behind peers.h, tested with the other peers by peers_test"},
+    {"study/peer_mujoco", "behind peers.h, tested with the other peers by peers_test"},
     {"study/peer_ode", "behind peers.h, tested with the other peers by peers_test"},
 };
 

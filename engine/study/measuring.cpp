@@ -147,7 +147,7 @@ double attempt(const Case& study, const Contestant& contestant, const Effort& ef
                const std::stop_token& stop, Attempt& result, Answer& answer) {
   const double allowed = (contestant.steps() ? 1 : kRunsWithoutSteps) * effort.longestRun;
   const Deadline deadline(allowed, stop);
-  const Clock::time_point start = Clock::now();
+  const double start = coreSeconds();
   try {
     answer = answerOf(study, contestant, finenessOf(result, study), deadline.token());
     result.judgement = judge(study, answer);
@@ -162,7 +162,7 @@ double attempt(const Case& study, const Contestant& contestant, const Effort& ef
   } catch (const Error& error) {
     result.failure = error.what();
   }
-  const double seconds = secondsSince(start);
+  const double seconds = coreSeconds() - start;
   if (result.failure.empty()) {
     result.audit = auditOf(study, contestant, finenessOf(result, study), allowed, stop);
   }
@@ -172,11 +172,11 @@ double attempt(const Case& study, const Contestant& contestant, const Effort& ef
 double timeOnce(const Case& study, const Timed& timed, double fineness, double shortest,
                 const std::stop_token& stop) {
   const int count = static_cast<int>(std::ceil(shortest / std::max(timed.seconds, shortest / 1e4)));
-  const Clock::time_point start = Clock::now();
+  const double start = coreSeconds();
   for (int i = 0; i < count; ++i) {
     answerOf(study, *timed.contestant, fineness, stop);
   }
-  return secondsSince(start) / count;
+  return (coreSeconds() - start) / count;
 }
 
 void timeAll(const Case& study, const Effort& effort, std::vector<Timed>& all, std::vector<Attempt>& attempts,

@@ -51,7 +51,7 @@ struct Attempt {
   int repeats = 0;
 };
 
-/// Limits of the computing time.
+/// Limits of the computing time, that of cores where one run is meant.
 struct Effort {
   double longestRun = 0;      ///< [s] a run that takes longer is aborted, and shorter steps are skipped;
                               ///< contestants without a fixed time step get four times as long, for one run

@@ -166,7 +166,7 @@ void writeTables(const StudyResult& study, const fs::path& folder) {
 
 std::vector<std::string> drawPlots(const StudyResult& study, const fs::path& folder) {
   const fs::path plots = folder / "plots";
-  fs::create_directories(plots);
+  makeFolder(plots);
   drawPlot(matrixOf(study), plots / kMatrixPlot);
   std::vector<std::string> drawn;
   for (const CaseResult& result : study.cases) {

@@ -104,15 +104,19 @@ Case caseNamed(const std::string& name, const std::stop_token& stop) {
   return isScene(name) ? caseOfScene(name, stop) : readCase(name);
 }
 
-std::vector<CaseResult> runStudy(const StudySettings& settings, const Contestants& contestants,
-                                 const CaseDone& done, const std::stop_token& stop) {
-  checkNames(settings.cases);
-  const fs::path folder = settings.folder / "cases";
+void makeFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
     throw MachineError(folder.string() + ": cannot be made: " + error.message());
   }
+}
+
+std::vector<CaseResult> runStudy(const StudySettings& settings, const Contestants& contestants,
+                                 const CaseDone& done, const std::stop_token& stop) {
+  checkNames(settings.cases);
+  const fs::path folder = settings.folder / "cases";
+  makeFolder(folder);
   std::vector<CaseResult> results;
   for (const std::string& name : settings.cases) {
     const Case study = caseNamed(name, stop);

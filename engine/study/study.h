@@ -52,6 +52,8 @@ inline constexpr const char* kEnergyPlot = "-energy";
 std::vector<std::string> drawPlots(const StudyResult& study, const std::filesystem::path& folder);
 /// MachineError, with what to install, if gnuplot is missing.
 void checkPlotter();
+/// Makes the folder of a study's files, or throws MachineError.
+void makeFolder(const std::filesystem::path& folder);
 
 /// A self-contained page with all results. `plots` are those of the cases; without them it has none.
 std::string resultsPage(const StudyResult& study, const std::vector<std::string>& plots);

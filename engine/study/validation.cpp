@@ -328,21 +328,24 @@ Spread spreadOf(const std::vector<Toss>& tosses, double Toss::*figure) {
   return spread;
 }
 
+const SweepPoint& leastOf(const std::vector<SweepPoint>& points) {
+  return *std::min_element(points.begin(), points.end(),
+                           [](const SweepPoint& a, const SweepPoint& b) { return a.place < b.place; });
+}
+
 double minimumOf(const std::vector<SweepPoint>& points) {
-  const auto least =
-      std::min_element(points.begin(), points.end(),
-                       [](const SweepPoint& a, const SweepPoint& b) { return a.place < b.place; });
-  if (least == points.begin() || std::next(least) == points.end()) {
-    return least->value;
+  const SweepPoint& least = leastOf(points);
+  if (&least == &points.front() || &least == &points.back()) {
+    return least.value;
   }
-  const SweepPoint& before = *std::prev(least);
-  const SweepPoint& after = *std::next(least);
-  const double left = (least->place - before.place) / (least->value - before.value);
-  const double right = (after.place - least->place) / (after.value - least->value);
+  const SweepPoint& before = *std::prev(&least);
+  const SweepPoint& after = *std::next(&least);
+  const double left = (least.place - before.place) / (least.value - before.value);
+  const double right = (after.place - least.place) / (after.value - least.value);
   // Where the slope of the parabola is 0: slopes left and right are those at the middles.
-  const double middleLeft = 0.5 * (before.value + least->value);
-  const double middleRight = 0.5 * (least->value + after.value);
-  return right > left ? middleLeft - left * (middleRight - middleLeft) / (right - left) : least->value;
+  const double middleLeft = 0.5 * (before.value + least.value);
+  const double middleRight = 0.5 * (least.value + after.value);
+  return right > left ? middleLeft - left * (middleRight - middleLeft) / (right - left) : least.value;
 }
 
 std::string tossesCsv(const std::vector<Toss>& tosses, double size) {

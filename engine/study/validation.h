@@ -85,8 +85,9 @@ struct SweepPoint {
   double attitude = 0;  ///< [rad]
 };
 
-/// The point of least place; the parabola through it and its neighbours gives the value of the minimum.
-/// `points` are not empty, with ascending values.
+/// The point of least place. `points` are not empty, with ascending values.
+const SweepPoint& leastOf(const std::vector<SweepPoint>& points);
+/// The value where the parabola through that point and its neighbours has its minimum.
 double minimumOf(const std::vector<SweepPoint>& points);
 
 /// results.csv: a row for each toss. errors.csv: a row for each measured moment. sweep.csv.

@@ -11,6 +11,7 @@
 #include "core/math/to_integer.h"
 #include "study/plot_files.h"
 #include "study/plots.h"
+#include "study/study.h"
 
 namespace careen {
 namespace {
@@ -138,10 +139,10 @@ std::vector<std::string> summaryOf(const Validation& validation) {
       "faces        " + std::to_string(facesRight(validation)) + " of " +
           std::to_string(validation.tosses.size()) + " right"};
   if (validation.swept && !validation.sweep.empty()) {
-    const double minimum = minimumOf(validation.sweep);
-    lines.push_back(std::string("sweep        the least error of place, ") +
-                    percent(errorAt(validation.sweep, minimum) / size) + ", is at " +
-                    nameOf(*validation.swept) + " " + brief(minimum, 3) +
+    const SweepPoint& least = leastOf(validation.sweep);
+    lines.push_back(std::string("sweep        the least error of place, ") + percent(least.place / size) +
+                    ", is at " + nameOf(*validation.swept) + " " + brief(least.value, 3) +
+                    "; the parabola there has its minimum at " + brief(minimumOf(validation.sweep), 3) +
                     (validation.sceneValue
                          ? "; the scene's " + brief(*validation.sceneValue, 3) + " has " +
                                percent(errorAt(validation.sweep, *validation.sceneValue) / size)
@@ -198,7 +199,7 @@ std::string validationJson(const Validation& validation) {
 }
 
 std::vector<std::string> drawValidation(const Validation& validation, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
+  makeFolder(folder);
   std::vector<std::string> plots = {drawPlot(errorsPlot(validation), folder / "errors")};
   if (validation.swept) {
     plots.push_back(drawPlot(sweepPlot(validation), folder / "sweep"));

@@ -50,12 +50,19 @@ TEST_F(Dice, badUseIsTold) {
                                              {"--speed", "nan"},
                                              {"--spin", "-1"},
                                              {"--throws", "0"},
+                                             {"--throws", "2.5"},
                                              {"--threads", "0"}}) {
     const Ended ended = careen(arguments);
     EXPECT_EQ(ended.exitCode, 2) << arguments[0];
     EXPECT_NE(ended.err.find(arguments[0] + ": found "), std::string::npos) << ended.err;
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "dice"));
+  // A folder that cannot be made is told before the first throw.
+  folder_.write("dice", "a file");
+  const Ended ended = careen({"--throws", "100"});
+  EXPECT_EQ(ended.exitCode, 3);
+  EXPECT_NE(ended.err.find("dice: cannot be made: "), std::string::npos) << ended.err;
+  EXPECT_EQ(ended.out, "");
 }
 
 }  // namespace

@@ -73,6 +73,9 @@ TEST_F(Validate, badUseIsTold) {
         << sweep;
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "validation"));
+  const Ended ended = careen({"validate", "one.csv", "--scene", "scene.json", "--out", "one.csv"});
+  EXPECT_EQ(ended.exitCode, 3);
+  EXPECT_NE(ended.err.find("one.csv/runs: cannot be made: Not a directory"), std::string::npos) << ended.err;
 }
 
 }  // namespace

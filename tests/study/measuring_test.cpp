@@ -149,6 +149,29 @@ TEST(Measuring, saysWhyThereIsNoAnswer) {
   EXPECT_EQ(refused[0].failure, "no drag");
 }
 
+// As if another program had the core meanwhile.
+class Sleeper : public Drifter {
+ public:
+  Sleeper() : Drifter("sleeper", 0) {}
+  States run(const World& world, double dt, std::span<const double> times,
+             const std::stop_token& stop) const override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return Drifter::run(world, dt, times, stop);
+  }
+};
+
+// By the clock on the wall it would take 5000 µs a second of its four. Measured: 30 µs.
+TEST(Measuring, costsAreTimeOfTheCoreNotOfTheWall) {
+  Contestants contestants;
+  contestants.push_back(std::make_unique<Sleeper>());
+  const Effort effort{
+      .longestRun = 5, .longestStep = 1, .timing = 0, .rounds = 2, .shortest = 1e-4, .steps = {1}};
+  const std::vector<Attempt> attempts = attemptAll(drift(Measure::kPoses), contestants, effort, {});
+  ASSERT_EQ(attempts.size(), 1U);
+  EXPECT_GT(attempts[0].cost, 0);
+  EXPECT_LT(attempts[0].cost, 1000);
+}
+
 // Its error is its tolerance, as long as the body moves.
 class Chooser : public Drifter {
  public:

@@ -56,6 +56,8 @@ double errorAfterTumble(const Contestant& peer, const Vec3& spin, double dt) {
 }
 
 bool isBulletByDefault(const Contestant& peer) { return peer.name() == "bullet"; }
+// Its contacts are springs.
+bool isMujoco(const Contestant& peer) { return peer.name().starts_with("mujoco"); }
 
 // Each test asks all peers and names the one it is about.
 class Peers : public testing::Test {
@@ -88,7 +90,8 @@ TEST_F(Peers, areEachEngineByDefaultAndAtItsBest) {
     EXPECT_NE(peer.settings(), "");
     EXPECT_EQ(peer.settings().find('\n'), std::string::npos);
   });
-  EXPECT_EQ(names, (std::set<std::string>{"bullet", "bullet-best", "ode", "ode-best"}));
+  EXPECT_EQ(names,
+            (std::set<std::string>{"bullet", "bullet-best", "mujoco", "mujoco-best", "ode", "ode-best"}));
 }
 
 // A loaded box with axes of its own, in flight: the engines' errors of first order in the step, halved with
@@ -130,6 +133,22 @@ TEST_F(Peers, layLoadedBoxesOnTheirFaces) {
   });
 }
 
+// More contact points than MuJoCo makes room for by itself. Measured: at most 1.1e-4 m off.
+TEST_F(Peers, layAsManyBoxesAsThereAre) {
+  std::vector<BoxSpec> boxes;
+  for (int i = 0; i < 64; ++i) {
+    boxes.push_back({.halfExtents = Vec3(0.2, 0.2, 0.1), .position = Vec3(i % 8, i / 8, 0.101)});
+  }
+  World world = worldOf(boxes);
+  world.gravity = Vec3(0, 0, -kGravity);
+  world.walls = {floorAt(0)};
+  forEach([&](const Contestant& peer) {
+    for (const BodyState& at : after(peer, world, 0.25, 1.0 / 120)) {
+      EXPECT_NEAR(at.pose.position.z(), 0.1, 5e-4);
+    }
+  });
+}
+
 TEST_F(Peers, refuseSpringsAndDrag) {
   World free = worldOf({{}});
   World sprung = free;
@@ -143,9 +162,9 @@ TEST_F(Peers, refuseSpringsAndDrag) {
   });
 }
 
-// Both engines move by v += g h, x += v h: the fall is ahead of the parabola by g h t / 2. This reveals how
+// The engines move by v += g h, x += v h: the fall is ahead of the parabola by g h t / 2. This reveals how
 // long the time steps were: equal, no longer than dt, and 6 of 1/60 s for 0.1 s although 0.1 · 60 > 6 in
-// doubles.
+// doubles. MuJoCo at its best takes steps of Runge and Kutta, and is not ahead.
 TEST_F(Peers, fallAheadOfTheParabolaByTheStepTheyWereToldToTake) {
   const Vec3 velocity(1, -2, 3);
   World world = worldOf({{.velocity = velocity}});
@@ -153,6 +172,7 @@ TEST_F(Peers, fallAheadOfTheParabolaByTheStepTheyWereToldToTake) {
   const std::vector<double> times = {0, 0.1, 0.1, 1};
   const auto ahead = [&](double t) { return Vec3(velocity * t + world.gravity * (t * t / 2)); };
   forEach([&](const Contestant& peer) {
+    const double part = peer.name() == "mujoco-best" ? 0 : 1;
     for (const auto& [dt, first, second] : {std::array{1.0 / 60, 1.0 / 60, 1.0 / 60},
                                             std::array{0.03, 0.025, 0.03}, std::array{5.0, 0.1, 0.9}}) {
       const auto states = peer.run(world, dt, times, {});
@@ -160,8 +180,8 @@ TEST_F(Peers, fallAheadOfTheParabolaByTheStepTheyWereToldToTake) {
       EXPECT_EQ(states[0][0].pose.position, Vec3::Zero());
       EXPECT_EQ(states[1][0].pose.position, states[2][0].pose.position);
       // Measured: 3e-15 m, 4e-15 m/s.
-      const Vec3 early = ahead(0.1) + world.gravity * (0.1 * first / 2);
-      const Vec3 late = ahead(1) + world.gravity * ((0.1 * first + 0.9 * second) / 2);
+      const Vec3 early = ahead(0.1) + part * world.gravity * (0.1 * first / 2);
+      const Vec3 late = ahead(1) + part * world.gravity * ((0.1 * first + 0.9 * second) / 2);
       EXPECT_LT((states[1][0].pose.position - early).norm(), 1e-13) << dt;
       EXPECT_LT((states[3][0].pose.position - late).norm(), 1e-13) << dt;
       EXPECT_LT((states[3][0].velocity - (velocity + world.gravity)).norm(), 1e-13) << dt;
@@ -227,8 +247,9 @@ TEST_F(Peers, comeBackFromAWallWithTheLargerRestitution) {
   world.walls.push_back({.name = "wall", .normal = Vec3::UnitX(), .offset = -0.5, .material = {0.8, 0}});
   forEach([&](const Contestant& peer) {
     const double speed = after(peer, world, 0.6, 1.0 / 240)[0].velocity.x();
-    // Measured: 3.2 within 2e-8 m/s; Bullet by default 3.67, because it strikes with one corner at a time.
-    EXPECT_NEAR(speed, 0.8 * 4, isBulletByDefault(peer) ? 0.6 : 1e-6);
+    // Measured: 3.2 within 2e-8 m/s; Bullet by default 3.67, because it strikes with one corner at a time;
+    // MuJoCo 3.13 and 3.23.
+    EXPECT_NEAR(speed, 0.8 * 4, isBulletByDefault(peer) ? 0.6 : isMujoco(peer) ? 0.1 : 1e-6);
   });
 }
 
@@ -252,21 +273,23 @@ TEST_F(Peers, exchangeTheSpeedsOfEqualCubesAndKeepMomentum) {
   const World world = worldOf({{.velocity = {2, 0, 0}, .restitution = 1}, {.position = {1, 0, 0}}});
   forEach([&](const Contestant& peer) {
     const std::vector<BodyState> states = after(peer, world, 0.6, 1.0 / 240);
-    // Measured: the sum to the last bit, the speed within 2e-9 m/s.
+    // Measured: the sum to the last bit, the speed within 2e-9 m/s, MuJoCo's 1e-3.
     EXPECT_LT((states[0].velocity + states[1].velocity - Vec3(2, 0, 0)).norm(), 1e-12);
-    EXPECT_NEAR(states[1].velocity.x(), 2, 1e-6);
+    EXPECT_NEAR(states[1].velocity.x(), 2, isMujoco(peer) ? 2e-3 : 1e-6);
   });
 }
 
-// A wrong moment of inertia or gyroscopic term would not converge to the closed form.
-TEST_F(Peers, convergeToTheFreeTumbleWithTheFirstPowerOfTheStep) {
+// A wrong moment of inertia or gyroscopic term would not converge to the closed form. The steps of Runge and
+// Kutta that MuJoCo takes at its best add up rotations as vectors, so that they are of second order.
+TEST_F(Peers, convergeToTheFreeTumbleWithAPowerOfTheStep) {
   forEach([](const Contestant& peer) {
     const Vec3 generic(2, -1.5, 3);
     const double coarse = errorAfterTumble(peer, generic, 1.0 / 3840);
     const double fine = errorAfterTumble(peer, generic, 1.0 / 15360);
-    // Measured: Bullet 0.0165 rad, ratio 3.99; ODE 0.120, 4.43, and 4.08 at the next quarter.
+    // Measured: Bullet 0.0165 rad, ratio 3.99; ODE 0.120, 4.43, and 4.08 at the next quarter; MuJoCo at its
+    // best 16.0.
     EXPECT_LT(fine, 0.15);
-    EXPECT_NEAR(coarse / fine, 4, 0.6);
+    EXPECT_NEAR(coarse / fine, peer.name() == "mujoco-best" ? 16 : 4, 0.6);
   });
 }
 
@@ -279,8 +302,8 @@ TEST_F(Peers, tumbleAboutTheMiddleAxisAsBulletIsKnownTo) {
   }
 }
 
-// The purpose of the best settings. Measured loss: bullet 0.71, the others 0.0069.
-TEST_F(Peers, keepTheEnergyOfAnElasticImpactExceptBulletByDefault) {
+// The purpose of the best settings. Measured loss: bullet 0.71, MuJoCo 0.077 and 0.116, the others 0.0069.
+TEST_F(Peers, keepTheEnergyOfAnElasticImpactAsFarAsTheyCan) {
   World world = worldOf({{.halfExtents = {0.2, 0.3, 0.5},
                           .position = {0, 0, 1.5},
                           .worldFromBody = axisAngle(Vec3(2, -1, 2) / 3, 0.7),
@@ -297,7 +320,10 @@ TEST_F(Peers, keepTheEnergyOfAnElasticImpactExceptBulletByDefault) {
   forEach([&](const Contestant& peer) {
     const BodyState state = after(peer, world, 0.4, 1.0 / 240)[0];
     const double loss = 1 - energy(state) / energy(body.initial);
-    EXPECT_NEAR(loss, isBulletByDefault(peer) ? 0.7 : 0, isBulletByDefault(peer) ? 0.1 : 0.01);
+    EXPECT_NEAR(loss, isBulletByDefault(peer) ? 0.7 : 0,
+                isBulletByDefault(peer) ? 0.1
+                : isMujoco(peer)        ? 0.15
+                                        : 0.01);
   });
 }
 
@@ -340,6 +366,9 @@ TEST_F(Peers, aTableOfTheirRunHasTheFiguresOfTheirAdapter) {
   const ScratchFolder folder;
   forEach([&](const Contestant& peer) {
     for (const char* const name : {"tumble-generic", "corner-impact", "incline-slide", "stack-10", "pile"}) {
+      if (isMujoco(peer) && std::string(name) == "pile") {
+        continue;  // takes it minutes
+      }
       const Case study = readCase(name);
       const Answer answer = answerOf(study, peer, study.scene.dt, {});
       writeFile(folder / "theirs.csv", tableOf(study.world, study.times, answer.states));

@@ -76,8 +76,8 @@ TEST(Truths, ofSlidingAndSpinningAreThoseOfTheFiles) {
 }
 
 TEST(Truths, ofContactAreThoseOfTheFiles) {
-  expectTheFiles({"incline-slide", "incline-hold", "rocking-block", "tip-or-slide", "stack-10",
-                  "stack-heavy-100", "stack-heavy-1e6", "row-of-boxes", "overhang"});
+  expectTheFiles({"incline-slide", "incline-hold", "rocking-block", "rocking-measured", "tip-or-slide",
+                  "stack-10", "stack-heavy-100", "stack-heavy-1e6", "row-of-boxes", "overhang"});
 }
 
 TEST(Truths, ofPublishedScenesAreThoseOfTheFiles) {

@@ -5,6 +5,8 @@
 
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "scene/scene_reader.h"
 #include "support/input_error.h"
@@ -12,29 +14,42 @@
 namespace careen {
 namespace {
 
-constexpr double kRate = 148;             // [1/s]
-constexpr double kUp = 20e-6;             // [m] noise of positions
-constexpr double kSideways = 55e-6;       // [m]
-constexpr double kAttitude = 0.44e-3;     // [rad] about each axis
+constexpr double kRate = 148;          // [1/s]
+constexpr double kUp = 20e-6;          // [m] noise of positions
+constexpr double kSideways = 55e-6;    // [m]
+constexpr double kAttitude = 0.44e-3;  // [rad] about each axis
 
 const char* const kCube = R"({"careen": 1, "name": "cube", "duration": 1, "gravity": [0, 0, -9.81],
-  "walls": [{"name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1], "friction": FRICTION, "restitution": 0.125}],
+  "walls": [{"name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1], "friction": FRICTION,
+             "restitution": RESTITUTION}],
   "boxes": [{"name": "cube", "half_extents": [0.0524, 0.0524, 0.0524], "mass": 0.37, "position": [0, 0, 1],
-             "inertia": [0.81e-3, 0.81e-3, 0.81e-3], "friction": FRICTION, "restitution": 0.125}]})";
+             "inertia": [INERTIA, INERTIA, INERTIA], "friction": FRICTION, "restitution": RESTITUTION}]})";
 
-Scene cube(const std::string& friction = "0.18") {
+// What a measured cube is, by default the published one.
+struct Parameters {
+  std::string friction = "0.18";
+  std::string restitution = "0.125";
+  std::string inertia = "0.81e-3";
+};
+
+Scene cube(const Parameters& parameters = {}) {
   std::string text = kCube;
-  for (std::size_t at = text.find("FRICTION"); at != std::string::npos; at = text.find("FRICTION")) {
-    text.replace(at, 8, friction);
+  for (const auto& [name, value] :
+       {std::pair("FRICTION", parameters.friction), std::pair("RESTITUTION", parameters.restitution),
+        std::pair("INERTIA", parameters.inertia)}) {
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name)) {
+      text.replace(at, std::string(name).size(), value);
+    }
   }
   return parseScene(text, "cube.json");
 }
 
-// A toss across the floor, as someone might measure it: its clock does not begin at 0, and there are no velocities.
-PoseTable tossOf(std::mt19937_64& random, double noise, const std::string& friction = "0.18") {
+// A toss across the floor, as someone might measure it: its clock does not begin at 0, and there are no
+// velocities.
+PoseTable tossOf(std::mt19937_64& random, double noise, const Parameters& parameters = {}) {
   std::uniform_real_distribution<double> number(-1, 1);
   std::normal_distribution<double> normal;
-  RunSetup setup = setupOfMeasured(cube(friction));
+  RunSetup setup = setupOfMeasured(cube(parameters));
   BodyState& start = setup.world.bodies[0].initial;
   start.pose.position = Vec3(0.1 * number(random), 0.1 * number(random), 0.2);
   start.pose.worldFromBody =
@@ -92,24 +107,49 @@ TEST(Validation, theFloorTellsTheErrorOfRightParameters) {
   EXPECT_GT(error, floor / 8);
 }
 
-TEST(Validation, aSweepFindsTheFrictionAgain) {
+// Mean errors of place of eight tosses of a cube with these parameters, simulated with values of one of them.
+std::vector<SweepPoint> swept(const Parameters& parameters, Parameter parameter,
+                              const std::vector<double>& values) {
   std::mt19937_64 random(3);
   std::vector<PoseTable> tables;
   for (int trial = 0; trial < 8; ++trial) {
-    tables.push_back(tossOf(random, 1, "0.22"));
+    tables.push_back(tossOf(random, 1, parameters));
   }
   ValidationSettings settings{.floorRuns = 0};
   std::vector<SweepPoint> points;
-  for (const double value : {0.1, 0.14, 0.18, 0.22, 0.26, 0.3}) {
-    settings.setting = Setting{.parameter = Parameter::kFriction, .value = value};
+  for (const double value : values) {
+    settings.setting = Setting{.parameter = parameter, .value = value};
     std::vector<Toss> tosses;
     for (const PoseTable& table : tables) {
       tosses.push_back(validate(setupOfMeasured(cube()), table, settings, {}));
     }
     points.push_back({.value = value, .place = spreadOf(tosses, &Toss::meanPlace).mean});
   }
+  return points;
+}
+
+TEST(Validation, aSweepFindsTheFrictionAgain) {
+  const std::vector<SweepPoint> points =
+      swept({.friction = "0.22"}, Parameter::kFriction, {0.1, 0.14, 0.18, 0.22, 0.26, 0.3});
+  // Measured: 1.1e-4 m there, 0.021 m and more beside.
   EXPECT_NEAR(minimumOf(points), 0.22, 0.02);
   EXPECT_LT(points[3].place, 0.2 * points[0].place);
+}
+
+TEST(Validation, aSweepFindsTheRestitutionAgain) {
+  const std::vector<SweepPoint> points =
+      swept({.restitution = "0.3"}, Parameter::kRestitution, {0.1, 0.2, 0.3, 0.4, 0.5});
+  // Measured: 1.1e-4 m there, 0.011 m and more beside.
+  EXPECT_NEAR(minimumOf(points), 0.3, 0.05);
+  EXPECT_LT(points[2].place, 0.2 * points[0].place);
+}
+
+// 1.2 times the scene's. Measured: 3.6e-4 m there, 6.2e-3 m and more beside.
+TEST(Validation, aSweepFindsTheInertiaAgain) {
+  const std::vector<SweepPoint> points =
+      swept({.inertia = "0.972e-3"}, Parameter::kInertia, {0.8, 1, 1.2, 1.4, 1.6});
+  EXPECT_NEAR(minimumOf(points), 1.2, 0.1);
+  EXPECT_LT(points[2].place, 0.2 * points[0].place);
 }
 
 TEST(Validation, theFirstRowIsAStartToo) {
@@ -150,7 +190,8 @@ TEST(Validation, tablesAreWrittenInFull) {
   EXPECT_EQ(std::count(results.begin(), results.end(), '\n'), 2);
   EXPECT_EQ(std::count(results.begin(), results.end(), ','), 2 * 15);
   const std::string errors = errorsCsv(tosses);
-  EXPECT_EQ(static_cast<std::size_t>(std::count(errors.begin(), errors.end(), '\n')), 1 + tosses[0].times.size());
+  EXPECT_EQ(static_cast<std::size_t>(std::count(errors.begin(), errors.end(), '\n')),
+            1 + tosses[0].times.size());
   EXPECT_TRUE(sweepCsv({{.value = 0.5, .place = 1, .attitude = 2}}, Parameter::kFriction)
                   .starts_with("friction,mean_place,mean_attitude\n0.5,1,2\n"));
 }

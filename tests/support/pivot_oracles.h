@@ -202,8 +202,9 @@ inline QuadPivot overEdge(const QuadBox& table, const QuadBox& box, const QuadVe
 }
 
 /// A block that rocks on its two lower edges without slipping or bouncing, on the floor z = 0, about the
-/// world's y: a pendulum on one edge, and each impact multiplies ω by 1 − 1.5 sin²α, tan α = b/h (G. W.
-/// Housner 1963: the angular momentum about the landing edge is conserved).
+/// world's y: a pendulum on one edge. The angular momentum about the landing edge is conserved (G. W. Housner
+/// 1963), so each impact multiplies ω by 1 − 2 m b²/(I + m R²); of a solid block this is 1 − 1.5 sin²α, tan α
+/// = b/h.
 class QuadRocking {
  public:
   QuadRocking(const QuadBox& box, const Quad& gravity)
@@ -211,7 +212,8 @@ class QuadRocking {
         height_(box.halfExtents[2]),
         slenderness_(atan2(half_, height_)),
         reach_(sqrt(half_ * half_ + height_ * height_)),
-        squareRate_(gravity * reach_ / (reach_ * reach_ + box.moments[1] / box.mass)),
+        squareGyration_(reach_ * reach_ + box.moments[1] / box.mass),
+        squareRate_(gravity * reach_ / squareGyration_),
         tilt_(2 * atan2(box.attitude[2], box.attitude[0])) {
     if (box.attitude[1] != 0 || box.attitude[3] != 0 || box.momentum[1] != 0 || tilt_ == 0) {
       throw std::invalid_argument("no block that starts tilted about y, at rest");
@@ -223,10 +225,7 @@ class QuadRocking {
   }
 
   /// Factor of ω at an impact.
-  Quad ratio() const {
-    const Quad sine = half_ / reach_;
-    return 1 - Quad(3) / 2 * sine * sine;
-  }
+  Quad ratio() const { return 1 - 2 * half_ * half_ / squareGyration_; }
   const Quad& slenderness() const { return slenderness_; }
   /// [1/s²] θ'' = −p² sin(α − θ).
   const Quad& squareRate() const { return squareRate_; }
@@ -297,12 +296,13 @@ class QuadRocking {
     return {position, turnAbout(y, side * tilt)};
   }
 
-  Quad half_;         // [m] b
-  Quad height_;       // [m] h
-  Quad slenderness_;  // [rad] α
-  Quad reach_;        // [m] from edge to centre
-  Quad squareRate_;   // [1/s²] p²
-  Quad tilt_;         // [rad] at the start, towards side_
+  Quad half_;            // [m] b
+  Quad height_;          // [m] h
+  Quad slenderness_;     // [rad] α
+  Quad reach_;           // [m] from edge to centre
+  Quad squareGyration_;  // [m²] moment of inertia about the edge, over the mass
+  Quad squareRate_;      // [1/s²] p²
+  Quad tilt_;            // [rad] at the start, towards side_
   int side_ = 1;
   QuadVector place_;  // [m] centre when upright
 };

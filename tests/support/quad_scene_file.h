@@ -57,14 +57,17 @@ inline QuadBox boxIn(const nlohmann::json& object) {
   const QuadVector spin = turned(inverse(box.attitude), vectorIn(object, "angular_velocity"));
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    box.moments.at(at) = box.mass / 3 * (squares[(i + 1) % 3] + squares[(i + 2) % 3]);
+    box.moments.at(at) = object.contains("inertia")
+                             ? Quad(object["inertia"].at(at).get<double>())
+                             : Quad(box.mass / 3 * (squares[(i + 1) % 3] + squares[(i + 2) % 3]));
     box.momentum.at(at) = box.moments.at(at) * spin[i];
   }
   return box;
 }
 
 /// Reads the part of the format used by the hard cases: orientations as quaternions, every box with a mass
-/// or fixed. The numbers are exactly the doubles to which the file's decimals round.
+/// or fixed, inertia as three moments. The numbers are exactly the doubles to which the file's decimals
+/// round.
 inline QuadScene sceneIn(const std::filesystem::path& path) {
   const nlohmann::json file = jsonIn(path);
   QuadScene scene;

@@ -44,10 +44,32 @@ bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& o
   return place(one) == place(other);
 }
 
+namespace {
+
+// A link stays, and what it names is written.
+std::filesystem::path placeOf(std::filesystem::path path) {
+  std::error_code none;
+  if (std::filesystem::is_symlink(path, none)) {
+    const std::filesystem::path named = std::filesystem::canonical(path, none);
+    return named.empty() ? path : named;
+  }
+  return path;
+}
+
+// A file in the place of a device or a pipe would end it for everyone.
+bool isStream(const std::filesystem::path& path) {
+  std::error_code none;
+  const auto type = std::filesystem::status(path, none).type();
+  using Type = std::filesystem::file_type;
+  return type == Type::character || type == Type::block || type == Type::fifo || type == Type::socket;
+}
+
+}  // namespace
+
 AtomicFile::AtomicFile(std::filesystem::path path)
-    : path_(std::move(path)),
-      partial_(partialPath(path_)),
-      descriptor_(createNew(partial_)),
+    : path_(placeOf(std::move(path))),
+      partial_(isStream(path_) ? std::filesystem::path() : partialPath(path_)),
+      descriptor_(partial_.empty() ? open(path_.c_str(), O_WRONLY | O_CLOEXEC) : createNew(partial_)),
       cleanup_([this] { unlink(partial_.c_str()); }) {
   if (descriptor_ < 0) {
     fail("cannot be written");
@@ -88,7 +110,9 @@ void AtomicFile::commit() {
     fail("cannot be written");
   }
   std::error_code error;
-  std::filesystem::rename(partial_, path_, error);
+  if (!partial_.empty()) {
+    std::filesystem::rename(partial_, path_, error);
+  }
   if (error) {
     errno = error.value();
     fail("cannot be put in place");

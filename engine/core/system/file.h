@@ -9,8 +9,8 @@
 
 namespace careen {
 
-/// A file that appears whole or not at all: it is written beside its place under a hidden name, moved there
-/// by commit(), and removed without commit(). Errors are MachineError and name the file.
+/// A file that appears whole or not at all: written beside its place under a hidden name, moved there by
+/// commit(), removed without it; devices and pipes are written as they are. Errors are MachineError.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);

@@ -1,7 +1,10 @@
 #include "core/system/file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <iterator>
 #include <string>
@@ -125,6 +128,36 @@ TEST_F(FileTest, saysWhichFileCannotBeWritten) {
   const std::string under = messageOf([&] { writeFile(inFolder("file/run"), "x"); });
   EXPECT_NE(under.find("file/run"), std::string::npos) << under;
   EXPECT_EQ(entries(), 1U);
+}
+
+// Reached by a link, so that an error here cannot replace the device itself.
+TEST_F(FileTest, writesDevicesAndPipesAsTheyAre) {
+  fs::create_symlink("/dev/full", inFolder("full"));
+  const std::string message = messageOf([&] { writeFile(inFolder("full"), "x"); });
+  EXPECT_NE(message.find("full: cannot be written: No space left on device"), std::string::npos) << message;
+  EXPECT_TRUE(fs::is_character_file(inFolder("full")));
+
+  ASSERT_EQ(mkfifo(inFolder("pipe").c_str(), 0600), 0);
+  const int end = open(inFolder("pipe").c_str(), O_RDWR | O_CLOEXEC);
+  writeFile(inFolder("pipe"), "some bytes");
+  std::array<char, 20> bytes{};
+  EXPECT_EQ(std::string(bytes.data(), static_cast<std::size_t>(read(end, bytes.data(), bytes.size()))),
+            "some bytes");
+  close(end);
+  EXPECT_TRUE(fs::is_fifo(inFolder("pipe")));
+  EXPECT_EQ(entries(), 2U);
+}
+
+TEST_F(FileTest, writesWhatALinkNames) {
+  writeFile(inFolder("run"), "old");
+  fs::create_symlink("run", inFolder("link"));
+  writeFile(inFolder("link"), "new");
+  EXPECT_TRUE(fs::is_symlink(inFolder("link")));
+  EXPECT_EQ(readFile(inFolder("run")), "new");
+  fs::create_symlink("nowhere", inFolder("loose"));  // becomes the file
+  writeFile(inFolder("loose"), "bytes");
+  EXPECT_EQ(readFile(inFolder("loose")), "bytes");
+  EXPECT_EQ(entries(), 3U);
 }
 
 TEST_F(FileTest, removesThePartialFileWhenTheNameIsTaken) {
