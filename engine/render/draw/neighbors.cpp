@@ -142,12 +142,14 @@ double largestSilhouette(const DrawnBox& box) {
 
 Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, double least) {
   std::vector<double> areas;
-  double reach = 0;  // [m] from a face's nearest point to the centre of a box that it still sees
+  std::vector<double> reaches;  // [m] from a face's nearest point to where each box covers as much as nothing
+  double reach = 0;             // [m] from a face's nearest point to the centre of a box that it still sees
   double radius = 0;
   for (const DrawnBox& box : boxes) {
     areas.push_back(largestSilhouette(box));
     radius = std::max(radius, box.halfExtents.norm());
-    reach = std::max(reach, std::sqrt(areas.back() / (std::numbers::pi * least)));
+    reaches.push_back(std::sqrt(areas.back() / (std::numbers::pi * least)));
+    reach = std::max(reach, reaches.back());
   }
   reach += radius;  // from a box's centre, of which a face's points are no farther away than its corners
   const Cells cells(boxes, std::max(reach, 1e-300));
@@ -177,8 +179,11 @@ Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace
       nearOf = face.box;
     }
     found.clear();
+    const double size = std::sqrt(face.across.squaredNorm() + face.along.squaredNorm());
     for (const std::size_t box : near) {
-      if (face.normal.dot(boxes[box].pose.position - face.centre) <= -radius) {
+      const Vec3 to = boxes[box].pose.position - face.centre;
+      const double most = reaches[box] + size;
+      if (face.normal.dot(to) <= -radius || to.squaredNorm() > most * most) {
         continue;
       }
       Candidate candidate = candidateOf(boxes[box], areas[box], face);

@@ -57,7 +57,7 @@ double leastOcclusion(std::size_t boxes) {
 }
 
 // [1] Likewise, of what keeps light from a box.
-double leastOnBoxes(std::size_t boxes) { return std::min(0.5 * leastOcclusion(boxes), 0.008); }
+double leastOnBoxes(std::size_t boxes) { return std::min(leastOcclusion(boxes), 0.008); }
 
 // [px] Thinner springs would be drawn with gaps.
 constexpr double kThinnest = 1.5;

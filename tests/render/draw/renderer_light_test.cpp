@@ -165,7 +165,7 @@ TEST(Light, occlusionIsThatOfRays) {
 // light on planes     0.004   0.006  0.001 0.014: there little of floor and walls is to be seen
 // light on boxes      0.000   0.003  0.016 0.030
 // occlusion on planes 0.006   0.020  0.030 0.056
-// occlusion on boxes  0       0.003  0.060 0.076
+// occlusion on boxes  0       0.003  0.059 0.078
 TEST(Light, inScenesIsThatOfRays) {
   for (const Shown& shown : {atMoment("careen", 1, 9), atMoment("stack", 5, 7), atMoment("wall", 1.6, 7),
                              atMoment("pile", 2, 7)}) {
