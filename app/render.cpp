@@ -29,6 +29,7 @@
 #include "still.h"
 #include "truth/truth_film.h"
 #include "truth/truth_frame.h"
+#include "view/out_of_view.h"
 
 namespace careen {
 namespace {
@@ -275,6 +276,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   }
   std::ostream& summary = logsFrames ? std::cerr : std::cout;
   printSummary(summary, run, stopwatch.seconds());
+  print(summary, outOfView(run.trajectory), run.trajectory);
   printFilm(summary, settings, picture, figures);
   return reference ? compareWithReference(*reference, settings, options.compare, logsFrames, stop)
                    : ExitCode::kDone;

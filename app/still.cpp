@@ -10,6 +10,7 @@
 #include "render/film/filming.h"
 #include "render/film/strobe.h"
 #include "render/overlay/overlays.h"
+#include "view/out_of_view.h"
 
 namespace careen {
 namespace {
@@ -59,6 +60,7 @@ ExitCode drawStill(const Run& run, RenderOptions options, const Still& still) {
                             still.strobe ? nullptr : still.ghost);
     filming.explainStrobe(renderer, picture, moments, overlays);
   }
+  print(std::cout, outOfView(run.trajectory, moments), run.trajectory);
   const std::filesystem::path path = std::filesystem::absolute(placeOf(run, still)).lexically_normal();
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);  // if it failed, writing reports it

@@ -69,8 +69,14 @@ void main() {
     marked = mix(marked, isLight ? kInk : kIvory, covered(pip));
     albedo = mix(plain, marked, clamp((thickness - 1.0) / 3.0, 0.0, 1.0));
 
-    // Edges reflect light as if worn round.
-    vec2 worn = clamp(1.0 - (halfFace - abs(onFace)) / (0.07 * unit), 0.0, 1.0) * sign(onFace);
+    // Edges reflect light as if worn round: the mean over the pixel, or thin ones are rows of dots.
+    float wear = 0.07 * unit;
+    vec2 pixel = max(abs(dFdx(onFace)) + abs(dFdy(onFace)), 1e-9);
+    vec2 from = max(halfFace - abs(onFace) - 0.5 * pixel, 0.0);
+    vec2 to = max(halfFace - abs(onFace) + 0.5 * pixel, from + 1e-9);
+    vec2 wornFrom = min(from, wear);
+    vec2 wornTo = min(to, wear);
+    vec2 worn = (wornTo - wornFrom) * (1.0 - 0.5 * (wornFrom + wornTo) / wear) / (to - from) * sign(onFace);
     normal = normalize(normal + 0.7 * (worn.x * faceAcross + worn.y * faceAlong));
   }
   vec3 dark = ambient(albedo, normal) * openness;

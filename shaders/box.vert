@@ -23,7 +23,7 @@ flat out vec4 baseColor;
 flat out float pips;        // opposite faces add up to seven
 flat out float thickness;   // [px] smaller width of the face
 
-vec3 openAt(vec3 offset, vec3 normal, vec2 list);
+vec3 openAt(vec3 offset, vec3 normal, vec3 tangent, vec2 list);
 
 void main() {
   offset = position;
@@ -35,6 +35,6 @@ void main() {
   baseColor = color;
   pips = about.x;
   thickness = about.y;
-  openness = openAt(offset, faceNormal, about.zw);
+  openness = openAt(offset, faceNormal, across, about.zw);
   gl_Position = clipFromOffset * vec4(position, 1.0);
 }

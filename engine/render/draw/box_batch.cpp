@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <optional>
+#include <utility>
 
 #include "render/draw/mesh_faces.h"
 #include "render/gl/gl.h"
@@ -16,58 +18,102 @@
 namespace careen {
 namespace {
 
-constexpr std::array<float, 2> kCoarse = {-1, 1};
+// Points of a face at which its occlusion is found: its corners; four more inside, which leave its edges in
+// one piece; or a grid, whose lines divide them.
+enum class Grid { kCorners, kFramed, kFine };
+constexpr double kFrame = 0.7;
 // Occlusion changes most beside an edge that another box touches.
-constexpr std::array<float, 4> kFine = {-1, -0.6F, 0.6F, 1};
-constexpr double kFineWidth = 12;  // [px] of a box's widest face, from which the fine grid shows
-constexpr double kFewBoxes = 20;   // of more boxes, only larger ones
+constexpr std::array<double, 4> kFineLines = {-1, -0.6, 0.6, 1};
+constexpr std::size_t kFewBoxes = 50;  // more have no grid, for its price
+
+// Depth that the same faces are drawn over later, in other triangles: behind them by this part of what it
+// changes in a pixel, and by so many steps of its precision.
+constexpr float kBehindSlopes = 0.05F;
+constexpr float kBehindSteps = 8;
 
 constexpr unsigned kNeighborUnit = 1;
 constexpr std::size_t kTexturePower = 10;  // of two texels in a row, see neighbors.vert
 constexpr std::size_t kTexelsPerBox = 5;
-constexpr double kReturned = 1.5;  // boxes are lit from more sides than surfaces: relative to these
+constexpr std::size_t kFarCount = 64;  // in a length: near ones + kFarCount * far ones
 
 constexpr std::initializer_list<Attribute> kFaceAttributes = {{0, 3}, {1, 3}, {2, 3}, {3, 3},
                                                               {4, 4}, {5, 4}, {6, 4}};
 constexpr std::array<int, 6> kPips = {1, 6, 2, 5, 3, 4};  // by side; opposite faces add up to seven
 
-std::span<const float> linesOf(bool isFine) {
-  return isFine ? std::span<const float>(kFine) : std::span<const float>(kCoarse);
-}
-
 // Records of vertices, and triangles between them.
 struct Records {
   std::vector<float> vertices;
   std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> outlines;  // the same faces in as few triangles as possible
   std::uint32_t count = 0;
 
-  // Triangles of a grid whose vertices follow; counterclockwise seen from outside.
-  void addGrid(std::size_t lines, bool mirrored) {
-    const auto width = static_cast<std::uint32_t>(lines);
-    for (std::uint32_t v = 0; v + 1 < width; ++v) {
-      for (std::uint32_t u = 0; u + 1 < width; ++u) {
-        const std::uint32_t at = count + v * width + u;
-        const std::uint32_t right = mirrored ? at + width : at + 1;
-        const std::uint32_t above = mirrored ? at + 1 : at + width;
-        triangles.insert(triangles.end(), {at, right, at + width + 1, at, at + width + 1, above});
+  // Triangles between the points of a face, which follow; counterclockwise seen from outside.
+  void addFace(Grid grid, bool mirrored) {
+    const auto addQuad = [&](std::vector<std::uint32_t>& to, const std::array<std::uint32_t, 4>& corners) {
+      const std::uint32_t first = count + corners[mirrored ? 3 : 1];
+      const std::uint32_t last = count + corners[mirrored ? 1 : 3];
+      const std::uint32_t from = count + corners[0];
+      const std::uint32_t across = count + corners[2];
+      to.insert(to.end(), {from, first, across, from, across, last});
+    };
+    if (grid == Grid::kFine) {
+      constexpr auto kWidth = static_cast<std::uint32_t>(kFineLines.size());
+      for (std::uint32_t v = 0; v + 1 < kWidth; ++v) {
+        for (std::uint32_t at = v * kWidth; at + 1 < (v + 1) * kWidth; ++at) {
+          addQuad(triangles, {at, at + 1, at + kWidth + 1, at + kWidth});
+          addQuad(outlines, {at, at + 1, at + kWidth + 1, at + kWidth});
+        }
       }
+      count += kWidth * kWidth;
+      return;
     }
-    count += width * width;
+    addQuad(outlines, {0, 1, 3, 2});
+    if (grid == Grid::kCorners) {
+      addQuad(triangles, {0, 1, 3, 2});
+      count += 4;
+      return;
+    }
+    for (const std::array<std::uint32_t, 4>& corners : std::initializer_list<std::array<std::uint32_t, 4>>{
+             {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}}) {
+      addQuad(triangles, corners);
+    }
+    count += 8;
+  }
+
+  void addTriangle() {
+    for (int corner = 0; corner < 3; ++corner) {
+      triangles.push_back(count);
+      outlines.push_back(count);
+      ++count;
+    }
   }
 };
 
 // Does something with the points of a face's grid: calls with the point and its place on the face, −1 … 1.
 // Neighbouring faces have the very same points on the edge between them, so that there are no cracks.
 template <class Do>
-void forGrid(const DrawnBox& box, const DrawnFace& face, bool isFine, const Do& doWith) {
+void forGrid(const DrawnBox& box, const DrawnFace& face, Grid grid, const Do& doWith) {
   const int axis = face.side / 2;
-  Vec3 place;
-  place[axis] = face.side % 2 == 0 ? 1 : -1;
-  for (const float v : linesOf(isFine)) {
-    for (const float u : linesOf(isFine)) {
-      place[(axis + 1) % 3] = u;
-      place[(axis + 2) % 3] = v;
-      doWith(box.pose.worldPoint(box.halfExtents.cwiseProduct(place)), u, v);
+  const auto doAt = [&](double u, double v) {
+    Vec3 place;
+    place[axis] = face.side % 2 == 0 ? 1 : -1;
+    place[(axis + 1) % 3] = u;
+    place[(axis + 2) % 3] = v;
+    doWith(box.pose.worldPoint(box.halfExtents.cwiseProduct(place)), u, v);
+  };
+  if (grid == Grid::kFine) {
+    for (const double v : kFineLines) {
+      for (const double u : kFineLines) {
+        doAt(u, v);
+      }
+    }
+    return;
+  }
+  for (const double size : {1.0, kFrame}) {
+    if (size == 1 || grid == Grid::kFramed) {
+      for (const auto& [u, v] : {std::pair(-1, -1), std::pair(1, -1), std::pair(-1, 1), std::pair(1, 1)}) {
+        doAt(u * size, v * size);
+      }
     }
   }
 }
@@ -85,12 +131,21 @@ std::vector<float> neighborTexels(std::span<const DrawnBox> boxes, const Neighbo
     }
     append(texels, box.halfExtents);
     texels.push_back(0);
-    append(texels, kReturned * box.returned);
+    append(texels, kReturnedToBoxes * box.returned);
     texels.push_back(0);
   }
-  for (const Neighbors::Entry& entry : neighbors.entries) {
-    texels.insert(texels.end(),
-                  {static_cast<float>(kTexelsPerBox * entry.box), static_cast<float>(entry.weight), 0, 0});
+  for (std::size_t face = 0; face < neighbors.lists.size(); ++face) {
+    for (const Neighbors::Entry& entry : neighbors.near(face)) {
+      texels.insert(texels.end(),
+                    {static_cast<float>(kTexelsPerBox * entry.box), static_cast<float>(entry.weight), 0, 0});
+    }
+    for (const Neighbors::Entry& entry : neighbors.far(face)) {
+      const DrawnBox& box = boxes[entry.box];
+      const Vec3& half = box.halfExtents;
+      const double size = 2 * half.dot(Vec3(half.y(), half.z(), half.x()));  // [m2] the mean silhouette
+      append(texels, box.pose.position - eye);
+      texels.push_back(static_cast<float>(entry.weight * size / std::numbers::pi));
+    }
   }
   return texels;
 }
@@ -113,7 +168,7 @@ class FaceRecords {
         isFine_(placed.boxes.size()),
         isShaded_(placed.faces.size()),
         zonogons_(placed.boxes.size()) {
-    if (in_.neighbors != nullptr) {
+    if (in_.boxes.size() <= kFewBoxes) {
       findFine();
     }
     for (const ShadowPair& pair : in_.shadows.pairs) {
@@ -142,28 +197,30 @@ class FaceRecords {
   Records cast;
 
  private:
-  // All faces of a box have the same grid.
+  // All faces of a box have the same points on their edges.
   void findFine() {
-    const double many = std::max(1.0, static_cast<double>(in_.boxes.size()) / kFewBoxes);
-    const double fineWidth = kFineWidth * std::sqrt(many * std::sqrt(many));
     for (std::size_t i = 0; i < in_.faces.size(); ++i) {
-      if (in_.faces[i].widestOfBox >= fineWidth && hasList(i)) {
+      if (hasList(i)) {
         isFine_[in_.faces[i].box] = true;
       }
     }
   }
 
+  Grid gridOf(std::size_t face) const {
+    return isFine_[in_.faces[face].box] ? Grid::kFine : hasList(face) ? Grid::kFramed : Grid::kCorners;
+  }
   bool isMesh(std::size_t face) const { return in_.boxes[in_.faces[face].box].mesh != nullptr; }
   bool hasList(std::size_t face) const {
-    return in_.neighbors != nullptr && !in_.neighbors->of(face).empty();
+    return in_.neighbors != nullptr && in_.neighbors->lists[face].near + in_.neighbors->lists[face].far > 0;
   }
 
   void appendAbout(std::vector<float>& vertices, double pips, std::size_t face, bool withList) const {
     vertices.push_back(static_cast<float>(pips));
     vertices.push_back(static_cast<float>(in_.faces[face].width));
     const std::size_t lists = kTexelsPerBox * in_.boxes.size();
-    vertices.push_back(withList ? static_cast<float>(lists + in_.neighbors->begins[face]) : 0.0F);
-    vertices.push_back(withList ? static_cast<float>(in_.neighbors->of(face).size()) : 0.0F);
+    const Neighbors::List list = withList ? in_.neighbors->lists[face] : Neighbors::List();
+    vertices.push_back(static_cast<float>(lists + list.begin));
+    vertices.push_back(static_cast<float>(list.near + kFarCount * list.far));
   }
 
   void addFace(std::size_t i) {
@@ -175,8 +232,8 @@ class FaceRecords {
     const double width = box.halfExtents[(axis + 1) % 3];
     const double height = box.halfExtents[(axis + 2) % 3];
     Records& records = in_.shadows.isDark[i] ? dark : isShaded_[i] ? shaded : lit;
-    records.addGrid(linesOf(isFine_[face.box]).size(), face.side % 2 != 0);
-    forGrid(box, face, isFine_[face.box], [&](const Vec3& point, double u, double v) {
+    records.addFace(gridOf(i), face.side % 2 != 0);
+    forGrid(box, face, gridOf(i), [&](const Vec3& point, double u, double v) {
       std::vector<float>& vertices = records.vertices;
       append(vertices, point - in_.eye);
       append(vertices, face.normal);
@@ -200,8 +257,9 @@ class FaceRecords {
   void addShadow(const ShadowPair& pair) {
     const DrawnFace& face = in_.faces[pair.face];
     const Zonogon& zonogon = zonogonOfCaster(pair.caster);
-    cast.addGrid(linesOf(isFine_[face.box]).size(), face.side % 2 != 0);
-    forGrid(in_.boxes[face.box], face, isFine_[face.box], [&](const Vec3& point, double, double) {
+    const Grid grid = isFine_[face.box] ? Grid::kFine : Grid::kCorners;
+    cast.addFace(grid, face.side % 2 != 0);
+    forGrid(in_.boxes[face.box], face, grid, [&](const Vec3& point, double, double) {
       appendShadow(cast.vertices, zonogon, point, offsetOf(point, in_.eye), pair.weight);
     });
   }
@@ -239,9 +297,9 @@ class FaceRecords {
 
   void addTriangle(Records& records, const MeshFace& face, const Vec3& color, std::size_t alike,
                    bool withList) {
+    records.addTriangle();
     for (std::size_t corner = 0; corner < 3; ++corner) {
       std::vector<float>& vertices = records.vertices;
-      records.triangles.push_back(records.count++);
       append(vertices, face.corners.at(corner) - in_.eye);
       append(vertices, face.normal);
       append(vertices, face.outward[0]);
@@ -257,8 +315,8 @@ class FaceRecords {
   }
 
   void addShadow(const MeshFace& face, const Zonogon& zonogon, double weight) {
+    cast.addTriangle();
     for (const Vec3& corner : face.corners) {
-      cast.triangles.push_back(cast.count++);
       appendShadow(cast.vertices, zonogon, corner, offsetOf(corner, in_.eye), weight);
     }
   }
@@ -328,7 +386,10 @@ void BoxBatch::place(std::span<const DrawnBox> boxes, std::span<const DrawnFace>
   const auto fill = [&](Mesh& mesh, const Records& of) {
     gl_.BindVertexArray(mesh.array);
     mesh.vertices.fill(of.vertices);
-    mesh.indices.fill(of.triangles);
+    mesh.triangles = of.triangles.size();
+    std::vector<std::uint32_t> indices = of.triangles;
+    indices.insert(indices.end(), of.outlines.begin(), of.outlines.end());
+    mesh.indices.fill(indices);
   };
   fill(lit_, records.lit);
   fill(dark_, records.dark);
@@ -350,41 +411,52 @@ void BoxBatch::fillNeighbors(std::vector<float> texels) const {
   gl_.ActiveTexture(GL_TEXTURE0);
 }
 
-void BoxBatch::draw(const Mesh& mesh) const {
-  if (mesh.indices.count() > 0) {
+void BoxBatch::draw(const Mesh& mesh, std::size_t from, std::size_t to) const {
+  if (to > from) {
     gl_.BindVertexArray(mesh.array);
-    gl_.DrawElements(GL_TRIANGLES, mesh.indices.count(), GL_UNSIGNED_INT, nullptr);
+    const std::size_t place = from * sizeof(std::uint32_t);
+    const void* const first = reinterpret_cast<const void*>(place);  // NOLINT(performance-no-int-to-ptr)
+    gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(to - from), GL_UNSIGNED_INT, first);
   }
+}
+
+void BoxBatch::drawTriangles(const Mesh& mesh) const { draw(mesh, 0, mesh.triangles); }
+
+void BoxBatch::drawOutlines(const Mesh& mesh) const {
+  draw(mesh, mesh.triangles, static_cast<std::size_t>(mesh.indices.count()));
 }
 
 void BoxBatch::drawUnshaded() const {
   gl_.UseProgram(litProgram_);
-  draw(lit_);
+  drawTriangles(lit_);
   gl_.UseProgram(darkProgram_);
-  draw(dark_);
+  drawTriangles(dark_);
 }
 
 void BoxBatch::drawShadedDepth() const {
   gl_.UseProgram(depthProgram_);
-  draw(shaded_);
+  gl_.Enable(GL_POLYGON_OFFSET_FILL);
+  gl_.PolygonOffset(kBehindSlopes, kBehindSteps);
+  drawOutlines(shaded_);
+  gl_.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
 void BoxBatch::drawShadows() const {
   gl_.UseProgram(shadowProgram_);
-  draw(shadows_);
+  drawOutlines(shadows_);
 }
 
 void BoxBatch::drawShaded() const {
   gl_.UseProgram(shadedProgram_);
-  draw(shaded_);
+  drawTriangles(shaded_);
 }
 
 void BoxBatch::drawShrunk(double angle) const {
   gl_.UseProgram(shrunkProgram_);
   gl_.Uniform1f(shrinkPlace_, static_cast<float>(angle));
-  draw(lit_);
-  draw(dark_);
-  draw(shaded_);
+  drawOutlines(lit_);
+  drawOutlines(dark_);
+  drawOutlines(shaded_);
 }
 
 }  // namespace careen

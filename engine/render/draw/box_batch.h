@@ -38,8 +38,8 @@ class BoxBatch {
   bool hasShaded() const { return shaded_.indices.count() > 0; }
   /// Faces that no shadow reaches, in full light, and those that have no direct light.
   void drawUnshaded() const;
-  /// Faces that shadows may reach: black, for their depth; their shadows, to be added; then their colours, to
-  /// be blended.
+  /// Faces that shadows may reach: black, for their depth, a little behind them; their shadows, to be added;
+  /// then their colours, to be blended.
   void drawShadedDepth() const;
   void drawShadows() const;
   void drawShaded() const;
@@ -52,8 +52,11 @@ class BoxBatch {
     unsigned array;
     VertexBuffer vertices;
     IndexBuffer indices;
+    std::size_t triangles = 0;  // indices of them; then come the same faces in fewer triangles
   };
-  void draw(const Mesh& mesh) const;
+  void drawTriangles(const Mesh& mesh) const;
+  void drawOutlines(const Mesh& mesh) const;
+  void draw(const Mesh& mesh, std::size_t from, std::size_t to) const;
   void fillNeighbors(std::vector<float> texels) const;
 
   const Gl& gl_;

@@ -78,7 +78,6 @@ void lightThinFaces(std::span<DrawnFace> faces) {
   const auto widest = std::max_element(
       faces.begin(), faces.end(), [](const DrawnFace& a, const DrawnFace& b) { return a.width < b.width; });
   for (DrawnFace& face : faces) {
-    face.widestOfBox = widest->width;
     const double own = std::clamp(face.width / kThinFace - 0.5, 0.0, 1.0);
     if (own < 1 && widest->width > face.width) {
       face.normal = (own * face.normal + (1 - own) * widest->normal).normalized();

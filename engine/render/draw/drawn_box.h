@@ -34,9 +34,8 @@ void sortFromEye(std::vector<DrawnBox>& boxes, const Vec3& eye);
 /// A face turned to the eye.
 struct DrawnFace {
   std::size_t box = 0;
-  int side = 0;            ///< 0 … 5: +x, −x, +y, −y, +z, −z of the body
-  double width = 0;        ///< [px] its smaller width in the picture, about
-  double widestOfBox = 0;  ///< [px] of the box's faces, hidden ones included
+  int side = 0;      ///< 0 … 5: +x, −x, +y, −y, +z, −z of the body
+  double width = 0;  ///< [px] its smaller width in the picture, about
   Vec3 normal = Vec3::UnitZ();
   Vec3 centre = Vec3::Zero();  ///< [m] world
   Vec3 across = Vec3::Zero();  ///< [m] from the centre to the middle of an edge

@@ -14,12 +14,13 @@ struct FrameBlock {
   Float16 clipFromOffset{};
   Float4 towardsLight{};      ///< unit; w: tangent of half the light's angle
   Float4 lightColor{};        ///< linear; all 0 without a light
-  Float4 up{};                ///< unit; towards the sky
+  Float4 up{};                ///< unit; towards the sky; w: light that comes back from boxes far away
   Float4 sky{};               ///< linear
   Float4 ground{};            ///< linear
   Float4 backgroundTop{};     ///< linear
   Float4 backgroundBottom{};  ///< linear
-  Float4 finish{};            ///< start of the tone curve's shoulder, 1 if edges are in alpha, dither
+  Float4 finish{};            ///< start of the tone curve's shoulder, 1 if edges are in alpha, dither;
+                              ///< least form factor that counts on boxes
   Float4 boxLook{};           ///< roughness, 1 if marked, part of the box's own colour, width of edge lines
   Float4 material{};          ///< linear; of all boxes, for the part that is not their own colour
   Float4 lines{};             ///< linear; w: 1 if joints have this colour

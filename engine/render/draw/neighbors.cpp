@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <unordered_map>
 
@@ -12,6 +13,10 @@ namespace {
 constexpr double kFlush = 1e-3;   // [1] of a box's size: in front of a face by less, it does not count
 constexpr double kInFront = 0.5;  // by so much, it counts fully: less covers only a rim of the face
 constexpr double kFading = 0.3;   // [1] of what the first one that is left out covers, where weights fall
+// [1] of half a box's diagonal: how far its centre is from a face where its shape no longer counts in full,
+// and where it does not count at all.
+constexpr double kNear = 1;
+constexpr double kFar = 1.5;
 
 double smoothstep(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -22,6 +27,7 @@ struct Candidate {
   std::size_t box = 0;
   double covers = 0;
   double inFront = 0;  // [1] of what it covers if enough of it is in front of the face
+  double isNear = 0;   // [1] 0: so far away that its shape does not matter
 };
 
 // About the part of what a face sees that a box covers, at the face's point nearest to it.
@@ -41,7 +47,47 @@ Candidate candidateOf(const DrawnBox& box, double area, const DrawnFace& face) {
   const Vec3 apart = to - beyond(face.across) - beyond(face.along);
   const double inFront = smoothstep(kFlush * size, kInFront * size, front);
   const double most = std::min(0.5, area / (std::numbers::pi * std::max(apart.squaredNorm(), 1e-300)));
-  return {.box = 0, .covers = inFront * most, .inFront = inFront};
+  const double away = apart.norm() / box.halfExtents.norm();
+  return {
+      .box = 0, .covers = inFront * most, .inFront = inFront, .isNear = 1 - smoothstep(kNear, kFar, away)};
+}
+
+// Of candidates that come in order.
+void keepOneOfEachBody(std::vector<Candidate>& found, std::span<const DrawnBox> boxes) {
+  std::vector<std::size_t> bodies;
+  const auto isAgain = [&](const Candidate& each) {
+    const std::size_t body = boxes[each.box].body;
+    if (std::find(bodies.begin(), bodies.end(), body) != bodies.end()) {
+      return true;
+    }
+    bodies.push_back(body);
+    return false;
+  };
+  found.erase(std::remove_if(found.begin(), found.end(), isAgain), found.end());
+}
+
+// Appends the first of the candidates that have a share, `most` of them; how many. What is left out is never
+// more than half of what a face can see, and a weight is as much as nothing before its box is left out.
+template <class Share>
+std::size_t append(std::vector<Neighbors::Entry>& entries, const std::vector<Candidate>& found,
+                   std::size_t most, const Share& shareOf) {
+  std::vector<const Candidate*> kept;
+  double out = 0;
+  for (const Candidate& each : found) {
+    if (shareOf(each) > 0) {
+      if (kept.size() == most) {
+        out = each.covers;
+        break;
+      }
+      kept.push_back(&each);
+    }
+  }
+  for (const Candidate* const each : kept) {
+    const double fades = std::min(kFading * out, 0.5 - out);
+    const double stays = fades > 0 ? std::min(1.0, (each->covers - out) / fades) : 1;
+    entries.push_back({.box = each->box, .weight = stays * each->inFront * shareOf(*each)});
+  }
+  return kept.size();
 }
 
 // Boxes by cells of space.
@@ -96,23 +142,30 @@ double largestSilhouette(const DrawnBox& box) {
 
 Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, double least) {
   std::vector<double> areas;
-  double reach = 0;  // [m] from a face's nearest point to the centre of a box that it still sees
+  std::vector<double> reaches;  // [m] from a face's nearest point to where each box covers as much as nothing
+  double reach = 0;             // [m] from a face's nearest point to the centre of a box that it still sees
   double radius = 0;
   for (const DrawnBox& box : boxes) {
     areas.push_back(largestSilhouette(box));
     radius = std::max(radius, box.halfExtents.norm());
-    reach = std::max(reach, std::sqrt(areas.back() / (std::numbers::pi * least)));
+    reaches.push_back(std::sqrt(areas.back() / (std::numbers::pi * least)));
+    reach = std::max(reach, reaches.back());
   }
   reach += radius;  // from a box's centre, of which a face's points are no farther away than its corners
   const Cells cells(boxes, std::max(reach, 1e-300));
+  std::vector<std::size_t> bodies;
+  std::transform(boxes.begin(), boxes.end(), std::back_inserter(bodies),
+                 [](const DrawnBox& box) { return box.body; });
+  std::sort(bodies.begin(), bodies.end());
+  const bool hasCopies = std::adjacent_find(bodies.begin(), bodies.end()) != bodies.end();
   Neighbors neighbors;
   std::vector<std::size_t> near;
   std::size_t nearOf = boxes.size();
   std::vector<Candidate> found;
   for (const DrawnFace& face : faces) {
     const DrawnBox& own = boxes[face.box];
-    neighbors.begins.push_back(neighbors.entries.size());
     if (!own.marked) {
+      neighbors.lists.push_back({.begin = neighbors.entries.size()});
       continue;
     }
     if (face.box != nearOf) {
@@ -126,8 +179,11 @@ Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace
       nearOf = face.box;
     }
     found.clear();
+    const double size = std::sqrt(face.across.squaredNorm() + face.along.squaredNorm());
     for (const std::size_t box : near) {
-      if (face.normal.dot(boxes[box].pose.position - face.centre) <= -radius) {
+      const Vec3 to = boxes[box].pose.position - face.centre;
+      const double most = reaches[box] + size;
+      if (face.normal.dot(to) <= -radius || to.squaredNorm() > most * most) {
         continue;
       }
       Candidate candidate = candidateOf(boxes[box], areas[box], face);
@@ -136,35 +192,25 @@ Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace
         found.push_back(candidate);
       }
     }
-    std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    const auto coversMore = [](const Candidate& a, const Candidate& b) {
       return a.covers != b.covers ? a.covers > b.covers : a.box < b.box;
-    });
-    // What is left out, or as much as nothing.
-    double out = least;
-    std::vector<std::size_t> bodies;
-    std::vector<double> inFront;
-    const std::size_t first = neighbors.entries.size();
-    for (const Candidate& candidate : found) {
-      const std::size_t body = boxes[candidate.box].body;
-      if (std::find(bodies.begin(), bodies.end(), body) != bodies.end()) {
-        continue;
-      }
-      if (bodies.size() == kMostNeighbors) {
-        out = candidate.covers;
-        break;
-      }
-      bodies.push_back(body);
-      inFront.push_back(candidate.inFront);
-      neighbors.entries.push_back({.box = candidate.box, .weight = candidate.covers});
+    };
+    if (hasCopies) {
+      std::sort(found.begin(), found.end(), coversMore);
+      keepOneOfEachBody(found, boxes);
+    } else {
+      const std::size_t enough = std::min(found.size(), kMostNear + kMostFar + 1);
+      std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(enough), found.end(),
+                        coversMore);
+      found.resize(enough);
     }
-    for (std::size_t i = first; i < neighbors.entries.size(); ++i) {
-      double& weight = neighbors.entries[i].weight;
-      // As much as is left out is never more than half of what a face can see.
-      weight = out < 0.5 ? std::min(1.0, (weight - out) / std::min(kFading * out, 0.5 - out)) : 1;
-      weight *= inFront[i - first];
-    }
+    Neighbors::List list{.begin = neighbors.entries.size()};
+    list.near =
+        append(neighbors.entries, found, kMostNear, [](const Candidate& each) { return each.isNear; });
+    list.far =
+        append(neighbors.entries, found, kMostFar, [](const Candidate& each) { return 1 - each.isNear; });
+    neighbors.lists.push_back(list);
   }
-  neighbors.begins.push_back(neighbors.entries.size());
   return neighbors;
 }
 

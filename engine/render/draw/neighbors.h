@@ -9,7 +9,9 @@
 
 namespace careen {
 
-inline constexpr std::size_t kMostNeighbors = 8;
+inline constexpr std::size_t kMostNear = 12;
+inline constexpr std::size_t kMostFar = 32;
+inline constexpr double kReturnedToBoxes = 1.5;  ///< boxes are lit from more sides than surfaces
 
 /// Boxes that keep ambient light from faces.
 struct Neighbors {
@@ -17,15 +19,25 @@ struct Neighbors {
     std::size_t box = 0;
     double weight = 1;  ///< [1] falls to 0 before the box leaves the list
   };
+  /// Of a face: boxes near it, whose shape counts, then those farther away, of which their size is enough. In
+  /// between a box is in both lists, with weights that add up to 1.
+  struct List {
+    std::size_t begin = 0;
+    std::size_t near = 0;
+    std::size_t far = 0;
+  };
   std::vector<Entry> entries;
-  std::vector<std::size_t> begins;  ///< of each face's entries, and the end
-  std::span<const Entry> of(std::size_t face) const {
-    return std::span<const Entry>(entries).subspan(begins[face], begins[face + 1] - begins[face]);
+  std::vector<List> lists;  ///< of each face
+  std::span<const Entry> near(std::size_t face) const {
+    return std::span<const Entry>(entries).subspan(lists[face].begin, lists[face].near);
+  }
+  std::span<const Entry> far(std::size_t face) const {
+    return std::span<const Entry>(entries).subspan(lists[face].begin + lists[face].near, lists[face].far);
   }
 };
 
-/// Of each face the boxes, kMostNeighbors at most, that cover more than about `least` of what it sees; only
-/// marked boxes occlude, and of several copies of a body only the one that covers most.
+/// Of each face the boxes, kMostNear and kMostFar at most, that cover more than about `least` of what it
+/// sees; only marked boxes occlude, and of several copies of a body only the one that covers most.
 Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, double least);
 
 /// [m²] Area of the largest silhouette of a box.

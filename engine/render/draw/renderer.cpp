@@ -53,8 +53,11 @@ bool mayOverlap(const Stage& stage) { return stage.planes.size() + (stage.room ?
 
 // [1] The more boxes there are, the more they hide each other, and the less each has to be drawn far away.
 double leastOcclusion(std::size_t boxes) {
-  return std::clamp(0.004 * std::sqrt(static_cast<double>(boxes) / 100), 0.004, 0.012);
+  return std::clamp(0.004 * std::sqrt(static_cast<double>(boxes) / 100), 0.004, 0.022);
 }
+
+// [1] Likewise, of what keeps light from a box.
+double leastOnBoxes(std::size_t boxes) { return std::min(leastOcclusion(boxes), 0.008); }
 
 // [px] Thinner springs would be drawn with gaps.
 constexpr double kThinnest = 1.5;
@@ -148,12 +151,12 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
   gl.DepthFunc(GL_LEQUAL);
   gl.Enable(GL_CULL_FACE);
 
-  block.up = floats(camera.up.normalized());
   block.sky = floats(lighting.sky);
   block.ground = floats(lighting.ground);
   block.backgroundTop = floats(lighting.backgroundTop);
   block.backgroundBottom = floats(lighting.backgroundBottom);
-  block.finish = floats(Vec3(materials.shoulder, canvas.wantsEdges() ? 1 : 0, materials.dither));
+  block.finish = floats(Vec3(materials.shoulder, canvas.wantsEdges() ? 1 : 0, materials.dither),
+                        leastOnBoxes(world.bodies.size()));
   block.boxLook =
       floats(Vec3(materials.boxRoughness, materials.marks ? 1 : 0, materials.ownColor), materials.edgeLine);
   block.material = floats(materials.boxColor);
@@ -212,16 +215,18 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
                    [&](const DrawnFace& face) { return face.normal.dot(towards) <= 0; });
   }
   Neighbors neighbors;
+  double returned = 0;  // the mean of all boxes
   if (occlusion) {
     if (stage.picture.light.has(LightPart::kBounce)) {
       for (DrawnBox& box : drawn) {
         const Vec3 albedo = (1 - materials.ownColor) * materials.boxColor + materials.ownColor * box.color;
         box.returned = materials.bounce * albedo;
+        returned += kReturnedToBoxes * box.returned.mean() / static_cast<double>(drawn.size());
       }
     }
     const double least = leastOcclusion(world.bodies.size());
     if (world.bodies.size() > 1) {
-      neighbors = neighborsOf(drawn, faces, 3 * least);
+      neighbors = neighborsOf(drawn, faces, leastOnBoxes(world.bodies.size()));
     }
     if (occlusionMap) {
       occlusionMap->place(drawn, surfaces.surfaces(),
@@ -238,6 +243,7 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
       occludedCells.markAll();
     }
   }
+  block.up = floats(camera.up.normalized(), returned);
   boxes.place(drawn, faces, cast, neighbors, towards, view.eye);
 }
 
