@@ -342,12 +342,7 @@ double ContactSystem::projectPositions(std::vector<double>& y, double most) {
       const std::size_t at = m * kNumbers;
       setThree(y, at, threeAt(y, at) + threeAt(forces_.accelerations(), m * kSix));
       const Vec3 half = 0.5 * angularOf(forces_.accelerations(), m);
-      const Quat turn = Quat(1, half[0], half[1], half[2]).normalized();
-      setQuat(y, at + 3, (quatAt(y, at + 3) * turn).normalized());
-      // The angular momentum stays where it points.
-      const MassProperties& mass = bodies_[movers_[m]].body->mass;
-      setThree(y, at + 10,
-               mass.inverseInertiaTimes(turn.conjugate() * mass.inertiaTimes(threeAt(y, at + 10))));
+      setQuat(y, at + 3, (quatAt(y, at + 3) * Quat(1, half[0], half[1], half[2])).normalized());
     }
   }
   if (moved > 0) {

@@ -195,9 +195,12 @@ void TimeStepper::shortenJolt(double& h) {
   if (change <= kJolt * fastestOf(start_)) {
     return;
   }
+  const std::vector<ClosedContact> found = law_;
   choose(h);
   jolted_ = tryStep(kMoment * h) && changeTo(coarse_) > kStays * change;
-  if (jolted_) {
+  if (!jolted_) {
+    law_ = found;
+  } else {
     halved_ = false;
     end_ = coarse_;
     h *= kMoment;
@@ -295,6 +298,13 @@ void TimeStepper::correct() {
   }
   if (equations_.separate(end_, features, 0.125 * closed())) {
     lookAgain(end_);
+    // A heavy body may have to be moved farther; then a speed is the lesser evil.
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if ((end_[i].position - reached_[i].position).norm() > tolerance_) {
+        reached_ = end_;
+        halved_ = false;
+      }
+    }
   }
 }
 

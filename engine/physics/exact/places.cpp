@@ -48,7 +48,12 @@ void ExactWorld::alignPlaces(Encounter& encounter, const Event& event) const {
         if (!mover(encounter.ranks[i]).isHeld()) {
           const TouchingBody& moved = system.bodies()[i];
           encounter.attitudes[i] = moved.worldFromBody;
-          encounter.before[i] = encounter.after[i] = moved.state();
+          BodyState state = moved.state();
+          if (mover(encounter.ranks[i]).flies) {  // it has its momenta, wherever it is moved
+            state.velocity = encounter.before[i].velocity;
+            state.angularMomentum = encounter.before[i].angularMomentum;
+          }
+          encounter.before[i] = encounter.after[i] = state;
         }
       }
     }
