@@ -143,7 +143,7 @@ void ExactWorld::happen(const Event& event) {
       formCrowd(encounter);
       return;
     }
-    if (hasSpent(encounter)) {
+    if (!encounter.islands.empty() && haveSpent(encounter.ranks, encounter.time)) {
       formCrowd(encounter);
       return;
     }
@@ -194,12 +194,13 @@ void ExactWorld::end() {
   }
   for (Mover& body : movers_) {
     if (body.touches()) {
-      account_.departs(static_cast<std::size_t>(body.listed.value), body.stateAt(end_));
-      mayLose = mayLose || body.contactGroup->crowd || body.contactGroup->island->mayLose();
-      if (body.contactGroup->crowd) {
+      if (body.contactGroup->crowd) {  // whose energy is known at the ends of its steps
         endStep(*body.contactGroup, body.place);
-        body.contactGroup->merged[body.place].flush(recorder_, body.listed);
+        body.contactGroup->joined[body.place].flush(recorder_, body.listed);
+        continue;
       }
+      account_.departs(static_cast<std::size_t>(body.listed.value), body.stateAt(end_));
+      mayLose = mayLose || body.contactGroup->island->mayLose();
     }
   }
   account_.strikes(mayLose);
@@ -237,12 +238,18 @@ bool ExactWorld::step(ContactGroup& contactGroup, const Instant& time) {
     movable += body.isHeld() ? 0 : 1;
   }
   const std::vector<TouchingBody> before = island.bodies();
+  bool steps = !haveSpent(contactGroup.ranks, time, kWorkWithoutEvent);
   try {
-    contactGroup.step = island.step(most);
+    if (steps) {
+      contactGroup.step = island.step(most);
+    }
   } catch (const NumericalError&) {
     if (crowds_.when == CrowdSettings::When::kNever) {
       throw;
     }
+    steps = false;
+  }
+  if (!steps) {
     Encounter encounter;
     encounter.time = time;
     for (std::size_t i = 0; i < before.size(); ++i) {

@@ -23,7 +23,9 @@ constexpr double kUnseen = 2;          // [1] of the tolerance: motion after whi
 void Crowd::lookAround() {
   for (PileBody& body : bodies_) {
     body.turning = body.still() ? 0 : h_ * body.radius * body.omega.norm();
-    body.ahead = body.still() ? 0 : h_ * (body.velocity.norm() + h_ * gravityMagnitude_) + body.turning;
+    body.ahead = body.still()
+                     ? 0
+                     : h_ * (body.velocity.norm() + (h_ + body.behind) * gravityMagnitude_) + body.turning;
   }
   pairs_.update(bodies_, world_.gravity, h_, std::max(h_, kLookAhead * longestStep()));
   unused_.insert(unused_.end(), pairs_.freed().begin(), pairs_.freed().end());
@@ -80,7 +82,7 @@ double Crowd::wayAhead(const PilePair& pair) const {
   const PileBody& b = bodyAt(pair.b);
   const Vec3 relative =
       (a.still() ? Vec3(Vec3::Zero()) : a.velocity) - (b.still() ? Vec3(Vec3::Zero()) : b.velocity);
-  return h_ * (relative.norm() + h_ * gravityMagnitude_) + a.turning + b.turning;
+  return h_ * (relative.norm() + (h_ + a.behind + b.behind) * gravityMagnitude_) + a.turning + b.turning;
 }
 
 // [m] Relative motion after which a manifold of boxes of that smallest size [m] is rebuilt.
@@ -215,13 +217,14 @@ void Crowd::addRows(int slot) {
     point.row = static_cast<int>(solver_.rowCount());
     solver_.add(row);
     if (-speed > kBounceFrom * gravityMagnitude_ * h_) {
-      // Only the part of gravity before the time of contact counts, or bouncing would gain energy.
+      // Only the part of gravity before the time of contact counts, or bouncing would gain energy. The speed
+      // is that of the middle.
       const double before = std::clamp(point.gap / (-speed * h_), 0.0, 1.0);
       const Vec3 fallA = a.still() ? Vec3(Vec3::Zero()) : acceleration(at(manifold.a));
       const Vec3 fallB =
           hasWall || bodyAt(manifold.b).still() ? Vec3(Vec3::Zero()) : acceleration(at(manifold.b.body()));
       const double fall = h_ * frame.normal.dot(fallA - fallB);
-      const double approach = std::max(0.0, -(speed - (1 - before) * fall));
+      const double approach = std::max(0.0, -(speed + (before - 0.5) * fall));
       bounces_.push_back({.row = point.row,
                           .speed = manifold.restitution * approach,
                           .approach = approach,
@@ -297,6 +300,9 @@ void Crowd::project() {
       break;
     }
     ++figures_.projections;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      before_[i].pushed = before_[i].pushed || projection_.moved(static_cast<int>(i));
+    }
   }
   for (const int slot : near_) {
     const PileManifold& manifold = manifolds_[at(slot)];
