@@ -44,15 +44,15 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
   return moves && movable > most;
 }
 
-// Where they would go on in contact: whether they have spent the work that they may, so many times.
-bool ExactWorld::haveSpent(std::span<const int> ranks, const Instant& time, double times) const {
-  if (crowds_.when == CrowdSettings::When::kNever) {
+// Afterwards, where they would go on in contact: whether they have spent the work that they may.
+bool ExactWorld::hasSpent(const Encounter& encounter) const {
+  if (crowds_.when == CrowdSettings::When::kNever || encounter.islands.empty()) {
     return false;
   }
   double left = 0;
-  for (const int rank : ranks) {
+  for (const int rank : encounter.ranks) {
     if (!mover(rank).isHeld()) {
-      left += times * workShare_ * (kWorkAtOnce + kWorkPerSecond * time.hi) - mover(rank).work;
+      left += workShare_ * (kWorkAtOnce + kWorkPerSecond * encounter.time.hi) - mover(rank).work;
     }
   }
   return left < 0;

@@ -143,7 +143,7 @@ void ExactWorld::happen(const Event& event) {
       formCrowd(encounter);
       return;
     }
-    if (!encounter.islands.empty() && haveSpent(encounter.ranks, encounter.time)) {
+    if (hasSpent(encounter)) {
       formCrowd(encounter);
       return;
     }
@@ -238,18 +238,12 @@ bool ExactWorld::step(ContactGroup& contactGroup, const Instant& time) {
     movable += body.isHeld() ? 0 : 1;
   }
   const std::vector<TouchingBody> before = island.bodies();
-  bool steps = !haveSpent(contactGroup.ranks, time, kWorkWithoutEvent);
   try {
-    if (steps) {
-      contactGroup.step = island.step(most);
-    }
+    contactGroup.step = island.step(most);
   } catch (const NumericalError&) {
     if (crowds_.when == CrowdSettings::When::kNever) {
       throw;
     }
-    steps = false;
-  }
-  if (!steps) {
     Encounter encounter;
     encounter.time = time;
     for (std::size_t i = 0; i < before.size(); ++i) {

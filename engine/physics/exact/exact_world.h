@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -41,8 +40,6 @@ class ExactWorld {
   /// when the run ends.
   static constexpr double kWorkAtOnce = 5e5;
   static constexpr double kWorkPerSecond = 5e4;
-  /// So many times that, where no event comes.
-  static constexpr double kWorkWithoutEvent = 8;
   /// Of more bodies in contact, time steps cost so much that it does not pay to begin.
   static constexpr int kMostInContact = 100;
 
@@ -88,7 +85,7 @@ class ExactWorld {
 
   // Crowds.
   bool goesOnAsCrowd(const Encounter& encounter) const;
-  bool haveSpent(std::span<const int> ranks, const Instant& time, double times = 1) const;
+  bool hasSpent(const Encounter& encounter) const;
   void formCrowd(const Encounter& encounter);
   void enlist(const std::shared_ptr<ContactGroup>& crowd, int rank, const Instant& time,
               const BodyState& state, const Quat& attitude);

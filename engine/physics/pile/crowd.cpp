@@ -234,7 +234,6 @@ void Crowd::take(double length, bool mayShift) {
     impulseScale_ = scale;
     lookAround();
     loadSolver();
-    solver_.link();
     solver_.wakeAll();
     solve(kSweeps);
   }
@@ -335,6 +334,7 @@ void Crowd::loadSolver() {
   }
   impulseScale_ = 1;
   figures_.rows += static_cast<std::int64_t>(solver_.rowCount());
+  solver_.link();
   solver_.warmStart();
 }
 

@@ -137,7 +137,7 @@ PileManifold& Crowd::manifoldOf(PilePair& pair) {
   pair.slot = unused_.back();
   unused_.pop_back();
   PileManifold& manifold = manifolds_[at(pair.slot)];
-  manifold = {};
+  manifold.clear();
   manifold.a = pair.a;
   manifold.b = pair.b;
   const PileBody& a = bodies_[at(pair.a)];
@@ -192,7 +192,7 @@ void Crowd::addRows(int slot) {
             (point.gap + speeds[at(k)] * h_ <= 0 && -speeds[at(k)] > kBounceFrom * gravityMagnitude_ * h_);
   }
   const double together = kTogether * tolerance_;
-  bool begun = false;
+  const PileFrame* begun = nullptr;
   for (int k = 0; k < manifold.count; ++k) {
     PilePoint& point = manifold.points[at(k)];
     const PileFrame& frame = manifold.frameOf(k);
@@ -202,11 +202,11 @@ void Crowd::addRows(int slot) {
       point.normalImpulse = point.normalImpulseBefore = 0;
       continue;
     }
-    if (!begun) {
-      solver_.beginManifold(manifold.a, manifold.b, manifold.friction);
-      begun = true;
+    if (begun != &frame) {
+      solver_.beginBlock(manifold.a, manifold.b, manifold.friction, frame, apart);
+      begun = &frame;
     }
-    PileSolver::Row row{.armA = point.world, .armB = point.world + apart, .frame = frame};
+    PileSolver::Row row{.arm = point.world};
     row.bound = meets && point.gap <= together ? 0 : -std::max(0.0, point.gap) / h_;
     row.normalImpulse = impulseScale_ * std::min(point.normalImpulse, kGrowth * point.normalImpulseBefore);
     if (row.normalImpulse > 0) {
@@ -239,19 +239,18 @@ void Crowd::addPresentRows(const PileManifold& manifold) {
   const Vec3 apart = manifold.b.isWall()
                          ? Vec3(Vec3::Zero())
                          : Vec3(bodies_[at(manifold.a)].position - bodyAt(manifold.b).position);
-  bool begun = false;
+  const PileFrame* begun = nullptr;
   for (int k = 0; k < manifold.count; ++k) {
     const PilePoint& point = manifold.points[at(k)];
     if (point.row < 0) {
       continue;
     }
-    if (!begun) {
-      solver_.beginManifold(manifold.a, manifold.b, manifold.friction);
-      begun = true;
+    const PileFrame& frame = manifold.frameOf(k);
+    if (begun != &frame) {
+      solver_.beginBlock(manifold.a, manifold.b, manifold.friction, frame, apart);
+      begun = &frame;
     }
-    solver_.add({.armA = point.world,
-                 .armB = point.world + apart,
-                 .frame = manifold.frameOf(k),
+    solver_.add({.arm = point.world,
                  .bound = -std::max(0.0, point.gap) / h_,
                  .normalImpulse = point.normalImpulse,
                  .tangential1 = point.tangential1,

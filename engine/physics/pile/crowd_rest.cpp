@@ -188,8 +188,8 @@ void Crowd::certify(std::vector<char>& chosen) {
     slots.push_back(slot);
     addPresentRows(manifold);
   }
-  solver_.warmStart();
   solver_.link();
+  solver_.warmStart();
   solver_.wakeAll();
   figures_.solves += solver_.solve(kRestSweeps, true);
   std::vector<char> resting(bodies_.size(), 1);
