@@ -32,6 +32,14 @@ class CrowdRun {
     look();
   }
   std::span<const BodyState> states() const { return states_; }
+  /// Of moments at which velocities and places go together.
+  std::vector<BodyState> statesAtVelocities() const {
+    std::vector<BodyState> states;
+    for (const std::size_t place : places_) {
+      states.push_back(crowd_.stateAtVelocity(place));
+    }
+    return states;
+  }
   bool sleeps(std::size_t body) const { return crowd_.sleeps(places_[body]); }
   bool atRest() const { return crowd_.atRest(); }
   double deepest() const { return crowd_.penetration(); }

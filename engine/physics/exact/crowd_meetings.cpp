@@ -16,12 +16,12 @@ class Unpushed {
       : body_(crowd.listedBody(place)) {
     PileBody body = crowd.body(place);
     const StepEnd from{.position = body.position,
-                       .velocity = body.velocity,
+                       .velocity = body.velocity + body.behind * gravity,
                        .worldFromBody = body.attitude,
                        .spinBody = body.attitude.conjugate() * body.omega};
     turnFree(body, length);
-    const StepEnd to{.position = body.position + length * (body.velocity + 0.5 * length * gravity),
-                     .velocity = body.velocity + length * gravity,
+    const StepEnd to{.position = body.position + length * (from.velocity + 0.5 * length * gravity),
+                     .velocity = from.velocity + length * gravity,
                      .worldFromBody = body.attitude,
                      .spinBody = body.attitude.conjugate() * body.omega};
     step_ = asContactStep(cubicStep(from, to, length));
@@ -115,9 +115,9 @@ bool ExactWorld::meetsNext(const ContactGroup& group, int rank, const Instant& t
       return false;
     }
     const PileBody& at = group.crowd->body(member.place);
-    const double way =
-        crowds_.tolerance + length * ((state.velocity - at.velocity).norm() + turning +
-                                      at.radius * at.omega.norm() + length * world_.gravity.norm());
+    const double way = crowds_.tolerance +
+                       length * ((state.velocity - at.velocity).norm() + turning +
+                                 at.radius * at.omega.norm() + (length + at.behind) * world_.gravity.norm());
     if ((state.pose.position - at.position).norm() > radius + at.radius + way ||
         BoxAxes(boxAt(state.pose, *body.body), boxAt(stateOf(at).pose, *member.body)).gap() > way) {
       return false;

@@ -104,7 +104,7 @@ void ExactWorld::joinStep(const std::shared_ptr<ContactGroup>& crowd, const Enco
 void ExactWorld::keepPlace(const std::shared_ptr<ContactGroup>& crowd, int rank, std::size_t place) {
   if (place >= crowd->ranks.size()) {
     crowd->ranks.resize(place + 1, -1);
-    crowd->merged.resize(place + 1, MergedSteps(kMerged * crowds_.tolerance));
+    crowd->joined.resize(place + 1, JoinedSteps(kMerged * crowds_.tolerance));
     crowd->motions.resize(place + 1);
   }
   crowd->ranks[place] = rank;
@@ -128,12 +128,34 @@ void ExactWorld::enlist(const std::shared_ptr<ContactGroup>& crowd, int rank, co
   if (body.flies) {
     arrive(body, time, state);
   }
+  const JoinedSteps joined = comingFrom(*crowd, body, time, state, attitude);
   body.rest(state.pose);
-  keepPlace(crowd, rank, crowd->crowd->admit(static_cast<std::size_t>(body.listed.value), state, attitude));
+  const std::size_t place = crowd->crowd->admit(static_cast<std::size_t>(body.listed.value), state, attitude);
+  keepPlace(crowd, rank, place);
+  crowd->joined[place] = joined;
   for (const int other : springs_[static_cast<std::size_t>(rank)]) {
     const Quat turned = mover(other).attitudeAt(time);
     enlist(crowd, other, time, mover(other).stateAt(time, turned), turned);
   }
+}
+
+// The path of a body that becomes a member now, from half a step of the crowd ago on: there, members who met
+// it bent theirs.
+JoinedSteps ExactWorld::comingFrom(const ContactGroup& crowd, const Mover& body, const Instant& time,
+                                   const BodyState& state, const Quat& attitude) const {
+  JoinedSteps joined(kMerged * crowds_.tolerance);
+  const double length = std::min(0.5 * crowd.before, secondsBetween(body.start, time));
+  if (length > 0) {
+    const auto endAt = [&](const BodyState& at, const Quat& turned) {
+      const Vec3 spin = at.pose.worldFromBody.transpose() * angularVelocity(body.body->mass, at);
+      return StepEnd{
+          .position = at.pose.position, .velocity = at.velocity, .worldFromBody = turned, .spinBody = spin};
+    };
+    const Instant begin = instantAfter(time, -length);
+    const Quat turned = body.attitudeAt(begin);
+    joined.follows(begin.hi, endAt(body.stateAt(begin, turned), turned), endAt(state, attitude), length);
+  }
+  return joined;
 }
 
 // Adds a body at rest or immovable, and all at rest that it touches, directly or through others: they are
@@ -183,7 +205,6 @@ void ExactWorld::merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup&
       enlistAtRest(crowd, rank);
       continue;
     }
-    other.merged[place].flush(recorder_, body.listed);
     if (other.crowd->sleeps(place)) {
       std::optional<std::size_t>& cluster =
           clusters[static_cast<std::size_t>(other.crowd->body(place).cluster)];
@@ -192,9 +213,10 @@ void ExactWorld::merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup&
       cluster = cluster.value_or(at);
       keepPlace(crowd, rank, at);
     } else {
-      keepPlace(crowd, rank,
-                crowd->crowd->admit(static_cast<std::size_t>(body.listed.value), other.crowd->state(place),
-                                    other.crowd->attitude(place)));
+      const std::size_t at = crowd->crowd->admit(static_cast<std::size_t>(body.listed.value),
+                                                 other.crowd->state(place), other.crowd->attitude(place));
+      keepPlace(crowd, rank, at);
+      crowd->joined[at] = other.joined[place];
     }
   }
   other.ranks.clear();
@@ -258,17 +280,18 @@ void ExactWorld::commit(ContactGroup& group, const Instant& time) {
     }
     // Perhaps without having moved: woken in this step, and asleep again when that was taken once more.
     if (crowd.sleeps(place) && mover(rank).moves()) {
-      group.merged[place].flush(recorder_, mover(rank).listed);
+      group.joined[place].flush(recorder_, mover(rank).listed);
       rest(rank, time, crowd.state(place).pose);
       queue_.clear(rank);
       predictAround(rank);
     }
   }
+  group.before = group.step.length > 0 ? group.step.length : group.before;
 }
 
 void ExactWorld::endStep(ContactGroup& group, std::size_t place) {
   const Crowd& crowd = *group.crowd;
-  group.merged[place].add(recorder_, mover(group.ranks[place]).listed, group.start.hi, crowd.begin(place),
+  group.joined[place].add(recorder_, mover(group.ranks[place]).listed, group.start.hi, crowd.begin(place),
                           crowd.end(place), crowd.length(), crowd.body(place).radius);
 }
 
@@ -282,7 +305,7 @@ std::vector<int> ExactWorld::release(ContactGroup& group, const Instant& time) {
     }
     const BodyState state = group.crowd->state(place);
     const Quat attitude = group.crowd->attitude(place);
-    group.merged[place].flush(recorder_, mover(rank).listed);
+    group.joined[place].flush(recorder_, mover(rank).listed);
     group.crowd->dismiss(place);
     group.ranks[place] = -1;
     mover(rank).crowd.reset();
@@ -302,7 +325,8 @@ void ExactWorld::go(const std::shared_ptr<ContactGroup>& group, const Instant& t
   account_.strikes(true);
   for (std::size_t place = 0; place < group->ranks.size(); ++place) {
     if (group->ranks[place] >= 0 && !crowd.isHeld(place) && !crowd.sleeps(place)) {
-      account_.departs(static_cast<std::size_t>(mover(group->ranks[place]).listed.value), crowd.state(place));
+      account_.departs(static_cast<std::size_t>(mover(group->ranks[place]).listed.value),
+                       crowd.stateAtVelocity(place));
     }
   }
   account_.parted();
@@ -313,6 +337,10 @@ void ExactWorld::go(const std::shared_ptr<ContactGroup>& group, const Instant& t
     const int rank = group->ranks[place];
     if (rank < 0 || !crowd.moved(place)) {
       continue;
+    }
+    if (group->joined[place].isNew() && !mover(rank).moves()) {  // it was asleep
+      group->joined[place] =
+          comingFrom(*group, mover(rank), time, {.pose = mover(rank).pose}, crowd.attitude(place));
     }
     begins(rank, time);
     group->motions[place] = asContactStep(cubicStep(crowd.begin(place), crowd.end(place), crowd.length()));

@@ -194,12 +194,13 @@ void ExactWorld::end() {
   }
   for (Mover& body : movers_) {
     if (body.touches()) {
-      account_.departs(static_cast<std::size_t>(body.listed.value), body.stateAt(end_));
-      mayLose = mayLose || body.contactGroup->crowd || body.contactGroup->island->mayLose();
-      if (body.contactGroup->crowd) {
+      if (body.contactGroup->crowd) {  // whose energy is known at the ends of its steps
         endStep(*body.contactGroup, body.place);
-        body.contactGroup->merged[body.place].flush(recorder_, body.listed);
+        body.contactGroup->joined[body.place].flush(recorder_, body.listed);
+        continue;
       }
+      account_.departs(static_cast<std::size_t>(body.listed.value), body.stateAt(end_));
+      mayLose = mayLose || body.contactGroup->island->mayLose();
     }
   }
   account_.strikes(mayLose);

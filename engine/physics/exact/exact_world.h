@@ -91,6 +91,8 @@ class ExactWorld {
               const BodyState& state, const Quat& attitude);
   void enlistAtRest(const std::shared_ptr<ContactGroup>& crowd, int rank);
   void keepPlace(const std::shared_ptr<ContactGroup>& crowd, int rank, std::size_t place);
+  JoinedSteps comingFrom(const ContactGroup& crowd, const Mover& body, const Instant& time,
+                         const BodyState& state, const Quat& attitude) const;
   void merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup& other);
   void advanceCrowd(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
   void joinStep(const std::shared_ptr<ContactGroup>& crowd, const Encounter& encounter);

@@ -9,7 +9,7 @@
 #include "physics/contact/island.h"
 #include "physics/exact/event_queue.h"
 #include "physics/motion/flight.h"
-#include "physics/motion/merged_steps.h"
+#include "physics/motion/joined_steps.h"
 #include "physics/motion/recorder.h"
 #include "physics/pile/crowd.h"
 #include "physics/search/neighbors.h"
@@ -28,7 +28,8 @@ struct ContactGroup {
   Instant start{};                   ///< of this step
   Island::Step step{};
   int leader = 0;                   ///< rank of the body whose event is the end of the step
-  std::vector<MergedSteps> merged;  ///< of a crowd, by place: not yet recorded
+  double before = 0;                ///< [s] length of the crowd's step before this one, 0: none
+  std::vector<JoinedSteps> joined;  ///< of a crowd, by place: not yet recorded
 
   Instant end() const { return instantAfter(start, step.length); }
 };

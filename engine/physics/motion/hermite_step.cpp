@@ -66,4 +66,18 @@ CrowdStep cubicStep(const StepEnd& from, const StepEnd& to, double length) {
   return step;
 }
 
+StepEnd endWithin(const CrowdStep& step, double elapsed) {
+  const double s = elapsed / step.duration;
+  const auto value = [&](const auto& c) { return (c[0] + s * (c[1] + s * (c[2] + s * c[3]))).eval(); };
+  const auto slope = [&](const auto& c) {
+    return ((c[1] + s * (2 * c[2] + s * (3 * c[3]))) / step.duration).eval();
+  };
+  const Vec4 turn = value(step.worldFromBody);
+  const Quat rate(Vec4(slope(step.worldFromBody)));
+  return {.position = value(step.position),
+          .velocity = slope(step.position),
+          .worldFromBody = Quat(turn).normalized(),
+          .spinBody = (2 / turn.squaredNorm()) * (Quat(turn).conjugate() * rate).vec()};
+}
+
 }  // namespace careen

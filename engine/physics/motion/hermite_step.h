@@ -21,4 +21,7 @@ ContactStep hermiteStep(const StepEnd& from, const StepEnd& to, double length);
 /// The polynomials of degree 3, which leave the accelerations free.
 CrowdStep cubicStep(const StepEnd& from, const StepEnd& to, double length);
 
+/// Where the body is `elapsed` [s] after the step began, its accelerations left out.
+StepEnd endWithin(const CrowdStep& step, double elapsed);
+
 }  // namespace careen

@@ -27,6 +27,7 @@ struct PileBody {
   Vec3 velocity = Vec3::Zero();         ///< [m/s]
   Vec3 angularMomentum = Vec3::Zero();  ///< [kg m²/s] primary state: ω is derived from it
   Vec3 omega = Vec3::Zero();            ///< [rad/s]
+  double behind = 0;                    ///< [s] since it had its velocity: where pushed, that of mid-step
 
   double path = 0;     ///< [m] upper bound on the total path length of any of its points; never decreases
   double ahead = 0;    ///< [m] the same for the next substep

@@ -13,8 +13,9 @@ constexpr double kShortestStep = 1.0 / 720;  // [s]
 constexpr double kShortestTurn = 0x1p-4;     // [1] of it: for boxes that spin fast
 constexpr double kMostMoved =
     0x1p-4;  // [1] of the smallest size, motion per step: faster bodies take shorter steps
-constexpr double kMostOfSpring = 0.25;  // [rad] phase of the stiffest spring per step
-constexpr double kProjected = 3;        // longest steps between two projections
+constexpr double kMostOfSpring = 0x1p-3;  // [rad] phase of the stiffest spring per step
+constexpr int kLoadPasses = 3;
+constexpr double kProjected = 3;  // longest steps between two projections
 constexpr int kSweeps = 20;
 constexpr std::int64_t kMostSweeps = 400;
 constexpr std::int64_t kFewManifolds = 256;
@@ -36,6 +37,8 @@ Crowd::Crowd(const World& world, double tolerance)
       gravityMagnitude_(world.gravity.norm()),
       springLimit_(std::numeric_limits<double>::infinity()),
       h_(longestStep()),
+      hBefore_(h_),
+      span_(h_),
       pairs_(world.walls),
       projection_(tolerance),
       tell_(kTell) {
@@ -96,7 +99,8 @@ void Crowd::dismiss(std::size_t place) {
   free_.push_back(static_cast<int>(place));
 }
 
-// [s] Springs are integrated explicitly: stable, and accurate to about the tolerance, for a small phase.
+// [s] Springs are integrated with few iterations: stable, and accurate to about the tolerance, for a small
+// phase.
 void Crowd::limitBySprings(std::size_t listed) {
   for (const Spring& spring : world_.springs) {
     double mobility = 0;  // [1/kg]
@@ -124,6 +128,7 @@ double Crowd::step(double most) {
     sortManifolds();
   }
   start_ = bodies_;
+  hBefore_ = h_;
   take(chooseLength(most));
   return keepApart();
 }
@@ -219,15 +224,16 @@ double Crowd::chooseLength(double most) const {
 
 void Crowd::take(double length, bool mayShift) {
   // Stored impulses are those of the last step. If that was much shorter, they are those of impacts.
-  const double scale = std::min(length / h_, kMostScaled);
+  const double span = 0.5 * (hBefore_ + length);
+  const double scale = std::min(span / span_, kMostScaled);
   h_ = length;
+  span_ = span;
   findLoads();
   wakeDisturbed();
   for (bool struck = true; struck; struck = wakeStruck()) {
     impulseScale_ = scale;
     lookAround();
     loadSolver();
-    solver_.link();
     solver_.wakeAll();
     solve(kSweeps);
   }
@@ -249,7 +255,10 @@ void Crowd::take(double length, bool mayShift) {
   }
 }
 
-// Forces of springs and drag at the start of the step.
+// Forces of springs and drag, in the middle of the time over which they change the velocity that a member
+// has: for one that was pushed from the middle of the last step to that of this one (leapfrog), else in the
+// middle of this one, found by iteration (implicit midpoint rule). Neither makes springs swing higher and
+// higher.
 void Crowd::findLoads() {
   if (worldStates_.empty()) {
     return;
@@ -260,6 +269,20 @@ void Crowd::findLoads() {
     }
   }
   computeLoads(world_, worldStates_, loads_);
+  for (int pass = 0; pass < kLoadPasses; ++pass) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (!bodies_[i].still()) {
+        PileBody halfway = bodies_[i];
+        const double ahead = halfway.behind > 0 ? 0 : 0.5 * h_;
+        halfway.velocity += (halfway.behind + ahead) * acceleration(i);
+        halfway.angularMomentum += ahead * loads_[listed_[i]].torque;
+        halfway.position += ahead * halfway.velocity;
+        turnFree(halfway, ahead);
+        worldStates_[listed_[i]] = stateOf(halfway);
+      }
+    }
+    computeLoads(world_, worldStates_, loads_);
+  }
 }
 
 // [m/s²] Without contacts.
@@ -295,7 +318,7 @@ void Crowd::loadSolver() {
     const int index = static_cast<int>(i);
     solver_.setBody(index, body, tell_ * body.length / h_);
     if (!body.still()) {
-      solver_.velocity(index) = body.velocity + h_ * acceleration(i);
+      solver_.velocity(index) = body.velocity + (body.behind + 0.5 * h_) * acceleration(i);
       solver_.omega(index) = body.omega;
       if (!loads_.empty()) {
         const Mat3 axes = body.principalAxes();
@@ -311,10 +334,12 @@ void Crowd::loadSolver() {
   }
   impulseScale_ = 1;
   figures_.rows += static_cast<std::int64_t>(solver_.rowCount());
+  solver_.link();
   solver_.warmStart();
 }
 
-// Bodies without contact impulse follow their parabola, the others the velocity after the solve.
+// The solver's velocities are those of the middle of the step. Bodies without contact impulse follow their
+// parabola, the others a straight line.
 void Crowd::move() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     PileBody& body = bodies_[i];
@@ -326,18 +351,17 @@ void Crowd::move() {
     Before& before = before_[i];
     before = {.position = body.position,
               .attitude = body.attitude,
-              .velocity = body.velocity,
+              .velocity = body.velocity + body.behind * acceleration(i),
               .omega = body.omega,
               .angularMomentum = body.angularMomentum,
               .pushed = solver_.pushed(index),
               .moved = true};
     body.path += body.ahead;
     body.turned += body.turning;
+    body.position += h_ * solver_.velocity(index);
     if (!before.pushed) {
-      body.position += h_ * (body.velocity + 0.5 * h_ * acceleration(i));
       unrest_[i] = std::numeric_limits<double>::max();
     } else {
-      body.position += h_ * solver_.velocity(index);
       const double turning = body.radius * (solver_.omega(index) - body.omega).norm();
       unrest_[i] = (solver_.velocity(index) - body.velocity).norm() + turning;
       body.path += h_ * unrest_[i];
@@ -345,22 +369,37 @@ void Crowd::move() {
     }
     const bool shifted = shifts_ && solver_.isShifted(index);
     if (shifted) {
+      before.pushed = true;
       body.position += solver_.displacement(index);
       body.path += shiftOf(index);
       body.turned += body.radius * solver_.turn(index).norm();
     }
-    if (before.pushed || !loads_.empty()) {
+    if (solver_.pushed(index)) {
       takeVelocity(body, index);
+      body.behind = 0.5 * h_;
+      turnFree(body, h_);
     } else {
-      body.velocity = solver_.velocity(index);
+      body.velocity = solver_.velocity(index) + 0.5 * h_ * acceleration(i);
+      body.behind = 0;
+      turnUnderLoad(body, i);
     }
-    turnFree(body, h_);
     if (shifted) {
       turnBy(body, solver_.turn(index));
     }
     before.endVelocity = body.velocity;
     before.endOmega = body.omega;
   }
+}
+
+// By the torque that acts in the middle.
+void Crowd::turnUnderLoad(PileBody& body, std::size_t place) const {
+  if (loads_.empty()) {
+    turnFree(body, h_);
+    return;
+  }
+  turnFree(body, 0.5 * h_);
+  body.angularMomentum += h_ * loads_[listed_[place]].torque;
+  turnFree(body, 0.5 * h_);
 }
 
 // Impulses change L at the attitude at which they were solved.

@@ -28,7 +28,9 @@ namespace careen {
 /// `tolerance`, and members at rest cost nothing.
 ///
 /// A step consists of: broad and narrow phase; gravity, springs and drag; solve for impulses such that no gap
-/// becomes negative within the step at its current rate, v_n ≥ −gap/h; integrate positions; restitution.
+/// becomes negative within the step at its current rate, v_n ≥ −gap/h; integrate positions; restitution. The
+/// velocities solved for are those of the middle of the step, and forces act from the middle of one step to
+/// that of the next (leapfrog).
 /// Where one point of a manifold strikes, all its points within a few tolerances strike, with v_n ≥ 0: else
 /// the corners of one edge would strike in different steps, and each would turn the body. A step in which
 /// bodies went deep into each other, or into a wall, is taken again with half its length; what is less deep
@@ -90,11 +92,14 @@ class Crowd {
   /// Asleep: its pose is bitwise constant until another body pushes it.
   bool sleeps(std::size_t place) const { return bodies_[place].asleep; }
   BodyState state(std::size_t place) const { return stateOf(bodies_[place]); }
+  /// Where it had the velocity of state(), half a step ago if it was pushed: so its energy is that of one
+  /// moment.
+  BodyState stateAtVelocity(std::size_t place) const;
   const Quat& attitude(std::size_t place) const { return bodies_[place].attitude; }
   const PileBody& body(std::size_t place) const { return bodies_[place]; }
   const Body& listedBody(std::size_t place) const { return world_.bodies[listed_[place]]; }
-  /// Whether it moved in the last step; then where that step began and ended. Where an impact changed its
-  /// velocity, it moves straight and both ends have the mean velocity.
+  /// Whether it moved in the last step; then where that step began and ended. Where something pushed it, it
+  /// moves straight and both ends have the mean velocity.
   bool moved(std::size_t place) const { return before_[place].moved; }
   StepEnd begin(std::size_t place) const;
   StepEnd end(std::size_t place) const;
@@ -163,7 +168,6 @@ class Crowd {
     bool pushed = false;
     bool moved = false;
   };
-  bool isSmooth(std::size_t place) const;
   Vec3 meanSpin(std::size_t place) const;
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const PileBody& bodyAt(Partner partner) const { return bodies_[at(partner.body())]; }
@@ -212,6 +216,7 @@ class Crowd {
   void noteImpacts();
   void refreshNear();
   void takeVelocity(PileBody& body, int index);
+  void turnUnderLoad(PileBody& body, std::size_t place) const;
   void countUntouched();
   double newDepth();
   double shiftOf(int body) const;
@@ -228,6 +233,8 @@ class Crowd {
   double gravityMagnitude_ = 0;      // [m/s²]
   double springLimit_ = 0;           // [s] longest step with the springs of the members
   double h_ = 0;                     // [s] of the last step
+  double hBefore_ = 0;               // [s] of the one before
+  double span_ = 0;                  // [s] from the middle of that to the middle of the last: its impulses
   double sinceProjection_ = 0;       // [s]
   double impulseScale_ = 1;          // scales stored impulses to this step
   std::vector<PileBody> bodies_;     // by place

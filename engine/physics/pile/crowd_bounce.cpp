@@ -50,6 +50,7 @@ void Crowd::bounce() {
     if (solver_.pushed(static_cast<int>(i))) {
       takeVelocity(bodies_[i], static_cast<int>(i));
       deriveOmega(bodies_[i]);
+      bodies_[i].behind = 0;
     }
   }
 }
@@ -59,7 +60,7 @@ void Crowd::bounce() {
 // convex, so both solves' impulses mixed lie in them.
 void Crowd::limitBounce() {
   struct Energies {
-    double before = 0;  // [J] kinetic, at the start of the step
+    double before = 0;  // [J] kinetic, at the start of the step, and what forces did in it
     double first = 0;   // after the first solve
     double second = 0;
     double change = 0;  // of the velocities that the second solve adds
@@ -87,7 +88,8 @@ void Crowd::limitBounce() {
     Energies& all = energies[together.root(i)];
     const Before& before = before_[i];
     const double turning = 0.5 * before.omega.dot(before.angularMomentum);
-    all.before += 0.5 * (before.velocity + h_ * acceleration(i)).squaredNorm() / body.inverseMass + turning;
+    const double work = acceleration(i).dot(body.position - before.position);
+    all.before += (0.5 * before.velocity.squaredNorm() + work) / body.inverseMass + turning;
     all.first += kinetic(body, body.velocity, body.omega);
     all.second += kinetic(body, solver_.velocity(index), solver_.omega(index));
     all.change += kinetic(body, solver_.velocity(index) - body.velocity, solver_.omega(index) - body.omega);

@@ -23,7 +23,9 @@ constexpr double kUnseen = 2;          // [1] of the tolerance: motion after whi
 void Crowd::lookAround() {
   for (PileBody& body : bodies_) {
     body.turning = body.still() ? 0 : h_ * body.radius * body.omega.norm();
-    body.ahead = body.still() ? 0 : h_ * (body.velocity.norm() + h_ * gravityMagnitude_) + body.turning;
+    body.ahead = body.still()
+                     ? 0
+                     : h_ * (body.velocity.norm() + (h_ + body.behind) * gravityMagnitude_) + body.turning;
   }
   pairs_.update(bodies_, world_.gravity, h_, std::max(h_, kLookAhead * longestStep()));
   unused_.insert(unused_.end(), pairs_.freed().begin(), pairs_.freed().end());
@@ -80,7 +82,7 @@ double Crowd::wayAhead(const PilePair& pair) const {
   const PileBody& b = bodyAt(pair.b);
   const Vec3 relative =
       (a.still() ? Vec3(Vec3::Zero()) : a.velocity) - (b.still() ? Vec3(Vec3::Zero()) : b.velocity);
-  return h_ * (relative.norm() + h_ * gravityMagnitude_) + a.turning + b.turning;
+  return h_ * (relative.norm() + (h_ + a.behind + b.behind) * gravityMagnitude_) + a.turning + b.turning;
 }
 
 // [m] Relative motion after which a manifold of boxes of that smallest size [m] is rebuilt.
@@ -135,7 +137,7 @@ PileManifold& Crowd::manifoldOf(PilePair& pair) {
   pair.slot = unused_.back();
   unused_.pop_back();
   PileManifold& manifold = manifolds_[at(pair.slot)];
-  manifold = {};
+  manifold.clear();
   manifold.a = pair.a;
   manifold.b = pair.b;
   const PileBody& a = bodies_[at(pair.a)];
@@ -190,7 +192,7 @@ void Crowd::addRows(int slot) {
             (point.gap + speeds[at(k)] * h_ <= 0 && -speeds[at(k)] > kBounceFrom * gravityMagnitude_ * h_);
   }
   const double together = kTogether * tolerance_;
-  bool begun = false;
+  const PileFrame* begun = nullptr;
   for (int k = 0; k < manifold.count; ++k) {
     PilePoint& point = manifold.points[at(k)];
     const PileFrame& frame = manifold.frameOf(k);
@@ -200,11 +202,11 @@ void Crowd::addRows(int slot) {
       point.normalImpulse = point.normalImpulseBefore = 0;
       continue;
     }
-    if (!begun) {
-      solver_.beginManifold(manifold.a, manifold.b, manifold.friction);
-      begun = true;
+    if (begun != &frame) {
+      solver_.beginBlock(manifold.a, manifold.b, manifold.friction, frame, apart);
+      begun = &frame;
     }
-    PileSolver::Row row{.armA = point.world, .armB = point.world + apart, .frame = frame};
+    PileSolver::Row row{.arm = point.world};
     row.bound = meets && point.gap <= together ? 0 : -std::max(0.0, point.gap) / h_;
     row.normalImpulse = impulseScale_ * std::min(point.normalImpulse, kGrowth * point.normalImpulseBefore);
     if (row.normalImpulse > 0) {
@@ -215,13 +217,14 @@ void Crowd::addRows(int slot) {
     point.row = static_cast<int>(solver_.rowCount());
     solver_.add(row);
     if (-speed > kBounceFrom * gravityMagnitude_ * h_) {
-      // Only the part of gravity before the time of contact counts, or bouncing would gain energy.
+      // Only the part of gravity before the time of contact counts, or bouncing would gain energy. The speed
+      // is that of the middle.
       const double before = std::clamp(point.gap / (-speed * h_), 0.0, 1.0);
       const Vec3 fallA = a.still() ? Vec3(Vec3::Zero()) : acceleration(at(manifold.a));
       const Vec3 fallB =
           hasWall || bodyAt(manifold.b).still() ? Vec3(Vec3::Zero()) : acceleration(at(manifold.b.body()));
       const double fall = h_ * frame.normal.dot(fallA - fallB);
-      const double approach = std::max(0.0, -(speed - (1 - before) * fall));
+      const double approach = std::max(0.0, -(speed + (before - 0.5) * fall));
       bounces_.push_back({.row = point.row,
                           .speed = manifold.restitution * approach,
                           .approach = approach,
@@ -236,19 +239,18 @@ void Crowd::addPresentRows(const PileManifold& manifold) {
   const Vec3 apart = manifold.b.isWall()
                          ? Vec3(Vec3::Zero())
                          : Vec3(bodies_[at(manifold.a)].position - bodyAt(manifold.b).position);
-  bool begun = false;
+  const PileFrame* begun = nullptr;
   for (int k = 0; k < manifold.count; ++k) {
     const PilePoint& point = manifold.points[at(k)];
     if (point.row < 0) {
       continue;
     }
-    if (!begun) {
-      solver_.beginManifold(manifold.a, manifold.b, manifold.friction);
-      begun = true;
+    const PileFrame& frame = manifold.frameOf(k);
+    if (begun != &frame) {
+      solver_.beginBlock(manifold.a, manifold.b, manifold.friction, frame, apart);
+      begun = &frame;
     }
-    solver_.add({.armA = point.world,
-                 .armB = point.world + apart,
-                 .frame = manifold.frameOf(k),
+    solver_.add({.arm = point.world,
                  .bound = -std::max(0.0, point.gap) / h_,
                  .normalImpulse = point.normalImpulse,
                  .tangential1 = point.tangential1,
@@ -297,6 +299,9 @@ void Crowd::project() {
       break;
     }
     ++figures_.projections;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      before_[i].pushed = before_[i].pushed || projection_.moved(static_cast<int>(i));
+    }
   }
   for (const int slot : near_) {
     const PileManifold& manifold = manifolds_[at(slot)];

@@ -21,6 +21,7 @@ constexpr int kShiftSweeps = 20;
 // Shifts that undo the penetration which the step would end with at the rates found: Gauss–Seidel stops
 // early, and gaps below zero are no bound to it. They need no rows of their own, unlike a projection.
 void Crowd::findShifts() {
+  solver_.beginShifts();
   for (const int slot : near_) {
     const PileManifold& manifold = manifolds_[at(slot)];
     const double tolerated = projection_.tolerated(manifold.length);
@@ -40,7 +41,6 @@ void Crowd::findShifts() {
   if (!shifts_) {
     return;
   }
-  solver_.beginShifts();
   figures_.solves += solver_.shift(kShiftSweeps, kShiftChange * tolerance_);
   for (const int slot : near_) {
     PileManifold& manifold = manifolds_[at(slot)];

@@ -6,11 +6,6 @@
 #include "physics/pile/crowd.h"
 
 namespace careen {
-namespace {
-
-constexpr double kKink = 0.25;  // [1] of the tolerance: what smoothing a change of velocity may bend
-
-}  // namespace
 
 double Crowd::fastest() const {
   double fastest = 0;
@@ -24,7 +19,8 @@ Crowd::Extent Crowd::extent(double length) const {
   Extent extent;
   for (const PileBody& body : bodies_) {
     if (!body.absent && !body.held) {
-      const double way = body.asleep ? 0 : length * (body.velocity.norm() + length * gravityMagnitude_);
+      const double fall = (length + body.behind) * gravityMagnitude_;
+      const double way = body.asleep ? 0 : length * (body.velocity.norm() + fall);
       extent.include(body.position, body.radius + way);
     }
   }
@@ -40,6 +36,12 @@ Crowd::Extent Crowd::swept() const {
     }
   }
   return extent;
+}
+
+BodyState Crowd::stateAtVelocity(std::size_t place) const {
+  BodyState state = stateOf(bodies_[place]);
+  state.pose.position -= bodies_[place].behind * state.velocity;
+  return state;
 }
 
 void Crowd::Extent::include(const Vec3& center, double radius) {
@@ -59,30 +61,24 @@ bool Crowd::cameNear(std::size_t place, BoxAt box, double distance) const {
                  .gap() <= within;
 }
 
-// The change of velocity is spread over the step, unless that bends the path by more than a part of the
-// tolerance: the cubic through both ends with both velocities differs from the straight line by 4/27 of it.
-bool Crowd::isSmooth(std::size_t place) const {
-  const Before& from = before_[place];
-  const double change =
-      (from.endVelocity - from.velocity).norm() + bodies_[place].radius * (from.endOmega - from.omega).norm();
-  return !from.pushed || h_ * change * (4.0 / 27) <= kKink * tolerance_;
-}
-
-// [rad/s] Body frame: of the turn from one end to the other, to third order in the angle.
+// [rad/s] Body frame: of the turn from one end to the other. Its angle is 2 asin of the length of the vector
+// part, here to eighth order.
 Vec3 Crowd::meanSpin(std::size_t place) const {
   const Quat turn = before_[place].attitude.conjugate() * bodies_[place].attitude;
-  return (turn.w() < 0 ? -2 : 2) / h_ * turn.vec();
+  const double z = turn.vec().squaredNorm();
+  const double angle = 2 * (1 + z * (1.0 / 6 + z * (3.0 / 40 + z * (15.0 / 336))));
+  return (turn.w() < 0 ? -angle : angle) / h_ * turn.vec();
 }
 
 StepEnd Crowd::begin(std::size_t place) const {
   const Before& from = before_[place];
   StepEnd end{.position = from.position, .worldFromBody = from.attitude};
-  if (isSmooth(place)) {
-    end.velocity = from.velocity;
-    end.spinBody = from.attitude.conjugate() * from.omega;
-  } else {
+  if (from.pushed) {
     end.velocity = (bodies_[place].position - from.position) / h_;
     end.spinBody = meanSpin(place);
+  } else {
+    end.velocity = from.velocity;
+    end.spinBody = from.attitude.conjugate() * from.omega;
   }
   return end;
 }
@@ -91,12 +87,12 @@ StepEnd Crowd::end(std::size_t place) const {
   const Before& from = before_[place];
   const PileBody& to = bodies_[place];
   StepEnd end{.position = to.position, .worldFromBody = to.attitude};
-  if (isSmooth(place)) {
-    end.velocity = from.endVelocity;
-    end.spinBody = to.attitude.conjugate() * from.endOmega;
-  } else {
+  if (from.pushed) {
     end.velocity = (to.position - from.position) / h_;
     end.spinBody = meanSpin(place);
+  } else {
+    end.velocity = from.endVelocity;
+    end.spinBody = to.attitude.conjugate() * from.endOmega;
   }
   return end;
 }

@@ -158,7 +158,7 @@ void Crowd::certify(std::vector<char>& chosen) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (chosen[i] != 0) {
       solver_.setBody(static_cast<int>(i), bodies_[i], kRestChange * balanced);
-      solver_.velocity(static_cast<int>(i)) = h_ * acceleration(i);
+      solver_.velocity(static_cast<int>(i)) = span_ * acceleration(i);
     }
   }
   const auto isChosen = [&](Partner partner) { return !partner.isWall() && chosen[at(partner.body())] != 0; };
@@ -188,8 +188,8 @@ void Crowd::certify(std::vector<char>& chosen) {
     slots.push_back(slot);
     addPresentRows(manifold);
   }
-  solver_.warmStart();
   solver_.link();
+  solver_.warmStart();
   solver_.wakeAll();
   figures_.solves += solver_.solve(kRestSweeps, true);
   std::vector<char> resting(bodies_.size(), 1);
@@ -242,7 +242,7 @@ Vec3 Crowd::forceOf(const PileManifold& manifold) const {
   for (int k = 0; k < manifold.count; ++k) {
     impulse += impulseOf(manifold, k);
   }
-  return impulse / h_;
+  return impulse / span_;
 }
 
 // [N s] On a, in the last step.
@@ -300,7 +300,7 @@ bool Crowd::wakeStruck() {
     const PileBody& sleeper = bodies_[at(manifold.a)].asleep ? bodies_[at(manifold.a)] : bodyAt(manifold.b);
     const Vec3 carried = manifold.carries ? manifold.carried : Vec3(Vec3::Zero());
     const double load = carried.norm() + gravityMagnitude_ / sleeper.inverseMass;
-    if ((impulse / h_ - carried).norm() > kStrike * load) {
+    if ((impulse / span_ - carried).norm() > kStrike * load) {
       wakeCluster(sleeper.cluster);
       woke = true;
     }

@@ -77,6 +77,15 @@ struct PileManifold {
   double separation = 0;  ///< [m] along the best axis at the last rebuild
   double reach = 0;       ///< [m] all points with smaller gaps are included
 
+  /// Forgets what it was of. Points are written before they are read, so they stay: that would cost more than
+  /// to find that two boxes do not touch.
+  void clear() {
+    axis = -1;
+    faces = 0;
+    hasEdges = closest = carries = false;
+    count = 0;
+    moved = separation = reach = 0;
+  }
   const PileFrame& frameOf(int point) const { return hasEdges && point == count - 1 ? edges : plane; }
 };
 

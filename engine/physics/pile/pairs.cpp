@@ -63,7 +63,7 @@ PilePairs::Box PilePairs::sweptBox(const PileBody& body, const Vec3& gravity, do
   if (body.still()) {
     return box;
   }
-  const Vec3 moved = time * (body.velocity + time * gravity);
+  const Vec3 moved = time * (body.velocity + (time + body.behind) * gravity);
   const double turned = body.radius * std::min(1.0, body.omega.norm() * time);
   box.low += moved.cwiseMin(0) - Vec3::Constant(turned);
   box.high += moved.cwiseMax(0) + Vec3::Constant(turned);

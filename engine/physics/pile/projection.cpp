@@ -97,15 +97,17 @@ bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> ma
     const Vec3 apart = manifold.b.isWall()
                            ? Vec3::Zero()
                            : Vec3(bodies[at(manifold.a)].position - bodies[at(manifold.b.body())].position);
-    solver_.beginManifold(manifold.a, manifold.b, 0);
+    const PileFrame* begun = nullptr;
     const double left = kLeft * tolerated(manifold.length);
     for (int k = 0; k < manifold.count; ++k) {
       const PilePoint& point = manifold.points[at(k)];
       if (point.gap < kNear * manifold.length) {
-        solver_.add({.armA = point.world,
-                     .armB = point.world + apart,
-                     .frame = manifold.frameOf(k),
-                     .bound = -(point.gap + left)});
+        const PileFrame& frame = manifold.frameOf(k);
+        if (begun != &frame) {
+          solver_.beginBlock(manifold.a, manifold.b, 0, frame, apart);
+          begun = &frame;
+        }
+        solver_.add({.arm = point.world, .bound = -(point.gap + left)});
       }
     }
   }

@@ -7,13 +7,17 @@
 #include "physics/solver/residual_sum.h"
 
 namespace careen {
+namespace {
+
+constexpr std::size_t kMostOpen = 16;  // groups that a block is tried with
+
+}  // namespace
 
 void PileSolver::begin(std::size_t bodies) {
   moving_.assign(bodies + 1, {});
   inertia_.assign(bodies + 1, {});
-  rows_.clear();
+  staged_.clear();
   blocks_.clear();
-  blockOfRow_.clear();
 }
 
 void PileSolver::setBody(int index, const PileBody& body, double change) {
@@ -35,77 +39,165 @@ void PileSolver::setBody(int index, const PileBody& body, double change) {
   inertia.yz = entry(1, 2);
 }
 
-void PileSolver::beginManifold(int a, Partner b, double friction) {
-  blocks_.push_back({.a = a, .b = indexOf(b), .first = static_cast<int>(rows_.size()), .friction = friction});
+void PileSolver::beginBlock(int a, Partner b, double friction, const PileFrame& frame, const Vec3& apart) {
+  blocks_.push_back({.a = a,
+                     .b = indexOf(b),
+                     .first = static_cast<int>(staged_.size()),
+                     .friction = friction,
+                     .frame = frame,
+                     .apart = apart});
 }
 
-void PileSolver::add(const Row& row) {
-  Block& block = blocks_.back();
-  const PairInertia inertia(inertia_[at(block.a)], inertia_[at(block.b)]);
-  const double inverseMass = inertia.inverseMass[0] + inertia.inverseMass[1];
-  SolvedRow& solved = rows_.emplace_back();
-  solved.arms = pairOf(row.armA, row.armB);
-  solved.normal = row.frame.normal;
-  solved.tangent1 = row.frame.tangent1;
-  solved.tangent2 = row.frame.tangent2;
-  solved.bound = row.bound;
-  solved.normalImpulse = row.normalImpulse;
-  solved.tangential1 = row.tangential1;
-  solved.tangential2 = row.tangential2;
-  // Entries of the point's 3×3 inverse effective mass matrix: dᵢ·dⱼ/m + Σ (r × dᵢ)·I⁻¹ (r × dⱼ) over both
-  // bodies.
-  const auto lever = [&](const Vec3& direction) { return cross(solved.arms, pairOf(direction, direction)); };
-  const auto product = [](const PairVec& a, const PairVec& b) {
-    const Pair sum = a.x * b.x + a.y * b.y + a.z * b.z;
-    return sum[0] + sum[1];
-  };
-  const PairVec leverN = lever(solved.normal);
-  const PairVec turnedN = inertia.times(leverN);
-  solved.massNormal = 1 / (inverseMass + product(turnedN, leverN));
-  if (block.friction > 0) {
-    const PairVec lever1 = lever(solved.tangent1);
-    const PairVec lever2 = lever(solved.tangent2);
-    const PairVec turned2 = inertia.times(lever2);
-    solved.normalToTangent1 = product(turnedN, lever1);
-    solved.normalToTangent2 = product(turnedN, lever2);
-    const double k11 = inverseMass + product(inertia.times(lever1), lever1);
-    const double k22 = inverseMass + product(turned2, lever2);
-    const double k12 = product(turned2, lever1);
-    const double perDeterminant = 1 / (k11 * k22 - k12 * k12);
-    solved.stop11 = k22 * perDeterminant;
-    solved.stop22 = k11 * perDeterminant;
-    solved.stop12 = -k12 * perDeterminant;
-    const double half = 0.5 * (k11 - k22);
-    solved.slide = 1 / (0.5 * (k11 + k22) + std::sqrt(half * half + k12 * k12));
+// ---- Groups.
+
+void PileSolver::link() {
+  groups_.clear();
+  for (std::vector<int>& open : open_) {
+    open.clear();
   }
-  blockOfRow_.push_back(static_cast<int>(blocks_.size()) - 1);
-  ++block.count;
+  for (Block& block : blocks_) {
+    findGroup(block);
+  }
+  fillGroups();
+  run([&]() __attribute__((always_inline)) {
+    for (Group& group : groups_) {
+      findMasses(group);
+    }
+  });
+  listBlocks();
+  waiting_.assign(groups_.size() * kLanes / 64 + 1, 0);
 }
 
-void PileSolver::warmStart() {
-  for (const Block& block : blocks_) {
-    Moving& a = moving_[at(block.a)];
-    Moving& b = moving_[at(block.b)];
-    const Inertia& inertiaA = inertia_[at(block.a)];
-    const Inertia& inertiaB = inertia_[at(block.b)];
-    for (int k = block.first; k < block.first + block.count; ++k) {
-      const SolvedRow& row = rows_[at(k)];
-      if (row.normalImpulse == 0) {
-        continue;
-      }
-      const Vec3 impulse =
-          row.normalImpulse * row.normal + row.tangential1 * row.tangent1 + row.tangential2 * row.tangent2;
-      a.velocity += inertiaA.inverseMass * impulse;
-      a.omega += inertiaA.times(firstOf(row.arms).cross(impulse));
-      b.velocity -= inertiaB.inverseMass * impulse;
-      b.omega -= inertiaB.times(secondOf(row.arms).cross(impulse));
-      a.pushed = b.pushed = true;
+// The first group with as many rows and none of its bodies, of those that are not full; a new one, if there
+// is none.
+void PileSolver::findGroup(Block& block) {
+  const std::size_t rows = at(block.count);
+  if (rows >= open_.size()) {
+    open_.resize(rows + 1);
+  }
+  std::vector<int>& open = open_[rows];
+  auto found = std::find_if(open.begin(), open.end(),
+                            [&](int group) { return !sharesBody(groups_[at(group)], block); });
+  if (found == open.end()) {
+    if (open.size() == kMostOpen) {
+      open.erase(open.begin());
+    }
+    open.push_back(static_cast<int>(groups_.size()));
+    Group& group = groups_.emplace_back();
+    group.a.body.fill(static_cast<int>(moving_.size()) - 1);
+    group.b.body = group.a.body;
+    found = open.end() - 1;
+  }
+  Group& group = groups_[at(*found)];
+  const int lane = group.used++;
+  group.a.body[at(lane)] = block.a;
+  group.b.body[at(lane)] = block.b;
+  group.counts[at(lane)] = block.count;
+  block.place = *found * kLanes + lane;
+  if (group.used == kLanes) {
+    open.erase(found);
+  }
+}
+
+bool PileSolver::sharesBody(const Group& group, const Block& block) const {
+  const int a = movable(block.a) ? block.a : -1;
+  const int b = movable(block.b) ? block.b : -1;
+  bool shares = false;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    shares |=
+        (group.a.body[k] == a) | (group.a.body[k] == b) | (group.b.body[k] == a) | (group.b.body[k] == b);
+  }
+  return shares;
+}
+
+void PileSolver::fillGroups() {
+  std::size_t rows = 0;
+  for (Group& group : groups_) {
+    group.first = static_cast<int>(rows);
+    group.count = *std::max_element(group.counts.begin(), group.counts.end());
+    rows += at(group.count);
+  }
+  rows_.clear();
+  rows_.resize(rows);
+  rowPlaces_.resize(staged_.size());
+  blockOfRow_.resize(staged_.size());
+  for (std::size_t index = 0; index < blocks_.size(); ++index) {
+    const Block& block = blocks_[index];
+    const int lane = block.place % kLanes;
+    Group& group = groups_[at(block.place / kLanes)];
+    group.friction[lane] = block.friction;
+    const auto put = [&](LanesVec& to, const Vec3& v) { setLane(to, lane, v.x(), v.y(), v.z()); };
+    put(group.normal, block.frame.normal);
+    put(group.tangent1, block.frame.tangent1);
+    put(group.tangent2, block.frame.tangent2);
+    put(group.apart, block.apart);
+    fillSide(group.a, lane, block.a);
+    fillSide(group.b, lane, block.b);
+    for (int k = 0; k < block.count; ++k) {
+      const Row& from = staged_[at(block.first + k)];
+      LaneRow& row = rows_[at(group.first + k)];
+      put(row.arm, from.arm);
+      row.bound[lane] = from.bound;
+      row.normalImpulse[lane] = from.normalImpulse;
+      row.tangential1[lane] = from.tangential1;
+      row.tangential2[lane] = from.tangential2;
+      rowPlaces_[at(block.first + k)] = at(group.first + k) * kLanes + at(lane);
+      blockOfRow_[at(block.first + k)] = static_cast<int>(index);
     }
   }
 }
 
-// Lists the manifolds of each body, by counting sort.
-void PileSolver::link() {
+void PileSolver::fillSide(Side& side, int lane, int body) {
+  const Inertia& inertia = inertia_[at(body)];
+  side.inverseMass[lane] = inertia.inverseMass;
+  side.inertia.xx[lane] = inertia.xx;
+  side.inertia.yy[lane] = inertia.yy;
+  side.inertia.zz[lane] = inertia.zz;
+  side.inertia.xy[lane] = inertia.xy;
+  side.inertia.xz[lane] = inertia.xz;
+  side.inertia.yz[lane] = inertia.yz;
+  side.radius[lane] = inertia.radius;
+}
+
+// Entries of each point's 3×3 inverse effective mass matrix: dᵢ·dⱼ/m + Σ (r × dᵢ)·I⁻¹ (r × dⱼ) over both
+// bodies. Lanes without a row keep a mass of 0.
+CAREEN_LANES void PileSolver::findMasses(Group& group) {
+  const Lanes one = {1, 1, 1, 1};
+  const Lanes inverseMass = group.a.inverseMass + group.b.inverseMass;
+  for (int k = 0; k < group.count; ++k) {
+    LaneRow& row = rows_[at(group.first + k)];
+    const LaneMask there = LaneMask{group.counts[0], group.counts[1], group.counts[2], group.counts[3]} > k;
+    const LanesVec armB = row.arm + group.apart;
+    const LanesVec nA = cross(row.arm, group.normal);
+    const LanesVec nB = cross(armB, group.normal);
+    const LanesVec turnedA = group.a.inertia * nA;
+    const LanesVec turnedB = group.b.inertia * nB;
+    const Lanes mass = inverseMass + dot(turnedA, nA) + dot(turnedB, nB);
+    row.massNormal = there ? one / (there ? mass : one) : Lanes{};
+    const LanesVec a1 = cross(row.arm, group.tangent1);
+    const LanesVec b1 = cross(armB, group.tangent1);
+    const LanesVec a2 = cross(row.arm, group.tangent2);
+    const LanesVec b2 = cross(armB, group.tangent2);
+    const LanesVec turnedA2 = group.a.inertia * a2;
+    const LanesVec turnedB2 = group.b.inertia * b2;
+    row.normalToTangent1 = dot(turnedA, a1) + dot(turnedB, b1);
+    row.normalToTangent2 = dot(turnedA, a2) + dot(turnedB, b2);
+    const Lanes k11 = inverseMass + dot(group.a.inertia * a1, a1) + dot(group.b.inertia * b1, b1);
+    const Lanes k22 = inverseMass + dot(turnedA2, a2) + dot(turnedB2, b2);
+    const Lanes k12 = dot(turnedA2, a1) + dot(turnedB2, b1);
+    const Lanes determinant = k11 * k22 - k12 * k12;
+    const Lanes perDeterminant = there ? one / (there ? determinant : one) : Lanes{};
+    row.stop11 = k22 * perDeterminant;
+    row.stop22 = k11 * perDeterminant;
+    row.stop12 = -k12 * perDeterminant;
+    const Lanes half = 0.5 * (k11 - k22);
+    const Lanes largest = 0.5 * (k11 + k22) + rootOf(half * half + k12 * k12);
+    row.slide = there ? one / (there ? largest : one) : Lanes{};
+  }
+}
+
+// The places of each body's blocks, by counting sort.
+void PileSolver::listBlocks() {
   firstBlock_.assign(moving_.size() + 1, 0);
   for (const Block& block : blocks_) {
     ++firstBlock_[at(block.a) + 1];
@@ -115,207 +207,231 @@ void PileSolver::link() {
     firstBlock_[i] += firstBlock_[i - 1];
   }
   cursor_.assign(firstBlock_.begin(), firstBlock_.end());
-  blocksOfBody_.resize(2 * blocks_.size());
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    blocksOfBody_[at(cursor_[at(blocks_[k].a)]++)] = static_cast<int>(k);
-    blocksOfBody_[at(cursor_[at(blocks_[k].b)]++)] = static_cast<int>(k);
+  placesOfBody_.resize(2 * blocks_.size());
+  for (const Block& block : blocks_) {
+    placesOfBody_[at(cursor_[at(block.a)]++)] = block.place;
+    placesOfBody_[at(cursor_[at(block.b)]++)] = block.place;
   }
-  waiting_.assign(blocks_.size() / 64 + 1, 0);
+}
+
+void PileSolver::warmStart() {
+  for (const Block& block : blocks_) {
+    Moving& a = moving_[at(block.a)];
+    Moving& b = moving_[at(block.b)];
+    for (int k = block.first; k < block.first + block.count; ++k) {
+      const Row& row = staged_[at(k)];
+      if (row.normalImpulse == 0) {
+        continue;
+      }
+      const Vec3 impulse = row.normalImpulse * block.frame.normal + row.tangential1 * block.frame.tangent1 +
+                           row.tangential2 * block.frame.tangent2;
+      push(block.a, row.arm, impulse);
+      push(block.b, row.arm + block.apart, -impulse);
+      a.pushed = b.pushed = true;
+    }
+  }
 }
 
 void PileSolver::wakeAll() {
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    put(k);
+  for (const Block& block : blocks_) {
+    put(block.place);
   }
 }
 
-void PileSolver::wakeRow(int row) { put(at(blockOfRow_[at(row)])); }
-
 PileSolver::RowView PileSolver::row(int row) const {
-  const SolvedRow& at = rows_[PileSolver::at(row)];
-  const Block& block = blocks_[PileSolver::at(blockOfRow_[PileSolver::at(row)])];
+  const Row& staged = staged_[at(row)];
+  const Block& block = blocks_[at(blockOfRow_[at(row)])];
   return {.a = block.a,
           .b = block.b,
-          .armA = firstOf(at.arms),
-          .armB = secondOf(at.arms),
-          .directions = {at.normal, at.tangent1, at.tangent2},
+          .armA = staged.arm,
+          .armB = staged.arm + block.apart,
+          .directions = {block.frame.normal, block.frame.tangent1, block.frame.tangent2},
           .friction = block.friction,
-          .bound = at.bound,
-          .impulse = {at.normalImpulse, at.tangential1, at.tangential2}};
+          .bound = rows_[rowAt(row)].bound[laneOf(row)],
+          .impulse = {normalImpulse(row), tangential1(row), tangential2(row)}};
 }
 
 void PileSolver::setImpulse(int row, const std::array<double, 3>& impulse) {
-  SolvedRow& at = rows_[PileSolver::at(row)];
-  const Block& block = blocks_[PileSolver::at(blockOfRow_[PileSolver::at(row)])];
-  const bool changed = impulse[0] != at.normalImpulse || impulse[0] > 0;
-  at.normalImpulse = impulse[0];
-  at.tangential1 = impulse[1];
-  at.tangential2 = impulse[2];
+  LaneRow& to = rows_[rowAt(row)];
+  const int lane = laneOf(row);
+  const Block& block = blocks_[at(blockOfRow_[at(row)])];
+  const bool changed = impulse[0] != to.normalImpulse[lane] || impulse[0] > 0;
+  to.normalImpulse[lane] = impulse[0];
+  to.tangential1[lane] = impulse[1];
+  to.tangential2[lane] = impulse[2];
   for (const int body : {block.a, block.b}) {
-    Moving& moving = moving_[PileSolver::at(body)];
-    moving.pushed = moving.pushed || (changed && inertia_[PileSolver::at(body)].inverseMass > 0);
+    Moving& moving = moving_[at(body)];
+    moving.pushed = moving.pushed || (changed && movable(body));
   }
 }
 
+// ---- Solving.
+
 void PileSolver::queueBlocksOf(int body) {
   for (int k = firstBlock_[at(body)]; k < firstBlock_[at(body) + 1]; ++k) {
-    put(at(blocksOfBody_[at(k)]));
+    put(placesOfBody_[at(k)]);
   }
 }
 
 std::int64_t PileSolver::solve(int sweeps, bool withFriction) {
-  return sweep(sweeps, [&](const Block& block) {
-    if (withFriction && block.friction > 0) {
-      solveBlock<Kind::kFriction>(block);
-    } else {
-      solveBlock<Kind::kFrictionless>(block);
-    }
-  });
-}
-
-double PileSolver::normalSpeed(int row) const {
-  const SolvedRow& solved = rows_[at(row)];
-  const Block& block = blocks_[at(blockOfRow_[at(row)])];
-  const Moving& a = moving_[at(block.a)];
-  const Moving& b = moving_[at(block.b)];
-  return solved.normal.dot(a.velocity + a.omega.cross(firstOf(solved.arms)) - b.velocity -
-                           b.omega.cross(secondOf(solved.arms)));
-}
-
-ContactResiduals PileSolver::residuals(double speed) const {
-  double largest = 0;
-  for (const SolvedRow& row : rows_) {
-    largest = std::max(largest, row.normalImpulse * row.normalImpulse +
-                                    (row.tangential1 * row.tangential1 + row.tangential2 * row.tangential2));
-  }
-  ResidualSum sum(speed, std::sqrt(largest));
-  for (const Block& block : blocks_) {
-    const Moving& a = moving_[at(block.a)];
-    const Moving& b = moving_[at(block.b)];
-    const ContactCone cone{.friction = block.friction, .onLine = !(block.friction > 0)};
-    const PairVec v = pairOf(a.velocity, b.velocity);
-    const PairVec w = pairOf(a.omega, b.omega);
-    for (int k = block.first; k < block.first + block.count; ++k) {
-      const SolvedRow& row = rows_[at(k)];
-      const PairVec turning = cross(w, row.arms);
-      const Pair x = v.x + turning.x;
-      const Pair y = v.y + turning.y;
-      const Pair z = v.z + turning.z;
-      const Vec3 u(x[0] - x[1], y[0] - y[1], z[0] - z[1]);
-      sum.add(cone, {row.normalImpulse, row.tangential1, row.tangential2},
-              {row.normal.dot(u) - row.bound, row.tangent1.dot(u), row.tangent2.dot(u)});
-    }
-  }
-  return sum.residuals();
+  return withFriction ? sweep<Kind::kFriction>(sweeps) : sweep<Kind::kFrictionless>(sweeps);
 }
 
 std::int64_t PileSolver::shift(int sweeps, double change) {
   shiftChange_ = change;
-  return sweep(sweeps, [&](const Block& block) { solveBlock<Kind::kShift>(block); });
+  return sweep<Kind::kShift>(sweeps);
 }
 
-// Blocks put on the list ahead of the present position are solved in this sweep, those behind in the next.
-// The word is read again each time; only bits past the last one solved count.
-template <class Solve>
-std::int64_t PileSolver::sweep(int sweeps, const Solve& solve) {
+// Blocks put on the list ahead of the present group are solved in this sweep, the others in the next. The
+// word is read again each time; only bits past the last group solved count.
+template <PileSolver::Kind kKind>
+std::int64_t PileSolver::sweep(int sweeps) {
   std::int64_t solved = 0;
-  bool any = true;
-  for (int sweep = 0; sweep < sweeps && any; ++sweep) {
-    any = false;
-    for (std::size_t word = 0; word < waiting_.size(); ++word) {
-      std::uint64_t ahead = ~std::uint64_t{0};
-      while ((waiting_[word] & ahead) != 0) {
-        const int bit = std::countr_zero(waiting_[word] & ahead);
-        ahead = (~std::uint64_t{0} << bit) << 1;
-        waiting_[word] &= ~(std::uint64_t{1} << bit);
-        solve(blocks_[word * 64 + static_cast<std::size_t>(bit)]);
-        ++solved;
-        any = true;
+  run([&]() __attribute__((always_inline)) {
+    bool any = true;
+    for (int sweep = 0; sweep < sweeps && any; ++sweep) {
+      any = false;
+      for (std::size_t word = 0; word < waiting_.size(); ++word) {
+        std::uint64_t ahead = ~std::uint64_t{0};
+        while ((waiting_[word] & ahead) != 0) {
+          const int first = std::countr_zero(waiting_[word] & ahead) / kLanes * kLanes;
+          const std::uint64_t lanes = (waiting_[word] >> first) & 0xfU;
+          ahead = (~std::uint64_t{0} << first) << kLanes;
+          waiting_[word] &= ~(std::uint64_t{0xf} << first);
+          solveGroup<kKind>(groups_[(word * 64 + at(first)) / kLanes], static_cast<unsigned>(lanes));
+          solved += std::popcount(lanes);
+          any = true;
+        }
       }
     }
-  }
+  });
   return solved;
 }
 
+CAREEN_LANES PileSolver::Velocities PileSolver::velocitiesOf(const std::vector<Moving>& moving,
+                                                             const Side& side) {
+  const Moving& m0 = moving[at(side.body[0])];
+  const Moving& m1 = moving[at(side.body[1])];
+  const Moving& m2 = moving[at(side.body[2])];
+  const Moving& m3 = moving[at(side.body[3])];
+  return {.v = {Lanes{m0.velocity.x(), m1.velocity.x(), m2.velocity.x(), m3.velocity.x()},
+                Lanes{m0.velocity.y(), m1.velocity.y(), m2.velocity.y(), m3.velocity.y()},
+                Lanes{m0.velocity.z(), m1.velocity.z(), m2.velocity.z(), m3.velocity.z()}},
+          .w = {Lanes{m0.omega.x(), m1.omega.x(), m2.omega.x(), m3.omega.x()},
+                Lanes{m0.omega.y(), m1.omega.y(), m2.omega.y(), m3.omega.y()},
+                Lanes{m0.omega.z(), m1.omega.z(), m2.omega.z(), m3.omega.z()}}};
+}
+
 template <PileSolver::Kind kKind>
-void PileSolver::solveBlock(const Block& block) {
-  constexpr Pair kOpposite = {1, -1};
-  std::vector<Moving>& moving = kKind == Kind::kShift ? shifts_ : moving_;
-  const Moving& movingA = moving[at(block.a)];
-  const Moving& movingB = moving[at(block.b)];
-  const PairInertia inertia(inertia_[at(block.a)], inertia_[at(block.b)]);
-  PairVec v = pairOf(movingA.velocity, movingB.velocity);
-  PairVec w = pairOf(movingA.omega, movingB.omega);
-  bool changed = false;
-  for (int k = block.first; k < block.first + block.count; ++k) {
-    SolvedRow& row = rows_[at(k)];
-    const PairVec turning = cross(w, row.arms);
-    const Pair x = v.x + turning.x;
-    const Pair y = v.y + turning.y;
-    const Pair z = v.z + turning.z;
-    const double ux = x[0] - x[1];
-    const double uy = y[0] - y[1];
-    const double uz = z[0] - z[1];
-    const auto along = [&](const Vec3& d) { return d.x() * ux + d.y() * uy + d.z() * uz; };
-    double& sum = kKind == Kind::kShift ? row.shiftImpulse : row.normalImpulse;
-    const double bound = kKind == Kind::kShift ? row.shiftBound : row.bound;
-    const double before = sum;
-    const double normal = std::max(0.0, before - row.massNormal * (along(row.normal) - bound));
-    const double change = normal - before;
-    if (normal == 0 && change == 0) {
-      continue;
-    }
+CAREEN_LANES void PileSolver::solveGroup(const Group& group, unsigned lanes) {
+  const std::vector<Moving>& moving = kKind == Kind::kShift ? shifts_ : moving_;
+  const LaneMask asked = maskOf(lanes);
+  const Velocities fromA = velocitiesOf(moving, group.a);
+  const Velocities fromB = velocitiesOf(moving, group.b);
+  Velocities a = fromA;
+  Velocities b = fromB;
+  LaneMask changed{};
+  for (int k = group.first; k < group.first + group.count; ++k) {
+    LaneRow& row = rows_[at(k)];
+    const LanesVec armB = row.arm + group.apart;
+    const LanesVec u = (a.v + cross(a.w, row.arm)) - (b.v + cross(b.w, armB));
+    Lanes& sum = kKind == Kind::kShift ? shiftRows_[at(k)].impulse : row.normalImpulse;
+    const Lanes& bound = kKind == Kind::kShift ? shiftRows_[at(k)].bound : row.bound;
+    const Lanes before = sum;
+    const Lanes wanted = before - row.massNormal * (dot(group.normal, u) - bound);
+    const Lanes normal = asked ? (wanted > 0 ? wanted : Lanes{}) : before;
+    const Lanes change = normal - before;
+    changed |= asked & ((normal != 0) | (change != 0));
     sum = normal;
-    Vec3 impulse = change * row.normal;
+    LanesVec impulse = change * group.normal;
     if constexpr (kKind == Kind::kFriction) {
-      const double u1 = along(row.tangent1) + row.normalToTangent1 * change;
-      const double u2 = along(row.tangent2) + row.normalToTangent2 * change;
-      const double limit = block.friction * normal;
-      double p1 = row.tangential1 - (row.stop11 * u1 + row.stop12 * u2);
-      double p2 = row.tangential2 - (row.stop12 * u1 + row.stop22 * u2);
-      if (p1 * p1 + p2 * p2 > limit * limit) {
-        p1 = row.tangential1 - row.slide * u1;
-        p2 = row.tangential2 - row.slide * u2;
-        const double squared = p1 * p1 + p2 * p2;
-        if (squared > limit * limit) {
-          const double scale = limit / std::sqrt(squared);
-          p1 *= scale;
-          p2 *= scale;
-        }
+      const Lanes u1 = dot(group.tangent1, u) + row.normalToTangent1 * change;
+      const Lanes u2 = dot(group.tangent2, u) + row.normalToTangent2 * change;
+      const Lanes limit = group.friction * normal;
+      const Lanes square = limit * limit;
+      Lanes p1 = row.tangential1 - (row.stop11 * u1 + row.stop12 * u2);
+      Lanes p2 = row.tangential2 - (row.stop12 * u1 + row.stop22 * u2);
+      const LaneMask slides = p1 * p1 + p2 * p2 > square;
+      if (any(slides)) {
+        const Lanes slid1 = row.tangential1 - row.slide * u1;
+        const Lanes slid2 = row.tangential2 - row.slide * u2;
+        const Lanes squared = slid1 * slid1 + slid2 * slid2;
+        const LaneMask outside = squared > square;
+        const Lanes one = {1, 1, 1, 1};
+        const Lanes scale = outside ? limit / rootOf(outside ? squared : one) : one;
+        p1 = slides ? scale * slid1 : p1;
+        p2 = slides ? scale * slid2 : p2;
       }
-      impulse += (p1 - row.tangential1) * row.tangent1 + (p2 - row.tangential2) * row.tangent2;
+      p1 = asked ? p1 : row.tangential1;
+      p2 = asked ? p2 : row.tangential2;
+      impulse = impulse + (p1 - row.tangential1) * group.tangent1 + (p2 - row.tangential2) * group.tangent2;
       row.tangential1 = p1;
       row.tangential2 = p2;
     }
-    const PairVec push = {impulse.x() * kOpposite, impulse.y() * kOpposite, impulse.z() * kOpposite};
-    const PairVec spin = inertia.times(cross(row.arms, push));
-    v = {v.x + inertia.inverseMass * push.x, v.y + inertia.inverseMass * push.y,
-         v.z + inertia.inverseMass * push.z};
-    w = {w.x + spin.x, w.y + spin.y, w.z + spin.z};
-    changed = true;
+    a.v = a.v + group.a.inverseMass * impulse;
+    b.v = b.v - group.b.inverseMass * impulse;
+    a.w = a.w + group.a.inertia * cross(row.arm, impulse);
+    b.w = b.w - group.b.inertia * cross(armB, impulse);
   }
-  if (changed) {
-    store<kKind>(block.a, firstOf(v), firstOf(w));
-    store<kKind>(block.b, secondOf(v), secondOf(w));
+  if (any(changed)) {
+    store<kKind>(group.a, fromA, a, changed);
+    store<kKind>(group.b, fromB, b, changed);
   }
 }
 
 template <PileSolver::Kind kKind>
-void PileSolver::store(int body, const Vec3& velocity, const Vec3& omega) {
-  const Inertia& inertia = inertia_[at(body)];
-  if (inertia.inverseMass == 0) {
-    return;
+CAREEN_LANES void PileSolver::store(const Side& side, const Velocities& from, const Velocities& to,
+                                    const LaneMask& changed) {
+  const Lanes change = sumOfSizes(to.v - from.v) + side.radius * sumOfSizes(to.w - from.w);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const int body = side.body[at(lane)];
+    if (changed[lane] == 0 || side.inverseMass[lane] == 0) {
+      continue;
+    }
+    Moving& moving = (kKind == Kind::kShift ? shifts_ : moving_)[at(body)];
+    moving.velocity = Vec3(to.v.x[lane], to.v.y[lane], to.v.z[lane]);
+    moving.omega = Vec3(to.w.x[lane], to.w.y[lane], to.w.z[lane]);
+    moving.unqueuedChange += change[lane];
+    moving.pushed = true;
+    if (moving.unqueuedChange > (kKind == Kind::kShift ? shiftChange_ : inertia_[at(body)].change)) {
+      moving.unqueuedChange = 0;
+      queueBlocksOf(body);
+    }
   }
-  Moving& moving = (kKind == Kind::kShift ? shifts_ : moving_)[at(body)];
-  moving.unqueuedChange += (velocity - moving.velocity).cwiseAbs().sum() +
-                           inertia.radius * (omega - moving.omega).cwiseAbs().sum();
-  moving.velocity = velocity;
-  moving.omega = omega;
-  moving.pushed = true;
-  if (moving.unqueuedChange > (kKind == Kind::kShift ? shiftChange_ : inertia.change)) {
-    moving.unqueuedChange = 0;
-    queueBlocksOf(body);
+}
+
+// ---- What came of it.
+
+double PileSolver::normalSpeed(int row) const {
+  const Block& block = blocks_[at(blockOfRow_[at(row)])];
+  const Vec3& arm = staged_[at(row)].arm;
+  const Moving& a = moving_[at(block.a)];
+  const Moving& b = moving_[at(block.b)];
+  return block.frame.normal.dot(a.velocity + a.omega.cross(arm) - b.velocity -
+                                b.omega.cross(arm + block.apart));
+}
+
+ContactResiduals PileSolver::residuals(double speed) const {
+  double largest = 0;
+  for (const LaneRow& row : rows_) {
+    const Lanes squared = row.normalImpulse * row.normalImpulse +
+                          (row.tangential1 * row.tangential1 + row.tangential2 * row.tangential2);
+    largest = std::max({largest, squared[0], squared[1], squared[2], squared[3]});
   }
+  ResidualSum sum(speed, std::sqrt(largest));
+  for (std::size_t k = 0; k < staged_.size(); ++k) {
+    const int row = static_cast<int>(k);
+    const Block& block = blocks_[at(blockOfRow_[k])];
+    const Moving& a = moving_[at(block.a)];
+    const Moving& b = moving_[at(block.b)];
+    const Vec3& arm = staged_[k].arm;
+    const Vec3 u = a.velocity + a.omega.cross(arm) - b.velocity - b.omega.cross(arm + block.apart);
+    sum.add({.friction = block.friction, .onLine = !(block.friction > 0)},
+            {normalImpulse(row), tangential1(row), tangential2(row)},
+            {block.frame.normal.dot(u) - rows_[rowAt(row)].bound[laneOf(row)], block.frame.tangent1.dot(u),
+             block.frame.tangent2.dot(u)});
+  }
+  return sum.residuals();
 }
 
 }  // namespace careen

@@ -8,6 +8,7 @@
 
 #include "core/math/linear_algebra.h"
 #include "physics/pile/body.h"
+#include "physics/pile/lanes.h"
 #include "physics/pile/manifold.h"
 #include "physics/world/contact_residuals.h"
 
@@ -16,9 +17,11 @@ namespace careen {
 /// Projected Gauss–Seidel with a worklist for the contacts of a pile. Unknowns are the velocities of all
 /// bodies (in a projection, their displacements); each row is an impulse at a contact point.
 ///
-/// A manifold is solved again only when one of its bodies has changed by more than a tolerance since they
-/// were last put on the list; in the order of insertion, forward, sweep after sweep. A shock thus travels in
-/// one sweep as far as the order leads, and quiet contacts cost nothing.
+/// A block, the rows of a manifold with one normal, is solved again only when one of its bodies has changed
+/// by more than a tolerance since they were last put on the list; forward, sweep after sweep. Four blocks
+/// that share no moving body are solved side by side, which gives what one after the other would. The order
+/// is that of insertion but for what this grouping moves, so a shock travels far in one sweep, and quiet
+/// contacts cost nothing.
 ///
 /// Normal: v_n ≥ bound, impulse ≥ 0, complementary. Friction: the tangential impulse lies in the disc of
 /// radius μ × normal impulse (round friction cone). First the impulse that stops sliding is tried, by the
@@ -50,18 +53,22 @@ class PileSolver {
   /// Whether any impulse acted on it since begin().
   bool pushed(int body) const { return moving_[at(body)].pushed; }
 
-  /// A manifold's rows follow with add(). Manifolds must come in order of their keys.
-  void beginManifold(int a, Partner b, double friction);
+  /// Rows of a manifold with one frame follow with add(); `apart` [m] is from b's centre to a's.
+  void beginBlock(int a, Partner b, double friction, const PileFrame& frame, const Vec3& apart);
   struct Row {
-    Vec3 armA = Vec3::Zero();  ///< [m]
-    Vec3 armB = Vec3::Zero();  ///< [m]
-    PileFrame frame;
-    double bound = 0;  ///< [m/s] lower bound of v_n
+    Vec3 arm = Vec3::Zero();  ///< [m] from a's centre
+    double bound = 0;         ///< [m/s] lower bound of v_n
     double normalImpulse = 0;
     double tangential1 = 0;
     double tangential2 = 0;
   };
-  void add(const Row& row);
+  void add(const Row& row) {
+    staged_.push_back(row);
+    ++blocks_.back().count;
+  }
+  /// After the last add(): groups blocks, and builds the contact graph. solve() starts with what wakeAll() or
+  /// wakeRow() put on the worklist.
+  void link();
   /// Applies the initial impulses of the rows.
   void warmStart();
   /// After the last add(): at most `sweeps` sweeps. Returns the number of manifold solves.
@@ -72,8 +79,11 @@ class PileSolver {
 
   /// Shifts, after solve(): beginShifts(), a bound [m] for each row, wakeRow() for those that are below
   /// theirs, shift(). `change` [m] of a body's displacement puts its manifolds back on the list.
-  void beginShifts() { shifts_.assign(moving_.size(), {}); }
-  void setShiftBound(int row, double bound) { rows_[at(row)].shiftBound = bound; }
+  void beginShifts() {
+    shifts_.assign(moving_.size(), {});
+    shiftRows_.assign(rows_.size(), {});
+  }
+  void setShiftBound(int row, double bound) { shiftRows_[rowAt(row)].bound[laneOf(row)] = bound; }
   std::int64_t shift(int sweeps, double change);
   bool isShifted(int body) const { return shifts_[at(body)].pushed; }
   const Vec3& displacement(int body) const { return shifts_[at(body)].velocity; }  ///< [m]
@@ -97,19 +107,18 @@ class PileSolver {
   void setImpulse(int row, const std::array<double, 3>& impulse);
 
   std::size_t blockCount() const { return blocks_.size(); }
-  std::size_t rowCount() const { return rows_.size(); }
-  double normalImpulse(int row) const { return rows_[at(row)].normalImpulse; }
-  double tangential1(int row) const { return rows_[at(row)].tangential1; }
-  double tangential2(int row) const { return rows_[at(row)].tangential2; }
-  void setBound(int row, double bound) { rows_[at(row)].bound = bound; }
-  /// After the last add(): builds the contact graph. solve() starts with what wakeAll() or wakeRow() put on
-  /// the worklist.
-  void link();
+  std::size_t rowCount() const { return staged_.size(); }
+  double normalImpulse(int row) const { return rows_[rowAt(row)].normalImpulse[laneOf(row)]; }
+  double tangential1(int row) const { return rows_[rowAt(row)].tangential1[laneOf(row)]; }
+  double tangential2(int row) const { return rows_[rowAt(row)].tangential2[laneOf(row)]; }
+  void setBound(int row, double bound) { rows_[rowAt(row)].bound[laneOf(row)] = bound; }
   void wakeAll();
-  void wakeRow(int row);
+  void wakeRow(int row) { put(blocks_[at(blockOfRow_[at(row)])].place); }
+  /// Whether wide registers are used; the bits are the same.
+  void useWideLanes(bool wide) { wide_ = wide && hasWideLanes(); }
 
  private:
-  struct Moving {
+  struct alignas(64) Moving {
     Vec3 velocity = Vec3::Zero();
     double unqueuedChange = 0;  // [m/s] change since its manifolds were last put on the list
     Vec3 omega = Vec3::Zero();
@@ -125,74 +134,93 @@ class PileSolver {
               xz * v.x() + yz * v.y() + zz * v.z()};
     }
   };
-  // Two doubles for two bodies at once (SIMD), a's first; bitwise equal to scalar operations.
-  using Pair = double __attribute__((vector_size(16)));
-  struct PairVec {
-    Pair x, y, z;
-  };
-  static PairVec pairOf(const Vec3& a, const Vec3& b) {
-    return {Pair{a.x(), b.x()}, Pair{a.y(), b.y()}, Pair{a.z(), b.z()}};
-  }
-  static PairVec cross(const PairVec& a, const PairVec& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  }
-  static Vec3 firstOf(const PairVec& v) { return {v.x[0], v.y[0], v.z[0]}; }
-  static Vec3 secondOf(const PairVec& v) { return {v.x[1], v.y[1], v.z[1]}; }
-  // Inverse masses and inertia of two bodies.
-  struct PairInertia {
-    Pair inverseMass, xx, yy, zz, xy, xz, yz;
-    PairInertia(const Inertia& a, const Inertia& b)
-        : inverseMass{a.inverseMass, b.inverseMass},
-          xx{a.xx, b.xx},
-          yy{a.yy, b.yy},
-          zz{a.zz, b.zz},
-          xy{a.xy, b.xy},
-          xz{a.xz, b.xz},
-          yz{a.yz, b.yz} {}
-    PairVec times(const PairVec& v) const {
-      return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
-    }
-  };
-  struct SolvedRow {
-    PairVec arms;
-    Vec3 normal, tangent1, tangent2;
-    double bound = 0;
-    double massNormal = 0;
-    double normalToTangent1 = 0, normalToTangent2 = 0;  // Δu_t per normal impulse
-    double stop11 = 0, stop12 = 0, stop22 = 0;          // (2×2 matrix)⁻¹
-    double slide = 0;                                   // 1/largest eigenvalue of the 2×2 matrix
-    double normalImpulse = 0, tangential1 = 0, tangential2 = 0;
-    double shiftBound = 0, shiftImpulse = 0;
-  };
   struct Block {
     int a = 0;
     int b = 0;
-    int first = 0;
+    int first = 0;  // row
     int count = 0;
     double friction = 0;
+    PileFrame frame;
+    Vec3 apart;
+    int place = -1;  // kLanes × group + lane
+  };
+  /// Blocks no two of which share a body that moves: solved side by side, as if one after the other.
+  struct Side {
+    std::array<int, kLanes> body{};
+    Lanes inverseMass{};
+    LanesSymmetric inertia{};
+    Lanes radius{};
+  };
+  struct Group {
+    Side a, b;
+    std::array<int, kLanes> counts{};  // rows
+    int used = 0;                      // lanes
+    int first = 0;                     // in rows_
+    int count = 0;                     // of the longest
+    Lanes friction{};
+    LanesVec normal{}, tangent1{}, tangent2{}, apart{};
+  };
+  struct LaneRow {
+    LanesVec arm{};
+    Lanes bound{};
+    Lanes massNormal{};
+    Lanes normalToTangent1{}, normalToTangent2{};  // Δu_t per normal impulse
+    Lanes stop11{}, stop12{}, stop22{};            // (2×2 matrix)⁻¹
+    Lanes slide{};                                 // 1/largest eigenvalue of the 2×2 matrix
+    Lanes normalImpulse{}, tangential1{}, tangential2{};
+  };
+  struct ShiftRow {
+    Lanes bound{}, impulse{};
+  };
+  struct Velocities {
+    LanesVec v, w;
   };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  std::size_t rowAt(int row) const { return rowPlaces_[at(row)] / kLanes; }
+  int laneOf(int row) const { return static_cast<int>(rowPlaces_[at(row)] % kLanes); }
   enum class Kind : std::uint8_t { kFriction, kFrictionless, kShift };
-  template <class Solve>
-  std::int64_t sweep(int sweeps, const Solve& solve);
+  bool movable(int body) const { return inertia_[at(body)].inverseMass > 0; }
+  void findGroup(Block& block);
+  bool sharesBody(const Group& group, const Block& block) const;
+  void fillGroups();
+  void fillSide(Side& side, int lane, int body);
+  void findMasses(Group& group);
+  void listBlocks();
   template <Kind kKind>
-  void solveBlock(const Block& block);
+  std::int64_t sweep(int sweeps);
   template <Kind kKind>
-  void store(int body, const Vec3& velocity, const Vec3& omega);
+  void solveGroup(const Group& group, unsigned lanes);
+  template <Kind kKind>
+  void store(const Side& side, const Velocities& from, const Velocities& to, const LaneMask& changed);
+  static Velocities velocitiesOf(const std::vector<Moving>& moving, const Side& side);
   void queueBlocksOf(int body);
-  void put(std::size_t block) { waiting_[block / 64] |= std::uint64_t{1} << (block % 64); }
+  void put(int place) { waiting_[at(place) / 64] |= std::uint64_t{1} << (at(place) % 64); }
+  template <class Work>
+  void run(const Work& work) const {
+    if (wide_) {
+      runWide(work);
+    } else {
+      work();
+    }
+  }
 
+  bool wide_ = hasWideLanes();
   std::vector<Moving> moving_;
   std::vector<Moving> shifts_;  // displacements and turns in place of velocities
   double shiftChange_ = 0;      // [m]
   std::vector<Inertia> inertia_;
-  std::vector<SolvedRow> rows_;
+  std::vector<Row> staged_;
   std::vector<Block> blocks_;
+  std::vector<Group> groups_;
+  std::vector<LaneRow> rows_;
+  std::vector<ShiftRow> shiftRows_;
   std::vector<int> blockOfRow_;
-  std::vector<int> firstBlock_;  // per body, index into blocksOfBody_
-  std::vector<int> blocksOfBody_;
+  std::vector<std::size_t> rowPlaces_;  // kLanes × index in rows_ + lane
+  std::vector<std::vector<int>> open_;  // groups with lanes left, by number of rows
+  std::vector<int> firstBlock_;         // per body, index into placesOfBody_
+  std::vector<int> placesOfBody_;
   std::vector<int> cursor_;
-  std::vector<std::uint64_t> waiting_;
+  std::vector<std::uint64_t> waiting_;  // by place
 };
 
 }  // namespace careen

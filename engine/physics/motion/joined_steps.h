@@ -1,0 +1,49 @@
+#pragma once
+
+#include "physics/motion/hermite_step.h"
+#include "physics/motion/merged_steps.h"
+#include "physics/motion/recorder.h"
+
+namespace careen {
+
+/// Joins the steps of one member of a crowd to a path without corners before they are recorded. Where two
+/// steps meet, with different velocities, the path goes from the middle of the one to the middle of the other
+/// by a cubic with the velocities there: if they are equally long, it is the quadratic spline whose control
+/// points are their ends. A step of more than twice the other's length bends only as far from the joint as
+/// the other is long. So velocities are always between those of two steps, and as all members are joined
+/// alike, so are relative velocities and gaps: paths overlap by no more than the ends of steps do, and have
+/// no more energy than these.
+class JoinedSteps {
+ public:
+  explicit JoinedSteps(double within = 0) : merged_(within) {}
+
+  /// A step from `time` [s] on of `length` [s]; `radius` [m] of the body. Records what came before it.
+  void add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,
+           double length, double radius);
+  /// How the body moved until its first step, for that long [s]: recorded by others, but the path may replace
+  /// it.
+  void follows(double time, const StepEnd& from, const StepEnd& to, double length);
+  /// Nothing was added since it was made or flushed.
+  bool isNew() const { return last_.length == 0; }
+  /// Records what is left.
+  void flush(Recorder& recorder, BodyIndex body);
+
+ private:
+  struct Step {
+    double time = 0;
+    double length = 0;
+    StepEnd from;
+    StepEnd to;
+    double radius = 0;
+    StepEnd at(double elapsed) const;
+  };
+  void handOn(Recorder& recorder, BodyIndex body, double until);
+
+  MergedSteps merged_;
+  Step last_;
+  bool ofOthers_ = false;  // the last step
+  double done_ = 0;        // [s] of the last step: handed on until then
+  StepEnd there_;          // where it was then
+};
+
+}  // namespace careen

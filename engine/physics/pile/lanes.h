@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace careen {
+
+/// Four doubles at once. All operations are those of IEEE 754, each rounded by itself, so that a machine with
+/// wide registers, one with narrow ones and scalar code give the same bits.
+using Lanes = double __attribute__((vector_size(32), aligned(16)));
+/// All bits of a lane set: chosen.
+using LaneMask = std::int64_t __attribute__((vector_size(32), aligned(16)));
+inline constexpr int kLanes = 4;
+
+// All that takes or returns lanes is inlined, so that no calling convention matters.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+#define CAREEN_LANES [[gnu::always_inline]] inline
+
+struct LanesVec {
+  Lanes x, y, z;
+};
+struct LanesSymmetric {
+  Lanes xx, yy, zz, xy, xz, yz;
+};
+
+CAREEN_LANES void setLane(LanesVec& v, int lane, double x, double y, double z) {
+  v.x[lane] = x;
+  v.y[lane] = y;
+  v.z[lane] = z;
+}
+CAREEN_LANES LanesVec operator+(const LanesVec& a, const LanesVec& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+CAREEN_LANES LanesVec operator-(const LanesVec& a, const LanesVec& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+CAREEN_LANES LanesVec operator*(const Lanes& s, const LanesVec& v) { return {s * v.x, s * v.y, s * v.z}; }
+CAREEN_LANES LanesVec operator*(const LanesSymmetric& m, const LanesVec& v) {
+  return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
+          m.xz * v.x + m.yz * v.y + m.zz * v.z};
+}
+CAREEN_LANES LanesVec cross(const LanesVec& a, const LanesVec& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+CAREEN_LANES Lanes dot(const LanesVec& a, const LanesVec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+CAREEN_LANES Lanes absOf(const Lanes& v) { return v < 0 ? -v : v; }
+/// |x| + |y| + |z|
+CAREEN_LANES Lanes sumOfSizes(const LanesVec& v) { return absOf(v.x) + absOf(v.y) + absOf(v.z); }
+CAREEN_LANES bool any(const LaneMask& mask) { return (mask[0] | mask[1] | mask[2] | mask[3]) != 0; }
+CAREEN_LANES Lanes rootOf(const Lanes& v) {
+  return Lanes{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+}
+/// Of the lowest four bits.
+CAREEN_LANES LaneMask maskOf(unsigned bits) {
+  const auto lane = [&](unsigned k) { return -static_cast<std::int64_t>((bits >> k) & 1U); };
+  return LaneMask{lane(0), lane(1), lane(2), lane(3)};
+}
+
+/// Runs it with registers four lanes wide where the machine has them and `wide` is set; `work` is a lambda
+/// that is inlined.
+template <class Work>
+#if defined(__x86_64__)
+__attribute__((target("avx2")))
+#endif
+void runWide(const Work& work) {
+  work();
+}
+inline bool hasWideLanes() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("avx2") != 0;
+#else
+  return false;
+#endif
+}
+
+}  // namespace careen
