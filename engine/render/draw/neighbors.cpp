@@ -69,8 +69,8 @@ void keepOneOfEachBody(std::vector<Candidate>& found, std::span<const DrawnBox> 
 // Appends the first of the candidates that have a share, `most` of them; how many. What is left out is never
 // more than half of what a face can see, and a weight is as much as nothing before its box is left out.
 template <class Share>
-std::size_t append(std::vector<Neighbors::Entry>& entries, const std::vector<Candidate>& found,
-                   std::size_t most, const Share& shareOf) {
+std::size_t appendEntries(std::vector<Neighbors::Entry>& entries, const std::vector<Candidate>& found,
+                          std::size_t most, const Share& shareOf) {
   std::vector<const Candidate*> kept;
   double out = 0;
   for (const Candidate& each : found) {
@@ -206,9 +206,9 @@ Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace
     }
     Neighbors::List list{.begin = neighbors.entries.size()};
     list.near =
-        append(neighbors.entries, found, kMostNear, [](const Candidate& each) { return each.isNear; });
-    list.far =
-        append(neighbors.entries, found, kMostFar, [](const Candidate& each) { return 1 - each.isNear; });
+        appendEntries(neighbors.entries, found, kMostNear, [](const Candidate& each) { return each.isNear; });
+    list.far = appendEntries(neighbors.entries, found, kMostFar,
+                             [](const Candidate& each) { return 1 - each.isNear; });
     neighbors.lists.push_back(list);
   }
   return neighbors;
