@@ -10,7 +10,7 @@
 namespace careen {
 namespace {
 
-class Kept : public Recorder {
+class KeptSteps : public Recorder {
  public:
   void moves(BodyIndex /*body*/, double time, const Motion& motion) override {
     motions.emplace_back(time, asContactStep(std::get<CrowdStep>(motion)));
@@ -25,8 +25,8 @@ struct Leg {
 };
 
 // Straight steps, each with one velocity.
-Kept joined(const std::vector<Leg>& legs) {
-  Kept kept;
+KeptSteps joined(const std::vector<Leg>& legs) {
+  KeptSteps kept;
   JoinedSteps steps;
   double time = 0;
   Vec3 position = Vec3::Zero();
@@ -45,7 +45,7 @@ const std::vector<Leg> kLegs = {{1e-3, Vec3(1, 0, 0)},   {1e-3, Vec3(0, 1, 0)}, 
                                 {1.5e-3, Vec3(0, 2, -1)}};
 
 TEST(JoinedSteps, haveNeitherGapsNorCorners) {
-  const Kept kept = joined(kLegs);
+  const KeptSteps kept = joined(kLegs);
   ASSERT_GE(kept.motions.size(), kLegs.size());
   for (std::size_t k = 1; k < kept.motions.size(); ++k) {
     const auto& [start, step] = kept.motions[k - 1];
@@ -58,7 +58,7 @@ TEST(JoinedSteps, haveNeitherGapsNorCorners) {
 
 // Each velocity is a mean of those of the two nearest steps, however long these are.
 TEST(JoinedSteps, goAsFastAsTheirSteps) {
-  const Kept kept = joined(kLegs);
+  const KeptSteps kept = joined(kLegs);
   double begin = 0;
   for (std::size_t leg = 0; leg + 1 < kLegs.size(); ++leg) {
     const Vec3& before = kLegs[leg].velocity;
@@ -86,9 +86,9 @@ TEST(JoinedSteps, goAsFastAsTheirSteps) {
 TEST(JoinedSteps, overlapNoMoreThanTheirEnds) {
   const std::vector<Leg> hit = {{1e-3, Vec3(4, 0, 0)}, {1e-3, Vec3(3, 0, 0)}, {0.5e-3, Vec3(1, 0, 0)}};
   const std::vector<Leg> struck = {{1e-3, Vec3(0, 0, 0)}, {1e-3, Vec3(3, 0, 0)}, {0.5e-3, Vec3(2, 0, 0)}};
-  const Kept first = joined(hit);
-  const Kept second = joined(struck);
-  const auto at = [](const Kept& kept, double time) {
+  const KeptSteps first = joined(hit);
+  const KeptSteps second = joined(struck);
+  const auto at = [](const KeptSteps& kept, double time) {
     const auto next = std::find_if(kept.motions.begin() + 1, kept.motions.end(),
                                    [&](const auto& each) { return each.first > time; });
     return positionAt((next - 1)->second, time - (next - 1)->first).x();
@@ -104,7 +104,7 @@ TEST(JoinedSteps, keepAParabola) {
                    .velocity = Vec3(1, 0, 3 - 9.81 * time),
                    .spinBody = Vec3(0, 2, 0)};
   };
-  Kept kept;
+  KeptSteps kept;
   JoinedSteps steps;
   double time = 0;
   for (const double length : {1e-3, 1e-3, 4e-3, 1e-4, 2e-3}) {
@@ -123,7 +123,7 @@ TEST(JoinedSteps, keepAParabola) {
 
 // What was recorded before, by others, ends half a step early, and the path goes on from there.
 TEST(JoinedSteps, bendWhatOthersRecordedBefore) {
-  Kept kept;
+  KeptSteps kept;
   JoinedSteps steps;
   const StepEnd still{.position = Vec3(1, 2, 3)};
   const StepEnd from{.position = Vec3(1, 2, 3), .velocity = Vec3(2, 0, 0)};
