@@ -14,8 +14,8 @@
 namespace careen {
 namespace {
 
-constexpr int kWidth = 320;
-constexpr int kHeight = 180;
+constexpr int kWidthOfEdges = 320;
+constexpr int kHeightOfEdges = 180;
 const Vec3 kTowards = Vec3(-0.5, -0.4, 1).normalized();
 
 // A box whose shadow falls on the floor, or on a slab that lies there, `height` above it.
@@ -130,15 +130,16 @@ std::optional<double> crossing(const LightBetween& light, const Vec2& point, con
 
 Edges edgesOf(const Case& each) {
   const Scene scene = sceneOf(each);
-  const RunSetup setup = setupOf(scene, kWidth, kHeight);
+  const RunSetup setup = setupOf(scene, kWidthOfEdges, kHeightOfEdges);
   const RenderOptions options = sunlit(kTowards, each.spread);
   const Picture with = Renderer(setup, options).draw(posesOf(scene));
   const Picture without = Renderer(setup, unhindered(options)).draw(posesOf(scene));
   const LightBetween light(with, without);
   const Rays rays(setup, posesOf(scene), *scene.camera);
-  const View view = viewOf(*scene.camera, extentOf(setup), static_cast<double>(kWidth) / kHeight);
+  const View view =
+      viewOf(*scene.camera, extentOf(setup), static_cast<double>(kWidthOfEdges) / kHeightOfEdges);
   const auto pixelOf = [&](const Vec3& point) {
-    return Vec2(view.pixelFromWorld(point, kWidth, kHeight).head<2>());
+    return Vec2(view.pixelFromWorld(point, kWidthOfEdges, kHeightOfEdges).head<2>());
   };
   const std::vector<Vec3> outline = shadowOf(scene.boxes[0], each.height);
   Edges edges;
@@ -154,8 +155,8 @@ Edges edgesOf(const Case& each) {
     std::optional<double> before;
     for (double at = 3 + 2 * soft; at < length - 3 - 2 * soft; at += 1) {
       const Vec2 point = pixelOf(from + at / length * (to - from));
-      bool isClear = point.x() > reach + 3 && point.x() < kWidth - reach - 3 && point.y() > reach + 3 &&
-                     point.y() < kHeight - reach - 3;
+      bool isClear = point.x() > reach + 3 && point.x() < kWidthOfEdges - reach - 3 &&
+                     point.y() > reach + 3 && point.y() < kHeightOfEdges - reach - 3;
       for (double aside = -reach - 2; isClear && aside <= reach + 2; aside += 0.5) {
         const Vec2 there = point + aside * outward;
         isClear = rays.seenAt(there.x(), there.y()).thing == (each.height > 0 ? 1 : Rays::kSurfaces);

@@ -15,8 +15,8 @@
 namespace careen {
 namespace {
 
-constexpr int kWidth = 240;
-constexpr int kHeight = 135;
+constexpr int kWidthInTime = 240;
+constexpr int kHeightInTime = 135;
 constexpr int kFrames = 60;
 constexpr double kAmbient = 0.3;  // about as looks have it
 constexpr double kSun = 0.6;
@@ -63,7 +63,7 @@ struct Most {
 
 template <class PartOf>
 Most mostChange(const Scene& scene, const RenderOptions& options, const PartOf& partOf) {
-  const RunSetup setup = setupOf(scene, kWidth, kHeight);
+  const RunSetup setup = setupOf(scene, kWidthInTime, kHeightInTime);
   Renderer renderer(setup, options);
   Renderer open(setup, unhindered(options));
   std::optional<Picture> before;
@@ -76,8 +76,8 @@ Most mostChange(const Scene& scene, const RenderOptions& options, const PartOf& 
       const Rays rays(setup, poses, *scene.camera);
       const Rays raysBefore(setup, last, *scene.camera);
       std::optional<Picture> all;
-      for (int y = 2; y + 2 < kHeight; ++y) {
-        for (int x = 2; x + 2 < kWidth; ++x) {
+      for (int y = 2; y + 2 < kHeightInTime; ++y) {
+        for (int x = 2; x + 2 < kWidthInTime; ++x) {
           const int change = pixelAt(now, x, y)[1] - pixelAt(*before, x, y)[1];
           if (std::abs(change) <= std::max(2, most.beyond)) {
             continue;  // rays that change the other way would be found where the picture changes more
