@@ -298,7 +298,7 @@ bool ContactSystem::keepMomenta(std::span<const double> before, double h, std::v
   return changed;
 }
 
-double ContactSystem::projectPositions(std::vector<double>& y, double most) {
+double ContactSystem::projectPositions(std::vector<double>& y, double most, bool keepsSpin) {
   const std::vector<double> before = y;
   const std::vector<Mode> kept = modes_;
   for (std::size_t c = 0; c < modes_.size(); ++c) {
@@ -342,7 +342,13 @@ double ContactSystem::projectPositions(std::vector<double>& y, double most) {
       const std::size_t at = m * kNumbers;
       setThree(y, at, threeAt(y, at) + threeAt(forces_.accelerations(), m * kSix));
       const Vec3 half = 0.5 * angularOf(forces_.accelerations(), m);
-      setQuat(y, at + 3, (quatAt(y, at + 3) * Quat(1, half[0], half[1], half[2])).normalized());
+      const Quat turn = Quat(1, half[0], half[1], half[2]).normalized();
+      setQuat(y, at + 3, (quatAt(y, at + 3) * turn).normalized());
+      if (keepsSpin) {
+        const MassProperties& mass = bodies_[movers_[m]].body->mass;
+        setThree(y, at + 10,
+                 mass.inverseInertiaTimes(turn.conjugate() * mass.inertiaTimes(threeAt(y, at + 10))));
+      }
     }
   }
   if (moved > 0) {

@@ -57,8 +57,9 @@ class ContactSystem {
   /// sticking contacts. Returns false if there was only rounding error. No body moves by more than `most`
   /// [m]: rather some gap.
   bool project(std::vector<double>& y, double most);
-  /// Returns how far the bodies were moved [m].
-  double projectPositions(std::vector<double>& y, double most);
+  /// Returns how far the bodies were moved [m]. With `keepsSpin` their angular momenta stay where they point;
+  /// else they turn with the bodies, and what is in contact keeps its rates.
+  double projectPositions(std::vector<double>& y, double most, bool keepsSpin = false);
   bool projectVelocities(std::vector<double>& y);
   /// Gives groups of bodies that only push each other the momenta that they had `h` [s] before, by rigid
   /// motions (GroupMomentum). Returns false if there was only rounding error.

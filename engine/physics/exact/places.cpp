@@ -41,19 +41,14 @@ void ExactWorld::alignPlaces(Encounter& encounter, const Event& event) const {
     ContactSystem system(world_, std::move(bodies), features);
     std::fill(system.modes().begin(), system.modes().end(), ContactForces::Mode::kOn);
     std::vector<double> y = system.pack();
-    if (const double way = system.projectPositions(y, mayMove); way > 0) {
+    if (const double way = system.projectPositions(y, mayMove, true); way > 0) {
       mayMove -= way;
       system.unpack(y);
       for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
         if (!mover(encounter.ranks[i]).isHeld()) {
           const TouchingBody& moved = system.bodies()[i];
           encounter.attitudes[i] = moved.worldFromBody;
-          BodyState state = moved.state();
-          if (mover(encounter.ranks[i]).flies) {  // it has its momenta, wherever it is moved
-            state.velocity = encounter.before[i].velocity;
-            state.angularMomentum = encounter.before[i].angularMomentum;
-          }
-          encounter.before[i] = encounter.after[i] = state;
+          encounter.before[i] = encounter.after[i] = moved.state();
         }
       }
     }
