@@ -340,7 +340,7 @@ void ExactWorld::go(const std::shared_ptr<ContactGroup>& group, const Instant& t
     }
     if (group->joined[place].isNew() && !mover(rank).moves()) {  // it was asleep
       group->joined[place] =
-          comingFrom(*group, mover(rank), time, {.pose = mover(rank).pose}, crowd.attitude(place));
+          comingFrom(*group, mover(rank), time, {.pose = mover(rank).pose}, crowd.begin(place).worldFromBody);
     }
     begins(rank, time);
     group->motions[place] = asContactStep(cubicStep(crowd.begin(place), crowd.end(place), crowd.length()));
