@@ -9,8 +9,8 @@
 #include "core/system/file.h"
 #include "core/system/process.h"
 #include "core/system/scratch_folder.h"
-#include "study/plots.h"
 #include "study/plot_files.h"
+#include "study/plots.h"
 #include "study/study.h"
 
 namespace careen {
