@@ -82,7 +82,7 @@ void ExactWorld::findChattering(Encounter& encounter) {
              std::none_of(encounter.shares.begin(), encounter.shares.end(),
                           [](const ImpactShare& share) { return share.impulse > 0; })) {
     encounter.passing = kHardlyParts;
-    encounter.timeSteps = most > kMostPassing ? kFirstTimeSteps : 0;
+    encounter.timeSteps = std::max(encounter.timeSteps, most > kMostPassing ? kFirstTimeSteps : 0);
     encounter.cause = EventKind::kTouching;
   }
 }
