@@ -44,6 +44,19 @@ inline RenderOptions lit(const Lighting& lighting) {
   return options;
 }
 
+/// An open floor under a camera, every pixel drawn once.
+inline Scene onOpenFloor(const Camera& camera) {
+  Scene scene;
+  scene.gravity = Vec3::Zero();
+  scene.room.emplace();
+  scene.room->min = Vec3(-30, -30, 0);
+  scene.room->max = Vec3(30, 30, 9);
+  scene.room->open = {true, true, true, true, false, true};
+  scene.camera = camera;
+  scene.picture.antialiasing = Antialiasing::kOff;
+  return scene;
+}
+
 /// 8-bit sRGB of a linear value (IEC 61966-2-1).
 inline int srgbFromLinear(double value) {
   const double clamped = std::clamp(value, 0.0, 1.0);

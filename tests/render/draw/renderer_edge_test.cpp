@@ -29,14 +29,7 @@ struct Case {
 };
 
 Scene sceneOf(const Case& each) {
-  Scene scene;
-  scene.gravity = Vec3::Zero();
-  scene.room.emplace();
-  scene.room->min = Vec3(-30, -30, 0);
-  scene.room->max = Vec3(30, 30, 9);
-  scene.room->open = {true, true, true, true, false, true};
-  scene.camera = cameraAt(Vec3(1.5, -5, 5), Vec3(0.3, 0.3, 0.2), 40);
-  scene.picture.antialiasing = Antialiasing::kOff;
+  Scene scene = onOpenFloor(cameraAt(Vec3(1.5, -5, 5), Vec3(0.3, 0.3, 0.2), 40));
   scene.boxes.push_back(boxAt(each.position, each.half, Color{255, 255, 255}));
   scene.boxes[0].name = "caster";
   scene.boxes[0].pose.worldFromBody =

@@ -56,17 +56,7 @@ Errors errorsOf(const Shown& shown, const RenderOptions& options, int every, con
           .boxes = std::sqrt(squares.boxes / std::max(boxes, 1))};
 }
 
-Scene onFloor() {
-  Scene scene;
-  scene.gravity = Vec3::Zero();
-  scene.room.emplace();
-  scene.room->min = Vec3(-30, -30, 0);
-  scene.room->max = Vec3(30, 30, 9);
-  scene.room->open = {true, true, true, true, false, true};
-  scene.camera = cameraAt(Vec3(3, -6, 4), Vec3(0, 0, 0.8), 40);
-  scene.picture.antialiasing = Antialiasing::kOff;
-  return scene;
-}
+Scene onFloor() { return onOpenFloor(cameraAt(Vec3(3, -6, 4), Vec3(0, 0, 0.8), 40)); }
 
 void add(Scene& scene, const Vec3& position, const Vec3& half, double turn) {
   SceneBox box = boxAt(position, half, Color{255, 255, 255});

@@ -25,14 +25,7 @@ constexpr double kTurn = 0.1;  // [degrees] a frame
 // A box that turns slowly among others, more of them than lists have room for, and sinks a little towards
 // them.
 Scene heapAround() {
-  Scene scene;
-  scene.gravity = Vec3::Zero();
-  scene.room.emplace();
-  scene.room->min = Vec3(-30, -30, 0);
-  scene.room->max = Vec3(30, 30, 9);
-  scene.room->open = {true, true, true, true, false, true};
-  scene.camera = cameraAt(Vec3(2, -4, 3.2), Vec3(0, 0, 0.4), 40);
-  scene.picture.antialiasing = Antialiasing::kOff;
+  Scene scene = onOpenFloor(cameraAt(Vec3(2, -4, 3.2), Vec3(0, 0, 0.4), 40));
   for (int i = 0; i < 30; ++i) {
     const double ring = i < 12 ? 0.75 : 1.3;
     SceneBox box = boxAt(Vec3(ring * std::sin(2.4 * i), ring * std::cos(2.4 * i), 0.2 + 0.1 * (i % 3)),
