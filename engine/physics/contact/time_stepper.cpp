@@ -204,6 +204,7 @@ void TimeStepper::shortenJolt(double& h) {
     halved_ = false;
     end_ = coarse_;
     h *= kMoment;
+    addJolt(h, change);
     for (ClosedContact& contact : law_) {  // what the next step starts from
       contact.push *= kMoment;
       contact.friction *= kMoment;
@@ -276,6 +277,7 @@ double TimeStepper::step(double most) {
   }
   shortenJolt(h);
   length_ = h;
+  keepImpacts();
   known_ = law_;
   correct();
   return length_;

@@ -17,6 +17,7 @@ namespace careen {
 struct GroupImpact {
   ImpactContact contact;  ///< its bodies are indices into the group
   ImpactShare share;
+  double cause = 0;  ///< [m/s] the fastest approach in the impact
 };
 
 /// Time steps of bodies that touch, where no smooth motion exists (Painlevé's paradox, jams) or contacts
@@ -49,7 +50,8 @@ class TimeStepper {
   const GroupState& state() const { return end_; }
   /// Motion of a body in the last step.
   ContactStep motion(std::size_t body) const { return motion(body, reached_); }
-  /// Impacts at the start of the last step.
+  /// Impacts at the start of the last step, also those without approach. What gravity alone gives in the step
+  /// is none but a force.
   const std::vector<GroupImpact>& impacts() const { return impacts_; }
   /// Whether nothing moves faster than what falling through a small part of the tolerance gives.
   bool isQuiet() const;
@@ -93,6 +95,8 @@ class TimeStepper {
   void lookAgain(const GroupState& at);
   void collide();
   bool collideOnce();
+  ImpactContact impactAt(std::size_t found) const;
+  void keepImpacts();
   bool obeys(const Found& found, double h) const;
   void choose(double h);
   void listWatches(double h);
@@ -119,6 +123,7 @@ class TimeStepper {
   bool locate(double& h);
   double rootOf(const Watch& watch, double h, double atEnd);
   void shortenJolt(double& h);
+  void addJolt(double h, double change);
   double fastestOf(const GroupState& state) const;
   double changeTo(const GroupState& end) const;
   double errorOf(const GroupState& coarse, const GroupState& fine, double h) const;

@@ -171,17 +171,13 @@ bool TimeStepper::collideOnce() {
   }
   std::vector<ContactFeature> features;
   std::vector<ImpactContact> contacts;
+  double fastest = 0;
   for (std::size_t c = 0; c < found_.size(); ++c) {
     const Found& found = found_[c];
     if (struck[rootOf(found.feature)] != 0) {
       features.push_back(found.feature);
-      const ContactState& state = states_[c];
-      contacts.push_back({.a = found.feature.a,
-                          .b = found.feature.b,
-                          .armA = state.armA,
-                          .armB = state.armB,
-                          .normal = state.normal,
-                          .material = found.feature.material});
+      contacts.push_back(impactAt(c));
+      fastest = std::max(fastest, -found.rate);
     }
   }
   std::vector<ImpactShare> shares(contacts.size());
@@ -216,11 +212,52 @@ bool TimeStepper::collideOnce() {
     }
   }
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (shares[c].impulse > 0 && shares[c].approach > 0) {
-      impacts_.push_back({contacts[c], shares[c]});
+    if (shares[c].impulse > 0) {
+      impacts_.push_back({contacts[c], shares[c], fastest});
     }
   }
   return true;
+}
+
+ImpactContact TimeStepper::impactAt(std::size_t found) const {
+  const ContactFeature& feature = found_[found].feature;
+  const ContactState& state = states_[found];
+  return {.a = feature.a,
+          .b = feature.b,
+          .armA = state.armA,
+          .armB = state.armB,
+          .normal = state.normal,
+          .material = feature.material};
+}
+
+// The impulses of a moment of `h` are those of an impact without approach.
+void TimeStepper::addJolt(double h, double change) {
+  for (std::size_t c = 0; c < found_.size(); ++c) {
+    const auto with = std::find_if(law_.begin(), law_.end(), [&](const ClosedContact& contact) {
+      return isSame(contact.feature, found_[c].feature);
+    });
+    if (with != law_.end() && with->push > 0) {
+      impacts_.push_back({.contact = impactAt(c),
+                          .share = {.approach = std::max(0.0, -found_[c].rate),
+                                    .impulse = h * with->push,
+                                    .tangential = h * with->friction.norm()},
+                          .cause = change});
+    }
+  }
+}
+
+// Forgets what is no more than gravity gives in the step.
+void TimeStepper::keepImpacts() {
+  const double least = 2 * world_.gravity.norm() * length_;
+  const auto inverseMass = [&](int body) {
+    return bodies_[static_cast<std::size_t>(body)].body->mass.inverseMass;
+  };
+  std::erase_if(impacts_, [&](const GroupImpact& impact) {
+    const ImpactContact& contact = impact.contact;
+    const double gives = impact.share.impulse *
+                         (inverseMass(contact.a) + (contact.b.isWall() ? 0 : inverseMass(contact.b.body())));
+    return impact.cause <= least || gives <= least;
+  });
 }
 
 }  // namespace careen

@@ -231,28 +231,22 @@ void ExactWorld::record(const Encounter& encounter) {
   }
 }
 
-// Impacts during time steps; what gravity alone gives in a step is no impact but a force.
 void ExactWorld::record(const ContactGroup& contactGroup) {
-  const Island& island = *contactGroup.island;
-  const double least = 2 * world_.gravity.norm() * contactGroup.step.length;
-  for (const GroupImpact& impact : island.impacts()) {
-    if (impact.share.approach > least) {
-      const auto listed = [&](int place) {
-        return mover(contactGroup.ranks[static_cast<std::size_t>(place)]).listed;
-      };
-      const ImpactContact& contact = impact.contact;
-      const BodyState at =
-          mover(contactGroup.ranks[static_cast<std::size_t>(contact.a)]).stateAt(contactGroup.start);
-      recorder_.strikes(
-          {.time = contactGroup.start.hi,
-           .a = listed(contact.a),
-           .b = contact.b.isWall() ? contact.b : Partner::ofBody(listed(contact.b.body()).value),
-           .point = at.pose.position + contact.armA,
-           .normal = contact.normal,
-           .approach = impact.share.approach,
-           .impulse = impact.share.impulse,
-           .tangential = impact.share.tangential});
-    }
+  for (const GroupImpact& impact : contactGroup.island->impacts()) {
+    const auto listed = [&](int place) {
+      return mover(contactGroup.ranks[static_cast<std::size_t>(place)]).listed;
+    };
+    const ImpactContact& contact = impact.contact;
+    const BodyState at =
+        mover(contactGroup.ranks[static_cast<std::size_t>(contact.a)]).stateAt(contactGroup.start);
+    recorder_.strikes({.time = contactGroup.start.hi,
+                       .a = listed(contact.a),
+                       .b = contact.b.isWall() ? contact.b : Partner::ofBody(listed(contact.b.body()).value),
+                       .point = at.pose.position + contact.armA,
+                       .normal = contact.normal,
+                       .approach = impact.share.approach,
+                       .impulse = impact.share.impulse,
+                       .tangential = impact.share.tangential});
   }
 }
 
