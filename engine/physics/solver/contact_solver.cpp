@@ -38,6 +38,7 @@ constexpr double kNearlyStands = 0x1p-10;  // [1] of V
 constexpr int kStandingSteps = 3;
 constexpr double kStickingEpsilon = 0x1p-24;
 constexpr int kStickingSteps = 8;
+constexpr int kConvexRounds = 4;
 constexpr int kStepsOfRound = 100;  // of a round
 constexpr int kMostSets = 20;       // of contacts that push, without friction
 
@@ -76,12 +77,14 @@ bool ContactSolver::tryApproach(std::span<const Triple> from, ContactNewton::Opt
   return keepIfBetter(newton_.approach(contacts_, trial_, trialQ_, options));
 }
 
-bool ContactSolver::tryInterior(const InteriorPoint::Options& options, int iterations) {
-  interior_.start(contacts_, options);
+bool ContactSolver::tryInterior(const InteriorPoint::Options& options, int iterations,
+                                std::span<const double> slips) {
+  interior_.start(contacts_, options, slips);
+  const bool isConvex = !slips.empty();
   double polished = interior_.gap();
   int slow = 0;
   bool goesOn = true;
-  for (int k = 0; k < iterations && goesOn && slow < kShortStrides && mayGoOn(); ++k) {
+  for (int k = 0; k < iterations && goesOn && (isConvex || slow < kShortStrides) && mayGoOn(); ++k) {
     ++factorisations_;
     goesOn = interior_.advance(contacts_);
     if (interior_.gap() < kFall * polished || !goesOn) {
@@ -91,6 +94,23 @@ bool ContactSolver::tryInterior(const InteriorPoint::Options& options, int itera
       }
     }
     slow = interior_.lastStride() < kShortStride ? slow + 1 : 0;
+  }
+  return false;
+}
+
+/// Convex problems, each with the slip that the one before leads to (F. Cadoux 2009). In a jam nearly
+/// everything sticks, and already the first is close.
+bool ContactSolver::tryConvex() {
+  std::vector<double> slips(impulses_.size(), 0.0);
+  for (int round = 0; round < kConvexRounds && mayGoOn(); ++round) {
+    if (tryInterior({}, kIterations, slips)) {
+      return true;
+    }
+    contacts_.velocities(interior_.impulses(), trialQ_);
+    for (std::size_t c = 0; c < slips.size(); ++c) {
+      const Triple u = contacts_.relativeVelocity(contacts_.contacts()[c], trialQ_);
+      slips[c] = std::sqrt(u[1] * u[1] + u[2] * u[2]);
+    }
   }
   return false;
 }
@@ -188,14 +208,14 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
   if (tryApproach(from_, {.epsilon = warm ? kWarmEpsilon : kColdEpsilon,
                           .steps = kFirstSteps,
                           .enough = inScale(kFirstGoal)}) ||
-      tryInterior({}, kIterations) || trySticking(kStickingEpsilon, kStickingSteps) || tryProximal(8)) {
+      tryInterior({}, kIterations, {}) || trySticking(kStickingEpsilon, kStickingSteps) || tryConvex()) {
     return;
   }
   for (const double start : {1e4, 0.01, 1.0, 100.0, 0.1, 1e6}) {
     InteriorPoint::Options options = kCautious;
     options.start = start;
     options.mostFriction = start == 1e4 ? 0x1p10 : start == 0.01 ? 8 : 0x1p16;
-    if (tryInterior(options, 2 * kIterations) || tryProximal(16)) {
+    if (tryInterior(options, 2 * kIterations, {}) || tryProximal(16)) {
       return;
     }
   }

@@ -19,10 +19,11 @@ namespace careen {
 ///      at any contact it is accepted whatever moves: the velocities are unique;
 ///   3. proximal points from the warm start, or from no impulses if there is none;
 ///   4. the interior-point method; whenever its gap fell a thousand times, Newton's method from there;
-///   5. the same again, with softer contacts, whatever it leads to (jams: impulses may be 1000 times what
-///      comes in);
-///   6. more proximal points, from the best iterate, with two other ρ in turn;
-///   7. the interior-point method from other starts and with other parameters.
+///   5. Newton's method from all contacts sticking, softer ones, whatever it leads to;
+///   6. the interior-point method for convex problems in which |u_t| is a number, a few times (jams: impulses
+///      may be 1e8 times what comes in);
+///   7. the interior-point method from other starts and with other parameters, and proximal points from the
+///      best iterate, with two other ρ in turn.
 ///
 /// Small enough: residual ≤ 1e-9 V, and ≤ max(1e-13 V, 1e-6 of the largest λ/mass): without the second
 /// condition impulses of 1e-8 V can pass where the answer is large. Below the rounding error of the relative
@@ -51,7 +52,8 @@ class ContactSolver {
   void solveWithoutPolish(const ContactSolution& solution);
   bool tryNewton(std::span<const Triple> from, ContactNewton::Options options);
   bool tryApproach(std::span<const Triple> from, ContactNewton::Options options);
-  bool tryInterior(const InteriorPoint::Options& options, int iterations);
+  bool tryInterior(const InteriorPoint::Options& options, int iterations, std::span<const double> slips);
+  bool tryConvex();
   bool trySticking(double epsilon, int steps);
   bool tryStanding();
   bool stands() const;

@@ -15,7 +15,8 @@ using lorentz::dot;
 using lorentz::scaledOnce;
 using lorentz::scaledTwice;
 
-void InteriorPoint::start(const CoupledContacts& contacts, const Options& options) {
+void InteriorPoint::start(const CoupledContacts& contacts, const Options& options,
+                          std::span<const double> slips) {
   options_ = options;
   const std::size_t count = contacts.contacts().size();
   states_.resize(count);
@@ -28,6 +29,7 @@ void InteriorPoint::start(const CoupledContacts& contacts, const Options& option
     states_[c].friction = std::min(contacts.contacts()[c].friction, options.mostFriction);
     states_[c].r = {options.start * contacts.scale(), 0, 0};
     states_[c].w = {contacts.scale(), 0, 0};
+    states_[c].slips = slips.empty() ? -1 : slips[c];
   }
   refresh(contacts);
 }
@@ -51,8 +53,10 @@ void InteriorPoint::refresh(const CoupledContacts& contacts) {
     if (contact.onLine) {
       state.residual = {state.w[0] - u[0], 0, 0};
     } else {
-      const double slip = lorentz::tangentialSize(u);
-      state.slip = slip > 0 ? std::array<double, 2>{u[1] / slip, u[2] / slip} : std::array<double, 2>{};
+      const bool given = state.slips >= 0;
+      const double slip = given ? state.slips : lorentz::tangentialSize(u);
+      state.slip =
+          slip > 0 && !given ? std::array<double, 2>{u[1] / slip, u[2] / slip} : std::array<double, 2>{};
       state.residual = {state.w[0] - (u[0] / state.friction + slip), state.w[1] - u[1], state.w[2] - u[2]};
     }
     products_.push_back({dot(state.r, state.w)});

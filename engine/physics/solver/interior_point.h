@@ -12,12 +12,13 @@ namespace careen {
 ///
 ///   r = (μ λ_n, λ_t)/mass,   w = (u_n/μ + |u_t|, u_t),   r ∘ w = 0;   half-lines: r = λ_n/mass, w = u_n.
 ///
-/// |u_t| makes the problem one that is not convex. It is not iterated on as a parameter (V. Acary, F. Cadoux,
-/// C. Lemaréchal, J. Malick, ZAMM 91, 2011): its derivative D̃ = d(u_0 + |u_t|, u_t)/du is part of Newton's
-/// matrix M + Σ Jᵀ S W² D̃ S J, S = diag(1/μ, 1, 1), which makes it unsymmetric. Scaling W of Nesterov and
-/// Todd, predictor and corrector of Mehrotra, as in L. Vandenberghe, The CVXOPT linear and quadratic cone
-/// program solvers, 2010. All products r·w have one target, in [m²/s²], so that light and heavy contacts are
-/// centred alike: redundant contacts get even shares.
+/// |u_t| makes the problem one that is not convex. It may be a parameter, to be iterated on (V. Acary, F.
+/// Cadoux, C. Lemaréchal, J. Malick, ZAMM 91, 2011): each problem then has a solution that is always found,
+/// and where nearly everything sticks it is the answer. Else its derivative D̃ = d(u_0 + |u_t|, u_t)/du is
+/// part of Newton's matrix M + Σ Jᵀ S W² D̃ S J, S = diag(1/μ, 1, 1), which makes it unsymmetric. Scaling W of
+/// Nesterov and Todd, predictor and corrector of Mehrotra, as in L. Vandenberghe, The CVXOPT linear and
+/// quadratic cone program solvers, 2010. All products r·w have one target, in [m²/s²], so that light and
+/// heavy contacts are centred alike: redundant contacts get even shares.
 class InteriorPoint {
  public:
   struct Options {
@@ -28,7 +29,8 @@ class InteriorPoint {
     double mostFriction = 0x1p6;  ///< [1] larger μ count as this: u_n/μ must not drown in |u_t|
   };
 
-  void start(const CoupledContacts& contacts, const Options& options);
+  /// With `slips`, one for each contact, |u_t| is no unknown but that number [m/s], and the problem convex.
+  void start(const CoupledContacts& contacts, const Options& options, std::span<const double> slips = {});
   /// One iteration, one factorisation. Returns false if there is no next one.
   bool advance(CoupledContacts& contacts);
   /// Mean r·w [m²/s²].
@@ -43,13 +45,14 @@ class InteriorPoint {
   using Contact = CoupledContacts::Contact;
   struct State {          // of one contact; of a half-line, the first numbers only
     double friction = 0;  // μ
+    double slips = -1;    // [m/s] instead of |u_t|, if not negative
     Triple r{};
     Triple w{};
     Triple point{};                // w̄, the scaling point, of length 1
     double size2 = 0;              // η² [1]: W² = η² (2 w̄w̄ᵀ − J), W² w = r
     Triple scaled{};               // v = W w = W⁻¹ r
     Triple residual{};             // w − (u_n/μ + |u_t|, u_t)
-    std::array<double, 2> slip{};  // u_t/|u_t|
+    std::array<double, 2> slip{};  // u_t/|u_t|, the derivative of |u_t|
     Triple changeR{};
     Triple changeW{};
   };

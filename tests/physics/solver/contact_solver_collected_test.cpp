@@ -1,5 +1,5 @@
 // Problems collected from this program's own runs: time steps, impacts and modes of smooth contact of
-// dominoes, stacks, walls, pours, Painlevé's rod and squeezes, with 1 to 68 bodies; 31 of them are such that
+// dominoes, stacks, walls, pours, Painlevé's rod and squeezes, with 1 to 68 bodies; 38 of them are such that
 // simple solvers fail.
 #include <gtest/gtest.h>
 #include <libdeflate.h>
@@ -111,7 +111,7 @@ TEST(ContactSolverCollected, allAreSolvedThatCanBe) {
     tight += solution.residual <= 1e-12 * solution.scale ? 1 : 0;
   }
   std::cout << count << " problems, " << tight << " solved to 1e-12, " << failures << " not solved\n";
-  EXPECT_EQ(count, 276);
+  EXPECT_EQ(count, 283);
   EXPECT_LE(failures, 6);  // measured: 6
   EXPECT_GE(tight, 245);   // measured: 254
 }
