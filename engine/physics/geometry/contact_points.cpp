@@ -155,7 +155,7 @@ Polygon cut(const Polygon& polygon, const Vec3& axis, double low, double high, d
 }
 
 // The part of a face or an edge over a face, both relative to the same centre.
-Polygon clip(const Feature& incident, const Feature& face, double within) {
+Polygon common(const Feature& incident, const Feature& face, double within) {
   Polygon polygon;
   polygon.add(incident.corner(1, 1));
   polygon.add(incident.corner(-1, 1));
@@ -167,6 +167,12 @@ Polygon clip(const Feature& incident, const Feature& face, double within) {
     const double middle = face.axis[k].dot(face.centre);
     polygon = cut(polygon, face.axis[k], middle - face.half[k], middle + face.half[k], within);
   }
+  return polygon;
+}
+
+// The same, at least one point.
+Polygon clip(const Feature& incident, const Feature& face, double within) {
+  Polygon polygon = common(incident, face, within);
   if (polygon.count == 0) {
     // Disjoint by rounding: the midpoint of the incident feature, clamped to the face.
     Vec3 point = incident.centre;
@@ -203,15 +209,37 @@ void cross(const Feature& a, const Feature& b, const Vec3& bToA, double within, 
   manifold.addOnA(a.centre + (low <= high ? high : 0.5 * (low + high)) * u);
 }
 
-// The contact axis: a face axis if its separation equals the best.
-BoxAxis contactAxis(const BoxAxes& axes, double within) {
-  int best = 0;
-  for (int k = 1; k < 6; ++k) {
-    if (axes.separation({k}) > axes.separation({best})) {
-      best = k;
+// Whether some of a feature lies over a face, both relative to the same centre.
+bool isOver(const Feature& feature, const Feature& face, double within) {
+  if (feature.freedom > 0) {
+    return common(feature, face, within).count > 0;
+  }
+  const Vec3 from = feature.centre - face.centre;
+  return std::fabs(face.axis[0].dot(from)) <= face.half[0] + within &&
+         std::fabs(face.axis[1].dot(from)) <= face.half[1] + within;
+}
+
+// The contact axis: a face axis if its separation is as good as equals the best. Where that is of two edges,
+// the other box's nearest part may lie beside the face: then they do not touch there.
+BoxAxis contactAxis(BoxAt a, BoxAt b, const BoxAxes& axes, const Vec3& bToA, double within) {
+  if (axes.best().kind() != BoxAxis::Kind::kEdges) {
+    return axes.best();
+  }
+  std::array<int, 6> faces{0, 1, 2, 3, 4, 5};
+  std::stable_sort(faces.begin(), faces.end(),
+                   [&](int x, int y) { return axes.separation({x}) > axes.separation({y}); });
+  for (const int k : faces) {
+    if (axes.separation({k}) < axes.gap() - within) {
+      break;
+    }
+    const Vec3 normal = axes.normal({k});
+    const Feature ofA = furthest(a, -normal, within);
+    const Feature ofB = furthest(b, normal, within).seenFrom(bToA);
+    if (k < 3 ? isOver(ofB, ofA, within) : isOver(ofA, ofB, within)) {
+      return {k};
     }
   }
-  return axes.separation({best}) >= axes.gap() - within ? BoxAxis{best} : axes.best();
+  return axes.best();
 }
 
 // ---- Edges along edges, corners on edges, corners on corners.
@@ -357,7 +385,7 @@ ContactPoints pointsInOrder(BoxAt a, BoxAt b, double apart) {
   if (const std::optional<ContactPoints> points = pointsInCone(a, b, axes, bToA, within)) {
     return *points;
   }
-  const BoxAxis axis = contactAxis(axes, within);
+  const BoxAxis axis = contactAxis(a, b, axes, bToA, within);
   const Vec3 normal = axes.normal(axis);
 
   const Feature ofA = furthest(a, -normal, within);
@@ -375,14 +403,14 @@ ContactPoints pointsInOrder(BoxAt a, BoxAt b, double apart) {
     cross(ofA, ofB, bToA, within, manifold);
     // The smaller face is clipped to the larger, so that one that lies within keeps its corners bitwise.
   } else if (ofB.freedom == 2 && (ofA.freedom == 1 || ofA.extent() < ofB.extent())) {
-    const Polygon common = clip(ofA, ofB.seenFrom(bToA), within);
-    for (std::size_t k = 0; k < common.count; ++k) {
-      manifold.addOnA(common.corner[k]);
+    const Polygon shared = clip(ofA, ofB.seenFrom(bToA), within);
+    for (std::size_t k = 0; k < shared.count; ++k) {
+      manifold.addOnA(shared.corner[k]);
     }
   } else {
-    const Polygon common = clip(ofB, ofA.seenFrom(-bToA), within);
-    for (std::size_t k = 0; k < common.count; ++k) {
-      manifold.addOnB(common.corner[k]);
+    const Polygon shared = clip(ofB, ofA.seenFrom(-bToA), within);
+    for (std::size_t k = 0; k < shared.count; ++k) {
+      manifold.addOnB(shared.corner[k]);
     }
   }
   return manifold.points();
