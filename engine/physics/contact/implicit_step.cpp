@@ -12,11 +12,11 @@
 namespace careen {
 namespace {
 
-/// Rows at the middle and law at the end depend on the step's own result: one pass alone is of first order.
-constexpr int kPasses = 2;
 /// [1] of the tolerance in the time to fall, or to move, a half diagonal: a residual of the law that is as
 /// good as none.
 constexpr double kEnoughProgress = 0x1p-8;
+/// [1] of that residual, where no better one was found however short the step.
+constexpr double kLastResort = 32;
 
 Quat rotationBy(const Vec3& angle) {
   const double size = angle.norm();
@@ -163,8 +163,10 @@ void ImplicitStep::clearImpulses() {
 }
 
 bool ImplicitStep::advance(const GroupState& from, double h, std::vector<ClosedContact>& contacts,
-                           GroupState& to) {
+                           GroupState& to, Order order) {
   chooseResidual(from);
+  isLastResort_ = order == Order::kFirst;
+  residual_ *= isLastResort_ ? kLastResort : 1;
   to = from;
   features_.clear();
   for (const ClosedContact& contact : contacts) {
@@ -175,7 +177,8 @@ bool ImplicitStep::advance(const GroupState& from, double h, std::vector<ClosedC
   move(from, h, to);
   move(from, h, to);
   const bool depends = !worldStates_.empty();
-  for (int pass = 0; pass < kPasses && (depends || !contacts.empty()); ++pass) {
+  // Rows at the middle and law at the end depend on the step's own result: one pass alone is of first order.
+  for (int pass = 0; pass < static_cast<int>(order) && (depends || !contacts.empty()); ++pass) {
     findMiddle(from, to);
     if (depends) {
       findLoads(middle_);

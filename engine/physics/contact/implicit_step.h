@@ -46,8 +46,12 @@ class ImplicitStep {
   /// `tolerance` [m]: the law is solved so accurately that its residual matters less.
   ImplicitStep(const World& world, const std::vector<TouchingBody>& bodies, double tolerance);
 
-  /// The state `h` [s] later. Returns false if the contact problem was not solved.
-  bool advance(const GroupState& from, double h, std::vector<ClosedContact>& contacts, GroupState& to);
+  /// The state `h` [s] later. Returns false if the contact problem was not solved. Of first order, the law
+  /// holds for the normals and arms at the middle of the step, where there always is a solution, and a
+  /// residual 32 times as large will do: the last resort.
+  enum class Order { kFirst = 1, kSecond = 2 };
+  bool advance(const GroupState& from, double h, std::vector<ClosedContact>& contacts, GroupState& to,
+               Order order = Order::kSecond);
   /// The impulse without restitution: velocities after which no contact approaches. Likewise.
   bool compress(GroupState& state, std::span<const ContactFeature> contacts,
                 std::vector<ContactProblem::Triple>& impulses);
@@ -119,6 +123,7 @@ class ImplicitStep {
   std::vector<Vec3> normals_;  // by contact, before they are aligned
   GroupState middle_;
   double residual_ = 0;  // [m/s]
+  bool isLastResort_ = false;
   double work_ = 0;
 };
 

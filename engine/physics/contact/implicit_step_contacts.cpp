@@ -257,7 +257,7 @@ bool ImplicitStep::findImpulses(const GroupState& from, double h, bool first,
     solution_.impulses.push_back(
         {h * contacts[c].push, friction.dot(tangents.first), friction.dot(tangents.second)});
   }
-  if (!solve(residual_)) {
+  if (!solve(residual_) && !(isLastResort_ && solution_.residual <= residual_)) {
     return false;
   }
   for (std::size_t c = 0; c < contacts.size(); ++c) {

@@ -134,7 +134,9 @@ double TimeStepper::errorOf(const GroupState& coarse, const GroupState& fine, do
 }
 
 // The step's end by one step of that length, with the contacts chosen for it.
-bool TimeStepper::tryStep(double h) { return equations_.advance(start_, h, law_, coarse_); }
+bool TimeStepper::tryStep(double h, ImplicitStep::Order order) {
+  return equations_.advance(start_, h, law_, coarse_, order);
+}
 
 // Shortens the step to the moment where the first event function falls through zero, or a little before:
 // found on the polynomials of the longer step, then tried. Returns false if the impulses were not found.
@@ -269,6 +271,10 @@ double TimeStepper::step(double most) {
     if (made == Attempt::kUnsolved) {
       h *= 0.5;
       if (++unsolved > kMostUnsolved) {
+        if (tryStep(h, ImplicitStep::Order::kFirst)) {
+          end_ = coarse_;
+          break;
+        }
         throw NumericalError("no impulses of " + std::to_string(law_.size()) + " contacts of box " +
                              bodies_[0].body->name +
                              " and its neighbours were found, however short the step");

@@ -118,7 +118,7 @@ class TimeStepper {
   double value(const Watch& watch, const GroupState& at) const;
   enum class Attempt { kDone, kShorter, kUnsolved };
   Attempt attempt(double& h, double shortest);
-  bool tryStep(double h);
+  bool tryStep(double h, ImplicitStep::Order order = ImplicitStep::Order::kSecond);
   bool tryHalves(double h);
   bool locate(double& h);
   double rootOf(const Watch& watch, double h, double atEnd);

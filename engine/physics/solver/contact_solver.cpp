@@ -37,8 +37,9 @@ constexpr double kStandingEpsilon = 0x1p-40;
 constexpr double kNearlyStands = 0x1p-10;  // [1] of V
 constexpr int kStandingSteps = 3;
 constexpr double kStickingEpsilon = 0x1p-24;
-constexpr int kStickingSteps = 8;
 constexpr int kConvexRounds = 4;
+/// [1] Ratio of masses in contact from which a problem is taken for a jam first.
+constexpr double kHeavy = 64;
 constexpr int kStepsOfRound = 100;  // of a round
 constexpr int kMostSets = 20;       // of contacts that push, without friction
 
@@ -208,7 +209,7 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
   if (tryApproach(from_, {.epsilon = warm ? kWarmEpsilon : kColdEpsilon,
                           .steps = kFirstSteps,
                           .enough = inScale(kFirstGoal)}) ||
-      tryInterior({}, kIterations, {}) || trySticking(kStickingEpsilon, kStickingSteps) || tryConvex()) {
+      (contacts_.heaviest() > kHeavy ? tryConvex() || tryProximal(2) : tryProximal(2) || tryConvex())) {
     return;
   }
   for (const double start : {1e4, 0.01, 1.0, 100.0, 0.1, 1e6}) {

@@ -18,12 +18,11 @@ namespace careen {
 ///      in its first step; accepted if everything stands (however heavy the top of a stack). Without friction
 ///      at any contact it is accepted whatever moves: the velocities are unique;
 ///   3. proximal points from the warm start, or from no impulses if there is none;
-///   4. the interior-point method; whenever its gap fell a thousand times, Newton's method from there;
-///   5. Newton's method from all contacts sticking, softer ones, whatever it leads to;
-///   6. the interior-point method for convex problems in which |u_t| is a number, a few times (jams: impulses
-///      may be 1e8 times what comes in);
-///   7. the interior-point method from other starts and with other parameters, and proximal points from the
-///      best iterate, with two other ρ in turn.
+///   4. proximal points from the best iterate, with two other ρ in turn, and the interior-point method for
+///      convex problems in which |u_t| is a number, a few times. Where the heavy lies on the light, first the
+///      latter: in a jam, impulses may be 1e8 times what comes in;
+///   5. the interior-point method from several starts, |u_t| being what it is; whenever its gap fell a
+///      thousand times, Newton's method from there; and more proximal points.
 ///
 /// Small enough: residual ≤ 1e-9 V, and ≤ max(1e-13 V, 1e-6 of the largest λ/mass): without the second
 /// condition impulses of 1e-8 V can pass where the answer is large. Below the rounding error of the relative

@@ -198,6 +198,18 @@ void CoupledContacts::relativeVelocities(std::span<const double> q, std::span<Tr
   }
 }
 
+double CoupledContacts::heaviest() const {
+  double heaviest = 1;
+  for (const Contact& contact : contacts_) {
+    if (contact.a != kNobody && contact.b != kNobody) {
+      const double ratio = mass_[static_cast<std::size_t>(contact.a) * kAxes] *
+                           inverseMass_[static_cast<std::size_t>(contact.b) * kAxes];
+      heaviest = std::max({heaviest, ratio, 1 / ratio});
+    }
+  }
+  return heaviest;
+}
+
 double CoupledContacts::largest(std::span<const Triple> impulses) const {
   double largest = 0;
   for (std::size_t c = 0; c < impulses.size(); ++c) {

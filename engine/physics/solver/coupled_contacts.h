@@ -47,6 +47,8 @@ class CoupledContacts {
   /// [m/s] What rounding errors in u may amount to.
   double noise() const { return noise_; }
 
+  /// [1] The largest ratio of the masses of two bodies in contact.
+  double heaviest() const;
   /// [m/s] λ/mass, of normal impulses.
   double largest(std::span<const Triple> impulses) const;
 
