@@ -60,8 +60,8 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
     mover.listed = {static_cast<int>(listed)};
     movable += mover.isHeld() ? 0 : 1;
   }
-  const double part = std::min(1.0, kMostInContact / std::max(1.0, movable));
-  workShare_ = part * part * part * std::sqrt(std::max(1.0, kUsualTolerance / tolerance_));
+  const double part = std::min(1.0, kMostUnshared / std::max(1.0, movable));
+  workShare_ = part * part * part * part * std::sqrt(std::max(1.0, kUsualTolerance / tolerance_));
   for (const Spring& spring : world.springs) {
     for (const SpringEnd* end : {&spring.from, &spring.to}) {
       const SpringEnd& other = end == &spring.from ? spring.to : spring.from;

@@ -225,7 +225,8 @@ class Crowd {
   bool startedDeep(const PilePair& pair) const;
   void project();
   bool freeze();
-  PileManifold& manifoldOf(PilePair& pair);
+  void beginManifold(const PilePair& pair, PileManifold& manifold) const;
+  void keepManifold(PilePair& pair, const PileManifold& manifold);
 
   const World& world_;
   double tolerance_;                 // [m]
@@ -248,6 +249,7 @@ class Crowd {
 
   PilePairs pairs_;
   std::vector<PileManifold> manifolds_;
+  PileManifold tried_;       // of a pair that has no slot yet
   std::vector<int> unused_;  // free slots of manifolds_
   std::vector<int> near_;    // manifolds of this step, by key
   std::vector<char> looked_;

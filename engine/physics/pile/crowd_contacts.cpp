@@ -98,7 +98,11 @@ bool Crowd::lookAt(PilePair& pair) {
   if (pair.slot < 0 && pair.clear > 0 && wayAhead(pair) < wayLeft(pair)) {
     return false;
   }
-  PileManifold& manifold = manifoldOf(pair);
+  // Most that are near have no points: those are looked at in a place of their own, which stays in the cache.
+  if (pair.slot < 0) {
+    beginManifold(pair, tried_);
+  }
+  PileManifold& manifold = pair.slot < 0 ? tried_ : manifolds_[at(pair.slot)];
   const double motion = hasWall ? a.ahead : relativeMotion(a, bodyAt(pair.b), h_);
   manifold.moved += motion;
   const double length = manifold.length;
@@ -119,24 +123,30 @@ bool Crowd::lookAt(PilePair& pair) {
     pair.apart = b == nullptr ? a.position : Vec3(a.position - b->position);
     pair.turned = a.turned + (b == nullptr ? 0 : b->turned);
     pair.clear = manifold.separation - PileLengths::kReach * length;
-    unused_.push_back(pair.slot);
-    pair.slot = -1;
+    if (pair.slot >= 0) {
+      unused_.push_back(pair.slot);
+      pair.slot = -1;
+    }
     return false;
   }
-  return manifold.count > 0;
+  const bool hasPoints = manifold.count > 0;
+  if (pair.slot < 0) {
+    keepManifold(pair, tried_);
+  }
+  return hasPoints;
 }
 
-PileManifold& Crowd::manifoldOf(PilePair& pair) {
-  if (pair.slot >= 0) {
-    return manifolds_[at(pair.slot)];
-  }
+void Crowd::keepManifold(PilePair& pair, const PileManifold& manifold) {
   if (unused_.empty()) {
     unused_.push_back(static_cast<int>(manifolds_.size()));
     manifolds_.emplace_back();
   }
   pair.slot = unused_.back();
   unused_.pop_back();
-  PileManifold& manifold = manifolds_[at(pair.slot)];
+  manifolds_[at(pair.slot)] = manifold;
+}
+
+void Crowd::beginManifold(const PilePair& pair, PileManifold& manifold) const {
   manifold.clear();
   manifold.a = pair.a;
   manifold.b = pair.b;
@@ -146,7 +156,6 @@ PileManifold& Crowd::manifoldOf(PilePair& pair) {
   manifold.friction = material.friction;
   manifold.restitution = material.restitution;
   manifold.length = pair.b.isWall() ? a.length : std::min(a.length, bodyAt(pair.b).length);
-  return manifold;
 }
 
 // Whether the moving body would push the sleeping one by more than the tolerated imbalance at rest, or strike
