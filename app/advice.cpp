@@ -23,6 +23,13 @@ constexpr std::array kAdvice = {
     Advice{"no rendering backend is available", "install one: apt install libosmesa6"},
     Advice{"no display", "make a film in place of a window: careen render"},
     Advice{"inside box ", "move one of them, or let --allow-overlap do it"},
+    Advice{"behind wall ",
+           "move it, or let --allow-overlap do it; a box's position is its middle, in metres"},
+    Advice{"is a folder, expected a file", "name a file in it, such as FOLDER/scene.json"},
+    Advice{"cannot be written: No such file", "make that folder first, or choose another place"},
+    Advice{"cannot be made a folder", "choose another place: --out FOLDER"},
+    Advice{"is no PNG", "give two pictures, two folders of frames, or two runs that 'careen simulate' wrote"},
+    Advice{"found no run", "make one: careen simulate scene.json -o run.careen"},
 };
 
 // "fall.json:3:5: …" is a fault within a file.
@@ -42,9 +49,9 @@ std::string adviceOn(const std::string& message) {
   if (found != kAdvice.end()) {
     return "next: " + std::string(found->next);
   }
-  return namesALine(message)
-             ? "next: 'careen help scenes' explains scenes, their keys are in assets/scene.schema.json"
-             : "";
+  return namesALine(message) ? "next: 'careen help scenes' explains scenes (in m, kg, s); "
+                               "assets/scene.schema.json has all keys"
+                             : "";
 }
 
 }  // namespace careen

@@ -13,14 +13,41 @@
 namespace careen {
 namespace {
 
-// An argument that is refused is part of the message.
-std::string printableLines(const std::string& text) {
-  std::istringstream stream(text);
-  std::string lines;
-  for (std::string line; std::getline(stream, line);) {
-    lines += printableName(line) + '\n';
+// The options of a command and of its groups, as they are typed.
+std::vector<std::string> optionsOf(CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* const option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) {
+      names.push_back("--" + name);
+    }
   }
-  return lines;
+  for (CLI::App* const group : app.get_subcommands([](CLI::App* each) { return each->get_name().empty(); })) {
+    const std::vector<std::string> more = optionsOf(*group);
+    names.insert(names.end(), more.begin(), more.end());
+  }
+  return names;
+}
+
+// What is wrong with arguments that were refused, and where to look. An argument is part of the message.
+std::string explained(const CLI::ParseError& error, CLI::App& app, const char* firstArgument) {
+  const std::vector<CLI::App*> used = app.get_subcommands();
+  CLI::App& command = used.empty() ? app : *used.front();
+  const std::string name = used.empty() ? "careen" : "careen " + command.get_name();
+  std::vector<std::string> unknown = app.remaining(true);
+  if (used.empty() && unknown.empty()) {
+    unknown = {firstArgument};  // that no command follows is found first
+  }
+  const auto option = std::find_if(unknown.begin(), unknown.end(),
+                                   [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
+  std::string message = error.what();
+  if (option != unknown.end()) {
+    const std::string typed = option->substr(0, option->find('='));
+    message = "found '" + typed + "', expected an option" + didYouMean(typed, optionsOf(command));
+  } else if (!unknown.empty()) {
+    message = "found '" + unknown.front() + "', expected no more arguments";
+  }
+  return printableName("careen: " + (used.empty() ? "" : command.get_name() + ": ") + message + "; '" + name +
+                       " --help' lists what there is");
 }
 
 }  // namespace
@@ -136,19 +163,22 @@ CommandLine::Parsed CommandLine::parse(int argc, const char* const* argv) const 
   const std::vector<std::string> names = commands();
   if (!first.starts_with('-') && std::find(names.begin(), names.end(), first) == names.end()) {
     std::error_code none;
-    std::cerr << printableLines(
-        "careen: found '" + first + "', expected a command" + didYouMean(first, names) +
-        (std::filesystem::is_regular_file(first, none) ? "; to film it: careen render " + first
-                                                       : "; 'careen --help' lists them"));
+    std::cerr << printableName(
+                     "careen: found '" + first + "', expected a command" + didYouMean(first, names) +
+                     (std::filesystem::is_regular_file(first, none) ? "; to film it: careen render " + first
+                                                                    : "; 'careen --help' lists them"))
+              << '\n';
     return {.command = nullptr, .exitCode = ExitCode::kBadInput};
   }
   try {
     app_->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    std::ostringstream wrong;
-    const int code = app_->exit(error, std::cout, wrong);
-    std::cerr << printableLines(wrong.str());
-    return {.command = nullptr, .exitCode = code == 0 ? ExitCode::kDone : ExitCode::kBadInput};
+    if (error.get_exit_code() == 0) {  // help, version
+      app_->exit(error, std::cout, std::cerr);
+      return {.command = nullptr, .exitCode = ExitCode::kDone};
+    }
+    std::cerr << explained(error, *app_, argv[1]) << '\n';
+    return {.command = nullptr, .exitCode = ExitCode::kBadInput};
   }
   return {.command = *chosen_};
 }

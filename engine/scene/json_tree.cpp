@@ -170,14 +170,14 @@ TreeBuilder::Expectation TreeBuilder::expectedAfter(char separator) const {
   }
   const bool empty = open_.back()->children.empty();
   if (open_.back()->kind == Kind::kArray) {
-    return separator == ',' ? Expectation{kValue, "a value"}
+    return separator == ',' ? Expectation{kValue, "a value after the comma"}
            : empty          ? Expectation{kValue, "a value or ']'"}
                             : Expectation{kPunctuation, "',' or ']'"};
   }
   if (keyPending_) {
     return separator == ':' ? Expectation{kValue, "a value"} : Expectation{kPunctuation, "':'"};
   }
-  return separator == ',' ? Expectation{kKey, "a key in quotes"}
+  return separator == ',' ? Expectation{kKey, "a key in quotes after the comma"}
          : empty          ? Expectation{kKey, "a key in quotes or '}'"}
                           : Expectation{kPunctuation, "',' or '}'"};
 }

@@ -42,7 +42,14 @@ TEST_F(FirstHour, bareProgramShowsHelp) {
 TEST_F(FirstHour, wrongWordsAreUnderstood) {
   expectLastWords(careen({"simulat"}), 2, "did you mean 'simulate'?");
   expectLastWords(careen({"frobnicate"}), 2, "'careen --help' lists them");
-  expectLastWords(careen({"simulate", "--tolerence", "1"}), 2, "--help");
+  expectLastWords(careen({"simulate", "--tolerence", "1"}), 2,
+                  "simulate: found '--tolerence', expected an option; did you mean '--tolerance'?; 'careen "
+                  "simulate --help'");
+  expectLastWords(careen({"simulate", "fall.json", "--dt=1", "--impact=1.csv"}), 2,
+                  "did you mean '--impacts'?");
+  expectLastWords(careen({"simulate", "fall.json", "fall.csv"}), 2, "'fall.csv', expected no more arguments");
+  expectLastWords(careen({"--frobnicate", "fall.json"}), 2, "found '--frobnicate'");
+  expectLastWords(careen({"export", "run.careen"}), 2, "'careen export --help'");
   folder_.write("fall.json", "{}");
   expectLastWords(careen({"fall.json"}), 2, "to film it: careen render fall.json");
 }
@@ -54,6 +61,15 @@ TEST_F(FirstHour, scenesThatCannotBeRead) {
     folder_.write("scene.json", text);
     expectLastWords(careen({"simulate", "scene.json"}), 2, "next: 'careen help scenes'");
   }
+  folder_.write("scene.json", R"({"careen": 1, "duration": 1,})");
+  EXPECT_NE(careen({"simulate", "scene.json"}).err.find("after the comma"), std::string::npos);
+  folder_.write("scene.json", R"({"careen": 1, "duration": 1, "boxes": [{"half_extents": [1,1,1], "mass": 1}],
+    "walls": [{"point": [0,0,0], "normal": [0,0,1]}]})");
+  expectLastWords(careen({"simulate", "scene.json"}), 2, "or let --allow-overlap do it");
+  expectLastWords(careen({"compare", "scene.json", "scene.json"}), 2, "next: give two pictures");
+  expectLastWords(careen({"audit", "scene.json"}), 2, "next: make one: careen simulate");
+  std::filesystem::create_directory(folder_ / "folder");
+  expectLastWords(careen({"simulate", "folder"}), 2, "next: name a file in it");
   folder_.write("scene.json", R"({"careen": 1, "duration": 1, "boxes": [
     {"half_extents": [1,1,1], "mass": 1}, {"half_extents": [1,1,1], "mass": 1}]})");
   expectLastWords(careen({"simulate", "scene.json"}), 2, "--allow-overlap");
@@ -73,6 +89,8 @@ TEST_F(FirstHour, placesThatMayNotBeWritten) {
     words.insert(words.begin(), other.begin(), other.end());
   }
   expectLastWords(run(words), 3, "next: choose a place");
+  expectLastWords(careen({"simulate", "scene.json", "-o", "nowhere/run.careen"}), 3,
+                  "next: make that folder");
 }
 
 #ifdef CAREEN_RENDER
@@ -81,6 +99,11 @@ class RenderInTheFirstHour : public FirstHour {};
 TEST_F(RenderInTheFirstHour, noDisplay) {
   expectLastWords(run({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", program(), "view"}), 3,
                   "careen render");
+}
+
+TEST_F(RenderInTheFirstHour, aFileWhereAFolderIsToBe) {
+  folder_.write("out", "");
+  expectLastWords(careen({"render", "--frames", "0", "--size", "64x36"}), 3, "next: choose another place");
 }
 
 TEST_F(RenderInTheFirstHour, noFfmpeg) {

@@ -148,7 +148,7 @@ TEST(ImportMjcf, whatExportWritesComesBack) {
 
 // MJCF has no restitution: scenes that need none. Attitudes come back rounded to 1e-15, and what tumbles over
 // others makes that grow without bound: stack.json is 0.1 m off when it has been struck, domino.json 1e-6 m
-// when the first tiles have met. The last number is the time [s] until which the bound holds.
+// when the first tiles have met. The last number is the time [s] until which they run and the bound holds.
 TEST(ImportMjcf, scenesWithoutRestitutionMoveAsBefore) {
   struct Case {
     std::string name;
@@ -162,6 +162,7 @@ TEST(ImportMjcf, scenesWithoutRestitutionMoveAsBefore) {
                          {"stack.json", 1e-13, 2.9},       // 4e-17
                          {"domino.json", 3e-14, 0.45}}) {
     RoundTrip trip = roundTripOf(name);
+    trip.first.duration = std::min(trip.first.duration, until);
     trip.second.duration = trip.first.duration;
     trip.second.tolerance = trip.first.tolerance;
     trip.second.crowds = trip.first.crowds;
@@ -176,9 +177,7 @@ TEST(ImportMjcf, scenesWithoutRestitutionMoveAsBefore) {
         const Pose b = second.state(body, time).pose;
         now = std::max(now, (a.position - b.position).norm() + (a.worldFromBody - b.worldFromBody).norm());
       }
-      if (time <= until) {
-        most = std::max(most, now);
-      }
+      most = std::max(most, now);
     }
     std::cout << name << ' ' << most << '\n';
     EXPECT_LT(most, bound) << name;

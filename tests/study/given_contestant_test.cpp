@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -27,7 +29,8 @@ TEST(GivenContestant, hasTheErrorOfWhoMadeTheTable) {
   const Contestants own = ownMethods();
   for (const char* const name :
        {"free-fall", "tumble-generic", "corner-impact", "sliding-spinning", "pile"}) {
-    const Case study = readCase(name);
+    Case study = readCase(name);
+    study.times.resize(std::min<std::size_t>(study.times.size(), 20));  // of the pile until boxes touch
     const Answer answer = answerOf(study, *own[0], study.scene.tolerance, {});
     const auto given =
         givenContestant({.label = "theirs",

@@ -1,5 +1,6 @@
 #include "study/truths.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <iterator>
@@ -353,7 +354,7 @@ std::vector<double> timesOf(const std::string& name, const QuadScene& scene) {
   return times;
 }
 
-Truth computeTruth(const std::string& name) {
+Truth computeTruth(const std::string& name, std::size_t mostTimes) {
   const TruthCase& found = caseNamed(name);
   Truth truth{.name = name,
               .title = found.title,
@@ -369,6 +370,7 @@ Truth computeTruth(const std::string& name) {
   }
   const QuadScene scene = oracle::sceneIn(scenePath(name));
   truth.times = timesOf(name, scene);
+  truth.times.resize(std::min(truth.times.size(), mostTimes));
   if (found.measure == "poses") {
     const Boxes boxes = found.oracle(scene, truth.times);
     for (const oracle::QuadBox& box : scene.boxes) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -38,8 +39,9 @@ std::filesystem::path truthPath(const std::string& name);
 /// The times at which a case is evaluated: k · duration / n.
 std::vector<double> timesOf(const std::string& name, const oracle::QuadScene& scene);
 
-/// Computed from the case's scene file by the oracles, without any code of the engine.
-Truth computeTruth(const std::string& name);
+/// Computed from the case's scene file by the oracles, without any code of the engine; at most so many of its
+/// times, the first.
+Truth computeTruth(const std::string& name, std::size_t mostTimes = 1000);
 /// The text of its file.
 std::string toText(const Truth& truth);
 

@@ -51,7 +51,18 @@ TEST(Truths, ofTumblingAreThoseOfTheFiles) {
 
 TEST(Truths, ofTheNeedleIsThatOfTheFile) { expectTheFiles({"needle"}); }
 
-TEST(Truths, ofTheFastSpinIsThatOfTheFile) { expectTheFiles({"fast-spin"}); }
+// Ten thousand radians in quadruple precision take half a minute: the first quarter is computed again.
+// OwnMethodsOnHardCases holds all of the file to 6.9e-13.
+TEST(Truths, ofTheFastSpinStartsAsThatOfTheFile) {
+  constexpr std::size_t kTimes = 2;
+  json file = oracle::jsonIn(truthPath("fast-spin"));
+  ASSERT_EQ(file["times"].size(), 4 * kTimes);
+  json& box = file["boxes"].at(0);
+  for (json* const list : {&file["times"], &box["positions"], &box["orientations"]}) {
+    list->erase(list->begin() + kTimes, list->end());
+  }
+  expectSameNumbers(file, json::parse(toText(computeTruth("fast-spin", kTimes))), "fast-spin");
+}
 
 TEST(Truths, ofBouncingAndLandingAreThoseOfTheFiles) {
   expectTheFiles({"bounce-1000", "zeno-half", "zeno-nine", "landing-flat", "landing-edge",
