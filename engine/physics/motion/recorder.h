@@ -18,7 +18,9 @@ struct Impact {
   Partner b = {};               ///< what it struck, by index in the world
   Vec3 point = Vec3::Zero();    ///< [m] world
   Vec3 normal = Vec3::UnitZ();  ///< [1] from b to a
-  double approach = 0;    ///< [m/s] normal approach speed at the point before the impact; positive: closing
+  /// [m/s] Normal approach speed at the point before the impact; positive: closing. Not above 0 where the
+  /// impulse comes through neighbours, or from a jam.
+  double approach = 0;
   double impulse = 0;     ///< [N s] along the normal
   double tangential = 0;  ///< [N s] magnitude of the friction impulse
 };
