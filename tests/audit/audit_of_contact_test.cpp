@@ -14,13 +14,13 @@ namespace {
 
 class AuditOfContact : public testing::TestWithParam<const char*> {};
 
-Trajectory runOf(const std::string& scene) {
+Trajectory contactRunOf(const std::string& scene) {
   const std::filesystem::path scenes = CAREEN_SOURCE_DIR "/tests/scenes/contact";
   return record(setupOf(readScene(scenes / (scene + ".json"))));
 }
 
 TEST_P(AuditOfContact, findsNothing) {
-  const Trajectory run = runOf(GetParam());
+  const Trajectory run = contactRunOf(GetParam());
   for (const AuditBreach& breach : audit(run, AuditDepth::kFull).breaches) {
     ADD_FAILURE() << describe(breach, run);
   }
@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
 // Light boxes between heavy ones, without gravity: whatever changes a velocity is an impact on record, also
 // impulses without approach and those that reach a contact through its neighbours.
 TEST(AuditOfJams, impactsExplainEveryJumpOfAVelocity) {
-  const Trajectory run = runOf("jolts");
+  const Trajectory run = contactRunOf("jolts");
   const Audit found = audit(run, AuditDepth::kFull);
   EXPECT_TRUE(found.breaches.empty());
   EXPECT_LT(found.figures[static_cast<std::size_t>(AuditKind::kImpulse)].size,

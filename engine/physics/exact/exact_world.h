@@ -39,7 +39,7 @@ class ExactWorld {
   /// is, so that 128 poured boxes would spend 20 s on their first 1.3 s in contact. A unit takes about
   /// 0.3 to 1 µs. Counted, not timed, so that the motion is the same on every machine, and independent of
   /// when the run ends.
-  static constexpr double kWorkAtOnce = 5e5;
+  static constexpr double kWorkAtOnce = 6e5;
   static constexpr double kWorkPerSecond = 5e4;
   static constexpr double kMostUnshared = 72;
   /// Of more bodies in contact, time steps cost so much that it does not pay to begin.
