@@ -79,6 +79,43 @@ TEST(ImplicitStep, stopsWithAnErrorOfTheSecondOrder) {
   }
 }
 
+// A cube that falls about an edge that sticks keeps its energy: to the second order in the length of the
+// steps, or to the first if that is all that is asked for.
+TEST(ImplicitStep, isOfTheOrderThatIsAskedFor) {
+  using Order = ImplicitStep::Order;
+  const auto errorOf = [](Order order, int steps) {
+    CubeOnFloor scene(10, Vec3::Zero());
+    std::erase_if(scene.contacts, [](const ClosedContact& at) { return at.feature.onA.x() > 0; });
+    Body& cube = scene.world.bodies[0];
+    Pose& pose = cube.initial.pose;
+    pose.worldFromBody = Eigen::AngleAxisd(0.3, Vec3::UnitY()).toRotationMatrix();
+    pose.position.z() = -(pose.worldFromBody * Vec3(-0.1, 0, -0.1)).z();
+    TouchingBody touching = bodyOf(scene.world, 0);
+    touching.worldFromBody = Quat(pose.worldFromBody);
+    const std::vector<TouchingBody> bodies{touching};
+    const auto energy = [&](const GroupBody& at) {
+      const Vec3 spin = cube.mass.inverseInertiaTimes(at.worldFromBody.conjugate() * at.angularMomentum);
+      return 0.5 * at.velocity.squaredNorm() + 0.5 * spin.dot(cube.mass.inertiaTimes(spin)) +
+             10 * at.position.z();
+    };
+    ImplicitStep step(scene.world, bodies, 1e-9);
+    GroupState state = stateOf(scene.world);
+    const double before = energy(state[0]);
+    for (int k = 0; k < steps; ++k) {
+      GroupState next;
+      EXPECT_TRUE(step.advance(state, 0.2 / steps, scene.contacts, next, order));
+      state = next;
+    }
+    return std::fabs(energy(state[0]) - before);
+  };
+  const double second = errorOf(Order::kSecond, 32) / errorOf(Order::kSecond, 64);
+  const double first = errorOf(Order::kFirst, 32) / errorOf(Order::kFirst, 64);
+  EXPECT_GT(second, 3.5);
+  EXPECT_GT(first, 1.7);
+  EXPECT_LT(first, 2.5);
+  EXPECT_LT(errorOf(Order::kSecond, 64), errorOf(Order::kFirst, 64) / 4);
+}
+
 // Two bodies that collide and push: what one loses the other gains, about any point.
 TEST(ImplicitStep, exchangesMomentaToRounding) {
   World world;

@@ -34,6 +34,19 @@ TEST(CoupledContacts, impulsesChangeVelocities) {
   EXPECT_EQ(back, listed);
 }
 
+TEST(CoupledContacts, heaviestIsOfTwoBodiesInContact) {
+  ContactScene scene;
+  const ContactScene::Vector half{0.5, 0.5, 0.5};
+  const int low = scene.add(2, half, {0, 0, 0.5}, {0, 0, -1});
+  const int high = scene.add(50, half, {0, 0, 1.5}, {0, 0, -1});
+  scene.add(1e6, half, {5, 0, 0.5}, {0, 0, -1});  // beside them
+  scene.touchFlat(low, kNobody, 0, 0, 0.5, 0.5, 0, 0.5);
+  scene.touchFlat(low, high, 0, 0, 0.5, 0.5, 1, 0.5);
+  CoupledContacts contacts;
+  contacts.set(scene.problem);
+  EXPECT_NEAR(contacts.heaviest(), 25, 1e-14);
+}
+
 // q + dq = q₀ + M⁻¹Jᵀ(given − stiffness J dq).
 TEST(CoupledContacts, stepSolvesItsEquation) {
   const ContactScene scene = brickWall(3, 2, 1, 0.5);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <vector>
 
 #include "physics/solver/contact_scene.h"
 
@@ -33,6 +34,34 @@ TEST(InteriorPoint, endsAtTheCentre) {
       EXPECT_NEAR(impulses[c][0], above * 2 * 0.5 / 4, 1e-8) << friction;
     }
   }
+}
+
+// A cube that lands while it slides, v_x = 1 − μ v_z. With |u_t| as a number the problem is convex: with the
+// right one its answer is that of Coulomb's law; with none, it lifts off by μ times what slips.
+TEST(InteriorPoint, ofAConvexProblemFindsTheAnswerThatBelongsToTheSlip) {
+  constexpr double kFriction = 0.25;
+  ContactScene scene;
+  const int cube = scene.add(2, {0.5, 0.5, 0.5}, {0, 0, 0.5}, {1, 0, -0.5});
+  scene.touchFlat(cube, kNobody, 0, 0, 0.5, 0.5, 0, kFriction);
+  CoupledContacts contacts;
+  contacts.set(scene.problem);
+  const auto velocitiesWith = [&](double slip) {
+    InteriorPoint method;
+    method.start(contacts, {}, std::vector<double>(4, slip));
+    for (int k = 0; k < 40 && method.gap() > 1e-15; ++k) {
+      EXPECT_TRUE(method.advance(contacts)) << k;
+    }
+    std::vector<double> q(6);
+    contacts.velocities(method.impulses(), q);
+    return q;
+  };
+  const double right = 1 - kFriction * 0.5;
+  const std::vector<double> slides = velocitiesWith(right);
+  EXPECT_NEAR(slides[0], right, 1e-7);
+  EXPECT_NEAR(slides[2], 0, 1e-7);
+  const std::vector<double> lifts = velocitiesWith(0);
+  EXPECT_NEAR(lifts[2], kFriction * lifts[0], 1e-7);
+  EXPECT_GT(lifts[2], 0.1);
 }
 
 }  // namespace
