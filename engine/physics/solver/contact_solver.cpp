@@ -24,6 +24,7 @@ constexpr double kFall = 0x1p-10;  // of the gap, until Newton's method is tried
 constexpr int kIterations = 60;
 /// The interior-point method is stuck after so many strides this short.
 constexpr double kShortStride = 0.1;
+constexpr double kShortStrideOfConvex = 0x1p-10;  // only rounding errors stop it
 constexpr int kShortStrides = 3;
 constexpr InteriorPoint::Options kCautious{
     .start = 1, .stride = 0.9, .leastCentering = 0.1, .secondOrder = false};
@@ -81,11 +82,11 @@ bool ContactSolver::tryApproach(std::span<const Triple> from, ContactNewton::Opt
 bool ContactSolver::tryInterior(const InteriorPoint::Options& options, int iterations,
                                 std::span<const double> slips) {
   interior_.start(contacts_, options, slips);
-  const bool isConvex = !slips.empty();
+  const double shortest = slips.empty() ? kShortStride : kShortStrideOfConvex;
   double polished = interior_.gap();
   int slow = 0;
   bool goesOn = true;
-  for (int k = 0; k < iterations && goesOn && (isConvex || slow < kShortStrides) && mayGoOn(); ++k) {
+  for (int k = 0; k < iterations && goesOn && slow < kShortStrides && mayGoOn(); ++k) {
     ++factorisations_;
     goesOn = interior_.advance(contacts_);
     if (interior_.gap() < kFall * polished || !goesOn) {
@@ -94,7 +95,7 @@ bool ContactSolver::tryInterior(const InteriorPoint::Options& options, int itera
         return true;
       }
     }
-    slow = interior_.lastStride() < kShortStride ? slow + 1 : 0;
+    slow = interior_.lastStride() < shortest ? slow + 1 : 0;
   }
   return false;
 }
