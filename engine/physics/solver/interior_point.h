@@ -13,9 +13,9 @@ namespace careen {
 ///   r = (μ λ_n, λ_t)/mass,   w = (u_n/μ + |u_t|, u_t),   r ∘ w = 0;   half-lines: r = λ_n/mass, w = u_n.
 ///
 /// |u_t| makes the problem one that is not convex. It may be a parameter, to be iterated on (V. Acary, F.
-/// Cadoux, C. Lemaréchal, J. Malick, ZAMM 91, 2011): each problem then has a solution that is always found,
-/// and where nearly everything sticks it is the answer. Else its derivative D̃ = d(u_0 + |u_t|, u_t)/du is
-/// part of Newton's matrix M + Σ Jᵀ S W² D̃ S J, S = diag(1/μ, 1, 1), which makes it unsymmetric. Scaling W of
+/// Cadoux, C. Lemaréchal, J. Malick, ZAMM 91, 2011): such problems are convex, and where nearly everything
+/// sticks their solution is close to the answer. Else its derivative D̃ = d(u_0 + |u_t|, u_t)/du is part of
+/// Newton's matrix M + Σ Jᵀ S W² D̃ S J, S = diag(1/μ, 1, 1), which makes it unsymmetric. Scaling W of
 /// Nesterov and Todd, predictor and corrector of Mehrotra, as in L. Vandenberghe, The CVXOPT linear and
 /// quadratic cone program solvers, 2010. All products r·w have one target, in [m²/s²], so that light and
 /// heavy contacts are centred alike: redundant contacts get even shares.
