@@ -321,6 +321,10 @@ void TimeStepper::cutTo(double length) {
     setMotions(reached_);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       end_[i] = bodyWithin(i, length);
+      if (jolted_) {  // impulses on record act in full, however short what is left of their moment
+        end_[i].velocity = reached_[i].velocity;
+        end_[i].angularMomentum = reached_[i].angularMomentum;
+      }
     }
     std::vector<ContactFeature> pushing;
     for (const ClosedContact& contact : known_) {
