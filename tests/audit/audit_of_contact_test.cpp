@@ -45,7 +45,9 @@ INSTANTIATE_TEST_SUITE_P(
         // Light boxes jammed between heavy ones, whose impulses no method found.
         "jam-of-two", "heavy-on-light",
         // A corner at the edge of an all but parallel face, and a contact where the boxes are not.
-        "beside-a-face"));
+        "beside-a-face",
+        // A jolt that an event of the same moment cut to nothing, while its impulses stayed on record.
+        "cut-jolt"));
 
 // Light boxes between heavy ones, without gravity: whatever changes a velocity is an impact on record, also
 // impulses without approach and those that reach a contact through its neighbours.
