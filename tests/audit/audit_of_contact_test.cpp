@@ -47,7 +47,9 @@ INSTANTIATE_TEST_SUITE_P(
         // A corner at the edge of an all but parallel face, and a contact where the boxes are not.
         "beside-a-face",
         // A jolt that an event of the same moment cut to nothing, while its impulses stayed on record.
-        "cut-jolt"));
+        "cut-jolt",
+        // A box beside one that comes to rest at the start: it flew without its spring.
+        "sprung-late"));
 
 // Light boxes between heavy ones, without gravity: whatever changes a velocity is an impact on record, also
 // impulses without approach and those that reach a contact through its neighbours.
