@@ -49,7 +49,12 @@ INSTANTIATE_TEST_SUITE_P(
         // A jolt that an event of the same moment cut to nothing, while its impulses stayed on record.
         "cut-jolt",
         // A box beside one that comes to rest at the start: it flew without its spring.
-        "sprung-late"));
+        "sprung-late",
+        // A crowd under a spring and without gravity: steps that took every approach for an impact lost half
+        // of the spring's impulse.
+        "sprung-crowd",
+        // A member of a crowd that is pushed into a box at rest within one step: 1.8e-3 m deep.
+        "pushed-at-rest"));
 
 // Light boxes between heavy ones, without gravity: whatever changes a velocity is an impact on record, also
 // impulses without approach and those that reach a contact through its neighbours.

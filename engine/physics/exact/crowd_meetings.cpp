@@ -9,24 +9,10 @@
 namespace careen {
 namespace {
 
-/// Motion of a member if nothing touches it, for the contact search.
-class Unpushed {
+/// Motion of a member in a step, for the contact search.
+class MemberStep {
  public:
-  Unpushed(const Crowd& crowd, std::size_t place, const Vec3& gravity, double length)
-      : body_(crowd.listedBody(place)) {
-    PileBody body = crowd.body(place);
-    const StepEnd from{.position = body.position,
-                       .velocity = body.velocity + body.behind * gravity,
-                       .worldFromBody = body.attitude,
-                       .spinBody = body.attitude.conjugate() * body.omega};
-    turnFree(body, length);
-    const StepEnd to{.position = body.position + length * (from.velocity + 0.5 * length * gravity),
-                     .velocity = from.velocity + length * gravity,
-                     .worldFromBody = body.attitude,
-                     .spinBody = body.attitude.conjugate() * body.omega};
-    step_ = asContactStep(cubicStep(from, to, length));
-    bounds_ = boundsOf(step_);
-  }
+  MemberStep(const Body& body, const ContactStep& step) : body_(body), step_(step), bounds_(boundsOf(step)) {}
   Attitude operator()(double elapsed) const {
     const BodyState state = stateAt(Motion(step_), body_.mass, elapsed);
     return {.worldFromBody = state.pose.worldFromBody, .angularVelocity = angularVelocity(body_.mass, state)};
@@ -50,6 +36,21 @@ class Unpushed {
   ContactStep step_;
   StepBounds bounds_;
 };
+
+// The next step if nothing pushes it.
+ContactStep unpushed(const Crowd& crowd, std::size_t place, const Vec3& gravity, double length) {
+  PileBody body = crowd.body(place);
+  const StepEnd from{.position = body.position,
+                     .velocity = body.velocity + body.behind * gravity,
+                     .worldFromBody = body.attitude,
+                     .spinBody = body.attitude.conjugate() * body.omega};
+  turnFree(body, length);
+  const StepEnd to{.position = body.position + length * (from.velocity + 0.5 * length * gravity),
+                   .velocity = from.velocity + length * gravity,
+                   .worldFromBody = body.attitude,
+                   .spinBody = body.attitude.conjugate() * body.omega};
+  return asContactStep(cubicStep(from, to, length));
+}
 
 }  // namespace
 
@@ -85,22 +86,62 @@ void ExactWorld::admitNear(const std::shared_ptr<ContactGroup>& group, const Ins
     added = false;
     for (const int rank : outsidersIn(group->crowd->extent(length), *group, time, length)) {
       const Mover& body = mover(rank);
-      if (body.crowd == group || !meetsNext(*group, rank, time, length)) {
-        continue;
+      if (body.crowd != group && meetsNext(*group, rank, time, length)) {
+        admitOutsider(group, rank, time);
+        added = true;
       }
-      if (body.crowd) {
-        const std::shared_ptr<ContactGroup> other = body.crowd;
-        endAt(*other, time);
-        merge(group, *other);
-      } else if (body.moves()) {
-        const Quat attitude = body.attitudeAt(time);
-        enlist(group, rank, time, body.stateAt(time, attitude), attitude);
-      } else {
-        enlistAtRest(group, rank);
-      }
-      added = true;
     }
   }
+}
+
+void ExactWorld::admitOutsider(const std::shared_ptr<ContactGroup>& group, int rank, const Instant& time) {
+  const Mover& body = mover(rank);
+  if (body.crowd) {
+    const std::shared_ptr<ContactGroup> other = body.crowd;
+    endAt(*other, time);
+    merge(group, *other);
+  } else if (body.moves()) {
+    const Quat attitude = body.attitudeAt(time);
+    enlist(group, rank, time, body.stateAt(time, attitude), attitude);
+  } else {
+    enlistAtRest(group, rank);
+  }
+}
+
+// Admits whom its members, pushed otherwise than expected, met in the step that they have taken: bodies at
+// rest and members of other crowds, none of which look for contacts. Returns whether there were any.
+bool ExactWorld::admitMet(const std::shared_ptr<ContactGroup>& group, const Instant& time) {
+  bool any = false;
+  for (const int rank : outsidersIn(group->crowd->swept(), *group, time, group->crowd->length())) {
+    const Mover& body = mover(rank);
+    if (body.crowd != group && (body.crowd || !body.moves()) && wasMet(*group, rank, time)) {
+      admitOutsider(group, rank, time);
+      any = true;
+    }
+  }
+  return any;
+}
+
+bool ExactWorld::wasMet(const ContactGroup& group, int rank, const Instant& time) {
+  const Mover& body = mover(rank);
+  const double length = body.touches()
+                            ? std::min(group.crowd->length(), secondsBetween(time, body.contactGroup->end()))
+                            : group.crowd->length();
+  const Pose pose = body.moves() ? body.stateAt(time).pose : body.pose;
+  const double way = body.touches() ? length * body.speedBound : 0;
+  neighbors_.findCandidates(rank, candidates_);
+  return length > 0 && std::any_of(candidates_.begin(), candidates_.end(), [&](Neighbors::Key candidate) {
+           const Mover& member = mover(candidate);
+           if (member.crowd.get() != &group ||
+               !group.crowd->cameNear(member.place, boxAt(pose, *body.body), way)) {
+             return false;
+           }
+           const StepEnd from = group.crowd->begin(member.place);
+           const MemberStep step(*member.body, asContactStep(cubicStep(from, group.crowd->end(member.place),
+                                                                       group.crowd->length())));
+           return firstContactOfBoxes(body.moving(time), step.moving(), {.from = 0, .until = length}).kind !=
+                  ContactKind::kNone;
+         });
 }
 
 bool ExactWorld::meetsNext(const ContactGroup& group, int rank, const Instant& time, double length) {
@@ -153,10 +194,10 @@ bool ExactWorld::meetsWithin(const ContactGroup& group, int rank, const Mover& m
                              double length) const {
   const MovingBox body = mover(rank).moving(time);
   const SearchWindow window{.from = 0, .until = length};
-  const Unpushed unpushed(*group.crowd, member.place, world_.gravity, length);
+  const MemberStep step(*member.body, unpushed(*group.crowd, member.place, world_.gravity, length));
   const FirstContact contact = group.crowd->sleeps(member.place)
                                    ? firstContactOfBoxes(body, member.moving(time), window)
-                                   : firstContactOfBoxes(body, unpushed.moving(), window);
+                                   : firstContactOfBoxes(body, step.moving(), window);
   return contact.kind != ContactKind::kNone;
 }
 

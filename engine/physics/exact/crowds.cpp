@@ -213,8 +213,9 @@ void ExactWorld::merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup&
       cluster = cluster.value_or(at);
       keepPlace(crowd, rank, at);
     } else {
-      const std::size_t at = crowd->crowd->admit(static_cast<std::size_t>(body.listed.value),
-                                                 other.crowd->state(place), other.crowd->attitude(place));
+      const std::size_t at =
+          crowd->crowd->admit(static_cast<std::size_t>(body.listed.value), other.crowd->stateAtEnd(place),
+                              other.crowd->attitude(place));
       keepPlace(crowd, rank, at);
       crowd->joined[at] = other.joined[place];
     }
@@ -291,8 +292,9 @@ void ExactWorld::commit(ContactGroup& group, const Instant& time) {
 
 void ExactWorld::endStep(ContactGroup& group, std::size_t place) {
   const Crowd& crowd = *group.crowd;
-  group.joined[place].add(recorder_, mover(group.ranks[place]).listed, group.start.hi, crowd.begin(place),
-                          crowd.end(place), crowd.length(), crowd.body(place).radius);
+  JoinedSteps& joined = group.joined[place];
+  joined.add(recorder_, mover(group.ranks[place]).listed, group.start.hi, crowd.begin(place, joined.isNew()),
+             crowd.end(place), crowd.length(), crowd.body(place).radius);
 }
 
 // Members that nothing is near go on in Flight.
@@ -332,6 +334,9 @@ void ExactWorld::go(const std::shared_ptr<ContactGroup>& group, const Instant& t
   account_.parted();
   group->start = time;
   group->step = {.length = crowd.step(std::min(most, withinCell(crowd.fastest())))};  // of those admitted too
+  while (admitMet(group, time)) {
+    group->step.length = crowd.stepAgain(crowd.length());
+  }
   bool any = false;
   for (std::size_t place = 0; place < group->ranks.size(); ++place) {
     const int rank = group->ranks[place];

@@ -106,6 +106,9 @@ class ExactWorld {
   std::vector<int> outsidersIn(const Crowd::Extent& extent, const ContactGroup& crowd, const Instant& time,
                                double length) const;
   void admitNear(const std::shared_ptr<ContactGroup>& crowd, const Instant& time, double length);
+  void admitOutsider(const std::shared_ptr<ContactGroup>& crowd, int rank, const Instant& time);
+  bool admitMet(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
+  bool wasMet(const ContactGroup& crowd, int rank, const Instant& time);
   bool meetsNext(const ContactGroup& crowd, int rank, const Instant& time, double length);
   std::vector<int> nearStep(const ContactGroup& crowd);
   bool meetsWithin(const ContactGroup& crowd, int rank, const Mover& member, const Instant& time,

@@ -128,6 +128,7 @@ double Crowd::step(double most) {
     sortManifolds();
   }
   start_ = bodies_;
+  loadsBefore_ = loads_;
   hBefore_ = h_;
   take(chooseLength(most));
   return keepApart();
@@ -255,10 +256,8 @@ void Crowd::take(double length, bool mayShift) {
   }
 }
 
-// Forces of springs and drag, in the middle of the time over which they change the velocity that a member
-// has: for one that was pushed from the middle of the last step to that of this one (leapfrog), else in the
-// middle of this one, found by iteration (implicit midpoint rule). Neither makes springs swing higher and
-// higher.
+// Forces of springs and drag, in the middle of the step, found by iteration (implicit midpoint rule): springs
+// don't swing higher and higher.
 void Crowd::findLoads() {
   if (worldStates_.empty()) {
     return;
@@ -273,8 +272,8 @@ void Crowd::findLoads() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       if (!bodies_[i].still()) {
         PileBody halfway = bodies_[i];
-        const double ahead = halfway.behind > 0 ? 0 : 0.5 * h_;
-        halfway.velocity += (halfway.behind + ahead) * acceleration(i);
+        const double ahead = 0.5 * h_;
+        halfway.velocity += halfway.behind * accelerationBefore(i) + ahead * acceleration(i);
         halfway.angularMomentum += ahead * loads_[listed_[i]].torque;
         halfway.position += ahead * halfway.velocity;
         turnFree(halfway, ahead);
@@ -288,6 +287,11 @@ void Crowd::findLoads() {
 // [m/s²] Without contacts.
 Vec3 Crowd::acceleration(std::size_t place) const {
   return loads_.empty() ? world_.gravity : Vec3(bodies_[place].inverseMass * loads_[listed_[place]].force);
+}
+
+Vec3 Crowd::accelerationBefore(std::size_t place) const {
+  return loadsBefore_.empty() ? world_.gravity
+                              : Vec3(bodies_[place].inverseMass * loadsBefore_[listed_[place]].force);
 }
 
 // The change threshold that re-solves neighbours adapts to the effort of the last step: coarse during heavy
@@ -318,7 +322,8 @@ void Crowd::loadSolver() {
     const int index = static_cast<int>(i);
     solver_.setBody(index, body, tell_ * body.length / h_);
     if (!body.still()) {
-      solver_.velocity(index) = body.velocity + (body.behind + 0.5 * h_) * acceleration(i);
+      solver_.velocity(index) =
+          body.velocity + body.behind * accelerationBefore(i) + 0.5 * h_ * acceleration(i);
       solver_.omega(index) = body.omega;
       if (!loads_.empty()) {
         const Mat3 axes = body.principalAxes();
@@ -351,7 +356,7 @@ void Crowd::move() {
     Before& before = before_[i];
     before = {.position = body.position,
               .attitude = body.attitude,
-              .velocity = body.velocity + body.behind * acceleration(i),
+              .velocity = body.velocity + body.behind * accelerationBefore(i),
               .omega = body.omega,
               .angularMomentum = body.angularMomentum,
               .pushed = solver_.pushed(index),

@@ -30,7 +30,8 @@ namespace careen {
 /// A step consists of: broad and narrow phase; gravity, springs and drag; solve for impulses such that no gap
 /// becomes negative within the step at its current rate, v_n ≥ −gap/h; integrate positions; restitution. The
 /// velocities solved for are those of the middle of the step, and forces act from the middle of one step to
-/// that of the next (leapfrog).
+/// that of the next (leapfrog); those of springs and drag are those in the middle of each step, for all
+/// members alike, so that they keep momentum.
 /// Where one point of a manifold strikes, all its points within a few tolerances strike, with v_n ≥ 0: else
 /// the corners of one edge would strike in different steps, and each would turn the body. A step in which
 /// bodies went deep into each other, or into a wall, is taken again with half its length; what is less deep
@@ -92,6 +93,8 @@ class Crowd {
   /// Asleep: its pose is bitwise constant until another body pushes it.
   bool sleeps(std::size_t place) const { return bodies_[place].asleep; }
   BodyState state(std::size_t place) const { return stateOf(bodies_[place]); }
+  /// With the velocity that forces give it until where it is.
+  BodyState stateAtEnd(std::size_t place) const;
   /// Where it had the velocity of state(), half a step ago if it was pushed: so its energy is that of one
   /// moment.
   BodyState stateAtVelocity(std::size_t place) const;
@@ -99,9 +102,10 @@ class Crowd {
   const PileBody& body(std::size_t place) const { return bodies_[place]; }
   const Body& listedBody(std::size_t place) const { return world_.bodies[listed_[place]]; }
   /// Whether it moved in the last step; then where that step began and ended. Where something pushed it, it
-  /// moves straight and both ends have the mean velocity.
+  /// moves straight and both ends have the mean velocity; `asItCame`: but for the begin, if no more than
+  /// lasting forces changed its velocity.
   bool moved(std::size_t place) const { return before_[place].moved; }
-  StepEnd begin(std::size_t place) const;
+  StepEnd begin(std::size_t place, bool asItCame = false) const;
   StepEnd end(std::size_t place) const;
   double length() const { return h_; }
   /// Nothing was near it for a few steps.
@@ -154,6 +158,7 @@ class Crowd {
     int row = 0;
     double speed = 0;     // [m/s] separation speed
     double approach = 0;  // [m/s]
+    double fall = 0;      // [m/s] by which forces change the normal speed in the step
     int slot = 0;         // manifold
     int point = 0;        // of it
   };
@@ -169,6 +174,7 @@ class Crowd {
     bool moved = false;
   };
   Vec3 meanSpin(std::size_t place) const;
+  bool onlyGivesWay(std::size_t place) const;
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const PileBody& bodyAt(Partner partner) const { return bodies_[at(partner.body())]; }
   const Wall& wallAt(Partner partner) const { return world_.walls[partner.wall()]; }
@@ -182,6 +188,9 @@ class Crowd {
   void goBack();
   void findLoads();
   Vec3 acceleration(std::size_t place) const;
+  Vec3 accelerationBefore(std::size_t place) const;
+  Vec3 halfKick(std::size_t place) const { return bodies_[place].behind * acceleration(place); }
+  double slowestBounce(const PileManifold& manifold) const;
   void lookAround();
   double wayLeft(const PilePair& pair) const;
   double wayAhead(const PilePair& pair) const;
@@ -245,7 +254,8 @@ class Crowd {
   std::vector<int> untouchedSteps_;
   std::vector<int> free_;               // places that were left
   std::vector<BodyState> worldStates_;  // for springs and drag
-  std::vector<Load> loads_;             // by index in the world
+  std::vector<Load> loads_;             // by index in the world, in the last step
+  std::vector<Load> loadsBefore_;       // in the step before it
 
   PilePairs pairs_;
   std::vector<PileManifold> manifolds_;

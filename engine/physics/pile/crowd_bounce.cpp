@@ -14,7 +14,7 @@ constexpr int kBounceSweeps = 20;
 
 // New impacts separate with e times their approach speed: a second solve after the motion, at the new
 // positions (otherwise the angular momentum about each other is not conserved), starting from the impulses of
-// the first.
+// the first. Its velocities are those of the end of the step, to which forces act on all that are pushed.
 void Crowd::bounce() {
   const bool any = std::any_of(bounces_.begin(), bounces_.end(), [&](const Bounce& each) {
     return each.speed > 0 && solver_.normalImpulse(each.row) > 0;
@@ -38,7 +38,7 @@ void Crowd::bounce() {
   solver_.link();
   for (const Bounce& each : bounces_) {
     if (each.speed > 0 && solver_.normalImpulse(each.row) > 0) {
-      solver_.setBound(each.row, each.speed);
+      solver_.setBound(each.row, each.speed - 0.5 * each.fall);
       solver_.wakeRow(each.row);
     }
   }
@@ -50,6 +50,7 @@ void Crowd::bounce() {
     if (solver_.pushed(static_cast<int>(i))) {
       takeVelocity(bodies_[i], static_cast<int>(i));
       deriveOmega(bodies_[i]);
+      bodies_[i].velocity += halfKick(i);
       bodies_[i].behind = 0;
     }
   }
@@ -90,8 +91,9 @@ void Crowd::limitBounce() {
     const double turning = 0.5 * before.omega.dot(before.angularMomentum);
     const double work = acceleration(i).dot(body.position - before.position);
     all.before += (0.5 * before.velocity.squaredNorm() + work) / body.inverseMass + turning;
-    all.first += kinetic(body, body.velocity, body.omega);
-    all.second += kinetic(body, solver_.velocity(index), solver_.omega(index));
+    const Vec3 kick = halfKick(i);
+    all.first += kinetic(body, body.velocity + kick, body.omega);
+    all.second += kinetic(body, solver_.velocity(index) + kick, solver_.omega(index));
     all.change += kinetic(body, solver_.velocity(index) - body.velocity, solver_.omega(index) - body.omega);
   }
   std::vector<double> parts(bodies_.size(), 1);

@@ -12,6 +12,7 @@ constexpr double kLookAhead = 6;  // longest steps for which a fat AABB should s
 constexpr int kPasses = 8;
 constexpr double kGrowth = 1.5;    // [1] largest growth of an impulse per step that the warm start accepts
 constexpr double kBounceFrom = 4;  // [1] of gravity × step: slower impacts do not bounce
+constexpr double kRounding = 0x1p-30;  // [1] of the fastest speed: slower impacts do not either
 constexpr double kAllowance = 0x1p-6;  // [1] of the smallest size: gaps that may close during a step
 constexpr double kTogether = 3;        // [1] of the tolerance: points of one manifold that meet together
 constexpr double kUnseen = 2;          // [1] of the tolerance: motion after which other features may be deep
@@ -181,6 +182,15 @@ bool Crowd::wouldPush(const PilePair& pair, const PileManifold& manifold) const 
   return false;
 }
 
+// [m/s] Slower approach is what forces give in a step, or rounding: no impact.
+double Crowd::slowestBounce(const PileManifold& manifold) const {
+  double strongest = acceleration(at(manifold.a)).norm();
+  if (!manifold.b.isWall()) {
+    strongest = std::max(strongest, acceleration(at(manifold.b.body())).norm());
+  }
+  return std::max(kBounceFrom * strongest * h_, kRounding * speed_);
+}
+
 // Where a point strikes within the step, those of its manifold that are almost closed strike with it.
 void Crowd::addRows(int slot) {
   PileManifold& manifold = manifolds_[at(slot)];
@@ -191,14 +201,14 @@ void Crowd::addRows(int slot) {
   const Vec3 vA = solver_.velocity(manifold.a);
   const Vec3 vB = solver_.velocity(indexB);
   std::array<double, PileManifold::kMost> speeds{};
+  const double slow = slowestBounce(manifold);
   bool meets = false;
   for (int k = 0; k < manifold.count; ++k) {
     const PilePoint& point = manifold.points[at(k)];
     const Vec3 relative = vA + solver_.omega(manifold.a).cross(point.world) - vB -
                           solver_.omega(indexB).cross(point.world + apart);
     speeds[at(k)] = manifold.frameOf(k).normal.dot(relative);
-    meets = meets ||
-            (point.gap + speeds[at(k)] * h_ <= 0 && -speeds[at(k)] > kBounceFrom * gravityMagnitude_ * h_);
+    meets = meets || (point.gap + speeds[at(k)] * h_ <= 0 && -speeds[at(k)] > slow);
   }
   const double together = kTogether * tolerance_;
   const PileFrame* begun = nullptr;
@@ -225,7 +235,7 @@ void Crowd::addRows(int slot) {
     }
     point.row = static_cast<int>(solver_.rowCount());
     solver_.add(row);
-    if (-speed > kBounceFrom * gravityMagnitude_ * h_) {
+    if (-speed > slow) {
       // Only the part of gravity before the time of contact counts, or bouncing would gain energy. The speed
       // is that of the middle.
       const double before = std::clamp(point.gap / (-speed * h_), 0.0, 1.0);
@@ -237,6 +247,7 @@ void Crowd::addRows(int slot) {
       bounces_.push_back({.row = point.row,
                           .speed = manifold.restitution * approach,
                           .approach = approach,
+                          .fall = fall,
                           .slot = slot,
                           .point = k});
     }

@@ -6,6 +6,11 @@
 #include "physics/pile/crowd.h"
 
 namespace careen {
+namespace {
+
+constexpr double kLasting = 4;  // [1] of gravity × step: larger changes of velocity are those of impacts
+
+}  // namespace
 
 double Crowd::fastest() const {
   double fastest = 0;
@@ -44,6 +49,12 @@ BodyState Crowd::stateAtVelocity(std::size_t place) const {
   return state;
 }
 
+BodyState Crowd::stateAtEnd(std::size_t place) const {
+  BodyState state = stateOf(bodies_[place]);
+  state.velocity += halfKick(place);
+  return state;
+}
+
 void Crowd::Extent::include(const Vec3& center, double radius) {
   low = low.cwiseMin(center - Vec3::Constant(radius));
   high = high.cwiseMax(center + Vec3::Constant(radius));
@@ -70,10 +81,19 @@ Vec3 Crowd::meanSpin(std::size_t place) const {
   return (turn.w() < 0 ? -angle : angle) / h_ * turn.vec();
 }
 
-StepEnd Crowd::begin(std::size_t place) const {
+// Whether no more than what lasting forces do changed its velocity in the last step.
+bool Crowd::onlyGivesWay(std::size_t place) const {
+  const Before& from = before_[place];
+  const PileBody& body = bodies_[place];
+  const double change = ((body.position - from.position) / h_ - from.velocity).norm() +
+                        body.radius * (meanSpin(place) - from.attitude.conjugate() * from.omega).norm();
+  return change <= kLasting * acceleration(place).norm() * h_;
+}
+
+StepEnd Crowd::begin(std::size_t place, bool asItCame) const {
   const Before& from = before_[place];
   StepEnd end{.position = from.position, .worldFromBody = from.attitude};
-  if (from.pushed) {
+  if (from.pushed && !(asItCame && onlyGivesWay(place))) {
     end.velocity = (bodies_[place].position - from.position) / h_;
     end.spinBody = meanSpin(place);
   } else {
