@@ -211,6 +211,7 @@ void ExternalOf::addImpacts(double time, External& external) {
     const bool isA = group_.holds(a);
     const bool isB = !impact.b.isWall() && group_.holds(static_cast<std::size_t>(impact.b.body()));
     if (isA != isB) {
+      external.isStruck = true;
       const Vec3 impulse = (isA ? 1 : -1) * impact.impulse * impact.normal;
       const Vec3 arm = impact.point - origin_;
       external.impulse += impulse;

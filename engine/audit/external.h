@@ -19,6 +19,7 @@ struct External {
   std::vector<WallForce> walls;        ///< that bodies of the group lay on, each once
   bool lies = false;                   ///< on a wall or an immovable body, or on another of the group
   bool liesOnImmovable = false;
+  bool isStruck = false;        ///< by walls or immovable bodies
   bool losesInImpacts = false;  ///< of restitution or friction
 };
 

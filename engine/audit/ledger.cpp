@@ -1,8 +1,8 @@
 #include "audit/ledger.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <optional>
 
@@ -16,6 +16,7 @@ namespace {
 constexpr double kUlps = 1024 * std::numeric_limits<double>::epsilon();
 // A group that hardly moves is compared with this part of what falling by its own size would give it.
 constexpr double kStill = 1.0 / 64;
+constexpr double kMean = 1.0 / 30;  // [s] six of a crowd's longest steps, at its usual tolerance
 constexpr double kParallel = 1e-9;  // [1] walls whose normals differ by less have the same
 
 /// What a group has at a moment, and the scales that its changes are compared with.
@@ -33,10 +34,44 @@ struct Holdings {
   bool isFinite() const { return std::isfinite(energy + momentum.sum() + angularMomentum.sum()); }
 };
 
+/// The least value of late: of those in the last `span` [s], and of one before.
+class LeastOfLate {
+ public:
+  explicit LeastOfLate(double span) : span_(span) {}
+  double with(double time, double value) {
+    if (!rising_.empty()) {
+      rising_.back().next = time;
+    }
+    while (!rising_.empty() && rising_.back().value >= value) {
+      rising_.pop_back();
+    }
+    while (!rising_.empty() && rising_.front().next < time - span_) {
+      rising_.pop_front();
+    }
+    rising_.push_back({.next = time, .value = value});
+    return rising_.front().value;
+  }
+
+ private:
+  struct Each {
+    double next = 0;  // [s] of the value after it
+    double value = 0;
+  };
+  double span_;
+  std::deque<Each> rising_;  // values that may yet be the least
+};
+
 class Books {
  public:
   Books(const Trajectory& run, const Samples& samples, const ExchangeGroup& group, Findings& findings)
-      : run_(run), samples_(samples), group_(group), findings_(findings) {}
+      : run_(run),
+        samples_(samples),
+        group_(group),
+        findings_(findings),
+        momentum_(kMean * std::sqrt(run.settings.crowds.tolerance / CrowdSettings{}.tolerance)),
+        angularMomentum_(momentum_),
+        rise_(momentum_),
+        fall_(momentum_) {}
 
   void check();
 
@@ -50,6 +85,10 @@ class Books {
   void balanceMomentum(double time, const Holdings& now, const External& external);
   void balanceAngularMomentum(double time, const Holdings& now, const External& external);
   void balanceEnergy(double time, const Holdings& now, const External& external);
+  double lasting(LeastOfLate& late, double time, double amount) const {
+    const double least = late.with(time, amount);
+    return findings_.isCrowd(time, group_.bodies) ? least : amount;
+  }
   void report(AuditKind kind, double time, double amount, double scale, double rounding);
 
   const Trajectory& run_;
@@ -60,10 +99,15 @@ class Books {
   Holdings due_;
   Holdings largest_;  // its scales only
   bool takesEnergy_ = false;
-  // [J] A crowd's speeds are means over steps, near 0 where a body bounces, and other engines store energy in
-  // contacts: one low energy is no loss.
-  std::array<double, 4> last_{};
-  std::size_t number_ = 0;
+  // A crowd's speeds are means over steps, near 0 where a body bounces, and other engines store energy in
+  // contacts: of such, only what lasts counts.
+  LeastOfLate momentum_;
+  LeastOfLate angularMomentum_;
+  LeastOfLate rise_;
+  LeastOfLate fall_;
+  // Nothing but gravity, drag and springs acts on it from outside, ever. A crowd's walls act in the middle of
+  // a step, and their impulses are recorded at its end.
+  bool alone_ = true;
   double length_ = std::numeric_limits<double>::infinity();  // [m] that the tolerance is relative to
 };
 
@@ -165,12 +209,23 @@ void Books::check() {
   }
   ExternalOf following(run_, group_, origin_);
   following.until(samples_.times().front());
-  due_ = all.front();
-  last_.fill(due_.energy);
+  std::vector<External> externals;
   for (std::size_t moment = 1; moment < all.size(); ++moment) {
-    const double time = samples_.times()[moment];
-    External external = following.until(time);
-    balance(time, all[moment], external);
+    externals.push_back(following.until(samples_.times()[moment]));
+    const External& external = externals.back();
+    alone_ = alone_ && external.walls.empty() && !external.liesOnImmovable && !external.isStruck;
+  }
+  due_ = all.front();
+  if (findings_.isCrowd(samples_.times().front(), group_.bodies)) {  // its first step may be a dip
+    for (const std::size_t body : group_.bodies) {
+      const Body& listed = run_.world.bodies[body];
+      due_.energy +=
+          kineticEnergy(listed.mass, listed.initial) - kineticEnergy(listed.mass, samples_.state(0, body));
+    }
+  }
+  fall_.with(samples_.times().front(), -due_.energy);
+  for (std::size_t moment = 1; moment < all.size(); ++moment) {
+    balance(samples_.times()[moment], all[moment], externals[moment - 1]);
   }
 }
 
@@ -193,7 +248,7 @@ void Books::balanceMomentum(double time, const Holdings& now, const External& ex
     excess *= 1 - std::min(1.0, external.friction / std::max(excess.norm(), external.friction));
   }
   due_.momentum = now.momentum - excess;
-  report(AuditKind::kLinearMomentum, time, excess.norm(), largest_.momentumScale,
+  report(AuditKind::kLinearMomentum, time, lasting(momentum_, time, excess.norm()), largest_.momentumScale,
          kUlps * largest_.momentumScale);
 }
 
@@ -213,7 +268,8 @@ void Books::balanceAngularMomentum(double time, const Holdings& now, const Exter
     excess *= 1 - std::min(1.0, external.angularFriction / std::max(excess.norm(), external.angularFriction));
   }
   due_.angularMomentum = now.angularMomentum - excess;
-  report(AuditKind::kAngularMomentum, time, excess.norm(), largest_.angularScale,
+  report(AuditKind::kAngularMomentum, time, lasting(angularMomentum_, time, excess.norm()),
+         largest_.angularScale,
          kUlps * (largest_.angularScale + largest_.turned + largest_.far * largest_.momentumScale));
 }
 
@@ -221,26 +277,26 @@ void Books::balanceEnergy(double time, const Holdings& now, const External& exte
   const double rounding = kUlps * (largest_.energyScale + largest_.far * largest_.weight);
   const bool mayFall = takesEnergy_ || external.losesInImpacts || (external.lies && group_.mayLose);
   const double excess = now.energy - due_.energy;
-  last_[(number_++) % last_.size()] = now.energy;
-  if (excess > 0) {
-    report(AuditKind::kEnergyRise, time, excess, largest_.energyScale, rounding);
-  } else if (mayFall) {
-    due_.energy = std::max(now.energy, findings_.isCrowd(time, group_.bodies)
-                                           ? *std::max_element(last_.begin(), last_.end())
-                                           : now.energy);
+  report(AuditKind::kEnergyRise, time, lasting(rise_, time, std::max(excess, 0.0)), largest_.energyScale,
+         rounding);
+  const double highest = -lasting(fall_, time, -now.energy);
+  if (mayFall) {
+    due_.energy = std::min(due_.energy, highest);
   } else {
-    report(AuditKind::kEnergyLoss, time, -excess, largest_.energyScale, rounding);
+    report(AuditKind::kEnergyLoss, time, std::max(-excess, 0.0), largest_.energyScale, rounding);
   }
 }
 
 void Books::report(AuditKind kind, double time, double amount, double scale, double rounding) {
   const double least = std::numeric_limits<double>::min();
-  findings_.add(kind, rounding / std::max(scale, least),
-                {.size = amount / std::max(scale, least),
-                 .time = time,
-                 .bodies = group_.bodies,
-                 .wall = {},
-                 .length = length_});
+  findings_.add(
+      kind, rounding / std::max(scale, least),
+      {.size = amount / std::max(scale, least),
+       .time = time,
+       .bodies = group_.bodies,
+       .wall = {},
+       .length = length_,
+       .promised = alone_ || kind == AuditKind::kEnergyRise || !findings_.isCrowd(time, group_.bodies)});
 }
 
 }  // namespace

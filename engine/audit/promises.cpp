@@ -21,10 +21,14 @@ constexpr Promise kByTolerance{.absolute = 1e-7, .tolerances = 100};
 
 constexpr Promises kOfExact = {kNever,   kApart,       kApart,       kRotation,    kSamePlace,
                                kImpulse, kByTolerance, kByTolerance, kByTolerance, kByTolerance};
-// A crowd's members move continuously, so that nothing jumps.
+// A crowd's members move continuously, so that nothing jumps. Within a step its recorded speeds are means: of
+// momentum and energy it promises what lasts.
 constexpr Promise kApartInCrowd{.absolute = 1e-9, .crowdTolerances = 3};
-constexpr Promises kOfCrowd = {kNever, kApartInCrowd, kApartInCrowd, kRotation, kSamePlace, {}, {}, {}, {},
-                               {}};
+// Measured over 700 random scenes of 2 to 20 boxes: at most 0.011 and 2.2e-3.
+constexpr Promise kMomentumInCrowd{.absolute = 0.02};
+constexpr Promise kRiseInCrowd{.absolute = 0.01};
+constexpr Promises kOfCrowd = {kNever, kApartInCrowd,    kApartInCrowd,    kRotation,    kSamePlace,
+                               {},     kMomentumInCrowd, kMomentumInCrowd, kRiseInCrowd, {}};
 // Explicit Euler: nothing about energy; corners may be 1 mm behind a wall at the ends of steps, and more
 // between them.
 constexpr Promises kOfListing1 = {kNever, {}, {}, kRotation, kRounding, kRounding, {}, {}, {}, {}};

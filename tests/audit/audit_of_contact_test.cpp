@@ -54,7 +54,9 @@ INSTANTIATE_TEST_SUITE_P(
         // of the spring's impulse.
         "sprung-crowd",
         // A member of a crowd that is pushed into a box at rest within one step: 1.8e-3 m deep.
-        "pushed-at-rest"));
+        "pushed-at-rest",
+        // The same with a member of another crowd.
+        "two-crowds"));
 
 // Light boxes between heavy ones, without gravity: whatever changes a velocity is an impact on record, also
 // impulses without approach and those that reach a contact through its neighbours.

@@ -287,7 +287,7 @@ TEST(Audit, mayLoseEnergyWhereSomethingTakesIt) {
   EXPECT_EQ(breachOf(audit(run, AuditDepth::kUsual), AuditKind::kEnergyLoss), nullptr);
 }
 
-// A crowd promises no energy, and places only to its own tolerance; what is found is named.
+// A crowd promises places only to its own tolerance; what is found is named.
 TEST(Audit, judgesTheMembersOfACrowdByItsTolerance) {
   Trajectory run = runOf(kThree);
   run.impacts.clear();

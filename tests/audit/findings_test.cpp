@@ -33,9 +33,9 @@ TEST(Findings, ofACrowdAreJudgedByWhatItPromises) {
   crowdFrom[1] = 4;
   Findings findings(kExactly, crowdFrom);
   findings.add(AuditKind::kBoxOverlap, 0, overlapOf(8e-4, 5));
-  findings.add(AuditKind::kEnergyRise, 0, overlapOf(0.3, 5));
+  findings.add(AuditKind::kEnergyLoss, 0, overlapOf(0.3, 5));
   EXPECT_FALSE(findings.firstBreach(AuditKind::kBoxOverlap));
-  EXPECT_FALSE(findings.firstBreach(AuditKind::kEnergyRise));
+  EXPECT_FALSE(findings.firstBreach(AuditKind::kEnergyLoss));
   EXPECT_EQ(findings.largest(AuditKind::kBoxOverlap).size, 8e-4);
   findings.add(AuditKind::kBoxOverlap, 0, overlapOf(1e-3, 5));
   EXPECT_TRUE(findings.firstBreach(AuditKind::kBoxOverlap));
