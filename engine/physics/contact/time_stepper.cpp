@@ -16,6 +16,9 @@ namespace careen {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
+/// [1] of the tolerance: how far a body is moved apart beside its motion; what finds its contacts anew may move
+/// it twice, by three each.
+constexpr double kMostApart = 2;
 /// [1] of the tolerance: the error allowed per step.
 constexpr double kStepShare = 0.25;
 /// [rad] Largest rotation in one step, so that the polynomials are accurate.
@@ -306,14 +309,24 @@ void TimeStepper::correct() {
   }
   if (equations_.separate(end_, features, 0.125 * closed())) {
     lookAgain(end_);
-    // A heavy body may have to be moved farther; then a speed is the lesser evil.
+    // A heavy body, or one that turns, may have to be moved farther; then a speed is the lesser evil.
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if ((end_[i].position - reached_[i].position).norm() > tolerance_) {
+      if (wayOf(i, reached_[i], end_[i]) > kMostApart * tolerance_) {
         reached_ = end_;
         halved_ = false;
       }
     }
   }
+}
+
+// [m] The farthest that a point of a body is moved: one of its corners.
+double TimeStepper::wayOf(std::size_t body, const GroupBody& from, const GroupBody& to) const {
+  const Mat3 turned = to.worldFromBody.toRotationMatrix() - from.worldFromBody.toRotationMatrix();
+  double most = 0;
+  for (int k = 0; k < kCorners; ++k) {
+    most = std::max(most, (to.position - from.position + turned * corner(*bodies_[body].body, k)).norm());
+  }
+  return most;
 }
 
 void TimeStepper::cutTo(double length) {

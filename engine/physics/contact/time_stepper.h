@@ -130,6 +130,7 @@ class TimeStepper {
   double shortestStep();
   double longestStep() const;
   void correct();
+  double wayOf(std::size_t body, const GroupBody& from, const GroupBody& to) const;
   bool near(const GroupState& at, std::size_t a, std::size_t b, double within) const;
   BoxAt boxOf(std::size_t body) const;
   Material materialOf(const ContactFeature& feature) const;
