@@ -207,12 +207,41 @@ void TimeStepper::shortenJolt(double& h) {
     law_ = found;
   } else {
     halved_ = false;
-    end_ = coarse_;
     h *= kMoment;
     addJolt(h, change);
+    strikeAtStart(h);
     for (ClosedContact& contact : law_) {  // what the next step starts from
       contact.push *= kMoment;
       contact.friction *= kMoment;
+    }
+  }
+}
+
+// Whatever is pushed in the step to coarse_ has the velocities of its end from its start on: so impulses act, and
+// so they are recorded.
+void TimeStepper::strikeAtStart(double h) {
+  std::vector<char> struck(bodies_.size(), 0);
+  for (const ClosedContact& contact : law_) {
+    if (contact.push > 0) {
+      struck[static_cast<std::size_t>(contact.feature.a)] = 1;
+      if (!contact.feature.b.isWall()) {
+        struck[static_cast<std::size_t>(contact.feature.b.body())] = 1;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (struck[i] != 0 && !bodies_[i].isHeld()) {
+      start_[i].velocity = coarse_[i].velocity;
+      start_[i].angularMomentum = coarse_[i].angularMomentum;
+    }
+  }
+  std::vector<ClosedContact> none;
+  equations_.advance(start_, h, none, end_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (struck[i] != 0 && !bodies_[i].isHeld()) {
+      end_[i].position = start_[i].position + h * start_[i].velocity;
+      end_[i].velocity = start_[i].velocity;
+      end_[i].angularMomentum = start_[i].angularMomentum;
     }
   }
 }
@@ -334,10 +363,6 @@ void TimeStepper::cutTo(double length) {
     setMotions(reached_);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       end_[i] = bodyWithin(i, length);
-      if (jolted_) {  // impulses on record act in full, however short what is left of their moment
-        end_[i].velocity = reached_[i].velocity;
-        end_[i].angularMomentum = reached_[i].angularMomentum;
-      }
     }
     std::vector<ContactFeature> pushing;
     for (const ClosedContact& contact : known_) {

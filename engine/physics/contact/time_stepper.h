@@ -124,6 +124,7 @@ class TimeStepper {
   double rootOf(const Watch& watch, double h, double atEnd);
   void shortenJolt(double& h);
   void addJolt(double h, double change);
+  void strikeAtStart(double h);
   double fastestOf(const GroupState& state) const;
   double changeTo(const GroupState& end) const;
   double errorOf(const GroupState& coarse, const GroupState& fine, double h) const;
