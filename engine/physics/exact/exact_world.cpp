@@ -103,11 +103,7 @@ void ExactWorld::begin() {
   }
   account_.parted();
   for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
-    if (isForced(rank) && !mover(rank).isHeld()) {
-      queue_.set({.time = {}, .kind = EventKind::kTouching, .body = rank});
-    } else {
-      predict(rank);
-    }
+    predict(rank);
   }
 }
 
@@ -339,6 +335,11 @@ void ExactWorld::predict(int rank) {
   const Mover& body = mover(rank);
   if (!body.moves()) {
     queue_.clear(rank);
+    return;
+  }
+  // Springs and drag act from the start on, whatever is predicted anew then.
+  if (isForced(rank) && body.flies) {
+    queue_.set({.time = body.start, .kind = EventKind::kTouching, .body = rank});
     return;
   }
   std::optional<Event> first = body.wall;
