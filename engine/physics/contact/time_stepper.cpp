@@ -16,8 +16,8 @@ namespace careen {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
-/// [1] of the tolerance: how far a body is moved apart beside its motion; what finds its contacts anew may move
-/// it twice, by three each.
+/// [1] of the tolerance: how far a body is moved apart beside its motion; what finds its contacts anew may
+/// move it twice, by three each.
 constexpr double kMostApart = 2;
 /// [1] of the tolerance: the error allowed per step.
 constexpr double kStepShare = 0.25;
@@ -217,8 +217,8 @@ void TimeStepper::shortenJolt(double& h) {
   }
 }
 
-// Whatever is pushed in the step to coarse_ has the velocities of its end from its start on: so impulses act, and
-// so they are recorded.
+// Whatever is pushed in the step to coarse_ has the velocities of its end from its start on: so impulses act,
+// and so they are recorded.
 void TimeStepper::strikeAtStart(double h) {
   std::vector<char> struck(bodies_.size(), 0);
   for (const ClosedContact& contact : law_) {
