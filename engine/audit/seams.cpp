@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <variant>
 
 #include "audit/samples.h"
@@ -18,10 +17,14 @@ bool isFinite(const BodyState& state) {
          state.velocity.allFinite() && state.angularMomentum.allFinite();
 }
 
-// The farthest that a point of the box moves, to first order of the turn.
+// The farthest that a point of the box moves: one of its corners. A thin rod that rolls moves none far.
 double jumpOf(const Body& body, const Pose& before, const Pose& after) {
-  return (after.position - before.position).norm() +
-         (after.worldFromBody - before.worldFromBody).norm() / std::numbers::sqrt2 * body.halfExtents.norm();
+  double farthest = 0;
+  for (int k = 0; k < kCorners; ++k) {
+    const Vec3 turned = (after.worldFromBody - before.worldFromBody) * corner(body, k);
+    farthest = std::max(farthest, (after.position - before.position + turned).norm());
+  }
+  return farthest;
 }
 
 /// What impacts gave a body.

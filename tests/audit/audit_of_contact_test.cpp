@@ -56,7 +56,14 @@ INSTANTIATE_TEST_SUITE_P(
         // A member of a crowd that is pushed into a box at rest within one step: 1.8e-3 m deep.
         "pushed-at-rest",
         // The same with a member of another crowd.
-        "two-crowds"));
+        "two-crowds",
+        // Bodies turned out of each other, whose middles hardly moved: a jump of 15 tolerances at their
+        // corners.
+        "turned-apart",
+        // A rod of 1.2 m by 6 mm rolled by 2e-5 rad: no point of it moves far.
+        "rolling-rod",
+        // Half of an impulse of walls without approach, in the middle of the moment in which it acted.
+        "jolt-at-walls"));
 
 // Light boxes between heavy ones, without gravity: whatever changes a velocity is an impact on record, also
 // impulses without approach and those that reach a contact through its neighbours.

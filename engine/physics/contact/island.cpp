@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/world/forces.h"
+
 // The course of an island: modes, steps and what ends them. A step alone is in island_steps.cpp.
 
 namespace careen {
@@ -33,6 +35,25 @@ constexpr double kMostLocated = 4;
 constexpr int kMostAttempts = 60;
 constexpr int kMostHalvings = 20;
 
+// [s] In which springs move a body by the tolerance from the start; infinite if none pulls.
+double timeUnderSprings(const World& world, double tolerance) {
+  double time = kInfinity;
+  if (world.springs.empty()) {
+    return time;
+  }
+  std::vector<BodyState> states;
+  for (const Body& body : world.bodies) {
+    states.push_back(body.initial);
+  }
+  std::vector<Load> loads;
+  computeLoads(world, states, loads);
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const double acceleration = world.bodies[i].mass.inverseMass * loads[i].force.norm();
+    time = acceleration > 0 ? std::min(time, std::sqrt(tolerance / acceleration)) : time;
+  }
+  return time;
+}
+
 }  // namespace
 
 double timeScaleOf(const World& world, double tolerance) {
@@ -47,12 +68,15 @@ double timeScaleOf(const World& world, double tolerance) {
         body.initial.velocity.norm() + radius * angularVelocity(body.mass, body.initial).norm();
     scale = speed > 0 ? std::min(scale, std::sqrt(tolerance * radius) / speed) : scale;
   }
-  return scale;
+  return std::min(scale, timeUnderSprings(world, tolerance));
 }
 
 Island::Island(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features,
                double tolerance)
-    : tolerance_(tolerance), world_(world), system_(world, std::move(bodies), std::move(features)) {
+    : tolerance_(tolerance),
+      timeScale_(timeScaleOf(world, tolerance)),
+      world_(world),
+      system_(world, std::move(bodies), std::move(features)) {
   end_ = system_.pack();
 }
 
@@ -202,8 +226,7 @@ Island::Step Island::step(double most) {
   }
   double error = 0;
   int attempts = 0;
-  const double timeScale = timeScaleOf(world_, tolerance_);
-  const double shortest = std::isfinite(timeScale) ? kStiff * timeScale : 0;
+  const double shortest = std::isfinite(timeScale_) ? kStiff * timeScale_ : 0;
   for (;; ++attempts) {
     if (attempts > kMostAttempts || (attempts > 0 && h < shortest)) {
       end_ = start_;

@@ -16,8 +16,8 @@
 namespace careen {
 
 /// [s] Time in which a body at rest falls by the tolerance; without gravity, in which the body that is the
-/// fastest at the start moves by the root of tolerance × size: infinite if none moves. Steps much shorter do
-/// not pay: contacts that change that often chatter.
+/// fastest at the start moves by the root of tolerance × size, or springs move one by the tolerance: infinite
+/// if none moves and none pulls. Steps much shorter do not pay: contacts that change that often chatter.
 double timeScaleOf(const World& world, double tolerance);
 
 /// The motion Contact: bodies that slide, roll, rock, lean or stand on walls and on each other, from one
@@ -150,6 +150,7 @@ class Island {
   State stateWithin(std::span<const ContactStep> path, double time) const;
 
   double tolerance_;
+  double timeScale_;  // [s] see timeScaleOf
   const World& world_;
   ContactSystem system_;
   std::vector<EventFunction> eventFunctions_;

@@ -16,6 +16,9 @@ namespace careen {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
+/// [1] of the tolerance: how far a body is moved apart beside its motion; what finds its contacts anew may
+/// move it twice, by three each.
+constexpr double kMostApart = 2;
 /// [1] of the tolerance: the error allowed per step.
 constexpr double kStepShare = 0.25;
 /// [rad] Largest rotation in one step, so that the polynomials are accurate.
@@ -204,12 +207,41 @@ void TimeStepper::shortenJolt(double& h) {
     law_ = found;
   } else {
     halved_ = false;
-    end_ = coarse_;
     h *= kMoment;
     addJolt(h, change);
+    strikeAtStart(h);
     for (ClosedContact& contact : law_) {  // what the next step starts from
       contact.push *= kMoment;
       contact.friction *= kMoment;
+    }
+  }
+}
+
+// Whatever is pushed in the step to coarse_ has the velocities of its end from its start on: so impulses act,
+// and so they are recorded.
+void TimeStepper::strikeAtStart(double h) {
+  std::vector<char> struck(bodies_.size(), 0);
+  for (const ClosedContact& contact : law_) {
+    if (contact.push > 0) {
+      struck[static_cast<std::size_t>(contact.feature.a)] = 1;
+      if (!contact.feature.b.isWall()) {
+        struck[static_cast<std::size_t>(contact.feature.b.body())] = 1;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (struck[i] != 0 && !bodies_[i].isHeld()) {
+      start_[i].velocity = coarse_[i].velocity;
+      start_[i].angularMomentum = coarse_[i].angularMomentum;
+    }
+  }
+  std::vector<ClosedContact> none;
+  equations_.advance(start_, h, none, end_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (struck[i] != 0 && !bodies_[i].isHeld()) {
+      end_[i].position = start_[i].position + h * start_[i].velocity;
+      end_[i].velocity = start_[i].velocity;
+      end_[i].angularMomentum = start_[i].angularMomentum;
     }
   }
 }
@@ -306,9 +338,9 @@ void TimeStepper::correct() {
   }
   if (equations_.separate(end_, features, 0.125 * closed())) {
     lookAgain(end_);
-    // A heavy body may have to be moved farther; then a speed is the lesser evil.
+    // A heavy body, or one that turns, may have to be moved farther; then a speed is the lesser evil.
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if ((end_[i].position - reached_[i].position).norm() > tolerance_) {
+      if (wayOf(i, reached_[i], end_[i]) > kMostApart * tolerance_) {
         reached_ = end_;
         halved_ = false;
       }
@@ -316,15 +348,21 @@ void TimeStepper::correct() {
   }
 }
 
+// [m] The farthest that a point of a body is moved: one of its corners.
+double TimeStepper::wayOf(std::size_t body, const GroupBody& from, const GroupBody& to) const {
+  const Mat3 turned = to.worldFromBody.toRotationMatrix() - from.worldFromBody.toRotationMatrix();
+  double most = 0;
+  for (int k = 0; k < kCorners; ++k) {
+    most = std::max(most, (to.position - from.position + turned * corner(*bodies_[body].body, k)).norm());
+  }
+  return most;
+}
+
 void TimeStepper::cutTo(double length) {
   if (length < length_) {
     setMotions(reached_);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       end_[i] = bodyWithin(i, length);
-      if (jolted_) {  // impulses on record act in full, however short what is left of their moment
-        end_[i].velocity = reached_[i].velocity;
-        end_[i].angularMomentum = reached_[i].angularMomentum;
-      }
     }
     std::vector<ContactFeature> pushing;
     for (const ClosedContact& contact : known_) {

@@ -124,12 +124,14 @@ class TimeStepper {
   double rootOf(const Watch& watch, double h, double atEnd);
   void shortenJolt(double& h);
   void addJolt(double h, double change);
+  void strikeAtStart(double h);
   double fastestOf(const GroupState& state) const;
   double changeTo(const GroupState& end) const;
   double errorOf(const GroupState& coarse, const GroupState& fine, double h) const;
   double shortestStep();
   double longestStep() const;
   void correct();
+  double wayOf(std::size_t body, const GroupBody& from, const GroupBody& to) const;
   bool near(const GroupState& at, std::size_t a, std::size_t b, double within) const;
   BoxAt boxOf(std::size_t body) const;
   Material materialOf(const ContactFeature& feature) const;
