@@ -77,7 +77,10 @@ class Books {
 
  private:
   double mass(std::size_t body) const { return run_.world.bodies[body].mass.mass; }
-  Vec3 center(std::size_t moment) const;
+  template <class StateOf>
+  Vec3 center(const StateOf& stateOf) const;
+  template <class StateOf>
+  Holdings holdings(const StateOf& stateOf, double springs) const;
   Holdings at(std::size_t moment) const;
   double springEnergyAt(std::size_t moment) const;
   void include(const Holdings& now);
@@ -111,27 +114,29 @@ class Books {
   double length_ = std::numeric_limits<double>::infinity();  // [m] that the tolerance is relative to
 };
 
-Vec3 Books::center(std::size_t moment) const {
+template <class StateOf>
+Vec3 Books::center(const StateOf& stateOf) const {
   Vec3 sum = Vec3::Zero();
   double all = 0;
   for (const std::size_t body : group_.bodies) {
-    sum += mass(body) * samples_.state(moment, body).pose.position;
+    sum += mass(body) * stateOf(body).pose.position;
     all += mass(body);
   }
   return sum / all;
 }
 
-Holdings Books::at(std::size_t moment) const {
+template <class StateOf>
+Holdings Books::holdings(const StateOf& stateOf, double springs) const {
   Holdings now;
   double all = 0;
   for (const std::size_t body : group_.bodies) {
-    now.momentum += mass(body) * samples_.state(moment, body).velocity;
+    now.momentum += mass(body) * stateOf(body).velocity;
     all += mass(body);
   }
-  const Vec3 middle = center(moment);
+  const Vec3 middle = center(stateOf);
   const Vec3 drift = now.momentum / all;
   for (const std::size_t body : group_.bodies) {
-    const BodyState& state = samples_.state(moment, body);
+    const BodyState& state = stateOf(body);
     const Vec3 arm = state.pose.position - origin_;
     const double kinetic = kineticEnergy(run_.world.bodies[body].mass, state);
     now.angularMomentum += state.angularMomentum + mass(body) * arm.cross(state.velocity);
@@ -143,10 +148,14 @@ Holdings Books::at(std::size_t moment) const {
     now.far = std::max(now.far, state.pose.position.norm());
     now.turned += mass(body) * arm.norm() * state.velocity.norm();
   }
-  const double springs = springEnergyAt(moment);
   now.energy += springs;
   now.energyScale += springs;
   return now;
+}
+
+Holdings Books::at(std::size_t moment) const {
+  return holdings([&](std::size_t body) -> const BodyState& { return samples_.state(moment, body); },
+                  springEnergyAt(moment));
 }
 
 double Books::springEnergyAt(std::size_t moment) const {
@@ -175,7 +184,7 @@ void Books::include(const Holdings& now) {
 }
 
 void Books::check() {
-  origin_ = center(0);
+  origin_ = center([&](std::size_t body) -> const BodyState& { return samples_.state(0, body); });
   takesEnergy_ = run_.world.drag.has_value() ||
                  std::any_of(group_.springs.begin(), group_.springs.end(),
                              [&](std::size_t spring) { return run_.world.springs[spring].damping != 0; });
@@ -216,12 +225,9 @@ void Books::check() {
     alone_ = alone_ && external.walls.empty() && !external.liesOnImmovable && !external.isStruck;
   }
   due_ = all.front();
-  if (findings_.isCrowd(samples_.times().front(), group_.bodies)) {  // its first step may be a dip
-    for (const std::size_t body : group_.bodies) {
-      const Body& listed = run_.world.bodies[body];
-      due_.energy +=
-          kineticEnergy(listed.mass, listed.initial) - kineticEnergy(listed.mass, samples_.state(0, body));
-    }
+  if (findings_.isCrowd(samples_.times().front(), group_.bodies)) {  // perhaps in the midst of an impact
+    due_ = holdings([&](std::size_t body) -> const BodyState& { return run_.world.bodies[body].initial; },
+                    springEnergyAt(0));
   }
   fall_.with(samples_.times().front(), -due_.energy);
   for (std::size_t moment = 1; moment < all.size(); ++moment) {
