@@ -15,8 +15,8 @@ namespace {
 /// [1] of the tolerance in the time to fall, or to move, a half diagonal: a residual of the law that is as
 /// good as none.
 constexpr double kEnoughProgress = 0x1p-8;
-/// [1] of that residual, where no better one was found however short the step.
-constexpr double kLastResort = 32;
+/// [1] of that residual, where no better one was found however short the step: half the tolerance.
+constexpr double kLastResort = 128;
 
 Quat rotationBy(const Vec3& angle) {
   const double size = angle.norm();

@@ -48,7 +48,7 @@ class ImplicitStep {
 
   /// The state `h` [s] later. Returns false if the contact problem was not solved. Of first order, the law
   /// holds for the normals and arms at the middle of the step, where there always is a solution, and a
-  /// residual 32 times as large will do: the last resort.
+  /// residual 128 times as large will do: the last resort.
   enum class Order { kFirst = 1, kSecond = 2 };
   bool advance(const GroupState& from, double h, std::vector<ClosedContact>& contacts, GroupState& to,
                Order order = Order::kSecond);

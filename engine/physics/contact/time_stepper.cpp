@@ -221,20 +221,24 @@ void TimeStepper::shortenJolt(double& h) {
 // and so they are recorded.
 void TimeStepper::strikeAtStart(double h) {
   std::vector<char> struck(bodies_.size(), 0);
+  std::vector<ContactFeature> pushing;
   for (const ClosedContact& contact : law_) {
     if (contact.push > 0) {
+      pushing.push_back(contact.feature);
       struck[static_cast<std::size_t>(contact.feature.a)] = 1;
       if (!contact.feature.b.isWall()) {
         struck[static_cast<std::size_t>(contact.feature.b.body())] = 1;
       }
     }
   }
+  const GroupState before = start_;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (struck[i] != 0 && !bodies_[i].isHeld()) {
       start_[i].velocity = coarse_[i].velocity;
       start_[i].angularMomentum = coarse_[i].angularMomentum;
     }
   }
+  equations_.keepMomenta(before, 0, pushing, start_);  // the impulses were those of the middle of the moment
   std::vector<ClosedContact> none;
   equations_.advance(start_, h, none, end_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -244,6 +248,7 @@ void TimeStepper::strikeAtStart(double h) {
       end_[i].angularMomentum = start_[i].angularMomentum;
     }
   }
+  equations_.keepMomenta(before, h, pushing, end_);
 }
 
 // One attempt at a step; `h` becomes shorter where an event ends it, or for the next attempt.

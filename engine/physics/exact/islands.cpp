@@ -24,9 +24,27 @@ constexpr double kAllButStill = 0x1p-4;
 /// steps.
 constexpr std::size_t kMostSmooth = 6;
 constexpr int kTimeStepsOfMany = 64;
+/// Of bodies whose hops, too low to follow, cannot be left out.
+constexpr int kTimeStepsOfHops = 16;
+/// [1] of the speed gained by falling through the tolerance: what leaving them out may take at most. More it
+/// takes of bodies that rock together, whose contact hardly opens.
+constexpr double kMostTaken = 4;
 
 bool movesAlike(const BodyState& x, const BodyState& y) {
   return x.velocity == y.velocity && x.angularMomentum == y.angularMomentum;
+}
+
+// [m/s] Of any body, its corners included.
+double fastestChange(const std::vector<TouchingBody>& before, const std::vector<TouchingBody>& after) {
+  double fastest = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (!before[i].isHeld()) {
+      const Vec3 turning = after[i].angularVelocityBody - before[i].angularVelocityBody;
+      fastest = std::max(fastest, (after[i].velocity - before[i].velocity).norm() +
+                                      turning.norm() * radiusOf(*before[i].body));
+    }
+  }
+  return fastest;
 }
 
 }  // namespace
@@ -352,12 +370,19 @@ void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>
     ranks.push_back(encounter.ranks[i]);
   }
   auto contactGroup = std::make_shared<ContactGroup>();
-  contactGroup->island = std::make_unique<Island>(world_, std::move(bodies), std::move(features), tolerance_);
+  contactGroup->island = std::make_unique<Island>(world_, bodies, features, tolerance_);
   contactGroup->ranks = std::move(ranks);
-  Island& island = *contactGroup->island;
   const int timeSteps =
       encounter.timeSteps == 0 && members.size() > kMostSmooth ? kTimeStepsOfMany : encounter.timeSteps;
-  const bool rests = beginsAtRest(island, timeSteps);
+  bool rests = beginsAtRest(*contactGroup->island, timeSteps);
+  if (timeSteps == 0 && encounter.cause == EventKind::kTouching && !world_.gravity.isZero(0) &&
+      fastestChange(bodies, contactGroup->island->bodies()) > kMostTaken * fallSpeed()) {
+    contactGroup->island =
+        std::make_unique<Island>(world_, std::move(bodies), std::move(features), tolerance_);
+    contactGroup->island->beginTimeSteps(kTimeStepsOfHops);
+    rests = false;
+  }
+  Island& island = *contactGroup->island;
   encounter.residuals.add(island.takeResiduals());
   if (rests) {
     for (const std::size_t i : members) {
