@@ -43,6 +43,9 @@ constexpr int kConvexRounds = 4;
 constexpr double kHeavy = 64;
 constexpr int kStepsOfRound = 100;  // of a round
 constexpr int kMostSets = 20;       // of contacts that push, without friction
+/// [1] of the friction, raised step by step; each step may take this part of the factorisations.
+constexpr std::array<double, 8> kPartsOfFriction = {0, 0.2, 0.4, 0.6, 0.8, 0.9, 0.96, 1};
+constexpr int kPartForRaising = 4;
 
 }  // namespace
 
@@ -247,7 +250,39 @@ ContactResiduals ContactSolver::residuals() const {
   return sum.residuals();
 }
 
+/// Where nothing else helps: without friction a problem is convex, and from there on each answer is the start
+/// for a little more friction.
+bool ContactSolver::raiseFriction(const ContactProblem& problem, ContactSolution& solution,
+                                  int mostFactorisations) {
+  const ContactResiduals known = residuals_;
+  ContactProblem eased = problem;
+  ContactSolution raised;
+  raised.enough = solution.enough;
+  int spent = solution.factorisations;
+  for (const double part : kPartsOfFriction) {
+    for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
+      eased.contacts[c].friction = part > 0 ? part * problem.contacts[c].friction : 0;
+    }
+    residuals_ = known;
+    const bool solved = solveOnce(eased, raised, mostFactorisations / kPartForRaising);
+    spent += raised.factorisations;
+    if (!solved) {
+      solution.factorisations = spent;
+      return false;
+    }
+  }
+  solution = raised;
+  solution.factorisations = spent;
+  return true;
+}
+
 bool ContactSolver::solve(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations) {
+  return solveOnce(problem, solution, mostFactorisations) ||
+         (hasFriction() && raiseFriction(problem, solution, mostFactorisations));
+}
+
+bool ContactSolver::solveOnce(const ContactProblem& problem, ContactSolution& solution,
+                              int mostFactorisations) {
   contacts_.set(problem);
   enough_ = solution.enough;
   const std::size_t count = problem.contacts.size();

@@ -22,7 +22,8 @@ namespace careen {
 ///      convex problems in which |u_t| is a number, a few times. Where the heavy lies on the light, first the
 ///      latter: in a jam, impulses may be 1e8 times what comes in;
 ///   5. the interior-point method from several starts, |u_t| being what it is; whenever its gap fell a
-///      thousand times, Newton's method from there; and more proximal points.
+///      thousand times, Newton's method from there; and more proximal points;
+///   6. all of this without friction, and again with more and more of it, each time from the last answer.
 ///
 /// Small enough: residual ≤ 1e-9 V, and ≤ max(1e-13 V, 1e-6 of the largest λ/mass): without the second
 /// condition impulses of 1e-8 V can pass where the answer is large. Below the rounding error of the relative
@@ -48,6 +49,8 @@ class ContactSolver {
  private:
   using Triple = ContactProblem::Triple;
 
+  bool solveOnce(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations);
+  bool raiseFriction(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations);
   void solveWithoutPolish(const ContactSolution& solution);
   bool tryNewton(std::span<const Triple> from, ContactNewton::Options options);
   bool tryApproach(std::span<const Triple> from, ContactNewton::Options options);
