@@ -67,7 +67,9 @@ INSTANTIATE_TEST_SUITE_P(
         // Bodies that rocked together at .02 m/s stopped, because a contact between them parted with .002.
         "low-hops",
         // Springs pull together what was at rest, without gravity: chattering was followed for ever.
-        "springs-alone"));
+        "springs-alone",
+        // An impact of 18 contacts whose impulses no method found until friction was raised step by step.
+        "impact-on-slope"));
 
 // Light boxes between heavy ones, without gravity: whatever changes a velocity is an impact on record, also
 // impulses without approach and those that reach a contact through its neighbours.
