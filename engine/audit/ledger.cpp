@@ -88,9 +88,10 @@ class Books {
   void balanceMomentum(double time, const Holdings& now, const External& external);
   void balanceAngularMomentum(double time, const Holdings& now, const External& external);
   void balanceEnergy(double time, const Holdings& now, const External& external);
+  bool isCrowd(double time) const { return !run_.given && findings_.isCrowd(time, group_.bodies); }
   double lasting(LeastOfLate& late, double time, double amount) const {
     const double least = late.with(time, amount);
-    return findings_.isCrowd(time, group_.bodies) ? least : amount;
+    return isCrowd(time) ? least : amount;
   }
   void report(AuditKind kind, double time, double amount, double scale, double rounding);
 
@@ -225,7 +226,7 @@ void Books::check() {
     alone_ = alone_ && external.walls.empty() && !external.liesOnImmovable && !external.isStruck;
   }
   due_ = all.front();
-  if (findings_.isCrowd(samples_.times().front(), group_.bodies)) {  // perhaps in the midst of an impact
+  if (isCrowd(samples_.times().front())) {  // perhaps in the midst of an impact
     due_ = holdings([&](std::size_t body) -> const BodyState& { return run_.world.bodies[body].initial; },
                     springEnergyAt(0));
   }
@@ -285,9 +286,9 @@ void Books::balanceEnergy(double time, const Holdings& now, const External& exte
   const double excess = now.energy - due_.energy;
   report(AuditKind::kEnergyRise, time, lasting(rise_, time, std::max(excess, 0.0)), largest_.energyScale,
          rounding);
-  const double highest = -lasting(fall_, time, -now.energy);
+  const double highest = -fall_.with(time, -now.energy);
   if (mayFall) {
-    due_.energy = std::min(due_.energy, highest);
+    due_.energy = std::min(due_.energy, run_.given || isCrowd(time) ? highest : now.energy);
   } else {
     report(AuditKind::kEnergyLoss, time, std::max(-excess, 0.0), largest_.energyScale, rounding);
   }
@@ -295,14 +296,13 @@ void Books::balanceEnergy(double time, const Holdings& now, const External& exte
 
 void Books::report(AuditKind kind, double time, double amount, double scale, double rounding) {
   const double least = std::numeric_limits<double>::min();
-  findings_.add(
-      kind, rounding / std::max(scale, least),
-      {.size = amount / std::max(scale, least),
-       .time = time,
-       .bodies = group_.bodies,
-       .wall = {},
-       .length = length_,
-       .promised = alone_ || kind == AuditKind::kEnergyRise || !findings_.isCrowd(time, group_.bodies)});
+  findings_.add(kind, rounding / std::max(scale, least),
+                {.size = amount / std::max(scale, least),
+                 .time = time,
+                 .bodies = group_.bodies,
+                 .wall = {},
+                 .length = length_,
+                 .promised = alone_ || kind == AuditKind::kEnergyRise || !isCrowd(time)});
 }
 
 }  // namespace
