@@ -72,9 +72,9 @@ double timeScaleOf(const World& world, double tolerance) {
 }
 
 Island::Island(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features,
-               double tolerance)
+               double tolerance, double timeScale)
     : tolerance_(tolerance),
-      timeScale_(timeScaleOf(world, tolerance)),
+      timeScale_(timeScale),
       world_(world),
       system_(world, std::move(bodies), std::move(features)) {
   end_ = system_.pack();

@@ -29,9 +29,10 @@ double timeScaleOf(const World& world, double tolerance);
 /// one.
 class Island {
  public:
-  /// `tolerance` [m]: for the position of every body and of its corners.
+  /// `tolerance` [m]: for the position of every body and of its corners; `timeScale` [s]: timeScaleOf() with
+  /// it.
   Island(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features,
-         double tolerance);
+         double tolerance, double timeScale);
 
   /// Finds the mode of each contact. Where no forces meet the conditions (Painlevé's paradox, jams), the
   /// motion begins with a few time steps.

@@ -370,15 +370,17 @@ void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>
     ranks.push_back(encounter.ranks[i]);
   }
   auto contactGroup = std::make_shared<ContactGroup>();
-  contactGroup->island = std::make_unique<Island>(world_, bodies, features, tolerance_);
+  const auto islandOfThem = [&] {
+    return std::make_unique<Island>(world_, bodies, features, tolerance_, timeScale_);
+  };
+  contactGroup->island = islandOfThem();
   contactGroup->ranks = std::move(ranks);
   const int timeSteps =
       encounter.timeSteps == 0 && members.size() > kMostSmooth ? kTimeStepsOfMany : encounter.timeSteps;
   bool rests = beginsAtRest(*contactGroup->island, timeSteps);
   if (timeSteps == 0 && encounter.cause == EventKind::kTouching && !world_.gravity.isZero(0) &&
       fastestChange(bodies, contactGroup->island->bodies()) > kMostTaken * fallSpeed()) {
-    contactGroup->island =
-        std::make_unique<Island>(world_, std::move(bodies), std::move(features), tolerance_);
+    contactGroup->island = islandOfThem();  // as they were before their hops were left out
     contactGroup->island->beginTimeSteps(kTimeStepsOfHops);
     rests = false;
   }

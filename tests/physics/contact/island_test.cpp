@@ -34,7 +34,7 @@ struct Lying {
                            .worldFromBody = Quat::Identity(),
                            .velocity = velocity,
                            .angularVelocityBody = Vec3(0, 0, spin)};
-    Island island(world, {box}, features, tolerance);
+    Island island(world, {box}, features, tolerance, timeScaleOf(world, tolerance));
     for (island.begin(); !island.rests(); island.begin()) {
       Island::Step step;
       do {
@@ -138,7 +138,7 @@ TEST(Island, forcesOfAStackAreSumsOfWeights) {
         features.push_back(feature);
       }
     }
-    Island island(world, bodies, features, 1e-6);
+    Island island(world, bodies, features, 1e-6, timeScaleOf(world, 1e-6));
     island.begin();
     double worst = 0;
     for (int k = 0; k < kCubes; ++k) {

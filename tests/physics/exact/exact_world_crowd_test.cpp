@@ -304,7 +304,7 @@ TEST(ExactWorldCrowd, springsWithinItMoveNoCentreOfMass) {
   };
   const Vec3 velocity = 2.0 / 11 * Vec3(-0.5, 0.3, 0.1);
   for (const double time : {0.31, 0.77, 1.5}) {
-    // Measured 1.0e-6.
+    // Measured 2.6e-6; .025 if bounces forget half a step of forces, 1e-3 if one step's act for another.
     EXPECT_LT((center(time) - center(0) - time * velocity).norm(), 5e-6) << time;
   }
 }
