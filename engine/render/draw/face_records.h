@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/draw/drawn_box.h"
+#include "render/draw/mesh_faces.h"
+#include "render/draw/neighbors.h"
+#include "render/draw/shadow_pairs.h"
+
+namespace careen {
+
+/// Points of a face at which its occlusion is found: its corners; four more inside, which leave its edges in
+/// one piece; or a grid, whose lines divide them.
+enum class FaceGrid { kCorners, kFramed, kFine };
+
+/// Records of vertices, and triangles between them.
+struct VertexRecords {
+  std::vector<float> vertices;
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> outlines;  ///< the same faces in as few triangles as possible
+  std::uint32_t count = 0;
+
+  /// Triangles between the points of a face, which follow; counterclockwise seen from outside.
+  void addFace(FaceGrid grid, bool mirrored);
+  void addTriangle();
+};
+
+/// What BoxBatch::place is given; `neighbors` is null if boxes do not occlude boxes.
+struct PlacedBoxes {
+  std::span<const DrawnBox> boxes;
+  std::span<const DrawnFace> faces;
+  const FaceShadows& shadows;
+  const Neighbors* neighbors;
+  std::optional<Vec3> towardsLight;
+  Vec3 eye;
+};
+
+/// The records of all faces and their shadows.
+class FaceRecords {
+ public:
+  explicit FaceRecords(const PlacedBoxes& placed);
+
+  void add();
+
+  VertexRecords lit;
+  VertexRecords dark;
+  VertexRecords shaded;
+  VertexRecords cast;
+
+ private:
+  void findFine();
+
+  FaceGrid gridOf(std::size_t face) const;
+  bool isMesh(std::size_t face) const { return in_.boxes[in_.faces[face].box].mesh != nullptr; }
+  bool hasList(std::size_t face) const;
+
+  void appendAbout(std::vector<float>& vertices, double pips, std::size_t face, bool withList) const;
+
+  void addFace(std::size_t i);
+
+  const Zonogon& zonogonOfCaster(std::size_t caster);
+
+  void addShadow(const ShadowPair& pair);
+
+  void addMesh(std::size_t first);
+
+  void addTriangle(VertexRecords& records, const MeshFace& face, const Vec3& color, std::size_t alike,
+                   bool withList);
+
+  void addShadow(const MeshFace& face, const Zonogon& zonogon, double weight);
+
+  const PlacedBoxes in_;
+  std::vector<bool> isFine_;
+  std::vector<bool> isShaded_;
+  std::vector<std::optional<Zonogon>> zonogons_;
+};
+
+/// What neighbors.vert reads: boxes, then the lists of faces.
+std::vector<float> neighborTexels(std::span<const DrawnBox> boxes, const Neighbors& neighbors,
+                                  const Vec3& eye);
+
+}  // namespace careen
