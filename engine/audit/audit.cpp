@@ -49,6 +49,7 @@ class Auditor {
         settings_(settingsOf(run, limits)),
         findings_(settings_, promises(limits, false), promises(limits, true), crowdBeginnings(run)),
         impacts_(impactsOfBodies(run)),
+        fallingSpeeds_(fallingSpeeds(run.world)),
         badness_(run.tracks.size(), 0) {}
 
   Audit run();
@@ -80,6 +81,7 @@ class Auditor {
   RunSettings settings_;
   Findings findings_;
   std::vector<std::vector<std::size_t>> impacts_;  // of each body
+  std::vector<double> fallingSpeeds_;              // likewise
   std::vector<double> badness_;                    // of each body: how far it is from what it should be
   std::size_t looks_ = 0;
 };
@@ -201,7 +203,7 @@ void Auditor::lookAtSeams() {
     for (const Seam& seam : seamsOf(run_.tracks[index])) {
       const double time = run_.tracks[index].segments[seam.after].start;
       if (number++ % stride == 0 && time <= run_.settings.duration) {
-        checkSeam(run_, index, seam, impacts_[index], findings_);
+        checkSeam(run_, index, seam, impacts_[index], fallingSpeeds_[index], findings_);
         looks_ += 2;
       }
     }
@@ -261,7 +263,7 @@ Audit Auditor::run() {
   const Samples samples(run_, moments(), stop_);
   lookAtMoments(samples);
   lookAtSeams();
-  checkBalances(run_, samples, exchangeGroups(run_, samples), findings_);
+  checkBalances(run_, samples, exchangeGroups(run_, samples), fallingSpeeds_, findings_);
   lookAtWorst();
   return result();
 }

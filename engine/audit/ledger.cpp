@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kUlps = 1024 * std::numeric_limits<double>::epsilon();
 // A group that hardly moves is compared with this part of what falling by its own size would give it.
-constexpr double kStill = 1.0 / 64;
+constexpr double kStill = 1.0 / 32;
 constexpr double kMean = 1.0 / 30;  // [s] six of a crowd's longest steps, at its usual tolerance
 constexpr double kParallel = 1e-9;  // [1] walls whose normals differ by less have the same
 
@@ -63,10 +63,12 @@ class LeastOfLate {
 
 class Books {
  public:
-  Books(const Trajectory& run, const Samples& samples, const ExchangeGroup& group, Findings& findings)
+  Books(const Trajectory& run, const Samples& samples, const ExchangeGroup& group,
+        const std::vector<double>& fallingSpeeds, Findings& findings)
       : run_(run),
         samples_(samples),
         group_(group),
+        fallingSpeeds_(fallingSpeeds),
         findings_(findings),
         momentum_(kMean * std::sqrt(run.settings.crowds.tolerance / CrowdSettings{}.tolerance)),
         angularMomentum_(momentum_),
@@ -98,6 +100,7 @@ class Books {
   const Trajectory& run_;
   const Samples& samples_;
   const ExchangeGroup& group_;
+  const std::vector<double>& fallingSpeeds_;
   Findings& findings_;
   Vec3 origin_ = Vec3::Zero();
   Holdings due_;
@@ -202,11 +205,11 @@ void Books::check() {
   for (const std::size_t body : group_.bodies) {
     const double size = run_.world.bodies[body].halfExtents.norm();
     smallest = std::min(smallest, size);
-    const double momentum = mass(body) * fallingSpeed(run_.world, run_.world.bodies[body]);
+    const double momentum = mass(body) * fallingSpeeds_[body];
     still.momentumScale += kStill * momentum;
     still.angularScale += kStill * momentum * size;
     largest_.weight += mass(body) * run_.world.gravity.norm();
-    still.energyScale += kStill * mass(body) * run_.world.gravity.norm() * size;
+    still.energyScale += kStill * 0.5 * momentum * fallingSpeeds_[body];
   }
   include(still);
   // Only contact depends on the tolerance.
@@ -308,9 +311,9 @@ void Books::report(AuditKind kind, double time, double amount, double scale, dou
 }  // namespace
 
 void checkBalances(const Trajectory& run, const Samples& samples, const std::vector<ExchangeGroup>& groups,
-                   Findings& findings) {
+                   const std::vector<double>& fallingSpeeds, Findings& findings) {
   for (const ExchangeGroup& group : groups) {
-    Books(run, samples, group, findings).check();
+    Books(run, samples, group, fallingSpeeds, findings).check();
   }
 }
 

@@ -21,7 +21,9 @@ namespace careen {
 /// The angular momentum of a group that lies on walls is balanced only about their common normal, and only if
 /// they are without friction: where the forces act is not recorded. A group that lies on an immovable body is
 /// not balanced meanwhile.
+///
+/// `fallingSpeeds` [m/s]: of each body, see seams.h.
 void checkBalances(const Trajectory& run, const Samples& samples, const std::vector<ExchangeGroup>& groups,
-                   Findings& findings);
+                   const std::vector<double>& fallingSpeeds, Findings& findings);
 
 }  // namespace careen

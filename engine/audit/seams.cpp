@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "audit/samples.h"
+#include "physics/world/forces.h"
 
 namespace careen {
 namespace {
@@ -65,14 +66,15 @@ double lengthOf(const Motion& motion) {
 }
 
 void checkImpulse(const Trajectory& run, std::size_t body, const Seam& seam, const BodyState& before,
-                  const BodyState& after, const std::vector<std::size_t>& impacts, Findings& findings) {
+                  const BodyState& after, const std::vector<std::size_t>& impacts, double fallingSpeed,
+                  Findings& findings) {
   const Body& owner = run.world.bodies[body];
   const std::vector<Segment>& segments = run.tracks[body].segments;
   const double time = segments[seam.after].start;
   const Given given = givenBy(run, body, after.pose.position, impacts, segments[seam.before].start, time);
   const double mass = owner.mass.mass;
   const double size = owner.halfExtents.norm();
-  const double still = mass * fallingSpeed(run.world, owner);
+  const double still = mass * fallingSpeed;
   const double linearScale =
       mass * std::max(before.velocity.norm(), after.velocity.norm()) + given.all + still;
   const double angularScale =
@@ -128,8 +130,20 @@ double placeRounding(const Body& body, const Vec3& position) {
   return kSeamUlps * (position.norm() + body.halfExtents.norm());
 }
 
-double fallingSpeed(const World& world, const Body& body) {
-  return std::sqrt(2 * world.gravity.norm() * body.halfExtents.norm());
+std::vector<double> fallingSpeeds(const World& world) {
+  std::vector<BodyState> states;
+  for (const Body& body : world.bodies) {
+    states.push_back(body.initial);
+  }
+  std::vector<Load> loads;
+  computeLoads(world, states, loads);
+  std::vector<double> speeds;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const Body& body = world.bodies[i];
+    const double acceleration = body.mass.inverseMass * loads[i].force.norm();
+    speeds.push_back(std::sqrt(2 * acceleration * body.halfExtents.norm()));
+  }
+  return speeds;
 }
 
 void checkState(const BodyState& state, std::size_t body, double time, Findings& findings) {
@@ -144,7 +158,7 @@ void checkState(const BodyState& state, std::size_t body, double time, Findings&
 }
 
 void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam,
-               const std::vector<std::size_t>& impacts, Findings& findings) {
+               const std::vector<std::size_t>& impacts, double fallingSpeed, Findings& findings) {
   const Body& owner = run.world.bodies[body];
   const std::vector<Segment>& segments = run.tracks[body].segments;
   const double time = segments[seam.after].start;
@@ -163,7 +177,7 @@ void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam,
   findings.add(AuditKind::kContinuity, rounding,
                {.size = jumpOf(owner, before.pose, after.pose), .time = time, .bodies = {body}, .wall = {}});
   if (!isImmovable(owner.mass)) {
-    checkImpulse(run, body, seam, before, after, impacts, findings);
+    checkImpulse(run, body, seam, before, after, impacts, fallingSpeed, findings);
   }
 }
 

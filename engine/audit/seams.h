@@ -19,9 +19,9 @@ std::vector<Seam> seamsOf(const Track& track);
 std::vector<std::vector<std::size_t>> impactsOfBodies(const Trajectory& run);
 
 /// Looks at both sides of a seam: are both states finite, is the place the same, and did the impacts since
-/// the last seam give the velocity its jump? `impacts` are those of the body.
+/// the last seam give the velocity its jump? `impacts` and `fallingSpeed` are those of the body.
 void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam,
-               const std::vector<std::size_t>& impacts, Findings& findings);
+               const std::vector<std::size_t>& impacts, double fallingSpeed, Findings& findings);
 
 /// Looks at a body's way from row to row of a table that has velocities: how much farther it is than every
 /// velocity between those of the two rows takes it.
@@ -33,7 +33,8 @@ void checkState(const BodyState& state, std::size_t body, double time, Findings&
 /// [m] Rounding of a body's places.
 double placeRounding(const Body& body, const Vec3& position);
 
-/// [m/s] Speed that a body gains when it falls by its size: a scale for speeds where it hardly moves.
-double fallingSpeed(const World& world, const Body& body);
+/// [m/s] Of each body: the speed it gains over its size under what pulls it at the start, gravity, springs
+/// and drag. A scale for speeds where it hardly moves.
+std::vector<double> fallingSpeeds(const World& world);
 
 }  // namespace careen

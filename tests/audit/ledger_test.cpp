@@ -1,5 +1,6 @@
 #include "audit/ledger.h"
 #include "audit/samples.h"
+#include "audit/seams.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +27,7 @@ Trajectory falling() {
 Findings balanced(const Trajectory& run, int moments = 20) {
   Findings findings(run.settings, crowdBeginnings(run));
   const Samples samples(run, goldenMoments(run.settings.duration, moments));
-  checkBalances(run, samples, exchangeGroups(run, samples), findings);
+  checkBalances(run, samples, exchangeGroups(run, samples), fallingSpeeds(run.world), findings);
   return findings;
 }
 

@@ -36,7 +36,7 @@ Findings checked(const Trajectory& run) {
   Findings findings(run.settings, crowdBeginnings(run));
   const std::vector<Seam> seams = seamsOf(run.tracks[0]);
   EXPECT_EQ(seams.size(), 1U);
-  checkSeam(run, 0, seams.at(0), impactsOfBodies(run)[0], findings);
+  checkSeam(run, 0, seams.at(0), impactsOfBodies(run)[0], fallingSpeeds(run.world)[0], findings);
   return findings;
 }
 

@@ -157,11 +157,6 @@ void ImplicitStep::findMiddle(const GroupState& from, const GroupState& to) {
   }
 }
 
-void ImplicitStep::clearImpulses() {
-  push_.assign(bodies_.size(), Vec3::Zero());
-  twist_.assign(bodies_.size(), Vec3::Zero());
-}
-
 bool ImplicitStep::advance(const GroupState& from, double h, std::vector<ClosedContact>& contacts,
                            GroupState& to, Order order) {
   chooseResidual(from);
@@ -172,7 +167,7 @@ bool ImplicitStep::advance(const GroupState& from, double h, std::vector<ClosedC
   for (const ClosedContact& contact : contacts) {
     features_.push_back(contact.feature);
   }
-  clearImpulses();
+  guessImpulses(from, h, contacts);
   findLoads(from);
   move(from, h, to);
   move(from, h, to);

@@ -14,6 +14,13 @@ namespace {
 /// [1] Cosine of the angle of two normals that count as one: what the tolerance allows for a thin box.
 constexpr double kParallel = 1 - 0x1p-27;
 
+// [N s] What a contact's last forces give in `h` [s]: along the normal and the tangents.
+ContactProblem::Triple impulseOf(const ClosedContact& contact, const Vec3& normal, double h) {
+  const Tangents tangents = tangentsOf(normal);
+  return {h * contact.push, h * contact.friction.dot(tangents.first),
+          h * contact.friction.dot(tangents.second)};
+}
+
 }  // namespace
 
 ContactState ImplicitStep::stateOf(const ContactFeature& feature, const Kinematics& a,
@@ -69,16 +76,32 @@ void ImplicitStep::alignNormals(std::span<const ContactFeature> features,
   for (const ContactState& at : contacts) {
     normals_.push_back(at.normal);
   }
-  std::vector<std::array<double, 3>> different;
+  ofPairs_.clear();
   for (std::size_t c = 0; c < features.size(); ++c) {
+    if (!features[c].b.isWall()) {
+      const auto [first, second] = std::minmax({features[c].a, features[c].b.body()});
+      ofPairs_.push_back({first, second, c});
+    }
+  }
+  std::sort(ofPairs_.begin(), ofPairs_.end());
+  for (auto begin = ofPairs_.begin(); begin != ofPairs_.end();) {
+    const auto end = std::find_if(begin, ofPairs_.end(), [&](const OfPair& each) {
+      return each.first != begin->first || each.second != begin->second;
+    });
+    alignNormals(std::span(begin, end), features, contacts);
+    begin = end;
+  }
+}
+
+void ImplicitStep::alignNormals(std::span<const OfPair> pair, std::span<const ContactFeature> features,
+                                std::vector<ContactState>& contacts) const {
+  std::vector<std::array<double, 3>> different;
+  for (const OfPair& of : pair) {
+    const std::size_t c = of.contact;
     different.clear();
-    for (std::size_t k = 0; !features[c].b.isWall() && k < features.size(); ++k) {
-      const bool same = features[k].a == features[c].a && features[k].b == features[c].b;
-      const bool swapped = features[c].b.isBody(features[k].a) && features[k].b.isBody(features[c].a);
-      if (!same && !swapped) {
-        continue;
-      }
-      const Vec3 normal = swapped ? Vec3(-normals_[k]) : normals_[k];
+    for (const OfPair& other : pair) {
+      const std::size_t k = other.contact;
+      const Vec3 normal = features[k].a == features[c].a ? normals_[k] : Vec3(-normals_[k]);
       const std::array<double, 3> parts{normal[0], normal[1], normal[2]};
       if (normal.dot(normals_[c]) >= kParallel &&
           std::find(different.begin(), different.end(), parts) == different.end()) {
@@ -224,6 +247,18 @@ void ImplicitStep::addImpulses(std::span<const ContactFeature> features) {
   }
 }
 
+// The first estimate of a step's impulses: by the last forces. Without them bodies at rest would fall, and
+// springs and drag be those of a motion that never was.
+void ImplicitStep::guessImpulses(const GroupState& from, double h,
+                                 const std::vector<ClosedContact>& contacts) {
+  contactsAt(features_, from, geometry_);
+  solution_.impulses.clear();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    solution_.impulses.push_back(impulseOf(contacts[c], geometry_[c].normal, h));
+  }
+  addImpulses(features_);
+}
+
 // The points at which the impulses act are those of the last estimate of the middle; the centres of mass are
 // by now known to be elsewhere there. About them angular momentum is exchanged exactly.
 void ImplicitStep::moveArms(const GroupState& from, double h) {
@@ -252,10 +287,7 @@ bool ImplicitStep::findImpulses(const GroupState& from, double h, bool first,
     if (!first) {
       aimAtEnd(c, features_[c], to);
     }
-    const Tangents tangents = tangentsOf(geometry_[c].normal);
-    const Vec3 friction = h * contacts[c].friction;
-    solution_.impulses.push_back(
-        {h * contacts[c].push, friction.dot(tangents.first), friction.dot(tangents.second)});
+    solution_.impulses.push_back(impulseOf(contacts[c], geometry_[c].normal, h));
   }
   if (!solve(residual_) && !(isLastResort_ && solution_.residual <= residual_)) {
     return false;

@@ -16,7 +16,7 @@ using Kind = ContactFeature::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Slip of less than this many tolerances, in the time to fall one's own size, counts as stopped.
-constexpr double kStopped = 16;
+constexpr double kStopped = 4;
 /// [1] of a tolerance, in the time to fall one's own size: slip that counts as none where contacts are found
 /// anew.
 constexpr double kCreeps = 0.25;

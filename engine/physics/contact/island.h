@@ -138,6 +138,7 @@ class Island {
   bool allButStands(std::size_t contact) const;
   bool creeps(std::size_t contact) const;
   bool stop();
+  double timeToFall(const Body& body) const;
   double sizeOf(const State& difference, double h) const;
   double errorBetween(double h);
   bool gainsEnergy() const;

@@ -22,8 +22,15 @@ constexpr double kMostTurn = 0.4;
 constexpr double kMostSlip = 0.25;
 /// [1] Steps end short of the moment where slip would end: past it the equations change.
 constexpr double kBeforeStop = 1 - 0x1p-10;
-/// [1] of the time until its slip ends: how long the speed of a single sliding body matters.
+/// [1] of the time until its slip ends: how long the speed of a single sliding body matters. And of the time
+/// to fall its own size: no shorter than that.
 constexpr double kLifetime = 4;
+constexpr double kLeastLifetime = 0x1p-4;
+/// [1] of the displacement that the error of a velocity within a step would cause in the time to fall one's
+/// own size: what counts of it, as the end of the step has another.
+constexpr double kOfSpeedBetween = 0x1p-1;
+/// [1] of a position: what rounding does to the second difference that accelerations are compared by.
+constexpr double kRounding = 0x1p-43;
 /// [1] of the energy of motion: a step that gains more is wrong.
 constexpr double kGained = 0x1p-4;
 /// A trial step too long for its forces diverges; squares of larger numbers would overflow.
@@ -109,6 +116,11 @@ void Island::finish(double h) {
   }
 }
 
+// [s] In which a body would fall its own size; 0 without gravity.
+double Island::timeToFall(const Body& body) const {
+  return system_.gravityMagnitude() > 0 ? std::sqrt(radiusOf(body) / system_.gravityMagnitude()) : 0;
+}
+
 // The error of a step relative to the error allowed: of positions directly, of velocities by the displacement
 // they cause in the time in which the body would fall its own size, or until it has stopped.
 double Island::sizeOf(const State& difference, double h) const {
@@ -119,9 +131,8 @@ double Island::sizeOf(const State& difference, double h) const {
       continue;
     }
     const double radius = radiusOf(*body.body);
-    const double time = system_.gravityMagnitude() > 0
-                            ? std::max(h, std::min(std::sqrt(radius / system_.gravityMagnitude()), lifetime_))
-                            : h;
+    const double fall = timeToFall(*body.body);
+    const double time = std::max(h, std::min(fall, std::max(lifetime_, kLeastLifetime * fall)));
     const Vec4 turn(difference[at + 3], difference[at + 4], difference[at + 5], difference[at + 6]);
     worst = std::max({worst, threeAt(difference, at).norm(), 2 * radius * turn.norm(),
                       time * threeAt(difference, at + 7).norm(),
@@ -164,14 +175,18 @@ Island::State Island::stateWithin(std::span<const ContactStep> path, double time
 }
 
 // The error of the motion halfway through a step, relative to the error allowed. The polynomial has the right
-// accelerations at both ends; halfway they differ by e, and where that goes with t³(h − t)³ the position
-// there differs by e h²/24.
+// accelerations at both ends; halfway they differ by e, and where the position differs by a multiple of
+// t³(h − t)³ that is by e h²/24 halfway, and the velocity by at most e h/7.
 double Island::errorBetween(double h) {
+  double slowest = 0;  // [s] the longest time to fall
+  for (const TouchingBody& body : bodies()) {
+    slowest = body.isHeld() ? slowest : std::max(slowest, timeToFall(*body.body));
+  }
   double fastest = 0;  // [m/s²]
   for (std::size_t at = 7; at < end_.size(); at += ContactSystem::kNumbers) {
     fastest = std::max({fastest, threeAt(startRate_, at).norm(), threeAt(endRate_, at).norm()});
   }
-  if (fastest * h * h < tolerance_) {
+  if (fastest * h * std::max(h, slowest) < tolerance_) {
     return 0;
   }
   const std::vector<ContactStep> path = motions(h);
@@ -183,11 +198,13 @@ double Island::errorBetween(double h) {
       const std::size_t at = system_.placeOf(i) * ContactSystem::kNumbers;
       const std::array<Vec3, 6>& c = path[system_.placeOf(i)].position;
       const Vec3 bend = 2 * c[2] + 3 * c[3] + 3 * c[4] + 2.5 * c[5];  // h² times the acceleration halfway
-      worst = std::max(worst, (h * h * threeAt(rate, at + 7) - bend).norm());
+      const double rounding = kRounding * bodies()[i].position.norm();
+      const double wrong = std::max(0.0, (h * h * threeAt(rate, at + 7) - bend).norm() - rounding);  // [m]
+      worst = std::max({worst, wrong / 24, kOfSpeedBetween * timeToFall(*bodies()[i].body) / h * wrong / 7});
     }
   }
   system_.rate(end_, endRate_);  // event functions are those of the end
-  return worst / 24 / tolerance_;
+  return worst / tolerance_;
 }
 
 // Contacts give no energy. A step that gained some passed a moment at which the forces are without bound, in

@@ -32,10 +32,10 @@ constexpr int kStepAttempts = 60;
 constexpr int kStepRefinements = 50;
 constexpr int kMostUnsolved = 10;
 /// [1] of a step: a moment, in which forces do next to nothing and only impulses count. In a much shorter one
-/// what gravity gives would count as none, and no impulses be found.
+/// what gravity gives would count as none, and no impulses be found. It is no longer than what moves nothing.
 constexpr double kMoment = 0x1p-6;
-/// [1] of the fastest speed, and of the change in a step: a change of velocity that is looked at again, and
-/// one that stays however short the step.
+/// [1] of the fastest speed and, in the step, of what counts as closed: a change of velocity that is looked
+/// at again. Of that change: one that stays however short the step.
 constexpr double kJolt = 0x1p-4;
 constexpr double kStays = 0.5;
 /// [1] of a step: roots are told apart.
@@ -197,22 +197,25 @@ bool TimeStepper::tryHalves(double h) {
 // moment, and the step becomes that moment. Else it would go on with the velocities before while they grow.
 void TimeStepper::shortenJolt(double& h) {
   const double change = changeTo(end_);
-  if (change <= kJolt * fastestOf(start_)) {
+  if (change <= kJolt * fastestOf(start_) || change * h <= kJolt * closed()) {
     return;
   }
+  const double acceleration = equations_.freeAcceleration(start_);
+  const double still = acceleration > 0 ? std::sqrt(0.25 * closed() / acceleration) : kForever;
+  const double part = std::min(kMoment, still / h);
   const std::vector<ClosedContact> found = law_;
   choose(h);
-  jolted_ = tryStep(kMoment * h) && changeTo(coarse_) > kStays * change;
+  jolted_ = tryStep(part * h) && changeTo(coarse_) > kStays * change;
   if (!jolted_) {
     law_ = found;
   } else {
     halved_ = false;
-    h *= kMoment;
+    h *= part;
     addJolt(h, change);
     strikeAtStart(h);
     for (ClosedContact& contact : law_) {  // what the next step starts from
-      contact.push *= kMoment;
-      contact.friction *= kMoment;
+      contact.push *= part;
+      contact.friction *= part;
     }
   }
 }

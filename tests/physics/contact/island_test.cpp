@@ -17,8 +17,11 @@ struct Lying {
   explicit Lying(Vec3 halfExtents) : half(std::move(halfExtents)) {
     world.gravity = Vec3(0, 0, -kGravity);
     world.walls = {{.name = "floor", .material = {0, kFriction}}};
-    world.bodies = {
-        {.name = "box", .halfExtents = half, .mass = solidBox(half, 2), .material = {}, .initial = {}}};
+    world.bodies = {{.name = "box",
+                     .halfExtents = half,
+                     .mass = solidBox(half, 2),
+                     .material = {0, kFriction},
+                     .initial = {}}};
   }
 
   TouchingBody run(const Vec3& velocity, double spin, double tolerance) {
