@@ -233,6 +233,9 @@ void Books::check() {
     due_ = holdings([&](std::size_t body) -> const BodyState& { return run_.world.bodies[body].initial; },
                     springEnergyAt(0));
   }
+  momentum_.with(samples_.times().front(), 0);
+  angularMomentum_.with(samples_.times().front(), 0);
+  rise_.with(samples_.times().front(), 0);
   fall_.with(samples_.times().front(), -due_.energy);
   for (std::size_t moment = 1; moment < all.size(); ++moment) {
     balance(samples_.times()[moment], all[moment], externals[moment - 1]);

@@ -13,6 +13,8 @@ namespace {
 constexpr double kMoment = 0x1p-40;
 /// [1] of the tolerance: how far recorded steps may differ from those computed, so that fewer are recorded.
 constexpr double kMerged = 0.25;
+/// [1] of that, without gravity: what moves slowly does so for long, and its momentum is all there is.
+constexpr double kMergedAfloat = 0x1p-4;
 
 }  // namespace
 
@@ -101,10 +103,14 @@ void ExactWorld::joinStep(const std::shared_ptr<ContactGroup>& crowd, const Enco
   }
 }
 
+double ExactWorld::mergedWithin() const {
+  return kMerged * crowds_.tolerance * (world_.gravity.isZero(0) ? kMergedAfloat : 1);
+}
+
 void ExactWorld::keepPlace(const std::shared_ptr<ContactGroup>& crowd, int rank, std::size_t place) {
   if (place >= crowd->ranks.size()) {
     crowd->ranks.resize(place + 1, -1);
-    crowd->joined.resize(place + 1, JoinedSteps(kMerged * crowds_.tolerance));
+    crowd->joined.resize(place + 1, JoinedSteps(mergedWithin()));
     crowd->motions.resize(place + 1);
   }
   crowd->ranks[place] = rank;
@@ -143,7 +149,7 @@ void ExactWorld::enlist(const std::shared_ptr<ContactGroup>& crowd, int rank, co
 // it bent theirs.
 JoinedSteps ExactWorld::comingFrom(const ContactGroup& crowd, const Mover& body, const Instant& time,
                                    const BodyState& state, const Quat& attitude) const {
-  JoinedSteps joined(kMerged * crowds_.tolerance);
+  JoinedSteps joined(mergedWithin());
   const double length = std::min(0.5 * crowd.before, secondsBetween(body.start, time));
   if (length > 0) {
     const auto endAt = [&](const BodyState& at, const Quat& turned) {
@@ -271,13 +277,14 @@ void ExactWorld::commit(ContactGroup& group, const Instant& time) {
                        .impulse = struck.impulse,
                        .tangential = struck.tangential});
   }
+  const std::vector<char> suddenly = changedSuddenly(group);
   for (std::size_t place = 0; place < group.ranks.size(); ++place) {
     const int rank = group.ranks[place];
     if (rank < 0) {
       continue;
     }
     if (crowd.moved(place)) {
-      endStep(group, place);
+      endStep(group, place, suddenly);
     }
     // Perhaps without having moved: woken in this step, and asleep again when that was taken once more.
     if (crowd.sleeps(place) && mover(rank).moves()) {
@@ -290,10 +297,23 @@ void ExactWorld::commit(ContactGroup& group, const Instant& time) {
   group.before = group.step.length > 0 ? group.step.length : group.before;
 }
 
-void ExactWorld::endStep(ContactGroup& group, std::size_t place) {
+// Only of interest where members are new.
+std::vector<char> ExactWorld::changedSuddenly(const ContactGroup& group) {
+  for (std::size_t place = 0; place < group.ranks.size(); ++place) {
+    if (group.ranks[place] >= 0 && group.crowd->moved(place) && group.joined[place].isNew()) {
+      return group.crowd->changedSuddenly();
+    }
+  }
+  return {};
+}
+
+// What was no member before comes as it came, unless it is struck, or pushes what is: their paths begin
+// alike.
+void ExactWorld::endStep(ContactGroup& group, std::size_t place, std::span<const char> suddenly) {
   const Crowd& crowd = *group.crowd;
   JoinedSteps& joined = group.joined[place];
-  joined.add(recorder_, mover(group.ranks[place]).listed, group.start.hi, crowd.begin(place, joined.isNew()),
+  const bool asItCame = joined.isNew() && suddenly[place] == 0;
+  joined.add(recorder_, mover(group.ranks[place]).listed, group.start.hi, crowd.begin(place, asItCame),
              crowd.end(place), crowd.length(), crowd.body(place).radius);
 }
 

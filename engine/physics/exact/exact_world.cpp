@@ -188,10 +188,16 @@ void ExactWorld::end() {
       arrive(body, end_, body.stateAt(end_));
     }
   }
+  const ContactGroup* last = nullptr;
+  std::vector<char> suddenly;  // of its members
   for (Mover& body : movers_) {
     if (body.touches()) {
       if (body.contactGroup->crowd) {  // whose energy is known at the ends of its steps
-        endStep(*body.contactGroup, body.place);
+        if (body.contactGroup.get() != last) {
+          last = body.contactGroup.get();
+          suddenly = changedSuddenly(*last);
+        }
+        endStep(*body.contactGroup, body.place, suddenly);
         body.contactGroup->joined[body.place].flush(recorder_, body.listed);
         continue;
       }

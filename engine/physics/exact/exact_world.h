@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -35,10 +36,10 @@ class ExactWorld {
 
   /// Island::work() that bodies may spend together before they go on as a crowd: each so much at once, and so
   /// much per simulated second; at a tolerance below 1e-6 m more, as steps get shorter; of more than
-  /// kMostUnshared bodies in the scene each less, as the fourth power: a heap costs more per body the larger it
-  /// is, so that 128 poured boxes would spend 20 s on their first 1.3 s in contact. A unit takes about
-  /// 0.3 to 1 µs. Counted, not timed, so that the motion is the same on every machine, and independent of
-  /// when the run ends.
+  /// kMostUnshared bodies in the scene each less, as the fourth power: a heap costs more per body the larger
+  /// it is, so that 128 poured boxes would spend 20 s on their first 1.3 s in contact. A unit takes about 0.3
+  /// to 1 µs. Counted, not timed, so that the motion is the same on every machine, and independent of when
+  /// the run ends.
   static constexpr double kWorkAtOnce = 6e5;
   static constexpr double kWorkPerSecond = 5e4;
   static constexpr double kMostUnshared = 72;
@@ -93,6 +94,8 @@ class ExactWorld {
               const BodyState& state, const Quat& attitude);
   void enlistAtRest(const std::shared_ptr<ContactGroup>& crowd, int rank);
   void keepPlace(const std::shared_ptr<ContactGroup>& crowd, int rank, std::size_t place);
+  /// [m] How far recorded steps of a crowd may differ from those computed.
+  double mergedWithin() const;
   JoinedSteps comingFrom(const ContactGroup& crowd, const Mover& body, const Instant& time,
                          const BodyState& state, const Quat& attitude) const;
   void merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup& other);
@@ -102,7 +105,8 @@ class ExactWorld {
   void commit(ContactGroup& crowd, const Instant& time);
   std::vector<int> release(ContactGroup& crowd, const Instant& time);
   void go(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
-  void endStep(ContactGroup& crowd, std::size_t place);
+  static std::vector<char> changedSuddenly(const ContactGroup& group);
+  void endStep(ContactGroup& crowd, std::size_t place, std::span<const char> suddenly);
   std::vector<int> outsidersIn(const Crowd::Extent& extent, const ContactGroup& crowd, const Instant& time,
                                double length) const;
   void admitNear(const std::shared_ptr<ContactGroup>& crowd, const Instant& time, double length);

@@ -28,6 +28,12 @@ constexpr double kTooDeep = 1.5;   // [1] of the tolerance: new penetration for 
 constexpr double kMostBent = 1;    // [1] of the tolerance: how far corners may leave their tangents in a step
 constexpr double kMostScaled = 4;  // [1] of stored impulses, to a longer step
 
+// [rad/s] What an angular impulse [N m s] changes.
+Vec3 spinBy(const PileBody& body, const Vec3& angularImpulse) {
+  const Mat3 axes = body.principalAxes();
+  return axes * body.inverseInertiaBody.cwiseProduct(axes.transpose() * angularImpulse);
+}
+
 }  // namespace
 
 Crowd::Crowd(const World& world, double tolerance)
@@ -274,7 +280,7 @@ void Crowd::findLoads() {
         PileBody halfway = bodies_[i];
         const double ahead = 0.5 * h_;
         halfway.velocity += halfway.behind * accelerationBefore(i) + ahead * acceleration(i);
-        halfway.angularMomentum += ahead * loads_[listed_[i]].torque;
+        halfway.angularMomentum += halfway.behind * torqueBefore(i) + ahead * torque(i);
         halfway.position += ahead * halfway.velocity;
         turnFree(halfway, ahead);
         worldStates_[listed_[i]] = stateOf(halfway);
@@ -292,6 +298,15 @@ Vec3 Crowd::acceleration(std::size_t place) const {
 Vec3 Crowd::accelerationBefore(std::size_t place) const {
   return loadsBefore_.empty() ? world_.gravity
                               : Vec3(bodies_[place].inverseMass * loadsBefore_[listed_[place]].force);
+}
+
+// [N m] Likewise.
+Vec3 Crowd::torque(std::size_t place) const {
+  return loads_.empty() ? Vec3(Vec3::Zero()) : loads_[listed_[place]].torque;
+}
+
+Vec3 Crowd::torqueBefore(std::size_t place) const {
+  return loadsBefore_.empty() ? Vec3(Vec3::Zero()) : loadsBefore_[listed_[place]].torque;
 }
 
 // The change threshold that re-solves neighbours adapts to the effort of the last step: coarse during heavy
@@ -326,9 +341,7 @@ void Crowd::loadSolver() {
           body.velocity + body.behind * accelerationBefore(i) + 0.5 * h_ * acceleration(i);
       solver_.omega(index) = body.omega;
       if (!loads_.empty()) {
-        const Mat3 axes = body.principalAxes();
-        const Vec3 turned = axes.transpose() * loads_[listed_[i]].torque;
-        solver_.omega(index) += h_ * (axes * body.inverseInertiaBody.cwiseProduct(turned));
+        solver_.omega(index) += spinBy(body, body.behind * torqueBefore(i) + 0.5 * h_ * torque(i));
       }
       speed_ = std::max({speed_, solver_.velocity(index).cwiseAbs().maxCoeff(),
                          body.radius * solver_.omega(index).cwiseAbs().maxCoeff()});
@@ -361,6 +374,11 @@ void Crowd::move() {
               .angularMomentum = body.angularMomentum,
               .pushed = solver_.pushed(index),
               .moved = true};
+    if (!loads_.empty()) {
+      const Vec3 turned = body.behind * torqueBefore(i);
+      before.omega += spinBy(body, turned);
+      before.angularMomentum += turned;
+    }
     body.path += body.ahead;
     body.turned += body.turning;
     body.position += h_ * solver_.velocity(index);
@@ -385,8 +403,8 @@ void Crowd::move() {
       turnFree(body, h_);
     } else {
       body.velocity = solver_.velocity(index) + 0.5 * h_ * acceleration(i);
-      body.behind = 0;
       turnUnderLoad(body, i);
+      body.behind = 0;
     }
     if (shifted) {
       turnBy(body, solver_.turn(index));
@@ -403,7 +421,7 @@ void Crowd::turnUnderLoad(PileBody& body, std::size_t place) const {
     return;
   }
   turnFree(body, 0.5 * h_);
-  body.angularMomentum += h_ * loads_[listed_[place]].torque;
+  body.angularMomentum += body.behind * torqueBefore(place) + h_ * torque(place);
   turnFree(body, 0.5 * h_);
 }
 

@@ -102,10 +102,12 @@ class Crowd {
   const PileBody& body(std::size_t place) const { return bodies_[place]; }
   const Body& listedBody(std::size_t place) const { return world_.bodies[listed_[place]]; }
   /// Whether it moved in the last step; then where that step began and ended. Where something pushed it, it
-  /// moves straight and both ends have the mean velocity; `asItCame`: but for the begin, if no more than
-  /// lasting forces changed its velocity.
+  /// moves straight and both ends have the mean velocity; `asItCame`: but for the begin.
   bool moved(std::size_t place) const { return before_[place].moved; }
   StepEnd begin(std::size_t place, bool asItCame = false) const;
+  /// By place, of the last step: whether its velocity changed by more than lasting forces do, or that of one
+  /// which it pushed, directly or through others.
+  std::vector<char> changedSuddenly() const;
   StepEnd end(std::size_t place) const;
   double length() const { return h_; }
   /// Nothing was near it for a few steps.
@@ -174,7 +176,7 @@ class Crowd {
     bool moved = false;
   };
   Vec3 meanSpin(std::size_t place) const;
-  bool onlyGivesWay(std::size_t place) const;
+  bool changesSuddenly(std::size_t place) const;
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const PileBody& bodyAt(Partner partner) const { return bodies_[at(partner.body())]; }
   const Wall& wallAt(Partner partner) const { return world_.walls[partner.wall()]; }
@@ -190,6 +192,8 @@ class Crowd {
   Vec3 acceleration(std::size_t place) const;
   Vec3 accelerationBefore(std::size_t place) const;
   Vec3 halfKick(std::size_t place) const { return bodies_[place].behind * acceleration(place); }
+  Vec3 torque(std::size_t place) const;
+  Vec3 torqueBefore(std::size_t place) const;
   double slowestBounce(const PileManifold& manifold) const;
   void lookAround();
   double wayLeft(const PilePair& pair) const;

@@ -49,6 +49,7 @@ void Crowd::bounce() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (solver_.pushed(static_cast<int>(i))) {
       takeVelocity(bodies_[i], static_cast<int>(i));
+      bodies_[i].angularMomentum += bodies_[i].behind * torque(i);
       deriveOmega(bodies_[i]);
       bodies_[i].velocity += halfKick(i);
       bodies_[i].behind = 0;

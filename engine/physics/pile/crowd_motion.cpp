@@ -52,6 +52,7 @@ BodyState Crowd::stateAtVelocity(std::size_t place) const {
 BodyState Crowd::stateAtEnd(std::size_t place) const {
   BodyState state = stateOf(bodies_[place]);
   state.velocity += halfKick(place);
+  state.angularMomentum += bodies_[place].behind * torque(place);
   return state;
 }
 
@@ -81,19 +82,42 @@ Vec3 Crowd::meanSpin(std::size_t place) const {
   return (turn.w() < 0 ? -angle : angle) / h_ * turn.vec();
 }
 
-// Whether no more than what lasting forces do changed its velocity in the last step.
-bool Crowd::onlyGivesWay(std::size_t place) const {
+// Whether more than what lasting forces do changed its velocity in the last step.
+bool Crowd::changesSuddenly(std::size_t place) const {
   const Before& from = before_[place];
   const PileBody& body = bodies_[place];
   const double change = ((body.position - from.position) / h_ - from.velocity).norm() +
                         body.radius * (meanSpin(place) - from.attitude.conjugate() * from.omega).norm();
-  return change <= kLasting * acceleration(place).norm() * h_;
+  return change > kLasting * acceleration(place).norm() * h_;
+}
+
+std::vector<char> Crowd::changedSuddenly() const {
+  DisjointSets pushing(bodies_.size());
+  for (const int slot : near_) {
+    const PileManifold& manifold = manifolds_[at(slot)];
+    const auto* const end = manifold.points.data() + manifold.count;
+    if (!manifold.b.isWall() && before_[at(manifold.a)].moved && before_[at(manifold.b.body())].moved &&
+        std::any_of(manifold.points.data(), end,
+                    [](const PilePoint& point) { return point.row >= 0 && point.normalImpulse > 0; })) {
+      pushing.join(at(manifold.a), at(manifold.b.body()));
+    }
+  }
+  std::vector<char> suddenly(bodies_.size(), 0);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (before_[i].moved && before_[i].pushed && changesSuddenly(i)) {
+      suddenly[pushing.root(i)] = 1;
+    }
+  }
+  for (std::size_t i = bodies_.size(); i-- > 0;) {  // a set goes by its least member
+    suddenly[i] = suddenly[pushing.root(i)];
+  }
+  return suddenly;
 }
 
 StepEnd Crowd::begin(std::size_t place, bool asItCame) const {
   const Before& from = before_[place];
   StepEnd end{.position = from.position, .worldFromBody = from.attitude};
-  if (from.pushed && !(asItCame && onlyGivesWay(place))) {
+  if (from.pushed && !asItCame) {
     end.velocity = (bodies_[place].position - from.position) / h_;
     end.spinBody = meanSpin(place);
   } else {
