@@ -365,6 +365,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"physics/contact/contact_forces", "rebuilt with the contact solver; until then tested through island"},
     {"physics/contact/contact_system", "rebuilt with the contact solver; until then tested through island"},
     {"physics/contact/time_stepper_contacts", "part of class TimeStepper, tested through time_stepper"},
+    {"physics/contact/time_stepper_jolts", "part of class TimeStepper, tested through time_stepper"},
     {"physics/contact/time_stepper_watches", "part of class TimeStepper, tested through time_stepper"},
     {"physics/contact/implicit_step_contacts", "part of class ImplicitStep, tested through implicit_step"},
     {"physics/contact/island_dips", "part of class Island, tested through island"},

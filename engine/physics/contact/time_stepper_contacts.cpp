@@ -230,22 +230,6 @@ ImpactContact TimeStepper::impactAt(std::size_t found) const {
           .material = feature.material};
 }
 
-// The impulses of a moment of `h` are those of an impact without approach.
-void TimeStepper::addJolt(double h, double change) {
-  for (std::size_t c = 0; c < found_.size(); ++c) {
-    const auto with = std::find_if(law_.begin(), law_.end(), [&](const ClosedContact& contact) {
-      return isSame(contact.feature, found_[c].feature);
-    });
-    if (with != law_.end() && with->push > 0) {
-      impacts_.push_back({.contact = impactAt(c),
-                          .share = {.approach = std::max(0.0, -found_[c].rate),
-                                    .impulse = h * with->push,
-                                    .tangential = h * with->friction.norm()},
-                          .cause = change});
-    }
-  }
-}
-
 // Forgets what is no more than gravity gives in the step.
 void TimeStepper::keepImpacts() {
   const double least = 2 * world_.gravity.norm() * length_;
