@@ -134,6 +134,20 @@ TEST_F(Render, drawsTheOverlaysOfTheSceneOrThoseAskedFor) {
   EXPECT_NE(textOf(folder_ / "explained/report.json").find(R"("overlays": "velocity")"), std::string::npos);
 }
 
+// Glyphs and boxes that occlude boxes are both in textures that stay from frame to frame.
+TEST_F(Render, textIsTheSameWhateverFrameWasDrawnBefore) {
+  std::string text = kFilmScene;
+  const std::string boxes = R"("boxes": [ )";
+  text.insert(text.find(boxes) + boxes.size(),
+              R"({ "half_extents": [0.5, 0.5, 0.2], "mass": 1, "position": [0, 0, 0.2] }, )");
+  folder_.write("two.json", text);
+  ASSERT_EQ(careen({"render", "two.json", "--jobs", "1", "--overlays", "names", "--out", "film"}).exitCode,
+            0);
+  const std::string alone = frameOf({"two.json", "--overlays", "names"}, "alone");
+  EXPECT_EQ(textOf(folder_ / "film/000003.png"), alone);
+  EXPECT_NE(frameOf({"two.json"}, "nameless"), alone);
+}
+
 TEST_F(Render, looksAndAntialiasingOfTheCommandLineTakeTheScenesPlace) {
   const std::string usual = frameOf({"scene.json"}, "usual");
   EXPECT_EQ(frameOf({"scene.json", "--look", "studio", "--antialiasing", "edges"}, "same"), usual);

@@ -27,19 +27,23 @@ void fill(const Course<Vector>& from, const Course<Vector>& to, double h, std::a
 }
 
 template <class Vector>
-void fillCubic(const Course<Vector>& from, const Course<Vector>& to, double h, std::array<Vector, 4>& c) {
-  const Vector d = to.value - from.value;
-  c[0] = from.value;
-  c[1] = h * from.rate;
-  c[2] = 3 * d - h * (2 * from.rate + to.rate);
-  c[3] = h * (from.rate + to.rate) - 2 * d;
+void fillCubic(const Vector& from, const Vector& rateFrom, const Vector& to, const Vector& rateTo, double h,
+               std::array<Vector, 4>& c) {
+  const Vector d = to - from;
+  c[0] = from;
+  c[1] = h * rateFrom;
+  c[2] = 3 * d - h * (2 * rateFrom + rateTo);
+  c[3] = h * (rateFrom + rateTo) - 2 * d;
 }
 
 Quat pure(const Vec3& v) { return {0, v[0], v[1], v[2]}; }
 
-// q̇ = ½ q ω, q̈ = ½ (q̇ ω + q ω̇), with ω in the body's frame.
+// q̇ = ½ q ω, with ω in the body's frame.
+Vec4 turningRate(const StepEnd& end) { return 0.5 * (end.worldFromBody * pure(end.spinBody)).coeffs(); }
+
+// q̈ = ½ (q̇ ω + q ω̇).
 Course<Vec4> turning(const StepEnd& end) {
-  const Vec4 rate = 0.5 * (end.worldFromBody * pure(end.spinBody)).coeffs();
+  const Vec4 rate = turningRate(end);
   const Vec4 bent =
       (Quat(rate) * pure(end.spinBody)).coeffs() + (end.worldFromBody * pure(end.spinRateBody)).coeffs();
   return {end.worldFromBody.coeffs(), rate, 0.5 * bent};
@@ -57,12 +61,11 @@ ContactStep hermiteStep(const StepEnd& from, const StepEnd& to, double length) {
 
 CrowdStep cubicStep(const StepEnd& from, const StepEnd& to, double length) {
   CrowdStep step{.duration = length > 0 ? length : 1};
-  fillCubic<Vec3>({from.position, from.velocity, {}}, {to.position, to.velocity, {}}, length, step.position);
-  Course<Vec4> end = turning(to);
-  if (end.value.dot(from.worldFromBody.coeffs()) < 0) {
-    end = {-end.value, -end.rate, -end.acceleration};
-  }
-  fillCubic<Vec4>(turning(from), end, length, step.worldFromBody);
+  fillCubic(from.position, from.velocity, to.position, to.velocity, length, step.position);
+  const Vec4& turned = from.worldFromBody.coeffs();
+  const double sign = to.worldFromBody.coeffs().dot(turned) < 0 ? -1 : 1;
+  fillCubic<Vec4>(turned, turningRate(from), sign * to.worldFromBody.coeffs(), sign * turningRate(to), length,
+                  step.worldFromBody);
   return step;
 }
 

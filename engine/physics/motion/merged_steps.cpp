@@ -18,24 +18,37 @@ void roundTo(double grid, Vectors& coefficients) {
   }
 }
 
+template <class Vector>
+Vector cubicAt(const std::array<Vector, 4>& c, double s) {
+  return ((c[3] * s + c[2]) * s + c[1]) * s + c[0];
+}
+
 }  // namespace
 
-// The quaternions of one path keep their sign: those of the cubic are compared as they are.
-bool MergedSteps::follows(const ContactStep& step, double radius) const {
-  return std::all_of(
-      samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(count_), [&](const Sample& sample) {
-        const Quat there = attitudeAt(step, sample.elapsed);
-        const Quat turned(sample.worldFromBody);
-        const double turn = 2 * (there.conjugate() * turned).vec().norm();
-        return (positionAt(step, sample.elapsed) - sample.position).norm() + radius * turn <= within_;
-      });
+// The quaternions of one path keep their sign: those of the cubic are compared as they are. From the last
+// sample on: it is the first to be missed.
+bool MergedSteps::follows(const CrowdStep& step, double radius) const {
+  for (std::size_t k = count_; k-- > 0;) {
+    const double s = samples_[k].elapsed / step.duration;
+    const double off = (cubicAt(step.position, s) - samples_[k].position).norm();
+    if (!(off <= within_)) {
+      return false;
+    }
+    const Quat there = Quat(cubicAt(step.worldFromBody, s)).normalized();
+    const double turn = 2 * (there.conjugate() * Quat(samples_[k].worldFromBody)).vec().norm();
+    if (!(off + radius * turn <= within_)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 MergedSteps::Sample MergedSteps::middleOf(const StepEnd& from, const StepEnd& to, double length) {
-  const ContactStep step = asContactStep(cubicStep(from, to, length));
+  const CrowdStep step = cubicStep(from, to, length);
+  const double s = 0.5 * length / step.duration;
   return {.elapsed = 0.5 * length,
-          .position = positionAt(step, 0.5 * length),
-          .worldFromBody = attitudeAt(step, 0.5 * length).coeffs()};
+          .position = cubicAt(step.position, s),
+          .worldFromBody = Quat(cubicAt(step.worldFromBody, s)).normalized().coeffs()};
 }
 
 void MergedSteps::add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,
@@ -46,7 +59,7 @@ void MergedSteps::add(Recorder& recorder, BodyIndex body, double time, const Ste
         .elapsed = length_, .position = from.position, .worldFromBody = from.worldFromBody.coeffs()};
     middle.elapsed += length_;
     samples_[count_++] = middle;
-    if (follows(asContactStep(cubicStep(from_, to, length_ + length)), radius)) {
+    if (follows(cubicStep(from_, to, length_ + length), radius)) {
       to_ = to;
       length_ += length;
       return;

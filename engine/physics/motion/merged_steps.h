@@ -33,7 +33,7 @@ class MergedSteps {
     Vec4 worldFromBody = Vec4::Zero();
   };
   static Sample middleOf(const StepEnd& from, const StepEnd& to, double length);
-  bool follows(const ContactStep& step, double radius) const;
+  bool follows(const CrowdStep& step, double radius) const;
 
   double within_;
   double time_ = 0;

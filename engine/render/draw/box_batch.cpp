@@ -9,6 +9,7 @@
 #include "render/draw/face_records.h"
 #include "render/gl/gl.h"
 #include "render/gl/shader.h"
+#include "render/gl/texture_units.h"
 
 namespace careen {
 namespace {
@@ -18,7 +19,6 @@ namespace {
 constexpr float kBehindSlopes = 0.05F;
 constexpr float kBehindSteps = 8;
 
-constexpr unsigned kNeighborUnit = 1;
 constexpr std::size_t kTexturePower = 10;  // of two texels in a row, see neighbors.vert
 
 constexpr std::initializer_list<Attribute> kFaceAttributes = {{0, 3}, {1, 3}, {2, 3}, {3, 3},

@@ -9,6 +9,7 @@
 
 #include "render/gl/gl.h"
 #include "render/gl/shader.h"
+#include "render/gl/texture_units.h"
 
 namespace careen {
 namespace {
@@ -20,7 +21,6 @@ constexpr double kSoft = 1;             // [px] beyond an edge that are still pa
 constexpr double kSharpestBend = 0.2;   // cosine; at sharper bends a ribbon is split
 constexpr double kShortestPiece = 0.5;  // [px] of a ribbon's segments
 constexpr int kHighestAtlas = 2048;     // [px]
-constexpr int kAtlasUnit = 1;           // texture unit; the shadow map uses unit 0
 
 using Values = std::array<double, 4>;
 
@@ -181,10 +181,10 @@ OverlayBatch::OverlayBatch(const Gl& gl, const std::filesystem::path& shaders, i
       vertices_(gl, {{0, 2}, {1, 4}, {2, 4}, {3, 4}, {4, 2}}, VertexBuffer::Step::kVertex),
       program_(linkProgram(gl, shaders, {"overlay.vert", "overlay.frag"})) {
   gl.UseProgram(program_);
-  gl.Uniform1i(gl.GetUniformLocation(program_, "atlas"), kAtlasUnit);
+  gl.Uniform1i(gl.GetUniformLocation(program_, "atlas"), kGlyphUnit);
   gl.Uniform2f(gl.GetUniformLocation(program_, "pictureSize"), static_cast<float>(width),
                static_cast<float>(height));
-  gl.ActiveTexture(GL_TEXTURE0 + kAtlasUnit);
+  gl.ActiveTexture(GL_TEXTURE0 + kGlyphUnit);
   gl.GenTextures(1, &texture_);
   gl.BindTexture(GL_TEXTURE_2D, texture_);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -207,7 +207,7 @@ void OverlayBatch::sendAtlas() {
     return;
   }
   sentRevision_ = atlas_.revision();
-  gl_.ActiveTexture(GL_TEXTURE0 + kAtlasUnit);
+  gl_.ActiveTexture(GL_TEXTURE0 + kGlyphUnit);
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, GlyphAtlas::kWidth, atlas_.height(), 0, GL_RED, GL_UNSIGNED_BYTE,
                  atlas_.coverage().data());
   gl_.ActiveTexture(GL_TEXTURE0);
