@@ -49,8 +49,8 @@ std::string adviceOn(const std::string& message) {
   if (found != kAdvice.end()) {
     return "next: " + std::string(found->next);
   }
-  return namesALine(message) ? "next: 'careen help scenes' explains scenes (in m, kg, s); "
-                               "assets/scene.schema.json has all keys"
+  return namesALine(message) ? "next: 'careen help scenes' explains scenes (in m, kg, s) "
+                               "and says where all keys are listed"
                              : "";
 }
 

@@ -108,8 +108,9 @@ Films filmsIn(const std::filesystem::path& expected, const std::filesystem::path
 }
 
 void printFrame(std::ostream& out, const FrameComparison& frame) {
+  const char* const only = frame.verdict == Verdict::kWarning ? "warning: " : "";
   for (const std::string& reason : frame.reasons) {
-    out << "  " << printableName(frame.name + ": " + reason) << '\n';
+    out << "  " << only << printableName(frame.name + ": " + reason) << '\n';
   }
 }
 
@@ -270,11 +271,15 @@ Comparison compare(const std::filesystem::path& expected, const std::filesystem:
     throw InputError("found " + std::string(nameOf(kind)) + " and " + nameOf(other) +
                      ", expected two pictures, two folders or two runs");
   }
-  if (kind == Kind::kPicture) {
-    return comparePictures(expected, actual, settings);
-  }
   if (kind == Kind::kRun) {
     return compareRunsOrTables(expected, actual, settings, scene, stop);
+  }
+  if (settings.motionTolerance > 0) {
+    throw InputError("--motion: found " + brief(settings.motionTolerance) + " and " + nameOf(kind) +
+                     ", expected same or any: only of runs it is known how far apart boxes are");
+  }
+  if (kind == Kind::kPicture) {
+    return comparePictures(expected, actual, settings);
   }
   if (scene.path) {
     throw InputError("--scene: found " + std::string(nameOf(kind)) + ", expected a table of poses");

@@ -255,7 +255,8 @@ std::string runHeadline(const RunDifference& run, bool same) {
     text += "; the difference grows " + brief(*run.growthPerImpact) +
             "-fold from impact to impact, and from " + brief(*run.horizon) + " s on chaos has taken over";
   } else if (run.horizon) {
-    text += ", by more than a hundredth of a box after " + brief(*run.horizon) + " s";
+    text += ", by more than a hundredth of a box after " +
+            brief(std::max(*run.horizon, run.firstTime.value_or(0))) + " s";
   }
   return text;
 }
@@ -269,8 +270,13 @@ std::vector<Fact> factsOf(const Trajectory& expected, const Trajectory& actual) 
   add("state hash", [](const Trajectory& run) { return run.stateHash(); });
   add("method", [](const Trajectory& run) { return run.methodName(); });
   add("tolerance [m]", [](const Trajectory& run) { return brief(run.settings.tolerance); });
-  add("energy change [1]", [](const Trajectory& run) { return brief(run.figures.energyChange); });
-  add("deepest penetration [m]", [](const Trajectory& run) { return brief(run.figures.deepestPenetration); });
+  // Whoever wrote a table told no figures.
+  const auto told = [](const Trajectory& run, double figure) {
+    return run.given ? std::string("not told") : brief(figure);
+  };
+  add("energy change [1]", [&](const Trajectory& run) { return told(run, run.figures.energyChange); });
+  add("deepest penetration [m]",
+      [&](const Trajectory& run) { return told(run, run.figures.deepestPenetration); });
   return facts;
 }
 

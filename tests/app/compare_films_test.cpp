@@ -53,6 +53,10 @@ TEST_F(CompareFilms, motionAndPicturesAreToldApart) {
   EXPECT_EQ(ended.exitCode, 1);
   EXPECT_TRUE(ended.out.starts_with("differs: other motion, same ")) << ended.out;
   EXPECT_EQ(careen({"compare", "one", "motion", "--motion", "any"}).exitCode, 0);
+  ended = careen({"compare", "one", "motion", "--motion", "0.05"});
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_NE(ended.err.find("--motion: found 0.05 and a folder, expected same or any"), std::string::npos)
+      << ended.err;
 }
 
 TEST_F(CompareFilms, lostFramesAreNamed) {
