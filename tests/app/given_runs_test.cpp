@@ -164,5 +164,19 @@ TEST_F(GivenRuns, npzIsAnOutputLikeOthers) {
   EXPECT_TRUE(textOf(folder_ / "run.npz").starts_with("PK"));
 }
 
+// It tumbles and lands between two rows, where a cubic through them would be 7 mm behind the wall.
+TEST_F(GivenRuns, anExactRunAsATableOfFewRowsIsAuditedAtThem) {
+  folder_.write("fall.json", R"({
+    "careen": 1, "duration": 1.5, "gravity": [1, 0.5, -9],
+    "walls": [ { "name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1], "friction": 0.4 } ],
+    "boxes": [ { "half_extents": [0.12966058179601558, 0.14822047051272494, 0.14904093304985672],
+                 "position": [-0.08740593326887858, -0.6485147773826307, 1.445692713873119],
+                 "mass": 2.864424136243376,
+                 "angular_velocity": [-2.1494946941305053, -2.2399735882697436, 4.6161264687740005] } ] })");
+  ASSERT_EQ(careen({"simulate", "fall.json", "-o", "fall.careen", "--poses", "fall.csv"}).exitCode, 0);
+  const Ended ended = careen({"audit", "fall.csv", "--scene", "fall.json"});
+  EXPECT_EQ(ended.exitCode, 0) << ended.out << ended.err;
+}
+
 }  // namespace
 }  // namespace careen

@@ -1,7 +1,10 @@
 #include "physics/world/forces.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 
+#include "core/math/order_free_sum.h"
 #include "physics/world/kinematics.h"
 
 namespace careen {
@@ -23,12 +26,44 @@ EndMotion motionOf(const SpringEnd& end, const World& world, std::span<const Bod
   return {.position = state.pose.position + r, .velocity = pointVelocity(state.velocity, omega, r)};
 }
 
-void applyAt(const SpringEnd& end, const Vec3& point, const Vec3& force, std::span<const BodyState> states,
-             std::vector<Load>& loads) {
+using Six = std::array<double, 6>;  // force and torque
+
+struct SpringLoad {
+  std::size_t body = 0;
+  Six load{};
+};
+
+void addAt(const SpringEnd& end, const Vec3& point, const Vec3& force, std::span<const BodyState> states,
+           std::vector<SpringLoad>& loads) {
   if (end.body) {
-    const auto index = static_cast<std::size_t>(*end.body);
-    loads[index].force += force;
-    loads[index].torque += torqueAbout(point - states[index].pose.position, force);
+    const auto body = static_cast<std::size_t>(*end.body);
+    const Vec3 torque = torqueAbout(point - states[body].pose.position, force);
+    loads.push_back({body, {force[0], force[1], force[2], torque[0], torque[1], torque[2]}});
+  }
+}
+
+// The order in which springs are listed changes no bit.
+void addSprings(const World& world, std::span<const BodyState> states, std::vector<Load>& loads) {
+  std::vector<SpringLoad> parts;
+  parts.reserve(2 * world.springs.size());
+  for (const Spring& spring : world.springs) {
+    const Stretch stretch = stretchOf(spring, world, states);
+    const Vec3 force = springForce(spring, stretch) * stretch.direction;
+    addAt(spring.from, stretch.from, force, states, parts);
+    addAt(spring.to, stretch.to, -force, states, parts);
+  }
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const SpringLoad& x, const SpringLoad& y) { return x.body < y.body; });
+  std::vector<Six> ofBody;
+  for (auto begin = parts.begin(); begin != parts.end();) {
+    const std::size_t body = begin->body;
+    ofBody.clear();
+    for (; begin != parts.end() && begin->body == body; ++begin) {
+      ofBody.push_back(begin->load);
+    }
+    const Six sum = orderFreeSums<6>(ofBody);
+    loads[body].force += Vec3(sum[0], sum[1], sum[2]);
+    loads[body].torque += Vec3(sum[3], sum[4], sum[5]);
   }
 }
 
@@ -91,11 +126,8 @@ void computeLoads(const World& world, std::span<const BodyState> states, std::ve
       loads[i].torque += drag.torque;
     }
   }
-  for (const Spring& spring : world.springs) {
-    const Stretch stretch = stretchOf(spring, world, states);
-    const Vec3 force = springForce(spring, stretch) * stretch.direction;
-    applyAt(spring.from, stretch.from, force, states, loads);
-    applyAt(spring.to, stretch.to, -force, states, loads);
+  if (!world.springs.empty()) {
+    addSprings(world, states, loads);
   }
 }
 

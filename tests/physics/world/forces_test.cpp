@@ -1,5 +1,6 @@
 #include "physics/world/forces.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -103,6 +104,26 @@ TEST(Springs, pullTwoBodiesAlikeAndTurnNothingAsAWhole) {
 }
 
 // The ends meet: no line joins them, so there is nothing to pull along, whatever the rest length.
+TEST(Springs, listedInAnyOrderPullAlikeToTheBit) {
+  World world;
+  world.gravity = {0, 0, -9.81};
+  world.bodies = {makeBox({.halfExtents = {0.1, 0.2, 0.3}})};
+  for (int k = 0; k < 5; ++k) {
+    world.springs.push_back({.from = {.body = 0, .point = {0.1, 0.02 * k, 0.3 / (k + 1)}},
+                             .to = {.body = {}, .point = {1.1 * k, 1. / (k + 3), 0.7}},
+                             .stiffness = std::pow(7.3, k)});
+  }
+  const Load load = loadsOf(world)[0];
+  int differ = 0;
+  for (int k = 0; k < 120; ++k) {
+    std::next_permutation(world.springs.begin(), world.springs.end(),
+                          [](const Spring& x, const Spring& y) { return x.stiffness < y.stiffness; });
+    const Load other = loadsOf(world)[0];
+    differ += other.force == load.force && other.torque == load.torque ? 0 : 1;
+  }
+  EXPECT_EQ(differ, 0);
+}
+
 TEST(Springs, ofNoLengthPullNowhere) {
   World world;
   world.bodies = {heavyBox("a", {0, 0, 0})};
