@@ -294,9 +294,10 @@ void addRender(const CommandLine& commandLine) {
               "Folder for the frames, or file of a single picture (default: out/ and the scene's name)");
   const CommandOption frames =
       command.add("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
-  command.add("--ghost", options->ghost,
-              "Another run of these boxes (trajectory file or table of poses): drawn as outlines, with the "
-              "distance");
+  const CommandOption ghost = command.add(
+      "--ghost", options->ghost,
+      "Another run of these boxes (trajectory file or table of poses): drawn as outlines, with the "
+      "distance");
   const CommandOption truth =
       command.add("--truth", options->truth,
                   "Labels of every pixel of the frames too, as by 'careen truth': all, or names such as "
@@ -320,7 +321,7 @@ void addRender(const CommandLine& commandLine) {
       command
           .add("--strobe", options->strobe,
                "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
-          .excludes(frames, video, resume, truth, still);
+          .excludes(frames, video, resume, truth, still, ghost);
   const CommandLine comparing =
       command.addGroup("Comparing", "With a film that was made before: exit code 1 if this one differs");
   const CommandOption reference =

@@ -39,6 +39,19 @@ TEST_F(Still, isTheFramesPictureOfThatMoment) {
   EXPECT_EQ(textOf(folder_ / "still.png"), textOf(folder_ / "film/000003.png"));
 }
 
+// Boxes that do not move have no copies, whose shades and occlusion would count once.
+TEST_F(Still, ofWhatRestsIsThatOfManyMoments) {
+  folder_.write("scene.json", R"({
+    "careen": 1, "duration": 1, "gravity": [0, 0, -10],
+    "walls": [ { "point": [0, 0, 0], "normal": [0, 0, 1] } ],
+    "boxes": [ { "half_extents": [0.2, 0.2, 0.2], "mass": 1, "position": [-0.25, 0, 0.2] },
+               { "half_extents": [0.2, 0.2, 0.2], "mass": 1, "position": [0.25, 0, 0.2] } ],
+    "film": { "size": [160, 90], "fps": 10 } })");
+  ASSERT_EQ(render({"--still", "0", "--out", "still.png"}).exitCode, 0);
+  ASSERT_EQ(render({"--strobe", "0:0.5:0.25", "--out", "strobe.png"}).exitCode, 0);
+  EXPECT_EQ(textOf(folder_ / "strobe.png"), textOf(folder_ / "still.png"));
+}
+
 TEST_F(Still, hasAPlaceOfItsOwn) {
   ASSERT_EQ(render({"--still", "0.3"}).exitCode, 0);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out/scene-still.png"));
@@ -80,6 +93,7 @@ TEST_F(Still, badOptionsWriteNothing) {
                                              {"--strobe", "0:2:0.1"},
                                              {"--strobe", "0:1"},
                                              {"--strobe", "0:1:0.1", "--still", "0"},
+                                             {"--strobe", "0:1:0.1", "--ghost", "run.careen"},
                                              {"--still", "0", "--frames", "0-1"},
                                              {"--still", "0", "--video", "film.mp4"},
                                              {"--still", "0", "--resume"},

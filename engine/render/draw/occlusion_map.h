@@ -17,7 +17,8 @@ struct OcclusionView {
   Vec3 eye = Vec3::Zero();  ///< [m]
   double pixelAngle = 0;    ///< [rad]
   double least = 0;         ///< [1] boxes that cover no more of what a point sees are left out
-  /// Of several moments: at each point the box that covers most counts, and no other one.
+  /// Where a body is shown at several moments: at each point the box that covers most counts, and no other
+  /// one.
   bool leastOnly = false;
 };
 

@@ -93,7 +93,6 @@ struct Renderer::Parts {
   Materials materials;
   bool shadows;
   bool occlusion;
-  bool severalMoments = false;
   double pixel = 0;  // [rad] as drawn
   PictureCells shadedCells{View()};
   PictureCells occludedCells{View()};
@@ -189,7 +188,6 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
   widenSprings(drawn, view.eye, pixelAngle(from, stage.picture.height));
   sortFromEye(drawn, view.eye);
   pixel = pixelAngle(from, canvas.drawnHeight());
-  severalMoments = poses.size() > world.bodies.size();
   std::vector<DrawnFace> faces = facesTowards(drawn, view.eye, pixel);
   HiddenTiles hidden;
   if (drawn.size() >= kManyBoxes && stage.parts.empty()) {  // a mesh does not hide what its box would
@@ -229,8 +227,11 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
       neighbors = neighborsOf(drawn, faces, leastOnBoxes(world.bodies.size()));
     }
     if (occlusionMap) {
+      const auto shown =
+          std::count_if(drawn.begin(), drawn.end(), [](const DrawnBox& box) { return box.marked; });
+      const bool hasCopies = static_cast<std::size_t>(shown) > world.bodies.size();
       occlusionMap->place(drawn, surfaces.surfaces(),
-                          {.eye = view.eye, .pixelAngle = pixel, .least = least, .leastOnly = severalMoments},
+                          {.eye = view.eye, .pixelAngle = pixel, .least = least, .leastOnly = hasCopies},
                           hidden, occludedCells);
     }
   }
