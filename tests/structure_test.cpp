@@ -402,6 +402,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"render/draw/box_batch", "sends face_records; tested through renderer"},
     {"render/draw/face_records",
      "lists what drawn_box, neighbors and shadow_pairs find; tested through renderer"},
+    {"render/gl/texture_units", "names only"},
     {"render/draw/occlusion_map", "sends what decals find; tested through renderer"},
     {"render/draw/shadow_batch", "sends what decals find; tested through renderer"},
     {"render/draw/surface_batch", "sends what surfaces and renderer test"},
