@@ -30,7 +30,7 @@ std::vector<pid_t> childrenOf(pid_t parent) {
   return children;
 }
 
-class InterruptedRender : public test::FilmCommand {
+class RenderInterrupted : public test::FilmCommand {
  protected:
   /// Makes a film of a hundred frames.
   static std::vector<std::string> longFilm(const std::string& jobs) {
@@ -44,7 +44,7 @@ class InterruptedRender : public test::FilmCommand {
 };
 
 // No file may grow past 1 kB, as on a full disk.
-TEST_F(InterruptedRender, fullDiskEndsTheFilmWithNothingHalfWritten) {
+TEST_F(RenderInterrupted, fullDiskEndsTheFilmWithNothingHalfWritten) {
   const Ended ended = Process({"bash", "-c",
                                std::string("trap '' XFSZ; ulimit -f 1; exec ") + CAREEN_BINARY +
                                    " render scene.json --out film --size 640x480"},
@@ -55,7 +55,7 @@ TEST_F(InterruptedRender, fullDiskEndsTheFilmWithNothingHalfWritten) {
   EXPECT_FALSE(hasPartials());
 }
 
-TEST_F(InterruptedRender, interruptedFilmIsCompletedByASecondRun) {
+TEST_F(RenderInterrupted, interruptedFilmIsCompletedByASecondRun) {
   ASSERT_EQ(careen({"render", "scene.json", "--out", "whole", "--fps", "100"}).exitCode, 0);
   struct Case {
     int signal;
@@ -87,7 +87,7 @@ TEST_F(InterruptedRender, interruptedFilmIsCompletedByASecondRun) {
 }
 
 // An ffmpeg that takes no frame and does not end.
-TEST_F(InterruptedRender, interruptedFilmEndsAnEncoderThatHangs) {
+TEST_F(RenderInterrupted, interruptedFilmEndsAnEncoderThatHangs) {
   std::filesystem::create_directory(folder_ / "bin");
   folder_.write("bin/ffmpeg", "#!/bin/sh\nexec sleep 1000\n");
   std::filesystem::permissions(folder_ / "bin/ffmpeg", std::filesystem::perms::owner_all);
@@ -107,7 +107,7 @@ TEST_F(InterruptedRender, interruptedFilmEndsAnEncoderThatHangs) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "film.mp4"));
 }
 
-TEST_F(InterruptedRender, killedFilmIsCompletedByASecondRun) {
+TEST_F(RenderInterrupted, killedFilmIsCompletedByASecondRun) {
   ASSERT_EQ(careen({"render", "scene.json", "--out", "whole", "--fps", "100"}).exitCode, 0);
   Process process(longFilm("3"), folder_.path());
   waitUntilInTheMiddle();
@@ -121,7 +121,7 @@ TEST_F(InterruptedRender, killedFilmIsCompletedByASecondRun) {
 
 // Only one at a time is let in. The others wait a moment or are refused; when those have tried again the film
 // is whole, and its manifest tells of all of it.
-TEST_F(InterruptedRender, processesThatMeetInOneFolderLoseNothing) {
+TEST_F(RenderInterrupted, processesThatMeetInOneFolderLoseNothing) {
   ASSERT_EQ(careen({"render", "scene.json", "--out", "whole", "--fps", "40"}).exitCode, 0);
   ASSERT_EQ(framesIn("whole").size(), 40U);
   const auto start = [this](const std::string& frames) {
@@ -153,7 +153,7 @@ TEST_F(InterruptedRender, processesThatMeetInOneFolderLoseNothing) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "film/.careen.lock"));
 }
 
-TEST_F(InterruptedRender, workerThatDiesEndsTheFilmWithNothingHalfWritten) {
+TEST_F(RenderInterrupted, workerThatDiesEndsTheFilmWithNothingHalfWritten) {
   std::vector<std::string> command = longFilm("3");
   command.insert(command.end(), {"--video", "film.mp4"});
   Process process(command, folder_.path());
@@ -176,7 +176,7 @@ TEST_F(InterruptedRender, workerThatDiesEndsTheFilmWithNothingHalfWritten) {
   }
 }
 
-TEST_F(InterruptedRender, resumeDoesNotMixTwoFilms) {
+TEST_F(RenderInterrupted, resumeDoesNotMixTwoFilms) {
   ASSERT_EQ(careen({"render", "scene.json", "--out", "film", "--frames", "0-2"}).exitCode, 0);
   const Ended ended = careen({"render", "scene.json", "--out", "film", "--size", "80x60", "--resume"});
   EXPECT_EQ(ended.exitCode, 2) << ended.err;
