@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kUlps = 1024 * std::numeric_limits<double>::epsilon();
 // A group that hardly moves is compared with this part of what falling by its own size would give it.
-constexpr double kStill = 1.0 / 32;
+constexpr double kStill = 1.0 / 64;
 constexpr double kMean = 1.0 / 30;  // [s] six of a crowd's longest steps, at its usual tolerance
 constexpr double kParallel = 1e-9;  // [1] walls whose normals differ by less have the same
 

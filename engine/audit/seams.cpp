@@ -131,17 +131,9 @@ double placeRounding(const Body& body, const Vec3& position) {
 }
 
 std::vector<double> fallingSpeeds(const World& world) {
-  std::vector<BodyState> states;
-  for (const Body& body : world.bodies) {
-    states.push_back(body.initial);
-  }
-  std::vector<Load> loads;
-  computeLoads(world, states, loads);
-  std::vector<double> speeds;
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    const Body& body = world.bodies[i];
-    const double acceleration = body.mass.inverseMass * loads[i].force.norm();
-    speeds.push_back(std::sqrt(2 * acceleration * body.halfExtents.norm()));
+  std::vector<double> speeds = accelerationsAtStart(world);
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    speeds[i] = std::sqrt(2 * speeds[i] * world.bodies[i].halfExtents.norm());
   }
   return speeds;
 }

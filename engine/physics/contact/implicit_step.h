@@ -79,7 +79,7 @@ class ImplicitStep {
 
  private:
   using Six = std::array<double, ContactProblem::kAxes>;
-  struct OfPair {
+  struct OfPair {  // a contact of two bodies, by which of them they are
     int first = 0;
     int second = 0;
     std::size_t contact = 0;

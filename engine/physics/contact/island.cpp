@@ -41,14 +41,7 @@ double timeUnderSprings(const World& world, double tolerance) {
   if (world.springs.empty()) {
     return time;
   }
-  std::vector<BodyState> states;
-  for (const Body& body : world.bodies) {
-    states.push_back(body.initial);
-  }
-  std::vector<Load> loads;
-  computeLoads(world, states, loads);
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    const double acceleration = world.bodies[i].mass.inverseMass * loads[i].force.norm();
+  for (const double acceleration : accelerationsAtStart(world)) {
     time = acceleration > 0 ? std::min(time, std::sqrt(tolerance / acceleration)) : time;
   }
   return time;

@@ -29,8 +29,6 @@ constexpr double kLeastLifetime = 0x1p-4;
 /// [1] of the displacement that the error of a velocity within a step would cause in the time to fall one's
 /// own size: what counts of it, as the end of the step has another.
 constexpr double kOfSpeedBetween = 0x1p-1;
-/// [1] of a position: what rounding does to the second difference that accelerations are compared by.
-constexpr double kRounding = 0x1p-43;
 /// [1] of the energy of motion: a step that gains more is wrong.
 constexpr double kGained = 0x1p-4;
 /// A trial step too long for its forces diverges; squares of larger numbers would overflow.
@@ -198,8 +196,7 @@ double Island::errorBetween(double h) {
       const std::size_t at = system_.placeOf(i) * ContactSystem::kNumbers;
       const std::array<Vec3, 6>& c = path[system_.placeOf(i)].position;
       const Vec3 bend = 2 * c[2] + 3 * c[3] + 3 * c[4] + 2.5 * c[5];  // h² times the acceleration halfway
-      const double rounding = kRounding * bodies()[i].position.norm();
-      const double wrong = std::max(0.0, (h * h * threeAt(rate, at + 7) - bend).norm() - rounding);  // [m]
+      const double wrong = (h * h * threeAt(rate, at + 7) - bend).norm();  // [m]
       worst = std::max({worst, wrong / 24, kOfSpeedBetween * timeToFall(*bodies()[i].body) / h * wrong / 7});
     }
   }

@@ -131,4 +131,18 @@ void computeLoads(const World& world, std::span<const BodyState> states, std::ve
   }
 }
 
+std::vector<double> accelerationsAtStart(const World& world) {
+  std::vector<BodyState> states;
+  for (const Body& body : world.bodies) {
+    states.push_back(body.initial);
+  }
+  std::vector<Load> loads;
+  computeLoads(world, states, loads);
+  std::vector<double> accelerations;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    accelerations.push_back(world.bodies[i].mass.inverseMass * loads[i].force.norm());
+  }
+  return accelerations;
+}
+
 }  // namespace careen

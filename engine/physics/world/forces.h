@@ -40,4 +40,7 @@ double dissipation(const World& world, std::span<const BodyState> states);
 /// too, without weight, and have no effect.
 void computeLoads(const World& world, std::span<const BodyState> states, std::vector<Load>& loads);
 
+/// [m/s²] Of each body's centre of mass at the start, without contacts.
+std::vector<double> accelerationsAtStart(const World& world);
+
 }  // namespace careen

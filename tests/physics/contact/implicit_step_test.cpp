@@ -70,8 +70,8 @@ TEST(ImplicitStep, stopsWithAnErrorOfTheSecondOrder) {
   for (const int steps : {7, 14, 28, 56}) {
     CubeOnFloor scene(0.2, Vec3(1, 0, 0));
     const GroupState end = scene.after(0.77, steps);
-    // 1.7e-8, two long steps after the stop: their first estimates are by the forces of the step before.
-    EXPECT_LT(end[0].velocity.norm(), 1e-7);
+    // Measured 1.7e-8 two long steps after the stop, whose first estimates are by the forces before it.
+    EXPECT_LT(end[0].velocity.norm(), steps == 7 ? 2e-8 : 1e-9) << steps;
     errors.push_back(std::fabs(end[0].position.x() - 0.25));
   }
   for (std::size_t k = 0; k < errors.size(); ++k) {

@@ -103,7 +103,6 @@ TEST(Springs, pullTwoBodiesAlikeAndTurnNothingAsAWhole) {
   EXPECT_LT(about0.norm(), 4e-14);  // measured 7.9e-15
 }
 
-// The ends meet: no line joins them, so there is nothing to pull along, whatever the rest length.
 TEST(Springs, listedInAnyOrderPullAlikeToTheBit) {
   World world;
   world.gravity = {0, 0, -9.81};
@@ -124,6 +123,7 @@ TEST(Springs, listedInAnyOrderPullAlikeToTheBit) {
   EXPECT_EQ(differ, 0);
 }
 
+// The ends meet: no line joins them, so there is nothing to pull along, whatever the rest length.
 TEST(Springs, ofNoLengthPullNowhere) {
   World world;
   world.bodies = {heavyBox("a", {0, 0, 0})};
