@@ -16,6 +16,13 @@
 namespace careen {
 namespace {
 
+void printScene(const Scene& scene) {
+  const RunSettings settings = settingsOf(scene);
+  const Plan items = plan(scene);
+  printPlan(std::cout, scene.name, scene.boxes.size(), settings, items);
+  printCrowds(std::cout, settings, items);
+}
+
 void printFamily(const Family& family) {
   const Scene first = family.member(0).scene;
   std::cout << "family       " << printableName(first.name) << ", seed " << family.seed() << ", up to "
@@ -24,7 +31,7 @@ void printFamily(const Family& family) {
   for (const Varying& each : family.varying()) {
     std::cout << "varies       " << printableName(each.path) << ": " << each.range << '\n';
   }
-  printPlan(std::cout, first.name, first.boxes.size(), settingsOf(first), plan(first));
+  printScene(first);
 }
 
 ExitCode infoCommand(std::filesystem::path path, const SceneOfTable& ofTable, const std::stop_token& stop) {
@@ -39,7 +46,7 @@ ExitCode infoCommand(std::filesystem::path path, const SceneOfTable& ofTable, co
     }
     const auto [text, name] = sceneTextOf(path, bytes);
     const Scene scene = parseScene(text, name);
-    printPlan(std::cout, scene.name, scene.boxes.size(), settingsOf(scene), plan(scene));
+    printScene(scene);
     return ExitCode::kDone;
   }
   Run run = loadRun(path, {}, ofTable, stop);

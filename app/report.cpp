@@ -238,6 +238,25 @@ void printPlan(std::ostream& out, const std::string& scene, std::size_t boxes, c
   printItems(out, "left out     ", plan, false);
 }
 
+void printCrowds(std::ostream& out, const RunSettings& settings, const Plan& plan) {
+  if (settings.method != Method::kExact || !(plan.models("box-wall") || plan.models("box-box"))) {
+    return;
+  }
+  const CrowdSettings& crowds = settings.crowds;
+  out << "crowd        ";
+  if (crowds.when == CrowdSettings::When::kNever) {
+    out << "never: all boxes are followed exactly, however long that takes\n";
+    return;
+  }
+  out << "where ";
+  if (crowds.when == CrowdSettings::When::kAbove) {
+    out << "more than " << crowds.above << " boxes touch and move, or ";
+  }
+  out << "exact contact costs too much or has no solution, those boxes go on in time steps,\n"
+         "             with an error of about "
+      << crowds.tolerance << " m; all others are followed exactly\n";
+}
+
 void printPlan(std::ostream& out, const Trajectory& run) {
   if (!run.given) {
     printPlan(out, run.stage.name, run.world.bodies.size(), run.settings, run.plan);

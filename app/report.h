@@ -21,6 +21,8 @@ void printSummary(std::ostream& out, const Run& run, double wallSeconds);
 void printPlan(std::ostream& out, const std::string& scene, std::size_t boxes, const RunSettings& settings,
                const Plan& plan);
 void printPlan(std::ostream& out, const Trajectory& run);
+/// Which boxes are followed exactly, and which need not be; nothing where none can touch.
+void printCrowds(std::ostream& out, const RunSettings& settings, const Plan& plan);
 void printError(std::ostream& out, const Run& run);
 
 }  // namespace careen

@@ -12,20 +12,25 @@ constexpr std::int64_t kStepsPerSorting = 16;
 constexpr double kShortestStep = 1.0 / 720;  // [s]
 constexpr double kShortestTurn = 0x1p-4;     // [1] of it: for boxes that spin fast
 constexpr double kMostMoved =
-    0x1p-4;  // [1] of the smallest size, motion per step: faster bodies take shorter steps
+    0x1p-3;  // [1] of the smallest size, motion per step: faster bodies take shorter steps
 constexpr double kMostOfSpring = 0x1p-3;  // [rad] phase of the stiffest spring per step
 constexpr int kLoadPasses = 3;
 constexpr double kProjected = 3;  // longest steps between two projections
-constexpr int kSweeps = 20;
+// Sweeps before the second order of gaps is known, and with it.
+constexpr int kFirstSweeps = 5;
+constexpr int kSweeps = 7;
 constexpr std::int64_t kMostSweeps = 400;
 constexpr std::int64_t kFewManifolds = 256;
+constexpr std::size_t kVeryFewRows = 150;
 constexpr double kTell = 0x1p-12;  // [1] of the smallest size, change per step that re-solves neighbours
 constexpr double kTellLeast = 0x1p-36;
 constexpr std::int64_t kEasy = 4;
 constexpr std::int64_t kHard = 8;
 constexpr int kMostHalvings = 6;
-constexpr double kTooDeep = 1.5;   // [1] of the tolerance: new penetration for which a step is halved
-constexpr double kMostBent = 1;    // [1] of the tolerance: how far corners may leave their tangents in a step
+constexpr double kTooDeep = 1.5;  // [1] of the tolerance: new penetration for which a step is halved
+// [1] of the tolerance: how far corners may leave their tangents in a step. It is undone at its end; in its
+// middle a quarter is left.
+constexpr double kMostBent = 3;
 constexpr double kMostScaled = 4;  // [1] of stored impulses, to a longer step
 
 // [rad/s] What an angular impulse [N m s] changes.
@@ -242,7 +247,7 @@ void Crowd::take(double length, bool mayShift) {
     lookAround();
     loadSolver();
     solver_.wakeAll();
-    solve(kSweeps);
+    solve();
   }
   keepImpulses();
   findDisturbed();
@@ -309,16 +314,22 @@ Vec3 Crowd::torqueBefore(std::size_t place) const {
   return loadsBefore_.empty() ? Vec3(Vec3::Zero()) : loadsBefore_[listed_[place]].torque;
 }
 
-// The change threshold that re-solves neighbours adapts to the effort of the last step: coarse during heavy
-// impacts, finer as the crowd comes to rest. Few manifolds are allowed more sweeps.
-void Crowd::solve(int sweeps) {
-  if (solveDirectly()) {
+// First without the second order of gaps, which is that of the velocities found; then with it. Few contacts
+// are solved directly, both times where they are very few; of the others, the change threshold that re-solves
+// neighbours adapts to the effort of the last step: coarse during heavy impacts, finer as the crowd comes to
+// rest.
+void Crowd::solve() {
+  const auto manifolds = static_cast<std::int64_t>(solver_.blockCount()) + 1;
+  const std::int64_t effort = 1 + kFewManifolds / manifolds;  // few manifolds are allowed more sweeps
+  const auto most = [&](int sweeps) { return static_cast<int>(std::min(sweeps * effort, kMostSweeps)); };
+  const bool found = solver_.rowCount() <= kVeryFewRows && solveDirectly();
+  std::int64_t solves = found ? 0 : solver_.solve(most(kFirstSweeps), true);
+  const bool curved = curveGaps();
+  if ((found && !curved) || solveDirectly()) {
     residuals_.add(direct_.takeResiduals());
     return;
   }
-  const auto manifolds = static_cast<std::int64_t>(solver_.blockCount()) + 1;
-  const std::int64_t effort = 1 + kFewManifolds / manifolds;
-  const std::int64_t solves = solver_.solve(static_cast<int>(std::min(sweeps * effort, kMostSweeps)), true);
+  solves += solver_.solve(most(kSweeps), true);
   figures_.solves += solves;
   residuals_.add(solver_.residuals(speed_));
   if (solves < kEasy * effort * manifolds) {

@@ -28,16 +28,15 @@ namespace careen {
 /// `tolerance`, and members at rest cost nothing.
 ///
 /// A step consists of: broad and narrow phase; gravity, springs and drag; solve for impulses such that no gap
-/// becomes negative within the step at its current rate, v_n ≥ −gap/h; integrate positions; restitution. The
-/// velocities solved for are those of the middle of the step, and forces act from the middle of one step to
-/// that of the next (leapfrog); those of springs and drag are those in the middle of each step, for all
-/// members alike, so that they keep momentum.
-/// Where one point of a manifold strikes, all its points within a few tolerances strike, with v_n ≥ 0: else
-/// the corners of one edge would strike in different steps, and each would turn the body. A step in which
-/// bodies went deep into each other, or into a wall, is taken again with half its length; what is less deep
-/// is projected at once. Penetration that is left at the rates found is undone by shifts in the same step,
-/// the rest by a position projection every few steps; neither becomes velocity (no Baumgarte stabilisation,
-/// no slop).
+/// becomes negative within the step, v_n ≥ −(gap + its second order, of bodies that turn)/h; integrate
+/// positions; restitution. The velocities solved for are those of the middle of the step, and forces act from
+/// the middle of one step to that of the next (leapfrog); those of springs and drag are those in the middle
+/// of each step, for all members alike, so that they keep momentum. Where one point of a manifold strikes,
+/// all its points within a few tolerances strike, with v_n ≥ 0: else the corners of one edge would strike in
+/// different steps, and each would turn the body. A step in which bodies went deep into each other, or into a
+/// wall, is taken again with half its length; what is less deep is projected at once. Penetration that is
+/// left at the rates found is undone by shifts in the same step, the rest by a position projection every few
+/// steps; neither becomes velocity (no Baumgarte stabilisation, no slop).
 ///
 /// Bodies sleep with all that they touch, or, where some of that still moves, beyond a few contacts from it,
 /// if forces within their cones balance on them at rest, those of the ones awake being as they are: then
@@ -217,11 +216,14 @@ class Crowd {
   void wakeDisturbed();
   bool wakeStruck();
   void loadSolver();
-  void solve(int sweeps);
+  void solve();
   bool solveDirectly();
   void addImpulses(double sign);
   void limitBounce();
   void addRows(int slot);
+  bool curveGaps();
+  Vec3 spinRate(int body) const;
+  double secondOrder(const PileManifold& manifold, int k) const;
   void keepImpulses();
   void findShifts();
   void move();
@@ -272,7 +274,8 @@ class Crowd {
   ContactSolution solution_;
   ContactSolver direct_;
   PileProjection projection_;
-  double tell_;  // [1] of the smallest size: change per step above which neighbours are re-solved
+  double tell_;              // [1] of the smallest size: change per step above which neighbours are re-solved
+  std::vector<char> bends_;  // by place: its corners leave their tangents in this step
   std::vector<Bounce> bounces_;
   std::vector<Struck> impacts_;
   std::vector<double> unrest_;    // [m/s] net velocity change of the last step

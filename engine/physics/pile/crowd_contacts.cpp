@@ -13,7 +13,7 @@ constexpr int kPasses = 8;
 constexpr double kGrowth = 1.5;    // [1] largest growth of an impulse per step that the warm start accepts
 constexpr double kBounceFrom = 4;  // [1] of gravity × step: slower impacts do not bounce
 constexpr double kRounding = 0x1p-30;  // [1] of the fastest speed: slower impacts do not either
-constexpr double kAllowance = 0x1p-6;  // [1] of the smallest size: gaps that may close during a step
+constexpr double kAllowance = 0.1;     // [1] of the smallest size: gaps that may close during a step
 constexpr double kTogether = 3;        // [1] of the tolerance: points of one manifold that meet together
 constexpr double kUnseen = 2;          // [1] of the tolerance: motion after which other features may be deep
 
@@ -217,6 +217,7 @@ void Crowd::addRows(int slot) {
     const PileFrame& frame = manifold.frameOf(k);
     const double speed = speeds[at(k)];
     point.row = -1;
+    point.curved = 0;
     if (point.gap + std::min(0.0, speed) * h_ > kAllowance * manifold.length) {
       point.normalImpulse = point.normalImpulseBefore = 0;
       continue;

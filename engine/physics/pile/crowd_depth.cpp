@@ -14,7 +14,7 @@ constexpr double kMostDeep = 1.75;  // [1] the same for any
 constexpr double kShifted = 0.8;
 constexpr double kShiftedTo = 0.5;
 constexpr double kShiftChange = 0.25;
-constexpr int kShiftSweeps = 20;
+constexpr int kShiftSweeps = 60;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void Crowd::findShifts() {
       if (point.row < 0) {
         continue;
       }
-      const double gap = point.gap + h_ * solver_.normalSpeed(point.row);
+      const double gap = point.gap + h_ * solver_.normalSpeed(point.row) + point.curved;
       solver_.setShiftBound(point.row, -(gap + kShiftedTo * tolerated));
       if (gap < -kShifted * tolerated) {
         shifts_ = true;

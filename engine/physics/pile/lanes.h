@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace careen {
 
@@ -23,6 +24,25 @@ struct LanesVec {
 struct LanesSymmetric {
   Lanes xx, yy, zz, xy, xz, yz;
 };
+
+/// Four doubles from there on.
+CAREEN_LANES Lanes lanesFrom(const void* from) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+CAREEN_LANES void lanesTo(const Lanes& lanes, void* to) { std::memcpy(to, &lanes, sizeof lanes); }
+/// Rows become columns.
+CAREEN_LANES void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
+  const Lanes ab0 = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Lanes ab1 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Lanes cd0 = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Lanes cd1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  a = __builtin_shufflevector(ab0, cd0, 0, 1, 4, 5);
+  b = __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5);
+  c = __builtin_shufflevector(ab0, cd0, 2, 3, 6, 7);
+  d = __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7);
+}
 
 CAREEN_LANES void setLane(LanesVec& v, int lane, double x, double y, double z) {
   v.x[lane] = x;

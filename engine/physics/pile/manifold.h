@@ -27,7 +27,8 @@ struct PilePoint {
   double normalImpulseBefore = 0;  ///< [N s] of the substep before
   double tangential1 = 0;          ///< [N s] along the manifold's tangents
   double tangential2 = 0;
-  int row = -1;  ///< in the solver, −1: gap too large
+  double curved = 0;  ///< [m] second order of the gap at the end of the step
+  int row = -1;       ///< in the solver, −1: gap too large
 };
 
 /// Contact frame: normal from b to a, and two tangents (right-handed) fixed in the body that owns the

@@ -23,7 +23,8 @@ namespace careen {
 /// is that of insertion but for what this grouping moves, so a shock travels far in one sweep, and quiet
 /// contacts cost nothing.
 ///
-/// Normal: v_n ≥ bound, impulse ≥ 0, complementary. Friction: the tangential impulse lies in the disc of
+/// Normal: v_n ≥ bound, impulse ≥ 0, complementary, with over-relaxation (each impulse changes by more than
+/// its row alone asks for; the fixed point is the same). Friction: the tangential impulse lies in the disc of
 /// radius μ × normal impulse (round friction cone). First the impulse that stops sliding is tried, by the
 /// point's 2×2 matrix; if it leaves the disc, a step along the sliding velocity is projected back onto the
 /// disc: its fixed point slides against its impulse, as Coulomb friction requires, while that of the matrix
@@ -42,6 +43,8 @@ class PileSolver {
 
   Vec3& velocity(int body) { return moving_[at(body)].velocity; }
   Vec3& omega(int body) { return moving_[at(body)].omega; }
+  const Vec3& velocity(int body) const { return moving_[at(body)].velocity; }
+  const Vec3& omega(int body) const { return moving_[at(body)].omega; }
   int indexOf(Partner partner) const {
     return partner.isWall() ? static_cast<int>(moving_.size()) - 1 : partner.body();
   }
@@ -51,7 +54,7 @@ class PileSolver {
     moving_[at(body)].omega += inertia_[at(body)].times(arm.cross(impulse));
   }
   /// Whether any impulse acted on it since begin().
-  bool pushed(int body) const { return moving_[at(body)].pushed; }
+  bool pushed(int body) const { return moving_[at(body)].pushed != 0; }
 
   /// Rows of a manifold with one frame follow with add(); `apart` [m] is from b's centre to a's.
   void beginBlock(int a, Partner b, double friction, const PileFrame& frame, const Vec3& apart);
@@ -85,7 +88,7 @@ class PileSolver {
   }
   void setShiftBound(int row, double bound) { shiftRows_[rowAt(row)].bound[laneOf(row)] = bound; }
   std::int64_t shift(int sweeps, double change);
-  bool isShifted(int body) const { return shifts_[at(body)].pushed; }
+  bool isShifted(int body) const { return shifts_[at(body)].pushed != 0; }
   const Vec3& displacement(int body) const { return shifts_[at(body)].velocity; }  ///< [m]
   const Vec3& turn(int body) const { return shifts_[at(body)].omega; }             ///< [rad]
   /// [m/s] v_n of the row as it stands.
@@ -112,17 +115,18 @@ class PileSolver {
   double tangential1(int row) const { return rows_[rowAt(row)].tangential1[laneOf(row)]; }
   double tangential2(int row) const { return rows_[rowAt(row)].tangential2[laneOf(row)]; }
   void setBound(int row, double bound) { rows_[rowAt(row)].bound[laneOf(row)] = bound; }
+  void addToBound(int row, double more) { rows_[rowAt(row)].bound[laneOf(row)] += more; }
   void wakeAll();
   void wakeRow(int row) { put(blocks_[at(blockOfRow_[at(row)])].place); }
   /// Whether wide registers are used; the bits are the same.
   void useWideLanes(bool wide) { wide_ = wide && hasWideLanes(); }
 
  private:
-  struct alignas(64) Moving {
+  struct alignas(64) Moving {  // read and written as two rows of four
     Vec3 velocity = Vec3::Zero();
     double unqueuedChange = 0;  // [m/s] change since its manifolds were last put on the list
     Vec3 omega = Vec3::Zero();
-    bool pushed = false;
+    double pushed = 0;  // 1 if it was
   };
   struct Inertia {
     double inverseMass = 0;
@@ -150,6 +154,7 @@ class PileSolver {
     Lanes inverseMass{};
     LanesSymmetric inertia{};
     Lanes radius{};
+    Lanes change{};
   };
   struct Group {
     Side a, b;
@@ -163,7 +168,7 @@ class PileSolver {
   struct LaneRow {
     LanesVec arm{};
     Lanes bound{};
-    Lanes massNormal{};
+    Lanes relaxedMass{};                           // normal
     Lanes normalToTangent1{}, normalToTangent2{};  // Δu_t per normal impulse
     Lanes stop11{}, stop12{}, stop22{};            // (2×2 matrix)⁻¹
     Lanes slide{};                                 // 1/largest eigenvalue of the 2×2 matrix
@@ -174,6 +179,7 @@ class PileSolver {
   };
   struct Velocities {
     LanesVec v, w;
+    Lanes unqueuedChange, pushed;
   };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   std::size_t rowAt(int row) const { return rowPlaces_[at(row)] / kLanes; }
@@ -191,7 +197,7 @@ class PileSolver {
   template <Kind kKind>
   void solveGroup(const Group& group, unsigned lanes);
   template <Kind kKind>
-  void store(const Side& side, const Velocities& from, const Velocities& to, const LaneMask& changed);
+  void store(const Side& side, const Velocities& from, Velocities to, const LaneMask& changed);
   static Velocities velocitiesOf(const std::vector<Moving>& moving, const Side& side);
   void queueBlocksOf(int body);
   void put(int place) { waiting_[at(place) / 64] |= std::uint64_t{1} << (at(place) % 64); }

@@ -1,0 +1,93 @@
+// Second order of gaps: what points of turning bodies leave their tangents by within a step.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/pile/crowd.h"
+
+namespace careen {
+namespace {
+
+constexpr double kStraight = 0x1p-3;   // [1] of the tolerance: less is no bend
+constexpr double kParallel = 0x1p-20;  // [1] sine² of edges that have no common normal
+
+}  // namespace
+
+// Adds it to the bounds of rows, at the velocities found so far, and puts on the list those that it changes;
+// returns whether there are any.
+bool Crowd::curveGaps() {
+  bends_.assign(bodies_.size(), 0);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const double spin = bodies_[i].still() ? 0 : solver_.omega(static_cast<int>(i)).squaredNorm();
+    bends_[i] = 0.5 * h_ * h_ * bodies_[i].radius * spin > kStraight * tolerance_ ? 1 : 0;
+  }
+  bool any = false;
+  for (const int slot : near_) {
+    PileManifold& manifold = manifolds_[at(slot)];
+    const bool bends =
+        bends_[at(manifold.a)] != 0 || (!manifold.b.isWall() && bends_[at(manifold.b.body())] != 0);
+    for (int k = 0; bends && k < manifold.count; ++k) {
+      PilePoint& point = manifold.points[at(k)];
+      if (point.row < 0) {
+        continue;
+      }
+      const double curved = 0.5 * h_ * h_ * secondOrder(manifold, k);
+      const double change = curved - point.curved;
+      point.curved = curved;
+      solver_.addToBound(point.row, -change / h_);
+      if (std::abs(change) > kStraight * tolerance_) {
+        solver_.wakeRow(point.row);
+        any = true;
+      }
+    }
+  }
+  return any;
+}
+
+// [rad/s²] ω̇ = I⁻¹ (L × ω), of a free body at the velocity found.
+Vec3 Crowd::spinRate(int body) const {
+  const PileBody& turning = bodies_[at(body)];
+  const Mat3 axes = turning.principalAxes();
+  const Vec3 spin = axes.transpose() * solver_.omega(body);
+  return axes * turning.inverseInertiaBody.cwiseProduct(turning.inertiaBody.cwiseProduct(spin).cross(spin));
+}
+
+// [m/s²] Second derivative of a gap n·(xA − xB), x the points in contact as fixed in the bodies:
+//     n·(aA − aB) + 2 ṅ·(vA − vB),   a = ω × (ω × r) + ω̇ × r;
+// the third term, n̈·(xA − xB), is of the size of the gap. n turns with the body that owns the plane; the
+// normal of an edge pair stays perpendicular to both edges: ṅ·e = −n·(ω × e).
+double Crowd::secondOrder(const PileManifold& manifold, int k) const {
+  const Vec3& arm = manifold.points[at(k)].world;
+  const PileFrame& frame = manifold.frameOf(k);
+  const Vec3& n = frame.normal;
+  const auto along = [&](int body, const Vec3& to) {  // of the point's acceleration
+    if (bends_[at(body)] == 0) {
+      return 0.0;
+    }
+    const Vec3& spin = solver_.omega(body);
+    return n.dot(spin.cross(spin.cross(to)) + spinRate(body).cross(to));
+  };
+  const double ofA = along(manifold.a, arm);
+  if (manifold.b.isWall()) {
+    return ofA;
+  }
+  const int b = manifold.b.body();
+  const PileBody& bodyA = bodies_[at(manifold.a)];
+  const PileBody& bodyB = bodies_[at(b)];
+  const Vec3& spinA = solver_.omega(manifold.a);
+  const Vec3& spinB = solver_.omega(b);
+  const Vec3 armB = arm + bodyA.position - bodyB.position;
+  const Vec3 slip = solver_.velocity(manifold.a) + spinA.cross(arm) - solver_.velocity(b) - spinB.cross(armB);
+  Vec3 turning = (manifold.planeOfB ? spinB : spinA).cross(n);
+  if (&frame == &manifold.edges) {
+    const Vec3 edgeA = bodyA.axes.col(manifold.edgeA);
+    const Vec3 edgeB = bodyB.axes.col(manifold.edgeB);
+    const double cosine = edgeA.dot(edgeB);
+    const double ofEdgeA = -n.dot(spinA.cross(edgeA));
+    const double ofEdgeB = -n.dot(spinB.cross(edgeB));
+    const double perSquare = 1 / std::max(1 - cosine * cosine, kParallel);
+    turning = perSquare * ((ofEdgeA - cosine * ofEdgeB) * edgeA + (ofEdgeB - cosine * ofEdgeA) * edgeB);
+  }
+  return ofA - along(b, armB) + 2 * turning.dot(slip);
+}
+
+}  // namespace careen
