@@ -20,6 +20,9 @@ constexpr double kProjected = 3;  // longest steps between two projections
 constexpr int kFirstSweeps = 5;
 constexpr int kSweeps = 7;
 constexpr std::int64_t kMostSweeps = 400;
+// [1] of these, by how long a jam lasts.
+constexpr std::int64_t kUsual = 1;
+constexpr std::int64_t kMostEffort = 32;
 constexpr std::int64_t kFewManifolds = 256;
 constexpr std::size_t kVeryFewRows = 150;
 constexpr double kTell = 0x1p-12;  // [1] of the smallest size, change per step that re-solves neighbours
@@ -27,10 +30,11 @@ constexpr double kTellLeast = 0x1p-36;
 constexpr std::int64_t kEasy = 4;
 constexpr std::int64_t kHard = 8;
 constexpr int kMostHalvings = 6;
-constexpr double kTooDeep = 1.5;  // [1] of the tolerance: new penetration for which a step is halved
+constexpr double kShortest = 0x1p-10;  // [1] of the length that the crowd would take
+constexpr double kTooDeep = 1.5;       // [1] of the tolerance: new penetration for which a step is halved
 // [1] of the tolerance: how far corners may leave their tangents in a step. It is undone at its end; in its
-// middle a quarter is left.
-constexpr double kMostBent = 3;
+// middle a quarter is left, of both of a pair.
+constexpr double kMostBent = 2;
 constexpr double kMostScaled = 4;  // [1] of stored impulses, to a longer step
 
 // [rad/s] What an angular impulse [N m s] changes.
@@ -159,17 +163,20 @@ double Crowd::stepAgain(double length) {
 }
 
 // Takes the step again with half its length, and without shifts, which are as long in a shorter one, while
-// bodies went deep into each other in it; returns its length.
+// bodies went deep into each other in it; returns its length. In a jam, where that and projection leave them
+// deep, the next steps take more sweeps. Not without end where others ask for less and
+// less: lengths far below what the crowd itself would take.
 double Crowd::keepApart() {
   double depth = newDepth();
-  for (int halving = 0; halving < kMostHalvings && depth > kTooDeep * tolerance_; ++halving) {
+  const double shortest = kShortest * chooseLength(longestStep());
+  for (int halving = 0; halving < kMostHalvings && depth > kTooDeep * tolerance_ && h_ > shortest;
+       ++halving) {
     goBack();
     take(0.5 * h_, false);
     depth = newDepth();
   }
-  if (depth > 0 || deep_) {
-    project();
-  }
+  const double left = depth > 0 || deep_ ? project() : 0;
+  effort_ = left > kTooDeep * tolerance_ ? std::min(2 * effort_, kMostEffort) : std::max(effort_ / 2, kUsual);
   return h_;
 }
 
@@ -321,7 +328,9 @@ Vec3 Crowd::torqueBefore(std::size_t place) const {
 void Crowd::solve() {
   const auto manifolds = static_cast<std::int64_t>(solver_.blockCount()) + 1;
   const std::int64_t effort = 1 + kFewManifolds / manifolds;  // few manifolds are allowed more sweeps
-  const auto most = [&](int sweeps) { return static_cast<int>(std::min(sweeps * effort, kMostSweeps)); };
+  const auto most = [&](int sweeps) {
+    return static_cast<int>(effort_ * std::min(sweeps * effort, kMostSweeps));
+  };
   const bool found = solver_.rowCount() <= kVeryFewRows && solveDirectly();
   std::int64_t solves = found ? 0 : solver_.solve(most(kFirstSweeps), true);
   const bool curved = curveGaps();
@@ -342,6 +351,7 @@ void Crowd::solve() {
 void Crowd::loadSolver() {
   solver_.begin(bodies_.size());
   bounces_.clear();
+  heaviest_ = 1;
   speed_ = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const PileBody& body = bodies_[i];

@@ -238,7 +238,7 @@ class Crowd {
   double depthNow(const PilePair& pair) const;
   double depthBefore(const PilePair& pair) const;
   bool startedDeep(const PilePair& pair) const;
-  void project();
+  double project();
   bool freeze();
   void beginManifold(const PilePair& pair, PileManifold& manifold) const;
   void keepManifold(PilePair& pair, const PileManifold& manifold);
@@ -273,6 +273,10 @@ class Crowd {
   ContactProblem problem_;
   ContactSolution solution_;
   ContactSolver direct_;
+  double heaviest_ = 1;      // [1] ratio of the masses of members in contact, in this step
+  std::int64_t effort_ = 1;  // [1] of the usual sweeps
+  int directWait_ = 0;       // solves until it is tried again,
+  int directPause_ = 1;      // and as many after the next failure
   PileProjection projection_;
   double tell_;              // [1] of the smallest size: change per step above which neighbours are re-solved
   std::vector<char> bends_;  // by place: its corners leave their tangents in this step

@@ -9,7 +9,7 @@ namespace careen {
 namespace {
 
 constexpr double kLookAhead = 6;  // longest steps for which a fat AABB should stay valid
-constexpr int kPasses = 8;
+constexpr int kPasses = 32;
 constexpr double kGrowth = 1.5;    // [1] largest growth of an impulse per step that the warm start accepts
 constexpr double kBounceFrom = 4;  // [1] of gravity × step: slower impacts do not bounce
 constexpr double kRounding = 0x1p-30;  // [1] of the fastest speed: slower impacts do not either
@@ -210,6 +210,10 @@ void Crowd::addRows(int slot) {
     speeds[at(k)] = manifold.frameOf(k).normal.dot(relative);
     meets = meets || (point.gap + speeds[at(k)] * h_ <= 0 && -speeds[at(k)] > slow);
   }
+  if (!hasWall && !a.still() && !bodyAt(manifold.b).still()) {
+    const double ratio = a.inverseMass / bodyAt(manifold.b).inverseMass;
+    heaviest_ = std::max({heaviest_, ratio, 1 / ratio});
+  }
   const double together = kTogether * tolerance_;
   const PileFrame* begun = nullptr;
   for (int k = 0; k < manifold.count; ++k) {
@@ -294,7 +298,8 @@ void Crowd::keepImpulses() {
   }
 }
 
-void Crowd::project() {
+// Returns the deepest gap that is left [m].
+double Crowd::project() {
   for (int pass = 0; pass < kPasses; ++pass) {
     for (const int slot : near_) {
       PileManifold& manifold = manifolds_[at(slot)];
@@ -324,12 +329,15 @@ void Crowd::project() {
       before_[i].pushed = before_[i].pushed || projection_.moved(static_cast<int>(i));
     }
   }
+  double deepest = 0;
   for (const int slot : near_) {
     const PileManifold& manifold = manifolds_[at(slot)];
     for (int k = 0; k < manifold.count; ++k) {
-      deepest_ = std::max(deepest_, -manifold.points[at(k)].gap);
+      deepest = std::max(deepest, -manifold.points[at(k)].gap);
     }
   }
+  deepest_ = std::max(deepest_, deepest);
+  return deepest;
 }
 
 }  // namespace careen

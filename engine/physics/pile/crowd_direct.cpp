@@ -9,7 +9,13 @@ namespace {
 
 /// Of more contact points Gauss–Seidel costs less than factorisations do.
 constexpr std::size_t kMostRows = 600;
+constexpr std::size_t kFewRows = 150;
 constexpr int kMostFactorisations = 60;
+/// Of more than a few contact points, in violent motion, it does too: one try in so many steps.
+constexpr int kFewFactorisations = 12;
+constexpr int kMostWait = 32;
+/// [1] Ratio of masses in contact from which Gauss–Seidel takes too long.
+constexpr double kHeavy = 16;
 /// [1] of the tolerance: what the residual of a step may move a body by in it.
 constexpr double kResidual = 0x1p-10;
 
@@ -20,6 +26,11 @@ constexpr double kResidual = 0x1p-10;
 bool Crowd::solveDirectly() {
   const std::size_t count = solver_.rowCount();
   if (count == 0 || count > kMostRows) {
+    return false;
+  }
+  const bool easy = count <= kFewRows || heaviest_ > kHeavy;
+  if (!easy && directWait_ > 0) {
+    --directWait_;
     return false;
   }
   std::vector<int> index(bodies_.size(), ContactProblem::kNobody);
@@ -72,7 +83,10 @@ bool Crowd::solveDirectly() {
   }
   addImpulses(-1);
   solution_.enough = kResidual * tolerance_ / h_;
-  if (!direct_.solve(problem_, solution_, kMostFactorisations)) {
+  const bool solved = direct_.solveOnce(problem_, solution_, easy ? kMostFactorisations : kFewFactorisations);
+  directPause_ = easy || solved ? 1 : std::min(2 * directPause_, kMostWait);
+  directWait_ = easy || solved ? 0 : directPause_;
+  if (!solved) {
     return false;
   }
   for (std::size_t m = 0; m < movers.size(); ++m) {

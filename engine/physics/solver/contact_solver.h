@@ -23,7 +23,8 @@ namespace careen {
 ///      latter: in a jam, impulses may be 1e8 times what comes in;
 ///   5. the interior-point method from several starts, |u_t| being what it is; whenever its gap fell a
 ///      thousand times, Newton's method from there; and more proximal points;
-///   6. all of this without friction, and again with more and more of it, each time from the last answer.
+///   6. unless the caller would rather do without: all of this without friction, and again with more and more
+///      of it, each time from the last answer.
 ///
 /// Small enough: residual ≤ 1e-9 V, and ≤ max(1e-13 V, 1e-6 of the largest λ/mass): without the second
 /// condition impulses of 1e-8 V can pass where the answer is large. Below the rounding error of the relative
@@ -43,13 +44,14 @@ class ContactSolver {
   /// after about `mostFactorisations`; problems without a solution take all of them.
   bool solve(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations = kMost);
   static constexpr int kMost = 3000;
+  /// The same without stage 6.
+  bool solveOnce(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations);
   /// Of all problems that were solved since it was last asked.
   ContactResiduals takeResiduals() { return std::exchange(residuals_, {}); }
 
  private:
   using Triple = ContactProblem::Triple;
 
-  bool solveOnce(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations);
   bool raiseFriction(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations);
   void solveWithoutPolish(const ContactSolution& solution);
   bool tryNewton(std::span<const Triple> from, ContactNewton::Options options);
