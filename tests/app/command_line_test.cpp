@@ -214,6 +214,27 @@ TEST_F(CommandLine, infoTellsWhatIsLeftOutAndWhy) {
   EXPECT_NE(ended.out.find("box-box", leftOut), std::string::npos) << ended.out;
 }
 
+TEST_F(CommandLine, infoTellsWhichBoxesMayGoOnAsACrowd) {
+  const auto infoOf = [&](const std::string& more) {
+    folder_.write("scene.json",
+                  R"({ "careen": 1, "duration": 1, "boxes": [ { "half_extents": [1, 1, 1], "mass": 1 } ])" +
+                      more + " }");
+    const Ended ended = careen({"info", "scene.json"});
+    EXPECT_EQ(ended.exitCode, 0) << ended.err;
+    return ended.out;
+  };
+  const std::string walls = R"(, "walls": [ { "point": [0, 0, -3], "normal": [0, 0, 1] } ])";
+  const auto says = [](const std::string& out, const std::string& what) {
+    return out.find(what) != std::string::npos;
+  };
+  EXPECT_FALSE(says(infoOf(""), "crowd"));
+  EXPECT_TRUE(says(infoOf(walls), "crowd        where exact contact costs too much"));
+  EXPECT_TRUE(says(infoOf(walls), "an error of about 0.0003 m"));
+  EXPECT_TRUE(says(infoOf(walls + R"(, "crowds": { "when": 20 })"), "more than 20 boxes touch and move"));
+  EXPECT_TRUE(says(infoOf(walls + R"(, "crowds": { "when": "never" })"), "crowd        never"));
+  EXPECT_FALSE(says(infoOf(walls + R"(, "method": "listing1")"), "crowd"));
+}
+
 TEST_F(CommandLine, infoReadsATrajectoryToo) {
   folder_.write("scene.json", kScene);
   ASSERT_EQ(careen({"simulate", "scene.json", "-o", "run.careen"}).exitCode, 0);

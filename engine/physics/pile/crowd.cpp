@@ -13,24 +13,20 @@ constexpr double kShortestStep = 1.0 / 720;  // [s]
 constexpr double kShortestTurn = 0x1p-4;     // [1] of it: for boxes that spin fast
 constexpr double kMostMoved =
     0x1p-3;  // [1] of the smallest size, motion per step: faster bodies take shorter steps
-constexpr double kMostOfSpring = 0x1p-3;  // [rad] phase of the stiffest spring per step
-constexpr int kLoadPasses = 3;
 constexpr double kProjected = 3;  // longest steps between two projections
 // Sweeps before the second order of gaps is known, and with it.
 constexpr int kFirstSweeps = 5;
 constexpr int kSweeps = 7;
 constexpr std::int64_t kMostSweeps = 400;
-// [1] of these, by how long a jam lasts.
-constexpr std::int64_t kUsual = 1;
+// [1] Times as many, the longer a jam lasts.
 constexpr std::int64_t kMostEffort = 32;
 constexpr std::int64_t kFewManifolds = 256;
-constexpr std::size_t kVeryFewRows = 150;
 constexpr double kTell = 0x1p-12;  // [1] of the smallest size, change per step that re-solves neighbours
 constexpr double kTellLeast = 0x1p-36;
 constexpr std::int64_t kEasy = 4;
 constexpr std::int64_t kHard = 8;
 constexpr int kMostHalvings = 6;
-constexpr double kShortest = 0x1p-10;  // [1] of the length that the crowd would take
+constexpr double kShortest = 0x1p-10;  // [1] of the length that the crowd would take: not halved
 constexpr double kTooDeep = 1.5;       // [1] of the tolerance: new penetration for which a step is halved
 // [1] of the tolerance: how far corners may leave their tangents in a step. It is undone at its end; in its
 // middle a quarter is left, of both of a pair.
@@ -114,27 +110,6 @@ void Crowd::dismiss(std::size_t place) {
   free_.push_back(static_cast<int>(place));
 }
 
-// [s] Springs are integrated with few iterations: stable, and accurate to about the tolerance, for a small
-// phase.
-void Crowd::limitBySprings(std::size_t listed) {
-  for (const Spring& spring : world_.springs) {
-    double mobility = 0;  // [1/kg]
-    bool attached = false;
-    for (const SpringEnd* end : {&spring.from, &spring.to}) {
-      if (end->body) {
-        const Body& body = world_.bodies[at(*end->body)];
-        mobility +=
-            body.mass.inverseMass + body.mass.inverseInertiaBody.maxCoeff() * end->point.squaredNorm();
-        attached = attached || at(*end->body) == listed;
-      }
-    }
-    if (attached && mobility > 0) {
-      const double stiff = std::sqrt(spring.stiffness * mobility) + spring.damping * mobility;
-      springLimit_ = stiff > 0 ? std::min(springLimit_, kMostOfSpring / stiff) : springLimit_;
-    }
-  }
-}
-
 // ---- A step: the whole method, up to freeze().
 
 double Crowd::step(double most) {
@@ -163,9 +138,9 @@ double Crowd::stepAgain(double length) {
 }
 
 // Takes the step again with half its length, and without shifts, which are as long in a shorter one, while
-// bodies went deep into each other in it; returns its length. In a jam, where that and projection leave them
-// deep, the next steps take more sweeps. Not without end where others ask for less and
-// less: lengths far below what the crowd itself would take.
+// bodies went deep into each other in it; returns its length. Not without end, where the step was cut far
+// below what the crowd would take. In a jam, where all that leaves bodies deep, the next steps take more
+// sweeps.
 double Crowd::keepApart() {
   double depth = newDepth();
   const double shortest = kShortest * chooseLength(longestStep());
@@ -176,7 +151,8 @@ double Crowd::keepApart() {
     depth = newDepth();
   }
   const double left = depth > 0 || deep_ ? project() : 0;
-  effort_ = left > kTooDeep * tolerance_ ? std::min(2 * effort_, kMostEffort) : std::max(effort_ / 2, kUsual);
+  effort_ = left > kTooDeep * tolerance_ ? std::min(2 * effort_, kMostEffort)
+                                         : std::max<std::int64_t>(effort_ / 2, 1);
   return h_;
 }
 
@@ -274,53 +250,6 @@ void Crowd::take(double length, bool mayShift) {
   }
 }
 
-// Forces of springs and drag, in the middle of the step, found by iteration (implicit midpoint rule): springs
-// don't swing higher and higher.
-void Crowd::findLoads() {
-  if (worldStates_.empty()) {
-    return;
-  }
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!bodies_[i].absent) {
-      worldStates_[listed_[i]] = stateOf(bodies_[i]);
-    }
-  }
-  computeLoads(world_, worldStates_, loads_);
-  for (int pass = 0; pass < kLoadPasses; ++pass) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if (!bodies_[i].still()) {
-        PileBody halfway = bodies_[i];
-        const double ahead = 0.5 * h_;
-        halfway.velocity += halfway.behind * accelerationBefore(i) + ahead * acceleration(i);
-        halfway.angularMomentum += halfway.behind * torqueBefore(i) + ahead * torque(i);
-        halfway.position += ahead * halfway.velocity;
-        turnFree(halfway, ahead);
-        worldStates_[listed_[i]] = stateOf(halfway);
-      }
-    }
-    computeLoads(world_, worldStates_, loads_);
-  }
-}
-
-// [m/s²] Without contacts.
-Vec3 Crowd::acceleration(std::size_t place) const {
-  return loads_.empty() ? world_.gravity : Vec3(bodies_[place].inverseMass * loads_[listed_[place]].force);
-}
-
-Vec3 Crowd::accelerationBefore(std::size_t place) const {
-  return loadsBefore_.empty() ? world_.gravity
-                              : Vec3(bodies_[place].inverseMass * loadsBefore_[listed_[place]].force);
-}
-
-// [N m] Likewise.
-Vec3 Crowd::torque(std::size_t place) const {
-  return loads_.empty() ? Vec3(Vec3::Zero()) : loads_[listed_[place]].torque;
-}
-
-Vec3 Crowd::torqueBefore(std::size_t place) const {
-  return loadsBefore_.empty() ? Vec3(Vec3::Zero()) : loadsBefore_[listed_[place]].torque;
-}
-
 // First without the second order of gaps, which is that of the velocities found; then with it. Few contacts
 // are solved directly, both times where they are very few; of the others, the change threshold that re-solves
 // neighbours adapts to the effort of the last step: coarse during heavy impacts, finer as the crowd comes to
@@ -331,7 +260,7 @@ void Crowd::solve() {
   const auto most = [&](int sweeps) {
     return static_cast<int>(effort_ * std::min(sweeps * effort, kMostSweeps));
   };
-  const bool found = solver_.rowCount() <= kVeryFewRows && solveDirectly();
+  const bool found = solver_.rowCount() <= kFewRows && solveDirectly();
   std::int64_t solves = found ? 0 : solver_.solve(most(kFirstSweeps), true);
   const bool curved = curveGaps();
   if ((found && !curved) || solveDirectly()) {

@@ -23,7 +23,8 @@ namespace careen {
 
 /// Many boxes in contact that advance together in steps: the fast kind of contact group, of bounded error.
 /// Not exact: impacts are placed at the ends of steps, and the impulses of more than a few hundred contact
-/// points come from a Gauss–Seidel solver that stops early; those of fewer from the ContactSolver. What
+/// points come from a Gauss–Seidel solver that stops early; those of fewer from the ContactSolver, but in
+/// violent motion, where it takes too long. What
 /// holds: linear momentum is exchanged to rounding, restitution adds no energy, penetration stays near
 /// `tolerance`, and members at rest cost nothing.
 ///
@@ -153,6 +154,7 @@ class Crowd {
   /// [1] of the same: change that is a strike, to which it must not have been a wall.
   static constexpr double kStrike = 4;
   static constexpr int kStepsAlone = 2;
+  static constexpr std::size_t kFewRows = 150;       // up to which they are always solved directly
   static constexpr double kLongestStep = 1.0 / 180;  // [s] at the usual tolerance
   double longestStep() const { return kLongestStep * scale_; }
   struct Bounce {

@@ -12,8 +12,8 @@ constexpr double kParallel = 0x1p-20;  // [1] sine² of edges that have no commo
 
 }  // namespace
 
-// Adds it to the bounds of rows, at the velocities found so far, and puts on the list those that it changes;
-// returns whether there are any.
+// Adds it to the bounds of rows, once after they were loaded, at the velocities found so far, and puts on the
+// list those that it changes; returns whether there are any.
 bool Crowd::curveGaps() {
   bends_.assign(bodies_.size(), 0);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -30,11 +30,9 @@ bool Crowd::curveGaps() {
       if (point.row < 0) {
         continue;
       }
-      const double curved = 0.5 * h_ * h_ * secondOrder(manifold, k);
-      const double change = curved - point.curved;
-      point.curved = curved;
-      solver_.addToBound(point.row, -change / h_);
-      if (std::abs(change) > kStraight * tolerance_) {
+      point.curved = 0.5 * h_ * h_ * secondOrder(manifold, k);
+      solver_.addToBound(point.row, -point.curved / h_);
+      if (std::abs(point.curved) > kStraight * tolerance_) {
         solver_.wakeRow(point.row);
         any = true;
       }

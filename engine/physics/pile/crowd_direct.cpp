@@ -9,9 +9,8 @@ namespace {
 
 /// Of more contact points Gauss–Seidel costs less than factorisations do.
 constexpr std::size_t kMostRows = 600;
-constexpr std::size_t kFewRows = 150;
 constexpr int kMostFactorisations = 60;
-/// Of more than a few contact points, in violent motion, it does too: one try in so many steps.
+/// Of more than kFewRows in violent motion it does too: they get fewer, and one try in so many solves.
 constexpr int kFewFactorisations = 12;
 constexpr int kMostWait = 32;
 /// [1] Ratio of masses in contact from which Gauss–Seidel takes too long.

@@ -312,9 +312,8 @@ std::int64_t PileSolver::sweep(int sweeps) {
 
 CAREEN_LANES PileSolver::Velocities PileSolver::velocitiesOf(const std::vector<Moving>& moving,
                                                              const Side& side) {
-  const auto row = [&](std::size_t lane, std::size_t half) {
-    const Moving& body = moving[at(side.body[lane])];
-    return lanesFrom(half == 0 ? &body.velocity : &body.omega);
+  const auto row = [&](std::size_t lane, std::size_t k) {
+    return lanesFrom(moving[at(side.body[lane])].row(k));
   };
   Velocities all{.v = {row(0, 0), row(1, 0), row(2, 0)},
                  .w = {row(0, 1), row(1, 1), row(2, 1)},
@@ -401,8 +400,8 @@ CAREEN_LANES void PileSolver::store(const Side& side, const Velocities& from, Ve
   std::vector<Moving>& moving = kKind == Kind::kShift ? shifts_ : moving_;
   const auto put = [&](std::size_t lane, const Lanes& velocity, const Lanes& omega) {
     Moving& body = moving[at(side.body[lane])];
-    lanesTo(velocity, &body.velocity);
-    lanesTo(omega, &body.omega);
+    lanesTo(velocity, body.row(0));
+    lanesTo(omega, body.row(1));
   };
   put(0, to.v.x, to.w.x);
   put(1, to.v.y, to.w.y);

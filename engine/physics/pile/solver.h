@@ -127,7 +127,10 @@ class PileSolver {
     double unqueuedChange = 0;  // [m/s] change since its manifolds were last put on the list
     Vec3 omega = Vec3::Zero();
     double pushed = 0;  // 1 if it was
+    const void* row(std::size_t k) const { return reinterpret_cast<const char*>(this) + k * sizeof(Lanes); }
+    void* row(std::size_t k) { return reinterpret_cast<char*>(this) + k * sizeof(Lanes); }
   };
+  static_assert(sizeof(Moving) == 2 * sizeof(Lanes));
   struct Inertia {
     double inverseMass = 0;
     double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;  // world I⁻¹

@@ -103,36 +103,7 @@ TEST(Crowd, slidingBoxStopsWhereCoulombSaysAtEveryAzimuth) {
   }
 }
 
-TEST(Crowd, overlapStaysSmallAtEveryFrameOfPouring) {
-  const World world = test::pouring(60, 0.5, 0, 1, 3);
-  test::CrowdRun crowd(world);
-  double deepest = 0;
-  for (int frame = 0; frame < 360; ++frame) {
-    crowd.step();
-    deepest = std::max(deepest, crowd.deepest());
-  }
-  EXPECT_LT(deepest, 1e-3);
-  EXPECT_LT(crowd.deepest(), 3e-4);
-  EXPECT_GT(deepest, 0);
-}
-
 // Members leave between two steps, also before the one in which the manifolds are sorted.
-// Slippery boxes, 74 layers of them, wedge each other in a shaft under their weight. With 20 sweeps and 8
-// passes of projection they were 32 mm deep; steps cut to nothing by halving made numbers of none.
-TEST(Crowd, jamInADeepShaftStaysShallow) {
-  const World world = test::pouring(295, 0.1, 0, 1, 2);
-  test::CrowdRun crowd(world);
-  double deepest = 0;
-  for (int frame = 0; frame < 240; ++frame) {
-    crowd.step();
-    deepest = std::max(deepest, crowd.deepest());
-    for (const BodyState& state : crowd.states()) {
-      ASSERT_LT(state.pose.position.norm(), 100) << frame;
-    }
-  }
-  EXPECT_LT(deepest, 3 * Crowd::kUsualTolerance);  // measured 6.6e-4
-}
-
 TEST(Crowd, membersThatLeaveTakeNoManifoldOfOthers) {
   const World world = test::pouring(60, 0.5, 0, 1, 3);
   Crowd crowd(world, Crowd::kUsualTolerance);
