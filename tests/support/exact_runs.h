@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
@@ -28,11 +29,10 @@ struct Recorded {
     return stateAt(motion, world.bodies[body].mass, duration - start);
   }
   BodyState at(const World& world, std::size_t body, double time) const {
-    std::size_t k = 0;
-    while (k + 1 < motions[body].size() && motions[body][k + 1].first <= time) {
-      ++k;
-    }
-    return stateAt(motions[body][k].second, world.bodies[body].mass, time - motions[body][k].first);
+    const auto next = std::upper_bound(motions[body].begin() + 1, motions[body].end(), time,
+                                       [](double moment, const auto& each) { return moment < each.first; });
+    const auto& [start, motion] = *(next - 1);
+    return stateAt(motion, world.bodies[body].mass, time - start);
   }
 };
 

@@ -98,7 +98,7 @@ void ExactWorld::admitOutsider(const std::shared_ptr<ContactGroup>& group, int r
   const Mover& body = mover(rank);
   if (body.crowd) {
     const std::shared_ptr<ContactGroup> other = body.crowd;
-    endAt(*other, time);
+    endAt(other, time);
     merge(group, *other);
   } else if (body.moves()) {
     const Quat attitude = body.attitudeAt(time);
@@ -109,12 +109,15 @@ void ExactWorld::admitOutsider(const std::shared_ptr<ContactGroup>& group, int r
 }
 
 // Admits whom its members, pushed otherwise than expected, met in the step that they have taken: bodies at
-// rest and members of other crowds, none of which look for contacts. Returns whether there were any.
-bool ExactWorld::admitMet(const std::shared_ptr<ContactGroup>& group, const Instant& time) {
+// rest and members of other crowds, none of which look for contacts; if it was taken `again`, in place of the
+// latter those who had looked when it was another. Returns whether there were any.
+bool ExactWorld::admitMet(const std::shared_ptr<ContactGroup>& group, const Instant& time, bool again) {
   bool any = false;
   for (const int rank : outsidersIn(group->crowd->swept(), *group, time, group->crowd->length())) {
     const Mover& body = mover(rank);
-    if (body.crowd != group && (body.crowd || !body.moves()) && wasMet(*group, rank, time)) {
+    const bool asked = again ? !body.crowd && (!body.moves() || fliesSince(rank, time))
+                             : body.crowd != group && (body.crowd || !body.moves());
+    if (asked && wasMet(*group, rank, time)) {
       admitOutsider(group, rank, time);
       any = true;
     }

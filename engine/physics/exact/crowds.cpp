@@ -13,7 +13,7 @@ namespace {
 constexpr double kMoment = 0x1p-40;
 /// [1] of the tolerance: how far recorded steps may differ from those computed, so that fewer are recorded.
 constexpr double kMerged = 0.25;
-/// [1] of that, without gravity: what moves slowly does so for long, and its momentum is all there is.
+/// [1] of kMerged, without gravity: what moves slowly does so for long, and its momentum is all there is.
 constexpr double kMergedAfloat = 0x1p-4;
 
 }  // namespace
@@ -70,7 +70,7 @@ void ExactWorld::formCrowd(const Encounter& encounter) {
     if (encounter.crowds.size() == 1) {
       joinStep(met, encounter);
     }
-    endAt(*met, encounter.time);
+    endAt(met, encounter.time);
     if (!crowd) {
       crowd = met;
     } else {
@@ -94,23 +94,26 @@ void ExactWorld::joinStep(const std::shared_ptr<ContactGroup>& crowd, const Enco
     return;
   }
   for (const int rank : encounter.ranks) {
-    const Mover& body = mover(rank);
-    if (body.flies && !body.crowd && springs_[static_cast<std::size_t>(rank)].empty() &&
-        !earlier(crowd->start, body.start)) {
-      const Quat attitude = body.attitudeAt(crowd->start);
-      enlist(crowd, rank, crowd->start, body.stateAt(crowd->start, attitude), attitude);
+    if (fliesSince(rank, crowd->start)) {
+      admitOutsider(crowd, rank, crowd->start);
     }
   }
 }
 
-double ExactWorld::mergedWithin() const {
-  return kMerged * crowds_.tolerance * (world_.gravity.isZero(0) ? kMergedAfloat : 1);
+bool ExactWorld::fliesSince(int rank, const Instant& time) const {
+  const Mover& body = mover(rank);
+  return body.flies && !body.crowd && springs_[static_cast<std::size_t>(rank)].empty() &&
+         !earlier(time, body.start);
+}
+
+JoinedSteps ExactWorld::newPath() const {
+  return JoinedSteps(kMerged * crowds_.tolerance * (world_.gravity.isZero(0) ? kMergedAfloat : 1));
 }
 
 void ExactWorld::keepPlace(const std::shared_ptr<ContactGroup>& crowd, int rank, std::size_t place) {
   if (place >= crowd->ranks.size()) {
     crowd->ranks.resize(place + 1, -1);
-    crowd->joined.resize(place + 1, JoinedSteps(mergedWithin()));
+    crowd->joined.resize(place + 1, newPath());
     crowd->motions.resize(place + 1);
   }
   crowd->ranks[place] = rank;
@@ -149,7 +152,7 @@ void ExactWorld::enlist(const std::shared_ptr<ContactGroup>& crowd, int rank, co
 // it bent theirs.
 JoinedSteps ExactWorld::comingFrom(const ContactGroup& crowd, const Mover& body, const Instant& time,
                                    const BodyState& state, const Quat& attitude) const {
-  JoinedSteps joined(mergedWithin());
+  JoinedSteps joined = newPath();
   const double length = std::min(0.5 * crowd.before, secondsBetween(body.start, time));
   if (length > 0) {
     const auto endAt = [&](const BodyState& at, const Quat& turned) {
@@ -248,10 +251,14 @@ void ExactWorld::advanceCrowd(const std::shared_ptr<ContactGroup>& crowd, const 
   }
 }
 
-// Ends the crowd's step now, perhaps early: then in more than one, if it needs shorter ones.
-void ExactWorld::endAt(ContactGroup& group, const Instant& time) {
+// Ends the crowd's step now, perhaps early: then in more than one, if it needs shorter ones. Members who
+// joined that step go another way in it than they were expected to.
+void ExactWorld::endAt(const std::shared_ptr<ContactGroup>& crowd, const Instant& time) {
+  ContactGroup& group = *crowd;
   if (earlier(time, group.end())) {
-    group.step.length = group.crowd->stepAgain(secondsBetween(group.start, time));
+    do {
+      group.step.length = group.crowd->stepAgain(secondsBetween(group.start, time));
+    } while (group.step.length > 0 && admitMet(crowd, group.start, true));
     while (secondsBetween(group.end(), time) > kMoment) {
       const Instant end = group.end();
       commit(group, end);
@@ -313,8 +320,14 @@ void ExactWorld::endStep(ContactGroup& group, std::size_t place, std::span<const
   const Crowd& crowd = *group.crowd;
   JoinedSteps& joined = group.joined[place];
   const bool asItCame = joined.isNew() && suddenly[place] == 0;
-  joined.add(recorder_, mover(group.ranks[place]).listed, group.start.hi, crowd.begin(place, asItCame),
-             crowd.end(place), crowd.length(), crowd.body(place).radius);
+  const std::size_t parts = crowd.parts(place);
+  const double length = crowd.length() / static_cast<double>(parts);
+  for (std::size_t k = 0; k < parts; ++k) {
+    auto [from, to] = crowd.part(place, k);
+    from = asItCame && parts == 1 ? crowd.begin(place, true) : from;
+    joined.add(recorder_, mover(group.ranks[place]).listed, group.start.hi + static_cast<double>(k) * length,
+               from, to, length, crowd.body(place).radius, k > 0 || crowd.isSharp());
+  }
 }
 
 // Members that nothing is near go on in Flight.
@@ -354,7 +367,7 @@ void ExactWorld::go(const std::shared_ptr<ContactGroup>& group, const Instant& t
   account_.parted();
   group->start = time;
   group->step = {.length = crowd.step(std::min(most, withinCell(crowd.fastest())))};  // of those admitted too
-  while (admitMet(group, time)) {
+  while (admitMet(group, time, false)) {
     group->step.length = crowd.stepAgain(crowd.length());
   }
   bool any = false;

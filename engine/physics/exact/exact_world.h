@@ -94,14 +94,15 @@ class ExactWorld {
               const BodyState& state, const Quat& attitude);
   void enlistAtRest(const std::shared_ptr<ContactGroup>& crowd, int rank);
   void keepPlace(const std::shared_ptr<ContactGroup>& crowd, int rank, std::size_t place);
-  /// [m] How far recorded steps of a crowd may differ from those computed.
-  double mergedWithin() const;
+  /// Of a member, to be recorded.
+  JoinedSteps newPath() const;
   JoinedSteps comingFrom(const ContactGroup& crowd, const Mover& body, const Instant& time,
                          const BodyState& state, const Quat& attitude) const;
   void merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup& other);
   void advanceCrowd(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
   void joinStep(const std::shared_ptr<ContactGroup>& crowd, const Encounter& encounter);
-  void endAt(ContactGroup& crowd, const Instant& time);
+  void endAt(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
+  bool fliesSince(int rank, const Instant& time) const;
   void commit(ContactGroup& crowd, const Instant& time);
   std::vector<int> release(ContactGroup& crowd, const Instant& time);
   void go(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
@@ -111,7 +112,7 @@ class ExactWorld {
                                double length) const;
   void admitNear(const std::shared_ptr<ContactGroup>& crowd, const Instant& time, double length);
   void admitOutsider(const std::shared_ptr<ContactGroup>& crowd, int rank, const Instant& time);
-  bool admitMet(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
+  bool admitMet(const std::shared_ptr<ContactGroup>& crowd, const Instant& time, bool again);
   bool wasMet(const ContactGroup& crowd, int rank, const Instant& time);
   bool meetsNext(const ContactGroup& crowd, int rank, const Instant& time, double length);
   std::vector<int> nearStep(const ContactGroup& crowd);

@@ -9,11 +9,11 @@ StepEnd JoinedSteps::Step::at(double elapsed) const {
 }
 
 void JoinedSteps::add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,
-                      double length, double radius) {
+                      double length, double radius, bool sharp) {
   const Step next{.time = time, .length = length, .from = from, .to = to, .radius = radius};
   double begun = 0;
   StepEnd there = from;
-  if (last_.length > 0 && last_.to.position == from.position) {
+  if (last_.length > 0 && last_.to.position == from.position && !sharp) {
     const double before = std::min((ofOthers_ ? 1 : 0.5) * last_.length, length);
     begun = std::min(0.5 * length, (ofOthers_ ? 2 : 1) * last_.length);
     handOn(recorder, body, last_.length - before);

@@ -10,11 +10,11 @@ constexpr double kParallelSquared = 0x1p-14;
 
 }  // namespace
 
-bool PileAxes::find(const PileBody& a, const PileBody& b, double reach, int last, double tie) {
-  cosines.noalias() = a.axes.transpose() * b.axes;
-  const Vec3 apart = a.middle() - b.middle();
-  apartA.noalias() = a.axes.transpose() * apart;
-  apartB.noalias() = b.axes.transpose() * apart;
+bool PileAxes::find(const PileBody& a, const Mat3& axesOfA, const PileBody& b, const Mat3& axesOfB,
+                    const Vec3& apart, double reach, int last, double tie) {
+  cosines.noalias() = axesOfA.transpose() * axesOfB;
+  apartA.noalias() = axesOfA.transpose() * apart;
+  apartB.noalias() = axesOfB.transpose() * apart;
   const Vec3& halfA = a.halfExtents;
   const Vec3& halfB = b.halfExtents;
   const Mat3 sizes = cosines.cwiseAbs();

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
 #include "core/math/linear_algebra.h"
 #include "physics/pile/body.h"
@@ -17,11 +19,19 @@ struct PileAxes {
   int face = 0;   ///< 0…5 best face axis, see BoxAxis
   int edges = 0;  ///< 6 … 14 best edge axis
   double faceSeparation = 0;
-  double edgeSeparation = 0;
+  double edgeSeparation = std::numeric_limits<double>::lowest();
 
   /// `last`, if not −1, wins ties within `tie` [m]. Returns false at the first axis that separates by more
   /// than `reach`; `faceSeparation` is then that separation.
-  bool find(const PileBody& a, const PileBody& b, double reach, int last, double tie);
+  bool find(const PileBody& a, const PileBody& b, double reach, int last, double tie) {
+    return find(a, a.axes, b, b.axes, a.middle() - b.middle(), reach, last, tie);
+  }
+  /// The same where they are turned otherwise; `apart` [m] is from b's middle to a's.
+  bool find(const PileBody& a, const Mat3& axesOfA, const PileBody& b, const Mat3& axesOfB, const Vec3& apart,
+            double reach, int last, double tie);
+
+  /// [m] The best, after find(); if that returned false, of a few of them.
+  double separation() const { return std::max(faceSeparation, edgeSeparation); }
 };
 
 }  // namespace careen

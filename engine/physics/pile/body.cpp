@@ -21,13 +21,13 @@ Quat turnOf(const Vec3& theta) {
   return {cos, v.x(), v.y(), v.z()};
 }
 
+}  // namespace
+
 void setAttitude(PileBody& body, const Quat& attitude) {
   body.attitude = unit<double>(attitude);
   body.axes = body.attitude.toRotationMatrix();
   deriveOmega(body);
 }
-
-}  // namespace
 
 PileBody pileBody(const Body& body, const BodyState& state) {
   PileBody result{.halfExtents = body.halfExtents,

@@ -55,6 +55,9 @@ BodyState stateOf(const PileBody& body);
 /// ω = A Ī⁻¹ Aᵀ L (Eq. 18).
 void deriveOmega(PileBody& body);
 
+/// At the same angular momentum.
+void setAttitude(PileBody& body, const Quat& attitude);
+
 /// Rotates a free body for h [s]: A ← A exp θ̃, L constant in the world frame.
 ///
 /// θ is the Magnus series, truncated at fourth order, of Ȧ = A ω̃ with ω expanded about the start,

@@ -94,6 +94,9 @@ std::size_t Crowd::place(const PileBody& body, std::size_t listed) {
   bodies_[index] = body;
   start_.resize(bodies_.size());
   start_[index] = body;
+  before_[index] = {};
+  ratesBefore_.resize(bodies_.size());
+  ratesBefore_[index] = {.velocity = body.velocity, .omega = body.omega};
   listed_[index] = listed;
   untouchedSteps_[index] = 0;
   quietChecks_[index] = 0;
@@ -117,6 +120,11 @@ double Crowd::step(double most) {
   if (figures_.steps % kStepsPerSorting == 0) {
     sortManifolds();
   }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    ratesBefore_[i] =
+        before_[i].moved ? ratesAt(i, way_.size()) : Rates{bodies_[i].velocity, bodies_[i].omega};
+  }
+  partBefore_ = h_ / static_cast<double>(way_.size() + 1);
   start_ = bodies_;
   loadsBefore_ = loads_;
   hBefore_ = h_;
@@ -150,9 +158,10 @@ double Crowd::keepApart() {
     take(0.5 * h_, false);
     depth = newDepth();
   }
-  const double left = depth > 0 || deep_ ? project() : 0;
+  const double left = depth > 0 || deep_ ? projectOnWay() : 0;
   effort_ = left > kTooDeep * tolerance_ ? std::min(2 * effort_, kMostEffort)
                                          : std::max<std::int64_t>(effort_ / 2, 1);
+  findSharp();
   return h_;
 }
 
@@ -221,6 +230,8 @@ void Crowd::take(double length, bool mayShift) {
   // Stored impulses are those of the last step. If that was much shorter, they are those of impacts.
   const double span = 0.5 * (hBefore_ + length);
   const double scale = std::min(span / span_, kMostScaled);
+  projected_ = 0;
+  way_.clear();
   h_ = length;
   span_ = span;
   findLoads();

@@ -110,6 +110,11 @@ class Crowd {
   std::vector<char> changedSuddenly() const;
   StepEnd end(std::size_t place) const;
   double length() const { return h_; }
+  /// Into how many parts, equally long, its way in the last step is divided; and the begin and end of one.
+  std::size_t parts(std::size_t place) const { return before_[place].pushed ? way_.size() + 1 : 1; }
+  std::pair<StepEnd, StepEnd> part(std::size_t place, std::size_t part) const;
+  /// Its begin is to be met: JoinedSteps would lead members through each other there.
+  bool isSharp() const { return isSharp_; }
   /// Nothing was near it for a few steps.
   bool isFree(std::size_t place) const { return untouchedSteps_[place] > kStepsAlone; }
   /// All members are asleep or fixed.
@@ -176,6 +181,19 @@ class Crowd {
     bool pushed = false;
     bool moved = false;
   };
+  struct Place {
+    Vec3 position = Vec3::Zero();
+    Quat attitude = Quat::Identity();
+  };
+  struct Kept {  // a body before a pass of the projection
+    Place place;
+    double path = 0;
+    double turned = 0;
+  };
+  struct Rates {  // of the way in a part of a step
+    Vec3 velocity = Vec3::Zero();
+    Vec3 omega = Vec3::Zero();
+  };
   Vec3 meanSpin(std::size_t place) const;
   bool changesSuddenly(std::size_t place) const;
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -238,9 +256,23 @@ class Crowd {
   double newDepth();
   double shiftOf(int body) const;
   double depthNow(const PilePair& pair) const;
+  double wayOf(int b, int a) const;
+  double depthWithin(int a, int b) const;
+  Pose between(std::size_t place, double part) const;
   double depthBefore(const PilePair& pair) const;
   bool startedDeep(const PilePair& pair) const;
   double project();
+  double refreshDepth(bool all);
+  void keepPlaces();
+  void restorePlaces();
+  void rebuildNear();
+  double projectOnWay();
+  double findWay();
+  Rates ratesAt(std::size_t place, std::size_t part) const;
+  void findSharp();
+  std::pair<Place, Place> endsOf(std::size_t place, std::size_t part) const;
+  double deepestOnWay() const;
+  std::vector<std::vector<Place>> divideWay(int parts);
   bool freeze();
   void beginManifold(const PilePair& pair, PileManifold& manifold) const;
   void keepManifold(PilePair& pair, const PileManifold& manifold);
@@ -280,6 +312,12 @@ class Crowd {
   int directWait_ = 0;       // solves until it is tried again,
   int directPause_ = 1;      // and as many after the next failure
   PileProjection projection_;
+  std::vector<Kept> kept_;          // where it left bodies least deep in each other
+  double projected_ = 0;            // [m] how far it moved one in this step, at the most
+  std::vector<Rates> ratesBefore_;  // by place, at the end of the step before
+  double partBefore_ = 0;           // [s] length of its parts
+  bool isSharp_ = false;
+  std::vector<std::vector<Place>> way_;  // places between begin and end of the last step, if any
   double tell_;              // [1] of the smallest size: change per step above which neighbours are re-solved
   std::vector<char> bends_;  // by place: its corners leave their tangents in this step
   std::vector<Bounce> bounces_;

@@ -1,4 +1,4 @@
-// Contacts of a crowd: broad and narrow phase, rows of the solver, position projection.
+// Contacts of a crowd: broad and narrow phase, rows of the solver.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,8 +8,7 @@
 namespace careen {
 namespace {
 
-constexpr double kLookAhead = 6;  // longest steps for which a fat AABB should stay valid
-constexpr int kPasses = 32;
+constexpr double kLookAhead = 6;   // longest steps for which a fat AABB should stay valid
 constexpr double kGrowth = 1.5;    // [1] largest growth of an impulse per step that the warm start accepts
 constexpr double kBounceFrom = 4;  // [1] of gravity × step: slower impacts do not bounce
 constexpr double kRounding = 0x1p-30;  // [1] of the fastest speed: slower impacts do not either
@@ -296,48 +295,6 @@ void Crowd::keepImpulses() {
       }
     }
   }
-}
-
-// Returns the deepest gap that is left [m].
-double Crowd::project() {
-  for (int pass = 0; pass < kPasses; ++pass) {
-    for (const int slot : near_) {
-      PileManifold& manifold = manifolds_[at(slot)];
-      const bool hasWall = manifold.b.isWall();
-      if (pass > 0 && !projection_.moved(manifold.a) && (hasWall || !projection_.moved(manifold.b.body()))) {
-        continue;
-      }
-      const PileBody& a = bodies_[at(manifold.a)];
-      if (hasWall) {
-        refreshManifold(a, wallAt(manifold.b), manifold);
-        continue;
-      }
-      const PileBody& b = bodyAt(manifold.b);
-      const double unseen = pass == 0 ? relativeMotion(a, b, h_) : 0;
-      if (manifold.moved + unseen > rebuildAfter(manifold.length)) {
-        ++figures_.rebuilt;
-        buildManifold(a, b, manifold.reach, manifold);
-      } else {
-        refreshManifold(a, b, manifold);
-      }
-    }
-    if (!projection_.pass(bodies_, manifolds_, near_, 3 << std::min(pass, 4))) {
-      break;
-    }
-    ++figures_.projections;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      before_[i].pushed = before_[i].pushed || projection_.moved(static_cast<int>(i));
-    }
-  }
-  double deepest = 0;
-  for (const int slot : near_) {
-    const PileManifold& manifold = manifolds_[at(slot)];
-    for (int k = 0; k < manifold.count; ++k) {
-      deepest = std::max(deepest, -manifold.points[at(k)].gap);
-    }
-  }
-  deepest_ = std::max(deepest_, deepest);
-  return deepest;
 }
 
 }  // namespace careen

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "physics/pile/axes.h"
 #include "physics/pile/crowd.h"
 
 namespace careen {
@@ -15,6 +16,10 @@ constexpr double kShifted = 0.8;
 constexpr double kShiftedTo = 0.5;
 constexpr double kShiftChange = 0.25;
 constexpr int kShiftSweeps = 60;
+// Within a step, boxes are looked at where one may have moved by so much [1] of the tolerance relative to the
+// other, at parts of it as short as that [1].
+constexpr double kSwing = 8;
+constexpr double kShortestLook = 0.125;
 
 }  // namespace
 
@@ -88,8 +93,58 @@ double Crowd::depthNow(const PilePair& pair) const {
   if (motion < tolerance_ && !startedDeep(pair)) {
     return 0;
   }
-  const double depth = b == nullptr ? overlapOf(a, wallAt(pair.b)) : overlapOf(a, *b);
+  const double depth = b == nullptr ? overlapOf(a, wallAt(pair.b))
+                                    : std::max(overlapOf(a, *b), depthWithin(pair.a, pair.b.body()));
   return depth > kDeep * tolerance_ ? depth : 0;
+}
+
+// [m] By how much points of b moved in the last step as seen from a, at the most, to first order.
+double Crowd::wayOf(int b, int a) const {
+  const auto turn = [&](int body) {
+    const Quat by = bodies_[at(body)].attitude * start_[at(body)].attitude.conjugate();
+    return Vec3((by.w() < 0 ? -2 : 2) * by.vec());
+  };
+  const Vec3 turnA = turn(a);
+  const Vec3 apart = start_[at(b)].position - start_[at(a)].position;
+  const Vec3 wayA = bodies_[at(a)].position - start_[at(a)].position;
+  const Vec3 wayB = bodies_[at(b)].position - start_[at(b)].position;
+  return (wayB - wayA - turnA.cross(apart)).norm() + bodies_[at(b)].radius * (turn(b) - turnA).norm();
+}
+
+// [m] Overlap within the step, if more than kDeep: of features that are apart at both its ends. No gap
+// changes by more than points move.
+double Crowd::depthWithin(int a, int b) const {
+  const double motion = wayOf(b, a);
+  if (motion <= kSwing * tolerance_) {
+    return 0;
+  }
+  double deepest = 0;
+  const auto gapAt = [&](double part) {
+    const Pose poseA = between(at(a), part);
+    const Pose poseB = between(at(b), part);
+    const auto arm = [](const Pose& pose, const PileBody& body) {
+      return body.center == nullptr ? pose.position : pose.worldPoint(*body.center);
+    };
+    PileAxes axes;
+    axes.find(bodies_[at(a)], poseA.worldFromBody, bodies_[at(b)], poseB.worldFromBody,
+              arm(poseA, bodies_[at(a)]) - arm(poseB, bodies_[at(b)]), -kDeep * tolerance_, -1, 0);
+    return axes.separation();
+  };
+  const auto look = [&](const auto& again, double from, double gapFrom, double length, double gapTo) {
+    if (motion * length <= kSwing * tolerance_ ||
+        0.5 * (gapFrom + gapTo - motion * length) > -kDeep * tolerance_) {
+      return;
+    }
+    const double half = 0.5 * length;
+    const double gap = gapAt(from + half);
+    deepest = std::max(deepest, -gap);
+    if (half > kShortestLook) {
+      again(again, from, gapFrom, half, gap);
+      again(again, from + half, gap, half, gapTo);
+    }
+  };
+  look(look, 0, gapAt(0), 1, gapAt(1));
+  return deepest > kDeep * tolerance_ ? deepest : 0;
 }
 
 // Whether a gap was below the tolerance before the step.

@@ -2,13 +2,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/rotation.h"
 #include "physics/geometry/separation.h"
+#include "physics/motion/joined_steps.h"
+#include "physics/pile/axes.h"
 #include "physics/pile/crowd.h"
 
 namespace careen {
 namespace {
 
+// [1] of the tolerance: distance from a joint, and depth there, that are too much for a smooth path.
+constexpr double kRounded = 0.5;
+constexpr double kDeepAtJoint = 2;
 constexpr double kLasting = 4;  // [1] of gravity × step: larger changes of velocity are those of impacts
+
+// [rad/s] Body frame: of the turn from the one to the other in that time. Its angle is 2 asin of the length
+// of the vector part, here to eighth order.
+Vec3 spinBetween(const Quat& from, const Quat& to, double length) {
+  const Quat turn = from.conjugate() * to;
+  const double z = turn.vec().squaredNorm();
+  const double angle = 2 * (1 + z * (1.0 / 6 + z * (3.0 / 40 + z * (15.0 / 336))));
+  return (turn.w() < 0 ? -angle : angle) / length * turn.vec();
+}
 
 }  // namespace
 
@@ -73,13 +88,99 @@ bool Crowd::cameNear(std::size_t place, BoxAt box, double distance) const {
                  .gap() <= within;
 }
 
-// [rad/s] Body frame: of the turn from one end to the other. Its angle is 2 asin of the length of the vector
-// part, here to eighth order.
 Vec3 Crowd::meanSpin(std::size_t place) const {
-  const Quat turn = before_[place].attitude.conjugate() * bodies_[place].attitude;
-  const double z = turn.vec().squaredNorm();
-  const double angle = 2 * (1 + z * (1.0 / 6 + z * (3.0 / 40 + z * (15.0 / 336))));
-  return (turn.w() < 0 ? -angle : angle) / h_ * turn.vec();
+  return spinBetween(before_[place].attitude, bodies_[place].attitude, h_);
+}
+
+// On the way of the last step, straight between the places of way_.
+Pose Crowd::between(std::size_t place, double part) const {
+  if (part == 0 || bodies_[place].still()) {
+    return {.position = start_[place].position, .worldFromBody = start_[place].axes};
+  }
+  if (part == 1) {
+    return {.position = bodies_[place].position, .worldFromBody = bodies_[place].axes};
+  }
+  const double parts = static_cast<double>(way_.size() + 1);
+  const double k = std::floor(part * parts);
+  const auto [from, to] = endsOf(place, static_cast<std::size_t>(k));
+  const double along = part * parts - k;
+  const double back = (1 - along) * (to.attitude.dot(from.attitude) < 0 ? -1 : 1);
+  return {
+      .position = (1 - along) * from.position + along * to.position,
+      .worldFromBody =
+          Quat(back * from.attitude.coeffs() + along * to.attitude.coeffs()).normalized().toRotationMatrix()};
+}
+
+std::pair<Crowd::Place, Crowd::Place> Crowd::endsOf(std::size_t place, std::size_t part) const {
+  const auto placeOf = [](const PileBody& body) {
+    return Place{.position = body.position, .attitude = body.attitude};
+  };
+  return {part == 0 ? placeOf(start_[place]) : way_[part - 1][place],
+          part == way_.size() ? placeOf(bodies_[place]) : way_[part][place]};
+}
+
+// To second order.
+Crowd::Rates Crowd::ratesAt(std::size_t place, std::size_t part) const {
+  const auto [from, to] = endsOf(place, part);
+  const Quat turn = to.attitude * from.attitude.conjugate();
+  const double perSecond = static_cast<double>(way_.size() + 1) / h_;
+  return {.velocity = perSecond * (to.position - from.position),
+          .omega = (turn.w() < 0 ? -2 : 2) * perSecond * turn.vec()};
+}
+
+// Whether where this step begins, the smooth path through both would lead members deep into each other.
+void Crowd::findSharp() {
+  isSharp_ = false;
+  const double part = h_ / static_cast<double>(way_.size() + 1);
+  const double before = std::min(0.5 * partBefore_, part);
+  const double after = std::min(0.5 * part, partBefore_);
+  const double rounding = JoinedSteps::kRounding * before * after / (before + after);
+  std::vector<Rates> off(bodies_.size());  // [m], [rad] from the joint
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (before_[i].moved) {
+      const Rates rates = ratesAt(i, 0);
+      off[i] = {.velocity = rounding * (rates.velocity - ratesBefore_[i].velocity),
+                .omega = rounding * (rates.omega - ratesBefore_[i].omega)};
+    }
+  }
+  isSharp_ = std::any_of(near_.begin(), near_.end(), [&](int slot) {
+    const PileManifold& manifold = manifolds_[at(slot)];
+    if (manifold.b.isWall()) {
+      return false;
+    }
+    const PileBody& a = start_[at(manifold.a)];
+    const PileBody& b = start_[at(manifold.b.body())];
+    const Rates& offA = off[at(manifold.a)];
+    const Rates& offB = off[at(manifold.b.body())];
+    const Vec3 apart = b.position - a.position;
+    const double way = (offB.velocity - offA.velocity - offA.omega.cross(apart)).norm() +
+                       b.radius * (offB.omega - offA.omega).norm();
+    if (way <= kRounded * tolerance_) {
+      return false;
+    }
+    PileAxes axes;
+    const auto turned = [](const PileBody& body, const Rates& by) {
+      return Mat3(body.axes + tilde(by.omega) * body.axes);
+    };
+    return axes.find(a, turned(a, offA), b, turned(b, offB),
+                     a.middle() + offA.velocity - b.middle() - offB.velocity, -kDeepAtJoint * tolerance_, -1,
+                     0);
+  });
+}
+
+std::pair<StepEnd, StepEnd> Crowd::part(std::size_t place, std::size_t part) const {
+  if (parts(place) == 1) {
+    return {begin(place), end(place)};
+  }
+  const auto [from, to] = endsOf(place, part);
+  const double length = h_ / static_cast<double>(parts(place));
+  const Vec3 velocity = (to.position - from.position) / length;
+  const Vec3 spin = spinBetween(from.attitude, to.attitude, length);
+  const auto end = [&](const Place& at) {
+    return StepEnd{
+        .position = at.position, .velocity = velocity, .worldFromBody = at.attitude, .spinBody = spin};
+  };
+  return {end(from), end(to)};
 }
 
 // Whether more than what lasting forces do changed its velocity in the last step.

@@ -8,7 +8,6 @@
 namespace careen {
 namespace {
 
-constexpr int kProjectionSweeps = 20;
 constexpr double kLeft = 1.0 / 3;  // [1] of the tolerance: penetration kept, so that contacts persist
 constexpr double kTellPush =
     1.0 / 12;                      // [1] of the tolerance: smallest displacement that re-solves neighbours
@@ -81,8 +80,9 @@ bool PileProjection::collect(std::span<const PileBody> bodies, std::span<PileMan
 }
 
 bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> manifolds,
-                          std::span<const int> near, int layers) {
+                          std::span<const int> near, int layers, int sweeps) {
   moved_.assign(bodies.size(), 0);
+  farthest_ = 0;
   if (!collect(bodies, manifolds, near, layers)) {
     return false;
   }
@@ -113,7 +113,7 @@ bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> ma
   }
   solver_.link();
   solver_.wakeAll();
-  solver_.solve(kProjectionSweeps, false);
+  solver_.solve(sweeps, false);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const int index = static_cast<int>(i);
     if (reached_[i] == 0 || !solver_.pushed(index)) {
@@ -131,6 +131,7 @@ bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> ma
     body.position += shift;
     turnBy(body, turn);
     body.path += std::min(far, most);
+    farthest_ = std::max(farthest_, std::min(far, most));
     body.turned += body.radius * turn.norm();
     moved_[i] = 1;
   }

@@ -19,12 +19,16 @@ class PileProjection {
   explicit PileProjection(double tolerance) : tolerance_(tolerance) {}
 
   /// One pass over the listed manifolds, whose gaps must be up to date. Only penetrating bodies and their
-  /// neighbours, up to `layers` layers (at most 127), move. False if nothing was to be done.
+  /// neighbours, up to `layers` layers (at most 127), move. At most so many sweeps. False if nothing was to
+  /// be done.
   bool pass(std::span<PileBody> bodies, std::span<PileManifold> manifolds, std::span<const int> near,
-            int layers);
+            int layers, int sweeps);
 
   /// [m] For boxes of that smallest size [m].
   double tolerated(double length) const { return std::min(tolerance_, 0x1.8p-8 * length); }
+
+  /// [m] How far the last pass moved points, at the most.
+  double farthest() const { return farthest_; }
 
   bool moved(int body) const { return moved_[static_cast<std::size_t>(body)] != 0; }
 
@@ -32,7 +36,8 @@ class PileProjection {
   bool collect(std::span<const PileBody> bodies, std::span<PileManifold> manifolds, std::span<const int> near,
                int layers);
 
-  double tolerance_;  // [m]
+  double tolerance_;     // [m]
+  double farthest_ = 0;  // [m]
   PileSolver solver_;
   std::vector<char> reached_;
   std::vector<char> moved_;

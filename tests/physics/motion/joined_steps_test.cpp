@@ -22,6 +22,7 @@ class KeptSteps : public Recorder {
 struct Leg {
   double length = 0;  // [s]
   Vec3 velocity = Vec3::Zero();
+  bool sharp = false;
 };
 
 // Straight steps, each with one velocity.
@@ -33,7 +34,8 @@ KeptSteps joined(const std::vector<Leg>& legs) {
   for (const Leg& leg : legs) {
     const StepEnd from{.position = position, .velocity = leg.velocity};
     position += leg.length * leg.velocity;
-    steps.add(kept, {}, time, from, {.position = position, .velocity = leg.velocity}, leg.length, 0.5);
+    steps.add(kept, {}, time, from, {.position = position, .velocity = leg.velocity}, leg.length, 0.5,
+              leg.sharp);
     time += leg.length;
   }
   steps.flush(kept, {});
@@ -95,6 +97,21 @@ TEST(JoinedSteps, overlapNoMoreThanTheirEnds) {
   };
   for (double time = 0; time < 2.5e-3; time += 1e-5) {
     EXPECT_LE(at(first, time) - 4e-3, at(second, time) + 1e-15) << time;
+  }
+}
+
+// By kRounding b c/(b + c) of the change, at most.
+TEST(JoinedSteps, leaveJointsUnlessTheyAreSharp) {
+  for (const bool sharp : {false, true}) {
+    double farthest = 0;
+    for (const auto& [start, step] :
+         joined({{1e-3, Vec3(4, 0, 0)}, {3e-3, Vec3(-4, 0, 0), sharp}, {1e-3, Vec3(-4, 0, 0)}}).motions) {
+      for (double part = 0; part <= 1; part += 0x1p-8) {
+        farthest = std::max(farthest, positionAt(step, part * step.duration).x());
+      }
+    }
+    const double off = JoinedSteps::kRounding * 0.5e-3 * 1e-3 / 1.5e-3 * 8;
+    EXPECT_NEAR(farthest, sharp ? 4e-3 : 4e-3 - off, sharp ? 1e-15 : 0.3 * off) << sharp;
   }
 }
 

@@ -32,13 +32,5 @@ TEST(CrowdDepth, overlapStaysSmallAtEveryFrameOfPouring) {
   EXPECT_GT(deepest, 0);
 }
 
-// Slippery boxes, 74 layers of them, wedge each other in a shaft under their weight: the crowd that
-// took 8 passes of projection at most, and as many sweeps in every step, let them go 21 mm deep.
-TEST(CrowdDepth, jamInADeepShaftStaysShallow) {
-  const World world = test::pouring(295, 0.1, 0, 1, 2);
-  test::CrowdRun crowd(world);
-  EXPECT_LT(deepestOf(crowd, 240), 3 * Crowd::kUsualTolerance);  // measured 6.6e-4
-}
-
 }  // namespace
 }  // namespace careen

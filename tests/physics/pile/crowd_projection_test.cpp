@@ -1,0 +1,85 @@
+// How members of a crowd are pushed apart.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "physics/geometry/separation.h"
+#include "physics/pile/crowd.h"
+#include "support/crowd_run.h"
+#include "support/pile_scenes.h"
+
+namespace careen {
+namespace {
+
+constexpr double kTolerance = Crowd::kUsualTolerance;
+
+// [m] On the way of the last step, halfway through each of its parts.
+double deepestWithin(const World& world, const Crowd& crowd) {
+  const std::size_t count = world.bodies.size();
+  std::size_t parts = 1;
+  for (std::size_t place = 0; place < count; ++place) {
+    parts = std::max(parts, crowd.parts(place));
+  }
+  double deepest = 0;
+  std::vector<Pose> poses(count);
+  for (std::size_t part = 0; part < parts; ++part) {
+    for (std::size_t i = 0; i < count; ++i) {
+      poses[i] = crowd.state(i).pose;
+      if (crowd.moved(i)) {
+        const bool divided = crowd.parts(i) > 1;
+        const auto [from, to] = crowd.part(i, divided ? part : 0);
+        const double along = divided ? 0.5 : (static_cast<double>(part) + 0.5) / static_cast<double>(parts);
+        poses[i] = {.position = (1 - along) * from.position + along * to.position,
+                    .worldFromBody = from.worldFromBody.slerp(along, to.worldFromBody).toRotationMatrix()};
+      }
+      for (std::size_t j = 0; j < i; ++j) {
+        const Vec3& first = crowd.listedBody(i).halfExtents;
+        const Vec3& second = crowd.listedBody(j).halfExtents;
+        if ((poses[i].position - poses[j].position).norm() < first.norm() + second.norm()) {
+          deepest = std::max(deepest, -BoxAxes({poses[i], first}, {poses[j], second}).gap());
+        }
+      }
+    }
+  }
+  return deepest;
+}
+
+// Slippery boxes, 74 layers of them, wedge each other in a shaft under their weight. A crowd that took 8
+// passes at most, and as many sweeps in each, let them go 21 mm deep.
+TEST(CrowdProjection, jamInADeepShaftStaysShallow) {
+  const World world = test::pouring(295, 0.1, 0, 1, 2);
+  test::CrowdRun run(world);
+  double deepest = 0;
+  for (int frame = 0; frame < 240; ++frame) {
+    run.step();
+    deepest = std::max(deepest, run.deepest());
+  }
+  RecordProperty("deepest", std::to_string(deepest));
+  EXPECT_LT(deepest, 3 * kTolerance);
+}
+
+// Where boxes are pushed millimetres far, their way leads through places where they are pushed apart too.
+TEST(CrowdProjection, leadsAroundOthers) {
+  const World world = test::pouring(140, 0.05, 0, 1, 2);
+  test::CrowdRun run(world);
+  Crowd& crowd = run.crowd();
+  int divided = 0;
+  double deepest = 0;
+  for (double time = 0; time < 3.5;) {
+    time += crowd.step(3.5 - time);
+    bool any = false;
+    for (std::size_t place = 0; place < world.bodies.size(); ++place) {
+      any = any || crowd.parts(place) > 1;
+    }
+    divided += any ? 1 : 0;
+    deepest = any ? std::max(deepest, deepestWithin(world, crowd)) : deepest;
+  }
+  EXPECT_GT(divided, 0);
+  EXPECT_LT(deepest, 3 * kTolerance);
+  RecordProperty("divided", divided);
+  RecordProperty("deepest", std::to_string(deepest));
+}
+
+}  // namespace
+}  // namespace careen
