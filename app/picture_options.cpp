@@ -5,11 +5,12 @@
 
 namespace careen {
 
-void PictureOptions::addTo(const CommandLine& command) {
+CommandOption PictureOptions::addTo(const CommandLine& command) {
   SizeAndRate::addTo(command);
-  command.add("--shutter", shutter,
-              "Motion blur in place of the scene's: how long the shutter is open, 360 from frame to "
-              "frame, and how many moments are averaged, such as 180:8; 0: none");
+  const CommandOption blur =
+      command.add("--shutter", shutter,
+                  "Motion blur in place of the scene's: how long the shutter is open, 360 from frame to "
+                  "frame, and how many moments are averaged, such as 180:8; 0: none");
   command.add("--look", look, "studio, blueprint or clay in place of the scene's look");
   command.add("--light", light,
               "Parts of the light in place of the scene's, such as shadows,occlusion (the others: bounce); "
@@ -22,6 +23,7 @@ void PictureOptions::addTo(const CommandLine& command) {
   command.add("--threads", context.threads,
               "Threads that fill pixels in each process that draws; 0: none but its main one (default: "
               "what cores there are for it)");
+  return blur;
 }
 
 void PictureOptions::applyTo(PictureSettings& picture) const {

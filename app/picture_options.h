@@ -22,7 +22,8 @@ struct PictureOptions : SizeAndRate {
   std::string backend = "auto";
   ContextOptions context;
 
-  void addTo(const CommandLine& command);
+  /// Returns the one of motion blur.
+  CommandOption addTo(const CommandLine& command);
 
   /// Overrides the picture's settings with those that were given.
   void applyTo(PictureSettings& picture) const;

@@ -302,7 +302,7 @@ void addRender(const CommandLine& commandLine) {
       command.add("--truth", options->truth,
                   "Labels of every pixel of the frames too, as by 'careen truth': all, or names such as "
                   "depth,instance,flow");
-  options->picture.addTo(command);
+  const CommandOption blur = options->picture.addTo(command);
   const CommandOption video = command.add(
       "--video", options->video, "Film to make of the frames, by ffmpeg: .mp4, .mkv, .webm, .webp or .gif");
   command.add("--codec", options->codec, "h264, vp9 or av1 (default: h264 for .mp4 and .mkv, vp9 for .webm)")
@@ -321,7 +321,7 @@ void addRender(const CommandLine& commandLine) {
       command
           .add("--strobe", options->strobe,
                "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
-          .excludes(frames, video, resume, truth, still, ghost);
+          .excludes(frames, video, resume, truth, still, ghost, blur);
   const CommandLine comparing =
       command.addGroup("Comparing", "With a film that was made before: exit code 1 if this one differs");
   const CommandOption reference =

@@ -94,6 +94,7 @@ TEST_F(Still, badOptionsWriteNothing) {
                                              {"--strobe", "0:1"},
                                              {"--strobe", "0:1:0.1", "--still", "0"},
                                              {"--strobe", "0:1:0.1", "--ghost", "run.careen"},
+                                             {"--strobe", "0:1:0.1", "--shutter", "180:8"},
                                              {"--still", "0", "--frames", "0-1"},
                                              {"--still", "0", "--video", "film.mp4"},
                                              {"--still", "0", "--resume"},

@@ -2,8 +2,8 @@
 // Bullet's double-precision library, as shipped, on the same scene (-DCAREEN_PEERS=ON). Compare within one
 // run: --benchmark_enable_random_interleaving=true --benchmark_repetitions=5, minimum of each.
 //
-// Measured, 1000 boxes over 10 s, mean of six heaps that differ by rounding: 8.3 ms per frame, Bullet 9.8, in
-// turns. Two thirds of that are the first 3 s, with boxes arriving at 20 m/s; parts sleep from 5 s on, all
+// Measured, 1000 boxes over 10 s, mean of six heaps that differ by rounding: 9.6 ms per frame, Bullet 10.2,
+// in turns. Two thirds of that are the first 3 s, with boxes arriving at 20 m/s; parts sleep from 5 s on, all
 // from 6 to 10 s on. 8028 boxes over 3 s cost 14.9 times what 1000 do: 11 times a step, and a third more
 // steps, as the fastest of more boxes is faster.
 #include <benchmark/benchmark.h>
