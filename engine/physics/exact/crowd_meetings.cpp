@@ -54,13 +54,14 @@ ContactStep unpushed(const Crowd& crowd, std::size_t place, const Vec3& gravity,
 
 }  // namespace
 
-// Bodies that are no members and may get into that space within that time.
+// Bodies that are no members and may get into that space within that time; if it began in the past, only such
+// as are in no group: of the others it is known where they are now.
 std::vector<int> ExactWorld::outsidersIn(const Crowd::Extent& extent, const ContactGroup& group,
-                                         const Instant& time, double length) const {
+                                         const Instant& time, double length, bool past) const {
   std::vector<int> found;
   for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
     const Mover& body = mover(rank);
-    if (body.crowd.get() == &group) {
+    if (body.crowd.get() == &group || (past && (body.crowd || body.touches()))) {
       continue;
     }
     const double way =
@@ -84,7 +85,7 @@ std::vector<int> ExactWorld::outsidersIn(const Crowd::Extent& extent, const Cont
 void ExactWorld::admitNear(const std::shared_ptr<ContactGroup>& group, const Instant& time, double length) {
   for (bool added = true; added;) {
     added = false;
-    for (const int rank : outsidersIn(group->crowd->extent(length), *group, time, length)) {
+    for (const int rank : outsidersIn(group->crowd->extent(length), *group, time, length, false)) {
       const Mover& body = mover(rank);
       if (body.crowd != group && meetsNext(*group, rank, time, length)) {
         admitOutsider(group, rank, time);
@@ -113,7 +114,7 @@ void ExactWorld::admitOutsider(const std::shared_ptr<ContactGroup>& group, int r
 // latter those who had looked when it was another. Returns whether there were any.
 bool ExactWorld::admitMet(const std::shared_ptr<ContactGroup>& group, const Instant& time, bool again) {
   bool any = false;
-  for (const int rank : outsidersIn(group->crowd->swept(), *group, time, group->crowd->length())) {
+  for (const int rank : outsidersIn(group->crowd->swept(), *group, time, group->crowd->length(), again)) {
     const Mover& body = mover(rank);
     const bool asked = again ? !body.crowd && (!body.moves() || fliesSince(rank, time))
                              : body.crowd != group && (body.crowd || !body.moves());
@@ -173,7 +174,7 @@ bool ExactWorld::meetsNext(const ContactGroup& group, int rank, const Instant& t
 // Who may meet a member in the step that it has taken, perhaps another way than it was going.
 std::vector<int> ExactWorld::nearStep(const ContactGroup& group) {
   const double length = group.step.length;
-  std::vector<int> near = outsidersIn(group.crowd->swept(), group, group.start, length);
+  std::vector<int> near = outsidersIn(group.crowd->swept(), group, group.start, length, false);
   std::erase_if(near, [&](int rank) {
     const Mover& body = mover(rank);
     if (!body.moves()) {

@@ -109,7 +109,7 @@ class ExactWorld {
   static std::vector<char> changedSuddenly(const ContactGroup& group);
   void endStep(ContactGroup& crowd, std::size_t place, std::span<const char> suddenly);
   std::vector<int> outsidersIn(const Crowd::Extent& extent, const ContactGroup& crowd, const Instant& time,
-                               double length) const;
+                               double length, bool past) const;
   void admitNear(const std::shared_ptr<ContactGroup>& crowd, const Instant& time, double length);
   void admitOutsider(const std::shared_ptr<ContactGroup>& crowd, int rank, const Instant& time);
   bool admitMet(const std::shared_ptr<ContactGroup>& crowd, const Instant& time, bool again);

@@ -100,7 +100,7 @@ Pose Crowd::between(std::size_t place, double part) const {
   if (part == 1) {
     return {.position = bodies_[place].position, .worldFromBody = bodies_[place].axes};
   }
-  const double parts = static_cast<double>(way_.size() + 1);
+  const auto parts = static_cast<double>(way_.size() + 1);
   const double k = std::floor(part * parts);
   const auto [from, to] = endsOf(place, static_cast<std::size_t>(k));
   const double along = part * parts - k;
