@@ -8,6 +8,14 @@ StepEnd JoinedSteps::Step::at(double elapsed) const {
   return elapsed <= 0 ? from : elapsed >= length ? to : endWithin(cubicStep(from, to, length), elapsed);
 }
 
+// The Hermite cubic from b before the joint to c after it.
+double JoinedSteps::rounding(double last, double next) {
+  const double b = std::min(0.5 * last, next);
+  const double c = std::min(0.5 * next, last);
+  const double whole = b + c;
+  return 2 * (b * c) * (b * c) / (whole * whole * whole);
+}
+
 void JoinedSteps::add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,
                       double length, double radius, bool sharp) {
   const Step next{.time = time, .length = length, .from = from, .to = to, .radius = radius};

@@ -11,18 +11,18 @@ namespace careen {
 /// by a cubic with the velocities there: if they are equally long, it is the quadratic spline whose control
 /// points are their ends. A step of more than twice the other's length bends only as far from the joint as
 /// the other is long. So velocities are always between those of two steps, and as all members are joined
-/// alike, so are relative velocities: paths have no more energy than the steps, and leave the joint by
-/// kRounding b c/(b + c) of the velocity's change, b and c [s] being how far from it they bend.
+/// alike, so are relative velocities: paths have no more energy than the steps. At the joint's moment they
+/// are beside it by rounding() of the velocity's change.
 class JoinedSteps {
  public:
-  static constexpr double kRounding = 0.5;
-
   explicit JoinedSteps(double within = 0) : merged_(within) {}
 
   /// A step from `time` [s] on of `length` [s]; `radius` [m] of the body. Records what came before it. If it
   /// is `sharp`, the path goes through its begin.
   void add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,
            double length, double radius, bool sharp = false);
+  /// [s] Of steps of these lengths.
+  static double rounding(double last, double next);
   /// How the body moved until its first step, for that long [s]: recorded by others, but the path may replace
   /// it.
   void follows(double time, const StepEnd& from, const StepEnd& to, double length);

@@ -255,7 +255,7 @@ void Crowd::take(double length, bool mayShift) {
   countUntouched();
   sinceProjection_ += length;
   if (sinceProjection_ >= kProjected * longestStep()) {
-    project();
+    project(refreshDepth(true));
     sinceProjection_ = 0;
     atRest_ = freeze();
   }

@@ -261,7 +261,7 @@ class Crowd {
   Pose between(std::size_t place, double part) const;
   double depthBefore(const PilePair& pair) const;
   bool startedDeep(const PilePair& pair) const;
-  double project();
+  double project(double deepest);
   double refreshDepth(bool all);
   void keepPlaces();
   void restorePlaces();

@@ -131,10 +131,7 @@ Crowd::Rates Crowd::ratesAt(std::size_t place, std::size_t part) const {
 // Whether where this step begins, the smooth path through both would lead members deep into each other.
 void Crowd::findSharp() {
   isSharp_ = false;
-  const double part = h_ / static_cast<double>(way_.size() + 1);
-  const double before = std::min(0.5 * partBefore_, part);
-  const double after = std::min(0.5 * part, partBefore_);
-  const double rounding = JoinedSteps::kRounding * before * after / (before + after);
+  const double rounding = JoinedSteps::rounding(partBefore_, h_ / static_cast<double>(way_.size() + 1));
   std::vector<Rates> off(bodies_.size());  // [m], [rad] from the joint
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (before_[i].moved) {

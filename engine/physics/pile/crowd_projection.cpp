@@ -18,10 +18,9 @@ constexpr double kFar = 4;  // [1] of the tolerance: displacement that may lead 
 
 }  // namespace
 
-// Returns the deepest gap that is left [m]: no deeper than before. Where boxes are wedged passes can lead
-// away from the solution.
-double Crowd::project() {
-  double deepest = refreshDepth(true);
+// Returns the deepest gap that is left [m]: no deeper than `deepest`, which refreshDepth() found. Where boxes
+// are wedged passes can lead away from the solution.
+double Crowd::project(double deepest) {
   double least = deepest;
   for (int pass = 0; pass < kPasses; ++pass) {
     if (deepest <= least) {
@@ -103,7 +102,7 @@ void Crowd::rebuildNear() {
 double Crowd::projectOnWay() {
   const std::vector<PileBody> unpushed = bodies_;
   const double deep = refreshDepth(true);
-  const double left = project();
+  const double left = project(deep);
   if (findWay() <= deep) {
     return left;
   }
@@ -146,7 +145,7 @@ std::vector<std::vector<Crowd::Place>> Crowd::divideWay(int parts) {
       setAttitude(bodies_[i], Quat(poses[i].worldFromBody));
     }
     rebuildNear();
-    project();
+    project(refreshDepth(true));
     for (const PileBody& body : bodies_) {
       way[k].push_back({.position = body.position, .attitude = body.attitude});
     }

@@ -100,18 +100,19 @@ TEST(JoinedSteps, overlapNoMoreThanTheirEnds) {
   }
 }
 
-// By kRounding b c/(b + c) of the change, at most.
-TEST(JoinedSteps, leaveJointsUnlessTheyAreSharp) {
-  for (const bool sharp : {false, true}) {
-    double farthest = 0;
-    for (const auto& [start, step] :
-         joined({{1e-3, Vec3(4, 0, 0)}, {3e-3, Vec3(-4, 0, 0), sharp}, {1e-3, Vec3(-4, 0, 0)}}).motions) {
-      for (double part = 0; part <= 1; part += 0x1p-8) {
-        farthest = std::max(farthest, positionAt(step, part * step.duration).x());
+TEST(JoinedSteps, areBesideJointsByTheirRoundingUnlessThoseAreSharp) {
+  for (const double length : {1e-3, 3e-3}) {
+    for (const bool sharp : {false, true}) {
+      double beside = 0;
+      for (const auto& [start, step] :
+           joined({{1e-3, Vec3(4, 0, 0)}, {length, Vec3(-4, 0, 0), sharp}}).motions) {
+        if (start <= 1e-3) {
+          beside = 4e-3 - positionAt(step, 1e-3 - start).x();
+        }
       }
+      EXPECT_NEAR(beside, sharp ? 0 : 8 * JoinedSteps::rounding(1e-3, length), 1e-15) << length << sharp;
+      EXPECT_TRUE(sharp || beside > 8e-4);
     }
-    const double off = JoinedSteps::kRounding * 0.5e-3 * 1e-3 / 1.5e-3 * 8;
-    EXPECT_NEAR(farthest, sharp ? 4e-3 : 4e-3 - off, sharp ? 1e-15 : 0.3 * off) << sharp;
   }
 }
 

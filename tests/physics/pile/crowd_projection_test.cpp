@@ -56,7 +56,7 @@ TEST(CrowdProjection, jamInADeepShaftStaysShallow) {
     deepest = std::max(deepest, run.deepest());
   }
   RecordProperty("deepest", std::to_string(deepest));
-  EXPECT_LT(deepest, 3 * kTolerance);
+  EXPECT_LT(deepest, 3 * kTolerance);  // measured 5.2e-4
 }
 
 // Where boxes are pushed millimetres far, their way leads through places where they are pushed apart too.
@@ -76,7 +76,7 @@ TEST(CrowdProjection, leadsAroundOthers) {
     deepest = any ? std::max(deepest, deepestWithin(world, crowd)) : deepest;
   }
   EXPECT_GT(divided, 0);
-  EXPECT_LT(deepest, 3 * kTolerance);
+  EXPECT_LT(deepest, 3 * kTolerance);  // measured 4.8e-4; 28e-4 where ways were gone however deep
   RecordProperty("divided", divided);
   RecordProperty("deepest", std::to_string(deepest));
 }
