@@ -1,5 +1,6 @@
 #include "run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +18,7 @@
 #include "core/math/arithmetic.h"
 #include "core/names.h"
 #include "core/system/file.h"
+#include "core/system/processor.h"
 #include "core/system/resource.h"
 #include "exchange/import_mjcf.h"
 #include "parsed.h"
@@ -35,6 +37,7 @@ namespace {
 constexpr double kDisagreement = 2;   // factor between the audit's figure and the method's own
 constexpr double kAgreement = 1e-12;  // figures below are rounding
 constexpr double kCheapPart = 0.1;    // of the run: the largest cost of an estimate by default
+constexpr int kMostSharing = 64;      // threads
 
 // Scene file and command line differ: tell the user which one counts.
 template <class T>
@@ -102,6 +105,15 @@ std::uint64_t limitOf(const Overrides& overrides) {
   return static_cast<std::uint64_t>(*overrides.limit);
 }
 
+int threadsOf(const Overrides& overrides) {
+  const int threads = overrides.threads.value_or(std::min(usableCores(), kMostSharing));
+  if (threads < 1 || threads > kMostSharing) {
+    throw InputError("--threads: found " + std::to_string(threads) + ", expected 1 to " +
+                     std::to_string(kMostSharing));
+  }
+  return threads;
+}
+
 // A method that steps may take very many steps for each segment that it records.
 void checkSteps(const Scene& scene, std::uint64_t limit) {
   constexpr double kStepsOfRecord = 200;
@@ -131,7 +143,9 @@ Run simulateText(const std::filesystem::path& path, const std::string& bytes, co
   Run run;
   run.source = path;
   const Stopwatch stopwatch;
-  run.trajectory = record(setupOf(scene), stop, limit);
+  RunSetup setup = setupOf(scene);
+  setup.settings.threads = threadsOf(overrides);
+  run.trajectory = record(std::move(setup), stop, limit);
   run.simulateSeconds = stopwatch.seconds();
   return run;
 }
@@ -198,6 +212,13 @@ void Overrides::addLimitTo(const CommandLine& command) {
   command.add("--limit", limit,
               "Most segments and impacts of the run (default: 5000000, 2 GB); methods that step may take 200 "
               "steps of a box for each");
+}
+
+void Overrides::addThreadsTo(const CommandLine& command) {
+  command.add(
+      "--threads", threads,
+      "Threads that share the steps of large crowds; they change nothing but the time (default: one for "
+      "each core)");
 }
 
 const char* Overrides::given() const {

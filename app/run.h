@@ -70,10 +70,12 @@ struct Overrides {
   std::optional<double> duration;  ///< [s]
   bool allowOverlap = false;       ///< first move boxes apart that overlap at the start
   std::optional<double> limit;     ///< of segments and impacts, instead of kMostRecords
+  std::optional<int> threads;      ///< of large crowds, instead of one for each core
 
   void addTo(const CommandLine& command);
   void addAllowOverlapTo(const CommandLine& command);
   void addLimitTo(const CommandLine& command);
+  void addThreadsTo(const CommandLine& command);
   /// The first option that was given; null if none was.
   const char* given() const;
 };

@@ -116,6 +116,7 @@ void addSimulate(const CommandLine& commandLine) {
   command.add("--impacts", options->impacts, "Table of impacts (CSV)");
   command.add("--report", options->report, "What was modelled, speed and error (JSON)");
   options->overrides.addTo(command);
+  options->overrides.addThreadsTo(command);
   options->estimate.addTo(command);
   options->audit.addTo(command);
   command.runs([options](const std::stop_token& stop) { return simulateCommand(*options, stop); });

@@ -393,7 +393,6 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"physics/pile/projection", "rebuilt with the contact solver; until then tested through crowd"},
     {"physics/search/time_of_impact_boxes",
      "the half of time_of_impact.h for two boxes, tested through time_of_impact"},
-    {"physics/pile/solver", "rebuilt with the contact solver; until then tested through crowd"},
     {"physics/world/contact_residuals",
      "data, and the larger of two; filled in tests of solver/residual_sum"},
     {"physics/world/plan", "data and look-ups, tested through scene/plan"},

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kFrame = 1.0 / 60;
 
-// Arguments: boxes, seconds, boxes across a layer.
+// Arguments: boxes, seconds, boxes across a layer, threads.
 World sceneOf(const benchmark::State& state) {
   return test::pouring(static_cast<int>(state.range(0)), 0.5, 0, 1, static_cast<int>(state.range(2)));
 }
@@ -39,7 +39,7 @@ void pour(benchmark::State& state) {
   const World world = sceneOf(state);
   const std::int64_t frames = 60 * state.range(1);
   for (auto _ : state) {
-    test::CrowdRun crowd(world);
+    test::CrowdRun crowd(world, Crowd::kUsualTolerance, kFrame, static_cast<int>(state.range(3)));
     for (std::int64_t k = 0; k < frames; ++k) {
       crowd.step();
     }
@@ -47,12 +47,18 @@ void pour(benchmark::State& state) {
   }
   perFrame(state, frames);
 }
-BENCHMARK(pour)->Args({1000, 10, 6})->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(pour)
+    ->Args({1000, 10, 6, 1})
+    ->Args({1000, 10, 6, 2})
+    ->Iterations(1)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 // Boxes still falling on each other; the same depth, so the same work per box.
 BENCHMARK(pour)
-    ->Args({250, 3, 3})
-    ->Args({1000, 3, 6})
-    ->Args({8028, 3, 17})
+    ->Args({250, 3, 3, 1})
+    ->Args({1000, 3, 6, 1})
+    ->Args({8028, 3, 17, 1})
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 

@@ -15,8 +15,12 @@ class CrowdRun {
  public:
   static constexpr double kFrame = 1.0 / 60;
 
-  explicit CrowdRun(const World& world, double tolerance = Crowd::kUsualTolerance, double frame = kFrame)
-      : crowd_(world, tolerance), frame_(frame), places_(world.bodies.size()), states_(world.bodies.size()) {
+  explicit CrowdRun(const World& world, double tolerance = Crowd::kUsualTolerance, double frame = kFrame,
+                    int threads = 1)
+      : crowd_(world, tolerance, std::make_shared<Team>(threads)),
+        frame_(frame),
+        places_(world.bodies.size()),
+        states_(world.bodies.size()) {
     for (const std::size_t listed : orderByName(world.bodies)) {
       const BodyState& state = world.bodies[listed].initial;
       places_[listed] = crowd_.admit(listed, state, Quat(state.pose.worldFromBody).normalized());

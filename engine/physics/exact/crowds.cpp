@@ -79,7 +79,7 @@ void ExactWorld::formCrowd(const Encounter& encounter) {
   }
   if (!crowd) {
     crowd = std::make_shared<ContactGroup>();
-    crowd->crowd = std::make_unique<Crowd>(world_, crowds_.tolerance);
+    crowd->crowd = std::make_unique<Crowd>(world_, crowds_.tolerance, team_);
   }
   for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
     enlist(crowd, encounter.ranks[i], encounter.time, encounter.before[i], encounter.attitudes[i]);

@@ -43,6 +43,7 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
       end_(settings.duration),
       tolerance_(settings.tolerance),
       crowds_(settings.crowds),
+      team_(std::make_shared<Team>(settings.threads)),
       timeScale_(timeScaleOf(world, settings.tolerance)),
       longestStep_(longestStepOf(world)),
       recorder_(recorder),

@@ -186,8 +186,9 @@ class ExactWorld {
   double workShare_ = 0;  // [1] of the work per body above that each may spend
   double tolerance_;      // [m]
   CrowdSettings crowds_;
-  double timeScale_;    // [s] see timeScaleOf
-  double longestStep_;  // [s] of an island
+  std::shared_ptr<Team> team_;  // of all crowds
+  double timeScale_;            // [s] see timeScaleOf
+  double longestStep_;          // [s] of an island
   Recorder& recorder_;
   std::vector<Mover> movers_;
   Neighbors neighbors_;

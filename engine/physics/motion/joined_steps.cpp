@@ -8,12 +8,13 @@ StepEnd JoinedSteps::Step::at(double elapsed) const {
   return elapsed <= 0 ? from : elapsed >= length ? to : endWithin(cubicStep(from, to, length), elapsed);
 }
 
-// The Hermite cubic from b before the joint to c after it.
-double JoinedSteps::rounding(double last, double next) {
+JoinedSteps::Beside JoinedSteps::beside(double last, double next, double part) {
   const double b = std::min(0.5 * last, next);
   const double c = std::min(0.5 * next, last);
   const double whole = b + c;
-  return 2 * (b * c) * (b * c) / (whole * whole * whole);
+  const double time = part < 0 ? part * b : part * c;
+  const double u = (time + b) / whole;
+  return {.time = time, .off = u * u * (c * (3 - 2 * u) + whole * (u - 1)) - std::max(0.0, time)};
 }
 
 void JoinedSteps::add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,

@@ -11,8 +11,8 @@ namespace careen {
 /// by a cubic with the velocities there: if they are equally long, it is the quadratic spline whose control
 /// points are their ends. A step of more than twice the other's length bends only as far from the joint as
 /// the other is long. So velocities are always between those of two steps, and as all members are joined
-/// alike, so are relative velocities: paths have no more energy than the steps. At the joint's moment they
-/// are beside it by rounding() of the velocity's change.
+/// alike, so are relative velocities: paths have no more energy than the steps. How far they are beside the
+/// steps beside() tells.
 class JoinedSteps {
  public:
   explicit JoinedSteps(double within = 0) : merged_(within) {}
@@ -21,8 +21,12 @@ class JoinedSteps {
   /// is `sharp`, the path goes through its begin.
   void add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,
            double length, double radius, bool sharp = false);
-  /// [s] Of steps of these lengths.
-  static double rounding(double last, double next);
+  struct Beside {
+    double time = 0;  ///< [s] from the joint
+    double off = 0;   ///< [s] of the velocity's change: how far the path is from the steps then
+  };
+  /// Where two steps of these lengths meet, at that part of the bend, −1 to 1: before the joint, or after it.
+  static Beside beside(double last, double next, double part);
   /// How the body moved until its first step, for that long [s]: recorded by others, but the path may replace
   /// it.
   void follows(double time, const StepEnd& from, const StepEnd& to, double length);

@@ -44,6 +44,10 @@ struct PileBody {
   /// [m] World: from the centre of mass to the middle of the box, and the middle's place.
   Vec3 boxArm() const { return center == nullptr ? Vec3(Vec3::Zero()) : Vec3(axes * *center); }
   Vec3 middle() const { return center == nullptr ? position : Vec3(position + axes * *center); }
+  /// [m] World: the middle of the box where the body is at that pose.
+  Vec3 middleAt(const Pose& pose) const {
+    return center == nullptr ? pose.position : pose.worldPoint(*center);
+  }
   /// The principal axes, along which the inertia is diagonal, in the world.
   Mat3 principalAxes() const { return bodyFromPrincipal == nullptr ? axes : Mat3(axes * *bodyFromPrincipal); }
 };

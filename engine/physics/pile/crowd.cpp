@@ -28,9 +28,9 @@ constexpr std::int64_t kHard = 8;
 constexpr int kMostHalvings = 6;
 constexpr double kShortest = 0x1p-10;  // [1] of the length that the crowd would take: not halved
 constexpr double kTooDeep = 1.5;       // [1] of the tolerance: new penetration for which a step is halved
-// [1] of the tolerance: how far corners may leave their tangents in a step. It is undone at its end; in its
-// middle a quarter is left, of both of a pair.
-constexpr double kMostBent = 2;
+// [1] of the tolerance: how far corners may leave their tangents in a step. The second order of gaps undoes
+// it at its end and in its middle.
+constexpr double kMostBent = 6;
 constexpr double kMostScaled = 4;  // [1] of stored impulses, to a longer step
 
 // [rad/s] What an angular impulse [N m s] changes.
@@ -41,8 +41,9 @@ Vec3 spinBy(const PileBody& body, const Vec3& angularImpulse) {
 
 }  // namespace
 
-Crowd::Crowd(const World& world, double tolerance)
+Crowd::Crowd(const World& world, double tolerance, std::shared_ptr<Team> team)
     : world_(world),
+      team_(std::move(team)),
       tolerance_(tolerance),
       scale_(std::sqrt(tolerance / kUsualTolerance)),
       gravityMagnitude_(world.gravity.norm()),
@@ -51,7 +52,8 @@ Crowd::Crowd(const World& world, double tolerance)
       hBefore_(h_),
       span_(h_),
       pairs_(world.walls),
-      projection_(tolerance),
+      solver_(team_),
+      projection_(tolerance, team_),
       tell_(kTell) {
   if (!world.springs.empty() || world.drag) {
     for (const Body& body : world.bodies) {
@@ -120,12 +122,12 @@ double Crowd::step(double most) {
   if (figures_.steps % kStepsPerSorting == 0) {
     sortManifolds();
   }
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  forPlaces([&](std::size_t i) {
     ratesBefore_[i] =
         before_[i].moved ? ratesAt(i, way_.size()) : Rates{bodies_[i].velocity, bodies_[i].omega};
-  }
+  });
   partBefore_ = h_ / static_cast<double>(way_.size() + 1);
-  start_ = bodies_;
+  forPlaces([&](std::size_t i) { start_[i] = bodies_[i]; });
   loadsBefore_ = loads_;
   hBefore_ = h_;
   take(chooseLength(most));
@@ -145,9 +147,9 @@ double Crowd::stepAgain(double length) {
   return 0;
 }
 
-// Takes the step again with half its length, and without shifts, which are as long in a shorter one, while
-// bodies went deep into each other in it; returns its length. Not without end, where the step was cut far
-// below what the crowd would take. In a jam, where all that leaves bodies deep, the next steps take more
+// Takes the step again with half its length, and then without shifts, which are as long in a shorter one,
+// while bodies went deep into each other in it; returns its length. Not without end, where the step was cut
+// far below what the crowd would take. In a jam, where all that leaves bodies deep, the next steps take more
 // sweeps.
 double Crowd::keepApart() {
   double depth = newDepth();
@@ -155,7 +157,7 @@ double Crowd::keepApart() {
   for (int halving = 0; halving < kMostHalvings && depth > kTooDeep * tolerance_ && h_ > shortest;
        ++halving) {
     goBack();
-    take(0.5 * h_, false);
+    take(0.5 * h_, halving == 0);
     depth = newDepth();
   }
   const double left = depth > 0 || deep_ ? projectOnWay() : 0;
@@ -288,28 +290,47 @@ void Crowd::solve() {
   }
 }
 
+// Returns a bound of the speed [m/s] of its points, along axes.
+double Crowd::loadBody(std::size_t place) {
+  const PileBody& body = bodies_[place];
+  const int index = static_cast<int>(place);
+  solver_.setBody(index, body, tell_ * body.length / h_);
+  if (body.still()) {
+    return 0;
+  }
+  solver_.velocity(index) =
+      body.velocity + body.behind * accelerationBefore(place) + 0.5 * h_ * acceleration(place);
+  solver_.omega(index) = body.omega;
+  if (!loads_.empty()) {
+    solver_.omega(index) += spinBy(body, body.behind * torqueBefore(place) + 0.5 * h_ * torque(place));
+  }
+  return std::max(solver_.velocity(index).cwiseAbs().maxCoeff(),
+                  body.radius * solver_.omega(index).cwiseAbs().maxCoeff());
+}
+
 void Crowd::loadSolver() {
   solver_.begin(bodies_.size());
   bounces_.clear();
-  heaviest_ = 1;
-  speed_ = 0;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const PileBody& body = bodies_[i];
-    const int index = static_cast<int>(i);
-    solver_.setBody(index, body, tell_ * body.length / h_);
-    if (!body.still()) {
-      solver_.velocity(index) =
-          body.velocity + body.behind * accelerationBefore(i) + 0.5 * h_ * acceleration(i);
-      solver_.omega(index) = body.omega;
-      if (!loads_.empty()) {
-        solver_.omega(index) += spinBy(body, body.behind * torqueBefore(i) + 0.5 * h_ * torque(i));
-      }
-      speed_ = std::max({speed_, solver_.velocity(index).cwiseAbs().maxCoeff(),
-                         body.radius * solver_.omega(index).cwiseAbs().maxCoeff()});
+  speed_ = team_->largest(bodies_.size(), [&](std::size_t first, std::size_t last) {
+    double speed = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      speed = std::max(speed, loadBody(i));
     }
+    return speed;
+  });
+  findPushing();
+  rowsOf_.resize(near_.size());
+  forNear([&](PileManifold& manifold, std::size_t n) { rowsOf_[n] = lookForRows(manifold); });
+  PileSolver::Extent all;
+  for (PileSolver::Extent& each : rowsOf_) {
+    const PileSolver::Extent own = std::exchange(each, all);
+    all.blocks += own.blocks;
+    all.rows += own.rows;
   }
+  solver_.reserve(all);
+  forNear([&](PileManifold& manifold, std::size_t n) { addRows(manifold, rowsOf_[n]); });
   for (const int slot : near_) {
-    addRows(slot);
+    addBounces(manifolds_[at(slot)], slot);
   }
   impulseScale_ = 1;
   figures_.rows += static_cast<std::int64_t>(solver_.rowCount());
@@ -320,11 +341,11 @@ void Crowd::loadSolver() {
 // The solver's velocities are those of the middle of the step. Bodies without contact impulse follow their
 // parabola, the others a straight line.
 void Crowd::move() {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  forPlaces([&](std::size_t i) {
     PileBody& body = bodies_[i];
     before_[i].moved = false;
     if (body.still()) {
-      continue;
+      return;
     }
     const int index = static_cast<int>(i);
     Before& before = before_[i];
@@ -372,7 +393,7 @@ void Crowd::move() {
     }
     before.endVelocity = body.velocity;
     before.endOmega = body.omega;
-  }
+  });
 }
 
 // By the torque that acts in the middle.

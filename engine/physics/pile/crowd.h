@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/disjoint_sets.h"
+#include "core/system/team.h"
 #include "physics/geometry/box_at.h"
 #include "physics/motion/hermite_step.h"
 #include "physics/pile/body.h"
@@ -59,7 +61,8 @@ class Crowd {
   /// [m] What penetration and steps were measured for.
   static constexpr double kUsualTolerance = 3e-4;
 
-  Crowd(const World& world, double tolerance);
+  /// The steps of large crowds are shared among the team; nothing else depends on its size.
+  Crowd(const World& world, double tolerance, std::shared_ptr<Team> team = std::make_shared<Team>(1));
 
   /// Adds a body of the world, by its index in it; returns its place.
   std::size_t admit(std::size_t body, const BodyState& state, const Quat& attitude);
@@ -190,12 +193,39 @@ class Crowd {
     double path = 0;
     double turned = 0;
   };
+  enum class Looked : char { kNot, kFar, kBare, kNear };  // kBare: near, but its manifold has no points
+  struct Looking {                                        // at a range of pairs
+    PileManifold tried;  // of a pair that has no slot: most are far, so this stays in the cache
+    std::vector<std::pair<std::size_t, PileManifold>> begun;  // of those that are not; by index
+    std::vector<std::size_t> left;                            // those that became far
+    std::int64_t pairs = 0;
+    std::int64_t rebuilt = 0;
+  };
   struct Rates {  // of the way in a part of a step
     Vec3 velocity = Vec3::Zero();
     Vec3 omega = Vec3::Zero();
   };
   Vec3 meanSpin(std::size_t place) const;
   bool changesSuddenly(std::size_t place) const;
+  /// Work that the team shares: work(manifold, index in near_) for those near, which must not write to what
+  /// others read.
+  template <class Work>
+  void forNear(const Work& work) {
+    team_->share(near_.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) {
+        work(manifolds_[at(near_[k])], k);
+      }
+    });
+  }
+  /// The same for places of bodies.
+  template <class Work>
+  void forPlaces(const Work& work) {
+    team_->share(bodies_.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        work(i);
+      }
+    });
+  }
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const PileBody& bodyAt(Partner partner) const { return bodies_[at(partner.body())]; }
   const Wall& wallAt(Partner partner) const { return world_.walls[partner.wall()]; }
@@ -218,7 +248,8 @@ class Crowd {
   double wayLeft(const PilePair& pair) const;
   double wayAhead(const PilePair& pair) const;
   double rebuildAfter(double length) const;
-  bool lookAt(PilePair& pair);
+  Looked lookAt(PilePair& pair, PileManifold& manifold, std::int64_t& rebuilt) const;
+  void lookAtAll();
   bool wouldPush(const PilePair& pair, const PileManifold& manifold) const;
   void wakeCluster(int cluster);
   void wakeNeighbours();
@@ -235,12 +266,17 @@ class Crowd {
   void findDisturbed();
   void wakeDisturbed();
   bool wakeStruck();
+  double loadBody(std::size_t place);
   void loadSolver();
   void solve();
+  bool isHeavy() const;
   bool solveDirectly();
   void addImpulses(double sign);
   void limitBounce();
-  void addRows(int slot);
+  void findPushing();
+  PileSolver::Extent lookForRows(PileManifold& manifold) const;
+  void addRows(PileManifold& manifold, PileSolver::Extent first);
+  void addBounces(const PileManifold& manifold, int slot);
   bool curveGaps();
   Vec3 spinRate(int body) const;
   double secondOrder(const PileManifold& manifold, int k) const;
@@ -257,6 +293,7 @@ class Crowd {
   double shiftOf(int body) const;
   double depthNow(const PilePair& pair) const;
   double wayOf(int b, int a) const;
+  double gapAtEnd(int a, int b) const;
   double depthWithin(int a, int b) const;
   Pose between(std::size_t place, double part) const;
   double depthBefore(const PilePair& pair) const;
@@ -278,6 +315,7 @@ class Crowd {
   void keepManifold(PilePair& pair, const PileManifold& manifold);
 
   const World& world_;
+  std::shared_ptr<Team> team_;
   double tolerance_;                 // [m]
   double scale_;                     // [1] root of the tolerance over the usual one
   double gravityMagnitude_ = 0;      // [m/s²]
@@ -299,15 +337,15 @@ class Crowd {
 
   PilePairs pairs_;
   std::vector<PileManifold> manifolds_;
-  PileManifold tried_;       // of a pair that has no slot yet
-  std::vector<int> unused_;  // free slots of manifolds_
-  std::vector<int> near_;    // manifolds of this step, by key
-  std::vector<char> looked_;
+  std::vector<int> unused_;                 // free slots of manifolds_
+  std::vector<int> near_;                   // manifolds of this step, by key
+  std::vector<PileSolver::Extent> rowsOf_;  // by index in near_: where its own begin
+  std::vector<Looked> looked_;              // by pair
+  std::vector<Looking> looking_;            // by range of pairs
   PileSolver solver_;
   ContactProblem problem_;
   ContactSolution solution_;
   ContactSolver direct_;
-  double heaviest_ = 1;      // [1] ratio of the masses of members in contact, in this step
   std::int64_t effort_ = 1;  // [1] of the usual sweeps
   int directWait_ = 0;       // solves until it is tried again,
   int directPause_ = 1;      // and as many after the next failure
@@ -323,6 +361,7 @@ class Crowd {
   std::vector<Bounce> bounces_;
   std::vector<Struck> impacts_;
   std::vector<double> unrest_;    // [m/s] net velocity change of the last step
+  std::vector<double> pushing_;   // [m/s] largest speed of a body and of those near it
   std::vector<double> grip_;      // [1] largest friction coefficient at a body's contacts
   DisjointSets clusters_;         // of bodies in resting contact
   std::vector<int> quietChecks_;  // by place: since when it and all that is near it could sleep

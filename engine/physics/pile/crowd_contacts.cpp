@@ -12,37 +12,39 @@ constexpr double kLookAhead = 6;   // longest steps for which a fat AABB should 
 constexpr double kGrowth = 1.5;    // [1] largest growth of an impulse per step that the warm start accepts
 constexpr double kBounceFrom = 4;  // [1] of gravity × step: slower impacts do not bounce
 constexpr double kRounding = 0x1p-30;  // [1] of the fastest speed: slower impacts do not either
-constexpr double kAllowance = 0.1;     // [1] of the smallest size: gaps that may close during a step
-constexpr double kTogether = 3;        // [1] of the tolerance: points of one manifold that meet together
-constexpr double kUnseen = 2;          // [1] of the tolerance: motion after which other features may be deep
+// Gaps that may close during a step: that part of the smallest size, at the most; so many tolerances and what
+// that part of the speeds of both bodies, and of those near them, closes.
+constexpr double kAllowance = 0.1;
+constexpr double kAllowedDepth = 4;
+constexpr double kAllowedSpeed = 0.5;
+constexpr double kTogether = 3;  // [1] of the tolerance: points of one manifold that meet together
+constexpr double kUnseen = 2;    // [1] of the tolerance: motion after which other features may be deep
 
 }  // namespace
 
 // Broad and narrow phase: pairs, and manifolds of the near ones. A contact that would push a sleeping body
 // wakes its cluster, whose pairs are then tested too.
 void Crowd::lookAround() {
-  for (PileBody& body : bodies_) {
+  forPlaces([&](std::size_t i) {
+    PileBody& body = bodies_[i];
     body.turning = body.still() ? 0 : h_ * body.radius * body.omega.norm();
     body.ahead = body.still()
                      ? 0
                      : h_ * (body.velocity.norm() + (h_ + body.behind) * gravityMagnitude_) + body.turning;
-  }
+  });
   pairs_.update(bodies_, world_.gravity, h_, std::max(h_, kLookAhead * longestStep()));
   unused_.insert(unused_.end(), pairs_.freed().begin(), pairs_.freed().end());
   pairs_.freed().clear();
-  std::vector<PilePair>& pairs = pairs_.pairs();
-  looked_.assign(pairs.size(), 0);
+  const std::vector<PilePair>& pairs = pairs_.pairs();
+  looked_.assign(pairs.size(), Looked::kNot);
   for (bool woke = true; woke;) {
+    lookAtAll();
     woke = false;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-      PilePair& pair = pairs[k];
+      const PilePair& pair = pairs[k];
       const PileBody& a = bodies_[at(pair.a)];
-      const bool stillB = pair.b.isWall() || bodyAt(pair.b).still();
-      if (looked_[k] != 0 || (a.still() && stillB)) {
-        continue;
-      }
-      looked_[k] = lookAt(pair) ? 2 : 1;
-      if (looked_[k] == 2 && (a.asleep || isAsleep(pair.b)) && wouldPush(pair, manifolds_[at(pair.slot)])) {
+      if (looked_[k] == Looked::kNear && (a.asleep || isAsleep(pair.b)) &&
+          wouldPush(pair, manifolds_[at(pair.slot)])) {
         wakeCluster(a.asleep ? a.cluster : bodyAt(pair.b).cluster);
         woke = true;
       }
@@ -53,12 +55,52 @@ void Crowd::lookAround() {
   }
   near_.clear();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (looked_[k] == 2) {
+    if (looked_[k] == Looked::kNear) {
       near_.push_back(pairs[k].slot);
     }
   }
   std::fill(woken_.begin(), woken_.end(), 0);
   figures_.manifolds += static_cast<std::int64_t>(near_.size());
+}
+
+// At pairs of which one moves, but for those that were looked at in this step.
+void Crowd::lookAtAll() {
+  std::vector<PilePair>& pairs = pairs_.pairs();
+  const std::size_t parts = at(team_->ranges(pairs.size()));
+  looking_.resize(parts);
+  team_->run(team_->ranges(pairs.size()), [&](int part) {
+    Looking& looking = looking_[at(part)];
+    looking.begun.clear();
+    looking.left.clear();
+    looking.pairs = looking.rebuilt = 0;
+    const std::size_t last = pairs.size() * (at(part) + 1) / parts;
+    for (std::size_t k = pairs.size() * at(part) / parts; k < last; ++k) {
+      PilePair& pair = pairs[k];
+      const bool still = bodies_[at(pair.a)].still() && (pair.b.isWall() || bodyAt(pair.b).still());
+      if (looked_[k] != Looked::kNot || still) {
+        continue;
+      }
+      ++looking.pairs;
+      const bool isNew = pair.slot < 0;
+      PileManifold& manifold = isNew ? looking.tried : manifolds_[at(pair.slot)];
+      looked_[k] = lookAt(pair, manifold, looking.rebuilt);
+      if (looked_[k] == Looked::kFar && !isNew) {
+        looking.left.push_back(k);
+      } else if (looked_[k] != Looked::kFar && isNew) {
+        looking.begun.emplace_back(k, manifold);
+      }
+    }
+  });
+  for (const Looking& looking : looking_) {
+    figures_.pairs += looking.pairs;
+    figures_.rebuilt += looking.rebuilt;
+    for (const std::size_t k : looking.left) {
+      unused_.push_back(std::exchange(pairs[k].slot, -1));
+    }
+    for (const auto& [k, manifold] : looking.begun) {
+      keepManifold(pairs[k], manifold);
+    }
+  }
 }
 
 // [m] By how much the two may still come nearer than when they were last looked at, at the least, before
@@ -90,26 +132,23 @@ double Crowd::rebuildAfter(double length) const {
   return std::min(PileLengths::kRebuild * length, kUnseen * tolerance_);
 }
 
-// Whether the pair has a manifold with points.
-bool Crowd::lookAt(PilePair& pair) {
-  ++figures_.pairs;
+// `manifold` is the pair's, or, if it has none, one to try.
+Crowd::Looked Crowd::lookAt(PilePair& pair, PileManifold& manifold, std::int64_t& rebuilt) const {
   const PileBody& a = bodies_[at(pair.a)];
   const bool hasWall = pair.b.isWall();
-  if (pair.slot < 0 && pair.clear > 0 && wayAhead(pair) < wayLeft(pair)) {
-    return false;
-  }
-  // Most that are near have no points: those are looked at in a place of their own, which stays in the cache.
   if (pair.slot < 0) {
-    beginManifold(pair, tried_);
+    if (pair.clear > 0 && wayAhead(pair) < wayLeft(pair)) {
+      return Looked::kFar;
+    }
+    beginManifold(pair, manifold);
   }
-  PileManifold& manifold = pair.slot < 0 ? tried_ : manifolds_[at(pair.slot)];
   const double motion = hasWall ? a.ahead : relativeMotion(a, bodyAt(pair.b), h_);
   manifold.moved += motion;
   const double length = manifold.length;
   bool touching = manifold.count > 0;
   if (!touching || manifold.moved > rebuildAfter(length) ||
       manifold.moved + motion + 0.5 * PileLengths::kReach * length > manifold.reach) {
-    ++figures_.rebuilt;
+    ++rebuilt;
     manifold.reach = PileLengths::kReach * length + 1.5 * motion;
     touching = hasWall ? buildManifold(a, wallAt(pair.b), manifold.reach, manifold)
                        : buildManifold(a, bodyAt(pair.b), manifold.reach, manifold);
@@ -118,22 +157,14 @@ bool Crowd::lookAt(PilePair& pair) {
   } else {
     refreshManifold(a, bodyAt(pair.b), manifold);
   }
-  if (!touching) {
-    const PileBody* b = hasWall ? nullptr : &bodyAt(pair.b);
-    pair.apart = b == nullptr ? a.position : Vec3(a.position - b->position);
-    pair.turned = a.turned + (b == nullptr ? 0 : b->turned);
-    pair.clear = manifold.separation - PileLengths::kReach * length;
-    if (pair.slot >= 0) {
-      unused_.push_back(pair.slot);
-      pair.slot = -1;
-    }
-    return false;
+  if (touching) {
+    return manifold.count > 0 ? Looked::kNear : Looked::kBare;
   }
-  const bool hasPoints = manifold.count > 0;
-  if (pair.slot < 0) {
-    keepManifold(pair, tried_);
-  }
-  return hasPoints;
+  const PileBody* b = hasWall ? nullptr : &bodyAt(pair.b);
+  pair.apart = b == nullptr ? a.position : Vec3(a.position - b->position);
+  pair.turned = a.turned + (b == nullptr ? 0 : b->turned);
+  pair.clear = manifold.separation - PileLengths::kReach * length;
+  return Looked::kFar;
 }
 
 void Crowd::keepManifold(PilePair& pair, const PileManifold& manifold) {
@@ -190,71 +221,115 @@ double Crowd::slowestBounce(const PileManifold& manifold) const {
   return std::max(kBounceFrom * strongest * h_, kRounding * speed_);
 }
 
-// Where a point strikes within the step, those of its manifold that are almost closed strike with it.
-void Crowd::addRows(int slot) {
-  PileManifold& manifold = manifolds_[at(slot)];
+// What a body may be struck with in the step: those that strike it are near it.
+void Crowd::findPushing() {
+  std::vector<double> own(bodies_.size());
+  forPlaces([&](std::size_t i) {
+    const int index = static_cast<int>(i);
+    own[i] = solver_.velocity(index).norm() + bodies_[i].radius * solver_.omega(index).norm();
+  });
+  pushing_ = own;
+  for (const int slot : near_) {
+    const PileManifold& manifold = manifolds_[at(slot)];
+    if (!manifold.b.isWall()) {
+      const std::size_t a = at(manifold.a);
+      const std::size_t b = at(manifold.b.body());
+      pushing_[a] = std::max(pushing_[a], own[b]);
+      pushing_[b] = std::max(pushing_[b], own[a]);
+    }
+  }
+}
+
+// What is to be known of a manifold before its rows are added, and how many there will be. Where a point
+// strikes within the step, those of its manifold that are almost closed strike with it.
+PileSolver::Extent Crowd::lookForRows(PileManifold& manifold) const {
   const bool hasWall = manifold.b.isWall();
-  const PileBody& a = bodies_[at(manifold.a)];
   const int indexB = solver_.indexOf(manifold.b);
-  const Vec3 apart = hasWall ? Vec3::Zero() : Vec3(a.position - bodyAt(manifold.b).position);
+  const Vec3 apart =
+      hasWall ? Vec3::Zero() : Vec3(bodies_[at(manifold.a)].position - bodyAt(manifold.b).position);
   const Vec3 vA = solver_.velocity(manifold.a);
   const Vec3 vB = solver_.velocity(indexB);
-  std::array<double, PileManifold::kMost> speeds{};
   const double slow = slowestBounce(manifold);
-  bool meets = false;
-  for (int k = 0; k < manifold.count; ++k) {
-    const PilePoint& point = manifold.points[at(k)];
-    const Vec3 relative = vA + solver_.omega(manifold.a).cross(point.world) - vB -
-                          solver_.omega(indexB).cross(point.world + apart);
-    speeds[at(k)] = manifold.frameOf(k).normal.dot(relative);
-    meets = meets || (point.gap + speeds[at(k)] * h_ <= 0 && -speeds[at(k)] > slow);
-  }
-  if (!hasWall && !a.still() && !bodyAt(manifold.b).still()) {
-    const double ratio = a.inverseMass / bodyAt(manifold.b).inverseMass;
-    heaviest_ = std::max({heaviest_, ratio, 1 / ratio});
-  }
-  const double together = kTogether * tolerance_;
+  const double pushing = pushing_[at(manifold.a)] + (hasWall ? 0 : pushing_[at(manifold.b.body())]);
+  const double mayClose =
+      std::min(kAllowance * manifold.length, kAllowedDepth * tolerance_ + kAllowedSpeed * h_ * pushing);
+  PileSolver::Extent rows;
   const PileFrame* begun = nullptr;
+  manifold.meets = manifold.strikes = false;
   for (int k = 0; k < manifold.count; ++k) {
     PilePoint& point = manifold.points[at(k)];
-    const PileFrame& frame = manifold.frameOf(k);
-    const double speed = speeds[at(k)];
-    point.row = -1;
+    const Vec3 relative = vA + solver_.omega(manifold.a).cross(point.world) - vB -
+                          solver_.omega(indexB).cross(point.world + apart);
+    point.speed = manifold.frameOf(k).normal.dot(relative);
     point.curved = 0;
-    if (point.gap + std::min(0.0, speed) * h_ > kAllowance * manifold.length) {
+    point.strikes = -point.speed > slow;
+    point.isOpen = point.gap + std::min(0.0, point.speed) * h_ > mayClose;
+    manifold.meets = manifold.meets || (point.gap + point.speed * h_ <= 0 && point.strikes);
+    if (point.isOpen) {
+      point.row = -1;
       point.normalImpulse = point.normalImpulseBefore = 0;
       continue;
     }
-    if (begun != &frame) {
-      solver_.beginBlock(manifold.a, manifold.b, manifold.friction, frame, apart);
-      begun = &frame;
+    manifold.strikes = manifold.strikes || point.strikes;
+    rows.blocks += begun == &manifold.frameOf(k) ? 0 : 1;
+    begun = &manifold.frameOf(k);
+    ++rows.rows;
+  }
+  return rows;
+}
+
+void Crowd::addRows(PileManifold& manifold, PileSolver::Extent next) {
+  const Vec3 apart = manifold.b.isWall()
+                         ? Vec3(Vec3::Zero())
+                         : Vec3(bodies_[at(manifold.a)].position - bodyAt(manifold.b).position);
+  const double together = kTogether * tolerance_;
+  for (int k = 0; k < manifold.count;) {
+    const PileFrame& frame = manifold.frameOf(k);
+    const int first = next.rows;
+    for (; k < manifold.count && &manifold.frameOf(k) == &frame; ++k) {
+      PilePoint& point = manifold.points[at(k)];
+      if (point.isOpen) {
+        continue;
+      }
+      PileSolver::Row row{.arm = point.world};
+      row.bound = manifold.meets && point.gap <= together ? 0 : -std::max(0.0, point.gap) / h_;
+      row.normalImpulse = impulseScale_ * std::min(point.normalImpulse, kGrowth * point.normalImpulseBefore);
+      if (row.normalImpulse > 0) {
+        const double part = row.normalImpulse / point.normalImpulse;
+        row.tangential1 = part * point.tangential1;
+        row.tangential2 = part * point.tangential2;
+      }
+      point.row = next.rows++;
+      solver_.setRow(point.row, row);
     }
-    PileSolver::Row row{.arm = point.world};
-    row.bound = meets && point.gap <= together ? 0 : -std::max(0.0, point.gap) / h_;
-    row.normalImpulse = impulseScale_ * std::min(point.normalImpulse, kGrowth * point.normalImpulseBefore);
-    if (row.normalImpulse > 0) {
-      const double part = row.normalImpulse / point.normalImpulse;
-      row.tangential1 = part * point.tangential1;
-      row.tangential2 = part * point.tangential2;
+    if (next.rows > first) {
+      solver_.setBlock({.blocks = next.blocks++, .rows = first}, next.rows - first, manifold.a, manifold.b,
+                       manifold.friction, frame, apart);
     }
-    point.row = static_cast<int>(solver_.rowCount());
-    solver_.add(row);
-    if (-speed > slow) {
-      // Only the part of gravity before the time of contact counts, or bouncing would gain energy. The speed
-      // is that of the middle.
-      const double before = std::clamp(point.gap / (-speed * h_), 0.0, 1.0);
-      const Vec3 fallA = a.still() ? Vec3(Vec3::Zero()) : acceleration(at(manifold.a));
-      const Vec3 fallB =
-          hasWall || bodyAt(manifold.b).still() ? Vec3(Vec3::Zero()) : acceleration(at(manifold.b.body()));
-      const double fall = h_ * frame.normal.dot(fallA - fallB);
-      const double approach = std::max(0.0, -(speed + (before - 0.5) * fall));
-      bounces_.push_back({.row = point.row,
-                          .speed = manifold.restitution * approach,
-                          .approach = approach,
-                          .fall = fall,
-                          .slot = slot,
-                          .point = k});
+  }
+}
+
+// Only the part of gravity before the time of contact counts, or bouncing would gain energy. Speeds are those
+// of the middle.
+void Crowd::addBounces(const PileManifold& manifold, int slot) {
+  for (int k = 0; manifold.strikes && k < manifold.count; ++k) {
+    const PilePoint& point = manifold.points[at(k)];
+    if (point.isOpen || !point.strikes) {
+      continue;
     }
+    const double before = std::clamp(point.gap / (-point.speed * h_), 0.0, 1.0);
+    const auto falling = [&](int body) {
+      return bodies_[at(body)].still() ? Vec3(Vec3::Zero()) : acceleration(at(body));
+    };
+    const Vec3 fallB = manifold.b.isWall() ? Vec3(Vec3::Zero()) : falling(manifold.b.body());
+    const double fall = h_ * manifold.frameOf(k).normal.dot(falling(manifold.a) - fallB);
+    const double approach = std::max(0.0, -(point.speed + (before - 0.5) * fall));
+    bounces_.push_back({.row = point.row,
+                        .speed = manifold.restitution * approach,
+                        .approach = approach,
+                        .fall = fall,
+                        .slot = slot,
+                        .point = k});
   }
 }
 
@@ -283,8 +358,7 @@ void Crowd::addPresentRows(const PileManifold& manifold) {
 }
 
 void Crowd::keepImpulses() {
-  for (const int slot : near_) {
-    PileManifold& manifold = manifolds_[at(slot)];
+  forNear([&](PileManifold& manifold, std::size_t) {
     for (int k = 0; k < manifold.count; ++k) {
       PilePoint& point = manifold.points[at(k)];
       if (point.row >= 0) {
@@ -294,7 +368,7 @@ void Crowd::keepImpulses() {
         point.tangential2 = solver_.tangential2(point.row);
       }
     }
-  }
+  });
 }
 
 }  // namespace careen

@@ -1,5 +1,6 @@
 // Second order of gaps: what points of turning bodies leave their tangents by within a step.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "physics/pile/crowd.h"
@@ -8,6 +9,7 @@ namespace careen {
 namespace {
 
 constexpr double kStraight = 0x1p-3;   // [1] of the tolerance: less is no bend
+constexpr double kSag = 1;             // [1] of the tolerance: depth allowed in the middle of a step
 constexpr double kParallel = 0x1p-20;  // [1] sine² of edges that have no common normal
 
 }  // namespace
@@ -16,13 +18,12 @@ constexpr double kParallel = 0x1p-20;  // [1] sine² of edges that have no commo
 // list those that it changes; returns whether there are any.
 bool Crowd::curveGaps() {
   bends_.assign(bodies_.size(), 0);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  forPlaces([&](std::size_t i) {
     const double spin = bodies_[i].still() ? 0 : solver_.omega(static_cast<int>(i)).squaredNorm();
     bends_[i] = 0.5 * h_ * h_ * bodies_[i].radius * spin > kStraight * tolerance_ ? 1 : 0;
-  }
-  bool any = false;
-  for (const int slot : near_) {
-    PileManifold& manifold = manifolds_[at(slot)];
+  });
+  std::atomic<bool> any = false;
+  forNear([&](PileManifold& manifold, std::size_t) {
     const bool bends =
         bends_[at(manifold.a)] != 0 || (!manifold.b.isWall() && bends_[at(manifold.b.body())] != 0);
     for (int k = 0; bends && k < manifold.count; ++k) {
@@ -32,12 +33,16 @@ bool Crowd::curveGaps() {
       }
       point.curved = 0.5 * h_ * h_ * secondOrder(manifold, k);
       solver_.addToBound(point.row, -point.curved / h_);
+      if (point.curved > 0) {  // an arc from surface to surface goes through what lies between
+        solver_.raiseBound(point.row,
+                           -2 * (std::max(0.0, point.gap) + kSag * tolerance_ + 0.25 * point.curved) / h_);
+      }
       if (std::abs(point.curved) > kStraight * tolerance_) {
         solver_.wakeRow(point.row);
         any = true;
       }
     }
-  }
+  });
   return any;
 }
 

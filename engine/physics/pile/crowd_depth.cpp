@@ -1,5 +1,6 @@
 // How deep bodies are in each other, and what undoes it within a step.
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "physics/pile/axes.h"
@@ -19,7 +20,7 @@ constexpr int kShiftSweeps = 60;
 // Within a step, boxes are looked at where one may have moved by so much [1] of the tolerance relative to the
 // other, at parts of it as short as that [1].
 constexpr double kSwing = 8;
-constexpr double kShortestLook = 0.125;
+constexpr double kShortestLook = 0.0625;
 
 }  // namespace
 
@@ -27,8 +28,8 @@ constexpr double kShortestLook = 0.125;
 // early, and gaps below zero are no bound to it. They need no rows of their own, unlike a projection.
 void Crowd::findShifts() {
   solver_.beginShifts();
-  for (const int slot : near_) {
-    const PileManifold& manifold = manifolds_[at(slot)];
+  std::atomic<bool> any = false;
+  forNear([&](const PileManifold& manifold, std::size_t) {
     const double tolerated = projection_.tolerated(manifold.length);
     for (int k = 0; k < manifold.count; ++k) {
       const PilePoint& point = manifold.points[at(k)];
@@ -38,39 +39,47 @@ void Crowd::findShifts() {
       const double gap = point.gap + h_ * solver_.normalSpeed(point.row) + point.curved;
       solver_.setShiftBound(point.row, -(gap + kShiftedTo * tolerated));
       if (gap < -kShifted * tolerated) {
-        shifts_ = true;
+        any = true;
         solver_.wakeRow(point.row);
       }
     }
-  }
+  });
+  shifts_ = any;
   if (!shifts_) {
     return;
   }
   figures_.solves += solver_.shift(kShiftSweeps, kShiftChange * tolerance_);
-  for (const int slot : near_) {
-    PileManifold& manifold = manifolds_[at(slot)];
+  forNear([&](PileManifold& manifold, std::size_t) {
     manifold.moved += shiftOf(manifold.a) + (manifold.b.isWall() ? 0 : shiftOf(manifold.b.body()));
-  }
+  });
 }
 
 // [m] How deep bodies went into each other and into walls in this step, if more than kDeep: the features of
 // the manifolds of its start were not all that met. `deep_` says whether any are too deep, even if
 // they were before.
 double Crowd::newDepth() {
-  double deepest = 0;
-  deep_ = false;
-  for (const PilePair& pair : pairs_.pairs()) {
-    const double depth = depthNow(pair);
-    if (depth == 0) {
-      continue;
+  const std::vector<PilePair>& pairs = pairs_.pairs();
+  std::atomic<bool> deep = false;
+  const double deepest = team_->largest(pairs.size(), [&](std::size_t first, std::size_t last) {
+    double deepestHere = 0;
+    for (std::size_t k = first; k < last; ++k) {
+      const PilePair& pair = pairs[k];
+      const double depth = depthNow(pair);
+      if (depth == 0) {
+        continue;
+      }
+      const bool grew = depth > depthBefore(pair) + 0.5 * tolerance_;
+      deepestHere = grew ? std::max(deepestHere, depth) : deepestHere;
+      if (depth > kMostDeep * tolerance_) {
+        deep = true;
+      }
+      if (pair.slot >= 0 && (grew || depth > kMostDeep * tolerance_)) {
+        manifolds_[at(pair.slot)].moved = std::numeric_limits<double>::max();  // to be rebuilt
+      }
     }
-    const bool grew = depth > depthBefore(pair) + 0.5 * tolerance_;
-    deepest = grew ? std::max(deepest, depth) : deepest;
-    deep_ = deep_ || depth > kMostDeep * tolerance_;
-    if (pair.slot >= 0 && (grew || depth > kMostDeep * tolerance_)) {
-      manifolds_[at(pair.slot)].moved = std::numeric_limits<double>::max();  // to be rebuilt
-    }
-  }
+    return deepestHere;
+  });
+  deep_ = deep;
   return deepest;
 }
 
@@ -93,9 +102,12 @@ double Crowd::depthNow(const PilePair& pair) const {
   if (motion < tolerance_ && !startedDeep(pair)) {
     return 0;
   }
-  const double depth = b == nullptr ? overlapOf(a, wallAt(pair.b))
-                                    : std::max(overlapOf(a, *b), depthWithin(pair.a, pair.b.body()));
-  return depth > kDeep * tolerance_ ? depth : 0;
+  if (b == nullptr) {
+    const double depth = overlapOf(a, wallAt(pair.b));
+    return depth > kDeep * tolerance_ ? depth : 0;
+  }
+  const double atEnd = gapAtEnd(pair.a, pair.b.body()) < -kDeep * tolerance_ ? overlapOf(a, *b) : 0;
+  return std::max(atEnd, depthWithin(pair.a, pair.b.body()));
 }
 
 // [m] By how much points of b moved in the last step as seen from a, at the most, to first order.
@@ -111,6 +123,13 @@ double Crowd::wayOf(int b, int a) const {
   return (wayB - wayA - turnA.cross(apart)).norm() + bodies_[at(b)].radius * (turn(b) - turnA).norm();
 }
 
+// [m] Of two boxes; of those no deeper than kDeep, a lower bound.
+double Crowd::gapAtEnd(int a, int b) const {
+  PileAxes axes;
+  axes.find(bodies_[at(a)], bodies_[at(b)], -kDeep * tolerance_, -1, 0);
+  return axes.separation();
+}
+
 // [m] Overlap within the step, if more than kDeep: of features that are apart at both its ends. No gap
 // changes by more than points move.
 double Crowd::depthWithin(int a, int b) const {
@@ -122,12 +141,9 @@ double Crowd::depthWithin(int a, int b) const {
   const auto gapAt = [&](double part) {
     const Pose poseA = between(at(a), part);
     const Pose poseB = between(at(b), part);
-    const auto arm = [](const Pose& pose, const PileBody& body) {
-      return body.center == nullptr ? pose.position : pose.worldPoint(*body.center);
-    };
     PileAxes axes;
     axes.find(bodies_[at(a)], poseA.worldFromBody, bodies_[at(b)], poseB.worldFromBody,
-              arm(poseA, bodies_[at(a)]) - arm(poseB, bodies_[at(b)]), -kDeep * tolerance_, -1, 0);
+              bodies_[at(a)].middleAt(poseA) - bodies_[at(b)].middleAt(poseB), -kDeep * tolerance_, -1, 0);
     return axes.separation();
   };
   const auto look = [&](const auto& again, double from, double gapFrom, double length, double gapTo) {
@@ -143,7 +159,7 @@ double Crowd::depthWithin(int a, int b) const {
       again(again, from + half, gap, half, gapTo);
     }
   };
-  look(look, 0, gapAt(0), 1, gapAt(1));
+  look(look, 0, gapAt(0), 1, gapAtEnd(a, b));
   return deepest > kDeep * tolerance_ ? deepest : 0;
 }
 

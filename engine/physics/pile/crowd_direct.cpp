@@ -20,6 +20,18 @@ constexpr double kResidual = 0x1p-10;
 
 }  // namespace
 
+// Whether of two members in contact one is much heavier.
+bool Crowd::isHeavy() const {
+  return std::any_of(near_.begin(), near_.end(), [&](int slot) {
+    const PileManifold& manifold = manifolds_[at(slot)];
+    if (manifold.b.isWall() || bodies_[at(manifold.a)].still() || bodyAt(manifold.b).still()) {
+      return false;
+    }
+    const double ratio = bodies_[at(manifold.a)].inverseMass / bodyAt(manifold.b).inverseMass;
+    return std::max(ratio, 1 / ratio) > kHeavy;
+  });
+}
+
 // Solves the rows of solver_ for the impulses of which friction and complementarity hold to a verified
 // residual; false, and nothing changed, where there are too many or none were found.
 bool Crowd::solveDirectly() {
@@ -27,7 +39,7 @@ bool Crowd::solveDirectly() {
   if (count == 0 || count > kMostRows) {
     return false;
   }
-  const bool easy = count <= kFewRows || heaviest_ > kHeavy;
+  const bool easy = count <= kFewRows || isHeavy();
   if (!easy && directWait_ > 0) {
     --directWait_;
     return false;

@@ -1,8 +1,9 @@
 // Where members were and can be: motion within the last step, space that is taken.
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 
-#include "core/math/rotation.h"
 #include "physics/geometry/separation.h"
 #include "physics/motion/joined_steps.h"
 #include "physics/pile/axes.h"
@@ -13,7 +14,8 @@ namespace {
 
 // [1] of the tolerance: distance from a joint, and depth there, that are too much for a smooth path.
 constexpr double kRounded = 0.5;
-constexpr double kDeepAtJoint = 2;
+constexpr double kDeepAtJoint = 1.5;
+constexpr double kBesideJoint = 0.4;  // [1] of the bend, before and after it: where else it is looked at
 constexpr double kLasting = 4;  // [1] of gravity × step: larger changes of velocity are those of impacts
 
 // [rad/s] Body frame: of the turn from the one to the other in that time. Its angle is 2 asin of the length
@@ -128,41 +130,65 @@ Crowd::Rates Crowd::ratesAt(std::size_t place, std::size_t part) const {
           .omega = (turn.w() < 0 ? -2 : 2) * perSecond * turn.vec()};
 }
 
-// Whether where this step begins, the smooth path through both would lead members deep into each other.
+// Whether near where this step begins, the smooth path through both would lead members deep into each other.
 void Crowd::findSharp() {
-  isSharp_ = false;
-  const double rounding = JoinedSteps::rounding(partBefore_, h_ / static_cast<double>(way_.size() + 1));
-  std::vector<Rates> off(bodies_.size());  // [m], [rad] from the joint
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  const double part = h_ / static_cast<double>(way_.size() + 1);
+  std::vector<Rates> change(bodies_.size());
+  forPlaces([&](std::size_t i) {
     if (before_[i].moved) {
       const Rates rates = ratesAt(i, 0);
-      off[i] = {.velocity = rounding * (rates.velocity - ratesBefore_[i].velocity),
-                .omega = rounding * (rates.omega - ratesBefore_[i].omega)};
+      change[i] = {.velocity = rates.velocity - ratesBefore_[i].velocity,
+                   .omega = rates.omega - ratesBefore_[i].omega};
     }
+  });
+  const double most = JoinedSteps::beside(partBefore_, part, 0).off;
+  std::array<JoinedSteps::Beside, 3> moments;
+  for (const int k : {0, 1, 2}) {
+    moments[at(k)] = JoinedSteps::beside(partBefore_, part, kBesideJoint * (k - 1));
   }
-  isSharp_ = std::any_of(near_.begin(), near_.end(), [&](int slot) {
-    const PileManifold& manifold = manifolds_[at(slot)];
+  const auto onPath = [&](std::size_t i, const JoinedSteps::Beside& moment) {
+    const Rates& rates = ratesBefore_[i];
+    const bool before = moment.time < 0;
+    Pose pose = between(i, before ? 0 : moment.time / h_);
+    Vec3 turn = moment.off * change[i].omega;
+    pose.position += moment.off * change[i].velocity;
+    if (before && before_[i].moved) {
+      pose.position += moment.time * rates.velocity;
+      turn += moment.time * rates.omega;
+    }
+    pose.worldFromBody =
+        Quat(1, 0.5 * turn.x(), 0.5 * turn.y(), 0.5 * turn.z()).normalized() * pose.worldFromBody;
+    return pose;
+  };
+  const auto isDeepAt = [&](const PileManifold& manifold, const JoinedSteps::Beside& moment) {
+    const PileBody& a = bodies_[at(manifold.a)];
+    const PileBody& b = bodyAt(manifold.b);
+    const Pose poseA = onPath(at(manifold.a), moment);
+    const Pose poseB = onPath(at(manifold.b.body()), moment);
+    PileAxes axes;
+    return axes.find(a, poseA.worldFromBody, b, poseB.worldFromBody, a.middleAt(poseA) - b.middleAt(poseB),
+                     -kDeepAtJoint * tolerance_, -1, 0);
+  };
+  const auto isSharpAt = [&](const PileManifold& manifold) {
     if (manifold.b.isWall()) {
       return false;
     }
-    const PileBody& a = start_[at(manifold.a)];
-    const PileBody& b = start_[at(manifold.b.body())];
-    const Rates& offA = off[at(manifold.a)];
-    const Rates& offB = off[at(manifold.b.body())];
-    const Vec3 apart = b.position - a.position;
-    const double way = (offB.velocity - offA.velocity - offA.omega.cross(apart)).norm() +
-                       b.radius * (offB.omega - offA.omega).norm();
-    if (way <= kRounded * tolerance_) {
-      return false;
+    const Rates& ofA = change[at(manifold.a)];
+    const Rates& ofB = change[at(manifold.b.body())];
+    const Vec3 apart = start_[at(manifold.b.body())].position - start_[at(manifold.a)].position;
+    const double way = (ofB.velocity - ofA.velocity - ofA.omega.cross(apart)).norm() +
+                       bodyAt(manifold.b).radius * (ofB.omega - ofA.omega).norm();
+    return most * way > kRounded * tolerance_ &&
+           std::any_of(moments.begin(), moments.end(),
+                       [&](const JoinedSteps::Beside& moment) { return isDeepAt(manifold, moment); });
+  };
+  std::atomic<bool> sharp = false;
+  forNear([&](const PileManifold& manifold, std::size_t) {
+    if (!sharp && isSharpAt(manifold)) {
+      sharp = true;
     }
-    PileAxes axes;
-    const auto turned = [](const PileBody& body, const Rates& by) {
-      return Mat3(body.axes + tilde(by.omega) * body.axes);
-    };
-    return axes.find(a, turned(a, offA), b, turned(b, offB),
-                     a.middle() + offA.velocity - b.middle() - offB.velocity, -kDeepAtJoint * tolerance_, -1,
-                     0);
   });
+  isSharp_ = sharp;
 }
 
 std::pair<StepEnd, StepEnd> Crowd::part(std::size_t place, std::size_t part) const {

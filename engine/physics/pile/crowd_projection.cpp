@@ -1,5 +1,6 @@
 // What pushes bodies apart that are deep in each other.
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "physics/pile/crowd.h"
@@ -48,25 +49,30 @@ double Crowd::project(double deepest) {
 
 // [m] Brings the gaps of all, or of those that the last pass moved, up to date; returns the deepest.
 double Crowd::refreshDepth(bool all) {
-  double deepest = 0;
-  for (const int slot : near_) {
-    PileManifold& manifold = manifolds_[at(slot)];
-    const PileBody& a = bodies_[at(manifold.a)];
-    const PileBody* b = manifold.b.isWall() ? nullptr : &bodyAt(manifold.b);
-    if (all || projection_.moved(manifold.a) || (b != nullptr && projection_.moved(manifold.b.body()))) {
-      if (b == nullptr) {
-        refreshManifold(a, wallAt(manifold.b), manifold);
-      } else if (manifold.moved + (all ? relativeMotion(a, *b, h_) : 0) > rebuildAfter(manifold.length)) {
-        ++figures_.rebuilt;
-        buildManifold(a, *b, manifold.reach, manifold);
-      } else {
-        refreshManifold(a, *b, manifold);
+  std::atomic<std::int64_t> rebuilt = 0;
+  const double deepest = team_->largest(near_.size(), [&](std::size_t first, std::size_t last) {
+    double deepestHere = 0;
+    for (std::size_t n = first; n < last; ++n) {
+      PileManifold& manifold = manifolds_[at(near_[n])];
+      const PileBody& a = bodies_[at(manifold.a)];
+      const PileBody* b = manifold.b.isWall() ? nullptr : &bodyAt(manifold.b);
+      if (all || projection_.moved(manifold.a) || (b != nullptr && projection_.moved(manifold.b.body()))) {
+        if (b == nullptr) {
+          refreshManifold(a, wallAt(manifold.b), manifold);
+        } else if (manifold.moved + (all ? relativeMotion(a, *b, h_) : 0) > rebuildAfter(manifold.length)) {
+          ++rebuilt;
+          buildManifold(a, *b, manifold.reach, manifold);
+        } else {
+          refreshManifold(a, *b, manifold);
+        }
+      }
+      for (int k = 0; k < manifold.count; ++k) {
+        deepestHere = std::max(deepestHere, -manifold.points[at(k)].gap);
       }
     }
-    for (int k = 0; k < manifold.count; ++k) {
-      deepest = std::max(deepest, -manifold.points[at(k)].gap);
-    }
-  }
+    return deepestHere;
+  });
+  figures_.rebuilt += rebuilt;
   return deepest;
 }
 

@@ -27,8 +27,12 @@ struct PilePoint {
   double normalImpulseBefore = 0;  ///< [N s] of the substep before
   double tangential1 = 0;          ///< [N s] along the manifold's tangents
   double tangential2 = 0;
-  double curved = 0;  ///< [m] second order of the gap at the end of the step
-  int row = -1;       ///< in the solver, −1: gap too large
+  // Of the present step:
+  double curved = 0;     ///< [m] second order of the gap at its end
+  double speed = 0;      ///< [m/s] of the gap, before impulses
+  bool strikes = false;  ///< faster than what forces give in a step
+  bool isOpen = false;   ///< too far to meet
+  int row = -1;          ///< in the solver, −1: it is open
 };
 
 /// Contact frame: normal from b to a, and two tangents (right-handed) fixed in the body that owns the
@@ -71,6 +75,8 @@ struct PileManifold {
   int count = 0;
   std::array<PilePoint, kMost> points;
 
+  bool strikes = false;         ///< a point of it strikes in this step
+  bool meets = false;           ///< and meets
   bool carries = false;         ///< one of the two fell asleep, and nothing woke it since
   Vec3 carried = Vec3::Zero();  ///< [N] on a, when it did
 

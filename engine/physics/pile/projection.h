@@ -16,7 +16,8 @@ namespace careen {
 class PileProjection {
  public:
   /// `tolerance` [m] of the crowd: penetration of less than that remains, and of tiny boxes less.
-  explicit PileProjection(double tolerance) : tolerance_(tolerance) {}
+  PileProjection(double tolerance, std::shared_ptr<Team> team)
+      : tolerance_(tolerance), solver_(std::move(team)) {}
 
   /// One pass over the listed manifolds, whose gaps must be up to date. Only penetrating bodies and their
   /// neighbours, up to `layers` layers (at most 127), move. At most so many sweeps. False if nothing was to

@@ -1,12 +1,17 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/math/linear_algebra.h"
+#include "core/system/team.h"
 #include "physics/pile/body.h"
 #include "physics/pile/lanes.h"
 #include "physics/pile/manifold.h"
@@ -32,9 +37,16 @@ namespace careen {
 ///
 /// What a step would leave of penetration at the velocities found is undone by shifts: displacements δ of the
 /// bodies, with n·δ ≥ bound at the same rows, which never become velocity (split impulses).
+///
+/// Many blocks are divided into parts, which different threads can solve: slabs across the longest extent,
+/// with as many ends of blocks each, and then the blocks between neighbouring slabs, of every second pair at
+/// once. How many slabs there are depends on the number of blocks only, so the bits do not depend on the
+/// threads.
 class PileSolver {
  public:
-  /// Clears it for that many bodies; one more, the last, represents all walls.
+  explicit PileSolver(std::shared_ptr<Team> team = std::make_shared<Team>(1)) : team_(std::move(team)) {}
+
+  /// Clears it for that many bodies; one more represents all walls.
   void begin(std::size_t bodies);
 
   /// Sets a body's inverse mass and inertia; `change` [m/s] is the change that puts its manifolds back on the
@@ -45,9 +57,7 @@ class PileSolver {
   Vec3& omega(int body) { return moving_[at(body)].omega; }
   const Vec3& velocity(int body) const { return moving_[at(body)].velocity; }
   const Vec3& omega(int body) const { return moving_[at(body)].omega; }
-  int indexOf(Partner partner) const {
-    return partner.isWall() ? static_cast<int>(moving_.size()) - 1 : partner.body();
-  }
+  int indexOf(Partner partner) const { return partner.isWall() ? static_cast<int>(bodies_) : partner.body(); }
   /// An impulse [N s] from outside, at that arm [m].
   void push(int body, const Vec3& arm, const Vec3& impulse) {
     moving_[at(body)].velocity += inertia_[at(body)].inverseMass * impulse;
@@ -69,6 +79,16 @@ class PileSolver {
     staged_.push_back(row);
     ++blocks_.back().count;
   }
+  /// Or, in any order and by several threads at once: first the number of all, then each by its index, rows
+  /// that follow each other in one block.
+  struct Extent {
+    int blocks = 0;
+    int rows = 0;
+  };
+  void reserve(Extent all);
+  void setBlock(Extent index, int count, int a, Partner b, double friction, const PileFrame& frame,
+                const Vec3& apart);
+  void setRow(int index, const Row& row) { staged_[at(index)] = row; }
   /// After the last add(): groups blocks, and builds the contact graph. solve() starts with what wakeAll() or
   /// wakeRow() put on the worklist.
   void link();
@@ -116,8 +136,13 @@ class PileSolver {
   double tangential2(int row) const { return rows_[rowAt(row)].tangential2[laneOf(row)]; }
   void setBound(int row, double bound) { rows_[rowAt(row)].bound[laneOf(row)] = bound; }
   void addToBound(int row, double more) { rows_[rowAt(row)].bound[laneOf(row)] += more; }
+  void raiseBound(int row, double least) {
+    Lanes& bounds = rows_[rowAt(row)].bound;
+    bounds[laneOf(row)] = std::max(bounds[laneOf(row)], least);
+  }
   void wakeAll();
-  void wakeRow(int row) { put(blocks_[at(blockOfRow_[at(row)])].place); }
+  /// May be called by several threads at once.
+  void wakeRow(int row);
   /// Whether wide registers are used; the bits are the same.
   void useWideLanes(bool wide) { wide_ = wide && hasWideLanes(); }
 
@@ -149,22 +174,26 @@ class PileSolver {
     double friction = 0;
     PileFrame frame;
     Vec3 apart;
+    int part = 0;
     int place = -1;  // kLanes × group + lane
   };
   /// Blocks no two of which share a body that moves: solved side by side, as if one after the other.
+  struct Group {
+    std::array<int, kLanes> a{}, b{};  // bodies
+    std::array<int, kLanes> counts{};  // rows
+    std::array<int, kLanes> blocks{};
+    int used = 0;   // lanes
+    int first = 0;  // in rows_
+    int count = 0;  // of the longest
+  };
   struct Side {
-    std::array<int, kLanes> body{};
     Lanes inverseMass{};
     LanesSymmetric inertia{};
     Lanes radius{};
     Lanes change{};
   };
-  struct Group {
+  struct LaneBlock {
     Side a, b;
-    std::array<int, kLanes> counts{};  // rows
-    int used = 0;                      // lanes
-    int first = 0;                     // in rows_
-    int count = 0;                     // of the longest
     Lanes friction{};
     LanesVec normal{}, tangent1{}, tangent2{}, apart{};
   };
@@ -184,26 +213,49 @@ class PileSolver {
     LanesVec v, w;
     Lanes unqueuedChange, pushed;
   };
+  /// Solved by one thread: of what others write meanwhile it reads nothing.
+  struct Part {
+    std::size_t firstWord = 0;  // in waiting_
+    std::size_t lastWord = 0;
+    int nobody = 0;  // in moving_, in place of bodies that cannot move
+    std::int64_t solved = 0;
+  };
+  /// Parts that share no body that moves.
+  struct Phase {
+    int first = 0;
+    int count = 0;
+  };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   std::size_t rowAt(int row) const { return rowPlaces_[at(row)] / kLanes; }
   int laneOf(int row) const { return static_cast<int>(rowPlaces_[at(row)] % kLanes); }
   enum class Kind : std::uint8_t { kFriction, kFrictionless, kShift };
   bool movable(int body) const { return inertia_[at(body)].inverseMass > 0; }
-  void findGroup(Block& block);
+  void findParts();
+  void findSlabs(int count);
+  void findGroups();
+  void findGroup(int index);
   bool sharesBody(const Group& group, const Block& block) const;
   void fillGroups();
-  void fillSide(Side& side, int lane, int body);
-  void findMasses(Group& group);
+  void fillGroup(const Group& group, LaneBlock& lanes);
+  void fillSide(Side& side, int lane, int body) const;
+  void findMasses(const Group& group, const LaneBlock& lanes);
   void listBlocks();
   template <Kind kKind>
   std::int64_t sweep(int sweeps);
   template <Kind kKind>
-  void solveGroup(const Group& group, unsigned lanes);
+  void sweepPart(Part& part);
   template <Kind kKind>
-  void store(const Side& side, const Velocities& from, Velocities to, const LaneMask& changed);
-  static Velocities velocitiesOf(const std::vector<Moving>& moving, const Side& side);
-  void queueBlocksOf(int body);
-  void put(int place) { waiting_[at(place) / 64] |= std::uint64_t{1} << (at(place) % 64); }
+  void solveGroup(std::size_t index, unsigned lanes, const Part& part);
+  template <Kind kKind>
+  void store(const std::array<int, kLanes>& bodies, const Side& side, const Velocities& from, Velocities to,
+             const LaneMask& changed, const Part& part);
+  static Velocities velocitiesOf(const std::vector<Moving>& moving, const std::array<int, kLanes>& bodies);
+  void queueBlocksOf(int body, const Part& part);
+  void put(int place) { waiting_[at(place) / 64] |= bitOf(place); }
+  void putShared(int place) {
+    std::atomic_ref(waiting_[at(place) / 64]).fetch_or(bitOf(place), std::memory_order_relaxed);
+  }
+  static std::uint64_t bitOf(int place) { return std::uint64_t{1} << (at(place) % 64); }
   template <class Work>
   void run(const Work& work) const {
     if (wide_) {
@@ -213,14 +265,22 @@ class PileSolver {
     }
   }
 
+  std::shared_ptr<Team> team_;
   bool wide_ = hasWideLanes();
-  std::vector<Moving> moving_;
+  std::size_t bodies_ = 0;
+  std::vector<Vec3> places_;  // [m] of the bodies
+  std::vector<int> slabs_;    // by body, of those that can move
+  std::vector<Part> parts_;
+  std::vector<Phase> phases_;
+  std::vector<int> ordered_;    // blocks, by part
+  std::vector<Moving> moving_;  // by body, then of the walls, then nobody's, for each part
   std::vector<Moving> shifts_;  // displacements and turns in place of velocities
   double shiftChange_ = 0;      // [m]
   std::vector<Inertia> inertia_;
   std::vector<Row> staged_;
   std::vector<Block> blocks_;
   std::vector<Group> groups_;
+  std::vector<LaneBlock> lanes_;  // by group
   std::vector<LaneRow> rows_;
   std::vector<ShiftRow> shiftRows_;
   std::vector<int> blockOfRow_;

@@ -31,6 +31,13 @@ class ResidualSum {
     power_ = std::max(power_, std::fabs(power));
   }
 
+  /// Those of other contacts of the same problem; in any order.
+  void include(const ResidualSum& other) {
+    primal_ = std::max(primal_, other.primal_);
+    dual_ = std::max(dual_, other.dual_);
+    power_ = std::max(power_, other.power_);
+  }
+
   ContactResiduals residuals() const {
     ContactResiduals all{.problems = 1};
     all.primal = speed_ > 0 ? primal_ / speed_ : 0;

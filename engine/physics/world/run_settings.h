@@ -39,6 +39,7 @@ struct RunSettings {
   double dt = 1.0 / 240;    ///< [s] time step of stepping methods
   double tolerance = 1e-6;  ///< [m] of positions and corners, for methods with step size control
   CrowdSettings crowds = {};
+  int threads = 1;  ///< for large crowds; nothing but the time depends on it
 };
 
 }  // namespace careen

@@ -100,18 +100,21 @@ TEST(JoinedSteps, overlapNoMoreThanTheirEnds) {
   }
 }
 
-TEST(JoinedSteps, areBesideJointsByTheirRoundingUnlessThoseAreSharp) {
+TEST(JoinedSteps, areBesideJointsAsTheyTellUnlessThoseAreSharp) {
   for (const double length : {1e-3, 3e-3}) {
     for (const bool sharp : {false, true}) {
-      double beside = 0;
-      for (const auto& [start, step] :
-           joined({{1e-3, Vec3(4, 0, 0)}, {length, Vec3(-4, 0, 0), sharp}}).motions) {
-        if (start <= 1e-3) {
-          beside = 4e-3 - positionAt(step, 1e-3 - start).x();
+      for (const double part : {-1.0, -0.6, 0.0, 0.3, 1.0}) {
+        const JoinedSteps::Beside known = JoinedSteps::beside(1e-3, length, part);
+        double beside = 0;
+        for (const auto& [start, step] :
+             joined({{1e-3, Vec3(4, 0, 0)}, {length, Vec3(-4, 0, 0), sharp}}).motions) {
+          if (start <= 1e-3 + known.time) {
+            beside = 4e-3 - 4 * std::abs(known.time) - positionAt(step, 1e-3 + known.time - start).x();
+          }
         }
+        EXPECT_NEAR(beside, sharp ? 0 : 8 * known.off, 1e-15) << length << sharp << part;
+        EXPECT_TRUE(sharp || part != 0 || beside > 8e-4);
       }
-      EXPECT_NEAR(beside, sharp ? 0 : 8 * JoinedSteps::rounding(1e-3, length), 1e-15) << length << sharp;
-      EXPECT_TRUE(sharp || beside > 8e-4);
     }
   }
 }

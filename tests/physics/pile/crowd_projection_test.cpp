@@ -61,13 +61,13 @@ TEST(CrowdProjection, jamInADeepShaftStaysShallow) {
 
 // Where boxes are pushed millimetres far, their way leads through places where they are pushed apart too.
 TEST(CrowdProjection, leadsAroundOthers) {
-  const World world = test::pouring(140, 0.05, 0, 1, 2);
+  const World world = test::pouring(240, 0.05, 0, 1, 2);
   test::CrowdRun run(world);
   Crowd& crowd = run.crowd();
   int divided = 0;
   double deepest = 0;
-  for (double time = 0; time < 3.5;) {
-    time += crowd.step(3.5 - time);
+  for (double time = 0; time < 3;) {
+    time += crowd.step(3 - time);
     bool any = false;
     for (std::size_t place = 0; place < world.bodies.size(); ++place) {
       any = any || crowd.parts(place) > 1;
@@ -76,7 +76,8 @@ TEST(CrowdProjection, leadsAroundOthers) {
     deepest = any ? std::max(deepest, deepestWithin(world, crowd)) : deepest;
   }
   EXPECT_GT(divided, 0);
-  EXPECT_LT(deepest, 3 * kTolerance);  // measured 4.8e-4; 28e-4 where ways were gone however deep
+  EXPECT_LT(deepest,
+            3 * kTolerance);  // measured 3.9e-4; of other heaps 28e-4 where ways were gone however deep
   RecordProperty("divided", divided);
   RecordProperty("deepest", std::to_string(deepest));
 }

@@ -286,6 +286,48 @@ TEST(Crowd, listingOrderChangesNoBit) {
   }
 }
 
+// A heap that makes several parts of the solver.
+TEST(Crowd, numberOfThreadsChangesNoBit) {
+  const World world = test::pouring(1000, 0.5, 0.3, 1, 12);
+  const auto poured = [&](int threads) {
+    test::CrowdRun crowd(world, Crowd::kUsualTolerance, test::CrowdRun::kFrame, threads);
+    for (int frame = 0; frame < 60; ++frame) {
+      crowd.step();
+    }
+    EXPECT_GT(crowd.figures().rows, 1000 * crowd.figures().steps);
+    return std::vector<BodyState>(crowd.states().begin(), crowd.states().end());
+  };
+  const std::vector<BodyState> alone = poured(1);
+  for (const int threads : {2, 5}) {
+    const std::vector<BodyState> shared = poured(threads);
+    for (std::size_t k = 0; k < alone.size(); ++k) {
+      ASSERT_TRUE(sameBits(shared[k], alone[k])) << threads << " threads, body " << k;
+    }
+  }
+}
+
+// All lengths times four, at the same gravity, take twice the time.
+TEST(Crowd, powersOfFourAsUnitsOfLengthChangeNoBit) {
+  for (const double restitution : {0.0, 0.5}) {
+    const World world = test::pouring(60, 0.5, restitution, 1, 3);
+    const World scaled = test::pouring(60, 0.5, restitution, 4, 3);
+    test::CrowdRun crowd(world);
+    test::CrowdRun larger(scaled, 4 * Crowd::kUsualTolerance, 2 * test::CrowdRun::kFrame);
+    for (int frame = 0; frame < 120; ++frame) {
+      crowd.step();
+      larger.step();
+    }
+    EXPECT_GT(crowd.figures().rows, 0);
+    for (std::size_t k = 0; k < world.bodies.size(); ++k) {
+      const BodyState& state = crowd.states()[k];
+      const BodyState& other = larger.states()[k];
+      EXPECT_EQ(other.pose.position / 4, state.pose.position) << k;
+      EXPECT_EQ(other.pose.worldFromBody, state.pose.worldFromBody) << k;
+      EXPECT_EQ(other.velocity / 2, state.velocity) << k;
+    }
+  }
+}
+
 TEST(Crowd, hitKeepsMomentum) {
   const Material material{.restitution = 0.4, .friction = 0.3};
   World world;

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace careen {
+
+/// Threads that do parts of one piece of work, again and again, thousands of times a second. Their number
+/// must not show in what comes of it: parts touch nothing in common.
+class Team {
+ public:
+  /// So many threads, the caller's one of them; the others start with the first work for them.
+  explicit Team(int threads) : size_(threads) {}
+  ~Team();
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+  Team(Team&&) = delete;
+  Team& operator=(Team&&) = delete;
+
+  int size() const { return size_; }
+
+  /// Calls work(part) for parts 0 to `parts` − 1, by the thread part mod size(), and returns when all are
+  /// done. Rethrows an error of one of them then. Not to be called by `work`.
+  template <class Work>
+  void run(int parts, const Work& work) {
+    if (size_ <= 1 || parts <= 1) {
+      for (int part = 0; part < parts; ++part) {
+        work(part);
+      }
+      return;
+    }
+    runTogether({.work = &work,
+                 .call = [](const void* of, int part) { (*static_cast<const Work*>(of))(part); },
+                 .parts = parts});
+  }
+
+  /// Into how many ranges share() divides 0 to `count`: more than threads, as some take longer than others;
+  /// one, if it is short.
+  int ranges(std::size_t count) const { return size_ <= 1 || count < kFew ? 1 : kRanges * size_; }
+  /// Calls work(first, last) for these ranges.
+  template <class Work>
+  void share(std::size_t count, const Work& work) {
+    const auto parts = static_cast<std::size_t>(ranges(count));
+    run(ranges(count), [&](int part) {
+      const auto k = static_cast<std::size_t>(part);
+      work(count * k / parts, count * (k + 1) / parts);
+    });
+  }
+  /// The same; returns the largest of 0 and what work(first, last) gives.
+  template <class Work>
+  double largest(std::size_t count, const Work& work) {
+    std::atomic<double> largest = 0;
+    share(count, [&](std::size_t first, std::size_t last) {
+      const double found = work(first, last);
+      for (double before = largest; found > before && !largest.compare_exchange_weak(before, found);) {
+      }
+    });
+    return largest;
+  }
+
+ private:
+  static constexpr std::size_t kFew = 256;  // that it costs more to share than to do
+  static constexpr int kRanges = 4;
+  struct Piece {
+    const void* work = nullptr;
+    void (*call)(const void*, int) = nullptr;
+    int parts = 0;
+  };
+  void runTogether(const Piece& piece);
+  void doParts(int first) noexcept;
+  void help(int first);
+
+  int size_;
+  Piece piece_;
+  std::vector<std::exception_ptr> errors_;  // by thread
+  std::atomic<std::uint32_t> round_ = 0;    // pieces of work given out
+  std::atomic<int> busy_ = 0;               // threads that have not finished the present one
+  std::atomic<bool> ends_ = false;
+  std::vector<std::jthread> threads_;  // the last member: they use the others
+};
+
+}  // namespace careen
