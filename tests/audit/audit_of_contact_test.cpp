@@ -19,6 +19,15 @@ Trajectory contactRunOf(const std::string& scene) {
   return record(setupOf(readScene(scenes / (scene + ".json"))));
 }
 
+// Or its film would take hours.
+TEST(AuditOfPile, findsACrowdBeforeTheFirstSecondEnds) {
+  RunSetup setup = setupOf(readScene(CAREEN_SOURCE_DIR "/assets/scenes/pile.json"));
+  setup.settings.duration = 1;
+  const Trajectory run = record(std::move(setup));
+  ASSERT_TRUE(run.figures.boundedFrom);
+  EXPECT_LT(*run.figures.boundedFrom, 1);  // measured 0.40
+}
+
 TEST_P(AuditOfContact, findsNothing) {
   const Trajectory run = contactRunOf(GetParam());
   for (const AuditBreach& breach : audit(run, AuditDepth::kFull).breaches) {

@@ -29,8 +29,12 @@ constexpr int kMostHalvings = 6;
 constexpr double kShortest = 0x1p-10;  // [1] of the length that the crowd would take: not halved
 constexpr double kTooDeep = 1.5;       // [1] of the tolerance: new penetration for which a step is halved
 // [1] of the tolerance: how far corners may leave their tangents in a step. The second order of gaps undoes
-// it at its end and in its middle.
+// it at its end and in its middle. Less after steps that had to be taken again, as they have to be more often
+// the more members there are.
 constexpr double kMostBent = 6;
+constexpr double kLeastBent = 2;
+constexpr double kLessBent = 0.85;
+constexpr double kMoreBent = 1.04;
 constexpr double kMostScaled = 4;  // [1] of stored impulses, to a longer step
 
 // [rad/s] What an angular impulse [N m s] changes.
@@ -54,6 +58,7 @@ Crowd::Crowd(const World& world, double tolerance, std::shared_ptr<Team> team)
       pairs_(world.walls),
       solver_(team_),
       projection_(tolerance, team_),
+      bent_(kMostBent),
       tell_(kTell) {
   if (!world.springs.empty() || world.drag) {
     for (const Body& body : world.bodies) {
@@ -154,12 +159,13 @@ double Crowd::stepAgain(double length) {
 double Crowd::keepApart() {
   double depth = newDepth();
   const double shortest = kShortest * chooseLength(longestStep());
-  for (int halving = 0; halving < kMostHalvings && depth > kTooDeep * tolerance_ && h_ > shortest;
-       ++halving) {
+  int halving = 0;
+  for (; halving < kMostHalvings && depth > kTooDeep * tolerance_ && h_ > shortest; ++halving) {
     goBack();
     take(0.5 * h_, halving == 0);
     depth = newDepth();
   }
+  bent_ = halving > 0 ? std::max(kLessBent * bent_, kLeastBent) : std::min(kMoreBent * bent_, kMostBent);
   const double left = depth > 0 || deep_ ? projectOnWay() : 0;
   effort_ = left > kTooDeep * tolerance_ ? std::min(2 * effort_, kMostEffort)
                                          : std::max<std::int64_t>(effort_ / 2, 1);
@@ -222,7 +228,7 @@ double Crowd::chooseLength(double most) const {
   }
   h = std::max(h, kShortestStep * scale_);
   if (bending > 0) {
-    const double straight = std::sqrt(2 * kMostBent * tolerance_ / bending);
+    const double straight = std::sqrt(2 * bent_ * tolerance_ / bending);
     h = std::min(h, std::max(straight, kShortestTurn * kShortestStep * scale_));
   }
   return std::min({h, springLimit_, most});

@@ -356,7 +356,8 @@ class Crowd {
   double partBefore_ = 0;           // [s] length of its parts
   bool isSharp_ = false;
   std::vector<std::vector<Place>> way_;  // places between begin and end of the last step, if any
-  double tell_;              // [1] of the smallest size: change per step above which neighbours are re-solved
+  double bent_;  // [1] of the tolerance: how far corners may leave their tangents in the next step
+  double tell_;  // [1] of the smallest size: change per step above which neighbours are re-solved
   std::vector<char> bends_;  // by place: its corners leave their tangents in this step
   std::vector<Bounce> bounces_;
   std::vector<Struck> impacts_;
