@@ -263,10 +263,9 @@ PileSolver::Extent Crowd::lookForRows(PileManifold& manifold) const {
     point.speed = manifold.frameOf(k).normal.dot(relative);
     point.curved = 0;
     point.strikes = -point.speed > slow;
-    point.isOpen = point.gap + std::min(0.0, point.speed) * h_ > mayClose;
+    point.row = point.gap + std::min(0.0, point.speed) * h_ > mayClose ? -1 : 0;
     manifold.meets = manifold.meets || (point.gap + point.speed * h_ <= 0 && point.strikes);
-    if (point.isOpen) {
-      point.row = -1;
+    if (point.row < 0) {
       point.normalImpulse = point.normalImpulseBefore = 0;
       continue;
     }
@@ -288,7 +287,7 @@ void Crowd::addRows(PileManifold& manifold, PileSolver::Extent next) {
     const int first = next.rows;
     for (; k < manifold.count && &manifold.frameOf(k) == &frame; ++k) {
       PilePoint& point = manifold.points[at(k)];
-      if (point.isOpen) {
+      if (point.row < 0) {
         continue;
       }
       PileSolver::Row row{.arm = point.world};
@@ -314,7 +313,7 @@ void Crowd::addRows(PileManifold& manifold, PileSolver::Extent next) {
 void Crowd::addBounces(const PileManifold& manifold, int slot) {
   for (int k = 0; manifold.strikes && k < manifold.count; ++k) {
     const PilePoint& point = manifold.points[at(k)];
-    if (point.isOpen || !point.strikes) {
+    if (point.row < 0 || !point.strikes) {
       continue;
     }
     const double before = std::clamp(point.gap / (-point.speed * h_), 0.0, 1.0);

@@ -31,8 +31,7 @@ struct PilePoint {
   double curved = 0;     ///< [m] second order of the gap at its end
   double speed = 0;      ///< [m/s] of the gap, before impulses
   bool strikes = false;  ///< faster than what forces give in a step
-  bool isOpen = false;   ///< too far to meet
-  int row = -1;          ///< in the solver, −1: it is open
+  int row = -1;          ///< in the solver, −1: too far to meet
 };
 
 /// Contact frame: normal from b to a, and two tangents (right-handed) fixed in the body that owns the
