@@ -282,6 +282,7 @@ class Crowd {
   double secondOrder(const PileManifold& manifold, int k) const;
   void keepImpulses();
   void findShifts();
+  double mostLacking() const;
   void move();
   void bounce();
   void noteImpacts();

@@ -25,7 +25,8 @@ constexpr double kShortestLook = 0.0625;
 }  // namespace
 
 // Shifts that undo the penetration which the step would end with at the rates found: Gauss–Seidel stops
-// early, and gaps below zero are no bound to it. They need no rows of their own, unlike a projection.
+// early, and gaps below zero are no bound to it. They need no rows of their own, unlike a projection. None
+// where they stop so early, too, that others go deeper: among wedged boxes.
 void Crowd::findShifts() {
   solver_.beginShifts();
   std::atomic<bool> any = false;
@@ -48,9 +49,29 @@ void Crowd::findShifts() {
   if (!shifts_) {
     return;
   }
+  const double before = mostLacking();
   figures_.solves += solver_.shift(kShiftSweeps, kShiftChange * tolerance_);
+  shifts_ = mostLacking() <= before;
+  if (!shifts_) {
+    return;
+  }
   forNear([&](PileManifold& manifold, std::size_t) {
     manifold.moved += shiftOf(manifold.a) + (manifold.b.isWall() ? 0 : shiftOf(manifold.b.body()));
+  });
+}
+
+// [m] What shifts leave to be done at one point, at the most.
+double Crowd::mostLacking() const {
+  return team_->largest(near_.size(), [&](std::size_t first, std::size_t last) {
+    double most = 0;
+    for (std::size_t n = first; n < last; ++n) {
+      const PileManifold& manifold = manifolds_[at(near_[n])];
+      for (int k = 0; k < manifold.count; ++k) {
+        const int row = manifold.points[at(k)].row;
+        most = row < 0 ? most : std::max(most, solver_.shiftLacks(row));
+      }
+    }
+    return most;
   });
 }
 

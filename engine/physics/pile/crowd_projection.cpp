@@ -8,28 +8,34 @@
 namespace careen {
 namespace {
 
-// What takes more passes needs more sweeps, and reaches further.
 constexpr int kPasses = 32;
-constexpr int kSweepsAtFirst = 20;
-constexpr int kMostDoublings = 6;
-constexpr int kLayersAtFirst = 3;
-constexpr int kMostLayerDoublings = 4;
+// After so many passes [1] of the tolerance is enough, and no more are taken if as many gain less than [1].
+constexpr int kFewPasses = 4;
+constexpr double kDeepEnough = 1.2;
+constexpr double kGain = 0.1;
 constexpr int kMostParts = 8;
 constexpr double kFar = 4;  // [1] of the tolerance: displacement that may lead through other bodies
 
 }  // namespace
 
 // Returns the deepest gap that is left [m]: no deeper than `deepest`, which refreshDepth() found. Where boxes
-// are wedged passes can lead away from the solution.
+// are wedged passes can lead away from the solution, and what is left takes ways that are many times as long.
 double Crowd::project(double deepest) {
   double least = deepest;
+  double reached = deepest;
+  int since = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
     if (deepest <= least) {
       least = deepest;
       keepPlaces();
     }
-    if (!projection_.pass(bodies_, manifolds_, near_, kLayersAtFirst << std::min(pass, kMostLayerDoublings),
-                          kSweepsAtFirst << std::min(pass, kMostDoublings))) {
+    if (least < (1 - kGain) * reached) {
+      reached = least;
+      since = pass;
+    }
+    const bool enough =
+        pass - since >= kFewPasses || (pass >= kFewPasses && deepest < kDeepEnough * tolerance_);
+    if (enough || !projection_.pass(bodies_, manifolds_, near_, pass)) {
       break;
     }
     ++figures_.projections;

@@ -12,7 +12,14 @@ constexpr double kLeft = 1.0 / 3;  // [1] of the tolerance: penetration kept, so
 constexpr double kTellPush =
     1.0 / 12;                      // [1] of the tolerance: smallest displacement that re-solves neighbours
 constexpr double kLongest = 0.25;  // [1] of the smallest size: largest displacement per pass
-constexpr double kNear = 0x1p-6;   // [1] of the smallest size: larger gaps are ignored
+constexpr int kLayersAtFirst = 3;
+constexpr int kMostLayerDoublings = 4;
+// Passes by Gauss–Seidel, the first with so many sweeps, the next with twice as many.
+constexpr int kSweptPasses = 2;
+constexpr int kSweepsAtFirst = 20;
+constexpr int kGradients = 300;
+constexpr double kEnough = 0.1;   // [1] of the tolerance: what gradients may leave
+constexpr double kNear = 0x1p-6;  // [1] of the smallest size: larger gaps are ignored
 
 double lowestGap(const PileManifold& manifold) {
   double gap = manifold.length;
@@ -79,11 +86,39 @@ bool PileProjection::collect(std::span<const PileBody> bodies, std::span<PileMan
   return true;
 }
 
+void PileProjection::solve(std::span<const PileBody> bodies, int number) {
+  if (number < kSweptPasses) {
+    solver_.wakeAll();
+    solver_.solve(kSweepsAtFirst << number, false);
+    return;
+  }
+  const auto mover = [&](int body) {
+    return at(body) < bodies.size() && reached_[at(body)] != 0 ? body : DisplacementSolver::kNobody;
+  };
+  gradients_.begin(bodies);
+  for (std::size_t k = 0; k < solver_.rowCount(); ++k) {
+    const PileSolver::RowView row = solver_.row(static_cast<int>(k));
+    gradients_.add({.a = mover(row.a),
+                    .b = mover(row.b),
+                    .armA = row.armA,
+                    .armB = row.armB,
+                    .normal = row.directions[0],
+                    .bound = row.bound});
+  }
+  gradients_.solve(kEnough * tolerance_, kGradients);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const int body = static_cast<int>(i);
+    if (gradients_.moves(body)) {
+      solver_.setPushed(body, gradients_.displacement(body), gradients_.turn(body));
+    }
+  }
+}
+
 bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> manifolds,
-                          std::span<const int> near, int layers, int sweeps) {
+                          std::span<const int> near, int number) {
   moved_.assign(bodies.size(), 0);
   farthest_ = 0;
-  if (!collect(bodies, manifolds, near, layers)) {
+  if (!collect(bodies, manifolds, near, kLayersAtFirst << std::min(number, kMostLayerDoublings))) {
     return false;
   }
   solver_.begin(bodies.size());
@@ -112,8 +147,7 @@ bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> ma
     }
   }
   solver_.link();
-  solver_.wakeAll();
-  solver_.solve(sweeps, false);
+  solve(bodies, number);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const int index = static_cast<int>(i);
     if (reached_[i] == 0 || !solver_.pushed(index)) {

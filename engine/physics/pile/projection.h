@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "physics/pile/body.h"
+#include "physics/pile/displacement_solver.h"
 #include "physics/pile/manifold.h"
 #include "physics/pile/solver.h"
 
@@ -12,18 +13,20 @@ namespace careen {
 
 /// Position projection: removes penetration without friction and without changing any velocity or angular
 /// momentum: the smallest mass-weighted displacement δ with gap + J·δ ≥ 0 for the manifolds around those that
-/// penetrate by more than a tolerance. Linear in δ, hence iterated in passes with gaps updated in between.
+/// penetrate by more than a tolerance. Linear in δ, hence iterated in passes with gaps updated in between:
+/// the first few by Gauss–Seidel, as most need no more, and few bodies move; those after them by conjugate
+/// gradients.
 class PileProjection {
  public:
   /// `tolerance` [m] of the crowd: penetration of less than that remains, and of tiny boxes less.
   PileProjection(double tolerance, std::shared_ptr<Team> team)
       : tolerance_(tolerance), solver_(std::move(team)) {}
 
-  /// One pass over the listed manifolds, whose gaps must be up to date. Only penetrating bodies and their
-  /// neighbours, up to `layers` layers (at most 127), move. At most so many sweeps. False if nothing was to
+  /// One pass over the listed manifolds, whose gaps must be up to date; `number` counts those before it. Only
+  /// penetrating bodies and a few layers of neighbours move, more from pass to pass. False if nothing was to
   /// be done.
   bool pass(std::span<PileBody> bodies, std::span<PileManifold> manifolds, std::span<const int> near,
-            int layers, int sweeps);
+            int number);
 
   /// [m] For boxes of that smallest size [m].
   double tolerated(double length) const { return std::min(tolerance_, 0x1.8p-8 * length); }
@@ -36,10 +39,12 @@ class PileProjection {
  private:
   bool collect(std::span<const PileBody> bodies, std::span<PileManifold> manifolds, std::span<const int> near,
                int layers);
+  void solve(std::span<const PileBody> bodies, int number);
 
   double tolerance_;     // [m]
   double farthest_ = 0;  // [m]
   PileSolver solver_;
+  DisplacementSolver gradients_;
   std::vector<char> reached_;
   std::vector<char> moved_;
   std::vector<int> chosen_;

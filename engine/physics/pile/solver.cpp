@@ -284,11 +284,11 @@ CAREEN_LANES void PileSolver::store(const std::array<int, kLanes>& bodies, const
 
 // ---- What came of it.
 
-double PileSolver::normalSpeed(int row) const {
+double PileSolver::alongNormal(int row, const std::vector<Moving>& moving) const {
   const Block& block = blocks_[at(blockOfRow_[at(row)])];
   const Vec3& arm = staged_[at(row)].arm;
-  const Moving& a = moving_[at(block.a)];
-  const Moving& b = moving_[at(block.b)];
+  const Moving& a = moving[at(block.a)];
+  const Moving& b = moving[at(block.b)];
   return block.frame.normal.dot(a.velocity + a.omega.cross(arm) - b.velocity -
                                 b.omega.cross(arm + block.apart));
 }

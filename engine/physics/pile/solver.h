@@ -111,8 +111,12 @@ class PileSolver {
   bool isShifted(int body) const { return shifts_[at(body)].pushed != 0; }
   const Vec3& displacement(int body) const { return shifts_[at(body)].velocity; }  ///< [m]
   const Vec3& turn(int body) const { return shifts_[at(body)].omega; }             ///< [rad]
+  /// [m] What its shifts leave of the row's bound.
+  double shiftLacks(int row) const {
+    return shiftRows_[rowAt(row)].bound[laneOf(row)] - alongNormal(row, shifts_);
+  }
   /// [m/s] v_n of the row as it stands.
-  double normalSpeed(int row) const;
+  double normalSpeed(int row) const { return alongNormal(row, moving_); }
 
   /// One row as it stands.
   struct RowView {
@@ -128,6 +132,11 @@ class PileSolver {
   RowView row(int row) const;
   /// Of a solution found otherwise, whose velocities are set too.
   void setImpulse(int row, const std::array<double, 3>& impulse);
+
+  /// Of one that pushes it, too, where there are no impulses.
+  void setPushed(int body, const Vec3& velocity, const Vec3& omega) {
+    moving_[at(body)] = {.velocity = velocity, .omega = omega, .pushed = 1};
+  }
 
   std::size_t blockCount() const { return blocks_.size(); }
   std::size_t rowCount() const { return staged_.size(); }
@@ -230,6 +239,7 @@ class PileSolver {
   int laneOf(int row) const { return static_cast<int>(rowPlaces_[at(row)] % kLanes); }
   enum class Kind : std::uint8_t { kFriction, kFrictionless, kShift };
   bool movable(int body) const { return inertia_[at(body)].inverseMass > 0; }
+  double alongNormal(int row, const std::vector<Moving>& moving) const;
   void findParts();
   void findSlabs(int count);
   void findGroups();
