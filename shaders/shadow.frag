@@ -1,5 +1,6 @@
 #version 330 core
-// The part of a light of finite size that a box covers. Parts add up.
+// The part of a light of finite size that a box covers. Of what others leave of the light, it keeps off as
+// much: where penumbras overlap, boxes cover parts of it that have nothing to do with each other.
 
 #include "frame.glsl"
 

@@ -263,8 +263,9 @@ void Renderer::Parts::drawOcclusion() {
   ++figures.occlusionPasses;
 }
 
-// The part of the light that shadows keep off is added up in the picture itself, which is black before, for
-// every sample of a pixel; then it takes the colours in full light and in full shadow by that part.
+// The part of the light that shadows keep off is gathered in the picture itself, which is black before, for
+// every sample of a pixel, each of what the others leave; then it takes the colours in full light and in full
+// shadow by that part.
 void Renderer::Parts::drawShaded() {
   if (boxes.hasShaded()) {
     boxes.drawShadedDepth();
@@ -273,7 +274,7 @@ void Renderer::Parts::drawShaded() {
     surfaces.drawDepth();
   }
   gl.Enable(GL_BLEND);
-  gl.BlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
+  gl.BlendFuncSeparate(GL_ONE_MINUS_DST_COLOR, GL_ONE, GL_ONE, GL_ONE);
   gl.DepthMask(GL_FALSE);
   boxes.drawShadows();
   gl.Disable(GL_CULL_FACE);

@@ -18,7 +18,7 @@ struct ShadowLight {
   double spread = 0;             ///< tangent of half its angle
 };
 
-/// Shadows of boxes on floor and walls, to be added up.
+/// Shadows of boxes on floor and walls, each of which keeps off a part of what the others leave.
 class ShadowBatch {
  public:
   ShadowBatch(const Gl& gl, const std::filesystem::path& shaders);

@@ -148,11 +148,12 @@ Errors errorsOfOcclusion(const Shown& shown) {
   return errors;
 }
 
-// What is left is too dark: where the penumbras of two boxes overlap, both count.
+// What is left: where the penumbras of two boxes overlap, each is taken to cover as much of what the other
+// leaves of the light; often they cover the same part, or quite different ones.
 TEST(Light, shadowsAreThoseOfRays) {
   for (const Shown& shown : madeUp()) {
     const Errors errors = errorsOfLight(shown);
-    // Measured: 0.001, 0.005, 0.002, 0.012 on planes, 0.005, 0.001, 0.011 on boxes of the last three.
+    // Measured: 0.001, 0.004, 0.002, 0.011 on planes, 0.005, 0.001, 0.011 on boxes of the last three.
     EXPECT_LT(errors.planes, 0.014) << shown.name;
     EXPECT_LT(errors.boxes, 0.014) << shown.name;
   }
@@ -170,16 +171,16 @@ TEST(Light, occlusionIsThatOfRays) {
 }
 
 // Measured:           careen  stack  wall  pile
-// light on planes     0.0035  0.0005 0.003 0.027: there little of floor and walls is to be seen
-// light on boxes      0       0.002  0.010 0.011
+// light on planes     0.0035  0.0004 0.002 0.014: there little of floor and walls is to be seen
+// light on boxes      0       0.002  0.010 0.012
 // occlusion on planes 0.006   0.018  0.029 0.050
 // occlusion on boxes  0       0.016  0.043 0.079
 TEST(Light, inScenesIsThatOfRays) {
   for (const Shown& shown :
        {atMoment("careen", 1, 9), atMoment("stack", 5, 7), atMoment("wall", 1.6, 7), keptPile(7)}) {
     const Errors light = errorsOfLight(shown);
-    // In piles of slightly different motion: .014 to .027, occlusion on planes .050 to .066.
-    EXPECT_LT(light.planes, shown.name == "pile" ? 0.03 : 0.01) << shown.name;
+    // In piles of slightly different motion occlusion on planes is .050 to .066.
+    EXPECT_LT(light.planes, shown.name == "pile" ? 0.02 : 0.01) << shown.name;
     EXPECT_LT(light.boxes, 0.032) << shown.name;
     const Errors occlusion = errorsOfOcclusion(shown);
     EXPECT_LT(occlusion.planes, 0.06) << shown.name;
