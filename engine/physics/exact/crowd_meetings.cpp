@@ -116,8 +116,9 @@ bool ExactWorld::admitMet(const std::shared_ptr<ContactGroup>& group, const Inst
   bool any = false;
   for (const int rank : outsidersIn(group->crowd->swept(), *group, time, group->crowd->length(), again)) {
     const Mover& body = mover(rank);
-    const bool asked = again ? !body.crowd && (!body.moves() || fliesSince(rank, time))
-                             : body.crowd != group && (body.crowd || !body.moves());
+    const bool asked = again
+                           ? !body.crowd && (body.moves() ? fliesSince(rank, time) : !restsSince(rank, time))
+                           : body.crowd != group && (body.crowd || !body.moves());
     if (asked && wasMet(*group, rank, time)) {
       admitOutsider(group, rank, time);
       any = true;

@@ -100,6 +100,11 @@ void ExactWorld::joinStep(const std::shared_ptr<ContactGroup>& crowd, const Enco
   }
 }
 
+bool ExactWorld::restsSince(int rank, const Instant& time) const {
+  const Mover& body = mover(rank);
+  return !body.moves() && earlier(time, body.start);
+}
+
 bool ExactWorld::fliesSince(int rank, const Instant& time) const {
   const Mover& body = mover(rank);
   return body.flies && !body.crowd && springs_[static_cast<std::size_t>(rank)].empty() &&

@@ -357,10 +357,11 @@ void ExactWorld::predict(int rank) {
         first,
         {.time = instantAfter(body.start, body.crossing.time), .kind = EventKind::kCrossing, .body = rank});
   }
-  // What a crowd meets is found when it takes its step.
-  candidates_.clear();
-  if (!body.crowd) {
-    neighbors_.findCandidates(rank, candidates_);
+  neighbors_.findCandidates(rank, candidates_);
+  if (body.crowd) {  // what it meets is found when it takes its step, but for what comes to rest within it
+    std::erase_if(candidates_, [&](Neighbors::Key candidate) {
+      return mover(candidate).crowd == body.crowd || !restsSince(candidate, body.contactGroup->start);
+    });
   }
   for (const Neighbors::Key candidate : candidates_) {
     if (body.touches() && seesTo(*body.contactGroup, body.place, candidate)) {

@@ -102,6 +102,7 @@ class ExactWorld {
   void advanceCrowd(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
   void joinStep(const std::shared_ptr<ContactGroup>& crowd, const Encounter& encounter);
   void endAt(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
+  bool restsSince(int rank, const Instant& time) const;
   bool fliesSince(int rank, const Instant& time) const;
   void commit(ContactGroup& crowd, const Instant& time);
   std::vector<int> release(ContactGroup& crowd, const Instant& time);

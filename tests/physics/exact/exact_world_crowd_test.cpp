@@ -190,6 +190,31 @@ TEST(ExactWorldCrowd, keepsApartFromWhoArrivesWithinAStep) {
   }
 }
 
+// What slides to a stop before a crowd, in the middle of a step, looks for nothing from then on: the crowd's
+// members must, for the rest of that step. They went on through it, up to 4.5 mm deep.
+TEST(ExactWorldCrowd, keepsApartFromWhatComesToRestWithinAStep) {
+  constexpr double kFriction = 0.5;
+  constexpr double kSliding = 1;  // [m/s]
+  constexpr double kSpeed = 3;    // [m/s]
+  const double stops = kSliding / (kFriction * 9.81);
+  double deepest = 0;
+  for (int scene = 0; scene < 60; ++scene) {
+    World world = onARoughFloor(kFriction);
+    const double gap = 0.0005 * (1 + scene % 20);  // [m] when it stops
+    const double front = 0.5 * kSliding * stops - kSpeed * stops - gap - 0.0004 * scene;
+    for (int k = 0; k < 2; ++k) {
+      world.bodies.push_back(ofMaterial(box("slides-" + std::to_string(k), Vec3(0.2, 0.2, 0.2), 1,
+                                            Vec3(front - 0.2, 0, 0.2 + 0.4 * k), Vec3(kSpeed, 0, 0)),
+                                        0));
+    }
+    world.bodies.push_back(
+        ofMaterial(box("stops", Vec3(0.2, 0.3, 0.1), 1, Vec3(0.2, 0, 0.1), Vec3(kSliding, 0, 0)), kFriction));
+    deepest = std::max(deepest, deepestOverlap(world, crowdRun(world, 0.3, kTolerance, 1), 0.3, 0.0002));
+  }
+  RecordProperty("deepest", std::to_string(deepest));
+  EXPECT_LT(deepest, 3 * kTolerance);  // measured 1.1e-4
+}
+
 // Neither places nor speeds jump, but for what stops to sleep.
 TEST(ExactWorldCrowd, movesContinuously) {
   const World world = layers();
