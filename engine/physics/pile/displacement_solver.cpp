@@ -124,14 +124,14 @@ void DisplacementSolver::findGradient() {
 }
 
 // The direction of steepest descent, up to its sign, among those that push.
-void DisplacementSolver::face() {
+void DisplacementSolver::pointAlongGradient() {
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     direction_[k] = impulses_[k] > 0 ? gradient_[k] : 0;
   }
 }
 
 // So far along the direction that the first of them ends to push; then along the gradient, where more may.
-void DisplacementSolver::expand(double step, double length) {
+void DisplacementSolver::leaveFace(double step, double length) {
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     if (impulses_[k] > 0) {
       const double ahead = impulses_[k] - step * direction_[k];
@@ -140,7 +140,7 @@ void DisplacementSolver::expand(double step, double length) {
     }
   }
   findGradient();
-  face();
+  pointAlongGradient();
 }
 
 int DisplacementSolver::solve(double enough, int most) {
@@ -150,7 +150,7 @@ int DisplacementSolver::solve(double enough, int most) {
   applied_.resize(count);
   const double length = count == 0 ? 0 : kGradientStep / largestEigenvalue();
   findGradient();
-  face();
+  pointAlongGradient();
   double first = 0;
   int taken = 0;
   for (; taken < most; ++taken) {
@@ -184,7 +184,7 @@ int DisplacementSolver::solve(double enough, int most) {
       }
     }
     if (step > farthest) {
-      expand(farthest, length);
+      leaveFace(farthest, length);
       continue;
     }
     for (std::size_t k = 0; k < count; ++k) {
@@ -192,7 +192,7 @@ int DisplacementSolver::solve(double enough, int most) {
       gradient_[k] -= step * applied_[k];
     }
     if (enters) {
-      face();
+      pointAlongGradient();
       continue;
     }
     double along = 0;

@@ -71,8 +71,8 @@ class DisplacementSolver {
   void apply(const Values& impulses, Values& result, std::vector<Move>& moves) const;
   double largestEigenvalue();
   void findGradient();
-  void face();
-  void expand(double step, double length);
+  void pointAlongGradient();
+  void leaveFace(double step, double length);
 
   std::span<const PileBody> bodies_;
   std::vector<int> members_;  // by body: in own_, or kNobody
