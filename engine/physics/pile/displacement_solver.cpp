@@ -68,14 +68,14 @@ void DisplacementSolver::add(const Row& row) {
   rows_.push_back(scaled);
 }
 
-// (J M⁻¹ Jᵀ + c) λ; M⁻¹ Jᵀ λ on the way.
-void DisplacementSolver::apply(const Values& impulses, Values& result, std::vector<Move>& moves) const {
-  moves.assign(own_.size(), {});
+// (J M⁻¹ Jᵀ + c) λ; moves_ are M⁻¹ Jᵀ λ then.
+void DisplacementSolver::apply(const Values& impulses, Values& result) {
+  moves_.assign(own_.size(), {});
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const auto push = [&](int member, const Move& on) {
       if (member != kNobody) {
-        moves[at(member)].shift += impulses[k] * on.shift;
-        moves[at(member)].turn += impulses[k] * on.turn;
+        moves_[at(member)].shift += impulses[k] * on.shift;
+        moves_[at(member)].turn += impulses[k] * on.turn;
       }
     };
     if (impulses[k] != 0) {
@@ -84,14 +84,14 @@ void DisplacementSolver::apply(const Values& impulses, Values& result, std::vect
     }
   }
   for (std::size_t i = 0; i < own_.size(); ++i) {
-    moves[i].shift *= own_[i].inverseMass;
-    moves[i].turn = Vec3(own_[i].inverseInertia * moves[i].turn);
+    moves_[i].shift *= own_[i].inverseMass;
+    moves_[i].turn = Vec3(own_[i].inverseInertia * moves_[i].turn);
   }
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     double opened = kCompliance * impulses[k];
     const auto add = [&](int member, const Move& on) {
       if (member != kNobody) {
-        opened += on.shift.dot(moves[at(member)].shift) + on.turn.dot(moves[at(member)].turn);
+        opened += on.shift.dot(moves_[at(member)].shift) + on.turn.dot(moves_[at(member)].turn);
       }
     };
     add(rows_[k].a, rows_[k].onA);
@@ -106,7 +106,7 @@ double DisplacementSolver::largestEigenvalue() {
   double largest = 1;
   for (int step = 0; step < kPowerSteps; ++step) {
     const double before = dot(direction_, direction_);
-    apply(direction_, applied_, moves_);
+    apply(direction_, applied_);
     const double after = dot(applied_, applied_);
     largest = std::sqrt(after / before);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
@@ -117,7 +117,7 @@ double DisplacementSolver::largestEigenvalue() {
 }
 
 void DisplacementSolver::findGradient() {
-  apply(impulses_, gradient_, moves_);
+  apply(impulses_, gradient_);
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     gradient_[k] -= rows_[k].bound;
   }
@@ -174,7 +174,7 @@ int DisplacementSolver::solve(double enough, int most) {
     for (std::size_t k = 0; enters && k < count; ++k) {
       direction_[k] = impulses_[k] > 0 ? 0 : std::min(gradient_[k], 0.0);
     }
-    apply(direction_, applied_, moves_);
+    apply(direction_, applied_);
     const double curvature = dot(direction_, applied_);
     const double step = dot(gradient_, direction_) / curvature;
     double farthest = std::numeric_limits<double>::max();
@@ -203,7 +203,7 @@ int DisplacementSolver::solve(double enough, int most) {
       direction_[k] = (impulses_[k] > 0 ? gradient_[k] : 0) - along / curvature * direction_[k];
     }
   }
-  apply(impulses_, applied_, moves_);
+  apply(impulses_, applied_);
   return taken;
 }
 

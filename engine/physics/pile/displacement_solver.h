@@ -68,7 +68,7 @@ class DisplacementSolver {
   const Move& moveOf(int body) const { return moves_[at(members_[at(body)])]; }
   static bool isZero(const Move& move) { return move.shift.isZero(0) && move.turn.isZero(0); }
   int memberOf(int body);
-  void apply(const Values& impulses, Values& result, std::vector<Move>& moves) const;
+  void apply(const Values& impulses, Values& result);
   double largestEigenvalue();
   void findGradient();
   void pointAlongGradient();
@@ -78,7 +78,7 @@ class DisplacementSolver {
   std::vector<int> members_;  // by body: in own_, or kNobody
   std::vector<Member> own_;
   std::vector<ScaledRow> rows_;
-  std::vector<Move> moves_;  // by member
+  std::vector<Move> moves_;  // by member, of what apply() was last called with
   Values impulses_, gradient_, direction_, applied_;
 };
 

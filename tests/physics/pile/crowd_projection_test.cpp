@@ -90,14 +90,14 @@ TEST(CrowdProjection, jamOfSlipperyBoxesEnds) {
   const World world = test::pouring(210, 0.05, 0, 1 + 22e-9, 2);
   test::CrowdRun run(world);
   double deepest = 0;
-  for (int frame = 0; frame < 180 && run.figures().projections < 4000; ++frame) {
+  for (int frame = 0; frame < 180 && run.figures().projections < 2000; ++frame) {
     run.step();
     deepest = std::max(deepest, run.deepest());
   }
   RecordProperty("passes", static_cast<int>(run.figures().projections));
   RecordProperty("steps", static_cast<int>(run.figures().steps));
   RecordProperty("deepest", std::to_string(deepest));
-  EXPECT_LT(run.figures().projections, 4000);  // measured 623
+  EXPECT_LT(run.figures().projections, 2000);  // measured 623
   EXPECT_LT(deepest, 3 * kTolerance);          // measured 5.4e-4
 }
 
