@@ -28,6 +28,8 @@ constexpr double kStillLoaded = 0x1p-40;
 /// faster the slower the slip is (stiff), and smooth steps would have to resolve that; a time step, implicit
 /// in friction, has an error below the tolerance there.
 constexpr double kStiff = 0x1p-4;
+/// [1] of the shortest smooth step: no step has an end as near.
+constexpr double kNoTime = 0x1p-56;
 /// [1] of the current accelerations: a contact with no more tension than this is about to open.
 constexpr double kTension = 0x1p-20;
 /// [1] of the error allowed per step: a step that ends at an event may have a little more.
@@ -242,17 +244,22 @@ Island::Step Island::step(double most) {
   Step done{.length = h};
   locate(done);
   // Where forces grow fast the polynomials between both ends may leave the contacts that hold at them.
-  for (int halvings = 0; halvings < kMostHalvings && dips(done.length); ++halvings) {
+  const auto jumps = [&] {
+    return done.length < h &&
+           (done.length < kNoTime * shortest || (done.length < shortest && isMovedByCorrection(done.length)));
+  };
+  for (int halvings = 0; halvings < kMostHalvings && !jumps() && dips(done.length); ++halvings) {
     done = {.length = 0.5 * done.length};
     restep(done.length);
     locate(done);
   }
   // If the event was located past a moment where forces cease to exist, the end state means nothing, or its
-  // accelerations are so large that the polynomial between swings.
+  // accelerations are so large that the polynomial between swings. If contacts contradict each other, what
+  // parts some makes others deeper, at every moment anew.
   const bool swings =
       done.length < h && ((done.end == End::kChanges && sizeOf(error_, done.length) > kMostLocated) ||
                           errorBetween(done.length) > kMostLocated);
-  if (swings || gainsEnergy()) {
+  if (swings || jumps() || gainsEnergy()) {
     end_ = start_;
     return takeTimeStep(most);
   }

@@ -141,6 +141,7 @@ class Island {
   double timeToFall(const Body& body) const;
   double sizeOf(const State& difference, double h) const;
   double errorBetween(double h);
+  bool isMovedByCorrection(double h) const;
   bool gainsEnergy() const;
   static Fall firstOf(std::span<const Fall> falls);
   double depthOf(const Fall& fall) const;

@@ -31,8 +31,8 @@ constexpr double kLeastLifetime = 0x1p-4;
 constexpr double kOfSpeedBetween = 0x1p-1;
 /// [1] of the energy of motion: a step that gains more is wrong.
 constexpr double kGained = 0x1p-4;
-/// A trial step too long for its forces diverges; squares of larger numbers would overflow.
-constexpr double kDiverged = 0x1p200;
+/// A trial step too long for its forces diverges; of larger numbers, the squares of ω²r would overflow.
+constexpr double kDiverged = 0x1p100;
 
 }  // namespace
 
@@ -202,6 +202,18 @@ double Island::errorBetween(double h) {
   }
   system_.rate(end_, endRate_);  // event functions are those of the end
   return worst / tolerance_;
+}
+
+// Whether the correction of places at the end of a step displaced a body by more than the tolerance.
+bool Island::isMovedByCorrection(double h) const {
+  constexpr std::size_t kOfPlace = 7;
+  State corrected(end_.size(), 0.0);
+  for (std::size_t at = 0; at < end_.size(); at += ContactSystem::kNumbers) {
+    for (std::size_t k = at; k < at + kOfPlace; ++k) {
+      corrected[k] = end_[k] - start_[k] - 0.5 * h * (startRate_[k] + endRate_[k]);
+    }
+  }
+  return kShare * sizeOf(corrected, h) > 1;
 }
 
 // Contacts give no energy. A step that gained some passed a moment at which the forces are without bound, in

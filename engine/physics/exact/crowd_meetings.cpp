@@ -101,11 +101,13 @@ void ExactWorld::admitOutsider(const std::shared_ptr<ContactGroup>& group, int r
     const std::shared_ptr<ContactGroup> other = body.crowd;
     endAt(other, time);
     merge(group, *other);
-  } else if (body.moves()) {
-    const Quat attitude = body.attitudeAt(time);
-    enlist(group, rank, time, body.stateAt(time, attitude), attitude);
-  } else {
-    enlistAtRest(group, rank);
+    return;
+  }
+  Encounter with;  // those it is in contact with
+  with.time = time;
+  join(with, rank);
+  for (std::size_t i = 0; i < with.ranks.size(); ++i) {
+    enlist(group, with.ranks[i], time, with.before[i], with.attitudes[i]);
   }
 }
 
@@ -118,7 +120,7 @@ bool ExactWorld::admitMet(const std::shared_ptr<ContactGroup>& group, const Inst
     const Mover& body = mover(rank);
     const bool asked = again
                            ? !body.crowd && (body.moves() ? fliesSince(rank, time) : !restsSince(rank, time))
-                           : body.crowd != group && (body.crowd || !body.moves());
+                           : body.crowd != group && (body.crowd || !body.flies);
     if (asked && wasMet(*group, rank, time)) {
       admitOutsider(group, rank, time);
       any = true;

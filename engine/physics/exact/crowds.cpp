@@ -142,9 +142,11 @@ void ExactWorld::enlist(const std::shared_ptr<ContactGroup>& crowd, int rank, co
   if (body.flies) {
     arrive(body, time, state);
   }
-  const JoinedSteps joined = comingFrom(*crowd, body, time, state, attitude);
+  const double past = pastOf(*crowd, body, time);
+  const JoinedSteps joined = comingFrom(body, time, state, attitude, past);
   body.rest(state.pose);
-  const std::size_t place = crowd->crowd->admit(static_cast<std::size_t>(body.listed.value), state, attitude);
+  const std::size_t place =
+      crowd->crowd->admit(static_cast<std::size_t>(body.listed.value), state, attitude, 2 * past);
   keepPlace(crowd, rank, place);
   crowd->joined[place] = joined;
   for (const int other : springs_[static_cast<std::size_t>(rank)]) {
@@ -153,12 +155,16 @@ void ExactWorld::enlist(const std::shared_ptr<ContactGroup>& crowd, int rank, co
   }
 }
 
-// The path of a body that becomes a member now, from half a step of the crowd ago on: there, members who met
-// it bent theirs.
-JoinedSteps ExactWorld::comingFrom(const ContactGroup& crowd, const Mover& body, const Instant& time,
-                                   const BodyState& state, const Quat& attitude) const {
+// [s] Of a body that becomes a member now: half a step of the crowd, in which members who met it bent their
+// paths, if its last motion is as long.
+double ExactWorld::pastOf(const ContactGroup& crowd, const Mover& body, const Instant& time) {
+  return std::min(0.5 * crowd.before, secondsBetween(body.start, time));
+}
+
+// Its path from so long ago on.
+JoinedSteps ExactWorld::comingFrom(const Mover& body, const Instant& time, const BodyState& state,
+                                   const Quat& attitude, double length) const {
   JoinedSteps joined = newPath();
-  const double length = std::min(0.5 * crowd.before, secondsBetween(body.start, time));
   if (length > 0) {
     const auto endAt = [&](const BodyState& at, const Quat& turned) {
       const Vec3 spin = at.pose.worldFromBody.transpose() * angularVelocity(body.body->mass, at);
@@ -227,9 +233,9 @@ void ExactWorld::merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup&
       cluster = cluster.value_or(at);
       keepPlace(crowd, rank, at);
     } else {
-      const std::size_t at =
-          crowd->crowd->admit(static_cast<std::size_t>(body.listed.value), other.crowd->stateAtEnd(place),
-                              other.crowd->attitude(place));
+      const std::size_t at = crowd->crowd->admit(
+          static_cast<std::size_t>(body.listed.value), other.crowd->stateAtEnd(place),
+          other.crowd->attitude(place), other.before / static_cast<double>(other.crowd->parts(place)));
       keepPlace(crowd, rank, at);
       crowd->joined[at] = other.joined[place];
     }
@@ -382,8 +388,8 @@ void ExactWorld::go(const std::shared_ptr<ContactGroup>& group, const Instant& t
       continue;
     }
     if (group->joined[place].isNew() && !mover(rank).moves()) {  // it was asleep
-      group->joined[place] =
-          comingFrom(*group, mover(rank), time, {.pose = mover(rank).pose}, crowd.begin(place).worldFromBody);
+      group->joined[place] = comingFrom(mover(rank), time, {.pose = mover(rank).pose},
+                                        crowd.begin(place).worldFromBody, pastOf(*group, mover(rank), time));
     }
     begins(rank, time);
     group->motions[place] = asContactStep(cubicStep(crowd.begin(place), crowd.end(place), crowd.length()));

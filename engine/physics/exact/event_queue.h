@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <queue>
 #include <vector>
 
+#include "core/error.h"
 #include "core/math/double_double.h"
 #include "physics/world/partner.h"
 
@@ -49,12 +51,18 @@ struct Event {
 };
 
 /// The next event of every body, earliest first; ties in the order of bodies. A body has one event at most:
-/// setting it again replaces it.
+/// setting it again replaces it. An event at no moment, of a motion that has no finite numbers, is refused:
+/// it would put all others out of order.
 class EventQueue {
  public:
   explicit EventQueue(std::size_t bodies) : tickets_(bodies, 0) {}
 
-  void set(const Event& event) { heap_.push({event, ++tickets_[static_cast<std::size_t>(event.body)]}); }
+  void set(const Event& event) {
+    if (!std::isfinite(event.time.hi)) {
+      throw NumericalError("the next event of a body is at no moment: its motion has lost its numbers");
+    }
+    heap_.push({event, ++tickets_[static_cast<std::size_t>(event.body)]});
+  }
   void clear(int body) { ++tickets_[static_cast<std::size_t>(body)]; }
   /// Removes and returns the earliest event.
   std::optional<Event> next() {

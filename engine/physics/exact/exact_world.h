@@ -96,8 +96,9 @@ class ExactWorld {
   void keepPlace(const std::shared_ptr<ContactGroup>& crowd, int rank, std::size_t place);
   /// Of a member, to be recorded.
   JoinedSteps newPath() const;
-  JoinedSteps comingFrom(const ContactGroup& crowd, const Mover& body, const Instant& time,
-                         const BodyState& state, const Quat& attitude) const;
+  static double pastOf(const ContactGroup& crowd, const Mover& body, const Instant& time);
+  JoinedSteps comingFrom(const Mover& body, const Instant& time, const BodyState& state, const Quat& attitude,
+                         double length) const;
   void merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup& other);
   void advanceCrowd(const std::shared_ptr<ContactGroup>& crowd, const Instant& time);
   void joinStep(const std::shared_ptr<ContactGroup>& crowd, const Encounter& encounter);

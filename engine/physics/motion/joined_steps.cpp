@@ -9,12 +9,19 @@ StepEnd JoinedSteps::Step::at(double elapsed) const {
 }
 
 JoinedSteps::Beside JoinedSteps::beside(double last, double next, double part) {
+  const double time = part * (part < 0 ? std::min(0.5 * last, next) : std::min(0.5 * next, last));
+  return {.time = time, .off = offAt(last, next, time)};
+}
+
+double JoinedSteps::offAt(double last, double next, double time) {
   const double b = std::min(0.5 * last, next);
   const double c = std::min(0.5 * next, last);
+  if (!(time > -b && time < c)) {
+    return 0;
+  }
   const double whole = b + c;
-  const double time = part < 0 ? part * b : part * c;
   const double u = (time + b) / whole;
-  return {.time = time, .off = u * u * (c * (3 - 2 * u) + whole * (u - 1)) - std::max(0.0, time)};
+  return u * u * (c * (3 - 2 * u) + whole * (u - 1)) - std::max(0.0, time);
 }
 
 void JoinedSteps::add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,

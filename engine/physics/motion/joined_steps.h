@@ -27,6 +27,8 @@ class JoinedSteps {
   };
   /// Where two steps of these lengths meet, at that part of the bend, −1 to 1: before the joint, or after it.
   static Beside beside(double last, double next, double part);
+  /// The same so long [s] after the joint; 0 outside the bend, and if nothing came before.
+  static double offAt(double last, double next, double time);
   /// How the body moved until its first step, for that long [s]: recorded by others, but the path may replace
   /// it.
   void follows(double time, const StepEnd& from, const StepEnd& to, double length);

@@ -69,11 +69,13 @@ Crowd::Crowd(const World& world, double tolerance, std::shared_ptr<Team> team)
 
 // ---- Members.
 
-std::size_t Crowd::admit(std::size_t body, const BodyState& state, const Quat& attitude) {
+std::size_t Crowd::admit(std::size_t body, const BodyState& state, const Quat& attitude, double past) {
   PileBody added = pileBody(world_.bodies[body], state);
   added.attitude = attitude;
   atRest_ = atRest_ && added.held;
-  return place(added, body);
+  const std::size_t index = place(added, body);
+  past_[index] = past;
+  return index;
 }
 
 std::size_t Crowd::admitAtRest(std::size_t body, const Pose& pose, std::optional<std::size_t> cluster) {
@@ -104,6 +106,8 @@ std::size_t Crowd::place(const PileBody& body, std::size_t listed) {
   before_[index] = {};
   ratesBefore_.resize(bodies_.size());
   ratesBefore_[index] = {.velocity = body.velocity, .omega = body.omega};
+  past_.resize(bodies_.size());
+  past_[index] = std::numeric_limits<double>::max();
   listed_[index] = listed;
   untouchedSteps_[index] = 0;
   quietChecks_[index] = 0;
@@ -130,6 +134,7 @@ double Crowd::step(double most) {
   forPlaces([&](std::size_t i) {
     ratesBefore_[i] =
         before_[i].moved ? ratesAt(i, way_.size()) : Rates{bodies_[i].velocity, bodies_[i].omega};
+    past_[i] = before_[i].moved ? std::numeric_limits<double>::max() : past_[i];
   });
   partBefore_ = h_ / static_cast<double>(way_.size() + 1);
   forPlaces([&](std::size_t i) { start_[i] = bodies_[i]; });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -64,8 +65,10 @@ class Crowd {
   /// The steps of large crowds are shared among the team; nothing else depends on its size.
   Crowd(const World& world, double tolerance, std::shared_ptr<Team> team = std::make_shared<Team>(1));
 
-  /// Adds a body of the world, by its index in it; returns its place.
-  std::size_t admit(std::size_t body, const BodyState& state, const Quat& attitude);
+  /// Adds a body of the world, by its index in it; returns its place. `past` [s] is that of JoinedSteps: how
+  /// long its last step was.
+  std::size_t admit(std::size_t body, const BodyState& state, const Quat& attitude,
+                    double past = std::numeric_limits<double>::max());
   /// Adds one that sleeps until it is pushed, together with its `cluster`: a place, perhaps its own.
   std::size_t admitAtRest(std::size_t body, const Pose& pose, std::optional<std::size_t> cluster);
   void dismiss(std::size_t place);
@@ -307,6 +310,7 @@ class Crowd {
   double projectOnWay();
   double findWay();
   Rates ratesAt(std::size_t place, std::size_t part) const;
+  double pastOf(std::size_t place) const { return std::min(past_[place], partBefore_); }
   void findSharp();
   std::pair<Place, Place> endsOf(std::size_t place, std::size_t part) const;
   double deepestOnWay() const;
@@ -355,6 +359,7 @@ class Crowd {
   double projected_ = 0;            // [m] how far it moved one in this step, at the most
   std::vector<Rates> ratesBefore_;  // by place, at the end of the step before
   double partBefore_ = 0;           // [s] length of its parts
+  std::vector<double> past_;        // [s] by place: the same of who was no member then, or more
   bool isSharp_ = false;
   std::vector<std::vector<Place>> way_;  // places between begin and end of the last step, if any
   double bent_;  // [1] of the tolerance: how far corners may leave their tangents in the next step

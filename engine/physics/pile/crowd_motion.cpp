@@ -149,9 +149,11 @@ void Crowd::findSharp() {
   const auto onPath = [&](std::size_t i, const JoinedSteps::Beside& moment) {
     const Rates& rates = ratesBefore_[i];
     const bool before = moment.time < 0;
+    const double off =
+        pastOf(i) < partBefore_ ? JoinedSteps::offAt(pastOf(i), part, moment.time) : moment.off;
     Pose pose = between(i, before ? 0 : moment.time / h_);
-    Vec3 turn = moment.off * change[i].omega;
-    pose.position += moment.off * change[i].velocity;
+    Vec3 turn = off * change[i].omega;
+    pose.position += off * change[i].velocity;
     if (before && before_[i].moved) {
       pose.position += moment.time * rates.velocity;
       turn += moment.time * rates.omega;
@@ -176,8 +178,11 @@ void Crowd::findSharp() {
     const Rates& ofA = change[at(manifold.a)];
     const Rates& ofB = change[at(manifold.b.body())];
     const Vec3 apart = start_[at(manifold.b.body())].position - start_[at(manifold.a)].position;
-    const double way = (ofB.velocity - ofA.velocity - ofA.omega.cross(apart)).norm() +
-                       bodyAt(manifold.b).radius * (ofB.omega - ofA.omega).norm();
+    const bool alike = pastOf(at(manifold.a)) == pastOf(at(manifold.b.body()));
+    const double way = alike ? (ofB.velocity - ofA.velocity - ofA.omega.cross(apart)).norm() +
+                                   bodyAt(manifold.b).radius * (ofB.omega - ofA.omega).norm()
+                             : ofA.velocity.norm() + bodies_[at(manifold.a)].radius * ofA.omega.norm() +
+                                   ofB.velocity.norm() + bodyAt(manifold.b).radius * ofB.omega.norm();
     return most * way > kRounded * tolerance_ &&
            std::any_of(moments.begin(), moments.end(),
                        [&](const JoinedSteps::Beside& moment) { return isDeepAt(manifold, moment); });

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <optional>
+
+#include "core/error.h"
 
 namespace careen {
 namespace {
@@ -35,6 +38,14 @@ TEST(EventQueue, handsOutTheEarliestAndOnlyTheLatestWordOfEachBody) {
   const std::optional<Event> last = queue.next();
   ASSERT_TRUE(last);
   EXPECT_EQ(last->time.hi, 3);
+  EXPECT_FALSE(queue.next());
+}
+
+// Such an event, in a heap, puts all others out of order: a crowd's step ended after later events, and bodies
+// that nothing had touched were recorded metres away.
+TEST(EventQueue, refusesWhatIsAtNoMoment) {
+  EventQueue queue(1);
+  EXPECT_THROW(queue.set({.time = std::numeric_limits<double>::quiet_NaN(), .body = 0}), NumericalError);
   EXPECT_FALSE(queue.next());
 }
 

@@ -20,43 +20,11 @@
 namespace careen {
 namespace {
 
-constexpr double kTolerance = 3e-4;
-
-Recorded crowdRun(const World& world, double duration, double tolerance = kTolerance, int above = 0) {
-  Recorded run;
-  run.motions.resize(world.bodies.size());
-  Notes notes(run);
-  const RunSettings settings{
-      .duration = duration,
-      .crowds = {.when = CrowdSettings::When::kAbove, .above = above, .tolerance = tolerance}};
-  run.figures = ExactWorld(world, settings, notes).run({});
-  return run;
-}
-
-World onARoughFloor(double friction, double restitution = 0) {
-  World world;
-  world.gravity = Vec3(0, 0, -9.81);
-  world.walls = {wall("floor", Vec3(0, 0, 1), 0, restitution)};
-  world.walls[0].material.friction = friction;
-  return world;
-}
-
-Body ofMaterial(Body body, double friction, double restitution = 0) {
-  body.material = {.restitution = restitution, .friction = friction};
-  return body;
-}
-
-// Layers that tumble onto each other.
-World layers() {
-  World world = onARoughFloor(0.5);
-  for (int k = 0; k < 40; ++k) {
-    const Vec3 position(0.75 * (k % 3), 0.75 * (k / 3 % 3), 0.4 + 0.75 * (k / 9));
-    const Vec3 spin(k % 5 - 2, k % 3 - 1, k % 4);
-    world.bodies.push_back(ofMaterial(
-        box("box-" + std::to_string(10 + k), Vec3(0.2, 0.2, 0.2), 1, position, Vec3::Zero(), spin, 0), 0.5));
-  }
-  return world;
-}
+using test::crowdRun;
+using test::kTolerance;
+using test::layers;
+using test::ofMaterial;
+using test::onARoughFloor;
 
 bool isCrowd(const Motion& motion) { return std::holds_alternative<CrowdStep>(motion); }
 
@@ -86,133 +54,6 @@ TEST(ExactWorldCrowd, isLeftToItsMembers) {
     EXPECT_EQ(both.at(world, world.bodies.size() - 1, time).pose.position,
               single.at(alone, 0, time).pose.position);
   }
-}
-
-// [m] By geometry that shares nothing with the crowd's, at moments that no step chooses.
-double deepestOverlap(const World& world, const Recorded& run, double until, double every) {
-  double deepest = 0;
-  std::vector<Pose> poses(world.bodies.size());
-  for (double time = 0.22 * every; time < until; time += every) {
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      poses[i] = run.at(world, i, time).pose;
-      for (std::size_t j = 0; j < i; ++j) {
-        const Vec3& first = world.bodies[i].halfExtents;
-        const Vec3& second = world.bodies[j].halfExtents;
-        if ((poses[i].position - poses[j].position).norm() < first.norm() + second.norm()) {
-          deepest = std::max(deepest, -BoxAxes({poses[i], first}, {poses[j], second}).gap());
-        }
-      }
-    }
-  }
-  return deepest;
-}
-
-TEST(ExactWorldCrowd, keepsApartToItsToleranceBetweenStepsToo) {
-  const World world = layers();
-  for (const double tolerance : {3e-4, 3e-5}) {
-    const double deepest = deepestOverlap(world, crowdRun(world, 2, tolerance), 2, 0.00618);
-    EXPECT_LT(deepest, 3 * tolerance);
-    EXPECT_GT(deepest, 0);
-  }
-}
-
-// Boxes that fall onto each other and turn meet within a step with other features than those that are near at
-// its ends. Steps that only those were looked at let 1 scene in 300 go deeper than three tolerances.
-TEST(ExactWorldCrowd, keepsApartWithinStepsInWhichFeaturesPass) {
-  for (int scene = 0; scene < 1600; ++scene) {
-    test::Dice dice(static_cast<std::uint64_t>(scene));
-    World world = onARoughFloor(0.3);
-    for (int k = 0; k < 2 + scene % 2; ++k) {
-      const Vec3 size{dice.between(0.15, 0.3), dice.between(0.15, 0.3), dice.between(0.15, 0.3)};
-      const Vec3 place = 0.3 * dice.vector(1) + Vec3(0, 0, 0.9 + 1.4 * k);
-      const double mass = dice.between(0.5, 5);
-      Body body =
-          ofMaterial(box("box-" + std::to_string(k), size, mass, place, Vec3(0, 0, -6 * (0.5 + k))), 0.3);
-      body.initial.pose.worldFromBody = dice.orientation();
-      body.initial.angularMomentum =
-          angularMomentum(body.mass, body.initial.pose.worldFromBody, dice.vector(4));
-      world.bodies.push_back(body);
-    }
-    EXPECT_LT(deepestOverlap(world, crowdRun(world, 0.35), 0.35, 0.0003), 3 * kTolerance) << scene;
-  }
-}
-
-// Paths were looked at only at the joints of steps themselves: 2 of 5,600 scenes went 1.0 to 1.2 mm deep
-// beside them, these and one like them.
-TEST(ExactWorldCrowd, keepsApartBesideJoints) {
-  struct Falling {
-    int boxes = 0;
-    std::uint64_t seed = 0;
-    double speed = 0;  // [m/s]
-  };
-  for (const Falling falling : {Falling{3, 487, 6}, {3, 10861, 6}, {4, 10383, 3}}) {
-    test::Dice dice(falling.seed);
-    World world = onARoughFloor(0.3);
-    for (int k = 0; k < falling.boxes; ++k) {
-      const Vec3 size{dice.between(0.15, 0.3), dice.between(0.15, 0.3), dice.between(0.15, 0.3)};
-      const double y = dice.between(-0.3, 0.3);
-      const Vec3 place(dice.between(-0.3, 0.3), y, 0.6 + 1.05 * k);
-      dice.vector(3);
-      const double mass = dice.between(0.5, 5);
-      Body body = ofMaterial(
-          box("box-" + std::to_string(k), size, mass, place, Vec3(0, 0, -falling.speed * (0.5 + k))), 0.3);
-      Quat attitude;
-      for (const int i : {2, 1, 0, 3}) {
-        attitude.coeffs()[i] = dice.between(-1, 1);
-      }
-      body.initial.pose.worldFromBody = attitude.normalized().toRotationMatrix();
-      body.initial.angularMomentum =
-          angularMomentum(body.mass, body.initial.pose.worldFromBody, dice.vector(4));
-      world.bodies.push_back(body);
-    }
-    EXPECT_LT(deepestOverlap(world, crowdRun(world, 0.5), 0.5, 0.0002), 3 * kTolerance)
-        << falling.seed;  // measured 4.3e-4
-  }
-}
-
-// What falls after a member that is stopped within a step meets it within that step.
-TEST(ExactWorldCrowd, keepsApartFromWhoArrivesWithinAStep) {
-  test::Dice dice(11);
-  for (int scene = 0; scene < 300; ++scene) {
-    World world = onARoughFloor(0.7, 0.3);
-    double height = 0;
-    for (int k = 0; k < 5; ++k) {
-      const Vec3 size{dice.between(0.1, 0.2), dice.between(0.1, 0.2), dice.between(0.06, 0.12)};
-      height += size.z() + dice.between(0.002, 0.03);
-      const Vec3 place(0.02 * k, -0.01 * k, height);
-      const Vec3 velocity(0, 0, dice.between(-1, -0.5));
-      const double mass = dice.between(0.2, 5);
-      world.bodies.push_back(ofMaterial(
-          box("box-" + std::to_string(k), size, mass, place, velocity, dice.vector(1), 0), 0.7, 0.3));
-      height += size.z();
-    }
-    EXPECT_LT(deepestOverlap(world, crowdRun(world, 0.3), 0.3, 0.0013), 3 * kTolerance) << scene;
-  }
-}
-
-// What slides to a stop before a crowd, in the middle of a step, looks for nothing from then on: the crowd's
-// members must, for the rest of that step. They went on through it, up to 4.5 mm deep.
-TEST(ExactWorldCrowd, keepsApartFromWhatComesToRestWithinAStep) {
-  constexpr double kFriction = 0.5;
-  constexpr double kSliding = 1;  // [m/s]
-  constexpr double kSpeed = 3;    // [m/s]
-  const double stops = kSliding / (kFriction * 9.81);
-  double deepest = 0;
-  for (int scene = 0; scene < 60; ++scene) {
-    World world = onARoughFloor(kFriction);
-    const double gap = 0.0005 * (1 + scene % 20);  // [m] when it stops
-    const double front = 0.5 * kSliding * stops - kSpeed * stops - gap - 0.0004 * scene;
-    for (int k = 0; k < 2; ++k) {
-      world.bodies.push_back(ofMaterial(box("slides-" + std::to_string(k), Vec3(0.2, 0.2, 0.2), 1,
-                                            Vec3(front - 0.2, 0, 0.2 + 0.4 * k), Vec3(kSpeed, 0, 0)),
-                                        0));
-    }
-    world.bodies.push_back(
-        ofMaterial(box("stops", Vec3(0.2, 0.3, 0.1), 1, Vec3(0.2, 0, 0.1), Vec3(kSliding, 0, 0)), kFriction));
-    deepest = std::max(deepest, deepestOverlap(world, crowdRun(world, 0.3, kTolerance, 1), 0.3, 0.0002));
-  }
-  RecordProperty("deepest", std::to_string(deepest));
-  EXPECT_LT(deepest, 3 * kTolerance);  // measured 1.1e-4
 }
 
 // Neither places nor speeds jump, but for what stops to sleep.
