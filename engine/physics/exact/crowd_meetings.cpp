@@ -95,17 +95,17 @@ void ExactWorld::admitNear(const std::shared_ptr<ContactGroup>& group, const Ins
   }
 }
 
+// With those that it is in contact with, and all that springs join to them.
 void ExactWorld::admitOutsider(const std::shared_ptr<ContactGroup>& group, int rank, const Instant& time) {
-  const Mover& body = mover(rank);
-  if (body.crowd) {
-    const std::shared_ptr<ContactGroup> other = body.crowd;
-    endAt(other, time);
-    merge(group, *other);
-    return;
-  }
-  Encounter with;  // those it is in contact with
+  Encounter with;
   with.time = time;
   join(with, rank);
+  for (const std::shared_ptr<ContactGroup>& other : with.crowds) {
+    if (other != group) {
+      endAt(other, time);
+      merge(group, *other);
+    }
+  }
   for (std::size_t i = 0; i < with.ranks.size(); ++i) {
     enlist(group, with.ranks[i], time, with.before[i], with.attitudes[i]);
   }
