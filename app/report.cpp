@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <iomanip>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "audit/promises.h"
 #include "core/characters.h"
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
@@ -152,6 +154,16 @@ void printDisagreement(std::ostream& out, const char* what, double own, double s
   }
 }
 
+// What the run knows of itself, audited or not.
+void printDepth(std::ostream& out, const Run& run) {
+  const RunFigures& own = run.trajectory.figures;
+  const std::optional<double> promised = promisedDepth(run.trajectory.settings, own.boundedFrom.has_value());
+  if (!run.trajectory.given && promised && own.deepestPenetration > *promised) {
+    out << "BROKEN       by its own figure: boxes or walls went " << own.deepestPenetration
+        << " m into each other, where its method promises at most " << *promised << " m\n";
+  }
+}
+
 void printAudit(std::ostream& out, const Run& run) {
   const Audit& audit = run.audit;
   if (audit.depth == AuditDepth::kNone) {
@@ -273,6 +285,7 @@ void printError(std::ostream& out, const Run& run) {
   out << std::setprecision(3) << "error        energy " << figures.energyChange << ", momentum "
       << figures.momentumChange << ", |AAᵀ-1| " << figures.orthogonality << ", deepest penetration "
       << figures.deepestPenetration << " m\n";
+  printDepth(out, run);
   printAudit(out, run);
   if (figures.boundedFrom) {
     out << "crowd        from " << *figures.boundedFrom

@@ -61,6 +61,12 @@ double allowed(const Promise& promise, const RunSettings& settings, double lengt
          promise.crowdTolerances * settings.crowds.tolerance;
 }
 
+std::optional<double> promisedDepth(const RunSettings& settings, bool crowd) {
+  const std::optional<Promise> promise =
+      promisesOf(settings.method, crowd)[static_cast<std::size_t>(AuditKind::kBoxOverlap)];
+  return promise ? std::optional(allowed(*promise, settings, 1)) : std::nullopt;
+}
+
 std::string textOf(AuditKind kind, const std::optional<Promise>& promise) {
   if (!promise) {
     return "nothing";

@@ -46,6 +46,14 @@ TEST(Promises, everyMethodPromisesNumbers) {
   }
 }
 
+TEST(Promises, depthIsThatOfTheToleranceThatCounts) {
+  RunSettings settings{.tolerance = 1e-5, .crowds = {.tolerance = 2e-4}};
+  EXPECT_DOUBLE_EQ(promisedDepth(settings, false).value(), 1e-9 + 4e-5);
+  EXPECT_DOUBLE_EQ(promisedDepth(settings, true).value(), 1e-9 + 6e-4);
+  settings.method = Method::kListing1;
+  EXPECT_FALSE(promisedDepth(settings, false));
+}
+
 TEST(Promises, toleranceCountsInMetresOrPartsOfASize) {
   const RunSettings settings{.tolerance = 1e-4};
   EXPECT_DOUBLE_EQ(allowed({.tolerances = 4}, settings, 1), 4e-4);
