@@ -1,6 +1,5 @@
 // Where members were and can be: motion within the last step, space that is taken.
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 
@@ -15,7 +14,11 @@ namespace {
 // [1] of the tolerance: distance from a joint, and depth there, that are too much for a smooth path.
 constexpr double kRounded = 0.5;
 constexpr double kDeepAtJoint = 1.5;
-constexpr double kBesideJoint = 0.4;  // [1] of the bend, before and after it: where else it is looked at
+// Looked at from so much [1] of the bend before it to as much after it, each time one of two may have moved
+// by so much [1] of the tolerance on its way past the other: edges that meet part again soon.
+constexpr double kBesideJoint = 0.4;
+constexpr double kPassed = 2;
+constexpr int kMostLooks = 8;   // before and after it
 constexpr double kLasting = 4;  // [1] of gravity × step: larger changes of velocity are those of impacts
 
 // [rad/s] Body frame: of the turn from the one to the other in that time. Its angle is 2 asin of the length
@@ -142,10 +145,6 @@ void Crowd::findSharp() {
     }
   });
   const double most = JoinedSteps::beside(partBefore_, part, 0).off;
-  std::array<JoinedSteps::Beside, 3> moments;
-  for (const int k : {0, 1, 2}) {
-    moments[at(k)] = JoinedSteps::beside(partBefore_, part, kBesideJoint * (k - 1));
-  }
   const auto onPath = [&](std::size_t i, const JoinedSteps::Beside& moment) {
     const Rates& rates = ratesBefore_[i];
     const bool before = moment.time < 0;
@@ -171,6 +170,15 @@ void Crowd::findSharp() {
     return axes.find(a, poseA.worldFromBody, b, poseB.worldFromBody, a.middleAt(poseA) - b.middleAt(poseB),
                      -kDeepAtJoint * tolerance_, -1, 0);
   };
+  const auto passingSpeed = [&](const PileManifold& manifold) {  // [m/s] bound
+    const std::size_t a = at(manifold.a);
+    const std::size_t b = at(manifold.b.body());
+    const Rates& ofA = ratesBefore_[a];
+    const Rates& ofB = ratesBefore_[b];
+    return (ofA.velocity - ofB.velocity).norm() + (change[a].velocity - change[b].velocity).norm() +
+           bodies_[a].radius * (ofA.omega.norm() + change[a].omega.norm()) +
+           bodies_[b].radius * (ofB.omega.norm() + change[b].omega.norm());
+  };
   const auto isSharpAt = [&](const PileManifold& manifold) {
     if (manifold.b.isWall()) {
       return false;
@@ -183,9 +191,17 @@ void Crowd::findSharp() {
                                    bodyAt(manifold.b).radius * (ofB.omega - ofA.omega).norm()
                              : ofA.velocity.norm() + bodies_[at(manifold.a)].radius * ofA.omega.norm() +
                                    ofB.velocity.norm() + bodyAt(manifold.b).radius * ofB.omega.norm();
-    return most * way > kRounded * tolerance_ &&
-           std::any_of(moments.begin(), moments.end(),
-                       [&](const JoinedSteps::Beside& moment) { return isDeepAt(manifold, moment); });
+    if (most * way <= kRounded * tolerance_) {
+      return false;
+    }
+    const double passed = kBesideJoint * std::max(partBefore_, part) * passingSpeed(manifold);
+    const int looks = std::clamp(static_cast<int>(passed / (kPassed * tolerance_)), 1, kMostLooks);
+    for (int k = -looks; k <= looks; ++k) {
+      if (isDeepAt(manifold, JoinedSteps::beside(partBefore_, part, kBesideJoint * k / looks))) {
+        return true;
+      }
+    }
+    return false;
   };
   std::atomic<bool> sharp = false;
   forNear([&](const PileManifold& manifold, std::size_t) {
