@@ -154,11 +154,14 @@ void printDisagreement(std::ostream& out, const char* what, double own, double s
   }
 }
 
-// What the run knows of itself, audited or not.
+// What the run knows of itself, where no audit tells more.
 void printDepth(std::ostream& out, const Run& run) {
+  if (run.trajectory.given || !run.audit.breaches.empty()) {
+    return;
+  }
   const RunFigures& own = run.trajectory.figures;
   const std::optional<double> promised = promisedDepth(run.trajectory.settings, own.boundedFrom.has_value());
-  if (!run.trajectory.given && promised && own.deepestPenetration > *promised) {
+  if (promised && own.deepestPenetration > *promised) {
     out << "BROKEN       by its own figure: boxes or walls went " << own.deepestPenetration
         << " m into each other, where its method promises at most " << *promised << " m\n";
   }

@@ -388,7 +388,6 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"physics/pile/crowd_direct", "part of class Crowd, tested through crowd"},
     {"physics/pile/crowd_loads", "part of class Crowd, tested through crowd"},
     {"physics/pile/crowd_motion", "part of class Crowd, tested through crowd"},
-    {"physics/pile/crowd_rest", "part of class Crowd, tested through crowd"},
     {"physics/pile/index", "one cast"},
     {"physics/pile/solver_groups", "part of class PileSolver, tested through solver"},
     {"physics/pile/projection", "rebuilt with the contact solver; until then tested through crowd"},

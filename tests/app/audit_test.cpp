@@ -8,6 +8,7 @@
 
 #include "support/process.h"
 #include "support/program.h"
+#include "trajectory/trajectory_file.h"
 
 namespace careen {
 namespace {
@@ -64,6 +65,22 @@ TEST_F(AuditOfRuns, noneLooksAtNothing) {
   EXPECT_EQ(ended.out.find("audit "), std::string::npos) << ended.out;
   EXPECT_FALSE(report().contains("audit"));
   EXPECT_FALSE(report().contains("breaches"));
+}
+
+// Where no audit found as much: here, since only the figure is changed.
+TEST_F(AuditOfRuns, aRunsOwnDepthIsHeldAgainstThePromise) {
+  folder_.write("fall.json",
+                R"({"careen": 1, "duration": 1, "gravity": [0, 0, -9.81], "room": {"min": [-2, -2, 0],
+    "max": [2, 2, 4]}, "boxes": [{"half_extents": [0.1, 0.2, 0.3], "mass": 1, "position": [0, 0, 1]}]})");
+  ASSERT_EQ(careen({"simulate", "fall.json", "-o", "run.careen"}).exitCode, 0);
+  EXPECT_EQ(careen({"info", "run.careen"}).out.find("BROKEN"), std::string::npos);
+  Trajectory run = readTrajectory(folder_ / "run.careen");
+  run.figures.deepestPenetration = 0.002;
+  folder_.write("deep.careen", encodeTrajectory(run));
+  const Ended ended = careen({"info", "deep.careen"});
+  EXPECT_NE(ended.out.find("BROKEN       by its own figure: boxes or walls went 0.002 m into each other"),
+            std::string::npos)
+      << ended.out << ended.err;
 }
 
 TEST_F(AuditOfRuns, anotherDepthIsBadUsage) {

@@ -17,7 +17,7 @@ constexpr double kDeepAtJoint = 1.5;
 // Looked at from so much [1] of the bend before it to as much after it, each time one of two may have moved
 // by so much [1] of the tolerance on its way past the other: edges that meet part again soon.
 constexpr double kBesideJoint = 0.4;
-constexpr double kPassed = 2;
+constexpr double kPassed = 1;
 constexpr int kMostLooks = 8;   // before and after it
 constexpr double kLasting = 4;  // [1] of gravity × step: larger changes of velocity are those of impacts
 
@@ -194,7 +194,7 @@ void Crowd::findSharp() {
     if (most * way <= kRounded * tolerance_) {
       return false;
     }
-    const double passed = kBesideJoint * std::max(partBefore_, part) * passingSpeed(manifold);
+    const double passed = kBesideJoint * 0.5 * std::max(partBefore_, part) * passingSpeed(manifold);
     const int looks = std::clamp(static_cast<int>(passed / (kPassed * tolerance_)), 1, kMostLooks);
     for (int k = -looks; k <= looks; ++k) {
       if (isDeepAt(manifold, JoinedSteps::beside(partBefore_, part, kBesideJoint * k / looks))) {

@@ -41,8 +41,8 @@ TEST(EventQueue, handsOutTheEarliestAndOnlyTheLatestWordOfEachBody) {
   EXPECT_FALSE(queue.next());
 }
 
-// Such an event, in a heap, puts all others out of order: a crowd's step ended after later events, and bodies
-// that nothing had touched were recorded metres away.
+// Such an event, in a heap, puts all others out of order: a crowd's step ended after later events, and its
+// members were recorded metres away.
 TEST(EventQueue, refusesWhatIsAtNoMoment) {
   EventQueue queue(1);
   EXPECT_THROW(queue.set({.time = std::numeric_limits<double>::quiet_NaN(), .body = 0}), NumericalError);

@@ -2,29 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "physics/exact/exact_world.h"
-#include "physics/geometry/separation.h"
 #include "physics/world/diagnostics.h"
 #include "support/article_equations.h"
+#include "support/crowd_scenes.h"
 #include "support/exact_runs.h"
-#include "support/tumbling_box.h"
 
 // Crowds among the other groups of the event queue.
 
 namespace careen {
 namespace {
 
-using test::crowdRun;
-using test::kTolerance;
-using test::layers;
-using test::ofMaterial;
-using test::onARoughFloor;
+using namespace test;
 
 bool isCrowd(const Motion& motion) { return std::holds_alternative<CrowdStep>(motion); }
 

@@ -3,60 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "physics/world/diagnostics.h"
+#include "support/crates.h"
 #include "support/crowd_run.h"
 #include "support/pile_scenes.h"
 
 namespace careen {
 namespace {
 
-constexpr double kGravity = 9.81;
-
-Body crate(const std::string& name, const Vec3& half, const Vec3& position, const Material& material,
-           double density = 1000) {
-  Body body;
-  body.name = name;
-  body.halfExtents = half;
-  body.mass = solidBox(half, density * 8 * half.prod());
-  body.material = material;
-  body.initial.pose.position = position;
-  return body;
-}
-
-World floorWorld(const Material& material) {
-  World world;
-  world.gravity = Vec3(0, 0, -kGravity);
-  world.walls.push_back({.name = "floor", .normal = Vec3::UnitZ(), .offset = 0, .material = material});
-  return world;
-}
-
-bool sameBits(const BodyState& a, const BodyState& b) {
-  return a.pose.position == b.pose.position && a.pose.worldFromBody == b.pose.worldFromBody &&
-         a.velocity == b.velocity && a.angularMomentum == b.angularMomentum;
-}
-
-TEST(Crowd, droppedBoxComesToRestOnTheFloorAndSleeps) {
-  for (const double restitution : {0.0, 0.5}) {
-    const Material material{.restitution = restitution, .friction = 0.5};
-    World world = floorWorld(material);
-    world.bodies.push_back(crate("a", Vec3(0.25, 0.2, 0.3), Vec3(0, 0, 1.3), material));
-    test::CrowdRun crowd(world);
-    int frames = 0;
-    for (; frames < 300 && !crowd.atRest(); ++frames) {
-      crowd.step();
-    }
-    EXPECT_LT(frames, 240) << restitution;
-    EXPECT_TRUE(crowd.sleeps(0));
-    EXPECT_NEAR(crowd.states()[0].pose.position.z(), 0.3, 1e-4);
-    EXPECT_NEAR(crowd.states()[0].pose.worldFromBody(2, 2), 1, 1e-6);
-  }
-}
+using namespace test;
 
 // A thrown box: the centre on its parabola, L kept, the attitude that of steps 16 times as short.
 TEST(Crowd, flightIsRightToTenThousandths) {
@@ -139,109 +98,6 @@ TEST(Crowd, energyNeverRises) {
     }
     EXPECT_LT(before, 0.5 * start);
   }
-}
-
-TEST(Crowd, frozenCrowdIsConstantToTheBitCostsNothingAndWakesWhenHit) {
-  const Material material{.restitution = 0, .friction = 0.5};
-  World world = floorWorld(material);
-  for (int k = 0; k < 3; ++k) {
-    world.bodies.push_back(
-        crate("stack" + std::to_string(k), Vec3::Constant(0.25), Vec3(0, 0, 0.25 + 0.5 * k), material));
-  }
-  // Arrives after 1.4 s.
-  world.bodies.push_back(crate("late", Vec3::Constant(0.2), Vec3(0.1, 0.05, 11), material));
-  test::CrowdRun crowd(world);
-  for (int frame = 0; frame < 30; ++frame) {
-    crowd.step();
-  }
-  ASSERT_TRUE(crowd.sleeps(0) && crowd.sleeps(1) && crowd.sleeps(2));
-  EXPECT_FALSE(crowd.sleeps(3));
-  const std::vector<BodyState> frozen(crowd.states().begin(), crowd.states().end());
-  const std::int64_t manifolds = crowd.figures().manifolds;
-  const std::int64_t solves = crowd.figures().solves;
-  for (int frame = 0; frame < 30; ++frame) {
-    crowd.step();
-    for (std::size_t k = 0; k < 3; ++k) {
-      ASSERT_TRUE(sameBits(crowd.states()[k], frozen[k])) << frame;
-    }
-  }
-  EXPECT_EQ(crowd.figures().manifolds, manifolds);
-  EXPECT_EQ(crowd.figures().solves, solves);
-  bool woke = false;
-  for (int frame = 0; frame < 240; ++frame) {
-    crowd.step();
-    woke = woke || !crowd.sleeps(0);
-  }
-  EXPECT_TRUE(woke);
-  EXPECT_TRUE(crowd.atRest());
-}
-
-// Two courses of bricks, in contact all along; on the first one a box that a spring keeps moving.
-TEST(Crowd, oneRestlessBodyKeepsOnlyItsNeighboursAwake) {
-  const Material material{.restitution = 0, .friction = 0.5};
-  World world = floorWorld(material);
-  const double pitch = 0.52;
-  for (int k = 0; k < 10; ++k) {
-    world.bodies.push_back(
-        crate("low" + std::to_string(k), Vec3::Constant(0.25), Vec3(k * pitch, 0, 0.25), material));
-  }
-  for (int k = 0; k < 9; ++k) {
-    world.bodies.push_back(
-        crate("up" + std::to_string(k), Vec3::Constant(0.25), Vec3((k + 0.5) * pitch, 0, 0.75), material));
-  }
-  Body restless = crate("restless", Vec3::Constant(0.1), Vec3(0.5 * pitch + 0.1, 0, 1.1), {});
-  restless.mass = solidBox(restless.halfExtents, 4);
-  world.bodies.push_back(restless);
-  world.springs.push_back(
-      {.from = {.body = 19}, .to = {.body = {}, .point = Vec3(0.5 * pitch, 0, 1.1)}, .stiffness = 100});
-  // Arrives after 2.2 s.
-  world.bodies.push_back(crate("late", Vec3::Constant(0.25), Vec3(8.5 * pitch, 0.05, 25), material));
-  test::CrowdRun crowd(world);
-  for (int frame = 0; frame < 60; ++frame) {
-    crowd.step();
-  }
-  EXPECT_FALSE(crowd.sleeps(19));
-  EXPECT_FALSE(crowd.sleeps(10));  // carries it
-  ASSERT_TRUE(crowd.sleeps(9) && crowd.sleeps(18));
-  int asleep = 0;
-  for (int frame = 0; frame < 60; ++frame) {
-    crowd.step();
-    asleep += crowd.sleeps(9) && crowd.sleeps(18) ? 1 : 0;
-  }
-  EXPECT_GT(asleep, 30);  // never, if all in contact must be quiet
-  EXPECT_FALSE(crowd.sleeps(19));
-  RecordProperty("asleep", asleep);
-  // It still swings, and what sleeps carries what is awake.
-  for (std::size_t k = 0; k < 19; ++k) {
-    EXPECT_LT((crowd.states()[k].pose.position - world.bodies[k].initial.pose.position).norm(), 1e-3) << k;
-  }
-  bool woke = false;
-  for (int frame = 0; frame < 60; ++frame) {
-    crowd.step();
-    woke = woke || (!crowd.sleeps(18) && !crowd.sleeps(9));
-  }
-  EXPECT_TRUE(woke);
-}
-
-// One that nearly touches a box asleep, and that another throws against it: what sleeps takes the momentum.
-TEST(Crowd, boxThatIsStruckInItsSleepByOneBesideItTakesTheMomentum) {
-  const Material smooth{.restitution = 0, .friction = 0.001};
-  World world = floorWorld(smooth);
-  const Vec3 half = Vec3::Constant(0.25);
-  world.bodies.push_back(crate("asleep", half, Vec3(0, 0, 0.25), smooth));
-  // Slides by 1 mm in 0.1 s and stops at some 3 mm from it, then is thrown against it.
-  world.bodies.push_back(crate("beside", half, Vec3(0.503, 0, 0.25), smooth));
-  world.bodies.push_back(crate("thrown", half, Vec3(3.0, 0, 0.25), smooth));
-  world.bodies[2].initial.velocity = Vec3(-4, 0, 0);
-  world.bodies[1].initial.velocity = Vec3(0, 0.3, 0);
-  test::CrowdRun crowd(world);
-  double least = 0;
-  for (int frame = 0; frame < 60; ++frame) {
-    crowd.step();
-    least = std::min(least, linearMomentum(world, crowd.states()).x());
-  }
-  RecordProperty("momentum", std::to_string(linearMomentum(world, crowd.states()).x()));
-  EXPECT_LT(linearMomentum(world, crowd.states()).x(), 0.97 * least);
 }
 
 // Corners of boxes that spin strike walls beside the points that were nearest when the step began.
@@ -385,43 +241,6 @@ TEST(Crowd, stepUndoesPenetrationThatIsInIt) {
   const double of = world.bodies[1].mass.mass / world.bodies[0].mass.mass;
   EXPECT_NEAR(crowd.states()[0].pose.position.x(),
               -of * (crowd.states()[1].pose.position.x() - world.bodies[1].initial.pose.position.x()), 1e-12);
-}
-
-// Forces on a slope that is steeper by so little than friction holds all but balance: the block begins so
-// slowly that only the certificate of rest tells it from one that stands.
-TEST(Crowd, blockThatBeginsToSlideIsNotTakenForOneAtRest) {
-  const double friction = 0.4;
-  for (const double steeper : {-0.003, 0.003}) {
-    World world = floorWorld({.restitution = 0, .friction = friction});
-    const double tangent = friction + steeper;
-    const double cosine = 1 / std::sqrt(1 + tangent * tangent);
-    world.gravity = kGravity * cosine * Vec3(tangent, 0, -1);
-    world.bodies.push_back(crate("a", Vec3(0.3, 0.3, 0.1), Vec3(0, 0, 0.1), {.friction = friction}));
-    test::CrowdRun crowd(world);
-    for (int k = 0; k < 120; ++k) {
-      crowd.step();
-    }
-    const double way = 0.5 * kGravity * cosine * std::max(0.0, steeper) * 2 * 2;
-    EXPECT_NEAR(crowd.states()[0].pose.position.x(), way, 0.05 * way + 1e-6) << steeper;
-    EXPECT_EQ(crowd.sleeps(0), steeper < 0);
-  }
-}
-
-TEST(Crowd, stackOfTenStands) {
-  const Material material{.restitution = 0, .friction = 0.5};
-  World world = floorWorld(material);
-  for (int k = 0; k < 10; ++k) {
-    world.bodies.push_back(crate("box" + std::to_string(k), Vec3::Constant(0.25),
-                                 Vec3(0.01 * (k % 3), -0.01 * (k % 2), 0.25 + 0.5 * k), material));
-  }
-  test::CrowdRun crowd(world);
-  for (int frame = 0; frame < 600; ++frame) {
-    crowd.step();
-  }
-  for (std::size_t k = 0; k < 10; ++k) {
-    EXPECT_LT((crowd.states()[k].pose.position - world.bodies[k].initial.pose.position).norm(), 2e-3) << k;
-  }
-  EXPECT_TRUE(crowd.atRest());
 }
 
 // Sizes from 0.02 to 1 m, masses over six orders, speeds to 100 m/s: stays finite and inside its room.
