@@ -5,6 +5,7 @@
 
 #include "physics/pile/axes.h"
 #include "physics/pile/crowd.h"
+#include "physics/pile/depth_search.h"
 
 namespace careen {
 namespace {
@@ -158,7 +159,6 @@ double Crowd::depthWithin(int a, int b) const {
   if (motion <= kSwing * tolerance_) {
     return 0;
   }
-  double deepest = 0;
   const auto gapAt = [&](double part) {
     const Pose poseA = between(at(a), part);
     const Pose poseB = between(at(b), part);
@@ -167,20 +167,9 @@ double Crowd::depthWithin(int a, int b) const {
               bodies_[at(a)].middleAt(poseA) - bodies_[at(b)].middleAt(poseB), -kDeep * tolerance_, -1, 0);
     return axes.separation();
   };
-  const auto look = [&](const auto& again, double from, double gapFrom, double length, double gapTo) {
-    if (motion * length <= kSwing * tolerance_ ||
-        0.5 * (gapFrom + gapTo - motion * length) > -kDeep * tolerance_) {
-      return;
-    }
-    const double half = 0.5 * length;
-    const double gap = gapAt(from + half);
-    deepest = std::max(deepest, -gap);
-    if (half > kShortestLook) {
-      again(again, from, gapFrom, half, gap);
-      again(again, from + half, gap, half, gapTo);
-    }
-  };
-  look(look, 0, gapAt(0), 1, gapAtEnd(a, b));
+  const DepthSearch search{
+      .motion = motion, .deep = kDeep * tolerance_, .swing = kSwing * tolerance_, .shortest = kShortestLook};
+  const double deepest = searchDepth(search, gapAt, gapAt(0), gapAtEnd(a, b));
   return deepest > kDeep * tolerance_ ? deepest : 0;
 }
 

@@ -7,6 +7,7 @@
 #include "physics/motion/joined_steps.h"
 #include "physics/pile/axes.h"
 #include "physics/pile/crowd.h"
+#include "physics/pile/depth_search.h"
 
 namespace careen {
 namespace {
@@ -14,11 +15,10 @@ namespace {
 // [1] of the tolerance: distance from a joint, and depth there, that are too much for a smooth path.
 constexpr double kRounded = 0.5;
 constexpr double kDeepAtJoint = 1.5;
-// Looked at from so much [1] of the bend before it to as much after it, each time one of two may have moved
-// by so much [1] of the tolerance on its way past the other: edges that meet part again soon.
+// [1] of the bend, before and after it: from where to where it is looked at; as in depthWithin().
 constexpr double kBesideJoint = 0.4;
-constexpr double kPassed = 1;
-constexpr int kMostLooks = 8;   // before and after it
+constexpr double kSwingAtJoint = 2;
+constexpr double kShortestAtJoint = 0.0625;
 constexpr double kLasting = 4;  // [1] of gravity × step: larger changes of velocity are those of impacts
 
 // [rad/s] Body frame: of the turn from the one to the other in that time. Its angle is 2 asin of the length
@@ -161,14 +161,16 @@ void Crowd::findSharp() {
         Quat(1, 0.5 * turn.x(), 0.5 * turn.y(), 0.5 * turn.z()).normalized() * pose.worldFromBody;
     return pose;
   };
-  const auto isDeepAt = [&](const PileManifold& manifold, const JoinedSteps::Beside& moment) {
+  const auto gapAt = [&](const PileManifold& manifold, double along) {  // from 0 to 1
+    const JoinedSteps::Beside moment = JoinedSteps::beside(partBefore_, part, kBesideJoint * (2 * along - 1));
     const PileBody& a = bodies_[at(manifold.a)];
     const PileBody& b = bodyAt(manifold.b);
     const Pose poseA = onPath(at(manifold.a), moment);
     const Pose poseB = onPath(at(manifold.b.body()), moment);
     PileAxes axes;
-    return axes.find(a, poseA.worldFromBody, b, poseB.worldFromBody, a.middleAt(poseA) - b.middleAt(poseB),
-                     -kDeepAtJoint * tolerance_, -1, 0);
+    axes.find(a, poseA.worldFromBody, b, poseB.worldFromBody, a.middleAt(poseA) - b.middleAt(poseB),
+              -kDeepAtJoint * tolerance_, -1, 0);
+    return axes.separation();
   };
   const auto passingSpeed = [&](const PileManifold& manifold) {  // [m/s] bound
     const std::size_t a = at(manifold.a);
@@ -194,14 +196,14 @@ void Crowd::findSharp() {
     if (most * way <= kRounded * tolerance_) {
       return false;
     }
-    const double passed = kBesideJoint * 0.5 * std::max(partBefore_, part) * passingSpeed(manifold);
-    const int looks = std::clamp(static_cast<int>(passed / (kPassed * tolerance_)), 1, kMostLooks);
-    for (int k = -looks; k <= looks; ++k) {
-      if (isDeepAt(manifold, JoinedSteps::beside(partBefore_, part, kBesideJoint * k / looks))) {
-        return true;
-      }
-    }
-    return false;
+    const DepthSearch search{.motion = kBesideJoint * std::max(partBefore_, part) * passingSpeed(manifold),
+                             .deep = kDeepAtJoint * tolerance_,
+                             .swing = kSwingAtJoint * tolerance_,
+                             .shortest = kShortestAtJoint};
+    const double first = gapAt(manifold, 0);
+    const double last = gapAt(manifold, 1);
+    const auto between = [&](double along) { return gapAt(manifold, along); };
+    return std::max({-first, -last, searchDepth(search, between, first, last)}) > search.deep;
   };
   std::atomic<bool> sharp = false;
   forNear([&](const PileManifold& manifold, std::size_t) {
