@@ -2,7 +2,7 @@
 // the eye.
 layout(std140) uniform Frame {
   mat4 clipFromOffset;
-  vec4 towardsLight;      // unit; w: tangent of the angle that half the light covers
+  vec4 towardsLight;      // unit; w: [1] how wide penumbras are on each side of an edge, of the distance
   vec4 lightColor;        // linear, like all colours here; radiance of a white face turned to the light
   vec4 up;                // unit; w: part of what a box far away covers that comes back from it
   vec4 sky;               // ambient radiance of a white face turned up

@@ -12,6 +12,9 @@ flat in vec2 split;
 
 out vec4 result;
 
+// Of what is left, as one box of its body, or as one of several copies.
+vec3 counted(vec3 left);
+
 void main() {
   vec3 p = abs(at);
   vec3 normal = bodyNormal * vec3(at.x < 0.0 ? -1.0 : 1.0, at.y < 0.0 ? -1.0 : 1.0, at.z < 0.0 ? -1.0 : 1.0);
@@ -31,5 +34,5 @@ void main() {
   covered = max(covered - occlusion.y, 0.0) / (1.0 - 2.0 * occlusion.y);
   // far_occlusion.frag has the rest.
   covered *= 1.0 - smoothstep(split.x, split.y, dot(at, at));
-  result = vec4(1.0 - covered * (1.0 - returned), 1.0);
+  result = vec4(counted(1.0 - covered * (1.0 - returned)), 1.0);
 }

@@ -12,7 +12,9 @@ flat in float weight;
 
 out vec4 result;
 
-// The disc of the light seen over a straight edge, within 4 %: `at` in units of the penumbra's half width.
+// What a straight edge leaves of the light's disc, within 1 %, and of a pixel: `at` in units of the curve's half
+// width, of which a fifth of the square is its variance, as are the disc's and the pixel's together.
+const float kPixel = 5.0 / 12.0;  // of squares
 vec3 covered(vec3 at) {
   vec3 t = clamp(0.5 + 0.5 * at, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
@@ -27,7 +29,7 @@ void main() {
   // A pixel's own width, so that edges are smooth where the penumbra is narrower.
   vec3 right = dFdx(fromAxis);
   vec3 above = dFdy(fromAxis);
-  vec3 scale = inversesqrt(penumbra * penumbra + 0.5 * (right * right + above * above) + 1e-20);
+  vec3 scale = inversesqrt(penumbra * penumbra + kPixel * (right * right + above * above) + 1e-20);
   vec3 inside = covered((halfSlab - fromAxis) * scale) + covered((halfSlab + fromAxis) * scale) - 1.0;
   float part = last > 0.0 ? weight * inside.x * inside.y * inside.z : 0.0;
   result = vec4(vec3(part), 0.0);

@@ -10,8 +10,8 @@
 namespace careen {
 
 /// The part of a surface that the shadow of a box may reach with its penumbra, as a convex outline [m] world;
-/// empty if there is none. `towards` is the unit vector to the light, `spread` the tangent of half its angle;
-/// `pixel` [m] is the width of a pixel on the surface there.
+/// empty if there is none. `towards` is the unit vector to the light, `spread` [1] how wide penumbras are on
+/// each side of an edge, of the distance; `pixel` [m] is the width of a pixel on the surface there.
 std::vector<Vec3> shadowOutline(const DrawnBox& box, const Surface& surface, const Vec3& towards,
                                 double spread, double pixel);
 

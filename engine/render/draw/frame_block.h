@@ -12,12 +12,12 @@ using Float16 = std::array<float, 16>;
 /// Uniform block shared by all shaders of a frame, in GLSL's std140 layout. Points are offsets from the eye.
 struct FrameBlock {
   Float16 clipFromOffset{};
-  Float4 towardsLight{};      ///< unit; w: tangent of half the light's angle
-  Float4 lightColor{};        ///< linear; all 0 without a light
-  Float4 up{};                ///< unit; towards the sky; w: light that comes back from boxes far away
-  Float4 sky{};               ///< linear
-  Float4 ground{};            ///< linear
-  Float4 backgroundTop{};     ///< linear
+  Float4 towardsLight{};   ///< unit; w: [1] how wide penumbras are on each side of an edge, of the distance
+  Float4 lightColor{};     ///< linear; all 0 without a light
+  Float4 up{};             ///< unit; towards the sky; w: light that comes back from boxes far away
+  Float4 sky{};            ///< linear
+  Float4 ground{};         ///< linear
+  Float4 backgroundTop{};  ///< linear
   Float4 backgroundBottom{};  ///< linear
   Float4 finish{};            ///< start of the tone curve's shoulder, 1 if edges are in alpha, dither;
                               ///< least form factor that counts on boxes

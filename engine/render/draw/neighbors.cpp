@@ -10,47 +10,107 @@
 namespace careen {
 namespace {
 
-constexpr double kFlush = 1e-3;   // [1] of a box's size: in front of a face by less, it does not count
-constexpr double kInFront = 0.5;  // by so much, it counts fully: less covers only a rim of the face
+constexpr float kFlush = 1e-3F;   // [1] of a box's size: in front of a face by less, it does not count
+constexpr float kInFront = 0.5F;  // by so much, it counts fully: less covers only a rim of the face
 constexpr double kFading = 0.3;   // [1] of what the first one that is left out covers, where weights fall
 // [1] of half a box's diagonal: how far its centre is from a face where its shape no longer counts in full,
 // and where it does not count at all.
-constexpr double kNear = 1;
-constexpr double kFar = 1.5;
+constexpr float kNear = 1;
+constexpr float kFar = 1.5F;
 
-double smoothstep(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+constexpr float kTiny = 1e-30F;
+
+using Numbers = Eigen::ArrayXf;  // one for each of several boxes, so that they are looked at together
+
+Numbers smoothstep(const Numbers& from, const Numbers& to, const Numbers& x) {
+  const Numbers t = ((x - from) / (to - from)).max(0.0F).min(1.0F);
+  return t * t * (3.0F - 2.0F * t);
+}
+
+float smoothstep(float from, float to, float x) {
+  const float t = std::clamp((x - from) / (to - from), 0.0F, 1.0F);
   return t * t * (3 - 2 * t);
 }
 
 struct Candidate {
   std::size_t box = 0;
-  double covers = 0;
-  double inFront = 0;  // [1] of what it covers if enough of it is in front of the face
-  double isNear = 0;   // [1] 0: so far away that its shape does not matter
+  float covers = 0;   // [1] of what the face sees
+  float inFront = 0;  // [1] of what it covers if enough of it is in front of the face
+  float isNear = 0;   // [1] 0: so far away that its shape does not matter
 };
 
-// About the part of what a face sees that a box covers, at the face's point nearest to it.
-Candidate candidateOf(const DrawnBox& box, double area, const DrawnFace& face) {
-  const Vec3 to = box.pose.position - face.centre;
-  const Vec3 axes = box.pose.worldFromBody.transpose() * face.normal;
-  const double front = face.normal.dot(to) + axes.cwiseAbs().dot(box.halfExtents);
-  const double size = box.halfExtents.minCoeff();
-  if (front <= kFlush * size) {
-    return {};
+// The boxes about a box, as its faces see them.
+class Surroundings {
+ public:
+  explicit Surroundings(std::span<const DrawnBox> boxes)
+      : boxes_(boxes), shapes_(kColumns, static_cast<Eigen::Index>(boxes.size())) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const DrawnBox& box = boxes[i];
+      const Mat3 halfAxes = box.pose.worldFromBody * box.halfExtents.asDiagonal();
+      auto shape = shapes_.col(static_cast<Eigen::Index>(i));
+      shape.segment<9>(kHalfAxes) = halfAxes.reshaped().cast<float>();
+      shape[kSize] = static_cast<float>(box.halfExtents.minCoeff()) + kTiny;
+      shape[kRadius] = static_cast<float>(box.halfExtents.norm()) + kTiny;
+      shape[kArea] = static_cast<float>(largestSilhouette(box) / std::numbers::pi);
+    }
   }
-  const auto beyond = [&](const Vec3& half) {
-    const double size2 = half.squaredNorm();
-    const double part = size2 > 0 ? std::clamp(half.dot(to) / size2, -1.0, 1.0) : 0;
-    return Vec3(part * half);
-  };
-  const Vec3 apart = to - beyond(face.across) - beyond(face.along);
-  const double inFront = smoothstep(kFlush * size, kInFront * size, front);
-  const double most = std::min(0.5, area / (std::numbers::pi * std::max(apart.squaredNorm(), 1e-300)));
-  const double away = apart.norm() / box.halfExtents.norm();
-  return {
-      .box = 0, .covers = inFront * most, .inFront = inFront, .isNear = 1 - smoothstep(kNear, kFar, away)};
-}
+
+  void lookFrom(const Vec3& centre, const std::vector<std::size_t>& near) {
+    centre_ = centre;
+    near_ = near;
+    about_.resize(static_cast<Eigen::Index>(near.size()), kColumns);
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      auto row = about_.row(static_cast<Eigen::Index>(i));
+      row = shapes_.col(static_cast<Eigen::Index>(near[i])).transpose();
+      row.segment<3>(kCentre) = (boxes_[near[i]].pose.position - centre).transpose().cast<float>();
+    }
+  }
+
+  // Those that cover more than `least` of what a face of that box sees, at the face's point nearest to each.
+  void find(const DrawnFace& face, float least, std::vector<Candidate>& found) const {
+    using Vector = Eigen::Vector3f;
+    const auto dot = [&](const Vector& with, int column) -> Numbers {
+      return with.x() * about_.col(column) + with.y() * about_.col(column + 1) +
+             with.z() * about_.col(column + 2);
+    };
+    const Vector to = (face.centre - centre_).cast<float>();
+    const Vector normal = face.normal.cast<float>();
+    const Numbers extent =
+        dot(normal, kHalfAxes).abs() + dot(normal, kHalfAxes + 3).abs() + dot(normal, kHalfAxes + 6).abs();
+    const Numbers front = dot(normal, kCentre) - normal.dot(to) + extent;
+    const Numbers size = about_.col(kSize);
+    const Numbers inFront = smoothstep(kFlush * size, kInFront * size, front);
+    Numbers apart2 = (about_.col(kCentre) - to.x()).square() + (about_.col(kCentre + 1) - to.y()).square() +
+                     (about_.col(kCentre + 2) - to.z()).square();
+    for (const Vec3& half : {face.across, face.along}) {
+      const Vector edge = half.cast<float>();
+      const float edge2 = edge.squaredNorm() + kTiny;
+      const Numbers along = dot(edge, kCentre) - edge.dot(to);
+      const Numbers part = (along / edge2).max(-1.0F).min(1.0F);
+      apart2 -= part * (2.0F * along - edge2 * part);
+    }
+    const Numbers covers = inFront * (about_.col(kArea) / apart2.max(kTiny)).min(0.5F);
+    for (Eigen::Index i = 0; i < covers.size(); ++i) {
+      if (covers[i] > least) {
+        const float away = std::sqrt(std::max(apart2[i], 0.0F)) / about_(i, kRadius);
+        found.push_back({.box = near_[static_cast<std::size_t>(i)],
+                         .covers = covers[i],
+                         .inFront = inFront[i],
+                         .isNear = 1 - smoothstep(kNear, kFar, away)});
+      }
+    }
+  }
+
+ private:
+  // [m] from the centre of the box that looks; then what a box is anywhere.
+  enum Column { kCentre = 0, kHalfAxes = 3, kSize = 12, kRadius, kArea, kColumns };
+
+  std::span<const DrawnBox> boxes_;
+  Eigen::ArrayXXf shapes_;  // of all, a column each
+  Vec3 centre_ = Vec3::Zero();
+  std::vector<std::size_t> near_;
+  Eigen::ArrayXXf about_;  // of these, a row each
+};
 
 // Of candidates that come in order.
 void keepOneOfEachBody(std::vector<Candidate>& found, std::span<const DrawnBox> boxes) {
@@ -141,15 +201,11 @@ double largestSilhouette(const DrawnBox& box) {
 }
 
 Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, double least) {
-  std::vector<double> areas;
-  std::vector<double> reaches;  // [m] from a face's nearest point to where each box covers as much as nothing
-  double reach = 0;             // [m] from a face's nearest point to the centre of a box that it still sees
+  double reach = 0;  // [m] from a face's nearest point to the centre of a box that it still sees
   double radius = 0;
   for (const DrawnBox& box : boxes) {
-    areas.push_back(largestSilhouette(box));
     radius = std::max(radius, box.halfExtents.norm());
-    reaches.push_back(std::sqrt(areas.back() / (std::numbers::pi * least)));
-    reach = std::max(reach, reaches.back());
+    reach = std::max(reach, std::sqrt(largestSilhouette(box) / (std::numbers::pi * least)));
   }
   reach += radius;  // from a box's centre, of which a face's points are no farther away than its corners
   const Cells cells(boxes, std::max(reach, 1e-300));
@@ -159,6 +215,7 @@ Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace
   std::sort(bodies.begin(), bodies.end());
   const bool hasCopies = std::adjacent_find(bodies.begin(), bodies.end()) != bodies.end();
   Neighbors neighbors;
+  Surroundings surroundings(boxes);
   std::vector<std::size_t> near;
   std::size_t nearOf = boxes.size();
   std::vector<Candidate> found;
@@ -176,22 +233,11 @@ Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace
           near.push_back(box);
         }
       });
+      surroundings.lookFrom(own.pose.position, near);
       nearOf = face.box;
     }
     found.clear();
-    const double size = std::sqrt(face.across.squaredNorm() + face.along.squaredNorm());
-    for (const std::size_t box : near) {
-      const Vec3 to = boxes[box].pose.position - face.centre;
-      const double most = reaches[box] + size;
-      if (face.normal.dot(to) <= -radius || to.squaredNorm() > most * most) {
-        continue;
-      }
-      Candidate candidate = candidateOf(boxes[box], areas[box], face);
-      if (candidate.covers > least) {
-        candidate.box = box;
-        found.push_back(candidate);
-      }
-    }
+    surroundings.find(face, static_cast<float>(least), found);
     const auto coversMore = [](const Candidate& a, const Candidate& b) {
       return a.covers != b.covers ? a.covers > b.covers : a.box < b.box;
     };
@@ -199,10 +245,12 @@ Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace
       std::sort(found.begin(), found.end(), coversMore);
       keepOneOfEachBody(found, boxes);
     } else {
-      const std::size_t enough = std::min(found.size(), kMostNear + kMostFar + 1);
-      std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(enough), found.end(),
-                        coversMore);
-      found.resize(enough);
+      const auto enough = static_cast<std::ptrdiff_t>(std::min(found.size(), kMostNear + kMostFar + 1));
+      if (found.begin() + enough != found.end()) {
+        std::nth_element(found.begin(), found.begin() + enough, found.end(), coversMore);
+        found.erase(found.begin() + enough, found.end());
+      }
+      std::sort(found.begin(), found.end(), coversMore);
     }
     Neighbors::List list{.begin = neighbors.entries.size()};
     list.near =

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "core/error.h"
 #include "render/gl/gl.h"
@@ -20,21 +21,21 @@ constexpr double kFarPixels = 40;    // [px] at least, for the map of what is fa
 constexpr double kBlended = 0.6;     // [1] of that distance, from where the near part fades
 constexpr double kEverywhere = 1e9;  // [m]
 
-// Squares of the distances from a box's centre between which its near part becomes its far part.
-struct Split {
-  double from = 0;
-  double to = 0;
+// How a box counts.
+struct Part {
+  double from = 0;  // [m2] squares of the distances from its centre between which its near part becomes its
+  double to = 0;    // far part
+  double share = 1;
 };
 
-Split splitOf(const DrawnBox& box, const OcclusionView& view) {
+Part partOf(const DrawnBox& box, double share, const OcclusionView& view) {
   const double pixel = view.pixelAngle * (box.pose.position - view.eye).norm();
-  const double to =
-      view.leastOnly ? kEverywhere : std::max(kFarSize * box.halfExtents.norm(), kFarPixels * pixel);
-  return {.from = kBlended * kBlended * to * to, .to = to * to};
+  const double to = share < 1 ? kEverywhere : std::max(kFarSize * box.halfExtents.norm(), kFarPixels * pixel);
+  return {.from = kBlended * kBlended * to * to, .to = to * to, .share = share};
 }
 
 void appendDecal(Decals& decals, const std::vector<Vec3>& outline, const DrawnBox& box,
-                 const Surface& surface, const Vec3& eye, const Split& split) {
+                 const Surface& surface, const Vec3& eye, const Part& part) {
   const Mat3 bodyFromWorld = box.pose.worldFromBody.transpose();
   const Vec3 normal = bodyFromWorld * surface.normal;
   for (const Vec3& corner : outline) {
@@ -43,10 +44,32 @@ void appendDecal(Decals& decals, const std::vector<Vec3>& outline, const DrawnBo
     append(decals.vertices, normal);
     append(decals.vertices, box.halfExtents);
     append(decals.vertices, box.returned);
-    decals.vertices.push_back(static_cast<float>(split.from));
-    decals.vertices.push_back(static_cast<float>(split.to));
+    decals.vertices.push_back(static_cast<float>(part.from));
+    decals.vertices.push_back(static_cast<float>(part.to));
+    decals.vertices.push_back(static_cast<float>(part.share));
   }
   decals.addFan(outline.size());
+}
+
+// [1] Of each box what it counts beside other copies of its body: where n are in the same place, 1 / n each.
+std::vector<double> sharesOf(std::span<const DrawnBox> boxes) {
+  std::vector<std::vector<std::size_t>> copies;  // of each body
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    copies.resize(std::max(copies.size(), boxes[i].body + 1));
+    copies[boxes[i].body].push_back(i);
+  }
+  std::vector<double> shares(boxes.size(), 1);
+  for (const std::vector<std::size_t>& each : copies) {
+    for (const std::size_t a : each) {
+      double same = 0;  // itself included
+      for (const std::size_t b : each) {
+        const double apart = (boxes[a].pose.position - boxes[b].pose.position).norm();
+        same += a == b ? 1 : std::max(0.0, 1 - apart / (2 * boxes[a].halfExtents.norm()));
+      }
+      shares[a] = 1 / same;
+    }
+  }
+  return shares;
 }
 
 }  // namespace
@@ -79,9 +102,11 @@ OcclusionMap::OcclusionMap(const Gl& gl, const std::filesystem::path& shaders, i
       near_(gl, (width + kNearWidth - 1) / kNearWidth, (height + kNearWidth - 1) / kNearWidth),
       far_(gl, (width + kFarWidth - 1) / kFarWidth, (height + kFarWidth - 1) / kFarWidth),
       array_(makeVertexArray(gl)),
-      vertices_(gl, {{0, 3}, {1, 3}, {2, 3}, {3, 3}, {4, 3}, {5, 2}}, VertexBuffer::Step::kVertex),
+      vertices_(gl, {{0, 3}, {1, 3}, {2, 3}, {3, 3}, {4, 3}, {5, 3}}, VertexBuffer::Step::kVertex),
       indices_(gl),
-      nearProgram_(linkProgram(gl, shaders, {"occlusion.vert", "occlusion.frag"})),
+      nearProgram_(linkProgram(gl, shaders, {"occlusion.vert", "occlusion.frag", "occlusion_of_box.frag"})),
+      copiesProgram_(
+          linkProgram(gl, shaders, {"occlusion.vert", "occlusion.frag", "occlusion_of_copy.frag"})),
       farProgram_(linkProgram(gl, shaders, {"occlusion.vert", "far_occlusion.frag"})),
       copyArray_(makeVertexArray(gl)),
       copyProgram_(linkProgram(gl, shaders, {"far_part.vert", "far_part.frag"})) {}
@@ -89,13 +114,16 @@ OcclusionMap::OcclusionMap(const Gl& gl, const std::filesystem::path& shaders, i
 void OcclusionMap::place(std::span<const DrawnBox> boxes, std::span<const Surface> surfaces,
                          const OcclusionView& view, const HiddenTiles& hidden, PictureCells& cells) {
   Decals decals;
+  std::vector<std::uint32_t> farTriangles;
   std::vector<std::uint32_t> nearTriangles;
-  leastOnly_ = view.leastOnly;
+  std::vector<std::uint32_t> copyTriangles;
+  const std::vector<double> shares = sharesOf(boxes);
   for (const Surface& surface : surfaces) {
     if (surface.normal.dot(view.eye - surface.outline[0]) <= 0) {
       continue;
     }
-    for (const DrawnBox& box : boxes) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const DrawnBox& box = boxes[i];
       if (!box.marked) {
         continue;
       }
@@ -104,21 +132,30 @@ void OcclusionMap::place(std::span<const DrawnBox> boxes, std::span<const Surfac
         continue;
       }
       cells.mark(outline);
-      const Split split = splitOf(box, view);
-      const std::vector<Vec3> near = occlusionOutline(box, surface, view.least, std::sqrt(split.to));
-      if (!near.empty()) {
-        decals.triangles.swap(nearTriangles);
-        appendDecal(decals, near, box, surface, view.eye, split);
-        decals.triangles.swap(nearTriangles);
+      const Part part = partOf(box, shares[i], view);
+      const auto append = [&](const std::vector<Vec3>& within, std::vector<std::uint32_t>& triangles) {
+        decals.triangles.swap(triangles);
+        appendDecal(decals, within, box, surface, view.eye, part);
+        decals.triangles.swap(triangles);
+      };
+      if (part.share < 1) {
+        append(outline, copyTriangles);
+        continue;
       }
-      if (!view.leastOnly) {
-        appendDecal(decals, outline, box, surface, view.eye, split);
+      append(outline, farTriangles);
+      const std::vector<Vec3> near = occlusionOutline(box, surface, view.least, std::sqrt(part.to));
+      if (!near.empty()) {
+        append(near, nearTriangles);
       }
     }
   }
-  farIndices_ = decals.triangles.size();
-  decals.triangles.insert(decals.triangles.end(), nearTriangles.begin(), nearTriangles.end());
-  allIndices_ = decals.triangles.size();
+  std::vector<std::uint32_t>& all = decals.triangles;
+  for (const auto& [triangles, end] :
+       {std::pair(&farTriangles, &farEnd_), std::pair(&nearTriangles, &nearEnd_),
+        std::pair(&copyTriangles, &copiesEnd_)}) {
+    all.insert(all.end(), triangles->begin(), triangles->end());
+    *end = all.size();
+  }
   gl_.BindVertexArray(array_);
   vertices_.fill(decals.vertices);
   indices_.fill(decals.triangles);
@@ -132,7 +169,6 @@ void OcclusionMap::begin(const Target& target) const {
 
 void OcclusionMap::drawDecals(unsigned program, std::size_t from, std::size_t to) const {
   gl_.Enable(GL_BLEND);
-  gl_.BlendEquation(leastOnly_ ? GL_MIN : GL_FUNC_ADD);
   gl_.BlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
   gl_.DepthMask(GL_FALSE);
   gl_.Disable(GL_CULL_FACE);
@@ -143,7 +179,6 @@ void OcclusionMap::drawDecals(unsigned program, std::size_t from, std::size_t to
   gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(to - from), GL_UNSIGNED_INT, first);
   gl_.Enable(GL_CULL_FACE);
   gl_.DepthMask(GL_TRUE);
-  gl_.BlendEquation(GL_FUNC_ADD);
   gl_.Disable(GL_BLEND);
 }
 
@@ -152,7 +187,7 @@ void OcclusionMap::beginFar() const { begin(far_); }
 void OcclusionMap::drawFar() const {
   gl_.ClearColor(1, 1, 1, 1);  // what was drawn before has colours, too
   gl_.Clear(GL_COLOR_BUFFER_BIT);
-  drawDecals(farProgram_, 0, farIndices_);
+  drawDecals(farProgram_, 0, farEnd_);
 }
 
 void OcclusionMap::beginNear() const { begin(near_); }
@@ -164,7 +199,10 @@ void OcclusionMap::drawNear() const {
   gl_.BindVertexArray(copyArray_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   gl_.Enable(GL_DEPTH_TEST);
-  drawDecals(nearProgram_, farIndices_, allIndices_);
+  drawDecals(nearProgram_, farEnd_, nearEnd_);
+  if (copiesEnd_ > nearEnd_) {
+    drawDecals(copiesProgram_, nearEnd_, copiesEnd_);
+  }
 }
 
 void OcclusionMap::bind() const { gl_.BindTexture(GL_TEXTURE_2D, near_.texture); }

@@ -17,14 +17,12 @@ struct OcclusionView {
   Vec3 eye = Vec3::Zero();  ///< [m]
   double pixelAngle = 0;    ///< [rad]
   double least = 0;         ///< [1] boxes that cover no more of what a point sees are left out
-  /// Where a body is shown at several moments: at each point the box that covers most counts, and no other
-  /// one.
-  bool leastOnly = false;
 };
 
-/// The part of ambient light that boxes leave to floor and walls: the product over boxes, or the least of
-/// all. Near a box it is drawn at half the picture's width and height; far from it, where it varies little,
-/// at an eighth.
+/// The part of ambient light that boxes leave to floor and walls: the product over boxes. Copies of a body
+/// that is shown at several moments cover as much as so many boxes side by side, at most: what they share
+/// counts once. Near a box the map is drawn at half the picture's width and height; far from it, where it
+/// varies little, at an eighth.
 class OcclusionMap {
  public:
   /// Size of the picture [px].
@@ -60,12 +58,13 @@ class OcclusionMap {
   VertexBuffer vertices_;
   IndexBuffer indices_;
   unsigned nearProgram_;
+  unsigned copiesProgram_;
   unsigned farProgram_;
   unsigned copyArray_;
   unsigned copyProgram_;
-  std::size_t farIndices_ = 0;  // the first ones
-  std::size_t allIndices_ = 0;
-  bool leastOnly_ = false;
+  std::size_t farEnd_ = 0;  // of indices
+  std::size_t nearEnd_ = 0;
+  std::size_t copiesEnd_ = 0;
 };
 
 }  // namespace careen

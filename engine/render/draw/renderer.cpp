@@ -32,6 +32,9 @@ namespace {
 
 constexpr double kShrunk = 3;  // [px] boxes in the map of occlusion, whose pixels reach so far
 
+// [1] Width of the curve of shadow.frag that has the variance of a disc, of that disc: sqrt(5) / 2.
+constexpr double kCurveOfDisc = 1.118033988749895;
+
 constexpr double kSnapped = 0.02;       // [px] GL rounds corners by less
 constexpr std::size_t kManyBoxes = 20;  // which hide so many faces that finding them pays
 
@@ -166,7 +169,7 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
                                 leastOcclusion(world.bodies.size()), 1.0 / canvas.drawnWidth()),
                            1.0 / canvas.drawnHeight());
   if (lighting.light) {
-    block.towardsLight = floats(lighting.light->towards.normalized(), lighting.light->spread);
+    block.towardsLight = floats(lighting.light->towards.normalized(), kCurveOfDisc * lighting.light->spread);
     block.lightColor = floats(lighting.light->color);
   }
   checkGl(gl, "preparing to draw");
@@ -204,7 +207,7 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
   FaceShadows cast{.pairs = {}, .isDark = std::vector<bool>(faces.size())};
   const Vec3 towards = lighting.light ? Vec3(lighting.light->towards.normalized()) : Vec3(Vec3::UnitZ());
   if (shadows) {
-    const ShadowLight light{.towards = towards, .spread = lighting.light->spread};
+    const ShadowLight light{.towards = towards, .spread = kCurveOfDisc * lighting.light->spread};
     LightPlane plane(light.towards, drawn);
     cast = shadowsOnFaces(plane, drawn, faces, view.eye, light.spread, pixel);
     shadowBatch->place(drawn, surfaces.surfaces(), light, view.eye, pixel, hidden, shadedCells);
@@ -227,11 +230,7 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
       neighbors = neighborsOf(drawn, faces, leastOnBoxes(world.bodies.size()));
     }
     if (occlusionMap) {
-      const auto shown =
-          std::count_if(drawn.begin(), drawn.end(), [](const DrawnBox& box) { return box.marked; });
-      const bool hasCopies = static_cast<std::size_t>(shown) > world.bodies.size();
-      occlusionMap->place(drawn, surfaces.surfaces(),
-                          {.eye = view.eye, .pixelAngle = pixel, .least = least, .leastOnly = hasCopies},
+      occlusionMap->place(drawn, surfaces.surfaces(), {.eye = view.eye, .pixelAngle = pixel, .least = least},
                           hidden, occludedCells);
     }
   }

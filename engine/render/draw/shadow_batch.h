@@ -15,7 +15,7 @@ struct Gl;
 /// A light of finite size.
 struct ShadowLight {
   Vec3 towards = Vec3::UnitZ();  ///< unit
-  double spread = 0;             ///< tangent of half its angle
+  double spread = 0;             ///< [1] how wide penumbras are on each side of an edge, of the distance
 };
 
 /// Shadows of boxes on floor and walls, each of which keeps off a part of what the others leave.

@@ -23,8 +23,8 @@ struct FaceShadows {
 };
 
 /// All boxes whose shadow, penumbra included, may reach these faces, but for those whose share the others
-/// keep off anyway. `spread` is the tangent of half the light's angle; `pixelAngle` [rad] widens what is
-/// narrower than a pixel.
+/// keep off anyway. `spread` [1] is how wide penumbras are on each side of an edge, of the distance;
+/// `pixelAngle` [rad] widens what is narrower than a pixel.
 FaceShadows shadowsOnFaces(LightPlane& light, std::span<const DrawnBox> boxes,
                            std::span<const DrawnFace> faces, const Vec3& eye, double spread,
                            double pixelAngle);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <tuple>
 
 #include "render/overlay/frame.h"
 
@@ -22,7 +23,7 @@ constexpr std::size_t kCornerFollowed = 0;        // the corner at +x +y +z
 template <class Vector>
 void addArrows(OverlayShapes& shapes, const OverlayFrame& frame, double largest, const Color& color,
                Vector vectorOf) {
-  for (std::size_t body = 0; body < frame.states.size(); ++body) {
+  for (const std::size_t body : frame.farthestFirst) {
     const Vec3& centre = frame.states[body].pose.position;
     if (const std::optional<Stroke> arrow = arrowFor(frame, centre, vectorOf(body), largest, color)) {
       shapes.emplace_back(*arrow);
@@ -233,6 +234,16 @@ std::optional<Stroke> arrowFor(const OverlayFrame& frame, const Vec3& point, con
                 .ink = {color, 1}};
 }
 
+std::vector<std::size_t> farthestFirst(const Screen& screen, std::span<const Vec3> places) {
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) {
+    return std::tuple(-screen.depth(places[i]), places[i].x(), places[i].y(), places[i].z());
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return order;
+}
+
 Plate plateFor(const OverlayStyle& style, const Vec2& min, const Vec2& max) {
   return {.min = min.array().round(),
           .max = max.array().round(),
@@ -241,7 +252,7 @@ Plate plateFor(const OverlayStyle& style, const Vec2& min, const Vec2& max) {
 }
 
 void addTrails(OverlayShapes& shapes, const OverlayFrame& frame) {
-  for (std::size_t body = 0; body < frame.states.size(); ++body) {
+  for (const std::size_t body : frame.farthestFirst) {
     if (!isImmovable(frame.trajectory.world.bodies[body].mass) && !isResting(frame, body)) {
       addTrail(shapes, frame, body);
     }
@@ -260,7 +271,7 @@ void addAngularMomenta(OverlayShapes& shapes, const OverlayFrame& frame) {
 
 void addSpinAxes(OverlayShapes& shapes, const OverlayFrame& frame) {
   // The axis continues backwards as a thin line to show that it passes through the centre.
-  for (std::size_t body = 0; body < frame.states.size(); ++body) {
+  for (const std::size_t body : frame.farthestFirst) {
     const Vec3& centre = frame.states[body].pose.position;
     std::optional<Stroke> back =
         arrowFor(frame, centre, -spinOf(frame, body), frame.scales.angularSpeed, kMoss);
@@ -275,18 +286,14 @@ void addSpinAxes(OverlayShapes& shapes, const OverlayFrame& frame) {
 }
 
 void addNames(OverlayShapes& shapes, const OverlayFrame& frame) {
-  std::vector<std::size_t> nearestFirst(frame.states.size());
-  std::iota(nearestFirst.begin(), nearestFirst.end(), std::size_t{0});
-  const auto depth = [&](std::size_t body) { return frame.screen.depth(frame.states[body].pose.position); };
-  std::stable_sort(nearestFirst.begin(), nearestFirst.end(),
-                   [&](std::size_t a, std::size_t b) { return depth(a) < depth(b); });
   std::vector<Plate> taken;
   for (const OverlayShape& shape : shapes) {  // the panels' plates are fixed
     if (const Plate* const plate = std::get_if<Plate>(&shape)) {
       taken.push_back(*plate);
     }
   }
-  for (const std::size_t body : nearestFirst) {
+  for (auto it = frame.farthestFirst.rbegin(); it != frame.farthestFirst.rend(); ++it) {
+    const std::size_t body = *it;
     const bool isGiven = frame.trajectory.world.bodies[body].name != "box-" + std::to_string(body);
     if (isGiven || frame.states.size() <= kMostNames) {
       addName(shapes, frame, body, taken);

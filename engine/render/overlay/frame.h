@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +34,7 @@ struct OverlayFrame {
   double time = 0;          ///< [s]
   double frameSeconds = 0;  ///< [s] from one frame of the film to the next
   const std::vector<BodyState>& states;
+  const std::vector<std::size_t>& farthestFirst;  ///< bodies: what is nearer is drawn over what is behind it
   const OverlayScales& scales;
   const OverlayFonts* fonts = nullptr;  ///< non-null if there is text
   const EnergyBook* energy = nullptr;   ///< non-null if the energy is shown
@@ -68,6 +71,10 @@ inline constexpr double kTrailSeconds = 1.5;
 /// An arrow for a vector at a world point; nullopt if it is too short to be seen or behind the camera.
 std::optional<Stroke> arrowFor(const OverlayFrame& frame, const Vec3& point, const Vec3& vector,
                                double largest, const Color& color);
+
+/// Indices of these places [m], from the farthest from the camera to the nearest, whatever order they come
+/// in.
+std::vector<std::size_t> farthestFirst(const Screen& screen, std::span<const Vec3> places);
 
 /// A dark plate as background of text; corners at whole pixels.
 Plate plateFor(const OverlayStyle& style, const Vec2& min, const Vec2& max);

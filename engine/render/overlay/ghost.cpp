@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <string>
 
@@ -132,9 +133,12 @@ void addGhost(OverlayShapes& shapes, const OverlayFrame& frame) {
     return;
   }
   const std::vector<Pair> pairs = pairsOf(frame);
-  for (const Pair& pair : pairs) {
-    addOutline(shapes, frame, pair);
-    addWay(shapes, frame, pair);
+  std::vector<Vec3> centres;
+  std::transform(pairs.begin(), pairs.end(), std::back_inserter(centres),
+                 [](const Pair& pair) { return pair.pose.position; });
+  for (const std::size_t i : farthestFirst(frame.screen, centres)) {
+    addOutline(shapes, frame, pairs[i]);
+    addWay(shapes, frame, pairs[i]);
   }
   addPanel(shapes, frame, textOf(frame, pairs));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace careen {
 namespace {
@@ -74,10 +75,15 @@ Overlays::Overlays(const Trajectory& trajectory, const OverlaySet& shown, double
 OverlayShapes Overlays::shapesAt(double time, const View& view, int width, int height) const {
   const std::vector<BodyState> states = statesAt(trajectory_, time);
   const Screen screen(view, width, height);
+  std::vector<Vec3> centres;
+  std::transform(states.begin(), states.end(), std::back_inserter(centres),
+                 [](const BodyState& state) { return state.pose.position; });
+  const std::vector<std::size_t> order = farthestFirst(screen, centres);
   const OverlayFrame frame{.trajectory = trajectory_,
                            .time = time,
                            .frameSeconds = frameSeconds_,
                            .states = states,
+                           .farthestFirst = order,
                            .scales = scales_,
                            .fonts = fonts_ ? &*fonts_ : nullptr,
                            .energy = energy_ ? &*energy_ : nullptr,

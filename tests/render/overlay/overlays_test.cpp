@@ -142,6 +142,28 @@ TEST_F(OverlaysTest, contactIsMarkedWithItsNormal) {
   EXPECT_TRUE(shapesAt("contacts", 0.9).empty());
 }
 
+// Arrows and trails of nearer boxes lie over those of farther ones, whatever the order of the boxes.
+TEST_F(OverlaysTest, whatIsNearerIsDrawnOverWhatIsBehind) {
+  for (const bool isFarther : {true, false}) {
+    scene_ = roomStraightOn();
+    scene_.boxes.push_back(boxAt(Vec3(0.5, isFarther ? 1 : -1, 1), Vec3(0.1, 0.1, 0.1)));
+    scene_.boxes.back().name = "other";
+    run_ = drifting(scene_, Vec3(1, 0, 0.5));
+    run_.tracks.push_back(run_.tracks[0]);
+    std::get<EulerStep>(run_.tracks[1].segments[0].motion).start.pose = scene_.boxes[1].pose;
+    const Vec2 other = onPicture(scene_.boxes[1].pose.position);
+    const std::vector<Stroke> found = arrows("velocity", 0);
+    ASSERT_EQ(found.size(), 2U);
+    expectNear(found[isFarther ? 0 : 1].from, other);
+    const std::vector<Ribbon> trails = only<Ribbon>(shapesAt("trail", 1));
+    ASSERT_EQ(trails.size(), 4U);
+    const auto length = [](const Ribbon& ribbon) {
+      return (ribbon.points.back().at - ribbon.points.front().at).norm();
+    };
+    EXPECT_LT(length(trails[0]), length(trails[3]));  // as seen in perspective
+  }
+}
+
 // How strong a point of a trail is tells its time: there and then the corner was.
 TEST_F(OverlaysTest, trailGoesThroughTheCornersPlaces) {
   scene_.duration = 3;
