@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -74,6 +75,8 @@ class ImplicitStep {
   double residual() const { return residual_; }
   /// Factorisations so far, each times the bodies and contacts in it: the cost.
   double work() const { return work_; }
+  /// From here on so much may be spent; then NumericalError is thrown.
+  void limitWork(double most) { mostWork_ = work_ + most; }
   /// Of the problems solved since it was last asked.
   ContactResiduals takeResiduals() { return solver_.takeResiduals(); }
 
@@ -134,6 +137,7 @@ class ImplicitStep {
   double residual_ = 0;  // [m/s]
   bool isLastResort_ = false;
   double work_ = 0;
+  double mostWork_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace careen

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "core/error.h"
 #include "core/math/order_free_sum.h"
 #include "physics/contact/implicit_step.h"
 #include "physics/contact/three_at.h"
@@ -177,6 +179,9 @@ bool ImplicitStep::solve(double enough) {
   solution_.enough = enough;
   const bool solved = solver_.solve(problem_, solution_);
   work_ += solution_.factorisations * static_cast<double>(movers_.size() + problem_.contacts.size());
+  if (work_ > mostWork_) {
+    throw NumericalError("a step of " + std::to_string(movers_.size()) + " bodies in contact costs too much");
+  }
   return solved;
 }
 

@@ -194,13 +194,13 @@ bool Island::stop() {
   return stopped;
 }
 
-Island::Step Island::step(double most) {
+Island::Step Island::step(double most, double mostWork) {
+  mostWork_ = mostWork;
   start_ = end_;
   if (!smooth_ || timeStepsLeft_ > 0) {
     return takeTimeStep(most);
   }
   tookTimeStep_ = false;
-  work_ = 0;
   stepper_.reset();
   if (known_) {
     startRate_ = endRate_;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -60,8 +61,9 @@ class Island {
     End end = End::kGoesOn;
   };
   /// One step of at most `most` [s]: afterwards bodies() holds the states at its end and motion() the motion
-  /// during it.
-  Step step(double most);
+  /// during it. Throws NumericalError where a time step has no solution, or none for so much work(); the
+  /// island is of no use then.
+  Step step(double most, double mostWork = std::numeric_limits<double>::infinity());
   /// Cuts the last step to `length` [s] from its start; the contacts stay unchanged.
   void cutTo(double length);
 
@@ -73,9 +75,9 @@ class Island {
   ContactStep motion(std::size_t body) const { return motion(body, length_); }
   /// [m] deepest penetration at the end of a step.
   double deepest() const { return deepest_; }
-  /// Cost of the last step, if it was a time step: contacts and bodies in factorisations, and geometry, whose
-  /// cost for a body is that of about sixty.
-  double work() const { return work_; }
+  /// Cost of the last step, or of that which ended with NumericalError, if it was a time step: contacts and
+  /// bodies in factorisations, and geometry, whose cost for a body is that of about sixty.
+  double work() const;
   /// Of the contact problems solved since it was last asked.
   ContactResiduals takeResiduals();
   /// Whether the last step may have dissipated energy: by friction, or because it was a time step.
@@ -179,7 +181,8 @@ class Island {
   std::vector<std::pair<std::size_t, double>> dips_;  // of an event function: of which motion, deepWithin()
   std::unique_ptr<TimeStepper> stepper_;
   double deepest_ = 0;
-  double work_ = 0;
+  double workBefore_ = 0;
+  double mostWork_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace careen

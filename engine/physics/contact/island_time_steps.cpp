@@ -37,9 +37,8 @@ Island::Step Island::takeTimeStep(double most) {
     stepper_ = std::make_unique<TimeStepper>(world_, bodies(), tolerance_);
     timeStepsLeft_ = std::max(timeStepsLeft_, kFewTimeSteps);
   }
-  const double before = stepper_->equations().work();
-  Step done{.length = stepper_->step(most)};
-  work_ = stepper_->equations().work() - before + kWorkOfGeometry * static_cast<double>(bodies().size());
+  workBefore_ = stepper_->equations().work();
+  Step done{.length = stepper_->step(most, mostWork_)};
   --timeStepsLeft_;
   ++timeStepsTaken_;
   adopt();
@@ -48,6 +47,12 @@ Island::Step Island::takeTimeStep(double most) {
     done.end = End::kChanges;
   }
   return done;
+}
+
+double Island::work() const {
+  return tookTimeStep_ ? stepper_->equations().work() - workBefore_ +
+                             kWorkOfGeometry * static_cast<double>(bodies().size())
+                       : 0;
 }
 
 // Takes over the state at the end of a time step.

@@ -217,7 +217,8 @@ TimeStepper::Attempt TimeStepper::attempt(double& h, double shortest) {
   return Attempt::kDone;
 }
 
-double TimeStepper::step(double most) {
+double TimeStepper::step(double most, double mostWork) {
+  equations_.limitWork(mostWork);
   start_ = end_;
   jolted_ = false;
   impacts_.clear();
@@ -244,6 +245,7 @@ double TimeStepper::step(double most) {
       }
     }
   }
+  equations_.limitWork(std::numeric_limits<double>::infinity());
   shortenJolt(h);
   length_ = h;
   keepImpacts();

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "physics/contact/contact_feature.h"
@@ -35,8 +36,8 @@ class TimeStepper {
   TimeStepper(const World& world, const std::vector<TouchingBody>& bodies, double tolerance);
 
   /// Takes one step, at most so long [s], and returns its length. Throws NumericalError if no impulses were
-  /// found however short the step.
-  double step(double most);
+  /// found however short the step, or not for so much of ImplicitStep::work(); it is of no use then.
+  double step(double most, double mostWork = std::numeric_limits<double>::infinity());
   /// Cuts the last step to `length` [s] from its start.
   void cutTo(double length);
   /// [s] of the last step.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -46,18 +47,18 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
   return moves && movable > most;
 }
 
-// Afterwards, where they would go on in contact: whether they have spent the work that they may.
-bool ExactWorld::hasSpent(const Encounter& encounter) const {
-  if (crowds_.when == CrowdSettings::When::kNever || encounter.islands.empty()) {
-    return false;
+// Of what these bodies may spend on contact together; negative where they must go on as a crowd.
+double ExactWorld::workLeft(std::span<const int> ranks, const Instant& time) const {
+  if (crowds_.when == CrowdSettings::When::kNever) {
+    return std::numeric_limits<double>::infinity();
   }
   double left = 0;
-  for (const int rank : encounter.ranks) {
+  for (const int rank : ranks) {
     if (!mover(rank).isHeld()) {
-      left += workShare_ * (kWorkAtOnce + kWorkPerSecond * encounter.time.hi) - mover(rank).work;
+      left += workShare_ * (kWorkAtOnce + kWorkPerSecond * time.hi) - mover(rank).work;
     }
   }
-  return left < 0;
+  return left;
 }
 
 // ---- Members.

@@ -62,7 +62,7 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
     movable += mover.isHeld() ? 0 : 1;
   }
   const double part = std::min(1.0, kMostUnshared / std::max(1.0, movable));
-  workShare_ = part * part * part * part * std::sqrt(std::max(1.0, kUsualTolerance / tolerance_));
+  workShare_ = part * part * std::sqrt(std::max(1.0, kUsualTolerance / tolerance_));
   for (const Spring& spring : world.springs) {
     for (const SpringEnd* end : {&spring.from, &spring.to}) {
       const SpringEnd& other = end == &spring.from ? spring.to : spring.from;
@@ -140,7 +140,7 @@ void ExactWorld::happen(const Event& event) {
       formCrowd(encounter);
       return;
     }
-    if (hasSpent(encounter)) {
+    if (!encounter.islands.empty() && workLeft(encounter.ranks, encounter.time) < 0) {
       formCrowd(encounter);
       return;
     }
@@ -241,12 +241,18 @@ bool ExactWorld::step(ContactGroup& contactGroup, const Instant& time) {
     movable += body.isHeld() ? 0 : 1;
   }
   const std::vector<TouchingBody> before = island.bodies();
+  const auto spend = [&] {
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      mover(contactGroup.ranks[i]).work += before[i].isHeld() ? 0 : island.work() / movable;
+    }
+  };
   try {
-    contactGroup.step = island.step(most);
+    contactGroup.step = island.step(most, workLeft(contactGroup.ranks, time));
   } catch (const NumericalError&) {
     if (crowds_.when == CrowdSettings::When::kNever) {
       throw;
     }
+    spend();
     Encounter encounter;
     encounter.time = time;
     for (std::size_t i = 0; i < before.size(); ++i) {
@@ -257,10 +263,10 @@ bool ExactWorld::step(ContactGroup& contactGroup, const Instant& time) {
     formCrowd(encounter);
     return false;
   }
+  spend();
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (!before[i].isHeld()) {
       account_.departs(static_cast<std::size_t>(before[i].index), before[i].state());
-      mover(contactGroup.ranks[i]).work += island.work() / movable;
     }
   }
   return true;

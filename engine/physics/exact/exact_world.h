@@ -36,13 +36,13 @@ class ExactWorld {
 
   /// Island::work() that bodies may spend together before they go on as a crowd: each so much at once, and so
   /// much per simulated second; at a tolerance below 1e-6 m more, as steps get shorter; of more than
-  /// kMostUnshared bodies in the scene each less, as the fourth power: a heap costs more per body the larger
-  /// it is, so that 128 poured boxes would spend 20 s on their first 1.3 s in contact. A unit takes about 0.3
-  /// to 1 µs. Counted, not timed, so that the motion is the same on every machine, and independent of when
-  /// the run ends.
+  /// kMostUnshared bodies in the scene each less, as the square: a heap costs more per body the larger it is,
+  /// so that 72 poured boxes would spend 36 s on their first 2 s, and chaos makes what is exact of a heap
+  /// worth no more. A unit takes about 0.2 to 1 µs. Counted, not timed, so that the motion is the same on
+  /// every machine, and independent of when the run ends.
   static constexpr double kWorkAtOnce = 6e5;
   static constexpr double kWorkPerSecond = 5e4;
-  static constexpr double kMostUnshared = 72;
+  static constexpr double kMostUnshared = 16;
   /// Of more bodies in contact, time steps cost so much that it does not pay to begin.
   static constexpr int kMostInContact = 100;
 
@@ -88,7 +88,7 @@ class ExactWorld {
 
   // Crowds.
   bool goesOnAsCrowd(const Encounter& encounter) const;
-  bool hasSpent(const Encounter& encounter) const;
+  double workLeft(std::span<const int> ranks, const Instant& time) const;
   void formCrowd(const Encounter& encounter);
   void enlist(const std::shared_ptr<ContactGroup>& crowd, int rank, const Instant& time,
               const BodyState& state, const Quat& attitude);

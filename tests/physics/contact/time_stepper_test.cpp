@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "physics/geometry/separation.h"
 #include "support/exact_runs.h"
 
@@ -40,6 +41,19 @@ World floorWith(double friction, double restitution) {
                          .offset = 0,
                          .material = {.restitution = restitution, .friction = friction}});
   return world;
+}
+
+TEST(TimeStepper, givesUpAStepThatCostsMoreThanItMay) {
+  World world = floorWith(0.5, 0);
+  world.bodies.push_back(
+      box("cube", Vec3(0.1, 0.1, 0.1), 1, Vec3(0, 0, 0.1), Vec3(1, 0, 0), Vec3::Zero(), 0));
+  const std::vector<TouchingBody> bodies = touching(world);
+  TimeStepper sliding(world, bodies, kTolerance);
+  EXPECT_GT(sliding.step(0.01), 0);
+  const double cost = sliding.equations().work();
+  EXPECT_GE(cost, 5);  // a body and its four corners
+  EXPECT_NO_THROW(TimeStepper(world, bodies, kTolerance).step(0.01, cost));
+  EXPECT_THROW(TimeStepper(world, bodies, kTolerance).step(0.01, cost - 1), NumericalError);
 }
 
 // Falls 0.2 m in 0.2 s, lands flat at 2 m/s and leaves with e times that.
