@@ -37,7 +37,6 @@ namespace {
 constexpr double kDisagreement = 2;   // factor between the audit's figure and the method's own
 constexpr double kAgreement = 1e-12;  // figures below are rounding
 constexpr double kCheapPart = 0.1;    // of the run: the largest cost of an estimate by default
-constexpr int kMostSharing = 64;      // threads
 
 // Scene file and command line differ: tell the user which one counts.
 template <class T>
@@ -106,10 +105,10 @@ std::uint64_t limitOf(const Overrides& overrides) {
 }
 
 int threadsOf(const Overrides& overrides) {
-  const int threads = overrides.threads.value_or(std::min(usableCores(), kMostSharing));
-  if (threads < 1 || threads > kMostSharing) {
+  const int threads = overrides.threads.value_or(std::min(usableCores(), kMostThreadsOfCrowds));
+  if (threads < 1 || threads > kMostThreadsOfCrowds) {
     throw InputError("--threads: found " + std::to_string(threads) + ", expected 1 to " +
-                     std::to_string(kMostSharing));
+                     std::to_string(kMostThreadsOfCrowds));
   }
   return threads;
 }

@@ -35,7 +35,7 @@ Scene sceneOf(const py::object& scene) {
 }
 
 Run simulate(const py::object& given, const std::optional<std::string>& method,
-             std::optional<double> tolerance) {
+             std::optional<double> tolerance, int threads) {
   Scene scene = sceneOf(given);
   if (method) {
     scene.method(*method);
@@ -43,6 +43,7 @@ Run simulate(const py::object& given, const std::optional<std::string>& method,
   if (tolerance) {
     scene.tolerance(*tolerance);
   }
+  scene.threads(threads);
   const py::gil_scoped_release unlocked;
   return Run(scene);
 }
@@ -213,9 +214,10 @@ PYBIND11_MODULE(careen, module) {
            "Writes the run as a file that careen render and careen.read_run take.");
   module.def(
       "simulate", &simulate, py::arg("scene"), py::kw_only(), py::arg("method") = py::none(),
-      py::arg("tolerance") = py::none(),
+      py::arg("tolerance") = py::none(), py::arg("threads") = 1,
       "Simulates a scene: the path of a scene file, or a dictionary with the same keys. method (str) and "
-      "tolerance [m] replace those of the scene. SceneError says what is wrong with a scene, and where.");
+      "tolerance [m] replace those of the scene; threads share the steps of large crowds, and nothing but "
+      "the time depends on them. SceneError says what is wrong with a scene, and where.");
   module.def("read_run", &Run::read, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
              "Reads a run that Run.save or careen simulate wrote.");
 }

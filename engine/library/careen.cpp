@@ -141,6 +141,15 @@ Scene& Scene::tolerance(double metres) {
   return *this;
 }
 
+Scene& Scene::threads(int count) {
+  if (count < 1 || count > kMostThreadsOfCrowds) {
+    throw Error("found " + std::to_string(count) + " threads, expected 1 to " +
+                std::to_string(kMostThreadsOfCrowds));
+  }
+  threads_ = count;
+  return *this;
+}
+
 std::string Scene::text() const {
   if (!built_) {
     return text_;
@@ -187,7 +196,9 @@ Run::Run(const Scene& scene) {
       checkApart(read);  // the reader checked it for the method in the file
     }
     read.tolerance = scene.tolerance_.value_or(read.tolerance);
-    return std::make_shared<Data>(record(setupOf(read)));
+    RunSetup setup = setupOf(read);
+    setup.settings.threads = scene.threads_;
+    return std::make_shared<Data>(record(std::move(setup)));
   });
 }
 

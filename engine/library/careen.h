@@ -96,6 +96,9 @@ class Scene {
   /// Method ("exact", "listing1" …) and tolerance [m] in place of those of the scene.
   Scene& method(const std::string& name);
   Scene& tolerance(double metres);
+  /// That share the steps of large crowds, 1 to 64; 1 unless said otherwise. Nothing but the time depends on
+  /// it.
+  Scene& threads(int count);
 
   std::string text() const;
   const std::string& name() const { return name_; }
@@ -111,6 +114,7 @@ class Scene {
   std::vector<std::string> walls_;  // likewise
   std::optional<std::string> method_;
   std::optional<double> tolerance_;
+  int threads_ = 1;
 };
 
 struct State {

@@ -227,6 +227,23 @@ TEST_F(Library, methodAndToleranceReplaceThoseOfTheScene) {
             std::string::npos);
 }
 
+TEST_F(Library, threadsOfACrowdChangeNoBit) {
+  Scene pour(0.6);
+  pour.add(Wall{});
+  for (int k = 0; k < 120; ++k) {  // more than go on in exact contact
+    Box box;
+    box.halfExtents = {0.1, 0.1, 0.1};
+    box.position = {0.21 * (k % 6), 0.21 * (k / 6 % 5), 0.15 + 0.25 * (k / 30)};
+    box.angularVelocity = {1, 0.1 * (k % 7), 0};
+    box.friction = 0.5;
+    pour.add(box);
+  }
+  const std::string one = simulate(pour).hash();
+  EXPECT_EQ(simulate(pour.threads(3)).hash(), one);
+  EXPECT_THROW(pour.threads(0), Error);
+  EXPECT_THROW(pour.threads(65), Error);
+}
+
 TEST_F(Library, simulatesInSeveralThreadsAtOnce) {
   std::vector<std::string> alone;
   const std::vector<std::string> names = {"careen", "zeno", "hecker-1997", "housner"};

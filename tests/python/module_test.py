@@ -98,6 +98,7 @@ class Module(unittest.TestCase):
             self.assertRaises(careen.SceneError, careen.simulate, scene)
         self.assertRaises(careen.SceneError, careen.simulate, SCENES / "careen.json", method="guess")
         self.assertRaises(careen.SceneError, careen.simulate, SCENES / "careen.json", tolerance=-1)
+        self.assertRaises(careen.Error, careen.simulate, SCENES / "careen.json", threads=0)
         run = careen.simulate(SCENES / "careen.json")
         self.assertRaises(careen.Error, run.frame, 99)
         self.assertRaises(careen.Error, run.frame, 0, size=(0, 1))

@@ -33,13 +33,15 @@ struct CrowdSettings {
   double tolerance = 3e-4;  ///< [m] of penetration; steps are its root
 };
 
+inline constexpr int kMostThreadsOfCrowds = 64;
+
 struct RunSettings {
   Method method{};          ///< kExact unless said otherwise
   double duration = 0;      ///< [s]
   double dt = 1.0 / 240;    ///< [s] time step of stepping methods
   double tolerance = 1e-6;  ///< [m] of positions and corners, for methods with step size control
   CrowdSettings crowds = {};
-  int threads = 1;  ///< for large crowds; nothing but the time depends on it
+  int threads = 1;  ///< for large crowds, kMostThreadsOfCrowds at most; nothing but the time depends on it
 };
 
 }  // namespace careen
