@@ -51,7 +51,7 @@ class Surroundings {
       shape.segment<9>(kHalfAxes) = halfAxes.reshaped().cast<float>();
       shape[kSize] = static_cast<float>(box.halfExtents.minCoeff()) + kTiny;
       shape[kRadius] = static_cast<float>(box.halfExtents.norm()) + kTiny;
-      shape[kArea] = static_cast<float>(largestSilhouette(box) / std::numbers::pi);
+      shape[kArea] = static_cast<float>(largestSilhouette(box) / std::numbers::pi) + kTiny;
     }
   }
 
@@ -89,7 +89,8 @@ class Surroundings {
       const Numbers part = (along / edge2).max(-1.0F).min(1.0F);
       apart2 -= part * (2.0F * along - edge2 * part);
     }
-    const Numbers covers = inFront * (about_.col(kArea) / apart2.max(kTiny)).min(0.5F);
+    const Numbers area = about_.col(kArea);
+    const Numbers covers = inFront * (area / apart2.max(area)).min(0.5F);
     for (Eigen::Index i = 0; i < covers.size(); ++i) {
       if (covers[i] > least) {
         const float away = std::sqrt(std::max(apart2[i], 0.0F)) / about_(i, kRadius);
