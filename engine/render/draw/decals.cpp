@@ -94,8 +94,19 @@ std::vector<Vec3> shadowOutline(const DrawnBox& box, const Surface& surface, con
   if (area.dot(surface.normal) < 0) {
     std::reverse(outline.begin(), outline.end());
   }
-  const double margin = kBeyond * spread * top / (facing * facing) + pixel;
-  return clippedTo(widened(outline, surface.normal, margin), surface);
+  // Across the light penumbrae are as wide as its distance makes them; along it the surface draws them out.
+  // So they are round where that direction is shortened.
+  const Vec3 level = towards - facing * surface.normal;
+  const Vec3 along = level.norm() > 1e-9 ? Vec3(level.normalized()) : Vec3(Vec3::Zero());
+  const auto stretch = [&](std::vector<Vec3>& points, double by) {
+    for (Vec3& point : points) {
+      point += (by - 1) * along.dot(point - surface.outline[0]) * along;
+    }
+  };
+  stretch(outline, facing);
+  outline = widened(outline, surface.normal, kBeyond * spread * top / facing + pixel);
+  stretch(outline, 1 / facing);
+  return clippedTo(std::move(outline), surface);
 }
 
 std::vector<Vec3> occlusionOutline(const DrawnBox& box, const Surface& surface, double least, double within) {

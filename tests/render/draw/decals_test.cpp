@@ -87,6 +87,25 @@ TEST(Decals, shadowOutlinesHoldAllPointsThatTheBoxKeepsLightFrom) {
   EXPECT_GT(shaded, 3000);
 }
 
+// Low light draws penumbrae out along it, but not across.
+TEST(Decals, shadowOutlinesOfLowLightAreNarrow) {
+  DrawnBox box;
+  box.halfExtents = Vec3(0.2, 0.2, 0.2);
+  box.pose.position = Vec3(0, 0, 1);
+  constexpr double kHeight = 0.06;  // of the light, a sine
+  const Vec3 light(std::sqrt(1 - kHeight * kHeight), 0, kHeight);
+  double across = 0;
+  double along = 0;
+  for (const Vec3& corner : shadowOutline(box, floorOf(1000), light, 0.03, 0)) {
+    across = std::max(across, std::abs(corner.y()));
+    along = std::max(along, -corner.x());
+  }
+  const double penumbra = 0.03 * 1.2 / kHeight;
+  EXPECT_GT(across, 0.2 + penumbra);
+  EXPECT_LT(across, 0.2 + 1.2 * penumbra);
+  EXPECT_GT(along, 1.2 * light.x() / kHeight + penumbra / kHeight);
+}
+
 TEST(Decals, shadowOutlinesEndWithTheSurface) {
   Scenes scenes;
   const Surface floor = floorOf(0.5);
