@@ -264,9 +264,9 @@ bool ExactWorld::step(ContactGroup& contactGroup, const Instant& time) {
     return false;
   }
   spend();
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    if (!before[i].isHeld()) {
-      account_.departs(static_cast<std::size_t>(before[i].index), before[i].state());
+  for (const TouchingBody& body : before) {
+    if (!body.isHeld()) {
+      account_.departs(static_cast<std::size_t>(body.index), body.state());
     }
   }
   return true;

@@ -43,7 +43,7 @@ void PictureCells::mark(const std::vector<Vec3>& outline) {
     const int first = static_cast<int>(std::clamp<double>(std::floor(least - kMargin), 0, kColumns));
     const int end = static_cast<int>(std::clamp<double>(std::floor(most + kMargin) + 1, 0, kColumns));
     for (int column = first; column < end && least <= most; ++column) {
-      marked_.at(static_cast<std::size_t>(row * kColumns + column)) = true;
+      marked_.at(static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column)) = true;
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "view/camera.h"
@@ -15,12 +16,12 @@ class PictureCells {
   static constexpr int kColumns = 40;
   static constexpr int kRows = 24;
 
-  explicit PictureCells(const View& view) : view_(view) {}
+  explicit PictureCells(View view) : view_(std::move(view)) {}
   /// Marks all cells that a convex outline [m] may reach in the picture.
   void mark(const std::vector<Vec3>& outline);
   void markAll() { marked_.fill(true); }
   bool isMarked(int column, int row) const {
-    return marked_.at(static_cast<std::size_t>(row * kColumns + column));
+    return marked_.at(static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column));
   }
 
  private:
