@@ -3,4 +3,4 @@
 
 flat in float share;
 
-vec3 counted(vec3 left) { return pow(max(left, vec3(1e-6)), vec3(share)); }
+vec3 counted(vec3 left) { return pow(left, vec3(share)); }

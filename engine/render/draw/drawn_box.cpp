@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "view/materials.h"
 
@@ -98,6 +99,14 @@ std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::sp
     appendBoxes(boxes, world, stage, poses.subspan(first, count), before, springThickness);
   }
   return boxes;
+}
+
+bool haveCopies(std::span<const DrawnBox> boxes) {
+  std::vector<std::size_t> bodies;
+  std::transform(boxes.begin(), boxes.end(), std::back_inserter(bodies),
+                 [](const DrawnBox& box) { return box.body; });
+  std::sort(bodies.begin(), bodies.end());
+  return std::adjacent_find(bodies.begin(), bodies.end()) != bodies.end();
 }
 
 void sortFromEye(std::vector<DrawnBox>& boxes, const Vec3& eye) {

@@ -27,6 +27,9 @@ struct DrawnBox {
 std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::span<const Pose> poses,
                                  double springThickness);
 
+/// Whether a body is shown several times.
+bool haveCopies(std::span<const DrawnBox> boxes);
+
 /// Sorts front to back, so that hidden pixels are not shaded, and the order of a scene's boxes does not
 /// matter.
 void sortFromEye(std::vector<DrawnBox>& boxes, const Vec3& eye);

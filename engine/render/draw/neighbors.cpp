@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <unordered_map>
 
@@ -27,16 +26,11 @@ Numbers smoothstep(const Numbers& from, const Numbers& to, const Numbers& x) {
   return t * t * (3.0F - 2.0F * t);
 }
 
-float smoothstep(float from, float to, float x) {
-  const float t = std::clamp((x - from) / (to - from), 0.0F, 1.0F);
-  return t * t * (3 - 2 * t);
-}
-
 struct Candidate {
   std::size_t box = 0;
   float covers = 0;   // [1] of what the face sees
   float inFront = 0;  // [1] of what it covers if enough of it is in front of the face
-  float isNear = 0;   // [1] 0: so far away that its shape does not matter
+  float isFar = 0;    // [1] 1: so far away that its shape does not matter
 };
 
 // The boxes about a box, as its faces see them.
@@ -91,13 +85,14 @@ class Surroundings {
     }
     const Numbers area = about_.col(kArea);
     const Numbers covers = inFront * (area / apart2.max(area)).min(0.5F);
+    const Numbers radius = about_.col(kRadius);
+    const Numbers isFar = smoothstep(kNear * radius, kFar * radius, apart2.max(0.0F).sqrt());
     for (Eigen::Index i = 0; i < covers.size(); ++i) {
       if (covers[i] > least) {
-        const float away = std::sqrt(std::max(apart2[i], 0.0F)) / about_(i, kRadius);
         found.push_back({.box = near_[static_cast<std::size_t>(i)],
                          .covers = covers[i],
                          .inFront = inFront[i],
-                         .isNear = 1 - smoothstep(kNear, kFar, away)});
+                         .isFar = isFar[i]});
       }
     }
   }
@@ -210,11 +205,7 @@ Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace
   }
   reach += radius;  // from a box's centre, of which a face's points are no farther away than its corners
   const Cells cells(boxes, std::max(reach, 1e-300));
-  std::vector<std::size_t> bodies;
-  std::transform(boxes.begin(), boxes.end(), std::back_inserter(bodies),
-                 [](const DrawnBox& box) { return box.body; });
-  std::sort(bodies.begin(), bodies.end());
-  const bool hasCopies = std::adjacent_find(bodies.begin(), bodies.end()) != bodies.end();
+  const bool hasCopies = haveCopies(boxes);
   Neighbors neighbors;
   Surroundings surroundings(boxes);
   std::vector<std::size_t> near;
@@ -254,10 +245,10 @@ Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace
       std::sort(found.begin(), found.end(), coversMore);
     }
     Neighbors::List list{.begin = neighbors.entries.size()};
-    list.near =
-        appendEntries(neighbors.entries, found, kMostNear, [](const Candidate& each) { return each.isNear; });
-    list.far = appendEntries(neighbors.entries, found, kMostFar,
-                             [](const Candidate& each) { return 1 - each.isNear; });
+    list.near = appendEntries(neighbors.entries, found, kMostNear,
+                              [](const Candidate& each) { return 1.0 - each.isFar; });
+    list.far =
+        appendEntries(neighbors.entries, found, kMostFar, [](const Candidate& each) { return each.isFar; });
     neighbors.lists.push_back(list);
   }
   return neighbors;

@@ -53,12 +53,15 @@ void appendDecal(Decals& decals, const std::vector<Vec3>& outline, const DrawnBo
 
 // [1] Of each box what it counts beside other copies of its body: where n are in the same place, 1 / n each.
 std::vector<double> sharesOf(std::span<const DrawnBox> boxes) {
+  std::vector<double> shares(boxes.size(), 1);
+  if (!haveCopies(boxes)) {
+    return shares;
+  }
   std::vector<std::vector<std::size_t>> copies;  // of each body
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     copies.resize(std::max(copies.size(), boxes[i].body + 1));
     copies[boxes[i].body].push_back(i);
   }
-  std::vector<double> shares(boxes.size(), 1);
   for (const std::vector<std::size_t>& each : copies) {
     for (const std::size_t a : each) {
       double same = 0;  // itself included

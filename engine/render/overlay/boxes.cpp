@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+#include <iterator>
 #include <tuple>
 
 #include "render/overlay/frame.h"
@@ -235,12 +235,15 @@ std::optional<Stroke> arrowFor(const OverlayFrame& frame, const Vec3& point, con
 }
 
 std::vector<std::size_t> farthestFirst(const Screen& screen, std::span<const Vec3> places) {
-  std::vector<std::size_t> order(places.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto key = [&](std::size_t i) {
-    return std::tuple(-screen.depth(places[i]), places[i].x(), places[i].y(), places[i].z());
-  };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::vector<std::tuple<double, double, double, double, std::size_t>> sorted;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Vec3& at = places[i];
+    sorted.emplace_back(-screen.depth(at), at.x(), at.y(), at.z(), i);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::size_t> order;
+  std::transform(sorted.begin(), sorted.end(), std::back_inserter(order),
+                 [](const auto& each) { return std::get<std::size_t>(each); });
   return order;
 }
 

@@ -68,5 +68,15 @@ TEST(DrawnBox, facesAreThoseThatTheEyeSees) {
   EXPECT_TRUE(facesTowards({&box, 1}, Vec3(0.1, 0.1, 0.1), 1e-3).empty());  // from inside
 }
 
+TEST(DrawnBox, copiesAreSeveralOfOneBody) {
+  std::vector<DrawnBox> boxes(3);
+  boxes[1].body = 2;
+  boxes[2].body = 1;
+  EXPECT_FALSE(haveCopies({}));
+  EXPECT_FALSE(haveCopies(boxes));
+  boxes[2].body = 0;
+  EXPECT_TRUE(haveCopies(boxes));
+}
+
 }  // namespace
 }  // namespace careen

@@ -59,7 +59,7 @@ TEST(Neighbors, goFromNearToFarGradually) {
     const double near = found.near.empty() ? 0 : found.near[0].weight;
     EXPECT_LE(near, last);
     EXPECT_LT(last - near, 0.05) << away;
-    EXPECT_NEAR(near + (found.far.empty() ? 0 : found.far[0].weight), 1, 1e-6) << away;
+    EXPECT_NEAR(near + (found.far.empty() ? 0 : found.far[0].weight), 1, 1e-12) << away;
     last = near;
   }
   EXPECT_EQ(last, 0);
