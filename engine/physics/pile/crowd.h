@@ -248,6 +248,7 @@ class Crowd {
   Vec3 torqueBefore(std::size_t place) const;
   double slowestBounce(const PileManifold& manifold) const;
   void lookAround();
+  bool isClear(const PilePair& pair) const;
   double wayLeft(const PilePair& pair) const;
   double wayAhead(const PilePair& pair) const;
   double rebuildAfter(double length) const;
@@ -285,7 +286,6 @@ class Crowd {
   double secondOrder(const PileManifold& manifold, int k) const;
   void keepImpulses();
   void findShifts();
-  double mostLacking() const;
   void move();
   void bounce();
   void noteImpacts();
@@ -297,8 +297,9 @@ class Crowd {
   double shiftOf(int body) const;
   double depthNow(const PilePair& pair) const;
   double wayOf(int b, int a) const;
-  double gapAtEnd(int a, int b) const;
-  double depthWithin(int a, int b) const;
+  void findTurns();
+  double gapAtEnd(int a, int b, int axis) const;
+  double depthWithin(int a, int b, int axis, double atEnd) const;
   Pose between(std::size_t place, double part) const;
   double depthBefore(const PilePair& pair) const;
   bool startedDeep(const PilePair& pair) const;
@@ -313,7 +314,7 @@ class Crowd {
   double pastOf(std::size_t place) const { return std::min(past_[place], partBefore_); }
   void findSharp();
   std::pair<Place, Place> endsOf(std::size_t place, std::size_t part) const;
-  double deepestOnWay() const;
+  double deepestOnWay();
   std::vector<std::vector<Place>> divideWay(int parts);
   bool freeze();
   void beginManifold(const PilePair& pair, PileManifold& manifold) const;
@@ -334,6 +335,8 @@ class Crowd {
   std::vector<std::size_t> listed_;  // by place: index in the world
   std::vector<Before> before_;
   std::vector<PileBody> start_;  // bodies_ at the start of the last step
+  std::vector<Vec3> turns_;      // [rad] by place, in the last step
+  std::vector<double> paths_;    // [m] by place: of its body, up to where pairs are looked at
   std::vector<int> untouchedSteps_;
   std::vector<int> free_;               // places that were left
   std::vector<BodyState> worldStates_;  // for springs and drag
@@ -372,6 +375,7 @@ class Crowd {
   std::vector<double> grip_;      // [1] largest friction coefficient at a body's contacts
   DisjointSets clusters_;         // of bodies in resting contact
   std::vector<int> quietChecks_;  // by place: since when it and all that is near it could sleep
+  int checks_ = 0;                // of parts of clusters
   std::vector<char> woken_;       // by place: in this step
   std::vector<int> disturbed_;    // clusters that the last step pushed otherwise than when they fell asleep
   bool shifts_ = false;           // in this step

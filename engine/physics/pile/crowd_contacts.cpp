@@ -25,12 +25,14 @@ constexpr double kUnseen = 2;    // [1] of the tolerance: motion after which oth
 // Broad and narrow phase: pairs, and manifolds of the near ones. A contact that would push a sleeping body
 // wakes its cluster, whose pairs are then tested too.
 void Crowd::lookAround() {
+  paths_.resize(bodies_.size());
   forPlaces([&](std::size_t i) {
     PileBody& body = bodies_[i];
     body.turning = body.still() ? 0 : h_ * body.radius * body.omega.norm();
     body.ahead = body.still()
                      ? 0
                      : h_ * (body.velocity.norm() + (h_ + body.behind) * gravityMagnitude_) + body.turning;
+    paths_[i] = body.path + body.ahead;
   });
   pairs_.update(bodies_, world_.gravity, h_, std::max(h_, kLookAhead * longestStep()));
   unused_.insert(unused_.end(), pairs_.freed().begin(), pairs_.freed().end());
@@ -76,6 +78,10 @@ void Crowd::lookAtAll() {
     const std::size_t last = pairs.size() * (at(part) + 1) / parts;
     for (std::size_t k = pairs.size() * at(part) / parts; k < last; ++k) {
       PilePair& pair = pairs[k];
+      if (isClear(pair)) {
+        ++looking.pairs;
+        continue;
+      }
       const bool still = bodies_[at(pair.a)].still() && (pair.b.isWall() || bodyAt(pair.b).still());
       if (looked_[k] != Looked::kNot || still) {
         continue;
@@ -101,6 +107,13 @@ void Crowd::lookAtAll() {
       keepManifold(pairs[k], manifold);
     }
   }
+}
+
+// Whether the two have not moved enough, along the paths up to paths_, to have contact points: the first
+// look.
+bool Crowd::isClear(const PilePair& pair) const {
+  const double path = paths_[at(pair.a)] + (pair.b.isWall() ? 0 : paths_[at(pair.b.body())]);
+  return pair.slot < 0 && path < pair.until;
 }
 
 // [m] By how much the two may still come nearer than when they were last looked at, at the least, before
@@ -137,7 +150,9 @@ Crowd::Looked Crowd::lookAt(PilePair& pair, PileManifold& manifold, std::int64_t
   const PileBody& a = bodies_[at(pair.a)];
   const bool hasWall = pair.b.isWall();
   if (pair.slot < 0) {
-    if (pair.clear > 0 && wayAhead(pair) < wayLeft(pair)) {
+    const double left = pair.clear > 0 ? wayLeft(pair) : 0;
+    if (wayAhead(pair) < left) {
+      pair.until = a.path + (hasWall ? 0 : bodyAt(pair.b).path) + left;
       return Looked::kFar;
     }
     beginManifold(pair, manifold);
@@ -164,6 +179,7 @@ Crowd::Looked Crowd::lookAt(PilePair& pair, PileManifold& manifold, std::int64_t
   pair.apart = b == nullptr ? a.position : Vec3(a.position - b->position);
   pair.turned = a.turned + (b == nullptr ? 0 : b->turned);
   pair.clear = manifold.separation - PileLengths::kReach * length;
+  pair.until = a.path + (b == nullptr ? 0 : b->path) + pair.clear;
   return Looked::kFar;
 }
 
@@ -332,7 +348,7 @@ void Crowd::addBounces(const PileManifold& manifold, int slot) {
   }
 }
 
-// The rows of the last step, at the gaps and with the impulses of now.
+// Those that have one, at the gaps and with the impulses of now.
 void Crowd::addPresentRows(const PileManifold& manifold) {
   const Vec3 apart = manifold.b.isWall()
                          ? Vec3(Vec3::Zero())

@@ -29,30 +29,35 @@ constexpr double kShortestLook = 0.0625;
 // early, and gaps below zero are no bound to it. They need no rows of their own, unlike a projection. None
 // where they stop so early, too, that others go deeper: among wedged boxes.
 void Crowd::findShifts() {
-  solver_.beginShifts();
+  solver_.beginShifts(h_);
   std::atomic<bool> any = false;
-  forNear([&](const PileManifold& manifold, std::size_t) {
-    const double tolerated = projection_.tolerated(manifold.length);
-    for (int k = 0; k < manifold.count; ++k) {
-      const PilePoint& point = manifold.points[at(k)];
-      if (point.row < 0) {
-        continue;
-      }
-      const double gap = point.gap + h_ * solver_.normalSpeed(point.row) + point.curved;
-      solver_.setShiftBound(point.row, -(gap + kShiftedTo * tolerated));
-      if (gap < -kShifted * tolerated) {
-        any = true;
-        solver_.wakeRow(point.row);
+  const double before = team_->largest(near_.size(), [&](std::size_t first, std::size_t last) {
+    double most = 0;
+    for (std::size_t n = first; n < last; ++n) {
+      const PileManifold& manifold = manifolds_[at(near_[n])];
+      const double tolerated = projection_.tolerated(manifold.length);
+      for (int k = 0; k < manifold.count; ++k) {
+        const PilePoint& point = manifold.points[at(k)];
+        if (point.row < 0) {
+          continue;
+        }
+        const double lacks =
+            solver_.addToShiftBound(point.row, -(point.gap + point.curved + kShiftedTo * tolerated));
+        if (lacks > (kShifted - kShiftedTo) * tolerated) {
+          any = true;
+          solver_.wakeRow(point.row);
+        }
+        most = std::max(most, lacks);
       }
     }
+    return most;
   });
   shifts_ = any;
   if (!shifts_) {
     return;
   }
-  const double before = mostLacking();
   figures_.solves += solver_.shift(kShiftSweeps, kShiftChange * tolerance_);
-  shifts_ = mostLacking() <= before;
+  shifts_ = solver_.mostLacking() <= before;
   if (!shifts_) {
     return;
   }
@@ -61,32 +66,18 @@ void Crowd::findShifts() {
   });
 }
 
-// [m] What shifts leave to be done at one point, at the most.
-double Crowd::mostLacking() const {
-  return team_->largest(near_.size(), [&](std::size_t first, std::size_t last) {
-    double most = 0;
-    for (std::size_t n = first; n < last; ++n) {
-      const PileManifold& manifold = manifolds_[at(near_[n])];
-      for (int k = 0; k < manifold.count; ++k) {
-        const int row = manifold.points[at(k)].row;
-        most = row < 0 ? most : std::max(most, solver_.shiftLacks(row));
-      }
-    }
-    return most;
-  });
-}
-
 // [m] How deep bodies went into each other and into walls in this step, if more than kDeep: the features of
 // the manifolds of its start were not all that met. `deep_` says whether any are too deep, even if
 // they were before.
 double Crowd::newDepth() {
   const std::vector<PilePair>& pairs = pairs_.pairs();
+  findTurns();
   std::atomic<bool> deep = false;
   const double deepest = team_->largest(pairs.size(), [&](std::size_t first, std::size_t last) {
     double deepestHere = 0;
     for (std::size_t k = first; k < last; ++k) {
       const PilePair& pair = pairs[k];
-      const double depth = depthNow(pair);
+      const double depth = isClear(pair) ? 0 : depthNow(pair);
       if (depth == 0) {
         continue;
       }
@@ -103,6 +94,16 @@ double Crowd::newDepth() {
   });
   deep_ = deep;
   return deepest;
+}
+
+// Of bodies in the step, and their paths up to its end.
+void Crowd::findTurns() {
+  turns_.resize(bodies_.size());
+  forPlaces([&](std::size_t i) {
+    const Quat by = bodies_[i].attitude * start_[i].attitude.conjugate();
+    paths_[i] = bodies_[i].path;
+    turns_[i] = bodies_[i].still() ? Vec3(Vec3::Zero()) : Vec3((by.w() < 0 ? -2 : 2) * by.vec());
+  });
 }
 
 // [m] How far points of it were shifted in the last step, at the most.
@@ -128,33 +129,32 @@ double Crowd::depthNow(const PilePair& pair) const {
     const double depth = overlapOf(a, wallAt(pair.b));
     return depth > kDeep * tolerance_ ? depth : 0;
   }
-  const double atEnd = gapAtEnd(pair.a, pair.b.body()) < -kDeep * tolerance_ ? overlapOf(a, *b) : 0;
-  return std::max(atEnd, depthWithin(pair.a, pair.b.body()));
+  const int axis = pair.slot < 0 ? -1 : manifolds_[at(pair.slot)].axis;
+  const double atEnd = gapAtEnd(pair.a, pair.b.body(), axis);
+  const double deep = atEnd < -kDeep * tolerance_ ? overlapOf(a, *b) : 0;
+  return std::max(deep, depthWithin(pair.a, pair.b.body(), axis, atEnd));
 }
 
 // [m] By how much points of b moved in the last step as seen from a, at the most, to first order.
 double Crowd::wayOf(int b, int a) const {
-  const auto turn = [&](int body) {
-    const Quat by = bodies_[at(body)].attitude * start_[at(body)].attitude.conjugate();
-    return Vec3((by.w() < 0 ? -2 : 2) * by.vec());
-  };
-  const Vec3 turnA = turn(a);
+  const Vec3& turnA = turns_[at(a)];
   const Vec3 apart = start_[at(b)].position - start_[at(a)].position;
   const Vec3 wayA = bodies_[at(a)].position - start_[at(a)].position;
   const Vec3 wayB = bodies_[at(b)].position - start_[at(b)].position;
-  return (wayB - wayA - turnA.cross(apart)).norm() + bodies_[at(b)].radius * (turn(b) - turnA).norm();
+  return (wayB - wayA - turnA.cross(apart)).norm() + bodies_[at(b)].radius * (turns_[at(b)] - turnA).norm();
 }
 
-// [m] Of two boxes; of those no deeper than kDeep, a lower bound.
-double Crowd::gapAtEnd(int a, int b) const {
-  PileAxes axes;
-  axes.find(bodies_[at(a)], bodies_[at(b)], -kDeep * tolerance_, -1, 0);
-  return axes.separation();
+// [m] Of two boxes; of those no deeper than kDeep, a lower bound. The axis is that of their manifold, or −1.
+double Crowd::gapAtEnd(int a, int b, int axis) const {
+  const PileBody& bodyA = bodies_[at(a)];
+  const PileBody& bodyB = bodies_[at(b)];
+  return gapAbove(-kDeep * tolerance_, axis, bodyA, bodyA.axes, bodyB, bodyB.axes,
+                  bodyA.middle() - bodyB.middle());
 }
 
 // [m] Overlap within the step, if more than kDeep: of features that are apart at both its ends. No gap
 // changes by more than points move.
-double Crowd::depthWithin(int a, int b) const {
+double Crowd::depthWithin(int a, int b, int axis, double atEnd) const {
   const double motion = wayOf(b, a);
   if (motion <= kSwing * tolerance_) {
     return 0;
@@ -162,14 +162,12 @@ double Crowd::depthWithin(int a, int b) const {
   const auto gapAt = [&](double part) {
     const Pose poseA = between(at(a), part);
     const Pose poseB = between(at(b), part);
-    PileAxes axes;
-    axes.find(bodies_[at(a)], poseA.worldFromBody, bodies_[at(b)], poseB.worldFromBody,
-              bodies_[at(a)].middleAt(poseA) - bodies_[at(b)].middleAt(poseB), -kDeep * tolerance_, -1, 0);
-    return axes.separation();
+    return gapAbove(-kDeep * tolerance_, axis, bodies_[at(a)], poseA.worldFromBody, bodies_[at(b)],
+                    poseB.worldFromBody, bodies_[at(a)].middleAt(poseA) - bodies_[at(b)].middleAt(poseB));
   };
   const DepthSearch search{
       .motion = motion, .deep = kDeep * tolerance_, .swing = kSwing * tolerance_, .shortest = kShortestLook};
-  const double deepest = searchDepth(search, gapAt, gapAt(0), gapAtEnd(a, b));
+  const double deepest = searchDepth(search, gapAt, gapAt(0), atEnd);
   return deepest > kDeep * tolerance_ ? deepest : 0;
 }
 

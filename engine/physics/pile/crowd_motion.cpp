@@ -167,10 +167,8 @@ void Crowd::findSharp() {
     const PileBody& b = bodyAt(manifold.b);
     const Pose poseA = onPath(at(manifold.a), moment);
     const Pose poseB = onPath(at(manifold.b.body()), moment);
-    PileAxes axes;
-    axes.find(a, poseA.worldFromBody, b, poseB.worldFromBody, a.middleAt(poseA) - b.middleAt(poseB),
-              -kDeepAtJoint * tolerance_, -1, 0);
-    return axes.separation();
+    return gapAbove(-kDeepAtJoint * tolerance_, manifold.axis, a, poseA.worldFromBody, b, poseB.worldFromBody,
+                    a.middleAt(poseA) - b.middleAt(poseB));
   };
   const auto passingSpeed = [&](const PileManifold& manifold) {  // [m/s] bound
     const std::size_t a = at(manifold.a);
@@ -245,7 +243,7 @@ std::vector<char> Crowd::changedSuddenly() const {
     const auto* const end = manifold.points.data() + manifold.count;
     if (!manifold.b.isWall() && before_[at(manifold.a)].moved && before_[at(manifold.b.body())].moved &&
         std::any_of(manifold.points.data(), end,
-                    [](const PilePoint& point) { return point.row >= 0 && point.normalImpulse > 0; })) {
+                    [](const PilePoint& point) { return point.normalImpulse > 0; })) {
       pushing.join(at(manifold.a), at(manifold.b.body()));
     }
   }

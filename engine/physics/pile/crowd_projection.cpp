@@ -168,12 +168,14 @@ std::vector<std::vector<Crowd::Place>> Crowd::divideWay(int parts) {
 }
 
 // [m] Of what was pushed; 0 if it is not too much.
-double Crowd::deepestOnWay() const {
+double Crowd::deepestOnWay() {
+  findTurns();
   double deepest = 0;
   for (const int slot : near_) {
     const PileManifold& manifold = manifolds_[at(slot)];
     if (!manifold.b.isWall() && (before_[at(manifold.a)].pushed || before_[at(manifold.b.body())].pushed)) {
-      deepest = std::max(deepest, depthWithin(manifold.a, manifold.b.body()));
+      deepest = std::max(deepest, depthWithin(manifold.a, manifold.b.body(), manifold.axis,
+                                              gapAtEnd(manifold.a, manifold.b.body(), manifold.axis)));
     }
   }
   return deepest;

@@ -8,8 +8,9 @@ namespace careen {
 namespace {
 
 constexpr double kFrictionless = 0x1p-20;  // μ below which friction stops nothing
-constexpr int kLayers = 3;  // contacts from a body that is not quiet within which all stay awake
-constexpr int kChecks = 4;  // that a part of a cluster must pass before it sleeps
+constexpr int kLayers = 3;    // contacts from a body that is not quiet within which all stay awake
+constexpr int kChecks = 4;    // that a part of a cluster must pass before it sleeps; and between two trials
+constexpr double kHolds = 4;  // [1] of the tolerance: larger gaps hold nothing at rest
 // A certificate of rest is tried where forces are off balance by less than that part of gravity, and the
 // speed is less than that part of what friction stops in a step.
 constexpr double kLoose = 0x1p-4;
@@ -108,10 +109,9 @@ void Crowd::freezeParts() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     quietChecks_[i] = bodies_[i].still() || calm[i] == 0 ? 0 : quietChecks_[i] + 1;
     calm[i] = quietChecks_[i] >= kChecks ? 1 : 0;
-    quietChecks_[i] = calm[i] != 0 ? 0 : quietChecks_[i];
     any = any || calm[i] != 0;
   }
-  if (!any) {
+  if (++checks_ % kChecks != 0 || !any) {
     return;
   }
   certify(calm);
@@ -164,7 +164,7 @@ void Crowd::certify(std::vector<char>& chosen) {
   const auto isChosen = [&](Partner partner) { return !partner.isWall() && chosen[at(partner.body())] != 0; };
   std::vector<int> slots;
   for (const int slot : near_) {
-    const PileManifold& manifold = manifolds_[at(slot)];
+    PileManifold& manifold = manifolds_[at(slot)];
     const bool a = chosen[at(manifold.a)] != 0;
     const bool b = isChosen(manifold.b);
     if (!a && !b) {
@@ -186,6 +186,10 @@ void Crowd::certify(std::vector<char>& chosen) {
       continue;
     }
     slots.push_back(slot);
+    for (int k = 0; k < manifold.count; ++k) {  // it may be a new one since the step was solved
+      PilePoint& point = manifold.points[at(k)];
+      point.row = point.gap < kHolds * tolerance_ ? 0 : -1;
+    }
     addPresentRows(manifold);
   }
   solver_.link();

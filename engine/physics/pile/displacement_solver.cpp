@@ -2,39 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <random>
 
 namespace careen {
 namespace {
 
-/// [1] of the first gradient: more steps gain little.
-constexpr double kLittle = 0.03;
-/// [1] of 1/(largest eigenvalue): length of steps along the gradient; less than 2.
-constexpr double kGradientStep = 1.6;
+/// [1] of the first step: more steps gain little.
+constexpr double kLittle = 0.003;
+/// [1] of 1/(largest eigenvalue): length of steps along the gradient.
+constexpr double kGradientStep = 0.9;
 constexpr int kPowerSteps = 12;
+constexpr int kNothing = 0;  // in own_
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    sum += a[k] * b[k];
+CAREEN_LANES double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  Lanes sum{};
+  for (std::size_t k = 0; k < a.size(); k += kLanes) {
+    sum += lanesFrom(&a[k]) * lanesFrom(&b[k]);
   }
-  return sum;
+  return sumOf(sum);
 }
 
 }  // namespace
 
 void DisplacementSolver::begin(std::span<const PileBody> bodies) {
   bodies_ = bodies;
-  members_.assign(bodies.size(), kNobody);
-  own_.clear();
+  members_.assign(bodies.size(), kNothing);
+  own_.assign(1, {});
+  moves_.assign(1, {});
+  blocks_.clear();
   rows_.clear();
+  bounds_.clear();
+  perScale_.clear();
 }
 
 int DisplacementSolver::memberOf(int body) {
   if (body == kNobody || bodies_[at(body)].still()) {
-    return kNobody;
+    return kNothing;
   }
-  if (members_[at(body)] == kNobody) {
+  if (members_[at(body)] == kNothing) {
     members_[at(body)] = static_cast<int>(own_.size());
     const Mat3 axes = bodies_[at(body)].principalAxes();
     own_.push_back(
@@ -45,165 +50,142 @@ int DisplacementSolver::memberOf(int body) {
 }
 
 void DisplacementSolver::add(const Row& row) {
-  ScaledRow scaled = {.a = memberOf(row.a), .b = memberOf(row.b)};
-  scaled.onA = {.shift = row.normal, .turn = row.armA.cross(row.normal)};
-  scaled.onB = {.shift = -row.normal, .turn = -row.armB.cross(row.normal)};
-  double perMass = 0;
-  const auto include = [&](int member, const Move& on) {
-    if (member != kNobody) {
-      perMass += own_[at(member)].inverseMass + on.turn.dot(own_[at(member)].inverseInertia * on.turn);
-    }
+  const int a = memberOf(row.a);
+  const int b = memberOf(row.b);
+  const auto perMassOf = [&](int member, const Vec3& arm) {
+    const Vec3 turning = arm.cross(row.normal);
+    return own_[at(member)].inverseMass + turning.dot(own_[at(member)].inverseInertia * turning);
   };
-  include(scaled.a, scaled.onA);
-  include(scaled.b, scaled.onB);
+  const double perMass = perMassOf(a, row.armA) + perMassOf(b, row.armB);
   if (perMass == 0) {
     return;
   }
-  scaled.scale = 1 / std::sqrt(perMass);
-  for (Move* on : {&scaled.onA, &scaled.onB}) {
-    on->shift *= scaled.scale;
-    on->turn *= scaled.scale;
+  if (blocks_.empty() || blocks_.back().a != a || blocks_.back().b != b ||
+      blocks_.back().normal != row.normal) {
+    blocks_.push_back({.a = a, .b = b, .normal = row.normal});
   }
-  scaled.bound = scaled.scale * row.bound;
-  rows_.push_back(scaled);
+  const double scale = 1 / std::sqrt(perMass);
+  rows_.push_back({.armA = row.armA, .armB = row.armB, .scale = scale});
+  blocks_.back().end = rows_.size();
+  bounds_.push_back(scale * row.bound);
+  perScale_.push_back(1 / scale);
 }
 
-// (J M⁻¹ Jᵀ + c) λ; moves_ are M⁻¹ Jᵀ λ then.
-void DisplacementSolver::apply(const Values& impulses, Values& result) {
+// (J M⁻¹ Jᵀ + c) λ; moves_ are M⁻¹ Jᵀ λ then. Rows of a block share the normal n: with turns θ, that of a
+// point is n·(θ × r) = r·(n × θ).
+CAREEN_LANES void DisplacementSolver::apply(const Values& impulses, Values& result) {
   moves_.assign(own_.size(), {});
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const auto push = [&](int member, const Move& on) {
-      if (member != kNobody) {
-        moves_[at(member)].shift += impulses[k] * on.shift;
-        moves_[at(member)].turn += impulses[k] * on.turn;
-      }
-    };
-    if (impulses[k] != 0) {
-      push(rows_[k].a, rows_[k].onA);
-      push(rows_[k].b, rows_[k].onB);
+  std::size_t k = 0;
+  for (const Block& block : blocks_) {
+    bool acts = false;
+    double sum = 0;
+    Vec3 atA = Vec3::Zero();
+    Vec3 atB = Vec3::Zero();
+    for (; k < block.end; ++k) {
+      const double impulse = rows_[k].scale * impulses[k];
+      acts = acts || impulse != 0;
+      sum += impulse;
+      atA += impulse * rows_[k].armA;
+      atB += impulse * rows_[k].armB;
+    }
+    if (acts) {
+      Move& a = moves_[at(block.a)];
+      Move& b = moves_[at(block.b)];
+      a.shift += sum * block.normal;
+      a.turn += atA.cross(block.normal);
+      b.shift -= sum * block.normal;
+      b.turn -= atB.cross(block.normal);
     }
   }
   for (std::size_t i = 0; i < own_.size(); ++i) {
     moves_[i].shift *= own_[i].inverseMass;
     moves_[i].turn = Vec3(own_[i].inverseInertia * moves_[i].turn);
   }
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    double opened = kCompliance * impulses[k];
-    const auto add = [&](int member, const Move& on) {
-      if (member != kNobody) {
-        opened += on.shift.dot(moves_[at(member)].shift) + on.turn.dot(moves_[at(member)].turn);
-      }
-    };
-    add(rows_[k].a, rows_[k].onA);
-    add(rows_[k].b, rows_[k].onB);
-    result[k] = opened;
+  k = 0;
+  for (const Block& block : blocks_) {
+    const Move& a = moves_[at(block.a)];
+    const Move& b = moves_[at(block.b)];
+    const double opened = block.normal.dot(a.shift - b.shift);
+    const Vec3 byTurnA = block.normal.cross(a.turn);
+    const Vec3 byTurnB = block.normal.cross(b.turn);
+    for (; k < block.end; ++k) {
+      const ScaledRow& row = rows_[k];
+      result[k] =
+          row.scale * (opened + (row.armA.dot(byTurnA) - row.armB.dot(byTurnB))) + kCompliance * impulses[k];
+    }
   }
 }
 
 // By powers: a little too small.
-double DisplacementSolver::largestEigenvalue() {
-  direction_.assign(rows_.size(), 1);
+CAREEN_LANES double DisplacementSolver::largestEigenvalue() {
+  std::minstd_rand random;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    ahead_[k] = random() % 2 == 0 ? 1 : -1;
+  }
   double largest = 1;
   for (int step = 0; step < kPowerSteps; ++step) {
-    const double before = dot(direction_, direction_);
-    apply(direction_, applied_);
-    const double after = dot(applied_, applied_);
+    const double before = dot(ahead_, ahead_);
+    apply(ahead_, next_);
+    const double after = dot(next_, next_);
     largest = std::sqrt(after / before);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      direction_[k] = applied_[k] / std::sqrt(after);
+      ahead_[k] = next_[k] / std::sqrt(after);
     }
   }
   return largest;
 }
 
-void DisplacementSolver::findGradient() {
-  apply(impulses_, gradient_);
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    gradient_[k] -= rows_[k].bound;
+CAREEN_LANES int DisplacementSolver::solveInLanes(double enough, int most) {
+  const std::size_t padded = (rows_.size() + kLanes - 1) / kLanes * kLanes;
+  for (Values* values : {&impulses_, &ahead_, &next_}) {
+    values->assign(padded, 0);
   }
-}
-
-// The direction of steepest descent, up to its sign, among those that push.
-void DisplacementSolver::pointAlongGradient() {
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    direction_[k] = impulses_[k] > 0 ? gradient_[k] : 0;
-  }
-}
-
-// So far along the direction that the first of them ends to push; then along the gradient, where more may.
-void DisplacementSolver::leaveFace(double step, double length) {
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    if (impulses_[k] > 0) {
-      const double ahead = impulses_[k] - step * direction_[k];
-      const double gradient = gradient_[k] - step * applied_[k];
-      impulses_[k] = ahead > 0 ? std::max(0.0, ahead - length * gradient) : 0;
+  bounds_.resize(padded);
+  perScale_.resize(padded);
+  const double length = rows_.empty() ? 0 : kGradientStep / largestEigenvalue();
+  std::fill(ahead_.begin(), ahead_.end(), 0);
+  double first = 0;
+  double inertia = 1;
+  int taken = 0;
+  for (; taken < most; ++taken) {
+    apply(ahead_, next_);
+    Lanes lacking{};
+    Lanes back{};
+    Lanes step{};
+    for (std::size_t k = 0; k < padded; k += kLanes) {
+      const Lanes gradient = lanesFrom(&next_[k]) - lanesFrom(&bounds_[k]);
+      const Lanes ahead = lanesFrom(&ahead_[k]);
+      const Lanes next = largerOf(Lanes{}, ahead - length * gradient);
+      lacking = largerOf(lacking, -gradient * lanesFrom(&perScale_[k]));
+      back += gradient * (next - lanesFrom(&impulses_[k]));
+      step += (next - ahead) * (next - ahead);
+      lanesTo(next, &next_[k]);
     }
+    const double far = std::sqrt(sumOf(step));
+    first = taken == 0 ? far : first;
+    if (largestOf(lacking) <= enough || far < kLittle * first) {
+      break;
+    }
+    const double before = inertia;
+    inertia = sumOf(back) > 0 ? 1 : 0.5 * (1 + std::sqrt(1 + 4 * before * before));
+    const double onward = inertia > 1 ? (before - 1) / inertia : 0;
+    for (std::size_t k = 0; k < padded; k += kLanes) {
+      const Lanes next = lanesFrom(&next_[k]);
+      lanesTo(largerOf(Lanes{}, next + onward * (next - lanesFrom(&impulses_[k]))), &ahead_[k]);
+    }
+    impulses_.swap(next_);
   }
-  findGradient();
-  pointAlongGradient();
+  return taken;
 }
 
 int DisplacementSolver::solve(double enough, int most) {
-  const std::size_t count = rows_.size();
-  impulses_.assign(count, 0);
-  gradient_.resize(count);
-  applied_.resize(count);
-  const double length = count == 0 ? 0 : kGradientStep / largestEigenvalue();
-  findGradient();
-  pointAlongGradient();
-  double first = 0;
   int taken = 0;
-  for (; taken < most; ++taken) {
-    double blocked = 0;  // squares of the parts of the gradient: of rows that lack something but do not push,
-    double free = 0;     // and of those that push
-    double lacking = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      if (impulses_[k] > 0) {
-        free += gradient_[k] * std::min(gradient_[k], impulses_[k] / length);
-      } else {
-        blocked += std::min(gradient_[k], 0.0) * gradient_[k];
-      }
-      lacking = std::max(lacking, -gradient_[k] / rows_[k].scale);
-    }
-    const double left = std::sqrt(blocked + std::max(free, 0.0));
-    first = taken == 0 ? left : first;
-    if (lacking <= enough || left < kLittle * first) {
-      break;
-    }
-    const bool enters = blocked > free;
-    for (std::size_t k = 0; enters && k < count; ++k) {
-      direction_[k] = impulses_[k] > 0 ? 0 : std::min(gradient_[k], 0.0);
-    }
-    apply(direction_, applied_);
-    const double curvature = dot(direction_, applied_);
-    const double step = dot(gradient_, direction_) / curvature;
-    double farthest = std::numeric_limits<double>::max();
-    for (std::size_t k = 0; !enters && k < count; ++k) {
-      if (direction_[k] > 0) {
-        farthest = std::min(farthest, impulses_[k] / direction_[k]);
-      }
-    }
-    if (step > farthest) {
-      leaveFace(farthest, length);
-      continue;
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      impulses_[k] = std::max(0.0, impulses_[k] - step * direction_[k]);
-      gradient_[k] -= step * applied_[k];
-    }
-    if (enters) {
-      pointAlongGradient();
-      continue;
-    }
-    double along = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      along += impulses_[k] > 0 ? gradient_[k] * applied_[k] : 0;
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      direction_[k] = (impulses_[k] > 0 ? gradient_[k] : 0) - along / curvature * direction_[k];
-    }
+  const auto work = [&]() __attribute__((always_inline)) { taken = solveInLanes(enough, most); };
+  if (hasWideLanes()) {
+    runWide(work);
+  } else {
+    work();
   }
-  apply(impulses_, applied_);
   return taken;
 }
 

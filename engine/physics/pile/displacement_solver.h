@@ -6,6 +6,7 @@
 
 #include "core/math/linear_algebra.h"
 #include "physics/pile/body.h"
+#include "physics/pile/lanes.h"
 
 namespace careen {
 
@@ -14,11 +15,12 @@ namespace careen {
 /// small. Where rows contradict each other, as those of a chain of boxes that is longer than the space
 /// between its walls, what they lack is shared, and no body goes far for little.
 ///
-/// Solved in the impulses λ ≥ 0 of the rows, each scaled to an effective mass of one, by conjugate gradients
-/// in the face of those that push, which is left and entered by steps along the gradient (MPRGP): for long
-/// chains of bodies, through which Gauss–Seidel carries one link in a sweep.
+/// Solved in the impulses λ ≥ 0 of the rows, each scaled to an effective mass of one, by Nesterov's
+/// accelerated projected gradients, begun anew where they lead away: for long chains of bodies, through which
+/// Gauss–Seidel carries one link in a sweep.
 ///
-/// Source: Z. Dostál, Optimal Quadratic Programming Algorithms, 2009, section 5.8.
+/// Sources: Y. Nesterov, Soviet Math. Dokl. 27, 1983; B. O'Donoghue & E. Candès, Found. Comput. Math. 15,
+/// 2015.
 class DisplacementSolver {
  public:
   static constexpr double kCompliance = 1e-3;  ///< [1] c
@@ -42,7 +44,7 @@ class DisplacementSolver {
   /// Until no row lacks more than `enough` [m], or more steps gain little; at most so many. Returns how many.
   int solve(double enough, int most);
 
-  bool moves(int body) const { return members_[at(body)] != kNobody && !isZero(moveOf(body)); }
+  bool moves(int body) const { return !moveOf(body).shift.isZero(0) || !moveOf(body).turn.isZero(0); }
   const Vec3& displacement(int body) const { return moveOf(body).shift; }  ///< [m]
   const Vec3& turn(int body) const { return moveOf(body).turn; }           ///< [rad]
 
@@ -55,31 +57,33 @@ class DisplacementSolver {
     Vec3 shift = Vec3::Zero();
     Vec3 turn = Vec3::Zero();
   };
-  struct ScaledRow {
-    int a = kNobody;  // in own_
-    int b = kNobody;
-    Move onA = {};  // times √(effective mass)
-    Move onB = {};
-    double bound = 0;
-    double scale = 0;
+  struct Block {  // rows that follow each other
+    int a = 0;    // in own_
+    int b = 0;
+    Vec3 normal = Vec3::UnitZ();
+    std::size_t end = 0;  // of its rows
   };
+  struct ScaledRow {
+    Vec3 armA = Vec3::Zero();
+    Vec3 armB = Vec3::Zero();
+    double scale = 0;  // √(effective mass)
+  };
+  /// By row, and zeros up to a multiple of kLanes.
   using Values = std::vector<double>;
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const Move& moveOf(int body) const { return moves_[at(members_[at(body)])]; }
-  static bool isZero(const Move& move) { return move.shift.isZero(0) && move.turn.isZero(0); }
   int memberOf(int body);
+  int solveInLanes(double enough, int most);
   void apply(const Values& impulses, Values& result);
   double largestEigenvalue();
-  void findGradient();
-  void pointAlongGradient();
-  void leaveFace(double step, double length);
 
   std::span<const PileBody> bodies_;
-  std::vector<int> members_;  // by body: in own_, or kNobody
-  std::vector<Member> own_;
+  std::vector<int> members_;  // by body: in own_; 0 for those that do not move
+  std::vector<Member> own_;   // after the first
+  std::vector<Block> blocks_;
   std::vector<ScaledRow> rows_;
   std::vector<Move> moves_;  // by member, of what apply() was last called with
-  Values impulses_, gradient_, direction_, applied_;
+  Values bounds_, perScale_, impulses_, ahead_, next_;
 };
 
 }  // namespace careen

@@ -12,6 +12,8 @@ using Lanes = double __attribute__((vector_size(32), aligned(16)));
 /// All bits of a lane set: chosen.
 using LaneMask = std::int64_t __attribute__((vector_size(32), aligned(16)));
 inline constexpr int kLanes = 4;
+/// Four counts.
+using LaneCounts = std::uint32_t __attribute__((vector_size(16)));
 
 // All that takes or returns lanes is inlined, so that no calling convention matters.
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -64,6 +66,14 @@ CAREEN_LANES LanesVec cross(const LanesVec& a, const LanesVec& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 CAREEN_LANES Lanes dot(const LanesVec& a, const LanesVec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+CAREEN_LANES Lanes largerOf(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+CAREEN_LANES Lanes smallerOf(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
+CAREEN_LANES double largestOf(const Lanes& v) {
+  const double first = v[0] > v[1] ? v[0] : v[1];
+  const double last = v[2] > v[3] ? v[2] : v[3];
+  return first > last ? first : last;
+}
+CAREEN_LANES double sumOf(const Lanes& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 CAREEN_LANES Lanes absOf(const Lanes& v) { return v < 0 ? -v : v; }
 /// |x| + |y| + |z|
 CAREEN_LANES Lanes sumOfSizes(const LanesVec& v) { return absOf(v.x) + absOf(v.y) + absOf(v.z); }
@@ -71,11 +81,19 @@ CAREEN_LANES bool any(const LaneMask& mask) { return (mask[0] | mask[1] | mask[2
 CAREEN_LANES Lanes rootOf(const Lanes& v) {
   return Lanes{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 }
-/// Of the lowest four bits.
-CAREEN_LANES LaneMask maskOf(unsigned bits) {
-  const auto lane = [&](unsigned k) { return -static_cast<std::int64_t>((bits >> k) & 1U); };
-  return LaneMask{lane(0), lane(1), lane(2), lane(3)};
+CAREEN_LANES LaneCounts countsFrom(const std::uint32_t* from) {
+  LaneCounts counts;
+  std::memcpy(&counts, from, sizeof counts);
+  return counts;
 }
+CAREEN_LANES void countsTo(const LaneCounts& counts, std::uint32_t* to) {
+  std::memcpy(to, &counts, sizeof counts);
+}
+/// Of a comparison of counts.
+CAREEN_LANES LaneMask maskOf(const std::int32_t __attribute__((vector_size(16))) & chosen) {
+  return __builtin_convertvector(chosen, LaneMask);
+}
+CAREEN_LANES std::int64_t sumOf(const LaneMask& mask) { return mask[0] + mask[1] + mask[2] + mask[3]; }
 
 /// Runs it with registers four lanes wide where the machine has them and `wide` is set; `work` is a lambda
 /// that is inlined.

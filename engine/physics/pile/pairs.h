@@ -20,6 +20,7 @@ struct PilePair {
   // Where there was no manifold when the two were last looked at:
   Vec3 apart = Vec3::Zero();  ///< [m] a's centre from b's, or from the origin
   double turned = 0;          ///< [m] the turned paths of both, together
+  double until = 0;           ///< [m] their paths, together, up to which they have none in any case
   double clear = 0;           ///< [m] that they must come nearer for contact points; 0: look again
 };
 

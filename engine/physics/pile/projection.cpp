@@ -18,7 +18,7 @@ constexpr int kMostLayerDoublings = 4;
 constexpr int kSweptPasses = 2;
 constexpr int kSweepsAtFirst = 20;
 constexpr int kGradients = 300;
-constexpr double kEnough = 0.1;   // [1] of the tolerance: what gradients may leave
+constexpr double kEnough = 0.03;  // [1] of the tolerance: what gradients may leave
 constexpr double kNear = 0x1p-6;  // [1] of the smallest size: larger gaps are ignored
 
 double lowestGap(const PileManifold& manifold) {

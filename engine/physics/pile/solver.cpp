@@ -1,13 +1,18 @@
 #include "physics/pile/solver.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <mutex>
 
 #include "physics/solver/residual_sum.h"
 
 namespace careen {
+namespace {
+
+constexpr std::uint32_t kNeverSeen = 0xffffffff;
+
+}  // namespace
+
 void PileSolver::begin(std::size_t bodies) {
   bodies_ = bodies;
   moving_.assign(bodies + 1, {});
@@ -59,29 +64,14 @@ void PileSolver::setBlock(Extent index, int count, int a, Partner b, double fric
                                .apart = apart};
 }
 
-void PileSolver::warmStart() {
-  for (const Block& block : blocks_) {
-    Moving& a = moving_[at(block.a)];
-    Moving& b = moving_[at(block.b)];
-    for (int k = block.first; k < block.first + block.count; ++k) {
-      const Row& row = staged_[at(k)];
-      if (row.normalImpulse == 0) {
-        continue;
-      }
-      const Vec3 impulse = row.normalImpulse * block.frame.normal + row.tangential1 * block.frame.tangent1 +
-                           row.tangential2 * block.frame.tangent2;
-      push(block.a, row.arm, impulse);
-      push(block.b, row.arm + block.apart, -impulse);
-      a.pushed = b.pushed = 1;
-    }
-  }
+void PileSolver::wakeRow(int row) {
+  const int place = blocks_[at(blockOfRow_[at(row)])].place;
+  std::atomic_ref(seen_[at(place)]).store(kNeverSeen, std::memory_order_relaxed);
 }
-
-void PileSolver::wakeRow(int row) { putShared(blocks_[at(blockOfRow_[at(row)])].place); }
 
 void PileSolver::wakeAll() {
   for (const Block& block : blocks_) {
-    put(block.place);
+    seen_[at(block.place)] = kNeverSeen;
   }
 }
 
@@ -114,19 +104,6 @@ void PileSolver::setImpulse(int row, const std::array<double, 3>& impulse) {
 
 // ---- Solving.
 
-// Those of other parts, which others may put there too, are solved after this phase.
-CAREEN_LANES void PileSolver::queueBlocksOf(int body, const Part& part) {
-  for (int k = firstBlock_[at(body)]; k < firstBlock_[at(body) + 1]; ++k) {
-    const int place = placesOfBody_[at(k)];
-    const std::size_t word = at(place) / 64;
-    if (word >= part.firstWord && word < part.lastWord) {
-      waiting_[word] |= bitOf(place);
-    } else {
-      putShared(place);
-    }
-  }
-}
-
 std::int64_t PileSolver::solve(int sweeps, bool withFriction) {
   return withFriction ? sweep<Kind::kFriction>(sweeps) : sweep<Kind::kFrictionless>(sweeps);
 }
@@ -142,12 +119,7 @@ std::int64_t PileSolver::sweep(int sweeps) {
   bool any = true;
   for (int sweep = 0; sweep < sweeps && any; ++sweep) {
     any = false;
-    for (const Phase& phase : phases_) {
-      const auto work = [&](int k) {
-        run([&]() __attribute__((always_inline)) { sweepPart<kKind>(parts_[at(phase.first + k)]); });
-      };
-      team_->run(phase.count, work);
-    }
+    forParts([&](Part& part) { run([&]() __attribute__((always_inline)) { sweepPart<kKind>(part); }); });
     for (const Part& part : parts_) {
       all += part.solved;
       any = any || part.solved > 0;
@@ -156,20 +128,24 @@ std::int64_t PileSolver::sweep(int sweeps) {
   return all;
 }
 
-// Blocks put on the list ahead of the present group are solved in this sweep, the others in the next. The
-// word is read again each time; only bits past the last group solved count.
+CAREEN_LANES LaneCounts PileSolver::changesOf(const std::array<int, kLanes>& bodies) const {
+  return LaneCounts{changes_[at(bodies[0])], changes_[at(bodies[1])], changes_[at(bodies[2])],
+                    changes_[at(bodies[3])]};
+}
+
+// Blocks put on the list ahead of the present group are solved in this sweep, the others in the next.
 template <PileSolver::Kind kKind>
 CAREEN_LANES void PileSolver::sweepPart(Part& part) {
   std::int64_t solved = 0;
-  for (std::size_t word = part.firstWord; word < part.lastWord; ++word) {
-    std::uint64_t ahead = ~std::uint64_t{0};
-    while ((waiting_[word] & ahead) != 0) {
-      const int first = std::countr_zero(waiting_[word] & ahead) / kLanes * kLanes;
-      const std::uint64_t lanes = (waiting_[word] >> first) & 0xfU;
-      ahead = (~std::uint64_t{0} << first) << kLanes;
-      waiting_[word] &= ~(std::uint64_t{0xf} << first);
-      solveGroup<kKind>((word * 64 + at(first)) / kLanes, static_cast<unsigned>(lanes), part);
-      solved += std::popcount(lanes);
+  for (std::size_t index = part.first; index < part.last; ++index) {
+    const Group& group = groups_[index];
+    const LaneCounts changes = changesOf(group.a) + changesOf(group.b);
+    std::uint32_t* const seen = &seen_[index * kLanes];
+    const LaneMask asked = maskOf(changes != countsFrom(seen));
+    if (any(asked)) {
+      countsTo(changes, seen);
+      solved -= sumOf(asked);
+      solveGroup<kKind>(index, asked);
     }
   }
   part.solved = solved;
@@ -177,7 +153,7 @@ CAREEN_LANES void PileSolver::sweepPart(Part& part) {
 
 CAREEN_LANES PileSolver::Velocities PileSolver::velocitiesOf(const std::vector<Moving>& moving,
                                                              const std::array<int, kLanes>& bodies) {
-  const auto row = [&](std::size_t lane, std::size_t k) {
+  const auto row = [&](std::size_t lane, std::size_t k) __attribute__((always_inline)) {
     return lanesFrom(moving[at(bodies[lane])].row(k));
   };
   Velocities all{.v = {row(0, 0), row(1, 0), row(2, 0)},
@@ -189,12 +165,61 @@ CAREEN_LANES PileSolver::Velocities PileSolver::velocitiesOf(const std::vector<M
   return all;
 }
 
+CAREEN_LANES void PileSolver::put(std::vector<Moving>& moving, const std::array<int, kLanes>& bodies,
+                                  Velocities velocities) {
+  transpose(velocities.v.x, velocities.v.y, velocities.v.z, velocities.unqueuedChange);
+  transpose(velocities.w.x, velocities.w.y, velocities.w.z, velocities.pushed);
+  const auto putOne = [&](std::size_t lane, const Lanes& velocity, const Lanes& omega)
+      __attribute__((always_inline)) {
+    Moving& body = moving[at(bodies[lane])];
+    lanesTo(velocity, body.row(0));
+    lanesTo(omega, body.row(1));
+  };
+  putOne(0, velocities.v.x, velocities.w.x);
+  putOne(1, velocities.v.y, velocities.w.y);
+  putOne(2, velocities.v.z, velocities.w.z);
+  putOne(3, velocities.unqueuedChange, velocities.pushed);
+}
+
+void PileSolver::warmStart() {
+  forParts([&](const Part& part) {
+    run([&]() __attribute__((always_inline)) {
+      for (std::size_t index = part.first; index < part.last; ++index) {
+        push(groups_[index], lanes_[index]);
+      }
+    });
+  });
+}
+
+// By the impulses of its rows.
+CAREEN_LANES void PileSolver::push(const Group& group, const LaneBlock& block) {
+  Velocities a = velocitiesOf(moving_, group.a);
+  Velocities b = velocitiesOf(moving_, group.b);
+  LaneMask pushed{};
+  for (int k = group.first; k < group.first + group.count; ++k) {
+    const LaneRow& row = rows_[at(k)];
+    const LanesVec impulse = row.normalImpulse * block.normal + row.tangential1 * block.tangent1 +
+                             row.tangential2 * block.tangent2;
+    pushed |= row.normalImpulse != 0;
+    a.v = a.v + block.a.inverseMass * impulse;
+    b.v = b.v - block.b.inverseMass * impulse;
+    a.w = a.w + block.a.inertia * cross(row.arm, impulse);
+    b.w = b.w - block.b.inertia * cross(row.arm + block.apart, impulse);
+  }
+  if (any(pushed)) {
+    const Lanes one = {1, 1, 1, 1};
+    a.pushed = pushed & (block.a.inverseMass > 0) ? one : a.pushed;
+    b.pushed = pushed & (block.b.inverseMass > 0) ? one : b.pushed;
+    put(moving_, group.a, a);
+    put(moving_, group.b, b);
+  }
+}
+
 template <PileSolver::Kind kKind>
-CAREEN_LANES void PileSolver::solveGroup(std::size_t index, unsigned lanes, const Part& part) {
+CAREEN_LANES void PileSolver::solveGroup(std::size_t index, const LaneMask& asked) {
   const Group& group = groups_[index];
   const LaneBlock& block = lanes_[index];
   const std::vector<Moving>& moving = kKind == Kind::kShift ? shifts_ : moving_;
-  const LaneMask asked = maskOf(lanes);
   const Velocities fromA = velocitiesOf(moving, group.a);
   const Velocities fromB = velocitiesOf(moving, group.b);
   Velocities a = fromA;
@@ -247,50 +272,74 @@ CAREEN_LANES void PileSolver::solveGroup(std::size_t index, unsigned lanes, cons
     b.w = b.w - block.b.inertia * cross(armB, impulse);
   }
   if (any(changed)) {
-    store<kKind>(group.a, block.a, fromA, a, changed, part);
-    store<kKind>(group.b, block.b, fromB, b, changed, part);
+    store<kKind>(group.a, block.a, fromA, a, changed);
+    store<kKind>(group.b, block.b, fromB, b, changed);
   }
 }
 
 // Of bodies that cannot move, what was there.
 template <PileSolver::Kind kKind>
 CAREEN_LANES void PileSolver::store(const std::array<int, kLanes>& bodies, const Side& side,
-                                    const Velocities& from, Velocities to, const LaneMask& changed,
-                                    const Part& part) {
+                                    const Velocities& from, Velocities to, const LaneMask& changed) {
   const Lanes one = {1, 1, 1, 1};
   const Lanes change = sumOfSizes(to.v - from.v) + side.radius * sumOfSizes(to.w - from.w);
   const Lanes sum = from.unqueuedChange + change;
   const LaneMask queued = sum > (kKind == Kind::kShift ? shiftChange_ * one : side.change);
   to.unqueuedChange = queued ? Lanes{} : sum;
   to.pushed = changed & (side.inverseMass > 0) ? one : from.pushed;
-  transpose(to.v.x, to.v.y, to.v.z, to.unqueuedChange);
-  transpose(to.w.x, to.w.y, to.w.z, to.pushed);
-  std::vector<Moving>& moving = kKind == Kind::kShift ? shifts_ : moving_;
-  const auto put = [&](std::size_t lane, const Lanes& velocity, const Lanes& omega) {
-    Moving& body = moving[at(bodies[lane])];
-    lanesTo(velocity, body.row(0));
-    lanesTo(omega, body.row(1));
-  };
-  put(0, to.v.x, to.w.x);
-  put(1, to.v.y, to.w.y);
-  put(2, to.v.z, to.w.z);
-  put(3, to.unqueuedChange, to.pushed);
+  put(kKind == Kind::kShift ? shifts_ : moving_, bodies, to);
   for (int lane = 0; lane < kLanes; ++lane) {
-    if (queued[lane] != 0) {
-      queueBlocksOf(bodies[at(lane)], part);
-    }
+    changes_[at(bodies[at(lane)])] -= static_cast<std::uint32_t>(queued[lane]);
   }
 }
 
 // ---- What came of it.
 
-double PileSolver::alongNormal(int row, const std::vector<Moving>& moving) const {
-  const Block& block = blocks_[at(blockOfRow_[at(row)])];
-  const Vec3& arm = staged_[at(row)].arm;
-  const Moving& a = moving[at(block.a)];
-  const Moving& b = moving[at(block.b)];
-  return block.frame.normal.dot(a.velocity + a.omega.cross(arm) - b.velocity -
-                                b.omega.cross(arm + block.apart));
+CAREEN_LANES Lanes PileSolver::alongNormal(const LaneBlock& block, const LaneRow& row, const Velocities& a,
+                                           const Velocities& b) {
+  return dot(block.normal, (a.v + cross(a.w, row.arm)) - (b.v + cross(b.w, row.arm + block.apart)));
+}
+
+double PileSolver::normalSpeed(int row) const {
+  const RowView view = this->row(row);
+  const Moving& a = moving_[at(view.a)];
+  const Moving& b = moving_[at(view.b)];
+  return view.directions[0].dot(a.velocity + a.omega.cross(view.armA) - b.velocity -
+                                b.omega.cross(view.armB));
+}
+
+void PileSolver::beginShifts(double h) {
+  shifts_.assign(moving_.size(), {});
+  shiftRows_.resize(rows_.size());
+  team_->share(groups_.size(), [&](std::size_t first, std::size_t last) {
+    run([&]() __attribute__((always_inline)) {
+      for (std::size_t index = first; index < last; ++index) {
+        const Group& group = groups_[index];
+        const Velocities a = velocitiesOf(moving_, group.a);
+        const Velocities b = velocitiesOf(moving_, group.b);
+        for (std::size_t k = at(group.first); k < at(group.first + group.count); ++k) {
+          shiftRows_[k] = {.bound = -h * alongNormal(lanes_[index], rows_[k], a, b)};
+        }
+      }
+    });
+  });
+}
+
+double PileSolver::mostLacking() const {
+  return team_->largest(groups_.size(), [&](std::size_t first, std::size_t last) {
+    Lanes most{};
+    run([&]() __attribute__((always_inline)) {
+      for (std::size_t index = first; index < last; ++index) {
+        const Group& group = groups_[index];
+        const Velocities a = velocitiesOf(shifts_, group.a);
+        const Velocities b = velocitiesOf(shifts_, group.b);
+        for (std::size_t k = at(group.first); k < at(group.first + group.count); ++k) {
+          most = largerOf(most, shiftRows_[k].bound - alongNormal(lanes_[index], rows_[k], a, b));
+        }
+      }
+    });
+    return largestOf(most);
+  });
 }
 
 ContactResiduals PileSolver::residuals(double speed) const {

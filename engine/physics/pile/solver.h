@@ -100,23 +100,20 @@ class PileSolver {
   /// Of the rows as they stand, bounds being targets; S [m/s] is `speed`.
   ContactResiduals residuals(double speed) const;
 
-  /// Shifts, after solve(): beginShifts(), a bound [m] for each row, wakeRow() for those that are below
-  /// theirs, shift(). `change` [m] of a body's displacement puts its manifolds back on the list.
-  void beginShifts() {
-    shifts_.assign(moving_.size(), {});
-    shiftRows_.assign(rows_.size(), {});
-  }
-  void setShiftBound(int row, double bound) { shiftRows_[rowAt(row)].bound[laneOf(row)] = bound; }
+  /// Shifts, after solve(): beginShifts(), what each row is short of [m] without them, but for h × v_n;
+  /// wakeRow() for those that lack something; shift(). `change` [m] of a body's displacement puts its
+  /// manifolds back on the list.
+  void beginShifts(double h);
+  /// Returns what it lacks [m].
+  double addToShiftBound(int row, double more) { return shiftRows_[rowAt(row)].bound[laneOf(row)] += more; }
   std::int64_t shift(int sweeps, double change);
+  /// [m] What shifts leave to be done at one row, at the most.
+  double mostLacking() const;
   bool isShifted(int body) const { return shifts_[at(body)].pushed != 0; }
   const Vec3& displacement(int body) const { return shifts_[at(body)].velocity; }  ///< [m]
   const Vec3& turn(int body) const { return shifts_[at(body)].omega; }             ///< [rad]
-  /// [m] What its shifts leave of the row's bound.
-  double shiftLacks(int row) const {
-    return shiftRows_[rowAt(row)].bound[laneOf(row)] - alongNormal(row, shifts_);
-  }
   /// [m/s] v_n of the row as it stands.
-  double normalSpeed(int row) const { return alongNormal(row, moving_); }
+  double normalSpeed(int row) const;
 
   /// One row as it stands.
   struct RowView {
@@ -224,8 +221,8 @@ class PileSolver {
   };
   /// Solved by one thread: of what others write meanwhile it reads nothing.
   struct Part {
-    std::size_t firstWord = 0;  // in waiting_
-    std::size_t lastWord = 0;
+    std::size_t first = 0;  // groups
+    std::size_t last = 0;
     int nobody = 0;  // in moving_, in place of bodies that cannot move
     std::int64_t solved = 0;
   };
@@ -239,7 +236,8 @@ class PileSolver {
   int laneOf(int row) const { return static_cast<int>(rowPlaces_[at(row)] % kLanes); }
   enum class Kind : std::uint8_t { kFriction, kFrictionless, kShift };
   bool movable(int body) const { return inertia_[at(body)].inverseMass > 0; }
-  double alongNormal(int row, const std::vector<Moving>& moving) const;
+  static Lanes alongNormal(const LaneBlock& block, const LaneRow& row, const Velocities& a,
+                           const Velocities& b);
   void findParts();
   void findSlabs(int count);
   void findGroups();
@@ -249,23 +247,26 @@ class PileSolver {
   void fillGroup(const Group& group, LaneBlock& lanes);
   void fillSide(Side& side, int lane, int body) const;
   void findMasses(const Group& group, const LaneBlock& lanes);
-  void listBlocks();
+  void push(const Group& group, const LaneBlock& block);
+  static void put(std::vector<Moving>& moving, const std::array<int, kLanes>& bodies, Velocities velocities);
+  /// Work on each part, by several threads.
+  template <class Work>
+  void forParts(const Work& work) {
+    for (const Phase& phase : phases_) {
+      team_->run(phase.count, [&](int k) { work(parts_[at(phase.first + k)]); });
+    }
+  }
   template <Kind kKind>
   std::int64_t sweep(int sweeps);
   template <Kind kKind>
   void sweepPart(Part& part);
   template <Kind kKind>
-  void solveGroup(std::size_t index, unsigned lanes, const Part& part);
+  void solveGroup(std::size_t index, const LaneMask& asked);
   template <Kind kKind>
   void store(const std::array<int, kLanes>& bodies, const Side& side, const Velocities& from, Velocities to,
-             const LaneMask& changed, const Part& part);
+             const LaneMask& changed);
   static Velocities velocitiesOf(const std::vector<Moving>& moving, const std::array<int, kLanes>& bodies);
-  void queueBlocksOf(int body, const Part& part);
-  void put(int place) { waiting_[at(place) / 64] |= bitOf(place); }
-  void putShared(int place) {
-    std::atomic_ref(waiting_[at(place) / 64]).fetch_or(bitOf(place), std::memory_order_relaxed);
-  }
-  static std::uint64_t bitOf(int place) { return std::uint64_t{1} << (at(place) % 64); }
+  LaneCounts changesOf(const std::array<int, kLanes>& bodies) const;
   template <class Work>
   void run(const Work& work) const {
     if (wide_) {
@@ -296,10 +297,10 @@ class PileSolver {
   std::vector<int> blockOfRow_;
   std::vector<std::size_t> rowPlaces_;  // kLanes × index in rows_ + lane
   std::vector<std::vector<int>> open_;  // groups with lanes left, by number of rows
-  std::vector<int> firstBlock_;         // per body, index into placesOfBody_
-  std::vector<int> placesOfBody_;
-  std::vector<int> cursor_;
-  std::vector<std::uint64_t> waiting_;  // by place
+  // Per body, how often it changed enough to solve its blocks again; and the sum of those of both bodies when
+  // a block was solved last, by place. A block whose sum is another is on the list.
+  std::vector<std::uint32_t> changes_;
+  std::vector<std::uint32_t> seen_;
 };
 
 }  // namespace careen

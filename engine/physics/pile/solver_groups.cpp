@@ -11,7 +11,6 @@ namespace {
 constexpr std::size_t kMostOpen = 16;  // groups that a block is tried with
 constexpr std::size_t kBlocksPerSlab = 800;
 constexpr int kMostSlabs = 8;
-constexpr int kGroupsPerWord = 64 / kLanes;
 constexpr double kRelaxation = 1.4;  // [1] of normal impulses; 1 to 2. Halves the sweeps that a heap needs.
 
 }  // namespace
@@ -20,7 +19,6 @@ void PileSolver::link() {
   findParts();
   findGroups();
   fillGroups();
-  listBlocks();
 }
 
 // A block of two slabs is a part's between them; of slabs that are no neighbours, the last part's.
@@ -83,7 +81,6 @@ void PileSolver::findSlabs(int count) {
   }
 }
 
-// Those of a part are in words of waiting_ of their own.
 void PileSolver::findGroups() {
   ordered_.resize(blocks_.size());
   std::vector<int> next(parts_.size() + 1, 0);
@@ -102,14 +99,14 @@ void PileSolver::findGroups() {
     for (std::vector<int>& open : open_) {
       open.clear();
     }
-    parts_[k].firstWord = groups_.size() / kGroupsPerWord;
+    parts_[k].first = groups_.size();
     for (; ordered < ordered_.size() && at(blocks_[at(ordered_[ordered])].part) == k; ++ordered) {
       findGroup(ordered_[ordered]);
     }
-    groups_.resize((groups_.size() + kGroupsPerWord - 1) / kGroupsPerWord * kGroupsPerWord);
-    parts_[k].lastWord = groups_.size() / kGroupsPerWord;
+    parts_[k].last = groups_.size();
   }
-  waiting_.assign(groups_.size() / kGroupsPerWord, 0);
+  changes_.assign(moving_.size(), 0);
+  seen_.assign(groups_.size() * kLanes, 0);
 }
 
 // The first group with as many rows and none of its bodies, of those that are not full; a new one, if there
@@ -254,24 +251,6 @@ CAREEN_LANES void PileSolver::findMasses(const Group& group, const LaneBlock& la
     const Lanes half = 0.5 * (k11 - k22);
     const Lanes largest = 0.5 * (k11 + k22) + rootOf(half * half + k12 * k12);
     row.slide = there ? one / (there ? largest : one) : Lanes{};
-  }
-}
-
-// The places of each body's blocks, by counting sort.
-void PileSolver::listBlocks() {
-  firstBlock_.assign(bodies_ + 2, 0);
-  for (const Block& block : blocks_) {
-    ++firstBlock_[at(block.a) + 1];
-    ++firstBlock_[at(block.b) + 1];
-  }
-  for (std::size_t i = 1; i < firstBlock_.size(); ++i) {
-    firstBlock_[i] += firstBlock_[i - 1];
-  }
-  cursor_.assign(firstBlock_.begin(), firstBlock_.end());
-  placesOfBody_.resize(2 * blocks_.size());
-  for (const Block& block : blocks_) {
-    placesOfBody_[at(cursor_[at(block.a)]++)] = block.place;
-    placesOfBody_[at(cursor_[at(block.b)]++)] = block.place;
   }
 }
 

@@ -99,5 +99,35 @@ TEST(PileAxes, theLastAxisWinsTies) {
   }
 }
 
+// Whichever axis is tried first: the gap, or a lower bound of it above what is asked for.
+TEST(GapAbove, isTheGapOrABoundAboveTheLeast) {
+  test::Dice dice(3);
+  int bounds = 0;
+  int gaps = 0;
+  for (int k = 0; k < 5000; ++k) {
+    const PileBody a = boxAt({0.3, 0.4, 0.5}, dice.vector(1), dice.orientation());
+    const PileBody b = boxAt({0.5, 0.2, 0.4}, Vec3::Zero(), dice.orientation());
+    PileAxes axes{};
+    ASSERT_TRUE(axes.find(a, b, kFar, -1, 0));
+    const double least = dice.between(-0.2, 0.2);
+    for (int first = -1; first < BoxAxis::kCount; ++first) {
+      const double found = gapAbove(least, first, a, a.axes, b, b.axes, a.position - b.position);
+      if (axes.separation() > least) {
+        EXPECT_GT(found, least);
+        EXPECT_LE(found, axes.separation() + 2e-13);
+        bounds += found < axes.separation() - 1e-3 ? 1 : 0;
+      } else {
+        EXPECT_EQ(found, axes.separation());
+        ++gaps;
+      }
+    }
+    const int best = axes.edgeSeparation > axes.faceSeparation ? axes.edges : axes.face;
+    EXPECT_NEAR(gapAbove(-kFar, best, a, a.axes, b, b.axes, a.position - b.position), axes.separation(),
+                2e-13);
+  }
+  EXPECT_GT(bounds, 1000);
+  EXPECT_GT(gaps, 1000);
+}
+
 }  // namespace
 }  // namespace careen

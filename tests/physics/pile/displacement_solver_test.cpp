@@ -58,8 +58,8 @@ TEST(DisplacementSolver, carriesThroughALongChain) {
   for (int k = 1; k < kCount; ++k) {
     solver.add(between(k, k - 1, k == kCount / 2 ? 1e-3 : 0));
   }
-  const int steps = solver.solve(1e-5, 300);
-  EXPECT_LT(steps, 300);  // measured 34
+  const int steps = solver.solve(1e-6, 300);
+  EXPECT_LT(steps, 300);  // measured 46
   double sum = 0;
   for (int k = 0; k < kCount; ++k) {
     EXPECT_NEAR(along(solver, k), k < kCount / 2 ? -0.5e-3 : 0.5e-3, 0.05e-3) << k;
@@ -179,7 +179,7 @@ TEST(DisplacementSolver, findsWhatAnEnumerationOfSetsFinds) {
   }
   EXPECT_GT(compared, 2000);
   RecordProperty("worst", std::to_string(worst));
-  EXPECT_LT(worst, 0.15);  // measured 0.099: of the largest, as the last tenths are not looked for
+  EXPECT_LT(worst, 0.15);  // measured 0.113: of the largest, as the last tenths are not looked for
 }
 
 }  // namespace

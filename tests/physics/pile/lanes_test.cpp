@@ -52,9 +52,9 @@ std::vector<double> solved(bool wide) {
   solver.warmStart();
   solver.wakeAll();
   solver.solve(30, true);
-  solver.beginShifts();
+  solver.beginShifts(0);
   for (int row = 0; row < static_cast<int>(solver.rowCount()); ++row) {
-    solver.setShiftBound(row, row % 5 == 0 ? 1e-3 : 0);
+    solver.addToShiftBound(row, row % 5 == 0 ? 1e-3 : 0);
     solver.wakeRow(row);
   }
   solver.shift(20, 1e-9);

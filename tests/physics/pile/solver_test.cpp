@@ -79,9 +79,9 @@ Solved solved(int threads, int sweeps) {
     result.numbers.insert(result.numbers.end(),
                           {solver.normalImpulse(row), solver.tangential1(row), solver.tangential2(row)});
   }
-  solver.beginShifts();
+  solver.beginShifts(0);
   for (int row = 0; row < rows; ++row) {
-    solver.setShiftBound(row, row % 5 == 0 ? 1e-3 : 0);
+    solver.addToShiftBound(row, row % 5 == 0 ? 1e-3 : 0);
     solver.wakeRow(row);
   }
   solver.shift(sweeps, 1e-9);
