@@ -8,23 +8,6 @@ namespace {
 
 constexpr double kParallelSquared = 0x1p-14;
 
-double separationAlong(int axis, const Vec3& halfA, const Mat3& axesOfA, const Vec3& halfB,
-                       const Mat3& axesOfB, const Vec3& apart) {
-  const Vec3 along = axis < 3   ? Vec3(axesOfA.col(axis))
-                     : axis < 6 ? Vec3(axesOfB.col(axis - 3))
-                                : Vec3(axesOfA.col((axis - 6) / 3).cross(axesOfB.col((axis - 6) % 3)));
-  const auto reachOf = [&](const Vec3& half, const Mat3& axes) {
-    return half.x() * std::fabs(along.dot(axes.col(0))) + half.y() * std::fabs(along.dot(axes.col(1))) +
-           half.z() * std::fabs(along.dot(axes.col(2)));
-  };
-  const double separation = std::fabs(along.dot(apart)) - (reachOf(halfA, axesOfA) + reachOf(halfB, axesOfB));
-  if (axis < 6) {
-    return separation;
-  }
-  const double squared = along.squaredNorm();
-  return squared < kParallelSquared ? std::numeric_limits<double>::lowest() : separation / std::sqrt(squared);
-}
-
 }  // namespace
 
 bool PileAxes::find(const PileBody& a, const Mat3& axesOfA, const PileBody& b, const Mat3& axesOfB,
@@ -90,10 +73,28 @@ bool PileAxes::find(const PileBody& a, const Mat3& axesOfA, const PileBody& b, c
   return true;
 }
 
+double separationAlong(int axis, const PileBody& a, const Mat3& axesOfA, const PileBody& b,
+                       const Mat3& axesOfB, const Vec3& apart) {
+  const Vec3 along = axis < 3   ? Vec3(axesOfA.col(axis))
+                     : axis < 6 ? Vec3(axesOfB.col(axis - 3))
+                                : Vec3(axesOfA.col((axis - 6) / 3).cross(axesOfB.col((axis - 6) % 3)));
+  const auto reachOf = [&](const Vec3& half, const Mat3& axes) {
+    return half.x() * std::fabs(along.dot(axes.col(0))) + half.y() * std::fabs(along.dot(axes.col(1))) +
+           half.z() * std::fabs(along.dot(axes.col(2)));
+  };
+  const double separation =
+      std::fabs(along.dot(apart)) - (reachOf(a.halfExtents, axesOfA) + reachOf(b.halfExtents, axesOfB));
+  if (axis < 6) {
+    return separation;
+  }
+  const double squared = along.squaredNorm();
+  return squared < kParallelSquared ? std::numeric_limits<double>::lowest() : separation / std::sqrt(squared);
+}
+
 double gapAbove(double least, int first, const PileBody& a, const Mat3& axesOfA, const PileBody& b,
                 const Mat3& axesOfB, const Vec3& apart) {
   if (first >= 0) {
-    const double separation = separationAlong(first, a.halfExtents, axesOfA, b.halfExtents, axesOfB, apart);
+    const double separation = separationAlong(first, a, axesOfA, b, axesOfB, apart);
     if (separation > least) {
       return separation;
     }

@@ -34,6 +34,10 @@ struct PileAxes {
   double separation() const { return std::max(faceSeparation, edgeSeparation); }
 };
 
+/// [m] Along one of the 15 axes, as in BoxAxis; of edges that are parallel, the lowest double.
+double separationAlong(int axis, const PileBody& a, const Mat3& axesOfA, const PileBody& b,
+                       const Mat3& axesOfB, const Vec3& apart);
+
 /// [m] The gap of two boxes or, where one of the 15 axes shows that it is above `least`, a lower bound of it
 /// that is, too. `first`, if not −1, is tried first: that costs little where the boxes touch along it.
 double gapAbove(double least, int first, const PileBody& a, const Mat3& axesOfA, const PileBody& b,

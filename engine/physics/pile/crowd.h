@@ -299,6 +299,7 @@ class Crowd {
   double wayOf(int b, int a) const;
   void findTurns();
   double gapAtEnd(int a, int b, int axis) const;
+  bool staysApart(int a, int b, int axis) const;
   double depthWithin(int a, int b, int axis, double atEnd) const;
   Pose between(std::size_t place, double part) const;
   double depthBefore(const PilePair& pair) const;

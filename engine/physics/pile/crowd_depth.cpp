@@ -152,11 +152,33 @@ double Crowd::gapAtEnd(int a, int b, int axis) const {
                   bodyA.middle() - bodyB.middle());
 }
 
+// Whether they do along that axis on a straight way: within it, its separation is lower than at the ends by
+// what is of second order in their turns.
+bool Crowd::staysApart(int a, int b, int axis) const {
+  if (axis < 0 || !way_.empty()) {
+    return false;
+  }
+  const auto separation = [&](const PileBody& bodyA, const PileBody& bodyB) {
+    return separationAlong(axis, bodyA, bodyA.axes, bodyB, bodyB.axes, bodyA.middle() - bodyB.middle());
+  };
+  const PileBody& fromA = start_[at(a)];
+  const PileBody& fromB = start_[at(b)];
+  const PileBody& toA = bodies_[at(a)];
+  const PileBody& toB = bodies_[at(b)];
+  const double turn = turns_[at(a)].norm() + turns_[at(b)].norm();
+  const double way = (toA.position - toB.position - (fromA.position - fromB.position)).norm();
+  const double lower = 0.25 * turn * (turn * (toA.radius + toB.radius) + way);
+  return std::min(separation(fromA, fromB), separation(toA, toB)) - lower > -kDeep * tolerance_;
+}
+
 // [m] Overlap within the step, if more than kDeep: of features that are apart at both its ends. No gap
 // changes by more than points move.
 double Crowd::depthWithin(int a, int b, int axis, double atEnd) const {
   const double motion = wayOf(b, a);
   if (motion <= kSwing * tolerance_) {
+    return 0;
+  }
+  if (staysApart(a, b, axis)) {
     return 0;
   }
   const auto gapAt = [&](double part) {

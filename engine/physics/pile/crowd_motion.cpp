@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "physics/geometry/separation.h"
 #include "physics/motion/joined_steps.h"
@@ -179,6 +180,40 @@ void Crowd::findSharp() {
            bodies_[a].radius * (ofA.omega.norm() + change[a].omega.norm()) +
            bodies_[b].radius * (ofB.omega.norm() + change[b].omega.norm());
   };
+  // The bend lies in the hull of the joint and its own ends; what the separation along an axis that turns
+  // with the bodies is lower within by is of second order in their turns.
+  const double begin = JoinedSteps::beside(partBefore_, part, -1).time;
+  const double end = JoinedSteps::beside(partBefore_, part, 1).time;
+  const auto staysApart = [&](const PileManifold& manifold) {
+    const PileBody& a = start_[at(manifold.a)];
+    const PileBody& b = start_[at(manifold.b.body())];
+    const auto ratesAfter = [&](std::size_t i) {
+      return Rates{ratesBefore_[i].velocity + change[i].velocity, ratesBefore_[i].omega + change[i].omega};
+    };
+    const auto axesThen = [](const PileBody& body, const Vec3& turn) {
+      Mat3 axes;
+      for (int k = 0; k < 3; ++k) {
+        axes.col(k) = body.axes.col(k) + turn.cross(body.axes.col(k));
+      }
+      return axes;
+    };
+    double lower = 0;
+    double least = std::numeric_limits<double>::max();
+    for (const double time : {begin, 0.0, end}) {
+      const Rates ofA = time < 0 ? ratesBefore_[at(manifold.a)] : ratesAfter(at(manifold.a));
+      const Rates ofB = time < 0 ? ratesBefore_[at(manifold.b.body())] : ratesAfter(at(manifold.b.body()));
+      const Vec3 apart = a.position - b.position + time * (ofA.velocity - ofB.velocity);
+      const Mat3 axesA = axesThen(a, time * ofA.omega);
+      const Mat3 axesB = axesThen(b, time * ofB.omega);
+      const Vec3 arms = (a.center == nullptr ? Vec3(Vec3::Zero()) : Vec3(axesA * *a.center)) -
+                        (b.center == nullptr ? Vec3(Vec3::Zero()) : Vec3(axesB * *b.center));
+      least = std::min(least, separationAlong(manifold.axis, a, axesA, b, axesB, apart + arms));
+      const double turn = std::abs(time) * (ofA.omega.norm() + ofB.omega.norm());
+      const double way = std::abs(time) * (ofA.velocity - ofB.velocity).norm();
+      lower = std::max(lower, turn * (turn * (a.radius + b.radius) + way));
+    }
+    return least - lower > -kDeepAtJoint * tolerance_;
+  };
   const auto isSharpAt = [&](const PileManifold& manifold) {
     if (manifold.b.isWall()) {
       return false;
@@ -192,6 +227,9 @@ void Crowd::findSharp() {
                              : ofA.velocity.norm() + bodies_[at(manifold.a)].radius * ofA.omega.norm() +
                                    ofB.velocity.norm() + bodyAt(manifold.b).radius * ofB.omega.norm();
     if (most * way <= kRounded * tolerance_) {
+      return false;
+    }
+    if (alike && manifold.axis >= 0 && staysApart(manifold)) {
       return false;
     }
     const DepthSearch search{.motion = kBesideJoint * std::max(partBefore_, part) * passingSpeed(manifold),

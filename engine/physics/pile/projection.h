@@ -14,7 +14,7 @@ namespace careen {
 /// Position projection: removes penetration without friction and without changing any velocity or angular
 /// momentum: the smallest mass-weighted displacement δ with gap + J·δ ≥ 0 for the manifolds around those that
 /// penetrate by more than a tolerance. Linear in δ, hence iterated in passes with gaps updated in between:
-/// the first few by Gauss–Seidel, as most need no more, and few bodies move; those after them by conjugate
+/// the first few by Gauss–Seidel, as most need no more, and few bodies move; those after them by accelerated
 /// gradients.
 class PileProjection {
  public:

@@ -59,6 +59,12 @@ TEST(PileAxes, agreeWithTheCarefulSeparations) {
     EXPECT_NEAR(careful.separation({axes.face}), face, 1e-14);
     EXPECT_NEAR(careful.separation({axes.edges}), edge, 2e-13);
     EXPECT_LT((axes.cosines - a.axes.transpose() * b.axes).norm(), 1e-15);
+    for (int i = 0; i < BoxAxis::kCount; ++i) {
+      if (i < 6 || careful.sine((i - 6) / 3, (i - 6) % 3) > 0x1p-6) {
+        EXPECT_NEAR(separationAlong(i, a, a.axes, b, b.axes, a.position - b.position),
+                    careful.separation({i}), 2e-13);
+      }
+    }
     byEdges += edge > face ? 1 : 0;
   }
   EXPECT_GT(byEdges, 100);
