@@ -2,8 +2,8 @@
 // Bullet's double-precision library, as shipped, on the same scene (-DCAREEN_PEERS=ON). Compare within one
 // run: --benchmark_enable_random_interleaving=true --benchmark_repetitions=5, minimum of each.
 //
-// Measured, 1000 boxes over 10 s, mean of six heaps that differ by rounding: 8.8 ms per frame, by two threads
-// 7.2, Bullet (one thread) 9.6, in turns. Two thirds of that are the first 3 s, with boxes arriving at
+// Measured, 1000 boxes over 10 s, mean of four heaps that differ by rounding: 7.2 ms per frame, by two threads
+// 5.3, Bullet (one thread) 10.5, in turns. Two thirds of that are the first 3 s, with boxes arriving at
 // 20 m/s; parts sleep from 5 s on, all from 6 to 10 s on. 8028 boxes over 3 s cost 18 times what 1000 do:
 // 12 times a step, and 1.4 times the steps, as the fastest of more boxes is faster and one that is deep makes
 // all go back.

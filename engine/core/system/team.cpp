@@ -1,5 +1,7 @@
 #include "core/system/team.h"
 
+#include <utility>
+
 namespace careen {
 namespace {
 
@@ -26,42 +28,56 @@ Team::~Team() {
   round_.notify_all();
 }
 
-void Team::runTogether(const Piece& piece) {
-  piece_ = piece;
+void Team::runTogether(const void* work, Call call, int parts) {
   if (threads_.empty()) {
-    errors_.resize(static_cast<std::size_t>(size_));
     for (int i = 1; i < size_; ++i) {
-      threads_.emplace_back([this, i] { help(i); });
+      threads_.emplace_back([this] { help(); });
     }
   }
-  busy_.store(size_ - 1, std::memory_order_relaxed);
-  round_.fetch_add(1, std::memory_order_release);
+  work_.store(work, std::memory_order_relaxed);
+  call_.store(call, std::memory_order_relaxed);
+  parts_.store(parts, std::memory_order_relaxed);
+  done_.store(0, std::memory_order_relaxed);
+  const std::uint32_t round = round_.load(std::memory_order_relaxed) + 1;
+  next_.store(std::uint64_t{round} << 32U, std::memory_order_release);
+  round_.store(round, std::memory_order_release);
   round_.notify_all();
-  doParts(0);
-  for (int looks = 0; busy_.load(std::memory_order_acquire) != 0; ++looks) {
+  doParts();
+  for (int looks = 0; done_.load(std::memory_order_acquire) != parts; ++looks) {
     pauseAfter(looks);
   }
-  std::exception_ptr first;
-  for (std::exception_ptr& error : errors_) {
-    first = first ? first : error;
-    error = nullptr;
-  }
-  if (first) {
-    std::rethrow_exception(first);
+  if (error_) {
+    std::rethrow_exception(std::exchange(error_, nullptr));
   }
 }
 
-void Team::doParts(int first) noexcept {
-  try {
-    for (int part = first; part < piece_.parts; part += size_) {
-      piece_.call(piece_.work, part);
+void Team::doParts() noexcept {
+  std::uint64_t next = next_.load(std::memory_order_acquire);
+  while (true) {
+    const void* const work = work_.load(std::memory_order_relaxed);
+    const Call call = call_.load(std::memory_order_relaxed);
+    const int part = static_cast<int>(next & 0xffffffffU);
+    if (part >= parts_.load(std::memory_order_relaxed)) {
+      return;
     }
-  } catch (...) {
-    errors_[static_cast<std::size_t>(first)] = std::current_exception();
+    if (!next_.compare_exchange_weak(next, next + 1, std::memory_order_acq_rel, std::memory_order_acquire)) {
+      continue;
+    }
+    ++next;
+    try {
+      call(work, part);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_ || part < errorIn_) {
+        error_ = std::current_exception();
+        errorIn_ = part;
+      }
+    }
+    done_.fetch_add(1, std::memory_order_release);
   }
 }
 
-void Team::help(int first) {
+void Team::help() {
   std::uint32_t done = 0;
   while (true) {
     std::uint32_t round = round_.load(std::memory_order_acquire);
@@ -77,8 +93,7 @@ void Team::help(int first) {
       return;
     }
     done = round;
-    doParts(first);
-    busy_.fetch_sub(1, std::memory_order_release);
+    doParts();
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -23,8 +24,9 @@ class Team {
 
   int size() const { return size_; }
 
-  /// Calls work(part) for parts 0 to `parts` − 1, by the thread part mod size(), and returns when all are
-  /// done. Rethrows an error of one of them then. Not to be called by `work`.
+  /// Calls work(part) for parts 0 to `parts` − 1, each by the first thread that is free, and returns when all
+  /// are done: threads that get no core, as others have it, are not waited for. Rethrows the error of the
+  /// first part that threw, then. Not to be called by `work`.
   template <class Work>
   void run(int parts, const Work& work) {
     if (size_ <= 1 || parts <= 1) {
@@ -33,9 +35,8 @@ class Team {
       }
       return;
     }
-    runTogether({.work = &work,
-                 .call = [](const void* of, int part) { (*static_cast<const Work*>(of))(part); },
-                 .parts = parts});
+    runTogether(
+        &work, [](const void* of, int part) { (*static_cast<const Work*>(of))(part); }, parts);
   }
 
   /// Into how many ranges share() divides 0 to `count`: more than threads, as some take longer than others;
@@ -65,20 +66,22 @@ class Team {
  private:
   static constexpr std::size_t kFew = 256;  // that it costs more to share than to do
   static constexpr int kRanges = 4;
-  struct Piece {
-    const void* work = nullptr;
-    void (*call)(const void*, int) = nullptr;
-    int parts = 0;
-  };
-  void runTogether(const Piece& piece);
-  void doParts(int first) noexcept;
-  void help(int first);
+  using Call = void (*)(const void* work, int part);
+  void runTogether(const void* work, Call call, int parts);
+  void doParts() noexcept;
+  void help();
 
   int size_;
-  Piece piece_;
-  std::vector<std::exception_ptr> errors_;  // by thread
-  std::atomic<std::uint32_t> round_ = 0;    // pieces of work given out
-  std::atomic<int> busy_ = 0;               // threads that have not finished the present one
+  // The present piece of work. What is read of it is of one piece if its next part can be taken after that.
+  std::atomic<const void*> work_ = nullptr;
+  std::atomic<Call> call_ = nullptr;
+  std::atomic<int> parts_ = 0;
+  std::atomic<std::uint64_t> next_ = 0;   // 2³² × pieces given out + the next part
+  std::atomic<std::uint32_t> round_ = 0;  // pieces given out
+  std::atomic<int> done_ = 0;             // parts
+  std::mutex mutex_;                      // of the error
+  std::exception_ptr error_;
+  int errorIn_ = 0;  // part
   std::atomic<bool> ends_ = false;
   std::vector<std::jthread> threads_;  // the last member: they use the others
 };
