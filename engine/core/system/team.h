@@ -25,7 +25,7 @@ class Team {
   int size() const { return size_; }
 
   /// Calls work(part) for parts 0 to `parts` − 1, each by the first thread that is free, and returns when all
-  /// are done: threads that get no core, as others have it, are not waited for. Rethrows the error of the
+  /// are done: threads that have no core to begin a part on are not waited for. Rethrows the error of the
   /// first part that threw, then. Not to be called by `work`.
   template <class Work>
   void run(int parts, const Work& work) {

@@ -32,7 +32,9 @@ void Crowd::lookAround() {
     body.ahead = body.still()
                      ? 0
                      : h_ * (body.velocity.norm() + (h_ + body.behind) * gravityMagnitude_) + body.turning;
-    paths_[i] = body.path + body.ahead;
+    // One that sleeps may wake before its pairs are looked at.
+    const double fall = h_ * (h_ + body.behind) * gravityMagnitude_;
+    paths_[i] = body.path + (body.asleep ? fall : body.ahead);
   });
   pairs_.update(bodies_, world_.gravity, h_, std::max(h_, kLookAhead * longestStep()));
   unused_.insert(unused_.end(), pairs_.freed().begin(), pairs_.freed().end());

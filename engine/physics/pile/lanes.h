@@ -67,7 +67,6 @@ CAREEN_LANES LanesVec cross(const LanesVec& a, const LanesVec& b) {
 }
 CAREEN_LANES Lanes dot(const LanesVec& a, const LanesVec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 CAREEN_LANES Lanes largerOf(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
-CAREEN_LANES Lanes smallerOf(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
 CAREEN_LANES double largestOf(const Lanes& v) {
   const double first = v[0] > v[1] ? v[0] : v[1];
   const double last = v[2] > v[3] ? v[2] : v[3];

@@ -100,11 +100,11 @@ class PileSolver {
   /// Of the rows as they stand, bounds being targets; S [m/s] is `speed`.
   ContactResiduals residuals(double speed) const;
 
-  /// Shifts, after solve(): beginShifts(), what each row is short of [m] without them, but for h × v_n;
-  /// wakeRow() for those that lack something; shift(). `change` [m] of a body's displacement puts its
-  /// manifolds back on the list.
+  /// Shifts, after solve(): beginShifts() begins the bound [m] of each row with −h v_n, addToShiftBound()
+  /// adds the rest; wakeRow() for those that lack something; shift(). `change` [m] of a body's displacement
+  /// puts its manifolds back on the list.
   void beginShifts(double h);
-  /// Returns what it lacks [m].
+  /// Returns the whole: what the row lacks without shifts.
   double addToShiftBound(int row, double more) { return shiftRows_[rowAt(row)].bound[laneOf(row)] += more; }
   std::int64_t shift(int sweeps, double change);
   /// [m] What shifts leave to be done at one row, at the most.
