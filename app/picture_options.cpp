@@ -1,7 +1,9 @@
 #include "picture_options.h"
 
-#include "command_line.h"
+#include <algorithm>
+
 #include "parsed.h"
+#include "physics/world/run_settings.h"
 
 namespace careen {
 
@@ -21,8 +23,8 @@ CommandOption PictureOptions::addTo(const CommandLine& command) {
   command.add("--rendering-backend", backend,
               "What draws: auto, osmesa or egl (default: auto, the first of the others that there is)");
   command.add("--threads", context.threads,
-              "Threads that fill pixels in each process that draws; 0: none but its main one (default: "
-              "what cores there are for it)");
+              "Threads that fill pixels in each process that draws, and that share the steps of large crowds "
+              "before; 0: none but the main one (default: what cores there are)");
   return blur;
 }
 
@@ -52,6 +54,13 @@ ContextOptions PictureOptions::contextOptions() const {
   ContextOptions options = context;
   options.backend = parsed("--rendering-backend", backend, renderingBackendNamed);
   return options;
+}
+
+std::optional<int> PictureOptions::threadsOfCrowds() const {
+  if (!context.threads) {
+    return std::nullopt;
+  }
+  return std::clamp(*context.threads, 1, kMostThreadsOfCrowds);
 }
 
 void PictureOptions::check() const {

@@ -3,14 +3,13 @@
 #include <optional>
 #include <string>
 
+#include "command_line.h"
 #include "core/error.h"
 #include "picture_size.h"
 #include "render/gl/rendering_backend.h"
 #include "stage/picture_settings.h"
 
 namespace careen {
-
-class CommandLine;
 
 /// Command-line options that override the scene's picture settings, and the rendering backend.
 struct PictureOptions : SizeAndRate {
@@ -28,6 +27,8 @@ struct PictureOptions : SizeAndRate {
   /// Overrides the picture's settings with those that were given.
   void applyTo(PictureSettings& picture) const;
   ContextOptions contextOptions() const;
+  /// As many as may draw; none of its own is one.
+  std::optional<int> threadsOfCrowds() const;
   /// InputError for everything that can be found wrong before the simulation.
   void check() const;
 };

@@ -236,6 +236,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (reference) {
     refuseToOverwrite(*reference, settings.folder);
   }
+  options.overrides.threads = options.picture.threadsOfCrowds();
   Run run = loadRun(options.source, options.overrides, options.scene, stop);
   if (truth) {
     checkLabels(run.trajectory);

@@ -64,7 +64,9 @@ namespace {
 
 // A broken run is shown too: to look at it is the quickest way to understand it.
 Run loadAudited(const std::filesystem::path& path, const ViewOptions& options, const std::stop_token& stop) {
-  Run run = loadRun(path, options.overrides, options.scene, stop);
+  Overrides overrides = options.overrides;
+  overrides.threads = options.picture.threadsOfCrowds();
+  Run run = loadRun(path, overrides, options.scene, stop);
   AuditChoice choice = options.audit;
   choice.keepGoing = true;
   auditRun(run, choice, stop);

@@ -5,12 +5,12 @@
 namespace careen {
 namespace {
 
-// What a thread does between two looks at whether there is news: pieces follow each other so fast that to
-// sleep would take longer, but another thread may need the core.
 constexpr int kPauses = 64;    // some 5 µs
 constexpr int kYields = 1024;  // some 0.5 ms, then it sleeps
 
-void pauseAfter(int looks) {
+}  // namespace
+
+void Team::pause(int looks) {
 #if defined(__x86_64__)
   if (looks < kPauses) {
     __builtin_ia32_pause();
@@ -20,8 +20,6 @@ void pauseAfter(int looks) {
   std::this_thread::yield();
 }
 
-}  // namespace
-
 Team::~Team() {
   ends_ = true;
   ++round_;
@@ -30,40 +28,55 @@ Team::~Team() {
 
 void Team::runTogether(const void* work, Call call, int parts) {
   if (threads_.empty()) {
-    for (int i = 1; i < size_; ++i) {
-      threads_.emplace_back([this] { help(); });
+    for (std::size_t i = 1; i < left_.size(); ++i) {
+      threads_.emplace_back([this, i] { help(i); });
     }
   }
   work_.store(work, std::memory_order_relaxed);
   call_.store(call, std::memory_order_relaxed);
-  parts_.store(parts, std::memory_order_relaxed);
   done_.store(0, std::memory_order_relaxed);
   const std::uint32_t round = round_.load(std::memory_order_relaxed) + 1;
-  next_.store(std::uint64_t{round} << 32U, std::memory_order_release);
-  round_.store(round, std::memory_order_release);
+  const auto all = static_cast<std::size_t>(parts);
+  for (std::size_t i = 0; i < left_.size(); ++i) {
+    const std::size_t first = all * i / left_.size();
+    const std::size_t end = all * (i + 1) / left_.size();
+    left_[i].parts.store(std::uint64_t{round} << 32U | first << 16U | end, std::memory_order_release);
+  }
+  round_ = round;  // a full fence: that there is nobody to wake must not be found before
   round_.notify_all();
-  doParts();
+  doParts(0);
   for (int looks = 0; done_.load(std::memory_order_acquire) != parts; ++looks) {
-    pauseAfter(looks);
+    pause(looks);
   }
   if (error_) {
     std::rethrow_exception(std::exchange(error_, nullptr));
   }
 }
 
-void Team::doParts() noexcept {
-  std::uint64_t next = next_.load(std::memory_order_acquire);
+void Team::doParts(std::size_t thread) noexcept {
+  doPartsOf(thread, true);
+  for (std::size_t i = 1; i < left_.size(); ++i) {
+    doPartsOf((thread + i) % left_.size(), false);
+  }
+}
+
+void Team::doPartsOf(std::size_t owner, bool fromFirst) noexcept {
+  std::atomic<std::uint64_t>& left = left_[owner].parts;
+  std::uint64_t seen = left.load(std::memory_order_acquire);
   while (true) {
     const void* const work = work_.load(std::memory_order_relaxed);
     const Call call = call_.load(std::memory_order_relaxed);
-    const int part = static_cast<int>(next & 0xffffffffU);
-    if (part >= parts_.load(std::memory_order_relaxed)) {
+    const std::uint64_t first = seen >> 16U & 0xffffU;
+    const std::uint64_t end = seen & 0xffffU;
+    if (first == end) {
       return;
     }
-    if (!next_.compare_exchange_weak(next, next + 1, std::memory_order_acq_rel, std::memory_order_acquire)) {
+    const std::uint64_t rest = fromFirst ? seen + (1U << 16U) : seen - 1;
+    if (!left.compare_exchange_weak(seen, rest, std::memory_order_acq_rel, std::memory_order_acquire)) {
       continue;
     }
-    ++next;
+    seen = rest;
+    const int part = static_cast<int>(fromFirst ? first : end - 1);
     try {
       call(work, part);
     } catch (...) {
@@ -77,12 +90,12 @@ void Team::doParts() noexcept {
   }
 }
 
-void Team::help() {
+void Team::help(std::size_t thread) {
   std::uint32_t done = 0;
   while (true) {
     std::uint32_t round = round_.load(std::memory_order_acquire);
     for (int looks = 0; round == done && looks < kPauses + kYields; ++looks) {
-      pauseAfter(looks);
+      pause(looks);
       round = round_.load(std::memory_order_acquire);
     }
     if (round == done) {
@@ -93,7 +106,7 @@ void Team::help() {
       return;
     }
     done = round;
-    doParts();
+    doParts(thread);
   }
 }
 

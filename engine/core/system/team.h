@@ -15,7 +15,7 @@ namespace careen {
 class Team {
  public:
   /// So many threads, the caller's one of them; the others start with the first work for them.
-  explicit Team(int threads) : size_(threads) {}
+  explicit Team(int threads) : size_(threads), left_(static_cast<std::size_t>(threads)) {}
   ~Team();
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
@@ -24,9 +24,15 @@ class Team {
 
   int size() const { return size_; }
 
-  /// Calls work(part) for parts 0 to `parts` − 1, each by the first thread that is free, and returns when all
-  /// are done: threads that have no core to begin a part on are not waited for. Rethrows the error of the
-  /// first part that threw, then. Not to be called by `work`.
+  /// What a thread does between two looks at whether there is news, of which it has had that many: work
+  /// follows so fast that to sleep would take longer, but another thread may need the core.
+  static void pause(int looks);
+
+  /// Calls work(part) for parts 0 to `parts` − 1, at most kMostParts, and returns when all are done. Each
+  /// thread has parts of its own, of any two pieces about the same share of them, so what it writes stays in
+  /// its cache; who is done with them takes from the others' last ones: threads that have no core to begin a
+  /// part on are not waited for. Rethrows the error of the first part that threw, then. Not to be called by
+  /// `work`.
   template <class Work>
   void run(int parts, const Work& work) {
     if (size_ <= 1 || parts <= 1) {
@@ -64,19 +70,23 @@ class Team {
   }
 
  private:
+  static constexpr int kMostParts = 0xffff;
   static constexpr std::size_t kFew = 256;  // that it costs more to share than to do
   static constexpr int kRanges = 4;
   using Call = void (*)(const void* work, int part);
+  struct alignas(64) Left {  // of a thread's parts: round << 32 | first << 16 | end
+    std::atomic<std::uint64_t> parts = 0;
+  };
   void runTogether(const void* work, Call call, int parts);
-  void doParts() noexcept;
-  void help();
+  void doParts(std::size_t thread) noexcept;
+  void doPartsOf(std::size_t owner, bool fromFirst) noexcept;
+  void help(std::size_t thread);
 
   int size_;
-  // The present piece of work. What is read of it is of one piece if its next part can be taken after that.
+  // The present piece of work. What is read of it is of one piece if a part of it can be taken after that.
   std::atomic<const void*> work_ = nullptr;
   std::atomic<Call> call_ = nullptr;
-  std::atomic<int> parts_ = 0;
-  std::atomic<std::uint64_t> next_ = 0;   // 2³² × pieces given out + the next part
+  std::vector<Left> left_;                // by thread
   std::atomic<std::uint32_t> round_ = 0;  // pieces given out
   std::atomic<int> done_ = 0;             // parts
   std::mutex mutex_;                      // of the error

@@ -55,7 +55,7 @@ Crowd::Crowd(const World& world, double tolerance, std::shared_ptr<Team> team)
       h_(longestStep()),
       hBefore_(h_),
       span_(h_),
-      pairs_(world.walls),
+      pairs_(world.walls, team_),
       solver_(team_),
       projection_(tolerance, team_),
       bent_(kMostBent),
@@ -331,7 +331,11 @@ void Crowd::loadSolver() {
   });
   findPushing();
   rowsOf_.resize(near_.size());
-  forNear([&](PileManifold& manifold, std::size_t n) { rowsOf_[n] = lookForRows(manifold); });
+  strike_.resize(near_.size());
+  forNear([&](PileManifold& manifold, std::size_t n) {
+    rowsOf_[n] = lookForRows(manifold);
+    strike_[n] = manifold.strikes ? 1 : 0;
+  });
   PileSolver::Extent all;
   for (PileSolver::Extent& each : rowsOf_) {
     const PileSolver::Extent own = std::exchange(each, all);
@@ -340,8 +344,10 @@ void Crowd::loadSolver() {
   }
   solver_.reserve(all);
   forNear([&](PileManifold& manifold, std::size_t n) { addRows(manifold, rowsOf_[n]); });
-  for (const int slot : near_) {
-    addBounces(manifolds_[at(slot)], slot);
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    if (strike_[n] != 0) {
+      addBounces(manifolds_[at(near_[n])], near_[n]);
+    }
   }
   impulseScale_ = 1;
   figures_.rows += static_cast<std::int64_t>(solver_.rowCount());

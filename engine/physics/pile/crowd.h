@@ -349,6 +349,7 @@ class Crowd {
   std::vector<int> unused_;                 // free slots of manifolds_
   std::vector<int> near_;                   // manifolds of this step, by key
   std::vector<PileSolver::Extent> rowsOf_;  // by index in near_: where its own begin
+  std::vector<char> strike_;                // by the same: whether a point of it strikes
   std::vector<Looked> looked_;              // by pair
   std::vector<Looking> looking_;            // by range of pairs
   PileSolver solver_;

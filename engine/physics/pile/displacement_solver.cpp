@@ -13,14 +13,18 @@ constexpr double kLittle = 0.003;
 constexpr double kGradientStep = 0.9;
 constexpr int kPowerSteps = 12;
 constexpr int kNothing = 0;  // in own_
+constexpr std::size_t kBlocksPerRange = 32;
 
-CAREEN_LANES double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  Lanes sum{};
-  for (std::size_t k = 0; k < a.size(); k += kLanes) {
-    sum += lanesFrom(&a[k]) * lanesFrom(&b[k]);
+template <class Work>
+void runInLanes(const Work& work) {
+  if (hasWideLanes()) {
+    runWide(work);
+  } else {
+    work();
   }
-  return sumOf(sum);
 }
+
+CAREEN_LANES Lanes allOf(double value) { return Lanes{value, value, value, value}; }
 
 }  // namespace
 
@@ -30,9 +34,6 @@ void DisplacementSolver::begin(std::span<const PileBody> bodies) {
   own_.assign(1, {});
   moves_.assign(1, {});
   blocks_.clear();
-  rows_.clear();
-  bounds_.clear();
-  perScale_.clear();
 }
 
 int DisplacementSolver::memberOf(int body) {
@@ -60,131 +61,180 @@ void DisplacementSolver::add(const Row& row) {
   if (perMass == 0) {
     return;
   }
-  if (blocks_.empty() || blocks_.back().a != a || blocks_.back().b != b ||
+  if (blocks_.empty() || blocks_.back().rows == kLanes || blocks_.back().a != a || blocks_.back().b != b ||
       blocks_.back().normal != row.normal) {
-    blocks_.push_back({.a = a, .b = b, .normal = row.normal});
+    blocks_.push_back({.normal = row.normal, .a = a, .b = b});
   }
-  const double scale = 1 / std::sqrt(perMass);
-  rows_.push_back({.armA = row.armA, .armB = row.armB, .scale = scale});
-  blocks_.back().end = rows_.size();
-  bounds_.push_back(scale * row.bound);
-  perScale_.push_back(1 / scale);
+  Block& block = blocks_.back();
+  const int lane = block.rows++;
+  setLane(block.armA, lane, row.armA.x(), row.armA.y(), row.armA.z());
+  setLane(block.armB, lane, row.armB.x(), row.armB.y(), row.armB.z());
+  block.scale[lane] = 1 / std::sqrt(perMass);
+  block.perScale[lane] = 1 / block.scale[lane];
+  block.bound[lane] = block.scale[lane] * row.bound;
 }
 
-// (J M⁻¹ Jᵀ + c) λ; moves_ are M⁻¹ Jᵀ λ then. Rows of a block share the normal n: with turns θ, that of a
-// point is n·(θ × r) = r·(n × θ).
-CAREEN_LANES void DisplacementSolver::apply(const Values& impulses, Values& result) {
-  moves_.assign(own_.size(), {});
-  std::size_t k = 0;
+void DisplacementSolver::listBlocksOfMembers() {
+  firstOf_.assign(own_.size() + 1, 0);
   for (const Block& block : blocks_) {
-    bool acts = false;
-    double sum = 0;
-    Vec3 atA = Vec3::Zero();
-    Vec3 atB = Vec3::Zero();
-    for (; k < block.end; ++k) {
-      const double impulse = rows_[k].scale * impulses[k];
-      acts = acts || impulse != 0;
-      sum += impulse;
-      atA += impulse * rows_[k].armA;
-      atB += impulse * rows_[k].armB;
-    }
-    if (acts) {
-      Move& a = moves_[at(block.a)];
-      Move& b = moves_[at(block.b)];
-      a.shift += sum * block.normal;
-      a.turn += atA.cross(block.normal);
-      b.shift -= sum * block.normal;
-      b.turn -= atB.cross(block.normal);
-    }
+    ++firstOf_[at(block.a) + 1];
+    ++firstOf_[at(block.b) + 1];
   }
   for (std::size_t i = 0; i < own_.size(); ++i) {
-    moves_[i].shift *= own_[i].inverseMass;
-    moves_[i].turn = Vec3(own_[i].inverseInertia * moves_[i].turn);
+    firstOf_[i + 1] += firstOf_[i];
   }
-  k = 0;
-  for (const Block& block : blocks_) {
-    const Move& a = moves_[at(block.a)];
-    const Move& b = moves_[at(block.b)];
-    const double opened = block.normal.dot(a.shift - b.shift);
-    const Vec3 byTurnA = block.normal.cross(a.turn);
-    const Vec3 byTurnB = block.normal.cross(b.turn);
-    for (; k < block.end; ++k) {
-      const ScaledRow& row = rows_[k];
-      result[k] =
-          row.scale * (opened + (row.armA.dot(byTurnA) - row.armB.dot(byTurnB))) + kCompliance * impulses[k];
+  blocksOf_.resize(firstOf_.back());
+  std::vector<std::size_t> next = firstOf_;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    blocksOf_[next[at(blocks_[k].a)]++] = 2 * k;
+    blocksOf_[next[at(blocks_[k].b)]++] = 2 * k + 1;
+  }
+}
+
+// work(block, range)
+template <class Work>
+void DisplacementSolver::forBlocks(const Work& work) {
+  const std::size_t ranges = std::clamp<std::size_t>(blocks_.size() / kBlocksPerRange, 1, kMostRanges);
+  team_->run(static_cast<int>(ranges), [&](int range) {
+    runInLanes([&]() __attribute__((always_inline)) {
+      const std::size_t last = blocks_.size() * (at(range) + 1) / ranges;
+      for (std::size_t k = blocks_.size() * at(range) / ranges; k < last; ++k) {
+        work(blocks_[k], at(range));
+      }
+    });
+  });
+}
+
+// Rows of a block share the normal n: with turns θ, that of a point is n·(θ × r) = r·(n × θ).
+CAREEN_LANES void DisplacementSolver::findPush(Block& block) const {
+  const Lanes impulse = block.scale * block.ahead;
+  const auto weighted = [&](const LanesVec& arm) __attribute__((always_inline)) {
+    return Vec3(sumOf(impulse * arm.x), sumOf(impulse * arm.y), sumOf(impulse * arm.z));
+  };
+  block.push.shift = sumOf(impulse) * block.normal;
+  block.push.turnA = weighted(block.armA).cross(block.normal);
+  block.push.turnB = weighted(block.armB).cross(block.normal);
+}
+
+DisplacementSolver::Move DisplacementSolver::moved(std::size_t member) const {
+  Move move;
+  for (std::size_t k = firstOf_[member]; k < firstOf_[member + 1]; ++k) {
+    const Push& push = blocks_[blocksOf_[k] / 2].push;
+    if (blocksOf_[k] % 2 == 0) {
+      move.shift += push.shift;
+      move.turn += push.turnA;
+    } else {
+      move.shift -= push.shift;
+      move.turn -= push.turnB;
     }
   }
+  move.shift *= own_[member].inverseMass;
+  move.turn = Vec3(own_[member].inverseInertia * move.turn);
+  return move;
+}
+
+// M⁻¹ Jᵀ λ, λ being what ahead(block) gives.
+template <class Ahead>
+CAREEN_LANES void DisplacementSolver::move(const Ahead& ahead) {
+  forBlocks([&](Block & block, std::size_t) __attribute__((always_inline)) {
+    block.ahead = ahead(block);
+    findPush(block);
+  });
+  moves_.resize(own_.size());
+  team_->share(own_.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = std::max<std::size_t>(first, 1); i < last; ++i) {
+      moves_[i] = moved(i);
+    }
+  });
+}
+
+// (J M⁻¹ Jᵀ + c) λ
+CAREEN_LANES Lanes DisplacementSolver::resultOf(const Block& block) const {
+  const Move& a = moves_[at(block.a)];
+  const Move& b = moves_[at(block.b)];
+  const auto allOfVec = [](const Vec3& v) __attribute__((always_inline)) {
+    return LanesVec{allOf(v.x()), allOf(v.y()), allOf(v.z())};
+  };
+  const LanesVec byTurnA = allOfVec(block.normal.cross(a.turn));
+  const LanesVec byTurnB = allOfVec(block.normal.cross(b.turn));
+  const Lanes opened = allOf(block.normal.dot(a.shift - b.shift));
+  return block.scale * (opened + (dot(block.armA, byTurnA) - dot(block.armB, byTurnB))) +
+         kCompliance * block.ahead;
+}
+
+// take(block, its result, sums)
+template <class Take>
+CAREEN_LANES DisplacementSolver::Sums DisplacementSolver::findResults(const Take& take) {
+  sums_.assign(kMostRanges, {});
+  forBlocks([&](Block & block, std::size_t range)
+                __attribute__((always_inline)) { take(block, resultOf(block), sums_[range]); });
+  Sums all;
+  for (const Sums& sums : sums_) {
+    all.lacking = largerOf(all.lacking, sums.lacking);
+    all.back += sums.back;
+    all.squares += sums.squares;
+  }
+  return all;
 }
 
 // By powers: a little too small.
-CAREEN_LANES double DisplacementSolver::largestEigenvalue() {
+double DisplacementSolver::largestEigenvalue() {
   std::minstd_rand random;
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    ahead_[k] = random() % 2 == 0 ? 1 : -1;
+  double size = 0;
+  for (Block& block : blocks_) {
+    for (int lane = 0; lane < block.rows; ++lane) {
+      block.next[lane] = random() % 2 == 0 ? 1 : -1;
+      ++size;
+    }
   }
-  double largest = 1;
   for (int step = 0; step < kPowerSteps; ++step) {
-    const double before = dot(ahead_, ahead_);
-    apply(ahead_, next_);
-    const double after = dot(next_, next_);
-    largest = std::sqrt(after / before);
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      ahead_[k] = next_[k] / std::sqrt(after);
-    }
+    const double scale = 1 / std::sqrt(size);
+    move([&](const Block& block) __attribute__((always_inline)) { return scale * block.next; });
+    const Sums sums =
+        findResults([&](Block & block, const Lanes& result, Sums& sum) __attribute__((always_inline)) {
+          block.next = result;
+          sum.squares += result * result;
+        });
+    size = sumOf(sums.squares);
   }
-  return largest;
-}
-
-CAREEN_LANES int DisplacementSolver::solveInLanes(double enough, int most) {
-  const std::size_t padded = (rows_.size() + kLanes - 1) / kLanes * kLanes;
-  for (Values* values : {&impulses_, &ahead_, &next_}) {
-    values->assign(padded, 0);
-  }
-  bounds_.resize(padded);
-  perScale_.resize(padded);
-  const double length = rows_.empty() ? 0 : kGradientStep / largestEigenvalue();
-  std::fill(ahead_.begin(), ahead_.end(), 0);
-  double first = 0;
-  double inertia = 1;
-  int taken = 0;
-  for (; taken < most; ++taken) {
-    apply(ahead_, next_);
-    Lanes lacking{};
-    Lanes back{};
-    Lanes step{};
-    for (std::size_t k = 0; k < padded; k += kLanes) {
-      const Lanes gradient = lanesFrom(&next_[k]) - lanesFrom(&bounds_[k]);
-      const Lanes ahead = lanesFrom(&ahead_[k]);
-      const Lanes next = largerOf(Lanes{}, ahead - length * gradient);
-      lacking = largerOf(lacking, -gradient * lanesFrom(&perScale_[k]));
-      back += gradient * (next - lanesFrom(&impulses_[k]));
-      step += (next - ahead) * (next - ahead);
-      lanesTo(next, &next_[k]);
-    }
-    const double far = std::sqrt(sumOf(step));
-    first = taken == 0 ? far : first;
-    if (largestOf(lacking) <= enough || far < kLittle * first) {
-      break;
-    }
-    const double before = inertia;
-    inertia = sumOf(back) > 0 ? 1 : 0.5 * (1 + std::sqrt(1 + 4 * before * before));
-    const double onward = inertia > 1 ? (before - 1) / inertia : 0;
-    for (std::size_t k = 0; k < padded; k += kLanes) {
-      const Lanes next = lanesFrom(&next_[k]);
-      lanesTo(largerOf(Lanes{}, next + onward * (next - lanesFrom(&impulses_[k]))), &ahead_[k]);
-    }
-    impulses_.swap(next_);
-  }
-  return taken;
+  return std::sqrt(size);
 }
 
 int DisplacementSolver::solve(double enough, int most) {
+  if (blocks_.empty()) {
+    return 0;
+  }
+  listBlocksOfMembers();
+  const double length = kGradientStep / largestEigenvalue();
+  for (Block& block : blocks_) {
+    block.next = block.impulse = Lanes{};
+  }
+  double first = 0;
+  double inertia = 1;
+  double onward = 0;
   int taken = 0;
-  const auto work = [&]() __attribute__((always_inline)) { taken = solveInLanes(enough, most); };
-  if (hasWideLanes()) {
-    runWide(work);
-  } else {
-    work();
+  for (; taken < most; ++taken) {
+    move([&](Block & block) __attribute__((always_inline)) {
+      const Lanes before = std::exchange(block.impulse, block.next);
+      return largerOf(Lanes{}, block.next + onward * (block.next - before));
+    });
+    const Sums sums =
+        findResults([&](Block & block, const Lanes& result, Sums& sum) __attribute__((always_inline)) {
+          const Lanes gradient = result - block.bound;
+          block.next = largerOf(Lanes{}, block.ahead - length * gradient);
+          const Lanes step = block.next - block.ahead;
+          sum.lacking = largerOf(sum.lacking, -gradient * block.perScale);
+          sum.back += gradient * (block.next - block.impulse);
+          sum.squares += step * step;
+        });
+    const double far = std::sqrt(sumOf(sums.squares));
+    first = taken == 0 ? far : first;
+    if (largestOf(sums.lacking) <= enough || far < kLittle * first) {
+      break;
+    }
+    const double before = inertia;
+    inertia = sumOf(sums.back) > 0 ? 1 : 0.5 * (1 + std::sqrt(1 + 4 * before * before));
+    onward = inertia > 1 ? (before - 1) / inertia : 0;
   }
   return taken;
 }

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/math/linear_algebra.h"
+#include "core/system/team.h"
 #include "physics/pile/body.h"
 #include "physics/pile/lanes.h"
 
@@ -19,11 +22,17 @@ namespace careen {
 /// accelerated projected gradients, begun anew where they lead away: for long chains of bodies, through which
 /// Gauss–Seidel carries one link in a sweep.
 ///
+/// Rows of two bodies with one normal are worked on four at a time, and what a team shares is divided in the
+/// same way whatever its size: so the bits do not depend on the threads.
+///
 /// Sources: Y. Nesterov, Soviet Math. Dokl. 27, 1983; B. O'Donoghue & E. Candès, Found. Comput. Math. 15,
 /// 2015.
 class DisplacementSolver {
  public:
   static constexpr double kCompliance = 1e-3;  ///< [1] c
+
+  explicit DisplacementSolver(std::shared_ptr<Team> team = std::make_shared<Team>(1))
+      : team_(std::move(team)) {}
 
   /// Of these, which must outlive it, until the next begin().
   void begin(std::span<const PileBody> bodies);
@@ -57,33 +66,50 @@ class DisplacementSolver {
     Vec3 shift = Vec3::Zero();
     Vec3 turn = Vec3::Zero();
   };
-  struct Block {  // rows that follow each other
-    int a = 0;    // in own_
-    int b = 0;
+  struct Push {  // on a; b is pushed the other way
+    Vec3 shift = Vec3::Zero();
+    Vec3 turnA = Vec3::Zero();
+    Vec3 turnB = Vec3::Zero();
+  };
+  struct Block {  // up to four rows
+    LanesVec armA{}, armB{};
+    Lanes scale{}, perScale{};  // √(effective mass), and one by that; 0: no row
+    Lanes bound{};
+    Lanes impulse{}, ahead{}, next{};
+    Push push = {};  // of those ahead
     Vec3 normal = Vec3::UnitZ();
-    std::size_t end = 0;  // of its rows
+    int a = 0;  // in own_
+    int b = 0;
+    int rows = 0;
   };
-  struct ScaledRow {
-    Vec3 armA = Vec3::Zero();
-    Vec3 armB = Vec3::Zero();
-    double scale = 0;  // √(effective mass)
+  struct Sums {  // over some of the blocks
+    Lanes lacking{}, back{}, squares{};
   };
-  /// By row, and zeros up to a multiple of kLanes.
-  using Values = std::vector<double>;
+  static constexpr std::size_t kMostRanges = 16;
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const Move& moveOf(int body) const { return moves_[at(members_[at(body)])]; }
   int memberOf(int body);
-  int solveInLanes(double enough, int most);
-  void apply(const Values& impulses, Values& result);
+  void listBlocksOfMembers();
+  template <class Work>
+  void forBlocks(const Work& work);
+  template <class Ahead>
+  void move(const Ahead& ahead);
+  template <class Take>
+  Sums findResults(const Take& take);
+  Lanes resultOf(const Block& block) const;
+  void findPush(Block& block) const;
+  Move moved(std::size_t member) const;
   double largestEigenvalue();
 
+  std::shared_ptr<Team> team_;
   std::span<const PileBody> bodies_;
   std::vector<int> members_;  // by body: in own_; 0 for those that do not move
   std::vector<Member> own_;   // after the first
   std::vector<Block> blocks_;
-  std::vector<ScaledRow> rows_;
-  std::vector<Move> moves_;  // by member, of what apply() was last called with
-  Values bounds_, perScale_, impulses_, ahead_, next_;
+  std::vector<std::size_t> firstOf_;   // by member: in blocksOf_
+  std::vector<std::size_t> blocksOf_;  // 2 · block, and 1 where the member is b
+  std::vector<Move> moves_;            // by member, of the impulses ahead
+  std::vector<Sums> sums_;             // by range
 };
 
 }  // namespace careen

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -70,26 +71,30 @@ PilePairs::Box PilePairs::sweptBox(const PileBody& body, const Vec3& gravity, do
   return box;
 }
 
+// Gives those that left their fat AABBs new ones; whether there are any.
+bool PilePairs::findLeft(std::span<const PileBody> bodies, const Vec3& gravity, double time,
+                         double lookAhead) {
+  std::atomic<bool> any = false;
+  team_->share(bodies.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const PileBody& body = bodies[i];
+      const bool stays = body.absent || (body.still() && fat_[i].low.x() <= fat_[i].high.x()) ||
+                         fat_[i].holds(sweptBox(body, gravity, time));
+      left_[i] = stays ? 0 : 1;
+      if (!stays) {
+        const Vec3 margin = Vec3::Constant(kFat * body.length);
+        fat_[i] = sweptBox(body, gravity, lookAhead);
+        fat_[i].low -= margin;
+        fat_[i].high += margin;
+        any = true;
+      }
+    }
+  });
+  return any;
+}
+
 void PilePairs::update(std::span<const PileBody> bodies, const Vec3& gravity, double time, double lookAhead) {
-  bool any = false;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    left_[i] = 0;
-    if (bodies[i].absent) {
-      continue;
-    }
-    if (bodies[i].still() && fat_[i].low.x() <= fat_[i].high.x()) {
-      continue;
-    }
-    if (!fat_[i].holds(sweptBox(bodies[i], gravity, time))) {
-      const Vec3 margin = Vec3::Constant(kFat * bodies[i].length);
-      fat_[i] = sweptBox(bodies[i], gravity, lookAhead);
-      fat_[i].low -= margin;
-      fat_[i].high += margin;
-      left_[i] = 1;
-      any = true;
-    }
-  }
-  if (!any) {
+  if (!findLeft(bodies, gravity, time, lookAhead)) {
     return;
   }
   if (nodes_.empty() || ++refits_ > kMostRefits) {

@@ -2,10 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/math/linear_algebra.h"
+#include "core/system/team.h"
 #include "physics/pile/body.h"
 #include "physics/world/partner.h"
 
@@ -32,7 +35,8 @@ struct PilePair {
 /// Pairs are sorted by key, independent of history.
 class PilePairs {
  public:
-  explicit PilePairs(std::span<const Wall> walls) : walls_(walls.begin(), walls.end()) {}
+  explicit PilePairs(std::span<const Wall> walls, std::shared_ptr<Team> team = std::make_shared<Team>(1))
+      : team_(std::move(team)), walls_(walls.begin(), walls.end()) {}
 
   /// One more body, the next index.
   void addPlace();
@@ -67,9 +71,11 @@ class PilePairs {
   void buildTree();
   int buildNode(int first, int count);
   void refit();
+  bool findLeft(std::span<const PileBody> bodies, const Vec3& gravity, double time, double lookAhead);
   void findPartners(std::span<const PileBody> bodies, std::span<const Wall> walls, int body);
   void merge();
 
+  std::shared_ptr<Team> team_;
   std::vector<Wall> walls_;
   std::vector<Box> fat_;
   std::vector<char> left_;  // bodies that have just left their fat AABBs

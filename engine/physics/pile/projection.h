@@ -20,7 +20,7 @@ class PileProjection {
  public:
   /// `tolerance` [m] of the crowd: penetration of less than that remains, and of tiny boxes less.
   PileProjection(double tolerance, std::shared_ptr<Team> team)
-      : tolerance_(tolerance), solver_(std::move(team)) {}
+      : tolerance_(tolerance), solver_(team), gradients_(std::move(team)) {}
 
   /// One pass over the listed manifolds, whose gaps must be up to date; `number` counts those before it. Only
   /// penetrating bodies and a few layers of neighbours move, more from pass to pass. False if nothing was to

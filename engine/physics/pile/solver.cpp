@@ -115,17 +115,11 @@ std::int64_t PileSolver::shift(int sweeps, double change) {
 
 template <PileSolver::Kind kKind>
 std::int64_t PileSolver::sweep(int sweeps) {
-  std::int64_t all = 0;
-  bool any = true;
-  for (int sweep = 0; sweep < sweeps && any; ++sweep) {
-    any = false;
-    forParts([&](Part& part) { run([&]() __attribute__((always_inline)) { sweepPart<kKind>(part); }); });
-    for (const Part& part : parts_) {
-      all += part.solved;
-      any = any || part.solved > 0;
-    }
-  }
-  return all;
+  return rounds_.run(*team_, sweeps, [&](std::size_t part) {
+    std::int64_t solved = 0;
+    run([&]() __attribute__((always_inline)) { solved = sweepPart<kKind>(parts_[part]); });
+    return solved;
+  });
 }
 
 CAREEN_LANES LaneCounts PileSolver::changesOf(const std::array<int, kLanes>& bodies) const {
@@ -135,7 +129,7 @@ CAREEN_LANES LaneCounts PileSolver::changesOf(const std::array<int, kLanes>& bod
 
 // Blocks put on the list ahead of the present group are solved in this sweep, the others in the next.
 template <PileSolver::Kind kKind>
-CAREEN_LANES void PileSolver::sweepPart(Part& part) {
+CAREEN_LANES std::int64_t PileSolver::sweepPart(const Part& part) {
   std::int64_t solved = 0;
   for (std::size_t index = part.first; index < part.last; ++index) {
     const Group& group = groups_[index];
@@ -148,7 +142,7 @@ CAREEN_LANES void PileSolver::sweepPart(Part& part) {
       solveGroup<kKind>(index, asked);
     }
   }
-  part.solved = solved;
+  return solved;
 }
 
 CAREEN_LANES PileSolver::Velocities PileSolver::velocitiesOf(const std::vector<Moving>& moving,

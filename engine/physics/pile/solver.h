@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/math/linear_algebra.h"
+#include "core/system/rounds.h"
 #include "core/system/team.h"
 #include "physics/pile/body.h"
 #include "physics/pile/lanes.h"
@@ -39,9 +40,9 @@ namespace careen {
 /// bodies, with n·δ ≥ bound at the same rows, which never become velocity (split impulses).
 ///
 /// Many blocks are divided into parts, which different threads can solve: slabs across the longest extent,
-/// with as many ends of blocks each, and then the blocks between neighbouring slabs, of every second pair at
-/// once. How many slabs there are depends on the number of blocks only, so the bits do not depend on the
-/// threads.
+/// with as many ends of blocks each, and then the blocks between neighbouring slabs, those of every second
+/// pair first. How many slabs there are depends on the number of blocks only, so the bits do not depend on
+/// the threads. A part and what it works on also fit in a core's cache.
 class PileSolver {
  public:
   explicit PileSolver(std::shared_ptr<Team> team = std::make_shared<Team>(1)) : team_(std::move(team)) {}
@@ -180,7 +181,7 @@ class PileSolver {
     double friction = 0;
     PileFrame frame;
     Vec3 apart;
-    int part = 0;
+    std::size_t part = 0;
     int place = -1;  // kLanes × group + lane
   };
   /// Blocks no two of which share a body that moves: solved side by side, as if one after the other.
@@ -224,12 +225,11 @@ class PileSolver {
     std::size_t first = 0;  // groups
     std::size_t last = 0;
     int nobody = 0;  // in moving_, in place of bodies that cannot move
-    std::int64_t solved = 0;
-  };
-  /// Parts that share no body that moves.
-  struct Phase {
-    int first = 0;
-    int count = 0;
+    // While groups are found:
+    std::span<const int> blocks;
+    std::vector<Group> groups;
+    std::vector<std::vector<int>> open;  // of these, with lanes left, by number of rows
+    int rows = 0;                        // of these, then the first in rows_
   };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   std::size_t rowAt(int row) const { return rowPlaces_[at(row)] / kLanes; }
@@ -239,27 +239,31 @@ class PileSolver {
   static Lanes alongNormal(const LaneBlock& block, const LaneRow& row, const Velocities& a,
                            const Velocities& b);
   void findParts();
-  void findSlabs(int count);
+  void orderParts();
+  void findSlabs(std::size_t count);
   void findGroups();
-  void findGroup(int index);
+  void findGroupsOf(Part& part);
+  void findGroup(int index, Part& part);
   bool sharesBody(const Group& group, const Block& block) const;
   void fillGroups();
+  void fillGroupsOf(Part& part);
   void fillGroup(const Group& group, LaneBlock& lanes);
   void fillSide(Side& side, int lane, int body) const;
   void findMasses(const Group& group, const LaneBlock& lanes);
   void push(const Group& group, const LaneBlock& block);
   static void put(std::vector<Moving>& moving, const std::array<int, kLanes>& bodies, Velocities velocities);
-  /// Work on each part, by several threads.
+  /// Work on each part, by several threads, each time the same one if it has time.
   template <class Work>
   void forParts(const Work& work) {
-    for (const Phase& phase : phases_) {
-      team_->run(phase.count, [&](int k) { work(parts_[at(phase.first + k)]); });
-    }
+    rounds_.run(*team_, 1, [&](std::size_t part) {
+      work(parts_[part]);
+      return 0;
+    });
   }
   template <Kind kKind>
   std::int64_t sweep(int sweeps);
   template <Kind kKind>
-  void sweepPart(Part& part);
+  std::int64_t sweepPart(const Part& part);
   template <Kind kKind>
   void solveGroup(std::size_t index, const LaneMask& asked);
   template <Kind kKind>
@@ -279,10 +283,10 @@ class PileSolver {
   std::shared_ptr<Team> team_;
   bool wide_ = hasWideLanes();
   std::size_t bodies_ = 0;
-  std::vector<Vec3> places_;  // [m] of the bodies
-  std::vector<int> slabs_;    // by body, of those that can move
+  std::vector<Vec3> places_;        // [m] of the bodies
+  std::vector<std::size_t> slabs_;  // by body, of those that can move
   std::vector<Part> parts_;
-  std::vector<Phase> phases_;
+  Rounds rounds_;
   std::vector<int> ordered_;    // blocks, by part
   std::vector<Moving> moving_;  // by body, then of the walls, then nobody's, for each part
   std::vector<Moving> shifts_;  // displacements and turns in place of velocities
@@ -296,7 +300,6 @@ class PileSolver {
   std::vector<ShiftRow> shiftRows_;
   std::vector<int> blockOfRow_;
   std::vector<std::size_t> rowPlaces_;  // kLanes × index in rows_ + lane
-  std::vector<std::vector<int>> open_;  // groups with lanes left, by number of rows
   // Per body, how often it changed enough to solve its blocks again; and the sum of those of both bodies when
   // a block was solved last, by place. A block whose sum is another is on the list.
   std::vector<std::uint32_t> changes_;

@@ -12,10 +12,17 @@ namespace careen {
 namespace {
 
 constexpr std::size_t kMostOpen = 16;  // groups that a block is tried with
-constexpr std::size_t kBlocksPerSlab = 800;
-constexpr int kMostSlabs = 8;
+constexpr std::size_t kBlocksPerSlab = 200;
+constexpr std::size_t kMostSlabs = 8;
 constexpr int kThinLayers = 1024;
 constexpr double kRelaxation = 1.4;  // [1] of normal impulses; 1 to 2. Halves the sweeps that a heap needs.
+
+// Parts of that many slabs: the slabs, then what is between neighbouring ones, of even pairs and of odd
+// pairs; last, blocks of slabs that are no neighbours.
+constexpr std::size_t between(std::size_t low, std::size_t slabs) {
+  return slabs + (low % 2 == 0 ? 0 : slabs / 2) + low / 2;
+}
+constexpr std::size_t lastPart(std::size_t slabs) { return 2 * slabs - 1; }
 
 }  // namespace
 
@@ -23,43 +30,65 @@ void PileSolver::link() {
   findParts();
   findGroups();
   fillGroups();
+  orderParts();
 }
 
-// A block of two slabs is a part's between them; of slabs that are no neighbours, the last part's.
 void PileSolver::findParts() {
-  const int slabs = std::clamp(static_cast<int>(blocks_.size() / kBlocksPerSlab), 1, kMostSlabs);
-  phases_ = {{.first = 0, .count = slabs}};
-  if (slabs > 1) {
-    findSlabs(slabs);
-    phases_.push_back({.first = slabs, .count = slabs / 2});
-    phases_.push_back({.first = slabs + slabs / 2, .count = (slabs - 1) / 2});
-    phases_.push_back({.first = 2 * slabs - 1, .count = 1});
-    for (Block& block : blocks_) {
-      const int a = movable(block.a) ? slabs_[at(block.a)] : slabs_[at(block.b)];
-      const int b = movable(block.b) ? slabs_[at(block.b)] : a;
-      const auto [low, high] = std::minmax(a, b);
-      block.part = low == high       ? low
-                   : low + 1 == high ? phases_[low % 2 == 0 ? 1 : 2].first + low / 2
-                                     : phases_[3].first;
-    }
-  }
-  parts_.assign(at(phases_.back().first + phases_.back().count), {});
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
+  const auto slabs = std::clamp<std::size_t>(blocks_.size() / kBlocksPerSlab, 1, kMostSlabs);
+  const std::size_t parts = lastPart(slabs) + (slabs > 1 ? 1 : 0);
+  parts_.resize(parts);
+  rounds_.begin(parts);
+  for (std::size_t k = 0; k < parts; ++k) {
     parts_[k].nobody = static_cast<int>(bodies_ + 1 + k);
   }
-  moving_.resize(bodies_ + 1 + parts_.size());
+  moving_.resize(bodies_ + 1 + parts);
+  if (slabs == 1) {
+    return;
+  }
+  findSlabs(slabs);
+  for (Block& block : blocks_) {
+    const std::size_t a = movable(block.a) ? slabs_[at(block.a)] : slabs_[at(block.b)];
+    const std::size_t b = movable(block.b) ? slabs_[at(block.b)] : a;
+    const auto [low, high] = std::minmax(a, b);
+    block.part = low == high ? low : low + 1 == high ? between(low, slabs) : lastPart(slabs);
+  }
+  for (std::size_t slab = 0; slab < slabs; ++slab) {
+    const std::size_t after = slab + 1 < slabs ? between(slab, slabs) : lastPart(slabs);
+    rounds_.setPlace(slab, static_cast<double>(slab) / static_cast<double>(slabs));
+    rounds_.setPlace(after, (static_cast<double>(slab) + 0.5) / static_cast<double>(slabs));
+  }
+}
+
+// Which parts share bodies.
+void PileSolver::orderParts() {
+  const std::size_t slabs = (parts_.size() + 1) / 2;
+  const auto share = [&](std::size_t k, std::size_t other) {
+    if (!parts_[k].groups.empty() && !parts_[other].groups.empty()) {
+      rounds_.share(k, other);
+    }
+  };
+  for (std::size_t low = 0; low + 1 < slabs; ++low) {
+    share(low, between(low, slabs));
+    share(low + 1, between(low, slabs));
+    if (low > 0) {
+      share(between(low - 1, slabs), between(low, slabs));
+    }
+  }
+  for (std::size_t k = 0; k + 1 < parts_.size(); ++k) {
+    share(k, lastPart(slabs));
+  }
 }
 
 // With about as many ends of blocks each: a slab ends between two of many thin layers.
-void PileSolver::findSlabs(int count) {
-  std::vector<int> ends(bodies_ + 1, 0);
+void PileSolver::findSlabs(std::size_t count) {
+  std::vector<std::size_t> ends(bodies_ + 1, 0);
   for (const Block& block : blocks_) {
     ++ends[at(block.a)];
     ++ends[at(block.b)];
   }
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::max());
   Vec3 high = -low;
-  int all = 0;
+  std::size_t all = 0;
   for (std::size_t i = 0; i < bodies_; ++i) {
     if (ends[i] > 0 && inertia_[i].inverseMass > 0) {
       low = low.cwiseMin(places_[i]);
@@ -77,15 +106,15 @@ void PileSolver::findSlabs(int count) {
     const double layer = perLength * (places_[body][axis] - low[axis]);
     return static_cast<int>(std::clamp(layer, 0.0, kThinLayers - 1.0));
   };
-  std::array<int, kThinLayers> layers{};  // ends in each, then their slabs
+  std::array<std::size_t, kThinLayers> layers{};  // ends in each, then their slabs
   for (std::size_t i = 0; i < bodies_; ++i) {
     if (ends[i] > 0 && inertia_[i].inverseMass > 0) {
       layers[at(layerOf(i))] += ends[i];
     }
   }
-  int before = 0;
-  for (int& layer : layers) {
-    before += std::exchange(layer, static_cast<int>(std::int64_t{before} * count / all));
+  std::size_t before = 0;
+  for (std::size_t& layer : layers) {
+    before += std::exchange(layer, before * count / all);
   }
   for (std::size_t i = 0; i < bodies_; ++i) {
     slabs_[i] = inertia_[i].inverseMass > 0 ? layers[at(layerOf(i))] : 0;
@@ -94,61 +123,62 @@ void PileSolver::findSlabs(int count) {
 
 void PileSolver::findGroups() {
   ordered_.resize(blocks_.size());
-  std::vector<int> next(parts_.size() + 1, 0);
+  std::vector<std::size_t> next(parts_.size() + 1, 0);
   for (const Block& block : blocks_) {
-    ++next[at(block.part) + 1];
+    ++next[block.part + 1];
   }
-  for (std::size_t k = 1; k < next.size(); ++k) {
-    next[k] += next[k - 1];
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    parts_[k].blocks = std::span(ordered_).subspan(next[k], next[k + 1]);
+    next[k + 1] += next[k];
   }
   for (std::size_t index = 0; index < blocks_.size(); ++index) {
-    ordered_[at(next[at(blocks_[index].part)]++)] = static_cast<int>(index);
+    ordered_[next[blocks_[index].part]++] = static_cast<int>(index);
   }
-  groups_.clear();
-  std::size_t ordered = 0;
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    for (std::vector<int>& open : open_) {
-      open.clear();
-    }
-    parts_[k].first = groups_.size();
-    for (; ordered < ordered_.size() && at(blocks_[at(ordered_[ordered])].part) == k; ++ordered) {
-      findGroup(ordered_[ordered]);
-    }
-    parts_[k].last = groups_.size();
+  forParts([&](Part& part) { findGroupsOf(part); });
+}
+
+void PileSolver::findGroupsOf(Part& part) {
+  part.groups.clear();
+  for (std::vector<int>& open : part.open) {
+    open.clear();
   }
-  changes_.assign(moving_.size(), 0);
-  seen_.assign(groups_.size() * kLanes, 0);
+  for (const int index : part.blocks) {
+    findGroup(index, part);
+  }
+  part.rows = 0;
+  for (Group& group : part.groups) {
+    group.count = *std::max_element(group.counts.begin(), group.counts.end());
+    part.rows += group.count;
+  }
 }
 
 // The first group with as many rows and none of its bodies, of those that are not full; a new one, if there
 // is none.
-void PileSolver::findGroup(int index) {
-  Block& block = blocks_[at(index)];
+void PileSolver::findGroup(int index, Part& part) {
+  const Block& block = blocks_[at(index)];
   const std::size_t rows = at(block.count);
-  if (rows >= open_.size()) {
-    open_.resize(rows + 1);
+  if (rows >= part.open.size()) {
+    part.open.resize(rows + 1);
   }
-  std::vector<int>& open = open_[rows];
+  std::vector<int>& open = part.open[rows];
   auto found = std::find_if(open.begin(), open.end(),
-                            [&](int group) { return !sharesBody(groups_[at(group)], block); });
-  const int nobody = parts_[at(block.part)].nobody;
+                            [&](int group) { return !sharesBody(part.groups[at(group)], block); });
   if (found == open.end()) {
     if (open.size() == kMostOpen) {
       open.erase(open.begin());
     }
-    open.push_back(static_cast<int>(groups_.size()));
-    Group& group = groups_.emplace_back();
-    group.a.fill(nobody);
-    group.b.fill(nobody);
+    open.push_back(static_cast<int>(part.groups.size()));
+    Group& group = part.groups.emplace_back();
+    group.a.fill(part.nobody);
+    group.b.fill(part.nobody);
     found = open.end() - 1;
   }
-  Group& group = groups_[at(*found)];
+  Group& group = part.groups[at(*found)];
   const int lane = group.used++;
-  group.a[at(lane)] = movable(block.a) ? block.a : nobody;
-  group.b[at(lane)] = movable(block.b) ? block.b : nobody;
+  group.a[at(lane)] = movable(block.a) ? block.a : part.nobody;
+  group.b[at(lane)] = movable(block.b) ? block.b : part.nobody;
   group.counts[at(lane)] = block.count;
   group.blocks[at(lane)] = index;
-  block.place = *found * kLanes + lane;
   if (group.used == kLanes) {
     open.erase(found);
   }
@@ -164,27 +194,46 @@ bool PileSolver::sharesBody(const Group& group, const Block& block) const {
   return shares;
 }
 
+// By those who will solve them.
 void PileSolver::fillGroups() {
-  std::size_t rows = 0;
-  for (Group& group : groups_) {
-    group.first = static_cast<int>(rows);
-    group.count = *std::max_element(group.counts.begin(), group.counts.end());
-    rows += at(group.count);
+  int rows = 0;
+  std::size_t groups = 0;
+  for (Part& part : parts_) {
+    part.first = groups;
+    groups += part.groups.size();
+    part.last = groups;
+    rows += std::exchange(part.rows, rows);
   }
-  rows_.resize(rows);
-  lanes_.resize(groups_.size());
+  groups_.resize(groups);
+  lanes_.resize(groups);
+  rows_.resize(at(rows));
+  seen_.resize(groups * kLanes);
+  changes_.assign(moving_.size(), 0);
   rowPlaces_.resize(staged_.size());
   blockOfRow_.resize(staged_.size());
-  team_->share(groups_.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) {
-      fillGroup(groups_[k], lanes_[k]);
-    }
+  forParts([&](Part& part) {
+    fillGroupsOf(part);
     run([&]() __attribute__((always_inline)) {
-      for (std::size_t k = first; k < last; ++k) {
+      for (std::size_t k = part.first; k < part.last; ++k) {
         findMasses(groups_[k], lanes_[k]);
       }
     });
   });
+}
+
+void PileSolver::fillGroupsOf(Part& part) {
+  int row = part.rows;
+  for (std::size_t k = part.first; k < part.last; ++k) {
+    Group& group = groups_[k];
+    group = part.groups[k - part.first];
+    group.first = row;
+    row += group.count;
+    for (int lane = 0; lane < group.used; ++lane) {
+      blocks_[at(group.blocks[at(lane)])].place = static_cast<int>(k) * kLanes + lane;
+    }
+    std::fill_n(seen_.begin() + static_cast<std::ptrdiff_t>(k * kLanes), kLanes, 0);
+    fillGroup(group, lanes_[k]);
+  }
 }
 
 void PileSolver::fillGroup(const Group& group, LaneBlock& lanes) {

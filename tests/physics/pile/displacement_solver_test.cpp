@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "core/system/team.h"
 #include "physics/pile/body.h"
 #include "support/pile_scenes.h"
 
@@ -67,6 +70,47 @@ TEST(DisplacementSolver, carriesThroughALongChain) {
   }
   EXPECT_LT(std::abs(sum), 1e-15);
   RecordProperty("steps", steps);
+}
+
+// A wall of cubes, side by side and one on the other: 500 blocks of rows, which several threads share.
+std::vector<Vec3> opened(int threads) {
+  constexpr int kAcross = 16;
+  constexpr int kCount = kAcross * kAcross;
+  std::vector<PileBody> cubes;
+  for (int k = 0; k < kCount; ++k) {
+    const Vec3 place(k % kAcross, 0, k / kAcross);
+    cubes.push_back(boxOf(Vec3::Constant(0.5), place, Quat::Identity(), 1 + k % 3));
+  }
+  DisplacementSolver solver(std::make_shared<Team>(threads));
+  solver.begin(cubes);
+  for (int k = 0; k < kCount; ++k) {
+    for (const auto& [other, there, axis] :
+         {std::tuple(k - 1, k % kAcross > 0, 0), std::tuple(k - kAcross, k >= kAcross, 2)}) {
+      const Vec3 normal = Vec3::Unit(axis);
+      for (int corner = 0; there && corner < 6; ++corner) {
+        const Vec3 arm = (corner % 2 - 0.5) * Vec3::UnitY() + (0.2 * corner - 0.5) * Vec3::Unit(2 - axis);
+        solver.add({.a = k,
+                    .b = other,
+                    .armA = arm - 0.5 * normal,
+                    .armB = arm + 0.5 * normal,
+                    .normal = normal,
+                    .bound = (k * 7 + corner) % 11 == 0 ? 1e-3 : 0});
+      }
+    }
+  }
+  EXPECT_LT(solver.solve(1e-7, 1000), 1000) << threads;
+  std::vector<Vec3> moves;
+  for (int k = 0; k < kCount; ++k) {
+    moves.insert(moves.end(), {solver.displacement(k), solver.turn(k)});
+  }
+  return moves;
+}
+
+TEST(DisplacementSolver, numberOfThreadsChangesNoBit) {
+  const std::vector<Vec3> alone = opened(1);
+  for (const int threads : {2, 3, 8}) {
+    EXPECT_EQ(opened(threads), alone) << threads;
+  }
 }
 
 // Ten cubes in a space that is a millimetre too short.
