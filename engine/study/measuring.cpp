@@ -63,12 +63,10 @@ double energyChange(const World& world, const std::vector<BodyState>& states) {
   return (energyOf(world, states).total() - start.total()) / start.kinetic;
 }
 
-// The deepest penetration is put into the judgement, in half diagonals of the smaller of the two bodies and
-// in metres.
+// The deepest penetration is put into the judgement, in half diagonals of the smaller of the two bodies.
 void includeOverlap(const World& world, const std::vector<BodyState>& states, Judgement& judgement) {
   const auto include = [&](double depth, double size) {
     judgement.error = std::max(judgement.error, depth / size);
-    judgement.displacement = std::max(judgement.displacement.value_or(0), depth);
   };
   std::vector<PlacedBox> boxes;
   for (std::size_t i = 0; i < states.size(); ++i) {

@@ -17,8 +17,8 @@ struct Judgement {
                      ///< change of energy relative to the initial kinetic energy
   std::vector<double> energy = {};  ///< [1] the change of energy at every time of the case; empty if impacts
                                     ///< may dissipate energy
-  /// [m] What a tolerance promises to bound: the largest distance of a point of a box from its truth, or the
-  /// deepest penetration; none where the case measures energy.
+  /// [m] What a tolerance promises to bound: the largest distance of a point of a box from its truth; none
+  /// where the case measures energy, or overlap, that of crowds, which have a tolerance of their own.
   std::optional<double> displacement = {};
 };
 

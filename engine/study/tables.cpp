@@ -80,8 +80,8 @@ void addPublished(std::ostream& text, const StudyResult& study) {
 void addPromises(std::ostream& text, const StudyResult& study) {
   text
       << "\n## Promises kept by exact\n\n"
-      << "Largest distance of a point of a box from its truth (of a pile: the deepest penetration), over the "
-         "tolerance\nasked for. **Bold**: above 1, broken.\n\n| case |";
+      << "Largest distance of a point of a box from its truth, over the tolerance asked for. **Bold**: above "
+         "1,\nbroken. The audit holds a pile, a crowd, to a tolerance of its own.\n\n| case |";
   for (const double factor : kPromisedTolerances) {
     text << ' ' << (factor == 1 ? "tolerance of the scene" : brief(factor) + " of it") << " |";
   }

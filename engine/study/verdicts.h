@@ -21,7 +21,7 @@ inline constexpr std::array<double, 4> kPromisedTolerances = {1e2, 1, 1e-2, 1e-4
 
 /// Judgement::displacement of method exact over the tolerance it was asked for, this factor times the scene's
 /// own; above 1 the promise is broken. An answer that depends on no tolerance counts for all of them.
-/// std::nullopt if it was not tried, has no answer, or the case measures energy.
+/// std::nullopt if it was not tried, has no answer, or the case measures energy or overlap.
 std::optional<double> promiseOf(const CaseResult& result, double factor);
 
 }  // namespace careen
