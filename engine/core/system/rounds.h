@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -31,8 +32,9 @@ class Rounds {
     if (most <= 0) {
       return 0;
     }
-    start(team.size(), most);
-    team.run(team.size(), [&](int thread) {
+    const int threads = std::min(team.size(), static_cast<int>(parts_.size()));
+    start(threads, most);
+    team.run(threads, [&](int thread) {
       std::int64_t sum = 0;
       for (Turn turn{.thread = thread}; next(turn);) {
         const std::int64_t did = work(turn.part);
