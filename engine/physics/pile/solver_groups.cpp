@@ -12,7 +12,7 @@ namespace careen {
 namespace {
 
 constexpr std::size_t kMostOpen = 16;  // groups that a block is tried with
-constexpr std::size_t kBlocksPerSlab = 200;
+constexpr std::size_t kBlocksPerSlab = 400;
 constexpr std::size_t kMostSlabs = 8;
 constexpr int kThinLayers = 1024;
 constexpr double kRelaxation = 1.4;  // [1] of normal impulses; 1 to 2. Halves the sweeps that a heap needs.

@@ -60,25 +60,30 @@ TEST(CrowdProjection, jamInADeepShaftStaysShallow) {
   EXPECT_LT(deepest, 3 * kTolerance);  // measured 5.2e-4
 }
 
-// Where boxes are pushed millimetres far, their way leads through places where they are pushed apart too.
+// Where boxes are pushed millimetres far, their way leads through places where they are pushed apart too. Few
+// heaps need that: the first of these that does.
 TEST(CrowdProjection, leadsAroundOthers) {
-  const World world = test::pouring(240, 0.05, 0, 1 + 1e-9, 2);
-  test::CrowdRun run(world);
-  Crowd& crowd = run.crowd();
   int divided = 0;
+  int heaps = 0;
   double deepest = 0;
-  for (double time = 0; time < 3;) {
-    time += crowd.step(3 - time);
-    bool any = false;
-    for (std::size_t place = 0; place < world.bodies.size(); ++place) {
-      any = any || crowd.parts(place) > 1;
+  for (; heaps < 24 && divided == 0; ++heaps) {
+    const World world = test::pouring(240, 0.05, 0, 1 + 1e-9 * heaps, 2);
+    test::CrowdRun run(world);
+    Crowd& crowd = run.crowd();
+    for (double time = 0; time < 3;) {
+      time += crowd.step(3 - time);
+      bool any = false;
+      for (std::size_t place = 0; place < world.bodies.size(); ++place) {
+        any = any || crowd.parts(place) > 1;
+      }
+      divided += any ? 1 : 0;
+      deepest = any ? std::max(deepest, deepestWithin(world, crowd)) : deepest;
     }
-    divided += any ? 1 : 0;
-    deepest = any ? std::max(deepest, deepestWithin(world, crowd)) : deepest;
   }
   EXPECT_GT(divided, 0);
   EXPECT_LT(deepest,
-            3 * kTolerance);  // measured 3.9e-4; of other heaps 28e-4 where ways were gone however deep
+            3 * kTolerance);  // measured 3.4e-4; of other heaps 28e-4 where ways were gone however deep
+  RecordProperty("heaps", heaps);
   RecordProperty("divided", divided);
   RecordProperty("deepest", std::to_string(deepest));
 }
