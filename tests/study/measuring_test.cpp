@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "core/error.h"
@@ -83,6 +84,8 @@ TEST(Measuring, takesTheDeepestOverlapOfAllMoments) {
   study.world.bodies.pop_back();
   study.world.walls = {wall("far", Vec3(-1, 0, 0), -2)};
   EXPECT_DOUBLE_EQ(errorOf(study, 0.3), (4 * 1.3 - 1) / 3);
+  const Answer answer = answerOf(study, Drifter("drifter", 0), 0.3, {});
+  EXPECT_EQ(judge(study, answer).displacement, std::nullopt);  // no tolerance of the scene promises it
 }
 
 TEST(Measuring, sendsAReversedRunBack) {

@@ -15,15 +15,6 @@ constexpr int kPowerSteps = 12;
 constexpr int kNothing = 0;  // in own_
 constexpr std::size_t kBlocksPerRange = 32;
 
-template <class Work>
-void runInLanes(const Work& work) {
-  if (hasWideLanes()) {
-    runWide(work);
-  } else {
-    work();
-  }
-}
-
 CAREEN_LANES Lanes allOf(double value) { return Lanes{value, value, value, value}; }
 
 }  // namespace

@@ -94,8 +94,7 @@ CAREEN_LANES LaneMask maskOf(const std::int32_t __attribute__((vector_size(16)))
 }
 CAREEN_LANES std::int64_t sumOf(const LaneMask& mask) { return mask[0] + mask[1] + mask[2] + mask[3]; }
 
-/// Runs it with registers four lanes wide where the machine has them and `wide` is set; `work` is a lambda
-/// that is inlined.
+/// Runs it with registers four lanes wide; `work` is a lambda that is inlined.
 template <class Work>
 #if defined(__x86_64__)
 __attribute__((target("avx2")))
@@ -109,6 +108,15 @@ inline bool hasWideLanes() {
 #else
   return false;
 #endif
+}
+/// The same where the machine has them, and `wide` is set.
+template <class Work>
+void runInLanes(const Work& work, bool wide = hasWideLanes()) {
+  if (wide) {
+    runWide(work);
+  } else {
+    work();
+  }
 }
 
 }  // namespace careen

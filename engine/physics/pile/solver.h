@@ -42,7 +42,7 @@ namespace careen {
 /// Many blocks are divided into parts, which different threads can solve: slabs across the longest extent,
 /// with as many ends of blocks each, and then the blocks between neighbouring slabs, those of every second
 /// pair first. How many slabs there are depends on the number of blocks only, so the bits do not depend on
-/// the threads. A part and what it works on also fit in a core's cache.
+/// the threads.
 class PileSolver {
  public:
   explicit PileSolver(std::shared_ptr<Team> team = std::make_shared<Team>(1)) : team_(std::move(team)) {}
@@ -273,11 +273,7 @@ class PileSolver {
   LaneCounts changesOf(const std::array<int, kLanes>& bodies) const;
   template <class Work>
   void run(const Work& work) const {
-    if (wide_) {
-      runWide(work);
-    } else {
-      work();
-    }
+    runInLanes(work, wide_);
   }
 
   std::shared_ptr<Team> team_;
