@@ -35,7 +35,6 @@ constexpr double kMostBent = 6;
 constexpr double kLeastBent = 2;
 constexpr double kLessBent = 0.85;
 constexpr double kMoreBent = 1.04;
-constexpr double kMostScaled = 4;  // [1] of stored impulses, to a longer step
 
 // [rad/s] What an angular impulse [N m s] changes.
 Vec3 spinBy(const PileBody& body, const Vec3& angularImpulse) {
@@ -240,17 +239,13 @@ double Crowd::chooseLength(double most) const {
 }
 
 void Crowd::take(double length, bool mayShift) {
-  // Stored impulses are those of the last step. If that was much shorter, they are those of impacts.
-  const double span = 0.5 * (hBefore_ + length);
-  const double scale = std::min(span / span_, kMostScaled);
   projected_ = 0;
   way_.clear();
   h_ = length;
-  span_ = span;
+  span_ = 0.5 * (hBefore_ + length);
   findLoads();
   wakeDisturbed();
   for (bool struck = true; struck; struck = wakeStruck()) {
-    impulseScale_ = scale;
     lookAround();
     loadSolver();
     solver_.wakeAll();
@@ -349,7 +344,6 @@ void Crowd::loadSolver() {
       addBounces(manifolds_[at(near_[n])], near_[n]);
     }
   }
-  impulseScale_ = 1;
   figures_.rows += static_cast<std::int64_t>(solver_.rowCount());
   solver_.link();
   solver_.warmStart();

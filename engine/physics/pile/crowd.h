@@ -331,7 +331,6 @@ class Crowd {
   double hBefore_ = 0;               // [s] of the one before
   double span_ = 0;                  // [s] from the middle of that to the middle of the last: its impulses
   double sinceProjection_ = 0;       // [s]
-  double impulseScale_ = 1;          // scales stored impulses to this step
   std::vector<PileBody> bodies_;     // by place
   std::vector<std::size_t> listed_;  // by place: index in the world
   std::vector<Before> before_;
@@ -384,6 +383,7 @@ class Crowd {
   bool deep_ = false;             // after it
   bool atRest_ = false;
   double deepest_ = 0;
+  double left_ = 0;  // [m] by the last projection
   ContactResiduals residuals_;
   double speed_ = 0;  // [m/s] largest of its bodies, before impulses: S of the residuals
   Figures figures_;

@@ -8,9 +8,11 @@
 namespace careen {
 namespace {
 
-constexpr double kLookAhead = 6;   // longest steps for which a fat AABB should stay valid
-constexpr double kGrowth = 1.5;    // [1] largest growth of an impulse per step that the warm start accepts
-constexpr double kBounceFrom = 4;  // [1] of gravity × step: slower impacts do not bounce
+constexpr double kLookAhead = 6;  // longest steps for which a fat AABB should stay valid
+constexpr double kGrowth = 1.5;   // [1] largest growth of an impulse per step that the warm start accepts
+// [1] Times as much, to a longer step: impulses of a much shorter one are those of impacts.
+constexpr double kMostScaled = 4;
+constexpr double kBounceFrom = 4;      // [1] of gravity × step: slower impacts do not bounce
 constexpr double kRounding = 0x1p-30;  // [1] of the fastest speed: slower impacts do not either
 // Gaps that may close during a step: that part of the smallest size, at the most; so many tolerances and what
 // that part of the speeds of both bodies, and of those near them, closes.
@@ -199,6 +201,7 @@ void Crowd::beginManifold(const PilePair& pair, PileManifold& manifold) const {
   manifold.clear();
   manifold.a = pair.a;
   manifold.b = pair.b;
+  manifold.span = span_;
   const PileBody& a = bodies_[at(pair.a)];
   const Material material =
       touching(a.material, pair.b.isWall() ? wallAt(pair.b).material : bodyAt(pair.b).material);
@@ -300,6 +303,7 @@ void Crowd::addRows(PileManifold& manifold, PileSolver::Extent next) {
                          ? Vec3(Vec3::Zero())
                          : Vec3(bodies_[at(manifold.a)].position - bodyAt(manifold.b).position);
   const double together = kTogether * tolerance_;
+  const double scale = std::min(span_ / manifold.span, kMostScaled);
   for (int k = 0; k < manifold.count;) {
     const PileFrame& frame = manifold.frameOf(k);
     const int first = next.rows;
@@ -310,7 +314,7 @@ void Crowd::addRows(PileManifold& manifold, PileSolver::Extent next) {
       }
       PileSolver::Row row{.arm = point.world};
       row.bound = manifold.meets && point.gap <= together ? 0 : -std::max(0.0, point.gap) / h_;
-      row.normalImpulse = impulseScale_ * std::min(point.normalImpulse, kGrowth * point.normalImpulseBefore);
+      row.normalImpulse = scale * std::min(point.normalImpulse, kGrowth * point.normalImpulseBefore);
       if (row.normalImpulse > 0) {
         const double part = row.normalImpulse / point.normalImpulse;
         row.tangential1 = part * point.tangential1;
@@ -376,6 +380,7 @@ void Crowd::addPresentRows(const PileManifold& manifold) {
 
 void Crowd::keepImpulses() {
   forNear([&](PileManifold& manifold, std::size_t) {
+    manifold.span = span_;
     for (int k = 0; k < manifold.count; ++k) {
       PilePoint& point = manifold.points[at(k)];
       if (point.row >= 0) {

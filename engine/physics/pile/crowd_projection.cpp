@@ -9,9 +9,13 @@ namespace careen {
 namespace {
 
 constexpr int kPasses = 32;
-// After so many passes [1] of the tolerance is enough, and no more are taken if as many gain less than [1].
-constexpr int kFewPasses = 4;
-constexpr double kDeepEnough = 1.2;
+// After so many passes [1] of the tolerance is enough: less than what makes a step be taken again.
+constexpr int kFewPasses = 2;
+constexpr double kDeepEnough = 1.45;
+// No more are taken if so many gain less than [1]. Those after the first ones cost ten times as much: they
+// wait for what is still deep the next time, after most of it has moved on.
+constexpr int kPatience = 4;
+constexpr int kPatienceAtFirst = 2;
 constexpr double kGain = 0.1;
 constexpr int kMostParts = 8;
 constexpr double kFar = 4;  // [1] of the tolerance: displacement that may lead through other bodies
@@ -21,6 +25,7 @@ constexpr double kFar = 4;  // [1] of the tolerance: displacement that may lead 
 // Returns the deepest gap that is left [m]: no deeper than `deepest`, which refreshDepth() found. Where boxes
 // are wedged passes can lead away from the solution, and what is left takes ways that are many times as long.
 double Crowd::project(double deepest) {
+  const int patience = left_ > kDeepEnough * tolerance_ ? kPatience : kPatienceAtFirst;
   double least = deepest;
   double reached = deepest;
   int since = 0;
@@ -34,7 +39,7 @@ double Crowd::project(double deepest) {
       since = pass;
     }
     const bool enough =
-        pass - since >= kFewPasses || (pass >= kFewPasses && deepest < kDeepEnough * tolerance_);
+        pass - since >= patience || (pass >= kFewPasses && deepest < kDeepEnough * tolerance_);
     if (enough || !projection_.pass(bodies_, manifolds_, near_, pass)) {
       break;
     }
@@ -50,6 +55,7 @@ double Crowd::project(double deepest) {
     deepest = refreshDepth(true);
   }
   deepest_ = std::max(deepest_, deepest);
+  left_ = deepest;
   return deepest;
 }
 

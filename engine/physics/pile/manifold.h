@@ -52,6 +52,7 @@ struct PileManifold {
   double length = 0;  ///< [m] smallest size of the smaller box
   double friction = 0;
   double restitution = 0;
+  double span = 0;  ///< [s] in which its impulses acted
 
   int axis = -1;          ///< best axis at the last rebuild, as in BoxAxis
   int planeAxis = 0;      ///< in the owner's frame
