@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 
 #include "physics/solver/residual_sum.h"
 
@@ -122,6 +123,17 @@ std::int64_t PileSolver::sweep(int sweeps) {
   });
 }
 
+// [m/s] Of a as seen from b, at the row's point.
+CAREEN_LANES LanesVec PileSolver::passing(const LaneBlock& block, const LaneRow& row, const Velocities& a,
+                                          const Velocities& b) {
+  return (a.v + cross(a.w, row.arm)) - (b.v + cross(b.w, row.arm + block.apart));
+}
+
+CAREEN_LANES Lanes PileSolver::alongNormal(const LaneBlock& block, const LaneRow& row, const Velocities& a,
+                                           const Velocities& b) {
+  return dot(block.normal, passing(block, row, a, b));
+}
+
 CAREEN_LANES LaneCounts PileSolver::changesOf(const std::array<int, kLanes>& bodies) const {
   return LaneCounts{changes_[at(bodies[0])], changes_[at(bodies[1])], changes_[at(bodies[2])],
                     changes_[at(bodies[3])]};
@@ -176,6 +188,12 @@ CAREEN_LANES void PileSolver::put(std::vector<Moving>& moving, const std::array<
 }
 
 void PileSolver::warmStart() {
+  if (workOfImpulses() > 0) {
+    for (LaneRow& row : rows_) {
+      row.normalImpulse = row.tangential1 = row.tangential2 = Lanes{};
+    }
+    return;
+  }
   forParts([&](const Part& part) {
     run([&]() __attribute__((always_inline)) {
       for (std::size_t index = part.first; index < part.last; ++index) {
@@ -183,6 +201,30 @@ void PileSolver::warmStart() {
       }
     });
   });
+}
+
+// [J] Of the impulses that the rows begin with, on the motion without them, beyond what bounds allow.
+double PileSolver::workOfImpulses() {
+  forParts([&](Part& part) {
+    run([&]() __attribute__((always_inline)) {
+      Lanes sum{};
+      for (std::size_t index = part.first; index < part.last; ++index) {
+        const Group& group = groups_[index];
+        const LaneBlock& block = lanes_[index];
+        const Velocities a = velocitiesOf(moving_, group.a);
+        const Velocities b = velocitiesOf(moving_, group.b);
+        for (int k = group.first; k < group.first + group.count; ++k) {
+          const LaneRow& row = rows_[at(k)];
+          const LanesVec u = passing(block, row, a, b);
+          sum = sum + row.normalImpulse * (dot(block.normal, u) - row.bound) +
+                row.tangential1 * dot(block.tangent1, u) + row.tangential2 * dot(block.tangent2, u);
+        }
+      }
+      part.work = sumOf(sum);
+    });
+  });
+  return std::accumulate(parts_.begin(), parts_.end(), 0.0,
+                         [](double sum, const Part& part) { return sum + part.work; });
 }
 
 // By the impulses of its rows.
@@ -288,11 +330,6 @@ CAREEN_LANES void PileSolver::store(const std::array<int, kLanes>& bodies, const
 }
 
 // ---- What came of it.
-
-CAREEN_LANES Lanes PileSolver::alongNormal(const LaneBlock& block, const LaneRow& row, const Velocities& a,
-                                           const Velocities& b) {
-  return dot(block.normal, (a.v + cross(a.w, row.arm)) - (b.v + cross(b.w, row.arm + block.apart)));
-}
 
 double PileSolver::normalSpeed(int row) const {
   const RowView view = this->row(row);

@@ -93,7 +93,8 @@ class PileSolver {
   /// After the last add(): groups blocks, and builds the contact graph. solve() starts with what wakeAll() or
   /// wakeRow() put on the worklist.
   void link();
-  /// Applies the initial impulses of the rows.
+  /// Applies the initial impulses of the rows; none, where they would add energy to a motion that parts of
+  /// itself: those of a blow that is over, of which the sweeps would undo too little.
   void warmStart();
   /// After the last add(): at most `sweeps` sweeps. Returns the number of manifold solves.
   std::int64_t solve(int sweeps, bool withFriction);
@@ -224,7 +225,8 @@ class PileSolver {
   struct Part {
     std::size_t first = 0;  // groups
     std::size_t last = 0;
-    int nobody = 0;  // in moving_, in place of bodies that cannot move
+    double work = 0;  // [J] of initial impulses
+    int nobody = 0;   // in moving_, in place of bodies that cannot move
     // While groups are found:
     std::span<const int> blocks;
     std::vector<Group> groups;
@@ -236,6 +238,8 @@ class PileSolver {
   int laneOf(int row) const { return static_cast<int>(rowPlaces_[at(row)] % kLanes); }
   enum class Kind : std::uint8_t { kFriction, kFrictionless, kShift };
   bool movable(int body) const { return inertia_[at(body)].inverseMass > 0; }
+  static LanesVec passing(const LaneBlock& block, const LaneRow& row, const Velocities& a,
+                          const Velocities& b);
   static Lanes alongNormal(const LaneBlock& block, const LaneRow& row, const Velocities& a,
                            const Velocities& b);
   void findParts();
@@ -250,6 +254,7 @@ class PileSolver {
   void fillGroup(const Group& group, LaneBlock& lanes);
   void fillSide(Side& side, int lane, int body) const;
   void findMasses(const Group& group, const LaneBlock& lanes);
+  double workOfImpulses();
   void push(const Group& group, const LaneBlock& block);
   static void put(std::vector<Moving>& moving, const std::array<int, kLanes>& bodies, Velocities velocities);
   /// Work on each part, by several threads, each time the same one if it has time.

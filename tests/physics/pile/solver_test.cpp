@@ -95,6 +95,29 @@ Solved solved(int threads, int sweeps) {
   return result;
 }
 
+// A cube that lies on the floor keeps the impulse of the step before; of one that leaves it, the impulse
+// would only add energy.
+TEST(PileSolver, initialImpulsesAddNoEnergyToMotionThatParts) {
+  for (const double speed : {-0.1, 0.1}) {
+    Body body;
+    body.halfExtents = Vec3::Constant(0.5);
+    body.mass = solidBox(body.halfExtents, 2);
+    PileSolver solver;
+    solver.begin(1);
+    solver.setBody(0, pileBody(body, body.initial), 1e-9);
+    solver.velocity(0) = speed * Vec3::UnitZ();
+    solver.beginBlock(0, Partner::ofWall(0), 0.3, {}, Vec3::Zero());
+    solver.add({.arm = Vec3(0.5, 0, -0.5), .normalImpulse = 0.1, .tangential1 = 0.01});
+    solver.add({.arm = Vec3(-0.5, 0, -0.5), .normalImpulse = 0.1, .tangential1 = -0.01});
+    solver.link();
+    solver.warmStart();
+    EXPECT_NEAR(solver.velocity(0).z(), speed < 0 ? 0 : speed, 1e-15);
+    EXPECT_EQ(solver.normalImpulse(0), speed < 0 ? 0.1 : 0);
+    EXPECT_EQ(solver.tangential1(1), speed < 0 ? -0.01 : 0);
+    EXPECT_EQ(solver.pushed(0), speed < 0);
+  }
+}
+
 TEST(PileSolver, numberOfThreadsChangesNoBit) {
   const Solved alone = solved(1, 12);
   for (const int threads : {2, 3, 8}) {
