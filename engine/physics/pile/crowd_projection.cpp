@@ -12,8 +12,8 @@ constexpr int kPasses = 32;
 // After so many passes [1] of the tolerance is enough: less than what makes a step be taken again.
 constexpr int kFewPasses = 2;
 constexpr double kDeepEnough = 1.45;
-// No more are taken if so many gain less than [1]. Those after the first ones cost ten times as much: they
-// wait for what is still deep the next time, after most of it has moved on.
+// No more are taken if so many gain less than [1]. Those after the first ones cost more: they wait for what
+// is still deep the next time, after most of it has moved on.
 constexpr int kPatience = 4;
 constexpr int kPatienceAtFirst = 2;
 constexpr double kGain = 0.1;
