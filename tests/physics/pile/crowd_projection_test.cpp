@@ -57,7 +57,7 @@ TEST(CrowdProjection, jamInADeepShaftStaysShallow) {
     deepest = std::max(deepest, run.deepest());
   }
   RecordProperty("deepest", std::to_string(deepest));
-  EXPECT_LT(deepest, 3 * kTolerance);  // measured 5.2e-4
+  EXPECT_LT(deepest, 3 * kTolerance);  // measured 5.4e-4
 }
 
 // Where boxes are pushed millimetres far, their way leads through places where they are pushed apart too. Few
@@ -82,7 +82,7 @@ TEST(CrowdProjection, leadsAroundOthers) {
   }
   EXPECT_GT(divided, 0);
   EXPECT_LT(deepest,
-            3 * kTolerance);  // measured 3.4e-4; of other heaps 28e-4 where ways were gone however deep
+            3 * kTolerance);  // measured 5.8e-4; of other heaps 28e-4 where ways were gone however deep
   RecordProperty("heaps", heaps);
   RecordProperty("divided", divided);
   RecordProperty("deepest", std::to_string(deepest));
@@ -102,8 +102,8 @@ TEST(CrowdProjection, jamOfSlipperyBoxesEnds) {
   RecordProperty("passes", static_cast<int>(run.figures().projections));
   RecordProperty("steps", static_cast<int>(run.figures().steps));
   RecordProperty("deepest", std::to_string(deepest));
-  EXPECT_LT(run.figures().projections, 2000);  // measured 623
-  EXPECT_LT(deepest, 3 * kTolerance);          // measured 5.4e-4
+  EXPECT_LT(run.figures().projections, 1000);  // measured 294
+  EXPECT_LT(deepest, 3 * kTolerance);          // measured 5.7e-4
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ TEST(Crowd, energyNeverRises) {
     for (int frame = 0; frame < 300; ++frame) {
       crowd.step();
       const double now = energyOf(world, crowd.statesAtVelocities()).total();
-      EXPECT_LT(now - before, 1e-6 * start) << frame << " e " << restitution;  // measured 7e-7, 3e-14
+      EXPECT_LT(now - before, 1e-6 * start) << frame << " e " << restitution;  // measured 4e-7, 2e-15
       before = now;
     }
     EXPECT_LT(before, 0.5 * start);
