@@ -259,7 +259,7 @@ class Crowd {
   void wakeNeighbours();
   bool isAsleep(Partner partner) const { return !partner.isWall() && bodyAt(partner).asleep; }
   bool isHalfAsleep(const PileManifold& manifold) const;
-  Vec3 forceOf(const PileManifold& manifold) const;
+  static Vec3 forceOf(const PileManifold& manifold);
   bool isQuiet(std::size_t place, double imbalance, double part) const;
   static Vec3 impulseOf(const PileManifold& manifold, int k);
   void addPresentRows(const PileManifold& manifold);

@@ -241,12 +241,12 @@ bool Crowd::isHalfAsleep(const PileManifold& manifold) const {
 }
 
 // [N] On a, in the last step.
-Vec3 Crowd::forceOf(const PileManifold& manifold) const {
+Vec3 Crowd::forceOf(const PileManifold& manifold) {
   Vec3 impulse = Vec3::Zero();
   for (int k = 0; k < manifold.count; ++k) {
     impulse += impulseOf(manifold, k);
   }
-  return impulse / span_;
+  return impulse / manifold.span;
 }
 
 // [N s] On a, in the last step.
