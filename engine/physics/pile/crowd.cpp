@@ -27,7 +27,10 @@ constexpr std::int64_t kEasy = 4;
 constexpr std::int64_t kHard = 8;
 constexpr int kMostHalvings = 6;
 constexpr double kShortest = 0x1p-10;  // [1] of the length that the crowd would take: not halved
-constexpr double kTooDeep = 1.5;       // [1] of the tolerance: new penetration for which a step is halved
+// [1] of the tolerance: deeper new penetration makes a step be halved at once; and what is too much to be
+// left.
+constexpr double kMostMended = 8;
+constexpr double kTooDeep = 1.5;
 // [1] of the tolerance: how far corners may leave their tangents in a step. The second order of gaps undoes
 // it at its end and in its middle. Less after steps that had to be taken again, as they have to be more often
 // the more members there are.
@@ -156,21 +159,29 @@ double Crowd::stepAgain(double length) {
   return 0;
 }
 
-// Takes the step again with half its length, and then without shifts, which are as long in a shorter one,
-// while bodies went deep into each other in it; returns its length. Not without end, where the step was cut
-// far below what the crowd would take. In a jam, where all that leaves bodies deep, the next steps take more
-// sweeps.
+// Pushes apart those that went deep into each other in the step, or, where that is too much or fails, takes
+// it again with half its length, and then without shifts, which are as long in a shorter one; returns its
+// length. Not without end, where the step was cut far below what the crowd would take. In a jam, where all
+// that leaves bodies deep, the next steps take more sweeps.
 double Crowd::keepApart() {
-  double depth = newDepth();
   const double shortest = kShortest * chooseLength(longestStep());
+  double left = 0;
   int halving = 0;
-  for (; halving < kMostHalvings && depth > kTooDeep * tolerance_ && h_ > shortest; ++halving) {
+  for (;; ++halving) {
+    const double depth = newDepth();
+    if (depth == 0 || halving == kMostHalvings || h_ <= shortest) {
+      const bool any = std::find(isDeep_.begin(), isDeep_.end(), 1) != isDeep_.end();
+      left = any ? projectOnWay() : 0;
+      break;
+    }
+    if (depth <= kMostMended * tolerance_ && mend()) {
+      break;
+    }
+    ++figures_.retaken;
     goBack();
     take(0.5 * h_, halving == 0);
-    depth = newDepth();
   }
   bent_ = halving > 0 ? std::max(kLessBent * bent_, kLeastBent) : std::min(kMoreBent * bent_, kMostBent);
-  const double left = depth > 0 || deep_ ? projectOnWay() : 0;
   effort_ = left > kTooDeep * tolerance_ ? std::min(2 * effort_, kMostEffort)
                                          : std::max<std::int64_t>(effort_ / 2, 1);
   findSharp();
@@ -263,7 +274,7 @@ void Crowd::take(double length, bool mayShift) {
   countUntouched();
   sinceProjection_ += length;
   if (sinceProjection_ >= kProjected * longestStep()) {
-    project(refreshDepth(true));
+    projectAll();
     sinceProjection_ = 0;
     atRest_ = freeze();
   }

@@ -37,10 +37,11 @@ namespace careen {
 /// the middle of one step to that of the next (leapfrog); those of springs and drag are those in the middle
 /// of each step, for all members alike, so that they keep momentum. Where one point of a manifold strikes,
 /// all its points within a few tolerances strike, with v_n ≥ 0: else the corners of one edge would strike in
-/// different steps, and each would turn the body. A step in which bodies went deep into each other, or into a
-/// wall, is taken again with half its length; what is less deep is projected at once. Penetration that is
-/// left at the rates found is undone by shifts in the same step, the rest by a position projection every few
-/// steps; neither becomes velocity (no Baumgarte stabilisation, no slop).
+/// different steps, and each would turn the body. Bodies that went deep into each other in a step, or into a
+/// wall, are pushed apart at its end, with those around them; where they are too deep for that, it is taken
+/// again with half its length. Penetration that is left at the rates found is undone by shifts in the same
+/// step, the rest by a position projection every few steps; none of it becomes velocity (no Baumgarte
+/// stabilisation, no slop).
 ///
 /// Bodies sleep with all that they touch, or, where some of that still moves, beyond a few contacts from it,
 /// if forces within their cones balance on them at rest, those of the ones awake being as they are: then
@@ -146,6 +147,7 @@ class Crowd {
 
   struct Figures {
     std::int64_t steps = 0;
+    std::int64_t retaken = 0;      ///< times that one was taken again with half its length
     std::int64_t pairs = 0;        ///< tested, over all steps
     std::int64_t manifolds = 0;    ///< refreshed
     std::int64_t rebuilt = 0;      ///< of these, rebuilt
@@ -185,6 +187,7 @@ class Crowd {
     Vec3 endVelocity = Vec3::Zero();
     Vec3 endOmega = Vec3::Zero();
     bool pushed = false;
+    bool projected = false;
     bool moved = false;
   };
   struct Place {
@@ -304,11 +307,16 @@ class Crowd {
   Pose between(std::size_t place, double part) const;
   double depthBefore(const PilePair& pair) const;
   bool startedDeep(const PilePair& pair) const;
-  double project(double deepest);
-  double refreshDepth(bool all);
+  void beginProjection();
+  void refreshGaps(PileManifold& manifold, bool first);
+  void projectAll();
+  double project(int passes);
   void keepPlaces();
   void restorePlaces();
   void rebuildNear();
+  bool lookAtDeep();
+  bool mend();
+  bool tryToMend();
   double projectOnWay();
   double findWay();
   Rates ratesAt(std::size_t place, std::size_t part) const;
@@ -351,6 +359,7 @@ class Crowd {
   std::vector<char> strike_;                // by the same: whether a point of it strikes
   std::vector<Looked> looked_;              // by pair
   std::vector<Looking> looking_;            // by range of pairs
+  std::vector<char> isDeep_;                // by pair: after this step
   PileSolver solver_;
   ContactProblem problem_;
   ContactSolution solution_;
@@ -360,6 +369,8 @@ class Crowd {
   int directPause_ = 1;      // and as many after the next failure
   PileProjection projection_;
   std::vector<Kept> kept_;          // where it left bodies least deep in each other
+  int mendingWait_ = 0;             // steps until mending is tried again,
+  int mendingPause_ = 0;            // and as many after the next failure
   double projected_ = 0;            // [m] how far it moved one in this step, at the most
   std::vector<Rates> ratesBefore_;  // by place, at the end of the step before
   double partBefore_ = 0;           // [s] length of its parts
@@ -380,7 +391,6 @@ class Crowd {
   std::vector<char> woken_;       // by place: in this step
   std::vector<int> disturbed_;    // clusters that the last step pushed otherwise than when they fell asleep
   bool shifts_ = false;           // in this step
-  bool deep_ = false;             // after it
   bool atRest_ = false;
   double deepest_ = 0;
   double left_ = 0;  // [m] by the last projection

@@ -67,13 +67,13 @@ void Crowd::findShifts() {
 }
 
 // [m] How deep bodies went into each other and into walls in this step, if more than kDeep: the features of
-// the manifolds of its start were not all that met. `deep_` says whether any are too deep, even if
-// they were before.
+// the manifolds of its start were not all that met. `isDeep_` says which are, or are deeper than kMostDeep,
+// even if they were before.
 double Crowd::newDepth() {
   const std::vector<PilePair>& pairs = pairs_.pairs();
   findTurns();
-  std::atomic<bool> deep = false;
-  const double deepest = team_->largest(pairs.size(), [&](std::size_t first, std::size_t last) {
+  isDeep_.assign(pairs.size(), 0);
+  return team_->largest(pairs.size(), [&](std::size_t first, std::size_t last) {
     double deepestHere = 0;
     for (std::size_t k = first; k < last; ++k) {
       const PilePair& pair = pairs[k];
@@ -83,17 +83,15 @@ double Crowd::newDepth() {
       }
       const bool grew = depth > depthBefore(pair) + 0.5 * tolerance_;
       deepestHere = grew ? std::max(deepestHere, depth) : deepestHere;
-      if (depth > kMostDeep * tolerance_) {
-        deep = true;
-      }
-      if (pair.slot >= 0 && (grew || depth > kMostDeep * tolerance_)) {
-        manifolds_[at(pair.slot)].moved = std::numeric_limits<double>::max();  // to be rebuilt
+      if (grew || depth > kMostDeep * tolerance_) {
+        isDeep_[k] = 1;
+        if (pair.slot >= 0) {
+          manifolds_[at(pair.slot)].moved = std::numeric_limits<double>::max();  // to be rebuilt
+        }
       }
     }
     return deepestHere;
   });
-  deep_ = deep;
-  return deepest;
 }
 
 // Of bodies in the step, and their paths up to its end.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <utility>
 
 #include "physics/pile/crowd.h"
 
@@ -9,6 +10,8 @@ namespace careen {
 namespace {
 
 constexpr int kPasses = 32;
+constexpr int kMendingPasses = 3;
+constexpr int kLongestPause = 15;  // steps in which mending, which failed again and again, is not tried
 // After so many passes [1] of the tolerance is enough: less than what makes a step be taken again.
 constexpr int kFewPasses = 2;
 constexpr double kDeepEnough = 1.45;
@@ -22,14 +25,43 @@ constexpr double kFar = 4;  // [1] of the tolerance: displacement that may lead 
 
 }  // namespace
 
-// Returns the deepest gap that is left [m]: no deeper than `deepest`, which refreshDepth() found. Where boxes
-// are wedged passes can lead away from the solution, and what is left takes ways that are many times as long.
-double Crowd::project(double deepest) {
+void Crowd::beginProjection() {
+  projection_.begin(bodies_, manifolds_, near_,
+                    [this](PileManifold& manifold, bool first) { refreshGaps(manifold, first); });
+}
+
+// To where its bodies are; `first` after a step.
+void Crowd::refreshGaps(PileManifold& manifold, bool first) {
+  const PileBody& a = bodies_[at(manifold.a)];
+  if (manifold.b.isWall()) {
+    refreshManifold(a, wallAt(manifold.b), manifold);
+    return;
+  }
+  const PileBody& b = bodyAt(manifold.b);
+  if (manifold.moved + (first ? relativeMotion(a, b, h_) : 0) > rebuildAfter(manifold.length)) {
+    ++std::atomic_ref<std::int64_t>(figures_.rebuilt);
+    buildManifold(a, b, manifold.reach, manifold);
+  } else {
+    refreshManifold(a, b, manifold);
+  }
+}
+
+void Crowd::projectAll() {
+  beginProjection();
+  projection_.lookAtAll();
+  project(kPasses);
+}
+
+// By those that the projection looked at. Returns the deepest gap that is left [m]: no deeper than it was.
+// Where boxes are wedged passes can lead away from the solution, and what is left takes ways that are many
+// times as long.
+double Crowd::project(int passes) {
   const int patience = left_ > kDeepEnough * tolerance_ ? kPatience : kPatienceAtFirst;
+  double deepest = projection_.deepest();
   double least = deepest;
   double reached = deepest;
   int since = 0;
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < passes; ++pass) {
     if (deepest <= least) {
       least = deepest;
       keepPlaces();
@@ -40,51 +72,23 @@ double Crowd::project(double deepest) {
     }
     const bool enough =
         pass - since >= patience || (pass >= kFewPasses && deepest < kDeepEnough * tolerance_);
-    if (enough || !projection_.pass(bodies_, manifolds_, near_, pass)) {
+    if (enough || !projection_.pass(pass)) {
       break;
     }
     ++figures_.projections;
     projected_ += projection_.farthest();
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      before_[i].pushed = before_[i].pushed || projection_.moved(static_cast<int>(i));
+    for (const int body : projection_.moved()) {
+      before_[at(body)].pushed = before_[at(body)].projected = true;
     }
-    deepest = refreshDepth(false);
+    deepest = projection_.deepest();
   }
   if (deepest > least) {
     restorePlaces();
-    deepest = refreshDepth(true);
+    projection_.lookAgain();
+    deepest = projection_.deepest();
   }
   deepest_ = std::max(deepest_, deepest);
   left_ = deepest;
-  return deepest;
-}
-
-// [m] Brings the gaps of all, or of those that the last pass moved, up to date; returns the deepest.
-double Crowd::refreshDepth(bool all) {
-  std::atomic<std::int64_t> rebuilt = 0;
-  const double deepest = team_->largest(near_.size(), [&](std::size_t first, std::size_t last) {
-    double deepestHere = 0;
-    for (std::size_t n = first; n < last; ++n) {
-      PileManifold& manifold = manifolds_[at(near_[n])];
-      const PileBody& a = bodies_[at(manifold.a)];
-      const PileBody* b = manifold.b.isWall() ? nullptr : &bodyAt(manifold.b);
-      if (all || projection_.moved(manifold.a) || (b != nullptr && projection_.moved(manifold.b.body()))) {
-        if (b == nullptr) {
-          refreshManifold(a, wallAt(manifold.b), manifold);
-        } else if (manifold.moved + (all ? relativeMotion(a, *b, h_) : 0) > rebuildAfter(manifold.length)) {
-          ++rebuilt;
-          buildManifold(a, *b, manifold.reach, manifold);
-        } else {
-          refreshManifold(a, *b, manifold);
-        }
-      }
-      for (int k = 0; k < manifold.count; ++k) {
-        deepestHere = std::max(deepestHere, -manifold.points[at(k)].gap);
-      }
-    }
-    return deepestHere;
-  });
-  figures_.rebuilt += rebuilt;
   return deepest;
 }
 
@@ -116,11 +120,58 @@ void Crowd::rebuildNear() {
   }
 }
 
-// The same, unless bodies would have to go deeper through each other to where they are pushed than they are.
+// At what newDepth() found deep, of those that are near in this step; returns whether all were.
+bool Crowd::lookAtDeep() {
+  beginProjection();
+  bool all = true;
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < looked_.size(); ++k) {
+    const bool isNear = looked_[k] == Looked::kNear;
+    if (isDeep_[k] != 0 && isNear) {
+      projection_.lookAt(n);
+    }
+    all = all && (isNear || isDeep_[k] == 0);
+    n += isNear ? 1 : 0;
+  }
+  return all;
+}
+
+// Pushes apart the few that are deep after a step; returns whether that went well: on their way, too, and not
+// through others. In a jam, where it fails again and again, it is not tried each time.
+bool Crowd::mend() {
+  if (mendingWait_ > 0) {
+    --mendingWait_;
+    return false;
+  }
+  if (tryToMend()) {
+    mendingPause_ = 0;
+    return true;
+  }
+  mendingWait_ = std::exchange(mendingPause_, std::min(2 * mendingPause_ + 1, kLongestPause));
+  return false;
+}
+
+bool Crowd::tryToMend() {
+  if (!lookAtDeep() || project(kMendingPasses) > kDeepEnough * tolerance_) {
+    return false;
+  }
+  findTurns();
+  const std::vector<PilePair>& pairs = pairs_.pairs();
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (isDeep_[k] != 0 && depthNow(pairs[k]) > 0) {
+      return false;
+    }
+  }
+  return projected_ <= kFar * tolerance_ || deepestOnWay() == 0;
+}
+
+// The same as far as it can be done, unless bodies would have to go deeper through each other to where they
+// are pushed than they are. Returns how deep [m] any are then.
 double Crowd::projectOnWay() {
   const std::vector<PileBody> unpushed = bodies_;
-  const double deep = refreshDepth(true);
-  const double left = project(deep);
+  lookAtDeep();
+  const double deep = projection_.deepest();
+  const double left = project(kPasses);
   if (findWay() <= deep) {
     return left;
   }
@@ -163,7 +214,7 @@ std::vector<std::vector<Crowd::Place>> Crowd::divideWay(int parts) {
       setAttitude(bodies_[i], Quat(poses[i].worldFromBody));
     }
     rebuildNear();
-    project(refreshDepth(true));
+    projectAll();
     for (const PileBody& body : bodies_) {
       way[k].push_back({.position = body.position, .attitude = body.attitude});
     }
@@ -179,7 +230,8 @@ double Crowd::deepestOnWay() {
   double deepest = 0;
   for (const int slot : near_) {
     const PileManifold& manifold = manifolds_[at(slot)];
-    if (!manifold.b.isWall() && (before_[at(manifold.a)].pushed || before_[at(manifold.b.body())].pushed)) {
+    if (!manifold.b.isWall() &&
+        (before_[at(manifold.a)].projected || before_[at(manifold.b.body())].projected)) {
       deepest = std::max(deepest, depthWithin(manifold.a, manifold.b.body(), manifold.axis,
                                               gapAtEnd(manifold.a, manifold.b.body(), manifold.axis)));
     }

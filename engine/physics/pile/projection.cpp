@@ -14,20 +14,13 @@ constexpr double kTellPush =
 constexpr double kLongest = 0.25;  // [1] of the smallest size: largest displacement per pass
 constexpr int kLayersAtFirst = 3;
 constexpr int kMostLayerDoublings = 4;
+constexpr std::size_t kMostReached = 64;  // for each that penetrates; more only in the last layer
 // Passes by Gauss–Seidel, the first with so many sweeps, the next with twice as many.
-constexpr int kSweptPasses = 2;
+constexpr int kSweptPasses = 3;
 constexpr int kSweepsAtFirst = 20;
 constexpr int kGradients = 300;
 constexpr double kEnough = 0.03;  // [1] of the tolerance: what gradients may leave
 constexpr double kNear = 0x1p-6;  // [1] of the smallest size: larger gaps are ignored
-
-double lowestGap(const PileManifold& manifold) {
-  double gap = manifold.length;
-  for (int k = 0; k < manifold.count; ++k) {
-    gap = std::min(gap, manifold.points[at(k)].gap);
-  }
-  return gap;
-}
 
 template <class Visit>
 void forBodies(const PileManifold& manifold, const Visit& visit) {
@@ -39,63 +32,138 @@ void forBodies(const PileManifold& manifold, const Visit& visit) {
 
 }  // namespace
 
-// reached_: 1 for bodies of penetrating pairs, one more for each layer around them.
-bool PileProjection::collect(std::span<const PileBody> bodies, std::span<PileManifold> manifolds,
-                             std::span<const int> near, int layers) {
-  reached_.assign(bodies.size(), 0);
-  const auto mark = [&](const PileManifold& manifold, int layer) {
-    forBodies(manifold, [&](int body) {
-      if (!bodies[at(body)].still() && reached_[at(body)] == 0) {
-        reached_[at(body)] = static_cast<char>(layer);
-      }
-    });
-  };
-  const auto isIn = [&](const PileManifold& manifold, int layer) {
-    bool found = false;
-    forBodies(manifold, [&](int body) { found = found || reached_[at(body)] == layer; });
-    return found;
-  };
-  bool any = false;
-  for (const int slot : near) {
-    const PileManifold& manifold = manifolds[at(slot)];
-    if (lowestGap(manifold) < -tolerated(manifold.length)) {
-      mark(manifold, 1);
-      any = true;
+void PileProjection::begin(std::span<PileBody> bodies, std::span<PileManifold> manifolds,
+                           std::span<const int> near, Refresh refresh) {
+  bodies_ = bodies;
+  manifolds_ = manifolds;
+  near_ = near;
+  refresh_ = std::move(refresh);
+  seen_.assign(near.size(), {});
+  firstOf_.clear();
+  moved_.clear();
+}
+
+void PileProjection::lookAt(std::size_t n) {
+  PileManifold& manifold = manifolds_[at(near_[n])];
+  Seen& seen = seen_[n];
+  refresh_(manifold, !seen.everSeen);
+  double gap = manifold.length;
+  for (int k = 0; k < manifold.count; ++k) {
+    gap = std::min(gap, manifold.points[at(k)].gap);
+  }
+  seen = {.depth = std::max(0.0, -gap),
+          .everSeen = true,
+          .upToDate = true,
+          .deep = gap < -tolerated(manifold.length),
+          .close = gap < kNear * manifold.length};
+}
+
+void PileProjection::lookAtAll() {
+  team_->share(near_.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n) {
+      lookAt(n);
+    }
+  });
+}
+
+void PileProjection::lookAgain() {
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    if (seen_[n].everSeen) {
+      lookAt(n);
     }
   }
-  if (!any) {
+}
+
+double PileProjection::deepest() const {
+  double deepest = 0;
+  for (const Seen& seen : seen_) {
+    deepest = std::max(deepest, seen.depth);
+  }
+  return deepest;
+}
+
+void PileProjection::listNearOfBodies() {
+  firstOf_.assign(bodies_.size() + 1, 0);
+  for (const int slot : near_) {
+    forBodies(manifolds_[at(slot)], [&](int body) { ++firstOf_[at(body)]; });
+  }
+  std::size_t sum = 0;
+  for (std::size_t& first : firstOf_) {
+    sum += first;
+    first = sum;  // the end: filled from there
+  }
+  nearOf_.resize(sum);
+  for (std::size_t n = near_.size(); n-- > 0;) {
+    forBodies(manifolds_[at(near_[n])], [&](int body) { nearOf_[--firstOf_[at(body)]] = n; });
+  }
+}
+
+void PileProjection::reach(const PileManifold& manifold) {
+  forBodies(manifold, [&](int body) {
+    if (!bodies_[at(body)].still() && isReached_[at(body)] == 0) {
+      isReached_[at(body)] = 1;
+      reached_.push_back(body);
+    }
+  });
+}
+
+// Bodies of penetrating pairs, those in that many layers around them but for the last ones where they are
+// many, and the manifolds of all of these.
+bool PileProjection::collect(int layers) {
+  reached_.clear();
+  isReached_.assign(bodies_.size(), 0);
+  std::size_t deep = 0;
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    if (seen_[n].deep) {
+      reach(manifolds_[at(near_[n])]);
+      ++deep;
+    }
+  }
+  if (deep == 0) {
     return false;
   }
-  chosen_.clear();
-  for (int layer = 1; layer <= layers; ++layer) {
-    for (const int slot : near) {
-      const PileManifold& manifold = manifolds[at(slot)];
-      const bool touches = isIn(manifold, layer);
-      if (touches && layer < layers && lowestGap(manifold) < kNear * manifold.length) {
-        mark(manifold, layer + 1);
+  if (firstOf_.empty()) {
+    listNearOfBodies();
+  }
+  isChosen_.assign(near_.size(), 0);
+  std::size_t done = 0;
+  bool isLast = false;
+  for (int layer = 1; !isLast; ++layer) {
+    isLast = layer == layers || reached_.size() > kMostReached * deep;
+    for (const std::size_t end = reached_.size(); done < end; ++done) {
+      const std::size_t body = at(reached_[done]);
+      for (std::size_t k = firstOf_[body]; k < firstOf_[body + 1]; ++k) {
+        const std::size_t n = nearOf_[k];
+        if (!seen_[n].upToDate) {
+          lookAt(n);
+        }
+        isChosen_[n] = 1;
+        if (!isLast && seen_[n].close) {
+          reach(manifolds_[at(near_[n])]);
+        }
       }
     }
   }
-  for (const int slot : near) {
-    bool reached = false;
-    forBodies(manifolds[at(slot)], [&](int body) { reached = reached || reached_[at(body)] != 0; });
-    if (reached) {
-      chosen_.push_back(slot);
+  chosen_.clear();
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    if (isChosen_[n] != 0) {
+      chosen_.push_back(n);
     }
   }
+  std::sort(reached_.begin(), reached_.end());
   return true;
 }
 
-void PileProjection::solve(std::span<const PileBody> bodies, int number) {
+void PileProjection::solve(int number) {
   if (number < kSweptPasses) {
     solver_.wakeAll();
     solver_.solve(kSweepsAtFirst << number, false);
     return;
   }
   const auto mover = [&](int body) {
-    return at(body) < bodies.size() && reached_[at(body)] != 0 ? body : DisplacementSolver::kNobody;
+    return at(body) < bodies_.size() && isReached_[at(body)] != 0 ? body : DisplacementSolver::kNobody;
   };
-  gradients_.begin(bodies);
+  gradients_.begin(bodies_);
   for (std::size_t k = 0; k < solver_.rowCount(); ++k) {
     const PileSolver::RowView row = solver_.row(static_cast<int>(k));
     gradients_.add({.a = mover(row.a),
@@ -106,32 +174,35 @@ void PileProjection::solve(std::span<const PileBody> bodies, int number) {
                     .bound = row.bound});
   }
   gradients_.solve(kEnough * tolerance_, kGradients);
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const int body = static_cast<int>(i);
+  for (const int body : reached_) {
     if (gradients_.moves(body)) {
       solver_.setPushed(body, gradients_.displacement(body), gradients_.turn(body));
     }
   }
 }
 
-bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> manifolds,
-                          std::span<const int> near, int number) {
-  moved_.assign(bodies.size(), 0);
+bool PileProjection::pass(int number) {
+  moved_.clear();
   farthest_ = 0;
-  if (!collect(bodies, manifolds, near, kLayersAtFirst << std::min(number, kMostLayerDoublings))) {
+  if (!collect(kLayersAtFirst << std::min(number, kMostLayerDoublings))) {
     return false;
   }
-  solver_.begin(bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (reached_[i] != 0) {
-      solver_.setBody(static_cast<int>(i), bodies[i], kTellPush * tolerated(bodies[i].length));
-    }
+  fillSolver();
+  solve(number);
+  move();
+  return true;
+}
+
+void PileProjection::fillSolver() {
+  solver_.begin(bodies_.size());
+  for (const int body : reached_) {
+    solver_.setBody(body, bodies_[at(body)], kTellPush * tolerated(bodies_[at(body)].length));
   }
-  for (const int slot : chosen_) {
-    const PileManifold& manifold = manifolds[at(slot)];
+  for (const std::size_t n : chosen_) {
+    const PileManifold& manifold = manifolds_[at(near_[n])];
     const Vec3 apart = manifold.b.isWall()
-                           ? Vec3::Zero()
-                           : Vec3(bodies[at(manifold.a)].position - bodies[at(manifold.b.body())].position);
+                           ? Vec3(Vec3::Zero())
+                           : Vec3(bodies_[at(manifold.a)].position - bodies_[at(manifold.b.body())].position);
     const PileFrame* begun = nullptr;
     const double left = kLeft * tolerated(manifold.length);
     for (int k = 0; k < manifold.count; ++k) {
@@ -147,38 +218,50 @@ bool PileProjection::pass(std::span<PileBody> bodies, std::span<PileManifold> ma
     }
   }
   solver_.link();
-  solve(bodies, number);
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const int index = static_cast<int>(i);
-    if (reached_[i] == 0 || !solver_.pushed(index)) {
-      continue;
+}
+
+// And looks at what that changes.
+void PileProjection::move() {
+  for (const int body : reached_) {
+    if (solver_.pushed(body)) {
+      moveBody(body);
+      moved_.push_back(body);
     }
-    PileBody& body = bodies[i];
-    Vec3 shift = solver_.velocity(index);
-    Vec3 turn = solver_.omega(index);
-    const double far = shift.norm() + body.radius * turn.norm();
-    const double most = kLongest * body.length;
-    if (far > most) {
-      shift *= most / far;
-      turn *= most / far;
-    }
-    body.position += shift;
-    turnBy(body, turn);
-    body.path += std::min(far, most);
-    farthest_ = std::max(farthest_, std::min(far, most));
-    body.turned += body.radius * turn.norm();
-    moved_[i] = 1;
   }
-  for (const int slot : near) {
-    PileManifold& manifold = manifolds[at(slot)];
+  for (const std::size_t n : chosen_) {
+    PileManifold& manifold = manifolds_[at(near_[n])];
     forBodies(manifold, [&](int body) {
-      if (moved_[at(body)] != 0) {
+      if (isReached_[at(body)] != 0 && solver_.pushed(body)) {
         manifold.moved +=
-            solver_.velocity(body).norm() + bodies[at(body)].radius * solver_.omega(body).norm();
+            solver_.velocity(body).norm() + bodies_[at(body)].radius * solver_.omega(body).norm();
+        seen_[n].upToDate = false;
       }
     });
   }
-  return true;
+  team_->share(chosen_.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      if (!seen_[chosen_[k]].upToDate) {
+        lookAt(chosen_[k]);
+      }
+    }
+  });
+}
+
+void PileProjection::moveBody(int index) {
+  PileBody& body = bodies_[at(index)];
+  Vec3 shift = solver_.velocity(index);
+  Vec3 turn = solver_.omega(index);
+  const double far = shift.norm() + body.radius * turn.norm();
+  const double most = kLongest * body.length;
+  if (far > most) {
+    shift *= most / far;
+    turn *= most / far;
+  }
+  body.position += shift;
+  turnBy(body, turn);
+  body.path += std::min(far, most);
+  farthest_ = std::max(farthest_, std::min(far, most));
+  body.turned += body.radius * turn.norm();
 }
 
 }  // namespace careen

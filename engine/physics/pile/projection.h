@@ -1,7 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "physics/pile/body.h"
@@ -16,38 +20,76 @@ namespace careen {
 /// penetrate by more than a tolerance. Linear in δ, hence iterated in passes with gaps updated in between:
 /// the first few by Gauss–Seidel, as most need no more, and few bodies move; those after them by accelerated
 /// gradients.
+///
+/// It costs what there is to be done: of manifolds that were not looked at, only those around deep ones are
+/// brought up to date.
 class PileProjection {
  public:
   /// `tolerance` [m] of the crowd: penetration of less than that remains, and of tiny boxes less.
   PileProjection(double tolerance, std::shared_ptr<Team> team)
-      : tolerance_(tolerance), solver_(team), gradients_(std::move(team)) {}
+      : tolerance_(tolerance), team_(team), solver_(team), gradients_(std::move(team)) {}
 
-  /// One pass over the listed manifolds, whose gaps must be up to date; `number` counts those before it. Only
-  /// penetrating bodies and a few layers of neighbours move, more from pass to pass. False if nothing was to
-  /// be done.
-  bool pass(std::span<PileBody> bodies, std::span<PileManifold> manifolds, std::span<const int> near,
-            int number);
+  /// Brings a manifold's gaps to where its bodies are; `first`: in this projection. Called by several
+  /// threads.
+  using Refresh = std::function<void(PileManifold& manifold, bool first)>;
+
+  /// A projection of these bodies, by the manifolds with the slots `near`. All must stay where they are until
+  /// the last pass.
+  void begin(std::span<PileBody> bodies, std::span<PileManifold> manifolds, std::span<const int> near,
+             Refresh refresh);
+  /// At one manifold, by index in near, or at all.
+  void lookAt(std::size_t n);
+  void lookAtAll();
+  /// At those that were, after they were changed.
+  void lookAgain();
+  /// [m] Deepest penetration of all that were looked at.
+  double deepest() const;
+
+  /// One pass; `number` counts those before it. Only penetrating bodies and a few layers of neighbours move,
+  /// more from pass to pass. False if nothing was to be done.
+  bool pass(int number);
 
   /// [m] For boxes of that smallest size [m].
   double tolerated(double length) const { return std::min(tolerance_, 0x1.8p-8 * length); }
 
   /// [m] How far the last pass moved points, at the most.
   double farthest() const { return farthest_; }
-
-  bool moved(int body) const { return moved_[static_cast<std::size_t>(body)] != 0; }
+  /// The bodies that it moved.
+  const std::vector<int>& moved() const { return moved_; }
 
  private:
-  bool collect(std::span<const PileBody> bodies, std::span<PileManifold> manifolds, std::span<const int> near,
-               int layers);
-  void solve(std::span<const PileBody> bodies, int number);
+  struct Seen {        // of a manifold
+    double depth = 0;  // [m]
+    bool everSeen = false;
+    bool upToDate = false;
+    bool deep = false;   // too deep to stay
+    bool close = false;  // what is moved on one side may push the other
+  };
+  void listNearOfBodies();
+  bool collect(int layers);
+  void reach(const PileManifold& manifold);
+  void fillSolver();
+  void solve(int number);
+  void move();
+  void moveBody(int body);
 
   double tolerance_;     // [m]
   double farthest_ = 0;  // [m]
+  std::shared_ptr<Team> team_;
+  std::span<PileBody> bodies_;
+  std::span<PileManifold> manifolds_;
+  std::span<const int> near_;
+  Refresh refresh_;
   PileSolver solver_;
   DisplacementSolver gradients_;
-  std::vector<char> reached_;
-  std::vector<char> moved_;
-  std::vector<int> chosen_;
+  std::vector<Seen> seen_;            // by index in near_
+  std::vector<std::size_t> firstOf_;  // by body: in nearOf_; empty until a pass needs it
+  std::vector<std::size_t> nearOf_;   // indices in near_
+  std::vector<char> isReached_;       // by body: moves in this pass
+  std::vector<int> reached_;          // these
+  std::vector<char> isChosen_;        // by index in near_
+  std::vector<std::size_t> chosen_;   // these
+  std::vector<int> moved_;
 };
 
 }  // namespace careen

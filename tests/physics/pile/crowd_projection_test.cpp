@@ -57,7 +57,7 @@ TEST(CrowdProjection, jamInADeepShaftStaysShallow) {
     deepest = std::max(deepest, run.deepest());
   }
   RecordProperty("deepest", std::to_string(deepest));
-  EXPECT_LT(deepest, 3 * kTolerance);  // measured 5.4e-4
+  EXPECT_LT(deepest, 3 * kTolerance);  // measured 6.2e-4
 }
 
 // Where boxes are pushed millimetres far, their way leads through places where they are pushed apart too. Few
@@ -82,10 +82,29 @@ TEST(CrowdProjection, leadsAroundOthers) {
   }
   EXPECT_GT(divided, 0);
   EXPECT_LT(deepest,
-            3 * kTolerance);  // measured 5.8e-4; of other heaps 28e-4 where ways were gone however deep
+            3 * kTolerance);  // measured 5.2e-4; of other heaps 28e-4 where ways were gone however deep
   RecordProperty("heaps", heaps);
   RecordProperty("divided", divided);
   RecordProperty("deepest", std::to_string(deepest));
+}
+
+// A pair that met otherwise than its features at the start of the step told is pushed apart, with those
+// around it; that is no reason to take the step of the whole heap again.
+TEST(CrowdProjection, fewStepsOfAHeapAreTakenAgain) {
+  const World world = test::pouring(400, 0.5, 0, 1, 5);
+  test::CrowdRun run(world);
+  Crowd& crowd = run.crowd();
+  double deepest = 0;
+  for (double time = 0; time < 2;) {
+    time += crowd.step(2 - time);
+    deepest = std::max(deepest, time > 1 ? deepestWithin(world, crowd) : 0.0);
+  }
+  const Crowd::Figures& figures = run.figures();
+  RecordProperty("steps", static_cast<int>(figures.steps));
+  RecordProperty("retaken", static_cast<int>(figures.retaken));
+  RecordProperty("deepest", std::to_string(deepest));
+  EXPECT_LT(20 * figures.retaken, figures.steps);  // measured 13 of 402; 33 of 422 before
+  EXPECT_LT(deepest, 3 * kTolerance);              // measured 4.4e-4
 }
 
 // Wedged boxes: shifts by a solver that stops early pushed some of them deeper in every step, which was taken
@@ -102,8 +121,8 @@ TEST(CrowdProjection, jamOfSlipperyBoxesEnds) {
   RecordProperty("passes", static_cast<int>(run.figures().projections));
   RecordProperty("steps", static_cast<int>(run.figures().steps));
   RecordProperty("deepest", std::to_string(deepest));
-  EXPECT_LT(run.figures().projections, 1000);  // measured 294
-  EXPECT_LT(deepest, 3 * kTolerance);          // measured 5.7e-4
+  EXPECT_LT(run.figures().projections, 1000);  // measured 522
+  EXPECT_LT(deepest, 3 * kTolerance);          // measured 6.0e-4
 }
 
 }  // namespace

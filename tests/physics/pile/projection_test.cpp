@@ -1,0 +1,111 @@
+#include "physics/pile/projection.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "physics/world/body.h"
+
+namespace careen {
+namespace {
+
+constexpr double kTolerated = 3e-4;
+constexpr std::size_t kBoxesInRow = 40;
+constexpr std::size_t kDeepPair = 17;  // the pair of this box and the next
+
+// Boxes of 1 m in a row, 1 mm from each other, but for one pair that is as deep; every second one is twice as
+// heavy. The pair is pushed apart without reaching the next ones.
+class ProjectedRow {
+ public:
+  ProjectedRow() : projection_(kTolerated, std::make_shared<Team>(1)) {
+    for (std::size_t i = 0; i < kBoxesInRow; ++i) {
+      Body body;
+      body.halfExtents = Vec3::Constant(0.5);
+      body.mass = solidBox(body.halfExtents, i % 2 == 0 ? 1 : 2);
+      const double x = static_cast<double>(i) * 1.001 - (i > kDeepPair ? 0.002 : 0);
+      body.initial.pose.position = Vec3(x, 0, 0);
+      bodies.push_back(pileBody(body, body.initial));
+    }
+    for (std::size_t i = 0; i + 1 < kBoxesInRow; ++i) {
+      PileManifold manifold;
+      manifold.a = static_cast<int>(i);
+      manifold.b = Partner::ofBody(static_cast<int>(i + 1));
+      manifold.length = 1;
+      EXPECT_TRUE(buildManifold(bodies[i], bodies[i + 1], 0.05, manifold));
+      manifolds_.push_back(manifold);
+      near_.push_back(static_cast<int>(i));
+    }
+    refreshes.assign(kBoxesInRow - 1, 0);
+    projection_.begin(bodies, manifolds_, near_, [this](PileManifold& manifold, bool) {
+      const auto a = static_cast<std::size_t>(manifold.a);
+      ++refreshes[a];
+      refreshManifold(bodies[a], bodies[a + 1], manifold);
+    });
+  }
+
+  PileProjection& projection() { return projection_; }
+  double center() const {  // of mass [kg m]
+    double sum = 0;
+    for (std::size_t i = 0; i < kBoxesInRow; ++i) {
+      sum += (i % 2 == 0 ? 1 : 2) * bodies[i].position.x();
+    }
+    return sum;
+  }
+
+  std::vector<PileBody> bodies;
+  std::vector<int> refreshes;  // by manifold
+
+ private:
+  PileProjection projection_;
+  std::vector<PileManifold> manifolds_;
+  std::vector<int> near_;
+};
+
+TEST(PileProjection, looksOnlyAroundWhatIsDeep) {
+  ProjectedRow row;
+  const double center = row.center();
+  row.projection().lookAt(kDeepPair);
+  EXPECT_NEAR(row.projection().deepest(), 1e-3, 1e-12);
+  int passes = 0;
+  while (row.projection().pass(passes)) {
+    ++passes;
+  }
+  EXPECT_GE(passes, 1);
+  EXPECT_LE(row.projection().deepest(), kTolerated);
+  for (std::size_t i = 0; i + 1 < kBoxesInRow; ++i) {
+    const bool isAround = i + 5 > kDeepPair && i < kDeepPair + 5;
+    EXPECT_TRUE(isAround || row.refreshes[i] == 0) << i;
+    const double apart = row.bodies[i + 1].position.x() - row.bodies[i].position.x();
+    EXPECT_GE(apart, 1 - kTolerated) << i;
+  }
+  EXPECT_NEAR(row.center(), center, 1e-12);  // mass-weighted: nothing outside pushes
+  EXPECT_EQ(row.bodies.front().position.x(), 0);
+}
+
+TEST(PileProjection, whatItDidNotLookAtChangesNothing) {
+  ProjectedRow one;
+  ProjectedRow all;
+  one.projection().lookAt(kDeepPair);
+  all.projection().lookAtAll();
+  for (int pass = 0; all.projection().pass(pass); ++pass) {
+    EXPECT_TRUE(one.projection().pass(pass));
+    EXPECT_EQ(one.projection().moved(), all.projection().moved());
+  }
+  for (std::size_t i = 0; i < kBoxesInRow; ++i) {
+    EXPECT_EQ(one.bodies[i].position, all.bodies[i].position) << i;
+    EXPECT_EQ(one.bodies[i].attitude.coeffs(), all.bodies[i].attitude.coeffs()) << i;
+  }
+}
+
+TEST(PileProjection, leavesWhatIsNotDeep) {
+  ProjectedRow row;
+  row.projection().lookAt(kDeepPair + 1);
+  EXPECT_FALSE(row.projection().pass(0));
+  EXPECT_TRUE(row.projection().moved().empty());
+  EXPECT_EQ(row.projection().deepest(), 0);
+}
+
+}  // namespace
+}  // namespace careen
