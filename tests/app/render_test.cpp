@@ -122,6 +122,24 @@ TEST_F(Render, refusesWhatCannotBeFilmed) {
   }
 }
 
+// Drawing can do with none of its own, where a crowd takes one; the film is the same.
+TEST_F(Render, threadsOfDrawingAndOfCrowdsChangeNoBit) {
+  folder_.write("crowd.json", R"({
+    "careen": 1, "duration": 0.5, "gravity": [0, 0, -10], "crowds": { "when": 1 },
+    "room": { "min": [-2, -2, 0], "max": [2, 2, 4] },
+    "boxes": [ { "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0, 0, 0.4] },
+               { "half_extents": [0.3, 0.2, 0.1], "mass": 1, "position": [0.1, 0, 0.7] } ],
+    "film": { "size": [64, 48], "fps": 10 }
+  })");
+  const Ended none = careen({"render", "crowd.json", "--threads", "0", "--out", "none"});
+  ASSERT_EQ(none.exitCode, 0) << none.err;
+  EXPECT_NE(none.out.find("of crowds"), std::string::npos) << none.out;
+  ASSERT_EQ(careen({"render", "crowd.json", "--threads", "64", "--out", "most"}).exitCode, 0);
+  expectSameFilm("none", "most");
+  EXPECT_EQ(careen({"render", "crowd.json", "--threads", "65", "--out", "more"}).exitCode, 2);
+  EXPECT_EQ(careen({"simulate", "crowd.json", "--threads", "0", "-o", "run.careen"}).exitCode, 2);
+}
+
 TEST_F(Render, drawsTheOverlaysOfTheSceneOrThoseAskedFor) {
   std::string text = kFilmScene;
   text.insert(text.rfind('}'), R"(, "overlays": ["velocity"])");
