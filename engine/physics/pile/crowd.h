@@ -39,9 +39,9 @@ namespace careen {
 /// all its points within a few tolerances strike, with v_n ≥ 0: else the corners of one edge would strike in
 /// different steps, and each would turn the body. Bodies that went deep into each other in a step, or into a
 /// wall, are pushed apart at its end, with those around them; where they are too deep for that, it is taken
-/// again with half its length. Penetration that is left at the rates found is undone by shifts in the same
-/// step, the rest by a position projection every few steps; none of it becomes velocity (no Baumgarte
-/// stabilisation, no slop).
+/// again with half its length, and with more sweeps where it gained energy. Penetration that is left at the
+/// rates found is undone by shifts in the same step, the rest by a position projection every few steps; none
+/// of it becomes velocity (no Baumgarte stabilisation, no slop).
 ///
 /// Bodies sleep with all that they touch, or, where some of that still moves, beyond a few contacts from it,
 /// if forces within their cones balance on them at rest, those of the ones awake being as they are: then
@@ -190,6 +190,10 @@ class Crowd {
     bool projected = false;
     bool moved = false;
   };
+  struct Kinetic {  // [J] energy of a body, before impulses and after
+    double before = 0;
+    double after = 0;
+  };
   struct Place {
     Vec3 position = Vec3::Zero();
     Quat attitude = Quat::Identity();
@@ -242,6 +246,8 @@ class Crowd {
   double chooseLength(double most) const;
   void take(double length, bool mayShift = true);
   double keepApart();
+  double kineticEnergy(const PileBody& body, int index) const;
+  bool gainedEnergy() const;
   void goBack();
   void findLoads();
   Vec3 acceleration(std::size_t place) const;
@@ -380,6 +386,7 @@ class Crowd {
   double bent_;  // [1] of the tolerance: how far corners may leave their tangents in the next step
   double tell_;  // [1] of the smallest size: change per step above which neighbours are re-solved
   std::vector<char> bends_;  // by place: its corners leave their tangents in this step
+  std::vector<Kinetic> kinetic_;
   std::vector<Bounce> bounces_;
   std::vector<Struck> impacts_;
   std::vector<double> unrest_;    // [m/s] net velocity change of the last step
