@@ -147,7 +147,7 @@ class Crowd {
 
   struct Figures {
     std::int64_t steps = 0;
-    std::int64_t retaken = 0;      ///< times that one was taken again with half its length
+    std::int64_t retaken = 0;      ///< times that one was taken again
     std::int64_t pairs = 0;        ///< tested, over all steps
     std::int64_t manifolds = 0;    ///< refreshed
     std::int64_t rebuilt = 0;      ///< of these, rebuilt
@@ -167,6 +167,7 @@ class Crowd {
   /// [1] of the same: change that is a strike, to which it must not have been a wall.
   static constexpr double kStrike = 4;
   static constexpr int kStepsAlone = 2;
+  static constexpr double kMostBent = 6;  // [1] of the tolerance: how far corners may leave their tangents
   static constexpr std::size_t kFewRows = 150;       // up to which they are always solved directly
   static constexpr double kLongestStep = 1.0 / 180;  // [s] at the usual tolerance
   double longestStep() const { return kLongestStep * scale_; }
@@ -246,7 +247,7 @@ class Crowd {
   double chooseLength(double most) const;
   void take(double length, bool mayShift = true);
   double keepApart();
-  double kineticEnergy(const PileBody& body, int index) const;
+  double kineticEnergy(std::size_t place) const;
   bool gainedEnergy() const;
   void goBack();
   void findLoads();
@@ -383,10 +384,10 @@ class Crowd {
   std::vector<double> past_;        // [s] by place: the same of who was no member then, or more
   bool isSharp_ = false;
   std::vector<std::vector<Place>> way_;  // places between begin and end of the last step, if any
-  double bent_;  // [1] of the tolerance: how far corners may leave their tangents in the next step
-  double tell_;  // [1] of the smallest size: change per step above which neighbours are re-solved
+  double bent_ = kMostBent;              // [1] of the tolerance: the same in the next step, at the most
+  double tell_;              // [1] of the smallest size: change per step above which neighbours are re-solved
   std::vector<char> bends_;  // by place: its corners leave their tangents in this step
-  std::vector<Kinetic> kinetic_;
+  std::vector<Kinetic> kinetic_;  // by place
   std::vector<Bounce> bounces_;
   std::vector<Struck> impacts_;
   std::vector<double> unrest_;    // [m/s] net velocity change of the last step
