@@ -19,7 +19,7 @@ constexpr double kShiftedTo = 0.5;
 constexpr double kShiftChange = 0.25;
 constexpr int kShiftSweeps = 60;
 // Within a step, boxes are looked at where one may have moved by so much [1] of the tolerance relative to the
-// other, at parts of it as short as that [1].
+// other, at parts of it as short as that [1]; of a way that is divided, of each of its parts.
 constexpr double kSwing = 8;
 constexpr double kShortestLook = 0.0625;
 
@@ -133,13 +133,26 @@ double Crowd::depthNow(const PilePair& pair) const {
   return std::max(deep, depthWithin(pair.a, pair.b.body(), axis, atEnd));
 }
 
-// [m] By how much points of b moved in the last step as seen from a, at the most, to first order.
+// [m] By how much points of b moved in the last step as seen from a, at the most, to first order; on a way
+// that is divided, as if all its parts were like the longest.
 double Crowd::wayOf(int b, int a) const {
-  const Vec3& turnA = turns_[at(a)];
-  const Vec3 apart = start_[at(b)].position - start_[at(a)].position;
-  const Vec3 wayA = bodies_[at(a)].position - start_[at(a)].position;
-  const Vec3 wayB = bodies_[at(b)].position - start_[at(b)].position;
-  return (wayB - wayA - turnA.cross(apart)).norm() + bodies_[at(b)].radius * (turns_[at(b)] - turnA).norm();
+  const auto way = [&](const Vec3& apart, const Rates& ofA, const Rates& ofB) {
+    return (ofB.velocity - ofA.velocity - ofA.omega.cross(apart)).norm() +
+           bodies_[at(b)].radius * (ofB.omega - ofA.omega).norm();
+  };
+  const auto straight = [&](int body) {  // in units of the step
+    return Rates{.velocity = bodies_[at(body)].position - start_[at(body)].position,
+                 .omega = turns_[at(body)]};
+  };
+  if (way_.empty()) {
+    return way(start_[at(b)].position - start_[at(a)].position, straight(a), straight(b));
+  }
+  double fastest = 0;
+  for (std::size_t part = 0; part <= way_.size(); ++part) {
+    const Vec3 apart = endsOf(at(b), part).first.position - endsOf(at(a), part).first.position;
+    fastest = std::max(fastest, way(apart, ratesAt(at(a), part), ratesAt(at(b), part)));
+  }
+  return h_ * fastest;
 }
 
 // [m] Of two boxes; of those no deeper than kDeep, a lower bound. The axis is that of their manifold, or −1.
@@ -185,8 +198,10 @@ double Crowd::depthWithin(int a, int b, int axis, double atEnd) const {
     return gapAbove(-kDeep * tolerance_, axis, bodies_[at(a)], poseA.worldFromBody, bodies_[at(b)],
                     poseB.worldFromBody, bodies_[at(a)].middleAt(poseA) - bodies_[at(b)].middleAt(poseB));
   };
-  const DepthSearch search{
-      .motion = motion, .deep = kDeep * tolerance_, .swing = kSwing * tolerance_, .shortest = kShortestLook};
+  const DepthSearch search{.motion = motion,
+                           .deep = kDeep * tolerance_,
+                           .swing = kSwing * tolerance_,
+                           .shortest = kShortestLook / static_cast<double>(way_.size() + 1)};
   const double deepest = searchDepth(search, gapAt, gapAt(0), atEnd);
   return deepest > kDeep * tolerance_ ? deepest : 0;
 }

@@ -87,7 +87,6 @@ double Crowd::project(int passes) {
     projection_.lookAgain();
     deepest = projection_.deepest();
   }
-  deepest_ = std::max(deepest_, deepest);
   left_ = deepest;
   return deepest;
 }
@@ -172,13 +171,14 @@ double Crowd::projectOnWay() {
   lookAtDeep();
   const double deep = projection_.deepest();
   const double left = project(kPasses);
-  if (findWay() <= deep) {
-    return left;
+  const double onWay = findWay();
+  if (onWay <= deep) {
+    return left_ = std::max(left, onWay);
   }
   bodies_ = unpushed;
   way_.clear();
   rebuildNear();
-  return deep;
+  return left_ = deep;
 }
 
 // On a long straight way to where they were pushed, bodies may come through each other: it leads through
@@ -228,12 +228,12 @@ std::vector<std::vector<Crowd::Place>> Crowd::divideWay(int parts) {
 double Crowd::deepestOnWay() {
   findTurns();
   double deepest = 0;
-  for (const int slot : near_) {
-    const PileManifold& manifold = manifolds_[at(slot)];
-    if (!manifold.b.isWall() &&
-        (before_[at(manifold.a)].projected || before_[at(manifold.b.body())].projected)) {
-      deepest = std::max(deepest, depthWithin(manifold.a, manifold.b.body(), manifold.axis,
-                                              gapAtEnd(manifold.a, manifold.b.body(), manifold.axis)));
+  for (const PilePair& pair : pairs_.pairs()) {
+    if (!pair.b.isWall() && (before_[at(pair.a)].projected || before_[at(pair.b.body())].projected) &&
+        !(way_.empty() && isClear(pair))) {
+      const int axis = pair.slot < 0 ? -1 : manifolds_[at(pair.slot)].axis;
+      const double atEnd = gapAtEnd(pair.a, pair.b.body(), axis);
+      deepest = std::max(deepest, depthWithin(pair.a, pair.b.body(), axis, atEnd));
     }
   }
   return deepest;
