@@ -1,6 +1,7 @@
 #include "physics/pile/crowd.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -126,22 +127,23 @@ double Crowd::step(double most) {
   forPlaces([&](std::size_t i) { start_[i] = bodies_[i]; });
   loadsBefore_ = loads_;
   hBefore_ = h_;
-  take(chooseLength(most));
+  chosen_ = chooseLength();
+  take(std::min(chosen_, most));
   return keepApart();
 }
 
 // Stores manifolds in processing order, for cache locality with thousands of boxes. The storage order does
 // not affect results.
 void Crowd::sortManifolds() {
-  std::vector<PileManifold> sorted;
-  sorted.reserve(manifolds_.size());
+  near_.clear();
   for (PilePair& pair : pairs_.pairs()) {
     if (pair.slot >= 0) {
-      sorted.push_back(manifolds_[at(pair.slot)]);
-      pair.slot = static_cast<int>(sorted.size()) - 1;
+      near_.push_back(std::exchange(pair.slot, static_cast<int>(near_.size())));
     }
   }
-  manifolds_.swap(sorted);
+  sorted_.resize(near_.size());
+  forNear([&](const PileManifold& manifold, std::size_t n) { sorted_[n] = manifold; });
+  manifolds_.swap(sorted_);
   unused_.clear();
   pairs_.freed().clear();  // of members that left since the last step: slots of the old order
   near_.clear();
@@ -149,7 +151,7 @@ void Crowd::sortManifolds() {
 
 // [s] What the fastest body requires, relative to its size, and the one that turns fastest: its corners leave
 // their tangents by r ω² h²/2.
-double Crowd::chooseLength(double most) const {
+double Crowd::chooseLength() const {
   const double longest = longestStep();
   double fastest = 0;
   double bending = 0;  // [m/s²]
@@ -168,7 +170,7 @@ double Crowd::chooseLength(double most) const {
     const double straight = std::sqrt(2 * bent_ * tolerance_ / bending);
     h = std::min(h, std::max(straight, kShortestTurn * kShortestStep * scale_));
   }
-  return std::min({h, springLimit_, most});
+  return std::min(h, springLimit_);
 }
 
 void Crowd::take(double length, bool mayShift) {
@@ -249,7 +251,7 @@ double Crowd::loadBody(std::size_t place) {
 }
 
 void Crowd::loadSolver() {
-  solver_.begin(bodies_.size());
+  solver_.begin(bodies_.size(), PileSolver::Rows::kSet);
   bounces_.clear();
   kinetic_.assign(bodies_.size(), {});
   speed_ = team_->largest(bodies_.size(), [&](std::size_t first, std::size_t last) {
@@ -365,16 +367,16 @@ void Crowd::takeVelocity(PileBody& body, int index) {
 
 // A member is untouched while no contact point is near it.
 void Crowd::countUntouched() {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    untouchedSteps_[i] = bodies_[i].still() ? 0 : untouchedSteps_[i] + 1;
-  }
-  for (const int slot : near_) {
-    const PileManifold& manifold = manifolds_[at(slot)];
-    untouchedSteps_[at(manifold.a)] = 0;
+  forPlaces([&](std::size_t i) { untouchedSteps_[i] = bodies_[i].still() ? 0 : untouchedSteps_[i] + 1; });
+  const auto touch = [&](int body) {
+    std::atomic_ref(untouchedSteps_[at(body)]).store(0, std::memory_order_relaxed);
+  };
+  forNear([&](const PileManifold& manifold, std::size_t) {
+    touch(manifold.a);
     if (!manifold.b.isWall()) {
-      untouchedSteps_[at(manifold.b.body())] = 0;
+      touch(manifold.b.body());
     }
-  }
+  });
 }
 
 }  // namespace careen

@@ -81,7 +81,7 @@ class Crowd {
   double stepAgain(double length);
 
   /// [s] What step() would take.
-  double nextLength(double most) const { return chooseLength(most); }
+  double nextLength(double most) const { return std::min(chooseLength(), most); }
   /// [m/s] Of the fastest member, its centre.
   double fastest() const;
   /// The space that members that are awake or asleep can reach within that time [s].
@@ -209,6 +209,7 @@ class Crowd {
     PileManifold tried;  // of a pair that has no slot: most are far, so this stays in the cache
     std::vector<std::pair<std::size_t, PileManifold>> begun;  // of those that are not; by index
     std::vector<std::size_t> left;                            // those that became far
+    std::vector<std::size_t> besideSleep;
     std::int64_t pairs = 0;
     std::int64_t rebuilt = 0;
   };
@@ -244,7 +245,7 @@ class Crowd {
   std::size_t place(const PileBody& body, std::size_t listed);
   void limitBySprings(std::size_t listed);
   void sortManifolds();
-  double chooseLength(double most) const;
+  double chooseLength() const;
   void take(double length, bool mayShift = true);
   double keepApart();
   double kineticEnergy(std::size_t place) const;
@@ -344,6 +345,7 @@ class Crowd {
   double springLimit_ = 0;           // [s] longest step with the springs of the members
   double h_ = 0;                     // [s] of the last step
   double hBefore_ = 0;               // [s] of the one before
+  double chosen_ = 0;                // [s] what the last one would be if nothing outside cut it
   double span_ = 0;                  // [s] from the middle of that to the middle of the last: its impulses
   double sinceProjection_ = 0;       // [s]
   std::vector<PileBody> bodies_;     // by place
@@ -360,12 +362,14 @@ class Crowd {
 
   PilePairs pairs_;
   std::vector<PileManifold> manifolds_;
+  std::vector<PileManifold> sorted_;        // before they take the place of the others
   std::vector<int> unused_;                 // free slots of manifolds_
   std::vector<int> near_;                   // manifolds of this step, by key
   std::vector<PileSolver::Extent> rowsOf_;  // by index in near_: where its own begin
   std::vector<char> strike_;                // by the same: whether a point of it strikes
   std::vector<Looked> looked_;              // by pair
   std::vector<Looking> looking_;            // by range of pairs
+  std::vector<std::size_t> besideSleep_;    // pairs that are near, of which one sleeps, or did until now
   std::vector<char> isDeep_;                // by pair: after this step
   PileSolver solver_;
   ContactProblem problem_;

@@ -1,6 +1,7 @@
 // Contacts of a crowd: broad and narrow phase, rows of the solver.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "physics/pile/crowd.h"
@@ -43,14 +44,14 @@ void Crowd::lookAround() {
   pairs_.freed().clear();
   const std::vector<PilePair>& pairs = pairs_.pairs();
   looked_.assign(pairs.size(), Looked::kNot);
+  besideSleep_.clear();
   for (bool woke = true; woke;) {
     lookAtAll();
     woke = false;
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
+    for (const std::size_t k : besideSleep_) {
       const PilePair& pair = pairs[k];
       const PileBody& a = bodies_[at(pair.a)];
-      if (looked_[k] == Looked::kNear && (a.asleep || isAsleep(pair.b)) &&
-          wouldPush(pair, manifolds_[at(pair.slot)])) {
+      if ((a.asleep || isAsleep(pair.b)) && wouldPush(pair, manifolds_[at(pair.slot)])) {
         wakeCluster(a.asleep ? a.cluster : bodyAt(pair.b).cluster);
         woke = true;
       }
@@ -59,6 +60,7 @@ void Crowd::lookAround() {
       wakeNeighbours();
     }
   }
+  std::sort(besideSleep_.begin(), besideSleep_.end());
   near_.clear();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (looked_[k] == Looked::kNear) {
@@ -78,6 +80,7 @@ void Crowd::lookAtAll() {
     Looking& looking = looking_[at(part)];
     looking.begun.clear();
     looking.left.clear();
+    looking.besideSleep.clear();
     looking.pairs = looking.rebuilt = 0;
     const std::size_t last = pairs.size() * (at(part) + 1) / parts;
     for (std::size_t k = pairs.size() * at(part) / parts; k < last; ++k) {
@@ -99,11 +102,16 @@ void Crowd::lookAtAll() {
       } else if (looked_[k] != Looked::kFar && isNew) {
         looking.begun.emplace_back(k, manifold);
       }
+      const bool sleeps = bodies_[at(pair.a)].asleep || isAsleep(pair.b) || manifold.carries;
+      if (sleeps && looked_[k] == Looked::kNear) {
+        looking.besideSleep.push_back(k);
+      }
     }
   });
   for (const Looking& looking : looking_) {
     figures_.pairs += looking.pairs;
     figures_.rebuilt += looking.rebuilt;
+    besideSleep_.insert(besideSleep_.end(), looking.besideSleep.begin(), looking.besideSleep.end());
     for (const std::size_t k : looking.left) {
       unused_.push_back(std::exchange(pairs[k].slot, -1));
     }
@@ -250,15 +258,19 @@ void Crowd::findPushing() {
     own[i] = solver_.velocity(index).norm() + bodies_[i].radius * solver_.omega(index).norm();
   });
   pushing_ = own;
-  for (const int slot : near_) {
-    const PileManifold& manifold = manifolds_[at(slot)];
+  const auto raise = [&](std::size_t i, double speed) {
+    const std::atomic_ref pushing(pushing_[i]);
+    for (double before = pushing; speed > before && !pushing.compare_exchange_weak(before, speed);) {
+    }
+  };
+  forNear([&](const PileManifold& manifold, std::size_t) {
     if (!manifold.b.isWall()) {
       const std::size_t a = at(manifold.a);
       const std::size_t b = at(manifold.b.body());
-      pushing_[a] = std::max(pushing_[a], own[b]);
-      pushing_[b] = std::max(pushing_[b], own[a]);
+      raise(a, own[b]);
+      raise(b, own[a]);
     }
-  }
+  });
 }
 
 // What is to be known of a manifold before its rows are added, and how many there will be. Where a point

@@ -259,8 +259,8 @@ Vec3 Crowd::impulseOf(const PileManifold& manifold, int k) {
 
 void Crowd::findDisturbed() {
   disturbed_.clear();
-  for (const int slot : near_) {
-    PileManifold& manifold = manifolds_[at(slot)];
+  for (const std::size_t k : besideSleep_) {
+    PileManifold& manifold = manifolds_[at(pairs_.pairs()[k].slot)];
     if (!manifold.carries) {
       continue;
     }
@@ -291,8 +291,8 @@ void Crowd::wakeDisturbed() {
 // Wakes what an impulse of this step went through as if it were a wall: the step is to be solved anew.
 bool Crowd::wakeStruck() {
   bool woke = false;
-  for (const int slot : near_) {
-    const PileManifold& manifold = manifolds_[at(slot)];
+  for (const std::size_t n : besideSleep_) {
+    const PileManifold& manifold = manifolds_[at(pairs_.pairs()[n].slot)];
     if (!isHalfAsleep(manifold)) {
       continue;
     }

@@ -46,7 +46,7 @@ double Crowd::stepAgain(double length) {
 // below what the crowd would take. In a jam, where all that leaves bodies deep, the next steps take more
 // sweeps.
 double Crowd::keepApart() {
-  const double shortest = kShortest * chooseLength(longestStep());
+  const double shortest = kShortest * chosen_;
   double left = 0;
   if (gainedEnergy() && effort_ < kMostEffort) {
     effort_ = std::min(4 * effort_, kMostEffort);

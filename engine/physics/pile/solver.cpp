@@ -5,8 +5,6 @@
 #include <mutex>
 #include <numeric>
 
-#include "physics/solver/residual_sum.h"
-
 namespace careen {
 namespace {
 
@@ -14,13 +12,15 @@ constexpr std::uint32_t kNeverSeen = 0xffffffff;
 
 }  // namespace
 
-void PileSolver::begin(std::size_t bodies) {
+void PileSolver::begin(std::size_t bodies, Rows rows) {
   bodies_ = bodies;
   moving_.assign(bodies + 1, {});
   inertia_.assign(bodies + 1, {});
   places_.resize(bodies);
-  staged_.clear();
-  blocks_.clear();
+  if (rows == Rows::kAdded) {  // else all are overwritten
+    staged_.clear();
+    blocks_.clear();
+  }
 }
 
 void PileSolver::setBody(int index, const PileBody& body, double change) {
@@ -380,30 +380,47 @@ ContactResiduals PileSolver::residuals(double speed) const {
       const LaneRow& row = rows_[k];
       const Lanes squared = row.normalImpulse * row.normalImpulse +
                             (row.tangential1 * row.tangential1 + row.tangential2 * row.tangential2);
-      squares = std::max({squares, squared[0], squared[1], squared[2], squared[3]});
+      squares = std::max(squares, largestOf(squared));
     }
     return squares;
   });
   ResidualSum sum(speed, std::sqrt(largest));
   std::mutex mutex;
-  team_->share(staged_.size(), [&](std::size_t first, std::size_t last) {
+  team_->share(groups_.size(), [&](std::size_t first, std::size_t last) {
     ResidualSum part(speed, std::sqrt(largest));
-    for (std::size_t k = first; k < last; ++k) {
-      const int row = static_cast<int>(k);
-      const Block& block = blocks_[at(blockOfRow_[k])];
-      const Moving& a = moving_[at(block.a)];
-      const Moving& b = moving_[at(block.b)];
-      const Vec3& arm = staged_[k].arm;
-      const Vec3 u = a.velocity + a.omega.cross(arm) - b.velocity - b.omega.cross(arm + block.apart);
-      part.add({.friction = block.friction, .onLine = !(block.friction > 0)},
-               {normalImpulse(row), tangential1(row), tangential2(row)},
-               {block.frame.normal.dot(u) - rows_[rowAt(row)].bound[laneOf(row)], block.frame.tangent1.dot(u),
-                block.frame.tangent2.dot(u)});
-    }
+    run([&]() __attribute__((always_inline)) { addResiduals(first, last, part); });
     const std::lock_guard lock(mutex);
     sum.include(part);
   });
   return sum.residuals();
+}
+
+// Of groups, as ResidualSum does it contact by contact; lanes without a row add none.
+CAREEN_LANES void PileSolver::addResiduals(std::size_t first, std::size_t last, ResidualSum& sum) const {
+  const double mostImpulse = sum.impulse();
+  const Lanes most = {mostImpulse, mostImpulse, mostImpulse, mostImpulse};
+  Lanes primal{}, dual{}, power{};
+  for (std::size_t index = first; index < last; ++index) {
+    const Group& group = groups_[index];
+    const LaneBlock& block = lanes_[index];
+    const Velocities a = velocitiesOf(moving_, group.a);
+    const Velocities b = velocitiesOf(moving_, group.b);
+    for (int k = group.first; k < group.first + group.count; ++k) {
+      const LaneRow& row = rows_[at(k)];
+      const LanesVec u = passing(block, row, a, b);
+      const Lanes above = dot(block.normal, u) - row.bound;
+      const Lanes u1 = dot(block.tangent1, u);
+      const Lanes u2 = dot(block.tangent2, u);
+      const Lanes limit = block.friction * row.normalImpulse;
+      const Lanes tangential = rootOf(row.tangential1 * row.tangential1 + row.tangential2 * row.tangential2);
+      primal = largerOf(primal, -above);
+      dual = largerOf(dual, largerOf(-row.normalImpulse, tangential - limit));
+      power = largerOf(power, absOf(row.normalImpulse * above +
+                                    ((limit < most ? limit : most) * rootOf(u1 * u1 + u2 * u2) +
+                                     (row.tangential1 * u1 + row.tangential2 * u2))));
+    }
+  }
+  sum.include(largestOf(primal), largestOf(dual), largestOf(power));
 }
 
 }  // namespace careen

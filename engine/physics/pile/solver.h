@@ -16,6 +16,7 @@
 #include "physics/pile/body.h"
 #include "physics/pile/lanes.h"
 #include "physics/pile/manifold.h"
+#include "physics/solver/residual_sum.h"
 #include "physics/world/contact_residuals.h"
 
 namespace careen {
@@ -47,8 +48,10 @@ class PileSolver {
  public:
   explicit PileSolver(std::shared_ptr<Team> team = std::make_shared<Team>(1)) : team_(std::move(team)) {}
 
+  /// How rows come in: one after the other by add(), or each by its index, after reserve().
+  enum class Rows : std::uint8_t { kAdded, kSet };
   /// Clears it for that many bodies; one more represents all walls.
-  void begin(std::size_t bodies);
+  void begin(std::size_t bodies, Rows rows = Rows::kAdded);
 
   /// Sets a body's inverse mass and inertia; `change` [m/s] is the change that puts its manifolds back on the
   /// list.
@@ -80,8 +83,8 @@ class PileSolver {
     staged_.push_back(row);
     ++blocks_.back().count;
   }
-  /// Or, in any order and by several threads at once: first the number of all, then each by its index, rows
-  /// that follow each other in one block.
+  /// Or, in any order and by several threads at once: first the number of all, then every one by its index,
+  /// rows that follow each other in one block.
   struct Extent {
     int blocks = 0;
     int rows = 0;
@@ -255,6 +258,7 @@ class PileSolver {
   void fillSide(Side& side, int lane, int body) const;
   void findMasses(const Group& group, const LaneBlock& lanes);
   double workOfImpulses();
+  void addResiduals(std::size_t first, std::size_t last, ResidualSum& sum) const;
   void push(const Group& group, const LaneBlock& block);
   static void put(std::vector<Moving>& moving, const std::array<int, kLanes>& bodies, Velocities velocities);
   /// Work on each part, by several threads, each time the same one if it has time.

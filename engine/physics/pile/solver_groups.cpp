@@ -46,12 +46,16 @@ void PileSolver::findParts() {
     return;
   }
   findSlabs(slabs);
-  for (Block& block : blocks_) {
+  const auto findPart = [&](Block& block) {
     const std::size_t a = movable(block.a) ? slabs_[at(block.a)] : slabs_[at(block.b)];
     const std::size_t b = movable(block.b) ? slabs_[at(block.b)] : a;
     const auto [low, high] = std::minmax(a, b);
     block.part = low == high ? low : low + 1 == high ? between(low, slabs) : lastPart(slabs);
-  }
+  };
+  team_->share(blocks_.size(), [&](std::size_t first, std::size_t last) {
+    std::for_each(blocks_.begin() + static_cast<std::ptrdiff_t>(first),
+                  blocks_.begin() + static_cast<std::ptrdiff_t>(last), findPart);
+  });
   for (std::size_t slab = 0; slab < slabs; ++slab) {
     const std::size_t after = slab + 1 < slabs ? between(slab, slabs) : lastPart(slabs);
     rounds_.setPlace(slab, static_cast<double>(slab) / static_cast<double>(slabs));
@@ -237,8 +241,10 @@ void PileSolver::fillGroupsOf(Part& part) {
 }
 
 void PileSolver::fillGroup(const Group& group, LaneBlock& lanes) {
-  lanes = {};
-  std::fill_n(rows_.begin() + group.first, group.count, LaneRow{});
+  if (group.used < kLanes) {
+    lanes = {};
+    std::fill_n(rows_.begin() + group.first, group.count, LaneRow{});
+  }
   for (int lane = 0; lane < group.used; ++lane) {
     const int index = group.blocks[at(lane)];
     const Block& block = blocks_[at(index)];

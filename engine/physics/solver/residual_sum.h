@@ -32,11 +32,15 @@ class ResidualSum {
   }
 
   /// Those of other contacts of the same problem; in any order.
-  void include(const ResidualSum& other) {
-    primal_ = std::max(primal_, other.primal_);
-    dual_ = std::max(dual_, other.dual_);
-    power_ = std::max(power_, other.power_);
+  void include(const ResidualSum& other) { include(other.primal_, other.dual_, other.power_); }
+  /// Their largest: primal [m/s], dual [N s] and power [J].
+  void include(double primal, double dual, double power) {
+    primal_ = std::max(primal_, primal);
+    dual_ = std::max(dual_, dual);
+    power_ = std::max(power_, power);
   }
+
+  double impulse() const { return impulse_; }
 
   ContactResiduals residuals() const {
     ContactResiduals all{.problems = 1};
