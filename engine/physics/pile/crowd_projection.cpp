@@ -10,6 +10,7 @@ namespace careen {
 namespace {
 
 constexpr int kPasses = 32;
+constexpr int kFewerPasses = 4;  // [1] of them, where they lead through others
 constexpr int kMendingPasses = 3;
 constexpr int kLongestPause = 15;  // steps in which mending, which failed again and again, is not tried
 // After so many passes [1] of the tolerance is enough: less than what makes a step be taken again.
@@ -165,19 +166,22 @@ bool Crowd::tryToMend() {
 }
 
 // The same as far as it can be done, unless bodies would have to go deeper through each other to where they
-// are pushed than they are. Returns how deep [m] any are then.
+// are pushed than they are: fewer passes push them less far. Returns how deep [m] any are then.
 double Crowd::projectOnWay() {
   const std::vector<PileBody> unpushed = bodies_;
-  lookAtDeep();
-  const double deep = projection_.deepest();
-  const double left = project(kPasses);
-  const double onWay = findWay();
-  if (onWay <= deep) {
-    return left_ = std::max(left, onWay);
+  double deep = 0;
+  for (int passes = kPasses; passes > 0; passes /= kFewerPasses) {
+    lookAtDeep();
+    deep = projection_.deepest();
+    const double left = project(passes);
+    const double onWay = findWay();
+    if (onWay <= deep) {
+      return left_ = std::max(left, onWay);
+    }
+    bodies_ = unpushed;
+    way_.clear();
+    rebuildNear();
   }
-  bodies_ = unpushed;
-  way_.clear();
-  rebuildNear();
   return left_ = deep;
 }
 
