@@ -10,6 +10,13 @@
 
 namespace careen {
 
+/// Makes it `value` where that is more. Several threads may at once: in any order, the same comes of it.
+inline void raiseTo(double& most, double value) {
+  const std::atomic_ref shared(most);
+  for (double before = shared.load(); value > before && !shared.compare_exchange_weak(before, value);) {
+  }
+}
+
 /// Threads that do parts of one piece of work, again and again, thousands of times a second. Their number
 /// must not show in what comes of it: parts touch nothing in common.
 class Team {
@@ -60,12 +67,8 @@ class Team {
   /// The same; returns the largest of 0 and what work(first, last) gives.
   template <class Work>
   double largest(std::size_t count, const Work& work) {
-    std::atomic<double> largest = 0;
-    share(count, [&](std::size_t first, std::size_t last) {
-      const double found = work(first, last);
-      for (double before = largest; found > before && !largest.compare_exchange_weak(before, found);) {
-      }
-    });
+    double largest = 0;
+    share(count, [&](std::size_t first, std::size_t last) { raiseTo(largest, work(first, last)); });
     return largest;
   }
 

@@ -126,7 +126,7 @@ class Crowd {
   bool isFree(std::size_t place) const { return untouchedSteps_[place] > kStepsAlone; }
   /// All members are asleep or fixed.
   bool atRest() const { return atRest_; }
-  /// [m] Deepest gap that a projection left, on its way too.
+  /// [m] Deepest gap that a projection left, on its way too, in the steps that were taken.
   double deepest() const { return deepest_; }
   /// [m] Deepest current penetration, by all 15 axes of every pair: costs more than a step.
   double penetration() const;

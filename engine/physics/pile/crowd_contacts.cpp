@@ -1,7 +1,6 @@
 // Contacts of a crowd: broad and narrow phase, rows of the solver.
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 
 #include "physics/pile/crowd.h"
@@ -102,8 +101,8 @@ void Crowd::lookAtAll() {
       } else if (looked_[k] != Looked::kFar && isNew) {
         looking.begun.emplace_back(k, manifold);
       }
-      const bool sleeps = bodies_[at(pair.a)].asleep || isAsleep(pair.b) || manifold.carries;
-      if (sleeps && looked_[k] == Looked::kNear) {
+      if (looked_[k] == Looked::kNear &&
+          (bodies_[at(pair.a)].asleep || isAsleep(pair.b) || manifold.carries)) {
         looking.besideSleep.push_back(k);
       }
     }
@@ -258,17 +257,12 @@ void Crowd::findPushing() {
     own[i] = solver_.velocity(index).norm() + bodies_[i].radius * solver_.omega(index).norm();
   });
   pushing_ = own;
-  const auto raise = [&](std::size_t i, double speed) {
-    const std::atomic_ref pushing(pushing_[i]);
-    for (double before = pushing; speed > before && !pushing.compare_exchange_weak(before, speed);) {
-    }
-  };
   forNear([&](const PileManifold& manifold, std::size_t) {
     if (!manifold.b.isWall()) {
       const std::size_t a = at(manifold.a);
       const std::size_t b = at(manifold.b.body());
-      raise(a, own[b]);
-      raise(b, own[a]);
+      raiseTo(pushing_[a], own[b]);
+      raiseTo(pushing_[b], own[a]);
     }
   });
 }

@@ -228,7 +228,8 @@ std::vector<std::vector<Crowd::Place>> Crowd::divideWay(int parts) {
   return way;
 }
 
-// [m] Of what was pushed; 0 if it is not too much.
+// [m] Of what was pushed; 0 if it is not too much. Paths, by which pairs are clear, do not count a way that
+// is divided.
 double Crowd::deepestOnWay() {
   findTurns();
   double deepest = 0;

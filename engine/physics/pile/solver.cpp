@@ -123,15 +123,20 @@ std::int64_t PileSolver::sweep(int sweeps) {
   });
 }
 
-// [m/s] Of a as seen from b, at the row's point.
-CAREEN_LANES LanesVec PileSolver::passing(const LaneBlock& block, const LaneRow& row, const Velocities& a,
-                                          const Velocities& b) {
-  return (a.v + cross(a.w, row.arm)) - (b.v + cross(b.w, row.arm + block.apart));
-}
-
-CAREEN_LANES Lanes PileSolver::alongNormal(const LaneBlock& block, const LaneRow& row, const Velocities& a,
-                                           const Velocities& b) {
-  return dot(block.normal, passing(block, row, a, b));
+// The last is that of a as seen from b, at the row's point.
+template <class Work>
+CAREEN_LANES void PileSolver::forRows(const std::vector<Moving>& moving, std::size_t first, std::size_t last,
+                                      const Work& work) const {
+  for (std::size_t index = first; index < last; ++index) {
+    const Group& group = groups_[index];
+    const LaneBlock& block = lanes_[index];
+    const Velocities a = velocitiesOf(moving, group.a);
+    const Velocities b = velocitiesOf(moving, group.b);
+    for (std::size_t k = at(group.first); k < at(group.first + group.count); ++k) {
+      const LanesVec& arm = rows_[k].arm;
+      work(block, k, (a.v + cross(a.w, arm)) - (b.v + cross(b.w, arm + block.apart)));
+    }
+  }
 }
 
 CAREEN_LANES LaneCounts PileSolver::changesOf(const std::array<int, kLanes>& bodies) const {
@@ -208,18 +213,13 @@ double PileSolver::workOfImpulses() {
   forParts([&](Part& part) {
     run([&]() __attribute__((always_inline)) {
       Lanes sum{};
-      for (std::size_t index = part.first; index < part.last; ++index) {
-        const Group& group = groups_[index];
-        const LaneBlock& block = lanes_[index];
-        const Velocities a = velocitiesOf(moving_, group.a);
-        const Velocities b = velocitiesOf(moving_, group.b);
-        for (int k = group.first; k < group.first + group.count; ++k) {
-          const LaneRow& row = rows_[at(k)];
-          const LanesVec u = passing(block, row, a, b);
-          sum = sum + row.normalImpulse * (dot(block.normal, u) - row.bound) +
-                row.tangential1 * dot(block.tangent1, u) + row.tangential2 * dot(block.tangent2, u);
-        }
-      }
+      forRows(
+          moving_, part.first, part.last,
+          [&](const LaneBlock& block, std::size_t k, const LanesVec& u) __attribute__((always_inline)) {
+            const LaneRow& row = rows_[k];
+            sum = sum + row.normalImpulse * (dot(block.normal, u) - row.bound) +
+                  row.tangential1 * dot(block.tangent1, u) + row.tangential2 * dot(block.tangent2, u);
+          });
       part.work = sumOf(sum);
     });
   });
@@ -344,14 +344,11 @@ void PileSolver::beginShifts(double h) {
   shiftRows_.resize(rows_.size());
   team_->share(groups_.size(), [&](std::size_t first, std::size_t last) {
     run([&]() __attribute__((always_inline)) {
-      for (std::size_t index = first; index < last; ++index) {
-        const Group& group = groups_[index];
-        const Velocities a = velocitiesOf(moving_, group.a);
-        const Velocities b = velocitiesOf(moving_, group.b);
-        for (std::size_t k = at(group.first); k < at(group.first + group.count); ++k) {
-          shiftRows_[k] = {.bound = -h * alongNormal(lanes_[index], rows_[k], a, b)};
-        }
-      }
+      forRows(
+          moving_, first,
+          last, [&](const LaneBlock& block, std::size_t k, const LanesVec& u) __attribute__((always_inline)) {
+            shiftRows_[k] = {.bound = -h * dot(block.normal, u)};
+          });
     });
   });
 }
@@ -360,14 +357,11 @@ double PileSolver::mostLacking() const {
   return team_->largest(groups_.size(), [&](std::size_t first, std::size_t last) {
     Lanes most{};
     run([&]() __attribute__((always_inline)) {
-      for (std::size_t index = first; index < last; ++index) {
-        const Group& group = groups_[index];
-        const Velocities a = velocitiesOf(shifts_, group.a);
-        const Velocities b = velocitiesOf(shifts_, group.b);
-        for (std::size_t k = at(group.first); k < at(group.first + group.count); ++k) {
-          most = largerOf(most, shiftRows_[k].bound - alongNormal(lanes_[index], rows_[k], a, b));
-        }
-      }
+      forRows(
+          shifts_, first,
+          last, [&](const LaneBlock& block, std::size_t k, const LanesVec& u) __attribute__((always_inline)) {
+            most = largerOf(most, shiftRows_[k].bound - dot(block.normal, u));
+          });
     });
     return largestOf(most);
   });
@@ -400,26 +394,22 @@ CAREEN_LANES void PileSolver::addResiduals(std::size_t first, std::size_t last, 
   const double mostImpulse = sum.impulse();
   const Lanes most = {mostImpulse, mostImpulse, mostImpulse, mostImpulse};
   Lanes primal{}, dual{}, power{};
-  for (std::size_t index = first; index < last; ++index) {
-    const Group& group = groups_[index];
-    const LaneBlock& block = lanes_[index];
-    const Velocities a = velocitiesOf(moving_, group.a);
-    const Velocities b = velocitiesOf(moving_, group.b);
-    for (int k = group.first; k < group.first + group.count; ++k) {
-      const LaneRow& row = rows_[at(k)];
-      const LanesVec u = passing(block, row, a, b);
-      const Lanes above = dot(block.normal, u) - row.bound;
-      const Lanes u1 = dot(block.tangent1, u);
-      const Lanes u2 = dot(block.tangent2, u);
-      const Lanes limit = block.friction * row.normalImpulse;
-      const Lanes tangential = rootOf(row.tangential1 * row.tangential1 + row.tangential2 * row.tangential2);
-      primal = largerOf(primal, -above);
-      dual = largerOf(dual, largerOf(-row.normalImpulse, tangential - limit));
-      power = largerOf(power, absOf(row.normalImpulse * above +
-                                    ((limit < most ? limit : most) * rootOf(u1 * u1 + u2 * u2) +
-                                     (row.tangential1 * u1 + row.tangential2 * u2))));
-    }
-  }
+  forRows(
+      moving_, first,
+      last, [&](const LaneBlock& block, std::size_t k, const LanesVec& u) __attribute__((always_inline)) {
+        const LaneRow& row = rows_[k];
+        const Lanes above = dot(block.normal, u) - row.bound;
+        const Lanes u1 = dot(block.tangent1, u);
+        const Lanes u2 = dot(block.tangent2, u);
+        const Lanes limit = block.friction * row.normalImpulse;
+        const Lanes tangential =
+            rootOf(row.tangential1 * row.tangential1 + row.tangential2 * row.tangential2);
+        primal = largerOf(primal, -above);
+        dual = largerOf(dual, largerOf(-row.normalImpulse, tangential - limit));
+        power = largerOf(power, absOf(row.normalImpulse * above +
+                                      ((limit < most ? limit : most) * rootOf(u1 * u1 + u2 * u2) +
+                                       (row.tangential1 * u1 + row.tangential2 * u2))));
+      });
   sum.include(largestOf(primal), largestOf(dual), largestOf(power));
 }
 

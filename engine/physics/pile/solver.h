@@ -241,10 +241,10 @@ class PileSolver {
   int laneOf(int row) const { return static_cast<int>(rowPlaces_[at(row)] % kLanes); }
   enum class Kind : std::uint8_t { kFriction, kFrictionless, kShift };
   bool movable(int body) const { return inertia_[at(body)].inverseMass > 0; }
-  static LanesVec passing(const LaneBlock& block, const LaneRow& row, const Velocities& a,
-                          const Velocities& b);
-  static Lanes alongNormal(const LaneBlock& block, const LaneRow& row, const Velocities& a,
-                           const Velocities& b);
+  /// work(block, index of the row, velocity) for rows of groups.
+  template <class Work>
+  void forRows(const std::vector<Moving>& moving, std::size_t first, std::size_t last,
+               const Work& work) const;
   void findParts();
   void orderParts();
   void findSlabs(std::size_t count);
