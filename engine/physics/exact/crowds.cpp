@@ -234,9 +234,9 @@ void ExactWorld::merge(const std::shared_ptr<ContactGroup>& crowd, ContactGroup&
       cluster = cluster.value_or(at);
       keepPlace(crowd, rank, at);
     } else {
-      const std::size_t at = crowd->crowd->admit(
-          static_cast<std::size_t>(body.listed.value), other.crowd->stateAtEnd(place),
-          other.crowd->attitude(place), other.before / static_cast<double>(other.crowd->parts(place)));
+      const std::size_t at =
+          crowd->crowd->admit(static_cast<std::size_t>(body.listed.value), other.crowd->stateAtEnd(place),
+                              other.crowd->attitude(place), other.before);
       keepPlace(crowd, rank, at);
       crowd->joined[at] = other.joined[place];
     }
@@ -332,14 +332,8 @@ void ExactWorld::endStep(ContactGroup& group, std::size_t place, std::span<const
   const Crowd& crowd = *group.crowd;
   JoinedSteps& joined = group.joined[place];
   const bool asItCame = joined.isNew() && suddenly[place] == 0;
-  const std::size_t parts = crowd.parts(place);
-  const double length = crowd.length() / static_cast<double>(parts);
-  for (std::size_t k = 0; k < parts; ++k) {
-    auto [from, to] = crowd.part(place, k);
-    from = asItCame && parts == 1 ? crowd.begin(place, true) : from;
-    joined.add(recorder_, mover(group.ranks[place]).listed, group.start.hi + static_cast<double>(k) * length,
-               from, to, length, crowd.body(place).radius, k > 0 || crowd.isSharp());
-  }
+  joined.add(recorder_, mover(group.ranks[place]).listed, group.start.hi, crowd.begin(place, asItCame),
+             crowd.end(place), crowd.length(), crowd.body(place).radius, crowd.isSharp());
 }
 
 // Members that nothing is near go on in Flight.

@@ -119,11 +119,9 @@ double Crowd::step(double most) {
     sortManifolds();
   }
   forPlaces([&](std::size_t i) {
-    ratesBefore_[i] =
-        before_[i].moved ? ratesAt(i, way_.size()) : Rates{bodies_[i].velocity, bodies_[i].omega};
+    ratesBefore_[i] = before_[i].moved ? meanRates(i) : Rates{bodies_[i].velocity, bodies_[i].omega};
     past_[i] = before_[i].moved ? std::numeric_limits<double>::max() : past_[i];
   });
-  partBefore_ = h_ / static_cast<double>(way_.size() + 1);
   forPlaces([&](std::size_t i) { start_[i] = bodies_[i]; });
   loadsBefore_ = loads_;
   hBefore_ = h_;
@@ -175,7 +173,6 @@ double Crowd::chooseLength() const {
 
 void Crowd::take(double length, bool mayShift) {
   projected_ = 0;
-  way_.clear();
   h_ = length;
   span_ = 0.5 * (hBefore_ + length);
   findLoads();

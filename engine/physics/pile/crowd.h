@@ -39,7 +39,8 @@ namespace careen {
 /// all its points within a few tolerances strike, with v_n ≥ 0: else the corners of one edge would strike in
 /// different steps, and each would turn the body. Bodies that went deep into each other in a step, or into a
 /// wall, are pushed apart at its end, with those around them; where they are too deep for that, it is taken
-/// again with half its length, and with more sweeps where it gained energy. Penetration that is left at the
+/// again with half its length, and with more sweeps where it gained energy; where there is no place for them,
+/// as among wedged boxes, they are held no deeper than they were before it. Penetration that is left at the
 /// rates found is undone by shifts in the same step, the rest by a position projection every few steps; none
 /// of it becomes velocity (no Baumgarte stabilisation, no slop).
 ///
@@ -117,16 +118,14 @@ class Crowd {
   std::vector<char> changedSuddenly() const;
   StepEnd end(std::size_t place) const;
   double length() const { return h_; }
-  /// Into how many parts, equally long, its way in the last step is divided; and the begin and end of one.
-  std::size_t parts(std::size_t place) const { return before_[place].pushed ? way_.size() + 1 : 1; }
-  std::pair<StepEnd, StepEnd> part(std::size_t place, std::size_t part) const;
   /// Its begin is to be met: JoinedSteps would lead members through each other there.
   bool isSharp() const { return isSharp_; }
   /// Nothing was near it for a few steps.
   bool isFree(std::size_t place) const { return untouchedSteps_[place] > kStepsAlone; }
   /// All members are asleep or fixed.
   bool atRest() const { return atRest_; }
-  /// [m] Deepest gap that a projection left, on its way too, in the steps that were taken.
+  /// [m] The deepest that was seen and left, by a projection or as not deep enough for one, in the steps that
+  /// were taken.
   double deepest() const { return deepest_; }
   /// [m] Deepest current penetration, by all 15 axes of every pair: costs more than a step.
   double penetration() const;
@@ -195,14 +194,11 @@ class Crowd {
     double before = 0;
     double after = 0;
   };
-  struct Place {
+  struct Kept {  // a body before a pass of the projection
     Vec3 position = Vec3::Zero();
     Quat attitude = Quat::Identity();
-  };
-  struct Kept {  // a body before a pass of the projection
-    Place place;
-    double path = 0;
-    double turned = 0;
+    double path = 0;    // [m]
+    double turned = 0;  // [m]
   };
   enum class Looked : char { kNot, kFar, kBare, kNear };  // kBare: near, but its manifold has no points
   struct Looking {                                        // at a range of pairs
@@ -315,24 +311,24 @@ class Crowd {
   Pose between(std::size_t place, double part) const;
   double depthBefore(const PilePair& pair) const;
   bool startedDeep(const PilePair& pair) const;
-  void beginProjection();
+  enum class Aim { kApart, kHold };
+  void beginProjection(Aim aim);
   void refreshGaps(PileManifold& manifold, bool first);
+  void takeBackGaps(PileManifold& manifold) const;
   void projectAll();
   double project(int passes);
+  double deepestBefore() const;
   void keepPlaces();
   void restorePlaces();
   void rebuildNear();
-  bool lookAtDeep();
+  bool lookAtDeep(Aim aim);
   bool mend();
   bool tryToMend();
   double projectOnWay();
-  double findWay();
-  Rates ratesAt(std::size_t place, std::size_t part) const;
-  double pastOf(std::size_t place) const { return std::min(past_[place], partBefore_); }
+  Rates meanRates(std::size_t place) const;
+  double pastOf(std::size_t place) const { return std::min(past_[place], hBefore_); }
   void findSharp();
-  std::pair<Place, Place> endsOf(std::size_t place, std::size_t part) const;
   double deepestOnWay();
-  std::vector<std::vector<Place>> divideWay(int parts);
   bool freeze();
   void beginManifold(const PilePair& pair, PileManifold& manifold) const;
   void keepManifold(PilePair& pair, const PileManifold& manifold);
@@ -384,11 +380,9 @@ class Crowd {
   int mendingPause_ = 0;            // and as many after the next failure
   double projected_ = 0;            // [m] how far it moved one in this step, at the most
   std::vector<Rates> ratesBefore_;  // by place, at the end of the step before
-  double partBefore_ = 0;           // [s] length of its parts
-  std::vector<double> past_;        // [s] by place: the same of who was no member then, or more
+  std::vector<double> past_;        // [s] by place: its last step, of who was no member then, or more
   bool isSharp_ = false;
-  std::vector<std::vector<Place>> way_;  // places between begin and end of the last step, if any
-  double bent_ = kMostBent;              // [1] of the tolerance: the same in the next step, at the most
+  double bent_ = kMostBent;  // [1] of the tolerance: the same in the next step, at the most
   double tell_;              // [1] of the smallest size: change per step above which neighbours are re-solved
   std::vector<char> bends_;  // by place: its corners leave their tangents in this step
   std::vector<Kinetic> kinetic_;  // by place
@@ -405,7 +399,8 @@ class Crowd {
   bool shifts_ = false;           // in this step
   bool atRest_ = false;
   double deepest_ = 0;
-  double left_ = 0;  // [m] by the last projection
+  double left_ = 0;    // [m] by the last projection
+  double undone_ = 0;  // [m] how deep those are, in this step, whom none pushed
   ContactResiduals residuals_;
   double speed_ = 0;  // [m/s] largest of its bodies, before impulses: S of the residuals
   Figures figures_;

@@ -19,7 +19,7 @@ constexpr double kShiftedTo = 0.5;
 constexpr double kShiftChange = 0.25;
 constexpr int kShiftSweeps = 60;
 // Within a step, boxes are looked at where one may have moved by so much [1] of the tolerance relative to the
-// other, at parts of it as short as that [1]; of a way that is divided, of each of its parts.
+// other, at parts of it as short as that [1].
 constexpr double kSwing = 8;
 constexpr double kShortestLook = 0.0625;
 
@@ -68,13 +68,15 @@ void Crowd::findShifts() {
 
 // [m] How deep bodies went into each other and into walls in this step, if more than kDeep: the features of
 // the manifolds of its start were not all that met. `isDeep_` says which are, or are deeper than kMostDeep,
-// even if they were before.
+// even if they were before; `undone_` is the deepest of the others.
 double Crowd::newDepth() {
   const std::vector<PilePair>& pairs = pairs_.pairs();
   findTurns();
   isDeep_.assign(pairs.size(), 0);
+  undone_ = 0;
   return team_->largest(pairs.size(), [&](std::size_t first, std::size_t last) {
     double deepestHere = 0;
+    double undoneHere = 0;
     for (std::size_t k = first; k < last; ++k) {
       const PilePair& pair = pairs[k];
       const double depth = isClear(pair) ? 0 : depthNow(pair);
@@ -88,8 +90,11 @@ double Crowd::newDepth() {
         if (pair.slot >= 0) {
           manifolds_[at(pair.slot)].moved = std::numeric_limits<double>::max();  // to be rebuilt
         }
+      } else {
+        undoneHere = std::max(undoneHere, depth);
       }
     }
+    raiseTo(undone_, undoneHere);
     return deepestHere;
   });
 }
@@ -133,26 +138,14 @@ double Crowd::depthNow(const PilePair& pair) const {
   return std::max(deep, depthWithin(pair.a, pair.b.body(), axis, atEnd));
 }
 
-// [m] By how much points of b moved in the last step as seen from a, at the most, to first order; on a way
-// that is divided, as if all its parts were like the longest.
+// [m] By how much points of b moved in the last step as seen from a, at the most, to first order.
 double Crowd::wayOf(int b, int a) const {
-  const auto way = [&](const Vec3& apart, const Rates& ofA, const Rates& ofB) {
-    return (ofB.velocity - ofA.velocity - ofA.omega.cross(apart)).norm() +
-           bodies_[at(b)].radius * (ofB.omega - ofA.omega).norm();
+  const auto wayOfCenter = [&](int body) -> Vec3 {
+    return bodies_[at(body)].position - start_[at(body)].position;
   };
-  const auto straight = [&](int body) {  // in units of the step
-    return Rates{.velocity = bodies_[at(body)].position - start_[at(body)].position,
-                 .omega = turns_[at(body)]};
-  };
-  if (way_.empty()) {
-    return way(start_[at(b)].position - start_[at(a)].position, straight(a), straight(b));
-  }
-  double fastest = 0;
-  for (std::size_t part = 0; part <= way_.size(); ++part) {
-    const Vec3 apart = endsOf(at(b), part).first.position - endsOf(at(a), part).first.position;
-    fastest = std::max(fastest, way(apart, ratesAt(at(a), part), ratesAt(at(b), part)));
-  }
-  return h_ * fastest;
+  const Vec3 apart = start_[at(b)].position - start_[at(a)].position;
+  return (wayOfCenter(b) - wayOfCenter(a) - turns_[at(a)].cross(apart)).norm() +
+         bodies_[at(b)].radius * (turns_[at(b)] - turns_[at(a)]).norm();
 }
 
 // [m] Of two boxes; of those no deeper than kDeep, a lower bound. The axis is that of their manifold, or −1.
@@ -166,7 +159,7 @@ double Crowd::gapAtEnd(int a, int b, int axis) const {
 // Whether they do along that axis on a straight way: within it, its separation is lower than at the ends by
 // what is of second order in their turns.
 bool Crowd::staysApart(int a, int b, int axis) const {
-  if (axis < 0 || !way_.empty()) {
+  if (axis < 0) {
     return false;
   }
   const auto separation = [&](const PileBody& bodyA, const PileBody& bodyB) {
@@ -198,10 +191,8 @@ double Crowd::depthWithin(int a, int b, int axis, double atEnd) const {
     return gapAbove(-kDeep * tolerance_, axis, bodies_[at(a)], poseA.worldFromBody, bodies_[at(b)],
                     poseB.worldFromBody, bodies_[at(a)].middleAt(poseA) - bodies_[at(b)].middleAt(poseB));
   };
-  const DepthSearch search{.motion = motion,
-                           .deep = kDeep * tolerance_,
-                           .swing = kSwing * tolerance_,
-                           .shortest = kShortestLook / static_cast<double>(way_.size() + 1)};
+  const DepthSearch search{
+      .motion = motion, .deep = kDeep * tolerance_, .swing = kSwing * tolerance_, .shortest = kShortestLook};
   const double deepest = searchDepth(search, gapAt, gapAt(0), atEnd);
   return deepest > kDeep * tolerance_ ? deepest : 0;
 }

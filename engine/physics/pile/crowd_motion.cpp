@@ -98,59 +98,48 @@ Vec3 Crowd::meanSpin(std::size_t place) const {
   return spinBetween(before_[place].attitude, bodies_[place].attitude, h_);
 }
 
-// On the way of the last step, straight between the places of way_.
+// On the way of the last step, straight between its ends.
 Pose Crowd::between(std::size_t place, double part) const {
-  if (part == 0 || bodies_[place].still()) {
-    return {.position = start_[place].position, .worldFromBody = start_[place].axes};
+  const PileBody& from = start_[place];
+  const PileBody& to = bodies_[place];
+  if (part == 0 || to.still()) {
+    return {.position = from.position, .worldFromBody = from.axes};
   }
   if (part == 1) {
-    return {.position = bodies_[place].position, .worldFromBody = bodies_[place].axes};
+    return {.position = to.position, .worldFromBody = to.axes};
   }
-  const auto parts = static_cast<double>(way_.size() + 1);
-  const double k = std::floor(part * parts);
-  const auto [from, to] = endsOf(place, static_cast<std::size_t>(k));
-  const double along = part * parts - k;
-  const double back = (1 - along) * (to.attitude.dot(from.attitude) < 0 ? -1 : 1);
+  const double back = (1 - part) * (to.attitude.dot(from.attitude) < 0 ? -1 : 1);
   return {
-      .position = (1 - along) * from.position + along * to.position,
+      .position = (1 - part) * from.position + part * to.position,
       .worldFromBody =
-          Quat(back * from.attitude.coeffs() + along * to.attitude.coeffs()).normalized().toRotationMatrix()};
-}
-
-std::pair<Crowd::Place, Crowd::Place> Crowd::endsOf(std::size_t place, std::size_t part) const {
-  const auto placeOf = [](const PileBody& body) {
-    return Place{.position = body.position, .attitude = body.attitude};
-  };
-  return {part == 0 ? placeOf(start_[place]) : way_[part - 1][place],
-          part == way_.size() ? placeOf(bodies_[place]) : way_[part][place]};
+          Quat(back * from.attitude.coeffs() + part * to.attitude.coeffs()).normalized().toRotationMatrix()};
 }
 
 // To second order.
-Crowd::Rates Crowd::ratesAt(std::size_t place, std::size_t part) const {
-  const auto [from, to] = endsOf(place, part);
+Crowd::Rates Crowd::meanRates(std::size_t place) const {
+  const PileBody& from = start_[place];
+  const PileBody& to = bodies_[place];
   const Quat turn = to.attitude * from.attitude.conjugate();
-  const double perSecond = static_cast<double>(way_.size() + 1) / h_;
+  const double perSecond = 1 / h_;
   return {.velocity = perSecond * (to.position - from.position),
           .omega = (turn.w() < 0 ? -2 : 2) * perSecond * turn.vec()};
 }
 
 // Whether near where this step begins, the smooth path through both would lead members deep into each other.
 void Crowd::findSharp() {
-  const double part = h_ / static_cast<double>(way_.size() + 1);
   std::vector<Rates> change(bodies_.size());
   forPlaces([&](std::size_t i) {
     if (before_[i].moved) {
-      const Rates rates = ratesAt(i, 0);
+      const Rates rates = meanRates(i);
       change[i] = {.velocity = rates.velocity - ratesBefore_[i].velocity,
                    .omega = rates.omega - ratesBefore_[i].omega};
     }
   });
-  const double most = JoinedSteps::beside(partBefore_, part, 0).off;
+  const double most = JoinedSteps::beside(hBefore_, h_, 0).off;
   const auto onPath = [&](std::size_t i, const JoinedSteps::Beside& moment) {
     const Rates& rates = ratesBefore_[i];
     const bool before = moment.time < 0;
-    const double off =
-        pastOf(i) < partBefore_ ? JoinedSteps::offAt(pastOf(i), part, moment.time) : moment.off;
+    const double off = pastOf(i) < hBefore_ ? JoinedSteps::offAt(pastOf(i), h_, moment.time) : moment.off;
     Pose pose = between(i, before ? 0 : moment.time / h_);
     Vec3 turn = off * change[i].omega;
     pose.position += off * change[i].velocity;
@@ -163,7 +152,7 @@ void Crowd::findSharp() {
     return pose;
   };
   const auto gapAt = [&](const PileManifold& manifold, double along) {  // from 0 to 1
-    const JoinedSteps::Beside moment = JoinedSteps::beside(partBefore_, part, kBesideJoint * (2 * along - 1));
+    const JoinedSteps::Beside moment = JoinedSteps::beside(hBefore_, h_, kBesideJoint * (2 * along - 1));
     const PileBody& a = bodies_[at(manifold.a)];
     const PileBody& b = bodyAt(manifold.b);
     const Pose poseA = onPath(at(manifold.a), moment);
@@ -182,8 +171,8 @@ void Crowd::findSharp() {
   };
   // The bend lies in the hull of the joint and its own ends; what the separation along an axis that turns
   // with the bodies is lower within by is of second order in their turns.
-  const double begin = JoinedSteps::beside(partBefore_, part, -1).time;
-  const double end = JoinedSteps::beside(partBefore_, part, 1).time;
+  const double begin = JoinedSteps::beside(hBefore_, h_, -1).time;
+  const double end = JoinedSteps::beside(hBefore_, h_, 1).time;
   const auto staysApart = [&](const PileManifold& manifold) {
     const PileBody& a = start_[at(manifold.a)];
     const PileBody& b = start_[at(manifold.b.body())];
@@ -232,7 +221,7 @@ void Crowd::findSharp() {
     if (alike && manifold.axis >= 0 && staysApart(manifold)) {
       return false;
     }
-    const DepthSearch search{.motion = kBesideJoint * std::max(partBefore_, part) * passingSpeed(manifold),
+    const DepthSearch search{.motion = kBesideJoint * std::max(hBefore_, h_) * passingSpeed(manifold),
                              .deep = kDeepAtJoint * tolerance_,
                              .swing = kSwingAtJoint * tolerance_,
                              .shortest = kShortestAtJoint};
@@ -248,21 +237,6 @@ void Crowd::findSharp() {
     }
   });
   isSharp_ = sharp;
-}
-
-std::pair<StepEnd, StepEnd> Crowd::part(std::size_t place, std::size_t part) const {
-  if (parts(place) == 1) {
-    return {begin(place), end(place)};
-  }
-  const auto [from, to] = endsOf(place, part);
-  const double length = h_ / static_cast<double>(parts(place));
-  const Vec3 velocity = (to.position - from.position) / length;
-  const Vec3 spin = spinBetween(from.attitude, to.attitude, length);
-  const auto end = [&](const Place& at) {
-    return StepEnd{
-        .position = at.position, .velocity = velocity, .worldFromBody = at.attitude, .spinBody = spin};
-  };
-  return {end(from), end(to)};
 }
 
 // Whether more than what lasting forces do changed its velocity in the last step.

@@ -10,7 +10,6 @@ namespace careen {
 namespace {
 
 constexpr int kPasses = 32;
-constexpr int kFewerPasses = 4;  // [1] of them, where they lead through others
 constexpr int kMendingPasses = 3;
 constexpr int kLongestPause = 15;  // steps in which mending, which failed again and again, is not tried
 // After so many passes [1] of the tolerance is enough: less than what makes a step be taken again.
@@ -21,14 +20,16 @@ constexpr double kDeepEnough = 1.45;
 constexpr int kPatience = 4;
 constexpr int kPatienceAtFirst = 2;
 constexpr double kGain = 0.1;
-constexpr int kMostParts = 8;
 constexpr double kFar = 4;  // [1] of the tolerance: displacement that may lead through other bodies
 
 }  // namespace
 
-void Crowd::beginProjection() {
-  projection_.begin(bodies_, manifolds_, near_,
-                    [this](PileManifold& manifold, bool first) { refreshGaps(manifold, first); });
+void Crowd::beginProjection(Aim aim) {
+  projection_.begin(
+      bodies_, manifolds_, near_,
+      [this](PileManifold& manifold, bool first) { refreshGaps(manifold, first); },
+      aim == Aim::kApart ? PileProjection::TakeBack()
+                         : [this](PileManifold& manifold) { takeBackGaps(manifold); });
 }
 
 // To where its bodies are; `first` after a step.
@@ -47,17 +48,29 @@ void Crowd::refreshGaps(PileManifold& manifold, bool first) {
   }
 }
 
+void Crowd::takeBackGaps(PileManifold& manifold) const {
+  const PileBody& a = start_[at(manifold.a)];
+  if (manifold.b.isWall()) {
+    refreshManifold(a, wallAt(manifold.b), manifold);
+  } else {
+    refreshManifold(a, start_[at(manifold.b.body())], manifold);
+  }
+}
+
 void Crowd::projectAll() {
-  beginProjection();
+  beginProjection(Aim::kApart);
   projection_.lookAtAll();
   project(kPasses);
 }
 
-// By those that the projection looked at. Returns the deepest gap that is left [m]: no deeper than it was.
+// By those that the projection looked at; who is held, until none is deeper than before the step. Returns the
+// deepest gap that is left [m]: no deeper than it was.
 // Where boxes are wedged passes can lead away from the solution, and what is left takes ways that are many
 // times as long.
 double Crowd::project(int passes) {
-  const int patience = left_ > kDeepEnough * tolerance_ ? kPatience : kPatienceAtFirst;
+  const bool holds = projection_.holds();
+  const int patience = holds ? passes : left_ > kDeepEnough * tolerance_ ? kPatience : kPatienceAtFirst;
+  const double enoughDepth = std::max(kDeepEnough * tolerance_, holds ? deepestBefore() : 0);
   double deepest = projection_.deepest();
   double least = deepest;
   double reached = deepest;
@@ -72,7 +85,7 @@ double Crowd::project(int passes) {
       since = pass;
     }
     const bool enough =
-        pass - since >= patience || (pass >= kFewPasses && deepest < kDeepEnough * tolerance_);
+        pass - since >= patience || (pass >= (holds ? 1 : kFewPasses) && deepest <= enoughDepth);
     if (enough || !projection_.pass(pass)) {
       break;
     }
@@ -92,11 +105,21 @@ double Crowd::project(int passes) {
   return deepest;
 }
 
+// [m] Of those that are deep, before the step.
+double Crowd::deepestBefore() const {
+  double deepest = 0;
+  for (std::size_t k = 0; k < isDeep_.size(); ++k) {
+    deepest = isDeep_[k] != 0 ? std::max(deepest, depthBefore(pairs_.pairs()[k])) : deepest;
+  }
+  return deepest;
+}
+
 void Crowd::keepPlaces() {
   kept_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const PileBody& body = bodies_[i];
-    kept_[i] = {.place = {body.position, body.attitude}, .path = body.path, .turned = body.turned};
+    kept_[i] = {
+        .position = body.position, .attitude = body.attitude, .path = body.path, .turned = body.turned};
   }
 }
 
@@ -105,8 +128,8 @@ void Crowd::restorePlaces() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     PileBody& body = bodies_[i];
     if (body.path > kept_[i].path) {
-      body.position = kept_[i].place.position;
-      setAttitude(body, kept_[i].place.attitude);
+      body.position = kept_[i].position;
+      setAttitude(body, kept_[i].attitude);
       body.path += body.path - kept_[i].path;
       body.turned += body.turned - kept_[i].turned;
     }
@@ -121,8 +144,8 @@ void Crowd::rebuildNear() {
 }
 
 // At what newDepth() found deep, of those that are near in this step; returns whether all were.
-bool Crowd::lookAtDeep() {
-  beginProjection();
+bool Crowd::lookAtDeep(Aim aim) {
+  beginProjection(aim);
   bool all = true;
   std::size_t n = 0;
   for (std::size_t k = 0; k < looked_.size(); ++k) {
@@ -152,7 +175,7 @@ bool Crowd::mend() {
 }
 
 bool Crowd::tryToMend() {
-  if (!lookAtDeep() || project(kMendingPasses) > kDeepEnough * tolerance_) {
+  if (!lookAtDeep(Aim::kApart) || project(kMendingPasses) > kDeepEnough * tolerance_) {
     return false;
   }
   findTurns();
@@ -165,77 +188,36 @@ bool Crowd::tryToMend() {
   return projected_ <= kFar * tolerance_ || deepestOnWay() == 0;
 }
 
-// The same as far as it can be done, unless bodies would have to go deeper through each other to where they
-// are pushed than they are: fewer passes push them less far. Returns how deep [m] any are then.
+// The same as far as it can be done. Where that does little, or where bodies would have to go through others
+// to where they are pushed, all are held as they were before the step, or else left where they came. Returns
+// how deep [m] any are then, on their way, too.
 double Crowd::projectOnWay() {
   const std::vector<PileBody> unpushed = bodies_;
+  const double before = projected_;
   double deep = 0;
-  for (int passes = kPasses; passes > 0; passes /= kFewerPasses) {
-    lookAtDeep();
+  for (const Aim aim : {Aim::kApart, Aim::kHold}) {
+    projected_ = before;
+    lookAtDeep(aim);
     deep = projection_.deepest();
-    const double left = project(passes);
-    const double onWay = findWay();
-    if (onWay <= deep) {
-      return left_ = std::max(left, onWay);
+    const double atEnd = project(kPasses);
+    left_ = std::max(atEnd, projected_ > kFar * tolerance_ ? deepestOnWay() : 0);
+    const double enough = std::max((1 - kGain) * deep, kDeepEnough * tolerance_);
+    if (left_ <= (aim == Aim::kApart ? enough : deep)) {
+      return left_;
     }
     bodies_ = unpushed;
-    way_.clear();
     rebuildNear();
   }
   return left_ = deep;
 }
 
-// On a long straight way to where they were pushed, bodies may come through each other: it leads through
-// places then at which they were pushed apart, too, through as many as make it least deep. Returns how deep
-// [m], 0 if not too much.
-double Crowd::findWay() {
-  double least = projected_ > kFar * tolerance_ ? deepestOnWay() : 0;
-  for (int parts = 2; parts <= kMostParts && least > 0; parts *= 2) {
-    std::vector<std::vector<Place>> way = divideWay(parts);
-    way_.swap(way);
-    const double deepest = deepestOnWay();
-    if (deepest < least) {
-      least = deepest;
-    } else {
-      way_.swap(way);
-    }
-  }
-  return least;
-}
-
-// So many parts less one places on the present way, pushed apart.
-std::vector<std::vector<Crowd::Place>> Crowd::divideWay(int parts) {
-  const std::vector<PileBody> ends = bodies_;
-  std::vector<std::vector<Place>> way(static_cast<std::size_t>(parts) - 1);
-  for (std::size_t k = 0; k < way.size(); ++k) {
-    bodies_ = ends;
-    std::vector<Pose> poses;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      poses.push_back(between(i, static_cast<double>(k + 1) / parts));
-    }
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      bodies_[i].position = poses[i].position;
-      setAttitude(bodies_[i], Quat(poses[i].worldFromBody));
-    }
-    rebuildNear();
-    projectAll();
-    for (const PileBody& body : bodies_) {
-      way[k].push_back({.position = body.position, .attitude = body.attitude});
-    }
-  }
-  bodies_ = ends;
-  rebuildNear();
-  return way;
-}
-
-// [m] Of what was pushed; 0 if it is not too much. Paths, by which pairs are clear, do not count a way that
-// is divided.
+// [m] Of what was pushed; 0 if it is not too much.
 double Crowd::deepestOnWay() {
   findTurns();
   double deepest = 0;
   for (const PilePair& pair : pairs_.pairs()) {
     if (!pair.b.isWall() && (before_[at(pair.a)].projected || before_[at(pair.b.body())].projected) &&
-        !(way_.empty() && isClear(pair))) {
+        !isClear(pair)) {
       const int axis = pair.slot < 0 ? -1 : manifolds_[at(pair.slot)].axis;
       const double atEnd = gapAtEnd(pair.a, pair.b.body(), axis);
       deepest = std::max(deepest, depthWithin(pair.a, pair.b.body(), axis, atEnd));

@@ -19,8 +19,9 @@ CAREEN_LANES Lanes allOf(double value) { return Lanes{value, value, value, value
 
 }  // namespace
 
-void DisplacementSolver::begin(std::span<const PileBody> bodies) {
+void DisplacementSolver::begin(std::span<const PileBody> bodies, double compliance) {
   bodies_ = bodies;
+  compliance_ = compliance;
   members_.assign(bodies.size(), kNothing);
   own_.assign(1, {});
   moves_.assign(1, {});
@@ -150,7 +151,7 @@ CAREEN_LANES Lanes DisplacementSolver::resultOf(const Block& block) const {
   const LanesVec byTurnB = allOfVec(block.normal.cross(b.turn));
   const Lanes opened = allOf(block.normal.dot(a.shift - b.shift));
   return block.scale * (opened + (dot(block.armA, byTurnA) - dot(block.armB, byTurnB))) +
-         kCompliance * block.ahead;
+         compliance_ * block.ahead;
 }
 
 // take(block, its result, sums)

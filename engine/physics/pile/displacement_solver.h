@@ -29,13 +29,13 @@ namespace careen {
 /// 2015.
 class DisplacementSolver {
  public:
-  static constexpr double kCompliance = 1e-3;  ///< [1] c
+  static constexpr double kCompliance = 1e-3;  ///< [1] c, as a rule
 
   explicit DisplacementSolver(std::shared_ptr<Team> team = std::make_shared<Team>(1))
       : team_(std::move(team)) {}
 
-  /// Of these, which must outlive it, until the next begin().
-  void begin(std::span<const PileBody> bodies);
+  /// Of these, which must outlive it, until the next begin(); with that c.
+  void begin(std::span<const PileBody> bodies, double compliance = kCompliance);
 
   /// A row n·δ ≥ bound [m] at the point with that arm [m] from the centre of body a, relative to the point
   /// with that of b. A body that is kNobody, or still, does not move.
@@ -103,6 +103,7 @@ class DisplacementSolver {
 
   std::shared_ptr<Team> team_;
   std::span<const PileBody> bodies_;
+  double compliance_ = kCompliance;
   std::vector<int> members_;  // by body: in own_; 0 for those that do not move
   std::vector<Member> own_;   // after the first
   std::vector<Block> blocks_;

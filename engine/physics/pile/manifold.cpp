@@ -292,6 +292,10 @@ void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifol
     const double along = (cosine * alongB.dot(between) - alongA.dot(between)) / square;
     const double half = a.halfExtents[manifold.edgeA];
     point.world = (toMiddle + armA) + std::clamp(along, -half, half) * alongA;
+    // The boxes are no deeper in each other than along any axis.
+    for (int k = 0; k < planePoints; ++k) {
+      manifold.points[at(k)].gap = std::max(manifold.points[at(k)].gap, point.gap);
+    }
   }
 }
 

@@ -43,7 +43,7 @@ struct PileFrame {
 };
 
 /// Contact manifold of two boxes, or a box and a wall. Gaps are exact functions of the two poses for fixed
-/// features: points of one box against a reference plane of the other, and one edge pair.
+/// features: points of one box against a reference plane of the other, no deeper than the one edge pair.
 struct PileManifold {
   static constexpr int kMost = 9;  // intersection of two quadrilaterals, and an edge pair
 

@@ -20,6 +20,11 @@ constexpr int kSweptPasses = 3;
 constexpr int kSweepsAtFirst = 20;
 constexpr int kGradients = 300;
 constexpr double kEnough = 0.03;  // [1] of the tolerance: what gradients may leave
+// Where bodies are held: of what was deep before the step, how much [1] may stay; and the gradients, which
+// must come nearer to the solution, as what they leave adds up from step to step.
+constexpr double kHeld = 0.95;
+constexpr double kHoldingCompliance = 1e-4;
+constexpr int kHoldingGradients = 1000;
 constexpr double kNear = 0x1p-6;  // [1] of the smallest size: larger gaps are ignored
 
 template <class Visit>
@@ -33,11 +38,12 @@ void forBodies(const PileManifold& manifold, const Visit& visit) {
 }  // namespace
 
 void PileProjection::begin(std::span<PileBody> bodies, std::span<PileManifold> manifolds,
-                           std::span<const int> near, Refresh refresh) {
+                           std::span<const int> near, Refresh refresh, TakeBack takeBack) {
   bodies_ = bodies;
   manifolds_ = manifolds;
   near_ = near;
   refresh_ = std::move(refresh);
+  takeBack_ = std::move(takeBack);
   seen_.assign(near.size(), {});
   firstOf_.clear();
   moved_.clear();
@@ -108,7 +114,7 @@ void PileProjection::reach(const PileManifold& manifold) {
 }
 
 // Bodies of penetrating pairs, those in that many layers around them but for the last ones where they are
-// many, and the manifolds of all of these.
+// many, and the manifolds of all of these. Who is held goes back, and so must all around it.
 bool PileProjection::collect(int layers) {
   reached_.clear();
   isReached_.assign(bodies_.size(), 0);
@@ -129,7 +135,7 @@ bool PileProjection::collect(int layers) {
   std::size_t done = 0;
   bool isLast = false;
   for (int layer = 1; !isLast; ++layer) {
-    isLast = layer == layers || reached_.size() > kMostReached * deep;
+    isLast = layer == layers || (!holds() && reached_.size() > kMostReached * deep);
     for (const std::size_t end = reached_.size(); done < end; ++done) {
       const std::size_t body = at(reached_[done]);
       for (std::size_t k = firstOf_[body]; k < firstOf_[body + 1]; ++k) {
@@ -155,7 +161,7 @@ bool PileProjection::collect(int layers) {
 }
 
 void PileProjection::solve(int number) {
-  if (number < kSweptPasses) {
+  if (number < kSweptPasses && !holds()) {
     solver_.wakeAll();
     solver_.solve(kSweepsAtFirst << number, false);
     return;
@@ -163,7 +169,7 @@ void PileProjection::solve(int number) {
   const auto mover = [&](int body) {
     return at(body) < bodies_.size() && isReached_[at(body)] != 0 ? body : DisplacementSolver::kNobody;
   };
-  gradients_.begin(bodies_);
+  gradients_.begin(bodies_, holds() ? kHoldingCompliance : DisplacementSolver::kCompliance);
   for (std::size_t k = 0; k < solver_.rowCount(); ++k) {
     const PileSolver::RowView row = solver_.row(static_cast<int>(k));
     gradients_.add({.a = mover(row.a),
@@ -173,7 +179,7 @@ void PileProjection::solve(int number) {
                     .normal = row.directions[0],
                     .bound = row.bound});
   }
-  gradients_.solve(kEnough * tolerance_, kGradients);
+  gradients_.solve(kEnough * tolerance_, holds() ? kHoldingGradients : kGradients);
   for (const int body : reached_) {
     if (gradients_.moves(body)) {
       solver_.setPushed(body, gradients_.displacement(body), gradients_.turn(body));
@@ -184,7 +190,7 @@ void PileProjection::solve(int number) {
 bool PileProjection::pass(int number) {
   moved_.clear();
   farthest_ = 0;
-  if (!collect(kLayersAtFirst << std::min(number, kMostLayerDoublings))) {
+  if (!collect(kLayersAtFirst << (holds() ? kMostLayerDoublings : std::min(number, kMostLayerDoublings)))) {
     return false;
   }
   fillSolver();
@@ -204,7 +210,11 @@ void PileProjection::fillSolver() {
                            ? Vec3(Vec3::Zero())
                            : Vec3(bodies_[at(manifold.a)].position - bodies_[at(manifold.b.body())].position);
     const PileFrame* begun = nullptr;
-    const double left = kLeft * tolerated(manifold.length);
+    PileManifold before;
+    if (holds()) {
+      before = manifold;
+      takeBack_(before);
+    }
     for (int k = 0; k < manifold.count; ++k) {
       const PilePoint& point = manifold.points[at(k)];
       if (point.gap < kNear * manifold.length) {
@@ -213,7 +223,9 @@ void PileProjection::fillSolver() {
           solver_.beginBlock(manifold.a, manifold.b, 0, frame, apart);
           begun = &frame;
         }
-        solver_.add({.arm = point.world, .bound = -(point.gap + left)});
+        const double left = kLeft * tolerated(manifold.length);
+        const double held = holds() ? -kHeld * before.points[at(k)].gap : 0;
+        solver_.add({.arm = point.world, .bound = -(point.gap + std::max(left, held))});
       }
     }
   }

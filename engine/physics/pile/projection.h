@@ -21,8 +21,11 @@ namespace careen {
 /// the first few by Gauss–Seidel, as most need no more, and few bodies move; those after them by accelerated
 /// gradients.
 ///
+/// Or it holds bodies where the smallest displacement is long, or there is none, as among wedged boxes: then
+/// gap + J·δ ≥ nearly what the gap was before the step. There always is one such displacement, the way back.
+///
 /// It costs what there is to be done: of manifolds that were not looked at, only those around deep ones are
-/// brought up to date.
+/// brought up to date; those that it holds are many more.
 class PileProjection {
  public:
   /// `tolerance` [m] of the crowd: penetration of less than that remains, and of tiny boxes less.
@@ -32,11 +35,14 @@ class PileProjection {
   /// Brings a manifold's gaps to where its bodies are; `first`: in this projection. Called by several
   /// threads.
   using Refresh = std::function<void(PileManifold& manifold, bool first)>;
+  /// Brings the gaps of a copy of a manifold to where its bodies were before the step.
+  using TakeBack = std::function<void(PileManifold& manifold)>;
 
   /// A projection of these bodies, by the manifolds with the slots `near`. All must stay where they are until
-  /// the last pass.
+  /// the last pass. With `takeBack`, it holds them.
   void begin(std::span<PileBody> bodies, std::span<PileManifold> manifolds, std::span<const int> near,
-             Refresh refresh);
+             Refresh refresh, TakeBack takeBack = {});
+  bool holds() const { return takeBack_ != nullptr; }
   /// At one manifold, by index in near, or at all.
   void lookAt(std::size_t n);
   void lookAtAll();
@@ -80,6 +86,7 @@ class PileProjection {
   std::span<PileManifold> manifolds_;
   std::span<const int> near_;
   Refresh refresh_;
+  TakeBack takeBack_;
   PileSolver solver_;
   DisplacementSolver gradients_;
   std::vector<Seen> seen_;            // by index in near_

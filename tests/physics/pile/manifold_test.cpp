@@ -103,6 +103,30 @@ TEST(PileManifold, refreshedGapsAreThoseOfANewManifold) {
   EXPECT_GT(compared, 300);
 }
 
+// Where edges touch, corners behind them would have to go farther to leave the other box along its face than
+// the boxes along the edges.
+TEST(PileManifold, noPointIsDeeperThanTheBoxesAre) {
+  test::Pourer pourer(5);
+  int besideEdges = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const PileBody a =
+        boxOfMassOneAt(pourer.vector(0.2, 0.3), Vec3::Zero(), pourer.attitude().toRotationMatrix());
+    Vec3 direction = pourer.vector(-1, 1);
+    direction.normalize();
+    PileBody b = boxOfMassOneAt(pourer.vector(0.2, 0.3), direction, pourer.attitude().toRotationMatrix());
+    for (int i = 0; i < 1000 && overlapOf(a, b) == 0; ++i) {
+      b.position -= 0.001 * direction;
+    }
+    const PileManifold manifold = between(a, b);
+    if (manifold.hasEdges && manifold.count > 1) {
+      ++besideEdges;
+      EXPECT_GE(lowest(manifold), -overlapOf(a, b) - 1e-12) << k;
+    }
+  }
+  RecordProperty("besideEdges", besideEdges);
+  EXPECT_GT(besideEdges, 50);
+}
+
 // A manifold built anew takes over the impulses of the points that stay.
 TEST(PileManifold, impulsesStayWithTheirFeatures) {
   const PileBody floor = boxOfMassOneAt(Vec3(1, 1, 0.5), Vec3(0, 0, 0));

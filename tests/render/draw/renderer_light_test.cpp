@@ -181,17 +181,19 @@ TEST(Light, occlusionIsThatOfRays) {
 }
 
 // Measured:           careen  stack  wall  pile
-// light on planes     0.0033  0.0032 0.002 0.011: 392 pixels of floor and walls are seen, with a narrow slit
-// light on boxes      0       0.001  0.008 0.013
+// light on planes     0.0033  0.0032 0.004 0.011: 392 pixels of floor and walls are seen, with a narrow slit
+// light on boxes      0       0.001  0.025 0.013
 // occlusion on planes 0.006   0.021  0.029 0.053
-// occlusion on boxes  0       0.017  0.037 0.076
+// occlusion on boxes  0       0.028  0.038 0.076
+// The wall is chaotic while it falls: at 13 moments from 1.3 to 2.5 s light on boxes is .003 to .025, and in
+// walls that fell otherwise up to .030.
 TEST(Light, inScenesIsThatOfRays) {
   for (const Shown& shown :
        {atMoment("careen", 1, 9), atMoment("stack", 5, 7), atMoment("wall", 1.6, 7), keptPile(8, 2)}) {
     const Errors light = errorsOfLight(shown);
     // In piles of slightly different motion occlusion on planes is .050 to .066.
     EXPECT_LT(light.planes, shown.name == "pile" ? 0.013 : 0.01) << shown.name;
-    EXPECT_LT(light.boxes, 0.016) << shown.name;
+    EXPECT_LT(light.boxes, shown.name == "wall" ? 0.035 : 0.016) << shown.name;
     const Errors occlusion = errorsOfOcclusion(shown);
     EXPECT_LT(occlusion.planes, 0.06) << shown.name;
     EXPECT_LT(occlusion.boxes, 0.08) << shown.name;
