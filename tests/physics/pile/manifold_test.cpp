@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "support/article_equations.h"
 #include "support/pile_scenes.h"
@@ -32,6 +33,19 @@ double lowest(const PileManifold& manifold) {
     gap = std::min(gap, manifold.points[static_cast<std::size_t>(k)].gap);
   }
   return gap;
+}
+
+// Two boxes at random, brought to touch by steps of that length [m].
+std::pair<PileBody, PileBody> touching(test::Pourer& pourer, double step) {
+  const PileBody a =
+      boxOfMassOneAt(pourer.vector(0.2, 0.3), Vec3::Zero(), pourer.attitude().toRotationMatrix());
+  Vec3 direction = pourer.vector(-1, 1);
+  direction.normalize();
+  PileBody b = boxOfMassOneAt(pourer.vector(0.2, 0.3), direction, pourer.attitude().toRotationMatrix());
+  for (double way = 0; way < 0.6 && overlapOf(a, b) == 0; way += step) {
+    b.position -= step * direction;
+  }
+  return {a, b};
 }
 
 TEST(PileManifold, faceOnFaceHasTheFourCornersOfTheSmaller) {
@@ -81,15 +95,7 @@ TEST(PileManifold, refreshedGapsAreThoseOfANewManifold) {
   test::Pourer pourer(3);
   int compared = 0;
   for (int k = 0; k < 400; ++k) {
-    const PileBody a =
-        boxOfMassOneAt(pourer.vector(0.2, 0.3), Vec3::Zero(), pourer.attitude().toRotationMatrix());
-    Vec3 direction = pourer.vector(-1, 1);
-    direction.normalize();
-    PileBody b = boxOfMassOneAt(pourer.vector(0.2, 0.3), direction, pourer.attitude().toRotationMatrix());
-    // Brought to touch.
-    for (int i = 0; i < 60 && overlapOf(a, b) == 0; ++i) {
-      b.position -= 0.01 * direction;
-    }
+    auto [a, b] = touching(pourer, 0.01);
     PileManifold manifold = between(a, b);
     b.position += 1e-4 * pourer.vector(-1, 1);
     turnBy(b, 1e-4 * pourer.vector(-1, 1));
@@ -109,14 +115,7 @@ TEST(PileManifold, noPointIsDeeperThanTheBoxesAre) {
   test::Pourer pourer(5);
   int besideEdges = 0;
   for (int k = 0; k < 4000; ++k) {
-    const PileBody a =
-        boxOfMassOneAt(pourer.vector(0.2, 0.3), Vec3::Zero(), pourer.attitude().toRotationMatrix());
-    Vec3 direction = pourer.vector(-1, 1);
-    direction.normalize();
-    PileBody b = boxOfMassOneAt(pourer.vector(0.2, 0.3), direction, pourer.attitude().toRotationMatrix());
-    for (int i = 0; i < 1000 && overlapOf(a, b) == 0; ++i) {
-      b.position -= 0.001 * direction;
-    }
+    const auto [a, b] = touching(pourer, 0.001);
     const PileManifold manifold = between(a, b);
     if (manifold.hasEdges && manifold.count > 1) {
       ++besideEdges;

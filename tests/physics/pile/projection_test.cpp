@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <numeric>
+#include <string>
 #include <vector>
 
 #include "physics/world/body.h"
@@ -16,6 +18,24 @@ namespace {
 constexpr double kTolerated = 3e-4;
 constexpr std::size_t kBoxesInRow = 40;
 constexpr std::size_t kDeepPair = 17;  // the pair of this box and the next
+
+// Between each of them and the next.
+std::vector<PileManifold> manifoldsInRow(const std::vector<PileBody>& bodies) {
+  std::vector<PileManifold> manifolds(bodies.size() - 1);
+  for (std::size_t i = 0; i < manifolds.size(); ++i) {
+    manifolds[i].a = static_cast<int>(i);
+    manifolds[i].b = Partner::ofBody(static_cast<int>(i + 1));
+    manifolds[i].length = 1;
+    EXPECT_TRUE(buildManifold(bodies[i], bodies[i + 1], 0.05, manifolds[i]));
+  }
+  return manifolds;
+}
+
+// To where they are there.
+void refreshInRow(const std::vector<PileBody>& bodies, PileManifold& manifold) {
+  const auto a = static_cast<std::size_t>(manifold.a);
+  refreshManifold(bodies[a], bodies[a + 1], manifold);
+}
 
 // Boxes of 1 m in a row, 1 mm from each other, but for one pair that is as deep; every second one is twice as
 // heavy. The pair is pushed apart without reaching the next ones.
@@ -30,20 +50,13 @@ class ProjectedRow {
       body.initial.pose.position = Vec3(x, 0, 0);
       bodies.push_back(pileBody(body, body.initial));
     }
-    for (std::size_t i = 0; i + 1 < kBoxesInRow; ++i) {
-      PileManifold manifold;
-      manifold.a = static_cast<int>(i);
-      manifold.b = Partner::ofBody(static_cast<int>(i + 1));
-      manifold.length = 1;
-      EXPECT_TRUE(buildManifold(bodies[i], bodies[i + 1], 0.05, manifold));
-      manifolds_.push_back(manifold);
-      near_.push_back(static_cast<int>(i));
-    }
+    manifolds_ = manifoldsInRow(bodies);
+    near_.resize(manifolds_.size());
+    std::iota(near_.begin(), near_.end(), 0);
     refreshes.assign(kBoxesInRow - 1, 0);
     projection_.begin(bodies, manifolds_, near_, [this](PileManifold& manifold, bool) {
-      const auto a = static_cast<std::size_t>(manifold.a);
-      ++refreshes[a];
-      refreshManifold(bodies[a], bodies[a + 1], manifold);
+      ++refreshes[static_cast<std::size_t>(manifold.a)];
+      refreshInRow(bodies, manifold);
     });
   }
 
@@ -114,8 +127,6 @@ TEST(PileProjection, leavesWhatIsNotDeep) {
 TEST(PileProjection, holdsThoseThatHaveNoPlace) {
   constexpr std::array<double, 10> kDepths = {2e-4, 8e-4, 5e-4, 3e-4, 6e-4, 1e-4, 7e-4, 4e-4, 2e-4, 5e-4};
   std::vector<PileBody> before;
-  std::vector<PileManifold> manifolds;
-  std::vector<int> near;
   double x = 0;
   for (std::size_t i = 0; i <= kDepths.size(); ++i) {
     Body body;
@@ -130,25 +141,13 @@ TEST(PileProjection, holdsThoseThatHaveNoPlace) {
   for (std::size_t i = 1; i < kDepths.size(); ++i) {
     bodies[i].position.x() += (i % 3 == 0 ? 3e-4 : i % 3 == 1 ? -2e-4 : 0);
   }
-  const auto atPlaces = [](const std::vector<PileBody>& places) {
-    return [&places](PileManifold& manifold) {
-      const auto a = static_cast<std::size_t>(manifold.a);
-      refreshManifold(places[a], places[a + 1], manifold);
-    };
-  };
-  for (std::size_t i = 0; i < kDepths.size(); ++i) {
-    PileManifold manifold;
-    manifold.a = static_cast<int>(i);
-    manifold.b = Partner::ofBody(static_cast<int>(i + 1));
-    manifold.length = 1;
-    EXPECT_TRUE(buildManifold(bodies[i], bodies[i + 1], 0.05, manifold));
-    manifolds.push_back(manifold);
-    near.push_back(static_cast<int>(i));
-  }
+  std::vector<PileManifold> manifolds = manifoldsInRow(bodies);
+  std::vector<int> near(manifolds.size());
+  std::iota(near.begin(), near.end(), 0);
   PileProjection projection(kTolerated, std::make_shared<Team>(1));
   projection.begin(
-      bodies, manifolds, near, [&](PileManifold& manifold, bool) { atPlaces(bodies)(manifold); },
-      atPlaces(before));
+      bodies, manifolds, near, [&](PileManifold& manifold, bool) { refreshInRow(bodies, manifold); },
+      [&](PileManifold& manifold) { refreshInRow(before, manifold); });
   projection.lookAtAll();
   EXPECT_NEAR(projection.deepest(), 1.2e-3, 1e-12);
   for (int pass = 0; pass < 8 && projection.pass(pass); ++pass) {
