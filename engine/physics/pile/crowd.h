@@ -40,7 +40,7 @@ namespace careen {
 /// different steps, and each would turn the body. Bodies that went deep into each other in a step, or into a
 /// wall, are pushed apart at its end, with those around them; where they are too deep for that, it is taken
 /// again with half its length, and with more sweeps where it gained energy; where there is no place for them,
-/// as among wedged boxes, they are held no deeper than they were before it. Penetration that is left at the
+/// as among wedged boxes, they are held about as deep as they were before it. Penetration that is left at the
 /// rates found is undone by shifts in the same step, the rest by a position projection every few steps; none
 /// of it becomes velocity (no Baumgarte stabilisation, no slop).
 ///

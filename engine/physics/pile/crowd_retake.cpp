@@ -69,7 +69,7 @@ double Crowd::keepApart() {
     goBack();
     take(0.5 * h_, halving == 0);
   }
-  deepest_ = std::max({deepest_, undone_, projected_ > 0 ? left_ : 0});
+  deepest_ = std::max({deepest_, undone_, left, projected_ > 0 ? left_ : 0});
   bent_ = halving > 0 ? std::max(kLessBent * bent_, kLeastBent) : std::min(kMoreBent * bent_, kMostBent);
   effort_ = left > kTooDeep * tolerance_ ? std::min(2 * effort_, kMostEffort)
                                          : std::max<std::int64_t>(effort_ / 2, 1);

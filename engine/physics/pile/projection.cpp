@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "physics/pile/index.h"
 
@@ -210,11 +211,11 @@ void PileProjection::fillSolver() {
                            ? Vec3(Vec3::Zero())
                            : Vec3(bodies_[at(manifold.a)].position - bodies_[at(manifold.b.body())].position);
     const PileFrame* begun = nullptr;
-    PileManifold before;
+    std::optional<PileManifold> before;
     if (holds()) {
-      before = manifold;
-      takeBack_(before);
+      takeBack_(before.emplace(manifold));
     }
+    const double left = kLeft * tolerated(manifold.length);
     for (int k = 0; k < manifold.count; ++k) {
       const PilePoint& point = manifold.points[at(k)];
       if (point.gap < kNear * manifold.length) {
@@ -223,8 +224,7 @@ void PileProjection::fillSolver() {
           solver_.beginBlock(manifold.a, manifold.b, 0, frame, apart);
           begun = &frame;
         }
-        const double left = kLeft * tolerated(manifold.length);
-        const double held = holds() ? -kHeld * before.points[at(k)].gap : 0;
+        const double held = before ? -kHeld * before->points[at(k)].gap : 0;
         solver_.add({.arm = point.world, .bound = -(point.gap + std::max(left, held))});
       }
     }

@@ -22,7 +22,8 @@ namespace careen {
 /// gradients.
 ///
 /// Or it holds bodies where the smallest displacement is long, or there is none, as among wedged boxes: then
-/// gap + J·δ ≥ nearly what the gap was before the step. There always is one such displacement, the way back.
+/// gap + J·δ ≥ nearly what the gap was before the step, by gradients from the first pass on. There always is
+/// nearly such a displacement, the way back.
 ///
 /// It costs what there is to be done: of manifolds that were not looked at, only those around deep ones are
 /// brought up to date; those that it holds are many more.

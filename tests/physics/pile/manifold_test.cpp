@@ -123,7 +123,7 @@ TEST(PileManifold, noPointIsDeeperThanTheBoxesAre) {
     }
   }
   RecordProperty("besideEdges", besideEdges);
-  EXPECT_GT(besideEdges, 50);
+  EXPECT_GT(besideEdges, 1500);  // measured 1888
 }
 
 // A manifold built anew takes over the impulses of the points that stay.
