@@ -9,6 +9,7 @@ void drawFilmOfRun(const Trajectory& run, const std::filesystem::path& folder,
   FilmSettings settings;
   settings.folder = folder;
   settings.frames = frames;
+  settings.there = FilmThere::kReplace;  // whose folders these are, the sweep has checked
   settings.jobs = 1;
   settings.render.context.threads = 0;
   settings.program = "careen " CAREEN_VERSION;

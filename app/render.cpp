@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <initializer_list>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -46,6 +47,7 @@ struct FilmOptions {
   std::optional<int> jobs;
   std::string log = "text";
   bool resume = false;
+  bool overwrite = false;
   PictureOptions picture;
   bool listBackends = false;
   std::optional<std::filesystem::path> reference;
@@ -67,8 +69,34 @@ std::optional<VideoSettings> videoOf(const FilmOptions& options) {
   return video;
 }
 
+// A name that is meant for something else: a video, or a picture that is no PNG.
+void checkOut(const FilmOptions& options) {
+  std::string suffix = options.folder.extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](char each) {
+    return each >= 'A' && each <= 'Z' ? static_cast<char>(each - 'A' + 'a') : each;
+  });
+  const auto isAnyOf = [&suffix](std::initializer_list<const char*> others) {
+    return std::find(others.begin(), others.end(), suffix) != others.end();
+  };
+  std::error_code none;
+  const bool isVideo = isAnyOf({".mp4", ".mkv", ".webm", ".webp", ".gif", ".mov", ".avi", ".apng"});
+  const bool isPicture = isAnyOf({".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".tga", ".ppm", ".exr"});
+  const std::string found = "--out: found " + options.folder.string() + ", expected ";
+  if (options.still || options.strobe) {
+    if (isVideo || isPicture) {
+      throw InputError(found + "the name of a PNG file, such as " +
+                       std::filesystem::path(options.folder).replace_extension(".png").string());
+    }
+  } else if ((isVideo || isPicture || suffix == ".png") &&
+             !std::filesystem::is_directory(options.folder, none)) {
+    throw InputError(found + "a folder for the frames; " +
+                     (isVideo ? "--video names a video" : "--still makes a single picture"));
+  }
+}
+
 // Checks everything that can be found wrong before the simulation.
 void check(const FilmOptions& options) {
+  checkOut(options);
   const auto fail = [](const char* option, const std::string& found, const std::string& expected) {
     throw InputError(std::string(option) + ": found " + found + ", expected " + expected);
   };
@@ -101,7 +129,9 @@ FilmSettings settingsOf(const FilmOptions& options) {
   settings.video = videoOf(options);
   settings.jobs = options.jobs;
   settings.program = "careen " CAREEN_VERSION;
-  settings.resume = options.resume;
+  settings.there = options.resume      ? FilmThere::kResume
+                   : options.overwrite ? FilmThere::kReplace
+                                       : FilmThere::kDrawAgain;
   return settings;
 }
 
@@ -171,6 +201,14 @@ void printFilm(std::ostream& out, const FilmSettings& settings, const PictureSet
   if (settings.video) {
     out << "film         "
         << printableName(std::filesystem::absolute(settings.video->path).lexically_normal().string()) << '\n';
+    if (needsEvenSize(*settings.video) && (picture.width % 2 != 0 || picture.height % 2 != 0)) {
+      out << "its size     " << picture.width + picture.width % 2 << 'x'
+          << picture.height + picture.height % 2 << ": its format needs an even one, so the last "
+          << (picture.height % 2 == 0  ? "column comes"
+              : picture.width % 2 == 0 ? "row comes"
+                                       : "column and row come")
+          << " twice\n";
+    }
   }
 }
 
@@ -196,11 +234,21 @@ Reference openReference(FilmOptions& options) {
   return reference;
 }
 
-void refuseToOverwrite(const Reference& reference, const std::filesystem::path& folder) {
+// Of the film in --out only what differs is kept, so one that somebody made must not be there. What an
+// earlier comparison left there, with its page, gives way.
+void refuseToOverwrite(const Reference& reference, FilmSettings& film) {
+  const std::filesystem::path& folder = film.folder;
   if (std::filesystem::weakly_canonical(folder) == std::filesystem::weakly_canonical(reference.folder)) {
     throw InputError("--out: found the folder of --ref, " + folder.string() +
                      ", expected another one for what differs");
   }
+  if (film.there != FilmThere::kReplace && readManifest(folder) &&
+      !std::filesystem::exists(folder / "index.html")) {
+    throw InputError(folder.string() +
+                     ": holds a film, of which only what differs would be left; name another folder, or "
+                     "--overwrite to replace it");
+  }
+  film.there = FilmThere::kReplace;
 }
 
 // The other run that is shown as outlines. A table is one of the same scene.
@@ -234,7 +282,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   FilmSettings settings = settingsOf(options);
   const std::optional<TruthSettings> truth = truthOf(options, settings);
   if (reference) {
-    refuseToOverwrite(*reference, settings.folder);
+    refuseToOverwrite(*reference, settings);
   }
   options.overrides.threads = options.picture.threadsOfCrowds();
   Run run = loadRun(options.source, options.overrides, options.scene, stop);
@@ -314,6 +362,9 @@ void addRender(const CommandLine& commandLine) {
   const CommandOption resume =
       command.addFlag("--resume", options->resume,
                       "Keep the frames of the same film that are there and whole, and draw the others");
+  const CommandOption overwrite = command.addFlag("--overwrite", options->overwrite,
+                                                  "Replace the film in the folder if it is another one");
+  overwrite.excludes(resume);
   const CommandOption still =
       command
           .add("--still", options->still, "One picture, of this moment of the film [s], in place of the film")

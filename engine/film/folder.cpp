@@ -131,9 +131,9 @@ void FilmFolder::keep(const std::map<std::int64_t, std::string>& hashes) {
   writeManifest(path_, *manifest_);
 }
 
-void FilmFolder::begin(const FilmManifest& asked, bool resume) {
+void FilmFolder::begin(const FilmManifest& asked, bool keep) {
   FilmManifest manifest = asked;
-  if (manifest_ && resume) {
+  if (manifest_ && keep) {
     if (manifest.renderer.empty()) {
       manifest.renderer = manifest_->renderer;
     }

@@ -36,9 +36,9 @@ class FilmFolder {
 
   /// The requested frames that are missing, incomplete or other than the manifest there says.
   std::vector<std::int64_t> missing(const FilmManifest& asked) const;
-  /// Prepares the folder for a film: with `resume`, existing frames are kept; otherwise those that the
-  /// manifest of the film there lists are removed, and nothing else.
-  void begin(const FilmManifest& asked, bool resume);
+  /// Prepares the folder for a film: with `keep`, the frames of the film there stay and count as its own;
+  /// otherwise those that its manifest lists are removed, and nothing else.
+  void begin(const FilmManifest& asked, bool keep);
   /// Adds hashes of frames that were drawn to the manifest, and of whole frames there that have none; begin()
   /// has been called.
   void keep(const std::map<std::int64_t, std::string>& hashes);

@@ -33,9 +33,15 @@ constexpr std::array<Container, kSuffixes.size()> kContainers = {{{"mp4", kVideo
                                                                   {"webp", kWebpCodecs},
                                                                   {"gif", kGifCodecs}}};
 
-// Chroma is subsampled, so width and height are made even.
-constexpr const char* kYuv =
-    "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
+// Chroma is subsampled, so width and height are made even: the last column or row comes twice.
+std::string yuvFilter(int width, int height) {
+  const std::string toYuv = "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
+  if (width % 2 == 0 && height % 2 == 0) {
+    return toYuv;
+  }
+  return "format=gbrp,pad=ceil(iw/2)*2:ceil(ih/2)*2,fillborders=right=" + std::to_string(width % 2) +
+         ":bottom=" + std::to_string(height % 2) + ":mode=smear," + toYuv;
+}
 
 const Container& containerOf(const VideoSettings& settings) {
   const std::string suffix = settings.path.extension().string();
@@ -94,22 +100,27 @@ Arguments encoderArguments(const std::string& codec, VideoQuality quality) {
 
 // WebP converts RGB to its own YUV, which is not BT.709. Every frame of a GIF has its own palette: a common
 // palette would keep all frames in memory.
-std::string filterOf(const std::string& codec, VideoQuality quality) {
+std::string filterOf(const std::string& codec, const VideoSettings& settings) {
   if (codec == "webp") {
     return "format=bgra";
   }
   if (codec == "gif") {
     constexpr std::array<const char*, 3> kDither = {"none", "bayer:bayer_scale=4", "sierra2_4a"};
     return std::string("split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=") +
-           kDither.at(static_cast<std::size_t>(quality));
+           kDither.at(static_cast<std::size_t>(settings.quality));
   }
-  return kYuv;
+  return yuvFilter(settings.width, settings.height);
 }
 
 }  // namespace
 
 VideoQuality videoQualityNamed(std::string_view name) {
   return static_cast<VideoQuality>(indexAmong(name, kQualities));
+}
+
+bool needsEvenSize(const VideoSettings& settings) {
+  const std::string codec = codecOf(settings);
+  return codec != "webp" && codec != "gif";
 }
 
 void checkVideo(const VideoSettings& settings) {
@@ -126,28 +137,16 @@ Arguments ffmpegCommand(const VideoSettings& settings, const std::filesystem::pa
   const std::string size = std::to_string(settings.width) + "x" + std::to_string(settings.height);
   const std::string rate =
       std::to_string(settings.rateNumerator) + "/" + std::to_string(settings.rateDenominator);
-  Arguments command = {"ffmpeg",
-                       "-nostdin",
-                       "-loglevel",
-                       "error",
-                       "-y",
-                       "-f",
-                       "rawvideo",
-                       "-pix_fmt",
-                       "rgb24",
-                       "-video_size",
-                       size,
-                       "-framerate",
-                       rate,
-                       "-i",
-                       "pipe:0",
-                       "-vf",
-                       filterOf(codec, settings.quality)};
+  // -xerror: a failed write, as on a full disk, otherwise ends with status 0 and a truncated film.
+  Arguments command = {
+      "ffmpeg",     "-nostdin", "-xerror",  "-loglevel", "error",       "-y",
+      "-f",         "rawvideo", "-pix_fmt", "rgb24",     "-video_size", size,
+      "-framerate", rate,       "-i",       "pipe:0",    "-vf",         filterOf(codec, settings)};
   const auto add = [&command](const Arguments& arguments) {
     command.insert(command.end(), arguments.begin(), arguments.end());
   };
   add(encoderArguments(codec, settings.quality));
-  if (codec != "webp" && codec != "gif") {
+  if (needsEvenSize(settings)) {
     add({"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range",
          "tv"});
   }

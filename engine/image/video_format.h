@@ -15,8 +15,7 @@ struct VideoSettings {
   std::filesystem::path path;  ///< its suffix selects the container: .mp4, .mkv, .webm, .webp, .gif
   std::string codec = {};      ///< h264, vp9 or av1; empty: the default of the suffix
   VideoQuality quality = VideoQuality::kGood;
-  int width = 0;                    ///< [px] odd sizes are padded by one black column or row where the format
-                                    ///< needs it
+  int width = 0;                    ///< [px]
   int height = 0;                   ///< [px]
   std::int64_t rateNumerator = 30;  ///< frames per second, exactly: numerator / denominator
   std::int64_t rateDenominator = 1;
@@ -28,6 +27,10 @@ VideoQuality videoQualityNamed(std::string_view name);
 /// InputError for an unsupported suffix, codec or rate; the message lists what is supported. Size and rate
 /// must be set.
 void checkVideo(const VideoSettings& settings);
+
+/// Whether films of this format have even widths and heights: of an odd one, the last column or row comes
+/// twice.
+bool needsEvenSize(const VideoSettings& settings);
 
 /// The command with which ffmpeg reads frames from its standard input, 8-bit RGB, and writes the film to
 /// `output`. Films are tagged as BT.709 with the sRGB transfer function. The same frames give the same bytes.

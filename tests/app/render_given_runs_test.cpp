@@ -49,7 +49,8 @@ TEST_F(RenderGivenRuns, theFilmOfATableIsThatOfItsRun) {
 TEST_F(RenderGivenRuns, aGhostIsDrawnAndKnownToTheFilm) {
   ASSERT_EQ(careen({"render", "run.careen", "--out", "plain", "--frames", "7"}).exitCode, 0);
   for (const char* const ghost : {"other.careen", "run.csv"}) {
-    const Ended ended = careen({"render", "run.careen", "--ghost", ghost, "--out", "ghost", "--frames", "7"});
+    const Ended ended =
+        careen({"render", "run.careen", "--ghost", ghost, "--out", "ghost", "--frames", "7", "--overwrite"});
     ASSERT_EQ(ended.exitCode, 0) << ended.err;
     EXPECT_EQ(careen({"compare", "plain", "ghost"}).exitCode, 1) << ghost;
     const nlohmann::json film = nlohmann::json::parse(textOf(folder_ / "ghost/film.json"));

@@ -122,6 +122,55 @@ TEST_F(Render, refusesWhatCannotBeFilmed) {
   }
 }
 
+TEST_F(Render, anotherFilmInTheFolderIsReplacedOnlyIfAskedTo) {
+  ASSERT_EQ(careen({"render", "scene.json", "--out", "film", "--frames", "0-2"}).exitCode, 0);
+  const std::string first = textOf(folder_ / "film/000001.png");
+  const Ended refused = careen({"render", "scene.json", "--out", "film", "--look", "clay", "--frames", "1"});
+  EXPECT_EQ(refused.exitCode, 2);
+  EXPECT_NE(refused.err.find("--overwrite"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("look studio there, clay now"), std::string::npos) << refused.err;
+  EXPECT_EQ(careen({"render", "scene.json", "--ref", "film", "--out", "film"}).exitCode, 2);
+  EXPECT_EQ(textOf(folder_ / "film/000001.png"), first);
+  // Of the same film frames are drawn again, and none is lost.
+  ASSERT_EQ(careen({"render", "scene.json", "--out", "film", "--frames", "1"}).exitCode, 0);
+  EXPECT_EQ(framesIn("film").size(), 3U);
+  EXPECT_EQ(careen({"verify", "film"}).exitCode, 0);
+  ASSERT_EQ(
+      careen({"render", "scene.json", "--out", "film", "--look", "clay", "--frames", "1", "--overwrite"})
+          .exitCode,
+      0);
+  EXPECT_EQ(framesIn("film"), std::vector<std::string>{"000001.png"});
+  EXPECT_NE(textOf(folder_ / "film/000001.png"), first);
+}
+
+TEST_F(Render, aComparisonDoesNotThinOutAFilmThatSomebodyMade) {
+  ASSERT_EQ(careen({"render", "scene.json", "--out", "golden", "--frames", "0-1"}).exitCode, 0);
+  ASSERT_EQ(careen({"render", "scene.json", "--out", "mine", "--frames", "0-1"}).exitCode, 0);
+  EXPECT_EQ(careen({"render", "scene.json", "--ref", "golden", "--out", "mine"}).exitCode, 2);
+  EXPECT_EQ(framesIn("mine").size(), 2U);
+  // What an earlier comparison left gives way.
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(careen({"render", "scene.json", "--ref", "golden", "--out", "off", "--look", "clay"}).exitCode,
+              1);
+  }
+}
+
+TEST_F(Render, namesOfVideosAndOtherPicturesAreNoFolders) {
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"film.mp4"},
+                                             {"film.WebM"},
+                                             {"film.png"},
+                                             {"picture.jpg", "--still", "0.1"},
+                                             {"picture.TIFF", "--strobe", "0:0.2:0.1"}}) {
+    std::vector<std::string> arguments = {"render", "scene.json", "--out"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Ended ended = careen(arguments);
+    EXPECT_EQ(ended.exitCode, 2) << options[0];
+    EXPECT_NE(ended.err.find("found " + options[0] + ", expected"), std::string::npos) << ended.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / options[0])) << options[0];
+  }
+}
+
 // Drawing can do with none of its own, where a crowd takes one; the film is the same.
 TEST_F(Render, threadsOfDrawingAndOfCrowdsChangeNoBit) {
   folder_.write("crowd.json", R"({

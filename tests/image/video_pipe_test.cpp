@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <span>
 #include <string>
 #include <vector>
@@ -142,6 +144,25 @@ TEST(VideoPipe, oddSizesAreMadeEven) {
   EXPECT_EQ(probe(folder, "width,height"), "34,18\n");
 }
 
+TEST(VideoPipe, ofAnOddSizeTheLastColumnAndRowComeTwice) {
+  const TemporaryFolder folder;
+  Picture grey{.width = 33, .height = 17, .rgb = std::vector<std::uint8_t>(33 * 17 * 3, 200)};
+  VideoPipe pipe({.path = folder / "film.mkv", .quality = VideoQuality::kBest, .width = 33, .height = 17});
+  write(pipe, grey);
+  pipe.finish();
+  const Ended ended = Process({"ffmpeg", "-nostdin", "-loglevel", "error", "-i", "film.mkv", "-f", "rawvideo",
+                               "-pix_fmt", "gray", "back.gray"},
+                              folder.path())
+                          .wait();
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const std::string back = textOf(folder / "back.gray");
+  ASSERT_EQ(back.size(), 34U * 18);
+  // Measured: 0; by 184 with a black border.
+  for (const char pixel : back) {
+    ASSERT_NEAR(static_cast<unsigned char>(pixel), static_cast<unsigned char>(back[0]), 3);
+  }
+}
+
 // A picture of one colour, encoded and decoded.
 TEST(VideoPipe, keepsColours) {
   const TemporaryFolder folder;
@@ -199,6 +220,33 @@ TEST(VideoPipe, tellsWhatFfmpegSaidWhenItFails) {
     EXPECT_NE(said.find("the disk is full"), std::string::npos) << said;
   }
   EXPECT_EQ(folder.files(), std::vector<std::string>{"ffmpeg"});
+}
+
+// Files that may not grow further stand for a full disk, of which ffmpeg alone says nothing in its exit
+// status.
+TEST(VideoPipe, aFullDiskIsAnErrorAndLeavesNothing) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  for (const char* suffix : {".mp4", ".mkv", ".webm", ".webp", ".gif"}) {
+    const TemporaryFolder folder;
+    const rlimit small{.rlim_cur = 24576, .rlim_max = before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    std::string said;
+    try {
+      VideoPipe pipe({.path = folder / (std::string("film") + suffix), .width = 320, .height = 240});
+      for (unsigned frame = 0; frame < 20; ++frame) {
+        write(pipe, noise(320, 240, frame));
+      }
+      pipe.finish();
+    } catch (const MachineError& error) {
+      said = error.what();
+    }
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_NE(said.find("ffmpeg"), std::string::npos) << suffix << ": " << said;
+    EXPECT_TRUE(folder.files().empty()) << suffix;
+  }
+  std::signal(SIGXFSZ, handler);
 }
 
 TEST(VideoPipe, unwritablePlaceIsAnErrorBeforeAnyFrame) {

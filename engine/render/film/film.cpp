@@ -56,11 +56,16 @@ FilmManifest manifestOf(const Trajectory& run, const FilmSettings& settings, dou
   return manifest;
 }
 
-void refuseAnotherFilm(const FilmFolder& folder, const FilmManifest& asked) {
+void refuseAnotherFilm(const FilmFolder& folder, const FilmManifest& asked, FilmThere there) {
+  if (there == FilmThere::kReplace) {
+    return;
+  }
   const std::string difference = folder.manifest() ? differenceOf(*folder.manifest(), asked) : "";
   if (!difference.empty()) {
-    throw InputError(folder.path().string() +
-                     ": the film there is another one, it cannot be resumed: " + difference);
+    throw InputError(folder.path().string() + ": the film there is another one, " +
+                     (there == FilmThere::kResume ? "it cannot be resumed: "
+                                                  : "name another folder, or --overwrite to replace it: ") +
+                     difference);
   }
 }
 
@@ -265,10 +270,9 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
   FilmManifest asked = manifestOf(run, settings, filming.duration());
   filming.checkCamera(asked.frames, picture.rate);
   FilmFolder folder(settings.folder);
-  if (settings.resume) {
-    refuseAnotherFilm(folder, asked);
-  }
-  const std::vector<std::int64_t> missing = settings.resume ? folder.missing(asked) : asked.frames;
+  refuseAnotherFilm(folder, asked, settings.there);
+  const std::vector<std::int64_t> missing =
+      settings.there == FilmThere::kResume ? folder.missing(asked) : asked.frames;
 
   // Everything that may fail comes before the existing film is changed. Existing frames need no GL.
   std::optional<Overlays> overlays;
@@ -280,12 +284,10 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
   FilmWorkers workers(
       jobs, [&] { return openWorkshop(filming, run, settings, asked.frames, overlays, jobs, ring); });
   asked.renderer = workers.renderer();
-  if (settings.resume) {
-    refuseAnotherFilm(folder, asked);
-  }
+  refuseAnotherFilm(folder, asked, settings.there);
   const std::unique_ptr<VideoPipe> video =
       startVideo(settings, picture);  // after forking the workers, so they do not inherit its pipe
-  folder.begin(asked, settings.resume);
+  folder.begin(asked, settings.there != FilmThere::kReplace);
 
   FrameFlow flow(folder, asked.frames, missing, workers, ring, video.get());
   FilmFigures figures;

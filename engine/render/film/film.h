@@ -16,13 +16,21 @@
 
 namespace careen {
 
+/// What becomes of the careen film that is in the folder already. Only kReplace accepts another film than the
+/// one asked for; the others then throw InputError.
+enum class FilmThere {
+  kDrawAgain,  ///< requested frames are drawn again, others stay
+  kResume,     ///< whole frames stay, missing ones are drawn
+  kReplace,    ///< its frames are removed
+};
+
 /// How a film is made; the picture settings are part of the run (Stage::picture).
 struct FilmSettings {
   std::filesystem::path folder;    ///< for the frames: 000000.png, …
   std::vector<FrameRange> frames;  ///< empty: all
   /// Video of the requested frames, encoded by ffmpeg; its size and rate are those of the run's pictures.
   std::optional<VideoSettings> video;
-  bool resume = false;  ///< existing frames of the same film are kept
+  FilmThere there = FilmThere::kDrawAgain;
   /// Another run of the boxes, shown as outlines; null: none. It must last until the film is done.
   const Trajectory* ghost = nullptr;
   /// Number of worker processes, each drawing one frame at a time; absent: one per core. Never more than
@@ -70,8 +78,8 @@ struct FilmFigures {
 /// Renders a film of a run: frame k shows film time k/fps exactly, with the stage's camera and time map, and
 /// with the same bytes however the work is split. Frames are written atomically, so a render that was
 /// interrupted (Interrupted, after the frames in progress) or killed can be completed to the same bytes. An
-/// existing careen film in the folder is replaced, or with `resume` completed if it is the same film by the
-/// same program and renderer; nothing else there is changed. MachineError if a job dies.
+/// careen film in the folder is treated as `there` says; it is the same film if it shows the same run in the
+/// same way, by the same program and renderer. Nothing else there is changed. MachineError if a job dies.
 ///
 /// Apart from 9 bytes a frame, memory does not grow with the film: with J jobs and P pixels it is the run,
 /// once, 60 MB, and J times GL (about 40 MB and 20 P bytes with Mesa on the CPU); with a video, (J + 2)·3 P

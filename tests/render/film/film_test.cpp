@@ -117,7 +117,7 @@ TEST_F(FilmTest, overlaysAreDrawnOverTheirFrames) {
   }
   scene_.picture.overlays = {};
   FilmSettings other = filmIn("film");
-  other.resume = true;
+  other.there = FilmThere::kResume;
   EXPECT_NE(errorOf(other).find("overlays velocity there, none now"), std::string::npos) << errorOf(other);
 }
 
@@ -152,13 +152,13 @@ TEST_F(FilmTest, interruptedFilmLeavesWholeFramesAndIsResumedToTheSameBytes) {
     const std::vector<std::string> there = files("film");
     EXPECT_LT(there.size(), 10U);
     EXPECT_EQ(there.back(), "film.json");
-    settings_.resume = resume;
+    settings_.there = resume ? FilmThere::kResume : FilmThere::kDrawAgain;
     const FilmFigures figures = film(settings_);
     EXPECT_EQ(figures.skipped > 0, resume);
     EXPECT_EQ(figures.drawn + figures.skipped, 10);
     expectSame("film", "whole");
     std::filesystem::remove_all(folder_ / "film");
-    settings_.resume = false;
+    settings_.there = FilmThere::kDrawAgain;
   }
 }
 
@@ -173,7 +173,7 @@ TEST_F(FilmTest, sameBytesHoweverTheWorkIsSplit) {
     }
   }
   std::filesystem::remove_all(folder_ / "film");
-  settings_.resume = true;
+  settings_.there = FilmThere::kResume;
   for (const char* frames : {"6-8", "1:2", "0:1"}) {
     settings_.frames = parseFrameRanges(frames);
     film(settings_);
@@ -214,14 +214,14 @@ TEST_F(FilmTest, resumeDrawsAgainWhatIsBroken) {
   std::string changed = textOf(folder_ / "film/000007.png");
   changed[changed.size() / 2] = static_cast<char>(changed[changed.size() / 2] ^ 1);
   folder_.write("film/000007.png", changed);
-  settings_.resume = true;
+  settings_.there = FilmThere::kResume;
   EXPECT_EQ(film(settings_).drawn, 3);
   expectSame("film", "whole");
 }
 
 TEST_F(FilmTest, finishedFilmIsResumedWithoutGl) {
   film(settings_);
-  settings_.resume = true;
+  settings_.there = FilmThere::kResume;
   settings_.render.context = nowhereToDraw();
   const FilmFigures figures = film(settings_);
   EXPECT_EQ(figures.skipped, 10);
@@ -233,7 +233,7 @@ TEST_F(FilmTest, otherFramesOfTheSameFilmAreAddedByResuming) {
   settings_.frames = parseFrameRanges("0-2");
   film(settings_);
   settings_.frames = parseFrameRanges("6,2");
-  settings_.resume = true;
+  settings_.there = FilmThere::kResume;
   EXPECT_EQ(film(settings_).drawn, 1);
   EXPECT_EQ(readManifest(folder_ / "film")->frames, (std::vector<std::int64_t>{0, 1, 2, 6}));
 }
@@ -242,7 +242,7 @@ TEST_F(FilmTest, anotherFilmIsNotResumed) {
   film(settings_);
   const std::string before = textOf(folder_ / "film/film.json");
   FilmSettings other = settings_;
-  other.resume = true;
+  other.there = FilmThere::kResume;
   scene_.picture.width = 32;
   EXPECT_NE(errorOf(other).find("size 64x36 there, 32x36 now"), std::string::npos) << errorOf(other);
   scene_.picture.width = 64;
@@ -261,7 +261,7 @@ TEST_F(FilmTest, anotherFilmIsNotResumed) {
 TEST_F(FilmTest, filmOfAnotherProgramOrRendererIsNotResumed) {
   film(settings_);
   std::filesystem::remove(folder_ / "film/000004.png");
-  settings_.resume = true;
+  settings_.there = FilmThere::kResume;
   settings_.program = "film_test 2";
   EXPECT_NE(errorOf(settings_).find("program film_test 1 there, film_test 2 now"), std::string::npos)
       << errorOf(settings_);
@@ -357,7 +357,7 @@ TEST_F(FilmTest, resumedVideoIsTheSameAsOneMadeAtOnce) {
   settings_.video = VideoSettings{.path = folder_ / "film.mp4"};
   interruptedFilm(settings_, 4);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "film.mp4"));
-  settings_.resume = true;
+  settings_.there = FilmThere::kResume;
   EXPECT_GT(film(settings_).skipped, 0);
   FilmSettings whole = filmIn("whole");
   whole.video = VideoSettings{.path = folder_ / "whole.mp4"};
