@@ -30,7 +30,7 @@ struct Report {
 
   void say(std::string_view words) {
     words = words.substr(0, text.size() - 1);
-    std::copy(words.begin(), words.end(), text.begin());
+    *std::copy(words.begin(), words.end(), text.begin()) = '\0';
   }
 };
 

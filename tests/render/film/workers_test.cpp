@@ -77,11 +77,12 @@ TEST(FilmWorkers, whatCannotBeMadeReadyIsThrownAsItIs) {
   EXPECT_THROW(FilmWorkers(2, []() -> FrameWorkshop { throw std::bad_alloc(); }), MachineError);
 }
 
+// The renderer's name came in the same buffer, and is longer.
 TEST(FilmWorkers, failureOfAFrameIsThrownAsItIs) {
   FilmWorkers workers(1, [] {
-    return FrameWorkshop{.renderer = "", .work = [](std::int64_t, std::int64_t) -> FrameFigures {
-                           throw MachineError("disk full");
-                         }};
+    return FrameWorkshop{
+        .renderer = "Mesa, llvmpipe, by OSMesa",
+        .work = [](std::int64_t, std::int64_t) -> FrameFigures { throw MachineError("disk full"); }};
   });
   workers.give(0, 0);
   EXPECT_EQ(errorOf(workers), "disk full");
