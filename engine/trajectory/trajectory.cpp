@@ -13,6 +13,7 @@
 #include "physics/world/diagnostics.h"
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
+#include "trajectory/run_check.h"
 
 namespace careen {
 namespace {
@@ -28,7 +29,7 @@ class TrajectoryRecorder : public Recorder {
   }
   void strikes(const Impact& impact) override {
     count(impact.time);
-    trajectory_.impacts.push_back(impact);
+    insertByTime(trajectory_.impacts, impact);
   }
 
  private:
@@ -63,6 +64,15 @@ void checkFinite(const Trajectory& run) {
     if (!isFinite(run.state(body, run.settings.duration))) {
       fail(run.settings.duration);
     }
+  }
+}
+
+// As whoever reads its file will.
+void checkReadable(const Trajectory& run) {
+  try {
+    checkMotions(run);
+  } catch (const InputError& error) {
+    throw NumericalError(std::string("the run ") + error.what() + ", so its file could not be read");
   }
 }
 
@@ -133,6 +143,11 @@ std::string Trajectory::stateHash() const {
   return hash.text();
 }
 
+void insertByTime(std::vector<Impact>& impacts, const Impact& impact) {
+  const auto isBefore = [](double time, const Impact& other) { return time < other.time; };
+  impacts.insert(std::upper_bound(impacts.begin(), impacts.end(), impact.time, isBefore), impact);
+}
+
 Trajectory record(RunSetup setup, const std::stop_token& stop, std::uint64_t most) {
   Trajectory trajectory;
   static_cast<RunSetup&>(trajectory) = std::move(setup);
@@ -140,6 +155,7 @@ Trajectory record(RunSetup setup, const std::stop_token& stop, std::uint64_t mos
   TrajectoryRecorder recorder(trajectory, most);
   trajectory.figures = simulate(trajectory.world, trajectory.settings, recorder, stop);
   checkFinite(trajectory);
+  checkReadable(trajectory);
   return trajectory;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "physics/world/method.h"
@@ -84,6 +85,18 @@ TEST(Trajectory, recordsWhatTheMethodTells) {
   EXPECT_EQ(trajectory.stage.colors.size(), 1U);
   EXPECT_EQ(trajectory.state(0, 1.3125).pose.position, Vec3(1.3125, 0, 0));
   EXPECT_TRUE(trajectory.impacts.empty());
+}
+
+TEST(Trajectory, impactsThatAreToldLateComeInOrderOfTime) {
+  std::vector<Impact> impacts;
+  for (const auto& [time, impulse] : {std::pair(1., 10.), {3., 20.}, {2., 30.}, {3., 40.}, {2., 50.}}) {
+    insertByTime(impacts, {.time = time, .a = {}, .impulse = impulse});
+  }
+  std::vector<double> impulses;
+  for (const Impact& impact : impacts) {
+    impulses.push_back(impact.impulse);
+  }
+  EXPECT_EQ(impulses, (std::vector<double>{10, 30, 50, 20, 40}));  // of one moment, in the order told
 }
 
 TEST(Trajectory, stopsWhenAsked) {
