@@ -303,6 +303,26 @@ TEST(Structure, onlyOneHeaderSpellsOutEigenTypes) {
   }
 }
 
+// Two types of one name have one destructor: the linker keeps either. The public header has a namespace of
+// its own.
+TEST(Structure, noTwoTypesOfTheEngineHaveOneName) {
+  static const std::regex kType(R"re((?:^|\n)(?:struct|class|enum class)\s+(\w+)(?: final)?[^;{\n]*\{)re");
+  std::map<std::string, fs::path> headerOf;
+  for (const fs::path& source : sourcesIn(kRoot / "engine")) {
+    if (source.extension() != ".h" || source.parent_path().filename() == "library") {
+      continue;
+    }
+    const std::string text = textOf(source);
+    for (auto match = std::sregex_iterator(text.begin(), text.end(), kType); match != std::sregex_iterator();
+         ++match) {
+      const auto [other, isNew] = headerOf.emplace((*match)[1], source);
+      EXPECT_TRUE(isNew || other->second == source)
+          << (*match)[1] << " is a type in " << source << " and in " << other->second;
+    }
+  }
+  EXPECT_GT(headerOf.size(), 200U);  // that it looks
+}
+
 // ---- Tests know their sources, and sources their tests.
 
 Names stemsIn(const fs::path& folder, bool tests) {

@@ -70,7 +70,7 @@ BoxBatch::BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const Lig
 }
 
 void BoxBatch::place(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces,
-                     const FaceShadows& shadows, const Neighbors& neighbors, const Vec3& towardsLight,
+                     const FaceShadows& shadows, const FaceNeighbors& neighbors, const Vec3& towardsLight,
                      const Vec3& eye) {
   FaceRecords records({.boxes = boxes,
                        .faces = faces,

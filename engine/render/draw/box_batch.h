@@ -33,7 +33,7 @@ class BoxBatch {
   /// What is drawn from now on. `shadows` are of these faces, and so are the lists of `neighbors`, which are
   /// ignored if boxes do not occlude boxes.
   void place(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, const FaceShadows& shadows,
-             const Neighbors& neighbors, const Vec3& towardsLight, const Vec3& eye);
+             const FaceNeighbors& neighbors, const Vec3& towardsLight, const Vec3& eye);
 
   bool hasShaded() const { return shaded_.indices.count() > 0; }
   /// Faces that no shadow reaches, in full light, and those that have no direct light.

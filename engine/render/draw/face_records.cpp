@@ -142,7 +142,7 @@ void FaceRecords::appendAbout(std::vector<float>& vertices, double pips, std::si
   vertices.push_back(static_cast<float>(pips));
   vertices.push_back(static_cast<float>(in_.faces[face].width));
   const std::size_t lists = kTexelsPerBox * in_.boxes.size();
-  const Neighbors::List list = withList ? in_.neighbors->lists[face] : Neighbors::List();
+  const FaceNeighbors::List list = withList ? in_.neighbors->lists[face] : FaceNeighbors::List();
   vertices.push_back(static_cast<float>(lists + list.begin));
   vertices.push_back(static_cast<float>(list.near + kFarCount * list.far));
 }
@@ -245,7 +245,7 @@ void FaceRecords::addShadow(const MeshFace& face, const Zonogon& zonogon, double
   }
 }
 
-std::vector<float> neighborTexels(std::span<const DrawnBox> boxes, const Neighbors& neighbors,
+std::vector<float> neighborTexels(std::span<const DrawnBox> boxes, const FaceNeighbors& neighbors,
                                   const Vec3& eye) {
   std::vector<float> texels;
   texels.reserve(4 * (kTexelsPerBox * boxes.size() + neighbors.entries.size()));
@@ -261,11 +261,11 @@ std::vector<float> neighborTexels(std::span<const DrawnBox> boxes, const Neighbo
     texels.push_back(0);
   }
   for (std::size_t face = 0; face < neighbors.lists.size(); ++face) {
-    for (const Neighbors::Entry& entry : neighbors.near(face)) {
+    for (const FaceNeighbors::Entry& entry : neighbors.near(face)) {
       texels.insert(texels.end(),
                     {static_cast<float>(kTexelsPerBox * entry.box), static_cast<float>(entry.weight), 0, 0});
     }
-    for (const Neighbors::Entry& entry : neighbors.far(face)) {
+    for (const FaceNeighbors::Entry& entry : neighbors.far(face)) {
       const DrawnBox& box = boxes[entry.box];
       const Vec3& half = box.halfExtents;
       const double size = 2 * half.dot(Vec3(half.y(), half.z(), half.x()));  // [m2] the mean silhouette

@@ -34,7 +34,7 @@ struct PlacedBoxes {
   std::span<const DrawnBox> boxes;
   std::span<const DrawnFace> faces;
   const FaceShadows& shadows;
-  const Neighbors* neighbors;
+  const FaceNeighbors* neighbors;
   std::optional<Vec3> towardsLight;
   Vec3 eye;
 };
@@ -80,7 +80,7 @@ class FaceRecords {
 };
 
 /// What neighbors.vert reads: boxes, then the lists of faces.
-std::vector<float> neighborTexels(std::span<const DrawnBox> boxes, const Neighbors& neighbors,
+std::vector<float> neighborTexels(std::span<const DrawnBox> boxes, const FaceNeighbors& neighbors,
                                   const Vec3& eye);
 
 }  // namespace careen

@@ -125,7 +125,7 @@ void keepOneOfEachBody(std::vector<Candidate>& found, std::span<const DrawnBox> 
 // Appends the first of the candidates that have a share, `most` of them; how many. What is left out is never
 // more than half of what a face can see, and a weight is as much as nothing before its box is left out.
 template <class Share>
-std::size_t appendEntries(std::vector<Neighbors::Entry>& entries, const std::vector<Candidate>& found,
+std::size_t appendEntries(std::vector<FaceNeighbors::Entry>& entries, const std::vector<Candidate>& found,
                           std::size_t most, const Share& shareOf) {
   std::vector<const Candidate*> kept;
   double out = 0;
@@ -196,7 +196,7 @@ double largestSilhouette(const DrawnBox& box) {
   return 4 * Vec3(h.x() * h.y(), h.y() * h.z(), h.z() * h.x()).norm();
 }
 
-Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, double least) {
+FaceNeighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, double least) {
   double reach = 0;  // [m] from a face's nearest point to the centre of a box that it still sees
   double radius = 0;
   for (const DrawnBox& box : boxes) {
@@ -206,7 +206,7 @@ Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace
   reach += radius;  // from a box's centre, of which a face's points are no farther away than its corners
   const Cells cells(boxes, std::max(reach, 1e-300));
   const bool hasCopies = haveCopies(boxes);
-  Neighbors neighbors;
+  FaceNeighbors neighbors;
   Surroundings surroundings(boxes);
   std::vector<std::size_t> near;
   std::size_t nearOf = boxes.size();
@@ -244,7 +244,7 @@ Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace
       }
       std::sort(found.begin(), found.end(), coversMore);
     }
-    Neighbors::List list{.begin = neighbors.entries.size()};
+    FaceNeighbors::List list{.begin = neighbors.entries.size()};
     list.near = appendEntries(neighbors.entries, found, kMostNear,
                               [](const Candidate& each) { return 1.0 - each.isFar; });
     list.far =

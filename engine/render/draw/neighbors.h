@@ -14,7 +14,7 @@ inline constexpr std::size_t kMostFar = 32;
 inline constexpr double kReturnedToBoxes = 1.5;  ///< boxes are lit from more sides than surfaces
 
 /// Boxes that keep ambient light from faces.
-struct Neighbors {
+struct FaceNeighbors {
   struct Entry {
     std::size_t box = 0;
     double weight = 1;  ///< [1] falls to 0 before the box leaves the list
@@ -38,7 +38,7 @@ struct Neighbors {
 
 /// Of each face the boxes, kMostNear and kMostFar at most, that cover more than about `least` of what it
 /// sees; only marked boxes occlude, and of several copies of a body only the one that covers most.
-Neighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, double least);
+FaceNeighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, double least);
 
 /// [m²] Area of the largest silhouette of a box.
 double largestSilhouette(const DrawnBox& box);

@@ -215,7 +215,7 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
     std::transform(faces.begin(), faces.end(), cast.isDark.begin(),
                    [&](const DrawnFace& face) { return face.normal.dot(towards) <= 0; });
   }
-  Neighbors neighbors;
+  FaceNeighbors neighbors;
   double returned = 0;  // the mean of all boxes
   if (occlusion) {
     if (stage.picture.light.has(LightPart::kBounce)) {

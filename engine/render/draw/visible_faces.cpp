@@ -25,7 +25,7 @@ struct Flat {
   Vec2 most = Vec2::Zero();
 };
 
-Flat flatOf(const DrawnFace& face, const View& view, const Samples& samples) {
+Flat flatOf(const DrawnFace& face, const View& view, const PixelSamples& samples) {
   Flat flat;
   std::array<Vec3, 4> corners;  // x, y [px], inverse depth
   constexpr std::array<std::array<int, 2>, 4> kSigns = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
@@ -59,7 +59,7 @@ Flat flatOf(const DrawnFace& face, const View& view, const Samples& samples) {
 // Calls with each row of a face, `margin` [px] less of it, and the pixels from first to end there, until that
 // says to stop.
 template <class Do>
-void forRows(const Flat& flat, double margin, const Samples& samples, const Do& doWith) {
+void forRows(const Flat& flat, double margin, const PixelSamples& samples, const Do& doWith) {
   const auto clampTo = [](double x, int end) { return static_cast<int>(std::clamp<double>(x, 0, end)); };
   const double beyond = std::max(-margin, 0.0);
   const int low = clampTo(std::ceil(flat.least.y() - beyond - 0.5), samples.height);
@@ -88,7 +88,7 @@ void forRows(const Flat& flat, double margin, const Samples& samples, const Do& 
 
 }  // namespace
 
-HiddenTiles::HiddenTiles(View view, const Samples& samples, const std::vector<float>& nearest)
+HiddenTiles::HiddenTiles(View view, const PixelSamples& samples, const std::vector<float>& nearest)
     : view_(std::move(view)),
       columns_((samples.width + kTile - 1) / kTile),
       rows_((samples.height + kTile - 1) / kTile),
@@ -183,7 +183,7 @@ bool HiddenTiles::hide(const std::vector<Vec3>& outline) const {
   return true;
 }
 
-Visible visibleFaces(std::span<const DrawnFace> faces, const View& view, const Samples& samples) {
+Visible visibleFaces(std::span<const DrawnFace> faces, const View& view, const PixelSamples& samples) {
   std::vector<Flat> flats;
   flats.reserve(faces.size());
   for (const DrawnFace& face : faces) {

@@ -9,7 +9,7 @@
 namespace careen {
 
 /// A picture in which faces hide each other.
-struct Samples {
+struct PixelSamples {
   int width = 0;   ///< [px]
   int height = 0;  ///< [px]
   /// [px] Samples are within so much of a pixel's centre in each direction, rounding of corners included: a
@@ -23,7 +23,7 @@ class HiddenTiles {
   HiddenTiles() = default;  ///< nothing is hidden
   /// `nearest`: of each pixel, row by row from below, the inverse depth [1/m] of what is drawn there at
   /// least.
-  HiddenTiles(View view, const Samples& samples, const std::vector<float>& nearest);
+  HiddenTiles(View view, const PixelSamples& samples, const std::vector<float>& nearest);
 
   /// Whether boxes hide all of a convex outline [m] world, which lies in a plane, and some pixels around it.
   bool hide(const std::vector<Vec3>& outline) const;
@@ -45,6 +45,6 @@ struct Visible {
 /// Those faces that have a sample in the picture, in the same order, by a depth buffer of their own; faces
 /// should come front to back. Some that have no sample may be among them, where faces nearly touch or end
 /// beside a pixel's centre.
-Visible visibleFaces(std::span<const DrawnFace> faces, const View& view, const Samples& samples);
+Visible visibleFaces(std::span<const DrawnFace> faces, const View& view, const PixelSamples& samples);
 
 }  // namespace careen

@@ -14,13 +14,13 @@ DrawnBox cubeAt(const Vec3& position, std::size_t body, double half = 0.5) {
 }
 
 struct Lists {
-  std::vector<Neighbors::Entry> near;
-  std::vector<Neighbors::Entry> far;
+  std::vector<FaceNeighbors::Entry> near;
+  std::vector<FaceNeighbors::Entry> far;
 };
 
 Lists aboveFirst(const std::vector<DrawnBox>& boxes, double least) {
   const std::vector<DrawnFace> faces = facesTowards(boxes, kEye, 1e-3);
-  const Neighbors neighbors = neighborsOf(boxes, faces, least);
+  const FaceNeighbors neighbors = neighborsOf(boxes, faces, least);
   EXPECT_EQ(neighbors.lists.size(), faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
     if (faces[i].box == 0 && faces[i].side == 4) {
@@ -34,7 +34,7 @@ Lists aboveFirst(const std::vector<DrawnBox>& boxes, double least) {
 
 bool isEmpty(const Lists& lists) { return lists.near.empty() && lists.far.empty(); }
 
-TEST(Neighbors, areInFrontOfTheFaceAndNear) {
+TEST(FaceNeighbors, areInFrontOfTheFaceAndNear) {
   EXPECT_EQ(aboveFirst({cubeAt(Vec3::Zero(), 0), cubeAt(Vec3(0.8, 0, 1.2), 1)}, 0.02).near.size(), 1U);
   EXPECT_EQ(aboveFirst({cubeAt(Vec3::Zero(), 0), cubeAt(Vec3(0, 0, 3), 1)}, 0.02).far.size(), 1U);
   EXPECT_TRUE(isEmpty(aboveFirst({cubeAt(Vec3::Zero(), 0), cubeAt(Vec3(1.1, 0, 0), 1)}, 0.02)));   // level
@@ -42,7 +42,7 @@ TEST(Neighbors, areInFrontOfTheFaceAndNear) {
   EXPECT_TRUE(isEmpty(aboveFirst({cubeAt(Vec3::Zero(), 0), cubeAt(Vec3(0, 0, 30), 1)}, 0.02)));    // too far
 }
 
-TEST(Neighbors, ofCopiesOfABodyOnlyOneCounts) {
+TEST(FaceNeighbors, ofCopiesOfABodyOnlyOneCounts) {
   const std::vector<DrawnBox> boxes = {cubeAt(Vec3::Zero(), 0), cubeAt(Vec3(0, 0, 2), 1),
                                        cubeAt(Vec3(0, 0, 1.1), 1), cubeAt(Vec3(0, 0, 1.2), 0)};
   const Lists found = aboveFirst(boxes, 0.02);
@@ -52,7 +52,7 @@ TEST(Neighbors, ofCopiesOfABodyOnlyOneCounts) {
 }
 
 // On its way from near to far a box loses as much weight in one list as it gains in the other.
-TEST(Neighbors, goFromNearToFarGradually) {
+TEST(FaceNeighbors, goFromNearToFarGradually) {
   double last = 1;
   for (double away = 1.1; away < 3; away += 0.01) {
     const Lists found = aboveFirst({cubeAt(Vec3::Zero(), 0), cubeAt(Vec3(0, 0, away), 1)}, 0.001);
@@ -66,7 +66,7 @@ TEST(Neighbors, goFromNearToFarGradually) {
 }
 
 // What is crowded out of a full list has lost its weight before.
-TEST(Neighbors, weightsFallBeforeABoxIsCrowdedOut) {
+TEST(FaceNeighbors, weightsFallBeforeABoxIsCrowdedOut) {
   std::vector<DrawnBox> boxes = {cubeAt(Vec3::Zero(), 0)};
   for (std::size_t i = 1; i <= kMostFar + 1; ++i) {
     boxes.push_back(cubeAt(Vec3(0, 0, 1 + 0.2 * static_cast<double>(i)), i, 0.1));
@@ -77,7 +77,7 @@ TEST(Neighbors, weightsFallBeforeABoxIsCrowdedOut) {
   EXPECT_LT(found.far.back().weight, 0.3);
 }
 
-TEST(Neighbors, largestSilhouetteOfACubeIsItsHexagon) {
+TEST(FaceNeighbors, largestSilhouetteOfACubeIsItsHexagon) {
   EXPECT_NEAR(largestSilhouette(cubeAt(Vec3::Zero(), 0)), std::sqrt(3.0), 1e-12);
 }
 
