@@ -1,7 +1,10 @@
-# Sourced by app/demo and tests/run: the packages that the build needs on Debian 12, and functions to install and build.
+# Sourced by app/demo and tests/run: the packages that the build needs on Debian, and functions to install and build.
 
+# What draws without a display: OSMesa up to Debian 13, EGL where Mesa has it no more. Testing has no VERSION_ID.
+kDrawingPackages=(libegl1 libegl-mesa0 libgl1-mesa-dri)
+[ "$(. /etc/os-release && echo "${VERSION_ID:-99}")" -gt 13 ] || kDrawingPackages=(libosmesa6)
 kBuildPackages=(g++ cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libcli11-dev libdeflate-dev
-  libzip-dev libpugixml-dev libstb-dev libosmesa6 libgl-dev libegl-dev libglfw3-dev fonts-dejavu-core)
+  libzip-dev libpugixml-dev libstb-dev "${kDrawingPackages[@]}" libgl-dev libegl-dev libglfw3-dev fonts-dejavu-core)
 
 # Installs those of the named packages that are missing, after listing them. It needs no network if none is missing.
 install_missing() {
