@@ -280,6 +280,9 @@ TEST_F(FilmTest, newFilmTakesTheOldOnesPlaceAndLeavesAllElse) {
   folder_.write("film/notes.txt", "mine");
   folder_.write("film/still.png", "mine");
   scene_.picture.rate.numerator = 5;
+  EXPECT_NE(errorOf(settings_).find("fps 10 there, 5 now"), std::string::npos) << errorOf(settings_);
+  EXPECT_EQ(files("film").size(), 13U);
+  settings_.there = FilmThere::kReplace;
   film(settings_);
   EXPECT_EQ(files("film"), (std::vector<std::string>{"000000.png", "000001.png", "000002.png", "000003.png",
                                                      "000004.png", "film.json", "notes.txt", "still.png"}));
