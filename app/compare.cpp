@@ -83,12 +83,14 @@ const char* nameOf(Kind kind) {
 struct Films {
   std::vector<Fact> facts;
   std::optional<bool> sameMotion;
+  bool any = false;  ///< one of the folders has a manifest
 };
 
 Films filmsIn(const std::filesystem::path& expected, const std::filesystem::path& actual) {
   Films films;
   const std::optional<FilmManifest> one = readManifest(expected);
   const std::optional<FilmManifest> other = readManifest(actual);
+  films.any = one || other;
   if (one && other) {
     films.sameMotion = one->stateHash == other->stateHash;
     films.facts = {{"scene hash", one->sceneHash, other->sceneHash},
@@ -174,6 +176,33 @@ Comparison compareRunsOrTables(const std::filesystem::path& expected, const std:
   Comparison comparison = compareRuns(expected, actual, settings, read);
   comparison.run->firstBroken = broken;
   return comparison;
+}
+
+bool liesIn(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  const auto placeOf = [](const std::filesystem::path& each) {
+    // "a/" has an empty last element
+    const std::filesystem::path place =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(each)).lexically_normal();
+    return place.has_filename() ? place : place.parent_path();
+  };
+  const std::filesystem::path inner = placeOf(path);
+  const std::filesystem::path outer = placeOf(folder);
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+// A report must not mix with what is compared, nor with a film.
+void refuseReportIn(const std::filesystem::path& report, const std::filesystem::path& expected,
+                    const std::filesystem::path& actual) {
+  for (const std::filesystem::path& compared : {expected, actual}) {
+    if (liesIn(report, compared)) {
+      throw InputError("--out: found " + report.string() + ", which is or lies in " + compared.string() +
+                       ", expected a folder outside of what is compared");
+    }
+  }
+  std::error_code none;
+  if (std::filesystem::exists(report / kManifestName, none)) {
+    throw InputError("--out: found " + report.string() + ", which holds a film, expected another folder");
+  }
 }
 
 void print(std::ostream& out, const Comparison& comparison) {
@@ -285,7 +314,9 @@ Comparison compare(const std::filesystem::path& expected, const std::filesystem:
     throw InputError("--scene: found " + std::string(nameOf(kind)) + ", expected a table of poses");
   }
   Films films = filmsIn(expected, actual);
-  Comparison comparison = compareFolders(expected, actual, settings, films.sameMotion, {}, stop);
+  ComparisonSettings ofFolders = settings;
+  ofFolders.subfolders = !films.any;  // labels and reports may lie in a film's sub-folders
+  Comparison comparison = compareFolders(expected, actual, ofFolders, films.sameMotion, {}, stop);
   comparison.facts = std::move(films.facts);
   return comparison;
 }
@@ -329,6 +360,9 @@ void addCompare(const CommandLine& commandLine) {
       .oneOf({"text", "json"});
   command.runs([arguments](const std::stop_token& stop) {
     const bool logsFrames = arguments->log == "json";
+    if (!arguments->report.empty()) {
+      refuseReportIn(arguments->report, arguments->expected, arguments->actual);
+    }
     const Comparison comparison = compare(arguments->expected, arguments->actual,
                                           arguments->options.settings(), arguments->scene, stop);
     tell(comparison, logsFrames);

@@ -94,13 +94,28 @@ FrameComparison compareFrame(const FramePair& pair, const ComparisonSettings& se
   return frame;
 }
 
-void list(const fs::path& folder, std::map<std::string, FramePair>& pairs, fs::path FramePair::*side) {
+bool hasPngSuffix(const fs::path& path) {
+  std::string suffix = path.extension().string();
+  for (char& each : suffix) {
+    each = each >= 'A' && each <= 'Z' ? static_cast<char>(each - 'A' + 'a') : each;
+  }
+  return suffix == ".png";
+}
+
+void list(const fs::path& folder, bool subfolders, std::map<std::string, FramePair>& pairs,
+          fs::path FramePair::*side) {
   bool any = false;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".png") {
-      FramePair& pair = pairs[entry.path().filename().string()];
-      pair.name = entry.path().filename().string();
-      pair.*side = entry.path();
+  for (fs::recursive_directory_iterator entry(folder), end; entry != end; ++entry) {
+    std::error_code none;
+    if (entry->is_directory(none)) {
+      if (!subfolders) {
+        entry.disable_recursion_pending();
+      }
+    } else if (hasPngSuffix(entry->path())) {
+      const std::string name = entry->path().lexically_relative(folder).generic_string();
+      FramePair& pair = pairs[name];
+      pair.name = name;
+      pair.*side = entry->path();
       any = true;
     }
   }
@@ -110,10 +125,11 @@ void list(const fs::path& folder, std::map<std::string, FramePair>& pairs, fs::p
 }
 
 std::vector<FramePair> pairsOf(const fs::path& expected, const fs::path& actual,
-                               const std::set<std::string>& only) {
+                               const ComparisonSettings& settings) {
+  const std::set<std::string>& only = settings.only;
   std::map<std::string, FramePair> byName;
-  list(expected, byName, &FramePair::expected);
-  list(actual, byName, &FramePair::actual);
+  list(expected, settings.subfolders, byName, &FramePair::expected);
+  list(actual, settings.subfolders, byName, &FramePair::actual);
   std::vector<FramePair> pairs;
   for (auto& [name, pair] : byName) {
     if (only.empty() || only.contains(name)) {
@@ -322,7 +338,7 @@ Comparison compareFolders(const fs::path& expected, const fs::path& actual,
                           const ComparisonSettings& settings, std::optional<bool> sameMotion,
                           const ComparisonCallback& progress, const std::stop_token& stop) {
   Comparison comparison = begun(expected, actual, settings);
-  const std::vector<FramePair> pairs = pairsOf(expected, actual, settings.only);
+  const std::vector<FramePair> pairs = pairsOf(expected, actual, settings);
   comparison.frames = Crew(pairs, settings, progress, stop).compare();
   tellShift(pairs, settings, comparison.frames);
   comparison.verdict = worstVerdict(comparison.frames);

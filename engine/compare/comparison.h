@@ -19,7 +19,7 @@ namespace careen {
 
 /// Result for a pair of frames, in few bytes: a film may have many.
 struct FrameComparison {
-  std::string name;  ///< the file name, the same in both folders
+  std::string name;  ///< the path in the folder, the same in both: "sub/2.png"
   Verdict verdict = Verdict::kSame;
   std::vector<std::string> reasons;  ///< why the frames differ, in words
   bool identical = false;            ///< the files are identical byte for byte
@@ -77,6 +77,7 @@ struct ComparisonSettings {
   bool motionCounts = true;    ///< a film of a different motion differs, even if its pictures are the same
   bool flip = false;           ///< also compute ꟻLIP, which takes ten times as long as all the rest
   int threads = 1;             ///< frames compared in parallel
+  bool subfolders = true;      ///< for folders: pictures in their sub-folders, too
   std::set<std::string> only;  ///< for folders: only frames of these names; empty: all
 };
 
@@ -91,9 +92,10 @@ inline constexpr std::uint64_t kMostPixelsCompared = std::uint64_t{1} << 26U;
 Comparison comparePictures(const std::filesystem::path& expected, const std::filesystem::path& actual,
                            const ComparisonSettings& settings);
 
-/// Compares all PNG files of two folders, by name. A frame that is missing, broken or of another size counts
-/// as different. `sameMotion`: whether both films are known to show one motion, or not. InputError if a
-/// folder has no PNG. Memory: the frames being compared, and less than a kB for each of all.
+/// Compares all PNG files of two folders, by their paths there; the suffix may be in any case. A frame that
+/// is missing, broken or of another size counts as different. `sameMotion`: whether both films are known to
+/// show one motion, or not. InputError if a folder has no PNG. Memory: the frames being compared, and less
+/// than a kB for each of all.
 Comparison compareFolders(const std::filesystem::path& expected, const std::filesystem::path& actual,
                           const ComparisonSettings& settings, std::optional<bool> sameMotion,
                           const ComparisonCallback& progress = {}, const std::stop_token& stop = {});

@@ -67,5 +67,39 @@ TEST_F(CompareFilms, lostFramesAreNamed) {
   EXPECT_NE(ended.out.find("  000008.png: it is missing\n"), std::string::npos) << ended.out;
 }
 
+TEST_F(CompareFilms, picturesInSubfoldersAreNoFramesOfAFilm) {
+  film("one", filmScene("1", "#C8553D"), {"--frames", "0"});
+  film("other", filmScene("1", "#C8553D"), {"--frames", "0"});
+  std::filesystem::create_directory(folder_ / "one/truth");
+  std::filesystem::copy_file(folder_ / "one/000000.png", folder_ / "one/truth/000000.png");
+  EXPECT_EQ(careen({"compare", "one", "other"}).out, "same: same motion, same file (same-picture)\n");
+  std::filesystem::remove(folder_ / "one/film.json");
+  EXPECT_EQ(careen({"compare", "one", "other"}).exitCode, 0);
+  std::filesystem::remove(folder_ / "other/film.json");
+  const Ended ended = careen({"compare", "one", "other"});
+  EXPECT_EQ(ended.exitCode, 1);
+  EXPECT_NE(ended.out.find("  truth/000000.png: it is missing\n"), std::string::npos) << ended.out;
+}
+
+TEST_F(CompareFilms, reportsAreKeptOutOfWhatIsComparedAndOfFilms) {
+  film("one", filmScene("1", "#C8553D"), {"--frames", "0"});
+  for (const char* folder : {"a", "b"}) {
+    std::filesystem::create_directory(folder_ / folder);
+    std::filesystem::copy_file(folder_ / "one/000000.png", folder_ / folder / "0.png");
+  }
+  std::filesystem::create_directory_symlink("a", folder_ / "link");
+  for (const char* out : {"a", "a/", "./b/.", "a/new/report", "link", "link/new", "b/../a", "one"}) {
+    const Ended ended = careen({"compare", "a", "b/", "--out", out});
+    EXPECT_EQ(ended.exitCode, 2) << out;
+    EXPECT_NE(ended.err.find("--out: found " + std::string(out)), std::string::npos) << ended.err;
+    EXPECT_EQ(ended.out, "") << out;
+  }
+  for (const char* folder : {"a", "b", "one"}) {
+    EXPECT_FALSE(std::filesystem::exists(folder_ / folder / "index.html"));
+  }
+  EXPECT_EQ(careen({"compare", "a", "b", "--out", "ab"}).exitCode, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "ab/index.html"));
+}
+
 }  // namespace
 }  // namespace careen

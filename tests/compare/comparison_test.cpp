@@ -155,6 +155,32 @@ TEST_F(Compared, anotherMotionIsADifferenceUnlessItDoesNotCount) {
   EXPECT_EQ(compare(true).headline, "same motion, other picture in 1 of 6 frames");
 }
 
+TEST_F(Compared, picturesOfAnySuffixAndInSubfoldersAreComparedByTheirPaths) {
+  for (const char* folder : {"expected", "actual"}) {
+    std::filesystem::create_directories(folder_ / folder / "sub/deep.png");
+    writePng(folder_ / folder / "000006.PNG", frame(1, folder[0] == 'e' ? 200 : 100));
+    writePng(folder_ / folder / "sub/000000.png", frame(1));
+    writePng(folder_ / folder / "sub/deep.png/2.Png", frame(2, folder[0] == 'e' ? 200 : 100));
+  }
+  writePng(folder_ / "actual/sub/3.png", frame(3));
+  Comparison found = compare();
+  ASSERT_EQ(found.frames.size(), 10U);
+  EXPECT_EQ(found.headline, "other picture in 3 of 10 frames");
+  EXPECT_EQ(found.frames[6].name, "000006.PNG");
+  EXPECT_NEAR(found.frames[6].largest, 100 / 255.0, 1e-12);
+  EXPECT_EQ(found.frames[7].name, "sub/000000.png");
+  EXPECT_TRUE(found.frames[7].identical);
+  EXPECT_EQ(found.frames[8].name, "sub/3.png");
+  EXPECT_EQ(found.frames[8].reasons, std::vector<std::string>{"it was not expected"});
+  EXPECT_EQ(found.frames[9].name, "sub/deep.png/2.Png");
+  EXPECT_NEAR(found.frames[9].largest, 100 / 255.0, 1e-12);
+  EXPECT_EQ(actualFrame(found, found.frames[9]), folder_ / "actual/sub/deep.png/2.Png");
+  settings_.subfolders = false;
+  found = compare();
+  ASSERT_EQ(found.frames.size(), 7U);
+  EXPECT_EQ(found.headline, "other picture in 1 of 7 frames");
+}
+
 TEST_F(Compared, foldersWithoutPicturesAreBadInput) {
   std::filesystem::create_directory(folder_ / "empty");
   EXPECT_EQ(inputErrorOf([&] { compareFolders(folder_ / "expected", folder_ / "empty", settings_, {}); }),
