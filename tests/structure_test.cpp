@@ -303,6 +303,15 @@ TEST(Structure, onlyOneHeaderSpellsOutEigenTypes) {
   }
 }
 
+// Eigen's own has other bits from version to version. Of what moves, and of the state that a run starts from.
+TEST(Structure, dotProductsOfMotionAreThoseOfTheProject) {
+  for (const char* const folder : {"core", "physics", "scene", "stage", "trajectory"}) {
+    for (const fs::path& source : sourcesIn(kRoot / "engine" / folder)) {
+      EXPECT_EQ(textOf(source).find(".dot("), std::string::npos) << source << " calls Eigen's dot";
+    }
+  }
+}
+
 // Two types of one name have one destructor: the linker keeps either. The public header has a namespace of
 // its own.
 TEST(Structure, noTwoTypesOfTheEngineHaveOneName) {

@@ -96,7 +96,7 @@ Wall readWall(const JsonValue& value, std::size_t index) {
   Wall wall{.name = readName(object, "wall-" + std::to_string(index)),
             .normal = object.require("normal").direction(),
             .material = readMaterial(object)};
-  wall.offset = wall.normal.dot(object.require("point").vector(anyNumber("m")));
+  wall.offset = dot(wall.normal, object.require("point").vector(anyNumber("m")));
   return wall;
 }
 

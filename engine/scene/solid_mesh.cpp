@@ -72,7 +72,7 @@ SolidMoments momentsOf(const TriangleMesh& mesh) {
     const Vec3 b = mesh.points[j] - middle;
     const Vec3 c = mesh.points[k] - middle;
     const Vec3 sum = a + b + c;
-    const double determinant = a.dot(b.cross(c));
+    const double determinant = dot(a, b.cross(c));
     volume += determinant / 6;
     size += std::fabs(determinant) / 6;
     first += determinant / 24 * sum;

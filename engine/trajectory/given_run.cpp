@@ -259,7 +259,7 @@ std::vector<Vec3> estimatedRates(std::span<const double> times, std::span<const 
 std::vector<Vec3> estimatedAngularVelocities(std::span<const double> times, std::span<const Quat> attitudes) {
   std::vector<Quat> continuous(attitudes.begin(), attitudes.end());
   for (std::size_t k = 1; k < continuous.size(); ++k) {
-    if (continuous[k].dot(continuous[k - 1]) < 0) {
+    if (dot(continuous[k], continuous[k - 1]) < 0) {
       continuous[k].coeffs() = -continuous[k].coeffs();
     }
   }

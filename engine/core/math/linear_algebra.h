@@ -25,4 +25,15 @@ using Vec4 = Vector4<double>;  ///< homogeneous: x y z w
 using Mat4 = Matrix4<double>;
 using Quat = Quaternion<double>;
 
+/// The dot product, for Eigen's own: that one adds its terms in another order from Eigen 5 on, and motion
+/// must have the same bits with every version. Of three terms the first is added to the sum of the others.
+template <class A, class B>
+typename A::Scalar dot(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
+  return a.cwiseProduct(b).sum();
+}
+template <class Real>
+Real dot(const Quaternion<Real>& a, const Quaternion<Real>& b) {
+  return dot(a.coeffs(), b.coeffs());
+}
+
 }  // namespace careen

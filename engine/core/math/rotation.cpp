@@ -17,7 +17,7 @@ Mat3 orientationRate(const Vec3& omega, const Mat3& worldFromBody) { return tild
 Mat3 orthonormalizeFromColumn0(const Mat3& a) {
   Mat3 result;
   const Vec3 x = a.col(0).normalized();
-  const Vec3 y = (a.col(1) - x.dot(a.col(1)) * x).normalized();
+  const Vec3 y = (a.col(1) - dot(x, a.col(1)) * x).normalized();
   result << x, y, x.cross(y);
   return result;
 }

@@ -28,7 +28,7 @@ Vector3<Real> inverseModifiedMoments(const Vector3<Real>& inertia, const Vector3
   const Real e33 = e3 * e3;
   const Real e13 = e1 * e3;
   // NOLINTBEGIN(readability-identifier-naming): notation of the papers
-  const Real H = h * h / 2 * momentumBody.cwiseProduct(inverse).dot(momentumBody);
+  const Real H = h * h / 2 * dot(momentumBody.cwiseProduct(inverse), momentumBody);
   const Real C = h * h / 2 * momentumBody.squaredNorm();
   const Real H2 = H * H;
   const Real C2 = C * C;

@@ -34,7 +34,7 @@ Vector3<Real> halfTurn(const Vector3<Real>& start, const Vector3<Real>& spread, 
     const Vector3<Real> row2(spread[2] * g[1] - twice[2] * g[0], spread[2] * g[0] - twice[2] * g[1],
                              1 - twice[2] * g[2]);
     const Vector3<Real> cofactors = row1.cross(row2);
-    const Real determinant = row0.dot(cofactors);
+    const Real determinant = dot(row0, cofactors);
     if (!(determinant > 0)) {
       break;  // past the fold where the small solution ends
     }

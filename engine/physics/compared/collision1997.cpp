@@ -29,7 +29,7 @@ bool lookAtCorner(const std::vector<Wall>& walls, BodyIndex body, const BodyStat
       check.corner = here;
       return false;
     }
-    if (walls[w].normal.dot(pointVelocity(state.velocity, omega, r)) < 0) {
+    if (dot(walls[w].normal, pointVelocity(state.velocity, omega, r)) < 0) {
       check.state = CornerState::kColliding;
       check.corner = here;
     }

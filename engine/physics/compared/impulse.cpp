@@ -14,20 +14,20 @@ Vec3 velocityAt(const CollidingBody& body, const Vec3& point) {
 double turningTerm(const CollidingBody& body, const Vec3& point, const Vec3& normal) {
   const Vec3 r = point - body.state.pose.position;
   const Mat3 inverseInertia = inverseInertiaWorld(body.mass, body.state.pose.worldFromBody);
-  return (inverseInertia * r.cross(normal)).cross(r).dot(normal);
+  return dot((inverseInertia * r.cross(normal)).cross(r), normal);
 }
 
 }  // namespace
 
 double normalVelocity(const CollidingBody& a, const CollidingBody& b, const Vec3& point, const Vec3& normal) {
-  return (velocityAt(a, point) - velocityAt(b, point)).dot(normal);
+  return dot(velocityAt(a, point) - velocityAt(b, point), normal);
 }
 
 double collisionImpulse(const CollidingBody& a, const CollidingBody& b, const Vec3& point, const Vec3& normal,
                         double restitution) {
   const double inverseMasses = a.mass.inverseMass + b.mass.inverseMass;
   const double yielding =
-      normal.dot(normal) * inverseMasses + turningTerm(a, point, normal) + turningTerm(b, point, normal);
+      dot(normal, normal) * inverseMasses + turningTerm(a, point, normal) + turningTerm(b, point, normal);
   return -(1 + restitution) * normalVelocity(a, b, point, normal) / yielding;
 }
 

@@ -203,8 +203,8 @@ double SteppedBody::gapOf(const Flying& flying) const {
   const Mat3 columns = body_.mass.worldFromBody(flying.rotation.worldFromBody).toRotationMatrix();
   const Vec3 middle = boxAt({flying.position, columns}, body_).middle();
   for (const Wall& wall : world_.walls) {
-    const double reach = body_.halfExtents.dot((columns.transpose() * wall.normal).cwiseAbs());
-    lowest = std::min(lowest, wall.normal.dot(middle) - reach - wall.offset);
+    const double reach = dot(body_.halfExtents, (columns.transpose() * wall.normal).cwiseAbs());
+    lowest = std::min(lowest, dot(wall.normal, middle) - reach - wall.offset);
   }
   return lowest;
 }
@@ -260,8 +260,8 @@ std::int64_t SteppedBody::stepsOutOfReach() const {
   double safe = static_cast<double>(kStepsAtOnce) * settings_.dt;
   for (const Wall& wall : world_.walls) {
     const double room = careen::gap(wall, now_.position) - radius;
-    const double speed = wall.normal.dot(now_.velocity);
-    const double acceleration = wall.normal.dot(world_.gravity);
+    const double speed = dot(wall.normal, now_.velocity);
+    const double acceleration = dot(wall.normal, world_.gravity);
     if (room <= 0) {
       return 0;
     }

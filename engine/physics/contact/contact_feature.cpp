@@ -22,21 +22,21 @@ ContactState onPlane(const Vec3& arm, const Kinematics& a, const Kinematics* b, 
   state.normal = normal;
   state.armA = arm;
   if (b == nullptr) {
-    state.gap = normal.dot(a.pose.position) + normal.dot(arm) - offset;
+    state.gap = dot(normal, a.pose.position) + dot(normal, arm) - offset;
     state.slip = velocity;
-    state.gapBias = normal.dot(centripetal);
+    state.gapBias = dot(normal, centripetal);
     state.slipBias = centripetal;
   } else {
     const Vec3& spin = b->angularVelocity;
     state.armB = (a.pose.position - b->pose.position) + arm;
-    state.gap = normal.dot(state.armB) - offset;
+    state.gap = dot(normal, state.armB) - offset;
     const Vec3 relative = velocity - b->velocity;
     state.slip = relative - spin.cross(state.armB);
-    state.gapBias = normal.dot(centripetal) + spin.cross(spin.cross(normal)).dot(state.armB) +
-                    2 * spin.cross(normal).dot(relative);
+    state.gapBias = dot(normal, centripetal) + dot(spin.cross(spin.cross(normal)), state.armB) +
+                    2 * dot(spin.cross(normal), relative);
     state.slipBias = centripetal - spin.cross(relative);
   }
-  state.rate = normal.dot(state.slip);
+  state.rate = dot(normal, state.slip);
   state.slip -= state.rate * normal;
   return state;
 }
@@ -52,11 +52,11 @@ ContactState onEdge(const ContactFeature& feature, const Kinematics& a, const Ve
   const Vec3 cross = feature.sign * edgeA.cross(edgeB);
   const double sine = cross.norm();
   const Vec3& n = state.normal = cross / sine;
-  const double alongA = -feature.sign * link.dot(edgeB.cross(n)) / sine;
-  const double alongB = -feature.sign * link.dot(edgeA.cross(n)) / sine;
+  const double alongA = -feature.sign * dot(link, edgeB.cross(n)) / sine;
+  const double alongB = -feature.sign * dot(link, edgeA.cross(n)) / sine;
   state.armA = middleA + alongA * edgeA;
   state.armB = middleB + alongB * edgeB;
-  state.gap = n.dot(link);
+  state.gap = dot(n, link);
   state.beyond = std::max(std::fabs(alongA) - halfExtentsA[feature.axisA],
                           std::fabs(alongB) - halfExtentsB[feature.axisB]);
 
@@ -64,14 +64,14 @@ ContactState onEdge(const ContactFeature& feature, const Kinematics& a, const Ve
   const Vec3& spinB = b.angularVelocity;
   const Vec3 velocityA = a.velocity + spinA.cross(state.armA);
   state.slip = velocityA - (b.velocity + spinB.cross(state.armB));
-  state.rate = n.dot(state.slip);
+  state.rate = dot(n, state.slip);
   state.slip -= state.rate * n;
   const Vec3 turning = feature.sign * (spinA.cross(edgeA).cross(edgeB) + edgeA.cross(spinB.cross(edgeB)));
-  const Vec3 normalRate = (turning - n.dot(turning) * n) / sine;
-  state.gapBias = n.dot(spinA.cross(spinA.cross(state.armA)) - spinB.cross(spinB.cross(state.armB))) +
-                  2 * normalRate.dot(state.slip);
+  const Vec3 normalRate = (turning - dot(n, turning) * n) / sine;
+  state.gapBias = dot(n, spinA.cross(spinA.cross(state.armA)) - spinB.cross(spinB.cross(state.armB))) +
+                  2 * dot(normalRate, state.slip);
   // The crossing itself moves along both edges.
-  const double wander = -feature.sign * n.dot(state.slip.cross(edgeB)) / sine;
+  const double wander = -feature.sign * dot(n, state.slip.cross(edgeB)) / sine;
   const Vec3 crossing = velocityA + wander * edgeA;
   state.slipBias = spinA.cross(crossing - a.velocity) - spinB.cross(crossing - b.velocity);
   return state;
@@ -86,7 +86,7 @@ double marginAt(const Vec3& direction, const Mat3& worldFromBody, const Vec3& po
     const double rounding =
         box.center[i] == 0 ? 0 : 0x1p-50 * (box.halfExtents[i] + std::fabs(box.center[i]));
     if (std::fabs(std::fabs(place) - box.halfExtents[i]) <= rounding) {
-      least = std::min(least, (place < 0 ? -1 : 1) * direction.dot(worldFromBody.col(i)));
+      least = std::min(least, (place < 0 ? -1 : 1) * dot(direction, worldFromBody.col(i)));
     }
   }
   return least;
@@ -102,13 +102,13 @@ struct Turning {
 Turning meanNormal(const Turning& a, const Turning& b, const Turning& edge) {
   const Vec3 mean = a.direction + b.direction;
   const Vec3 meanRate = a.rate + b.rate;
-  const double along = mean.dot(edge.direction);
-  const double alongRate = meanRate.dot(edge.direction) + mean.dot(edge.rate);
+  const double along = dot(mean, edge.direction);
+  const double alongRate = dot(meanRate, edge.direction) + dot(mean, edge.rate);
   const Vec3 across = mean - along * edge.direction;
   const Vec3 acrossRate = meanRate - alongRate * edge.direction - along * edge.rate;
   const double size = across.norm();
   const Vec3 normal = across / size;
-  return {.direction = normal, .rate = (acrossRate - normal.dot(acrossRate) * normal) / size};
+  return {.direction = normal, .rate = (acrossRate - dot(normal, acrossRate) * normal) / size};
 }
 
 ContactState inCone(const ContactFeature& feature, const Kinematics& a, BoxShape boxA, const Kinematics& b,
@@ -130,8 +130,8 @@ ContactState inCone(const ContactFeature& feature, const Kinematics& a, BoxShape
   state.armA = a.pose.worldFromBody * feature.onA;
   state.armB = b.pose.worldFromBody * feature.onB;
   const Vec3 link = (a.pose.position - b.pose.position) + (state.armA - state.armB);
-  const double along = link.dot(edge.direction);
-  state.gap = n.dot(link);
+  const double along = dot(link, edge.direction);
+  state.gap = dot(n, link);
   state.offset = link - state.gap * n - along * edge.direction;
   const double reach = std::min(boxA.halfExtents.norm(), boxB.halfExtents.norm());
   const double margin = std::min(marginAt(-n, a.pose.worldFromBody, feature.onA, boxA),
@@ -150,10 +150,10 @@ ContactState inCone(const ContactFeature& feature, const Kinematics& a, BoxShape
   const Vec3 velocityA = a.velocity + spinA.cross(state.armA);
   const Vec3 velocityB = b.velocity + spinB.cross(state.armB);
   state.slip = velocityA - velocityB;
-  state.rate = n.dot(state.slip);
+  state.rate = dot(n, state.slip);
   state.slip -= state.rate * n;
-  state.gapBias = n.dot(spinA.cross(spinA.cross(state.armA)) - spinB.cross(spinB.cross(state.armB))) +
-                  2 * normal.rate.dot(state.slip);
+  state.gapBias = dot(n, spinA.cross(spinA.cross(state.armA)) - spinB.cross(spinB.cross(state.armB))) +
+                  2 * dot(normal.rate, state.slip);
   // The contact moves with the body whose point it is.
   const Vec3 mean = 0.5 * (velocityA + velocityB);
   const Vec3& contact = movesOnA ? velocityB : movesOnB ? velocityA : mean;
@@ -181,7 +181,7 @@ Sides sidesAt(const Vec3& point, const Vec3& halfExtents, double apart) {
 // The face of a box with its normal along a direction, else -1.
 int faceAlong(const Mat3& worldFromBody, const Vec3& direction) {
   for (int i = 0; i < 3; ++i) {
-    if (std::fabs(worldFromBody.col(i).dot(direction)) >= kAlongFace) {
+    if (std::fabs(dot(worldFromBody.col(i), direction)) >= kAlongFace) {
       return i;
     }
   }
@@ -204,7 +204,7 @@ int edgeThrough(const Sides& sides, const Mat3& worldFromBody, const Vec3& norma
   double most = -1;
   for (int i = 0; i < 3; ++i) {
     const int atOthers = sides.count - (sides.at[static_cast<std::size_t>(i)] ? 1 : 0);
-    const double across = std::fabs(worldFromBody.col(i).cross(other).dot(normal));
+    const double across = std::fabs(dot(worldFromBody.col(i).cross(other), normal));
     if (atOthers == 2 && across > most) {
       best = i;
       most = across;
@@ -249,7 +249,7 @@ ContactFeature pointOnFace(int a, const Vec3& point, int b, const Mat3& worldFro
           .b = Partner::ofBody(b),
           .onA = point,
           .axisB = face,
-          .sign = worldFromB.col(face).dot(normal) < 0 ? -1.0 : 1.0};
+          .sign = dot(worldFromB.col(face), normal) < 0 ? -1.0 : 1.0};
 }
 
 // Places of the feature are from the boxes' middles.
@@ -283,7 +283,7 @@ ContactFeature featureInOrder(const ContactPoint& point, double apart, int a, Bo
     }
     const Vec3 other = poseB.worldFromBody.col(j);
     const int i = edgeThrough(sidesA, poseA.worldFromBody, point.normal, other);
-    const double across = i < 0 ? 0 : std::fabs(poseA.worldFromBody.col(i).cross(other).dot(point.normal));
+    const double across = i < 0 ? 0 : std::fabs(dot(poseA.worldFromBody.col(i).cross(other), point.normal));
     if (across > most) {
       most = across;
       edgeA = i;
@@ -299,7 +299,7 @@ ContactFeature featureInOrder(const ContactPoint& point, double apart, int a, Bo
             .onB = atSides(placeB, halfExtentsB, edgeB),
             .axisA = edgeA,
             .axisB = edgeB,
-            .sign = cross.dot(point.normal) < 0 ? -1.0 : 1.0};
+            .sign = dot(cross, point.normal) < 0 ? -1.0 : 1.0};
   }
   // A point inside a face, such as a face's centre projected onto another: it stays fixed to its body.
   if (faceB >= 0 || faceA < 0) {

@@ -144,13 +144,13 @@ void ContactSystem::fillContacts() {
     if (!feature.b.isWall()) {
       contact.b = side(static_cast<std::size_t>(feature.b.body()), state.armB, -1, kSix);
     }
-    contact.target = {-state.gapBias, -state.slipBias.dot(tangents.first),
-                      -state.slipBias.dot(tangents.second)};
+    contact.target = {-state.gapBias, -dot(state.slipBias, tangents.first),
+                      -dot(state.slipBias, tangents.second)};
     contact.friction = feature.material.friction;
     const double speed = state.slip.norm();
     contact.slips = speed > restSpeed_;
     const Vec3 direction = contact.slips ? Vec3(state.slip / speed) : onset_[c];
-    contact.slip = {direction.dot(tangents.first), direction.dot(tangents.second)};
+    contact.slip = {dot(direction, tangents.first), dot(direction, tangents.second)};
   }
 }
 
@@ -215,8 +215,8 @@ bool ContactSystem::rate(std::span<const double> y, std::vector<double>& dy) {
   findFree();
   for (std::size_t c = 0; c < guess_.size(); ++c) {
     const Tangents tangents = tangentsOf(states_[c].normal);
-    guess_[c][1] = guessedFriction_[c].dot(tangents.first);
-    guess_[c][2] = guessedFriction_[c].dot(tangents.second);
+    guess_[c][1] = dot(guessedFriction_[c], tangents.first);
+    guess_[c][2] = dot(guessedFriction_[c], tangents.second);
   }
   const bool found = forces_.solveGiven(free_, modes_, guess_);
   dy.resize(y.size());
@@ -328,8 +328,8 @@ double ContactSystem::projectPositions(std::vector<double>& y, double most, bool
       contact.target = {-states_[c].gap, 0, 0};
       if (holdsSideways(c)) {
         const Tangents tangents = tangentsOf(states_[c].normal);
-        contact.target = {-states_[c].gap, -states_[c].offset.dot(tangents.first),
-                          -states_[c].offset.dot(tangents.second)};
+        contact.target = {-states_[c].gap, -dot(states_[c].offset, tangents.first),
+                          -dot(states_[c].offset, tangents.second)};
       }
     }
     solveGiven(still);

@@ -19,8 +19,8 @@ constexpr double kParallel = 1 - 0x1p-27;
 // [N s] What a contact's last forces give in `h` [s]: along the normal and the tangents.
 ContactProblem::Triple impulseOf(const ClosedContact& contact, const Vec3& normal, double h) {
   const Tangents tangents = tangentsOf(normal);
-  return {h * contact.push, h * contact.friction.dot(tangents.first),
-          h * contact.friction.dot(tangents.second)};
+  return {h * contact.push, h * dot(contact.friction, tangents.first),
+          h * dot(contact.friction, tangents.second)};
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ void ImplicitStep::alignNormals(std::span<const OfPair> pair, std::span<const Co
       const std::size_t k = other.contact;
       const Vec3 normal = features[k].a == features[c].a ? normals_[k] : Vec3(-normals_[k]);
       const std::array<double, 3> parts{normal[0], normal[1], normal[2]};
-      if (normal.dot(normals_[c]) >= kParallel &&
+      if (dot(normal, normals_[c]) >= kParallel &&
           std::find(different.begin(), different.end(), parts) == different.end()) {
         different.push_back(parts);
       }
@@ -115,7 +115,7 @@ void ImplicitStep::alignNormals(std::span<const OfPair> pair, std::span<const Co
       ContactState& at = contacts[c];
       const Vec3 velocity = at.slip + at.rate * at.normal;
       at.normal = Vec3(sum[0], sum[1], sum[2]).normalized();
-      at.rate = at.normal.dot(velocity);
+      at.rate = dot(at.normal, velocity);
       at.slip = velocity - at.rate * at.normal;
     }
   }
@@ -202,7 +202,7 @@ void ImplicitStep::aimAtEnd(std::size_t index, const ContactFeature& feature, co
   ContactProblem::Contact& contact = problem_.contacts[index];
   const Tangents tangents = tangentsOf(geometry_[index].normal);
   const ContactState& end = ends_[index];
-  const std::array<double, 3> actual{end.rate, end.slip.dot(tangents.first), end.slip.dot(tangents.second)};
+  const std::array<double, 3> actual{end.rate, dot(end.slip, tangents.first), dot(end.slip, tangents.second)};
   for (std::size_t row = 0; row < 3; ++row) {
     double speed = 0;
     const std::array<int, 2> sides{contact.a, contact.b};
@@ -215,8 +215,8 @@ void ImplicitStep::aimAtEnd(std::size_t index, const ContactFeature& feature, co
       const Vec3 spin = bodies_[i].body->mass.inverseInertiaBody.cwiseProduct(turned_[i].transpose() *
                                                                               to[i].angularMomentum);
       const double* values = &contact.rows[row][side * kSix];
-      speed += Vec3(values[0], values[1], values[2]).dot(to[i].velocity) +
-               Vec3(values[3], values[4], values[5]).dot(spin);
+      speed += dot(Vec3(values[0], values[1], values[2]), to[i].velocity) +
+               dot(Vec3(values[3], values[4], values[5]), spin);
     }
     contact.target[row] = speed - actual[row];
   }

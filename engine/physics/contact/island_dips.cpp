@@ -48,8 +48,8 @@ double lowestBetween(double from, double to, const Value& valueAt) {
 double Island::rateOf(const EventFunction& corner) const {
   const Kinematics& at = system_.kinematics(corner.contact);
   const Vec3 arm = at.pose.worldFromBody * careen::corner(*bodies()[corner.contact].body, corner.corner);
-  return world_.walls[static_cast<std::size_t>(corner.wall)].normal.dot(at.velocity +
-                                                                        at.angularVelocity.cross(arm));
+  return dot(world_.walls[static_cast<std::size_t>(corner.wall)].normal,
+             at.velocity + at.angularVelocity.cross(arm));
 }
 
 // Time within the step of a possible penetration that is gone at its end; else 0.

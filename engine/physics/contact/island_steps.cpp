@@ -233,12 +233,12 @@ bool Island::gainsEnergy() const {
     const MassProperties& mass = body.body->mass;
     const auto energy = [&](const State& y) {
       const Vec3 spin = threeAt(y, at + 10);
-      return 0.5 * (mass.mass * threeAt(y, at + 7).squaredNorm() + spin.dot(mass.inertiaTimes(spin)));
+      return 0.5 * (mass.mass * threeAt(y, at + 7).squaredNorm() + dot(spin, mass.inertiaTimes(spin)));
     };
     const double before = energy(start_);
     const double after = energy(end_);
     motion += before + after;
-    gained += after - before - mass.mass * world_.gravity.dot(threeAt(end_, at) - threeAt(start_, at));
+    gained += after - before - mass.mass * dot(world_.gravity, threeAt(end_, at) - threeAt(start_, at));
     weight += mass.mass * system_.gravityMagnitude();
     at += ContactSystem::kNumbers;
   }

@@ -351,7 +351,7 @@ ContactStep TimeStepper::motion(std::size_t body, const GroupState& reached) con
   };
   StepEnd from = end(start_);
   StepEnd to = end(reached);
-  if (to.worldFromBody.coeffs().dot(from.worldFromBody.coeffs()) < 0) {
+  if (dot(to.worldFromBody.coeffs(), from.worldFromBody.coeffs()) < 0) {
     to.worldFromBody.coeffs() = -to.worldFromBody.coeffs();
   }
   if (length_ > 0) {

@@ -43,7 +43,7 @@ void TimeStepper::watchWalls(std::size_t body, double reach) {
   const double radius = radiusOf(*bodies_[body].body);
   for (std::size_t w = 0; w < world_.walls.size(); ++w) {
     const Wall& wall = world_.walls[w];
-    if (wall.normal.dot(start_[body].position) - wall.offset > radius + reach) {
+    if (dot(wall.normal, start_[body].position) - wall.offset > radius + reach) {
       continue;
     }
     for (int k = 0; k < kCorners; ++k) {
@@ -195,9 +195,9 @@ bool TimeStepper::staysOpenOnEdges(const Watch& watch, double below, const Momen
   const std::array<Pose, 2> first{poseWithin(a, from.time), poseWithin(b, from.time)};
   const std::array<Pose, 2> second{poseWithin(a, to.time), poseWithin(b, to.time)};
   const auto along = [&](const Vec3& direction, const std::array<Pose, 2>& poses) {
-    return direction.dot(boxAt(poses[0], bodyA).middle() - boxAt(poses[1], bodyB).middle()) -
-           (poses[0].worldFromBody.transpose() * direction).cwiseAbs().dot(bodyA.halfExtents) -
-           (poses[1].worldFromBody.transpose() * direction).cwiseAbs().dot(bodyB.halfExtents);
+    return dot(direction, boxAt(poses[0], bodyA).middle() - boxAt(poses[1], bodyB).middle()) -
+           dot((poses[0].worldFromBody.transpose() * direction).cwiseAbs(), bodyA.halfExtents) -
+           dot((poses[1].worldFromBody.transpose() * direction).cwiseAbs(), bodyB.halfExtents);
   };
   const auto isOpenAlongNormalOf = [&](const std::array<Pose, 2>& poses) {
     const BoxAxes axes(boxAt(poses[0], bodyA), boxAt(poses[1], bodyB));

@@ -159,7 +159,7 @@ void ExactWorld::settleBody(Encounter& encounter, std::size_t index) const {
     const Vec3 normal = isA ? contact.normal : Vec3(-contact.normal);
     const Vec3& arm = isA ? contact.armA : contact.armB;
     const Vec3 acceleration = world_.gravity + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
-    const double normalAcceleration = normal.dot(acceleration);
+    const double normalAcceleration = dot(normal, acceleration);
     const bool returns =
         std::fabs(normalAcceleration) > kParting * acceleration.norm();  // along a wall it is rounding
     const Bouncing bouncing{.acceleration = returns ? normalAcceleration : 0,
@@ -180,7 +180,7 @@ void ExactWorld::settleBody(Encounter& encounter, std::size_t index) const {
     return;
   }
   settling.arms = arms;
-  settling.velocity -= settling.normal.dot(settling.velocity) * settling.normal;
+  settling.velocity -= dot(settling.normal, settling.velocity) * settling.normal;
   if (afterTail(settling) == Settled::kRests) {
     state = {.pose = state.pose};
     encounter.next[index] = Next::kRests;
@@ -198,7 +198,7 @@ ExactWorld::Parting ExactWorld::partingAt(const Encounter& encounter, std::size_
     const Vec3 spin = careen::angularVelocity(body.mass, encounter.after[i]);
     const Vec3 ofPoint = encounter.after[i].velocity + spin.cross(arm);
     velocity += sign * ofPoint;
-    parting.speed += sign * at.normal.dot(ofPoint);
+    parting.speed += sign * dot(at.normal, ofPoint);
     parting.rounding += kParting * (encounter.after[i].velocity.norm() + spin.norm() * arm.norm() +
                                     kParting * std::sqrt(world_.gravity.norm() * radiusOf(body)));
   };

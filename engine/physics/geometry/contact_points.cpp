@@ -26,14 +26,14 @@ void cross(const SupportFeature& a, const SupportFeature& b, const Vec3& bToA, d
   const double squaredSine = n.squaredNorm();
   const double shorter = std::min(a.half[0], b.half[0]);
   if (4 * shorter * shorter * squaredSine > within * within) {
-    const double alongA = std::clamp(link.cross(v).dot(n) / squaredSine, -a.half[0], a.half[0]);
-    const double alongB = std::clamp(link.cross(u).dot(n) / squaredSine, -b.half[0], b.half[0]);
+    const double alongA = std::clamp(dot(link.cross(v), n) / squaredSine, -a.half[0], a.half[0]);
+    const double alongB = std::clamp(dot(link.cross(u), n) / squaredSine, -b.half[0], b.half[0]);
     const Vec3 onA = a.centre + alongA * u;
     const Vec3 onB = b.centre + alongB * v;
     manifold.add(0.5 * (onA + (onB - bToA)), 0.5 * (onB + (onA + bToA)));
     return;
   }
-  const double middle = link.dot(u);
+  const double middle = dot(link, u);
   const double low = std::max(-a.half[0], middle - b.half[0]);
   const double high = std::min(a.half[0], middle + b.half[0]);
   manifold.addOnA(a.centre + (low <= high ? low : 0.5 * (low + high)) * u);
@@ -132,7 +132,7 @@ double partingSpeed(BoxAt a, BoxAt b, const Vec3& velocity) {
   double fastest = std::numeric_limits<double>::lowest();
   for (int k = 0; k < BoxAxis::kCount; ++k) {
     if (axes.separation({k}) >= axes.gap() - within) {
-      fastest = std::max(fastest, axes.normal({k}).dot(velocity));
+      fastest = std::max(fastest, dot(axes.normal({k}), velocity));
     }
   }
   return fastest;

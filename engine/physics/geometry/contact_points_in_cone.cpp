@@ -41,11 +41,11 @@ std::optional<Vec3> insideOfCone(const BoxAxes& axes, double different, double w
       sum += normal;
     }
   }
-  return differ ? std::optional(Vec3(sum / std::sqrt(sum.dot(sum)))) : std::nullopt;
+  return differ ? std::optional(Vec3(sum / std::sqrt(dot(sum, sum)))) : std::nullopt;
 }
 
 // Which way a box's axis points into the cone, on whose side of the box the other lies.
-Vec3 boundOf(const Vec3& axis, const Vec3& inside) { return axis.dot(inside) < 0 ? Vec3(-axis) : axis; }
+Vec3 boundOf(const Vec3& axis, const Vec3& inside) { return dot(axis, inside) < 0 ? Vec3(-axis) : axis; }
 
 // The cone of an edge or a corner of each box; `edge` is null for two corners.
 NormalCone coneOf(BoxAt a, const SupportFeature& ofA, BoxAt b, const SupportFeature& ofB, const Vec3* edge,
@@ -139,7 +139,7 @@ std::optional<ContactPoints> pointsInCone(BoxAt a, BoxAt b, const BoxAxes& axes,
   for (std::size_t k = 0; k < touches.count; ++k) {
     const auto& [onA, onB] = touches.at[k];
     const Vec3 offset = (onA - onB) + bToA;
-    const Vec3 lateral = offset - offset.dot(centre.direction) * centre.direction;
+    const Vec3 lateral = offset - dot(offset, centre.direction) * centre.direction;
     if (lateral.squaredNorm() > kOffset * kOffset * touching * touching) {
       return std::nullopt;
     }

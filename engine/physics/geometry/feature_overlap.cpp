@@ -15,8 +15,8 @@ SharedPolygon cut(const SharedPolygon& polygon, const Vec3& axis, double low, do
   for (std::size_t k = 0; k < polygon.count; ++k) {
     const Vec3& from = polygon.corner[k];
     const Vec3& to = polygon.corner[(k + 1) % polygon.count];
-    const double atFrom = axis.dot(from);
-    const double atTo = axis.dot(to);
+    const double atFrom = dot(axis, from);
+    const double atTo = dot(axis, to);
     if (std::max(atFrom - high, low - atFrom) <= within) {
       left.add(from);
     }
@@ -51,7 +51,7 @@ SharedPolygon common(const SupportFeature& incident, const SupportFeature& face,
     polygon.add(incident.corner(1, -1));
   }
   for (std::size_t k = 0; k < 2 && polygon.count > 0; ++k) {
-    const double middle = face.axis[k].dot(face.centre);
+    const double middle = dot(face.axis[k], face.centre);
     polygon = cut(polygon, face.axis[k], middle - face.half[k], middle + face.half[k], within);
   }
   return polygon;
@@ -65,7 +65,7 @@ SharedPolygon clip(const SupportFeature& incident, const SupportFeature& face, d
     // Disjoint by rounding: the midpoint of the incident feature, clamped to the face.
     Vec3 point = incident.centre;
     for (std::size_t k = 0; k < 2; ++k) {
-      const double along = face.axis[k].dot(point - face.centre);
+      const double along = dot(face.axis[k], point - face.centre);
       point += (std::clamp(along, -face.half[k], face.half[k]) - along) * face.axis[k];
     }
     polygon.add(point);
@@ -78,8 +78,8 @@ bool isOver(const SupportFeature& feature, const SupportFeature& face, double wi
     return common(feature, face, within).count > 0;
   }
   const Vec3 from = feature.centre - face.centre;
-  return std::fabs(face.axis[0].dot(from)) <= face.half[0] + within &&
-         std::fabs(face.axis[1].dot(from)) <= face.half[1] + within;
+  return std::fabs(dot(face.axis[0], from)) <= face.half[0] + within &&
+         std::fabs(dot(face.axis[1], from)) <= face.half[1] + within;
 }
 
 }  // namespace careen

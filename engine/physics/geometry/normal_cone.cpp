@@ -26,7 +26,7 @@ Wide3 cross(const Vec3& a, const Vec3& b) {
           twoProduct(a.x(), b.y()) - twoProduct(a.y(), b.x())};
 }
 
-DoubleDouble dot(const Wide3& a, const Vec3& b) {
+DoubleDouble wideDot(const Wide3& a, const Vec3& b) {
   return normalized(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
 }
 
@@ -47,14 +47,14 @@ NormalCone::Centre NormalCone::centre() const {
       return;
     }
     const DoubleDouble length = normalized(sqrt(normalized(squared)));
-    const double turn = dot(along, bounds_[0]).hi < 0 ? -1 : 1;
+    const double turn = wideDot(along, bounds_[0]).hi < 0 ? -1 : 1;
     Wide3 direction;
     for (std::size_t k = 0; k < 3; ++k) {
       direction[k] = normalized(turn * along[k] / length);
     }
-    DoubleDouble margin = dot(direction, bounds_[0]);
+    DoubleDouble margin = wideDot(direction, bounds_[0]);
     for (std::size_t k = 1; k < count_; ++k) {
-      const DoubleDouble other = dot(direction, bounds_[k]);
+      const DoubleDouble other = wideDot(direction, bounds_[k]);
       margin = less(other, margin) ? other : margin;
     }
     if (less(most, margin)) {

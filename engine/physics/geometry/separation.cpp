@@ -27,9 +27,9 @@ Vec3 accurateCross(const Vec3& a, const Vec3& b) {
 }
 
 double reach(const Vec3& direction, const Mat3& worldFromBox, const Vec3& halfExtents) {
-  return halfExtents.x() * std::fabs(direction.dot(worldFromBox.col(0))) +
-         halfExtents.y() * std::fabs(direction.dot(worldFromBox.col(1))) +
-         halfExtents.z() * std::fabs(direction.dot(worldFromBox.col(2)));
+  return halfExtents.x() * std::fabs(dot(direction, worldFromBox.col(0))) +
+         halfExtents.y() * std::fabs(dot(direction, worldFromBox.col(1))) +
+         halfExtents.z() * std::fabs(dot(direction, worldFromBox.col(2)));
 }
 
 }  // namespace
@@ -48,19 +48,19 @@ double touchingWithin(BoxAt a, BoxAt b) {
 }
 
 double cornerGap(const Pose& box, const Vec3& corner, const Vec3& normal, double offset) {
-  return normal.dot(box.position) + normal.dot(box.worldFromBody * corner) - offset;
+  return dot(normal, box.position) + dot(normal, box.worldFromBody * corner) - offset;
 }
 
 double gapToPlane(BoxAt box, const Vec3& normal, double offset) {
-  return normal.dot(box.middle()) - offset - reach(normal, box.pose.worldFromBody, box.halfExtents);
+  return dot(normal, box.middle()) - offset - reach(normal, box.pose.worldFromBody, box.halfExtents);
 }
 
 WallGap wallGap(BoxAt box, const Vec3& normal, double offset, double within) {
-  const double height = normal.dot(box.middle()) - offset;
+  const double height = dot(normal, box.middle()) - offset;
   WallGap result{.gap = gapToPlane(box, normal, offset)};
   const Vec3 upInBody = box.pose.worldFromBody.transpose() * normal;
   for (int i = 0; i < kCorners; ++i) {
-    if (height + upInBody.dot(corner(box.halfExtents, i)) <= result.gap + within) {
+    if (height + dot(upInBody, corner(box.halfExtents, i)) <= result.gap + within) {
       result.corners |= 1U << static_cast<unsigned>(i);
     }
   }
@@ -75,16 +75,16 @@ BoxAxes::BoxAxes(Mat3 worldFromA, Vec3 halfExtentsA, Mat3 worldFromB, Vec3 halfE
       bToA_(std::move(bToA)) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      cosines_(i, j) = a_.col(i).dot(b_.col(j));
+      cosines_(i, j) = dot(a_.col(i), b_.col(j));
     }
   }
   for (int i = 0; i < 3; ++i) {
     const double reachOfB = halfB_.x() * std::fabs(cosines_(i, 0)) + halfB_.y() * std::fabs(cosines_(i, 1)) +
                             halfB_.z() * std::fabs(cosines_(i, 2));
-    separation_[index(i)] = std::fabs(a_.col(i).dot(bToA_)) - (halfA_(i) + reachOfB);
+    separation_[index(i)] = std::fabs(dot(a_.col(i), bToA_)) - (halfA_(i) + reachOfB);
     const double reachOfA = halfA_.x() * std::fabs(cosines_(0, i)) + halfA_.y() * std::fabs(cosines_(1, i)) +
                             halfA_.z() * std::fabs(cosines_(2, i));
-    separation_[index(3 + i)] = std::fabs(b_.col(i).dot(bToA_)) - (halfB_(i) + reachOfA);
+    separation_[index(3 + i)] = std::fabs(dot(b_.col(i), bToA_)) - (halfB_(i) + reachOfA);
   }
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
@@ -113,7 +113,7 @@ void BoxAxes::addEdges(int i, int j) {
     const double reachOfA = halfA_(i1) * std::fabs(cosines_(i2, j)) + halfA_(i2) * std::fabs(cosines_(i1, j));
     const double reachOfB = halfB_(j1) * std::fabs(cosines_(i, j2)) + halfB_(j2) * std::fabs(cosines_(i, j1));
     sine_[pair] = std::sqrt(squared);
-    separation = (std::fabs(n.dot(bToA_)) - (reachOfA + reachOfB)) / sine_[pair];
+    separation = (std::fabs(dot(n, bToA_)) - (reachOfA + reachOfB)) / sine_[pair];
     return;
   }
   n = accurateCross(a_.col(i), b_.col(j));
@@ -124,7 +124,7 @@ void BoxAxes::addEdges(int i, int j) {
     return;
   }
   const Vec3 u = n / sine_[pair];
-  separation = std::fabs(u.dot(bToA_)) - (reach(u, a_, halfA_) + reach(u, b_, halfB_));
+  separation = std::fabs(dot(u, bToA_)) - (reach(u, a_, halfA_) + reach(u, b_, halfB_));
 }
 
 Vec3 BoxAxes::normal(BoxAxis axis) const {
@@ -140,7 +140,7 @@ Vec3 BoxAxes::normal(BoxAxis axis) const {
       n = cross(axis.edgeOfA(), axis.edgeOfB()) / sine(axis.edgeOfA(), axis.edgeOfB());
       break;
   }
-  if (n.dot(bToA_) < 0) {
+  if (dot(n, bToA_) < 0) {
     n = -n;
   }
   return n;

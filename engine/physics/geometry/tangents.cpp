@@ -10,7 +10,7 @@ Tangents tangentsOf(const Vec3& normal) {
     flattest = std::fabs(normal[k]) < std::fabs(normal[flattest]) ? k : flattest;
   }
   const Vec3 across = normal.cross(Vec3(Vec3::Unit(flattest)));
-  const Vec3 first = across / std::sqrt(across.dot(across));
+  const Vec3 first = across / std::sqrt(dot(across, across));
   const Vec3 second = normal.cross(first);
   return {.first = first, .second = second};
 }

@@ -24,7 +24,7 @@ bool carries(std::span<const Vec3> arms, const Vec3& normal, const Vec3& down, d
   const double slack = kSettlingRounding * length * length;
   bool hasArea = false;
   // The foot of the line: arm·normal is the same for all points, and −normal·down > 0 here.
-  const Vec3 foot = down * (arms[0].dot(normal) / down.dot(normal));
+  const Vec3 foot = down * (dot(arms[0], normal) / dot(down, normal));
   for (const Vec3& from : arms) {
     for (const Vec3& to : arms) {
       const Vec3 edge = to - from;
@@ -32,12 +32,12 @@ bool carries(std::span<const Vec3> arms, const Vec3& normal, const Vec3& down, d
       bool isEdge = edge.squaredNorm() > slack;
       double widest = 0;
       for (const Vec3& other : arms) {
-        const double side = inward.dot(other - from);
+        const double side = dot(inward, other - from);
         isEdge = isEdge && side >= -slack;
         widest = std::max(widest, side);
       }
       hasArea = hasArea || (isEdge && widest > slack);
-      if (isEdge && inward.dot(foot - from) < -slack) {
+      if (isEdge && dot(inward, foot - from) < -slack) {
         return false;
       }
     }
@@ -87,7 +87,7 @@ Settled afterTail(const Settling& settling) {
     return Settled::kSlides;
   }
   const double size = settling.gravity.norm();
-  const double into = -settling.gravity.dot(settling.normal);
+  const double into = -dot(settling.gravity, settling.normal);
   if (!(into > 0)) {
     return Settled::kRocks;
   }

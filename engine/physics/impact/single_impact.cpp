@@ -159,15 +159,15 @@ Slip slipOf(const ImpactBody& a, const ImpactBody* b, const ImpactContact& conta
     byFirst += yield(*b, contact.armB, tangents.first);
     bySecond += yield(*b, contact.armB, tangents.second);
   }
-  const Plane across{.x = byNormal.dot(tangents.first), .y = byNormal.dot(tangents.second)};
+  const Plane across{.x = dot(byNormal, tangents.first), .y = dot(byNormal, tangents.second)};
   const double compression = approach / inverseEffectiveMass;
   Slip slip;
   slip.coupling = {.x = across.x / inverseEffectiveMass, .y = across.y / inverseEffectiveMass};
-  slip.speed = {.x = velocity.dot(tangents.first) + across.x * compression,
-                .y = velocity.dot(tangents.second) + across.y * compression};
-  slip.xx = byFirst.dot(tangents.first) - across.x * slip.coupling.x;
-  slip.xy = byFirst.dot(tangents.second) - across.x * slip.coupling.y;
-  slip.yy = bySecond.dot(tangents.second) - across.y * slip.coupling.y;
+  slip.speed = {.x = dot(velocity, tangents.first) + across.x * compression,
+                .y = dot(velocity, tangents.second) + across.y * compression};
+  slip.xx = dot(byFirst, tangents.first) - across.x * slip.coupling.x;
+  slip.xy = dot(byFirst, tangents.second) - across.x * slip.coupling.y;
+  slip.yy = dot(bySecond, tangents.second) - across.y * slip.coupling.y;
   slip.normalImpulse = (1 + contact.material.restitution) * compression;
   return slip;
 }

@@ -63,7 +63,7 @@ CrowdStep cubicStep(const StepEnd& from, const StepEnd& to, double length) {
   CrowdStep step{.duration = length > 0 ? length : 1};
   fillCubic(from.position, from.velocity, to.position, to.velocity, length, step.position);
   const Vec4& turned = from.worldFromBody.coeffs();
-  const double sign = to.worldFromBody.coeffs().dot(turned) < 0 ? -1 : 1;
+  const double sign = dot(to.worldFromBody.coeffs(), turned) < 0 ? -1 : 1;
   fillCubic<Vec4>(turned, turningRate(from), sign * to.worldFromBody.coeffs(), sign * turningRate(to), length,
                   step.worldFromBody);
   return step;

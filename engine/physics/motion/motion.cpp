@@ -101,7 +101,7 @@ BodyState stateIn(const SampledStep& step, const MassProperties& mass, double el
   const double s = elapsed / step.duration;
   const Quat from(step.start.pose.worldFromBody);
   Quat to(step.end.pose.worldFromBody);
-  if (from.dot(to) < 0) {
+  if (dot(from, to) < 0) {
     to.coeffs() = -to.coeffs();
   }
   // q̇ = ½ ω q

@@ -79,11 +79,11 @@ double separationAlong(int axis, const PileBody& a, const Mat3& axesOfA, const P
                      : axis < 6 ? Vec3(axesOfB.col(axis - 3))
                                 : Vec3(axesOfA.col((axis - 6) / 3).cross(axesOfB.col((axis - 6) % 3)));
   const auto reachOf = [&](const Vec3& half, const Mat3& axes) {
-    return half.x() * std::fabs(along.dot(axes.col(0))) + half.y() * std::fabs(along.dot(axes.col(1))) +
-           half.z() * std::fabs(along.dot(axes.col(2)));
+    return half.x() * std::fabs(dot(along, axes.col(0))) + half.y() * std::fabs(dot(along, axes.col(1))) +
+           half.z() * std::fabs(dot(along, axes.col(2)));
   };
   const double separation =
-      std::fabs(along.dot(apart)) - (reachOf(a.halfExtents, axesOfA) + reachOf(b.halfExtents, axesOfB));
+      std::fabs(dot(along, apart)) - (reachOf(a.halfExtents, axesOfA) + reachOf(b.halfExtents, axesOfB));
   if (axis < 6) {
     return separation;
   }

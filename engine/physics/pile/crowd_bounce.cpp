@@ -79,7 +79,7 @@ void Crowd::limitBounce() {
   std::vector<Energies> energies(bodies_.size());
   const auto kinetic = [](const PileBody& body, const Vec3& velocity, const Vec3& omega) {
     const Vec3 spin = body.principalAxes().transpose() * omega;
-    return 0.5 * (velocity.squaredNorm() / body.inverseMass + body.inertiaBody.dot(spin.cwiseProduct(spin)));
+    return 0.5 * (velocity.squaredNorm() / body.inverseMass + dot(body.inertiaBody, spin.cwiseProduct(spin)));
   };
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const int index = static_cast<int>(i);
@@ -89,8 +89,8 @@ void Crowd::limitBounce() {
     }
     Energies& all = energies[together.root(i)];
     const Before& before = before_[i];
-    const double turning = 0.5 * before.omega.dot(before.angularMomentum);
-    const double work = acceleration(i).dot(body.position - before.position);
+    const double turning = 0.5 * dot(before.omega, before.angularMomentum);
+    const double work = dot(acceleration(i), body.position - before.position);
     all.before += (0.5 * before.velocity.squaredNorm() + work) / body.inverseMass + turning;
     const Vec3 kick = halfKick(i);
     all.first += kinetic(body, body.velocity + kick, body.omega);

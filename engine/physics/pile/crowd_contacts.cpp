@@ -132,7 +132,7 @@ bool Crowd::isClear(const PilePair& pair) const {
 double Crowd::wayLeft(const PilePair& pair) const {
   const PileBody& a = bodies_[at(pair.a)];
   if (pair.b.isWall()) {
-    return pair.clear - std::abs(wallAt(pair.b).normal.dot(a.position - pair.apart)) -
+    return pair.clear - std::abs(dot(wallAt(pair.b).normal, a.position - pair.apart)) -
            (a.turned - pair.turned);
   }
   const PileBody& b = bodyAt(pair.b);
@@ -231,7 +231,7 @@ bool Crowd::wouldPush(const PilePair& pair, const PileManifold& manifold) const 
   for (int k = 0; k < manifold.count; ++k) {
     const PilePoint& point = manifold.points[at(k)];
     const Vec3 relative = speed(a, point.world) - speed(b, point.world + a.position - b.position);
-    const double approach = -manifold.frameOf(k).normal.dot(relative) - std::max(0.0, point.gap) / h_;
+    const double approach = -dot(manifold.frameOf(k).normal, relative) - std::max(0.0, point.gap) / h_;
     const double tolerated = manifold.carries ? kBounceFrom : kFeasible * (heavy + light) / heavy;
     if (approach > tolerated * gravityMagnitude_ * h_) {
       return true;
@@ -287,7 +287,7 @@ PileSolver::Extent Crowd::lookForRows(PileManifold& manifold) const {
     PilePoint& point = manifold.points[at(k)];
     const Vec3 relative = vA + solver_.omega(manifold.a).cross(point.world) - vB -
                           solver_.omega(indexB).cross(point.world + apart);
-    point.speed = manifold.frameOf(k).normal.dot(relative);
+    point.speed = dot(manifold.frameOf(k).normal, relative);
     point.curved = 0;
     point.strikes = -point.speed > slow;
     point.row = point.gap + std::min(0.0, point.speed) * h_ > mayClose ? -1 : 0;
@@ -349,7 +349,7 @@ void Crowd::addBounces(const PileManifold& manifold, int slot) {
       return bodies_[at(body)].still() ? Vec3(Vec3::Zero()) : acceleration(at(body));
     };
     const Vec3 fallB = manifold.b.isWall() ? Vec3(Vec3::Zero()) : falling(manifold.b.body());
-    const double fall = h_ * manifold.frameOf(k).normal.dot(falling(manifold.a) - fallB);
+    const double fall = h_ * dot(manifold.frameOf(k).normal, falling(manifold.a) - fallB);
     const double approach = std::max(0.0, -(point.speed + (before - 0.5) * fall));
     bounces_.push_back({.row = point.row,
                         .speed = manifold.restitution * approach,

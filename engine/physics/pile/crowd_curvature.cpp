@@ -67,7 +67,7 @@ double Crowd::secondOrder(const PileManifold& manifold, int k) const {
       return 0.0;
     }
     const Vec3& spin = solver_.omega(body);
-    return n.dot(spin.cross(spin.cross(to)) + spinRate(body).cross(to));
+    return dot(n, spin.cross(spin.cross(to)) + spinRate(body).cross(to));
   };
   const double ofA = along(manifold.a, arm);
   if (manifold.b.isWall()) {
@@ -84,13 +84,13 @@ double Crowd::secondOrder(const PileManifold& manifold, int k) const {
   if (&frame == &manifold.edges) {
     const Vec3 edgeA = bodyA.axes.col(manifold.edgeA);
     const Vec3 edgeB = bodyB.axes.col(manifold.edgeB);
-    const double cosine = edgeA.dot(edgeB);
-    const double ofEdgeA = -n.dot(spinA.cross(edgeA));
-    const double ofEdgeB = -n.dot(spinB.cross(edgeB));
+    const double cosine = dot(edgeA, edgeB);
+    const double ofEdgeA = -dot(n, spinA.cross(edgeA));
+    const double ofEdgeB = -dot(n, spinB.cross(edgeB));
     const double perSquare = 1 / std::max(1 - cosine * cosine, kParallel);
     turning = perSquare * ((ofEdgeA - cosine * ofEdgeB) * edgeA + (ofEdgeB - cosine * ofEdgeA) * edgeB);
   }
-  return ofA - along(b, armB) + 2 * turning.dot(slip);
+  return ofA - along(b, armB) + 2 * dot(turning, slip);
 }
 
 }  // namespace careen

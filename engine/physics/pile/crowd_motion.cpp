@@ -108,7 +108,7 @@ Pose Crowd::between(std::size_t place, double part) const {
   if (part == 1) {
     return {.position = to.position, .worldFromBody = to.axes};
   }
-  const double back = (1 - part) * (to.attitude.dot(from.attitude) < 0 ? -1 : 1);
+  const double back = (1 - part) * (dot(to.attitude, from.attitude) < 0 ? -1 : 1);
   return {
       .position = (1 - part) * from.position + part * to.position,
       .worldFromBody =

@@ -102,7 +102,7 @@ double Crowd::kineticEnergy(std::size_t place) const {
   const PileBody& body = bodies_[place];
   const int index = static_cast<int>(place);
   return 0.5 * (solver_.velocity(index).squaredNorm() / body.inverseMass +
-                solver_.omega(index).dot(body.angularMomentum));
+                dot(solver_.omega(index), body.angularMomentum));
 }
 
 // Whether the contacts of the step added too much to the kinetic energy: where Gauss–Seidel stopped too

@@ -47,7 +47,7 @@ void DisplacementSolver::add(const Row& row) {
   const int b = memberOf(row.b);
   const auto perMassOf = [&](int member, const Vec3& arm) {
     const Vec3 turning = arm.cross(row.normal);
-    return own_[at(member)].inverseMass + turning.dot(own_[at(member)].inverseInertia * turning);
+    return own_[at(member)].inverseMass + dot(turning, own_[at(member)].inverseInertia * turning);
   };
   const double perMass = perMassOf(a, row.armA) + perMassOf(b, row.armB);
   if (perMass == 0) {
@@ -149,7 +149,7 @@ CAREEN_LANES Lanes DisplacementSolver::resultOf(const Block& block) const {
   };
   const LanesVec byTurnA = allOfVec(block.normal.cross(a.turn));
   const LanesVec byTurnB = allOfVec(block.normal.cross(b.turn));
-  const Lanes opened = allOf(block.normal.dot(a.shift - b.shift));
+  const Lanes opened = allOf(dot(block.normal, a.shift - b.shift));
   return block.scale * (opened + (dot(block.armA, byTurnA) - dot(block.armB, byTurnB))) +
          compliance_ * block.ahead;
 }

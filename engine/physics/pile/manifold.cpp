@@ -45,7 +45,7 @@ void inherit(const Former& former, PileManifold& manifold) {
   const double near = kSamePlace * manifold.length;
   const bool sameFaces = former.faces == manifold.faces;
   // Rotated tangents lose their friction impulses: they would have another direction.
-  const bool sameTangents = sameFaces || former.tangent1.dot(manifold.plane.tangent1) > 0.99;
+  const bool sameTangents = sameFaces || dot(former.tangent1, manifold.plane.tangent1) > 0.99;
   std::array<bool, PileManifold::kMost> taken{};
   for (int k = 0; k < manifold.count; ++k) {
     PilePoint& point = manifold.points[at(k)];
@@ -138,7 +138,7 @@ void addEdges(const PileBody& a, const PileBody& b, const PileAxes& axes, PileMa
   const int j = (axes.edges - 6) % 3;
   Vec3 normal = a.axes.col(i).cross(b.axes.col(j));
   const Vec3 apart = a.middle() - b.middle();
-  manifold.edgeSign = normal.dot(apart) < 0 ? -1 : 1;
+  manifold.edgeSign = dot(normal, apart) < 0 ? -1 : 1;
   normal *= manifold.edgeSign;
   const Vec3 normalA = a.axes.transpose() * normal;
   const Vec3 normalB = b.axes.transpose() * normal;
@@ -148,8 +148,8 @@ void addEdges(const PileBody& a, const PileBody& b, const PileAxes& axes, PileMa
   }
   const Vec3 between = apart + a.axes * manifold.middleA - b.axes * manifold.middleB;
   const double cosine = axes.cosines(i, j);
-  const double alongA = a.axes.col(i).dot(between);
-  const double alongB = b.axes.col(j).dot(between);
+  const double alongA = dot(a.axes.col(i), between);
+  const double alongB = dot(b.axes.col(j), between);
   const double perSquare = 1 / (1 - cosine * cosine);
   const double s = (cosine * alongB - alongA) * perSquare;
   const double t = (alongB - cosine * alongA) * perSquare;
@@ -194,7 +194,7 @@ void addClosest(const PileBody& a, const PileBody& b, double reach, PileManifold
   manifold.faces = kClosestFeature;
   manifold.planeNormal = a.axes.transpose() * (apart / distance);
   manifold.planeTangent = tangentsOf(manifold.planeNormal).first;
-  manifold.planeOffset = manifold.planeNormal.dot(a.axes.transpose() * (onA - a.middle()));
+  manifold.planeOffset = dot(manifold.planeNormal, a.axes.transpose() * (onA - a.middle()));
   addPoint(manifold, b.axes.transpose() * (onB - b.middle()), kClosestFeature);
 }
 
@@ -237,13 +237,13 @@ bool buildManifold(const PileBody& a, const Wall& wall, double reach, PileManifo
   manifold.plane = {.normal = wall.normal, .tangent1 = tangents.first, .tangent2 = tangents.second};
   const Vec3 up = a.axes.transpose() * wall.normal;
   const double height = gap(wall, a.middle());
-  manifold.separation = height - a.halfExtents.dot(up.cwiseAbs());
+  manifold.separation = height - dot(a.halfExtents, up.cwiseAbs());
   if (manifold.separation > reach) {
     return false;
   }
   for (int k = 0; k < kCorners; ++k) {
     const Vec3 local = corner(a.halfExtents, k);
-    if (height + up.dot(local) <= reach) {
+    if (height + dot(up, local) <= reach) {
       addPoint(manifold, local, static_cast<std::uint32_t>(k));
     }
   }
@@ -264,20 +264,20 @@ void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifol
     manifold.plane.normal = sign * outward;
     manifold.plane.tangent1 = owner.axes * manifold.planeTangent;
     manifold.plane.tangent2 = manifold.plane.normal.cross(manifold.plane.tangent1);
-    const double center = sign * outward.dot(apart) - manifold.planeOffset;
+    const double center = sign * dot(outward, apart) - manifold.planeOffset;
     const Vec3 toOther = manifold.planeOfB ? toMiddle : Vec3(toMiddle - apart);
     for (int k = 0; k < planePoints; ++k) {
       PilePoint& point = manifold.points[at(k)];
       const Vec3 arm = other.axes * point.local;
       point.world = toOther + arm;
-      point.gap = center + outward.dot(arm);
+      point.gap = center + dot(outward, arm);
     }
   }
   if (manifold.hasEdges) {
     PilePoint& point = manifold.points[at(manifold.count - 1)];
     const Vec3 alongA = a.axes.col(manifold.edgeA);
     const Vec3 alongB = b.axes.col(manifold.edgeB);
-    const double cosine = alongA.dot(alongB);
+    const double cosine = dot(alongA, alongB);
     const Vec3 cross = manifold.edgeSign * alongA.cross(alongB);
     const double sine = cross.norm();
     if (sine > kSlack) {
@@ -287,9 +287,9 @@ void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifol
     }
     const Vec3 armA = a.axes * manifold.middleA;
     const Vec3 between = apart + armA - b.axes * manifold.middleB;
-    point.gap = manifold.edges.normal.dot(between);
+    point.gap = dot(manifold.edges.normal, between);
     const double square = std::max(1 - cosine * cosine, kSlack * kSlack);
-    const double along = (cosine * alongB.dot(between) - alongA.dot(between)) / square;
+    const double along = (cosine * dot(alongB, between) - dot(alongA, between)) / square;
     const double half = a.halfExtents[manifold.edgeA];
     point.world = (toMiddle + armA) + std::clamp(along, -half, half) * alongA;
     // The boxes are no deeper in each other than along any axis.
@@ -305,7 +305,7 @@ void refreshManifold(const PileBody& a, const Wall& wall, PileManifold& manifold
   for (int k = 0; k < manifold.count; ++k) {
     PilePoint& point = manifold.points[at(k)];
     point.world = toMiddle + a.axes * point.local;
-    point.gap = height + wall.normal.dot(point.world);
+    point.gap = height + dot(wall.normal, point.world);
   }
 }
 
@@ -323,7 +323,7 @@ double overlapOf(const PileBody& a, const PileBody& b) {
 
 double overlapOf(const PileBody& a, const Wall& wall) {
   const Vec3 up = a.axes.transpose() * wall.normal;
-  return std::max(0.0, -(gap(wall, a.middle()) - a.halfExtents.dot(up.cwiseAbs())));
+  return std::max(0.0, -(gap(wall, a.middle()) - dot(a.halfExtents, up.cwiseAbs())));
 }
 
 }  // namespace careen

@@ -197,7 +197,7 @@ void PilePairs::findPartners(std::span<const PileBody> bodies, std::span<const W
   for (std::size_t w = 0; w < walls.size(); ++w) {
     const Vec3& n = walls[w].normal;
     const Vec3 lowest = (n.array() > 0).select(box.low, box.high);
-    if (n.dot(lowest) <= walls[w].offset) {
+    if (dot(n, lowest) <= walls[w].offset) {
       found_.push_back(keyOf(body, Partner::ofWall(w)));
     }
   }

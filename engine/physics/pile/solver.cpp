@@ -34,7 +34,7 @@ void PileSolver::setBody(int index, const PileBody& body, double change) {
   inertia.inverseMass = body.inverseMass;
   const Mat3 axes = body.principalAxes();
   const Mat3 scaled = axes * body.inverseInertiaBody.asDiagonal();
-  const auto entry = [&](int i, int j) { return scaled.row(i).dot(axes.row(j)); };
+  const auto entry = [&](int i, int j) { return dot(scaled.row(i), axes.row(j)); };
   inertia.xx = entry(0, 0);
   inertia.yy = entry(1, 1);
   inertia.zz = entry(2, 2);
@@ -335,8 +335,8 @@ double PileSolver::normalSpeed(int row) const {
   const RowView view = this->row(row);
   const Moving& a = moving_[at(view.a)];
   const Moving& b = moving_[at(view.b)];
-  return view.directions[0].dot(a.velocity + a.omega.cross(view.armA) - b.velocity -
-                                b.omega.cross(view.armB));
+  return dot(view.directions[0],
+             a.velocity + a.omega.cross(view.armA) - b.velocity - b.omega.cross(view.armB));
 }
 
 void PileSolver::beginShifts(double h) {

@@ -15,15 +15,15 @@ class WallApproach {
   WallApproach(const MovingBox& box, const Vec3& normal, double offset)
       : box_(box),
         normal_(normal),
-        height_(normal.dot(box.position) - offset),
-        rate_(normal.dot(box.velocity)),
-        acceleration_(normal.dot(box.acceleration)),
+        height_(dot(normal, box.position) - offset),
+        rate_(dot(normal, box.velocity)),
+        acceleration_(dot(normal, box.acceleration)),
         radius_(box.radius()),
         offCenter_(!box.center.isZero(0)),
         curvature_(std::max(0.0, radius_ * turningBound(box) - acceleration_)) {
     const Vec3 weights = normal.cwiseAbs();
-    sizes_ = {weights.dot(box.position.cwiseAbs()) + std::fabs(offset) + radius_,
-              weights.dot(box.velocity.cwiseAbs()), weights.dot(box.acceleration.cwiseAbs())};
+    sizes_ = {dot(weights, box.position.cwiseAbs()) + std::fabs(offset) + radius_,
+              dot(weights, box.velocity.cwiseAbs()), dot(weights, box.acceleration.cwiseAbs())};
   }
 
   double skip(double time) const {
@@ -40,13 +40,13 @@ class WallApproach {
     double rate = rateAt(elapsed);
     if (offCenter_) {
       const Vec3 arm = now.worldFromBody * box_.center;
-      height += normal_.dot(arm);
-      rate += turning.dot(arm);
+      height += dot(normal_, arm);
+      rate += dot(turning, arm);
     }
     bound_ = ConcaveBound(height, rate, curvature_);
     for (int i = 0; i < 3; ++i) {
-      up_(i) = normal_.dot(now.worldFromBody.col(i));
-      bound_.addKink(box_.halfExtents(i), up_(i), turning.dot(now.worldFromBody.col(i)));
+      up_(i) = dot(normal_, now.worldFromBody.col(i));
+      bound_.addKink(box_.halfExtents(i), up_(i), dot(turning, now.worldFromBody.col(i)));
     }
     gap_ = bound_.value();
     tolerance_ = kGapRounding * (sizes_[0] + elapsed * (sizes_[1] + 0.5 * elapsed * sizes_[2]));

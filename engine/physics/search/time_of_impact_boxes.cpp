@@ -89,7 +89,7 @@ class BoxApproach {
     return axis.kind() == BoxAxis::Kind::kEdges ? axes_->sine(axis.edgeOfA(), axis.edgeOfB()) : 1;
   }
   /// Rate of aᵢ·bⱼ.
-  double cosineRate(int i, int j) const { return relativeTurning_.dot(axes_->cross(i, j)); }
+  double cosineRate(int i, int j) const { return dot(relativeTurning_, axes_->cross(i, j)); }
 
   const MovingBox& a_;
   const MovingBox& b_;
@@ -134,7 +134,7 @@ double BoxApproach::skip(double time) const {
 // |Δ + Δ̇ s| = R. The discriminant as a cross product: no cancellation far away.
 double BoxApproach::skipStraight(double time) const {
   const Vec3 offset = offsetAt(time);
-  const double along = offset.dot(velocity_);
+  const double along = dot(offset, velocity_);
   const double discriminant =
       velocity_.squaredNorm() * spheres_ * spheres_ - offset.cross(velocity_).squaredNorm();
   if (along >= 0 || discriminant < 0) {
@@ -156,7 +156,7 @@ double BoxApproach::skipCurved(double time) const {
       return time;
     }
     const Vec3 u = offset / distance;
-    time += firstRoot(distance - spheres_, u.dot(velocityAt(time)), -u.dot(acceleration_), kNever);
+    time += firstRoot(distance - spheres_, dot(u, velocityAt(time)), -dot(u, acceleration_), kNever);
   }
   return time;
 }
@@ -166,7 +166,7 @@ double BoxApproach::skipInSteps(double time) const {
   const Vec3 offset = offsetAt(time);
   const double distance = offset.norm();
   const Vec3 velocity = velocityAt(time);
-  return time + firstRoot(distance - spheres_, offset.dot(velocity) / distance, gravity_, kNever);
+  return time + firstRoot(distance - spheres_, dot(offset, velocity) / distance, gravity_, kNever);
 }
 
 // In straight flight the distance of the centres is a convex function of time: it stays below R_a + R_b until
@@ -176,7 +176,7 @@ void BoxApproach::boundTranslation(double time) {
     mostSpeed_ = velocity_.norm();
     mostDistance_ = std::max(spheres_, offset_.norm());
     const double squaredSpeed = velocity_.squaredNorm();
-    const double along = offset_.dot(velocity_);
+    const double along = dot(offset_, velocity_);
     const double discriminant = squaredSpeed * spheres_ * spheres_ - offset_.cross(velocity_).squaredNorm();
     const double ahead = discriminant > 0 ? std::sqrt(discriminant) - along : -along;
     validity_ = squaredSpeed > 0 && ahead < kNever * squaredSpeed ? ahead / squaredSpeed : kNever;
@@ -299,8 +299,8 @@ ConcaveBound BoxApproach::bound(BoxAxis axis) const {
 
 ConcaveBound BoxApproach::faceOfABound(int i) const {
   const Vec3 face = nowA_.worldFromBody.col(i);
-  const double along = face.dot(offset_);
-  const double alongRate = nowA_.angularVelocity.cross(face).dot(offset_) + face.dot(rate_);
+  const double along = dot(face, offset_);
+  const double alongRate = dot(nowA_.angularVelocity.cross(face), offset_) + dot(face, rate_);
   const double curvature =
       turningA_ * mostDistance_ + 2 * a_.angularSpeedBound * mostSpeed_ + gravity_ + turningBoth_ * radiusB_;
   ConcaveBound f(std::fabs(along) - a_.halfExtents(i), along < 0 ? -alongRate : alongRate, curvature);
@@ -312,8 +312,8 @@ ConcaveBound BoxApproach::faceOfABound(int i) const {
 
 ConcaveBound BoxApproach::faceOfBBound(int j) const {
   const Vec3 face = nowB_.worldFromBody.col(j);
-  const double along = face.dot(offset_);
-  const double alongRate = nowB_.angularVelocity.cross(face).dot(offset_) + face.dot(rate_);
+  const double along = dot(face, offset_);
+  const double alongRate = dot(nowB_.angularVelocity.cross(face), offset_) + dot(face, rate_);
   const double curvature =
       turningB_ * mostDistance_ + 2 * b_.angularSpeedBound * mostSpeed_ + gravity_ + turningBoth_ * radiusA_;
   ConcaveBound f(std::fabs(along) - b_.halfExtents(j), along < 0 ? -alongRate : alongRate, curvature);
@@ -331,8 +331,8 @@ ConcaveBound BoxApproach::edgeBound(int i, int j) const {
   const Vec3& n = axes_->cross(i, j);
   const Vec3 nRate =
       nowA_.angularVelocity.cross(edgeA).cross(edgeB) + edgeA.cross(nowB_.angularVelocity.cross(edgeB));
-  const double along = n.dot(offset_);
-  const double alongRate = nRate.dot(offset_) + n.dot(rate_);
+  const double along = dot(n, offset_);
+  const double alongRate = dot(nRate, offset_) + dot(n, rate_);
   const double curvature = turningBoth_ * (mostDistance_ + (radiusA_ + radiusB_)) +
                            2 * (a_.angularSpeedBound + b_.angularSpeedBound) * mostSpeed_ + gravity_;
   ConcaveBound f(std::fabs(along), along < 0 ? -alongRate : alongRate, curvature);
@@ -353,16 +353,16 @@ ConcaveBound BoxApproach::edgeBound(int i, int j) const {
 ConcaveBound BoxApproach::restingBound(BoxAxis axis) const {
   const Vec3 u = axes_->normal(axis);
   const double curvature = std::max(
-      0.0, (turningA_ * radiusA_ + turningB_ * radiusB_) + (steps_ ? gravity_ : -u.dot(acceleration_)));
-  ConcaveBound f(u.dot(offset_), u.dot(rate_), curvature);
+      0.0, (turningA_ * radiusA_ + turningB_ * radiusB_) + (steps_ ? gravity_ : -dot(u, acceleration_)));
+  ConcaveBound f(dot(u, offset_), dot(u, rate_), curvature);
   for (int i = 0; i < 3; ++i) {
     const Vec3 edge = nowA_.worldFromBody.col(i);
-    f.addKink(a_.halfExtents(i), u.dot(edge), u.dot(nowA_.angularVelocity.cross(edge)));
+    f.addKink(a_.halfExtents(i), dot(u, edge), dot(u, nowA_.angularVelocity.cross(edge)));
   }
   f.beginSecondBox();
   for (int j = 0; j < 3; ++j) {
     const Vec3 edge = nowB_.worldFromBody.col(j);
-    f.addKink(b_.halfExtents(j), u.dot(edge), u.dot(nowB_.angularVelocity.cross(edge)));
+    f.addKink(b_.halfExtents(j), dot(u, edge), dot(u, nowB_.angularVelocity.cross(edge)));
   }
   return f;
 }

@@ -28,9 +28,9 @@ FirstContact firstContactTranslating(const MovingBox& box, const Vec3& normal, d
   const Pose pose = box.poseAt(0);
   const double gap = gapToPlane({pose, box.halfExtents, box.center}, normal, offset);
   const double rounding =
-      kGapRounding * (std::abs(normal.dot(pose.position)) + std::abs(offset) + box.radius());
-  const double v = normal.dot(box.velocityAt(0));
-  const double a = normal.dot(box.acceleration);
+      kGapRounding * (std::abs(dot(normal, pose.position)) + std::abs(offset) + box.radius());
+  const double v = dot(normal, box.velocityAt(0));
+  const double a = dot(normal, box.acceleration);
   const double d = gap > rounding ? gap : 0;
   FirstContact contact;
   contact.time = until;

@@ -147,7 +147,7 @@ class Parting {
 
   double gapOf(const Barrier& barrier) const {
     const Vec3 from = barrier.b.isWall() ? now_[barrier.a] : Vec3(now_[barrier.a] - now_[indexOf(barrier.b)]);
-    return barrier.normal.dot(from) - barrier.least;
+    return dot(barrier.normal, from) - barrier.least;
   }
   double easeOf(const Barrier& barrier) const {
     return ease_[barrier.a] + (barrier.b.isWall() ? 0 : ease_[indexOf(barrier.b)]);
@@ -193,7 +193,7 @@ class Parting {
       for (std::size_t w = 0; w < walls_.size() && ease_[i] > 0; ++w) {
         const LowestGap lowest = lowestGap(walls_[w], {pose, boxes_[i].halfExtents});
         if (lowest.overlaps() && behind_.insert({i, w}).second) {
-          const double centre = walls_[w].normal.dot(now_[i]);
+          const double centre = dot(walls_[w].normal, now_[i]);
           barriers_.push_back({.a = i,
                                .b = Partner::ofWall(w),
                                .normal = walls_[w].normal,
@@ -218,14 +218,14 @@ class Parting {
       const double separation = axes.separation({k});
       if (separation > std::numeric_limits<double>::lowest()) {
         ways.push_back({.depth = -separation, .axis = k, .sign = 1});
-        const double across = 2 * std::fabs(axes.normal({k}).dot(bToA));
+        const double across = 2 * std::fabs(dot(axes.normal({k}), bToA));
         ways.push_back({.depth = across - separation, .axis = k, .sign = -1});
       }
     }
     std::stable_sort(ways.begin(), ways.end(), [](const Way& x, const Way& y) { return x.depth < y.depth; });
     const Way& way = ways[std::min(static_cast<std::size_t>(barrier.choice), ways.size() - 1)];
     barrier.normal = way.sign * axes.normal({way.axis});
-    barrier.least = barrier.normal.dot(bToA) + way.depth;
+    barrier.least = dot(barrier.normal, bToA) + way.depth;
   }
 
   // Sweeps until every overlap is removed to rounding; false if that does not converge.
@@ -327,8 +327,8 @@ class Parting {
 
 LowestGap lowestGap(const Wall& wall, BoxAt box) {
   const Vec3& halfExtents = box.halfExtents;
-  const double reach = (box.pose.worldFromBody.transpose() * wall.normal).cwiseAbs().dot(halfExtents);
-  const double size = wall.normal.cwiseAbs().dot(box.middle().cwiseAbs());
+  const double reach = dot((box.pose.worldFromBody.transpose() * wall.normal).cwiseAbs(), halfExtents);
+  const double size = dot(wall.normal.cwiseAbs(), box.middle().cwiseAbs());
   return {.gap = gapToPlane(box, wall.normal, wall.offset), .lengths = size + reach + std::fabs(wall.offset)};
 }
 

@@ -50,7 +50,7 @@ Vec3 angularMomentum(const MassProperties& mass, const Mat3& worldFromBody, cons
 
 double kineticEnergy(const MassProperties& mass, const BodyState& state) {
   return 0.5 * mass.mass * state.velocity.squaredNorm() +
-         0.5 * angularVelocity(mass, state).dot(state.angularMomentum);
+         0.5 * dot(angularVelocity(mass, state), state.angularMomentum);
 }
 
 Pose boxPose(const Body& body, const Pose& pose) {

@@ -23,7 +23,7 @@ Energy energyOf(const World& world, std::span<const BodyState> states) {
     const MassProperties& mass = world.bodies[i].mass;
     const BodyState& state = states[i];
     energy.kinetic += kineticEnergy(mass, state);
-    energy.gravitational -= mass.mass * world.gravity.dot(state.pose.position);
+    energy.gravitational -= mass.mass * dot(world.gravity, state.pose.position);
   }
   energy.springs = springEnergy(world, states);
   return energy;

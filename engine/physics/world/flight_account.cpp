@@ -26,7 +26,7 @@ void FlightAccount::see(std::size_t body, const BodyState& state) {
   const MassProperties& mass = world_.bodies[body].mass;
   BodyAccount& account = bodies_[body];
   const double kinetic = kineticEnergy(mass, state);
-  const double energy = kinetic - mass.mass * world_.gravity.dot(state.pose.position);
+  const double energy = kinetic - mass.mass * dot(world_.gravity, state.pose.position);
   energy_ += energy - account.energy;
   kinetic_ += kinetic - account.kinetic;
   account.energy = energy;

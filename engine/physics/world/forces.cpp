@@ -81,7 +81,7 @@ Stretch stretchOf(const Spring& spring, const World& world, std::span<const Body
   stretch.length = between.norm();
   if (stretch.length > 0) {
     stretch.direction = between / stretch.length;
-    stretch.rate = stretch.direction.dot(to.velocity - from.velocity);
+    stretch.rate = dot(stretch.direction, to.velocity - from.velocity);
   }
   return stretch;
 }
@@ -109,7 +109,7 @@ double dissipation(const World& world, std::span<const BodyState> states) {
     for (std::size_t i = 0; i < states.size(); ++i) {
       const Vec3 omega = angularVelocity(world.bodies[i].mass, states[i]);
       const Load drag = dragLoad(*world.drag, states[i].velocity, omega);
-      power += drag.force.dot(states[i].velocity) + drag.torque.dot(omega);
+      power += dot(drag.force, states[i].velocity) + dot(drag.torque, omega);
     }
   }
   return power;

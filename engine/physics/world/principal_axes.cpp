@@ -52,9 +52,9 @@ PrincipalAxes principalAxes(const Mat3& tensor) {
   found.moments = size * left.diagonal();
   // Products of rotations leave the rotations by rounding.
   Vec3 x = found.axes.col(0);
-  x /= std::sqrt(x.dot(x));
-  Vec3 y = found.axes.col(1) - found.axes.col(1).dot(x) * x;
-  y /= std::sqrt(y.dot(y));
+  x /= std::sqrt(dot(x, x));
+  Vec3 y = found.axes.col(1) - dot(found.axes.col(1), x) * x;
+  y /= std::sqrt(dot(y, y));
   found.axes.col(0) = x;
   found.axes.col(1) = y;
   found.axes.col(2) = x.cross(y);
