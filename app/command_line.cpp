@@ -147,7 +147,7 @@ std::vector<std::string> CommandLine::commands() const {
 }
 
 std::string CommandLine::helpOf(const std::string& command) const {
-  return app_->get_subcommand(command)->help("careen " + command);
+  return app_->get_subcommand(command)->help("careen");  // CLI11 adds the name of the command
 }
 
 void CommandLine::runs(Command command) const {

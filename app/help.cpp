@@ -23,18 +23,40 @@ void listPages() {
   std::cout << "\n'careen help PAGE' shows one, 'careen help COMMAND' the options of a command.\n";
 }
 
+// Of a command that has no page of its name: the one that commands.md links in the command's row,
+// "| `render` | makes a film | [film](film.md) |", or else commands.md.
+std::string_view pageOf(const std::string& command) {
+  const std::string_view page = manualPage("commands.md");
+  const std::size_t begin = page.find("\n| `" + command + "` |");
+  if (begin == std::string_view::npos) {
+    return "commands";
+  }
+  const std::string_view row = page.substr(begin, page.find('\n', begin + 1) - begin);
+  const std::size_t link = row.rfind("](");
+  const std::size_t end = row.find(".md)", link);
+  return link == std::string_view::npos || end == std::string_view::npos
+             ? "commands"
+             : row.substr(link + 2, end - link - 2);
+}
+
 ExitCode helpCommand(const CommandLine& commandLine, const std::string& topic) {
   if (topic.empty()) {
     listPages();
     return ExitCode::kDone;
   }
-  if (const std::string_view page = manualPage(topic + ".md"); !page.empty()) {
-    std::cout << page;
-    return ExitCode::kDone;
-  }
+  const std::string_view page = manualPage(topic + ".md");
   const std::vector<std::string> commands = commandLine.commands();
-  if (std::find(commands.begin(), commands.end(), topic) != commands.end()) {
+  const bool isCommand = std::find(commands.begin(), commands.end(), topic) != commands.end();
+  if (isCommand) {
     std::cout << commandLine.helpOf(topic);
+    if (page.empty()) {
+      std::cout << "\nIn the manual: 'careen help " << pageOf(topic) << "'.\n";
+    } else {
+      std::cout << "\nIts page of the manual:\n\n";
+    }
+  }
+  if (isCommand || !page.empty()) {
+    std::cout << page;
     return ExitCode::kDone;
   }
   std::vector<std::string> topics(kManualPages.begin(), kManualPages.end());

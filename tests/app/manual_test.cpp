@@ -100,6 +100,7 @@ TEST(Manual, linksLeadSomewhere) {
 }
 
 TEST(Manual, helpListsAndShowsEveryPage) {
+  const std::string all = careen({"--help"}).out;
   const Ended list = careen({"help"});
   ASSERT_EQ(list.exitCode, 0) << list.err;
   const std::vector<std::string> named = matches(list.out, "\n  ([a-z-]+) ");
@@ -108,13 +109,36 @@ TEST(Manual, helpListsAndShowsEveryPage) {
   for (const fs::path& page : pages()) {
     const std::string name = page.stem();
     EXPECT_EQ(std::count(named.begin(), named.end(), name), 1) << name;
-    EXPECT_EQ(careen({"help", name}).out, textOf(page));
+    const std::string shown = careen({"help", name}).out;
+    EXPECT_TRUE(shown.ends_with(textOf(page))) << name;
+    if (all.find("\n  " + name + " ") == std::string::npos) {  // no command of this name
+      EXPECT_EQ(shown, textOf(page));
+    }
     EXPECT_NE(readme.find("| [" + name + "](assets/manual/" + name + ".md) |"), std::string::npos) << name;
   }
 }
 
-TEST(Manual, helpShowsACommandsOptionsAndKnowsNothingElse) {
-  EXPECT_NE(careen({"help", "simulate"}).out.find("--tolerance"), std::string::npos);
+// The options as by --help, then the page of the command's name, or the name of the page that tells more.
+TEST(Manual, helpOfACommandShowsItsOptionsAndThenItsPage) {
+  const std::string all = careen({"--help"}).out;
+  const std::string page = textOf(kManual / "commands.md");
+  for (const std::string& command : matches(all.substr(all.find("Subcommands:")), "\n  ([a-z]+)  ")) {
+    const std::string options = careen({command, "--help"}).out;
+    const std::string shown = careen({"help", command}).out;
+    EXPECT_TRUE(shown.starts_with(options)) << shown.substr(0, options.size());
+    EXPECT_EQ(shown.find("careen " + command + " " + command), std::string::npos) << command;
+    const std::string rest = shown.substr(std::min(options.size(), shown.size()));
+    if (fs::exists(kManual / (command + ".md"))) {
+      EXPECT_EQ(rest, "\nIts page of the manual:\n\n" + textOf(kManual / (command + ".md")));
+    } else {
+      const std::vector<std::string> more =
+          matches(page, "\n\\| `" + command + "` \\|[^\n]*\\]\\(([a-z-]+)\\.md\\) \\|\n");
+      EXPECT_EQ(rest, "\nIn the manual: 'careen help " + (more.empty() ? "commands" : more.front()) + "'.\n");
+    }
+  }
+}
+
+TEST(Manual, helpKnowsNothingElse) {
   const Ended ended = careen({"help", "tutorail"});
   EXPECT_EQ(ended.exitCode, 2);
   EXPECT_NE(ended.err.find("did you mean 'tutorial'?"), std::string::npos) << ended.err;
