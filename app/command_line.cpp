@@ -42,7 +42,7 @@ std::string explained(const CLI::ParseError& error, CLI::App& app, const char* f
   std::string message = error.what();
   if (option != unknown.end()) {
     const std::string typed = option->substr(0, option->find('='));
-    message = "found '" + typed + "', expected an option" + didYouMean(typed, optionsOf(command));
+    message = "knows no option '" + typed + "'" + didYouMean(typed, optionsOf(command));
   } else if (!unknown.empty()) {
     message = "found '" + unknown.front() + "', expected no more arguments";
   }

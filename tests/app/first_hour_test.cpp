@@ -43,12 +43,15 @@ TEST_F(FirstHour, wrongWordsAreUnderstood) {
   expectLastWords(careen({"simulat"}), 2, "did you mean 'simulate'?");
   expectLastWords(careen({"frobnicate"}), 2, "'careen --help' lists them");
   expectLastWords(careen({"simulate", "--tolerence", "1"}), 2,
-                  "simulate: found '--tolerence', expected an option; did you mean '--tolerance'?; 'careen "
+                  "simulate: knows no option '--tolerence'; did you mean '--tolerance'?; 'careen "
                   "simulate --help'");
   expectLastWords(careen({"simulate", "fall.json", "--dt=1", "--impact=1.csv"}), 2,
                   "did you mean '--impacts'?");
   expectLastWords(careen({"simulate", "fall.json", "fall.csv"}), 2, "'fall.csv', expected no more arguments");
-  expectLastWords(careen({"--frobnicate", "fall.json"}), 2, "found '--frobnicate'");
+  expectLastWords(careen({"--frobnicate", "fall.json"}), 2,
+                  "careen: knows no option '--frobnicate'; 'careen --help'");
+  expectLastWords(careen({"simulate", "--alpha"}), 2,
+                  "careen: simulate: knows no option '--alpha'; 'careen simulate --help'");
   expectLastWords(careen({"export", "run.careen"}), 2, "'careen export --help'");
   folder_.write("fall.json", "{}");
   expectLastWords(careen({"fall.json"}), 2, "to film it: careen render fall.json");
