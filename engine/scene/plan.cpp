@@ -77,6 +77,17 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 PlanItem modelled(const char* what, const std::string& reason) { return {what, true, reason}; }
 PlanItem leftOut(const char* what, const std::string& reason) { return {what, false, reason}; }
 
+// Those that model springs and drag: "method exact or listing1".
+std::string methodsWithForces() {
+  std::string text = "method";
+  for (const MethodTraits& each : kMethods) {
+    if (each.forces) {
+      text += (text == "method" ? " " : " or ") + std::string(each.name);
+    }
+  }
+  return text;
+}
+
 std::string nameOf(Method method) { return std::string(traitsOf(method).name); }
 
 PlanItem gravity(const Scene& scene) {
@@ -204,7 +215,7 @@ World assemble(const Scene& scene, const Plan& plan) {
   };
   if (!traitsOf(scene.method).forces && (plan.models("springs") || plan.models("drag"))) {
     throw InputError("scene " + scene.name + " has springs or drag, which method " + nameOf(scene.method) +
-                     " does not model; expected method listing1");
+                     " does not model; expected " + methodsWithForces());
   }
   World world;
   for (const SceneBox& box : scene.boxes) {

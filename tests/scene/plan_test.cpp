@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
+#include "physics/world/method.h"
 #include "scene/scene_reader.h"
 #include "support/scenes.h"
 
@@ -122,6 +124,25 @@ TEST(Assemble, buildsWhatThePlanModels) {
   EXPECT_EQ(crate.initial.pose.position, Vec3(1, 0.5, 2));
   EXPECT_EQ(crate.initial.velocity, Vec3(6, 1.5, 0));
   EXPECT_EQ(crate.material.restitution, 0.75);
+}
+
+TEST(Assemble, namesTheMethodsThatModelSpringsAndDrag) {
+  for (const MethodTraits& method : kMethods) {
+    Scene scene = withParts(R"("drag": {"linear": 1}, "boxes": [)" + kBox + "]");
+    scene.method = method.method;
+    std::string message;
+    try {
+      assemble(scene, plan(scene));
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    if (method.name == "exact" || method.name == "listing1") {
+      EXPECT_EQ(message, "");
+    } else {
+      EXPECT_EQ(message, "scene " + scene.name + " has springs or drag, which method " +
+                             std::string(method.name) + " does not model; expected method exact or listing1");
+    }
+  }
 }
 
 // The crate is turned by 90° about z, so its x axis lies along the world's y: half sizes (0.25, 0.5, 0.125)
