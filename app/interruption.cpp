@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include <ctime>
-#include <string_view>
+#include <string>
 
 #include "core/system/cleanup.h"
 
@@ -21,7 +21,16 @@ bool isIgnored(int signal) {
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
+std::atomic<const char*> interruptionHint = "";
+
 }  // namespace
+
+void setInterruptionHint(const char* hint) { interruptionHint = hint; }
+
+void tellInterruption() {
+  const std::string message = std::string("careen: interrupted") + interruptionHint.load() + "\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
+}
 
 Interruption::Interruption() {
   sigemptyset(&signals_);
@@ -59,8 +68,7 @@ void Interruption::wait() {
 
 void Interruption::endNow(int signal) {
   cleanUpToEnd();
-  constexpr std::string_view kMessage = "careen: interrupted\n";
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kMessage.data(), kMessage.size());
+  tellInterruption();
   std::signal(signal, SIG_DFL);
   pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
   std::raise(signal);

@@ -7,6 +7,10 @@
 
 namespace careen {
 
+/// What is told of an interruption from now on: "careen: interrupted" and this literal, which may be empty.
+void setInterruptionHint(const char* hint);
+void tellInterruption();
+
 /// Turns SIGINT and SIGTERM into a stop request, so that whatever is being written is finished or undone. If
 /// the command has not ended 0.7 s later, or at a second signal, what is unfinished is undone here (see
 /// Cleanup) and the process ends by the signal, whatever it is doing. A signal that was ignored when the

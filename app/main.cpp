@@ -93,7 +93,7 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   try {
     return exitWith(parsed.command(interruption.token()));
   } catch (const Interrupted&) {
-    std::cerr << "careen: interrupted\n";
+    tellInterruption();
     return -interruption.signal();
   } catch (const Error& error) {
     tell(error.what());

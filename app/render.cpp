@@ -20,6 +20,7 @@
 #include "core/system/processor.h"
 #include "film/folder.h"
 #include "film/frame_range.h"
+#include "interruption.h"
 #include "parsed.h"
 #include "picture_options.h"
 #include "progress.h"
@@ -307,6 +308,9 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   }
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0);
   const bool logsFrames = options.log == "json";
+  if (!reference) {
+    setInterruptionHint("; --resume completes the film");
+  }
   const FilmFigures figures = renderFilm(
       run.trajectory, settings,
       [&](const FilmProgress& now) {
@@ -316,6 +320,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
         }
       },
       stop);
+  setInterruptionHint("");
   if (truth) {
     writeTruth(run.trajectory, *truth, {}, stop);
   }

@@ -70,6 +70,7 @@ TEST_F(RenderInterrupted, interruptedFilmIsCompletedByASecondRun) {
     process.send(each.signal);
     const Ended ended = process.wait();
     EXPECT_EQ(ended.signal, each.signal) << ended.exitCode << ended.err;
+    EXPECT_TRUE(ended.err.ends_with("careen: interrupted; --resume completes the film\n")) << ended.err;
     for (const pid_t worker : workers) {
       EXPECT_NE(kill(worker, 0), 0);
     }
