@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "core/system/release.h"
+
 namespace careen {
 namespace {
 
@@ -20,7 +22,7 @@ constexpr std::array kAdvice = {
            "look at the names and the folder; 'careen help comparing' makes two films to compare"},
     Advice{"Permission denied",
            "choose a place you may write to or read from: --out FOLDER, simulate's -o FILE"},
-    Advice{"no rendering backend is available", "install one: apt install libosmesa6"},
+    Advice{"no rendering backend is available", "install one: apt install "},
     Advice{"no display", "make a film in place of a window: careen render"},
     Advice{"inside box ", "move one of them, or let --allow-overlap do it"},
     Advice{"behind wall ",
@@ -47,7 +49,8 @@ std::string adviceOn(const std::string& message) {
     return message.find(advice.sign) != std::string::npos;
   });
   if (found != kAdvice.end()) {
-    return "next: " + std::string(found->next);
+    const bool installs = found->next.ends_with("apt install ");
+    return "next: " + std::string(found->next) + (installs ? std::string(drawingPackages()) : "");
   }
   return namesALine(message) ? "next: 'careen help scenes' explains scenes (in m, kg, s) "
                                "and says where all keys are listed"

@@ -285,6 +285,9 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (reference) {
     refuseToOverwrite(*reference, settings);
   }
+  if (!isRun(options.source) && !isMujocoModel(options.source)) {
+    refuseFilmOfAnotherScene(settings, readFile(options.source));
+  }
   options.overrides.threads = options.picture.threadsOfCrowds();
   Run run = loadRun(options.source, options.overrides, options.scene, stop);
   if (truth) {
@@ -345,7 +348,7 @@ void addRender(const CommandLine& commandLine) {
               "Scene, trajectory file or table of poses; the default scene if none is named");
   options->scene.addTo(command);
   command.add("--out", options->folder,
-              "Folder for the frames, or file of a single picture (default: out/ and the scene's name)");
+              "Folder for the frames, or file of a single picture (default: out/ and the file's name)");
   const CommandOption frames =
       command.add("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
   const CommandOption ghost = command.add(

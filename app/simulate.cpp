@@ -109,7 +109,7 @@ void addSimulate(const CommandLine& commandLine) {
   const CommandLine command = commandLine.addCommand("simulate", "Run a scene and keep what happened");
   const auto options = std::make_shared<SimulateOptions>();
   command.add("scene", options->scene, "Scene file; the default scene if none is named");
-  command.add("-o,--output", options->output, "Trajectory file (default: the scene's name, .careen)");
+  command.add("-o,--output", options->output, "Trajectory file (default: the scene file's name, .careen)");
   command.add("--poses", options->poses, "Table of poses (CSV)");
   command.add("--npz", options->npz, "Poses, impacts, names and units as NumPy loads them (NPZ)");
   command.add("--every", options->every, "Time between two poses of --poses and --npz [s] (default: 1/60)");

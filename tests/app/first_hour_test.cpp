@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/system/release.h"
 #include "support/process.h"
 #include "support/program.h"
 
@@ -123,7 +124,7 @@ TEST_F(RenderInTheFirstHour, noGl) {
   }
   expectLastWords(
       run({"env", "LD_LIBRARY_PATH=" + folder_.path().string(), program(), "render", "--frames", "0"}), 3,
-      "next: install one: apt install libosmesa6");
+      "next: install one: apt install " + std::string(drawingPackages()));
 }
 #endif
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/system/release.h"
 #include "support/copied_program.h"
 #include "support/environment_variable.h"
 #include "support/film_command.h"
@@ -143,6 +144,19 @@ TEST_F(Render, anotherFilmInTheFolderIsReplacedOnlyIfAskedTo) {
   EXPECT_NE(textOf(folder_ / "film/000001.png"), first);
 }
 
+// A scene that could not be simulated in a year.
+TEST_F(Render, aFilmOfAnotherSceneIsToldBeforeTheSimulation) {
+  ASSERT_EQ(careen({"render", "scene.json", "--out", "film", "--frames", "0"}).exitCode, 0);
+  std::string text = kFilmScene;
+  text.replace(text.find("0.001"), 5, "1e-12");
+  folder_.write("scene.json", text);
+  for (const char* const how : {"--jobs=1", "--resume"}) {
+    const Ended ended = careen({"render", "scene.json", "--limit", "1000000000000", "--out", "film", how});
+    EXPECT_EQ(ended.exitCode, 2);
+    EXPECT_NE(ended.err.find("another scene"), std::string::npos) << ended.err;
+  }
+}
+
 TEST_F(Render, aComparisonDoesNotThinOutAFilmThatSomebodyMade) {
   ASSERT_EQ(careen({"render", "scene.json", "--out", "golden", "--frames", "0-1"}).exitCode, 0);
   ASSERT_EQ(careen({"render", "scene.json", "--out", "mine", "--frames", "0-1"}).exitCode, 0);
@@ -270,7 +284,7 @@ TEST_F(RenderWithout, anyLackTheListSaysSo) {
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_TRUE(ended.out.starts_with("auto: egl\nosmesa: not available, libOSMesa.so cannot be loaded"))
       << ended.out;
-  EXPECT_NE(ended.out.find("apt install libosmesa6"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("apt install " + std::string(drawingPackages())), std::string::npos) << ended.out;
 
   ended = careenWithout(both_, list);
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
@@ -290,7 +304,7 @@ TEST_F(RenderWithout, osMesaTheFilmIsDrawnThroughEgl) {
 TEST_F(RenderWithout, bothItSaysWhatToInstall) {
   const Ended ended = careenWithout(both_, {"render", "scene.json", "--out", "film"});
   EXPECT_EQ(ended.exitCode, 3) << ended.err;
-  EXPECT_NE(ended.err.find("apt install libosmesa6"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("apt install " + std::string(drawingPackages())), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("apt install libegl1 libegl-mesa0 libgl1-mesa-dri"), std::string::npos)
       << ended.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "film"));

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/system/file.h"
 #include "core/system/processor.h"
 #include "film/folder.h"
@@ -56,17 +57,17 @@ FilmManifest manifestOf(const Trajectory& run, const FilmSettings& settings, dou
   return manifest;
 }
 
-void refuseAnotherFilm(const FilmFolder& folder, const FilmManifest& asked, FilmThere there) {
-  if (there == FilmThere::kReplace) {
-    return;
-  }
-  const std::string difference = folder.manifest() ? differenceOf(*folder.manifest(), asked) : "";
-  if (!difference.empty()) {
-    throw InputError(folder.path().string() + ": the film there is another one, " +
+void refuseIf(const std::string& difference, const std::filesystem::path& folder, FilmThere there) {
+  if (!difference.empty() && there != FilmThere::kReplace) {
+    throw InputError(folder.string() + ": the film there is another one, " +
                      (there == FilmThere::kResume ? "it cannot be resumed: "
                                                   : "name another folder, or --overwrite to replace it: ") +
                      difference);
   }
+}
+
+void refuseAnotherFilm(const FilmFolder& folder, const FilmManifest& asked, FilmThere there) {
+  refuseIf(folder.manifest() ? differenceOf(*folder.manifest(), asked) : "", folder.path(), there);
 }
 
 int jobCount(const FilmSettings& settings, std::size_t framesToDraw) {
@@ -260,6 +261,13 @@ void keepHashes(FilmFolder& folder, const FrameFlow& flow) {
 }
 
 }  // namespace
+
+void refuseFilmOfAnotherScene(const FilmSettings& settings, std::string_view sceneText) {
+  const std::optional<FilmManifest> there = readManifest(settings.folder);
+  Hash hash;
+  hash.add(sceneText);
+  refuseIf(there && there->sceneHash != hash.text() ? "another scene" : "", settings.folder, settings.there);
+}
 
 FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, const FilmCallback& progress,
                        const std::stop_token& stop) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "film/frame_range.h"
@@ -74,6 +75,10 @@ struct FilmFigures {
   double coreSeconds = 0;    ///< [s] CPU time over all cores, without ffmpeg's
   std::string renderer;      ///< empty if nothing was drawn
 };
+
+/// InputError if the film in the folder shows another scene than the one of this text, and is not to be
+/// replaced: that much is known before a simulation, which may take long.
+void refuseFilmOfAnotherScene(const FilmSettings& settings, std::string_view sceneText);
 
 /// Renders a film of a run: frame k shows film time k/fps exactly, with the stage's camera and time map, and
 /// with the same bytes however the work is split. Frames are written atomically, so a render that was

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include "core/error.h"
+#include "core/system/release.h"
 #include "image/srgb.h"
 #include "render/gl/edge_blend.h"
 #include "render/gl/gl.h"
@@ -152,9 +154,10 @@ Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int he
     }
   }
   if (blank || brightest == 0) {
-    throw MachineError(
-        std::string("the frame came out ") + (blank ? "with pixels left blank" : "black") + ": " + renderer +
-        " does not draw what it should; another may: --list-rendering-backends, apt install libosmesa6");
+    throw MachineError(std::string("the frame came out ") + (blank ? "with pixels left blank" : "black") +
+                       ": " + renderer +
+                       " does not draw what it should; another may: --list-rendering-backends, apt install " +
+                       std::string(drawingPackages()));
   }
   return picture;
 }

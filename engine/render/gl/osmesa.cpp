@@ -3,14 +3,18 @@
 #include "render/gl/osmesa.h"
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "core/error.h"
+#include "core/system/release.h"
 
 namespace careen {
 namespace {
 
-constexpr const char* kOsmesaRemedy = "install it: apt install libosmesa6";
+std::string osmesaRemedy() {
+  return "what draws is installed by: apt install " + std::string(drawingPackages());
+}
 
 // The constants used from GL/osmesa.h: Mesa removed the header with the library, and this must still build
 // there to draw through EGL.
@@ -33,12 +37,12 @@ std::vector<std::string> namesOf(const std::string& library) {
 
 }  // namespace
 
-OsMesa::OsMesa(const std::string& library) : library_(namesOf(library), kOsmesaRemedy) {
+OsMesa::OsMesa(const std::string& library) : library_(namesOf(library), osmesaRemedy()) {
   constexpr std::array<int, 11> kCore33 = {kFormat,       GL_RGBA, kDepthBits,    0, kProfile, kCoreProfile,
                                            kMajorVersion, 3,       kMinorVersion, 3, 0};
   context_ = library_.function<CreateContext>("OSMesaCreateContextAttribs")(kCore33.data(), nullptr);
   if (context_ == nullptr) {
-    throw MachineError(library_.name() + " makes no OpenGL 3.3 core context; " + kOsmesaRemedy);
+    throw MachineError(library_.name() + " makes no OpenGL 3.3 core context; " + osmesaRemedy());
   }
   makeCurrent();
 }
@@ -51,7 +55,7 @@ OsMesa::~OsMesa() {
 void OsMesa::bind() {
   const auto make = library_.function<MakeCurrent>("OSMesaMakeCurrent");
   if (make(context_, &pixel_, GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
-    throw MachineError(library_.name() + " cannot use the context it made; " + kOsmesaRemedy);
+    throw MachineError(library_.name() + " cannot use the context it made; " + osmesaRemedy());
   }
 }
 
@@ -62,7 +66,7 @@ void OsMesa::unbind() {
 void* OsMesa::function(const char* name) const {
   void* const address = library_.function<GetProcAddress>("OSMesaGetProcAddress")(name);
   if (address == nullptr) {
-    throw MachineError(library_.name() + " has no " + name + " of OpenGL 3.3; " + kOsmesaRemedy);
+    throw MachineError(library_.name() + " has no " + name + " of OpenGL 3.3; " + osmesaRemedy());
   }
   return address;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/system/release.h"
 
 namespace careen {
 namespace {
@@ -21,7 +22,7 @@ std::string osmesaErrorOf(const std::string& library) {
 TEST(OsMesa, missingLibraryIsNamedWithWhatToInstall) {
   const std::string said = osmesaErrorOf("libNoSuchMesa.so.8");
   EXPECT_NE(said.find("libNoSuchMesa.so.8"), std::string::npos) << said;
-  EXPECT_NE(said.find("apt install libosmesa6"), std::string::npos) << said;
+  EXPECT_NE(said.find("apt install " + std::string(drawingPackages())), std::string::npos) << said;
 }
 
 TEST(OsMesa, libraryOfSomethingElseIsToldSo) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/system/release.h"
 #include "render/draw/renderer.h"
 #include "render/stage.h"
 #include "support/environment_variable.h"
@@ -112,8 +113,9 @@ TEST(RenderingBackend, saysOfEachWhyThereIsNone) {
     FAIL();
   } catch (const MachineError& error) {
     const std::string said = error.what();
-    for (const char* part : {"osmesa: libNoSuchMesa.so", "apt install libosmesa6", "egl: libNoSuchEgl.so",
-                             "apt install libegl1"}) {
+    for (const std::string& part :
+         {std::string("osmesa: libNoSuchMesa.so"), "apt install " + std::string(drawingPackages()),
+          std::string("egl: libNoSuchEgl.so"), std::string("apt install libegl1")}) {
       EXPECT_NE(said.find(part), std::string::npos) << said;
     }
   }
