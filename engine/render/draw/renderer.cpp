@@ -345,10 +345,12 @@ Picture Renderer::draw(const Shot& shot) {
   return picture;
 }
 
-void Renderer::drawOver(Picture& picture, const Camera& camera, const OverlaySource& overlay) {
+View Renderer::view(const Camera& camera) const { return viewOf(camera, parts_->extent, parts_->aspect); }
+
+void Renderer::drawOver(Picture& picture, const OverlayShapes& shapes) {
   const Clock::time_point begun = Clock::now();
   parts_->context->makeCurrent();
-  parts_->drawOver(picture, overlay(viewOf(camera, parts_->extent, parts_->aspect)));
+  parts_->drawOver(picture, shapes);
   parts_->figures.drawSeconds += secondsSince(begun);
 }
 

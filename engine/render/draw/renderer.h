@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -37,9 +36,6 @@ struct DrawFigures {
   double readSeconds = 0;  ///< [s] reading back and flipping
 };
 
-/// Shapes to draw over a picture with this view.
-using OverlaySource = std::function<OverlayShapes(const View&)>;
-
 /// A picture to be drawn.
 struct Shot {
   std::span<const Pose> poses;  ///< one for each body of the world, in its order; or the same for several
@@ -64,8 +60,10 @@ class Renderer {
   Picture draw(const Shot& shot);
   /// Draws with the camera that the light is placed relative to.
   Picture draw(std::span<const Pose> poses);
-  /// Draws the shapes that `overlay` returns for this camera over the picture.
-  void drawOver(Picture& picture, const Camera& camera, const OverlaySource& overlay);
+  /// What the pictures show from there.
+  View view(const Camera& camera) const;
+  /// Draws these shapes over the picture.
+  void drawOver(Picture& picture, const OverlayShapes& shapes);
 
   /// GL's renderer and version, such as "llvmpipe (…), OpenGL … Mesa 22.3.6, libOSMesa.so.8".
   const std::string& rendererName() const;

@@ -105,7 +105,7 @@ std::unique_ptr<VideoPipe> startVideo(const FilmSettings& settings, const Pictur
 
 // Sets up a job in its own process. The ring has slots if there is a video.
 FrameWorkshop openWorkshop(const Filming& filming, const Trajectory& run, const FilmSettings& settings,
-                           const std::vector<std::int64_t>& frames, const std::optional<Overlays>& overlays,
+                           const std::vector<std::int64_t>& frames, std::optional<Overlays>& overlays,
                            int jobs, const PictureRing& ring) {
   if (glWasOpened()) {  // otherwise it would wait for threads that were not forked
     throw MachineError("no job can draw: GL had been opened before it was forked");

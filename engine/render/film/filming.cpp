@@ -80,15 +80,19 @@ Picture Filming::draw(Renderer& renderer, double filmTime, const Shutter& shutte
   return average.average();
 }
 
-void Filming::explain(Renderer& renderer, Picture& picture, double filmTime, const Overlays& overlays) const {
-  explainStrobe(renderer, picture, {&filmTime, 1}, overlays);
+void Filming::explain(Renderer& renderer, Picture& picture, double filmTime, Overlays& overlays) const {
+  const auto momentAt = [&](double time) {
+    return OverlayMoment{.sceneTime = sceneTime(time), .view = renderer.view(camera(time))};
+  };
+  renderer.drawOver(picture, overlays.shapesAt(filmTime, momentAt, picture.width, picture.height));
 }
 
 void Filming::explainStrobe(Renderer& renderer, Picture& picture, std::span<const double> filmTimes,
-                            const Overlays& overlays) const {
-  renderer.drawOver(picture, camera(filmTimes.front()), [&](const View& view) {
-    return overlays.shapesAt(sceneTime(filmTimes.back()), view, picture.width, picture.height);
-  });
+                            Overlays& overlays) const {
+  const OverlayMoment moment{.sceneTime = sceneTime(filmTimes.back()),
+                             .view = renderer.view(camera(filmTimes.front()))};
+  const auto still = [&](double /*filmTime*/) { return moment; };
+  renderer.drawOver(picture, overlays.shapesAt(filmTimes.back(), still, picture.width, picture.height));
 }
 
 Picture Filming::drawStrobe(Renderer& renderer, std::span<const double> filmTimes) const {

@@ -40,10 +40,10 @@ class Filming {
   Picture draw(Renderer& renderer, double filmTime, const Shutter& shutter, const FrameRate& rate) const;
 
   /// Draws the overlays of that moment over its picture.
-  void explain(Renderer& renderer, Picture& picture, double filmTime, const Overlays& overlays) const;
+  void explain(Renderer& renderer, Picture& picture, double filmTime, Overlays& overlays) const;
   /// The same of the last of several moments over their picture by drawStrobe.
   void explainStrobe(Renderer& renderer, Picture& picture, std::span<const double> filmTimes,
-                     const Overlays& overlays) const;
+                     Overlays& overlays) const;
 
   /// One picture with the boxes at all of the moments, seen by the camera of the first.
   Picture drawStrobe(Renderer& renderer, std::span<const double> filmTimes) const;
