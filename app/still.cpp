@@ -51,7 +51,7 @@ ExitCode drawStill(const Run& run, RenderOptions options, const Still& still) {
   const Filming filming(run.trajectory);
   const std::vector<double> moments = momentsOf(still);
   checkMoments(moments, filming, still.strobe ? "--strobe" : "--still");
-  options.camera = filming.camera(0);
+  filming.prepare(options);
   Renderer renderer(run.trajectory, options);
   Picture picture = still.strobe ? filming.drawStrobe(renderer, moments)
                                  : filming.draw(renderer, moments[0], asked.shutter, asked.rate);

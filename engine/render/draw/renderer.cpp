@@ -137,7 +137,8 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
              .shadows = shadows,
              .occlusion = occlusion,
              .neighbors = occlusion && world.bodies.size() > 1}),
-      surfaces(gl, shaders, lightShaders(lighting), surfacesOf(stage, extent, materials), tileSize(extent)),
+      surfaces(gl, shaders, lightShaders(lighting), surfacesOf(stage, extent, materials, options.reaches),
+               tileSize(extent)),
       backgroundArray(makeVertexArray(gl)),
       backgroundProgram(
           linkProgram(gl, shaders, {"background.vert", "background.frag", "write_lit.frag", "finish.frag"})) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/math/pose.h"
 #include "image/picture.h"
@@ -15,6 +16,7 @@
 #include "stage/run_setup.h"
 #include "view/camera.h"
 #include "view/materials.h"
+#include "view/wall_reach.h"
 
 namespace careen {
 
@@ -23,6 +25,7 @@ struct RenderOptions {
   std::optional<Lighting> lighting;    ///< absent: from the picture's look
   std::optional<Materials> materials;  ///< absent: from the picture's look
   std::optional<Camera> camera;        ///< that the light is placed relative to; absent: cameraOf(setup)
+  std::vector<WallReach> reaches;      ///< how far boxes go along walls; absent: not far
   std::filesystem::path shaders;       ///< folder; empty: $CAREEN_DATA, else built in
 };
 

@@ -111,7 +111,7 @@ FrameWorkshop openWorkshop(const Filming& filming, const Trajectory& run, const 
     throw MachineError("no job can draw: GL had been opened before it was forked");
   }
   RenderOptions options = optionsOfJob(settings, jobs);
-  options.camera = filming.camera(0);
+  filming.prepare(options);
   const auto renderer = std::make_shared<Renderer>(run, options);
   const PictureSettings& settingsOfPicture = run.stage.picture;
   const auto work = [renderer, &filming, &settings, &settingsOfPicture, &frames, &overlays, &ring](

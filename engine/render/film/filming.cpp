@@ -35,10 +35,16 @@ bool isSame(const Sample& a, const Sample& b) {
 Filming::Filming(const Trajectory& run)
     : run_(run),
       clock_(run.stage.timeMap.within(run.settings.duration)),
-      path_(run, clock_, run.stage.picture.aspect()) {}
+      path_(run, clock_, run.stage.picture.aspect()),
+      reaches_(wallReachesOf(run)) {}
 
 Camera Filming::camera(double filmTime) const {
   return orbited(path_.at(std::clamp(filmTime, 0.0, duration())), orbit_);
+}
+
+void Filming::prepare(RenderOptions& options) const {
+  options.camera = camera(0);
+  options.reaches = reaches_;
 }
 
 void Filming::checkCamera(std::span<const std::int64_t> frames, const FrameRate& rate) const {
