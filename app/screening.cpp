@@ -22,7 +22,7 @@ Screening::Screening(Run run, const PictureOptions& options)
   }
   RenderOptions render;
   render.context = options.contextOptions();
-  render.camera = filming_.camera(0);
+  filming_.prepare(render);
   renderer_.emplace(run_.trajectory, render);
 }
 

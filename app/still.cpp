@@ -51,14 +51,18 @@ ExitCode drawStill(const Run& run, RenderOptions options, const Still& still) {
   const Filming filming(run.trajectory);
   const std::vector<double> moments = momentsOf(still);
   checkMoments(moments, filming, still.strobe ? "--strobe" : "--still");
-  options.camera = filming.camera(0);
+  filming.prepare(options);
   Renderer renderer(run.trajectory, options);
   Picture picture = still.strobe ? filming.drawStrobe(renderer, moments)
                                  : filming.draw(renderer, moments[0], asked.shutter, asked.rate);
   if (asked.overlays.any() || (still.ghost != nullptr && !still.strobe)) {
-    const Overlays overlays(run.trajectory, asked.overlays, asked.rate.frameTime(1),
-                            still.strobe ? nullptr : still.ghost);
-    filming.explainStrobe(renderer, picture, moments, overlays);
+    Overlays overlays(run.trajectory, asked.overlays, asked.rate.frameTime(1),
+                      still.strobe ? nullptr : still.ghost);
+    if (still.strobe) {
+      filming.explainStrobe(renderer, picture, moments, overlays);
+    } else {
+      filming.explain(renderer, picture, moments[0], overlays);
+    }
   }
   print(std::cout, outOfView(run.trajectory, moments), run.trajectory);
   const std::filesystem::path path = std::filesystem::absolute(placeOf(run, still)).lexically_normal();

@@ -3,9 +3,11 @@
 // distance.
 
 #include "frame.glsl"
+#include "background.glsl"
 
 in vec3 offset;
 in float inside;
+in vec4 untilEnds;
 in vec2 onSurface;
 flat in vec3 surfaceNormal;
 flat in vec2 size;
@@ -80,5 +82,13 @@ void main() {
   albedo *= openness();
   vec3 dark = ambient(albedo, surfaceNormal) * opennessHere();
   vec3 bright = dark + direct(albedo, roughness, surfaceNormal, offset);
+  vec2 untilEnd = min(untilEnds.xy, untilEnds.zw);
+  float left = min(untilEnd.x, untilEnd.y);
+  if (left < 1.0) {  // it ends here: into the background
+    vec3 beyond = background(gl_FragCoord.y * occlusion.w);
+    float seen = smoothstep(0.0, 1.0, left);
+    dark = mix(beyond, dark, seen);
+    bright = mix(beyond, bright, seen);
+  }
   write(dark, bright, edgeAlpha(inside, vec2(dFdx(inside), dFdy(inside))));
 }

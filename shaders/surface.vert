@@ -9,10 +9,12 @@ layout(location = 2) in vec4 place;    // coordinates on the surface, then the s
 layout(location = 3) in vec4 adjoins;  // 1 where another surface meets this one: left, right, below, above
 layout(location = 4) in vec4 color;    // alpha: pattern
 layout(location = 5) in float fromRim;  // distance to the outline
+layout(location = 6) in vec4 fromEnds;  // distances to the ends of both coordinates, in margins that fade
 
 out vec3 offset;
 out vec2 onSurface;
 out float inside;
+out vec4 untilEnds;
 flat out vec3 surfaceNormal;
 flat out vec2 size;
 flat out vec4 edges;
@@ -22,6 +24,7 @@ void main() {
   offset = position;
   onSurface = place.xy;
   inside = fromRim;
+  untilEnds = fromEnds;
   surfaceNormal = normal;
   size = place.zw;
   edges = adjoins;

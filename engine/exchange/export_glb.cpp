@@ -190,7 +190,7 @@ class GlbWriter {
 
   void addSurfaces() {
     std::size_t number = 0;
-    for (const Surface& surface : surfacesOf(run_.stage, extentOf(run_), materials_)) {
+    for (const Surface& surface : surfacesOf(run_.stage, extentOf(run_), materials_, wallReachesOf(run_))) {
       std::vector<float> positions;
       std::vector<float> normals;
       std::vector<std::uint16_t> indices;

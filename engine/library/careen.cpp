@@ -310,7 +310,7 @@ std::vector<Image> Run::frames(const std::vector<double>& filmTimes,
       }
     }
     RenderOptions options;
-    options.camera = filming.camera(0);
+    filming.prepare(options);
     Renderer renderer(run, options);
     std::optional<Overlays> overlays;
     if (picture.overlays.any()) {

@@ -195,7 +195,7 @@ TruthFrames::TruthFrames(const Trajectory& run)
     : run_(run),
       clock_(run.stage.timeMap.within(run.settings.duration)),
       path_(run, clock_, run.stage.picture.aspect()),
-      surfaces_(surfacesOf(run.stage, extentOf(run))) {
+      surfaces_(surfacesOf(run.stage, extentOf(run), {}, wallReachesOf(run))) {
   checkLabels(run);
 }
 

@@ -17,6 +17,14 @@ std::optional<Vec2> Screen::at(const Vec3& point) const {
   return beyondNear(seen) > 0 ? std::optional(pixel(seen)) : std::nullopt;
 }
 
+Vec3 Screen::ray(const Vec2& pixel) const {
+  const Vec3 right = view_.clipFromOffset.block<1, 3>(0, 0).transpose();
+  const Vec3 up = view_.clipFromOffset.block<1, 3>(1, 0).transpose();
+  const Vec3 ahead = view_.clipFromOffset.block<1, 3>(3, 0).transpose();
+  return ahead + (2 * pixel.x() / width_ - 1) / right.squaredNorm() * right +
+         (1 - 2 * pixel.y() / height_) / up.squaredNorm() * up;
+}
+
 std::optional<std::pair<Vec2, Vec2>> Screen::line(const Vec3& from, const Vec3& to) const {
   Vec4 a = view_.clipFromWorld(from);
   Vec4 b = view_.clipFromWorld(to);

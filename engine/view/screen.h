@@ -20,6 +20,8 @@ class Screen {
   const Vec3& eye() const { return view_.eye; }
 
   std::optional<Vec2> at(const Vec3& point) const;
+  /// [1] From the eye to what is seen there, per metre of its depth: at() backwards.
+  Vec3 ray(const Vec2& pixel) const;
   /// The part of a line segment in front of the camera.
   std::optional<std::pair<Vec2, Vec2>> line(const Vec3& from, const Vec3& to) const;
   /// Size of a pixel at a point's depth, perpendicular to the line of sight.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <tuple>
 
 namespace careen {
 namespace {
@@ -42,10 +43,7 @@ Surface roomSide(const RoomShape& room, std::size_t side, const Materials& mater
 Surface slab(const Plane& wall, const Extent& extent, const Materials& materials) {
   Surface surface;
   surface.normal = wall.normal;
-  const bool isLevel = std::abs(wall.normal.z()) > 0.999;
-  surface.across =
-      (isLevel ? Vec3::UnitY().cross(wall.normal) : Vec3::UnitZ().cross(wall.normal)).normalized();
-  surface.along = wall.normal.cross(surface.across);
+  std::tie(surface.across, surface.along) = directionsOn(wall.normal);
   const Vec3 centre = extent.centre();
   surface.origin = centre - (wall.normal.dot(centre) - wall.offset) * wall.normal;
   const double reach = 2 * extent.radius();
@@ -58,8 +56,31 @@ Surface slab(const Plane& wall, const Extent& extent, const Materials& materials
     surface.outline = clipped(surface.outline, -Vec3::Unit(axis), -extent.max[axis]);
   }
   surface.covering = Covering::kTiles;
-  surface.color = isLevel ? materials.floor : materials.slab;
+  surface.color = isLevel(wall.normal) ? materials.floor : materials.slab;
   return surface;
+}
+
+// If boxes go beyond the surface's end: a rectangle that holds both, with a margin in which it fades.
+void extend(Surface& surface, const WallReach& reach, double margin) {
+  WallReach bounds;
+  for (const Vec3& corner : surface.outline) {
+    bounds.add(Vec2(surface.across.dot(corner), surface.along.dot(corner)), 0);
+  }
+  const bool isWithin = !bounds.isEmpty() && (bounds.min.array() <= reach.min.array()).all() &&
+                        (reach.max.array() <= bounds.max.array()).all();
+  if (reach.isEmpty() || isWithin) {
+    return;
+  }
+  bounds.add(reach.min, 0);
+  bounds.add(reach.max, 0);
+  const Vec3 foot = surface.normal.dot(surface.origin) * surface.normal;
+  const auto at = [&](double across, double along) -> Vec3 {
+    return foot + across * surface.across + along * surface.along;
+  };
+  const Vec2 min = bounds.min.array() - margin;
+  const Vec2 max = bounds.max.array() + margin;
+  surface.outline = {at(min.x(), min.y()), at(max.x(), min.y()), at(max.x(), max.y()), at(min.x(), max.y())};
+  surface.fade = margin;
 }
 
 }  // namespace
@@ -92,7 +113,8 @@ double tileSize(const Extent& extent) {
   return power;
 }
 
-std::vector<Surface> surfacesOf(const Stage& stage, const Extent& extent, const Materials& materials) {
+std::vector<Surface> surfacesOf(const Stage& stage, const Extent& extent, const Materials& materials,
+                                std::span<const WallReach> reaches) {
   std::vector<Surface> surfaces;
   if (stage.room) {
     for (std::size_t side = 0; side < kRoomSides.size(); ++side) {
@@ -107,8 +129,11 @@ std::vector<Surface> surfacesOf(const Stage& stage, const Extent& extent, const 
     const Vec3 margin = Vec3::Constant(extent.radius());
     reach = {.min = extent.min - margin, .max = extent.max + margin};
   }
-  for (const Plane& wall : stage.planes) {
-    Surface surface = slab(wall, reach, materials);
+  for (std::size_t wall = 0; wall < stage.planes.size(); ++wall) {
+    Surface surface = slab(stage.planes[wall], reach, materials);
+    if (wall < reaches.size()) {
+      extend(surface, reaches[wall], extent.radius());
+    }
     if (surface.outline.size() >= 3) {
       surfaces.push_back(std::move(surface));
     }

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "core/math/linear_algebra.h"
 #include "stage/stage.h"
 #include "view/materials.h"
 #include "view/scene_extent.h"
+#include "view/wall_reach.h"
 
 namespace careen {
 
@@ -24,6 +27,7 @@ struct Surface {
                                   ///< coordinate, and of the second
   Covering covering = Covering::kPlain;
   Vec3 color = Vec3::Ones();  ///< linear
+  double fade = 0;            ///< [m] from the end of a rectangle, where it fades into the background; 0: not
 };
 
 /// The part of a convex outline where normal·x >= offset.
@@ -32,7 +36,9 @@ std::vector<Vec3> clipped(const std::vector<Vec3>& outline, const Vec3& normal, 
 /// Side length of tiles that suits this extent: 1, 2 or 5 times a power of ten [m].
 double tileSize(const Extent& extent);
 
-/// Floor and walls: the room's closed sides, and the part of every other wall within the extent.
-std::vector<Surface> surfacesOf(const Stage& stage, const Extent& extent, const Materials& materials = {});
+/// Floor and walls: the room's closed sides, and the part of every other wall within the extent and, if it is
+/// told, as far as boxes go along it.
+std::vector<Surface> surfacesOf(const Stage& stage, const Extent& extent, const Materials& materials = {},
+                                std::span<const WallReach> reaches = {});
 
 }  // namespace careen

@@ -93,9 +93,9 @@ Mutations surfaceShaderMutations() {
       in(vert, "pattern 5 cm aside", "onSurface = place.xy", "onSurface = place.xy + 0.05"),
       in(vert, "neighbours in another order", "edges = adjoins", "edges = adjoins.yzwx"),
       in(vert, "normal upward", "surfaceNormal = normal", "surfaceNormal = up.xyz"),
-      in("background.frag", "upside down", "mix(backgroundBottom.rgb, backgroundTop.rgb",
+      in("background.glsl", "upside down", "mix(backgroundBottom.rgb, backgroundTop.rgb",
          "mix(backgroundTop.rgb, backgroundBottom.rgb"),
-      in("background.frag", "not smooth", "smoothstep(0.0, 1.0, height)", "height"),
+      in("background.glsl", "not smooth", "smoothstep(0.0, 1.0, height)", "height"),
       in("background.vert", "higher", "+ 0.5;", "+ 0.55;"),
   };
 }

@@ -22,6 +22,17 @@ TEST(Screen, agreesWithTheViewAndWithSimilarTriangles) {
   EXPECT_NEAR(screen.depth(Vec3(3, -5, 2)), 5, 1e-12);
 }
 
+// 72 px are a metre at 5 m: a tenth of that per metre of depth, and 0.2 there.
+TEST(Screen, rayLeadsToWhatIsSeen) {
+  const Screen screen = straight();
+  EXPECT_LT((screen.ray(Vec2(640 + 72, 360 - 144)) - Vec3(0.2, 1, 0.4)).norm(), 1e-12);
+  const Camera aslant = cameraAt(Vec3(3, -7, 5), Vec3(0, 1, 1), 40);
+  const Screen other(viewOf(aslant, {.min = Vec3(-5, -5, -5), .max = Vec3(5, 5, 5)}, 16.0 / 9), 1280, 720);
+  const Vec3 point(0.4, -0.7, 2);
+  const Vec3 found = other.eye() + other.depth(point) * other.ray(other.at(point).value());
+  EXPECT_LT((found - point).norm(), 1e-12);
+}
+
 TEST(Screen, whatIsBehindTheCameraHasNoPlace) {
   const Screen screen = straight();
   EXPECT_FALSE(screen.at(Vec3(0, -11, 0)));

@@ -99,6 +99,61 @@ TEST(Surfaces, floorWithoutRoomReachesBeyondTheScene) {
   EXPECT_GT(reach, extent.max.x());
 }
 
+Scene boxOverFloor() {
+  Scene scene;
+  scene.boxes.push_back(boxAt(Vec3(0, 0, 1), Vec3(0.5, 0.5, 0.5)));
+  scene.walls.push_back(wallAt(Vec3::UnitZ(), 0));
+  return scene;
+}
+
+TEST(Surfaces, floorThatReachesFarEnoughStaysAsItIs) {
+  const RunSetup setup = setupOf(boxOverFloor());
+  const Extent extent = extentOf(setup);
+  const WallReach within{.min = Vec2(-1, -1), .max = Vec2(1, 1)};
+  const Surface known = surfacesOf(setup.stage, extent).at(0);
+  const Surface told = surfacesOf(setup.stage, extent, {}, {&within, 1}).at(0);
+  EXPECT_EQ(told.outline, known.outline);
+  EXPECT_EQ(told.fade, 0);
+}
+
+// To x = 28 and its own ends elsewhere, with a margin on each side that is as wide as the scene's radius.
+TEST(Surfaces, floorReachesAsFarAsBoxesGo) {
+  const RunSetup setup = setupOf(boxOverFloor());
+  const Extent extent = extentOf(setup);
+  const WallReach far{.min = Vec2(-1, -1), .max = Vec2(28, 1)};
+  const Surface known = surfacesOf(setup.stage, extent).at(0);
+  const Surface told = surfacesOf(setup.stage, extent, {}, {&far, 1}).at(0);
+  Extent before{.min = known.outline[0], .max = known.outline[0]};
+  for (const Vec3& corner : known.outline) {
+    before = {.min = before.min.cwiseMin(corner), .max = before.max.cwiseMax(corner)};
+  }
+  Extent after{.min = told.outline.at(0), .max = told.outline.at(0)};
+  for (const Vec3& corner : told.outline) {
+    after = {.min = after.min.cwiseMin(corner), .max = after.max.cwiseMax(corner)};
+  }
+  const double margin = extent.radius();
+  EXPECT_EQ(told.fade, margin);
+  EXPECT_LT((after.max - Vec3(28 + margin, before.max.y() + margin, 0)).norm(), 1e-12);
+  EXPECT_LT((after.min - Vec3(before.min.x() - margin, before.min.y() - margin, 0)).norm(), 1e-12);
+  EXPECT_EQ(told.outline.size(), 4U);
+  EXPECT_GT(areaAlong(told, told.normal), 0);
+  EXPECT_EQ(told.origin, known.origin);  // tiles stay where they are
+}
+
+// A wall that the scene does not reach, but a box does later.
+TEST(Surfaces, wallAwayFromTheSceneIsThereIfABoxGoesThere) {
+  Scene scene = boxOverFloor();
+  scene.walls.push_back(wallAt(-Vec3::UnitX(), -100));
+  const RunSetup setup = setupOf(scene);
+  EXPECT_EQ(surfacesOf(setup.stage, extentOf(setup)).size(), 1U);
+  const std::vector<WallReach> reaches = {{}, {.min = Vec2(-0.5, 0), .max = Vec2(0.5, 1)}};
+  const std::vector<Surface> surfaces = surfacesOf(setup.stage, extentOf(setup), {}, reaches);
+  ASSERT_EQ(surfaces.size(), 2U);
+  for (const Vec3& corner : surfaces[1].outline) {
+    EXPECT_NEAR(corner.x(), 100, 1e-12);
+  }
+}
+
 TEST(Surfaces, tilesSuitTheScene) {
   EXPECT_DOUBLE_EQ(tileSize(extentOf(setupOf(crateInRoom()))), 0.5);
   EXPECT_DOUBLE_EQ(tileSize({.min = Vec3::Zero(), .max = Vec3(600, 400, 300)}), 50);

@@ -137,7 +137,8 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
              .shadows = shadows,
              .occlusion = occlusion,
              .neighbors = occlusion && world.bodies.size() > 1}),
-      surfaces(gl, shaders, lightShaders(lighting), surfacesOf(stage, extent, materials), tileSize(extent)),
+      surfaces(gl, shaders, lightShaders(lighting), surfacesOf(stage, extent, materials, options.reaches),
+               tileSize(extent)),
       backgroundArray(makeVertexArray(gl)),
       backgroundProgram(
           linkProgram(gl, shaders, {"background.vert", "background.frag", "write_lit.frag", "finish.frag"})) {
@@ -345,10 +346,12 @@ Picture Renderer::draw(const Shot& shot) {
   return picture;
 }
 
-void Renderer::drawOver(Picture& picture, const Camera& camera, const OverlaySource& overlay) {
+View Renderer::view(const Camera& camera) const { return viewOf(camera, parts_->extent, parts_->aspect); }
+
+void Renderer::drawOver(Picture& picture, const OverlayShapes& shapes) {
   const Clock::time_point begun = Clock::now();
   parts_->context->makeCurrent();
-  parts_->drawOver(picture, overlay(viewOf(camera, parts_->extent, parts_->aspect)));
+  parts_->drawOver(picture, shapes);
   parts_->figures.drawSeconds += secondsSince(begun);
 }
 

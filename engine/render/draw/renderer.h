@@ -1,11 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/math/pose.h"
 #include "image/picture.h"
@@ -16,6 +16,7 @@
 #include "stage/run_setup.h"
 #include "view/camera.h"
 #include "view/materials.h"
+#include "view/wall_reach.h"
 
 namespace careen {
 
@@ -24,6 +25,7 @@ struct RenderOptions {
   std::optional<Lighting> lighting;    ///< absent: from the picture's look
   std::optional<Materials> materials;  ///< absent: from the picture's look
   std::optional<Camera> camera;        ///< that the light is placed relative to; absent: cameraOf(setup)
+  std::vector<WallReach> reaches;      ///< how far boxes go along walls; absent: not far
   std::filesystem::path shaders;       ///< folder; empty: $CAREEN_DATA, else built in
 };
 
@@ -36,9 +38,6 @@ struct DrawFigures {
   double drawSeconds = 0;  ///< [s] wall time until drawing is complete
   double readSeconds = 0;  ///< [s] reading back and flipping
 };
-
-/// Shapes to draw over a picture with this view.
-using OverlaySource = std::function<OverlayShapes(const View&)>;
 
 /// A picture to be drawn.
 struct Shot {
@@ -64,8 +63,10 @@ class Renderer {
   Picture draw(const Shot& shot);
   /// Draws with the camera that the light is placed relative to.
   Picture draw(std::span<const Pose> poses);
-  /// Draws the shapes that `overlay` returns for this camera over the picture.
-  void drawOver(Picture& picture, const Camera& camera, const OverlaySource& overlay);
+  /// What the pictures show from there.
+  View view(const Camera& camera) const;
+  /// Draws these shapes over the picture.
+  void drawOver(Picture& picture, const OverlayShapes& shapes);
 
   /// GL's renderer and version, such as "llvmpipe (…), OpenGL … Mesa 22.3.6, libOSMesa.so.8".
   const std::string& rendererName() const;

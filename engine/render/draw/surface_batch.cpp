@@ -2,6 +2,7 @@
 
 #include "render/draw/surface_batch.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -11,8 +12,31 @@
 namespace careen {
 namespace {
 
-void appendVertex(std::vector<float>& records, const Surface& surface, const Vec3& corner, double fromRim,
-                  double tileSize, const Vec3& eye) {
+using Ends = std::array<double, 4>;  // [m] low and high end of the first coordinate, and of the second
+
+Ends endsOf(const Surface& surface) {
+  const auto [low, high] = std::minmax_element(
+      surface.outline.begin(), surface.outline.end(),
+      [&](const Vec3& a, const Vec3& b) { return surface.across.dot(a) < surface.across.dot(b); });
+  const auto [near, far] = std::minmax_element(
+      surface.outline.begin(), surface.outline.end(),
+      [&](const Vec3& a, const Vec3& b) { return surface.along.dot(a) < surface.along.dot(b); });
+  return {surface.across.dot(*low), surface.across.dot(*high), surface.along.dot(*near),
+          surface.along.dot(*far)};
+}
+
+// Distances of a corner from the four ends, in units of the margin in which the surface fades there.
+void appendFade(std::vector<float>& records, const Surface& surface, const Ends& ends, const Vec3& corner) {
+  constexpr double kNoFade = 2;
+  const double across = surface.across.dot(corner);
+  const double along = surface.along.dot(corner);
+  for (const double distance : {across - ends[0], ends[1] - across, along - ends[2], ends[3] - along}) {
+    records.push_back(static_cast<float>(surface.fade > 0 ? distance / surface.fade : kNoFade));
+  }
+}
+
+void appendVertex(std::vector<float>& records, const Surface& surface, const Ends& ends, const Vec3& corner,
+                  double fromRim, double tileSize, const Vec3& eye) {
   append(records, corner - eye);
   append(records, surface.normal);
   // Lengths on a surface are in units of tiles from here on.
@@ -27,6 +51,7 @@ void appendVertex(std::vector<float>& records, const Surface& surface, const Vec
   append(records, surface.color);
   records.push_back(static_cast<float>(surface.covering));
   records.push_back(static_cast<float>(fromRim));
+  appendFade(records, surface, ends, corner);
 }
 
 // A convex outline becomes a triangle fan around its middle, one triangle per edge.
@@ -34,15 +59,16 @@ std::vector<float> triangles(const std::vector<Surface>& surfaces, double tileSi
   std::vector<float> records;
   for (const Surface& surface : surfaces) {
     const std::size_t count = surface.outline.size();
+    const Ends ends = endsOf(surface);
     const Vec3 middle = std::accumulate(surface.outline.begin(), surface.outline.end(), Vec3(Vec3::Zero())) /
                         static_cast<double>(count);
     for (std::size_t first = 0; first < count; ++first) {
       const Vec3& from = surface.outline[first];
       const Vec3& to = surface.outline[(first + 1) % count];
       const double fromRim = (middle - from).cross((to - from).normalized()).norm();
-      appendVertex(records, surface, middle, fromRim, tileSize, eye);
-      appendVertex(records, surface, from, 0, tileSize, eye);
-      appendVertex(records, surface, to, 0, tileSize, eye);
+      appendVertex(records, surface, ends, middle, fromRim, tileSize, eye);
+      appendVertex(records, surface, ends, from, 0, tileSize, eye);
+      appendVertex(records, surface, ends, to, 0, tileSize, eye);
     }
   }
   return records;
@@ -55,7 +81,7 @@ SurfaceBatch::SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders,
                            double tileSize)
     : gl_(gl),
       array_(makeVertexArray(gl)),
-      vertices_(gl, {{0, 3}, {1, 3}, {2, 4}, {3, 4}, {4, 4}, {5, 1}}, VertexBuffer::Step::kVertex),
+      vertices_(gl, {{0, 3}, {1, 3}, {2, 4}, {3, 4}, {4, 4}, {5, 1}, {6, 4}}, VertexBuffer::Step::kVertex),
       shaders_(shaders),
       light_(light),
       depthProgram_(linkProgram(gl, shaders, {"depth.vert", "black.frag"})),

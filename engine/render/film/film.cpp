@@ -106,13 +106,13 @@ std::unique_ptr<VideoPipe> startVideo(const FilmSettings& settings, const Pictur
 
 // Sets up a job in its own process. The ring has slots if there is a video.
 FrameWorkshop openWorkshop(const Filming& filming, const Trajectory& run, const FilmSettings& settings,
-                           const std::vector<std::int64_t>& frames, const std::optional<Overlays>& overlays,
+                           const std::vector<std::int64_t>& frames, std::optional<Overlays>& overlays,
                            int jobs, const PictureRing& ring) {
   if (glWasOpened()) {  // otherwise it would wait for threads that were not forked
     throw MachineError("no job can draw: GL had been opened before it was forked");
   }
   RenderOptions options = optionsOfJob(settings, jobs);
-  options.camera = filming.camera(0);
+  filming.prepare(options);
   const auto renderer = std::make_shared<Renderer>(run, options);
   const PictureSettings& settingsOfPicture = run.stage.picture;
   const auto work = [renderer, &filming, &settings, &settingsOfPicture, &frames, &overlays, &ring](

@@ -35,10 +35,16 @@ bool isSame(const Sample& a, const Sample& b) {
 Filming::Filming(const Trajectory& run)
     : run_(run),
       clock_(run.stage.timeMap.within(run.settings.duration)),
-      path_(run, clock_, run.stage.picture.aspect()) {}
+      path_(run, clock_, run.stage.picture.aspect()),
+      reaches_(wallReachesOf(run)) {}
 
 Camera Filming::camera(double filmTime) const {
   return orbited(path_.at(std::clamp(filmTime, 0.0, duration())), orbit_);
+}
+
+void Filming::prepare(RenderOptions& options) const {
+  options.camera = camera(0);
+  options.reaches = reaches_;
 }
 
 void Filming::checkCamera(std::span<const std::int64_t> frames, const FrameRate& rate) const {
@@ -80,15 +86,19 @@ Picture Filming::draw(Renderer& renderer, double filmTime, const Shutter& shutte
   return average.average();
 }
 
-void Filming::explain(Renderer& renderer, Picture& picture, double filmTime, const Overlays& overlays) const {
-  explainStrobe(renderer, picture, {&filmTime, 1}, overlays);
+void Filming::explain(Renderer& renderer, Picture& picture, double filmTime, Overlays& overlays) const {
+  const auto momentAt = [&](double time) {
+    return OverlayMoment{.sceneTime = sceneTime(time), .view = renderer.view(camera(time))};
+  };
+  renderer.drawOver(picture, overlays.shapesAt(filmTime, momentAt, picture.width, picture.height));
 }
 
 void Filming::explainStrobe(Renderer& renderer, Picture& picture, std::span<const double> filmTimes,
-                            const Overlays& overlays) const {
-  renderer.drawOver(picture, camera(filmTimes.front()), [&](const View& view) {
-    return overlays.shapesAt(sceneTime(filmTimes.back()), view, picture.width, picture.height);
-  });
+                            Overlays& overlays) const {
+  const OverlayMoment moment{.sceneTime = sceneTime(filmTimes.back()),
+                             .view = renderer.view(camera(filmTimes.front()))};
+  const auto still = [&](double /*filmTime*/) { return moment; };
+  renderer.drawOver(picture, overlays.shapesAt(filmTimes.back(), still, picture.width, picture.height));
 }
 
 Picture Filming::drawStrobe(Renderer& renderer, std::span<const double> filmTimes) const {

@@ -11,11 +11,13 @@
 #include "trajectory/trajectory.h"
 #include "view/camera_path.h"
 #include "view/orbit.h"
+#include "view/wall_reach.h"
 
 namespace careen {
 
 class Overlays;
 class Renderer;
+struct RenderOptions;
 
 /// What the film of a run shows at each moment: camera and box poses, both exact at any time. Keeps a
 /// reference to the run.
@@ -32,6 +34,9 @@ class Filming {
   /// Sets the camera's orbit relative to the film's camera.
   void turnCamera(const Orbit& orbit) { orbit_ = orbit; }
 
+  /// For a renderer of the film: where its light comes from, how far walls reach.
+  void prepare(RenderOptions& options) const;
+
   /// InputError if in any of the frames the camera keys leave the view or up direction undefined.
   void checkCamera(std::span<const std::int64_t> frames, const FrameRate& rate) const;
 
@@ -40,10 +45,10 @@ class Filming {
   Picture draw(Renderer& renderer, double filmTime, const Shutter& shutter, const FrameRate& rate) const;
 
   /// Draws the overlays of that moment over its picture.
-  void explain(Renderer& renderer, Picture& picture, double filmTime, const Overlays& overlays) const;
+  void explain(Renderer& renderer, Picture& picture, double filmTime, Overlays& overlays) const;
   /// The same of the last of several moments over their picture by drawStrobe.
   void explainStrobe(Renderer& renderer, Picture& picture, std::span<const double> filmTimes,
-                     const Overlays& overlays) const;
+                     Overlays& overlays) const;
 
   /// One picture with the boxes at all of the moments, seen by the camera of the first.
   Picture drawStrobe(Renderer& renderer, std::span<const double> filmTimes) const;
@@ -52,6 +57,7 @@ class Filming {
   const Trajectory& run_;
   TimeMap clock_;
   CameraPath path_;
+  std::vector<WallReach> reaches_;
   Orbit orbit_;
 };
 

@@ -1,4 +1,4 @@
-// Overlays drawn at boxes: arrows, trails and names.
+// Overlays drawn at boxes: arrows and trails.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,6 @@ constexpr int kTrailMostSamples = 600;            // per trail
 constexpr std::ptrdiff_t kTrailMostTimes = 1200;  // sample times per trail, including impacts
 constexpr double kTrailTurn = 0.15;               // [rad] largest rotation of a box between two samples
 constexpr double kBehindItsBox = 0.3;             // opacity of a trail behind its own box
-constexpr std::size_t kMostNames = 16;            // above this number of boxes, default names are not shown
 constexpr std::size_t kCornerFollowed = 0;        // the corner at +x +y +z
 
 template <class Vector>
@@ -147,68 +146,6 @@ void addTrail(OverlayShapes& shapes, const OverlayFrame& frame, std::size_t body
   }
 }
 
-bool overlap(const Plate& a, const Plate& b) {
-  return (a.min.array() < b.max.array()).all() && (b.min.array() < a.max.array()).all();
-}
-
-// Bounding rectangle of a box in the picture.
-struct Covered {
-  Vec2 min;
-  Vec2 max;
-};
-Covered coveredBy(const OverlayFrame& frame, std::size_t body, const Vec2& centre) {
-  Covered covered{centre, centre};
-  for (int index = 0; index < kCorners; ++index) {
-    const Vec3 at = frame.states[body].pose.worldPoint(corner(frame.trajectory.world.bodies[body], index));
-    if (const std::optional<Vec2> seen = frame.screen.at(at)) {
-      covered.min = covered.min.cwiseMin(*seen);
-      covered.max = covered.max.cwiseMax(*seen);
-    }
-  }
-  return covered;
-}
-
-// A name's plate above its box and one below it; within the left and right edges of the picture.
-std::array<Plate, 2> placesFor(const OverlayFrame& frame, const Covered& box, double middle,
-                               const Vec2& size) {
-  const double gap = 0.45 * frame.style.text;
-  const double rightmost = std::max(0.0, frame.screen.width() - size.x());
-  const double x = std::clamp(middle - 0.5 * size.x(), 0.0, rightmost);
-  const auto at = [&](double y) {
-    const Vec2 min(std::round(x), std::round(y));
-    return plateFor(frame.style, min, min + size);
-  };
-  return {at(box.min.y() - gap - size.y()), at(box.max.y() + gap)};
-}
-
-bool isFree(const OverlayFrame& frame, const Plate& place, const std::vector<Plate>& taken) {
-  return place.min.y() >= 0 && place.max.y() <= frame.screen.height() &&
-         std::none_of(taken.begin(), taken.end(), [&](const Plate& other) { return overlap(place, other); });
-}
-
-// Adds a name where there is room, if the box is in the picture.
-void addName(OverlayShapes& shapes, const OverlayFrame& frame, std::size_t body, std::vector<Plate>& taken) {
-  const std::optional<Vec2> centre = frame.screen.at(frame.states[body].pose.position);
-  const Vec2 picture(frame.screen.width(), frame.screen.height());
-  if (!centre || centre->minCoeff() < 0 || (picture - *centre).minCoeff() < 0) {
-    return;
-  }
-  const std::string& name = frame.trajectory.world.bodies[body].name;
-  const double em = std::max(kSmallestText, 0.9 * frame.style.text);
-  const Vec2 size(std::round(frame.fonts->plain.width(name, em) + 0.9 * em), std::round(1.5 * em));
-  const Covered box = coveredBy(frame, body, *centre);
-  for (const Plate& place : placesFor(frame, box, centre->x(), size)) {
-    if (isFree(frame, place, taken)) {
-      const double down = std::round(0.5 * (size.y() + frame.fonts->plain.capitalHeight(em)));
-      taken.push_back(place);
-      shapes.emplace_back(place);
-      shapes.emplace_back(
-          Label{.text = name, .at = place.min + Vec2(0.45 * em, down), .size = em, .ink = {kIvory, 1}});
-      return;
-    }
-  }
-}
-
 }  // namespace
 
 std::optional<Stroke> arrowFor(const OverlayFrame& frame, const Vec3& point, const Vec3& vector,
@@ -286,22 +223,6 @@ void addSpinAxes(OverlayShapes& shapes, const OverlayFrame& frame) {
   }
   addArrows(shapes, frame, frame.scales.angularSpeed, kMoss,
             [&](std::size_t body) { return spinOf(frame, body); });
-}
-
-void addNames(OverlayShapes& shapes, const OverlayFrame& frame) {
-  std::vector<Plate> taken;
-  for (const OverlayShape& shape : shapes) {  // the panels' plates are fixed
-    if (const Plate* const plate = std::get_if<Plate>(&shape)) {
-      taken.push_back(*plate);
-    }
-  }
-  for (auto it = frame.farthestFirst.rbegin(); it != frame.farthestFirst.rend(); ++it) {
-    const std::size_t body = *it;
-    const bool isGiven = frame.trajectory.world.bodies[body].name != "box-" + std::to_string(body);
-    if (isGiven || frame.states.size() <= kMostNames) {
-      addName(shapes, frame, body, taken);
-    }
-  }
 }
 
 }  // namespace careen

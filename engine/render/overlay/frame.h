@@ -51,9 +51,6 @@ void addAngularMomenta(OverlayShapes& shapes, const OverlayFrame& frame);
 void addSpinAxes(OverlayShapes& shapes, const OverlayFrame& frame);
 void addContacts(OverlayShapes& shapes, const OverlayFrame& frame);
 void addImpulses(OverlayShapes& shapes, const OverlayFrame& frame);
-/// Above or below the boxes, nearest first; omits names that would cover another name or an existing plate,
-/// and default names if there are many boxes.
-void addNames(OverlayShapes& shapes, const OverlayFrame& frame);
 void addTimeCode(OverlayShapes& shapes, const OverlayFrame& frame);
 void addEnergy(OverlayShapes& shapes, const OverlayFrame& frame);
 /// Outlines of the other run's movable boxes, those edges paler that their own boxes would hide; lines from

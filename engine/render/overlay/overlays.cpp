@@ -70,26 +70,82 @@ Overlays::Overlays(const Trajectory& trajectory, const OverlaySet& shown, double
   if (shown.has(Overlay::kEnergy)) {
     energy_.emplace(trajectory);
   }
+  if (shown.has(Overlay::kNames)) {
+    names_.emplace(trajectory, frameSeconds);
+  }
 }
 
-OverlayShapes Overlays::shapesAt(double time, const View& view, int width, int height) const {
-  const std::vector<BodyState> states = statesAt(trajectory_, time);
-  const Screen screen(view, width, height);
-  std::vector<Vec3> centres;
-  std::transform(states.begin(), states.end(), std::back_inserter(centres),
-                 [](const BodyState& state) { return state.pose.position; });
-  const std::vector<std::size_t> order = farthestFirst(screen, centres);
-  const OverlayFrame frame{.trajectory = trajectory_,
-                           .time = time,
-                           .frameSeconds = frameSeconds_,
-                           .states = states,
-                           .farthestFirst = order,
-                           .scales = scales_,
-                           .fonts = fonts_ ? &*fonts_ : nullptr,
-                           .energy = energy_ ? &*energy_ : nullptr,
-                           .ghost = ghost_,
-                           .screen = screen,
-                           .style = OverlayStyle(height)};
+// The data of a moment, and what they refer to.
+class Overlays::Frame {
+ public:
+  Frame(const Overlays& of, const OverlayMoment& moment, int width, int height)
+      : states_(statesAt(of.trajectory_, moment.sceneTime)),
+        screen_(moment.view, width, height),
+        order_(orderOf(states_, screen_)),
+        data_{.trajectory = of.trajectory_,
+              .time = moment.sceneTime,
+              .frameSeconds = of.frameSeconds_,
+              .states = states_,
+              .farthestFirst = order_,
+              .scales = of.scales_,
+              .fonts = of.fonts_ ? &*of.fonts_ : nullptr,
+              .energy = of.energy_ ? &*of.energy_ : nullptr,
+              .ghost = of.ghost_,
+              .screen = screen_,
+              .style = OverlayStyle(height)} {}
+  ~Frame() = default;
+  Frame(const Frame&) = delete;
+  Frame& operator=(const Frame&) = delete;
+  Frame(Frame&&) = delete;
+  Frame& operator=(Frame&&) = delete;
+
+  const OverlayFrame& data() const { return data_; }
+
+ private:
+  static std::vector<std::size_t> orderOf(const std::vector<BodyState>& states, const Screen& screen) {
+    std::vector<Vec3> centres;
+    std::transform(states.begin(), states.end(), std::back_inserter(centres),
+                   [](const BodyState& state) { return state.pose.position; });
+    return farthestFirst(screen, centres);
+  }
+
+  std::vector<BodyState> states_;
+  Screen screen_;
+  std::vector<std::size_t> order_;
+  OverlayFrame data_;
+};
+
+// Names avoid the panels at the edges and what belongs to them.
+std::vector<Plate> Overlays::panelsAt(const OverlayFrame& frame) const {
+  OverlayShapes shapes;
+  if (ghost_ != nullptr) {
+    addGhost(shapes, frame);
+  }
+  for (const NamedAdd& each : kInOrder) {
+    if (shown_.has(each.overlay) && (each.add == addEnergy || each.add == addTimeCode)) {
+      each.add(shapes, frame);
+    }
+  }
+  if (hasAny(shown_, kArrows)) {
+    addLegend(shapes, frame, shown_);
+  }
+  std::vector<Plate> panels;
+  for (const OverlayShape& shape : shapes) {
+    if (const Plate* const plate = std::get_if<Plate>(&shape)) {
+      panels.push_back(*plate);
+    }
+  }
+  return panels;
+}
+
+FreeNamePlaces Overlays::freePlacesAt(const OverlayMoment& moment, int width, int height) const {
+  const Frame frame(*this, moment, width, height);
+  return freeNamePlaces(frame.data(), names_->bodies(), panelsAt(frame.data()));
+}
+
+OverlayShapes Overlays::shapesAt(double filmTime, const MomentAt& momentAt, int width, int height) {
+  const Frame now(*this, momentAt(filmTime), width, height);
+  const OverlayFrame& frame = now.data();
   OverlayShapes shapes;
   if (ghost_ != nullptr) {
     addGhost(shapes, frame);
@@ -102,8 +158,9 @@ OverlayShapes Overlays::shapesAt(double time, const View& view, int width, int h
   if (hasAny(shown_, kArrows)) {
     addLegend(shapes, frame, shown_);
   }
-  if (shown_.has(Overlay::kNames)) {  // last, because names avoid the panels at the edges
-    addNames(shapes, frame);
+  if (names_) {
+    names_->add(shapes, frame, filmTime, momentAt,
+                [&](const OverlayMoment& moment) { return freePlacesAt(moment, width, height); });
   }
   return shapes;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/overlay/frame.h"
+#include "render/overlay/names.h"
 #include "stage/overlay.h"
 
 namespace careen {
@@ -20,11 +21,16 @@ class Overlays {
   Overlays(const Trajectory& trajectory, const OverlaySet& shown, double frameSeconds,
            const Trajectory* ghost = nullptr, std::span<const std::filesystem::path> folders = fontFolders());
 
-  /// `time` within the run [s]; `width`, `height` of the picture [px].
-  OverlayShapes shapesAt(double time, const View& view, int width, int height) const;
+  /// At this time of the film [s]; names ask for the moments around it too. `width`, `height` of the picture
+  /// [px]. The same moments give the same shapes, whatever was asked before.
+  OverlayShapes shapesAt(double filmTime, const MomentAt& momentAt, int width, int height);
   const OverlayScales& scales() const { return scales_; }
 
  private:
+  class Frame;
+  std::vector<Plate> panelsAt(const OverlayFrame& frame) const;
+  FreeNamePlaces freePlacesAt(const OverlayMoment& moment, int width, int height) const;
+
   const Trajectory& trajectory_;
   OverlaySet shown_;
   double frameSeconds_;
@@ -32,6 +38,7 @@ class Overlays {
   OverlayScales scales_;
   std::optional<OverlayFonts> fonts_;
   std::optional<EnergyBook> energy_;
+  std::optional<Names> names_;
 };
 
 }  // namespace careen

@@ -178,6 +178,42 @@ TEST(Renderer, freeWallsLeaveTheFloorsShadeAsItIs) {
   EXPECT_NEAR(shade(), alone, 1);
 }
 
+// A floor seen from above, along which boxes go to x = 10. The scene's radius, which is the margin, is that
+// of a cube of twice the box's radius √¾: 1.5 m. Half of it is seen half way.
+TEST(Renderer, aFloorOnWhichBoxesGoFarFadesIntoTheBackgroundAtItsEnd) {
+  Scene scene;
+  scene.gravity = Vec3::Zero();
+  scene.boxes.push_back(boxAt(Vec3(0, 0, 0.5), Vec3(0.5, 0.5, 0.5)));
+  scene.walls.push_back(wallAt(Vec3::UnitZ(), 0));
+  scene.camera =
+      Camera{.eye = Vec3(6, 0, 20), .target = Vec3(6, 0, 0), .up = Vec3::UnitY(), .fovDegrees = 35};
+  const Vec3 background(0.02, 0.1, 0.3);
+  RenderOptions options = lit(evenLighting(background));
+  options.materials->tileContrast = 0;
+  options.materials->joints = 0;
+  const Vec3 floor = options.materials->floor;
+  const double pixels = 0.5 * kHeightOfLook / std::tan(17.5 * std::numbers::pi / 180) / 20;
+  const auto expectSeen = [&](const Picture& picture, double x, const Vec3& color) {
+    const int column = static_cast<int>(0.5 * kWidthOfLook + pixels * (x - 6));
+    const std::array<int, 3> seen = pixelAt(picture, column, kHeightOfLook / 2 + 3);
+    for (int channel = 0; channel < 3; ++channel) {
+      EXPECT_NEAR(seen.at(static_cast<std::size_t>(channel)), srgbFromLinear(color[channel]), 8)
+          << channel << " at " << x;
+    }
+  };
+  const Picture before = drawnLook(scene, options);
+  expectSeen(before, 2, floor);
+  expectSeen(before, 5, background);
+  options.reaches = {{.min = Vec2(-1, -1), .max = Vec2(10, 1)}};
+  const Picture after = drawnLook(scene, options);
+  expectSeen(after, 2, floor);
+  expectSeen(after, 9.8, floor);
+  expectSeen(after, 10.75, 0.5 * (floor + background));
+  expectSeen(after, 11.6, background);
+  options.reaches = {{.min = Vec2(-1, -1), .max = Vec2(1, 1)}};
+  EXPECT_EQ(drawnLook(scene, options).rgb, before.rgb);  // not one byte
+}
+
 TEST(Renderer, looksDiffer) {
   Scene scene = crateInRoom();
   const auto as = [&](Look look) {

@@ -21,7 +21,7 @@ class OverlayBatchTest : public testing::Test {
   Picture over(const OverlayShapes& shapes) { return over(renderer_, shapes); }
   Picture over(Renderer& renderer, const OverlayShapes& shapes) {
     Picture picture = renderer.draw(posesOf(scene_));
-    renderer.drawOver(picture, *scene_.camera, [&](const View&) { return shapes; });
+    renderer.drawOver(picture, shapes);
     return picture;
   }
   Picture bare() { return renderer_.draw(posesOf(scene_)); }
@@ -101,7 +101,7 @@ TEST_F(OverlayBatchTest, ribbonHasNoSeams) {
   }
   const Picture below = renderer.draw(posesOf(scene_));
   Picture picture = below;
-  renderer.drawOver(picture, *scene_.camera, [&](const View&) { return OverlayShapes{ribbon}; });
+  renderer.drawOver(picture, {ribbon});
   int covered = 0;
   for (int y = 0; y < kHeightOfBatch; ++y) {
     for (int x = 0; x < kWidthOfBatch; ++x) {

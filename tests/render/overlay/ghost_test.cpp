@@ -22,9 +22,10 @@ class Ghost : public testing::Test {
  protected:
   OverlayShapes shapesAt(double time) const {
     const Trajectory run = shownAs(scene_, run_);
-    const Overlays overlays(run, {}, 1.0 / 30, &ghost_);
-    return overlays.shapesAt(time, viewOf(*scene_.camera, extentOf(run), 16.0 / 9), kWidthOfGhost,
-                             kHeightOfGhost);
+    Overlays overlays(run, {}, 1.0 / 30, &ghost_);
+    const View view = viewOf(*scene_.camera, extentOf(run), 16.0 / 9);
+    const auto momentAt = [&](double filmTime) { return OverlayMoment{.sceneTime = filmTime, .view = view}; };
+    return overlays.shapesAt(time, momentAt, kWidthOfGhost, kHeightOfGhost);
   }
   template <class Shape>
   static std::vector<Shape> only(const OverlayShapes& shapes) {

@@ -34,14 +34,22 @@ Vec2 onPicture(const Vec3& point) {
   return {640 + scale * point.x(), 360 - scale * (point.z() - 1.5)};
 }
 
+bool overlap(const Plate& a, const Plate& b) {
+  return (a.min.array() < b.max.array()).all() && (b.min.array() < a.max.array()).all();
+}
+
 class OverlaysTest : public testing::Test {
  protected:
   OverlayShapes shapesAt(const std::string& names, double time, int width = kWidth,
                          int height = kHeight) const {
     const Trajectory run = shown();
-    const Overlays overlays(run, OverlaySet::named(names), kFrame);
+    Overlays overlays(run, OverlaySet::named(names), kFrame);
     const double aspect = static_cast<double>(width) / height;
-    return overlays.shapesAt(time, viewOf(*scene_.camera, extentOf(run), aspect), width, height);
+    const View view = viewOf(*scene_.camera, extentOf(run), aspect);
+    const auto momentAt = [&](double filmTime) {
+      return OverlayMoment{.sceneTime = std::clamp(filmTime, 0.0, run.settings.duration), .view = view};
+    };
+    return overlays.shapesAt(time, momentAt, width, height);
   }
   template <class Shape>
   static std::vector<Shape> only(const OverlayShapes& shapes) {
@@ -191,18 +199,24 @@ TEST_F(OverlaysTest, whatRestsLeavesNoTrail) {
   EXPECT_TRUE(shapesAt("trail", 0.7).empty());
 }
 
-TEST_F(OverlaysTest, nameStandsAboveItsBox) {
+// Wider than the crate, so beside it, with a line that ends on it and a dot there.
+TEST_F(OverlaysTest, nameStandsBesideItsBox) {
   scene_.boxes[0].name = "Kiste ü";
   const OverlayShapes shapes = shapesAt("names", 0);
-  ASSERT_EQ(shapes.size(), 2U);
-  const Plate plate = std::get<Plate>(shapes[0]);
-  const Label label = std::get<Label>(shapes[1]);
+  ASSERT_EQ(shapes.size(), 4U);
+  const Stroke line = std::get<Stroke>(shapes[0]);
+  const Stroke dot = std::get<Stroke>(shapes[1]);
+  const Plate plate = std::get<Plate>(shapes[2]);
+  const Label label = std::get<Label>(shapes[3]);
   EXPECT_EQ(label.text, "Kiste ü");
-  EXPECT_NEAR(0.5 * (plate.min.x() + plate.max.x()), 640, 1.5);
   for (int index = 0; index < kCorners; ++index) {
     const Vec3 point = scene_.boxes[0].pose.worldPoint(corner(scene_.boxes[0].halfExtents, index));
-    EXPECT_LT(plate.max.y(), onPicture(point).y());
+    EXPECT_GT(plate.min.x(), onPicture(point).x());
   }
+  EXPECT_EQ(line.from.x(), plate.min.x());
+  EXPECT_EQ(line.to, dot.to);
+  EXPECT_EQ(dot.from, dot.to);
+  EXPECT_LT((line.to - onPicture(scene_.boxes[0].pose.position)).norm(), 0.5 * kPixels);
   const double width = findFont(kPlainFont).width(label.text, label.size);
   EXPECT_GT(label.at.x(), plate.min.x());
   EXPECT_LT(label.at.x() + width, plate.max.x());
@@ -213,25 +227,25 @@ TEST_F(OverlaysTest, namesDoNotCoverEachOther) {
     scene_.boxes.push_back(scene_.boxes[0]);
     scene_.boxes.back().name = name;
     run_.tracks.push_back(run_.tracks.back());
-    std::get<EulerStep>(run_.tracks.back().segments[0].motion).start.pose.position.y() += 0.01;
+    std::get<EulerStep>(run_.tracks.back().segments[0].motion).start.pose.position.x() += 1;
   }
-  const OverlayShapes shapes = shapesAt("names", 0);
-  const std::vector<Label> labels = only<Label>(shapes);
-  ASSERT_EQ(labels.size(), 2U);  // the nearest above, the next below; for the others there is no room
-  EXPECT_EQ(labels[0].text, "box");
-  EXPECT_EQ(labels[1].text, "second");
-  const std::vector<Plate> plates = only<Plate>(shapes);
-  EXPECT_LT(plates[0].max.y(), plates[1].min.y());
+  const std::vector<Plate> plates = only<Plate>(shapesAt("names", 0));
+  ASSERT_EQ(plates.size(), 4U);
+  for (std::size_t i = 0; i < plates.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_FALSE(overlap(plates[i], plates[j])) << i << ' ' << j;
+    }
+  }
 }
 
 TEST_F(OverlaysTest, namesKeepClearOfThePanels) {
-  std::get<EulerStep>(run_.tracks[0].segments[0].motion).start.pose.position = Vec3(-9, 0, 5.67);
+  std::get<EulerStep>(run_.tracks[0].segments[0].motion).start.pose.position = Vec3(-9, 0, 6.44);
   const std::vector<Plate> alone = only<Plate>(shapesAt("names", 0));
   const std::vector<Plate> both = only<Plate>(shapesAt("time,names", 0));
   ASSERT_EQ(alone.size(), 1U);
   ASSERT_EQ(both.size(), 2U);
-  EXPECT_LT(alone[0].max.y(), onPicture(Vec3(-9, 0, 5.67)).y());  // above the box it would cover the time
-  EXPECT_GT(both[1].min.y(), onPicture(Vec3(-9, 0, 5.67)).y());
+  EXPECT_TRUE(overlap(both[0], alone[0]));
+  EXPECT_FALSE(overlap(both[0], both[1]));
 }
 
 TEST_F(OverlaysTest, timeCodeTellsTheScenesTime) {
