@@ -4,18 +4,19 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <system_error>
 
 namespace careen {
 
 std::string_view drawingPackages(std::string_view osRelease) {
   constexpr int kLastWithOsMesa = 13;
-  constexpr std::string_view kKey = "\nVERSION_ID=";
-  const std::string text = "\n" + std::string(osRelease);
+  constexpr std::string_view kKey = "VERSION_ID=";
   int release = kLastWithOsMesa + 1;
-  if (const std::size_t at = text.find(kKey); at != std::string::npos) {
-    const char* const begin = text.c_str() + at + kKey.size();
-    std::from_chars(*begin == '"' ? begin + 1 : begin, text.c_str() + text.size(), release);
+  std::istringstream lines{std::string(osRelease)};
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(kKey)) {
+      const char* const value = line.c_str() + kKey.size();
+      std::from_chars(*value == '"' ? value + 1 : value, line.c_str() + line.size(), release);
+    }
   }
   return release <= kLastWithOsMesa ? "libosmesa6" : "libegl1 libegl-mesa0 libgl1-mesa-dri";
 }
