@@ -222,11 +222,13 @@ TEST_F(Render, textIsTheSameWhateverFrameWasDrawnBefore) {
   text.insert(text.find(boxes) + boxes.size(),
               R"({ "half_extents": [0.5, 0.5, 0.2], "mass": 1, "position": [0, 0, 0.2] }, )");
   folder_.write("two.json", text);
-  ASSERT_EQ(careen({"render", "two.json", "--jobs", "1", "--overlays", "names", "--out", "film"}).exitCode,
+  ASSERT_EQ(careen({"render", "two.json", "--jobs", "1", "--overlays", "names", "--out", "film", "--size",
+                    "320x240"})
+                .exitCode,
             0);
-  const std::string alone = frameOf({"two.json", "--overlays", "names"}, "alone");
+  const std::string alone = frameOf({"two.json", "--overlays", "names", "--size", "320x240"}, "alone");
   EXPECT_EQ(textOf(folder_ / "film/000003.png"), alone);
-  EXPECT_NE(frameOf({"two.json"}, "nameless"), alone);
+  EXPECT_NE(frameOf({"two.json", "--size", "320x240"}, "nameless"), alone);
 }
 
 TEST_F(Render, looksAndAntialiasingOfTheCommandLineTakeTheScenesPlace) {

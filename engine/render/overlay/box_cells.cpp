@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "physics/world/body.h"
+#include "trajectory/trajectory.h"
 
 namespace careen {
 namespace {
