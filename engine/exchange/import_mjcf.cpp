@@ -13,6 +13,7 @@
 #include "exchange/friction_fit.h"
 #include "exchange/mjcf_document.h"
 #include "exchange/mjcf_model.h"
+#include "exchange/mjcf_replicate.h"
 #include "physics/world/body.h"
 #include "scene/json_tree.h"
 
@@ -46,6 +47,7 @@ class MjcfReader {
     scene_["duration"] = kImportedDuration;
     note("MJCF has no duration: " + brief(kImportedDuration) + " s");
     note("MJCF has no restitution: 0");
+    replicate(document_);
     readSections();
     model_ = readModel(document_);
     if (!std::any_of(model_.surfaces.begin(), model_.surfaces.end(),
@@ -75,7 +77,6 @@ class MjcfReader {
   // ---- Sections
 
   void readSections() {
-    scene_["gravity"] = arrayOf(Vec3(0, 0, -9.81));
     const std::set<std::string> read = {"compiler", "default",  "worldbody", "tendon",
                                         "contact",  "keyframe", "asset"};
     const std::set<std::string> ignored = {"visual", "statistic", "size", "custom", "sensor"};
@@ -91,32 +92,66 @@ class MjcfReader {
         document_.fail(section, "<" + section.name + ">", "boxes and planes without it");
       }
     }
+    scene_["gravity"] = arrayOf(hasGravity_ ? gravity_ : Vec3(Vec3::Zero()));
   }
 
   void readOption(const XmlElement& option) {
     document_.check(option, {"gravity", "density", "viscosity", "collision"},
-                    {"timestep", "apirate", "impratio", "wind", "magnetic", "o_margin", "o_solref",
-                     "o_solimp", "integrator", "cone", "jacobian", "solver", "iterations", "tolerance",
-                     "noslip_iterations", "noslip_tolerance", "mpr_iterations", "mpr_tolerance"});
-    if (option.find("gravity") != nullptr) {
-      scene_["gravity"] = arrayOf(document_.vector(option, "gravity", Vec3::Zero()));
-    }
+                    {"timestep",
+                     "apirate",
+                     "impratio",
+                     "wind",
+                     "magnetic",
+                     "o_margin",
+                     "o_solref",
+                     "o_solimp",
+                     "o_friction",
+                     "integrator",
+                     "cone",
+                     "jacobian",
+                     "solver",
+                     "iterations",
+                     "tolerance",
+                     "noslip_iterations",
+                     "noslip_tolerance",
+                     "mpr_iterations",
+                     "mpr_tolerance",
+                     "ls_iterations",
+                     "ls_tolerance",
+                     "ccd_iterations",
+                     "ccd_tolerance",
+                     "sdf_iterations",
+                     "sdf_initpoints",
+                     "sleep_tolerance",
+                     "actuatorgroupdisable"});
+    gravity_ = document_.vector(option, "gravity", gravity_);
     document_.mustBeZero(option, "density");
     document_.mustBeZero(option, "viscosity");
     if (const XmlAttribute* const collision = option.find("collision");
         collision && collision->value != "all") {
       document_.fail(option, *collision, "\"all\": boxes do not go through each other");
     }
-    const std::set<std::string> changing = {"constraint", "contact", "passive", "gravity", "override"};
     for (const XmlElement& flag : option.children) {
       for (const XmlAttribute& attribute : flag.attributes) {
-        const bool usual = attribute.value == (attribute.name == "override" ? "disable" : "enable");
-        if (changing.contains(attribute.name) && !usual) {
-          document_.fail(flag, attribute, "a flag that changes no motion");
-        }
-        document_.ignore("flag " + attribute.name);
+        readFlag(flag, attribute);
       }
     }
+  }
+
+  void readFlag(const XmlElement& flag, const XmlAttribute& attribute) {
+    const bool isOn = attribute.value == "enable";
+    if (!isOn && attribute.value != "disable") {
+      document_.fail(flag, attribute, "enable or disable");
+    }
+    if (attribute.name == "gravity") {
+      hasGravity_ = isOn;
+      return;
+    }
+    const std::set<std::string> changing = {"constraint", "contact", "passive", "spring", "damper"};
+    if ((changing.contains(attribute.name) && !isOn) || (attribute.name == "override" && isOn)) {
+      document_.fail(flag, attribute, "a flag that changes no motion");
+    }
+    document_.ignore("flag " + attribute.name);
   }
 
   // ---- Friction
@@ -340,6 +375,8 @@ class MjcfReader {
 
   MjcfDocument document_;
   MjcfModel model_;
+  Vec3 gravity_ = Vec3(0, 0, -9.81);
+  bool hasGravity_ = true;
   std::vector<std::string> notes_;
   SceneJson scene_ = SceneJson::object();
   std::vector<double> frictions_;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 #include <utility>
 
+#include "core/brief.h"
 #include "scene/json_tree.h"
 
 namespace careen {
@@ -17,6 +19,13 @@ std::optional<std::array<double, 3>> colorOf(const MjcfDocument& document, const
     return std::nullopt;
   }
   return std::array<double, 3>{rgba[0], rgba[1], rgba[2]};
+}
+
+// It would give key frames another meaning.
+void mustNotAlign(const MjcfDocument& document, const XmlElement& joint) {
+  if (joint.text("align") == "true") {
+    document.fail(joint, *joint.find("align"), "the body's frame where it is");
+  }
 }
 
 }  // namespace
@@ -99,12 +108,16 @@ MjcfGeom MjcfDefaults::geom(const XmlElement& element, const std::string& ofBody
   MjcfGeom geom = classes_.at(classOf(element, "class", ofBody)).geom;
   geom.element = &element;
   apply(element, geom);
+  if (!geom.fromTo.empty()) {
+    placeBetween(geom);
+  }
   return geom;
 }
 
 MjcfFreeJoint MjcfDefaults::joint(const XmlElement& element, const std::string& ofBody) const {
   if (element.name == "freejoint") {
-    document_.check(element, {"name"}, {"group"});
+    document_.check(element, {"name", "align"}, {"group"});
+    mustNotAlign(document_, element);
     return {};
   }
   MjcfFreeJoint joint = classes_.at(classOf(element, "class", ofBody)).joint;
@@ -113,29 +126,55 @@ MjcfFreeJoint MjcfDefaults::joint(const XmlElement& element, const std::string& 
 }
 
 void MjcfDefaults::apply(const XmlElement& element, MjcfGeom& geom) const {
+  document_.check(
+      element, {"name",   "class", "type",     "size", "pos",     "quat",        "axisangle", "euler",
+                "xyaxes", "zaxis", "fromto",   "mass", "density", "friction",    "condim",    "contype",
+                "group",  "rgba",  "material", "mesh", "hfield",  "conaffinity", "priority",  "shellinertia"},
+      {"solmix", "solref", "solimp", "margin", "gap", "user", "fitscale", "fluidshape", "fluidcoef"});
+  geom.name = element.text("name");
+  applyShape(element, geom);
+  applyContact(element, geom);
+  applyColor(element, geom);
+}
+
+void MjcfDefaults::applyShape(const XmlElement& element, MjcfGeom& geom) const {
   if (const XmlAttribute* const type = element.find("type")) {
+    const auto& known = {"plane",    "hfield", "sphere", "capsule", "ellipsoid",
+                         "cylinder", "box",    "mesh",   "sdf"};
+    if (std::find(known.begin(), known.end(), type->value) == known.end()) {
+      document_.fail(element, *type, "a type of <geom>");
+    }
     geom.type = type->value;
   }
-  if (geom.element != nullptr && geom.type != "box" && geom.type != "plane") {
-    const XmlAttribute* const type = element.find("type");
-    document_.tree().fail(type == nullptr ? element.offset : type->offset,
-                          "a <geom> of type " + inQuotes(geom.type), "type=\"box\" or type=\"plane\"");
+  if (const XmlAttribute* const mesh = element.find("mesh")) {
+    geom.mesh = mesh->value;
   }
-  document_.check(
-      element,
-      {"name", "class", "type", "size", "pos", "quat", "axisangle", "euler", "xyaxes", "zaxis", "mass",
-       "density", "friction", "condim", "contype", "conaffinity", "priority", "rgba", "material"},
-      {"group", "solmix", "solref", "solimp", "margin", "gap", "user"});
-  geom.name = element.text("name");
   const std::vector<double> size = document_.numbers(element, "size", 1, 3);
   geom.size.resize(std::max(size.size(), geom.size.size()));
   std::copy(size.begin(), size.end(), geom.size.begin());  // fewer leave those of the class
   geom.position = document_.vector(element, "pos", geom.position);
   geom.turn = document_.orientation(element, geom.turn);
-  if (element.find("mass") != nullptr) {
-    geom.mass = document_.number(element, "mass", 0);
+  if (element.find("fromto") != nullptr) {
+    geom.fromTo = document_.numbers(element, "fromto", 6, 6);
   }
-  geom.density = document_.number(element, "density", geom.density);
+  const auto positive = [&](const char* attribute, double whenAbsent) {
+    const double value = document_.number(element, attribute, whenAbsent);
+    if (value < 0) {
+      document_.fail(element, *element.find(attribute), "a number not below 0");
+    }
+    return value;
+  };
+  if (element.find("mass") != nullptr) {
+    geom.mass = positive("mass", 0);
+  }
+  geom.density = positive("density", geom.density);
+  if (const XmlAttribute* const shell = element.find("shellinertia")) {
+    geom.isShell = shell->value == "true";
+  }
+  geom.group = document_.integer(element, "group", geom.group);
+}
+
+void MjcfDefaults::applyContact(const XmlElement& element, MjcfGeom& geom) const {
   const std::vector<double> friction = document_.numbers(element, "friction", 1, 3);
   if (!friction.empty()) {
     geom.friction = friction[0];
@@ -153,6 +192,9 @@ void MjcfDefaults::apply(const XmlElement& element, MjcfGeom& geom) const {
   geom.contype = document_.integer(element, "contype", geom.contype);
   geom.conaffinity = document_.integer(element, "conaffinity", geom.conaffinity);
   geom.priority = document_.integer(element, "priority", geom.priority);
+}
+
+void MjcfDefaults::applyColor(const XmlElement& element, MjcfGeom& geom) const {
   if (element.find("material") != nullptr) {
     document_.ignore("geom material, but for its colour");
     const auto material = materials_.find(element.text("material"));
@@ -166,6 +208,36 @@ void MjcfDefaults::apply(const XmlElement& element, MjcfGeom& geom) const {
   }
 }
 
+// Between the two points lies its z axis, from the second to the first; the others are as long as the first
+// number of its size. Orientations do not count.
+void MjcfDefaults::placeBetween(MjcfGeom& geom) const {
+  const XmlElement& element = *geom.element;
+  const XmlAttribute* const given = element.find("fromto");
+  const auto fail = [&](const std::string& found, const std::string& expected) {
+    document_.tree().fail(given == nullptr ? element.offset : given->offset, found, expected);
+  };
+  if (geom.type != "box" && geom.type != "capsule" && geom.type != "cylinder" && geom.type != "ellipsoid") {
+    fail("fromto for a <geom> of type " + inQuotes(geom.type), "a box, capsule, cylinder or ellipsoid");
+  }
+  if (!geom.position.isZero(0)) {
+    fail("pos and fromto for <geom>", "one of them");
+  }
+  const Vec3 first(geom.fromTo[0], geom.fromTo[1], geom.fromTo[2]);
+  const Vec3 second(geom.fromTo[3], geom.fromTo[4], geom.fromTo[5]);
+  const double half = (first - second).stableNorm() / 2;
+  const std::optional<Quat> turn = MjcfDocument::turnToZ(first - second);
+  if (!turn || half < 1e-14) {
+    fail("a length of " + brief(2 * half) + " m by fromto", "two points apart");
+  }
+  geom.size.resize(1);
+  if (geom.type == "box" || geom.type == "ellipsoid") {
+    geom.size.push_back(geom.size[0]);
+  }
+  geom.size.push_back(half);
+  geom.position = (first + second) / 2;
+  geom.turn = *turn;
+}
+
 void MjcfDefaults::apply(const XmlElement& element, MjcfFreeJoint& joint) const {
   if (const XmlAttribute* const type = element.find("type")) {
     joint.type = type->value;
@@ -174,13 +246,15 @@ void MjcfDefaults::apply(const XmlElement& element, MjcfFreeJoint& joint) const 
   if (!joint.isFree) {
     return;  // refused where it is used, defaults of other joints are not
   }
-  document_.check(element, {"name", "class", "type", "damping", "stiffness", "armature", "frictionloss"},
+  document_.check(element,
+                  {"name", "class", "type", "damping", "stiffness", "armature", "frictionloss", "align"},
                   {"group", "pos", "limited", "axis", "ref", "springref", "springdamper", "range", "margin",
                    "solreflimit", "solimplimit", "solreffriction", "solimpfriction", "user"});
   joint.damping = document_.number(element, "damping", joint.damping);
   if (joint.damping < 0) {
     document_.fail(element, *element.find("damping"), "a number not below 0");
   }
+  mustNotAlign(document_, element);
   document_.mustBeZero(element, "stiffness");
   document_.mustBeZero(element, "armature");
   document_.mustBeZero(element, "frictionloss");

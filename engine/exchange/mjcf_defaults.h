@@ -16,17 +16,24 @@ struct MjcfGeom {
   const XmlElement* element = nullptr;
   std::string name;
   std::string type = "sphere";
-  std::vector<double> size;                    ///< [m]
-  Vec3 position = Vec3::Zero();                ///< [m] in its body
-  Quat turn = Quat::Identity();                ///< its body from it
-  std::optional<double> mass;                  ///< [kg]
-  double density = 1000;                       ///< [kg/m³] if there is no mass
+  std::vector<double> size;      ///< [m]
+  std::vector<double> fromTo;    ///< [m] two points that say position, turn and length
+  Vec3 position = Vec3::Zero();  ///< [m] in its body
+  Quat turn = Quat::Identity();  ///< its body from it
+  std::optional<double> mass;    ///< [kg]
+  double density = 1000;         ///< [kg/m³] if there is no mass
+  bool isShell = false;          ///< its mass is at its surface
+  std::string mesh;              ///< that gives its shape
+  int group = 0;
   double friction = 1;                         ///< [1] sliding
   int condim = 3;                              ///< dimension of contact forces: 1 is without friction
   int contype = 1;                             ///< bits: what it is
   int conaffinity = 1;                         ///< bits: what it collides with
   int priority = 0;                            ///< the contact takes after the geom with the larger one
   std::optional<std::array<double, 3>> color;  ///< [1] red, green, blue in sRGB
+
+  /// It collides with nothing but what a <pair> names.
+  bool isVisual() const { return contype == 0 && conaffinity == 0; }
 };
 
 /// What the joint of a free body says likewise.
@@ -58,6 +65,10 @@ class MjcfDefaults {
   void read(const XmlElement& element, const Class& above, bool isTop);
   void readMaterials();
   void apply(const XmlElement& element, MjcfGeom& geom) const;
+  void applyShape(const XmlElement& element, MjcfGeom& geom) const;
+  void applyContact(const XmlElement& element, MjcfGeom& geom) const;
+  void applyColor(const XmlElement& element, MjcfGeom& geom) const;
+  void placeBetween(MjcfGeom& geom) const;
   void apply(const XmlElement& element, MjcfFreeJoint& joint) const;
 
   MjcfDocument& document_;

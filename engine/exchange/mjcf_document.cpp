@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "exchange/mjcf_include.h"
 #include "scene/json_shape.h"
 #include "scene/json_tree.h"
 #include "stage/turn.h"
@@ -15,10 +16,23 @@ namespace {
 
 constexpr double kLeastDirection = 1e-14;  // as MuJoCo has it: shorter ones have no direction
 
+std::optional<Vec3> directionOf(const Vec3& vector) {
+  const double largest = vector.cwiseAbs().maxCoeff();
+  if (largest < kLeastDirection) {
+    return std::nullopt;
+  }
+  return Vec3((vector / largest).normalized());  // large components would overflow when squared
+}
+
 Quat turnAbout(const Vec3& unitAxis, double degrees) {
   const Turn half = turnFrom(degrees / 2);
   const Vec3 vector = half.sine * unitAxis;
   return {half.cosine, vector.x(), vector.y(), vector.z()};
+}
+
+// The nearest; another number than `value` where it is none.
+int integerOf(double value) {
+  return static_cast<int>(std::round(std::clamp(value, -2147483647.0, 2147483647.0)));
 }
 
 bool contains(MjcfDocument::Words words, std::string_view word) {
@@ -31,6 +45,7 @@ MjcfDocument::MjcfDocument(std::string text, std::string name) : tree_(std::move
   if (root().name != "mujoco") {
     fail(root(), "the element <" + root().name + ">", "<mujoco>, the root of MJCF");
   }
+  includeFiles(tree_);
   for (const XmlElement* const compiler : sections("compiler")) {
     readCompiler(*compiler);
   }
@@ -48,39 +63,56 @@ std::vector<const XmlElement*> MjcfDocument::sections(std::string_view section) 
 
 void MjcfDocument::readCompiler(const XmlElement& element) {
   check(element,
-        {"angle", "eulerseq", "coordinate", "inertiafromgeom", "boundmass", "boundinertia", "balanceinertia"},
-        {"autolimits", "strippath", "meshdir", "texturedir", "assetdir", "discardvisual", "fusestatic",
-         "convexhull", "usethread", "fitaabb", "inertiagrouprange", "settotalmass"});
-  // Those that change masses.
-  mustBeZero(element, "boundmass");
-  mustBeZero(element, "boundinertia");
-  if (element.find("settotalmass") != nullptr && number(element, "settotalmass", -1) > 0) {
-    fail(element, *element.find("settotalmass"), "no such change of masses");
-  }
-  const auto word = [&](std::string_view attribute, Words known, const std::string& whenAbsent) {
-    const XmlAttribute* const found = element.find(attribute);
-    if (found != nullptr && !contains(known, found->value)) {
-      std::string expected;
-      for (const std::string_view each : known) {
-        expected += (expected.empty() ? "" : " or ") + std::string(each);
-      }
-      fail(element, *found, expected);
-    }
-    return found == nullptr ? whenAbsent : found->value;
+        {"angle", "eulerseq", "coordinate", "inertiafromgeom", "inertiagrouprange", "boundmass",
+         "boundinertia", "balanceinertia", "settotalmass", "discardvisual", "fusestatic", "alignfree"},
+        {"autolimits", "strippath", "meshdir", "texturedir", "assetdir", "convexhull", "usethread", "fitaabb",
+         "exactmeshinertia", "saveinertial"});
+  const auto flag = [&](std::string_view attribute, bool whenAbsent) {
+    return word(element, attribute, {"true", "false"}, whenAbsent ? "true" : "false") == "true";
   };
-  isRadian_ = word("angle", {"radian", "degree"}, isRadian_ ? "radian" : "degree") == "radian";
-  word("coordinate", {"local"}, "local");
-  word("balanceinertia", {"false"}, "false");
-  inertiaFromGeom_ = word("inertiafromgeom", {"auto", "true", "false"}, inertiaFromGeom_);
-  if (inertiaFromGeom_ != "false" && element.find("inertiagrouprange") != nullptr) {
-    fail(element, *element.find("inertiagrouprange"), "masses of all geoms");
-  }
+  compiler_.isRadian =
+      word(element, "angle", {"radian", "degree"}, compiler_.isRadian ? "radian" : "degree") == "radian";
+  word(element, "coordinate", {"local"}, "local");
+  word(element, "alignfree", {"false"}, "false");
+  compiler_.discardVisual = flag("discardvisual", compiler_.discardVisual);
+  compiler_.fuseStatic = flag("fusestatic", compiler_.fuseStatic);
+  compiler_.balanceInertia = flag("balanceinertia", compiler_.balanceInertia);
+  readMassRules(element);
   if (const XmlAttribute* const order = element.find("eulerseq")) {
     if (order->value.size() != 3 || order->value.find_first_not_of("xyzXYZ") != std::string::npos) {
       fail(element, *order, "three of x, y, z, X, Y, Z");
     }
-    eulerOrder_ = order->value;
+    compiler_.eulerOrder = order->value;
   }
+}
+
+void MjcfDocument::readMassRules(const XmlElement& element) {
+  compiler_.inertiaFromGeom =
+      word(element, "inertiafromgeom", {"auto", "true", "false"}, compiler_.inertiaFromGeom);
+  const std::vector<double> groups = numbers(element, "inertiagrouprange", 2, 2);
+  if (!groups.empty()) {
+    compiler_.firstMassGroup = integerOf(groups[0]);
+    compiler_.lastMassGroup = integerOf(groups[1]);
+    if (compiler_.firstMassGroup != groups[0] || compiler_.lastMassGroup != groups[1]) {
+      fail(element, *element.find("inertiagrouprange"), "two integers");
+    }
+  }
+  compiler_.leastMass = number(element, "boundmass", compiler_.leastMass);
+  compiler_.leastInertia = number(element, "boundinertia", compiler_.leastInertia);
+  compiler_.totalMass = number(element, "settotalmass", compiler_.totalMass);
+}
+
+std::string MjcfDocument::word(const XmlElement& element, std::string_view attribute, Words known,
+                               const std::string& whenAbsent) const {
+  const XmlAttribute* const found = element.find(attribute);
+  if (found != nullptr && !contains(known, found->value)) {
+    std::string expected;
+    for (const std::string_view each : known) {
+      expected += (expected.empty() ? "" : " or ") + std::string(each);
+    }
+    fail(element, *found, expected);
+  }
+  return found == nullptr ? whenAbsent : found->value;
 }
 
 void MjcfDocument::check(const XmlElement& element, Words read, Words ignored) {
@@ -143,10 +175,10 @@ double MjcfDocument::number(const XmlElement& element, std::string_view attribut
 
 int MjcfDocument::integer(const XmlElement& element, std::string_view attribute, int whenAbsent) const {
   const double value = number(element, attribute, whenAbsent);
-  if (value != std::floor(value) || std::fabs(value) > 0x7fffffff) {
+  if (integerOf(value) != value) {
     fail(element, *element.find(attribute), "an integer");
   }
-  return static_cast<int>(value);
+  return integerOf(value);
 }
 
 Vec3 MjcfDocument::vector(const XmlElement& element, std::string_view attribute,
@@ -163,8 +195,21 @@ void MjcfDocument::mustBeZero(const XmlElement& element, std::string_view attrib
   }
 }
 
+std::optional<Quat> MjcfDocument::turnToZ(const Vec3& direction) {
+  const std::optional<Vec3> z = directionOf(direction);
+  if (!z) {
+    return std::nullopt;
+  }
+  const double across = z->x() * z->x() + z->y() * z->y();
+  if (z->z() < 0 && across < 1e-20) {
+    return Quat(0, 1, 0, 0);  // of the many shortest turns from z that about x, as MuJoCo does
+  }
+  const double w = z->z() < 0 ? across / (1 - z->z()) : 1 + z->z();  // 1 + z without cancellation
+  return Quat(w, -z->y(), z->x(), 0).normalized();
+}
+
 double MjcfDocument::degrees(double angle) const {
-  return isRadian_ ? angle * (180 / std::numbers::pi) : angle;
+  return compiler_.isRadian ? angle * (180 / std::numbers::pi) : angle;
 }
 
 Quat MjcfDocument::orientation(const XmlElement& element, const Quat& whenAbsent) const {
@@ -184,11 +229,11 @@ Quat MjcfDocument::orientation(const XmlElement& element, const Quat& whenAbsent
   const std::size_t count = name == "xyaxes" ? 6 : name == "quat" || name == "axisangle" ? 4 : 3;
   const std::vector<double> v = numbers(element, name, count, count);
   const auto direction = [&](const Vec3& vector) {
-    const double largest = vector.cwiseAbs().maxCoeff();
-    if (largest < kLeastDirection) {
+    const std::optional<Vec3> found = directionOf(vector);
+    if (!found) {
       fail(element, *given, "a direction, not 0");
     }
-    return Vec3((vector / largest).normalized());  // large components would overflow when squared
+    return *found;
   };
   if (name == "quat") {
     Quat quat(v[0], v[1], v[2], v[3]);
@@ -205,7 +250,7 @@ Quat MjcfDocument::orientation(const XmlElement& element, const Quat& whenAbsent
   if (name == "euler") {
     Quat turn = Quat::Identity();
     for (std::size_t i = 0; i < 3; ++i) {
-      const char axis = eulerOrder_[i];
+      const char axis = compiler_.eulerOrder[i];
       const bool isFixed = axis < 'a';  // capital letters: axes that stay; else those that turn along
       const Quat next = turnAbout(Vec3::Unit(axis - (isFixed ? 'X' : 'x')), degrees(v[i]));
       turn = isFixed ? next * turn : turn * next;
@@ -213,13 +258,11 @@ Quat MjcfDocument::orientation(const XmlElement& element, const Quat& whenAbsent
     return turn;
   }
   if (name == "zaxis") {
-    const Vec3 z = direction({v[0], v[1], v[2]});
-    const double across = z.x() * z.x() + z.y() * z.y();
-    if (z.z() < 0 && across < 1e-20) {
-      return {0, 1, 0, 0};  // of the many shortest turns from z that about x, as MuJoCo does
+    const std::optional<Quat> turn = turnToZ({v[0], v[1], v[2]});
+    if (!turn) {
+      fail(element, *given, "a direction, not 0");
     }
-    const double w = z.z() < 0 ? across / (1 - z.z()) : 1 + z.z();  // 1 + z without cancellation
-    return Quat(w, -z.y(), z.x(), 0).normalized();
+    return *turn;
   }
   const Vec3 x = direction({v[0], v[1], v[2]});
   const Vec3 second = direction({v[3], v[4], v[5]});

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -13,8 +14,24 @@
 
 namespace careen {
 
-/// An MJCF file while it is read: its elements, what <compiler> says of angles, and what was ignored. What
-/// does not fit is an InputError "file:line:column: found …, expected …".
+/// What <compiler> says.
+struct MjcfCompiler {
+  bool isRadian = false;
+  std::string eulerOrder = "xyz";
+  /// How masses are found: from <inertial> if there is one ("auto"), always ("false"), or never ("true").
+  std::string inertiaFromGeom = "auto";
+  int firstMassGroup = 0;  ///< geoms in these groups count for mass
+  int lastMassGroup = 5;
+  double leastMass = 0;         ///< [kg]
+  double leastInertia = 0;      ///< [kg m²] of each principal moment
+  double totalMass = -1;        ///< [kg] what masses are scaled to, if above 0
+  bool balanceInertia = false;  ///< impossible moments become their mean
+  bool discardVisual = false;
+  bool fuseStatic = false;
+};
+
+/// An MJCF file while it is read: its elements with those of the files it includes, what <compiler> says, and
+/// what was ignored. What does not fit is an InputError "file:line:column: found …, expected …".
 class MjcfDocument {
  public:
   using Words = std::initializer_list<std::string_view>;
@@ -24,11 +41,11 @@ class MjcfDocument {
 
   const XmlTree& tree() const { return tree_; }
   const XmlElement& root() const { return tree_.root(); }
+  XmlElement& root() { return tree_.root(); }
   /// Elements <section> of the root, of which there may be several.
   std::vector<const XmlElement*> sections(std::string_view section) const;
 
-  /// How masses are found: from <inertial> if there is one ("auto"), always ("false"), or never ("true").
-  const std::string& inertiaFromGeom() const { return inertiaFromGeom_; }
+  const MjcfCompiler& compiler() const { return compiler_; }
 
   /// Refuses attributes other than those that are read and those that change no motion here; notes the
   /// latter.
@@ -59,15 +76,18 @@ class MjcfDocument {
                                                                     "zaxis"};
   /// The unit quaternion that takes the element's frame to its parent's, as MuJoCo has it.
   Quat orientation(const XmlElement& element, const Quat& whenAbsent) const;
+  /// The shortest turn that takes z into a direction; none if it is too short to have one.
+  static std::optional<Quat> turnToZ(const Vec3& direction);
 
  private:
   void readCompiler(const XmlElement& element);
+  void readMassRules(const XmlElement& element);
+  std::string word(const XmlElement& element, std::string_view attribute, Words known,
+                   const std::string& whenAbsent) const;
   double degrees(double angle) const;
 
   XmlTree tree_;
-  bool isRadian_ = false;
-  std::string eulerOrder_ = "xyz";
-  std::string inertiaFromGeom_ = "auto";
+  MjcfCompiler compiler_;
   std::set<std::string> ignored_;
 };
 

@@ -1,11 +1,10 @@
 #include "exchange/mjcf_model.h"
 
-#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
 
-#include "scene/json_shape.h"
+#include "exchange/mjcf_solid.h"
 #include "scene/json_tree.h"
 #include "scene/scene.h"
 
@@ -17,10 +16,16 @@ class ModelReader {
   explicit ModelReader(MjcfDocument& document) : document_(document), defaults_(document) {}
 
   MjcfModel read() {
+    for (const XmlElement* const contacts : document_.sections("contact")) {
+      for (const XmlElement& pair : contacts->children) {
+        paired_.insert({pair.text("geom1"), pair.text("geom2")});
+      }
+    }
     for (const XmlElement* const world : document_.sections("worldbody")) {
       document_.check(*world, {});
-      readBodies(*world, {}, MjcfDefaults::kMain);
+      readFixed(contentsOf(*world, MjcfDefaults::kMain), {}, nullptr);
     }
+    scaleMasses();
     for (const XmlElement* const tendons : document_.sections("tendon")) {
       readTendons(*tendons);
     }
@@ -34,72 +39,146 @@ class ModelReader {
  private:
   // ---- Bodies
 
-  void readBodies(const XmlElement& parent, const MjcfFrame& frame, const std::string& ofBody) {
+  /// What lies in a body or in a <frame> of it.
+  struct Content {
+    const XmlElement* element = nullptr;
+    std::optional<MjcfFrame> frame;  // its body from its <frame>, if it is in one
+    std::string ofClass;             // that it takes after
+
+    MjcfFrame in(const MjcfFrame& body) const { return frame ? body.of(frame->position, frame->turn) : body; }
+  };
+
+  std::vector<Content> contentsOf(const XmlElement& body, const std::string& ofBody) {
+    std::vector<Content> contents;
+    gather(body, std::nullopt, ofBody, contents);
+    return contents;
+  }
+
+  void gather(const XmlElement& parent, const std::optional<MjcfFrame>& frame, const std::string& ofParent,
+              std::vector<Content>& contents) {
     for (const XmlElement& child : parent.children) {
-      if (child.name == "geom") {
-        addStatic(defaults_.geom(child, ofBody), frame, parent.text("name"));
-      } else if (child.name == "site") {
-        addSite(child, frame, std::nullopt);
-      } else if (child.name == "body") {
-        readBody(child, frame, ofBody, parent.name == "worldbody");
-      } else if (child.name == "light" || child.name == "camera") {
-        document_.ignore(child.name);
-      } else if (child.name != "inertial") {
-        document_.fail(child, "<" + child.name + "> in <" + parent.name + ">",
-                       "boxes and planes, fixed or with a free joint");
+      if (child.name == "frame") {
+        document_.check(child,
+                        {"name", "childclass", "pos", "quat", "axisangle", "euler", "xyaxes", "zaxis"});
+        gather(child, poseOf(child, frame.value_or(MjcfFrame{})),
+               defaults_.classOf(child, "childclass", ofParent), contents);
+      } else if (child.name == "inertial" && frame) {
+        document_.fail(child, "<inertial> in <" + parent.name + ">", "it in <body>");
+      } else {
+        contents.push_back({.element = &child, .frame = frame, .ofClass = ofParent});
       }
     }
   }
 
-  void readBody(const XmlElement& body, const MjcfFrame& parent, const std::string& ofBody, bool isTop) {
+  MjcfFrame poseOf(const XmlElement& element, const MjcfFrame& parent) const {
+    return parent.of(document_.vector(element, "pos", Vec3::Zero()),
+                     document_.orientation(element, Quat::Identity()));
+  }
+
+  // In its body.
+  MjcfGeom geomOf(const Content& content) const {
+    MjcfGeom geom = defaults_.geom(*content.element, content.ofClass);
+    if (content.frame) {
+      const MjcfFrame placed = content.frame->of(geom.position, geom.turn);
+      geom.position = placed.position;
+      geom.turn = placed.turn;
+    }
+    return geom;
+  }
+
+  bool collides(const MjcfGeom& geom) const { return !geom.isVisual() || paired_.contains(geom.name); }
+
+  // `body` is null for the world.
+  void readFixed(const std::vector<Content>& contents, const MjcfFrame& frame, const XmlElement* body) {
+    std::vector<MjcfGeom> geoms;
+    const XmlElement* inertial = nullptr;
+    for (const Content& content : contents) {
+      const XmlElement& child = *content.element;
+      if (child.name == "geom") {
+        geoms.push_back(geomOf(content));
+        addFixed(geoms.back(), frame, body == nullptr ? std::string() : body->text("name"));
+      } else if (child.name == "site") {
+        addSite(content, frame, std::nullopt);
+      } else if (child.name == "body") {
+        readBody(content, frame, body == nullptr);
+      } else if (child.name == "inertial" && body != nullptr) {
+        inertial = &child;
+      } else if (child.name == "light" || child.name == "camera") {
+        document_.ignore(child.name);
+      } else {
+        document_.fail(child, "<" + child.name + "> in <" + (body == nullptr ? "worldbody" : "body") + ">",
+                       "boxes and planes, fixed or with a free joint");
+      }
+    }
+    if (body != nullptr && document_.compiler().totalMass > 0) {
+      if (document_.compiler().fuseStatic) {
+        document_.fail(*body, "a fixed body, which counts for settotalmass or not (fusestatic)",
+                       "fusestatic=\"false\", or its geoms in <worldbody>");
+      }
+      fixedMass_ += fixedMassOf(document_, geoms, inertial);
+    }
+  }
+
+  void addFixed(MjcfGeom geom, const MjcfFrame& frame, const std::string& body) {
+    if (!collides(geom)) {
+      document_.ignore("geom that collides with nothing");
+      return;
+    }
+    const MjcfFrame placed = frame.of(geom.position, geom.turn);
+    const bool isPlane = geom.type == "plane";
+    if (!isPlane) {
+      checkBox(geom);
+    }
+    const std::string given = geom.name.empty() && !isPlane ? body : geom.name;
+    std::string name = uniqueName(given, isPlane ? "wall" : "box");
+    model_.surfaces.push_back(
+        {.geom = std::move(geom), .movable = false, .frame = placed, .name = std::move(name)});
+  }
+
+  void readBody(const Content& content, const MjcfFrame& parent, bool isTop) {
+    const XmlElement& body = *content.element;
     document_.check(
         body,
         {"name", "childclass", "pos", "quat", "axisangle", "euler", "xyaxes", "zaxis", "mocap", "gravcomp"},
-        {"user"});
+        {"user", "sleep"});
     document_.mustBeZero(body, "gravcomp");
     if (const XmlAttribute* const mocap = body.find("mocap"); mocap != nullptr && mocap->value != "false") {
       document_.fail(body, *mocap, "a body that nobody else moves");
     }
-    const MjcfFrame frame =
-        parent.of(document_.vector(body, "pos", Vec3::Zero()), document_.orientation(body, Quat::Identity()));
-    const std::string childClass = defaults_.classOf(body, "childclass", ofBody);
+    const MjcfFrame frame = poseOf(body, content.in(parent));
+    const std::vector<Content> contents =
+        contentsOf(body, defaults_.classOf(body, "childclass", content.ofClass));
     const XmlElement* joint = nullptr;
-    for (const XmlElement& child : body.children) {
+    for (const Content& each : contents) {
+      const XmlElement& child = *each.element;
       if (child.name == "joint" || child.name == "freejoint") {
-        const MjcfFreeJoint read = defaults_.joint(child, childClass);
+        const MjcfFreeJoint read = defaults_.joint(child, each.ofClass);
         if (!read.isFree || joint != nullptr) {
           document_.fail(child,
                          joint != nullptr ? "a second joint" : "a joint of type " + inQuotes(read.type),
                          "one free joint, or none");
         }
         if (!isTop) {
-          document_.fail(child, "a free joint in a body in another", "bodies in <worldbody>");
+          document_.fail(child, "a free joint in a body in another", "it in <worldbody>");
         }
         joint = &child;
         model_.damping.push_back(read.damping);
       }
     }
     if (joint == nullptr) {
-      readBodies(body, frame, childClass);
+      readFixed(contents, frame, &body);
     } else {
-      readFreeBody(body, frame, childClass);
+      readFreeBody(body, contents, frame);
     }
   }
 
-  void readFreeBody(const XmlElement& body, const MjcfFrame& frame, const std::string& ofBody) {
+  void readFreeBody(const XmlElement& body, const std::vector<Content>& contents, const MjcfFrame& frame) {
     const XmlElement* inertial = nullptr;
-    std::optional<std::size_t> box;
-    for (const XmlElement& child : body.children) {
+    std::vector<MjcfGeom> geoms;
+    for (const Content& content : contents) {
+      const XmlElement& child = *content.element;
       if (child.name == "geom") {
-        MjcfGeom geom = defaults_.geom(child, ofBody);
-        if (box || geom.type != "box") {
-          document_.fail(child, box ? "a second <geom> in a body that moves" : "a plane in a body that moves",
-                         "one box");
-        }
-        box = model_.surfaces.size();
-        checkSize(geom);
-        const MjcfFrame placed = frame.of(geom.position, geom.turn);
-        model_.surfaces.push_back({.geom = std::move(geom), .movable = true, .frame = placed, .name = {}});
+        geoms.push_back(geomOf(content));
       } else if (child.name == "inertial") {
         inertial = &child;
       } else if (child.name == "light" || child.name == "camera") {
@@ -108,42 +187,87 @@ class ModelReader {
         document_.fail(child, "<" + child.name + "> in a body that moves", "one box");
       }
     }
-    if (!box) {
-      document_.fail(body, "a body that moves, without a <geom>", "one box");
+    const std::size_t box = boxOf(body, geoms);
+    MjcfSurface surface{.geom = geoms[box],
+                        .movable = true,
+                        .frame = frame.of(geoms[box].position, geoms[box].turn),
+                        .name = {},
+                        .mass = massOf(document_, geoms, box, inertial),
+                        .body = frame};
+    for (const MjcfGeom& geom : geoms) {
+      if (!surface.geom.color) {
+        surface.geom.color = geom.color;
+      }
     }
-    MjcfSurface& surface = model_.surfaces[*box];
-    surface.body = frame;
-    surface.mass = massOf(document_, surface.geom, inertial);
     surface.name = uniqueName(body.text("name").empty() ? surface.geom.name : body.text("name"), "box");
-    for (const XmlElement& child : body.children) {
-      if (child.name == "site") {
-        addSite(child, frame, box);
+    const std::size_t index = model_.surfaces.size();
+    model_.surfaces.push_back(std::move(surface));
+    for (const Content& content : contents) {
+      if (content.element->name == "site") {
+        addSite(content, frame, index);
       }
     }
   }
 
-  void checkSize(const MjcfGeom& geom) const {
-    const bool good =
-        geom.size.size() == 3 && std::all_of(geom.size.begin(), geom.size.end(),
-                                             [](double each) { return each >= kSmallestPositive; });
-    if (!good) {
-      const XmlAttribute* const size = geom.element->find("size");
-      document_.tree().fail(size == nullptr ? geom.element->offset : size->offset,
-                            std::to_string(geom.size.size()) + " numbers for the size of a box",
-                            "3 half extents above 0 [m]");
+  // That of its geoms which collides; if none does, its only box.
+  std::size_t boxOf(const XmlElement& body, const std::vector<MjcfGeom>& geoms) {
+    std::vector<std::size_t> colliding;
+    std::vector<std::size_t> boxes;
+    for (std::size_t i = 0; i < geoms.size(); ++i) {
+      const MjcfGeom& geom = geoms[i];
+      if (geom.type == "plane") {
+        document_.fail(*geom.element, "a plane in a body that moves", "one box");
+      }
+      if (geom.type == "box") {
+        boxes.push_back(i);
+      }
+      if (collides(geom)) {
+        if (!colliding.empty()) {
+          document_.fail(*geom.element, "a second <geom> in a body that moves",
+                         "one box; others must collide with nothing (contype and conaffinity 0)");
+        }
+        colliding.push_back(i);
+      }
     }
+    const std::vector<std::size_t>& found = colliding.empty() ? boxes : colliding;
+    if (found.size() != 1) {
+      document_.fail(body,
+                     geoms.empty() ? "a body that moves, without a <geom>"
+                                   : "a body that moves, without a <geom> that collides",
+                     "one box");
+    }
+    checkBox(geoms[found[0]]);
+    if (geoms.size() > 1) {
+      document_.ignore("geom that collides with nothing");
+    }
+    return found[0];
   }
 
-  void addStatic(MjcfGeom geom, const MjcfFrame& frame, const std::string& body) {
-    const MjcfFrame placed = frame.of(geom.position, geom.turn);
-    const bool isPlane = geom.type == "plane";
-    if (!isPlane) {
-      checkSize(geom);
+  void checkBox(const MjcfGeom& geom) const {
+    if (geom.type != "box") {
+      const XmlAttribute* const type = geom.element->find("type");
+      document_.tree().fail(type == nullptr ? geom.element->offset : type->offset,
+                            "a <geom> of type " + inQuotes(geom.type), "type=\"box\" or type=\"plane\"");
     }
-    const std::string given = geom.name.empty() && !isPlane ? body : geom.name;
-    std::string name = uniqueName(given, isPlane ? "wall" : "box");
-    model_.surfaces.push_back(
-        {.geom = std::move(geom), .movable = false, .frame = placed, .name = std::move(name)});
+    checkSize(document_, geom, 3);
+  }
+
+  // settotalmass, of all bodies, those that do not move too.
+  void scaleMasses() {
+    if (document_.compiler().totalMass <= 0) {
+      return;
+    }
+    double sum = fixedMass_;
+    for (const MjcfSurface& surface : model_.surfaces) {
+      sum += surface.movable ? surface.mass.mass : 0;
+    }
+    const double scale = document_.compiler().totalMass / sum;
+    for (MjcfSurface& surface : model_.surfaces) {
+      surface.mass.mass *= scale;
+      if (surface.mass.inertia) {
+        *surface.mass.inertia *= scale;
+      }
+    }
   }
 
   // Of a scene, boxes and walls share their names, some of which are those of a room; and tables have them.
@@ -173,11 +297,22 @@ class ModelReader {
 
   // ---- Springs
 
-  void addSite(const XmlElement& element, const MjcfFrame& frame, std::optional<std::size_t> box) {
-    document_.check(element, {"name", "class", "pos"},
-                    {"type", "group", "material", "rgba", "size", "fromto", "quat", "axisangle", "euler",
-                     "xyaxes", "zaxis", "user"});
+  void addSite(const Content& content, const MjcfFrame& frame, std::optional<std::size_t> box) {
+    const XmlElement& element = *content.element;
+    document_.check(element, {"name", "class", "pos", "fromto"},
+                    {"type", "group", "material", "rgba", "size", "quat", "axisangle", "euler", "xyaxes",
+                     "zaxis", "user"});
     MjcfSite site{.surface = box, .point = document_.vector(element, "pos", Vec3::Zero())};
+    const std::vector<double> ends = document_.numbers(element, "fromto", 6, 6);
+    if (!ends.empty() && !site.point.isZero(0)) {
+      document_.fail(element, "pos and fromto for <site>", "one of them");
+    }
+    if (!ends.empty()) {
+      site.point = 0.5 * Vec3(ends[0] + ends[3], ends[1] + ends[4], ends[2] + ends[5]);
+    }
+    if (content.frame) {
+      site.point = content.frame->position + content.frame->turn * site.point;
+    }
     site.place = frame.position + frame.turn * site.point;
     if (box) {
       const MjcfGeom& geom = model_.surfaces[*box].geom;
@@ -286,6 +421,8 @@ class ModelReader {
   MjcfModel model_;
   std::set<std::string> names_;
   std::string renamed_;
+  std::set<std::string> paired_;  // geoms that a <pair> names
+  double fixedMass_ = 0;          // [kg] of bodies that do not move
   std::map<std::string, MjcfSite> sites_;
 };
 

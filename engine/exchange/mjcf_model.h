@@ -59,7 +59,8 @@ struct MjcfModel {
 };
 
 /// Reads <worldbody>, <tendon> and the key frame "start" as MuJoCo does. Bodies that move have a free joint
-/// and one box, and no other has a joint; otherwise InputError.
+/// and one box that collides, and no other has a joint; otherwise InputError. Geoms that collide with nothing
+/// are not among the surfaces, but count for masses.
 MjcfModel readModel(MjcfDocument& document);
 
 }  // namespace careen

@@ -10,13 +10,13 @@ namespace careen {
 struct XmlAttribute {
   std::string name;
   std::string value;
-  std::size_t offset = 0;  ///< [bytes] of its name in the text
+  std::size_t offset = 0;  ///< [bytes] of its name in the texts
 };
 
 /// An element with its position in the file. Text between elements is left out.
 struct XmlElement {
   std::string name;
-  std::size_t offset = 0;  ///< [bytes] of its name in the text
+  std::size_t offset = 0;  ///< [bytes] of its name in the texts
   std::vector<XmlAttribute> attributes;
   std::vector<XmlElement> children;
 
@@ -30,15 +30,20 @@ inline constexpr std::size_t kMostXmlBytes = std::size_t{64} << 20U;
 inline constexpr int kDeepestXml = 64;
 
 /// An XML text in UTF-8, parsed into elements. Attributes of an element must be unique, nesting at most
-/// kDeepestXml deep, the text at most kMostXmlBytes; there must be no document type, so that no entity is
-/// expanded; otherwise InputError "file:line:column: found …, expected …".
+/// kDeepestXml deep, all texts together at most kMostXmlBytes; there must be no document type, so that no
+/// entity is expanded; otherwise InputError "file:line:column: found …, expected …".
 class XmlTree {
  public:
   /// `name` is the file's name in messages.
   XmlTree(std::string text, std::string name);
 
   const XmlElement& root() const { return root_; }
-  const std::string& name() const { return name_; }
+  XmlElement& root() { return root_; }
+  /// Of the first file.
+  const std::string& name() const { return files_.front().name; }
+
+  /// The root of another file, whose elements may be put into the tree: offsets tell which file they are of.
+  XmlElement add(std::string text, std::string name);
 
   /// "3:14"
   std::string place(std::size_t offset) const;
@@ -46,8 +51,14 @@ class XmlTree {
   [[noreturn]] void fail(std::size_t offset, const std::string& found, const std::string& expected) const;
 
  private:
-  std::string text_;
-  std::string name_;
+  struct File {
+    std::string text;
+    std::string name;
+    std::size_t begin = 0;  // of its offsets
+  };
+  const File& fileOf(std::size_t offset) const;
+
+  std::vector<File> files_;
   XmlElement root_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <numeric>
@@ -90,7 +91,7 @@ ElementType Reading::typeIn(std::string_view value) const {
     type.bytes = std::min<std::size_t>(type.bytes, SIZE_MAX / kLetter) * kLetter;
   }
   const bool isKnown =
-      (type.kind == 'f' && (type.bytes == 4 || type.bytes == 8)) ||
+      (type.kind == 'f' && (type.bytes == 2 || type.bytes == 4 || type.bytes == 8)) ||
       ((type.kind == 'i' || type.kind == 'u') && std::has_single_bit(type.bytes) && type.bytes <= 8) ||
       (type.kind == 'b' && type.bytes == 1) || type.kind == 'U' || type.kind == 'S';
   if (error != std::errc() || last != text.data() + text.size() || !isKnown) {
@@ -132,12 +133,28 @@ std::uint64_t Reading::bitsAt(std::size_t offset, std::size_t bytes, bool bigEnd
   return bits;
 }
 
+// A number of half precision (IEEE 754 binary16): sign, 5 bits of exponent, 10 of fraction.
+double halfFrom(std::uint64_t bits) {
+  constexpr std::uint64_t kAllOnes = 31;
+  const std::uint64_t sign = bits >> 15U;
+  const std::uint64_t exponent = bits >> 10U & kAllOnes;
+  const std::uint64_t fraction = bits & 0x3FFU;
+  if (exponent == kAllOnes) {
+    return std::bit_cast<double>(sign << 63U | std::uint64_t{0x7FF} << 52U | fraction << 42U);
+  }
+  const double size = exponent == 0
+                          ? std::ldexp(static_cast<double>(fraction), -24)
+                          : std::ldexp(static_cast<double>(1024 + fraction), static_cast<int>(exponent) - 25);
+  return sign == 0 ? size : -size;
+}
+
 double Reading::numberAt(std::size_t offset, const ElementType& type) const {
   const std::uint64_t bits = bitsAt(offset, type.bytes, type.bigEndian);
   switch (type.kind) {
     case 'f':
-      return type.bytes == 8 ? std::bit_cast<double>(bits)
-                             : static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+      return type.bytes == 8   ? std::bit_cast<double>(bits)
+             : type.bytes == 4 ? static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)))
+                               : halfFrom(bits);
     case 'i': {
       const auto unused = static_cast<unsigned>(64 - 8 * type.bytes);
       return static_cast<double>(static_cast<std::int64_t>(bits << unused) >> unused);

@@ -30,7 +30,7 @@ std::string encodeNumpy(std::span<const float> numbers, const std::vector<std::s
 std::string encodeNumpy(std::span<const std::int32_t> numbers, const std::vector<std::size_t>& shape);
 std::string encodeNumpy(std::span<const std::uint8_t> numbers, const std::vector<std::size_t>& shape);
 
-/// Reads formats 1 to 3, floats of 4 and 8 bytes, integers, booleans, texts '<U', '>U' and '|S', of either
+/// Reads formats 1 to 3, floats of 2, 4 and 8 bytes, integers, booleans, texts '<U', '>U' and '|S', of either
 /// byte order, in C or Fortran order. InputError, which `name` begins, for everything else.
 NumpyArray decodeNumpy(std::string_view bytes, const std::string& name);
 

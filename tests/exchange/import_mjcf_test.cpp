@@ -186,6 +186,63 @@ TEST(ImportMjcf, scenesWithoutRestitutionMoveAsBefore) {
 
 // ---- What is said, and what is refused
 
+// A box that only shows lies beside the one that collides, a mesh in its place, a marker on the floor.
+TEST(ImportMjcf, geomsThatCollideWithNothingAreLeftOut) {
+  const ImportedScene scene = importMjcf(inWorld(R"(<geom type="plane" size="1 1 1"/>
+      <geom type="mesh" mesh="m" contype="0" conaffinity="0"/>
+      <body name="box"><freejoint/>
+        <geom type="mesh" mesh="m" contype="0" conaffinity="0" mass="0" rgba="0 0 1 1"/>
+        <geom type="box" size="1 1 1" mass="2"/>
+        <geom type="box" size="1 1 1" pos="0 0 0.5" contype="0" conaffinity="0" mass="2" group="1"/></body>)"),
+                                         "m.xml");
+  EXPECT_EQ(scene.notes.back(), "ignored: geom that collides with nothing");
+  const Scene read = parseScene(scene.text, "s", Starts::kMayOverlap);
+  ASSERT_EQ(read.boxes.size(), 1U);
+  EXPECT_EQ(read.walls.size(), 1U);
+  EXPECT_EQ(read.boxes[0].color.blue, 255);
+  EXPECT_EQ(read.boxes[0].mass, 4);
+  EXPECT_EQ(read.boxes[0].center, Vec3(0, 0, 0.25));
+}
+
+// What a <pair> names collides in it.
+TEST(ImportMjcf, aPairMakesAGeomCollide) {
+  const RunSetup setup = importedSetup(
+      R"(<mujoco><worldbody><geom name="f" type="plane" size="0 0 1" contype="0" conaffinity="0"/>
+      <body><freejoint/><geom name="g" type="box" size="1 1 1"/></body></worldbody>
+      <contact><pair geom1="f" geom2="g" friction="0.5 0.5"/></contact></mujoco>)");
+  ASSERT_EQ(setup.world.walls.size(), 1U);
+  EXPECT_NEAR(touching(setup.world.walls[0].material, setup.world.bodies[0].material).friction, 0.5, 1e-15);
+}
+
+TEST(ImportMjcf, filesAreIncludedAsByMujoco) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "parts");
+  folder.write("scene.xml", R"(<mujoco><include file="parts/common.xml"/><worldbody>
+      <body name="b" pos="0 0 1"><freejoint/><include file="parts/box.xml"/></body></worldbody></mujoco>)");
+  folder.write("parts/common.xml", R"(<mujoco><compiler angle="radian"/><option gravity="0 0 -2"/>
+      <worldbody><geom name="s" type="box" size="1 1 1" euler="0.5 0 0"/></worldbody></mujoco>)");
+  folder.write("parts/box.xml",
+               R"(<mujocoinclude><geom name="b" type="box" size="1 1 2" mass="3"/></mujocoinclude>)");
+  const std::filesystem::path path = folder / "scene.xml";
+  const RunSetup setup =
+      setupOf(parseScene(importMjcf(textOf(path), path.string()).text, "s", Starts::kMayOverlap));
+  InMujoco other = InMujoco::in(path);
+  mj_forward(other.model.get(), other.data.get());
+  ASSERT_EQ(setup.world.bodies.size(), static_cast<std::size_t>(other.model->ngeom));
+  EXPECT_EQ(setup.world.gravity, Vec3(Eigen::Map<const Vec3>(other.model->opt.gravity)));
+  for (const Body& body : setup.world.bodies) {
+    const int geom = mj_name2id(other.model.get(), mjOBJ_GEOM, body.name.c_str());
+    ASSERT_GE(geom, 0) << body.name;
+    EXPECT_EQ(body.halfExtents, Vec3(Eigen::Map<const Vec3>(other.model->geom_size + 3 * geom)));
+    const Pose pose = boxPose(body, body.initial.pose);
+    EXPECT_LT((pose.worldFromBody.col(2) - Vec3(other.data->geom_xmat[9 * geom + 2],
+                                                other.data->geom_xmat[9 * geom + 5],
+                                                other.data->geom_xmat[9 * geom + 8]))
+                  .norm(),
+              1e-15);
+  }
+}
+
 TEST(ImportMjcf, saysWhatItLeavesOut) {
   const ImportedScene scene = importMjcf(
       R"(<mujoco><option timestep="0.01"/><visual><map/></visual><asset><material name="red" rgba="1 0 0 1"/></asset>
@@ -241,8 +298,23 @@ TEST(ImportMjcf, namesWhatItRefusesAndWhere) {
             "m.xml:1:55: found 2 numbers for the size of a box, expected 3 half extents above 0 [m]"},
            {inBody("<freejoint/><geom type=\"box\" size=\"1 0 1\"/>"), "expected 3 half extents above 0 [m]"},
            {inBody("<freejoint/><geom type=\"box\" size=\"1 1 1\" mass=\"0\"/>"), "with a mass of 0 kg"},
-           {inBody("<freejoint/><geom type=\"box\" size=\"1 1 1\" fromto=\"0 0 0 1 1 1\"/>"),
-            "m.xml:1:68: found fromto=\"0 0 0 1 1 1\" for <geom>, expected none"},
+           {inBody("<freejoint/><geom type=\"box\" size=\"1 -2 1\"/>"),
+            "m.xml:1:55: found -2 in the size of a box, expected 3 half extents above 0 [m]"},
+           {inBody("<freejoint/><geom type=\"box\" size=\"1\" fromto=\"0 0 0 0 0 0\"/>"),
+            "m.xml:1:64: found a length of 0 m by fromto, expected two points apart"},
+           {inBody("<freejoint/><geom type=\"box\" size=\"1\" pos=\"1 0 0\" fromto=\"0 0 0 0 0 1\"/>"),
+            "m.xml:1:76: found pos and fromto for <geom>, expected one of them"},
+           {inBody("<freejoint/><geom size=\"1\" fromto=\"0 0 0 0 0 1\"/>"),
+            "found fromto for a <geom> of type \"sphere\", expected a box, capsule"},
+           {inBody("<freejoint/><geom type=\"bocks\"/>"), "found type=\"bocks\" for <geom>"},
+           {inBody("<freejoint/><geom type=\"box\" size=\"1 1 1\" mass=\"-1\"/>"),
+            "found mass=\"-1\" for <geom>, expected a number not below 0"},
+           {inBody("<freejoint/><geom type=\"capsule\" size=\"1 1\"/>"),
+            "found a <geom> of type \"capsule\""},
+           {inBody("<freejoint/><frame><inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/></frame>" +
+                   box),
+            "found <inertial> in <frame>, expected it in <body>"},
+           {inBody("<freejoint/><frame scale=\"2\">" + box + "</frame>"), "found scale=\"2\" for <frame>"},
            {inWorld("<geom type=\"box\" size=\"nan 1 1\"/>"),
             "m.xml:1:37: found \"nan\" in size for <geom>, expected a number from -1e60 to 1e60"},
            {inWorld("<geom type=\"box\" size=\"1e400 1 1\"/>"), "found \"1e400\" in size"},
@@ -263,7 +335,14 @@ TEST(ImportMjcf, namesWhatItRefusesAndWhere) {
             "found moments 1, 1, 3 kg m²"},
            {"<mujoco><worldbody>" + after + "<actuator>\n<motor joint=\"x\"/></actuator></mujoco>",
             "m.xml:2:2: found <motor> in <actuator>, expected boxes and planes without it"},
-           {"<mujoco><include file=\"x\"/></mujoco>", "m.xml:1:10: found <include>"},
+           {"<mujoco><include file=\"no such file\"/></mujoco>",
+            "m.xml:1:18: found file=\"no such file\" for <include>, expected a file beside the model"},
+           {"<mujoco><compiler settotalmass=\"1\" fusestatic=\"true\"/><worldbody><body>" + box +
+                "</body></worldbody></mujoco>",
+            "found a fixed body, which counts for settotalmass or not (fusestatic)"},
+           {"<mujoco><compiler alignfree=\"true\"/></mujoco>", "found alignfree=\"true\" for <compiler>"},
+           {"<mujoco><option><flag gravity=\"off\"/></option></mujoco>",
+            "found gravity=\"off\" for <flag>, expected enable or disable"},
            {"<mujoco><option density=\"1\"/></mujoco>", "found density=\"1\" for <option>"},
            {"<mujoco><option><flag contact=\"disable\"/></option></mujoco>",
             "found contact=\"disable\" for <flag>"},

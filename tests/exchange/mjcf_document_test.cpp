@@ -77,7 +77,7 @@ TEST(MjcfDocument, theLastCompilerCounts) {
   const MjcfDocument document(
       "<mujoco><compiler angle='radian'/><compiler inertiafromgeom='true'/><body euler='1 0 0'/></mujoco>",
       "m.xml");
-  EXPECT_EQ(document.inertiaFromGeom(), "true");
+  EXPECT_EQ(document.compiler().inertiaFromGeom, "true");
   EXPECT_LT(
       difference(document.orientation(*document.sections("body")[0], Quat::Identity()).toRotationMatrix(),
                  aboutAxis(Vec3::UnitX(), 1)),

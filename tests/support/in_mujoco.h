@@ -3,6 +3,7 @@
 #include <mujoco/mujoco.h>
 
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -25,17 +26,15 @@ class InMujoco {
   explicit InMujoco(const std::string& text) {
     const TemporaryFolder folder;
     folder.write("scene.xml", text);
-    std::array<char, 1000> error{};
-    model.reset(
-        mj_loadXML((folder / "scene.xml").c_str(), nullptr, error.data(), static_cast<int>(error.size())));
-    if (!model) {
-      throw std::runtime_error(std::string(error.data()) + "\n" + text);
-    }
-    data.reset(mj_makeData(model.get()));
-    if (const int key = mj_name2id(model.get(), mjOBJ_KEY, "start"); key >= 0) {
-      mj_resetDataKeyframe(model.get(), data.get(), key);
-    }
+    load(folder / "scene.xml", text);
   }
+  /// One in files of its own.
+  static InMujoco in(const std::filesystem::path& path) {
+    InMujoco other;
+    other.load(path, "");
+    return other;
+  }
+
   int body(const std::string& name) const { return mj_name2id(model.get(), mjOBJ_BODY, name.c_str()); }
   Vec3 position(const std::string& name) const {
     const mjtNum* const at = data->xpos + 3 * body(name);
@@ -56,6 +55,20 @@ class InMujoco {
 
   std::unique_ptr<mjModel, DeleteModel> model;
   std::unique_ptr<mjData, DeleteData> data;
+
+ private:
+  InMujoco() = default;
+  void load(const std::filesystem::path& path, const std::string& text) {
+    std::array<char, 1000> error{};
+    model.reset(mj_loadXML(path.c_str(), nullptr, error.data(), static_cast<int>(error.size())));
+    if (!model) {
+      throw std::runtime_error(std::string(error.data()) + "\n" + text);
+    }
+    data.reset(mj_makeData(model.get()));
+    if (const int key = mj_name2id(model.get(), mjOBJ_KEY, "start"); key >= 0) {
+      mj_resetDataKeyframe(model.get(), data.get(), key);
+    }
+  }
 };
 
 }  // namespace careen

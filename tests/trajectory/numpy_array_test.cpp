@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -48,6 +50,8 @@ TEST(NumpyArray, everyTypeOfNumberIsRead) {
                                    {">f8", bytes({0x3F, 0xF8, 0, 0, 0, 0, 0, 0}), 1.5},
                                    {"<f4", bytes({0, 0, 0x20, 0xC0}), -2.5},
                                    {">f4", bytes({0xC0, 0x20, 0, 0}), -2.5},
+                                   {"<f2", bytes({0x55, 0x35}), 0.333251953125},
+                                   {">f2", bytes({0xC0, 0x00}), -2},
                                    {"<i8", bytes({0xFE, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF}), -2},
                                    {"<i4", bytes({0xFE, 0xFF, 0xFF, 0xFF}), -2},
                                    {"<u4", bytes({0xFE, 0xFF, 0xFF, 0xFF}), 4294967294.0},
@@ -59,6 +63,32 @@ TEST(NumpyArray, everyTypeOfNumberIsRead) {
     EXPECT_EQ(array.shape, std::vector<std::size_t>{1});
     EXPECT_FALSE(array.isText);
   }
+}
+
+// The bits of a half, 13 places up, are those of a float 2¹¹² times as small, which the product makes exact.
+TEST(NumpyArray, everyHalfIsReadExactly) {
+  std::string data;
+  for (unsigned bits = 0; bits < 65536; ++bits) {
+    data += bytes({static_cast<int>(bits & 0xFFU), static_cast<int>(bits >> 8U)});
+  }
+  const std::vector<double> read = decodeNumpy(file(headerOf("<f2", "(65536,)"), data), "a").numbers;
+  ASSERT_EQ(read.size(), 65536U);
+  int others = 0;
+  for (unsigned bits = 0; bits < 65536; ++bits) {
+    const unsigned size = bits & 0x7FFFU;
+    EXPECT_EQ(std::signbit(read[bits]), bits >= 0x8000U) << bits;
+    if (size >= 0x7C00U) {
+      EXPECT_EQ(size == 0x7C00U ? std::isinf(read[bits]) : std::isnan(read[bits]), true) << bits;
+      ++others;
+      continue;
+    }
+    const double expected = static_cast<double>(std::bit_cast<float>(size << 13U)) * std::ldexp(1.0, 112);
+    EXPECT_EQ(std::fabs(read[bits]), expected) << bits;
+  }
+  EXPECT_EQ(others, 2048);
+  EXPECT_EQ(read[0x3C00], 1);
+  EXPECT_EQ(read[0x0001], std::ldexp(1.0, -24));
+  EXPECT_EQ(read[0x7BFF], 65504);
 }
 
 TEST(NumpyArray, textsComeBackInEveryEncoding) {
