@@ -17,6 +17,8 @@
 #include "core/error.h"
 #include "core/system/file.h"
 #include "run.h"
+#include "simulation_progress.h"
+#include "status_line.h"
 #include "study/dice_plots.h"
 #include "study/study.h"
 
@@ -82,6 +84,26 @@ std::vector<ThrowSettings> settingsOf(const DiceOptions& options) {
   return all;
 }
 
+// One line that is rewritten on a terminal.
+class DiceProgress {
+ public:
+  explicit DiceProgress(double all) : all_(all) {}
+
+  void show(double thrown) {
+    if (!line_.isOnTerminal()) {
+      return;
+    }
+    const double left = stopwatch_.seconds() * (all_ - thrown) / thrown;
+    line_.show("thrown " + brief(thrown, 15) + " of " + brief(all_, 15) + " dice, " + inTime(left) + " left");
+  }
+  void clear() { line_.clear(); }
+
+ private:
+  double all_;
+  Stopwatch stopwatch_;
+  StatusLine line_;
+};
+
 ExitCode diceCommand(const DiceOptions& options, const std::stop_token& stop) {
   const Stopwatch stopwatch;
   if (!options.noPlots) {
@@ -89,13 +111,18 @@ ExitCode diceCommand(const DiceOptions& options, const std::stop_token& stop) {
   }
   const std::vector<ThrowSettings> all = settingsOf(options);
   makeFolder(options.out);
+  DiceProgress progress(static_cast<double>(all.size() * kMeasuredDice.size()) * options.throws);
+  double before = 0;
   std::vector<DiceResult> results;
   for (const ThrowSettings& settings : all) {
     DiceResult& result = results.emplace_back();
     result.settings = settings;
     for (const MeasuredDie& die : kMeasuredDice) {
-      result.faces.push_back(throwDice(die.ratio, settings, stop));
+      result.faces.push_back(
+          throwDice(die.ratio, settings, stop, [&](int thrown) { progress.show(before + thrown); }));
+      before += options.throws;
     }
+    progress.clear();
     std::cout << "restitution " << brief(settings.restitution) << ", friction " << brief(settings.friction)
               << ", " << brief(settings.height) << " m, " << brief(settings.speed) << " m/s, "
               << brief(settings.spin) << " rad/s: " << result.within() << " of " << result.faces.size()

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <iomanip>
+#include <iostream>
 #include <sstream>
 #include <string>
 
@@ -9,8 +10,7 @@ namespace careen {
 namespace {
 
 constexpr std::int64_t kBarWidth = 30;
-constexpr double kTerminalInterval = 0.1;  // [s]
-constexpr double kPlainInterval = 5;       // [s]
+constexpr double kPlainInterval = 5;  // [s]
 
 std::string barOf(std::int64_t done, std::int64_t total) {
   const auto filled = static_cast<std::size_t>(kBarWidth * done / total);
@@ -21,24 +21,19 @@ std::string barOf(std::int64_t done, std::int64_t total) {
 }  // namespace
 
 void Progress::update(const FilmProgress& film) {
-  const double now = stopwatch_.seconds();
-  const bool last = film.done == film.total;
-  if (!last && now - toldAt_ < (terminal_ ? kTerminalInterval : kPlainInterval)) {
-    return;
-  }
-  toldAt_ = now;
-  std::ostringstream line;
-  line << std::fixed << std::setprecision(1);
-  if (terminal_) {
-    line << '\r' << barOf(film.done, film.total);
-  }
-  line << "frame " << film.done << " of " << film.total;
+  std::ostringstream words;
+  words << std::fixed << std::setprecision(1) << "frame " << film.done << " of " << film.total;
   if (film.framesPerSecond > 0) {
-    line << ", " << film.framesPerSecond << " frames/s, " << film.secondsLeft << " s left";
+    words << ", " << film.framesPerSecond << " frames/s, " << film.secondsLeft << " s left";
   }
-  // Blanks erase the rest of a longer line on a terminal.
-  line << (terminal_ ? (last ? "    \n" : "    ") : "\n");
-  out_ << line.str() << std::flush;
+  const bool last = film.done == film.total;
+  if (line_.isOnTerminal()) {
+    const std::string text = barOf(film.done, film.total) + words.str();
+    last ? line_.keep(text) : line_.show(text);
+  } else if (last || stopwatch_.seconds() - toldAt_ >= kPlainInterval) {
+    toldAt_ = stopwatch_.seconds();
+    std::cerr << words.str() << '\n' << std::flush;
+  }
 }
 
 }  // namespace careen

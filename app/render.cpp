@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -28,6 +26,7 @@
 #include "render/film/film.h"
 #include "report.h"
 #include "run.h"
+#include "simulation_progress.h"
 #include "still.h"
 #include "truth/truth_film.h"
 #include "truth/truth_frame.h"
@@ -47,6 +46,7 @@ struct FilmOptions {
   std::string quality = "good";
   std::optional<int> jobs;
   std::string log = "text";
+  bool verbose = false;
   bool resume = false;
   bool overwrite = false;
   PictureOptions picture;
@@ -187,18 +187,24 @@ void printFrame(const FilmSettings& settings, const FrameFigures& frame) {
   std::cout << line.dump() << std::endl;  // flushed: somebody may be waiting for it
 }
 
-void printFilm(std::ostream& out, const FilmSettings& settings, const PictureSettings& picture,
-               const FilmFigures& figures) {
+void printDrawing(std::ostream& out, const FilmFigures& figures) {
   out << "drawing      " << figures.drawSeconds << " s, reading back " << figures.readSeconds
       << " s, encoding " << figures.encodeSeconds << " s, " << figures.coreSeconds << " s of all cores, "
       << figures.jobs << (figures.jobs == 1 ? " job\n" : " jobs\n");
   if (!figures.renderer.empty()) {
     out << "renderer     " << figures.renderer << '\n';
   }
+}
+
+void printFilm(std::ostream& out, const FilmSettings& settings, const PictureSettings& picture,
+               const FilmFigures& figures) {
   out << "frames       " << figures.drawn + figures.skipped << " at " << picture.rate.text()
-      << " per second, " << picture.width << 'x' << picture.height << ", " << figures.skipped
-      << " of them were there already: "
-      << printableName(std::filesystem::absolute(settings.folder).lexically_normal().string()) << '\n';
+      << " per second, " << picture.width << 'x' << picture.height;
+  if (figures.skipped > 0) {
+    out << ", " << figures.skipped << " of them were there already";
+  }
+  out << ": " << printableName(std::filesystem::absolute(settings.folder).lexically_normal().string())
+      << '\n';
   if (settings.video) {
     out << "film         "
         << printableName(std::filesystem::absolute(settings.video->path).lexically_normal().string()) << '\n';
@@ -285,11 +291,15 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (reference) {
     refuseToOverwrite(*reference, settings);
   }
-  if (!isRun(options.source) && !isMujocoModel(options.source)) {
+  const bool makesFilm = !options.still && !options.strobe;
+  if (makesFilm && !isRun(options.source) && !isMujocoModel(options.source)) {
     refuseFilmOfAnotherScene(settings, readFile(options.source));
   }
   options.overrides.threads = options.picture.threadsOfCrowds();
-  Run run = loadRun(options.source, options.overrides, options.scene, stop);
+  const bool logsJson = options.log == "json";
+  SimulationProgress simulation(logsJson);
+  Run run = loadRun(options.source, options.overrides, options.scene, stop,
+                    simulation.ofRun(options.overrides.mostRecords()));
   if (truth) {
     checkLabels(run.trajectory);
   }
@@ -302,15 +312,14 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   PictureSettings& picture = run.trajectory.stage.picture;
   options.picture.applyTo(picture);
   checkVideoOf(picture, settings);
-  if (options.still || options.strobe) {
+  if (!makesFilm) {
     return drawStill(run, settings.render,
                      {.path = options.folder,
                       .moment = options.still.value_or(0),
                       .strobe = options.strobe,
                       .ghost = settings.ghost});
   }
-  Progress progress(std::cerr, isatty(STDERR_FILENO) != 0);
-  const bool logsFrames = options.log == "json";
+  Progress progress;
   if (!reference) {
     setInterruptionHint("; --resume completes the film");
   }
@@ -318,7 +327,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
       run.trajectory, settings,
       [&](const FilmProgress& now) {
         progress.update(now);
-        if (logsFrames) {
+        if (logsJson) {
           printFrame(settings, now.frame);
         }
       },
@@ -327,15 +336,18 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (truth) {
     writeTruth(run.trajectory, *truth, {}, stop);
   }
-  estimate(run, options.estimate, stopwatch.seconds() - run.auditSeconds, stop);
+  estimate(run, options.estimate, stopwatch.seconds() - run.auditSeconds, stop, simulation.ofEstimate());
   if (!reference) {
     writeReport(run, settings, figures, stopwatch.seconds());
   }
-  std::ostream& summary = logsFrames ? std::cerr : std::cout;
-  printSummary(summary, run, stopwatch.seconds());
+  std::ostream& summary = logsJson ? std::cerr : std::cout;
+  printSummary(summary, run, stopwatch.seconds(), options.verbose);
   print(summary, outOfView(run.trajectory), run.trajectory);
+  if (options.verbose) {
+    printDrawing(summary, figures);
+  }
   printFilm(summary, settings, picture, figures);
-  return reference ? compareWithReference(*reference, settings, options.compare, logsFrames, stop)
+  return reference ? compareWithReference(*reference, settings, options.compare, logsJson, stop)
                    : ExitCode::kDone;
 }
 
@@ -395,9 +407,11 @@ void addRender(const CommandLine& commandLine) {
   how.needs(reference);
   command.addFlag("--list-rendering-backends", options->listBackends,
                   "Tell which of them are available, and make no film");
-  command.add("--log", options->log,
-              "text, or json: a line for each frame drawn on the standard output, and nothing else "
-              "there (default: text)");
+  command.add(
+      "--log", options->log,
+      "text, or json: lines on the standard output while the scene is simulated, then one for each frame "
+      "drawn, and nothing else there (default: text)");
+  command.addFlag("--verbose", options->verbose, "Print all that is known of the run, as report.json has it");
   options->overrides.addAllowOverlapTo(command);
   options->overrides.addLimitTo(command);
   options->estimate.addTo(command);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct Life {
   double crowd = 0;
   double rest = 0;
   std::size_t steps = 0;  // of Contact and of crowds
+
+  double whole() const { return flight + contact + crowd + rest; }
 };
 
 Life lifeOf(const Track& track, double duration) {
@@ -46,6 +49,23 @@ Life lifeOf(const Track& track, double duration) {
   return life;
 }
 
+// Of all boxes that can move.
+Life lifeOf(const Trajectory& trajectory) {
+  Life all;
+  for (std::size_t body = 0; body < trajectory.tracks.size(); ++body) {
+    if (isImmovable(trajectory.world.bodies[body].mass)) {
+      continue;
+    }
+    const Life life = lifeOf(trajectory.tracks[body], trajectory.settings.duration);
+    all.flight += life.flight;
+    all.contact += life.contact;
+    all.crowd += life.crowd;
+    all.rest += life.rest;
+    all.steps += life.steps;
+  }
+  return all;
+}
+
 nlohmann::ordered_json lifeReport(const Trajectory& trajectory) {
   nlohmann::ordered_json lives = nlohmann::ordered_json::array();
   for (std::size_t body = 0; body < trajectory.tracks.size(); ++body) {
@@ -58,6 +78,22 @@ nlohmann::ordered_json lifeReport(const Trajectory& trajectory) {
                      {"steps", life.steps}});
   }
   return lives;
+}
+
+void printSceneLine(std::ostream& out, const std::string& scene, std::size_t boxes,
+                    const RunSettings& settings) {
+  out << "scene        " << printableName(scene) << ", " << boxes << (boxes == 1 ? " box, " : " boxes, ")
+      << settings.duration << " s by " << traitsOf(settings.method).name;
+  if (traitsOf(settings.method).steps()) {
+    out << ", dt " << settings.dt << " s";
+  }
+  out << '\n';
+}
+
+void printGivenLine(std::ostream& out, const Trajectory& run) {
+  out << "scene        " << printableName(run.stage.name) << ", " << run.world.bodies.size()
+      << (run.world.bodies.size() == 1 ? " box, " : " boxes, ") << run.settings.duration
+      << " s of given poses; velocities " << (run.given->velocities ? "given" : "estimated") << '\n';
 }
 
 void printItems(std::ostream& out, const char* title, const Plan& plan, bool modelled) {
@@ -86,7 +122,7 @@ nlohmann::ordered_json estimateReport(const std::optional<ErrorEstimate>& estima
   return report;
 }
 
-void printEstimate(std::ostream& out, const Run& run) {
+void printEstimate(std::ostream& out, const Run& run, bool verbose) {
   if (!run.estimated) {
     return;
   }
@@ -103,7 +139,7 @@ void printEstimate(std::ostream& out, const Run& run) {
   } else {
     out << "to the end";
   }
-  out << " (by " << estimate.by << ")\n";
+  out << (verbose ? " (by " + estimate.by + ")\n" : "\n");
 }
 
 nlohmann::ordered_json auditReport(const Audit& audit) {
@@ -154,8 +190,11 @@ void printDisagreement(std::ostream& out, const char* what, double own, double s
   }
 }
 
-// What the run knows of itself, where no audit tells more.
-void printDepth(std::ostream& out, const Run& run) {
+// By the audit; or what the run knows of itself, where no audit tells more.
+void printBroken(std::ostream& out, const Run& run) {
+  for (const AuditBreach& breach : run.audit.breaches) {
+    out << "BROKEN       " << describe(breach, run.trajectory) << '\n';
+  }
   if (run.trajectory.given || !run.audit.breaches.empty()) {
     return;
   }
@@ -181,9 +220,72 @@ void printAudit(std::ostream& out, const Run& run) {
     printDisagreement(out, "|AAᵀ-1|", own.orthogonality, stated.orthogonality);
     printDisagreement(out, "deepest penetration", own.deepestPenetration, stated.deepestPenetration);
   }
-  for (const AuditBreach& breach : audit.breaches) {
-    out << "BROKEN       " << describe(breach, run.trajectory) << '\n';
+}
+
+// What the method lacks though the scene needs it: the reason names the method.
+void printLacks(std::ostream& out, const Trajectory& run) {
+  for (const PlanItem& item : run.plan.items) {
+    if (!item.modelled && item.reason.find("method " + run.methodName()) != std::string::npos) {
+      out << "left out     " << printableName(item.what) << ": " << printableName(item.reason) << '\n';
+    }
   }
+}
+
+void printMotion(std::ostream& out, const Trajectory& run) {
+  const Life all = lifeOf(run);
+  out << "motion       " << run.impacts.size() << (run.impacts.size() == 1 ? " impact" : " impacts");
+  const char* between = "; ";
+  for (const auto& [seconds, what] :
+       {std::pair(all.flight, "flight "), std::pair(all.contact + all.crowd, "contact "),
+        std::pair(all.rest, "rest ")}) {
+    if (seconds > 0) {
+      out << between << what << 100 * seconds / all.whole() << " %";
+      between = ", ";
+    }
+  }
+  out << (all.whole() > 0 ? " of the time\n" : "\n");
+}
+
+// What a new user needs.
+void printInShort(std::ostream& out, const Run& run) {
+  const Trajectory& trajectory = run.trajectory;
+  if (trajectory.given) {
+    printGivenLine(out, trajectory);
+  } else {
+    printSceneLine(out, trajectory.stage.name, trajectory.world.bodies.size(), trajectory.settings);
+    printLacks(out, trajectory);
+  }
+  out << std::setprecision(3);
+  if (!trajectory.given) {
+    printMotion(out, trajectory);
+  }
+  const RunFigures figures = run.statedFigures();
+  out << "error        energy " << figures.energyChange << ", momentum " << figures.momentumChange
+      << ", deepest penetration " << figures.deepestPenetration << " m";
+  if (run.audit.depth == AuditDepth::kNone) {
+    out << "; not audited\n";
+  } else {
+    out << (!run.audit.breaches.empty() ? "\n"
+            : trajectory.given          ? "; audit: sound\n"
+                                        : "; audit: keeps what its method promises\n");
+  }
+  if (figures.boundedFrom) {
+    out << "crowd        from " << *figures.boundedFrom << " s on, where many boxes touch: right to about "
+        << trajectory.settings.crowds.tolerance << " m\n";
+  }
+  printBroken(out, run);
+}
+
+void printSpeed(std::ostream& out, const Run& run, double wallSeconds) {
+  out << std::setprecision(3) << "speed        " << wallSeconds << " s in all";
+  if (run.simulateSeconds > 0) {
+    out << "; simulated in " << run.simulateSeconds << " s, "
+        << run.trajectory.settings.duration / run.simulateSeconds << " times real time";
+  }
+  if (run.audit.depth != AuditDepth::kNone) {
+    out << "; audited in " << run.auditSeconds << " s";
+  }
+  out << '\n';
 }
 
 }  // namespace
@@ -243,12 +345,7 @@ std::string runReportText(const Run& run, double wallSeconds) {
 
 void printPlan(std::ostream& out, const std::string& scene, std::size_t boxes, const RunSettings& settings,
                const Plan& plan) {
-  out << "scene        " << printableName(scene) << ", " << boxes << (boxes == 1 ? " box, " : " boxes, ")
-      << settings.duration << " s by " << traitsOf(settings.method).name;
-  if (traitsOf(settings.method).steps()) {
-    out << ", dt " << settings.dt << " s";
-  }
-  out << '\n';
+  printSceneLine(out, scene, boxes, settings);
   printItems(out, "modelled     ", plan, true);
   printItems(out, "left out     ", plan, false);
 }
@@ -273,13 +370,11 @@ void printCrowds(std::ostream& out, const RunSettings& settings, const Plan& pla
 }
 
 void printPlan(std::ostream& out, const Trajectory& run) {
-  if (!run.given) {
+  if (run.given) {
+    printGivenLine(out, run);
+  } else {
     printPlan(out, run.stage.name, run.world.bodies.size(), run.settings, run.plan);
-    return;
   }
-  out << "scene        " << printableName(run.stage.name) << ", " << run.world.bodies.size()
-      << (run.world.bodies.size() == 1 ? " box, " : " boxes, ") << run.settings.duration
-      << " s of given poses; velocities " << (run.given->velocities ? "given" : "estimated") << '\n';
 }
 
 void printError(std::ostream& out, const Run& run) {
@@ -288,8 +383,8 @@ void printError(std::ostream& out, const Run& run) {
   out << std::setprecision(3) << "error        energy " << figures.energyChange << ", momentum "
       << figures.momentumChange << ", |AAᵀ-1| " << figures.orthogonality << ", deepest penetration "
       << figures.deepestPenetration << " m\n";
-  printDepth(out, run);
   printAudit(out, run);
+  printBroken(out, run);
   if (figures.boundedFrom) {
     out << "crowd        from " << *figures.boundedFrom
         << " s on, where exact contact costs too much or has no solution: only those bodies, with a bounded "
@@ -298,16 +393,8 @@ void printError(std::ostream& out, const Run& run) {
   }
   printResiduals(out, "residuals    ", figures.contact);
   printResiduals(out, "  of crowds  ", figures.crowds);
-  Life all;
-  for (const Track& track : trajectory.tracks) {
-    const Life life = lifeOf(track, trajectory.settings.duration);
-    all.flight += life.flight;
-    all.contact += life.contact;
-    all.crowd += life.crowd;
-    all.rest += life.rest;
-    all.steps += life.steps;
-  }
-  const double whole = all.flight + all.contact + all.crowd + all.rest;
+  const Life all = lifeOf(trajectory);
+  const double whole = all.whole();
   if (whole > 0 && !trajectory.given) {
     out << "life         flight " << 100 * all.flight / whole << " %, contact " << 100 * all.contact / whole;
     if (figures.boundedFrom) {
@@ -319,19 +406,17 @@ void printError(std::ostream& out, const Run& run) {
   out << "state hash   " << trajectory.stateHash() << '\n';
 }
 
-void printSummary(std::ostream& out, const Run& run, double wallSeconds) {
-  printPlan(out, run.trajectory);
-  out << std::setprecision(3) << "speed        " << wallSeconds << " s in all";
-  if (run.simulateSeconds > 0) {
-    out << "; simulated in " << run.simulateSeconds << " s, "
-        << run.trajectory.settings.duration / run.simulateSeconds << " times real time";
+void printSummary(std::ostream& out, const Run& run, double wallSeconds, bool verbose) {
+  if (verbose) {
+    printPlan(out, run.trajectory);
+    printSpeed(out, run, wallSeconds);
+    printError(out, run);
+    printEstimate(out, run, true);
+  } else {
+    printInShort(out, run);
+    printEstimate(out, run, false);
+    printSpeed(out, run, wallSeconds);
   }
-  if (run.audit.depth != AuditDepth::kNone) {
-    out << "; audited in " << run.auditSeconds << " s";
-  }
-  out << '\n';
-  printError(out, run);
-  printEstimate(out, run);
 }
 
 }  // namespace careen

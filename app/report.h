@@ -15,8 +15,8 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds);
 /// Without that part, as text.
 std::string runReportText(const Run& run, double wallSeconds);
 
-/// The same in words: what was modelled, then speed and error next to each other.
-void printSummary(std::ostream& out, const Run& run, double wallSeconds);
+/// In words: what moved, its error and speed in a few lines; or, verbose, the same as in the report.
+void printSummary(std::ostream& out, const Run& run, double wallSeconds, bool verbose);
 /// Parts of the summary.
 void printPlan(std::ostream& out, const std::string& scene, std::size_t boxes, const RunSettings& settings,
                const Plan& plan);

@@ -94,16 +94,6 @@ void partBoxes(Scene& scene) {
             << parted.furthest << " m\n";
 }
 
-std::uint64_t limitOf(const Overrides& overrides) {
-  if (!overrides.limit) {
-    return kMostRecords;
-  }
-  if (!(*overrides.limit >= 1 && *overrides.limit < 1e18)) {
-    throw InputError("--limit: found " + brief(*overrides.limit) + ", expected 1 or more, below 1e18");
-  }
-  return static_cast<std::uint64_t>(*overrides.limit);
-}
-
 int threadsOf(const Overrides& overrides) {
   const int threads = overrides.threads.value_or(std::min(usableCores(), kMostThreadsOfCrowds));
   if (threads < 1 || threads > kMostThreadsOfCrowds) {
@@ -126,7 +116,7 @@ void checkSteps(const Scene& scene, std::uint64_t limit) {
 }
 
 Run simulateText(const std::filesystem::path& path, const std::string& bytes, const Overrides& overrides,
-                 const std::stop_token& stop) {
+                 const std::stop_token& stop, const RunCallback& progress) {
   const DefaultFloatEnvironment usual;  // GL may be open in a window
   const auto [text, name] = sceneTextOf(path, bytes);
   Scene scene = parseScene(text, name, overrides.allowOverlap ? Starts::kMayOverlap : Starts::kApart);
@@ -137,14 +127,14 @@ Run simulateText(const std::filesystem::path& path, const std::string& bytes, co
   } else if (scene.method != method) {
     checkApart(scene);  // the reader checked it for the method in the file
   }
-  const std::uint64_t limit = limitOf(overrides);
+  const std::uint64_t limit = overrides.mostRecords();
   checkSteps(scene, limit);
   Run run;
   run.source = path;
   const Stopwatch stopwatch;
   RunSetup setup = setupOf(scene);
   setup.settings.threads = threadsOf(overrides);
-  run.trajectory = record(std::move(setup), stop, limit);
+  run.trajectory = record(std::move(setup), stop, limit, progress);
   run.simulateSeconds = stopwatch.seconds();
   return run;
 }
@@ -220,6 +210,16 @@ void Overrides::addThreadsTo(const CommandLine& command) {
       "each core)");
 }
 
+std::uint64_t Overrides::mostRecords() const {
+  if (!limit) {
+    return kMostRecords;
+  }
+  if (!(*limit >= 1 && *limit < 1e18)) {
+    throw InputError("--limit: found " + brief(*limit) + ", expected 1 or more, below 1e18");
+  }
+  return static_cast<std::uint64_t>(*limit);
+}
+
 const char* Overrides::given() const {
   return method         ? "--method"
          : dt           ? "--dt"
@@ -239,7 +239,8 @@ void EstimateChoice::addTo(const CommandLine& command) {
       .excludes(yes);
 }
 
-void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const std::stop_token& stop) {
+void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const std::stop_token& stop,
+              const RunCallback& progress) {
   if (run.trajectory.given) {
     if (choice.asked.value_or(false)) {
       throw InputError("--estimate-error: found the table of poses " + run.source.string() +
@@ -252,7 +253,7 @@ void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const 
     return;
   }
   run.estimated = true;
-  run.estimate = estimateError(run.trajectory, stop);
+  run.estimate = estimateError(run.trajectory, stop, progress);
 }
 
 RunFigures Run::statedFigures() const {
@@ -328,9 +329,9 @@ SceneText sceneTextOf(const std::filesystem::path& path, const std::string& byte
 
 std::filesystem::path defaultScene() { return findResource("assets/scenes/careen.json"); }
 
-Run simulateScene(const std::filesystem::path& path, const Overrides& overrides,
-                  const std::stop_token& stop) {
-  return simulateText(path, readFile(path), overrides, stop);
+Run simulateScene(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop,
+                  const RunCallback& progress) {
+  return simulateText(path, readFile(path), overrides, stop, progress);
 }
 
 bool isTable(const std::filesystem::path& path) {
@@ -355,13 +356,13 @@ Trajectory readRun(const std::filesystem::path& path, const SceneOfTable& scene,
 }
 
 Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const SceneOfTable& scene,
-            const std::stop_token& stop) {
+            const std::stop_token& stop, const RunCallback& progress) {
   const std::string bytes = readFile(path);
   if (isMujocoModel(path) || (!looksLikeTrajectory(bytes) && !looksLikePoseTable(bytes, path.string()))) {
     if (scene.path) {
       throw InputError("--scene: found the scene " + path.string() + " to be run, expected a table of poses");
     }
-    return simulateText(path, bytes, overrides, stop);
+    return simulateText(path, bytes, overrides, stop, progress);
   }
   if (const char* const option = overrides.given()) {
     throw InputError(std::string(option) + ": found the run " + path.string() +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -60,7 +61,8 @@ struct EstimateChoice {
 
 /// Estimates the run's error if asked to; by default only if that costs less than 10 % of the time spent so
 /// far.
-void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const std::stop_token& stop);
+void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const std::stop_token& stop,
+              const RunCallback& progress = {});
 
 /// Command-line overrides of the scene file.
 struct Overrides {
@@ -76,6 +78,8 @@ struct Overrides {
   void addAllowOverlapTo(const CommandLine& command);
   void addLimitTo(const CommandLine& command);
   void addThreadsTo(const CommandLine& command);
+  /// Most segments and impacts that the run may have.
+  std::uint64_t mostRecords() const;
   /// The first option that was given; null if none was.
   const char* given() const;
 };
@@ -96,7 +100,8 @@ bool isMujocoModel(const std::filesystem::path& path);
 std::filesystem::path defaultScene();
 
 /// Reads a scene file and runs it. Reports overrides on standard error.
-Run simulateScene(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop);
+Run simulateScene(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop,
+                  const RunCallback& progress = {});
 
 /// Whether the file is a run: a trajectory, or a table of poses.
 bool isRun(const std::filesystem::path& path);
@@ -115,7 +120,7 @@ Trajectory readRun(const std::filesystem::path& path, const SceneOfTable& scene,
 /// Runs a scene file, or reads a trajectory file or a table of poses; with the latter two nothing can be
 /// overridden.
 Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const SceneOfTable& scene,
-            const std::stop_token& stop);
+            const std::stop_token& stop, const RunCallback& progress = {});
 
 class Stopwatch {
  public:

@@ -4,6 +4,7 @@
 #include <list>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "core/system/file.h"
 #include "report.h"
 #include "run.h"
+#include "simulation_progress.h"
 #include "trajectory/export_csv.h"
 #include "trajectory/export_npz.h"
 #include "trajectory/trajectory_file.h"
@@ -30,6 +32,8 @@ struct SimulateOptions {
   std::filesystem::path npz;
   std::filesystem::path impacts;
   std::filesystem::path report;
+  std::string log = "text";
+  bool verbose = false;
   Overrides overrides;
   EstimateChoice estimate;
   AuditChoice audit;
@@ -84,10 +88,12 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   if (options.every && options.poses.empty() && options.npz.empty()) {
     throw InputError("--every: found neither --poses nor --npz, expected one of them");
   }
-  Run run = simulateScene(source, options.overrides, stop);
+  const bool logsJson = options.log == "json";
+  SimulationProgress progress(logsJson);
+  Run run = simulateScene(source, options.overrides, stop, progress.ofRun(options.overrides.mostRecords()));
   auditRun(run, options.audit, stop);
   const std::string trajectory = encodeTrajectory(run.trajectory);
-  estimate(run, options.estimate, stopwatch.seconds() - run.auditSeconds, stop);
+  estimate(run, options.estimate, stopwatch.seconds() - run.auditSeconds, stop, progress.ofEstimate());
 
   Outputs outputs;
   outputs.add(output, [&](const TextSink& sink) { sink(trajectory); });
@@ -98,8 +104,17 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   outputs.add(options.report, [&](const TextSink& sink) { sink(runReportText(run, stopwatch.seconds())); });
   outputs.commit();
 
-  printSummary(std::cout, run, stopwatch.seconds());
-  std::cout << "trajectory   " << printableName(output.string()) << '\n';
+  std::ostream& summary = logsJson ? std::cerr : std::cout;
+  printSummary(summary, run, stopwatch.seconds(), options.verbose);
+  const char* between = "files        ";
+  for (const std::filesystem::path& file :
+       {output, options.poses, options.npz, options.impacts, options.report}) {
+    if (!file.empty()) {
+      summary << between << printableName(file.string());
+      between = ", ";
+    }
+  }
+  summary << '\n';
   return ExitCode::kDone;
 }
 
@@ -115,6 +130,12 @@ void addSimulate(const CommandLine& commandLine) {
   command.add("--every", options->every, "Time between two poses of --poses and --npz [s] (default: 1/60)");
   command.add("--impacts", options->impacts, "Table of impacts (CSV)");
   command.add("--report", options->report, "What was modelled, speed and error (JSON)");
+  command
+      .add("--log", options->log,
+           "text, or json: lines on the standard output that tell how far the run is, and nothing else there "
+           "(default: text)")
+      .oneOf({"text", "json"});
+  command.addFlag("--verbose", options->verbose, "Print all that is known of the run, as --report has it");
   options->overrides.addTo(command);
   options->overrides.addThreadsTo(command);
   options->estimate.addTo(command);

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -19,6 +17,8 @@
 #include "parsed.h"
 #include "picture_size.h"
 #include "run.h"
+#include "simulation_progress.h"
+#include "status_line.h"
 #include "sweep/sweep.h"
 #include "trajectory/trajectory.h"
 #include "truth/truth_film.h"
@@ -104,22 +104,24 @@ SweepSettings settingsOf(const SweepOptions& options, const DrawFilm& drawFilm) 
   return settings;
 }
 
-// One line that fills on a terminal, otherwise a line every few seconds.
+// One line that is rewritten on a terminal, otherwise a line every few seconds.
 class SweepReport {
  public:
   void operator()(const SweepProgress& now) {
     constexpr double kOftenEnough = 5;  // [s]
-    if (!terminal_ && now.done != now.total && stopwatch_.seconds() - toldAt_ < kOftenEnough) {
-      return;
+    const std::string words = "run " + std::to_string(now.done) + " of " + std::to_string(now.total) + ", " +
+                              inTime(now.secondsLeft) + " left";
+    const bool last = now.done == now.total;
+    if (line_.isOnTerminal()) {
+      last ? line_.keep(words) : line_.show(words);
+    } else if (last || stopwatch_.seconds() - toldAt_ >= kOftenEnough) {
+      toldAt_ = stopwatch_.seconds();
+      std::cerr << words << '\n' << std::flush;
     }
-    toldAt_ = stopwatch_.seconds();
-    std::cerr << (terminal_ ? "\r" : "") << "run " << now.done << " of " << now.total << ", "
-              << brief(now.secondsLeft, 3) << " s left" << (terminal_ && now.done != now.total ? "   " : "\n")
-              << std::flush;
   }
 
  private:
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
+  StatusLine line_;
   Stopwatch stopwatch_;
   double toldAt_ = 0;  // [s]
 };

@@ -344,19 +344,23 @@ std::string describe(const AuditBreach& breach, const Trajectory& run) {
 }
 
 std::string inWords(const Audit& audit) {
-  std::string text;
+  std::string promised;
+  std::string others;
   for (const AuditKindTraits& traits : kAuditKinds) {
     const AuditFigure& figure = audit.figure(traits.kind);
     if (figure.size > 0) {
+      std::string& text = figure.promised ? promised : others;
       text.append(text.empty() ? "" : ", ").append(traits.name).append(" ").append(brief(figure.size, 3));
       text.append(traits.unit == "1" ? "" : " ").append(traits.unit == "1" ? "" : traits.unit);
-      text.append(figure.promised ? "" : " (not promised)");
     }
   }
-  if (text.empty()) {
+  if (!others.empty()) {
+    others.insert(0, promised.empty() ? "no promise concerns " : "; no promise concerns ");
+  }
+  if (promised.empty() && others.empty()) {
     return "nothing found";
   }
-  return audit.breaches.empty() ? text : "BROKEN: " + text;
+  return (audit.breaches.empty() ? "" : "BROKEN: ") + promised + others;
 }
 
 }  // namespace careen

@@ -70,7 +70,7 @@ Audit audit(const Trajectory& run, AuditDepth depth, const std::stop_token& stop
 /// m"; of a table, "… where at most 4e-06 m is allowed".
 std::string describe(const AuditBreach& breach, const Trajectory& run);
 
-/// "box_overlap 0.092 m, impulse 0.84 (not promised)", "BROKEN: …" if a promise is; "nothing found".
+/// "box_overlap 0.092 m; no promise concerns impulse 0.84", "BROKEN: …" if a promise is; "nothing found".
 std::string inWords(const Audit& audit);
 
 }  // namespace careen

@@ -11,15 +11,10 @@
 #include "physics/world/run_settings.h"
 
 namespace careen {
+namespace {
 
-RunFigures simulate(const World& world, const RunSettings& settings, Recorder& recorder,
-                    const std::stop_token& stop) {
-  if (!(std::isfinite(settings.duration) && settings.duration >= 0)) {
-    throw InputError("duration must be finite and not negative");
-  }
-  if (!(std::isfinite(settings.dt) && settings.dt > 0)) {
-    throw InputError("dt must be finite and positive");
-  }
+RunFigures runMethod(const World& world, const RunSettings& settings, Recorder& recorder,
+                     const std::stop_token& stop) {
   switch (settings.method) {
     case Method::kExact:
       return ExactWorld(world, settings, recorder).run(stop);
@@ -28,6 +23,25 @@ RunFigures simulate(const World& world, const RunSettings& settings, Recorder& r
     default:
       return runStepped(world, settings, recorder, stop);
   }
+}
+
+}  // namespace
+
+RunFigures simulate(const World& world, const RunSettings& settings, Recorder& recorder,
+                    const std::stop_token& stop, const RunCallback& progress) {
+  if (!(std::isfinite(settings.duration) && settings.duration >= 0)) {
+    throw InputError("duration must be finite and not negative");
+  }
+  if (!(std::isfinite(settings.dt) && settings.dt > 0)) {
+    throw InputError("dt must be finite and positive");
+  }
+  if (!progress) {
+    return runMethod(world, settings, recorder, stop);
+  }
+  ProgressRecorder watched(world, settings.duration, recorder, progress);
+  const RunFigures figures = runMethod(world, settings, watched, stop);
+  watched.finish();
+  return figures;
 }
 
 }  // namespace careen

@@ -116,18 +116,22 @@ double Faces::probability() const {
   return square + other > 0 ? static_cast<double>(square) / (square + other) : 0;
 }
 
-Faces throwDice(double ratio, const ThrowSettings& settings, const std::stop_token& stop) {
+Faces throwDice(double ratio, const ThrowSettings& settings, const std::stop_token& stop,
+                const std::function<void(int)>& progress) {
   std::atomic<int> next = 0;
   std::atomic<int> square = 0;
   std::atomic<int> other = 0;
   std::exception_ptr failure;
   std::atomic<bool> failed = false;
-  const auto work = [&] {
+  const auto work = [&](const std::function<void(int)>& tell) {
     try {
       for (int k = next++; k < settings.throws && !failed; k = next++) {
         const std::optional<int> up = axisUp(thrown(ratio, settings, static_cast<std::uint64_t>(k)), stop);
         square += up == 0 ? 1 : 0;
         other += up && *up != 0 ? 1 : 0;
+        if (tell) {
+          tell(std::min(next.load(), settings.throws));
+        }
       }
     } catch (...) {
       if (!failed.exchange(true)) {
@@ -138,9 +142,9 @@ Faces throwDice(double ratio, const ThrowSettings& settings, const std::stop_tok
   {
     std::vector<std::jthread> threads;
     for (int i = 1; i < settings.threads; ++i) {
-      threads.emplace_back(work);
+      threads.emplace_back(work, nullptr);
     }
-    work();
+    work(progress);
   }
   if (failure) {
     std::rethrow_exception(failure);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -58,7 +59,9 @@ struct Faces {
 inline constexpr double kLongestThrow = 20;  ///< [s]
 
 /// Throws one shape. Throw k is the same whatever the number of throws and threads. Interrupted if stopped.
-Faces throwDice(double ratio, const ThrowSettings& settings, const std::stop_token& stop);
+/// `progress` is told of the throws begun, now and then, by the thread that called.
+Faces throwDice(double ratio, const ThrowSettings& settings, const std::stop_token& stop,
+                const std::function<void(int)>& progress = {});
 
 /// The interval around a part `p` of `count` trials that holds the true probability in 95 of 100 cases (E. B.
 /// Wilson 1927).

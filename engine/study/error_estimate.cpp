@@ -63,7 +63,8 @@ World oneRoundingAway(const World& world) {
   return moved;
 }
 
-std::optional<ErrorEstimate> estimateError(const Trajectory& run, const std::stop_token& stop) {
+std::optional<ErrorEstimate> estimateError(const Trajectory& run, const std::stop_token& stop,
+                                           const RunCallback& progress) {
   const World& world = run.world;
   const int order = traitsOf(run.settings.method).order;
   RunSettings settings = run.settings;
@@ -73,7 +74,7 @@ std::optional<ErrorEstimate> estimateError(const Trajectory& run, const std::sto
   const std::vector<double> times = sampleTimes(settings.duration);
   SampledStates again(world, times);
   try {
-    simulate(order > 0 ? world : oneRoundingAway(world), settings, again, stop);
+    simulate(order > 0 ? world : oneRoundingAway(world), settings, again, stop, progress);
   } catch (const NumericalError&) {
     return std::nullopt;
   }

@@ -4,6 +4,7 @@
 #include <stop_token>
 #include <string>
 
+#include "physics/motion/run_progress.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {
@@ -27,7 +28,8 @@ double estimateCost(const Trajectory& run);
 /// Estimates the error of `run`. For a method of order p with a fixed time step, the difference to half the
 /// step is multiplied by 2^p/(2^p−1) (Richardson); where crowds took part, by four. std::nullopt if the second
 /// run fails although the first did not.
-std::optional<ErrorEstimate> estimateError(const Trajectory& run, const std::stop_token& stop = {});
+std::optional<ErrorEstimate> estimateError(const Trajectory& run, const std::stop_token& stop = {},
+                                           const RunCallback& progress = {});
 
 /// The same world, every component of position, velocity and angular momentum one rounding larger.
 World oneRoundingAway(const World& world);

@@ -148,12 +148,13 @@ void insertByTime(std::vector<Impact>& impacts, const Impact& impact) {
   impacts.insert(std::upper_bound(impacts.begin(), impacts.end(), impact.time, isBefore), impact);
 }
 
-Trajectory record(RunSetup setup, const std::stop_token& stop, std::uint64_t most) {
+Trajectory record(RunSetup setup, const std::stop_token& stop, std::uint64_t most,
+                  const RunCallback& progress) {
   Trajectory trajectory;
   static_cast<RunSetup&>(trajectory) = std::move(setup);
   trajectory.tracks.resize(trajectory.world.bodies.size());
   TrajectoryRecorder recorder(trajectory, most);
-  trajectory.figures = simulate(trajectory.world, trajectory.settings, recorder, stop);
+  trajectory.figures = simulate(trajectory.world, trajectory.settings, recorder, stop, progress);
   checkFinite(trajectory);
   checkReadable(trajectory);
   return trajectory;

@@ -10,6 +10,7 @@
 #include "core/math/pose.h"
 #include "physics/motion/motion.h"
 #include "physics/motion/recorder.h"
+#include "physics/motion/run_progress.h"
 #include "physics/world/body.h"
 #include "physics/world/run_settings.h"
 #include "physics/world/world.h"
@@ -74,7 +75,8 @@ inline constexpr std::uint64_t kMostRecords = 5'000'000;
 
 /// Simulates the setup's world by its method and records the trajectory. InputError if it has more than
 /// `most` segments and impacts, NumericalError if a state of it is not finite, or no reader would accept it.
-Trajectory record(RunSetup setup, const std::stop_token& stop = {}, std::uint64_t most = kMostRecords);
+Trajectory record(RunSetup setup, const std::stop_token& stop = {}, std::uint64_t most = kMostRecords,
+                  const RunCallback& progress = {});
 /// The same for a world without a scene: it is shown with a scene's default stage.
 Trajectory record(const World& world, const RunSettings& settings, std::string sceneText,
                   const std::stop_token& stop = {});

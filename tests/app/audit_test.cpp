@@ -37,11 +37,14 @@ TEST_F(AuditOfRuns, aBrokenPromiseEndsWithFourAndWritesNothing) {
 
 TEST_F(AuditOfRuns, keepGoingWritesAndMarks) {
   const Ended ended =
-      careen({"simulate", kFar, "-o", "run.careen", "--report", "report.json", "--keep-going"});
+      careen({"simulate", kFar, "-o", "run.careen", "--report", "report.json", "--keep-going", "--verbose"});
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_NE(ended.out.find("\nBROKEN       at "), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("momentum: the method says 0, the audit found 0.00"), std::string::npos)
       << ended.out;
+  const Ended inShort = careen({"simulate", kFar, "-o", "run.careen", "--keep-going"});
+  EXPECT_NE(inShort.out.find("\nBROKEN       at "), std::string::npos) << inShort.out;
+  EXPECT_EQ(inShort.out.find("promises\n"), std::string::npos) << inShort.out;
   const nlohmann::json found = report();
   EXPECT_GT(found["momentum_change"], 0.0005);  // measured 0.0077
   EXPECT_EQ(found["momentum_change"], found["audit"]["linear_momentum"]["size"]);

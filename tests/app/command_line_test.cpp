@@ -117,7 +117,7 @@ TEST_F(CommandLine, reportsTheResidualsOfContact) {
                  "velocity": [1, 0, 0], "friction": 0.5 },
                { "name": "upper", "half_extents": [0.5, 0.5, 0.5], "mass": 1, "position": [0, 0, 1.5],
                  "friction": 0.5 } ] })");
-  const Ended ended = careen({"simulate", "scene.json", "--report", "report.json"});
+  const Ended ended = careen({"simulate", "scene.json", "--report", "report.json", "--verbose"});
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_NE(ended.out.find("\nresiduals    primal "), std::string::npos) << ended.out;
   const nlohmann::json report = nlohmann::json::parse(textOf(folder_ / "report.json"));

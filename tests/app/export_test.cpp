@@ -79,7 +79,7 @@ TEST_F(Export, takesModelsOfMujocoWhereverScenesAre) {
       << ended.err;
   EXPECT_NE(ended.err.find("careen: model.xml: ignored: option timestep\n"), std::string::npos) << ended.err;
   const auto hashOf = [this](const std::string& file) {
-    const Ended run = careen({"simulate", file, "-o", "of.careen", "--duration", "1"});
+    const Ended run = careen({"simulate", file, "-o", "of.careen", "--duration", "1", "--verbose"});
     EXPECT_EQ(run.exitCode, 0) << run.err;
     const std::size_t at = run.out.find("state hash");
     EXPECT_NE(at, std::string::npos) << run.out;

@@ -22,7 +22,7 @@ using test::kFilmScene;
 class Render : public test::FilmCommand {};
 
 TEST_F(Render, filmsASceneInOneCommand) {
-  const Ended ended = careen({"render", "scene.json", "--out", "film"});
+  const Ended ended = careen({"render", "scene.json", "--out", "film", "--verbose"});
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   const std::vector<std::string> frames = framesIn("film");
   ASSERT_EQ(frames.size(), 10U);
@@ -196,7 +196,7 @@ TEST_F(Render, threadsOfDrawingAndOfCrowdsChangeNoBit) {
   })");
   const Ended none = careen({"render", "crowd.json", "--threads", "0", "--out", "none"});
   ASSERT_EQ(none.exitCode, 0) << none.err;
-  EXPECT_NE(none.out.find("of crowds"), std::string::npos) << none.out;
+  EXPECT_NE(none.out.find("\ncrowd        from "), std::string::npos) << none.out;
   ASSERT_EQ(careen({"render", "crowd.json", "--threads", "64", "--out", "most"}).exitCode, 0);
   expectSameFilm("none", "most");
   EXPECT_EQ(careen({"render", "crowd.json", "--threads", "65", "--out", "more"}).exitCode, 2);
@@ -319,15 +319,26 @@ TEST_F(Render, placeThatCannotBeWrittenExitsWith3) {
   EXPECT_NE(ended.err.find("occupied"), std::string::npos) << ended.err;
 }
 
-TEST_F(Render, logsEveryFrameDrawnAsALineOfJson) {
+TEST_F(Render, logsTheSimulationAndEveryFrameDrawnAsLinesOfJson) {
   ASSERT_EQ(careen({"render", "scene.json", "--out", "film", "--frames", "0-1"}).exitCode, 0);
   const Ended ended = careen({"render", "scene.json", "--out", "film", "--resume", "--log", "json"});
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
-  EXPECT_NE(ended.err.find("state hash"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("\nframes       10 at 10 per second, 64x48, 2 of them were there already: "),
+            std::string::npos)
+      << ended.err;
   std::istringstream lines(ended.out);
+  std::string line;
+  ASSERT_TRUE(std::getline(lines, line));
+  const nlohmann::json simulated = nlohmann::json::parse(line);
+  EXPECT_EQ(simulated["phase"], "simulate");
+  EXPECT_EQ(simulated["simulated"], simulated["duration"]);
   std::vector<int> frames;
-  for (std::string line; std::getline(lines, line);) {
+  while (std::getline(lines, line)) {
     const nlohmann::json frame = nlohmann::json::parse(line);
+    if (frame.contains("phase")) {  // of the error estimate, after the film
+      EXPECT_EQ(frame["phase"], "estimate");
+      continue;
+    }
     frames.push_back(frame["frame"]);
     EXPECT_EQ(frame["time"], frames.back() / 10.0);
     EXPECT_TRUE(std::filesystem::exists(folder_ / std::string(frame["file"]))) << line;

@@ -133,7 +133,8 @@ TEST_F(StudyCommand, leavesNoHalfFinishedCaseWhenInterrupted) {
 
 TEST_F(StudyCommand, runsTellTheirOwnErrorWhenAsked) {
   folder_.write("scene.json", kFallScene);
-  Ended ended = careen({"simulate", "scene.json", "--estimate-error", "--report", "report.json"});
+  Ended ended =
+      careen({"simulate", "scene.json", "--estimate-error", "--report", "report.json", "--verbose"});
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_NE(ended.out.find("to the end (by a start one rounding error away and a tenth of the tolerance)"),
             std::string::npos)

@@ -76,6 +76,18 @@ TEST(Audit, noneLooksAtNothing) {
   EXPECT_TRUE(found.breaches.empty());
 }
 
+TEST(Audit, isToldInWordsWhatIsPromisedFirst) {
+  Audit found;
+  EXPECT_EQ(inWords(found), "nothing found");
+  found.figures[indexOf(AuditKind::kImpulse)].size = 0.84;
+  EXPECT_EQ(inWords(found), "no promise concerns impulse 0.84");
+  found.figures[indexOf(AuditKind::kEnergyRise)] = {.size = 0.002, .time = 1, .bodies = {}, .promised = true};
+  found.figures[indexOf(AuditKind::kBoxOverlap)] = {.size = 0.092, .time = 1, .bodies = {}, .promised = true};
+  EXPECT_EQ(inWords(found), "box_overlap 0.092 m, energy_rise 0.002; no promise concerns impulse 0.84");
+  found.breaches.emplace_back();
+  EXPECT_TRUE(inWords(found).starts_with("BROKEN: box_overlap "));
+}
+
 TEST(Audit, givesTheSameTwice) {
   const Trajectory run = runOf(kSpring);
   const Audit first = audit(run, AuditDepth::kUsual);

@@ -51,8 +51,8 @@ class Library : public testing::Test {
 TEST_F(Library, givesTheStatesImpactsAndHashesOfTheProgram) {
   for (const char* const name : {"careen", "zeno", "stack"}) {
     const std::string file = kScenes / (std::string(name) + ".json");
-    const Ended told = program({"simulate", file, "-o", "run.careen", "--poses", "poses.csv", "--impacts",
-                                "impacts.csv", "--every", "0.01"});
+    const Ended told = program({"simulate", file, "--verbose", "-o", "run.careen", "--poses", "poses.csv",
+                                "--impacts", "impacts.csv", "--every", "0.01"});
     const v1::Run run = simulate(Scene::read(file));
     EXPECT_NE(told.out.find("state hash   " + run.hash()), std::string::npos) << run.hash();
 
@@ -217,12 +217,12 @@ TEST_F(Library, errorsNameThePlace) {
 TEST_F(Library, methodAndToleranceReplaceThoseOfTheScene) {
   const std::string file = kScenes / "careen.json";
   for (const char* const method : {"exact", "listing1", "taylor-8"}) {
-    const Ended told = program({"simulate", file, "--method", method});
+    const Ended told = program({"simulate", file, "--verbose", "--method", method});
     EXPECT_NE(told.out.find("state hash   " + simulate(Scene::read(file).method(method)).hash()),
               std::string::npos);
   }
   const std::string stack = kScenes / "stack.json";
-  const Ended told = program({"simulate", stack, "--tolerance", "1e-4"});
+  const Ended told = program({"simulate", stack, "--verbose", "--tolerance", "1e-4"});
   EXPECT_NE(told.out.find("state hash   " + simulate(Scene::read(stack).tolerance(1e-4)).hash()),
             std::string::npos);
 }

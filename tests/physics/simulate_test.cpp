@@ -1,6 +1,8 @@
 #include "physics/simulate.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -28,6 +30,41 @@ TEST(Simulate, movesTheWorldByTheMethodAskedFor) {
   Memory memory;
   simulate(world, {.method = Method::kListing1, .duration = 1, .dt = 0.125}, memory);
   EXPECT_EQ(memory.last().pose.position, Vec3(1, 0, 0));
+}
+
+// Told in order, up to the end; and told or not, the run is the same.
+TEST(Simulate, tellsHowFarItIs) {
+  class HowFar : public Memory {
+   public:
+    void reaches(double time) override { times.push_back(time); }
+    std::vector<double> times;
+  };
+  constexpr double kDuration = 2;
+  for (const Method method : {Method::kExact, Method::kListing1, Method::kRungeKutta4}) {
+    World world = sampleRoom(makeBox({.velocity = {30, 5, 0}, .restitution = 1}));
+    for (Wall& wall : world.walls) {
+      wall.material.restitution = 1;
+    }
+    world.bodies.push_back(world.bodies.front());
+    world.bodies.back().name = "other";
+    world.bodies.back().initial.pose.position += Vec3(0, 0, 1);
+    const RunSettings settings{.method = method, .duration = kDuration, .dt = 0.01};
+    HowFar recorder;
+    simulate(world, settings, recorder);
+    ASSERT_FALSE(recorder.times.empty());
+    EXPECT_TRUE(std::is_sorted(recorder.times.begin(), recorder.times.end()));
+    EXPECT_GE(recorder.times.front(), 0);
+    EXPECT_LE(recorder.times.back(), kDuration);
+    EXPECT_GT(recorder.times.back(), 0.4 * kDuration);
+
+    RunProgress last;
+    Memory told;
+    simulate(world, settings, told, {}, [&last](const RunProgress& now) { last = now; });
+    EXPECT_TRUE(last.isOver);
+    EXPECT_EQ(last.now.records, told.moved.size() + told.impacts.size());
+    ASSERT_EQ(told.moved.size(), recorder.moved.size());
+    EXPECT_EQ(told.last().pose.position, recorder.last().pose.position);
+  }
 }
 
 }  // namespace

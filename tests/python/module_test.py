@@ -31,7 +31,7 @@ class Module(unittest.TestCase):
     def test_states_and_impacts_are_those_of_the_program(self):
         for name in NAMES:
             scene = SCENES / f"{name}.json"
-            told = program(self.folder, "simulate", scene, "--npz", "run.npz", "--every", "0.01", "-o", "run.careen")
+            told = program(self.folder, "simulate", scene, "--verbose", "--npz", "run.npz", "--every", "0.01", "-o", "run.careen")
             run = careen.simulate(scene)
             self.assertIn("state hash   " + run.hash, told)
             self.assertEqual(careen.read_run(self.folder / "run.careen").hash, run.hash)

@@ -100,6 +100,7 @@ void Loop1997::advanceTo(double end) {
     if (stop_.stop_requested()) {
       throw Interrupted();
     }
+    recorder_.reaches(time_);
     computeLoads(world_, now_, loads_);
     integrate(target - time_);
     const CornerCheck found = checkCorners(world_, next_);

@@ -101,6 +101,7 @@ void SteppedBody::run(const std::stop_token& stop) {
     if (stop.stop_requested()) {
       throw Interrupted();
     }
+    recorder_.reaches((index_ * settings_.duration + time_) / static_cast<double>(world_.bodies.size()));
     if (const std::int64_t count = stepsOutOfReach(); count > 0) {
       takeSteps(count);
     } else {

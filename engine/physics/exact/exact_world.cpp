@@ -86,6 +86,7 @@ RunFigures ExactWorld::run(const std::stop_token& stop) {
     if (stop.stop_requested()) {
       throw Interrupted();
     }
+    recorder_.reaches(event->time.hi);
     happen(*event);
   }
   end();
