@@ -130,6 +130,37 @@ TEST_F(CommandLine, reportsTheResidualsOfContact) {
   EXPECT_EQ(report.at("contact_residuals").at("crowds").at("problems"), 0);
 }
 
+// The words that lines begin with.
+std::vector<std::string> beginningsOf(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    words.push_back(line.substr(0, line.find("  ")));
+  }
+  return words;
+}
+
+TEST_F(CommandLine, summaryIsWhatANewUserNeeds) {
+  const std::string rough = replaced(kScene, R"("restitution": 1)", R"("restitution": 1, "friction": 0.5)");
+  folder_.write("scene.json", replaced(rough, R"("orientation")", R"("friction": 0.5, "orientation")"));
+  const Ended other = careen({"simulate", "scene.json", "--no-estimate-error", "--impacts", "impacts.csv"});
+  ASSERT_EQ(other.exitCode, 0) << other.err;
+  // What the scene needs and the method lacks is told, not what the scene has none of.
+  EXPECT_EQ(beginningsOf(other.out),
+            (std::vector<std::string>{"scene", "left out", "left out", "motion", "error", "speed", "files"}));
+  EXPECT_NE(other.out.find("; audit: keeps what its method promises\n"), std::string::npos) << other.out;
+  EXPECT_NE(other.out.find("\nfiles        scene.careen, impacts.csv\n"), std::string::npos) << other.out;
+  const Ended exact = careen({"simulate", "scene.json", "--method", "exact", "--estimate-error"});
+  ASSERT_EQ(exact.exitCode, 0) << exact.err;
+  EXPECT_EQ(beginningsOf(exact.out),
+            (std::vector<std::string>{"scene", "motion", "error", "estimate", "speed", "files"}));
+  // All of it is in the long one, and more.
+  const Ended more = careen({"simulate", "scene.json", "--method", "exact", "--verbose"});
+  for (const char* const row : {"modelled", "life", "impacts", "state hash", "files"}) {
+    EXPECT_NE(more.out.find(std::string("\n") + row + "  "), std::string::npos) << row << more.out;
+  }
+}
+
 TEST_F(CommandLine, sameSceneGivesTheSameBytes) {
   folder_.write("scene.json", kScene);
   ASSERT_EQ(careen({"simulate", "scene.json", "-o", "a.careen"}).exitCode, 0);

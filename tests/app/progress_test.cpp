@@ -31,8 +31,8 @@ class ProgressOfRuns : public testing::Test {
     const std::string command = program() + " " + arguments + " >out";
     EXPECT_EQ(Process({"script", "-qec", command, "terminal"}, folder_.path()).wait().exitCode, 0);
     const std::string text = textOf(folder_ / "terminal");  // between two lines of script's own
-    const std::size_t begin = text.find('\n') + 1;
-    return text.substr(begin, text.rfind("\nScript done") - begin);
+    const std::size_t begin = text.starts_with("Script ") ? text.find('\n') + 1 : 0;
+    return text.substr(begin, text.rfind("\nScript ") - begin);
   }
   TemporaryFolder folder_;
 };
