@@ -23,7 +23,7 @@ class ModelReader {
     }
     for (const XmlElement* const world : document_.sections("worldbody")) {
       document_.check(*world, {});
-      readFixed(contentsOf(*world, MjcfDefaults::kMain), {}, nullptr);
+      readFixed(contentsOf(document_, defaults_, *world, MjcfDefaults::kMain), {}, nullptr);
     }
     scaleMasses();
     for (const XmlElement* const tendons : document_.sections("tendon")) {
@@ -39,63 +39,16 @@ class ModelReader {
  private:
   // ---- Bodies
 
-  /// What lies in a body or in a <frame> of it.
-  struct Content {
-    const XmlElement* element = nullptr;
-    std::optional<MjcfFrame> frame;  // its body from its <frame>, if it is in one
-    std::string ofClass;             // that it takes after
-
-    MjcfFrame in(const MjcfFrame& body) const { return frame ? body.of(frame->position, frame->turn) : body; }
-  };
-
-  std::vector<Content> contentsOf(const XmlElement& body, const std::string& ofBody) {
-    std::vector<Content> contents;
-    gather(body, std::nullopt, ofBody, contents);
-    return contents;
-  }
-
-  void gather(const XmlElement& parent, const std::optional<MjcfFrame>& frame, const std::string& ofParent,
-              std::vector<Content>& contents) {
-    for (const XmlElement& child : parent.children) {
-      if (child.name == "frame") {
-        document_.check(child,
-                        {"name", "childclass", "pos", "quat", "axisangle", "euler", "xyaxes", "zaxis"});
-        gather(child, poseOf(child, frame.value_or(MjcfFrame{})),
-               defaults_.classOf(child, "childclass", ofParent), contents);
-      } else if (child.name == "inertial" && frame) {
-        document_.fail(child, "<inertial> in <" + parent.name + ">", "it in <body>");
-      } else {
-        contents.push_back({.element = &child, .frame = frame, .ofClass = ofParent});
-      }
-    }
-  }
-
-  MjcfFrame poseOf(const XmlElement& element, const MjcfFrame& parent) const {
-    return parent.of(document_.vector(element, "pos", Vec3::Zero()),
-                     document_.orientation(element, Quat::Identity()));
-  }
-
-  // In its body.
-  MjcfGeom geomOf(const Content& content) const {
-    MjcfGeom geom = defaults_.geom(*content.element, content.ofClass);
-    if (content.frame) {
-      const MjcfFrame placed = content.frame->of(geom.position, geom.turn);
-      geom.position = placed.position;
-      geom.turn = placed.turn;
-    }
-    return geom;
-  }
-
   bool collides(const MjcfGeom& geom) const { return !geom.isVisual() || paired_.contains(geom.name); }
 
   // `body` is null for the world.
-  void readFixed(const std::vector<Content>& contents, const MjcfFrame& frame, const XmlElement* body) {
+  void readFixed(const std::vector<MjcfContent>& contents, const MjcfFrame& frame, const XmlElement* body) {
     std::vector<MjcfGeom> geoms;
     const XmlElement* inertial = nullptr;
-    for (const Content& content : contents) {
+    for (const MjcfContent& content : contents) {
       const XmlElement& child = *content.element;
       if (child.name == "geom") {
-        geoms.push_back(geomOf(content));
+        geoms.push_back(geomOf(defaults_, content));
         addFixed(geoms.back(), frame, body == nullptr ? std::string() : body->text("name"));
       } else if (child.name == "site") {
         addSite(content, frame, std::nullopt);
@@ -135,7 +88,7 @@ class ModelReader {
         {.geom = std::move(geom), .movable = false, .frame = placed, .name = std::move(name)});
   }
 
-  void readBody(const Content& content, const MjcfFrame& parent, bool isTop) {
+  void readBody(const MjcfContent& content, const MjcfFrame& parent, bool isTop) {
     const XmlElement& body = *content.element;
     document_.check(
         body,
@@ -145,11 +98,11 @@ class ModelReader {
     if (const XmlAttribute* const mocap = body.find("mocap"); mocap != nullptr && mocap->value != "false") {
       document_.fail(body, *mocap, "a body that nobody else moves");
     }
-    const MjcfFrame frame = poseOf(body, content.in(parent));
-    const std::vector<Content> contents =
-        contentsOf(body, defaults_.classOf(body, "childclass", content.ofClass));
+    const MjcfFrame frame = poseOf(document_, body, content.in(parent));
+    const std::vector<MjcfContent> contents =
+        contentsOf(document_, defaults_, body, defaults_.classOf(body, "childclass", content.ofClass));
     const XmlElement* joint = nullptr;
-    for (const Content& each : contents) {
+    for (const MjcfContent& each : contents) {
       const XmlElement& child = *each.element;
       if (child.name == "joint" || child.name == "freejoint") {
         const MjcfFreeJoint read = defaults_.joint(child, each.ofClass);
@@ -172,13 +125,14 @@ class ModelReader {
     }
   }
 
-  void readFreeBody(const XmlElement& body, const std::vector<Content>& contents, const MjcfFrame& frame) {
+  void readFreeBody(const XmlElement& body, const std::vector<MjcfContent>& contents,
+                    const MjcfFrame& frame) {
     const XmlElement* inertial = nullptr;
     std::vector<MjcfGeom> geoms;
-    for (const Content& content : contents) {
+    for (const MjcfContent& content : contents) {
       const XmlElement& child = *content.element;
       if (child.name == "geom") {
-        geoms.push_back(geomOf(content));
+        geoms.push_back(geomOf(defaults_, content));
       } else if (child.name == "inertial") {
         inertial = &child;
       } else if (child.name == "light" || child.name == "camera") {
@@ -202,7 +156,7 @@ class ModelReader {
     surface.name = uniqueName(body.text("name").empty() ? surface.geom.name : body.text("name"), "box");
     const std::size_t index = model_.surfaces.size();
     model_.surfaces.push_back(std::move(surface));
-    for (const Content& content : contents) {
+    for (const MjcfContent& content : contents) {
       if (content.element->name == "site") {
         addSite(content, frame, index);
       }
@@ -297,7 +251,7 @@ class ModelReader {
 
   // ---- Springs
 
-  void addSite(const Content& content, const MjcfFrame& frame, std::optional<std::size_t> box) {
+  void addSite(const MjcfContent& content, const MjcfFrame& frame, std::optional<std::size_t> box) {
     const XmlElement& element = *content.element;
     document_.check(element, {"name", "class", "pos", "fromto"},
                     {"type", "group", "material", "rgba", "size", "quat", "axisangle", "euler", "xyaxes",

@@ -8,18 +8,10 @@
 #include "core/math/linear_algebra.h"
 #include "exchange/mjcf_defaults.h"
 #include "exchange/mjcf_document.h"
+#include "exchange/mjcf_frame.h"
 #include "exchange/mjcf_mass.h"
 
 namespace careen {
-
-struct MjcfFrame {
-  Vec3 position = Vec3::Zero();
-  Quat turn = Quat::Identity();
-
-  MjcfFrame of(const Vec3& at, const Quat& by) const {
-    return {position + turn * at, (turn * by).normalized()};
-  }
-};
 
 /// A plane or a box with its friction.
 struct MjcfSurface {

@@ -309,6 +309,12 @@ TEST(ImportMjcf, namesWhatItRefusesAndWhere) {
            {inBody("<freejoint/><geom type=\"bocks\"/>"), "found type=\"bocks\" for <geom>"},
            {inBody("<freejoint/><geom type=\"box\" size=\"1 1 1\" mass=\"-1\"/>"),
             "found mass=\"-1\" for <geom>, expected a number not below 0"},
+           {inBody("<freejoint/><geom type=\"box\" size=\"1 1 1\" density=\"-1\"/>"),
+            "found density=\"-1\" for <geom>, expected a number not below 0"},
+           {inBody("<freejoint/>" + box + "<geom type=\"plane\" contype=\"0\" conaffinity=\"0\"/>"),
+            "found a plane in a body that moves"},
+           {inBody("<freejoint/><geom type=\"sphere\" size=\"1\" contype=\"0\" conaffinity=\"0\"/>"),
+            "found a body that moves, without a <geom> that collides, expected one box"},
            {inBody("<freejoint/><geom type=\"capsule\" size=\"1 1\"/>"),
             "found a <geom> of type \"capsule\""},
            {inBody("<freejoint/><frame><inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/></frame>" +
