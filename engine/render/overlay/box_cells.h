@@ -21,7 +21,7 @@ struct PlacedBox {
 /// drawn.
 class BoxCells {
  public:
-  static constexpr int kRows = 240;  ///< squares from top to bottom, for every size of picture
+  static constexpr int kRows = 360;  ///< squares from top to bottom, for every size of picture
   static constexpr std::int32_t kNoBox = -1;
 
   BoxCells(const Screen& screen, std::span<const PlacedBox> boxes);

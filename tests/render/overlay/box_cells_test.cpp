@@ -11,7 +11,7 @@
 namespace careen {
 namespace {
 
-constexpr int kWidth = 480;  // with 360 rows a square is a pixel and a half
+constexpr int kWidth = 480;  // with 360 rows a square is a pixel
 constexpr int kHeight = 360;
 
 // Some boxes at all angles, one before the other; one around the eye, one behind it.
