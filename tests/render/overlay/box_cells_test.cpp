@@ -26,7 +26,7 @@ class BoxCellsTest : public testing::Test {
     }
     boxes_.push_back({.pose = {.position = camera_.eye}, .halfExtents = Vec3(0.2, 0.2, 0.2)});
     boxes_.push_back({.pose = {.position = Vec3(0, -18, 0)}, .halfExtents = Vec3(1, 1, 1)});
-    for (const PlacedBox& box : boxes_) {
+    for (const CellBox& box : boxes_) {
       cast_.push_back({.pose = box.pose, .halfExtents = box.halfExtents});
     }
     seen_ = castRays(PixelRays(camera_, kWidth, kHeight), cast_, {});
@@ -37,7 +37,7 @@ class BoxCellsTest : public testing::Test {
 
   Camera camera_ = cameraAt(Vec3(0, -12, 1), Vec3::Zero(), 40);
   Screen screen_{viewOf(camera_, {.min = Vec3(-5, -5, -5), .max = Vec3(5, 5, 5)}, 4.0 / 3), kWidth, kHeight};
-  std::vector<PlacedBox> boxes_;
+  std::vector<CellBox> boxes_;
   std::vector<CastBox> cast_;
   CastPicture seen_;
 };
@@ -71,7 +71,7 @@ TEST_F(BoxCellsTest, rectanglesAndLinesMayMeetOneBoxOnly) {
   const Camera straight = cameraAt(Vec3(0, -10, 0), Vec3::Zero(), 22.619864948040426);
   const Screen screen(viewOf(straight, {.min = Vec3(-5, -5, -5), .max = Vec3(5, 5, 5)}, 4.0 / 3), kWidth,
                       kHeight);
-  const PlacedBox cube{.pose = {}, .halfExtents = Vec3(0.5, 0.0001, 0.5)};
+  const CellBox cube{.pose = {}, .halfExtents = Vec3(0.5, 0.0001, 0.5)};
   const BoxCells cells(screen, {&cube, 1});
   const Vec2 middle(240, 180);
   EXPECT_TRUE(cells.showOnly(0, middle - Vec2(42, 42), middle + Vec2(42, 42)));
