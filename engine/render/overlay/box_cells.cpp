@@ -35,7 +35,7 @@ int cellOf(double at, double side, int end) {
 
 }  // namespace
 
-BoxCells::BoxCells(const Screen& screen, std::span<const PicturedBox> boxes)
+BoxCells::BoxCells(const Screen& screen, std::span<const CellBox> boxes)
     : side_(static_cast<double>(screen.height()) / kRows),
       columns_(static_cast<int>(std::ceil(screen.width() / side_))),
       cells_(static_cast<std::size_t>(columns_) * kRows) {
@@ -44,7 +44,7 @@ BoxCells::BoxCells(const Screen& screen, std::span<const PicturedBox> boxes)
   }
 }
 
-void BoxCells::cast(const Screen& screen, const PicturedBox& box, std::int32_t index) {
+void BoxCells::cast(const Screen& screen, const CellBox& box, std::int32_t index) {
   const Mat3 bodyFromWorld = box.pose.worldFromBody.transpose();
   const Vec3 eye = bodyFromWorld * (screen.eye() - box.pose.position);
   if ((eye.cwiseAbs().array() < box.halfExtents.array()).all()) {

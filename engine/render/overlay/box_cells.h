@@ -11,7 +11,7 @@
 namespace careen {
 
 /// A box with its middle at the pose's origin.
-struct PicturedBox {
+struct CellBox {
   Pose pose;
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
 };
@@ -21,10 +21,10 @@ struct PicturedBox {
 /// drawn.
 class BoxCells {
  public:
-  static constexpr int kRows = 240;  ///< squares from top to bottom, for every size of picture
+  static constexpr int kRows = 360;  ///< squares from top to bottom, for every size of picture
   static constexpr std::int32_t kNoBox = -1;
 
-  BoxCells(const Screen& screen, std::span<const PicturedBox> boxes);
+  BoxCells(const Screen& screen, std::span<const CellBox> boxes);
 
   /// Whether this box, and nothing else, is seen at a point of the picture [px] and within a square's side of
   /// it, or throughout a rectangle and there; of kNoBox, whether no box is seen there. False outside.
@@ -38,7 +38,7 @@ class BoxCells {
     std::int32_t box = kNoBox;
     double depth = 0;  // [m]
   };
-  void cast(const Screen& screen, const PicturedBox& box, std::int32_t index);
+  void cast(const Screen& screen, const CellBox& box, std::int32_t index);
   const Seen& cell(int column, int row) const;
 
   double side_;  // [px]

@@ -144,7 +144,7 @@ std::vector<NamePlaces> namePlaces(const OverlayFrame& frame, std::span<const st
 
 FreeNamePlaces freeNamePlaces(const OverlayFrame& frame, std::span<const std::size_t> named,
                               const std::vector<Plate>& panels) {
-  std::vector<PicturedBox> boxes;
+  std::vector<CellBox> boxes;
   for (std::size_t i = 0; i < frame.states.size(); ++i) {
     const Body& body = frame.trajectory.world.bodies[i];
     boxes.push_back({.pose = boxPose(body, frame.states[i].pose), .halfExtents = body.halfExtents});

@@ -11,7 +11,7 @@
 namespace careen {
 namespace {
 
-constexpr int kCellsWidth = 480;  // with 360 rows a square is a pixel and a half
+constexpr int kCellsWidth = 480;  // with 360 rows a square is a pixel
 constexpr int kCellsHeight = 360;
 
 // Some boxes at all angles, one before the other; one around the eye, one behind it.
@@ -26,7 +26,7 @@ class BoxCellsTest : public testing::Test {
     }
     boxes_.push_back({.pose = {.position = camera_.eye}, .halfExtents = Vec3(0.2, 0.2, 0.2)});
     boxes_.push_back({.pose = {.position = Vec3(0, -18, 0)}, .halfExtents = Vec3(1, 1, 1)});
-    for (const PicturedBox& box : boxes_) {
+    for (const CellBox& box : boxes_) {
       cast_.push_back({.pose = box.pose, .halfExtents = box.halfExtents});
     }
     seen_ = castRays(PixelRays(camera_, kCellsWidth, kCellsHeight), cast_, {});
@@ -38,7 +38,7 @@ class BoxCellsTest : public testing::Test {
   Camera camera_ = cameraAt(Vec3(0, -12, 1), Vec3::Zero(), 40);
   Screen screen_{viewOf(camera_, {.min = Vec3(-5, -5, -5), .max = Vec3(5, 5, 5)}, 4.0 / 3), kCellsWidth,
                  kCellsHeight};
-  std::vector<PicturedBox> boxes_;
+  std::vector<CellBox> boxes_;
   std::vector<CastBox> cast_;
   CastPicture seen_;
 };
@@ -72,7 +72,7 @@ TEST_F(BoxCellsTest, rectanglesAndLinesMayMeetOneBoxOnly) {
   const Camera straight = cameraAt(Vec3(0, -10, 0), Vec3::Zero(), 22.619864948040426);
   const Screen screen(viewOf(straight, {.min = Vec3(-5, -5, -5), .max = Vec3(5, 5, 5)}, 4.0 / 3), kCellsWidth,
                       kCellsHeight);
-  const PicturedBox cube{.pose = {}, .halfExtents = Vec3(0.5, 0.0001, 0.5)};
+  const CellBox cube{.pose = {}, .halfExtents = Vec3(0.5, 0.0001, 0.5)};
   const BoxCells cells(screen, {&cube, 1});
   const Vec2 middle(240, 180);
   EXPECT_TRUE(cells.showOnly(0, middle - Vec2(42, 42), middle + Vec2(42, 42)));

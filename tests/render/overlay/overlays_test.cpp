@@ -248,6 +248,28 @@ TEST_F(OverlaysTest, namesKeepClearOfThePanels) {
   EXPECT_FALSE(overlap(both[0], both[1]));
 }
 
+// As when the mouse turns the camera, or a still has another size.
+TEST_F(OverlaysTest, namesStandWhereTheViewAskedForHasThem) {
+  const Trajectory run = shown();
+  const auto platesOf = [&](Overlays& overlays, const Camera& camera, int width) {
+    const View view = viewOf(camera, extentOf(run), 16.0 / 9);
+    const auto momentAt = [&](double /*filmTime*/) { return OverlayMoment{.sceneTime = 0, .view = view}; };
+    return only<Plate>(overlays.shapesAt(0, momentAt, width, width * 9 / 16));
+  };
+  const Camera turned = cameraAt(Vec3(3, -9, 2), Vec3(-1, 0, 1), 20);  // near: on the box, not beside it
+  Overlays overlays(run, OverlaySet::named("names"), kFrame);
+  Overlays other(run, OverlaySet::named("names"), kFrame);
+  Overlays larger(run, OverlaySet::named("names"), kFrame);
+  platesOf(overlays, *scene_.camera, kWidth);
+  const std::vector<Plate> near = platesOf(overlays, turned, kWidth);
+  const std::vector<Plate> expected = platesOf(other, turned, kWidth);
+  ASSERT_EQ(near.size(), 1U);
+  ASSERT_EQ(expected.size(), 1U);
+  EXPECT_EQ(near[0].min, expected[0].min);
+  EXPECT_EQ(platesOf(overlays, *scene_.camera, 640).at(0).min,
+            platesOf(larger, *scene_.camera, 640).at(0).min);
+}
+
 TEST_F(OverlaysTest, timeCodeTellsTheScenesTime) {
   EXPECT_EQ(timeCode(0), "00:00:00.000");
   EXPECT_EQ(timeCode(1.234), "00:00:01.234");
