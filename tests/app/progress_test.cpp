@@ -26,9 +26,9 @@ class ProgressOfRuns : public testing::Test {
     arguments.insert(arguments.begin(), program());
     return Process(arguments, folder_.path()).wait();
   }
-  // What it prints where standard error is a terminal.
+  // What it prints on a terminal.
   std::string onTerminal(const std::string& arguments) const {
-    const std::string command = program() + " " + arguments + " >out";
+    const std::string command = program() + " " + arguments;
     EXPECT_EQ(Process({"script", "-qec", command, "terminal"}, folder_.path()).wait().exitCode, 0);
     const std::string text = textOf(folder_ / "terminal");  // between two lines of script's own
     const std::size_t begin = text.starts_with("Script ") ? text.find('\n') + 1 : 0;
@@ -38,7 +38,7 @@ class ProgressOfRuns : public testing::Test {
 };
 
 TEST_F(ProgressOfRuns, isLoggedAsLinesOfJsonAtMostEveryHalfSecond) {
-  writeGas("100");
+  writeGas("60");
   const Ended ended = careen({"simulate", "gas.json", "--log", "json"});
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_TRUE(ended.err.find("\nfiles        gas.careen\n") != std::string::npos) << ended.err;
@@ -50,31 +50,32 @@ TEST_F(ProgressOfRuns, isLoggedAsLinesOfJsonAtMostEveryHalfSecond) {
     }
   }
   ASSERT_FALSE(told.empty());
-  EXPECT_EQ(told.back()["simulated"], 100);
+  EXPECT_EQ(told.back()["simulated"], 60);
   EXPECT_EQ(told.back()["seconds_left"], 0);
   EXPECT_EQ(told.back()["flying"], 100);
   EXPECT_EQ(told.back()["touching"], 0);
   EXPECT_LE(static_cast<double>(told.size()), 1 + told.back()["seconds"].get<double>() / 0.5);
   for (std::size_t k = 1; k < told.size(); ++k) {
-    EXPECT_GT(told[k]["simulated"], told[k - 1]["simulated"]);
-    EXPECT_GT(told[k]["impacts"], told[k - 1]["impacts"]);
+    EXPECT_GE(told[k]["simulated"], told[k - 1]["simulated"]);
+    EXPECT_GE(told[k]["impacts"], told[k - 1]["impacts"]);
     EXPECT_GT(told[k]["records"], told[k]["impacts"]);
   }
 }
 
 TEST_F(ProgressOfRuns, isOneLineOfATerminalThatIsGoneInTheEnd) {
   writeGas("60");
-  const std::string shown = onTerminal("simulate gas.json --no-estimate-error");
-  EXPECT_TRUE(shown.starts_with("\rsimulated ")) << shown;
-  EXPECT_NE(shown.find(" of 60 s, "), std::string::npos) << shown;
-  EXPECT_NE(shown.find(" left, "), std::string::npos) << shown;
-  EXPECT_NE(shown.find(", 100 fly"), std::string::npos) << shown;
-  EXPECT_EQ(shown.find('\n'), std::string::npos) << shown;
+  const std::string all = onTerminal("simulate gas.json --no-estimate-error");
+  const std::string shown = all.substr(0, all.find("scene        gas"));
+  EXPECT_TRUE(shown.starts_with("\rsimulated ")) << all;
+  EXPECT_NE(shown.find(" of 60 s, "), std::string::npos) << all;
+  EXPECT_NE(shown.find(" left, "), std::string::npos) << all;
+  EXPECT_NE(shown.find(", 100 fly"), std::string::npos) << all;
+  EXPECT_EQ(shown.find('\n'), std::string::npos) << all;
   ASSERT_GE(shown.size(), 2U);
   const std::size_t last = shown.rfind('\r', shown.size() - 2);
-  EXPECT_EQ(shown.find_first_not_of(' ', last + 1), shown.size() - 1) << shown;
-  EXPECT_NE(textOf(folder_ / "out").find("\nmotion       "), std::string::npos);
-  EXPECT_TRUE(onTerminal("dice --throws 200 --no-plots").starts_with("\rthrown "));
+  EXPECT_EQ(shown.find_first_not_of(' ', last + 1), shown.size() - 1) << all;
+  EXPECT_EQ(shown.back(), '\r');
+  EXPECT_TRUE(onTerminal("dice --throws 60 --threads 1 --no-plots").starts_with("\rthrown "));
 }
 
 TEST_F(ProgressOfRuns, elsewhereNothingIsShown) {
