@@ -11,8 +11,8 @@
 namespace careen {
 namespace {
 
-constexpr int kWidth = 480;  // with 360 rows a square is a pixel
-constexpr int kHeight = 360;
+constexpr int kCellsWidth = 480;  // with 360 rows a square is a pixel
+constexpr int kCellsHeight = 360;
 
 // Some boxes at all angles, one before the other; one around the eye, one behind it.
 class BoxCellsTest : public testing::Test {
@@ -29,14 +29,15 @@ class BoxCellsTest : public testing::Test {
     for (const CellBox& box : boxes_) {
       cast_.push_back({.pose = box.pose, .halfExtents = box.halfExtents});
     }
-    seen_ = castRays(PixelRays(camera_, kWidth, kHeight), cast_, {});
+    seen_ = castRays(PixelRays(camera_, kCellsWidth, kCellsHeight), cast_, {});
   }
   std::int32_t boxAt(int x, int y) const {
-    return seen_.instance[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)] - 1;
+    return seen_.instance[static_cast<std::size_t>(y) * kCellsWidth + static_cast<std::size_t>(x)] - 1;
   }
 
   Camera camera_ = cameraAt(Vec3(0, -12, 1), Vec3::Zero(), 40);
-  Screen screen_{viewOf(camera_, {.min = Vec3(-5, -5, -5), .max = Vec3(5, 5, 5)}, 4.0 / 3), kWidth, kHeight};
+  Screen screen_{viewOf(camera_, {.min = Vec3(-5, -5, -5), .max = Vec3(5, 5, 5)}, 4.0 / 3), kCellsWidth,
+                 kCellsHeight};
   std::vector<CellBox> boxes_;
   std::vector<CastBox> cast_;
   CastPicture seen_;
@@ -46,8 +47,8 @@ TEST_F(BoxCellsTest, showWhatRaysMeet) {
   const BoxCells cells(screen_, boxes_);
   int sure = 0;
   int shown = 0;
-  for (int y = 4; y < kHeight - 4; ++y) {
-    for (int x = 4; x < kWidth - 4; ++x) {
+  for (int y = 4; y < kCellsHeight - 4; ++y) {
+    for (int x = 4; x < kCellsWidth - 4; ++x) {
       const std::int32_t box = boxAt(x, y);
       bool isAlone = true;
       for (int dy = -4; dy <= 4; ++dy) {
@@ -63,14 +64,14 @@ TEST_F(BoxCellsTest, showWhatRaysMeet) {
     }
   }
   EXPECT_GT(sure, 30'000);
-  EXPECT_LT(shown, kWidth * kHeight - 10'000);  // the squares at edges show nothing alone
+  EXPECT_LT(shown, kCellsWidth * kCellsHeight - 10'000);  // the squares at edges show nothing alone
 }
 
 // A cube fills 90 px of 360 about the middle, from 10 m away under 2 · atan(1/5).
 TEST_F(BoxCellsTest, rectanglesAndLinesMayMeetOneBoxOnly) {
   const Camera straight = cameraAt(Vec3(0, -10, 0), Vec3::Zero(), 22.619864948040426);
-  const Screen screen(viewOf(straight, {.min = Vec3(-5, -5, -5), .max = Vec3(5, 5, 5)}, 4.0 / 3), kWidth,
-                      kHeight);
+  const Screen screen(viewOf(straight, {.min = Vec3(-5, -5, -5), .max = Vec3(5, 5, 5)}, 4.0 / 3), kCellsWidth,
+                      kCellsHeight);
   const CellBox cube{.pose = {}, .halfExtents = Vec3(0.5, 0.0001, 0.5)};
   const BoxCells cells(screen, {&cube, 1});
   const Vec2 middle(240, 180);
