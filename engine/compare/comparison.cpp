@@ -48,9 +48,9 @@ void addDifferent(FrameComparison& frame, const std::string& reason) {
 
 void measure(const FramePair& pair, const std::string& expectedBytes, const std::string& actualBytes,
              const ComparisonSettings& settings, FrameComparison& frame) {
-  const std::uint64_t pixels = std::max(pixelsOf(sizeOfPng(expectedBytes, pair.expected.string())),
+  const std::uint64_t larger = std::max(pixelsOf(sizeOfPng(expectedBytes, pair.expected.string())),
                                         pixelsOf(sizeOfPng(actualBytes, pair.actual.string())));
-  const std::unique_lock<std::mutex> lock = aloneIf(pixels > kLarge);
+  const std::unique_lock<std::mutex> lock = aloneIf(larger > kLarge);
   DeepPicture expected = decodeDeepPng(expectedBytes, pair.expected.string(), kMostBytesCompared);
   DeepPicture actual = decodeDeepPng(actualBytes, pair.actual.string(), kMostBytesCompared);
   if (const std::string fault = otherSize(expected, actual); !fault.empty()) {
