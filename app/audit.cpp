@@ -94,7 +94,7 @@ void printFigures(const Run& run) {
 ExitCode auditCommand(const AuditOptions& options, const std::stop_token& stop) {
   const Stopwatch stopwatch;
   const AuditLimits limits = limitsOf(options);
-  if (!isRun(options.run) && !options.scene.path) {
+  if (!isRun(options.run) && options.scene.given() == nullptr) {
     static_cast<void>(readFile(options.run));  // tells if it is not there
     throw InputError(options.run.string() + ": found no run, expected a trajectory file or a table of poses");
   }

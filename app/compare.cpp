@@ -11,6 +11,7 @@
 
 #include "commands.h"
 #include "compare/report.h"
+#include "compare/report_words.h"
 #include "core/brief.h"
 #include "core/characters.h"
 #include "core/names.h"
@@ -158,8 +159,9 @@ Comparison compareRunsOrTables(const std::filesystem::path& expected, const std:
                                const ComparisonSettings& settings, const SceneOfTable& scene,
                                const std::stop_token& stop) {
   const bool areBoth = isTable(expected) && isTable(actual);
-  if (scene.path && !isTable(expected) && !isTable(actual)) {
-    throw InputError("--scene: found two runs, which have their scenes; expected a table of poses");
+  if (scene.given() != nullptr && !isTable(expected) && !isTable(actual)) {
+    throw InputError(std::string(scene.given()) +
+                     ": found two runs, which have their scenes; expected a table of poses");
   }
   std::string broken;
   const auto read = [&](const std::filesystem::path& path) {
@@ -213,6 +215,9 @@ void print(std::ostream& out, const Comparison& comparison) {
     out << " (" << comparison.toleranceName << ')';
   }
   out << '\n';
+  if (!comparison.ignored.empty()) {
+    out << "  not compared: " << printableName(joined(comparison.ignored.names())) << '\n';
+  }
   if (comparison.run) {
     printRun(out, *comparison.run);
   }
@@ -253,6 +258,12 @@ void CompareOptions::addTo(const CommandLine& command) {
            "half diagonals or radians")
       .showsDefault();
   command.add("--until", until, "Of runs: compare up to this moment, s");
+  command
+      .add(
+          "--ignore", ignored,
+          "Of pictures: what does not count, x,y,width,height in pixels or a PNG that is white there; may be "
+          "repeated")
+      .onePerUse();
   command.addFlag("--flip", flip, "Measure FLIP, too, which takes longer");
 }
 
@@ -282,6 +293,9 @@ ComparisonSettings CompareOptions::settings() const {
     }
     settings.until = *until;
   }
+  for (const std::string& region : ignored) {
+    settings.ignored.add(region);
+  }
   settings.flip = flip;
   settings.only = only;
   settings.threads = threads.value_or(std::min(usableCores(), kMostThreads));
@@ -300,6 +314,9 @@ Comparison compare(const std::filesystem::path& expected, const std::filesystem:
     throw InputError("found " + std::string(nameOf(kind)) + " and " + nameOf(other) +
                      ", expected two pictures, two folders or two runs");
   }
+  if (kind == Kind::kRun && !settings.ignored.empty()) {
+    throw InputError("--ignore: found two runs, expected pictures");
+  }
   if (kind == Kind::kRun) {
     return compareRunsOrTables(expected, actual, settings, scene, stop);
   }
@@ -307,11 +324,11 @@ Comparison compare(const std::filesystem::path& expected, const std::filesystem:
     throw InputError("--motion: found " + brief(settings.motionTolerance) + " and " + nameOf(kind) +
                      ", expected same or any: only of runs it is known how far apart boxes are");
   }
+  if (scene.given() != nullptr) {
+    throw InputError(std::string(scene.given()) + ": found " + nameOf(kind) + ", expected a table of poses");
+  }
   if (kind == Kind::kPicture) {
     return comparePictures(expected, actual, settings);
-  }
-  if (scene.path) {
-    throw InputError("--scene: found " + std::string(nameOf(kind)) + ", expected a table of poses");
   }
   Films films = filmsIn(expected, actual);
   ComparisonSettings ofFolders = settings;

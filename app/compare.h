@@ -6,6 +6,7 @@
 #include <set>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "compare/comparison.h"
 #include "core/error.h"
@@ -21,7 +22,8 @@ struct CompareOptions {
   std::map<std::string, double>
       limits;  ///< overrides of the threshold's limits, by option: "--fail" and so on
   std::string motion = "same";
-  std::optional<double> until;  ///< [s]
+  std::optional<double> until;       ///< [s]
+  std::vector<std::string> ignored;  ///< rectangles and masks
   bool flip = false;
   std::optional<int> threads;
   std::set<std::string> only;  ///< frames by name; empty: all

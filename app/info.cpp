@@ -39,7 +39,7 @@ ExitCode infoCommand(std::filesystem::path path, const SceneOfTable& ofTable, co
     path = defaultScene();
   }
   const std::string bytes = readFile(path);
-  if (!ofTable.path && !isRun(path)) {
+  if (ofTable.given() == nullptr && !isRun(path)) {
     if (!isMujocoModel(path) && looksLikeFamily(bytes)) {
       printFamily(Family(bytes, path.string()));
       return ExitCode::kDone;

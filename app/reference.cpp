@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compare/report.h"
+#include "core/system/file.h"
 #include "film/folder.h"
 #include "film/frame_range.h"
 
@@ -38,13 +39,26 @@ std::size_t keepFramesThatDiffer(const fs::path& folder, const Comparison& compa
   if (comparison.verdict == Verdict::kDifferent) {
     writeManifest(folder, film);
   } else {
-    for (const char* const name : {kManifestName, "index.html", "junit.xml", "report.json"}) {
-      fs::remove(folder / name);  // reports of an earlier comparison would say that it differs
-    }
-    std::error_code holdsMore;
-    fs::remove(folder, holdsMore);
+    fs::remove(folder / kManifestName);
   }
   return film.frames.size();
+}
+
+// Whoever waits for a verdict in junit.xml learns there of an error, too.
+Comparison comparedOrTold(const Reference& reference, const FilmSettings& film,
+                          const ComparisonSettings& settings, const std::stop_token& stop) {
+  try {
+    return compare(reference.folder, film.folder, settings, {}, stop);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    Comparison failed;
+    failed.expected = reference.folder;
+    failed.actual = film.folder;
+    failed.program = settings.program;
+    writeFile(film.folder / kJunitName, reportJunitOfError(failed, error.what()));
+    throw;
+  }
 }
 
 }  // namespace
@@ -94,18 +108,21 @@ void takeFromReference(const Reference& reference, PictureOptions& picture, std:
 
 ExitCode compareWithReference(const Reference& reference, const FilmSettings& film,
                               const CompareOptions& options, bool logsFrames, const std::stop_token& stop) {
-  const Comparison comparison = compare(reference.folder, film.folder, options.settings(), {}, stop);
+  const Comparison comparison = comparedOrTold(reference, film, options.settings(), stop);
   tell(comparison, logsFrames);
   if (comparison.verdict == Verdict::kDifferent) {
     writeReport(film.folder, comparison);  // while all pictures are still there
+  } else {
+    writeFile(film.folder / kJunitName, reportJunit(comparison));
   }
   const std::size_t kept = keepFramesThatDiffer(film.folder, comparison);
   std::ostream& out = logsFrames ? std::cerr : std::cout;
+  const fs::path folder = fs::absolute(film.folder).lexically_normal();
   if (comparison.verdict == Verdict::kDifferent) {
     out << "kept         " << kept << (kept == 1 ? " frame" : " frames") << " that differ"
-        << (kept == 1 ? "s: " : ": ") << fs::absolute(film.folder).lexically_normal().string() << '\n';
+        << (kept == 1 ? "s: " : ": ") << folder.string() << '\n';
   } else {
-    out << "kept         nothing\n";
+    out << "kept         no frame; the result is in " << (folder / kJunitName).string() << '\n';
   }
   return exitCodeOf(comparison);
 }

@@ -27,8 +27,8 @@ void takeFromReference(const Reference& reference, PictureOptions& picture, std:
                        CompareOptions& compare);
 
 /// Compares the film just made with the reference and prints the result. Keeps of the film only the frames
-/// that differ, a film.json that lists only those, and a report (compare/report.h); nothing if the film is
-/// the same.
+/// that differ, a film.json that lists only those, and a report (compare/report.h); only junit.xml if the
+/// film is the same or could not be compared.
 ExitCode compareWithReference(const Reference& reference, const FilmSettings& film,
                               const CompareOptions& options, bool logsFrames, const std::stop_token& stop);
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "approval.h"
 #include "commands.h"
 #include "compare.h"
 #include "core/characters.h"
@@ -52,6 +53,7 @@ struct FilmOptions {
   PictureOptions picture;
   bool listBackends = false;
   std::optional<std::filesystem::path> reference;
+  bool approve = false;
   CompareOptions compare;
   SceneOfTable scene;
   std::optional<std::filesystem::path> ghost;
@@ -237,20 +239,25 @@ ExitCode listBackends(const ContextOptions& options) {
 Reference openReference(FilmOptions& options) {
   Reference reference = readReference(*options.reference);
   takeFromReference(reference, options.picture, options.frames, options.compare);
-  options.compare.settings();
+  const ComparisonSettings settings = options.compare.settings();
+  const auto [width, height] = parseSize(*options.picture.size);
+  static_cast<void>(settings.ignored.of(width, height));  // tells if it does not fit
+  if (settings.motionTolerance > 0) {
+    throw InputError("--motion: found " + options.compare.motion +
+                     " and --ref, expected same or any: only of runs it is known how far apart boxes are");
+  }
   return reference;
 }
 
 // Of the film in --out only what differs is kept, so one that somebody made must not be there. What an
-// earlier comparison left there, with its page, gives way.
+// earlier comparison left there gives way.
 void refuseToOverwrite(const Reference& reference, FilmSettings& film) {
   const std::filesystem::path& folder = film.folder;
   if (std::filesystem::weakly_canonical(folder) == std::filesystem::weakly_canonical(reference.folder)) {
     throw InputError("--out: found the folder of --ref, " + folder.string() +
                      ", expected another one for what differs");
   }
-  if (film.there != FilmThere::kReplace && readManifest(folder) &&
-      !std::filesystem::exists(folder / "index.html")) {
+  if (film.there != FilmThere::kReplace && readManifest(folder) && !holdsComparison(folder)) {
     throw InputError(folder.string() +
                      ": holds a film, of which only what differs would be left; name another folder, or "
                      "--overwrite to replace it");
@@ -288,7 +295,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   }
   FilmSettings settings = settingsOf(options);
   const std::optional<TruthSettings> truth = truthOf(options, settings);
-  if (reference) {
+  if (reference && !options.approve) {
     refuseToOverwrite(*reference, settings);
   }
   const bool makesFilm = !options.still && !options.strobe;
@@ -319,6 +326,13 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
                       .strobe = options.strobe,
                       .ghost = settings.ghost});
   }
+  FilmSettings told = settings;
+  std::optional<Approval> approval;
+  if (options.approve) {
+    approval.emplace(*reference);
+    settings.folder = approval->folder();
+    told.folder = reference->folder;
+  }
   Progress progress;
   if (!reference) {
     setInterruptionHint("; --resume completes the film");
@@ -328,7 +342,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
       [&](const FilmProgress& now) {
         progress.update(now);
         if (logsJson) {
-          printFrame(settings, now.frame);
+          printFrame(told, now.frame);
         }
       },
       stop);
@@ -337,7 +351,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
     writeTruth(run.trajectory, *truth, {}, stop);
   }
   estimate(run, options.estimate, stopwatch.seconds() - run.auditSeconds, stop, simulation.ofEstimate());
-  if (!reference) {
+  if (!reference || (approval && std::filesystem::exists(reference->folder / "report.json"))) {
     writeReport(run, settings, figures, stopwatch.seconds());
   }
   std::ostream& summary = logsJson ? std::cerr : std::cout;
@@ -346,7 +360,10 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (options.verbose) {
     printDrawing(summary, figures);
   }
-  printFilm(summary, settings, picture, figures);
+  printFilm(summary, told, picture, figures);
+  if (approval) {
+    return approval->approve(options.compare, logsJson, stop);
+  }
   return reference ? compareWithReference(*reference, settings, options.compare, logsJson, stop)
                    : ExitCode::kDone;
 }
@@ -359,8 +376,9 @@ void addRender(const CommandLine& commandLine) {
   command.add("file", options->source,
               "Scene, trajectory file or table of poses; the default scene if none is named");
   options->scene.addTo(command);
-  command.add("--out", options->folder,
-              "Folder for the frames, or file of a single picture (default: out/ and the file's name)");
+  const CommandOption out =
+      command.add("--out", options->folder,
+                  "Folder for the frames, or file of a single picture (default: out/ and the file's name)");
   const CommandOption frames =
       command.add("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
   const CommandOption ghost = command.add(
@@ -402,6 +420,11 @@ void addRender(const CommandLine& commandLine) {
                "Folder of that film. Its frames are drawn, of its size, rate and look unless told "
                "otherwise; those that differ stay in --out")
           .excludes(still, strobe, video, resume, truth);
+  comparing
+      .addFlag("--approve", options->approve,
+               "The new film takes the place of that one unless they are the same; exit code 0")
+      .needs(reference)
+      .excludes(out, frames, overwrite);
   const CommandLine how = comparing.addGroup("How", "What counts as different");
   options->compare.addTo(how);
   how.needs(reference);

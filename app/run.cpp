@@ -164,6 +164,29 @@ std::string beginningOf(const std::filesystem::path& path) {
   return begin;
 }
 
+// A clock that began elsewhere, such as that of Unix, would be taken for a scene that lasts so long.
+PoseTable readTable(const std::string& bytes, const std::string& name, bool shiftsTime, double duration) {
+  PoseTable table = readPoseTable(bytes, name);
+  if (shiftsTime) {
+    table.beginAtZero();
+    return table;
+  }
+  const double first = table.firstTime();
+  if (first > duration) {
+    throw InputError(name + ": found a first row at " + inFull(first) +
+                     " s, expected one within the scene's " + inFull(duration) +
+                     " s; --shift-time counts from the first row");
+  }
+  const auto last = std::max_element(table.rows.begin(), table.rows.end(),
+                                     [](const PoseRow& a, const PoseRow& b) { return a.time < b.time; });
+  if (first > last->time - first) {
+    std::cerr << "careen: " << printableName(name) << ": its first row is at " << inFull(first)
+              << " s; until then the boxes go there from where the scene has them; --shift-time counts from "
+                 "the first row\n";
+  }
+  return table;
+}
+
 Trajectory readRunOf(const std::string& bytes, const std::filesystem::path& path, const SceneOfTable& scene,
                      const std::function<RunSetup()>& setup) {
   if (!looksLikeTrajectory(bytes) && looksLikePoseTable(bytes, path.string())) {
@@ -171,10 +194,12 @@ Trajectory readRunOf(const std::string& bytes, const std::filesystem::path& path
       throw InputError(path.string() +
                        ": is a table of poses, without sizes and walls; expected --scene with the scene");
     }
-    return givenRun(scene.path ? setupOfScene(*scene.path) : setup(), readPoseTable(bytes, path.string()));
+    RunSetup start = scene.path ? setupOfScene(*scene.path) : setup();
+    const PoseTable table = readTable(bytes, path.string(), scene.shiftsTime, start.settings.duration);
+    return givenRun(std::move(start), table);
   }
-  if (scene.path && !setup) {
-    throw InputError("--scene: found the run " + path.string() +
+  if (scene.given() != nullptr && !setup) {
+    throw InputError(std::string(scene.given()) + ": found the run " + path.string() +
                      ", which has its scene; expected a table of poses");
   }
   return decodeRun(bytes, path.string());
@@ -276,7 +301,11 @@ RunFigures Run::statedFigures() const {
 void SceneOfTable::addTo(const CommandLine& command) {
   command.add("--scene", path,
               "Scene of a run that is a table of poses (CSV, NPZ): sizes, masses, walls, camera");
+  command.addFlag("--shift-time", shiftsTime,
+                  "The table's times count from its first row: its clock began at another time");
 }
+
+const char* SceneOfTable::given() const { return path ? "--scene" : shiftsTime ? "--shift-time" : nullptr; }
 
 AuditDepth AuditChoice::auditDepth() const {
   return static_cast<AuditDepth>(indexAmong(depth, kAuditDepthNames));
@@ -359,8 +388,9 @@ Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const
             const std::stop_token& stop, const RunCallback& progress) {
   const std::string bytes = readFile(path);
   if (isMujocoModel(path) || (!looksLikeTrajectory(bytes) && !looksLikePoseTable(bytes, path.string()))) {
-    if (scene.path) {
-      throw InputError("--scene: found the scene " + path.string() + " to be run, expected a table of poses");
+    if (const char* const option = scene.given()) {
+      throw InputError(std::string(option) + ": found the scene " + path.string() +
+                       " to be run, expected a table of poses");
     }
     return simulateText(path, bytes, overrides, stop, progress);
   }

@@ -42,10 +42,14 @@ struct AuditChoice {
 };
 
 /// The scene of a run that is given as a table of poses (CSV or NPZ): its boxes' sizes and masses, its walls.
+/// And whether its clock began at another time than the scene's.
 struct SceneOfTable {
   std::optional<std::filesystem::path> path;
+  bool shiftsTime = false;  ///< the first row's time is 0 s
 
   void addTo(const CommandLine& command);
+  /// The option that was given; null if none was.
+  const char* given() const;
 };
 
 /// Audits the run; NumericalError, exit code 4, if it breaks a promise of its method, unless told to keep

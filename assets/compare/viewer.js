@@ -38,6 +38,7 @@ function Viewer() {
     view.style.aspectRatio = `${shown.width} / ${shown.height}`;
     if (there.length < which.length)
       view.append(html("span", { class: "absent" }, which.length > 1 ? "one of the two is missing" : "missing, or not comparable"));
+    if (shown.ignored) view.append(html("img", { src: shown.ignored, alt: "", draggable: "false", class: "ignored" }));
     if (view.dataset.shows === "both") view.append(html("span", { class: "edge" }));
     if (shown.pixel) view.append(cross());
     view.setAttribute("aria-label", `${view.dataset.shows === "both" ? "expected and actual" : view.dataset.shows} picture of ${shown.name}`);
@@ -58,6 +59,7 @@ function Viewer() {
       view.classList.toggle("close", zoom !== null);
       for (const picture of view.querySelectorAll("img")) {
         picture.style.transform = `translate(${corner.x}px, ${corner.y}px) scale(${z})`;
+        if (picture.className.includes("ignored")) picture.style.display = marked ? "" : "none";
         picture.classList.toggle("crisp", z * devicePixelRatio > 1);
       }
       const mark = view.querySelector(".cross");
@@ -83,7 +85,8 @@ function Viewer() {
     if (expected) {
       const corner = cornerOf(one);
       const right = (share * one.clientWidth - corner.x) / zoomOf(one); // [px] of the picture
-      expected.style.clipPath = mode === "wipe" ? `inset(0 ${Math.max(0, shown.width - right)}px 0 0)` : "";
+      const width = expected.naturalWidth || shown.width; // less than shown.width if the actual one is wider
+      expected.style.clipPath = mode === "wipe" ? `inset(0 ${Math.max(0, width - right)}px 0 0)` : "";
       expected.style.visibility = mode === "blink" && blinkShows === "actual" ? "hidden" : "";
     }
     document.getElementById("one-caption").textContent =

@@ -5,7 +5,9 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <string_view>
 #include <thread>
+#include <utility>
 
 #include "compare/flip.h"
 #include "compare/picture_difference.h"
@@ -27,11 +29,42 @@ struct FramePair {
   fs::path actual;
 };
 
+// [px] Pictures that have more are measured one after another, whatever the number of threads.
+constexpr std::uint64_t kLarge = std::uint64_t{1} << 24U;
+
+std::uint64_t pixelsOf(const PngSize& size) {
+  return static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
+}
+
+std::unique_lock<std::mutex> aloneIf(bool large) {
+  static std::mutex mutex;
+  return large ? std::unique_lock(mutex) : std::unique_lock<std::mutex>();
+}
+
+void addDifferent(FrameComparison& frame, const std::string& reason) {
+  frame.verdict = Verdict::kDifferent;
+  frame.reasons.push_back(reason);
+}
+
 void measure(const FramePair& pair, const std::string& expectedBytes, const std::string& actualBytes,
              const ComparisonSettings& settings, FrameComparison& frame) {
-  const DeepPicture expected = decodeDeepPng(expectedBytes, pair.expected.string(), kMostPixelsCompared);
-  const DeepPicture actual = decodeDeepPng(actualBytes, pair.actual.string(), kMostPixelsCompared);
-  const PictureDifference difference = differenceOf(expected, actual);
+  const std::uint64_t larger = std::max(pixelsOf(sizeOfPng(expectedBytes, pair.expected.string())),
+                                        pixelsOf(sizeOfPng(actualBytes, pair.actual.string())));
+  const std::unique_lock<std::mutex> lock = aloneIf(larger > kLarge);
+  DeepPicture expected = decodeDeepPng(expectedBytes, pair.expected.string(), kMostBytesCompared);
+  DeepPicture actual = decodeDeepPng(actualBytes, pair.actual.string(), kMostBytesCompared);
+  if (const std::string fault = otherSize(expected, actual); !fault.empty()) {
+    addDifferent(frame, fault);
+    return;
+  }
+  const PixelMask ignored = settings.ignored.of(expected.width, expected.height);
+  if (settings.flip) {
+    makeComparable(expected, actual, ignored);
+    frame.flip = flipOf(expected, actual, kPixelsPerDegree, ignored).mean;
+  }
+  const std::string expectedColors = expected.colorSpace;
+  const std::string actualColors = actual.colorSpace;
+  const PictureDifference difference = differenceOf(std::move(expected), std::move(actual), ignored);
   const auto percent = [&difference](std::size_t pixels) {
     return 100 * static_cast<double>(pixels) / static_cast<double>(difference.pixels);
   };
@@ -46,12 +79,13 @@ void measure(const FramePair& pair, const std::string& expectedBytes, const std:
   frame.failingPercent = percent(difference.pixelsOver(settings.tolerance.fail));
   frame.changedPercent = percent(difference.changed - difference.changedByEdges);
   frame.edgePercent = percent(difference.changedByEdges);
-  if (settings.flip) {
-    frame.flip = flipOf(expected, actual).mean;
-  }
   PictureJudgement judgement = judge(difference, settings.tolerance);
   frame.verdict = judgement.verdict;
   frame.reasons = std::move(judgement.reasons);
+  if (expectedColors != actualColors) {
+    addDifferent(frame, "a viewer shows other colours, as its chunks say " + actualColors + ", expected " +
+                            expectedColors);
+  }
 }
 
 FrameComparison compareFiles(const FramePair& pair, const ComparisonSettings& settings) {
@@ -61,7 +95,8 @@ FrameComparison compareFiles(const FramePair& pair, const ComparisonSettings& se
   const std::string actual = readFile(pair.actual);
   frame.identical = expected == actual;
   if (frame.identical) {
-    checkPng(expected, pair.expected.string());
+    const PngSize size = checkPng(expected, pair.expected.string());
+    static_cast<void>(settings.ignored.of(size.width, size.height));  // tells if it does not fit
     frame.measured = true;
     frame.psnr = std::numeric_limits<double>::infinity();
     if (settings.flip) {
@@ -88,6 +123,8 @@ FrameComparison compareFrame(const FramePair& pair, const ComparisonSettings& se
   }
   try {
     return compareFiles(pair, settings);
+  } catch (const UnfitRegions&) {
+    throw;
   } catch (const InputError& error) {
     frame.reasons = {error.what()};
   }
@@ -222,6 +259,7 @@ Comparison begun(const fs::path& expected, const fs::path& actual, const Compari
   comparison.program = settings.program;
   comparison.toleranceName = settings.toleranceName;
   comparison.tolerance = settings.tolerance;
+  comparison.ignored = settings.ignored;
   return comparison;
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/ignored_regions.h"
 #include "compare/run_difference.h"
 #include "compare/tolerance.h"
 #include "trajectory/trajectory_file.h"
@@ -51,6 +52,7 @@ struct Comparison {
   std::string program;        ///< name and version of the comparing program
   std::string toleranceName;  ///< with overrides: "same-picture, --fail 0.02"
   Tolerance tolerance;
+  IgnoredRegions ignored;  ///< what of the pictures does not count
   Verdict verdict = Verdict::kSame;
   std::string headline;  ///< the verdict in a sentence, such as "same motion, other picture"
   std::vector<Fact> facts;
@@ -75,6 +77,7 @@ struct ComparisonSettings {
   double motionTolerance = 0;
   double until = std::numeric_limits<double>::infinity();  ///< [s] runs are compared up to this time
   bool motionCounts = true;    ///< a film of a different motion differs, even if its pictures are the same
+  IgnoredRegions ignored;      ///< of pictures
   bool flip = false;           ///< also compute ꟻLIP, which takes ten times as long as all the rest
   int threads = 1;             ///< frames compared in parallel
   bool subfolders = true;      ///< for folders: pictures in their sub-folders, too
@@ -84,18 +87,20 @@ struct ComparisonSettings {
 /// Reports how many frames of how many are compared.
 using ComparisonCallback = std::function<void(std::size_t done, std::size_t total)>;
 
-/// Pictures that differ are compared up to this size [px], 8192 x 8192: two take about 14 bytes for each.
-inline constexpr std::uint64_t kMostPixelsCompared = std::uint64_t{1} << 26U;
+/// Pictures that differ are compared up to this size [bytes of samples], 16384 x 16384 of 8-bit RGB: the
+/// largest that careen draws. Two take three times as much, and large ones are compared one after another.
+inline constexpr std::uint64_t kMostBytesCompared = 3 * kMostPixels;
 
-/// Compares two PNG files; InputError if one is not a PNG or beyond kMostPixelsCompared. Files identical byte
-/// for byte are not decoded, but their checksums must be right.
+/// Compares two PNG files; InputError if one is not a PNG or beyond kMostBytesCompared, or if ignored regions
+/// do not fit. Pictures of two sizes differ. Files identical byte for byte are not decoded, but their
+/// checksums must be right.
 Comparison comparePictures(const std::filesystem::path& expected, const std::filesystem::path& actual,
                            const ComparisonSettings& settings);
 
 /// Compares all PNG files of two folders, by their paths there; the suffix may be in any case. A frame that
 /// is missing, broken or of another size counts as different. `sameMotion`: whether both films are known to
-/// show one motion, or not. InputError if a folder has no PNG. Memory: the frames being compared, and less
-/// than a kB for each of all.
+/// show one motion, or not. InputError if a folder has no PNG, or ignored regions do not fit a frame. Memory:
+/// the frames being compared, and less than a kB for each of all.
 Comparison compareFolders(const std::filesystem::path& expected, const std::filesystem::path& actual,
                           const ComparisonSettings& settings, std::optional<bool> sameMotion,
                           const ComparisonCallback& progress = {}, const std::stop_token& stop = {});

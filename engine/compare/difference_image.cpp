@@ -1,9 +1,8 @@
 #include "compare/difference_image.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 namespace careen {
@@ -11,70 +10,91 @@ namespace {
 
 using Rgb = std::array<int, 3>;  // of 65535
 
-/// Two pictures in a common format: 16 bits, with alpha if either has it.
-class PicturePair {
+constexpr int kFull = 65535;
+constexpr int kMostDifference = 2 * kFull;  // of a colour and of alpha
+
+/// The differences of two comparable pictures, pixel by pixel.
+class Differences {
  public:
-  PicturePair(const DeepPicture& expected, const DeepPicture& actual) {
-    requireOneSize(expected, actual);
-    const bool alpha = expected.channels == 4 || actual.channels == 4;
-    expected_ = deepened(alpha ? withAlpha(expected) : expected);
-    actual_ = deepened(alpha ? withAlpha(actual) : actual);
-  }
+  Differences(const DeepPicture& expected, const DeepPicture& actual)
+      : expected_(expected), actual_(actual), channels_(static_cast<std::size_t>(expected.channels)) {}
 
-  std::size_t pixels() const {
-    return static_cast<std::size_t>(expected_.width) * static_cast<std::size_t>(expected_.height);
-  }
+  std::size_t pixels() const { return expected_.samples() / channels_; }
 
-  Rgb differenceAt(std::size_t pixel) const {
-    const auto channels = static_cast<std::size_t>(expected_.channels);
+  Rgb at(std::size_t pixel) const {
     const auto off = [&](std::size_t channel) {
-      const std::size_t at = pixel * channels + channel;
-      return std::abs(int{actual_.samples16[at]} - int{expected_.samples16[at]});
+      const std::size_t place = pixel * channels_ + channel;
+      return expected_.deep ? std::abs(int{actual_.samples16[place]} - int{expected_.samples16[place]})
+                            : 257 * std::abs(int{actual_.samples8[place]} - int{expected_.samples8[place]});
     };
-    const int alpha = channels == 4 ? off(3) : 0;
+    const int alpha = channels_ == 4 ? off(3) : 0;
     return {off(0) + alpha, off(1) + alpha, off(2) + alpha};
   }
 
  private:
-  DeepPicture expected_;
-  DeepPicture actual_;
+  const DeepPicture& expected_;
+  const DeepPicture& actual_;
+  std::size_t channels_;
 };
-
-constexpr int kFull = 65535;
 
 }  // namespace
 
 int amplificationOf(const DeepPicture& expected, const DeepPicture& actual) {
-  const PicturePair pair(expected, actual);
-  std::vector<int> differences;
-  for (std::size_t pixel = 0; pixel < pair.pixels(); ++pixel) {
-    const Rgb difference = pair.differenceAt(pixel);
+  const Differences differences(expected, actual);
+  std::vector<std::size_t> count(kMostDifference + 1);
+  std::size_t differing = 0;
+  for (std::size_t pixel = 0; pixel < differences.pixels(); ++pixel) {
+    const Rgb difference = differences.at(pixel);
     const int largest = *std::max_element(difference.begin(), difference.end());
-    if (largest > 0) {
-      differences.push_back(largest);
-    }
+    ++count[static_cast<std::size_t>(largest)];
+    differing += largest > 0 ? 1 : 0;
   }
-  if (differences.empty()) {
+  if (differing == 0) {
     return 1;
   }
-  const std::size_t cutOff = differences.size() / 100;
-  const auto limit = differences.end() - 1 - static_cast<std::ptrdiff_t>(cutOff);
-  std::nth_element(differences.begin(), limit, differences.end());
+  int limit = kMostDifference;  // a hundredth of the differing pixels differ by more
+  for (std::size_t above = count.back(); above <= differing / 100;) {
+    --limit;
+    above += count[static_cast<std::size_t>(limit)];
+  }
   int factor = 1;
-  while (*limit * factor * 2 <= kFull) {
+  while (limit * factor * 2 <= kFull) {
     factor *= 2;
   }
   return factor;
 }
 
 Picture differenceImage(const DeepPicture& expected, const DeepPicture& actual, int factor) {
-  const PicturePair pair(expected, actual);
+  const Differences differences(expected, actual);
   Picture image{.width = expected.width, .height = expected.height, .rgb = {}};
-  image.rgb.reserve(pair.pixels() * 3);
-  for (std::size_t pixel = 0; pixel < pair.pixels(); ++pixel) {
-    for (const int difference : pair.differenceAt(pixel)) {
+  image.rgb.reserve(differences.pixels() * 3);
+  for (std::size_t pixel = 0; pixel < differences.pixels(); ++pixel) {
+    for (const int difference : differences.at(pixel)) {
       const std::int64_t amplified = std::min<std::int64_t>(std::int64_t{difference} * factor, kFull);
       image.rgb.push_back(static_cast<std::uint8_t>((amplified * 255 + kFull / 2) / kFull));
+    }
+  }
+  return image;
+}
+
+Picture ignoredImage(const PixelMask& ignored) {
+  const int width = ignored.width;
+  const int height = static_cast<int>(ignored.ignored.size() / static_cast<std::size_t>(width));
+  const int period = std::max(8, std::max(width, height) / 80);
+  const int outline = std::max(1, period / 8);
+  Picture image{.width = width, .height = height, .rgb = {}};
+  image.rgb.resize(image.rowBytes() * static_cast<std::size_t>(height));
+  const auto counts = [&](int x, int y) {
+    return x >= 0 && y >= 0 && x < width && y < height && !ignored.at(x, y);
+  };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const bool atEdge = counts(x - outline, y) || counts(x + outline, y) || counts(x, y - outline) ||
+                          counts(x, y + outline);
+      if (ignored.at(x, y) && (atEdge || (x + y) % period < period / 4)) {
+        std::copy(kMarkColor.begin(), kMarkColor.end(),
+                  image.rgb.begin() + static_cast<std::ptrdiff_t>(y) * width * 3 + std::ptrdiff_t{3} * x);
+      }
     }
   }
   return image;

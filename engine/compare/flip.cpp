@@ -11,6 +11,7 @@
 #include <string>
 
 #include "compare/perceptual_color.h"
+#include "core/error.h"
 
 namespace careen {
 namespace {
@@ -284,9 +285,14 @@ Features featuresOf(const Opponent& picture, Grid grid, double pixelsPerDegree) 
 
 }  // namespace
 
-Flip flipOf(const DeepPicture& expected, const DeepPicture& actual, double pixelsPerDegree) {
+Flip flipOf(const DeepPicture& expected, const DeepPicture& actual, double pixelsPerDegree,
+            const PixelMask& ignored) {
   requireOneSize(expected, actual);
   const Grid grid{expected.width, expected.height};
+  if (grid.size() > kMostPixelsOfFlip) {
+    throw InputError("--flip: found pictures of " + std::to_string(grid.size()) +
+                     " pixels, expected at most " + std::to_string(kMostPixelsOfFlip));
+  }
   const Opponent one = opponentOf(expected);
   const Opponent other = opponentOf(actual);
   const std::vector<Vec> colorsOne = perceived(one, grid, pixelsPerDegree);
@@ -301,10 +307,12 @@ Flip flipOf(const DeepPicture& expected, const DeepPicture& actual, double pixel
                                    std::abs(featuresOne.points[i] - featuresOther.points[i]));
     const float seenFeature = std::sqrt(std::numbers::sqrt2_v<float> / 2 * feature);  // q_f = 1/2
     flip.values.push_back(std::pow(color, 1 - seenFeature));
-    sum += static_cast<double>(flip.values.back());
-    flip.largest = std::max(flip.largest, static_cast<double>(flip.values.back()));
+    if (ignored.empty() || !ignored.ignored[i]) {
+      sum += static_cast<double>(flip.values.back());
+      flip.largest = std::max(flip.largest, static_cast<double>(flip.values.back()));
+    }
   }
-  flip.mean = sum / static_cast<double>(grid.size());
+  flip.mean = sum / static_cast<double>(grid.size() - ignored.count);
   return flip;
 }
 

@@ -48,22 +48,34 @@ Json samplesAt(const DeepPicture& picture, int x, int y) {
 }
 
 Json pixelJson(const FrameComparison& frame, const DeepPicture& expected, const DeepPicture& actual) {
-  const bool deep = expected.deep || actual.deep;
-  const DeepPicture& one = deep ? deepened(expected) : expected;
-  const DeepPicture& other = deep ? deepened(actual) : actual;
   return {{"x", frame.largestX},
           {"y", frame.largestY},
-          {"full", deep ? 65535 : 255},
-          {"expected", samplesAt(one, frame.largestX, frame.largestY)},
-          {"actual", samplesAt(other, frame.largestX, frame.largestY)}};
+          {"full", expected.deep ? 65535 : 255},
+          {"expected", samplesAt(expected, frame.largestX, frame.largestY)},
+          {"actual", samplesAt(actual, frame.largestX, frame.largestY)}};
+}
+
+void addDifference(Json& json, const FrameComparison& frame, const IgnoredRegions& regions,
+                   DeepPicture& expected, DeepPicture& actual) {
+  const PixelMask ignored = regions.of(expected.width, expected.height);
+  makeComparable(expected, actual, ignored);
+  const int factor = amplificationOf(expected, actual);
+  json["difference"] = dataUri(encodePng(differenceImage(expected, actual, factor)));
+  json["factor"] = factor;
+  if (frame.largest > 0) {
+    json["pixel"] = pixelJson(frame, expected, actual);
+  }
+  if (!ignored.empty()) {
+    json["ignored"] = dataUri(encodePng(ignoredImage(ignored), PngColor{0, 0, 0}));
+  }
 }
 
 Json pictureJson(const Comparison& comparison, const FrameComparison& frame) {
-  const std::optional<Source> expected = sourceOf(expectedFrame(comparison, frame));
-  const std::optional<Source> actual = sourceOf(actualFrame(comparison, frame));
+  std::optional<Source> expected = sourceOf(expectedFrame(comparison, frame));
+  std::optional<Source> actual = sourceOf(actualFrame(comparison, frame));
   Json json = {{"width", 0},        {"height", 0},           {"expected", nullptr},
-               {"actual", nullptr}, {"difference", nullptr}, {"factor", nullptr},
-               {"pixel", nullptr}};
+               {"actual", nullptr}, {"difference", nullptr}, {"ignored", nullptr},
+               {"factor", nullptr}, {"pixel", nullptr}};
   for (const auto* const side : {&actual, &expected}) {
     if (*side) {
       json["width"] = std::max(json["width"].get<int>(), (*side)->picture.width);
@@ -76,19 +88,15 @@ Json pictureJson(const Comparison& comparison, const FrameComparison& frame) {
   if (actual) {
     json["actual"] = dataUri(actual->bytes);
   }
-  if (frame.measured && expected && actual && expected->picture.width == actual->picture.width &&
-      expected->picture.height == actual->picture.height) {
-    const int factor = amplificationOf(expected->picture, actual->picture);
-    json["difference"] = dataUri(encodePng(differenceImage(expected->picture, actual->picture, factor)));
-    json["factor"] = factor;
-    json["pixel"] = pixelJson(frame, expected->picture, actual->picture);
+  if (frame.measured && expected && actual && otherSize(expected->picture, actual->picture).empty()) {
+    addDifference(json, frame, comparison.ignored, expected->picture, actual->picture);
   }
   return json;
 }
 
 std::size_t bytesOf(const Json& picture) {
   std::size_t bytes = 0;
-  for (const char* key : {"expected", "actual", "difference"}) {
+  for (const char* key : {"expected", "actual", "difference", "ignored"}) {
     bytes += picture[key].is_string() ? picture[key].get_ref<const std::string&>().size() : 0;
   }
   return bytes;

@@ -21,11 +21,12 @@ std::vector<std::size_t> framesToShow(const Comparison& comparison, std::size_t 
 ///
 ///     {"frame-00004.png": {"width": 320, "height": 180, "expected": "data:image/png;base64,…", "actual":
 ///     "…",
-///      "difference": "…", "factor": 16, "pixel": {"x": 8, "y": 5, "full": 255, "expected": [1, 2, 3],
-///      "actual": […]}}}
+///      "difference": "…", "ignored": null, "factor": 16, "pixel": {"x": 8, "y": 5, "full": 255, "expected":
+///      [1, 2, 3], "actual": […]}}}
 ///
-/// It holds the files byte for byte, and the difference, multiplied by `factor`; `pixel` is the worst one,
-/// with samples of `full`. A missing or broken picture is null, and so is everything that needs both.
+/// It holds the files byte for byte, and the difference, multiplied by `factor`; `ignored` marks the regions
+/// that do not count and is transparent elsewhere; `pixel` is the worst one, with samples of `full`. A
+/// missing or broken picture is null, and so is everything that needs both.
 std::string picturesJson(const Comparison& comparison, std::size_t mostBytes = kPageBytes);
 
 /// RFC 4648, with padding.

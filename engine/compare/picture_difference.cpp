@@ -43,13 +43,14 @@ const std::vector<Sample>& samplesOf(const DeepPicture& picture) {
 template <class Sample>
 class Measuring {
  public:
-  Measuring(const DeepPicture& expected, const DeepPicture& actual)
+  Measuring(const DeepPicture& expected, const DeepPicture& actual, const PixelMask& ignored)
       : width_(expected.width),
         height_(expected.height),
         channels_(static_cast<std::size_t>(expected.channels)),
         expected_(samplesOf<Sample>(expected)),
-        actual_(samplesOf<Sample>(actual)) {
-    result_.pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+        actual_(samplesOf<Sample>(actual)),
+        ignored_(ignored) {
+    result_.pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) - ignored.count;
     result_.byStep.assign(kFull + 1U, 0);
     result_.byStepOfEdges.assign(kFull + 1U, 0);
   }
@@ -176,20 +177,19 @@ class Measuring {
   }
 
   StructuralSimilarity similarity() const {
-    SamplePlane one{.width = width_, .height = height_, .values = {}};
-    one.values.reserve(result_.pixels);
-    for (int y = 0; y < height_; ++y) {
+    auto block = differing_.begin();  // the first that is not above the row
+    const auto read = [&](int y, std::span<float> one, std::span<float> other) {
       for (int x = 0; x < width_; ++x) {
-        one.values.push_back(lumaAt(expected_, x, y));
+        one[static_cast<std::size_t>(x)] = lumaAt(expected_, x, y);
       }
-    }
-    SamplePlane other = one;
-    for (const Block& block : differing_) {
-      for (int x = block.x; x < block.x + block.width; ++x) {
-        other.row(block.y)[static_cast<std::size_t>(x)] = lumaAt(actual_, x, block.y);
+      std::copy(one.begin(), one.end(), other.begin());
+      for (; block != differing_.end() && block->y == y; ++block) {
+        for (int x = block->x; x < block->x + block->width; ++x) {
+          other[static_cast<std::size_t>(x)] = lumaAt(actual_, x, y);
+        }
       }
-    }
-    return similarityOf(one, other);
+    };
+    return similarityOf(width_, height_, read, ignored_);
   }
 
   void finish() {
@@ -221,6 +221,7 @@ class Measuring {
   std::size_t channels_;
   std::span<const Sample> expected_;
   std::span<const Sample> actual_;
+  const PixelMask& ignored_;
   PictureDifference result_;
   std::vector<Block> differing_;
   int largest_ = 0;
@@ -245,16 +246,10 @@ std::size_t PictureDifference::pixelsOver(double threshold, bool edgesToo) const
   return count;
 }
 
-PictureDifference differenceOf(const DeepPicture& expected, const DeepPicture& actual) {
-  requireOneSize(expected, actual);
-  if (expected.deep != actual.deep) {
-    return differenceOf(deepened(expected), deepened(actual));
-  }
-  if (expected.channels != actual.channels) {
-    return differenceOf(withAlpha(expected), withAlpha(actual));
-  }
-  return expected.deep ? Measuring<std::uint16_t>(expected, actual).run()
-                       : Measuring<std::uint8_t>(expected, actual).run();
+PictureDifference differenceOf(DeepPicture expected, DeepPicture actual, const PixelMask& ignored) {
+  makeComparable(expected, actual, ignored);
+  return expected.deep ? Measuring<std::uint16_t>(expected, actual, ignored).run()
+                       : Measuring<std::uint8_t>(expected, actual, ignored).run();
 }
 
 }  // namespace careen

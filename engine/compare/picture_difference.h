@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "compare/ignored_regions.h"
 #include "image/deep_picture.h"
 
 namespace careen {
@@ -11,7 +12,7 @@ namespace careen {
 /// Differences of two pictures of one size. Channels are fractions of full scale [0 … 1] in sRGB as stored,
 /// including alpha if either picture has it; 8 and 16 bits are compared as fractions of full scale.
 struct PictureDifference {
-  std::size_t pixels = 0;
+  std::size_t pixels = 0;     ///< that count
   std::size_t differing = 0;  ///< pixels that differ in any bit
 
   double largest = 0;      ///< maximum over all channels
@@ -52,7 +53,9 @@ inline constexpr double kVisible = 2.3;
 /// pixel if in every channel its value in one picture lies within the range of the other picture's value
 /// there and half way to its eight neighbours, give or take 1/255. So edges explain a shift of up to a third
 /// of a pixel; from there to half a pixel it depends on their blending. They do not explain a shift by a
-/// whole pixel, nor a line that appears or disappears. InputError, naming both sizes, if they differ.
-PictureDifference differenceOf(const DeepPicture& expected, const DeepPicture& actual);
+/// whole pixel, nor a line that appears or disappears. Ignored pixels count in nothing. InputError, naming
+/// both sizes, if they differ. The two are passed by value because they may have to be changed, see
+/// makeComparable().
+PictureDifference differenceOf(DeepPicture expected, DeepPicture actual, const PixelMask& ignored = {});
 
 }  // namespace careen

@@ -15,7 +15,7 @@ void writeReport(const std::filesystem::path& folder, const Comparison& comparis
   }
   const std::string page = reportPage(comparison);
   writeFile(folder / "report.json", reportJson(comparison) + "\n");
-  writeFile(folder / "junit.xml", reportJunit(comparison));
+  writeFile(folder / kJunitName, reportJunit(comparison));
   writeFile(folder / "index.html", page);
 }
 

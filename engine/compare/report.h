@@ -25,9 +25,14 @@ std::string reportJson(const Comparison& comparison, int indent = 2);
 /// The part of reportJson() for one frame, on one line.
 std::string frameJson(const FrameComparison& frame);
 
+/// The file of reportJunit() in a report's folder.
+inline constexpr const char* kJunitName = "junit.xml";
+
 /// JUnit XML as Jenkins, GitLab and others read it. A difference is a failure; a warning goes to system-out.
 /// It has no times, because the time of a frame is not measured.
 std::string reportJunit(const Comparison& comparison);
+/// The same for a comparison that ended with an error: one test case, with that error.
+std::string reportJunitOfError(const Comparison& comparison, const std::string& error);
 
 /// The HTML page; reads the pictures that it shows.
 std::string reportPage(const Comparison& comparison);

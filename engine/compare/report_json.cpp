@@ -157,6 +157,7 @@ std::string reportJson(const Comparison& comparison, int indent) {
                        {"headline", comparison.headline},
                        {"reason", reasonOf(comparison)},
                        {"tolerance", toleranceJson(comparison)},
+                       {"ignored", comparison.ignored.names()},
                        {"facts", facts},
                        {"counts", countsJson(comparison)},
                        {"first_different", nameOrNull(comparison.firstDifferent())},

@@ -15,6 +15,7 @@ struct TestCase {
   std::string name;
   std::string failure;  ///< empty: it passed
   std::string warning;
+  std::string error = {};  ///< it could not be tried
 };
 
 std::vector<TestCase> casesOfFrames(const Comparison& comparison) {
@@ -60,16 +61,47 @@ TestCase caseOfAll(const Comparison& comparison) {
 std::string xmlOf(const TestCase& test, const std::string& className) {
   const std::string head =
       "    <testcase classname=\"" + className + "\" name=\"" + escapedForMarkup(test.name) + "\"";
+  const auto element = [&head](const std::string& tag, const std::string& type, const std::string& text) {
+    const std::string message = escapedForMarkup(text);
+    return head + ">\n      <" + tag + " type=\"" + type + "\" message=\"" + message + "\">" + message +
+           "</" + tag + ">\n    </testcase>\n";
+  };
+  if (!test.error.empty()) {
+    return element("error", "not compared", test.error);
+  }
   if (!test.failure.empty()) {
-    const std::string message = escapedForMarkup(test.failure);
-    return head + ">\n      <failure type=\"different\" message=\"" + message + "\">" + message +
-           "</failure>\n    </testcase>\n";
+    return element("failure", "different", test.failure);
   }
   if (!test.warning.empty()) {
     return head + ">\n      <system-out>" + escapedForMarkup("warning: " + test.warning) +
            "</system-out>\n    </testcase>\n";
   }
   return head + "/>\n";
+}
+
+std::string xmlOf(const std::vector<TestCase>& cases, const Comparison& comparison) {
+  const auto counted = [&cases](std::string TestCase::*text) {
+    return std::to_string(std::count_if(cases.begin(), cases.end(),
+                                        [text](const TestCase& test) { return !(test.*text).empty(); }));
+  };
+  const std::string suite =
+      escapedForMarkup(comparison.actual.string() + " against " + comparison.expected.string());
+  const std::string className = comparison.run ? "careen.compare.run" : "careen.compare.frames";
+  const std::string counts = " tests=\"" + std::to_string(cases.size()) + "\" failures=\"" +
+                             counted(&TestCase::failure) + "\" errors=\"" + counted(&TestCase::error) +
+                             R"(" skipped="0")";
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"careen compare\"" +
+                    counts + ">\n  <testsuite name=\"" + suite + "\"" + counts + ">\n" +
+                    R"(    <properties><property name="program" value=")" +
+                    escapedForMarkup(comparison.program) + "\"/>";
+  for (const std::string& region : comparison.ignored.names()) {
+    xml += R"(<property name="ignored" value=")" + escapedForMarkup(region) + "\"/>";
+  }
+  xml += "</properties>\n";
+  for (const TestCase& test : cases) {
+    xml += xmlOf(test, className);
+  }
+  return xml + "  </testsuite>\n</testsuites>\n";
 }
 
 }  // namespace
@@ -79,21 +111,11 @@ std::string reportJunit(const Comparison& comparison) {
   const std::vector<TestCase> parts =
       comparison.run ? casesOfRun(comparison, *comparison.run) : casesOfFrames(comparison);
   cases.insert(cases.end(), parts.begin(), parts.end());
-  const auto failures =
-      std::count_if(cases.begin(), cases.end(), [](const TestCase& test) { return !test.failure.empty(); });
-  const std::string suite =
-      escapedForMarkup(comparison.actual.string() + " against " + comparison.expected.string());
-  const std::string className = comparison.run ? "careen.compare.run" : "careen.compare.frames";
-  const std::string counts = " tests=\"" + std::to_string(cases.size()) + "\" failures=\"" +
-                             std::to_string(failures) + R"(" errors="0" skipped="0")";
-  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"careen compare\"" +
-                    counts + ">\n  <testsuite name=\"" + suite + "\"" + counts + ">\n" +
-                    R"(    <properties><property name="program" value=")" +
-                    escapedForMarkup(comparison.program) + "\"/></properties>\n";
-  for (const TestCase& test : cases) {
-    xml += xmlOf(test, className);
-  }
-  return xml + "  </testsuite>\n</testsuites>\n";
+  return xmlOf(cases, comparison);
+}
+
+std::string reportJunitOfError(const Comparison& comparison, const std::string& error) {
+  return xmlOf({{.name = "verdict", .failure = {}, .warning = {}, .error = error}}, comparison);
 }
 
 }  // namespace careen

@@ -143,6 +143,8 @@ std::string reportPage(const Comparison& comparison) {
                  {"actual", escaped(comparison.actual.string())},
                  {"tolerance", escaped(comparison.toleranceName)},
                  {"program", escaped(comparison.program)},
+                 {"ignored", escaped(joined(comparison.ignored.names()))},
+                 {"ignored-hidden", comparison.ignored.empty() ? "hidden" : ""},
                  {"facts", facts},
                  {"facts-hidden", facts.empty() ? "hidden" : ""},
                  {"impacts", hasImpacts ? impactsTable(*comparison.run) : ""},

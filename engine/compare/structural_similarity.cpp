@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
+#include <vector>
 
 namespace careen {
 namespace {
@@ -36,19 +38,46 @@ struct Range {
   int end;
 };
 
+/// The rows of the windows at hand.
+class Rows {
+ public:
+  Rows(int width, int windowHeight, const RowReader& read)
+      : width_(static_cast<std::size_t>(width)), held_(windowHeight), read_(read) {
+    one_.resize(width_ * static_cast<std::size_t>(held_));
+    other_.resize(one_.size());
+  }
+  /// Takes the place of the row that is a window's height above it.
+  void read(int y) { read_(y, rowOf(one_, y), rowOf(other_, y)); }
+  std::span<const float> one(int y) { return rowOf(one_, y); }
+  std::span<const float> other(int y) { return rowOf(other_, y); }
+
+ private:
+  std::span<float> rowOf(std::vector<float>& values, int y) const {
+    return std::span(values).subspan(static_cast<std::size_t>(y % held_) * width_, width_);
+  }
+
+  std::size_t width_;
+  int held_;
+  const RowReader& read_;
+  std::vector<float> one_;
+  std::vector<float> other_;
+};
+
 /// Finds the windows that contain a difference; all others have an SSIM of exactly 1.
 class Differing {
  public:
-  Differing(const SamplePlane& one, const SamplePlane& other)
-      : one_(one), other_(other), counts_(static_cast<std::size_t>(one.width)) {}
+  Differing(Rows& rows, int width) : rows_(rows), counts_(static_cast<std::size_t>(width)) {}
 
   /// Adds or removes a row of the next windows.
-  void enter(int y) { count(y, 1); }
+  void enter(int y) {
+    rows_.read(y);
+    count(y, 1);
+  }
   void leave(int y) { count(y, -1); }
 
   const std::vector<Range>& ranges(int reach) {
     ranges_.clear();
-    const int width = one_.width;
+    const int width = static_cast<int>(counts_.size());
     for (int x = 0; x < width; ++x) {
       if (counts_[static_cast<std::size_t>(x)] == 0) {
         continue;
@@ -65,15 +94,14 @@ class Differing {
 
  private:
   void count(int y, int by) {
-    const std::span<const float> one = one_.row(y);
-    const std::span<const float> other = other_.row(y);
+    const std::span<const float> one = rows_.one(y);
+    const std::span<const float> other = rows_.other(y);
     for (std::size_t x = 0; x < one.size(); ++x) {
       counts_[x] += one[x] != other[x] ? by : 0;
     }
   }
 
-  const SamplePlane& one_;
-  const SamplePlane& other_;
+  Rows& rows_;
   std::vector<int> counts_;  ///< per column: number of differing rows in the windows
   std::vector<Range> ranges_;
 };
@@ -131,13 +159,25 @@ void similarities(const Sums& sums, const Window& window, Range range, float* re
   }
 }
 
+// Of all windows' centres, how many count.
+double countedWindows(int width, int height, int wide, int high, const PixelMask& ignored) {
+  std::size_t count =
+      static_cast<std::size_t>(width - 2 * wide) * static_cast<std::size_t>(height - 2 * high);
+  for (int y = high; !ignored.empty() && y < height - high; ++y) {
+    for (int x = wide; x < width - wide; ++x) {
+      count -= ignored.at(x, y) ? 1 : 0;
+    }
+  }
+  return static_cast<double>(count);
+}
+
 }  // namespace
 
-StructuralSimilarity similarityOf(const SamplePlane& one, const SamplePlane& other) {
-  const int width = one.width;
+StructuralSimilarity similarityOf(int width, int height, const RowReader& read, const PixelMask& ignored) {
   const Window wide(width);
-  const Window high(one.height);
-  Differing differing(one, other);
+  const Window high(height);
+  Rows rows(width, 2 * high.reach + 1, read);
+  Differing differing(rows, width);
   for (int y = 0; y < 2 * high.reach; ++y) {
     differing.enter(y);
   }
@@ -145,17 +185,20 @@ StructuralSimilarity similarityOf(const SamplePlane& one, const SamplePlane& oth
   std::vector<float> result(static_cast<std::size_t>(width));
   StructuralSimilarity similarity;
   double missing = 0;  // sum of 1 - SSIM over all windows
-  for (int y = high.reach; y < one.height - high.reach; ++y) {
+  for (int y = high.reach; y < height - high.reach; ++y) {
     differing.enter(y + high.reach);
     for (const Range& range : differing.ranges(wide.reach)) {
       const Range columns{range.begin - wide.reach, range.end + wide.reach};
       sums.clear(range);
       for (int i = -high.reach; i <= high.reach; ++i) {
-        addRow(sums, one.row(y + i), other.row(y + i), high.weights[static_cast<std::size_t>(std::abs(i))],
+        addRow(sums, rows.one(y + i), rows.other(y + i), high.weights[static_cast<std::size_t>(std::abs(i))],
                columns);
       }
       similarities(sums, wide, range, result.data());
       for (int x = range.begin; x < range.end; ++x) {
+        if (ignored.at(x, y)) {
+          continue;
+        }
         const auto value = static_cast<double>(result[static_cast<std::size_t>(x)]);
         missing += 1 - value;
         if (value < similarity.worst) {
@@ -167,8 +210,8 @@ StructuralSimilarity similarityOf(const SamplePlane& one, const SamplePlane& oth
     }
     differing.leave(y - high.reach);
   }
-  similarity.mean = 1 - missing / (static_cast<double>(width - 2 * wide.reach) *
-                                   static_cast<double>(one.height - 2 * high.reach));
+  const double windows = countedWindows(width, height, wide.reach, high.reach, ignored);
+  similarity.mean = windows > 0 ? 1 - missing / windows : 1;
   return similarity;
 }
 

@@ -1,7 +1,9 @@
 #include "film/folder.h"
 
 #include <algorithm>
+#include <fstream>
 #include <iterator>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -52,12 +54,28 @@ void removeAll(const fs::path& folder, bool (*isMeant)(std::string_view)) {
   }
 }
 
+// Somebody else's files may have such names.
+void removeComparison(const fs::path& folder) {
+  if (holdsComparison(folder)) {
+    for (const char* const name : {"index.html", "report.json", "junit.xml"}) {
+      fs::remove(folder / name);
+    }
+  }
+}
+
 }  // namespace
 
 std::string frameFileName(std::int64_t frame) {
   constexpr std::size_t kDigits = 6;
   const std::string number = std::to_string(frame);
   return std::string(kDigits - std::min(kDigits, number.size()), '0') + number + ".png";
+}
+
+bool holdsComparison(const fs::path& folder) {
+  constexpr std::string_view kWritten = "<testsuites name=\"careen compare\"";
+  std::string begun(200, '\0');
+  std::ifstream(folder / "junit.xml", std::ios::binary).read(begun.data(), std::ssize(begun));
+  return begun.find(kWritten) != std::string::npos;
 }
 
 FilmFolder::FilmFolder(fs::path path) : path_(std::move(path)) {
@@ -147,6 +165,7 @@ void FilmFolder::begin(const FilmManifest& asked, bool keep) {
       fs::remove(path_ / frameFileName(frame));
     }
   }
+  removeComparison(path_);
   writeManifest(path_, manifest);
   manifest_ = std::move(manifest);
 }

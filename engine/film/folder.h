@@ -16,6 +16,9 @@ namespace careen {
 /// File name of a frame: 000000.png for frame 0.
 std::string frameFileName(std::int64_t frame);
 
+/// Whether the folder holds what a comparison with another film left there (compare/report.h).
+bool holdsComparison(const std::filesystem::path& folder);
+
 /// A folder that a film is being written to: created if it does not exist, locked against other processes,
 /// and removed again if nothing was written. Only files that careen wrote are ever removed; partial files of
 /// processes that died are removed by the destructor.
@@ -37,7 +40,8 @@ class FilmFolder {
   /// The requested frames that are missing, incomplete or other than the manifest there says.
   std::vector<std::int64_t> missing(const FilmManifest& asked) const;
   /// Prepares the folder for a film: with `keep`, the frames of the film there stay and count as its own;
-  /// otherwise those that its manifest lists are removed, and nothing else.
+  /// otherwise those that its manifest lists are removed. A report of an earlier comparison, which says
+  /// nothing of this film, is removed, and nothing else.
   void begin(const FilmManifest& asked, bool keep);
   /// Adds hashes of frames that were drawn to the manifest, and of whole frames there that have none; begin()
   /// has been called.

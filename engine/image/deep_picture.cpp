@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/system/file.h"
+#include "image/color_chunks.h"
 #include "image/row_filter_undo.h"
 
 namespace careen {
@@ -43,6 +44,7 @@ struct Chunks {
   bool interlaced = false;
   std::string_view palette;
   std::optional<std::string_view> transparent;
+  ColorChunks colors;
   std::string_view data;  ///< of all IDAT
   std::string joined;     ///< holds it where there are several
 
@@ -87,6 +89,15 @@ void readHeader(Chunks& chunks, std::string_view body, const std::string& name) 
   chunks.interlaced = byteAt(body, 12) == 1;
 }
 
+std::optional<std::string_view>* placeOf(ColorChunks& colors, std::string_view type) {
+  return type == "cICP"   ? &colors.codePoints
+         : type == "iCCP" ? &colors.profile
+         : type == "sRGB" ? &colors.srgb
+         : type == "gAMA" ? &colors.gamma
+         : type == "cHRM" ? &colors.chromaticities
+                          : nullptr;
+}
+
 void takeData(Chunks& chunks, std::string_view body) {
   if (chunks.data.empty()) {
     chunks.data = body;
@@ -123,6 +134,8 @@ void readChunks(Chunks& chunks, std::string_view bytes, const std::string& name)
       chunks.palette = body;
     } else if (type == "tRNS") {
       chunks.transparent = body;
+    } else if (std::optional<std::string_view>* const color = placeOf(chunks.colors, type)) {
+      *color = body;
     } else if (type == "IDAT") {
       takeData(chunks, body);
     } else if (type == "IEND") {
@@ -262,10 +275,12 @@ class Spreader {
   std::array<int, 3> key_{};
 };
 
-void checkPixels(const Chunks& chunks, std::uint64_t most, const std::string& name) {
-  if (static_cast<std::uint64_t>(chunks.width) * static_cast<std::uint64_t>(chunks.height) > most) {
-    fail(name, "has " + std::to_string(chunks.width) + " x " + std::to_string(chunks.height) +
-                   " pixels; expected at most " + std::to_string(most) + " of them here");
+void checkBytes(const DeepPicture& picture, std::uint64_t most, const std::string& name) {
+  const std::uint64_t bytes = std::uint64_t{picture.samples()} * (picture.deep ? 2 : 1);
+  if (bytes > most) {
+    fail(name, "has " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
+                   " pixels, which take " + std::to_string(bytes) + " bytes; expected at most " +
+                   std::to_string(most) + " here");
   }
 }
 
@@ -330,13 +345,14 @@ DeepPicture decodeDeepPng(std::string_view bytes, const std::string& name, std::
   Chunks chunks;
   readChunks(chunks, bytes, name);
   const Spreader spreader(chunks, name);
-  checkPixels(chunks, most, name);
   DeepPicture picture{.width = chunks.width,
                       .height = chunks.height,
                       .channels = spreader.channels(),
                       .deep = chunks.bits == 16,
+                      .colorSpace = colorSpaceOf(chunks.colors),
                       .samples8 = {},
                       .samples16 = {}};
+  checkBytes(picture, most, name);
   if (picture.deep) {
     picture.samples16 = unpacked<std::uint16_t>(chunks, spreader, name);
   } else {
@@ -355,12 +371,31 @@ DeepPicture readDeepPng(const std::filesystem::path& path) {
   return decodeDeepPng(readFile(path), path.string());
 }
 
-void requireOneSize(const DeepPicture& expected, const DeepPicture& actual) {
+PngSize sizeOfPng(std::string_view bytes, const std::string& name) {
+  constexpr std::size_t kHeader = 8 + 8 + 13;  // signature; length and type; body
+  if (!bytes.starts_with(kPngSignature)) {
+    fail(name, "is no PNG");
+  }
+  if (bytes.size() < kHeader) {
+    fail(name, "is a PNG cut short");
+  }
+  Chunks chunks;
+  readHeader(chunks, bytes.substr(16, 13), name);
+  return {.width = chunks.width, .height = chunks.height};
+}
+
+std::string otherSize(const DeepPicture& expected, const DeepPicture& actual) {
   const auto sizeOf = [](const DeepPicture& picture) {
     return std::to_string(picture.width) + "x" + std::to_string(picture.height);
   };
-  if (expected.width != actual.width || expected.height != actual.height) {
-    throw InputError("found a picture of " + sizeOf(actual) + " pixels, expected one of " + sizeOf(expected));
+  return expected.width == actual.width && expected.height == actual.height
+             ? ""
+             : "found a picture of " + sizeOf(actual) + " pixels, expected one of " + sizeOf(expected);
+}
+
+void requireOneSize(const DeepPicture& expected, const DeepPicture& actual) {
+  if (const std::string fault = otherSize(expected, actual); !fault.empty()) {
+    throw InputError(fault);
   }
 }
 

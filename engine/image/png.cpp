@@ -80,7 +80,7 @@ void appendPixels(std::string& bytes, const Picture& picture) {
 
 }  // namespace
 
-std::string encodePng(const Picture& picture) {
+std::string encodePng(const Picture& picture, const std::optional<PngColor>& clear) {
   const std::size_t rows = static_cast<std::size_t>(picture.height) * (picture.rowBytes() + 1);
   if (picture.width < 1 || picture.height < 1 ||
       picture.rgb.size() != picture.rowBytes() * static_cast<std::size_t>(picture.height) ||
@@ -94,6 +94,13 @@ std::string encodePng(const Picture& picture) {
   appendBigEndian(bytes, static_cast<std::uint32_t>(picture.height));
   bytes.append({8, 2, 0, 0, 0});  // 8-bit RGB, nothing special
   header.finish();
+  if (clear) {
+    Chunk key(bytes, "tRNS");
+    for (const std::uint8_t sample : *clear) {
+      bytes.append({'\0', static_cast<char>(sample)});
+    }
+    key.finish();
+  }
   Chunk data(bytes, "IDAT");
   appendPixels(bytes, picture);
   data.finish();

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -11,8 +14,11 @@ namespace careen {
 // Not used for reading: libspng 0.7.3, with which `careen compare` takes three times as long and is 7 (films
 // that differ at edges) to 10 (the same pixels) times as fast as idiff on the same pairs; so it is 14 to 33.
 
-/// A PNG file's bytes: 8-bit RGB, lossless. The same picture gives the same bytes.
-std::string encodePng(const Picture& picture);
+using PngColor = std::array<std::uint8_t, 3>;
+
+/// A PNG file's bytes: 8-bit RGB, lossless. Pixels of the colour `clear`, if any, are transparent. The same
+/// picture gives the same bytes.
+std::string encodePng(const Picture& picture, const std::optional<PngColor>& clear = {});
 
 /// Any PNG as 8-bit RGB, rounded; transparency is dropped. InputError, naming `name`, if the bytes are no
 /// whole PNG or one of its checksums is wrong.

@@ -26,13 +26,7 @@ bool canMove(const Body& body) { return !isImmovable(body.mass); }
 
 // A measurement begins at any time.
 PoseTable fromItsStart(PoseTable table) {
-  double first = table.rows.front().time;
-  for (const PoseRow& row : table.rows) {
-    first = std::min(first, row.time);
-  }
-  for (PoseRow& row : table.rows) {
-    row.time -= first;
-  }
+  table.beginAtZero();
   return table;
 }
 

@@ -172,6 +172,19 @@ PoseTable readCsv(const std::string& bytes, const std::string& name) {
 
 }  // namespace
 
+double PoseTable::firstTime() const {
+  return std::min_element(rows.begin(), rows.end(),
+                          [](const PoseRow& a, const PoseRow& b) { return a.time < b.time; })
+      ->time;
+}
+
+void PoseTable::beginAtZero() {
+  const double first = firstTime();
+  for (PoseRow& row : rows) {
+    row.time -= first;
+  }
+}
+
 void PoseTable::fail(const PoseRow& row, const std::string& found, const std::string& expected) const {
   std::string text = name;
   text.append(placeFormat == "line" ? ":" : ": row ").append(std::to_string(row.place));

@@ -41,6 +41,10 @@ struct PoseTable {
   std::vector<PoseRow> rows;   ///< finite numbers; of each box with ascending times
   double quaternionError = 0;  ///< [1] the largest |length − 1| found
 
+  /// [s] of the earliest row.
+  double firstTime() const;
+  /// Subtracts it from all times: clocks begin anywhere.
+  void beginAtZero();
   /// InputError: "table.csv:17: found …, expected …", "run.npz: row 3: found …, expected …"
   [[noreturn]] void fail(const PoseRow& row, const std::string& found, const std::string& expected) const;
 };

@@ -177,5 +177,24 @@ TEST_F(Compare, runOfVersion3IsTheSameAsItsSceneSimulatedNow) {
   EXPECT_EQ(infoOf(old), infoOf("now.careen"));
 }
 
+TEST_F(Compare, regionsAreIgnored) {
+  const std::string wall = kGallery + "wall.png";
+  const std::string stack = kGallery + "stack.png";
+  const Ended other =
+      compare({wall, stack, "--ignore", "0,0,10,10", "--ignore", "20,0,10,10", "--out", "report"});
+  EXPECT_EQ(other.exitCode, 1) << other.err;
+  EXPECT_NE(other.out.find("\n  not compared: 0,0,10,10; 20,0,10,10\n"), std::string::npos) << other.out;
+  EXPECT_EQ(nlohmann::json::parse(textOf(folder_ / "report/report.json"))["ignored"].size(), 2U);
+  for (const char* const bad : {"0,0,10", "0,0,0,10", "0,0,100000,10", "nowhere.png"}) {
+    const Ended refused = compare({wall, stack, "--ignore", bad, "--out", "bad"});
+    EXPECT_EQ(refused.exitCode, 2) << bad;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "bad"));
+  }
+  simulate("run", crateScene("1"));
+  const Ended runs = compare({"run.careen", "run.careen", "--ignore", "0,0,1,1"});
+  EXPECT_EQ(runs.exitCode, 2);
+  EXPECT_NE(runs.err.find("--ignore: found two runs, expected pictures"), std::string::npos) << runs.err;
+}
+
 }  // namespace
 }  // namespace careen

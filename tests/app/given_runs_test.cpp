@@ -178,5 +178,57 @@ TEST_F(GivenRuns, anExactRunAsATableOfFewRowsIsAuditedAtThem) {
   EXPECT_EQ(ended.exitCode, 0) << ended.out << ended.err;
 }
 
+// The run at another time of the clock, in whole seconds so that differences of times stay what they were to
+// within 1e-7 s.
+TEST_F(GivenRuns, clocksThatBeganElsewhereAreToldAndShifted) {
+  const auto writeLater = [this](const std::string& name, double by) {
+    std::istringstream lines(textOf(folder_ / "run.csv"));
+    std::ostringstream text;
+    text.precision(17);
+    std::string line;
+    std::getline(lines, line);
+    text << line << '\n';
+    while (std::getline(lines, line)) {
+      const std::size_t comma = line.find(',');
+      text << std::stod(line.substr(0, comma)) + by << line.substr(comma) << '\n';
+    }
+    folder_.write(name, text.str());
+  };
+  writeLater("late.csv", 100);
+  writeLater("unix.csv", 1403636579);
+  const Ended late = careen({"audit", "late.csv", "--scene", "scene.json"});
+  EXPECT_EQ(late.exitCode, 2);
+  EXPECT_NE(late.err.find("late.csv: found a first row at 100 s, expected one within the scene's 1 s; "
+                          "--shift-time counts from the first row"),
+            std::string::npos)
+      << late.err;
+  const Ended epoch = careen({"compare", "run.careen", "unix.csv"});
+  EXPECT_EQ(epoch.exitCode, 2);
+  EXPECT_NE(epoch.err.find("unix.csv: found a first row at 1403636579 s"), std::string::npos) << epoch.err;
+  for (const char* const table : {"late.csv", "unix.csv"}) {
+    const Ended shifted = careen({"audit", table, "--scene", "scene.json", "--shift-time"});
+    EXPECT_EQ(shifted.exitCode, 0) << shifted.out << shifted.err;
+    const Ended same = careen({"compare", "run.careen", table, "--shift-time", "--motion", "1e-5"});
+    EXPECT_EQ(same.exitCode, 0) << same.out << same.err;
+  }
+  folder_.write("short.csv",
+                "time,box,x,y,z,qw,qx,qy,qz\n0.7,crate,0,0,1,1,0,0,0\n0.8,crate,0,0,1,1,0,0,0\n");
+  const Ended note = careen({"info", "short.csv", "--scene", "scene.json"});
+  EXPECT_EQ(note.exitCode, 0) << note.err;
+  EXPECT_NE(note.err.find("short.csv: its first row is at 0.7 s; until then"), std::string::npos) << note.err;
+}
+
+TEST_F(GivenRuns, timesAreShiftedOfTablesOnly) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"info", "scene.json"},
+                                                    {"audit", "run.careen"},
+                                                    {"compare", "run.careen", "run.careen"}}) {
+    std::vector<std::string> all = arguments;
+    all.emplace_back("--shift-time");
+    const Ended ended = careen(all);
+    EXPECT_EQ(ended.exitCode, 2) << ended.out;
+    EXPECT_NE(ended.err.find("--shift-time: found "), std::string::npos) << ended.err;
+  }
+}
+
 }  // namespace
 }  // namespace careen

@@ -28,6 +28,8 @@ std::string withReplaced(std::string text, const std::string& from, const std::s
   return text.replace(at, from.size(), by);
 }
 
+using Names = std::vector<std::string>;
+
 class RenderReference : public testing::Test {
  protected:
   void SetUp() override {
@@ -47,25 +49,37 @@ class RenderReference : public testing::Test {
     more.insert(more.begin(), {scene, "--ref", "ref", "--out", "out"});
     return careen(more);
   }
-  std::vector<std::string> kept() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_ / "out")) {
+  Names namesIn(const std::string& folder) const {
+    Names names;
+    for (const auto& entry : fs::directory_iterator(folder_ / folder)) {
       names.push_back(entry.path().filename().string());
     }
     std::sort(names.begin(), names.end());
     return names;
   }
+  Names kept() const { return namesIn("out"); }
+  Ended approved(Names more = {}, const std::string& scene = "scene.json") const {
+    more.insert(more.begin(), {scene, "--ref", "ref", "--approve"});
+    return careen(more);
+  }
 
   TemporaryFolder folder_;
 };
 
-using Names = std::vector<std::string>;
-
-TEST_F(RenderReference, sameFilmLeavesNothing) {
+TEST_F(RenderReference, ofTheSameFilmOnlyTheResultForCiSystemsIsLeft) {
   const Ended ended = compared();
   EXPECT_EQ(ended.exitCode, 0) << ended.out << ended.err;
   EXPECT_NE(ended.out.find("same: same motion, same files"), std::string::npos) << ended.out;
-  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  EXPECT_EQ(kept(), Names{"junit.xml"});
+  EXPECT_NE(textOf(folder_ / "out/junit.xml").find(R"(tests="3" failures="0" errors="0")"),
+            std::string::npos);
+}
+
+TEST_F(RenderReference, brokenFrameIsADifferenceWithAReport) {
+  folder_.write("ref/000002.png", "no picture");
+  EXPECT_EQ(compared().exitCode, 1);
+  EXPECT_EQ(kept(), (Names{"000002.png", "film.json", "index.html", "junit.xml", "report.json"}));
+  EXPECT_NE(textOf(folder_ / "out/junit.xml").find("is no PNG"), std::string::npos);
 }
 
 TEST_F(RenderReference, framesThatDifferStayAndNoOthers) {
@@ -109,17 +123,29 @@ TEST_F(RenderReference, otherMotionIsADifferenceEvenIfNoPictureShowsIt) {
   EXPECT_EQ(compared({"--motion", "any"}, "other.json").exitCode, 0);
 }
 
-TEST_F(RenderReference, differenceThatIsGoneLeavesNothing) {
+TEST_F(RenderReference, differenceThatIsGoneLeavesNothingOfIt) {
   EXPECT_EQ(compared({"--look", "studio"}).exitCode, 1);
   EXPECT_EQ(compared().exitCode, 0);
-  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  EXPECT_EQ(kept(), Names{"junit.xml"});
+}
+
+// A film that somebody makes where an earlier comparison was is theirs.
+TEST_F(RenderReference, filmOfItsOwnIsNotTakenForAnEarlierComparison) {
+  EXPECT_EQ(compared().exitCode, 0);
+  ASSERT_EQ(careen({"scene.json", "--out", "out", "--frames", "3"}).exitCode, 0);
+  EXPECT_EQ(kept(), (Names{"000003.png", "film.json", "report.json"}));
+  const Ended ended = compared();
+  EXPECT_EQ(ended.exitCode, 2);
+  EXPECT_NE(ended.err.find("holds a film, of which only what differs would be left"), std::string::npos)
+      << ended.err;
+  EXPECT_EQ(kept(), (Names{"000003.png", "film.json", "report.json"}));
 }
 
 TEST_F(RenderReference, whatElseIsInTheFolderStays) {
   fs::create_directory(folder_ / "out");
   folder_.write("out/notes.txt", "mine");
   EXPECT_EQ(compared().exitCode, 0);
-  EXPECT_EQ(kept(), (Names{"notes.txt"}));
+  EXPECT_EQ(kept(), (Names{"junit.xml", "notes.txt"}));
 }
 
 // The scene cannot be simulated: who looks at it first would say so.
@@ -140,6 +166,10 @@ TEST_F(RenderReference, badReferenceOrOptionIsToldBeforeAnythingIsSimulated) {
       {"frameless", {}, "--ref: frameless has none of the frames"},
       {"ref", {"--threshold", "nearly"}, "--threshold: "},
       {"ref", {"--fail", "2"}, "--fail: found 2"},
+      {"ref", {"--motion", "0.05"}, "--motion: found 0.05 and --ref"},
+      {"ref",
+       {"--ignore", "70,0,11,1"},
+       "--ignore: found 70,0,11,1, expected a rectangle within the pictures' 80x60"},
       {"ref", {"--out", "./ref/"}, "--out: found the folder of --ref"},
       {"ref", {"--frames", "100"}, "100"},
   };
@@ -152,6 +182,67 @@ TEST_F(RenderReference, badReferenceOrOptionIsToldBeforeAnythingIsSimulated) {
     EXPECT_FALSE(fs::exists(folder_ / "out"));
   }
   EXPECT_TRUE(fs::exists(folder_ / "ref/000002.png"));
+}
+
+TEST_F(RenderReference, approvedFilmTakesTheReferencesPlace) {
+  folder_.write("other.json", withReplaced(kReferenceScene, "[1, 2, 3]", "[-1, 2, 3]"));
+  folder_.write("ref/notes.txt", "mine");
+  fs::create_directories(folder_ / "ref/more");
+  folder_.write("ref/more/notes.txt", "mine too");
+  fs::create_symlink("notes.txt", folder_ / "ref/link");
+  const std::string before = textOf(folder_ / "ref/000005.png");
+  const Names files = folder_.files();
+  EXPECT_EQ(compared({}, "other.json").exitCode, 1);
+  fs::remove_all(folder_ / "out");
+  const Ended ended = approved({}, "other.json");
+  EXPECT_EQ(ended.exitCode, 0) << ended.out << ended.err;
+  EXPECT_NE(ended.out.find("approved     2 of 2 frames changed: "), std::string::npos) << ended.out;
+  EXPECT_EQ(ended.out.find(".partial"), std::string::npos) << ended.out;
+  EXPECT_EQ(folder_.files(), files);
+  EXPECT_NE(textOf(folder_ / "ref/000005.png"), before);
+  EXPECT_EQ(textOf(folder_ / "ref/more/notes.txt"), "mine too");
+  EXPECT_EQ(fs::read_symlink(folder_ / "ref/link"), "notes.txt");
+  EXPECT_EQ(compared({"--threshold", "exact"}, "other.json").exitCode, 0);
+}
+
+TEST_F(RenderReference, approvedFilmThatIsTheSameKeepsItsBytes) {
+  fs::remove(folder_ / "ref/report.json");
+  std::string film = textOf(folder_ / "ref/film.json");
+  film = withReplaced(film, "\"renderer\": \"", "\"renderer\": \"another ");
+  folder_.write("ref/film.json", film);
+  const Ended ended = approved();
+  EXPECT_EQ(ended.exitCode, 0) << ended.out << ended.err;
+  EXPECT_NE(ended.out.find("approved     0 of 2 frames changed, the film stays as it was: "),
+            std::string::npos)
+      << ended.out;
+  EXPECT_EQ(textOf(folder_ / "ref/film.json"), film);
+  EXPECT_EQ(namesIn("ref"), (Names{"000002.png", "000005.png", "film.json"}));
+}
+
+TEST_F(RenderReference, approvalTakesAMotionThatNoPictureShows) {
+  folder_.write("other.json", withReplaced(kReferenceScene, "-10]", "-10.000000000000002]"));
+  const Ended ended = approved({}, "other.json");
+  EXPECT_EQ(ended.exitCode, 0) << ended.out << ended.err;
+  EXPECT_NE(ended.out.find(", only the motion did: "), std::string::npos) << ended.out;
+  EXPECT_EQ(compared({}, "other.json").exitCode, 0);
+  EXPECT_EQ(compared().exitCode, 1);
+}
+
+TEST_F(RenderReference, approvalThatFailsLeavesTheOldFilm) {
+  const Names files = folder_.files();
+  const std::string before = textOf(folder_ / "ref/000005.png");
+  const auto expectRefused = [&](const Ended& ended, const std::string& said) {
+    EXPECT_EQ(ended.exitCode, 2) << said;
+    EXPECT_NE(ended.err.find(said), std::string::npos) << ended.err;
+    EXPECT_EQ(folder_.files(), files);
+    EXPECT_EQ(textOf(folder_ / "ref/000005.png"), before);
+  };
+  expectRefused(approved({"--out", "out"}), "--out excludes --approve");
+  expectRefused(approved({"--frames", "2"}), "--frames excludes --approve");
+  expectRefused(careen({"scene.json", "--out", "out", "--approve"}), "--approve");
+  const Ended inside =
+      Process({CAREEN_BINARY, "render", "../scene.json", "--ref", ".", "--approve"}, folder_ / "ref").wait();
+  expectRefused(inside, "--approve: found the current folder in --ref");
 }
 
 TEST_F(RenderReference, optionsOfComparingNeedOne) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -13,6 +14,7 @@
 #include "image/png.h"
 #include "support/exact_runs.h"
 #include "support/input_error.h"
+#include "support/png_by_hand.h"
 #include "support/process.h"
 #include "trajectory/trajectory_file.h"
 
@@ -233,6 +235,68 @@ TEST_F(ComparedRuns, chaosIsNamedAndALengthToo) {
   EXPECT_NE(found.headline.find("chaos has taken over"), std::string::npos) << found.headline;
   EXPECT_EQ(compareRuns(one, write("short.careen", 0, 5), settings_).headline,
             "same motion, but it lasts 5 s, not 20 s");
+}
+
+TEST_F(Compared, otherSizeIsADifference) {
+  put("actual", 2, shadedTiles(96, 63));
+  const std::string reason = "found a picture of 96x63 pixels, expected one of 96x64";
+  const Comparison found = compare();
+  EXPECT_EQ(found.frames[2].verdict, Verdict::kDifferent);
+  EXPECT_EQ(found.frames[2].reasons, std::vector<std::string>{reason});
+  const Comparison single =
+      comparePictures(folder_ / "expected" / nameOf(2), folder_ / "actual" / nameOf(2), settings_);
+  EXPECT_EQ(single.verdict, Verdict::kDifferent);
+  EXPECT_EQ(single.frames[0].reasons, std::vector<std::string>{reason});
+  EXPECT_FALSE(single.frames[0].measured);
+}
+
+TEST_F(Compared, ignoredRegionsCountInNothing) {
+  settings_.tolerance = toleranceOf("exact");
+  settings_.flip = true;
+  Picture picture = frame(2);
+  picture.rgb[0] = static_cast<std::uint8_t>(picture.rgb[0] ^ 255U);
+  put("actual", 2, picture);
+  EXPECT_EQ(compare().verdict, Verdict::kDifferent);
+  settings_.ignored.add("0,0,1,1");
+  const Comparison found = compare();
+  EXPECT_EQ(found.verdict, Verdict::kSame);
+  EXPECT_EQ(found.ignored.names(), std::vector<std::string>{"0,0,1,1"});
+  EXPECT_EQ(found.frames[2].largest, 0);
+  EXPECT_EQ(found.frames[2].flip, 0);
+  picture.rgb[3] = static_cast<std::uint8_t>(picture.rgb[3] ^ 255U);
+  put("actual", 2, picture);
+  const Comparison other = compare();
+  EXPECT_EQ(other.frames[2].verdict, Verdict::kDifferent);
+  EXPECT_EQ(other.frames[2].largestX, 1);
+  EXPECT_NEAR(other.frames[2].failingPercent, 100.0 / (96 * 64 - 1), 1e-12);
+}
+
+// Even if no frame has to be decoded.
+TEST_F(Compared, ignoredRegionsThatDoNotFitAreRefused) {
+  settings_.ignored.add("90,0,7,1");
+  const auto said = "--ignore: found 90,0,7,1, expected a rectangle within the pictures' 96x64 pixels";
+  EXPECT_EQ(inputErrorOf([&] { compare(); }), said);
+  put("actual", 2, frame(3));
+  EXPECT_EQ(inputErrorOf([&] { compare(); }), said);
+  EXPECT_EQ(inputErrorOf([&] {
+              comparePictures(folder_ / "expected" / nameOf(2), folder_ / "actual" / nameOf(2), settings_);
+            }),
+            said);
+}
+
+TEST_F(Compared, sameSamplesInOtherColoursAreADifference) {
+  settings_.tolerance = toleranceOf("other-renderer");
+  std::string bytes = readFile(folder_ / "actual" / nameOf(2));
+  bytes.insert(33, pngChunk("gAMA", bigEndianBytes(100000)));  // after the header
+  writeFile(folder_ / "actual" / nameOf(2), bytes);
+  const Comparison found = compare();
+  EXPECT_EQ(found.frames[2].verdict, Verdict::kDifferent);
+  EXPECT_EQ(found.frames[2].largest, 0);
+  EXPECT_EQ(
+      found.frames[2].reasons,
+      std::vector<std::string>{"a viewer shows other colours, as its chunks say gamma 1/1, expected sRGB"});
+  writeFile(folder_ / "expected" / nameOf(2), bytes);
+  EXPECT_EQ(compare().verdict, Verdict::kSame);
 }
 
 }  // namespace

@@ -228,5 +228,26 @@ TEST(Flip, seesLessFromFarAwayAndOrderDoesNotMatter) {
   EXPECT_THROW(flipOf(one, deepPicture(flat(61, 40, 1))), InputError);
 }
 
+TEST(Flip, ignoredPixelsCountInNeitherMeanNorLargest) {
+  const DeepPicture expected = flatPicture(20, 10, 100, 100, 100);
+  DeepPicture actual = expected;
+  actual.samples8[0] = 255;
+  const Flip all = flipOf(expected, actual);
+  IgnoredRegions regions;
+  regions.add("0,0,10,10");
+  const Flip some = flipOf(expected, actual, kPixelsPerDegree, regions.of(20, 10));
+  double sum = 0;
+  for (std::size_t i = 0; i < all.values.size(); ++i) {
+    sum += i % 20 >= 10 ? static_cast<double>(all.values[i]) : 0;
+  }
+  EXPECT_NEAR(some.mean, sum / 100, 1e-12);
+  EXPECT_LT(some.largest, all.largest);
+}
+
+TEST(Flip, picturesTooLargeForItAreRefused) {
+  const DeepPicture large{.width = 8193, .height = 8192, .samples8 = {}, .samples16 = {}};
+  EXPECT_THROW(flipOf(large, large), InputError);
+}
+
 }  // namespace
 }  // namespace careen

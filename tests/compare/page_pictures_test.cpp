@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "compare/difference_image.h"
 #include "comparisons.h"
 #include "core/system/file.h"
 #include "support/process.h"
@@ -96,6 +97,33 @@ TEST(PagePictures, areOfABoundedSizeButForTheFirst) {
   EXPECT_LE(few.size(), 4U);
   EXPECT_TRUE(few.contains("000005.png"));
   EXPECT_EQ(Json::parse(picturesJson(comparison, 0)).size(), 1U);
+}
+
+TEST(PagePictures, ignoredRegionsAreMarkedAndBlackInTheDifference) {
+  const TemporaryFolder folder;
+  Comparison comparison = filmComparison(folder.path(), 4, 2, 3);
+  EXPECT_TRUE(Json::parse(picturesJson(comparison)).at("000003.png").at("ignored").is_null());
+  comparison.ignored.add("0,0,96,30");
+  const Json worst = Json::parse(picturesJson(comparison)).at("000003.png");
+  const std::string head = "data:image/png;base64,";
+  const PixelMask mask = comparison.ignored.of(96, 54);
+  EXPECT_EQ(worst.at("ignored"), head + base64(encodePng(ignoredImage(mask), PngColor{0, 0, 0})));
+  DeepPicture expected = readDeepPng(folder / "expected/000003.png");
+  DeepPicture actual = readDeepPng(folder / "actual/000003.png");
+  makeComparable(expected, actual, mask);
+  EXPECT_EQ(worst.at("difference"), head + base64(encodePng(differenceImage(expected, actual, 2))));
+}
+
+TEST(PagePictures, ofTwoSizesBothAreShown) {
+  const TemporaryFolder folder;
+  Comparison comparison = filmComparison(folder.path(), 2, 1, 1);
+  writePng(folder / "actual/000001.png", squareOn(90, 60, 5, 200));
+  comparison.frames[1].measured = false;
+  const Json picture = Json::parse(picturesJson(comparison)).at("000001.png");
+  EXPECT_TRUE(picture.at("expected").is_string() && picture.at("actual").is_string());
+  EXPECT_EQ(picture.at("width"), 96);
+  EXPECT_EQ(picture.at("height"), 60);
+  EXPECT_TRUE(picture.at("difference").is_null());
 }
 
 }  // namespace

@@ -159,5 +159,46 @@ TEST(PictureDifference, edgesDoNotExplainAWholePixelNorALineThatIsGone) {
   }
 }
 
+// 10 x 10, of which 20 pixels are ignored, and one of the other 80 differs by 51.
+TEST(PictureDifference, ignoredPixelsCountInNothing) {
+  const DeepPicture expected = flatPicture(10, 10, 100, 100, 100);
+  DeepPicture actual = expected;
+  actual.samples8[3 * 55] = 151;
+  IgnoredRegions regions;
+  regions.add("0,0,10,2");
+  const PixelMask ignored = regions.of(10, 10);
+  for (std::size_t i = 0; i < 20; ++i) {
+    actual.samples8[3 * i + 1] = 255;
+  }
+  const PictureDifference difference = differenceOf(expected, actual, ignored);
+  EXPECT_EQ(difference.pixels, 80U);
+  EXPECT_EQ(difference.differing, 1U);
+  EXPECT_EQ(difference.byStep[0], 79U);
+  EXPECT_EQ(difference.largest, 0.2);
+  EXPECT_EQ(difference.largestX, 5);
+  EXPECT_EQ(difference.largestY, 5);
+  EXPECT_NEAR(difference.mean, 0.2 / 240, 1e-15);
+  EXPECT_NEAR(difference.meanSquare, 0.04 / 240, 1e-15);
+  EXPECT_EQ(difference.changed, 1U);
+  actual.samples8[3 * 55] = 100;
+  EXPECT_EQ(differenceOf(expected, actual, ignored).differing, 0U);
+  EXPECT_EQ(differenceOf(expected, actual, ignored).ssim, 1);
+}
+
+TEST(PictureDifference, coloursOfFullyTransparentPixelsAreTheSame) {
+  DeepPicture expected = withAlpha(flatPicture(4, 4, 1, 2, 3));
+  DeepPicture actual = withAlpha(flatPicture(4, 4, 255, 0, 9));
+  for (DeepPicture* const each : {&expected, &actual}) {
+    for (std::size_t i = 0; i < 16; ++i) {
+      each->samples8[4 * i + 3] = 0;
+    }
+  }
+  EXPECT_EQ(differenceOf(expected, actual).differing, 0U);
+  actual.samples8[3] = 1;  // no longer fully
+  const PictureDifference difference = differenceOf(expected, actual);
+  EXPECT_EQ(difference.differing, 1U);
+  EXPECT_NEAR(difference.largest, 254.0 / 255, 1e-15);
+}
+
 }  // namespace
 }  // namespace careen

@@ -228,6 +228,48 @@ TEST_F(ReportInBrowser, missingFrameIsShownAsFarAsItIsThere) {
   browser.press("x");
 }
 
+// The first pixel of the upper left region is part of its outline; the actual picture is grey there.
+TEST_F(ReportInBrowser, ignoredRegionsAreStripedUntilTheMarksAreHidden) {
+  Comparison comparison = filmComparison(folder.path(), 3, 1, 1);
+  comparison.ignored.add("0,0,96,12");
+  write(comparison);
+  open();
+  EXPECT_EQ(number("document.querySelectorAll('#side .view img.ignored').length"), 3);
+  EXPECT_EQ(number("document.querySelector('#side img.ignored').naturalWidth"), 96);
+  EXPECT_EQ(
+      browser.evaluate("(() => { const image = document.querySelector('#side img.ignored'); const canvas = "
+                       "new OffscreenCanvas(96, 54); const context = canvas.getContext('2d'); "
+                       "context.drawImage(image, 0, 0); return [...context.getImageData(0, 11, 1, 2).data]"
+                       ".join(' '); })()"),
+      "255 225 77 255 0 0 0 0");
+  EXPECT_TRUE(isSeen("#side img.ignored"));
+  browser.press("c");
+  EXPECT_FALSE(isSeen("#side img.ignored"));
+}
+
+// The expected one is narrower: wiping leaves of it what is left of the edge.
+TEST_F(ReportInBrowser, picturesOfTwoSizesAreBothShown) {
+  Comparison comparison = filmComparison(folder.path(), 2, 1, 1);
+  writePng(folder / "actual/000001.png", squareOn(192, 54, 5, 200));
+  comparison.frames[1].measured = false;
+  comparison.frames[1].reasons = {"found a picture of 192x54 pixels, expected one of 96x54"};
+  write(comparison);
+  open();
+  EXPECT_EQ(number("document.querySelector('[data-shows=expected] img').naturalWidth"), 96);
+  EXPECT_EQ(number("document.querySelector('[data-shows=actual] img').naturalWidth"), 192);
+  EXPECT_EQ(textOf("[data-shows=difference]"), "missing, or not comparable");
+  browser.press("2");  // the edge is in the middle, where the expected one ends
+  EXPECT_NEAR(
+      number("parseFloat(document.querySelector('#one [data-which=expected]').style.clipPath.split(' ')[1])"),
+      0, 0.5);
+  for (int i = 0; i < 10; ++i) {
+    browser.press(",");
+  }
+  EXPECT_NEAR(
+      number("parseFloat(document.querySelector('#one [data-which=expected]').style.clipPath.split(' ')[1])"),
+      0.2 * 192, 0.5);
+}
+
 TEST_F(ReportInBrowser, keysAreTold) {
   write(filmComparison(folder.path(), 3, 1, 1));
   open();

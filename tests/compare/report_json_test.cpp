@@ -27,6 +27,7 @@ Comparison threeFrames() {
   comparison.tolerance.fail = 0.5;
   comparison.verdict = Verdict::kDifferent;
   comparison.headline = "other picture in 2 of 3 frames";
+  comparison.ignored.add("1,2,3,4");
   comparison.facts = {{"renderer", "one", "other"}};
   comparison.frames = {sameFrame("a.png"), otherFrame("b.png", 0.25, 7, 8), {}};
   comparison.frames[1].flip = 0.125;
@@ -81,6 +82,11 @@ TEST(ReportJson, hasEveryFieldOfTheComparison) {
       "reasons": ["3 % of the pixels differ; at most 0.01 % may"], "identical": false, "measured": true,
       "largest": 0.25, "largest_at": [7, 8], "mean": 0.0025, "psnr": 15.0, "ssim": 0.875, "worst_ssim": 0.5,
       "failing_percent": 3.0, "changed_percent": 1.0, "edge_percent": 0.0, "flip": 0.125})"));
+}
+
+TEST(ReportJson, namesIgnoredRegions) {
+  EXPECT_EQ(Json::parse(reportJson(threeFrames())).at("ignored"), Json({"1,2,3,4"}));
+  EXPECT_EQ(Json::parse(reportJson(twoRuns())).at("ignored"), Json::array());
 }
 
 TEST(ReportJson, tellsWhatIsInfiniteAndWhatWasNotMeasured) {

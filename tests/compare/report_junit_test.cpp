@@ -90,5 +90,20 @@ TEST(ReportJunit, hostileNamesAreEscaped) {
   EXPECT_NE(xml.find(">]]&gt; &amp; &lt;b&gt;</failure>"), std::string::npos);
 }
 
+TEST(ReportJunit, comparisonThatEndedWithAnErrorIsOne) {
+  const std::string xml = reportJunitOfError(fourFrames(), "no <memory>");
+  EXPECT_NE(xml.find("tests=\"1\" failures=\"0\" errors=\"1\""), std::string::npos);
+  EXPECT_NE(xml.find("name=\"film against reference\""), std::string::npos);
+  EXPECT_EQ(count(xml, "<error type=\"not compared\" message=\"no &lt;memory&gt;\">"), 1);
+  EXPECT_EQ(count(xml, "<failure "), 0);
+}
+
+TEST(ReportJunit, ignoredRegionsAreProperties) {
+  Comparison comparison = fourFrames();
+  EXPECT_EQ(count(reportJunit(comparison), "<property "), 1);
+  comparison.ignored.add("1,2,3,4");
+  EXPECT_EQ(count(reportJunit(comparison), "<property name=\"ignored\" value=\"1,2,3,4\"/>"), 1);
+}
+
 }  // namespace
 }  // namespace careen

@@ -84,5 +84,15 @@ TEST(ReportPage, ofALongFilmIsNoLargerThanItsNumbersAndTwelveFrames) {
   EXPECT_NE(page.find("\"name\":\"009999.png\""), std::string::npos);
 }
 
+TEST(ReportPage, ignoredRegionsAreNamed) {
+  const TemporaryFolder folder;
+  Comparison comparison = filmComparison(folder.path(), 4, 2, 3);
+  EXPECT_NE(reportPage(comparison).find("<div hidden><dt>ignored</dt>"), std::string::npos);
+  comparison.ignored.add("1,2,3,4");
+  comparison.ignored.add("5,6,7,8");
+  EXPECT_NE(reportPage(comparison).find("<div ><dt>ignored</dt><dd>1,2,3,4; 5,6,7,8</dd></div>"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace careen

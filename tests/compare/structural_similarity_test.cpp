@@ -4,11 +4,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 #include "pictures_to_compare.h"
 
 namespace careen {
 namespace {
+
+/// One number per pixel, rows from the top.
+struct SamplePlane {
+  int width = 0;
+  int height = 0;
+  std::vector<float> values;
+
+  std::span<const float> row(int y) const {
+    return std::span(values).subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(width),
+                                     static_cast<std::size_t>(width));
+  }
+  std::span<float> row(int y) {
+    return std::span(values).subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(width),
+                                     static_cast<std::size_t>(width));
+  }
+};
+
+StructuralSimilarity similarityOf(const SamplePlane& one, const SamplePlane& other,
+                                  const PixelMask& ignored = {}) {
+  const RowReader read = [&](int y, std::span<float> rowOfOne, std::span<float> rowOfOther) {
+    std::copy(one.row(y).begin(), one.row(y).end(), rowOfOne.begin());
+    std::copy(other.row(y).begin(), other.row(y).end(), rowOfOther.begin());
+  };
+  return similarityOf(one.width, one.height, read, ignored);
+}
 
 SamplePlane planeOf(const Picture& picture) {
   SamplePlane plane{.width = picture.width, .height = picture.height, .values = {}};
@@ -113,6 +141,29 @@ TEST(StructuralSimilarity, isExactlyOneOfEqualPlanesAndFollowsFromMeansOfFlatOne
   EXPECT_EQ(similarityOf(plane, plane).worst, 1);
   const double flatOnes = (2 * 100.0 * 150 + 6.5025) / (100.0 * 100 + 150.0 * 150 + 6.5025);
   EXPECT_NEAR(similarityOf(planeOf(flat(40, 40, 100)), planeOf(flat(40, 40, 150))).mean, flatOnes, 1e-6);
+}
+
+// Of windows centred on ignored pixels nothing is seen: the mean is that over the others.
+TEST(StructuralSimilarity, windowsOfIgnoredPixelsDoNotCount) {
+  const SamplePlane plane = planeOf(shadedTiles(40, 30));
+  SamplePlane changed = plane;
+  changed.values[std::size_t{10} * 40 + 12] += 90;
+  const StructuralSimilarity all = similarityOf(plane, changed);
+  // Windows that see the change are centred up to 5 px from it, so in x from 7 to 17.
+  PixelMask mask{.width = 40, .ignored = std::vector<bool>(std::size_t{40} * 30)};
+  for (std::size_t i = 0; i < mask.ignored.size(); ++i) {
+    mask.ignored[i] = i % 40 >= 30;  // 5 columns of centres, 30 to 34, that see nothing of it
+  }
+  const StructuralSimilarity some = similarityOf(plane, changed, mask);
+  EXPECT_NEAR(1 - some.mean, (1 - all.mean) * 30 / 25, 1e-12);
+  EXPECT_EQ(some.worst, all.worst);
+  for (std::size_t i = 0; i < mask.ignored.size(); ++i) {
+    mask.ignored[i] = i % 40 >= 7 && i % 40 <= 17;
+  }
+  EXPECT_EQ(similarityOf(plane, changed, mask).mean, 1);
+  EXPECT_EQ(similarityOf(plane, changed, mask).worst, 1);
+  mask.ignored.assign(mask.ignored.size(), true);
+  EXPECT_EQ(similarityOf(plane, changed, mask).mean, 1);
 }
 
 }  // namespace

@@ -156,5 +156,23 @@ TEST(FilmFolder, takesWhatAKilledRunLeftUnfinishedWithItself) {
   EXPECT_EQ(folder.files(), others);
 }
 
+TEST(FilmFolder, reportsOfAnEarlierComparisonGiveWayAndNoOtherFiles) {
+  const TemporaryFolder folder;
+  const auto write = [&folder](const std::string& junit) {
+    folder.write("junit.xml", junit);
+    folder.write("index.html", "page");
+  };
+  const std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  EXPECT_FALSE(holdsComparison(folder.path()));
+  write(xml + "<testsuites name=\"careen compare\" tests=\"0\"></testsuites>");
+  EXPECT_TRUE(holdsComparison(folder.path()));
+  FilmFolder(folder.path()).begin(filmOf({1}), false);
+  EXPECT_EQ(folder.files(), Names{"film.json"});
+  write(xml + "<testsuites name=\"mine\"></testsuites>");
+  EXPECT_FALSE(holdsComparison(folder.path()));
+  FilmFolder(folder.path()).begin(filmOf({1}), false);
+  EXPECT_EQ(folder.files(), (Names{"film.json", "index.html", "junit.xml"}));
+}
+
 }  // namespace
 }  // namespace careen

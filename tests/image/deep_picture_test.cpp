@@ -72,10 +72,24 @@ TEST(DeepPicture, isNoMoreThanAThousandTimesItsFile) {
   EXPECT_EQ(decodeDeepPng(few.bytes(), "").samples(), std::size_t{4096} * 4096 * 3);
 }
 
-TEST(DeepPicture, isRefusedBeyondThePixelsAskedFor) {
+TEST(DeepPicture, isRefusedBeyondTheBytesAskedFor) {
   const std::string bytes = encodePng(noise(20, 10, 1));
-  EXPECT_EQ(decodeDeepPng(bytes, "", 200).width, 20);
-  EXPECT_THROW(decodeDeepPng(bytes, "", 199), InputError);
+  EXPECT_EQ(decodeDeepPng(bytes, "", 600).width, 20);
+  EXPECT_THROW(decodeDeepPng(bytes, "", 599), InputError);
+}
+
+TEST(DeepPicture, tellsInWhichColoursItIsMeant) {
+  PngByHand png{.rows = std::string(4, '\0')};
+  EXPECT_EQ(decodeDeepPng(png.bytes(), "").colorSpace, "sRGB");
+  png.before = pngChunk("gAMA", bigEndianBytes(100000));
+  EXPECT_EQ(decodeDeepPng(png.bytes(), "").colorSpace, "gamma 1/1");
+  png.before += pngChunk("sRGB", std::string(1, '\0'));
+  EXPECT_EQ(decodeDeepPng(png.bytes(), "").colorSpace, "sRGB");
+  png.before += pngChunk("iCCP", std::string("mine\0\0", 6) + zlibStream("profile"));
+  EXPECT_TRUE(decodeDeepPng(png.bytes(), "").colorSpace.starts_with("ICC profile 'mine' "));
+  png.before += pngChunk("cICP", std::string("\x09\x10\x00\x01", 4));
+  EXPECT_EQ(decodeDeepPng(png.bytes(), "").colorSpace, "code points 9 16 0 1");
+  EXPECT_EQ(deepened(withAlpha(decodeDeepPng(png.bytes(), ""))).colorSpace, "code points 9 16 0 1");
 }
 
 TEST(DeepPicture, keepsSixteenBitsAndAlpha) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "image/deep_picture.h"
 #include "pictures.h"
 #include "support/process.h"
 
@@ -216,6 +217,12 @@ TEST(Png, missingFileAndUnwritablePlaceAreErrors) {
   EXPECT_THROW(writePng(folder / "none/frame.png", shadedTiles(4, 4)), MachineError);
   EXPECT_THROW(encodePng(Picture{}), InputError);
   EXPECT_THROW(encodePng(Picture{.width = 2, .height = 2, .rgb = {1, 2, 3}}), InputError);
+}
+
+TEST(Png, oneColourMayBeTransparent) {
+  const Picture picture{.width = 2, .height = 1, .rgb = {0, 0, 0, 0, 200, 1}};
+  const DeepPicture clear = decodeDeepPng(encodePng(picture, PngColor{0, 200, 1}), "");
+  EXPECT_EQ(clear.samples8, (std::vector<std::uint8_t>{0, 0, 0, 255, 0, 200, 1, 0}));
 }
 
 }  // namespace

@@ -165,5 +165,19 @@ TEST(PoseTable, hundredsOfRandomTablesComeBack) {
   }
 }
 
+// The earliest row need not be the first.
+TEST(PoseTable, timesCountFromTheEarliestRow) {
+  const std::string text =
+      "time,box,x,y,z,qw,qx,qy,qz\n"
+      "101,a,0,0,0,1,0,0,0\n102.5,a,0,0,0,1,0,0,0\n100,b,0,0,0,1,0,0,0\n";
+  PoseTable table = readPoseTable(text, "table.csv");
+  EXPECT_EQ(table.firstTime(), 100);
+  table.beginAtZero();
+  EXPECT_EQ(table.firstTime(), 0);
+  EXPECT_EQ(table.rows[0].time, 1);
+  EXPECT_EQ(table.rows[1].time, 2.5);
+  EXPECT_EQ(table.rows[2].time, 0);
+}
+
 }  // namespace
 }  // namespace careen

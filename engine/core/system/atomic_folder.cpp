@@ -1,5 +1,9 @@
 #include "core/system/atomic_folder.h"
 
+#include <fcntl.h>
+
+#include <cerrno>
+#include <cstdio>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -12,12 +16,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::error_code exchange(const fs::path& one, const fs::path& other) {
+  if (renameat2(AT_FDCWD, one.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE) == 0) {
+    return {};
+  }
+  std::error_code error(errno, std::system_category());
+  if (error != std::errc::invalid_argument && error != std::errc::function_not_supported) {
+    return error;
+  }
+  // This file system cannot.
+  const fs::path aside = partialPath(one);
+  fs::rename(other, aside, error);
+  if (error) {
+    return error;
+  }
+  fs::rename(one, other, error);
+  std::error_code none;
+  fs::rename(aside, error ? other : one, none);
+  return error;
+}
+
 }  // namespace
 
 AtomicFolder::AtomicFolder(fs::path place)
     : place_(std::move(place)), partial_(partialPath(place_)), cleanup_([this] { remove(); }) {
-  remove();  // of a killed process that had this number
   std::error_code error;
+  fs::remove_all(partial_, error);  // of a killed process that had this number
   fs::create_directories(partial_, error);
   if (error) {
     throw MachineError(place_.string() + ": cannot be made a folder: " + error.message());
@@ -42,7 +66,19 @@ void AtomicFolder::commit() {
   committed_ = true;
 }
 
-void AtomicFolder::remove() const {
+void AtomicFolder::replace() {
+  const std::lock_guard lock(mutex_);
+  if (removed_) {
+    throw Interrupted();
+  }
+  if (const std::error_code error = exchange(partial_, place_)) {
+    throw MachineError(place_.string() + ": cannot be replaced: " + error.message());
+  }
+}
+
+void AtomicFolder::remove() {
+  const std::lock_guard lock(mutex_);
+  removed_ = true;
   std::error_code none;
   fs::remove_all(partial_, none);
 }

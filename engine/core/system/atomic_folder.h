@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 
 #include "core/system/cleanup.h"
 
@@ -22,13 +23,18 @@ class AtomicFolder {
   const std::filesystem::path& path() const { return partial_; }
   /// One that is at the place already, and not empty, stays: whoever made it has made the same.
   void commit();
+  /// Takes the place of the folder that is there, which is removed with all in it: at every moment one of the
+  /// two is at the place, whole. (Two moves where the file system cannot exchange folders.)
+  void replace();
 
  private:
-  void remove() const;
+  void remove();
 
   std::filesystem::path place_;
   std::filesystem::path partial_;
   bool committed_ = false;
+  std::mutex mutex_;  // an interruption removes from another thread, and not what is being put in place
+  bool removed_ = false;
   Cleanup cleanup_;
 };
 

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/error.h"
+#include "core/system/cleanup.h"
 #include "core/system/file.h"
 #include "support/process.h"
 
@@ -47,6 +50,48 @@ TEST(AtomicFolder, oneThatIsThereStays) {
   }
   EXPECT_EQ(folder.files(), (FileNames{"film", "film/one"}));
   EXPECT_EQ(readFile(folder / "film/one"), "first");
+}
+
+TEST(AtomicFolder, takesThePlaceOfAnother) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "film");
+  writeFile(folder / "film/one", "first");
+  writeFile(folder / "film/other", "first");
+  {
+    AtomicFolder made(folder / "film");
+    writeFile(made.path() / "one", "second");
+    made.replace();
+    EXPECT_EQ(readFile(folder / "film/one"), "second");
+  }
+  EXPECT_EQ(folder.files(), (FileNames{"film", "film/one"}));
+}
+
+TEST(AtomicFolder, cannotTakeThePlaceOfNothing) {
+  const TemporaryFolder folder;
+  {
+    AtomicFolder made(folder / "film");
+    EXPECT_THROW(made.replace(), MachineError);
+  }
+  EXPECT_EQ(folder.files(), FileNames());
+}
+
+// As an interruption does, from another thread.
+TEST(AtomicFolder, thatIsRemovedAlreadyTakesNoPlace) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "film");
+  writeFile(folder / "film/one", "first");
+  EXPECT_EXIT(
+      {
+        AtomicFolder made(folder / "film");
+        writeFile(made.path() / "one", "second");
+        std::thread([] { cleanUpToEnd(); }).join();
+        try {
+          made.replace();
+        } catch (const Interrupted&) {
+          std::_Exit(readFile(folder / "film/one") == "first" ? 7 : 8);
+        }
+      },
+      testing::ExitedWithCode(7), "");
 }
 
 TEST(AtomicFolder, placeThatCannotBeWrittenToIsAMachineError) {

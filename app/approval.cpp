@@ -1,0 +1,93 @@
+#include "approval.h"
+
+#include <algorithm>
+#include <iostream>
+#include <set>
+#include <string>
+#include <system_error>
+
+#include "core/characters.h"
+#include "core/system/file.h"
+#include "core/system/folder_lock.h"
+#include "film/folder.h"
+
+namespace careen {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path placeOf(const Reference& reference) {
+  const fs::path place = fs::canonical(reference.folder);
+  const fs::path here = fs::current_path();
+  if (std::mismatch(place.begin(), place.end(), here.begin(), here.end()).first == place.end()) {
+    throw InputError("--approve: found the current folder in --ref, " + reference.folder.string() +
+                     ", which is replaced; expected to be run from another folder");
+  }
+  return place;
+}
+
+std::set<std::string> namesOf(const FilmManifest& film) {
+  std::set<std::string> names;
+  for (const std::int64_t frame : film.frames) {
+    names.insert(frameFileName(frame));
+  }
+  return names;
+}
+
+bool isLeftover(const std::string& name) {
+  return name == FolderLock::kFileName || (name.starts_with('.') && name.ends_with(kPartialSuffix));
+}
+
+// As a link where that is possible: the same file, with its times and owner.
+void take(const fs::path& from, const fs::path& to) {
+  constexpr fs::copy_options kAll = fs::copy_options::recursive | fs::copy_options::copy_symlinks;
+  std::error_code error;
+  fs::copy(from, to, kAll | fs::copy_options::create_hard_links, error);
+  if (error) {
+    fs::remove_all(to, error);
+    fs::copy(from, to, kAll, error);
+  }
+  if (error) {
+    throw MachineError(from.string() + ": cannot be taken along: " + error.message());
+  }
+}
+
+}  // namespace
+
+Approval::Approval(const Reference& reference)
+    : reference_(reference), place_(placeOf(reference)), film_(place_) {}
+
+void Approval::takeAlong() const {
+  const std::set<std::string> replaced = namesOf(reference_.film);
+  for (const fs::directory_entry& entry : fs::directory_iterator(place_)) {
+    const std::string name = entry.path().filename().string();
+    if (!replaced.contains(name) && !isLeftover(name) && !fs::exists(fs::symlink_status(folder() / name))) {
+      take(entry.path(), folder() / name);
+    }
+  }
+  fs::permissions(folder(), fs::status(place_).permissions());
+}
+
+ExitCode Approval::approve(CompareOptions options, bool logsFrames, const std::stop_token& stop) {
+  const FolderLock lock(place_);
+  options.only = namesOf(reference_.film);
+  const Comparison comparison = compare(place_, folder(), options.settings(), {}, stop);
+  tell(comparison, logsFrames);
+  std::ostream& out = logsFrames ? std::cerr : std::cout;
+  const auto changed =
+      std::count_if(comparison.frames.begin(), comparison.frames.end(),
+                    [](const FrameComparison& frame) { return frame.verdict == Verdict::kDifferent; });
+  const bool replaces = comparison.verdict == Verdict::kDifferent;
+  if (replaces) {
+    takeAlong();
+    film_.replace();
+  }
+  out << "approved     " << changed << " of " << comparison.frames.size() << " frames changed"
+      << (!replaces      ? ", the film stays as it was: "
+          : changed == 0 ? ", only the motion did: "
+                         : ": ")
+      << printableName(place_.string()) << '\n';
+  return ExitCode::kDone;
+}
+
+}  // namespace careen
