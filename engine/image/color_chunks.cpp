@@ -78,7 +78,8 @@ std::string gammaText(const ColorChunks& chunks) {
     for (std::size_t i = 0; i < kSrgbPrimaries.size(); ++i) {
       const int found = numberAt(*chunks.chromaticities, 4 * i);
       isSrgb &= std::abs(found - kSrgbPrimaries[i]) <= kRounding;
-      numbers += " " + brief(found / 100000.0);
+      numbers += ' ';
+      numbers += brief(found / 100000.0);
     }
     text += isSrgb ? "" : (text.empty() ? "white and primaries" : ", white and primaries") + numbers;
   }
