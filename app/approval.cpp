@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path placeOf(const Reference& reference) {
+fs::path placeToReplace(const Reference& reference) {
   const fs::path place = fs::canonical(reference.folder);
   const fs::path here = fs::current_path();
   if (std::mismatch(place.begin(), place.end(), here.begin(), here.end()).first == place.end()) {
@@ -39,7 +39,7 @@ bool isLeftover(const std::string& name) {
 }
 
 // As a link where that is possible: the same file, with its times and owner.
-void take(const fs::path& from, const fs::path& to) {
+void takeEntry(const fs::path& from, const fs::path& to) {
   constexpr fs::copy_options kAll = fs::copy_options::recursive | fs::copy_options::copy_symlinks;
   std::error_code error;
   fs::copy(from, to, kAll | fs::copy_options::create_hard_links, error);
@@ -55,14 +55,14 @@ void take(const fs::path& from, const fs::path& to) {
 }  // namespace
 
 Approval::Approval(const Reference& reference)
-    : reference_(reference), place_(placeOf(reference)), film_(place_) {}
+    : reference_(reference), place_(placeToReplace(reference)), film_(place_) {}
 
 void Approval::takeAlong() const {
   const std::set<std::string> replaced = namesOf(reference_.film);
   for (const fs::directory_entry& entry : fs::directory_iterator(place_)) {
     const std::string name = entry.path().filename().string();
     if (!replaced.contains(name) && !isLeftover(name) && !fs::exists(fs::symlink_status(folder() / name))) {
-      take(entry.path(), folder() / name);
+      takeEntry(entry.path(), folder() / name);
     }
   }
   fs::permissions(folder(), fs::status(place_).permissions());
