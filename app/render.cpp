@@ -74,10 +74,7 @@ std::optional<VideoSettings> videoOf(const FilmOptions& options) {
 
 // A name that is meant for something else: a video, or a picture that is no PNG.
 void checkOut(const FilmOptions& options) {
-  std::string suffix = options.folder.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](char each) {
-    return each >= 'A' && each <= 'Z' ? static_cast<char>(each - 'A' + 'a') : each;
-  });
+  const std::string suffix = lowered(options.folder.extension().string());
   const auto isAnyOf = [&suffix](std::initializer_list<const char*> others) {
     return std::find(others.begin(), others.end(), suffix) != others.end();
   };

@@ -12,6 +12,7 @@
 #include "compare/flip.h"
 #include "compare/picture_difference.h"
 #include "core/brief.h"
+#include "core/characters.h"
 #include "core/error.h"
 #include "core/system/file.h"
 #include "image/deep_picture.h"
@@ -131,13 +132,7 @@ FrameComparison compareFrame(const FramePair& pair, const ComparisonSettings& se
   return frame;
 }
 
-bool hasPngSuffix(const fs::path& path) {
-  std::string suffix = path.extension().string();
-  for (char& each : suffix) {
-    each = each >= 'A' && each <= 'Z' ? static_cast<char>(each - 'A' + 'a') : each;
-  }
-  return suffix == ".png";
-}
+bool hasPngSuffix(const fs::path& path) { return lowered(path.extension().string()) == ".png"; }
 
 void list(const fs::path& folder, bool subfolders, std::map<std::string, FramePair>& pairs,
           fs::path FramePair::*side) {

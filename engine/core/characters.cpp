@@ -145,4 +145,12 @@ std::string escapedForMarkup(std::string_view utf8) {
   return result;
 }
 
+std::string lowered(std::string_view text) {
+  std::string lower(text);
+  for (char& each : lower) {
+    each = each >= 'A' && each <= 'Z' ? static_cast<char>(each - 'A' + 'a') : each;
+  }
+  return lower;
+}
+
 }  // namespace careen

@@ -128,6 +128,14 @@ Mat3 readInertia(const JsonValue& value) {
   return tensor;
 }
 
+// Of boxes that are given none: those of the shipped scenes, in turn. What is fixed is grey.
+constexpr std::array<Color, 6> kPalette{{{0xc8, 0x55, 0x3d},
+                                         {0xd9, 0xa4, 0x41},
+                                         {0x4a, 0x6f, 0xa5},
+                                         {0x5b, 0x9a, 0x8b},
+                                         {0x8d, 0x6a, 0x9f},
+                                         {0xd9, 0x7b, 0x41}}};
+
 SceneBox readBox(const JsonValue& value, std::size_t index) {
   const JsonObject object = value.object({"name", "half_extents", "mass", "density", "mass_from", "draw",
                                           "inertia", "center", "position", "orientation", "velocity",
@@ -165,6 +173,8 @@ SceneBox readBox(const JsonValue& value, std::size_t index) {
   box.material = readMaterial(object);
   if (const std::optional<JsonValue> color = object.find("color")) {
     box.color = readColor(*color);
+  } else if (!box.fixed) {
+    box.color = kPalette[index % kPalette.size()];
   }
   return box;
 }

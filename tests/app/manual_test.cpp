@@ -138,6 +138,27 @@ TEST(Manual, helpOfACommandShowsItsOptionsAndThenItsPage) {
   }
 }
 
+TEST(Manual, helpListsEveryKeyOfTheSchema) {
+  const std::string keys = careen({"help", "keys"}).out;
+  for (const char* const key :
+       {"duration", "boxes[].half_extents", "boxes[].orientation.angle_deg", "springs[].rest_length",
+        "camera.keys[].fov_deg", "film.fps", "crowds.when"}) {
+    EXPECT_NE(("\n" + keys).find("\n" + std::string(key) + "\n"), std::string::npos) << key;
+  }
+  EXPECT_NE(keys.find("Default: 30."), std::string::npos);  // film.fps
+  for (const std::string& line : matches(keys, "([^\n]*)\n")) {
+    EXPECT_LE(line.size(), 100U) << line;
+  }
+}
+
+TEST(Manual, helpFindsAWordInPagesKeysAndOptions) {
+  const std::string found = careen({"help", "--search", "RESTITUTION"}).out;
+  EXPECT_NE(found.find("boxes[].restitution\n"), std::string::npos);
+  EXPECT_NE(found.find("careen help scenes:\n"), std::string::npos);
+  EXPECT_NE(careen({"help", "--search", "overwrite"}).out.find("careen help render:\n"), std::string::npos);
+  EXPECT_EQ(careen({"help", "--search", "xylophone"}).exitCode, 2);
+}
+
 TEST(Manual, helpKnowsNothingElse) {
   const Ended ended = careen({"help", "tutorail"});
   EXPECT_EQ(ended.exitCode, 2);

@@ -39,6 +39,8 @@ TEST(Characters, ofAMessageMayEndALine) {
             "ffmpeg failed: a\n  \tb\\x1b[m\n  careen: done");
 }
 
+TEST(Characters, onlyThoseFromAToZAreLowered) { EXPECT_EQ(lowered("Film.MP4 @[`{ É"), "film.mp4 @[`{ É"); }
+
 TEST(Characters, thatMayNotBeInMarkupAreReplaced) {
   EXPECT_EQ(escapedForMarkup("a\tb\nc\r"), "a\tb\nc\r");
   EXPECT_EQ(escapedForMarkup(std::string_view("a\0b\x1B[m\x7F", 7)), "a\uFFFDb\uFFFD[m\uFFFD");

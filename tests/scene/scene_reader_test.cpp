@@ -109,6 +109,26 @@ TEST(SceneReader, quaternionsAreNormalised) {
             1e-15);  // measured 3e-16
 }
 
+TEST(SceneReader, boxesWithoutAColourTakeSixInTurnAndFixedOnesAreGrey) {
+  std::string boxes;
+  for (int i = 0; i < 8; ++i) {
+    boxes += R"({ "half_extents": [1, 1, 1], "position": [)" + std::to_string(3 * i) + ", 0, 0], " +
+             (i == 7 ? R"("fixed": true })" : R"("mass": 1 }, )");
+  }
+  const Scene scene = parseScene(R"({ "careen": 1, "duration": 1, "boxes": [ )" + boxes + " ] }", "f");
+  const auto isLike = [&scene](std::size_t a, std::size_t b) {
+    const Color& one = scene.boxes[a].color;
+    const Color& other = scene.boxes[b].color;
+    return one.red == other.red && one.green == other.green && one.blue == other.blue;
+  };
+  EXPECT_TRUE(isLike(0, 6));
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_FALSE(isLike(i, i + 1)) << i;
+  }
+  EXPECT_EQ(scene.boxes[7].color.red, 200);
+  EXPECT_EQ(scene.boxes[7].color.green, 200);
+}
+
 TEST(SceneReader, readsSprings) {
   const Scene scene = parseScene(kEveryKey, "f");
   EXPECT_EQ(scene.springs[0].from.point, Vec3(0.5, 0.25, 0.125));

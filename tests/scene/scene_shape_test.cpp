@@ -236,7 +236,7 @@ TEST(SceneShape, schemaTellsTheDefaultsOfTheReader) {
   for (const char* key : {"size", "fps", "antialiasing", "shutter_deg", "shutter_samples"}) {
     filled["film"][key] = keys["film"]["properties"][key]["default"];
   }
-  for (const char* key : {"position", "velocity", "angular_velocity", "fixed", "color"}) {
+  for (const char* key : {"position", "velocity", "angular_velocity", "fixed"}) {
     filled["boxes"][0][key] = box[key]["default"];
   }
   const Scene without = readShape(JsonTree(bare.dump(), "f"));
@@ -263,9 +263,6 @@ TEST(SceneShape, schemaTellsTheDefaultsOfTheReader) {
   EXPECT_EQ(withBox.velocity, withoutBox.velocity);
   EXPECT_EQ(withBox.angularVelocity, withoutBox.angularVelocity);
   EXPECT_EQ(withBox.fixed, withoutBox.fixed);
-  EXPECT_EQ(withBox.color.red, withoutBox.color.red);
-  EXPECT_EQ(withBox.color.green, withoutBox.color.green);
-  EXPECT_EQ(withBox.color.blue, withoutBox.color.blue);
 }
 
 TEST(SceneShape, schemaListsTheMethodsThereAre) {
