@@ -2,17 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
 
 #include "core/system/release.h"
 
 namespace careen {
 namespace {
-
-struct Advice {
-  std::string_view sign;  ///< part of the message
-  std::string_view next;
-};
 
 // The first that fits. Signs are parts of messages of the engine; tests/app/first_hour_test.cpp meets each.
 constexpr std::array kAdvice = {
@@ -20,8 +14,7 @@ constexpr std::array kAdvice = {
            "look at the name and the folder; 'careen help scenes' has a scene to start from"},
     Advice{"is not there, expected a picture",
            "look at the names and the folder; 'careen help comparing' makes two films to compare"},
-    Advice{"Permission denied",
-           "choose a place you may write to or read from: --out FOLDER, simulate's -o FILE"},
+    Advice{"Permission denied", "choose a place you may write to or read from: -o FOLDER, or -o FILE"},
     Advice{"no rendering backend is available", "install one: apt install "},
     Advice{"no display", "make a film in place of a window: careen render"},
     Advice{"inside box ", "move one of them, or let --allow-overlap do it"},
@@ -29,7 +22,7 @@ constexpr std::array kAdvice = {
            "move it, or let --allow-overlap do it; a box's position is its middle, in metres"},
     Advice{"is a folder, expected a file", "name a file in it, such as FOLDER/scene.json"},
     Advice{"cannot be written: No such file", "make that folder first, or choose another place"},
-    Advice{"cannot be made a folder", "choose another place: --out FOLDER"},
+    Advice{"cannot be made a folder", "choose another place: -o FOLDER"},
     Advice{"is no PNG", "give two pictures, two folders of frames, or two runs that 'careen simulate' wrote"},
     Advice{"found no run", "make one: careen simulate scene.json -o run.careen"},
 };
@@ -43,6 +36,8 @@ bool namesALine(const std::string& message) {
 }
 
 }  // namespace
+
+std::span<const Advice> allAdvice() { return kAdvice; }
 
 std::string adviceOn(const std::string& message) {
   const auto* const found = std::find_if(kAdvice.begin(), kAdvice.end(), [&](const Advice& advice) {

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <utility>
 
 #include "core/characters.h"
 #include "nearest.h"
+#include "terminal_text.h"
 
 namespace careen {
 namespace {
@@ -174,7 +176,10 @@ CommandLine::Parsed CommandLine::parse(int argc, const char* const* argv) const 
     app_->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {  // help, version
-      app_->exit(error, std::cout, std::cerr);
+      std::ostringstream text;
+      app_->exit(error, text, std::cerr);
+      const std::optional<std::size_t> columns = readingColumns();
+      showText(columns ? wrappedOptions(text.str(), *columns) : text.str());
       return {.command = nullptr, .exitCode = ExitCode::kDone};
     }
     std::cerr << explained(error, *app_, argv[1]) << '\n';

@@ -370,7 +370,7 @@ void addCompare(const CommandLine& commandLine) {
   command.add("actual", arguments->actual, "What is to be the same").required();
   arguments->scene.addTo(command);
   arguments->options.addTo(command);
-  command.add("--out", arguments->report, "Folder for a report: index.html, report.json, junit.xml");
+  command.add("-o,--out", arguments->report, "Folder for a report: index.html, report.json, junit.xml");
   command.add("--threads", arguments->options.threads,
               "Frames compared side by side; as many as there are cores");
   command.add("--log", arguments->log, "text, or json: a line for each frame on the standard output")

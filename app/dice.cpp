@@ -162,7 +162,7 @@ void addDice(const CommandLine& commandLine) {
       .delimiter(',')
       .showsDefault();
   command.add("--threads", options->threads, "Threads (default: one for each core)");
-  command.add("--out", options->out, "Folder for the tables and plots").showsDefault();
+  command.add("-o,--out", options->out, "Folder for the tables and plots").showsDefault();
   command.addFlag("--no-plots", options->noPlots, "Tables only; gnuplot is not needed");
   command.runs([options](const std::stop_token& stop) { return diceCommand(*options, stop); });
 }

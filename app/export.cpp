@@ -132,7 +132,7 @@ void addExport(const CommandLine& commandLine) {
   command.add("run", options->source, "Trajectory file, table of poses, scene, or model of MuJoCo (.xml)")
       .required();
   command
-      .add("--out", options->output,
+      .add("-o,--out", options->output,
            "The file: .glb (a film for Blender, three.js and viewers of glTF), .xml (its start, for MuJoCo), "
            ".npz or .csv (tables of poses); of a model of MuJoCo also .json (a scene)")
       .required();

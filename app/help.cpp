@@ -1,18 +1,16 @@
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <iostream>
 #include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "advice.h"
 #include "commands.h"
 #include "core/characters.h"
 #include "manual.h"
 #include "nearest.h"
 #include "scene_keys.h"
+#include "terminal_text.h"
 
 namespace careen {
 namespace {
@@ -20,78 +18,72 @@ namespace {
 // The title is the first line, "# Title".
 std::string_view titleOf(std::string_view page) { return page.substr(2, page.find('\n') - 2); }
 
-void listPages() {
-  std::cout << "The manual, a page a task:\n\n";
+// A text that is shown at the end, in lines that fit.
+class HelpText {
+ public:
+  HelpText() : columns_(readingColumns()) {}
+  void add(std::string_view text) { text_ += text; }
+  void page(std::string_view page) {
+    text_ += columns_ ? wrappedMarkdown(page, *columns_) : std::string(page);
+  }
+  void options(const std::string& help) { text_ += columns_ ? wrappedOptions(help, *columns_) : help; }
+  // What is found, indented under where it is.
+  void found(const std::string& where, const std::string& text) {
+    text_ += where + '\n' + wrapped("    " + text, columns_.value_or(100));
+  }
+  bool isEmpty() const { return text_.empty(); }
+  void show() const { showText(text_); }
+
+ private:
+  std::optional<std::size_t> columns_;
+  std::string text_;
+};
+
+void listPages(HelpText& text) {
+  text.add("The manual, a page a task:\n\n");
   for (const std::string_view name : kManualPages) {
     constexpr std::size_t kWidth = 18;
-    std::cout << "  " << name << std::string(kWidth - name.size(), ' ')
-              << titleOf(manualPage(std::string(name) + ".md")) << '\n';
+    text.add("  " + std::string(name) + std::string(kWidth - name.size(), ' '));
+    text.add(titleOf(manualPage(std::string(name) + ".md")));
+    text.add("\n");
   }
-  std::cout
-      << "\n'careen help PAGE' shows one, 'careen help COMMAND' the options of a command, 'careen help keys' "
-         "every key of scenes.\n'careen help --search WORD' looks in all of them.\n";
+  text.add(
+      "\n'careen help PAGE' shows one, 'careen help COMMAND' the options of a command, 'careen help keys' "
+      "every key of scenes.\n'careen help --search WORD' looks in all of them.\n");
 }
 
-std::size_t columns() {
-  constexpr std::size_t kUsual = 100;
-  winsize size{};
-  return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col >= 40 ? size.ws_col : kUsual;
-}
-
-// Lines of words, as wide as the terminal.
-void printWrapped(const std::string& text, const std::string& indent) {
-  const std::size_t most = columns();
-  std::istringstream words(text);
-  std::string line = indent;
-  for (std::string word; words >> word;) {
-    if (line.size() > indent.size() && line.size() + 1 + word.size() > most) {
-      std::cout << line << '\n';
-      line = indent;
-    }
-    line += line.size() > indent.size() ? " " : "";
-    line += word;
-  }
-  std::cout << line << '\n';
-}
-
-void printKey(const SceneKey& key) {
-  std::cout << key.path << '\n';
-  printWrapped(key.text, "    ");
-}
-
-// Lines of a text that have the word, each after where it stands.
-int printLinesWith(const std::string& word, std::string_view text, const std::string& where) {
-  int found = 0;
-  std::istringstream lines{std::string(text)};
-  for (std::string line; std::getline(lines, line);) {
+// Lines of a page or of options that have the word.
+void addLinesWith(const std::string& word, std::string_view lines, const std::string& topic, HelpText& text) {
+  std::istringstream stream{std::string(lines)};
+  for (std::string line; std::getline(stream, line);) {
     if (lowered(line).find(word) != std::string::npos) {
-      std::cout << where << ":\n";
-      printWrapped(line, "    ");
-      ++found;
+      text.found("careen help " + topic + ":", line);
     }
   }
-  return found;
 }
 
-ExitCode search(const CommandLine& commandLine, const std::string& asked) {
+void search(const CommandLine& commandLine, const std::string& asked, HelpText& text) {
   const std::string word = lowered(asked);
-  int found = 0;
   for (const SceneKey& key : sceneKeys()) {
     if (lowered(key.path + " " + key.text).find(word) != std::string::npos) {
-      printKey(key);
-      ++found;
+      text.found(key.path, key.text);
     }
   }
   for (const std::string& command : commandLine.commands()) {
-    found += printLinesWith(word, commandLine.helpOf(command), "careen help " + command);
+    addLinesWith(word, commandLine.helpOf(command), command, text);
   }
   for (const std::string_view page : kManualPages) {
-    found += printLinesWith(word, manualPage(std::string(page) + ".md"), "careen help " + std::string(page));
+    addLinesWith(word, manualPage(std::string(page) + ".md"), std::string(page), text);
   }
-  if (found == 0) {
-    throw InputError("help: found '" + asked + "' in no page, key or option; 'careen help' lists the pages");
+  for (const Advice& advice : allAdvice()) {
+    if (lowered(std::string(advice.sign) + " " + std::string(advice.next)).find(word) != std::string::npos) {
+      text.found("message \"" + std::string(advice.sign) + "\":", std::string(advice.next));
+    }
   }
-  return ExitCode::kDone;
+  if (text.isEmpty()) {
+    throw InputError("help: found '" + asked +
+                     "' in no page, key, option or message; 'careen help' lists the pages");
+  }
 }
 
 // Of a command that has no page of its name: the one that commands.md links in the command's row,
@@ -110,37 +102,23 @@ std::string_view pageOf(const std::string& command) {
              : row.substr(link + 2, end - link - 2);
 }
 
-ExitCode helpCommand(const CommandLine& commandLine, const std::string& topic) {
-  if (topic.empty()) {
-    listPages();
-    return ExitCode::kDone;
-  }
-  if (topic == "keys") {
-    for (const SceneKey& key : sceneKeys()) {
-      printKey(key);
-    }
-    return ExitCode::kDone;
-  }
+void addTopic(const CommandLine& commandLine, const std::string& topic, HelpText& text) {
   const std::string_view page = manualPage(topic + ".md");
   const std::vector<std::string> commands = commandLine.commands();
   const bool isCommand = std::find(commands.begin(), commands.end(), topic) != commands.end();
+  if (!isCommand && page.empty()) {
+    std::vector<std::string> topics(kManualPages.begin(), kManualPages.end());
+    topics.insert(topics.end(), commands.begin(), commands.end());
+    topics.emplace_back("keys");
+    throw InputError("help: found '" + topic + "', expected a page of the manual or a command" +
+                     didYouMean(topic, topics) + "; 'careen help' lists the pages");
+  }
   if (isCommand) {
-    std::cout << commandLine.helpOf(topic);
-    if (page.empty()) {
-      std::cout << "\nIn the manual: 'careen help " << pageOf(topic) << "'.\n";
-    } else {
-      std::cout << "\nIts page of the manual:\n\n";
-    }
+    text.options(commandLine.helpOf(topic));
+    text.add(page.empty() ? "\nIn the manual: 'careen help " + std::string(pageOf(topic)) + "'.\n"
+                          : "\nIts page of the manual:\n\n");
   }
-  if (isCommand || !page.empty()) {
-    std::cout << page;
-    return ExitCode::kDone;
-  }
-  std::vector<std::string> topics(kManualPages.begin(), kManualPages.end());
-  topics.insert(topics.end(), commands.begin(), commands.end());
-  topics.emplace_back("keys");
-  throw InputError("help: found '" + topic + "', expected a page of the manual or a command" +
-                   didYouMean(topic, topics) + "; 'careen help' lists the pages");
+  text.page(page);
 }
 
 }  // namespace
@@ -154,7 +132,20 @@ void addHelp(const CommandLine& commandLine) {
   command.add("--search", *word, "Lines of pages, keys and options that have this word");
   // The command line outlives its commands; a copy of it within one would keep it alive for ever.
   command.runs([topic, word, &commandLine](const std::stop_token&) {
-    return word->empty() ? helpCommand(commandLine, *topic) : search(commandLine, *word);
+    HelpText text;
+    if (!word->empty()) {
+      search(commandLine, *word, text);
+    } else if (topic->empty()) {
+      listPages(text);
+    } else if (*topic == "keys") {
+      for (const SceneKey& key : sceneKeys()) {
+        text.found(key.path, key.text);
+      }
+    } else {
+      addTopic(commandLine, *topic, text);
+    }
+    text.show();
+    return ExitCode::kDone;
   });
 }
 

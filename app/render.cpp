@@ -374,7 +374,7 @@ void addRender(const CommandLine& commandLine) {
               "Scene, trajectory file or table of poses; the default scene if none is named");
   options->scene.addTo(command);
   const CommandOption out =
-      command.add("--out", options->folder,
+      command.add("-o,--out", options->folder,
                   "Folder for the frames, or file of a single picture (default: out/ and the file's name)");
   const CommandOption frames =
       command.add("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");

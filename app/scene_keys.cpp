@@ -28,7 +28,8 @@ class KeysOfSchema {
         add(each, path);
       }
     }
-    for (const auto& [name, value] : part.value("properties", Json::object()).items()) {
+    const Json properties = part.value("properties", Json::object());
+    for (const auto& [name, value] : properties.items()) {
       const std::string key = path.empty() ? name : path + "." + name;
       if (value.is_object() && name != "$schema" && known_.insert(key).second) {
         keys_.push_back({.path = key, .text = textOf(value)});

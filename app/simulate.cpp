@@ -65,7 +65,7 @@ void checkOutputs(const std::filesystem::path& source, const std::filesystem::pa
                   const SimulateOptions& options) {
   std::vector<std::pair<const char*, std::filesystem::path>> known = {{"the scene", source}};
   for (const auto& [option, path] :
-       {std::pair("--output", output), std::pair("--poses", options.poses), std::pair("--npz", options.npz),
+       {std::pair("--out", output), std::pair("--poses", options.poses), std::pair("--npz", options.npz),
         std::pair("--impacts", options.impacts), std::pair("--report", options.report)}) {
     for (const auto& [what, other] : known) {
       if (!path.empty() && isSameFile(path, other)) {
@@ -124,7 +124,7 @@ void addSimulate(const CommandLine& commandLine) {
   const CommandLine command = commandLine.addCommand("simulate", "Run a scene and keep what happened");
   const auto options = std::make_shared<SimulateOptions>();
   command.add("scene", options->scene, "Scene file; the default scene if none is named");
-  command.add("-o,--output", options->output, "Trajectory file (default: the scene file's name, .careen)");
+  command.add("-o,--out", options->output, "Trajectory file (default: the scene file's name, .careen)");
   command.add("--poses", options->poses, "Table of poses (CSV)");
   command.add("--npz", options->npz, "Poses, impacts, names and units as NumPy loads them (NPZ)");
   command.add("--every", options->every, "Time between two poses of --poses and --npz [s] (default: 1/60)");

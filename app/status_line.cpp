@@ -1,23 +1,16 @@
 #include "status_line.h"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <iostream>
 
+#include "terminal_text.h"
+
 namespace careen {
 namespace {
 
 constexpr double kShowEvery = 0.2;  // [s]
-
-// A longer line would begin another, and could not be rewritten.
-std::size_t widthOfTerminal() {
-  constexpr std::size_t kUsual = 80;
-  winsize size = {};
-  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
-  return (known ? size.ws_col : kUsual) - 1;
-}
 
 }  // namespace
 
@@ -46,7 +39,8 @@ void StatusLine::clear() {
 }
 
 void StatusLine::write(std::string text) {
-  text.resize(std::min(text.size(), widthOfTerminal()));
+  // A longer line would begin another, and could not be rewritten.
+  text.resize(std::min(text.size(), terminalColumns(STDERR_FILENO, 80) - 1));
   const std::size_t length = text.size();
   text.append(length_ > length ? length_ - length : 0, ' ');  // over the rest of a longer one
   std::cerr << '\r' << text << std::flush;

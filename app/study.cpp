@@ -214,7 +214,7 @@ void addStudy(const CommandLine& commandLine) {
   command.add("--label", options->labels, "Name of each --run in tables and plots").onePerUse();
   command.add("--seconds", options->seconds, "Time of one core that each --run took [s] (default: unknown)")
       .onePerUse();
-  command.add("--out", options->out, "Folder for tables, plots and page").showsDefault();
+  command.add("-o,--out", options->out, "Folder for tables, plots and page").showsDefault();
   command.addFlag("--quick", options->quick, "Few steps, few repeats: a minute for all");
   command.addFlag("--resume", options->resume, "Take over what is finished in the folder");
   command.addFlag("--no-plots", options->noPlots, "Tables and page only; gnuplot is not needed");

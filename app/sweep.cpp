@@ -168,7 +168,7 @@ void addSweep(const CommandLine& commandLine, const DrawFilm& drawFilm) {
       .required();
   command.add("--runs", options->runs,
               "Which runs, such as 0-9999 (default: 0-99); run k is the same everywhere");
-  command.add("--out", options->folder, "Folder for the table (default: out/ and the family's name)");
+  command.add("-o,--out", options->folder, "Folder for the table (default: out/ and the family's name)");
   const CommandOption share =
       command.add("--share", options->share,
                   "Only a part, 0/10 … 9/10, of these runs; --resume without it joins all parts");

@@ -191,7 +191,7 @@ void addValidate(const CommandLine& commandLine) {
   command.add("--sweep", options->sweep,
               "Also with other values: friction, restitution (of every pair) or inertia (a factor), "
               "KEY=FROM:TO:STEP, such as friction=0.1:0.3:0.02");
-  command.add("--out", options->out, "Folder for tables, plots, page and runs").showsDefault();
+  command.add("-o,--out", options->out, "Folder for tables, plots, page and runs").showsDefault();
   command.addFlag("--no-plots", options->noPlots, "Tables and page only; gnuplot is not needed");
   command.footer(
       "Nothing is fitted but the start. A film of both: careen render OUT/runs/NAME.careen --ghost NAME.csv");

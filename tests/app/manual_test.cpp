@@ -1,9 +1,14 @@
 // The manual and the README: what they name is there, and what is there is named. tests/manual runs their
 // commands.
 #include <gtest/gtest.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -157,6 +162,90 @@ TEST(Manual, helpFindsAWordInPagesKeysAndOptions) {
   EXPECT_NE(found.find("careen help scenes:\n"), std::string::npos);
   EXPECT_NE(careen({"help", "--search", "overwrite"}).out.find("careen help render:\n"), std::string::npos);
   EXPECT_EQ(careen({"help", "--search", "xylophone"}).exitCode, 2);
+}
+
+// What the program prints on a terminal of 24 lines of 70 letters.
+std::string onTerminal(const std::vector<std::string>& arguments, const char* pager) {
+  winsize size = {};
+  size.ws_row = 24;
+  size.ws_col = 70;
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
+  if (child == 0) {
+    setenv("PAGER", pager, 1);
+    std::string name = program();
+    std::vector<char*> words = {name.data()};
+    for (const std::string& argument : arguments) {
+      words.push_back(const_cast<char*>(argument.c_str()));
+    }
+    words.push_back(nullptr);
+    execv(name.c_str(), words.data());
+    _exit(127);
+  }
+  std::string text;
+  std::array<char, 4096> part{};
+  for (ssize_t n = 0; (n = read(terminal, part.data(), part.size())) > 0;) {
+    text.append(part.data(), static_cast<std::size_t>(n));
+  }
+  close(terminal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  text.erase(std::remove(text.begin(), text.end(), '\r'), text.end());
+  return text;
+}
+
+// The words of a page in their order, whatever the lines; without the signs and heads of its tables.
+std::string lettersIn(const std::string& text) {
+  std::string letters;
+  std::copy_if(text.begin(), text.end(), std::back_inserter(letters),
+               [](char letter) { return std::isalnum(static_cast<unsigned char>(letter)) != 0; });
+  return letters;
+}
+
+TEST(Manual, helpWrapsItsPagesToTheTerminalAndPagesThem) {
+  const std::string shown = onTerminal({"help", "troubleshooting"}, "sed s/^/paged:/");
+  std::size_t lines = 0;
+  std::size_t wide = 0;
+  for (const std::string& line : linesOf(shown)) {
+    ++lines;
+    EXPECT_TRUE(line.starts_with("paged:")) << line;
+    const auto letters = std::count_if(line.begin(), line.end(), [](char byte) {
+      return (static_cast<unsigned char>(byte) & 0xc0U) != 0x80U;
+    });
+    wide += letters > 70 + 6 && line.find(' ', 12) != std::string::npos ? 1 : 0;
+  }
+  EXPECT_GT(lines, 50U);
+  EXPECT_LT(wide, 4U);  // what stands between ``` is left as it is
+  // Nothing is lost: the words of each paragraph, and of each cell of a table but its heads, are in their
+  // order.
+  std::string plain;
+  for (const std::string& line : linesOf(shown)) {
+    plain += line.substr(6) + ' ';
+  }
+  const std::string all = lettersIn(plain);
+  bool isCode = false;
+  for (const std::string& line : linesOf(textOf(kManual / "troubleshooting.md"))) {
+    isCode = isCode != line.starts_with("```");
+    for (const std::string& cell :
+         matches(line, isCode || !line.starts_with("|") ? "(.+)" : R"(([^|]+)\|)")) {
+      EXPECT_TRUE(line.starts_with("| what you see |") || all.find(lettersIn(cell)) != std::string::npos)
+          << cell;
+    }
+  }
+  // What fits is not paged.
+  EXPECT_TRUE(onTerminal({"--version"}, "sed s/^/paged:/").starts_with("careen "));
+}
+
+TEST(Manual, optionsOfHelpAreWrappedToTheTerminal) {
+  const std::string shown = onTerminal({"render", "--help"}, "cat");
+  for (const std::string& line : linesOf(shown)) {
+    EXPECT_LE(line.size(), 70U) << line;
+  }
+  EXPECT_EQ(lettersIn(shown), lettersIn(careen({"render", "--help"}).out));
+  // What is told of an option stays in its column.
+  EXPECT_NE(shown.find("\n  --verbose                   Print all"), std::string::npos);
+  EXPECT_NE(shown.find("\n                              "), std::string::npos);
 }
 
 TEST(Manual, helpKnowsNothingElse) {
