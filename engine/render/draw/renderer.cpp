@@ -300,6 +300,7 @@ void Renderer::Parts::drawPicture() {
   gl.UseProgram(backgroundProgram);
   gl.BindVertexArray(backgroundArray);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  surfaces.drawGlass();
   canvas.finish();
 }
 

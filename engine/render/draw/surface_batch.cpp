@@ -156,4 +156,25 @@ void SurfaceBatch::drawDepth() const {
   gl_.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
+void SurfaceBatch::drawGlass() {
+  if (std::none_of(surfaces_.begin(), surfaces_.end(), [&](const Surface& surface) {
+        return surface.normal.dot(*eye_ - surface.outline[0]) < 0;
+      })) {
+    return;
+  }
+  if (glassProgram_ == 0) {
+    glassProgram_ = linkProgram(gl_, shaders_, {"glass.vert", "glass.frag"});
+  }
+  gl_.UseProgram(glassProgram_);
+  gl_.BindVertexArray(array_);
+  gl_.CullFace(GL_FRONT);
+  gl_.DepthMask(GL_FALSE);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // alpha has edges
+  gl_.DrawArrays(GL_TRIANGLES, 0, vertices_.count());
+  gl_.Disable(GL_BLEND);
+  gl_.DepthMask(GL_TRUE);
+  gl_.CullFace(GL_BACK);
+}
+
 }  // namespace careen

@@ -26,6 +26,8 @@ class SurfaceBatch {
   void draw(const PictureCells& shadows, const PictureCells& occlusion, int width, int height);
   /// Black, a little farther away, for their depth.
   void drawDepth() const;
+  /// Those that the eye is behind, as glass over what is drawn.
+  void drawGlass();
 
  private:
   const Gl& gl_;
@@ -37,6 +39,7 @@ class SurfaceBatch {
   std::vector<std::string> light_;
   std::array<unsigned, 4> programs_{};  // made when first used; 1: shadows, 2: occlusion
   unsigned depthProgram_;
+  unsigned glassProgram_ = 0;  // made when first used
   std::vector<Surface> surfaces_;
   double tileSize_;
   std::optional<Vec3> eye_;

@@ -344,17 +344,33 @@ TEST(Renderer, tellsWhoDrawsAndHowLongItTook) {
   EXPECT_GT(renderer.figures().readSeconds, 0);
 }
 
-// One looks through the front of a closed room: walls are seen from inside only.
-TEST(Renderer, wallsThatFaceAwayAreNotDrawn) {
+// One looks through the front of a closed room: a wall seen from behind is glass, which gives 5 % of 0.9 to
+// what is behind it and takes as much away, and at its outline half.
+TEST(Renderer, wallsSeenFromBehindAreGlass) {
   Scene scene = crateInRoom();
   const RenderOptions options = lit(evenLighting(Vec3(1, 0, 1)));
-  const auto middle = [&] { return pixelAt(drawn(scene, options), kFrameWidth / 2, 60); };
+  scene.camera = cameraAt(Vec3(0, -7, 1.5), Vec3(0, 0, 1.5), 40);
+  scene.picture.antialiasing = Antialiasing::kOff;
+  const auto pictureOf = [&](bool hasFront, bool hasBack) {
+    scene.room->open = {true, true, !hasFront, !hasBack, true, true};
+    return drawn(scene, options);
+  };
+  const auto middleOf = [&](const Picture& picture) { return pixelAt(picture, kFrameWidth / 2, 60); };
   const std::array<int, 3> background = {255, 0, 255};
-  scene.camera = cameraAt(Vec3(0, -7, 1.5), Vec3(0, 0, 1.5), 30);
-  scene.room->open = {};
-  EXPECT_NE(middle(), background);  // the wall at the back
-  scene.room->open[3] = true;
-  EXPECT_EQ(middle(), background);  // opened: the front wall faces away, nothing is left
+  const Picture neither = pictureOf(false, false);
+  EXPECT_EQ(middleOf(neither), background);
+  EXPECT_NE(middleOf(pictureOf(false, true)), background);
+  const Picture behindGlass = pictureOf(true, false);
+  EXPECT_NEAR(middleOf(behindGlass)[0], srgbFromLinear(0.95 + 0.05 * 0.9), 1);
+  EXPECT_NEAR(middleOf(behindGlass)[1], srgbFromLinear(0.05 * 0.9), 1);
+  int brightest = 0;
+  for (int y = 0; y < neither.height; ++y) {
+    if (pixelAt(neither, kFrameWidth / 2, y) == background) {
+      brightest = std::max(brightest, pixelAt(behindGlass, kFrameWidth / 2, y)[1]);
+    }
+  }
+  EXPECT_GT(brightest, srgbFromLinear(0.25 * 0.9));  // measured 153; at most that of half
+  EXPECT_LE(brightest, srgbFromLinear(0.5 * 0.9) + 1);
 }
 
 // Straight down on a floor of 0.5 m tiles, evenly lit: neighbours are 10 % above and below the floor's
