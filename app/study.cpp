@@ -18,6 +18,7 @@
 #include "run.h"
 #include "study/case.h"
 #include "study/given_contestant.h"
+#include "study/node_peers.h"
 #include "study/verdicts.h"
 
 namespace careen {
@@ -57,7 +58,11 @@ void checkCases(const std::vector<std::string>& chosen, const std::vector<std::s
 // The named contestants, in the order of the full list.
 Contestants chosenContestants(const std::vector<std::string>& names) {
   Contestants all = allContestants();
+  const std::string leftOut = nodePeers().leftOut;
   if (names.empty()) {
+    if (!leftOut.empty()) {
+      std::cerr << leftOut << '\n';
+    }
     return all;
   }
   std::vector<std::string> known;
@@ -70,7 +75,8 @@ Contestants chosenContestants(const std::vector<std::string>& names) {
   }
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw InputError("--methods: found '" + name + "', expected some of: " + joined(known));
+      throw InputError("--methods: found '" + name + "', expected some of: " + joined(known) +
+                       (leftOut.empty() ? "" : "; " + leftOut));
     }
   }
   return chosen;

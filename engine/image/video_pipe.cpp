@@ -83,7 +83,8 @@ void VideoPipe::start() {
   }
   frames_ = ends[0];
   log_ = memfd_create("ffmpeg", MFD_CLOEXEC);
-  const int error = startProgram(ffmpegCommand(settings_, partial_), ends[1], log_, process_);
+  const int error =
+      startProgram(ffmpegCommand(settings_, partial_), {.input = ends[1], .log = log_}, process_);
   close(ends[1]);
   if (error != 0) {
     process_ = 0;

@@ -10,6 +10,7 @@
 #include "audit/audit.h"
 #include "physics/world/body.h"
 #include "physics/world/world.h"
+#include "study/deadline.h"
 
 namespace careen {
 
@@ -34,6 +35,10 @@ class Contestant {
   virtual std::vector<std::vector<BodyState>> run(const World& world, double fineness,
                                                   std::span<const double> times,
                                                   const std::stop_token& stop) const = 0;
+
+  /// [s] of cores that its runs have taken so far: of this program, unless they take place in another. May be
+  /// called during a run.
+  virtual double secondsTaken() const { return coreSeconds(); }
 
   /// Whether its answer is given once and for all: then it is asked for it once, and not timed.
   virtual bool isGiven() const { return false; }

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <stop_token>
 #include <thread>
+#include <utility>
 
 namespace careen {
 
@@ -19,15 +20,16 @@ inline double coreSeconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// A stop token that also fires when the program has taken so much time of cores.
+/// A stop token that also fires when a clock has gone on by so much: that of the cores that the program
+/// takes, or another one.
 class Deadline {
  public:
-  Deadline(double seconds, const std::stop_token& outer)
+  Deadline(double seconds, const std::stop_token& outer, std::function<double()> clock = coreSeconds)
       : relay_(outer, [this] { source_.request_stop(); }),
-        timer_([this, seconds](const std::stop_token& end) {
+        timer_([this, seconds, clock = std::move(clock)](const std::stop_token& end) {
           std::unique_lock lock(mutex_);
-          const double last = coreSeconds() + seconds;
-          for (double left = seconds; left > 0 && !end.stop_requested(); left = last - coreSeconds()) {
+          const double last = clock() + seconds;
+          for (double left = seconds; left > 0 && !end.stop_requested(); left = last - clock()) {
             ended_.wait_for(lock, end, std::chrono::duration<double>(std::max(left, kLeastWait)),
                             [] { return false; });
           }

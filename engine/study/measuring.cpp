@@ -144,8 +144,9 @@ std::string auditOf(const Case& study, const Contestant& contestant, double fine
 double attempt(const Case& study, const Contestant& contestant, const Effort& effort,
                const std::stop_token& stop, Attempt& result, Answer& answer) {
   const double allowed = (contestant.steps() ? 1 : kRunsWithoutSteps) * effort.longestRun;
-  const Deadline deadline(allowed, stop);
-  const double start = coreSeconds();
+  const auto clock = [&contestant] { return contestant.secondsTaken(); };
+  const Deadline deadline(allowed, stop, clock);
+  const double start = clock();
   try {
     answer = answerOf(study, contestant, finenessOf(result, study), deadline.token());
     result.judgement = judge(study, answer);
@@ -160,7 +161,7 @@ double attempt(const Case& study, const Contestant& contestant, const Effort& ef
   } catch (const Error& error) {
     result.failure = error.what();
   }
-  const double seconds = coreSeconds() - start;
+  const double seconds = clock() - start;
   if (result.failure.empty()) {
     result.audit = auditOf(study, contestant, finenessOf(result, study), allowed, stop);
   }
@@ -170,11 +171,11 @@ double attempt(const Case& study, const Contestant& contestant, const Effort& ef
 double timeOnce(const Case& study, const Timed& timed, double fineness, double shortest,
                 const std::stop_token& stop) {
   const int count = static_cast<int>(std::ceil(shortest / std::max(timed.seconds, shortest / 1e4)));
-  const double start = coreSeconds();
+  const double start = timed.contestant->secondsTaken();
   for (int i = 0; i < count; ++i) {
     answerOf(study, *timed.contestant, fineness, stop);
   }
-  return (coreSeconds() - start) / count;
+  return (timed.contestant->secondsTaken() - start) / count;
 }
 
 void timeAll(const Case& study, const Effort& effort, std::vector<Timed>& all, std::vector<Attempt>& attempts,

@@ -8,7 +8,8 @@
 #include "physics/world/diagnostics.h"
 
 namespace careen {
-std::string Peer::refuses(const World& world) const {
+
+std::string refusalOfPeers(const World& world) {
   return world.springs.empty() && !world.drag ? "" : "no springs, no drag";
 }
 

@@ -4,8 +4,12 @@
 
 namespace careen {
 
+/// Why no other engine is asked to move this world; empty if they are. They model walls, boxes, gravity,
+/// restitution and friction.
+std::string refusalOfPeers(const World& world);
+
 /// Another engine, which moves a world by time steps. An adapter defines how the engine is set up, stepped
-/// and read; this class does the rest. Engines model walls, boxes, gravity, restitution and friction.
+/// and read; this class does the rest.
 class Peer : public Contestant {
  public:
   /// An engine that holds a copy of a world.
@@ -23,7 +27,7 @@ class Peer : public Contestant {
   };
 
   bool steps() const override { return true; }
-  std::string refuses(const World& world) const override;
+  std::string refuses(const World& world) const override { return refusalOfPeers(world); }
   std::vector<std::vector<BodyState>> run(const World& world, double dt, std::span<const double> times,
                                           const std::stop_token& stop) const override;
 

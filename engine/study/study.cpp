@@ -2,6 +2,7 @@
 
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -14,6 +15,7 @@
 #include "core/hash.h"
 #include "core/system/file.h"
 #include "study/case.h"
+#include "study/node_peers.h"
 #include "study/own_methods.h"
 #include "study/peers.h"
 
@@ -136,9 +138,9 @@ std::vector<CaseResult> runStudy(const StudySettings& settings, const Contestant
 
 Contestants allContestants() {
   Contestants all = ownMethods();
-  for (auto& peer : peers()) {
-    all.push_back(std::move(peer));
-  }
+  const auto add = [&all](Contestants some) { std::move(some.begin(), some.end(), std::back_inserter(all)); };
+  add(peers());
+  add(nodePeers().all);
   return all;
 }
 

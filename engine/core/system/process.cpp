@@ -18,7 +18,7 @@
 
 namespace careen {
 
-int startProgram(std::vector<std::string> command, int input, int log, pid_t& process,
+int startProgram(std::vector<std::string> command, const ProgramStreams& streams, pid_t& process,
                  const std::filesystem::path& folder) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
@@ -28,9 +28,13 @@ int startProgram(std::vector<std::string> command, int input, int log, pid_t& pr
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&files, log, STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&files, streams.input, STDIN_FILENO);
+  if (streams.output >= 0) {
+    posix_spawn_file_actions_adddup2(&files, streams.output, STDOUT_FILENO);
+  } else {
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  }
+  posix_spawn_file_actions_adddup2(&files, streams.log, STDERR_FILENO);
   if (!folder.empty()) {
     posix_spawn_file_actions_addchdir_np(&files, folder.c_str());
   }
@@ -61,7 +65,7 @@ void runProgram(const std::vector<std::string>& command, const std::filesystem::
   const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
   const int log = memfd_create("log", MFD_CLOEXEC);
   pid_t process = 0;
-  const int error = startProgram(command, nothing, log, process, folder);
+  const int error = startProgram(command, {.input = nothing, .log = log}, process, folder);
   int status = 0;
   if (error == 0) {
     const Cleanup cleanup([process] { kill(-process, SIGKILL); });

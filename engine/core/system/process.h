@@ -8,11 +8,17 @@
 
 namespace careen {
 
-/// Starts another program, found through PATH, with `input` as its standard input and `log` as its standard
-/// error; its standard output is discarded. Returns 0, or the error number if it could not be started. The
+/// Open files that become the standard streams of another program.
+struct ProgramStreams {
+  int input = -1;
+  int log = -1;     ///< standard error
+  int output = -1;  ///< −1: discarded
+};
+
+/// Starts another program, found through PATH. Returns 0, or the error number if it could not be started. The
 /// program gets its own process group, because this program handles Ctrl-C, and inherits none of this
 /// program's blocked signals. It starts in `folder` if one is named.
-int startProgram(std::vector<std::string> command, int input, int log, pid_t& process,
+int startProgram(std::vector<std::string> command, const ProgramStreams& streams, pid_t& process,
                  const std::filesystem::path& folder = {});
 
 /// The end of an open log file, which holds the cause of a failure.
