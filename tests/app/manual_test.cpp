@@ -160,7 +160,7 @@ TEST(Manual, helpFindsAWordInPagesKeysAndOptions) {
   const std::string found = careen({"help", "--search", "RESTITUTION"}).out;
   EXPECT_NE(found.find("boxes[].restitution\n"), std::string::npos);
   EXPECT_NE(found.find("careen help scenes:\n"), std::string::npos);
-  EXPECT_NE(careen({"help", "--search", "overwrite"}).out.find("careen help render:\n"), std::string::npos);
+  EXPECT_NE(careen({"help", "--search", "threads"}).out.find("careen help simulate:\n"), std::string::npos);
   EXPECT_EQ(careen({"help", "--search", "xylophone"}).exitCode, 2);
 }
 
@@ -238,11 +238,11 @@ TEST(Manual, helpWrapsItsPagesToTheTerminalAndPagesThem) {
 }
 
 TEST(Manual, optionsOfHelpAreWrappedToTheTerminal) {
-  const std::string shown = onTerminal({"render", "--help"}, "cat");
+  const std::string shown = onTerminal({"simulate", "--help"}, "cat");
   for (const std::string& line : linesOf(shown)) {
     EXPECT_LE(line.size(), 70U) << line;
   }
-  EXPECT_EQ(lettersIn(shown), lettersIn(careen({"render", "--help"}).out));
+  EXPECT_EQ(lettersIn(shown), lettersIn(careen({"simulate", "--help"}).out));
   // What is told of an option stays in its column.
   EXPECT_NE(shown.find("\n  --verbose                   Print all"), std::string::npos);
   EXPECT_NE(shown.find("\n                              "), std::string::npos);

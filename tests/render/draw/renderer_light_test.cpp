@@ -117,6 +117,13 @@ Shown atMoment(const std::string& name, double moment, int every) {
 Shown asKept(const std::string& name, int every, int everyOfPlanes) {
   Scene scene = readScene(std::filesystem::path(CAREEN_SOURCE_DIR) / "assets/scenes" / (name + ".json"));
   scene.picture.antialiasing = Antialiasing::kOff;
+  // Through glass the light of what is behind it cannot be told.
+  for (std::size_t side = 0; scene.room && side < scene.room->open.size(); ++side) {
+    const auto axis = static_cast<Eigen::Index>(side / 2);
+    const double eye = scene.camera->eye[axis];
+    const bool isBehind = side % 2 == 0 ? eye < scene.room->min[axis] : eye > scene.room->max[axis];
+    scene.room->open[side] = scene.room->open[side] || isBehind;
+  }
   Shown shown{.name = name,
               .setup = setupOf(scene, 640, 360),
               .poses = {},
