@@ -8,9 +8,10 @@
 namespace careen {
 namespace {
 
-// [1] of the half extents: a point this near to an edge counts as on it. Larger than the tolerance of any
-// contact; no two points of one manifold are this close.
-constexpr double kOnEdge = 0x1p-30;
+// Touching tolerances: a point this near to an edge counts as on it.
+constexpr double kOnEdge = 4;
+// [1] Sine of the angle, seen along the normal, below which edges do not cross.
+constexpr double kParallelEdges = 0x1p-30;
 // [1] A contact normal with this cosine or more to a face normal counts as equal to it.
 constexpr double kAlongFace = 1 - 0x1p-40;
 
@@ -166,9 +167,8 @@ struct Sides {
   std::array<bool, 3> at{};
   int count = 0;
 };
-Sides sidesAt(const Vec3& point, const Vec3& halfExtents, double apart) {
+Sides sidesAt(const Vec3& point, const Vec3& halfExtents, double within) {
   Sides sides;
-  const double within = kOnEdge * halfExtents.norm() + std::fabs(apart);
   for (int i = 0; i < 3; ++i) {
     if (std::fabs(point[i]) >= halfExtents[i] - within) {
       sides.at[static_cast<std::size_t>(i)] = true;
@@ -260,8 +260,9 @@ ContactFeature featureInOrder(const ContactPoint& point, double apart, int a, Bo
   const Vec3& halfExtentsB = boxB.halfExtents;
   const Vec3 placeA = poseA.worldFromBody.transpose() * point.armA - boxA.center;
   const Vec3 placeB = poseB.worldFromBody.transpose() * point.armB - boxB.center;
-  const Sides sidesA = sidesAt(placeA, halfExtentsA, apart);
-  const Sides sidesB = sidesAt(placeB, halfExtentsB, apart);
+  const double within = kOnEdge * touchingWithin(boxA, boxB) + std::fabs(apart);
+  const Sides sidesA = sidesAt(placeA, halfExtentsA, within);
+  const Sides sidesB = sidesAt(placeB, halfExtentsB, within);
   if (point.inCone) {
     return pointInCone(a, boxA, placeA, sidesA, b, boxB, placeB, sidesB, point.normal);
   }
@@ -276,7 +277,7 @@ ContactFeature featureInOrder(const ContactPoint& point, double apart, int a, Bo
   // The pair of edges nearest to perpendicular, out of all pairs.
   int edgeA = -1;
   int edgeB = -1;
-  double most = kOnEdge;
+  double most = kParallelEdges;
   for (int j = 0; j < 3; ++j) {
     if (sidesB.count - (sidesB.at[static_cast<std::size_t>(j)] ? 1 : 0) != 2) {
       continue;
@@ -314,16 +315,9 @@ ContactFeature featureInOrder(const ContactPoint& point, double apart, int a, Bo
   return pointOnFace(b, placeB, a, poseA.worldFromBody, faceA, -point.normal);
 }
 
-}  // namespace
-
-bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, const Vec3& corner) {
-  return std::any_of(features.begin(), features.end(), [&](const ContactFeature& feature) {
-    return feature.a == a && feature.b == wall && feature.onA == corner;
-  });
-}
-
-ContactState contactState(const ContactFeature& feature, const Kinematics& a, BoxShape boxA,
-                          const Kinematics* b, BoxShape boxB, const Wall* wall) {
+// All but its directions.
+ContactState stateOfNormal(const ContactFeature& feature, const Kinematics& a, BoxShape boxA,
+                           const Kinematics* b, BoxShape boxB, const Wall* wall) {
   if (feature.kind == ContactFeature::Kind::kEdgeOnEdge) {
     return onEdge(feature, a, boxA.halfExtents, *b, boxB.halfExtents);
   }
@@ -347,6 +341,32 @@ ContactState contactState(const ContactFeature& feature, const Kinematics& a, Bo
     }
   }
   return state;
+}
+
+}  // namespace
+
+bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, const Vec3& corner) {
+  return std::any_of(features.begin(), features.end(), [&](const ContactFeature& feature) {
+    return feature.a == a && feature.b == wall && feature.onA == corner;
+  });
+}
+
+ContactState contactState(const ContactFeature& feature, const Kinematics& a, BoxShape boxA,
+                          const Kinematics* b, BoxShape boxB, const Wall* wall) {
+  ContactState state = stateOfNormal(feature, a, boxA, b, boxB, wall);
+  if (feature.axes != 0) {
+    state.directions = directionsOf(feature.axes, {a.pose, boxA.halfExtents, boxA.center},
+                                    {b->pose, boxB.halfExtents, boxB.center});
+  }
+  return state;
+}
+
+double ContactState::passing() const {
+  double fastest = 0;
+  for (const Vec3& direction : directions) {
+    fastest = std::max(fastest, std::fabs(dot(direction, velocity())));
+  }
+  return fastest;
 }
 
 ContactFeature featureAt(const ContactPoint& point, double apart, int a, BoxAt boxA, int b, BoxAt boxB) {

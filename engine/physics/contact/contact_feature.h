@@ -1,9 +1,11 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/math/linear_algebra.h"
 #include "physics/geometry/contact_points.h"
+#include "physics/geometry/separating_axes.h"
 #include "physics/world/body.h"
 #include "physics/world/partner.h"
 #include "physics/world/world.h"
@@ -38,6 +40,7 @@ struct ContactFeature {
   Material material = {};       ///< of the pair
   Vec3 normalA = Vec3::Zero();  ///< [1] kInCone: the normal when it began, in a's frame
   Vec3 normalB = Vec3::Zero();  ///< [1] likewise in b's
+  AxisSet axes = 0;             ///< of both boxes, one of which keeps them apart as well as the normal does
 
   static constexpr int kNoEdge = -1;
 };
@@ -58,6 +61,14 @@ struct ContactState {
   /// diagonal.
   double beyond = 0;
   Vec3 offset = Vec3::Zero();  ///< [m] kInCone: sideways, from b's point to a's
+  /// [1] Of the feature's axes: the contact takes part only where the boxes would enter each other along all.
+  std::vector<Vec3> directions = {};
+
+  /// [m/s] of a relative to b.
+  Vec3 velocity() const { return slip + rate * normal; }
+  /// [m/s] How fast the boxes part, and how fast they pass each other along any of the directions.
+  double parting() const { return directions.empty() ? rate : partingSpeed(directions, velocity()); }
+  double passing() const;
 };
 
 /// A body's box, as an argument: a view of its size and place in the body, not to be stored.

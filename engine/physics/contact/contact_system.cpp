@@ -149,6 +149,13 @@ void ContactSystem::fillContacts() {
     contact.friction = feature.material.friction;
     const double speed = state.slip.norm();
     contact.slips = speed > restSpeed_;
+    contact.directions.clear();
+    for (const Vec3& direction : state.directions) {
+      if (dot(direction, state.velocity()) >= -restSpeed_) {  // those that are approached part nothing
+        contact.directions.push_back(
+            {dot(direction, directions[0]), dot(direction, directions[1]), dot(direction, directions[2])});
+      }
+    }
     const Vec3 direction = contact.slips ? Vec3(state.slip / speed) : onset_[c];
     contact.slip = {dot(direction, tangents.first), dot(direction, tangents.second)};
   }

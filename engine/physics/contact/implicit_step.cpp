@@ -256,6 +256,7 @@ bool ImplicitStep::separate(GroupState& state, std::span<const ContactFeature> c
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       addRows(contacts[c], geometry_[c]);
       problem_.contacts.back().friction = 0;
+      problem_.contacts.back().directions.clear();
       problem_.contacts.back().target[0] = -geometry_[c].gap;
       deep = deep || geometry_[c].gap < -deepest;
     }

@@ -172,6 +172,10 @@ void ImplicitStep::addRows(const ContactFeature& feature, const ContactState& ge
     contact.b = side(static_cast<std::size_t>(feature.b.body()), geometry.armB, -1, kSix);
   }
   contact.friction = feature.material.friction;
+  for (const Vec3& direction : geometry.directions) {
+    contact.directions.push_back(
+        {dot(direction, directions[0]), dot(direction, directions[1]), dot(direction, directions[2])});
+  }
   problem_.contacts.push_back(contact);
 }
 

@@ -80,7 +80,8 @@ void Island::begin() {
   timeStepsLeft_ = 0;
   system_.look(end_);
   for (std::size_t c = 0; c < system_.modes().size(); ++c) {
-    system_.modes()[c] = creeps(c) ? Mode::kStick : Mode::kOn;
+    const bool isChoice = system_.features()[c].axes != 0;  // it may not have to push
+    system_.modes()[c] = isChoice ? Mode::kOff : creeps(c) ? Mode::kStick : Mode::kOn;
   }
   system_.projectVelocities(end_);
   smooth_ = system_.findModes(end_);
@@ -98,6 +99,16 @@ void Island::begin() {
 bool Island::pushes() const {
   return std::any_of(system_.modes().begin(), system_.modes().end(),
                      [](Mode mode) { return mode != Mode::kOff; });
+}
+
+bool Island::dropIdle(std::vector<ContactFeature>& features) const {
+  if (!smooth_ || timeStepsLeft_ > 0) {
+    return false;
+  }
+  std::size_t c = 0;
+  return std::erase_if(features, [&](const ContactFeature& feature) {
+           return !system_.pushes(c++) && feature.axes != 0;
+         }) > 0;
 }
 
 // Some contact force is tensile, and its friction would drive the slip: the modes found are inconsistent.

@@ -49,6 +49,9 @@ class Island {
   void endTimeSteps();
   /// Whether some contact is active.
   bool pushes() const;
+  /// Removes from `features`, those of system(), what has a choice of directions and does not push in smooth
+  /// motion: whether it will have to is seen from the gap of the boxes. Returns whether there were some.
+  bool dropIdle(std::vector<ContactFeature>& features) const;
   /// Whether nothing moves or begins to. Call after begin().
   bool rests() const;
 

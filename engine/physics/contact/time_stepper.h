@@ -85,8 +85,9 @@ class TimeStepper {
   };
   struct Found {  // a contact feature near closing
     ContactFeature feature;
-    double gap = 0;   // [m]
-    double rate = 0;  // [m/s]
+    double gap = 0;      // [m]
+    double rate = 0;     // [m/s] of it
+    double passing = 0;  // [m/s] see ContactState
   };
 
   static bool isSame(const ContactFeature& x, const ContactFeature& y);

@@ -60,14 +60,15 @@ void TimeStepper::addWallContacts(std::size_t body) {
 }
 
 void TimeStepper::addPairContacts(std::size_t a, std::size_t b) {
-  const double gap = BoxAxes(boxOf(a), boxOf(b)).gap();
-  if (gap > closed()) {
+  if (BoxAxes(boxOf(a), boxOf(b)).gap() > closed()) {
     return;
   }
   for (const ContactPoint& point : boxContactPoints(boxOf(a), boxOf(b), closed())) {
     ContactFeature feature =
         featureAt(point, closed(), static_cast<int>(a), boxOf(a), static_cast<int>(b), boxOf(b));
     feature.material = materialOf(feature);
+    feature.axes = separatingAxes(boxOf(static_cast<std::size_t>(feature.a)),
+                                  boxOf(static_cast<std::size_t>(feature.b.body())), closed());
     found_.push_back({.feature = feature});
   }
 }
@@ -100,14 +101,15 @@ void TimeStepper::lookAgain(const GroupState& at) {
   equations_.contactsAt(features_, at, states_);
   for (std::size_t c = 0; c < found_.size(); ++c) {
     found_[c].gap = states_[c].gap;
-    found_[c].rate = states_[c].rate;
+    found_[c].rate = states_[c].parting();
+    found_[c].passing = states_[c].passing();
   }
 }
 
 // Contacts that obey their law in a step of length h. One that parts so fast that it would open within the
-// step is in flight instead.
+// step is in flight instead, and one that passes is soon elsewhere.
 bool TimeStepper::obeys(const Found& found, double h) const {
-  return found.gap <= closed() && found.rate * h <= kOpens * closed();
+  return found.gap <= closed() && found.rate * h <= kOpens * closed() && found.passing * h <= closed();
 }
 
 void TimeStepper::choose(double h) {
@@ -205,10 +207,10 @@ bool TimeStepper::collideOnce() {
       return false;
     }
     for (std::size_t c = 0; c < contacts.size(); ++c) {
-      shares[c] = {
-          .approach = -equations_.contactAt(features[c], before).rate,
-          .impulse = impulses[c][0],
-          .tangential = std::sqrt(impulses[c][1] * impulses[c][1] + impulses[c][2] * impulses[c][2])};
+      shares[c] = {.approach = -equations_.contactAt(features[c], before).rate,
+                   .impulse = impulses[c][0],
+                   .tangential = std::sqrt(impulses[c][1] * impulses[c][1] + impulses[c][2] * impulses[c][2]),
+                   .normal = contacts[c].normal};
     }
   }
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -227,7 +229,8 @@ ImpactContact TimeStepper::impactAt(std::size_t found) const {
           .armA = state.armA,
           .armB = state.armB,
           .normal = state.normal,
-          .material = feature.material};
+          .material = feature.material,
+          .directions = state.directions};
 }
 
 // Forgets what is no more than gravity gives in the step.

@@ -99,7 +99,8 @@ void TimeStepper::addJolt(double h, double change) {
       impacts_.push_back({.contact = impactAt(c),
                           .share = {.approach = std::max(0.0, -found_[c].rate),
                                     .impulse = h * with->push,
-                                    .tangential = h * with->friction.norm()},
+                                    .tangential = h * with->friction.norm(),
+                                    .normal = states_[c].normal},
                           .cause = change});
     }
   }

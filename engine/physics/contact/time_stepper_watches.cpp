@@ -14,6 +14,9 @@ namespace careen {
 void TimeStepper::listWatches(double h) {
   watches_.clear();
   for (const Found& found : found_) {
+    if (found.feature.axes != 0) {
+      continue;  // its gap is that of the pair
+    }
     if (!obeys(found, h)) {
       watch({.kind = Watch::Kind::kFeature, .feature = found.feature});
     } else if (found.feature.kind != ContactFeature::Kind::kPointOnWall) {

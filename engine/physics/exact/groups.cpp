@@ -5,6 +5,7 @@
 #include "physics/contact/implicit_step.h"
 #include "physics/exact/exact_world.h"
 #include "physics/geometry/contact_points.h"
+#include "physics/geometry/separating_axes.h"
 #include "physics/impact/wall_contacts.h"
 #include "physics/search/first_contact_search.h"
 
@@ -144,13 +145,17 @@ void ExactWorld::addPairContacts(Encounter& encounter, std::size_t indexA, std::
     return;
   }
   for (const ContactPoint& at : boxContactPoints(boxA, boxB)) {
+    std::vector<Vec3> directions;
+    if (at.inCone) {
+      directions = directionsOf(separatingAxes(boxA, boxB, touchingWithin(boxA, boxB)), boxA, boxB);
+    }
     encounter.contacts.push_back({.a = static_cast<int>(indexA),
                                   .b = Partner::ofBody(static_cast<int>(indexB)),
                                   .armA = at.armA,
                                   .armB = at.armB,
                                   .normal = at.normal,
                                   .material = touching(a.material, b.material),
-                                  .inCone = at.inCone});
+                                  .directions = directions});
   }
 }
 
@@ -223,7 +228,7 @@ void ExactWorld::record(const Encounter& encounter) {
            .a = listed(contact.a),
            .b = contact.b.isWall() ? contact.b : Partner::ofBody(listed(contact.b.body()).value),
            .point = encounter.before[a].pose.position + contact.armA,
-           .normal = contact.normal,
+           .normal = share.normal,
            .approach = share.approach,
            .impulse = share.impulse,
            .tangential = share.tangential});
@@ -243,7 +248,7 @@ void ExactWorld::record(const ContactGroup& contactGroup) {
                        .a = listed(contact.a),
                        .b = contact.b.isWall() ? contact.b : Partner::ofBody(listed(contact.b.body()).value),
                        .point = at.pose.position + contact.armA,
-                       .normal = contact.normal,
+                       .normal = impact.share.normal,
                        .approach = impact.share.approach,
                        .impulse = impact.share.impulse,
                        .tangential = impact.share.tangential});

@@ -6,6 +6,7 @@
 #include "core/disjoint_sets.h"
 #include "physics/exact/exact_world.h"
 #include "physics/geometry/contact_points.h"
+#include "physics/geometry/separating_axes.h"
 #include "physics/geometry/separation.h"
 #include "physics/impact/settling.h"
 #include "physics/search/first_contact_search.h"
@@ -158,6 +159,9 @@ void ExactWorld::settleBody(Encounter& encounter, std::size_t index) const {
         alone && (other.isWall() || mover(encounter.ranks[static_cast<std::size_t>(other.body())]).isHeld());
     const Vec3 normal = isA ? contact.normal : Vec3(-contact.normal);
     const Vec3& arm = isA ? contact.armA : contact.armB;
+    if (!contact.directions.empty() && !(encounter.shares[k].impulse > 0)) {
+      continue;  // it did not have to push
+    }
     const Vec3 acceleration = world_.gravity + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
     const double normalAcceleration = dot(normal, acceleration);
     const bool returns =
@@ -206,9 +210,8 @@ ExactWorld::Parting ExactWorld::partingAt(const Encounter& encounter, std::size_
   if (!at.b.isWall()) {
     add(at.b.body(), at.armB, -1);
   }
-  if (at.inCone) {
-    parting.speed = partingSpeed(boxOf(encounter, static_cast<std::size_t>(at.a)),
-                                 boxOf(encounter, static_cast<std::size_t>(at.b.body())), velocity);
+  if (!at.directions.empty()) {
+    parting.speed = partingSpeed(at.directions, velocity);
   }
   return parting;
 }
@@ -299,9 +302,15 @@ ContactFeature ExactWorld::featureOf(const Encounter& encounter, std::size_t k) 
     }
   } else {
     const auto b = static_cast<std::size_t>(contact.b.body());
-    feature = featureAt({contact.armA, contact.armB, contact.normal, contact.inCone}, 0, contact.a,
-                        boxAt(pose, body), contact.b.body(),
-                        boxAt(encounter.after[b].pose, *mover(encounter.ranks[b]).body));
+    const BoxAt boxA = boxAt(pose, body);
+    const BoxAt boxB = boxAt(encounter.after[b].pose, *mover(encounter.ranks[b]).body);
+    const bool inCone = !contact.directions.empty();
+    feature = featureAt({contact.armA, contact.armB, contact.normal, inCone}, 0, contact.a, boxA,
+                        contact.b.body(), boxB);
+    if (inCone) {
+      const bool swaps = feature.a != contact.a;
+      feature.axes = separatingAxes(swaps ? boxB : boxA, swaps ? boxA : boxB, touchingWithin(boxA, boxB));
+    }
   }
   feature.material = contact.material;
   return feature;
@@ -378,6 +387,10 @@ void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>
   const int timeSteps =
       encounter.timeSteps == 0 && members.size() > kMostSmooth ? kTimeStepsOfMany : encounter.timeSteps;
   bool rests = beginsAtRest(*contactGroup->island, timeSteps);
+  if (!rests && contactGroup->island->dropIdle(features)) {
+    contactGroup->island = islandOfThem();
+    rests = beginsAtRest(*contactGroup->island, timeSteps);
+  }
   if (timeSteps == 0 && encounter.cause == EventKind::kTouching && !world_.gravity.isZero(0) &&
       fastestChange(bodies, contactGroup->island->bodies()) > kMostTaken * fallSpeed()) {
     contactGroup->island = islandOfThem();  // as they were before their hops were left out

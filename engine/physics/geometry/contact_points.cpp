@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 
 #include "physics/geometry/contact_manifold.h"
@@ -124,18 +123,6 @@ ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart) {
     points.add(point);
   }
   return points;
-}
-
-double partingSpeed(BoxAt a, BoxAt b, const Vec3& velocity) {
-  const BoxAxes axes(a, b);
-  const double within = touchingWithin(a, b);
-  double fastest = std::numeric_limits<double>::lowest();
-  for (int k = 0; k < BoxAxis::kCount; ++k) {
-    if (axes.separation({k}) >= axes.gap() - within) {
-      fastest = std::max(fastest, dot(axes.normal({k}), velocity));
-    }
-  }
-  return fastest;
 }
 
 }  // namespace careen

@@ -45,19 +45,16 @@ class ContactPoints {
 ///
 /// Edge along parallel edge, corner on edge (or edge over an edge's end), corner on corner: where neither
 /// part is a face and no edges cross, a cone of directions separates the boxes equally well, and the gap has
-/// no unique normal. The law: the normal is the centre of that cone (NormalCone), for parallel edges the
-/// bisector of its fan. It is the normal of two slightly rounded boxes, and symmetric where they are: head on
-/// along a line through both centres it is that line. It holds where the axes of largest separation agree
-/// within the tolerance that makes contacts simultaneous (touchingWithin) and their normals differ by more
-/// than it can turn the thinner box; beside that, a contact is one of the former. The points lie halfway
-/// between the two edges or corners. Mirror images, quarter turns about coordinate axes and swapped boxes
-/// give mirrored, turned and reversed normals.
+/// no unique normal. While one of them keeps the boxes apart nothing acts (separatingAxes). Where none does,
+/// the normal is the centre of that cone (NormalCone), for parallel edges the bisector of its fan. It is the
+/// normal of two slightly rounded boxes, and symmetric where they are: head on along a line through both
+/// centres it is that line. It holds where the axes of largest separation agree within the tolerance that
+/// makes contacts simultaneous (touchingWithin) and their normals differ by more than it can turn the thinner
+/// box; beside that, a contact is one of the former. The points lie halfway between the two edges or corners.
+/// Mirror images, quarter turns about coordinate axes and swapped boxes give mirrored, turned and reversed
+/// normals.
 ///
 /// Points with a gap up to `apart` [m], if more than kSimultaneous, also count as contact.
 ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart = 0);
-
-/// [m/s] Rate of the gap of touching boxes, given a's velocity relative to b's at the contact. In a cone it
-/// is not the component along its centre: boxes whose edges pass each other sideways part.
-double partingSpeed(BoxAt a, BoxAt b, const Vec3& velocity);
 
 }  // namespace careen

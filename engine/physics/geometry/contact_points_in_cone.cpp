@@ -8,6 +8,7 @@
 #include "core/math/double_double.h"
 #include "physics/geometry/contact_manifold.h"
 #include "physics/geometry/normal_cone.h"
+#include "physics/geometry/separating_axes.h"
 #include "physics/geometry/support_feature.h"
 
 namespace careen {
@@ -21,27 +22,20 @@ double accurateDot(const Vec3& a, const Vec3& b) {
 
 // Lateral offset of parts that count as touching, in touching tolerances.
 constexpr double kOffset = 8;
-// Normals count as different if their angle moves the thinnest part by this many touching tolerances.
-constexpr double kDifferent = 8;
 // Sine of half the angle of a cone below which it is one direction: rounding would decide on its middle.
 constexpr double kNarrow = 0x1p-27;
 // Squared sine below which a bound is parallel to an edge.
 constexpr double kAlongEdgeSquared = 0x1p-80;
 
-// A direction inside the cone of those that separate equally well, if they are a cone and not one direction:
-// its extreme rays are among the 15 axes.
-std::optional<Vec3> insideOfCone(const BoxAxes& axes, double different, double within) {
-  const Vec3 best = axes.normal(axes.best());
+// A direction inside the cone of those that separate equally well, whose extreme rays are among the 15 axes.
+std::optional<Vec3> insideOfCone(const BoxAxes& axes, AxisSet set) {
   Vec3 sum = Vec3::Zero();
-  bool differ = false;
   for (int k = 0; k < BoxAxis::kCount; ++k) {
-    if (axes.separation({k}) >= axes.gap() - within) {
-      const Vec3 normal = axes.normal({k});
-      differ = differ || (normal - best).squaredNorm() > different * different;
-      sum += normal;
+    if ((set >> k & 1U) != 0) {
+      sum += axes.normal({k});
     }
   }
-  return differ ? std::optional(Vec3(sum / std::sqrt(dot(sum, sum)))) : std::nullopt;
+  return set != 0 ? std::optional(Vec3(sum / std::sqrt(dot(sum, sum)))) : std::nullopt;
 }
 
 // Which way a box's axis points into the cone, on whose side of the box the other lies.
@@ -116,8 +110,7 @@ Touches touchesOf(const SupportFeature& a, const SupportFeature& b, const Vec3& 
 std::optional<ContactPoints> pointsInCone(BoxAt a, BoxAt b, const BoxAxes& axes, const Vec3& bToA,
                                           double within) {
   const double touching = touchingWithin(a, b);
-  const double thinnest = std::min(a.halfExtents.minCoeff(), b.halfExtents.minCoeff());
-  const std::optional<Vec3> inside = insideOfCone(axes, kDifferent * touching / thinnest, touching);
+  const std::optional<Vec3> inside = insideOfCone(axes, separatingAxes(a, b, axes, touching));
   if (!inside) {
     return std::nullopt;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "physics/world/body.h"
 #include "physics/world/contact_residuals.h"
@@ -25,14 +26,17 @@ struct ImpactContact {
   Vec3 armB = Vec3::Zero();     ///< [m] world, from b's; not read for a wall
   Vec3 normal = Vec3::UnitZ();  ///< [1] unit, from b to a
   Material material;            ///< of the pair, see touching()
-  bool inCone = false;          ///< the normal is one of many, see ContactPoint
+  /// [1] unit: the contact takes part only where its bodies would enter each other along all of them. None:
+  /// the normal is the only one.
+  std::vector<Vec3> directions = {};
 };
 
 /// What an impact did at one contact.
 struct ImpactShare {
-  double approach = 0;    ///< [m/s] normal speed before, positive: approaching
-  double impulse = 0;     ///< [N s] along the normal, ≥ 0
-  double tangential = 0;  ///< [N s] size of the friction part, ≤ μ · impulse
+  double approach = 0;         ///< [m/s] normal speed before, positive: approaching
+  double impulse = 0;          ///< [N s] along the normal, ≥ 0
+  double tangential = 0;       ///< [N s] size of the friction part, ≤ μ · impulse
+  Vec3 normal = Vec3::Zero();  ///< [1] along which it acted: the contact's, or one of its directions
 };
 
 /// Residuals of the equations of several contacts [m/s] that the caller can do with; 0: rounding.
@@ -44,6 +48,10 @@ struct ImpactAccuracy {
 /// Resolves all contacts at once: changes velocities and angular momenta, and fills one share per contact.
 /// Contacts that do not approach take part: impulses may reach them through their neighbours. Throws
 /// NumericalError if a number is not finite or neither side of a contact can move.
+///
+/// Of contacts with a choice of directions only those take part that the motion without them would enter
+/// along all: the law below is solved without them, then with those, until none is added. A cube that is
+/// struck in the middle of a block of cubes so moves its own row, not what it touches along an edge.
 ///
 /// The law, q being all velocities, |q|² twice the kinetic energy, K the motions in which no contact
 /// approaches:

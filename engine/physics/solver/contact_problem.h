@@ -39,6 +39,9 @@ struct ContactProblem {
     Triple target{};               ///< [m/s]
     bool slips = false;            ///< friction has the given direction
     std::array<double, 2> slip{};  ///< [1] unit
+    /// [1] unit, along the rows. Empty: u_n ≥ 0 is the condition. Else it is d·u ≥ 0 for one of them, and the
+    /// contact takes part only where u without it is against all, see ContactSolver.
+    std::vector<Triple> directions = {};
   };
 
   std::vector<double> inverseMass;  ///< six per body [1/kg, 1/(kg m²)], all positive

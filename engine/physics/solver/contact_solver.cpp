@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "physics/solver/residual_sum.h"
+#include "physics/solver/taking_part.h"
 
 namespace careen {
 namespace {
@@ -46,6 +48,24 @@ constexpr int kMostSets = 20;       // of contacts that push, without friction
 /// [1] of the friction, raised step by step; each step may take this part of the factorisations.
 constexpr std::array<double, 8> kPartsOfFriction = {0, 0.2, 0.4, 0.6, 0.8, 0.9, 0.96, 1};
 constexpr int kPartForRaising = 4;
+
+/// Whether velocities are against all directions of a contact by more than `least` [m/s].
+bool isAgainstAll(const ContactProblem::Contact& contact, std::span<const double> q, double least) {
+  ContactProblem::Triple u{};
+  const std::array<int, 2> sides{contact.a, contact.b};
+  for (std::size_t row = 0; row < 3; ++row) {
+    u[row] = -contact.target[row];
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (std::size_t k = 0; sides[side] != ContactProblem::kNobody && k < ContactProblem::kAxes; ++k) {
+        u[row] += contact.rows[row][side * ContactProblem::kAxes + k] *
+                  q[static_cast<std::size_t>(sides[side]) * ContactProblem::kAxes + k];
+      }
+    }
+  }
+  return std::all_of(
+      contact.directions.begin(), contact.directions.end(),
+      [&](const ContactProblem::Triple& d) { return d[0] * u[0] + (d[1] * u[1] + d[2] * u[2]) < -least; });
+}
 
 }  // namespace
 
@@ -276,9 +296,49 @@ bool ContactSolver::raiseFriction(const ContactProblem& problem, ContactSolution
   return true;
 }
 
-bool ContactSolver::solve(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations) {
+bool ContactSolver::solveWithAll(const ContactProblem& problem, ContactSolution& solution,
+                                 int mostFactorisations) {
   return solveOnce(problem, solution, mostFactorisations) ||
          (hasFriction() && raiseFriction(problem, solution, mostFactorisations));
+}
+
+bool ContactSolver::solve(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations) {
+  std::vector<char> takes;
+  for (const ContactProblem::Contact& contact : problem.contacts) {
+    takes.push_back(contact.directions.empty() ? 1 : 0);
+  }
+  if (std::find(takes.begin(), takes.end(), 0) == takes.end()) {
+    return solveWithAll(problem, solution, mostFactorisations);
+  }
+  const std::vector<Triple> warm = std::move(solution.impulses);
+  ContactProblem part{.inverseMass = problem.inverseMass, .free = problem.free, .contacts = {}};
+  int spent = 0;
+  const auto solvePart = [&](const std::vector<char>& chosen) {
+    part.contacts.clear();
+    solution.impulses.clear();
+    for (std::size_t c = 0; c < chosen.size(); ++c) {
+      if (chosen[c] != 0) {
+        part.contacts.push_back(problem.contacts[c]);
+        if (warm.size() == chosen.size()) {
+          solution.impulses.push_back(warm[c]);
+        }
+      }
+    }
+    const bool solved = solveWithAll(part, solution, mostFactorisations);
+    spent += solution.factorisations;
+    return solved;
+  };
+  const bool solved = solveWithTakingPart(takes, solvePart, [&](std::size_t c) {
+    return isAgainstAll(problem.contacts[c], solution.velocities,
+                        std::max({solution.enough, inScale(kEnough), contacts_.noise()}));
+  });
+  solution.factorisations = spent;
+  std::vector<Triple> all(takes.size());
+  for (std::size_t c = 0, next = 0; c < takes.size(); ++c) {
+    all[c] = takes[c] != 0 ? solution.impulses[next++] : Triple{};
+  }
+  solution.impulses = std::move(all);
+  return solved;
 }
 
 bool ContactSolver::solveOnce(const ContactProblem& problem, ContactSolution& solution,

@@ -36,6 +36,10 @@ namespace careen {
 /// a problem has several answers (friction can have that), this order chooses, and nothing that depends on
 /// names.
 ///
+/// Contacts with a choice of directions are left out at first, and added where the velocities without them
+/// are against all of theirs by more than the residual; then their normal is that of the rows
+/// (solveWithTakingPart).
+///
 /// An object keeps the order of elimination and its memory while bodies and contacts touch each other as
 /// before.
 class ContactSolver {
@@ -44,7 +48,7 @@ class ContactSolver {
   /// after about `mostFactorisations`; problems without a solution take all of them.
   bool solve(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations = kMost);
   static constexpr int kMost = 3000;
-  /// The same without stage 6.
+  /// The same without stage 6, for contacts without a choice.
   bool solveOnce(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations);
   /// Of all problems that were solved since it was last asked.
   ContactResiduals takeResiduals() { return std::exchange(residuals_, {}); }
@@ -52,6 +56,7 @@ class ContactSolver {
  private:
   using Triple = ContactProblem::Triple;
 
+  bool solveWithAll(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations);
   bool raiseFriction(const ContactProblem& problem, ContactSolution& solution, int mostFactorisations);
   void solveWithoutPolish(const ContactSolution& solution);
   bool tryNewton(std::span<const Triple> from, ContactNewton::Options options);

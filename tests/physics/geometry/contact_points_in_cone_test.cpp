@@ -310,20 +310,5 @@ TEST(ContactPointsInCone, ofLeaningCardsIsLevelHoweverSteep) {
   }
 }
 
-// Edge on edge at 45°, each face leaning by as much: sideways is out along one face or the other.
-TEST(PartingSpeed, ofEdgesThatPassEachOtherIsPositive) {
-  const Mat3 onEdge = turned<double>(Vec3::UnitZ(), kHalfTurn / 4);
-  const Vec3 half(0.5, 0.5, 0.5);
-  const Box a{.pose = {.position = Vec3(std::sqrt(2.0), 0, 0), .worldFromBody = onEdge}, .half = half};
-  const Box b{.pose = {.position = Vec3::Zero(), .worldFromBody = onEdge}, .half = half};
-  const double lean = std::sqrt(0.5);
-  for (const double side : {-1.0, 1.0}) {
-    EXPECT_NEAR(partingSpeed(a.at(), b.at(), {0, side, 0.3}), lean, 1e-15);
-    EXPECT_NEAR(partingSpeed(a.at(), b.at(), {-0.5, side, 0}), 0.5 * lean, 1e-15);
-    EXPECT_NEAR(partingSpeed(a.at(), b.at(), {-1.5, side, 0}), -0.5 * lean, 1e-15);
-    EXPECT_NEAR(partingSpeed(a.at(), b.at(), {0, 0, side}), 0, 1e-15);
-  }
-}
-
 }  // namespace
 }  // namespace careen

@@ -1,0 +1,56 @@
+#include "physics/geometry/separating_axes.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace careen {
+namespace {
+
+// Directions count as different if their angle moves the thinner box by this many times what counts as none.
+constexpr double kDifferentDirections = 8;
+
+}  // namespace
+
+AxisSet separatingAxes(BoxAt a, BoxAt b, const BoxAxes& axes, double within) {
+  const double thinnest = std::min(a.halfExtents.minCoeff(), b.halfExtents.minCoeff());
+  const double different = kDifferentDirections * within / thinnest;
+  const double least = std::min(axes.gap(), 0.0) - within;
+  const Vec3 best = axes.normal(axes.best());
+  AxisSet set = 0;
+  bool differ = false;
+  for (int k = 0; k < BoxAxis::kCount; ++k) {
+    if (axes.separation({k}) >= least) {
+      set |= 1U << k;
+      differ = differ || (axes.normal({k}) - best).squaredNorm() > different * different;
+    }
+  }
+  return differ ? set : 0;
+}
+
+AxisSet separatingAxes(BoxAt a, BoxAt b, double within) {
+  return separatingAxes(a, b, BoxAxes(a, b), within);
+}
+
+std::vector<Vec3> directionsOf(AxisSet set, BoxAt a, BoxAt b) {
+  std::vector<Vec3> directions;
+  if (set == 0) {
+    return directions;
+  }
+  const BoxAxes axes(a, b);
+  for (int k = 0; k < BoxAxis::kCount; ++k) {
+    if ((set >> k & 1U) != 0 && axes.separation({k}) > std::numeric_limits<double>::lowest()) {
+      directions.push_back(axes.normal({k}));
+    }
+  }
+  return directions;
+}
+
+double partingSpeed(std::span<const Vec3> directions, const Vec3& velocity) {
+  double fastest = std::numeric_limits<double>::lowest();
+  for (const Vec3& direction : directions) {
+    fastest = std::max(fastest, dot(direction, velocity));
+  }
+  return fastest;
+}
+
+}  // namespace careen

@@ -1,0 +1,419 @@
+#include "physics/impact/simultaneous_impact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/math/order_free_sum.h"
+#include "physics/geometry/tangents.h"
+#include "physics/impact/impact_problem.h"
+#include "physics/impact/single_impact.h"
+#include "physics/solver/contact_solver.h"
+
+namespace careen {
+namespace {
+
+using Impulse = ContactProblem::Triple;
+using Impulses = std::vector<Impulse>;
+constexpr std::size_t kSix = ContactProblem::kAxes;
+/// [1] of the contacts' speeds: a residual with which an impact may go on although the solver aims at less.
+constexpr double kTolerable = 0x1p-24;
+/// [1] of the restitution that is tried, one after the other, where bodies are wedged.
+constexpr std::array<double, 4> kParts{1, 0.5, 0.25, 0.125};
+/// Of reflections and projections in turn: it is asked whether they have settled after so many passes, and
+/// again after each as many more.
+constexpr std::size_t kManyPasses = 32;
+/// [1] of the rounding error of approaches: speeds this small are none.
+constexpr double kSettled = 64;
+/// Until impulses count as impossible.
+constexpr int kMostFactorisations = 400;
+
+/// The laws for several contacts, all in terms of impulses from the velocity before.
+class Law {
+ public:
+  Law(ContactProblem problem, std::span<const ImpactContact> contacts, ImpactAccuracy accuracy)
+      : problem_(std::move(problem)), before_(problem_.free), contacts_(contacts), accuracy_(accuracy) {
+    double scale = 0;  // [m/s] Σ|n_k q_k| of a contact: its speeds are rounded by parts of that
+    for (const ContactProblem::Contact& contact : problem_.contacts) {
+      scale = std::max(scale, sumOfTerms(contact, 0, before_, [](double term) { return std::fabs(term); }));
+    }
+    rounding_ = kApproachRounding * scale;
+  }
+
+  Impulses resolve() {
+    Chosen approaches;
+    findApproaching(before_, approaches);
+    if (std::none_of(approaches.begin(), approaches.end(), [](char yes) { return yes != 0; })) {
+      return Impulses(contacts_.size());
+    }
+    const bool rough = std::any_of(contacts_.begin(), contacts_.end(),
+                                   [](const ImpactContact& c) { return c.material.friction > 0; });
+    const bool elastic = std::any_of(contacts_.begin(), contacts_.end(),
+                                     [](const ImpactContact& c) { return c.material.restitution > 0; });
+    if (rough && !elastic) {
+      return solve(problem_);
+    }
+    Impulses impulses = frictionless();
+    return rough ? withFriction(impulses) : impulses;
+  }
+
+  double approach(std::size_t contact) const { return -speed(contact, 0, before_); }
+  ContactResiduals takeResiduals() { return solver_.takeResiduals(); }
+
+ private:
+  using Chosen = std::vector<char>;  // of the contacts
+
+  /// Each side for itself, since which of both is a must not matter.
+  template <class Use>
+  static double sumOfTerms(const ContactProblem::Contact& contact, std::size_t row, std::span<const double> q,
+                           const Use& use) {
+    std::array<double, 2> sums{};
+    const std::array<int, 2> sides{contact.a, contact.b};
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (std::size_t k = 0; sides[side] != ContactProblem::kNobody && k < kSix; ++k) {
+        sums[side] +=
+            use(contact.rows[row][side * kSix + k] * q[static_cast<std::size_t>(sides[side]) * kSix + k]);
+      }
+    }
+    return sums[0] + sums[1];
+  }
+
+  /// n q, t₁ q or t₂ q of a contact [m/s].
+  double speed(std::size_t contact, std::size_t row, std::span<const double> q) const {
+    return sumOfTerms(problem_.contacts[contact], row, q, [](double term) { return term; });
+  }
+
+  /// q₀ + M⁻¹ Jᵀλ, from the velocities before.
+  std::vector<double> after(const Impulses& impulses) const { return after(impulses, before_); }
+  std::vector<double> after(const Impulses& impulses, std::span<const double> from) const {
+    using Six = std::array<double, kSix>;
+    std::vector<std::vector<Six>> terms(before_.size() / kSix);
+    for (std::size_t c = 0; c < impulses.size(); ++c) {
+      const ContactProblem::Contact& contact = problem_.contacts[c];
+      const auto& [n, t, s] = contact.rows;
+      const std::array<int, 2> sides{contact.a, contact.b};
+      for (std::size_t side = 0; side < 2; ++side) {
+        if (sides[side] == ContactProblem::kNobody) {
+          continue;
+        }
+        Six& term = terms[static_cast<std::size_t>(sides[side])].emplace_back();
+        for (std::size_t k = 0; k < kSix; ++k) {
+          const std::size_t i = side * kSix + k;
+          term[k] = n[i] * impulses[c][0] + (t[i] * impulses[c][1] + s[i] * impulses[c][2]);
+        }
+      }
+    }
+    std::vector<double> q(from.begin(), from.end());
+    for (std::size_t body = 0; body < terms.size(); ++body) {
+      const Six sum = orderFreeSums<kSix>(terms[body]);
+      for (std::size_t k = 0; k < kSix; ++k) {
+        q[body * kSix + k] += problem_.inverseMass[body * kSix + k] * sum[k];
+      }
+    }
+    return q;
+  }
+
+  /// pᵀ M q [J], in no order of the bodies.
+  double product(std::span<const double> p, std::span<const double> q) const {
+    std::vector<std::array<double, 1>> ofBodies(q.size() / kSix);
+    for (std::size_t k = 0; k < q.size(); ++k) {
+      ofBodies[k / kSix][0] += p[k] * q[k] / problem_.inverseMass[k];
+    }
+    return orderFreeSums<1>(ofBodies)[0];
+  }
+
+  /// From the solution's impulses, if it has some; they are the best that were found.
+  bool trySolve(const ContactProblem& problem, int mostFactorisations, ContactSolution& solution) {
+    return solver_.solve(problem, solution, mostFactorisations) ||
+           solution.residual <= std::max(kTolerable * solution.scale, accuracy_.tolerable);
+  }
+
+  Impulses solve(const ContactProblem& problem) {
+    ContactSolution solution;
+    if (!trySolve(problem, ContactSolver::kMost, solution) &&
+        !trySolve(problem, ContactSolver::kMost, solution)) {
+      throw NumericalError("impact: no impulses of its " + std::to_string(problem.contacts.size()) +
+                           " contacts were found");
+    }
+    return solution.impulses;
+  }
+
+  void findApproaching(std::span<const double> q, Chosen& approaches) const {
+    approaches.clear();
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      approaches.push_back(speed(c, 0, q) < -rounding_ ? 1 : 0);
+    }
+  }
+
+  /// Impulses that project q onto the motions in which the chosen contacts do not approach.
+  Impulses projection(std::span<const double> q, std::span<const char> chosen) {
+    ContactProblem chosenOnly{
+        .inverseMass = problem_.inverseMass, .free = {q.begin(), q.end()}, .contacts = {}};
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      if (chosen[c] != 0) {
+        chosenOnly.contacts.push_back(problem_.contacts[c]);
+        chosenOnly.contacts.back().friction = 0;
+      }
+    }
+    const Impulses found = solve(chosenOnly);
+    Impulses all(contacts_.size());
+    std::size_t next = 0;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      all[c] = chosen[c] != 0 ? found[next++] : Impulse{};
+    }
+    return all;
+  }
+
+  static void add(Impulses& sum, double factor, const Impulses& impulses) {
+    for (std::size_t c = 0; c < sum.size(); ++c) {
+      for (std::size_t row = 0; row < 3; ++row) {
+        sum[c][row] += factor * impulses[c][row];
+      }
+    }
+  }
+
+  /// P: Moreau's projection.
+  const Impulses& plastic() {
+    if (plastic_.empty()) {
+      plastic_ = projection(before_, Chosen(contacts_.size(), 1));
+    }
+    return plastic_;
+  }
+
+  /// Where reflections and projections end that go on at the recent contacts, ever slower: they change q by
+  /// impulses of these contacts only, until none of them moves. Nothing if something else happens before.
+  std::optional<Impulses> endOf(std::span<const double> q, const Chosen& recent) {
+    Impulses last = projection(q, recent);
+    const std::vector<double> end = after(last, q);
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const double parting = speed(c, 0, end);
+      if (parting < -kSettled * rounding_ || (recent[c] != 0 && parting > kSettled * rounding_)) {
+        return std::nullopt;
+      }
+    }
+    return last;
+  }
+
+  /// Xₜ: reflections about the contacts with e > t; where none of those approaches, projection onto the
+  /// motions in which no other contact does, approaching yet or not: one after the other they would take
+  /// thousands of passes. Reflections alone terminate; a mixture may go on for ever, at the same contacts: it
+  /// ends with the projection to which that converges. What does not within the cap is ended by it too.
+  Impulses reflected(double threshold) {
+    Impulses total(contacts_.size());
+    std::vector<double> q = before_;
+    Chosen approaches;
+    Chosen elastic(contacts_.size());
+    Chosen others(contacts_.size());
+    Chosen recent(contacts_.size());  // that took an impulse since it was last asked
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      others[c] = contacts_[c].material.restitution > threshold ? 0 : 1;
+    }
+    const bool isMixture = std::find(others.begin(), others.end(), 1) != others.end();
+    const std::size_t cap = 100 + 10 * contacts_.size() * contacts_.size();
+    for (std::size_t pass = 0; pass < cap; ++pass) {
+      findApproaching(q, approaches);
+      if (std::find(approaches.begin(), approaches.end(), 1) == approaches.end()) {
+        return total;
+      }
+      std::transform(approaches.begin(), approaches.end(), others.begin(), elastic.begin(),
+                     [](char yes, char other) { return static_cast<char>(yes != 0 && other == 0 ? 1 : 0); });
+      if (isMixture && pass > 0 && pass % kManyPasses == 0) {
+        if (const std::optional<Impulses> last = endOf(q, recent)) {
+          add(total, 1, *last);
+          return total;
+        }
+        recent.assign(contacts_.size(), 0);
+      }
+      const bool anyElastic = std::find(elastic.begin(), elastic.end(), 1) != elastic.end();
+      const Chosen& chosen = anyElastic ? elastic : others;
+      const bool isPlastic = pass == 0 && std::find(chosen.begin(), chosen.end(), 0) == chosen.end();
+      const Impulses change = isPlastic ? plastic() : projection(q, chosen);
+      if (std::all_of(change.begin(), change.end(), [](const Impulse& impulse) { return impulse[0] == 0; })) {
+        return total;  // what is left of their approach is rounding
+      }
+      add(total, anyElastic ? 2 : 1, change);
+      for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        recent[c] = recent[c] != 0 || change[c][0] > 0 ? 1 : 0;
+      }
+      q = after(total);
+    }
+    add(total, 1, projection(q, Chosen(contacts_.size(), 1)));
+    return total;
+  }
+
+  Impulses frictionless() {
+    std::vector<double> levels;  // the distinct e above 0, ascending
+    for (const ImpactContact& contact : contacts_) {
+      if (contact.material.restitution > 0) {
+        levels.push_back(contact.material.restitution);
+      }
+    }
+    std::sort(levels.begin(), levels.end());
+    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+    Impulses total(contacts_.size());
+    double below = 0;
+    for (const double level : levels) {
+      add(total, level - below, reflected(below));
+      below = level;
+    }
+    if (below < 1) {
+      add(total, 1 - below, plastic());
+    }
+    return total;
+  }
+
+  Impulses withFriction(const Impulses& smooth);
+  Impulses shortened(const Impulses& smooth, Impulses rough) const;
+
+  ContactProblem problem_;
+  std::vector<double> before_;
+  std::span<const ImpactContact> contacts_;
+  ContactSolver solver_;
+  ImpactAccuracy accuracy_;
+  double rounding_ = 0;  // [m/s]
+  Impulses plastic_;     // empty: not yet computed
+};
+
+/// The contact problem whose targets are the normal speeds that restitution sets and the slip that it adds. A
+/// body wedged between rough sides may not be able to part so fast with any impulses in the cones: then it
+/// parts with half that speed, or a quarter, …, or sticks, which is always possible.
+Impulses Law::withFriction(const Impulses& smooth) {
+  const std::vector<double> parting = after(smooth);
+  std::vector<double> restituted = parting;
+  const std::vector<double> compressed = after(plastic());
+  for (std::size_t k = 0; k < restituted.size(); ++k) {
+    restituted[k] -= compressed[k];
+  }
+  ContactProblem rough = problem_;
+  for (const double part : kParts) {
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      rough.contacts[c].target = {smooth[c][0] > 0 ? part * speed(c, 0, parting) : 0,
+                                  part * speed(c, 1, restituted), part * speed(c, 2, restituted)};
+    }
+    ContactSolution solution;
+    solution.enough = accuracy_.enough;
+    if (accuracy_.enough > 0) {
+      solution.impulses = smooth;
+    }
+    if (trySolve(rough, kMostFactorisations, solution)) {
+      return part == 1 ? shortened(smooth, std::move(solution.impulses)) : solution.impulses;
+    }
+  }
+  return solve(problem_);
+}
+
+/// Goes from the frictionless solution towards the one with friction, as far as energy, the friction cones
+/// and the walls allow: all the way, unless a lifted contact would gain energy. All three constraints are
+/// convex and hold at the start.
+Impulses Law::shortened(const Impulses& smooth, Impulses rough) const {
+  const std::vector<double> start = after(smooth);
+  const std::vector<double> end = after(rough);
+  double fraction = 1;
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const double size = std::sqrt(rough[c][1] * rough[c][1] + rough[c][2] * rough[c][2]);
+    const double limit = contacts_[c].material.friction * smooth[c][0];
+    const double over = size - contacts_[c].material.friction * rough[c][0];
+    if (over > 0x1p-44 * size) {
+      fraction = std::min(fraction, limit / (limit + over));
+    }
+    const double closing = -speed(c, 0, end);
+    if (closing > rounding_) {
+      const double parting = std::max(0.0, speed(c, 0, start));
+      fraction = std::min(fraction, parting / (parting + closing));
+    }
+  }
+  std::vector<double> way = end;
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    way[k] -= start[k];
+  }
+  const double slope = product(start, way);  // dE/dfraction at the start
+  const double curvature = product(way, way);
+  const double full = product(start, start) / 2;
+  if (fraction * slope + fraction * fraction * curvature / 2 > 0x1p-50 * full) {
+    fraction = slope < 0 ? std::min(fraction, -slope / curvature) : 0;
+  }
+  if (fraction == 1) {
+    return rough;
+  }
+  Impulses result = smooth;
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    for (std::size_t row = 0; row < 3; ++row) {
+      result[c][row] += fraction * (rough[c][row] - smooth[c][row]);
+    }
+  }
+  return result;
+}
+
+/// Adds the impulses of the contacts to velocity and angular momentum; a component below the rounding error
+/// of its terms becomes zero.
+void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> contacts,
+             std::span<const Vec3> impulses) {
+  using Six = std::array<double, kSix>;
+  BodyState& state = *body.state;
+  std::vector<Six> terms;
+  terms.reserve(1 + 2 * contacts.size());
+  const auto add = [&terms](const Vec3& linear, const Vec3& angular) {
+    terms.push_back({linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]});
+  };
+  add(state.velocity, state.angularMomentum);
+  const bool turns = !body.mass->inverseInertiaBody.isZero(0);
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    for (const bool second : {false, true}) {
+      if (second ? contacts[c].b.isBody(index) : contacts[c].a == index) {
+        const Vec3 impulse = second ? Vec3(-impulses[c]) : impulses[c];
+        const Vec3& arm = second ? contacts[c].armB : contacts[c].armA;
+        add(body.mass->inverseMass * impulse, turns ? arm.cross(impulse) : Vec3(Vec3::Zero()));
+      }
+    }
+  }
+  Six sums = orderFreeSums<kSix>(terms);
+  for (std::size_t k = 0; k < kSix; ++k) {
+    double largest = 0;
+    for (const Six& term : terms) {
+      largest = std::max(largest, std::fabs(term[k]));
+    }
+    sums[k] = std::fabs(sums[k]) <= 0x1p-49 * largest ? 0 : sums[k];
+  }
+  state.velocity = Vec3(sums[0], sums[1], sums[2]);
+  state.angularMomentum = Vec3(sums[3], sums[4], sums[5]);
+}
+
+}  // namespace
+
+ContactResiduals resolveTogether(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts,
+                                 std::span<ImpactShare> shares, ImpactAccuracy accuracy) {
+  if (contacts.size() == 1) {
+    const ImpactContact& only = contacts[0];
+    const ImpactBody* b = only.b.isWall() ? nullptr : &bodies[static_cast<std::size_t>(only.b.body())];
+    shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)], b, only);
+    shares[0].normal = only.normal;
+    return {};
+  }
+  Law law(impactProblemOf(bodies, contacts), contacts, accuracy);
+  const Impulses impulses = law.resolve();
+  std::vector<Vec3> world(contacts.size());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Tangents tangents = tangentsOf(contacts[c].normal);
+    const Impulse& j = impulses[c];
+    world[c] = j[0] * contacts[c].normal + (j[1] * tangents.first + j[2] * tangents.second);
+    shares[c] = {.approach = law.approach(c),
+                 .impulse = j[0],
+                 .tangential = std::sqrt(j[1] * j[1] + j[2] * j[2]),
+                 .normal = contacts[c].normal};
+    if (!world[c].allFinite()) {
+      throw NumericalError("impact: an impulse is not a finite number");
+    }
+  }
+  for (std::size_t index = 0; index < bodies.size(); ++index) {
+    applyTo(static_cast<int>(index), bodies[index], contacts, world);
+  }
+  return law.takeResiduals();
+}
+
+}  // namespace careen
