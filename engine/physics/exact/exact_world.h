@@ -128,6 +128,7 @@ class ExactWorld {
   void join(Encounter& encounter, int rank);
   double nearness(const Encounter& encounter) const;
   void addPairContacts(Encounter& encounter, std::size_t indexA, std::size_t indexB) const;
+  double knownTo(const Encounter& encounter, std::size_t indexA, std::size_t indexB) const;
   void joinPoints(const Encounter& encounter, std::size_t index, ImpactContact& contact) const;
   void resolve(Encounter& encounter);
   void record(const Encounter& encounter);

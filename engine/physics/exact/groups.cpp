@@ -144,19 +144,24 @@ void ExactWorld::addPairContacts(Encounter& encounter, std::size_t indexA, std::
   if ((isImmovable(a.mass) && isImmovable(b.mass)) || !areTouching(boxA, boxB)) {
     return;
   }
+  const AxisSet choice = separatingAxes(boxA, boxB, knownTo(encounter, indexA, indexB));
   for (const ContactPoint& at : boxContactPoints(boxA, boxB)) {
-    std::vector<Vec3> directions;
-    if (at.inCone) {
-      directions = directionsOf(separatingAxes(boxA, boxB, touchingWithin(boxA, boxB)), boxA, boxB);
-    }
     encounter.contacts.push_back({.a = static_cast<int>(indexA),
                                   .b = Partner::ofBody(static_cast<int>(indexB)),
                                   .armA = at.armA,
                                   .armB = at.armB,
                                   .normal = at.normal,
                                   .material = touching(a.material, b.material),
-                                  .directions = directions});
+                                  .inCone = at.inCone,
+                                  .directions = directionsOf(choice, boxA, boxB)});
   }
+}
+
+// [m] How well the places of two bodies that meet are known: in steps only to the tolerance.
+double ExactWorld::knownTo(const Encounter& encounter, std::size_t indexA, std::size_t indexB) const {
+  const bool inSteps = mover(encounter.ranks[indexA]).touches() || mover(encounter.ranks[indexB]).touches();
+  return std::max(inSteps ? 0.25 * tolerance_ : 0,
+                  touchingWithin(boxOf(encounter, indexA), boxOf(encounter, indexB)));
 }
 
 // ---- Impacts.

@@ -304,12 +304,11 @@ ContactFeature ExactWorld::featureOf(const Encounter& encounter, std::size_t k) 
     const auto b = static_cast<std::size_t>(contact.b.body());
     const BoxAt boxA = boxAt(pose, body);
     const BoxAt boxB = boxAt(encounter.after[b].pose, *mover(encounter.ranks[b]).body);
-    const bool inCone = !contact.directions.empty();
-    feature = featureAt({contact.armA, contact.armB, contact.normal, inCone}, 0, contact.a, boxA,
+    feature = featureAt({contact.armA, contact.armB, contact.normal, contact.inCone}, 0, contact.a, boxA,
                         contact.b.body(), boxB);
-    if (inCone) {
+    if (!contact.directions.empty()) {
       const bool swaps = feature.a != contact.a;
-      feature.axes = separatingAxes(swaps ? boxB : boxA, swaps ? boxA : boxB, touchingWithin(boxA, boxB));
+      feature.axes = separatingAxes(swaps ? boxB : boxA, swaps ? boxA : boxB, knownTo(encounter, a, b));
     }
   }
   feature.material = contact.material;

@@ -26,6 +26,7 @@ struct ImpactContact {
   Vec3 armB = Vec3::Zero();     ///< [m] world, from b's; not read for a wall
   Vec3 normal = Vec3::UnitZ();  ///< [1] unit, from b to a
   Material material;            ///< of the pair, see touching()
+  bool inCone = false;          ///< the normal is the centre of a cone, see ContactPoint
   /// [1] unit: the contact takes part only where its bodies would enter each other along all of them. None:
   /// the normal is the only one.
   std::vector<Vec3> directions = {};

@@ -70,7 +70,7 @@ void VertexRecords::addFace(FaceGrid grid, bool mirrored) {
     return;
   }
   addQuad(outlines, {0, 1, 3, 2});
-  if (grid == FaceGrid::kCorners) {
+  if (grid == FaceGrid::kAtCorners) {
     addQuad(triangles, {0, 1, 3, 2});
     count += 4;
     return;
@@ -130,7 +130,7 @@ void FaceRecords::findFine() {
 FaceGrid FaceRecords::gridOf(std::size_t face) const {
   return isFine_[in_.faces[face].box] ? FaceGrid::kFine
          : hasList(face)              ? FaceGrid::kFramed
-                                      : FaceGrid::kCorners;
+                                      : FaceGrid::kAtCorners;
 }
 
 bool FaceRecords::hasList(std::size_t face) const {
@@ -181,7 +181,7 @@ const Zonogon& FaceRecords::zonogonOfCaster(std::size_t caster) {
 void FaceRecords::addShadow(const ShadowPair& pair) {
   const DrawnFace& face = in_.faces[pair.face];
   const Zonogon& zonogon = zonogonOfCaster(pair.caster);
-  const FaceGrid grid = isFine_[face.box] ? FaceGrid::kFine : FaceGrid::kCorners;
+  const FaceGrid grid = isFine_[face.box] ? FaceGrid::kFine : FaceGrid::kAtCorners;
   cast.addFace(grid, face.side % 2 != 0);
   forGrid(in_.boxes[face.box], face, grid, [&](const Vec3& point, double, double) {
     appendShadow(cast.vertices, zonogon, point, offsetOf(point, in_.eye), pair.weight);

@@ -15,7 +15,7 @@ namespace careen {
 
 /// Points of a face at which its occlusion is found: its corners; four more inside, which leave its edges in
 /// one piece; or a grid, whose lines divide them.
-enum class FaceGrid { kCorners, kFramed, kFine };
+enum class FaceGrid { kAtCorners, kFramed, kFine };
 
 /// Records of vertices, and triangles between them.
 struct VertexRecords {
