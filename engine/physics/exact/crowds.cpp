@@ -22,6 +22,7 @@ constexpr double kMergedAfloat = 0x1p-4;
 // ---- When bodies become a crowd.
 
 // Before their contacts are looked at: bodies that meet a crowd, too many that move, or endless repetition.
+// An impact of any number of bodies without friction is a convex problem, and solved.
 bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
   if (!encounter.crowds.empty()) {
     return true;
@@ -31,20 +32,27 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
   }
   int movable = 0;
   bool moves = false;
+  bool rubs = false;
   for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
     const Mover& body = mover(encounter.ranks[i]);
     if (body.isHeld()) {
       continue;
     }
     ++movable;
+    rubs = rubs || body.body->material.friction > 0;
     const double spin = angularVelocity(body.body->mass, encounter.before[i]).norm();
     moves = moves || encounter.before[i].velocity.norm() + spin * radiusOf(*body.body) > fallSpeed();
     if (body.atOneMoment > kMostAtOneMoment) {
       return true;
     }
   }
-  const int most = crowds_.when == CrowdSettings::When::kAbove ? crowds_.above : kMostInContact;
-  return moves && movable > most;
+  return moves && rubs && isTooMany(movable);
+}
+
+// For steps.
+bool ExactWorld::isTooMany(int movable) const {
+  return crowds_.when != CrowdSettings::When::kNever &&
+         movable > (crowds_.when == CrowdSettings::When::kAbove ? crowds_.above : kMostInContact);
 }
 
 // Of what these bodies may spend on contact together; negative where they must go on as a crowd.

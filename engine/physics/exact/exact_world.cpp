@@ -141,7 +141,8 @@ void ExactWorld::happen(const Event& event) {
       formCrowd(encounter);
       return;
     }
-    if (!encounter.islands.empty() && workLeft(encounter.ranks, encounter.time) < 0) {
+    if (encounter.isTooMany ||
+        (!encounter.islands.empty() && workLeft(encounter.ranks, encounter.time) < 0)) {
       formCrowd(encounter);
       return;
     }

@@ -77,6 +77,7 @@ class ExactWorld {
     std::vector<std::shared_ptr<ContactGroup>> islands;
     std::vector<std::shared_ptr<ContactGroup>> crowds;  ///< that these bodies meet
     ContactResiduals residuals;                         ///< of the islands' first forces
+    bool isTooMany = false;                             ///< an island of them
     int timeSteps = 0;                                  ///< its islands go on by so many
     double passing = 0;  ///< [1] contacts without an impulse persist that part with so many roundings
   };
@@ -88,6 +89,7 @@ class ExactWorld {
 
   // Crowds.
   bool goesOnAsCrowd(const Encounter& encounter) const;
+  bool isTooMany(int movable) const;
   double workLeft(std::span<const int> ranks, const Instant& time) const;
   void formCrowd(const Encounter& encounter);
   void enlist(const std::shared_ptr<ContactGroup>& crowd, int rank, const Instant& time,

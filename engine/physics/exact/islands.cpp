@@ -412,6 +412,7 @@ void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>
     all(Next::kFlies);
   } else {
     all(Next::kTouches);
+    encounter.isTooMany = encounter.isTooMany || isTooMany(static_cast<int>(members.size()));
     encounter.islands.push_back(std::move(contactGroup));
   }
 }
