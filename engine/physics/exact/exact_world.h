@@ -158,6 +158,8 @@ class ExactWorld {
   };
   Parting partingAt(const Encounter& encounter, std::size_t contact) const;
   void formIslands(Encounter& encounter) const;
+  std::vector<ContactFeature> featuresOf(const Encounter& encounter, const std::vector<std::size_t>& members,
+                                         std::vector<std::size_t>& indices) const;
   void formIsland(Encounter& encounter, const std::vector<std::size_t>& members) const;
   bool beginsAtRest(Island& island, int timeSteps) const;
   TouchingBody touchingBody(const Encounter& encounter, std::size_t index) const;

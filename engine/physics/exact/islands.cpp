@@ -332,9 +332,11 @@ bool ExactWorld::beginsAtRest(Island& island, int timeSteps) const {
   return false;
 }
 
-// Bodies joined by persisting contacts continue in Contact, unless no contact is active or nothing moves.
-void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>& members) const {
-  std::vector<std::size_t> indices = members;
+// The persisting contacts of an island's members. `indices` are its bodies: they, and what they touch.
+std::vector<ContactFeature> ExactWorld::featuresOf(const Encounter& encounter,
+                                                   const std::vector<std::size_t>& members,
+                                                   std::vector<std::size_t>& indices) const {
+  indices = members;
   std::vector<ContactFeature> features;
   const auto placeOf = [&](int index) {
     const auto at = std::find(indices.begin(), indices.end(), static_cast<std::size_t>(index));
@@ -360,6 +362,13 @@ void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>
     }
     features.push_back(feature);
   }
+  return features;
+}
+
+// Bodies joined by persisting contacts continue in Contact, unless no contact is active or nothing moves.
+void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>& members) const {
+  std::vector<std::size_t> indices;
+  std::vector<ContactFeature> features = featuresOf(encounter, members, indices);
   const bool forced = std::any_of(members.begin(), members.end(),
                                   [&](std::size_t i) { return isForced(encounter.ranks[i]); });
   const auto all = [&](Next next) {
@@ -383,9 +392,15 @@ void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>
   };
   contactGroup->island = islandOfThem();
   contactGroup->ranks = std::move(ranks);
-  const int timeSteps =
-      encounter.timeSteps == 0 && members.size() > kMostSmooth ? kTimeStepsOfMany : encounter.timeSteps;
+  // Many bodies that nothing pulls may slide along each other without a force.
+  const bool isMany = encounter.timeSteps == 0 && members.size() > kMostSmooth;
+  const bool isPulled = forced || !world_.gravity.isZero(0);
+  const int timeSteps = isMany && isPulled ? kTimeStepsOfMany : encounter.timeSteps;
   bool rests = beginsAtRest(*contactGroup->island, timeSteps);
+  if (isMany && !isPulled && (contactGroup->island->pushes() || !contactGroup->island->isSmooth())) {
+    contactGroup->island->beginTimeSteps(kTimeStepsOfMany);
+    rests = false;
+  }
   if (!rests && contactGroup->island->dropIdle(features)) {
     contactGroup->island = islandOfThem();
     rests = beginsAtRest(*contactGroup->island, timeSteps);

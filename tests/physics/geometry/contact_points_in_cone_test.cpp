@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "physics/geometry/contact_points.h"
-#include "physics/geometry/separation.h"
 #include "physics/world/body.h"
 #include "support/tumbling_box.h"
 
