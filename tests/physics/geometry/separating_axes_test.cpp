@@ -12,24 +12,22 @@ namespace {
 
 using test::turned;
 
-const double kHalfTurn = std::acos(-1.0);
-
-struct Box {
+struct UnitCube {
   Pose pose;
-  Vec3 half = Vec3(0.5, 0.5, 0.5);
-  BoxAt at() const { return {pose, half}; }
+  BoxAt at() const { return {pose, kHalf}; }
+  static inline const Vec3 kHalf = Vec3(0.5, 0.5, 0.5);
 };
 
-double partingOf(const Box& a, const Box& b, const Vec3& velocity, double within) {
+double partingOf(const UnitCube& a, const UnitCube& b, const Vec3& velocity, double within) {
   const AxisSet axes = separatingAxes(a.at(), b.at(), within);
   return partingSpeed(directionsOf(axes, a.at(), b.at()), velocity);
 }
 
 // Edge on edge at 45°, each face leaning by as much: sideways is out along one face or the other.
 TEST(SeparatingAxes, edgesThatPassEachOtherPart) {
-  const Mat3 onEdge = turned<double>(Vec3::UnitZ(), kHalfTurn / 4);
-  const Box a{.pose = {.position = Vec3(std::sqrt(2.0), 0, 0), .worldFromBody = onEdge}};
-  const Box b{.pose = {.position = Vec3::Zero(), .worldFromBody = onEdge}};
+  const Mat3 onEdge = turned<double>(Vec3::UnitZ(), std::acos(-1.0) / 4);
+  const UnitCube a{.pose = {.position = Vec3(std::sqrt(2.0), 0, 0), .worldFromBody = onEdge}};
+  const UnitCube b{.pose = {.position = Vec3::Zero(), .worldFromBody = onEdge}};
   const double within = touchingWithin(a.at(), b.at());
   const double lean = std::sqrt(0.5);
   for (const double side : {-1.0, 1.0}) {
@@ -41,16 +39,16 @@ TEST(SeparatingAxes, edgesThatPassEachOtherPart) {
 }
 
 TEST(SeparatingAxes, facesHaveNone) {
-  const Box a{.pose = {.position = Vec3(0.3, 0.2, 1)}};
-  const Box b;
+  const UnitCube a{.pose = {.position = Vec3(0.3, 0.2, 1)}};
+  const UnitCube b;
   EXPECT_EQ(separatingAxes(a.at(), b.at(), touchingWithin(a.at(), b.at())), 0U);
   EXPECT_TRUE(directionsOf(0, a.at(), b.at()).empty());
 }
 
 // A cube on a floor of cubes meets the edge of the next: up and back.
 TEST(SeparatingAxes, ofLevelCubesAreUpAndBack) {
-  const Box a{.pose = {.position = Vec3(-1, 0.25, 1)}};
-  const Box b;
+  const UnitCube a{.pose = {.position = Vec3(-1, 0.25, 1)}};
+  const UnitCube b;
   const AxisSet axes = separatingAxes(a.at(), b.at(), touchingWithin(a.at(), b.at()));
   for (const Vec3& direction : directionsOf(axes, a.at(), b.at())) {
     EXPECT_TRUE(direction == Vec3(Vec3::UnitZ()) || direction == Vec3(-Vec3::UnitX())) << direction;
@@ -60,8 +58,8 @@ TEST(SeparatingAxes, ofLevelCubesAreUpAndBack) {
 }
 
 TEST(SeparatingAxes, depthWithinTheGivenCountsAsNone) {
-  const Box a{.pose = {.position = Vec3(-1, 0, 1 - 1e-7)}};
-  const Box b;
+  const UnitCube a{.pose = {.position = Vec3(-1, 0, 1 - 1e-7)}};
+  const UnitCube b;
   EXPECT_EQ(separatingAxes(a.at(), b.at(), 1e-8), 0U);
   EXPECT_EQ(partingOf(a, b, {2, 0, 0}, 1e-6), 0);
   EXPECT_EQ(partingOf(b, a, {-2, 0, 0}, 1e-6), 0);
@@ -69,8 +67,8 @@ TEST(SeparatingAxes, depthWithinTheGivenCountsAsNone) {
 
 // The same cubes, apart along both: neither is what keeps them apart more than the other.
 TEST(SeparatingAxes, ofBoxesThatAreApartAreAllThatSeparate) {
-  const Box a{.pose = {.position = Vec3(-1.1, 0, 1.05)}};
-  const Box b;
+  const UnitCube a{.pose = {.position = Vec3(-1.1, 0, 1.05)}};
+  const UnitCube b;
   EXPECT_EQ(partingOf(a, b, {2, 0, 0}, 1e-9), 0);
 }
 
