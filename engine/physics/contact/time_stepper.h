@@ -93,7 +93,7 @@ class TimeStepper {
   static bool isSame(const ContactFeature& x, const ContactFeature& y);
   void findContacts(const GroupState& at);
   void addWallContacts(std::size_t body);
-  void addPairContacts(std::size_t a, std::size_t b);
+  void addPairContacts(const GroupState& at, std::size_t a, std::size_t b);
   void lookAgain(const GroupState& at);
   void collide();
   bool collideOnce();

@@ -4,7 +4,7 @@
 
 #include "core/disjoint_sets.h"
 #include "physics/contact/time_stepper.h"
-#include "physics/geometry/contact_points.h"
+#include "physics/geometry/chosen_contact.h"
 #include "physics/geometry/separation.h"
 
 // Contacts of a time step: which there are, which obey their law; impacts at its start.
@@ -59,16 +59,22 @@ void TimeStepper::addWallContacts(std::size_t body) {
   }
 }
 
-void TimeStepper::addPairContacts(std::size_t a, std::size_t b) {
+void TimeStepper::addPairContacts(const GroupState& at, std::size_t a, std::size_t b) {
   if (BoxAxes(boxOf(a), boxOf(b)).gap() > closed()) {
     return;
   }
-  for (const ContactPoint& point : boxContactPoints(boxOf(a), boxOf(b), closed())) {
+  const Kinematics ofA = equations_.kinematics(a, at[a]);
+  const Kinematics ofB = equations_.kinematics(b, at[b]);
+  const ChosenContact contact = chosenContact(boxOf(a), boxOf(b), closed(), closed(), equations_.residual(),
+                                              [&](const Vec3& armA, const Vec3& armB) {
+                                                return Vec3((ofA.velocity + ofA.angularVelocity.cross(armA)) -
+                                                            (ofB.velocity + ofB.angularVelocity.cross(armB)));
+                                              });
+  for (const ContactPoint& point : contact.points) {
     ContactFeature feature =
         featureAt(point, closed(), static_cast<int>(a), boxOf(a), static_cast<int>(b), boxOf(b));
     feature.material = materialOf(feature);
-    feature.axes = separatingAxes(boxOf(static_cast<std::size_t>(feature.a)),
-                                  boxOf(static_cast<std::size_t>(feature.b.body())), closed());
+    feature.axes = feature.a == static_cast<int>(a) ? contact.choice : swapped(contact.choice);
     found_.push_back({.feature = feature});
   }
 }
@@ -86,7 +92,7 @@ void TimeStepper::findContacts(const GroupState& at) {
     }
     for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
       if (!(bodies_[i].isHeld() && bodies_[j].isHeld()) && near(at, i, j, closed())) {
-        addPairContacts(i, j);
+        addPairContacts(at, i, j);
       }
     }
   }
@@ -107,9 +113,10 @@ void TimeStepper::lookAgain(const GroupState& at) {
 }
 
 // Contacts that obey their law in a step of length h. One that parts so fast that it would open within the
-// step is in flight instead, and one that passes is soon elsewhere.
+// step is in flight instead, and edges that pass each other are soon elsewhere.
 bool TimeStepper::obeys(const Found& found, double h) const {
-  return found.gap <= closed() && found.rate * h <= kOpens * closed() && found.passing * h <= closed();
+  const bool passes = found.feature.kind == ContactFeature::Kind::kInCone && found.passing * h > closed();
+  return found.gap <= closed() && found.rate * h <= kOpens * closed() && !passes;
 }
 
 void TimeStepper::choose(double h) {

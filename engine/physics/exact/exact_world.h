@@ -130,6 +130,8 @@ class ExactWorld {
   void join(Encounter& encounter, int rank);
   double nearness(const Encounter& encounter) const;
   void addPairContacts(Encounter& encounter, std::size_t indexA, std::size_t indexB) const;
+  bool inSteps(const Encounter& encounter, std::size_t indexA, std::size_t indexB) const;
+  double slowOf(const Encounter& encounter, std::size_t indexA, std::size_t indexB) const;
   double knownTo(const Encounter& encounter, std::size_t indexA, std::size_t indexB) const;
   void joinPoints(const Encounter& encounter, std::size_t index, ImpactContact& contact) const;
   void resolve(Encounter& encounter);
@@ -152,9 +154,11 @@ class ExactWorld {
   void settle(Encounter& encounter);
   void settleBody(Encounter& encounter, std::size_t index) const;
   void findPersisting(Encounter& encounter) const;
+  void choose(Encounter& encounter, std::size_t contact, const Vec3& velocity) const;
   struct Parting {
-    double speed = 0;     ///< [m/s] rate of the gap
-    double rounding = 0;  ///< [m/s] up to this it counts as zero
+    double speed = 0;              ///< [m/s] rate of the gap
+    double rounding = 0;           ///< [m/s] up to this it counts as zero
+    Vec3 velocity = Vec3::Zero();  ///< [m/s] of a's point relative to b's
   };
   Parting partingAt(const Encounter& encounter, std::size_t contact) const;
   void formIslands(Encounter& encounter) const;

@@ -4,8 +4,6 @@
 
 #include "physics/contact/implicit_step.h"
 #include "physics/exact/exact_world.h"
-#include "physics/geometry/contact_points.h"
-#include "physics/geometry/separating_axes.h"
 #include "physics/impact/wall_contacts.h"
 #include "physics/search/first_contact_search.h"
 
@@ -133,35 +131,6 @@ void ExactWorld::reach(const Event& event, Encounter& encounter) {
   encounter.ranks = std::move(sorted.ranks);
   encounter.attitudes = std::move(sorted.attitudes);
   encounter.before = std::move(sorted.before);
-}
-
-// Adds the contacts of two bodies that touch.
-void ExactWorld::addPairContacts(Encounter& encounter, std::size_t indexA, std::size_t indexB) const {
-  const Body& a = *mover(encounter.ranks[indexA]).body;
-  const Body& b = *mover(encounter.ranks[indexB]).body;
-  const BoxAt boxA = boxOf(encounter, indexA);
-  const BoxAt boxB = boxOf(encounter, indexB);
-  if ((isImmovable(a.mass) && isImmovable(b.mass)) || !areTouching(boxA, boxB)) {
-    return;
-  }
-  const AxisSet choice = separatingAxes(boxA, boxB, knownTo(encounter, indexA, indexB));
-  for (const ContactPoint& at : boxContactPoints(boxA, boxB)) {
-    encounter.contacts.push_back({.a = static_cast<int>(indexA),
-                                  .b = Partner::ofBody(static_cast<int>(indexB)),
-                                  .armA = at.armA,
-                                  .armB = at.armB,
-                                  .normal = at.normal,
-                                  .material = touching(a.material, b.material),
-                                  .inCone = at.inCone,
-                                  .directions = directionsOf(choice, boxA, boxB)});
-  }
-}
-
-// [m] How well the places of two bodies that meet are known: in steps only to the tolerance.
-double ExactWorld::knownTo(const Encounter& encounter, std::size_t indexA, std::size_t indexB) const {
-  const bool inSteps = mover(encounter.ranks[indexA]).touches() || mover(encounter.ranks[indexB]).touches();
-  return std::max(inSteps ? 0.25 * tolerance_ : 0,
-                  touchingWithin(boxOf(encounter, indexA), boxOf(encounter, indexB)));
 }
 
 // ---- Impacts.

@@ -6,7 +6,6 @@
 #include "core/disjoint_sets.h"
 #include "physics/exact/exact_world.h"
 #include "physics/geometry/contact_points.h"
-#include "physics/geometry/separating_axes.h"
 #include "physics/geometry/separation.h"
 #include "physics/impact/settling.h"
 #include "physics/search/first_contact_search.h"
@@ -195,13 +194,12 @@ void ExactWorld::settleBody(Encounter& encounter, std::size_t index) const {
 ExactWorld::Parting ExactWorld::partingAt(const Encounter& encounter, std::size_t contact) const {
   const ImpactContact& at = encounter.contacts[contact];
   Parting parting;
-  Vec3 velocity = Vec3::Zero();
   const auto add = [&](int index, const Vec3& arm, double sign) {
     const auto i = static_cast<std::size_t>(index);
     const Body& body = *mover(encounter.ranks[i]).body;
     const Vec3 spin = careen::angularVelocity(body.mass, encounter.after[i]);
     const Vec3 ofPoint = encounter.after[i].velocity + spin.cross(arm);
-    velocity += sign * ofPoint;
+    parting.velocity += sign * ofPoint;
     parting.speed += sign * dot(at.normal, ofPoint);
     parting.rounding += kParting * (encounter.after[i].velocity.norm() + spin.norm() * arm.norm() +
                                     kParting * std::sqrt(world_.gravity.norm() * radiusOf(body)));
@@ -211,7 +209,7 @@ ExactWorld::Parting ExactWorld::partingAt(const Encounter& encounter, std::size_
     add(at.b.body(), at.armB, -1);
   }
   if (!at.directions.empty()) {
-    parting.speed = partingSpeed(at.directions, velocity);
+    parting.speed = partingSpeed(at.directions, parting.velocity);
   }
   return parting;
 }
@@ -227,6 +225,7 @@ void ExactWorld::findPersisting(Encounter& encounter) const {
         !(encounter.shares[k].impulse > 0) && parting.speed < encounter.passing * parting.rounding;
     if (encounter.timeSteps > 0 || passes || parting.speed <= std::max(slow, parting.rounding)) {
       encounter.persists[k] = 1;
+      choose(encounter, k, parting.velocity);
     }
   }
 }
@@ -306,10 +305,7 @@ ContactFeature ExactWorld::featureOf(const Encounter& encounter, std::size_t k) 
     const BoxAt boxB = boxAt(encounter.after[b].pose, *mover(encounter.ranks[b]).body);
     feature = featureAt({contact.armA, contact.armB, contact.normal, contact.inCone}, 0, contact.a, boxA,
                         contact.b.body(), boxB);
-    if (!contact.directions.empty()) {
-      const bool swaps = feature.a != contact.a;
-      feature.axes = separatingAxes(swaps ? boxB : boxA, swaps ? boxA : boxB, knownTo(encounter, a, b));
-    }
+    feature.axes = feature.a == contact.a ? contact.axes : swapped(contact.axes);
   }
   feature.material = contact.material;
   return feature;

@@ -62,14 +62,26 @@ BoxAxis contactAxis(BoxAt a, BoxAt b, const BoxAxes& axes, const Vec3& bToA, dou
   return axes.best();
 }
 
-ContactPoints pointsInOrder(BoxAt a, BoxAt b, double apart) {
+// The best of some axes, a face's if there is one.
+BoxAxis bestAmong(const BoxAxes& axes, AxisSet among) {
+  int best = -1;
+  for (int k = 0; k < BoxAxis::kCount; ++k) {
+    const bool better = best < 0 || (axes.separation({k}) > axes.separation({best}) && (best >= 6 || k < 6));
+    best = contains(among, k) && better ? k : best;
+  }
+  return {best};
+}
+
+ContactPoints pointsInOrder(BoxAt a, BoxAt b, double apart, AxisSet among) {
   const double within = std::max(apart, touchingWithin(a, b));
   const Vec3 bToA = a.middle() - b.middle();
   const BoxAxes axes(a, b);
-  if (const std::optional<ContactPoints> points = pointsInCone(a, b, axes, bToA, within)) {
+  const bool isAny = among == kAllAxes;
+  if (const std::optional<ContactPoints> points =
+          isAny ? pointsInCone(a, b, axes, bToA, within) : std::nullopt) {
     return *points;
   }
-  const BoxAxis axis = contactAxis(a, b, axes, bToA, within);
+  const BoxAxis axis = isAny ? contactAxis(a, b, axes, bToA, within) : bestAmong(axes, among);
   const Vec3 normal = axes.normal(axis);
 
   const SupportFeature ofA = furthest(a, -normal, within);
@@ -106,10 +118,11 @@ ContactPoint swapped(const ContactPoint& point) {
   return {.armA = point.armB, .armB = point.armA, .normal = -point.normal, .inCone = point.inCone};
 }
 
-ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart) {
+ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart, AxisSet among) {
   const bool swaps = comesFirst(b, a);
   const bool centered = a.isCentered() && b.isCentered();
-  const ContactPoints found = swaps ? pointsInOrder(b, a, apart) : pointsInOrder(a, b, apart);
+  const ContactPoints found =
+      swaps ? pointsInOrder(b, a, apart, swapped(among)) : pointsInOrder(a, b, apart, among);
   if (!swaps && centered) {
     return found;
   }

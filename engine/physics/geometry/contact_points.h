@@ -5,7 +5,7 @@
 
 #include "core/math/linear_algebra.h"
 #include "physics/geometry/box_at.h"
-#include "physics/geometry/separation.h"
+#include "physics/geometry/separating_axes.h"
 
 namespace careen {
 
@@ -54,7 +54,8 @@ class ContactPoints {
 /// Mirror images, quarter turns about coordinate axes and swapped boxes give mirrored, turned and reversed
 /// normals.
 ///
-/// Points with a gap up to `apart` [m], if more than kSimultaneous, also count as contact.
-ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart = 0);
+/// Points with a gap up to `apart` [m], if more than kSimultaneous, also count as contact. If not all axes
+/// are given, the normal is that of one of them, of a face if there is one.
+ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart = 0, AxisSet among = kAllAxes);
 
 }  // namespace careen

@@ -31,7 +31,7 @@ constexpr double kAlongEdgeSquared = 0x1p-80;
 std::optional<Vec3> insideOfCone(const BoxAxes& axes, AxisSet set) {
   Vec3 sum = Vec3::Zero();
   for (int k = 0; k < BoxAxis::kCount; ++k) {
-    if ((set >> k & 1U) != 0) {
+    if (contains(set, k)) {
       sum += axes.normal({k});
     }
   }

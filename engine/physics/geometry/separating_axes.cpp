@@ -8,6 +8,8 @@ namespace {
 
 // Directions count as different if their angle moves the thinner box by this many times what counts as none.
 constexpr double kDifferentDirections = 8;
+// [1] Normals that differ by less are one direction.
+constexpr double kOneDirection = 0x1p-20;
 
 }  // namespace
 
@@ -31,6 +33,35 @@ AxisSet separatingAxes(BoxAt a, BoxAt b, double within) {
   return separatingAxes(a, b, BoxAxes(a, b), within);
 }
 
+AxisSet swapped(AxisSet set) {
+  AxisSet other = 0;
+  for (int k = 0; k < BoxAxis::kCount; ++k) {
+    if (contains(set, k)) {
+      const BoxAxis axis{k};
+      other |= 1U << (k < 6 ? (k + 3) % 6 : 6 + 3 * axis.edgeOfB() + axis.edgeOfA());
+    }
+  }
+  return other;
+}
+
+AxisSet withoutApproached(AxisSet set, BoxAt a, BoxAt b, const Vec3& velocity, double slow) {
+  const BoxAxes axes(a, b);
+  AxisSet open = 0;
+  Vec3 first = Vec3::Zero();
+  for (int k = 0; k < BoxAxis::kCount; ++k) {
+    if (!contains(set, k) || dot(axes.normal({k}), velocity) < -slow) {
+      continue;
+    }
+    const Vec3 normal = axes.normal({k});
+    if (open != 0 && (normal - first).squaredNorm() > kOneDirection * kOneDirection) {
+      return set;
+    }
+    first = open == 0 ? normal : first;
+    open |= 1U << k;
+  }
+  return open != 0 ? open : set;
+}
+
 std::vector<Vec3> directionsOf(AxisSet set, BoxAt a, BoxAt b) {
   std::vector<Vec3> directions;
   if (set == 0) {
@@ -38,7 +69,7 @@ std::vector<Vec3> directionsOf(AxisSet set, BoxAt a, BoxAt b) {
   }
   const BoxAxes axes(a, b);
   for (int k = 0; k < BoxAxis::kCount; ++k) {
-    if ((set >> k & 1U) != 0 && axes.separation({k}) > std::numeric_limits<double>::lowest()) {
+    if (contains(set, k) && axes.separation({k}) > std::numeric_limits<double>::lowest()) {
       directions.push_back(axes.normal({k}));
     }
   }

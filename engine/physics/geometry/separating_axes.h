@@ -11,6 +11,10 @@ namespace careen {
 
 /// A set of BoxAxis: axis k is bit k.
 using AxisSet = unsigned;
+inline constexpr AxisSet kAllAxes = (1U << BoxAxis::kCount) - 1;
+inline bool contains(AxisSet set, int axis) { return (set >> axis & 1U) != 0; }
+/// The same axes with a and b in each other's place.
+AxisSet swapped(AxisSet set);
 
 /// The axes along which two boxes are as good as apart: those of a separation of at most `within` [m] less
 /// than the largest, or than none where they are apart. Empty if their normals do not differ: then there is
@@ -26,6 +30,11 @@ AxisSet separatingAxes(BoxAt a, BoxAt b, const BoxAxes& axes, double within);
 
 /// [1] Their directions as the boxes are now: unit, from b to a.
 std::vector<Vec3> directionsOf(AxisSet set, BoxAt a, BoxAt b);
+
+/// Of separatingAxes(), those that are not approached faster than `slow` [m/s] if they are one direction:
+/// that is the normal then, and there is nothing to choose. Else all of them. `velocity` [m/s]: of a relative
+/// to b at the contact.
+AxisSet withoutApproached(AxisSet set, BoxAt a, BoxAt b, const Vec3& velocity, double slow);
 
 /// [m/s] How fast boxes part along the best of these directions, given a's velocity relative to b's at the
 /// contact: the rate of their gap.

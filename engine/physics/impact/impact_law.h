@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/geometry/separating_axes.h"
 #include "physics/world/body.h"
 #include "physics/world/contact_residuals.h"
 #include "physics/world/partner.h"
@@ -27,6 +28,7 @@ struct ImpactContact {
   Vec3 normal = Vec3::UnitZ();  ///< [1] unit, from b to a
   Material material;            ///< of the pair, see touching()
   bool inCone = false;          ///< the normal is the centre of a cone, see ContactPoint
+  AxisSet axes = 0;             ///< of both boxes, whose are
   /// [1] unit: the contact takes part only where its bodies would enter each other along all of them. None:
   /// the normal is the only one.
   std::vector<Vec3> directions = {};
