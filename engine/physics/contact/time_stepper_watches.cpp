@@ -198,9 +198,7 @@ bool TimeStepper::staysOpenOnEdges(const Watch& watch, double below, const Momen
   const std::array<Pose, 2> first{poseWithin(a, from.time), poseWithin(b, from.time)};
   const std::array<Pose, 2> second{poseWithin(a, to.time), poseWithin(b, to.time)};
   const auto along = [&](const Vec3& direction, const std::array<Pose, 2>& poses) {
-    return dot(direction, boxAt(poses[0], bodyA).middle() - boxAt(poses[1], bodyB).middle()) -
-           dot((poses[0].worldFromBody.transpose() * direction).cwiseAbs(), bodyA.halfExtents) -
-           dot((poses[1].worldFromBody.transpose() * direction).cwiseAbs(), bodyB.halfExtents);
+    return gapAlong(boxAt(poses[0], bodyA), boxAt(poses[1], bodyB), direction);
   };
   const auto isOpenAlongNormalOf = [&](const std::array<Pose, 2>& poses) {
     const BoxAxes axes(boxAt(poses[0], bodyA), boxAt(poses[1], bodyB));

@@ -303,8 +303,8 @@ ContactFeature ExactWorld::featureOf(const Encounter& encounter, std::size_t k) 
     const auto b = static_cast<std::size_t>(contact.b.body());
     const BoxAt boxA = boxAt(pose, body);
     const BoxAt boxB = boxAt(encounter.after[b].pose, *mover(encounter.ranks[b]).body);
-    feature = featureAt({contact.armA, contact.armB, contact.normal, contact.inCone}, 0, contact.a, boxA,
-                        contact.b.body(), boxB);
+    feature = featureAt({contact.armA, contact.armB, contact.normal, contact.inCone},
+                        gapAlong(boxA, boxB, contact.normal), contact.a, boxA, contact.b.body(), boxB);
     feature.axes = feature.a == contact.a ? contact.axes : swapped(contact.axes);
   }
   feature.material = contact.material;

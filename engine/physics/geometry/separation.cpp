@@ -55,6 +55,12 @@ double gapToPlane(BoxAt box, const Vec3& normal, double offset) {
   return dot(normal, box.middle()) - offset - reach(normal, box.pose.worldFromBody, box.halfExtents);
 }
 
+double gapAlong(BoxAt a, BoxAt b, const Vec3& direction) {
+  return dot(direction, a.middle() - b.middle()) -
+         dot((a.pose.worldFromBody.transpose() * direction).cwiseAbs(), a.halfExtents) -
+         dot((b.pose.worldFromBody.transpose() * direction).cwiseAbs(), b.halfExtents);
+}
+
 WallGap wallGap(BoxAt box, const Vec3& normal, double offset, double within) {
   const double height = dot(normal, box.middle()) - offset;
   WallGap result{.gap = gapToPlane(box, normal, offset)};

@@ -50,6 +50,10 @@ struct WallGap {
 };
 WallGap wallGap(BoxAt box, const Vec3& normal, double offset, double within);
 
+/// [m] Separation of two boxes along a direction from b to a: of the farthest that b reaches along it to the
+/// nearest that a does. Negative: they overlap along it.
+double gapAlong(BoxAt a, BoxAt b, const Vec3& direction);
+
 /// The 15 separating-axis candidates of two boxes: face normals of each and cross products of their edges
 /// (Gottschalk, Lin, Manocha 1996). The boxes are disjoint exactly when one of them separates.
 struct BoxAxis {

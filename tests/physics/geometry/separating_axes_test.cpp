@@ -72,5 +72,35 @@ TEST(SeparatingAxes, ofBoxesThatAreApartAreAllThatSeparate) {
   EXPECT_EQ(partingOf(a, b, {2, 0, 0}, 1e-9), 0);
 }
 
+TEST(SeparatingAxes, swappedBoxesHaveTheReversedDirections) {
+  const Mat3 askew = turned<double>(Vec3(1, 2, 3).normalized(), 0.7);
+  const UnitCube a{.pose = {.position = Vec3(0.9, 0.7, 1.1), .worldFromBody = askew}};
+  const UnitCube b;
+  for (int k = 0; k < BoxAxis::kCount; ++k) {
+    const AxisSet one = 1U << k;
+    EXPECT_EQ(swapped(swapped(one)), one);
+    const Vec3 direction = directionsOf(one, a.at(), b.at()).front();
+    EXPECT_NEAR((directionsOf(swapped(one), b.at(), a.at()).front() + direction).norm(), 0, 1e-15) << k;
+  }
+}
+
+TEST(SeparatingAxes, ofThoseTheOneThatIsNotApproachedIsLeft) {
+  const UnitCube a{.pose = {.position = Vec3(-1, 0.25, 1)}};
+  const UnitCube b;
+  const AxisSet both = separatingAxes(a.at(), b.at(), 1e-12);
+  const auto left = [&](const Vec3& velocity) {
+    return withoutApproached(both, a.at(), b.at(), velocity, 1e-12);
+  };
+  for (const Vec3& direction : directionsOf(left({1, 0, 0}), a.at(), b.at())) {
+    EXPECT_EQ(direction, Vec3(Vec3::UnitZ()));
+  }
+  for (const Vec3& direction : directionsOf(left({0, 0, -1}), a.at(), b.at())) {
+    EXPECT_EQ(direction, Vec3(-Vec3::UnitX()));
+  }
+  EXPECT_EQ(left({1, 0, -1}), both);
+  EXPECT_EQ(left({-1, 0, 1}), both);
+  EXPECT_EQ(left({1e-13, 0, 0}), both);
+}
+
 }  // namespace
 }  // namespace careen

@@ -287,5 +287,26 @@ TEST(ImpactLaw, aMixtureEndsWhereAllItsPassesLead) {
   }
 }
 
+// A cube that slides over a joint of slabs, and one that falls at its edge: up and back keep it out.
+TEST(ImpactLaw, aContactWithAChoiceIsStruckWhereAllOfItIsEntered) {
+  for (const Vec3& velocity : {Vec3(1, 0, 0), Vec3(-1, 0, -1), Vec3(1, 0, -1)}) {
+    ImpactScene scene;
+    BodyState state;
+    state.velocity = velocity;
+    scene.addBox(Vec3(0.5, 0.5, 0.5), 2, state);
+    ImpactContact contact;
+    contact.b = Partner::ofWall(0);
+    contact.normal = Vec3(-1, 0, 1).normalized();
+    contact.directions = {Vec3::UnitZ(), -Vec3::UnitX()};
+    scene.contacts = {contact};
+    scene.resolve();
+    const bool enters = velocity.x() > 0 && velocity.z() < 0;
+    EXPECT_EQ(scene.shares[0].impulse > 0, enters) << velocity;
+    EXPECT_NEAR(scene.shares[0].normal.norm(), 1, 1e-15);
+    const Vec3 expected = enters ? Vec3::Zero() : velocity;  // e = 0, along the middle of both
+    EXPECT_NEAR((scene.states[0].velocity - expected).norm(), 0, 1e-15) << velocity;
+  }
+}
+
 }  // namespace
 }  // namespace careen

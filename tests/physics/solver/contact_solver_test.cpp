@@ -273,5 +273,25 @@ TEST(ContactSolver, objectForgetsTheGraphBefore) {
   }
 }
 
+// A cube at an edge, above and beside it: it enters if it moves down and towards it.
+TEST(ContactSolver, aContactWithAChoiceTakesPartWhereAllOfItIsEntered) {
+  const double diagonal = std::sqrt(0.5);
+  for (const double sideways : {0.5, -0.5}) {
+    ContactScene scene;
+    const int cube = scene.add(1, {0.5, 0.5, 0.5}, {0, 0, 0.5}, {sideways, 0, -1});
+    ContactProblem::Contact& contact = scene.touch(cube, kNobody, {0, 0, 0.5}, 2, 1, 0);
+    // Rows along z, x, y: the directions are z and −x, the normal stays z.
+    contact.directions = {{1, 0, 0}, {0, -1, 0}};
+    ContactSolution solution;
+    ASSERT_TRUE(ContactSolver().solve(scene.problem, solution));
+    ASSERT_EQ(solution.impulses.size(), 1U);
+    EXPECT_NEAR(solution.impulses[0][0], sideways > 0 ? 1 : 0, 1e-12);  // else it leaves along −x
+    EXPECT_NEAR(solution.velocities[2], sideways > 0 ? 0 : -1, 1e-12);
+    contact.directions = {{diagonal, diagonal, 0}};
+    EXPECT_TRUE(ContactSolver().solve(scene.problem, solution));
+    EXPECT_NEAR(solution.impulses[0][0], 1, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace careen
