@@ -17,12 +17,23 @@ vec3 toned(vec3 color) {
   return mix(vec3(pressed), color * (pressed / peak), faded);
 }
 
-// Dithers by half an 8-bit step either way against banding: each of four rows rounds at another quarter of a
-// step. Neighbouring pixels in a row round alike, so that a PNG is a third of what noise makes it. A step of
-// sRGB is about 2 sqrt(c) / 255 of linear light.
+// Ranks of 8 x 8 pixels by void and cluster (R. Ulichney, "The void-and-cluster method for dither array generation",
+// 1993): those below any rank are spread evenly, which leaves neither lines nor clumps.
+const int kRanks[64] = int[](
+    36, 28, 46, 58, 38, 10, 56, 22,
+    60, 12, 24,  6, 34, 26, 50,  8,
+    16, 54, 40, 18, 62, 14, 42, 32,
+    48,  3, 30, 44,  5, 52,  1, 20,
+    39, 11, 57, 23, 37, 29, 47, 59,
+    35, 27, 51,  9, 61, 13, 25,  7,
+    63, 15, 43, 33, 17, 55, 41, 19,
+     4, 53,  0, 21, 49,  2, 31, 45);
+
+// Dithers by half an 8-bit step either way against banding. A step of sRGB is about 2 sqrt(c) / 255 of linear
+// light.
 vec3 dithered(vec3 color) {
-  float row = mod(floor(gl_FragCoord.y), 4.0);
-  float threshold = (mod(2.0 * row, 4.0) + floor(0.5 * row) + 0.5) / 4.0;  // 0, 2, 1, 3: neighbours far apart
+  ivec2 at = ivec2(gl_FragCoord.xy) & 7;
+  float threshold = (float(kRanks[8 * at.y + at.x]) + 0.5) / 64.0;
   vec3 stepped = max(2.0 * sqrt(color), vec3(0.0774)) * (1.0 / 255.0);
   return color + finish.z * (threshold - 0.5) * stepped;
 }
