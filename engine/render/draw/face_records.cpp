@@ -106,6 +106,11 @@ void VertexRecords::addTriangle() {
   }
 }
 
+void VertexRecords::endLayer() {
+  triangleEnds.push_back(triangles.size());
+  outlineEnds.push_back(outlines.size());
+}
+
 FaceRecords::FaceRecords(const PlacedBoxes& placed)
     : in_(placed),
       isFine_(placed.boxes.size()),
@@ -120,16 +125,27 @@ FaceRecords::FaceRecords(const PlacedBoxes& placed)
 }
 
 void FaceRecords::add() {
-  for (std::size_t i = 0; i < in_.faces.size(); ++i) {
-    if (!isMesh(i)) {
-      addFace(i);
-    } else if (i == 0 || in_.faces[i - 1].box != in_.faces[i].box) {
-      addMesh(i);
+  std::vector<ShadowPair> pairs = in_.shadows.pairs;
+  std::stable_sort(pairs.begin(), pairs.end(), [&](const ShadowPair& a, const ShadowPair& b) {
+    return momentOf(a.face) > momentOf(b.face);
+  });
+  auto pair = pairs.begin();
+  for (std::size_t i = 0; i < in_.faces.size();) {
+    const std::size_t moment = momentOf(i);
+    for (; i < in_.faces.size() && momentOf(i) == moment; ++i) {
+      if (!isMesh(i)) {
+        addFace(i);
+      } else if (i == 0 || in_.faces[i - 1].box != in_.faces[i].box) {
+        addMesh(i);
+      }
     }
-  }
-  for (const ShadowPair& pair : in_.shadows.pairs) {
-    if (!isMesh(pair.face)) {
-      addShadow(pair);
+    for (; pair != pairs.end() && momentOf(pair->face) == moment; ++pair) {
+      if (!isMesh(pair->face)) {
+        addShadow(*pair);
+      }
+    }
+    for (VertexRecords* const records : {&lit, &dark, &shaded, &cast}) {
+      records->endLayer();
     }
   }
 }
