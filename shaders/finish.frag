@@ -17,17 +17,18 @@ vec3 toned(vec3 color) {
   return mix(vec3(pressed), color * (pressed / peak), faded);
 }
 
-// Ranks of 8 x 8 pixels by void and cluster (R. Ulichney, "The void-and-cluster method for dither array generation",
-// 1993): those below any rank are spread evenly, which leaves neither lines nor clumps.
+// Ranks of 8 x 8 pixels, each in the largest void that those below it leave (after R. Ulichney, "The void-and-cluster
+// method for dither array generation", 1993), with as many of them in each row and column up to one: neither clumps nor
+// lines.
 const int kRanks[64] = int[](
-    36, 28, 46, 58, 38, 10, 56, 22,
-    60, 12, 24,  6, 34, 26, 50,  8,
-    16, 54, 40, 18, 62, 14, 42, 32,
-    48,  3, 30, 44,  5, 52,  1, 20,
-    39, 11, 57, 23, 37, 29, 47, 59,
-    35, 27, 51,  9, 61, 13, 25,  7,
-    63, 15, 43, 33, 17, 55, 41, 19,
-     4, 53,  0, 21, 49,  2, 31, 45);
+     7, 42, 20, 57, 15, 39, 26, 48,
+    60, 24, 37,  0, 50, 22, 41, 12,
+    16, 53, 10, 44, 31, 62,  2, 35,
+    46,  5, 58, 19, 33,  9, 55, 28,
+    14, 38, 27, 49,  6, 43, 21, 56,
+    51, 23, 40, 13, 61, 25, 36,  1,
+    30, 63,  3, 34, 17, 52, 11, 45,
+    32,  8, 54, 29, 47,  4, 59, 18);
 
 // Dithers by half an 8-bit step either way against banding. A step of sRGB is about 2 sqrt(c) / 255 of linear
 // light.
