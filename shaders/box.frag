@@ -7,6 +7,7 @@ in vec3 offset;
 in vec3 openness;
 in vec2 onFace;
 flat in vec2 halfFace;
+flat in vec4 beyondEdges;
 flat in vec3 faceNormal;
 flat in vec3 faceAcross;
 flat in vec3 faceAlong;
@@ -41,16 +42,22 @@ float pipDistance(vec2 p, float spacing, float radius) {
   return nearest - radius;
 }
 
-// Alpha for the edge of the face that is the fewest pixels away.
+// Alpha for the edge of the box's outline if that is within a pixel, be it beyond a face too thin for a pixel of its own;
+// else for the edge of the face that is the fewest pixels away.
 float nearestEdge() {
   vec2 right = dFdx(onFace);
   vec2 up = dFdy(onFace);
   vec2 steep = max(max(abs(right), abs(up)), 1e-20);
-  vec2 inside = halfFace - abs(onFace);
-  vec2 pixels = inside / steep;
-  vec2 outward = sign(onFace);
-  return pixels.x < pixels.y ? edgeAlpha(inside.x, -outward.x * vec2(right.x, up.x))
-                             : edgeAlpha(inside.y, -outward.y * vec2(right.y, up.y));
+  vec2 low = (halfFace + onFace + beyondEdges.yw) / steep;
+  vec2 high = (halfFace - onFace + beyondEdges.xz) / steep;
+  vec2 pixels = min(low, high);
+  vec2 outward = mix(vec2(1.0), vec2(-1.0), lessThan(low, high));
+  if (min(pixels.x, pixels.y) >= 1.0) {
+    outward = sign(onFace);
+    pixels = (halfFace - abs(onFace)) / steep;
+  }
+  return pixels.x < pixels.y ? edgeAlpha(pixels.x * steep.x, -outward.x * vec2(right.x, up.x))
+                             : edgeAlpha(pixels.y * steep.y, -outward.y * vec2(right.y, up.y));
 }
 
 void main() {

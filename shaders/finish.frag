@@ -17,12 +17,24 @@ vec3 toned(vec3 color) {
   return mix(vec3(pressed), color * (pressed / peak), faded);
 }
 
-// Dithers by half an 8-bit step either way against banding: each of four rows rounds at another quarter of a
-// step. Neighbouring pixels in a row round alike, so that a PNG is a third of what noise makes it. A step of
-// sRGB is about 2 sqrt(c) / 255 of linear light.
+// Ranks of 8 x 8 pixels, each in the largest void that those below it leave (after R. Ulichney, "The void-and-cluster
+// method for dither array generation", 1993), with as many of them in each row and column up to one: neither clumps nor
+// lines.
+const int kRanks[64] = int[](
+     7, 42, 20, 57, 15, 39, 26, 48,
+    60, 24, 37,  0, 50, 22, 41, 12,
+    16, 53, 10, 44, 31, 62,  2, 35,
+    46,  5, 58, 19, 33,  9, 55, 28,
+    14, 38, 27, 49,  6, 43, 21, 56,
+    51, 23, 40, 13, 61, 25, 36,  1,
+    30, 63,  3, 34, 17, 52, 11, 45,
+    32,  8, 54, 29, 47,  4, 59, 18);
+
+// Dithers by half an 8-bit step either way against banding. A step of sRGB is about 2 sqrt(c) / 255 of linear
+// light.
 vec3 dithered(vec3 color) {
-  float row = mod(floor(gl_FragCoord.y), 4.0);
-  float threshold = (mod(2.0 * row, 4.0) + floor(0.5 * row) + 0.5) / 4.0;  // 0, 2, 1, 3: neighbours far apart
+  ivec2 at = ivec2(gl_FragCoord.xy) & 7;
+  float threshold = (float(kRanks[8 * at.y + at.x]) + 0.5) / 64.0;
   vec3 stepped = max(2.0 * sqrt(color), vec3(0.0774)) * (1.0 / 255.0);
   return color + finish.z * (threshold - 0.5) * stepped;
 }

@@ -123,6 +123,16 @@ TEST(Manual, helpListsAndShowsEveryPage) {
   }
 }
 
+// Users who film need no page on code, and find theirs first; the README lists pages in the same order.
+TEST(Manual, pagesForDevelopersComeLast) {
+  const std::vector<std::string> named = matches(careen({"help"}).out, "\n  ([a-z-]+) ");
+  const std::vector<std::string> last = {"python", "library", "dependencies", "developing"};
+  ASSERT_GT(named.size(), last.size());
+  EXPECT_EQ(std::vector(named.end() - 4, named.end()), last);
+  EXPECT_EQ(named.front(), "tutorial");
+  EXPECT_EQ(matches(textOf(kSource / "README.md"), R"(\n\| \[([a-z-]+)\]\(assets/manual/)"), named);
+}
+
 // The options as by --help, then the page of the command's name, or the name of the page that tells more.
 TEST(Manual, helpOfACommandShowsItsOptionsAndThenItsPage) {
   const std::string all = careen({"--help"}).out;

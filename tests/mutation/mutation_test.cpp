@@ -107,7 +107,8 @@ TEST(UnseenMutations, areOnesThatNobodySees) {
     const PictureDifference difference = differenceBy(mutation);
     const Margin margin = marginOf(difference, toleranceOf("same-picture"));
     EXPECT_GT(difference.differing, 0U) << mutation.name << " changes nothing at all";
-    EXPECT_LE(difference.largest, 2.001 / 255) << mutation.name;
+    // Where another edge becomes a pixel's nearest, a box that hardly moved changes it by up to 4 / 255.
+    EXPECT_LE(difference.largest, 4.001 / 255) << mutation.name;
     std::printf("%-40s largest %.0f/255, %zu of %zu pixels, %.3g of what same-picture allows\n",
                 mutation.name.c_str(), 255 * difference.largest, difference.differing, difference.pixels,
                 margin.ratio);

@@ -55,7 +55,7 @@ Mutations boxShaderMutations() {
       in(frag, "normal's sign", "vec3 normal = faceNormal", "vec3 normal = -faceNormal"),
       in(frag, "no edges", "write(dark, bright, nearestEdge())", "write(dark, bright, 1.0)"),
       in(frag, "edges on the wrong side", "return pixels.x < pixels.y", "return pixels.x > pixels.y"),
-      in(frag, "edge's slope the other way", "inside.x, -outward.x", "inside.x, outward.x"),
+      in(frag, "edge's slope the other way", "steep.x, -outward.x", "steep.x, outward.x"),
       in(vert, "marks across", "onFace = place.xy", "onFace = place.yx"),
       in(vert, "a face's sizes exchanged", "halfFace = place.zw", "halfFace = place.wz"),
       in(vert, "a face's directions exchanged", "faceAcross = across", "faceAcross = along"),

@@ -14,15 +14,15 @@
 namespace careen {
 namespace {
 
-// Depth that the same faces are drawn over later, in other triangles: behind them by this part of what it
-// changes in a pixel, and by so many steps of its precision.
+// Depth that the same faces are drawn over later, in other triangles, and layers after the first are behind
+// by this part of what it changes in a pixel, and by so many steps of its precision.
 constexpr float kBehindSlopes = 0.05F;
 constexpr float kBehindSteps = 8;
 
 constexpr std::size_t kTexturePower = 10;  // of two texels in a row, see neighbors.vert
 
 constexpr std::initializer_list<Attribute> kFaceAttributes = {{0, 3}, {1, 3}, {2, 3}, {3, 3},
-                                                              {4, 4}, {5, 4}, {6, 4}};
+                                                              {4, 4}, {5, 4}, {6, 4}, {7, 4}};
 }  // namespace
 
 BoxBatch::Mesh::Mesh(const Gl& gl, std::initializer_list<Attribute> attributes)
@@ -47,12 +47,12 @@ BoxBatch::BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const Lig
     return linked;
   };
   litProgram_ = program("write_lit.frag");
+  depthProgram_ = linkProgram(gl, shaders, {"depth.vert", "black.frag"});
   if (light.light) {
     darkProgram_ = program("write_dark.frag");
   }
   if (light.shadows) {
     shadedProgram_ = program("write_shaded.frag");
-    depthProgram_ = linkProgram(gl, shaders, {"depth.vert", "black.frag"});
     shadowProgram_ = linkProgram(gl, shaders, {"shadow.vert", "shadow.frag"});
   }
   if (light.occlusion) {
@@ -82,7 +82,11 @@ void BoxBatch::place(std::span<const DrawnBox> boxes, std::span<const DrawnFace>
   const auto fill = [&](Mesh& mesh, const VertexRecords& of) {
     gl_.BindVertexArray(mesh.array);
     mesh.vertices.fill(of.vertices);
-    mesh.triangles = of.triangles.size();
+    mesh.triangleEnds = of.triangleEnds;
+    mesh.outlineEnds = of.outlineEnds;
+    for (std::size_t& end : mesh.outlineEnds) {
+      end += of.triangles.size();
+    }
     std::vector<std::uint32_t> indices = of.triangles;
     indices.insert(indices.end(), of.outlines.begin(), of.outlines.end());
     mesh.indices.fill(indices);
@@ -116,43 +120,75 @@ void BoxBatch::draw(const Mesh& mesh, std::size_t from, std::size_t to) const {
   }
 }
 
-void BoxBatch::drawTriangles(const Mesh& mesh) const { draw(mesh, 0, mesh.triangles); }
-
-void BoxBatch::drawOutlines(const Mesh& mesh) const {
-  draw(mesh, mesh.triangles, static_cast<std::size_t>(mesh.indices.count()));
+void BoxBatch::drawTriangles(const Mesh& mesh, std::size_t layer) const {
+  if (layer < mesh.triangleEnds.size()) {
+    draw(mesh, layer == 0 ? 0 : mesh.triangleEnds[layer - 1], mesh.triangleEnds[layer]);
+  }
 }
 
-void BoxBatch::drawUnshaded() const {
+void BoxBatch::drawOutlines(const Mesh& mesh, std::size_t layer) const {
+  if (layer < mesh.outlineEnds.size()) {
+    draw(mesh, layer == 0 ? mesh.triangleEnds.back() : mesh.outlineEnds[layer - 1], mesh.outlineEnds[layer]);
+  }
+}
+
+void BoxBatch::moveBehind(std::size_t steps) const {
+  if (steps == 0) {
+    gl_.Disable(GL_POLYGON_OFFSET_FILL);
+  } else {
+    gl_.Enable(GL_POLYGON_OFFSET_FILL);
+    gl_.PolygonOffset(kBehindSlopes * static_cast<float>(steps), kBehindSteps * static_cast<float>(steps));
+  }
+}
+
+void BoxBatch::drawUnshaded(std::size_t layer) const {
+  moveBehind(layer == 0 ? 0 : 1);
   gl_.UseProgram(litProgram_);
-  drawTriangles(lit_);
+  drawTriangles(lit_, layer);
   gl_.UseProgram(darkProgram_);
-  drawTriangles(dark_);
+  drawTriangles(dark_, layer);
+  moveBehind(0);
 }
 
-void BoxBatch::drawShadedDepth() const {
+void BoxBatch::drawShadedDepth(std::size_t layer) const {
   gl_.UseProgram(depthProgram_);
-  gl_.Enable(GL_POLYGON_OFFSET_FILL);
-  gl_.PolygonOffset(kBehindSlopes, kBehindSteps);
-  drawOutlines(shaded_);
-  gl_.Disable(GL_POLYGON_OFFSET_FILL);
+  moveBehind(layer == 0 ? 1 : 2);
+  drawOutlines(shaded_, layer);
+  moveBehind(0);
 }
 
-void BoxBatch::drawShadows() const {
+void BoxBatch::drawShadows(std::size_t layer) const {
+  moveBehind(layer == 0 ? 0 : 1);
   gl_.UseProgram(shadowProgram_);
-  drawOutlines(shadows_);
+  drawOutlines(shadows_, layer);
+  moveBehind(0);
 }
 
-void BoxBatch::drawShaded() const {
+void BoxBatch::drawShaded(std::size_t layer) const {
+  moveBehind(layer == 0 ? 0 : 1);
   gl_.UseProgram(shadedProgram_);
-  drawTriangles(shaded_);
+  drawTriangles(shaded_, layer);
+  moveBehind(0);
+}
+
+void BoxBatch::drawDepth(std::size_t layer) const {
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFuncSeparate(GL_ZERO, GL_ONE, GL_ZERO, GL_ONE);  // no colour
+  gl_.UseProgram(depthProgram_);
+  for (const Mesh* const mesh : {&lit_, &dark_, &shaded_}) {
+    drawOutlines(*mesh, layer);
+  }
+  gl_.Disable(GL_BLEND);
 }
 
 void BoxBatch::drawShrunk(double angle) const {
   gl_.UseProgram(shrunkProgram_);
   gl_.Uniform1f(shrinkPlace_, static_cast<float>(angle));
-  drawOutlines(lit_);
-  drawOutlines(dark_);
-  drawOutlines(shaded_);
+  for (std::size_t layer = 0; layer < layers(); ++layer) {
+    for (const Mesh* const mesh : {&lit_, &dark_, &shaded_}) {
+      drawOutlines(*mesh, layer);
+    }
+  }
 }
 
 }  // namespace careen

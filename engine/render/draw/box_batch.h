@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <initializer_list>
 #include <span>
@@ -36,13 +37,18 @@ class BoxBatch {
              const FaceNeighbors& neighbors, const Vec3& towardsLight, const Vec3& eye);
 
   bool hasShaded() const { return shaded_.indices.count() > 0; }
+  /// Boxes of one moment are a layer; there is one at least, be it empty. What a layer draws is not seen
+  /// where it lies in a plane with a layer before it, which else would show through in places.
+  std::size_t layers() const { return std::max<std::size_t>(1, lit_.triangleEnds.size()); }
   /// Faces that no shadow reaches, in full light, and those that have no direct light.
-  void drawUnshaded() const;
+  void drawUnshaded(std::size_t layer) const;
   /// Faces that shadows may reach: black, for their depth, a little behind them; their shadows, to be added;
   /// then their colours, to be blended.
-  void drawShadedDepth() const;
-  void drawShadows() const;
-  void drawShaded() const;
+  void drawShadedDepth(std::size_t layer) const;
+  void drawShadows(std::size_t layer) const;
+  void drawShaded(std::size_t layer) const;
+  /// Depth of all faces as it is, for the layers that follow.
+  void drawDepth(std::size_t layer) const;
   /// Depth of all faces of boxes shrunk by this angle [rad].
   void drawShrunk(double angle) const;
 
@@ -52,11 +58,13 @@ class BoxBatch {
     unsigned array;
     VertexBuffer vertices;
     IndexBuffer indices;
-    std::size_t triangles = 0;  // indices of them; then come the same faces in fewer triangles
+    std::vector<std::size_t> triangleEnds;  // of the layers' indices
+    std::vector<std::size_t> outlineEnds;   // then come the same faces in fewer triangles
   };
-  void drawTriangles(const Mesh& mesh) const;
-  void drawOutlines(const Mesh& mesh) const;
+  void drawTriangles(const Mesh& mesh, std::size_t layer) const;
+  void drawOutlines(const Mesh& mesh, std::size_t layer) const;
   void draw(const Mesh& mesh, std::size_t from, std::size_t to) const;
+  void moveBehind(std::size_t steps) const;
   void fillNeighbors(std::vector<float> texels) const;
 
   const Gl& gl_;

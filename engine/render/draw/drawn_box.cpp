@@ -45,6 +45,8 @@ bool isSame(const Pose& a, const Pose& b) {
 // `before`: poses of the previous moment, if any; boxes that have not moved since are already there.
 void appendBoxes(std::vector<DrawnBox>& boxes, const World& world, const Stage& stage,
                  std::span<const Pose> poses, std::span<const Pose> before, double springThickness) {
+  const std::size_t begun = boxes.size();
+  const std::size_t moment = boxes.empty() ? 0 : boxes.back().moment + 1;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     if (!before.empty() && isSame(poses[i], before[i])) {
       continue;
@@ -63,6 +65,8 @@ void appendBoxes(std::vector<DrawnBox>& boxes, const World& world, const Stage& 
       boxes.back().body = world.bodies.size() + i;
     }
   }
+  std::for_each(boxes.begin() + static_cast<std::ptrdiff_t>(begun), boxes.end(),
+                [moment](DrawnBox& box) { box.moment = moment; });
 }
 
 // [px] The smaller height of a face's parallelogram in the picture.
@@ -111,8 +115,9 @@ bool haveCopies(std::span<const DrawnBox> boxes) {
 
 void sortFromEye(std::vector<DrawnBox>& boxes, const Vec3& eye) {
   const auto distance = [&](const DrawnBox& box) { return (box.pose.position - eye).squaredNorm(); };
-  std::stable_sort(boxes.begin(), boxes.end(),
-                   [&](const DrawnBox& a, const DrawnBox& b) { return distance(a) < distance(b); });
+  std::stable_sort(boxes.begin(), boxes.end(), [&](const DrawnBox& a, const DrawnBox& b) {
+    return a.moment == b.moment ? distance(a) < distance(b) : a.moment > b.moment;
+  });
 }
 
 std::vector<DrawnFace> facesTowards(std::span<const DrawnBox> boxes, const Vec3& eye, double pixelAngle) {

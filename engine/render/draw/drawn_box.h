@@ -18,6 +18,7 @@ struct DrawnBox {
   bool marked = true;
   Vec3 returned = Vec3::Zero();        ///< [1] part of ambient light that comes back where it keeps light off
   std::size_t body = 0;                ///< index of the body it shows; of springs, after all bodies
+  std::size_t moment = 0;              ///< of several that are shown at once
   const TriangleMesh* mesh = nullptr;  ///< drawn in its place, if any; the stage owns it
 };
 
@@ -30,8 +31,8 @@ std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::sp
 /// Whether a body is shown several times.
 bool haveCopies(std::span<const DrawnBox> boxes);
 
-/// Sorts front to back, so that hidden pixels are not shaded, and the order of a scene's boxes does not
-/// matter.
+/// Sorts later moments first, and those of one front to back, so that hidden pixels are not shaded, and the
+/// order of a scene's boxes does not matter.
 void sortFromEye(std::vector<DrawnBox>& boxes, const Vec3& eye);
 
 /// A face turned to the eye.

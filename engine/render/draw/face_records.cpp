@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <map>
 #include <numbers>
@@ -48,6 +49,21 @@ void forGrid(const DrawnBox& box, const DrawnFace& face, FaceGrid grid, const Do
   }
 }
 
+// [m] In the plane of a face, how far the outline of its box is beyond the edges of the face, as seen from
+// the eye: 0 of an edge that is on the outline, else what the face beyond it takes. Of the edges at 1, −1
+// across and 1, −1 along.
+std::array<double, 4> beyondEdges(const DrawnBox& box, int axis, const Vec3& eye) {
+  const Vec3 from = box.pose.worldFromBody.transpose() * (eye - box.pose.position);
+  const double part = 2 * box.halfExtents[axis] / (std::abs(from[axis]) + box.halfExtents[axis]);
+  std::array<double, 4> beyond{};
+  for (const int edge : {0, 1}) {
+    const int other = (axis + 1 + edge) % 3;
+    const double over = std::abs(from[other]) - box.halfExtents[other];
+    beyond.at(static_cast<std::size_t>(2 * edge + (from[other] > 0 ? 0 : 1))) = std::max(0.0, over) * part;
+  }
+  return beyond;
+}
+
 }  // namespace
 
 void VertexRecords::addFace(FaceGrid grid, bool mirrored) {
@@ -90,6 +106,11 @@ void VertexRecords::addTriangle() {
   }
 }
 
+void VertexRecords::endLayer() {
+  triangleEnds.push_back(triangles.size());
+  outlineEnds.push_back(outlines.size());
+}
+
 FaceRecords::FaceRecords(const PlacedBoxes& placed)
     : in_(placed),
       isFine_(placed.boxes.size()),
@@ -104,16 +125,27 @@ FaceRecords::FaceRecords(const PlacedBoxes& placed)
 }
 
 void FaceRecords::add() {
-  for (std::size_t i = 0; i < in_.faces.size(); ++i) {
-    if (!isMesh(i)) {
-      addFace(i);
-    } else if (i == 0 || in_.faces[i - 1].box != in_.faces[i].box) {
-      addMesh(i);
+  std::vector<ShadowPair> pairs = in_.shadows.pairs;
+  std::stable_sort(pairs.begin(), pairs.end(), [&](const ShadowPair& a, const ShadowPair& b) {
+    return momentOf(a.face) > momentOf(b.face);
+  });
+  auto pair = pairs.begin();
+  for (std::size_t i = 0; i < in_.faces.size();) {
+    const std::size_t moment = momentOf(i);
+    for (; i < in_.faces.size() && momentOf(i) == moment; ++i) {
+      if (!isMesh(i)) {
+        addFace(i);
+      } else if (i == 0 || in_.faces[i - 1].box != in_.faces[i].box) {
+        addMesh(i);
+      }
     }
-  }
-  for (const ShadowPair& pair : in_.shadows.pairs) {
-    if (!isMesh(pair.face)) {
-      addShadow(pair);
+    for (; pair != pairs.end() && momentOf(pair->face) == moment; ++pair) {
+      if (!isMesh(pair->face)) {
+        addShadow(*pair);
+      }
+    }
+    for (VertexRecords* const records : {&lit, &dark, &shaded, &cast}) {
+      records->endLayer();
     }
   }
 }
@@ -156,6 +188,7 @@ void FaceRecords::addFace(std::size_t i) {
   const double width = box.halfExtents[(axis + 1) % 3];
   const double height = box.halfExtents[(axis + 2) % 3];
   VertexRecords& records = in_.shadows.isDark[i] ? dark : isShaded_[i] ? shaded : lit;
+  const std::array<double, 4> beyond = beyondEdges(box, axis, in_.eye);
   records.addFace(gridOf(i), face.side % 2 != 0);
   forGrid(box, face, gridOf(i), [&](const Vec3& point, double u, double v) {
     std::vector<float>& vertices = records.vertices;
@@ -169,6 +202,9 @@ void FaceRecords::addFace(std::size_t i) {
     append(vertices, box.color);
     vertices.push_back(box.marked ? 1.0F : 0.0F);
     appendAbout(vertices, kPips.at(static_cast<std::size_t>(face.side)), i, hasList(i));
+    for (const double value : beyond) {
+      vertices.push_back(static_cast<float>(value));
+    }
   });
 }
 
@@ -235,6 +271,7 @@ void FaceRecords::addTriangle(VertexRecords& records, const MeshFace& face, cons
     append(vertices, color);
     vertices.push_back(0);  // no marks
     appendAbout(vertices, 0, alike, withList);
+    vertices.insert(vertices.end(), 4, 0.0F);  // its edges are on the outline
   }
 }
 

@@ -23,10 +23,13 @@ struct VertexRecords {
   std::vector<std::uint32_t> triangles;
   std::vector<std::uint32_t> outlines;  ///< the same faces in as few triangles as possible
   std::uint32_t count = 0;
+  std::vector<std::size_t> triangleEnds;  ///< of each layer, in `triangles`
+  std::vector<std::size_t> outlineEnds;   ///< likewise, in `outlines`
 
   /// Triangles between the points of a face, which follow; counterclockwise seen from outside.
   void addFace(FaceGrid grid, bool mirrored);
   void addTriangle();
+  void endLayer();
 };
 
 /// What BoxBatch::place is given; `neighbors` is null if boxes do not occlude boxes.
@@ -39,7 +42,7 @@ struct PlacedBoxes {
   Vec3 eye;
 };
 
-/// The records of all faces and their shadows.
+/// The records of all faces and their shadows. Boxes of one moment are a layer.
 class FaceRecords {
  public:
   explicit FaceRecords(const PlacedBoxes& placed);
@@ -54,6 +57,7 @@ class FaceRecords {
  private:
   void findFine();
 
+  std::size_t momentOf(std::size_t face) const { return in_.boxes[in_.faces[face].box].moment; }
   FaceGrid gridOf(std::size_t face) const;
   bool isMesh(std::size_t face) const { return in_.boxes[in_.faces[face].box].mesh != nullptr; }
   bool hasList(std::size_t face) const;

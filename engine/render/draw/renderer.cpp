@@ -81,7 +81,7 @@ struct Renderer::Parts {
   void look(const Camera& from);
   void place(std::span<const Pose> poses, const Camera& from);
   void drawOcclusion();
-  void drawShaded();
+  void drawShaded(std::size_t layer);
   void drawPicture();
   void drawOver(Picture& picture, const OverlayShapes& shapes);
   void upload() const;
@@ -266,23 +266,26 @@ void Renderer::Parts::drawOcclusion() {
 // The part of the light that shadows keep off is gathered in the picture itself, which is black before, for
 // every sample of a pixel, each of what the others leave; then it takes the colours in full light and in full
 // shadow by that part.
-void Renderer::Parts::drawShaded() {
+void Renderer::Parts::drawShaded(std::size_t layer) {
+  const bool isLast = layer + 1 == boxes.layers();
   if (boxes.hasShaded()) {
-    boxes.drawShadedDepth();
+    boxes.drawShadedDepth(layer);
   }
-  if (mayOverlap(stage)) {
+  if (isLast && mayOverlap(stage)) {
     surfaces.drawDepth();
   }
   gl.Enable(GL_BLEND);
   gl.BlendFuncSeparate(GL_ONE_MINUS_DST_COLOR, GL_ONE, GL_ONE, GL_ONE);
   gl.DepthMask(GL_FALSE);
-  boxes.drawShadows();
-  gl.Disable(GL_CULL_FACE);
-  shadowBatch->draw();
-  gl.Enable(GL_CULL_FACE);
+  boxes.drawShadows(layer);
+  if (isLast) {
+    gl.Disable(GL_CULL_FACE);
+    shadowBatch->draw();
+    gl.Enable(GL_CULL_FACE);
+  }
   gl.DepthMask(GL_TRUE);
   gl.BlendFuncSeparate(GL_ONE_MINUS_DST_COLOR, GL_SRC1_COLOR, GL_ONE, GL_ZERO);
-  boxes.drawShaded();
+  boxes.drawShaded(layer);
   gl.Disable(GL_BLEND);
   ++figures.shadowPasses;
 }
@@ -292,9 +295,14 @@ void Renderer::Parts::drawPicture() {
   if (occlusionMap) {
     occlusionMap->bind();
   }
-  boxes.drawUnshaded();
-  if (shadows) {
-    drawShaded();
+  for (std::size_t layer = 0; layer < boxes.layers(); ++layer) {
+    boxes.drawUnshaded(layer);
+    if (shadows) {
+      drawShaded(layer);
+    }
+    if (layer + 1 < boxes.layers()) {
+      boxes.drawDepth(layer);
+    }
   }
   surfaces.draw(shadedCells, occludedCells, canvas.drawnWidth(), canvas.drawnHeight());
   gl.UseProgram(backgroundProgram);

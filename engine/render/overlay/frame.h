@@ -51,14 +51,17 @@ void addAngularMomenta(OverlayShapes& shapes, const OverlayFrame& frame);
 void addSpinAxes(OverlayShapes& shapes, const OverlayFrame& frame);
 void addContacts(OverlayShapes& shapes, const OverlayFrame& frame);
 void addImpulses(OverlayShapes& shapes, const OverlayFrame& frame);
-void addTimeCode(OverlayShapes& shapes, const OverlayFrame& frame);
-void addEnergy(OverlayShapes& shapes, const OverlayFrame& frame);
-/// Outlines of the other run's movable boxes, those edges paler that their own boxes would hide; lines from
-/// each centre to its ghost's; and, in the lower right corner, the largest distance and angle of a box from
-/// its ghost. Nothing after the end of the other run but a note.
+/// Outlines of the other run's movable boxes, those edges paler that their own boxes would hide, and lines
+/// from each centre to its ghost's. Nothing after the end of the other run.
 void addGhost(OverlayShapes& shapes, const OverlayFrame& frame);
-/// The meaning of the arrows of `shown`, with an arrow of a round value as scale.
-void addLegend(OverlayShapes& shapes, const OverlayFrame& frame, const OverlaySet& shown);
+/// In the lower right corner, the largest distance and angle of a box from its ghost; after the end of the
+/// other run a note.
+void addGhostPanel(OverlayShapes& shapes, const OverlayFrame& frame);
+/// The largest part of a picture that panels cover together.
+inline constexpr double kPanelsShare = 0.25;
+/// The panels of what is shown: time, energy, the meaning of arrows with one of a round value as scale, and
+/// the distance of the other run; in this order, each for which there still is room.
+void addPanels(OverlayShapes& shapes, const OverlayFrame& frame, const OverlaySet& shown);
 
 /// Number of film frames over which an impact fades.
 inline constexpr int kImpactFrames = 8;

@@ -108,7 +108,7 @@ std::string textOf(const OverlayFrame& frame, const std::vector<Pair>& pairs) {
          brief(degrees > kNoTurn ? degrees : 0, 3) + "°";
 }
 
-void addPanel(OverlayShapes& shapes, const OverlayFrame& frame, const std::string& text) {
+void addNote(OverlayShapes& shapes, const OverlayFrame& frame, const std::string& text) {
   constexpr double kMargin = 0.9;  // of the text's size, as of the other panels
   constexpr double kPadding = 0.7;
   const double em = frame.style.text;
@@ -125,11 +125,12 @@ void addPanel(OverlayShapes& shapes, const OverlayFrame& frame, const std::strin
                             .ink = {kIvory, 1}});
 }
 
+bool hasEnded(const OverlayFrame& frame) { return frame.time > frame.ghost->settings.duration; }
+
 }  // namespace
 
 void addGhost(OverlayShapes& shapes, const OverlayFrame& frame) {
-  if (frame.time > frame.ghost->settings.duration) {
-    addPanel(shapes, frame, "the other run has ended");
+  if (hasEnded(frame)) {
     return;
   }
   const std::vector<Pair> pairs = pairsOf(frame);
@@ -140,7 +141,10 @@ void addGhost(OverlayShapes& shapes, const OverlayFrame& frame) {
     addOutline(shapes, frame, pairs[i]);
     addWay(shapes, frame, pairs[i]);
   }
-  addPanel(shapes, frame, textOf(frame, pairs));
+}
+
+void addGhostPanel(OverlayShapes& shapes, const OverlayFrame& frame) {
+  addNote(shapes, frame, hasEnded(frame) ? "the other run has ended" : textOf(frame, pairsOf(frame)));
 }
 
 }  // namespace careen

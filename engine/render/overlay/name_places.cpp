@@ -113,7 +113,9 @@ bool isFree(const NamePlaces& name, std::size_t place, std::int32_t body, const 
 
 }  // namespace
 
-double nameSize(const OverlayStyle& style) { return std::max(kSmallestText, 0.9 * style.text); }
+double nameSize(const OverlayStyle& style) {
+  return std::max(std::min(kEasyText, style.text), 0.9 * style.text);
+}
 
 std::vector<NamePlaces> namePlaces(const OverlayFrame& frame, std::span<const std::size_t> named) {
   const double em = nameSize(frame.style);

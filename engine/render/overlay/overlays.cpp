@@ -14,14 +14,12 @@ struct NamedAdd {
 };
 
 // Back to front.
-constexpr std::array<NamedAdd, 8> kInOrder = {{{Overlay::kTrail, addTrails},
+constexpr std::array<NamedAdd, 6> kInOrder = {{{Overlay::kTrail, addTrails},
                                                {Overlay::kSpinAxis, addSpinAxes},
                                                {Overlay::kAngularMomentum, addAngularMomenta},
                                                {Overlay::kVelocity, addVelocities},
                                                {Overlay::kContacts, addContacts},
-                                               {Overlay::kImpulses, addImpulses},
-                                               {Overlay::kEnergy, addEnergy},
-                                               {Overlay::kTime, addTimeCode}}};
+                                               {Overlay::kImpulses, addImpulses}}};
 
 constexpr std::array kArrows = {Overlay::kVelocity, Overlay::kAngularMomentum, Overlay::kSpinAxis,
                                 Overlay::kImpulses};
@@ -118,17 +116,7 @@ class Overlays::Frame {
 // Names avoid the panels at the edges and what belongs to them.
 std::vector<Plate> Overlays::panelsAt(const OverlayFrame& frame) const {
   OverlayShapes shapes;
-  if (ghost_ != nullptr) {
-    addGhost(shapes, frame);
-  }
-  for (const NamedAdd& each : kInOrder) {
-    if (shown_.has(each.overlay) && (each.add == addEnergy || each.add == addTimeCode)) {
-      each.add(shapes, frame);
-    }
-  }
-  if (hasAny(shown_, kArrows)) {
-    addLegend(shapes, frame, shown_);
-  }
+  addPanels(shapes, frame, shown_);
   std::vector<Plate> panels;
   for (const OverlayShape& shape : shapes) {
     if (const Plate* const plate = std::get_if<Plate>(&shape)) {
@@ -155,9 +143,7 @@ OverlayShapes Overlays::shapesAt(double filmTime, const MomentAt& momentAt, int 
       each.add(shapes, frame);
     }
   }
-  if (hasAny(shown_, kArrows)) {
-    addLegend(shapes, frame, shown_);
-  }
+  addPanels(shapes, frame, shown_);
   if (names_) {
     names_->add(shapes, frame, filmTime, momentAt,
                 [&](const OverlayMoment& moment) { return freePlacesAt(moment, width, height); });

@@ -126,22 +126,6 @@ std::vector<ArrowMeaning> meaningsOf(const OverlayFrame& frame, const OverlaySet
   return meanings;
 }
 
-}  // namespace
-
-std::string timeCode(double seconds) {
-  const long long milliseconds = std::llround(1000 * seconds);
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "%02lld:%02lld:%02lld.%03lld", milliseconds / 3600000,
-                milliseconds / 60000 % 60, milliseconds / 1000 % 60, milliseconds % 1000);
-  return text.data();
-}
-
-double roundValue(double largest) {
-  const double power = std::pow(10.0, std::floor(std::log10(0.6 * largest)));
-  const double times = 0.6 * largest / power;
-  return (times >= 5 ? 5 : (times >= 2 ? 2 : 1)) * power;
-}
-
 void addTimeCode(OverlayShapes& shapes, const OverlayFrame& frame) {
   const double em = frame.style.text;
   const std::string text = timeCode(frame.time);
@@ -208,6 +192,7 @@ void addEnergy(OverlayShapes& shapes, const OverlayFrame& frame) {
   }
 }
 
+// The meaning of the arrows of `shown`, with an arrow of a round value as scale.
 void addLegend(OverlayShapes& shapes, const OverlayFrame& frame, const OverlaySet& shown) {
   const std::vector<ArrowMeaning> meanings = meaningsOf(frame, shown);
   if (meanings.empty()) {
@@ -241,6 +226,64 @@ void addLegend(OverlayShapes& shapes, const OverlayFrame& frame, const OverlaySe
                                .ink = {each.color, 1}});
     shapes.emplace_back(write(frame, texts[i], Vec2(start + arrows + 0.8 * em, rowBaseline(frame, top))));
   }
+}
+
+// Where panels are, and what more has room: on the picture, clear of the others, within the share of all of
+// them.
+class PanelRoom {
+ public:
+  explicit PanelRoom(const Screen& screen) : size_(screen.width(), screen.height()) {}
+  bool takes(const Plate& panel) {
+    const double covered = covered_ + (panel.max - panel.min).prod();
+    const bool isClear = std::none_of(taken_.begin(), taken_.end(), [&](const Plate& other) {
+      return (panel.min.array() < other.max.array()).all() && (other.min.array() < panel.max.array()).all();
+    });
+    if (panel.min.minCoeff() < 0 || (panel.max.array() > size_.array()).any() || !isClear ||
+        covered > kPanelsShare * size_.prod()) {
+      return false;
+    }
+    covered_ = covered;
+    taken_.push_back(panel);
+    return true;
+  }
+
+ private:
+  Vec2 size_;
+  double covered_ = 0;  // [px²]
+  std::vector<Plate> taken_;
+};
+
+}  // namespace
+
+std::string timeCode(double seconds) {
+  const long long milliseconds = std::llround(1000 * seconds);
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%02lld:%02lld:%02lld.%03lld", milliseconds / 3600000,
+                milliseconds / 60000 % 60, milliseconds / 1000 % 60, milliseconds % 1000);
+  return text.data();
+}
+
+double roundValue(double largest) {
+  const double power = std::pow(10.0, std::floor(std::log10(0.6 * largest)));
+  const double times = 0.6 * largest / power;
+  return (times >= 5 ? 5 : (times >= 2 ? 2 : 1)) * power;
+}
+
+void addPanels(OverlayShapes& shapes, const OverlayFrame& frame, const OverlaySet& shown) {
+  PanelRoom room(frame.screen);
+  const auto addIf = [&](bool isShown, const auto& add) {
+    OverlayShapes panel;
+    if (isShown) {
+      add(panel);
+    }
+    if (!panel.empty() && room.takes(std::get<Plate>(panel.front()))) {
+      shapes.insert(shapes.end(), panel.begin(), panel.end());
+    }
+  };
+  addIf(shown.has(Overlay::kTime), [&](OverlayShapes& panel) { addTimeCode(panel, frame); });
+  addIf(shown.has(Overlay::kEnergy), [&](OverlayShapes& panel) { addEnergy(panel, frame); });
+  addIf(true, [&](OverlayShapes& panel) { addLegend(panel, frame, shown); });
+  addIf(frame.ghost != nullptr, [&](OverlayShapes& panel) { addGhostPanel(panel, frame); });
 }
 
 }  // namespace careen

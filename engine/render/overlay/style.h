@@ -20,12 +20,15 @@ inline constexpr Color kRose{200, 122, 116};    // spring energy
 inline constexpr Color kGrey{132, 136, 140};    // lost energy
 
 inline constexpr double kPlateAlpha = 0.70;
-inline constexpr double kSmallestText = 12;  // [px] em square
+inline constexpr double kEasyText = 12;     // [px] em square: easily read
+inline constexpr double kSmallestText = 8;  // [px] just read
 
-/// Sizes [px] in proportion to the picture height [px], but never too small to read.
+/// Sizes [px] in proportion to the picture height [px], but never too small to read. Text is easily read from
+/// 360 px of height on; on smaller pictures it shrinks with them for a while, so that something else is seen
+/// too.
 struct OverlayStyle {
   explicit OverlayStyle(int height)
-      : text(std::max(kSmallestText, 0.0236 * height)),
+      : text(std::max({kSmallestText, std::min(kEasyText, kEasyText * height / 360), 0.0236 * height})),
         line(std::max(1.5, 0.0032 * height)),
         halo(std::max(1.0, 0.0016 * height)),
         head(6 * line),

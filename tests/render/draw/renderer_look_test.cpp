@@ -120,7 +120,8 @@ TEST(Renderer, brightLightIsPressedBelowWhiteAndLosesColour) {
   EXPECT_LT(bright[0] - bright[1], dim[0] - dim[1]);
 }
 
-// The background's middle lies between two codes: dithered pixels are one or the other, and right on average.
+// The background's middle lies between two codes: dithered pixels are one or the other, and right on average,
+// in every row and column too, so that there are no lines.
 TEST(Renderer, ditherKeepsTheAverage) {
   Scene scene;
   scene.boxes.push_back(boxAt(Vec3::Zero(), Vec3(1e-3, 1e-3, 1e-3)));
@@ -131,12 +132,18 @@ TEST(Renderer, ditherKeepsTheAverage) {
   const Picture picture = drawnLook(scene, options);
   double sum = 0;
   std::set<int> codes;
-  for (int y = 0; y < 64; ++y) {
-    for (int x = 0; x < 64; ++x) {
-      const int code = pixelAt(picture, x, y)[0];
+  for (int i = 0; i < 64; ++i) {
+    double row = 0;
+    double column = 0;
+    for (int k = 0; k < 64; ++k) {
+      const int code = pixelAt(picture, k, i)[0];
       codes.insert(code);
       sum += code;
+      row += code / 64.0;
+      column += pixelAt(picture, i, k)[0] / 64.0;
     }
+    EXPECT_NEAR(row, 100.5, 0.2) << i;
+    EXPECT_NEAR(column, 100.5, 0.2) << i;
   }
   EXPECT_EQ(codes, (std::set<int>{100, 101}));
   EXPECT_NEAR(sum / 4096, 100.5, 0.05);

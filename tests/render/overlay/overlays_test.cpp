@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ namespace {
 constexpr int kWidth = 1280;
 constexpr int kHeight = 720;
 constexpr double kFrame = 1.0 / 30;
+constexpr const char* kPanels = "time,energy,velocity,spin-axis,angular-momentum,impulses";
 
 // The crate's room seen straight on from 10 m in front of y = 0, 60° upward.
 Scene roomStraightOn() {
@@ -74,6 +76,12 @@ class OverlaysTest : public testing::Test {
     return run;
   }
   void simulate() { run_ = runOf(scene_); }
+  void fall() {
+    scene_.gravity = Vec3(0, 0, -10);
+    scene_.room->material.restitution = 0.5;
+    scene_.boxes[0] = boxAt(Vec3(0, 0, 1), Vec3(0.3, 0.3, 0.2));
+    simulate();
+  }
   void strike(double time, double impulse) {
     run_.impacts.push_back({.time = time,
                             .a = {0},
@@ -284,10 +292,7 @@ TEST_F(OverlaysTest, timeCodeTellsTheScenesTime) {
 // 0.8 m above the floor under 10 m/s²: after 0.2 s a quarter of the energy is motion, after the impact at 0.4
 // s three quarters are lost.
 TEST_F(OverlaysTest, barsAreAsLongAsTheirEnergies) {
-  scene_.gravity = Vec3(0, 0, -10);
-  scene_.room->material.restitution = 0.5;
-  scene_.boxes[0] = boxAt(Vec3(0, 0, 1), Vec3(0.3, 0.3, 0.2));
-  simulate();
+  fall();
   const auto barsAt = [&](double time) {
     const std::vector<Plate> plates = only<Plate>(shapesAt("energy", time));
     std::array<double, 4> ends{};  // of lost, potential, rotation, kinetic: as they are drawn
@@ -335,17 +340,63 @@ TEST_F(OverlaysTest, legendSaysHowLongAnArrowOfARoundValueIs) {
 TEST_F(OverlaysTest, sizesGrowWithThePictureAndNeverGetTooSmallToRead) {
   EXPECT_NEAR(OverlayStyle(2160).text, 3 * OverlayStyle(720).text, 1e-9);
   EXPECT_EQ(OverlayStyle(360).text, 12);
-  EXPECT_EQ(OverlayStyle(36).text, 12);
+  EXPECT_EQ(OverlayStyle(240).text, 8);
+  EXPECT_EQ(OverlayStyle(36).text, 8);
 }
 
 TEST_F(OverlaysTest, everythingStaysOnThePictureThatStandsAtItsEdges) {
-  for (const auto& [width, height] : {std::pair{640, 360}, {1280, 720}, {3840, 2160}}) {
-    for (const Plate& plate : only<Plate>(
-             shapesAt("time,energy,velocity,spin-axis,angular-momentum,impulses", 0.5, width, height))) {
+  for (const auto& [width, height] : {std::pair{64, 36},
+                                      {160, 90},
+                                      {160, 120},
+                                      {320, 180},
+                                      {640, 360},
+                                      {1280, 720},
+                                      {3840, 2160},
+                                      {120, 900}}) {
+    for (const Plate& plate : only<Plate>(shapesAt(kPanels, 0.5, width, height))) {
       EXPECT_GE(plate.min.minCoeff(), 0);
       EXPECT_LE(plate.max.x(), width);
       EXPECT_LE(plate.max.y(), height);
     }
+  }
+}
+
+TEST_F(OverlaysTest, panelsCoverAQuarterOfThePictureAtMost) {
+  fall();
+  for (int height = 20; height <= 400; height += 10) {
+    for (const int width : {height / 2, height * 4 / 3, height * 16 / 9, 4 * height}) {
+      const std::vector<Plate> plates = only<Plate>(shapesAt(kPanels, 0.5, width, height));
+      int covered = 0;
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          covered += std::any_of(plates.begin(), plates.end(), [&](const Plate& plate) {
+            return x >= plate.min.x() && x < plate.max.x() && y >= plate.min.y() && y < plate.max.y();
+          });
+        }
+      }
+      EXPECT_LE(covered, 0.25 * width * height) << width << 'x' << height;
+    }
+  }
+}
+
+// What has no room is left out as a whole, the time last.
+TEST_F(OverlaysTest, panelsForWhichThereIsNoRoomAreLeftOut) {
+  fall();
+  const auto textsAt = [&](int width, int height) {
+    std::set<std::string> texts;
+    for (const Label& label : only<Label>(shapesAt("time,energy,velocity", 0.5, width, height))) {
+      texts.insert(label.text.substr(0, label.text.find(' ')));
+    }
+    return texts;
+  };
+  const std::string time = "00:00:00.500";
+  EXPECT_EQ(textsAt(64, 36), (std::set<std::string>{}));
+  EXPECT_EQ(textsAt(160, 120), (std::set<std::string>{time}));
+  for (const auto& [width, height] : {std::pair{320, 180}, {640, 360}}) {
+    const std::set<std::string> texts = textsAt(width, height);
+    EXPECT_EQ(texts.count(time), 1U) << height;
+    EXPECT_EQ(texts.count("kinetic"), 1U) << height;
+    EXPECT_EQ(texts.count("velocity"), 1U) << height;
   }
 }
 
