@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "audit/between_rows.h"
 #include "audit/findings.h"
 #include "audit/groups.h"
 #include "audit/ledger.h"
@@ -39,6 +40,7 @@ constexpr std::size_t kStatesAroundWorst = 1'500;
 constexpr std::size_t kMostMoments = 1'000;
 constexpr std::size_t kFewestMoments = 16;
 constexpr std::size_t kWorst = 4;
+constexpr double kNear = 0.1;  // [1] of how far the boxes of a table may overlap: they push each other
 
 class Auditor {
  public:
@@ -46,6 +48,7 @@ class Auditor {
       : run_(run),
         depth_(depth),
         stop_(stop),
+        part_(limits.table),
         settings_(settingsOf(run, limits)),
         findings_(settings_, promises(limits, false), promises(limits, true), crowdBeginnings(run)),
         impacts_(impactsOfBodies(run)),
@@ -78,6 +81,7 @@ class Auditor {
   const Trajectory& run_;
   AuditDepth depth_;
   const std::stop_token& stop_;
+  double part_;  // see AuditLimits::table
   RunSettings settings_;
   Findings findings_;
   std::vector<std::vector<std::size_t>> impacts_;  // of each body
@@ -268,6 +272,7 @@ Audit Auditor::run() {
   lookAtMoments(samples);
   lookAtSeams();
   checkBalances(run_, samples, exchangeGroups(run_, samples), fallingSpeeds_, findings_);
+  checkBetweenRows(run_, kNear * settings_.tolerance, part_, fallingSpeeds_, findings_);
   lookAtWorst();
   return result();
 }

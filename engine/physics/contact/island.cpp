@@ -71,7 +71,8 @@ Island::Island(const World& world, std::vector<TouchingBody> bodies, std::vector
     : tolerance_(tolerance),
       timeScale_(timeScale),
       world_(world),
-      system_(world, std::move(bodies), std::move(features)) {
+      system_(world, std::move(bodies), std::move(features)),
+      springs_(world, system_.bodies()) {
   end_ = system_.pack();
 }
 
@@ -202,6 +203,11 @@ Island::Step Island::step(double most, double mostWork) {
   }
   tookTimeStep_ = false;
   stepper_.reset();
+  if (pushes()) {
+    springs_.end();
+  } else {
+    springs_.begin(start_);
+  }
   if (known_) {
     startRate_ = endRate_;
     startTurned_ = endTurned_;

@@ -1,0 +1,332 @@
+#include "audit/between_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "audit/encounter.h"
+#include "audit/flown.h"
+#include "audit/near_pairs.h"
+#include "audit/overlap.h"
+#include "audit/samples.h"
+#include "audit/seams.h"
+#include "physics/world/partner.h"
+
+namespace careen {
+namespace {
+
+constexpr double kStill = 1.0 / 64;  // as in the ledger: of what falling by its own size would give
+constexpr double kRounding = 4096 * std::numeric_limits<double>::epsilon();
+constexpr double kMostTurn = 3;       // [rad] from row to row: of more, the attitude tells nothing
+constexpr std::size_t kDoubtful = 3;  // rows beside a contact whose estimated velocities may be off
+
+/// What a body did from one row to the next.
+struct Passage {
+  enum class Kind { kUnknown, kFlew, kSlid };
+  Kind kind = Kind::kUnknown;
+  Vec3 impulse = Vec3::Zero();         // [N s] that nothing gave
+  Vec3 angularImpulse = Vec3::Zero();  // [N m s]
+  Vec3 way = Vec3::Zero();             // [m] aside of where it flies
+  Vec3 turn = Vec3::Zero();            // [rad] likewise
+  double friction = 0;                 // [N s] missing
+};
+
+/// The same, while it is looked at.
+struct Flying {
+  const BodyState* before = nullptr;
+  const BodyState* after = nullptr;
+  double speed = 0;  // [m/s] of no point more, unless it is struck
+  std::vector<Partner> partners = {};
+};
+
+class Rows {
+ public:
+  Rows(const Trajectory& run, double near, double part, const std::vector<double>& fallingSpeeds,
+       Findings& findings)
+      : run_(run), near_(near), part_(part), fallingSpeeds_(fallingSpeeds), findings_(findings) {}
+
+  void check();
+
+ private:
+  const Body& body(std::size_t index) const { return run_.world.bodies[index]; }
+  bool isHeld(std::size_t index) const { return isImmovable(body(index).mass); }
+  void listPulled();
+  bool haveCommonRows() const;
+  void look(std::size_t row);
+  Flying flyingOf(std::size_t index, std::size_t row) const;
+  void findPartners(std::size_t row);
+  void addPartner(std::size_t a, std::size_t b, std::size_t row);
+  Encounter encounterOf(std::size_t index, Partner partner, std::size_t row) const;
+  bool canTouch(std::size_t index, Partner partner, std::size_t row) const;
+  void settle(std::size_t index, std::size_t row);
+  void checkBounce(std::size_t index, const Encounter& encounter, double time);
+  void addUp(std::size_t index);
+  double start(std::size_t row) const { return run_.tracks[rowsOf_].segments[row].start; }
+  double seconds(std::size_t row) const {
+    return std::get<SampledStep>(run_.tracks[rowsOf_].segments[row].motion).duration;
+  }
+
+  const Trajectory& run_;
+  double near_;
+  double part_;
+  const std::vector<double>& fallingSpeeds_;
+  Findings& findings_;
+  std::size_t rowsOf_ = 0;  // a body that moves
+  std::vector<char> pulled_;
+  std::vector<Flying> flying_;
+  std::vector<std::vector<Passage>> passages_;  // of each body
+};
+
+void Rows::listPulled() {
+  pulled_.assign(run_.tracks.size(), run_.world.drag ? 1 : 0);
+  for (const Spring& spring : run_.world.springs) {
+    for (const SpringEnd* end : {&spring.from, &spring.to}) {
+      if (end->body) {
+        pulled_[static_cast<std::size_t>(*end->body)] = 1;
+      }
+    }
+  }
+}
+
+bool Rows::haveCommonRows() const {
+  const std::vector<Segment>& rows = run_.tracks[rowsOf_].segments;
+  for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
+    if (!isHeld(index) &&
+        !std::equal(rows.begin(), rows.end(), run_.tracks[index].segments.begin(),
+                    run_.tracks[index].segments.end(),
+                    [](const Segment& x, const Segment& y) { return x.start == y.start; })) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void Rows::check() {
+  while (rowsOf_ < run_.tracks.size() && isHeld(rowsOf_)) {
+    ++rowsOf_;
+  }
+  if (rowsOf_ == run_.tracks.size() || !haveCommonRows()) {
+    return;
+  }
+  listPulled();
+  const std::size_t rows = run_.tracks[rowsOf_].segments.size();
+  passages_.assign(run_.tracks.size(), {});
+  for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
+    passages_[index].resize(isHeld(index) ? 0 : rows);
+  }
+  for (std::size_t row = 0; row < rows; ++row) {
+    look(row);
+  }
+  for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
+    addUp(index);
+  }
+}
+
+Flying Rows::flyingOf(std::size_t index, std::size_t row) const {
+  if (isHeld(index)) {
+    return {.before = &body(index).initial, .after = &body(index).initial};
+  }
+  const SampledStep& step = std::get<SampledStep>(run_.tracks[index].segments[row].motion);
+  Flying flying{.before = &step.start, .after = &step.end};
+  for (const BodyState* state : {flying.before, flying.after}) {
+    flying.speed =
+        std::max(flying.speed, state->velocity.norm() +
+                                   radiusOf(body(index)) * angularVelocity(body(index).mass, *state).norm());
+  }
+  flying.speed += run_.world.gravity.norm() * step.duration;
+  return flying;
+}
+
+void Rows::look(std::size_t row) {
+  flying_.clear();
+  for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
+    flying_.push_back(flyingOf(index, row));
+  }
+  findPartners(row);
+  for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
+    if (!isHeld(index) && pulled_[index] == 0) {
+      settle(index, row);
+    }
+  }
+}
+
+void Rows::findPartners(std::size_t row) {
+  std::vector<Ball> balls(run_.tracks.size());
+  for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
+    const Flying& flying = flying_[index];
+    balls[index] = {flying.before->pose.position,
+                    radiusOf(body(index)) + near_ + flying.speed * seconds(row)};
+    for (std::size_t wall = 0; wall < run_.world.walls.size() && !isHeld(index); ++wall) {
+      if (canTouch(index, Partner::ofWall(wall), row)) {
+        flying_[index].partners.push_back(Partner::ofWall(wall));
+      }
+    }
+  }
+  for (const auto& [a, b] : nearPairs(balls)) {
+    if ((!isHeld(a) || !isHeld(b)) &&
+        canTouch(isHeld(a) ? b : a, Partner::ofBody(static_cast<int>(isHeld(a) ? a : b)), row)) {
+      flying_[a].partners.push_back(Partner::ofBody(static_cast<int>(b)));
+      flying_[b].partners.push_back(Partner::ofBody(static_cast<int>(a)));
+    }
+  }
+}
+
+Encounter Rows::encounterOf(std::size_t index, Partner partner, std::size_t row) const {
+  Encounter encounter{.body = &body(index),
+                      .before = *flying_[index].before,
+                      .after = *flying_[index].after,
+                      .gravity = run_.world.gravity,
+                      .seconds = seconds(row),
+                      .near = near_,
+                      .part = part_};
+  if (partner.isWall()) {
+    encounter.wall = &run_.world.walls[partner.wall()];
+  } else {
+    const auto other = static_cast<std::size_t>(partner.body());
+    encounter.other = &body(other);
+    encounter.otherBefore = *flying_[other].before;
+    encounter.otherAfter = *flying_[other].after;
+  }
+  if (!run_.given->velocities || !run_.given->angularVelocities) {
+    const double spin = angularVelocity(body(index).mass, encounter.before).norm();
+    encounter.doubt = encounter.seconds * (run_.world.gravity.norm() + spin * spin * radiusOf(body(index)));
+  }
+  return encounter;
+}
+
+// Whether they may have come as near as things that push each other: two points with a gap that closes and
+// opens again between the rows, at no more than their speeds.
+bool Rows::canTouch(std::size_t index, Partner partner, std::size_t row) const {
+  const Encounter encounter = encounterOf(index, partner, row);
+  const double other = partner.isWall() ? 0 : flying_[static_cast<std::size_t>(partner.body())].speed;
+  const double closing = (flying_[index].speed + other) * encounter.seconds;
+  const double gaps = gapOf(encounter, encounter.before, encounter.otherBefore) +
+                      gapOf(encounter, encounter.after, encounter.otherAfter);
+  return !(gaps - closing > 2 * near_);
+}
+
+// Where they cannot move, the flight says when both can have touched.
+void Rows::settle(std::size_t index, std::size_t row) {
+  const Flying& flying = flying_[index];
+  Passage& passage = passages_[index][row];
+  const MassProperties& mass = body(index).mass;
+  const BodyState flight = flown(mass, *flying.before, run_.world.gravity, seconds(row));
+  passage.impulse = mass.mass * (flying.after->velocity - flight.velocity);
+  passage.angularImpulse = flying.after->angularMomentum - flight.angularMomentum;
+  const double turns = seconds(row) * std::max(angularVelocity(mass, *flying.before).norm(),
+                                               angularVelocity(mass, *flying.after).norm());
+  if (run_.given->velocities) {
+    passage.way = flying.after->pose.position - flight.pose.position;
+  }
+  if (run_.given->angularVelocities && turns < kMostTurn) {
+    passage.turn = turnBetween(flight.pose.worldFromBody, flying.after->pose.worldFromBody);
+  }
+  const auto isFixed = [&](Partner partner) {
+    return partner.isWall() || isHeld(static_cast<std::size_t>(partner.body()));
+  };
+  std::vector<Partner> touched;
+  for (const Partner partner : flying.partners) {
+    if (!isFixed(partner) || turns > kMostTurn || leastDistance(encounterOf(index, partner, row)) <= near_) {
+      touched.push_back(partner);
+    }
+  }
+  if (touched.empty()) {
+    passage.kind = Passage::Kind::kFlew;
+    return;
+  }
+  const Partner partner = touched.front();
+  const bool isOnly =
+      flying.partners.size() == 1 &&
+      (isFixed(partner) || flying_[static_cast<std::size_t>(partner.body())].partners.size() == 1) &&
+      (partner.isWall() || pulled_[static_cast<std::size_t>(partner.body())] == 0);
+  if (!isOnly || turns > kMostTurn) {
+    return;
+  }
+  const Encounter encounter = encounterOf(index, partner, row);
+  checkBounce(index, encounter, start(row));
+  if (const std::optional<double> missing = missingFriction(encounter)) {
+    passage.kind = Passage::Kind::kSlid;
+    passage.friction = *missing;
+  }
+}
+
+void Rows::checkBounce(std::size_t index, const Encounter& encounter, double time) {
+  Finding finding{.size = restitutionBeyond(encounter), .time = time, .bodies = {index}, .wall = {}};
+  if (encounter.wall != nullptr) {
+    finding.wall = static_cast<std::size_t>(encounter.wall - run_.world.walls.data());
+  } else {
+    finding.bodies.push_back(static_cast<std::size_t>(encounter.other - run_.world.bodies.data()));
+  }
+  findings_.add(AuditKind::kRestitution, 0, finding);
+}
+
+void Rows::addUp(std::size_t index) {
+  const std::vector<Passage>& passages = passages_[index];
+  const MassProperties& mass = body(index).mass;
+  const double size = body(index).halfExtents.norm();
+  double momentum = kStill * mass.mass * fallingSpeeds_[index];
+  double angular = momentum * size;
+  double far = 0;
+  for (const Segment& segment : run_.tracks[index].segments) {
+    if (const SampledStep* const step = std::get_if<SampledStep>(&segment.motion)) {
+      momentum = std::max(
+          {momentum, mass.mass * step->start.velocity.norm(), mass.mass * step->end.velocity.norm()});
+      angular = std::max({angular, step->start.angularMomentum.norm(), step->end.angularMomentum.norm()});
+      far = std::max(far, step->end.pose.position.norm());
+    }
+  }
+  const bool isKnown = run_.given->velocities && run_.given->angularVelocities;
+  const std::size_t beside = isKnown ? 0 : kDoubtful;
+  const auto isSettled = [&](std::size_t row, Passage::Kind kind) {
+    for (std::size_t k = row - std::min(row, beside); k < std::min(row + beside + 1, passages.size()); ++k) {
+      if (passages[k].kind != kind) {
+        return false;
+      }
+    }
+    return true;
+  };
+  Passage sum;
+  const auto report = [&](AuditKind kind, std::size_t row, double amount, double rounding) {
+    findings_.add(kind, rounding,
+                  {.size = amount, .time = start(row) + seconds(row), .bodies = {index}, .wall = {}});
+  };
+  const double least = std::numeric_limits<double>::min();
+  for (std::size_t row = 0; row < passages.size(); ++row) {
+    const Passage& now = passages[row];
+    if (!isSettled(row, now.kind) || now.kind != sum.kind) {
+      sum = {.kind = now.kind};
+    }
+    if (now.kind == Passage::Kind::kUnknown || !isSettled(row, now.kind)) {
+      continue;
+    }
+    if (now.kind == Passage::Kind::kSlid) {
+      sum.friction = std::max(0.0, sum.friction + now.friction);
+      report(AuditKind::kFriction, row, sum.friction / std::max(momentum, least), kRounding);
+      continue;
+    }
+    sum.impulse += now.impulse;
+    sum.angularImpulse += now.angularImpulse;
+    sum.way += now.way;
+    sum.turn += now.turn;
+    const double reach = 1 + far / size;
+    report(AuditKind::kLinearMomentum, row, sum.impulse.norm() / std::max(momentum, least),
+           kRounding * reach);
+    report(AuditKind::kAngularMomentum, row, sum.angularImpulse.norm() / std::max(angular, least),
+           kRounding * reach);
+    report(AuditKind::kContinuity, row, sum.way.norm() + size * sum.turn.norm(), kRounding * (far + size));
+  }
+}
+
+}  // namespace
+
+void checkBetweenRows(const Trajectory& run, double near, double part,
+                      const std::vector<double>& fallingSpeeds, Findings& findings) {
+  if (run.given) {
+    Rows(run, near, part, fallingSpeeds, findings).check();
+  }
+}
+
+}  // namespace careen
