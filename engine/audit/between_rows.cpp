@@ -21,24 +21,27 @@ namespace {
 constexpr double kStill = 1.0 / 64;  // as in the ledger: of what falling by its own size would give
 constexpr double kRounding = 4096 * std::numeric_limits<double>::epsilon();
 constexpr double kMostTurn = 3;       // [rad] from row to row: of more, the attitude tells nothing
+constexpr int kPasses = 2;            // in which speeds pass on to neighbours
 constexpr std::size_t kDoubtful = 3;  // rows beside a contact whose estimated velocities may be off
 
 /// What a body did from one row to the next.
 struct Passage {
-  enum class Kind { kUnknown, kFlew, kSlid };
+  enum class Kind { kUnknown, kFlew, kTouched };
   Kind kind = Kind::kUnknown;
   Vec3 impulse = Vec3::Zero();         // [N s] that nothing gave
   Vec3 angularImpulse = Vec3::Zero();  // [N m s]
   Vec3 way = Vec3::Zero();             // [m] aside of where it flies
   Vec3 turn = Vec3::Zero();            // [rad] likewise
-  double friction = 0;                 // [N s] missing
+  std::optional<double> missing = {};  // [N s] of friction
+  double surplus = 0;                  // [N s] likewise
 };
 
 /// The same, while it is looked at.
 struct Flying {
   const BodyState* before = nullptr;
   const BodyState* after = nullptr;
-  double speed = 0;  // [m/s] of no point more, unless it is struck
+  double own = 0;    // [m/s] of no point more, unless it is struck
+  double speed = 0;  // [m/s] likewise, if neighbours strike it
   std::vector<Partner> partners = {};
 };
 
@@ -48,7 +51,7 @@ class Rows {
        Findings& findings)
       : run_(run), near_(near), part_(part), fallingSpeeds_(fallingSpeeds), findings_(findings) {}
 
-  void check();
+  std::vector<char> check();
 
  private:
   const Body& body(std::size_t index) const { return run_.world.bodies[index]; }
@@ -58,10 +61,12 @@ class Rows {
   void look(std::size_t row);
   Flying flyingOf(std::size_t index, std::size_t row) const;
   void findPartners(std::size_t row);
-  void addPartner(std::size_t a, std::size_t b, std::size_t row);
+  void hasten();
   Encounter encounterOf(std::size_t index, Partner partner, std::size_t row) const;
   bool canTouch(std::size_t index, Partner partner, std::size_t row) const;
   void settle(std::size_t index, std::size_t row);
+  void checkWay(std::size_t index, std::size_t row);
+  void checkFriction(std::size_t row);
   void checkBounce(std::size_t index, const Encounter& encounter, double time);
   void addUp(std::size_t index);
   double start(std::size_t row) const { return run_.tracks[rowsOf_].segments[row].start; }
@@ -104,12 +109,12 @@ bool Rows::haveCommonRows() const {
   return true;
 }
 
-void Rows::check() {
+std::vector<char> Rows::check() {
   while (rowsOf_ < run_.tracks.size() && isHeld(rowsOf_)) {
     ++rowsOf_;
   }
   if (rowsOf_ == run_.tracks.size() || !haveCommonRows()) {
-    return;
+    return std::vector<char>(run_.tracks.size(), 0);
   }
   listPulled();
   const std::size_t rows = run_.tracks[rowsOf_].segments.size();
@@ -123,6 +128,11 @@ void Rows::check() {
   for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
     addUp(index);
   }
+  std::vector<char> followed;
+  for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
+    followed.push_back(!isHeld(index) && pulled_[index] == 0 ? 1 : 0);
+  }
+  return followed;
 }
 
 Flying Rows::flyingOf(std::size_t index, std::size_t row) const {
@@ -137,6 +147,7 @@ Flying Rows::flyingOf(std::size_t index, std::size_t row) const {
                                    radiusOf(body(index)) * angularVelocity(body(index).mass, *state).norm());
   }
   flying.speed += run_.world.gravity.norm() * step.duration;
+  flying.own = flying.speed;
   return flying;
 }
 
@@ -145,15 +156,39 @@ void Rows::look(std::size_t row) {
   for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
     flying_.push_back(flyingOf(index, row));
   }
+  for (int pass = 0; pass < kPasses; ++pass) {
+    findPartners(row);
+    hasten();
+  }
   findPartners(row);
   for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
     if (!isHeld(index) && pulled_[index] == 0) {
       settle(index, row);
     }
   }
+  checkFriction(row);
+}
+
+// What is struck by a neighbour may be faster for a while: up to twice as fast as a heavier one.
+void Rows::hasten() {
+  std::vector<double> speeds;
+  for (const Flying& flying : flying_) {
+    double speed = flying.speed;
+    for (const Partner partner : flying.partners) {
+      speed =
+          std::max(speed, partner.isWall() ? 0 : 2 * flying_[static_cast<std::size_t>(partner.body())].own);
+    }
+    speeds.push_back(speed);
+  }
+  for (std::size_t index = 0; index < flying_.size(); ++index) {
+    flying_[index].speed = isHeld(index) ? 0 : speeds[index];
+  }
 }
 
 void Rows::findPartners(std::size_t row) {
+  for (Flying& flying : flying_) {
+    flying.partners.clear();
+  }
   std::vector<Ball> balls(run_.tracks.size());
   for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
     const Flying& flying = flying_[index];
@@ -227,29 +262,85 @@ void Rows::settle(std::size_t index, std::size_t row) {
   const auto isFixed = [&](Partner partner) {
     return partner.isWall() || isHeld(static_cast<std::size_t>(partner.body()));
   };
-  std::vector<Partner> touched;
-  for (const Partner partner : flying.partners) {
-    if (!isFixed(partner) || turns > kMostTurn || leastDistance(encounterOf(index, partner, row)) <= near_) {
-      touched.push_back(partner);
-    }
-  }
-  if (touched.empty()) {
+  const double still = kRounding * (1 + flying.after->pose.position.norm() / radiusOf(body(index)));
+  if (passage.impulse.norm() <= still * mass.mass * flying.speed &&
+      passage.angularImpulse.norm() <= still * flying.after->angularMomentum.norm()) {
     passage.kind = Passage::Kind::kFlew;
     return;
   }
-  const Partner partner = touched.front();
-  const bool isOnly =
-      flying.partners.size() == 1 &&
-      (isFixed(partner) || flying_[static_cast<std::size_t>(partner.body())].partners.size() == 1) &&
-      (partner.isWall() || pulled_[static_cast<std::size_t>(partner.body())] == 0);
-  if (!isOnly || turns > kMostTurn) {
+  std::vector<Encounter> fixed;
+  for (const Partner partner : flying.partners) {
+    if (isFixed(partner)) {
+      fixed.push_back(encounterOf(index, partner, row));
+    }
+  }
+  if (flying.partners.empty() ||
+      (fixed.size() == flying.partners.size() && turns <= kMostTurn && leastDistance(fixed) > near_)) {
+    passage.kind = Passage::Kind::kFlew;
     return;
   }
-  const Encounter encounter = encounterOf(index, partner, row);
-  checkBounce(index, encounter, start(row));
-  if (const std::optional<double> missing = missingFriction(encounter)) {
-    passage.kind = Passage::Kind::kSlid;
-    passage.friction = *missing;
+  checkWay(index, row);
+  const bool isOnly = flying.partners.size() == 1;
+  const Partner partner = flying.partners.front();
+  if (isOnly && turns <= kMostTurn &&
+      (isFixed(partner) || flying_[static_cast<std::size_t>(partner.body())].partners.size() == 1) &&
+      (partner.isWall() || pulled_[static_cast<std::size_t>(partner.body())] == 0)) {
+    checkBounce(index, encounterOf(index, partner, row), start(row));
+  }
+}
+
+// What is struck several times between two rows has any velocity up to the fastest meanwhile.
+void Rows::checkWay(std::size_t index, std::size_t row) {
+  const Flying& flying = flying_[index];
+  if (!run_.given->velocities) {
+    return;
+  }
+  const Vec3 mean = 0.5 * (flying.before->velocity + flying.after->velocity);
+  const Vec3 way = flying.after->pose.position - flying.before->pose.position;
+  findings_.add(AuditKind::kContinuity, kRounding * (way.norm() + flying.after->pose.position.norm()),
+                {.size = (way - seconds(row) * mean).norm() - seconds(row) * flying.speed,
+                 .time = start(row),
+                 .bodies = {index},
+                 .wall = {}});
+}
+
+// Bodies that touched one thing got all of their impulse from it. They are taken away, and others then
+// touched one thing less, but passed that impulse on.
+void Rows::checkFriction(std::size_t row) {
+  std::vector<Vec3> passed(run_.tracks.size(), Vec3::Zero());
+  std::vector<std::vector<Partner>> partners;
+  std::vector<std::size_t> leaves;
+  for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
+    partners.push_back(flying_[index].partners);
+    if (partners[index].size() == 1) {
+      leaves.push_back(index);
+    }
+  }
+  while (!leaves.empty()) {
+    const std::size_t index = leaves.back();
+    leaves.pop_back();
+    if (isHeld(index) || pulled_[index] != 0 || partners[index].size() != 1 ||
+        passages_[index][row].kind == Passage::Kind::kFlew) {
+      continue;
+    }
+    const Partner partner = partners[index].front();
+    Encounter encounter = encounterOf(index, partner, row);
+    encounter.passed = passed[index];
+    if (const std::optional<Friction> friction = frictionOf(encounter)) {
+      Passage& passage = passages_[index][row];
+      passage.kind = Passage::Kind::kTouched;
+      passage.missing = friction->missing;
+      passage.surplus = friction->surplus;
+    }
+    partners[index].clear();
+    if (!partner.isWall()) {
+      const auto other = static_cast<std::size_t>(partner.body());
+      passed[other] += impulseOf(encounter);
+      std::erase(partners[other], Partner::ofBody(static_cast<int>(index)));
+      if (partners[other].size() == 1) {
+        leaves.push_back(other);
+      }
+    }
   }
 }
 
@@ -302,9 +393,11 @@ void Rows::addUp(std::size_t index) {
     if (now.kind == Passage::Kind::kUnknown || !isSettled(row, now.kind)) {
       continue;
     }
-    if (now.kind == Passage::Kind::kSlid) {
-      sum.friction = std::max(0.0, sum.friction + now.friction);
-      report(AuditKind::kFriction, row, sum.friction / std::max(momentum, least), kRounding);
+    if (now.kind == Passage::Kind::kTouched) {
+      sum.missing = now.missing ? std::max(0.0, sum.missing.value_or(0) + *now.missing) : 0;
+      sum.surplus = std::max(0.0, sum.surplus + now.surplus);
+      report(AuditKind::kFriction, row, std::max(*sum.missing, sum.surplus) / std::max(momentum, least),
+             kRounding);
       continue;
     }
     sum.impulse += now.impulse;
@@ -322,11 +415,9 @@ void Rows::addUp(std::size_t index) {
 
 }  // namespace
 
-void checkBetweenRows(const Trajectory& run, double near, double part,
-                      const std::vector<double>& fallingSpeeds, Findings& findings) {
-  if (run.given) {
-    Rows(run, near, part, fallingSpeeds, findings).check();
-  }
+std::vector<char> checkBetweenRows(const Trajectory& run, double near, double part,
+                                   const std::vector<double>& fallingSpeeds, Findings& findings) {
+  return Rows(run, near, part, fallingSpeeds, findings).check();
 }
 
 }  // namespace careen

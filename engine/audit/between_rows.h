@@ -17,7 +17,9 @@ namespace careen {
 ///
 /// `near` [m]: what is no farther apart may push each other; `part` [1]: speeds may be off by it;
 /// `fallingSpeeds` [m/s]: of each body, see seams.h.
-void checkBetweenRows(const Trajectory& run, double near, double part,
-                      const std::vector<double>& fallingSpeeds, Findings& findings);
+///
+/// Returns which bodies were followed.
+std::vector<char> checkBetweenRows(const Trajectory& run, double near, double part,
+                                   const std::vector<double>& fallingSpeeds, Findings& findings);
 
 }  // namespace careen

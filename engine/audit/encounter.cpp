@@ -24,7 +24,7 @@ BodyState flownOf(const Body* body, const BodyState& from, const Encounter& enco
   return body != nullptr ? flown(body->mass, from, encounter.gravity, seconds) : from;
 }
 
-double frictionOf(const Encounter& encounter) {
+double coefficientOf(const Encounter& encounter) {
   return touching(encounter.body->material,
                   encounter.wall != nullptr ? encounter.wall->material : encounter.other->material)
       .friction;
@@ -79,35 +79,44 @@ std::optional<Vec3> normalOf(const AuditBox& a, const AuditBox& b, double near) 
   return isOnly ? std::optional(best->direction) : std::nullopt;
 }
 
-// [m/s] How far the speeds of points may be off.
-double doubtOf(const Encounter& encounter, const BodyState& body, const BodyState& other) {
+// [m/s] No point is faster.
+double speedOf(const Encounter& encounter, const BodyState& body, const BodyState& other) {
   const auto fastest = [](const Body& each, const BodyState& state) {
     return isImmovable(each.mass)
                ? 0.0
                : state.velocity.norm() + radiusOf(each) * angularVelocity(each.mass, state).norm();
   };
-  const double speed =
-      fastest(*encounter.body, body) + (encounter.other != nullptr ? fastest(*encounter.other, other) : 0.0);
-  return encounter.part * speed + encounter.doubt;
+  return fastest(*encounter.body, body) +
+         (encounter.other != nullptr ? fastest(*encounter.other, other) : 0.0);
 }
 
-// [1/kg] Largest speed along the normal that an impulse along it gives, with what friction may add.
-double inverseMassAt(const Encounter& encounter, const BodyState& body, const BodyState& other,
-                     const Touch& touch, const Vec3& place) {
+// [m/s] How far the speeds of points may be off.
+double doubtOf(const Encounter& encounter, const BodyState& body, const BodyState& other) {
+  return encounter.part * speedOf(encounter, body, other) + encounter.doubt;
+}
+
+// [1/kg] Velocity of the point that an impulse of 1 N s in this direction gives.
+Vec3 answerAt(const Encounter& encounter, const BodyState& body, const BodyState& other,
+              const Vec3& direction, const Vec3& place) {
   Vec3 answer = Vec3::Zero();
-  double turned = 0;
   const auto add = [&](const Body& each, const BodyState& state) {
     const Mat3 inverse = inverseInertiaWorld(each.mass, state.pose.worldFromBody);
     const Vec3 arm = place - state.pose.position;
-    const Vec3 part = each.mass.inverseMass * touch.normal + (inverse * arm.cross(touch.normal)).cross(arm);
-    answer += part;
-    turned += (part - part.dot(touch.normal) * touch.normal).norm();
+    answer += each.mass.inverseMass * direction + (inverse * arm.cross(direction)).cross(arm);
   };
   add(*encounter.body, body);
   if (encounter.other != nullptr) {
     add(*encounter.other, other);
   }
-  return answer.dot(touch.normal) + frictionOf(encounter) * turned;
+  return answer;
+}
+
+// [1/kg] Largest speed along the normal that an impulse along it gives, with what friction may add.
+double inverseMassAt(const Encounter& encounter, const BodyState& body, const BodyState& other,
+                     const Touch& touch, const Vec3& place) {
+  const Vec3 answer = answerAt(encounter, body, other, touch.normal, place);
+  const double along = answer.dot(touch.normal);
+  return along + coefficientOf(encounter) * (answer - along * touch.normal).norm();
 }
 
 double energyOf(const Encounter& encounter, const BodyState& body, const BodyState& other) {
@@ -178,32 +187,38 @@ Vec3 approachAt(const Encounter& encounter, const BodyState& body, const BodySta
 }
 
 Vec3 impulseOf(const Encounter& encounter) {
-  return encounter.body->mass.mass *
-         (encounter.after.velocity - encounter.before.velocity - encounter.seconds * encounter.gravity);
+  return encounter.passed +
+         encounter.body->mass.mass *
+             (encounter.after.velocity - encounter.before.velocity - encounter.seconds * encounter.gravity);
 }
 
-double leastDistance(const Encounter& encounter) {
+double leastDistance(std::span<const Encounter> encounters) {
   std::array<double, kLooks + 1> first{};
   std::array<double, kLooks + 1> last{};
-  const double step = encounter.seconds / kLooks;
-  std::array<BodyState, 4> states = {encounter.before, encounter.otherBefore, encounter.after,
-                                     encounter.otherAfter};
-  for (std::size_t k = 0; k <= kLooks; ++k) {
-    first.at(k) = std::min(gapOf(encounter, states[0], states[1]), k > 0 ? first.at(k - 1) : kInfinite);
-    last.at(kLooks - k) =
-        std::min(gapOf(encounter, states[2], states[3]), k > 0 ? last.at(kLooks - k + 1) : kInfinite);
-    states[0] = flownOf(encounter.body, states[0], encounter, step);
-    states[1] = flownOf(encounter.other, states[1], encounter, step);
-    states[2] = flownOf(encounter.body, states[2], encounter, -step);
-    states[3] = flownOf(encounter.other, states[3], encounter, -step);
+  const Encounter& any = encounters.front();
+  const double step = any.seconds / kLooks;
+  const auto gapAt = [&](const BodyState& body) {
+    double gap = kInfinite;
+    for (const Encounter& encounter : encounters) {
+      gap = std::min(gap, gapOf(encounter, body, encounter.otherBefore));
+    }
+    return gap;
+  };
+  if (gapAt(any.before) <= any.near && gapAt(any.after) <= any.near) {
+    return any.near;
   }
-  // Between two looks it may be closer by what it moves in half the time.
+  BodyState forward = any.before;
+  BodyState backward = any.after;
+  for (std::size_t k = 0; k <= kLooks; ++k) {
+    first.at(k) = std::min(gapAt(forward), k > 0 ? first.at(k - 1) : kInfinite);
+    last.at(kLooks - k) = std::min(gapAt(backward), k > 0 ? last.at(kLooks - k + 1) : kInfinite);
+    forward = flownOf(any.body, forward, any, step);
+    backward = flownOf(any.body, backward, any, -step);
+  }
   double least = kInfinite;
   for (std::size_t k = 0; k <= kLooks; ++k) {
-    least = std::min(least, std::max(first.at(k), last.at(k)));
-    if (k > 0) {
-      least = std::min(least, std::max(first.at(k), last.at(k - 1)));
-    }
+    // It may have touched first, and last, between the same two looks.
+    least = std::min(least, std::max(first.at(k), last.at(k > 0 ? k - 1 : 0)));
   }
   return least;
 }
@@ -291,7 +306,9 @@ void allowByParting(const Encounter& encounter, const Meeting& meeting, const To
     parting.add(approachAt(encounter, body, other, place).dot(touch.normal));
   }
   allowed.low = std::max(allowed.low, (parting.low - off) / (approach.high + off));
-  allowed.high = std::min(allowed.high, std::max(0.0, (parting.high + off) / (approach.low - off)));
+  if (approach.low > off) {
+    allowed.high = std::min(allowed.high, std::max(0.0, (parting.high + off) / (approach.low - off)));
+  }
 }
 
 }  // namespace
@@ -336,25 +353,37 @@ double restitutionBeyond(const Encounter& encounter) {
   return std::max({allowed.low - restitution, restitution - allowed.high, 0.0});
 }
 
-std::optional<double> missingFriction(const Encounter& encounter) {
+std::optional<Friction> frictionOf(const Encounter& encounter) {
   const std::optional<Touch> first = touchOf(encounter, encounter.before, encounter.otherBefore);
   const std::optional<Touch> second = touchOf(encounter, encounter.after, encounter.otherAfter);
-  const auto turnOf = [&](const Body* body, const BodyState& state) {
+  const auto spinOf = [&](const Body* body, const BodyState& state) {
     return body == nullptr || isImmovable(body->mass) ? 0.0 : angularVelocity(body->mass, state).norm();
   };
   const double spin =
-      std::max(turnOf(encounter.body, encounter.before) + turnOf(encounter.other, encounter.otherBefore),
-               turnOf(encounter.body, encounter.after) + turnOf(encounter.other, encounter.otherAfter));
+      std::max(spinOf(encounter.body, encounter.before) + spinOf(encounter.other, encounter.otherBefore),
+               spinOf(encounter.body, encounter.after) + spinOf(encounter.other, encounter.otherAfter));
   const double turn = spin * encounter.seconds;
-  if (!first || !second || turn > kMostTurn || first->normal.dot(second->normal) < 1 - kAligned - turn) {
+  if (!first || !second || turn > kMostTurn ||
+      first->normal.dot(second->normal) < std::cos(turn) - kAligned) {
+    return std::nullopt;
+  }
+  // Boxes apart may meet along another normal.
+  if (encounter.wall == nullptr && std::max(first->gap, second->gap) > encounter.near) {
     return std::nullopt;
   }
   const Vec3& normal = first->normal;
   const Vec3 impulse = impulseOf(encounter);
+  const double pushed = std::max(impulse.dot(normal), 0.0);
+  const double most = coefficientOf(encounter) * pushed;
+  Friction friction;
+  friction.surplus =
+      (impulse - pushed * normal).norm() - most - (encounter.wall == nullptr ? turn : 0) * impulse.norm();
   std::vector<Vec3> slips;
+  std::vector<Vec3> places;
   double doubt = 0;
   const auto add = [&](const Touch& touch, const BodyState& body, const BodyState& other) {
-    doubt = std::max(doubt, doubtOf(encounter, body, other));
+    // What turns meanwhile turns the slip.
+    doubt = std::max(doubt, doubtOf(encounter, body, other) + turn * speedOf(encounter, body, other));
     for (const Touch::Point& point : touch.points) {
       const Vec3 velocity = approachAt(encounter, body, other, point.place);
       const double speed =
@@ -362,6 +391,7 @@ std::optional<double> missingFriction(const Encounter& encounter) {
           encounter.seconds * (encounter.gravity.norm() + spin * spin * radiusOf(*encounter.body));
       if (point.gap <= encounter.near + speed * encounter.seconds) {
         slips.push_back(velocity - velocity.dot(normal) * normal);
+        places.push_back(point.place);
       }
     }
   };
@@ -371,23 +401,25 @@ std::optional<double> missingFriction(const Encounter& encounter) {
   for (const Vec3& slip : slips) {
     way += slip;
   }
-  if (way.isZero(0)) {
-    return std::nullopt;
-  }
-  way.normalize();
+  way = way.isZero(0) ? way : way.normalized();
   double cosine = 1;
   for (const Vec3& slip : slips) {
-    if (slip.dot(way) <= doubt) {
-      return std::nullopt;
+    cosine = slip.dot(way) > doubt ? std::min(cosine, slip.dot(way) / slip.norm()) : 0;
+  }
+  if (cosine < kSameWay || slips.empty()) {
+    return friction;
+  }
+  const double missing = impulse.dot(way) + std::max(std::cos(std::acos(cosine) + turn), 0.0) * most;
+  // Had it acted, would all slip yet? Else it may have stuck within an impact.
+  for (std::size_t k = 0; k < slips.size(); ++k) {
+    const double slower = std::max(missing, 0.0) *
+                          answerAt(encounter, encounter.after, encounter.otherAfter, way, places[k]).dot(way);
+    if (slips[k].dot(way) <= doubt + slower) {
+      return friction;
     }
-    cosine = std::min(cosine, slip.dot(way) / slip.norm());
   }
-  const double pushed = impulse.dot(normal);
-  if (cosine < kSameWay || pushed <= 0) {
-    return std::nullopt;
-  }
-  const double least = std::cos(std::acos(cosine) + turn);
-  return impulse.dot(way) + frictionOf(encounter) * std::max(least, 0.0) * pushed;
+  friction.missing = missing;
+  return friction;
 }
 
 }  // namespace careen

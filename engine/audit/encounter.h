@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/math/linear_algebra.h"
@@ -8,7 +9,8 @@
 
 namespace careen {
 
-/// A body between two rows of a table, and the only thing that it may have touched meanwhile.
+/// A body between two rows of a table, and one thing that it may have touched meanwhile: the only one, but
+/// for what touched nothing else and whose impulse is known.
 struct Encounter {
   const Body* body = nullptr;
   BodyState before = {};
@@ -18,10 +20,11 @@ struct Encounter {
   BodyState otherBefore = {};
   BodyState otherAfter = {};
   Vec3 gravity = Vec3::Zero();
-  double seconds = 0;  ///< from row to row
-  double near = 0;     ///< [m] what is no farther apart may push each other
-  double part = 0;     ///< [1] speeds may be off by this part of the largest
-  double doubt = 0;    ///< [m/s] and by this, if they were estimated
+  Vec3 passed = Vec3::Zero();  ///< [N s] that the body passed on to others
+  double seconds = 0;          ///< from row to row
+  double near = 0;             ///< [m] what is no farther apart may push each other
+  double part = 0;             ///< [1] speeds may be off by this part of the largest
+  double doubt = 0;            ///< [m/s] and by this, if they were estimated
 };
 
 /// Where both may push each other.
@@ -47,9 +50,9 @@ Vec3 approachAt(const Encounter& encounter, const BodyState& body, const BodySta
 /// [N s] What the body was given that gravity does not explain.
 Vec3 impulseOf(const Encounter& encounter);
 
-/// [m] How close both must have come, if they exchanged an impulse: each flies from its first row until they
-/// first touch, and since they last did it flies to its second row.
-double leastDistance(const Encounter& encounter);
+/// [m] How close a body must have come to one of several things that cannot move, if they gave it an impulse:
+/// it flies from its first row until it first touches one, and since it last did it flies to its second row.
+double leastDistance(std::span<const Encounter> encounters);
 
 /// [1] How far the scene's restitution is outside the interval that the rows leave it; 0: within, or nothing
 /// can be said.
@@ -61,11 +64,14 @@ double leastDistance(const Encounter& encounter);
 /// where K [1/kg] is the largest inverse mass of a point, and took at least ½ (1 − e²) u² / K.
 double restitutionBeyond(const Encounter& encounter);
 
-/// [N s] How much less than friction must the tangential impulse opposed the slip; negative: more. None where
-/// slip may have stopped or turned between the rows.
-///
-/// Where all points that may touch slip in directions within an angle φ of d, the impulse along −d is at
-/// least μ cos φ times that along the normal.
-std::optional<double> missingFriction(const Encounter& encounter);
+/// [N s] What is wrong with friction; negative: nothing.
+struct Friction {
+  /// So much less than friction must the tangential impulse opposed the slip. Where all points that may touch
+  /// slip in directions within an angle φ of d, the impulse along −d is at least μ cos φ times that along the
+  /// normal. Nothing is known where slip may have stopped or turned between the rows.
+  std::optional<double> missing;
+  double surplus = 0;  ///< beyond the cone of friction
+};
+std::optional<Friction> frictionOf(const Encounter& encounter);
 
 }  // namespace careen
