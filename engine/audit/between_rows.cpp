@@ -13,6 +13,7 @@
 #include "audit/overlap.h"
 #include "audit/samples.h"
 #include "audit/seams.h"
+#include "core/disjoint_sets.h"
 #include "physics/world/partner.h"
 
 namespace careen {
@@ -20,9 +21,9 @@ namespace {
 
 constexpr double kStill = 1.0 / 64;  // as in the ledger: of what falling by its own size would give
 constexpr double kRounding = 4096 * std::numeric_limits<double>::epsilon();
-constexpr double kMostTurn = 3;       // [rad] from row to row: of more, the attitude tells nothing
-constexpr int kPasses = 2;            // in which speeds pass on to neighbours
-constexpr std::size_t kDoubtful = 3;  // rows beside a contact whose estimated velocities may be off
+constexpr double kMostTurn = 3;             // [rad] from row to row: of more, the attitude tells nothing
+constexpr double kLongestStep = 1.0 / 180;  // [s] of crowds
+constexpr std::size_t kDoubtful = 3;        // rows beside a contact whose estimated velocities may be off
 
 /// What a body did from one row to the next.
 struct Passage {
@@ -40,8 +41,7 @@ struct Passage {
 struct Flying {
   const BodyState* before = nullptr;
   const BodyState* after = nullptr;
-  double own = 0;    // [m/s] of no point more, unless it is struck
-  double speed = 0;  // [m/s] likewise, if neighbours strike it
+  double speed = 0;  // [m/s] of no point more
   std::vector<Partner> partners = {};
 };
 
@@ -80,6 +80,7 @@ class Rows {
   const std::vector<double>& fallingSpeeds_;
   Findings& findings_;
   std::size_t rowsOf_ = 0;  // a body that moves
+  double seconds_ = 0;      // from the row looked at to the next
   std::vector<char> pulled_;
   std::vector<Flying> flying_;
   std::vector<std::vector<Passage>> passages_;  // of each body
@@ -147,7 +148,6 @@ Flying Rows::flyingOf(std::size_t index, std::size_t row) const {
                                    radiusOf(body(index)) * angularVelocity(body(index).mass, *state).norm());
   }
   flying.speed += run_.world.gravity.norm() * step.duration;
-  flying.own = flying.speed;
   return flying;
 }
 
@@ -156,10 +156,9 @@ void Rows::look(std::size_t row) {
   for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
     flying_.push_back(flyingOf(index, row));
   }
-  for (int pass = 0; pass < kPasses; ++pass) {
-    findPartners(row);
-    hasten();
-  }
+  seconds_ = seconds(row);
+  findPartners(row);
+  hasten();
   findPartners(row);
   for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
     if (!isHeld(index) && pulled_[index] == 0) {
@@ -169,19 +168,34 @@ void Rows::look(std::size_t row) {
   checkFriction(row);
 }
 
-// What is struck by a neighbour may be faster for a while: up to twice as fast as a heavier one.
+// What others strike meanwhile may be faster for a while: by all of their energy.
 void Rows::hasten() {
-  std::vector<double> speeds;
-  for (const Flying& flying : flying_) {
-    double speed = flying.speed;
-    for (const Partner partner : flying.partners) {
-      speed =
-          std::max(speed, partner.isWall() ? 0 : 2 * flying_[static_cast<std::size_t>(partner.body())].own);
+  DisjointSets joined(flying_.size());
+  for (std::size_t index = 0; index < flying_.size(); ++index) {
+    for (const Partner partner : flying_[index].partners) {
+      if (!isHeld(index) && !partner.isWall() && !isHeld(static_cast<std::size_t>(partner.body()))) {
+        joined.join(index, static_cast<std::size_t>(partner.body()));
+      }
     }
-    speeds.push_back(speed);
+  }
+  std::vector<double> energies(flying_.size(), 0);
+  std::vector<int> members(flying_.size(), 0);
+  for (std::size_t index = 0; index < flying_.size(); ++index) {
+    const MassProperties& mass = body(index).mass;
+    const double fall = run_.world.gravity.norm() * seconds_;
+    energies[joined.root(index)] +=
+        0.5 * mass.mass * fall * fall +
+        std::max(kineticEnergy(mass, *flying_[index].before), kineticEnergy(mass, *flying_[index].after));
+    ++members[joined.root(index)];
   }
   for (std::size_t index = 0; index < flying_.size(); ++index) {
-    flying_[index].speed = isHeld(index) ? 0 : speeds[index];
+    const MassProperties& mass = body(index).mass;
+    const std::size_t root = joined.root(index);
+    if (members[root] > 1) {
+      const double radius = radiusOf(body(index));
+      const double most = mass.inverseMass + radius * radius * mass.inverseInertiaBody.maxCoeff();
+      flying_[index].speed = std::max(flying_[index].speed, std::sqrt(2 * energies[root] * most));
+    }
   }
 }
 
@@ -238,8 +252,14 @@ bool Rows::canTouch(std::size_t index, Partner partner, std::size_t row) const {
   const Encounter encounter = encounterOf(index, partner, row);
   const double other = partner.isWall() ? 0 : flying_[static_cast<std::size_t>(partner.body())].speed;
   const double closing = (flying_[index].speed + other) * encounter.seconds;
-  const double gaps = gapOf(encounter, encounter.before, encounter.otherBefore) +
-                      gapOf(encounter, encounter.after, encounter.otherAfter);
+  const double gap = gapOf(encounter, encounter.before, encounter.otherBefore);
+  const auto stays = [](const BodyState& x, const BodyState& y) {
+    return x.pose.position == y.pose.position && x.pose.worldFromBody == y.pose.worldFromBody;
+  };
+  const double gaps =
+      gap + (stays(encounter.before, encounter.after) && stays(encounter.otherBefore, encounter.otherAfter)
+                 ? gap
+                 : gapOf(encounter, encounter.after, encounter.otherAfter));
   return !(gaps - closing > 2 * near_);
 }
 
@@ -369,8 +389,11 @@ void Rows::addUp(std::size_t index) {
       far = std::max(far, step->end.pose.position.norm());
     }
   }
+  // Speeds may be means over a step of the program that made the table, and estimates are off beside impacts.
   const bool isKnown = run_.given->velocities && run_.given->angularVelocities;
-  const std::size_t beside = isKnown ? 0 : kDoubtful;
+  const double shortest = run_.settings.duration / static_cast<double>(passages.size());
+  const std::size_t beside = std::max<std::size_t>(
+      isKnown ? 0 : kDoubtful, static_cast<std::size_t>(std::ceil(std::min(kLongestStep / shortest, 1e6))));
   const auto isSettled = [&](std::size_t row, Passage::Kind kind) {
     for (std::size_t k = row - std::min(row, beside); k < std::min(row + beside + 1, passages.size()); ++k) {
       if (passages[k].kind != kind) {
@@ -380,6 +403,7 @@ void Rows::addUp(std::size_t index) {
     return true;
   };
   Passage sum;
+  std::vector<double> frictions;  // [N s] since it touches without a break
   const auto report = [&](AuditKind kind, std::size_t row, double amount, double rounding) {
     findings_.add(kind, rounding,
                   {.size = amount, .time = start(row) + seconds(row), .bodies = {index}, .wall = {}});
@@ -389,6 +413,7 @@ void Rows::addUp(std::size_t index) {
     const Passage& now = passages[row];
     if (!isSettled(row, now.kind) || now.kind != sum.kind) {
       sum = {.kind = now.kind};
+      frictions.clear();
     }
     if (now.kind == Passage::Kind::kUnknown || !isSettled(row, now.kind)) {
       continue;
@@ -396,8 +421,13 @@ void Rows::addUp(std::size_t index) {
     if (now.kind == Passage::Kind::kTouched) {
       sum.missing = now.missing ? std::max(0.0, sum.missing.value_or(0) + *now.missing) : 0;
       sum.surplus = std::max(0.0, sum.surplus + now.surplus);
-      report(AuditKind::kFriction, row, std::max(*sum.missing, sum.surplus) / std::max(momentum, least),
-             kRounding);
+      frictions.push_back(std::max(*sum.missing, sum.surplus));
+      // What lasts for a step.
+      if (frictions.size() > beside) {
+        const double lasting =
+            *std::min_element(frictions.end() - static_cast<std::ptrdiff_t>(beside) - 1, frictions.end());
+        report(AuditKind::kFriction, row, lasting / std::max(momentum, least), kRounding);
+      }
       continue;
     }
     sum.impulse += now.impulse;
