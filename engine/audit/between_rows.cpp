@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "audit/encounter.h"
 #include "audit/flown.h"
 #include "audit/near_pairs.h"
 #include "audit/overlap.h"
+#include "audit/passage.h"
 #include "audit/samples.h"
 #include "audit/seams.h"
 #include "core/disjoint_sets.h"
@@ -19,25 +21,10 @@
 namespace careen {
 namespace {
 
-constexpr double kStill = 1.0 / 64;  // as in the ledger: of what falling by its own size would give
 constexpr double kRounding = 4096 * std::numeric_limits<double>::epsilon();
-constexpr double kMostTurn = 3;             // [rad] from row to row: of more, the attitude tells nothing
-constexpr double kLongestStep = 1.0 / 180;  // [s] of crowds
-constexpr std::size_t kDoubtful = 3;        // rows beside a contact whose estimated velocities may be off
+constexpr double kMostTurn = 3;  // [rad] from row to row: of more, the attitude tells nothing
 
-/// What a body did from one row to the next.
-struct Passage {
-  enum class Kind { kUnknown, kFlew, kTouched };
-  Kind kind = Kind::kUnknown;
-  Vec3 impulse = Vec3::Zero();         // [N s] that nothing gave
-  Vec3 angularImpulse = Vec3::Zero();  // [N m s]
-  Vec3 way = Vec3::Zero();             // [m] aside of where it flies
-  Vec3 turn = Vec3::Zero();            // [rad] likewise
-  std::optional<double> missing = {};  // [N s] of friction
-  double surplus = 0;                  // [N s] likewise
-};
-
-/// The same, while it is looked at.
+/// A body from one row to the next, while it is looked at.
 struct Flying {
   const BodyState* before = nullptr;
   const BodyState* after = nullptr;
@@ -62,13 +49,13 @@ class Rows {
   Flying flyingOf(std::size_t index, std::size_t row) const;
   void findPartners(std::size_t row);
   void hasten();
+  std::pair<const BodyState&, const BodyState&> rowsOf(std::size_t index, std::size_t row) const;
   Encounter encounterOf(std::size_t index, Partner partner, std::size_t row) const;
   bool canTouch(std::size_t index, Partner partner, std::size_t row) const;
   void settle(std::size_t index, std::size_t row);
   void checkWay(std::size_t index, std::size_t row);
   void checkFriction(std::size_t row);
-  void checkBounce(std::size_t index, const Encounter& encounter, double time);
-  void addUp(std::size_t index);
+  void checkBounce(std::size_t index, std::size_t row);
   double start(std::size_t row) const { return run_.tracks[rowsOf_].segments[row].start; }
   double seconds(std::size_t row) const {
     return std::get<SampledStep>(run_.tracks[rowsOf_].segments[row].motion).duration;
@@ -126,8 +113,16 @@ std::vector<char> Rows::check() {
   for (std::size_t row = 0; row < rows; ++row) {
     look(row);
   }
+  for (std::size_t row = 0; row < rows; ++row) {
+    flying_.clear();
+    for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
+      if (!isHeld(index) && passages_[index][row].met) {
+        checkBounce(index, row);
+      }
+    }
+  }
   for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
-    addUp(index);
+    addUp(run_, index, passages_[index], fallingSpeeds_[index], findings_);
   }
   std::vector<char> followed;
   for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
@@ -223,21 +218,27 @@ void Rows::findPartners(std::size_t row) {
   }
 }
 
+std::pair<const BodyState&, const BodyState&> Rows::rowsOf(std::size_t index, std::size_t row) const {
+  if (isHeld(index)) {
+    return {body(index).initial, body(index).initial};
+  }
+  const SampledStep& step = std::get<SampledStep>(run_.tracks[index].segments[row].motion);
+  return {step.start, step.end};
+}
+
 Encounter Rows::encounterOf(std::size_t index, Partner partner, std::size_t row) const {
   Encounter encounter{.body = &body(index),
-                      .before = *flying_[index].before,
-                      .after = *flying_[index].after,
                       .gravity = run_.world.gravity,
                       .seconds = seconds(row),
                       .near = near_,
                       .part = part_};
+  std::tie(encounter.before, encounter.after) = rowsOf(index, row);
   if (partner.isWall()) {
     encounter.wall = &run_.world.walls[partner.wall()];
   } else {
     const auto other = static_cast<std::size_t>(partner.body());
     encounter.other = &body(other);
-    encounter.otherBefore = *flying_[other].before;
-    encounter.otherAfter = *flying_[other].after;
+    std::tie(encounter.otherBefore, encounter.otherAfter) = rowsOf(other, row);
   }
   if (!run_.given->velocities || !run_.given->angularVelocities) {
     const double spin = angularVelocity(body(index).mass, encounter.before).norm();
@@ -305,7 +306,7 @@ void Rows::settle(std::size_t index, std::size_t row) {
   if (isOnly && turns <= kMostTurn &&
       (isFixed(partner) || flying_[static_cast<std::size_t>(partner.body())].partners.size() == 1) &&
       (partner.isWall() || pulled_[static_cast<std::size_t>(partner.body())] == 0)) {
-    checkBounce(index, encounterOf(index, partner, row), start(row));
+    passage.met = partner;
   }
 }
 
@@ -364,7 +365,39 @@ void Rows::checkFriction(std::size_t row) {
   }
 }
 
-void Rows::checkBounce(std::size_t index, const Encounter& encounter, double time) {
+// From the last row at which both were apart to the first at which they are again, as far as they flew.
+void Rows::checkBounce(std::size_t index, std::size_t row) {
+  const Partner partner = *passages_[index][row].met;
+  const auto flew = [&](std::size_t at) {
+    return passages_[index][at].kind == Passage::Kind::kFlew &&
+           (partner.isWall() || isHeld(static_cast<std::size_t>(partner.body())) ||
+            passages_[static_cast<std::size_t>(partner.body())][at].kind == Passage::Kind::kFlew);
+  };
+  const auto stateAt = [&](std::size_t body, std::size_t at, bool isEnd) {
+    const SampledStep& step = std::get<SampledStep>(run_.tracks[body].segments[at].motion);
+    return isEnd ? step.end : step.start;
+  };
+  Encounter encounter = encounterOf(index, partner, row);
+  const auto set = [&](std::size_t at, bool isEnd) {
+    (isEnd ? encounter.after : encounter.before) = stateAt(index, at, isEnd);
+    if (!partner.isWall() && !isHeld(static_cast<std::size_t>(partner.body()))) {
+      (isEnd ? encounter.otherAfter : encounter.otherBefore) =
+          stateAt(static_cast<std::size_t>(partner.body()), at, isEnd);
+    }
+  };
+  std::size_t first = row;
+  set(first, false);
+  while (gapOf(encounter, encounter.before, encounter.otherBefore) <= near_ && first > 0 && flew(first - 1)) {
+    set(--first, false);
+  }
+  std::size_t last = row;
+  set(last, true);
+  while (gapOf(encounter, encounter.after, encounter.otherAfter) <= near_ &&
+         last + 1 < passages_[index].size() && flew(last + 1)) {
+    set(++last, true);
+  }
+  encounter.seconds = start(last) + seconds(last) - start(first);
+  const double time = start(row);
   Finding finding{.size = restitutionBeyond(encounter), .time = time, .bodies = {index}, .wall = {}};
   if (encounter.wall != nullptr) {
     finding.wall = static_cast<std::size_t>(encounter.wall - run_.world.walls.data());
@@ -372,75 +405,6 @@ void Rows::checkBounce(std::size_t index, const Encounter& encounter, double tim
     finding.bodies.push_back(static_cast<std::size_t>(encounter.other - run_.world.bodies.data()));
   }
   findings_.add(AuditKind::kRestitution, 0, finding);
-}
-
-void Rows::addUp(std::size_t index) {
-  const std::vector<Passage>& passages = passages_[index];
-  const MassProperties& mass = body(index).mass;
-  const double size = body(index).halfExtents.norm();
-  double momentum = kStill * mass.mass * fallingSpeeds_[index];
-  double angular = momentum * size;
-  double far = 0;
-  for (const Segment& segment : run_.tracks[index].segments) {
-    if (const SampledStep* const step = std::get_if<SampledStep>(&segment.motion)) {
-      momentum = std::max(
-          {momentum, mass.mass * step->start.velocity.norm(), mass.mass * step->end.velocity.norm()});
-      angular = std::max({angular, step->start.angularMomentum.norm(), step->end.angularMomentum.norm()});
-      far = std::max(far, step->end.pose.position.norm());
-    }
-  }
-  // Speeds may be means over a step of the program that made the table, and estimates are off beside impacts.
-  const bool isKnown = run_.given->velocities && run_.given->angularVelocities;
-  const double shortest = run_.settings.duration / static_cast<double>(passages.size());
-  const std::size_t beside = std::max<std::size_t>(
-      isKnown ? 0 : kDoubtful, static_cast<std::size_t>(std::ceil(std::min(kLongestStep / shortest, 1e6))));
-  const auto isSettled = [&](std::size_t row, Passage::Kind kind) {
-    for (std::size_t k = row - std::min(row, beside); k < std::min(row + beside + 1, passages.size()); ++k) {
-      if (passages[k].kind != kind) {
-        return false;
-      }
-    }
-    return true;
-  };
-  Passage sum;
-  std::vector<double> frictions;  // [N s] since it touches without a break
-  const auto report = [&](AuditKind kind, std::size_t row, double amount, double rounding) {
-    findings_.add(kind, rounding,
-                  {.size = amount, .time = start(row) + seconds(row), .bodies = {index}, .wall = {}});
-  };
-  const double least = std::numeric_limits<double>::min();
-  for (std::size_t row = 0; row < passages.size(); ++row) {
-    const Passage& now = passages[row];
-    if (!isSettled(row, now.kind) || now.kind != sum.kind) {
-      sum = {.kind = now.kind};
-      frictions.clear();
-    }
-    if (now.kind == Passage::Kind::kUnknown || !isSettled(row, now.kind)) {
-      continue;
-    }
-    if (now.kind == Passage::Kind::kTouched) {
-      sum.missing = now.missing ? std::max(0.0, sum.missing.value_or(0) + *now.missing) : 0;
-      sum.surplus = std::max(0.0, sum.surplus + now.surplus);
-      frictions.push_back(std::max(*sum.missing, sum.surplus));
-      // What lasts for a step.
-      if (frictions.size() > beside) {
-        const double lasting =
-            *std::min_element(frictions.end() - static_cast<std::ptrdiff_t>(beside) - 1, frictions.end());
-        report(AuditKind::kFriction, row, lasting / std::max(momentum, least), kRounding);
-      }
-      continue;
-    }
-    sum.impulse += now.impulse;
-    sum.angularImpulse += now.angularImpulse;
-    sum.way += now.way;
-    sum.turn += now.turn;
-    const double reach = 1 + far / size;
-    report(AuditKind::kLinearMomentum, row, sum.impulse.norm() / std::max(momentum, least),
-           kRounding * reach);
-    report(AuditKind::kAngularMomentum, row, sum.angularImpulse.norm() / std::max(angular, least),
-           kRounding * reach);
-    report(AuditKind::kContinuity, row, sum.way.norm() + size * sum.turn.norm(), kRounding * (far + size));
-  }
 }
 
 }  // namespace

@@ -227,7 +227,9 @@ Island::Step Island::step(double most, double mostWork) {
   }
   double error = 0;
   int attempts = 0;
-  const double shortest = std::isfinite(timeScale_) ? kStiff * timeScale_ : 0;
+  // Undamped springs that nothing pushes against may be as stiff as they are: a time step would damp them.
+  const bool isSpring = !springs_.empty() && !pushes();
+  const double shortest = std::isfinite(timeScale_) && !isSpring ? kStiff * timeScale_ : 0;
   for (;; ++attempts) {
     if (attempts > kMostAttempts || (attempts > 0 && h < shortest)) {
       end_ = start_;

@@ -25,6 +25,13 @@ Quat quaternionAt(std::span<const double> y, std::size_t at) {
   return Quat(y[at], y[at + 1], y[at + 2], y[at + 3]).normalized();
 }
 
+void setQuaternion(std::span<double> y, std::size_t at, const Quat& q) {
+  y[at] = q.w();
+  y[at + 1] = q.x();
+  y[at + 2] = q.y();
+  y[at + 3] = q.z();
+}
+
 }  // namespace
 
 /// Velocities about the rigid motion of a group, forces, and its energy.
@@ -207,8 +214,31 @@ void UndampedSprings::begin(std::span<const double> y) {
   for (Group& group : groups_) {
     for (Member& member : group.members) {
       member.origin = threeAt(y, member.at);
+      const BodyState state = stateOf(member, y);
+      member.energy = 0.5 * dot(angularVelocity(member.body->mass, state), state.angularMomentum);
     }
     group.energy = motionsOf(group, y).energy;
+  }
+}
+
+// Of a body without torque: its angular momentum, and by a small turn along ω × L, the gradient of its
+// energy, that too.
+void UndampedSprings::keepSpin(const Member& member, const Vec3& kept, std::vector<double>& y) {
+  const MassProperties& mass = member.body->mass;
+  Quat attitude = quaternionAt(y, member.at + 3);
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const Mat3 axes = attitude.toRotationMatrix();
+    const Vec3 spin = mass.inverseInertiaTimes(axes.transpose() * kept);
+    setThree(y, member.at + 10, spin);
+    const Vec3 world = axes * spin;
+    const double excess = 0.5 * dot(world, kept) - member.energy;
+    const Vec3 slope = world.cross(kept);
+    if (std::fabs(excess) <= kExact * member.energy || std::fabs(excess) > kMostScaled * slope.norm()) {
+      return;
+    }
+    const Vec3 turn = (-0.5 * excess / slope.squaredNorm()) * slope;
+    attitude = (Quat(1, turn.x(), turn.y(), turn.z()) * attitude).normalized();
+    setQuaternion(y, member.at + 3, attitude);
   }
 }
 
@@ -216,9 +246,7 @@ void UndampedSprings::keepMomenta(const Group& group, std::span<const double> be
                                   std::vector<double>& y) const {
   for (const Member& member : group.members) {
     if (!member.turns) {
-      const Vec3 kept = stateOf(member, before).angularMomentum;
-      const Mat3 axes = quaternionAt(y, member.at + 3).toRotationMatrix();
-      setThree(y, member.at + 10, member.body->mass.inverseInertiaTimes(axes.transpose() * kept));
+      keepSpin(member, stateOf(member, before).angularMomentum, y);
     }
   }
   if (!group.free) {
@@ -257,10 +285,7 @@ bool UndampedSprings::keepEnergy(const Group& group, std::vector<double>& y) {
       const Quat turned =
           (Quat(1, turn.x(), turn.y(), turn.z()) * quaternionAt(y, member.at + 3)).normalized();
       const Vec3 spin = axes * threeAt(y, member.at + 10) - part * motions.spins[k];
-      y[member.at + 3] = turned.w();
-      y[member.at + 4] = turned.x();
-      y[member.at + 5] = turned.y();
-      y[member.at + 6] = turned.z();
+      setQuaternion(y, member.at + 3, turned);
       setThree(y, member.at + 10, turned.toRotationMatrix().transpose() * spin);
     }
   }

@@ -40,6 +40,7 @@ class UndampedSprings {
     MassProperties mass = {};    // a point's, if it does not turn
     bool turns = false;          // some spring has a torque
     Vec3 origin = Vec3::Zero();  // [m] that its weight's energy counts from
+    double energy = 0;           // [J] of its spin, where the island began
   };
   struct Group {
     std::vector<Member> members;
@@ -53,6 +54,7 @@ class UndampedSprings {
   BodyState stateOf(const Member& member, std::span<const double> y) const;
   GroupMomentum momentumOfGroup(const Group& group, std::span<const double> y) const;
   Motions motionsOf(const Group& group, std::span<const double> y);
+  static void keepSpin(const Member& member, const Vec3& kept, std::vector<double>& y);
   void keepMomenta(const Group& group, std::span<const double> before, double h,
                    std::vector<double>& y) const;
   bool keepEnergy(const Group& group, std::vector<double>& y);
