@@ -113,10 +113,11 @@ std::vector<char> Rows::check() {
   for (std::size_t row = 0; row < rows; ++row) {
     look(row);
   }
+  const bool isKnown = run_.given->velocities && run_.given->angularVelocities;
   for (std::size_t row = 0; row < rows; ++row) {
     flying_.clear();
     for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
-      if (!isHeld(index) && passages_[index][row].met) {
+      if (isKnown && !isHeld(index) && passages_[index][row].met) {
         checkBounce(index, row);
       }
     }

