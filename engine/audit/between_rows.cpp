@@ -21,8 +21,8 @@
 namespace careen {
 namespace {
 
-constexpr double kRounding = 4096 * std::numeric_limits<double>::epsilon();
-constexpr double kMostTurn = 3;  // [rad] from row to row: of more, the attitude tells nothing
+constexpr double kRowRounding = 4096 * std::numeric_limits<double>::epsilon();
+constexpr double kMostTurnOfRow = 3;  // [rad] from row to row: of more, the attitude tells nothing
 
 /// A body from one row to the next, while it is looked at.
 struct Flying {
@@ -278,13 +278,13 @@ void Rows::settle(std::size_t index, std::size_t row) {
   if (run_.given->velocities) {
     passage.way = flying.after->pose.position - flight.pose.position;
   }
-  if (run_.given->angularVelocities && turns < kMostTurn) {
+  if (run_.given->angularVelocities && turns < kMostTurnOfRow) {
     passage.turn = turnBetween(flight.pose.worldFromBody, flying.after->pose.worldFromBody);
   }
   const auto isFixed = [&](Partner partner) {
     return partner.isWall() || isHeld(static_cast<std::size_t>(partner.body()));
   };
-  const double still = kRounding * (1 + flying.after->pose.position.norm() / radiusOf(body(index)));
+  const double still = kRowRounding * (1 + flying.after->pose.position.norm() / radiusOf(body(index)));
   if (passage.impulse.norm() <= still * mass.mass * flying.speed &&
       passage.angularImpulse.norm() <= still * flying.after->angularMomentum.norm()) {
     passage.kind = Passage::Kind::kFlew;
@@ -297,14 +297,14 @@ void Rows::settle(std::size_t index, std::size_t row) {
     }
   }
   if (flying.partners.empty() ||
-      (fixed.size() == flying.partners.size() && turns <= kMostTurn && leastDistance(fixed) > near_)) {
+      (fixed.size() == flying.partners.size() && turns <= kMostTurnOfRow && leastDistance(fixed) > near_)) {
     passage.kind = Passage::Kind::kFlew;
     return;
   }
   checkWay(index, row);
   const bool isOnly = flying.partners.size() == 1;
   const Partner partner = flying.partners.front();
-  if (isOnly && turns <= kMostTurn &&
+  if (isOnly && turns <= kMostTurnOfRow &&
       (isFixed(partner) || flying_[static_cast<std::size_t>(partner.body())].partners.size() == 1) &&
       (partner.isWall() || pulled_[static_cast<std::size_t>(partner.body())] == 0)) {
     passage.met = partner;
@@ -319,7 +319,7 @@ void Rows::checkWay(std::size_t index, std::size_t row) {
   }
   const Vec3 mean = 0.5 * (flying.before->velocity + flying.after->velocity);
   const Vec3 way = flying.after->pose.position - flying.before->pose.position;
-  findings_.add(AuditKind::kContinuity, kRounding * (way.norm() + flying.after->pose.position.norm()),
+  findings_.add(AuditKind::kContinuity, kRowRounding * (way.norm() + flying.after->pose.position.norm()),
                 {.size = (way - seconds(row) * mean).norm() - seconds(row) * flying.speed,
                  .time = start(row),
                  .bodies = {index},

@@ -12,13 +12,13 @@ namespace careen {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr int kLooks = 24;  // between two rows
+constexpr int kFlightLooks = 24;  // between two rows
 constexpr int kHalvings = 48;
 constexpr double kFlat = 1e-9;     // [1] of half the diagonal: corners that differ by less touch at once
 constexpr double kAligned = 1e-6;  // 1 − cosine of directions that are the same
 constexpr double kMostTurn = 0.5;  // [rad] from row to row, for slip to keep its direction
 constexpr double kSameWay = 0.5;   // least cosine of the slips' angle
-constexpr double kSamePlace = 1.0 / 16;  // [1] of what counts as near: both flights meet within it
+constexpr double kMeetAgain = 1.0 / 16;  // [1] of what counts as near: both flights meet within it
 
 BodyState flownOf(const Body* body, const BodyState& from, const Encounter& encounter, double seconds) {
   return body != nullptr ? flown(body->mass, from, encounter.gravity, seconds) : from;
@@ -193,10 +193,10 @@ Vec3 impulseOf(const Encounter& encounter) {
 }
 
 double leastDistance(std::span<const Encounter> encounters) {
-  std::array<double, kLooks + 1> first{};
-  std::array<double, kLooks + 1> last{};
+  std::array<double, kFlightLooks + 1> first{};
+  std::array<double, kFlightLooks + 1> last{};
   const Encounter& any = encounters.front();
-  const double step = any.seconds / kLooks;
+  const double step = any.seconds / kFlightLooks;
   const auto gapAt = [&](const BodyState& body) {
     double gap = kInfinite;
     for (const Encounter& encounter : encounters) {
@@ -209,14 +209,14 @@ double leastDistance(std::span<const Encounter> encounters) {
   }
   BodyState forward = any.before;
   BodyState backward = any.after;
-  for (std::size_t k = 0; k <= kLooks; ++k) {
+  for (std::size_t k = 0; k <= kFlightLooks; ++k) {
     first.at(k) = std::min(gapAt(forward), k > 0 ? first.at(k - 1) : kInfinite);
-    last.at(kLooks - k) = std::min(gapAt(backward), k > 0 ? last.at(kLooks - k + 1) : kInfinite);
+    last.at(kFlightLooks - k) = std::min(gapAt(backward), k > 0 ? last.at(kFlightLooks - k + 1) : kInfinite);
     forward = flownOf(any.body, forward, any, step);
     backward = flownOf(any.body, backward, any, -step);
   }
   double least = kInfinite;
-  for (std::size_t k = 0; k <= kLooks; ++k) {
+  for (std::size_t k = 0; k <= kFlightLooks; ++k) {
     // It may have touched first, and last, between the same two looks.
     least = std::min(least, std::max(first.at(k), last.at(k > 0 ? k - 1 : 0)));
   }
@@ -247,8 +247,8 @@ std::optional<Meeting> meetingOf(const Encounter& encounter) {
   }
   double apart = 0;
   double touched = -1;
-  for (int k = 1; k <= kLooks && touched < 0; ++k) {
-    const double time = encounter.seconds * k / kLooks;
+  for (int k = 1; k <= kFlightLooks && touched < 0; ++k) {
+    const double time = encounter.seconds * k / kFlightLooks;
     (gapAt(time) > 0 ? apart : touched) = time;
   }
   if (touched < 0) {
@@ -290,7 +290,7 @@ void allowByParting(const Encounter& encounter, const Meeting& meeting, const To
   const double left = encounter.seconds - meeting.time;
   const BodyState body = flownOf(encounter.body, encounter.after, encounter, -left);
   const BodyState other = flownOf(encounter.other, encounter.otherAfter, encounter, -left);
-  const double within = kSamePlace * encounter.near;
+  const double within = kMeetAgain * encounter.near;
   if (!meetAgain(encounter.body, body, meeting.body, within) ||
       !meetAgain(encounter.other, other, meeting.other, within)) {
     return;
