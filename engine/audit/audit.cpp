@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "audit/between_rows.h"
 #include "audit/findings.h"
 #include "audit/groups.h"
 #include "audit/ledger.h"
@@ -39,6 +40,8 @@ constexpr std::size_t kStatesAroundWorst = 1'500;
 constexpr std::size_t kMostMoments = 1'000;
 constexpr std::size_t kFewestMoments = 16;
 constexpr std::size_t kWorst = 4;
+constexpr double kNear = 0.1;  // [1] of how far the boxes of a table may overlap: they push each other,
+                               // and as the scene allows its crowds
 
 class Auditor {
  public:
@@ -46,6 +49,7 @@ class Auditor {
       : run_(run),
         depth_(depth),
         stop_(stop),
+        part_(limits.table),
         settings_(settingsOf(run, limits)),
         findings_(settings_, promises(limits, false), promises(limits, true), crowdBeginnings(run)),
         impacts_(impactsOfBodies(run)),
@@ -78,6 +82,7 @@ class Auditor {
   const Trajectory& run_;
   AuditDepth depth_;
   const std::stop_token& stop_;
+  double part_;  // see AuditLimits::table
   RunSettings settings_;
   Findings findings_;
   std::vector<std::vector<std::size_t>> impacts_;  // of each body
@@ -186,9 +191,13 @@ void Auditor::lookAround(std::size_t index, double time) {
 // Both sides of the seams of all bodies, or of as many as the budget allows, evenly spread.
 void Auditor::lookAtSeams() {
   if (run_.given) {
+    const std::vector<char> followed = checkBetweenRows(
+        run_, kNear * settings_.tolerance + settings_.crowds.tolerance, part_, fallingSpeeds_, findings_);
     for (std::size_t index = 0; index < bodies(); ++index) {
       rest();
-      checkSteps(run_, index, findings_);
+      if (followed[index] == 0) {
+        checkSteps(run_, index, findings_);
+      }
     }
     return;
   }

@@ -126,9 +126,10 @@ void ExternalOf::addTouches(std::size_t member, std::size_t segment, External& e
     follower.touches = touchesOf(body, segment);
     follower.known = segment + 1;
   }
-  external.lies = true;
-  external.liesOnImmovable = external.liesOnImmovable || follower.touches.immovable;
-  for (const std::size_t wall : follower.touches.walls) {
+  const Touches& touches = follower.touches;
+  external.lies = external.lies || touches.immovable || touches.other || !touches.walls.empty();
+  external.liesOnImmovable = external.liesOnImmovable || touches.immovable;
+  for (const std::size_t wall : touches.walls) {
     addWall(wall, touching(run_.world.bodies[body].material, run_.world.walls[wall].material).friction,
             external);
   }
@@ -169,6 +170,18 @@ double ExternalOf::wayWithin(std::size_t body, std::size_t segment) const {
   return way;
 }
 
+bool ExternalOf::meets(const AuditBox& box, double near, std::size_t other, double time) const {
+  const Body& body = run_.world.bodies[other];
+  const Track& track = run_.tracks[other];
+  const std::size_t segment = segmentAt(track, time);
+  const BodyState there =
+      stateAt(track.segments[segment].motion, body.mass, time - track.segments[segment].start);
+  const double apart = near + touchingDistance(body, run_.settings) + wayWithin(other, segment);
+  return (box.pose.position - there.pose.position).norm() <=
+             box.halfExtents.norm() + radiusOf(body) + apart &&
+         separationOf(box, auditBox(body, there.pose)) <= apart;
+}
+
 ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment) const {
   const Body& owner = run_.world.bodies[body];
   const double near = touchingDistance(owner, run_.settings) + wayWithin(body, segment);
@@ -177,7 +190,8 @@ ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment)
   // A step may have been cut: where its polynomial ends the body never was.
   const double length =
       (segment + 1 < segments.size() ? segments[segment + 1].start : run_.settings.duration) - start;
-  Touches touches;
+  // Without springs nothing takes such steps but what touches.
+  Touches touches{.other = group_.springs.empty()};
   for (const double elapsed : {0.0, length}) {
     const Pose place = stateAt(segments[segment].motion, owner.mass, elapsed).pose;
     const AuditBox box = auditBox(owner, place);
@@ -192,6 +206,9 @@ ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment)
       const Pose& where = other.initial.pose;
       touches.immovable = touches.immovable || ((place.position - where.position).norm() <= reach &&
                                                 separationOf(box, auditBox(other, where)) <= near);
+    }
+    for (const std::size_t other : group_.bodies) {
+      touches.other = touches.other || (other != body && meets(box, near, other, start + elapsed));
     }
   }
   return touches;

@@ -5,6 +5,7 @@
 
 #include "audit/cone.h"
 #include "audit/groups.h"
+#include "audit/overlap.h"
 #include "audit/samples.h"
 #include "trajectory/trajectory.h"
 
@@ -41,10 +42,12 @@ class ExternalOf {
 
   /// What a body touches while it does not fly.
   struct Touches {
-    std::vector<std::size_t> walls;
+    std::vector<std::size_t> walls = {};
     bool immovable = false;
+    bool other = false;  // of the group
   };
   Touches touchesOf(std::size_t body, std::size_t segment) const;
+  bool meets(const AuditBox& box, double near, std::size_t other, double time) const;
   double wayWithin(std::size_t body, std::size_t segment) const;
 
   struct Follower {

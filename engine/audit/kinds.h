@@ -17,7 +17,9 @@ enum class AuditKind : int {
   kLinearMomentum,
   kAngularMomentum,
   kEnergyRise,
-  kEnergyLoss
+  kEnergyLoss,
+  kRestitution,
+  kFriction
 };
 
 struct AuditKindTraits {
@@ -39,7 +41,10 @@ inline constexpr std::array kAuditKinds = {
     AuditKindTraits{AuditKind::kLinearMomentum, "linear_momentum", "1", "linear momentum nothing gave"},
     AuditKindTraits{AuditKind::kAngularMomentum, "angular_momentum", "1", "angular momentum nothing gave"},
     AuditKindTraits{AuditKind::kEnergyRise, "energy_rise", "1", "energy nothing gave"},
-    AuditKindTraits{AuditKind::kEnergyLoss, "energy_loss", "1", "energy nothing took"}};
+    AuditKindTraits{AuditKind::kEnergyLoss, "energy_loss", "1", "energy nothing took"},
+    // Of tables only. Friction is relative to the body's largest momentum.
+    AuditKindTraits{AuditKind::kRestitution, "restitution", "1", "a bounce is not that of the scene"},
+    AuditKindTraits{AuditKind::kFriction, "friction", "1", "friction is not that of the scene"}};
 inline constexpr std::size_t kAuditKindCount = kAuditKinds.size();
 
 constexpr std::size_t indexOf(AuditKind kind) { return static_cast<std::size_t>(kind); }

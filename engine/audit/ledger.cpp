@@ -16,8 +16,11 @@ namespace {
 constexpr double kUlps = 1024 * std::numeric_limits<double>::epsilon();
 // A group that hardly moves is compared with this part of what falling by its own size would give it.
 constexpr double kStill = 1.0 / 64;
-constexpr double kMean = 1.0 / 30;  // [s] six of a crowd's longest steps, at its usual tolerance
-constexpr double kParallel = 1e-9;  // [1] walls whose normals differ by less have the same
+// A group whose members' angular momenta cancel is compared with this part of theirs.
+constexpr double kOfMembers = 1.0 / 8;
+constexpr double kOfSpeed = 24.0 / 7;  // see spinWithinSteps
+constexpr double kMean = 1.0 / 30;     // [s] six of a crowd's longest steps, at its usual tolerance
+constexpr double kParallel = 1e-9;     // [1] walls whose normals differ by less have the same
 
 /// What a group has at a moment, and the scales that its changes are compared with.
 struct Holdings {
@@ -26,6 +29,8 @@ struct Holdings {
   double energy = 0;                    // [J] kinetic, gravitational from the origin, of springs
   double momentumScale = 0;
   double angularScale = 0;
+  double spin =
+      0;  // [kg m²/s] of the angular momentum about its centre of mass, which its members' may cancel in
   double energyScale = 0;  // kinetic and of springs
   double far = 0;          // [m] largest coordinate
   double turned = 0;       // [kg m²/s] of the whole group about the origin
@@ -85,6 +90,7 @@ class Books {
   Holdings holdings(const StateOf& stateOf, double springs) const;
   Holdings at(std::size_t moment) const;
   double springEnergyAt(std::size_t moment) const;
+  double reachAt(std::size_t moment) const;
   void include(const Holdings& now);
   void balance(double time, const Holdings& now, External& external);
   void balanceMomentum(double time, const Holdings& now, const External& external);
@@ -95,6 +101,7 @@ class Books {
     const double least = late.with(time, amount);
     return isCrowd(time) ? least : amount;
   }
+  double spinWithinSteps(double time) const;
   void report(AuditKind kind, double time, double amount, double scale, double rounding);
 
   const Trajectory& run_;
@@ -105,6 +112,7 @@ class Books {
   Vec3 origin_ = Vec3::Zero();
   Holdings due_;
   Holdings largest_;  // its scales only
+  double reach_ = 0;  // [m] from its middle to its farthest body
   bool takesEnergy_ = false;
   // A crowd's speeds are means over steps, near 0 where a body bounces, and other engines store energy in
   // contacts: of such, only what lasts counts.
@@ -152,6 +160,7 @@ Holdings Books::holdings(const StateOf& stateOf, double springs) const {
     now.far = std::max(now.far, state.pose.position.norm());
     now.turned += mass(body) * arm.norm() * state.velocity.norm();
   }
+  now.spin = (now.angularMomentum - (middle - origin_).cross(now.momentum)).norm();
   now.energy += springs;
   now.energyScale += springs;
   return now;
@@ -179,9 +188,21 @@ double Books::springEnergyAt(std::size_t moment) const {
   return energy;
 }
 
+double Books::reachAt(std::size_t moment) const {
+  const Vec3 middle =
+      center([&](std::size_t body) -> const BodyState& { return samples_.state(moment, body); });
+  double reach = 0;
+  for (const std::size_t body : group_.bodies) {
+    reach = std::max(reach, (samples_.state(moment, body).pose.position - middle).norm() +
+                                radiusOf(run_.world.bodies[body]));
+  }
+  return reach;
+}
+
 void Books::include(const Holdings& now) {
   largest_.momentumScale = std::max(largest_.momentumScale, now.momentumScale);
   largest_.angularScale = std::max(largest_.angularScale, now.angularScale);
+  largest_.spin = std::max(largest_.spin, now.spin);
   largest_.energyScale = std::max(largest_.energyScale, now.energyScale);
   largest_.far = std::max(largest_.far, now.far);
   largest_.turned = std::max(largest_.turned, now.turned);
@@ -199,6 +220,7 @@ void Books::check() {
       return;  // found elsewhere
     }
     include(all.back());
+    reach_ = std::max(reach_, reachAt(moment));
   }
   Holdings still;
   double smallest = std::numeric_limits<double>::infinity();
@@ -281,9 +303,12 @@ void Books::balanceAngularMomentum(double time, const Holdings& now, const Exter
     excess *= 1 - std::min(1.0, external.angularFriction / std::max(excess.norm(), external.angularFriction));
   }
   due_.angularMomentum = now.angularMomentum - excess;
-  report(AuditKind::kAngularMomentum, time, lasting(angularMomentum_, time, excess.norm()),
-         largest_.angularScale,
-         kUlps * (largest_.angularScale + largest_.turned + largest_.far * largest_.momentumScale));
+  // Estimated velocities are as wrong as each of them is large.
+  const bool isEstimated = run_.given && !(run_.given->velocities && run_.given->angularVelocities);
+  const double scale = std::max(largest_.spin, (isEstimated ? 1 : kOfMembers) * largest_.angularScale);
+  report(AuditKind::kAngularMomentum, time, lasting(angularMomentum_, time, excess.norm()), scale,
+         kUlps * (largest_.angularScale + largest_.turned + largest_.far * largest_.momentumScale) +
+             spinWithinSteps(time));
 }
 
 void Books::balanceEnergy(double time, const Holdings& now, const External& external) {
@@ -298,6 +323,21 @@ void Books::balanceEnergy(double time, const Holdings& now, const External& exte
   } else {
     report(AuditKind::kEnergyLoss, time, std::max(-excess, 0.0), largest_.energyScale, rounding);
   }
+}
+
+// [kg m²/s] By which speeds within steps may be off: a place halfway is held to the tolerance, and a
+// polynomial whose acceleration there is wrong by e is off by e h²/24 in place and by at most e h/7 in speed.
+// Only springs make steps so short that it counts.
+double Books::spinWithinSteps(double time) const {
+  double sum = 0;
+  for (const std::size_t body : group_.bodies) {
+    const Track& track = run_.tracks[body];
+    const ContactStep* const step = std::get_if<ContactStep>(&track.segments[segmentAt(track, time)].motion);
+    if (step != nullptr && !run_.given && !group_.springs.empty()) {
+      sum += mass(body) * reach_ * kOfSpeed * run_.settings.tolerance / step->duration;
+    }
+  }
+  return sum;
 }
 
 void Books::report(AuditKind kind, double time, double amount, double scale, double rounding) {

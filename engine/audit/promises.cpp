@@ -53,7 +53,7 @@ Promises promisesOfTable(double tolerance) {
   const Promise part{.absolute = tolerance};
   const Promise places{.tolerances = 1};
   // Impulses are unknown: tables have no impacts.
-  return {kNever, places, places, kRotation, places, {}, part, part, part, part};
+  return {kNever, places, places, kRotation, places, {}, part, part, part, part, part, part};
 }
 
 double allowed(const Promise& promise, const RunSettings& settings, double length) {

@@ -185,7 +185,9 @@ void checkSteps(const Trajectory& run, std::size_t body, Findings& findings) {
     const Vec3 way = step->end.pose.position - step->start.pose.position;
     const Vec3 mean = 0.5 * (step->start.velocity + step->end.velocity);
     const Vec3 change = 0.5 * (step->end.velocity - step->start.velocity);
-    const double jump = (way - step->duration * mean).norm() - step->duration * change.norm();
+    // Between bounces it falls: below the first velocity and above the second.
+    const double fallen = 0.5 * step->duration * step->duration * run.world.gravity.norm();
+    const double jump = (way - step->duration * mean).norm() - step->duration * change.norm() - fallen;
     findings.add(AuditKind::kContinuity,
                  placeRounding(run.world.bodies[body], step->end.pose.position) +
                      kSeamUlps * step->duration * mean.norm(),

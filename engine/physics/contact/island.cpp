@@ -71,7 +71,8 @@ Island::Island(const World& world, std::vector<TouchingBody> bodies, std::vector
     : tolerance_(tolerance),
       timeScale_(timeScale),
       world_(world),
-      system_(world, std::move(bodies), std::move(features)) {
+      system_(world, std::move(bodies), std::move(features)),
+      springs_(world, system_.bodies()) {
   end_ = system_.pack();
 }
 
@@ -213,6 +214,11 @@ Island::Step Island::step(double most, double mostWork) {
   }
   tookTimeStep_ = false;
   stepper_.reset();
+  if (pushes()) {
+    springs_.end();
+  } else {
+    springs_.begin(start_);
+  }
   if (known_) {
     startRate_ = endRate_;
     startTurned_ = endTurned_;
@@ -232,7 +238,9 @@ Island::Step Island::step(double most, double mostWork) {
   }
   double error = 0;
   int attempts = 0;
-  const double shortest = std::isfinite(timeScale_) ? kStiff * timeScale_ : 0;
+  // Undamped springs that nothing pushes against may be as stiff as they are: a time step would damp them.
+  const bool isSpring = !springs_.empty() && !pushes();
+  const double shortest = std::isfinite(timeScale_) && !isSpring ? kStiff * timeScale_ : 0;
   for (;; ++attempts) {
     if (attempts > kMostAttempts || (attempts > 0 && h < shortest)) {
       end_ = start_;

@@ -12,6 +12,7 @@
 #include "physics/contact/contact_system.h"
 #include "physics/contact/dormand_prince5.h"
 #include "physics/contact/time_stepper.h"
+#include "physics/contact/undamped_springs.h"
 #include "physics/motion/motion.h"
 
 namespace careen {
@@ -161,6 +162,7 @@ class Island {
   double timeScale_;  // [s] see timeScaleOf
   const World& world_;
   ContactSystem system_;
+  UndampedSprings springs_;
   std::vector<EventFunction> eventFunctions_;
   std::vector<double> atStart_;  // values of the event functions
   DormandPrince5 integrator_;

@@ -108,7 +108,8 @@ void Island::finish(double h) {
   }
   ++moves_;
   const bool kept = system_.keepMomenta(start_, h, end_);
-  if (system_.project(end_, ContactSystem::kMostMoved * tolerance_) || kept) {
+  const bool moved = system_.project(end_, ContactSystem::kMostMoved * tolerance_);
+  if (springs_.keep(start_, h, end_) || moved || kept) {
     system_.rate(end_, endRate_);
     endTurned_ = system_.forces().isTurned();
   }

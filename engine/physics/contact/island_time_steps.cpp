@@ -31,6 +31,7 @@ void Island::beginTimeSteps(int count) {
 }
 
 Island::Step Island::takeTimeStep(double most) {
+  springs_.end();
   tookTimeStep_ = true;
   known_ = false;
   if (!stepper_) {
