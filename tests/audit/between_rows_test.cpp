@@ -1,4 +1,5 @@
-// What the audit of a table finds only as it follows boxes from row to row: each fails without it.
+// What the audit of a table finds as it follows boxes from row to row. Without it, friction, restitution and
+// attitudes are not found.
 #include "audit/between_rows.h"
 
 #include <gtest/gtest.h>
