@@ -174,7 +174,7 @@ TEST(SceneReader, smallestSceneOfTheReadmeParses) {
   ASSERT_NE(end, std::string::npos);
   const Scene scene =
       parseScene(readme.substr(start + fence.size(), end - start - fence.size()), "README.md");
-  EXPECT_EQ(scene.boxes.size(), 1U);
+  EXPECT_EQ(scene.boxes.size(), 2U);
 }
 
 TEST(SceneReader, shippedScenesParse) {

@@ -32,7 +32,7 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
   }
   int movable = 0;
   bool moves = false;
-  bool rubs = false;
+  bool rubs = crowds_.when == CrowdSettings::When::kAbove;  // asked for, whatever it costs
   for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
     const Mover& body = mover(encounter.ranks[i]);
     if (body.isHeld()) {

@@ -8,14 +8,17 @@ namespace {
 
 // Directions count as different if their angle moves the thinner box by this many times what counts as none.
 constexpr double kDifferentDirections = 8;
+// [1] In steps, where more than rounding counts as none, axes this near to each other agree far from any edge.
+constexpr double kAcross = 0.25;
 // [1] Normals that differ by less are one direction.
-constexpr double kOneDirection = 0x1p-20;
+constexpr double kOneDirection = 0x1p-4;
 
 }  // namespace
 
 AxisSet separatingAxes(BoxAt a, BoxAt b, const BoxAxes& axes, double within) {
   const double thinnest = std::min(a.halfExtents.minCoeff(), b.halfExtents.minCoeff());
-  const double different = kDifferentDirections * within / thinnest;
+  const double different =
+      std::max(kDifferentDirections * within / thinnest, within > touchingWithin(a, b) ? kAcross : 0);
   const double least = std::min(axes.gap(), 0.0) - within;
   const Vec3 best = axes.normal(axes.best());
   AxisSet set = 0;

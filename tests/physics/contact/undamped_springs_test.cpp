@@ -51,7 +51,7 @@ Drift driftOf(const World& world, const Recorded& run) {
     drift.energy = std::max(drift.energy, std::fabs(energy - first));
     drift.spin = std::max(drift.spin, (spin - firstSpin).norm());
   }
-  return {.energy = drift.energy / scale, .spin = drift.spin / spinScale};
+  return {.energy = drift.energy / scale, .spin = spinScale > 0 ? drift.spin / spinScale : 0};
 }
 
 // A cube of 1 kg on one spring to the world, `amplitude` [m] beside its rest: x = 0.5 + a cos(√k t).
