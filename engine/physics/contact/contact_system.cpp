@@ -18,9 +18,6 @@ constexpr double kRestSpeed = 0x1p-44;
 constexpr double kProjected = 0x1p-51;
 constexpr double kProjectedSpeed = 0x1p-46;
 constexpr int kMostProjections = 4;
-/// [1] of the largest gap, or rate: no projection moves a body further. Where contacts are nearly redundant
-/// but not quite, better some gap than a jump.
-constexpr double kMostShift = 64;
 
 Quat quatAt(std::span<const double> y, std::size_t at) { return {y[at], y[at + 1], y[at + 2], y[at + 3]}; }
 void setQuat(std::span<double> y, std::size_t at, const Quat& q) {

@@ -35,6 +35,9 @@ class ContactSystem {
   /// [1] of the tolerance: how far positions are projected at an event. Bodies whose contacts are nearly
   /// redundant would jump.
   static constexpr double kMostMoved = 3;
+  /// [1] of the largest gap, or rate: no projection moves a body further. Where contacts are nearly redundant
+  /// but not quite, better some gap than a jump.
+  static constexpr double kMostShift = 64;
 
   ContactSystem(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features);
 

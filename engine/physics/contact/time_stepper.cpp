@@ -265,11 +265,19 @@ void TimeStepper::correct() {
   }
   findContacts(end_);
   std::vector<ContactFeature> features;
+  double deep = 0;
   for (const Found& found : found_) {
     features.push_back(found.feature);
-    deepest_ = std::max(deepest_, -found.gap);
+    deep = std::max(deep, -found.gap);
   }
+  deepest_ = std::max(deepest_, deep);
   if (equations_.separate(end_, features, 0.125 * closed())) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (wayOf(i, reached_[i], end_[i]) > ContactSystem::kMostShift * deep) {
+        end_ = reached_;  // out of a narrow wedge: better deep than aside
+        break;
+      }
+    }
     lookAgain(end_);
     // A heavy body, or one that turns, may have to be moved farther; then a speed is the lesser evil.
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
