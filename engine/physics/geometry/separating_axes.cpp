@@ -8,7 +8,7 @@ namespace {
 
 // Directions count as different if their angle moves the thinner box by this many times what counts as none.
 constexpr double kDifferentDirections = 8;
-// [1] In steps, where more than rounding counts as none, axes this near to each other agree far from any edge.
+// [1] In steps, where more than rounding counts as none, axes nearer to each other agree far from any edge.
 constexpr double kAcross = 0.25;
 // [1] Normals that differ by less are one direction.
 constexpr double kOneDirection = 0x1p-4;
