@@ -53,24 +53,10 @@ std::optional<Vec3> normalOf(const AuditBox& a, const AuditBox& b, double near) 
   };
   std::vector<Axis> axes;
   const Vec3 between = a.pose.position - b.pose.position;
-  const auto look = [&](const Vec3& axis) {
+  forEachAxis(a, b, [&](const Vec3& axis) {
     const Vec3 direction = between.dot(axis) < 0 ? Vec3(-axis) : axis;
-    const double reach = (a.pose.worldFromBody.transpose() * axis).cwiseAbs().dot(a.halfExtents) +
-                         (b.pose.worldFromBody.transpose() * axis).cwiseAbs().dot(b.halfExtents);
-    axes.push_back({direction, between.dot(direction) - reach});
-  };
-  for (int i = 0; i < 3; ++i) {
-    look(a.pose.worldFromBody.col(i));
-    look(b.pose.worldFromBody.col(i));
-  }
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const Vec3 across = a.pose.worldFromBody.col(i).cross(b.pose.worldFromBody.col(j));
-      if (across.norm() > kAligned) {
-        look(across.normalized());
-      }
-    }
-  }
+    axes.push_back({direction, between.dot(direction) - reachAlong(a, axis) - reachAlong(b, axis)});
+  });
   const auto best =
       std::max_element(axes.begin(), axes.end(), [](const Axis& x, const Axis& y) { return x.gap < y.gap; });
   const bool isOnly = std::all_of(axes.begin(), axes.end(), [&](const Axis& axis) {

@@ -19,14 +19,6 @@ constexpr double kProjected = 0x1p-51;
 constexpr double kProjectedSpeed = 0x1p-46;
 constexpr int kMostProjections = 4;
 
-Quat quatAt(std::span<const double> y, std::size_t at) { return {y[at], y[at + 1], y[at + 2], y[at + 3]}; }
-void setQuat(std::span<double> y, std::size_t at, const Quat& q) {
-  y[at] = q.w();
-  y[at + 1] = q.x();
-  y[at + 2] = q.y();
-  y[at + 3] = q.z();
-}
-
 }  // namespace
 
 BodyState TouchingBody::state() const {

@@ -21,17 +21,6 @@ constexpr double kMostScaled = 0x1p-8;  // [1] a step that is off by more is not
 
 double sumOf(const std::vector<std::array<double, 1>>& terms) { return orderFreeSums<1>(terms)[0]; }
 
-Quat quaternionAt(std::span<const double> y, std::size_t at) {
-  return Quat(y[at], y[at + 1], y[at + 2], y[at + 3]).normalized();
-}
-
-void setQuaternion(std::span<double> y, std::size_t at, const Quat& q) {
-  y[at] = q.w();
-  y[at + 1] = q.x();
-  y[at + 2] = q.y();
-  y[at + 3] = q.z();
-}
-
 }  // namespace
 
 /// Velocities about the rigid motion of a group, forces, and its energy.
@@ -116,7 +105,7 @@ UndampedSprings::UndampedSprings(const World& world, std::span<const TouchingBod
 }
 
 BodyState UndampedSprings::stateOf(const Member& member, std::span<const double> y) const {
-  const Mat3 axes = quaternionAt(y, member.at + 3).toRotationMatrix();
+  const Mat3 axes = quatAt(y, member.at + 3).normalized().toRotationMatrix();
   return {.pose = {.position = threeAt(y, member.at), .worldFromBody = axes},
           .velocity = threeAt(y, member.at + 7),
           .angularMomentum = axes * member.body->mass.inertiaTimes(threeAt(y, member.at + 10))};
@@ -225,7 +214,7 @@ void UndampedSprings::begin(std::span<const double> y) {
 // energy, that too.
 void UndampedSprings::keepSpin(const Member& member, const Vec3& kept, std::vector<double>& y) {
   const MassProperties& mass = member.body->mass;
-  Quat attitude = quaternionAt(y, member.at + 3);
+  Quat attitude = quatAt(y, member.at + 3).normalized();
   for (int pass = 0; pass < kMostPasses; ++pass) {
     const Mat3 axes = attitude.toRotationMatrix();
     const Vec3 spin = mass.inverseInertiaTimes(axes.transpose() * kept);
@@ -238,7 +227,7 @@ void UndampedSprings::keepSpin(const Member& member, const Vec3& kept, std::vect
     }
     const Vec3 turn = (-0.5 * excess / slope.squaredNorm()) * slope;
     attitude = (Quat(1, turn.x(), turn.y(), turn.z()) * attitude).normalized();
-    setQuaternion(y, member.at + 3, attitude);
+    setQuat(y, member.at + 3, attitude);
   }
 }
 
@@ -260,7 +249,7 @@ void UndampedSprings::keepMomenta(const Group& group, std::span<const double> be
     setThree(y, at, place + change->shift);
     setThree(y, at + 7, threeAt(y, at + 7) + change->velocityAt(place));
     if (group.members[k].turns) {
-      const Mat3 axes = quaternionAt(y, at + 3).toRotationMatrix();
+      const Mat3 axes = quatAt(y, at + 3).normalized().toRotationMatrix();
       setThree(y, at + 10, threeAt(y, at + 10) + axes.transpose() * change->turning);
     }
   }
@@ -283,9 +272,9 @@ bool UndampedSprings::keepEnergy(const Group& group, std::vector<double>& y) {
     if (member.turns) {
       const Vec3 turn = 0.5 * part * group.period * motions.torques[k];
       const Quat turned =
-          (Quat(1, turn.x(), turn.y(), turn.z()) * quaternionAt(y, member.at + 3)).normalized();
+          (Quat(1, turn.x(), turn.y(), turn.z()) * quatAt(y, member.at + 3).normalized()).normalized();
       const Vec3 spin = axes * threeAt(y, member.at + 10) - part * motions.spins[k];
-      setQuaternion(y, member.at + 3, turned);
+      setQuat(y, member.at + 3, turned);
       setThree(y, member.at + 10, turned.toRotationMatrix().transpose() * spin);
     }
   }

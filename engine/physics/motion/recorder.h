@@ -33,8 +33,8 @@ class Recorder {
   virtual void moves(BodyIndex body, double time, const Motion& motion) = 0;
   /// In order of time.
   virtual void strikes(const Impact& impact) = 0;
-  /// The run has come to this time [s]: told often, and even where nothing is recorded for long. Of bodies that
-  /// are followed one after another, the mean.
+  /// The run has come to this time [s]: told often, and even where nothing is recorded for long. Of bodies
+  /// that are followed one after another, the mean.
   virtual void reaches(double /*time*/) {}
 
  protected:
