@@ -21,9 +21,9 @@ constexpr double kStopped = 4;
 /// anew.
 constexpr double kCreeps = 0.25;
 /// [1] Accelerations this small relative to gravity count as zero.
-constexpr double kStill = 0x1p-32;
+constexpr double kStill = 0x1p-44;
 /// [1] The same relative to the accelerations by the contact forces.
-constexpr double kStillLoaded = 0x1p-40;
+constexpr double kStillLoaded = 0x1p-46;
 /// [1] of a time step: the shortest smooth step. Where slip begins, friction turns into its direction the
 /// faster the slower the slip is (stiff), and smooth steps would have to resolve that; a time step, implicit
 /// in friction, has an error below the tolerance there.
@@ -232,6 +232,7 @@ Island::Step Island::step(double most, double mostWork) {
   if (hasTension()) {
     return takeTimeStep(most);
   }
+  away_ = awayFromEquilibrium();
   double h = std::min(most, longestStep());
   if (proposed_ > 0) {
     h = std::min(h, proposed_);

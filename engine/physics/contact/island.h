@@ -146,6 +146,7 @@ class Island {
   bool stop();
   double timeToFall(const Body& body) const;
   double sizeOf(const State& difference, double h) const;
+  double awayFromEquilibrium() const;
   double errorBetween(double h);
   bool isMovedByCorrection(double h) const;
   bool gainsEnergy() const;
@@ -173,6 +174,7 @@ class Island {
   State error_;
   double length_ = 0;  // of the last step
   double proposed_ = 0;
+  double away_ = 1;            // awayFromEquilibrium() at the start of the step
   double lifetime_ = 0;        // [s] for which the current speeds matter
   bool known_ = false;         // endRate_ is the next startRate_
   bool smooth_ = true;         // forces were found

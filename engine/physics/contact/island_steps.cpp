@@ -29,6 +29,8 @@ constexpr double kLeastLifetime = 0x1p-4;
 /// [1] of the displacement that the error of a velocity within a step would cause in the time to fall one's
 /// own size: what counts of it, as the end of the step has another.
 constexpr double kOfSpeedBetween = 0x1p-1;
+/// [1] of the size of a body: errors of a step this small are rounding.
+constexpr double kStepRounding = 0x1p-56;
 /// [1] of the energy of motion: a step that gains more is wrong.
 constexpr double kGained = 0x1p-4;
 /// A trial step too long for its forces diverges; of larger numbers, the squares of ω²r would overflow.
@@ -138,7 +140,28 @@ double Island::sizeOf(const State& difference, double h) const {
                       time * radius * threeAt(difference, at + 10).norm()});
     at += ContactSystem::kNumbers;
   }
-  return worst / (kShare * tolerance_);
+  return worst / (kShare * tolerance_ * away_);
+}
+
+// [1] of their sizes, at most 1: how far bodies that lean or rock are from equilibrium, as speeds and
+// accelerations tell. They leave it exponentially, and errors grow as they do.
+double Island::awayFromEquilibrium() const {
+  if (!(system_.gravityMagnitude() > 0)) {
+    return 1;
+  }
+  double away = 0;
+  std::size_t at = 0;
+  for (const TouchingBody& body : bodies()) {
+    if (!body.isHeld()) {
+      const double radius = radiusOf(*body.body);
+      const double speed = threeAt(start_, at + 7).norm() + radius * threeAt(start_, at + 10).norm();
+      const double rate = threeAt(startRate_, at + 7).norm() + radius * threeAt(startRate_, at + 10).norm();
+      away = std::max({away, (speed / timeToFall(*body.body) + rate) / system_.gravityMagnitude(),
+                       kStepRounding * radius / (kShare * tolerance_)});
+      at += ContactSystem::kNumbers;
+    }
+  }
+  return std::min(1.0, away);
 }
 
 // The motions of the last step, of that length, of the bodies that move.
