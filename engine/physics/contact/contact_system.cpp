@@ -37,7 +37,7 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
       onset_(features_.size(), Vec3::Zero()),
       kinematics_(bodies_.size()),
       states_(features_.size()) {
-  gravityMagnitude_ = world.gravity.norm();
+  pull_ = world.gravity.norm();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const TouchingBody& each = bodies_[i];
     places_.push_back(each.isHeld() ? kHeld : movers_.size());
@@ -52,7 +52,6 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
       }
     }
   }
-  restSpeed_ = kRestSpeed * std::sqrt(gravityMagnitude_ * radius_);
   free_.resize(inverseMass_.size());
   forces_.setBodies(inverseMass_);
   forces_.contacts().resize(features_.size());
@@ -60,7 +59,15 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
     for (const Body& body : world.bodies) {
       worldStates_.push_back(body.initial);
     }
+    for (const std::size_t i : movers_) {
+      worldStates_[static_cast<std::size_t>(bodies_[i].index)] = bodies_[i].state();
+    }
+    const std::vector<double> all = pulls(world, worldStates_);
+    for (const std::size_t i : movers_) {
+      pull_ = std::max(pull_, all[static_cast<std::size_t>(bodies_[i].index)]);
+    }
   }
+  restSpeed_ = kRestSpeed * std::sqrt(pull_ * radius_);
 }
 
 std::vector<double> ContactSystem::pack() const {
@@ -264,21 +271,14 @@ std::vector<GroupMember> ContactSystem::membersAt(std::span<const double> y,
 }
 
 bool ContactSystem::keepMomenta(std::span<const double> before, double h, std::vector<double>& y) const {
-  if (!worldStates_.empty()) {
-    return false;
-  }
   std::vector<ContactFeature> pushing;
   for (std::size_t c = 0; c < features_.size(); ++c) {
     if (pushes(c)) {
       pushing.push_back(features_[c]);
     }
   }
-  std::vector<char> held;
-  for (const TouchingBody& body : bodies_) {
-    held.push_back(body.isHeld() ? 1 : 0);
-  }
   bool changed = false;
-  for (const std::vector<std::size_t>& group : freeGroups(held, pushing)) {
+  for (const std::vector<std::size_t>& group : freeGroups(*world_, bodies_, pushing)) {
     const std::vector<GroupMember> members = membersAt(y, group);
     const std::optional<RigidChange> change =
         changeTo(momentumOf(membersAt(before, group)), h, world_->gravity, momentumOf(members));

@@ -82,7 +82,7 @@ class ContactSystem {
   double restSpeed() const { return restSpeed_; }
   /// [m] the largest half diagonal; [m/s²] the scale of accelerations.
   double radius() const { return radius_; }
-  double gravityMagnitude() const { return gravityMagnitude_; }
+  double pull() const { return pull_; }
 
  private:
   std::vector<GroupMember> membersAt(std::span<const double> y, std::span<const std::size_t> group) const;
@@ -110,7 +110,7 @@ class ContactSystem {
   ContactForces forces_;
   double restSpeed_ = 0;
   double radius_ = 0;
-  double gravityMagnitude_ = 0;
+  double pull_ = 0;
 };
 
 }  // namespace careen

@@ -22,27 +22,43 @@ Mat3 symmetric(const std::array<double, 9>& sums) {
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> freeGroups(std::span<const char> held,
+std::vector<std::vector<std::size_t>> freeGroups(const World& world, std::span<const TouchingBody> bodies,
                                                  std::span<const ContactFeature> pushing) {
-  DisjointSets joined(held.size());
-  std::vector<char> pushed(held.begin(), held.end());  // by what cannot move
-  for (const ContactFeature& feature : pushing) {
-    const auto a = static_cast<std::size_t>(feature.a);
-    const std::size_t b = feature.b.isWall() ? a : static_cast<std::size_t>(feature.b.body());
-    if (feature.b.isWall() || held[a] != 0 || held[b] != 0) {
-      pushed[a] = pushed[b] = 1;
-    } else {
+  const std::size_t count = bodies.size();
+  DisjointSets joined(count);
+  std::vector<char> pushed(count, world.drag ? 1 : 0);  // by what cannot move
+  const auto moves = [&](std::size_t i) { return i < count && !bodies[i].isHeld(); };
+  const auto join = [&](std::size_t a, std::size_t b) {
+    if (moves(a) && moves(b)) {
       joined.join(a, b);
+    } else if (moves(a) || moves(b)) {
+      pushed[moves(a) ? a : b] = 1;
+    }
+  };
+  for (const ContactFeature& feature : pushing) {
+    join(static_cast<std::size_t>(feature.a),
+         feature.b.isWall() ? count : static_cast<std::size_t>(feature.b.body()));
+  }
+  if (!world.springs.empty()) {
+    std::vector<std::size_t> placeOf(world.bodies.size(), count);
+    for (std::size_t i = 0; i < count; ++i) {
+      placeOf[static_cast<std::size_t>(bodies[i].index)] = i;
+    }
+    const auto at = [&](const SpringEnd& end) {
+      return end.body ? placeOf[static_cast<std::size_t>(*end.body)] : count;
+    };
+    for (const Spring& spring : world.springs) {
+      join(at(spring.from), at(spring.to));
     }
   }
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    if (pushed[i] != 0) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (pushed[i] != 0 || !moves(i)) {
       pushed[joined.root(i)] = 1;
     }
   }
   std::vector<std::vector<std::size_t>> groups;
-  std::vector<std::size_t> groupOf(held.size());
-  for (std::size_t i = 0; i < held.size(); ++i) {
+  std::vector<std::size_t> groupOf(count);
+  for (std::size_t i = 0; i < count; ++i) {
     const std::size_t root = joined.root(i);  // the least, so it comes first
     if (pushed[root] == 0) {
       if (root == i) {

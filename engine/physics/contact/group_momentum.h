@@ -7,16 +7,18 @@
 
 #include "core/math/linear_algebra.h"
 #include "physics/contact/contact_feature.h"
-#include "physics/world/body.h"
+#include "physics/world/world.h"
 
 namespace careen {
+
+struct TouchingBody;
 
 struct GroupMember {
   const MassProperties* mass = nullptr;
   BodyState state = {};
 };
 
-/// Momenta of bodies on which nothing acts but gravity and the contact forces between them. The errors of
+/// Momenta of bodies on which nothing acts but gravity, and contacts and springs between them. The errors of
 /// steps and of projections change them. A rigid motion of all of the bodies puts that right: no gap, no
 /// approach and no slip between them notices it.
 struct GroupMomentum {
@@ -29,9 +31,9 @@ struct GroupMomentum {
   double largestSpin = 0;        ///< [kg m²/s] largest share of a body in `spin`
 };
 
-/// The bodies on which nothing but each other pushes, as groups of indices; `held` by body: whether it cannot
-/// move. `pushing`: the contacts with forces.
-std::vector<std::vector<std::size_t>> freeGroups(std::span<const char> held,
+/// Those of `bodies` on which nothing but each other pushes and pulls, as groups of indices. `pushing`: the
+/// contacts with forces.
+std::vector<std::vector<std::size_t>> freeGroups(const World& world, std::span<const TouchingBody> bodies,
                                                  std::span<const ContactFeature> pushing);
 
 /// The order of the members changes no bit.

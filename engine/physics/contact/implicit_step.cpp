@@ -74,7 +74,7 @@ void ImplicitStep::chooseResidual(const GroupState& at) {
       rate = std::max(rate, now.velocity.norm() / radius_ + now.angularVelocity.norm());
     }
   }
-  residual_ = tolerableResidual(tolerance_, radius_, rate, world_.gravity.norm());
+  residual_ = tolerableResidual(tolerance_, radius_, rate, pull(at));
 }
 
 // Force and torque on each body without contacts.
@@ -116,6 +116,11 @@ double ImplicitStep::freeAcceleration(const GroupState& state) {
     }
   }
   return largest;
+}
+
+double ImplicitStep::pull(const GroupState& state) {
+  const double gravity = world_.gravity.norm();
+  return worldStates_.empty() ? gravity : std::max(gravity, freeAcceleration(state));
 }
 
 // Positions and attitudes at the end, from the velocities and angular momenta there.
@@ -213,14 +218,7 @@ bool ImplicitStep::compress(GroupState& state, std::span<const ContactFeature> c
 
 void ImplicitStep::keepMomenta(const GroupState& before, double h, std::span<const ContactFeature> pushing,
                                GroupState& to) const {
-  if (!worldStates_.empty()) {
-    return;
-  }
-  std::vector<char> held;
-  for (const TouchingBody& body : bodies_) {
-    held.push_back(body.isHeld() ? 1 : 0);
-  }
-  for (const std::vector<std::size_t>& group : freeGroups(held, pushing)) {
+  for (const std::vector<std::size_t>& group : freeGroups(world_, bodies_, pushing)) {
     const auto momentum = [&](const GroupState& at) {
       std::vector<GroupMember> members;
       for (const std::size_t i : group) {

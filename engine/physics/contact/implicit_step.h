@@ -71,6 +71,8 @@ class ImplicitStep {
                   std::vector<ContactState>& contacts);
   /// [m/s²] Largest acceleration without contact forces at that state.
   double freeAcceleration(const GroupState& state);
+  /// [m/s²] The scale of such accelerations: gravity's, or the largest where springs or drag act.
+  double pull(const GroupState& state);
   /// [m/s] To which the last impulses were solved.
   double residual() const { return residual_; }
   /// Factorisations so far, each times the bodies and contacts in it: the cost.

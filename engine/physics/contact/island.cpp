@@ -167,7 +167,7 @@ bool Island::rests() const {
       }
     }
     if (speed > system_.restSpeed() ||
-        std::max(linear, turning) > std::max(kStill * system_.gravityMagnitude(), kStillLoaded * load)) {
+        std::max(linear, turning) > std::max(kStill * system_.pull(), kStillLoaded * load)) {
       return false;
     }
     ++m;
@@ -186,7 +186,7 @@ bool Island::allButStands(std::size_t contact) const {
 bool Island::creeps(std::size_t contact) const {
   return system_.features()[contact].material.friction > 0 &&
          system_.states()[contact].slip.norm() <=
-             kCreeps * tolerance_ * std::sqrt(system_.gravityMagnitude() / system_.radius());
+             kCreeps * tolerance_ * std::sqrt(system_.pull() / system_.radius());
 }
 
 // Stops slip that has nearly ended: integrated up to its end it would take ever shorter steps.

@@ -117,9 +117,9 @@ void Island::finish(double h) {
   }
 }
 
-// [s] In which a body would fall its own size; 0 without gravity.
+// [s] In which gravity or springs would move a body its own size; 0 without any.
 double Island::timeToFall(const Body& body) const {
-  return system_.gravityMagnitude() > 0 ? std::sqrt(radiusOf(body) / system_.gravityMagnitude()) : 0;
+  return system_.pull() > 0 ? std::sqrt(radiusOf(body) / system_.pull()) : 0;
 }
 
 // The error of a step relative to the error allowed: of positions directly, of velocities by the displacement
@@ -146,7 +146,7 @@ double Island::sizeOf(const State& difference, double h) const {
 // [1] of their sizes, at most 1: how far bodies that lean or rock are from equilibrium, as speeds and
 // accelerations tell. They leave it exponentially, and errors grow as they do.
 double Island::awayFromEquilibrium() const {
-  if (!(system_.gravityMagnitude() > 0)) {
+  if (!(system_.pull() > 0) || !pushes()) {
     return 1;
   }
   double away = 0;
@@ -156,7 +156,7 @@ double Island::awayFromEquilibrium() const {
       const double radius = radiusOf(*body.body);
       const double speed = threeAt(start_, at + 7).norm() + radius * threeAt(start_, at + 10).norm();
       const double rate = threeAt(startRate_, at + 7).norm() + radius * threeAt(startRate_, at + 10).norm();
-      away = std::max({away, (speed / timeToFall(*body.body) + rate) / system_.gravityMagnitude(),
+      away = std::max({away, (speed / timeToFall(*body.body) + rate) / system_.pull(),
                        kStepRounding * radius / (kShare * tolerance_)});
       at += ContactSystem::kNumbers;
     }
@@ -263,7 +263,7 @@ bool Island::gainsEnergy() const {
     const double after = energy(end_);
     motion += before + after;
     gained += after - before - mass.mass * dot(world_.gravity, threeAt(end_, at) - threeAt(start_, at));
-    weight += mass.mass * system_.gravityMagnitude();
+    weight += mass.mass * system_.pull();
     at += ContactSystem::kNumbers;
   }
   return gained > kGained * motion + weight * tolerance_;

@@ -338,14 +338,14 @@ std::vector<ContactFeature> TimeStepper::pressed() const {
   return pressed;
 }
 
-bool TimeStepper::isQuiet() const {
-  const double gravity = world_.gravity.norm();
+bool TimeStepper::isQuiet() {
+  const double pull = equations_.pull(end_);
   double fastest = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Kinematics at = equations_.kinematics(i, end_[i]);
     fastest = std::max({fastest, at.velocity.norm(), at.angularVelocity.norm() * radiusOf(*bodies_[i].body)});
   }
-  return fastest * fastest <= 0x1p-6 * gravity * closed();
+  return fastest * fastest <= 0x1p-6 * pull * closed();
 }
 
 ContactStep TimeStepper::motion(std::size_t body, const GroupState& reached) const {

@@ -54,8 +54,9 @@ class TimeStepper {
   /// Impacts at the start of the last step, also those without approach. What gravity alone gives in the step
   /// is none but a force.
   const std::vector<GroupImpact>& impacts() const { return impacts_; }
-  /// Whether nothing moves faster than what falling through a small part of the tolerance gives.
-  bool isQuiet() const;
+  /// Whether nothing moves faster than what falling through a small part of the tolerance gives, or being
+  /// pulled through it by springs.
+  bool isQuiet();
   /// [m] deepest gap of a contact seen at the end of a step.
   double deepest() const { return deepest_; }
   /// [m] Gaps up to this count as none.

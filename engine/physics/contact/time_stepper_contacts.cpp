@@ -240,9 +240,9 @@ ImpactContact TimeStepper::impactAt(std::size_t found) const {
           .directions = state.directions};
 }
 
-// Forgets what is no more than gravity gives in the step.
+// Forgets what is no more than gravity or springs give in the step.
 void TimeStepper::keepImpacts() {
-  const double least = 2 * world_.gravity.norm() * length_;
+  const double least = 2 * equations_.pull(start_) * length_;
   const auto inverseMass = [&](int body) {
     return bodies_[static_cast<std::size_t>(body)].body->mass.inverseMass;
   };

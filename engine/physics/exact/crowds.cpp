@@ -41,7 +41,7 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
     ++movable;
     rubs = rubs || body.body->material.friction > 0;
     const double spin = angularVelocity(body.body->mass, encounter.before[i]).norm();
-    moves = moves || encounter.before[i].velocity.norm() + spin * radiusOf(*body.body) > fallSpeed();
+    moves = moves || encounter.before[i].velocity.norm() + spin * radiusOf(*body.body) > fallSpeed(encounter);
     if (body.atOneMoment > kMostAtOneMoment) {
       return true;
     }

@@ -79,6 +79,7 @@ class ExactWorld {
     ContactResiduals residuals;                         ///< of the islands' first forces
     bool isTooMany = false;                             ///< an island of them
     int timeSteps = 0;                                  ///< its islands go on by so many
+    double pull = 0;     ///< [m/s²] see pulls()
     double passing = 0;  ///< [1] contacts without an impulse persist that part with so many roundings
   };
 
@@ -129,6 +130,8 @@ class ExactWorld {
   void reach(const Event& event, Encounter& encounter);
   void join(Encounter& encounter, int rank);
   double nearness(const Encounter& encounter) const;
+  double pullOf(const Encounter& encounter) const;
+  std::vector<BodyState> statesIn(const Encounter& encounter, const std::vector<BodyState>& of) const;
   void addPairContacts(Encounter& encounter, std::size_t indexA, std::size_t indexB) const;
   bool inSteps(const Encounter& encounter, std::size_t indexA, std::size_t indexB) const;
   double slowOf(const Encounter& encounter, std::size_t indexA, std::size_t indexB) const;
@@ -152,7 +155,7 @@ class ExactWorld {
   // The next motion: Flight, Contact or Rest.
   void findChattering(Encounter& encounter);
   void settle(Encounter& encounter);
-  void settleBody(Encounter& encounter, std::size_t index) const;
+  void settleBody(Encounter& encounter, std::size_t index, const Load& load) const;
   void findPersisting(Encounter& encounter) const;
   void choose(Encounter& encounter, std::size_t contact, const Vec3& velocity) const;
   struct Parting {
@@ -165,7 +168,7 @@ class ExactWorld {
   std::vector<ContactFeature> featuresOf(const Encounter& encounter, const std::vector<std::size_t>& members,
                                          std::vector<std::size_t>& indices) const;
   void formIsland(Encounter& encounter, const std::vector<std::size_t>& members) const;
-  bool beginsAtRest(Island& island, int timeSteps) const;
+  bool beginsAtRest(Island& island, int timeSteps, double slow) const;
   TouchingBody touchingBody(const Encounter& encounter, std::size_t index) const;
   ContactFeature featureOf(const Encounter& encounter, std::size_t contact) const;
   double lengthsAt(const Encounter& encounter, std::size_t k) const;
@@ -178,8 +181,10 @@ class ExactWorld {
   void touch(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time);
   bool step(ContactGroup& contactGroup, const Instant& time);
   double withinCell(double speed) const;
-  /// [m/s] gained by falling through the tolerance; without gravity the time that takes is infinite.
-  double fallSpeed() const { return world_.gravity.isZero(0) ? 0 : world_.gravity.norm() * timeScale_; }
+  /// [m/s] gained by falling, or being pulled, through the tolerance; where nothing pulls that takes for ever.
+  double fallSpeed(const Encounter& encounter) const {
+    return encounter.pull > 0 ? encounter.pull * timeScale_ : 0;
+  }
   void begins(int rank, const Instant& time);
   void arrive(const Mover& body, const Instant& time, const BodyState& state);
 

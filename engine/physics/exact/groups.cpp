@@ -32,6 +32,7 @@ ExactWorld::Encounter ExactWorld::gather(const Event& event) {
   encounter.timeSteps = meetings > kMostSlowMeetings ? kTimeStepsOfMeeting : 0;
   encounter.cause = meetings > kMostMeetings ? EventKind::kTouching : event.kind;
   reach(event, encounter);
+  encounter.pull = pullOf(encounter);
   return encounter;
 }
 
@@ -95,6 +96,31 @@ void ExactWorld::join(Encounter& encounter, int rank) {
 // more.
 double ExactWorld::nearness(const Encounter& encounter) const {
   return encounter.timeSteps > 0 ? kNear * tolerance_ : 0;
+}
+
+// Of all bodies of the world: those of the encounter as in `of`, the others as at the start.
+std::vector<BodyState> ExactWorld::statesIn(const Encounter& encounter,
+                                            const std::vector<BodyState>& of) const {
+  std::vector<BodyState> states;
+  for (const Body& body : world_.bodies) {
+    states.push_back(body.initial);
+  }
+  for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
+    states[static_cast<std::size_t>(mover(encounter.ranks[i]).listed.value)] = of[i];
+  }
+  return states;
+}
+
+double ExactWorld::pullOf(const Encounter& encounter) const {
+  double pull = world_.gravity.norm();
+  if (std::none_of(encounter.ranks.begin(), encounter.ranks.end(), [&](int rank) { return isForced(rank); })) {
+    return pull;
+  }
+  const std::vector<double> all = pulls(world_, statesIn(encounter, encounter.before));
+  for (const int rank : encounter.ranks) {
+    pull = std::max(pull, all[static_cast<std::size_t>(mover(rank).listed.value)]);
+  }
+  return pull;
 }
 
 // An impact propagates to every body that touches one it reaches, except through immovable bodies.
@@ -184,7 +210,7 @@ void ExactWorld::resolve(Encounter& encounter) {
   }
   account_.solved(
       resolveImpact(bodies, contacts, encounter.shares,
-                    {.tolerable = tolerableResidual(tolerance_, radius, rate, world_.gravity.norm())}));
+                    {.tolerable = tolerableResidual(tolerance_, radius, rate, encounter.pull)}));
 }
 
 void ExactWorld::record(const Encounter& encounter) {

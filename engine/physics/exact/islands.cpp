@@ -85,7 +85,7 @@ void ExactWorld::findChattering(Encounter& encounter) {
   // A single bouncing body is followed to the end: the time at which it comes to rest is exact. If it loses
   // nothing, there is none, and hops so low that they do not show would go on for ever. Bodies that only fly
   // and strike without gravity are followed too: their impacts are finite in number.
-  const bool falls = !world_.gravity.isZero(0);
+  const bool falls = encounter.pull > 0;
   const bool endless =
       std::any_of(encounter.contacts.begin(), encounter.contacts.end(),
                   [](const ImpactContact& contact) { return contact.material.restitution > kEndless; });
@@ -107,14 +107,20 @@ void ExactWorld::findChattering(Encounter& encounter) {
 
 void ExactWorld::settle(Encounter& encounter) {
   findChattering(encounter);
+  std::vector<Load> loads;
+  if (std::any_of(encounter.ranks.begin(), encounter.ranks.end(), [&](int rank) { return isForced(rank); })) {
+    computeLoads(world_, statesIn(encounter, encounter.after), loads);
+  }
   for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
     const Mover& body = mover(encounter.ranks[i]);
     if (body.isHeld() || (!body.moves() && movesAlike(encounter.before[i], encounter.after[i]))) {
       continue;
     }
     encounter.next[i] = Next::kFlies;
-    if (!world_.gravity.isZero(0) && encounter.timeSteps == 0) {
-      settleBody(encounter, i);
+    if (encounter.pull > 0 && encounter.timeSteps == 0) {
+      settleBody(encounter, i, isForced(encounter.ranks[i])
+                                   ? loads[static_cast<std::size_t>(body.listed.value)]
+                                   : Load{});
     }
   }
   findPersisting(encounter);
@@ -132,16 +138,18 @@ double ExactWorld::lengthsAt(const Encounter& encounter, std::size_t k) const {
   return of(contact.a) + of(contact.b.isWall() ? contact.a : contact.b.body());
 }
 
-// Contacts whose next hop is too short to follow persist. If the body thereby comes to rest on immovable
+// Contacts whose next hop is too short to follow persist; `load`: by springs and drag too, if they act. If the body thereby comes to rest on immovable
 // things, its Rest begins when all its hops would have ended.
-void ExactWorld::settleBody(Encounter& encounter, std::size_t index) const {
+void ExactWorld::settleBody(Encounter& encounter, std::size_t index, const Load& load) const {
   const Body& body = *mover(encounter.ranks[index]).body;
   BodyState& state = encounter.after[index];
   const Vec3 omega = careen::angularVelocity(body.mass, state);
-  const Vec3 omegaRate =
-      inverseInertiaWorld(body.mass, state.pose.worldFromBody) * state.angularMomentum.cross(omega);
+  const Vec3 omegaRate = inverseInertiaWorld(body.mass, state.pose.worldFromBody) *
+                         (load.torque + state.angularMomentum.cross(omega));
+  const bool isPulled = isForced(encounter.ranks[index]);
+  const Vec3 pull = isPulled ? Vec3(body.mass.inverseMass * load.force) : world_.gravity;
   double tail = -1;
-  bool alone = !isForced(encounter.ranks[index]);
+  bool alone = !isPulled;
   Settling settling;
   settling.velocity = state.velocity;
   settling.angularVelocity = omega;
@@ -161,7 +169,7 @@ void ExactWorld::settleBody(Encounter& encounter, std::size_t index) const {
     if (!contact.directions.empty() && !(encounter.shares[k].impulse > 0)) {
       continue;  // it did not have to push
     }
-    const Vec3 acceleration = world_.gravity + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
+    const Vec3 acceleration = pull + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
     const double normalAcceleration = dot(normal, acceleration);
     const bool returns =
         std::fabs(normalAcceleration) > kParting * acceleration.norm();  // along a wall it is rounding
@@ -202,7 +210,7 @@ ExactWorld::Parting ExactWorld::partingAt(const Encounter& encounter, std::size_
     parting.velocity += sign * ofPoint;
     parting.speed += sign * dot(at.normal, ofPoint);
     parting.rounding += kParting * (encounter.after[i].velocity.norm() + spin.norm() * arm.norm() +
-                                    kParting * std::sqrt(world_.gravity.norm() * radiusOf(body)));
+                                    kParting * std::sqrt(encounter.pull * radiusOf(body)));
   };
   add(at.a, at.armA, 1);
   if (!at.b.isWall()) {
@@ -218,7 +226,7 @@ ExactWorld::Parting ExactWorld::partingAt(const Encounter& encounter, std::size_
 // or the search has found that their gap stays zero.
 void ExactWorld::findPersisting(Encounter& encounter) const {
   const bool hops = encounter.cause == EventKind::kTouching;
-  const double slow = hops ? fallSpeed() : 0;
+  const double slow = hops ? fallSpeed(encounter) : 0;
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
     const Parting parting = partingAt(encounter, k);
     const bool passes =
@@ -312,13 +320,13 @@ ContactFeature ExactWorld::featureOf(const Encounter& encounter, std::size_t k) 
 }
 
 // Begins the island's motion; returns whether it rests. One that goes on by time steps tries smooth motion
-// only if nearly at rest.
-bool ExactWorld::beginsAtRest(Island& island, int timeSteps) const {
+// only if nearly at rest: `slow` [m/s] is fallSpeed().
+bool ExactWorld::beginsAtRest(Island& island, int timeSteps, double slow) const {
   double speed = 0;
   for (const TouchingBody& body : island.bodies()) {
     speed = std::max({speed, body.velocity.norm(), body.angularVelocityBody.norm() * radiusOf(*body.body)});
   }
-  if (timeSteps == 0 || speed <= kAllButStill * fallSpeed()) {
+  if (timeSteps == 0 || speed <= kAllButStill * slow) {
     island.begin();
     if (timeSteps == 0 || island.rests()) {
       return island.rests();
@@ -390,19 +398,20 @@ void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>
   contactGroup->ranks = std::move(ranks);
   // Many bodies that nothing pulls may slide along each other without a force.
   const bool isMany = encounter.timeSteps == 0 && members.size() > kMostSmooth;
-  const bool isPulled = forced || !world_.gravity.isZero(0);
+  const bool isPulled = forced || encounter.pull > 0;
   const int timeSteps = isMany && isPulled ? kTimeStepsOfMany : encounter.timeSteps;
-  bool rests = beginsAtRest(*contactGroup->island, timeSteps);
+  const double slow = fallSpeed(encounter);
+  bool rests = beginsAtRest(*contactGroup->island, timeSteps, slow);
   if (isMany && !isPulled && (contactGroup->island->pushes() || !contactGroup->island->isSmooth())) {
     contactGroup->island->beginTimeSteps(kTimeStepsOfMany);
     rests = false;
   }
   if (!rests && contactGroup->island->dropIdle(features)) {
     contactGroup->island = islandOfThem();
-    rests = beginsAtRest(*contactGroup->island, timeSteps);
+    rests = beginsAtRest(*contactGroup->island, timeSteps, slow);
   }
-  if (timeSteps == 0 && encounter.cause == EventKind::kTouching && !world_.gravity.isZero(0) &&
-      fastestChange(bodies, contactGroup->island->bodies()) > kMostTaken * fallSpeed()) {
+  if (timeSteps == 0 && encounter.cause == EventKind::kTouching && encounter.pull > 0 &&
+      fastestChange(bodies, contactGroup->island->bodies()) > kMostTaken * slow) {
     contactGroup->island = islandOfThem();  // as they were before their hops were left out
     contactGroup->island->beginTimeSteps(kTimeStepsOfHops);
     rests = false;

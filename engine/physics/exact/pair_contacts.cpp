@@ -61,7 +61,7 @@ double ExactWorld::slowOf(const Encounter& encounter, std::size_t indexA, std::s
     radius = std::max(radius, radiusOf(body));
   }
   const double found = inSteps(encounter, indexA, indexB)
-                           ? tolerableResidual(tolerance_, radius, speeds / radius, world_.gravity.norm())
+                           ? tolerableResidual(tolerance_, radius, speeds / radius, encounter.pull)
                            : 0;
   return std::max(kApproachRounding * speeds, found);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "core/math/order_free_sum.h"
@@ -129,6 +130,26 @@ void computeLoads(const World& world, std::span<const BodyState> states, std::ve
   if (!world.springs.empty()) {
     addSprings(world, states, loads);
   }
+}
+
+std::vector<double> pulls(const World& world, std::span<const BodyState> states) {
+  std::vector<double> pulls(states.size(), 0.0);
+  for (const Spring& spring : world.springs) {
+    const Stretch stretch = stretchOf(spring, world, states);
+    for (const SpringEnd* end : {&spring.from, &spring.to}) {
+      if (end->body) {
+        const auto body = static_cast<std::size_t>(*end->body);
+        const double inverseMass = world.bodies[body].mass.inverseMass;
+        pulls[body] += inverseMass * std::fabs(springForce(spring, stretch)) +
+                       std::sqrt(inverseMass * spring.stiffness) * motionOf(*end, world, states).velocity.norm();
+      }
+    }
+  }
+  const double gravity = world.gravity.norm();
+  for (double& pull : pulls) {
+    pull = std::max(pull, gravity);
+  }
+  return pulls;
 }
 
 std::vector<double> accelerationsAtStart(const World& world) {

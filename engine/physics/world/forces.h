@@ -43,4 +43,8 @@ void computeLoads(const World& world, std::span<const BodyState> states, std::ve
 /// [m/s²] Of each body's centre of mass at the start, without contacts.
 std::vector<double> accelerationsAtStart(const World& world);
 
+/// [m/s²] Scale of each body's accelerations without contacts: gravity's, or what its springs give it now or
+/// will at this speed within a radian of their oscillation, √(k/m).
+std::vector<double> pulls(const World& world, std::span<const BodyState> states);
+
 }  // namespace careen
