@@ -188,6 +188,15 @@ bool ImplicitStep::advance(const GroupState& from, double h, std::vector<ClosedC
     }
     move(from, h, to);
   }
+  if (depends) {  // the middle where springs pull is itself an estimate
+    std::vector<ContactFeature> pushing;
+    for (const ClosedContact& contact : contacts) {
+      if (contact.push > 0) {
+        pushing.push_back(contact.feature);
+      }
+    }
+    keepMomenta(from, h, pushing, to);
+  }
   return true;
 }
 
