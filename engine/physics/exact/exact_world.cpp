@@ -61,8 +61,8 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
     mover.listed = {static_cast<int>(listed)};
     movable += mover.isHeld() ? 0 : 1;
   }
-  const double part = std::min(1.0, kMostUnshared / std::max(1.0, movable));
-  workShare_ = part * part * std::sqrt(std::max(1.0, kUsualTolerance / tolerance_));
+  const double part = kUnshared / std::max(1.0, movable);
+  workShare_ = part * std::min(1.0, part) * std::sqrt(std::max(1.0, kUsualTolerance / tolerance_));
   for (const Spring& spring : world.springs) {
     for (const SpringEnd* end : {&spring.from, &spring.to}) {
       const SpringEnd& other = end == &spring.from ? spring.to : spring.from;

@@ -34,15 +34,15 @@ class ExactWorld {
   ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder);
   RunFigures run(const std::stop_token& stop);
 
-  /// Island::work() that bodies may spend together before they go on as a crowd: each so much at once, and so
-  /// much per simulated second; at a tolerance below 1e-6 m more, as steps get shorter; of more than
-  /// kMostUnshared bodies in the scene each less, as the square: a heap costs more per body the larger it is,
-  /// so that 72 poured boxes would spend 36 s on their first 2 s, and chaos makes what is exact of a heap
-  /// worth no more. A unit takes about 0.2 to 1 µs. Counted, not timed, so that the motion is the same on
+  /// Island::work() that bodies may spend together before they go on as a crowd: each of kUnshared in a scene
+  /// so much at once, and so much per simulated second; at a tolerance below 1e-6 m more, as steps get
+  /// shorter. Fewer bodies share the same; of more each may spend less, as the square: a heap costs more per
+  /// body the larger it is, so that 72 poured boxes would spend 36 s on their first 2 s, and chaos makes what
+  /// is exact of a heap worth no more. A unit takes about 0.2 to 1 µs. Counted, not timed, so that the motion is the same on
   /// every machine, and independent of when the run ends.
   static constexpr double kWorkAtOnce = 6e5;
   static constexpr double kWorkPerSecond = 5e4;
-  static constexpr double kMostUnshared = 16;
+  static constexpr double kUnshared = 16;
   /// Of more bodies in contact, time steps cost so much that it does not pay to begin.
   static constexpr int kMostInContact = 100;
 
