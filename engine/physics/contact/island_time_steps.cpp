@@ -14,8 +14,10 @@ namespace {
 
 /// Time steps where no smooth motion was found, before it is tried again.
 constexpr int kFewTimeSteps = 8;
-/// [1] Island::work() of a body for finding its contacts and watching its gaps in one step.
+/// [1] Island::work() of a body for finding its contacts and watching its gaps in one step, and where smooth
+/// motion changes its contacts.
 constexpr double kWorkOfGeometry = 60;
+constexpr double kWorkOfChange = 240;
 /// Time steps before it is asked again whether the bodies rest.
 constexpr int kBeforeRest = 16;
 
@@ -51,9 +53,11 @@ Island::Step Island::takeTimeStep(double most) {
 }
 
 double Island::work() const {
-  return tookTimeStep_ ? stepper_->equations().work() - workBefore_ +
-                             kWorkOfGeometry * static_cast<double>(bodies().size())
-                       : 0;
+  const auto members = static_cast<double>(bodies().size());
+  if (tookTimeStep_) {
+    return stepper_->equations().work() - workBefore_ + kWorkOfGeometry * members;
+  }
+  return known_ ? 0 : kWorkOfChange * members;
 }
 
 // Takes over the state at the end of a time step.

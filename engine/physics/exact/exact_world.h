@@ -172,6 +172,7 @@ class ExactWorld {
   TouchingBody touchingBody(const Encounter& encounter, std::size_t index) const;
   ContactFeature featureOf(const Encounter& encounter, std::size_t contact) const;
   double lengthsAt(const Encounter& encounter, std::size_t k) const;
+  double hopRounding(const Encounter& encounter, std::size_t index, std::size_t k) const;
   bool isForced(int rank) const { return forced_[static_cast<std::size_t>(rank)] != 0; }
 
   void advance(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time);

@@ -118,9 +118,8 @@ void ExactWorld::settle(Encounter& encounter) {
     }
     encounter.next[i] = Next::kFlies;
     if (encounter.pull > 0 && encounter.timeSteps == 0) {
-      settleBody(encounter, i, isForced(encounter.ranks[i])
-                                   ? loads[static_cast<std::size_t>(body.listed.value)]
-                                   : Load{});
+      settleBody(encounter, i,
+                 isForced(encounter.ranks[i]) ? loads[static_cast<std::size_t>(body.listed.value)] : Load{});
     }
   }
   findPersisting(encounter);
@@ -138,8 +137,17 @@ double ExactWorld::lengthsAt(const Encounter& encounter, std::size_t k) const {
   return of(contact.a) + of(contact.b.isWall() ? contact.a : contact.b.body());
 }
 
-// Contacts whose next hop is too short to follow persist; `load`: by springs and drag too, if they act. If the body thereby comes to rest on immovable
-// things, its Rest begins when all its hops would have ended.
+// [m] See settles(). An island's hop may end as deep as Island ignores.
+double ExactWorld::hopRounding(const Encounter& encounter, std::size_t index, std::size_t k) const {
+  const double lengths = lengthsAt(encounter, k);
+  return mover(encounter.ranks[index]).touches()
+             ? Island::kTouching / kRoundingsOfAHop *
+                   touchingWithin(radiusOf(*mover(encounter.ranks[index]).body), lengths)
+             : kGapRounding * lengths;
+}
+
+// Contacts whose next hop is too short to follow persist; `load`: by springs and drag too, if they act. If
+// the body thereby comes to rest on immovable things, its Rest begins when all its hops would have ended.
 void ExactWorld::settleBody(Encounter& encounter, std::size_t index, const Load& load) const {
   const Body& body = *mover(encounter.ranks[index]).body;
   BodyState& state = encounter.after[index];
@@ -176,7 +184,7 @@ void ExactWorld::settleBody(Encounter& encounter, std::size_t index, const Load&
     const Bouncing bouncing{.acceleration = returns ? normalAcceleration : 0,
                             .departure = std::max(0.0, partingAt(encounter, k).speed),
                             .restitution = contact.material.restitution,
-                            .gapRounding = kGapRounding * lengthsAt(encounter, k)};
+                            .gapRounding = hopRounding(encounter, index, k)};
     if (!settles(bouncing, body.halfExtents.minCoeff())) {
       continue;
     }
