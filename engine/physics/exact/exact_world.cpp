@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/names.h"
 #include "physics/exact/next_contact.h"
+#include "physics/motion/hermite_step.h"
 #include "physics/world/run_settings.h"
 
 namespace careen {
@@ -156,6 +157,7 @@ void ExactWorld::happen(const Event& event) {
 void ExactWorld::moveOn(Encounter& encounter) {
   for (std::size_t i = 0; i < encounter.ranks.size(); ++i) {
     if (encounter.next[i] == Next::kRests) {
+      stand(encounter, i);
       rest(encounter.ranks[i], encounter.since[i], encounter.after[i].pose);
     } else if (encounter.next[i] == Next::kFlies) {
       fly(encounter.ranks[i], encounter.time, encounter.after[i], encounter.attitudes[i]);
@@ -223,6 +225,17 @@ void ExactWorld::fly(int rank, const Instant& time, const BodyState& state, cons
   body.wall = firstWall(body, rank, world_.walls, end_);
   body.crossing = {};
   findCrossing(body, rank);
+}
+
+// Through all the hops that are too short to follow and end before it rests: none is as high as its rounding.
+void ExactWorld::stand(const Encounter& encounter, std::size_t index) {
+  const double length = secondsBetween(encounter.time, encounter.since[index]);
+  if (length > 0) {
+    const StepEnd still{.position = encounter.after[index].pose.position,
+                        .worldFromBody = encounter.attitudes[index]};
+    recorder_.moves(mover(encounter.ranks[index]).listed, encounter.time.hi,
+                    hermiteStep(still, still, length));
+  }
 }
 
 void ExactWorld::rest(int rank, const Instant& time, const Pose& pose) {

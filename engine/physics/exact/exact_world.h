@@ -178,6 +178,7 @@ class ExactWorld {
   void advance(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time);
   static bool seesTo(const ContactGroup& contactGroup, std::size_t place, int rank);
   void fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude);
+  void stand(const Encounter& encounter, std::size_t index);
   void rest(int rank, const Instant& time, const Pose& pose);
   void touch(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time);
   bool step(ContactGroup& contactGroup, const Instant& time);
