@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include "audit/between_rows.h"
 #include "audit/findings.h"
@@ -188,7 +189,8 @@ void Auditor::lookAround(std::size_t index, double time) {
   }
 }
 
-// Both sides of the seams of all bodies, or of as many as the budget allows, evenly spread.
+// Both sides of the seams of all bodies, or of as many as the budget allows, evenly spread, and of those where
+// one comes to rest.
 void Auditor::lookAtSeams() {
   if (run_.given) {
     const std::vector<char> followed = checkBetweenRows(
@@ -210,8 +212,9 @@ void Auditor::lookAtSeams() {
   for (std::size_t index = 0; index < bodies(); ++index) {
     rest();
     for (const Seam& seam : seamsOf(run_.tracks[index])) {
-      const double time = run_.tracks[index].segments[seam.after].start;
-      if (number++ % stride == 0 && time <= run_.settings.duration) {
+      const Segment& after = run_.tracks[index].segments[seam.after];
+      const bool isLooked = number++ % stride == 0 || std::holds_alternative<Rest>(after.motion);
+      if (isLooked && after.start <= run_.settings.duration) {
         checkSeam(run_, index, seam, impacts_[index], fallingSpeeds_[index], findings_);
         looks_ += 2;
       }
