@@ -35,6 +35,9 @@ constexpr InteriorPoint::Options kCautious{
 constexpr double kWarmEpsilon = 0x1p-13;
 constexpr double kColdEpsilon = 0x1p-7;
 constexpr int kFirstSteps = 100;
+/// [1] Impulse over V and mass to start from: what neither closes nor opens counts as closed, so that rounding
+/// does not choose among the answers.
+constexpr double kTie = 0x1p-40;
 /// [1] ε where everything may stand: a heavy body on light ones needs contacts this much stiffer.
 constexpr double kStandingEpsilon = 0x1p-40;
 constexpr double kNearlyStands = 0x1p-10;  // [1] of V
@@ -229,6 +232,9 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
   const bool warm = contacts_.largest(from_) > 0;
   if (!warm && (hasFriction() ? enough_ == 0 && tryStanding() : trySets())) {
     return;
+  }
+  for (std::size_t c = 0; !warm && c < from_.size(); ++c) {
+    from_[c][0] = kTie * inScale(contacts_.contacts()[c].mass);
   }
   if (tryApproach(from_, {.epsilon = warm ? kWarmEpsilon : kColdEpsilon,
                           .steps = kFirstSteps,
