@@ -20,10 +20,11 @@ constexpr double kStopped = 4;
 /// [1] of a tolerance, in the time to fall one's own size: slip that counts as none where contacts are found
 /// anew.
 constexpr double kCreeps = 0.25;
-/// [1] Accelerations this small relative to gravity count as zero.
-constexpr double kStill = 0x1p-44;
-/// [1] The same relative to the accelerations by the contact forces.
-constexpr double kStillLoaded = 0x1p-46;
+/// [1] Accelerations this small relative to what pulls count as zero: rounding errors. A box on its edge that
+/// leans by 1e-12 has more.
+constexpr double kStill = 0x1p-42;
+/// [1] The same relative to the accelerations by contact forces beyond those that carry a body alone.
+constexpr double kStillLoaded = 0x1p-40;
 /// [1] of a time step: the shortest smooth step. Where slip begins, friction turns into its direction the
 /// faster the slower the slip is (stiff), and smooth steps would have to resolve that; a time step, implicit
 /// in friction, has an error below the tolerance there.
@@ -144,10 +145,28 @@ bool Island::mayLose() const {
                      [](const ContactFeature& feature) { return feature.material.friction > 0; });
 }
 
+// [m/s²] The largest acceleration of a body by the forces of its contacts, all in one direction: their
+// rounding errors accelerate too.
+double Island::load() const {
+  std::vector<double> loads(bodies().size(), 0.0);
+  for (std::size_t c = 0; c < system_.features().size(); ++c) {
+    const ContactFeature& feature = system_.features()[c];
+    const auto add = [&](std::size_t body) {
+      loads[body] += system_.forces().forces()[c][0] * bodies()[body].body->mass.inverseMass;
+    };
+    add(static_cast<std::size_t>(feature.a));
+    if (!feature.b.isWall()) {
+      add(static_cast<std::size_t>(feature.b.body()));
+    }
+  }
+  return loads.empty() ? 0 : *std::max_element(loads.begin(), loads.end());
+}
+
 bool Island::rests() const {
   if (!smooth_) {
     return false;
   }
+  const double still = std::max(kStill * system_.pull(), kStillLoaded * (load() - system_.pull()));  // [m/s²]
   std::size_t m = 0;
   for (const TouchingBody& body : bodies()) {
     if (body.isHeld()) {
@@ -158,16 +177,7 @@ bool Island::rests() const {
     const double linear = Vec3(a[0], a[1], a[2]).norm();
     const double turning = Vec3(a[3], a[4], a[5]).norm() * radius;
     const double speed = std::max(body.velocity.norm(), body.angularVelocityBody.norm() * radius);
-    double load = 0;  // [m/s²] by the contact forces, whose rounding error accelerates too
-    for (std::size_t c = 0; c < system_.features().size(); ++c) {
-      const ContactFeature& feature = system_.features()[c];
-      if (&bodies()[static_cast<std::size_t>(feature.a)] == &body ||
-          (!feature.b.isWall() && &bodies()[static_cast<std::size_t>(feature.b.body())] == &body)) {
-        load += system_.forces().forces()[c][0] * body.body->mass.inverseMass;
-      }
-    }
-    if (speed > system_.restSpeed() ||
-        std::max(linear, turning) > std::max(kStill * system_.pull(), kStillLoaded * load)) {
+    if (speed > system_.restSpeed() || std::max(linear, turning) > still) {
       return false;
     }
     ++m;

@@ -143,6 +143,7 @@ class Island {
   void restep(double h);
   void finish(double h);
   bool isClear() const;
+  double load() const;
   bool hasTension() const;
   bool allButStands(std::size_t contact) const;
   bool creeps(std::size_t contact) const;

@@ -144,9 +144,11 @@ double Island::sizeOf(const State& difference, double h) const {
 }
 
 // [1] of their sizes, at most 1: how far bodies that lean or rock are from equilibrium, as speeds and
-// accelerations tell. They leave it exponentially, and errors grow as they do.
+// accelerations tell. They leave it exponentially, and errors grow as they do. What slips is in none.
 double Island::awayFromEquilibrium() const {
-  if (!(system_.pull() > 0) || !pushes()) {
+  const std::vector<ContactForces::Mode>& modes = system_.modes();
+  if (!(system_.pull() > 0) || !pushes() ||
+      std::find(modes.begin(), modes.end(), ContactForces::Mode::kSlip) != modes.end()) {
     return 1;
   }
   double away = 0;

@@ -195,7 +195,7 @@ TEST(TimeStepper, whatHardlyMovesIsQuiet) {
     world.bodies.push_back(
         box("cube", Vec3(0.1, 0.1, 0.1), 1, Vec3(0, 0, 0.1), Vec3(speed, 0, 0), Vec3::Zero(), 0));
     const std::vector<TouchingBody> bodies = touching(world);
-    const TimeStepper stepper(world, bodies, kTolerance);
+    TimeStepper stepper(world, bodies, kTolerance);
     EXPECT_EQ(stepper.isQuiet(), speed == 0);
     EXPECT_EQ(stepper.touching().size(), 4U);
   }
