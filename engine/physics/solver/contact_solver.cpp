@@ -35,8 +35,8 @@ constexpr InteriorPoint::Options kCautious{
 constexpr double kWarmEpsilon = 0x1p-13;
 constexpr double kColdEpsilon = 0x1p-7;
 constexpr int kFirstSteps = 100;
-/// [1] Impulse over V and mass to start from: what neither closes nor opens counts as closed, so that rounding
-/// does not choose among the answers.
+/// [1] Impulse over V and the least mass to start from: what neither closes nor opens counts as closed, so
+/// that rounding does not choose among the answers.
 constexpr double kTie = 0x1p-40;
 /// [1] ε where everything may stand: a heavy body on light ones needs contacts this much stiffer.
 constexpr double kStandingEpsilon = 0x1p-40;
@@ -233,8 +233,13 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
   if (!warm && (hasFriction() ? enough_ == 0 && tryStanding() : trySets())) {
     return;
   }
-  for (std::size_t c = 0; !warm && c < from_.size(); ++c) {
-    from_[c][0] = kTie * inScale(contacts_.contacts()[c].mass);
+  if (!warm) {
+    const auto& contacts = contacts_.contacts();
+    const double lightest =
+        std::min_element(contacts.begin(), contacts.end(), [](const auto& x, const auto& y) {
+          return x.mass < y.mass;
+        })->mass;
+    std::fill(from_.begin(), from_.end(), Triple{kTie * inScale(lightest), 0, 0});
   }
   if (tryApproach(from_, {.epsilon = warm ? kWarmEpsilon : kColdEpsilon,
                           .steps = kFirstSteps,

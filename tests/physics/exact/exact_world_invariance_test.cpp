@@ -182,5 +182,37 @@ TEST_P(ExactWorldInvariance, hasTheSameBitsUnderOtherNames) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ExactWorldInvariance, ::testing::Range(std::size_t{0}, std::size_t{8}));
 
+// A quarter turn about the vertical is none of powers of two: its rounding must stay rounding. Where a face
+// lands without restitution, corners that neither close nor open were closed or open as it rounded, and
+// friction has an answer for each: 2e-4 m. Measured 5e-11 m.
+TEST(ExactWorldInvariance, aQuarterTurnChangesRoundingOnly) {
+  const Mat3 turn = (Mat3() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished();
+  const Mat3 tilt = Quat(0.9, 0.1, -0.3, 0.2).normalized().toRotationMatrix();
+  double worst = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed);
+    Scene scene{.world = {}, .duration = 1};
+    scene.world.gravity = Vec3(0, 0, -9.81);
+    scene.world.walls.push_back(roughFloor());
+    scene.world.walls[0].material.restitution = 0;
+    const Vec3 half(random.between(0.06, 0.2), random.between(0.06, 0.2), random.between(0.06, 0.2));
+    Body body = box("box", half, 1, Vec3(0.1, 0.2, 0.4), random.inCube(1), Vec3::Zero(), 0);
+    body.material.friction = 0.5;
+    body.initial.pose.worldFromBody = random.rotation() * tilt;
+    body.initial.angularMomentum =
+        angularMomentum(body.mass, body.initial.pose.worldFromBody, random.inCube(5));
+    scene.world.bodies = {body};
+    Scene turned = scene;
+    BodyState& start = turned.world.bodies[0].initial;
+    start = {.pose = {turn * start.pose.position, turn * start.pose.worldFromBody},
+             .velocity = turn * start.velocity,
+             .angularMomentum = turn * start.angularMomentum};
+    const BodyState end = run(scene).last(scene.world, 0, 1);
+    const BodyState other = run(turned).last(turned.world, 0, 1);
+    worst = std::max(worst, (turn * end.pose.position - other.pose.position).norm());
+  }
+  EXPECT_LT(worst, 1e-8);
+}
+
 }  // namespace
 }  // namespace careen

@@ -202,5 +202,19 @@ TEST(Dissipation, isWhatTheLoadsDoBesidesFillingTheSprings) {
   EXPECT_LT(dissipation(world, states), -1);
 }
 
+TEST(Pulls, areGravityOrWhatSpringsGiveNowOrSoon) {
+  World world;
+  world.gravity = {0, 0, -3};
+  world.bodies = {
+      makeBox({.halfExtents = {0.5, 0.5, 0.5}, .density = 2}),  // 2 kg
+      makeBox({.halfExtents = {0.5, 0.5, 0.5}, .position = {3, 0, 0}, .velocity = {0, 4, 0}, .density = 1}),
+      makeBox({.halfExtents = {0.5, 0.5, 0.5}, .position = {9, 0, 0}, .density = 1})};
+  world.springs = {{.from = {.body = 0}, .to = {.body = 1}, .stiffness = 16, .restLength = 1}};
+  const std::vector<double> all = pulls(world, statesOf(world));
+  EXPECT_DOUBLE_EQ(all[0], 16 * 2 / 2.0);
+  EXPECT_DOUBLE_EQ(all[1], 16 * 2 + 4 * 4);
+  EXPECT_DOUBLE_EQ(all[2], 3);
+}
+
 }  // namespace
 }  // namespace careen

@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/exact_runs.h"
+#include "support/impact_scene.h"
+
+// Boxes that springs press on walls and on each other, without gravity.
+
+namespace careen {
+namespace {
+
+using test::Random;
+
+Vec3 momentOf(const World& world, const Recorded& run, double time) {
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    const BodyState state = run.at(world, i, time);
+    moment += state.angularMomentum + world.bodies[i].mass.mass * state.pose.position.cross(state.velocity);
+  }
+  return moment;
+}
+
+/// Two boxes, face to face, that two springs pull together; they turn as one and slip.
+World pressedPair(std::uint64_t seed) {
+  Random random(seed);
+  World world;
+  const Vec3 half(0.1, random.between(0.08, 0.15), random.between(0.08, 0.15));
+  const double spin = random.between(1, 3);
+  world.bodies = {box("a", Vec3(0.1, 0.1, 0.1), random.between(0.5, 2), Vec3(-0.1, 0, 0),
+                      Vec3(0, -0.1 * spin - random.between(0, 0.2), 0), Vec3(0, 0, spin), 0),
+                  box("b", half, random.between(0.5, 2), Vec3(0.1, random.between(-0.02, 0.02), 0.01),
+                      Vec3(0, 0.1 * spin, 0), Vec3(0, 0, spin), 0)};
+  for (Body& body : world.bodies) {
+    body.material.friction = random.between(0.3, 0.6);
+  }
+  for (const double side : {-1.0, 1.0}) {
+    world.springs.push_back({.from = {.body = 0, .point = Vec3(-0.1, side * 0.1, side * 0.1)},
+                             .to = {.body = 1, .point = Vec3(0.1, -side * half.y(), side * 0.05)},
+                             .stiffness = random.between(200, 1000)});
+  }
+  return world;
+}
+
+// Forces within a group change no momentum: time steps lost 4 % of it within 4 s, and ended in a crowd, as
+// nothing said how fast springs pull. Measured 2e-12.
+TEST(ExactWorldSprings, pressedBoxesKeepTheirAngularMomentum) {
+  double worst = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const World world = pressedPair(seed);
+    const Recorded run = runFor(world, 2);
+    EXPECT_FALSE(run.figures.boundedFrom) << seed;
+    const Vec3 before = momentOf(world, run, 0);
+    // At the very end of the run, which is within a step: velocities there are those of its polynomials.
+    double last = 0;
+    for (const auto& [start, motion] : run.motions[0]) {
+      last = start <= 2 ? start : last;
+    }
+    worst = std::max(worst, (momentOf(world, run, last) - before).norm() / before.norm());
+  }
+  EXPECT_LT(worst, 1e-10);
+}
+
+// A box that a spring pulls onto the floor slides, stops and stands as under gravity: its velocities are
+// right to what they matter, and its slip ends. Four of 770 such runs lost their numbers, and it never
+// rested.
+TEST(ExactWorldSprings, aPressedBoxComesToRest) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Random random(seed);
+    World world;
+    world.walls = {wall("floor", Vec3::UnitZ(), 0, 0)};
+    world.walls[0].material.friction = 0.5;
+    const Vec3 half(random.between(0.08, 0.2), random.between(0.08, 0.2), random.between(0.08, 0.2));
+    Body pressed =
+        box("box", half, random.between(0.5, 3), Vec3(0, 0, half.z()),
+            Vec3(random.between(-1, 1), random.between(-1, 1), 0), Vec3(0, 0, random.between(-6, 6)), 0);
+    pressed.material.friction = 0.5;
+    world.bodies = {pressed};
+    world.springs = {{.from = {.body = 0, .point = Vec3(0.02, -0.01, -half.z())},
+                      .to = {.body = {}, .point = Vec3(0, 0, -random.between(0.05, 0.4))},
+                      .stiffness = random.between(200, 1500)}};
+    const Recorded run = runFor(world, 4);
+    EXPECT_TRUE(std::holds_alternative<Rest>(run.motions[0].back().second)) << seed;
+    EXPECT_LT(run.figures.deepestPenetration, 1e-6) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace careen
