@@ -189,8 +189,8 @@ void Auditor::lookAround(std::size_t index, double time) {
   }
 }
 
-// Both sides of the seams of all bodies, or of as many as the budget allows, evenly spread, and of those where
-// one comes to rest.
+// Both sides of the seams of all bodies, or of as many as the budget allows, evenly spread, and of those
+// where one comes to rest.
 void Auditor::lookAtSeams() {
   if (run_.given) {
     const std::vector<char> followed = checkBetweenRows(

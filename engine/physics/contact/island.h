@@ -79,9 +79,9 @@ class Island {
   ContactStep motion(std::size_t body) const { return motion(body, length_); }
   /// [m] deepest penetration at the end of a step.
   double deepest() const { return deepest_; }
-  /// Cost of the last step, or of that which ended with NumericalError: of a time step, contacts and bodies in
-  /// factorisations, and geometry, whose cost for a body is that of about sixty; of a smooth one that contacts
-  /// changed in, four times that; of others none, as they end by themselves.
+  /// Cost of the last step, or of that which ended with NumericalError: of a time step, contacts and bodies
+  /// in factorisations, and geometry, whose cost for a body is that of about sixty; of a smooth one that
+  /// contacts changed in, four times that; of others none, as they end by themselves.
   double work() const;
   /// Of the contact problems solved since it was last asked.
   ContactResiduals takeResiduals();

@@ -38,8 +38,8 @@ class ExactWorld {
   /// so much at once, and so much per simulated second; at a tolerance below 1e-6 m more, as steps get
   /// shorter. Fewer bodies share the same; of more each may spend less, as the square: a heap costs more per
   /// body the larger it is, so that 72 poured boxes would spend 36 s on their first 2 s, and chaos makes what
-  /// is exact of a heap worth no more. A unit takes about 0.2 to 1 µs. Counted, not timed, so that the motion is the same on
-  /// every machine, and independent of when the run ends.
+  /// is exact of a heap worth no more. A unit takes about 0.2 to 1 µs. Counted, not timed, so that the motion
+  /// is the same on every machine, and independent of when the run ends.
   static constexpr double kWorkAtOnce = 6e5;
   static constexpr double kWorkPerSecond = 5e4;
   static constexpr double kUnshared = 16;
@@ -79,7 +79,7 @@ class ExactWorld {
     ContactResiduals residuals;                         ///< of the islands' first forces
     bool isTooMany = false;                             ///< an island of them
     int timeSteps = 0;                                  ///< its islands go on by so many
-    double pull = 0;     ///< [m/s²] see pulls()
+    double pull = 0;                                    ///< [m/s²] see pulls()
     double passing = 0;  ///< [1] contacts without an impulse persist that part with so many roundings
   };
 
@@ -183,7 +183,8 @@ class ExactWorld {
   void touch(const std::shared_ptr<ContactGroup>& contactGroup, const Instant& time);
   bool step(ContactGroup& contactGroup, const Instant& time);
   double withinCell(double speed) const;
-  /// [m/s] gained by falling, or being pulled, through the tolerance; where nothing pulls that takes for ever.
+  /// [m/s] gained by falling, or being pulled, through the tolerance; where nothing pulls that takes for
+  /// ever.
   double fallSpeed(const Encounter& encounter) const {
     return encounter.pull > 0 ? encounter.pull * timeScale_ : 0;
   }

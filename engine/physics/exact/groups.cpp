@@ -113,7 +113,8 @@ std::vector<BodyState> ExactWorld::statesIn(const Encounter& encounter,
 
 double ExactWorld::pullOf(const Encounter& encounter) const {
   double pull = world_.gravity.norm();
-  if (std::none_of(encounter.ranks.begin(), encounter.ranks.end(), [&](int rank) { return isForced(rank); })) {
+  if (std::none_of(encounter.ranks.begin(), encounter.ranks.end(),
+                   [&](int rank) { return isForced(rank); })) {
     return pull;
   }
   const std::vector<double> all = pulls(world_, statesIn(encounter, encounter.before));
@@ -208,9 +209,8 @@ void ExactWorld::resolve(Encounter& encounter) {
           rate, state.velocity.norm() / radiusOf(body) + careen::angularVelocity(body.mass, state).norm());
     }
   }
-  account_.solved(
-      resolveImpact(bodies, contacts, encounter.shares,
-                    {.tolerable = tolerableResidual(tolerance_, radius, rate, encounter.pull)}));
+  account_.solved(resolveImpact(bodies, contacts, encounter.shares,
+                                {.tolerable = tolerableResidual(tolerance_, radius, rate, encounter.pull)}));
 }
 
 void ExactWorld::record(const Encounter& encounter) {

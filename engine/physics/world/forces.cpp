@@ -140,8 +140,9 @@ std::vector<double> pulls(const World& world, std::span<const BodyState> states)
       if (end->body) {
         const auto body = static_cast<std::size_t>(*end->body);
         const double inverseMass = world.bodies[body].mass.inverseMass;
-        pulls[body] += inverseMass * std::fabs(springForce(spring, stretch)) +
-                       std::sqrt(inverseMass * spring.stiffness) * motionOf(*end, world, states).velocity.norm();
+        pulls[body] +=
+            inverseMass * std::fabs(springForce(spring, stretch)) +
+            std::sqrt(inverseMass * spring.stiffness) * motionOf(*end, world, states).velocity.norm();
       }
     }
   }

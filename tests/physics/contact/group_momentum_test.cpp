@@ -126,15 +126,17 @@ TEST(GroupMomentum, isOfBodiesThatOnlyPushEachOther) {
   const auto body = [](std::optional<int> of) { return SpringEnd{.body = of, .point = {}}; };
   World world;
   world.bodies.resize(13);
-  world.springs = {{.from = body(8), .to = body(10)}, {.from = body(10), .to = body(9)},
-                   {.from = body(11), .to = body(std::nullopt)}, {.from = body(6), .to = body(12)}};
+  world.springs = {{.from = body(8), .to = body(10)},
+                   {.from = body(10), .to = body(9)},
+                   {.from = body(11), .to = body(std::nullopt)},
+                   {.from = body(6), .to = body(12)}};
   std::vector<TouchingBody> bodies;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     world.bodies[i].mass = i == 6 ? MassProperties{} : solidBox({1, 1, 1}, 1);
     bodies.push_back({.body = &world.bodies[i], .index = static_cast<int>(i)});
   }
-  // 0-3 on nothing; 1-2 with 2 on a wall; 4 on the held 6; 5 alone; 7 alone. Springs join 8, 9 and 10; 11 hangs
-  // from a point, 12 from 6.
+  // 0-3 on nothing; 1-2 with 2 on a wall; 4 on the held 6; 5 alone; 7 alone. Springs join 8, 9 and 10; 11
+  // hangs from a point, 12 from 6.
   const std::vector<ContactFeature> pushing{
       pair(3, 0), pair(1, 2), {.a = 2, .b = Partner::ofWall(0)}, pair(6, 4)};
   const std::vector<std::vector<std::size_t>> expected{{0, 3}, {5}, {7}, {8, 9, 10}};
