@@ -24,9 +24,12 @@ Mat3 symmetric(const std::array<double, 9>& sums) {
 
 std::vector<std::vector<std::size_t>> freeGroups(const World& world, std::span<const TouchingBody> bodies,
                                                  std::span<const ContactFeature> pushing) {
+  if (world.drag) {
+    return {};
+  }
   const std::size_t count = bodies.size();
   DisjointSets joined(count);
-  std::vector<char> pushed(count, world.drag ? 1 : 0);  // by what cannot move
+  std::vector<char> pushed(count, 0);  // by what cannot move
   const auto moves = [&](std::size_t i) { return i < count && !bodies[i].isHeld(); };
   const auto join = [&](std::size_t a, std::size_t b) {
     if (moves(a) && moves(b)) {

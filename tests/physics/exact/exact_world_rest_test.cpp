@@ -53,8 +53,8 @@ double timeOfFall(const World& world) {
 }
 
 // However little it leans: a tilt of 1e-10 rested for ever, and 1e-6 fell .8 ms late, as the error that a
-// step may have was larger than the tilt. Measured 5e-7 s down to 1e-10; beyond, its attitude is known to
-// 1e-16, which is that much more of the tilt: 2e-6 s at 1e-12.
+// step may have was larger than the tilt. Measured 7e-7 s down to 1e-10; beyond, its attitude is known to
+// 1e-16, which is that much more of the tilt: 1.1e-5 s at 1e-12.
 TEST(ExactWorldRest, aCubeThatHardlyLeansFalls) {
   for (const double half : {0.1, 0.7}) {
     for (const double tilt : {1e-2, 1e-6, -1e-8, 1e-9, 1e-10, -1e-11, 1e-12}) {
@@ -63,7 +63,7 @@ TEST(ExactWorldRest, aCubeThatHardlyLeansFalls) {
       const Recorded run = runFor(world, due + 1);
       ASSERT_FALSE(run.impacts.empty()) << half << ' ' << tilt;
       const double perTilt = std::sqrt(half);  // [s]
-      EXPECT_NEAR(run.impacts.front().time, due, 4e-6 * perTilt + 4e-16 / std::abs(tilt) * perTilt)
+      EXPECT_NEAR(run.impacts.front().time, due, (2.5e-6 + 8e-17 / std::abs(tilt)) * perTilt)
           << half << ' ' << tilt;
     }
   }
