@@ -249,10 +249,8 @@ void ExactWorld::rest(int rank, const Instant& time, const Pose& pose) {
 // Takes the next step of an island. Returns false if its bodies go on as a crowd instead.
 bool ExactWorld::step(ContactGroup& contactGroup, const Instant& time) {
   Island& island = *contactGroup.island;
-  double most = longestStep_;  // not the end of the run, so that the motion does not depend on it
   double movable = 0;
   for (const TouchingBody& body : island.bodies()) {
-    most = std::min(most, withinCell(body.velocity.norm()));
     movable += body.isHeld() ? 0 : 1;
   }
   const std::vector<TouchingBody> before = island.bodies();
@@ -262,7 +260,8 @@ bool ExactWorld::step(ContactGroup& contactGroup, const Instant& time) {
     }
   };
   try {
-    contactGroup.step = island.step(most, workLeft(contactGroup.ranks, time));
+    // Not the end of the run bounds it, so that the motion does not depend on that.
+    contactGroup.step = island.step(longestStep_, workLeft(contactGroup.ranks, time));
   } catch (const NumericalError&) {
     if (crowds_.when == CrowdSettings::When::kNever) {
       throw;
@@ -311,6 +310,7 @@ void ExactWorld::touch(const std::shared_ptr<ContactGroup>& contactGroup, const 
     if (neighbors_.isFiled(rank)) {
       neighbors_.move(rank, neighbors_.cellOf(body.positionAt(time)));
     }
+    findCrossing(body, rank);
   }
   account_.penetrates(island.deepest());
   account_.solved(contactGroup->island->takeResiduals());
@@ -417,10 +417,16 @@ void ExactWorld::sooner(std::optional<Event>& first, const Event& candidate) {
 
 void ExactWorld::findCrossing(Mover& body, int rank) {
   body.crosses = neighbors_.isFiled(rank) && movers_.size() > 1;
-  if (body.crosses) {
-    body.crossing =
-        neighbors_.nextCrossing(body.flight.position, body.flight.velocity, body.flight.acceleration,
-                                neighbors_.cell(rank), body.crossing.time);
+  if (!body.crosses) {
+    return;
+  }
+  const Cell& cell = neighbors_.cell(rank);
+  if (body.touches()) {
+    body.crossing = neighbors_.nextCrossing(body.contactGroup->motions[body.place], body.speedBound, cell,
+                                            body.crossing.time);
+  } else {
+    body.crossing = neighbors_.nextCrossing(body.flight.position, body.flight.velocity,
+                                            body.flight.acceleration, cell, body.crossing.time);
   }
 }
 

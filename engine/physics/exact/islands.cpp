@@ -404,8 +404,9 @@ void ExactWorld::formIsland(Encounter& encounter, const std::vector<std::size_t>
   };
   contactGroup->island = islandOfThem();
   contactGroup->ranks = std::move(ranks);
-  // Many bodies that nothing pulls may slide along each other without a force.
-  const bool isMany = encounter.timeSteps == 0 && members.size() > kMostSmooth;
+  // Many bodies that nothing pulls may slide along each other without a force. Those that only springs join
+  // have no contact that could change.
+  const bool isMany = encounter.timeSteps == 0 && !features.empty() && members.size() > kMostSmooth;
   const bool isPulled = forced || encounter.pull > 0;
   const int timeSteps = isMany && isPulled ? kTimeStepsOfMany : encounter.timeSteps;
   const double slow = fallSpeed(encounter);

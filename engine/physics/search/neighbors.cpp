@@ -150,4 +150,27 @@ Neighbors::Crossing Neighbors::nextCrossing(const Vec3& position, const Vec3& ve
   return first;
 }
 
+double Neighbors::room(const Vec3& position, const Cell& cell) const {
+  double least = kNeverCrosses;
+  for (int i = 0; i < 3; ++i) {
+    const double inside = position(i) / edge_ - static_cast<double>(cell[static_cast<std::size_t>(i)]);
+    least = std::min(least, std::min(inside, 1 - inside) + kMargin);
+  }
+  return least * edge_;
+}
+
+// Conservative advancement: in each pass by the time in which the fastest would use up the room.
+Neighbors::Crossing Neighbors::nextCrossing(const ContactStep& step, double speedBound, const Cell& cell,
+                                            double from) const {
+  for (double time = from; time < step.duration;) {
+    const Vec3 position = positionAt(step, time);
+    const double left = room(position, cell);
+    if (left < kMargin / 4 * edge_) {
+      return {.time = time, .cell = cellOf(position)};
+    }
+    time += left / speedBound;
+  }
+  return {.time = kNeverCrosses, .cell = cell};
+}
+
 }  // namespace careen

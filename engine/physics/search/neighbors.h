@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/math/linear_algebra.h"
+#include "physics/motion/motion.h"
 
 namespace careen {
 
@@ -59,6 +60,9 @@ class Neighbors {
   /// `cell`, not before `from`. Closed form; call again for later crossings.
   Crossing nextCrossing(const Vec3& position, const Vec3& velocity, const Vec3& acceleration,
                         const Cell& cell, double from) const;
+  /// When a centre on `step`, not faster than `speedBound` [m/s], is 3/64 to 1/16 of an edge outside `cell`,
+  /// not before `from`: later than the step if it stays.
+  Crossing nextCrossing(const ContactStep& step, double speedBound, const Cell& cell, double from) const;
 
  private:
   struct Place {
@@ -68,6 +72,8 @@ class Neighbors {
   struct CellHash {
     std::size_t operator()(const Cell& cell) const;
   };
+  /// [m] from `position` to what is 1/16 of an edge outside `cell`; negative beyond.
+  double room(const Vec3& position, const Cell& cell) const;
   void file(Key body, const Cell& cell);
   void unfile(Key body, const Cell& cell);
 
