@@ -19,26 +19,24 @@ ContactState onPlane(const Vec3& arm, const Kinematics& a, const Kinematics* b, 
                      double offset) {
   ContactState state;
   const Vec3 velocity = a.velocity + a.angularVelocity.cross(arm);
-  const Vec3 centripetal = a.angularVelocity.cross(a.angularVelocity.cross(arm));
-  state.normal = normal;
   state.armA = arm;
+  state.centripetal = a.angularVelocity.cross(a.angularVelocity.cross(arm));
+  state.slipBias = state.centripetal;
+  state.slip = velocity;
+  Vec3 normalRate = Vec3::Zero();
   if (b == nullptr) {
     state.gap = dot(normal, a.pose.position) + dot(normal, arm) - offset;
-    state.slip = velocity;
-    state.gapBias = dot(normal, centripetal);
-    state.slipBias = centripetal;
   } else {
     const Vec3& spin = b->angularVelocity;
     state.armB = (a.pose.position - b->pose.position) + arm;
     state.gap = dot(normal, state.armB) - offset;
     const Vec3 relative = velocity - b->velocity;
     state.slip = relative - spin.cross(state.armB);
-    state.gapBias = dot(normal, centripetal) + dot(spin.cross(spin.cross(normal)), state.armB) +
-                    2 * dot(spin.cross(normal), relative);
-    state.slipBias = centripetal - spin.cross(relative);
+    state.centripetal -= spin.cross(spin.cross(state.armB));
+    state.slipBias -= spin.cross(relative);
+    normalRate = spin.cross(normal);
   }
-  state.rate = dot(normal, state.slip);
-  state.slip -= state.rate * normal;
+  state.setNormal(normal, normalRate);
   return state;
 }
 
@@ -52,12 +50,13 @@ ContactState onEdge(const ContactFeature& feature, const Kinematics& a, const Ve
   const Vec3 link = (a.pose.position - b.pose.position) + (middleA - middleB);
   const Vec3 cross = feature.sign * edgeA.cross(edgeB);
   const double sine = cross.norm();
-  const Vec3& n = state.normal = cross / sine;
+  const Vec3 n = cross / sine;
   const double alongA = -feature.sign * dot(link, edgeB.cross(n)) / sine;
   const double alongB = -feature.sign * dot(link, edgeA.cross(n)) / sine;
-  state.armA = middleA + alongA * edgeA;
-  state.armB = middleB + alongB * edgeB;
+  // One point for both, halfway: else it would be at another depth than those of the faces' corners.
   state.gap = dot(n, link);
+  state.armA = middleA + alongA * edgeA - 0.5 * state.gap * n;
+  state.armB = middleB + alongB * edgeB + 0.5 * state.gap * n;
   state.beyond = std::max(std::fabs(alongA) - halfExtentsA[feature.axisA],
                           std::fabs(alongB) - halfExtentsB[feature.axisB]);
 
@@ -65,12 +64,9 @@ ContactState onEdge(const ContactFeature& feature, const Kinematics& a, const Ve
   const Vec3& spinB = b.angularVelocity;
   const Vec3 velocityA = a.velocity + spinA.cross(state.armA);
   state.slip = velocityA - (b.velocity + spinB.cross(state.armB));
-  state.rate = dot(n, state.slip);
-  state.slip -= state.rate * n;
+  state.centripetal = spinA.cross(spinA.cross(state.armA)) - spinB.cross(spinB.cross(state.armB));
   const Vec3 turning = feature.sign * (spinA.cross(edgeA).cross(edgeB) + edgeA.cross(spinB.cross(edgeB)));
-  const Vec3 normalRate = (turning - dot(n, turning) * n) / sine;
-  state.gapBias = dot(n, spinA.cross(spinA.cross(state.armA)) - spinB.cross(spinB.cross(state.armB))) +
-                  2 * dot(normalRate, state.slip);
+  state.setNormal(n, (turning - dot(n, turning) * n) / sine);
   // The crossing itself moves along both edges.
   const double wander = -feature.sign * dot(n, state.slip.cross(edgeB)) / sine;
   const Vec3 crossing = velocityA + wander * edgeA;
@@ -127,7 +123,6 @@ ContactState inCone(const ContactFeature& feature, const Kinematics& a, BoxShape
   const Turning normal = meanNormal(turning(a, feature.normalA), turning(b, feature.normalB), edge);
   const Vec3& n = normal.direction;
   ContactState state;
-  state.normal = n;
   state.armA = a.pose.worldFromBody * feature.onA;
   state.armB = b.pose.worldFromBody * feature.onB;
   const Vec3 link = (a.pose.position - b.pose.position) + (state.armA - state.armB);
@@ -151,10 +146,8 @@ ContactState inCone(const ContactFeature& feature, const Kinematics& a, BoxShape
   const Vec3 velocityA = a.velocity + spinA.cross(state.armA);
   const Vec3 velocityB = b.velocity + spinB.cross(state.armB);
   state.slip = velocityA - velocityB;
-  state.rate = dot(n, state.slip);
-  state.slip -= state.rate * n;
-  state.gapBias = dot(n, spinA.cross(spinA.cross(state.armA)) - spinB.cross(spinB.cross(state.armB))) +
-                  2 * dot(normal.rate, state.slip);
+  state.centripetal = spinA.cross(spinA.cross(state.armA)) - spinB.cross(spinB.cross(state.armB));
+  state.setNormal(n, normal.rate);
   // The contact moves with the body whose point it is.
   const Vec3 mean = 0.5 * (velocityA + velocityB);
   const Vec3& contact = movesOnA ? velocityB : movesOnB ? velocityA : mean;
@@ -359,6 +352,15 @@ ContactState contactState(const ContactFeature& feature, const Kinematics& a, Bo
                                     {b->pose, boxB.halfExtents, boxB.center});
   }
   return state;
+}
+
+void ContactState::setNormal(const Vec3& to, const Vec3& rateOfNormal) {
+  const Vec3 relative = velocity();
+  normal = to;
+  normalRate = rateOfNormal;
+  rate = dot(normal, relative);
+  slip = relative - rate * normal;
+  gapBias = dot(normal, centripetal) + 2 * dot(normalRate, slip);
 }
 
 double ContactState::passing() const {

@@ -46,16 +46,19 @@ struct ContactFeature {
 };
 
 /// A feature at one moment. Its gap d and its slip change with accelerations v̇ and ω̇ of both sides:
-///   d̈ = n·(v̇_a + ω̇_a×armA − v̇_b − ω̇_b×armB) + gapBias,   d(slip)/dt = the same without n + slipBias.
+///   d̈ = n·(v̇_a + ω̇_a×armA − v̇_b − ω̇_b×armB) + gapBias,   d(slip)/dt = the same without n + slipBias,
+///   gapBias = n·centripetal + 2 ṅ·slip.
 struct ContactState {
-  Vec3 normal = Vec3::UnitZ();   ///< [1] unit, from b to a
-  Vec3 armA = Vec3::Zero();      ///< [m] world, from a's centre of mass to the contact
-  Vec3 armB = Vec3::Zero();      ///< [m] likewise from b's
-  double gap = 0;                ///< [m]
-  double rate = 0;               ///< [m/s] of the gap
-  Vec3 slip = Vec3::Zero();      ///< [m/s] tangential velocity of a relative to b
-  double gapBias = 0;            ///< [m/s²]
-  Vec3 slipBias = Vec3::Zero();  ///< [m/s²]
+  Vec3 normal = Vec3::UnitZ();      ///< [1] unit, from b to a
+  Vec3 armA = Vec3::Zero();         ///< [m] world, from a's centre of mass to the contact
+  Vec3 armB = Vec3::Zero();         ///< [m] likewise from b's
+  double gap = 0;                   ///< [m]
+  double rate = 0;                  ///< [m/s] of the gap
+  Vec3 slip = Vec3::Zero();         ///< [m/s] tangential velocity of a relative to b
+  double gapBias = 0;               ///< [m/s²]
+  Vec3 normalRate = Vec3::Zero();   ///< [1/s]
+  Vec3 centripetal = Vec3::Zero();  ///< [m/s²] of the two points relative to each other, ω×(ω×arm)
+  Vec3 slipBias = Vec3::Zero();     ///< [m/s²]
   /// [m] How far the contact is past the end of its face or edge, negative within. kInCone: also how far
   /// apart its points are sideways, and how far its normal has left the cone, at the smaller box's half
   /// diagonal.
@@ -69,6 +72,8 @@ struct ContactState {
   /// [m/s] How fast the boxes part, and how fast they pass each other along any of the directions.
   double parting() const { return directions.empty() ? rate : partingSpeed(directions, velocity()); }
   double passing() const;
+  /// Sets rate, slip and gapBias by this normal [1] and its rate [1/s].
+  void setNormal(const Vec3& normal, const Vec3& normalRate);
 };
 
 /// A body's box, as an argument: a view of its size and place in the body, not to be stored.

@@ -36,7 +36,8 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
       modes_(features_.size(), Mode::kOff),
       onset_(features_.size(), Vec3::Zero()),
       kinematics_(bodies_.size()),
-      states_(features_.size()) {
+      states_(features_.size()),
+      pushing_(features_.size()) {
   pull_ = world.gravity.norm();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const TouchingBody& each = bodies_[i];
@@ -102,6 +103,7 @@ void ContactSystem::look(std::span<const double> y) {
   }
   for (std::size_t c = 0; c < features_.size(); ++c) {
     const ContactFeature& feature = features_[c];
+    pushing_[c] = pushes(c) ? 1 : 0;
     const auto a = static_cast<std::size_t>(feature.a);
     const bool onWall = feature.b.isWall();
     const auto b = static_cast<std::size_t>(onWall ? 0 : feature.b.body());
@@ -109,6 +111,7 @@ void ContactSystem::look(std::span<const double> y) {
         contactState(feature, kinematics_[a], shapeOf(*bodies_[a].body), onWall ? nullptr : &kinematics_[b],
                      shapeOf(*bodies_[b].body), onWall ? &world_->walls[feature.b.wall()] : nullptr);
   }
+  normals_.align(features_, pushing_, states_);
 }
 
 // Jacobian rows and targets of every contact, from the last look(). Rows of rotation are along the bodies'

@@ -7,6 +7,7 @@
 #include "physics/contact/contact_feature.h"
 #include "physics/contact/contact_forces.h"
 #include "physics/contact/group_momentum.h"
+#include "physics/contact/manifold_normals.h"
 #include "physics/world/world.h"
 
 namespace careen {
@@ -104,6 +105,8 @@ class ContactSystem {
   std::vector<Vec3> onset_;            // [1] direction in which a sticking contact begins to slip
   std::vector<Kinematics> kinematics_;
   std::vector<ContactState> states_;
+  std::vector<char> pushing_;  // by contact, as of then
+  ManifoldNormals normals_;
   std::vector<double> inverseMass_;
   std::vector<double> free_;
   std::vector<BodyState> worldStates_;  // for springs and drag

@@ -84,12 +84,6 @@ class ImplicitStep {
 
  private:
   using Six = std::array<double, ContactProblem::kAxes>;
-  struct OfPair {  // a contact of two bodies, by which of them they are
-    int first = 0;
-    int second = 0;
-    std::size_t contact = 0;
-    auto operator<=>(const OfPair&) const = default;
-  };
 
   void findLoads(const GroupState& at);
   void placeBodies(std::span<const ContactFeature> contacts);
@@ -102,9 +96,6 @@ class ImplicitStep {
   void moveArms(const GroupState& from, double h);
   void guessImpulses(const GroupState& from, double h, const std::vector<ClosedContact>& contacts);
   void addImpulses(std::span<const ContactFeature> features);
-  void alignNormals(std::span<const ContactFeature> features, std::vector<ContactState>& contacts);
-  void alignNormals(std::span<const OfPair> pair, std::span<const ContactFeature> features,
-                    std::vector<ContactState>& contacts) const;
   bool findImpulses(const GroupState& from, double h, bool first, std::vector<ClosedContact>& contacts,
                     const GroupState& to);
   void findMiddle(const GroupState& from, const GroupState& to);
@@ -133,8 +124,7 @@ class ImplicitStep {
   std::vector<ContactState> geometry_;  // by contact, as in the rows
   std::vector<ContactState> ends_;      // likewise, at the end of the step
   std::vector<Kinematics> kinematics_;
-  std::vector<Vec3> normals_;    // by contact, before they are aligned
-  std::vector<OfPair> ofPairs_;  // contacts of bodies, sorted
+  ManifoldNormals normals_;
   GroupState middle_;
   double residual_ = 0;  // [m/s]
   bool isLastResort_ = false;

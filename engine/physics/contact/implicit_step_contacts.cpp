@@ -13,9 +13,6 @@
 namespace careen {
 namespace {
 
-/// [1] Cosine of the angle of two normals that count as one: what the tolerance allows for a thin box.
-constexpr double kParallel = 1 - 0x1p-27;
-
 // [N s] What a contact's last forces give in `h` [s]: along the normal and the tangents.
 ContactProblem::Triple impulseOf(const ClosedContact& contact, const Vec3& normal, double h) {
   const Tangents tangents = tangentsOf(normal);
@@ -66,59 +63,7 @@ void ImplicitStep::contactsAt(std::span<const ContactFeature> features, const Gr
     }
     contacts.push_back(stateOf(feature, ofA, &kinematics_[static_cast<std::size_t>(feature.b.body())]));
   }
-  alignNormals(features, contacts);
-}
-
-// Points of one manifold lie on faces of either body, which are parallel only to within the tolerance. Given
-// one normal, the mean of theirs, their conditions agree exactly: else a problem asks which of them part by a
-// billionth of a speed.
-void ImplicitStep::alignNormals(std::span<const ContactFeature> features,
-                                std::vector<ContactState>& contacts) {
-  normals_.clear();
-  for (const ContactState& at : contacts) {
-    normals_.push_back(at.normal);
-  }
-  ofPairs_.clear();
-  for (std::size_t c = 0; c < features.size(); ++c) {
-    if (!features[c].b.isWall()) {
-      const auto [first, second] = std::minmax({features[c].a, features[c].b.body()});
-      ofPairs_.push_back({first, second, c});
-    }
-  }
-  std::sort(ofPairs_.begin(), ofPairs_.end());
-  for (auto begin = ofPairs_.begin(); begin != ofPairs_.end();) {
-    const auto end = std::find_if(begin, ofPairs_.end(), [&](const OfPair& each) {
-      return each.first != begin->first || each.second != begin->second;
-    });
-    alignNormals(std::span(begin, end), features, contacts);
-    begin = end;
-  }
-}
-
-void ImplicitStep::alignNormals(std::span<const OfPair> pair, std::span<const ContactFeature> features,
-                                std::vector<ContactState>& contacts) const {
-  std::vector<std::array<double, 3>> different;
-  for (const OfPair& of : pair) {
-    const std::size_t c = of.contact;
-    different.clear();
-    for (const OfPair& other : pair) {
-      const std::size_t k = other.contact;
-      const Vec3 normal = features[k].a == features[c].a ? normals_[k] : Vec3(-normals_[k]);
-      const std::array<double, 3> parts{normal[0], normal[1], normal[2]};
-      if (dot(normal, normals_[c]) >= kParallel &&
-          std::find(different.begin(), different.end(), parts) == different.end()) {
-        different.push_back(parts);
-      }
-    }
-    if (different.size() > 1) {
-      const std::array<double, 3> sum = orderFreeSums<3>(different);
-      ContactState& at = contacts[c];
-      const Vec3 velocity = at.slip + at.rate * at.normal;
-      at.normal = Vec3(sum[0], sum[1], sum[2]).normalized();
-      at.rate = dot(at.normal, velocity);
-      at.slip = velocity - at.rate * at.normal;
-    }
-  }
+  normals_.align(features, {}, contacts);
 }
 
 // Only bodies with contacts are part of the problem.

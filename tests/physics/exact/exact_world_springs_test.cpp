@@ -62,6 +62,20 @@ TEST(ExactWorldSprings, pressedBoxesKeepTheirAngularMomentum) {
   EXPECT_LT(worst, 4e-12);
 }
 
+// Without friction springs wind two pressed boxes up until they spin against each other at 75 rad/s, face on
+// face. Steps as short as 1e-5 s, and forces 1e4 times too large, came of two normals where there is one, and
+// of points of two bodies that were not one. Measured 2,192 steps; 6,374 with the normals as they are.
+TEST(ExactWorldSprings, slipperyPressedBoxesTakeLongSteps) {
+  World world = pressedPair(3);
+  for (Body& body : world.bodies) {
+    body.material.friction = 0;
+  }
+  const Recorded run = runFor(world, 2);
+  EXPECT_FALSE(run.figures.boundedFrom);
+  EXPECT_LT(run.motions[0].size(), 4000U);
+  EXPECT_LT(run.figures.deepestPenetration, 1e-6);
+}
+
 // A box that a spring pulls onto the floor slides, stops and stands as under gravity. These did so before
 // springs set a scale, too; the scenes that did not are rare.
 TEST(ExactWorldSprings, aPressedBoxComesToRest) {
