@@ -111,11 +111,12 @@ nlohmann::ordered_json estimateReport(const std::optional<ErrorEstimate>& estima
   if (!estimate) {
     return nullptr;
   }
-  nlohmann::ordered_json report = {{"by", estimate->by},
-                                   {"position", estimate->position},
-                                   {"angle", estimate->angle},
-                                   {"until", estimate->until},
-                                   {"horizon", nullptr}};
+  nlohmann::ordered_json report = {{"by", estimate->by},       {"position", estimate->position},
+                                   {"angle", estimate->angle}, {"holds", nullptr},
+                                   {"until", estimate->until}, {"horizon", nullptr}};
+  if (estimate->holds) {
+    report["holds"] = *estimate->holds;
+  }
   if (estimate->horizon) {
     report["horizon"] = *estimate->horizon;
   }
@@ -132,8 +133,12 @@ void printEstimate(std::ostream& out, const Run& run, bool verbose) {
     return;
   }
   const ErrorEstimate& estimate = *run.estimate;
-  out << std::setprecision(2) << "wrong by " << estimate.position << " m and " << estimate.angle
-      << " rad at most, " << std::setprecision(3);
+  out << std::setprecision(2) << "wrong by " << (estimate.holds ? "at most " : "about ") << estimate.position
+      << " m and " << estimate.angle << " rad" << std::setprecision(3);
+  if (estimate.holds) {
+    out << ", as in " << 100 * *estimate.holds << " % of scenes";
+  }
+  out << ", ";
   if (estimate.horizon) {
     out << "until " << estimate.until << " s; from " << *estimate.horizon << " s on chaos has taken over";
   } else {

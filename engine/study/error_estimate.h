@@ -9,25 +9,30 @@
 
 namespace careen {
 
-/// An error estimate from a second, slightly different run: with half the time step for a method with a fixed
-/// time step, else from a start one rounding away and with a tenth of the tolerances, because rounding and the
-/// time steps of contact and of crowds are then the only errors.
+/// An error estimate from a slightly different run: with half the time step for a method with a fixed time
+/// step, else from a start one rounding away and with a tenth of the tolerances, because rounding and the
+/// time steps of contact and of crowds are then the only errors. In contact a third run, with a hundredth,
+/// sees what two runs have in common by chance.
 struct ErrorEstimate {
-  std::string by;                 ///< the difference of the second run, as text
-  double position = 0;            ///< [m] largest over all bodies, up to `until`
-  double angle = 0;               ///< [rad] likewise
-  double until = 0;               ///< [s] end of the run, or of the part that can be estimated
-  std::optional<double> horizon;  ///< [s] from here on the two runs are unrelated
+  std::string by;  ///< the difference of these runs, as text
+  /// Share of scenes in which the error is no larger, where that was measured.
+  std::optional<double> holds = {};
+  double position = 0;                 ///< [m] largest over all bodies, up to `until`
+  double angle = 0;                    ///< [rad] likewise
+  double until = 0;                    ///< [s] end of the run, or of the part that can be estimated
+  std::optional<double> horizon = {};  ///< [s] from here on the two runs are unrelated
 };
 
 /// Number of times, evenly spread, at which the two runs are compared.
 inline constexpr int kEstimateSamples = 256;
-/// The cost of the estimate, in runs.
+/// The cost of the estimate, in runs as long as this one.
 double estimateCost(const Trajectory& run);
 
 /// Estimates the error of `run`. For a method of order p with a fixed time step, the difference to half the
-/// step is multiplied by 2^p/(2^p−1) (Richardson); where crowds took part, by four. std::nullopt if the second
-/// run fails although the first did not.
+/// step is multiplied by 2^p/(2^p−1) (Richardson). In contact it is twice the larger difference of two runs:
+/// in 202 of 204 random scenes of 14 families, against runs with tolerances of 1e-9 and 1e-10 m that agree,
+/// the error was smaller. Where crowds took part it is four times that of one. std::nullopt if another run
+/// fails although the first did not.
 std::optional<ErrorEstimate> estimateError(const Trajectory& run, const std::stop_token& stop = {},
                                            const RunCallback& progress = {});
 

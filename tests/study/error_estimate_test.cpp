@@ -66,6 +66,7 @@ TEST(ErrorEstimate, ofExactIsItsErrorAgainstAQuadrupleRun) {
   const std::optional<ErrorEstimate> estimate = estimateError(run);
   ASSERT_TRUE(estimate.has_value());
   EXPECT_EQ(estimate->by, "a start one rounding error away and a tenth of the tolerance");
+  EXPECT_FALSE(estimate->holds.has_value());
   double error = 0;
   const auto corners = room.corners(Quad(end) - room.time());
   const Pose pose = run.state(0, end).pose;
@@ -78,6 +79,36 @@ TEST(ErrorEstimate, ofExactIsItsErrorAgainstAQuadrupleRun) {
   EXPECT_GT(estimated, error / 30);
   EXPECT_LT(estimated, error * 30);
   RecordProperty("estimated over true", std::to_string(estimated / error));
+}
+
+// A box that rocks, slides and comes to rest, against a run with a tolerance of 1e-10 m. Estimates in contact
+// hold in 99 of 100 scenes, and are not of another order.
+TEST(ErrorEstimate, inContactIsTwiceTheErrorAtMost) {
+  World world;
+  world.gravity = Vec3(0, 0, -9.81);
+  world.walls = {wall("floor", Vec3(0, 0, 1), 0, 0)};
+  world.walls[0].material.friction = 0.4;
+  world.bodies = {
+      box("crate", Vec3(0.1, 0.2, 0.3), 1, Vec3(0, 0, 0.35), Vec3(0.6, 0.2, 0), Vec3(0.3, 0.9, 0.2), 0)};
+  world.bodies[0].material.friction = 0.4;
+  RunSettings settings{.method = Method::kExact, .duration = 1.5};
+  const Trajectory run = record(world, settings, "");
+  settings.tolerance = 1e-10;
+  const Trajectory truth = record(world, settings, "");
+  const std::optional<ErrorEstimate> estimate = estimateError(run);
+  ASSERT_TRUE(estimate.has_value());
+  EXPECT_EQ(estimate->by, "a start one rounding error away and a tenth of the tolerance, and a hundredth");
+  EXPECT_EQ(estimate->holds, 0.99);
+  EXPECT_EQ(estimate->until, 1.5);
+  EXPECT_EQ(estimateCost(run), 3);
+  double error = 0;
+  for (int k = 1; k <= kEstimateSamples; ++k) {
+    const double time = settings.duration * k / kEstimateSamples;
+    error = std::max(error, (run.state(0, time).pose.position - truth.state(0, time).pose.position).norm());
+  }
+  EXPECT_GT(error, 1e-9);  // there is something to estimate
+  EXPECT_GT(estimate->position, error);
+  EXPECT_LT(estimate->position, 3 * error);  // measured 2.0
 }
 
 // A row of six dominoes, the first one leaning over its edge by an angle with sine 0.2.
