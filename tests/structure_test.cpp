@@ -449,6 +449,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"stage/stage", "data only"},
     {"stage/triangle_mesh", "data only"},
     {"study/contestant", "an interface"},
+    {"trajectory/exporter", "data only; tested through exchange/exporters"},
     {"study/peer_bullet", "behind peers.h, tested with the other peers by peers_test"},
     {"study/peer_mujoco", "behind peers.h, tested with the other peers by peers_test"},
     {"study/peer_ode", "behind peers.h, tested with the other peers by peers_test"},

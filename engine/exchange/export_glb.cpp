@@ -14,6 +14,7 @@
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "exchange/exporters.h"
 #include "exchange/gltf_animation.h"
 #include "exchange/gltf_buffer.h"
 #include "view/camera.h"
@@ -307,5 +308,18 @@ GlbFile encodeGlb(const Trajectory& run, const GlbSettings& settings) {
   }
   return GlbWriter(run, settings).file();
 }
+
+constexpr Exporter kGlbExporter = {
+    .suffix = ".glb",
+    .about = "a film for Blender, three.js and viewers of glTF",
+    .option = ExportOption::kWithin,
+    .write = [](const Trajectory& run, const ExportSettings& settings,
+                const TextSink& sink) -> std::vector<std::string> {
+      const GlbFile glb = encodeGlb(run, {.within = settings.within, .program = settings.program});
+      sink(glb.bytes);
+      return {"keys         " + std::to_string(glb.keys) + ", " + std::to_string(glb.bytes.size()) +
+              " bytes; off by at most " + brief(glb.positionError, 2) + " m and " +
+              brief(glb.attitudeError, 2) + " rad"};
+    }};
 
 }  // namespace careen

@@ -5,6 +5,7 @@
 
 #include "core/brief.h"
 #include "core/csv.h"
+#include "trajectory/exporter.h"
 #include "trajectory/pose_samples.h"
 
 namespace careen {
@@ -65,5 +66,15 @@ void writeImpactsCsv(const Trajectory& trajectory, const TextSink& sink) {
     sink(row + "\n");
   }
 }
+
+extern const Exporter kCsvExporter;
+constexpr Exporter kCsvExporter = {.suffix = ".csv",
+                                   .about = "a table of poses",
+                                   .option = ExportOption::kEvery,
+                                   .write = [](const Trajectory& run, const ExportSettings& settings,
+                                               const TextSink& sink) -> std::vector<std::string> {
+                                     writePosesCsv(run, settings.every, sink);
+                                     return {};
+                                   }};
 
 }  // namespace careen

@@ -1,14 +1,8 @@
 #pragma once
 
-#include <functional>
-#include <string_view>
-
-#include "trajectory/trajectory.h"
+#include "trajectory/exporter.h"
 
 namespace careen {
-
-/// Receives the text of a table piece by piece.
-using TextSink = std::function<void(std::string_view)>;
 
 /// poses.csv: one row per body and sample, samples at k · every [s] from 0 to the end of the run. World
 /// frame, 17 significant digits; of the two quaternions of an orientation the one whose first non-zero

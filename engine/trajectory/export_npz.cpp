@@ -7,6 +7,7 @@
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "trajectory/exporter.h"
 #include "trajectory/numpy_array.h"
 #include "trajectory/pose_samples.h"
 #include "trajectory/zip_archive.h"
@@ -131,5 +132,15 @@ std::string encodeNpz(const Trajectory& trajectory, double every) {
   addImpacts(trajectory, archive);
   return archive.bytes();
 }
+
+extern const Exporter kNpzExporter;
+constexpr Exporter kNpzExporter = {.suffix = ".npz",
+                                   .about = "a table of poses, and one of impacts",
+                                   .option = ExportOption::kEvery,
+                                   .write = [](const Trajectory& run, const ExportSettings& settings,
+                                               const TextSink& sink) -> std::vector<std::string> {
+                                     sink(encodeNpz(run, settings.every));
+                                     return {};
+                                   }};
 
 }  // namespace careen
