@@ -47,6 +47,39 @@ TEST(OverlayKinds, areInTheManualAsTheListHasThem) {
   expectGenerated(kAssetsOfOverlays / "manual/film.md", "| overlay | shows |\n|---|---|\n", "\n\n", rows);
 }
 
+// Whatever their order in the list: trails, axes, arrows, impacts, panels, names.
+TEST_F(OverlaysTest, areDrawnFromBackToFront) {
+  std::get<EulerStep>(run_.tracks[0].segments[0].motion).start.angularMomentum = Vec3(0, 0, 0.3);
+  scene_.boxes[0].name = "crate";
+  strike(0.2, 3);
+  const OverlayShapes shapes =
+      shapesAt("contacts,impulses,angular-momentum,spin-axis,trail,velocity,names,time", 0.3);
+  std::vector<std::string> order;
+  const auto add = [&](const std::string& name) {
+    if (order.empty() || order.back() != name) {
+      order.push_back(name);
+    }
+  };
+  std::size_t i = 0;
+  for (; !std::holds_alternative<Plate>(shapes[i]); ++i) {
+    const Stroke* const stroke = std::get_if<Stroke>(&shapes[i]);
+    const auto isOf = [&](const Color& color) {
+      const Color& ink = stroke->ink.color;
+      return ink.red == color.red && ink.green == color.green && ink.blue == color.blue;
+    };
+    add(stroke == nullptr || stroke->from == stroke->to ? "path or point"
+        : isOf(kMoss)                                   ? "axis"
+        : isOf(kViolet)                                 ? "angular momentum"
+        : isOf(kTeal)                                   ? "velocity"
+        : isOf(kAmber)                                  ? "impulse"
+                                                        : "normal");
+  }
+  EXPECT_EQ(order, (std::vector<std::string>{"path or point", "axis", "angular momentum", "velocity",
+                                             "normal", "path or point", "impulse"}));
+  EXPECT_EQ(std::get<Label>(shapes[i + 1]).text, "00:00:00.300");
+  EXPECT_EQ(std::get<Label>(shapes.back()).text, "crate");
+}
+
 // Wider than the crate, so beside it, with a line that ends on it and a dot there.
 TEST_F(OverlaysTest, nameStandsBesideItsBox) {
   scene_.boxes[0].name = "Kiste ü";

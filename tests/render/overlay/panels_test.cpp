@@ -25,6 +25,16 @@ TEST_F(OverlayPanels, legendSaysHowLongAnArrowOfARoundValueIs) {
   EXPECT_NEAR((sample.to - sample.from).norm(), 0.5 * 0.2 * kHeight, 1e-9);
 }
 
+TEST_F(OverlayPanels, legendHasItsOwnOrder) {
+  std::get<EulerStep>(run_.tracks[0].segments[0].motion).start.angularMomentum = Vec3(0, 0, 0.3);
+  strike(0.2, 3);
+  std::vector<std::string> words;
+  for (const Label& label : only<Label>(shapesAt("impulses,spin-axis,angular-momentum,velocity", 0))) {
+    words.push_back(label.text.substr(0, label.text.find("  ")));
+  }
+  EXPECT_EQ(words, (std::vector<std::string>{"velocity", "angular momentum", "spin", "impulse"}));
+}
+
 TEST_F(OverlayPanels, everythingStaysOnThePictureThatStandsAtItsEdges) {
   for (const auto& [width, height] : {std::pair{64, 36},
                                       {160, 90},
