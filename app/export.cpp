@@ -8,19 +8,17 @@
 #include <vector>
 
 #include "commands.h"
-#include "core/brief.h"
 #include "core/characters.h"
 #include "core/error.h"
 #include "core/system/file.h"
 #include "exchange/export_glb.h"
 #include "exchange/exporters.h"
+#include "parsed.h"
 #include "run.h"
 #include "scene/scene_reader.h"
 
 namespace careen {
 namespace {
-
-constexpr double kUsualSampling = 1.0 / 60;  // [s]
 
 struct ExportOptions {
   std::filesystem::path source;
@@ -70,10 +68,8 @@ void check(const ExportOptions& options, ExportOption taken) {
     throw InputError("--every: found the file " + options.output.string() +
                      ", which has no rows; expected a table");
   }
-  const double within = options.within.value_or(kUsualGlbError);
-  if (!(within >= kLeastGlbError && within <= kMostGlbError)) {
-    throw InputError("--within: found " + brief(within) + ", expected " + brief(kLeastGlbError) + " to " +
-                     brief(kMostGlbError));
+  if (options.within) {
+    parsed("--within", *options.within, checkGlbError);
   }
   if (isSameFile(options.output, options.source)) {
     throw InputError("--out: found the run itself, " + options.output.string() + ", expected another file");
@@ -91,14 +87,14 @@ void writeRun(const ExportOptions& options, const Exporter& exporter, const std:
   Run run = loadRun(options.source, {}, options.scene, stop);
   auditRun(run, options.audit, stop);
   AtomicFile file(options.output);
-  const std::vector<std::string> lines = exporter.write(run.trajectory,
-                                                        {.within = options.within.value_or(kUsualGlbError),
-                                                         .every = options.every.value_or(kUsualSampling),
-                                                         .program = "careen " CAREEN_VERSION},
-                                                        [&file](std::string_view text) { file.write(text); });
+  ExportSettings settings{.program = "careen " CAREEN_VERSION};
+  settings.within = options.within.value_or(settings.within);
+  settings.every = options.every.value_or(settings.every);
+  const ExportNotes notes =
+      exporter.write(run.trajectory, settings, [&file](std::string_view text) { file.write(text); });
   file.commit();
-  for (const std::string& line : lines) {
-    std::cout << line << '\n';
+  for (const std::string& note : notes) {
+    std::cout << note << '\n';
   }
 }
 

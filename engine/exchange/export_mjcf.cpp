@@ -264,17 +264,17 @@ MjcfFile encodeMjcf(const RunSetup& setup, const std::string& program) {
   return MjcfWriter(setup, program).file();
 }
 
-constexpr Exporter kMjcfExporter = {.suffix = ".xml",
-                                    .about = "its start, for MuJoCo",
-                                    .write = [](const Trajectory& run, const ExportSettings& settings,
-                                                const TextSink& sink) -> std::vector<std::string> {
-                                      const MjcfFile mjcf = encodeMjcf(run, settings.program);
-                                      sink(mjcf.text);
-                                      std::vector<std::string> lines;
-                                      for (const std::string& words : mjcf.leftOut) {
-                                        lines.push_back("left out     " + words);
-                                      }
-                                      return lines;
-                                    }};
+constexpr Exporter kMjcfExporter = {
+    .suffix = ".xml",
+    .about = "its start, for MuJoCo",
+    .write = [](const Trajectory& run, const ExportSettings& settings, const TextSink& sink) -> ExportNotes {
+      const MjcfFile mjcf = encodeMjcf(run, settings.program);
+      sink(mjcf.text);
+      ExportNotes lines;
+      for (const std::string& words : mjcf.leftOut) {
+        lines.push_back("left out     " + words);
+      }
+      return lines;
+    }};
 
 }  // namespace careen

@@ -46,13 +46,13 @@ void writeImpactsCsv(const Trajectory& trajectory, const TextSink& sink) {
 }
 
 extern const Exporter kCsvExporter;
-constexpr Exporter kCsvExporter = {.suffix = ".csv",
-                                   .about = "a table of poses",
-                                   .option = ExportOption::kEvery,
-                                   .write = [](const Trajectory& run, const ExportSettings& settings,
-                                               const TextSink& sink) -> std::vector<std::string> {
-                                     writePosesCsv(run, settings.every, sink);
-                                     return {};
-                                   }};
+constexpr Exporter kCsvExporter = {
+    .suffix = ".csv",
+    .about = "a table of poses",
+    .option = ExportOption::kEvery,
+    .write = [](const Trajectory& run, const ExportSettings& settings, const TextSink& sink) -> ExportNotes {
+      writePosesCsv(run, settings.every, sink);
+      return {};
+    }};
 
 }  // namespace careen

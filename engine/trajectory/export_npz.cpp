@@ -79,13 +79,13 @@ std::string encodeNpz(const Trajectory& trajectory, double every) {
 }
 
 extern const Exporter kNpzExporter;
-constexpr Exporter kNpzExporter = {.suffix = ".npz",
-                                   .about = "a table of poses, and one of impacts",
-                                   .option = ExportOption::kEvery,
-                                   .write = [](const Trajectory& run, const ExportSettings& settings,
-                                               const TextSink& sink) -> std::vector<std::string> {
-                                     sink(encodeNpz(run, settings.every));
-                                     return {};
-                                   }};
+constexpr Exporter kNpzExporter = {
+    .suffix = ".npz",
+    .about = "a table of poses, and one of impacts",
+    .option = ExportOption::kEvery,
+    .write = [](const Trajectory& run, const ExportSettings& settings, const TextSink& sink) -> ExportNotes {
+      sink(encodeNpz(run, settings.every));
+      return {};
+    }};
 
 }  // namespace careen

@@ -19,10 +19,13 @@ enum class ExportOption {
   kEvery    ///< time between its rows
 };
 struct ExportSettings {
-  double within = 0;  ///< [m, rad]
-  double every = 0;   ///< [s]
-  std::string program;
+  double within = 1e-4;      ///< [m] of positions, [rad] of attitudes
+  double every = 1.0 / 60;   ///< [s]
+  std::string program = {};  ///< name and version
 };
+
+/// Lines that tell the user what was written.
+using ExportNotes = std::vector<std::string>;
 
 /// A kind of file that a run is written as: one constant in a source of its own, named in the list of
 /// exchange/exporters.h.
@@ -30,9 +33,7 @@ struct Exporter {
   std::string_view suffix;
   std::string_view about;  ///< as the command's help says it
   ExportOption option = ExportOption::kNone;
-  /// Returns lines that tell the user what was written.
-  std::vector<std::string> (*write)(const Trajectory& run, const ExportSettings& settings,
-                                    const TextSink& sink) = nullptr;
+  ExportNotes (*write)(const Trajectory& run, const ExportSettings& settings, const TextSink& sink) = nullptr;
 };
 
 }  // namespace careen
