@@ -1,26 +1,24 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "commands.h"
-#include "core/brief.h"
 #include "core/characters.h"
 #include "core/error.h"
 #include "core/system/file.h"
 #include "exchange/export_glb.h"
-#include "exchange/export_mjcf.h"
+#include "exchange/exporters.h"
+#include "parsed.h"
 #include "run.h"
 #include "scene/scene_reader.h"
-#include "trajectory/export_csv.h"
-#include "trajectory/export_npz.h"
 
 namespace careen {
 namespace {
-
-constexpr double kUsualSampling = 1.0 / 60;  // [s]
 
 struct ExportOptions {
   std::filesystem::path source;
@@ -31,56 +29,50 @@ struct ExportOptions {
   AuditChoice audit;
 };
 
-enum class Format { kGlb, kMjcf, kNpz, kCsv, kScene };
-
-Format formatOf(const ExportOptions& options) {
-  const std::string suffix = options.output.extension().string();
-  if (suffix != ".glb" && suffix != ".xml" && suffix != ".npz" && suffix != ".csv" && suffix != ".json") {
-    throw InputError("--out: found '" + options.output.string() +
-                     "', expected a file that ends in .glb, .xml, .npz or .csv, or in .json for a model of "
-                     "MuJoCo as a scene");
+// ".glb, .xml or .csv", with what `words` adds to each.
+template <class Words>
+std::string listedExporters(Words words) {
+  std::string list;
+  for (std::size_t i = 0; i < kExporters.size(); ++i) {
+    list += (i == 0 ? "" : i + 1 < kExporters.size() ? ", " : " or ") + words(*kExporters.at(i));
   }
-  const Format format = suffix == ".glb"   ? Format::kGlb
-                        : suffix == ".xml" ? Format::kMjcf
-                        : suffix == ".npz" ? Format::kNpz
-                        : suffix == ".csv" ? Format::kCsv
-                                           : Format::kScene;
-  if (format == Format::kScene && !isMujocoModel(options.source)) {
+  return list;
+}
+
+// Null for a scene file that is made of a model.
+const Exporter* exporterFor(const ExportOptions& options) {
+  const std::string suffix = options.output.extension().string();
+  const auto found = std::find_if(kExporters.begin(), kExporters.end(),
+                                  [&](const Exporter* each) { return each->suffix == suffix; });
+  if (found != kExporters.end()) {
+    return *found;
+  }
+  if (suffix != ".json") {
+    throw InputError("--out: found '" + options.output.string() + "', expected a file that ends in " +
+                     listedExporters([](const Exporter& each) { return std::string(each.suffix); }) +
+                     ", or in .json for a model of MuJoCo as a scene");
+  }
+  if (!isMujocoModel(options.source)) {
     throw InputError("--out: found the scene file " + options.output.string() + " to be made of " +
                      options.source.string() + ", expected a model of MuJoCo, .xml");
   }
-  if (options.within && format != Format::kGlb) {
+  return nullptr;
+}
+
+void check(const ExportOptions& options, ExportOption taken) {
+  if (options.within && taken != ExportOption::kWithin) {
     throw InputError("--within: found the file " + options.output.string() +
                      ", which has no keys; expected a .glb");
   }
-  if (options.every && format != Format::kNpz && format != Format::kCsv) {
+  if (options.every && taken != ExportOption::kEvery) {
     throw InputError("--every: found the file " + options.output.string() +
                      ", which has no rows; expected a table");
   }
-  const double within = options.within.value_or(kUsualGlbError);
-  if (!(within >= kLeastGlbError && within <= kMostGlbError)) {
-    throw InputError("--within: found " + brief(within) + ", expected " + brief(kLeastGlbError) + " to " +
-                     brief(kMostGlbError));
+  if (options.within) {
+    parsed("--within", *options.within, checkGlbError);
   }
   if (isSameFile(options.output, options.source)) {
     throw InputError("--out: found the run itself, " + options.output.string() + ", expected another file");
-  }
-  return format;
-}
-
-void writeGlb(const ExportOptions& options, const Trajectory& run) {
-  const GlbFile glb = encodeGlb(
-      run, {.within = options.within.value_or(kUsualGlbError), .program = "careen " CAREEN_VERSION});
-  writeFile(options.output, glb.bytes);
-  std::cout << "keys         " << glb.keys << ", " << glb.bytes.size() << " bytes; off by at most "
-            << brief(glb.positionError, 2) << " m and " << brief(glb.attitudeError, 2) << " rad\n";
-}
-
-void writeMjcf(const ExportOptions& options, const Trajectory& run) {
-  const MjcfFile mjcf = encodeMjcf(run, "careen " CAREEN_VERSION);
-  writeFile(options.output, mjcf.text);
-  for (const std::string& words : mjcf.leftOut) {
-    std::cout << "left out     " << words << '\n';
   }
 }
 
@@ -91,34 +83,28 @@ void writeScene(const ExportOptions& options) {
   writeFile(options.output, text);
 }
 
-ExitCode exportCommand(const ExportOptions& options, const std::stop_token& stop) {
-  const Format format = formatOf(options);
-  if (format == Format::kScene) {
-    writeScene(options);
-    std::cout << "written      " << printableName(options.output.string()) << '\n';
-    return ExitCode::kDone;
-  }
+void writeRun(const ExportOptions& options, const Exporter& exporter, const std::stop_token& stop) {
   Run run = loadRun(options.source, {}, options.scene, stop);
   auditRun(run, options.audit, stop);
-  const double every = options.every.value_or(kUsualSampling);
-  switch (format) {
-    case Format::kGlb:
-      writeGlb(options, run.trajectory);
-      break;
-    case Format::kMjcf:
-      writeMjcf(options, run.trajectory);
-      break;
-    case Format::kNpz:
-      writeFile(options.output, encodeNpz(run.trajectory, every));
-      break;
-    case Format::kCsv: {
-      AtomicFile file(options.output);
-      writePosesCsv(run.trajectory, every, [&file](std::string_view text) { file.write(text); });
-      file.commit();
-      break;
-    }
-    case Format::kScene:
-      break;  // done above: it needs no run
+  AtomicFile file(options.output);
+  ExportSettings settings{.program = "careen " CAREEN_VERSION};
+  settings.within = options.within.value_or(settings.within);
+  settings.every = options.every.value_or(settings.every);
+  const ExportNotes notes =
+      exporter.write(run.trajectory, settings, [&file](std::string_view text) { file.write(text); });
+  file.commit();
+  for (const std::string& note : notes) {
+    std::cout << note << '\n';
+  }
+}
+
+ExitCode exportCommand(const ExportOptions& options, const std::stop_token& stop) {
+  const Exporter* const exporter = exporterFor(options);
+  check(options, exporter != nullptr ? exporter->option : ExportOption::kNone);
+  if (exporter != nullptr) {
+    writeRun(options, *exporter, stop);
+  } else {
+    writeScene(options);
   }
   std::cout << "written      " << printableName(options.output.string()) << '\n';
   return ExitCode::kDone;
@@ -132,9 +118,10 @@ void addExport(const CommandLine& commandLine) {
   command.add("run", options->source, "Trajectory file, table of poses, scene, or model of MuJoCo (.xml)")
       .required();
   command
-      .add("-o,--out", options->output,
-           "The file: .glb (a film for Blender, three.js and viewers of glTF), .xml (its start, for MuJoCo), "
-           ".npz or .csv (tables of poses); of a model of MuJoCo also .json (a scene)")
+      .add("-o,--out", options->output, "The file: " + listedExporters([](const Exporter& each) {
+                                          return std::string(each.suffix) + " (" + std::string(each.about) +
+                                                 ")";
+                                        }) + "; of a model of MuJoCo also .json (a scene)")
       .required();
   command.add("--within", options->within,
               "How far a .glb may be off between its keys, in m and rad (default: 1e-4)");

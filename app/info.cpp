@@ -17,10 +17,9 @@ namespace careen {
 namespace {
 
 void printScene(const Scene& scene) {
-  const RunSettings settings = settingsOf(scene);
   const Plan items = plan(scene);
-  printPlan(std::cout, scene.name, scene.boxes.size(), settings, items);
-  printCrowds(std::cout, settings, items);
+  printPlan(std::cout, scene.name, scene.boxes.size(), scene, items);
+  printCrowds(std::cout, scene, items);
 }
 
 void printFamily(const Family& family) {

@@ -6,11 +6,11 @@
 
 namespace careen {
 
-/// Parses an option's text; an InputError of `parse` is prefixed with the option.
-template <class Parse>
-auto parsed(const char* option, const std::string& text, Parse parse) {
+/// Parses, or checks, an option's value; an InputError of `parse` is prefixed with the option.
+template <class Value, class Parse>
+auto parsed(const char* option, const Value& value, Parse parse) {
   try {
-    return parse(text);
+    return parse(value);
   } catch (const InputError& error) {
     throw InputError(std::string(option) + ": " + error.what());
   }

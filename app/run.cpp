@@ -1,13 +1,11 @@
 #include "run.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <initializer_list>
 #include <iostream>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -18,15 +16,13 @@
 #include "core/math/arithmetic.h"
 #include "core/names.h"
 #include "core/system/file.h"
-#include "core/system/processor.h"
 #include "core/system/resource.h"
 #include "exchange/import_mjcf.h"
 #include "parsed.h"
 #include "physics/world/method.h"
-#include "physics/world/run_settings.h"
 #include "scene/plan.h"
+#include "scene/prepare.h"
 #include "scene/scene_reader.h"
-#include "scene/starts.h"
 #include "trajectory/given_run.h"
 #include "trajectory/pose_table.h"
 #include "trajectory/trajectory_file.h"
@@ -38,49 +34,8 @@ constexpr double kDisagreement = 2;   // factor between the audit's figure and t
 constexpr double kAgreement = 1e-12;  // figures below are rounding
 constexpr double kCheapPart = 0.1;    // of the run: the largest cost of an estimate by default
 
-// Scene file and command line differ: tell the user which one counts.
-template <class T>
-void announce(std::string_view what, const T& given, const T& inFile) {
-  if (given != inFile) {
-    std::cerr << "careen: " << what << " " << given << " from the command line (the scene says " << inFile
-              << ")\n";
-  }
-}
-
-void override(const std::string& key, const std::optional<double>& given, bool used, Method method,
-              double& inScene) {
-  if (!given) {
-    return;
-  }
-  std::ostringstream found;
-  found << "--" << key << ": found " << *given;
-  if (!used) {
-    throw InputError(found.str() + ", but method " + std::string(traitsOf(method).name) +
-                     " does not use it; expected no --" + key);
-  }
-  if (!(*given > 0 && std::isfinite(*given))) {
-    throw InputError(found.str() + ", expected a positive number");
-  }
-  announce(key, *given, inScene);
-  inScene = *given;
-}
-
-void apply(const Overrides& overrides, Scene& scene) {
-  if (overrides.method) {
-    const std::size_t place = parsed("--method", *overrides.method,
-                                     [](const auto& name) { return indexAmong(name, kMethodNames); });
-    announce("method", kMethodNames.at(place), traitsOf(scene.method).name);
-    scene.method = kMethods.at(place).method;
-  }
-  const bool steps = traitsOf(scene.method).steps();
-  override("dt", overrides.dt, steps, scene.method, scene.dt);
-  override("tolerance", overrides.tolerance, !steps, scene.method, scene.tolerance);
-  override("duration", overrides.duration, true, scene.method, scene.duration);
-}
-
 // Reports on standard error what was moved.
-void partBoxes(Scene& scene) {
-  const Parted parted = moveApart(scene);
+void tellParted(const Parted& parted) {
   if (parted.pairs + parted.behindWalls == 0) {
     return;
   }
@@ -94,47 +49,22 @@ void partBoxes(Scene& scene) {
             << parted.furthest << " m\n";
 }
 
-int threadsOf(const Overrides& overrides) {
-  const int threads = overrides.threads.value_or(std::min(usableCores(), kMostThreadsOfCrowds));
-  if (threads < 1 || threads > kMostThreadsOfCrowds) {
-    throw InputError("--threads: found " + std::to_string(threads) + ", expected 1 to " +
-                     std::to_string(kMostThreadsOfCrowds));
-  }
-  return threads;
-}
-
-// A method that steps may take very many steps for each segment that it records.
-void checkSteps(const Scene& scene, std::uint64_t limit) {
-  constexpr double kStepsOfRecord = 200;
-  const double most = kStepsOfRecord * static_cast<double>(limit);
-  const double steps = scene.duration / scene.dt * static_cast<double>(scene.boxes.size());
-  if (traitsOf(scene.method).steps() && !(steps <= most)) {
-    throw InputError("dt: found " + brief(scene.dt) + " s for " + brief(scene.duration) + " s, which makes " +
-                     brief(steps) + " steps of boxes, expected at most " + brief(most) +
-                     "; --limit allows more");
-  }
-}
-
 Run simulateText(const std::filesystem::path& path, const std::string& bytes, const Overrides& overrides,
                  const std::stop_token& stop, const RunCallback& progress) {
   const DefaultFloatEnvironment usual;  // GL may be open in a window
   const auto [text, name] = sceneTextOf(path, bytes);
   Scene scene = parseScene(text, name, overrides.allowOverlap ? Starts::kMayOverlap : Starts::kApart);
-  const Method method = scene.method;
-  apply(overrides, scene);
-  if (overrides.allowOverlap) {
-    partBoxes(scene);
-  } else if (scene.method != method) {
-    checkApart(scene);  // the reader checked it for the method in the file
-  }
-  const std::uint64_t limit = overrides.mostRecords();
-  checkSteps(scene, limit);
+  // Scene file and command line differ: tell the user which one counts.
+  PreparedRun prepared = prepare(std::move(scene), overrides.read(),
+                                 [](const char* what, const std::string& given, const std::string& inFile) {
+                                   std::cerr << "careen: " << what << " " << given
+                                             << " from the command line (the scene says " << inFile << ")\n";
+                                 });
+  tellParted(prepared.parted);
   Run run;
   run.source = path;
   const Stopwatch stopwatch;
-  RunSetup setup = setupOf(scene);
-  setup.settings.threads = threadsOf(overrides);
-  run.trajectory = record(std::move(setup), stop, limit, progress);
+  run.trajectory = record(std::move(prepared.setup), stop, overrides.mostRecords(), progress);
   run.simulateSeconds = stopwatch.seconds();
   return run;
 }
@@ -208,7 +138,7 @@ Trajectory readRunOf(const std::string& bytes, const std::filesystem::path& path
 }  // namespace
 
 void Overrides::addTo(const CommandLine& command) {
-  command.add("--method", method, "Method of motion in place of the scene's");
+  command.add("--method", methodName, "Method of motion in place of the scene's");
   command.add("--dt", dt, "Step in place of the scene's [s], for methods that step");
   command.add("--tolerance", tolerance,
               "Tolerance in place of the scene's, for methods that choose their own");
@@ -235,6 +165,16 @@ void Overrides::addThreadsTo(const CommandLine& command) {
       "each core)");
 }
 
+RunOverrides Overrides::read() const {
+  RunOverrides run = *this;
+  if (methodName) {
+    const auto place = [](const std::string& name) { return indexAmong(name, kMethodNames); };
+    run.method = kMethods.at(parsed("--method", *methodName, place)).method;
+  }
+  run.most = mostRecords();
+  return run;
+}
+
 std::uint64_t Overrides::mostRecords() const {
   if (!limit) {
     return kMostRecords;
@@ -246,7 +186,7 @@ std::uint64_t Overrides::mostRecords() const {
 }
 
 const char* Overrides::given() const {
-  return method         ? "--method"
+  return methodName     ? "--method"
          : dt           ? "--dt"
          : tolerance    ? "--tolerance"
          : duration     ? "--duration"

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "audit/audit.h"
+#include "scene/prepare.h"
 #include "study/error_estimate.h"
 #include "trajectory/trajectory.h"
 
@@ -69,14 +70,11 @@ void estimate(Run& run, const EstimateChoice& choice, double wallSeconds, const 
               const RunCallback& progress = {});
 
 /// Command-line overrides of the scene file.
-struct Overrides {
-  std::optional<std::string> method;
-  std::optional<double> dt;  ///< [s]
-  std::optional<double> tolerance;
-  std::optional<double> duration;  ///< [s]
-  bool allowOverlap = false;       ///< first move boxes apart that overlap at the start
-  std::optional<double> limit;     ///< of segments and impacts, instead of kMostRecords
-  std::optional<int> threads;      ///< of large crowds, instead of one for each core
+struct Overrides : RunOverrides {
+  Overrides() { sign = "--"; }
+
+  std::optional<std::string> methodName;
+  std::optional<double> limit;  ///< of segments and impacts
 
   void addTo(const CommandLine& command);
   void addAllowOverlapTo(const CommandLine& command);
@@ -84,6 +82,8 @@ struct Overrides {
   void addThreadsTo(const CommandLine& command);
   /// Most segments and impacts that the run may have.
   std::uint64_t mostRecords() const;
+  /// With the method of that name, and this limit.
+  RunOverrides read() const;
   /// The first option that was given; null if none was.
   const char* given() const;
 };

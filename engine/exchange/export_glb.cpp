@@ -14,6 +14,7 @@
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "exchange/exporters.h"
 #include "exchange/gltf_animation.h"
 #include "exchange/gltf_buffer.h"
 #include "view/camera.h"
@@ -61,7 +62,7 @@ class NodeNames {
 
 class GlbWriter {
  public:
-  GlbWriter(const Trajectory& run, const GlbSettings& settings)
+  GlbWriter(const Trajectory& run, const ExportSettings& settings)
       : run_(run),
         settings_(settings),
         materials_(materialsOf(run.stage.picture.look)),
@@ -283,7 +284,7 @@ class GlbWriter {
   }
 
   const Trajectory& run_;
-  const GlbSettings& settings_;
+  const ExportSettings& settings_;
   Materials materials_;
   GltfBuffer buffer_;
   GltfAnimation animation_;
@@ -300,12 +301,28 @@ class GlbWriter {
 
 }  // namespace
 
-GlbFile encodeGlb(const Trajectory& run, const GlbSettings& settings) {
-  if (!(settings.within >= kLeastGlbError && settings.within <= kMostGlbError)) {
-    throw InputError("found " + brief(settings.within) + ", expected " + brief(kLeastGlbError) + " to " +
+void checkGlbError(double within) {
+  if (!(within >= kLeastGlbError && within <= kMostGlbError)) {
+    throw InputError("found " + brief(within) + ", expected " + brief(kLeastGlbError) + " to " +
                      brief(kMostGlbError));
   }
+}
+
+GlbFile encodeGlb(const Trajectory& run, const ExportSettings& settings) {
+  checkGlbError(settings.within);
   return GlbWriter(run, settings).file();
 }
+
+constexpr Exporter kGlbExporter = {
+    .suffix = ".glb",
+    .about = "a film for Blender, three.js and viewers of glTF",
+    .option = ExportOption::kWithin,
+    .write = [](const Trajectory& run, const ExportSettings& settings, const TextSink& sink) -> ExportNotes {
+      const GlbFile glb = encodeGlb(run, settings);
+      sink(glb.bytes);
+      return {"keys         " + std::to_string(glb.keys) + ", " + std::to_string(glb.bytes.size()) +
+              " bytes; off by at most " + brief(glb.positionError, 2) + " m and " +
+              brief(glb.attitudeError, 2) + " rad"};
+    }};
 
 }  // namespace careen

@@ -3,18 +3,12 @@
 #include <cstddef>
 #include <string>
 
-#include "trajectory/trajectory.h"
+#include "trajectory/exporter.h"
 
 namespace careen {
 
-inline constexpr double kUsualGlbError = 1e-4;  ///< [m, rad]
-inline constexpr double kLeastGlbError = 1e-7;  ///< rounding to single precision
+inline constexpr double kLeastGlbError = 1e-7;  ///< [m, rad] rounding to single precision
 inline constexpr double kMostGlbError = 1;
-
-struct GlbSettings {
-  double within = kUsualGlbError;  ///< [m] of positions, [rad] of attitudes
-  std::string program = {};        ///< name and version
-};
 
 struct GlbFile {
   std::string bytes;
@@ -28,8 +22,11 @@ struct GlbFile {
 /// shows. Nodes have the boxes' names, and their translation and rotation are the boxes' poses; one node
 /// above them turns z up into glTF's y up. Keys are linear, as few as hold the motion within the bound
 /// (exchange/animation_keys.h); what was found stands in asset.extras. The field of view is that of the
-/// film's start: glTF has no animation of it. InputError if `within` is not from kLeastGlbError to
-/// kMostGlbError, or the file would be larger than 2 GiB.
-GlbFile encodeGlb(const Trajectory& run, const GlbSettings& settings = {});
+/// film's start: glTF has no animation of it. InputError as checkGlbError(), or if the
+/// file would be larger than 2 GiB.
+GlbFile encodeGlb(const Trajectory& run, const ExportSettings& settings = {});
+
+/// InputError if `within` is not from kLeastGlbError to kMostGlbError.
+void checkGlbError(double within);
 
 }  // namespace careen

@@ -9,6 +9,7 @@
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "exchange/exporters.h"
 
 namespace careen {
 namespace {
@@ -262,5 +263,18 @@ class MjcfWriter {
 MjcfFile encodeMjcf(const RunSetup& setup, const std::string& program) {
   return MjcfWriter(setup, program).file();
 }
+
+constexpr Exporter kMjcfExporter = {
+    .suffix = ".xml",
+    .about = "its start, for MuJoCo",
+    .write = [](const Trajectory& run, const ExportSettings& settings, const TextSink& sink) -> ExportNotes {
+      const MjcfFile mjcf = encodeMjcf(run, settings.program);
+      sink(mjcf.text);
+      ExportNotes lines;
+      for (const std::string& words : mjcf.leftOut) {
+        lines.push_back("left out     " + words);
+      }
+      return lines;
+    }};
 
 }  // namespace careen

@@ -10,9 +10,8 @@
 #include "core/math/arithmetic.h"
 #include "core/system/file.h"
 #include "physics/world/method.h"
-#include "scene/plan.h"
+#include "scene/prepare.h"
 #include "scene/scene_reader.h"
-#include "scene/starts.h"
 #include "trajectory/pose_samples.h"
 #include "trajectory/trajectory.h"
 #include "trajectory/trajectory_file.h"
@@ -59,15 +58,6 @@ auto translated(const std::string& name, Work&& work) {
   } catch (const careen::Error& error) {
     throw Error(error.what());
   }
-}
-
-Method methodNamed(const std::string& name) {
-  const auto found = std::find_if(kMethods.begin(), kMethods.end(),
-                                  [&](const MethodTraits& each) { return each.name == name; });
-  if (found == kMethods.end()) {
-    throw SceneError("found the unknown method '" + name + "'", "", 0, 0);
-  }
-  return found->method;
 }
 
 }  // namespace
@@ -126,7 +116,9 @@ Scene& Scene::add(const Wall& wall) {
 }
 
 Scene& Scene::method(const std::string& name) {
-  static_cast<void>(methodNamed(name));
+  if (!methodNamed(name)) {
+    throw SceneError("found the unknown method '" + name + "'", "", 0, 0);
+  }
   method_ = name;
   return *this;
 }
@@ -190,15 +182,10 @@ struct Run::Data {
 Run::Run(const Scene& scene) {
   const DefaultFloatEnvironment usual;
   data_ = translated(scene.name(), [&] {
-    careen::Scene read = parseScene(scene.text(), scene.name());
-    if (scene.method_) {
-      read.method = methodNamed(*scene.method_);
-      checkApart(read);  // the reader checked it for the method in the file
-    }
-    read.tolerance = scene.tolerance_.value_or(read.tolerance);
-    RunSetup setup = setupOf(read);
-    setup.settings.threads = scene.threads_;
-    return std::make_shared<Data>(record(std::move(setup)));
+    const RunOverrides overrides{.method = scene.method_ ? methodNamed(*scene.method_) : std::nullopt,
+                                 .tolerance = scene.tolerance_,
+                                 .threads = scene.threads_};
+    return std::make_shared<Data>(record(prepare(parseScene(scene.text(), scene.name()), overrides).setup));
   });
 }
 

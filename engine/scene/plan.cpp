@@ -243,14 +243,6 @@ World assemble(const Scene& scene, const Plan& plan) {
   return world;
 }
 
-RunSettings settingsOf(const Scene& scene) {
-  return {.method = scene.method,
-          .duration = scene.duration,
-          .dt = scene.dt,
-          .tolerance = scene.tolerance,
-          .crowds = scene.crowds};
-}
-
 Stage stageOf(const Scene& scene) {
   Stage stage;
   stage.name = scene.name;
@@ -276,7 +268,7 @@ Stage stageOf(const Scene& scene) {
 
 RunSetup setupOf(const Scene& scene) {
   RunSetup setup{.sceneText = scene.text,
-                 .settings = settingsOf(scene),
+                 .settings = static_cast<const RunSettings&>(scene),
                  .world = {},
                  .stage = stageOf(scene),
                  .plan = plan(scene)};

@@ -17,8 +17,6 @@ Plan plan(const Scene& scene);
 /// reader has done so for the scene's own method; for another method see checkApart.
 World assemble(const Scene& scene, const Plan& plan);
 
-RunSettings settingsOf(const Scene& scene);
-
 /// What is drawn of the scene, and how.
 Stage stageOf(const Scene& scene);
 

@@ -18,8 +18,6 @@
 
 namespace careen {
 
-enum class Method : int;  // see physics/world/method.h
-
 struct Room : RoomShape {
   Material material;
 };
@@ -41,21 +39,17 @@ struct SceneBox {
   Color color;
 };
 
-/// A scene file, read and checked. Angles are in radians, except the camera's.
-struct Scene {
+/// A scene file, read and checked: the settings of its run, and all else. Angles are in radians, except the
+/// camera's.
+struct Scene : RunSettings {
   std::string text;  ///< the file, byte for byte
   std::string name = "untitled";
-  double duration = 0;          ///< [s]
   Vec3 gravity = Vec3::Zero();  ///< [m/s²]
   std::optional<Room> room;
   std::vector<Wall> walls;  ///< the explicit walls; the room's come from `room`
   std::vector<SceneBox> boxes;
   std::vector<Spring> springs;
   std::optional<Drag> drag;
-  Method method{};          ///< kExact unless said otherwise
-  double dt = 1.0 / 240;    ///< [s]
-  double tolerance = 1e-6;  ///< of methods with adaptive step size
-  CrowdSettings crowds;
   std::optional<Camera> camera;  ///< absent: a camera that sees the whole motion is chosen
   CameraMove cameraMove;         ///< empty if there is no camera
   TimeMap timeMap;

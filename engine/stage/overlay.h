@@ -5,24 +5,28 @@
 
 #include "stage/name_set.h"
 
+/// The explanatory drawings over a film's pictures: name in C++; name in scenes and on the command line. The
+/// one list of them, a macro because a build without GL knows the names, not what draws them: that is the
+/// OverlayKind k<Name>Overlay, in a source of its own in render/overlay.
+#define CAREEN_OVERLAYS(OVERLAY)               \
+  OVERLAY(Contacts, "contacts")                \
+  OVERLAY(Impulses, "impulses")                \
+  OVERLAY(AngularMomentum, "angular-momentum") \
+  OVERLAY(SpinAxis, "spin-axis")               \
+  OVERLAY(Trail, "trail")                      \
+  OVERLAY(Velocity, "velocity")                \
+  OVERLAY(Names, "names")                      \
+  OVERLAY(Time, "time")                        \
+  OVERLAY(Energy, "energy")
+
 namespace careen {
 
-/// Explanatory drawings over a film's pictures.
-enum class Overlay {
-  kContacts,         ///< contact points and normals of impacts
-  kImpulses,         ///< impulses of these impacts
-  kAngularMomentum,  ///< about the centre of mass
-  kSpinAxis,         ///< instantaneous axis of rotation
-  kTrail,            ///< path of a corner of each box
-  kVelocity,         ///< of the centre of mass
-  kNames,            ///< of boxes
-  kTime,             ///< scene time, as a time code
-  kEnergy            ///< its parts, and the loss
-};
+#define CAREEN_OVERLAY_ENUMERATOR(Name, name) k##Name,
+enum class Overlay { CAREEN_OVERLAYS(CAREEN_OVERLAY_ENUMERATOR) };
 
-/// Names in scenes and on the command line, in the order of Overlay.
-inline constexpr std::array<std::string_view, 9> kOverlayNames = {
-    "contacts", "impulses", "angular-momentum", "spin-axis", "trail", "velocity", "names", "time", "energy"};
+/// In the order of Overlay.
+#define CAREEN_OVERLAY_NAME(Name, name) std::string_view(name),
+inline constexpr std::array kOverlayNames = {CAREEN_OVERLAYS(CAREEN_OVERLAY_NAME)};
 
 /// The overlays of a film.
 using OverlaySet = NameSet<Overlay, kOverlayNames>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "physics/world/plan.h"
@@ -18,5 +19,9 @@ struct RunSetup {
   Stage stage;
   Plan plan;
 };
+
+/// The most segments and impacts of a run unless more are asked for: 2 GB, three times that while they are
+/// recorded.
+inline constexpr std::uint64_t kMostRecords = 5'000'000;
 
 }  // namespace careen

@@ -11,8 +11,8 @@
 #include <variant>
 
 #include "core/brief.h"
-#include "core/csv.h"
 #include "core/error.h"
+#include "core/table.h"
 #include "physics/simulate.h"
 #include "physics/world/method.h"
 
@@ -181,25 +181,23 @@ int DiceResult::within() const {
 }
 
 std::string diceCsv(const std::vector<DiceResult>& results) {
-  std::ostringstream csv;
-  csv << "restitution,friction,height,speed,spin,ratio,throws,square,undecided,probability,low,high,measured,"
-         "rolls,deviation\n";
+  Table table{.head = {"restitution", "friction", "height", "speed", "spin", "ratio", "throws", "square",
+                       "undecided", "probability", "low", "high", "measured", "rolls", "deviation"}};
   for (const DiceResult& result : results) {
+    const ThrowSettings& settings = result.settings;
     for (std::size_t i = 0; i < result.faces.size(); ++i) {
       const Faces& faces = result.faces[i];
       const MeasuredDie& measured = kMeasuredDice.at(i);
       const Band band = bandOf(faces.probability(), faces.square + faces.other);
-      for (const double number : {result.settings.restitution, result.settings.friction,
-                                  result.settings.height, result.settings.speed, result.settings.spin}) {
-        csv << inFull(number) << ',';
-      }
-      csv << inFull(measured.ratio) << ',' << result.settings.throws << ',' << faces.square << ','
-          << faces.undecided << ',' << inFull(faces.probability()) << ',' << inFull(band.low) << ','
-          << inFull(band.high) << ',' << inFull(measured.square) << ',' << measured.rolls << ','
-          << inFull(deviationOf(faces, measured)) << '\n';
+      table.rows.push_back({inFull(settings.restitution), inFull(settings.friction), inFull(settings.height),
+                            inFull(settings.speed), inFull(settings.spin), inFull(measured.ratio),
+                            std::to_string(settings.throws), std::to_string(faces.square),
+                            std::to_string(faces.undecided), inFull(faces.probability()), inFull(band.low),
+                            inFull(band.high), inFull(measured.square), std::to_string(measured.rolls),
+                            inFull(deviationOf(faces, measured))});
     }
   }
-  return csv.str();
+  return table.csv();
 }
 
 std::string diceMarkdown(const std::vector<DiceResult>& results) {
@@ -214,22 +212,20 @@ std::string diceMarkdown(const std::vector<DiceResult>& results) {
   const DiceResult& first = results.front();
   text << "\n## Restitution " << brief(first.settings.restitution) << ", friction "
        << brief(first.settings.friction) << ", from " << brief(first.settings.height) << " m at "
-       << brief(first.settings.speed) << " m/s and up to " << brief(first.settings.spin)
-       << " rad/s\n\n| x/y | thrown | band | measured | band | standard deviations "
-          "|\n|---|---|---|---|---|---|\n";
+       << brief(first.settings.speed) << " m/s and up to " << brief(first.settings.spin) << " rad/s\n\n";
+  Table shapes{.head = {"x/y", "thrown", "band", "measured", "band", "standard deviations"}};
   for (std::size_t i = 0; i < first.faces.size(); ++i) {
     const Faces& faces = first.faces[i];
     const MeasuredDie& measured = kMeasuredDice.at(i);
     const Band mine = bandOf(faces.probability(), faces.square + faces.other);
     const Band theirs = bandOf(measured.square, measured.rolls);
-    text << "| " << brief(measured.ratio) << " | " << partOf(faces.probability()) << " | " << partOf(mine.low)
-         << "–" << partOf(mine.high) << " | " << partOf(measured.square) << " | " << partOf(theirs.low) << "–"
-         << partOf(theirs.high) << " | " << brief(deviationOf(faces, measured), 2) << " |\n";
+    shapes.rows.push_back({brief(measured.ratio), partOf(faces.probability()),
+                           partOf(mine.low) + "–" + partOf(mine.high), partOf(measured.square),
+                           partOf(theirs.low) + "–" + partOf(theirs.high),
+                           brief(deviationOf(faces, measured), 2)});
   }
-  text
-      << "\n## What is not known of the throws\n\n| restitution | friction | height [m] | speed [m/s] | spin "
-         "[rad/s] | within two standard deviations | mean distance | undecided |\n"
-         "|---|---|---|---|---|---|---|---|\n";
+  Table unknown{.head = {"restitution", "friction", "height [m]", "speed [m/s]", "spin [rad/s]",
+                         "within two standard deviations", "mean distance", "undecided"}};
   for (const DiceResult& result : results) {
     double sum = 0;
     int undecided = 0;
@@ -238,11 +234,12 @@ std::string diceMarkdown(const std::vector<DiceResult>& results) {
       undecided += result.faces[i].undecided;
     }
     const ThrowSettings& settings = result.settings;
-    text << "| " << brief(settings.restitution) << " | " << brief(settings.friction) << " | "
-         << brief(settings.height) << " | " << brief(settings.speed) << " | " << brief(settings.spin) << " | "
-         << result.within() << " of " << result.faces.size() << " | "
-         << brief(sum / static_cast<double>(result.faces.size()), 2) << " | " << undecided << " |\n";
+    unknown.rows.push_back(
+        {brief(settings.restitution), brief(settings.friction), brief(settings.height), brief(settings.speed),
+         brief(settings.spin), std::to_string(result.within()) + " of " + std::to_string(result.faces.size()),
+         brief(sum / static_cast<double>(result.faces.size()), 2), std::to_string(undecided)});
   }
+  text << shapes.markdown() << "\n## What is not known of the throws\n\n" << unknown.markdown();
   return text.str();
 }
 

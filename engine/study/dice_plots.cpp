@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "core/brief.h"
-#include "core/csv.h"
 
 namespace careen {
 namespace {

@@ -14,122 +14,35 @@
 namespace careen {
 namespace {
 
-// From red (no correct digit) over white to blue (all correct), as in the plot of the matrix.
-std::string colourOf(double digits) {
-  using Rgb = std::array<double, 3>;
-  constexpr Rgb kNone = {178, 24, 43};
-  constexpr Rgb kHalf = {247, 247, 247};
-  constexpr Rgb kAll = {67, 147, 195};
-  const double at = std::clamp(digits / 16, 0.0, 1.0);
-  const Rgb& from = at < 0.5 ? kNone : kHalf;
-  const Rgb& to = at < 0.5 ? kHalf : kAll;
-  const double part = at < 0.5 ? 2 * at : 2 * at - 1;
-  std::ostringstream colour;
-  colour << "rgb(";
-  for (std::size_t i = 0; i < 3; ++i) {
-    colour << (i == 0 ? "" : ",") << std::lround(from.at(i) + part * (to.at(i) - from.at(i)));
-  }
-  return colour.str() + ")";
-}
-
-std::string cellOf(const Attempt* attempt) {
-  if (attempt == nullptr) {
-    return "<td></td>";
-  }
-  if (!attempt->failure.empty()) {
-    return R"(<td class="none" title=")" + escapedForMarkup(attempt->failure) + "\">–</td>";
-  }
-  const double digits = correctDigits(attempt->judgement.error);
-  return "<td style=\"background:" + colourOf(digits) + (digits < 3 ? ";color:white" : "") + "\">" +
-         inShort(attempt->judgement.error) + "</td>";
-}
-
-std::string headOf(const std::vector<std::string>& contestants) {
-  std::string row = "<tr><th>case</th>";
-  for (const std::string& contestant : contestants) {
-    row += "<th>" + escapedForMarkup(contestant) + "</th>";
-  }
-  return row + "</tr>\n";
-}
-
-std::string matrix(const StudyResult& study) {
-  const std::vector<std::string> contestants = study.contestants();
-  std::string table = "<table class=\"matrix\">\n" + headOf(contestants);
-  for (const CaseResult& result : study.cases) {
-    table += "<tr><th><a href=\"#" + escapedForMarkup(result.name) + "\">" + escapedForMarkup(result.name) +
-             "</a></th>";
-    for (const std::string& contestant : contestants) {
-      table += cellOf(usualAttempt(result, contestant));
-    }
-    table += "</tr>\n";
-  }
-  return table + "</table>\n";
-}
-
 std::string published(const StudyResult& study) {
-  const std::vector<std::string> contestants = study.contestants();
-  std::string rows;
-  for (const CaseResult& result : study.cases) {
-    if (result.published.empty()) {
-      continue;
-    }
-    rows += "<tr><th><a href=\"#" + escapedForMarkup(result.name) + "\">" + escapedForMarkup(result.name) +
-            "</a></th><td>" + escapedForMarkup(result.published) + "</td>";
-    for (const std::string& contestant : contestants) {
-      const std::string verdict = verdictOf(usualAttempt(result, contestant));
-      rows += (verdict == "wrong" ? "<td class=\"bad\">" : "<td>") + verdict + "</td>";
-    }
-    rows += "</tr>\n";
-  }
-  if (rows.empty()) {
+  const StudyResult published = publishedOf(study);
+  if (published.cases.empty()) {
     return "<p>None of them was asked for.</p>\n";
   }
-  std::string head = headOf(contestants);
-  head.insert(head.find("</th>") + 5, "<th>published by</th>");
-  return "<table class=\"matrix\">\n" + head + rows + "</table>\n";
-}
-
-std::string promises(const StudyResult& study) {
-  std::string table = "<table class=\"matrix\">\n<tr><th>case</th>";
-  for (const double factor : kPromisedTolerances) {
-    table += "<th>" + (factor == 1 ? "tolerance of the scene" : inShort(factor) + " of it") + "</th>";
+  Table table = verdictTable(published);
+  table.head.insert(table.head.begin() + 1, "published by");
+  for (std::size_t i = 0; i < published.cases.size(); ++i) {
+    table.rows[i].insert(table.rows[i].begin() + 1, published.cases[i].published);
   }
-  table += "</tr>\n";
-  for (const CaseResult& result : study.cases) {
-    table += "<tr><th><a href=\"#" + escapedForMarkup(result.name) + "\">" + escapedForMarkup(result.name) +
-             "</a></th>";
-    for (const double factor : kPromisedTolerances) {
-      const std::optional<double> ratio = promiseOf(result, factor);
-      table +=
-          (ratio && *ratio > 1 ? "<td class=\"bad\">" : "<td>") + (ratio ? inShort(*ratio) : "–") + "</td>";
-    }
-    table += "</tr>\n";
-  }
-  return table + "</table>\n";
+  return table.html("matrix");
 }
 
 std::string attemptsOf(const CaseResult& result) {
-  std::ostringstream table;
-  table << "<table><tr><th>contestant</th><th>dt [s]</th><th>tolerance "
-           "[m]</th><th>error</th><th>audit</th><th>µs per "
-           "simulated "
-           "s</th><th>spread</th>"
-           "<th>repeats</th><th>Pareto front</th></tr>\n";
+  Table table{.head = {"contestant", "dt [s]", "tolerance [m]", "error", "audit", "µs per simulated s",
+                       "spread", "repeats", "Pareto front"}};
   for (const Attempt& attempt : result.attempts) {
-    table << "<tr><th>" << escapedForMarkup(attempt.contestant) << "</th><td>"
-          << (attempt.dt > 0 ? inShort(attempt.dt) : "") << "</td><td>"
-          << (attempt.tolerance > 0 ? inShort(attempt.tolerance) : "") << "</td>";
+    std::vector<Cell>& row = table.rows.emplace_back();
+    row = {attempt.contestant, attempt.dt > 0 ? inShort(attempt.dt) : "",
+           attempt.tolerance > 0 ? inShort(attempt.tolerance) : ""};
     if (attempt.failure.empty()) {
-      table << "<td>" << inShort(attempt.judgement.error) << "</td><td>" << escapedForMarkup(attempt.audit)
-            << "</td><td>" << (attempt.cost > 0 ? inShort(attempt.cost) : "") << "</td><td>"
-            << inShort(attempt.spread) << "</td><td>" << attempt.repeats << "</td><td>"
-            << (onFront(result, attempt) ? "yes" : "") << "</td></tr>\n";
+      row.insert(row.end(), {inShort(attempt.judgement.error), attempt.audit,
+                             attempt.cost > 0 ? inShort(attempt.cost) : "", inShort(attempt.spread),
+                             std::to_string(attempt.repeats), onFront(result, attempt) ? "yes" : ""});
     } else {
-      table << R"(<td colspan="6" class="none">)" << escapedForMarkup(attempt.failure) << "</td></tr>\n";
+      row.emplace_back(attempt.failure, R"(colspan="6" class="none")");
     }
   }
-  table << "</table>\n";
-  return table.str();
+  return table.html();
 }
 
 // The part of an SVG file that can be embedded in a page.
@@ -211,9 +124,9 @@ std::string resultsPage(const StudyResult& study, const std::vector<std::string>
       {"{{verdict}}", verdict(study)},
       {"{{machine}}", escapedForMarkup(study.machine)},
       {"{{command}}", escapedForMarkup(study.command)},
-      {"{{matrix}}", matrix(study)},
+      {"{{matrix}}", errorTable(study).html("matrix")},
       {"{{published}}", published(study)},
-      {"{{promises}}", promises(study)},
+      {"{{promises}}", promiseTable(study).html("matrix")},
       {"{{settings}}", settingsOf(study)},
       {"{{cases}}", sections(study, plots)}};
   for (const auto& [mark, text] : parts) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/table.h"
 #include "study/measuring.h"
 
 namespace careen {
@@ -48,6 +49,14 @@ bool onFront(const CaseResult& result, const Attempt& attempt);
 std::vector<const Attempt*> betterThan(const CaseResult& result, const Attempt& attempt);
 /// −log₁₀ of an error, from 0 (no correct digit) to 16 (all digits of a double).
 double correctDigits(double error);
+
+/// The study without the cases that nobody published.
+StudyResult publishedOf(StudyResult study);
+/// One row per case, with one column per contestant: errors and verdicts at the usual time step; or with one
+/// per tolerance: promises.
+Table errorTable(const StudyResult& study);
+Table verdictTable(const StudyResult& study);
+Table promiseTable(const StudyResult& study);
 
 /// All attempts: case,contestant,dt,tolerance,error,cost_us,spread,repeats,front,failure. cost_us is µs of
 /// one core per simulated second.

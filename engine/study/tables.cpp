@@ -1,57 +1,53 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <sstream>
 
 #include "core/brief.h"
-#include "core/csv.h"
+#include "core/characters.h"
 #include "study/results.h"
 #include "study/verdicts.h"
 
 namespace careen {
 namespace {
 
-// A message may contain line ends; many readers of tables take one line for one row.
-std::string onOneLine(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return text;
+// From red (no correct digit) over white to blue (all correct), as in the plot of the matrix.
+std::string colourOf(double digits) {
+  using Rgb = std::array<double, 3>;
+  constexpr Rgb kNone = {178, 24, 43};
+  constexpr Rgb kHalf = {247, 247, 247};
+  constexpr Rgb kAll = {67, 147, 195};
+  const double at = std::clamp(digits / 16, 0.0, 1.0);
+  const Rgb& from = at < 0.5 ? kNone : kHalf;
+  const Rgb& to = at < 0.5 ? kHalf : kAll;
+  const double part = at < 0.5 ? 2 * at : 2 * at - 1;
+  std::ostringstream colour;
+  colour << "rgb(";
+  for (std::size_t i = 0; i < 3; ++i) {
+    colour << (i == 0 ? "" : ",") << std::lround(from.at(i) + part * (to.at(i) - from.at(i)));
+  }
+  return colour.str() + ")";
 }
 
-// A cell of a table in Markdown.
-std::string markdownCell(const std::string& text) {
-  std::string result;
-  for (const char c : onOneLine(text)) {
-    result += c == '|' ? "\\|" : std::string(1, c);
-  }
-  return result;
-}
-
-std::string cell(const Attempt* attempt) {
-  if (attempt == nullptr) {
-    return "";
-  }
-  return attempt->failure.empty() ? inShort(attempt->judgement.error) : "–";
+Cell caseCell(const CaseResult& result) {
+  Cell cell(result.name);
+  cell.section = result.name;
+  return cell;
 }
 
 // One row per case, one column per contestant.
 template <class CellOf>
-void addTable(std::ostream& text, const StudyResult& study, CellOf cellOf) {
-  const std::vector<std::string> contestants = study.contestants();
-  text << "| case |";
-  for (const std::string& contestant : contestants) {
-    text << ' ' << contestant << " |";
-  }
-  text << "\n|---|";
-  for (std::size_t i = 0; i < contestants.size(); ++i) {
-    text << "---|";
-  }
-  text << '\n';
+Table tableOf(const StudyResult& study, CellOf cellOf) {
+  Table table{.head = study.contestants()};
   for (const CaseResult& result : study.cases) {
-    text << "| " << markdownCell(result.name) << " |";
-    for (const std::string& contestant : contestants) {
-      text << ' ' << cellOf(usualAttempt(result, contestant)) << " |";
+    std::vector<Cell>& row = table.rows.emplace_back();
+    row.push_back(caseCell(result));
+    for (const std::string& contestant : table.head) {
+      row.push_back(cellOf(usualAttempt(result, contestant)));
     }
-    text << '\n';
   }
+  table.head.insert(table.head.begin(), "case");
+  return table;
 }
 
 std::string finenessOf(const Attempt& attempt) {
@@ -60,47 +56,18 @@ std::string finenessOf(const Attempt& attempt) {
                                  : "";
 }
 
-// One row per published scene, one column per contestant.
+// One row per published scene.
 void addPublished(std::ostream& text, const StudyResult& study) {
-  StudyResult published = study;
-  std::erase_if(published.cases, [](const CaseResult& result) { return result.published.empty(); });
+  const StudyResult published = publishedOf(study);
   if (published.cases.empty()) {
     return;
   }
   text << "\n## Scenes that others published with their answers\n\n"
        << "Right: never further than a tenth of a half diagonal, or of a radian, from the answer, at the\n"
-       << "usual time step.\n\n";
-  addTable(text, published, [](const Attempt* attempt) { return verdictOf(attempt); });
-  text << "\nPublished by:\n\n";
+       << "usual time step.\n\n"
+       << verdictTable(published).markdown() << "\nPublished by:\n\n";
   for (const CaseResult& result : published.cases) {
     text << "- " << onOneLine(result.name) << ": " << onOneLine(result.published) << '\n';
-  }
-}
-
-void addPromises(std::ostream& text, const StudyResult& study) {
-  text
-      << "\n## Promises kept by exact\n\n"
-      << "Largest distance of a point of a box from its truth, over the tolerance asked for. **Bold**: above "
-         "1,\nbroken. The audit holds a pile, a crowd, to a tolerance of its own.\n\n| case |";
-  for (const double factor : kPromisedTolerances) {
-    text << ' ' << (factor == 1 ? "tolerance of the scene" : brief(factor) + " of it") << " |";
-  }
-  text << "\n|---|";
-  for (std::size_t i = 0; i < kPromisedTolerances.size(); ++i) {
-    text << "---|";
-  }
-  text << '\n';
-  for (const CaseResult& result : study.cases) {
-    text << "| " << markdownCell(result.name) << " |";
-    for (const double factor : kPromisedTolerances) {
-      const std::optional<double> ratio = promiseOf(result, factor);
-      text << ' '
-           << (!ratio       ? std::string("–")
-               : *ratio > 1 ? "**" + inShort(*ratio) + "**"
-                            : inShort(*ratio))
-           << " |";
-    }
-    text << '\n';
   }
 }
 
@@ -139,57 +106,99 @@ void addFindings(std::ostream& text, const StudyResult& study) {
 
 std::string inShort(double value) { return brief(value, 2); }
 
+StudyResult publishedOf(StudyResult study) {
+  std::erase_if(study.cases, [](const CaseResult& result) { return result.published.empty(); });
+  return study;
+}
+
+Table errorTable(const StudyResult& study) {
+  return tableOf(study, [](const Attempt* attempt) -> Cell {
+    if (attempt == nullptr) {
+      return "";
+    }
+    if (!attempt->failure.empty()) {
+      return {"–", R"(class="none" title=")" + escapedForMarkup(attempt->failure) + '"'};
+    }
+    const double digits = correctDigits(attempt->judgement.error);
+    return {inShort(attempt->judgement.error),
+            "style=\"background:" + colourOf(digits) + (digits < 3 ? ";color:white\"" : "\"")};
+  });
+}
+
+Table verdictTable(const StudyResult& study) {
+  return tableOf(study, [](const Attempt* attempt) -> Cell {
+    const std::string verdict = verdictOf(attempt);
+    return {verdict, verdict == "wrong" ? R"(class="bad")" : ""};
+  });
+}
+
+Table promiseTable(const StudyResult& study) {
+  Table table{.head = {"case"}};
+  for (const double factor : kPromisedTolerances) {
+    table.head.push_back(factor == 1 ? "tolerance of the scene" : brief(factor) + " of it");
+  }
+  for (const CaseResult& result : study.cases) {
+    std::vector<Cell>& row = table.rows.emplace_back();
+    row.push_back(caseCell(result));
+    for (const double factor : kPromisedTolerances) {
+      const std::optional<double> ratio = promiseOf(result, factor);
+      const bool isBroken = ratio && *ratio > 1;
+      Cell& cell = row.emplace_back(ratio ? inShort(*ratio) : "–", isBroken ? R"(class="bad")" : "");
+      cell.isStrong = isBroken;
+    }
+  }
+  return table;
+}
+
 std::string resultsCsv(const StudyResult& study) {
-  std::ostringstream csv;
-  csv << "case,contestant,dt,tolerance,error,cost_us,spread,repeats,front,failure\n";
+  Table table{.head = {"case", "contestant", "dt", "tolerance", "error", "cost_us", "spread", "repeats",
+                       "front", "failure"}};
   for (const CaseResult& result : study.cases) {
     for (const Attempt& attempt : result.attempts) {
-      csv << csvCell(onOneLine(result.name)) << ',' << csvCell(onOneLine(attempt.contestant)) << ','
-          << (attempt.dt > 0 ? inFull(attempt.dt) : "") << ','
-          << (attempt.tolerance > 0 ? inFull(attempt.tolerance) : "") << ',';
+      std::vector<Cell>& row = table.rows.emplace_back();
+      row = {result.name, attempt.contestant, attempt.dt > 0 ? inFull(attempt.dt) : "",
+             attempt.tolerance > 0 ? inFull(attempt.tolerance) : ""};
       if (attempt.failure.empty()) {
-        csv << inFull(attempt.judgement.error) << ',' << (attempt.cost > 0 ? brief(attempt.cost, 6) : "")
-            << ',' << brief(attempt.spread, 3) << ',' << attempt.repeats << ',' << onFront(result, attempt)
-            << ",\n";
+        row.insert(row.end(), {inFull(attempt.judgement.error),
+                               attempt.cost > 0 ? brief(attempt.cost, 6) : "", brief(attempt.spread, 3),
+                               std::to_string(attempt.repeats), onFront(result, attempt) ? "1" : "0", ""});
       } else {
-        csv << ",,,,0," << csvCell(onOneLine(attempt.failure)) << '\n';
+        row.insert(row.end(), {"", "", "", "", "0", attempt.failure});
       }
     }
   }
-  return csv.str();
+  return table.csv();
 }
 
 std::string energyCsv(const StudyResult& study) {
-  std::ostringstream csv;
-  csv << "case,contestant,time,change\n";
-  const std::vector<std::string> contestants = study.contestants();
+  Table table{.head = {"case", "contestant", "time", "change"}};
   for (const CaseResult& result : study.cases) {
-    for (const std::string& contestant : contestants) {
+    for (const std::string& contestant : study.contestants()) {
       const Attempt* const attempt = usualAttempt(result, contestant);
       for (std::size_t k = 0; attempt != nullptr && k < attempt->judgement.energy.size(); ++k) {
-        csv << csvCell(onOneLine(result.name)) << ',' << csvCell(onOneLine(contestant)) << ','
-            << inFull(result.times[k]) << ',' << inFull(attempt->judgement.energy[k]) << '\n';
+        table.rows.push_back(
+            {result.name, contestant, inFull(result.times[k]), inFull(attempt->judgement.energy[k])});
       }
     }
   }
-  return csv.str();
+  return table.csv();
 }
 
 std::string matrixCsv(const StudyResult& study) {
-  std::ostringstream csv;
-  csv << "row,column,case,contestant,digits,error\n";
+  Table table{.head = {"row", "column", "case", "contestant", "digits", "error"}};
   const std::vector<std::string> contestants = study.contestants();
+  const Table errors = errorTable(study);
   for (std::size_t row = 0; row < study.cases.size(); ++row) {
     for (std::size_t column = 0; column < contestants.size(); ++column) {
       const Attempt* const attempt = usualAttempt(study.cases[row], contestants[column]);
       const bool answered = attempt != nullptr && attempt->failure.empty();
-      csv << row << ',' << column << ',' << csvCell(onOneLine(study.cases[row].name)) << ','
-          << csvCell(onOneLine(contestants[column])) << ','
-          << (answered ? brief(correctDigits(attempt->judgement.error), 4) : "-1") << ',' << cell(attempt)
-          << '\n';
+      table.rows.push_back({std::to_string(row), std::to_string(column), study.cases[row].name,
+                            contestants[column],
+                            answered ? brief(correctDigits(attempt->judgement.error), 4) : "-1",
+                            errors.rows[row][column + 1].text});
     }
   }
-  return csv.str();
+  return table.csv();
 }
 
 std::string resultsMarkdown(const StudyResult& study) {
@@ -200,14 +209,19 @@ std::string resultsMarkdown(const StudyResult& study) {
        << "Largest distance from the truth in half diagonals, or angle in radians; for a pile\n"
        << "the deepest penetration in half diagonals; for energy, its largest relative change. "
        << "– means that there is no answer; results.csv has the reason.\n\n";
-  addTable(text, study, [](const Attempt* attempt) { return cell(attempt); });
-  text << "\n## Costs\n\nµs of one core per simulated second, at the usual time step.\n\n";
-  addTable(text, study, [](const Attempt* attempt) {
+  text << errorTable(study).markdown()
+       << "\n## Costs\n\nµs of one core per simulated second, at the usual time step.\n\n";
+  const Table costs = tableOf(study, [](const Attempt* attempt) -> Cell {
     return attempt != nullptr && attempt->failure.empty() && attempt->cost > 0 ? brief(attempt->cost, 3)
-                                                                               : std::string("–");
+                                                                               : "–";
   });
+  text << costs.markdown();
   addPublished(text, study);
-  addPromises(text, study);
+  text
+      << "\n## Promises kept by exact\n\n"
+      << "Largest distance of a point of a box from its truth, over the tolerance asked for. **Bold**: above "
+         "1,\nbroken. The audit holds a pile, a crowd, to a tolerance of its own.\n\n"
+      << promiseTable(study).markdown();
   addFindings(text, study);
   return text.str();
 }

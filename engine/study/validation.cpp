@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "core/brief.h"
-#include "core/csv.h"
 #include "core/error.h"
 #include "core/math/pose_difference.h"
 #include "core/system/clock.h"
+#include "core/table.h"
 #include "physics/world/given_inertia.h"
 #include "physics/world/method.h"
 #include "scene/plan.h"
@@ -343,43 +343,44 @@ double minimumOf(const std::vector<SweepPoint>& points) {
 }
 
 std::string tossesCsv(const std::vector<Toss>& tosses, double size) {
-  std::string csv =
-      "toss,rows,fitted,impacts,mean_place,largest_place,mean_place_percent,mean_attitude,largest_attitude,"
-      "floor_place,floor_attitude,position_noise,attitude_noise,measured_face,simulated_face,seconds\n";
+  Table table{.head = {"toss", "rows", "fitted", "impacts", "mean_place", "largest_place",
+                       "mean_place_percent", "mean_attitude", "largest_attitude", "floor_place",
+                       "floor_attitude", "position_noise", "attitude_noise", "measured_face",
+                       "simulated_face", "seconds"}};
   for (const Toss& toss : tosses) {
-    csv += csvCell(toss.name);
+    std::vector<Cell>& row = table.rows.emplace_back();
+    row.emplace_back(toss.name);
     for (const std::size_t count : {toss.times.size(), toss.fitted, toss.impacts}) {
-      csv.append(",").append(std::to_string(count));
+      row.emplace_back(std::to_string(count));
     }
     for (const double number : {toss.meanPlace, toss.largestPlace, 100 * toss.meanPlace / size,
                                 toss.meanAttitude, toss.largestAttitude, toss.floorPlace, toss.floorAttitude,
                                 toss.positionNoise, toss.attitudeNoise}) {
-      csv.append(",").append(brief(number, 6));
+      row.emplace_back(brief(number, 6));
     }
-    csv.append(",").append(toss.measuredFace).append(",").append(toss.simulatedFace);
-    csv.append(",").append(brief(toss.seconds, 3)).append("\n");
+    row.insert(row.end(), {toss.measuredFace, toss.simulatedFace, brief(toss.seconds, 3)});
   }
-  return csv;
+  return table.csv();
 }
 
 std::string errorsCsv(const std::vector<Toss>& tosses) {
-  std::string csv = "toss,time,place,attitude\n";
+  Table table{.head = {"toss", "time", "place", "attitude"}};
   for (const Toss& toss : tosses) {
     for (std::size_t k = 0; k < toss.times.size(); ++k) {
-      csv += csvCell(toss.name) + "," + inFull(toss.times[k]) + "," + brief(toss.place[k], 6) + "," +
-             brief(toss.attitude[k], 6) + "\n";
+      table.rows.push_back(
+          {toss.name, inFull(toss.times[k]), brief(toss.place[k], 6), brief(toss.attitude[k], 6)});
     }
   }
-  return csv;
+  return table.csv();
 }
 
 std::string sweepCsv(const std::vector<SweepPoint>& points, Parameter parameter) {
-  std::string csv(kParameterNames.at(static_cast<std::size_t>(parameter)));
-  csv += ",mean_place,mean_attitude\n";
+  Table table{.head = {std::string(kParameterNames.at(static_cast<std::size_t>(parameter))), "mean_place",
+                       "mean_attitude"}};
   for (const SweepPoint& point : points) {
-    csv += inFull(point.value) + "," + brief(point.place, 6) + "," + brief(point.attitude, 6) + "\n";
+    table.rows.push_back({inFull(point.value), brief(point.place, 6), brief(point.attitude, 6)});
   }
-  return csv;
+  return table.csv();
 }
 
 }  // namespace careen

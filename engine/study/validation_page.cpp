@@ -9,6 +9,7 @@
 #include "core/brief.h"
 #include "core/characters.h"
 #include "core/math/to_integer.h"
+#include "core/table.h"
 #include "study/plot_files.h"
 #include "study/plots.h"
 #include "study/study.h"
@@ -101,22 +102,16 @@ Plot sweepPlot(const Validation& validation) {
 }
 
 std::string tossTable(const Validation& validation) {
-  std::string table =
-      "<table><tr><th>toss</th><th>rows</th><th>fitted</th><th>impacts</th><th>place, "
-      "mean</th><th>largest</th>"
-      "<th>attitude, mean</th><th>largest</th><th>floor</th><th>face measured</th><th>simulated</th></tr>\n";
+  Table table{.head = {"toss", "rows", "fitted", "impacts", "place, mean", "largest", "attitude, mean",
+                       "largest", "floor", "face measured", "simulated"}};
   for (const Toss& toss : validation.tosses) {
-    table += "<tr><th>" + escapedForMarkup(toss.name) + "</th>";
-    for (const std::string& cell :
-         {std::to_string(toss.times.size()), std::to_string(toss.fitted), std::to_string(toss.impacts),
-          percent(toss.meanPlace / validation.size), percent(toss.largestPlace / validation.size),
-          degrees(toss.meanAttitude), degrees(toss.largestAttitude),
-          percent(toss.floorPlace / validation.size), toss.measuredFace, toss.simulatedFace}) {
-      table += "<td>" + cell + "</td>";
-    }
-    table += "</tr>\n";
+    table.rows.push_back({toss.name, std::to_string(toss.times.size()), std::to_string(toss.fitted),
+                          std::to_string(toss.impacts), percent(toss.meanPlace / validation.size),
+                          percent(toss.largestPlace / validation.size), degrees(toss.meanAttitude),
+                          degrees(toss.largestAttitude), percent(toss.floorPlace / validation.size),
+                          toss.measuredFace, toss.simulatedFace});
   }
-  return table + "</table>\n";
+  return table.html();
 }
 
 }  // namespace

@@ -8,33 +8,15 @@
 #include <utility>
 #include <variant>
 
-#include "core/brief.h"
-#include "core/csv.h"
 #include "core/error.h"
+#include "core/table.h"
 #include "trajectory/numpy_array.h"
 #include "trajectory/pose_samples.h"
-#include "trajectory/zip_archive.h"
 
 namespace careen {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-void append(std::string& row, double value) {
-  constexpr int kDigits = 17;  // round-trips a double
-  row += row.empty() || row.back() == '\n' ? "" : ",";
-  row += std::isnan(value) ? "nan" : brief(value, kDigits);
-}
-
-void append(std::string& row, const PoseRow& state) {
-  for (const double number :
-       {state.position.x(), state.position.y(), state.position.z(), state.worldFromBody.w(),
-        state.worldFromBody.x(), state.worldFromBody.y(), state.worldFromBody.z(), state.velocity.x(),
-        state.velocity.y(), state.velocity.z(), state.angularVelocity.x(), state.angularVelocity.y(),
-        state.angularVelocity.z()}) {
-    append(row, number);
-  }
-}
 
 int faceUp(const Trajectory& run, const Quat& worldFromBody) {
   const Vec3 up = run.world.gravity.isZero() ? Vec3(Vec3::UnitZ()) : Vec3(-run.world.gravity);
@@ -126,11 +108,11 @@ std::vector<OutcomeColumn> outcomeColumns(const Family& family) {
 }
 
 std::string outcomeHeader(const Family& family) {
-  std::string line;
+  CsvRow row;
   for (const OutcomeColumn& column : outcomeColumns(family)) {
-    line += (line.empty() ? "" : ",") + csvCell(column.name);
+    row.add(column.name);
   }
-  return line + "\n";
+  return row.line();
 }
 
 std::string outcomeRows(std::uint64_t run, const Family::Member& member, const Trajectory& trajectory,
@@ -142,27 +124,23 @@ std::string outcomeRows(std::uint64_t run, const Family::Member& member, const T
     if (isImmovable(body.mass)) {
       continue;
     }
-    append(rows, static_cast<double>(run));
-    append(rows, member.attempts);
-    for (const double number : member.drawn) {
-      append(rows, number);
-    }
     const SceneBox& box = member.scene.boxes[i];
-    for (const double number : {body.halfExtents.x(), body.halfExtents.y(), body.halfExtents.z(),
-                                body.mass.mass, box.material.restitution, box.material.friction}) {
-      append(rows, number);
-    }
     const PoseRow end = poseRow(trajectory, i, trajectory.settings.duration);
-    append(rows, poseRow(trajectory, i, 0));
-    append(rows, end);
-    append(rows, faceUp(trajectory, end.worldFromBody));
-    append(rows, impacts[i].count);
-    append(rows, impacts[i].first);
-    append(rows, impacts[i].last);
-    append(rows, restSince(trajectory.tracks[i]));
-    append(rows, static_cast<double>(trajectory.impacts.size()));
-    append(rows, static_cast<double>(audit.breaches.size()));
-    rows += "," + csvCell(body.name) + "\n";
+    rows += CsvRow()
+                .add(static_cast<double>(run))
+                .add(member.attempts)
+                .addAll(member.drawn)
+                .addAll(body.halfExtents)
+                .addAll(std::array{body.mass.mass, box.material.restitution, box.material.friction})
+                .addAll(poseRow(trajectory, i, 0).numbers())
+                .addAll(end.numbers())
+                .add(faceUp(trajectory, end.worldFromBody))
+                .addAll(std::array{impacts[i].count, impacts[i].first, impacts[i].last})
+                .add(restSince(trajectory.tracks[i]))
+                .add(static_cast<double>(trajectory.impacts.size()))
+                .add(static_cast<double>(audit.breaches.size()))
+                .add(body.name)
+                .line();
   }
   return rows;
 }
@@ -196,18 +174,12 @@ OutcomeTable::OutcomeTable(const Family& family, std::string_view rows, const st
 }
 
 std::string OutcomeTable::archive() const {
-  std::vector<ZipEntry> entries;
-  std::vector<std::string> units;
+  NumpyArchive archive;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    entries.emplace_back(columns[i].name + ".npy", encodeNumpy(NumpyArray::of(numbers[i], {boxes.size()})));
+    archive.add(columns[i].name, columns[i].unit, NumpyArray::of(numbers[i], {boxes.size()}));
   }
-  entries.emplace_back("box.npy", encodeNumpy(NumpyArray::of(boxes, {boxes.size()})));
-  for (const OutcomeColumn& column : columns) {
-    units.push_back(column.name);
-    units.push_back(column.unit);
-  }
-  entries.emplace_back("units.npy", encodeNumpy(NumpyArray::of(std::move(units), {columns.size(), 2})));
-  return zipOf(entries);
+  archive.add(columns.back().name, columns.back().unit, NumpyArray::of(boxes, {boxes.size()}));
+  return archive.bytes();
 }
 
 }  // namespace careen

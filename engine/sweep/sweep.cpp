@@ -13,7 +13,7 @@
 #include "core/system/atomic_folder.h"
 #include "core/system/file.h"
 #include "core/system/shared_work.h"
-#include "scene/plan.h"
+#include "scene/prepare.h"
 #include "sweep/outcome_rows.h"
 #include "sweep/sweep_folder.h"
 #include "trajectory/trajectory.h"
@@ -107,7 +107,7 @@ std::string simulateBlock(const Family& family, const RunRange& range, const Swe
     const auto run = static_cast<std::uint64_t>(k);
     const Family::Member member = family.member(run);
     try {
-      Trajectory trajectory = record(setupOf(member.scene), stop);
+      Trajectory trajectory = record(prepare(member.scene, {.threads = 1}).setup, stop);
       rows += outcomeRows(run, member, trajectory, audit(trajectory, settings.audit, stop));
       if (settings.keepRuns) {
         writeFile(settings.folder / "runs" / (padded(k) + ".careen"), encodeTrajectory(trajectory));

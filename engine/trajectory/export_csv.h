@@ -1,19 +1,32 @@
 #pragma once
 
-#include <functional>
-#include <string_view>
+#include <array>
 
-#include "trajectory/trajectory.h"
+#include "trajectory/exporter.h"
 
 namespace careen {
-
-/// Receives the text of a table piece by piece.
-using TextSink = std::function<void(std::string_view)>;
 
 /// poses.csv: one row per body and sample, samples at k · every [s] from 0 to the end of the run. World
 /// frame, 17 significant digits; of the two quaternions of an orientation the one whose first non-zero
 /// component is positive.
 void writePosesCsv(const Trajectory& trajectory, double every, const TextSink& sink);
+
+/// Columns of a table of impacts, after its time and the names of both.
+struct ImpactColumn {
+  const char* name;
+  const char* unit;
+  double (*of)(const Impact& impact);
+};
+inline constexpr std::array<ImpactColumn, 9> kImpactColumns = {
+    {{"x", "m", [](const Impact& impact) { return impact.point.x(); }},
+     {"y", "m", [](const Impact& impact) { return impact.point.y(); }},
+     {"z", "m", [](const Impact& impact) { return impact.point.z(); }},
+     {"nx", "1", [](const Impact& impact) { return impact.normal.x(); }},
+     {"ny", "1", [](const Impact& impact) { return impact.normal.y(); }},
+     {"nz", "1", [](const Impact& impact) { return impact.normal.z(); }},
+     {"approach", "m/s", [](const Impact& impact) { return impact.approach; }},
+     {"impulse", "N s", [](const Impact& impact) { return impact.impulse; }},
+     {"tangential", "N s", [](const Impact& impact) { return impact.tangential; }}}};
 
 /// impacts.csv: one row per contact point of an impact, in order of time.
 void writeImpactsCsv(const Trajectory& trajectory, const TextSink& sink);

@@ -1,77 +1,22 @@
 #include "trajectory/export_npz.h"
 
+#include <algorithm>
 #include <array>
-#include <map>
+#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "trajectory/export_csv.h"
+#include "trajectory/exporter.h"
 #include "trajectory/numpy_array.h"
 #include "trajectory/pose_samples.h"
-#include "trajectory/zip_archive.h"
 
 namespace careen {
 namespace {
 
 constexpr double kMostRows = 2e7;  // 2 GB
-
-struct ImpactColumn {
-  const char* name;
-  const char* unit;
-  double (*of)(const Impact& impact);
-};
-constexpr std::array<ImpactColumn, 10> kImpactColumns = {
-    {{"impact_time", "s", [](const Impact& impact) { return impact.time; }},
-     {"impact_x", "m", [](const Impact& impact) { return impact.point.x(); }},
-     {"impact_y", "m", [](const Impact& impact) { return impact.point.y(); }},
-     {"impact_z", "m", [](const Impact& impact) { return impact.point.z(); }},
-     {"impact_nx", "1", [](const Impact& impact) { return impact.normal.x(); }},
-     {"impact_ny", "1", [](const Impact& impact) { return impact.normal.y(); }},
-     {"impact_nz", "1", [](const Impact& impact) { return impact.normal.z(); }},
-     {"impact_approach", "m/s", [](const Impact& impact) { return impact.approach; }},
-     {"impact_impulse", "N s", [](const Impact& impact) { return impact.impulse; }},
-     {"impact_tangential", "N s", [](const Impact& impact) { return impact.tangential; }}}};
-
-// In the order of kPoseColumns; 0 for time and box.
-std::array<double, kPoseColumns.size()> numbersOf(const PoseRow& row) {
-  const Quat& q = row.worldFromBody;
-  const Vec3& v = row.velocity;
-  const Vec3& w = row.angularVelocity;
-  return {0,
-          0,
-          row.position.x(),
-          row.position.y(),
-          row.position.z(),
-          q.w(),
-          q.x(),
-          q.y(),
-          q.z(),
-          v.x(),
-          v.y(),
-          v.z(),
-          w.x(),
-          w.y(),
-          w.z()};
-}
-
-class NumpyArchive {
- public:
-  void add(const std::string& name, const std::string& unit, const NumpyArray& array) {
-    entries_.emplace_back(name + ".npy", encodeNumpy(array));
-    units_.push_back(name);
-    units_.push_back(unit);
-  }
-  std::string bytes() {
-    const std::size_t count = units_.size() / 2;
-    entries_.emplace_back("units.npy", encodeNumpy(NumpyArray::of(std::move(units_), {count, 2})));
-    return zipOf(entries_);
-  }
-
- private:
-  std::vector<ZipEntry> entries_;
-  std::vector<std::string> units_;  // name, unit, name, unit …
-};
 
 void addPoses(const Trajectory& run, std::vector<double> times, NumpyArchive& archive) {
   const std::size_t bodies = run.tracks.size();
@@ -79,21 +24,21 @@ void addPoses(const Trajectory& run, std::vector<double> times, NumpyArchive& ar
   for (const Body& body : run.world.bodies) {
     names.push_back(body.name);
   }
-  std::array<std::vector<double>, kPoseColumns.size()> columns;
+  std::array<std::vector<double>, kPoseColumns.size() - 2> columns;
   for (const double time : times) {
     for (std::size_t body = 0; body < bodies; ++body) {
-      const std::array<double, kPoseColumns.size()> numbers = numbersOf(poseRow(run, body, time));
-      for (std::size_t k = 2; k < columns.size(); ++k) {
-        columns[k].push_back(numbers[k]);
+      const auto numbers = poseRow(run, body, time).numbers();
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        columns.at(k).push_back(numbers.at(k));
       }
     }
   }
   const std::size_t moments = times.size();
   archive.add("time", "s", NumpyArray::of(std::move(times), {moments}));
   archive.add("box", "", NumpyArray::of(std::move(names), {bodies}));
-  for (std::size_t k = 2; k < columns.size(); ++k) {
-    archive.add(std::string(kPoseColumns[k]), std::string(kPoseUnits[k]),
-                NumpyArray::of(std::move(columns[k]), {moments, bodies}));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    archive.add(std::string(kPoseColumns.at(k + 2)), std::string(kPoseUnits.at(k + 2)),
+                NumpyArray::of(std::move(columns.at(k)), {moments, bodies}));
   }
 }
 
@@ -107,13 +52,14 @@ void addImpacts(const Trajectory& run, NumpyArchive& archive) {
   }
   archive.add("impact_a", "", NumpyArray::of(std::move(a), {count}));
   archive.add("impact_b", "", NumpyArray::of(std::move(b), {count}));
-  for (const ImpactColumn& column : kImpactColumns) {
+  const auto add = [&](const std::string& name, const std::string& unit, double (*of)(const Impact&)) {
     std::vector<double> numbers;
-    numbers.reserve(count);
-    for (const Impact& impact : run.impacts) {
-      numbers.push_back(column.of(impact));
-    }
-    archive.add(column.name, column.unit, NumpyArray::of(std::move(numbers), {count}));
+    std::transform(run.impacts.begin(), run.impacts.end(), std::back_inserter(numbers), of);
+    archive.add("impact_" + name, unit, NumpyArray::of(std::move(numbers), {count}));
+  };
+  add("time", "s", [](const Impact& impact) { return impact.time; });
+  for (const ImpactColumn& column : kImpactColumns) {
+    add(column.name, column.unit, column.of);
   }
 }
 
@@ -131,5 +77,15 @@ std::string encodeNpz(const Trajectory& trajectory, double every) {
   addImpacts(trajectory, archive);
   return archive.bytes();
 }
+
+extern const Exporter kNpzExporter;
+constexpr Exporter kNpzExporter = {
+    .suffix = ".npz",
+    .about = "a table of poses, and one of impacts",
+    .option = ExportOption::kEvery,
+    .write = [](const Trajectory& run, const ExportSettings& settings, const TextSink& sink) -> ExportNotes {
+      sink(encodeNpz(run, settings.every));
+      return {};
+    }};
 
 }  // namespace careen

@@ -356,4 +356,16 @@ NumpyArray decodeNumpy(std::string_view bytes, const std::string& name) {
   return Reading(bytes, name).array();
 }
 
+void NumpyArchive::add(const std::string& name, const std::string& unit, const NumpyArray& array) {
+  entries_.emplace_back(name + ".npy", encodeNumpy(array));
+  units_.push_back(name);
+  units_.push_back(unit);
+}
+
+std::string NumpyArchive::bytes() {
+  const std::size_t count = units_.size() / 2;
+  entries_.emplace_back("units.npy", encodeNumpy(NumpyArray::of(std::move(units_), {count, 2})));
+  return zipOf(entries_);
+}
+
 }  // namespace careen

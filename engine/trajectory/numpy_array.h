@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "trajectory/zip_archive.h"
+
 namespace careen {
 
 /// An array of NumPy: numbers or texts, the last index running fastest.
@@ -33,5 +35,17 @@ std::string encodeNumpy(std::span<const std::uint8_t> numbers, const std::vector
 /// Reads formats 1 to 3, floats of 2, 4 and 8 bytes, integers, booleans, texts '<U', '>U' and '|S', of either
 /// byte order, in C or Fortran order. InputError, which `name` begins, for everything else.
 NumpyArray decodeNumpy(std::string_view bytes, const std::string& name);
+
+/// Arrays with names and units, as NumPy loads them.
+class NumpyArchive {
+ public:
+  void add(const std::string& name, const std::string& unit, const NumpyArray& array);
+  /// An NPZ archive; its last array, `units`, has the name and unit of each. To be called once.
+  std::string bytes();
+
+ private:
+  std::vector<ZipEntry> entries_;
+  std::vector<std::string> units_;  // name, unit, name, unit …
+};
 
 }  // namespace careen

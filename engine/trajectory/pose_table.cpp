@@ -172,6 +172,23 @@ PoseTable readCsv(const std::string& bytes, const std::string& name) {
 
 }  // namespace
 
+std::array<double, kPoseColumns.size() - 2> PoseRow::numbers() const {
+  const Quat& q = worldFromBody;
+  return {position.x(),
+          position.y(),
+          position.z(),
+          q.w(),
+          q.x(),
+          q.y(),
+          q.z(),
+          velocity.x(),
+          velocity.y(),
+          velocity.z(),
+          angularVelocity.x(),
+          angularVelocity.y(),
+          angularVelocity.z()};
+}
+
 double PoseTable::firstTime() const {
   return std::min_element(rows.begin(), rows.end(),
                           [](const PoseRow& a, const PoseRow& b) { return a.time < b.time; })

@@ -28,6 +28,9 @@ struct PoseRow {
   Vec3 velocity = Vec3::Zero();           ///< [m/s] 0 if the table has none
   Vec3 angularVelocity = Vec3::Zero();    ///< [rad/s] likewise
   std::size_t place = 0;                  ///< line of the file from 1, or row of an array from 0
+
+  /// In the order of kPoseColumns, from "x" on.
+  std::array<double, kPoseColumns.size() - 2> numbers() const;
 };
 
 /// A table of poses, read from CSV or NPZ, not yet compared with any scene.

@@ -69,10 +69,6 @@ struct Trajectory : RunSetup {
 /// short takes its step again in shorter ones, and tells their impacts after those of others.
 void insertByTime(std::vector<Impact>& impacts, const Impact& impact);
 
-/// The most segments and impacts of a run unless more are asked for: 2 GB, three times that while they are
-/// recorded.
-inline constexpr std::uint64_t kMostRecords = 5'000'000;
-
 /// Simulates the setup's world by its method and records the trajectory. InputError if it has more than
 /// `most` segments and impacts, NumericalError if a state of it is not finite, or no reader would accept it.
 Trajectory record(RunSetup setup, const std::stop_token& stop = {}, std::uint64_t most = kMostRecords,

@@ -8,7 +8,7 @@
 
 #include "core/brief.h"
 #include "core/math/pose_difference.h"
-#include "render/overlay/frame.h"
+#include "render/overlay/panels.h"
 
 namespace careen {
 namespace {
@@ -108,23 +108,6 @@ std::string textOf(const OverlayFrame& frame, const std::vector<Pair>& pairs) {
          brief(degrees > kNoTurn ? degrees : 0, 3) + "°";
 }
 
-void addNote(OverlayShapes& shapes, const OverlayFrame& frame, const std::string& text) {
-  constexpr double kMargin = 0.9;  // of the text's size, as of the other panels
-  constexpr double kPadding = 0.7;
-  const double em = frame.style.text;
-  const Font& font = frame.fonts->plain;
-  const double margin = std::round(kMargin * em);
-  const Vec2 size(font.width(text, em) + 2 * kPadding * em, 1.95 * em);
-  const Vec2 max(frame.screen.width() - margin, frame.screen.height() - margin);
-  const Plate plate = plateFor(frame.style, max - size, max);
-  shapes.emplace_back(plate);
-  const double baseline = 0.5 * (plate.min.y() + plate.max.y() + font.capitalHeight(em));
-  shapes.emplace_back(Label{.text = text,
-                            .at = Vec2(plate.min.x() + std::round(kPadding * em), std::round(baseline)),
-                            .size = em,
-                            .ink = {kIvory, 1}});
-}
-
 bool hasEnded(const OverlayFrame& frame) { return frame.time > frame.ghost->settings.duration; }
 
 }  // namespace
@@ -144,7 +127,8 @@ void addGhost(OverlayShapes& shapes, const OverlayFrame& frame) {
 }
 
 void addGhostPanel(OverlayShapes& shapes, const OverlayFrame& frame) {
-  addNote(shapes, frame, hasEnded(frame) ? "the other run has ended" : textOf(frame, pairsOf(frame)));
+  addNote(shapes, frame, hasEnded(frame) ? "the other run has ended" : textOf(frame, pairsOf(frame)),
+          PanelCorner::kLowerRight, Typeface::kPlain);
 }
 
 }  // namespace careen

@@ -158,4 +158,15 @@ void Names::add(OverlayShapes& shapes, const OverlayFrame& frame, double filmTim
   }
 }
 
+constexpr OverlayKind kNamesOverlay = {
+    .shows =
+        "names of boxes, on what is seen of the box or beside it with a line to it; none for names like "
+        "`box-17` if there are more than 16 boxes",
+    .layer = OverlayLayer::kNames,
+    .needs = OverlayNeeds::kNames,
+    .add = [](OverlayShapes& shapes, const OverlayFrame& frame, const ShownOverlay& /*shown*/) {
+      const NamesNow& now = *frame.names;
+      now.names.add(shapes, frame, now.filmTime, now.momentAt, now.freeAt);
+    }};
+
 }  // namespace careen

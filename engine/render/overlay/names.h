@@ -55,4 +55,12 @@ class Names {
   std::map<std::int64_t, std::vector<std::int8_t>> chosen_;  // each name's place
 };
 
+/// What names need beside the frame.
+struct NamesNow {
+  Names& names;
+  double filmTime;  ///< [s]
+  const MomentAt& momentAt;
+  const Names::FreeAt& freeAt;
+};
+
 }  // namespace careen

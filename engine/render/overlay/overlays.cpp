@@ -7,69 +7,71 @@
 namespace careen {
 namespace {
 
-using Add = void (*)(OverlayShapes&, const OverlayFrame&);
-struct NamedAdd {
-  Overlay overlay;
-  Add add;
-};
+#define CAREEN_OVERLAY_ADDRESS(Name, name) &k##Name##Overlay,
+constexpr std::array kKinds = {CAREEN_OVERLAYS(CAREEN_OVERLAY_ADDRESS)};  // in the order of Overlay
 
-// Back to front.
-constexpr std::array<NamedAdd, 6> kInOrder = {{{Overlay::kTrail, addTrails},
-                                               {Overlay::kSpinAxis, addSpinAxes},
-                                               {Overlay::kAngularMomentum, addAngularMomenta},
-                                               {Overlay::kVelocity, addVelocities},
-                                               {Overlay::kContacts, addContacts},
-                                               {Overlay::kImpulses, addImpulses}}};
-
-constexpr std::array kArrows = {Overlay::kVelocity, Overlay::kAngularMomentum, Overlay::kSpinAxis,
-                                Overlay::kImpulses};
-
-bool hasAny(const OverlaySet& shown, std::span<const Overlay> overlays) {
-  return std::any_of(overlays.begin(), overlays.end(), [&](Overlay each) { return shown.has(each); });
-}
-
-bool isWritten(const OverlaySet& shown) {
-  constexpr std::array kWritten = {Overlay::kNames, Overlay::kTime, Overlay::kEnergy};
-  return hasAny(shown, kWritten) || hasAny(shown, kArrows);
+std::vector<ShownOverlay> backToFront(const OverlaySet& set) {
+  std::vector<ShownOverlay> shown;
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    if (set.has(static_cast<Overlay>(i))) {
+      shown.push_back({.kind = kKinds.at(i)});
+    }
+  }
+  std::stable_sort(shown.begin(), shown.end(), [](const ShownOverlay& a, const ShownOverlay& b) {
+    return a.kind->layer < b.kind->layer;
+  });
+  return shown;
 }
 
 // Sampled over the whole run, with fewer samples if there are many boxes.
-OverlayScales scalesOf(const Trajectory& trajectory) {
-  OverlayScales scales;
+void findLargestOfBodies(std::span<ShownOverlay* const> arrows, const Trajectory& trajectory) {
   const int samples = 100'000 / static_cast<int>(std::max<std::size_t>(1, trajectory.tracks.size()));
-  const int steps = std::clamp(samples, 16, 512);
+  const int steps = arrows.empty() ? -1 : std::clamp(samples, 16, 512);
   for (int step = 0; step <= steps; ++step) {
     const std::vector<BodyState> states = statesAt(trajectory, trajectory.settings.duration * step / steps);
     for (std::size_t body = 0; body < states.size(); ++body) {
-      const double spin = angularVelocity(trajectory.world.bodies[body].mass, states[body]).norm();
-      scales.speed = std::max(scales.speed, states[body].velocity.norm());
-      scales.angularMomentum = std::max(scales.angularMomentum, states[body].angularMomentum.norm());
-      scales.angularSpeed = std::max(scales.angularSpeed, spin);
+      for (ShownOverlay* const each : arrows) {
+        const MassProperties& mass = trajectory.world.bodies[body].mass;
+        each->largest = std::max(each->largest, each->kind->legend->ofBody(mass, states[body]).norm());
+      }
     }
   }
-  for (const Impact& impact : trajectory.impacts) {
-    scales.impulse = std::max(scales.impulse, impact.impulse);
+}
+
+void findLargest(std::vector<ShownOverlay>& shown, const Trajectory& trajectory) {
+  std::vector<ShownOverlay*> ofBodies;
+  for (ShownOverlay& each : shown) {
+    if (each.kind->legend && each.kind->legend->ofBody != nullptr) {
+      ofBodies.push_back(&each);
+    } else if (each.kind->legend) {
+      for (const Impact& impact : trajectory.impacts) {
+        each.largest = std::max(each.largest, each.kind->legend->ofImpact(impact));
+      }
+    }
   }
-  return scales;
+  findLargestOfBodies(ofBodies, trajectory);
+}
+
+bool isWritten(const ShownOverlay& shown) {
+  return shown.kind->needs != OverlayNeeds::kNothing || shown.kind->legend;
 }
 
 }  // namespace
 
 Overlays::Overlays(const Trajectory& trajectory, const OverlaySet& shown, double frameSeconds,
                    const Trajectory* ghost, std::span<const std::filesystem::path> folders)
-    : trajectory_(trajectory), shown_(shown), frameSeconds_(frameSeconds), ghost_(ghost) {
-  if (hasAny(shown, kArrows)) {
-    scales_ = scalesOf(trajectory);
-  }
-  if (isWritten(shown) || ghost != nullptr) {
+    : trajectory_(trajectory), frameSeconds_(frameSeconds), ghost_(ghost), shown_(backToFront(shown)) {
+  findLargest(shown_, trajectory);
+  if (std::any_of(shown_.begin(), shown_.end(), isWritten) || ghost != nullptr) {
     fonts_ = OverlayFonts{.plain = findFont(kPlainFont, folders),
                           .monospaced = findFont(kMonospacedFont, folders)};
   }
-  if (shown.has(Overlay::kEnergy)) {
-    energy_.emplace(trajectory);
-  }
-  if (shown.has(Overlay::kNames)) {
-    names_.emplace(trajectory, frameSeconds);
+  for (const ShownOverlay& each : shown_) {
+    if (each.kind->needs == OverlayNeeds::kEnergy) {
+      energy_.emplace(trajectory);
+    } else if (each.kind->needs == OverlayNeeds::kNames) {
+      names_.emplace(trajectory, frameSeconds);
+    }
   }
 }
 
@@ -85,7 +87,6 @@ class Overlays::Frame {
               .frameSeconds = of.frameSeconds_,
               .states = states_,
               .farthestFirst = order_,
-              .scales = of.scales_,
               .fonts = of.fonts_ ? &*of.fonts_ : nullptr,
               .energy = of.energy_ ? &*of.energy_ : nullptr,
               .ghost = of.ghost_,
@@ -133,21 +134,29 @@ FreeNamePlaces Overlays::freePlacesAt(const OverlayMoment& moment, int width, in
 
 OverlayShapes Overlays::shapesAt(double filmTime, const MomentAt& momentAt, int width, int height) {
   const Frame now(*this, momentAt(filmTime), width, height);
-  const OverlayFrame& frame = now.data();
+  OverlayFrame frame = now.data();
+  const Names::FreeAt freeAt = [&](const OverlayMoment& moment) {
+    return freePlacesAt(moment, width, height);
+  };
+  std::optional<NamesNow> names;
+  if (names_) {
+    names.emplace(NamesNow{*names_, filmTime, momentAt, freeAt});
+    frame.names = &*names;
+  }
   OverlayShapes shapes;
   if (ghost_ != nullptr) {
     addGhost(shapes, frame);
   }
-  for (const NamedAdd& each : kInOrder) {
-    if (shown_.has(each.overlay)) {
-      each.add(shapes, frame);
+  const auto addLayers = [&](OverlayLayer first, OverlayLayer last) {
+    for (const ShownOverlay& each : shown_) {
+      if (each.kind->layer >= first && each.kind->layer <= last) {
+        each.kind->add(shapes, frame, each);
+      }
     }
-  }
+  };
+  addLayers(OverlayLayer::kTrails, OverlayLayer::kImpacts);
   addPanels(shapes, frame, shown_);
-  if (names_) {
-    names_->add(shapes, frame, filmTime, momentAt,
-                [&](const OverlayMoment& moment) { return freePlacesAt(moment, width, height); });
-  }
+  addLayers(OverlayLayer::kNames, OverlayLayer::kNames);
   return shapes;
 }
 

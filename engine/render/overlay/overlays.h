@@ -24,7 +24,6 @@ class Overlays {
   /// At this time of the film [s]; names ask for the moments around it too. `width`, `height` of the picture
   /// [px]. The same moments give the same shapes, whatever was asked before.
   OverlayShapes shapesAt(double filmTime, const MomentAt& momentAt, int width, int height);
-  const OverlayScales& scales() const { return scales_; }
 
  private:
   class Frame;
@@ -32,10 +31,9 @@ class Overlays {
   FreeNamePlaces freePlacesAt(const OverlayMoment& moment, int width, int height) const;
 
   const Trajectory& trajectory_;
-  OverlaySet shown_;
   double frameSeconds_;
   const Trajectory* ghost_;
-  OverlayScales scales_;
+  std::vector<ShownOverlay> shown_;  // back to front
   std::optional<OverlayFonts> fonts_;
   std::optional<EnergyBook> energy_;
   std::optional<Names> names_;

@@ -36,7 +36,6 @@ class NamePlacesTest : public testing::Test {
     const OverlayFrame frame{.trajectory = run_,
                              .states = states_,
                              .farthestFirst = order_,
-                             .scales = scales_,
                              .fonts = &fonts_,
                              .screen = screen_,
                              .style = OverlayStyle(720)};
@@ -52,7 +51,6 @@ class NamePlacesTest : public testing::Test {
   std::vector<BodyState> states_;
   std::vector<std::size_t> named_;
   std::vector<std::size_t> order_;
-  OverlayScales scales_;
   OverlayFonts fonts_{.plain = findFont(kPlainFont), .monospaced = findFont(kMonospacedFont)};
   Screen screen_{viewOf(cameraAt(Vec3(0, -5, 0), Vec3::Zero(), 90),
                         {.min = Vec3(-5, -5, -5), .max = Vec3(5, 5, 5)}, 16.0 / 9),

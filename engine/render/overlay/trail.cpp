@@ -1,38 +1,18 @@
-// Overlays drawn at boxes: arrows and trails.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
-#include <tuple>
 
 #include "render/overlay/frame.h"
 
 namespace careen {
 namespace {
 
-constexpr double kShortestArrow = 2;              // [px]
 constexpr double kTrailBudget = 16000;            // states evaluated for the trails of one frame
 constexpr int kTrailMostSamples = 600;            // per trail
 constexpr std::ptrdiff_t kTrailMostTimes = 1200;  // sample times per trail, including impacts
 constexpr double kTrailTurn = 0.15;               // [rad] largest rotation of a box between two samples
 constexpr double kBehindItsBox = 0.3;             // opacity of a trail behind its own box
 constexpr std::size_t kCornerFollowed = 0;        // the corner at +x +y +z
-
-template <class Vector>
-void addArrows(OverlayShapes& shapes, const OverlayFrame& frame, double largest, const Color& color,
-               Vector vectorOf) {
-  for (const std::size_t body : frame.farthestFirst) {
-    const Vec3& centre = frame.states[body].pose.position;
-    if (const std::optional<Stroke> arrow = arrowFor(frame, centre, vectorOf(body), largest, color)) {
-      shapes.emplace_back(*arrow);
-    }
-  }
-}
-
-Vec3 spinOf(const OverlayFrame& frame, std::size_t body) {
-  return angularVelocity(frame.trajectory.world.bodies[body].mass, frame.states[body]);
-}
 
 Vec3 cornerAt(const OverlayFrame& frame, std::size_t body, double time) {
   return frame.trajectory.state(body, time)
@@ -49,7 +29,7 @@ bool concerns(const Impact& impact, std::size_t body) {
 std::vector<double> trailTimes(const OverlayFrame& frame, std::size_t body) {
   const double perBox = kTrailBudget / static_cast<double>(frame.states.size());
   double step = kTrailSeconds / std::clamp(perBox, 12.0, 180.0);
-  const double spin = spinOf(frame, body).norm();
+  const double spin = angularVelocity(frame.trajectory.world.bodies[body].mass, frame.states[body]).norm();
   if (spin * step > kTrailTurn) {
     step = kTrailTurn / spin;
   }
@@ -146,52 +126,7 @@ void addTrail(OverlayShapes& shapes, const OverlayFrame& frame, std::size_t body
   }
 }
 
-}  // namespace
-
-std::optional<Stroke> arrowFor(const OverlayFrame& frame, const Vec3& point, const Vec3& vector,
-                               double largest, const Color& color) {
-  const double size = vector.norm();
-  if (!(largest > 0) || !(size > 0) || !frame.screen.at(point)) {
-    return std::nullopt;
-  }
-  const double pixels = frame.style.longestArrow * size / largest;
-  if (pixels < kShortestArrow) {
-    return std::nullopt;
-  }
-  const Vec3 end = point + pixels * frame.screen.metresPerPixel(point) / size * vector;
-  const auto line = frame.screen.line(point, end);
-  if (!line) {
-    return std::nullopt;
-  }
-  return Stroke{.from = line->first,
-                .to = line->second,
-                .width = frame.style.line,
-                .head = std::min(frame.style.head, (line->second - line->first).norm()),
-                .halo = frame.style.halo,
-                .ink = {color, 1}};
-}
-
-std::vector<std::size_t> farthestFirst(const Screen& screen, std::span<const Vec3> places) {
-  std::vector<std::tuple<double, double, double, double, std::size_t>> sorted;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Vec3& at = places[i];
-    sorted.emplace_back(-screen.depth(at), at.x(), at.y(), at.z(), i);
-  }
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<std::size_t> order;
-  std::transform(sorted.begin(), sorted.end(), std::back_inserter(order),
-                 [](const auto& each) { return std::get<std::size_t>(each); });
-  return order;
-}
-
-Plate plateFor(const OverlayStyle& style, const Vec2& min, const Vec2& max) {
-  return {.min = min.array().round(),
-          .max = max.array().round(),
-          .rounding = 0.35 * style.text,
-          .ink = {kSlate, kPlateAlpha}};
-}
-
-void addTrails(OverlayShapes& shapes, const OverlayFrame& frame) {
+void addTrails(OverlayShapes& shapes, const OverlayFrame& frame, const ShownOverlay& /*shown*/) {
   for (const std::size_t body : frame.farthestFirst) {
     if (!isImmovable(frame.trajectory.world.bodies[body].mass) && !isResting(frame, body)) {
       addTrail(shapes, frame, body);
@@ -199,30 +134,11 @@ void addTrails(OverlayShapes& shapes, const OverlayFrame& frame) {
   }
 }
 
-void addVelocities(OverlayShapes& shapes, const OverlayFrame& frame) {
-  addArrows(shapes, frame, frame.scales.speed, kTeal,
-            [&](std::size_t body) { return frame.states[body].velocity; });
-}
+}  // namespace
 
-void addAngularMomenta(OverlayShapes& shapes, const OverlayFrame& frame) {
-  addArrows(shapes, frame, frame.scales.angularMomentum, kViolet,
-            [&](std::size_t body) { return frame.states[body].angularMomentum; });
-}
-
-void addSpinAxes(OverlayShapes& shapes, const OverlayFrame& frame) {
-  // The axis continues backwards as a thin line to show that it passes through the centre.
-  for (const std::size_t body : frame.farthestFirst) {
-    const Vec3& centre = frame.states[body].pose.position;
-    std::optional<Stroke> back =
-        arrowFor(frame, centre, -spinOf(frame, body), frame.scales.angularSpeed, kMoss);
-    if (back) {
-      back->head = 0;
-      back->width *= 0.6;
-      shapes.emplace_back(*back);
-    }
-  }
-  addArrows(shapes, frame, frame.scales.angularSpeed, kMoss,
-            [&](std::size_t body) { return spinOf(frame, body); });
-}
+constexpr OverlayKind kTrailOverlay = {
+    .shows = "the path of one corner of each moving box over the last 1.5 s",
+    .layer = OverlayLayer::kTrails,
+    .add = addTrails};
 
 }  // namespace careen
