@@ -57,7 +57,7 @@ std::string Table::markdown() const {
   const auto addLine = [&text](const std::vector<Cell>& cells) {
     text += "|";
     for (const Cell& cell : cells) {
-      text += " " + markdownCell(cell) + " |";
+      text.append(" ").append(markdownCell(cell)).append(" |");
     }
     text += "\n";
   };
