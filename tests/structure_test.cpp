@@ -315,7 +315,8 @@ TEST(Structure, dotProductsOfMotionAreThoseOfTheProject) {
 // Two types of one name have one destructor: the linker keeps either. The public header has a namespace of
 // its own.
 TEST(Structure, noTwoTypesOfTheEngineHaveOneName) {
-  static const std::regex kType(R"re((?:^|\n)(?:struct|class|enum class)\s+(\w+)(?: final)?[^;{\n]*\{)re");
+  static const std::regex kType(
+      R"re((?:^|\n)(?:(?:struct|class|enum class)\s+(\w+)(?: final)?[^;{\n]*\{|using (\w+) =))re");
   std::map<std::string, fs::path> headerOf;
   for (const fs::path& source : sourcesIn(kRoot / "engine")) {
     if (source.extension() != ".h" || source.parent_path().filename() == "library") {
@@ -324,9 +325,10 @@ TEST(Structure, noTwoTypesOfTheEngineHaveOneName) {
     const std::string text = textOf(source);
     for (auto match = std::sregex_iterator(text.begin(), text.end(), kType); match != std::sregex_iterator();
          ++match) {
-      const auto [other, isNew] = headerOf.emplace((*match)[1], source);
+      const std::string name = (*match)[1].matched ? (*match)[1] : (*match)[2];
+      const auto [other, isNew] = headerOf.emplace(name, source);
       EXPECT_TRUE(isNew || other->second == source)
-          << (*match)[1] << " is a type in " << source << " and in " << other->second;
+          << name << " is a type in " << source << " and in " << other->second;
     }
   }
   EXPECT_GT(headerOf.size(), 200U);  // that it looks

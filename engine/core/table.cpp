@@ -19,7 +19,7 @@ bool isFormula(std::string_view text) {
          ((first == '+' || first == '-') && calls);
 }
 
-std::string markdownCell(const Cell& cell) {
+std::string markdownCell(const TableCell& cell) {
   std::string text;
   for (const char c : onOneLine(cell.text)) {
     text += c == '|' ? "\\|" : std::string(1, c);
@@ -27,7 +27,7 @@ std::string markdownCell(const Cell& cell) {
   return cell.isStrong ? "**" + text + "**" : text;
 }
 
-std::string htmlCell(const Cell& cell, const std::string& element) {
+std::string htmlCell(const TableCell& cell, const std::string& element) {
   std::string text = escapedForMarkup(cell.text);
   if (!cell.section.empty()) {
     text = "<a href=\"#" + escapedForMarkup(cell.section) + "\">" + text + "</a>";
@@ -40,9 +40,9 @@ std::string htmlCell(const Cell& cell, const std::string& element) {
 
 std::string Table::csv() const {
   std::string text;
-  const auto addLine = [&text](const std::vector<Cell>& cells) {
+  const auto addLine = [&text](const std::vector<TableCell>& cells) {
     CsvRow row;
-    for (const Cell& cell : cells) {
+    for (const TableCell& cell : cells) {
       row.add(onOneLine(cell.text));
     }
     text += row.line();
@@ -54,9 +54,9 @@ std::string Table::csv() const {
 
 std::string Table::markdown() const {
   std::string text;
-  const auto addLine = [&text](const std::vector<Cell>& cells) {
+  const auto addLine = [&text](const std::vector<TableCell>& cells) {
     text += "|";
-    for (const Cell& cell : cells) {
+    for (const TableCell& cell : cells) {
       text.append(" ").append(markdownCell(cell)).append(" |");
     }
     text += "\n";
@@ -78,7 +78,7 @@ std::string Table::html(const std::string& kind) const {
     text += htmlCell(name, "th");
   }
   text += "</tr>\n";
-  for (const std::vector<Cell>& row : rows) {
+  for (const std::vector<TableCell>& row : rows) {
     text += "<tr>";
     for (std::size_t i = 0; i < row.size(); ++i) {
       text += htmlCell(row[i], i == 0 ? "th" : "td");

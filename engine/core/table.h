@@ -8,10 +8,11 @@
 namespace careen {
 
 /// A cell of a table. Texts are escaped as each format needs it.
-struct Cell {
-  Cell(std::string words) : text(std::move(words)) {}
-  Cell(const char* words) : text(words) {}
-  Cell(std::string words, std::string attribute) : text(std::move(words)), attributes(std::move(attribute)) {}
+struct TableCell {
+  TableCell(std::string words) : text(std::move(words)) {}
+  TableCell(const char* words) : text(words) {}
+  TableCell(std::string words, std::string attribute)
+      : text(std::move(words)), attributes(std::move(attribute)) {}
 
   std::string text;
   std::string attributes{};  ///< of its element in HTML, such as class="bad"
@@ -22,7 +23,7 @@ struct Cell {
 /// A table in the formats that are for people, and in CSV.
 struct Table {
   std::vector<std::string> head;
-  std::vector<std::vector<Cell>> rows{};
+  std::vector<std::vector<TableCell>> rows{};
 
   /// Line ends in cells become blanks: many readers of tables take one line for one row.
   std::string csv() const;

@@ -31,7 +31,7 @@ std::string attemptsOf(const CaseResult& result) {
   Table table{.head = {"contestant", "dt [s]", "tolerance [m]", "error", "audit", "µs per simulated s",
                        "spread", "repeats", "Pareto front"}};
   for (const Attempt& attempt : result.attempts) {
-    std::vector<Cell>& row = table.rows.emplace_back();
+    std::vector<TableCell>& row = table.rows.emplace_back();
     row = {attempt.contestant, attempt.dt > 0 ? inShort(attempt.dt) : "",
            attempt.tolerance > 0 ? inShort(attempt.tolerance) : ""};
     if (attempt.failure.empty()) {

@@ -29,8 +29,8 @@ std::string colourOf(double digits) {
   return colour.str() + ")";
 }
 
-Cell caseCell(const CaseResult& result) {
-  Cell cell(result.name);
+TableCell caseCell(const CaseResult& result) {
+  TableCell cell(result.name);
   cell.section = result.name;
   return cell;
 }
@@ -40,7 +40,7 @@ template <class CellOf>
 Table tableOf(const StudyResult& study, CellOf cellOf) {
   Table table{.head = study.contestants()};
   for (const CaseResult& result : study.cases) {
-    std::vector<Cell>& row = table.rows.emplace_back();
+    std::vector<TableCell>& row = table.rows.emplace_back();
     row.push_back(caseCell(result));
     for (const std::string& contestant : table.head) {
       row.push_back(cellOf(usualAttempt(result, contestant)));
@@ -112,7 +112,7 @@ StudyResult publishedOf(StudyResult study) {
 }
 
 Table errorTable(const StudyResult& study) {
-  return tableOf(study, [](const Attempt* attempt) -> Cell {
+  return tableOf(study, [](const Attempt* attempt) -> TableCell {
     if (attempt == nullptr) {
       return "";
     }
@@ -126,7 +126,7 @@ Table errorTable(const StudyResult& study) {
 }
 
 Table verdictTable(const StudyResult& study) {
-  return tableOf(study, [](const Attempt* attempt) -> Cell {
+  return tableOf(study, [](const Attempt* attempt) -> TableCell {
     const std::string verdict = verdictOf(attempt);
     return {verdict, verdict == "wrong" ? R"(class="bad")" : ""};
   });
@@ -138,12 +138,12 @@ Table promiseTable(const StudyResult& study) {
     table.head.push_back(factor == 1 ? "tolerance of the scene" : brief(factor) + " of it");
   }
   for (const CaseResult& result : study.cases) {
-    std::vector<Cell>& row = table.rows.emplace_back();
+    std::vector<TableCell>& row = table.rows.emplace_back();
     row.push_back(caseCell(result));
     for (const double factor : kPromisedTolerances) {
       const std::optional<double> ratio = promiseOf(result, factor);
       const bool isBroken = ratio && *ratio > 1;
-      Cell& cell = row.emplace_back(ratio ? inShort(*ratio) : "–", isBroken ? R"(class="bad")" : "");
+      TableCell& cell = row.emplace_back(ratio ? inShort(*ratio) : "–", isBroken ? R"(class="bad")" : "");
       cell.isStrong = isBroken;
     }
   }
@@ -155,7 +155,7 @@ std::string resultsCsv(const StudyResult& study) {
                        "front", "failure"}};
   for (const CaseResult& result : study.cases) {
     for (const Attempt& attempt : result.attempts) {
-      std::vector<Cell>& row = table.rows.emplace_back();
+      std::vector<TableCell>& row = table.rows.emplace_back();
       row = {result.name, attempt.contestant, attempt.dt > 0 ? inFull(attempt.dt) : "",
              attempt.tolerance > 0 ? inFull(attempt.tolerance) : ""};
       if (attempt.failure.empty()) {
@@ -211,7 +211,7 @@ std::string resultsMarkdown(const StudyResult& study) {
        << "– means that there is no answer; results.csv has the reason.\n\n";
   text << errorTable(study).markdown()
        << "\n## Costs\n\nµs of one core per simulated second, at the usual time step.\n\n";
-  const Table costs = tableOf(study, [](const Attempt* attempt) -> Cell {
+  const Table costs = tableOf(study, [](const Attempt* attempt) -> TableCell {
     return attempt != nullptr && attempt->failure.empty() && attempt->cost > 0 ? brief(attempt->cost, 3)
                                                                                : "–";
   });

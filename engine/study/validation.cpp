@@ -348,7 +348,7 @@ std::string tossesCsv(const std::vector<Toss>& tosses, double size) {
                        "floor_attitude", "position_noise", "attitude_noise", "measured_face",
                        "simulated_face", "seconds"}};
   for (const Toss& toss : tosses) {
-    std::vector<Cell>& row = table.rows.emplace_back();
+    std::vector<TableCell>& row = table.rows.emplace_back();
     row.emplace_back(toss.name);
     for (const std::size_t count : {toss.times.size(), toss.fitted, toss.impacts}) {
       row.emplace_back(std::to_string(count));

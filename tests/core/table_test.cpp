@@ -31,9 +31,9 @@ TEST(Csv, keepsASpreadsheetFromRunningAName) {
 
 Table twoByTwo() {
   Table table{.head = {"name", "<unit>"}};
-  Cell link("a|b");
+  TableCell link("a|b");
   link.section = "a&b";
-  Cell strong("1,5", R"(class="bad")");
+  TableCell strong("1,5", R"(class="bad")");
   strong.isStrong = true;
   table.rows = {{link, strong}, {"two\nlines"}};
   return table;
