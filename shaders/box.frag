@@ -7,7 +7,7 @@ in vec3 offset;
 in vec3 openness;
 in vec2 onFace;
 flat in vec2 halfFace;
-flat in vec4 beyondEdges;
+flat in vec3 eyeFoot;
 flat in vec3 faceNormal;
 flat in vec3 faceAcross;
 flat in vec3 faceAlong;
@@ -42,22 +42,51 @@ float pipDistance(vec2 p, float spacing, float radius) {
   return nearest - radius;
 }
 
+// A place on the face over how far it is, which makes it linear in the picture: here, and what it grows by to the right
+// and up.
+mat3 placeHere() {
+  vec3 place = vec3(onFace, 1.0) * gl_FragCoord.w;
+  return mat3(place, dFdx(place), dFdy(place));
+}
+
+// The nearer one of an edge, as its distance in pixels, in some unit, and what that grows by to the right and up; and of
+// another along a line, the distance inside of which is line.xy . onFace + line.z.
+vec4 nearer(vec4 edge, vec3 line, mat3 place) {
+  vec3 inside = line * place;
+  float pixels = inside.x / max(max(abs(inside.y), abs(inside.z)), 1e-20);
+  return pixels < edge.x ? vec4(pixels, inside) : edge;
+}
+
+// Likewise, of the outline's edge from a corner of the face to the box's far side, which leads to the eye's foot.
+vec4 nearerFrom(vec2 corner, vec4 edge, mat3 place) {
+  vec2 along = eyeFoot.xy - corner;
+  vec2 inward = vec2(-along.y, along.x);
+  inward *= -sign(dot(inward, corner));  // the face's centre is inside
+  return nearer(edge, vec3(inward, -dot(inward, corner)), place);
+}
+
 // Alpha for the edge of the box's outline if that is within a pixel, be it beyond a face too thin for a pixel of its own;
-// else for the edge of the face that is the fewest pixels away.
+// else for the edge of the face that is the fewest pixels away. On the plane of the face and seen from the eye, the
+// outline is the hull of the face and of the opposite one, which is the face shrunk towards the eye's foot.
 float nearestEdge() {
-  vec2 right = dFdx(onFace);
-  vec2 up = dFdy(onFace);
-  vec2 steep = max(max(abs(right), abs(up)), 1e-20);
-  vec2 low = (halfFace + onFace + beyondEdges.yw) / steep;
-  vec2 high = (halfFace - onFace + beyondEdges.xz) / steep;
-  vec2 pixels = min(low, high);
-  vec2 outward = mix(vec2(1.0), vec2(-1.0), lessThan(low, high));
-  if (min(pixels.x, pixels.y) >= 1.0) {
-    outward = sign(onFace);
-    pixels = (halfFace - abs(onFace)) / steep;
+  mat3 place = placeHere();
+  vec2 over = max(abs(eyeFoot.xy) - halfFace, 0.0);  // not 0: the face on that side is seen
+  vec2 towards = vec2(eyeFoot.x < 0.0 ? -1.0 : 1.0, eyeFoot.y < 0.0 ? -1.0 : 1.0);
+  vec2 reach = halfFace + over * eyeFoot.z;
+  vec4 edge = nearer(vec4(1e9), vec3(-towards.x, 0.0, reach.x), place);
+  edge = nearer(edge, vec3(0.0, -towards.y, reach.y), place);
+  edge = nearer(edge, vec3(towards.x, 0.0, halfFace.x), place);
+  edge = nearer(edge, vec3(0.0, towards.y, halfFace.y), place);
+  if (max(over.x, over.y) > 0.0) {
+    vec2 corner = towards * halfFace;
+    edge = nearerFrom(over.x > 0.0 ? vec2(corner.x, -corner.y) : corner, edge, place);
+    edge = nearerFrom(over.y > 0.0 ? vec2(-corner.x, corner.y) : corner, edge, place);
   }
-  return pixels.x < pixels.y ? edgeAlpha(pixels.x * steep.x, -outward.x * vec2(right.x, up.x))
-                             : edgeAlpha(pixels.y * steep.y, -outward.y * vec2(right.y, up.y));
+  float alpha = edgeAlpha(edge.y, edge.zw);
+  if (alpha < 1.0) return alpha;
+  edge = nearer(vec4(1e9), vec3(-sign(onFace.x), 0.0, halfFace.x), place);
+  edge = nearer(edge, vec3(0.0, -sign(onFace.y), halfFace.y), place);
+  return edgeAlpha(edge.y, edge.zw);
 }
 
 void main() {

@@ -10,14 +10,14 @@ layout(location = 3) in vec3 along;
 layout(location = 4) in vec4 place;  // [m] on the face, from its centre; half its size
 layout(location = 5) in vec4 color;  // alpha 1: with marks on the faces
 layout(location = 6) in vec4 about;  // pips, smaller width [px], place and length of the list of neighbours
-layout(location = 7) in vec4 beyond; // [m] the box's outline beyond the edges at 1, -1 across and 1, -1 along
+layout(location = 7) in vec3 eye;    // [m] its foot on the face's plane; part of the way there of the opposite face
 
 invariant gl_Position;
 out vec3 offset;
 out vec3 openness;          // part of ambient light that neighbours leave
 out vec2 onFace;            // [m] from the centre of the face
 flat out vec2 halfFace;     // [m]
-flat out vec4 beyondEdges;  // [m]
+flat out vec3 eyeFoot;
 flat out vec3 faceNormal;
 flat out vec3 faceAcross;   // directions of onFace
 flat out vec3 faceAlong;
@@ -31,7 +31,7 @@ void main() {
   offset = position;
   onFace = place.xy;
   halfFace = place.zw;
-  beyondEdges = beyond;
+  eyeFoot = eye;
   faceNormal = normal;
   faceAcross = across;
   faceAlong = along;

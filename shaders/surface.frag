@@ -90,5 +90,6 @@ void main() {
     dark = mix(beyond, dark, seen);
     bright = mix(beyond, bright, seen);
   }
-  write(dark, bright, edgeAlpha(inside, vec2(dFdx(inside), dFdy(inside))));
+  float linear = inside * gl_FragCoord.w;  // in the picture
+  write(dark, bright, edgeAlpha(linear, vec2(dFdx(linear), dFdy(linear))));
 }

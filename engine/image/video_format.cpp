@@ -33,9 +33,12 @@ constexpr std::array<Container, kSuffixes.size()> kContainers = {{{"mp4", kVideo
                                                                   {"webp", kWebpCodecs},
                                                                   {"gif", kGifCodecs}}};
 
-// Chroma is subsampled, so width and height are made even: the last column or row comes twice.
+// Chroma is subsampled, so width and height are made even: the last column or row comes twice. ffmpeg 9 tags a
+// film as its frames are, ffmpeg 5 as the options say.
 std::string yuvFilter(int width, int height) {
-  const std::string toYuv = "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
+  const std::string toYuv =
+      "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p,"
+      "setparams=color_primaries=bt709:color_trc=iec61966-2-1";
   if (width % 2 == 0 && height % 2 == 0) {
     return toYuv;
   }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/system/release.h"
 #include "image/picture.h"
 #include "render/draw/renderer.h"
 #include "render/gl/rendering_backend.h"
@@ -18,6 +19,9 @@ namespace careen {
 
 // What tests of drawing share: small scenes in code (support/stages.h), and colours worked out beside the
 // engine.
+
+/// Whether this release of the system has OSMesa, so that it must be there: Mesa gave it up in 25.1.
+inline bool releaseHasOsMesa() { return drawingPackages() == "libosmesa6"; }
 
 /// No library of any backend can be loaded.
 inline ContextOptions nowhereToDraw() {

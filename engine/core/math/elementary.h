@@ -126,7 +126,7 @@ constexpr double nearestInteger(double x) {
 /// Sine and cosine of x [rad]. To 1 ulp for |x| < 2²⁷; from there to 2⁵⁰ (where neighbouring doubles are a
 /// quarter radian apart) to 1 ulp too except within 2⁻²⁰ of a zero; beyond 2⁵⁰ not a number.
 inline SinCos<double> sinCos(double x) {
-  if (!(std::fabs(x) < 0x1p50)) {
+  if (!std::isless(std::fabs(x), 0x1p50)) {  // < would raise the flag for invalid operations
     return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
   }
   const double n = nearestInteger(x * 0x1.45f306dc9c883p-1);
@@ -141,8 +141,8 @@ inline SinCos<double> sinCosQuarterTurns(double quarterTurns, double rest) {
 
 /// e^x. 0 below −708 (where the result would lose digits), infinite above 709.78.
 inline double exp(double x) {
-  if (!(x <= 709.782712893384)) {
-    return x > 0 ? std::numeric_limits<double>::infinity() : x;  // or not a number
+  if (!std::islessequal(x, 709.782712893384)) {
+    return std::isgreater(x, 0) ? std::numeric_limits<double>::infinity() : x;  // or not a number
   }
   if (x < -708) {
     return 0;
@@ -165,7 +165,7 @@ inline double exp(double x) {
 
 /// ln x; −infinity at 0, not a number below.
 inline double log(double x) {
-  if (!(x > 0)) {
+  if (!std::isgreater(x, 0)) {
     return x == 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
   }
   if (x == std::numeric_limits<double>::infinity()) {

@@ -7,6 +7,7 @@
 
 #include "core/disjoint_sets.h"
 #include "core/math/order_free_sum.h"
+#include "physics/contact/contact_system.h"
 
 namespace careen {
 namespace {

@@ -22,7 +22,7 @@ constexpr float kBehindSteps = 8;
 constexpr std::size_t kTexturePower = 10;  // of two texels in a row, see neighbors.vert
 
 constexpr std::initializer_list<Attribute> kFaceAttributes = {{0, 3}, {1, 3}, {2, 3}, {3, 3},
-                                                              {4, 4}, {5, 4}, {6, 4}, {7, 4}};
+                                                              {4, 4}, {5, 4}, {6, 4}, {7, 3}};
 }  // namespace
 
 BoxBatch::Mesh::Mesh(const Gl& gl, std::initializer_list<Attribute> attributes)

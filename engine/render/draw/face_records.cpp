@@ -49,19 +49,12 @@ void forGrid(const DrawnBox& box, const DrawnFace& face, FaceGrid grid, const Do
   }
 }
 
-// [m] In the plane of a face, how far the outline of its box is beyond the edges of the face, as seen from
-// the eye: 0 of an edge that is on the outline, else what the face beyond it takes. Of the edges at 1, −1
-// across and 1, −1 along.
-std::array<double, 4> beyondEdges(const DrawnBox& box, int axis, const Vec3& eye) {
+// Where the eye is above the plane of a face [m], across and along; and the part of the way there by which
+// the opposite face, seen in that plane, lies from this one.
+Vec3 eyeFoot(const DrawnBox& box, int axis, const Vec3& eye) {
   const Vec3 from = box.pose.worldFromBody.transpose() * (eye - box.pose.position);
-  const double part = 2 * box.halfExtents[axis] / (std::abs(from[axis]) + box.halfExtents[axis]);
-  std::array<double, 4> beyond{};
-  for (const int edge : {0, 1}) {
-    const int other = (axis + 1 + edge) % 3;
-    const double over = std::abs(from[other]) - box.halfExtents[other];
-    beyond.at(static_cast<std::size_t>(2 * edge + (from[other] > 0 ? 0 : 1))) = std::max(0.0, over) * part;
-  }
-  return beyond;
+  return {from[(axis + 1) % 3], from[(axis + 2) % 3],
+          2 * box.halfExtents[axis] / (std::abs(from[axis]) + box.halfExtents[axis])};
 }
 
 }  // namespace
@@ -188,7 +181,7 @@ void FaceRecords::addFace(std::size_t i) {
   const double width = box.halfExtents[(axis + 1) % 3];
   const double height = box.halfExtents[(axis + 2) % 3];
   VertexRecords& records = in_.shadows.isDark[i] ? dark : isShaded_[i] ? shaded : lit;
-  const std::array<double, 4> beyond = beyondEdges(box, axis, in_.eye);
+  const Vec3 foot = eyeFoot(box, axis, in_.eye);
   records.addFace(gridOf(i), face.side % 2 != 0);
   forGrid(box, face, gridOf(i), [&](const Vec3& point, double u, double v) {
     std::vector<float>& vertices = records.vertices;
@@ -202,9 +195,7 @@ void FaceRecords::addFace(std::size_t i) {
     append(vertices, box.color);
     vertices.push_back(box.marked ? 1.0F : 0.0F);
     appendAbout(vertices, kPips.at(static_cast<std::size_t>(face.side)), i, hasList(i));
-    for (const double value : beyond) {
-      vertices.push_back(static_cast<float>(value));
-    }
+    append(vertices, foot);
   });
 }
 
@@ -271,7 +262,7 @@ void FaceRecords::addTriangle(VertexRecords& records, const MeshFace& face, cons
     append(vertices, color);
     vertices.push_back(0);  // no marks
     appendAbout(vertices, 0, alike, withList);
-    vertices.insert(vertices.end(), 4, 0.0F);  // its edges are on the outline
+    vertices.insert(vertices.end(), 3, 0.0F);  // its edges are on the outline
   }
 }
 

@@ -35,6 +35,12 @@ constexpr double kShrunk = 3;  // [px] boxes in the map of occlusion, whose pixe
 // [1] Width of the curve of shadow.frag that has the variance of a disc, of that disc: sqrt(5) / 2.
 constexpr double kCurveOfDisc = 1.118033988749895;
 
+// Floors and walls are behind by this part of what their depth changes in a pixel, and by so many steps of
+// its precision: a box that has sunk into one by less hides it, and what it has drawn is not taken for
+// shadow.
+constexpr float kSunkSlopes = 0.5F;
+constexpr float kSunkSteps = 8;
+
 constexpr double kSnapped = 0.02;       // [px] GL rounds corners by less
 constexpr std::size_t kManyBoxes = 20;  // which hide so many faces that finding them pays
 
@@ -280,7 +286,10 @@ void Renderer::Parts::drawShaded(std::size_t layer) {
   boxes.drawShadows(layer);
   if (isLast) {
     gl.Disable(GL_CULL_FACE);
+    gl.Enable(GL_POLYGON_OFFSET_FILL);
+    gl.PolygonOffset(kSunkSlopes, kSunkSteps);
     shadowBatch->draw();
+    gl.Disable(GL_POLYGON_OFFSET_FILL);
     gl.Enable(GL_CULL_FACE);
   }
   gl.DepthMask(GL_TRUE);
@@ -304,7 +313,10 @@ void Renderer::Parts::drawPicture() {
       boxes.drawDepth(layer);
     }
   }
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(kSunkSlopes, kSunkSteps);
   surfaces.draw(shadedCells, occludedCells, canvas.drawnWidth(), canvas.drawnHeight());
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
   gl.UseProgram(backgroundProgram);
   gl.BindVertexArray(backgroundArray);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);

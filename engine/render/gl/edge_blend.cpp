@@ -57,6 +57,9 @@ class EdgeBlend {
     const std::size_t there = placeOf(otherX, otherY);
     int edge = 2 * crossing->at;  // [1/(2 kWhole)]
     const std::optional<Crossing> back = crossingOf(before_[there + 3]);
+    if (back && back->direction == crossing->direction && crossing->at == kWhole - 1 && back->at == 1) {
+      return;  // the edge is just beyond the other pixel
+    }
     if (back && back->direction == (crossing->direction ^ 1)) {
       if (there < here) {
         return;  // handled from the other pixel

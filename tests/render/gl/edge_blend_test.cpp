@@ -75,6 +75,18 @@ TEST(EdgeBlend, takesAnEdgeThatBothSidesKnowOnce) {
   EXPECT_EQ(both.at(4), 0);
 }
 
+// Where the edge passes from one column to the next both may know it, the first as beyond its neighbour.
+TEST(EdgeBlend, leavesAnEdgeBeyondTheNextPixelToThatOne) {
+  const Bytes alone = blended(gray({{80, kNoEdge}, {255, alphaOf(0, 0.02)}, {0, kNoEdge}}), 3, 1);
+  const Bytes both = blended(gray({{80, alphaOf(0, 0.999)}, {255, alphaOf(0, 0.02)}, {0, kNoEdge}}), 3, 1);
+  for (std::size_t pixel = 0; pixel < 3; ++pixel) {
+    EXPECT_EQ(both.at(4 * pixel), alone.at(4 * pixel)) << pixel;
+  }
+  // Another edge, with some of the second pixel before it.
+  const Bytes thin = blended(gray({{80, alphaOf(0, 0.999)}, {255, alphaOf(0, 0.3)}, {0, kNoEdge}}), 3, 1);
+  EXPECT_LT(light(thin, 1), light(alone, 1));
+}
+
 TEST(EdgeBlend, leavesPixelsWithoutEdgesAndThoseAtTheBorderAlone) {
   const Bytes plain = gray({{255, kNoEdge}, {0, kNoEdge}, {9, kNoEdge}});
   EXPECT_EQ(blended(plain, 3, 1), plain);
