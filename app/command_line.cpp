@@ -52,6 +52,50 @@ std::string explained(const CLI::ParseError& error, CLI::App& app, const char* f
                        " --help' lists what there is");
 }
 
+// Help as CLI11 2.1 writes it: later versions wrap what belongs together, leave "Usage" out and write titles
+// large.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() { label("POSITIONALS", "Positionals"); }
+
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    std::string usage = CLI::Formatter::make_usage(app, std::move(name));
+    usage.erase(0, usage.find_first_not_of('\n'));
+    usage.erase(usage.find_last_not_of('\n') + 1);
+    return (usage.starts_with("Usage:") ? "" : "Usage: ") + usage + '\n';
+  }
+  std::string make_option(const CLI::Option* option, bool isPositional) const override {
+    return inColumns(make_option_name(option, isPositional) + make_option_opts(option),
+                     make_option_desc(option));
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    return inColumns(command->get_name(), command->get_description());
+  }
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    if (mode == CLI::AppFormatMode::Sub) {
+      return CLI::Formatter::make_help(app, std::move(name), mode);
+    }
+    const std::string footer = app->get_footer();
+    return make_description(app) + make_usage(app, std::move(name)) + make_positionals(app) +
+           make_groups(app, mode) + make_subcommands(app, mode) + '\n' + footer +
+           (footer.empty() ? "" : "\n");
+  }
+
+ private:
+  std::string inColumns(const std::string& name, const std::string& description) const {
+    std::string line = "  " + name;
+    if (description.empty()) {
+      return line + '\n';
+    }
+    const std::string indented(get_column_width(), ' ');
+    line += line.size() < indented.size() ? indented.substr(line.size()) : '\n' + indented;
+    for (const char c : description) {
+      line += c == '\n' ? c + indented : std::string(1, c);
+    }
+    return line + '\n';
+  }
+};
+
 }  // namespace
 
 CommandOption CommandOption::required() const {
@@ -88,6 +132,9 @@ void CommandOption::exclude(CommandOption other) const { option_->excludes(other
 
 CommandLine::CommandLine(const std::string& description, const std::string& name, const std::string& version)
     : CommandLine(std::make_shared<CLI::App>(description, name), std::make_shared<Command>()) {
+  app_->formatter(std::make_shared<HelpFormatter>());
+  app_->option_defaults()->group("Options");
+  app_->get_help_ptr()->group("Options");
   app_->set_version_flag("--version", version);
   app_->require_subcommand(1);
 }
@@ -96,7 +143,7 @@ CommandLine::CommandLine(std::shared_ptr<CLI::App> app, std::shared_ptr<Command>
     : app_(std::move(app)), chosen_(std::move(chosen)) {}
 
 CommandLine CommandLine::addCommand(const std::string& name, const std::string& help) const {
-  return {std::shared_ptr<CLI::App>(app_, app_->add_subcommand(name, help)), chosen_};
+  return {std::shared_ptr<CLI::App>(app_, app_->add_subcommand(name, help)->group("Subcommands")), chosen_};
 }
 
 CommandLine CommandLine::addGroup(const std::string& name, const std::string& help) const {

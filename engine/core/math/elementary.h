@@ -142,7 +142,7 @@ inline SinCos<double> sinCosQuarterTurns(double quarterTurns, double rest) {
 /// e^x. 0 below −708 (where the result would lose digits), infinite above 709.78.
 inline double exp(double x) {
   if (!std::islessequal(x, 709.782712893384)) {
-    return std::isgreater(x, 0) ? std::numeric_limits<double>::infinity() : x;  // or not a number
+    return std::isgreater(x, 0.0) ? std::numeric_limits<double>::infinity() : x;  // or not a number
   }
   if (x < -708) {
     return 0;
@@ -165,7 +165,7 @@ inline double exp(double x) {
 
 /// ln x; −infinity at 0, not a number below.
 inline double log(double x) {
-  if (!std::isgreater(x, 0)) {
+  if (!std::isgreater(x, 0.0)) {
     return x == 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
   }
   if (x == std::numeric_limits<double>::infinity()) {
