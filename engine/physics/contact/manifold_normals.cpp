@@ -1,7 +1,7 @@
 #include "physics/contact/manifold_normals.h"
 
 #include <algorithm>
-#include <array>
+#include <functional>
 
 #include "core/math/order_free_sum.h"
 
@@ -25,7 +25,12 @@ void ManifoldNormals::align(std::span<const ContactFeature> features, std::span<
   if (ofPairs_.size() < 2) {
     return;
   }
-  before_.assign(contacts.begin(), contacts.end());
+  before_.clear();
+  for (const ContactState& at : contacts) {
+    const Vec3& n = at.normal;
+    const Vec3& rate = at.normalRate;
+    before_.push_back({n[0], n[1], n[2], rate[0], rate[1], rate[2]});
+  }
   std::sort(ofPairs_.begin(), ofPairs_.end());
   for (auto begin = ofPairs_.begin(); begin != ofPairs_.end();) {
     const auto end = std::find_if(begin, ofPairs_.end(), [&](const OfPair& each) {
@@ -38,23 +43,23 @@ void ManifoldNormals::align(std::span<const ContactFeature> features, std::span<
 
 void ManifoldNormals::alignPair(std::span<const OfPair> pair, std::span<const ContactFeature> features,
                                 std::span<ContactState> contacts) const {
-  std::vector<std::array<double, 6>> different;  // normals and their rates
+  std::vector<Turning> different;
   for (const OfPair& of : pair) {
     const std::size_t c = of.contact;
     different.clear();
     for (const OfPair& other : pair) {
       const std::size_t k = other.contact;
-      const double sign = features[k].a == features[c].a ? 1 : -1;
-      const Vec3 normal = sign * before_[k].normal;
-      const Vec3 rate = sign * before_[k].normalRate;
-      const std::array<double, 6> parts{normal[0], normal[1], normal[2], rate[0], rate[1], rate[2]};
-      if (dot(normal, before_[c].normal) >= kParallel &&
-          std::find(different.begin(), different.end(), parts) == different.end()) {
-        different.push_back(parts);
+      Turning turning = before_[k];
+      if (features[k].a != features[c].a) {
+        std::transform(turning.begin(), turning.end(), turning.begin(), std::negate());
+      }
+      if (dot(Vec3(turning[0], turning[1], turning[2]), contacts[c].normal) >= kParallel &&
+          std::find(different.begin(), different.end(), turning) == different.end()) {
+        different.push_back(turning);
       }
     }
     if (different.size() > 1) {
-      const std::array<double, 6> sum = orderFreeSums<6>(different);
+      const Turning sum = orderFreeSums<6>(different);
       const double part = 1 / static_cast<double>(different.size());
       contacts[c].setNormal(Vec3(sum[0], sum[1], sum[2]).normalized(), part * Vec3(sum[3], sum[4], sum[5]));
     }

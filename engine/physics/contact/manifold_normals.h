@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -28,7 +29,10 @@ class ManifoldNormals {
   void alignPair(std::span<const OfPair> pair, std::span<const ContactFeature> features,
                  std::span<ContactState> contacts) const;
 
-  std::vector<ContactState> before_;
+  /// A normal and its rate.
+  using Turning = std::array<double, 6>;
+
+  std::vector<Turning> before_;  // by contact
   std::vector<OfPair> ofPairs_;  // sorted
 };
 
