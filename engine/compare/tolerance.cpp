@@ -15,9 +15,9 @@ constexpr double kStep = 1.0 / 255;
 
 // Measured on frames 0 and 40 of careen, pile, wall, gas, dzhanibekov, domino and hecker-1997, 320x180 and
 // 1280x720 (softpipe: 320x180), llvmpipe of Mesa 22.3.6, compared with the same frames drawn with other
-// threads, with SSE2 only, by softpipe, and with deliberate changes. Each row is the worst case of a renderer,
-// or the change nearest to passing; "over n" is the % of pixels with a channel off by more than n/255. Changes
-// and (+) were measured with earlier dithers, by noise or by rows, and with a cube too:
+// threads, with SSE2 only, by softpipe, and with deliberate changes. Each row is the worst case of a
+// renderer, or the change nearest to passing; "over n" is the % of pixels with a channel off by more than
+// n/255. Changes and (+) were measured with earlier dithers, by noise or by rows, and with a cube too:
 //
 //                                   over 0  over 1  colour changed %  SSIM   of a window
 //                                                   edges  others
