@@ -51,7 +51,7 @@ float edgeAlpha(float inside, vec2 slope) {
   float at = inside / max(max(steep.x, steep.y), 1e-20);
   float along = level ? slope.x : slope.y;
   float direction = (level ? 0.0 : 2.0) + (along > 0.0 ? 1.0 : 0.0);
-  if (at >= kReach || finish.y < 0.5) return 1.0;
+  if (!(at < kReach) || finish.y < 0.5) return 1.0;
   return (1.0 + kSteps * direction + floor(kSteps * clamp(at, 0.0, 0.999))) / 255.0;
 }
 

@@ -133,7 +133,7 @@ Mutations lightShaderMutations() {
       in(finish, "dither ten times as strong", "finish.z * (threshold", "10.0 * finish.z * (threshold"),
       in(finish, "edges' directions exchanged", "along > 0.0 ? 1.0", "along < 0.0 ? 1.0"),
       in(finish, "edges' axes exchanged", "steep.x > steep.y", "steep.x < steep.y"),
-      in(finish, "edges half as wide", "at < 1.0 &&", "at < 0.5 &&"),
+      in(finish, "edges half as wide", "at < kReach", "at < 0.5"),
       in(shadow, "blurred twice as wide", "towardsLight.w * max", "2.0 * towardsLight.w * max"),
       in(shadow, "sharp", "towardsLight.w * max", "0.0 * max"),
       in(shadow, "lighter by a ninth", "weight * inside.x", "0.89 * weight * inside.x"),
