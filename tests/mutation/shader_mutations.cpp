@@ -90,7 +90,7 @@ Mutations surfaceShaderMutations() {
       in(frag, "normal's sign", "roughness, surfaceNormal", "roughness, -surfaceNormal"),
       in(frag, "surfaces not occluded", "ambient(albedo, surfaceNormal) * opennessHere()",
          "ambient(albedo, surfaceNormal)"),
-      in(frag, "edge's direction", "vec2(dFdx(inside), dFdy(inside))", "vec2(-dFdx(inside), -dFdy(inside))"),
+      in(frag, "edge's direction", "vec2(dFdx(linear), dFdy(linear))", "vec2(-dFdx(linear), -dFdy(linear))"),
       in(vert, "pattern 5 cm aside", "onSurface = place.xy", "onSurface = place.xy + 0.05"),
       in(vert, "neighbours in another order", "edges = adjoins", "edges = adjoins.yzwx"),
       in(vert, "normal upward", "surfaceNormal = normal", "surfaceNormal = up.xyz"),
