@@ -143,7 +143,9 @@ CommandLine::CommandLine(std::shared_ptr<CLI::App> app, std::shared_ptr<Command>
     : app_(std::move(app)), chosen_(std::move(chosen)) {}
 
 CommandLine CommandLine::addCommand(const std::string& name, const std::string& help) const {
-  return {std::shared_ptr<CLI::App>(app_, app_->add_subcommand(name, help)->group("Subcommands")), chosen_};
+  CLI::App* const added = app_->add_subcommand(name, help)->group("Subcommands");
+  added->get_help_ptr()->group("Options");
+  return {std::shared_ptr<CLI::App>(app_, added), chosen_};
 }
 
 CommandLine CommandLine::addGroup(const std::string& name, const std::string& help) const {

@@ -49,8 +49,8 @@ mat3 placeHere() {
   return mat3(place, dFdx(place), dFdy(place));
 }
 
-// The nearer one of an edge, as its distance in pixels, in some unit, and what that grows by to the right and up; and of
-// another along a line, the distance inside of which is line.xy . onFace + line.z.
+// The nearer one of an edge, as its distance in pixels, in some unit, and what that grows by to the right and up; and
+// of another along a line, the distance inside of which is line.xy . onFace + line.z.
 vec4 nearer(vec4 edge, vec3 line, mat3 place) {
   vec3 inside = line * place;
   float pixels = inside.x / max(max(abs(inside.y), abs(inside.z)), 1e-20);
@@ -65,8 +65,8 @@ vec4 nearerFrom(vec2 corner, vec4 edge, mat3 place) {
   return nearer(edge, vec3(inward, -dot(inward, corner)), place);
 }
 
-// Alpha for the edge of the box's outline if that is within a pixel, be it beyond a face too thin for a pixel of its own;
-// else for the edge of the face that is the fewest pixels away. On the plane of the face and seen from the eye, the
+// Alpha for the edge of the box's outline if that is within a pixel, be it beyond a face too thin for a pixel of its
+// own; else for the edge of the face that is the fewest pixels away. On the plane of the face and seen from the eye, the
 // outline is the hull of the face and of the opposite one, which is the face shrunk towards the eye's foot.
 float nearestEdge() {
   mat3 place = placeHere();

@@ -39,8 +39,8 @@ vec3 dithered(vec3 color) {
   return color + finish.z * (threshold - 0.5) * stepped;
 }
 
-// Beyond a pixel an edge counts as still in it: where it passes from one column or row to the next, rounding would leave
-// it to neither. See edge_blend.h.
+// So far an edge counts as within a pixel: where it passes from one column or row to the next, rounding would leave it
+// to neither. See edge_blend.cpp.
 const float kReach = 1.01;
 
 // Alpha that encodes where an edge crosses: `inside` is the pixel's distance inside the edge, in any unit in
@@ -51,7 +51,8 @@ float edgeAlpha(float inside, vec2 slope) {
   float at = inside / max(max(steep.x, steep.y), 1e-20);
   float along = level ? slope.x : slope.y;
   float direction = (level ? 0.0 : 2.0) + (along > 0.0 ? 1.0 : 0.0);
-  return at < kReach && finish.y > 0.5 ? (1.0 + kSteps * direction + floor(kSteps * clamp(at, 0.0, 0.999))) / 255.0 : 1.0;
+  if (!(at < kReach) || finish.y < 0.5) return 1.0;
+  return (1.0 + kSteps * direction + floor(kSteps * clamp(at, 0.0, 0.999))) / 255.0;
 }
 
 vec4 finished(vec3 color, float alpha) { return vec4(dithered(toned(color)), alpha); }
