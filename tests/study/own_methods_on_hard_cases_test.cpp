@@ -80,7 +80,7 @@ const std::vector<Measured> kExact = {
     {"exact", "scaled", 0},          // to the bit
     // Contact: closed forms where forces are constant, else adaptive time steps, with a tolerance of 1e-6 m
     {"exact", "sliding-azimuths", 6.2e-10},  // likewise
-    {"exact", "incline-slide", 1.4e-9},  // in 32 steps; 1.1e-14 in the 2,480 that ended at cells
+    {"exact", "incline-slide", 1.4e-9},      // in 32 steps; 1.1e-14 in the 2,480 that ended at cells
     {"exact", "incline-hold", 9.7e-16},
     {"exact", "stack-10", 0},
     {"exact", "stack-heavy-100", 0},
