@@ -77,8 +77,8 @@ TEST(EdgeBlend, takesAnEdgeThatBothSidesKnowOnce) {
 
 // Where the edge passes from one column to the next both may know it, the first as beyond its neighbour.
 TEST(EdgeBlend, leavesAnEdgeBeyondTheNextPixelToThatOne) {
-  const Bytes alone = blended(gray({{80, kNoEdge}, {255, alphaOf(0, 0.02)}, {0, kNoEdge}}), 3, 1);
-  const Bytes both = blended(gray({{80, alphaOf(0, 0.999)}, {255, alphaOf(0, 0.02)}, {0, kNoEdge}}), 3, 1);
+  const Bytes alone = blended(gray({{80, kNoEdge}, {255, alphaOf(0, 0.01)}, {0, kNoEdge}}), 3, 1);
+  const Bytes both = blended(gray({{80, alphaOf(0, 0.999)}, {255, alphaOf(0, 0.01)}, {0, kNoEdge}}), 3, 1);
   for (std::size_t pixel = 0; pixel < 3; ++pixel) {
     EXPECT_EQ(both.at(4 * pixel), alone.at(4 * pixel)) << pixel;
   }
