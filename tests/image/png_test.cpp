@@ -171,9 +171,10 @@ Cost shareOfStbs(const Picture& picture) {
   return share;
 }
 
-TEST(Png, isSmallerThanStbsOwnAndTakesLessThanASeventhOfTheTime) {
+TEST(Png, isAboutAsSmallAsStbsOwnAndTakesLessThanASeventhOfTheTime) {
   const Cost rendered = shareOfStbs(readPng(CAREEN_SOURCE_DIR "/assets/pictures/careen.png"));
-  EXPECT_LT(rendered.bytes, 0.85);         // measured 0.787
+  // Measured 1.12: noise of the dither in two dimensions leaves less to find than its lines did, 0.787 then.
+  EXPECT_LT(rendered.bytes, 1.2);
   EXPECT_LT(rendered.seconds, kMostTime);  // measured 0.024 to 0.034
   const Cost grained = shareOfStbs(shadedTiles(1280, 720));
   EXPECT_LT(grained.bytes, 1);            // measured 0.964
