@@ -33,8 +33,8 @@ constexpr std::array<Container, kSuffixes.size()> kContainers = {{{"mp4", kVideo
                                                                   {"webp", kWebpCodecs},
                                                                   {"gif", kGifCodecs}}};
 
-// Chroma is subsampled, so width and height are made even: the last column or row comes twice. ffmpeg 9 tags a
-// film as its frames are, ffmpeg 5 as the options say.
+// Chroma is subsampled, so width and height are made even: the last column or row comes twice. ffmpeg 9 tags
+// a film as its frames are, ffmpeg 5 as the options say.
 std::string yuvFilter(int width, int height) {
   const std::string toYuv =
       "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p,"
