@@ -82,7 +82,7 @@ TEST(ErrorEstimate, ofExactIsItsErrorAgainstAQuadrupleRun) {
 }
 
 // A box that rocks, slides and comes to rest, against a run with a tolerance of 1e-10 m. Estimates in contact
-// hold in 99 of 100 scenes, and are not of another order.
+// hold in 19 of 20 scenes, and are not of another order.
 TEST(ErrorEstimate, inContactIsThreeTimesTheErrorAtMost) {
   World world;
   world.gravity = Vec3(0, 0, -9.81);
@@ -98,7 +98,7 @@ TEST(ErrorEstimate, inContactIsThreeTimesTheErrorAtMost) {
   const std::optional<ErrorEstimate> estimate = estimateError(run);
   ASSERT_TRUE(estimate.has_value());
   EXPECT_EQ(estimate->by, "a start one rounding error away and a tenth of the tolerance, and a hundredth");
-  EXPECT_EQ(estimate->holds, 0.99);
+  EXPECT_EQ(estimate->holds, 0.95);
   EXPECT_EQ(estimate->until, 1.5);
   EXPECT_EQ(estimateCost(run), 3);
   double error = 0;
@@ -108,7 +108,7 @@ TEST(ErrorEstimate, inContactIsThreeTimesTheErrorAtMost) {
   }
   EXPECT_GT(error, 1e-9);  // there is something to estimate
   EXPECT_GT(estimate->position, error);
-  EXPECT_LT(estimate->position, 4 * error);
+  EXPECT_LT(estimate->position, 3.5 * error);  // measured 2.96
 }
 
 // A row of six dominoes, the first one leaning over its edge by an angle with sine 0.2.

@@ -42,11 +42,10 @@ void ManifoldNormals::align(std::span<const ContactFeature> features, std::span<
 }
 
 void ManifoldNormals::alignPair(std::span<const OfPair> pair, std::span<const ContactFeature> features,
-                                std::span<ContactState> contacts) const {
-  std::vector<Turning> different;
+                                std::span<ContactState> contacts) {
   for (const OfPair& of : pair) {
     const std::size_t c = of.contact;
-    different.clear();
+    different_.clear();
     for (const OfPair& other : pair) {
       const std::size_t k = other.contact;
       Turning turning = before_[k];
@@ -54,13 +53,13 @@ void ManifoldNormals::alignPair(std::span<const OfPair> pair, std::span<const Co
         std::transform(turning.begin(), turning.end(), turning.begin(), std::negate());
       }
       if (dot(Vec3(turning[0], turning[1], turning[2]), contacts[c].normal) >= kParallel &&
-          std::find(different.begin(), different.end(), turning) == different.end()) {
-        different.push_back(turning);
+          std::find(different_.begin(), different_.end(), turning) == different_.end()) {
+        different_.push_back(turning);
       }
     }
-    if (different.size() > 1) {
-      const Turning sum = orderFreeSums<6>(different);
-      const double part = 1 / static_cast<double>(different.size());
+    if (different_.size() > 1) {
+      const Turning sum = orderFreeSums<6>(different_);
+      const double part = 1 / static_cast<double>(different_.size());
       contacts[c].setNormal(Vec3(sum[0], sum[1], sum[2]).normalized(), part * Vec3(sum[3], sum[4], sum[5]));
     }
   }

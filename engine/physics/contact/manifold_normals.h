@@ -27,13 +27,14 @@ class ManifoldNormals {
     auto operator<=>(const OfPair&) const = default;
   };
   void alignPair(std::span<const OfPair> pair, std::span<const ContactFeature> features,
-                 std::span<ContactState> contacts) const;
+                 std::span<ContactState> contacts);
 
   /// A normal and its rate.
   using Turning = std::array<double, 6>;
 
-  std::vector<Turning> before_;  // by contact
-  std::vector<OfPair> ofPairs_;  // sorted
+  std::vector<Turning> before_;     // by contact
+  std::vector<Turning> different_;  // of them, those parallel to one
+  std::vector<OfPair> ofPairs_;     // sorted
 };
 
 }  // namespace careen

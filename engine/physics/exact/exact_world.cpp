@@ -260,7 +260,7 @@ bool ExactWorld::step(ContactGroup& contactGroup, const Instant& time) {
     }
   };
   try {
-    // Not the end of the run bounds it, so that the motion does not depend on that.
+    // Not bounded by the end of the run, on which the motion must not depend.
     contactGroup.step = island.step(longestStep_, workLeft(contactGroup.ranks, time));
   } catch (const NumericalError&) {
     if (crowds_.when == CrowdSettings::When::kNever) {

@@ -25,8 +25,11 @@ std::vector<ShownOverlay> backToFront(const OverlaySet& set) {
 
 // Sampled over the whole run, with fewer samples if there are many boxes.
 void findLargestOfBodies(std::span<ShownOverlay* const> arrows, const Trajectory& trajectory) {
+  if (arrows.empty()) {
+    return;
+  }
   const int samples = 100'000 / static_cast<int>(std::max<std::size_t>(1, trajectory.tracks.size()));
-  const int steps = arrows.empty() ? -1 : std::clamp(samples, 16, 512);
+  const int steps = std::clamp(samples, 16, 512);
   for (int step = 0; step <= steps; ++step) {
     const std::vector<BodyState> states = statesAt(trajectory, trajectory.settings.duration * step / steps);
     for (std::size_t body = 0; body < states.size(); ++body) {

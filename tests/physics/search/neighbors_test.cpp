@@ -226,7 +226,7 @@ TEST(Neighbors, crossingsOfAContactStepKeepItsCellTrue) {
       ASSERT_LT(outside(time), 1.0 / 16 + 1e-12) << trial << " at " << time;
     }
   }
-  EXPECT_GT(crossings, 300);
+  EXPECT_GT(crossings, 600);  // 965
 }
 
 }  // namespace

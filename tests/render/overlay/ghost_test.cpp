@@ -1,23 +1,15 @@
 // Another run as outlines.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
+#include <algorithm>
 #include <string>
 #include <vector>
 
-#include "render/overlay/overlays.h"
-#include "render/stage.h"
-#include "scene/plan.h"
-#include "view/scene_extent.h"
+#include "render/overlay/overlay_pictures.h"
 
 namespace careen {
 namespace {
 
-constexpr int kWidthOfGhost = 1280;
-constexpr int kHeightOfGhost = 720;
-
-// The crate's room seen straight on from 10 m in front of y = 0, 60° upward.
 class Ghost : public testing::Test {
  protected:
   OverlayShapes shapesAt(double time) const {
@@ -25,38 +17,17 @@ class Ghost : public testing::Test {
     Overlays overlays(run, {}, 1.0 / 30, &ghost_);
     const View view = viewOf(*scene_.camera, extentOf(run), 16.0 / 9);
     const auto momentAt = [&](double filmTime) { return OverlayMoment{.sceneTime = filmTime, .view = view}; };
-    return overlays.shapesAt(time, momentAt, kWidthOfGhost, kHeightOfGhost);
-  }
-  template <class Shape>
-  static std::vector<Shape> only(const OverlayShapes& shapes) {
-    std::vector<Shape> found;
-    for (const OverlayShape& each : shapes) {
-      if (const Shape* const shape = std::get_if<Shape>(&each)) {
-        found.push_back(*shape);
-      }
-    }
-    return found;
+    return overlays.shapesAt(time, momentAt, kWidth, kHeight);
   }
   std::string textAt(double time) const {
     const std::vector<Label> labels = only<Label>(shapesAt(time));
     return labels.size() == 1 ? labels[0].text : std::to_string(labels.size()) + " labels";
   }
 
-  static Scene straightOn() {
-    Scene scene = crateInRoom();
-    scene.camera = cameraAt(Vec3(0, -10, 1.5), Vec3(0, 0, 1.5), 60);
-    return scene;
-  }
-
-  Scene scene_ = straightOn();
+  Scene scene_ = roomStraightOn();
   Trajectory run_ = drifting(scene_, Vec3(1, 0, 0.5));
   Trajectory ghost_ = drifting(scene_, Vec3(1, 0, 0));
 };
-
-Vec2 ghostOnPicture(const Vec3& point) {
-  const double scale = 360 / std::tan(std::numbers::pi / 6) / (point.y() + 10);
-  return {640 + scale * point.x(), 360 - scale * (point.z() - 1.5)};
-}
 
 TEST_F(Ghost, isDrawnAsTheEdgesOfItsBox) {
   const std::vector<Stroke> strokes = only<Stroke>(shapesAt(0.5));
@@ -67,15 +38,15 @@ TEST_F(Ghost, isDrawnAsTheEdgesOfItsBox) {
     for (const Vec2& end : {strokes[k].from, strokes[k].to}) {
       double nearest = 1e9;
       for (int index = 0; index < kCorners; ++index) {
-        nearest = std::min(nearest,
-                           (ghostOnPicture(place.worldPoint(corner(crate.halfExtents, index))) - end).norm());
+        nearest =
+            std::min(nearest, (onPicture(place.worldPoint(corner(crate.halfExtents, index))) - end).norm());
       }
       EXPECT_LT(nearest, 1e-6);
     }
     EXPECT_GT((strokes[k].to - strokes[k].from).norm(), 1);
   }
-  EXPECT_LT((strokes[12].from - ghostOnPicture(run_.state(0, 0.5).pose.position)).norm(), 1e-6);
-  EXPECT_LT((strokes[12].to - ghostOnPicture(place.position)).norm(), 1e-6);
+  EXPECT_LT((strokes[12].from - onPicture(run_.state(0, 0.5).pose.position)).norm(), 1e-6);
+  EXPECT_LT((strokes[12].to - onPicture(place.position)).norm(), 1e-6);
 }
 
 // Seen straight on, the box shows one face: its four edges are in front, those of the sides too, as their

@@ -36,6 +36,18 @@ inline bool overlap(const Plate& a, const Plate& b) {
   return (a.min.array() < b.max.array()).all() && (b.min.array() < a.max.array()).all();
 }
 
+// The shapes of one kind.
+template <class Shape>
+std::vector<Shape> only(const OverlayShapes& shapes) {
+  std::vector<Shape> found;
+  for (const OverlayShape& each : shapes) {
+    if (const Shape* const shape = std::get_if<Shape>(&each)) {
+      found.push_back(*shape);
+    }
+  }
+  return found;
+}
+
 class OverlayPictures : public testing::Test {
  protected:
   OverlayShapes shapesAt(const std::string& names, double time, int width = kWidth,
@@ -48,16 +60,6 @@ class OverlayPictures : public testing::Test {
       return OverlayMoment{.sceneTime = std::clamp(filmTime, 0.0, run.settings.duration), .view = view};
     };
     return overlays.shapesAt(time, momentAt, width, height);
-  }
-  template <class Shape>
-  static std::vector<Shape> only(const OverlayShapes& shapes) {
-    std::vector<Shape> found;
-    for (const OverlayShape& each : shapes) {
-      if (const Shape* const shape = std::get_if<Shape>(&each)) {
-        found.push_back(*shape);
-      }
-    }
-    return found;
   }
   // Arrows of one overlay; the legend's, which come last, are not among them.
   std::vector<Stroke> arrows(const std::string& name, double time) const {
