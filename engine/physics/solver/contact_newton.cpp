@@ -13,6 +13,7 @@ constexpr int kPatience = 3;
 /// [1] ε stays in this range.
 constexpr double kLeastEpsilon = 0x1p-26;
 constexpr double kMostEpsilon = 1;
+constexpr double kWideSpread = 64;  // from here on ε has to be smaller, or the heavy moves the light for ever
 /// [1] of V: beyond, the iteration has diverged, and would overflow.
 constexpr double kDiverged = 0x1p100;
 /// A proximal point is found if its equations hold to so much of the last residual, within so many steps; it
@@ -181,6 +182,7 @@ double ContactNewton::approach(CoupledContacts& contacts, std::span<Triple> impu
                                Options options) {
   double best = begin(contacts, impulses, q);
   centres_.assign(impulses.begin(), impulses.end());
+  const double leastEpsilon = kLeastEpsilon / std::max(1.0, contacts.spread() / kWideSpread);
   double now = best;
   double halved = best;
   int lastHalved = 0;
@@ -202,7 +204,7 @@ double ContactNewton::approach(CoupledContacts& contacts, std::span<Triple> impu
       halved = best;
       lastHalved = factorisations_;
     }
-    options.epsilon = std::max(kLeastEpsilon, options.epsilon / (steps <= 2               ? 8
+    options.epsilon = std::max(leastEpsilon, options.epsilon / (steps <= 2               ? 8
                                                                  : steps < kProximalSteps ? 2
                                                                                           : 1));
   }

@@ -210,6 +210,18 @@ double CoupledContacts::heaviest() const {
   return heaviest;
 }
 
+double CoupledContacts::spread() const {
+  double most = 0;
+  for (std::size_t body = 0; body < bodies(); ++body) {
+    most = std::max(most, mass_[body * kAxes]);
+  }
+  double least = most;
+  for (const Contact& contact : contacts_) {
+    least = std::min(least, contact.mass);
+  }
+  return least > 0 ? most / least : 1;
+}
+
 double CoupledContacts::largest(std::span<const Triple> impulses) const {
   double largest = 0;
   for (std::size_t c = 0; c < impulses.size(); ++c) {

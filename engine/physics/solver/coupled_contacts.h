@@ -49,6 +49,8 @@ class CoupledContacts {
 
   /// [1] The largest ratio of the masses of two bodies in contact.
   double heaviest() const;
+  /// [1] The largest mass of a body over the least effective mass of a contact.
+  double spread() const;
   /// [m/s] λ/mass, of normal impulses.
   double largest(std::span<const Triple> impulses) const;
 

@@ -98,6 +98,20 @@ TEST(ExactWorldContact, stacksStandToTheBit) {
   }
 }
 
+// Off the centre, up to what a double keeps of the light one beside the heavy.
+TEST(ExactWorldContact, aTrillionRestsOnOne) {
+  for (const double heavy : {1e9, 1e10, 1e11, 1e12}) {
+    World world = onAFloor(0.5);
+    world.bodies = {rough(box("light", Vec3(0.1, 0.1, 0.1), 1, Vec3(0, 0, 0.1)), 0.5),
+                    rough(box("heavy", Vec3(0.1, 0.1, 0.1), heavy, Vec3(0.01, 0.02, 0.3)), 0.5)};
+    const Recorded run = runFor(world, 10);
+    for (std::size_t k = 0; k < 2; ++k) {
+      ASSERT_TRUE(std::holds_alternative<Rest>(run.motions[k].back().second)) << heavy;
+      EXPECT_EQ(run.motions[k].back().first, 0) << heavy;
+    }
+  }
+}
+
 // A billionth of a radian either side of tan θ = μ.
 TEST(ExactWorldContact, slopesHoldUpToFriction) {
   for (const double more : {-1e-9, 1e-9}) {

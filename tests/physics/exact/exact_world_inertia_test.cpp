@@ -73,5 +73,25 @@ TEST(ExactWorldInertia, anImpactOffTheCentreTurnsAsItsInertiaTells) {
   }
 }
 
+// Next to no moment about one axis: a corner strikes with 1e-10 of the mass, the next with all that is left.
+TEST(ExactWorldInertia, boxesOfOneVanishingMomentLand) {
+  for (const double moment : {1e-6, 1e-9, 1e-12}) {
+    World world;
+    world.gravity = Vec3(0, 0, -kGravity);
+    world.walls = {wall("floor", Vec3::UnitZ(), 0, 0.4)};
+    world.walls[0].material.friction = 0.4;
+    Body thin = box("thin", Vec3(0.1, 0.1, 0.1), 1, Vec3(0, 0, 0.5), Vec3(0.5, -1.79, -0.78));
+    thin.material = {.restitution = 0.4, .friction = 0.4};
+    thin.mass = massWithInertia(1, Vec3(1, moment, 1));
+    thin.initial.angularMomentum = Vec3(0.22, 4.4 * moment, 0.013);
+    world.bodies = {thin};
+    const Recorded run = runFor(world, 2);
+    EXPECT_GT(run.impacts.size(), 10U) << moment;
+    const Vec3 position = run.last(world, 0, 2).pose.position;
+    EXPECT_GT(position.z(), 0.1 - 1e-5) << moment;
+    EXPECT_LT(position.z(), 0.3) << moment;
+  }
+}
+
 }  // namespace
 }  // namespace careen
