@@ -12,11 +12,15 @@
 #include <string>
 #include <vector>
 
+#include "support/source_text.h"
+
 namespace careen {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kRoot = CAREEN_SOURCE_DIR;
+using source_text::kRoot;
+using source_text::sourcesIn;
+using source_text::textOf;
 using Names = std::set<std::string>;
 
 // The whole of it: a folder that is not here may not exist.
@@ -70,23 +74,6 @@ const std::map<std::string, Rooms> kRooms = {
 const std::map<std::string, Names> kDoors = {{"physics", {"world", "motion", "start", "simulate.h"}}};
 // Who may enter fewer of its rooms.
 const std::map<std::string, Names> kNarrowDoors = {{"stage", {"world"}}, {"audit", {"world", "motion"}}};
-
-std::string textOf(const fs::path& path) {
-  std::ifstream stream(path);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
-std::vector<fs::path> sourcesIn(const fs::path& folder) {
-  std::vector<fs::path> sources;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp") {
-      sources.push_back(entry.path());
-    }
-  }
-  return sources;
-}
 
 std::vector<std::string> includesOf(const fs::path& source) {
   static const std::regex kInclude(R"re((?:^|\n)\s*#\s*include\s*[<"]([^>"]+)[>"])re");
@@ -310,28 +297,6 @@ TEST(Structure, dotProductsOfMotionAreThoseOfTheProject) {
       EXPECT_EQ(textOf(source).find(".dot("), std::string::npos) << source << " calls Eigen's dot";
     }
   }
-}
-
-// Two types of one name have one destructor: the linker keeps either. The public header has a namespace of
-// its own.
-TEST(Structure, noTwoTypesOfTheEngineHaveOneName) {
-  static const std::regex kType(
-      R"re((?:^|\n)(?:(?:struct|class|enum class)\s+(\w+)(?: final)?[^;{\n]*\{|using (\w+) =))re");
-  std::map<std::string, fs::path> headerOf;
-  for (const fs::path& source : sourcesIn(kRoot / "engine")) {
-    if (source.extension() != ".h" || source.parent_path().filename() == "library") {
-      continue;
-    }
-    const std::string text = textOf(source);
-    for (auto match = std::sregex_iterator(text.begin(), text.end(), kType); match != std::sregex_iterator();
-         ++match) {
-      const std::string name = (*match)[1].matched ? (*match)[1] : (*match)[2];
-      const auto [other, isNew] = headerOf.emplace(name, source);
-      EXPECT_TRUE(isNew || other->second == source)
-          << name << " is a type in " << source << " and in " << other->second;
-    }
-  }
-  EXPECT_GT(headerOf.size(), 200U);  // that it looks
 }
 
 // ---- Tests know their sources, and sources their tests.

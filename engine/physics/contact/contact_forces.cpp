@@ -28,6 +28,10 @@ constexpr int kOuterCap = 40;
 /// Factorisations before it counts as certain that no forces exist: then impulses do.
 constexpr int kMostFactorisations = 300;
 
+bool slips(const ContactProblem::Contact& contact) {
+  return contact.admissible == ContactProblem::Admissible::kLine;
+}
+
 std::array<double, 2> dragOf(const ContactProblem::Contact& contact) {
   return {-contact.friction * contact.slip[0], -contact.friction * contact.slip[1]};
 }
@@ -85,10 +89,10 @@ ContactForces::Mode ContactForces::modeOf(std::size_t c) {
     return Mode::kOn;
   }
   const double size = std::sqrt(force[1] * force[1] + force[2] * force[2]);
-  if (!contact.slips && size < (1 - kNear) * contact.friction * force[0]) {
+  if (!slips(contact) && size < (1 - kNear) * contact.friction * force[0]) {
     return Mode::kStick;
   }
-  if (!contact.slips) {
+  if (!slips(contact)) {
     contact.slip = {-force[1] / size, -force[2] / size};
   }
   return Mode::kSlip;
@@ -100,7 +104,7 @@ bool ContactForces::stands(std::span<Mode> modes) const {
   for (std::size_t c = 0; c < contacts().size(); ++c) {
     const Force& excess = excess_[c];
     const bool pushes = modes[c] != Mode::kOff;
-    if (contacts()[c].slips || (pushes && std::fabs(excess[0]) > kStands * scale_) ||
+    if (slips(contacts()[c]) || (pushes && std::fabs(excess[0]) > kStands * scale_) ||
         (pushes && contacts()[c].friction > 0 &&
          std::max(std::fabs(excess[1]), std::fabs(excess[2])) > kStands * scale_)) {
       return false;
@@ -148,7 +152,8 @@ void ContactForces::answer(std::span<const Mode> modes) {
       answers_[c] = {};
       continue;
     }
-    ContactCone law{.mass = contact.mass, .onLine = mode != Mode::kStick};
+    ImpulseSet law{.mass = contact.mass,
+                   .kind = mode == Mode::kStick ? ImpulseSet::Kind::kCone : ImpulseSet::Kind::kLine};
     if (mode == Mode::kSlip) {
       law.drag = dragOf(contacts()[coupled_.listed(c)]);
     }

@@ -6,6 +6,7 @@
 
 #include "physics/contact/three_at.h"
 #include "physics/geometry/tangents.h"
+#include "physics/solver/contact_rows.h"
 #include "physics/world/forces.h"
 
 namespace careen {
@@ -124,38 +125,32 @@ void ContactSystem::fillContacts() {
     const Tangents tangents = tangentsOf(state.normal);
     const std::array<Vec3, 3> directions{state.normal, tangents.first, tangents.second};
     const auto a = static_cast<std::size_t>(feature.a);
-    const auto side = [&](std::size_t body, const Vec3& arm, double sign, std::size_t offset) {
+    const auto addSide = [&](std::size_t body, std::size_t side, const Vec3& arm, double sign) {
       if (places_[body] == kHeld) {
         return ContactForces::kNobody;
       }
-      const Mat3 turn = bodies_[body].body->mass.worldFromPrincipal(kinematics_[body].pose.worldFromBody);
-      for (std::size_t row = 0; row < 3; ++row) {
-        const Vec3 turning = turn.transpose() * arm.cross(directions[row]);
-        for (int k = 0; k < 3; ++k) {
-          contact.rows[row][offset + static_cast<std::size_t>(k)] = sign * directions[row][k];
-          contact.rows[row][offset + 3 + static_cast<std::size_t>(k)] = sign * turning[k];
-        }
-      }
+      setSide(contact, side, pointSide(directions, arm, sign),
+              bodies_[body].body->mass.worldFromPrincipal(kinematics_[body].pose.worldFromBody));
       return static_cast<int>(places_[body]);
     };
-    contact.a = side(a, state.armA, 1, 0);
+    contact.a = addSide(a, 0, state.armA, 1);
     contact.b = ContactForces::kNobody;
     if (!feature.b.isWall()) {
-      contact.b = side(static_cast<std::size_t>(feature.b.body()), state.armB, -1, kSix);
+      contact.b = addSide(static_cast<std::size_t>(feature.b.body()), 1, state.armB, -1);
     }
     contact.target = {-state.gapBias, -dot(state.slipBias, tangents.first),
                       -dot(state.slipBias, tangents.second)};
     contact.friction = feature.material.friction;
     const double speed = state.slip.norm();
-    contact.slips = speed > restSpeed_;
+    const bool slips = speed > restSpeed_;
+    contact.admissible = slips ? ContactProblem::Admissible::kLine : ContactProblem::Admissible::kCone;
     contact.directions.clear();
     for (const Vec3& direction : state.directions) {
       if (dot(direction, state.velocity()) >= -restSpeed_) {  // those that are approached part nothing
-        contact.directions.push_back(
-            {dot(direction, directions[0]), dot(direction, directions[1]), dot(direction, directions[2])});
+        contact.directions.push_back(alongRows(direction, directions));
       }
     }
-    const Vec3 direction = contact.slips ? Vec3(state.slip / speed) : onset_[c];
+    const Vec3 direction = slips ? Vec3(state.slip / speed) : onset_[c];
     contact.slip = {dot(direction, tangents.first), dot(direction, tangents.second)};
   }
 }
@@ -382,7 +377,7 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
     fillContacts();
     for (ContactForces::Contact& contact : forces_.contacts()) {
       contact.target = {};
-      contact.slips = false;
+      contact.admissible = ContactProblem::Admissible::kCone;
     }
     std::vector<double> before(inverseMass_.size());
     for (std::size_t m = 0; m < movers_.size(); ++m) {

@@ -7,6 +7,7 @@
 #include "physics/contact/implicit_step.h"
 #include "physics/contact/three_at.h"
 #include "physics/geometry/tangents.h"
+#include "physics/solver/contact_rows.h"
 
 // Contacts of a step: where they are, their equations, the impulses that solve them.
 
@@ -98,28 +99,19 @@ void ImplicitStep::addRows(const ContactFeature& feature, const ContactState& ge
   ContactProblem::Contact contact;
   const Tangents tangents = tangentsOf(geometry.normal);
   const std::array<Vec3, 3> directions{geometry.normal, tangents.first, tangents.second};
-  const auto side = [&](std::size_t body, const Vec3& arm, double sign, std::size_t offset) {
-    if (places_[body] == ContactProblem::kNobody) {
-      return ContactProblem::kNobody;
-    }
-    for (std::size_t row = 0; row < 3; ++row) {
-      const Vec3 turning = turned_[body].transpose() * arm.cross(directions[row]);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto axis = static_cast<Eigen::Index>(k);
-        contact.rows[row][offset + k] = sign * directions[row][axis];
-        contact.rows[row][offset + 3 + k] = sign * turning[axis];
-      }
+  const auto addSide = [&](std::size_t body, std::size_t side, const Vec3& arm, double sign) {
+    if (places_[body] != ContactProblem::kNobody) {
+      setSide(contact, side, pointSide(directions, arm, sign), turned_[body]);
     }
     return places_[body];
   };
-  contact.a = side(static_cast<std::size_t>(feature.a), geometry.armA, 1, 0);
+  contact.a = addSide(static_cast<std::size_t>(feature.a), 0, geometry.armA, 1);
   if (!feature.b.isWall()) {
-    contact.b = side(static_cast<std::size_t>(feature.b.body()), geometry.armB, -1, kSix);
+    contact.b = addSide(static_cast<std::size_t>(feature.b.body()), 1, geometry.armB, -1);
   }
   contact.friction = feature.material.friction;
   for (const Vec3& direction : geometry.directions) {
-    contact.directions.push_back(
-        {dot(direction, directions[0]), dot(direction, directions[1]), dot(direction, directions[2])});
+    contact.directions.push_back(alongRows(direction, directions));
   }
   problem_.contacts.push_back(contact);
 }

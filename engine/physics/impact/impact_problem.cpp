@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "physics/geometry/tangents.h"
+#include "physics/solver/contact_rows.h"
 
 namespace careen {
 namespace {
@@ -19,16 +20,6 @@ bool movable(const MassProperties& mass) {
 /// Along them the mass matrix is diagonal.
 Mat3 principalAxes(const ImpactBody& body) {
   return body.mass->worldFromPrincipal(body.state->pose.worldFromBody);
-}
-
-/// One body's part of a Jacobian row: the speed of its point along `direction`, per unit of its velocities.
-void fillSide(ContactProblem::Row& row, std::size_t side, const Vec3& direction, const Vec3& arm,
-              const Mat3& a, double sign) {
-  const Vec3 turning = a.transpose() * arm.cross(direction);
-  for (std::size_t k = 0; k < 3; ++k) {
-    row[side * ContactProblem::kAxes + k] = sign * direction[static_cast<Eigen::Index>(k)];
-    row[side * ContactProblem::kAxes + 3 + k] = sign * turning[static_cast<Eigen::Index>(k)];
-  }
 }
 
 /// The impact in the coordinates of the solver: only the bodies that can move.
@@ -77,15 +68,11 @@ void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactCo
   const std::array<Vec3, 3> directions{contact.normal, tangents.first, tangents.second};
   const auto a = static_cast<std::size_t>(contact.a);
   added.a = setup.movableOf[a];
-  for (std::size_t row = 0; row < 3; ++row) {
-    fillSide(added.rows[row], 0, directions[row], contact.armA, principalAxes(bodies[a]), 1);
-  }
+  setSide(added, 0, pointSide(directions, contact.armA, 1), principalAxes(bodies[a]));
   if (!contact.b.isWall()) {
     const auto b = static_cast<std::size_t>(contact.b.body());
     added.b = setup.movableOf[b];
-    for (std::size_t row = 0; row < 3; ++row) {
-      fillSide(added.rows[row], 1, directions[row], contact.armB, principalAxes(bodies[b]), -1);
-    }
+    setSide(added, 1, pointSide(directions, contact.armB, -1), principalAxes(bodies[b]));
   }
   const double normal = inverseEffectiveMass(setup, added);
   if (!(normal > 0) || !std::isfinite(normal)) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "physics/pile/crowd.h"
+#include "physics/solver/contact_rows.h"
 
 namespace careen {
 namespace {
@@ -78,18 +79,11 @@ bool Crowd::solveDirectly() {
     contact.friction = row.friction;
     contact.target = {row.bound, 0, 0};
     solution_.impulses[k] = row.impulse;
-    for (std::size_t d = 0; d < 3; ++d) {
-      const auto fill = [&](int body, const Vec3& arm, double sign, std::size_t from) {
-        if (at(body) < bodies_.size() && !bodies_[at(body)].still()) {
-          const Vec3 turning = bodies_[at(body)].principalAxes().transpose() * arm.cross(row.directions[d]);
-          for (int i = 0; i < 3; ++i) {
-            contact.rows[d][from + at(i)] = sign * row.directions[d][i];
-            contact.rows[d][from + 3 + at(i)] = sign * turning[i];
-          }
-        }
-      };
-      fill(row.a, row.armA, 1, 0);
-      fill(row.b, row.armB, -1, ContactProblem::kAxes);
+    if (contact.a != ContactProblem::kNobody) {
+      setSide(contact, 0, pointSide(row.directions, row.armA, 1), bodies_[at(row.a)].principalAxes());
+    }
+    if (contact.b != ContactProblem::kNobody) {
+      setSide(contact, 1, pointSide(row.directions, row.armB, -1), bodies_[at(row.b)].principalAxes());
     }
   }
   addImpulses(-1);

@@ -13,7 +13,7 @@ constexpr int kPatience = 3;
 /// [1] ε stays in this range.
 constexpr double kLeastEpsilon = 0x1p-26;
 constexpr double kMostEpsilon = 1;
-constexpr double kWideSpread = 64;  // from here on ε has to be smaller, or the heavy moves the light for ever
+constexpr double kWideSpread = 0x1p20;  // beyond, ε has to be smaller, or the heavy hardly moves
 /// [1] of V: beyond, the iteration has diverged, and would overflow.
 constexpr double kDiverged = 0x1p100;
 /// A proximal point is found if its equations hold to so much of the last residual, within so many steps; it
@@ -205,8 +205,8 @@ double ContactNewton::approach(CoupledContacts& contacts, std::span<Triple> impu
       lastHalved = factorisations_;
     }
     options.epsilon = std::max(leastEpsilon, options.epsilon / (steps <= 2               ? 8
-                                                                 : steps < kProximalSteps ? 2
-                                                                                          : 1));
+                                                                : steps < kProximalSteps ? 2
+                                                                                         : 1));
   }
   return best;
 }

@@ -9,7 +9,9 @@
 namespace careen {
 
 /// Velocities after impulses in friction cones; with accelerations in place of velocities, accelerations
-/// under contact forces. Time steps, impacts, contact forces and the test for rest are this one problem.
+/// under contact forces. Time steps, impacts, contact forces and the test for rest are this one problem. So
+/// are ropes and limits (no friction) and joints, if there are any: a "contact" is a triple of rows and the
+/// impulses that it admits.
 ///
 /// Velocities q are six numbers per body, that of the centre of mass in the world frame and ω in the body's
 /// frame, so that M is diagonal. Contact c has a normal row n and two tangential rows t, orthonormal in the
@@ -18,7 +20,8 @@ namespace careen {
 ///
 ///   q = q₀ + M⁻¹ Jᵀ λ
 ///   0 ≤ λ_n ⊥ u_n ≥ 0,   |λ_t| ≤ μ λ_n,   λ_t = −μ λ_n u_t/|u_t| where u_t ≠ 0   (Signorini, Coulomb)
-///   a contact that slips: λ_t = −μ λ_n · slip, whatever u_t is
+///   on a line: λ_t = −μ λ_n · slip, whatever u_t is
+///   in all of space: u = 0, whatever λ is
 ///
 /// The same in one line (G. De Saxcé, Z.-Q. Feng, Math. Comput. Modelling 28, 1998):
 /// K = {|λ_t| ≤ μ λ_n} ∋ λ ⊥ (u_n + μ|u_t|, u_t) ∈ K*.
@@ -31,14 +34,20 @@ struct ContactProblem {
   using Row = std::array<double, 2 * kAxes>;  ///< a's six, then b's
   using Triple = std::array<double, 3>;       ///< normal, tangent, tangent
 
+  enum class Admissible : unsigned char {
+    kCone,   ///< |λ_t| ≤ μ λ_n: a contact; without friction a half-line, a rope or a limit
+    kLine,   ///< λ_n ≥ 0, λ_t = −μ λ_n · slip: a contact that slips in a given direction
+    kSpace,  ///< every λ: a joint. Rows that it does not need are zero, not the first
+  };
+
   struct Contact {
     int a = kNobody;  ///< index of a body, or kNobody; at least one is a body
     int b = kNobody;
     std::array<Row, 3> rows{};
-    double friction = 0;           ///< [1] μ ≥ 0; may be very large
-    Triple target{};               ///< [m/s]
-    bool slips = false;            ///< friction has the given direction
-    std::array<double, 2> slip{};  ///< [1] unit
+    double friction = 0;  ///< [1] μ ≥ 0; may be very large
+    Triple target{};      ///< [m/s]
+    Admissible admissible = Admissible::kCone;
+    std::array<double, 2> slip{};  ///< [1] unit; of kLine
     /// [1] unit, along the rows. Empty: u_n ≥ 0 is the condition. Else it is d·u ≥ 0 for one of them, and the
     /// contact takes part only where u without it is against all, see ContactSolver.
     std::vector<Triple> directions = {};
@@ -54,7 +63,7 @@ struct ContactSolution {
   std::vector<ContactProblem::Triple> impulses;  ///< λ [N s]; on entry the warm start, if as many as contacts
   /// [m/s] On entry: a residual that is as good as none to the caller, if the impulses are much larger.
   double enough = 0;
-  double residual = 0;  ///< [m/s] largest of the contacts' natural maps (contact_cone.h), of what is returned
+  double residual = 0;  ///< [m/s] largest of the contacts' natural maps (impulse_set.h), of what is returned
   double scale =
       0;  ///< [m/s] V, the largest contact speed |J q₀ − target|: what the residual is measured against
   bool solved =

@@ -182,7 +182,8 @@ bool ContactSolver::tryStanding() {
 bool ContactSolver::hasFriction() const {
   return std::any_of(contacts_.contacts().begin(), contacts_.contacts().end(),
                      [](const CoupledContacts::Contact& contact) {
-                       return !contact.onLine || contact.drag != std::array<double, 2>{};
+                       return contact.kind == CoupledContacts::Contact::Kind::kCone ||
+                              contact.drag != std::array<double, 2>{};
                      });
 }
 
@@ -239,7 +240,10 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
         std::min_element(contacts.begin(), contacts.end(), [](const auto& x, const auto& y) {
           return x.mass < y.mass;
         })->mass;
-    std::fill(from_.begin(), from_.end(), Triple{kTie * inScale(lightest), 0, 0});
+    for (std::size_t c = 0; c < from_.size(); ++c) {
+      const bool isJoint = contacts[c].kind == CoupledContacts::Contact::Kind::kSpace;
+      from_[c] = {isJoint ? 0 : kTie * inScale(lightest), 0, 0};
+    }
   }
   if (tryApproach(from_, {.epsilon = warm ? kWarmEpsilon : kColdEpsilon,
                           .steps = kFirstSteps,

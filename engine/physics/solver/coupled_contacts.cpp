@@ -107,10 +107,11 @@ void CoupledContacts::copyContacts(const ContactProblem& problem) {
     contact.rows = from.rows;
     contact.target = from.target;
     contact.blocks = blocks_[keys_[c].listed];
-    contact.onLine = from.slips || !(from.friction > 0);
-    contact.friction = contact.onLine ? 0 : from.friction;
+    const bool isLine = from.admissible == ContactProblem::Admissible::kCone && !(from.friction > 0);
+    contact.kind = isLine ? ContactProblem::Admissible::kLine : from.admissible;
+    contact.friction = contact.kind == ContactProblem::Admissible::kCone ? from.friction : 0;
     contact.drag = {};
-    if (from.slips) {
+    if (from.admissible == ContactProblem::Admissible::kLine) {
       contact.drag = {-from.friction * from.slip[0], -from.friction * from.slip[1]};
     }
     weigh(contact);
@@ -225,7 +226,11 @@ double CoupledContacts::spread() const {
 double CoupledContacts::largest(std::span<const Triple> impulses) const {
   double largest = 0;
   for (std::size_t c = 0; c < impulses.size(); ++c) {
-    largest = std::max(largest, impulses[c][0] / contacts_[c].mass);
+    const Triple& impulse = impulses[c];
+    const double size = contacts_[c].kind == Contact::Kind::kSpace
+                            ? std::max({std::fabs(impulse[0]), std::fabs(impulse[1]), std::fabs(impulse[2])})
+                            : impulse[0];
+    largest = std::max(largest, size / contacts_[c].mass);
   }
   return largest;
 }

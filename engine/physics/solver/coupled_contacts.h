@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "physics/solver/block_lu.h"
-#include "physics/solver/contact_cone.h"
 #include "physics/solver/contact_problem.h"
+#include "physics/solver/impulse_set.h"
 
 namespace careen {
 
@@ -26,7 +26,7 @@ class CoupledContacts {
   using Row = ContactProblem::Row;
   using Triple = ContactProblem::Triple;
 
-  struct Contact : ContactCone {
+  struct Contact : ImpulseSet {
     int a = kNobody;  // position in the order of elimination
     int b = kNobody;
     std::array<Row, 3> rows{};
@@ -51,7 +51,7 @@ class CoupledContacts {
   double heaviest() const;
   /// [1] The largest mass of a body over the least effective mass of a contact.
   double spread() const;
-  /// [m/s] λ/mass, of normal impulses.
+  /// [m/s] λ/mass, of normal impulses and of all in space.
   double largest(std::span<const Triple> impulses) const;
 
   // Velocities q below are in the order of elimination, impulses in that of contacts().

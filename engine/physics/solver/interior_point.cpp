@@ -10,10 +10,33 @@
 
 namespace careen {
 
+namespace {
+
+using Triple = ContactProblem::Triple;
 using lorentz::determinant;
 using lorentz::dot;
 using lorentz::scaledOnce;
 using lorentz::scaledTwice;
+
+using Kind = ContactProblem::Admissible;
+/// [1] of the effective mass: what holds without a cone.
+constexpr double kStiff = 0x1p30;
+
+/// [N s] λ of a contact's r [m/s].
+Triple impulseOf(const CoupledContacts::Contact& contact, double friction, const Triple& r) {
+  const double normal = contact.mass * r[0];
+  switch (contact.kind) {
+    case Kind::kLine:
+      return {normal, contact.drag[0] * normal, contact.drag[1] * normal};
+    case Kind::kCone:
+      return {normal / friction, contact.mass * r[1], contact.mass * r[2]};
+    case Kind::kSpace:
+      break;
+  }
+  return {normal, contact.mass * r[1], contact.mass * r[2]};
+}
+
+}  // namespace
 
 void InteriorPoint::start(const CoupledContacts& contacts, const Options& options,
                           std::span<const double> slips) {
@@ -30,6 +53,11 @@ void InteriorPoint::start(const CoupledContacts& contacts, const Options& option
     states_[c].r = {options.start * contacts.scale(), 0, 0};
     states_[c].w = {contacts.scale(), 0, 0};
     states_[c].slips = slips.empty() ? -1 : slips[c];
+    states_[c].isFree = contacts.contacts()[c].kind == Kind::kSpace;
+    if (states_[c].isFree) {
+      states_[c].r = {};
+      states_[c].w = {};
+    }
   }
   refresh(contacts);
 }
@@ -39,10 +67,7 @@ void InteriorPoint::refresh(const CoupledContacts& contacts) {
   for (std::size_t c = 0; c < states_.size(); ++c) {
     const Contact& contact = contacts.contacts()[c];
     const State& state = states_[c];
-    const Triple& r = state.r;
-    const double normal = contact.mass * r[0];
-    impulses_[c] = contact.onLine ? Triple{normal, contact.drag[0] * normal, contact.drag[1] * normal}
-                                  : Triple{normal / state.friction, contact.mass * r[1], contact.mass * r[2]};
+    impulses_[c] = impulseOf(contact, state.friction, state.r);
   }
   contacts.velocities(impulses_, q_);
   products_.clear();
@@ -50,7 +75,9 @@ void InteriorPoint::refresh(const CoupledContacts& contacts) {
     const Contact& contact = contacts.contacts()[c];
     State& state = states_[c];
     const Triple u = contacts.relativeVelocity(contact, q_);
-    if (contact.onLine) {
+    if (contact.kind == Kind::kSpace) {
+      state.residual = {-u[0], -u[1], -u[2]};
+    } else if (contact.kind == Kind::kLine) {
       state.residual = {state.w[0] - u[0], 0, 0};
     } else {
       const bool given = state.slips >= 0;
@@ -67,7 +94,12 @@ void InteriorPoint::refresh(const CoupledContacts& contacts) {
 /// The contact's scaling and its stiffness, mass S W² D̃ S.
 void InteriorPoint::scale(const Contact& contact, State& state, std::array<double, 9>& stiffness) {
   stiffness = {};
-  if (contact.onLine) {
+  if (contact.kind == Kind::kSpace) {
+    state.size2 = kStiff;
+    stiffness[0] = stiffness[4] = stiffness[8] = contact.mass * kStiff;
+    return;
+  }
+  if (contact.kind == Kind::kLine) {
     state.size2 = state.r[0] / state.w[0];
     stiffness[0] = contact.mass * state.size2;
     stiffness[3] = contact.drag[0] * stiffness[0];
@@ -91,7 +123,11 @@ void InteriorPoint::scale(const Contact& contact, State& state, std::array<doubl
 /// W dw)) of the predictor, where W⁻¹dr = −v − W dw. [m/s]
 ContactProblem::Triple InteriorPoint::given(const Contact& contact, const State& state, double target,
                                             bool corrected) const {
-  if (contact.onLine) {
+  if (contact.kind == Kind::kSpace) {
+    return {state.r[0] + state.size2 * state.residual[0], state.r[1] + state.size2 * state.residual[1],
+            state.r[2] + state.size2 * state.residual[2]};
+  }
+  if (contact.kind == Kind::kLine) {
     const double product = corrected ? state.changeR[0] * state.changeW[0] : 0;
     return {(target - product) / state.w[0] + state.size2 * state.residual[0], 0, 0};
   }
@@ -120,17 +156,20 @@ void InteriorPoint::solve(const CoupledContacts& contacts, double centering, boo
     State& state = states_[c];
     const Triple r = given(contact, state, centering * gap_, corrected);
     state.changeR = {r[0] - state.r[0], r[1] - state.r[1], r[2] - state.r[2]};
-    const double normal = contact.mass * r[0];
-    answers_[c].given = contact.onLine
-                            ? Triple{normal, contact.drag[0] * normal, contact.drag[1] * normal}
-                            : Triple{normal / state.friction, contact.mass * r[1], contact.mass * r[2]};
+    answers_[c].given = impulseOf(contact, state.friction, r);
   }
   contacts.step(answers_, q_, dq_);
   for (std::size_t c = 0; c < states_.size(); ++c) {
     const Contact& contact = contacts.contacts()[c];
     State& state = states_[c];
     const Triple du = contacts.change(contact, dq_);
-    if (contact.onLine) {
+    if (contact.kind == Kind::kSpace) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        state.changeR[k] -= state.size2 * du[k];
+      }
+      continue;
+    }
+    if (contact.kind == Kind::kLine) {
       state.changeW = {du[0] - state.residual[0], 0, 0};
       state.changeR[0] -= state.size2 * du[0];
       continue;
@@ -147,6 +186,9 @@ void InteriorPoint::solve(const CoupledContacts& contacts, double centering, boo
 double InteriorPoint::strideToSurface() const {
   double most = std::numeric_limits<double>::infinity();
   for (const State& state : states_) {
+    if (state.isFree) {
+      continue;
+    }
     most = std::min({most, lorentz::reach(state.r, state.changeR), lorentz::reach(state.w, state.changeW)});
   }
   return most;
@@ -160,8 +202,8 @@ bool InteriorPoint::move(double stride) {
       state.r[k] += stride * state.changeR[k];
       state.w[k] += stride * state.changeW[k];
     }
-    inside =
-        inside && determinant(state.r) > 0 && determinant(state.w) > 0 && state.r[0] > 0 && state.w[0] > 0;
+    inside = inside && (state.isFree || (determinant(state.r) > 0 && determinant(state.w) > 0 &&
+                                         state.r[0] > 0 && state.w[0] > 0));
   }
   return inside;
 }

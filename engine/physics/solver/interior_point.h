@@ -12,6 +12,9 @@ namespace careen {
 ///
 ///   r = (μ λ_n, λ_t)/mass,   w = (u_n/μ + |u_t|, u_t),   r ∘ w = 0;   half-lines: r = λ_n/mass, w = u_n.
 ///
+/// What admits all of space has no cone to stay in: u = 0 by the augmented Lagrangian, a step of its
+/// multiplier with each iteration, as far as the stride.
+///
 /// |u_t| makes the problem one that is not convex. It may be a parameter, to be iterated on (V. Acary, F.
 /// Cadoux, C. Lemaréchal, J. Malick, ZAMM 91, 2011): such problems are convex, and where nearly everything
 /// sticks their solution is close to the answer. Else its derivative D̃ = d(u_0 + |u_t|, u_t)/du is part of
@@ -43,9 +46,10 @@ class InteriorPoint {
  private:
   using Triple = ContactProblem::Triple;
   using Contact = CoupledContacts::Contact;
-  struct State {          // of one contact; of a half-line, the first numbers only
+  struct State {          // of one contact; of a half-line, the first numbers only; in space r is λ/mass
     double friction = 0;  // μ
     double slips = -1;    // [m/s] instead of |u_t|, if not negative
+    bool isFree = false;  // admits all of space
     Triple r{};
     Triple w{};
     Triple point{};                // w̄, the scaling point, of length 1

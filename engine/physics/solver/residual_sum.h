@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/solver/contact_cone.h"
+#include "physics/solver/impulse_set.h"
 #include "physics/world/contact_residuals.h"
 
 namespace careen {
@@ -17,14 +17,19 @@ class ResidualSum {
   ResidualSum(double speed, double impulse) : speed_(speed), impulse_(impulse) {}
 
   /// A contact with impulse λ [N s] and relative velocity u [m/s].
-  void add(const ContactCone& cone, const Triple& impulse, const Triple& u) {
+  void add(const ImpulseSet& set, const Triple& impulse, const Triple& u) {
     const auto& [n, t, s] = impulse;
-    primal_ = std::max(primal_, -u[0]);
     double power = n * u[0];
-    if (cone.onLine) {
-      dual_ = std::max({dual_, -n, norm(t - cone.drag[0] * n, s - cone.drag[1] * n)});
+    if (set.kind == ImpulseSet::Kind::kSpace) {
+      primal_ = std::max(primal_, set.violation(impulse, u));
+      power_ = std::max(power_, std::fabs(power + (t * u[1] + s * u[2])));
+      return;
+    }
+    primal_ = std::max(primal_, -u[0]);
+    if (set.kind == ImpulseSet::Kind::kLine) {
+      dual_ = std::max({dual_, -n, norm(t - set.drag[0] * n, s - set.drag[1] * n)});
     } else {
-      const double limit = cone.friction * n;
+      const double limit = set.friction * n;
       dual_ = std::max({dual_, -n, norm(t, s) - limit});
       power += std::min(limit, impulse_) * norm(u[1], u[2]) + (t * u[1] + s * u[2]);
     }

@@ -39,7 +39,7 @@ ContactResiduals residualsByContact(const PileSolver& solver, double speed) {
     const PileSolver::RowView row = solver.row(k);
     const Vec3 u = solver.velocity(row.a) + solver.omega(row.a).cross(row.armA) - solver.velocity(row.b) -
                    solver.omega(row.b).cross(row.armB);
-    sum.add({.friction = row.friction, .onLine = false}, row.impulse,
+    sum.add({.friction = row.friction, .kind = ImpulseSet::Kind::kCone}, row.impulse,
             {row.directions[0].dot(u) - row.bound, row.directions[1].dot(u), row.directions[2].dot(u)});
   }
   return sum.residuals();

@@ -51,6 +51,24 @@ class ContactScene {
     return problem.contacts.back();
   }
 
+  /// A point of a that stays at the same one of b.
+  ContactProblem::Contact& join(int a, int b, const Vector& point) {
+    ContactProblem::Contact& joint = touch(a, b, point, 2, 1, 0);
+    joint.admissible = ContactProblem::Admissible::kSpace;
+    return joint;
+  }
+
+  /// a and b move as one.
+  void weld(int a, int b, const Vector& point) {
+    join(a, b, point);
+    ContactProblem::Contact turning{.a = a, .b = b, .admissible = ContactProblem::Admissible::kSpace};
+    for (std::size_t row = 0; row < 3; ++row) {
+      turning.rows[row][3 + row] = 1;
+      turning.rows[row][9 + row] = b == ContactProblem::kNobody ? 0 : -1;
+    }
+    problem.contacts.push_back(turning);
+  }
+
   /// Four contacts at the corners of a rectangle at height z.
   void touchFlat(int a, int b, double x, double y, double halfX, double halfY, double z, double friction) {
     for (const double i : {-1.0, 1.0}) {
@@ -114,7 +132,7 @@ inline ContactScene brickWall(int rows, int columns, double speed, double fricti
 
 /// What ContactSolution claims, recomputed in quadruple precision from the problem and the impulses alone.
 struct Verified {
-  double residual = 0;  ///< [m/s] as ContactCone::violation defines it
+  double residual = 0;  ///< [m/s] as ImpulseSet::violation defines it
   double velocities = 0;  ///< [m/s, rad/s] largest difference between q₀ + M⁻¹Jᵀλ and the velocities given
   double cone = 0;        ///< [m/s] how far λ/mass is outside its cone
   double speed = 0;       ///< [m/s] S of ContactResiduals
@@ -172,14 +190,25 @@ inline Verified verified(const ContactProblem& problem, const ContactSolution& s
     });
     speed =
         std::max(speed, Quad(sqrt(before[0] * before[0] + before[1] * before[1] + before[2] * before[2])));
+    for (const double target : contact.target) {
+      speed = std::max(speed, Quad(std::fabs(target)));
+    }
     const auto& [n, t, s] = solution.impulses[c];
+    if (contact.admissible == ContactProblem::Admissible::kSpace) {
+      const Quad size = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+      primal = std::max(primal, size);
+      power = std::max(power, Quad(abs(n * u[0] + t * u[1] + s * u[2])));
+      result.residual = std::max(result.residual, static_cast<double>(size));
+      continue;
+    }
+    const bool slips = contact.admissible == ContactProblem::Admissible::kLine;
     primal = std::max(primal, Quad(-u[0]));
     Quad lost = n * u[0];
     Quad beyond = -Quad(n);
     const Quad limit = Quad(contact.friction) * n;
-    if (contact.slips || !(contact.friction > 0)) {
-      const Quad x = t + (contact.slips ? Quad(limit * contact.slip[0]) : Quad(0));
-      const Quad y = s + (contact.slips ? Quad(limit * contact.slip[1]) : Quad(0));
+    if (slips || !(contact.friction > 0)) {
+      const Quad x = t + (slips ? Quad(limit * contact.slip[0]) : Quad(0));
+      const Quad y = s + (slips ? Quad(limit * contact.slip[1]) : Quad(0));
       beyond = std::max(beyond, Quad(sqrt(x * x + y * y)));
     } else {
       beyond = std::max(beyond, Quad(sqrt(Quad(t) * t + Quad(s) * s) - limit));
@@ -187,9 +216,6 @@ inline Verified verified(const ContactProblem& problem, const ContactSolution& s
     }
     dual = std::max(dual, beyond);
     power = std::max(power, Quad(abs(lost)));
-    for (const double target : contact.target) {
-      speed = std::max(speed, Quad(std::fabs(target)));
-    }
     std::array<Quad, 3> l{};
     for (std::size_t k = 0; k < 3; ++k) {
       l[k] = inverse * solution.impulses[c][k];
@@ -197,9 +223,9 @@ inline Verified verified(const ContactProblem& problem, const ContactSolution& s
     const Quad open = l[0] - u[0] > 0 ? u[0] : l[0];
     Quad square = open * open;
     Quad outside = l[0] < 0 ? Quad(-l[0]) : Quad(0);
-    if (contact.slips || !(contact.friction > 0)) {
+    if (slips || !(contact.friction > 0)) {
       for (std::size_t k = 0; k < 2; ++k) {
-        const Quad off = l[1 + k] + (contact.slips ? contact.friction * contact.slip[k] * l[0] : Quad(0));
+        const Quad off = l[1 + k] + (slips ? contact.friction * contact.slip[k] * l[0] : Quad(0));
         outside = std::max(outside, Quad(abs(off)));
       }
     } else {

@@ -62,7 +62,8 @@ class Reader {
     for (ContactProblem::Contact& contact : result.problem.contacts) {
       contact.a = take<std::int16_t>();
       contact.b = take<std::int16_t>();
-      contact.slips = take<std::uint8_t>() != 0;
+      const bool slips = take<std::uint8_t>() != 0;
+      contact.admissible = slips ? ContactProblem::Admissible::kLine : ContactProblem::Admissible::kCone;
       contact.friction = take<double>();
       contact.slip = take<std::array<double, 2>>();
       contact.target = take<ContactProblem::Triple>();

@@ -210,7 +210,7 @@ ContactScene rod(double friction, double pressed) {
   ContactScene scene;
   scene.add(1, {1, 0.01, 0.01}, {-0.5, 0, 0.5}, {0, 0, -pressed});
   scene.touch(0, kNobody, {0, 0, 0}, 2, 1, friction);
-  scene.problem.contacts[0].slips = true;
+  scene.problem.contacts[0].admissible = ContactProblem::Admissible::kLine;
   scene.problem.contacts[0].slip = {1, 0};
   return scene;
 }

@@ -8,7 +8,7 @@ namespace {
 constexpr double kResidualSpeed = 4;
 constexpr double kResidualImpulse = 8;
 
-ContactResiduals residualsOf(const ContactCone& cone, const ContactProblem::Triple& impulse,
+ContactResiduals residualsOf(const ImpulseSet& cone, const ContactProblem::Triple& impulse,
                              const ContactProblem::Triple& u) {
   ResidualSum sum(kResidualSpeed, kResidualImpulse);
   sum.add(cone, impulse, u);
@@ -22,8 +22,8 @@ void expectResiduals(const ContactResiduals& found, double primal, double dual, 
   EXPECT_EQ(found.complementarity, complementarity);
 }
 
-constexpr ContactCone kRoughCone{.friction = 0.5, .onLine = false};
-constexpr ContactCone kSmoothCone{};
+constexpr ImpulseSet kRoughCone{.friction = 0.5, .kind = ImpulseSet::Kind::kCone};
+constexpr ImpulseSet kSmoothCone{};
 
 TEST(ResidualSum, ofWhatTheLawAllowsIsNone) {
   expectResiduals(residualsOf(kRoughCone, {0, 0, 0}, {1, 3, -2}), 0, 0, 0);  // parts
@@ -42,8 +42,16 @@ TEST(ResidualSum, tellsWhichPartOfTheLawIsViolated) {
   expectResiduals(residualsOf(kRoughCone, {6, 0, 3}, {0, 0, 2}), 0, 0, 12. / 32);  // slips along its friction
   expectResiduals(residualsOf(kRoughCone, {6, 0, 0}, {0, 0, 2}), 0, 0, 6. / 32);   // slips without friction
   expectResiduals(residualsOf({.drag = {0.5, 0}}, {6, 2, 0}, {0, 1, 0}), 0, 0.125, 0);
-  expectResiduals(residualsOf({.friction = 1e12, .onLine = false}, {6, 0, 0}, {0, 1e-15, 0}), 0, 0,
+  expectResiduals(residualsOf({.friction = 1e12, .kind = ImpulseSet::Kind::kCone}, {6, 0, 0}, {0, 1e-15, 0}),
+                  0, 0,
                   8e-15 / 8 / 4);  // Λ in place of μ λ_n
+}
+
+TEST(ResidualSum, ofAJointIsEverySpeed) {
+  constexpr ImpulseSet kJoint{.kind = ImpulseSet::Kind::kSpace};
+  expectResiduals(residualsOf(kJoint, {-6, 5, 4}, {0, 0, 0}), 0, 0, 0);
+  expectResiduals(residualsOf(kJoint, {-1, 0, 0}, {2, 3, 6}), 7. / 4, 0, 2. / 32);
+  expectResiduals(residualsOf(kJoint, {0, 2, 0}, {0, -1, 0}), 1. / 4, 0, 2. / 32);
 }
 
 TEST(ResidualSum, keepsTheLargest) {

@@ -1,4 +1,4 @@
-#include "physics/solver/contact_cone.h"
+#include "physics/solver/impulse_set.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +13,12 @@ double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 /// Radius μ x_n > 0, |x_t| > radius. Along τ = x_t/|x_t|, λ_t follows μ λ_n; across it, it turns with u_t:
 /// A = [1, 0; μ τ, κ (I − τ τᵀ)] with κ = radius/|x_t|.
-ContactAnswer slippingAnswer(const ContactCone& cone, const ContactEquation& equation, const Triple& impulse,
+ContactAnswer slippingAnswer(const ImpulseSet& set, const ContactEquation& equation, const Triple& impulse,
                              const Triple& centre, const Triple& u, const std::array<double, 2>& x,
                              double radius) {
   const double epsilon = equation.epsilon;
   const double stiff = equation.rho / epsilon;
-  const double mu = cone.friction;
+  const double mu = set.friction;
   const double size = length(x[0], x[1]);
   const double kappa = radius / size;
   const std::array<double, 2> to{x[0] / size, x[1] / size};
@@ -45,10 +45,13 @@ ContactAnswer slippingAnswer(const ContactCone& cone, const ContactEquation& equ
 
 }  // namespace
 
-double ContactCone::violation(const Triple& impulse, const Triple& u) const {
+double ImpulseSet::violation(const Triple& impulse, const Triple& u) const {
+  if (kind == Kind::kSpace) {
+    return std::sqrt(u[0] * u[0] + (u[1] * u[1] + u[2] * u[2]));
+  }
   const double normal = impulse[0] / mass;
   const double open = std::min(normal, u[0]);  // normal − max(0, normal − u_n), but not rounded
-  if (onLine) {
+  if (kind == Kind::kLine) {
     return std::fabs(open);
   }
   const double x = impulse[1] / mass - u[1];
@@ -64,11 +67,14 @@ double ContactCone::violation(const Triple& impulse, const Triple& u) const {
   return std::sqrt(open * open + (dx * dx + dy * dy));
 }
 
-Triple ContactCone::admissible(const Triple& impulse) const {
+Triple ImpulseSet::admissible(const Triple& impulse) const {
+  if (kind == Kind::kSpace) {
+    return impulse;
+  }
   if (!(impulse[0] > 0)) {
     return {};
   }
-  if (onLine) {
+  if (kind == Kind::kLine) {
     return {impulse[0], drag[0] * impulse[0], drag[1] * impulse[0]};
   }
   const double size = length(impulse[1], impulse[2]);
@@ -80,16 +86,16 @@ Triple ContactCone::admissible(const Triple& impulse) const {
   return {impulse[0], shrink * impulse[1], shrink * impulse[2]};
 }
 
-ContactAnswer stickingAnswer(const ContactCone& cone, const ContactEquation& equation, const Triple& centre,
+ContactAnswer stickingAnswer(const ImpulseSet& set, const ContactEquation& equation, const Triple& centre,
                              const Triple& u) {
   const double stiff = equation.rho / equation.epsilon;
   ContactAnswer answer;
   answer.given[0] = centre[0] - stiff * u[0];
   answer.stiffness[0] = stiff;
   for (std::size_t k = 1; k < 3; ++k) {
-    if (cone.onLine) {
-      answer.given[k] = cone.drag[k - 1] * answer.given[0];
-      answer.stiffness[3 * k] = cone.drag[k - 1] * stiff;
+    if (set.kind == ImpulseSet::Kind::kLine) {
+      answer.given[k] = set.drag[k - 1] * answer.given[0];
+      answer.stiffness[3 * k] = set.drag[k - 1] * stiff;
     } else {
       answer.given[k] = centre[k] - stiff * u[k];
       answer.stiffness[4 * k] = stiff;
@@ -98,27 +104,30 @@ ContactAnswer stickingAnswer(const ContactCone& cone, const ContactEquation& equ
   return answer;
 }
 
-ContactAnswer newtonAnswer(const ContactCone& cone, const ContactEquation& equation, const Triple& impulse,
+ContactAnswer newtonAnswer(const ImpulseSet& set, const ContactEquation& equation, const Triple& impulse,
                            const Triple& centre, const Triple& u) {
+  if (set.kind == ImpulseSet::Kind::kSpace) {
+    return stickingAnswer(set, equation, centre, u);
+  }
   const double normal = impulse[0] - equation.rho * u[0];
   if (!(normal > 0)) {
     return {};
   }
   const std::array<double, 2> x{impulse[1] - equation.rho * u[1], impulse[2] - equation.rho * u[2]};
-  const double radius = cone.friction * normal;
-  if (cone.onLine || length(x[0], x[1]) <= radius) {
-    return stickingAnswer(cone, equation, centre, u);
+  const double radius = set.friction * normal;
+  if (set.kind == ImpulseSet::Kind::kLine || length(x[0], x[1]) <= radius) {
+    return stickingAnswer(set, equation, centre, u);
   }
-  return slippingAnswer(cone, equation, impulse, centre, u, x, radius);
+  return slippingAnswer(set, equation, impulse, centre, u, x, radius);
 }
 
-double equationError(const ContactCone& cone, const ContactEquation& equation, const Triple& impulse,
+double equationError(const ImpulseSet& set, const ContactEquation& equation, const Triple& impulse,
                      const Triple& centre, const Triple& u) {
   const double rho = equation.rho;
   const Triple x =
-      cone.admissible({impulse[0] - rho * u[0], impulse[1] - rho * u[1], impulse[2] - rho * u[2]});
+      set.admissible({impulse[0] - rho * u[0], impulse[1] - rho * u[1], impulse[2] - rho * u[2]});
   double sum = 0;
-  for (std::size_t k = 0; k < (cone.onLine ? 1 : 3); ++k) {
+  for (std::size_t k = 0; k < (set.kind == ImpulseSet::Kind::kLine ? 1 : 3); ++k) {
     const double error = (impulse[k] - x[k] + equation.epsilon * (impulse[k] - centre[k])) / rho;
     sum += error * error;
   }

@@ -1,4 +1,4 @@
-#include "physics/solver/contact_cone.h"
+#include "physics/solver/impulse_set.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,14 @@ namespace {
 
 using Triple = ContactProblem::Triple;
 
-ContactCone cone(double friction) {
-  return {.mass = 2, .friction = friction, .onLine = friction == 0, .drag = {}};
+ImpulseSet cone(double friction) {
+  return {.mass = 2,
+          .friction = friction,
+          .kind = friction == 0 ? ImpulseSet::Kind::kLine : ImpulseSet::Kind::kCone,
+          .drag = {}};
 }
 
-TEST(ContactCone, solutionsAreNoViolation) {
+TEST(ImpulseSet, solutionsAreNoViolation) {
   EXPECT_EQ(cone(0.5).violation({0, 0, 0}, {1, 3, 4}), 0);                 // parts
   EXPECT_EQ(cone(0.5).violation({2, 0.6, -0.8}, {0, 0, 0}), 0);            // sticks, at the limit
   EXPECT_NEAR(cone(0.5).violation({2, -0.6, -0.8}, {0, 3, 4}), 0, 1e-15);  // slides
@@ -23,7 +26,7 @@ TEST(ContactCone, solutionsAreNoViolation) {
 }
 
 // Each in its own unit: a speed, or an impulse over the mass of 2.
-TEST(ContactCone, violationsAreMeasured) {
+TEST(ImpulseSet, violationsAreMeasured) {
   EXPECT_EQ(cone(0.5).violation({0, 0, 0}, {-1, 0, 0}), 1);       // approaches
   EXPECT_EQ(cone(0.5).violation({4, 0, 0}, {0.25, 0, 0}), 0.25);  // parts though pushed
   EXPECT_EQ(cone(0.5).violation({-4, 0, 0}, {1, 0, 0}), 2);       // pulls
@@ -34,25 +37,40 @@ TEST(ContactCone, violationsAreMeasured) {
   EXPECT_EQ(cone(1e12).violation({2, 2, 0}, {0, 0.125, 0}), 0.125);
 }
 
-TEST(ContactCone, admissibleIsInTheCone) {
+TEST(ImpulseSet, admissibleIsInTheCone) {
   EXPECT_EQ(cone(0.5).admissible({-1, 3, 4}), (Triple{}));
   EXPECT_EQ(cone(0.5).admissible({2, 0.5, 0.5}), (Triple{2, 0.5, 0.5}));
   const Triple at = cone(0.5).admissible({2, 3, 4});
   EXPECT_NEAR(at[1], 0.6, 1e-15);
   EXPECT_NEAR(at[2], 0.8, 1e-15);
-  ContactCone slides = cone(0);
+  ImpulseSet slides = cone(0);
   slides.drag = {-0.5, 0.25};
   EXPECT_EQ(slides.admissible({2, 7, 7}), (Triple{2, -1, 0.5}));
 }
 
+TEST(ImpulseSet, allOfSpaceHoldsWhateverTheImpulse) {
+  const ImpulseSet space{.mass = 2, .kind = ImpulseSet::Kind::kSpace};
+  for (const Triple& impulse : {Triple{0, 0, 0}, Triple{-3, 4, 1e6}}) {
+    EXPECT_EQ(space.violation(impulse, {0, 0, 0}), 0);
+    EXPECT_EQ(space.violation(impulse, {-2, 3, 6}), 7);
+    EXPECT_EQ(space.admissible(impulse), impulse);
+    // 0 = −ρ u − ε (λ − centre), in one step.
+    const ContactEquation equation{.rho = 2, .epsilon = 0.25};
+    const ContactAnswer answer = newtonAnswer(space, equation, impulse, {1, 2, 3}, {-1, 0.5, 0.25});
+    EXPECT_EQ(answer.given, (Triple{9, -2, 1}));
+    EXPECT_EQ(answer.stiffness, (std::array<double, 9>{8, 0, 0, 0, 8, 0, 0, 0, 8}));
+    EXPECT_EQ(equationError(space, equation, answer.given, {1, 2, 3}, {-1, 0.5, 0.25}), 0);
+  }
+}
+
 // The answer solves the linearised equation: for a change du that is small, the equation's error at the
 // answer is of second order in the size of what is off.
-TEST(ContactCone, answersSolveTheEquation) {
+TEST(ImpulseSet, answersSolveTheEquation) {
   const ContactEquation equation{.rho = 2, .epsilon = 0.25};
   const Triple u{-0.1, 0.3, -0.2};
   for (const Triple& impulse : {Triple{1, 0.1, 0.2}, Triple{1, -0.9, 0.3}, Triple{-1, 0, 0}}) {
     for (const double friction : {0.0, 0.5, 3.0}) {
-      const ContactCone at = cone(friction);
+      const ImpulseSet at = cone(friction);
       const Triple centre{0.9, 0.1, 0};
       std::array<double, 2> errors{};
       for (const std::size_t k : {0U, 1U}) {  // Newton's iteration at fixed u
@@ -70,7 +88,7 @@ TEST(ContactCone, answersSolveTheEquation) {
 }
 
 // Its stiffness is −dλ/du: a changed u gives the answer that was predicted, to second order.
-TEST(ContactCone, stiffnessIsTheDerivative) {
+TEST(ImpulseSet, stiffnessIsTheDerivative) {
   const ContactEquation equation{.rho = 2, .epsilon = 0.25};
   const Triple impulse{1, -0.9, 0.3};
   const Triple centre = impulse;

@@ -6,22 +6,23 @@
 
 namespace careen {
 
-/// The law of one contact, for its relative velocity u = J q − target [m/s] and impulse λ [N s], both normal,
-/// tangent, tangent.
-struct ContactCone {
+/// The impulses λ [N s] that a constraint admits, and its law for the relative velocity u = J q − target
+/// [m/s]; both normal, tangent, tangent.
+struct ImpulseSet {
   using Triple = ContactProblem::Triple;
+  using Kind = ContactProblem::Admissible;
 
   double mass = 0;               ///< [kg] effective, 1/(n M⁻¹ nᵀ)
-  double friction = 0;           ///< [1] μ; 0 where `onLine`
-  bool onLine = true;            ///< λ lies on a half-line: no friction, or friction of given direction
-  std::array<double, 2> drag{};  ///< [1] of such a half-line: λ_t = drag λ_n
+  double friction = 0;           ///< [1] μ; of kCone, and then > 0
+  Kind kind = Kind::kLine;       ///< kLine also without friction
+  std::array<double, 2> drag{};  ///< [1] of kLine: λ_t = drag λ_n
 
   /// How much the law is violated [m/s]: |λ − P(λ − ρ u)|/ρ with ρ = mass, P the projection of λ_n to ≥ 0 and
-  /// of λ_t to the disc of radius μ max(0, λ_n). Zero for solutions only; finite as μ → ∞, unlike the natural
-  /// map of De Saxcé's form.
+  /// of λ_t to the disc of radius μ max(0, λ_n); in all of space |u|. Zero for solutions only; finite as μ →
+  /// ∞, unlike the natural map of De Saxcé's form.
   double violation(const Triple& impulse, const Triple& u) const;
 
-  /// The impulse itself if it is in the cone, else one in the cone with the same normal part, or zero.
+  /// The impulse itself if it is admissible, else one that is, with the same normal part, or zero.
   Triple admissible(const Triple& impulse) const;
 };
 
@@ -41,14 +42,14 @@ struct ContactAnswer {
 
 /// Newton's step: the equation linearised at λ and u and solved for λ, (I − A + ε I) dλ = … − ρ A du, with A
 /// the derivative of P.
-ContactAnswer newtonAnswer(const ContactCone& cone, const ContactEquation& equation,
+ContactAnswer newtonAnswer(const ImpulseSet& set, const ContactEquation& equation,
                            const ContactProblem::Triple& impulse, const ContactProblem::Triple& centre,
                            const ContactProblem::Triple& u);
-/// The same with every contact closed and, unless its friction has a direction, sticking.
-ContactAnswer stickingAnswer(const ContactCone& cone, const ContactEquation& equation,
+/// The same with every contact closed and, unless it is on a line, sticking.
+ContactAnswer stickingAnswer(const ImpulseSet& set, const ContactEquation& equation,
                              const ContactProblem::Triple& centre, const ContactProblem::Triple& u);
 /// |λ − P(λ − ρ u) + ε (λ − centre)|/ρ [m/s].
-double equationError(const ContactCone& cone, const ContactEquation& equation,
+double equationError(const ImpulseSet& set, const ContactEquation& equation,
                      const ContactProblem::Triple& impulse, const ContactProblem::Triple& centre,
                      const ContactProblem::Triple& u);
 
