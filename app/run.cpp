@@ -299,7 +299,7 @@ bool isRun(const std::filesystem::path& path) {
 RunSetup setupOfScene(const std::filesystem::path& scene) {
   const auto [text, name] = sceneTextOf(scene, readFile(scene));
   Scene read = parseScene(text, name, Starts::kMayOverlap);
-  read.method = Method::kExact;
+  read.settings.method = Method::kExact;
   return setupOf(read);
 }
 
