@@ -4,7 +4,8 @@
 kDrawingPackages=(libegl1 libegl-mesa0 libgl1-mesa-dri)
 [ "$(. /etc/os-release && echo "${VERSION_ID:-99}")" -gt 13 ] || kDrawingPackages=(libosmesa6)
 kBuildPackages=(g++ cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libcli11-dev libdeflate-dev
-  libzip-dev libpugixml-dev libstb-dev "${kDrawingPackages[@]}" libgl-dev libegl-dev libglfw3-dev fonts-dejavu-core)
+  libpng-dev libzip-dev libpugixml-dev libstb-dev "${kDrawingPackages[@]}" libgl-dev libegl-dev libglfw3-dev
+  fonts-dejavu-core)
 
 # Installs those of the named packages that are missing, after listing them. It needs no network if none is missing.
 install_missing() {

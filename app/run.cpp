@@ -69,22 +69,6 @@ Run simulateText(const std::filesystem::path& path, const std::string& bytes, co
   return run;
 }
 
-// Makes what a run of an older format lacks. Boxes that overlapped had been moved apart.
-RunSetup setupOfText(const std::string& text, const RunSettings& settings, const std::string& name) {
-  Scene scene = parseScene(text, name + " (its scene)", Starts::kMayOverlap);
-  scene.method = settings.method;
-  scene.duration = settings.duration;
-  scene.dt = settings.dt;
-  scene.tolerance = settings.tolerance;
-  return setupOf(scene);
-}
-
-Trajectory decodeRun(const std::string& bytes, const std::string& name) {
-  return decodeTrajectory(bytes, name, [&name](const std::string& text, const RunSettings& settings) {
-    return setupOfText(text, settings, name);
-  });
-}
-
 // Enough of a file to tell what it is.
 std::string beginningOf(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
@@ -132,7 +116,7 @@ Trajectory readRunOf(const std::string& bytes, const std::filesystem::path& path
     throw InputError(std::string(scene.given()) + ": found the run " + path.string() +
                      ", which has its scene; expected a table of poses");
   }
-  return decodeRun(bytes, path.string());
+  return decodeTrajectory(bytes, path.string());
 }
 
 }  // namespace
@@ -315,7 +299,7 @@ bool isRun(const std::filesystem::path& path) {
 RunSetup setupOfScene(const std::filesystem::path& scene) {
   const auto [text, name] = sceneTextOf(scene, readFile(scene));
   Scene read = parseScene(text, name, Starts::kMayOverlap);
-  read.method = Method::kExact;
+  read.settings.method = Method::kExact;
   return setupOf(read);
 }
 

@@ -25,21 +25,15 @@ std::string stateHashOf(int argc, char** argv) {
   for (int i = 2; i < argc; i += 2) {
     const std::string option = argv[i];
     if (option == "--method") {
-      scene.method = methodNamed(argv[i + 1]).value();
+      scene.settings.method = methodNamed(argv[i + 1]).value();
     } else if (option == "--duration") {
-      scene.duration = std::stod(argv[i + 1]);
+      scene.settings.duration = std::stod(argv[i + 1]);
     } else {
       throw std::invalid_argument("found " + option + ", expected --method or --duration");
     }
   }
   const DefaultFloatEnvironment usual;
-  return record(assemble(scene, plan(scene)),
-                {.method = scene.method,
-                 .duration = scene.duration,
-                 .dt = scene.dt,
-                 .tolerance = scene.tolerance},
-                text)
-      .stateHash();
+  return record(assemble(scene, plan(scene)), scene.settings, text).stateHash();
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ Comparison compareFolders(const std::filesystem::path& expected, const std::file
                           const ComparisonSettings& settings, std::optional<bool> sameMotion,
                           const ComparisonCallback& progress = {}, const std::stop_token& stop = {});
 
-/// Compares two trajectory files. `read`: how they are read, see SetupReader.
+/// Compares two runs, which `read` reads.
 using RunReader = std::function<Trajectory(const std::filesystem::path&)>;
 Comparison compareRuns(
     const std::filesystem::path& expected, const std::filesystem::path& actual,

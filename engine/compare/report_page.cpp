@@ -9,64 +9,59 @@
 #include "compare/report_words.h"
 #include "core/brief.h"
 #include "core/characters.h"
+#include "core/table.h"
 
 namespace careen {
 namespace {
 
+constexpr const char* kOther = R"(class="other")";
+
 std::string escaped(std::string_view text) { return escapedForMarkup(text); }
 
-std::string row(const std::string& name, const std::string& expected, const std::string& actual) {
+void addFact(Table& table, const std::string& name, const std::string& expected, const std::string& actual) {
   const bool same = expected == actual;
-  return std::string("<tr") + (same ? "" : " class=\"other\"") + "><th scope=\"row\">" + escaped(name) +
-         "</th><td>" + escaped(expected) + "</td><td>" + escaped(actual) + "</td><td>" +
-         (same ? "same" : "differs") + "</td></tr>\n";
+  const char* const kind = same ? "" : kOther;
+  table.rows.push_back({name, {expected, kind}, {actual, kind}, {same ? "same" : "differs", kind}});
 }
 
-std::string factsTable(const Comparison& comparison) {
-  std::string rows;
+Table factsTable(const Comparison& comparison) {
+  Table table{.head = {"", "expected", "actual", ""}};
   for (const Fact& fact : comparison.facts) {
-    rows += row(fact.name, fact.expected, fact.actual);
+    addFact(table, fact.name, fact.expected, fact.actual);
   }
   if (comparison.run) {
     const RunDifference& run = *comparison.run;
-    rows += row("duration [s]", inFull(run.expectedDuration), inFull(run.actualDuration));
-    rows += row("impacts", std::to_string(run.expectedImpacts), std::to_string(run.actualImpacts));
+    addFact(table, "duration [s]", inFull(run.expectedDuration), inFull(run.actualDuration));
+    addFact(table, "impacts", std::to_string(run.expectedImpacts), std::to_string(run.actualImpacts));
     if (run.incomparable.empty()) {
-      rows += row("kinetic energy at the end [J]", inFull(run.expectedEnergy), inFull(run.actualEnergy));
+      addFact(table, "kinetic energy at the end [J]", inFull(run.expectedEnergy), inFull(run.actualEnergy));
     }
   }
-  return rows;
+  return table;
 }
 
-std::string impactCell(const ImpactDifference& pair, std::string (*value)(const Impact&)) {
-  const std::string expected = pair.expected ? value(*pair.expected) : "–";
-  const std::string actual = pair.actual ? value(*pair.actual) : "–";
-  if (expected == actual) {
-    return "<td>" + expected + "</td>";
-  }
-  return "<td class=\"other\"><del>" + expected + "</del> <ins>" + actual + "</ins></td>";
+TableCell changed(const std::string& expected, const std::string& actual) {
+  TableCell cell(actual, expected == actual ? "" : kOther);
+  cell.replaced = expected == actual ? "" : expected;
+  return cell;
 }
 
-std::string impactBodies(const ImpactDifference& pair) {
-  if (pair.expectedBodies == pair.actualBodies) {
-    return "<td>" + escaped(pair.expectedBodies) + "</td>";
-  }
-  return "<td class=\"other\"><del>" + escaped(pair.expected ? pair.expectedBodies : "none") +
-         "</del> <ins>" + escaped(pair.actual ? pair.actualBodies : "none") + "</ins></td>";
-}
-
-std::string impactsTable(const RunDifference& run) {
-  std::string rows;
+Table impactsTable(const RunDifference& run) {
+  Table table{.head = {"impact", "bodies", "time [s]", "approach [m/s]", "impulse [N s]", "friction [N s]"}};
   for (const ImpactDifference& pair : run.impactsAround) {
     const bool first = run.firstImpact && pair.index == run.firstImpact->index;
-    rows += std::string("<tr") + (first ? R"( class="first" id="first-impact")" : "") +
-            "><th scope=\"row\">" + std::to_string(pair.index + 1) + (first ? " ← first" : "") + "</th>" +
-            impactBodies(pair) + impactCell(pair, [](const Impact& impact) { return inFull(impact.time); }) +
-            impactCell(pair, [](const Impact& impact) { return inFull(impact.approach); }) +
-            impactCell(pair, [](const Impact& impact) { return inFull(impact.impulse); }) +
-            impactCell(pair, [](const Impact& impact) { return inFull(impact.tangential); }) + "</tr>\n";
+    std::vector<TableCell>& row = table.rows.emplace_back();
+    row.emplace_back(std::to_string(pair.index + 1) + (first ? " ← first" : ""),
+                     first ? R"(id="first-impact")" : "");
+    row.push_back(
+        changed(pair.expected ? pair.expectedBodies : "none", pair.actual ? pair.actualBodies : "none"));
+    for (double Impact::*const value :
+         {&Impact::time, &Impact::approach, &Impact::impulse, &Impact::tangential}) {
+      row.push_back(changed(pair.expected ? inFull((*pair.expected).*value) : "–",
+                            pair.actual ? inFull((*pair.actual).*value) : "–"));
+    }
   }
-  return rows;
+  return table;
 }
 
 std::string growthWords(const RunDifference& run) {
@@ -130,7 +125,7 @@ std::string filled(const std::string& skeleton, const std::map<std::string, std:
 }  // namespace
 
 std::string reportPage(const Comparison& comparison) {
-  const std::string facts = factsTable(comparison);
+  const Table facts = factsTable(comparison);
   const bool hasImpacts = comparison.run && !comparison.run->impactsAround.empty();
   return filled(pageFile("page.html"),
                 {{"style", pageFile("page.css")},
@@ -145,9 +140,9 @@ std::string reportPage(const Comparison& comparison) {
                  {"program", escaped(comparison.program)},
                  {"ignored", escaped(joined(comparison.ignored.names()))},
                  {"ignored-hidden", comparison.ignored.empty() ? "hidden" : ""},
-                 {"facts", facts},
-                 {"facts-hidden", facts.empty() ? "hidden" : ""},
-                 {"impacts", hasImpacts ? impactsTable(*comparison.run) : ""},
+                 {"facts", facts.html("facts")},
+                 {"facts-hidden", facts.rows.empty() ? "hidden" : ""},
+                 {"impacts", hasImpacts ? impactsTable(*comparison.run).html("impacts") : ""},
                  {"impacts-hidden", hasImpacts ? "" : "hidden"},
                  {"growth-words", comparison.run ? growthWords(*comparison.run) : ""},
                  {"equal", isEqual(comparison) ? "true" : "false"},

@@ -32,6 +32,9 @@ std::string htmlCell(const TableCell& cell, const std::string& element) {
   if (!cell.section.empty()) {
     text = "<a href=\"#" + escapedForMarkup(cell.section) + "\">" + text + "</a>";
   }
+  if (!cell.replaced.empty()) {
+    text = "<del>" + escapedForMarkup(cell.replaced) + "</del> <ins>" + text + "</ins>";
+  }
   return "<" + element + (cell.attributes.empty() ? "" : " ") + cell.attributes + ">" + text + "</" +
          element + ">";
 }

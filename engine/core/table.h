@@ -16,6 +16,7 @@ struct TableCell {
 
   std::string text;
   std::string attributes{};  ///< of its element in HTML, such as class="bad"
+  std::string replaced{};    ///< text that stands before it in HTML, struck out
   std::string section{};     ///< of the page that it is a link to in HTML
   bool isStrong = false;     ///< in Markdown
 };

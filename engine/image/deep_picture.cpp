@@ -1,17 +1,17 @@
 #include "image/deep_picture.h"
 
 #include <libdeflate.h>
+#include <png.h>
 
 #include <algorithm>
-#include <array>
-#include <memory>
+#include <bit>
+#include <csetjmp>
+#include <cstring>
 #include <optional>
-#include <span>
 
 #include "core/error.h"
 #include "core/system/file.h"
 #include "image/color_chunks.h"
-#include "image/row_filter_undo.h"
 
 namespace careen {
 namespace {
@@ -19,13 +19,9 @@ namespace {
 constexpr std::uint64_t kFewBytes = std::uint64_t{64} << 20U;  // of samples, whatever the file
 constexpr std::uint64_t kMostInflation = 1032;  // DEFLATE cannot do more: 258 bytes of two bits
 
-enum ColorType : int { kGrey = 0, kRgb = 2, kPalette = 3, kGreyAlpha = 4, kRgbAlpha = 6 };
-
 [[noreturn]] void fail(const std::string& name, const std::string& fault) {
   throw InputError(name + ": " + fault);
 }
-
-int byteAt(std::string_view bytes, std::size_t place) { return static_cast<unsigned char>(bytes[place]); }
 
 std::uint32_t bigEndian(std::string_view bytes) {
   std::uint32_t value = 0;
@@ -35,29 +31,12 @@ std::uint32_t bigEndian(std::string_view bytes) {
   return value;
 }
 
-/// What the chunks say: PNG specification, 11.
+/// What the chunks say that libpng does not: PNG specification, 11.
 struct Chunks {
   int width = 0;
   int height = 0;
-  int bits = 0;
-  int color = 0;
-  bool interlaced = false;
-  std::string_view palette;
-  std::optional<std::string_view> transparent;
   ColorChunks colors;
-  std::string_view data;  ///< of all IDAT
-  std::string joined;     ///< holds it where there are several
-
-  std::size_t fileChannels() const {
-    constexpr std::array<std::size_t, 7> kChannels{1, 0, 3, 1, 2, 0, 4};
-    return kChannels.at(static_cast<std::size_t>(color));
-  }
-  std::size_t rowBytes(int columns) const {
-    return (static_cast<std::size_t>(columns) * fileChannels() * static_cast<std::size_t>(bits) + 7) / 8;
-  }
-  std::size_t pixelBytes() const {
-    return std::max<std::size_t>(1, fileChannels() * static_cast<std::size_t>(bits) / 8);
-  }
+  std::uint64_t dataBytes = 0;  ///< of all IDAT
 };
 
 void readHeader(Chunks& chunks, std::string_view body, const std::string& name) {
@@ -72,21 +51,6 @@ void readHeader(Chunks& chunks, std::string_view body, const std::string& name) 
   }
   chunks.width = static_cast<int>(width);
   chunks.height = static_cast<int>(height);
-  chunks.bits = byteAt(body, 8);
-  chunks.color = byteAt(body, 9);
-  const auto is = [&chunks](std::initializer_list<int> depths) {
-    return std::find(depths.begin(), depths.end(), chunks.bits) != depths.end();
-  };
-  const bool known =
-      (chunks.color == kGrey && is({1, 2, 4, 8, 16})) || (chunks.color == kPalette && is({1, 2, 4, 8})) ||
-      ((chunks.color == kRgb || chunks.color == kGreyAlpha || chunks.color == kRgbAlpha) && is({8, 16}));
-  if (!known || byteAt(body, 10) != 0 || byteAt(body, 11) != 0 || byteAt(body, 12) > 1) {
-    fail(name, "is a PNG of colour type " + std::to_string(chunks.color) + " with " +
-                   std::to_string(chunks.bits) + " bits, compression " + std::to_string(byteAt(body, 10)) +
-                   ", filter " + std::to_string(byteAt(body, 11)) + ", interlace " +
-                   std::to_string(byteAt(body, 12)) + ", which the format does not have");
-  }
-  chunks.interlaced = byteAt(body, 12) == 1;
 }
 
 std::optional<std::string_view>* placeOf(ColorChunks& colors, std::string_view type) {
@@ -98,20 +62,8 @@ std::optional<std::string_view>* placeOf(ColorChunks& colors, std::string_view t
                           : nullptr;
 }
 
-void takeData(Chunks& chunks, std::string_view body) {
-  if (chunks.data.empty()) {
-    chunks.data = body;
-    return;
-  }
-  if (chunks.joined.empty()) {
-    chunks.joined = chunks.data;
-  }
-  chunks.joined += body;
-  chunks.data = chunks.joined;
-}
-
-/// Reads into `chunks`, which the caller keeps: `data` may point into it.
-void readChunks(Chunks& chunks, std::string_view bytes, const std::string& name) {
+Chunks readChunks(std::string_view bytes, const std::string& name) {
+  Chunks chunks;
   if (!bytes.starts_with(kPngSignature)) {
     fail(name, "is no PNG");
   }
@@ -130,204 +82,106 @@ void readChunks(Chunks& chunks, std::string_view bytes, const std::string& name)
     }
     if (type == "IHDR") {
       readHeader(chunks, body, name);
-    } else if (type == "PLTE") {
-      chunks.palette = body;
-    } else if (type == "tRNS") {
-      chunks.transparent = body;
     } else if (std::optional<std::string_view>* const color = placeOf(chunks.colors, type)) {
       *color = body;
     } else if (type == "IDAT") {
-      takeData(chunks, body);
+      chunks.dataBytes += length;
     } else if (type == "IEND") {
-      return;
-    } else if ((byteAt(type, 0) & 0x20) == 0) {
-      fail(name, "has a chunk '" + std::string(type) + "' that a reader must know, and this one does not");
+      return chunks;
     }
     bytes.remove_prefix(12 + length);
   }
   fail(name, "is a PNG cut short");
 }
 
-/// One pass of an interlaced picture, or the whole of another: PNG specification, 8.2.
-struct Pass {
-  int left, top, stepX, stepY;
-  int columns(int width) const { return (width - left + stepX - 1) / stepX; }
-  int rows(int height) const { return (height - top + stepY - 1) / stepY; }
-};
-
-std::span<const Pass> passesOf(const Chunks& chunks) {
-  static constexpr std::array<Pass, 1> kWhole{{{0, 0, 1, 1}}};
-  static constexpr std::array<Pass, 7> kAdam7{
-      {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4}, {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}}};
-  if (chunks.interlaced) {
-    return kAdam7;
-  }
-  return kWhole;
-}
-
-std::vector<std::uint8_t> inflate(const Chunks& chunks, const std::string& name) {
-  std::uint64_t size = 0;
-  for (const Pass& pass : passesOf(chunks)) {
-    const int columns = pass.columns(chunks.width);
-    const int rows = pass.rows(chunks.height);
-    if (columns > 0 && rows > 0) {
-      size += static_cast<std::uint64_t>(rows) * (chunks.rowBytes(columns) + 1);
-    }
-  }
-  if (size > kMostInflation * chunks.data.size()) {
-    fail(name, "claims " + std::to_string(chunks.width) + " x " + std::to_string(chunks.height) +
-                   " pixels, more than its " + std::to_string(chunks.data.size()) +
-                   " bytes of data can hold");
-  }
-  std::vector<std::uint8_t> rows(size);
-  const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> reader(
-      libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-  if (!reader) {
-    throw MachineError("no memory to read " + name);
-  }
-  if (libdeflate_zlib_decompress(reader.get(), chunks.data.data(), chunks.data.size(), rows.data(),
-                                 rows.size(), nullptr) != LIBDEFLATE_SUCCESS) {
-    fail(name, "is a damaged PNG: its data are not those of " + std::to_string(chunks.width) + " x " +
-                   std::to_string(chunks.height) + " pixels");
-  }
-  return rows;
-}
-
-/// Spreads the file's samples to RGB or RGBA of 8 or 16 bits.
-class Spreader {
- public:
-  Spreader(const Chunks& chunks, const std::string& name) : chunks_(&chunks), name_(&name) {
-    const std::size_t keyBytes = chunks.color == kGrey ? 2 : chunks.color == kRgb ? 6 : 0;
-    const bool paletted = chunks.color == kPalette;
-    if (paletted && (chunks.palette.empty() || chunks.palette.size() % 3 != 0)) {
-      fail(name, "is a damaged PNG: it has no whole palette");
-    }
-    if (!chunks.transparent) {
-      return;
-    }
-    const std::size_t found = chunks.transparent->size();
-    if (paletted ? found > chunks.palette.size() / 3 : keyBytes == 0 || found != keyBytes) {
-      fail(name, "is a damaged PNG: its chunk tRNS does not fit its colour type");
-    }
-    for (std::size_t i = 0; i < keyBytes / 2; ++i) {
-      key_[i] = byteAt(*chunks.transparent, 2 * i) << 8 | byteAt(*chunks.transparent, 2 * i + 1);
-    }
-  }
-
-  int channels() const {
-    return chunks_->transparent || chunks_->color == kGreyAlpha || chunks_->color == kRgbAlpha ? 4 : 3;
-  }
-
-  template <class Sample>
-  void spread(std::span<const std::uint8_t> row, std::size_t column, Sample* pixel) const {
-    std::array<int, 4> values{};
-    const std::size_t inFile = chunks_->fileChannels();
-    for (std::size_t k = 0; k < inFile; ++k) {
-      values[k] = sample(row, column * inFile + k);
-    }
-    if (chunks_->color == kPalette) {
-      spreadEntry(static_cast<std::size_t>(values[0]), pixel);
-      return;
-    }
-    const bool grey = chunks_->color == kGrey || chunks_->color == kGreyAlpha;
-    const int scale = chunks_->bits < 8 ? 255 / ((1 << chunks_->bits) - 1) : 1;
-    for (std::size_t k = 0; k < 3; ++k) {
-      pixel[k] = static_cast<Sample>(scale * values[grey ? 0 : k]);
-    }
-    if (chunks_->transparent) {
-      const bool hidden = values[0] == key_[0] && (grey || (values[1] == key_[1] && values[2] == key_[2]));
-      pixel[3] = hidden ? Sample{0} : static_cast<Sample>(-1);
-    } else if (channels() == 4) {
-      pixel[3] = static_cast<Sample>(values[grey ? 1 : 3]);
-    }
-  }
-
- private:
-  int sample(std::span<const std::uint8_t> row, std::size_t place) const {
-    if (chunks_->bits == 16) {
-      return row[2 * place] << 8 | row[2 * place + 1];
-    }
-    if (chunks_->bits == 8) {
-      return row[place];
-    }
-    const auto bits = static_cast<std::size_t>(chunks_->bits);
-    const std::size_t bit = place * bits;
-    return row[bit / 8] >> (8 - bits - bit % 8) & ((1 << bits) - 1);
-  }
-
-  template <class Sample>
-  void spreadEntry(std::size_t entry, Sample* pixel) const {
-    if (3 * entry >= chunks_->palette.size()) {
-      fail(*name_, "is a damaged PNG: a pixel has colour " + std::to_string(entry) + " of a palette of " +
-                       std::to_string(chunks_->palette.size() / 3));
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      pixel[k] = static_cast<Sample>(byteAt(chunks_->palette, 3 * entry + k));
-    }
-    if (chunks_->transparent) {
-      pixel[3] = static_cast<Sample>(
-          entry < chunks_->transparent->size() ? byteAt(*chunks_->transparent, entry) : 255);
-    }
-  }
-
-  const Chunks* chunks_;
-  const std::string* name_;
-  std::array<int, 3> key_{};
-};
-
-void checkBytes(const DeepPicture& picture, std::uint64_t most, const std::string& name) {
+void checkBytes(const DeepPicture& picture, std::uint64_t dataBytes, std::uint64_t most,
+                const std::string& name) {
   const std::uint64_t bytes = std::uint64_t{picture.samples()} * (picture.deep ? 2 : 1);
+  const std::string found = "has " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
+                            " pixels, which take " + std::to_string(bytes) + " bytes";
   if (bytes > most) {
-    fail(name, "has " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
-                   " pixels, which take " + std::to_string(bytes) + " bytes; expected at most " +
-                   std::to_string(most) + " here");
+    fail(name, found + "; expected at most " + std::to_string(most) + " here");
   }
-}
-
-// Grey and palettes take more room as RGB than in the file.
-void checkSpread(const Chunks& chunks, std::uint64_t bytes, const std::string& name) {
-  if (bytes > std::max(kFewBytes, kMostInflation * chunks.data.size())) {
-    fail(name, "has " + std::to_string(chunks.width) + " x " + std::to_string(chunks.height) +
-                   " pixels, which take " + std::to_string(bytes) + " bytes, in " +
-                   std::to_string(chunks.data.size()) + "; expected at most 64 MiB, or " +
+  if (bytes > std::max(kFewBytes, kMostInflation * dataBytes)) {
+    fail(name, found + ", in " + std::to_string(dataBytes) + "; expected at most 64 MiB, or " +
                    std::to_string(kMostInflation) + " times as many as in the file");
   }
 }
 
-template <class Sample>
-std::vector<Sample> unpacked(const Chunks& chunks, const Spreader& spreader, const std::string& name) {
-  std::vector<std::uint8_t> rows = inflate(chunks, name);
-  const auto channels = static_cast<std::size_t>(spreader.channels());
-  const auto width = static_cast<std::size_t>(chunks.width);
-  const bool asIs = sizeof(Sample) == 1 && chunks.fileChannels() == channels && !chunks.interlaced;
-  checkSpread(chunks, width * static_cast<std::size_t>(chunks.height) * channels * sizeof(Sample), name);
-  std::vector<Sample> samples(width * static_cast<std::size_t>(chunks.height) * channels);
-  std::span<std::uint8_t> left(rows);
-  for (const Pass& pass : passesOf(chunks)) {
-    const int columns = pass.columns(chunks.width);
-    if (columns < 1) {
-      continue;
+/// A picture as libpng reads it. Its errors leave it by longjmp, over no object that must be destroyed: what
+/// the functions that may meet one need is kept here.
+class PngReading {
+ public:
+  explicit PngReading(std::string_view bytes)
+      : left_(bytes), png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, this, failed, warned)) {
+    info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
+    if (info_ == nullptr) {
+      png_destroy_read_struct(&png_, nullptr, nullptr);
+      throw MachineError("no memory to read a PNG");
     }
-    const std::size_t rowBytes = chunks.rowBytes(columns);
-    const std::size_t bytes = static_cast<std::size_t>(pass.rows(chunks.height)) * (rowBytes + 1);
-    if (const std::optional<int> unknown = undoFilters(left.first(bytes), rowBytes, chunks.pixelBytes())) {
-      fail(name, "is a damaged PNG: a row has filter " + std::to_string(*unknown) + ", the last is 4");
-    }
-    for (int y = pass.top; y < chunks.height; y += pass.stepY) {
-      const std::span<const std::uint8_t> row = left.subspan(1, rowBytes);
-      Sample* const out = samples.data() + static_cast<std::size_t>(y) * width * channels;
-      if (asIs) {
-        std::copy(row.begin(), row.end(), out);
-      }
-      for (int i = 0; !asIs && i < columns; ++i) {
-        spreader.spread(row, static_cast<std::size_t>(i),
-                        out + static_cast<std::size_t>(pass.left + i * pass.stepX) * channels);
-      }
-      left = left.subspan(1 + rowBytes);
-    }
+    // Chunks that are not of the pixels are none of its business.
+    png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+    png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+    png_set_read_fn(png_, this, take);
   }
-  return samples;
-}
+  PngReading(const PngReading&) = delete;
+  PngReading& operator=(const PngReading&) = delete;
+  ~PngReading() { png_destroy_read_struct(&png_, &info_, nullptr); }
+
+  const std::string& error() const { return error_; }
+
+  /// All before the pixels, which are asked for as RGB or RGBA. False on an error.
+  bool begin(DeepPicture& picture) {
+    if (setjmp(png_jmpbuf(png_)) != 0) {
+      return false;
+    }
+    png_read_info(png_, info_);
+    png_set_expand(png_);
+    png_set_gray_to_rgb(png_);
+    if (std::endian::native == std::endian::little) {
+      png_set_swap(png_);
+    }
+    png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    picture.channels = png_get_channels(png_, info_);
+    picture.deep = png_get_bit_depth(png_, info_) == 16;
+    return true;
+  }
+
+  bool readRows(std::uint8_t* first, std::size_t rowBytes, std::size_t height) {
+    for (std::size_t y = 0; y < height; ++y) {
+      rows_.push_back(first + y * rowBytes);
+    }
+    if (setjmp(png_jmpbuf(png_)) != 0) {
+      return false;
+    }
+    png_read_image(png_, rows_.data());
+    png_read_end(png_, nullptr);
+    return true;
+  }
+
+ private:
+  [[noreturn]] static void failed(png_structp png, png_const_charp message) {
+    static_cast<PngReading*>(png_get_error_ptr(png))->error_ = message;
+    png_longjmp(png, 1);
+  }
+  // What libpng only warns of is damage, too: bytes after the picture, a wrong checksum of all.
+  static void warned(png_structp png, png_const_charp message) { failed(png, message); }
+  static void take(png_structp png, png_bytep to, std::size_t size) {
+    std::string_view& left = static_cast<PngReading*>(png_get_io_ptr(png))->left_;
+    if (size > left.size()) {
+      png_error(png, "it is cut short");
+    }
+    std::memcpy(to, left.data(), size);
+    left.remove_prefix(size);
+  }
+
+  std::string_view left_;
+  std::string error_;
+  std::vector<png_bytep> rows_;
+  png_structp png_;
+  png_infop info_;
+};
 
 template <class Sample>
 std::vector<Sample> opaque(const std::vector<Sample>& rgb) {
@@ -342,28 +196,30 @@ std::vector<Sample> opaque(const std::vector<Sample>& rgb) {
 }  // namespace
 
 DeepPicture decodeDeepPng(std::string_view bytes, const std::string& name, std::uint64_t most) {
-  Chunks chunks;
-  readChunks(chunks, bytes, name);
-  const Spreader spreader(chunks, name);
+  const Chunks chunks = readChunks(bytes, name);
   DeepPicture picture{.width = chunks.width,
                       .height = chunks.height,
-                      .channels = spreader.channels(),
-                      .deep = chunks.bits == 16,
                       .colorSpace = colorSpaceOf(chunks.colors),
                       .samples8 = {},
                       .samples16 = {}};
-  checkBytes(picture, most, name);
-  if (picture.deep) {
-    picture.samples16 = unpacked<std::uint16_t>(chunks, spreader, name);
-  } else {
-    picture.samples8 = unpacked<std::uint8_t>(chunks, spreader, name);
+  PngReading reading(bytes);
+  bool read = reading.begin(picture);
+  if (read) {
+    checkBytes(picture, chunks.dataBytes, most, name);
+    picture.samples8.resize(picture.deep ? 0 : picture.samples());
+    picture.samples16.resize(picture.deep ? picture.samples() : 0);
+    read = reading.readRows(
+        picture.deep ? reinterpret_cast<std::uint8_t*>(picture.samples16.data()) : picture.samples8.data(),
+        picture.rowSamples() * (picture.deep ? 2 : 1), static_cast<std::size_t>(picture.height));
+  }
+  if (!read) {
+    fail(name, "is a damaged PNG: " + reading.error());
   }
   return picture;
 }
 
 PngSize checkPng(std::string_view bytes, const std::string& name) {
-  Chunks chunks;
-  readChunks(chunks, bytes, name);
+  const Chunks chunks = readChunks(bytes, name);
   return {.width = chunks.width, .height = chunks.height};
 }
 

@@ -35,10 +35,9 @@ inline constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 inline constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28U;  ///< 16384 x 16384
 
 /// Any PNG: every colour type, depth and filter, interlaced or not. InputError, naming `name`, if a byte of
-/// it is missing, a checksum is wrong, it claims more pixels than its data can hold, or its samples take more
-/// than `most` bytes. Memory is bounded by the file: the samples take at most 64 MiB or 1032 times the bytes
-/// of its data, whichever is more, and while they are unpacked at most twice that. (DEFLATE makes 1032 bytes
-/// of one; one bit of grey would become three bytes of RGB.)
+/// it is missing, a checksum is wrong, or its samples take more than `most` bytes. Memory is bounded by the
+/// file: the samples take at most 64 MiB or 1032 times the bytes of its data, whichever is more. (DEFLATE
+/// makes 1032 bytes of one.) libpng reads the pixels, in twice the time that a reader of our own took.
 DeepPicture decodeDeepPng(std::string_view bytes, const std::string& name,
                           std::uint64_t most = kMostPixels * 8);
 

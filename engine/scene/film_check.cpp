@@ -67,8 +67,8 @@ void checkTime(const JsonTree& tree, const Scene& scene) {
     if (i > 0 && !(keys[i].scene >= keys[i - 1].scene)) {
       fail(1, "no earlier scene time than the one before it, which is " + brief(keys[i - 1].scene));
     }
-    if (!(keys[i].scene <= scene.duration)) {
-      fail(1, "a scene time within the duration, which is " + brief(scene.duration));
+    if (!(keys[i].scene <= scene.settings.duration)) {
+      fail(1, "a scene time within the duration, which is " + brief(scene.settings.duration));
     }
   }
 }

@@ -61,7 +61,7 @@ Needs needsOf(const Scene& scene) {
     for (std::size_t j = 0; j < i; ++j) {
       const bool could = !boxes[i]->fixed || !boxes[j]->fixed;
       needs.hitsBoxes = needs.hitsBoxes || could;
-      if (could && traitsOf(scene.method).boxBox) {
+      if (could && traitsOf(scene.settings.method).boxBox) {
         addPair(needs, touching(boxes[i]->material, boxes[j]->material), pulled);
       }
     }
@@ -124,18 +124,18 @@ PlanItem boxBox(const Scene& scene, const Needs& needs) {
   if (!needs.hitsBoxes) {
     return leftOut("box-box", "no two boxes can collide");
   }
-  return traitsOf(scene.method).boxBox
+  return traitsOf(scene.settings.method).boxBox
              ? modelled("box-box", counted(scene.boxes.size(), "box", "boxes") + " that can collide")
-             : leftOut("box-box",
-                       "method " + nameOf(scene.method) + " has none: boxes pass through one another");
+             : leftOut("box-box", "method " + nameOf(scene.settings.method) +
+                                      " has none: boxes pass through one another");
 }
 
 const char* noCollision(const Scene& scene) {
-  return traitsOf(scene.method).boxBox ? "nothing can collide" : "no box can hit a wall";
+  return traitsOf(scene.settings.method).boxBox ? "nothing can collide" : "no box can hit a wall";
 }
 const char* zeroInEveryPair(const Scene& scene) {
-  return traitsOf(scene.method).boxBox ? "it is 0 for every pair that can collide"
-                                       : "it is 0 for every box and wall";
+  return traitsOf(scene.settings.method).boxBox ? "it is 0 for every pair that can collide"
+                                                : "it is 0 for every box and wall";
 }
 
 PlanItem restitution(const Scene& scene, const Needs& needs) {
@@ -153,11 +153,11 @@ PlanItem friction(const Scene& scene, const Needs& needs) {
   if (!needs.hasFriction) {
     return leftOut("friction", zeroInEveryPair(scene));
   }
-  return traitsOf(scene.method).friction
-             ? modelled("friction", traitsOf(scene.method).rests
+  return traitsOf(scene.settings.method).friction
+             ? modelled("friction", traitsOf(scene.settings.method).rests
                                         ? "the scene sets it; at impacts and in contact"
                                         : "the scene sets it; at impacts")
-             : leftOut("friction", "THE SCENE ASKS FOR IT, but method " + nameOf(scene.method) +
+             : leftOut("friction", "THE SCENE ASKS FOR IT, but method " + nameOf(scene.settings.method) +
                                        " has none: everything slides freely");
 }
 
@@ -165,8 +165,8 @@ PlanItem resting(const Scene& scene, const Needs& needs) {
   if (!needs.collides) {
     return leftOut("resting", noCollision(scene));
   }
-  if (!traitsOf(scene.method).rests) {
-    return leftOut("resting", "method " + nameOf(scene.method) +
+  if (!traitsOf(scene.settings.method).rests) {
+    return leftOut("resting", "method " + nameOf(scene.settings.method) +
                                   " cannot rest: where a box would come to lie, the run ends in an error");
   }
   return needs.stops
@@ -213,9 +213,9 @@ World assemble(const Scene& scene, const Plan& plan) {
     return Material{.restitution = plan.models("restitution") ? material.restitution : 0,
                     .friction = plan.models("friction") ? material.friction : 0};
   };
-  if (!traitsOf(scene.method).forces && (plan.models("springs") || plan.models("drag"))) {
-    throw InputError("scene " + scene.name + " has springs or drag, which method " + nameOf(scene.method) +
-                     " does not model; expected " + methodsWithForces());
+  if (!traitsOf(scene.settings.method).forces && (plan.models("springs") || plan.models("drag"))) {
+    throw InputError("scene " + scene.name + " has springs or drag, which method " +
+                     nameOf(scene.settings.method) + " does not model; expected " + methodsWithForces());
   }
   World world;
   for (const SceneBox& box : scene.boxes) {
@@ -268,7 +268,7 @@ Stage stageOf(const Scene& scene) {
 
 RunSetup setupOf(const Scene& scene) {
   RunSetup setup{.sceneText = scene.text,
-                 .settings = static_cast<const RunSettings&>(scene),
+                 .settings = scene.settings,
                  .world = {},
                  .stage = stageOf(scene),
                  .plan = plan(scene)};

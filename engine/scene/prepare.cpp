@@ -16,10 +16,10 @@ namespace {
 constexpr int kDigits = 6;  // of numbers in messages
 
 void apply(const RunOverrides& overrides, const Overridden& tell, Scene& scene) {
-  const auto methodName = [&scene] { return std::string(traitsOf(scene.method).name); };
-  if (overrides.method && *overrides.method != scene.method) {
+  const auto methodName = [&scene] { return std::string(traitsOf(scene.settings.method).name); };
+  if (overrides.method && *overrides.method != scene.settings.method) {
     const std::string inScene = methodName();
-    scene.method = *overrides.method;
+    scene.settings.method = *overrides.method;
     tell("method", methodName(), inScene);
   }
   const auto replace = [&](const char* name, const std::optional<double>& given, bool used, double& inScene) {
@@ -39,10 +39,10 @@ void apply(const RunOverrides& overrides, const Overridden& tell, Scene& scene) 
     }
     inScene = *given;
   };
-  const bool steps = traitsOf(scene.method).steps();
-  replace("dt", overrides.dt, steps, scene.dt);
-  replace("tolerance", overrides.tolerance, !steps, scene.tolerance);
-  replace("duration", overrides.duration, true, scene.duration);
+  const bool steps = traitsOf(scene.settings.method).steps();
+  replace("dt", overrides.dt, steps, scene.settings.dt);
+  replace("tolerance", overrides.tolerance, !steps, scene.settings.tolerance);
+  replace("duration", overrides.duration, true, scene.settings.duration);
 }
 
 int threadsOf(const RunOverrides& overrides) {
@@ -58,23 +58,23 @@ int threadsOf(const RunOverrides& overrides) {
 void checkSteps(const Scene& scene, const RunOverrides& overrides) {
   constexpr double kStepsOfRecord = 200;
   const double most = kStepsOfRecord * static_cast<double>(overrides.most);
-  const double steps = scene.duration / scene.dt * static_cast<double>(scene.boxes.size());
-  if (traitsOf(scene.method).steps() && !(steps <= most)) {
-    throw InputError("dt: found " + brief(scene.dt) + " s for " + brief(scene.duration) + " s, which makes " +
-                     brief(steps) + " steps of boxes, expected at most " + brief(most) + "; " +
-                     overrides.sign + "limit allows more");
+  const double steps = scene.settings.duration / scene.settings.dt * static_cast<double>(scene.boxes.size());
+  if (traitsOf(scene.settings.method).steps() && !(steps <= most)) {
+    throw InputError("dt: found " + brief(scene.settings.dt) + " s for " + brief(scene.settings.duration) +
+                     " s, which makes " + brief(steps) + " steps of boxes, expected at most " + brief(most) +
+                     "; " + overrides.sign + "limit allows more");
   }
 }
 
 }  // namespace
 
 PreparedRun prepare(Scene scene, const RunOverrides& overrides, const Overridden& tell) {
-  const Method method = scene.method;
+  const Method method = scene.settings.method;
   apply(overrides, tell, scene);
   PreparedRun run;
   if (overrides.allowOverlap) {
     run.parted = moveApart(scene);
-  } else if (scene.method != method) {
+  } else if (scene.settings.method != method) {
     checkApart(scene);  // the reader checked it for the method in the file
   }
   checkSteps(scene, overrides);

@@ -39,9 +39,9 @@ struct SceneBox {
   Color color;
 };
 
-/// A scene file, read and checked: the settings of its run, and all else. Angles are in radians, except the
-/// camera's.
-struct Scene : RunSettings {
+/// A scene file, read and checked. Angles are in radians, except the camera's.
+struct Scene {
+  RunSettings settings;
   std::string text;  ///< the file, byte for byte
   std::string name = "untitled";
   Vec3 gravity = Vec3::Zero();  ///< [m/s²]

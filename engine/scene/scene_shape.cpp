@@ -291,7 +291,7 @@ Scene readShape(const JsonTree& tree) {
   if (const std::optional<JsonValue> schema = object.find("$schema")) {
     schema->string("a string");  // editors read it, for completion of keys
   }
-  scene.duration = object.require("duration").number(positiveNumber("s"));
+  scene.settings.duration = object.require("duration").number(positiveNumber("s"));
   scene.gravity = object.vector("gravity", anyNumber("m/s²"));
   scene.room = readOptional<Room>(object.find("room"), readRoom);
   scene.walls = readList<Wall>(object.find("walls"), readWall);
@@ -303,12 +303,12 @@ Scene readShape(const JsonTree& tree) {
                                    [](const JsonValue& value, std::size_t) { return readSpring(value); });
   scene.drag = readOptional<Drag>(object.find("drag"), readDrag);
   if (const std::optional<JsonValue> method = object.find("method")) {
-    scene.method = readMethod(*method);
+    scene.settings.method = readMethod(*method);
   }
-  scene.dt = object.number("dt", positiveNumber("s"), scene.dt);
-  scene.tolerance = object.number("tolerance", positiveNumber(), scene.tolerance);
+  scene.settings.dt = object.number("dt", positiveNumber("s"), scene.settings.dt);
+  scene.settings.tolerance = object.number("tolerance", positiveNumber(), scene.settings.tolerance);
   if (const std::optional<JsonValue> crowds = object.find("crowds")) {
-    scene.crowds = readCrowds(*crowds);
+    scene.settings.crowds = readCrowds(*crowds);
   }
   if (const std::optional<JsonValue> camera = object.find("camera")) {
     readCamera(*camera, scene);

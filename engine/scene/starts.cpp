@@ -26,20 +26,20 @@ std::vector<PlacedBox> placedBoxes(const Scene& scene) {
 }  // namespace
 
 std::optional<Overlap> findOverlap(const Scene& scene) {
-  return traitsOf(scene.method).boxBox ? firstOverlap(placedBoxes(scene)) : std::nullopt;
+  return traitsOf(scene.settings.method).boxBox ? firstOverlap(placedBoxes(scene)) : std::nullopt;
 }
 
 void checkApart(const Scene& scene) {
   if (const std::optional<Overlap> overlap = findOverlap(scene)) {
     throw InputError("box " + scene.boxes[overlap->second].name + " starts " + brief(overlap->depth) +
                      " m inside box " + scene.boxes[overlap->first].name +
-                     "; expected boxes apart, as method " + std::string(traitsOf(scene.method).name) +
-                     " lets them meet");
+                     "; expected boxes apart, as method " +
+                     std::string(traitsOf(scene.settings.method).name) + " lets them meet");
   }
 }
 
 Parted moveApart(Scene& scene) {
-  const bool meet = traitsOf(scene.method).boxBox;
+  const bool meet = traitsOf(scene.settings.method).boxBox;
   Parted parted = moveApart(placedBoxes(scene), wallsOf(scene), meet ? Meeting::kAll : Meeting::kWalls);
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
     scene.boxes[i].pose.position = parted.positions[i];

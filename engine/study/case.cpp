@@ -53,7 +53,7 @@ std::filesystem::path truthPath(const std::string& name) {
 
 // The whole scene, as exact models it, so that every contestant gets all of it.
 World worldOf(Scene scene) {
-  scene.method = Method::kExact;
+  scene.settings.method = Method::kExact;
   checkApart(scene);
   return assemble(scene, plan(scene));
 }
@@ -103,7 +103,7 @@ void readTruth(const Json& truth, Case& study) {
     study.original = worldOf(readScene(scenePath(truth, "of")));
     study.lengths = truth.at("lengths").get<double>();
     study.durations = truth.at("times").get<double>();
-    study.times = {study.scene.duration};
+    study.times = {study.scene.settings.duration};
     return;
   }
   study.times = truth.at("times").get<std::vector<double>>();
@@ -154,8 +154,9 @@ Case caseOfScene(const std::filesystem::path& scene, const std::stop_token& stop
   study.name = scene.stem().string();
   study.title = study.scene.name;
   study.world = worldOf(study.scene);
-  const Trajectory run = record(study.world, {.method = Method::kExact, .duration = study.scene.duration},
-                                study.scene.text, stop);
+  const Trajectory run =
+      record(study.world, {.method = Method::kExact, .duration = study.scene.settings.duration},
+             study.scene.text, stop);
   const std::optional<ErrorEstimate> estimate = estimateError(run, stop);
   // One rounding error for exact is a larger error for others, and grows as fast: their runs diverge earlier.
   const double until = estimate ? estimate->until * (estimate->horizon ? 0.5 : 1) : 0;

@@ -70,7 +70,7 @@ std::unique_ptr<Contestant> givenContestant(const GivenAnswer& answer, const Cas
   }
   const std::string bytes = readFile(answer.file);
   Scene scene = study.scene;
-  scene.method = Method::kExact;
+  scene.settings.method = Method::kExact;
   Trajectory run = givenRun(setupOf(scene), readPoseTable(bytes, answer.file));
   const double allowed = kSameTime * study.duration();
   if (run.settings.duration < study.duration() - allowed) {

@@ -107,7 +107,9 @@ std::string timeoutText(double seconds) {
 }
 
 double finenessOf(const Attempt& attempt, const Case& study) {
-  return attempt.dt > 0 ? attempt.dt : attempt.tolerance > 0 ? attempt.tolerance : study.scene.tolerance;
+  return attempt.dt > 0          ? attempt.dt
+         : attempt.tolerance > 0 ? attempt.tolerance
+                                 : study.scene.settings.tolerance;
 }
 
 bool isSame(const std::vector<BodyState>& x, const std::vector<BodyState>& y) {
@@ -224,7 +226,7 @@ Effort quickEffort() {
 }
 
 double usualFineness(const Case& study, const Contestant& contestant) {
-  return contestant.steps() ? study.scene.dt : study.scene.tolerance;
+  return contestant.steps() ? study.scene.settings.dt : study.scene.settings.tolerance;
 }
 
 Answer answerOf(const Case& study, const Contestant& contestant, double fineness,

@@ -133,8 +133,8 @@ CaseResult resultOf(const Case& study, std::vector<Attempt> attempts, std::strin
           .measure = nameOf(study.measure),
           .published = study.published,
           .stamp = std::move(stamp),
-          .usualStep = study.scene.dt,
-          .usualTolerance = study.scene.tolerance,
+          .usualStep = study.scene.settings.dt,
+          .usualTolerance = study.scene.settings.tolerance,
           .times = study.times,
           .attempts = std::move(attempts)};
 }

@@ -208,7 +208,7 @@ void findFloor(const RunSetup& setup, const TossStarts& starts, const Validation
 
 RunSetup setupOfMeasured(const Scene& scene) {
   Scene whole = scene;
-  whole.method = Method::kExact;
+  whole.settings.method = Method::kExact;
   return setupOf(whole);
 }
 

@@ -12,7 +12,6 @@
 #include "trajectory/compression.h"
 #include "trajectory/run_check.h"
 #include "trajectory/trajectory_format.h"
-#include "trajectory/trajectory_format_3.h"
 
 namespace careen {
 namespace {
@@ -20,7 +19,7 @@ namespace {
 // The line ends in the magic word reveal a transfer in text mode.
 constexpr std::string_view kFileMagic = "careen\r\n";
 constexpr std::uint64_t kVersion = 8;
-constexpr std::uint64_t kVersionWithoutCrowds = 4;
+constexpr std::uint64_t kVersionWithoutCrowds = 4;  // the oldest that is read
 constexpr std::uint64_t kVersionWithoutLight = 5;
 constexpr std::uint64_t kVersionWithoutPlacement = 6;
 constexpr std::uint64_t kVersionWithoutResiduals = 7;
@@ -59,9 +58,10 @@ Unwrapped unwrapped(const std::string& bytes, const std::string& name) {
   reader = ArchiveReader(body.substr(kFileMagic.size()), name);
   Unwrapped file;
   reader.visit(file.version);
-  if (file.version < 3 || file.version > kVersion) {
+  if (file.version < kVersionWithoutCrowds || file.version > kVersion) {
     reader.fail("has format version " + std::to_string(file.version) + ", expected " +
-                std::to_string(kVersion));
+                std::to_string(kVersionWithoutCrowds) + " to " + std::to_string(kVersion) +
+                (file.version > kVersion ? ": a newer careen wrote it" : ": simulate its scene again"));
   }
   std::uint64_t expected = 0;
   ArchiveReader(std::string_view(bytes).substr(body.size()), name).visit(expected);
@@ -96,29 +96,25 @@ std::string encodeTrajectory(const Trajectory& trajectory) {
 
 bool looksLikeTrajectory(const std::string& bytes) { return bytes.starts_with(kFileMagic); }
 
-Trajectory decodeTrajectory(const std::string& bytes, const std::string& name, const SetupReader& setupOf) {
+Trajectory decodeTrajectory(const std::string& bytes, const std::string& name) {
   const Unwrapped file = unwrapped(bytes, name);
   ArchiveReader reader(file.record, name);
   Trajectory trajectory;
-  if (file.version >= kVersionWithoutCrowds) {
-    visit(reader, trajectory);
-    if (file.version >= kVersionWithoutLight) {
-      visit(reader, trajectory.settings.crowds);
+  visit(reader, trajectory);
+  if (file.version > kVersionWithoutCrowds) {
+    visit(reader, trajectory.settings.crowds);
+  }
+  if (file.version > kVersionWithoutLight) {
+    visitNames(reader, trajectory.stage.picture.light);
+  }
+  if (file.version > kVersionWithoutPlacement) {
+    for (Body& body : trajectory.world.bodies) {
+      visitPlacement(reader, body);
     }
-    if (file.version >= kVersionWithoutPlacement) {
-      visitNames(reader, trajectory.stage.picture.light);
-    }
-    if (file.version > kVersionWithoutPlacement) {
-      for (Body& body : trajectory.world.bodies) {
-        visitPlacement(reader, body);
-      }
-      visitAll(reader, trajectory.stage.parts);
-    }
-    if (file.version > kVersionWithoutResiduals) {
-      visitResiduals(reader, trajectory.figures);
-    }
-  } else {
-    readFormat3(reader, setupOf, trajectory);
+    visitAll(reader, trajectory.stage.parts);
+  }
+  if (file.version > kVersionWithoutResiduals) {
+    visitResiduals(reader, trajectory.figures);
   }
   std::string stateHash;
   reader.visit(stateHash);
@@ -126,9 +122,6 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name, c
     reader.fail("has bytes after its end");
   }
   try {
-    if (file.version < kVersionWithoutCrowds) {
-      startWhereTracksDo(trajectory);
-    }
     checkRun(trajectory);
   } catch (const InputError& error) {
     reader.fail(error.what());

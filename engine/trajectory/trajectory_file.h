@@ -1,10 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 
-#include "physics/world/run_settings.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {
@@ -14,15 +12,10 @@ namespace careen {
 /// and plan, every body's segments, the impacts, the state hash, and a checksum of all before it.
 std::string encodeTrajectory(const Trajectory& trajectory);
 
-/// Builds the run setup from a scene's text and settings.
-using SetupReader = std::function<RunSetup(const std::string& sceneText, const RunSettings& settings)>;
-
 /// InputError if the bytes are not a trajectory, of another version, truncated or modified, or inconsistent
 /// (run_check.h). Every count is checked against the bytes that are left, and the run takes at most 1000
-/// times the memory of the bytes. `name` stands for the file in messages. Files of version 3 contain no world
-/// and no stage: `setupOf` supplies them, and without it they are rejected.
-Trajectory decodeTrajectory(const std::string& bytes, const std::string& name,
-                            const SetupReader& setupOf = {});
+/// times the memory of the bytes. `name` stands for the file in messages.
+Trajectory decodeTrajectory(const std::string& bytes, const std::string& name);
 
 /// Whether the bytes begin like a trajectory file, whatever the file's extension.
 bool looksLikeTrajectory(const std::string& bytes);

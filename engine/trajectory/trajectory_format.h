@@ -417,17 +417,12 @@ void visit(Archive& archive, Visited<Archive, RunSettings> settings) {
 }
 
 template <class Archive>
-void visitBeginning(Archive& archive, Visited<Archive, Trajectory> run) {
+void visit(Archive& archive, Visited<Archive, Trajectory> run) {
   archive.visit(run.sceneText);
   std::string sceneHash = run.sceneHash();
   archive.visit(sceneHash);
   visit(archive, run.settings);
   visit(archive, run.figures);
-}
-
-template <class Archive>
-void visit(Archive& archive, Visited<Archive, Trajectory> run) {
-  visitBeginning(archive, run);
   visit(archive, run.world);
   visit(archive, run.stage);
   visitAll(archive, run.plan.items);

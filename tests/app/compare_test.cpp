@@ -159,24 +159,6 @@ TEST_F(Compare, badInputIsNamed) {
   }
 }
 
-// A file that was made before runs held their world and their stage.
-TEST_F(Compare, runOfVersion3IsTheSameAsItsSceneSimulatedNow) {
-  const std::string old = CAREEN_SOURCE_DIR "/tests/scenes/falling-pair-3.careen";
-  simulate("now", textOf(CAREEN_SOURCE_DIR "/tests/scenes/falling-pair.json"));
-  for (const auto& [expected, actual] : {std::pair(old, std::string("now.careen")), {"now.careen", old}}) {
-    const Ended ended = compare({expected, actual});
-    EXPECT_EQ(ended.exitCode, 0) << ended.err;
-    EXPECT_TRUE(ended.out.starts_with("same: same motion, bit for bit")) << ended.out;
-  }
-  const auto infoOf = [this](const std::string& run) {
-    const Ended ended = careen({"info", run});
-    EXPECT_EQ(ended.exitCode, 0) << ended.err;
-    return ended.out.substr(0, ended.out.find("trajectory "));  // its size in bytes follows
-  };
-  EXPECT_TRUE(infoOf(old).starts_with("scene        falling pair, 2 boxes, 0.6 s by exact\n")) << infoOf(old);
-  EXPECT_EQ(infoOf(old), infoOf("now.careen"));
-}
-
 TEST_F(Compare, regionsAreIgnored) {
   const std::string wall = kGallery + "wall.png";
   const std::string stack = kGallery + "stack.png";

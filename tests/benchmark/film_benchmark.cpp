@@ -29,7 +29,7 @@ constexpr int kBoxes = 10;
 
 Scene scene() {
   Scene scene = crateInRoom();
-  scene.duration = 2;
+  scene.settings.duration = 2;
   for (int i = 1; i < kBoxes; ++i) {
     scene.boxes.push_back(boxAt(Vec3(-2.5 + 0.5 * i, -0.5 + 0.25 * (i % 5), 0.4 + 0.15 * i),
                                 Vec3(0.2, 0.15, 0.1), Color{60, 90, 200}));
@@ -111,7 +111,7 @@ void FilmInTurn(benchmark::State& state) {
       Took took;
       renderer.draw(run.poses(0));  // the first frame compiles its code
       const double begun = coreSeconds();
-      for (; took.frames < static_cast<double>(rate.frameCount(drawn.duration)); ++took.frames) {
+      for (; took.frames < static_cast<double>(rate.frameCount(drawn.settings.duration)); ++took.frames) {
         const auto frame = static_cast<std::int64_t>(took.frames);
         const Picture picture = renderer.draw(run.poses(rate.frameTime(frame)));
         const std::filesystem::path path = folder / (std::to_string(frame) + ".png");

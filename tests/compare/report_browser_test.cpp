@@ -326,7 +326,7 @@ TEST_F(ReportInBrowser, runShowsGrowthHorizonAndImpacts) {
             "nothing");
   browser.press("Home");
   EXPECT_EQ(textOf("#growth-readout"), "0 s: no difference");
-  EXPECT_EQ(textOf("#first-impact th"), "1 ← first");
+  EXPECT_EQ(textOf("#first-impact"), "1 ← first");
   EXPECT_FALSE(isSeen("#frame"));
 }
 

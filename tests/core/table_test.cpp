@@ -35,6 +35,7 @@ Table twoByTwo() {
   link.section = "a&b";
   TableCell strong("1,5", R"(class="bad")");
   strong.isStrong = true;
+  strong.replaced = "<2>";
   table.rows = {{link, strong}, {"two\nlines"}};
   return table;
 }
@@ -48,7 +49,8 @@ TEST(Table, isWrittenAsMarkdown) {
 TEST(Table, isWrittenAsHtml) {
   const std::string rows =
       "<tr><th>name</th><th>&lt;unit&gt;</th></tr>\n"
-      "<tr><th><a href=\"#a&amp;b\">a|b</a></th><td class=\"bad\">1,5</td></tr>\n"
+      "<tr><th><a href=\"#a&amp;b\">a|b</a></th><td class=\"bad\"><del>&lt;2&gt;</del> "
+      "<ins>1,5</ins></td></tr>\n"
       "<tr><th>two\nlines</th></tr>\n</table>\n";
   EXPECT_EQ(twoByTwo().html(), "<table>" + rows);
   EXPECT_EQ(twoByTwo().html("matrix"), "<table class=\"matrix\">\n" + rows);

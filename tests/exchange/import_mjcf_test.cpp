@@ -162,15 +162,15 @@ TEST(ImportMjcf, scenesWithoutRestitutionMoveAsBefore) {
                          {"stack.json", 1e-13, 2.9},       // 4e-17
                          {"domino.json", 3e-14, 0.45}}) {
     RoundTrip trip = roundTripOf(name);
-    trip.first.duration = std::min(trip.first.duration, until);
-    trip.second.duration = trip.first.duration;
-    trip.second.tolerance = trip.first.tolerance;
-    trip.second.crowds = trip.first.crowds;
+    trip.first.settings.duration = std::min(trip.first.settings.duration, until);
+    trip.second.settings.duration = trip.first.settings.duration;
+    trip.second.settings.tolerance = trip.first.settings.tolerance;
+    trip.second.settings.crowds = trip.first.settings.crowds;
     const Trajectory first = record(setupOf(trip.first));
     const Trajectory second = record(setupOf(trip.second));
     double most = 0;
     for (int k = 0; k <= 200; ++k) {
-      const double time = trip.first.duration * k / 200;
+      const double time = trip.first.settings.duration * k / 200;
       double now = 0;
       for (std::size_t body = 0; body < first.tracks.size(); ++body) {
         const Pose a = first.state(body, time).pose;
@@ -258,7 +258,7 @@ TEST(ImportMjcf, saysWhatItLeavesOut) {
           "ignored: asset material, geom material, but for its colour, geom solref, key \"other\", light, "
           "option timestep, visual"}));
   const Scene read = parseScene(scene.text, "s", Starts::kMayOverlap);
-  EXPECT_EQ(read.duration, kImportedDuration);
+  EXPECT_EQ(read.settings.duration, kImportedDuration);
   EXPECT_EQ(read.boxes[0].color.red, 255);
   EXPECT_EQ(read.boxes[0].color.green, 0);
   // The body turns about y at its own origin, 2 m below the box.

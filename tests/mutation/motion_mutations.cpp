@@ -116,7 +116,8 @@ Mutations ofTheSprings() {
   }
   add(list, sprungChain, "drag", [](Subject& it) -> double& { return it.scene.drag->linear; });
   add(list, sprungChain, "drag of turning", [](Subject& it) -> double& { return it.scene.drag->angular; });
-  list.push_back({"springs: tolerance", sprungChain, [](Subject& it) { it.scene.tolerance *= 0.5; }});
+  list.push_back(
+      {"springs: tolerance", sprungChain, [](Subject& it) { it.scene.settings.tolerance *= 0.5; }});
   list.push_back({"springs: one less", sprungChain, [](Subject& it) { it.scene.springs.pop_back(); }});
   return list;
 }
@@ -129,10 +130,10 @@ Mutations ofTheSteppers() {
     }
     const Method method = traits.method;
     const auto subject = [method] { return steppedCrate(method); };
-    add(list, subject, "dt", [](Subject& it) -> double& { return it.scene.dt; });
+    add(list, subject, "dt", [](Subject& it) -> double& { return it.scene.settings.dt; });
     add(list, subject, "g", [](Subject& it) -> double& { return it.scene.gravity.z(); });
     list.push_back({"crate: by " + std::string(traits.name) + " instead", thrownCrate,
-                    [method](Subject& it) { it.scene.method = method; }});
+                    [method](Subject& it) { it.scene.settings.method = method; }});
   }
   return list;
 }

@@ -64,7 +64,7 @@ void writeShaders(const std::vector<ShaderEdit>& edits, const TemporaryFolder& f
 Subject thrownCrate() {
   Subject subject{.name = "crate", .scene = crateInRoom(), .moment = 0.2, .look = {}, .edits = {}};
   Scene& scene = subject.scene;
-  scene.duration = 1.4;
+  scene.settings.duration = 1.4;
   scene.room->material = {.restitution = 0.8, .friction = 0.3};
   SceneBox& crate = scene.boxes[0];
   crate.velocity = Vec3(3, 2.5, 2);
@@ -77,7 +77,7 @@ Subject strikingPair() {
   Subject subject{.name = "pair", .scene = {}, .moment = 0.5, .look = {}, .edits = {}};
   Scene& scene = subject.scene;
   scene.name = "pair";
-  scene.duration = 1;
+  scene.settings.duration = 1;
   scene.gravity = Vec3(0, 0, -1);
   scene.camera = cameraAt(Vec3(0.5, -6, 1), Vec3(0.2, 0, 0), 36);
   const Mat3 askew = turned(Vec3(1, 2, 3), 40);
@@ -99,7 +99,7 @@ Subject sprungChain() {
   Subject subject{.name = "springs", .scene = {}, .moment = 0.5, .look = {}, .edits = {}};
   Scene& scene = subject.scene;
   scene.name = "springs";
-  scene.duration = 0.5;
+  scene.settings.duration = 0.5;
   scene.gravity = Vec3(0, 0, -5);
   scene.camera = cameraAt(Vec3(0, -6, 0), Vec3(0, 0, 0), 40);
   scene.boxes = {
@@ -123,8 +123,8 @@ Subject sprungChain() {
 Subject steppedCrate(Method method) {
   Subject subject = thrownCrate();
   subject.name = "stepped by " + std::string(traitsOf(method).name);
-  subject.scene.method = method;
-  subject.scene.dt = 1.0 / 240;
+  subject.scene.settings.method = method;
+  subject.scene.settings.dt = 1.0 / 240;
   return subject;
 }
 
@@ -132,7 +132,7 @@ Subject stillLife() {
   Subject subject{.name = "still life", .scene = crateInRoom(), .moment = 0, .look = {}, .edits = {}};
   Scene& scene = subject.scene;
   scene.name = "still life";
-  scene.duration = 0.001;
+  scene.settings.duration = 0.001;
   scene.walls = {wallAt(Vec3(-1, 0, 2).normalized(), -0.9)};
   scene.camera = cameraAt(Vec3(-1.2, -7.2, 3.2), Vec3(0.05, 0, 1.1), 36);
   scene.boxes = {
@@ -173,7 +173,7 @@ Subject row() {
   Subject subject{.name = "row", .scene = {}, .moment = 0, .look = {}, .edits = {}};
   Scene& scene = subject.scene;
   scene.name = "row";
-  scene.duration = 0.001;
+  scene.settings.duration = 0.001;
   scene.gravity = Vec3(0, 0, -9.81);
   scene.walls = {wallAt(Vec3::UnitZ(), 0)};
   scene.camera = cameraAt(Vec3(1, -5, 2), Vec3(1, 0, 0.4), 40);

@@ -129,7 +129,7 @@ TEST(Assemble, buildsWhatThePlanModels) {
 TEST(Assemble, namesTheMethodsThatModelSpringsAndDrag) {
   for (const MethodTraits& method : kMethods) {
     Scene scene = withParts(R"("drag": {"linear": 1}, "boxes": [)" + kBox + "]");
-    scene.method = method.method;
+    scene.settings.method = method.method;
     std::string message;
     try {
       assemble(scene, plan(scene));

@@ -23,7 +23,7 @@ TEST(SceneReader, readsEveryKey) {
   const Scene scene = parseScene(kEveryKey, "f");
   EXPECT_EQ(scene.text, kEveryKey);
   EXPECT_EQ(scene.name, "every key");
-  EXPECT_EQ(scene.duration, 2.5);
+  EXPECT_EQ(scene.settings.duration, 2.5);
   EXPECT_EQ(scene.gravity, Vec3(0, 0, -9.81));
   EXPECT_EQ(scene.room->min, Vec3(-3, -2, 0));
   EXPECT_EQ(scene.room->max, Vec3(3, 2, 4));
@@ -32,9 +32,9 @@ TEST(SceneReader, readsEveryKey) {
   EXPECT_EQ(scene.room->material.friction, 0.25);
   EXPECT_EQ(scene.drag->linear, 0.5);
   EXPECT_EQ(scene.drag->angular, 0.25);
-  EXPECT_EQ(scene.method, Method::kListing1);
-  EXPECT_EQ(scene.dt, 0.001);
-  EXPECT_EQ(scene.tolerance, 1e-9);
+  EXPECT_EQ(scene.settings.method, Method::kListing1);
+  EXPECT_EQ(scene.settings.dt, 0.001);
+  EXPECT_EQ(scene.settings.tolerance, 1e-9);
   EXPECT_EQ(scene.camera->eye, Vec3(6, -8, 4));
   EXPECT_EQ(scene.camera->target, Vec3(0, 0, 1));
   EXPECT_EQ(scene.camera->up, Vec3(0, 0, 1));  // made a unit vector
@@ -149,9 +149,9 @@ TEST(SceneReader, fillsInWhatASceneDoesNotSay) {
   EXPECT_TRUE(scene.cameraMove.keys.empty() && scene.timeMap.keys.empty());
   EXPECT_EQ(scene.picture.shutter.degrees, 0);
   EXPECT_TRUE(scene.walls.empty() && scene.springs.empty());
-  EXPECT_EQ(scene.method, Method::kExact);
-  EXPECT_EQ(scene.dt, 1.0 / 240);
-  EXPECT_EQ(scene.tolerance, 1e-6);
+  EXPECT_EQ(scene.settings.method, Method::kExact);
+  EXPECT_EQ(scene.settings.dt, 1.0 / 240);
+  EXPECT_EQ(scene.settings.tolerance, 1e-6);
   EXPECT_EQ(scene.picture.width, 1280);
   EXPECT_EQ(scene.picture.height, 720);
   EXPECT_EQ(scene.picture.rate.text(), "30");
@@ -194,7 +194,7 @@ TEST(SceneReader, shippedScenesParse) {
 TEST(SceneReader, defaultSceneIsOneBoxInFourSeconds) {
   const Scene scene = readScene(kSource / "assets" / "scenes" / "careen.json");
   EXPECT_EQ(scene.boxes.size(), 1U);
-  EXPECT_EQ(scene.picture.rate.frameCount(scene.duration), 120);
+  EXPECT_EQ(scene.picture.rate.frameCount(scene.settings.duration), 120);
 }
 
 TEST(SceneReader, sampleOf1997HasItsFigures) {

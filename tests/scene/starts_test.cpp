@@ -11,7 +11,7 @@ namespace {
 // Two cubes of half size 1, overlapping by 0.5 m along x; the first one by 0.25 m in the floor.
 Scene overlapping(Method method) {
   Scene scene;
-  scene.method = method;
+  scene.settings.method = method;
   scene.walls.push_back({.name = "floor", .normal = Vec3::UnitZ(), .offset = 0, .material = {}});
   for (const double x : {0.0, 1.5}) {
     SceneBox box;

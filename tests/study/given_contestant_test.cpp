@@ -31,7 +31,7 @@ TEST(GivenContestant, hasTheErrorOfWhoMadeTheTable) {
        {"free-fall", "tumble-generic", "corner-impact", "sliding-spinning", "pile"}) {
     Case study = readCase(name);
     study.times.resize(std::min<std::size_t>(study.times.size(), 60));  // half of the pile's, to save time
-    const Answer answer = answerOf(study, *own[0], study.scene.tolerance, {});
+    const Answer answer = answerOf(study, *own[0], study.scene.settings.tolerance, {});
     const auto given =
         givenContestant({.label = "theirs",
                          .file = written(folder, tableOf(study.world, study.times, answer.states)),
@@ -49,7 +49,7 @@ TEST(GivenContestant, isAskedOnceAndNotTimed) {
   const Case study = readCase("free-fall");
   Contestants all = ownMethods();
   all.resize(1);
-  const States states = answerOf(study, *all[0], study.scene.tolerance, {}).states;
+  const States states = answerOf(study, *all[0], study.scene.settings.tolerance, {}).states;
   const std::string file = written(folder, tableOf(study.world, study.times, states));
   all.push_back(givenContestant({.label = "unknown cost", .file = file, .seconds = {}}, study));
   all.push_back(givenContestant({.label = "known cost", .file = file, .seconds = 0.5}, study));
@@ -72,7 +72,7 @@ TEST(GivenContestant, tellsWhereItHadToInterpolate) {
   for (int k = 1; k <= 7; ++k) {
     times.push_back(study.duration() * k / 7);
   }
-  const States states = own[0]->run(study.world, study.scene.tolerance, times, {});
+  const States states = own[0]->run(study.world, study.scene.settings.tolerance, times, {});
   const auto given = givenContestant(
       {.label = "theirs", .file = written(folder, tableOf(study.world, times, states)), .seconds = {}},
       study);
@@ -84,8 +84,8 @@ TEST(GivenContestant, whatIsNoAnswerIsRefused) {
   const Case study = readCase("free-fall");
   const Contestants own = ownMethods();
   const std::vector<double> half = {0.5 * study.duration()};
-  const std::string file =
-      written(folder, tableOf(study.world, half, own[0]->run(study.world, study.scene.tolerance, half, {})));
+  const std::string file = written(
+      folder, tableOf(study.world, half, own[0]->run(study.world, study.scene.settings.tolerance, half, {})));
   const auto refusalBy = [&](const Case& by) {
     return inputErrorOf([&] { givenContestant({.label = "theirs", .file = file, .seconds = {}}, by); });
   };

@@ -57,7 +57,7 @@ class Drifter : public Contestant {
 Case drift(Measure measure) {
   Case study;
   study.measure = measure;
-  study.scene.dt = 0.1;
+  study.scene.settings.dt = 0.1;
   study.world.bodies = {box("crate", Vec3(1, 2, 2), 1, Vec3::Zero(), Vec3(1, 0, 0))};
   study.times = {1, 4};
   for (const double time : study.times) {
@@ -197,7 +197,7 @@ TEST(Measuring, triesTolerancesWhereTheyMatter) {
                       .steps = {1},
                       .tolerances = {1, 0.5, 0.25}};
   Case study = drift(Measure::kPoses);
-  study.scene.tolerance = 0.4;
+  study.scene.settings.tolerance = 0.4;
   const std::vector<Attempt> attempts = attemptAll(study, contestants, effort, {});
   ASSERT_EQ(attempts.size(), 3U);
   for (const Attempt& attempt : attempts) {
@@ -230,7 +230,7 @@ TEST(Measuring, triesCoarserTolerancesTooAndSaysWhereAnswersStayTheSame) {
                       .steps = {1},
                       .tolerances = {4, 2, 1, 0.5}};
   Case study = drift(Measure::kPoses);
-  study.scene.tolerance = 0.1;
+  study.scene.settings.tolerance = 0.1;
   const CaseResult result = resultOf(study, attemptAll(study, contestants, effort, {}), "");
   ASSERT_EQ(result.attempts.size(), 3U);
   const std::vector<double> expected = {0.4, 0.2, 0.15};

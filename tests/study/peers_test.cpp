@@ -370,7 +370,7 @@ TEST_F(Peers, aTableOfTheirRunHasTheFiguresOfTheirAdapter) {
         continue;  // takes it minutes
       }
       const Case study = readCase(name);
-      const Answer answer = answerOf(study, peer, study.scene.dt, {});
+      const Answer answer = answerOf(study, peer, study.scene.settings.dt, {});
       writeFile(folder / "theirs.csv", tableOf(study.world, study.times, answer.states));
       const auto given = givenContestant(
           {.label = "theirs", .file = (folder / "theirs.csv").string(), .seconds = {}}, study);

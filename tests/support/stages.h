@@ -43,7 +43,7 @@ inline std::vector<Pose> posesOf(const Scene& scene) {
 inline Scene crateInRoom() {
   Scene scene;
   scene.name = "crate in a room";
-  scene.duration = 1;
+  scene.settings.duration = 1;
   scene.gravity = Vec3(0, 0, -9.81);
   scene.room.emplace();
   scene.room->min = Vec3(-3, -2, 0);

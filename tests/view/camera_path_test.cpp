@@ -18,10 +18,11 @@ constexpr double kAspect = 16.0 / 9;
 
 class CameraPathTest : public testing::Test {
  protected:
-  CameraPathTest() { scene_.duration = 8; }
+  CameraPathTest() { scene_.settings.duration = 8; }
 
   Camera at(double filmTime) const {
-    return CameraPath(shownAs(scene_, run_), scene_.timeMap.within(scene_.duration), kAspect).at(filmTime);
+    return CameraPath(shownAs(scene_, run_), scene_.timeMap.within(scene_.settings.duration), kAspect)
+        .at(filmTime);
   }
 
   Scene scene_ = crateInRoom();
@@ -126,7 +127,7 @@ TEST(CameraPath, twoKeysAreAnEaseFromRestToRest) {
 
 TEST_F(CameraPathTest, followsSteadyMotionExactly) {
   scene_.cameraMove.followed = 0;
-  run_.settings.duration = scene_.duration;
+  run_.settings.duration = scene_.settings.duration;
   for (const double time : {0.0, 0.05, 1.3, 4.0, 7.95, 8.0}) {
     const Vec3 moved = time * Vec3(1, 0.5, 0.25);
     EXPECT_LT((at(time).eye - scene_.camera->eye - moved).norm(), 1e-13) << time;
@@ -139,7 +140,7 @@ TEST_F(CameraPathTest, followsSteadyMotionExactly) {
 // A box that falls from a metre and bounces without loss, 4.5 m/s down and up again every 0.9 s.
 Scene bouncing() {
   Scene scene;
-  scene.duration = 6;
+  scene.settings.duration = 6;
   scene.gravity = Vec3(0, 0, -10);
   scene.walls.push_back(wallAt(Vec3::UnitZ(), 0));
   scene.walls[0].material.restitution = 1;
@@ -154,7 +155,7 @@ TEST(CameraPath, followingIsNotJerkedByImpactsAndKeepsTheBoxInThePicture) {
   const Scene scene = bouncing();
   const Trajectory run = runOf(scene);
   ASSERT_GT(run.impacts.size(), 5U);
-  const TimeMap clock = scene.timeMap.within(scene.duration);
+  const TimeMap clock = scene.timeMap.within(scene.settings.duration);
   const CameraPath path(run, clock, kAspect);
   const auto boxAtTime = [&](double time) { return run.state(0, time).pose.position; };
   constexpr double kStep = 1.0 / 512;
@@ -182,7 +183,7 @@ TEST(CameraPath, followingInSlowMotionIsSmoothInTheFilmsTime) {
   Scene scene = bouncing();
   scene.timeMap.keys = {{0, 0}, {0.4, 0.4}, {4.4, 0.6}, {4.8, 1}};
   const Trajectory run = runOf(scene);
-  const CameraPath path(run, scene.timeMap.within(scene.duration), kAspect);
+  const CameraPath path(run, scene.timeMap.within(scene.settings.duration), kAspect);
   // At 1/20 speed a throw is h² g / 6 / 400 off, 0.17 mm, but near the impact, at 1.3 s.
   const Vec3 moved = path.at(2.5).eye - scene.camera->eye;
   const Vec3 box = run.state(0, scene.timeMap.sceneTime(2.5)).pose.position - Vec3(0, 0, 1.2);
@@ -218,14 +219,14 @@ TEST(CameraPath, cameraThatNobodyPlacedSeesAllBoxesAllTheTimeAndNotMuchMore) {
     scene.camera.reset();
     scene.cameraMove = {};
     scene.timeMap = {};
-    scene.duration = std::min(scene.duration, 20.0);
+    scene.settings.duration = std::min(scene.settings.duration, 20.0);
     const Trajectory run = runOf(scene);
     for (const double aspect : {kAspect, 0.6}) {
-      const CameraPath path(run, scene.timeMap.within(scene.duration), aspect);
+      const CameraPath path(run, scene.timeMap.within(scene.settings.duration), aspect);
       const double out = farthestOut(scene, run, path.at(0), aspect);
       EXPECT_LT(out, 0.97) << name << ' ' << aspect;
       EXPECT_GT(out, 0.85) << name << ' ' << aspect;
-      EXPECT_EQ(path.at(0).eye, path.at(scene.duration).eye) << name;
+      EXPECT_EQ(path.at(0).eye, path.at(scene.settings.duration).eye) << name;
     }
   }
 }

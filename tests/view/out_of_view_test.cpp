@@ -16,7 +16,7 @@ namespace {
 Scene twoBoxes() {
   Scene scene;
   scene.gravity = Vec3::Zero();
-  scene.duration = 4;
+  scene.settings.duration = 4;
   scene.boxes.push_back(boxAt(Vec3(0, 0, 1), Vec3(0.2, 0.2, 0.2)));
   scene.boxes.push_back(boxAt(Vec3(0, 0, 2), Vec3(0.2, 0.2, 0.2)));
   scene.boxes[0].name = "stays";

@@ -17,7 +17,7 @@ TEST(SceneExtent, isTheRoomWhereThereIsOne) {
 // Up at 10 m/s under 10 m/s²: the top is 5 m above the start after 1 s, and after 2 s it is back.
 TEST(SceneExtent, followsAThrowToItsTop) {
   Scene scene;
-  scene.duration = 2;
+  scene.settings.duration = 2;
   scene.gravity = Vec3(0, 0, -10);
   scene.boxes.push_back(boxAt(Vec3(1, 1, 1), Vec3(0.3, 0.4, 1.2)));  // corners 1.3 m from the middle
   scene.boxes[0].velocity = Vec3(0, 0, 10);
@@ -29,7 +29,7 @@ TEST(SceneExtent, followsAThrowToItsTop) {
 
 TEST(SceneExtent, endsBehindAWall) {
   Scene scene;
-  scene.duration = 10;
+  scene.settings.duration = 10;
   scene.gravity = Vec3(0, 0, -10);
   scene.boxes.push_back(boxAt(Vec3(0, 0, 5), Vec3(0.1, 0.1, 0.1)));
   scene.walls.push_back(wallAt(Vec3::UnitZ(), 0));

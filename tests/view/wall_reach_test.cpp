@@ -13,7 +13,7 @@ namespace {
 Scene sliding() {
   Scene scene;
   scene.gravity = Vec3::Zero();
-  scene.duration = 4;
+  scene.settings.duration = 4;
   scene.boxes.push_back(boxAt(Vec3(1, 2, 0.5), Vec3(0.5, 0.5, 0.5)));
   scene.boxes[0].velocity = Vec3(7, 0, 0);
   scene.walls.push_back(wallAt(Vec3::UnitZ(), 0));

@@ -36,9 +36,7 @@
   X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                       \
   X(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)                       \
   X(PFNGLDRAWARRAYSPROC, DrawArrays)                                         \
-  X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)                       \
   X(PFNGLDRAWELEMENTSPROC, DrawElements)                                     \
-  X(PFNGLBLENDEQUATIONPROC, BlendEquation)                                   \
   X(PFNGLUNIFORM1FPROC, Uniform1f)                                           \
   X(PFNGLCREATESHADERPROC, CreateShader)                                     \
   X(PFNGLDELETESHADERPROC, DeleteShader)                                     \
@@ -52,8 +50,6 @@
   X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                     \
   X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                           \
   X(PFNGLUSEPROGRAMPROC, UseProgram)                                         \
-  X(PFNGLGETUNIFORMBLOCKINDEXPROC, GetUniformBlockIndex)                     \
-  X(PFNGLUNIFORMBLOCKBINDINGPROC, UniformBlockBinding)                       \
   X(PFNGLGENTEXTURESPROC, GenTextures)                                       \
   X(PFNGLBINDTEXTUREPROC, BindTexture)                                       \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                         \
@@ -67,8 +63,6 @@
   X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)                             \
   X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample) \
   X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                               \
-  X(PFNGLDRAWBUFFERPROC, DrawBuffer)                                         \
-  X(PFNGLREADBUFFERPROC, ReadBuffer)                                         \
   X(PFNGLREADPIXELSPROC, ReadPixels)                                         \
   X(PFNGLPIXELSTOREIPROC, PixelStorei)                                       \
   X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                   \

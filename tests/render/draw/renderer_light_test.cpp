@@ -105,8 +105,8 @@ std::vector<Shown> madeUp() {
 // start: where they come to lie matters less here than how long it takes to know.
 Shown atMoment(const std::string& name, double moment, int every) {
   Scene scene = readScene(std::filesystem::path(CAREEN_SOURCE_DIR) / "assets/scenes" / (name + ".json"));
-  scene.duration = moment;
-  scene.crowds = {.when = CrowdSettings::When::kAbove, .above = 1};
+  scene.settings.duration = moment;
+  scene.settings.crowds = {.when = CrowdSettings::When::kAbove, .above = 1};
   scene.picture.antialiasing = Antialiasing::kOff;
   return {
       .name = name, .setup = setupOf(scene, 640, 360), .poses = runOf(scene).poses(moment), .every = every};

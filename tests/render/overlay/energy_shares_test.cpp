@@ -12,7 +12,7 @@ namespace {
 // Dropped flat from rest: 2 kg fall 0.8 m to the floor under 10 m/s², and bounce to e² of that.
 Scene dropped(double restitution) {
   Scene scene;
-  scene.duration = 1.2;
+  scene.settings.duration = 1.2;
   scene.gravity = Vec3(0, 0, -10);
   scene.room.emplace();
   scene.room->min = Vec3(-2, -2, 0);
@@ -46,7 +46,7 @@ TEST(EnergyShares, bounceTakesWhatRestitutionSays) {
 
 TEST(EnergyShares, sumStaysInAnElasticRoom) {
   Scene scene = crateInRoom();
-  scene.duration = 10;
+  scene.settings.duration = 10;
   scene.room->open = {};
   scene.room->material.restitution = 1;
   scene.boxes[0].velocity = Vec3(3, 2, 1);

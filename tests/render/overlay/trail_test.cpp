@@ -7,7 +7,7 @@ using TrailOverlay = OverlayPictures;
 
 // How strong a point of a trail is tells its time: there and then the corner was.
 TEST_F(TrailOverlay, trailGoesThroughTheCornersPlaces) {
-  scene_.duration = 3;
+  scene_.settings.duration = 3;
   scene_.boxes[0].velocity = Vec3(2, 0.3, 1);
   scene_.boxes[0].angularVelocity = Vec3(3, 7, -2);
   simulate();
