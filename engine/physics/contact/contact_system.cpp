@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "physics/contact/three_at.h"
-#include "physics/geometry/tangents.h"
+#include "physics/geometry/contact_frame.h"
 #include "physics/solver/contact_rows.h"
 #include "physics/world/forces.h"
 
@@ -122,14 +122,13 @@ void ContactSystem::fillContacts() {
     const ContactFeature& feature = features_[c];
     const ContactState& state = states_[c];
     ContactForces::Contact& contact = forces_.contacts()[c];
-    const Tangents tangents = tangentsOf(state.normal);
-    const std::array<Vec3, 3> directions{state.normal, tangents.first, tangents.second};
+    const ContactFrame frame = frameOf(state.normal);
     const auto a = static_cast<std::size_t>(feature.a);
     const auto addSide = [&](std::size_t body, std::size_t side, const Vec3& arm, double sign) {
       if (places_[body] == kHeld) {
         return ContactForces::kNobody;
       }
-      setSide(contact, side, pointSide(directions, arm, sign),
+      setSide(contact, side, pointSide(frame.axes(), arm, sign),
               bodies_[body].body->mass.worldFromPrincipal(kinematics_[body].pose.worldFromBody));
       return static_cast<int>(places_[body]);
     };
@@ -138,8 +137,8 @@ void ContactSystem::fillContacts() {
     if (!feature.b.isWall()) {
       contact.b = addSide(static_cast<std::size_t>(feature.b.body()), 1, state.armB, -1);
     }
-    contact.target = {-state.gapBias, -dot(state.slipBias, tangents.first),
-                      -dot(state.slipBias, tangents.second)};
+    contact.target = {-state.gapBias, -dot(state.slipBias, frame.tangent1),
+                      -dot(state.slipBias, frame.tangent2)};
     contact.friction = feature.material.friction;
     const double speed = state.slip.norm();
     const bool slips = speed > restSpeed_;
@@ -147,11 +146,11 @@ void ContactSystem::fillContacts() {
     contact.directions.clear();
     for (const Vec3& direction : state.directions) {
       if (dot(direction, state.velocity()) >= -restSpeed_) {  // those that are approached part nothing
-        contact.directions.push_back(alongRows(direction, directions));
+        contact.directions.push_back(frame.along(direction));
       }
     }
     const Vec3 direction = slips ? Vec3(state.slip / speed) : onset_[c];
-    contact.slip = {dot(direction, tangents.first), dot(direction, tangents.second)};
+    contact.slip = {dot(direction, frame.tangent1), dot(direction, frame.tangent2)};
   }
 }
 
@@ -200,11 +199,11 @@ bool ContactSystem::findModes(std::span<const double> y) {
   guess_.assign(forces_.forces().begin(), forces_.forces().end());
   guessedFriction_.resize(features_.size());
   for (std::size_t c = 0; c < features_.size(); ++c) {
-    const Tangents tangents = tangentsOf(states_[c].normal);
-    guessedFriction_[c] = guess_[c][1] * tangents.first + guess_[c][2] * tangents.second;
+    const ContactFrame frame = frameOf(states_[c].normal);
+    guessedFriction_[c] = frame.across(guess_[c][1], guess_[c][2]);
     if (modes_[c] == Mode::kSlip) {
       const auto& slip = forces_.contacts()[c].slip;
-      onset_[c] = slip[0] * tangents.first + slip[1] * tangents.second;
+      onset_[c] = frame.across(slip[0], slip[1]);
     }
   }
   return found;
@@ -215,9 +214,9 @@ bool ContactSystem::rate(std::span<const double> y, std::vector<double>& dy) {
   fillContacts();
   findFree();
   for (std::size_t c = 0; c < guess_.size(); ++c) {
-    const Tangents tangents = tangentsOf(states_[c].normal);
-    guess_[c][1] = dot(guessedFriction_[c], tangents.first);
-    guess_[c][2] = dot(guessedFriction_[c], tangents.second);
+    const ContactFrame frame = frameOf(states_[c].normal);
+    guess_[c][1] = dot(guessedFriction_[c], frame.tangent1);
+    guess_[c][2] = dot(guessedFriction_[c], frame.tangent2);
   }
   const bool found = forces_.solveGiven(free_, modes_, guess_);
   dy.resize(y.size());
@@ -321,9 +320,9 @@ double ContactSystem::projectPositions(std::vector<double>& y, double most, bool
       ContactForces::Contact& contact = forces_.contacts()[c];
       contact.target = {-states_[c].gap, 0, 0};
       if (holdsSideways(c)) {
-        const Tangents tangents = tangentsOf(states_[c].normal);
-        contact.target = {-states_[c].gap, -dot(states_[c].offset, tangents.first),
-                          -dot(states_[c].offset, tangents.second)};
+        const ContactFrame frame = frameOf(states_[c].normal);
+        contact.target = {-states_[c].gap, -dot(states_[c].offset, frame.tangent1),
+                          -dot(states_[c].offset, frame.tangent2)};
       }
     }
     solveGiven(still);

@@ -6,7 +6,7 @@
 #include "core/math/order_free_sum.h"
 #include "physics/contact/implicit_step.h"
 #include "physics/contact/three_at.h"
-#include "physics/geometry/tangents.h"
+#include "physics/geometry/contact_frame.h"
 #include "physics/solver/contact_rows.h"
 
 // Contacts of a step: where they are, their equations, the impulses that solve them.
@@ -16,9 +16,9 @@ namespace {
 
 // [N s] What a contact's last forces give in `h` [s]: along the normal and the tangents.
 ContactProblem::Triple impulseOf(const ClosedContact& contact, const Vec3& normal, double h) {
-  const Tangents tangents = tangentsOf(normal);
-  return {h * contact.push, h * dot(contact.friction, tangents.first),
-          h * dot(contact.friction, tangents.second)};
+  const ContactFrame frame = frameOf(normal);
+  return {h * contact.push, h * dot(contact.friction, frame.tangent1),
+          h * dot(contact.friction, frame.tangent2)};
 }
 
 }  // namespace
@@ -97,11 +97,10 @@ void ImplicitStep::placeBodies(std::span<const ContactFeature> contacts) {
 // Rows of a contact: arms and normal of `geometry`, angular velocities in the frames `turned_`.
 void ImplicitStep::addRows(const ContactFeature& feature, const ContactState& geometry) {
   ContactProblem::Contact contact;
-  const Tangents tangents = tangentsOf(geometry.normal);
-  const std::array<Vec3, 3> directions{geometry.normal, tangents.first, tangents.second};
+  const ContactFrame frame = frameOf(geometry.normal);
   const auto addSide = [&](std::size_t body, std::size_t side, const Vec3& arm, double sign) {
     if (places_[body] != ContactProblem::kNobody) {
-      setSide(contact, side, pointSide(directions, arm, sign), turned_[body]);
+      setSide(contact, side, pointSide(frame.axes(), arm, sign), turned_[body]);
     }
     return places_[body];
   };
@@ -111,7 +110,7 @@ void ImplicitStep::addRows(const ContactFeature& feature, const ContactState& ge
   }
   contact.friction = feature.material.friction;
   for (const Vec3& direction : geometry.directions) {
-    contact.directions.push_back(alongRows(direction, directions));
+    contact.directions.push_back(frame.along(direction));
   }
   problem_.contacts.push_back(contact);
 }
@@ -141,9 +140,9 @@ void ImplicitStep::fillFree(const GroupState& from, double h) {
 // The law holds for the velocities at the end of the step, where arms and normal are others than in the rows.
 void ImplicitStep::aimAtEnd(std::size_t index, const ContactFeature& feature, const GroupState& to) {
   ContactProblem::Contact& contact = problem_.contacts[index];
-  const Tangents tangents = tangentsOf(geometry_[index].normal);
+  const ContactFrame frame = frameOf(geometry_[index].normal);
   const ContactState& end = ends_[index];
-  const std::array<double, 3> actual{end.rate, dot(end.slip, tangents.first), dot(end.slip, tangents.second)};
+  const std::array<double, 3> actual{end.rate, dot(end.slip, frame.tangent1), dot(end.slip, frame.tangent2)};
   for (std::size_t row = 0; row < 3; ++row) {
     double speed = 0;
     const std::array<int, 2> sides{contact.a, contact.b};
@@ -170,10 +169,7 @@ void ImplicitStep::addImpulses(std::span<const ContactFeature> features) {
     parts.clear();
   }
   for (std::size_t c = 0; c < features.size(); ++c) {
-    const Tangents tangents = tangentsOf(geometry_[c].normal);
-    const ContactProblem::Triple& impulse = solution_.impulses[c];
-    const Vec3 push =
-        impulse[0] * geometry_[c].normal + (impulse[1] * tangents.first + impulse[2] * tangents.second);
+    const Vec3 push = frameOf(geometry_[c].normal).inWorld(solution_.impulses[c]);
     const auto add = [&](int body, const Vec3& arm, double sign) {
       const Vec3 twist = sign * arm.cross(push);
       parts_[static_cast<std::size_t>(body)].push_back(
@@ -240,9 +236,8 @@ bool ImplicitStep::findImpulses(const GroupState& from, double h, bool first,
   }
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const ContactProblem::Triple& impulse = solution_.impulses[c];
-    const Tangents tangents = tangentsOf(geometry_[c].normal);
     contacts[c].push = impulse[0] / h;
-    contacts[c].friction = (impulse[1] * tangents.first + impulse[2] * tangents.second) / h;
+    contacts[c].friction = frameOf(geometry_[c].normal).across(impulse[1], impulse[2]) / h;
   }
   addImpulses(features_);
   moveArms(from, h);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "physics/geometry/tangents.h"
+#include "physics/geometry/contact_frame.h"
 #include "physics/solver/contact_rows.h"
 
 namespace careen {
@@ -64,15 +64,14 @@ double inverseEffectiveMass(const Setup& setup, const ContactProblem::Contact& c
 
 void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactContact& contact) {
   ContactProblem::Contact added;
-  const Tangents tangents = tangentsOf(contact.normal);
-  const std::array<Vec3, 3> directions{contact.normal, tangents.first, tangents.second};
+  const std::array<Vec3, 3> axes = frameOf(contact.normal).axes();
   const auto a = static_cast<std::size_t>(contact.a);
   added.a = setup.movableOf[a];
-  setSide(added, 0, pointSide(directions, contact.armA, 1), principalAxes(bodies[a]));
+  setSide(added, 0, pointSide(axes, contact.armA, 1), principalAxes(bodies[a]));
   if (!contact.b.isWall()) {
     const auto b = static_cast<std::size_t>(contact.b.body());
     added.b = setup.movableOf[b];
-    setSide(added, 1, pointSide(directions, contact.armB, -1), principalAxes(bodies[b]));
+    setSide(added, 1, pointSide(axes, contact.armB, -1), principalAxes(bodies[b]));
   }
   const double normal = inverseEffectiveMass(setup, added);
   if (!(normal > 0) || !std::isfinite(normal)) {

@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "core/math/order_free_sum.h"
-#include "physics/geometry/tangents.h"
+#include "physics/geometry/contact_frame.h"
 #include "physics/impact/impact_problem.h"
 #include "physics/impact/single_impact.h"
 #include "physics/solver/contact_solver.h"
@@ -399,9 +399,8 @@ ContactResiduals resolveTogether(std::span<const ImpactBody> bodies, std::span<c
   const Impulses impulses = law.resolve();
   std::vector<Vec3> world(contacts.size());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const Tangents tangents = tangentsOf(contacts[c].normal);
     const Impulse& j = impulses[c];
-    world[c] = j[0] * contacts[c].normal + (j[1] * tangents.first + j[2] * tangents.second);
+    world[c] = frameOf(contacts[c].normal).inWorld(j);
     shares[c] = {.approach = law.approach(c),
                  .impulse = j[0],
                  .tangential = std::sqrt(j[1] * j[1] + j[2] * j[2]),

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/math/double_double.h"
-#include "physics/geometry/tangents.h"
+#include "physics/geometry/contact_frame.h"
 
 namespace careen {
 namespace {
@@ -146,28 +146,28 @@ Plane frictionImpulse(const Slip& slip, double friction) {
   return impulseAt(slip, inside);
 }
 
-Slip slipOf(const ImpactBody& a, const ImpactBody* b, const ImpactContact& contact, const Tangents& tangents,
+Slip slipOf(const ImpactBody& a, const ImpactBody* b, const ImpactContact& contact, const ContactFrame& frame,
             double inverseEffectiveMass, double approach) {
   const Vec3& n = contact.normal;
   Vec3 velocity = pointVelocity(a, contact.armA);
   Vec3 byNormal = yield(a, contact.armA, n);
-  Vec3 byFirst = yield(a, contact.armA, tangents.first);
-  Vec3 bySecond = yield(a, contact.armA, tangents.second);
+  Vec3 byFirst = yield(a, contact.armA, frame.tangent1);
+  Vec3 bySecond = yield(a, contact.armA, frame.tangent2);
   if (b != nullptr) {
     velocity -= pointVelocity(*b, contact.armB);
     byNormal += yield(*b, contact.armB, n);
-    byFirst += yield(*b, contact.armB, tangents.first);
-    bySecond += yield(*b, contact.armB, tangents.second);
+    byFirst += yield(*b, contact.armB, frame.tangent1);
+    bySecond += yield(*b, contact.armB, frame.tangent2);
   }
-  const Plane across{.x = dot(byNormal, tangents.first), .y = dot(byNormal, tangents.second)};
+  const Plane across{.x = dot(byNormal, frame.tangent1), .y = dot(byNormal, frame.tangent2)};
   const double compression = approach / inverseEffectiveMass;
   Slip slip;
   slip.coupling = {.x = across.x / inverseEffectiveMass, .y = across.y / inverseEffectiveMass};
-  slip.speed = {.x = dot(velocity, tangents.first) + across.x * compression,
-                .y = dot(velocity, tangents.second) + across.y * compression};
-  slip.xx = dot(byFirst, tangents.first) - across.x * slip.coupling.x;
-  slip.xy = dot(byFirst, tangents.second) - across.x * slip.coupling.y;
-  slip.yy = dot(bySecond, tangents.second) - across.y * slip.coupling.y;
+  slip.speed = {.x = dot(velocity, frame.tangent1) + across.x * compression,
+                .y = dot(velocity, frame.tangent2) + across.y * compression};
+  slip.xx = dot(byFirst, frame.tangent1) - across.x * slip.coupling.x;
+  slip.xy = dot(byFirst, frame.tangent2) - across.x * slip.coupling.y;
+  slip.yy = dot(bySecond, frame.tangent2) - across.y * slip.coupling.y;
   slip.normalImpulse = (1 + contact.material.restitution) * compression;
   return slip;
 }
@@ -206,11 +206,11 @@ ImpactShare resolveSingleImpact(const ImpactBody& a, const ImpactBody* b, const 
 
   Vec3 frictional = Vec3::Zero();
   if (contact.material.friction > 0) {
-    const Tangents tangents = tangentsOf(n);
-    const Slip slip = slipOf(a, b, contact, tangents, inverseEffectiveMass.hi, share.approach);
+    const ContactFrame frame = frameOf(n);
+    const Slip slip = slipOf(a, b, contact, frame, inverseEffectiveMass.hi, share.approach);
     const Plane j = frictionImpulse(slip, contact.material.friction);
     const double normalPart = -(slip.coupling.x * j.x + slip.coupling.y * j.y);
-    frictional = j.x * tangents.first + j.y * tangents.second + normalPart * n;
+    frictional = frame.across(j.x, j.y) + normalPart * n;
     share.impulse += normalPart;
     share.tangential = std::sqrt(j.x * j.x + j.y * j.y);
   }

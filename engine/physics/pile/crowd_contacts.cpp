@@ -281,7 +281,7 @@ PileSolver::Extent Crowd::lookForRows(PileManifold& manifold) const {
   const double mayClose =
       std::min(kAllowance * manifold.length, kAllowedDepth * tolerance_ + kAllowedSpeed * h_ * pushing);
   PileSolver::Extent rows;
-  const PileFrame* begun = nullptr;
+  const ContactFrame* begun = nullptr;
   manifold.meets = manifold.strikes = false;
   for (int k = 0; k < manifold.count; ++k) {
     PilePoint& point = manifold.points[at(k)];
@@ -311,7 +311,7 @@ void Crowd::addRows(PileManifold& manifold, PileSolver::Extent next) {
   const double together = kTogether * tolerance_;
   const double scale = std::min(span_ / manifold.span, kMostScaled);
   for (int k = 0; k < manifold.count;) {
-    const PileFrame& frame = manifold.frameOf(k);
+    const ContactFrame& frame = manifold.frameOf(k);
     const int first = next.rows;
     for (; k < manifold.count && &manifold.frameOf(k) == &frame; ++k) {
       PilePoint& point = manifold.points[at(k)];
@@ -365,13 +365,13 @@ void Crowd::addPresentRows(const PileManifold& manifold) {
   const Vec3 apart = manifold.b.isWall()
                          ? Vec3(Vec3::Zero())
                          : Vec3(bodies_[at(manifold.a)].position - bodyAt(manifold.b).position);
-  const PileFrame* begun = nullptr;
+  const ContactFrame* begun = nullptr;
   for (int k = 0; k < manifold.count; ++k) {
     const PilePoint& point = manifold.points[at(k)];
     if (point.row < 0) {
       continue;
     }
-    const PileFrame& frame = manifold.frameOf(k);
+    const ContactFrame& frame = manifold.frameOf(k);
     if (begun != &frame) {
       solver_.beginBlock(manifold.a, manifold.b, manifold.friction, frame, apart);
       begun = &frame;

@@ -60,7 +60,7 @@ Vec3 Crowd::spinRate(int body) const {
 // normal of an edge pair stays perpendicular to both edges: ṅ·e = −n·(ω × e).
 double Crowd::secondOrder(const PileManifold& manifold, int k) const {
   const Vec3& arm = manifold.points[at(k)].world;
-  const PileFrame& frame = manifold.frameOf(k);
+  const ContactFrame& frame = manifold.frameOf(k);
   const Vec3& n = frame.normal;
   const auto along = [&](int body, const Vec3& to) {  // of the point's acceleration
     if (bends_[at(body)] == 0) {

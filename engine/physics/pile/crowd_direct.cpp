@@ -80,10 +80,10 @@ bool Crowd::solveDirectly() {
     contact.target = {row.bound, 0, 0};
     solution_.impulses[k] = row.impulse;
     if (contact.a != ContactProblem::kNobody) {
-      setSide(contact, 0, pointSide(row.directions, row.armA, 1), bodies_[at(row.a)].principalAxes());
+      setSide(contact, 0, pointSide(row.axes, row.armA, 1), bodies_[at(row.a)].principalAxes());
     }
     if (contact.b != ContactProblem::kNobody) {
-      setSide(contact, 1, pointSide(row.directions, row.armB, -1), bodies_[at(row.b)].principalAxes());
+      setSide(contact, 1, pointSide(row.axes, row.armB, -1), bodies_[at(row.b)].principalAxes());
     }
   }
   addImpulses(-1);

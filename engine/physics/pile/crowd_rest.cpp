@@ -252,7 +252,7 @@ Vec3 Crowd::forceOf(const PileManifold& manifold) {
 // [N s] On a, in the last step.
 Vec3 Crowd::impulseOf(const PileManifold& manifold, int k) {
   const PilePoint& point = manifold.points[at(k)];
-  const PileFrame& frame = manifold.frameOf(k);
+  const ContactFrame& frame = manifold.frameOf(k);
   return point.normalImpulse * frame.normal + point.tangential1 * frame.tangent1 +
          point.tangential2 * frame.tangent2;
 }

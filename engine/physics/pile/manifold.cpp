@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/geometry/contact_frame.h"
 #include "physics/geometry/separation.h"
-#include "physics/geometry/tangents.h"
 #include "physics/pile/axes.h"
 #include "physics/pile/clip.h"
 #include "physics/pile/index.h"
@@ -193,7 +193,7 @@ void addClosest(const PileBody& a, const PileBody& b, double reach, PileManifold
   manifold.closest = true;
   manifold.faces = kClosestFeature;
   manifold.planeNormal = a.axes.transpose() * (apart / distance);
-  manifold.planeTangent = tangentsOf(manifold.planeNormal).first;
+  manifold.planeTangent = frameOf(manifold.planeNormal).tangent1;
   manifold.planeOffset = dot(manifold.planeNormal, a.axes.transpose() * (onA - a.middle()));
   addPoint(manifold, b.axes.transpose() * (onB - b.middle()), kClosestFeature);
 }
@@ -233,8 +233,7 @@ bool buildManifold(const PileBody& a, const Wall& wall, double reach, PileManifo
   manifold.count = 0;
   manifold.moved = 0;
   manifold.planeOfB = true;
-  const Tangents tangents = tangentsOf(wall.normal);
-  manifold.plane = {.normal = wall.normal, .tangent1 = tangents.first, .tangent2 = tangents.second};
+  manifold.plane = frameOf(wall.normal);
   const Vec3 up = a.axes.transpose() * wall.normal;
   const double height = gap(wall, a.middle());
   manifold.separation = height - dot(a.halfExtents, up.cwiseAbs());

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/math/linear_algebra.h"
+#include "physics/geometry/contact_frame.h"
 #include "physics/pile/body.h"
 #include "physics/world/partner.h"
 
@@ -34,14 +35,6 @@ struct PilePoint {
   int row = -1;          ///< in the solver, −1: too far to meet
 };
 
-/// Contact frame: normal from b to a, and two tangents (right-handed) fixed in the body that owns the
-/// reference plane.
-struct PileFrame {
-  Vec3 normal = Vec3::UnitZ();
-  Vec3 tangent1 = Vec3::UnitX();
-  Vec3 tangent2 = Vec3::UnitY();
-};
-
 /// Contact manifold of two boxes, or a box and a wall. Gaps are exact functions of the two poses for fixed
 /// features: points of one box against a reference plane of the other, no deeper than the one edge pair.
 struct PileManifold {
@@ -70,8 +63,8 @@ struct PileManifold {
   Vec3 middleB = Vec3::Zero();  ///< [m] b's frame
   double edgeSign = 1;          ///< sign for which a's edge × b's edge points from b to a
 
-  PileFrame plane;
-  PileFrame edges;
+  ContactFrame plane;  ///< normal from b to a, tangents fixed in the body that owns the reference plane
+  ContactFrame edges;
   int count = 0;
   std::array<PilePoint, kMost> points;
 
@@ -93,7 +86,7 @@ struct PileManifold {
     count = 0;
     moved = separation = reach = 0;
   }
-  const PileFrame& frameOf(int point) const { return hasEdges && point == count - 1 ? edges : plane; }
+  const ContactFrame& frameOf(int point) const { return hasEdges && point == count - 1 ? edges : plane; }
 };
 
 /// Rebuilds the manifold with points of gap up to `reach` [m]; impulses of persisting features are kept. If

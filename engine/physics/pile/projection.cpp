@@ -177,7 +177,7 @@ void PileProjection::solve(int number) {
                     .b = mover(row.b),
                     .armA = row.armA,
                     .armB = row.armB,
-                    .normal = row.directions[0],
+                    .normal = row.axes[0],
                     .bound = row.bound});
   }
   gradients_.solve(kEnough * tolerance_, holds() ? kHoldingGradients : kGradients);
@@ -210,7 +210,7 @@ void PileProjection::fillSolver() {
     const Vec3 apart = manifold.b.isWall()
                            ? Vec3(Vec3::Zero())
                            : Vec3(bodies_[at(manifold.a)].position - bodies_[at(manifold.b.body())].position);
-    const PileFrame* begun = nullptr;
+    const ContactFrame* begun = nullptr;
     std::optional<PileManifold> before;
     if (holds()) {
       takeBack_(before.emplace(manifold));
@@ -219,7 +219,7 @@ void PileProjection::fillSolver() {
     for (int k = 0; k < manifold.count; ++k) {
       const PilePoint& point = manifold.points[at(k)];
       if (point.gap < kNear * manifold.length) {
-        const PileFrame& frame = manifold.frameOf(k);
+        const ContactFrame& frame = manifold.frameOf(k);
         if (begun != &frame) {
           solver_.beginBlock(manifold.a, manifold.b, 0, frame, apart);
           begun = &frame;

@@ -43,7 +43,7 @@ void PileSolver::setBody(int index, const PileBody& body, double change) {
   inertia.yz = entry(1, 2);
 }
 
-void PileSolver::beginBlock(int a, Partner b, double friction, const PileFrame& frame, const Vec3& apart) {
+void PileSolver::beginBlock(int a, Partner b, double friction, const ContactFrame& frame, const Vec3& apart) {
   blocks_.emplace_back();
   setBlock({.blocks = static_cast<int>(blocks_.size()) - 1, .rows = static_cast<int>(staged_.size())}, 0, a,
            b, friction, frame, apart);
@@ -54,8 +54,8 @@ void PileSolver::reserve(Extent all) {
   staged_.resize(at(all.rows));
 }
 
-void PileSolver::setBlock(Extent index, int count, int a, Partner b, double friction, const PileFrame& frame,
-                          const Vec3& apart) {
+void PileSolver::setBlock(Extent index, int count, int a, Partner b, double friction,
+                          const ContactFrame& frame, const Vec3& apart) {
   blocks_[at(index.blocks)] = {.a = a,
                                .b = indexOf(b),
                                .first = index.rows,
@@ -83,7 +83,7 @@ PileSolver::RowView PileSolver::row(int row) const {
           .b = block.b,
           .armA = staged.arm,
           .armB = staged.arm + block.apart,
-          .directions = {block.frame.normal, block.frame.tangent1, block.frame.tangent2},
+          .axes = block.frame.axes(),
           .friction = block.friction,
           .bound = rows_[rowAt(row)].bound[laneOf(row)],
           .impulse = {normalImpulse(row), tangential1(row), tangential2(row)}};
@@ -335,8 +335,7 @@ double PileSolver::normalSpeed(int row) const {
   const RowView view = this->row(row);
   const Moving& a = moving_[at(view.a)];
   const Moving& b = moving_[at(view.b)];
-  return dot(view.directions[0],
-             a.velocity + a.omega.cross(view.armA) - b.velocity - b.omega.cross(view.armB));
+  return dot(view.axes[0], a.velocity + a.omega.cross(view.armA) - b.velocity - b.omega.cross(view.armB));
 }
 
 void PileSolver::beginShifts(double h) {

@@ -71,7 +71,7 @@ class PileSolver {
   bool pushed(int body) const { return moving_[at(body)].pushed != 0; }
 
   /// Rows of a manifold with one frame follow with add(); `apart` [m] is from b's centre to a's.
-  void beginBlock(int a, Partner b, double friction, const PileFrame& frame, const Vec3& apart);
+  void beginBlock(int a, Partner b, double friction, const ContactFrame& frame, const Vec3& apart);
   struct Row {
     Vec3 arm = Vec3::Zero();  ///< [m] from a's centre
     double bound = 0;         ///< [m/s] lower bound of v_n
@@ -90,7 +90,7 @@ class PileSolver {
     int rows = 0;
   };
   void reserve(Extent all);
-  void setBlock(Extent index, int count, int a, Partner b, double friction, const PileFrame& frame,
+  void setBlock(Extent index, int count, int a, Partner b, double friction, const ContactFrame& frame,
                 const Vec3& apart);
   void setRow(int index, const Row& row) { staged_[at(index)] = row; }
   /// After the last add(): groups blocks, and builds the contact graph. solve() starts with what wakeAll() or
@@ -126,7 +126,7 @@ class PileSolver {
     int b = 0;
     Vec3 armA;
     Vec3 armB;
-    std::array<Vec3, 3> directions;  ///< normal, tangent, tangent
+    std::array<Vec3, 3> axes;  ///< normal, tangent, tangent
     double friction = 0;
     double bound = 0;
     std::array<double, 3> impulse{};
@@ -183,7 +183,7 @@ class PileSolver {
     int first = 0;  // row
     int count = 0;
     double friction = 0;
-    PileFrame frame;
+    ContactFrame frame;
     Vec3 apart;
     std::size_t part = 0;
     int place = -1;  // kLanes × group + lane

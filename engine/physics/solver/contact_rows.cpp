@@ -2,11 +2,11 @@
 
 namespace careen {
 
-RowSide pointSide(const std::array<Vec3, 3>& directions, const Vec3& arm, double sign) {
+RowSide pointSide(const std::array<Vec3, 3>& axes, const Vec3& arm, double sign) {
   RowSide side;
   for (std::size_t row = 0; row < 3; ++row) {
-    side.linear[row] = sign * directions[row];
-    side.turning[row] = sign * arm.cross(directions[row]);
+    side.linear[row] = sign * axes[row];
+    side.turning[row] = sign * arm.cross(axes[row]);
   }
   return side;
 }
@@ -22,10 +22,6 @@ void setSide(ContactProblem::Contact& contact, std::size_t side, const RowSide& 
       values[3 + k] = turning[axis];
     }
   }
-}
-
-ContactProblem::Triple alongRows(const Vec3& direction, const std::array<Vec3, 3>& rows) {
-  return {dot(direction, rows[0]), dot(direction, rows[1]), dot(direction, rows[2])};
 }
 
 }  // namespace careen

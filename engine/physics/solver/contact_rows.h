@@ -14,16 +14,13 @@ struct RowSide {
   std::array<Vec3, 3> turning;  ///< t [m]
 };
 
-/// Of a point of the body: its velocity along each direction, times `sign`. `arm` [m]: world, from the centre
+/// Of a point of the body: its velocity along each axis, times `sign`. `arm` [m]: world, from the centre
 /// of mass to the point.
-RowSide pointSide(const std::array<Vec3, 3>& directions, const Vec3& arm, double sign);
+RowSide pointSide(const std::array<Vec3, 3>& axes, const Vec3& arm, double sign);
 
 /// Writes the rows of a's side (0) or b's (1). Turning is along the principal axes, where the mass matrix is
 /// diagonal.
 void setSide(ContactProblem::Contact& contact, std::size_t side, const RowSide& rows,
              const Mat3& worldFromPrincipal);
-
-/// A direction of the world along the rows' directions.
-ContactProblem::Triple alongRows(const Vec3& direction, const std::array<Vec3, 3>& rows);
 
 }  // namespace careen

@@ -42,7 +42,7 @@ std::vector<double> solved(bool wide) {
   for (int k = 0; k + 1 < kBodies; ++k) {
     const Vec3 normal = pourer.vector(-1, 1).normalized();
     const Vec3 tangent = normal.unitOrthogonal();
-    const PileFrame frame{.normal = normal, .tangent1 = tangent, .tangent2 = normal.cross(tangent)};
+    const ContactFrame frame{.normal = normal, .tangent1 = tangent, .tangent2 = normal.cross(tangent)};
     solver.beginBlock(k, Partner::ofBody(k + 1), k % 3 == 0 ? 0 : 0.5, frame, Vec3(-1, 0, 0));
     for (int row = 0; row <= k % 4; ++row) {
       solver.add({.arm = pourer.vector(0, 1), .bound = -0.01 * row, .normalImpulse = row == 1 ? 0.1 : 0});

@@ -40,7 +40,7 @@ ContactResiduals residualsByContact(const PileSolver& solver, double speed) {
     const Vec3 u = solver.velocity(row.a) + solver.omega(row.a).cross(row.armA) - solver.velocity(row.b) -
                    solver.omega(row.b).cross(row.armB);
     sum.add({.friction = row.friction, .kind = ImpulseSet::Kind::kCone}, row.impulse,
-            {row.directions[0].dot(u) - row.bound, row.directions[1].dot(u), row.directions[2].dot(u)});
+            {row.axes[0].dot(u) - row.bound, row.axes[1].dot(u), row.axes[2].dot(u)});
   }
   return sum.residuals();
 }

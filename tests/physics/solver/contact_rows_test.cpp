@@ -57,10 +57,5 @@ TEST(ContactRows, mayTurnAlone) {
   EXPECT_EQ(contact.rows[2], ContactProblem::Row{});
 }
 
-TEST(ContactRows, directionsAreTakenAlongThem) {
-  const std::array<Vec3, 3> rows{Vec3::UnitY(), Vec3::UnitZ(), Vec3::UnitX()};
-  EXPECT_EQ(alongRows(Vec3(1, 2, 3), rows), (ContactProblem::Triple{2, 3, 1}));
-}
-
 }  // namespace
 }  // namespace careen
