@@ -18,7 +18,7 @@ namespace {
 
 void printScene(const Scene& scene) {
   const Plan items = plan(scene);
-  printPlan(std::cout, scene.name, scene.boxes.size(), scene, items);
+  printPlan(std::cout, scene.name, scene.boxes.size(), scene.settings, items);
   printCrowds(std::cout, scene.settings, items);
 }
 
