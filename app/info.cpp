@@ -18,8 +18,8 @@ namespace {
 
 void printScene(const Scene& scene) {
   const Plan items = plan(scene);
-  printPlan(std::cout, scene.name, scene.boxes.size(), scene, items);
-  printCrowds(std::cout, scene, items);
+  printPlan(std::cout, scene.name, scene.boxes.size(), scene.settings, items);
+  printCrowds(std::cout, scene.settings, items);
 }
 
 void printFamily(const Family& family) {

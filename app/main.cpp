@@ -85,7 +85,7 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
       "from\n"
       "there, and 'careen help' lists the manual.\n\n"
       "Exit codes: 0 done, 1 frames or states differ, 2 bad usage or bad input, 3 the machine failed,\n"
-      "4 the numbers failed. 'careen COMMAND --help' tells a command's options.");
+      "4 the result breaks a promise. 'careen COMMAND --help' tells a command's options.");
   const CommandLine::Parsed parsed = commandLine.parse(argc, argv);
   if (!parsed.command) {
     return exitWith(parsed.exitCode);

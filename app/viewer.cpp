@@ -94,7 +94,7 @@ void Viewer::run(const std::stop_token& stop) {
     if (stop.stop_requested()) {
       throw Interrupted();
     }
-    lookAtFile();
+    checkFile();
     finishLoading();
     player_->update(clock_.seconds());
     show();
@@ -154,7 +154,7 @@ void Viewer::finishLoading() {
   }
 }
 
-void Viewer::lookAtFile() {
+void Viewer::checkFile() {
   if (clock_.seconds() - lookedAt_ < kLookEvery) {
     return;
   }

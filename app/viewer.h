@@ -56,7 +56,7 @@ class Viewer {
   void beginLoading(const std::filesystem::path& path);
   void cancelLoading();
   void finishLoading();
-  void lookAtFile();
+  void checkFile();
   void show();
   void entitle();
   double patience() const;

@@ -68,13 +68,13 @@ class Auditor {
 
   std::vector<double> moments() const;
   bool areMotionsFinite();
-  void lookAtMoments(const Samples& samples);
-  void lookAtWalls(std::size_t body, const Pose& pose, double time);
-  void lookAtPair(std::size_t a, const Pose& poseA, std::size_t b, const Pose& poseB, double time);
-  void lookAtSeams();
-  void lookAround(std::size_t body, double time);
-  void lookAtWorst();
-  void lookAtEverySegment(std::size_t body, std::size_t stride);
+  void checkMoments(const Samples& samples);
+  void checkWalls(std::size_t body, const Pose& pose, double time);
+  void checkPair(std::size_t a, const Pose& poseA, std::size_t b, const Pose& poseB, double time);
+  void checkSeams();
+  void checkAround(std::size_t body, double time);
+  void checkWorst();
+  void checkEverySegment(std::size_t body, std::size_t stride);
   void found(AuditKind kind, double rounding, const Finding& finding);
   void rest() const;
   Audit result() const;
@@ -120,7 +120,7 @@ void Auditor::found(AuditKind kind, double rounding, const Finding& finding) {
   findings_.add(kind, rounding, finding);
 }
 
-void Auditor::lookAtWalls(std::size_t index, const Pose& pose, double time) {
+void Auditor::checkWalls(std::size_t index, const Pose& pose, double time) {
   if (isImmovable(body(index).mass)) {
     return;
   }
@@ -133,7 +133,7 @@ void Auditor::lookAtWalls(std::size_t index, const Pose& pose, double time) {
   }
 }
 
-void Auditor::lookAtPair(std::size_t a, const Pose& poseA, std::size_t b, const Pose& poseB, double time) {
+void Auditor::checkPair(std::size_t a, const Pose& poseA, std::size_t b, const Pose& poseB, double time) {
   if (isImmovable(body(a).mass) && isImmovable(body(b).mass)) {
     return;
   }
@@ -145,7 +145,7 @@ void Auditor::lookAtPair(std::size_t a, const Pose& poseA, std::size_t b, const 
   }
 }
 
-void Auditor::lookAtMoments(const Samples& samples) {
+void Auditor::checkMoments(const Samples& samples) {
   std::vector<Ball> balls(bodies());
   for (std::size_t moment = 0; moment < samples.moments(); ++moment) {
     rest();
@@ -155,25 +155,25 @@ void Auditor::lookAtMoments(const Samples& samples) {
       checkState(state, index, time, findings_);
       balls[index] = {state.pose.position, radius(index)};
       if (state.pose.position.allFinite()) {
-        lookAtWalls(index, state.pose, time);
+        checkWalls(index, state.pose, time);
       }
     }
     for (const auto& [a, b] : nearPairs(balls)) {
-      lookAtPair(a, samples.state(moment, a).pose, b, samples.state(moment, b).pose, time);
+      checkPair(a, samples.state(moment, a).pose, b, samples.state(moment, b).pose, time);
     }
   }
   looks_ += samples.moments() * bodies();
 }
 
 // A body among the others at one moment; of those that are far away only the place is computed.
-void Auditor::lookAround(std::size_t index, double time) {
+void Auditor::checkAround(std::size_t index, double time) {
   const BodyState state = run_.state(index, time);
   ++looks_;
   checkState(state, index, time, findings_);
   if (!state.pose.position.allFinite()) {
     return;
   }
-  lookAtWalls(index, state.pose, time);
+  checkWalls(index, state.pose, time);
   for (std::size_t other = 0; other < bodies(); ++other) {
     const Track& track = run_.tracks[other];
     const Segment& segment = track.segments[segmentAt(track, time)];
@@ -183,15 +183,15 @@ void Auditor::lookAround(std::size_t index, double time) {
             reach * reach) {
       ++looks_;
       const BodyState there = stateAt(segment.motion, body(other).mass, time - segment.start);
-      lookAtPair(std::min(index, other), index < other ? state.pose : there.pose, std::max(index, other),
-                 index < other ? there.pose : state.pose, time);
+      checkPair(std::min(index, other), index < other ? state.pose : there.pose, std::max(index, other),
+                index < other ? there.pose : state.pose, time);
     }
   }
 }
 
 // Both sides of the seams of all bodies, or of as many as the budget allows, evenly spread, and of those
 // where one comes to rest.
-void Auditor::lookAtSeams() {
+void Auditor::checkSeams() {
   if (run_.given) {
     const std::vector<char> followed = checkBetweenRows(
         run_, kNear * settings_.tolerance + settings_.crowds.tolerance, part_, fallingSpeeds_, findings_);
@@ -224,23 +224,23 @@ void Auditor::lookAtSeams() {
 
 // Start and middle of segments of a body; its end is the start of the next one. Of a table only its rows:
 // nobody knows what was between them.
-void Auditor::lookAtEverySegment(std::size_t index, std::size_t stride) {
+void Auditor::checkEverySegment(std::size_t index, std::size_t stride) {
   const std::vector<Segment>& segments = run_.tracks[index].segments;
   for (std::size_t k = 0; k < segments.size(); k += stride) {
     rest();
     const double end = k + 1 < segments.size() ? segments[k + 1].start : run_.settings.duration;
     if (segments[k].start <= run_.settings.duration) {
-      lookAround(index, segments[k].start);
+      checkAround(index, segments[k].start);
       if (run_.given) {
         continue;
       }
-      lookAround(index, std::clamp(segments[k].start + (end - segments[k].start) / 2, segments[k].start,
-                                   run_.settings.duration));
+      checkAround(index, std::clamp(segments[k].start + (end - segments[k].start) / 2, segments[k].start,
+                                    run_.settings.duration));
     }
   }
 }
 
-void Auditor::lookAtWorst() {
+void Auditor::checkWorst() {
   std::vector<std::size_t> order(bodies());
   for (std::size_t index = 0; index < bodies(); ++index) {
     order[index] = index;
@@ -252,7 +252,7 @@ void Auditor::lookAtWorst() {
   }
   for (const std::size_t index : order) {
     const std::size_t cost = 2 * run_.tracks[index].segments.size() * (1 + bodies() / 16) * kWorst;
-    lookAtEverySegment(index, isFull() ? 1 : 1 + cost / kStatesAroundWorst);
+    checkEverySegment(index, isFull() ? 1 : 1 + cost / kStatesAroundWorst);
   }
 }
 
@@ -277,10 +277,10 @@ Audit Auditor::run() {
     return result();
   }
   const Samples samples(run_, moments(), stop_);
-  lookAtMoments(samples);
-  lookAtSeams();
+  checkMoments(samples);
+  checkSeams();
   checkBalances(run_, samples, exchangeGroups(run_, samples), fallingSpeeds_, findings_);
-  lookAtWorst();
+  checkWorst();
   return result();
 }
 

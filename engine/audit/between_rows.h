@@ -8,9 +8,9 @@
 namespace careen {
 
 /// Follows each body of a table from row to row. Where nothing can have touched it, because nothing was as
-/// near as it could come, it must have flown: an impulse there is momentum that nothing gave, and places and
-/// attitudes follow from velocities. Where it can have touched one thing only, restitution and friction are
-/// held to what both rows allow, see encounter.h. Small excesses of many rows add up.
+/// near as it could come, it must have flown: an impulse there is unexplained, and places and attitudes
+/// follow from velocities. Where it can have touched one thing only, restitution and friction are held to
+/// what both rows allow, see encounter.h. Small excesses of many rows add up.
 ///
 /// Not looked at: bodies under springs and drag, bodies that may have touched several things at once, boxes
 /// without rows at the times of the others.

@@ -38,9 +38,9 @@ inline constexpr std::array kAuditKinds = {
     // The momenta relative to the largest of the bodies that exchange it, the energies to their largest
     // kinetic and spring energy.
     AuditKindTraits{AuditKind::kImpulse, "impulse", "1", "a velocity jumps by more than its impacts give"},
-    AuditKindTraits{AuditKind::kLinearMomentum, "linear_momentum", "1", "linear momentum nothing gave"},
-    AuditKindTraits{AuditKind::kAngularMomentum, "angular_momentum", "1", "angular momentum nothing gave"},
-    AuditKindTraits{AuditKind::kEnergyRise, "energy_rise", "1", "energy nothing gave"},
+    AuditKindTraits{AuditKind::kLinearMomentum, "linear_momentum", "1", "unexplained linear momentum"},
+    AuditKindTraits{AuditKind::kAngularMomentum, "angular_momentum", "1", "unexplained angular momentum"},
+    AuditKindTraits{AuditKind::kEnergyRise, "energy_rise", "1", "unexplained energy"},
     AuditKindTraits{AuditKind::kEnergyLoss, "energy_loss", "1", "energy nothing took"},
     // Of tables only. Friction is relative to the body's largest momentum.
     AuditKindTraits{AuditKind::kRestitution, "restitution", "1", "a bounce is not that of the scene"},

@@ -15,7 +15,7 @@ namespace careen {
 struct Passage {
   enum class Kind { kUnknown, kFlew, kTouched };
   Kind kind = Kind::kUnknown;
-  Vec3 impulse = Vec3::Zero();         // [N s] that nothing gave
+  Vec3 impulse = Vec3::Zero();         // [N s] unexplained
   Vec3 angularImpulse = Vec3::Zero();  // [N m s]
   Vec3 way = Vec3::Zero();             // [m] aside of where it flies
   Vec3 turn = Vec3::Zero();            // [rad] likewise

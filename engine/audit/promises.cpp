@@ -1,6 +1,5 @@
 #include "audit/promises.h"
 
-#include "core/brief.h"
 #include "physics/world/method.h"
 
 namespace careen {
@@ -65,21 +64,6 @@ std::optional<double> promisedDepth(const RunSettings& settings, bool crowd) {
   const std::optional<Promise> promise =
       promisesOf(settings.method, crowd)[static_cast<std::size_t>(AuditKind::kBoxOverlap)];
   return promise ? std::optional(allowed(*promise, settings, 1)) : std::nullopt;
-}
-
-std::string textOf(AuditKind kind, const std::optional<Promise>& promise) {
-  if (!promise) {
-    return "nothing";
-  }
-  std::string text = brief(promise->absolute);
-  if (promise->tolerances > 0) {
-    text.append(" + ").append(brief(promise->tolerances)).append(" tolerances");
-    text.append(traitsOf(kind).unit == "1" ? "/size" : "");
-  }
-  if (promise->crowdTolerances > 0) {
-    text.append(" + ").append(brief(promise->crowdTolerances)).append(" tolerances of crowds");
-  }
-  return text;
 }
 
 }  // namespace careen

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <optional>
-#include <string>
 
 #include "audit/kinds.h"
 #include "physics/world/run_settings.h"
@@ -35,8 +34,5 @@ double allowed(const Promise& promise, const RunSettings& settings, double lengt
 
 /// [m] How deep boxes and walls may be in each other, if the method promises that.
 std::optional<double> promisedDepth(const RunSettings& settings, bool crowd);
-
-/// As the manual spells it: "1e-09 + 4 tolerances", "1e-07 + 100 tolerances/size", "0", "nothing".
-std::string textOf(AuditKind kind, const std::optional<Promise>& promise);
 
 }  // namespace careen

@@ -316,11 +316,6 @@ void Family::readSettings() {
   }
 }
 
-std::string Family::sceneText(std::uint64_t run, std::uint64_t attempt) const {
-  RandomStream random(seed_, run, attempt);
-  return FamilyWriter(tree_, random, nullptr, nullptr).scene();
-}
-
 Family::Member Family::member(std::uint64_t run) const {
   const std::string name = name_ + " (run " + std::to_string(run) + ")";
   std::string why;

@@ -49,11 +49,8 @@ class Family {
     std::vector<double> drawn;  ///< the numbers drawn outside boxes, in the order of columns()
   };
   /// Run k: the same on every machine. InputError if no start without overlap is found, and if what was drawn
-  /// is no scene; the message says "family.json (run 17)", and lines are those of the scene that sceneText()
-  /// gives.
+  /// is no scene; the message says "family.json (run 17)", and lines are those of the scene's text.
   Member member(std::uint64_t run) const;
-  /// The scene of one attempt, as a file would have it.
-  std::string sceneText(std::uint64_t run, std::uint64_t attempt) const;
   /// Paths of the numbers that vary outside boxes.
   std::vector<std::string> columns() const;
 

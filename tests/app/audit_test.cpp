@@ -31,7 +31,7 @@ TEST_F(AuditOfRuns, aBrokenPromiseEndsWithFourAndWritesNothing) {
   const Ended ended = careen({"simulate", kFar, "-o", "run.careen", "--report", "report.json"});
   EXPECT_EQ(ended.exitCode, 4);
   EXPECT_NE(ended.err.find("breaks what its method promises"), std::string::npos) << ended.err;
-  EXPECT_NE(ended.err.find("linear momentum nothing gave"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("unexplained linear momentum"), std::string::npos) << ended.err;
   EXPECT_TRUE(folder_.files().empty());
 }
 

@@ -70,7 +70,7 @@ TEST_F(GivenRuns, areAuditedWithAnExitCode) {
   writeKicked("kicked.csv", 10);
   const Ended broken = careen({"audit", "kicked.csv", "--scene", "scene.json", "--report", "audit.json"});
   EXPECT_EQ(broken.exitCode, 4) << broken.out;
-  EXPECT_NE(broken.out.find("BROKEN            at 0.1 s crate: linear momentum nothing gave"),
+  EXPECT_NE(broken.out.find("BROKEN            at 0.1 s crate: unexplained linear momentum"),
             std::string::npos)
       << broken.out;
   const nlohmann::json report = nlohmann::json::parse(textOf(folder_ / "audit.json"));

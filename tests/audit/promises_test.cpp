@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/brief.h"
 #include "physics/world/method.h"
 
 namespace careen {
@@ -16,6 +17,22 @@ std::string pageOfTheManual() {
   std::stringstream text;
   text << stream.rdbuf();
   return text.str();
+}
+
+// "1e-09 + 4 tolerances", "1e-07 + 100 tolerances/size", "0", "nothing"
+std::string textOf(AuditKind kind, const std::optional<Promise>& promise) {
+  if (!promise) {
+    return "nothing";
+  }
+  std::string text = brief(promise->absolute);
+  if (promise->tolerances > 0) {
+    text.append(" + ").append(brief(promise->tolerances)).append(" tolerances");
+    text.append(traitsOf(kind).unit == "1" ? "/size" : "");
+  }
+  if (promise->crowdTolerances > 0) {
+    text.append(" + ").append(brief(promise->crowdTolerances)).append(" tolerances of crowds");
+  }
+  return text;
 }
 
 TEST(Promises, manualHasTheSameTable) {

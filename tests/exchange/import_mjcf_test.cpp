@@ -105,7 +105,7 @@ TEST(ImportMjcf, whatExportWritesComesBack) {
     const std::string name = entry.path().filename().string();
     const RoundTrip trip = roundTripOf(name);
     Scene all = trip.first;
-    all.method = Method::kExact;  // listing1 models no contact between boxes
+    all.settings.method = Method::kExact;  // listing1 models no contact between boxes
     const World first = setupOf(all).world;
     const World second = setupOf(trip.second).world;
     EXPECT_EQ(trip.first.name, trip.second.name);

@@ -243,9 +243,9 @@ TEST(SceneShape, schemaTellsTheDefaultsOfTheReader) {
   const Scene with = readShape(JsonTree(filled.dump(), "f"));
   EXPECT_EQ(with.name, without.name);
   EXPECT_EQ(with.gravity, without.gravity);
-  EXPECT_EQ(with.method, without.method);
-  EXPECT_EQ(with.dt, without.dt);
-  EXPECT_EQ(with.tolerance, without.tolerance);
+  EXPECT_EQ(with.settings.method, without.settings.method);
+  EXPECT_EQ(with.settings.dt, without.settings.dt);
+  EXPECT_EQ(with.settings.tolerance, without.settings.tolerance);
   EXPECT_EQ(with.camera->up, without.camera->up);
   EXPECT_EQ(with.camera->fovDegrees, without.camera->fovDegrees);
   EXPECT_EQ(with.picture.overlays, without.picture.overlays);
