@@ -4,9 +4,9 @@
 //
 // Measured (g++ 12 -O3, AMD EPYC), ms of one core, with malloc set as in app/main.cpp (GLIBC_TUNABLES=
 // glibc.malloc.mmap_threshold=67108864:glibc.malloc.trim_threshold=67108864): comparing a pair: with
-// grain 31.8, shifted 27.6, completely different 233, with a reader that took half of libpng's time; FLIP 314.
-// On a busy machine: reading with libpng 13.1 and 13.4, libspng 15.0 and 15.8; folders of 31 frames, seconds
-// of CPU: the same pixels .62 (idiff 23.6), shifted 1.48 (idiff 22.9).
+// grain 31.8, shifted 27.6, completely different 233, with a reader that took half of libpng's time; FLIP
+// 314. On a busy machine: reading with libpng 13.1 and 13.4, libspng 15.0 and 15.8; folders of 31 frames,
+// seconds of CPU: the same pixels .62 (idiff 23.6), shifted 1.48 (idiff 22.9).
 #include <benchmark/benchmark.h>
 
 #include <string>
