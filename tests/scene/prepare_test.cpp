@@ -39,9 +39,9 @@ TEST(Prepare, overridesReplaceTheScenesOwnAndAreTold) {
 TEST(Prepare, withoutOverridesARunIsAsTheSceneSays) {
   const Scene read = scene();
   const PreparedRun run = prepare(read, {});
-  EXPECT_EQ(run.setup.settings.method, read.method);
-  EXPECT_EQ(run.setup.settings.tolerance, read.tolerance);
-  EXPECT_EQ(run.setup.settings.duration, read.duration);
+  EXPECT_EQ(run.setup.settings.method, read.settings.method);
+  EXPECT_EQ(run.setup.settings.tolerance, read.settings.tolerance);
+  EXPECT_EQ(run.setup.settings.duration, read.settings.duration);
   EXPECT_GE(run.setup.settings.threads, 1);
   EXPECT_EQ(run.setup.world.bodies.size(), 2U);
 }
