@@ -266,6 +266,7 @@ void Renderer::Parts::drawOcclusion() {
     surfaces.drawDepth();
   }
   occlusionMap->drawNear();
+  ++figures.occlusionPasses;
 }
 
 // The part of the light that shadows keep off is gathered in the picture itself, which is black before, for
@@ -295,6 +296,7 @@ void Renderer::Parts::drawShaded(std::size_t layer) {
   gl.BlendFuncSeparate(GL_ONE_MINUS_DST_COLOR, GL_SRC1_COLOR, GL_ONE, GL_ZERO);
   boxes.drawShaded(layer);
   gl.Disable(GL_BLEND);
+  ++figures.shadowPasses;
 }
 
 void Renderer::Parts::drawPicture() {
@@ -327,6 +329,7 @@ void Renderer::Parts::drawOver(Picture& picture, const OverlayShapes& shapes) {
     overlays.emplace(gl, shaders, picture.width, picture.height);
   }
   overlays->drawOver(picture, shapes);
+  ++figures.overlayPasses;
 }
 
 Renderer::Renderer(const RunSetup& setup, const RenderOptions& options)

@@ -32,6 +32,9 @@ struct RenderOptions {
 /// Timings and counts of drawing so far.
 struct DrawFigures {
   int frames = 0;
+  int shadowPasses = 0;
+  int occlusionPasses = 0;
+  int overlayPasses = 0;
   double drawSeconds = 0;  ///< [s] wall time until drawing is complete
   double readSeconds = 0;  ///< [s] reading back and flipping
 };

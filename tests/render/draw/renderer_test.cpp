@@ -182,6 +182,25 @@ TEST(Renderer, multisampledEdgesAreAveragesOfLight) {
   EXPECT_GE(outer.size(), 3U);
 }
 
+TEST(Renderer, withoutCastingLightThereIsNoShadowPass) {
+  const Scene scene = crateInRoom();
+  const auto passes = [](const Scene& drawnScene, const RenderOptions& options) {
+    Renderer renderer(setupOf(drawnScene, 32, 18), options);
+    renderer.draw(posesOf(drawnScene));
+    renderer.draw(posesOf(drawnScene));
+    EXPECT_EQ(renderer.figures().frames, 2);
+    return renderer.figures().shadowPasses;
+  };
+  EXPECT_EQ(passes(scene, {}), 2);
+  EXPECT_EQ(passes(scene, lit(evenLighting())), 0);
+  Lighting lighting = lightingOf(Look::kStudio, *scene.camera);
+  lighting.light->castsShadow = false;
+  EXPECT_EQ(passes(scene, lit(lighting)), 0);
+  Scene empty = scene;
+  empty.boxes.clear();
+  EXPECT_EQ(passes(empty, {}), 0);
+}
+
 // A plate 1 m above the floor under a light straight above: dark below it, light beside it.
 TEST(Renderer, boxesCastShadowsWhereTheyKeepTheLightOff) {
   Scene scene = crateInRoom();

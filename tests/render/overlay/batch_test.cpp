@@ -149,5 +149,13 @@ TEST_F(OverlayBatchTest, nextPictureWithoutOverlaysIsAsBefore) {
   EXPECT_EQ(bare().rgb, before.rgb);
 }
 
+TEST_F(OverlayBatchTest, withoutOverlaysThereIsNoPass) {
+  bare();
+  bare();
+  EXPECT_EQ(renderer_.figures().overlayPasses, 0);
+  over({});
+  EXPECT_EQ(renderer_.figures().overlayPasses, 1);
+}
+
 }  // namespace
 }  // namespace careen
