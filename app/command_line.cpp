@@ -87,7 +87,7 @@ bool takesMany(const CLI::Option& option) {
 std::string optionHelp(const CLI::Option& option) {
   std::string text = option.get_name(option.get_positional(), !option.get_positional());
   if (option.get_type_size() != 0) {  // no flag
-    text += ' ' + option.get_type_name();
+    text += option.get_type_name().empty() ? "" : ' ' + option.get_type_name();
     text += option.get_default_str().empty() ? "" : '=' + option.get_default_str();
     text += takesMany(option) ? " ..." : "";
     text += option.get_required() ? " REQUIRED" : "";

@@ -5,7 +5,6 @@
 #include <csignal>
 #include <filesystem>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "support/process.h"
@@ -164,20 +163,6 @@ TEST_F(HostileInput, whatCannotBePrintedIsAFailure) {
       Process({"bash", "-c", "exec \"$0\" info scene.json > /dev/full", program()}, folder_.path()).wait();
   EXPECT_EQ(ended.exitCode, 3);
   EXPECT_NE(ended.err.find("standard output cannot be written"), std::string::npos) << ended.err;
-}
-
-// As under nohup, or in the background of a script.
-TEST_F(HostileInput, anIgnoredSignalStaysIgnored) {
-  folder_.write("scene.json", kFall);
-  Process process(
-      {"bash", "-c", "trap '' INT; exec \"$0\" simulate scene.json --method listing1 --dt 1e-6 --duration 10",
-       program()},
-      folder_.path());
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  process.send(SIGINT);
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  process.send(SIGTERM);
-  EXPECT_EQ(process.wait().signal, SIGTERM);
 }
 
 TEST_F(HostileInput, withoutACommandTheHelpIsShown) {

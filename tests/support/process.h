@@ -96,6 +96,23 @@ class Process {
 
   pid_t id() const { return pid_; }
   void send(int signal) const { kill(pid_, signal); }
+  /// careen masks the signals that it answers at its start. Before, they would just end it.
+  void waitUntilItMasks(int signal) const {
+    const auto status = "/proc/" + std::to_string(pid_) + "/status";
+    const auto isMasked = [&] {
+      const std::string text = textOf(status);
+      const std::size_t mask = text.find("SigBlk:\t");
+      return mask != std::string::npos &&
+             (std::stoull(text.substr(mask + 8), nullptr, 16) >> (signal - 1) & 1) != 0;
+    };
+    for (int tries = 0; tries < 6000 && !isMasked(); ++tries) {
+      usleep(5'000);
+    }
+  }
+  void sendOnceMasked(int signal) const {
+    waitUntilItMasks(signal);
+    send(signal);
+  }
   /// Output so far.
   std::string outSoFar() const { return textOf(out_); }
   std::string errSoFar() const { return textOf(err_); }
