@@ -161,6 +161,7 @@ TEST(Manual, helpListsEveryKeyOfTheSchema) {
     EXPECT_NE(("\n" + keys).find("\n" + std::string(key) + "\n"), std::string::npos) << key;
   }
   EXPECT_NE(keys.find("Default: 30."), std::string::npos);  // film.fps
+  EXPECT_EQ(keys.find("\n\n"), std::string::npos) << "a key without a word";
   for (const std::string& line : matches(keys, "([^\n]*)\n")) {
     EXPECT_LE(line.size(), 100U) << line;
   }
