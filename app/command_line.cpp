@@ -108,7 +108,7 @@ class HelpFormatter : public CLI::FormatterBase {
         const std::string typed = option->get_name(true) + (takesMany(*option) ? "..." : "");
         usage += option->get_required() ? ' ' + typed : " [" + typed + ']';
         positionals += optionHelp(*option);
-      } else {
+      } else if (!name.empty() || option != app->get_help_ptr()) {  // a group has that of its command
         options += optionHelp(*option);
       }
     }
