@@ -263,6 +263,8 @@ TEST(Manual, helpKnowsNothingElse) {
   const Ended ended = careen({"help", "tutorail"});
   EXPECT_EQ(ended.exitCode, 2);
   EXPECT_NE(ended.err.find("did you mean 'tutorial'?"), std::string::npos) << ended.err;
+  EXPECT_NE(careen({"help", "slow"}).err.find("'careen help --search slow' looks in all of them"),
+            std::string::npos);
   EXPECT_EQ(careen({"help", "tutorail"}).out, "");
   EXPECT_EQ(careen({"help", "../README"}).exitCode, 2);
 }
