@@ -1,7 +1,6 @@
 // No input reaches a shell, crashes the program, or takes endless time or memory.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <string>
@@ -105,9 +104,9 @@ TEST_F(HostileInput, manyKeysAreReadInLinearTime) {
     scene += "\"key" + std::to_string(i) + "\": 1,";
   }
   folder_.write("scene.json", scene + "\"careen\": 1 }");
-  const auto begun = std::chrono::steady_clock::now();
-  EXPECT_EQ(careen({"info", "scene.json"}).exitCode, 2);
-  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(20));  // quadratic: minutes
+  const Ended ended = careen({"info", "scene.json"});
+  EXPECT_EQ(ended.exitCode, 2) << ended.err;
+  EXPECT_LT(ended.coreSeconds, 20);  // quadratic: minutes
 }
 
 TEST_F(HostileInput, manyBoxesAreReadInLinearTime) {
@@ -118,9 +117,9 @@ TEST_F(HostileInput, manyBoxesAreReadInLinearTime) {
              ", 0, 0] }";
   }
   folder_.write("scene.json", scene + "] }");
-  const auto begun = std::chrono::steady_clock::now();
-  EXPECT_EQ(careen({"info", "scene.json"}).exitCode, 0);
-  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(20));  // measured 1; quadratic: 40
+  const Ended ended = careen({"info", "scene.json"});
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_LT(ended.coreSeconds, 20);  // measured 1; quadratic: 40
 }
 
 TEST_F(HostileInput, outputsAreWrittenOverNoInputAndNotOverEachOther) {

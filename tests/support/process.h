@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,6 +22,7 @@ namespace careen {
 struct Ended {
   int exitCode = -1;  ///< −1: ended by `signal`
   int signal = 0;
+  double coreSeconds = 0;  ///< others on the machine do not lengthen it
   std::string out;
   std::string err;
 };
@@ -118,9 +120,12 @@ class Process {
   std::string errSoFar() const { return textOf(err_); }
   Ended wait() {
     int status = 0;
-    while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+    rusage usage{};
+    while (wait4(pid_, &status, 0, &usage) < 0 && errno == EINTR) {
     }
     Ended ended;
+    ended.coreSeconds = static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+                        1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
     ended.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     ended.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     ended.out = textOf(out_);
