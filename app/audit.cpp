@@ -89,6 +89,13 @@ void printFigures(const Run& run) {
   for (const AuditBreach& breach : audit.breaches) {
     std::cout << "BROKEN            " << printableName(describe(breach, run.trajectory)) << '\n';
   }
+  if (audit.breaches.empty()) {
+    std::cout << "verdict           "
+              << (audit.depth == AuditDepth::kNone ? "none: not audited"
+                  : run.trajectory.given           ? "sound"
+                                                   : "keeps what its method promises")
+              << '\n';
+  }
 }
 
 ExitCode auditCommand(const AuditOptions& options, const std::stop_token& stop) {
@@ -109,9 +116,10 @@ ExitCode auditCommand(const AuditOptions& options, const std::stop_token& stop) 
   if (!options.report.empty()) {
     writeFile(options.report, runReportText(run, stopwatch.seconds()));
   }
-  std::cout << "run               " << printableName(run.trajectory.stage.name) << ", "
-            << run.trajectory.world.bodies.size() << " boxes, " << brief(run.trajectory.settings.duration)
-            << " s by " << run.trajectory.methodName() << '\n';
+  const std::size_t boxes = run.trajectory.world.bodies.size();
+  std::cout << "run               " << printableName(run.trajectory.stage.name) << ", " << boxes
+            << (boxes == 1 ? " box, " : " boxes, ") << brief(run.trajectory.settings.duration) << " s by "
+            << run.trajectory.methodName() << '\n';
   if (const std::optional<GivenPoses>& given = run.trajectory.given) {
     std::cout << "table             velocities " << (given->velocities ? "given" : "estimated")
               << ", angular velocities " << (given->angularVelocities ? "given" : "estimated")

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -52,47 +53,94 @@ std::string explained(const CLI::ParseError& error, CLI::App& app, const char* f
                        " --help' lists what there is");
 }
 
-// Help as CLI11 2.1 writes it: later versions wrap what belongs together, leave "Usage" out and write titles
-// large.
-class HelpFormatter : public CLI::Formatter {
- public:
-  HelpFormatter() { label("POSITIONALS", "Positionals"); }
+// A line of help: what is typed, then, from one column on, what it is.
+std::string inColumns(const std::string& name, const std::string& description) {
+  std::string line = "  " + name;
+  if (description.empty()) {
+    return line + '\n';
+  }
+  const std::string indented(30, ' ');
+  line += line.size() < indented.size() ? indented.substr(line.size()) : '\n' + indented;
+  for (const char c : description) {
+    line += c == '\n' ? c + indented : std::string(1, c);
+  }
+  return line + '\n';
+}
 
-  std::string make_usage(const CLI::App* app, std::string name) const override {
-    std::string usage = CLI::Formatter::make_usage(app, std::move(name));
-    usage.erase(0, usage.find_first_not_of('\n'));
-    usage.erase(usage.find_last_not_of('\n') + 1);
-    return (usage.starts_with("Usage:") ? "" : "Usage: ") + usage + '\n';
+// CLI11 has them in the order of their addresses.
+std::string sortedNames(const std::string& title, const std::set<CLI::Option*>& options) {
+  std::set<std::string> names;
+  for (const CLI::Option* const option : options) {
+    names.insert(option->get_name());
   }
-  std::string make_option(const CLI::Option* option, bool isPositional) const override {
-    return inColumns(make_option_name(option, isPositional) + make_option_opts(option),
-                     make_option_desc(option));
+  std::string text = names.empty() ? "" : ' ' + title + ':';
+  for (const std::string& name : names) {
+    text += ' ' + name;
   }
-  std::string make_subcommand(const CLI::App* command) const override {
-    return inColumns(command->get_name(), command->get_description());
+  return text;
+}
+
+bool takesMany(const CLI::Option& option) {
+  return option.get_expected_max() >= CLI::detail::expected_max_vector_size;
+}
+
+std::string optionHelp(const CLI::Option& option) {
+  std::string text = option.get_name(option.get_positional(), !option.get_positional());
+  if (option.get_type_size() != 0) {  // no flag
+    text += option.get_type_name().empty() ? "" : ' ' + option.get_type_name();
+    text += option.get_default_str().empty() ? "" : '=' + option.get_default_str();
+    text += takesMany(option) ? " ..." : "";
+    text += option.get_required() ? " REQUIRED" : "";
   }
-  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
-    if (mode == CLI::AppFormatMode::Sub) {
-      return CLI::Formatter::make_help(app, std::move(name), mode);
+  text += sortedNames("Needs", option.get_needs()) + sortedNames("Excludes", option.get_excludes());
+  return inColumns(text, option.get_description());
+}
+
+// Help of an application, a command or a group of options. CLI11's own differs from version to version.
+class HelpFormatter : public CLI::FormatterBase {
+ public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode /*mode*/) const override {
+    std::string usage;
+    std::string positionals;
+    std::string options;
+    for (const CLI::Option* const option : app->get_options()) {
+      if (option->get_positional()) {
+        const std::string typed = option->get_name(true) + (takesMany(*option) ? "..." : "");
+        usage += option->get_required() ? ' ' + typed : " [" + typed + ']';
+        positionals += optionHelp(*option);
+      } else if (!name.empty() || option != app->get_help_ptr()) {  // a group has that of its command
+        options += optionHelp(*option);
+      }
     }
-    const std::string footer = app->get_footer();
-    return make_description(app) + make_usage(app, std::move(name)) + make_positionals(app) +
-           make_groups(app, mode) + make_subcommands(app, mode) + '\n' + footer +
-           (footer.empty() ? "" : "\n");
+    std::string groups;
+    std::string commands;
+    for (const CLI::App* const each : app->get_subcommands({})) {
+      if (each->get_name().empty()) {
+        groups += "[Option Group: " + each->get_group() + "]\n" + indented(make_help(each, "", {}));
+      } else {
+        commands += inColumns(each->get_name(), each->get_description());
+      }
+    }
+    if (name.empty()) {  // of a group
+      return app->get_description() + "\nOptions:\n" + options + groups;
+    }
+    return app->get_description() + "\nUsage: " + name + " [OPTIONS]" + usage +
+           (commands.empty() ? "" : " SUBCOMMAND") + '\n' + titled("Positionals", positionals) +
+           titled("Options", options) + groups + titled("Subcommands", commands) + '\n' +
+           (app->get_footer().empty() ? "" : app->get_footer() + '\n');
   }
 
  private:
-  std::string inColumns(const std::string& name, const std::string& description) const {
-    std::string line = "  " + name;
-    if (description.empty()) {
-      return line + '\n';
+  static std::string titled(const std::string& title, const std::string& lines) {
+    return lines.empty() ? "" : '\n' + title + ":\n" + lines;
+  }
+  static std::string indented(const std::string& lines) {
+    std::string text = "  ";
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      text += lines[i];
+      text += lines[i] == '\n' && i + 1 < lines.size() ? "  " : "";
     }
-    const std::string indented(get_column_width(), ' ');
-    line += line.size() < indented.size() ? indented.substr(line.size()) : '\n' + indented;
-    for (const char c : description) {
-      line += c == '\n' ? c + indented : std::string(1, c);
-    }
-    return line + '\n';
+    return text;
   }
 };
 

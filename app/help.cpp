@@ -111,7 +111,8 @@ void addTopic(const CommandLine& commandLine, const std::string& topic, HelpText
     topics.insert(topics.end(), commands.begin(), commands.end());
     topics.emplace_back("keys");
     throw InputError("help: found '" + topic + "', expected a page of the manual or a command" +
-                     didYouMean(topic, topics) + "; 'careen help' lists the pages");
+                     didYouMean(topic, topics) + "; 'careen help' lists the pages, 'careen help --search " +
+                     topic + "' looks in all of them");
   }
   if (isCommand) {
     text.options(commandLine.helpOf(topic));

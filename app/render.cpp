@@ -195,15 +195,17 @@ void printDrawing(std::ostream& out, const FilmFigures& figures) {
   }
 }
 
+// Of frames that are compared, the result tells which are kept, and where.
 void printFilm(std::ostream& out, const FilmSettings& settings, const PictureSettings& picture,
-               const FilmFigures& figures) {
+               const FilmFigures& figures, const Reference* reference) {
   out << "frames       " << figures.drawn + figures.skipped << " at " << picture.rate.text()
       << " per second, " << picture.width << 'x' << picture.height;
   if (figures.skipped > 0) {
     out << ", " << figures.skipped << " of them were there already";
   }
-  out << ": " << printableName(std::filesystem::absolute(settings.folder).lexically_normal().string())
-      << '\n';
+  const std::filesystem::path& folder = reference != nullptr ? reference->folder : settings.folder;
+  out << (reference != nullptr ? ", compared with " : ": ")
+      << printableName(std::filesystem::absolute(folder).lexically_normal().string()) << '\n';
   if (settings.video) {
     out << "film         "
         << printableName(std::filesystem::absolute(settings.video->path).lexically_normal().string()) << '\n';
@@ -357,7 +359,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (options.verbose) {
     printDrawing(summary, figures);
   }
-  printFilm(summary, told, picture, figures);
+  printFilm(summary, told, picture, figures, reference ? &*reference : nullptr);
   if (approval) {
     return approval->approve(options.compare, logsJson, stop);
   }

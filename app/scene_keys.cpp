@@ -21,12 +21,7 @@ class KeysOfSchema {
   // What a part of the schema, or one that it refers to, says of keys below `path`.
   void add(const Json& part, const std::string& path) {
     if (const auto reference = part.find("$ref"); reference != part.end()) {
-      add(schema_.at(Json::json_pointer(reference->get<std::string>().substr(1))), path);
-    }
-    for (const char* const several : {"allOf", "anyOf", "oneOf"}) {
-      for (const Json& each : part.value(several, Json::array())) {
-        add(each, path);
-      }
+      add(referredTo(*reference), path);
     }
     const Json properties = part.value("properties", Json::object());
     for (const auto& [name, value] : properties.items()) {
@@ -39,9 +34,21 @@ class KeysOfSchema {
     if (const auto items = part.find("items"); items != part.end() && items->is_object()) {
       add(*items, path + "[]");
     }
+    for (const char* const several : {"allOf", "anyOf", "oneOf"}) {
+      for (const Json& each : part.value(several, Json::array())) {
+        add(each, path);
+      }
+    }
   }
 
-  static std::string textOf(const Json& value) {
+  const Json& referredTo(const Json& reference) const {
+    return schema_.at(Json::json_pointer(reference.get<std::string>().substr(1)));
+  }
+
+  std::string textOf(const Json& value) const {
+    if (const auto reference = value.find("$ref"); reference != value.end()) {
+      return textOf(referredTo(*reference));
+    }
     std::string text = value.value("description", value.value("title", ""));
     if (const auto usual = value.find("default"); usual != value.end()) {
       text += " Default: " + usual->dump() + ".";

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -70,17 +69,8 @@ std::string sections(const StudyResult& study, const std::vector<std::string>& p
 }
 
 std::string settingsOf(const StudyResult& study) {
-  std::vector<std::pair<std::string, std::string>> known;
-  for (const CaseResult& result : study.cases) {
-    for (const Attempt& attempt : result.attempts) {
-      const std::pair<std::string, std::string> entry(attempt.contestant, attempt.settings);
-      if (std::find(known.begin(), known.end(), entry) == known.end()) {
-        known.push_back(entry);
-      }
-    }
-  }
   std::string list = "<dl>\n";
-  for (const auto& [contestant, settings] : known) {
+  for (const auto& [contestant, settings] : study.settings()) {
     list += "<dt>" + escapedForMarkup(contestant) + "</dt><dd>" + escapedForMarkup(settings) + "</dd>\n";
   }
   return list + "</dl>\n";

@@ -180,6 +180,19 @@ std::vector<std::string> StudyResult::contestants() const {
   return names;
 }
 
+std::vector<std::pair<std::string, std::string>> StudyResult::settings() const {
+  std::vector<std::pair<std::string, std::string>> known;
+  for (const CaseResult& result : cases) {
+    for (const Attempt& attempt : result.attempts) {
+      const std::pair<std::string, std::string> entry(attempt.contestant, attempt.settings);
+      if (std::find(known.begin(), known.end(), entry) == known.end()) {
+        known.push_back(entry);
+      }
+    }
+  }
+  return known;
+}
+
 const Attempt* usualAttempt(const CaseResult& result, const std::string& contestant) {
   const auto found =
       std::find_if(result.attempts.begin(), result.attempts.end(), [&](const Attempt& attempt) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/table.h"
@@ -38,6 +39,8 @@ struct StudyResult {
 
   /// In order of first appearance.
   std::vector<std::string> contestants() const;
+  /// What was set, by contestant: version and settings of an engine.
+  std::vector<std::pair<std::string, std::string>> settings() const;
 };
 
 /// The contestant's answer at the case's usual time step or, without a fixed time step, tolerance. Null if it

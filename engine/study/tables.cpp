@@ -223,6 +223,11 @@ std::string resultsMarkdown(const StudyResult& study) {
          "1,\nbroken. The audit holds a pile, a crowd, to a tolerance of its own.\n\n"
       << promiseTable(study).markdown();
   addFindings(text, study);
+  Table contestants{.head = {"contestant", "what it is, and what is set"}};
+  for (const auto& [contestant, settings] : study.settings()) {
+    contestants.rows.push_back({contestant, settings});
+  }
+  text << "\n## Contestants\n\n" << contestants.markdown();
   return text.str();
 }
 

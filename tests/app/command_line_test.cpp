@@ -1,7 +1,6 @@
 // The program as its user meets it: what it prints, what it leaves behind, how it ends.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -53,6 +52,30 @@ TEST_F(CommandLine, explainsItself) {
     const Ended ended = careen(arguments);
     EXPECT_EQ(ended.exitCode, 0);
     EXPECT_NE(ended.out.find("Usage"), std::string::npos) << ended.out;
+  }
+}
+
+TEST_F(CommandLine, helpIsTheSameWithEveryVersionOfCli11) {
+  EXPECT_EQ(careen({"verify", "--help"}).out, R"(Which frames of a film are missing or broken
+Usage: careen verify [OPTIONS] folder
+
+Positionals:
+  folder TEXT REQUIRED        Folder of frames
+
+Options:
+  -h,--help                   Print this help message and exit
+
+)");
+  const std::string help = careen({"render", "--help"}).out;
+  for (const char* const part :
+       {"\n  --quality TEXT Needs: --video\n                              The video's",
+        "\n  --overwrite Excludes: --approve --resume\n",
+        "\n[Option Group: Comparing]\n  With a film that was made before",
+        " differs\n  Options:\n    --ref TEXT Excludes: ",
+        "\n  [Option Group: How]\n    What counts as different\n    Options:\n"
+        "      --threshold TEXT=same-picture\n",
+        "\n      --ignore TEXT ...           Of pictures"}) {
+    EXPECT_NE(help.find(part), std::string::npos) << part << help;
   }
 }
 
@@ -348,8 +371,7 @@ TEST_F(CommandLine, interruptedSimulationWritesNothing) {
   folder_.write("scene.json", replaced(kScene, "\"duration\": 1,", "\"duration\": 100000,"));
   for (const int signal : {SIGINT, SIGTERM}) {
     Process process({program(), "simulate", "scene.json", "-o", "run.careen"}, folder_.path());
-    usleep(200'000);
-    process.send(signal);
+    process.sendOnceMasked(signal);
     const Ended ended = process.wait();
     EXPECT_EQ(ended.signal, signal) << ended.exitCode << ended.err;
     EXPECT_NE(ended.err.find("interrupted"), std::string::npos);
@@ -365,8 +387,7 @@ TEST_F(CommandLine, obeysTheFirstSignalEvenWhereItWaitsForever) {
     std::vector<std::string> command = {program()};
     command.insert(command.end(), arguments.begin(), arguments.end());
     Process process(command, folder_.path());
-    usleep(200'000);
-    process.send(SIGTERM);
+    process.sendOnceMasked(SIGTERM);
     const Ended ended = process.wait();
     EXPECT_EQ(ended.signal, SIGTERM) << ended.exitCode << ended.err;
     EXPECT_EQ(ended.err, "careen: interrupted\n");
@@ -379,9 +400,8 @@ TEST_F(CommandLine, keepsIgnoringAnIgnoredSignal) {
   folder_.write("scene.json", kScene);
   Process process({"bash", "-c", "trap '' INT; exec \"$0\" simulate scene.json --duration 100000", program()},
                   folder_.path());
-  usleep(300'000);
-  process.send(SIGINT);
-  usleep(300'000);
+  process.waitUntilItMasks(SIGTERM);
+  process.send(SIGINT);  // which would be taken first
   process.send(SIGTERM);
   EXPECT_EQ(process.wait().signal, SIGTERM);
 }

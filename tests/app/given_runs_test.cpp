@@ -66,6 +66,7 @@ TEST_F(GivenRuns, areAuditedWithAnExitCode) {
     const Ended sound = careen({"audit", table, "--scene", "scene.json"});
     EXPECT_EQ(sound.exitCode, 0) << sound.out << sound.err;
     EXPECT_NE(sound.out.find("velocities given"), std::string::npos) << sound.out;
+    EXPECT_TRUE(sound.out.ends_with("\nverdict           sound\n")) << sound.out;
   }
   writeKicked("kicked.csv", 10);
   const Ended broken = careen({"audit", "kicked.csv", "--scene", "scene.json", "--report", "audit.json"});

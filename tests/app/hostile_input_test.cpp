@@ -1,11 +1,9 @@
 // No input reaches a shell, crashes the program, or takes endless time or memory.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "support/process.h"
@@ -106,9 +104,9 @@ TEST_F(HostileInput, manyKeysAreReadInLinearTime) {
     scene += "\"key" + std::to_string(i) + "\": 1,";
   }
   folder_.write("scene.json", scene + "\"careen\": 1 }");
-  const auto begun = std::chrono::steady_clock::now();
-  EXPECT_EQ(careen({"info", "scene.json"}).exitCode, 2);
-  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(20));  // quadratic: minutes
+  const Ended ended = careen({"info", "scene.json"});
+  EXPECT_EQ(ended.exitCode, 2) << ended.err;
+  EXPECT_LT(ended.coreSeconds, 20);  // quadratic: minutes
 }
 
 TEST_F(HostileInput, manyBoxesAreReadInLinearTime) {
@@ -119,9 +117,9 @@ TEST_F(HostileInput, manyBoxesAreReadInLinearTime) {
              ", 0, 0] }";
   }
   folder_.write("scene.json", scene + "] }");
-  const auto begun = std::chrono::steady_clock::now();
-  EXPECT_EQ(careen({"info", "scene.json"}).exitCode, 0);
-  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(20));  // measured 1; quadratic: 40
+  const Ended ended = careen({"info", "scene.json"});
+  EXPECT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_LT(ended.coreSeconds, 20);  // measured 1; quadratic: 40
 }
 
 TEST_F(HostileInput, outputsAreWrittenOverNoInputAndNotOverEachOther) {
@@ -164,20 +162,6 @@ TEST_F(HostileInput, whatCannotBePrintedIsAFailure) {
       Process({"bash", "-c", "exec \"$0\" info scene.json > /dev/full", program()}, folder_.path()).wait();
   EXPECT_EQ(ended.exitCode, 3);
   EXPECT_NE(ended.err.find("standard output cannot be written"), std::string::npos) << ended.err;
-}
-
-// As under nohup, or in the background of a script.
-TEST_F(HostileInput, anIgnoredSignalStaysIgnored) {
-  folder_.write("scene.json", kFall);
-  Process process(
-      {"bash", "-c", "trap '' INT; exec \"$0\" simulate scene.json --method listing1 --dt 1e-6 --duration 10",
-       program()},
-      folder_.path());
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  process.send(SIGINT);
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  process.send(SIGTERM);
-  EXPECT_EQ(process.wait().signal, SIGTERM);
 }
 
 TEST_F(HostileInput, withoutACommandTheHelpIsShown) {

@@ -69,7 +69,10 @@ class RenderReference : public testing::Test {
 TEST_F(RenderReference, ofTheSameFilmOnlyTheResultForCiSystemsIsLeft) {
   const Ended ended = compared();
   EXPECT_EQ(ended.exitCode, 0) << ended.out << ended.err;
-  EXPECT_NE(ended.out.find("same: same motion, same files"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find(", 80x60, compared with " + (folder_ / "ref").string() +
+                           "\nsame: same motion, same files"),
+            std::string::npos)
+      << ended.out;
   EXPECT_EQ(kept(), Names{"junit.xml"});
   EXPECT_NE(textOf(folder_ / "out/junit.xml").find(R"(tests="3" failures="0" errors="0")"),
             std::string::npos);

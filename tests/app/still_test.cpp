@@ -75,8 +75,7 @@ TEST_F(Still, shutterOfTheCommandLineTakesTheScenesPlace) {
 TEST_F(Still, fourSamplesAPixelAreNeverFewer) {
   const EnvironmentVariable driver("GALLIUM_DRIVER", "softpipe");
   const auto bySoftpipe = [&](const char* antialiasing) {
-    return render({"--rendering-backend", "osmesa", "--still", "0.3", "--out", "still.png", "--antialiasing",
-                   antialiasing});
+    return render({"--still", "0.3", "--out", "still.png", "--antialiasing", antialiasing});
   };
   const Ended one = bySoftpipe("4x");
   EXPECT_EQ(one.exitCode, 3);

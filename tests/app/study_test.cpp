@@ -124,7 +124,9 @@ TEST_F(StudyCommand, listsItsCases) {
 
 TEST_F(StudyCommand, leavesNoHalfFinishedCaseWhenInterrupted) {
   Process process({program(), "study", "room-million", "--no-plots"}, folder_.path());
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  for (int tries = 0; tries < 6000 && !std::filesystem::exists(folder_ / "study/cases"); ++tries) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
   process.send(SIGINT);
   const Ended ended = process.wait();
   EXPECT_EQ(ended.signal, SIGINT);

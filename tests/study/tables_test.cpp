@@ -44,6 +44,15 @@ TEST(Tables, ofNothingAreTheirHeads) {
   EXPECT_NE(resultsMarkdown(study).find("Made by `careen study` on here."), std::string::npos);
 }
 
+TEST(Tables, sayWhatIsSet) {
+  StudyResult study{.machine = "here", .command = "careen study", .cases = {someCase(), someCase()}};
+  for (CaseResult& result : study.cases) {
+    result.attempts[1].settings = result.attempts[2].settings = "of order 2 | on time";
+  }
+  EXPECT_TRUE(resultsMarkdown(study).ends_with("| strang | of order 2 \\| on time |\n| ode |  |\n"))
+      << resultsMarkdown(study);
+}
+
 TEST(Tables, giveErrorsWithTwoDigits) {
   EXPECT_EQ(inShort(0), "0");
   EXPECT_EQ(inShort(1.26e-15), "1.3e-15");

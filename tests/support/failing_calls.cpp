@@ -65,6 +65,12 @@ bool fails(Kind kind, int error) {
 
 bool isStandard(int descriptor) { return descriptor <= STDERR_FILENO; }
 
+// What was only read is closed without harm.
+bool mayWrite(int descriptor) {
+  const int how = fcntl(descriptor, F_GETFL);
+  return how >= 0 && (how & O_ACCMODE) != O_RDONLY;
+}
+
 }  // namespace
 
 extern "C" {
@@ -81,7 +87,7 @@ ssize_t send(int to, const void* bytes, size_t count, int flags) {
 
 int close(int descriptor) {
   static auto* const call = original<int(int)>("close");
-  if (!isStandard(descriptor) && fails(kClose, EIO)) {
+  if (!isStandard(descriptor) && mayWrite(descriptor) && fails(kClose, EIO)) {
     call(descriptor);
     errno = EIO;
     return -1;

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,6 +22,7 @@ namespace careen {
 struct Ended {
   int exitCode = -1;  ///< −1: ended by `signal`
   int signal = 0;
+  double coreSeconds = 0;  ///< others on the machine do not lengthen it
   std::string out;
   std::string err;
 };
@@ -87,7 +89,15 @@ class Process {
     posix_spawn_file_actions_addopen(&actions, 1, out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_addopen(&actions, 2, err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    const int error = posix_spawnp(&pid_, arguments[0], &actions, nullptr, arguments.data(), environ);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t usual;  // which a shell ignores for its background jobs, and so for tests that run in one
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGINT);
+    posix_spawnattr_setsigdefault(&attributes, &usual);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    const int error = posix_spawnp(&pid_, arguments[0], &actions, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0) {
       throw std::runtime_error("cannot start " + command[0]);
@@ -96,14 +106,34 @@ class Process {
 
   pid_t id() const { return pid_; }
   void send(int signal) const { kill(pid_, signal); }
+  /// careen masks the signals that it answers at its start. Before, they would just end it.
+  void waitUntilItMasks(int signal) const {
+    const auto status = "/proc/" + std::to_string(pid_) + "/status";
+    const auto isMasked = [&] {
+      const std::string text = textOf(status);
+      const std::size_t mask = text.find("SigBlk:\t");
+      return mask != std::string::npos &&
+             (std::stoull(text.substr(mask + 8), nullptr, 16) >> (signal - 1) & 1) != 0;
+    };
+    for (int tries = 0; tries < 6000 && !isMasked(); ++tries) {
+      usleep(5'000);
+    }
+  }
+  void sendOnceMasked(int signal) const {
+    waitUntilItMasks(signal);
+    send(signal);
+  }
   /// Output so far.
   std::string outSoFar() const { return textOf(out_); }
   std::string errSoFar() const { return textOf(err_); }
   Ended wait() {
     int status = 0;
-    while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+    rusage usage{};
+    while (wait4(pid_, &status, 0, &usage) < 0 && errno == EINTR) {
     }
     Ended ended;
+    ended.coreSeconds = static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+                        1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
     ended.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     ended.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     ended.out = textOf(out_);

@@ -203,10 +203,11 @@ TEST(ExactWorldCrowdOverlap, takesInWhatSlidesBeforeTheyMeet) {
       return std::holds_alternative<CrowdStep>(each.second);
     });
     ASSERT_NE(joins, motions.end());
-    const auto boxOf = [&](std::size_t body) {
-      return BoxAt{run.at(world, body, joins->first).pose, world.bodies[body].halfExtents};
-    };
-    before += BoxAxes(boxOf(kSlides), boxOf(0)).gap() > kHalfAStep ? 1 : 0;
+    const Pose slides = run.at(world, kSlides, joins->first).pose;  // a BoxAt only refers to its pose
+    const Pose front = run.at(world, 0, joins->first).pose;
+    const double gap =
+        BoxAxes({slides, world.bodies[kSlides].halfExtents}, {front, world.bodies[0].halfExtents}).gap();
+    before += gap > kHalfAStep ? 1 : 0;
   }
   EXPECT_GE(before, 30);  // measured 35
 }
