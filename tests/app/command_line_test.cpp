@@ -66,17 +66,6 @@ Options:
   -h,--help                   Print this help message and exit
 
 )");
-  const std::string help = careen({"render", "--help"}).out;
-  for (const char* const part :
-       {"\n  --quality TEXT Needs: --video\n                              The video's",
-        "\n  --overwrite Excludes: --approve --resume\n",
-        "\n[Option Group: Comparing]\n  With a film that was made before",
-        " differs\n  Options:\n    --ref TEXT Excludes: ",
-        "\n  [Option Group: How]\n    What counts as different\n    Options:\n"
-        "      --threshold TEXT=same-picture\n",
-        "\n      --ignore TEXT ...           Of pictures"}) {
-    EXPECT_NE(help.find(part), std::string::npos) << part << help;
-  }
 }
 
 TEST_F(CommandLine, refusesWhatItDoesNotKnow) {

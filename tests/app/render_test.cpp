@@ -21,6 +21,20 @@ using test::kFilmScene;
 
 class Render : public test::FilmCommand {};
 
+TEST_F(Render, helpIsTheSameWithEveryVersionOfCli11) {
+  const std::string help = careen({"render", "--help"}).out;
+  for (const char* const part :
+       {"\n  --quality TEXT Needs: --video\n                              The video's",
+        "\n  --overwrite Excludes: --approve --resume\n",
+        "\n[Option Group: Comparing]\n  With a film that was made before",
+        " differs\n  Options:\n    --ref TEXT Excludes: ",
+        "\n  [Option Group: How]\n    What counts as different\n    Options:\n"
+        "      --threshold TEXT=same-picture\n",
+        "\n      --ignore TEXT ...           Of pictures"}) {
+    EXPECT_NE(help.find(part), std::string::npos) << part << help;
+  }
+}
+
 TEST_F(Render, filmsASceneInOneCommand) {
   const Ended ended = careen({"render", "scene.json", "--out", "film", "--verbose"});
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
