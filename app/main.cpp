@@ -112,10 +112,29 @@ void keepMemory() {
   mallopt(M_TRIM_THRESHOLD, kOnlyLarger);
 }
 
+std::terminate_handler usualEnd = nullptr;
+
+// A library may allocate where it promises not to throw, as CLI11 2.6 does for every option: there is no way
+// back to main() then.
+[[noreturn]] void endWithoutReturn() {
+  try {
+    if (const std::exception_ptr cause = std::current_exception()) {
+      std::rethrow_exception(cause);
+    }
+  } catch (const std::bad_alloc&) {
+    std::cerr << "careen: out of memory\n";
+    std::_Exit(exitWith(ExitCode::kMachineFailed));
+  } catch (...) {  // a fault of ours
+  }
+  usualEnd();
+  std::abort();
+}
+
 }  // namespace
 }  // namespace careen
 
 int main(int argc, char** argv) {
+  careen::usualEnd = std::set_terminate(careen::endWithoutReturn);
   careen::openStandardStreams();
   careen::keepMemory();
 #ifdef CAREEN_RENDER
