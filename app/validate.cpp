@@ -113,8 +113,7 @@ void print(const Toss& toss, double size) {
 }
 
 ExitCode validateCommand(const ValidateOptions& options, const std::stop_token& stop) {
-  const std::optional<Sweep> sweep =
-      options.sweep.empty() ? std::nullopt : std::optional(sweepOf(options.sweep));
+  const Sweep sweep = options.sweep.empty() ? Sweep{} : sweepOf(options.sweep);
   const auto [text, name] = sceneTextOf(options.scene, readFile(options.scene));
   const Scene scene = parseScene(text, name, Starts::kMayOverlap);
   const std::vector<PoseTable> measured = readMeasured(options.measured);
@@ -139,12 +138,12 @@ ExitCode validateCommand(const ValidateOptions& options, const std::stop_token& 
     print(found.tosses.back(), found.size);
     writeFile(runs / (std::filesystem::path(table.name).stem().string() + ".careen"), encodeTrajectory(run));
   }
-  if (sweep) {
-    found.swept = sweep->parameter;
-    found.sceneValue = valueOf(setup.world, sweep->parameter);
+  if (!sweep.values.empty()) {
+    found.swept = sweep.parameter;
+    found.sceneValue = valueOf(setup.world, sweep.parameter);
     settings.floorRuns = 0;
-    for (const double value : sweep->values) {
-      settings.setting = Setting{.parameter = sweep->parameter, .value = value};
+    for (const double value : sweep.values) {
+      settings.setting = Setting{.parameter = sweep.parameter, .value = value};
       std::vector<Toss> tosses;
       for (const PoseTable& table : measured) {
         tosses.push_back(validate(setup, table, settings, stop));
@@ -157,7 +156,7 @@ ExitCode validateCommand(const ValidateOptions& options, const std::stop_token& 
                 << brief(found.sweep.back().attitude * kDegrees, 4) << "°\n"
                 << std::flush;
     }
-    writeFile(options.out / "sweep.csv", sweepCsv(found.sweep, sweep->parameter));
+    writeFile(options.out / "sweep.csv", sweepCsv(found.sweep, sweep.parameter));
   }
   writeFile(options.out / "results.csv", tossesCsv(found.tosses, found.size));
   writeFile(options.out / "errors.csv", errorsCsv(found.tosses));
