@@ -110,7 +110,7 @@ std::string scripts() {
   return all;
 }
 
-// Replaces in one pass, so that a placeholder within a name is not replaced.
+// In one pass, so that a name that looks like a part is left as it is.
 std::string filled(const std::string& skeleton, const std::map<std::string, std::string>& parts) {
   std::string page;
   std::size_t at = 0;

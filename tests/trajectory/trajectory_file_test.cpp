@@ -175,11 +175,11 @@ TEST(TrajectoryFile, aMinuteOfABouncingBoxTakesLessThan50kB) {
 
 TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
-  for (const auto& [version, todo] : {std::pair('M', "77, expected 4 to 8: a newer careen wrote it"),
-                                      std::pair('\3', "3, expected 4 to 8: simulate its scene again")}) {
+  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 8: a newer careen wrote it"),
+                                        std::pair('\3', "3, expected 4 to 8: simulate its scene again")}) {
     bytes[8] = version;
     EXPECT_EQ(messageOf(withRightChecksum(bytes)),
-              "run.careen: this trajectory file has format version " + std::string(todo));
+              "run.careen: this trajectory file has format version " + std::string(remedy));
   }
 }
 
