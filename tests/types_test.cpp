@@ -150,12 +150,9 @@ TEST(Types, haveFewMembersAndFunctions) {
 /// Parameters that only say true or false, by header of the physics: an enum says what is meant. Their
 /// numbers may only fall.
 const std::map<std::string, int> kFlags = {
-    {"pile/projection.h", 1},
-    {"pile/crowd.h", 3},
-    {"pile/solver.h", 2},
-    {"solver/interior_point.h", 2},
-    {"contact/implicit_step.h", 1},
-    {"contact/contact_system.h", 1},
+    {"pile/projection.h", 1},       {"pile/crowd.h", 3},
+    {"pile/solver.h", 2},           {"solver/interior_point.h", 2},
+    {"contact/implicit_step.h", 1}, {"contact/contact_system.h", 1},
     {"solver/contact_newton.h", 1},
 };
 
