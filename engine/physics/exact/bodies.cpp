@@ -93,6 +93,17 @@ std::vector<int> Bodies::around(int rank) const {
   return found;
 }
 
+std::vector<int> Bodies::mayReach(const Vec3& low, const Vec3& high, const Instant& time,
+                                  double length) const {
+  const double gained = length * world_.gravity.norm();
+  const double speed = std::max(0.0, fastestAtZero_ + time.hi * world_.gravity.norm()) + 2 * gained;
+  // They are filed where they are now, which is on their way.
+  const Vec3 way = Vec3::Constant(2 * length * (speed + gained));
+  std::vector<int> found;
+  neighbors_.findWithin(low - way, high + way, found);
+  return found;
+}
+
 // ---- Motions.
 
 void Bodies::fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude) {
@@ -101,6 +112,7 @@ void Bodies::fly(int rank, const Instant& time, const BodyState& state, const Qu
   body.fly(state, attitude, world_.gravity);
   recorder_.moves(body.listed, time.hi, body.flight);
   account_.departs(static_cast<std::size_t>(body.listed.value), state);
+  noteSpeed(body);
   body.wall = firstWall(body, world_.walls, end_);
   body.crossing = {};
   findCrossing(rank);
@@ -132,6 +144,24 @@ void Bodies::step(const std::shared_ptr<ContactGroup>& group, std::size_t place)
   const int rank = group->ranks()[place];
   begins(rank, group->start());
   (*this)[rank].step(group, place);
+  noteSpeed((*this)[rank]);
+}
+
+void Bodies::noteSpeed(const Mover& body) {
+  const auto note = [&](const Mover& each) {
+    const double speed = each.steps() ? each.bounds.speed : each.flight.velocity.norm();
+    fastestAtZero_ = std::max(fastestAtZero_, speed - each.start.hi * world_.gravity.norm());
+  };
+  if (++noted_ > count()) {
+    noted_ = 0;
+    fastestAtZero_ = -std::numeric_limits<double>::infinity();
+    for (const Mover& each : movers_) {
+      if (each.moves()) {
+        note(each);
+      }
+    }
+  }
+  note(body);
 }
 
 void Bodies::begins(int rank, const Instant& time) {

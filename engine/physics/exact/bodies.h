@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,6 +49,10 @@ class Bodies {
   std::span<const int> joinedTo(int rank) const { return springs_[static_cast<std::size_t>(rank)]; }
   /// All that it can touch in its cell or those around it, sorted.
   std::vector<int> around(int rank) const;
+
+  /// All that may get into that box [m] within that time [s] from `time` on, not longer ago than that, and
+  /// perhaps others; sorted.
+  std::vector<int> mayReach(const Vec3& low, const Vec3& high, const Instant& time, double length) const;
 
   /// What a body does from then on.
   void fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude);
@@ -97,6 +102,7 @@ class Bodies {
 
  private:
   void begins(int rank, const Instant& time);
+  void noteSpeed(const Mover& body);
 
   const World& world_;
   Instant end_;
@@ -111,6 +117,10 @@ class Bodies {
   Neighbors neighbors_;
   EventQueue queue_;
   FlightAccount account_;
+  // [m/s] No body was or is faster at time t than this and t times gravity; found anew as often as bodies
+  // are.
+  double fastestAtZero_ = -std::numeric_limits<double>::infinity();
+  int noted_ = 0;
   std::vector<char> forced_;               // by rank
   std::vector<std::vector<int>> springs_;  // by rank
 };

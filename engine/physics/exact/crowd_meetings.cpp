@@ -82,7 +82,7 @@ bool fliesSince(const Bodies& bodies, const Mover& body, const Instant& time) {
 std::vector<int> outsidersIn(const Bodies& bodies, const CrowdGroup& group, const Crowd::Extent& extent,
                              const Instant& time, double length, Outsiders which) {
   std::vector<int> found;
-  for (int rank = 0; rank < bodies.count(); ++rank) {
+  for (const int rank : bodies.mayReach(extent.low, extent.high, time, length)) {
     const Mover& body = bodies[rank];
     if (group.has(body) || (which == Outsiders::kInNoGroup && body.group)) {
       continue;

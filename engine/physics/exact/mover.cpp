@@ -45,7 +45,7 @@ void Mover::rest(const Pose& at) {
 }
 
 Vec3 Mover::positionAt(const Instant& time) const {
-  return steps() ? stateAt(time).pose.position : flight.positionAt(elapsed(time));
+  return steps() ? careen::positionAt(group->motion(place), elapsed(time)) : flight.positionAt(elapsed(time));
 }
 
 Quat Mover::attitudeAt(const Instant& time) const {
