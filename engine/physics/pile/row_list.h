@@ -26,7 +26,7 @@ struct RowBlock {
   int first = 0;  ///< of its rows
   int count = 0;
   double friction = 0;
-  ContactFrame frame;
+  ContactFrame frame = {};
   Vec3 apart = Vec3::Zero();  ///< [m] from b's centre to a's
 };
 

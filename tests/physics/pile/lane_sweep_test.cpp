@@ -12,12 +12,14 @@ namespace {
 
 using Kind = LaneSweep::Kind;
 
-// Cubes of 1 m and 2 kg, whose I⁻¹ is 3/(kg m²), in a tower; rows under their centres.
+// Cubes of 1 m and 2 kg, whose I⁻¹ is 3/(kg m²), in a tower or side by side; rows under their centres.
 struct Tower {
-  explicit Tower(int count, double change = 1e-9) : bodies(at(count) + 1) {
+  explicit Tower(int count, double change = 1e-9, bool sideBySide = false) : bodies(at(count) + 1) {
     for (int k = 0; k < count; ++k) {
       bodies[at(k)] = {.inverseMass = 0.5, .xx = 3, .yy = 3, .zz = 3, .radius = 1, .change = change};
-      list.begin({.a = k, .b = k == 0 ? count : k - 1, .friction = 0.5, .apart = Vec3(0, 0, k == 0 ? 0 : 1)});
+      const bool onFloor = k == 0 || sideBySide;
+      list.begin(
+          {.a = k, .b = onFloor ? count : k - 1, .friction = 0.5, .apart = Vec3(0, 0, onFloor ? 0 : 1)});
       list.add({.arm = Vec3(0, 0, -0.5)});
     }
     rows.fill(list, bodies);
@@ -101,6 +103,18 @@ TEST(LaneSweep, wakesTheBlocksOfBodiesThatChange) {
   EXPECT_EQ(tower.normalImpulse(0), 0);
   EXPECT_EQ(tower.run(Kind::kFrictionless, 1), 2);
   EXPECT_GT(tower.normalImpulse(0), 0);
+}
+
+TEST(LaneSweep, leavesThoseBesideOneOnTheListAsTheyAre) {
+  Tower cubes(3, 1e-9, true);
+  ASSERT_EQ(cubes.rows.groups().groups().size(), 1U);
+  cubes.wake(1);
+  EXPECT_EQ(cubes.run(Kind::kFriction, 1), 1);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(cubes.normalImpulse(k) > 0, k == 1);
+    EXPECT_EQ(cubes.moving[at(k)].pushed, k == 1);
+    EXPECT_EQ(cubes.moving[at(k)].velocity == Vec3(3, 0, -1), k != 1);
+  }
 }
 
 // A bound of 0.5 m: relaxed, 1.4 times that. The velocities stay.

@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#pragma GCC diagnostic ignored "-Wpsabi"  // as lanes.h says: a precompiled header forgets it
+
 namespace careen {
 namespace {
 
