@@ -31,9 +31,9 @@ std::vector<int> blocksOf(const BlockGroups::Group& group) {
 // Links of a chain of five: 0–1 and 2–3 share no body, nor do 1–2 and 3–4.
 TEST(BlockGroups, takeLinksOfAChainInTurn) {
   const std::vector<SolverBody> bodies = inARow(5);
-  std::vector<RowBlock> blocks;
+  std::vector<RowBlock> blocks(4);
   for (int k = 0; k < 4; ++k) {
-    blocks.push_back({.a = k, .b = k + 1, .first = 2 * k, .count = 2});
+    blocks[at(k)] = {.a = k, .b = k + 1, .first = 2 * k, .count = 2};
   }
   BlockGroups groups(std::make_shared<Team>(1));
   groups.find(blocks, bodies);
@@ -53,9 +53,9 @@ TEST(BlockGroups, takeLinksOfAChainInTurn) {
 TEST(BlockGroups, shareWallsAndHeldBodies) {
   std::vector<SolverBody> bodies = inARow(7);
   bodies[6] = {};  // held
-  std::vector<RowBlock> blocks;
+  std::vector<RowBlock> blocks(6);
   for (int k = 0; k < 6; ++k) {
-    blocks.push_back({.a = k, .b = k % 2 == 0 ? 6 : 7, .first = 4 * k, .count = k == 1 ? 3 : 4});
+    blocks[at(k)] = {.a = k, .b = k % 2 == 0 ? 6 : 7, .first = 4 * k, .count = k == 1 ? 3 : 4};
   }
   std::swap(blocks[2].a, blocks[2].b);
   BlockGroups groups(std::make_shared<Team>(1));
