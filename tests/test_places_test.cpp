@@ -104,7 +104,6 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"physics/pile/crowd_motion", "part of class Crowd, tested through crowd"},
     {"physics/pile/crowd_retake", "part of class Crowd, tested through crowd and crowd_projection"},
     {"physics/pile/index", "one cast"},
-    {"physics/pile/solver_groups", "part of class PileSolver, tested through solver"},
     {"physics/search/time_of_impact_boxes",
      "the half of time_of_impact.h for two boxes, tested through time_of_impact"},
     {"physics/world/contact_residuals",

@@ -113,8 +113,10 @@ constexpr int kMostMembers = 25;
 constexpr int kMostFunctions = 40;
 /// Larger than that: to become several, and off this list. Their numbers may only fall.
 const std::map<std::string, Size> kLarge = {
-    {"Crowd", {70, 133}},      {"PileSolver", {22, 70}},   {"Island", {31, 60}},
-    {"TimeStepper", {26, 60}}, {"ImplicitStep", {26, 31}}, {"PileManifold", {31, 2}},
+    {"Crowd", {70, 133}},
+    {"Island", {31, 60}},
+    {"TimeStepper", {26, 60}},
+    {"ImplicitStep", {26, 31}},
 };
 
 TEST(Types, haveFewMembersAndFunctions) {
@@ -151,7 +153,7 @@ TEST(Types, haveFewMembersAndFunctions) {
 /// numbers may only fall.
 const std::map<std::string, int> kFlags = {
     {"pile/projection.h", 1},       {"pile/crowd.h", 3},
-    {"pile/solver.h", 2},           {"solver/interior_point.h", 2},
+    {"pile/solver.h", 1},           {"solver/interior_point.h", 2},
     {"contact/implicit_step.h", 1}, {"contact/contact_system.h", 1},
     {"solver/contact_newton.h", 1},
 };

@@ -15,8 +15,6 @@ constexpr int kPowerSteps = 12;
 constexpr int kNothing = 0;  // in own_
 constexpr std::size_t kBlocksPerRange = 32;
 
-CAREEN_LANES Lanes allOf(double value) { return Lanes{value, value, value, value}; }
-
 }  // namespace
 
 void DisplacementSolver::begin(std::span<const PileBody> bodies, double compliance) {

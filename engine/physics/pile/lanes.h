@@ -34,6 +34,7 @@ CAREEN_LANES Lanes lanesFrom(const void* from) {
   return lanes;
 }
 CAREEN_LANES void lanesTo(const Lanes& lanes, void* to) { std::memcpy(to, &lanes, sizeof lanes); }
+CAREEN_LANES Lanes allOf(double value) { return Lanes{value, value, value, value}; }
 /// Rows become columns.
 CAREEN_LANES void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
   const Lanes ab0 = __builtin_shufflevector(a, b, 0, 4, 2, 6);
@@ -102,17 +103,19 @@ __attribute__((target("avx2")))
 void runWide(const Work& work) {
   work();
 }
-inline bool hasWideLanes() {
+/// How many numbers registers hold; the bits are the same.
+enum class Registers : std::uint8_t { kNarrow, kWide };
+inline Registers widestRegisters() {
 #if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") != 0;
+  return __builtin_cpu_supports("avx2") != 0 ? Registers::kWide : Registers::kNarrow;
 #else
-  return false;
+  return Registers::kNarrow;
 #endif
 }
-/// The same where the machine has them, and `wide` is set.
+/// The same in those registers, which the machine must have.
 template <class Work>
-void runInLanes(const Work& work, bool wide = hasWideLanes()) {
-  if (wide) {
+void runInLanes(const Work& work, Registers registers = widestRegisters()) {
+  if (registers == Registers::kWide) {
     runWide(work);
   } else {
     work();

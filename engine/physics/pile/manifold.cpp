@@ -118,11 +118,9 @@ void addFace(const PileBody& a, const PileBody& b, const PileAxes& axes, double 
   const ClippedFace face =
       clipFace(owner, incident, ownerFromIncident, center, axis, sign, kClipSlack * manifold.length);
   manifold.planeOfB = ofB;
-  manifold.planeAxis = axis;
-  manifold.closest = false;
-  manifold.planeNormal = sign * Vec3::Unit(axis);
-  manifold.planeTangent = Vec3::Unit((axis + 1) % 3);
-  manifold.planeOffset = owner.halfExtents[axis];
+  manifold.planeInOwner = {.normal = sign * Vec3::Unit(axis),
+                           .tangent = Vec3::Unit((axis + 1) % 3),
+                           .offset = owner.halfExtents[axis]};
   manifold.faces = face.faces * 2 + (ofB ? 1 : 0);
   for (int k = 0; k < face.count; ++k) {
     const ClippedPoint& point = face.points[at(k)];
@@ -138,15 +136,16 @@ void addEdges(const PileBody& a, const PileBody& b, const PileAxes& axes, PileMa
   const int j = (axes.edges - 6) % 3;
   Vec3 normal = a.axes.col(i).cross(b.axes.col(j));
   const Vec3 apart = a.middle() - b.middle();
-  manifold.edgeSign = dot(normal, apart) < 0 ? -1 : 1;
-  normal *= manifold.edgeSign;
+  EdgeMiddles& middles = manifold.edgeMiddles;
+  middles.sign = dot(normal, apart) < 0 ? -1 : 1;
+  normal *= middles.sign;
   const Vec3 normalA = a.axes.transpose() * normal;
   const Vec3 normalB = b.axes.transpose() * normal;
   for (int k = 0; k < 3; ++k) {
-    manifold.middleA[k] = k == i ? 0 : normalA[k] > 0 ? -a.halfExtents[k] : a.halfExtents[k];
-    manifold.middleB[k] = k == j ? 0 : normalB[k] > 0 ? b.halfExtents[k] : -b.halfExtents[k];
+    middles.a[k] = k == i ? 0 : normalA[k] > 0 ? -a.halfExtents[k] : a.halfExtents[k];
+    middles.b[k] = k == j ? 0 : normalB[k] > 0 ? b.halfExtents[k] : -b.halfExtents[k];
   }
-  const Vec3 between = apart + a.axes * manifold.middleA - b.axes * manifold.middleB;
+  const Vec3 between = apart + a.axes * middles.a - b.axes * middles.b;
   const double cosine = axes.cosines(i, j);
   const double alongA = dot(a.axes.col(i), between);
   const double alongB = dot(b.axes.col(j), between);
@@ -190,11 +189,11 @@ void addClosest(const PileBody& a, const PileBody& b, double reach, PileManifold
     return;
   }
   manifold.planeOfB = false;
-  manifold.closest = true;
   manifold.faces = kClosestFeature;
-  manifold.planeNormal = a.axes.transpose() * (apart / distance);
-  manifold.planeTangent = frameOf(manifold.planeNormal).tangent1;
-  manifold.planeOffset = dot(manifold.planeNormal, a.axes.transpose() * (onA - a.middle()));
+  PlaneInOwner& plane = manifold.planeInOwner;
+  plane.normal = a.axes.transpose() * (apart / distance);
+  plane.tangent = frameOf(plane.normal).tangent1;
+  plane.offset = dot(plane.normal, a.axes.transpose() * (onA - a.middle()));
   addPoint(manifold, b.axes.transpose() * (onB - b.middle()), kClosestFeature);
 }
 
@@ -259,11 +258,11 @@ void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifol
   const double sign = manifold.planeOfB ? 1 : -1;
   const int planePoints = manifold.count - (manifold.hasEdges ? 1 : 0);
   if (planePoints > 0) {
-    const Vec3 outward = owner.axes * manifold.planeNormal;
+    const Vec3 outward = owner.axes * manifold.planeInOwner.normal;
     manifold.plane.normal = sign * outward;
-    manifold.plane.tangent1 = owner.axes * manifold.planeTangent;
+    manifold.plane.tangent1 = owner.axes * manifold.planeInOwner.tangent;
     manifold.plane.tangent2 = manifold.plane.normal.cross(manifold.plane.tangent1);
-    const double center = sign * dot(outward, apart) - manifold.planeOffset;
+    const double center = sign * dot(outward, apart) - manifold.planeInOwner.offset;
     const Vec3 toOther = manifold.planeOfB ? toMiddle : Vec3(toMiddle - apart);
     for (int k = 0; k < planePoints; ++k) {
       PilePoint& point = manifold.points[at(k)];
@@ -277,15 +276,15 @@ void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifol
     const Vec3 alongA = a.axes.col(manifold.edgeA);
     const Vec3 alongB = b.axes.col(manifold.edgeB);
     const double cosine = dot(alongA, alongB);
-    const Vec3 cross = manifold.edgeSign * alongA.cross(alongB);
+    const Vec3 cross = manifold.edgeMiddles.sign * alongA.cross(alongB);
     const double sine = cross.norm();
     if (sine > kSlack) {
       manifold.edges.normal = cross / sine;
       manifold.edges.tangent1 = alongA;
       manifold.edges.tangent2 = manifold.edges.normal.cross(alongA);
     }
-    const Vec3 armA = a.axes * manifold.middleA;
-    const Vec3 between = apart + armA - b.axes * manifold.middleB;
+    const Vec3 armA = a.axes * manifold.edgeMiddles.a;
+    const Vec3 between = apart + armA - b.axes * manifold.edgeMiddles.b;
     point.gap = dot(manifold.edges.normal, between);
     const double square = std::max(1 - cosine * cosine, kSlack * kSlack);
     const double along = (cosine * dot(alongB, between) - dot(alongA, between)) / square;

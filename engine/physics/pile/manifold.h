@@ -35,6 +35,20 @@ struct PilePoint {
   int row = -1;          ///< in the solver, −1: too far to meet
 };
 
+/// The reference plane in the frame of the box that owns it.
+struct PlaneInOwner {
+  Vec3 normal = Vec3::UnitZ();   ///< [1] outward
+  Vec3 tangent = Vec3::UnitX();  ///< [1]
+  double offset = 0;             ///< [m]
+};
+
+/// Where the edges of a pair lie in their boxes.
+struct EdgeMiddles {
+  Vec3 a = Vec3::Zero();  ///< [m] from the box's middle, a's frame
+  Vec3 b = Vec3::Zero();  ///< [m] b's frame
+  double sign = 1;        ///< for which a's edge × b's edge points from b to a
+};
+
 /// Contact manifold of two boxes, or a box and a wall. Gaps are exact functions of the two poses for fixed
 /// features: points of one box against a reference plane of the other, no deeper than the one edge pair.
 struct PileManifold {
@@ -48,20 +62,14 @@ struct PileManifold {
   double span = 0;  ///< [s] in which its impulses acted
 
   int axis = -1;          ///< best axis at the last rebuild, as in BoxAxis
-  int planeAxis = 0;      ///< in the owner's frame
   bool planeOfB = false;  ///< b owns the reference plane
-  bool closest = false;   ///< the plane separates the closest points; it is no face
   std::uint32_t faces = 0;
-  Vec3 planeNormal = Vec3::UnitZ();   ///< [1] outward, owner's frame
-  Vec3 planeTangent = Vec3::UnitX();  ///< [1] owner's frame
-  double planeOffset = 0;             ///< [m] owner's frame
+  PlaneInOwner planeInOwner;
 
   bool hasEdges = false;  ///< the last point is the edge pair
   int edgeA = 0;
   int edgeB = 0;
-  Vec3 middleA = Vec3::Zero();  ///< [m] edge midpoint from the box's middle, a's frame
-  Vec3 middleB = Vec3::Zero();  ///< [m] b's frame
-  double edgeSign = 1;          ///< sign for which a's edge × b's edge points from b to a
+  EdgeMiddles edgeMiddles;
 
   ContactFrame plane;  ///< normal from b to a, tangents fixed in the body that owns the reference plane
   ContactFrame edges;
@@ -82,7 +90,7 @@ struct PileManifold {
   void clear() {
     axis = -1;
     faces = 0;
-    hasEdges = closest = carries = false;
+    hasEdges = carries = false;
     count = 0;
     moved = separation = reach = 0;
   }

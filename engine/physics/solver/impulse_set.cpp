@@ -11,6 +11,9 @@ using Triple = ContactProblem::Triple;
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
+/// Brings a vector of that size into the disc; 1 within it.
+double shrinkInto(double radius, double size) { return size <= radius ? 1 : radius / size; }
+
 /// Radius μ x_n > 0, |x_t| > radius. Along τ = x_t/|x_t|, λ_t follows μ λ_n; across it, it turns with u_t:
 /// A = [1, 0; μ τ, κ (I − τ τᵀ)] with κ = radius/|x_t|.
 ContactAnswer slippingAnswer(const ImpulseSet& set, const ContactEquation& equation, const Triple& impulse,
@@ -56,14 +59,9 @@ double ImpulseSet::violation(const Triple& impulse, const Triple& u) const {
   }
   const double x = impulse[1] / mass - u[1];
   const double y = impulse[2] / mass - u[2];
-  const double size = length(x, y);
-  const double radius = friction * std::max(0.0, normal);
-  if (size <= radius) {
-    return std::sqrt(open * open + (u[1] * u[1] + u[2] * u[2]));
-  }
-  const double shrink = radius / size;
-  const double dx = impulse[1] / mass - shrink * x;
-  const double dy = impulse[2] / mass - shrink * y;
+  const double shrink = shrinkInto(limit(std::max(0.0, normal)), length(x, y));
+  const double dx = shrink == 1 ? u[1] : impulse[1] / mass - shrink * x;  // u_t within it, but not rounded
+  const double dy = shrink == 1 ? u[2] : impulse[2] / mass - shrink * y;
   return std::sqrt(open * open + (dx * dx + dy * dy));
 }
 
@@ -77,12 +75,7 @@ Triple ImpulseSet::admissible(const Triple& impulse) const {
   if (kind == Kind::kLine) {
     return {impulse[0], drag[0] * impulse[0], drag[1] * impulse[0]};
   }
-  const double size = length(impulse[1], impulse[2]);
-  const double radius = friction * impulse[0];
-  if (size <= radius) {
-    return impulse;
-  }
-  const double shrink = radius / size;
+  const double shrink = shrinkInto(limit(impulse[0]), length(impulse[1], impulse[2]));
   return {impulse[0], shrink * impulse[1], shrink * impulse[2]};
 }
 
@@ -114,7 +107,7 @@ ContactAnswer newtonAnswer(const ImpulseSet& set, const ContactEquation& equatio
     return {};
   }
   const std::array<double, 2> x{impulse[1] - equation.rho * u[1], impulse[2] - equation.rho * u[2]};
-  const double radius = set.friction * normal;
+  const double radius = set.limit(normal);
   if (set.kind == ImpulseSet::Kind::kLine || length(x[0], x[1]) <= radius) {
     return stickingAnswer(set, equation, centre, u);
   }

@@ -17,6 +17,9 @@ struct ImpulseSet {
   Kind kind = Kind::kLine;       ///< kLine also without friction
   std::array<double, 2> drag{};  ///< [1] of kLine: λ_t = drag λ_n
 
+  /// [N s] Largest tangential impulse, of kCone.
+  double limit(double normal) const { return friction * normal; }
+
   /// How much the law is violated [m/s]: |λ − P(λ − ρ u)|/ρ with ρ = mass, P the projection of λ_n to ≥ 0 and
   /// of λ_t to the disc of radius μ max(0, λ_n); in all of space |u|. Zero for solutions only; finite as μ →
   /// ∞, unlike the natural map of De Saxcé's form.

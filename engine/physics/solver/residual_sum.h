@@ -29,7 +29,7 @@ class ResidualSum {
     if (set.kind == ImpulseSet::Kind::kLine) {
       dual_ = std::max({dual_, -n, norm(t - set.drag[0] * n, s - set.drag[1] * n)});
     } else {
-      const double limit = set.friction * n;
+      const double limit = set.limit(n);
       dual_ = std::max({dual_, -n, norm(t, s) - limit});
       power += std::min(limit, impulse_) * norm(u[1], u[2]) + (t * u[1] + s * u[2]);
     }

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/system/team.h"
 #include "physics/pile/body.h"
 #include "physics/pile/solver.h"
 #include "support/pile_scenes.h"
@@ -17,7 +19,7 @@ namespace {
 
 // A chain of boxes whose neighbours touch at up to four points, thrown together: rows of any length in blocks
 // that share bodies.
-std::vector<double> solved(bool wide) {
+std::vector<double> solved(Registers registers) {
   constexpr int kBodies = 40;
   test::Pourer pourer(3);
   std::vector<PileBody> bodies;
@@ -29,8 +31,7 @@ std::vector<double> solved(bool wide) {
     body.initial.pose.worldFromBody = pourer.attitude().toRotationMatrix();
     bodies.push_back(pileBody(body, body.initial));
   }
-  PileSolver solver;
-  solver.useWideLanes(wide);
+  PileSolver solver(std::make_shared<Team>(1), registers);
   solver.begin(kBodies);
   for (int k = 0; k < kBodies; ++k) {
     solver.setBody(k, bodies[static_cast<std::size_t>(k)], 1e-9);
@@ -71,11 +72,11 @@ std::vector<double> solved(bool wide) {
 }
 
 TEST(Lanes, widthOfRegistersChangesNoBit) {
-  if (!hasWideLanes()) {
+  if (widestRegisters() == Registers::kNarrow) {
     GTEST_SKIP() << "this machine has no wide registers";
   }
-  const std::vector<double> wide = solved(true);
-  EXPECT_EQ(solved(false), wide);
+  const std::vector<double> wide = solved(Registers::kWide);
+  EXPECT_EQ(solved(Registers::kNarrow), wide);
   for (const double x : wide) {
     ASSERT_TRUE(std::isfinite(x));
   }
