@@ -155,7 +155,6 @@ const std::map<std::string, int> kFlags = {
     {"pile/projection.h", 1},       {"pile/crowd.h", 3},
     {"pile/solver.h", 1},           {"solver/interior_point.h", 2},
     {"contact/implicit_step.h", 1}, {"contact/contact_system.h", 1},
-    {"solver/contact_newton.h", 1},
 };
 
 TEST(Types, ofThePhysicsTakeNoBareFlags) {

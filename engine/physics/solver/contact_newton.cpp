@@ -83,12 +83,13 @@ void ContactNewton::follow(const CoupledContacts& contacts) {
 
 /// Moves impulses_ by one full step. Returns false if that leads nowhere.
 bool ContactNewton::step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres,
-                         bool sticking) {
+                         Modes modes) {
   for (std::size_t c = 0; c < impulses_.size(); ++c) {
     const Contact& contact = contacts.contacts()[c];
     const ContactEquation equation = equationOf(contact, options);
-    answers_[c] = sticking ? stickingAnswer(contact, equation, centres[c], u_[c])
-                           : newtonAnswer(contact, equation, impulses_[c], centres[c], u_[c]);
+    answers_[c] = modes == Modes::kSticking
+                      ? stickingAnswer(contact, equation, centres[c], u_[c])
+                      : newtonAnswer(contact, equation, impulses_[c], centres[c], u_[c]);
   }
   ++factorisations_;
   if (!contacts.factorise(answers_)) {
@@ -125,7 +126,8 @@ double ContactNewton::improve(CoupledContacts& contacts, std::span<Triple> impul
   int stalled = 0;
   while (factorisations_ < options.steps && best > options.enough && stalled < kPatience &&
          !isGood(contacts, impulses, best, options.good)) {
-    if (!step(contacts, options, impulses_, options.sticking && factorisations_ == 0)) {
+    if (!step(contacts, options, impulses_,
+              options.sticking && factorisations_ == 0 ? Modes::kSticking : Modes::kOfImpulses)) {
       break;
     }
     const double now = admit(contacts);
@@ -161,7 +163,7 @@ bool ContactNewton::solveProximal(CoupledContacts& contacts, const Options& opti
   }
   double most = kDiverged * contacts.scale();
   for (steps = 1; steps <= kProximalSteps && factorisations_ < options.steps; ++steps) {
-    if (!step(contacts, options, centres_)) {
+    if (!step(contacts, options, centres_, Modes::kOfImpulses)) {
       return false;
     }
     const double error = equationsError(contacts, options);

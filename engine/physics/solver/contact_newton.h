@@ -48,8 +48,8 @@ class ContactNewton {
 
  private:
   double begin(const CoupledContacts& contacts, std::span<Triple> impulses, std::span<double> q);
-  bool step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres,
-            bool sticking = false);
+  enum class Modes { kOfImpulses, kSticking };
+  bool step(CoupledContacts& contacts, const Options& options, std::span<const Triple> centres, Modes modes);
   void follow(const CoupledContacts& contacts);
   double equationsError(const CoupledContacts& contacts, const Options& options) const;
   bool solveProximal(CoupledContacts& contacts, const Options& options, double error, int& steps);

@@ -122,13 +122,13 @@ void InteriorPoint::scale(const Contact& contact, State& state, std::array<doubl
 /// What r becomes if u does not change: target w⁻¹ + W² residual, less the second-order term W (v \ (W⁻¹dr ∘
 /// W dw)) of the predictor, where W⁻¹dr = −v − W dw. [m/s]
 ContactProblem::Triple InteriorPoint::given(const Contact& contact, const State& state, double target,
-                                            bool corrected) const {
+                                            Order order) const {
   if (contact.kind == Kind::kSpace) {
     return {state.r[0] + state.size2 * state.residual[0], state.r[1] + state.size2 * state.residual[1],
             state.r[2] + state.size2 * state.residual[2]};
   }
   if (contact.kind == Kind::kLine) {
-    const double product = corrected ? state.changeR[0] * state.changeW[0] : 0;
+    const double product = order == Order::kSecond ? state.changeR[0] * state.changeW[0] : 0;
     return {(target - product) / state.w[0] + state.size2 * state.residual[0], 0, 0};
   }
   Triple sum = scaledTwice(state.point, state.size2, state.residual);
@@ -136,7 +136,7 @@ ContactProblem::Triple InteriorPoint::given(const Contact& contact, const State&
   sum[0] += inverse * state.w[0];
   sum[1] -= inverse * state.w[1];
   sum[2] -= inverse * state.w[2];
-  if (corrected) {
+  if (order == Order::kSecond) {
     const double size = std::sqrt(state.size2);
     const Triple y = scaledOnce(state.point, size, state.changeW);
     const Triple x{-state.scaled[0] - y[0], -state.scaled[1] - y[1], -state.scaled[2] - y[2]};
@@ -149,12 +149,12 @@ ContactProblem::Triple InteriorPoint::given(const Contact& contact, const State&
   return sum;
 }
 
-/// The changes of r and w. Corrected: by the second-order term of those found before.
-void InteriorPoint::solve(const CoupledContacts& contacts, double centering, bool corrected) {
+/// The changes of r and w. Of second order by those found before.
+void InteriorPoint::solve(const CoupledContacts& contacts, double centering, Order order) {
   for (std::size_t c = 0; c < states_.size(); ++c) {
     const Contact& contact = contacts.contacts()[c];
     State& state = states_[c];
-    const Triple r = given(contact, state, centering * gap_, corrected);
+    const Triple r = given(contact, state, centering * gap_, order);
     state.changeR = {r[0] - state.r[0], r[1] - state.r[1], r[2] - state.r[2]};
     answers_[c].given = impulseOf(contact, state.friction, r);
   }
@@ -215,10 +215,10 @@ bool InteriorPoint::advance(CoupledContacts& contacts) {
   if (!contacts.factorise(answers_)) {
     return false;
   }
-  solve(contacts, 0, false);
+  solve(contacts, 0, Order::kFirst);
   const double left = 1 - std::min(1.0, strideToSurface());
   const double centering = std::max(options_.leastCentering, left * left * left);
-  solve(contacts, centering, options_.secondOrder);
+  solve(contacts, centering, options_.secondOrder ? Order::kSecond : Order::kFirst);
   lastStride_ = std::min(1.0, options_.stride * strideToSurface());
   if (!(lastStride_ > 0) || !move(lastStride_)) {
     return false;

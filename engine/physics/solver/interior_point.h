@@ -63,8 +63,9 @@ class InteriorPoint {
 
   void refresh(const CoupledContacts& contacts);
   static void scale(const Contact& contact, State& state, std::array<double, 9>& stiffness);
-  Triple given(const Contact& contact, const State& state, double target, bool corrected) const;
-  void solve(const CoupledContacts& contacts, double centering, bool corrected);
+  enum class Order { kFirst, kSecond };  // kSecond: by the changes found last
+  Triple given(const Contact& contact, const State& state, double target, Order order) const;
+  void solve(const CoupledContacts& contacts, double centering, Order order);
   double strideToSurface() const;
   bool move(double stride);
 
