@@ -42,18 +42,12 @@ double fastestChange(const std::vector<TouchingBody>& before, const std::vector<
 
 ContactFeature featureOf(const Encounter& encounter, std::size_t k) {
   const ImpactContact& contact = encounter.contacts[k];
-  const Pose& pose = encounter.a(k).after.pose;
-  const Body& body = encounter.a(k).body();
+  const EncounterBody& a = encounter.a(k);
   ContactFeature feature;
   if (contact.b.isWall()) {
-    const Vec3 at = pose.worldFromBody.transpose() * contact.armA - body.boxCenter;
-    feature.a = contact.a;
-    feature.b = contact.b;
-    for (int i = 0; i < 3; ++i) {
-      feature.onA[i] = body.boxCenter[i] + (at[i] < 0 ? -body.halfExtents[i] : body.halfExtents[i]);
-    }
+    feature = {.a = contact.a, .b = contact.b, .onA = corner(a.body(), contact.corner)};
   } else {
-    const BoxAt boxA = boxAt(pose, body);
+    const BoxAt boxA = boxAt(a.after.pose, a.body());
     const BoxAt boxB = boxAt(encounter.b(k).after.pose, encounter.b(k).body());
     feature = featureAt({contact.armA, contact.armB, contact.normal, contact.inCone},
                         gapAlong(boxA, boxB, contact.normal), contact.a, boxA, contact.b.body(), boxB);

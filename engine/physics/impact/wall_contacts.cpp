@@ -23,7 +23,8 @@ double addWallContacts(const World& world, const Body& body, const Pose& pose, i
                             .b = Partner::ofWall(w),
                             .armA = pose.worldFromBody * corner(body, k),
                             .normal = wall.normal,
-                            .material = touching(body.material, wall.material)});
+                            .material = touching(body.material, wall.material),
+                            .corner = k});
       }
     }
   }

@@ -47,6 +47,7 @@ TEST(WallContacts, areTheFourCornersOfAFace) {
     EXPECT_EQ(found.contacts[k].a, 7);
     EXPECT_EQ(found.contacts[k].armA.cwiseAbs(), Vec3(1, 2, 3));
     EXPECT_EQ(found.contacts[k].armA.z(), -3);
+    EXPECT_EQ(found.contacts[k].armA, corner(Vec3(1, 2, 3), found.contacts[k].corner));
     EXPECT_EQ(found.contacts[k].normal, Vec3::UnitZ());
     EXPECT_EQ(found.contacts[k].material.restitution, 0.75);
     EXPECT_EQ(found.contacts[k].material.friction, 0.5);
