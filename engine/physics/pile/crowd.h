@@ -47,10 +47,6 @@ namespace careen {
 /// rates found is undone by shifts in the same step, the rest by a position projection every few steps; none
 /// of it becomes velocity (no Baumgarte stabilisation, no slop).
 ///
-/// Bodies sleep with all that they touch, or, where some of that still moves, beyond a few contacts from it,
-/// if forces within their cones balance on them at rest, those of the ones awake being as they are: then
-/// until what the ones awake push them with changes by kMayChange of that and their weight.
-///
 /// `tolerance` [m] scales all of it: the length of steps with its root, penetration in proportion.
 ///
 /// Members are added and removed at any time; they are identified by places, in the order in which they came.

@@ -32,17 +32,17 @@ CrowdApart::CrowdApart(CrowdMembers& members, CrowdContacts& contacts, CrowdDept
 void CrowdApart::beginProjection(Aim aim) {
   projection_.begin(
       members_.bodies, contacts_.manifolds(), contacts_.near(),
-      [this](PileManifold& manifold, bool first) { refreshGaps(manifold, first); },
+      [this](PileManifold& manifold, bool first) { refreshGaps(manifold, first ? Look::kFirst : Look::kAgain); },
       aim == Aim::kApart ? PileProjection::TakeBack()
                          : [this](PileManifold& manifold) { takeBackGaps(manifold); });
 }
 
-// To where its bodies are; `first` after a step.
-void CrowdApart::refreshGaps(PileManifold& manifold, bool first) const {
+// To where its bodies are; for the first time after a step, or again.
+void CrowdApart::refreshGaps(PileManifold& manifold, Look look) const {
   if (!manifold.b.isWall()) {
     const PileBody& a = members_[manifold.a];
     const PileBody& b = members_[manifold.b];
-    if (manifold.moved + (first ? relativeMotion(a, b, members_.h) : 0) >
+    if (manifold.moved + (look == Look::kFirst ? relativeMotion(a, b, members_.h) : 0) >
         contacts_.rebuildAfter(manifold.length)) {
       buildManifold(a, b, manifold.reach, manifold);
       return;

@@ -41,9 +41,10 @@ class CrowdApart {
     double path = 0;    // [m]
     double turned = 0;  // [m]
   };
-  enum class Aim { kApart, kHold };
+  enum class Aim : char { kApart, kHold };
+  enum class Look : char { kFirst, kAgain };
   void beginProjection(Aim aim);
-  void refreshGaps(PileManifold& manifold, bool first) const;
+  void refreshGaps(PileManifold& manifold, Look look) const;
   void takeBackGaps(PileManifold& manifold) const;
   double project(int passes);
   void keepPlaces();

@@ -346,7 +346,7 @@ void CrowdSleep::certify(std::vector<char>& chosen) {
     const bool meetsMoving = (!a && !members_[manifold.a].still()) ||
                              (!b && !manifold.b.isWall() && !members_[manifold.b].still());
     if (meetsMoving) {
-      pushWithLast(manifold, a);
+      pushWithLast(manifold, a ? manifold.a : manifold.b.body());
       continue;
     }
     slots.push_back(slot);
@@ -375,16 +375,16 @@ void CrowdSleep::certify(std::vector<char>& chosen) {
   restoreImpulses(slots, chosen);
 }
 
-// One of the two in the solver, with what the other pushed it with in the last step.
-void CrowdSleep::pushWithLast(const PileManifold& manifold, bool onA) {
+// One of its bodies, in the solver, with what the other pushed it with in the last step.
+void CrowdSleep::pushWithLast(const PileManifold& manifold, int body) {
   const Vec3 apart = members_.apart(manifold.a, manifold.b);
   for (int k = 0; k < manifold.count; ++k) {
     const Vec3& arm = manifold.points[at(k)].world;
     const Vec3 impulse = impulseOf(manifold, k);
-    if (onA) {
-      solver_.push(manifold.a, arm, impulse);
+    if (body == manifold.a) {
+      solver_.push(body, arm, impulse);
     } else {
-      solver_.push(manifold.b.body(), arm + apart, -impulse);
+      solver_.push(body, arm + apart, -impulse);
     }
   }
 }

@@ -13,7 +13,7 @@ namespace careen {
 
 /// Sleep of a crowd's members: with all that they touch, or, where some of that still moves, beyond a few
 /// contacts from it, if forces within their cones balance on them at rest, those of the ones awake being as
-/// they are: then until what the ones awake push them with changes.
+/// they are: then until what the ones awake push them with changes by an eighth of that and their weight.
 class CrowdSleep {
  public:
   CrowdSleep(CrowdMembers& members, const CrowdLoads& loads, CrowdContacts& contacts, CrowdMemory& memory);
@@ -52,7 +52,7 @@ class CrowdSleep {
   void freezeParts();
   void keepFar(std::vector<char>& marked) const;
   void certify(std::vector<char>& chosen);
-  void pushWithLast(const PileManifold& manifold, bool onA);
+  void pushWithLast(const PileManifold& manifold, int body);
   void restoreImpulses(const std::vector<int>& slots, const std::vector<char>& sleeping);
 
   CrowdMembers& members_;

@@ -44,7 +44,8 @@ TEST(CrowdApart, mendsByMass) {
   EXPECT_GT(b - a, depth - 1.45 * kTolerance);
   EXPECT_LT(b - a, depth);
   EXPECT_NEAR(b, -2 * a, 1e-9);
-  EXPECT_NEAR(stages.apart.left(), depth - (b - a), 1e-9);
+  EXPECT_NEAR(stages.apart.left(), depth - (b - a),
+              0.02 * kTolerance);  // corner by corner: they turn a little
   EXPECT_TRUE(stages.members.ways[0].projected && stages.members.ways[1].pushed);
   EXPECT_EQ(stages.members[0].velocity, Vec3(0, 0, 0));
   EXPECT_GT(stages.apart.passes(), 0);

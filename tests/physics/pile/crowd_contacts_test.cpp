@@ -38,19 +38,19 @@ TEST(CrowdContacts, crateNearTheFloorHasFourPointsAtItsGap) {
 
 // Far away, it is not looked at until it came as near as the reach of contact points, 1/32 of its size.
 TEST(CrowdContacts, farCrateIsClearUntilItCameNear) {
-  const World world = crateOverFloor(0.1, Vec3(0, 0, -1));
+  const World world = crateOverFloor(0.05, Vec3(0, 0, -1));
   CrowdStages stages(world);
   stages.meet(kStep);
   EXPECT_TRUE(stages.contacts.near().empty());
   ASSERT_EQ(stages.contacts.pairs().size(), 1U);
-  const double left = 0.1 - 0.5 / 32;
+  const double left = 0.05 - 0.5 / 32;
   EXPECT_NEAR(stages.contacts.wayLeft(stages.contacts.pairs()[0]), left, 1e-15);
   EXPECT_TRUE(stages.contacts.isClear(stages.contacts.pairs()[0]));
-  stages.members[0].position.z() -= 0.04;
-  stages.members[0].path += 0.04;
-  EXPECT_NEAR(stages.contacts.wayLeft(stages.contacts.pairs()[0]), left - 0.04, 1e-15);
-  stages.members[0].position.z() -= 0.05;
-  stages.members[0].path += 0.05;
+  stages.members[0].position.z() -= 0.02;
+  stages.members[0].path += 0.02;
+  EXPECT_NEAR(stages.contacts.wayLeft(stages.contacts.pairs()[0]), left - 0.02, 1e-15);
+  stages.members[0].position.z() -= 0.02;
+  stages.members[0].path += 0.02;
   stages.meet(kStep);
   ASSERT_EQ(stages.contacts.near().size(), 1U);
   EXPECT_NEAR(stages.manifold().points[0].gap, 0.01, 1e-15);
