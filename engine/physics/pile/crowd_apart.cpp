@@ -32,9 +32,11 @@ CrowdApart::CrowdApart(CrowdMembers& members, CrowdContacts& contacts, CrowdDept
 void CrowdApart::beginProjection(Aim aim) {
   projection_.begin(
       members_.bodies, contacts_.manifolds(), contacts_.near(),
-      [this](PileManifold& manifold, bool first) { refreshGaps(manifold, first ? Look::kFirst : Look::kAgain); },
+      [this](PileManifold& manifold, bool first) {
+        refreshGaps(manifold, first ? Look::kFirst : Look::kAgain);
+      },
       aim == Aim::kApart ? PileProjection::TakeBack()
-                         : [this](PileManifold& manifold) { takeBackGaps(manifold); });
+                         : [this](PileManifold& manifold) { contacts_.refresh(manifold, members_.start); });
 }
 
 // To where its bodies are; for the first time after a step, or again.
@@ -49,15 +51,6 @@ void CrowdApart::refreshGaps(PileManifold& manifold, Look look) const {
     }
   }
   contacts_.refresh(manifold);
-}
-
-void CrowdApart::takeBackGaps(PileManifold& manifold) const {
-  const PileBody& a = members_.start[at(manifold.a)];
-  if (manifold.b.isWall()) {
-    refreshManifold(a, members_.wall(manifold.b), manifold);
-  } else {
-    refreshManifold(a, members_.start[at(manifold.b.body())], manifold);
-  }
 }
 
 bool CrowdApart::projectAll() {

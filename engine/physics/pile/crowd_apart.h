@@ -45,7 +45,6 @@ class CrowdApart {
   enum class Look : char { kFirst, kAgain };
   void beginProjection(Aim aim);
   void refreshGaps(PileManifold& manifold, Look look) const;
-  void takeBackGaps(PileManifold& manifold) const;
   double project(int passes);
   void keepPlaces();
   void restorePlaces();

@@ -200,12 +200,12 @@ void CrowdContacts::endPaths() {
   members_.forEach([&](std::size_t i) { paths_[i] = members_[i].path; });
 }
 
-void CrowdContacts::refresh(PileManifold& manifold) const {
-  const PileBody& a = members_[manifold.a];
+void CrowdContacts::refresh(PileManifold& manifold, const std::vector<PileBody>& bodies) const {
+  const PileBody& a = bodies[at(manifold.a)];
   if (manifold.b.isWall()) {
     refreshManifold(a, members_.wall(manifold.b), manifold);
   } else {
-    refreshManifold(a, members_[manifold.b], manifold);
+    refreshManifold(a, bodies[at(manifold.b.body())], manifold);
   }
 }
 

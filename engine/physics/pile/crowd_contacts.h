@@ -59,8 +59,9 @@ class CrowdContacts {
 
   /// [m] Relative motion after which a manifold of boxes of that smallest size [m] is rebuilt.
   double rebuildAfter(double length) const;
-  /// Updates gaps to the current poses, without rebuilding.
-  void refresh(PileManifold& manifold) const;
+  /// Updates gaps to the poses of now, or of these bodies, without rebuilding.
+  void refresh(PileManifold& manifold) const { refresh(manifold, members_.bodies); }
+  void refresh(PileManifold& manifold, const std::vector<PileBody>& bodies) const;
   /// Those of this step, when they are looked at next.
   void rebuildNear();
   /// Rows of those points that have one, at the gaps and with the impulses of now.

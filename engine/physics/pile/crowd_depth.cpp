@@ -153,15 +153,9 @@ bool CrowdDepth::startedDeep(const PilePair& pair) const {
                      [&](const PilePoint& point) { return point.gap < -members_.tolerance; });
 }
 
-double CrowdDepth::before(const PilePair& pair) const {
-  const PileBody& a = members_.start[at(pair.a)];
-  return pair.b.isWall() ? overlapOf(a, members_.wall(pair.b))
-                         : overlapOf(a, members_.start[at(pair.b.body())]);
-}
-
-double CrowdDepth::overlap(const PilePair& pair) const {
-  const PileBody& a = members_[pair.a];
-  return pair.b.isWall() ? overlapOf(a, members_.wall(pair.b)) : overlapOf(a, members_[pair.b]);
+double CrowdDepth::overlap(const PilePair& pair, const std::vector<PileBody>& bodies) const {
+  const PileBody& a = bodies[at(pair.a)];
+  return pair.b.isWall() ? overlapOf(a, members_.wall(pair.b)) : overlapOf(a, bodies[at(pair.b.body())]);
 }
 
 bool CrowdDepth::anyIsDeep() const { return std::find(isDeep_.begin(), isDeep_.end(), 1) != isDeep_.end(); }

@@ -26,17 +26,18 @@ class CrowdDepth {
 
   /// Before what follows is asked of bodies that moved otherwise since.
   void findTurns();
-  /// [m] By all axes.
-  double overlap(const PilePair& pair) const;
+  /// [m] By all axes; and at the start of the step.
+  double overlap(const PilePair& pair) const { return overlap(pair, members_.bodies); }
+  double before(const PilePair& pair) const { return overlap(pair, members_.start); }
   /// [m] The same after a step, 0 if it cannot be or is not more than kDeep.
   double now(const PilePair& pair) const;
   /// [m] Overlap of two boxes within the step, if more than kDeep.
   double onWay(int a, int b, int axis) const;
-  /// [m] At the start of the step; and the deepest of those that are deep now.
-  double before(const PilePair& pair) const;
+  /// [m] At the start of the step, of those that are deep now.
   double deepestBefore() const;
 
  private:
+  double overlap(const PilePair& pair, const std::vector<PileBody>& bodies) const;
   double wayOf(int b, int a) const;
   double gapAtEnd(int a, int b, int axis) const;
   bool staysApart(int a, int b, int axis) const;

@@ -9,7 +9,6 @@
 #include "physics/pile/crowd_contacts.h"
 #include "physics/pile/crowd_loads.h"
 #include "physics/pile/crowd_members.h"
-#include "physics/pile/crowd_memory.h"
 
 namespace careen {
 

@@ -15,35 +15,41 @@ using namespace test;
 
 constexpr double kStep = 0.01;
 
-// Two crates, face to face, of which the second one moved along x with these speeds in two steps of the same
-// length.
-bool isSharp(double before, double after) {
+// Two crates, the second one at that place from the first after a step with one speed, before one of the same
+// length with the other.
+bool isSharp(const Vec3& place, const Vec3& before, const Vec3& after) {
   World world;
-  for (int k = 0; k < 2; ++k) {
-    world.bodies.push_back(crate("crate" + std::to_string(k), Vec3::Constant(0.25), Vec3(0.5 * k, 0, 0), {}));
-  }
+  world.bodies.push_back(crate("a", Vec3::Constant(0.25), Vec3::Zero(), {}));
+  world.bodies.push_back(crate("b", Vec3::Constant(0.25), place, {}));
   CrowdStages stages(world);
   stages.meet(kStep);
-  const auto goOn = [&](double speed) {
+  const auto goOn = [&](const Vec3& velocity) {
     stages.members.begin();
     stages.members.ways[1].moved = true;
-    stages.members[1].position.x() += kStep * speed;
+    stages.members[1].position += kStep * velocity;
   };
-  stages.members[1].position.x() -= kStep * before;
+  stages.members[1].position -= kStep * before;
   goOn(before);
   stages.joints.remember();
-  EXPECT_NEAR(stages.memory.places[1].rates.velocity.x(), before, 1e-12);
+  EXPECT_LT((stages.memory.places[1].rates.velocity - before).norm(), 1e-12);
   EXPECT_EQ(stages.memory.places[0].rates.velocity, Vec3(0, 0, 0));
   goOn(after);
   return stages.joints.isSharp();
 }
 
-// A smooth path cuts the corner that its steps make, on the side to which the velocity changes.
-TEST(CrowdJoints, pathThatTurnsTowardsTheOtherThereIsSharp) {
-  EXPECT_FALSE(isSharp(0, 0));
-  EXPECT_FALSE(isSharp(-1, 1));  // a bounce: it turns before it is there
-  EXPECT_FALSE(isSharp(0, 1));
-  EXPECT_TRUE(isSharp(1, -1));  // its steps lead into the other
+// A smooth path cuts the corner that its steps make, on the side to which the velocity changes: here through
+// the edge that they go around, along one face and then along the next.
+TEST(CrowdJoints, pathThatWouldCutThroughAnEdgeIsSharp) {
+  const Vec3 atEdge(0.5, 0.5, 0);
+  EXPECT_TRUE(isSharp(atEdge, Vec3(0, 3, 0), Vec3(-3, 0, 0)));
+  EXPECT_FALSE(isSharp(atEdge, Vec3(0, 0.1, 0), Vec3(-0.1, 0, 0)));  // by less than half a tolerance
+  EXPECT_FALSE(isSharp(atEdge, Vec3(-3, 0, 0), Vec3(0, 3, 0)));      // the change leads away
+}
+
+TEST(CrowdJoints, pathOfABounceIsSmooth) {
+  const Vec3 atFace(0.5, 0, 0);
+  EXPECT_FALSE(isSharp(atFace, Vec3(-1, 0, 0), Vec3(1, 0, 0)));  // it turns before it is there
+  EXPECT_TRUE(isSharp(atFace, Vec3(1, 0, 0), Vec3(-1, 0, 0)));   // its steps lead into the other
 }
 
 // What did not move remembers its velocity.

@@ -61,12 +61,16 @@ TEST(CrowdMotion, untouchedStepsAreThoseSinceSomethingWasNear) {
   World world = floorWorld({});
   world.bodies.push_back(crate("near", Vec3::Constant(0.25), Vec3(0, 0, 0.25), {}));
   world.bodies.push_back(crate("far", Vec3::Constant(0.25), Vec3(3, 0, 5), {}));
+  world.bodies.push_back(world.bodies[1]);
+  world.bodies[2].initial.pose.position.x() = 6;
   CrowdStages stages(world);
+  stages.members[2].asleep = true;
   for (int step = 1; step < 4; ++step) {
     stages.meet(kStep);
     countUntouched(stages.members, stages.contacts, stages.memory);
     EXPECT_EQ(stages.memory.places[0].untouchedSteps, 0);
     EXPECT_EQ(stages.memory.places[1].untouchedSteps, step);
+    EXPECT_EQ(stages.memory.places[2].untouchedSteps, 0);  // asleep
   }
 }
 
