@@ -54,7 +54,7 @@ struct CrowdStages {
     impulses.find();
     impulses.keep();
     bounces.find();
-    move(members, loads, impulses);
+    moveMembers(members, loads, impulses);
     bounces.bounce(impulses);
   }
   PileManifold& manifold(std::size_t n = 0) { return contacts[contacts.near()[n]]; }

@@ -180,7 +180,7 @@ void Crowd::take(double length, Shifts shifts) {
     impulses_.dontShift();
   }
   bounces_.find();
-  move(members_, loads_, impulses_);
+  moveMembers(members_, loads_, impulses_);
   bounces_.bounce(impulses_);
   countUntouched(members_, contacts_, memory_);
   apart_.begin();

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "physics/pile/crowd_contacts.h"
 #include "physics/pile/crowd_members.h"
 #include "physics/pile/crowd_memory.h"

@@ -76,7 +76,7 @@ void moveBody(CrowdMembers& members, const CrowdLoads& loads, const CrowdImpulse
 
 }  // namespace
 
-void move(CrowdMembers& members, const CrowdLoads& loads, const CrowdImpulses& impulses) {
+void moveMembers(CrowdMembers& members, const CrowdLoads& loads, const CrowdImpulses& impulses) {
   members.forEach([&](std::size_t i) { moveBody(members, loads, impulses, i); });
 }
 

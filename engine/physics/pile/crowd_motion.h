@@ -10,7 +10,7 @@ namespace careen {
 
 /// Moves members by the step, at the velocities found, which are those of its middle: those without contact
 /// impulse follow their parabola, the others a straight line.
-void move(CrowdMembers& members, const CrowdLoads& loads, const CrowdImpulses& impulses);
+void moveMembers(CrowdMembers& members, const CrowdLoads& loads, const CrowdImpulses& impulses);
 
 /// A member is untouched while no contact point is near it.
 void countUntouched(const CrowdMembers& members, CrowdContacts& contacts, CrowdMemory& memory);
