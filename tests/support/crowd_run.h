@@ -47,7 +47,7 @@ class CrowdRun {
   bool sleeps(std::size_t body) const { return crowd_.sleeps(places_[body]); }
   bool atRest() const { return crowd_.atRest(); }
   double deepest() const { return crowd_.penetration(); }
-  const Crowd::Figures& figures() const { return crowd_.figures(); }
+  Crowd::Figures figures() const { return crowd_.figures(); }
   Crowd& crowd() { return crowd_; }
 
  private:

@@ -288,8 +288,9 @@ std::vector<char> CrowdGroup::changedSuddenly() const {
 void CrowdGroup::endStep(std::size_t place, const std::vector<char>& suddenly) {
   JoinedSteps& joined = joined_[place];
   const bool asItCame = joined.isNew() && suddenly[place] == 0;
-  joined.add(bodies_.recorder(), bodies_[ranks_[place]].listed, start_.hi, crowd_.begin(place, asItCame),
-             crowd_.end(place), crowd_.length(), crowd_.body(place).radius,
+  joined.add(bodies_.recorder(), bodies_[ranks_[place]].listed, start_.hi,
+             asItCame ? crowd_.beginAsItCame(place) : crowd_.begin(place), crowd_.end(place), crowd_.length(),
+             crowd_.body(place).radius,
              crowd_.isSharp() ? JoinedSteps::Begin::kCorner : JoinedSteps::Begin::kRounded);
 }
 

@@ -1,9 +1,10 @@
-// Restitution of a crowd, and its record.
+#include "physics/pile/crowd_bounce.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/disjoint_sets.h"
-#include "physics/pile/crowd.h"
+#include "physics/pile/crowd_motion.h"
 
 namespace careen {
 namespace {
@@ -12,47 +13,85 @@ constexpr int kBounceSweeps = 20;
 
 }  // namespace
 
-// New impacts separate with e times their approach speed: a second solve after the motion, at the new
-// positions (otherwise the angular momentum about each other is not conserved), starting from the impulses of
-// the first. Its velocities are those of the end of the step, to which forces act on all that are pushed.
-void Crowd::bounce() {
+void CrowdBounces::find() {
+  bounces_.clear();
+  for (const int slot : contacts_.near()) {
+    findOf(contacts_[slot], slot);
+  }
+}
+
+// Only the part of gravity before the time of contact counts, or bouncing would gain energy. Speeds are those
+// of the middle.
+void CrowdBounces::findOf(const PileManifold& manifold, int slot) {
+  for (int k = 0; manifold.strikes && k < manifold.count; ++k) {
+    const PilePoint& point = manifold.points[at(k)];
+    if (point.row < 0 || !point.strikes) {
+      continue;
+    }
+    const double before = std::clamp(point.gap / (-point.speed * members_.h), 0.0, 1.0);
+    const auto falling = [&](int body) {
+      return members_[body].still() ? Vec3(Vec3::Zero()) : loads_.acceleration(at(body));
+    };
+    const Vec3 fallB = manifold.b.isWall() ? Vec3(Vec3::Zero()) : falling(manifold.b.body());
+    const double fall = members_.h * dot(manifold.frameOf(k).normal, falling(manifold.a) - fallB);
+    const double approach = std::max(0.0, -(point.speed + (before - 0.5) * fall));
+    bounces_.push_back({.row = point.row,
+                        .speed = manifold.restitution * approach,
+                        .approach = approach,
+                        .fall = fall,
+                        .slot = slot,
+                        .point = k});
+  }
+}
+
+void CrowdBounces::bounce(CrowdImpulses& impulses) {
+  PileSolver& solver = impulses.solver();
   const bool any = std::any_of(bounces_.begin(), bounces_.end(), [&](const Bounce& each) {
-    return each.speed > 0 && solver_.normalImpulse(each.row) > 0;
+    return each.speed > 0 && solver.normalImpulse(each.row) > 0;
   });
-  if (!any) {
-    return;
+  if (any) {
+    solve(impulses);
   }
-  refreshNear();
-  solver_.begin(bodies_.size());
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const PileBody& body = bodies_[i];
-    solver_.setBody(static_cast<int>(i), body, tell_ * body.length / h_);
+  note(solver);
+}
+
+void CrowdBounces::solve(CrowdImpulses& impulses) {
+  PileSolver& solver = impulses.solver();
+  for (const int slot : contacts_.near()) {
+    contacts_.refresh(contacts_[slot]);
+  }
+  solver.begin(members_.size());
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const PileBody& body = members_[i];
+    solver.setBody(static_cast<int>(i), body, memory_.tell * body.length / members_.h);
     if (!body.still()) {
-      solver_.velocity(static_cast<int>(i)) = body.velocity;
-      solver_.omega(static_cast<int>(i)) = body.omega;
+      solver.velocity(static_cast<int>(i)) = body.velocity;
+      solver.omega(static_cast<int>(i)) = body.omega;
     }
   }
-  for (const int slot : near_) {
-    addPresentRows(manifolds_[at(slot)]);
+  for (const int slot : contacts_.near()) {
+    contacts_.addPresentRows(contacts_[slot], solver);
   }
-  solver_.link();
+  solver.link();
   for (const Bounce& each : bounces_) {
-    if (each.speed > 0 && solver_.normalImpulse(each.row) > 0) {
-      solver_.setBound(each.row, each.speed - 0.5 * each.fall);
-      solver_.wakeRow(each.row);
+    if (each.speed > 0 && solver.normalImpulse(each.row) > 0) {
+      solver.setBound(each.row, each.speed - 0.5 * each.fall);
+      solver.wakeRow(each.row);
     }
   }
-  if (!solveDirectly()) {
-    figures_.solves += solver_.solve(kBounceSweeps, true);
+  if (!impulses.solveDirectly()) {
+    solver.solve(kBounceSweeps);
   }
-  limitBounce();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (solver_.pushed(static_cast<int>(i))) {
-      takeVelocity(bodies_[i], static_cast<int>(i));
-      bodies_[i].angularMomentum += bodies_[i].behind * torque(i);
-      deriveOmega(bodies_[i]);
-      bodies_[i].velocity += halfKick(i);
-      bodies_[i].behind = 0;
+  limit(solver);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const int index = static_cast<int>(i);
+    if (solver.pushed(index)) {
+      PileBody& body = members_[i];
+      takeVelocity(body, solver.velocity(index), solver.omega(index));
+      body.angularMomentum += body.behind * loads_.torque(i);
+      deriveOmega(body);
+      body.velocity += loads_.halfKick(i);
+      body.behind = 0;
     }
   }
 }
@@ -60,46 +99,40 @@ void Crowd::bounce() {
 // Restitution at several contacts at once, with friction, can give more energy than there was: bodies that
 // bounce together then get that part of the second solve's change that keeps their energy. Friction cones are
 // convex, so both solves' impulses mixed lie in them.
-void Crowd::limitBounce() {
-  struct Energies {
-    double before = 0;  // [J] kinetic, at the start of the step, and what forces did in it
-    double first = 0;   // after the first solve
-    double second = 0;
-    double change = 0;  // of the velocities that the second solve adds
-  };
-  DisjointSets together(bodies_.size());
-  const auto moves = [&](int body) { return at(body) < bodies_.size() && !bodies_[at(body)].still(); };
-  const int rows = static_cast<int>(solver_.rowCount());
+void CrowdBounces::limit(PileSolver& solver) const {
+  DisjointSets together(members_.size());
+  const auto moves = [&](int body) { return at(body) < members_.size() && !members_[body].still(); };
+  const int rows = static_cast<int>(solver.rowCount());
   for (int k = 0; k < rows; ++k) {
-    const PileSolver::RowView row = solver_.row(k);
+    const PileSolver::RowView row = solver.row(k);
     if (moves(row.a) && moves(row.b)) {
       together.join(at(row.a), at(row.b));
     }
   }
-  std::vector<Energies> energies(bodies_.size());
+  std::vector<Energies> energies(members_.size());
   const auto kinetic = [](const PileBody& body, const Vec3& velocity, const Vec3& omega) {
     const Vec3 spin = body.principalAxes().transpose() * omega;
     return 0.5 * (velocity.squaredNorm() / body.inverseMass + dot(body.inertiaBody, spin.cwiseProduct(spin)));
   };
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
     const int index = static_cast<int>(i);
-    const PileBody& body = bodies_[i];
-    if (body.still() || !solver_.pushed(index)) {
+    const PileBody& body = members_[i];
+    if (body.still() || !solver.pushed(index)) {
       continue;
     }
     Energies& all = energies[together.root(i)];
-    const Before& before = before_[i];
+    const CrowdMembers::Way& before = members_.ways[i];
     const double turning = 0.5 * dot(before.omega, before.angularMomentum);
-    const double work = dot(acceleration(i), body.position - before.position);
+    const double work = dot(loads_.acceleration(i), body.position - before.position);
     all.before += (0.5 * before.velocity.squaredNorm() + work) / body.inverseMass + turning;
-    const Vec3 kick = halfKick(i);
+    const Vec3 kick = loads_.halfKick(i);
     all.first += kinetic(body, body.velocity + kick, body.omega);
-    all.second += kinetic(body, solver_.velocity(index) + kick, solver_.omega(index));
-    all.change += kinetic(body, solver_.velocity(index) - body.velocity, solver_.omega(index) - body.omega);
+    all.second += kinetic(body, solver.velocity(index) + kick, solver.omega(index));
+    all.change += kinetic(body, solver.velocity(index) - body.velocity, solver.omega(index) - body.omega);
   }
-  std::vector<double> parts(bodies_.size(), 1);
+  std::vector<double> parts(members_.size(), 1);
   bool any = false;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
     const Energies& all = energies[i];
     const double most = std::max(all.before, all.first);
     if (all.second > most && all.change > 0) {
@@ -110,46 +143,33 @@ void Crowd::limitBounce() {
       any = true;
     }
   }
-  for (std::size_t i = 0; any && i < bodies_.size(); ++i) {
+  for (std::size_t i = 0; any && i < members_.size(); ++i) {
     const int index = static_cast<int>(i);
-    if (!bodies_[i].still() && solver_.pushed(index)) {
+    if (!members_[i].still() && solver.pushed(index)) {
       const double part = parts[together.root(i)];
-      solver_.velocity(index) = bodies_[i].velocity + part * (solver_.velocity(index) - bodies_[i].velocity);
-      solver_.omega(index) = bodies_[i].omega + part * (solver_.omega(index) - bodies_[i].omega);
+      solver.velocity(index) = members_[i].velocity + part * (solver.velocity(index) - members_[i].velocity);
+      solver.omega(index) = members_[i].omega + part * (solver.omega(index) - members_[i].omega);
     }
   }
 }
 
 // The total impulses of the points that met: of the first solve, or of the second, which continues it.
-void Crowd::noteImpacts() {
+void CrowdBounces::note(const PileSolver& solver) {
   impacts_.clear();
   for (const Bounce& each : bounces_) {
-    const PileManifold& manifold = manifolds_[at(each.slot)];
-    const double impulse = solver_.normalImpulse(each.row);
+    const PileManifold& manifold = contacts_[each.slot];
+    const double impulse = solver.normalImpulse(each.row);
     if (impulse > 0) {
-      const double t1 = solver_.tangential1(each.row);
-      const double t2 = solver_.tangential2(each.row);
+      const double t1 = solver.tangential1(each.row);
+      const double t2 = solver.tangential2(each.row);
       const PilePoint& point = manifold.points[at(each.point)];
       impacts_.push_back({.a = manifold.a,
                           .b = manifold.b,
-                          .point = bodies_[at(manifold.a)].position + point.world,
+                          .point = members_[manifold.a].position + point.world,
                           .normal = manifold.frameOf(each.point).normal,
                           .approach = each.approach,
                           .impulse = impulse,
                           .tangential = std::sqrt(t1 * t1 + t2 * t2)});
-    }
-  }
-}
-
-// Updates gaps to the current poses, without rebuilding.
-void Crowd::refreshNear() {
-  for (const int slot : near_) {
-    PileManifold& manifold = manifolds_[at(slot)];
-    const PileBody& a = bodies_[at(manifold.a)];
-    if (manifold.b.isWall()) {
-      refreshManifold(a, wallAt(manifold.b), manifold);
-    } else {
-      refreshManifold(a, bodyAt(manifold.b), manifold);
     }
   }
 }

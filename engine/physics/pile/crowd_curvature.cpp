@@ -1,9 +1,9 @@
-// Second order of gaps: what points of turning bodies leave their tangents by within a step.
+#include "physics/pile/crowd_curvature.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-
-#include "physics/pile/crowd.h"
+#include <vector>
 
 namespace careen {
 namespace {
@@ -12,43 +12,33 @@ constexpr double kStraight = 0x1p-3;   // [1] of the tolerance: less is no bend
 constexpr double kSag = 1;             // [1] of the tolerance: depth allowed in the middle of a step
 constexpr double kParallel = 0x1p-20;  // [1] sine² of edges that have no common normal
 
-}  // namespace
+// At the velocities found so far.
+class Curvature {
+ public:
+  Curvature(const CrowdMembers& members, const PileSolver& solver)
+      : members_(members), solver_(solver), bends_(members.size()) {
+    members_.forEach([&](std::size_t i) {
+      const double spin = members_[i].still() ? 0 : solver_.omega(static_cast<int>(i)).squaredNorm();
+      bends_[i] =
+          0.5 * members_.h * members_.h * members_[i].radius * spin > kStraight * members_.tolerance ? 1 : 0;
+    });
+  }
+  bool bends(const PileManifold& manifold) const {
+    return bends_[at(manifold.a)] != 0 || (!manifold.b.isWall() && bends_[at(manifold.b.body())] != 0);
+  }
+  double secondOrder(const PileManifold& manifold, int k) const;
 
-// Adds it to the bounds of rows, once after they were loaded, at the velocities found so far, and puts on the
-// list those that it changes; returns whether there are any.
-bool Crowd::curveGaps() {
-  bends_.assign(bodies_.size(), 0);
-  forPlaces([&](std::size_t i) {
-    const double spin = bodies_[i].still() ? 0 : solver_.omega(static_cast<int>(i)).squaredNorm();
-    bends_[i] = 0.5 * h_ * h_ * bodies_[i].radius * spin > kStraight * tolerance_ ? 1 : 0;
-  });
-  std::atomic<bool> any = false;
-  forNear([&](PileManifold& manifold, std::size_t) {
-    const bool bends =
-        bends_[at(manifold.a)] != 0 || (!manifold.b.isWall() && bends_[at(manifold.b.body())] != 0);
-    for (int k = 0; bends && k < manifold.count; ++k) {
-      PilePoint& point = manifold.points[at(k)];
-      if (point.row < 0) {
-        continue;
-      }
-      point.curved = 0.5 * h_ * h_ * secondOrder(manifold, k);
-      solver_.addToBound(point.row, -point.curved / h_);
-      if (point.curved > 0) {  // an arc from surface to surface goes through what lies between
-        solver_.raiseBound(point.row,
-                           -2 * (std::max(0.0, point.gap) + kSag * tolerance_ + 0.25 * point.curved) / h_);
-      }
-      if (std::abs(point.curved) > kStraight * tolerance_) {
-        solver_.wakeRow(point.row);
-        any = true;
-      }
-    }
-  });
-  return any;
-}
+ private:
+  Vec3 spinRate(int body) const;
+
+  const CrowdMembers& members_;
+  const PileSolver& solver_;
+  std::vector<char> bends_;  // by place: its corners leave their tangents in this step
+};
 
 // [rad/s²] ω̇ = I⁻¹ (L × ω), of a free body at the velocity found.
-Vec3 Crowd::spinRate(int body) const {
-  const PileBody& turning = bodies_[at(body)];
+Vec3 Curvature::spinRate(int body) const {
+  const PileBody& turning = members_[body];
   const Mat3 axes = turning.principalAxes();
   const Vec3 spin = axes.transpose() * solver_.omega(body);
   return axes * turning.inverseInertiaBody.cwiseProduct(turning.inertiaBody.cwiseProduct(spin).cross(spin));
@@ -58,7 +48,7 @@ Vec3 Crowd::spinRate(int body) const {
 //     n·(aA − aB) + 2 ṅ·(vA − vB),   a = ω × (ω × r) + ω̇ × r;
 // the third term, n̈·(xA − xB), is of the size of the gap. n turns with the body that owns the plane; the
 // normal of an edge pair stays perpendicular to both edges: ṅ·e = −n·(ω × e).
-double Crowd::secondOrder(const PileManifold& manifold, int k) const {
+double Curvature::secondOrder(const PileManifold& manifold, int k) const {
   const Vec3& arm = manifold.points[at(k)].world;
   const ContactFrame& frame = manifold.frameOf(k);
   const Vec3& n = frame.normal;
@@ -74,8 +64,8 @@ double Crowd::secondOrder(const PileManifold& manifold, int k) const {
     return ofA;
   }
   const int b = manifold.b.body();
-  const PileBody& bodyA = bodies_[at(manifold.a)];
-  const PileBody& bodyB = bodies_[at(b)];
+  const PileBody& bodyA = members_[manifold.a];
+  const PileBody& bodyB = members_[b];
   const Vec3& spinA = solver_.omega(manifold.a);
   const Vec3& spinB = solver_.omega(b);
   const Vec3 armB = arm + bodyA.position - bodyB.position;
@@ -91,6 +81,34 @@ double Crowd::secondOrder(const PileManifold& manifold, int k) const {
     turning = perSquare * ((ofEdgeA - cosine * ofEdgeB) * edgeA + (ofEdgeB - cosine * ofEdgeA) * edgeB);
   }
   return ofA - along(b, armB) + 2 * dot(turning, slip);
+}
+
+}  // namespace
+
+bool curveGaps(const CrowdMembers& members, CrowdContacts& contacts, PileSolver& solver) {
+  const Curvature curvature(members, solver);
+  const double h = members.h;
+  std::atomic<bool> any = false;
+  contacts.forNear([&](PileManifold& manifold, std::size_t) {
+    const bool bends = curvature.bends(manifold);
+    for (int k = 0; bends && k < manifold.count; ++k) {
+      PilePoint& point = manifold.points[at(k)];
+      if (point.row < 0) {
+        continue;
+      }
+      point.curved = 0.5 * h * h * curvature.secondOrder(manifold, k);
+      solver.addToBound(point.row, -point.curved / h);
+      if (point.curved > 0) {  // an arc from surface to surface goes through what lies between
+        solver.raiseBound(
+            point.row, -2 * (std::max(0.0, point.gap) + kSag * members.tolerance + 0.25 * point.curved) / h);
+      }
+      if (std::abs(point.curved) > kStraight * members.tolerance) {
+        solver.wakeRow(point.row);
+        any = true;
+      }
+    }
+  });
+  return any;
 }
 
 }  // namespace careen

@@ -1,8 +1,8 @@
-// Direct solution of small crowds: by the solver of exact contact.
+#include "physics/pile/crowd_direct.h"
+
 #include <algorithm>
 #include <cstddef>
 
-#include "physics/pile/crowd.h"
 #include "physics/solver/contact_rows.h"
 
 namespace careen {
@@ -22,45 +22,65 @@ constexpr double kResidual = 0x1p-10;
 }  // namespace
 
 // Whether of two members in contact one is much heavier.
-bool Crowd::isHeavy() const {
-  return std::any_of(near_.begin(), near_.end(), [&](int slot) {
-    const PileManifold& manifold = manifolds_[at(slot)];
-    if (manifold.b.isWall() || bodies_[at(manifold.a)].still() || bodyAt(manifold.b).still()) {
+bool CrowdDirect::isHeavy() const {
+  return std::any_of(contacts_.near().begin(), contacts_.near().end(), [&](int slot) {
+    const PileManifold& manifold = contacts_[slot];
+    if (manifold.b.isWall() || members_[manifold.a].still() || members_[manifold.b].still()) {
       return false;
     }
-    const double ratio = bodies_[at(manifold.a)].inverseMass / bodyAt(manifold.b).inverseMass;
+    const double ratio = members_[manifold.a].inverseMass / members_[manifold.b].inverseMass;
     return std::max(ratio, 1 / ratio) > kHeavy;
   });
 }
 
-// Solves the rows of solver_ for the impulses of which friction and complementarity hold to a verified
-// residual; false, and nothing changed, where there are too many or none were found.
-bool Crowd::solveDirectly() {
-  const std::size_t count = solver_.rowCount();
+bool CrowdDirect::solve(PileSolver& solver) {
+  const std::size_t count = solver.rowCount();
   if (count == 0 || count > kMostRows) {
     return false;
   }
   const bool easy = count <= kFewRows || isHeavy();
-  if (!easy && directWait_ > 0) {
-    --directWait_;
+  if (!easy && memory_.directWait > 0) {
+    --memory_.directWait;
     return false;
   }
-  std::vector<int> index(bodies_.size(), ContactProblem::kNobody);
+  const std::vector<std::size_t> movers = pose(solver);
+  solution_.enough = kResidual * members_.tolerance / members_.h;
+  const bool solved = solver_.solveOnce(problem_, solution_, easy ? kMostFactorisations : kFewFactorisations);
+  memory_.directPause = easy || solved ? 1 : std::min(2 * memory_.directPause, kMostWait);
+  memory_.directWait = easy || solved ? 0 : memory_.directPause;
+  if (!solved) {
+    return false;
+  }
+  for (std::size_t m = 0; m < movers.size(); ++m) {
+    const double* q = &solution_.velocities[m * ContactProblem::kAxes];
+    const int body = static_cast<int>(movers[m]);
+    solver.velocity(body) = Vec3(q[0], q[1], q[2]);
+    solver.omega(body) = members_[movers[m]].principalAxes() * Vec3(q[3], q[4], q[5]);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    solver.setImpulse(static_cast<int>(k), solution_.impulses[k]);
+  }
+  return true;
+}
+
+// The problem of its rows; returns the places of the bodies that can move, in the problem's order.
+std::vector<std::size_t> CrowdDirect::pose(const PileSolver& solver) {
+  std::vector<int> index(members_.size(), ContactProblem::kNobody);
   std::vector<std::size_t> movers;
   problem_.inverseMass.clear();
   problem_.free.clear();
   const auto indexOf = [&](int body) {
-    if (at(body) >= bodies_.size() || bodies_[at(body)].still()) {
+    if (at(body) >= members_.size() || members_[body].still()) {
       return ContactProblem::kNobody;
     }
     if (index[at(body)] < 0) {
-      const PileBody& mover = bodies_[at(body)];
+      const PileBody& mover = members_[body];
       index[at(body)] = static_cast<int>(movers.size());
       movers.push_back(at(body));
-      const Vec3 spin = mover.principalAxes().transpose() * solver_.omega(body);
+      const Vec3 spin = mover.principalAxes().transpose() * solver.omega(body);
       for (int i = 0; i < 3; ++i) {
         problem_.inverseMass.push_back(mover.inverseMass);
-        problem_.free.push_back(solver_.velocity(body)[i]);
+        problem_.free.push_back(solver.velocity(body)[i]);
       }
       for (int i = 0; i < 3; ++i) {
         problem_.inverseMass.push_back(mover.inverseInertiaBody[i]);
@@ -69,10 +89,11 @@ bool Crowd::solveDirectly() {
     }
     return index[at(body)];
   };
+  const std::size_t count = solver.rowCount();
   problem_.contacts.assign(count, {});
   solution_.impulses.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const PileSolver::RowView row = solver_.row(static_cast<int>(k));
+    const PileSolver::RowView row = solver.row(static_cast<int>(k));
     ContactProblem::Contact& contact = problem_.contacts[k];
     contact.a = indexOf(row.a);
     contact.b = indexOf(row.b);
@@ -80,34 +101,18 @@ bool Crowd::solveDirectly() {
     contact.target = {row.bound, 0, 0};
     solution_.impulses[k] = row.impulse;
     if (contact.a != ContactProblem::kNobody) {
-      setSide(contact, 0, pointSide(row.axes, row.armA, 1), bodies_[at(row.a)].principalAxes());
+      setSide(contact, 0, pointSide(row.axes, row.armA, 1), members_[row.a].principalAxes());
     }
     if (contact.b != ContactProblem::kNobody) {
-      setSide(contact, 1, pointSide(row.axes, row.armB, -1), bodies_[at(row.b)].principalAxes());
+      setSide(contact, 1, pointSide(row.axes, row.armB, -1), members_[row.b].principalAxes());
     }
   }
   addImpulses(-1);
-  solution_.enough = kResidual * tolerance_ / h_;
-  const bool solved = direct_.solveOnce(problem_, solution_, easy ? kMostFactorisations : kFewFactorisations);
-  directPause_ = easy || solved ? 1 : std::min(2 * directPause_, kMostWait);
-  directWait_ = easy || solved ? 0 : directPause_;
-  if (!solved) {
-    return false;
-  }
-  for (std::size_t m = 0; m < movers.size(); ++m) {
-    const double* q = &solution_.velocities[m * ContactProblem::kAxes];
-    const int body = static_cast<int>(movers[m]);
-    solver_.velocity(body) = Vec3(q[0], q[1], q[2]);
-    solver_.omega(body) = bodies_[movers[m]].principalAxes() * Vec3(q[3], q[4], q[5]);
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    solver_.setImpulse(static_cast<int>(k), solution_.impulses[k]);
-  }
-  return true;
+  return movers;
 }
 
 // To the problem's velocities.
-void Crowd::addImpulses(double sign) {
+void CrowdDirect::addImpulses(double sign) {
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
     const ContactProblem::Contact& contact = problem_.contacts[k];
     for (std::size_t d = 0; d < 3; ++d) {

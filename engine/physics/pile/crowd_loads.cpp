@@ -1,8 +1,7 @@
-// Forces on the members of a crowd other than those of contact: gravity, springs, drag.
+#include "physics/pile/crowd_loads.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "physics/pile/crowd.h"
 
 namespace careen {
 namespace {
@@ -12,15 +11,24 @@ constexpr int kLoadPasses = 3;
 
 }  // namespace
 
+CrowdLoads::CrowdLoads(const CrowdMembers& members, const CrowdMemory& memory)
+    : members_(members), memory_(memory) {
+  if (!members.world.springs.empty() || members.world.drag) {
+    for (const Body& body : members.world.bodies) {
+      states_.push_back(body.initial);
+    }
+  }
+}
+
 // [s] Springs are integrated with few iterations: stable, and accurate to about the tolerance, for a small
 // phase.
-void Crowd::limitBySprings(std::size_t listed) {
-  for (const Spring& spring : world_.springs) {
+void CrowdLoads::limitBySprings(std::size_t listed) {
+  for (const Spring& spring : members_.world.springs) {
     double mobility = 0;  // [1/kg]
     bool attached = false;
     for (const SpringEnd* end : {&spring.from, &spring.to}) {
       if (end->body) {
-        const Body& body = world_.bodies[at(*end->body)];
+        const Body& body = members_.world.bodies[at(*end->body)];
         mobility +=
             body.mass.inverseMass + body.mass.inverseInertiaBody.maxCoeff() * end->point.squaredNorm();
         attached = attached || at(*end->body) == listed;
@@ -28,56 +36,56 @@ void Crowd::limitBySprings(std::size_t listed) {
     }
     if (attached && mobility > 0) {
       const double stiff = std::sqrt(spring.stiffness * mobility) + spring.damping * mobility;
-      springLimit_ = stiff > 0 ? std::min(springLimit_, kMostOfSpring / stiff) : springLimit_;
+      longestStep_ = stiff > 0 ? std::min(longestStep_, kMostOfSpring / stiff) : longestStep_;
     }
   }
 }
 
 // Forces of springs and drag, in the middle of the step, found by iteration (implicit midpoint rule): springs
 // don't swing higher and higher.
-void Crowd::findLoads() {
-  if (worldStates_.empty()) {
+void CrowdLoads::find() {
+  if (states_.empty()) {
     return;
   }
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!bodies_[i].absent) {
-      worldStates_[listed_[i]] = stateOf(bodies_[i]);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (!members_[i].absent) {
+      states_[members_.listed[i]] = stateOf(members_[i]);
     }
   }
-  computeLoads(world_, worldStates_, loads_);
+  computeLoads(members_.world, states_, loads_);
   for (int pass = 0; pass < kLoadPasses; ++pass) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if (!bodies_[i].still()) {
-        PileBody halfway = bodies_[i];
-        const double ahead = 0.5 * h_;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      if (!members_[i].still()) {
+        PileBody halfway = members_[i];
+        const double ahead = 0.5 * members_.h;
         halfway.velocity += halfway.behind * accelerationBefore(i) + ahead * acceleration(i);
         halfway.angularMomentum += halfway.behind * torqueBefore(i) + ahead * torque(i);
         halfway.position += ahead * halfway.velocity;
         turnFree(halfway, ahead);
-        worldStates_[listed_[i]] = stateOf(halfway);
+        states_[members_.listed[i]] = stateOf(halfway);
       }
     }
-    computeLoads(world_, worldStates_, loads_);
+    computeLoads(members_.world, states_, loads_);
   }
 }
 
-// [m/s²] Without contacts.
-Vec3 Crowd::acceleration(std::size_t place) const {
-  return loads_.empty() ? world_.gravity : Vec3(bodies_[place].inverseMass * loads_[listed_[place]].force);
+Vec3 CrowdLoads::acceleration(std::size_t place) const {
+  return loads_.empty() ? members_.world.gravity
+                        : Vec3(members_[place].inverseMass * loads_[members_.listed[place]].force);
 }
 
-Vec3 Crowd::accelerationBefore(std::size_t place) const {
-  return loadsBefore_.empty() ? world_.gravity
-                              : Vec3(bodies_[place].inverseMass * loadsBefore_[listed_[place]].force);
+Vec3 CrowdLoads::accelerationBefore(std::size_t place) const {
+  return memory_.loads.empty()
+             ? members_.world.gravity
+             : Vec3(members_[place].inverseMass * memory_.loads[members_.listed[place]].force);
 }
 
-// [N m] Likewise.
-Vec3 Crowd::torque(std::size_t place) const {
-  return loads_.empty() ? Vec3(Vec3::Zero()) : loads_[listed_[place]].torque;
+Vec3 CrowdLoads::torque(std::size_t place) const {
+  return loads_.empty() ? Vec3(Vec3::Zero()) : loads_[members_.listed[place]].torque;
 }
 
-Vec3 Crowd::torqueBefore(std::size_t place) const {
-  return loadsBefore_.empty() ? Vec3(Vec3::Zero()) : loadsBefore_[listed_[place]].torque;
+Vec3 CrowdLoads::torqueBefore(std::size_t place) const {
+  return memory_.loads.empty() ? Vec3(Vec3::Zero()) : memory_.loads[members_.listed[place]].torque;
 }
 
 }  // namespace careen

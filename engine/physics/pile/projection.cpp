@@ -53,7 +53,7 @@ void PileProjection::begin(std::span<PileBody> bodies, std::span<PileManifold> m
 void PileProjection::lookAt(std::size_t n) {
   PileManifold& manifold = manifolds_[at(near_[n])];
   Seen& seen = seen_[n];
-  refresh_(manifold, !seen.everSeen);
+  refresh_(manifold, seen.everSeen ? Look::kAgain : Look::kFirst);
   double gap = manifold.length;
   for (int k = 0; k < manifold.count; ++k) {
     gap = std::min(gap, manifold.points[at(k)].gap);
@@ -164,7 +164,7 @@ bool PileProjection::collect(int layers) {
 void PileProjection::solve(int number) {
   if (number < kSweptPasses && !holds()) {
     solver_.wakeAll();
-    solver_.solve(kSweepsAtFirst << number, false);
+    solver_.solve(kSweepsAtFirst << number, PileSolver::Friction::kNone);
     return;
   }
   const auto mover = [&](int body) {

@@ -35,7 +35,8 @@ class PileProjection {
 
   /// Brings a manifold's gaps to where its bodies are; `first`: in this projection. Called by several
   /// threads.
-  using Refresh = std::function<void(PileManifold& manifold, bool first)>;
+  enum class Look { kFirst, kAgain };
+  using Refresh = std::function<void(PileManifold& manifold, Look look)>;
   /// Brings the gaps of a copy of a manifold to where its bodies were before the step.
   using TakeBack = std::function<void(PileManifold& manifold)>;
 

@@ -68,8 +68,9 @@ void PileSolver::warmStart() {
   }
 }
 
-std::int64_t PileSolver::solve(int sweeps, bool withFriction) {
-  const auto kind = withFriction ? LaneSweep::Kind::kFriction : LaneSweep::Kind::kFrictionless;
+std::int64_t PileSolver::solve(int sweeps, Friction friction) {
+  const auto kind =
+      friction == Friction::kCoulomb ? LaneSweep::Kind::kFriction : LaneSweep::Kind::kFrictionless;
   return sweep_.run(kind, sweeps, rows_, moving_);
 }
 

@@ -79,7 +79,8 @@ class PileSolver {
   /// itself: those of a blow that is over, of which the sweeps would undo too little.
   void warmStart();
   /// After the last add(): at most `sweeps` sweeps. Returns the number of manifold solves.
-  std::int64_t solve(int sweeps, bool withFriction);
+  enum class Friction { kNone, kCoulomb };
+  std::int64_t solve(int sweeps, Friction friction = Friction::kCoulomb);
 
   /// Of the rows as they stand, bounds being targets; S [m/s] is `speed`.
   ContactResiduals residuals(double speed) const { return rows_.residuals(speed, moving_); }

@@ -52,7 +52,7 @@ std::vector<double> solved(Registers registers) {
   solver.link();
   solver.warmStart();
   solver.wakeAll();
-  solver.solve(30, true);
+  solver.solve(30);
   solver.beginShifts(0);
   for (int row = 0; row < static_cast<int>(solver.rowCount()); ++row) {
     solver.addToShiftBound(row, row % 5 == 0 ? 1e-3 : 0);
@@ -111,7 +111,7 @@ TEST(Lanes, solveTheirRows) {
   solver.link();
   solver.warmStart();
   solver.wakeAll();
-  EXPECT_GT(solver.solve(2000, true), 0);
+  EXPECT_GT(solver.solve(2000), 0);
   double pushed = 0;
   double slowest = 0;
   for (int row = 0; row < static_cast<int>(solver.rowCount()); ++row) {

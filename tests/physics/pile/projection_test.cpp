@@ -54,7 +54,7 @@ class ProjectedRow {
     near_.resize(manifolds_.size());
     std::iota(near_.begin(), near_.end(), 0);
     refreshes.assign(kBoxesInRow - 1, 0);
-    projection_.begin(bodies, manifolds_, near_, [this](PileManifold& manifold, bool) {
+    projection_.begin(bodies, manifolds_, near_, [this](PileManifold& manifold, PileProjection::Look) {
       ++refreshes[static_cast<std::size_t>(manifold.a)];
       refreshInRow(bodies, manifold);
     });
@@ -146,7 +146,7 @@ TEST(PileProjection, holdsThoseThatHaveNoPlace) {
   std::iota(near.begin(), near.end(), 0);
   PileProjection projection(kTolerated, std::make_shared<Team>(1));
   projection.begin(
-      bodies, manifolds, near, [&](PileManifold& manifold, bool) { refreshInRow(bodies, manifold); },
+      bodies, manifolds, near, [&](PileManifold& manifold, PileProjection::Look) { refreshInRow(bodies, manifold); },
       [&](PileManifold& manifold) { refreshInRow(before, manifold); });
   projection.lookAtAll();
   EXPECT_NEAR(projection.deepest(), 1.2e-3, 1e-12);

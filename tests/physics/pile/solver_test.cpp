@@ -93,7 +93,7 @@ Solved solved(int threads, int sweeps) {
   solver.link();
   solver.warmStart();
   solver.wakeAll();
-  solver.solve(sweeps, true);
+  solver.solve(sweeps);
   Solved result;
   const int rows = static_cast<int>(solver.rowCount());
   for (int row = 0; row < rows; ++row) {

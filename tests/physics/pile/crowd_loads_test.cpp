@@ -1,0 +1,66 @@
+#include "physics/pile/crowd_loads.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/crates.h"
+#include "support/crowd_stages.h"
+
+namespace careen {
+namespace {
+
+using namespace test;
+
+constexpr double kStiffness = 2000;  // [N/m]
+
+// A crate of 125 kg, pulled 0.5 m aside from where its spring hangs.
+World pulledCrate() {
+  World world;
+  world.bodies.push_back(crate("a", Vec3::Constant(0.25), Vec3(0.5, 0, 0), {}));
+  world.springs.push_back({.from = {.body = 0}, .to = {.body = {}}, .stiffness = kStiffness});
+  return world;
+}
+
+TEST(CrowdLoads, withoutSpringsAndDragAreGravity) {
+  World world = floorWorld({});
+  world.bodies.push_back(crate("a", Vec3::Constant(0.25), Vec3(0, 0, 1), {}));
+  CrowdStages stages(world);
+  stages.loads.find();
+  EXPECT_FALSE(stages.loads.any());
+  EXPECT_EQ(stages.loads.acceleration(0), world.gravity);
+  EXPECT_EQ(stages.loads.torque(0), Vec3(0, 0, 0));
+}
+
+// Implicit midpoint from rest: x' = x + h²/4 a, a = −k/m x', so a = −k/m x / (1 + k h²/4m).
+TEST(CrowdLoads, springPullsAsInTheMiddleOfTheStep) {
+  const World world = pulledCrate();
+  CrowdStages stages(world);
+  const double h = 0.02;
+  stages.members.h = h;
+  stages.loads.find();
+  const double stiff = kStiffness / 125;
+  const double expected = -stiff * 0.5 / (1 + 0.25 * stiff * h * h);
+  // What four iterations leave is the fourth power of k h²/4m, 1.6e-3.
+  EXPECT_NEAR(stages.loads.acceleration(0).x(), expected, 1e-10 * std::abs(expected));
+}
+
+// An eighth of a radian per step.
+TEST(CrowdLoads, springLimitsTheStep) {
+  const World world = pulledCrate();
+  const CrowdStages stages(world);
+  EXPECT_NEAR(stages.loads.longestStep(), 0.125 / std::sqrt(kStiffness / 125), 1e-15);
+}
+
+// What was pushed has the velocity of mid-step: half a step of force is missing.
+TEST(CrowdLoads, halfKickIsThatOfTheTimeBehind) {
+  World world = floorWorld({});
+  world.bodies.push_back(crate("a", Vec3::Constant(0.25), Vec3(0, 0, 1), {}));
+  CrowdStages stages(world);
+  stages.members[0].behind = 0.01;
+  EXPECT_EQ(stages.loads.halfKick(0), 0.01 * world.gravity);
+}
+
+}  // namespace
+}  // namespace careen
