@@ -113,8 +113,10 @@ constexpr int kMostMembers = 25;
 constexpr int kMostFunctions = 40;
 /// Larger than that: to become several, and off this list. Their numbers may only fall.
 const std::map<std::string, Size> kLarge = {
-    {"Crowd", {70, 133}}, {"ExactWorld", {16, 91}},  {"PileSolver", {22, 70}},
-    {"Island", {31, 60}}, {"PileManifold", {31, 2}},
+    {"Crowd", {70, 133}},
+    {"ExactWorld", {16, 91}},
+    {"PileSolver", {22, 70}},
+    {"PileManifold", {31, 2}},
 };
 
 TEST(Types, haveFewMembersAndFunctions) {

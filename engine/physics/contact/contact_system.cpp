@@ -6,6 +6,7 @@
 
 #include "physics/contact/three_at.h"
 #include "physics/geometry/contact_frame.h"
+#include "physics/geometry/separation.h"
 #include "physics/solver/contact_rows.h"
 #include "physics/world/forces.h"
 
@@ -70,6 +71,14 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
     }
   }
   restSpeed_ = kRestSpeed * std::sqrt(pull_ * radius_);
+}
+
+bool ContactSystem::pushes() const {
+  return std::any_of(modes_.begin(), modes_.end(), [](Mode mode) { return mode != Mode::kOff; });
+}
+
+double ContactSystem::touching(std::size_t body) const {
+  return touchingWithin(boxAt(kinematics_[body].pose, *bodies_[body].body));
 }
 
 std::vector<double> ContactSystem::pack() const {

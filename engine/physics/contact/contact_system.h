@@ -47,6 +47,8 @@ class ContactSystem {
   std::vector<Mode>& modes() { return modes_; }
   const std::vector<Mode>& modes() const { return modes_; }
   bool pushes(std::size_t contact) const { return modes_[contact] != Mode::kOff; }
+  /// Whether any contact does.
+  bool pushes() const;
 
   std::vector<double> pack() const;
   void unpack(std::span<const double> y);
@@ -78,6 +80,8 @@ class ContactSystem {
   double slipSpeedRate(std::size_t contact) const;
   std::size_t placeOf(std::size_t body) const { return places_[body]; }
   const Kinematics& kinematics(std::size_t body) const { return kinematics_[body]; }
+  /// [m] What of a body's gaps is rounding error where it is.
+  double touching(std::size_t body) const;
 
   /// [m/s] Speeds below this count as rest: rounding error.
   double restSpeed() const { return restSpeed_; }
