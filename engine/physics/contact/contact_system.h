@@ -90,7 +90,7 @@ class ContactSystem {
   double pull() const { return pull_; }
 
  private:
-  std::vector<GroupMember> membersAt(std::span<const double> y, std::span<const std::size_t> group) const;
+  BodyState stateIn(std::span<const double> y, std::size_t body) const;
   bool holdsSideways(std::size_t contact) const;
   double shiftOf(std::span<const double> displacement) const;
   Vec3 angularOf(std::span<const double> solution, std::size_t mover) const;

@@ -1,7 +1,6 @@
 #include "physics/contact/touching_group.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "physics/contact/group_momentum.h"
 
@@ -93,22 +92,12 @@ void TouchingGroup::contactsAt(std::span<const ContactFeature> features, const G
 
 void TouchingGroup::keepMomenta(const GroupState& before, double h, std::span<const ContactFeature> pushing,
                                 GroupState& to) const {
-  for (const std::vector<std::size_t>& group : freeGroups(world_, bodies_, pushing)) {
-    const auto momentum = [&](const GroupState& at) {
-      std::vector<GroupMember> members;
-      for (const std::size_t i : group) {
-        members.push_back({.mass = &body(i).mass, .state = at[i].state()});
-      }
-      return momentumOf(members);
-    };
-    const std::optional<RigidChange> change = changeTo(momentum(before), h, world_.gravity, momentum(to));
-    for (std::size_t k = 0; change && k < group.size(); ++k) {
-      GroupBody& at = to[group[k]];
-      at.velocity += change->velocityAt(at.position);
-      at.position += change->shift;
-      at.angularMomentum +=
-          careen::angularMomentum(body(group[k]).mass, at.worldFromBody.toRotationMatrix(), change->turning);
-    }
+  const auto stateIn = [](const GroupState& all) { return [&all](std::size_t i) { return all[i].state(); }; };
+  for (const auto& [i, change] : changesToKeep(world_, bodies_, pushing, h, stateIn(before), stateIn(to))) {
+    GroupBody& at = to[i];
+    at.velocity += change.velocityAt(at.position);
+    at.position += change.shift;
+    at.angularMomentum += careen::angularMomentum(body(i).mass, at.pose().worldFromBody, change.turning);
   }
 }
 
