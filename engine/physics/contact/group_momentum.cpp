@@ -129,6 +129,7 @@ std::vector<std::pair<std::size_t, RigidChange>> changesToKeep(const World& worl
   for (const std::vector<std::size_t>& group : freeGroups(world, bodies, pushing)) {
     const auto momentum = [&](const StateOfBody& stateOf) {
       std::vector<GroupMember> members;
+      members.reserve(group.size());
       for (const std::size_t i : group) {
         members.push_back({.mass = &bodies[i].body->mass, .state = stateOf(i)});
       }

@@ -40,8 +40,8 @@ TEST(Dips, aNarrowDipIsSearchedForBetweenSamples) {
 // No step, however short, would be without what there was at its start.
 TEST(Dips, depthAtTheStartIsNoDip) {
   EXPECT_EQ(deepMoment([](double) { return -1e-2; }, 1, 1e-3), 0);
-  // A 16th of the tolerance deeper after 1/24.
-  EXPECT_EQ(deepMoment([](double t) { return -1e-2 - 1.5e-3 * t; }, 1, 1e-3), 0.0625);
+  // A 16th of the tolerance deeper after 0.104.
+  EXPECT_EQ(deepMoment([](double t) { return -1e-2 - 0.6e-3 * t; }, 1, 1e-3), 0.125);
   EXPECT_EQ(deepMoment([](double) { return 1.0; }, 1, 1e-3), 0);
 }
 

@@ -34,25 +34,24 @@ TEST(TouchingGroup, bodiesMayMeetWithinTheirRadii) {
   EXPECT_FALSE(of.group.mayMeet(0, 1, of.state, apart - 1e-9));
 }
 
-// An edge along x, 1 mm above one along y: both arms end halfway.
+// A corner 1 mm above a corner: both arms end halfway.
 TEST(TouchingGroup, aPairHasOnePointForBoth) {
-  const double reach = 0.1 * std::sqrt(2);
-  World world = cubeAbove(2 * reach + 1e-3, Vec3(0, 0, -2));
-  world.bodies.push_back(box("lower", Vec3(0.1, 0.1, 0.1), 1, Vec3::Zero()));
-  world.bodies[0].initial.pose.worldFromBody = Eigen::AngleAxisd(M_PI / 4, Vec3::UnitX()).matrix();
-  world.bodies[1].initial.pose.worldFromBody = Eigen::AngleAxisd(M_PI / 4, Vec3::UnitY()).matrix();
+  World world = cubeAbove(0.201, Vec3(0, 0, -2));
+  world.bodies.push_back(box("lower", Vec3(0.1, 0.1, 0.1), 1, Vec3(-0.2, -0.2, 0)));
   GroupOf of(world);
-  const std::vector<ContactFeature> features{{.kind = ContactFeature::Kind::kEdgeOnEdge,
+  const std::vector<ContactFeature> features{{.kind = ContactFeature::Kind::kInCone,
                                               .a = 0,
                                               .b = Partner::ofBody(1),
-                                              .onA = Vec3(0, -0.1, -0.1),
-                                              .onB = Vec3(-0.1, 0, 0.1),
-                                              .axisA = 0,
-                                              .axisB = 1}};
+                                              .onA = Vec3(-0.1, -0.1, -0.1),
+                                              .onB = Vec3(0.1, 0.1, 0.1),
+                                              .axisA = ContactFeature::kNoEdge,
+                                              .axisB = ContactFeature::kNoEdge,
+                                              .normalA = Vec3::UnitZ(),
+                                              .normalB = Vec3::UnitZ()}};
   const ContactState at = of.group.contactAt(features[0], of.state);
   EXPECT_NEAR(at.gap, 1e-3, 1e-15);
   EXPECT_NEAR(at.rate, -2, 1e-15);
-  const Vec3 halfway(0, 0, reach + 0.5e-3);
+  const Vec3 halfway(-0.1, -0.1, 0.1005);
   EXPECT_LT((of.state[0].position + at.armA - halfway).norm(), 1e-15);
   EXPECT_LT((of.state[1].position + at.armB - halfway).norm(), 1e-15);
   std::vector<ContactState> all;
