@@ -114,7 +114,6 @@ constexpr int kMostFunctions = 40;
 /// Larger than that: to become several, and off this list. Their numbers may only fall.
 const std::map<std::string, Size> kLarge = {
     {"Crowd", {70, 133}},
-    {"ExactWorld", {16, 91}},
     {"PileSolver", {22, 70}},
     {"PileManifold", {31, 2}},
 };
@@ -155,13 +154,9 @@ const std::map<std::string, int> kFlags = {
     {"pile/projection.h", 1},
     {"pile/crowd.h", 3},
     {"pile/solver.h", 2},
-    {"world/flight_account.h", 1},
-    {"geometry/contact_manifold.h", 1},
     {"solver/interior_point.h", 2},
     {"contact/contact_system.h", 1},
-    {"exact/exact_world.h", 2},
     {"solver/contact_newton.h", 1},
-    {"motion/joined_steps.h", 1},
 };
 
 TEST(Types, ofThePhysicsTakeNoBareFlags) {

@@ -50,7 +50,7 @@ class Rows {
   void findPartners(std::size_t row);
   void hasten();
   std::pair<const BodyState&, const BodyState&> rowsOf(std::size_t index, std::size_t row) const;
-  Encounter encounterOf(std::size_t index, Partner partner, std::size_t row) const;
+  ObservedEncounter encounterOf(std::size_t index, Partner partner, std::size_t row) const;
   bool canTouch(std::size_t index, Partner partner, std::size_t row) const;
   void settle(std::size_t index, std::size_t row);
   void checkWay(std::size_t index, std::size_t row);
@@ -227,12 +227,12 @@ std::pair<const BodyState&, const BodyState&> Rows::rowsOf(std::size_t index, st
   return {step.start, step.end};
 }
 
-Encounter Rows::encounterOf(std::size_t index, Partner partner, std::size_t row) const {
-  Encounter encounter{.body = &body(index),
-                      .gravity = run_.world.gravity,
-                      .seconds = seconds(row),
-                      .near = near_,
-                      .part = part_};
+ObservedEncounter Rows::encounterOf(std::size_t index, Partner partner, std::size_t row) const {
+  ObservedEncounter encounter{.body = &body(index),
+                              .gravity = run_.world.gravity,
+                              .seconds = seconds(row),
+                              .near = near_,
+                              .part = part_};
   std::tie(encounter.before, encounter.after) = rowsOf(index, row);
   if (partner.isWall()) {
     encounter.wall = &run_.world.walls[partner.wall()];
@@ -251,7 +251,7 @@ Encounter Rows::encounterOf(std::size_t index, Partner partner, std::size_t row)
 // Whether they may have come as near as things that push each other: two points with a gap that closes and
 // opens again between the rows, at no more than their speeds.
 bool Rows::canTouch(std::size_t index, Partner partner, std::size_t row) const {
-  const Encounter encounter = encounterOf(index, partner, row);
+  const ObservedEncounter encounter = encounterOf(index, partner, row);
   const double other = partner.isWall() ? 0 : flying_[static_cast<std::size_t>(partner.body())].speed;
   const double closing = (flying_[index].speed + other) * encounter.seconds;
   const double gap = gapOf(encounter, encounter.before, encounter.otherBefore);
@@ -290,7 +290,7 @@ void Rows::settle(std::size_t index, std::size_t row) {
     passage.kind = Passage::Kind::kFlew;
     return;
   }
-  std::vector<Encounter> fixed;
+  std::vector<ObservedEncounter> fixed;
   for (const Partner partner : flying.partners) {
     if (isFixed(partner)) {
       fixed.push_back(encounterOf(index, partner, row));
@@ -346,7 +346,7 @@ void Rows::checkFriction(std::size_t row) {
       continue;
     }
     const Partner partner = partners[index].front();
-    Encounter encounter = encounterOf(index, partner, row);
+    ObservedEncounter encounter = encounterOf(index, partner, row);
     encounter.passed = passed[index];
     if (const std::optional<Friction> friction = frictionOf(encounter)) {
       Passage& passage = passages_[index][row];
@@ -378,7 +378,7 @@ void Rows::checkBounce(std::size_t index, std::size_t row) {
     const SampledStep& step = std::get<SampledStep>(run_.tracks[body].segments[at].motion);
     return isEnd ? step.end : step.start;
   };
-  Encounter encounter = encounterOf(index, partner, row);
+  ObservedEncounter encounter = encounterOf(index, partner, row);
   const auto set = [&](std::size_t at, bool isEnd) {
     (isEnd ? encounter.after : encounter.before) = stateAt(index, at, isEnd);
     if (!partner.isWall() && !isHeld(static_cast<std::size_t>(partner.body()))) {

@@ -20,17 +20,18 @@ constexpr double kMostTurn = 0.5;  // [rad] from row to row, for slip to keep it
 constexpr double kSameWay = 0.5;   // least cosine of the slips' angle
 constexpr double kMeetAgain = 1.0 / 16;  // [1] of what counts as near: both flights meet within it
 
-BodyState flownOf(const Body* body, const BodyState& from, const Encounter& encounter, double seconds) {
+BodyState flownOf(const Body* body, const BodyState& from, const ObservedEncounter& encounter,
+                  double seconds) {
   return body != nullptr ? flown(body->mass, from, encounter.gravity, seconds) : from;
 }
 
-double coefficientOf(const Encounter& encounter) {
+double coefficientOf(const ObservedEncounter& encounter) {
   return touching(encounter.body->material,
                   encounter.wall != nullptr ? encounter.wall->material : encounter.other->material)
       .friction;
 }
 
-double restitutionOf(const Encounter& encounter) {
+double restitutionOf(const ObservedEncounter& encounter) {
   return touching(encounter.body->material,
                   encounter.wall != nullptr ? encounter.wall->material : encounter.other->material)
       .restitution;
@@ -66,7 +67,7 @@ std::optional<Vec3> normalOf(const AuditBox& a, const AuditBox& b, double near) 
 }
 
 // [m/s] No point is faster.
-double speedOf(const Encounter& encounter, const BodyState& body, const BodyState& other) {
+double speedOf(const ObservedEncounter& encounter, const BodyState& body, const BodyState& other) {
   const auto fastest = [](const Body& each, const BodyState& state) {
     return isImmovable(each.mass)
                ? 0.0
@@ -77,12 +78,12 @@ double speedOf(const Encounter& encounter, const BodyState& body, const BodyStat
 }
 
 // [m/s] How far the speeds of points may be off.
-double doubtOf(const Encounter& encounter, const BodyState& body, const BodyState& other) {
+double doubtOf(const ObservedEncounter& encounter, const BodyState& body, const BodyState& other) {
   return encounter.part * speedOf(encounter, body, other) + encounter.doubt;
 }
 
 // [1/kg] Velocity of the point that an impulse of 1 N s in this direction gives.
-Vec3 answerAt(const Encounter& encounter, const BodyState& body, const BodyState& other,
+Vec3 answerAt(const ObservedEncounter& encounter, const BodyState& body, const BodyState& other,
               const Vec3& direction, const Vec3& place) {
   Vec3 answer = Vec3::Zero();
   const auto add = [&](const Body& each, const BodyState& state) {
@@ -98,14 +99,14 @@ Vec3 answerAt(const Encounter& encounter, const BodyState& body, const BodyState
 }
 
 // [1/kg] Largest speed along the normal that an impulse along it gives, with what friction may add.
-double inverseMassAt(const Encounter& encounter, const BodyState& body, const BodyState& other,
+double inverseMassAt(const ObservedEncounter& encounter, const BodyState& body, const BodyState& other,
                      const Touch& touch, const Vec3& place) {
   const Vec3 answer = answerAt(encounter, body, other, touch.normal, place);
   const double along = answer.dot(touch.normal);
   return along + coefficientOf(encounter) * (answer - along * touch.normal).norm();
 }
 
-double energyOf(const Encounter& encounter, const BodyState& body, const BodyState& other) {
+double energyOf(const ObservedEncounter& encounter, const BodyState& body, const BodyState& other) {
   const auto of = [&](const Body& each, const BodyState& state) {
     return kineticEnergy(each.mass, state) - each.mass.mass * encounter.gravity.dot(state.pose.position);
   };
@@ -114,13 +115,14 @@ double energyOf(const Encounter& encounter, const BodyState& body, const BodySta
 
 }  // namespace
 
-double gapOf(const Encounter& encounter, const BodyState& body, const BodyState& other) {
+double gapOf(const ObservedEncounter& encounter, const BodyState& body, const BodyState& other) {
   const AuditBox box = auditBox(*encounter.body, body.pose);
   return encounter.wall != nullptr ? separationOf(box, *encounter.wall)
                                    : separationOf(box, auditBox(*encounter.other, other.pose));
 }
 
-std::optional<Touch> touchOf(const Encounter& encounter, const BodyState& body, const BodyState& other) {
+std::optional<Touch> touchOf(const ObservedEncounter& encounter, const BodyState& body,
+                             const BodyState& other) {
   const AuditBox box = auditBox(*encounter.body, body.pose);
   Touch touch;
   const auto take = [&](const AuditBox& from, double sign, double plane) {
@@ -166,26 +168,26 @@ std::optional<Touch> touchOf(const Encounter& encounter, const BodyState& body, 
   return touch;
 }
 
-Vec3 approachAt(const Encounter& encounter, const BodyState& body, const BodyState& other,
+Vec3 approachAt(const ObservedEncounter& encounter, const BodyState& body, const BodyState& other,
                 const Vec3& place) {
   return velocityAt(encounter.body->mass, body, place) -
          (encounter.other != nullptr ? velocityAt(encounter.other->mass, other, place) : Vec3(Vec3::Zero()));
 }
 
-Vec3 impulseOf(const Encounter& encounter) {
+Vec3 impulseOf(const ObservedEncounter& encounter) {
   return encounter.passed +
          encounter.body->mass.mass *
              (encounter.after.velocity - encounter.before.velocity - encounter.seconds * encounter.gravity);
 }
 
-double leastDistance(std::span<const Encounter> encounters) {
+double leastDistance(std::span<const ObservedEncounter> encounters) {
   std::array<double, kFlightLooks + 1> first{};
   std::array<double, kFlightLooks + 1> last{};
-  const Encounter& any = encounters.front();
+  const ObservedEncounter& any = encounters.front();
   const double step = any.seconds / kFlightLooks;
   const auto gapAt = [&](const BodyState& body) {
     double gap = kInfinite;
-    for (const Encounter& encounter : encounters) {
+    for (const ObservedEncounter& encounter : encounters) {
       gap = std::min(gap, gapOf(encounter, body, encounter.otherBefore));
     }
     return gap;
@@ -218,7 +220,7 @@ struct Meeting {
   BodyState other;
 };
 
-std::optional<Meeting> meetingOf(const Encounter& encounter) {
+std::optional<Meeting> meetingOf(const ObservedEncounter& encounter) {
   const auto at = [&](double time) {
     return Meeting{.time = time,
                    .body = flownOf(encounter.body, encounter.before, encounter, time),
@@ -271,7 +273,7 @@ bool meetAgain(const Body* body, const BodyState& x, const BodyState& y, double 
 }
 
 // If both fly on to their second rows after one impact.
-void allowByParting(const Encounter& encounter, const Meeting& meeting, const Touch& touch,
+void allowByParting(const ObservedEncounter& encounter, const Meeting& meeting, const Touch& touch,
                     const std::vector<Vec3>& places, Range approach, double doubt, Allowed& allowed) {
   const double left = encounter.seconds - meeting.time;
   const BodyState body = flownOf(encounter.body, encounter.after, encounter, -left);
@@ -299,7 +301,7 @@ void allowByParting(const Encounter& encounter, const Meeting& meeting, const To
 
 }  // namespace
 
-double restitutionBeyond(const Encounter& encounter) {
+double restitutionBeyond(const ObservedEncounter& encounter) {
   const std::optional<Meeting> meeting = meetingOf(encounter);
   const std::optional<Touch> touch =
       meeting ? touchOf(encounter, meeting->body, meeting->other) : std::nullopt;
@@ -339,7 +341,7 @@ double restitutionBeyond(const Encounter& encounter) {
   return std::max({allowed.low - restitution, restitution - allowed.high, 0.0});
 }
 
-std::optional<Friction> frictionOf(const Encounter& encounter) {
+std::optional<Friction> frictionOf(const ObservedEncounter& encounter) {
   const std::optional<Touch> first = touchOf(encounter, encounter.before, encounter.otherBefore);
   const std::optional<Touch> second = touchOf(encounter, encounter.after, encounter.otherAfter);
   const auto spinOf = [&](const Body* body, const BodyState& state) {

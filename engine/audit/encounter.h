@@ -11,7 +11,7 @@ namespace careen {
 
 /// A body between two rows of a table, and one thing that it may have touched meanwhile: the only one, but
 /// for what touched nothing else and whose impulse is known.
-struct Encounter {
+struct ObservedEncounter {
   const Body* body = nullptr;
   BodyState before = {};
   BodyState after = {};
@@ -39,20 +39,22 @@ struct Touch {
 };
 
 /// [m] How far apart they are.
-double gapOf(const Encounter& encounter, const BodyState& body, const BodyState& other);
+double gapOf(const ObservedEncounter& encounter, const BodyState& body, const BodyState& other);
 
 /// None where several directions separate two boxes equally well.
-std::optional<Touch> touchOf(const Encounter& encounter, const BodyState& body, const BodyState& other);
+std::optional<Touch> touchOf(const ObservedEncounter& encounter, const BodyState& body,
+                             const BodyState& other);
 
 /// [m/s] Velocity of the body's point relative to the other's.
-Vec3 approachAt(const Encounter& encounter, const BodyState& body, const BodyState& other, const Vec3& place);
+Vec3 approachAt(const ObservedEncounter& encounter, const BodyState& body, const BodyState& other,
+                const Vec3& place);
 
 /// [N s] What the body was given that gravity does not explain.
-Vec3 impulseOf(const Encounter& encounter);
+Vec3 impulseOf(const ObservedEncounter& encounter);
 
 /// [m] How close a body must have come to one of several things that cannot move, if they gave it an impulse:
 /// it flies from its first row until it first touches one, and since it last did it flies to its second row.
-double leastDistance(std::span<const Encounter> encounters);
+double leastDistance(std::span<const ObservedEncounter> encounters);
 
 /// [1] How far the scene's restitution is outside the interval that the rows leave it; 0: within, or nothing
 /// can be said.
@@ -62,7 +64,7 @@ double leastDistance(std::span<const Encounter> encounters);
 /// which the points part. Impulses pᵢ ≥ 0 of one impact fulfil Σ pᵢ (uᵢ' + e uᵢ) = 0, so that e is between
 /// the least and the largest quotient. Whatever follows the first impact, it gave at least (1 + e) u / K,
 /// where K [1/kg] is the largest inverse mass of a point, and took at least ½ (1 − e²) u² / K.
-double restitutionBeyond(const Encounter& encounter);
+double restitutionBeyond(const ObservedEncounter& encounter);
 
 /// [N s] What is wrong with friction; negative: nothing.
 struct Friction {
@@ -72,6 +74,6 @@ struct Friction {
   std::optional<double> missing;
   double surplus = 0;  ///< beyond the cone of friction
 };
-std::optional<Friction> frictionOf(const Encounter& encounter);
+std::optional<Friction> frictionOf(const ObservedEncounter& encounter);
 
 }  // namespace careen

@@ -17,7 +17,7 @@ const Vec3 kDown(0, 0, -10);
 struct OnFloor {
   Body cube = box("cube", Vec3::Ones(), 1, Vec3(0, 0, 1));
   Wall floor;
-  Encounter encounter;
+  ObservedEncounter encounter;
   OnFloor(double restitution, double friction, double seconds) {
     floor.material = {.restitution = restitution, .friction = friction};
     cube.material = floor.material;
@@ -40,7 +40,7 @@ struct OnFloor {
 };
 
 // Speeds may be off by 1 % of 2.3 m/s, so that e is known to 0.03.
-TEST(Encounter, aBounceTellsItsRestitution) {
+TEST(ObservedEncounter, aBounceTellsItsRestitution) {
   for (const double restitution : {0.0, 0.3, 0.5, 1.0}) {
     for (const double seconds : {0.05, 0.02, 0.008}) {
       for (const double part : {0.2, 0.5, 0.9}) {
@@ -58,7 +58,7 @@ TEST(Encounter, aBounceTellsItsRestitution) {
   }
 }
 
-TEST(Encounter, whatSlidesIsSlowedDown) {
+TEST(ObservedEncounter, whatSlidesIsSlowedDown) {
   const auto of = [](double friction, double acts, double seconds) {
     OnFloor slides(0, friction, seconds);
     slides.slide(1, acts);
@@ -79,7 +79,7 @@ TEST(Encounter, whatSlidesIsSlowedDown) {
 }
 
 // What one body got from another it passed on to the floor.
-TEST(Encounter, whatWasPassedOnCounts) {
+TEST(ObservedEncounter, whatWasPassedOnCounts) {
   OnFloor below(0, 0.5, 0.01);
   below.slide(1, 1);  // 0.5 of its own weight, 0.5 of a rider's of the same
   EXPECT_NEAR(frictionOf(below.encounter)->surplus, 0.05, 1e-15);
@@ -88,7 +88,7 @@ TEST(Encounter, whatWasPassedOnCounts) {
 }
 
 // It hovers: from 5 mm above the floor a fall takes 0.0316 s.
-TEST(Encounter, whatHoversWasNotTouched) {
+TEST(ObservedEncounter, whatHoversWasNotTouched) {
   OnFloor hovers(0, 0, 0.05);
   hovers.encounter.before = {.pose = {.position = Vec3(0, 0, 1.005)}};
   hovers.encounter.after = hovers.encounter.before;
@@ -100,7 +100,7 @@ TEST(Encounter, whatHoversWasNotTouched) {
   EXPECT_LT(leastDistance(std::array{bounces.encounter}), 1e-3);
 }
 
-TEST(Encounter, boxesTouchAlongTheAxisThatPartsThem) {
+TEST(ObservedEncounter, boxesTouchAlongTheAxisThatPartsThem) {
   const Body slab = box("slab", Vec3(5, 5, 1), 1, Vec3(0, 0, -1));
   OnFloor on(0, 0, 0.01);
   on.encounter.wall = nullptr;
@@ -117,7 +117,7 @@ TEST(Encounter, boxesTouchAlongTheAxisThatPartsThem) {
   EXPECT_FALSE(touchOf(on.encounter, aside, slab.initial));
 }
 
-TEST(Encounter, pointsOfBothMove) {
+TEST(ObservedEncounter, pointsOfBothMove) {
   OnFloor on(0, 0, 0.01);
   const Body slab = box("slab", Vec3(5, 5, 1), 1, Vec3(0, 0, -1));
   on.encounter.other = &slab;

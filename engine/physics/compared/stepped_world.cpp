@@ -141,9 +141,11 @@ void SteppedBody::strike() {
   contacts_.clear();
   account_.penetrates(addWallContacts(world_, body_, before.pose, 0, contacts_));
   account_.arrives(static_cast<std::size_t>(index_), before, time_ - departure_);
-  account_.strikes(std::any_of(contacts_.begin(), contacts_.end(), [](const ImpactContact& contact) {
-    return contact.material.restitution < 1 || contact.material.friction > 0;
-  }));
+  if (std::any_of(contacts_.begin(), contacts_.end(), [](const ImpactContact& contact) {
+        return contact.material.restitution < 1 || contact.material.friction > 0;
+      })) {
+    account_.mayLose();
+  }
   shares_.assign(contacts_.size(), {});
   const ImpactBody body{.mass = &body_.mass, .state = &after};
   resolveImpact({&body, 1}, contacts_, shares_);

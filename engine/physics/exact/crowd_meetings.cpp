@@ -1,10 +1,10 @@
+#include "physics/exact/crowd_meetings.h"
+
 #include <algorithm>
-#include <memory>
 
-#include "physics/exact/exact_world.h"
 #include "physics/geometry/separation.h"
-
-// What a crowd is about to meet.
+#include "physics/motion/hermite_step.h"
+#include "physics/search/first_contact_search.h"
 
 namespace careen {
 namespace {
@@ -52,160 +52,118 @@ ContactStep unpushed(const Crowd& crowd, std::size_t place, const Vec3& gravity,
   return asContactStep(cubicStep(from, to, length));
 }
 
+bool meetsWithin(const Bodies& bodies, const CrowdGroup& group, const Mover& outsider, const Mover& member,
+                 const Instant& time, double length) {
+  const MovingBox body = outsider.moving(time);
+  const SearchWindow window{.from = 0, .until = length};
+  const MemberStep step(*member.body, unpushed(group.crowd(), member.place, bodies.world().gravity, length));
+  const FirstContact contact = group.crowd().sleeps(member.place)
+                                   ? firstContactOfBoxes(body, member.moving(time), window)
+                                   : firstContactOfBoxes(body, step.moving(), window);
+  return contact.kind != ContactKind::kNone;
+}
+
+/// Whether any member in the cells around that body does that.
+template <class Does>
+bool anyMember(const Bodies& bodies, const CrowdGroup& group, int rank, const Does& does) {
+  const std::vector<int> around = bodies.around(rank);
+  return std::any_of(around.begin(), around.end(),
+                     [&](int candidate) { return group.has(bodies[candidate]) && does(bodies[candidate]); });
+}
+
 }  // namespace
 
-// Bodies that are no members and may get into that space within that time; if it began in the past, only such
-// as are in no group: of the others it is known where they are now.
-std::vector<int> ExactWorld::outsidersIn(const Crowd::Extent& extent, const ContactGroup& group,
-                                         const Instant& time, double length, bool past) const {
+bool restsSince(const Mover& body, const Instant& time) { return !body.moves() && earlier(time, body.start); }
+
+bool fliesSince(const Bodies& bodies, const Mover& body, const Instant& time) {
+  return body.flies() && bodies.joinedTo(body.rank).empty() && !earlier(time, body.start);
+}
+
+std::vector<int> outsidersIn(const Bodies& bodies, const CrowdGroup& group, const Crowd::Extent& extent,
+                             const Instant& time, double length, Outsiders which) {
   std::vector<int> found;
-  for (int rank = 0; rank < static_cast<int>(movers_.size()); ++rank) {
-    const Mover& body = mover(rank);
-    if (body.crowd.get() == &group || (past && (body.crowd || body.touches()))) {
+  for (const int rank : bodies.mayReach(extent.low, extent.high, time, length)) {
+    const Mover& body = bodies[rank];
+    if (group.has(body) || (which == Outsiders::kInNoGroup && body.group)) {
       continue;
     }
-    const double way =
-        body.flies
-            ? length * (body.flight.velocityAt(body.elapsed(time)).norm() + length * world_.gravity.norm())
-        : body.touches() ? length * body.speedBound
-                         : 0;
+    const double way = body.flies()   ? length * (body.flight.velocityAt(body.elapsed(time)).norm() +
+                                                length * bodies.world().gravity.norm())
+                       : body.steps() ? length * body.bounds.speed
+                                      : 0;
     const Vec3 reach = Vec3::Constant(radiusOf(*body.body) + way);
     const Vec3 center = body.moves() ? body.positionAt(time) : body.pose.position;
     const bool inside = ((center + reach).array() >= extent.low.array()).all() &&
                         ((center - reach).array() <= extent.high.array()).all();
-    if (inside &&
-        !(body.isHeld() && std::find(group.ranks.begin(), group.ranks.end(), rank) != group.ranks.end())) {
+    if (inside && !(body.isHeld() &&
+                    std::find(group.ranks().begin(), group.ranks().end(), rank) != group.ranks().end())) {
       found.push_back(rank);
     }
   }
   return found;
 }
 
-// Admits what its members meet within the next step if nothing pushes them, and bodies at rest near them.
-void ExactWorld::admitNear(const std::shared_ptr<ContactGroup>& group, const Instant& time, double length) {
-  for (bool added = true; added;) {
-    added = false;
-    for (const int rank : outsidersIn(group->crowd->extent(length), *group, time, length, false)) {
-      const Mover& body = mover(rank);
-      if (body.crowd != group && meetsNext(*group, rank, time, length)) {
-        admitOutsider(group, rank, time);
-        added = true;
-      }
-    }
-  }
-}
-
-// With those that it is in contact with, and all that springs join to them.
-void ExactWorld::admitOutsider(const std::shared_ptr<ContactGroup>& group, int rank, const Instant& time) {
-  Encounter with;
-  with.time = time;
-  join(with, rank);
-  for (const std::shared_ptr<ContactGroup>& other : with.crowds) {
-    if (other != group) {
-      endAt(other, time);
-      merge(group, *other);
-    }
-  }
-  for (std::size_t i = 0; i < with.ranks.size(); ++i) {
-    enlist(group, with.ranks[i], time, with.before[i], with.attitudes[i]);
-  }
-}
-
-// Admits whom its members, pushed otherwise than expected, met in the step that they have taken: bodies at
-// rest and members of other crowds, none of which look for contacts; if it was taken `again`, in place of the
-// latter those who had looked when it was another. Returns whether there were any.
-bool ExactWorld::admitMet(const std::shared_ptr<ContactGroup>& group, const Instant& time, bool again) {
-  bool any = false;
-  for (const int rank : outsidersIn(group->crowd->swept(), *group, time, group->crowd->length(), again)) {
-    const Mover& body = mover(rank);
-    const bool asked = again
-                           ? !body.crowd && (body.moves() ? fliesSince(rank, time) : !restsSince(rank, time))
-                           : body.crowd != group && (body.crowd || !body.flies);
-    if (asked && wasMet(*group, rank, time)) {
-      admitOutsider(group, rank, time);
-      any = true;
-    }
-  }
-  return any;
-}
-
-bool ExactWorld::wasMet(const ContactGroup& group, int rank, const Instant& time) {
-  const Mover& body = mover(rank);
-  const double length = body.touches()
-                            ? std::min(group.crowd->length(), secondsBetween(time, body.contactGroup->end()))
-                            : group.crowd->length();
+bool wasMet(const Bodies& bodies, const CrowdGroup& group, int rank, const Instant& time) {
+  const Mover& body = bodies[rank];
+  const Crowd& crowd = group.crowd();
+  const double length =
+      body.steps() ? std::min(crowd.length(), secondsBetween(time, body.group->end())) : crowd.length();
   const Pose pose = body.moves() ? body.stateAt(time).pose : body.pose;
-  const double way = body.touches() ? length * body.speedBound : 0;
-  neighbors_.findCandidates(rank, candidates_);
-  return length > 0 && std::any_of(candidates_.begin(), candidates_.end(), [&](Neighbors::Key candidate) {
-           const Mover& member = mover(candidate);
-           if (member.crowd.get() != &group ||
-               !group.crowd->cameNear(member.place, boxAt(pose, *body.body), way)) {
+  const double way = body.steps() ? length * body.bounds.speed : 0;
+  return length > 0 && anyMember(bodies, group, rank, [&](const Mover& member) {
+           if (!crowd.cameNear(member.place, boxAt(pose, *body.body), way)) {
              return false;
            }
-           const StepEnd from = group.crowd->begin(member.place);
-           const MemberStep step(*member.body, asContactStep(cubicStep(from, group.crowd->end(member.place),
-                                                                       group.crowd->length())));
+           const MemberStep step(
+               *member.body,
+               asContactStep(cubicStep(crowd.begin(member.place), crowd.end(member.place), crowd.length())));
            return firstContactOfBoxes(body.moving(time), step.moving(), {.from = 0, .until = length}).kind !=
                   ContactKind::kNone;
          });
 }
 
-bool ExactWorld::meetsNext(const ContactGroup& group, int rank, const Instant& time, double length) {
-  const Mover& body = mover(rank);
+bool meetsNext(const Bodies& bodies, const CrowdGroup& group, int rank, const Instant& time, double length) {
+  const Mover& body = bodies[rank];
   const BodyState state = body.stateAt(time);
   const double radius = radiusOf(*body.body);
   const double turning = body.moves() ? angularVelocity(body.body->mass, state).norm() * radius : 0;
-  neighbors_.findCandidates(rank, candidates_);
-  return std::any_of(candidates_.begin(), candidates_.end(), [&](Neighbors::Key candidate) {
-    const Mover& member = mover(candidate);
-    if (member.crowd.get() != &group || (!body.moves() && group.crowd->sleeps(member.place))) {
+  return anyMember(bodies, group, rank, [&](const Mover& member) {
+    if (!body.moves() && group.crowd().sleeps(member.place)) {
       return false;
     }
-    const PileBody& at = group.crowd->body(member.place);
-    const double way = crowds_.tolerance +
-                       length * ((state.velocity - at.velocity).norm() + turning +
-                                 at.radius * at.omega.norm() + (length + at.behind) * world_.gravity.norm());
+    const PileBody& at = group.crowd().body(member.place);
+    const double way =
+        bodies.crowds().tolerance +
+        length * ((state.velocity - at.velocity).norm() + turning + at.radius * at.omega.norm() +
+                  (length + at.behind) * bodies.world().gravity.norm());
     if ((state.pose.position - at.position).norm() > radius + at.radius + way ||
         BoxAxes(boxAt(state.pose, *body.body), boxAt(stateOf(at).pose, *member.body)).gap() > way) {
       return false;
     }
-    return !body.moves() || body.crowd || (body.flies && meetsWithin(group, rank, member, time, length));
+    return !body.moves() || (body.steps() ? !body.group->isPredicted()
+                                          : meetsWithin(bodies, group, body, member, time, length));
   });
 }
 
-// Who may meet a member in the step that it has taken, perhaps another way than it was going.
-std::vector<int> ExactWorld::nearStep(const ContactGroup& group) {
-  const double length = group.step.length;
-  std::vector<int> near = outsidersIn(group.crowd->swept(), group, group.start, length, false);
+std::vector<int> nearStep(const Bodies& bodies, const CrowdGroup& group) {
+  const double length = group.length();
+  std::vector<int> near =
+      outsidersIn(bodies, group, group.crowd().swept(), group.start(), length, Outsiders::kAll);
   std::erase_if(near, [&](int rank) {
-    const Mover& body = mover(rank);
+    const Mover& body = bodies[rank];
     if (!body.moves()) {
       return true;
     }
-    const BodyState state = body.stateAt(group.start);
+    const BodyState state = body.stateAt(group.start());
     const double speed =
         state.velocity.norm() + angularVelocity(body.body->mass, state).norm() * radiusOf(*body.body);
-    const double way = length * (body.touches() ? body.speedBound : speed + length * world_.gravity.norm());
-    neighbors_.findCandidates(rank, candidates_);
-    return std::none_of(candidates_.begin(), candidates_.end(), [&](Neighbors::Key candidate) {
-      const Mover& member = mover(candidate);
-      return member.crowd.get() == &group &&
-             group.crowd->cameNear(member.place, boxAt(state.pose, *body.body), way);
+    const double way =
+        length * (body.steps() ? body.bounds.speed : speed + length * bodies.world().gravity.norm());
+    return !anyMember(bodies, group, rank, [&](const Mover& member) {
+      return group.crowd().cameNear(member.place, boxAt(state.pose, *body.body), way);
     });
   });
   return near;
-}
-
-bool ExactWorld::meetsWithin(const ContactGroup& group, int rank, const Mover& member, const Instant& time,
-                             double length) const {
-  const MovingBox body = mover(rank).moving(time);
-  const SearchWindow window{.from = 0, .until = length};
-  const MemberStep step(*member.body, unpushed(*group.crowd, member.place, world_.gravity, length));
-  const FirstContact contact = group.crowd->sleeps(member.place)
-                                   ? firstContactOfBoxes(body, member.moving(time), window)
-                                   : firstContactOfBoxes(body, step.moving(), window);
-  return contact.kind != ContactKind::kNone;
 }
 
 }  // namespace careen

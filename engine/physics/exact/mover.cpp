@@ -8,8 +8,8 @@
 namespace careen {
 
 void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravity) {
-  flies = true;
-  contactGroup.reset();
+  kind = Kind::kFlies;
+  group.reset();
   flight = {.position = state.pose.position,
             .velocity = state.velocity,
             .acceleration = gravity,
@@ -19,51 +19,47 @@ void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravit
     moments.emplace(body->mass.inertiaBody);
   }
   rotation.emplace(*moments, body->mass.worldFromPrincipal(attitude), state.angularMomentum);
-  const TorqueFreeRotation<double>::Bounds& bounds = rotation->bounds();
-  angularSpeedBound = bounds.angularSpeed;
-  angularAccelerationBound = bounds.angularAcceleration;
+  const TorqueFreeRotation<double>::Bounds& turning = rotation->bounds();
+  bounds.angularSpeed = turning.angularSpeed;
+  bounds.angularAcceleration = turning.angularAcceleration;
 }
 
-void Mover::touch(std::shared_ptr<ContactGroup> with, std::size_t as) {
+void Mover::step(std::shared_ptr<ContactGroup> with, std::size_t as) {
   rest({});
-  contactGroup = std::move(with);
+  kind = Kind::kSteps;
+  group = std::move(with);
   place = as;
-  const StepBounds bounds = boundsOf(contactGroup->motions[place]);
-  speedBound = bounds.speed;
-  accelerationBound = bounds.acceleration;
-  angularSpeedBound = bounds.angularSpeed;
-  angularAccelerationBound = bounds.angularAcceleration;
+  bounds = boundsOf(group->motion(place));
 }
 
 void Mover::rest(const Pose& at) {
-  flies = false;
-  contactGroup.reset();
+  kind = Kind::kRests;
   flight = {.position = at.position, .worldFromBody = Quat(at.worldFromBody)};
   pose = at;
   rotation.reset();
-  angularSpeedBound = 0;
-  angularAccelerationBound = 0;
+  bounds.angularSpeed = 0;
+  bounds.angularAcceleration = 0;
   wall.reset();
   crosses = false;
   crossing = {};
 }
 
 Vec3 Mover::positionAt(const Instant& time) const {
-  return touches() ? stateAt(time).pose.position : flight.positionAt(elapsed(time));
+  return steps() ? careen::positionAt(group->motion(place), elapsed(time)) : flight.positionAt(elapsed(time));
 }
 
 Quat Mover::attitudeAt(const Instant& time) const {
-  if (touches()) {
-    return Quat(careen::stateAt(contactGroup->motions[place], body->mass, elapsed(time)).pose.worldFromBody);
+  if (steps()) {
+    return Quat(careen::stateAt(group->motion(place), body->mass, elapsed(time)).pose.worldFromBody);
   }
   return rotation ? body->mass.worldFromBody(rotation->worldFromBody(elapsed(time))) : flight.worldFromBody;
 }
 
 BodyState Mover::stateAt(const Instant& time, const Quat& attitude) const {
-  if (touches()) {
-    return careen::stateAt(contactGroup->motions[place], body->mass, elapsed(time));
+  if (steps()) {
+    return careen::stateAt(group->motion(place), body->mass, elapsed(time));
   }
-  if (!flies) {
+  if (!flies()) {
     return {.pose = pose};
   }
   const double since = elapsed(time);
@@ -73,8 +69,8 @@ BodyState Mover::stateAt(const Instant& time, const Quat& attitude) const {
 }
 
 Attitude Mover::operator()(double elapsed) const {
-  if (touches()) {
-    const BodyState state = careen::stateAt(contactGroup->motions[place], body->mass, elapsed);
+  if (steps()) {
+    const BodyState state = careen::stateAt(group->motion(place), body->mass, elapsed);
     return {.worldFromBody = state.pose.worldFromBody, .angularVelocity = angularVelocity(body->mass, state)};
   }
   if (!rotation) {
@@ -92,12 +88,12 @@ MovingBox Mover::moving(const Instant& clockZero) const {
           .velocity = flight.velocity,
           .acceleration = flight.acceleration,
           .age = elapsed(clockZero),
-          .angularSpeedBound = angularSpeedBound,
-          .angularAccelerationBound = angularAccelerationBound,
+          .angularSpeedBound = bounds.angularSpeed,
+          .angularAccelerationBound = bounds.angularAcceleration,
           .attitude = AttitudeView(*this),
-          .step = touches() ? &contactGroup->motions[place] : nullptr,
-          .speedBound = speedBound,
-          .accelerationBound = accelerationBound};
+          .step = steps() ? &group->motion(place) : nullptr,
+          .speedBound = bounds.speed,
+          .accelerationBound = bounds.acceleration};
 }
 
 bool areTouching(BoxAt a, BoxAt b, double apart) {

@@ -40,15 +40,14 @@ EventKind kindOf(const FirstContact& contact) {
 
 // Two bodies with the same uniform velocity and no rotation keep their gap: blocks that lie in a row.
 bool moveAsOne(const Mover& a, const Mover& b) {
-  return !a.touches() && !b.touches() && a.angularSpeedBound == 0 && b.angularSpeedBound == 0 &&
+  return !a.steps() && !b.steps() && a.bounds.angularSpeed == 0 && b.bounds.angularSpeed == 0 &&
          a.flight.acceleration == b.flight.acceleration && a.flight.velocity == b.flight.velocity &&
          a.flight.acceleration.isZero(0);
 }
 
 }  // namespace
 
-std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wall>& walls,
-                               const Instant& end) {
+std::optional<Event> firstWall(const Mover& body, const std::vector<Wall>& walls, const Instant& end) {
   const MovingBox box = body.moving(body.start);
   // The wall likely to be hit first, so that the others need not be searched beyond that time.
   std::size_t likely = 0;
@@ -64,7 +63,7 @@ std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wa
   double until = body.elapsed(end);
   const auto meet = [&](std::size_t w) {
     const Wall& wall = walls[w];
-    const FirstContact contact = body.angularSpeedBound == 0
+    const FirstContact contact = body.bounds.angularSpeed == 0
                                      ? firstContactTranslating(box, wall.normal, wall.offset, until)
                                      : searchUntil(until, [&](const SearchWindow& window) {
                                          return firstContactWithWall(box, wall.normal, wall.offset, window);
@@ -73,7 +72,7 @@ std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wa
       until = contact.time;
       first = {.time = instantAfter(body.start, contact.time),
                .kind = kindOf(contact),
-               .body = rank,
+               .body = body.rank,
                .partner = Partner::ofWall(w)};
     }
   };
@@ -83,13 +82,12 @@ std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wa
   return first;
 }
 
-std::optional<Event> firstMeeting(const Mover& body, int rank, const Mover& other, int otherRank,
-                                  const Instant& until) {
+std::optional<Event> firstMeeting(const Mover& body, const Mover& other, const Instant& until) {
   const Instant zero = later(body.start, other.start);
   Instant last = until;
   for (const Mover* each : {&body, &other}) {
-    if (each->touches() && earlier(each->contactGroup->end(), last)) {
-      last = each->contactGroup->end();
+    if (each->steps() && earlier(each->group->end(), last)) {
+      last = each->group->end();
     }
   }
   const double end = secondsBetween(zero, last);
@@ -104,8 +102,8 @@ std::optional<Event> firstMeeting(const Mover& body, int rank, const Mover& othe
   }
   return Event{.time = instantAfter(zero, contact.time),
                .kind = kindOf(contact),
-               .body = rank,
-               .partner = Partner::ofBody(otherRank),
+               .body = body.rank,
+               .partner = Partner::ofBody(other.rank),
                .partnerMotion = other.motion};
 }
 

@@ -10,12 +10,10 @@
 namespace careen {
 
 /// The first contact of a flying body with any wall, up to `end`.
-std::optional<Event> firstWall(const Mover& body, int rank, const std::vector<Wall>& walls,
-                               const Instant& end);
+std::optional<Event> firstWall(const Mover& body, const std::vector<Wall>& walls, const Instant& end);
 
 /// The first contact of two bodies, the first of which moves, from the later of the starts of their motions
 /// up to `until`.
-std::optional<Event> firstMeeting(const Mover& body, int rank, const Mover& other, int otherRank,
-                                  const Instant& until);
+std::optional<Event> firstMeeting(const Mover& body, const Mover& other, const Instant& until);
 
 }  // namespace careen

@@ -14,8 +14,10 @@ namespace careen {
 /// one.
 class ContactManifold {
  public:
-  ContactManifold(Vec3 normal, Vec3 bToA, double within, bool inCone = false)
-      : normal_(std::move(normal)), bToA_(std::move(bToA)), within_(within), inCone_(inCone) {}
+  ContactManifold(Vec3 normal, Vec3 bToA, double within)
+      : normal_(std::move(normal)), bToA_(std::move(bToA)), within_(within) {}
+  /// The normal is the middle of a cone of normals.
+  void liesInCone() { inCone_ = true; }
 
   void addOnA(const Vec3& armA) { add(armA, armA + bToA_); }
   void addOnB(const Vec3& armB) { add(armB - bToA_, armB); }
@@ -51,7 +53,7 @@ class ContactManifold {
   Vec3 normal_;
   Vec3 bToA_;
   double within_;
-  bool inCone_;
+  bool inCone_ = false;
   std::array<ContactPoint, ContactPoints::kMost> all_;  // furthest first
   std::size_t count_ = 0;
 };

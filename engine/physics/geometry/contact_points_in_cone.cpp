@@ -127,7 +127,8 @@ std::optional<ContactPoints> pointsInCone(BoxAt a, BoxAt b, const BoxAxes& axes,
   if (!(centre.margin > kNarrow)) {
     return std::nullopt;
   }
-  ContactManifold manifold(centre.direction, bToA, within, true);
+  ContactManifold manifold(centre.direction, bToA, within);
+  manifold.liesInCone();
   const Touches touches = touchesOf(ofA, ofB, ofB.centre - ofA.centre - bToA);
   for (std::size_t k = 0; k < touches.count; ++k) {
     const auto& [onA, onB] = touches.at[k];

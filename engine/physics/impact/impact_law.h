@@ -26,7 +26,7 @@ struct ImpactContact {
   Vec3 armA = Vec3::Zero();     ///< [m] world, from a's centre of mass to the point
   Vec3 armB = Vec3::Zero();     ///< [m] world, from b's; not read for a wall
   Vec3 normal = Vec3::UnitZ();  ///< [1] unit, from b to a
-  Material material;            ///< of the pair, see touching()
+  Material material = {};       ///< of the pair, see touching()
   bool inCone = false;          ///< the normal is the centre of a cone, see ContactPoint
   AxisSet axes = 0;             ///< of both boxes, whose are
   /// [1] unit: the contact takes part only where its bodies would enter each other along all of them. None:

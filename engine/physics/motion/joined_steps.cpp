@@ -25,11 +25,11 @@ double JoinedSteps::offAt(double last, double next, double time) {
 }
 
 void JoinedSteps::add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,
-                      double length, double radius, bool sharp) {
+                      double length, double radius, Begin begin) {
   const Step next{.time = time, .length = length, .from = from, .to = to, .radius = radius};
   double begun = 0;
   StepEnd there = from;
-  if (last_.length > 0 && last_.to.position == from.position && !sharp) {
+  if (last_.length > 0 && last_.to.position == from.position && begin == Begin::kRounded) {
     const double before = std::min((ofOthers_ ? 1 : 0.5) * last_.length, length);
     begun = std::min(0.5 * length, (ofOthers_ ? 2 : 1) * last_.length);
     handOn(recorder, body, last_.length - before);

@@ -15,12 +15,14 @@ namespace careen {
 /// steps beside() tells.
 class JoinedSteps {
  public:
+  enum class Begin { kRounded, kCorner };
+
   explicit JoinedSteps(double within = 0) : merged_(within) {}
 
   /// A step from `time` [s] on of `length` [s]; `radius` [m] of the body. Records what came before it. If it
-  /// is `sharp`, the path goes through its begin.
+  /// has a corner there, the path goes through its begin.
   void add(Recorder& recorder, BodyIndex body, double time, const StepEnd& from, const StepEnd& to,
-           double length, double radius, bool sharp = false);
+           double length, double radius, Begin begin = Begin::kRounded);
   struct Beside {
     double time = 0;  ///< [s] from the joint
     double off = 0;   ///< [s] of the velocity's change: how far the path is from the steps then

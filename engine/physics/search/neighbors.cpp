@@ -131,6 +131,36 @@ void Neighbors::findCandidates(Key body, std::vector<Key>& candidates) const {
   std::sort(candidates.begin(), candidates.end());
 }
 
+void Neighbors::findWithin(const Vec3& low, const Vec3& high, std::vector<Key>& found) const {
+  found.clear();
+  if (!(low.array() <= high.array()).all()) {
+    return;
+  }
+  // A centre may be outside its cell by as much as it may before it is filed anew, and what is filed ahead of
+  // its step by half of that.
+  const Vec3 reach = Vec3::Constant(largestFiled_ + 2 * kMargin * edge_);
+  const Vec3 sizes = edge_ > 0 ? Vec3((high - low + 2 * reach) / edge_ + Vec3::Ones()) : Vec3::Zero();
+  if (!(sizes.prod() < static_cast<double>(places_.size())) || edge_ == 0) {
+    for (const auto& [key, place] : places_) {
+      found.push_back(key);
+    }
+  } else {
+    found.assign(large_.begin(), large_.end());
+    const Cell first = cellOf(low - reach);
+    const Cell last = cellOf(high + reach);
+    for (std::int64_t x = first[0]; x <= last[0]; ++x) {
+      for (std::int64_t y = first[1]; y <= last[1]; ++y) {
+        for (std::int64_t z = first[2]; z <= last[2]; ++z) {
+          if (const auto cell = cells_.find({x, y, z}); cell != cells_.end()) {
+            found.insert(found.end(), cell->second.begin(), cell->second.end());
+          }
+        }
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+}
+
 Neighbors::Crossing Neighbors::nextCrossing(const Vec3& position, const Vec3& velocity,
                                             const Vec3& acceleration, const Cell& cell, double from) const {
   Crossing first{.time = kNeverCrosses, .cell = cell};

@@ -52,6 +52,10 @@ class Neighbors {
   /// of all and have all as candidates.
   void findCandidates(Key body, std::vector<Key>& candidates) const;
 
+  /// All bodies whose spheres may reach into that box [m], none if it is empty: sorted. Costs as many cells
+  /// as lie in it, or all bodies if these are fewer.
+  void findWithin(const Vec3& low, const Vec3& high, std::vector<Key>& found) const;
+
   struct Crossing {
     double time = 0;  ///< [s] from the flight's start; later than any time if it stays
     Cell cell{};      ///< new cell from then on

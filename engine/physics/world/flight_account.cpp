@@ -66,8 +66,6 @@ void FlightAccount::expect(const Vec3& momentum, const Vec3& due, double least) 
   }
 }
 
-void FlightAccount::strikes(bool mayLose) { mayLose_ = mayLose; }
-
 void FlightAccount::parted() {
   const double energy = this->energy();
   if (!begun_ || (mayLose_ && energy < due_)) {

@@ -24,8 +24,8 @@ class FlightAccount {
   void passes(std::size_t body, const BodyState& state);
   /// A body's motion ends in this state, `elapsed` [s] after it began.
   void arrives(std::size_t body, const BodyState& state, double elapsed);
-  /// Between the arrivals and the departures of its bodies: an impact; `mayLose` if it may dissipate energy.
-  void strikes(bool mayLose);
+  /// Between the arrivals and the departures of its bodies: what happens may dissipate energy.
+  void mayLose() { mayLose_ = true; }
   /// All bodies of the impact have departed.
   void parted();
   void penetrates(double depth);

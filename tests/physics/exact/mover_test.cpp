@@ -28,9 +28,9 @@ Mover flying(const Body& body, const Vec3& gravity, double start) {
 TEST(Mover, thatFliesIsWhereTheMotionFlightHasIt) {
   const Body body = makeBox(kTumbling);
   const Mover mover = flying(body, Vec3(0, 0, -9.81), 2);
-  EXPECT_TRUE(mover.flies);
+  EXPECT_TRUE(mover.flies());
   EXPECT_TRUE(mover.moves());
-  EXPECT_FALSE(mover.touches());
+  EXPECT_FALSE(mover.steps());
   for (const double time : {2.0, 2.5, 7.0}) {
     const BodyState state = mover.stateAt(Instant(time));
     const BodyState expected = stateAt(Motion(mover.flight), body.mass, time - 2);
@@ -55,9 +55,9 @@ TEST(Mover, thatFliesKeepsWithinItsBounds) {
       const double t = dice.between(0, 20);
       const double h = 1e-5;
       const Vec3 omega = mover(t).angularVelocity;
-      EXPECT_LE(omega.norm(), mover.angularSpeedBound);
+      EXPECT_LE(omega.norm(), mover.bounds.angularSpeed);
       EXPECT_LE((mover(t + h).angularVelocity - mover(t - h).angularVelocity).norm() / (2 * h),
-                mover.angularAccelerationBound * (1 + 1e-6) + 1e-8);
+                mover.bounds.angularAcceleration * (1 + 1e-6) + 1e-8);
     }
   }
 }
@@ -72,7 +72,7 @@ TEST(Mover, thatRestsStandsAndForgetsItsFlight) {
   EXPECT_FALSE(mover.moves());
   EXPECT_FALSE(mover.wall.has_value());
   EXPECT_FALSE(mover.crosses);
-  EXPECT_EQ(mover.angularSpeedBound, 0);
+  EXPECT_EQ(mover.bounds.angularSpeed, 0);
   const BodyState state = mover.stateAt(Instant(100));
   EXPECT_EQ(state.pose.position, at.position);
   EXPECT_EQ(state.pose.worldFromBody, at.worldFromBody);

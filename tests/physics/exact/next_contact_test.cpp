@@ -14,9 +14,10 @@ namespace {
 
 /// A body, and a mover that flies from its initial state.
 struct Flyer {
-  explicit Flyer(const BoxSpec& spec, const Vec3& gravity = Vec3::Zero(), double start = 0)
+  explicit Flyer(const BoxSpec& spec, const Vec3& gravity = Vec3::Zero(), double start = 0, int rank = 0)
       : body(makeBox(spec)) {
     mover.body = &body;
+    mover.rank = rank;
     mover.start = Instant(start);
     mover.motion = 5;
     mover.fly(body.initial, Quat(body.initial.pose.worldFromBody), gravity);
@@ -30,9 +31,9 @@ struct Flyer {
 
 // Half sizes 0.2, walls at ±4: (3.8 − 0)/2 s to the one at x = 4, wall 1; z = 4 would take 3.8 s.
 TEST(NextContact, isWithTheWallThatIsReachedFirst) {
-  const Flyer box({.velocity = {2, 0, 1}});
+  const Flyer box({.velocity = {2, 0, 1}}, Vec3::Zero(), 0, 3);
   const std::vector<Wall> walls = roomWalls(Vec3::Constant(-4), Vec3::Constant(4));
-  const std::optional<Event> event = firstWall(box.mover, 3, walls, Instant(100));
+  const std::optional<Event> event = firstWall(box.mover, walls, Instant(100));
   ASSERT_TRUE(event.has_value());
   EXPECT_NEAR(event->time.hi, 1.9, 1e-15);
   EXPECT_EQ(event->kind, EventKind::kContact);
@@ -43,8 +44,8 @@ TEST(NextContact, isWithTheWallThatIsReachedFirst) {
 TEST(NextContact, isNoneBeyondTheEnd) {
   const Flyer box({.velocity = {2, 0, 1}});
   const std::vector<Wall> walls = roomWalls(Vec3::Constant(-4), Vec3::Constant(4));
-  EXPECT_FALSE(firstWall(box.mover, 3, walls, Instant(1.8)).has_value());
-  EXPECT_FALSE(firstWall(box.mover, 3, {}, Instant(100)).has_value());
+  EXPECT_FALSE(firstWall(box.mover, walls, Instant(1.8)).has_value());
+  EXPECT_FALSE(firstWall(box.mover, {}, Instant(100)).has_value());
 }
 
 // Turned by π/4 about z the box reaches half a diagonal, 0.2 √2, and it spins by π/4 in the first second:
@@ -54,7 +55,7 @@ TEST(NextContact, ofATumblingBoxIsThatOfItsLowestCorner) {
   const double speed = 4 - 0.2 * std::sqrt(2.0);
   const Flyer box({.velocity = {speed, 0, 0}, .angularVelocity = {0, 0, eighth}});
   const std::vector<Wall> walls = {{.name = "wall", .normal = -Vec3::UnitX(), .offset = -4, .material = {}}};
-  const std::optional<Event> event = firstWall(box.mover, 0, walls, Instant(100));
+  const std::optional<Event> event = firstWall(box.mover, walls, Instant(100));
   ASSERT_TRUE(event.has_value());
   const double t = event->time.hi;
   EXPECT_NEAR(speed * t + 0.2 * (std::cos(eighth * t) + std::sin(eighth * t)), 4, 1e-14);
@@ -63,7 +64,7 @@ TEST(NextContact, ofATumblingBoxIsThatOfItsLowestCorner) {
 
 TEST(NextContact, fromRestOnAWallIsTouching) {
   const Flyer box({.position = {0, 0, 0.2}}, Vec3(0, 0, -9.81));
-  const std::optional<Event> event = firstWall(box.mover, 0, {floorAt(0)}, Instant(1));
+  const std::optional<Event> event = firstWall(box.mover, {floorAt(0)}, Instant(1));
   ASSERT_TRUE(event.has_value());
   EXPECT_EQ(event->kind, EventKind::kTouching);
   EXPECT_EQ(event->time.hi, 0);
@@ -72,21 +73,21 @@ TEST(NextContact, fromRestOnAWallIsTouching) {
 // 2 m apart and closing at 3 m/s, boxes 0.4 m wide: 1.6/3 s after the later of their starts, when the one
 // that started first is 1 m on its way already.
 TEST(NextContact, ofTwoCountsFromTheLaterStart) {
-  const Flyer early({.position = {-1, 0, 0}, .velocity = {1, 0, 0}}, Vec3::Zero(), 1);
-  const Flyer late({.position = {2, 0, 0}, .velocity = {-2, 0, 0}}, Vec3::Zero(), 2);
+  const Flyer early({.position = {-1, 0, 0}, .velocity = {1, 0, 0}}, Vec3::Zero(), 1, 1);
+  const Flyer late({.position = {2, 0, 0}, .velocity = {-2, 0, 0}}, Vec3::Zero(), 2, 9);
   for (const bool swapped : {false, true}) {
     const Flyer& a = swapped ? late : early;
     const Flyer& b = swapped ? early : late;
-    const std::optional<Event> event = firstMeeting(a.mover, 1, b.mover, 9, Instant(100));
+    const std::optional<Event> event = firstMeeting(a.mover, b.mover, Instant(100));
     ASSERT_TRUE(event.has_value());
     EXPECT_NEAR(event->time.hi, 2 + 1.6 / 3, 1e-14);
     EXPECT_EQ(event->kind, EventKind::kContact);
-    EXPECT_EQ(event->body, 1);
-    EXPECT_EQ(event->partner, Partner::ofBody(9));
+    EXPECT_EQ(event->body, a.mover.rank);
+    EXPECT_EQ(event->partner, Partner::ofBody(b.mover.rank));
     EXPECT_EQ(event->partnerMotion, 5U);
   }
-  EXPECT_FALSE(firstMeeting(early.mover, 1, late.mover, 9, Instant(2.5)).has_value());
-  EXPECT_FALSE(firstMeeting(early.mover, 1, late.mover, 9, Instant(1.5)).has_value());
+  EXPECT_FALSE(firstMeeting(early.mover, late.mover, Instant(2.5)).has_value());
+  EXPECT_FALSE(firstMeeting(early.mover, late.mover, Instant(1.5)).has_value());
 }
 
 // Thrown at t = 2 downward from below a box at rest. The same parabola, had it begun at t = 1, would have
@@ -94,18 +95,18 @@ TEST(NextContact, ofTwoCountsFromTheLaterStart) {
 TEST(NextContact, ofTwoIsNotBeforeBothHaveBegun) {
   const Flyer hanging({.position = {0, 0, 1.5}}, Vec3::Zero(), 1);
   const Flyer falling({.velocity = {0, 0, -5}}, Vec3(0, 0, -10), 2);
-  EXPECT_FALSE(firstMeeting(hanging.mover, 0, falling.mover, 1, Instant(100)).has_value());
+  EXPECT_FALSE(firstMeeting(hanging.mover, falling.mover, Instant(100)).has_value());
   const Flyer fallen({.position = {0, 0, 0}, .velocity = {0, 0, 5}}, Vec3(0, 0, -10), 2);
-  EXPECT_TRUE(firstMeeting(hanging.mover, 0, fallen.mover, 1, Instant(100)).has_value());
+  EXPECT_TRUE(firstMeeting(hanging.mover, fallen.mover, Instant(100)).has_value());
 }
 
 // Blocks that lie face to face and move alike are let be; so are those that part.
 TEST(NextContact, ofTwoThatMoveAsOneIsNone) {
   const Flyer a({.velocity = {1, 2, 3}});
   const Flyer b({.position = {0.4, 0, 0}, .velocity = {1, 2, 3}});
-  EXPECT_FALSE(firstMeeting(a.mover, 0, b.mover, 1, Instant(100)).has_value());
+  EXPECT_FALSE(firstMeeting(a.mover, b.mover, Instant(100)).has_value());
   const Flyer leaving({.position = {0.4, 0, 0}, .velocity = {2, 2, 3}});
-  EXPECT_FALSE(firstMeeting(a.mover, 0, leaving.mover, 1, Instant(100)).has_value());
+  EXPECT_FALSE(firstMeeting(a.mover, leaving.mover, Instant(100)).has_value());
 }
 
 }  // namespace

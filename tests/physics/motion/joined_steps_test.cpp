@@ -35,7 +35,7 @@ KeptSteps joined(const std::vector<Leg>& legs) {
     const StepEnd from{.position = position, .velocity = leg.velocity};
     position += leg.length * leg.velocity;
     steps.add(kept, {}, time, from, {.position = position, .velocity = leg.velocity}, leg.length, 0.5,
-              leg.sharp);
+              leg.sharp ? JoinedSteps::Begin::kCorner : JoinedSteps::Begin::kRounded);
     time += leg.length;
   }
   steps.flush(kept, {});

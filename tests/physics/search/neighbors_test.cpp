@@ -184,7 +184,7 @@ TEST(Neighbors, crossingsAreTheClosedForm) {
   EXPECT_NEAR(down.time, 0.5 * (1 + std::sqrt(1 - 0.4375)), 1e-15);
   EXPECT_EQ(down.cell, (Cell{0, 0, 0}));
   const auto never = grid.nextCrossing(middle, Vec3::Zero(), Vec3::Zero(), {0, 0, 0}, 5);
-  EXPECT_GT(never.time, 1e300);
+  EXPECT_GT(never.time, 1e60);
 }
 
 // 100 steps of degree 5 that wind through some ten cells: followed from crossing to crossing, a centre is
@@ -227,6 +227,53 @@ TEST(Neighbors, crossingsOfAContactStepKeepItsCellTrue) {
     }
   }
   EXPECT_GT(crossings, 600);  // 965
+}
+
+// Against all spheres, one by one; some of them large, some outside their cells by as much as they may be.
+TEST(Neighbors, whoReachesIntoABoxIsFoundThere) {
+  Dice dice(5);
+  std::size_t found = 0;
+  for (int scene = 0; scene < 50; ++scene) {
+    std::vector<Ball> all = balls(200, 4, static_cast<std::uint64_t>(scene));
+    all[7].radius = 3;
+    Neighbors grid = gridOf(all);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      grid.insert(static_cast<int>(k), all[k].position, all[k].radius);
+      all[k].position += 0x1p-4 * grid.cellEdge() * dice.vector(1).cwiseSign();
+    }
+    for (int box = 0; box < 50; ++box) {
+      const Vec3 low = dice.vector(5);
+      const Vec3 high = low + dice.vector(0.5).cwiseAbs();
+      std::vector<Neighbors::Key> within;
+      grid.findWithin(low, high, within);
+      EXPECT_TRUE(std::is_sorted(within.begin(), within.end()));
+      EXPECT_EQ(std::adjacent_find(within.begin(), within.end()), within.end());
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        const Vec3 nearest = all[k].position.cwiseMax(low).cwiseMin(high);
+        if ((nearest - all[k].position).norm() <= all[k].radius) {
+          EXPECT_TRUE(std::binary_search(within.begin(), within.end(), static_cast<int>(k)));
+        }
+      }
+      found += within.size();
+    }
+  }
+  EXPECT_LT(found, 50U * 50 * 60);  // of 200 each
+}
+
+// Without a grid, or in a box of more cells than bodies, all are.
+TEST(Neighbors, allAreFoundInALargeBox) {
+  const std::vector<Ball> all = balls(40, 4, 1);
+  Neighbors grid = gridOf(all);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    grid.insert(static_cast<int>(k), all[k].position, all[k].radius);
+  }
+  std::vector<Neighbors::Key> within;
+  grid.findWithin(Vec3::Constant(-1e60), Vec3::Constant(1e60), within);
+  EXPECT_EQ(within.size(), 40U);
+  grid.findWithin(Vec3::Constant(1e60), Vec3::Constant(-1e60), within);
+  EXPECT_TRUE(within.empty());
+  grid.findWithin(Vec3::Constant(-1e60), Vec3::Constant(1e60), within);
+  EXPECT_TRUE(std::is_sorted(within.begin(), within.end()));
 }
 
 }  // namespace

@@ -48,7 +48,9 @@ TEST(FlightAccount, allowsLossesToImpactsThatMayLose) {
     account.departs(0, at(world, 3));
     account.parted();
     account.arrives(0, at(world, 3), 1);
-    account.strikes(mayLose);
+    if (mayLose) {
+      account.mayLose();
+    }
     account.departs(0, at(world, 1.5));
     account.parted();
     account.arrives(0, at(world, 1.5), 1);
@@ -63,7 +65,7 @@ TEST(FlightAccount, neverAllowsARise) {
   account.departs(0, at(world, 3));
   account.parted();
   account.arrives(0, at(world, 3), 1);
-  account.strikes(true);
+  account.mayLose();
   account.departs(0, at(world, 3.5));
   account.parted();
   EXPECT_NEAR(account.figures().energyChange, (49.0 - 36) / 49, 1e-15);

@@ -1,0 +1,297 @@
+#include "physics/exact/bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/names.h"
+#include "physics/contact/island.h"
+#include "physics/exact/next_contact.h"
+#include "physics/motion/hermite_step.h"
+
+namespace careen {
+namespace {
+
+constexpr double kUsualTolerance = 1e-6;  // [m]
+
+std::vector<double> radiiOf(const World& world) {
+  std::vector<double> radii;
+  radii.reserve(world.bodies.size());
+  for (const Body& body : world.bodies) {
+    radii.push_back(radiusOf(body));
+  }
+  return radii;
+}
+
+// [s] Of bodies in contact: some times that in which they fall, or move, their own size; a second where
+// nothing tells a time.
+double longestStepOf(const World& world) {
+  constexpr double kSizes = 64;
+  double largest = 0;
+  for (const Body& body : world.bodies) {
+    largest = std::max(largest, isImmovable(body.mass) ? 0 : radiusOf(body));
+  }
+  const double longest = largest > 0 ? timeScaleOf(world, kSizes * largest) : 1;
+  return std::isfinite(longest) ? longest : 1;
+}
+
+void takeSooner(std::optional<Event>& first, const std::optional<Event>& candidate) {
+  if (candidate && (!first || earlier(candidate->time, first->time))) {
+    first = candidate;
+  }
+}
+
+}  // namespace
+
+Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& recorder)
+    : world_(world),
+      end_(settings.duration),
+      tolerance_(settings.tolerance),
+      crowds_(settings.crowds),
+      team_(std::make_shared<Team>(settings.threads)),
+      timeScale_(timeScaleOf(world, settings.tolerance)),
+      longestStep_(longestStepOf(world)),
+      recorder_(recorder),
+      neighbors_(radiiOf(world)),
+      queue_(world.bodies.size()),
+      account_(world),
+      forced_(world.bodies.size(), world.drag ? 1 : 0),
+      springs_(world.bodies.size()) {
+  std::vector<int> rankOf(world.bodies.size());
+  double movable = 0;
+  for (const std::size_t listed : orderByName(world.bodies)) {
+    const int rank = count();
+    rankOf[listed] = rank;
+    Mover& mover = movers_.emplace_back();
+    mover.body = &world.bodies[listed];
+    mover.rank = rank;
+    mover.listed = {static_cast<int>(listed)};
+    movable += mover.isHeld() ? 0 : 1;
+    neighbors_.insert(rank, mover.body->initial.pose.position, radiusOf(*mover.body));
+  }
+  const double part = kUnshared / std::max(1.0, movable);
+  workShare_ = part * std::min(1.0, part) * std::sqrt(std::max(1.0, kUsualTolerance / tolerance_));
+  for (const Spring& spring : world.springs) {
+    for (const SpringEnd* end : {&spring.from, &spring.to}) {
+      const SpringEnd& other = end == &spring.from ? spring.to : spring.from;
+      if (end->body) {
+        const auto rank = static_cast<std::size_t>(rankOf[static_cast<std::size_t>(*end->body)]);
+        forced_[rank] = 1;
+        if (other.body) {
+          springs_[rank].push_back(rankOf[static_cast<std::size_t>(*other.body)]);
+        }
+      }
+    }
+  }
+}
+
+std::vector<int> Bodies::around(int rank) const {
+  std::vector<int> found;
+  neighbors_.findCandidates(rank, found);
+  return found;
+}
+
+std::vector<int> Bodies::mayReach(const Vec3& low, const Vec3& high, const Instant& time,
+                                  double length) const {
+  const double gained = length * world_.gravity.norm();
+  const double speed = std::max(0.0, fastestAtZero_ + time.hi * world_.gravity.norm()) + 2 * gained;
+  // They are filed where they are now, which is on their way.
+  const Vec3 way = Vec3::Constant(2 * length * (speed + gained));
+  std::vector<int> found;
+  neighbors_.findWithin(low - way, high + way, found);
+  return found;
+}
+
+// ---- Motions.
+
+void Bodies::fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude) {
+  Mover& body = (*this)[rank];
+  begins(rank, time);
+  body.fly(state, attitude, world_.gravity);
+  recorder_.moves(body.listed, time.hi, body.flight);
+  account_.departs(static_cast<std::size_t>(body.listed.value), state);
+  noteSpeed(body);
+  body.wall = firstWall(body, world_.walls, end_);
+  body.crossing = {};
+  findCrossing(rank);
+}
+
+void Bodies::rest(int rank, const Instant& time, const Pose& pose) {
+  (*this)[rank].group.reset();
+  sleep(rank, time, pose);
+}
+
+void Bodies::stand(int rank, const Instant& from, const Instant& until, const Vec3& position,
+                   const Quat& attitude) {
+  const double length = secondsBetween(from, until);
+  if (length > 0) {
+    const StepEnd still{.position = position, .worldFromBody = attitude};
+    recorder_.moves((*this)[rank].listed, from.hi, hermiteStep(still, still, length));
+  }
+}
+
+void Bodies::sleep(int rank, const Instant& time, const Pose& pose) {
+  Mover& body = (*this)[rank];
+  begins(rank, time);
+  body.rest(pose);
+  recorder_.moves(body.listed, time.hi, Rest{pose});
+  account_.departs(static_cast<std::size_t>(body.listed.value), {.pose = pose});
+}
+
+void Bodies::step(const std::shared_ptr<ContactGroup>& group, std::size_t place) {
+  const int rank = group->ranks()[place];
+  begins(rank, group->start());
+  (*this)[rank].step(group, place);
+  noteSpeed((*this)[rank]);
+}
+
+void Bodies::noteSpeed(const Mover& body) {
+  const auto note = [&](const Mover& each) {
+    const double speed = each.steps() ? each.bounds.speed : each.flight.velocity.norm();
+    fastestAtZero_ = std::max(fastestAtZero_, speed - each.start.hi * world_.gravity.norm());
+  };
+  if (++noted_ > count()) {
+    noted_ = 0;
+    fastestAtZero_ = -std::numeric_limits<double>::infinity();
+    for (const Mover& each : movers_) {
+      if (each.moves()) {
+        note(each);
+      }
+    }
+  }
+  note(body);
+}
+
+void Bodies::begins(int rank, const Instant& time) {
+  Mover& body = (*this)[rank];
+  const bool again = body.motion > 0 && !earlier(body.start, time);
+  body.atOneMoment = again ? body.atOneMoment + 1 : 0;
+  if (body.atOneMoment > 2 * kMostAtOneMoment) {
+    std::ostringstream text;
+    text << "at " << time.hi << " s box " << body.body->name
+         << " collides again and again without time passing";
+    throw NumericalError(text.str());
+  }
+  body.start = time;
+  ++body.motion;
+}
+
+void Bodies::strike(const Instant& time, int rank, Partner with, const Vec3& point,
+                    const ImpactShare& share) {
+  recorder_.strikes({.time = time.hi,
+                     .a = (*this)[rank].listed,
+                     .b = with.isWall() ? with : Partner::ofBody((*this)[with.body()].listed.value),
+                     .point = point,
+                     .normal = share.normal,
+                     .approach = share.approach,
+                     .impulse = share.impulse,
+                     .tangential = share.tangential});
+}
+
+void Bodies::arrive(const Mover& body, const Instant& time, const BodyState& state) {
+  account_.arrives(static_cast<std::size_t>(body.listed.value), state, body.elapsed(time));
+}
+
+// ---- Prediction of events.
+
+void Bodies::predict(int rank) {
+  const Mover& body = (*this)[rank];
+  if (!body.moves()) {
+    queue_.clear(rank);
+    return;
+  }
+  if (body.flies() && isForced(rank)) {  // has just begun, and has yet to feel springs and drag
+    queue_.set({.time = body.start, .kind = EventKind::kTouching, .body = rank});
+    return;
+  }
+  std::optional<Event> first = body.wall;
+  if (body.steps() && body.group->leader() == rank && earlier(body.group->end(), end_)) {
+    first = {.time = body.group->end(), .kind = EventKind::kStep, .body = rank};
+  }
+  if (body.crosses) {
+    takeSooner(first, Event{.time = instantAfter(body.start, body.crossing.time),
+                            .kind = EventKind::kCrossing,
+                            .body = rank});
+  }
+  for (const int candidate : around(rank)) {
+    if (!body.steps() || !body.group->seesTo(body.place, candidate)) {
+      takeSooner(first, firstMeeting(body, (*this)[candidate], first ? first->time : end_));
+    }
+  }
+  if (first) {
+    queue_.set(*first);
+  } else {
+    queue_.clear(rank);
+  }
+}
+
+void Bodies::predictAround(int rank) {
+  for (const int candidate : around(rank)) {
+    if ((*this)[candidate].moves()) {
+      predict(candidate);
+    }
+  }
+}
+
+void Bodies::cross(int rank) {
+  neighbors_.move(rank, (*this)[rank].crossing.cell);
+  findCrossing(rank);
+  predict(rank);
+}
+
+void Bodies::file(int rank, const Vec3& position) {
+  if (neighbors_.isFiled(rank)) {
+    neighbors_.move(rank, neighbors_.cellOf(position));
+  }
+}
+
+void Bodies::findCrossing(int rank) {
+  Mover& body = (*this)[rank];
+  body.crosses = neighbors_.isFiled(rank) && movers_.size() > 1;
+  if (!body.crosses) {
+    return;
+  }
+  const Cell& cell = neighbors_.cell(rank);
+  if (body.steps()) {
+    body.crossing =
+        neighbors_.nextCrossing(body.group->motion(body.place), body.bounds.speed, cell, body.crossing.time);
+  } else {
+    body.crossing = neighbors_.nextCrossing(body.flight.position, body.flight.velocity,
+                                            body.flight.acceleration, cell, body.crossing.time);
+  }
+}
+
+double Bodies::withinCell(double speed) const {
+  if (!(neighbors_.cellEdge() > 0)) {
+    return longestStep_;
+  }
+  const double margin = neighbors_.cellEdge() / 32;
+  const double acceleration = 8 * world_.gravity.norm();
+  // speed t + acceleration t²/2 ≤ margin
+  return speed + acceleration > 0
+             ? std::min(longestStep_,
+                        2 * margin / (speed + std::sqrt(speed * speed + 2 * acceleration * margin)))
+             : longestStep_;
+}
+
+bool Bodies::isTooMany(int movable) const {
+  return mayBeCrowd() &&
+         movable > (crowds_.when == CrowdSettings::When::kAbove ? crowds_.above : kMostInContact);
+}
+
+double Bodies::workLeft(std::span<const int> ranks, const Instant& time) const {
+  if (!mayBeCrowd()) {
+    return std::numeric_limits<double>::infinity();
+  }
+  double left = 0;
+  for (const int rank : ranks) {
+    if (!(*this)[rank].isHeld()) {
+      left += workShare_ * (kWorkAtOnce + kWorkPerSecond * time.hi) - (*this)[rank].work;
+    }
+  }
+  return left;
+}
+
+}  // namespace careen

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/system/team.h"
+#include "physics/exact/event_queue.h"
+#include "physics/exact/mover.h"
+#include "physics/impact/impact_law.h"
+#include "physics/motion/recorder.h"
+#include "physics/search/neighbors.h"
+#include "physics/world/flight_account.h"
+#include "physics/world/run_settings.h"
+#include "physics/world/world.h"
+
+namespace careen {
+
+/// All bodies of method exact: how each moves now, and what happens to it next. A motion that begins is
+/// recorded, and an event that is predicted is queued.
+///
+/// Bodies are identified by rank, their position in the order of names, so that their order in the scene
+/// changes no bit.
+class Bodies {
+ public:
+  Bodies(const World& world, const RunSettings& settings, Recorder& recorder);
+
+  const World& world() const { return world_; }
+  const Instant& end() const { return end_; }          ///< of the run
+  double tolerance() const { return tolerance_; }      ///< [m]
+  double timeScale() const { return timeScale_; }      ///< [s] see timeScaleOf
+  double longestStep() const { return longestStep_; }  ///< [s] of an island
+  const CrowdSettings& crowds() const { return crowds_; }
+  const std::shared_ptr<Team>& team() const { return team_; }  ///< of all crowds
+  Recorder& recorder() { return recorder_; }
+  FlightAccount& account() { return account_; }
+  EventQueue& queue() { return queue_; }
+
+  int count() const { return static_cast<int>(movers_.size()); }
+  Mover& operator[](int rank) { return movers_[static_cast<std::size_t>(rank)]; }
+  const Mover& operator[](int rank) const { return movers_[static_cast<std::size_t>(rank)]; }
+  /// Springs or drag act on it, so it is never in Flight.
+  bool isForced(int rank) const { return forced_[static_cast<std::size_t>(rank)] != 0; }
+  /// Bodies attached to it by springs.
+  std::span<const int> joinedTo(int rank) const { return springs_[static_cast<std::size_t>(rank)]; }
+  /// All that it can touch in its cell or those around it, sorted.
+  std::vector<int> around(int rank) const;
+
+  /// All that may get into that box [m] within that time [s] from `time` on, not longer ago than that, and
+  /// perhaps others; sorted.
+  std::vector<int> mayReach(const Vec3& low, const Vec3& high, const Instant& time, double length) const;
+
+  /// What a body does from then on.
+  void fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude);
+  void rest(int rank, const Instant& time, const Pose& pose);
+  /// It does not move between two moments, through all the hops that are too short to follow: none is as high
+  /// as its rounding.
+  void stand(int rank, const Instant& from, const Instant& until, const Vec3& position, const Quat& attitude);
+  /// It rests, and stays a member of its group.
+  void sleep(int rank, const Instant& time, const Pose& pose);
+  /// It moves as its group does in the step that begins.
+  void step(const std::shared_ptr<ContactGroup>& group, std::size_t place);
+  /// An impact at that point [m] of a body with another one, by rank, or with a wall.
+  void strike(const Instant& time, int rank, Partner with, const Vec3& point, const ImpactShare& share);
+  /// A flight ends in this state.
+  void arrive(const Mover& body, const Instant& time, const BodyState& state);
+
+  void predict(int rank);
+  /// Of those around one that predicts nothing itself.
+  void predictAround(int rank);
+  /// It has entered the cell that it was to cross into.
+  void cross(int rank);
+  /// Others find it from now on where that position [m] is.
+  void file(int rank, const Vec3& position);
+  void findCrossing(int rank);
+  /// [s] Time in which a body of this speed [m/s] does not leave the margin of its cell.
+  double withinCell(double speed) const;
+
+  /// TimeStepper work that bodies may spend together before they go on as a crowd: each of kUnshared in a
+  /// scene so much at once, and so much per simulated second; at a tolerance below 1e-6 m more, as steps get
+  /// shorter. Fewer bodies share the same; of more each may spend less, as the square: a heap costs more per
+  /// body the larger it is, so that 72 poured boxes would spend 36 s on their first 2 s, and chaos makes what
+  /// is exact of a heap worth no more. A unit takes about 0.2 to 1 µs. Counted, not timed, so that the motion
+  /// is the same on every machine, and independent of when the run ends.
+  static constexpr double kWorkAtOnce = 6e5;
+  static constexpr double kWorkPerSecond = 5e4;
+  static constexpr double kUnshared = 16;
+  /// What these may still spend; negative where they must go on as a crowd.
+  double workLeft(std::span<const int> ranks, const Instant& time) const;
+  /// Of more bodies in contact, time steps cost so much that it does not pay to begin.
+  static constexpr int kMostInContact = 100;
+  bool isTooMany(int movable) const;
+  bool mayBeCrowd() const { return crowds_.when != CrowdSettings::When::kNever; }
+
+  /// Most events of one body at one moment before it goes on in a crowd, and of twice as many the run gives
+  /// up: more than any impact needs, and a bound on endless repetition.
+  static constexpr int kMostAtOneMoment = 1000;
+
+ private:
+  void begins(int rank, const Instant& time);
+  void noteSpeed(const Mover& body);
+
+  const World& world_;
+  Instant end_;
+  double tolerance_;
+  CrowdSettings crowds_;
+  std::shared_ptr<Team> team_;
+  double timeScale_;
+  double longestStep_;
+  double workShare_ = 0;  // [1] of the work per body above that each may spend
+  Recorder& recorder_;
+  std::vector<Mover> movers_;
+  Neighbors neighbors_;
+  EventQueue queue_;
+  FlightAccount account_;
+  // [m/s] No body was or is faster at time t than this and t times gravity; found anew as often as bodies
+  // are.
+  double fastestAtZero_ = -std::numeric_limits<double>::infinity();
+  int noted_ = 0;
+  std::vector<char> forced_;               // by rank
+  std::vector<std::vector<int>> springs_;  // by rank
+};
+
+}  // namespace careen

@@ -1,0 +1,424 @@
+#include "physics/exact/crowd_group.h"
+
+#include <algorithm>
+
+#include "physics/exact/crowd_meetings.h"
+#include "physics/exact/encounter.h"
+#include "physics/geometry/separation.h"
+#include "physics/motion/hermite_step.h"
+
+namespace careen {
+namespace {
+
+/// [s] What rounding leaves of a step's length.
+constexpr double kMoment = 0x1p-40;
+/// [1] of the tolerance: how far recorded steps may differ from those computed, so that fewer are recorded.
+constexpr double kMerged = 0.25;
+/// [1] of kMerged, without gravity: what moves slowly does so for long, and its momentum is all there is.
+constexpr double kMergedAfloat = 0x1p-4;
+
+std::size_t listedOf(const Mover& body) { return static_cast<std::size_t>(body.listed.value); }
+
+}  // namespace
+
+CrowdGroup::CrowdGroup(Bodies& bodies)
+    : bodies_(bodies), crowd_(bodies.world(), bodies.crowds().tolerance, bodies.team()) {}
+
+bool CrowdGroup::enter(Encounter& encounter, int /*rank*/) {
+  const auto self = std::static_pointer_cast<CrowdGroup>(shared_from_this());
+  if (std::find(encounter.crowds.begin(), encounter.crowds.end(), self) == encounter.crowds.end()) {
+    encounter.crowds.push_back(self);
+  }
+  return false;
+}
+
+bool CrowdGroup::seesTo(std::size_t /*place*/, int rank) const {
+  return has(bodies_[rank]) || !restsSince(bodies_[rank], start_);
+}
+
+// ---- Members.
+
+void CrowdGroup::form(Bodies& bodies, const Encounter& encounter) {
+  bodies.account().bounds(encounter.time.hi);
+  std::shared_ptr<CrowdGroup> crowd;
+  for (const std::shared_ptr<CrowdGroup>& met : encounter.crowds) {
+    if (encounter.crowds.size() == 1) {
+      met->joinStep(encounter);
+    }
+    met->endAt(encounter.time);
+    if (!crowd) {
+      crowd = met;
+    } else {
+      crowd->merge(*met);
+    }
+  }
+  if (!crowd) {
+    crowd = std::make_shared<CrowdGroup>(bodies);
+  }
+  for (const EncounterBody& body : encounter.bodies) {
+    crowd->enlist(body.mover->rank, encounter.time, body.before, body.attitude);
+  }
+  crowd->go(encounter.time);
+}
+
+// Whom it meets within a step is a member from the start of that step, if it has been in Flight since: the
+// shorter step would move the others elsewhere than to where they were met.
+void CrowdGroup::joinStep(const Encounter& encounter) {
+  if (!earlier(encounter.time, end())) {
+    return;
+  }
+  for (const EncounterBody& body : encounter.bodies) {
+    if (fliesSince(bodies_, *body.mover, start_)) {
+      admitOutsider(body.mover->rank, start_);
+    }
+  }
+}
+
+void CrowdGroup::keepPlace(int rank, std::size_t place) {
+  if (place >= ranks_.size()) {
+    ranks_.resize(place + 1, -1);
+    joined_.resize(place + 1, newPath());
+    motions_.resize(place + 1);
+  }
+  ranks_[place] = rank;
+  if (!bodies_[rank].isHeld()) {
+    bodies_[rank].group = shared_from_this();
+    bodies_[rank].place = place;
+  }
+}
+
+// Adds a body in this state, once, with those that springs join to it. Bodies at rest stay so until pushed.
+void CrowdGroup::enlist(int rank, const Instant& time, const BodyState& state, const Quat& attitude) {
+  Mover& body = bodies_[rank];
+  if (has(body)) {
+    return;
+  }
+  if (!body.moves()) {
+    enlistAtRest(rank);
+    return;
+  }
+  if (body.flies()) {
+    bodies_.arrive(body, time, state);
+  }
+  const double past = pastOf(body, time);
+  const JoinedSteps joined = comingFrom(body, time, state, attitude, past);
+  body.rest(state.pose);
+  const std::size_t place = crowd_.admit(listedOf(body), state, attitude, 2 * past);
+  keepPlace(rank, place);
+  joined_[place] = joined;
+  for (const int other : bodies_.joinedTo(rank)) {
+    const Quat turned = bodies_[other].attitudeAt(time);
+    enlist(other, time, bodies_[other].stateAt(time, turned), turned);
+  }
+}
+
+// Adds a body at rest or immovable, and all at rest that it touches, directly or through others: they are
+// pushed together.
+void CrowdGroup::enlistAtRest(int rank) {
+  std::vector<int> reached{rank};
+  std::optional<std::size_t> cluster;
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const Mover& body = bodies_[reached[k]];
+    const bool known =
+        body.isHeld() ? std::find(ranks_.begin(), ranks_.end(), reached[k]) != ranks_.end() : has(body);
+    if (!known) {
+      const std::size_t place =
+          crowd_.admitAtRest(listedOf(body), body.pose, body.isHeld() ? std::nullopt : cluster);
+      keepPlace(reached[k], place);
+      if (!body.isHeld()) {
+        cluster = cluster.value_or(place);
+      }
+    }
+    if (body.isHeld()) {
+      continue;
+    }
+    for (const int candidate : bodies_.around(reached[k])) {
+      const Mover& other = bodies_[candidate];
+      if (!other.moves() && !other.group &&
+          std::find(reached.begin(), reached.end(), candidate) == reached.end() &&
+          areTouching(boxAt(body.pose, *body.body), boxAt(other.pose, *other.body),
+                      bodies_.crowds().tolerance)) {
+        reached.push_back(candidate);
+      }
+    }
+  }
+}
+
+// Takes over all members of another crowd, whose step has ended.
+void CrowdGroup::merge(CrowdGroup& other) {
+  std::vector<std::optional<std::size_t>> clusters(other.ranks_.size());
+  for (std::size_t place = 0; place < other.ranks_.size(); ++place) {
+    const int rank = other.ranks_[place];
+    if (rank < 0) {
+      continue;
+    }
+    const Mover& body = bodies_[rank];
+    if (body.isHeld()) {
+      enlistAtRest(rank);
+      continue;
+    }
+    if (other.crowd_.sleeps(place)) {
+      std::optional<std::size_t>& cluster =
+          clusters[static_cast<std::size_t>(other.crowd_.body(place).cluster)];
+      const std::size_t at = crowd_.admitAtRest(listedOf(body), body.pose, cluster);
+      cluster = cluster.value_or(at);
+      keepPlace(rank, at);
+    } else {
+      const std::size_t at = crowd_.admit(listedOf(body), other.crowd_.stateAtEnd(place),
+                                          other.crowd_.attitude(place), other.before_);
+      keepPlace(rank, at);
+      joined_[at] = other.joined_[place];
+    }
+  }
+  other.ranks_.clear();
+}
+
+// Admits what its members meet within the next step if nothing pushes them, and bodies at rest near them.
+void CrowdGroup::admitNear(const Instant& time, double length) {
+  for (bool added = true; added;) {
+    added = false;
+    for (const int rank : outsidersIn(bodies_, *this, crowd_.extent(length), time, length, Outsiders::kAll)) {
+      if (!has(bodies_[rank]) && meetsNext(bodies_, *this, rank, time, length)) {
+        admitOutsider(rank, time);
+        added = true;
+      }
+    }
+  }
+}
+
+// With those that it is in contact with, and all that springs join to them.
+void CrowdGroup::admitOutsider(int rank, const Instant& time) {
+  Encounter with;
+  with.time = time;
+  join(bodies_, with, rank);
+  for (const std::shared_ptr<CrowdGroup>& other : with.crowds) {
+    if (other.get() != this) {
+      other->endAt(time);
+      merge(*other);
+    }
+  }
+  for (const EncounterBody& body : with.bodies) {
+    enlist(body.mover->rank, time, body.before, body.attitude);
+  }
+}
+
+// Admits whom its members, pushed otherwise than expected, met in the step that they have taken: bodies at
+// rest and members of other crowds, none of which look for contacts; if it was taken again, in place of the
+// latter those who had looked when it was another. Returns whether there were any.
+bool CrowdGroup::admitMet(const Instant& time, Taken taken) {
+  const bool again = taken == Taken::kAgain;
+  bool any = false;
+  for (const int rank : outsidersIn(bodies_, *this, crowd_.swept(), time, crowd_.length(),
+                                    again ? Outsiders::kInNoGroup : Outsiders::kAll)) {
+    const Mover& body = bodies_[rank];
+    const bool asked =
+        again ? !body.group && (body.moves() ? fliesSince(bodies_, body, time) : !restsSince(body, time))
+              : !has(body) && !body.flies();
+    if (asked && wasMet(bodies_, *this, rank, time)) {
+      admitOutsider(rank, time);
+      any = true;
+    }
+  }
+  return any;
+}
+
+// Members that nothing is near go on in Flight.
+std::vector<int> CrowdGroup::release(const Instant& time) {
+  std::vector<int> released;
+  for (std::size_t place = 0; place < ranks_.size(); ++place) {
+    const int rank = ranks_[place];
+    if (rank < 0 || !crowd_.isFree(place) || bodies_.isForced(rank)) {
+      continue;
+    }
+    const BodyState state = crowd_.state(place);
+    const Quat attitude = crowd_.attitude(place);
+    joined_[place].flush(bodies_.recorder(), bodies_[rank].listed);
+    crowd_.dismiss(place);
+    ranks_[place] = -1;
+    bodies_.fly(rank, time, state, attitude);
+    released.push_back(rank);
+  }
+  bodies_.account().mayLose();
+  bodies_.account().parted();
+  return released;
+}
+
+// ---- Paths.
+
+JoinedSteps CrowdGroup::newPath() const {
+  return JoinedSteps(kMerged * bodies_.crowds().tolerance *
+                     (bodies_.world().gravity.isZero(0) ? kMergedAfloat : 1));
+}
+
+// [s] Of a body that becomes a member now: half a step of the crowd, in which members who met it bent their
+// paths, if its last motion is as long.
+double CrowdGroup::pastOf(const Mover& body, const Instant& time) const {
+  return std::min(0.5 * before_, secondsBetween(body.start, time));
+}
+
+// Its path from so long ago on.
+JoinedSteps CrowdGroup::comingFrom(const Mover& body, const Instant& time, const BodyState& state,
+                                   const Quat& attitude, double length) const {
+  JoinedSteps joined = newPath();
+  if (length > 0) {
+    const auto endAt = [&](const BodyState& at, const Quat& turned) {
+      const Vec3 spin = at.pose.worldFromBody.transpose() * angularVelocity(body.body->mass, at);
+      return StepEnd{
+          .position = at.pose.position, .velocity = at.velocity, .worldFromBody = turned, .spinBody = spin};
+    };
+    const Instant begin = instantAfter(time, -length);
+    const Quat turned = body.attitudeAt(begin);
+    joined.follows(begin.hi, endAt(body.stateAt(begin, turned), turned), endAt(state, attitude), length);
+  }
+  return joined;
+}
+
+// Only of interest where members are new.
+std::vector<char> CrowdGroup::changedSuddenly() const {
+  for (std::size_t place = 0; place < ranks_.size(); ++place) {
+    if (ranks_[place] >= 0 && crowd_.moved(place) && joined_[place].isNew()) {
+      return crowd_.changedSuddenly();
+    }
+  }
+  return {};
+}
+
+// What was no member before comes as it came, unless it is struck, or pushes what is: their paths begin
+// alike.
+void CrowdGroup::endStep(std::size_t place, const std::vector<char>& suddenly) {
+  JoinedSteps& joined = joined_[place];
+  const bool asItCame = joined.isNew() && suddenly[place] == 0;
+  joined.add(bodies_.recorder(), bodies_[ranks_[place]].listed, start_.hi, crowd_.begin(place, asItCame),
+             crowd_.end(place), crowd_.length(), crowd_.body(place).radius,
+             crowd_.isSharp() ? JoinedSteps::Begin::kCorner : JoinedSteps::Begin::kRounded);
+}
+
+// ---- Steps.
+
+std::optional<Encounter> CrowdGroup::advance(const Instant& time) {
+  commit(time);
+  const std::vector<int> released = release(time);
+  if (crowd_.atRest()) {
+    for (const int rank : ranks_) {
+      if (rank >= 0) {
+        bodies_[rank].group.reset();
+      }
+    }
+  } else {
+    go(time);
+  }
+  for (const int rank : released) {
+    bodies_.predict(rank);
+  }
+  return std::nullopt;
+}
+
+// Ends its step now, perhaps early: then in more than one, if it needs shorter ones. Members who joined that
+// step go another way in it than they were expected to.
+void CrowdGroup::endAt(const Instant& time) {
+  if (earlier(time, end())) {
+    do {
+      length_ = crowd_.stepAgain(secondsBetween(start_, time));
+    } while (length_ > 0 && admitMet(start_, Taken::kAgain));
+    while (secondsBetween(end(), time) > kMoment) {
+      const Instant next = end();
+      commit(next);
+      start_ = next;
+      length_ = crowd_.step(secondsBetween(next, time));
+    }
+    bodies_.account().solvedCrowd(crowd_.takeResiduals());
+  }
+  commit(time);
+}
+
+// Records the step that ends now. Members that fell asleep rest from now on.
+void CrowdGroup::commit(const Instant& time) {
+  for (const Crowd::Struck& struck : crowd_.impacts()) {
+    const auto rankOf = [&](int place) { return ranks_[static_cast<std::size_t>(place)]; };
+    bodies_.strike(time, rankOf(struck.a),
+                   struck.b.isWall() ? struck.b : Partner::ofBody(rankOf(struck.b.body())), struck.point,
+                   {.approach = struck.approach,
+                    .impulse = struck.impulse,
+                    .tangential = struck.tangential,
+                    .normal = struck.normal});
+  }
+  const std::vector<char> suddenly = changedSuddenly();
+  for (std::size_t place = 0; place < ranks_.size(); ++place) {
+    const int rank = ranks_[place];
+    if (rank < 0) {
+      continue;
+    }
+    if (crowd_.moved(place)) {
+      endStep(place, suddenly);
+    }
+    // Perhaps without having moved: woken in this step, and asleep again when that was taken once more.
+    if (crowd_.sleeps(place) && bodies_[rank].moves()) {
+      joined_[place].flush(bodies_.recorder(), bodies_[rank].listed);
+      bodies_.sleep(rank, time, crowd_.state(place).pose);
+      bodies_.queue().clear(rank);
+      bodies_.predictAround(rank);
+    }
+  }
+  before_ = length_ > 0 ? length_ : before_;
+}
+
+// The next step. What it will meet becomes a member first: that costs less than to cut the step.
+void CrowdGroup::go(const Instant& time) {
+  const double most = bodies_.withinCell(crowd_.fastest());
+  admitNear(time, crowd_.nextLength(most));
+  bodies_.account().mayLose();
+  for (std::size_t place = 0; place < ranks_.size(); ++place) {
+    if (ranks_[place] >= 0 && !crowd_.isHeld(place) && !crowd_.sleeps(place)) {
+      bodies_.account().departs(listedOf(bodies_[ranks_[place]]), crowd_.stateAtVelocity(place));
+    }
+  }
+  bodies_.account().parted();
+  start_ = time;
+  length_ = crowd_.step(std::min(most, bodies_.withinCell(crowd_.fastest())));  // of those admitted too
+  while (admitMet(time, Taken::kFirst)) {
+    length_ = crowd_.stepAgain(crowd_.length());
+  }
+  bool any = false;
+  for (std::size_t place = 0; place < ranks_.size(); ++place) {
+    if (ranks_[place] >= 0 && crowd_.moved(place)) {
+      takeStep(place);
+      leader_ = any ? leader_ : ranks_[place];
+      any = true;
+    }
+  }
+  bodies_.account().penetrates(crowd_.deepest());
+  bodies_.account().solvedCrowd(crowd_.takeResiduals());
+  if (any && earlier(end(), bodies_.end())) {
+    bodies_.queue().set({.time = end(), .kind = EventKind::kStep, .body = leader_});
+  }
+  for (const int rank : nearStep(bodies_, *this)) {
+    bodies_.predict(rank);
+  }
+}
+
+// A member moves in the step that begins.
+void CrowdGroup::takeStep(std::size_t place) {
+  const int rank = ranks_[place];
+  const Mover& body = bodies_[rank];
+  if (joined_[place].isNew() && !body.moves()) {  // it was asleep
+    joined_[place] = comingFrom(body, start_, {.pose = body.pose}, crowd_.begin(place).worldFromBody,
+                                pastOf(body, start_));
+  }
+  motions_[place] = asContactStep(cubicStep(crowd_.begin(place), crowd_.end(place), crowd_.length()));
+  bodies_.step(shared_from_this(), place);
+  bodies_.queue().clear(rank);
+  bodies_.file(rank, crowd_.body(place).position);
+}
+
+// Its energy is known at the ends of its steps.
+void CrowdGroup::endRun() {
+  const std::vector<char> suddenly = changedSuddenly();
+  for (std::size_t place = 0; place < ranks_.size(); ++place) {
+    if (ranks_[place] >= 0 && bodies_[ranks_[place]].steps()) {
+      endStep(place, suddenly);
+      joined_[place].flush(bodies_.recorder(), bodies_[ranks_[place]].listed);
+    }
+  }
+}
+
+}  // namespace careen

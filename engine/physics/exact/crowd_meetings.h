@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "physics/exact/bodies.h"
+#include "physics/exact/crowd_group.h"
+
+namespace careen {
+
+// What a crowd is about to meet. Bodies are given by rank.
+
+enum class Outsiders {
+  kAll,
+  kInNoGroup,  ///< of the others it is known where they are now, not where they were
+};
+/// Bodies that are no members and may get into that space within that time [s] from `time` on.
+std::vector<int> outsidersIn(const Bodies& bodies, const CrowdGroup& group, const Crowd::Extent& extent,
+                             const Instant& time, double length, Outsiders which);
+/// Whether a member meets it within the next step if nothing pushes it; of a body at rest, whether one is
+/// near.
+bool meetsNext(const Bodies& bodies, const CrowdGroup& group, int rank, const Instant& time, double length);
+/// Whether a member met it in the step that it has taken from `time` on.
+bool wasMet(const Bodies& bodies, const CrowdGroup& group, int rank, const Instant& time);
+/// Who may meet a member in the step that it has taken, perhaps another way than it was going.
+std::vector<int> nearStep(const Bodies& bodies, const CrowdGroup& group);
+
+/// Whether it has been at rest, or in Flight and free of springs, since a moment before that.
+bool restsSince(const Mover& body, const Instant& time);
+bool fliesSince(const Bodies& bodies, const Mover& body, const Instant& time);
+
+}  // namespace careen

@@ -1,0 +1,162 @@
+#include "physics/exact/encounter.h"
+
+#include <algorithm>
+
+#include "physics/geometry/separation.h"
+#include "physics/world/forces.h"
+
+namespace careen {
+namespace {
+
+/// [1] of the tolerance: bodies that go on by time steps are one group up to this gap.
+constexpr double kNear = 64;
+/// [1] of the lengths at a contact: its two points count as one.
+constexpr double kOnePoint = 0x1p-42;
+
+bool takesPart(const Encounter& encounter, int rank) {
+  return encounter.indexOf(rank) < encounter.bodies.size();
+}
+
+void reach(Bodies& bodies, const Event& event, Encounter& encounter) {
+  join(bodies, encounter, event.body);
+  if (!event.partner.isWall()) {
+    join(bodies, encounter, event.partner.body());
+  }
+  for (std::size_t reached = 0; reached < encounter.bodies.size(); ++reached) {
+    const Mover& body = *encounter.bodies[reached].mover;
+    if (body.isHeld()) {
+      continue;
+    }
+    for (const int candidate : bodies.around(body.rank)) {
+      const Mover& other = bodies[candidate];
+      if (!takesPart(encounter, candidate) &&
+          areTouching(encounter.bodies[reached].box(), boxAt(other.stateAt(encounter.time).pose, *other.body),
+                      nearness(bodies, encounter))) {
+        join(bodies, encounter, candidate);
+      }
+    }
+  }
+  std::sort(encounter.bodies.begin(), encounter.bodies.end(),
+            [](const EncounterBody& x, const EncounterBody& y) { return x.mover->rank < y.mover->rank; });
+}
+
+double pullOf(const Bodies& bodies, const Encounter& encounter) {
+  double pull = bodies.world().gravity.norm();
+  if (!isAnyForced(bodies, encounter)) {
+    return pull;
+  }
+  const std::vector<double> all =
+      pulls(bodies.world(), statesIn(bodies.world(), encounter, &EncounterBody::before));
+  for (const EncounterBody& body : encounter.bodies) {
+    pull = std::max(pull, all[static_cast<std::size_t>(body.listed())]);
+  }
+  return pull;
+}
+
+}  // namespace
+
+TouchingBody EncounterBody::touching() const {
+  return {.body = mover->body,
+          .index = listed(),
+          .position = after.pose.position,
+          .worldFromBody = attitude,
+          .velocity = after.velocity,
+          .angularVelocityBody =
+              body().mass.inverseInertiaTimes(after.pose.worldFromBody.transpose() * after.angularMomentum)};
+}
+
+std::size_t Encounter::indexOf(int rank) const {
+  return static_cast<std::size_t>(
+      std::find_if(bodies.begin(), bodies.end(),
+                   [&](const EncounterBody& body) { return body.mover->rank == rank; }) -
+      bodies.begin());
+}
+
+std::vector<int> Encounter::ranks() const {
+  std::vector<int> all;
+  for (const EncounterBody& body : bodies) {
+    all.push_back(body.mover->rank);
+  }
+  return all;
+}
+
+// A wall's offset is no larger than the body's part.
+double Encounter::lengthsAt(std::size_t contact) const {
+  const auto of = [](const EncounterBody& body) {
+    return body.after.pose.position.cwiseAbs().sum() + radiusOf(body.body());
+  };
+  return of(a(contact)) + of(contacts[contact].b.isWall() ? a(contact) : b(contact));
+}
+
+// Where the gap is only rounding the arms stay as they are, or a cube that lands flat would tilt.
+ImpactContact Encounter::joined(std::size_t contact) const {
+  ImpactContact at = contacts[contact];
+  if (!at.b.isWall()) {
+    const Vec3 link = (a(contact).after.pose.position - b(contact).after.pose.position) + (at.armA - at.armB);
+    if (link.norm() > kOnePoint * lengthsAt(contact)) {
+      at.armA -= 0.5 * link;
+      at.armB += 0.5 * link;
+    }
+  }
+  return at;
+}
+
+Encounter gather(Bodies& bodies, const Event& event) {
+  Encounter encounter;
+  encounter.time = event.time;
+  // The same pair triggers again without approaching (edges passing within rounding): what hardly parts
+  // persists. If that does not help, they go on by a few time steps, which need no list of contacts.
+  constexpr int kMostMeetings = 2;
+  constexpr int kMostSlowMeetings = 8;
+  constexpr int kTimeStepsOfMeeting = 8;
+  const int meetings = event.kind == EventKind::kStep ? 0 : bodies[event.body].atOneMoment;
+  encounter.passing = meetings > kMostMeetings ? kHardlyParts : 0;
+  encounter.timeSteps = meetings > kMostSlowMeetings ? kTimeStepsOfMeeting : 0;
+  encounter.cause = meetings > kMostMeetings ? EventKind::kTouching : event.kind;
+  reach(bodies, event, encounter);
+  encounter.pull = pullOf(bodies, encounter);
+  for (EncounterBody& body : encounter.bodies) {
+    body.after = body.before;
+  }
+  return encounter;
+}
+
+void join(Bodies& bodies, Encounter& encounter, int rank) {
+  if (takesPart(encounter, rank)) {
+    return;
+  }
+  Mover& body = bodies[rank];
+  if (!body.group) {
+    const Quat attitude = body.attitudeAt(encounter.time);
+    encounter.bodies.push_back(
+        {.mover = &body, .attitude = attitude, .before = body.stateAt(encounter.time, attitude)});
+  } else if (!body.group->enter(encounter, rank)) {
+    return;
+  }
+  for (const int other : bodies.joinedTo(rank)) {
+    join(bodies, encounter, other);
+  }
+}
+
+double nearness(const Bodies& bodies, const Encounter& encounter) {
+  return encounter.timeSteps > 0 ? kNear * bodies.tolerance() : 0;
+}
+
+std::vector<BodyState> statesIn(const World& world, const Encounter& encounter,
+                                BodyState EncounterBody::*state) {
+  std::vector<BodyState> states;
+  for (const Body& body : world.bodies) {
+    states.push_back(body.initial);
+  }
+  for (const EncounterBody& body : encounter.bodies) {
+    states[static_cast<std::size_t>(body.listed())] = body.*state;
+  }
+  return states;
+}
+
+bool isAnyForced(const Bodies& bodies, const Encounter& encounter) {
+  return std::any_of(encounter.bodies.begin(), encounter.bodies.end(),
+                     [&](const EncounterBody& body) { return bodies.isForced(body.mover->rank); });
+}
+
+}  // namespace careen

@@ -1,0 +1,99 @@
+#include "physics/exact/encounter_contacts.h"
+
+#include <algorithm>
+
+#include "physics/contact/implicit_step.h"
+#include "physics/geometry/chosen_contact.h"
+#include "physics/impact/wall_contacts.h"
+
+namespace careen {
+namespace {
+
+bool isInSteps(const EncounterBody& a, const EncounterBody& b) {
+  return a.mover->steps() || b.mover->steps();
+}
+
+// [m] How well the places of two bodies that meet are known: in steps only to the tolerance.
+double knownTo(double tolerance, const EncounterBody& a, const EncounterBody& b) {
+  return std::max(isInSteps(a, b) ? 0.25 * tolerance : 0, touchingWithin(a.box(), b.box()));
+}
+
+// [m/s] Likewise of their velocities; `pull` [m/s²] of the encounter.
+double slowOf(double tolerance, double pull, const EncounterBody& a, const EncounterBody& b) {
+  double speeds = 0;
+  double radius = 0;
+  for (const EncounterBody* each : {&a, &b}) {
+    const Body& body = each->body();
+    speeds += each->before.velocity.norm() + angularVelocity(body.mass, each->before).norm() * radiusOf(body);
+    radius = std::max(radius, radiusOf(body));
+  }
+  const double found = isInSteps(a, b) ? tolerableResidual(tolerance, radius, speeds / radius, pull) : 0;
+  return std::max(kApproachRounding * speeds, found);
+}
+
+// Adds the contacts of two bodies that touch.
+void addPairContacts(double tolerance, Encounter& encounter, std::size_t indexA, std::size_t indexB) {
+  const EncounterBody& a = encounter.bodies[indexA];
+  const EncounterBody& b = encounter.bodies[indexB];
+  if ((a.mover->isHeld() && b.mover->isHeld()) || !areTouching(a.box(), b.box())) {
+    return;
+  }
+  const auto velocityOf = [](const EncounterBody& body, const Vec3& arm) {
+    return Vec3(body.before.velocity + angularVelocity(body.body().mass, body.before).cross(arm));
+  };
+  const ChosenContact contact = chosenContact(
+      a.box(), b.box(), 0, knownTo(tolerance, a, b), slowOf(tolerance, encounter.pull, a, b),
+      [&](const Vec3& armA, const Vec3& armB) { return Vec3(velocityOf(a, armA) - velocityOf(b, armB)); });
+  for (const ContactPoint& at : contact.points) {
+    encounter.contacts.push_back({.a = static_cast<int>(indexA),
+                                  .b = Partner::ofBody(static_cast<int>(indexB)),
+                                  .armA = at.armA,
+                                  .armB = at.armB,
+                                  .normal = at.normal,
+                                  .material = touching(a.body().material, b.body().material),
+                                  .inCone = at.inCone,
+                                  .axes = contact.choice,
+                                  .directions = directionsOf(contact.choice, a.box(), b.box())});
+  }
+}
+
+}  // namespace
+
+double findContacts(const Bodies& bodies, Encounter& encounter) {
+  double deepest = 0;
+  for (std::size_t i = 0; i < encounter.bodies.size(); ++i) {
+    const EncounterBody& body = encounter.bodies[i];
+    if (!body.mover->isHeld()) {
+      deepest = std::max(deepest, addWallContacts(bodies.world(), body.body(), body.before.pose,
+                                                  static_cast<int>(i), encounter.contacts));
+    }
+    for (std::size_t j = i + 1; j < encounter.bodies.size(); ++j) {
+      addPairContacts(bodies.tolerance(), encounter, i, j);
+    }
+  }
+  encounter.shares.resize(encounter.contacts.size());
+  encounter.persists.assign(encounter.contacts.size(), 0);
+  return deepest;
+}
+
+void choose(const Bodies& bodies, Encounter& encounter, std::size_t k, const Vec3& velocity) {
+  ImpactContact& contact = encounter.contacts[k];
+  if (contact.axes == 0) {
+    return;
+  }
+  const EncounterBody& a = encounter.a(k);
+  const EncounterBody& b = encounter.b(k);
+  const AxisSet open = withoutApproached(contact.axes, a.box(), b.box(), velocity,
+                                         slowOf(bodies.tolerance(), encounter.pull, a, b));
+  if (open == contact.axes) {
+    return;
+  }
+  constexpr double kSame = 1 - 0x1p-40;
+  if (contact.inCone || dot(directionsOf(open, a.box(), b.box()).front(), contact.normal) < kSame) {
+    encounter.persists[k] = 0;
+  }
+  contact.axes = 0;
+  contact.directions.clear();
+}
+
+}  // namespace careen

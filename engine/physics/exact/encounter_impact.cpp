@@ -1,0 +1,52 @@
+#include "physics/exact/encounter_impact.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "physics/contact/implicit_step.h"
+
+namespace careen {
+
+void resolve(Bodies& bodies, Encounter& encounter) {
+  std::vector<ImpactBody> struck;
+  bool mayLose = false;
+  double radius = 0;
+  double rate = 0;  // [1/s]
+  for (EncounterBody& each : encounter.bodies) {
+    const MassProperties& mass = each.body().mass;
+    struck.push_back({.mass = &mass, .state = &each.after});
+    mayLose = mayLose || each.mover->steps();
+    if (each.mover->flies()) {
+      bodies.arrive(*each.mover, encounter.time, each.before);
+    }
+    if (!isImmovable(mass)) {
+      const double size = radiusOf(each.body());
+      radius = std::max(radius, size);
+      rate = std::max(rate, each.before.velocity.norm() / size + angularVelocity(mass, each.before).norm());
+    }
+  }
+  std::vector<ImpactContact> contacts;
+  for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
+    contacts.push_back(encounter.joined(k));
+    mayLose = mayLose || contacts[k].material.restitution < 1 || contacts[k].material.friction > 0;
+  }
+  if (mayLose) {
+    bodies.account().mayLose();
+  }
+  bodies.account().solved(
+      resolveImpact(struck, contacts, encounter.shares,
+                    {.tolerable = tolerableResidual(bodies.tolerance(), radius, rate, encounter.pull)}));
+}
+
+void record(Bodies& bodies, const Encounter& encounter) {
+  for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
+    if (encounter.shares[k].impulse > 0) {
+      const ImpactContact contact = encounter.joined(k);
+      bodies.strike(encounter.time, encounter.a(k).mover->rank,
+                    contact.b.isWall() ? contact.b : Partner::ofBody(encounter.b(k).mover->rank),
+                    encounter.a(k).before.pose.position + contact.armA, encounter.shares[k]);
+    }
+  }
+}
+
+}  // namespace careen

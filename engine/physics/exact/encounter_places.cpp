@@ -1,0 +1,121 @@
+#include "physics/exact/encounter_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "physics/geometry/contact_points.h"
+#include "physics/geometry/separation.h"
+
+namespace careen {
+namespace {
+
+using Features = std::vector<ContactFeature>;
+
+// Adds the contacts of the groups that take part.
+void addKnown(const Encounter& encounter, Features& features) {
+  std::vector<const ContactGroup*> known;
+  for (const EncounterBody& body : encounter.bodies) {
+    const ContactGroup* group = body.mover->group.get();
+    if (group != nullptr && std::find(known.begin(), known.end(), group) == known.end()) {
+      known.push_back(group);
+      group->addFeatures(encounter, features);
+    }
+  }
+}
+
+// Adds corners that have reached or passed a wall.
+void addCorners(const World& world, const Encounter& encounter, Features& features) {
+  for (std::size_t i = 0; i < encounter.bodies.size(); ++i) {
+    const EncounterBody& body = encounter.bodies[i];
+    const Pose& pose = body.before.pose;
+    const double within = kAligned * touchingWithin(body.box());
+    for (std::size_t w = 0; w < (body.mover->isHeld() ? 0 : world.walls.size()); ++w) {
+      for (int k = 0; k < kCorners; ++k) {
+        const Vec3 at = corner(body.body(), k);
+        const int index = static_cast<int>(i);
+        const Partner wall = Partner::ofWall(w);
+        if (cornerGap(pose, at, world.walls[w].normal, world.walls[w].offset) <= within &&
+            !hasCorner(features, index, wall, at)) {
+          features.push_back({.a = index, .b = wall, .onA = at});
+        }
+      }
+    }
+  }
+}
+
+double gapOf(const Encounter& encounter, std::size_t a, std::size_t b) {
+  return BoxAxes(encounter.bodies[a].box(), encounter.bodies[b].box()).gap();
+}
+
+// Adds the contact manifold of two boxes that are near each other.
+void addMeeting(const Encounter& encounter, std::size_t a, std::size_t b, Features& features) {
+  const BoxAt boxA = encounter.bodies[a].box();
+  const BoxAt boxB = encounter.bodies[b].box();
+  const double apart = gapOf(encounter, a, b);
+  for (const ContactPoint& at : boxContactPoints(boxA, boxB)) {
+    features.push_back(featureAt(at, apart, static_cast<int>(a), boxA, static_cast<int>(b), boxB));
+  }
+}
+
+// Adds contacts of bodies that penetrate after a time step.
+void addOverlaps(const Encounter& encounter, Features& features) {
+  for (std::size_t i = 0; i < encounter.bodies.size(); ++i) {
+    const EncounterBody& a = encounter.bodies[i];
+    for (std::size_t j = i + 1; j < encounter.bodies.size(); ++j) {
+      const EncounterBody& b = encounter.bodies[j];
+      if ((!a.mover->isHeld() || !b.mover->isHeld()) &&
+          (a.before.pose.position - b.before.pose.position).norm() <=
+              radiusOf(a.body()) + radiusOf(b.body()) &&
+          gapOf(encounter, i, j) < -kAligned * touchingWithin(a.box(), b.box())) {
+        addMeeting(encounter, i, j, features);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void alignPlaces(const Bodies& bodies, const Event& event, Encounter& encounter) {
+  if (std::none_of(encounter.bodies.begin(), encounter.bodies.end(),
+                   [](const EncounterBody& body) { return body.mover->steps(); })) {
+    return;
+  }
+  Features features;
+  addKnown(encounter, features);
+  addCorners(bodies.world(), encounter, features);
+  const Mover& body = bodies[event.body];
+  if (!event.partner.isWall() && !(body.steps() && body.group->seesTo(body.place, event.partner.body()))) {
+    addMeeting(encounter, encounter.indexOf(event.body), encounter.indexOf(event.partner.body()), features);
+  }
+  constexpr int kMostPasses = 8;
+  double mayMove = ContactSystem::kMostMoved * bodies.tolerance();
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    std::vector<TouchingBody> touching;
+    for (const EncounterBody& each : encounter.bodies) {
+      touching.push_back(each.touching());
+    }
+    ContactSystem system(bodies.world(), std::move(touching), features);
+    std::fill(system.modes().begin(), system.modes().end(), ContactForces::Mode::kOn);
+    std::vector<double> y = system.pack();
+    if (const double way = system.projectPositions(y, mayMove, true); way > 0) {
+      mayMove -= way;
+      system.unpack(y);
+      for (std::size_t i = 0; i < encounter.bodies.size(); ++i) {
+        EncounterBody& each = encounter.bodies[i];
+        if (!each.mover->isHeld()) {
+          each.attitude = system.bodies()[i].worldFromBody;
+          each.before = each.after = system.bodies()[i].state();
+        }
+      }
+    }
+    const std::size_t known = features.size();
+    addCorners(bodies.world(), encounter, features);
+    addOverlaps(encounter, features);
+    if (features.size() == known) {
+      return;
+    }
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,160 @@
+#include "physics/exact/island_group.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "physics/exact/encounter.h"
+#include "physics/exact/encounter_places.h"
+#include "physics/geometry/separation.h"
+
+namespace careen {
+
+IslandGroup::IslandGroup(Bodies& bodies, std::vector<int> ranks, std::unique_ptr<Island> island)
+    : bodies_(bodies), island_(std::move(island)) {
+  motions_.resize(ranks.size());
+  ranks_ = std::move(ranks);
+}
+
+std::optional<Encounter> IslandGroup::advance(const Instant& time) {
+  accountForLosses();
+  std::optional<Encounter> unsolved = begin(time);
+  if (!unsolved) {
+    bodies_.account().parted();
+    for (const int rank : ranks_) {
+      if (!bodies_[rank].isHeld()) {
+        bodies_.predict(rank);
+      }
+    }
+  }
+  return unsolved;
+}
+
+std::optional<Encounter> IslandGroup::begin(const Instant& time) {
+  start_ = time;
+  const std::vector<TouchingBody> before = island_->bodies();
+  if (!takeStep(time)) {
+    Encounter unsolved;
+    unsolved.time = time;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      unsolved.bodies.push_back(
+          {.mover = &bodies_[ranks_[i]], .attitude = before[i].worldFromBody, .before = before[i].state()});
+    }
+    return unsolved;
+  }
+  bool any = false;
+  for (std::size_t i = 0; i < ranks_.size(); ++i) {
+    if (before[i].isHeld()) {
+      continue;
+    }
+    const int rank = ranks_[i];
+    bodies_.account().departs(static_cast<std::size_t>(before[i].index), before[i].state());
+    leader_ = any ? leader_ : rank;
+    any = true;
+    motions_[i] = island_->motion(i);
+    bodies_.step(shared_from_this(), i);
+    bodies_.recorder().moves(bodies_[rank].listed, time.hi, motions_[i]);
+    bodies_.file(rank, bodies_[rank].positionAt(time));
+    bodies_.findCrossing(rank);
+  }
+  bodies_.account().penetrates(island_->deepest());
+  bodies_.account().solved(island_->takeResiduals());
+  recordImpacts();
+  return std::nullopt;
+}
+
+// Returns false if it found none.
+bool IslandGroup::takeStep(const Instant& time) {
+  double movable = 0;
+  for (const TouchingBody& body : island_->bodies()) {
+    movable += body.isHeld() ? 0 : 1;
+  }
+  bool isSolved = true;
+  try {
+    // Not bounded by the end of the run, on which the motion must not depend.
+    const Island::Step step = island_->step(bodies_.longestStep(), bodies_.workLeft(ranks_, time));
+    length_ = step.length;
+    end_ = step.end;
+  } catch (const NumericalError&) {
+    if (!bodies_.mayBeCrowd()) {
+      throw;
+    }
+    isSolved = false;
+  }
+  for (const int rank : ranks_) {
+    bodies_[rank].work += bodies_[rank].isHeld() ? 0 : island_->work() / movable;
+  }
+  return isSolved;
+}
+
+bool IslandGroup::enter(Encounter& encounter, int rank) {
+  if (earlier(encounter.time, end())) {
+    length_ = secondsBetween(start_, encounter.time);
+    island_->cutTo(length_);
+  }
+  encounter.timeSteps = std::max(encounter.timeSteps, island_->timeStepsLeft());
+  island_->endTimeSteps();
+  const TouchingBody& here = island_->bodies()[bodies_[rank].place];
+  encounter.bodies.push_back(
+      {.mover = &bodies_[rank], .attitude = here.worldFromBody, .before = here.state()});
+  for (const int each : ranks_) {
+    join(bodies_, encounter, each);
+  }
+  return true;
+}
+
+void IslandGroup::addFeatures(const Encounter& encounter, std::vector<ContactFeature>& features) const {
+  const ContactSystem& system = island_->system();
+  const auto indexOf = [&](int place) {
+    return static_cast<int>(encounter.indexOf(ranks_[static_cast<std::size_t>(place)]));
+  };
+  for (std::size_t c = 0; c < system.features().size(); ++c) {
+    ContactFeature feature = system.features()[c];
+    const auto a = static_cast<std::size_t>(feature.a);
+    const double within =
+        kAligned * touchingWithin(boxAt(system.kinematics(a).pose, *system.bodies()[a].body));
+    if (std::fabs(system.states()[c].gap) > within || system.states()[c].beyond > within / 16) {
+      continue;
+    }
+    feature.a = indexOf(feature.a);
+    if (!feature.b.isWall()) {
+      feature.b = Partner::ofBody(indexOf(feature.b.body()));
+    }
+    features.push_back(feature);
+  }
+}
+
+bool IslandGroup::seesTo(std::size_t place, int rank) const {
+  const auto other = std::find(ranks_.begin(), ranks_.end(), rank);
+  return other != ranks_.end() &&
+         island_->handlesPair(place, static_cast<std::size_t>(other - ranks_.begin()));
+}
+
+void IslandGroup::endRun() {
+  for (const int rank : ranks_) {
+    const Mover& body = bodies_[rank];
+    if (!body.isHeld()) {
+      bodies_.account().departs(static_cast<std::size_t>(body.listed.value), body.stateAt(bodies_.end()));
+    }
+  }
+  accountForLosses();
+}
+
+void IslandGroup::accountForLosses() {
+  if (island_->mayLose()) {
+    bodies_.account().mayLose();
+  }
+}
+
+void IslandGroup::recordImpacts() {
+  for (const GroupImpact& impact : island_->impacts()) {
+    const auto rankOf = [&](int place) { return ranks_[static_cast<std::size_t>(place)]; };
+    const ImpactContact& contact = impact.contact;
+    const int a = rankOf(contact.a);
+    bodies_.strike(start_, a, contact.b.isWall() ? contact.b : Partner::ofBody(rankOf(contact.b.body())),
+                   bodies_[a].stateAt(start_).pose.position + contact.armA, impact.share);
+  }
+}
+
+}  // namespace careen

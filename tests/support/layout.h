@@ -1,0 +1,58 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+namespace careen::layout {
+
+using Names = std::set<std::string>;
+
+// The whole of it: a folder that is not here may not exist.
+inline const std::map<std::string, Names> kMayInclude = {
+    {"core", {}},
+    {"physics", {"core"}},
+    {"image", {"core"}},
+    {"stage", {"physics", "core"}},
+    {"film", {"image", "stage", "core"}},
+    {"scene", {"physics", "stage", "core"}},
+    {"trajectory", {"physics", "stage", "core"}},
+    {"audit", {"trajectory", "physics", "stage", "core"}},
+    {"study", {"scene", "trajectory", "audit", "physics", "core"}},
+    {"compare", {"image", "trajectory", "core"}},
+    {"view", {"trajectory", "physics", "stage", "core"}},
+    {"truth", {"view", "film", "trajectory", "stage", "physics", "core"}},
+    {"sweep", {"scene", "trajectory", "audit", "physics", "stage", "core"}},
+    {"exchange", {"scene", "view", "trajectory", "physics", "stage", "core"}},
+    {"render", {"view", "trajectory", "film", "stage", "image", "core"}},
+    {"library", {"render", "scene", "trajectory", "audit", "stage", "physics", "core"}},
+};
+
+// Rooms of a folder, and whom each may include among them; "" is what lies in the folder itself.
+using Rooms = std::map<std::string, Names>;
+inline const std::map<std::string, Rooms> kRooms = {
+    {"core", {{"", {}}, {"math", {}}, {"system", {""}}}},
+    {"physics",
+     {{"world", {}},
+      {"attitude", {"world"}},
+      {"geometry", {"world"}},
+      {"motion", {"attitude", "world"}},
+      {"start", {"geometry", "world"}},
+      {"search", {"geometry", "motion"}},
+      {"impact", {"geometry", "solver", "world"}},
+      {"solver", {"world"}},
+      {"contact", {"geometry", "impact", "motion", "solver", "world"}},
+      {"pile", {"attitude", "geometry", "motion", "solver", "world"}},
+      {"exact", {"attitude", "contact", "geometry", "impact", "motion", "pile", "search", "world"}},
+      {"compared", {"attitude", "geometry", "impact", "motion", "world"}},
+      {"", {"exact", "compared", "attitude", "motion", "world"}}}},
+    {"render",
+     {{"gl", {}},
+      {"look", {}},
+      {"overlay", {"gl"}},
+      {"draw", {"gl", "look", "overlay"}},
+      {"window", {"gl", "overlay"}},
+      {"film", {"draw", "overlay"}}}},
+};
+
+}  // namespace careen::layout
