@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -33,9 +34,9 @@ class ContactImpulses {
   std::span<const std::size_t> movers() const { return movers_; }
   /// The velocities that they would have `h` [s] after `from` without contacts.
   void setFree(const GroupState& from, const GroupLoads& loads, double h);
-  /// Rows with the arms and the normal of that geometry. The law is that of a contact without gap and bias;
-  /// `warm`: the impulse to start from, of all contacts or of none.
+  /// Rows with the arms and the normal of that geometry; the law is that of a contact without gap and bias.
   ContactProblem::Contact& add(const ContactFeature& feature, const ContactState& geometry);
+  /// What solve() starts from: an impulse for each contact, or none.
   void startFrom(const Triple& warm) { solution_.impulses.push_back(warm); }
   /// The contact's law holds for its velocities at the end of the step, where arms and normal are others than
   /// in the rows: `end`, if the bodies get to `to`.
@@ -54,7 +55,7 @@ class ContactImpulses {
   void sum(std::span<const ContactFeature> contacts, std::span<const ContactState> geometry,
            std::span<const Triple> impulses, std::vector<BodyImpulse>& sums);
 
-  /// Factorisations so far, each times the bodies and contacts in it: the cost. So much more may be spent.
+  /// Factorisations so far, each times the bodies and contacts in it: the cost; how much more may be spent.
   double work() const { return work_; }
   void limitWork(double most) { mostWork_ = work_ + most; }
   /// Of the problems solved since it was last asked.

@@ -35,8 +35,7 @@ struct EventFunction {
 /// it.
 class EventFunctions {
  public:
-  /// Gaps within this many touching tolerances are checked for penetration, the others for closing; no hop
-  /// ends deeper.
+  /// Gaps within this many touching tolerances are checked for penetration, the others for closing.
   static constexpr double kTouching = 8;
 
   EventFunctions(const World& world, const ContactSystem& system) : world_(world), system_(system) {}

@@ -90,6 +90,7 @@ class Island {
   /// Whether the last step may have dissipated energy: by friction, or because it was a time step.
   bool mayLose() const;
 
+  /// No hop ends deeper than so many touching tolerances.
   static constexpr double kTouching = EventFunctions::kTouching;
 
  private:
