@@ -11,7 +11,7 @@
 namespace careen {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 /// [1] of the tolerance: the error allowed per step, since errors of many steps add up.
 constexpr double kShare = 0x1p-4;
 /// [rad] Largest rotation in one step, so that the polynomials are accurate.
@@ -120,9 +120,9 @@ void SmoothStep::retake(double length) {
 
 // How long a step may be at its start; sets the lifetime of the speeds there.
 double SmoothStep::longest() {
-  double most = kInfinity;
+  double most = kUnbounded;
   const bool alone = end_.y.size() == ContactSystem::kNumbers;
-  lifetime_ = kInfinity;
+  lifetime_ = kUnbounded;
   for (std::size_t i = 0; i < system_.bodies().size(); ++i) {
     const double turning = system_.kinematics(i).angularVelocity.norm();
     if (turning > 0) {
