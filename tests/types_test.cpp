@@ -111,12 +111,6 @@ Size sizeOf(const std::string& code, std::size_t at) {
 
 constexpr int kMostMembers = 25;
 constexpr int kMostFunctions = 40;
-/// Larger than that: to become several, and off this list. Their numbers may only fall.
-const std::map<std::string, Size> kLarge = {
-    {"Island", {31, 60}},
-    {"TimeStepper", {26, 60}},
-    {"ImplicitStep", {26, 31}},
-};
 
 TEST(Types, haveFewMembersAndFunctions) {
   static const std::regex kClass(
@@ -134,49 +128,29 @@ TEST(Types, haveFewMembersAndFunctions) {
       }
       const std::string name = (*match)[2];
       const Size size = sizeOf(code, static_cast<std::size_t>(match->position() + match->length()));
-      const auto large = kLarge.find(name);
-      const Size most = large != kLarge.end() ? large->second : Size{kMostMembers, kMostFunctions};
-      EXPECT_LE(size.members, std::max(most.members, kMostMembers)) << name << " in " << header;
-      EXPECT_LE(size.functions, std::max(most.functions, kMostFunctions)) << name << " in " << header;
-      if (large != kLarge.end()) {
-        EXPECT_TRUE(size.members > kMostMembers || size.functions > kMostFunctions)
-            << name << " is not large any more: off the list";
-      }
+      EXPECT_LE(size.members, kMostMembers) << name << " in " << header;
+      EXPECT_LE(size.functions, kMostFunctions) << name << " in " << header;
       ++seen;
     }
   }
   EXPECT_GT(seen, 300U);
 }
 
-/// Parameters that only say true or false, by header of the physics: an enum says what is meant. Their
-/// numbers may only fall.
-const std::map<std::string, int> kFlags = {
-    {"contact/implicit_step.h", 1},
-    {"contact/contact_system.h", 1},
-};
-
+// An enum says what is meant.
 TEST(Types, ofThePhysicsTakeNoBareFlags) {
   static const std::regex kFlag(R"re([(,]\s*(?:const )?bool \w+(?: = \w+)?\s*[,)])re");
   static const std::regex kLoop(R"re(\bfor \()re");
   const fs::path physics = source_text::kRoot / "engine/physics";
-  std::map<std::string, int> found;
+  std::size_t seen = 0;
   for (const fs::path& header : sourcesIn(physics)) {
-    const std::string code = std::regex_replace(codeOf(textOf(header)), kLoop, "");
     if (header.extension() == ".h") {
-      const auto flags =
-          std::distance(std::sregex_iterator(code.begin(), code.end(), kFlag), std::sregex_iterator());
-      if (flags > 0) {
-        found[fs::relative(header, physics).string()] = static_cast<int>(flags);
-      }
+      const std::string code = std::regex_replace(codeOf(textOf(header)), kLoop, "");
+      std::smatch flag;
+      EXPECT_FALSE(std::regex_search(code, flag, kFlag)) << header << ": " << flag.str();
+      ++seen;
     }
   }
-  for (const auto& [header, flags] : found) {
-    const auto known = kFlags.find(header);
-    EXPECT_LE(flags, known == kFlags.end() ? 0 : known->second) << header;
-  }
-  for (const auto& [header, flags] : kFlags) {
-    EXPECT_EQ(found[header], flags) << header << " has fewer: so must the list";
-  }
+  EXPECT_GT(seen, 100U);
 }
 
 }  // namespace

@@ -338,6 +338,12 @@ ContactState stateOfNormal(const ContactFeature& feature, const Kinematics& a, B
 
 }  // namespace
 
+bool isSame(const ContactFeature& x, const ContactFeature& y) {
+  return x.kind == y.kind && x.a == y.a && x.b == y.b && x.axisA == y.axisA && x.axisB == y.axisB &&
+         x.sign == y.sign && (x.onA - y.onA).isZero(1e-9 * x.onA.norm()) &&
+         (x.onB - y.onB).isZero(1e-9 * x.onB.norm());
+}
+
 bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, const Vec3& corner) {
   return std::any_of(features.begin(), features.end(), [&](const ContactFeature& feature) {
     return feature.a == a && feature.b == wall && feature.onA == corner;

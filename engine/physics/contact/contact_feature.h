@@ -85,6 +85,9 @@ inline BoxShape shapeOf(const Body& body) {
   return {.halfExtents = body.halfExtents, .center = body.boxCenter};
 }
 
+/// Whether both are the same parts of the same bodies, whatever else is known of them.
+bool isSame(const ContactFeature& x, const ContactFeature& y);
+
 /// Whether the features include that corner of a at that wall.
 bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, const Vec3& corner);
 

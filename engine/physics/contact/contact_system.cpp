@@ -6,6 +6,7 @@
 
 #include "physics/contact/three_at.h"
 #include "physics/geometry/contact_frame.h"
+#include "physics/geometry/separation.h"
 #include "physics/solver/contact_rows.h"
 #include "physics/world/forces.h"
 
@@ -70,6 +71,14 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
     }
   }
   restSpeed_ = kRestSpeed * std::sqrt(pull_ * radius_);
+}
+
+bool ContactSystem::pushes() const {
+  return std::any_of(modes_.begin(), modes_.end(), [](Mode mode) { return mode != Mode::kOff; });
+}
+
+double ContactSystem::touching(std::size_t body) const {
+  return touchingWithin(boxAt(kinematics_[body].pose, *bodies_[body].body));
 }
 
 std::vector<double> ContactSystem::pack() const {
@@ -252,19 +261,12 @@ double ContactSystem::shiftOf(std::span<const double> displacement) const {
   return most;
 }
 
-std::vector<GroupMember> ContactSystem::membersAt(std::span<const double> y,
-                                                  std::span<const std::size_t> group) const {
-  std::vector<GroupMember> members;
-  for (const std::size_t i : group) {
-    const MassProperties& mass = bodies_[i].body->mass;
-    const std::size_t at = places_[i] * kNumbers;
-    const Mat3 turned = quatAt(y, at + 3).normalized().toRotationMatrix();
-    members.push_back({.mass = &mass,
-                       .state = {.pose = {threeAt(y, at), turned},
-                                 .velocity = threeAt(y, at + 7),
-                                 .angularMomentum = turned * mass.inertiaTimes(threeAt(y, at + 10))}});
-  }
-  return members;
+BodyState ContactSystem::stateIn(std::span<const double> y, std::size_t body) const {
+  const std::size_t at = places_[body] * kNumbers;
+  const Mat3 turned = quatAt(y, at + 3).normalized().toRotationMatrix();
+  return {.pose = {threeAt(y, at), turned},
+          .velocity = threeAt(y, at + 7),
+          .angularMomentum = turned * bodies_[body].body->mass.inertiaTimes(threeAt(y, at + 10))};
 }
 
 bool ContactSystem::keepMomenta(std::span<const double> before, double h, std::vector<double>& y) const {
@@ -274,24 +276,20 @@ bool ContactSystem::keepMomenta(std::span<const double> before, double h, std::v
       pushing.push_back(features_[c]);
     }
   }
-  bool changed = false;
-  for (const std::vector<std::size_t>& group : freeGroups(*world_, bodies_, pushing)) {
-    const std::vector<GroupMember> members = membersAt(y, group);
-    const std::optional<RigidChange> change =
-        changeTo(momentumOf(membersAt(before, group)), h, world_->gravity, momentumOf(members));
-    for (std::size_t k = 0; change && k < group.size(); ++k) {
-      const BodyState& state = members[k].state;
-      const std::size_t at = places_[group[k]] * kNumbers;
-      setThree(y, at, state.pose.position + change->shift);
-      setThree(y, at + 7, state.velocity + change->velocityAt(state.pose.position));
-      setThree(y, at + 10, threeAt(y, at + 10) + state.pose.worldFromBody.transpose() * change->turning);
-      changed = true;
-    }
+  const auto changes = changesToKeep(
+      *world_, bodies_, pushing, h, [&](std::size_t i) { return stateIn(before, i); },
+      [&](std::size_t i) { return stateIn(y, i); });
+  for (const auto& [i, change] : changes) {
+    const BodyState state = stateIn(y, i);
+    const std::size_t at = places_[i] * kNumbers;
+    setThree(y, at, state.pose.position + change.shift);
+    setThree(y, at + 7, state.velocity + change.velocityAt(state.pose.position));
+    setThree(y, at + 10, threeAt(y, at + 10) + state.pose.worldFromBody.transpose() * change.turning);
   }
-  return changed;
+  return !changes.empty();
 }
 
-double ContactSystem::projectPositions(std::vector<double>& y, double most, bool keepsSpin) {
+double ContactSystem::projectPositions(std::vector<double>& y, double most, Turns turns) {
   const std::vector<double> before = y;
   const std::vector<Mode> kept = modes_;
   for (std::size_t c = 0; c < modes_.size(); ++c) {
@@ -337,7 +335,7 @@ double ContactSystem::projectPositions(std::vector<double>& y, double most, bool
       const Vec3 half = 0.5 * angularOf(forces_.accelerations(), m);
       const Quat turn = Quat(1, half[0], half[1], half[2]).normalized();
       setQuat(y, at + 3, (quatAt(y, at + 3) * turn).normalized());
-      if (keepsSpin) {
+      if (turns == Turns::kAttitude) {
         const MassProperties& mass = bodies_[movers_[m]].body->mass;
         setThree(y, at + 10,
                  mass.inverseInertiaTimes(turn.conjugate() * mass.inertiaTimes(threeAt(y, at + 10))));

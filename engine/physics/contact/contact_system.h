@@ -47,6 +47,8 @@ class ContactSystem {
   std::vector<Mode>& modes() { return modes_; }
   const std::vector<Mode>& modes() const { return modes_; }
   bool pushes(std::size_t contact) const { return modes_[contact] != Mode::kOff; }
+  /// Whether any contact does.
+  bool pushes() const;
 
   std::vector<double> pack() const;
   void unpack(std::span<const double> y);
@@ -61,9 +63,12 @@ class ContactSystem {
   /// sticking contacts. Returns false if there was only rounding error. No body moves by more than `most`
   /// [m]: rather some gap.
   bool project(std::vector<double>& y, double most);
-  /// Returns how far the bodies were moved [m]. With `keepsSpin` their angular momenta stay where they point;
-  /// else they turn with the bodies, and what is in contact keeps its rates.
-  double projectPositions(std::vector<double>& y, double most, bool keepsSpin = false);
+  enum class Turns {
+    kAll,       ///< angular momenta turn with the bodies: what is in contact keeps its rates
+    kAttitude,  ///< they stay where they point
+  };
+  /// Returns how far the bodies were moved [m].
+  double projectPositions(std::vector<double>& y, double most, Turns turns = Turns::kAll);
   bool projectVelocities(std::vector<double>& y);
   /// Gives groups of bodies that only push each other the momenta that they had `h` [s] before, by rigid
   /// motions (GroupMomentum). Returns false if there was only rounding error.
@@ -78,6 +83,8 @@ class ContactSystem {
   double slipSpeedRate(std::size_t contact) const;
   std::size_t placeOf(std::size_t body) const { return places_[body]; }
   const Kinematics& kinematics(std::size_t body) const { return kinematics_[body]; }
+  /// [m] What of a body's gaps is rounding error where it is.
+  double touching(std::size_t body) const;
 
   /// [m/s] Speeds below this count as rest: rounding error.
   double restSpeed() const { return restSpeed_; }
@@ -86,7 +93,7 @@ class ContactSystem {
   double pull() const { return pull_; }
 
  private:
-  std::vector<GroupMember> membersAt(std::span<const double> y, std::span<const std::size_t> group) const;
+  BodyState stateIn(std::span<const double> y, std::size_t body) const;
   bool holdsSideways(std::size_t contact) const;
   double shiftOf(std::span<const double> displacement) const;
   Vec3 angularOf(std::span<const double> solution, std::size_t mover) const;

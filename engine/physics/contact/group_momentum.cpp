@@ -120,4 +120,28 @@ std::optional<RigidChange> changeTo(const GroupMomentum& before, double h, const
   return same ? std::nullopt : std::optional(change);
 }
 
+std::vector<std::pair<std::size_t, RigidChange>> changesToKeep(const World& world,
+                                                               std::span<const TouchingBody> bodies,
+                                                               std::span<const ContactFeature> pushing,
+                                                               double h, const StateOfBody& before,
+                                                               const StateOfBody& now) {
+  std::vector<std::pair<std::size_t, RigidChange>> changes;
+  for (const std::vector<std::size_t>& group : freeGroups(world, bodies, pushing)) {
+    const auto momentum = [&](const StateOfBody& stateOf) {
+      std::vector<GroupMember> members;
+      members.reserve(group.size());
+      for (const std::size_t i : group) {
+        members.push_back({.mass = &bodies[i].body->mass, .state = stateOf(i)});
+      }
+      return momentumOf(members);
+    };
+    if (const auto change = changeTo(momentum(before), h, world.gravity, momentum(now))) {
+      for (const std::size_t i : group) {
+        changes.emplace_back(i, *change);
+      }
+    }
+  }
+  return changes;
+}
+
 }  // namespace careen

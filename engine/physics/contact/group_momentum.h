@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/math/linear_algebra.h"
@@ -53,5 +55,14 @@ struct RigidChange {
 /// if they differ by rounding only.
 std::optional<RigidChange> changeTo(const GroupMomentum& before, double h, const Vec3& gravity,
                                     const GroupMomentum& now);
+
+/// Of each body, by its index, that has to move so that the groups of those that only push each other get the
+/// momenta that they had `h` [s] before. `before`, `now`: the states of a body.
+using StateOfBody = std::function<BodyState(std::size_t)>;
+std::vector<std::pair<std::size_t, RigidChange>> changesToKeep(const World& world,
+                                                               std::span<const TouchingBody> bodies,
+                                                               std::span<const ContactFeature> pushing,
+                                                               double h, const StateOfBody& before,
+                                                               const StateOfBody& now);
 
 }  // namespace careen

@@ -3,40 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "physics/contact/three_at.h"
 #include "physics/world/forces.h"
-
-// The course of an island: modes, steps and what ends them. A step alone is in island_steps.cpp.
 
 namespace careen {
 namespace {
 
 using Mode = ContactForces::Mode;
-using Kind = ContactFeature::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Slip of less than this many tolerances, in the time to fall one's own size, counts as stopped.
-constexpr double kStopped = 4;
-/// [1] of a tolerance, in the time to fall one's own size: slip that counts as none where contacts are found
-/// anew.
-constexpr double kCreeps = 0.25;
-/// [1] Accelerations this small relative to what pulls count as zero: rounding errors. A box on its edge that
-/// leans by 1e-12 has more.
-constexpr double kStill = 0x1p-42;
-/// [1] The same relative to the accelerations by contact forces beyond those that carry a body alone.
-constexpr double kStillLoaded = 0x1p-40;
-/// [1] of a time step: the shortest smooth step. Where slip begins, friction turns into its direction the
-/// faster the slower the slip is (stiff), and smooth steps would have to resolve that; a time step, implicit
-/// in friction, has an error below the tolerance there.
-constexpr double kStiff = 0x1p-4;
 /// [1] of the shortest smooth step: no step has an end as near.
 constexpr double kNoTime = 0x1p-56;
-/// [1] of the current accelerations: a contact with no more tension than this is about to open.
-constexpr double kTension = 0x1p-20;
 /// [1] of the error allowed per step: a step that ends at an event may have a little more.
 constexpr double kMostLocated = 4;
-constexpr int kMostAttempts = 60;
 constexpr int kMostHalvings = 20;
+/// [1] Island::work() of a body where smooth motion changes its contacts.
+constexpr double kWorkOfChange = 240;
 
 // [s] In which springs move a body by the tolerance from the start; infinite if none pulls.
 double timeUnderSprings(const World& world, double tolerance) {
@@ -69,42 +53,44 @@ double timeScaleOf(const World& world, double tolerance) {
 
 Island::Island(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features,
                double tolerance, double timeScale)
-    : tolerance_(tolerance),
-      timeScale_(timeScale),
-      world_(world),
+    : world_(world),
+      tolerance_(tolerance),
       system_(world, std::move(bodies), std::move(features)),
-      springs_(world, system_.bodies()) {
-  end_ = system_.pack();
-}
+      step_(world, system_, tolerance, timeScale),
+      events_(world, system_),
+      locator_(system_, step_, events_, tolerance) {}
 
 void Island::begin() {
-  stepper_.reset();
-  timeStepsLeft_ = 0;
-  system_.look(end_);
+  timeSteps_.reset();
+  step_.restart();
+  SmoothStep::State& state = step_.state();
+  system_.look(state);
   for (std::size_t c = 0; c < system_.modes().size(); ++c) {
     const bool isChoice = system_.features()[c].axes != 0;  // it may not have to push
-    system_.modes()[c] = isChoice ? Mode::kOff : creeps(c) ? Mode::kStick : Mode::kOn;
+    system_.modes()[c] = isChoice ? Mode::kOff : creeps(system_, c, tolerance_) ? Mode::kStick : Mode::kOn;
   }
-  system_.projectVelocities(end_);
-  smooth_ = system_.findModes(end_);
-  if (smooth_ && system_.projectVelocities(end_)) {  // removes the rest of the slip of sticking contacts
-    smooth_ = system_.findModes(end_);
+  system_.projectVelocities(state);
+  bool found = system_.findModes(state);
+  if (found && system_.projectVelocities(state)) {  // removes the rest of the slip of sticking contacts
+    found = system_.findModes(state);
   }
-  if (smooth_ && stop()) {
-    smooth_ = system_.findModes(end_);
+  if (found && stopSlip(system_, state, tolerance_)) {
+    found = system_.findModes(state);
   }
-  system_.unpack(end_);
-  known_ = false;
-  listEventFunctions();
+  system_.unpack(state);
+  events_.list();
+  if (!found) {
+    beginTimeSteps(0);
+  }
 }
 
-bool Island::pushes() const {
-  return std::any_of(system_.modes().begin(), system_.modes().end(),
-                     [](Mode mode) { return mode != Mode::kOff; });
+void Island::beginTimeSteps(int count) {
+  step_.restart();
+  timeSteps_ = std::make_unique<IslandTimeSteps>(world_, bodies(), tolerance_, count);
 }
 
 bool Island::dropIdle(std::vector<ContactFeature>& features) const {
-  if (!smooth_ || timeStepsLeft_ > 0) {
+  if (!isSmooth()) {
     return false;
   }
   std::size_t c = 0;
@@ -113,217 +99,134 @@ bool Island::dropIdle(std::vector<ContactFeature>& features) const {
          }) > 0;
 }
 
-// Some contact force is tensile, and its friction would drive the slip: the modes found are inconsistent.
-bool Island::hasTension() const {
-  for (std::size_t w = 0; w < eventFunctions_.size(); ++w) {
-    if (eventFunctions_[w].kind == EventFunction::Kind::kPush &&
-        atStart_[w] < -kTension * system_.forces().scale()) {
-      return true;
-    }
+Island::Step Island::step(double most, double mostWork) {
+  if (timeSteps_ || !step_.begin()) {
+    return takeTimeStep(most, mostWork);
   }
-  return false;
+  events_.noteStart();
+  if (events_.hasTension() || !step_.take(most)) {
+    return takeTimeStep(most, mostWork);
+  }
+  const double tried = step_.length();
+  const auto endOf = [](bool located) { return located ? End::kChanges : End::kGoesOn; };
+  End end = endOf(locator_.locate());
+  for (int halvings = 0; halvings < kMostHalvings && !jumps(tried) && locator_.dips(); ++halvings) {
+    step_.retake(0.5 * step_.length());
+    end = endOf(locator_.locate());
+  }
+  if (!isCredible(tried, end)) {
+    return takeTimeStep(most, mostWork);
+  }
+  if (end == End::kGoesOn && (stopSlip(system_, step_.state(), tolerance_) || events_.areClear())) {
+    end = End::kChanges;
+  }
+  system_.unpack(step_.state());
+  if (end == End::kGoesOn && rests()) {
+    end = End::kChanges;
+  }
+  if (end == End::kChanges) {
+    step_.forgetForces();
+  }
+  for (const ContactState& state : system_.states()) {
+    deepest_ = std::max(deepest_, -state.gap);
+  }
+  return {.length = step_.length(), .end = end};
 }
 
-// All contacts are open for good: the bodies are in free flight.
-bool Island::isClear() const {
-  const std::vector<ContactFeature>& features = system_.features();
-  for (std::size_t c = 0; c < features.size(); ++c) {
-    if (system_.pushes(c) ||
-        system_.states()[c].gap < kTouching * touching(static_cast<std::size_t>(features[c].a))) {
-      return false;
-    }
+// Where forces grow fast the polynomials between both ends may leave the contacts that hold at them.
+bool Island::jumps(double tried) const {
+  const double length = step_.length();
+  const double shortest = step_.shortest();
+  return length < tried &&
+         (length < kNoTime * shortest || (length < shortest && step_.isMovedByCorrection()));
+}
+
+// If the event was located past a moment where forces cease to exist, the end state means nothing, or its
+// accelerations are so large that the polynomial between swings. If contacts contradict each other, what
+// parts some makes others deeper, at every moment anew.
+bool Island::isCredible(double tried, End end) {
+  const bool swings = step_.length() < tried && ((end == End::kChanges && step_.error() > kMostLocated) ||
+                                                 step_.errorBetween() > kMostLocated);
+  return !swings && !jumps(tried) && !step_.gainsEnergy();
+}
+
+Island::Step Island::takeTimeStep(double most, double mostWork) {
+  if (!timeSteps_) {
+    beginTimeSteps(0);
   }
-  return !features.empty();
+  const bool goesOn = timeSteps_->take(most, mostWork);
+  adopt();
+  return {.length = timeSteps_->stepper().length(), .end = goesOn ? End::kGoesOn : End::kChanges};
+}
+
+// Takes over the state at the end of a time step.
+void Island::adopt() {
+  const TimeStepper& stepper = timeSteps_->stepper();
+  deepest_ = std::max(deepest_, stepper.deepest());
+  SmoothStep::State& state = step_.state();
+  for (std::size_t i = 0; i < bodies().size(); ++i) {
+    if (bodies()[i].isHeld()) {
+      continue;
+    }
+    const GroupBody& body = stepper.state()[i];
+    const std::size_t at = system_.placeOf(i) * ContactSystem::kNumbers;
+    setThree(state, at, body.position);
+    setQuat(state, at + 3, body.worldFromBody);
+    setThree(state, at + 7, body.velocity);
+    setThree(
+        state, at + 10,
+        bodies()[i].body->mass.inverseInertiaTimes(body.worldFromBody.conjugate() * body.angularMomentum));
+  }
+  system_.unpack(state);
+}
+
+void Island::cutTo(double length) {
+  if (timeSteps_) {
+    timeSteps_->cutTo(length);
+    adopt();
+    return;
+  }
+  step_.retake(length);
+  step_.forgetForces();
+  system_.unpack(step_.state());
+}
+
+const std::vector<GroupImpact>& Island::impacts() const {
+  static const std::vector<GroupImpact> none;
+  return timeSteps_ ? timeSteps_->stepper().impacts() : none;
+}
+
+void Island::endTimeSteps() {
+  if (!timeSteps_) {
+    return;
+  }
+  system_ = ContactSystem(world_, system_.bodies(), timeSteps_->contacts());
+  std::fill(system_.modes().begin(), system_.modes().end(), Mode::kOn);
+  system_.projectPositions(step_.state(), ContactSystem::kMostMoved * tolerance_);
+  system_.look(step_.state());
+  system_.unpack(step_.state());
+}
+
+double Island::work() const {
+  if (timeSteps_) {
+    return timeSteps_->work();
+  }
+  return step_.goesOn() ? 0 : kWorkOfChange * static_cast<double>(bodies().size());
 }
 
 bool Island::mayLose() const {
   const std::vector<ContactFeature>& features = system_.features();
-  return tookTimeStep_ || world_.drag ||
+  return timeSteps_ || world_.drag ||
          std::any_of(world_.springs.begin(), world_.springs.end(),
                      [](const Spring& spring) { return spring.damping > 0; }) ||
          std::any_of(features.begin(), features.end(),
                      [](const ContactFeature& feature) { return feature.material.friction > 0; });
 }
 
-// [m/s²] The largest acceleration of a body by the forces of its contacts, all in one direction: their
-// rounding errors accelerate too.
-double Island::load() const {
-  std::vector<double> loads(bodies().size(), 0.0);
-  for (std::size_t c = 0; c < system_.features().size(); ++c) {
-    const ContactFeature& feature = system_.features()[c];
-    const auto add = [&](std::size_t body) {
-      loads[body] += system_.forces().forces()[c][0] * bodies()[body].body->mass.inverseMass;
-    };
-    add(static_cast<std::size_t>(feature.a));
-    if (!feature.b.isWall()) {
-      add(static_cast<std::size_t>(feature.b.body()));
-    }
-  }
-  return loads.empty() ? 0 : *std::max_element(loads.begin(), loads.end());
-}
-
-bool Island::rests() const {
-  if (!smooth_) {
-    return false;
-  }
-  const double still = std::max(kStill * system_.pull(), kStillLoaded * (load() - system_.pull()));  // [m/s²]
-  std::size_t m = 0;
-  for (const TouchingBody& body : bodies()) {
-    if (body.isHeld()) {
-      continue;
-    }
-    const double radius = radiusOf(*body.body);
-    const double* a = &system_.forces().accelerations()[m * ContactForces::kAxes];
-    const double linear = Vec3(a[0], a[1], a[2]).norm();
-    const double turning = Vec3(a[3], a[4], a[5]).norm() * radius;
-    const double speed = std::max(body.velocity.norm(), body.angularVelocityBody.norm() * radius);
-    if (speed > system_.restSpeed() || std::max(linear, turning) > still) {
-      return false;
-    }
-    ++m;
-  }
-  return true;
-}
-
-bool Island::allButStands(std::size_t contact) const {
-  const double speed = system_.states()[contact].slip.norm();
-  const double rate = system_.slipSpeedRate(contact);
-  return speed > 0 && rate < 0 && speed <= kStopped * tolerance_ * std::sqrt(-rate / system_.radius());
-}
-
-// Slip this slow is what time steps and impacts leave of sticking contacts: its direction means nothing, and
-// friction would end it at once.
-bool Island::creeps(std::size_t contact) const {
-  return system_.features()[contact].material.friction > 0 &&
-         system_.states()[contact].slip.norm() <=
-             kCreeps * tolerance_ * std::sqrt(system_.pull() / system_.radius());
-}
-
-// Stops slip that has nearly ended: integrated up to its end it would take ever shorter steps.
-bool Island::stop() {
-  const std::vector<Mode> kept = system_.modes();
-  bool stopped = false;
-  for (std::size_t c = 0; c < kept.size(); ++c) {
-    if (kept[c] == Mode::kSlip && allButStands(c)) {
-      system_.modes()[c] = Mode::kStick;
-      stopped = true;
-    }
-  }
-  if (stopped) {
-    system_.projectVelocities(end_);
-    system_.modes() = kept;
-  }
-  return stopped;
-}
-
-Island::Step Island::step(double most, double mostWork) {
-  mostWork_ = mostWork;
-  start_ = end_;
-  if (!smooth_ || timeStepsLeft_ > 0) {
-    return takeTimeStep(most);
-  }
-  tookTimeStep_ = false;
-  stepper_.reset();
-  if (pushes()) {
-    springs_.end();
-  } else {
-    springs_.begin(start_);
-  }
-  if (known_) {
-    startRate_ = endRate_;
-    startTurned_ = endTurned_;
-    system_.look(start_);
-  } else if (!system_.rate(start_, startRate_)) {
-    return takeTimeStep(most);
-  } else {
-    startTurned_ = system_.forces().isTurned();
-  }
-  noteStart();
-  if (hasTension()) {
-    return takeTimeStep(most);
-  }
-  away_ = awayFromEquilibrium();
-  double h = std::min(most, longestStep());
-  if (proposed_ > 0) {
-    h = std::min(h, proposed_);
-  }
-  double error = 0;
-  int attempts = 0;
-  // Undamped springs that nothing pushes against may be as stiff as they are: a time step would damp them.
-  const bool isSpring = !springs_.empty() && !pushes();
-  const double shortest = std::isfinite(timeScale_) && !isSpring ? kStiff * timeScale_ : 0;
-  for (;; ++attempts) {
-    if (attempts > kMostAttempts || (attempts > 0 && h < shortest)) {
-      end_ = start_;
-      return takeTimeStep(most);
-    }
-    const bool found = try5(h);
-    error = sizeOf(error_, h);
-    if (found && error <= 1) {
-      const double between = errorBetween(h);
-      if (between <= 1) {
-        break;
-      }
-      h *= std::max(0.2, 0.9 / std::sqrt(std::sqrt(between)));
-      continue;
-    }
-    h *= found && error < 1e10 ? std::max(0.2, 0.9 / std::sqrt(std::sqrt(error))) : 0.2;
-  }
-  proposed_ = h * (error > 1e-4 ? std::clamp(0.9 / std::sqrt(std::sqrt(error)), 0.2, 4.0) : 4.0);
-  finish(h);
-  Step done{.length = h};
-  locate(done);
-  // Where forces grow fast the polynomials between both ends may leave the contacts that hold at them.
-  const auto jumps = [&] {
-    return done.length < h &&
-           (done.length < kNoTime * shortest || (done.length < shortest && isMovedByCorrection(done.length)));
-  };
-  for (int halvings = 0; halvings < kMostHalvings && !jumps() && dips(done.length); ++halvings) {
-    done = {.length = 0.5 * done.length};
-    restep(done.length);
-    locate(done);
-  }
-  // If the event was located past a moment where forces cease to exist, the end state means nothing, or its
-  // accelerations are so large that the polynomial between swings. If contacts contradict each other, what
-  // parts some makes others deeper, at every moment anew.
-  const bool swings =
-      done.length < h && ((done.end == End::kChanges && sizeOf(error_, done.length) > kMostLocated) ||
-                          errorBetween(done.length) > kMostLocated);
-  if (swings || jumps() || gainsEnergy()) {
-    end_ = start_;
-    return takeTimeStep(most);
-  }
-  if (done.end == End::kGoesOn && (stop() || isClear())) {
-    done.end = End::kChanges;
-  }
-  length_ = done.length;
-  system_.unpack(end_);
-  if (done.end == End::kGoesOn && rests()) {
-    done.end = End::kChanges;
-  }
-  known_ = done.end == End::kGoesOn;
-  for (const ContactState& state : system_.states()) {
-    deepest_ = std::max(deepest_, -state.gap);
-  }
-  return done;
-}
-
-void Island::cutTo(double length) {
-  if (tookTimeStep_) {
-    stepper_->cutTo(length);
-    adopt();
-    return;
-  }
-  restep(length);
-  length_ = length;
-  known_ = false;
-  system_.unpack(end_);
-}
-
 ContactResiduals Island::takeResiduals() {
   ContactResiduals all = system_.takeResiduals();
-  if (stepper_) {
-    all.add(stepper_->takeResiduals());
+  if (timeSteps_) {
+    all.add(timeSteps_->takeResiduals());
   }
   return all;
 }

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "core/error.h"
-#include "core/math/falling_bracket.h"
-#include "physics/motion/hermite_step.h"
-
-// Step control. Contacts and impacts are in time_stepper_contacts.cpp, impulses without approach in
-// time_stepper_jolts.cpp.
+#include "physics/contact/impulses_without_approach.h"
 
 namespace careen {
 namespace {
@@ -32,41 +29,25 @@ constexpr double kFirst = 0x1p-8;
 constexpr int kStepAttempts = 60;
 constexpr int kStepRefinements = 50;
 constexpr int kMostUnsolved = 10;
-/// [1] of a step: roots are told apart.
-constexpr double kPolynomialRootWidth = 0x1p-50;
 
 }  // namespace
 
 TimeStepper::TimeStepper(const World& world, const std::vector<TouchingBody>& bodies, double tolerance)
-    : world_(world), bodies_(bodies), tolerance_(tolerance), equations_(world, bodies, tolerance) {
-  for (const TouchingBody& body : bodies) {
-    const BodyState state = body.state();
-    end_.push_back({.position = body.position,
-                    .worldFromBody = body.worldFromBody,
-                    .velocity = body.isHeld() ? Vec3(Vec3::Zero()) : state.velocity,
-                    .angularMomentum = body.isHeld() ? Vec3(Vec3::Zero()) : state.angularMomentum});
-  }
-  acceleration_ = equations_.freeAcceleration(end_);
-  findContacts(end_);
-}
-
-// [m/s] Of the bodies and their corners, at most.
-double TimeStepper::fastestOf(const GroupState& state) const {
-  double fastest = 0;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!bodies_[i].isHeld()) {
-      const Kinematics at = equations_.kinematics(i, state[i]);
-      fastest =
-          std::max(fastest, at.velocity.norm() + at.angularVelocity.norm() * radiusOf(*bodies_[i].body));
-    }
-  }
-  return fastest;
+    : bodies_(bodies),
+      tolerance_(tolerance),
+      equations_(world, bodies, tolerance),
+      found_(equations_.group(), closed()),
+      events_(equations_.group(), closed()),
+      impacts_(equations_),
+      end_(equations_.group().state()),
+      acceleration_(equations_.loads().acceleration(end_)) {
+  found_.find(end_, equations_.residual());
 }
 
 // [s] Time in which nothing moves by more than what counts as closed.
 double TimeStepper::shortestStep() {
-  const double fastest = fastestOf(start_);
-  const double acceleration = std::max(acceleration_, equations_.freeAcceleration(start_));
+  const double fastest = equations_.group().fastest(step_.start);
+  const double acceleration = std::max(acceleration_, equations_.loads().acceleration(step_.start));
   double shortest = kForever;
   if (fastest > 0) {
     shortest = 0.25 * closed() / fastest;
@@ -84,7 +65,7 @@ double TimeStepper::longestStep() const {
     if (bodies_[i].isHeld()) {
       continue;
     }
-    const Kinematics at = equations_.kinematics(i, start_[i]);
+    const Kinematics at = equations_.group().kinematics(i, step_.start[i]);
     const double turning = at.angularVelocity.norm();
     const double radius = radiusOf(*bodies_[i].body);
     const double speed = at.velocity.norm() + turning * radius;
@@ -120,24 +101,20 @@ double TimeStepper::errorOf(const GroupState& coarse, const GroupState& fine, do
   return worst / (3 * kStepShare * tolerance_);
 }
 
+void TimeStepper::choose(double h) { law_ = found_.obeying(h, law_.empty() ? known_ : law_); }
+
 // The step's end by one step of that length, with the contacts chosen for it.
 bool TimeStepper::tryStep(double h, ImplicitStep::Order order) {
-  return equations_.advance(start_, h, law_, coarse_, order);
+  return equations_.advance(step_.start, h, law_, coarse_, order);
 }
 
 // Shortens the step to the moment where the first event function falls through zero, or a little before:
 // found on the polynomials of the longer step, then tried. Returns false if the impulses were not found.
-bool TimeStepper::locate(double& h) {
+bool TimeStepper::endAtEvent(double& h) {
   for (int k = 0; k < kStepRefinements; ++k) {
-    length_ = h;
-    end_ = coarse_;
-    setMotions(end_);
-    double first = h;
-    for (const Watch& watch : watches_) {
-      if (const double atEnd = value(watch, end_); atEnd < -0.5 * closed()) {
-        first = std::min(first, rootOf(watch, h, atEnd));
-      }
-    }
+    step_.length = h;
+    step_.end = coarse_;
+    const double first = events_.firstRoot({equations_.group(), step_});
     if (first == h) {
       return true;
     }
@@ -149,49 +126,34 @@ bool TimeStepper::locate(double& h) {
   return true;
 }
 
-// Time at which an event function falls to about zero, on the polynomials of the step.
-double TimeStepper::rootOf(const Watch& watch, double h, double atEnd) {
-  const double aim = 0.0625 * closed();
-  FallingBracket bracket{.high = h, .valueLow = watch.start.value - aim, .valueHigh = atEnd - aim};
-  for (int k = 0; k < kStepRefinements; ++k) {
-    const double middle = bracket.next(kPolynomialRootWidth * h);
-    const double now = valueWithin(watch, middle) - aim;
-    if (std::fabs(now) <= aim) {
-      return middle;
-    }
-    bracket.add(middle, now);
-  }
-  return bracket.low;
-}
-
 // The step's end by two steps of half the length.
 bool TimeStepper::tryHalves(double h) {
   choose(0.5 * h);
-  if (!equations_.advance(start_, 0.5 * h, law_, middle_)) {
+  if (!equations_.advance(step_.start, 0.5 * h, law_, step_.middle)) {
     return false;
   }
-  lookAgain(middle_);
+  found_.follow(step_.middle);
   choose(0.5 * h);
-  const bool solved = equations_.advance(middle_, 0.5 * h, law_, end_);
-  lookAgain(start_);
+  const bool solved = equations_.advance(step_.middle, 0.5 * h, law_, step_.end);
+  found_.follow(step_.start);
   return solved;
 }
 
 // One attempt at a step; `h` becomes shorter where an event ends it, or for the next attempt.
 TimeStepper::Attempt TimeStepper::attempt(double& h, double shortest) {
-  halved_ = false;
+  step_.middle.clear();
   choose(h);
   if (h <= shortest) {
     if (!tryStep(h)) {
       return Attempt::kUnsolved;
     }
-    end_ = coarse_;
+    step_.end = coarse_;
     proposed_ = 4 * h;
     return Attempt::kDone;
   }
-  listWatches(h);
+  events_.list(found_, step_.start, h, acceleration_);
   const double whole = h;
-  if (!tryStep(h) || !locate(h)) {
+  if (!tryStep(h) || !endAtEvent(h)) {
     return Attempt::kUnsolved;
   }
   if (h < shortest) {
@@ -201,15 +163,14 @@ TimeStepper::Attempt TimeStepper::attempt(double& h, double shortest) {
   if (!tryHalves(h)) {
     return Attempt::kUnsolved;
   }
-  const double error = errorOf(coarse_, end_, h);
+  const double error = errorOf(coarse_, step_.end, h);
   const double factor = error > 1e-3 ? std::clamp(0.9 / std::sqrt(std::sqrt(error)), 0.2, 2.0) : 2.0;
   if (error > 1) {
     h = std::max(shortest, std::min(factor, 0.9) * h);
     return Attempt::kShorter;
   }
-  length_ = h;
-  halved_ = true;
-  if (const double dip = firstDip(); dip > 0) {
+  step_.length = h;
+  if (const double dip = events_.firstDip({equations_.group(), step_}); dip > 0) {
     h = std::max(shortest, dip);
     return Attempt::kShorter;
   }
@@ -219,10 +180,9 @@ TimeStepper::Attempt TimeStepper::attempt(double& h, double shortest) {
 
 double TimeStepper::step(double most, double mostWork) {
   equations_.limitWork(mostWork);
-  start_ = end_;
-  jolted_ = false;
+  step_.start = end_;
   impacts_.clear();
-  collide();
+  impacts_.resolve(step_.start, found_, acceleration_);
   const double shortest = std::min(shortestStep(), most);
   double h = std::min(longestStep(), most);
   int unsolved = 0;
@@ -236,7 +196,8 @@ double TimeStepper::step(double most, double mostWork) {
       h *= 0.5;
       if (++unsolved > kMostUnsolved) {
         if (tryStep(h, ImplicitStep::Order::kFirst)) {
-          end_ = coarse_;
+          step_.end = coarse_;
+          step_.middle.clear();
           break;
         }
         throw NumericalError("no impulses of " + std::to_string(law_.size()) + " contacts of box " +
@@ -245,140 +206,108 @@ double TimeStepper::step(double most, double mostWork) {
       }
     }
   }
-  equations_.limitWork(std::numeric_limits<double>::infinity());
-  shortenJolt(h);
-  length_ = h;
-  keepImpacts();
+  equations_.limitWork(kForever);
+  step_.length = h;
+  acceleration_ = accelerationInStep();
+  actAtOnce();
+  impacts_.keepLarger(2 * equations_.loads().pull(step_.start) * step_.length);
   known_ = law_;
   correct();
-  return length_;
+  return step_.length;
+}
+
+// Impulses without approach: the step becomes the moment in which they act.
+void TimeStepper::actAtOnce() {
+  std::optional<JammedMoment> moment =
+      jammedMomentOf(step_, found_, law_.empty() ? known_ : law_, equations_);
+  if (!moment) {
+    return;
+  }
+  impacts_.addWithoutApproach(found_, moment->law, moment->step.length, moment->change);
+  for (ClosedContact& contact : moment->law) {  // what the next step starts from
+    contact.push *= moment->part;
+    contact.friction *= moment->part;
+  }
+  law_ = std::move(moment->law);
+  step_ = std::move(moment->step);
+  acceleration_ = 0;
+}
+
+double TimeStepper::accelerationInStep() const {
+  double largest = 0;
+  for (std::size_t i = 0; step_.length > 0 && i < bodies_.size(); ++i) {
+    largest = std::max(largest, (step_.end[i].velocity - step_.start[i].velocity).norm() / step_.length);
+  }
+  return largest;
 }
 
 // Places at the end of a step: contacts found anew, and moved apart where drift has made them deep.
 void TimeStepper::correct() {
-  reached_ = end_;
-  acceleration_ = 0;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (length_ > 0 && !jolted_) {
-      acceleration_ = std::max(acceleration_, (end_[i].velocity - start_[i].velocity).norm() / length_);
-    }
-  }
-  findContacts(end_);
-  std::vector<ContactFeature> features;
-  double deep = 0;
-  for (const Found& found : found_) {
-    features.push_back(found.feature);
-    deep = std::max(deep, -found.gap);
-  }
+  end_ = step_.end;
+  found_.find(end_, equations_.residual());
+  const double deep = found_.deepest();
   deepest_ = std::max(deepest_, deep);
-  if (equations_.separate(end_, features, 0.125 * closed())) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if (wayOf(i, reached_[i], end_[i]) > ContactSystem::kMostShift * deep) {
-        end_ = reached_;  // out of a narrow wedge: better deep than aside
-        break;
-      }
-    }
-    lookAgain(end_);
-    // A heavy body, or one that turns, may have to be moved farther; then a speed is the lesser evil.
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if (wayOf(i, reached_[i], end_[i]) > kMostApart * tolerance_) {
-        reached_ = end_;
-        halved_ = false;
-      }
-    }
+  if (!equations_.separate(end_, found_.features(), 0.125 * closed())) {
+    return;
   }
+  const double moved = wayApart();
+  if (moved > ContactSystem::kMostShift * deep) {
+    end_ = step_.end;  // out of a narrow wedge: better deep than aside
+  } else if (moved > kMostApart * tolerance_) {
+    step_.end = end_;  // a heavy body, or one that turns: a speed is the lesser evil
+    step_.middle.clear();
+  }
+  found_.follow(end_);
 }
 
-// [m] The farthest that a point of a body is moved: one of its corners.
-double TimeStepper::wayOf(std::size_t body, const GroupBody& from, const GroupBody& to) const {
-  const Mat3 turned = to.worldFromBody.toRotationMatrix() - from.worldFromBody.toRotationMatrix();
+// [m] The farthest that a body's corner was moved after the step.
+double TimeStepper::wayApart() const {
   double most = 0;
-  for (int k = 0; k < kCorners; ++k) {
-    most = std::max(most, (to.position - from.position + turned * corner(*bodies_[body].body, k)).norm());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const GroupBody& from = step_.end[i];
+    const Mat3 turned = end_[i].worldFromBody.toRotationMatrix() - from.worldFromBody.toRotationMatrix();
+    for (int k = 0; k < kCorners; ++k) {
+      most = std::max(most, (end_[i].position - from.position + turned * corner(*bodies_[i].body, k)).norm());
+    }
   }
   return most;
 }
 
 void TimeStepper::cutTo(double length) {
-  if (length < length_) {
-    setMotions(reached_);
+  if (length < step_.length) {
+    const GroupPath path(equations_.group(), step_);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      end_[i] = bodyWithin(i, length);
+      end_[i] = path.at(i, length);
     }
-    std::vector<ContactFeature> pushing;
-    for (const ClosedContact& contact : known_) {
-      if (contact.push > 0) {
-        pushing.push_back(contact.feature);
-      }
-    }
-    equations_.keepMomenta(start_, length, pushing, end_);
-    length_ = length;
-    reached_ = end_;
-    halved_ = false;
-    findContacts(end_);
+    equations_.group().keepMomenta(step_.start, length, pushing(known_), end_);
+    step_.length = length;
+    step_.end = end_;
+    step_.middle.clear();
+    found_.find(end_, equations_.residual());
   }
-}
-
-std::vector<ContactFeature> TimeStepper::touching() const {
-  std::vector<ContactFeature> touching;
-  for (const Found& found : found_) {
-    touching.push_back(found.feature);
-  }
-  return touching;
 }
 
 std::vector<ContactFeature> TimeStepper::pressed() const {
-  std::vector<ContactFeature> pressed;
-  for (const ClosedContact& contact : known_) {
-    const ContactState at = equations_.contactAt(contact.feature, end_);
-    if (contact.push > 0 && std::fabs(at.gap) <= closed() && at.beyond <= 0) {
-      pressed.push_back(contact.feature);
-    }
-  }
+  std::vector<ContactFeature> pressed = pushing(known_);
+  std::erase_if(pressed, [&](const ContactFeature& feature) {
+    const ContactState at = equations_.group().contactAt(feature, end_);
+    return !(std::fabs(at.gap) <= closed() && at.beyond <= 0);
+  });
   return pressed;
 }
 
 bool TimeStepper::isQuiet() {
-  const double pull = equations_.pull(end_);
+  const double pull = equations_.loads().pull(end_);
   double fastest = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Kinematics at = equations_.kinematics(i, end_[i]);
+    const Kinematics at = equations_.group().kinematics(i, end_[i]);
     fastest = std::max({fastest, at.velocity.norm(), at.angularVelocity.norm() * radiusOf(*bodies_[i].body)});
   }
   return fastest * fastest <= 0x1p-6 * pull * closed();
 }
 
-ContactStep TimeStepper::motion(std::size_t body, const GroupState& reached) const {
-  const auto end = [&](const GroupState& at) {
-    const MassProperties& mass = bodies_[body].body->mass;
-    const Vec3 spin = mass.inverseInertiaTimes(at[body].worldFromBody.conjugate() * at[body].angularMomentum);
-    return StepEnd{.position = at[body].position,
-                   .velocity = at[body].velocity,
-                   .worldFromBody = at[body].worldFromBody,
-                   .spinBody = spin};
-  };
-  StepEnd from = end(start_);
-  StepEnd to = end(reached);
-  if (dot(to.worldFromBody.coeffs(), from.worldFromBody.coeffs()) < 0) {
-    to.worldFromBody.coeffs() = -to.worldFromBody.coeffs();
-  }
-  if (length_ > 0) {
-    const double half = 0.5 * length_;
-    StepEnd middle = halved_ ? end(middle_) : from;
-    if (!halved_) {
-      middle.velocity = 0.5 * (from.velocity + to.velocity);
-      middle.spinBody = 0.5 * (from.spinBody + to.spinBody);
-    }
-    from.acceleration = (middle.velocity - from.velocity) / half;
-    to.acceleration = (to.velocity - middle.velocity) / half;
-    from.spinRateBody = (middle.spinBody - from.spinBody) / half;
-    to.spinRateBody = (to.spinBody - middle.spinBody) / half;
-  }
-  return hermiteStep(from, to, length_);
-}
-
 ContactResiduals TimeStepper::takeResiduals() {
-  ContactResiduals all = std::exchange(residuals_, {});
+  ContactResiduals all = impacts_.takeResiduals();
   all.add(equations_.takeResiduals());
   return all;
 }

@@ -98,7 +98,7 @@ void alignPlaces(const Bodies& bodies, const Event& event, Encounter& encounter)
     ContactSystem system(bodies.world(), std::move(touching), features);
     std::fill(system.modes().begin(), system.modes().end(), ContactForces::Mode::kOn);
     std::vector<double> y = system.pack();
-    if (const double way = system.projectPositions(y, mayMove, true); way > 0) {
+    if (const double way = system.projectPositions(y, mayMove, ContactSystem::Turns::kAttitude); way > 0) {
       mayMove -= way;
       system.unpack(y);
       for (std::size_t i = 0; i < encounter.bodies.size(); ++i) {

@@ -9,39 +9,12 @@
 
 #include "core/error.h"
 #include "physics/geometry/separation.h"
-#include "support/exact_runs.h"
+#include "support/touching_bodies.h"
 
 namespace careen {
 namespace {
 
 constexpr double kTolerance = 1e-6;
-
-std::vector<TouchingBody> touching(const World& world) {
-  std::vector<TouchingBody> bodies;
-  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-    const Body& body = world.bodies[i];
-    bodies.push_back({.body = &body,
-                      .index = static_cast<int>(i),
-                      .position = body.initial.pose.position,
-                      .worldFromBody = Quat(body.initial.pose.worldFromBody),
-                      .velocity = body.initial.velocity});
-    if (!bodies.back().isHeld()) {
-      bodies.back().angularVelocityBody = body.mass.inverseInertiaBody.cwiseProduct(
-          body.initial.pose.worldFromBody.transpose() * body.initial.angularMomentum);
-    }
-  }
-  return bodies;
-}
-
-World floorWith(double friction, double restitution) {
-  World world;
-  world.gravity = Vec3(0, 0, -10);
-  world.walls.push_back({.name = "floor",
-                         .normal = Vec3::UnitZ(),
-                         .offset = 0,
-                         .material = {.restitution = restitution, .friction = friction}});
-  return world;
-}
 
 TEST(TimeStepper, givesUpAStepThatCostsMoreThanItMay) {
   World world = floorWith(0.5, 0);

@@ -22,7 +22,9 @@ TEST(CrowdMotion, crateThatNothingTouchesFollowsItsParabola) {
   CrowdStages stages(world);
   stages.take(test::kCrowdStep);
   const PileBody& body = stages.members[0];
-  EXPECT_LT((body.position - (Vec3(0, 0, 5) + test::kCrowdStep * velocity + 0.5 * test::kCrowdStep * test::kCrowdStep * world.gravity)).norm(),
+  EXPECT_LT((body.position - (Vec3(0, 0, 5) + test::kCrowdStep * velocity +
+                              0.5 * test::kCrowdStep * test::kCrowdStep * world.gravity))
+                .norm(),
             1e-15);
   EXPECT_LT((body.velocity - (velocity + test::kCrowdStep * world.gravity)).norm(), 1e-15);
   EXPECT_EQ(body.behind, 0);

@@ -146,7 +146,8 @@ TEST(PileProjection, holdsThoseThatHaveNoPlace) {
   std::iota(near.begin(), near.end(), 0);
   PileProjection projection(kTolerated, std::make_shared<Team>(1));
   projection.begin(
-      bodies, manifolds, near, [&](PileManifold& manifold, PileProjection::Look) { refreshInRow(bodies, manifold); },
+      bodies, manifolds, near,
+      [&](PileManifold& manifold, PileProjection::Look) { refreshInRow(bodies, manifold); },
       [&](PileManifold& manifold) { refreshInRow(before, manifold); });
   projection.lookAtAll();
   EXPECT_NEAR(projection.deepest(), 1.2e-3, 1e-12);

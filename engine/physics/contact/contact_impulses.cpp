@@ -1,0 +1,141 @@
+#include "physics/contact/contact_impulses.h"
+
+#include <array>
+#include <string>
+
+#include "core/error.h"
+#include "core/math/order_free_sum.h"
+#include "physics/contact/three_at.h"
+#include "physics/geometry/contact_frame.h"
+#include "physics/solver/contact_rows.h"
+
+namespace careen {
+
+void ContactImpulses::begin(std::span<const ContactFeature> contacts, const GroupState& turned) {
+  places_.assign(group_.size(), ContactProblem::kNobody);
+  movers_.clear();
+  problem_.inverseMass.clear();
+  problem_.contacts.clear();
+  solution_.impulses.clear();
+  std::vector<char> touched(group_.size(), 0);
+  for (const ContactFeature& feature : contacts) {
+    touched[static_cast<std::size_t>(feature.a)] = 1;
+    if (!feature.b.isWall()) {
+      touched[static_cast<std::size_t>(feature.b.body())] = 1;
+    }
+  }
+  for (std::size_t i = 0; i < group_.size(); ++i) {
+    if (touched[i] != 0 && !group_.isHeld(i)) {
+      places_[i] = static_cast<int>(movers_.size());
+      movers_.push_back(i);
+      const MassProperties& mass = group_.body(i).mass;
+      turned_[i] = mass.worldFromPrincipal(turned[i].worldFromBody.toRotationMatrix());
+      problem_.inverseMass.insert(problem_.inverseMass.end(), 3, mass.inverseMass);
+      for (int k = 0; k < 3; ++k) {
+        problem_.inverseMass.push_back(mass.inverseInertiaBody[k]);
+      }
+    }
+  }
+  problem_.free.assign(problem_.inverseMass.size(), 0.0);
+}
+
+void ContactImpulses::setFree(const GroupState& from, const GroupLoads& loads, double h) {
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    const std::size_t i = movers_[m];
+    const MassProperties& mass = group_.body(i).mass;
+    setThree(problem_.free, m * kSix, from[i].velocity + (h * mass.inverseMass) * loads[i].force);
+    const Vec3 angular = from[i].angularMomentum + h * loads[i].torque;
+    setThree(problem_.free, m * kSix + 3,
+             mass.inverseInertiaBody.cwiseProduct(turned_[i].transpose() * angular));
+  }
+}
+
+ContactProblem::Contact& ContactImpulses::add(const ContactFeature& feature, const ContactState& geometry) {
+  ContactProblem::Contact contact;
+  const ContactFrame frame = frameOf(geometry.normal);
+  const auto addSide = [&](std::size_t body, std::size_t side, const Vec3& arm, double sign) {
+    if (places_[body] != ContactProblem::kNobody) {
+      setSide(contact, side, pointSide(frame.axes(), arm, sign), turned_[body]);
+    }
+    return places_[body];
+  };
+  contact.a = addSide(static_cast<std::size_t>(feature.a), 0, geometry.armA, 1);
+  if (!feature.b.isWall()) {
+    contact.b = addSide(static_cast<std::size_t>(feature.b.body()), 1, geometry.armB, -1);
+  }
+  contact.friction = feature.material.friction;
+  for (const Vec3& direction : geometry.directions) {
+    contact.directions.push_back(frame.along(direction));
+  }
+  problem_.contacts.push_back(contact);
+  return problem_.contacts.back();
+}
+
+void ContactImpulses::aimAtEnd(std::size_t index, const ContactFeature& feature, const ContactState& geometry,
+                               const ContactState& end, const GroupState& to) {
+  ContactProblem::Contact& contact = problem_.contacts[index];
+  const ContactFrame frame = frameOf(geometry.normal);
+  const std::array<double, 3> actual{end.rate, dot(end.slip, frame.tangent1), dot(end.slip, frame.tangent2)};
+  for (std::size_t row = 0; row < 3; ++row) {
+    double speed = 0;
+    const std::array<int, 2> sides{contact.a, contact.b};
+    const std::array<int, 2> bodies{feature.a, feature.b.isWall() ? 0 : feature.b.body()};
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (sides[side] == ContactProblem::kNobody) {
+        continue;
+      }
+      const auto i = static_cast<std::size_t>(bodies[side]);
+      const Vec3 spin =
+          group_.body(i).mass.inverseInertiaBody.cwiseProduct(turned_[i].transpose() * to[i].angularMomentum);
+      speed += dot(threeAt(contact.rows[row], side * kSix), to[i].velocity) +
+               dot(threeAt(contact.rows[row], side * kSix + 3), spin);
+    }
+    contact.target[row] = speed - actual[row];
+  }
+}
+
+bool ContactImpulses::solve(double enough) {
+  solution_.enough = enough;
+  const bool solved = solver_.solve(problem_, solution_);
+  work_ += solution_.factorisations * static_cast<double>(movers_.size() + problem_.contacts.size());
+  if (work_ > mostWork_) {
+    throw NumericalError("a step of " + std::to_string(movers_.size()) + " bodies in contact costs too much");
+  }
+  return solved;
+}
+
+Vec3 ContactImpulses::velocity(std::size_t mover) const {
+  return threeAt(solution_.velocities, mover * kSix);
+}
+
+Vec3 ContactImpulses::spinBody(std::size_t mover) const {
+  return group_.body(movers_[mover]).mass.fromPrincipal(threeAt(solution_.velocities, mover * kSix + 3));
+}
+
+// Sums over contacts do not depend on their order, which names and mirroring change.
+void ContactImpulses::sum(std::span<const ContactFeature> contacts, std::span<const ContactState> geometry,
+                          std::span<const Triple> impulses, std::vector<BodyImpulse>& sums) {
+  parts_.resize(group_.size());
+  for (auto& parts : parts_) {
+    parts.clear();
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Vec3 push = frameOf(geometry[c].normal).inWorld(impulses[c]);
+    const auto add = [&](int body, const Vec3& arm, double sign) {
+      const Vec3 twist = sign * arm.cross(push);
+      parts_[static_cast<std::size_t>(body)].push_back(
+          {sign * push[0], sign * push[1], sign * push[2], twist[0], twist[1], twist[2]});
+    };
+    add(contacts[c].a, geometry[c].armA, 1);
+    if (!contacts[c].b.isWall()) {
+      add(contacts[c].b.body(), geometry[c].armB, -1);
+    }
+  }
+  sums.resize(group_.size());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const std::array<double, kSix> all = orderFreeSums<kSix>(parts_[i]);
+    sums[i] = {.push = {all[0], all[1], all[2]}, .twist = {all[3], all[4], all[5]}};
+  }
+}
+
+}  // namespace careen

@@ -1,0 +1,192 @@
+#include "physics/contact/event_functions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/geometry/separation.h"
+
+namespace careen {
+namespace {
+
+using Mode = ContactForces::Mode;
+
+/// How far below zero an event is located: [1] of what counts as touching, for gaps; of the accelerations,
+/// for forces.
+constexpr double kRootGap = 0x1p-10;
+constexpr double kRootForce = 0x1p-44;
+/// [1] of the current accelerations: a contact with no more tension than this is about to open.
+constexpr double kTension = 0x1p-20;
+
+}  // namespace
+
+void EventFunctions::list() {
+  functions_.clear();
+  listContacts();
+  listCorners();
+}
+
+void EventFunctions::listContacts() {
+  using Kind = EventFunction::Kind;
+  const std::vector<ContactFeature>& features = system_.features();
+  const auto isOnWall = [&](std::size_t c) { return features[c].kind == ContactFeature::Kind::kPointOnWall; };
+  for (std::size_t c = 0; c < features.size(); ++c) {
+    if (!system_.pushes(c)) {
+      functions_.push_back({.kind = Kind::kGap, .contact = c});
+      continue;
+    }
+    functions_.push_back({.kind = Kind::kPush, .contact = c});
+    if (system_.modes()[c] == Mode::kStick) {
+      functions_.push_back({.kind = Kind::kStick, .contact = c});
+    }
+    if (!isOnWall(c)) {
+      functions_.push_back({.kind = Kind::kWithin, .contact = c});
+    }
+  }
+  for (std::size_t c = 0; c < features.size(); ++c) {
+    const bool first = std::none_of(features.begin(), features.begin() + static_cast<std::ptrdiff_t>(c),
+                                    [&](const ContactFeature& other) {
+                                      return (other.a == features[c].a && other.b == features[c].b) ||
+                                             (features[c].b.isBody(other.a) && other.b.isBody(features[c].a));
+                                    });
+    if (!isOnWall(c) && first) {
+      functions_.push_back({.kind = Kind::kOverlap, .contact = c});
+    }
+  }
+}
+
+void EventFunctions::listCorners() {
+  for (std::size_t i = 0; i < system_.bodies().size(); ++i) {
+    const TouchingBody& body = system_.bodies()[i];
+    for (std::size_t w = 0; w < (body.isHeld() ? 0 : world_.walls.size()); ++w) {
+      for (int k = 0; k < kCorners; ++k) {
+        if (!hasCorner(system_.features(), static_cast<int>(i), Partner::ofWall(w), corner(*body.body, k))) {
+          functions_.push_back(
+              {.kind = EventFunction::Kind::kCorner, .contact = i, .wall = static_cast<int>(w), .corner = k});
+        }
+      }
+    }
+  }
+}
+
+void EventFunctions::noteStart() {
+  for (EventFunction& event : functions_) {
+    event.margin = 0;
+    const double bare = valueOf(event);
+    if (event.isOfPlaces()) {
+      event.margin = marginOf(event, bare);
+    }
+    event.start = bare + event.margin;
+    event.rate = event.kind == EventFunction::Kind::kCorner ? rateOf(event) : 0;
+  }
+}
+
+// [m] Penetration that is ignored, given the gap at the start of the step.
+double EventFunctions::marginOf(const EventFunction& event, double gap) const {
+  if (event.kind == EventFunction::Kind::kCorner) {
+    // A corner that touches but is no contact is separating: rounding error must not count as an impact.
+    const double within = system_.touching(event.contact);
+    return gap > within ? 0 : kTouching * within;
+  }
+  return kTouching *
+         std::max(system_.touching(firstBody(event.contact)), system_.touching(secondBody(event.contact)));
+}
+
+double EventFunctions::valueOf(const EventFunction& event) const {
+  const std::size_t c = event.contact;
+  const ContactForces& forces = system_.forces();
+  switch (event.kind) {
+    case EventFunction::Kind::kPush:
+      return forces.forces()[c][0] / forces.normalMass(c);
+    case EventFunction::Kind::kStick: {
+      const ContactForces::Force& force = forces.forces()[c];
+      return (system_.features()[c].material.friction * force[0] -
+              std::sqrt(force[1] * force[1] + force[2] * force[2])) /
+             forces.normalMass(c);
+    }
+    case EventFunction::Kind::kGap:
+      return system_.states()[c].gap + kTouching * system_.touching(firstBody(c));
+    case EventFunction::Kind::kWithin:
+      return kTouching * system_.touching(firstBody(c)) - system_.states()[c].beyond;
+    case EventFunction::Kind::kOverlap: {
+      const std::size_t a = firstBody(c);
+      const std::size_t b = secondBody(c);
+      return BoxAxes(boxAt(system_.kinematics(a).pose, *system_.bodies()[a].body),
+                     boxAt(system_.kinematics(b).pose, *system_.bodies()[b].body))
+                 .gap() +
+             event.margin;
+    }
+    case EventFunction::Kind::kCorner: {
+      const Wall& wall = world_.walls[static_cast<std::size_t>(event.wall)];
+      return cornerGap(system_.kinematics(c).pose, corner(*system_.bodies()[c].body, event.corner),
+                       wall.normal, wall.offset) +
+             event.margin;
+    }
+  }
+  return 0;
+}
+
+double EventFunctions::lowest(std::span<const std::size_t> events) const {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const std::size_t event : events) {
+    lowest = std::min(lowest, value(event));
+  }
+  return lowest;
+}
+
+double EventFunctions::depth(std::span<const std::size_t> events) const {
+  double within = 0;
+  for (const std::size_t w : events) {
+    const EventFunction& event = functions_[w];
+    if (event.isOfForces()) {
+      return kRootForce * system_.forces().scale();
+    }
+    within = std::max(
+        within, system_.touching(event.kind == EventFunction::Kind::kCorner ? event.contact
+                                                                            : firstBody(event.contact)));
+  }
+  return kRootGap * within;
+}
+
+double EventFunctions::rateOf(const EventFunction& corner) const {
+  const Kinematics& at = system_.kinematics(corner.contact);
+  const Vec3 arm =
+      at.pose.worldFromBody * careen::corner(*system_.bodies()[corner.contact].body, corner.corner);
+  return dot(world_.walls[static_cast<std::size_t>(corner.wall)].normal,
+             at.velocity + at.angularVelocity.cross(arm));
+}
+
+bool EventFunctions::hasTension() const {
+  const double least = -kTension * system_.forces().scale();
+  return std::any_of(functions_.begin(), functions_.end(), [&](const EventFunction& event) {
+    return event.kind == EventFunction::Kind::kPush && event.start < least;
+  });
+}
+
+bool EventFunctions::coverPair(std::size_t a, std::size_t b) const {
+  const std::vector<ContactFeature>& features = system_.features();
+  const auto isBetween = [&](std::size_t c) {
+    return (firstBody(c) == a && secondBody(c) == b) || (firstBody(c) == b && secondBody(c) == a);
+  };
+  for (std::size_t c = 0; c < features.size(); ++c) {
+    if (!features[c].b.isWall() && isBetween(c) && system_.pushes(c)) {
+      return true;
+    }
+  }
+  const double within = kTouching * std::max(system_.touching(a), system_.touching(b));
+  return std::any_of(functions_.begin(), functions_.end(), [&](const EventFunction& event) {
+    return event.kind == EventFunction::Kind::kOverlap && isBetween(event.contact) &&
+           event.start - event.margin <= within;
+  });
+}
+
+bool EventFunctions::areClear() const {
+  for (std::size_t c = 0; c < system_.features().size(); ++c) {
+    if (system_.pushes(c) || system_.states()[c].gap < kTouching * system_.touching(firstBody(c))) {
+      return false;
+    }
+  }
+  return !system_.features().empty();
+}
+
+}  // namespace careen

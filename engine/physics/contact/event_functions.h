@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "physics/contact/contact_system.h"
+#include "physics/world/world.h"
+
+namespace careen {
+
+/// A function of the state of a smooth motion: positive until its event happens.
+struct EventFunction {
+  enum class Kind {
+    kPush,     ///< a contact force reaches zero
+    kStick,    ///< slip begins
+    kGap,      ///< a contact without force closes
+    kWithin,   ///< a contact leaves its face
+    kOverlap,  ///< the gap of two boxes closes
+    kCorner,   ///< a corner that is no contact meets a wall
+  };
+  Kind kind{};
+  std::size_t contact = 0;  ///< or the body of a corner
+  int wall = 0;
+  int corner = 0;
+  double margin = 0;  ///< [m]
+  double start = 0;   ///< its value at the start of the step
+  double rate = 0;    ///< [m/s] of a corner, then
+
+  bool isOfPlaces() const { return kind == Kind::kOverlap || kind == Kind::kCorner; }
+  bool isOfForces() const { return kind == Kind::kPush || kind == Kind::kStick; }
+};
+
+/// The event functions of a contact system, as of the state at which it was last looked at. Both must outlive
+/// it.
+class EventFunctions {
+ public:
+  /// Gaps within this many touching tolerances are checked for penetration, the others for closing.
+  static constexpr double kTouching = 8;
+
+  EventFunctions(const World& world, const ContactSystem& system) : world_(world), system_(system) {}
+
+  /// Those of the system's contacts, in their modes.
+  void list();
+  /// A step starts.
+  void noteStart();
+  const std::vector<EventFunction>& all() const { return functions_; }
+  const EventFunction& operator[](std::size_t event) const { return functions_[event]; }
+
+  double value(std::size_t event) const { return valueOf(functions_[event]); }
+  /// The lowest of several.
+  double lowest(std::span<const std::size_t> events) const;
+  /// How far below zero events of one kind are located, at most four times that: a part of what the contacts
+  /// count as zero anyway, above rounding errors.
+  double depth(std::span<const std::size_t> events) const;
+  /// [m/s] Of a corner's gap.
+  double rateOf(const EventFunction& corner) const;
+  /// At the start of the step some contact force is tensile, and its friction would drive the slip: the modes
+  /// found are inconsistent.
+  bool hasTension() const;
+  /// Whether they cover two bodies, because those were in contact at the start of the step.
+  bool coverPair(std::size_t a, std::size_t b) const;
+  /// Whether all contacts are open for good: the bodies are in free flight.
+  bool areClear() const;
+
+ private:
+  void listContacts();
+  void listCorners();
+  double valueOf(const EventFunction& event) const;
+  double marginOf(const EventFunction& event, double gap) const;
+  std::size_t firstBody(std::size_t contact) const {
+    return static_cast<std::size_t>(system_.features()[contact].a);
+  }
+  std::size_t secondBody(std::size_t contact) const {
+    return static_cast<std::size_t>(system_.features()[contact].b.body());
+  }
+
+  const World& world_;
+  const ContactSystem& system_;
+  std::vector<EventFunction> functions_;
+};
+
+}  // namespace careen

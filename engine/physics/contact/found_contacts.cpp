@@ -1,0 +1,129 @@
+#include "physics/contact/found_contacts.h"
+
+#include <algorithm>
+
+#include "physics/geometry/chosen_contact.h"
+#include "physics/geometry/separation.h"
+
+namespace careen {
+namespace {
+
+/// [1] of a closed gap: how far a contact may open within a step and still obey its law.
+constexpr double kOpens = 0x1p-4;
+
+}  // namespace
+
+Material FoundContacts::materialOf(const ContactFeature& feature) const {
+  const Material& ofA = group_.body(static_cast<std::size_t>(feature.a)).material;
+  return touching(ofA, feature.b.isWall() ? group_.world().walls[feature.b.wall()].material
+                                          : group_.body(static_cast<std::size_t>(feature.b.body())).material);
+}
+
+void FoundContacts::addAtWalls(std::size_t body, const Pose& pose) {
+  for (std::size_t w = 0; w < group_.world().walls.size(); ++w) {
+    const Wall& wall = group_.world().walls[w];
+    if (gapToPlane(boxAt(pose, group_.body(body)), wall.normal, wall.offset) > closed_) {
+      continue;
+    }
+    for (int k = 0; k < kCorners; ++k) {
+      ContactFeature feature{
+          .a = static_cast<int>(body), .b = Partner::ofWall(w), .onA = corner(group_.body(body), k)};
+      if (cornerGap(pose, feature.onA, wall.normal, wall.offset) <= closed_) {
+        feature.material = materialOf(feature);
+        features_.push_back(feature);
+      }
+    }
+  }
+}
+
+void FoundContacts::addBetween(std::size_t a, std::size_t b, const std::vector<Pose>& poses,
+                               const GroupState& at, double slow) {
+  const BoxAt boxA = boxAt(poses[a], group_.body(a));
+  const BoxAt boxB = boxAt(poses[b], group_.body(b));
+  if (BoxAxes(boxA, boxB).gap() > closed_) {
+    return;
+  }
+  const Kinematics ofA = group_.kinematics(a, at[a]);
+  const Kinematics ofB = group_.kinematics(b, at[b]);
+  const ChosenContact contact =
+      chosenContact(boxA, boxB, closed_, closed_, slow, [&](const Vec3& armA, const Vec3& armB) {
+        return Vec3((ofA.velocity + ofA.angularVelocity.cross(armA)) -
+                    (ofB.velocity + ofB.angularVelocity.cross(armB)));
+      });
+  for (const ContactPoint& point : contact.points) {
+    ContactFeature feature = featureAt(point, closed_, static_cast<int>(a), boxA, static_cast<int>(b), boxB);
+    feature.material = materialOf(feature);
+    feature.axes = feature.a == static_cast<int>(a) ? contact.choice : swapped(contact.choice);
+    features_.push_back(feature);
+  }
+}
+
+void FoundContacts::find(const GroupState& at, double slow) {
+  features_.clear();
+  std::vector<Pose> poses;
+  for (const GroupBody& body : at) {
+    poses.push_back(body.pose());
+  }
+  for (std::size_t i = 0; i < group_.size(); ++i) {
+    if (!group_.isHeld(i)) {
+      addAtWalls(i, poses[i]);
+    }
+    for (std::size_t j = i + 1; j < group_.size(); ++j) {
+      if (group_.mayMeet(i, j, at, closed_)) {
+        addBetween(i, j, poses, at, slow);
+      }
+    }
+  }
+  follow(at);
+}
+
+double FoundContacts::deepest() const {
+  double deepest = 0;
+  for (const ContactState& state : states_) {
+    deepest = std::max(deepest, -state.gap);
+  }
+  return deepest;
+}
+
+bool FoundContacts::has(const ContactFeature& feature) const {
+  return std::any_of(features_.begin(), features_.end(),
+                     [&](const ContactFeature& found) { return isSame(found, feature); });
+}
+
+bool FoundContacts::obeys(std::size_t contact, double h) const {
+  const ContactState& state = states_[contact];
+  return state.gap <= closed_ && state.parting() * h <= kOpens * closed_ &&
+         !(features_[contact].kind == ContactFeature::Kind::kInCone && state.passing() * h > closed_);
+}
+
+std::vector<ClosedContact> FoundContacts::obeying(double h, const std::vector<ClosedContact>& known) const {
+  std::vector<ClosedContact> obeying;
+  for (std::size_t c = 0; c < features_.size(); ++c) {
+    if (!obeys(c, h)) {
+      continue;
+    }
+    const auto before = std::find_if(known.begin(), known.end(), [&](const ClosedContact& other) {
+      return isSame(other.feature, features_[c]);
+    });
+    ClosedContact& contact = obeying.emplace_back();
+    if (before != known.end()) {
+      contact = *before;
+    }
+    contact.feature = features_[c];
+  }
+  return obeying;
+}
+
+ImpactContact FoundContacts::impactAt(std::size_t contact) const {
+  const ContactFeature& feature = features_[contact];
+  const ContactState& state = states_[contact];
+  return {.a = feature.a,
+          .b = feature.b,
+          .armA = state.armA,
+          .armB = state.armB,
+          .normal = state.normal,
+          .material = feature.material,
+          .directions = state.directions};
+}
+
+}  // namespace careen

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "physics/contact/implicit_step.h"
+#include "physics/contact/touching_group.h"
+#include "physics/impact/impact_law.h"
+
+namespace careen {
+
+/// The contacts of a group of bodies with each other and with the walls: found at one state, then followed to
+/// others.
+class FoundContacts {
+ public:
+  /// `closed` [m]: gaps up to this count as none.
+  FoundContacts(TouchingGroup& group, double closed) : group_(group), closed_(closed) {}
+
+  /// Finds all that are closed at a state. `slow` [m/s]: approach no faster is none.
+  void find(const GroupState& at, double slow);
+  /// The same contacts at another state.
+  void follow(const GroupState& at) { group_.contactsAt(features_, at, states_); }
+
+  const std::vector<ContactFeature>& features() const { return features_; }
+  /// As last found or followed.
+  const std::vector<ContactState>& states() const { return states_; }
+  /// [m/s] Of the gap.
+  double rate(std::size_t contact) const { return states_[contact].parting(); }
+  double closed() const { return closed_; }
+  /// [m] 0 if none is.
+  double deepest() const;
+  bool has(const ContactFeature& feature) const;
+
+  /// Whether a contact obeys its law in a step of `h` [s]. One that parts so fast that it would open within
+  /// the step is in flight instead, and edges that pass each other are soon elsewhere.
+  bool obeys(std::size_t contact, double h) const;
+  /// Those that do, with the forces that they have among `known`.
+  std::vector<ClosedContact> obeying(double h, const std::vector<ClosedContact>& known) const;
+  ImpactContact impactAt(std::size_t contact) const;
+
+ private:
+  void addAtWalls(std::size_t body, const Pose& pose);
+  void addBetween(std::size_t a, std::size_t b, const std::vector<Pose>& poses, const GroupState& at,
+                  double slow);
+  Material materialOf(const ContactFeature& feature) const;
+
+  TouchingGroup& group_;
+  double closed_;
+  std::vector<ContactFeature> features_;
+  std::vector<ContactState> states_;
+};
+
+}  // namespace careen

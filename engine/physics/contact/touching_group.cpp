@@ -1,0 +1,104 @@
+#include "physics/contact/touching_group.h"
+
+#include <algorithm>
+
+#include "physics/contact/group_momentum.h"
+
+namespace careen {
+
+GroupState TouchingGroup::state() const {
+  GroupState all;
+  for (const TouchingBody& body : bodies_) {
+    const BodyState state = body.state();
+    all.push_back({.position = body.position,
+                   .worldFromBody = body.worldFromBody,
+                   .velocity = body.isHeld() ? Vec3(Vec3::Zero()) : state.velocity,
+                   .angularMomentum = body.isHeld() ? Vec3(Vec3::Zero()) : state.angularMomentum});
+  }
+  return all;
+}
+
+Vec3 TouchingGroup::angularVelocity(std::size_t body, const Mat3& worldFromBody,
+                                    const Vec3& angularMomentum) const {
+  return worldFromBody *
+         bodies_[body].body->mass.inverseInertiaTimes(worldFromBody.transpose() * angularMomentum);
+}
+
+Kinematics TouchingGroup::kinematics(std::size_t body, const GroupBody& at) const {
+  Kinematics kinematics{.pose = at.pose()};
+  if (!isHeld(body)) {
+    kinematics.velocity = at.velocity;
+    kinematics.angularVelocity = angularVelocity(body, kinematics.pose.worldFromBody, at.angularMomentum);
+  }
+  return kinematics;
+}
+
+double TouchingGroup::fastest(const GroupState& state) const {
+  double fastest = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (!isHeld(i)) {
+      const Kinematics at = kinematics(i, state[i]);
+      fastest = std::max(fastest, at.velocity.norm() + at.angularVelocity.norm() * radiusOf(body(i)));
+    }
+  }
+  return fastest;
+}
+
+bool TouchingGroup::mayMeet(std::size_t a, std::size_t b, const GroupState& state, double within) const {
+  const double reach = radiusOf(body(a)) + radiusOf(body(b)) + within;
+  return !(isHeld(a) && isHeld(b)) && (state[a].position - state[b].position).squaredNorm() <= reach * reach;
+}
+
+ContactState TouchingGroup::stateOf(const ContactFeature& feature, const Kinematics& a,
+                                    const Kinematics* b) const {
+  const BoxShape boxA = shapeOf(body(static_cast<std::size_t>(feature.a)));
+  if (b == nullptr) {
+    return contactState(feature, a, boxA, nullptr, boxA, &world_.walls[feature.b.wall()]);
+  }
+  const BoxShape boxB = shapeOf(body(static_cast<std::size_t>(feature.b.body())));
+  ContactState at = contactState(feature, a, boxA, b, boxB, nullptr);
+  // One point for both, else the pair's impulses would change angular momentum by gap × friction.
+  const Vec3 link = (a.pose.position - b->pose.position) + (at.armA - at.armB);
+  at.armA -= 0.5 * link;
+  at.armB += 0.5 * link;
+  return at;
+}
+
+ContactState TouchingGroup::contactAt(const ContactFeature& feature, const GroupState& state) const {
+  const auto a = static_cast<std::size_t>(feature.a);
+  const Kinematics ofA = kinematics(a, state[a]);
+  if (feature.b.isWall()) {
+    return stateOf(feature, ofA, nullptr);
+  }
+  const auto b = static_cast<std::size_t>(feature.b.body());
+  const Kinematics ofB = kinematics(b, state[b]);
+  return stateOf(feature, ofA, &ofB);
+}
+
+void TouchingGroup::contactsAt(std::span<const ContactFeature> features, const GroupState& state,
+                               std::vector<ContactState>& contacts) {
+  kinematics_.clear();
+  for (std::size_t i = 0; i < size(); ++i) {
+    kinematics_.push_back(kinematics(i, state[i]));
+  }
+  contacts.clear();
+  for (const ContactFeature& feature : features) {
+    const bool onWall = feature.b.isWall();
+    contacts.push_back(stateOf(feature, kinematics_[static_cast<std::size_t>(feature.a)],
+                               onWall ? nullptr : &kinematics_[static_cast<std::size_t>(feature.b.body())]));
+  }
+  normals_.align(features, {}, contacts);
+}
+
+void TouchingGroup::keepMomenta(const GroupState& before, double h, std::span<const ContactFeature> pushing,
+                                GroupState& to) const {
+  const auto stateIn = [](const GroupState& all) { return [&all](std::size_t i) { return all[i].state(); }; };
+  for (const auto& [i, change] : changesToKeep(world_, bodies_, pushing, h, stateIn(before), stateIn(to))) {
+    GroupBody& at = to[i];
+    at.velocity += change.velocityAt(at.position);
+    at.position += change.shift;
+    at.angularMomentum += careen::angularMomentum(body(i).mass, at.pose().worldFromBody, change.turning);
+  }
+}
+
+}  // namespace careen
