@@ -142,7 +142,7 @@ TEST(Bodies, areFoundWhereTheyMayGet) {
   world.gravity = Vec3(0, 0, -10);
   for (int k = 0; k < 400; ++k) {
     world.bodies.push_back(
-        cube("box-" + std::to_string(100 + k), {1.5 * (k % 20), 1.5 * (k / 20), 0}, dice.vector(100)));
+        cube("box-" + std::to_string(100 + k), {1.5 * (k % 20), 0.075 * (k - k % 20), 0}, dice.vector(100)));
   }
   StartedBodies all(world);
   std::size_t hits = 0;
