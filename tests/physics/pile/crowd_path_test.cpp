@@ -84,7 +84,7 @@ TEST(CrowdPath, extentIsThatOfSpheresAndWays) {
 TEST(CrowdPath, cameNearByGapAndWay) {
   Moved moved;
   moved.stages.members[1].path = 0.015;
-  const BoxAt box{.pose = {.position = Vec3(1, 1, 0)}, .halfExtents = Vec3::Constant(0.25), .center = {}};
+  const BoxAt box{.pose = {.position = Vec3(1, 1, 0)}, .halfExtents = Vec3::Constant(0.25)};
   // The gap is 0.5, the way and the tolerance 0.0153.
   EXPECT_FALSE(moved.stages.path.cameNear(1, box, 0.48));
   EXPECT_TRUE(moved.stages.path.cameNear(1, box, 0.49));
