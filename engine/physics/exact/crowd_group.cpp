@@ -168,6 +168,7 @@ void CrowdGroup::merge(CrowdGroup& other) {
                                           other.crowd_.attitude(place), other.before_);
       keepPlace(rank, at);
       joined_[at] = other.joined_[place];
+      motions_[at] = other.motions_[place];  // others may look for it before it takes the next step
     }
   }
   other.ranks_.clear();

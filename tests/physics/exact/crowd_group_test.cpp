@@ -102,5 +102,38 @@ TEST(CrowdGroup, takesInAnotherOne) {
   EXPECT_EQ(all.bodies[0].group->start().hi, encounter.time.hi);
 }
 
+// Of three crowds that meet the last falls asleep then, at which others may look around, while members of the
+// second are in the first already: all are somewhere.
+TEST(CrowdGroup, knowsWhereMembersTakenInAre) {
+  StartedBodies all(
+      onFloor({cube("a", {0, 0, 0.5}), cube("b", {0, 0, 1.5}, {0.1, 0, 0}), cube("c", {2.5, 0, 0.5}),
+               cube("d", {2.5, 0, 1.5}, {0.1, 0, 0}), cube("e", {5, 0, 0.5}, {0, 0, 0}, {.friction = 0.5}),
+               cube("f", {5, 0, 1.5}, {0, 0, 0}, {.friction = 0.5})},
+              0.5));
+  const std::shared_ptr<CrowdGroup> first = crowdOf(all, 0);
+  const std::shared_ptr<CrowdGroup> second = crowdOf(all, 2);
+  const std::shared_ptr<CrowdGroup> last = crowdOf(all, 4);
+  for (int steps = 0; !last->crowd().sleeps(0) && steps < 100; ++steps) {
+    for (CrowdGroup* group : {first.get(), second.get(), last.get()}) {
+      group->advance(group->end());
+    }
+  }
+  Encounter encounter;
+  encounter.time = last->end();
+  for (const int rank : {0, 2, 4}) {
+    join(all.bodies, encounter, rank);
+  }
+  ASSERT_EQ(encounter.crowds.size(), 3U);
+  int asked = 0;
+  all.memory.onMove = [&] {
+    for (int rank = 0; rank < all.bodies.count(); ++rank) {
+      EXPECT_TRUE(all.bodies[rank].positionAt(encounter.time).allFinite()) << rank;
+      asked += all.bodies[rank].steps() && all.bodies[rank].group == encounter.crowds[0] ? 1 : 0;
+    }
+  };
+  CrowdGroup::form(all.bodies, encounter);
+  EXPECT_GT(asked, 3);
+}
+
 }  // namespace
 }  // namespace careen
