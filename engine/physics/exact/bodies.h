@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "core/system/team.h"
@@ -80,7 +79,7 @@ class Bodies {
   /// [s] Time in which a body of this speed [m/s] does not leave the margin of its cell.
   double withinCell(double speed) const;
 
-  /// TimeStepper work that bodies may spend together before they go on as a crowd: each of kUnshared in a
+  /// Island::work() that bodies may spend together before they go on as a crowd: each of kUnshared in a
   /// scene so much at once, and so much per simulated second; at a tolerance below 1e-6 m more, as steps get
   /// shorter. Fewer bodies share the same; of more each may spend less, as the square: a heap costs more per
   /// body the larger it is, so that 72 poured boxes would spend 36 s on their first 2 s, and chaos makes what
@@ -117,8 +116,8 @@ class Bodies {
   Neighbors neighbors_;
   EventQueue queue_;
   FlightAccount account_;
-  // [m/s] No body was or is faster at time t than this and t times gravity; found anew as often as bodies
-  // are.
+  // [m/s] No body that moves is faster at time t than this and t times gravity, in a scene of so many found
+  // anew after so many motions.
   double fastestAtZero_ = -std::numeric_limits<double>::infinity();
   int noted_ = 0;
   std::vector<char> forced_;               // by rank

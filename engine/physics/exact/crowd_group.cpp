@@ -33,7 +33,7 @@ bool CrowdGroup::enter(Encounter& encounter, int /*rank*/) {
 }
 
 bool CrowdGroup::seesTo(std::size_t /*place*/, int rank) const {
-  return has(bodies_[rank]) || !restsSince(bodies_[rank], start_);
+  return has(bodies_[rank]) || !restsOnlySince(bodies_[rank], start_);
 }
 
 // ---- Members.
@@ -213,7 +213,7 @@ bool CrowdGroup::admitMet(const Instant& time, Taken taken) {
                                     again ? Outsiders::kInNoGroup : Outsiders::kAll)) {
     const Mover& body = bodies_[rank];
     const bool asked =
-        again ? !body.group && (body.moves() ? fliesSince(bodies_, body, time) : !restsSince(body, time))
+        again ? !body.group && (body.moves() ? fliesSince(bodies_, body, time) : !restsOnlySince(body, time))
               : !has(body) && !body.flies();
     if (asked && wasMet(bodies_, *this, rank, time)) {
       admitOutsider(rank, time);

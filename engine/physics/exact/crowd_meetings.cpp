@@ -73,7 +73,9 @@ bool anyMember(const Bodies& bodies, const CrowdGroup& group, int rank, const Do
 
 }  // namespace
 
-bool restsSince(const Mover& body, const Instant& time) { return !body.moves() && earlier(time, body.start); }
+bool restsOnlySince(const Mover& body, const Instant& time) {
+  return !body.moves() && earlier(time, body.start);
+}
 
 bool fliesSince(const Bodies& bodies, const Mover& body, const Instant& time) {
   return body.flies() && bodies.joinedTo(body.rank).empty() && !earlier(time, body.start);

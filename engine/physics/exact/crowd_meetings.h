@@ -24,8 +24,9 @@ bool wasMet(const Bodies& bodies, const CrowdGroup& group, int rank, const Insta
 /// Who may meet a member in the step that it has taken, perhaps another way than it was going.
 std::vector<int> nearStep(const Bodies& bodies, const CrowdGroup& group);
 
-/// Whether it has been at rest, or in Flight and free of springs, since a moment before that.
-bool restsSince(const Mover& body, const Instant& time);
+/// Whether it came to rest after that moment; and whether it has been in Flight, with no body on a spring,
+/// since then or longer.
+bool restsOnlySince(const Mover& body, const Instant& time);
 bool fliesSince(const Bodies& bodies, const Mover& body, const Instant& time);
 
 }  // namespace careen

@@ -37,8 +37,7 @@ void Mover::rest(const Pose& at) {
   flight = {.position = at.position, .worldFromBody = Quat(at.worldFromBody)};
   pose = at;
   rotation.reset();
-  bounds.angularSpeed = 0;
-  bounds.angularAcceleration = 0;
+  bounds = {};
   wall.reset();
   crosses = false;
   crossing = {};

@@ -33,9 +33,8 @@ class PileProjection {
   PileProjection(double tolerance, std::shared_ptr<Team> team)
       : tolerance_(tolerance), team_(team), solver_(team), gradients_(std::move(team)) {}
 
-  /// Brings a manifold's gaps to where its bodies are; `first`: in this projection. Called by several
-  /// threads.
-  enum class Look { kFirst, kAgain };
+  enum class Look { kFirst, kAgain };  ///< at a manifold in this projection
+  /// Brings a manifold's gaps to where its bodies are. Called by several threads.
   using Refresh = std::function<void(PileManifold& manifold, Look look)>;
   /// Brings the gaps of a copy of a manifold to where its bodies were before the step.
   using TakeBack = std::function<void(PileManifold& manifold)>;

@@ -78,8 +78,8 @@ class PileSolver {
   /// Applies the initial impulses of the rows; none, where they would add energy to a motion that parts of
   /// itself: those of a blow that is over, of which the sweeps would undo too little.
   void warmStart();
-  /// After the last add(): at most `sweeps` sweeps. Returns the number of manifold solves.
   enum class Friction { kNone, kCoulomb };
+  /// After the last add(): at most `sweeps` sweeps. Returns the number of manifold solves.
   std::int64_t solve(int sweeps, Friction friction = Friction::kCoulomb);
 
   /// Of the rows as they stand, bounds being targets; S [m/s] is `speed`.

@@ -139,8 +139,9 @@ void Neighbors::findWithin(const Vec3& low, const Vec3& high, std::vector<Key>& 
   // A centre may be outside its cell by as much as it may before it is filed anew, and what is filed ahead of
   // its step by half of that.
   const Vec3 reach = Vec3::Constant(largestFiled_ + 2 * kMargin * edge_);
-  const Vec3 sizes = edge_ > 0 ? Vec3((high - low + 2 * reach) / edge_ + Vec3::Ones()) : Vec3::Zero();
-  if (!(sizes.prod() < static_cast<double>(places_.size())) || edge_ == 0) {
+  const double cells = edge_ > 0 ? Vec3((high - low + 2 * reach) / edge_ + Vec3::Ones()).prod()
+                                 : std::numeric_limits<double>::infinity();
+  if (!(cells < static_cast<double>(places_.size()))) {
     for (const auto& [key, place] : places_) {
       found.push_back(key);
     }

@@ -17,9 +17,9 @@ using test::StartedBodies;
 TEST(CrowdMeetings, restAndFlySinceAMoment) {
   StartedBodies all(onFloor({cube("a", {0, 0, 5}), cube("b", {9, 0, 0.5})}));
   all.bodies.rest(1, Instant(2), all.bodies[1].body->initial.pose);
-  EXPECT_TRUE(restsSince(all.bodies[1], Instant(1)));
-  EXPECT_FALSE(restsSince(all.bodies[1], Instant(2)));
-  EXPECT_FALSE(restsSince(all.bodies[0], Instant(0)));
+  EXPECT_TRUE(restsOnlySince(all.bodies[1], Instant(1)));
+  EXPECT_FALSE(restsOnlySince(all.bodies[1], Instant(2)));
+  EXPECT_FALSE(restsOnlySince(all.bodies[0], Instant(0)));
   EXPECT_TRUE(fliesSince(all.bodies, all.bodies[0], Instant(0)));
   EXPECT_FALSE(fliesSince(all.bodies, all.bodies[1], Instant(3)));
 }
