@@ -85,8 +85,7 @@ Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& record
   }
   const double part = kFew / std::max(1.0, movable);
   isFew_ = movable <= kFew;
-  workShare_ =
-      part * std::min(1.0, part * part) * std::sqrt(std::max(1.0, RunSettings().tolerance / tolerance_));
+  workShare_ = part * std::min(1.0, part) * std::sqrt(std::max(1.0, RunSettings().tolerance / tolerance_));
   for (const Spring& spring : world.springs) {
     for (const SpringEnd* end : {&spring.from, &spring.to}) {
       const SpringEnd& other = end == &spring.from ? spring.to : spring.from;
@@ -168,9 +167,11 @@ void Bodies::noteSpeed(const Mover& body) {
   };
   if (++noted_ > count()) {
     noted_ = 0;
+    moving_ = 0;
     fastestAtZero_ = -std::numeric_limits<double>::infinity();
     for (const Mover& each : movers_) {
       if (each.moves()) {
+        ++moving_;
         note(each);
       }
     }
@@ -317,6 +318,7 @@ double Bodies::workLeft(std::span<const int> ranks, const Instant& time) const {
   if (!mayBeCrowd()) {
     return std::numeric_limits<double>::infinity();
   }
+  const double each = workShare_ * (kWorkAtOnce + kWorkPerSecond * time.hi) * kFew / std::max(kFew, moving_);
   double left = 0;
   double doubt = 0;  // [m]
   int movable = 0;
@@ -324,7 +326,7 @@ double Bodies::workLeft(std::span<const int> ranks, const Instant& time) const {
     const Mover& body = (*this)[rank];
     if (!body.isHeld()) {
       ++movable;
-      left += workShare_ * (kWorkAtOnce + kWorkPerSecond * time.hi) - body.work;
+      left += each - body.work;
       doubt = std::max(doubt, body.doubt.at(time));
     }
   }

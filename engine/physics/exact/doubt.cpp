@@ -34,7 +34,7 @@ void doubtMore(std::span<DoubtfulBody> bodies) {
     }
     Doubt& doubt = *each.doubt;
     const double place = std::max(doubt.place, each.worst.place);
-    const double parting = each.change * place / (2 * radiusOf(*each.body));
+    const double parting = each.change * place / radiusOf(*each.body);
     doubt.speed = std::min(each.speed, std::max(doubt.speed, each.worst.speed) + parting);
   }
 }

@@ -9,9 +9,11 @@
 namespace careen {
 
 /// How far two motions of a body have parted that began a rounding apart: so much its place may be off.
-/// Between impacts they part at constant speed. An impact turns the body's velocity otherwise where the body
-/// is turned otherwise, by place / diameter: so each impact makes them part faster by a factor, as in Sinai's
-/// billiards. `exact` is worth its cost only while this is small.
+/// Between impacts they part at constant speed. An impact turns the change of the body's velocity as the body
+/// is turned, by place / radius: so each impact makes them part faster by a factor, as in Sinai's billiards.
+/// What impacts damp is left out. Of 36 random scenes whose differences were measured the estimate grew .92
+/// times as many e-folds in the median, between half and twice as many in 26. `exact` is worth its cost only
+/// while this is small.
 struct Doubt {
   double place = 0;  ///< [m]
   double speed = 0;  ///< [m/s] at which they part
