@@ -27,8 +27,8 @@ TEST(Doubt, growsWithTimeOnlyInFreeMotion) {
   EXPECT_EQ(doubt.place, 7);
 }
 
-// Between walls L apart, at speed v, e = 1: place' = place + speed L/v, then speed' = speed + 2 v place'/D.
-// That is the map of a ball between two convex bodies of radius D in line: with k = 2 L/D its determinant is
+// Between walls L apart, at speed v, e = 1: place' = place + speed L/v, then speed' = speed + 2 v place'/R.
+// That is the map of a ball between two convex bodies of radius R in line: with k = 2 L/R its determinant is
 // 1 and its trace 2 + k, so each impact lets the difference grow by 1 + k/2 + √(k + k²/4).
 TEST(Doubt, growsLikeABallBetweenConvexCorners) {
   const Body body = cube("a", {0, 0, 0});
