@@ -167,14 +167,15 @@ void Bodies::noteSpeed(const Mover& body) {
   };
   if (++noted_ > count()) {
     noted_ = 0;
-    moving_ = 0;
+    int moving = 0;
     fastestAtZero_ = -std::numeric_limits<double>::infinity();
     for (const Mover& each : movers_) {
       if (each.moves()) {
-        ++moving_;
+        ++moving;
         note(each);
       }
     }
+    mostMoving_ = std::max(mostMoving_, moving);
   }
   note(body);
 }
@@ -318,7 +319,8 @@ double Bodies::workLeft(std::span<const int> ranks, const Instant& time) const {
   if (!mayBeCrowd()) {
     return std::numeric_limits<double>::infinity();
   }
-  const double each = workShare_ * (kWorkAtOnce + kWorkPerSecond * time.hi) * kFew / std::max(kFew, moving_);
+  const double each =
+      workShare_ * (kWorkAtOnce + kWorkPerSecond * time.hi) * kFew / std::max(kFew, mostMoving_);
   double left = 0;
   double doubt = 0;  // [m]
   int movable = 0;

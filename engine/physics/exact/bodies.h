@@ -86,8 +86,8 @@ class Bodies {
   /// Island::work() that bodies may spend together before they go on as a crowd: each of kFew in a scene so
   /// much at once, and so much per simulated second; at a tolerance below the usual one more, as steps get
   /// shorter. Fewer bodies share the same; of more each may spend less, as the square, and less still where
-  /// more than a few move: a heap costs more per body the larger it is. A unit takes about 0.2 to 1 µs.
-  /// Counted, not timed, so that the motion is the same on every machine, and independent of when the run
+  /// more than a few moved at once: a heap costs more per body the larger it is. A unit takes about 0.2 to 1
+  /// µs. Counted, not timed, so that the motion is the same on every machine, and independent of when the run
   /// ends.
   static constexpr double kWorkAtOnce = 6e5;
   static constexpr double kWorkPerSecond = 5e4;
@@ -122,9 +122,9 @@ class Bodies {
   EventQueue queue_;
   FlightAccount account_;
   // [m/s] No body that moves is faster at time t than this and t times gravity, in a scene of so many found
-  // anew after so many motions; how many moved then.
+  // anew after so many motions; the most that moved then.
   double fastestAtZero_ = -std::numeric_limits<double>::infinity();
-  int moving_ = 0;
+  int mostMoving_ = 0;
   int noted_ = 0;
   std::vector<char> forced_;               // by rank
   std::vector<std::vector<int>> springs_;  // by rank

@@ -139,7 +139,7 @@ TEST(Bodies, mayNotSpendWhatIsWorthNothing) {
 
 // A cube at rest 5 m from the origin, half diagonal √3/2: known to a rounding of both.
 TEST(Bodies, areKnownToRoundingAtTheStart) {
-  const StartedBodies all(afloat({cube("a", {0, 3, 4}), held(cube("b", {9, 0, 0}))}));
+  const StartedBodies all(afloat({cube("a", {0, 3, 4}), test::held(cube("b", {9, 0, 0}))}));
   const double radius = std::sqrt(3.0) / 2;
   EXPECT_DOUBLE_EQ(all.bodies[0].doubt.place, 0x1p-52 * (5 + radius));
   EXPECT_EQ(all.bodies[0].doubt.speed, 0);
