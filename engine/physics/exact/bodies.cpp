@@ -319,21 +319,20 @@ double Bodies::workLeft(std::span<const int> ranks, const Instant& time) const {
   if (!mayBeCrowd()) {
     return std::numeric_limits<double>::infinity();
   }
-  const double each =
-      workShare_ * (kWorkAtOnce + kWorkPerSecond * time.hi) * kFew / std::max(kFew, mostMoving_);
-  double left = 0;
+  double spent = 0;
   double doubt = 0;  // [m]
   int movable = 0;
   for (const int rank : ranks) {
     const Mover& body = (*this)[rank];
     if (!body.isHeld()) {
       ++movable;
-      left += each - body.work;
+      spent += body.work;
       doubt = std::max(doubt, body.doubt.at(time));
     }
   }
-  const bool isWorthNothing = !isFew_ && movable > 1 && doubt >= crowds_.tolerance;
-  return isWorthNothing ? -std::numeric_limits<double>::infinity() : left;
+  const bool isWorthLess = !isFew_ && movable > 1 && doubt >= crowds_.tolerance;
+  const double share = workShare_ * kFew / std::max(kFew, mostMoving_);
+  return movable * share * ((isWorthLess ? 0 : kWorkAtOnce) + kWorkPerSecond * time.hi) - spent;
 }
 
 }  // namespace careen

@@ -92,8 +92,8 @@ class Bodies {
   static constexpr double kWorkAtOnce = 6e5;
   static constexpr double kWorkPerSecond = 5e4;
   static constexpr int kFew = 16;
-  /// What these may still spend; negative where they must go on as a crowd. In a scene of more than a few
-  /// that is nothing for those in contact of whom one is in such doubt as a crowd is anyway.
+  /// What these may still spend; negative where they must go on as a crowd. In a scene of more than a few,
+  /// those in contact of whom one is in such doubt as a crowd is anyway may spend nothing at once.
   double workLeft(std::span<const int> ranks, const Instant& time) const;
   /// Of more than a few bodies in contact, time steps cost so much that it does not pay to begin.
   bool isTooMany(int movable) const;
