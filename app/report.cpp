@@ -251,6 +251,13 @@ void printMotion(std::ostream& out, const Trajectory& run) {
   out << (all.whole() > 0 ? " of the time\n" : "\n");
 }
 
+// Where it is chaos, or a crowd.
+void printHorizon(std::ostream& out, const RunFigures& figures) {
+  if (figures.horizon) {
+    out << "places       mean something until " << *figures.horizon << " s\n";
+  }
+}
+
 // What a new user needs.
 void printInShort(std::ostream& out, const Run& run) {
   const Trajectory& trajectory = run.trajectory;
@@ -278,6 +285,7 @@ void printInShort(std::ostream& out, const Run& run) {
     out << "crowd        from " << *figures.boundedFrom << " s on, where many boxes touch: right to about "
         << trajectory.settings.crowds.tolerance << " m\n";
   }
+  printHorizon(out, figures);
   printBroken(out, run);
 }
 
@@ -332,6 +340,9 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
   }
   if (figures.boundedFrom) {
     report["bounded_from"] = *figures.boundedFrom;
+  }
+  if (figures.horizon) {
+    report["places_until"] = *figures.horizon;
   }
   if (run.audit.depth != AuditDepth::kNone) {
     report["audit"] = auditReport(run.audit);
@@ -396,6 +407,7 @@ void printError(std::ostream& out, const Run& run) {
            "error of about "
         << trajectory.settings.crowds.tolerance << " m\n";
   }
+  printHorizon(out, figures);
   printResiduals(out, "residuals    ", figures.contact);
   printResiduals(out, "  of crowds  ", figures.crowds);
   const Life all = lifeOf(trajectory);

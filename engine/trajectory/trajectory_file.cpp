@@ -18,11 +18,12 @@ namespace {
 
 // The line ends in the magic word reveal a transfer in text mode.
 constexpr std::string_view kFileMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 8;
+constexpr std::uint64_t kVersion = 9;
 constexpr std::uint64_t kVersionWithoutCrowds = 4;  // the oldest that is read
 constexpr std::uint64_t kVersionWithoutLight = 5;
 constexpr std::uint64_t kVersionWithoutPlacement = 6;
 constexpr std::uint64_t kVersionWithoutResiduals = 7;
+constexpr std::uint64_t kVersionWithoutHorizon = 8;
 
 std::uint64_t checksum(std::string_view bytes) {
   Hash hash;
@@ -84,6 +85,7 @@ std::string encodeTrajectory(const Trajectory& trajectory) {
   }
   visitAll(record, trajectory.stage.parts);
   visitResiduals(record, trajectory.figures);
+  visitHorizon(record, trajectory.figures);
   record.visit(trajectory.stateHash());
   ArchiveWriter file;
   file.bytes() += kFileMagic;
@@ -115,6 +117,9 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name) {
   }
   if (file.version > kVersionWithoutResiduals) {
     visitResiduals(reader, trajectory.figures);
+  }
+  if (file.version > kVersionWithoutHorizon) {
+    visitHorizon(reader, trajectory.figures);
   }
   std::string stateHash;
   reader.visit(stateHash);

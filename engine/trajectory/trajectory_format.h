@@ -364,18 +364,24 @@ void visit(Archive& archive, Visited<Archive, Track> track) {
   visitAll(archive, track.segments);
 }
 
+/// [s] -1: never.
+template <class Archive>
+void visitTime(Archive& archive, Visited<Archive, std::optional<double>> time) {
+  constexpr double kNever = -1;
+  double stored = time.value_or(kNever);
+  archive.visit(stored);
+  if constexpr (Archive::kReads) {
+    time = stored >= 0 ? std::optional(stored) : std::nullopt;
+  }
+}
+
 template <class Archive>
 void visit(Archive& archive, Visited<Archive, RunFigures> figures) {
   archive.visit(figures.energyChange);
   archive.visit(figures.momentumChange);
   archive.visit(figures.orthogonality);
   archive.visit(figures.deepestPenetration);
-  constexpr double kNever = -1;
-  double boundedFrom = figures.boundedFrom.value_or(kNever);
-  archive.visit(boundedFrom);
-  if constexpr (Archive::kReads) {
-    figures.boundedFrom = boundedFrom >= 0 ? std::optional(boundedFrom) : std::nullopt;
-  }
+  visitTime(archive, figures.boundedFrom);
 }
 
 /// What figures have since format version 8, stored after the rest.
@@ -391,6 +397,12 @@ void visitResiduals(Archive& archive, Visited<Archive, RunFigures> figures) {
     archive.visit(residuals->dual);
     archive.visit(residuals->complementarity);
   }
+}
+
+/// What they have since format version 9, stored after the rest.
+template <class Archive>
+void visitHorizon(Archive& archive, Visited<Archive, RunFigures> figures) {
+  visitTime(archive, figures.horizon);
 }
 
 template <class Archive>

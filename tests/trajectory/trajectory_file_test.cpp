@@ -105,6 +105,13 @@ TEST(TrajectoryFile, bringsBackTheResidualsOfContact) {
   EXPECT_EQ(back.figures.crowds.complementarity, 0.25);
 }
 
+TEST(TrajectoryFile, bringsBackUntilWhenPlacesMeanSomething) {
+  Trajectory run = driftAndReturn();
+  EXPECT_FALSE(decodeTrajectory(encodeTrajectory(run), "run.careen").figures.horizon);
+  run.figures.horizon = 0.75;
+  EXPECT_EQ(decodeTrajectory(encodeTrajectory(run), "run.careen").figures.horizon, 0.75);
+}
+
 TEST(TrajectoryFile, bringsBackWhereTheCentreOfMassLiesAndItsAxes) {
   World world = elasticRoom();
   world.bodies[0].boxCenter = Vec3(0.1, -0.05, 0.02);
@@ -175,8 +182,8 @@ TEST(TrajectoryFile, aMinuteOfABouncingBoxTakesLessThan50kB) {
 
 TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
-  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 8: a newer careen wrote it"),
-                                        std::pair('\3', "3, expected 4 to 8: simulate its scene again")}) {
+  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 9: a newer careen wrote it"),
+                                        std::pair('\3', "3, expected 4 to 9: simulate its scene again")}) {
     bytes[8] = version;
     EXPECT_EQ(messageOf(withRightChecksum(bytes)),
               "run.careen: this trajectory file has format version " + std::string(remedy));

@@ -14,8 +14,6 @@
 namespace careen {
 namespace {
 
-constexpr double kUsualTolerance = 1e-6;  // [m]
-
 std::vector<double> radiiOf(const World& world) {
   std::vector<double> radii;
   radii.reserve(world.bodies.size());
@@ -35,6 +33,17 @@ double longestStepOf(const World& world) {
   }
   const double longest = largest > 0 ? timeScaleOf(world, kSizes * largest) : 1;
   return std::isfinite(longest) ? longest : 1;
+}
+
+// [m/s] No point of it is faster.
+double fastestPoint(const Body& body, const BodyState& state) {
+  return state.velocity.norm() + radiusOf(body) * angularVelocity(body.mass, state).norm();
+}
+
+Doubt ofRounding(const Body& body) {
+  constexpr double kRounding = std::numeric_limits<double>::epsilon();
+  return {.place = kRounding * (body.initial.pose.position.norm() + radiusOf(body)),
+          .speed = kRounding * fastestPoint(body, body.initial)};
 }
 
 void takeSooner(std::optional<Event>& first, const std::optional<Event>& candidate) {
@@ -68,11 +77,15 @@ Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& record
     mover.body = &world.bodies[listed];
     mover.rank = rank;
     mover.listed = {static_cast<int>(listed)};
-    movable += mover.isHeld() ? 0 : 1;
+    if (!mover.isHeld()) {
+      ++movable;
+      mover.doubt = ofRounding(*mover.body);
+    }
     neighbors_.insert(rank, mover.body->initial.pose.position, radiusOf(*mover.body));
   }
-  const double part = kUnshared / std::max(1.0, movable);
-  workShare_ = part * std::min(1.0, part) * std::sqrt(std::max(1.0, kUsualTolerance / tolerance_));
+  const double part = kFew / std::max(1.0, movable);
+  isFew_ = movable <= kFew;
+  workShare_ = part * std::min(1.0, part) * std::sqrt(std::max(1.0, RunSettings().tolerance / tolerance_));
   for (const Spring& spring : world.springs) {
     for (const SpringEnd* end : {&spring.from, &spring.to}) {
       const SpringEnd& other = end == &spring.from ? spring.to : spring.from;
@@ -154,12 +167,15 @@ void Bodies::noteSpeed(const Mover& body) {
   };
   if (++noted_ > count()) {
     noted_ = 0;
+    int moving = 0;
     fastestAtZero_ = -std::numeric_limits<double>::infinity();
     for (const Mover& each : movers_) {
       if (each.moves()) {
+        ++moving;
         note(each);
       }
     }
+    mostMoving_ = std::max(mostMoving_, moving);
   }
   note(body);
 }
@@ -192,6 +208,25 @@ void Bodies::strike(const Instant& time, int rank, Partner with, const Vec3& poi
 
 void Bodies::arrive(const Mover& body, const Instant& time, const BodyState& state) {
   account_.arrives(static_cast<std::size_t>(body.listed.value), state, body.elapsed(time));
+}
+
+Doubt* Bodies::doubtAt(int rank, const Instant& time) {
+  Mover& body = (*this)[rank];
+  if (body.isHeld()) {
+    return nullptr;
+  }
+  const double size = radiusOf(*body.body);
+  if (body.doubt.at(time) > size) {
+    const double before = std::max(0.0, size - body.doubt.place);
+    account_.losesPlaces(instantAfter(body.doubt.since, before > 0 ? before / body.doubt.speed : 0).hi);
+  }
+  body.doubt.goOn(time);
+  return &body.doubt;
+}
+
+DoubtfulBody Bodies::doubtful(int rank, const Instant& time, const BodyState& after) {
+  const Body& body = *(*this)[rank].body;
+  return {.body = &body, .doubt = doubtAt(rank, time), .speed = fastestPoint(body, after)};
 }
 
 // ---- Prediction of events.
@@ -277,21 +312,27 @@ double Bodies::withinCell(double speed) const {
 }
 
 bool Bodies::isTooMany(int movable) const {
-  return mayBeCrowd() &&
-         movable > (crowds_.when == CrowdSettings::When::kAbove ? crowds_.above : kMostInContact);
+  return mayBeCrowd() && movable > (crowds_.when == CrowdSettings::When::kAbove ? crowds_.above : kFew);
 }
 
 double Bodies::workLeft(std::span<const int> ranks, const Instant& time) const {
   if (!mayBeCrowd()) {
     return std::numeric_limits<double>::infinity();
   }
-  double left = 0;
+  double spent = 0;
+  double doubt = 0;  // [m]
+  int movable = 0;
   for (const int rank : ranks) {
-    if (!(*this)[rank].isHeld()) {
-      left += workShare_ * (kWorkAtOnce + kWorkPerSecond * time.hi) - (*this)[rank].work;
+    const Mover& body = (*this)[rank];
+    if (!body.isHeld()) {
+      ++movable;
+      spent += body.work;
+      doubt = std::max(doubt, body.doubt.at(time));
     }
   }
-  return left;
+  const bool isWorthLess = !isFew_ && movable > 1 && doubt >= crowds_.tolerance;
+  const double share = workShare_ * kFew / std::max(kFew, mostMoving_);
+  return movable * share * ((isWorthLess ? 0 : kWorkAtOnce) + kWorkPerSecond * time.hi) - spent;
 }
 
 }  // namespace careen

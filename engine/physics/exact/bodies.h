@@ -65,6 +65,10 @@ class Bodies {
   void step(const std::shared_ptr<ContactGroup>& group, std::size_t place);
   /// An impact at that point [m] of a body with another one, by rank, or with a wall.
   void strike(const Instant& time, int rank, Partner with, const Vec3& point, const ImpactShare& share);
+  /// Its doubt from then on, none if it is held. Past its size its place means nothing.
+  Doubt* doubtAt(int rank, const Instant& time);
+  /// A body that takes part in an impact at that time, in this state after it.
+  DoubtfulBody doubtful(int rank, const Instant& time, const BodyState& after);
   /// A flight ends in this state.
   void arrive(const Mover& body, const Instant& time, const BodyState& state);
 
@@ -79,19 +83,19 @@ class Bodies {
   /// [s] Time in which a body of this speed [m/s] does not leave the margin of its cell.
   double withinCell(double speed) const;
 
-  /// Island::work() that bodies may spend together before they go on as a crowd: each of kUnshared in a
-  /// scene so much at once, and so much per simulated second; at a tolerance below 1e-6 m more, as steps get
-  /// shorter. Fewer bodies share the same; of more each may spend less, as the square: a heap costs more per
-  /// body the larger it is, so that 72 poured boxes would spend 36 s on their first 2 s, and chaos makes what
-  /// is exact of a heap worth no more. A unit takes about 0.2 to 1 µs. Counted, not timed, so that the motion
-  /// is the same on every machine, and independent of when the run ends.
+  /// Island::work() that bodies may spend together before they go on as a crowd: each of kFew in a scene so
+  /// much at once, and so much per simulated second; at a tolerance below the usual one more, as steps get
+  /// shorter. Fewer bodies share the same; of more each may spend less, as the square, and less still where
+  /// more than a few moved at once: a heap costs more per body the larger it is. A unit takes about 0.2 to 1
+  /// µs. Counted, not timed, so that the motion is the same on every machine, and independent of when the run
+  /// ends.
   static constexpr double kWorkAtOnce = 6e5;
   static constexpr double kWorkPerSecond = 5e4;
-  static constexpr double kUnshared = 16;
-  /// What these may still spend; negative where they must go on as a crowd.
+  static constexpr int kFew = 16;
+  /// What these may still spend; negative where they must go on as a crowd. In a scene of more than a few,
+  /// those in contact of whom one is in such doubt as a crowd is anyway may spend nothing at once.
   double workLeft(std::span<const int> ranks, const Instant& time) const;
-  /// Of more bodies in contact, time steps cost so much that it does not pay to begin.
-  static constexpr int kMostInContact = 100;
+  /// Of more than a few bodies in contact, time steps cost so much that it does not pay to begin.
   bool isTooMany(int movable) const;
   bool mayBeCrowd() const { return crowds_.when != CrowdSettings::When::kNever; }
 
@@ -111,14 +115,16 @@ class Bodies {
   double timeScale_;
   double longestStep_;
   double workShare_ = 0;  // [1] of the work per body above that each may spend
+  bool isFew_ = true;     // bodies that can move
   Recorder& recorder_;
   std::vector<Mover> movers_;
   Neighbors neighbors_;
   EventQueue queue_;
   FlightAccount account_;
   // [m/s] No body that moves is faster at time t than this and t times gravity, in a scene of so many found
-  // anew after so many motions.
+  // anew after so many motions; the most that moved then.
   double fastestAtZero_ = -std::numeric_limits<double>::infinity();
+  int mostMoving_ = 0;
   int noted_ = 0;
   std::vector<char> forced_;               // by rank
   std::vector<std::vector<int>> springs_;  // by rank

@@ -84,6 +84,7 @@ void CrowdGroup::keepPlace(int rank, std::size_t place) {
   if (!bodies_[rank].isHeld()) {
     bodies_[rank].group = shared_from_this();
     bodies_[rank].place = place;
+    bodies_[rank].doubt.atLeast(bodies_.crowds().tolerance);
   }
 }
 

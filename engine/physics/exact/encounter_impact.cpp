@@ -39,14 +39,20 @@ void resolve(Bodies& bodies, Encounter& encounter) {
 }
 
 void record(Bodies& bodies, const Encounter& encounter) {
+  std::vector<DoubtfulBody> doubtful;
+  for (const EncounterBody& each : encounter.bodies) {
+    doubtful.push_back(bodies.doubtful(each.mover->rank, encounter.time, each.after));
+  }
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
     if (encounter.shares[k].impulse > 0) {
       const ImpactContact contact = encounter.joined(k);
+      touch(doubtful, contact, encounter.shares[k]);
       bodies.strike(encounter.time, encounter.a(k).mover->rank,
                     contact.b.isWall() ? contact.b : Partner::ofBody(encounter.b(k).mover->rank),
                     encounter.a(k).before.pose.position + contact.armA, encounter.shares[k]);
     }
   }
+  doubtMore(doubtful);
 }
 
 }  // namespace careen

@@ -125,6 +125,7 @@ void ExactWorld::end() {
   }
   for (int rank = 0; rank < bodies_.count(); ++rank) {
     const Mover& body = bodies_[rank];
+    bodies_.doubtAt(rank, bodies_.end());
     if (body.steps() && body.group->leader() == rank) {
       body.group->endRun();
     }

@@ -147,14 +147,22 @@ void IslandGroup::accountForLosses() {
   }
 }
 
+// Their doubt is at least the tolerance to which they step.
 void IslandGroup::recordImpacts() {
+  std::vector<DoubtfulBody> doubtful;
+  for (std::size_t i = 0; i < ranks_.size(); ++i) {
+    doubtful.push_back(bodies_.doubtful(ranks_[i], start_, island_->bodies()[i].state()));
+    bodies_[ranks_[i]].doubt.atLeast(bodies_[ranks_[i]].isHeld() ? 0 : bodies_.tolerance());
+  }
   for (const GroupImpact& impact : island_->impacts()) {
+    touch(doubtful, impact.contact, impact.share);
     const auto rankOf = [&](int place) { return ranks_[static_cast<std::size_t>(place)]; };
     const ImpactContact& contact = impact.contact;
     const int a = rankOf(contact.a);
     bodies_.strike(start_, a, contact.b.isWall() ? contact.b : Partner::ofBody(rankOf(contact.b.body())),
                    bodies_[a].stateAt(start_).pose.position + contact.armA, impact.share);
   }
+  doubtMore(doubtful);
 }
 
 }  // namespace careen

@@ -7,6 +7,7 @@
 
 #include "physics/attitude/torque_free_rotation.h"
 #include "physics/exact/contact_group.h"
+#include "physics/exact/doubt.h"
 #include "physics/exact/event_queue.h"
 #include "physics/motion/flight.h"
 #include "physics/motion/recorder.h"
@@ -28,6 +29,7 @@ struct Mover {
   std::shared_ptr<ContactGroup> group;              ///< of which it is a member, perhaps asleep
   std::size_t place = 0;                            ///< its index in that group
   double work = 0;                                  ///< its share of Island::work() so far
+  Doubt doubt;                                      ///< none if it is held
   std::optional<PrincipalMoments<double>> moments;  ///< if it was ever in Flight
   std::optional<TorqueFreeRotation<double>> rotation;
   StepBounds bounds;  ///< of its motion; in Flight only of its turning

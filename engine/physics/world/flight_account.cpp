@@ -84,6 +84,7 @@ RunFigures FlightAccount::figures() const {
           .orthogonality = orthogonality_,
           .deepestPenetration = deepest_,
           .boundedFrom = boundedFrom_,
+          .horizon = horizon_,
           .contact = contact_,
           .crowds = crowds_};
 }

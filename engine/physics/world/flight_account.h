@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -30,7 +31,12 @@ class FlightAccount {
   void parted();
   void penetrates(double depth);
   /// From this time [s] on some bodies are a crowd, not exact.
-  void bounds(double time) { boundedFrom_ = boundedFrom_.value_or(time); }
+  void bounds(double time) {
+    boundedFrom_ = boundedFrom_.value_or(time);
+    losesPlaces(time);
+  }
+  /// From this time [s] on the place of some body means nothing.
+  void losesPlaces(double time) { horizon_ = std::min(time, horizon_.value_or(time)); }
 
   void solved(const ContactResiduals& residuals) { contact_.add(residuals); }
   void solvedCrowd(const ContactResiduals& residuals) { crowds_.add(residuals); }
@@ -62,6 +68,7 @@ class FlightAccount {
   double orthogonality_ = 0;
   double deepest_ = 0;                 // [m]
   std::optional<double> boundedFrom_;  // [s]
+  std::optional<double> horizon_;      // [s]
   ContactResiduals contact_;
   ContactResiduals crowds_;
 };

@@ -17,6 +17,7 @@ struct RunFigures {
   double orthogonality = 0;                ///< [1] largest ‖AAᵀ−1‖
   double deepestPenetration = 0;           ///< [m]
   std::optional<double> boundedFrom = {};  ///< [s] when the first bodies went on as a crowd, if any did
+  std::optional<double> horizon = {};      ///< [s] until then places mean something, if not to the end
   ContactResiduals contact = {};           ///< of impacts of several contacts, contact forces and time steps
   ContactResiduals crowds = {};            ///< of the steps of crowds
 };

@@ -112,13 +112,60 @@ TEST(Bodies, maySpendWhatTheirNumberGivesThem) {
   EXPECT_EQ(never.bodies.workLeft(ranks, Instant(2)), std::numeric_limits<double>::infinity());
 }
 
+World cubesAfloat(int count) {
+  World world;
+  for (int k = 0; k < count; ++k) {
+    world.bodies.push_back(cube("box-" + std::to_string(100 + k), {3.0 * k, 0, 0}));
+  }
+  return world;
+}
+
+// Of 32 each has a quarter of what one of 16 has, and half of that when it is found that all move; only what
+// each second gives in such doubt as a crowd is, if it touches another.
+TEST(Bodies, maySpendLessWhereItIsWorthLess) {
+  StartedBodies many(cubesAfloat(32));
+  const std::vector<int> pair = {0, 1};
+  EXPECT_EQ(many.bodies.workLeft(pair, Instant(2)), 2 * (6e5 + 2 * 5e4) / 4);
+  many.bodies.fly(0, Instant(1), many.bodies[0].body->initial, Quat::Identity());
+  EXPECT_EQ(many.bodies.workLeft(pair, Instant(2)), 2 * (6e5 + 2 * 5e4) / 8);
+  many.bodies[1].doubt = {.place = 2e-4, .speed = 1e-4};
+  EXPECT_EQ(many.bodies.workLeft(pair, Instant(0.5)), 2 * (6e5 + 0.5 * 5e4) / 8);
+  EXPECT_EQ(many.bodies.workLeft(pair, Instant(2)), 2 * 2 * 5e4 / 8);
+  many.bodies[0].work = 1e5;
+  EXPECT_EQ(many.bodies.workLeft(pair, Instant(2)), 2 * 2 * 5e4 / 8 - 1e5);
+  EXPECT_EQ(many.bodies.workLeft(std::vector<int>{1}, Instant(2)), (6e5 + 2 * 5e4) / 8);
+  StartedBodies few(cubesAfloat(16));
+  few.bodies[1].doubt.place = 1;
+  EXPECT_EQ(few.bodies.workLeft(pair, Instant(2)), 2 * (6e5 + 2 * 5e4));
+}
+
+// A cube at rest 5 m from the origin, half diagonal √3/2: known to a rounding of both.
+TEST(Bodies, areKnownToRoundingAtTheStart) {
+  const StartedBodies all(afloat({cube("a", {0, 3, 4}), test::held(cube("b", {9, 0, 0}))}));
+  const double radius = std::sqrt(3.0) / 2;
+  EXPECT_DOUBLE_EQ(all.bodies[0].doubt.place, 0x1p-52 * (5 + radius));
+  EXPECT_EQ(all.bodies[0].doubt.speed, 0);
+  EXPECT_EQ(all.bodies[1].doubt.place, 0);
+}
+
+// Its doubt passes its radius after radius / speed.
+TEST(Bodies, tellWhenAPlaceMeansNothing) {
+  StartedBodies all(afloat({cube("a", {0, 0, 0})}));
+  all.bodies[0].doubt = {.place = 0, .speed = 0.25};
+  all.bodies.doubtAt(0, Instant(3));
+  EXPECT_FALSE(all.bodies.account().figures().horizon);
+  all.bodies.doubtAt(0, Instant(9));
+  ASSERT_TRUE(all.bodies.account().figures().horizon);
+  EXPECT_NEAR(*all.bodies.account().figures().horizon, std::sqrt(3.0) / 2 / 0.25, 1e-15);
+}
+
 TEST(Bodies, areTooManyWhereTheSceneSaysSo) {
   StartedBodies above(afloat({}), {.when = CrowdSettings::When::kAbove, .above = 3});
   EXPECT_FALSE(above.bodies.isTooMany(3));
   EXPECT_TRUE(above.bodies.isTooMany(4));
   StartedBodies automatic(afloat({}));
-  EXPECT_FALSE(automatic.bodies.isTooMany(100));
-  EXPECT_TRUE(automatic.bodies.isTooMany(101));
+  EXPECT_FALSE(automatic.bodies.isTooMany(16));
+  EXPECT_TRUE(automatic.bodies.isTooMany(17));
   StartedBodies never(afloat({}), {.when = CrowdSettings::When::kNever});
   EXPECT_FALSE(never.bodies.isTooMany(1000));
 }

@@ -22,6 +22,7 @@ TEST(CrowdGroup, hasTheBodiesOfAnEncounter) {
   EXPECT_TRUE(crowd->has(all.bodies[1]));
   EXPECT_FALSE(crowd->has(all.bodies[2]));
   EXPECT_TRUE(all.bodies[1].steps());
+  EXPECT_EQ(all.bodies[1].doubt.place, 3e-4);  // its tolerance
   EXPECT_EQ(crowd->start().hi, 0);
   EXPECT_GT(crowd->length(), 0);
   EXPECT_EQ(all.bodies.queue().next()->kind, EventKind::kStep);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/started_bodies.h"
 
 namespace careen {
@@ -38,6 +40,11 @@ TEST(EncounterImpact, followsTheLawOfImpact) {
     recorded += impact.impulse;
   }
   EXPECT_EQ(recorded, impulse);
+  // Rounding of b's place, of 1.5 m/s, and what 2 m/s make of the place.
+  const double radius = std::sqrt(3.0) / 2;
+  const double speed = 0x1p-52 * (1.5 + 2 * (1 + radius) / radius);
+  EXPECT_NEAR(all.bodies[0].doubt.speed, speed, 1e-15 * speed);
+  EXPECT_NEAR(all.bodies[1].doubt.speed, speed, 1e-15 * speed);
 }
 
 TEST(EncounterImpact, isNotRecordedWhereNothingPushes) {

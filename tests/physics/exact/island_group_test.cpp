@@ -36,6 +36,13 @@ TEST(IslandGroup, movesItsBodiesFromStepToStep) {
               1e-12);
 }
 
+TEST(IslandGroup, isKnownToItsTolerance) {
+  Sliding sliding;
+  EXPECT_LT(sliding.all.bodies[0].doubt.place, 1e-15);
+  sliding.island->begin(Instant(0));
+  EXPECT_EQ(sliding.all.bodies[0].doubt.place, 1e-6);
+}
+
 TEST(IslandGroup, endsItsStepWhereAnEncounterIs) {
   Sliding sliding;
   sliding.island->begin(Instant(0));

@@ -109,13 +109,17 @@ TEST(FlightAccount, remembersTheDeepestPenetrationTheWorstMatrixAndWhenItWasBoun
   EXPECT_FALSE(account.figures().boundedFrom.has_value());
   account.penetrates(0.25);
   account.penetrates(0.125);
+  account.losesPlaces(5);
+  EXPECT_EQ(account.figures().horizon, 5);
   account.bounds(3);
+  account.losesPlaces(4);
   BodyState skew = at(world, 3);
   skew.pose.worldFromBody *= 1.5;
   account.departs(0, skew);
   account.departs(0, at(world, 3));
   EXPECT_EQ(account.figures().deepestPenetration, 0.25);
   EXPECT_EQ(account.figures().boundedFrom, 3);
+  EXPECT_EQ(account.figures().horizon, 3);
   EXPECT_EQ(account.figures().orthogonality, orthogonalityError(skew.pose.worldFromBody));
   EXPECT_GT(account.figures().orthogonality, 1);
 }
