@@ -338,7 +338,10 @@ void CrowdGroup::commit(const Instant& time) {
   for (const Crowd::Struck& struck : crowd_.impacts()) {
     const auto rankOf = [&](int place) { return ranks_[static_cast<std::size_t>(place)]; };
     bodies_.strike(time, rankOf(struck.a),
-                   struck.b.isWall() ? struck.b : Partner::ofBody(rankOf(struck.b.body())), struck.point,
+                   crowd_.body(static_cast<std::size_t>(struck.b)).isBox()
+                       ? Partner::ofBody(rankOf(struck.b))
+                       : Partner::ofWall(static_cast<std::size_t>(struck.b)),
+                   struck.point,
                    {.approach = struck.approach,
                     .impulse = struck.impulse,
                     .tangential = struck.tangential,

@@ -113,7 +113,7 @@ TEST(CrowdGroup, knowsWhereMembersTakenInAre) {
   const std::shared_ptr<CrowdGroup> first = crowdOf(all, 0);
   const std::shared_ptr<CrowdGroup> second = crowdOf(all, 2);
   const std::shared_ptr<CrowdGroup> last = crowdOf(all, 4);
-  for (int steps = 0; !last->crowd().sleeps(0) && steps < 100; ++steps) {
+  for (int steps = 0; !last->crowd().sleeps(1) && steps < 100; ++steps) {
     for (CrowdGroup* group : {first.get(), second.get(), last.get()}) {
       group->advance(group->end());
     }
