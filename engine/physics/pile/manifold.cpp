@@ -254,11 +254,7 @@ void refreshAtWall(const PileBody& a, const Wall& wall, PileManifold& manifold) 
   }
 }
 
-bool buildOfBoxes(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
-  const Former former = formerOf(manifold);
-  manifold.count = 0;
-  manifold.hasEdges = false;
-  manifold.moved = 0;
+bool findPointsOfBoxes(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
   PileAxes axes;
   const double tie = kTie * manifold.length;
   if (!axes.find(a, b, reach, manifold.axis, tie)) {
@@ -277,32 +273,22 @@ bool buildOfBoxes(const PileBody& a, const PileBody& b, double reach, PileManifo
   if (manifold.count == 0 && manifold.separation > 0) {
     addClosest(a, b, reach, manifold);
   }
-  refreshOfBoxes(a, b, manifold);
-  inherit(former, manifold);
   return true;
 }
 
-bool buildAtWall(const PileBody& a, const Wall& wall, double reach, PileManifold& manifold) {
-  const Former former = formerOf(manifold);
-  manifold.count = 0;
-  manifold.moved = 0;
+bool findPointsAtWall(const PileBody& a, const Wall& wall, double reach, PileManifold& manifold) {
   manifold.planeOfB = true;
   manifold.plane = frameOf(wall.normal);
   const Vec3 up = a.axes.transpose() * wall.normal;
   const double height = gap(wall, a.middle());
   manifold.separation = height - dot(a.halfExtents, up.cwiseAbs());
-  if (manifold.separation > reach) {
-    return false;
-  }
-  for (int k = 0; k < kCorners; ++k) {
+  for (int k = 0; k < kCorners && manifold.separation <= reach; ++k) {
     const Vec3 local = corner(a.halfExtents, k);
     if (height + dot(up, local) <= reach) {
       addPoint(manifold, local, static_cast<std::uint32_t>(k));
     }
   }
-  refreshAtWall(a, wall, manifold);
-  inherit(former, manifold);
-  return true;
+  return manifold.separation <= reach;
 }
 
 double gapAtWall(const PileBody& a, const Wall& wall) {
@@ -313,7 +299,17 @@ double gapAtWall(const PileBody& a, const Wall& wall) {
 }  // namespace
 
 bool buildManifold(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
-  return b.isBox() ? buildOfBoxes(a, b, reach, manifold) : buildAtWall(a, *b.halfSpace, reach, manifold);
+  const Former former = formerOf(manifold);
+  manifold.count = 0;
+  manifold.hasEdges = false;
+  manifold.moved = 0;
+  const bool found = b.isBox() ? findPointsOfBoxes(a, b, reach, manifold)
+                               : findPointsAtWall(a, *b.halfSpace, reach, manifold);
+  if (found) {
+    refreshManifold(a, b, manifold);
+    inherit(former, manifold);
+  }
+  return found;
 }
 
 void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifold) {

@@ -129,7 +129,7 @@ TEST(PileManifold, noPointIsDeeperThanTheBoxesAre) {
 // On a slope of 3 : 4 a cube of 1 m that lies 1 mm above it has its four lower corners at that gap. It cannot
 // come nearer than it moves along the normal, whatever it moves along the slope.
 TEST(PileManifold, halfSpaceIsMetByTheCornersNearIt) {
-  const Wall slope{.normal = Vec3(0.6, 0, 0.8), .offset = 2};
+  const Wall slope{.name = "slope", .normal = Vec3(0.6, 0, 0.8), .offset = 2, .material = {}};
   const PileBody wall = pileBody(slope);
   const Mat3 axes = axisAngle(Vec3::UnitY(), std::atan2(0.6, 0.8));
   PileBody box = boxOfMassOneAt(Vec3::Constant(0.5), 2.501 * slope.normal, axes);

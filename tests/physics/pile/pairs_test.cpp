@@ -14,7 +14,7 @@ namespace {
 using Found = std::set<std::pair<int, int>>;
 
 // Bodies that fly about without touching: every pair whose boxes about the axes meet must be listed, whatever
-// boxes were kept, refitted or built anew before; and the list stays in the order of its keys.
+// boxes were kept, refitted or built anew before; and the list stays in the order of its keys, walls last.
 TEST(PilePairs, listsEveryPairThatCanTouchThroughoutAFlight) {
   const double frame = 1.0 / 60;
   World world = test::pouring(150, 0, 0, 1, 5);
@@ -44,6 +44,8 @@ TEST(PilePairs, listsEveryPairThatCanTouchThroughoutAFlight) {
     for (std::size_t i = 0; i < pairs.pairs().size(); ++i) {
       const PilePair& pair = pairs.pairs()[i];
       ASSERT_TRUE(i == 0 || pairs.pairs()[i - 1].key < pair.key);
+      ASSERT_TRUE(i == 0 || pairs.pairs()[i - 1].a < pair.a || pairs.pairs()[i - 1].b >= walls ||
+                  pair.b < walls);
       found.insert({pair.a, pair.b});
     }
     most = std::max(most, found.size());
