@@ -24,7 +24,7 @@ void resolve(benchmark::State& state, std::size_t count, double restitution, dou
     for (int k = kCorners - 1; k >= 0; --k) {
       if (((k >> (2 - axis)) & 1) != 0) {
         contacts[next++] = {.a = 0,
-                            .b = Partner::ofWall(0),
+                            .b = 1,
                             .armA = corner(half, k),
                             .armB = Vec3::Zero(),
                             .normal = Vec3(Vec3::Unit(axis)),
@@ -34,7 +34,8 @@ void resolve(benchmark::State& state, std::size_t count, double restitution, dou
   }
   for (auto _ : state) {
     BodyState body = before;
-    const std::array<ImpactBody, 1> bodies{{{&mass, &body}}};
+    BodyState still;
+    const std::array<ImpactBody, 2> bodies{{{&mass, &body}, {&bodyOfWalls().mass, &still}}};
     resolveImpact(bodies, std::span(contacts).first(count), std::span(shares).first(count));
     benchmark::DoNotOptimize(body);
   }

@@ -37,12 +37,13 @@ struct CrowdStages {
     memory.length = members.h;
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
       members.add(pileBody(world.bodies[i], world.bodies[i].initial), i);
-      memory.places.emplace_back();
-      contacts.addPlace();
+      memory.places.resize(members.size());
       loads.limitBySprings(i);
     }
   }
 
+  /// The place of a body of the world: walls come first.
+  std::size_t of(int body) const { return members.world.walls.size() + at(body); }
   /// The contacts of a step of that length [s].
   void meet(double h) {
     members.h = members.span = memory.length = h;

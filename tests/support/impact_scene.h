@@ -21,6 +21,8 @@ struct ImpactScene {
   std::vector<ImpactContact> contacts;
   std::vector<ImpactShare> shares;
 
+  /// The walls: one more body, that cannot move.
+  int wall() const { return static_cast<int>(states.size()); }
   int addBox(const Vec3& half, double mass, const BodyState& state) {
     halfExtents.push_back(half);
     masses.push_back(solidBox(half, mass));
@@ -30,7 +32,7 @@ struct ImpactScene {
   void addCorner(int body, int cornerIndex, const Vec3& normal, const Material& material) {
     const auto k = static_cast<std::size_t>(body);
     contacts.push_back({.a = body,
-                        .b = Partner::ofWall(0),
+                        .b = wall(),
                         .armA = states[k].pose.worldFromBody * corner(halfExtents[k], cornerIndex),
                         .armB = Vec3::Zero(),
                         .normal = normal,
@@ -41,6 +43,8 @@ struct ImpactScene {
     for (std::size_t k = 0; k < states.size(); ++k) {
       bodies.push_back({&masses[k], &states[k]});
     }
+    BodyState still;
+    bodies.push_back({&bodyOfWalls().mass, &still});
     shares.assign(contacts.size(), {});
     resolveImpact(bodies, contacts, shares);
   }
@@ -56,7 +60,7 @@ struct ImpactScene {
   }
   Quad3 relativeVelocity(const ImpactContact& c) const {
     const Quad3 a = pointVelocity(c.a, c.armA);
-    return c.b.isWall() ? a : Quad3(a - pointVelocity(c.b.body(), c.armB));
+    return c.b == wall() ? a : Quad3(a - pointVelocity(c.b, c.armB));
   }
   double partingSpeed(const ImpactContact& c) const {
     return static_cast<double>(Quad(relativeVelocity(c).dot(c.normal.cast<Quad>())));
@@ -172,7 +176,7 @@ inline ImpactScene randomImpact(Random& random, int most, bool friction) {
                             .friction = friction ? random.between(0, 1.5) : 0};
     scene.addCorner(a, index, normal, material);
     if (!wall) {
-      scene.contacts.back().b = Partner::ofBody(1);
+      scene.contacts.back().b = 1;
       scene.contacts.back().armB =
           scene.states[1].pose.worldFromBody * corner(scene.halfExtents[1], random.below(8));
     }

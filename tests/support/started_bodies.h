@@ -35,8 +35,7 @@ struct StartedBodies {
 
   /// What follows for those that touch that body now.
   Encounter encounter(int rank, double time = 0) {
-    Encounter found =
-        gather(bodies, {.time = Instant(time), .kind = EventKind::kContact, .body = rank, .partner = {}});
+    Encounter found = gather(bodies, {.time = Instant(time), .kind = EventKind::kContact, .body = rank});
     findContacts(bodies, found);
     return found;
   }

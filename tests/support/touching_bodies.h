@@ -8,6 +8,7 @@
 
 namespace careen {
 
+/// Its bodies, then its walls.
 inline std::vector<TouchingBody> touching(const World& world) {
   std::vector<TouchingBody> bodies;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
@@ -21,6 +22,9 @@ inline std::vector<TouchingBody> touching(const World& world) {
       bodies.back().angularVelocityBody = body.mass.inverseInertiaBody.cwiseProduct(
           body.initial.pose.worldFromBody.transpose() * body.initial.angularMomentum);
     }
+  }
+  for (const Wall& wall : world.walls) {
+    bodies.push_back(touchingBody(wall));
   }
   return bodies;
 }
@@ -50,7 +54,10 @@ inline std::vector<ContactFeature> lowerCorners(const World& world, int body = 0
   for (int k = 0; k < kCorners; ++k) {
     const Vec3 at = corner(world.bodies[static_cast<std::size_t>(body)].halfExtents, k);
     if (at.z() < 0) {
-      features.push_back({.a = body, .b = Partner::ofWall(0), .onA = at, .material = {.friction = friction}});
+      features.push_back({.a = body,
+                          .b = static_cast<int>(world.bodies.size()),
+                          .onA = at,
+                          .material = {.friction = friction}});
     }
   }
   return features;

@@ -139,7 +139,7 @@ void SteppedBody::strike() {
   const BodyState before = now_.state(body_.mass);
   BodyState after = before;
   contacts_.clear();
-  account_.penetrates(addWallContacts(world_, body_, before.pose, 0, contacts_));
+  account_.penetrates(addWallContacts(world_, body_, before.pose, 0, 1, contacts_));
   account_.arrives(static_cast<std::size_t>(index_), before, time_ - departure_);
   if (std::any_of(contacts_.begin(), contacts_.end(), [](const ImpactContact& contact) {
         return contact.material.restitution < 1 || contact.material.friction > 0;
@@ -147,13 +147,15 @@ void SteppedBody::strike() {
     account_.mayLose();
   }
   shares_.assign(contacts_.size(), {});
-  const ImpactBody body{.mass = &body_.mass, .state = &after};
-  resolveImpact({&body, 1}, contacts_, shares_);
+  BodyState still;
+  std::vector<ImpactBody> bodies(1 + world_.walls.size(), {.mass = &bodyOfWalls().mass, .state = &still});
+  bodies[0] = {.mass = &body_.mass, .state = &after};
+  resolveImpact(bodies, contacts_, shares_);
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     if (shares_[k].impulse > 0) {
       impacts_.push_back({.time = time_,
                           .a = {index_},
-                          .b = contacts_[k].b,
+                          .b = Partner::ofWall(static_cast<std::size_t>(contacts_[k].b) - 1),
                           .point = before.pose.position + contacts_[k].armA,
                           .normal = contacts_[k].normal,
                           .approach = shares_[k].approach,

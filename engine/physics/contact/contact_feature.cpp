@@ -75,7 +75,7 @@ ContactState onEdge(const ContactFeature& feature, const Kinematics& a, const Ve
 }
 
 // [1] The least component of a direction along the outward normals of the faces through a point.
-double marginAt(const Vec3& direction, const Mat3& worldFromBody, const Vec3& point, BoxShape box) {
+double marginAt(const Vec3& direction, const Mat3& worldFromBody, const Vec3& point, TouchingShape box) {
   double least = 1;
   for (int i = 0; i < 3; ++i) {
     const double place = point[i] - box.center[i];
@@ -108,8 +108,8 @@ Turning meanNormal(const Turning& a, const Turning& b, const Turning& edge) {
   return {.direction = normal, .rate = (acrossRate - dot(normal, acrossRate) * normal) / size};
 }
 
-ContactState inCone(const ContactFeature& feature, const Kinematics& a, BoxShape boxA, const Kinematics& b,
-                    BoxShape boxB) {
+ContactState inCone(const ContactFeature& feature, const Kinematics& a, TouchingShape boxA,
+                    const Kinematics& b, TouchingShape boxB) {
   const auto turning = [](const Kinematics& body, const Vec3& inBody) {
     const Vec3 direction = body.pose.worldFromBody * inBody;
     return Turning{.direction = direction, .rate = body.angularVelocity.cross(direction)};
@@ -221,7 +221,7 @@ ContactFeature pointInCone(int a, BoxAt boxA, const Vec3& placeA, const Sides& s
                            const Vec3& placeB, const Sides& sidesB, const Vec3& normal) {
   ContactFeature feature{.kind = ContactFeature::Kind::kInCone,
                          .a = a,
-                         .b = Partner::ofBody(b),
+                         .b = b,
                          .axisA = freeEdge(sidesA),
                          .axisB = freeEdge(sidesB),
                          .normalA = boxA.pose.worldFromBody.transpose() * normal,
@@ -239,7 +239,7 @@ ContactFeature pointOnFace(int a, const Vec3& point, int b, const Mat3& worldFro
                            const Vec3& normal) {
   return {.kind = ContactFeature::Kind::kPointOnFace,
           .a = a,
-          .b = Partner::ofBody(b),
+          .b = b,
           .onA = point,
           .axisB = face,
           .sign = dot(worldFromB.col(face), normal) < 0 ? -1.0 : 1.0};
@@ -288,7 +288,7 @@ ContactFeature featureInOrder(const ContactPoint& point, double apart, int a, Bo
     const Vec3 cross = poseA.worldFromBody.col(edgeA).cross(poseB.worldFromBody.col(edgeB));
     return {.kind = ContactFeature::Kind::kEdgeOnEdge,
             .a = a,
-            .b = Partner::ofBody(b),
+            .b = b,
             .onA = atSides(placeA, halfExtentsA, edgeA),
             .onB = atSides(placeB, halfExtentsB, edgeB),
             .axisA = edgeA,
@@ -309,24 +309,24 @@ ContactFeature featureInOrder(const ContactPoint& point, double apart, int a, Bo
 }
 
 // All but its directions.
-ContactState stateOfNormal(const ContactFeature& feature, const Kinematics& a, BoxShape boxA,
-                           const Kinematics* b, BoxShape boxB, const Wall* wall) {
+ContactState stateOfNormal(const ContactFeature& feature, const Kinematics& a, TouchingShape boxA,
+                           const Kinematics& b, TouchingShape boxB) {
   if (feature.kind == ContactFeature::Kind::kEdgeOnEdge) {
-    return onEdge(feature, a, boxA.halfExtents, *b, boxB.halfExtents);
+    return onEdge(feature, a, boxA.halfExtents, b, boxB.halfExtents);
   }
   if (feature.kind == ContactFeature::Kind::kInCone) {
-    return inCone(feature, a, boxA, *b, boxB);
+    return inCone(feature, a, boxA, b, boxB);
   }
   const Vec3 arm = a.pose.worldFromBody * feature.onA;
   if (feature.kind == ContactFeature::Kind::kPointOnWall) {
-    ContactState state = onPlane(arm, a, nullptr, wall->normal, wall->offset);
+    ContactState state = onPlane(arm, a, nullptr, boxB.halfSpace->normal, boxB.halfSpace->offset);
     state.beyond = -std::numeric_limits<double>::infinity();
     return state;
   }
   const int face = feature.axisB;
-  const Vec3 normal = feature.sign * b->pose.worldFromBody.col(face);
-  ContactState state = onPlane(arm, a, b, normal, boxB.halfExtents[face] + feature.sign * boxB.center[face]);
-  const Vec3 place = b->pose.worldFromBody.transpose() * state.armB;
+  const Vec3 normal = feature.sign * b.pose.worldFromBody.col(face);
+  ContactState state = onPlane(arm, a, &b, normal, boxB.halfExtents[face] + feature.sign * boxB.center[face]);
+  const Vec3 place = b.pose.worldFromBody.transpose() * state.armB;
   state.beyond = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     if (i != face) {
@@ -344,18 +344,18 @@ bool isSame(const ContactFeature& x, const ContactFeature& y) {
          (x.onB - y.onB).isZero(1e-9 * x.onB.norm());
 }
 
-bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, const Vec3& corner) {
+bool hasCorner(std::span<const ContactFeature> features, const ContactFeature& corner) {
   return std::any_of(features.begin(), features.end(), [&](const ContactFeature& feature) {
-    return feature.a == a && feature.b == wall && feature.onA == corner;
+    return feature.a == corner.a && feature.b == corner.b && feature.onA == corner.onA;
   });
 }
 
-ContactState contactState(const ContactFeature& feature, const Kinematics& a, BoxShape boxA,
-                          const Kinematics* b, BoxShape boxB, const Wall* wall) {
-  ContactState state = stateOfNormal(feature, a, boxA, b, boxB, wall);
+ContactState contactState(const ContactFeature& feature, const Kinematics& a, TouchingShape boxA,
+                          const Kinematics& b, TouchingShape boxB) {
+  ContactState state = stateOfNormal(feature, a, boxA, b, boxB);
   if (feature.axes != 0) {
     state.directions = directionsOf(feature.axes, {a.pose, boxA.halfExtents, boxA.center},
-                                    {b->pose, boxB.halfExtents, boxB.center});
+                                    {b.pose, boxB.halfExtents, boxB.center});
   }
   return state;
 }

@@ -7,7 +7,6 @@
 #include "physics/geometry/contact_points.h"
 #include "physics/geometry/separating_axes.h"
 #include "physics/world/body.h"
-#include "physics/world/partner.h"
 #include "physics/world/world.h"
 
 namespace careen {
@@ -31,7 +30,7 @@ struct ContactFeature {
 
   Kind kind = Kind::kPointOnWall;
   int a = 0;                    ///< index of a body; the normal points to it
-  Partner b = {};               ///< a wall, or the index of a body
+  int b = 0;                    ///< index of a body, which may be a half-space
   Vec3 onA = Vec3::Zero();      ///< [m] in a's frame: the point, or its edge's middle
   Vec3 onB = Vec3::Zero();      ///< [m] in b's frame: the point, or its edge's middle
   int axisA = 0;                ///< body axis along a's edge; kNoEdge for a point
@@ -76,29 +75,28 @@ struct ContactState {
   void setNormal(const Vec3& normal, const Vec3& normalRate);
 };
 
-/// A body's box, as an argument: a view of its size and place in the body, not to be stored.
-struct BoxShape {
+/// A body's shape, as an argument: a view, not to be stored. A box, by its size and place in the body, or a
+/// half-space.
+struct TouchingShape {
   const Vec3& halfExtents;                ///< [m]
   const Vec3& center = BoxAt::kCentered;  ///< [m] its middle, body frame
+  const Wall* halfSpace = nullptr;
 };
-inline BoxShape shapeOf(const Body& body) {
-  return {.halfExtents = body.halfExtents, .center = body.boxCenter};
-}
 
 /// Whether both are the same parts of the same bodies, whatever else is known of them.
 bool isSame(const ContactFeature& x, const ContactFeature& y);
 
-/// Whether the features include that corner of a at that wall.
-bool hasCorner(std::span<const ContactFeature> features, int a, Partner wall, const Vec3& corner);
+/// Whether the features include that corner of a body at that half-space.
+bool hasCorner(std::span<const ContactFeature> features, const ContactFeature& corner);
 
-/// `b` is null for a wall. Eq. 13 and its derivative; n rotates with b's face, or with both edges.
+/// Eq. 13 and its derivative; n rotates with b's face, or with both edges. Half-spaces do not move.
 ///
 /// In a cone n is the mean of the two directions that it had in each body's frame when the contact began,
 /// perpendicular to the edge on which the contact can move: the bodies carry it half way each, so it stays
 /// symmetric. For parallel edges that is the bisector of the fan as it moves. With w from b's point to a's,
 /// d = n·w, and where they touch d̈ = n·ẅ + 2ṅ·ẇ.
-ContactState contactState(const ContactFeature& feature, const Kinematics& a, BoxShape boxA,
-                          const Kinematics* b, BoxShape boxB, const Wall* wall);
+ContactState contactState(const ContactFeature& feature, const Kinematics& a, TouchingShape shapeA,
+                          const Kinematics& b, TouchingShape shapeB);
 
 /// The feature of two boxes at a point of boxContactPoints. `apart` [m] is their gap, negative for
 /// penetration: a crossing of edges lies halfway between them.

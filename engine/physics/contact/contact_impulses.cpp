@@ -20,9 +20,7 @@ void ContactImpulses::begin(std::span<const ContactFeature> contacts, const Grou
   std::vector<char> touched(group_.size(), 0);
   for (const ContactFeature& feature : contacts) {
     touched[static_cast<std::size_t>(feature.a)] = 1;
-    if (!feature.b.isWall()) {
-      touched[static_cast<std::size_t>(feature.b.body())] = 1;
-    }
+    touched[static_cast<std::size_t>(feature.b)] = 1;
   }
   for (std::size_t i = 0; i < group_.size(); ++i) {
     if (touched[i] != 0 && !group_.isHeld(i)) {
@@ -60,9 +58,7 @@ ContactProblem::Contact& ContactImpulses::add(const ContactFeature& feature, con
     return places_[body];
   };
   contact.a = addSide(static_cast<std::size_t>(feature.a), 0, geometry.armA, 1);
-  if (!feature.b.isWall()) {
-    contact.b = addSide(static_cast<std::size_t>(feature.b.body()), 1, geometry.armB, -1);
-  }
+  contact.b = addSide(static_cast<std::size_t>(feature.b), 1, geometry.armB, -1);
   contact.friction = feature.material.friction;
   for (const Vec3& direction : geometry.directions) {
     contact.directions.push_back(frame.along(direction));
@@ -79,7 +75,7 @@ void ContactImpulses::aimAtEnd(std::size_t index, const ContactFeature& feature,
   for (std::size_t row = 0; row < 3; ++row) {
     double speed = 0;
     const std::array<int, 2> sides{contact.a, contact.b};
-    const std::array<int, 2> bodies{feature.a, feature.b.isWall() ? 0 : feature.b.body()};
+    const std::array<int, 2> bodies{feature.a, feature.b};
     for (std::size_t side = 0; side < 2; ++side) {
       if (sides[side] == ContactProblem::kNobody) {
         continue;
@@ -121,15 +117,15 @@ void ContactImpulses::sum(std::span<const ContactFeature> contacts, std::span<co
   }
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Vec3 push = frameOf(geometry[c].normal).inWorld(impulses[c]);
-    const auto add = [&](int body, const Vec3& arm, double sign) {
-      const Vec3 twist = sign * arm.cross(push);
-      parts_[static_cast<std::size_t>(body)].push_back(
-          {sign * push[0], sign * push[1], sign * push[2], twist[0], twist[1], twist[2]});
+    const auto add = [&](std::size_t body, const Vec3& arm, double sign) {
+      if (!group_.isHeld(body)) {
+        const Vec3 twist = sign * arm.cross(push);
+        parts_[body].push_back(
+            {sign * push[0], sign * push[1], sign * push[2], twist[0], twist[1], twist[2]});
+      }
     };
-    add(contacts[c].a, geometry[c].armA, 1);
-    if (!contacts[c].b.isWall()) {
-      add(contacts[c].b.body(), geometry[c].armB, -1);
-    }
+    add(static_cast<std::size_t>(contacts[c].a), geometry[c].armA, 1);
+    add(static_cast<std::size_t>(contacts[c].b), geometry[c].armB, -1);
   }
   sums.resize(group_.size());
   for (std::size_t i = 0; i < sums.size(); ++i) {

@@ -51,7 +51,7 @@ class ContactImpulses {
   /// [m/s] and [rad/s] in the body's frame: velocities of one of the movers after them.
   Vec3 velocity(std::size_t mover) const;
   Vec3 spinBody(std::size_t mover) const;
-  /// What impulses at contacts give to each body of the group.
+  /// What impulses at contacts give to each body of the group that is not held.
   void sum(std::span<const ContactFeature> contacts, std::span<const ContactState> geometry,
            std::span<const Triple> impulses, std::vector<BodyImpulse>& sums);
 

@@ -115,11 +115,9 @@ void ContactSystem::look(std::span<const double> y) {
     const ContactFeature& feature = features_[c];
     pushing_[c] = pushes(c) ? 1 : 0;
     const auto a = static_cast<std::size_t>(feature.a);
-    const bool onWall = feature.b.isWall();
-    const auto b = static_cast<std::size_t>(onWall ? 0 : feature.b.body());
+    const auto b = static_cast<std::size_t>(feature.b);
     states_[c] =
-        contactState(feature, kinematics_[a], shapeOf(*bodies_[a].body), onWall ? nullptr : &kinematics_[b],
-                     shapeOf(*bodies_[b].body), onWall ? &world_->walls[feature.b.wall()] : nullptr);
+        contactState(feature, kinematics_[a], bodies_[a].shape(), kinematics_[b], bodies_[b].shape());
   }
   normals_.align(features_, pushing_, states_);
 }
@@ -142,10 +140,7 @@ void ContactSystem::fillContacts() {
       return static_cast<int>(places_[body]);
     };
     contact.a = addSide(a, 0, state.armA, 1);
-    contact.b = ContactForces::kNobody;
-    if (!feature.b.isWall()) {
-      contact.b = addSide(static_cast<std::size_t>(feature.b.body()), 1, state.armB, -1);
-    }
+    contact.b = addSide(static_cast<std::size_t>(feature.b), 1, state.armB, -1);
     contact.target = {-state.gapBias, -dot(state.slipBias, frame.tangent1),
                       -dot(state.slipBias, frame.tangent2)};
     contact.friction = feature.material.friction;

@@ -12,18 +12,50 @@
 
 namespace careen {
 
-/// A body of an island of touching bodies.
+/// A body of an island of touching bodies: a box or a half-space.
 struct TouchingBody {
   const Body* body = nullptr;
-  int index = 0;  ///< of the body in the world
+  const Wall* halfSpace = nullptr;  ///< its shape; null: the body's box
+  int index = 0;                    ///< of the body in the world
   Vec3 position = Vec3::Zero();
   Quat worldFromBody = Quat::Identity();
   Vec3 velocity = Vec3::Zero();             ///< [m/s]
   Vec3 angularVelocityBody = Vec3::Zero();  ///< [rad/s] body frame
 
   bool isHeld() const { return isImmovable(body->mass); }
+  bool isBox() const { return halfSpace == nullptr; }
+  TouchingShape shape() const { return {body->halfExtents, body->boxCenter, halfSpace}; }
+  const Material& material() const { return isBox() ? body->material : halfSpace->material; }
   BodyState state() const;
 };
+inline TouchingBody touchingBody(const Wall& wall) { return {.body = &bodyOfWalls(), .halfSpace = &wall}; }
+
+/// How many of a group are boxes: half-spaces come after them.
+inline std::size_t boxesOf(std::span<const TouchingBody> bodies) {
+  std::size_t boxes = bodies.size();
+  while (boxes > 0 && !bodies[boxes - 1].isBox()) {
+    --boxes;
+  }
+  return boxes;
+}
+
+/// Calls visit(feature, half-space) for the corners of a box, if it is not held, at those half-spaces of its
+/// group for which isNear(half-space).
+template <class IsNear, class Visit>
+void forCorners(std::span<const TouchingBody> bodies, std::size_t box, const IsNear& isNear,
+                const Visit& visit) {
+  for (std::size_t b = bodies[box].isHeld() ? bodies.size() : boxesOf(bodies); b < bodies.size(); ++b) {
+    if (isNear(*bodies[b].halfSpace)) {
+      ContactFeature feature{.a = static_cast<int>(box),
+                             .b = static_cast<int>(b),
+                             .material = touching(bodies[box].material(), bodies[b].material())};
+      for (int k = 0; k < kCorners; ++k) {
+        feature.onA = corner(*bodies[box].body, k);
+        visit(feature, *bodies[b].halfSpace);
+      }
+    }
+  }
+}
 
 /// The equations of motion of bodies in persistent contact: Eqs. 10, 13, 14 and Euler's equations, with the
 /// contact forces that ContactForces finds.

@@ -47,7 +47,7 @@ void EventFunctions::listContacts() {
     const bool first = std::none_of(features.begin(), features.begin() + static_cast<std::ptrdiff_t>(c),
                                     [&](const ContactFeature& other) {
                                       return (other.a == features[c].a && other.b == features[c].b) ||
-                                             (features[c].b.isBody(other.a) && other.b.isBody(features[c].a));
+                                             (features[c].b == other.a && other.b == features[c].a);
                                     });
     if (!isOnWall(c) && first) {
       functions_.push_back({.kind = Kind::kOverlap, .contact = c});
@@ -57,15 +57,15 @@ void EventFunctions::listContacts() {
 
 void EventFunctions::listCorners() {
   for (std::size_t i = 0; i < system_.bodies().size(); ++i) {
-    const TouchingBody& body = system_.bodies()[i];
-    for (std::size_t w = 0; w < (body.isHeld() ? 0 : world_.walls.size()); ++w) {
-      for (int k = 0; k < kCorners; ++k) {
-        if (!hasCorner(system_.features(), static_cast<int>(i), Partner::ofWall(w), corner(*body.body, k))) {
-          functions_.push_back(
-              {.kind = EventFunction::Kind::kCorner, .contact = i, .wall = static_cast<int>(w), .corner = k});
-        }
+    const auto isNear = [](const Wall&) { return true; };
+    forCorners(system_.bodies(), i, isNear, [&](const ContactFeature& corner, const Wall&) {
+      if (!hasCorner(system_.features(), corner)) {
+        functions_.push_back({.kind = EventFunction::Kind::kCorner,
+                              .contact = i,
+                              .halfSpace = corner.b,
+                              .corner = corner.onA});
       }
-    }
+    });
   }
 }
 
@@ -117,10 +117,8 @@ double EventFunctions::valueOf(const EventFunction& event) const {
              event.margin;
     }
     case EventFunction::Kind::kCorner: {
-      const Wall& wall = world_.walls[static_cast<std::size_t>(event.wall)];
-      return cornerGap(system_.kinematics(c).pose, corner(*system_.bodies()[c].body, event.corner),
-                       wall.normal, wall.offset) +
-             event.margin;
+      const Wall& wall = wallOf(event);
+      return cornerGap(system_.kinematics(c).pose, event.corner, wall.normal, wall.offset) + event.margin;
     }
   }
   return 0;
@@ -150,10 +148,8 @@ double EventFunctions::depth(std::span<const std::size_t> events) const {
 
 double EventFunctions::rateOf(const EventFunction& corner) const {
   const Kinematics& at = system_.kinematics(corner.contact);
-  const Vec3 arm =
-      at.pose.worldFromBody * careen::corner(*system_.bodies()[corner.contact].body, corner.corner);
-  return dot(world_.walls[static_cast<std::size_t>(corner.wall)].normal,
-             at.velocity + at.angularVelocity.cross(arm));
+  const Vec3 arm = at.pose.worldFromBody * corner.corner;
+  return dot(wallOf(corner).normal, at.velocity + at.angularVelocity.cross(arm));
 }
 
 bool EventFunctions::hasTension() const {
@@ -169,7 +165,7 @@ bool EventFunctions::coverPair(std::size_t a, std::size_t b) const {
     return (firstBody(c) == a && secondBody(c) == b) || (firstBody(c) == b && secondBody(c) == a);
   };
   for (std::size_t c = 0; c < features.size(); ++c) {
-    if (!features[c].b.isWall() && isBetween(c) && system_.pushes(c)) {
+    if (isBetween(c) && system_.pushes(c)) {
       return true;
     }
   }

@@ -17,28 +17,28 @@ struct EventFunction {
     kGap,      ///< a contact without force closes
     kWithin,   ///< a contact leaves its face
     kOverlap,  ///< the gap of two boxes closes
-    kCorner,   ///< a corner that is no contact meets a wall
+    kCorner,   ///< a corner that is no contact meets a half-space
   };
   Kind kind{};
-  std::size_t contact = 0;  ///< or the body of a corner
-  int wall = 0;
-  int corner = 0;
-  double margin = 0;  ///< [m]
-  double start = 0;   ///< its value at the start of the step
-  double rate = 0;    ///< [m/s] of a corner, then
+  std::size_t contact = 0;     ///< or the body of a corner
+  int halfSpace = 0;           ///< index in the group
+  Vec3 corner = Vec3::Zero();  ///< [m] body frame
+  double margin = 0;           ///< [m]
+  double start = 0;            ///< its value at the start of the step
+  double rate = 0;             ///< [m/s] of a corner, then
 
   bool isOfPlaces() const { return kind == Kind::kOverlap || kind == Kind::kCorner; }
   bool isOfForces() const { return kind == Kind::kPush || kind == Kind::kStick; }
 };
 
-/// The event functions of a contact system, as of the state at which it was last looked at. Both must outlive
-/// it.
+/// The event functions of a contact system, which must outlive it, as of the state at which that was last
+/// looked at.
 class EventFunctions {
  public:
   /// Gaps within this many touching tolerances are checked for penetration, the others for closing.
   static constexpr double kTouching = 8;
 
-  EventFunctions(const World& world, const ContactSystem& system) : world_(world), system_(system) {}
+  explicit EventFunctions(const ContactSystem& system) : system_(system) {}
 
   /// Those of the system's contacts, in their modes.
   void list();
@@ -72,10 +72,13 @@ class EventFunctions {
     return static_cast<std::size_t>(system_.features()[contact].a);
   }
   std::size_t secondBody(std::size_t contact) const {
-    return static_cast<std::size_t>(system_.features()[contact].b.body());
+    return static_cast<std::size_t>(system_.features()[contact].b);
   }
 
-  const World& world_;
+  const Wall& wallOf(const EventFunction& corner) const {
+    return *system_.bodies()[static_cast<std::size_t>(corner.halfSpace)].halfSpace;
+  }
+
   const ContactSystem& system_;
   std::vector<EventFunction> functions_;
 };

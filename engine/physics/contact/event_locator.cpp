@@ -131,7 +131,7 @@ bool EventLocator::dips() {
 double EventLocator::deepMomentOf(std::size_t contact) const {
   const ContactFeature& feature = system_.features()[contact];
   const auto a = static_cast<std::size_t>(feature.a);
-  const auto b = static_cast<std::size_t>(feature.b.body());
+  const auto b = static_cast<std::size_t>(feature.b);
   const std::vector<TouchingBody>& bodies = system_.bodies();
   const auto motionOf = [&](std::size_t i) {
     return bodies[i].isHeld() ? Motion(Rest{system_.kinematics(i).pose}) : Motion(step_.motion(i));

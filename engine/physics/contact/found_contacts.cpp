@@ -13,27 +13,15 @@ constexpr double kOpens = 0x1p-4;
 
 }  // namespace
 
-Material FoundContacts::materialOf(const ContactFeature& feature) const {
-  const Material& ofA = group_.body(static_cast<std::size_t>(feature.a)).material;
-  return touching(ofA, feature.b.isWall() ? group_.world().walls[feature.b.wall()].material
-                                          : group_.body(static_cast<std::size_t>(feature.b.body())).material);
-}
-
-void FoundContacts::addAtWalls(std::size_t body, const Pose& pose) {
-  for (std::size_t w = 0; w < group_.world().walls.size(); ++w) {
-    const Wall& wall = group_.world().walls[w];
-    if (gapToPlane(boxAt(pose, group_.body(body)), wall.normal, wall.offset) > closed_) {
-      continue;
+void FoundContacts::addCorners(std::size_t body, const Pose& pose) {
+  const auto isNear = [&](const Wall& wall) {
+    return gapToPlane(boxAt(pose, group_.body(body)), wall.normal, wall.offset) <= closed_;
+  };
+  forCorners(group_.bodies(), body, isNear, [&](const ContactFeature& feature, const Wall& wall) {
+    if (cornerGap(pose, feature.onA, wall.normal, wall.offset) <= closed_) {
+      features_.push_back(feature);
     }
-    for (int k = 0; k < kCorners; ++k) {
-      ContactFeature feature{
-          .a = static_cast<int>(body), .b = Partner::ofWall(w), .onA = corner(group_.body(body), k)};
-      if (cornerGap(pose, feature.onA, wall.normal, wall.offset) <= closed_) {
-        feature.material = materialOf(feature);
-        features_.push_back(feature);
-      }
-    }
-  }
+  });
 }
 
 void FoundContacts::addBetween(std::size_t a, std::size_t b, const std::vector<Pose>& poses,
@@ -52,7 +40,7 @@ void FoundContacts::addBetween(std::size_t a, std::size_t b, const std::vector<P
       });
   for (const ContactPoint& point : contact.points) {
     ContactFeature feature = featureAt(point, closed_, static_cast<int>(a), boxA, static_cast<int>(b), boxB);
-    feature.material = materialOf(feature);
+    feature.material = touching(group_.body(a).material, group_.body(b).material);
     feature.axes = feature.a == static_cast<int>(a) ? contact.choice : swapped(contact.choice);
     features_.push_back(feature);
   }
@@ -64,11 +52,9 @@ void FoundContacts::find(const GroupState& at, double slow) {
   for (const GroupBody& body : at) {
     poses.push_back(body.pose());
   }
-  for (std::size_t i = 0; i < group_.size(); ++i) {
-    if (!group_.isHeld(i)) {
-      addAtWalls(i, poses[i]);
-    }
-    for (std::size_t j = i + 1; j < group_.size(); ++j) {
+  for (std::size_t i = 0; i < group_.boxes(); ++i) {
+    addCorners(i, poses[i]);
+    for (std::size_t j = i + 1; j < group_.boxes(); ++j) {
       if (group_.mayMeet(i, j, at, closed_)) {
         addBetween(i, j, poses, at, slow);
       }

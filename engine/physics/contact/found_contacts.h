@@ -9,8 +9,7 @@
 
 namespace careen {
 
-/// The contacts of a group of bodies with each other and with the walls: found at one state, then followed to
-/// others.
+/// The contacts of a group of bodies with each other: found at one state, then followed to others.
 class FoundContacts {
  public:
   /// `closed` [m]: gaps up to this count as none.
@@ -39,10 +38,9 @@ class FoundContacts {
   ImpactContact impactAt(std::size_t contact) const;
 
  private:
-  void addAtWalls(std::size_t body, const Pose& pose);
+  void addCorners(std::size_t body, const Pose& pose);
   void addBetween(std::size_t a, std::size_t b, const std::vector<Pose>& poses, const GroupState& at,
                   double slow);
-  Material materialOf(const ContactFeature& feature) const;
 
   TouchingGroup& group_;
   double closed_;

@@ -30,41 +30,32 @@ void GapEvents::list(const FoundContacts& contacts, const GroupState& start, dou
     }
   }
   std::vector<double> reach;  // [m] by body: how far a point of it may come
-  for (std::size_t i = 0; i < group_.size(); ++i) {
+  for (std::size_t i = 0; i < group_.boxes(); ++i) {
     const Kinematics at = group_.kinematics(i, start[i]);
     const double speed = at.velocity.norm() + at.angularVelocity.norm() * radiusOf(group_.body(i));
     reach.push_back(group_.isHeld(i) ? 0 : 2 * h * (speed + h * acceleration) + closed_);
   }
-  for (std::size_t i = 0; i < group_.size(); ++i) {
-    if (!group_.isHeld(i)) {
-      listCorners(contacts, start, i, reach[i]);
-    }
-    for (std::size_t j = i + 1; j < group_.size(); ++j) {
+  for (std::size_t i = 0; i < group_.boxes(); ++i) {
+    listCorners(contacts, start, i, reach[i]);
+    for (std::size_t j = i + 1; j < group_.boxes(); ++j) {
       if (group_.mayMeet(i, j, start, reach[i] + reach[j])) {
-        add({.kind = Kind::kPair,
-             .feature = {.a = static_cast<int>(i), .b = Partner::ofBody(static_cast<int>(j))}},
-            start);
+        add({.kind = Kind::kPair, .feature = {.a = static_cast<int>(i), .b = static_cast<int>(j)}}, start);
       }
     }
   }
 }
 
-// Those of a body's corners that a wall may stop and that are no contacts.
+// Those of a body's corners that a half-space may stop and that are no contacts.
 void GapEvents::listCorners(const FoundContacts& contacts, const GroupState& start, std::size_t body,
                             double reach) {
-  for (std::size_t w = 0; w < group_.world().walls.size(); ++w) {
-    const Wall& wall = group_.world().walls[w];
-    if (dot(wall.normal, start[body].position) - wall.offset > radiusOf(group_.body(body)) + reach) {
-      continue;
+  const auto isNear = [&](const Wall& wall) {
+    return dot(wall.normal, start[body].position) - wall.offset <= radiusOf(group_.body(body)) + reach;
+  };
+  forCorners(group_.bodies(), body, isNear, [&](const ContactFeature& feature, const Wall&) {
+    if (!contacts.has(feature)) {
+      add({.kind = Kind::kFeature, .feature = feature}, start);
     }
-    for (int k = 0; k < kCorners; ++k) {
-      const ContactFeature feature{
-          .a = static_cast<int>(body), .b = Partner::ofWall(w), .onA = corner(group_.body(body), k)};
-      if (!contacts.has(feature)) {
-        add({.kind = Kind::kFeature, .feature = feature}, start);
-      }
-    }
-  }
+  });
 }
 
 void GapEvents::add(const Event& added, const GroupState& start) {
@@ -114,9 +105,7 @@ GapEvents::Moment GapEvents::momentOf(const Event& event, double time, const Gro
 const GroupState& GapEvents::within(const GroupPath& path, const Event& event, double time) {
   within_.resize(group_.size());
   within_[event.a()] = path.at(event.a(), time);
-  if (!event.feature.b.isWall()) {
-    within_[event.b()] = path.at(event.b(), time);
-  }
+  within_[event.b()] = path.at(event.b(), time);
   return within_;
 }
 
@@ -199,11 +188,9 @@ GapEvents::Bounds GapEvents::boundsOn(const Event& event, const GroupPath& path)
     }
   };
   add(event.a());
-  const bool hasWall = event.feature.b.isWall();
-  if (!hasWall) {
-    add(event.b());
-  }
-  bounds.curvature = linear + (hasWall ? turning * lengths : 2 * spin * speed + 2 * turning * lengths);
+  add(event.b());
+  bounds.curvature = linear + (group_.bodies()[event.b()].isBox() ? 2 * spin * speed + 2 * turning * lengths
+                                                                  : turning * lengths);
   return bounds;
 }
 

@@ -44,7 +44,7 @@ class GapEvents {
     Moment start = {};
 
     std::size_t a() const { return static_cast<std::size_t>(feature.a); }
-    std::size_t b() const { return static_cast<std::size_t>(feature.b.body()); }
+    std::size_t b() const { return static_cast<std::size_t>(feature.b); }
   };
   struct Bounds {          // on an event function in the step
     double curvature = 0;  // [m/s²] second derivative

@@ -36,14 +36,14 @@ GroupImpacts::Struck GroupImpacts::struckAt(const GroupState& state, const Found
   DisjointSets joined(group.size());
   for (const ContactFeature& feature : features) {
     const auto a = static_cast<std::size_t>(feature.a);
-    if (!feature.b.isWall() && !group.isHeld(static_cast<std::size_t>(feature.b.body())) &&
-        !group.isHeld(a)) {
-      joined.join(a, static_cast<std::size_t>(feature.b.body()));
+    const auto b = static_cast<std::size_t>(feature.b);
+    if (!group.isHeld(a) && !group.isHeld(b)) {
+      joined.join(a, b);
     }
   }
   const auto rootOf = [&](const ContactFeature& feature) {
     const auto a = static_cast<std::size_t>(feature.a);
-    return joined.root(group.isHeld(a) ? static_cast<std::size_t>(feature.b.body()) : a);
+    return joined.root(group.isHeld(a) ? static_cast<std::size_t>(feature.b) : a);
   };
   Struck struck;
   std::vector<char> isStruck(group.size(), 0);
@@ -139,8 +139,7 @@ void GroupImpacts::keepLarger(double speed) {
   };
   std::erase_if(impacts_, [&](const GroupImpact& impact) {
     const ImpactContact& contact = impact.contact;
-    const double gives = impact.share.impulse *
-                         (inverseMass(contact.a) + (contact.b.isWall() ? 0 : inverseMass(contact.b.body())));
+    const double gives = impact.share.impulse * (inverseMass(contact.a) + inverseMass(contact.b));
     return impact.cause <= speed || gives <= speed;
   });
 }

@@ -40,12 +40,11 @@ std::vector<std::vector<std::size_t>> freeGroups(const World& world, std::span<c
     }
   };
   for (const ContactFeature& feature : pushing) {
-    join(static_cast<std::size_t>(feature.a),
-         feature.b.isWall() ? count : static_cast<std::size_t>(feature.b.body()));
+    join(static_cast<std::size_t>(feature.a), static_cast<std::size_t>(feature.b));
   }
   if (!world.springs.empty()) {
     std::vector<std::size_t> placeOf(world.bodies.size(), count);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < boxesOf(bodies); ++i) {
       placeOf[static_cast<std::size_t>(bodies[i].index)] = i;
     }
     const auto at = [&](const SpringEnd& end) {

@@ -33,9 +33,7 @@ void strikeAtStart(JammedMoment& moment, ImplicitStep& equations) {
   std::vector<char> struck(group.size(), 0);
   for (const ContactFeature& feature : features) {
     struck[static_cast<std::size_t>(feature.a)] = 1;
-    if (!feature.b.isWall()) {
-      struck[static_cast<std::size_t>(feature.b.body())] = 1;
-    }
+    struck[static_cast<std::size_t>(feature.b)] = 1;
   }
   const auto takeVelocities = [&](std::size_t i, const GroupState& from, GroupState& to) {
     to[i].velocity = from[i].velocity;

@@ -57,7 +57,7 @@ Island::Island(const World& world, std::vector<TouchingBody> bodies, std::vector
       tolerance_(tolerance),
       system_(world, std::move(bodies), std::move(features)),
       step_(world, system_, tolerance, timeScale),
-      events_(world, system_),
+      events_(system_),
       locator_(system_, step_, events_, tolerance) {}
 
 void Island::begin() {
@@ -211,7 +211,7 @@ double Island::work() const {
   if (timeSteps_) {
     return timeSteps_->work();
   }
-  return step_.goesOn() ? 0 : kWorkOfChange * static_cast<double>(bodies().size());
+  return step_.goesOn() ? 0 : kWorkOfChange * static_cast<double>(boxesOf(bodies()));
 }
 
 bool Island::mayLose() const {

@@ -27,7 +27,7 @@ bool IslandTimeSteps::take(double most, double mostWork) {
 
 double IslandTimeSteps::work() const {
   return stepper_.equations().work() - workBefore_ +
-         kWorkOfGeometry * static_cast<double>(stepper_.state().size());
+         kWorkOfGeometry * static_cast<double>(stepper_.equations().group().boxes());
 }
 
 }  // namespace careen

@@ -133,7 +133,7 @@ double SmoothStep::longest() {
     const double speed = system_.states()[c].slip.norm();
     if (speed > 0 && system_.features()[c].kind != ContactFeature::Kind::kPointOnWall) {
       const auto a = static_cast<std::size_t>(system_.features()[c].a);
-      const auto b = static_cast<std::size_t>(system_.features()[c].b.body());
+      const auto b = static_cast<std::size_t>(system_.features()[c].b);
       most = std::min(most, kMostSlip *
                                 std::min(system_.bodies()[a].body->halfExtents.minCoeff(),
                                          system_.bodies()[b].body->halfExtents.minCoeff()) /

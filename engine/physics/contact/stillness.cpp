@@ -32,9 +32,7 @@ double loadOf(const ContactSystem& system) {
       loads[i] += system.forces().forces()[c][0] * system.bodies()[i].body->mass.inverseMass;
     };
     add(feature.a);
-    if (!feature.b.isWall()) {
-      add(feature.b.body());
-    }
+    add(feature.b);
   }
   return loads.empty() ? 0 : *std::max_element(loads.begin(), loads.end());
 }

@@ -50,42 +50,35 @@ bool TouchingGroup::mayMeet(std::size_t a, std::size_t b, const GroupState& stat
 }
 
 ContactState TouchingGroup::stateOf(const ContactFeature& feature, const Kinematics& a,
-                                    const Kinematics* b) const {
-  const BoxShape boxA = shapeOf(body(static_cast<std::size_t>(feature.a)));
-  if (b == nullptr) {
-    return contactState(feature, a, boxA, nullptr, boxA, &world_.walls[feature.b.wall()]);
+                                    const Kinematics& b) const {
+  const TouchingBody& bodyA = bodies_[static_cast<std::size_t>(feature.a)];
+  const TouchingBody& bodyB = bodies_[static_cast<std::size_t>(feature.b)];
+  ContactState at = contactState(feature, a, bodyA.shape(), b, bodyB.shape());
+  if (bodyB.isBox()) {  // one point for both, else their impulses would change angular momentum by gap ×
+                        // friction
+    const Vec3 link = (a.pose.position - b.pose.position) + (at.armA - at.armB);
+    at.armA -= 0.5 * link;
+    at.armB += 0.5 * link;
   }
-  const BoxShape boxB = shapeOf(body(static_cast<std::size_t>(feature.b.body())));
-  ContactState at = contactState(feature, a, boxA, b, boxB, nullptr);
-  // One point for both, else the pair's impulses would change angular momentum by gap × friction.
-  const Vec3 link = (a.pose.position - b->pose.position) + (at.armA - at.armB);
-  at.armA -= 0.5 * link;
-  at.armB += 0.5 * link;
   return at;
 }
 
 ContactState TouchingGroup::contactAt(const ContactFeature& feature, const GroupState& state) const {
   const auto a = static_cast<std::size_t>(feature.a);
-  const Kinematics ofA = kinematics(a, state[a]);
-  if (feature.b.isWall()) {
-    return stateOf(feature, ofA, nullptr);
-  }
-  const auto b = static_cast<std::size_t>(feature.b.body());
-  const Kinematics ofB = kinematics(b, state[b]);
-  return stateOf(feature, ofA, &ofB);
+  const auto b = static_cast<std::size_t>(feature.b);
+  return stateOf(feature, kinematics(a, state[a]), kinematics(b, state[b]));
 }
 
 void TouchingGroup::contactsAt(std::span<const ContactFeature> features, const GroupState& state,
                                std::vector<ContactState>& contacts) {
-  kinematics_.clear();
-  for (std::size_t i = 0; i < size(); ++i) {
-    kinematics_.push_back(kinematics(i, state[i]));
+  kinematics_.resize(size());
+  for (std::size_t i = 0; i < boxes(); ++i) {  // the others never move
+    kinematics_[i] = kinematics(i, state[i]);
   }
   contacts.clear();
   for (const ContactFeature& feature : features) {
-    const bool onWall = feature.b.isWall();
     contacts.push_back(stateOf(feature, kinematics_[static_cast<std::size_t>(feature.a)],
-                               onWall ? nullptr : &kinematics_[static_cast<std::size_t>(feature.b.body())]));
+                               kinematics_[static_cast<std::size_t>(feature.b)]));
   }
   normals_.align(features, {}, contacts);
 }

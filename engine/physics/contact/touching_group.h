@@ -28,11 +28,13 @@ using GroupState = std::vector<GroupBody>;
 class TouchingGroup {
  public:
   TouchingGroup(const World& world, const std::vector<TouchingBody>& bodies)
-      : world_(world), bodies_(bodies) {}
+      : world_(world), bodies_(bodies), boxes_(boxesOf(bodies)) {}
 
   const World& world() const { return world_; }
   const std::vector<TouchingBody>& bodies() const { return bodies_; }
   std::size_t size() const { return bodies_.size(); }
+  /// Those before the half-spaces.
+  std::size_t boxes() const { return boxes_; }
   const Body& body(std::size_t index) const { return *bodies_[index].body; }
   bool isHeld(std::size_t index) const { return bodies_[index].isHeld(); }
 
@@ -43,7 +45,7 @@ class TouchingGroup {
   Vec3 angularVelocity(std::size_t body, const Mat3& worldFromBody, const Vec3& angularMomentum) const;
   /// [m/s] Of the bodies that move and their corners, at most.
   double fastest(const GroupState& state) const;
-  /// Whether two bodies, not both held, are so near each other that they may have a gap of `within` [m].
+  /// Whether two boxes, not both held, are so near each other that they may have a gap of `within` [m].
   bool mayMeet(std::size_t a, std::size_t b, const GroupState& state, double within) const;
   ContactState contactAt(const ContactFeature& feature, const GroupState& state) const;
   /// All of them, points of one manifold with one normal.
@@ -54,10 +56,11 @@ class TouchingGroup {
                    GroupState& to) const;
 
  private:
-  ContactState stateOf(const ContactFeature& feature, const Kinematics& a, const Kinematics* b) const;
+  ContactState stateOf(const ContactFeature& feature, const Kinematics& a, const Kinematics& b) const;
 
   const World& world_;
   const std::vector<TouchingBody>& bodies_;
+  std::size_t boxes_;
   std::vector<Kinematics> kinematics_;  // of the last contactsAt()
   ManifoldNormals normals_;
 };

@@ -104,10 +104,10 @@ void settleBody(const Bodies& bodies, Encounter& encounter, std::size_t index, c
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
     const ImpactContact& contact = encounter.contacts[k];
     const bool isA = contact.a == static_cast<int>(index);
-    if (!isA && !contact.b.isBody(static_cast<int>(index))) {
+    if (!isA && contact.b != static_cast<int>(index)) {
       continue;
     }
-    alone = alone && (contact.b.isWall() || (isA ? encounter.b(k) : encounter.a(k)).mover->isHeld());
+    alone = alone && (isA ? encounter.b(k) : encounter.a(k)).mover->isHeld();
     const Vec3 normal = isA ? contact.normal : Vec3(-contact.normal);
     const Vec3& arm = isA ? contact.armA : contact.armB;
     if (!contact.directions.empty() && !(encounter.shares[k].impulse > 0)) {
@@ -173,9 +173,7 @@ Parting partingAt(const Encounter& encounter, std::size_t contact) {
                                     kParting * std::sqrt(encounter.pull * radiusOf(body.body())));
   };
   add(encounter.a(contact), at.armA, 1);
-  if (!at.b.isWall()) {
-    add(encounter.b(contact), at.armB, -1);
-  }
+  add(encounter.b(contact), at.armB, -1);
   if (!at.directions.empty()) {
     parting.speed = partingSpeed(at.directions, parting.velocity);
   }

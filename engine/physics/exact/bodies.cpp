@@ -64,14 +64,14 @@ Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& record
       longestStep_(longestStepOf(world)),
       recorder_(recorder),
       neighbors_(radiiOf(world)),
-      queue_(world.bodies.size()),
+      queue_(world.bodies.size() + world.walls.size()),
       account_(world),
       forced_(world.bodies.size(), world.drag ? 1 : 0),
-      springs_(world.bodies.size()) {
+      springs_(world.bodies.size() + world.walls.size()) {
   std::vector<int> rankOf(world.bodies.size());
   double movable = 0;
   for (const std::size_t listed : orderByName(world.bodies)) {
-    const int rank = count();
+    const int rank = static_cast<int>(movers_.size());
     rankOf[listed] = rank;
     Mover& mover = movers_.emplace_back();
     mover.body = &world.bodies[listed];
@@ -83,6 +83,15 @@ Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& record
     }
     neighbors_.insert(rank, mover.body->initial.pose.position, radiusOf(*mover.body));
   }
+  for (std::size_t w = 0; w < world.walls.size(); ++w) {
+    const int rank = static_cast<int>(movers_.size());
+    Mover& mover = movers_.emplace_back();
+    mover.body = &bodyOfWalls();
+    mover.halfSpace = &world.walls[w];
+    mover.rank = rank;
+    mover.listed = {static_cast<int>(w)};
+  }
+  forced_.resize(movers_.size(), 0);
   const double part = kFew / std::max(1.0, movable);
   isFew_ = movable <= kFew;
   workShare_ = part * std::min(1.0, part) * std::sqrt(std::max(1.0, RunSettings().tolerance / tolerance_));
@@ -126,7 +135,7 @@ void Bodies::fly(int rank, const Instant& time, const BodyState& state, const Qu
   recorder_.moves(body.listed, time.hi, body.flight);
   account_.departs(static_cast<std::size_t>(body.listed.value), state);
   noteSpeed(body);
-  body.wall = firstWall(body, world_.walls, end_);
+  body.wall = firstWall(body, walls(), end_);
   body.crossing = {};
   findCrossing(rank);
 }
@@ -194,11 +203,12 @@ void Bodies::begins(int rank, const Instant& time) {
   ++body.motion;
 }
 
-void Bodies::strike(const Instant& time, int rank, Partner with, const Vec3& point,
-                    const ImpactShare& share) {
+void Bodies::strike(const Instant& time, int rank, int with, const Vec3& point, const ImpactShare& share) {
+  const Mover& other = (*this)[with];
   recorder_.strikes({.time = time.hi,
                      .a = (*this)[rank].listed,
-                     .b = with.isWall() ? with : Partner::ofBody((*this)[with.body()].listed.value),
+                     .b = other.isBox() ? Partner::ofBody(other.listed.value)
+                                        : Partner::ofWall(static_cast<std::size_t>(other.listed.value)),
                      .point = point,
                      .normal = share.normal,
                      .approach = share.approach,
@@ -284,7 +294,7 @@ void Bodies::file(int rank, const Vec3& position) {
 
 void Bodies::findCrossing(int rank) {
   Mover& body = (*this)[rank];
-  body.crosses = neighbors_.isFiled(rank) && movers_.size() > 1;
+  body.crosses = neighbors_.isFiled(rank) && count() > 1;
   if (!body.crosses) {
     return;
   }

@@ -23,7 +23,7 @@ namespace careen {
 /// recorded, and an event that is predicted is queued.
 ///
 /// Bodies are identified by rank, their position in the order of names, so that their order in the scene
-/// changes no bit.
+/// changes no bit; walls come after them.
 class Bodies {
  public:
   Bodies(const World& world, const RunSettings& settings, Recorder& recorder);
@@ -39,7 +39,9 @@ class Bodies {
   FlightAccount& account() { return account_; }
   EventQueue& queue() { return queue_; }
 
-  int count() const { return static_cast<int>(movers_.size()); }
+  /// Of boxes; the walls are those after them.
+  int count() const { return static_cast<int>(world_.bodies.size()); }
+  std::span<const Mover> walls() const { return std::span(movers_).subspan(world_.bodies.size()); }
   Mover& operator[](int rank) { return movers_[static_cast<std::size_t>(rank)]; }
   const Mover& operator[](int rank) const { return movers_[static_cast<std::size_t>(rank)]; }
   /// Springs or drag act on it, so it is never in Flight.
@@ -63,8 +65,8 @@ class Bodies {
   void sleep(int rank, const Instant& time, const Pose& pose);
   /// It moves as its group does in the step that begins.
   void step(const std::shared_ptr<ContactGroup>& group, std::size_t place);
-  /// An impact at that point [m] of a body with another one, by rank, or with a wall.
-  void strike(const Instant& time, int rank, Partner with, const Vec3& point, const ImpactShare& share);
+  /// An impact at that point [m] of a body with another one, both by rank.
+  void strike(const Instant& time, int rank, int with, const Vec3& point, const ImpactShare& share);
   /// Its doubt from then on, none if it is held. Past its size its place means nothing.
   Doubt* doubtAt(int rank, const Instant& time);
   /// A body that takes part in an impact at that time, in this state after it.

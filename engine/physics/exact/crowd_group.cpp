@@ -91,7 +91,7 @@ void CrowdGroup::keepPlace(int rank, std::size_t place) {
 // Adds a body in this state, once, with those that springs join to it. Bodies at rest stay so until pushed.
 void CrowdGroup::enlist(int rank, const Instant& time, const BodyState& state, const Quat& attitude) {
   Mover& body = bodies_[rank];
-  if (has(body)) {
+  if (has(body) || !body.isBox()) {  // it has all walls
     return;
   }
   if (!body.moves()) {
@@ -336,10 +336,12 @@ void CrowdGroup::endAt(const Instant& time) {
 
 // Records the step that ends now. Members that fell asleep rest from now on.
 void CrowdGroup::commit(const Instant& time) {
+  const auto rankOf = [&](int place) {  // the walls have the first places
+    const auto walls = static_cast<int>(bodies_.walls().size());
+    return place < walls ? bodies_.count() + place : ranks_[static_cast<std::size_t>(place)];
+  };
   for (const Crowd::Struck& struck : crowd_.impacts()) {
-    const auto rankOf = [&](int place) { return ranks_[static_cast<std::size_t>(place)]; };
-    bodies_.strike(time, rankOf(struck.a),
-                   struck.b.isWall() ? struck.b : Partner::ofBody(rankOf(struck.b.body())), struck.point,
+    bodies_.strike(time, rankOf(struck.a), rankOf(struck.b), struck.point,
                    {.approach = struck.approach,
                     .impulse = struck.impulse,
                     .tangential = struck.tangential,

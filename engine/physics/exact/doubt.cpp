@@ -13,7 +13,7 @@ void Doubt::atLeast(double length) { place = std::max(place, length); }
 
 void touch(std::span<DoubtfulBody> bodies, const ImpactContact& contact, const ImpactShare& share) {
   DoubtfulBody& a = bodies[static_cast<std::size_t>(contact.a)];
-  DoubtfulBody& b = contact.b.isWall() ? a : bodies[static_cast<std::size_t>(contact.b.body())];
+  DoubtfulBody& b = bodies[static_cast<std::size_t>(contact.b)];
   const auto note = [&](DoubtfulBody& one, const DoubtfulBody& other) {
     one.change += (share.impulse + share.tangential) * one.body->mass.inverseMass;
     if (other.doubt != nullptr) {
@@ -22,9 +22,7 @@ void touch(std::span<DoubtfulBody> bodies, const ImpactContact& contact, const I
     }
   };
   note(a, b);
-  if (!contact.b.isWall()) {
-    note(b, a);
-  }
+  note(b, a);
 }
 
 void doubtMore(std::span<DoubtfulBody> bodies) {

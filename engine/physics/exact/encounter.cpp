@@ -19,8 +19,8 @@ bool takesPart(const Encounter& encounter, int rank) {
 
 void reach(Bodies& bodies, const Event& event, Encounter& encounter) {
   join(bodies, encounter, event.body);
-  if (!event.partner.isWall()) {
-    join(bodies, encounter, event.partner.body());
+  if (event.partner != Event::kNobody) {
+    join(bodies, encounter, event.partner);
   }
   for (std::size_t reached = 0; reached < encounter.bodies.size(); ++reached) {
     const Mover& body = *encounter.bodies[reached].mover;
@@ -47,7 +47,7 @@ double pullOf(const Bodies& bodies, const Encounter& encounter) {
   }
   const std::vector<double> all =
       pulls(bodies.world(), statesIn(bodies.world(), encounter, &EncounterBody::before));
-  for (const EncounterBody& body : encounter.bodies) {
+  for (const EncounterBody& body : encounter.boxes()) {
     pull = std::max(pull, all[static_cast<std::size_t>(body.listed())]);
   }
   return pull;
@@ -57,6 +57,7 @@ double pullOf(const Bodies& bodies, const Encounter& encounter) {
 
 TouchingBody EncounterBody::touching() const {
   return {.body = mover->body,
+          .halfSpace = mover->halfSpace,
           .index = listed(),
           .position = after.pose.position,
           .worldFromBody = attitude,
@@ -80,18 +81,24 @@ std::vector<int> Encounter::ranks() const {
   return all;
 }
 
+std::span<const EncounterBody> Encounter::boxes() const {
+  const auto walls = std::find_if(bodies.begin(), bodies.end(),
+                                  [](const EncounterBody& body) { return !body.mover->isBox(); });
+  return {bodies.begin(), walls};
+}
+
 // A wall's offset is no larger than the body's part.
 double Encounter::lengthsAt(std::size_t contact) const {
   const auto of = [](const EncounterBody& body) {
     return body.after.pose.position.cwiseAbs().sum() + radiusOf(body.body());
   };
-  return of(a(contact)) + of(contacts[contact].b.isWall() ? a(contact) : b(contact));
+  return of(a(contact)) + of(b(contact).mover->isBox() ? b(contact) : a(contact));
 }
 
 // Where the gap is only rounding the arms stay as they are, or a cube that lands flat would tilt.
 ImpactContact Encounter::joined(std::size_t contact) const {
   ImpactContact at = contacts[contact];
-  if (!at.b.isWall()) {
+  if (b(contact).mover->isBox()) {
     const Vec3 link = (a(contact).after.pose.position - b(contact).after.pose.position) + (at.armA - at.armB);
     if (link.norm() > kOnePoint * lengthsAt(contact)) {
       at.armA -= 0.5 * link;
@@ -104,6 +111,7 @@ ImpactContact Encounter::joined(std::size_t contact) const {
 Encounter gather(Bodies& bodies, const Event& event) {
   Encounter encounter;
   encounter.time = event.time;
+  encounter.bodies.reserve(bodies.walls().size() + 2);
   // The same pair triggers again without approaching (edges passing within rounding): what hardly parts
   // persists. If that does not help, they go on by a few time steps, which need no list of contacts.
   constexpr int kMostMeetings = 2;
@@ -118,14 +126,17 @@ Encounter gather(Bodies& bodies, const Event& event) {
   for (EncounterBody& body : encounter.bodies) {
     body.after = body.before;
   }
+  for (std::size_t w = 0; w < bodies.walls().size(); ++w) {
+    encounter.bodies.emplace_back().mover = &bodies[bodies.count() + static_cast<int>(w)];
+  }
   return encounter;
 }
 
 void join(Bodies& bodies, Encounter& encounter, int rank) {
-  if (takesPart(encounter, rank)) {
+  Mover& body = bodies[rank];
+  if (!body.isBox() || takesPart(encounter, rank)) {
     return;
   }
-  Mover& body = bodies[rank];
   if (!body.group) {
     const Quat attitude = body.attitudeAt(encounter.time);
     encounter.bodies.push_back(
@@ -148,7 +159,7 @@ std::vector<BodyState> statesIn(const World& world, const Encounter& encounter,
   for (const Body& body : world.bodies) {
     states.push_back(body.initial);
   }
-  for (const EncounterBody& body : encounter.bodies) {
+  for (const EncounterBody& body : encounter.boxes()) {
     states[static_cast<std::size_t>(body.listed())] = body.*state;
   }
   return states;

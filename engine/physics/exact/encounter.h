@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "physics/contact/contact_system.h"
@@ -41,7 +42,7 @@ struct EncounterBody {
 struct Encounter {
   Instant time;
   EventKind cause{};
-  std::vector<EncounterBody> bodies;    ///< by rank
+  std::vector<EncounterBody> bodies;    ///< by rank; all walls are among them, at the end
   std::vector<ImpactContact> contacts;  ///< their bodies are indices into `bodies`
   std::vector<ImpactShare> shares;
   std::vector<char> persists;                         ///< of each contact: it stays closed
@@ -54,13 +55,12 @@ struct Encounter {
 
   std::size_t indexOf(int rank) const;
   std::vector<int> ranks() const;
+  /// Those that are no walls.
+  std::span<const EncounterBody> boxes() const;
   const EncounterBody& a(std::size_t contact) const { return bodies[indexA(contact)]; }
   std::size_t indexA(std::size_t contact) const { return static_cast<std::size_t>(contacts[contact].a); }
-  /// Only of a contact of two bodies.
   const EncounterBody& b(std::size_t contact) const { return bodies[indexB(contact)]; }
-  std::size_t indexB(std::size_t contact) const {
-    return static_cast<std::size_t>(contacts[contact].b.body());
-  }
+  std::size_t indexB(std::size_t contact) const { return static_cast<std::size_t>(contacts[contact].b); }
   /// [m] Scale of the lengths whose difference is the gap at that contact.
   double lengthsAt(std::size_t contact) const;
   /// The contact, at which both bodies' impulses act at one point: at two, a gap apart, friction would change
@@ -74,7 +74,7 @@ inline constexpr double kHardlyParts = 0x1p20;
 /// Who touches whom at an event: an impact propagates to every body that touches one it reaches, except
 /// through immovable bodies. Ends the steps of their groups at that moment.
 Encounter gather(Bodies& bodies, const Event& event);
-/// Adds a body, once, with the members of its group and those that springs join to it.
+/// Adds a box, once, with the members of its group and those that springs join to it.
 void join(Bodies& bodies, Encounter& encounter, int rank);
 
 /// [m] Bodies that go on by time steps take those with them that they would meet at once: an arrival costs

@@ -46,7 +46,7 @@ void addPairContacts(double tolerance, Encounter& encounter, std::size_t indexA,
       [&](const Vec3& armA, const Vec3& armB) { return Vec3(velocityOf(a, armA) - velocityOf(b, armB)); });
   for (const ContactPoint& at : contact.points) {
     encounter.contacts.push_back({.a = static_cast<int>(indexA),
-                                  .b = Partner::ofBody(static_cast<int>(indexB)),
+                                  .b = static_cast<int>(indexB),
                                   .armA = at.armA,
                                   .armB = at.armB,
                                   .normal = at.normal,
@@ -61,13 +61,15 @@ void addPairContacts(double tolerance, Encounter& encounter, std::size_t indexA,
 
 double findContacts(const Bodies& bodies, Encounter& encounter) {
   double deepest = 0;
-  for (std::size_t i = 0; i < encounter.bodies.size(); ++i) {
+  const std::size_t boxes = encounter.boxes().size();
+  for (std::size_t i = 0; i < boxes; ++i) {
     const EncounterBody& body = encounter.bodies[i];
     if (!body.mover->isHeld()) {
-      deepest = std::max(deepest, addWallContacts(bodies.world(), body.body(), body.before.pose,
-                                                  static_cast<int>(i), encounter.contacts));
+      deepest = std::max(deepest,
+                         addWallContacts(bodies.world(), body.body(), body.before.pose, static_cast<int>(i),
+                                         static_cast<int>(boxes), encounter.contacts));
     }
-    for (std::size_t j = i + 1; j < encounter.bodies.size(); ++j) {
+    for (std::size_t j = i + 1; j < boxes; ++j) {
       addPairContacts(bodies.tolerance(), encounter, i, j);
     }
   }

@@ -9,6 +9,7 @@ namespace careen {
 
 void resolve(Bodies& bodies, Encounter& encounter) {
   std::vector<ImpactBody> struck;
+  struck.reserve(encounter.bodies.size());
   bool mayLose = false;
   double radius = 0;
   double rate = 0;  // [1/s]
@@ -47,8 +48,7 @@ void record(Bodies& bodies, const Encounter& encounter) {
     if (encounter.shares[k].impulse > 0) {
       const ImpactContact contact = encounter.joined(k);
       touch(doubtful, contact, encounter.shares[k]);
-      bodies.strike(encounter.time, encounter.a(k).mover->rank,
-                    contact.b.isWall() ? contact.b : Partner::ofBody(encounter.b(k).mover->rank),
+      bodies.strike(encounter.time, encounter.a(k).mover->rank, encounter.b(k).mover->rank,
                     encounter.a(k).before.pose.position + contact.armA, encounter.shares[k]);
     }
   }

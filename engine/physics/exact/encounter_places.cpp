@@ -24,23 +24,28 @@ void addKnown(const Encounter& encounter, Features& features) {
   }
 }
 
+std::vector<TouchingBody> touchingOf(const Encounter& encounter) {
+  std::vector<TouchingBody> touching;
+  for (const EncounterBody& each : encounter.bodies) {
+    touching.push_back(each.touching());
+  }
+  return touching;
+}
+
 // Adds corners that have reached or passed a wall.
-void addCorners(const World& world, const Encounter& encounter, Features& features) {
-  for (std::size_t i = 0; i < encounter.bodies.size(); ++i) {
+void addCorners(const Encounter& encounter, Features& features) {
+  const std::vector<TouchingBody> bodies = touchingOf(encounter);
+  const auto isNear = [](const Wall&) { return true; };
+  for (std::size_t i = 0; i < boxesOf(bodies); ++i) {
     const EncounterBody& body = encounter.bodies[i];
-    const Pose& pose = body.before.pose;
     const double within = kAligned * touchingWithin(body.box());
-    for (std::size_t w = 0; w < (body.mover->isHeld() ? 0 : world.walls.size()); ++w) {
-      for (int k = 0; k < kCorners; ++k) {
-        const Vec3 at = corner(body.body(), k);
-        const int index = static_cast<int>(i);
-        const Partner wall = Partner::ofWall(w);
-        if (cornerGap(pose, at, world.walls[w].normal, world.walls[w].offset) <= within &&
-            !hasCorner(features, index, wall, at)) {
-          features.push_back({.a = index, .b = wall, .onA = at});
-        }
+    forCorners(bodies, i, isNear, [&](const ContactFeature& corner, const Wall& wall) {
+      if (cornerGap(body.before.pose, corner.onA, wall.normal, wall.offset) <= within &&
+          !hasCorner(features, corner)) {
+        features.push_back(corner);
+        features.back().material = {};  // places are aligned without friction
       }
-    }
+    });
   }
 }
 
@@ -60,10 +65,11 @@ void addMeeting(const Encounter& encounter, std::size_t a, std::size_t b, Featur
 
 // Adds contacts of bodies that penetrate after a time step.
 void addOverlaps(const Encounter& encounter, Features& features) {
-  for (std::size_t i = 0; i < encounter.bodies.size(); ++i) {
-    const EncounterBody& a = encounter.bodies[i];
-    for (std::size_t j = i + 1; j < encounter.bodies.size(); ++j) {
-      const EncounterBody& b = encounter.bodies[j];
+  const std::span<const EncounterBody> boxes = encounter.boxes();
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const EncounterBody& a = boxes[i];
+    for (std::size_t j = i + 1; j < boxes.size(); ++j) {
+      const EncounterBody& b = boxes[j];
       if ((!a.mover->isHeld() || !b.mover->isHeld()) &&
           (a.before.pose.position - b.before.pose.position).norm() <=
               radiusOf(a.body()) + radiusOf(b.body()) &&
@@ -83,19 +89,16 @@ void alignPlaces(const Bodies& bodies, const Event& event, Encounter& encounter)
   }
   Features features;
   addKnown(encounter, features);
-  addCorners(bodies.world(), encounter, features);
+  addCorners(encounter, features);
   const Mover& body = bodies[event.body];
-  if (!event.partner.isWall() && !(body.steps() && body.group->seesTo(body.place, event.partner.body()))) {
-    addMeeting(encounter, encounter.indexOf(event.body), encounter.indexOf(event.partner.body()), features);
+  if (event.partner != Event::kNobody && bodies[event.partner].isBox() &&
+      !(body.steps() && body.group->seesTo(body.place, event.partner))) {
+    addMeeting(encounter, encounter.indexOf(event.body), encounter.indexOf(event.partner), features);
   }
   constexpr int kMostPasses = 8;
   double mayMove = ContactSystem::kMostMoved * bodies.tolerance();
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    std::vector<TouchingBody> touching;
-    for (const EncounterBody& each : encounter.bodies) {
-      touching.push_back(each.touching());
-    }
-    ContactSystem system(bodies.world(), std::move(touching), features);
+    ContactSystem system(bodies.world(), touchingOf(encounter), features);
     std::fill(system.modes().begin(), system.modes().end(), ContactForces::Mode::kOn);
     std::vector<double> y = system.pack();
     if (const double way = system.projectPositions(y, mayMove, ContactSystem::Turns::kAttitude); way > 0) {
@@ -110,7 +113,7 @@ void alignPlaces(const Bodies& bodies, const Event& event, Encounter& encounter)
       }
     }
     const std::size_t known = features.size();
-    addCorners(bodies.world(), encounter, features);
+    addCorners(encounter, features);
     addOverlaps(encounter, features);
     if (features.size() == known) {
       return;

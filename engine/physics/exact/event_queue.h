@@ -43,10 +43,12 @@ enum class EventKind {
 /// The next event of one body. Bodies, also as partners, are given by rank, their position in the order of
 /// names.
 struct Event {
+  static constexpr int kNobody = -1;
+
   Instant time;
   EventKind kind = EventKind::kContact;
   int body = 0;
-  Partner partner = {};
+  int partner = kNobody;
   std::uint64_t partnerMotion = 0;  ///< the motion of the partner that this prediction is for
 };
 

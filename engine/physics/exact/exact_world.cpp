@@ -48,7 +48,7 @@ void ExactWorld::begin() {
 void ExactWorld::happen(const Event& event) {
   if (event.kind == EventKind::kCrossing) {
     bodies_.cross(event.body);
-  } else if (!event.partner.isWall() && bodies_[event.partner.body()].motion != event.partnerMotion) {
+  } else if (event.partner != Event::kNobody && bodies_[event.partner].motion != event.partnerMotion) {
     bodies_.predict(event.body);
   } else if (event.kind == EventKind::kStep && bodies_[event.body].group->goesOn()) {
     const std::shared_ptr<ContactGroup> group = bodies_[event.body].group;  // its bodies may leave it

@@ -44,13 +44,13 @@ ContactFeature featureOf(const Encounter& encounter, std::size_t k) {
   const ImpactContact& contact = encounter.contacts[k];
   const EncounterBody& a = encounter.a(k);
   ContactFeature feature;
-  if (contact.b.isWall()) {
+  if (!encounter.b(k).mover->isBox()) {
     feature = {.a = contact.a, .b = contact.b, .onA = corner(a.body(), contact.corner)};
   } else {
     const BoxAt boxA = boxAt(a.after.pose, a.body());
     const BoxAt boxB = boxAt(encounter.b(k).after.pose, encounter.b(k).body());
     feature = featureAt({contact.armA, contact.armB, contact.normal, contact.inCone},
-                        gapAlong(boxA, boxB, contact.normal), contact.a, boxA, contact.b.body(), boxB);
+                        gapAlong(boxA, boxB, contact.normal), contact.a, boxA, contact.b, boxB);
     feature.axes = feature.a == contact.a ? contact.axes : swapped(contact.axes);
   }
   feature.material = contact.material;
@@ -74,34 +74,38 @@ bool beginsAtRest(Island& island, int timeSteps, double slow) {
   return false;
 }
 
-// The persisting contacts of an island's members. `indices` are its bodies: they, and what they touch.
+// The persisting contacts of an island's members. `indices` are its bodies: they, what they touch, and walls.
 std::vector<ContactFeature> featuresOf(const Encounter& encounter, const std::vector<std::size_t>& members,
                                        std::vector<std::size_t>& indices) {
+  const std::size_t boxes = encounter.boxes().size();
   indices = members;
   std::vector<ContactFeature> features;
   const auto placeOf = [&](int index) {
-    const auto at = std::find(indices.begin(), indices.end(), static_cast<std::size_t>(index));
-    if (at == indices.end()) {
+    return std::find(indices.begin(), indices.end(), static_cast<std::size_t>(index)) - indices.begin();
+  };
+  const auto include = [&](int index) {
+    if (static_cast<std::size_t>(index) < boxes && placeOf(index) == std::ssize(indices)) {
       indices.push_back(static_cast<std::size_t>(index));
-      return static_cast<int>(indices.size()) - 1;
     }
-    return static_cast<int>(at - indices.begin());
   };
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
     const ImpactContact& contact = encounter.contacts[k];
     const auto isMember = [&](int index) {
       return std::find(members.begin(), members.end(), static_cast<std::size_t>(index)) != members.end();
     };
-    if (encounter.persists[k] == 0 ||
-        (!isMember(contact.a) && (contact.b.isWall() || !isMember(contact.b.body())))) {
+    if (encounter.persists[k] == 0 || (!isMember(contact.a) && !isMember(contact.b))) {
       continue;
     }
-    ContactFeature feature = featureOf(encounter, k);
-    feature.a = placeOf(feature.a);
-    if (!feature.b.isWall()) {
-      feature.b = Partner::ofBody(placeOf(feature.b.body()));
-    }
-    features.push_back(feature);
+    const ContactFeature& feature = features.emplace_back(featureOf(encounter, k));
+    include(feature.a);
+    include(feature.b);
+  }
+  for (std::size_t wall = boxes; wall < encounter.bodies.size(); ++wall) {
+    indices.push_back(wall);
+  }
+  for (ContactFeature& feature : features) {
+    feature.a = static_cast<int>(placeOf(feature.a));
+    feature.b = static_cast<int>(placeOf(feature.b));
   }
   return features;
 }
@@ -186,7 +190,7 @@ void formIslands(Bodies& bodies, Encounter& encounter) {
     }
   };
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
-    if (encounter.persists[k] != 0 && !encounter.contacts[k].b.isWall()) {
+    if (encounter.persists[k] != 0) {
       joinBoth(encounter.indexA(k), encounter.indexB(k));
     }
   }

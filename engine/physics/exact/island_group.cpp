@@ -118,9 +118,7 @@ void IslandGroup::addFeatures(const Encounter& encounter, std::vector<ContactFea
       continue;
     }
     feature.a = indexOf(feature.a);
-    if (!feature.b.isWall()) {
-      feature.b = Partner::ofBody(indexOf(feature.b.body()));
-    }
+    feature.b = indexOf(feature.b);
     features.push_back(feature);
   }
 }
@@ -159,8 +157,8 @@ void IslandGroup::recordImpacts() {
     const auto rankOf = [&](int place) { return ranks_[static_cast<std::size_t>(place)]; };
     const ImpactContact& contact = impact.contact;
     const int a = rankOf(contact.a);
-    bodies_.strike(start_, a, contact.b.isWall() ? contact.b : Partner::ofBody(rankOf(contact.b.body())),
-                   bodies_[a].stateAt(start_).pose.position + contact.armA, impact.share);
+    bodies_.strike(start_, a, rankOf(contact.b), bodies_[a].stateAt(start_).pose.position + contact.armA,
+                   impact.share);
   }
   doubtMore(doubtful);
 }

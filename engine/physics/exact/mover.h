@@ -17,12 +17,13 @@
 
 namespace careen {
 
-/// One body of method exact: its current motion and its predicted events.
+/// One body of method exact, a box or a wall: its current motion and its predicted events.
 struct Mover {
   enum class Kind { kRests, kFlies, kSteps };  ///< kSteps: with a group of bodies in contact
 
   const Body* body = nullptr;
-  int rank = 0;      ///< its position in the order of names, which identifies it
+  const Wall* halfSpace = nullptr;  ///< its shape; null: the body's box
+  int rank = 0;      ///< its position in the order of names, which identifies it; walls come last
   BodyIndex listed;  ///< its index in the scene
   Kind kind = Kind::kRests;
   Flight flight;                                    ///< if it flies
@@ -46,6 +47,7 @@ struct Mover {
   Neighbors::Crossing crossing;  ///< the next such event
 
   bool isHeld() const { return body->mass.inverseMass == 0; }
+  bool isBox() const { return halfSpace == nullptr; }
   bool flies() const { return kind == Kind::kFlies; }
   bool steps() const { return kind == Kind::kSteps; }
   bool moves() const { return kind != Kind::kRests; }

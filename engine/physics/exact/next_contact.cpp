@@ -47,13 +47,13 @@ bool moveAsOne(const Mover& a, const Mover& b) {
 
 }  // namespace
 
-std::optional<Event> firstWall(const Mover& body, const std::vector<Wall>& walls, const Instant& end) {
+std::optional<Event> firstWall(const Mover& body, std::span<const Mover> walls, const Instant& end) {
   const MovingBox box = body.moving(body.start);
   // The wall likely to be hit first, so that the others need not be searched beyond that time.
   std::size_t likely = 0;
   double soonest = kNever;
   for (std::size_t w = 0; w < walls.size(); ++w) {
-    const double clear = sphereClearUntil(box, walls[w].normal, walls[w].offset);
+    const double clear = sphereClearUntil(box, walls[w].halfSpace->normal, walls[w].halfSpace->offset);
     if (clear > 0 && clear < soonest) {
       soonest = clear;
       likely = w;
@@ -62,7 +62,7 @@ std::optional<Event> firstWall(const Mover& body, const std::vector<Wall>& walls
   std::optional<Event> first;
   double until = body.elapsed(end);
   const auto meet = [&](std::size_t w) {
-    const Wall& wall = walls[w];
+    const Wall& wall = *walls[w].halfSpace;
     const FirstContact contact = body.bounds.angularSpeed == 0
                                      ? firstContactTranslating(box, wall.normal, wall.offset, until)
                                      : searchUntil(until, [&](const SearchWindow& window) {
@@ -73,7 +73,7 @@ std::optional<Event> firstWall(const Mover& body, const std::vector<Wall>& walls
       first = {.time = instantAfter(body.start, contact.time),
                .kind = kindOf(contact),
                .body = body.rank,
-               .partner = Partner::ofWall(w)};
+               .partner = walls[w].rank};
     }
   };
   for (std::size_t k = 0; k < walls.size(); ++k) {
@@ -103,7 +103,7 @@ std::optional<Event> firstMeeting(const Mover& body, const Mover& other, const I
   return Event{.time = instantAfter(zero, contact.time),
                .kind = kindOf(contact),
                .body = body.rank,
-               .partner = Partner::ofBody(other.rank),
+               .partner = other.rank,
                .partnerMotion = other.motion};
 }
 

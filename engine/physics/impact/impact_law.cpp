@@ -26,9 +26,7 @@ AtContact at(const ImpactContact& contact, std::span<const ImpactBody> bodies) {
     found.speeds += body.state->velocity.norm() + spin.norm() * arm.norm();
   };
   add(contact.a, contact.armA, 1);
-  if (!contact.b.isWall()) {
-    add(contact.b.body(), contact.armB, -1);
-  }
+  add(contact.b, contact.armB, -1);
   return found;
 }
 

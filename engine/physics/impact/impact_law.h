@@ -6,25 +6,25 @@
 #include "physics/geometry/separating_axes.h"
 #include "physics/world/body.h"
 #include "physics/world/contact_residuals.h"
-#include "physics/world/partner.h"
 
 namespace careen {
 
 /// One body of an impact: its mass and its state, in which the impact changes velocity and angular momentum.
+/// A wall is one that cannot move.
 struct ImpactBody {
   const MassProperties* mass = nullptr;
   BodyState* state = nullptr;
 };
 
-/// One point where two bodies, or a body and a wall, touch at the moment of the impact.
+/// One point where two bodies touch at the moment of the impact.
 ///
 /// The point is given by its arms, not in world coordinates: position + arm − position is not arm in floating
 /// point, and that rounding would tilt a cube that lands flat.
 struct ImpactContact {
   int a = 0;                    ///< index among the bodies; the normal points to it
-  Partner b = {};               ///< a wall, or an index among the bodies
+  int b = 0;                    ///< index among the bodies
   Vec3 armA = Vec3::Zero();     ///< [m] world, from a's centre of mass to the point
-  Vec3 armB = Vec3::Zero();     ///< [m] world, from b's; not read for a wall
+  Vec3 armB = Vec3::Zero();     ///< [m] world, from b's; not read if b cannot move
   Vec3 normal = Vec3::UnitZ();  ///< [1] unit, from b to a
   Material material = {};       ///< of the pair, see touching()
   int corner = -1;              ///< of a, that touches a wall

@@ -68,9 +68,9 @@ void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactCo
   const auto a = static_cast<std::size_t>(contact.a);
   added.a = setup.movableOf[a];
   setSide(added, 0, pointSide(axes, contact.armA, 1), principalAxes(bodies[a]));
-  if (!contact.b.isWall()) {
-    const auto b = static_cast<std::size_t>(contact.b.body());
-    added.b = setup.movableOf[b];
+  const auto b = static_cast<std::size_t>(contact.b);
+  added.b = setup.movableOf[b];
+  if (added.b != ContactProblem::kNobody) {
     setSide(added, 1, pointSide(axes, contact.armB, -1), principalAxes(bodies[b]));
   }
   const double normal = inverseEffectiveMass(setup, added);

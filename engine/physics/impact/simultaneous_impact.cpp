@@ -365,7 +365,7 @@ void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> c
   const bool turns = !body.mass->inverseInertiaBody.isZero(0);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     for (const bool second : {false, true}) {
-      if (second ? contacts[c].b.isBody(index) : contacts[c].a == index) {
+      if ((second ? contacts[c].b : contacts[c].a) == index) {
         const Vec3 impulse = second ? Vec3(-impulses[c]) : impulses[c];
         const Vec3& arm = second ? contacts[c].armB : contacts[c].armA;
         add(body.mass->inverseMass * impulse, turns ? arm.cross(impulse) : Vec3(Vec3::Zero()));
@@ -390,8 +390,9 @@ ContactResiduals resolveTogether(std::span<const ImpactBody> bodies, std::span<c
                                  std::span<ImpactShare> shares, ImpactAccuracy accuracy) {
   if (contacts.size() == 1) {
     const ImpactContact& only = contacts[0];
-    const ImpactBody* b = only.b.isWall() ? nullptr : &bodies[static_cast<std::size_t>(only.b.body())];
-    shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)], b, only);
+    const ImpactBody& b = bodies[static_cast<std::size_t>(only.b)];
+    shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)],
+                                    isImmovable(*b.mass) ? nullptr : &b, only);
     shares[0].normal = only.normal;
     return {};
   }
@@ -410,7 +411,9 @@ ContactResiduals resolveTogether(std::span<const ImpactBody> bodies, std::span<c
     }
   }
   for (std::size_t index = 0; index < bodies.size(); ++index) {
-    applyTo(static_cast<int>(index), bodies[index], contacts, world);
+    if (!isImmovable(*bodies[index].mass)) {
+      applyTo(static_cast<int>(index), bodies[index], contacts, world);
+    }
   }
   return law.takeResiduals();
 }

@@ -6,7 +6,7 @@
 
 namespace careen {
 
-double addWallContacts(const World& world, const Body& body, const Pose& pose, int index,
+double addWallContacts(const World& world, const Body& body, const Pose& pose, int index, int firstWall,
                        std::vector<ImpactContact>& contacts) {
   const double within = touchingWithin(boxAt(pose, body));
   double deepest = 0;
@@ -20,7 +20,7 @@ double addWallContacts(const World& world, const Body& body, const Pose& pose, i
     for (int k = 0; k < kCorners; ++k) {
       if ((gap.corners >> static_cast<unsigned>(k) & 1U) != 0) {
         contacts.push_back({.a = index,
-                            .b = Partner::ofWall(w),
+                            .b = firstWall + static_cast<int>(w),
                             .armA = pose.worldFromBody * corner(body, k),
                             .normal = wall.normal,
                             .material = touching(body.material, wall.material),

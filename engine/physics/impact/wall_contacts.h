@@ -8,9 +8,9 @@
 namespace careen {
 
 /// Adds a contact for every corner of the body that touches a wall within kSimultaneous. `index` is the
-/// body's among those of the impact. Returns the largest penetration of a corner into a wall [m], 0 if none
-/// penetrates.
-double addWallContacts(const World& world, const Body& body, const Pose& pose, int index,
+/// body's among those of the impact, `firstWall` that of the first wall. Returns the largest penetration of a
+/// corner into a wall [m], 0 if none penetrates.
+double addWallContacts(const World& world, const Body& body, const Pose& pose, int index, int firstWall,
                        std::vector<ImpactContact>& contacts);
 
 }  // namespace careen

@@ -38,7 +38,6 @@ class BlockGroups {
     int first = 0;  ///< row, of all groups'
     int count = 0;  ///< rows of the longest
   };
-  /// The last of the bodies stands for the walls.
   void find(std::span<const RowBlock> blocks, std::span<const SolverBody> bodies);
   /// From now on, parts that share bodies wait for each other.
   void order();

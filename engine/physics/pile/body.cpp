@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "physics/attitude/free_splitting.h"
 
@@ -51,6 +52,13 @@ PileBody pileBody(const Body& body, const BodyState& state) {
   }
   deriveOmega(result);
   return result;
+}
+
+PileBody pileBody(const Wall& wall) {
+  return {.halfSpace = &wall,
+          .length = std::numeric_limits<double>::infinity(),
+          .material = wall.material,
+          .held = true};
 }
 
 BodyState stateOf(const PileBody& body) {

@@ -8,9 +8,10 @@
 
 namespace careen {
 
-/// A body of a pile: the parts of Body and BodyState that the inner loops read, and its motion between
-/// contacts.
+/// A body of a pile, a box or a half-space: the parts of Body and BodyState that the inner loops read, and
+/// its motion between contacts.
 struct PileBody {
+  const Wall* halfSpace = nullptr;          ///< its shape; null: a box, of these half sizes
   Vec3 halfExtents = Vec3::Zero();          ///< [m]
   const Vec3* center = nullptr;             ///< [m] middle of the box, body frame; null: the centre of mass
   double radius = 0;                        ///< [m] bounding sphere about the centre of mass
@@ -38,6 +39,7 @@ struct PileBody {
   bool asleep = false;
   bool absent = false;  ///< a place that was left
 
+  bool isBox() const { return halfSpace == nullptr; }
   /// Does not move in this step.
   bool still() const { return held || asleep || absent; }
 
@@ -52,8 +54,9 @@ struct PileBody {
   Mat3 principalAxes() const { return bodyFromPrincipal == nullptr ? axes : Mat3(axes * *bodyFromPrincipal); }
 };
 
-/// `body` must outlive it.
+/// `body`, or `wall`, must outlive it. A wall is held, and larger than any box.
 PileBody pileBody(const Body& body, const BodyState& state);
+PileBody pileBody(const Wall& wall);
 BodyState stateOf(const PileBody& body);
 
 /// ω = A Ī⁻¹ Aᵀ L (Eq. 18).

@@ -68,10 +68,7 @@ std::size_t Crowd::admitAtRest(std::size_t body, const Pose& pose, std::optional
 
 std::size_t Crowd::place(const PileBody& body, std::size_t listed) {
   const std::size_t index = members_.add(body, listed);
-  if (memory_.places.size() < members_.size()) {
-    memory_.places.emplace_back();
-    contacts_.addPlace();
-  }
+  memory_.places.resize(members_.size());
   memory_.places[index] = {.rates = {.velocity = body.velocity, .omega = body.omega}};
   loads_.limitBySprings(listed);
   return index;

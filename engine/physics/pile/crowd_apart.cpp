@@ -39,16 +39,15 @@ void CrowdApart::beginProjection(Aim aim) {
 
 // To where its bodies are; for the first time after a step, or again.
 void CrowdApart::refreshGaps(PileManifold& manifold, PileProjection::Look look) const {
-  if (!manifold.b.isWall()) {
-    const PileBody& a = members_[manifold.a];
-    const PileBody& b = members_[manifold.b];
-    if (manifold.moved + (look == PileProjection::Look::kFirst ? relativeMotion(a, b, members_.h) : 0) >
-        contacts_.rebuildAfter(manifold.length)) {
-      buildManifold(a, b, manifold.reach, manifold);
-      return;
-    }
+  const PileBody& a = members_[manifold.a];
+  const PileBody& b = members_[manifold.b];
+  if (b.isBox() &&  // else it has all corners
+      manifold.moved + (look == PileProjection::Look::kFirst ? relativeMotion(a, b, members_.h) : 0) >
+          contacts_.rebuildAfter(manifold.length)) {
+    buildManifold(a, b, manifold.reach, manifold);
+  } else {
+    refreshManifold(a, b, manifold);
   }
-  contacts_.refresh(manifold);
 }
 
 bool CrowdApart::projectAll() {
@@ -199,10 +198,9 @@ double CrowdApart::deepestOnWay() {
   depth_.findTurns();
   double deepest = 0;
   for (const PilePair& pair : contacts_.pairs()) {
-    if (!pair.b.isWall() &&
-        (members_.ways[at(pair.a)].projected || members_.ways[at(pair.b.body())].projected) &&
+    if ((members_.ways[at(pair.a)].projected || members_.ways[at(pair.b)].projected) &&
         !contacts_.isClear(pair)) {
-      deepest = std::max(deepest, depth_.onWay(pair.a, pair.b.body(), contacts_.axisOf(pair)));
+      deepest = std::max(deepest, depth_.onWay(pair.a, pair.b, contacts_.axisOf(pair)));
     }
   }
   return deepest;

@@ -32,8 +32,8 @@ void CrowdBounces::findOf(const PileManifold& manifold, int slot) {
     const auto falling = [&](int body) {
       return members_[body].still() ? Vec3(Vec3::Zero()) : loads_.acceleration(at(body));
     };
-    const Vec3 fallB = manifold.b.isWall() ? Vec3(Vec3::Zero()) : falling(manifold.b.body());
-    const double fall = members_.h * dot(manifold.frameOf(k).normal, falling(manifold.a) - fallB);
+    const double fall =
+        members_.h * dot(manifold.frameOf(k).normal, falling(manifold.a) - falling(manifold.b));
     const double approach = std::max(0.0, -(point.speed + (before - 0.5) * fall));
     bounces_.push_back({.row = point.row,
                         .speed = manifold.restitution * approach,

@@ -15,8 +15,8 @@ class CrowdBounces {
  public:
   /// An impact of the last step: one contact point.
   struct Struck {
-    int a = 0;                    ///< place
-    Partner b = {};               ///< place or wall
+    int a = 0;  ///< place
+    int b = 0;
     Vec3 point = Vec3::Zero();    ///< [m] world
     Vec3 normal = Vec3::UnitZ();  ///< [1] from b to a
     double approach = 0;          ///< [m/s]

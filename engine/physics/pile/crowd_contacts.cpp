@@ -13,8 +13,7 @@ constexpr double kUnseen = 2;     // [1] of the tolerance: motion after which ot
 
 }  // namespace
 
-CrowdContacts::CrowdContacts(CrowdMembers& members)
-    : members_(members), pairs_(members.world.walls, members.team) {}
+CrowdContacts::CrowdContacts(CrowdMembers& members) : members_(members), pairs_(members.team) {}
 
 void CrowdContacts::sort() {
   near_.clear();
@@ -79,7 +78,7 @@ void CrowdContacts::lookAtAll() {
 
 void CrowdContacts::lookAt(std::size_t k, Looking& looking) {
   PilePair& pair = pairs_.pairs()[k];
-  if (isClear(pair) || looked_[k] != Looked::kNot || (members_[pair.a].still() && members_.isStill(pair.b))) {
+  if (isClear(pair) || looked_[k] != Looked::kNot || (members_[pair.a].still() && members_[pair.b].still())) {
     return;
   }
   const bool isNew = pair.slot < 0;
@@ -91,7 +90,7 @@ void CrowdContacts::lookAt(std::size_t k, Looking& looking) {
     looking.begun.emplace_back(k, manifold);
   }
   if (looked_[k] == Looked::kNear &&
-      (members_[pair.a].asleep || members_.isAsleep(pair.b) || manifold.carries)) {
+      (members_[pair.a].asleep || members_[pair.b].asleep || manifold.carries)) {
     looking.besideSleep.push_back(k);
   }
 }
@@ -107,27 +106,22 @@ void CrowdContacts::listNear() {
 }
 
 bool CrowdContacts::isClear(const PilePair& pair) const {
-  const double path = paths_[at(pair.a)] + (pair.b.isWall() ? 0 : paths_[at(pair.b.body())]);
-  return pair.slot < 0 && path < pair.until;
+  return pair.slot < 0 && paths_[at(pair.a)] + paths_[at(pair.b)] < pair.until;
 }
 
 double CrowdContacts::wayLeft(const PilePair& pair) const {
   const PileBody& a = members_[pair.a];
-  if (pair.b.isWall()) {
-    return pair.clear - std::abs(dot(members_.wall(pair.b).normal, a.position - pair.apart)) -
-           (a.turned - pair.turned);
-  }
   const PileBody& b = members_[pair.b];
-  return pair.clear - (a.position - b.position - pair.apart).norm() - (a.turned + b.turned - pair.turned);
+  return pair.clear - wayNearer(a, b, pair.apart) - (a.turned + b.turned - pair.turned);
 }
 
 // [m] By how much they come nearer in this step, at the most, if nothing pushes them.
 double CrowdContacts::wayAhead(const PilePair& pair) const {
   const PileBody& a = members_[pair.a];
-  if (pair.b.isWall()) {
+  const PileBody& b = members_[pair.b];
+  if (!b.isBox()) {
     return a.ahead;
   }
-  const PileBody& b = members_[pair.b];
   const Vec3 relative =
       (a.still() ? Vec3(Vec3::Zero()) : a.velocity) - (b.still() ? Vec3(Vec3::Zero()) : b.velocity);
   return members_.h * (relative.norm() + (members_.h + a.behind + b.behind) * members_.gravity) + a.turning +
@@ -141,35 +135,33 @@ double CrowdContacts::rebuildAfter(double length) const {
 // `manifold` is the pair's, or, if it has none, one to try.
 CrowdContacts::Looked CrowdContacts::lookAt(PilePair& pair, PileManifold& manifold) const {
   const PileBody& a = members_[pair.a];
-  const bool hasWall = pair.b.isWall();
+  const PileBody& b = members_[pair.b];
   if (pair.slot < 0) {
     const double left = pair.clear > 0 ? wayLeft(pair) : 0;
     if (wayAhead(pair) < left) {
-      pair.until = a.path + (hasWall ? 0 : members_[pair.b].path) + left;
+      pair.until = a.path + b.path + left;
       return Looked::kFar;
     }
     beginManifold(pair, manifold);
   }
-  const double motion = hasWall ? a.ahead : relativeMotion(a, members_[pair.b], members_.h);
+  const double motion = relativeMotion(a, b, members_.h);
   manifold.moved += motion;
   const double length = manifold.length;
   bool touching = manifold.count > 0;
   if (!touching || manifold.moved > rebuildAfter(length) ||
       manifold.moved + motion + 0.5 * PileLengths::kReach * length > manifold.reach) {
     manifold.reach = PileLengths::kReach * length + 1.5 * motion;
-    touching = hasWall ? buildManifold(a, members_.wall(pair.b), manifold.reach, manifold)
-                       : buildManifold(a, members_[pair.b], manifold.reach, manifold);
+    touching = buildManifold(a, b, manifold.reach, manifold);
   } else {
     refresh(manifold);
   }
   if (touching) {
     return manifold.count > 0 ? Looked::kNear : Looked::kBare;
   }
-  const PileBody* b = hasWall ? nullptr : &members_[pair.b];
-  pair.apart = b == nullptr ? a.position : Vec3(a.position - b->position);
-  pair.turned = a.turned + (b == nullptr ? 0 : b->turned);
+  pair.apart = a.position - b.position;
+  pair.turned = a.turned + b.turned;
   pair.clear = manifold.separation - PileLengths::kReach * length;
-  pair.until = a.path + (b == nullptr ? 0 : b->path) + pair.clear;
+  pair.until = a.path + b.path + pair.clear;
   return Looked::kFar;
 }
 
@@ -189,11 +181,11 @@ void CrowdContacts::beginManifold(const PilePair& pair, PileManifold& manifold) 
   manifold.b = pair.b;
   manifold.span = members_.span;
   const PileBody& a = members_[pair.a];
-  const Material material =
-      touching(a.material, pair.b.isWall() ? members_.wall(pair.b).material : members_[pair.b].material);
+  const PileBody& b = members_[pair.b];
+  const Material material = touching(a.material, b.material);
   manifold.friction = material.friction;
   manifold.restitution = material.restitution;
-  manifold.length = pair.b.isWall() ? a.length : std::min(a.length, members_[pair.b].length);
+  manifold.length = std::min(a.length, b.length);
 }
 
 void CrowdContacts::endPaths() {
@@ -201,12 +193,7 @@ void CrowdContacts::endPaths() {
 }
 
 void CrowdContacts::refresh(PileManifold& manifold, const std::vector<PileBody>& bodies) const {
-  const PileBody& a = bodies[at(manifold.a)];
-  if (manifold.b.isWall()) {
-    refreshManifold(a, members_.wall(manifold.b), manifold);
-  } else {
-    refreshManifold(a, bodies[at(manifold.b.body())], manifold);
-  }
+  refreshManifold(bodies[at(manifold.a)], bodies[at(manifold.b)], manifold);
 }
 
 void CrowdContacts::rebuildNear() {

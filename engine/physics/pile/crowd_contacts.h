@@ -16,13 +16,12 @@ namespace careen {
 /// [1] of what forces give in a step: slower approach is no impact.
 inline constexpr double kStrikesFrom = 4;
 
-/// Contacts of a crowd, by broad and narrow phase: pairs of members, and members and walls, and the manifolds
-/// of those that may touch in the step.
+/// Contacts of a crowd, by broad and narrow phase: pairs of members, and the manifolds of those that may
+/// touch in the step.
 class CrowdContacts {
  public:
   explicit CrowdContacts(CrowdMembers& members);
 
-  void addPlace() { pairs_.addPlace(); }
   void clearPlace(std::size_t place) { pairs_.clearPlace(static_cast<int>(place)); }
 
   /// Stores manifolds in processing order, for cache locality with thousands of boxes. The storage order does

@@ -24,7 +24,7 @@ class Curvature {
     });
   }
   bool bends(const PileManifold& manifold) const {
-    return bends_[at(manifold.a)] != 0 || (!manifold.b.isWall() && bends_[at(manifold.b.body())] != 0);
+    return bends_[at(manifold.a)] != 0 || bends_[at(manifold.b)] != 0;
   }
   double secondOrder(const PileManifold& manifold, int k) const;
 
@@ -59,11 +59,7 @@ double Curvature::secondOrder(const PileManifold& manifold, int k) const {
     const Vec3& spin = solver_.omega(body);
     return dot(n, spin.cross(spin.cross(to)) + spinRate(body).cross(to));
   };
-  const double ofA = along(manifold.a, arm);
-  if (manifold.b.isWall()) {
-    return ofA;
-  }
-  const int b = manifold.b.body();
+  const int b = manifold.b;
   const PileBody& bodyA = members_[manifold.a];
   const PileBody& bodyB = members_[b];
   const Vec3& spinA = solver_.omega(manifold.a);
@@ -80,7 +76,7 @@ double Curvature::secondOrder(const PileManifold& manifold, int k) const {
     const double perSquare = 1 / std::max(1 - cosine * cosine, kParallel);
     turning = perSquare * ((ofEdgeA - cosine * ofEdgeB) * edgeA + (ofEdgeB - cosine * ofEdgeA) * edgeB);
   }
-  return ofA - along(b, armB) + 2 * dot(turning, slip);
+  return along(manifold.a, arm) - along(b, armB) + 2 * dot(turning, slip);
 }
 
 }  // namespace

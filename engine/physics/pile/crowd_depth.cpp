@@ -59,25 +59,20 @@ void CrowdDepth::findTurns() {
 
 double CrowdDepth::now(const PilePair& pair) const {
   const PileBody& a = members_[pair.a];
-  const PileBody* b = pair.b.isWall() ? nullptr : &members_[pair.b];
-  if ((a.still() && members_.isStill(pair.b)) ||
-      (pair.slot < 0 && pair.clear > 0 && contacts_.wayLeft(pair) > 0)) {
+  const PileBody& b = members_[pair.b];
+  if ((a.still() && b.still()) || (pair.slot < 0 && pair.clear > 0 && contacts_.wayLeft(pair) > 0)) {
     return 0;
   }
-  const double motion = b == nullptr ? a.path - members_.start[at(pair.a)].path
-                                     : relativeMotion(a, *b, members_.h) + members_.ways[at(pair.a)].shifted +
-                                           members_.ways[at(pair.b.body())].shifted;
+  const double motion = b.isBox() ? relativeMotion(a, b, members_.h) + members_.ways[at(pair.a)].shifted +
+                                        members_.ways[at(pair.b)].shifted
+                                  : a.path - members_.start[at(pair.a)].path;
   if (motion < members_.tolerance && !startedDeep(pair)) {
     return 0;
   }
-  if (b == nullptr) {
-    const double depth = overlapOf(a, members_.wall(pair.b));
-    return depth > kDeep * members_.tolerance ? depth : 0;
-  }
   const int axis = contacts_.axisOf(pair);
-  const double atEnd = gapAtEnd(pair.a, pair.b.body(), axis);
-  const double deep = atEnd < -kDeep * members_.tolerance ? overlapOf(a, *b) : 0;
-  return std::max(deep, within(pair.a, pair.b.body(), axis, atEnd));
+  const double atEnd = gapAtEnd(pair.a, pair.b, axis);
+  const double deep = atEnd < -kDeep * members_.tolerance ? overlapOf(a, b) : 0;
+  return std::max(deep, within(pair.a, pair.b, axis, atEnd));
 }
 
 double CrowdDepth::onWay(int a, int b, int axis) const { return within(a, b, axis, gapAtEnd(a, b, axis)); }
@@ -92,12 +87,9 @@ double CrowdDepth::wayOf(int b, int a) const {
          members_[b].radius * (turns_[at(b)] - turns_[at(a)]).norm();
 }
 
-// [m] Of two boxes; of those no deeper than kDeep, a lower bound. The axis is that of their manifold, or −1.
+// [m] Of those no deeper than kDeep, a lower bound. The axis is that of their manifold, or −1.
 double CrowdDepth::gapAtEnd(int a, int b, int axis) const {
-  const PileBody& bodyA = members_[a];
-  const PileBody& bodyB = members_[b];
-  return gapAbove(-kDeep * members_.tolerance, axis, bodyA, bodyA.axes, bodyB, bodyB.axes,
-                  bodyA.middle() - bodyB.middle());
+  return gapAbove(-kDeep * members_.tolerance, axis, members_[a], members_[b]);
 }
 
 // Whether they do along that axis on a straight way: within it, its separation is lower than at the ends by
@@ -122,7 +114,7 @@ bool CrowdDepth::staysApart(int a, int b, int axis) const {
 // [m] Overlap within the step, if more than kDeep: of features that are apart at both its ends. No gap
 // changes by more than points move.
 double CrowdDepth::within(int a, int b, int axis, double atEnd) const {
-  const double motion = wayOf(b, a);
+  const double motion = members_[b].isBox() ? wayOf(b, a) : 0;
   if (motion <= kSwing * members_.tolerance) {
     return 0;
   }
@@ -154,8 +146,7 @@ bool CrowdDepth::startedDeep(const PilePair& pair) const {
 }
 
 double CrowdDepth::overlap(const PilePair& pair, const std::vector<PileBody>& bodies) const {
-  const PileBody& a = bodies[at(pair.a)];
-  return pair.b.isWall() ? overlapOf(a, members_.wall(pair.b)) : overlapOf(a, bodies[at(pair.b.body())]);
+  return overlapOf(bodies[at(pair.a)], bodies[at(pair.b)]);
 }
 
 bool CrowdDepth::anyIsDeep() const { return std::find(isDeep_.begin(), isDeep_.end(), 1) != isDeep_.end(); }

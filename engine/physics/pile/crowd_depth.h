@@ -8,14 +8,14 @@
 
 namespace careen {
 
-/// How deep members of a crowd are in each other and in walls: at the end of a step and on the way there.
+/// How deep members of a crowd are in each other: at the end of a step and on the way there.
 class CrowdDepth {
  public:
   static constexpr double kDeep = 1.5;  ///< [1] of the tolerance: new penetration that is projected at once
 
   CrowdDepth(const CrowdMembers& members, CrowdContacts& contacts) : members_(members), contacts_(contacts) {}
 
-  /// [m] How deep bodies went into each other and into walls in this step, if more than kDeep: the features
+  /// [m] How deep bodies went into each other in this step, if more than kDeep: the features
   /// of the manifolds of its start were not all that met. Says of each pair whether it is deep.
   double find();
   /// Whether that pair went deep, or is very deep, even if it was before; and whether any did.
@@ -31,7 +31,8 @@ class CrowdDepth {
   double before(const PilePair& pair) const { return overlap(pair, members_.start); }
   /// [m] The same after a step, 0 if it cannot be or is not more than kDeep.
   double now(const PilePair& pair) const;
-  /// [m] Overlap of two boxes within the step, if more than kDeep.
+  /// [m] Overlap of two boxes within the step, if more than kDeep; into half-spaces they are deepest at its
+  /// ends.
   double onWay(int a, int b, int axis) const;
   /// [m] At the start of the step, of those that are deep now.
   double deepestBefore() const;

@@ -25,7 +25,7 @@ constexpr double kResidual = 0x1p-10;
 bool CrowdDirect::isHeavy() const {
   return std::any_of(contacts_.near().begin(), contacts_.near().end(), [&](int slot) {
     const PileManifold& manifold = contacts_[slot];
-    if (manifold.b.isWall() || members_[manifold.a].still() || members_[manifold.b].still()) {
+    if (members_[manifold.a].still() || members_[manifold.b].still()) {
       return false;
     }
     const double ratio = members_[manifold.a].inverseMass / members_[manifold.b].inverseMass;
@@ -70,7 +70,7 @@ std::vector<std::size_t> CrowdDirect::pose(const PileSolver& solver) {
   problem_.inverseMass.clear();
   problem_.free.clear();
   const auto indexOf = [&](int body) {
-    if (at(body) >= members_.size() || members_[body].still()) {
+    if (members_[body].still()) {
       return ContactProblem::kNobody;
     }
     if (index[at(body)] < 0) {

@@ -109,9 +109,9 @@ void CrowdImpulses::findPushing() {
   });
   pushing_ = own;
   contacts_.forNear([&](const PileManifold& manifold, std::size_t) {
-    if (!manifold.b.isWall()) {
-      const std::size_t a = at(manifold.a);
-      const std::size_t b = at(manifold.b.body());
+    const std::size_t a = at(manifold.a);
+    const std::size_t b = at(manifold.b);
+    if (members_[b].isBox()) {
       raiseTo(pushing_[a], own[b]);
       raiseTo(pushing_[b], own[a]);
     }
@@ -120,23 +120,19 @@ void CrowdImpulses::findPushing() {
 
 // [m/s] Slower approach is what forces give in a step, or rounding: no impact.
 double CrowdImpulses::slowestBounce(const PileManifold& manifold) const {
-  double strongest = loads_.acceleration(at(manifold.a)).norm();
-  if (!manifold.b.isWall()) {
-    strongest = std::max(strongest, loads_.acceleration(at(manifold.b.body())).norm());
-  }
+  const double strongest =
+      std::max(loads_.acceleration(at(manifold.a)).norm(), loads_.acceleration(at(manifold.b)).norm());
   return std::max(kStrikesFrom * strongest * members_.h, kRounding * speed_);
 }
 
 // What is to be known of a manifold before its rows are added, and how many there will be. Where a point
 // strikes within the step, those of its manifold that are almost closed strike with it.
 PileSolver::Extent CrowdImpulses::lookForRows(PileManifold& manifold) const {
-  const bool hasWall = manifold.b.isWall();
-  const int indexB = solver_.indexOf(manifold.b);
   const Vec3 apart = members_.apart(manifold.a, manifold.b);
   const Vec3 vA = solver_.velocity(manifold.a);
-  const Vec3 vB = solver_.velocity(indexB);
+  const Vec3 vB = solver_.velocity(manifold.b);
   const double slow = slowestBounce(manifold);
-  const double pushing = pushing_[at(manifold.a)] + (hasWall ? 0 : pushing_[at(manifold.b.body())]);
+  const double pushing = pushing_[at(manifold.a)] + pushing_[at(manifold.b)];
   const double mayClose = std::min(kAllowance * manifold.length,
                                    kAllowedDepth * members_.tolerance + kAllowedSpeed * members_.h * pushing);
   PileSolver::Extent rows;
@@ -145,7 +141,7 @@ PileSolver::Extent CrowdImpulses::lookForRows(PileManifold& manifold) const {
   for (int k = 0; k < manifold.count; ++k) {
     PilePoint& point = manifold.points[at(k)];
     const Vec3 relative = vA + solver_.omega(manifold.a).cross(point.world) - vB -
-                          solver_.omega(indexB).cross(point.world + apart);
+                          solver_.omega(manifold.b).cross(point.world + apart);
     point.speed = dot(manifold.frameOf(k).normal, relative);
     point.curved = 0;
     point.strikes = -point.speed > slow;
@@ -269,7 +265,7 @@ void CrowdImpulses::shift(const PileProjection& projection) {
     return;
   }
   contacts_.forNear([&](PileManifold& manifold, std::size_t) {
-    manifold.moved += shiftOf(manifold.a) + (manifold.b.isWall() ? 0 : shiftOf(manifold.b.body()));
+    manifold.moved += shiftOf(manifold.a) + shiftOf(manifold.b);
   });
 }
 

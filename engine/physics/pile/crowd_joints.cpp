@@ -60,7 +60,7 @@ bool CrowdJoints::isSharp() {
 
 bool CrowdJoints::isSharpAt(const PileManifold& manifold) const {
   const double most = JoinedSteps::beside(memory_.length, members_.h, 0).off;
-  if (manifold.b.isWall() || most * bendOf(manifold) <= kRounded * members_.tolerance) {
+  if (!members_[manifold.b].isBox() || most * bendOf(manifold) <= kRounded * members_.tolerance) {
     return false;
   }
   if (areAlike(manifold) && manifold.axis >= 0 && staysApart(manifold)) {
@@ -79,13 +79,13 @@ bool CrowdJoints::isSharpAt(const PileManifold& manifold) const {
 
 // Whether their steps before were as long.
 bool CrowdJoints::areAlike(const PileManifold& manifold) const {
-  return pastOf(at(manifold.a)) == pastOf(at(manifold.b.body()));
+  return pastOf(at(manifold.a)) == pastOf(at(manifold.b));
 }
 
 // [m/s] By how much the rates of the one change as seen from the other, at the most.
 double CrowdJoints::bendOf(const PileManifold& manifold) const {
   const int a = manifold.a;
-  const int b = manifold.b.body();
+  const int b = manifold.b;
   const Rates& ofA = change_[at(a)];
   const Rates& ofB = change_[at(b)];
   const Vec3 apart = members_.start[at(b)].position - members_.start[at(a)].position;
@@ -98,7 +98,7 @@ double CrowdJoints::bendOf(const PileManifold& manifold) const {
 // [m/s] Bound.
 double CrowdJoints::passingSpeed(const PileManifold& manifold) const {
   const std::size_t a = at(manifold.a);
-  const std::size_t b = at(manifold.b.body());
+  const std::size_t b = at(manifold.b);
   const Rates& ofA = ratesBefore(a);
   const Rates& ofB = ratesBefore(b);
   return (ofA.velocity - ofB.velocity).norm() + (change_[a].velocity - change_[b].velocity).norm() +
@@ -110,7 +110,7 @@ double CrowdJoints::passingSpeed(const PileManifold& manifold) const {
 // the bodies is lower within by is of second order in their turns.
 bool CrowdJoints::staysApart(const PileManifold& manifold) const {
   const PileBody& a = members_.start[at(manifold.a)];
-  const PileBody& b = members_.start[at(manifold.b.body())];
+  const PileBody& b = members_.start[at(manifold.b)];
   const auto ratesAt = [&](int body, double time) {
     const Rates& rates = ratesBefore(at(body));
     return time < 0
@@ -129,7 +129,7 @@ bool CrowdJoints::staysApart(const PileManifold& manifold) const {
   for (const double part : {-1.0, 0.0, 1.0}) {
     const double time = part == 0 ? 0 : JoinedSteps::beside(memory_.length, members_.h, part).time;
     const Rates ofA = ratesAt(manifold.a, time);
-    const Rates ofB = ratesAt(manifold.b.body(), time);
+    const Rates ofB = ratesAt(manifold.b, time);
     const Vec3 apart = a.position - b.position + time * (ofA.velocity - ofB.velocity);
     const Mat3 axesA = axesThen(a, time * ofA.omega);
     const Mat3 axesB = axesThen(b, time * ofB.omega);
@@ -150,7 +150,7 @@ double CrowdJoints::gapAt(const PileManifold& manifold, double along) const {
   const PileBody& a = members_[manifold.a];
   const PileBody& b = members_[manifold.b];
   const Pose poseA = onPath(at(manifold.a), moment);
-  const Pose poseB = onPath(at(manifold.b.body()), moment);
+  const Pose poseB = onPath(at(manifold.b), moment);
   return gapAbove(-kDeepAtJoint * members_.tolerance, manifold.axis, a, poseA.worldFromBody, b,
                   poseB.worldFromBody, a.middleAt(poseA) - b.middleAt(poseB));
 }

@@ -48,7 +48,7 @@ void CrowdLoads::find() {
     return;
   }
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (!members_[i].absent) {
+    if (!members_[i].absent && members_[i].isBox()) {
       states_[members_.listed[i]] = stateOf(members_[i]);
     }
   }
@@ -70,8 +70,9 @@ void CrowdLoads::find() {
 }
 
 Vec3 CrowdLoads::acceleration(std::size_t place) const {
-  return loads_.empty() ? members_.world.gravity
-                        : Vec3(members_[place].inverseMass * loads_[members_.listed[place]].force);
+  return loads_.empty()         ? members_.world.gravity
+         : members_[place].held ? Vec3(Vec3::Zero())
+                                : Vec3(members_[place].inverseMass * loads_[members_.listed[place]].force);
 }
 
 Vec3 CrowdLoads::accelerationBefore(std::size_t place) const {

@@ -12,7 +12,11 @@ CrowdMembers::CrowdMembers(const World& inWorld, double toTolerance, std::shared
       scale(std::sqrt(toTolerance / kUsualTolerance)),
       gravity(inWorld.gravity.norm()),
       h(longestStep()),
-      span(h) {}
+      span(h) {
+  for (std::size_t w = 0; w < world.walls.size(); ++w) {
+    add(pileBody(world.walls[w]), w);
+  }
+}
 
 std::size_t CrowdMembers::add(const PileBody& body, std::size_t index) {
   if (free.empty()) {

@@ -8,13 +8,12 @@
 #include "core/system/team.h"
 #include "physics/pile/body.h"
 #include "physics/pile/index.h"
-#include "physics/world/partner.h"
 #include "physics/world/world.h"
 
 namespace careen {
 
-/// The bodies of a crowd, by place: now, when its last step began, and what they did in it. The places of
-/// those that left are used again.
+/// The bodies of a crowd, by place, the walls of the world first: now, when its last step began, and what
+/// they did in it. The places of those that left are used again.
 struct CrowdMembers {
   static constexpr double kUsualTolerance = 3e-4;    ///< [m] what penetration and steps were measured for
   static constexpr double kLongestStep = 1.0 / 180;  ///< [s] at that tolerance
@@ -52,14 +51,8 @@ struct CrowdMembers {
   const PileBody& operator[](std::size_t place) const { return bodies[place]; }
   PileBody& operator[](int place) { return bodies[at(place)]; }
   const PileBody& operator[](int place) const { return bodies[at(place)]; }
-  const PileBody& operator[](Partner partner) const { return bodies[at(partner.body())]; }
-  const Wall& wall(Partner partner) const { return world.walls[partner.wall()]; }
-  bool isStill(Partner partner) const { return partner.isWall() || (*this)[partner].still(); }
-  bool isAsleep(Partner partner) const { return !partner.isWall() && (*this)[partner].asleep; }
-  /// [m] From b's centre to a's; none where b is a wall.
-  Vec3 apart(int a, Partner b) const {
-    return b.isWall() ? Vec3(Vec3::Zero()) : Vec3((*this)[a].position - (*this)[b].position);
-  }
+  /// [m] From b's centre to a's.
+  Vec3 apart(int a, int b) const { return (*this)[a].position - (*this)[b].position; }
   double longestStep() const { return kLongestStep * scale; }
   /// On the way of the step, straight between its ends, at that part of it.
   Pose between(std::size_t place, double part) const;
@@ -83,7 +76,7 @@ struct CrowdMembers {
   std::vector<PileBody> bodies;  ///< now
   std::vector<PileBody> start;   ///< at the start of the step
   std::vector<Way> ways;
-  std::vector<std::size_t> listed;  ///< index in the world
+  std::vector<std::size_t> listed;  ///< index in the world, among bodies or walls
   std::vector<int> free;            ///< places that were left
 };
 

@@ -97,13 +97,11 @@ void countUntouched(const CrowdMembers& members, CrowdContacts& contacts, CrowdM
     int& steps = memory.places[i].untouchedSteps;
     steps = members[i].still() ? 0 : steps + 1;
   });
-  const auto touch = [&](int body) {
-    std::atomic_ref(memory.places[at(body)].untouchedSteps).store(0, std::memory_order_relaxed);
-  };
   contacts.forNear([&](const PileManifold& manifold, std::size_t) {
-    touch(manifold.a);
-    if (!manifold.b.isWall()) {
-      touch(manifold.b.body());
+    for (const int body : {manifold.a, manifold.b}) {
+      if (!members[body].still()) {
+        std::atomic_ref(memory.places[at(body)].untouchedSteps).store(0, std::memory_order_relaxed);
+      }
     }
   });
 }

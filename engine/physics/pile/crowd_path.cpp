@@ -80,11 +80,10 @@ std::vector<char> CrowdPath::changedSuddenly() const {
   for (const int slot : contacts_.near()) {
     const PileManifold& manifold = contacts_[slot];
     const auto* const end = manifold.points.data() + manifold.count;
-    if (!manifold.b.isWall() && members_.ways[at(manifold.a)].moved &&
-        members_.ways[at(manifold.b.body())].moved &&
+    if (members_.ways[at(manifold.a)].moved && members_.ways[at(manifold.b)].moved &&
         std::any_of(manifold.points.data(), end,
                     [](const PilePoint& point) { return point.normalImpulse > 0; })) {
-      pushing.join(at(manifold.a), at(manifold.b.body()));
+      pushing.join(at(manifold.a), at(manifold.b));
     }
   }
   std::vector<char> suddenly(members_.size(), 0);

@@ -77,10 +77,9 @@ bool CrowdSleep::wouldPush(const PilePair& pair) const {
 
 // Of two that can move, one sleeps.
 bool CrowdSleep::isHalfAsleep(const PileManifold& manifold) const {
-  if (manifold.b.isWall() || members_[manifold.a].held || members_[manifold.b].held) {
-    return false;
-  }
-  return members_[manifold.a].asleep != members_[manifold.b].asleep;
+  const PileBody& a = members_[manifold.a];
+  const PileBody& b = members_[manifold.b];
+  return !a.held && !b.held && a.asleep != b.asleep;
 }
 
 // Of the two of a manifold that is half asleep.
@@ -128,7 +127,7 @@ bool CrowdSleep::wakePushed() {
   for (const std::size_t k : contacts_.besideSleep()) {
     const PilePair& pair = contacts_.pairs()[k];
     const PileBody& a = members_[pair.a];
-    if ((a.asleep || members_.isAsleep(pair.b)) && wouldPush(pair)) {
+    if ((a.asleep || members_[pair.b].asleep) && wouldPush(pair)) {
       wakeCluster(a.asleep ? a.cluster : members_[pair.b].cluster);
       woke = true;
     }
@@ -184,11 +183,11 @@ void CrowdSleep::wakeNeighbours() {
   for (int layer = 0; layer < kLayers; ++layer) {
     clusters.clear();
     for (const PilePair& pair : contacts_.pairs()) {
-      if (pair.slot < 0 || pair.b.isWall() || !isHalfAsleep(contacts_[pair.slot])) {
+      if (pair.slot < 0 || !isHalfAsleep(contacts_[pair.slot])) {
         continue;
       }
       const PileBody& a = members_[pair.a];
-      if (woken_[at(a.asleep ? pair.b.body() : pair.a)] != 0 && pushes(contacts_[pair.slot])) {
+      if (woken_[at(a.asleep ? pair.b : pair.a)] != 0 && pushes(contacts_[pair.slot])) {
         clusters.push_back(a.asleep ? a.cluster : members_[pair.b].cluster);
       }
     }
@@ -212,12 +211,12 @@ void CrowdSleep::findClusters() {
     if (!pushes(manifold)) {
       continue;
     }
-    grip_[at(manifold.a)] = std::max(grip_[at(manifold.a)], manifold.friction);
-    if (!manifold.b.isWall()) {
-      grip_[at(manifold.b.body())] = std::max(grip_[at(manifold.b.body())], manifold.friction);
-      if (!members_[manifold.a].held && !members_[manifold.b].held) {
-        clusters_.join(at(manifold.a), at(manifold.b.body()));
-      }
+    const std::size_t a = at(manifold.a);
+    const std::size_t b = at(manifold.b);
+    grip_[a] = std::max(grip_[a], manifold.friction);
+    grip_[b] = std::max(grip_[b], manifold.friction);
+    if (!members_[a].held && !members_[b].held) {
+      clusters_.join(a, b);
     }
   }
 }
@@ -248,7 +247,7 @@ bool CrowdSleep::freeze() {
   }
   for (const int slot : contacts_.near()) {
     PileManifold& manifold = contacts_[slot];
-    const bool sleeps = members_[manifold.a].asleep || members_.isAsleep(manifold.b);
+    const bool sleeps = members_[manifold.a].asleep || members_[manifold.b].asleep;
     if (sleeps && !manifold.carries) {
       manifold.carried = forceOf(manifold);
     }
@@ -310,9 +309,9 @@ void CrowdSleep::keepFar(std::vector<char>& marked) const {
   for (int next = 1; next <= kLayers; ++next) {
     for (const int slot : contacts_.near()) {
       const PileManifold& manifold = contacts_[slot];
-      if (!manifold.b.isWall() && !members_[manifold.a].held && !members_[manifold.b].held) {
-        const std::size_t a = at(manifold.a);
-        const std::size_t b = at(manifold.b.body());
+      const std::size_t a = at(manifold.a);
+      const std::size_t b = at(manifold.b);
+      if (!members_[a].held && !members_[b].held) {
         layer[b] = layer[a] == next - 1 ? std::min(layer[b], next) : layer[b];
         layer[a] = layer[b] == next - 1 ? std::min(layer[a], next) : layer[a];
       }
@@ -334,19 +333,16 @@ void CrowdSleep::certify(std::vector<char>& chosen) {
       solver_.velocity(static_cast<int>(i)) = members_.span * loads_.acceleration(i);
     }
   }
-  const auto isChosen = [&](Partner partner) { return !partner.isWall() && chosen[at(partner.body())] != 0; };
   std::vector<int> slots;
   for (const int slot : contacts_.near()) {
     PileManifold& manifold = contacts_[slot];
     const bool a = chosen[at(manifold.a)] != 0;
-    const bool b = isChosen(manifold.b);
+    const bool b = chosen[at(manifold.b)] != 0;
     if (!a && !b) {
       continue;
     }
-    const bool meetsMoving = (!a && !members_[manifold.a].still()) ||
-                             (!b && !manifold.b.isWall() && !members_[manifold.b].still());
-    if (meetsMoving) {
-      pushWithLast(manifold, a ? manifold.a : manifold.b.body());
+    if ((!a && !members_[manifold.a].still()) || (!b && !members_[manifold.b].still())) {
+      pushWithLast(manifold, a ? manifold.a : manifold.b);
       continue;
     }
     slots.push_back(slot);
@@ -394,8 +390,7 @@ void CrowdSleep::restoreImpulses(const std::vector<int>& slots, const std::vecto
   int row = 0;
   for (const int slot : slots) {
     PileManifold& manifold = contacts_[slot];
-    const bool sleeps =
-        sleeping[at(manifold.a)] != 0 || (!manifold.b.isWall() && sleeping[at(manifold.b.body())] != 0);
+    const bool sleeps = sleeping[at(manifold.a)] != 0 || sleeping[at(manifold.b)] != 0;
     for (int k = 0; k < manifold.count; ++k) {
       PilePoint& point = manifold.points[at(k)];
       if (point.row < 0) {

@@ -50,7 +50,6 @@ class LaneRows {
   LaneRows(std::shared_ptr<Team> team, Registers registers)
       : team_(team), registers_(registers), groups_(std::move(team)) {}
 
-  /// The last of the bodies stands for the walls.
   void fill(const RowList& list, std::span<const SolverBody> bodies);
 
   BlockGroups& groups() { return groups_; }

@@ -197,60 +197,7 @@ void addClosest(const PileBody& a, const PileBody& b, double reach, PileManifold
   addPoint(manifold, b.axes.transpose() * (onB - b.middle()), kClosestFeature);
 }
 
-}  // namespace
-
-bool buildManifold(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
-  const Former former = formerOf(manifold);
-  manifold.count = 0;
-  manifold.hasEdges = false;
-  manifold.moved = 0;
-  PileAxes axes;
-  const double tie = kTie * manifold.length;
-  if (!axes.find(a, b, reach, manifold.axis, tie)) {
-    manifold.separation = axes.faceSeparation;
-    return false;
-  }
-  const bool edgesBest = axes.edgeSeparation > axes.faceSeparation + (manifold.axis >= 6 ? 0 : tie);
-  manifold.axis = edgesBest ? axes.edges : axes.face;
-  manifold.separation = std::max(axes.edgeSeparation, axes.faceSeparation);
-  const double least = edgesBest ? axes.edgeSeparation - PileLengths::kOverlapped * manifold.length
-                                 : std::numeric_limits<double>::lowest();
-  addFace(a, b, axes, reach, least, manifold);
-  if (edgesBest) {
-    addEdges(a, b, axes, manifold);
-  }
-  if (manifold.count == 0 && manifold.separation > 0) {
-    addClosest(a, b, reach, manifold);
-  }
-  refreshManifold(a, b, manifold);
-  inherit(former, manifold);
-  return true;
-}
-
-bool buildManifold(const PileBody& a, const Wall& wall, double reach, PileManifold& manifold) {
-  const Former former = formerOf(manifold);
-  manifold.count = 0;
-  manifold.moved = 0;
-  manifold.planeOfB = true;
-  manifold.plane = frameOf(wall.normal);
-  const Vec3 up = a.axes.transpose() * wall.normal;
-  const double height = gap(wall, a.middle());
-  manifold.separation = height - dot(a.halfExtents, up.cwiseAbs());
-  if (manifold.separation > reach) {
-    return false;
-  }
-  for (int k = 0; k < kCorners; ++k) {
-    const Vec3 local = corner(a.halfExtents, k);
-    if (height + dot(up, local) <= reach) {
-      addPoint(manifold, local, static_cast<std::uint32_t>(k));
-    }
-  }
-  refreshManifold(a, wall, manifold);
-  inherit(former, manifold);
-  return true;
-}
-
-void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifold) {
+void refreshOfBoxes(const PileBody& a, const PileBody& b, PileManifold& manifold) {
   const Vec3 apart = a.middle() - b.middle();
   const Vec3 toMiddle = a.boxArm();
   const PileBody& owner = manifold.planeOfB ? b : a;
@@ -297,7 +244,7 @@ void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifol
   }
 }
 
-void refreshManifold(const PileBody& a, const Wall& wall, PileManifold& manifold) {
+void refreshAtWall(const PileBody& a, const Wall& wall, PileManifold& manifold) {
   const double height = gap(wall, a.position);
   const Vec3 toMiddle = a.boxArm();
   for (int k = 0; k < manifold.count; ++k) {
@@ -307,21 +254,96 @@ void refreshManifold(const PileBody& a, const Wall& wall, PileManifold& manifold
   }
 }
 
+bool findPointsOfBoxes(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
+  PileAxes axes;
+  const double tie = kTie * manifold.length;
+  if (!axes.find(a, b, reach, manifold.axis, tie)) {
+    manifold.separation = axes.faceSeparation;
+    return false;
+  }
+  const bool edgesBest = axes.edgeSeparation > axes.faceSeparation + (manifold.axis >= 6 ? 0 : tie);
+  manifold.axis = edgesBest ? axes.edges : axes.face;
+  manifold.separation = std::max(axes.edgeSeparation, axes.faceSeparation);
+  const double least = edgesBest ? axes.edgeSeparation - PileLengths::kOverlapped * manifold.length
+                                 : std::numeric_limits<double>::lowest();
+  addFace(a, b, axes, reach, least, manifold);
+  if (edgesBest) {
+    addEdges(a, b, axes, manifold);
+  }
+  if (manifold.count == 0 && manifold.separation > 0) {
+    addClosest(a, b, reach, manifold);
+  }
+  return true;
+}
+
+bool findPointsAtWall(const PileBody& a, const Wall& wall, double reach, PileManifold& manifold) {
+  manifold.planeOfB = true;
+  manifold.plane = frameOf(wall.normal);
+  const Vec3 up = a.axes.transpose() * wall.normal;
+  const double height = gap(wall, a.middle());
+  manifold.separation = height - dot(a.halfExtents, up.cwiseAbs());
+  for (int k = 0; k < kCorners && manifold.separation <= reach; ++k) {
+    const Vec3 local = corner(a.halfExtents, k);
+    if (height + dot(up, local) <= reach) {
+      addPoint(manifold, local, static_cast<std::uint32_t>(k));
+    }
+  }
+  return manifold.separation <= reach;
+}
+
+double gapAtWall(const PileBody& a, const Wall& wall) {
+  const Vec3 up = a.axes.transpose() * wall.normal;
+  return gap(wall, a.middle()) - dot(a.halfExtents, up.cwiseAbs());
+}
+
+}  // namespace
+
+bool buildManifold(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
+  const Former former = formerOf(manifold);
+  manifold.count = 0;
+  manifold.hasEdges = false;
+  manifold.moved = 0;
+  const bool found = b.isBox() ? findPointsOfBoxes(a, b, reach, manifold)
+                               : findPointsAtWall(a, *b.halfSpace, reach, manifold);
+  if (found) {
+    refreshManifold(a, b, manifold);
+    inherit(former, manifold);
+  }
+  return found;
+}
+
+void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifold) {
+  if (b.isBox()) {
+    refreshOfBoxes(a, b, manifold);
+  } else {
+    refreshAtWall(a, *b.halfSpace, manifold);
+  }
+}
+
 double relativeMotion(const PileBody& a, const PileBody& b, double h) {
+  if (!b.isBox()) {
+    return a.ahead;
+  }
   const Vec3 apart = b.position - a.position;
   const Vec3 slip = b.velocity - a.velocity - a.omega.cross(apart);
   const Vec3 spin = b.omega - a.omega;
   return h * (slip.cwiseAbs().sum() + b.radius * spin.cwiseAbs().sum());
 }
 
-double overlapOf(const PileBody& a, const PileBody& b) {
-  const BoxAxes axes(a.axes, a.halfExtents, b.axes, b.halfExtents, a.middle() - b.middle());
-  return std::max(0.0, -axes.gap());
+double wayNearer(const PileBody& a, const PileBody& b, const Vec3& apart) {
+  const Vec3 way = a.position - b.position - apart;
+  return b.isBox() ? way.norm() : std::abs(dot(b.halfSpace->normal, way));
 }
 
-double overlapOf(const PileBody& a, const Wall& wall) {
-  const Vec3 up = a.axes.transpose() * wall.normal;
-  return std::max(0.0, -(gap(wall, a.middle()) - dot(a.halfExtents, up.cwiseAbs())));
+double gapAbove(double least, int axis, const PileBody& a, const PileBody& b) {
+  return b.isBox() ? gapAbove(least, axis, a, a.axes, b, b.axes, a.middle() - b.middle())
+                   : gapAtWall(a, *b.halfSpace);
+}
+
+double overlapOf(const PileBody& a, const PileBody& b) {
+  return std::max(
+      0.0, b.isBox() ? -BoxAxes(a.axes, a.halfExtents, b.axes, b.halfExtents, a.middle() - b.middle()).gap()
+                     : -gapAtWall(a, *b.halfSpace));
 }
 
 }  // namespace careen

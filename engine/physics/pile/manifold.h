@@ -6,11 +6,10 @@
 #include "core/math/linear_algebra.h"
 #include "physics/geometry/contact_frame.h"
 #include "physics/pile/body.h"
-#include "physics/world/partner.h"
 
 namespace careen {
 
-/// Lengths relative to the smallest size of the pair's smaller box: 2 mm for boxes of 0.5 m is 0.004.
+/// Lengths relative to the smallest size of the pair's smaller body: 2 mm for boxes of 0.5 m is 0.004.
 struct PileLengths {
   static constexpr double kRebuild = 0x1p-8;  ///< relative motion after which a manifold is rebuilt
   static constexpr double kReach = 0x1p-5;    ///< points with a larger gap are omitted
@@ -49,14 +48,15 @@ struct EdgeMiddles {
   double sign = 1;        ///< for which a's edge × b's edge points from b to a
 };
 
-/// Contact manifold of two boxes, or a box and a wall. Gaps are exact functions of the two poses for fixed
-/// features: points of one box against a reference plane of the other, no deeper than the one edge pair.
+/// Contact manifold of a box and another one, or a half-space. Gaps are exact functions of the two poses for
+/// fixed features: points of one body against a reference plane of the other, no deeper than the one edge
+/// pair.
 struct PileManifold {
   static constexpr int kMost = 9;  // intersection of two quadrilaterals, and an edge pair
 
   int a = 0;
-  Partner b = {};
-  double length = 0;  ///< [m] smallest size of the smaller box
+  int b = 0;
+  double length = 0;  ///< [m] smallest size of the smaller body
   double friction = 0;
   double restitution = 0;
   double span = 0;  ///< [s] in which its impulses acted
@@ -98,20 +98,22 @@ struct PileManifold {
 };
 
 /// Rebuilds the manifold with points of gap up to `reach` [m]; impulses of persisting features are kept. If
-/// the boxes are farther apart, returns false and leaves no points; `separation` is then a lower bound of the
-/// distance.
+/// the bodies are farther apart, returns false and leaves no points; `separation` is then a lower bound of
+/// the distance.
 bool buildManifold(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold);
-bool buildManifold(const PileBody& a, const Wall& wall, double reach, PileManifold& manifold);
 
 /// Updates gaps, points and frames to the current poses.
 void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifold);
-void refreshManifold(const PileBody& a, const Wall& wall, PileManifold& manifold);
 
-/// Bound [m] on the relative motion of the boxes in h [s], seen from a.
+/// Bound [m] on the relative motion of the bodies in h [s], seen from a; of one whose step is as long.
 double relativeMotion(const PileBody& a, const PileBody& b, double h);
+/// [m] How much nearer they can have come since a's centre was `apart` from b's, if they did not turn.
+double wayNearer(const PileBody& a, const PileBody& b, const Vec3& apart);
 
-/// Penetration depth [m] by all 15 axes, or of a box and a wall; 0 if they are disjoint.
+/// [m] The gap or, if it is above `least`, a lower bound of it that is, too. `axis`: of their manifold, or
+/// −1.
+double gapAbove(double least, int axis, const PileBody& a, const PileBody& b);
+/// Penetration depth [m], of boxes by all 15 axes; 0 if they are disjoint.
 double overlapOf(const PileBody& a, const PileBody& b);
-double overlapOf(const PileBody& a, const Wall& wall);
 
 }  // namespace careen

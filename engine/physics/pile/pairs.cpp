@@ -16,7 +16,11 @@ constexpr int kLeaf = 4;
 constexpr int kMostRefits = 16;
 constexpr std::size_t kDeepest = 128;
 
-std::uint64_t keyOf(int a, Partner b) { return (static_cast<std::uint64_t>(a) << 32U) | b.key(); }
+constexpr std::uint64_t kHalfSpace = 0x80000000U;
+
+std::uint64_t keyOf(int a, int b) {
+  return (static_cast<std::uint64_t>(a) << 32U) | static_cast<std::uint64_t>(b);
+}
 
 }  // namespace
 
@@ -38,16 +42,12 @@ void PilePairs::Box::include(const Box& other) {
   high = high.cwiseMax(other.high);
 }
 
-void PilePairs::addPlace() {
-  fat_.push_back(kNowhere);
-  left_.push_back(0);
-  nodes_.clear();
-}
-
 void PilePairs::clearPlace(int body) {
-  fat_[at(body)] = kNowhere;
+  if (at(body) < fat_.size()) {
+    fat_[at(body)] = kNowhere;
+  }
   std::erase_if(pairs_, [&](const PilePair& pair) {
-    const bool gone = pair.a == body || pair.b.isBody(body);
+    const bool gone = pair.a == body || pair.b == body;
     if (gone && pair.slot >= 0) {
       freed_.push_back(pair.slot);
     }
@@ -78,7 +78,8 @@ bool PilePairs::findLeft(std::span<const PileBody> bodies, const Vec3& gravity, 
   team_->share(bodies.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const PileBody& body = bodies[i];
-      const bool stays = body.absent || (body.still() && fat_[i].low.x() <= fat_[i].high.x()) ||
+      const bool stays = body.absent || !body.isBox() ||
+                         (body.still() && fat_[i].low.x() <= fat_[i].high.x()) ||
                          fat_[i].holds(sweptBox(body, gravity, time));
       left_[i] = stays ? 0 : 1;
       if (!stays) {
@@ -94,6 +95,11 @@ bool PilePairs::findLeft(std::span<const PileBody> bodies, const Vec3& gravity, 
 }
 
 void PilePairs::update(std::span<const PileBody> bodies, const Vec3& gravity, double time, double lookAhead) {
+  if (fat_.size() < bodies.size()) {
+    fat_.resize(bodies.size(), kNowhere);
+    left_.resize(bodies.size(), 0);
+    nodes_.clear();
+  }
   if (!findLeft(bodies, gravity, time, lookAhead)) {
     return;
   }
@@ -105,7 +111,7 @@ void PilePairs::update(std::span<const PileBody> bodies, const Vec3& gravity, do
   found_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (left_[i] != 0) {
-      findPartners(bodies, walls_, static_cast<int>(i));
+      findPartners(bodies, static_cast<int>(i));
     }
   }
   std::sort(found_.begin(), found_.end());
@@ -165,8 +171,8 @@ void PilePairs::refit() {
   }
 }
 
-// A pair of two bodies that both left is found from the lower rank.
-void PilePairs::findPartners(std::span<const PileBody> bodies, std::span<const Wall> walls, int body) {
+// A pair of two bodies that both left is found from the lower place.
+void PilePairs::findPartners(std::span<const PileBody> bodies, int body) {
   const Box& box = fat_[at(body)];
   const bool held = bodies[at(body)].held;
   std::array<int, kDeepest> stack;
@@ -187,18 +193,19 @@ void PilePairs::findPartners(std::span<const PileBody> bodies, std::span<const W
       const int other = order_[at(k)];
       const bool twice = left_[at(other)] != 0 && other < body;
       if (other != body && !twice && !(held && bodies[at(other)].held) && box.overlaps(fat_[at(other)])) {
-        found_.push_back(keyOf(std::min(body, other), Partner::ofBody(std::max(body, other))));
+        found_.push_back(keyOf(std::min(body, other), std::max(body, other)));
       }
     }
   }
   if (held) {
     return;
   }
-  for (std::size_t w = 0; w < walls.size(); ++w) {
-    const Vec3& n = walls[w].normal;
+  for (int w = 0; !bodies[at(w)].isBox(); ++w) {
+    const Wall& wall = *bodies[at(w)].halfSpace;
+    const Vec3& n = wall.normal;
     const Vec3 lowest = (n.array() > 0).select(box.low, box.high);
-    if (dot(n, lowest) <= walls[w].offset) {
-      found_.push_back(keyOf(body, Partner::ofWall(w)));
+    if (dot(n, lowest) <= wall.offset) {
+      found_.push_back(kHalfSpace | keyOf(body, w));
     }
   }
 }
@@ -207,13 +214,11 @@ void PilePairs::findPartners(std::span<const PileBody> bodies, std::span<const W
 void PilePairs::merge() {
   merged_.clear();
   auto found = found_.begin();
-  const auto hasLeft = [&](const PilePair& pair) {
-    return left_[at(pair.a)] != 0 || (!pair.b.isWall() && left_[at(pair.b.body())] != 0);
-  };
+  const auto hasLeft = [&](const PilePair& pair) { return left_[at(pair.a)] != 0 || left_[at(pair.b)] != 0; };
   const auto add = [&] {
     merged_.push_back({.key = *found,
                        .a = static_cast<int>(*found >> 32U),
-                       .b = Partner::ofKey(static_cast<std::uint32_t>(*found & 0xffffffffU))});
+                       .b = static_cast<int>(*found & (kHalfSpace - 1))});
     ++found;
   };
   for (const PilePair& old : pairs_) {

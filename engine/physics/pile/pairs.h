@@ -10,18 +10,18 @@
 #include "core/math/linear_algebra.h"
 #include "core/system/team.h"
 #include "physics/pile/body.h"
-#include "physics/world/partner.h"
 
 namespace careen {
 
-/// Broad-phase pair: two bodies, or a body and a wall, close enough for the narrow phase. By rank, a < b.
+/// Broad-phase pair: two bodies close enough for the narrow phase, by place, a < b; or a box a and a
+/// half-space b.
 struct PilePair {
-  std::uint64_t key = 0;  ///< from a and b; sorts by a, then b
+  std::uint64_t key = 0;  ///< from a and b; sorts by a, then b, half-spaces last
   int a = 0;
-  Partner b = {};
+  int b = 0;
   int slot = -1;  ///< index of its manifold, −1: none
   // Where there was no manifold when the two were last looked at:
-  Vec3 apart = Vec3::Zero();  ///< [m] a's centre from b's, or from the origin
+  Vec3 apart = Vec3::Zero();  ///< [m] a's centre from b's
   double turned = 0;          ///< [m] the turned paths of both, together
   double until = 0;           ///< [m] their paths, together, up to which they have none in any case
   double clear = 0;           ///< [m] that they must come nearer for contact points; 0: look again
@@ -35,16 +35,13 @@ struct PilePair {
 /// Pairs are sorted by key, independent of history.
 class PilePairs {
  public:
-  explicit PilePairs(std::span<const Wall> walls, std::shared_ptr<Team> team = std::make_shared<Team>(1))
-      : team_(std::move(team)), walls_(walls.begin(), walls.end()) {}
+  explicit PilePairs(std::shared_ptr<Team> team = std::make_shared<Team>(1)) : team_(std::move(team)) {}
 
-  /// One more body, the next index.
-  void addPlace();
   /// Removes all pairs of a body that is to be replaced by another.
   void clearPlace(int body);
 
   /// Ensures that all pairs that can touch within `time` [s] at current velocities are listed. New fat AABBs
-  /// are sized for `lookAhead` [s] ≥ time.
+  /// are sized for `lookAhead` [s] ≥ time. Half-spaces come first, and bodies are only added, at the end.
   void update(std::span<const PileBody> bodies, const Vec3& gravity, double time, double lookAhead);
 
   std::vector<PilePair>& pairs() { return pairs_; }
@@ -72,11 +69,10 @@ class PilePairs {
   int buildNode(int first, int count);
   void refit();
   bool findLeft(std::span<const PileBody> bodies, const Vec3& gravity, double time, double lookAhead);
-  void findPartners(std::span<const PileBody> bodies, std::span<const Wall> walls, int body);
+  void findPartners(std::span<const PileBody> bodies, int body);
   void merge();
 
   std::shared_ptr<Team> team_;
-  std::vector<Wall> walls_;
   std::vector<Box> fat_;
   std::vector<char> left_;  // bodies that have just left their fat AABBs
   std::vector<PilePair> pairs_;

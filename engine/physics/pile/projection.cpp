@@ -31,9 +31,7 @@ constexpr double kNear = 0x1p-6;  // [1] of the smallest size: larger gaps are i
 template <class Visit>
 void forBodies(const PileManifold& manifold, const Visit& visit) {
   visit(manifold.a);
-  if (!manifold.b.isWall()) {
-    visit(manifold.b.body());
-  }
+  visit(manifold.b);
 }
 
 }  // namespace
@@ -167,9 +165,7 @@ void PileProjection::solve(int number) {
     solver_.solve(kSweepsAtFirst << number, PileSolver::Friction::kNone);
     return;
   }
-  const auto mover = [&](int body) {
-    return at(body) < bodies_.size() && isReached_[at(body)] != 0 ? body : DisplacementSolver::kNobody;
-  };
+  const auto mover = [&](int body) { return isReached_[at(body)] != 0 ? body : DisplacementSolver::kNobody; };
   gradients_.begin(bodies_, holds() ? kHoldingCompliance : DisplacementSolver::kCompliance);
   for (std::size_t k = 0; k < solver_.rowCount(); ++k) {
     const PileSolver::RowView row = solver_.row(static_cast<int>(k));
@@ -207,9 +203,7 @@ void PileProjection::fillSolver() {
   }
   for (const std::size_t n : chosen_) {
     const PileManifold& manifold = manifolds_[at(near_[n])];
-    const Vec3 apart = manifold.b.isWall()
-                           ? Vec3(Vec3::Zero())
-                           : Vec3(bodies_[at(manifold.a)].position - bodies_[at(manifold.b.body())].position);
+    const Vec3 apart = bodies_[at(manifold.a)].position - bodies_[at(manifold.b)].position;
     const ContactFrame* begun = nullptr;
     std::optional<PileManifold> before;
     if (holds()) {

@@ -3,17 +3,17 @@
 namespace careen {
 
 void PileSolver::begin(std::size_t bodies, Rows rows) {
-  bodies_.assign(bodies + 1, {});
-  moving_.assign(bodies + 1, {});
+  bodies_.assign(bodies, {});
+  moving_.assign(bodies, {});
   if (rows == Rows::kAdded) {  // else all are overwritten
     list_.clear();
   }
 }
 
-void PileSolver::setBlock(Extent index, int count, int a, Partner b, double friction,
-                          const ContactFrame& frame, const Vec3& apart) {
+void PileSolver::setBlock(Extent index, int count, int a, int b, double friction, const ContactFrame& frame,
+                          const Vec3& apart) {
   list_.setBlock(index.blocks, {.a = a,
-                                .b = indexOf(b),
+                                .b = b,
                                 .first = index.rows,
                                 .count = count,
                                 .friction = friction,

@@ -36,7 +36,7 @@ class PileSolver {
 
   /// How rows come in: one after the other by add(), or each by its index, after reserve().
   enum class Rows : std::uint8_t { kAdded, kSet };
-  /// Clears it for that many bodies; one more represents all walls.
+  /// Clears it for that many bodies.
   void begin(std::size_t bodies, Rows rows = Rows::kAdded);
 
   /// Sets a body's inverse mass and inertia; `change` [m/s] is the change that puts its manifolds back on the
@@ -49,9 +49,6 @@ class PileSolver {
   Vec3& omega(int body) { return moving_[at(body)].omega; }
   const Vec3& velocity(int body) const { return moving_[at(body)].velocity; }
   const Vec3& omega(int body) const { return moving_[at(body)].omega; }
-  int indexOf(Partner partner) const {
-    return partner.isWall() ? static_cast<int>(bodies_.size()) - 1 : partner.body();
-  }
   /// An impulse [N s] from outside, at that arm [m].
   void push(int body, const Vec3& arm, const Vec3& impulse) {
     moving_[at(body)].velocity += bodies_[at(body)].inverseMass * impulse;
@@ -61,15 +58,15 @@ class PileSolver {
   bool pushed(int body) const { return moving_[at(body)].pushed != 0; }
 
   /// Rows of a manifold with one frame follow with add(); `apart` [m] is from b's centre to a's.
-  void beginBlock(int a, Partner b, double friction, const ContactFrame& frame, const Vec3& apart) {
-    list_.begin({.a = a, .b = indexOf(b), .friction = friction, .frame = frame, .apart = apart});
+  void beginBlock(int a, int b, double friction, const ContactFrame& frame, const Vec3& apart) {
+    list_.begin({.a = a, .b = b, .friction = friction, .frame = frame, .apart = apart});
   }
   using Row = PileRow;
   void add(const Row& row) { list_.add(row); }
   /// Or as RowList::reserve() says.
   using Extent = RowList::Extent;
   void reserve(Extent all) { list_.reserve(all); }
-  void setBlock(Extent index, int count, int a, Partner b, double friction, const ContactFrame& frame,
+  void setBlock(Extent index, int count, int a, int b, double friction, const ContactFrame& frame,
                 const Vec3& apart);
   void setRow(int index, const Row& row) { list_.setRow(index, row); }
   /// After the last add(): groups blocks, and builds the contact graph. solve() starts with what wakeAll() or
@@ -138,9 +135,9 @@ class PileSolver {
   void wakeRow(int row) { sweep_.wake(rows_.groups().placeOf(list_.blockOf(row))); }
 
  private:
-  std::vector<SolverBody> bodies_;  // and the walls
-  std::vector<Moving> moving_;      // by body, then of the walls, then nobody's
-  std::vector<Moving> shifts_;      // displacements and turns in place of velocities
+  std::vector<SolverBody> bodies_;
+  std::vector<Moving> moving_;  // by body, then nobody's
+  std::vector<Moving> shifts_;  // displacements and turns in place of velocities
   RowList list_;
   LaneRows rows_;
   LaneSweep sweep_;

@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "core/names.h"
 #include "physics/geometry/separation.h"
-#include "physics/world/partner.h"
 
 namespace careen {
 namespace {
@@ -77,10 +76,10 @@ constexpr int kRounds = 200;
 // Largest mass ratio to the lightest box: the number of sweeps grows in proportion.
 constexpr double kHeaviest = 64;
 
-// Constraint: n·(a − b), or n·a for a wall, ≥ `least`.
+// Constraint: n·(a − b) ≥ `least`.
 struct Barrier {
   std::size_t a = 0;
-  Partner b = {};
+  std::size_t b = 0;
   int choice = 0;  // rank of the axis among the pair's, by depth: 0 is the least
   Vec3 normal = Vec3::Zero();
   double least = 0;       // [m]
@@ -88,6 +87,7 @@ struct Barrier {
   double multiplier = 0;  // [kg m]
 };
 
+// Walls are indexed after the boxes: they lie at the origin, and cannot be moved.
 class Parting {
  public:
   Parting(std::span<const PlacedBox> boxes, std::span<const Wall> walls, Meeting meeting)
@@ -97,10 +97,12 @@ class Parting {
         ease_(easeOf(boxes)),
         start_(positionsOf(boxes)),
         now_(start_),
-        rank_(boxes.size()),
-        wallRank_(walls.size()) {
-    rankByName(boxes_, rank_);
-    rankByName(walls_, wallRank_);
+        rank_(boxes.size() + walls.size()) {
+    rankByName(boxes_, 0);
+    rankByName(walls_, boxes.size());
+    ease_.resize(rank_.size(), 0);
+    start_.resize(rank_.size(), Vec3::Zero());
+    now_ = start_;
   }
 
   Parted run() {
@@ -116,20 +118,20 @@ class Parting {
     }
     const Barrier& worst = barriers_[deepest()];
     const std::string other =
-        worst.b.isWall() ? "wall " + walls_[worst.b.wall()].name : "box " + boxes_[indexOf(worst.b)].name;
+        isBox(worst.b) ? "box " + boxes_[worst.b].name : "wall " + walls_[worst.b - boxes_.size()].name;
     throw InputError("box " + boxes_[worst.a].name + " cannot be moved out of " + other +
                      ": there is no room for it, " + brief(-gapOf(worst)) +
                      " m are missing; expected boxes that have room to part");
   }
 
  private:
-  static std::size_t indexOf(Partner box) { return static_cast<std::size_t>(box.body()); }
+  bool isBox(std::size_t index) const { return index < boxes_.size(); }
 
   template <class Named>
-  static void rankByName(std::span<const Named> named, Indices& rank) {
+  void rankByName(std::span<const Named> named, std::size_t first) {
     const Indices order = orderByName(named);
     for (std::size_t k = 0; k < order.size(); ++k) {
-      rank[order[k]] = k;
+      rank_[first + order[k]] = first + k;
     }
   }
 
@@ -146,18 +148,14 @@ class Parting {
   }
 
   double gapOf(const Barrier& barrier) const {
-    const Vec3 from = barrier.b.isWall() ? now_[barrier.a] : Vec3(now_[barrier.a] - now_[indexOf(barrier.b)]);
-    return dot(barrier.normal, from) - barrier.least;
+    return dot(barrier.normal, Vec3(now_[barrier.a] - now_[barrier.b])) - barrier.least;
   }
-  double easeOf(const Barrier& barrier) const {
-    return ease_[barrier.a] + (barrier.b.isWall() ? 0 : ease_[indexOf(barrier.b)]);
-  }
+  double easeOf(const Barrier& barrier) const { return ease_[barrier.a] + ease_[barrier.b]; }
 
   // Order of names, walls after boxes.
   bool before(const Barrier& x, const Barrier& y) const {
     const auto key = [this](const Barrier& each) {
-      return std::array<std::size_t, 3>{each.b.isWall() ? 1U : 0U, rank_[each.a],
-                                        each.b.isWall() ? wallRank_[each.b.wall()] : rank_[indexOf(each.b)]};
+      return std::array<std::size_t, 3>{isBox(each.b) ? 0U : 1U, rank_[each.a], rank_[each.b]};
     };
     return key(x) < key(y);
   }
@@ -181,7 +179,7 @@ class Parting {
       if (!pairs_.contains({a, b}) &&
           axesOf(boxes_[a], boxes_[b], now_[a] - now_[b]).gap() < -kGapAllowance * lengths) {
         pairs_.insert({a, b});
-        barriers_.push_back({.a = a, .b = Partner::ofBody(static_cast<int>(b)), .lengths = lengths});
+        barriers_.push_back({.a = a, .b = b, .lengths = lengths});
         choose(barriers_.back(), now_[a] - now_[b]);
       }
     });
@@ -195,7 +193,7 @@ class Parting {
         if (lowest.overlaps() && behind_.insert({i, w}).second) {
           const double centre = dot(walls_[w].normal, now_[i]);
           barriers_.push_back({.a = i,
-                               .b = Partner::ofWall(w),
+                               .b = boxes_.size() + w,
                                .normal = walls_[w].normal,
                                .least = centre - lowest.gap,
                                .lengths = lowest.lengths});
@@ -207,7 +205,7 @@ class Parting {
   // Of the pair's 15 axes in both directions, takes number barrier.choice in order of the distance the boxes
   // must move along it.
   void choose(Barrier& barrier, const Vec3& bToA) const {
-    const BoxAxes axes = axesOf(boxes_[barrier.a], boxes_[indexOf(barrier.b)], bToA);
+    const BoxAxes axes = axesOf(boxes_[barrier.a], boxes_[barrier.b], bToA);
     struct Way {
       double depth = 0;
       int axis = 0;
@@ -265,10 +263,7 @@ class Parting {
 
   void push(const Barrier& barrier, double multiplier) {
     now_[barrier.a] += (multiplier * ease_[barrier.a]) * barrier.normal;
-    if (!barrier.b.isWall()) {
-      const std::size_t b = indexOf(barrier.b);
-      now_[b] -= (multiplier * ease_[b]) * barrier.normal;
-    }
+    now_[barrier.b] -= (multiplier * ease_[barrier.b]) * barrier.normal;
   }
 
   std::size_t deepest() const {
@@ -283,7 +278,7 @@ class Parting {
   bool turnToNextAxis() {
     Barrier* hardest = nullptr;
     for (Barrier& each : barriers_) {
-      if (!each.b.isWall() && (hardest == nullptr || each.multiplier > hardest->multiplier)) {
+      if (isBox(each.b) && (hardest == nullptr || each.multiplier > hardest->multiplier)) {
         hardest = &each;
       }
     }
@@ -292,7 +287,7 @@ class Parting {
     }
     ++hardest->choice;
     now_ = start_;
-    choose(*hardest, now_[hardest->a] - now_[indexOf(hardest->b)]);
+    choose(*hardest, now_[hardest->a] - now_[hardest->b]);
     for (Barrier& each : barriers_) {
       each.multiplier = 0;
     }
@@ -300,7 +295,9 @@ class Parting {
   }
 
   Parted result() const {
-    Parted parted{.positions = now_, .pairs = pairs_.size(), .behindWalls = behind_.size()};
+    Parted parted{.positions = {now_.begin(), now_.begin() + std::ssize(boxes_)},
+                  .pairs = pairs_.size(),
+                  .behindWalls = behind_.size()};
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
       const double way = (now_[i] - start_[i]).norm();
       parted.moved += way > 0 ? 1U : 0U;
@@ -312,11 +309,10 @@ class Parting {
   std::span<const PlacedBox> boxes_;
   std::span<const Wall> walls_;
   Meeting meeting_;
-  std::vector<double> ease_;  // [1/kg] inverse mass used for each box; 0: fixed
+  std::vector<double> ease_;  // [1/kg] inverse mass used for each; 0: fixed
   std::vector<Vec3> start_;
   std::vector<Vec3> now_;
-  Indices rank_;      // of each box's name
-  Indices wallRank_;  // of each wall's name
+  Indices rank_;  // of its name, walls after boxes
   std::vector<Barrier> barriers_;
   std::set<std::pair<std::size_t, std::size_t>> pairs_;
   std::set<std::pair<std::size_t, std::size_t>> behind_;

@@ -25,6 +25,11 @@ MassProperties solidBox(const Vec3& halfExtents, double mass) {
 
 MassProperties immovable() { return {}; }
 
+const Body& bodyOfWalls() {
+  static const Body held{};  // with the mass of immovable()
+  return held;
+}
+
 Material touching(const Material& a, const Material& b) {
   return {.restitution = std::max(a.restitution, b.restitution),
           .friction = std::sqrt(a.friction * b.friction)};

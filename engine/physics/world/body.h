@@ -91,6 +91,9 @@ struct Body {
   BodyState initial;
 };
 
+/// What walls are where only the motion of a body counts: held, and without extent.
+const Body& bodyOfWalls();
+
 /// Corner 0…7 of a box, body frame [m]. Bit 2 of the index picks the sign of x, bit 1 of y, bit 0 of z; a
 /// clear bit is plus.
 inline Vec3 corner(const Vec3& halfExtents, int index) {

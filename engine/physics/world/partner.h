@@ -6,9 +6,8 @@
 
 namespace careen {
 
-/// Collision partner of a body: another body or a wall, by its index. Which list of bodies that index refers
-/// to (the world's, the ranks', an impact's) is stated where a partner is used; a wall's is always its index
-/// in the world. Bodies come before walls, each in the order of their indices.
+/// Collision partner of a body, as impacts are recorded: another body or a wall of the world, by its index.
+/// Bodies come before walls, each in the order of their indices.
 class Partner {
  public:
   constexpr Partner() = default;  ///< wall 0
@@ -16,15 +15,12 @@ class Partner {
   static constexpr Partner ofWall(std::size_t index) {
     return Partner(kWall | static_cast<std::uint32_t>(index));
   }
-  static constexpr Partner ofKey(std::uint32_t key) { return Partner(key); }
 
   constexpr bool isWall() const { return (key_ & kWall) != 0; }
   constexpr int body() const { return static_cast<int>(key_); }              ///< only of a body
   constexpr std::size_t wall() const { return std::size_t{key_ & ~kWall}; }  ///< only of a wall
   constexpr bool isBody(int index) const { return *this == ofBody(index); }
 
-  /// Sorts as partners do.
-  constexpr std::uint32_t key() const { return key_; }
   friend constexpr auto operator<=>(const Partner&, const Partner&) = default;
 
  private:

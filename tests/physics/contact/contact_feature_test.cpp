@@ -48,7 +48,7 @@ void expectDerivatives(const ContactFeature& feature, const Wall* wall) {
   const auto state = [&](double t) {
     const Kinematics a = kPathA.at(t);
     const Kinematics b = kPathB.at(t);
-    return contactState(feature, a, {kHalfA}, wall == nullptr ? &b : nullptr, {kHalfB}, wall);
+    return contactState(feature, a, {kHalfA}, b, {.halfExtents = kHalfB, .halfSpace = wall});
   };
   const double h = 1e-4;
   const ContactState now = state(0);
@@ -66,7 +66,7 @@ TEST(ContactState, ofACornerOnAWallChangesAsItSays) {
 TEST(ContactState, ofACornerOnATurningFaceChangesAsItSays) {
   expectDerivatives({.kind = ContactFeature::Kind::kPointOnFace,
                      .a = 0,
-                     .b = Partner::ofBody(1),
+                     .b = 1,
                      .onA = corner(kHalfA, 3),
                      .axisB = 1,
                      .sign = -1},
@@ -77,7 +77,7 @@ TEST(ContactState, ofACornerOnATurningFaceChangesAsItSays) {
 TEST(ContactState, ofTwoEdgesChangesAsItSays) {
   const ContactFeature feature{.kind = ContactFeature::Kind::kEdgeOnEdge,
                                .a = 0,
-                               .b = Partner::ofBody(1),
+                               .b = 1,
                                .onA = Vec3(0, -kHalfA.y(), -kHalfA.z()),
                                .onB = Vec3(kHalfB.x(), 0, kHalfB.z()),
                                .axisA = 0,
@@ -86,7 +86,7 @@ TEST(ContactState, ofTwoEdgesChangesAsItSays) {
     Kinematics a = kPathA.at(t);
     a.pose.position += shift;
     const Kinematics b = kPathB.at(t);
-    return contactState(feature, a, {kHalfA}, &b, {kHalfB}, nullptr);
+    return contactState(feature, a, {kHalfA}, b, {kHalfB});
   };
   const ContactState apart = state(0, Vec3::Zero());
   const Vec3 shift = -apart.gap * apart.normal;
@@ -104,7 +104,7 @@ TEST(ContactState, ofTwoEdgesChangesAsItSays) {
 TEST(ContactState, inAConeChangesAsItSays) {
   ContactFeature feature{.kind = ContactFeature::Kind::kInCone,
                          .a = 0,
-                         .b = Partner::ofBody(1),
+                         .b = 1,
                          .normalA = Vec3(0.3, -0.5, 0.8).normalized(),
                          .normalB = Vec3(0.1, 0.9, 0.4).normalized()};
   const int none = ContactFeature::kNoEdge;
@@ -129,7 +129,7 @@ TEST(ContactState, inAConeChangesAsItSays) {
       a.pose.position += shift + t * drift;
       a.velocity += drift;
       const Kinematics b = kPathB.at(t);
-      return contactState(feature, a, {kHalfA}, &b, {kHalfB}, nullptr);
+      return contactState(feature, a, {kHalfA}, b, {kHalfB});
     };
     shift = kPathB.position + kPathB.attitude * feature.onB + along - kPathA.position -
             kPathA.attitude * feature.onA;
@@ -177,18 +177,18 @@ TEST(FeatureAt, ofEdgesInAConeKeepsTheBisector) {
     ASSERT_EQ(feature.kind, ContactFeature::Kind::kInCone);
     for (const auto& [phi, psi] : {std::pair{0.3, -0.1}, std::pair{0.0, 0.7}, std::pair{-0.4, 0.2}}) {
       const Kinematics ofB = turned(-psi, -1);
-      const ContactState state = contactState(feature, turned(phi, 1), {half}, &ofB, {half}, nullptr);
+      const ContactState state = contactState(feature, turned(phi, 1), {half}, ofB, {half});
       const Vec3 bisector = axisAngle(Vec3::UnitY(), (phi - psi) / 2) * Vec3::UnitX();
       EXPECT_NEAR((state.normal - bisector).norm(), 0, 1e-15);
       EXPECT_NEAR(state.gap, 0, 1e-15);
       EXPECT_LT(state.beyond, 1e-15);
     }
     const Kinematics ofB = turned(-0.8, -1);
-    EXPECT_GT(contactState(feature, turned(0.8, 1), {half}, &ofB, {half}, nullptr).beyond, 1e-3);
+    EXPECT_GT(contactState(feature, turned(0.8, 1), {half}, ofB, {half}).beyond, 1e-3);
     Kinematics aside = turned(0, 1);
     aside.pose.position.z() += 1e-9;
     const Kinematics straight = turned(0, -1);
-    EXPECT_NEAR(contactState(feature, aside, {half}, &straight, {half}, nullptr).beyond, 1e-9, 1e-15);
+    EXPECT_NEAR(contactState(feature, aside, {half}, straight, {half}).beyond, 1e-9, 1e-15);
   }
 }
 

@@ -16,7 +16,7 @@ using EventKind = EventFunction::Kind;
 // Bodies with contacts whose modes are found.
 struct Listed {
   Listed(World of, const std::vector<ContactFeature>& features)
-      : world(std::move(of)), system(world, touching(world), features), events(world, system) {
+      : world(std::move(of)), system(world, touching(world), features), events(system) {
     y = system.pack();
     EXPECT_TRUE(system.findModes(y));
     events.list();
@@ -87,11 +87,8 @@ TEST(EventFunctions, ofPairsAreTheirGapAndTheEndOfTheFace) {
   world.bodies.push_back(box("beside", Vec3(0.1, 0.1, 0.1), 1, Vec3(1, 0, 0.1)));
   std::vector<ContactFeature> features = lowerCorners(world, 1);
   for (const ContactFeature& corner : lowerCorners(world, 0)) {
-    features.push_back({.kind = ContactFeature::Kind::kPointOnFace,
-                        .a = 0,
-                        .b = Partner::ofBody(1),
-                        .onA = corner.onA,
-                        .axisB = 2});
+    features.push_back(
+        {.kind = ContactFeature::Kind::kPointOnFace, .a = 0, .b = 1, .onA = corner.onA, .axisB = 2});
   }
   const Listed stack(world, features);
   ASSERT_EQ(stack.of(EventKind::kOverlap).size(), 1U);

@@ -20,7 +20,7 @@ struct Taken {
       : world(std::move(of)),
         system(world, touching(world), features),
         step(world, system, kAccuracy, timeScaleOf(world, kAccuracy)),
-        events(world, system),
+        events(system),
         locator(system, step, events, kAccuracy) {
     EXPECT_TRUE(system.findModes(step.state()));
     events.list();
@@ -72,11 +72,8 @@ TEST(EventLocator, aContactLeavesItsFaceAtItsEnd) {
   world.bodies[1].mass = immovable();
   std::vector<ContactFeature> features;
   for (const ContactFeature& corner : lowerCorners(world)) {
-    features.push_back({.kind = ContactFeature::Kind::kPointOnFace,
-                        .a = 0,
-                        .b = Partner::ofBody(1),
-                        .onA = corner.onA,
-                        .axisB = 2});
+    features.push_back(
+        {.kind = ContactFeature::Kind::kPointOnFace, .a = 0, .b = 1, .onA = corner.onA, .axisB = 2});
   }
   Taken slide(world, features, 0.09);
   EXPECT_TRUE(slide.locator.locate());

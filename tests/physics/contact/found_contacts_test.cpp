@@ -19,10 +19,10 @@ TEST(FoundContacts, ofACubeOnTheFloorAreItsLowerCorners) {
   EXPECT_NEAR(found.deepest(), 3e-7, 1e-15);
   for (const ContactFeature& feature : found.features()) {
     EXPECT_EQ(feature.onA.z(), -0.1);
-    EXPECT_TRUE(feature.b.isWall());
+    EXPECT_EQ(feature.b, 1);  // the floor
     EXPECT_TRUE(found.has(feature));
   }
-  EXPECT_FALSE(found.has({.a = 0, .b = Partner::ofWall(0), .onA = Vec3(0.1, 0.1, 0.1)}));
+  EXPECT_FALSE(found.has({.a = 0, .b = 1, .onA = Vec3(0.1, 0.1, 0.1)}));
 }
 
 TEST(FoundContacts, endWhereGapsBegin) {
@@ -58,7 +58,7 @@ TEST(FoundContacts, ofTwoCubesAreTheCornersOfTheirFaces) {
   found.find(of.state, 0);
   ASSERT_EQ(found.features().size(), 4U);
   for (std::size_t c = 0; c < 4; ++c) {
-    EXPECT_FALSE(found.features()[c].b.isWall());
+    EXPECT_EQ(found.features()[c].kind == ContactFeature::Kind::kPointOnWall, false);
     EXPECT_NEAR(std::fabs(found.states()[c].normal.x()), 1, 1e-15);
     const ImpactContact impact = found.impactAt(c);
     const Vec3 point = of.state[static_cast<std::size_t>(impact.a)].position + impact.armA;

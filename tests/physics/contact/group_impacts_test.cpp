@@ -74,7 +74,7 @@ TEST(GroupImpacts, reachWhatIsJoinedAndNothingElse) {
   }
   EXPECT_EQ(push.state[3].velocity, Vec3::Zero());
   for (const GroupImpact& impact : push.impacts.list()) {
-    EXPECT_FALSE(impact.contact.b.isWall());
+    EXPECT_TRUE(push.bodies[static_cast<std::size_t>(impact.contact.b)].isBox());
   }
 }
 

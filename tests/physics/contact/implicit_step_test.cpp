@@ -23,6 +23,7 @@ GroupState stateOf(const World& world) {
                      .velocity = body.initial.velocity,
                      .angularMomentum = body.initial.angularMomentum});
   }
+  state.resize(world.bodies.size() + world.walls.size());
   return state;
 }
 
@@ -35,11 +36,11 @@ struct CubeOnFloor {
     for (int k = 0; k < kCorners; ++k) {
       const Vec3 at = corner(world.bodies[0].halfExtents, k);
       if (at.z() < 0) {
-        contacts.push_back({.feature = {.a = 0, .b = Partner::ofWall(0), .onA = at}});
+        contacts.push_back({.feature = {.a = 0, .b = 1, .onA = at}});
         contacts.back().feature.material.friction = friction;
       }
     }
-    bodies.push_back(bodyOf(world, 0));
+    bodies = {bodyOf(world, 0), touchingBody(world.walls[0])};
   }
   GroupState after(double length, int steps) {
     ImplicitStep step(world, bodies, 1e-9);
@@ -93,7 +94,7 @@ TEST(ImplicitStep, isOfTheOrderThatIsAskedFor) {
     pose.position.z() = -(pose.worldFromBody * Vec3(-0.1, 0, -0.1)).z();
     TouchingBody touching = bodyOf(scene.world, 0);
     touching.worldFromBody = Quat(pose.worldFromBody);
-    const std::vector<TouchingBody> bodies{touching};
+    const std::vector<TouchingBody> bodies{touching, touchingBody(scene.world.walls[0])};
     const auto energy = [&](const GroupBody& at) {
       const Vec3 spin = cube.mass.inverseInertiaTimes(at.worldFromBody.conjugate() * at.angularMomentum);
       return 0.5 * at.velocity.squaredNorm() + 0.5 * spin.dot(cube.mass.inertiaTimes(spin)) +
@@ -126,11 +127,8 @@ TEST(ImplicitStep, exchangesMomentaToRounding) {
       box("b", Vec3(0.2, 0.3, 0.4), 50, Vec3(0, 0, 0), Vec3(0.3, 0, 0.1), Vec3(0.1, 0, 0)));
   const std::vector<TouchingBody> bodies{bodyOf(world, 0), bodyOf(world, 1)};
   std::vector<ClosedContact> contacts(1);
-  contacts[0].feature = {.kind = ContactFeature::Kind::kPointOnFace,
-                         .a = 0,
-                         .b = Partner::ofBody(1),
-                         .onA = {-0.1, 0.2, 0.3},
-                         .axisB = 0};
+  contacts[0].feature = {
+      .kind = ContactFeature::Kind::kPointOnFace, .a = 0, .b = 1, .onA = {-0.1, 0.2, 0.3}, .axisB = 0};
   contacts[0].feature.material.friction = 0.7;
   ImplicitStep step(world, bodies, 1e-9);
   const GroupState from = stateOf(world);

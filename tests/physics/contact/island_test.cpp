@@ -28,7 +28,7 @@ struct Lying {
     std::vector<ContactFeature> features;
     for (int k = 0; k < kCorners; ++k) {
       if (corner(half, k).z() < 0) {
-        features.push_back({.a = 0, .onA = corner(half, k), .material = {0, kFriction}});
+        features.push_back({.a = 0, .b = 1, .onA = corner(half, k), .material = {0, kFriction}});
       }
     }
     const TouchingBody box{.body = world.bodies.data(),
@@ -37,7 +37,8 @@ struct Lying {
                            .worldFromBody = Quat::Identity(),
                            .velocity = velocity,
                            .angularVelocityBody = Vec3(0, 0, spin)};
-    Island island(world, {box}, features, tolerance, timeScaleOf(world, tolerance));
+    Island island(world, {box, touchingBody(world.walls[0])}, features, tolerance,
+                  timeScaleOf(world, tolerance));
     for (island.begin(); !island.rests(); island.begin()) {
       Island::Step step;
       do {
@@ -132,15 +133,16 @@ TEST(Island, forcesOfAStackAreSumsOfWeights) {
                         .angularVelocityBody = Vec3::Zero()});
       for (int c = 0; c < 4; ++c) {
         const Vec3 at(c % 2 == 0 ? -0.4 : 0.4, c / 2 == 0 ? -0.4 : 0.4, -0.5);
-        ContactFeature feature{.a = k, .onA = at, .material = {0, kFriction}};
+        ContactFeature feature{.a = k, .b = kCubes, .onA = at, .material = {0, kFriction}};
         if (k > 0) {
           feature.kind = ContactFeature::Kind::kPointOnFace;
-          feature.b = Partner::ofBody(k - 1);
+          feature.b = k - 1;
           feature.axisB = 2;
         }
         features.push_back(feature);
       }
     }
+    bodies.push_back(touchingBody(world.walls[0]));
     Island island(world, bodies, features, 1e-6, timeScaleOf(world, 1e-6));
     island.begin();
     double worst = 0;

@@ -30,12 +30,12 @@ struct FaceOnFace {
          .angularVelocity = Vec3(5, -3, 35)};
     features = {{.kind = ContactFeature::Kind::kPointOnFace,
                  .a = 0,
-                 .b = Partner::ofBody(1),
+                 .b = 1,
                  .onA = Vec3(-0.1, -0.1, -0.1),
                  .axisB = 2},
                 {.kind = ContactFeature::Kind::kPointOnFace,
                  .a = 1,
-                 .b = Partner::ofBody(0),
+                 .b = 0,
                  .onA = Vec3(0.1, 0.1, 0.1),
                  .axisB = 2,
                  .sign = -1},
@@ -45,7 +45,7 @@ struct FaceOnFace {
   static ContactFeature edges(int axisA, double sideA, int axisB, double sideB) {
     ContactFeature feature{.kind = ContactFeature::Kind::kEdgeOnEdge,
                            .a = 0,
-                           .b = Partner::ofBody(1),
+                           .b = 1,
                            .onA = Vec3(0, 0, -0.1),
                            .onB = Vec3(0, 0, 0.1),
                            .axisA = axisA,
@@ -59,8 +59,7 @@ struct FaceOnFace {
     std::vector<ContactState> states;
     for (const ContactFeature& feature : features) {
       const bool isSwapped = feature.a == 1;
-      states.push_back(
-          contactState(feature, isSwapped ? b : a, {kHalf}, isSwapped ? &a : &b, {kHalf}, nullptr));
+      states.push_back(contactState(feature, isSwapped ? b : a, {kHalf}, isSwapped ? a : b, {kHalf}));
     }
     return states;
   }

@@ -41,7 +41,7 @@ TEST(TouchingGroup, aPairHasOnePointForBoth) {
   GroupOf of(world);
   const std::vector<ContactFeature> features{{.kind = ContactFeature::Kind::kInCone,
                                               .a = 0,
-                                              .b = Partner::ofBody(1),
+                                              .b = 1,
                                               .onA = Vec3(-0.1, -0.1, -0.1),
                                               .onB = Vec3(0.1, 0.1, 0.1),
                                               .axisA = ContactFeature::kNoEdge,
@@ -65,7 +65,7 @@ TEST(TouchingGroup, momentaThatAStepLostAreGivenBack) {
   World world = cubeAbove(1, Vec3(1, 0, 0));
   world.bodies.push_back(box("other", Vec3(0.1, 0.1, 0.1), 3, Vec3(0.2, 0, 1)));
   const GroupOf of(world);
-  const ContactFeature between{.kind = ContactFeature::Kind::kPointOnFace, .b = Partner::ofBody(1)};
+  const ContactFeature between{.kind = ContactFeature::Kind::kPointOnFace, .b = 1};
   GroupState to = of.state;
   of.group.keepMomenta(of.state, 0.1, std::vector<ContactFeature>{between}, to);
   const Vec3 momentum = to[0].velocity + 3 * to[1].velocity;

@@ -33,7 +33,7 @@ TEST(Bodies, queueTheirNextMeeting) {
   const std::optional<Event> event = all.bodies.queue().next();
   ASSERT_TRUE(event.has_value());
   EXPECT_NEAR(event->time.hi, 4.0 / 3, 1e-14);
-  EXPECT_EQ(event->partner, Partner::ofBody(1));
+  EXPECT_EQ(event->partner, 1);
   EXPECT_EQ(event->partnerMotion, all.bodies[1].motion);
 }
 
@@ -91,7 +91,7 @@ TEST(Bodies, knowWhomSpringsJoinToThem) {
 
 TEST(Bodies, haveTheirImpactsRecordedByIndexInTheWorld) {
   StartedBodies all(afloat({cube("b", {5, 0, 0}), cube("a", {0, 0, 0})}));
-  all.bodies.strike(Instant(3), 0, Partner::ofBody(1), {1, 2, 3}, {.approach = 4, .impulse = 5});
+  all.bodies.strike(Instant(3), 0, 1, {1, 2, 3}, {.approach = 4, .impulse = 5});
   ASSERT_EQ(all.memory.impacts.size(), 1U);
   const Impact& impact = all.memory.impacts[0];
   EXPECT_EQ(impact.a.value, 1);

@@ -34,7 +34,7 @@ TEST(CrowdGroup, hasWhomSpringsJoin) {
   world.springs = {{.from = {.body = 0, .point = Vec3::Zero()}, .to = {.body = 1, .point = Vec3::Zero()}}};
   StartedBodies all(world);
   const std::shared_ptr<CrowdGroup> crowd = crowdOf(all, 0);
-  EXPECT_EQ(crowd->ranks(), (std::vector<int>{0, 1}));
+  EXPECT_EQ(crowd->ranks(), (std::vector<int>{-1, 0, 1}));  // the floor has the first place
 }
 
 // Without friction the upper one slides at ½ m/s, whatever the steps.
@@ -114,7 +114,7 @@ TEST(CrowdGroup, knowsWhereMembersTakenInAre) {
   const std::shared_ptr<CrowdGroup> first = crowdOf(all, 0);
   const std::shared_ptr<CrowdGroup> second = crowdOf(all, 2);
   const std::shared_ptr<CrowdGroup> last = crowdOf(all, 4);
-  for (int steps = 0; !last->crowd().sleeps(0) && steps < 100; ++steps) {
+  for (int steps = 0; !last->crowd().sleeps(1) && steps < 100; ++steps) {
     for (CrowdGroup* group : {first.get(), second.get(), last.get()}) {
       group->advance(group->end());
     }

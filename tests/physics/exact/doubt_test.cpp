@@ -32,6 +32,8 @@ TEST(Doubt, growsWithTimeOnlyInFreeMotion) {
 // 1 and its trace 2 + k, so each impact lets the difference grow by 1 + k/2 + √(k + k²/4).
 TEST(Doubt, growsLikeABallBetweenConvexCorners) {
   const Body body = cube("a", {0, 0, 0});
+  Body wall;
+  wall.mass = immovable();
   constexpr double kSpeed = 3;
   constexpr double kWay = 2;
   const double k = 2 * kWay / kRadius;
@@ -41,10 +43,11 @@ TEST(Doubt, growsLikeABallBetweenConvexCorners) {
   for (int impact = 1; impact <= 12; ++impact) {
     doubt.goOn(Instant(impact * kWay / kSpeed));
     before = impact == 12 ? before : doubt.place;
-    std::array<DoubtfulBody, 1> bodies = {{{.body = &body, .doubt = &doubt, .speed = kSpeed}}};
+    std::array<DoubtfulBody, 2> bodies = {
+        {{.body = &body, .doubt = &doubt, .speed = kSpeed}, {.body = &wall}}};
     ImpactContact contact;
     contact.a = 0;
-    contact.b = Partner::ofWall(0);
+    contact.b = 1;
     touch(bodies, contact, {.impulse = 2 * kSpeed * body.mass.mass});
     doubtMore(bodies);
   }
@@ -55,7 +58,7 @@ TEST(Doubt, growsLikeABallBetweenConvexCorners) {
 void strikeTogether(std::array<DoubtfulBody, 2>& bodies, double impulse) {
   ImpactContact contact;
   contact.a = 0;
-  contact.b = Partner::ofBody(1);
+  contact.b = 1;
   touch(bodies, contact, {.impulse = impulse});
   doubtMore(bodies);
 }

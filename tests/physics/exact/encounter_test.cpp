@@ -63,13 +63,18 @@ TEST(Encounter, joinsTheTwoPointsOfAContact) {
     const BodyState state = all.bodies[rank].body->initial;
     encounter.bodies.push_back({.mover = &all.bodies[rank], .before = state, .after = state});
   }
-  encounter.contacts = {{.b = Partner::ofBody(1), .armA = {0, 0, -0.5}, .armB = {0, 0, 0.5}}};
+  encounter.contacts = {{.b = 1, .armA = {0, 0, -0.5}, .armB = {0, 0, 0.5}}};
   EXPECT_NEAR(encounter.joined(0).armA.z(), -0.5005, 1e-15);
   EXPECT_NEAR(encounter.joined(0).armB.z(), 0.5005, 1e-15);
   EXPECT_NEAR(encounter.lengthsAt(0), 1.001 + 2 * std::sqrt(0.75), 1e-15);
   encounter.bodies[0].after.pose.position.z() = 1 + 0x1p-50;
   EXPECT_EQ(encounter.joined(0).armA.z(), -0.5);
-  encounter.contacts[0].b = Partner::ofWall(0);
+  const Wall wall;
+  Mover floor;
+  floor.body = &bodyOfWalls();
+  floor.halfSpace = &wall;
+  encounter.bodies.push_back({.mover = &floor});
+  encounter.contacts[0].b = 2;
   EXPECT_EQ(encounter.joined(0).armA.z(), -0.5);
 }
 

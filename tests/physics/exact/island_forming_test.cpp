@@ -31,9 +31,9 @@ TEST(IslandForming, joinsWhatTouchesButNotThroughHeldBodies) {
   StartedBodies all(onFloor(
       {cube("a", {-2, 0, 1.5}, slow), cube("b", {-2, 0, 2.5}, -slow), beam, cube("c", {2, 0, 1.5}, slow)}));
   Encounter encounter = formed(all, 0, 1);
-  ASSERT_EQ(encounter.ranks(), (std::vector<int>{0, 1, 2}));
+  ASSERT_EQ(encounter.ranks(), (std::vector<int>{0, 1, 2, 4}));  // 4: the floor
   ASSERT_EQ(encounter.islands.size(), 1U);
-  EXPECT_EQ(encounter.islands[0]->ranks(), (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(encounter.islands[0]->ranks(), (std::vector<int>{0, 1, 2, 4}));
   EXPECT_EQ(encounter.bodies[1].next, NextMotion::kSteps);
   EXPECT_EQ(encounter.bodies[2].next, NextMotion::kGoesOn);
 }

@@ -4,9 +4,10 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/math/rotation.h"
-#include "physics/world/partner.h"
 #include "support/physics_worlds.h"
 
 namespace careen {
@@ -29,22 +30,40 @@ struct Flyer {
   Mover mover;
 };
 
+constexpr int kFirstWall = 7;  // rank
+
+struct Walls {
+  explicit Walls(std::vector<Wall> of) : walls(std::move(of)) {
+    for (const Wall& wall : walls) {
+      Mover& mover = movers.emplace_back();
+      mover.body = &bodyOfWalls();
+      mover.halfSpace = &wall;
+      mover.rank = kFirstWall + static_cast<int>(movers.size()) - 1;
+    }
+  }
+  Walls(const Walls&) = delete;
+  Walls& operator=(const Walls&) = delete;
+
+  std::vector<Wall> walls;
+  std::vector<Mover> movers;
+};
+
 // Half sizes 0.2, walls at ±4: (3.8 − 0)/2 s to the one at x = 4, wall 1; z = 4 would take 3.8 s.
 TEST(NextContact, isWithTheWallThatIsReachedFirst) {
   const Flyer box({.velocity = {2, 0, 1}}, Vec3::Zero(), 0, 3);
-  const std::vector<Wall> walls = roomWalls(Vec3::Constant(-4), Vec3::Constant(4));
-  const std::optional<Event> event = firstWall(box.mover, walls, Instant(100));
+  const Walls room(roomWalls(Vec3::Constant(-4), Vec3::Constant(4)));
+  const std::optional<Event> event = firstWall(box.mover, room.movers, Instant(100));
   ASSERT_TRUE(event.has_value());
   EXPECT_NEAR(event->time.hi, 1.9, 1e-15);
   EXPECT_EQ(event->kind, EventKind::kContact);
   EXPECT_EQ(event->body, 3);
-  EXPECT_EQ(event->partner, Partner::ofWall(1));
+  EXPECT_EQ(event->partner, kFirstWall + 1);
 }
 
 TEST(NextContact, isNoneBeyondTheEnd) {
   const Flyer box({.velocity = {2, 0, 1}});
-  const std::vector<Wall> walls = roomWalls(Vec3::Constant(-4), Vec3::Constant(4));
-  EXPECT_FALSE(firstWall(box.mover, walls, Instant(1.8)).has_value());
+  const Walls room(roomWalls(Vec3::Constant(-4), Vec3::Constant(4)));
+  EXPECT_FALSE(firstWall(box.mover, room.movers, Instant(1.8)).has_value());
   EXPECT_FALSE(firstWall(box.mover, {}, Instant(100)).has_value());
 }
 
@@ -54,8 +73,8 @@ TEST(NextContact, ofATumblingBoxIsThatOfItsLowestCorner) {
   const double eighth = std::atan(1.0);
   const double speed = 4 - 0.2 * std::sqrt(2.0);
   const Flyer box({.velocity = {speed, 0, 0}, .angularVelocity = {0, 0, eighth}});
-  const std::vector<Wall> walls = {{.name = "wall", .normal = -Vec3::UnitX(), .offset = -4, .material = {}}};
-  const std::optional<Event> event = firstWall(box.mover, walls, Instant(100));
+  const Walls walls({{.name = "wall", .normal = -Vec3::UnitX(), .offset = -4, .material = {}}});
+  const std::optional<Event> event = firstWall(box.mover, walls.movers, Instant(100));
   ASSERT_TRUE(event.has_value());
   const double t = event->time.hi;
   EXPECT_NEAR(speed * t + 0.2 * (std::cos(eighth * t) + std::sin(eighth * t)), 4, 1e-14);
@@ -64,7 +83,8 @@ TEST(NextContact, ofATumblingBoxIsThatOfItsLowestCorner) {
 
 TEST(NextContact, fromRestOnAWallIsTouching) {
   const Flyer box({.position = {0, 0, 0.2}}, Vec3(0, 0, -9.81));
-  const std::optional<Event> event = firstWall(box.mover, {floorAt(0)}, Instant(1));
+  const Walls floor({floorAt(0)});
+  const std::optional<Event> event = firstWall(box.mover, floor.movers, Instant(1));
   ASSERT_TRUE(event.has_value());
   EXPECT_EQ(event->kind, EventKind::kTouching);
   EXPECT_EQ(event->time.hi, 0);
@@ -83,7 +103,7 @@ TEST(NextContact, ofTwoCountsFromTheLaterStart) {
     EXPECT_NEAR(event->time.hi, 2 + 1.6 / 3, 1e-14);
     EXPECT_EQ(event->kind, EventKind::kContact);
     EXPECT_EQ(event->body, a.mover.rank);
-    EXPECT_EQ(event->partner, Partner::ofBody(b.mover.rank));
+    EXPECT_EQ(event->partner, b.mover.rank);
     EXPECT_EQ(event->partnerMotion, 5U);
   }
   EXPECT_FALSE(firstMeeting(early.mover, late.mover, Instant(2.5)).has_value());

@@ -33,7 +33,7 @@ TEST(ImpactProblem, rowsGiveRelativeVelocities) {
     }
     const std::array<ImpactBody, 2> bodies{{{&masses[0], &states[0]}, {&masses[1], &states[1]}}};
     const std::array<ImpactContact, 1> contacts{{{.a = 1,
-                                                  .b = Partner::ofBody(0),
+                                                  .b = 0,
                                                   .armA = anyVector(random),
                                                   .armB = anyVector(random),
                                                   .normal = anyVector(random).normalized(),
@@ -67,7 +67,7 @@ TEST(ImpactProblem, onlyBodiesThatCanMoveTakePart) {
   moving.velocity = Vec3(0, 0, -1);
   const std::array<ImpactBody, 2> bodies{{{&held, &atRest}, {&light, &moving}}};
   const ImpactContact contact{
-      .a = 1, .b = Partner::ofBody(0), .armA = Vec3(0, 0, -0.1), .armB = Vec3(0, 0, 0.1), .material = {}};
+      .a = 1, .b = 0, .armA = Vec3(0, 0, -0.1), .armB = Vec3(0, 0, 0.1), .material = {}};
   const ContactProblem problem = impactProblemOf(bodies, std::array{contact});
   EXPECT_EQ(problem.free.size(), ContactProblem::kAxes);
   EXPECT_EQ(problem.contacts[0].a, 0);

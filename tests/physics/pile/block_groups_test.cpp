@@ -15,7 +15,7 @@
 namespace careen {
 namespace {
 
-// The last of them stands for the walls.
+// The last of them is a wall.
 std::vector<SolverBody> inARow(int count) {
   std::vector<SolverBody> bodies(at(count) + 1);
   for (int k = 0; k < count; ++k) {
@@ -45,7 +45,7 @@ TEST(BlockGroups, takeLinksOfAChainInTurn) {
   EXPECT_EQ(groups.rowCount(), 4);
   EXPECT_EQ(groups.placeOf(1), kLanes);       // the first lane of the second group
   EXPECT_EQ(groups.placeOf(2), 1);            // the second of the first
-  EXPECT_EQ(groups.bodyCount(), 5U + 1 + 1);  // and the walls, and nobody of the one part
+  EXPECT_EQ(groups.bodyCount(), 5U + 1 + 1);  // and the wall, and nobody of the one part
 }
 
 // Five on a floor share a wall, which does not move: four of them are a group. Blocks of another number of

@@ -68,20 +68,20 @@ TEST(CrowdCurvature, edgeThatACubeTipsOverStaysOnTheFloor) {
 
   const double tolerance = Crowd::kUsualTolerance;
   Crowd crowd(world, tolerance);
-  crowd.admit(0, world.bodies[0].initial, attitude);
+  const std::size_t place = crowd.admit(0, world.bodies[0].initial, attitude);
   const auto gap = [&] {
     const BoxAt at{
-        .pose = crowd.state(0).pose, .halfExtents = world.bodies[0].halfExtents, .center = Vec3::Zero()};
+        .pose = crowd.state(place).pose, .halfExtents = world.bodies[0].halfExtents, .center = Vec3::Zero()};
     return gapToPlane(at, Vec3::UnitZ(), 0);
   };
   double before = gap();
   int steps = 0;
   for (;; ++steps) {
     const double h = crowd.step(1);
-    if (crowd.state(0).pose.position.z() < 0.53) {
+    if (crowd.state(place).pose.position.z() < 0.53) {
       break;  // soon its face meets the floor
     }
-    const double leaves = 0.5 * h * h * radius * crowd.body(0).omega.squaredNorm();
+    const double leaves = 0.5 * h * h * radius * crowd.body(place).omega.squaredNorm();
     EXPECT_GT(leaves, 0.5 * tolerance);
     // Measured 0.016; to first order only 0.95.
     EXPECT_LT(std::abs(gap() - before), 0.03 * leaves) << steps;

@@ -57,9 +57,9 @@ TEST(CrowdLoads, springLimitsTheStep) {
 TEST(CrowdLoads, halfKickIsThatOfTheTimeBehind) {
   World world = floorWorld({});
   world.bodies.push_back(crate("a", Vec3::Constant(0.25), Vec3(0, 0, 1), {}));
-  CrowdStages stages(world);
-  stages.members[0].behind = 0.01;
-  EXPECT_EQ(stages.loads.halfKick(0), 0.01 * world.gravity);
+  CrowdStages stages(world);  // the floor has place 0
+  stages.members[1].behind = 0.01;
+  EXPECT_EQ(stages.loads.halfKick(1), 0.01 * world.gravity);
 }
 
 }  // namespace

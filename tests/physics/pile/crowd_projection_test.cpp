@@ -15,13 +15,14 @@ namespace {
 
 constexpr double kTolerance = Crowd::kUsualTolerance;
 
-// [m] Of all pairs.
-double deepestAt(const Crowd& crowd, const std::vector<Pose>& poses) {
+// [m] Of all pairs; walls have the first places.
+double deepestAt(const World& world, const Crowd& crowd, const std::vector<Pose>& poses) {
+  const std::size_t walls = world.walls.size();
   double deepest = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const Vec3& first = crowd.listedBody(i).halfExtents;
-      const Vec3& second = crowd.listedBody(j).halfExtents;
+      const Vec3& first = crowd.listedBody(walls + i).halfExtents;
+      const Vec3& second = crowd.listedBody(walls + j).halfExtents;
       if ((poses[i].position - poses[j].position).norm() < first.norm() + second.norm()) {
         deepest = std::max(deepest, -BoxAxes({poses[i], first}, {poses[j], second}).gap());
       }
@@ -37,15 +38,16 @@ double deepestWithin(const World& world, const Crowd& crowd, std::size_t moments
   for (std::size_t moment = 0; moment < moments; ++moment) {
     const double along = (static_cast<double>(moment) + 0.5) / static_cast<double>(moments);
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      poses[i] = crowd.state(i).pose;
-      if (crowd.moved(i)) {
-        const StepEnd from = crowd.begin(i);
-        const StepEnd to = crowd.end(i);
+      const std::size_t place = world.walls.size() + i;
+      poses[i] = crowd.state(place).pose;
+      if (crowd.moved(place)) {
+        const StepEnd from = crowd.begin(place);
+        const StepEnd to = crowd.end(place);
         poses[i] = {.position = (1 - along) * from.position + along * to.position,
                     .worldFromBody = from.worldFromBody.slerp(along, to.worldFromBody).toRotationMatrix()};
       }
     }
-    deepest = std::max(deepest, deepestAt(crowd, poses));
+    deepest = std::max(deepest, deepestAt(world, crowd, poses));
   }
   return deepest;
 }
@@ -74,10 +76,10 @@ TEST(CrowdProjection, statedDepthIsThatOfStepsTaken) {
   std::vector<Pose> poses(world.bodies.size());
   for (double time = 0; time < 3;) {
     time += crowd.step(3 - time);
-    for (std::size_t place = 0; place < poses.size(); ++place) {
-      poses[place] = crowd.state(place).pose;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      poses[i] = crowd.state(world.walls.size() + i).pose;
     }
-    atEnds = std::max(atEnds, deepestAt(crowd, poses));
+    atEnds = std::max(atEnds, deepestAt(world, crowd, poses));
     within = std::max(within, deepestWithin(world, crowd, 3));
   }
   RecordProperty("stated", std::to_string(crowd.deepest()));

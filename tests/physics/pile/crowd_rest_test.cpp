@@ -162,6 +162,7 @@ TEST(CrowdRest, heapThatIsStruckAfterShortStepsGainsNoEnergy) {
   World world = pouring(300, 0.5, 0, 1, 4);
   world.bodies.push_back(crate("late", Vec3::Constant(0.25), Vec3::Zero(), {.friction = 0.5}));
   const std::size_t late = world.bodies.size() - 1;
+  const std::size_t walls = world.walls.size();  // their places come first
   Crowd crowd(world, Crowd::kUsualTolerance);
   for (std::size_t i = 0; i < late; ++i) {
     const BodyState& state = world.bodies[i].initial;
@@ -174,7 +175,7 @@ TEST(CrowdRest, heapThatIsStruckAfterShortStepsGainsNoEnergy) {
   ASSERT_TRUE(crowd.atRest());
   BodyState thrown;
   for (std::size_t i = 0; i < late; ++i) {
-    thrown.pose.position.z() = std::max(thrown.pose.position.z(), crowd.state(i).pose.position.z());
+    thrown.pose.position.z() = std::max(thrown.pose.position.z(), crowd.state(walls + i).pose.position.z());
   }
   thrown.pose.position.z() += 1;
   thrown.velocity = Vec3(0, 0, -3);
@@ -188,10 +189,10 @@ TEST(CrowdRest, heapThatIsStruckAfterShortStepsGainsNoEnergy) {
     crowd.step(step % 3 == 2 ? usual : usual / 8);
     std::vector<BodyState> states;
     for (std::size_t i = 0; i <= late; ++i) {
-      const bool sleeps = crowd.sleeps(i);
+      const bool sleeps = crowd.sleeps(walls + i);
       woken += slept[i] != 0 && !sleeps ? 1 : 0;
       slept[i] = sleeps ? 1 : 0;
-      states.push_back(crowd.stateAtVelocity(i));
+      states.push_back(crowd.stateAtVelocity(walls + i));
     }
     const double energy = energyOf(world, states).total();
     lowest = std::min(lowest, energy);

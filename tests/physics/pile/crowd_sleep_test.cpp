@@ -30,11 +30,11 @@ World stack(int count) {
 // The upper one sleeps on the lower one, which carries its weight with four points; the lower one is awake.
 struct Carried {
   Carried() : stages(world) {
-    stages.members[1].asleep = true;
-    stages.members[1].cluster = 1;
+    stages.members[stages.of(1)].asleep = true;
+    stages.members[stages.of(1)].cluster = static_cast<int>(stages.of(1));
     stages.meet(test::kCrowdStep);
     for (const int slot : stages.contacts.near()) {
-      if (!stages.contacts[slot].b.isWall()) {
+      if (stages.members[stages.contacts[slot].b].isBox()) {
         support = &stages.contacts[slot];
       }
     }
@@ -51,7 +51,7 @@ struct Carried {
     push(part);
     stages.sleep.findDisturbed();
     stages.sleep.wakeDisturbed();
-    return stages.members[1].asleep;
+    return stages.members[stages.of(1)].asleep;
   }
 
   World world = stack(2);
@@ -75,11 +75,11 @@ TEST(CrowdSleep, strikeWakesWithinTheStep) {
   for (const double speed : {0.0, 5.0}) {
     Carried carried;
     CrowdStages& stages = carried.stages;
-    stages.members[0].velocity = Vec3(0, 0, speed);
+    stages.members[stages.of(0)].velocity = Vec3(0, 0, speed);
     stages.meet(test::kCrowdStep);
     stages.impulses.find();
     EXPECT_EQ(stages.sleep.wakeStruck(stages.impulses.solver()), speed > 0);
-    EXPECT_EQ(stages.members[1].asleep, speed == 0);
+    EXPECT_EQ(stages.members[stages.of(1)].asleep, speed == 0);
   }
 }
 
@@ -89,9 +89,9 @@ TEST(CrowdSleep, moverThatComesWakesBeforeItPushes) {
     Carried carried;
     CrowdStages& stages = carried.stages;
     carried.support->carries = false;
-    stages.members[0].velocity = Vec3(0, 0, speed) - test::kCrowdStep * carried.world.gravity;
+    stages.members[stages.of(0)].velocity = Vec3(0, 0, speed) - test::kCrowdStep * carried.world.gravity;
     EXPECT_EQ(stages.sleep.wakePushed(), speed > 0);
-    EXPECT_EQ(stages.members[1].asleep, speed < 0);
+    EXPECT_EQ(stages.members[stages.of(1)].asleep, speed < 0);
   }
 }
 
@@ -102,8 +102,8 @@ TEST(CrowdSleep, stackAtRestSleepsAtOnce) {
   stages.take(test::kCrowdStep);
   EXPECT_TRUE(stages.sleep.freeze());
   for (int k = 0; k < 3; ++k) {
-    EXPECT_TRUE(stages.members[k].asleep);
-    EXPECT_EQ(stages.members[k].cluster, stages.members[0].cluster);
+    EXPECT_TRUE(stages.members[stages.of(k)].asleep);
+    EXPECT_EQ(stages.members[stages.of(k)].cluster, stages.members[stages.of(0)].cluster);
   }
 }
 
@@ -113,7 +113,7 @@ TEST(CrowdSleep, whatSlidesFasterThanFrictionStopsStaysAwake) {
     const World world = stack(1);
     CrowdStages stages(world);
     stages.take(test::kCrowdStep);
-    stages.members[0].velocity = Vec3(times * 0.5 * kGravity * test::kCrowdStep, 0, 0);
+    stages.members[stages.of(0)].velocity = Vec3(times * 0.5 * kGravity * test::kCrowdStep, 0, 0);
     EXPECT_EQ(stages.sleep.freeze(), times < 1) << times;
   }
 }
@@ -132,15 +132,15 @@ TEST(CrowdSleep, partFarFromWhatMovesMaySleep) {
   for (const int slot : stages.contacts.near()) {
     stages.contacts[slot].points[0].normalImpulse += 1e-9;  // all push: one cluster
   }
-  stages.members.ways[0].unrest = 1;
+  stages.members.ways[stages.of(0)].unrest = 1;
   for (int check = 1; check <= 4; ++check) {
     for (int k = 0; k < kCount; ++k) {
-      EXPECT_FALSE(stages.members[k].asleep) << check;
+      EXPECT_FALSE(stages.members[stages.of(k)].asleep) << check;
     }
     EXPECT_FALSE(stages.sleep.freeze());
   }
   for (int k = 0; k < kCount; ++k) {
-    EXPECT_EQ(stages.members[k].asleep, k > 3) << k;
+    EXPECT_EQ(stages.members[stages.of(k)].asleep, k > 3) << k;
   }
 }
 

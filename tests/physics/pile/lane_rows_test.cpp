@@ -64,7 +64,7 @@ TEST_F(CubeOnFloor, isPushedByItsInitialImpulses) {
   EXPECT_EQ(moving[0].velocity, Vec3(0.25, 1, 0));
   EXPECT_EQ(moving[0].omega, Vec3(0, -3.75, 0));
   EXPECT_EQ(moving[0].pushed, 1);
-  EXPECT_EQ(moving[1].pushed, 0);  // the walls
+  EXPECT_EQ(moving[1].pushed, 0);  // the floor
 }
 
 TEST_F(CubeOnFloor, lacksWhatItsShiftsDoNotDo) {

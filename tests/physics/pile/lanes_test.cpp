@@ -44,7 +44,7 @@ std::vector<double> solved(Registers registers) {
     const Vec3 normal = pourer.vector(-1, 1).normalized();
     const Vec3 tangent = normal.unitOrthogonal();
     const ContactFrame frame{.normal = normal, .tangent1 = tangent, .tangent2 = normal.cross(tangent)};
-    solver.beginBlock(k, Partner::ofBody(k + 1), k % 3 == 0 ? 0 : 0.5, frame, Vec3(-1, 0, 0));
+    solver.beginBlock(k, k + 1, k % 3 == 0 ? 0 : 0.5, frame, Vec3(-1, 0, 0));
     for (int row = 0; row <= k % 4; ++row) {
       solver.add({.arm = pourer.vector(0, 1), .bound = -0.01 * row, .normalImpulse = row == 1 ? 0.1 : 0});
     }
@@ -102,7 +102,7 @@ TEST(Lanes, solveTheirRows) {
     }
   }
   for (int k = 0; k + 1 < kBodies; ++k) {  // a tower: the upper one is a, the lower b
-    solver.beginBlock(k + 1, Partner::ofBody(k), 0.3, {}, Vec3(0, 0, 1));
+    solver.beginBlock(k + 1, k, 0.3, {}, Vec3(0, 0, 1));
     for (const Vec3& corner :
          {Vec3(-0.5, -0.5, -0.5), Vec3(0.5, -0.5, -0.5), Vec3(-0.5, 0.5, -0.5), Vec3(0.5, 0.5, -0.5)}) {
       solver.add({.arm = corner});

@@ -24,7 +24,7 @@ std::vector<PileManifold> manifoldsInRow(const std::vector<PileBody>& bodies) {
   std::vector<PileManifold> manifolds(bodies.size() - 1);
   for (std::size_t i = 0; i < manifolds.size(); ++i) {
     manifolds[i].a = static_cast<int>(i);
-    manifolds[i].b = Partner::ofBody(static_cast<int>(i + 1));
+    manifolds[i].b = static_cast<int>(i + 1);
     manifolds[i].length = 1;
     EXPECT_TRUE(buildManifold(bodies[i], bodies[i + 1], 0.05, manifolds[i]));
   }
