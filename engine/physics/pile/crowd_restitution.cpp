@@ -1,0 +1,335 @@
+#include "physics/pile/crowd_restitution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/pile/index.h"
+
+namespace careen {
+namespace {
+
+/// [1] of the fastest that strikes: to that a projection is found; and slower approach is not reflected.
+constexpr double kFound = 0x1p-30;
+constexpr double kReflected = 0x1p-10;
+constexpr double kRounded = 0x1p-10;  ///< [1] of the slowest impact: to that P is found
+constexpr int kMostPasses = 100;      // and as many as there are points
+constexpr int kProjectionSweeps = 200;
+/// Values of e that are told apart.
+constexpr std::size_t kMostLevels = 8;
+
+}  // namespace
+
+void CrowdRestitution::begin() {
+  fastest_ = 0;
+  points_.clear();
+  bodies_.clear();
+  front_.clear();
+  changed_.clear();
+  reachedAt_.assign(members_.size(), kNobody);
+  firstPoint_.assign(contacts_.manifoldCount(), kNobody);
+  firstSlot_.assign(members_.size() + 1, 0);
+  const auto forSides = [&](const auto& use) {
+    for (const int slot : contacts_.near()) {
+      const PileManifold& manifold = contacts_[slot];
+      use(manifold.a, slot);
+      if (!manifold.b.isWall()) {
+        use(manifold.b.body(), slot);
+      }
+    }
+  };
+  forSides([&](int place, int) { ++firstSlot_[at(place) + 1]; });
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    firstSlot_[i + 1] += firstSlot_[i];
+  }
+  slots_.resize(at(firstSlot_.back()));
+  std::vector<int> next(firstSlot_.begin(), firstSlot_.end() - 1);
+  forSides([&](int place, int slot) { slots_[at(next[at(place)]++)] = slot; });
+}
+
+void CrowdRestitution::strike(int slot, int index, double approach) {
+  const int first = listManifold(slot);
+  for (std::size_t p = at(first); p < points_.size() && points_[p].slot == slot; ++p) {
+    if (points_[p].index == index) {
+      points_[p].before = -approach;
+      points_[p].strikes = true;
+      fastest_ = std::max(fastest_, approach);
+    }
+  }
+}
+
+int CrowdRestitution::reach(int place) {
+  if (members_[place].still()) {
+    return kNobody;
+  }
+  if (reachedAt_[at(place)] == kNobody) {
+    reachedAt_[at(place)] = static_cast<int>(bodies_.size());
+    bodies_.push_back({.place = place, .mass = solverBody(members_[place], 0)});
+  }
+  return reachedAt_[at(place)];
+}
+
+int CrowdRestitution::listManifold(int slot) {
+  if (firstPoint_[at(slot)] != kNobody) {
+    return firstPoint_[at(slot)];
+  }
+  const PileManifold& manifold = contacts_[slot];
+  firstPoint_[at(slot)] = static_cast<int>(points_.size());
+  const std::array<int, 2> bodies{reach(manifold.a),
+                                  manifold.b.isWall() ? kNobody : reach(manifold.b.body())};
+  const Vec3 apart = members_.apart(manifold.a, manifold.b);
+  for (int k = 0; k < manifold.count; ++k) {
+    const PilePoint& from = manifold.points[at(k)];
+    if (from.row < 0) {
+      continue;
+    }
+    Point point{.slot = slot,
+                .index = k,
+
+                .bodies = bodies,
+                .arms = {from.world, from.world + apart},
+                .normal = manifold.frameOf(k).normal,
+                .restitution = manifold.restitution,
+                .before = std::max(0.0, from.speed)};
+    double inverse = 0;
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (bodies[side] != kNobody) {
+        const SolverBody& mass = bodies_[at(bodies[side])].mass;
+        const Vec3 turn = point.arms[side].cross(point.normal);
+        inverse += mass.inverseMass + dot(turn, mass.turned(turn));
+        bodies_[at(bodies[side])].points.push_back(static_cast<int>(points_.size()));
+      }
+    }
+    point.mass = inverse > 0 ? 1 / inverse : 0;
+    points_.push_back(point);
+  }
+  return firstPoint_[at(slot)];
+}
+
+void CrowdRestitution::listPoints(Reached& body) {
+  if (body.isListed) {
+    return;
+  }
+  body.isListed = true;
+  const int place = body.place;  // bodies_ may grow
+  for (int n = firstSlot_[at(place)]; n < firstSlot_[at(place) + 1]; ++n) {
+    listManifold(slots_[at(n)]);
+  }
+}
+
+double CrowdRestitution::speed(const Point& point) const {
+  double speed = point.before;
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (point.bodies[side] != kNobody) {
+      const Reached& body = bodies_[at(point.bodies[side])];
+      const double along = dot(point.normal, body.velocity + body.omega.cross(point.arms[side]));
+      speed += side == 0 ? along : -along;
+    }
+  }
+  return speed;
+}
+
+void CrowdRestitution::push(const Point& point, double impulse) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (point.bodies[side] != kNobody) {
+      Reached& body = bodies_[at(point.bodies[side])];
+      const Vec3 pushed = (side == 0 ? impulse : -impulse) * point.normal;
+      body.velocity += body.mass.inverseMass * pushed;
+      body.omega += body.mass.turned(point.arms[side].cross(pushed));
+      if (!body.changed) {
+        body.changed = true;
+        changed_.push_back(point.bodies[side]);
+      }
+    }
+  }
+}
+
+void CrowdRestitution::setVelocities(double (*impulseOf)(const Point&)) {
+  for (Reached& body : bodies_) {
+    body.velocity = body.omega = Vec3::Zero();
+    body.changed = false;
+  }
+  changed_.clear();
+  for (const Point& point : points_) {
+    if (const double impulse = impulseOf(point); impulse != 0) {
+      push(point, impulse);
+    }
+  }
+}
+
+void CrowdRestitution::restart() {
+  setVelocities([](const Point&) { return 0.0; });
+  front_.clear();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    points_[p].impulse = 0;
+    if (points_[p].strikes) {
+      front_.push_back(static_cast<int>(p));
+    }
+  }
+}
+
+void CrowdRestitution::findApproaching(std::vector<int>& approaching) const {
+  approaching.clear();
+  for (const int p : front_) {
+    const Point& point = points_[at(p)];
+    if (point.mass > 0 && speed(point) < -slow_) {
+      approaching.push_back(p);
+    }
+  }
+}
+
+// The points of bodies that were pushed, and these.
+void CrowdRestitution::findFront(std::span<const int> more) {
+  front_.assign(more.begin(), more.end());
+  for (std::size_t n = 0; n < changed_.size(); ++n) {
+    const std::size_t body = at(changed_[n]);
+    bodies_[body].changed = false;
+    listPoints(bodies_[body]);
+    front_.insert(front_.end(), bodies_[body].points.begin(), bodies_[body].points.end());
+  }
+  changed_.clear();
+  std::sort(front_.begin(), front_.end());
+  front_.erase(std::unique(front_.begin(), front_.end()), front_.end());
+}
+
+// Onto the motions in which none of the chosen approaches, by Gauss–Seidel.
+void CrowdRestitution::project(std::span<const int> chosen) {
+  for (const int p : chosen) {
+    points_[at(p)].ofPass = 0;
+  }
+  double largest = std::numeric_limits<double>::infinity();
+  for (int sweep = 0; sweep < kProjectionSweeps && largest > kFound * fastest_; ++sweep) {
+    largest = 0;
+    for (const int p : chosen) {
+      Point& point = points_[at(p)];
+      const double wanted = speed(point);
+      const double impulse = std::max(-wanted * point.mass, -point.ofPass);
+      point.ofPass += impulse;
+      push(point, impulse);
+      largest = std::max(largest, std::fabs(impulse) / point.mass);
+    }
+  }
+}
+
+// Onto the motions in which no point of restitution up to that approaches, as far as that reaches.
+void CrowdRestitution::projectAll(double most) {
+  std::vector<int> chosen;
+  std::vector<char> isChosen;
+  const auto choose = [&] {
+    isChosen.resize(points_.size(), 0);
+    for (const int p : front_) {
+      if (isChosen[at(p)] == 0 && points_[at(p)].mass > 0 && points_[at(p)].restitution <= most) {
+        isChosen[at(p)] = 1;
+        points_[at(p)].ofPass = 0;
+        chosen.push_back(p);
+      }
+    }
+  };
+  choose();
+  double largest = std::numeric_limits<double>::infinity();
+  for (int sweep = 0; sweep < kProjectionSweeps && largest > kRounded * slow_; ++sweep) {
+    largest = 0;
+    for (const int p : chosen) {
+      Point& point = points_[at(p)];
+      const double wanted = speed(point);
+      if (point.ofPass == 0 && wanted >= -slow_) {
+        continue;
+      }
+      const double impulse = std::max(-wanted * point.mass, -point.ofPass);
+      point.ofPass += impulse;
+      push(point, impulse);
+      largest = std::max(largest, std::fabs(impulse) / point.mass);
+    }
+    findFront({});
+    choose();
+  }
+  for (const int p : chosen) {
+    points_[at(p)].impulse += points_[at(p)].ofPass;
+  }
+  front_.assign(chosen.begin(), chosen.end());
+  for (const int p : chosen) {
+    push(points_[at(p)], 0);  // so that the front is found around them
+  }
+  findFront(chosen);
+}
+
+// Reflections about the contacts of restitution above the threshold; where none of those approaches,
+// projection onto the motions in which no other one does; until none approaches.
+void CrowdRestitution::reflect(double threshold) {
+  restart();
+  std::vector<int> approaching;
+  for (std::size_t pass = 0; pass < kMostPasses + points_.size(); ++pass) {
+    findApproaching(approaching);
+    if (approaching.empty()) {
+      return;
+    }
+    const auto others = std::stable_partition(approaching.begin(), approaching.end(),
+                                              [&](int p) { return points_[at(p)].restitution > threshold; });
+    if (others == approaching.begin()) {
+      projectAll(threshold);
+      continue;
+    }
+    const std::span<const int> elastic(approaching.begin(), others);
+    project(elastic);
+    for (const int p : elastic) {
+      Point& point = points_[at(p)];
+      point.impulse += 2 * point.ofPass;
+      push(point, point.ofPass);
+    }
+    findFront(approaching);
+  }
+  projectAll(std::numeric_limits<double>::infinity());
+}
+
+// The e of what took impulses, ascending; where they are too many, even parts of the largest.
+std::vector<double> CrowdRestitution::levels() const {
+  std::vector<double> levels;
+  for (const Point& point : points_) {
+    if (point.restitution > 0 && point.impulse > 0) {
+      levels.push_back(point.restitution);
+    }
+  }
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  if (levels.size() > kMostLevels) {
+    const double top = levels.back();
+    levels.clear();
+    for (std::size_t k = 1; k <= kMostLevels; ++k) {
+      levels.push_back(top * static_cast<double>(k) / kMostLevels);
+    }
+  }
+  return levels;
+}
+
+void CrowdRestitution::resolve(double slow) {
+  slow_ = std::max(slow, kReflected * fastest_);
+  restart();
+  projectAll(std::numeric_limits<double>::infinity());
+  for (Point& point : points_) {
+    point.plastic = point.impulse;
+  }
+  reflect(0);
+  double below = 0;
+  for (const double level : levels()) {
+    if (below > 0) {
+      reflect(below);
+    }
+    for (Point& point : points_) {
+      point.whole += (level - below) * point.impulse;
+    }
+    below = level;
+  }
+  for (Point& point : points_) {
+    point.whole += (1 - below) * point.plastic;
+  }
+  setVelocities([](const Point& point) { return point.plastic; });
+  for (Point& point : points_) {
+    point.afterPlastic = speed(point);
+  }
+  setVelocities([](const Point& point) { return point.whole - point.plastic; });
+  for (Point& point : points_) {
+    point.added = speed(point) - point.before;
+  }
+}
+
+}  // namespace careen
