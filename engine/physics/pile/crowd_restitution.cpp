@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "physics/pile/index.h"
 
@@ -10,11 +12,13 @@ namespace careen {
 namespace {
 
 /// [1] of the fastest that strikes: to that a projection is found; and slower approach is not reflected.
-constexpr double kFound = 0x1p-30;
-constexpr double kReflected = 0x1p-10;
+constexpr double kFound = 0x1p-20;
+constexpr double kReflected = 0x1p-7;
 constexpr double kRounded = 0x1p-10;  ///< [1] of the slowest impact: to that P is found
-constexpr int kMostPasses = 100;      // and as many as there are points
-constexpr int kProjectionSweeps = 200;
+/// Of points in reflections, and for each that is reached; what is left then is projected.
+constexpr std::size_t kVisits = 0x4000;
+constexpr std::size_t kVisitsOfPoint = 32;
+constexpr int kProjectionSweeps = 50;
 /// Values of e that are told apart.
 constexpr std::size_t kMostLevels = 8;
 
@@ -192,14 +196,48 @@ void CrowdRestitution::findFront(std::span<const int> more) {
   front_.erase(std::unique(front_.begin(), front_.end()), front_.end());
 }
 
+// To begin with: equal impulses at points of a manifold that approach alike, so that what meets flat is not
+// turned. Gauss–Seidel alone takes a hundred sweeps to undo that.
+void CrowdRestitution::guess(std::span<const int> ofManifold) {
+  const std::array<int, 2> sides = points_[at(ofManifold.front())].bodies;
+  const auto velocities = [&](int body) {
+    return body == kNobody ? std::pair<Vec3, Vec3>()
+                           : std::pair(bodies_[at(body)].velocity, bodies_[at(body)].omega);
+  };
+  const std::array<std::pair<Vec3, Vec3>, 2> before{velocities(sides[0]), velocities(sides[1])};
+  for (const int p : ofManifold) {
+    points_[at(p)].ofPass = speed(points_[at(p)]);
+  }
+  for (const int p : ofManifold) {
+    push(points_[at(p)], 1);
+  }
+  for (const int p : ofManifold) {
+    Point& point = points_[at(p)];
+    const double change = speed(point) - point.ofPass;
+    point.ofPass = change > 0 ? std::max(0.0, -point.ofPass / change) : 0;
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (sides[side] != kNobody) {
+      std::tie(bodies_[at(sides[side])].velocity, bodies_[at(sides[side])].omega) = before[side];
+    }
+  }
+  for (const int p : ofManifold) {
+    push(points_[at(p)], points_[at(p)].ofPass);
+  }
+}
+
 // Onto the motions in which none of the chosen approaches, by Gauss–Seidel.
 void CrowdRestitution::project(std::span<const int> chosen) {
-  for (const int p : chosen) {
-    points_[at(p)].ofPass = 0;
+  for (auto first = chosen.begin(); first != chosen.end();) {
+    const int slot = points_[at(*first)].slot;
+    const auto last = std::find_if(first, chosen.end(), [&](int p) { return points_[at(p)].slot != slot; });
+    guess({first, last});
+    first = last;
   }
   double largest = std::numeric_limits<double>::infinity();
   for (int sweep = 0; sweep < kProjectionSweeps && largest > kFound * fastest_; ++sweep) {
     largest = 0;
+    visits_ += chosen.size();
     for (const int p : chosen) {
       Point& point = points_[at(p)];
       const double wanted = speed(point);
@@ -229,6 +267,7 @@ void CrowdRestitution::projectAll(double most) {
   double largest = std::numeric_limits<double>::infinity();
   for (int sweep = 0; sweep < kProjectionSweeps && largest > kRounded * slow_; ++sweep) {
     largest = 0;
+    visits_ += chosen.size();
     for (const int p : chosen) {
       Point& point = points_[at(p)];
       const double wanted = speed(point);
@@ -258,7 +297,7 @@ void CrowdRestitution::projectAll(double most) {
 void CrowdRestitution::reflect(double threshold) {
   restart();
   std::vector<int> approaching;
-  for (std::size_t pass = 0; pass < kMostPasses + points_.size(); ++pass) {
+  for (visits_ = 0; visits_ <= kVisits + kVisitsOfPoint * points_.size();) {
     findApproaching(approaching);
     if (approaching.empty()) {
       return;

@@ -77,6 +77,7 @@ class CrowdRestitution {
   void findFront(std::span<const int> more);
   std::vector<double> levels() const;
   void reflect(double threshold);
+  void guess(std::span<const int> ofManifold);
   void project(std::span<const int> chosen);
   void projectAll(double most);
 
@@ -84,6 +85,7 @@ class CrowdRestitution {
   const CrowdContacts& contacts_;
   double slow_ = 0;
   double fastest_ = 0;           // [m/s] that strikes
+  std::size_t visits_ = 0;       // of points, in projections
   std::vector<int> firstSlot_;   // by place: of its manifolds in slots_
   std::vector<int> slots_;       // near, by place
   std::vector<int> reachedAt_;   // by place: in bodies_, or kNobody

@@ -37,7 +37,7 @@ struct Struck {
     stages.members.begin();
     stages.meet(kCrowdStep);
     stages.impulses.find();
-    restitution.begin(kTogether * stages.members.tolerance);
+    restitution.begin();
     std::size_t n = 0;
     for (const int slot : stages.contacts.near()) {
       stages.contacts[slot].restitution = restitutions[n++ % restitutions.size()];
