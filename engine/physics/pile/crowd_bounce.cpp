@@ -160,8 +160,7 @@ void CrowdBounces::beginFrom(PileSolver& solver) {
 }
 
 // The law is that of the places of now, the impulses of the step are those of its start: of the energy that
-// these took from bodies that bounce together, but for friction's, restitution gives back the same part as in
-// the law.
+// these took from bodies that bounce together restitution gives back the same part as in the law.
 void CrowdBounces::giveBack(PileSolver& solver) const {
   const std::span<const CrowdRestitution::Reached> bodies = restitution_.bodies();
   DisjointSets together(bodies.size());
@@ -178,10 +177,7 @@ void CrowdBounces::giveBack(PileSolver& solver) const {
   for (const CrowdRestitution::Point& point : restitution_.points()) {
     const int body = point.bodies[0] == CrowdRestitution::kNobody ? point.bodies[1] : point.bodies[0];
     if (body != CrowdRestitution::kNobody) {
-      Energies& all = energies[together.root(at(body))];
-      all.taken += point.plastic * -0.5 * (point.before + point.afterPlastic);
-      all.kept += point.whole * -0.5 * (point.before + point.afterPlastic + point.added);
-      all.rubbed += rubbedOff(point, solver);
+      energies[together.root(at(body))].taken += point.taken;
     }
   }
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -217,28 +213,10 @@ void CrowdBounces::addEnergies(const CrowdRestitution::Reached& reached, const P
   all.change += 0.5 * product(reached.velocity, reached.omega, reached.velocity, reached.omega);
 }
 
-// [J] By friction at that point, from the start of the step to where restitution begins.
-double CrowdBounces::rubbedOff(const CrowdRestitution::Point& point, const PileSolver& solver) const {
-  const PileSolver::RowView row = solver.row(contacts_[point.slot].points[at(point.index)].row);
-  const Vec3 impulse = row.impulse[1] * row.axes[1] + row.impulse[2] * row.axes[2];
-  double work = 0;
-  const auto add = [&](int body, const Vec3& arm, double sign) {
-    if (at(body) < members_.size() && !members_[body].still()) {
-      const CrowdMembers::Way& before = members_.ways[at(body)];
-      work += sign * 0.5 *
-              dot(impulse,
-                  before.velocity + solver.velocity(body) + (before.omega + solver.omega(body)).cross(arm));
-    }
-  };
-  add(row.a, row.armA, 1);
-  add(row.b, row.armB, -1);
-  return std::max(0.0, -work);
-}
-
 // [1] Of what restitution adds by the law.
 double CrowdBounces::Energies::part() const {
-  const double lost = before - without - rubbed;
-  const double wanted = taken > 0 ? std::clamp((taken - kept) / taken, 0.0, 1.0) * lost : 0;
+  const double lost = before - without;
+  const double wanted = taken > 0 ? std::min(1.0, (slope + change) / taken) * lost : 0;
   if (!(change > 0) || !(wanted > 0)) {
     return 0;
   }

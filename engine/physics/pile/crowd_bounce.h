@@ -55,9 +55,7 @@ class CrowdBounces {
     double without = 0;  // kinetic, without what restitution adds
     double slope = 0;    // of a part of that, and of its square
     double change = 0;
-    double rubbed = 0;  // by friction
-    double taken = 0;   // in the law, by plastic impulses, and by its own
-    double kept = 0;
+    double taken = 0;  // by the law's impulses without what restitution adds
     double part() const;
   };
   void findOf(const PileManifold& manifold, int slot);
@@ -69,7 +67,6 @@ class CrowdBounces {
   void beginFrom(PileSolver& solver);
   void giveBack(PileSolver& solver) const;
   void addEnergies(const CrowdRestitution::Reached& reached, const PileSolver& solver, Energies& all) const;
-  double rubbedOff(const CrowdRestitution::Point& point, const PileSolver& solver) const;
   void note(const PileSolver& solver);
 
   CrowdMembers& members_;

@@ -14,11 +14,11 @@ namespace {
 /// [1] of the fastest that strikes: to that a projection is found; and slower approach is not reflected.
 constexpr double kFound = 0x1p-20;
 constexpr double kReflected = 0x1p-7;
-constexpr double kRounded = 0x1p-10;  ///< [1] of the slowest impact: to that P is found
+constexpr double kRounded = 0x1p-10;  ///< [1] of the slowest impact, or the fastest: to that P is found
 /// Of points in reflections, and for each that is reached; what is left then is projected.
 constexpr std::size_t kVisits = 0x4000;
 constexpr std::size_t kVisitsOfPoint = 32;
-constexpr int kProjectionSweeps = 50;
+constexpr int kProjectionSweeps = 100;
 /// Values of e that are told apart.
 constexpr std::size_t kMostLevels = 8;
 
@@ -94,10 +94,14 @@ int CrowdRestitution::listManifold(int slot) {
                 .arms = {from.world, from.world + apart},
                 .normal = manifold.frameOf(k).normal,
                 .restitution = manifold.restitution,
-                .before = std::max(0.0, from.speed)};
+                .before = std::max(0.0, from.speed),
+                .friction = manifold.friction};
     double inverse = 0;
     for (std::size_t side = 0; side < 2; ++side) {
       if (bodies[side] != kNobody) {
+        const CrowdMembers::Way& way = members_.ways[at(bodies_[at(bodies[side])].place)];
+        const Vec3 velocity = way.velocity + way.omega.cross(point.arms[side]);
+        point.slip += side == 0 ? velocity : Vec3(-velocity);
         const SolverBody& mass = bodies_[at(bodies[side])].mass;
         const Vec3 turn = point.arms[side].cross(point.normal);
         inverse += mass.inverseMass + dot(turn, mass.turned(turn));
@@ -105,6 +109,7 @@ int CrowdRestitution::listManifold(int slot) {
       }
     }
     point.mass = inverse > 0 ? 1 / inverse : 0;
+    point.slip -= dot(point.normal, point.slip) * point.normal;
     points_.push_back(point);
   }
   return firstPoint_[at(slot)];
@@ -121,29 +126,42 @@ void CrowdRestitution::listPoints(Reached& body) {
   }
 }
 
-double CrowdRestitution::speed(const Point& point) const {
-  double speed = point.before;
+// [m/s] Of its relative velocity, by impulses.
+Vec3 CrowdRestitution::change(const Point& point) const {
+  Vec3 change = Vec3::Zero();
   for (std::size_t side = 0; side < 2; ++side) {
     if (point.bodies[side] != kNobody) {
       const Reached& body = bodies_[at(point.bodies[side])];
-      const double along = dot(point.normal, body.velocity + body.omega.cross(point.arms[side]));
-      speed += side == 0 ? along : -along;
+      const Vec3 ofPoint = body.velocity + body.omega.cross(point.arms[side]);
+      change += side == 0 ? ofPoint : Vec3(-ofPoint);
     }
   }
-  return speed;
+  return change;
 }
 
-void CrowdRestitution::push(const Point& point, double impulse) {
+Vec3 CrowdRestitution::sliding(const Point& point) const {
+  const Vec3 change = this->change(point);
+  return point.slip + change - dot(point.normal, change) * point.normal;
+}
+
+void CrowdRestitution::push(const Point& point, const Vec3& impulse) {
   for (std::size_t side = 0; side < 2; ++side) {
     if (point.bodies[side] != kNobody) {
       Reached& body = bodies_[at(point.bodies[side])];
-      const Vec3 pushed = (side == 0 ? impulse : -impulse) * point.normal;
+      const Vec3 pushed = side == 0 ? impulse : Vec3(-impulse);
       body.velocity += body.mass.inverseMass * pushed;
       body.omega += body.mass.turned(point.arms[side].cross(pushed));
-      if (!body.changed) {
-        body.changed = true;
-        changed_.push_back(point.bodies[side]);
-      }
+    }
+  }
+  note(point);
+}
+
+// Its bodies are pushed: others may approach them.
+void CrowdRestitution::note(const Point& point) {
+  for (const int body : point.bodies) {
+    if (body != kNobody && !bodies_[at(body)].changed) {
+      bodies_[at(body)].changed = true;
+      changed_.push_back(body);
     }
   }
 }
@@ -284,12 +302,66 @@ void CrowdRestitution::projectAll(double most) {
   }
   for (const int p : chosen) {
     points_[at(p)].impulse += points_[at(p)].ofPass;
-  }
-  front_.assign(chosen.begin(), chosen.end());
-  for (const int p : chosen) {
-    push(points_[at(p)], 0);  // so that the front is found around them
+    note(points_[at(p)]);
   }
   findFront(chosen);
+}
+
+// One step of Gauss–Seidel against its sliding; returns by how much [m/s].
+double CrowdRestitution::rubAt(Point& point) {
+  const Vec3 sliding = this->sliding(point);
+  const double speed = sliding.norm();
+  const double most = point.friction * (point.ofPass + std::max(0.0, point.whole - point.plastic));
+  Vec3 rubbing = point.rubbing;
+  double mass = point.mass;
+  if (speed > 0) {
+    double inverse = 0;
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (point.bodies[side] != kNobody) {
+        const SolverBody& body = bodies_[at(point.bodies[side])].mass;
+        const Vec3 turn = point.arms[side].cross(sliding) / speed;
+        inverse += body.inverseMass + dot(turn, body.turned(turn));
+      }
+    }
+    mass = 1 / inverse;
+    rubbing -= mass * sliding;
+  }
+  const double size = rubbing.norm();
+  if (size > most) {
+    rubbing *= most / size;
+  }
+  const Vec3 more = rubbing - point.rubbing;
+  point.rubbing = rubbing;
+  push(point, more);
+  return more.norm() / mass;
+}
+
+// What plastic impulses take with friction, whose cones are those of the whole impulses.
+void CrowdRestitution::rub() {
+  std::vector<int> acting;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    Point& point = points_[p];
+    point.ofPass = point.plastic;
+    if (point.plastic > 0 || point.whole > 0) {
+      acting.push_back(static_cast<int>(p));
+    }
+  }
+  double largest = std::numeric_limits<double>::infinity();
+  for (int sweep = 0; sweep < kProjectionSweeps && largest > kRounded * fastest_; ++sweep) {
+    largest = 0;
+    for (const int p : acting) {
+      Point& point = points_[at(p)];
+      const double impulse = std::max(-speed(point) * point.mass, -point.ofPass);
+      point.ofPass += impulse;
+      push(point, impulse);
+      largest = std::max({largest, std::fabs(impulse) / point.mass, point.friction > 0 ? rubAt(point) : 0.0});
+    }
+  }
+  for (const int p : acting) {
+    Point& point = points_[at(p)];
+    point.taken = -0.5 * (point.ofPass * (point.before + speed(point)) +
+                          dot(point.rubbing, point.slip + sliding(point)));
+  }
 }
 
 // Reflections about the contacts of restitution above the threshold; where none of those approaches,
@@ -365,6 +437,7 @@ void CrowdRestitution::resolve(double slow) {
   for (Point& point : points_) {
     point.afterPlastic = speed(point);
   }
+  rub();
   setVelocities([](const Point& point) { return point.whole - point.plastic; });
   for (Point& point : points_) {
     point.added = speed(point) - point.before;

@@ -35,6 +35,10 @@ class CrowdRestitution {
     double ofPass = 0;                            ///< [N s] of one of its projections
     double plastic = 0;                           ///< [N s] of P
     double whole = 0;                             ///< [N s] of the law
+    double friction = 0;                          ///< [1]
+    Vec3 slip = Vec3::Zero();                     ///< [m/s] tangential velocity before
+    Vec3 rubbing = Vec3::Zero();                  ///< [N s] friction on the first of the two, of P with it
+    double taken = 0;                             ///< [J] from its bodies by P with friction
     double afterPlastic = 0;                      ///< [m/s] normal speed after P
     double added = 0;                             ///< [m/s] what restitution adds to it
   };
@@ -68,8 +72,12 @@ class CrowdRestitution {
   int reach(int place);
   int listManifold(int slot);
   void listPoints(Reached& body);
-  double speed(const Point& point) const;
-  void push(const Point& point, double impulse);
+  Vec3 change(const Point& point) const;
+  double speed(const Point& point) const { return point.before + dot(point.normal, change(point)); }
+  Vec3 sliding(const Point& point) const;
+  void push(const Point& point, const Vec3& impulse);
+  void push(const Point& point, double impulse) { push(point, Vec3(impulse * point.normal)); }
+  void note(const Point& point);
   /// Velocities are those that these impulses give.
   void setVelocities(double (*impulseOf)(const Point&));
   void restart();
@@ -80,6 +88,8 @@ class CrowdRestitution {
   void guess(std::span<const int> ofManifold);
   void project(std::span<const int> chosen);
   void projectAll(double most);
+  double rubAt(Point& point);
+  void rub();
 
   const CrowdMembers& members_;
   const CrowdContacts& contacts_;
