@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "physics/pile/index.h"
@@ -217,27 +216,28 @@ void CrowdRestitution::findFront(std::span<const int> more) {
 // To begin with: equal impulses at points of a manifold that approach alike, so that what meets flat is not
 // turned. Gauss–Seidel alone takes a hundred sweeps to undo that.
 void CrowdRestitution::guess(std::span<const int> ofManifold) {
+  std::array<std::pair<Vec3, Vec3>, 2> velocities;
   const std::array<int, 2> sides = points_[at(ofManifold.front())].bodies;
-  const auto velocities = [&](int body) {
-    return body == kNobody ? std::pair<Vec3, Vec3>()
-                           : std::pair(bodies_[at(body)].velocity, bodies_[at(body)].omega);
+  const auto swap = [&] {
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (sides[side] != kNobody) {
+        std::swap(velocities[side].first, bodies_[at(sides[side])].velocity);
+        std::swap(velocities[side].second, bodies_[at(sides[side])].omega);
+      }
+    }
   };
-  const std::array<std::pair<Vec3, Vec3>, 2> before{velocities(sides[0]), velocities(sides[1])};
-  for (const int p : ofManifold) {
-    points_[at(p)].ofPass = speed(points_[at(p)]);
-  }
+  velocities.fill({Vec3::Zero(), Vec3::Zero()});
+  swap();
   for (const int p : ofManifold) {
     push(points_[at(p)], 1);
   }
   for (const int p : ofManifold) {
-    Point& point = points_[at(p)];
-    const double change = speed(point) - point.ofPass;
-    point.ofPass = change > 0 ? std::max(0.0, -point.ofPass / change) : 0;
+    points_[at(p)].ofPass = dot(points_[at(p)].normal, change(points_[at(p)]));
   }
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (sides[side] != kNobody) {
-      std::tie(bodies_[at(sides[side])].velocity, bodies_[at(sides[side])].omega) = before[side];
-    }
+  swap();
+  for (const int p : ofManifold) {
+    const double change = points_[at(p)].ofPass;
+    points_[at(p)].ofPass = change > 0 ? std::max(0.0, -speed(points_[at(p)]) / change) : 0;
   }
   for (const int p : ofManifold) {
     push(points_[at(p)], points_[at(p)].ofPass);
