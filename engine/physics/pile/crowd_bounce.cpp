@@ -1,7 +1,9 @@
 #include "physics/pile/crowd_bounce.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "core/disjoint_sets.h"
 #include "physics/pile/crowd_motion.h"
@@ -20,6 +22,15 @@ void CrowdBounces::find() {
   }
 }
 
+Vec3 CrowdBounces::falling(int body) const {
+  return members_[body].still() ? Vec3(Vec3::Zero()) : loads_.acceleration(at(body));
+}
+
+// [m/s] By which forces change the normal speed in the step.
+double CrowdBounces::fallOf(const PileManifold& manifold, int point) const {
+  return members_.h * dot(manifold.frameOf(point).normal, falling(manifold.a) - falling(manifold.b));
+}
+
 // Only the part of gravity before the time of contact counts, or bouncing would gain energy. Speeds are those
 // of the middle.
 void CrowdBounces::findOf(const PileManifold& manifold, int slot) {
@@ -29,37 +40,62 @@ void CrowdBounces::findOf(const PileManifold& manifold, int slot) {
       continue;
     }
     const double before = std::clamp(point.gap / (-point.speed * members_.h), 0.0, 1.0);
-    const auto falling = [&](int body) {
-      return members_[body].still() ? Vec3(Vec3::Zero()) : loads_.acceleration(at(body));
-    };
-    const double fall =
-        members_.h * dot(manifold.frameOf(k).normal, falling(manifold.a) - falling(manifold.b));
-    const double approach = std::max(0.0, -(point.speed + (before - 0.5) * fall));
-    bounces_.push_back({.row = point.row,
-                        .speed = manifold.restitution * approach,
-                        .approach = approach,
-                        .fall = fall,
-                        .slot = slot,
-                        .point = k});
+    const double approach = std::max(0.0, -(point.speed + (before - 0.5) * fallOf(manifold, k)));
+    bounces_.push_back({.approach = approach, .slot = slot, .point = k});
   }
 }
 
 void CrowdBounces::bounce(CrowdImpulses& impulses) {
   PileSolver& solver = impulses.solver();
-  const bool any = std::any_of(bounces_.begin(), bounces_.end(), [&](const Bounce& each) {
-    return each.speed > 0 && solver.normalImpulse(each.row) > 0;
-  });
-  if (any) {
+  if (resolve()) {
     solve(impulses);
   }
   note(solver);
 }
 
+// Whether restitution adds anything.
+bool CrowdBounces::resolve() {
+  const bool elastic = std::any_of(bounces_.begin(), bounces_.end(),
+                                   [&](const Bounce& each) {
+                                     return contacts_[each.slot].points[at(each.point)].normalImpulse > 0;
+                                   }) &&
+                       std::any_of(contacts_.near().begin(), contacts_.near().end(),
+                                   [&](int slot) { return contacts_[slot].restitution > 0; });
+  if (!elastic) {
+    return false;
+  }
+  findClosed();
+  restitution_.begin();
+  double strongest = 0;  // [m/s²]
+  for (const Bounce& each : bounces_) {
+    const PileManifold& manifold = contacts_[each.slot];
+    if (manifold.points[at(each.point)].normalImpulse > 0) {
+      strongest = std::max({strongest, falling(manifold.a).norm(), falling(manifold.b).norm()});
+      restitution_.strike(each.slot, each.point, each.approach);
+    }
+  }
+  restitution_.resolve(kStrikesFrom * strongest * members_.h);
+  return std::any_of(restitution_.bodies().begin(), restitution_.bodies().end(),
+                     [](const CrowdRestitution::Reached& body) { return body.moves(); });
+}
+
+// Rows of what touches after the motion, or pushed in it. What is still open meets in a later step.
+void CrowdBounces::findClosed() {
+  int next = 0;
+  for (const int slot : contacts_.near()) {
+    PileManifold& manifold = contacts_[slot];
+    contacts_.refresh(manifold);
+    for (int k = 0; k < manifold.count; ++k) {
+      PilePoint& point = manifold.points[at(k)];
+      const bool closed =
+          point.row >= 0 && (point.gap <= kTogether * members_.tolerance || point.normalImpulse > 0);
+      point.row = closed ? next++ : -1;
+    }
+  }
+}
+
 void CrowdBounces::solve(CrowdImpulses& impulses) {
   PileSolver& solver = impulses.solver();
-  for (const int slot : contacts_.near()) {
-    contacts_.refresh(contacts_[slot]);
-  }
   solver.begin(members_.size());
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const PileBody& body = members_[i];
@@ -73,16 +109,11 @@ void CrowdBounces::solve(CrowdImpulses& impulses) {
     contacts_.addPresentRows(contacts_[slot], solver);
   }
   solver.link();
-  for (const Bounce& each : bounces_) {
-    if (each.speed > 0 && solver.normalImpulse(each.row) > 0) {
-      solver.setBound(each.row, each.speed - 0.5 * each.fall);
-      solver.wakeRow(each.row);
-    }
-  }
+  beginFrom(solver);
   if (!impulses.solveDirectly()) {
     solver.solve(kBounceSweeps);
   }
-  limit(solver);
+  giveBack(solver);
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const int index = static_cast<int>(i);
     if (solver.pushed(index)) {
@@ -96,61 +127,96 @@ void CrowdBounces::solve(CrowdImpulses& impulses) {
   }
 }
 
-// Restitution at several contacts at once, with friction, can give more energy than there was: bodies that
-// bounce together then get that part of the second solve's change that keeps their energy. Friction cones are
-// convex, so both solves' impulses mixed lie in them.
-void CrowdBounces::limit(PileSolver& solver) const {
-  DisjointSets together(members_.size());
-  const auto moves = [&](int body) { return at(body) < members_.size() && !members_[body].still(); };
-  const int rows = static_cast<int>(solver.rowCount());
-  for (int k = 0; k < rows; ++k) {
-    const PileSolver::RowView row = solver.row(k);
-    if (moves(row.a) && moves(row.b)) {
-      together.join(at(row.a), at(row.b));
+// The solver's velocities are those without what restitution adds, and normal speeds relative to that. What
+// impulses reached begins with those of the law, and of what does not strike also those by which it was
+// supported before.
+void CrowdBounces::beginFrom(PileSolver& solver) {
+  for (const CrowdRestitution::Point& point : restitution_.points()) {
+    const PileManifold& manifold = contacts_[point.slot];
+    const PilePoint& from = manifold.points[at(point.index)];
+    const PileSolver::RowView row = solver.row(from.row);
+    const bool acts = point.whole > 0;
+    solver.setBound(from.row, acts ? std::max(0.0, point.afterPlastic) - 0.5 * fallOf(manifold, point.index)
+                                   : row.bound - point.added);
+    if (acts || point.plastic > 0) {
+      const double support = point.strikes ? 0 : std::min(from.normalImpulse, from.normalImpulseBefore);
+      const std::array<double, 3> impulse{std::max(0.0, point.whole) + support, row.impulse[1],
+                                          row.impulse[2]};
+      const Vec3 more = (impulse[0] - row.impulse[0]) * row.axes[0];
+      solver.push(row.a, row.armA, more);
+      solver.push(row.b, row.armB, -more);
+      solver.setImpulse(from.row, impulse);
+    }
+    solver.wakeRow(from.row);
+  }
+  for (const CrowdRestitution::Reached& body : restitution_.bodies()) {
+    solver.velocity(body.place) -= body.velocity;
+    solver.omega(body.place) -= body.omega;
+  }
+}
+
+// The law is that of the places of now, the impulses of the step are those of its start: of the energy that
+// these took from bodies that bounce together restitution gives back the same part as in the law.
+void CrowdBounces::giveBack(PileSolver& solver) const {
+  const std::span<const CrowdRestitution::Reached> bodies = restitution_.bodies();
+  DisjointSets together(bodies.size());
+  for (const CrowdRestitution::Point& point : restitution_.points()) {
+    const auto [a, b] = point.bodies;
+    if (a != CrowdRestitution::kNobody && b != CrowdRestitution::kNobody && point.whole != point.plastic) {
+      together.join(at(a), at(b));
     }
   }
-  std::vector<Energies> energies(members_.size());
-  const auto kinetic = [](const PileBody& body, const Vec3& velocity, const Vec3& omega) {
-    const Vec3 spin = body.principalAxes().transpose() * omega;
-    return 0.5 * (velocity.squaredNorm() / body.inverseMass + dot(body.inertiaBody, spin.cwiseProduct(spin)));
-  };
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const int index = static_cast<int>(i);
-    const PileBody& body = members_[i];
-    if (body.still() || !solver.pushed(index)) {
+  std::vector<Energies> energies(bodies.size());
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    addEnergies(bodies[k], solver, energies[together.root(k)]);
+  }
+  for (const CrowdRestitution::Point& point : restitution_.points()) {
+    const int body = point.bodies[0] == CrowdRestitution::kNobody ? point.bodies[1] : point.bodies[0];
+    if (body != CrowdRestitution::kNobody) {
+      energies[together.root(at(body))].taken += point.taken;
+    }
+  }
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const CrowdRestitution::Reached& body = bodies[k];
+    if (!body.moves()) {
       continue;
     }
-    Energies& all = energies[together.root(i)];
-    const CrowdMembers::Way& before = members_.ways[i];
-    const double turning = 0.5 * dot(before.omega, before.angularMomentum);
-    const double work = dot(loads_.acceleration(i), body.position - before.position);
-    all.before += (0.5 * before.velocity.squaredNorm() + work) / body.inverseMass + turning;
-    const Vec3 kick = loads_.halfKick(i);
-    all.first += kinetic(body, body.velocity + kick, body.omega);
-    all.second += kinetic(body, solver.velocity(index) + kick, solver.omega(index));
-    all.change += kinetic(body, solver.velocity(index) - body.velocity, solver.omega(index) - body.omega);
+    const double part = energies[together.root(k)].part();
+    solver.setPushed(body.place, solver.velocity(body.place) + part * body.velocity,
+                     solver.omega(body.place) + part * body.omega);
   }
-  std::vector<double> parts(members_.size(), 1);
-  bool any = false;
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const Energies& all = energies[i];
-    const double most = std::max(all.before, all.first);
-    if (all.second > most && all.change > 0) {
-      // first + part · slope + part² · change = most
-      const double slope = all.second - all.first - all.change;
-      const double root = std::sqrt(std::max(0.0, slope * slope + 4 * all.change * (most - all.first)));
-      parts[i] = std::clamp((root - slope) / (2 * all.change), 0.0, 1.0);
-      any = true;
-    }
+}
+
+void CrowdBounces::addEnergies(const CrowdRestitution::Reached& reached, const PileSolver& solver,
+                               Energies& all) const {
+  if (!reached.moves()) {
+    return;
   }
-  for (std::size_t i = 0; any && i < members_.size(); ++i) {
-    const int index = static_cast<int>(i);
-    if (!members_[i].still() && solver.pushed(index)) {
-      const double part = parts[together.root(i)];
-      solver.velocity(index) = members_[i].velocity + part * (solver.velocity(index) - members_[i].velocity);
-      solver.omega(index) = members_[i].omega + part * (solver.omega(index) - members_[i].omega);
-    }
+  const PileBody& body = members_[reached.place];
+  const CrowdMembers::Way& before = members_.ways[at(reached.place)];
+  const Mat3 axes = body.principalAxes();
+  const auto product = [&](const Vec3& v, const Vec3& w, const Vec3& otherV, const Vec3& otherW) {
+    return dot(v, otherV) / body.inverseMass +
+           dot(body.inertiaBody, Vec3(axes.transpose() * w).cwiseProduct(axes.transpose() * otherW));
+  };
+  const Vec3 velocity = solver.velocity(reached.place) + loads_.halfKick(at(reached.place));
+  const Vec3& omega = solver.omega(reached.place);
+  const double work = dot(loads_.acceleration(at(reached.place)), body.position - before.position);
+  all.before += (0.5 * before.velocity.squaredNorm() + work) / body.inverseMass +
+                0.5 * dot(before.omega, before.angularMomentum);
+  all.without += 0.5 * product(velocity, omega, velocity, omega);
+  all.slope += product(velocity, omega, reached.velocity, reached.omega);
+  all.change += 0.5 * product(reached.velocity, reached.omega, reached.velocity, reached.omega);
+}
+
+// [1] Of what restitution adds by the law.
+double CrowdBounces::Energies::part() const {
+  const double lost = before - without;
+  const double wanted = taken > 0 ? std::min(1.0, (slope + change) / taken) * lost : 0;
+  if (!(change > 0) || !(wanted > 0)) {
+    return 0;
   }
+  return (std::sqrt(std::max(0.0, slope * slope + 4 * change * wanted)) - slope) / (2 * change);
 }
 
 // The total impulses of the points that met: of the first solve, or of the second, which continues it.
@@ -158,11 +224,11 @@ void CrowdBounces::note(const PileSolver& solver) {
   impacts_.clear();
   for (const Bounce& each : bounces_) {
     const PileManifold& manifold = contacts_[each.slot];
-    const double impulse = solver.normalImpulse(each.row);
+    const PilePoint& point = manifold.points[at(each.point)];
+    const double impulse = point.row < 0 ? 0 : solver.normalImpulse(point.row);
     if (impulse > 0) {
-      const double t1 = solver.tangential1(each.row);
-      const double t2 = solver.tangential2(each.row);
-      const PilePoint& point = manifold.points[at(each.point)];
+      const double t1 = solver.tangential1(point.row);
+      const double t2 = solver.tangential2(point.row);
       impacts_.push_back({.a = manifold.a,
                           .b = manifold.b,
                           .point = members_[manifold.a].position + point.world,

@@ -7,6 +7,7 @@
 #include "physics/pile/crowd_loads.h"
 #include "physics/pile/crowd_members.h"
 #include "physics/pile/crowd_memory.h"
+#include "physics/pile/crowd_restitution.h"
 
 namespace careen {
 
@@ -26,14 +27,18 @@ class CrowdBounces {
 
   CrowdBounces(CrowdMembers& members, const CrowdLoads& loads, CrowdContacts& contacts,
                const CrowdMemory& memory)
-      : members_(members), loads_(loads), contacts_(contacts), memory_(memory) {}
+      : members_(members),
+        loads_(loads),
+        contacts_(contacts),
+        memory_(memory),
+        restitution_(members, contacts) {}
 
   /// What strikes in the step, before it moves.
   void find();
-  /// New impacts separate with e times their approach speed: a second solve after the motion, at the new
-  /// positions (otherwise the angular momentum about each other is not conserved), starting from the impulses
-  /// of the first. Its velocities are those of the end of the step, to which forces act on all that are
-  /// pushed.
+  /// What strikes, and what impulses reach from there, parts as the law says (CrowdRestitution): a second
+  /// solve after the motion, at the new positions (otherwise the angular momentum about each other is not
+  /// conserved), in which friction opposes the slip without what restitution adds. Its velocities are those
+  /// of the end of the step, to which forces act on all that are pushed.
   void bounce(CrowdImpulses& impulses);
   const std::vector<Struck>& impacts() const { return impacts_; }
   /// There was no step.
@@ -41,28 +46,34 @@ class CrowdBounces {
 
  private:
   struct Bounce {
-    int row = 0;
-    double speed = 0;     // [m/s] separation speed
     double approach = 0;  // [m/s]
-    double fall = 0;      // [m/s] by which forces change the normal speed in the step
     int slot = 0;         // manifold
     int point = 0;        // of it
   };
-  struct Energies {     // of bodies that bounce together
-    double before = 0;  // [J] kinetic, at the start of the step, and what forces did in it
-    double first = 0;   // after the first solve
-    double second = 0;
-    double change = 0;  // of the velocities that the second solve adds
+  struct Energies {      // [J] of bodies that bounce together
+    double before = 0;   // at the start of the step, and what forces did in it
+    double without = 0;  // kinetic, without what restitution adds
+    double slope = 0;    // of a part of that, and of its square
+    double change = 0;
+    double taken = 0;  // by the law's impulses without what restitution adds
+    double part() const;
   };
   void findOf(const PileManifold& manifold, int slot);
+  Vec3 falling(int body) const;
+  double fallOf(const PileManifold& manifold, int point) const;
+  void findClosed();
+  bool resolve();
   void solve(CrowdImpulses& impulses);
-  void limit(PileSolver& solver) const;
+  void beginFrom(PileSolver& solver);
+  void giveBack(PileSolver& solver) const;
+  void addEnergies(const CrowdRestitution::Reached& reached, const PileSolver& solver, Energies& all) const;
   void note(const PileSolver& solver);
 
   CrowdMembers& members_;
   const CrowdLoads& loads_;
   CrowdContacts& contacts_;
   const CrowdMemory& memory_;
+  CrowdRestitution restitution_;
   std::vector<Bounce> bounces_;
   std::vector<Struck> impacts_;
 };

@@ -15,6 +15,8 @@ namespace careen {
 
 /// [1] of what forces give in a step: slower approach is no impact.
 inline constexpr double kStrikesFrom = 4;
+/// [1] of the tolerance: points that near meet together.
+inline constexpr double kTogether = 3;
 
 /// Contacts of a crowd, by broad and narrow phase: pairs of members, and the manifolds of those that may
 /// touch in the step.
@@ -42,6 +44,7 @@ class CrowdContacts {
   /// Manifolds of this step, by slots in the order of their pairs.
   const std::vector<int>& near() const { return near_; }
   std::span<PileManifold> manifolds() { return manifolds_; }
+  std::size_t manifoldCount() const { return manifolds_.size(); }
   PileManifold& operator[](int slot) { return manifolds_[at(slot)]; }
   const PileManifold& operator[](int slot) const { return manifolds_[at(slot)]; }
   /// Of a pair's manifold, as in BoxAxis, or −1.

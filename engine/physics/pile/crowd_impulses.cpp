@@ -27,7 +27,6 @@ constexpr double kRounding = 0x1p-30;  // [1] of the fastest speed: slower impac
 constexpr double kAllowance = 0.1;
 constexpr double kAllowedDepth = 4;
 constexpr double kAllowedSpeed = 0.5;
-constexpr double kTogether = 3;  // [1] of the tolerance: points of one manifold that meet together
 // Of what the projection tolerates: penetration from which bodies are shifted, what is left of it, so that
 // contacts persist, and the change that re-solves neighbours.
 constexpr double kShifted = 0.8;
