@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/names.h"
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
 #include "trajectory/archive.h"
+#include "trajectory/packed_steps.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {
@@ -416,8 +418,48 @@ void visit(Archive& archive, Visited<Archive, RunSettings> settings) {
   archive.visit(settings.duration);
 }
 
+/// The same since format version 9, with steps of crowds in few bits.
 template <class Archive>
-void visit(Archive& archive, Visited<Archive, Trajectory> run) {
+void visitPacked(Archive& archive, Visited<Archive, Track> track) {
+  std::uint64_t count = track.segments.size();
+  archive.visit(count);
+  std::string times;
+  std::string bits;
+  if constexpr (Archive::kReads) {
+    archive.visit(times);
+    archive.visit(bits);
+    StepUnpacker steps(times, bits);
+    for (std::uint64_t k = 0; k < count; ++k) {
+      Segment& segment = track.segments.emplace_back();
+      const StepUnpacker::Next next = steps.next(segment);
+      if (next == StepUnpacker::Next::kAsItIs) {
+        visit(archive, segment);
+      } else if (next == StepUnpacker::Next::kDamaged) {
+        archive.fail("is damaged: steps of a body cannot be unpacked");
+      }
+    }
+    if (!steps.atEnd()) {
+      archive.fail("has more steps of a body than pieces of motion");
+    }
+  } else {
+    StepPacker steps(track.segments);
+    std::vector<const Segment*> others;
+    for (const Segment& segment : track.segments) {
+      if (!steps.add(segment)) {
+        others.push_back(&segment);
+      }
+    }
+    archive.visit(steps.times());
+    archive.visit(steps.bits());
+    for (const Segment* const segment : others) {
+      visit(archive, *segment);
+    }
+  }
+}
+
+/// What a run starts from.
+template <class Archive>
+void visitStart(Archive& archive, Visited<Archive, Trajectory> run) {
   archive.visit(run.sceneText);
   std::string sceneHash = run.sceneHash();
   archive.visit(sceneHash);
@@ -426,7 +468,27 @@ void visit(Archive& archive, Visited<Archive, Trajectory> run) {
   visit(archive, run.world);
   visit(archive, run.stage);
   visitAll(archive, run.plan.items);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Trajectory> run) {
+  visitStart(archive, run);
   visitAll(archive, run.tracks);
+  visitAll(archive, run.impacts);
+}
+
+/// The same since format version 9.
+template <class Archive>
+void visitPacked(Archive& archive, Visited<Archive, Trajectory> run) {
+  visitStart(archive, run);
+  std::uint64_t count = run.tracks.size();
+  archive.visit(count);
+  for (std::uint64_t k = 0; k < count; ++k) {
+    if constexpr (Archive::kReads) {
+      run.tracks.emplace_back();
+    }
+    visitPacked(archive, run.tracks[k]);
+  }
   visitAll(archive, run.impacts);
 }
 
