@@ -429,6 +429,7 @@ void visitPacked(Archive& archive, Visited<Archive, Track> track) {
     archive.visit(times);
     archive.visit(bits);
     StepUnpacker steps(times, bits);
+    track.segments.reserve(std::min<std::uint64_t>(count, times.size() / sizeof(double)));
     for (std::uint64_t k = 0; k < count; ++k) {
       Segment& segment = track.segments.emplace_back();
       const StepUnpacker::Next next = steps.next(segment);
