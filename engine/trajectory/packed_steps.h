@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -65,5 +66,45 @@ class StepUnpacker : public StepCoder {
   std::string_view times_;
   BitReader bits_;
 };
+
+/// A track in files since format version 9; segments that are not packed as trajectory_format.h has them.
+template <class Archive>
+void visitPacked(Archive& archive, Visited<Archive, Track> track) {
+  std::uint64_t count = track.segments.size();
+  archive.visit(count);
+  std::string times;
+  std::string bits;
+  if constexpr (Archive::kReads) {
+    archive.visit(times);
+    archive.visit(bits);
+    StepUnpacker steps(times, bits);
+    track.segments.reserve(std::min<std::uint64_t>(count, times.size() / sizeof(double)));
+    for (std::uint64_t k = 0; k < count; ++k) {
+      Segment& segment = track.segments.emplace_back();
+      const StepUnpacker::Next next = steps.next(segment);
+      if (next == StepUnpacker::Next::kAsItIs) {
+        visit(archive, segment);
+      } else if (next == StepUnpacker::Next::kDamaged) {
+        archive.fail("is damaged: steps of a body cannot be unpacked");
+      }
+    }
+    if (!steps.atEnd()) {
+      archive.fail("has more steps of a body than pieces of motion");
+    }
+  } else {
+    StepPacker steps(track.segments);
+    std::vector<const Segment*> others;
+    for (const Segment& segment : track.segments) {
+      if (!steps.add(segment)) {
+        others.push_back(&segment);
+      }
+    }
+    archive.visit(steps.times());
+    archive.visit(steps.bits());
+    for (const Segment* const segment : others) {
+      visit(archive, *segment);
+    }
+  }
+}
 
 }  // namespace careen

@@ -10,6 +10,7 @@
 #include "core/system/file.h"
 #include "trajectory/archive.h"
 #include "trajectory/compression.h"
+#include "trajectory/packed_steps.h"
 #include "trajectory/run_check.h"
 #include "trajectory/trajectory_format.h"
 
@@ -24,6 +25,21 @@ constexpr std::uint64_t kVersionWithoutLight = 5;
 constexpr std::uint64_t kVersionWithoutPlacement = 6;
 constexpr std::uint64_t kVersionWithoutResiduals = 7;
 constexpr std::uint64_t kVersionInOnePiece = 8;
+
+// A run since format version 9.
+template <class Archive>
+void visitPacked(Archive& archive, Visited<Archive, Trajectory> run) {
+  visitStart(archive, run);
+  std::uint64_t count = run.tracks.size();
+  archive.visit(count);
+  for (std::uint64_t k = 0; k < count; ++k) {
+    if constexpr (Archive::kReads) {
+      run.tracks.emplace_back();
+    }
+    visitPacked(archive, run.tracks[k]);
+  }
+  visitAll(archive, run.impacts);
+}
 
 // All but the hash of the last state, as that version has it.
 template <class Archive>

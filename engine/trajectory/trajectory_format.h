@@ -6,13 +6,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/names.h"
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
 #include "trajectory/archive.h"
-#include "trajectory/packed_steps.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {
@@ -418,46 +416,6 @@ void visit(Archive& archive, Visited<Archive, RunSettings> settings) {
   archive.visit(settings.duration);
 }
 
-/// The same since format version 9, with steps of crowds in few bits.
-template <class Archive>
-void visitPacked(Archive& archive, Visited<Archive, Track> track) {
-  std::uint64_t count = track.segments.size();
-  archive.visit(count);
-  std::string times;
-  std::string bits;
-  if constexpr (Archive::kReads) {
-    archive.visit(times);
-    archive.visit(bits);
-    StepUnpacker steps(times, bits);
-    track.segments.reserve(std::min<std::uint64_t>(count, times.size() / sizeof(double)));
-    for (std::uint64_t k = 0; k < count; ++k) {
-      Segment& segment = track.segments.emplace_back();
-      const StepUnpacker::Next next = steps.next(segment);
-      if (next == StepUnpacker::Next::kAsItIs) {
-        visit(archive, segment);
-      } else if (next == StepUnpacker::Next::kDamaged) {
-        archive.fail("is damaged: steps of a body cannot be unpacked");
-      }
-    }
-    if (!steps.atEnd()) {
-      archive.fail("has more steps of a body than pieces of motion");
-    }
-  } else {
-    StepPacker steps(track.segments);
-    std::vector<const Segment*> others;
-    for (const Segment& segment : track.segments) {
-      if (!steps.add(segment)) {
-        others.push_back(&segment);
-      }
-    }
-    archive.visit(steps.times());
-    archive.visit(steps.bits());
-    for (const Segment* const segment : others) {
-      visit(archive, *segment);
-    }
-  }
-}
-
 /// What a run starts from.
 template <class Archive>
 void visitStart(Archive& archive, Visited<Archive, Trajectory> run) {
@@ -475,21 +433,6 @@ template <class Archive>
 void visit(Archive& archive, Visited<Archive, Trajectory> run) {
   visitStart(archive, run);
   visitAll(archive, run.tracks);
-  visitAll(archive, run.impacts);
-}
-
-/// The same since format version 9.
-template <class Archive>
-void visitPacked(Archive& archive, Visited<Archive, Trajectory> run) {
-  visitStart(archive, run);
-  std::uint64_t count = run.tracks.size();
-  archive.visit(count);
-  for (std::uint64_t k = 0; k < count; ++k) {
-    if constexpr (Archive::kReads) {
-      run.tracks.emplace_back();
-    }
-    visitPacked(archive, run.tracks[k]);
-  }
   visitAll(archive, run.impacts);
 }
 
