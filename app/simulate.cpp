@@ -92,11 +92,10 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   SimulationProgress progress(logsJson);
   Run run = simulateScene(source, options.overrides, stop, progress.ofRun(options.overrides.mostRecords()));
   auditRun(run, options.audit, stop);
-  const std::string trajectory = encodeTrajectory(run.trajectory);
   estimate(run, options.estimate, stopwatch.seconds() - run.auditSeconds, stop, progress.ofEstimate());
 
   Outputs outputs;
-  outputs.add(output, [&](const TextSink& sink) { sink(trajectory); });
+  outputs.add(output, [&](const TextSink& sink) { writeTrajectory(run.trajectory, sink); });
   const double every = options.every.value_or(kSimulatedSampling);
   outputs.add(options.poses, [&](const TextSink& sink) { writePosesCsv(run.trajectory, every, sink); });
   outputs.add(options.npz, [&](const TextSink& sink) { sink(encodeNpz(run.trajectory, every)); });

@@ -136,7 +136,7 @@ ExitCode validateCommand(const ValidateOptions& options, const std::stop_token& 
     Trajectory run;
     found.tosses.push_back(validate(setup, table, settings, stop, &run));
     print(found.tosses.back(), found.size);
-    writeFile(runs / (std::filesystem::path(table.name).stem().string() + ".careen"), encodeTrajectory(run));
+    saveTrajectory(run, runs / (std::filesystem::path(table.name).stem().string() + ".careen"));
   }
   if (!sweep.values.empty()) {
     found.swept = sweep.parameter;

@@ -126,8 +126,12 @@ void ExternalOf::addTouches(std::size_t member, std::size_t segment, External& e
     follower.touches = touchesOf(body, segment);
     follower.known = segment + 1;
   }
-  const Touches& touches = follower.touches;
-  external.lies = external.lies || touches.immovable || touches.other || !touches.walls.empty();
+  Touches& touches = follower.touches;
+  external.lies = external.lies || touches.immovable || !touches.walls.empty();
+  if (!external.lies) {  // the others are looked at last: they may be many
+    touches.other = touches.other ? touches.other : touchesOther(body, segment);
+    external.lies = *touches.other;
+  }
   external.liesOnImmovable = external.liesOnImmovable || touches.immovable;
   for (const std::size_t wall : touches.walls) {
     addWall(wall, touching(run_.world.bodies[body].material, run_.world.walls[wall].material).friction,
@@ -182,36 +186,57 @@ bool ExternalOf::meets(const AuditBox& box, double near, std::size_t other, doub
          separationOf(box, auditBox(body, there.pose)) <= apart;
 }
 
+Pose ExternalOf::placeOf(std::size_t body, std::size_t segment, double elapsed) const {
+  return stateAt(run_.tracks[body].segments[segment].motion, run_.world.bodies[body].mass, elapsed).pose;
+}
+
+// [s] A step may have been cut: where its polynomial ends the body never was.
+double ExternalOf::lengthOf(std::size_t body, std::size_t segment) const {
+  const std::vector<Segment>& segments = run_.tracks[body].segments;
+  return (segment + 1 < segments.size() ? segments[segment + 1].start : run_.settings.duration) -
+         segments[segment].start;
+}
+
 ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment) const {
   const Body& owner = run_.world.bodies[body];
   const double near = touchingDistance(owner, run_.settings) + wayWithin(body, segment);
-  const std::vector<Segment>& segments = run_.tracks[body].segments;
-  const double start = segments[segment].start;
-  // A step may have been cut: where its polynomial ends the body never was.
-  const double length =
-      (segment + 1 < segments.size() ? segments[segment + 1].start : run_.settings.duration) - start;
-  // Without springs nothing takes such steps but what touches.
-  Touches touches{.other = group_.springs.empty()};
-  for (const double elapsed : {0.0, length}) {
-    const Pose place = stateAt(segments[segment].motion, owner.mass, elapsed).pose;
+  Touches touches;
+  for (const double elapsed : {0.0, lengthOf(body, segment)}) {
+    const Pose place = placeOf(body, segment, elapsed);
     const AuditBox box = auditBox(owner, place);
     for (std::size_t wall = 0; wall < run_.world.walls.size(); ++wall) {
       if (separationOf(box, run_.world.walls[wall]) <= near) {
         touches.walls.push_back(wall);
       }
     }
-    for (const std::size_t fixed : immovables_) {
-      const Body& other = run_.world.bodies[fixed];
-      const double reach = radiusOf(owner) + radiusOf(other) + near;
-      const Pose& where = other.initial.pose;
-      touches.immovable = touches.immovable || ((place.position - where.position).norm() <= reach &&
-                                                separationOf(box, auditBox(other, where)) <= near);
-    }
-    for (const std::size_t other : group_.bodies) {
-      touches.other = touches.other || (other != body && meets(box, near, other, start + elapsed));
-    }
+    touches.immovable =
+        touches.immovable || std::any_of(immovables_.begin(), immovables_.end(), [&](std::size_t fixed) {
+          const Body& other = run_.world.bodies[fixed];
+          const double reach = radiusOf(owner) + radiusOf(other) + near;
+          const Pose& where = other.initial.pose;
+          return (place.position - where.position).norm() <= reach &&
+                 separationOf(box, auditBox(other, where)) <= near;
+        });
   }
   return touches;
+}
+
+bool ExternalOf::touchesOther(std::size_t body, std::size_t segment) const {
+  if (group_.springs.empty()) {
+    return true;  // nothing else takes such steps but what touches
+  }
+  const Body& owner = run_.world.bodies[body];
+  const double near = touchingDistance(owner, run_.settings) + wayWithin(body, segment);
+  const double start = run_.tracks[body].segments[segment].start;
+  for (const double elapsed : {0.0, lengthOf(body, segment)}) {
+    const AuditBox box = auditBox(owner, placeOf(body, segment, elapsed));
+    if (std::any_of(group_.bodies.begin(), group_.bodies.end(), [&](std::size_t other) {
+          return other != body && meets(box, near, other, start + elapsed);
+        })) {
+      return true;
+    }
+  }
+  return false;
 }
 
 void ExternalOf::addImpacts(double time, External& external) {

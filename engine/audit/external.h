@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "audit/cone.h"
@@ -44,9 +45,12 @@ class ExternalOf {
   struct Touches {
     std::vector<std::size_t> walls = {};
     bool immovable = false;
-    bool other = false;  // of the group
+    std::optional<bool> other = {};  // of the group; unknown until asked for
   };
   Touches touchesOf(std::size_t body, std::size_t segment) const;
+  bool touchesOther(std::size_t body, std::size_t segment) const;
+  Pose placeOf(std::size_t body, std::size_t segment, double elapsed) const;
+  double lengthOf(std::size_t body, std::size_t segment) const;
   bool meets(const AuditBox& box, double near, std::size_t other, double time) const;
   double wayWithin(std::size_t body, std::size_t segment) const;
 

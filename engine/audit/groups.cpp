@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <unordered_map>
 #include <variant>
@@ -101,16 +102,28 @@ bool mayLose(const Material& a, const Material& b) {
   return pair.restitution < 1 || pair.friction > 0;
 }
 
-// Restitution is the larger, and friction the geometric mean, of both: the least elastic and the roughest
-// body of the run decide.
-bool mayLose(const World& world, const ExchangeGroup& group) {
+/// How many bodies of a run are not fully elastic, and how many have friction.
+struct Lossy {
+  std::ptrdiff_t inelastic = 0;
+  std::ptrdiff_t rough = 0;
+};
+
+bool isInelastic(const Body& body) { return body.material.restitution < 1; }
+bool isRough(const Body& body) { return body.material.friction > 0; }
+
+Lossy lossyOf(const World& world) {
+  return {.inelastic = std::count_if(world.bodies.begin(), world.bodies.end(), isInelastic),
+          .rough = std::count_if(world.bodies.begin(), world.bodies.end(), isRough)};
+}
+
+// Restitution is the larger, and friction the geometric mean, of both: a body loses energy with any other
+// one of its kind.
+bool mayLose(const World& world, const Lossy& lossy, const ExchangeGroup& group) {
   return std::any_of(group.bodies.begin(), group.bodies.end(), [&](std::size_t member) {
-    const Material& own = world.bodies[member].material;
-    return std::any_of(world.walls.begin(), world.walls.end(),
-                       [&](const Wall& wall) { return mayLose(own, wall.material); }) ||
-           std::any_of(world.bodies.begin(), world.bodies.end(), [&](const Body& other) {
-             return &other != &world.bodies[member] && mayLose(own, other.material);
-           });
+    const Body& own = world.bodies[member];
+    return (isInelastic(own) && lossy.inelastic > 1) || (isRough(own) && lossy.rough > 1) ||
+           std::any_of(world.walls.begin(), world.walls.end(),
+                       [&](const Wall& wall) { return mayLose(own.material, wall.material); });
   });
 }
 
@@ -158,8 +171,9 @@ std::vector<ExchangeGroup> exchangeGroups(const Trajectory& run, const Samples& 
       groups[groupOf[hit]].impacts.push_back(k);
     }
   }
+  const Lossy lossy = lossyOf(run.world);
   for (ExchangeGroup& group : groups) {
-    group.mayLose = mayLose(run.world, group);
+    group.mayLose = mayLose(run.world, lossy, group);
   }
   return groups;
 }

@@ -196,7 +196,7 @@ Run Run::read(const std::filesystem::path& path) {
 }
 
 void Run::save(const std::filesystem::path& path) const {
-  translated(path.string(), [&] { writeFile(path, encodeTrajectory(data_->trajectory)); });
+  translated(path.string(), [&] { saveTrajectory(data_->trajectory, path); });
 }
 
 double Run::duration() const { return data_->trajectory.settings.duration; }

@@ -110,7 +110,7 @@ std::string simulateBlock(const Family& family, const RunRange& range, const Swe
       Trajectory trajectory = record(prepare(member.scene, {.threads = 1}).setup, stop);
       rows += outcomeRows(run, member, trajectory, audit(trajectory, settings.audit, stop));
       if (settings.keepRuns) {
-        writeFile(settings.folder / "runs" / (padded(k) + ".careen"), encodeTrajectory(trajectory));
+        saveTrajectory(trajectory, settings.folder / "runs" / (padded(k) + ".careen"));
       }
       if (settings.writeRun) {
         AtomicFolder folder(runFolder(settings, k));

@@ -6,9 +6,11 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "core/error.h"
@@ -23,21 +25,40 @@ namespace careen {
 class ArchiveWriter {
  public:
   static constexpr bool kReads = false;
+  using Sink = std::function<void(std::string_view)>;
+
+  /// Keeps all that is written.
+  ArchiveWriter() = default;
+  /// Hands it on in pieces, none of which ends within a number or a text.
+  explicit ArchiveWriter(Sink sink) : sink_(std::move(sink)) {}
 
   template <std::unsigned_integral Integer>
   void visit(const Integer& value) {
-    for (std::size_t i = 0; i < sizeof(Integer); ++i) {
-      bytes_.push_back(static_cast<char>(value >> (8 * i)));
+    if (sink_ && bytes_.size() >= kPiece) {
+      handOn();
     }
+    std::array<char, sizeof(Integer)> bytes;
+    for (std::size_t i = 0; i < sizeof(Integer); ++i) {
+      bytes[i] = static_cast<char>(value >> (8 * i));
+    }
+    bytes_.append(bytes.data(), bytes.size());
   }
   void visit(const double& value) { visit(std::bit_cast<std::uint64_t>(value)); }
   void visit(const std::string& text) {
     visit(static_cast<std::uint64_t>(text.size()));
     bytes_ += text;
   }
+  /// What has not been handed on.
   std::string& bytes() { return bytes_; }
+  void handOn() {
+    sink_(bytes_);
+    bytes_.clear();
+  }
 
  private:
+  static constexpr std::size_t kPiece = std::size_t{1} << 20U;
+
+  Sink sink_;
   std::string bytes_;
 };
 
@@ -46,7 +67,11 @@ class ArchiveReader {
  public:
   static constexpr bool kReads = true;
 
+  /// The next piece, whose bytes stay until the one after it is asked for; an empty one at the end.
+  using Source = std::function<std::string_view()>;
+
   ArchiveReader(std::string_view bytes, std::string_view name) : rest_(bytes), name_(name) {}
+  ArchiveReader(Source more, std::string_view name) : more_(std::move(more)), name_(name) {}
 
   template <std::unsigned_integral Integer>
   void visit(Integer& value) {
@@ -67,23 +92,29 @@ class ArchiveReader {
     visit(size);
     text = std::string(take(size));
   }
-  std::string_view rest() const { return rest_; }
-  bool atEnd() const { return rest_.empty(); }
-  /// Throws InputError: the file's `name`, "this trajectory file", what is wrong with it.
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(std::string(name_) + ": this trajectory file " + what);
-  }
-
- private:
+  /// So many bytes, as they are.
   std::string_view take(std::uint64_t count) {
-    if (count > rest_.size()) {
+    if (count > 0 && (atEnd() || count > rest_.size())) {
       fail("is cut short");
     }
     const std::string_view taken = rest_.substr(0, count);
     rest_.remove_prefix(count);
     return taken;
   }
+  std::string_view rest() const { return rest_; }
+  bool atEnd() {
+    if (rest_.empty() && more_) {
+      rest_ = more_();
+    }
+    return rest_.empty();
+  }
+  /// Throws InputError: the file's `name`, "this trajectory file", what is wrong with it.
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(std::string(name_) + ": this trajectory file " + what);
+  }
 
+ private:
+  Source more_;
   std::string_view rest_;
   std::string_view name_;
 };

@@ -24,8 +24,11 @@ class TrajectoryRecorder : public Recorder {
 
   void moves(BodyIndex body, double time, const Motion& motion) override {
     count(time);
-    trajectory_.tracks.at(static_cast<std::size_t>(body.value))
-        .segments.push_back({.start = time, .motion = motion});
+    std::vector<Segment>& segments = trajectory_.tracks.at(static_cast<std::size_t>(body.value)).segments;
+    if (segments.size() == segments.capacity()) {  // by a quarter: twice the room would be most of all memory
+      segments.reserve(segments.size() + segments.size() / 4 + 1);
+    }
+    segments.push_back({.start = time, .motion = motion});
   }
   void strikes(const Impact& impact) override {
     count(impact.time);

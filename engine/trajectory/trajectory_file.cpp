@@ -10,6 +10,7 @@
 #include "core/system/file.h"
 #include "trajectory/archive.h"
 #include "trajectory/compression.h"
+#include "trajectory/packed_steps.h"
 #include "trajectory/run_check.h"
 #include "trajectory/trajectory_format.h"
 
@@ -23,29 +24,56 @@ constexpr std::uint64_t kVersionWithoutCrowds = 4;  // the oldest that is read
 constexpr std::uint64_t kVersionWithoutLight = 5;
 constexpr std::uint64_t kVersionWithoutPlacement = 6;
 constexpr std::uint64_t kVersionWithoutResiduals = 7;
-constexpr std::uint64_t kVersionWithoutHorizon = 8;
+constexpr std::uint64_t kVersionInOnePiece = 8;
 
-std::uint64_t checksum(std::string_view bytes) {
-  Hash hash;
-  hash.add(bytes);
-  return hash.value();
+// A run since format version 9.
+template <class Archive>
+void visitPacked(Archive& archive, Visited<Archive, Trajectory> run) {
+  visitStart(archive, run);
+  std::uint64_t count = run.tracks.size();
+  archive.visit(count);
+  for (std::uint64_t k = 0; k < count; ++k) {
+    if constexpr (Archive::kReads) {
+      run.tracks.emplace_back();
+    }
+    visitPacked(archive, run.tracks[k]);
+  }
+  visitAll(archive, run.impacts);
 }
 
-/// What the file wraps: the record and the version of its format.
+// All but the hash of the last state, as that version has it.
+template <class Archive>
+void visitRecord(Archive& archive, Visited<Archive, Trajectory> run, std::uint64_t version) {
+  if (version > kVersionInOnePiece) {
+    visitPacked(archive, run);
+  } else {
+    visit(archive, run);
+  }
+  if (version > kVersionWithoutCrowds) {
+    visit(archive, run.settings.crowds);
+  }
+  if (version > kVersionWithoutLight) {
+    visitNames(archive, run.stage.picture.light);
+  }
+  if (version > kVersionWithoutPlacement) {
+    for (auto& body : run.world.bodies) {
+      visitPlacement(archive, body);
+    }
+    visitAll(archive, run.stage.parts);
+  }
+  if (version > kVersionWithoutResiduals) {
+    visitResiduals(archive, run.figures);
+  }
+  if (version > kVersionInOnePiece) {
+    visitHorizon(archive, run.figures);
+  }
+}
+
+/// What the file wraps: the record, packed, and the version of its format.
 struct Unwrapped {
   std::uint64_t version = 0;
-  std::string record;
+  std::string_view packed;
 };
-
-std::string unpacked(ArchiveReader& reader) {
-  std::uint64_t size = 0;
-  reader.visit(size);
-  std::optional<std::string> record = decompressed(reader.rest(), size);
-  if (!record) {
-    reader.fail("is damaged: its record cannot be unpacked");
-  }
-  return std::move(*record);
-}
 
 Unwrapped unwrapped(const std::string& bytes, const std::string& name) {
   ArchiveReader reader(bytes, name);
@@ -66,61 +94,84 @@ Unwrapped unwrapped(const std::string& bytes, const std::string& name) {
   }
   std::uint64_t expected = 0;
   ArchiveReader(std::string_view(bytes).substr(body.size()), name).visit(expected);
-  if (checksum(body) != expected) {
+  Hash checksum;
+  checksum.add(body);
+  if (checksum.value() != expected) {
     reader.fail("is cut short or damaged: its checksum does not match");
   }
-  file.record = unpacked(reader);
+  file.packed = reader.rest();
   return file;
 }
 
+/// Unpacks a record piece by piece.
+class RecordPieces {
+ public:
+  RecordPieces(const Unwrapped& file, const std::string& name)
+      : reader_(file.packed, name), inOnePiece_(file.version <= kVersionInOnePiece) {}
+
+  std::string_view next() {
+    if (reader_.atEnd()) {
+      return {};
+    }
+    std::uint64_t size = 0;
+    std::uint64_t packedSize = 0;
+    reader_.visit(size);
+    if (inOnePiece_) {
+      packedSize = reader_.rest().size();
+    } else {
+      reader_.visit(packedSize);
+    }
+    std::optional<std::string> piece = decompressed(reader_.take(packedSize), size);
+    if (!piece || piece->empty()) {
+      reader_.fail("is damaged: its record cannot be unpacked");
+    }
+    piece_ = std::move(*piece);
+    return piece_;
+  }
+
+ private:
+  ArchiveReader reader_;
+  bool inOnePiece_;
+  std::string piece_;
+};
+
 }  // namespace
 
-std::string encodeTrajectory(const Trajectory& trajectory) {
-  ArchiveWriter record;
-  visit(record, trajectory);
-  visit(record, trajectory.settings.crowds);
-  visitNames(record, trajectory.stage.picture.light);
-  for (const Body& body : trajectory.world.bodies) {
-    visitPlacement(record, body);
-  }
-  visitAll(record, trajectory.stage.parts);
-  visitResiduals(record, trajectory.figures);
-  visitHorizon(record, trajectory.figures);
-  record.visit(trajectory.stateHash());
-  ArchiveWriter file;
+void writeTrajectory(const Trajectory& trajectory, const TextSink& sink) {
+  Hash checksum;
+  ArchiveWriter file([&](std::string_view bytes) {
+    checksum.add(bytes);
+    sink(bytes);
+  });
   file.bytes() += kFileMagic;
   file.visit(kVersion);
-  file.visit(static_cast<std::uint64_t>(record.bytes().size()));
-  file.bytes() += compressed(record.bytes());
-  file.visit(checksum(file.bytes()));
-  return std::move(file.bytes());
+  ArchiveWriter record([&](std::string_view piece) {
+    file.visit(static_cast<std::uint64_t>(piece.size()));
+    file.visit(compressed(piece));
+  });
+  visitRecord(record, trajectory, kVersion);
+  record.visit(trajectory.stateHash());
+  record.handOn();
+  file.handOn();
+  ArchiveWriter last;
+  last.visit(checksum.value());
+  sink(last.bytes());
+}
+
+std::string encodeTrajectory(const Trajectory& trajectory) {
+  std::string bytes;
+  writeTrajectory(trajectory, [&](std::string_view piece) { bytes += piece; });
+  return bytes;
 }
 
 bool looksLikeTrajectory(const std::string& bytes) { return bytes.starts_with(kFileMagic); }
 
 Trajectory decodeTrajectory(const std::string& bytes, const std::string& name) {
   const Unwrapped file = unwrapped(bytes, name);
-  ArchiveReader reader(file.record, name);
+  RecordPieces pieces(file, name);
+  ArchiveReader reader([&] { return pieces.next(); }, name);
   Trajectory trajectory;
-  visit(reader, trajectory);
-  if (file.version > kVersionWithoutCrowds) {
-    visit(reader, trajectory.settings.crowds);
-  }
-  if (file.version > kVersionWithoutLight) {
-    visitNames(reader, trajectory.stage.picture.light);
-  }
-  if (file.version > kVersionWithoutPlacement) {
-    for (Body& body : trajectory.world.bodies) {
-      visitPlacement(reader, body);
-    }
-    visitAll(reader, trajectory.stage.parts);
-  }
-  if (file.version > kVersionWithoutResiduals) {
-    visitResiduals(reader, trajectory.figures);
-  }
-  if (file.version > kVersionWithoutHorizon) {
-    visitHorizon(reader, trajectory.figures);
-  }
+  visitRecord(reader, trajectory, file.version);
   std::string stateHash;
   reader.visit(stateHash);
   if (!reader.atEnd()) {
@@ -140,6 +191,12 @@ Trajectory decodeTrajectory(const std::string& bytes, const std::string& name) {
 
 Trajectory readTrajectory(const std::filesystem::path& path) {
   return decodeTrajectory(readFile(path), path.string());
+}
+
+void saveTrajectory(const Trajectory& trajectory, const std::filesystem::path& path) {
+  AtomicFile file(path);
+  writeTrajectory(trajectory, [&](std::string_view bytes) { file.write(bytes); });
+  file.commit();
 }
 
 }  // namespace careen

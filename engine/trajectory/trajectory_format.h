@@ -428,8 +428,9 @@ void visit(Archive& archive, Visited<Archive, RunSettings> settings) {
   archive.visit(settings.duration);
 }
 
+/// What a run starts from.
 template <class Archive>
-void visit(Archive& archive, Visited<Archive, Trajectory> run) {
+void visitStart(Archive& archive, Visited<Archive, Trajectory> run) {
   archive.visit(run.sceneText);
   std::string sceneHash = run.sceneHash();
   archive.visit(sceneHash);
@@ -438,6 +439,11 @@ void visit(Archive& archive, Visited<Archive, Trajectory> run) {
   visit(archive, run.world);
   visit(archive, run.stage);
   visitAll(archive, run.plan.items);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Trajectory> run) {
+  visitStart(archive, run);
   visitAll(archive, run.tracks);
   visitAll(archive, run.impacts);
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "support/exact_runs.h"
 
 namespace careen {
@@ -91,6 +93,22 @@ TEST(External, whatRestsOnAnImmovableBodyIsKnown) {
   run.tracks.push_back({.segments = {{.start = 0, .motion = Rest{{.position = Vec3(0, 0, -2)}}}}});
   run.tracks[0].segments = {{.start = 0, .motion = Rest{}}};
   EXPECT_TRUE(over(run, 1).liesOnImmovable);
+}
+
+// Springs move bodies by steps too, which then need not touch: two cubes of 2 m at rest beside each other.
+TEST(External, whatSpringsJoinLiesOnlyWhereItTouches) {
+  const auto lies = [](double apart) {
+    Trajectory run = drifting(Vec3::Zero());
+    run.world.bodies.push_back(box("other", Vec3::Ones(), 3, Vec3(apart, 0, 0)));
+    run.world.springs = {{.from = {.body = 0}, .to = {.body = 1}, .stiffness = 1}};
+    run.tracks[0].segments = {{.start = 0, .motion = Rest{}}};
+    run.tracks.push_back({.segments = {{.start = 0, .motion = Rest{{.position = Vec3(apart, 0, 0)}}}}});
+    const ExchangeGroup group{.bodies = {0, 1}, .springs = {0}, .impacts = {}};
+    ExternalOf following(run, group, Vec3::Zero());
+    return std::pair(following.until(0).lies, following.until(1).lies);
+  };
+  EXPECT_EQ(lies(2), std::pair(true, true));
+  EXPECT_EQ(lies(2.5), std::pair(false, false));
 }
 
 }  // namespace

@@ -86,5 +86,18 @@ TEST(Groups, loseEnergyIfAnyPairMay) {
   EXPECT_TRUE(exchangeGroups(run, Samples(run, {0, 1}))[2].mayLose);
 }
 
+TEST(Groups, noBodyLosesWithItself) {
+  Trajectory run = fourCubes();
+  for (Body& body : run.world.bodies) {
+    body.material = {.restitution = 1, .friction = 0};
+  }
+  run.world.bodies[1].material = {.restitution = 0.5, .friction = 0.1};
+  EXPECT_FALSE(exchangeGroups(run, Samples(run, {0, 1}))[1].mayLose);
+  run.world.bodies[3].material.restitution = 0.9;  // max(0.5, 0.9) < 1
+  EXPECT_TRUE(exchangeGroups(run, Samples(run, {0, 1}))[1].mayLose);
+  EXPECT_TRUE(exchangeGroups(run, Samples(run, {0, 1}))[3].mayLose);
+  EXPECT_FALSE(exchangeGroups(run, Samples(run, {0, 1}))[0].mayLose);
+}
+
 }  // namespace
 }  // namespace careen

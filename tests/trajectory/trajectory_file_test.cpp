@@ -2,16 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/system/file.h"
 #include "physics/world/given_inertia.h"
 #include "physics/world/method.h"
 #include "support/exact_runs.h"
 #include "support/trajectories.h"
 #include "trajectory/compression.h"
+#include "trajectory/trajectory_format.h"
 
 namespace careen {
 namespace {
@@ -25,8 +30,9 @@ std::string messageOf(const std::string& bytes) {
   return "accepted";
 }
 
-// Where the packed record begins: behind the magic word, the version and the record's size.
-constexpr std::size_t kRecord = 24;
+// Where the first piece of the record begins: behind the magic word and the version.
+constexpr std::size_t kRecord = 16;
+constexpr std::size_t kSizes = 16;  // before each piece
 
 std::uint64_t numberAt(const std::string& bytes, std::size_t at) {
   std::uint64_t number = 0;
@@ -52,15 +58,21 @@ std::string withRightChecksum(std::string bytes) {
   return bytes + inBytes(hash.value());
 }
 
+// Of a run that is one piece.
 std::string recordOf(const std::string& bytes) {
-  return decompressed(bytes.substr(kRecord, bytes.size() - 8 - kRecord), numberAt(bytes, kRecord - 8))
+  return decompressed(bytes.substr(kRecord + kSizes, bytes.size() - 8 - kRecord - kSizes),
+                      numberAt(bytes, kRecord))
       .value();
 }
 
-// The file with another record, and with size and checksum that fit it.
+std::string pieceOf(const std::string& record) {
+  const std::string packed = compressed(record);
+  return inBytes(record.size()) + inBytes(packed.size()) + packed;
+}
+
+// The file with another record, and with sizes and a checksum that fit it.
 std::string withRecord(const std::string& bytes, const std::string& record) {
-  return withRightChecksum(bytes.substr(0, kRecord - 8) + inBytes(record.size()) + compressed(record) +
-                           "checksum");
+  return withRightChecksum(bytes.substr(0, kRecord) + pieceOf(record) + "checksum");
 }
 
 TEST(TrajectoryFile, bringsBackARunOfEveryMethod) {
@@ -137,6 +149,71 @@ TEST(TrajectoryFile, bringsBackTheMeshesThatAreDrawn) {
   EXPECT_NE(messageOf(encodeTrajectory(run)).find("a mesh to be drawn"), std::string::npos);
   run.stage.parts[0].body = 7;
   EXPECT_NE(messageOf(encodeTrajectory(run)).find("an unknown body"), std::string::npos);
+}
+
+// Steps of a crowd's member that go on from each other; one of them is on no grid.
+TEST(TrajectoryFile, bringsBackStepsOfCrowds) {
+  Trajectory run = driftAndReturn();
+  run.tracks[1].segments.clear();
+  for (int k = 0; k < 4; ++k) {
+    CrowdStep step{.duration = 0.25};
+    step.position = {Vec3(0, 5, 0), Vec3(0, 0, k == 2 ? 0.1 : 0x1p-30), Vec3::Zero(), Vec3(0, 0, -0.0)};
+    step.worldFromBody.fill(Vec4::Zero());
+    step.worldFromBody[0] = Vec4(0, 0, 0, 1);
+    run.tracks[1].segments.push_back({.start = 0.25 * k, .motion = step});
+  }
+  const std::string bytes = encodeTrajectory(run);
+  const Trajectory back = decodeTrajectory(bytes, "run.careen");
+  EXPECT_EQ(encodeTrajectory(back), bytes);
+  ASSERT_EQ(back.tracks[1].segments.size(), 4U);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto& step = std::get<CrowdStep>(back.tracks[1].segments[k].motion);
+    EXPECT_EQ(step.position, std::get<CrowdStep>(run.tracks[1].segments[k].motion).position);
+    EXPECT_TRUE(std::signbit(step.position[3].z()));
+    EXPECT_EQ(back.tracks[1].segments[k].start, 0.25 * static_cast<double>(k));
+  }
+}
+
+// 12,001 impacts of 89 bytes are more than a piece of 1 MiB has.
+TEST(TrajectoryFile, bringsBackARunOfManyPieces) {
+  Trajectory run = driftAndReturn();
+  run.impacts.resize(12'001, run.impacts.front());
+  for (std::size_t k = 0; k < run.impacts.size(); ++k) {
+    run.impacts[k].impulse = std::sqrt(static_cast<double>(k));
+  }
+  const std::string bytes = encodeTrajectory(run);
+  EXPECT_GE(numberAt(bytes, kRecord), std::size_t{1} << 20U);
+  EXPECT_LT(numberAt(bytes, kRecord), (std::size_t{1} << 20U) + 8);
+  const Trajectory back = decodeTrajectory(bytes, "run.careen");
+  ASSERT_EQ(back.impacts.size(), run.impacts.size());
+  EXPECT_EQ(back.impacts.back().impulse, run.impacts.back().impulse);
+  EXPECT_EQ(encodeTrajectory(back), bytes);
+}
+
+// Format version 8: the record in one piece without its packed size, and all segments in full.
+TEST(TrajectoryFile, readsWhatVersion8Wrote) {
+  const Trajectory run = driftAndReturn();
+  ArchiveWriter record;
+  visit(record, run);
+  visit(record, run.settings.crowds);
+  visitNames(record, run.stage.picture.light);
+  for (const Body& body : run.world.bodies) {
+    visitPlacement(record, body);
+  }
+  visitAll(record, run.stage.parts);
+  visitResiduals(record, run.figures);
+  record.visit(run.stateHash());
+  const std::string bytes = withRightChecksum("careen\r\n" + inBytes(8) + inBytes(record.bytes().size()) +
+                                              compressed(record.bytes()) + "checksum");
+  EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
+}
+
+TEST(TrajectoryFile, savesWhatCanBeReadAgain) {
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "saved.careen";
+  saveTrajectory(driftAndReturn(), path);
+  EXPECT_EQ(readFile(path), encodeTrajectory(driftAndReturn()));
+  EXPECT_EQ(readTrajectory(path).stateHash(), driftAndReturn().stateHash());
+  std::filesystem::remove(path);
 }
 
 TEST(TrajectoryFile, refusesAFileCutShortAnywhere) {

@@ -50,6 +50,11 @@ class Bodies {
   std::span<const int> joinedTo(int rank) const { return springs_[static_cast<std::size_t>(rank)]; }
   /// All that it can touch in its cell or those around it, sorted.
   std::vector<int> around(int rank) const;
+  /// Whether does(rank) is true of any of them.
+  template <class Does>
+  bool anyAround(int rank, const Does& does) const {
+    return neighbors_.anyCandidate(rank, does);
+  }
 
   /// All that may get into that box [m] within that time [s] from `time` on, not longer ago than that, and
   /// perhaps others; sorted.

@@ -66,9 +66,8 @@ bool meetsWithin(const Bodies& bodies, const CrowdGroup& group, const Mover& out
 /// Whether any member in the cells around that body does that.
 template <class Does>
 bool anyMember(const Bodies& bodies, const CrowdGroup& group, int rank, const Does& does) {
-  const std::vector<int> around = bodies.around(rank);
-  return std::any_of(around.begin(), around.end(),
-                     [&](int candidate) { return group.has(bodies[candidate]) && does(bodies[candidate]); });
+  return bodies.anyAround(
+      rank, [&](int candidate) { return group.has(bodies[candidate]) && does(bodies[candidate]); });
 }
 
 }  // namespace

@@ -52,10 +52,15 @@ struct Polynomial {
   Vector value;
   Vector slope;
 };
-template <class Vector>
-Polynomial<Vector> evaluate(const std::array<Vector, 6>& coefficients, double s) {
-  Polynomial<Vector> at{coefficients[5], Vector::Zero()};
-  for (std::size_t k = 5; k-- > 0;) {
+template <class Vector, std::size_t kCount>
+Polynomial<Vector> evaluate(const std::array<Vector, kCount>& coefficients, double s) {
+  constexpr std::size_t kLast = 5;
+  // Of a cubic the coefficients beyond are 0, and not −0.
+  Polynomial<Vector> at{Vector::Zero(), Vector::Zero()};
+  if constexpr (kCount > kLast) {
+    at.value = coefficients[kLast];
+  }
+  for (std::size_t k = std::min(kCount, kLast); k-- > 0;) {
     at.slope = at.slope * s + at.value;
     at.value = at.value * s + coefficients[k];
   }
@@ -75,13 +80,18 @@ BodyState stateOf(const Polynomial<Vec3>& position, const Polynomial<Vec4>& turn
           .angularMomentum = angularMomentum(mass, columns, omega)};
 }
 
-BodyState stateIn(const ContactStep& step, const MassProperties& mass, double elapsed) {
+template <class Step>
+BodyState stateWithin(const Step& step, const MassProperties& mass, double elapsed) {
   const double s = elapsed / step.duration;
   return stateOf(evaluate(step.position, s), evaluate(step.worldFromBody, s), step.duration, mass);
 }
 
+BodyState stateIn(const ContactStep& step, const MassProperties& mass, double elapsed) {
+  return stateWithin(step, mass, elapsed);
+}
+
 BodyState stateIn(const CrowdStep& step, const MassProperties& mass, double elapsed) {
-  return stateIn(asContactStep(step), mass, elapsed);
+  return stateWithin(step, mass, elapsed);
 }
 
 // Cubic Hermite interpolation between values `from` and `to` with slopes `rateFrom` and `rateTo`, by s.
@@ -89,9 +99,9 @@ template <class Vector>
 Polynomial<Vector> cubic(const Vector& from, const Vector& rateFrom, const Vector& to, const Vector& rateTo,
                          double s) {
   const Vector way = to - from;
-  return evaluate<Vector>({from, rateFrom, 3 * way - 2 * rateFrom - rateTo, rateFrom + rateTo - 2 * way,
-                           Vector::Zero(), Vector::Zero()},
-                          s);
+  return evaluate<Vector, 6>({from, rateFrom, 3 * way - 2 * rateFrom - rateTo, rateFrom + rateTo - 2 * way,
+                              Vector::Zero(), Vector::Zero()},
+                             s);
 }
 
 BodyState stateIn(const SampledStep& step, const MassProperties& mass, double elapsed) {

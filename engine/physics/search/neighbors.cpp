@@ -116,16 +116,10 @@ void Neighbors::findCandidates(Key body, std::vector<Key>& candidates) const {
     }
   } else {
     candidates.assign(large_.begin(), large_.end());
-    for (std::int64_t x = -1; x <= 1; ++x) {
-      for (std::int64_t y = -1; y <= 1; ++y) {
-        for (std::int64_t z = -1; z <= 1; ++z) {
-          const auto found = cells_.find({place.cell[0] + x, place.cell[1] + y, place.cell[2] + z});
-          if (found != cells_.end()) {
-            candidates.insert(candidates.end(), found->second.begin(), found->second.end());
-          }
-        }
-      }
-    }
+    anyAround(place.cell, [&](const std::vector<Key>& filed) {
+      candidates.insert(candidates.end(), filed.begin(), filed.end());
+      return false;
+    });
   }
   std::erase(candidates, body);
   std::sort(candidates.begin(), candidates.end());

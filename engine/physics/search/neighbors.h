@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -51,6 +52,19 @@ class Neighbors {
   /// All bodies it can touch before either changes cell: sorted, itself excluded. Large bodies are candidates
   /// of all and have all as candidates.
   void findCandidates(Key body, std::vector<Key>& candidates) const;
+  /// Whether does(key) is true of any of them; asked in no order, and not of those after the first.
+  template <class Does>
+  bool anyCandidate(Key body, const Does& does) const {
+    const auto asks = [&](Key other) { return other != body && does(other); };
+    const Place& place = places_.at(body);
+    return place.filed ? std::any_of(large_.begin(), large_.end(), asks) ||
+                             anyAround(place.cell,
+                                       [&](const std::vector<Key>& filed) {
+                                         return std::any_of(filed.begin(), filed.end(), asks);
+                                       })
+                       : std::any_of(places_.begin(), places_.end(),
+                                     [&](const auto& each) { return asks(each.first); });
+  }
 
   /// All bodies whose spheres may reach into that box [m], none if it is empty: sorted. Costs as many cells
   /// as lie in it, or all bodies if these are fewer.
@@ -76,6 +90,21 @@ class Neighbors {
   struct CellHash {
     std::size_t operator()(const Cell& cell) const;
   };
+  /// Whether does(keys) is true of those in a cell or one beside it.
+  template <class Does>
+  bool anyAround(const Cell& cell, const Does& does) const {
+    for (std::int64_t x = -1; x <= 1; ++x) {
+      for (std::int64_t y = -1; y <= 1; ++y) {
+        for (std::int64_t z = -1; z <= 1; ++z) {
+          const auto found = cells_.find({cell[0] + x, cell[1] + y, cell[2] + z});
+          if (found != cells_.end() && does(found->second)) {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
   /// [m] from `position` to what is 1/16 of an edge outside `cell`; negative beyond.
   double room(const Vec3& position, const Cell& cell) const;
   void file(Key body, const Cell& cell);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/math/rotation.h"
 #include "physics/motion/listing1.h"
 #include "support/article_equations.h"
@@ -103,6 +105,24 @@ TEST(Motion, betweenRowsOfATableThatDisagreeIsDefined) {
       EXPECT_LT((state.pose.worldFromBody * state.pose.worldFromBody.transpose() - Mat3::Identity()).norm(),
                 1e-12);
     }
+  }
+}
+
+// Bit for bit what the polynomial of degree 5 with zeros has, signs of zero too.
+TEST(Motion, ofACrowdIsThatOfItsCubics) {
+  CrowdStep step{.duration = 0.3};
+  step.position = {Vec3(1, -0.0, 3), Vec3(0.2, -0.0, -0.1), Vec3(0.01, -0.0, 0.3), Vec3(-0.02, -0.0, 0.1)};
+  step.worldFromBody = {Vec4(0, 0, 0, 1), Vec4(0.1, -0.2, 0.05, 0), Vec4(0, 0.01, -0.0, 0.02), Vec4::Zero()};
+  const MassProperties mass = solidBox(Vec3(0.1, 0.2, 0.3), 2);
+  for (const double elapsed : {0.0, 0.1, 0.3}) {
+    const BodyState state = stateAt(step, mass, elapsed);
+    const BodyState full = stateAt(asContactStep(step), mass, elapsed);
+    EXPECT_EQ(state.pose.position, full.pose.position);
+    EXPECT_EQ(std::signbit(state.pose.position.y()), std::signbit(full.pose.position.y()));
+    EXPECT_EQ(std::signbit(state.velocity.y()), std::signbit(full.velocity.y()));
+    EXPECT_EQ(state.velocity, full.velocity);
+    EXPECT_EQ(state.pose.worldFromBody, full.pose.worldFromBody);
+    EXPECT_EQ(state.angularMomentum, full.angularMomentum);
   }
 }
 

@@ -165,6 +165,34 @@ TEST(Neighbors, fewHaveNoGridAndAreAllCandidates) {
   EXPECT_EQ(candidates, (std::vector<Neighbors::Key>{0, 1, 2, 4, 5, 6, 7}));
 }
 
+// Of a floor and 50 balls, and of few: nobody else, nobody twice, and nobody after the first.
+TEST(Neighbors, asksEachCandidateOnce) {
+  std::vector<Ball> all = balls(50, 2, 65);
+  all.push_back(
+      {.position = Vec3::Zero(), .velocity = Vec3::Zero(), .acceleration = Vec3::Zero(), .radius = 20});
+  for (const std::size_t count : {std::size_t{5}, all.size()}) {
+    const std::vector<Ball> some(all.end() - static_cast<std::ptrdiff_t>(count), all.end());
+    Neighbors grid = gridOf(some);
+    for (std::size_t k = 0; k < count; ++k) {
+      grid.insert(static_cast<int>(k), some[k].position, some[k].radius);
+    }
+    for (int k = 0; k < static_cast<int>(count); ++k) {
+      std::vector<Neighbors::Key> asked;
+      EXPECT_FALSE(grid.anyCandidate(k, [&](int key) {
+        asked.push_back(key);
+        return false;
+      }));
+      std::sort(asked.begin(), asked.end());
+      std::vector<Neighbors::Key> candidates;
+      grid.findCandidates(k, candidates);
+      EXPECT_EQ(asked, candidates);
+      int calls = 0;
+      EXPECT_TRUE(grid.anyCandidate(k, [&](int) { return ++calls == 1; }));
+      EXPECT_EQ(calls, 1);
+    }
+  }
+}
+
 // Cells of edge 1 (diameter 7/8). From 0.5 at 1 m/s the centre is 1/16 past the border at 0.5625 s; thrown up
 // at 4 m/s under 8 m/s² it comes to z = 1.5 only and leaves its cell 0 at 1 + 1/16, where 4t − 4t² = 0.5625:
 // t = 0.1691.
