@@ -399,8 +399,9 @@ TEST(ExactWorldCenter, aFixedBoxIsTheSameFromAnyOrigin) {
       const Recorded first = runBy(other, settings);
       const Recorded second = runBy(world, settings);
       // A crowd takes in what its spheres reach, which are others: its steps, of bounded error, are others.
-      EXPECT_LT(apart(other, first, second, 0.8),
-                when == CrowdSettings::When::kNever ? 1e-6 : 0.1)  // measured 0.073
+      // Up to .5 s the box strikes once or twice; after that small differences have grown.
+      const bool exact = when == CrowdSettings::When::kNever;
+      EXPECT_LT(apart(other, first, second, exact ? 0.8 : 0.5), exact ? 1e-6 : 0.05)
           << trial << ' ' << static_cast<int>(when);
     }
   }
