@@ -13,7 +13,7 @@ namespace {
 /// [1] of the fastest that strikes: to that a projection is found; and slower approach is not reflected.
 constexpr double kFound = 0x1p-20;
 constexpr double kReflected = 0x1p-7;
-constexpr double kRounded = 0x1p-10;  ///< [1] of the slowest impact, or the fastest: to that P is found
+constexpr double kRounded = 0x1p-10;  ///< [1] of the slowest impact: to that P is found
 /// Of points in reflections, and for each that is reached; what is left then is projected.
 constexpr std::size_t kVisits = 0x4000;
 constexpr std::size_t kVisitsOfPoint = 32;
@@ -116,7 +116,7 @@ void CrowdRestitution::listPoints(Reached& body) {
     return;
   }
   body.isListed = true;
-  const int place = body.place;  // bodies_ may grow
+  const int place = body.place;  // bodies_ grows, and `body` with it moves
   for (int n = firstSlot_[at(place)]; n < firstSlot_[at(place) + 1]; ++n) {
     listManifold(slots_[at(n)]);
   }
@@ -166,6 +166,7 @@ void CrowdRestitution::setVelocities(double (*impulseOf)(const Point&)) {
   for (Reached& body : bodies_) {
     body.velocity = body.omega = Vec3::Zero();
     body.changed = false;
+    body.stirred = 0;
   }
   changed_.clear();
   for (const Point& point : points_) {
@@ -199,11 +200,11 @@ void CrowdRestitution::findApproaching(std::vector<int>& approaching) const {
 // The points of bodies that were pushed, and these.
 void CrowdRestitution::findFront(std::span<const int> more) {
   front_.assign(more.begin(), more.end());
-  for (std::size_t n = 0; n < changed_.size(); ++n) {
-    const std::size_t body = at(changed_[n]);
-    bodies_[body].changed = false;
-    listPoints(bodies_[body]);
-    front_.insert(front_.end(), bodies_[body].points.begin(), bodies_[body].points.end());
+  for (const int body : changed_) {
+    Reached& reached = bodies_[at(body)];
+    reached.changed = false;
+    listPoints(reached);
+    front_.insert(front_.end(), bodies_[at(body)].points.begin(), bodies_[at(body)].points.end());
   }
   changed_.clear();
   std::sort(front_.begin(), front_.end());
@@ -241,6 +242,14 @@ void CrowdRestitution::guess(std::span<const int> ofManifold) {
   }
 }
 
+// One step of Gauss–Seidel; returns by how much [m/s].
+double CrowdRestitution::solveAt(Point& point) {
+  const double impulse = std::max(-speed(point) * point.mass, -point.ofPass);
+  point.ofPass += impulse;
+  push(point, impulse);
+  return std::fabs(impulse) / point.mass;
+}
+
 // Onto the motions in which none of the chosen approaches, by Gauss–Seidel.
 void CrowdRestitution::project(std::span<const int> chosen) {
   for (auto first = chosen.begin(); first != chosen.end();) {
@@ -254,12 +263,21 @@ void CrowdRestitution::project(std::span<const int> chosen) {
     largest = 0;
     visits_ += chosen.size();
     for (const int p : chosen) {
-      Point& point = points_[at(p)];
-      const double wanted = speed(point);
-      const double impulse = std::max(-wanted * point.mass, -point.ofPass);
-      point.ofPass += impulse;
-      push(point, impulse);
-      largest = std::max(largest, std::fabs(impulse) / point.mass);
+      largest = std::max(largest, solveAt(points_[at(p)]));
+    }
+  }
+}
+
+// Whether one of its bodies was pushed since the last sweep; in the first one all are.
+bool CrowdRestitution::isDue(const Point& point, int sweep) const {
+  return std::any_of(point.bodies.begin(), point.bodies.end(),
+                     [&](int body) { return body != kNobody && bodies_[at(body)].stirred >= sweep - 1; });
+}
+
+void CrowdRestitution::stir(const Point& point, int sweep) {
+  for (const int body : point.bodies) {
+    if (body != kNobody) {
+      bodies_[at(body)].stirred = sweep;
     }
   }
 }
@@ -268,9 +286,9 @@ void CrowdRestitution::project(std::span<const int> chosen) {
 void CrowdRestitution::projectAll(double most) {
   std::vector<int> chosen;
   std::vector<char> isChosen;
-  const auto choose = [&] {
+  const auto choose = [&](std::span<const int> more) {
     isChosen.resize(points_.size(), 0);
-    for (const int p : front_) {
+    for (const int p : more) {
       if (isChosen[at(p)] == 0 && points_[at(p)].mass > 0 && points_[at(p)].restitution <= most) {
         isChosen[at(p)] = 1;
         points_[at(p)].ofPass = 0;
@@ -278,24 +296,35 @@ void CrowdRestitution::projectAll(double most) {
       }
     }
   };
-  choose();
-  double largest = std::numeric_limits<double>::infinity();
-  for (int sweep = 0; sweep < kProjectionSweeps && largest > kRounded * slow_; ++sweep) {
-    largest = 0;
-    visits_ += chosen.size();
+  choose(front_);
+  std::vector<char> isReached;
+  for (Reached& body : bodies_) {
+    body.stirred = 0;
+  }
+  bool moves = true;
+  for (int sweep = 1; sweep <= kProjectionSweeps && moves; ++sweep) {
+    moves = false;
     for (const int p : chosen) {
       Point& point = points_[at(p)];
-      const double wanted = speed(point);
-      if (point.ofPass == 0 && wanted >= -slow_) {
+      if (!isDue(point, sweep) || (point.ofPass == 0 && speed(point) >= -slow_)) {
         continue;
       }
-      const double impulse = std::max(-wanted * point.mass, -point.ofPass);
-      point.ofPass += impulse;
-      push(point, impulse);
-      largest = std::max(largest, std::fabs(impulse) / point.mass);
+      ++visits_;
+      if (solveAt(point) > kRounded * slow_) {
+        stir(point, sweep);
+        moves = true;
+      }
     }
-    findFront({});
-    choose();
+    for (const int body : changed_) {
+      bodies_[at(body)].changed = false;
+      isReached.resize(bodies_.size(), 0);
+      if (isReached[at(body)] == 0) {
+        isReached[at(body)] = 1;
+        listPoints(bodies_[at(body)]);
+        choose(bodies_[at(body)].points);
+      }
+    }
+    changed_.clear();
   }
   for (const int p : chosen) {
     points_[at(p)].impulse += points_[at(p)].ofPass;
@@ -343,15 +372,21 @@ void CrowdRestitution::rub() {
       acting.push_back(static_cast<int>(p));
     }
   }
-  double largest = std::numeric_limits<double>::infinity();
-  for (int sweep = 0; sweep < kProjectionSweeps && largest > kRounded * fastest_; ++sweep) {
-    largest = 0;
+  for (Reached& body : bodies_) {
+    body.stirred = 0;
+  }
+  bool moves = true;
+  for (int sweep = 1; sweep <= kProjectionSweeps && moves; ++sweep) {
+    moves = false;
     for (const int p : acting) {
       Point& point = points_[at(p)];
-      const double impulse = std::max(-speed(point) * point.mass, -point.ofPass);
-      point.ofPass += impulse;
-      push(point, impulse);
-      largest = std::max({largest, std::fabs(impulse) / point.mass, point.friction > 0 ? rubAt(point) : 0.0});
+      if (!isDue(point, sweep)) {
+        continue;
+      }
+      if (std::max(solveAt(point), point.friction > 0 ? rubAt(point) : 0.0) > kRounded * slow_) {
+        stir(point, sweep);
+        moves = true;
+      }
     }
   }
   for (const int p : acting) {

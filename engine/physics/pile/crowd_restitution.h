@@ -50,6 +50,7 @@ class CrowdRestitution {
     Vec3 omega = Vec3::Zero();     ///< [rad/s] adds, e (G − P)
     bool isListed = false;         ///< `points` are all it has
     bool changed = false;
+    int stirred = 0;  ///< sweep in which it was pushed by more than matters
     std::vector<int> points = {};
 
     bool moves() const { return !velocity.isZero(0) || !omega.isZero(0); }
@@ -86,6 +87,9 @@ class CrowdRestitution {
   std::vector<double> levels() const;
   void reflect(double threshold);
   void guess(std::span<const int> ofManifold);
+  double solveAt(Point& point);
+  bool isDue(const Point& point, int sweep) const;
+  void stir(const Point& point, int sweep);
   void project(std::span<const int> chosen);
   void projectAll(double most);
   double rubAt(Point& point);
