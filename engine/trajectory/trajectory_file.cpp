@@ -65,7 +65,7 @@ void visitRecord(Archive& archive, Visited<Archive, Trajectory> run, std::uint64
     visitResiduals(archive, run.figures);
   }
   if (version > kVersionInOnePiece) {
-    visitHorizon(archive, run.figures);
+    visitTime(archive, run.figures.horizon);
   }
 }
 

@@ -11,8 +11,8 @@ namespace careen {
 /// Trajectory file (.careen), from `simulate` to `render`. Little-endian; doubles exact. In order: magic
 /// word, format version, the record in packed pieces of about 1 MB, each with its size before it and after
 /// packing, and a checksum of all before it. The record: scene text and its hash, method, step, duration, the
-/// run's figures, its world, stage and plan, every body's segments, the impacts, and the state hash. The file
-/// is never in memory as a whole.
+/// run's figures, its world, stage and plan, every body's segments, the impacts, and the state hash. Writing
+/// never has the file in memory as a whole; reading does.
 void writeTrajectory(const Trajectory& trajectory, const TextSink& sink);
 std::string encodeTrajectory(const Trajectory& trajectory);
 

@@ -399,12 +399,6 @@ void visitResiduals(Archive& archive, Visited<Archive, RunFigures> figures) {
   }
 }
 
-/// What they have since format version 9, stored after the rest.
-template <class Archive>
-void visitHorizon(Archive& archive, Visited<Archive, RunFigures> figures) {
-  visitTime(archive, figures.horizon);
-}
-
 template <class Archive>
 void visit(Archive& archive, Visited<Archive, CrowdSettings> crowds) {
   int when = static_cast<int>(crowds.when);

@@ -76,7 +76,7 @@ bool CrowdBounces::resolve() {
   }
   restitution_.resolve(kStrikesFrom * strongest * members_.h);
   return std::any_of(restitution_.bodies().begin(), restitution_.bodies().end(),
-                     [](const CrowdRestitution::Reached& body) { return body.moves(); });
+                     [](const ReachedBody& body) { return body.moves(); });
 }
 
 // Rows of what touches after the motion, or pushed in it. What is still open meets in a later step.
@@ -131,7 +131,7 @@ void CrowdBounces::solve(CrowdImpulses& impulses) {
 // impulses reached begins with those of the law, and of what does not strike also those by which it was
 // supported before.
 void CrowdBounces::beginFrom(PileSolver& solver) {
-  for (const CrowdRestitution::Point& point : restitution_.points()) {
+  for (const ReachedPoint& point : restitution_.points()) {
     const PileManifold& manifold = contacts_[point.slot];
     const PilePoint& from = manifold.points[at(point.index)];
     const PileSolver::RowView row = solver.row(from.row);
@@ -149,7 +149,7 @@ void CrowdBounces::beginFrom(PileSolver& solver) {
     }
     solver.wakeRow(from.row);
   }
-  for (const CrowdRestitution::Reached& body : restitution_.bodies()) {
+  for (const ReachedBody& body : restitution_.bodies()) {
     solver.velocity(body.place) -= body.velocity;
     solver.omega(body.place) -= body.omega;
   }
@@ -158,11 +158,11 @@ void CrowdBounces::beginFrom(PileSolver& solver) {
 // The law is that of the places of now, the impulses of the step are those of its start: of the energy that
 // these took from bodies that bounce together restitution gives back the same part as in the law.
 void CrowdBounces::giveBack(PileSolver& solver) const {
-  const std::span<const CrowdRestitution::Reached> bodies = restitution_.bodies();
+  const std::span<const ReachedBody> bodies = restitution_.bodies();
   DisjointSets together(bodies.size());
-  for (const CrowdRestitution::Point& point : restitution_.points()) {
+  for (const ReachedPoint& point : restitution_.points()) {
     const auto [a, b] = point.bodies;
-    if (a != CrowdRestitution::kNobody && b != CrowdRestitution::kNobody && point.whole != point.plastic) {
+    if (a != ReachedContacts::kNobody && b != ReachedContacts::kNobody && point.whole != point.plastic) {
       together.join(at(a), at(b));
     }
   }
@@ -170,14 +170,14 @@ void CrowdBounces::giveBack(PileSolver& solver) const {
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     addEnergies(bodies[k], solver, energies[together.root(k)]);
   }
-  for (const CrowdRestitution::Point& point : restitution_.points()) {
-    const int body = point.bodies[0] == CrowdRestitution::kNobody ? point.bodies[1] : point.bodies[0];
-    if (body != CrowdRestitution::kNobody) {
+  for (const ReachedPoint& point : restitution_.points()) {
+    const int body = point.bodies[0] == ReachedContacts::kNobody ? point.bodies[1] : point.bodies[0];
+    if (body != ReachedContacts::kNobody) {
       energies[together.root(at(body))].taken += point.taken;
     }
   }
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const CrowdRestitution::Reached& body = bodies[k];
+    const ReachedBody& body = bodies[k];
     if (!body.moves()) {
       continue;
     }
@@ -187,8 +187,7 @@ void CrowdBounces::giveBack(PileSolver& solver) const {
   }
 }
 
-void CrowdBounces::addEnergies(const CrowdRestitution::Reached& reached, const PileSolver& solver,
-                               Energies& all) const {
+void CrowdBounces::addEnergies(const ReachedBody& reached, const PileSolver& solver, Energies& all) const {
   if (!reached.moves()) {
     return;
   }

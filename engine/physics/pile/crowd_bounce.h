@@ -66,7 +66,7 @@ class CrowdBounces {
   void solve(CrowdImpulses& impulses);
   void beginFrom(PileSolver& solver);
   void giveBack(PileSolver& solver) const;
-  void addEnergies(const CrowdRestitution::Reached& reached, const PileSolver& solver, Energies& all) const;
+  void addEnergies(const ReachedBody& reached, const PileSolver& solver, Energies& all) const;
   void note(const PileSolver& solver);
 
   CrowdMembers& members_;

@@ -383,6 +383,7 @@ TEST(ExactWorldCenter, turnedAxesOfTheSameInertiaPileUpAlike) {
 // A fixed box does not turn, so that its origin may lie anywhere: contacts with it are the same.
 TEST(ExactWorldCenter, aFixedBoxIsTheSameFromAnyOrigin) {
   Random random(7);
+  int parted = 0;
   for (int trial = 0; trial < 12; ++trial) {
     World world = cubesInARoom(random, 1, 0.4);
     world.bodies[0].initial.pose.position = Vec3(0.1, 0.05, 1.2);
@@ -399,12 +400,15 @@ TEST(ExactWorldCenter, aFixedBoxIsTheSameFromAnyOrigin) {
       const Recorded first = runBy(other, settings);
       const Recorded second = runBy(world, settings);
       // A crowd takes in what its spheres reach, which are others: its steps, of bounded error, are others.
-      // Up to .5 s the box strikes once or twice; after that small differences have grown.
+      // Up to .5 s the box strikes once or twice; after that small differences have grown, in one trial to
+      // .28 m.
       const bool exact = when == CrowdSettings::When::kNever;
-      EXPECT_LT(apart(other, first, second, exact ? 0.8 : 0.5), exact ? 1e-6 : 0.05)
+      EXPECT_LT(apart(other, first, second, exact ? 0.8 : 0.5), exact ? 1e-6 : 0.05)  // measured 4e-8, 0.044
           << trial << ' ' << static_cast<int>(when);
+      parted += apart(other, first, second, 0.8) < 0.05 ? 0 : 1;
     }
   }
+  EXPECT_LE(parted, 1);
 }
 
 // What lies at rest on its faces stays: no contact is seen elsewhere than it is.
