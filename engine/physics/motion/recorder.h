@@ -25,6 +25,16 @@ struct Impact {
   double tangential = 0;  ///< [N s] magnitude of the friction impulse
 };
 
+/// Impulse that a joint of the world passed on at one moment: what acts on the body of its end `from`; on the
+/// other end acts the opposite, at the same point.
+struct JointImpulse {
+  double time = 0;              ///< [s]
+  int joint = 0;                ///< index in the world
+  Vec3 point = Vec3::Zero();    ///< [m] world
+  Vec3 linear = Vec3::Zero();   ///< [N s]
+  Vec3 angular = Vec3::Zero();  ///< [N m s] couple beside it
+};
+
 /// Receives what a method reports while it runs; the trajectory is a recorder that stores it.
 class Recorder {
  public:
@@ -33,6 +43,8 @@ class Recorder {
   virtual void moves(BodyIndex body, double time, const Motion& motion) = 0;
   /// In order of time.
   virtual void strikes(const Impact& impact) = 0;
+  /// Likewise.
+  virtual void passes(const JointImpulse& /*impulse*/) {}
   /// The run has come to this time [s]: told often, and even where nothing is recorded for long. Of bodies
   /// that are followed one after another, the mean.
   virtual void reaches(double /*time*/) {}

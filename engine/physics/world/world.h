@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/math/linear_algebra.h"
 #include "physics/world/body.h"
+#include "physics/world/joint.h"
 
 namespace careen {
 
@@ -45,6 +48,14 @@ struct World {
   std::vector<Wall> walls;
   std::vector<Spring> springs;
   std::optional<Drag> drag;
+  std::vector<Joint> joints;
+  std::vector<std::pair<int, int>> apart;  ///< bodies that pass through each other, the lesser first; sorted
 };
+
+/// Whether two bodies stop each other.
+inline bool mayTouch(const World& world, int a, int b) {
+  return world.apart.empty() || !std::binary_search(world.apart.begin(), world.apart.end(),
+                                                    std::pair(std::min(a, b), std::max(a, b)));
+}
 
 }  // namespace careen

@@ -1,0 +1,22 @@
+#include "physics/world/joint.h"
+
+#include <cmath>
+
+#include "core/math/elementary.h"
+
+namespace careen {
+
+double jointCoordinate(const Joint& joint, const Pose& from, const Pose& to) {
+  const Mat3 axes = joint.to.axesAt(to);
+  if (joint.kind == Joint::Kind::kSlider) {
+    return dot(axes.col(2), Vec3(joint.from.pointAt(from) - joint.to.pointAt(to)));
+  }
+  const Vec3 x = joint.from.axesAt(from).col(0);
+  const double angle = elementary::atan2(dot(x, axes.col(1)), dot(x, axes.col(0)));
+  const double middle =
+      std::isfinite(joint.lowest + joint.highest) ? 0.5 * (joint.lowest + joint.highest) : 0;
+  constexpr double kTurn = 2 * 3.141592653589793;
+  return angle > middle + 0.5 * kTurn ? angle - kTurn : angle <= middle - 0.5 * kTurn ? angle + kTurn : angle;
+}
+
+}  // namespace careen
