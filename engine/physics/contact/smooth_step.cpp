@@ -131,7 +131,8 @@ double SmoothStep::longest() {
   }
   for (std::size_t c = 0; c < system_.features().size(); ++c) {
     const double speed = system_.states()[c].slip.norm();
-    if (speed > 0 && system_.features()[c].kind != ContactFeature::Kind::kPointOnWall) {
+    if (speed > 0 && system_.features()[c].kind != ContactFeature::Kind::kPointOnWall &&
+        !system_.features()[c].isOfJoint()) {
       const auto a = static_cast<std::size_t>(system_.features()[c].a);
       const auto b = static_cast<std::size_t>(system_.features()[c].b);
       most = std::min(most, kMostSlip *

@@ -73,9 +73,11 @@ bool IslandGroup::takeStep(const Instant& time) {
   bool isSolved = true;
   try {
     // Not bounded by the end of the run, on which the motion must not depend.
-    const Island::Step step = island_->step(bodies_.longestStep(), bodies_.workLeft(ranks_, time));
+    const double release = bodies_.untilRelease(island_->joints(), time);
+    const Island::Step step =
+        island_->step(std::min(bodies_.longestStep(), release), bodies_.workLeft(ranks_, time));
     length_ = step.length;
-    end_ = step.end;
+    end_ = step.length < release ? step.end : Island::End::kChanges;
   } catch (const NumericalError&) {
     if (!bodies_.mayBeCrowd()) {
       throw;
@@ -111,6 +113,9 @@ void IslandGroup::addFeatures(const Encounter& encounter, std::vector<ContactFea
   };
   for (std::size_t c = 0; c < system.features().size(); ++c) {
     ContactFeature feature = system.features()[c];
+    if (feature.isOfJoint()) {
+      continue;  // the encounter has them
+    }
     const auto a = static_cast<std::size_t>(feature.a);
     const double within =
         kAligned * touchingWithin(boxAt(system.kinematics(a).pose, *system.bodies()[a].body));
@@ -153,6 +158,12 @@ void IslandGroup::recordImpacts() {
     bodies_[ranks_[i]].doubt.atLeast(bodies_[ranks_[i]].isHeld() ? 0 : bodies_.tolerance());
   }
   for (const GroupImpact& impact : island_->impacts()) {
+    if (impact.contact.joint != ImpactContact::kNoJoint) {
+      const auto a = static_cast<std::size_t>(impact.contact.a);
+      bodies_.pass(start_, island_->joints()[static_cast<std::size_t>(impact.contact.joint)], impact.contact,
+                   impact.share, bodies_[ranks_[a]].stateAt(start_).pose.position);
+      continue;
+    }
     touch(doubtful, impact.contact, impact.share);
     const auto rankOf = [&](int place) { return ranks_[static_cast<std::size_t>(place)]; };
     const ImpactContact& contact = impact.contact;

@@ -20,6 +20,9 @@ struct Wall {
   Material material;
 };
 
+/// The half-space of what has no extent, which nothing meets: the shape of the world where joints end in it.
+const Wall& nowhere();
+
 /// End of a spring: a point of a body, in the body's frame, or of the world.
 struct SpringEnd {
   std::optional<int> body;
