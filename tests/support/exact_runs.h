@@ -15,6 +15,7 @@ struct Recorded {
   RunFigures figures;
   std::vector<Impact> impacts;
   std::vector<JointImpulse> passed;
+  std::vector<JointEffort> driven;
   std::vector<std::vector<std::pair<double, Motion>>> motions;  // of each body
 
   /// Number of different impact times: a face that lands is one, its corners are four rows.
@@ -44,6 +45,7 @@ class Notes : public Recorder {
     run_.motions[static_cast<std::size_t>(body.value)].emplace_back(time, motion);
   }
   void strikes(const Impact& impact) override { run_.impacts.push_back(impact); }
+  void drives(const JointEffort& effort) override { run_.driven.push_back(effort); }
   void passes(const JointImpulse& impulse) override { run_.passed.push_back(impulse); }
 
  private:

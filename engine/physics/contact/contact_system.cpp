@@ -71,7 +71,7 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
   free_.resize(inverseMass_.size());
   forces_.setBodies(inverseMass_);
   forces_.contacts().resize(features_.size());
-  if (!world.springs.empty() || world.drag) {
+  if (hasVaryingLoads(world)) {
     for (const Body& body : world.bodies) {
       worldStates_.push_back(body.initial);
     }

@@ -25,7 +25,7 @@ constexpr double kWorkOfChange = 240;
 // [s] In which springs move a body by the tolerance from the start; infinite if none pulls.
 double timeUnderSprings(const World& world, double tolerance) {
   double time = kInfinity;
-  if (world.springs.empty()) {
+  if (!hasSprings(world)) {
     return time;
   }
   for (const double acceleration : accelerationsAtStart(world)) {
@@ -221,6 +221,8 @@ bool Island::mayLose() const {
   return timeSteps_ || world_.drag ||
          std::any_of(world_.springs.begin(), world_.springs.end(),
                      [](const Spring& spring) { return spring.damping > 0; }) ||
+         std::any_of(world_.joints.begin(), world_.joints.end(),
+                     [](const Joint& joint) { return joint.damping > 0; }) ||
          std::any_of(features.begin(), features.end(),
                      [](const ContactFeature& feature) { return feature.material.friction > 0; });
 }

@@ -7,6 +7,7 @@
 
 #include "physics/contact/three_at.h"
 #include "physics/motion/hermite_step.h"
+#include "physics/world/forces.h"
 
 namespace careen {
 namespace {
@@ -310,7 +311,7 @@ bool SmoothStep::isMovedByCorrection() const {
 }
 
 bool SmoothStep::gainsEnergy() const {
-  if (!world_.springs.empty()) {
+  if (hasSprings(world_)) {
     return false;
   }
   double motion = 0;  // [J] before and after

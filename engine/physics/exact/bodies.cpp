@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/names.h"
 #include "physics/contact/island.h"
+#include "physics/exact/controlled_world.h"
 #include "physics/exact/next_contact.h"
 #include "physics/motion/hermite_step.h"
 
@@ -260,14 +261,18 @@ void Bodies::pass(const Instant& time, const ContactFeature& joint, const Impact
   recorder_.passes(impulse);
 }
 
-double Bodies::untilRelease(std::span<const ContactFeature> joints, const Instant& time) const {
+// [s] The next moment at which the joint lets go, or its motor may change.
+double Bodies::changeOf(const Joint& joint) const {
+  return controlled_ == nullptr ? joint.until
+                                : controlled_->nextOf(static_cast<int>(&joint - world_.joints.data()));
+}
+
+double Bodies::untilChange(std::span<const ContactFeature> joints, const Instant& time) const {
   double first = std::numeric_limits<double>::infinity();
   for (const ContactFeature& feature : joints) {
-    if (time.hi < feature.joint->until) {
-      first = std::min(first, secondsBetween(time, Instant(feature.joint->until)));
-    }
+    first = std::min(first, changeOf(*feature.joint));
   }
-  return first;
+  return std::isfinite(first) ? secondsBetween(time, Instant(first)) : first;
 }
 
 Doubt* Bodies::doubtAt(int rank, const Instant& time) {
@@ -294,7 +299,7 @@ DoubtfulBody Bodies::doubtful(int rank, const Instant& time, const BodyState& af
 void Bodies::predict(int rank) {
   const Mover& body = (*this)[rank];
   if (!body.moves()) {
-    predictRelease(rank);
+    predictChange(rank);
     return;
   }
   if (body.flies() && isForced(rank)) {  // has just begun, and has yet to feel springs and drag
@@ -323,18 +328,17 @@ void Bodies::predict(int rank) {
   }
 }
 
-// One that rests may fall where a joint lets go.
-void Bodies::predictRelease(int rank) {
+// One that rests may move where one of its joints lets go, or its motor changes.
+void Bodies::predictChange(int rank) {
   const Mover& body = (*this)[rank];
-  double release = std::numeric_limits<double>::infinity();
+  double change = std::numeric_limits<double>::infinity();
   for (const Joint& joint : world_.joints) {
-    const bool isOf = joint.from.body == body.listed.value || joint.to.body == body.listed.value;
-    if (isOf && body.start.hi < joint.until && !body.isHeld()) {
-      release = std::min(release, joint.until);
+    if (!body.isHeld() && (joint.from.body == body.listed.value || joint.to.body == body.listed.value)) {
+      change = std::min(change, changeOf(joint));
     }
   }
-  if (std::isfinite(release)) {
-    queue_.set({.time = Instant(release), .kind = EventKind::kTouching, .body = rank});
+  if (std::isfinite(change)) {
+    queue_.set({.time = Instant(change), .kind = EventKind::kTouching, .body = rank});
   } else {
     queue_.clear(rank);
   }

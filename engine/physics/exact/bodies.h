@@ -20,6 +20,8 @@
 
 namespace careen {
 
+class ControlledWorld;
+
 /// All bodies of method exact: how each moves now, and what happens to it next. A motion that begins is
 /// recorded, and an event that is predicted is queued.
 ///
@@ -30,6 +32,8 @@ class Bodies {
   Bodies(const World& world, const RunSettings& settings, Recorder& recorder);
 
   const World& world() const { return world_; }
+  /// The world is that one's, which must outlive this.
+  void follow(const ControlledWorld& controlled) { controlled_ = &controlled; }
   const Instant& end() const { return end_; }          ///< of the run
   double tolerance() const { return tolerance_; }      ///< [m]
   double timeScale() const { return timeScale_; }      ///< [s] see timeScaleOf
@@ -80,8 +84,8 @@ class Bodies {
   /// What a joint passes on in an impact; the middle [m] of the first of its bodies.
   void pass(const Instant& time, const ContactFeature& joint, const ImpactContact& contact,
             const ImpactShare& share, const Vec3& position);
-  /// [s] From then on, until the first of these joints lets go that has not.
-  double untilRelease(std::span<const ContactFeature> joints, const Instant& time) const;
+  /// [s] From then on, until the first of these joints lets go or its motor may change.
+  double untilChange(std::span<const ContactFeature> joints, const Instant& time) const;
   /// Its doubt from then on, none if it is held. Past its size its place means nothing.
   Doubt* doubtAt(int rank, const Instant& time);
   /// A body that takes part in an impact at that time, in this state after it.
@@ -124,9 +128,11 @@ class Bodies {
   void addBonds();
   void begins(int rank, const Instant& time);
   void noteSpeed(const Mover& body);
-  void predictRelease(int rank);
+  void predictChange(int rank);
+  double changeOf(const Joint& joint) const;
 
   const World& world_;
+  const ControlledWorld* controlled_ = nullptr;
   Instant end_;
   double tolerance_;
   CrowdSettings crowds_;

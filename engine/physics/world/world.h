@@ -8,6 +8,7 @@
 
 #include "core/math/linear_algebra.h"
 #include "physics/world/body.h"
+#include "physics/world/control.h"
 #include "physics/world/joint.h"
 
 namespace careen {
@@ -52,6 +53,7 @@ struct World {
   std::vector<Spring> springs;
   std::optional<Drag> drag;
   std::vector<Joint> joints;
+  std::optional<Control> control;
   std::vector<std::pair<int, int>> apart;  ///< bodies that pass through each other, the lesser first; sorted
 };
 
