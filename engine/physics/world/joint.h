@@ -1,9 +1,10 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
-#include <span>
 #include <string>
+#include <string_view>
 
 #include "core/math/linear_algebra.h"
 #include "core/math/pose.h"
@@ -51,6 +52,10 @@ struct Joint {
   /// Whether it has the coordinate that may be limited.
   bool hasCoordinate() const { return kind == Kind::kHinge || kind == Kind::kSlider; }
 };
+
+/// As scene files spell them, in the order of Joint::Kind.
+inline constexpr std::array<std::string_view, 6> kJointKindNames = {"ball",  "hinge", "slider",
+                                                                    "fixed", "rod",   "rope"};
 
 /// [rad] of a hinge, in (−π, π] from the middle of its limits, [m] of a slider; poses of both bodies.
 double jointCoordinate(const Joint& joint, const Pose& from, const Pose& to);
