@@ -180,6 +180,21 @@ double JsonObject::number(std::string_view key, const NumberRange& range, double
   return value ? value->number(range) : whenAbsent;
 }
 
+std::string JsonObject::name(const std::string& whenAbsent) const {
+  const std::optional<JsonValue> value = find("name");
+  if (!value) {
+    return whenAbsent;
+  }
+  const std::string expected = "a name without comma, quote or control character";
+  const std::string& name = value->string(expected);
+  if (name.empty() || std::any_of(name.begin(), name.end(), [](char c) {
+        return c == ',' || c == '"' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+      })) {
+    value->fail(expected);
+  }
+  return name;
+}
+
 Vec3 JsonObject::vector(std::string_view key, const NumberRange& range) const {
   const std::optional<JsonValue> value = find(key);
   return value ? value->vector(range) : Vec3::Zero();

@@ -31,6 +31,8 @@ constexpr NumberRange nonNegativeNumber(const char* unit = "") {
   return {.min = 0, .unit = unit, .plain = "a number not below 0"};
 }
 
+inline constexpr NumberRange kUnitRange = {.min = 0, .max = 1, .plain = "a number from 0 to 1"};
+
 class JsonObject;
 
 /// A JSON value with checked access by type. A value that does not fit is an InputError at its place, which
@@ -82,6 +84,8 @@ class JsonObject {
   bool has(std::string_view key) const { return node_->find(key) != nullptr; }
 
   double number(std::string_view key, const NumberRange& range, double whenAbsent) const;
+  /// Its "name", which may be written to CSV files unescaped.
+  std::string name(const std::string& whenAbsent) const;
   Vec3 vector(std::string_view key, const NumberRange& range) const;  ///< zero when absent
 
   /// "found <what> in <label>, expected <expected>", at the object

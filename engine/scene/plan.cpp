@@ -1,5 +1,6 @@
 #include "scene/plan.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
@@ -33,39 +34,59 @@ void addPair(Needs& needs, const Material& pair, bool pulled) {
   needs.stops = needs.stops || (pulled && pair.restitution < 1);
 }
 
-// What a pair of boxes asks for depends on these alone, so two of each kind stand for all pairs.
-std::vector<const SceneBox*> twoOfEachKind(const Scene& scene) {
-  std::map<std::array<bool, 4>, int> known;
-  std::vector<const SceneBox*> boxes;
+/// Boxes that ask for the same when they meet another.
+struct BoxKind {
+  const SceneBox* one = nullptr;
+  std::size_t count = 0;
+};
+using BoxTraits = std::array<bool, 4>;
+
+BoxTraits traitsOf(const SceneBox& box) {
+  const Material& material = box.material;
+  return {box.fixed, material.restitution > 0, material.restitution<1, material.friction> 0};
+}
+
+// Calls `look` with a box of each, for every two kinds of which two boxes do not pass through each other.
+template <class Look>
+void forKindsThatMeet(const Scene& scene, const Look& look) {
+  std::map<BoxTraits, BoxKind> kinds;
   for (const SceneBox& box : scene.boxes) {
-    const Material& material = box.material;
-    if (++known[{box.fixed, material.restitution > 0, material.restitution<1, material.friction> 0}] <= 2) {
-      boxes.push_back(&box);
+    BoxKind& kind = kinds[traitsOf(box)];
+    kind.one = &box;
+    ++kind.count;
+  }
+  std::map<std::pair<BoxTraits, BoxTraits>, std::size_t> apart;
+  for (const auto& [a, b] : scene.apart) {
+    ++apart[std::minmax(traitsOf(scene.boxes[static_cast<std::size_t>(a)]),
+                        traitsOf(scene.boxes[static_cast<std::size_t>(b)]))];
+  }
+  for (const auto& [traits, kind] : kinds) {
+    for (const auto& [others, other] : kinds) {
+      const std::size_t pairs =
+          traits == others ? kind.count * (kind.count - 1) / 2 : kind.count * other.count;
+      if (traits <= others && pairs > apart[{traits, others}]) {
+        look(*kind.one, *other.one);
+      }
     }
   }
-  return boxes;
 }
 
 Needs needsOf(const Scene& scene) {
   Needs needs{.walls = wallsOf(scene)};
   const bool pulled = !scene.gravity.isZero(0);
-  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
-    const SceneBox& box = scene.boxes[i];
+  for (const SceneBox& box : scene.boxes) {
     needs.movingBoxes += box.fixed ? 0U : 1U;
     for (std::size_t w = 0; w < needs.walls.size() && !box.fixed; ++w) {
       addPair(needs, touching(box.material, needs.walls[w].material), pulled);
     }
   }
-  const std::vector<const SceneBox*> boxes = twoOfEachKind(scene);
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const bool could = !boxes[i]->fixed || !boxes[j]->fixed;
-      needs.hitsBoxes = needs.hitsBoxes || could;
-      if (could && traitsOf(scene.settings.method).boxBox) {
-        addPair(needs, touching(boxes[i]->material, boxes[j]->material), pulled);
-      }
+  forKindsThatMeet(scene, [&](const SceneBox& a, const SceneBox& b) {
+    const bool could = !a.fixed || !b.fixed;
+    needs.hitsBoxes = needs.hitsBoxes || could;
+    if (could && traitsOf(scene.settings.method).boxBox) {
+      addPair(needs, touching(a.material, b.material), pulled);
     }
-  }
+  });
   needs.hitsWalls = needs.movingBoxes > 0 && !needs.walls.empty();
   return needs;
 }
@@ -77,11 +98,11 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 PlanItem modelled(const char* what, const std::string& reason) { return {what, true, reason}; }
 PlanItem leftOut(const char* what, const std::string& reason) { return {what, false, reason}; }
 
-// Those that model springs and drag: "method exact or listing1".
-std::string methodsWithForces() {
+// Those that have this trait: "method exact or listing1".
+std::string methodsWith(bool MethodTraits::*trait) {
   std::string text = "method";
   for (const MethodTraits& each : kMethods) {
-    if (each.forces) {
+    if (each.*trait) {
       text += (text == "method" ? " " : " or ") + std::string(each.name);
     }
   }
@@ -108,6 +129,17 @@ PlanItem springs(const Scene& scene) {
              ? leftOut("springs", "the scene has none")
              : modelled("springs", counted(scene.springs.size(), "spring", "springs") + " in the scene");
 }
+
+// What the scene has of `each`, which a joint may be.
+template <class Is>
+PlanItem joints(const Scene& scene, const char* what, const std::string& one, const Is& is) {
+  const auto count = static_cast<std::size_t>(std::count_if(scene.joints.begin(), scene.joints.end(), is));
+  return count == 0 ? leftOut(what, "the scene has none")
+                    : modelled(what, counted(count, one, one + "s") + " in the scene");
+}
+
+bool isRope(const Joint& joint) { return joint.kind == Joint::Kind::kRope; }
+bool isLimited(const Joint& joint) { return joint.lowest > -Joint::kFree; }
 
 PlanItem boxWall(const Needs& needs) {
   if (needs.walls.empty()) {
@@ -193,19 +225,48 @@ Body bodyOf(const SceneBox& box, const Material& material) {
   return body;
 }
 
-SpringEnd fromCenterOfMass(SpringEnd end, const World& world) {
+template <class End>
+End fromCenterOfMass(End end, const World& world) {
   if (end.body) {
     end.point += world.bodies[static_cast<std::size_t>(*end.body)].boxCenter;
   }
   return end;
 }
 
+void assembleJoints(const Scene& scene, const Plan& plan, World& world) {
+  for (Joint joint : scene.joints) {
+    if (!plan.models(isRope(joint) ? "ropes" : "joints")) {
+      continue;
+    }
+    joint.from = fromCenterOfMass(joint.from, world);
+    joint.to = fromCenterOfMass(joint.to, world);
+    if (!plan.models("limits")) {
+      joint.lowest = -Joint::kFree;
+      joint.highest = Joint::kFree;
+    }
+    world.joints.push_back(std::move(joint));
+  }
+  if (plan.models("box-box")) {
+    world.apart = scene.apart;
+  }
+}
+
+void requireMethod(const Scene& scene, bool MethodTraits::*trait, const std::string& what) {
+  if (!(traitsOf(scene.settings.method).*trait)) {
+    throw InputError("scene " + scene.name + " has " + what + ", which method " +
+                     nameOf(scene.settings.method) + " does not model; expected " + methodsWith(trait));
+  }
+}
+
 }  // namespace
 
 Plan plan(const Scene& scene) {
   const Needs needs = needsOf(scene);
-  return {{gravity(scene), drag(scene), springs(scene), boxWall(needs), boxBox(scene, needs),
-           restitution(scene, needs), friction(scene, needs), resting(scene, needs)}};
+  return {{gravity(scene), drag(scene), springs(scene),
+           joints(scene, "joints", "joint", [](const Joint& joint) { return !isRope(joint); }),
+           joints(scene, "limits", "joint", isLimited), joints(scene, "ropes", "rope", isRope),
+           boxWall(needs), boxBox(scene, needs), restitution(scene, needs), friction(scene, needs),
+           resting(scene, needs)}};
 }
 
 World assemble(const Scene& scene, const Plan& plan) {
@@ -213,9 +274,11 @@ World assemble(const Scene& scene, const Plan& plan) {
     return Material{.restitution = plan.models("restitution") ? material.restitution : 0,
                     .friction = plan.models("friction") ? material.friction : 0};
   };
-  if (!traitsOf(scene.settings.method).forces && (plan.models("springs") || plan.models("drag"))) {
-    throw InputError("scene " + scene.name + " has springs or drag, which method " +
-                     nameOf(scene.settings.method) + " does not model; expected " + methodsWithForces());
+  if (plan.models("springs") || plan.models("drag")) {
+    requireMethod(scene, &MethodTraits::forces, "springs or drag");
+  }
+  if (plan.models("joints") || plan.models("ropes")) {
+    requireMethod(scene, &MethodTraits::joints, "joints");
   }
   World world;
   for (const SceneBox& box : scene.boxes) {
@@ -237,6 +300,7 @@ World assemble(const Scene& scene, const Plan& plan) {
       world.springs.push_back(spring);
     }
   }
+  assembleJoints(scene, plan, world);
   if (plan.models("drag")) {
     world.drag = scene.drag;
   }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/math/linear_algebra.h"
@@ -49,6 +50,8 @@ struct Scene {
   std::vector<Wall> walls;  ///< the explicit walls; the room's come from `room`
   std::vector<SceneBox> boxes;
   std::vector<Spring> springs;
+  std::vector<Joint> joints;               ///< their ends in frames of boxes, with their origin in the middle
+  std::vector<std::pair<int, int>> apart;  ///< boxes that pass through each other, as in World
   std::optional<Drag> drag;
   std::optional<Camera> camera;  ///< absent: a camera that sees the whole motion is chosen
   CameraMove cameraMove;         ///< empty if there is no camera

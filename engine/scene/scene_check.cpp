@@ -8,7 +8,9 @@
 #include "core/brief.h"
 #include "physics/start/overlap.h"
 #include "physics/world/given_inertia.h"
+#include "scene/box_names.h"
 #include "scene/film_check.h"
+#include "scene/joint_check.h"
 #include "scene/json_shape.h"
 #include "scene/mesh_mass.h"
 #include "scene/starts.h"
@@ -150,45 +152,20 @@ void checkFixed(const JsonTree& tree, const Scene& scene) {
   }
 }
 
-using BodiesByName = std::map<std::string_view, int>;
-
-BodiesByName bodiesOf(const Scene& scene) {
-  BodiesByName bodies;
-  for (const SceneBox& box : scene.boxes) {
-    bodies.emplace(box.name, static_cast<int>(bodies.size()));
-  }
-  return bodies;
-}
-
-int bodyNamed(const JsonTree& tree, const BodiesByName& bodies, const JsonNode& node) {
-  const auto found = bodies.find(node.text);
-  if (found != bodies.end()) {
-    return found->second;
-  }
-  std::vector<std::string_view> names;
-  names.reserve(bodies.size());
-  for (const auto& [name, index] : bodies) {
-    names.push_back(name);
-  }
-  const std::optional<std::string_view> meant = nearest(node.text, names);
-  tree.fail(node.offset, "no box of the name " + inQuotes(node.text),
-            meant ? inQuotes(*meant) : "the name of a box of the scene");
-}
-
-std::optional<int> bodyAt(const JsonTree& tree, const BodiesByName& bodies, const JsonNode& end) {
+std::optional<int> bodyAt(const JsonTree& tree, const BoxNames& boxes, const JsonNode& end) {
   const JsonNode& first = end.children[0];
   if (first.kind != JsonNode::Kind::kString) {
     return std::nullopt;
   }
-  return bodyNamed(tree, bodies, first);
+  return boxes.named(tree, first);
 }
 
-void connectSprings(const JsonTree& tree, const BodiesByName& bodies, Scene& scene) {
+void connectSprings(const JsonTree& tree, const BoxNames& boxes, Scene& scene) {
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const JsonNode& node = elementOf(tree, "springs", i);
     Spring& spring = scene.springs[i];
-    spring.from.body = bodyAt(tree, bodies, *node.find("from"));
-    spring.to.body = bodyAt(tree, bodies, *node.find("to"));
+    spring.from.body = bodyAt(tree, boxes, *node.find("from"));
+    spring.to.body = bodyAt(tree, boxes, *node.find("to"));
     if (spring.from.body == spring.to.body) {
       tree.fail(node.find("to")->offset,
                 spring.to.body ? "a spring from a box to itself" : "a spring from the world to the world",
@@ -197,11 +174,11 @@ void connectSprings(const JsonTree& tree, const BodiesByName& bodies, Scene& sce
   }
 }
 
-void findFollowed(const JsonTree& tree, const BodiesByName& bodies, Scene& scene) {
+void findFollowed(const JsonTree& tree, const BoxNames& boxes, Scene& scene) {
   const JsonNode* const camera = tree.root().find("camera");
   const JsonNode* const follow = camera == nullptr ? nullptr : camera->find("follow");
   if (follow != nullptr) {
-    scene.cameraMove.followed = static_cast<std::size_t>(bodyNamed(tree, bodies, *follow));
+    scene.cameraMove.followed = static_cast<std::size_t>(boxes.named(tree, *follow));
   }
 }
 
@@ -242,9 +219,10 @@ void checkScene(const JsonTree& tree, Scene& scene, Starts starts) {
   takeMassesFromMeshes(tree, scene);
   takeDrawnMeshes(tree, scene);
   checkFixed(tree, scene);
-  const BodiesByName bodies = bodiesOf(scene);
-  connectSprings(tree, bodies, scene);
-  findFollowed(tree, bodies, scene);
+  const BoxNames boxes(scene);
+  connectSprings(tree, boxes, scene);
+  connectJoints(tree, boxes, scene);
+  findFollowed(tree, boxes, scene);
   checkFilm(tree, scene);
   if (starts == Starts::kApart) {
     checkStart(tree, scene);

@@ -7,6 +7,7 @@
 
 #include "physics/world/method.h"
 #include "scene/film_shape.h"
+#include "scene/joint_shape.h"
 #include "scene/json_shape.h"
 #include "stage/turn.h"
 
@@ -16,26 +17,9 @@ namespace {
 using Kind = JsonNode::Kind;
 
 constexpr int kFormatVersion = 1;
-constexpr NumberRange kRestitution = {.min = 0, .max = 1, .plain = "a number from 0 to 1"};
-
-// Names are written to CSV files unescaped.
-std::string readName(const JsonObject& object, const std::string& whenAbsent) {
-  const std::optional<JsonValue> value = object.find("name");
-  if (!value) {
-    return whenAbsent;
-  }
-  const std::string expected = "a name without comma, quote or control character";
-  const std::string& name = value->string(expected);
-  if (name.empty() || std::any_of(name.begin(), name.end(), [](char c) {
-        return c == ',' || c == '"' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-      })) {
-    value->fail(expected);
-  }
-  return name;
-}
 
 Material readMaterial(const JsonObject& object) {
-  return {.restitution = object.number("restitution", kRestitution, 0),
+  return {.restitution = object.number("restitution", kUnitRange, 0),
           .friction = object.number("friction", nonNegativeNumber(), 0)};
 }
 
@@ -93,7 +77,7 @@ Room readRoom(const JsonValue& value) {
 
 Wall readWall(const JsonValue& value, std::size_t index) {
   const JsonObject object = value.object({"name", "point", "normal", "restitution", "friction"});
-  Wall wall{.name = readName(object, "wall-" + std::to_string(index)),
+  Wall wall{.name = object.name("wall-" + std::to_string(index)),
             .normal = object.require("normal").direction(),
             .material = readMaterial(object)};
   wall.offset = dot(wall.normal, object.require("point").vector(anyNumber("m")));
@@ -141,7 +125,7 @@ SceneBox readBox(const JsonValue& value, std::size_t index) {
                                           "inertia", "center", "position", "orientation", "velocity",
                                           "angular_velocity", "restitution", "friction", "fixed", "color"});
   SceneBox box;
-  box.name = readName(object, "box-" + std::to_string(index));
+  box.name = object.name("box-" + std::to_string(index));
   box.halfExtents = object.require("half_extents").vector(positiveNumber("m"));
   if (const std::optional<JsonValue> fixed = object.find("fixed")) {
     box.fixed = fixed->boolean();
@@ -280,9 +264,10 @@ Scene readShape(const JsonTree& tree) {
   if (root.is(Kind::kObject)) {
     readVersion(tree, root);
   }
-  const JsonObject object = root.object({"careen", "name", "duration", "gravity", "room", "walls", "boxes",
-                                         "springs", "drag", "method", "dt", "tolerance", "crowds", "camera",
-                                         "film", "look", "light", "overlays", "$schema"});
+  const JsonObject object =
+      root.object({"careen",  "name",   "duration",     "gravity", "room",   "walls",    "boxes",
+                   "springs", "joints", "pass_through", "drag",    "method", "dt",       "tolerance",
+                   "crowds",  "camera", "film",         "look",    "light",  "overlays", "$schema"});
   Scene scene;
   scene.text = tree.text();
   if (const std::optional<JsonValue> name = object.find("name")) {
@@ -301,6 +286,12 @@ Scene readShape(const JsonTree& tree) {
   }
   scene.springs = readList<Spring>(object.find("springs"),
                                    [](const JsonValue& value, std::size_t) { return readSpring(value); });
+  scene.joints = readList<Joint>(object.find("joints"), readJoint);
+  if (const std::optional<JsonValue> lists = object.find("pass_through")) {
+    for (const JsonValue& list : lists->elements("an array")) {
+      readPassThrough(list);
+    }
+  }
   scene.drag = readOptional<Drag>(object.find("drag"), readDrag);
   if (const std::optional<JsonValue> method = object.find("method")) {
     scene.settings.method = readMethod(*method);

@@ -7,7 +7,8 @@ namespace careen {
 
 /// First half of reading a scene: its shape, which is exactly what assets/scene.schema.json can express
 /// (keys, types, ranges of single values). Relations between values are left to checkScene, and so are the
-/// bodies that springs name: their ends hold points only. Directions and quaternions are normalised here.
+/// bodies that springs and joints name: their ends hold places only, those of joints in the world. Directions
+/// and quaternions are normalised here.
 Scene readShape(const JsonTree& tree);
 
 }  // namespace careen

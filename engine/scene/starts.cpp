@@ -26,7 +26,8 @@ std::vector<PlacedBox> placedBoxes(const Scene& scene) {
 }  // namespace
 
 std::optional<Overlap> findOverlap(const Scene& scene) {
-  return traitsOf(scene.settings.method).boxBox ? firstOverlap(placedBoxes(scene)) : std::nullopt;
+  return traitsOf(scene.settings.method).boxBox ? firstOverlap(placedBoxes(scene), scene.apart)
+                                                : std::nullopt;
 }
 
 void checkApart(const Scene& scene) {
@@ -40,7 +41,18 @@ void checkApart(const Scene& scene) {
 
 Parted moveApart(Scene& scene) {
   const bool meet = traitsOf(scene.settings.method).boxBox;
-  Parted parted = moveApart(placedBoxes(scene), wallsOf(scene), meet ? Meeting::kAll : Meeting::kWalls);
+  Parted parted =
+      moveApart(placedBoxes(scene), wallsOf(scene), meet ? Meeting::kAll : Meeting::kWalls, scene.apart);
+  for (const Joint& joint : scene.joints) {
+    for (const JointEnd& end : {joint.from, joint.to}) {
+      const auto box = static_cast<std::size_t>(end.body.value_or(0));
+      if (end.body && parted.positions[box] != scene.boxes[box].pose.position) {
+        throw InputError("box " + scene.boxes[box].name + " of joint " + joint.name +
+                         " starts inside another box or a wall; expected boxes of joints apart from others, "
+                         "or that pass through them, as moving them would tear the joint");
+      }
+    }
+  }
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
     scene.boxes[i].pose.position = parted.positions[i];
   }

@@ -18,7 +18,7 @@ std::optional<Overlap> findOverlap(const Scene& scene);
 void checkApart(const Scene& scene);
 
 /// Moves the scene's boxes out of walls and, if its method lets boxes collide, out of each other; see
-/// moveApart of the engine. InputError if there is no room.
+/// moveApart of the engine. InputError if there is no room, or if a box of a joint would have to be moved.
 Parted moveApart(Scene& scene);
 
 }  // namespace careen

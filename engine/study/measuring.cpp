@@ -73,7 +73,7 @@ void includeOverlap(const World& world, const std::vector<BodyState>& states, Ju
     const Body& body = world.bodies[i];
     boxes.push_back({body.name, body.halfExtents, boxPose(body, states[i].pose), body.mass.inverseMass});
   }
-  for (const Overlap& each : overlaps(boxes)) {
+  for (const Overlap& each : overlaps(boxes, world.apart)) {
     include(each.depth,
             std::min(boxes[each.first].halfExtents.norm(), boxes[each.second].halfExtents.norm()));
   }

@@ -6,6 +6,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "core/brief.h"
@@ -115,6 +116,18 @@ void checkImpacts(const Trajectory& run) {
   }
 }
 
+void checkJointImpulses(const Trajectory& run) {
+  double before = 0;
+  for (const JointImpulse& impulse : run.jointImpulses) {
+    require(isWithin(impulse.joint, run.world.joints.size()), "an unknown joint", "an impulse");
+    require(impulse.time >= before && impulse.time <= run.settings.duration,
+            "a time out of order or beyond the run's end", "an impulse");
+    require(impulse.point.allFinite() && impulse.linear.allFinite() && impulse.angular.allFinite(),
+            "invalid numbers", "an impulse");
+    before = impulse.time;
+  }
+}
+
 // ---- World.
 
 void checkMaterial(const Material& material, const std::string& owner) {
@@ -177,6 +190,29 @@ void checkSpring(const Spring& spring, std::size_t bodies) {
       "invalid numbers", "a spring");
 }
 
+void checkJoint(const Joint& joint, std::size_t bodies) {
+  const std::string owner = "a joint '" + joint.name + "'";
+  for (const JointEnd& end : {joint.from, joint.to}) {
+    require(!end.body || isWithin(*end.body, bodies), "an end at an unknown body", owner);
+    require(end.point.allFinite() && isRotation(end.axes), "an end that is none", owner);
+  }
+  require(joint.from.body && joint.from.body != joint.to.body, "both ends at one body", owner);
+  require(isNotNegative(joint.length), "a length that is negative or not finite", owner);
+  require(joint.lowest <= 0 && joint.highest >= 0, "limits that exclude its start", owner);
+  require(joint.restitution >= 0 && joint.restitution <= 1, "a restitution outside 0 to 1", owner);
+  require(joint.until > 0, "an end before it begins", owner);
+}
+
+void checkApart(const World& world) {
+  std::pair<int, int> before{-1, 0};
+  for (const std::pair<int, int>& bodies : world.apart) {
+    require(before < bodies && bodies.first < bodies.second && isWithin(bodies.first, world.bodies.size()) &&
+                isWithin(bodies.second, world.bodies.size()),
+            "bodies that pass through each other out of order", "a world");
+    before = bodies;
+  }
+}
+
 void checkWorld(const World& world) {
   require(world.gravity.allFinite(), "a gravity that is not finite", "a world");
   checkNames(world);
@@ -191,6 +227,10 @@ void checkWorld(const World& world) {
   for (const Spring& spring : world.springs) {
     checkSpring(spring, world.bodies.size());
   }
+  for (const Joint& joint : world.joints) {
+    checkJoint(joint, world.bodies.size());
+  }
+  checkApart(world);
   require(!world.drag || (isNotNegative(world.drag->linear) && isNotNegative(world.drag->angular)),
           "an invalid drag", "a world");
 }
@@ -300,6 +340,7 @@ void checkMotions(const Trajectory& run) {
     checkTrack(run.tracks[body], run.world.bodies[body].name, run.settings);
   }
   checkImpacts(run);
+  checkJointImpulses(run);
 }
 
 void checkRun(const Trajectory& run) {

@@ -34,6 +34,10 @@ class TrajectoryRecorder : public Recorder {
     count(impact.time);
     insertByTime(trajectory_.impacts, impact);
   }
+  void passes(const JointImpulse& impulse) override {
+    count(impulse.time);
+    insertByTime(trajectory_.jointImpulses, impulse);
+  }
 
  private:
   void count(double time) {
@@ -144,11 +148,6 @@ std::string Trajectory::stateHash() const {
     add(hash, state(body, settings.duration));
   }
   return hash.text();
-}
-
-void insertByTime(std::vector<Impact>& impacts, const Impact& impact) {
-  const auto isBefore = [](double time, const Impact& other) { return time < other.time; };
-  impacts.insert(std::upper_bound(impacts.begin(), impacts.end(), impact.time, isBefore), impact);
 }
 
 Trajectory record(RunSetup setup, const std::stop_token& stop, std::uint64_t most,

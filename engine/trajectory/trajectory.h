@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -39,8 +40,9 @@ struct GivenPoses {
 /// measure and export it.
 struct Trajectory : RunSetup {
   RunFigures figures;
-  std::vector<Track> tracks;    ///< one per body of the world, in its order
-  std::vector<Impact> impacts;  ///< in order of time
+  std::vector<Track> tracks;                ///< one per body of the world, in its order
+  std::vector<Impact> impacts;              ///< in order of time
+  std::vector<JointImpulse> jointImpulses;  ///< likewise
   /// Present if the run comes from a table of poses: then it has no impacts, and method and tolerance of its
   /// settings mean nothing. Not stored in files.
   std::optional<GivenPoses> given;
@@ -65,9 +67,14 @@ struct Trajectory : RunSetup {
   std::string stateHash() const;
 };
 
-/// Adds an impact after all that are not later. Few are late themselves: a group in time steps that is cut
-/// short takes its step again in shorter ones, and tells their impacts after those of others.
-void insertByTime(std::vector<Impact>& impacts, const Impact& impact);
+/// Adds an impact, or an impulse of a joint, after all that are not later. Few are late themselves: a group
+/// in time steps that is cut short takes its step again in shorter ones, and tells their impacts after those
+/// of others.
+template <class Event>
+void insertByTime(std::vector<Event>& events, const Event& event) {
+  const auto isBefore = [](double time, const Event& other) { return time < other.time; };
+  events.insert(std::upper_bound(events.begin(), events.end(), event.time, isBefore), event);
+}
 
 /// Simulates the setup's world by its method and records the trajectory. InputError if it has more than
 /// `most` segments and impacts, NumericalError if a state of it is not finite, or no reader would accept it.

@@ -10,6 +10,7 @@
 #include "core/system/file.h"
 #include "trajectory/archive.h"
 #include "trajectory/compression.h"
+#include "trajectory/joint_format.h"
 #include "trajectory/packed_steps.h"
 #include "trajectory/run_check.h"
 #include "trajectory/trajectory_format.h"
@@ -19,12 +20,13 @@ namespace {
 
 // The line ends in the magic word reveal a transfer in text mode.
 constexpr std::string_view kFileMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 9;
+constexpr std::uint64_t kVersion = 10;
 constexpr std::uint64_t kVersionWithoutCrowds = 4;  // the oldest that is read
 constexpr std::uint64_t kVersionWithoutLight = 5;
 constexpr std::uint64_t kVersionWithoutPlacement = 6;
 constexpr std::uint64_t kVersionWithoutResiduals = 7;
 constexpr std::uint64_t kVersionInOnePiece = 8;
+constexpr std::uint64_t kVersionWithoutJoints = 9;
 
 // A run since format version 9.
 template <class Archive>
@@ -66,6 +68,11 @@ void visitRecord(Archive& archive, Visited<Archive, Trajectory> run, std::uint64
   }
   if (version > kVersionInOnePiece) {
     visitTime(archive, run.figures.horizon);
+  }
+  if (version > kVersionWithoutJoints) {
+    visitAll(archive, run.world.joints);
+    visitAll(archive, run.world.apart);
+    visitAll(archive, run.jointImpulses);
   }
 }
 

@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "physics/world/method.h"
 #include "scene/scene_reader.h"
+#include "support/input_error.h"
 #include "support/scenes.h"
 
 namespace careen {
@@ -43,13 +45,14 @@ const std::string kFloor =
 TEST(Plan, defaultSceneNeedsGravityAndWalls) {
   const Plan planned = plan(shipped("careen.json"));
   EXPECT_EQ(planned.modelled(), (Names{"gravity", "box-wall", "restitution", "resting"}));
-  EXPECT_EQ(planned.leftOut(), (Names{"drag", "springs", "box-box", "friction"}));
+  EXPECT_EQ(planned.leftOut(),
+            (Names{"drag", "springs", "joints", "limits", "ropes", "box-box", "friction"}));
 }
 
 TEST(Plan, sampleOf1997NeedsSpringsAndDragToo) {
   const Plan planned = plan(shipped("hecker-1997.json"));
   EXPECT_EQ(planned.modelled(), (Names{"gravity", "drag", "springs", "box-wall", "restitution"}));
-  EXPECT_EQ(planned.leftOut(), (Names{"box-box", "friction", "resting"}));
+  EXPECT_EQ(planned.leftOut(), (Names{"joints", "limits", "ropes", "box-box", "friction", "resting"}));
 }
 
 TEST(Plan, saysWhyEachThingIsModelled) {
@@ -87,6 +90,9 @@ TEST(Plan, saysWhatTheSceneDoesNotAskFor) {
   EXPECT_EQ(reasonFor(lone, "gravity"), "left out: the scene has none");
   EXPECT_EQ(reasonFor(lone, "drag"), "left out: the scene has none");
   EXPECT_EQ(reasonFor(lone, "springs"), "left out: the scene has none");
+  for (const char* what : {"joints", "limits", "ropes"}) {
+    EXPECT_EQ(reasonFor(lone, what), "left out: the scene has none");
+  }
   EXPECT_EQ(reasonFor(lone, "box-wall"), "left out: the scene has no walls");
   EXPECT_EQ(reasonFor(lone, "box-box"), "left out: no two boxes can collide");
   for (const char* what : {"restitution", "friction", "resting"}) {
@@ -99,6 +105,32 @@ TEST(Plan, saysWhatTheSceneDoesNotAskFor) {
       withParts(R"("walls": [{"point": [0, 0, -1], "normal": [0, 0, 1]}], "boxes": [)" + kBox + "]");
   EXPECT_EQ(reasonFor(smooth, "restitution"), "left out: it is 0 for every pair that can collide");
   EXPECT_EQ(reasonFor(smooth, "friction"), "left out: it is 0 for every pair that can collide");
+}
+
+TEST(Plan, countsJointsAndTheirLimits) {
+  const Scene scene = parseScene(kJoints, "f");
+  EXPECT_EQ(reasonFor(scene, "joints"), "modelled: 5 joints in the scene");
+  EXPECT_EQ(reasonFor(scene, "limits"), "modelled: 2 joints in the scene");
+  EXPECT_EQ(reasonFor(scene, "ropes"), "modelled: 1 rope in the scene");
+}
+
+// Two boxes that are joined cannot collide; a third of the same kind can, with either.
+TEST(Plan, boxesThatPassThroughEachOtherDoNotCollide) {
+  const std::string two =
+      R"("boxes": [{"name": "a", "half_extents": [1, 1, 1], "mass": 1, "restitution": 0.5},
+                   {"name": "b", "half_extents": [1, 1, 1], "mass": 1, "restitution": 0.5}])";
+  const Scene apart = withParts(two + R"(, "pass_through": [["b", "a"]])");
+  EXPECT_EQ(reasonFor(apart, "box-box"), "left out: no two boxes can collide");
+  EXPECT_EQ(reasonFor(apart, "restitution"), "left out: nothing can collide");
+  EXPECT_TRUE(assemble(apart, plan(apart)).apart.empty());
+  const std::string three =
+      std::string(two).replace(two.size() - 1, 1, R"(, {"name": "c", "half_extents": [1, 1, 1], "mass": 1,
+                   "position": [4, 0, 0], "restitution": 0.5}])");
+  const Scene some = withParts(three + R"(, "pass_through": [["b", "a"]])");
+  EXPECT_EQ(reasonFor(some, "box-box"), "modelled: 3 boxes that can collide");
+  EXPECT_EQ(assemble(some, plan(some)).apart, (std::vector<std::pair<int, int>>{{0, 1}}));
+  const Scene none = withParts(three + R"(, "pass_through": [["b", "a", "c"]])");
+  EXPECT_EQ(reasonFor(none, "box-box"), "left out: no two boxes can collide");
 }
 
 TEST(Plan, knowsNoOtherItems) {
@@ -145,6 +177,53 @@ TEST(Assemble, namesTheMethodsThatModelSpringsAndDrag) {
   }
 }
 
+// The crate's centre of mass is 0.125 m from its middle along its x axis, the world's y: ends are relative to
+// it. The lid's is its middle.
+TEST(Assemble, endsOfJointsAreRelativeToCentresOfMass) {
+  const Scene scene = parseScene(kJoints, "f");
+  const World world = assemble(scene, plan(scene));
+  ASSERT_EQ(world.joints.size(), 6U);
+  const Joint& knee = world.joints[0];
+  EXPECT_EQ(knee.name, "knee");
+  EXPECT_EQ(knee.from.point, Vec3(0, 0.5, -0.125));
+  EXPECT_LT((knee.to.point - Vec3(0.375, 0, 0)).norm(), 1e-15);
+  EXPECT_EQ(knee.highest, 2.25);
+  for (const Joint& joint : world.joints) {
+    const auto poseOf = [&](const JointEnd& end) {
+      return end.body ? world.bodies[static_cast<std::size_t>(*end.body)].initial.pose : Pose{};
+    };
+    const double apart =
+        Vec3(joint.from.pointAt(poseOf(joint.from)) - joint.to.pointAt(poseOf(joint.to))).norm();
+    EXPECT_NEAR(apart, joint.name == "stick" ? 1.75 : joint.name == "string" ? 2 : 0, 1e-15) << joint.name;
+  }
+  EXPECT_EQ(world.apart, (std::vector<std::pair<int, int>>{{0, 1}, {0, 2}, {1, 2}, {1, 3}, {2, 4}}));
+}
+
+TEST(Assemble, assemblesOnlyTheJointsOfThePlan) {
+  const Scene scene = parseScene(kJoints, "f");
+  Plan some = plan(scene);
+  for (PlanItem& item : some.items) {
+    item.modelled = item.what == "joints";
+  }
+  const World world = assemble(scene, some);
+  ASSERT_EQ(world.joints.size(), 5U);
+  EXPECT_EQ(world.joints[0].lowest, -Joint::kFree);
+  EXPECT_EQ(world.joints[0].highest, Joint::kFree);
+  EXPECT_TRUE(world.apart.empty());
+}
+
+TEST(Assemble, namesTheMethodThatModelsJoints) {
+  for (const MethodTraits& method : kMethods) {
+    Scene scene = parseScene(kJoints, "f");
+    scene.settings.method = method.method;
+    const std::string message = inputErrorOf([&] { assemble(scene, plan(scene)); });
+    EXPECT_EQ(message, method.name == "exact"
+                           ? "no error"
+                           : "scene untitled has joints, which method " + std::string(method.name) +
+                                 " does not model; expected method exact");
+  }
+}
+
 // The crate is turned by 90° about z, so its x axis lies along the world's y: half sizes (0.25, 0.5, 0.125)
 // along the world's axes, mass 2 kg, ω = (3, 7, -2): L = 2/3 (0.5² + 0.125², 0.25² + 0.125², 0.25² + 0.5²) ·
 // ω.
@@ -179,7 +258,7 @@ TEST(Assemble, leavesOutWhatThePlanLeavesOut) {
   const World empty = assemble(scene, nothing);
   EXPECT_EQ(empty.bodies.size(), 3U);
   EXPECT_EQ(empty.gravity, Vec3::Zero());
-  EXPECT_TRUE(empty.walls.empty() && empty.springs.empty() && !empty.drag);
+  EXPECT_TRUE(empty.walls.empty() && empty.springs.empty() && empty.joints.empty() && !empty.drag);
   EXPECT_EQ(empty.bodies[0].material.restitution, 0);
 }
 

@@ -56,7 +56,7 @@ const std::vector<json>& replacements() {
     ["+x"], ["+x", "-x"], ["+x", "+x"], ["x", "+x"], ["-x", "+x", "-y", "+y", "-z", "+z"],
     ["crate", [0, 0, 0]], ["crate", [0, 0]], [1, [0, 0, 0]], ["crate", 1], ["crate", [0, 0, 0], 1], [[0, 0, 0], "crate"],
     {}, {"x": 1}, {"axis": [0, 0, 1], "angle_deg": 3}, {"axis": [0, 0, 0], "angle_deg": 3}, {"axis": [0, 0, 1]},
-    {"angle_deg": 3}, {"axis": [0, 0, 1], "angle_deg": 3, "x": 1}, {"half_extents": [1, 1, 1], "mass": 1},
+    {"angle_deg": 3}, {"axis": [0, 0, 1], "angle_deg": 3, "x": 1}, ["crate", "world"], "hinge", "rope", "fixed", {"half_extents": [1, 1, 1], "mass": 1},
     {"half_extents": [1, 1, 1]}, {"half_extents": [1, 1, 1], "fixed": true}, {"half_extents": [1, 1, 1], "fixed": false},
     {"point": [0, 0, 0], "normal": [0, 0, 1]}, {"from": [0, 0, 0], "to": ["crate", [0, 0, 0]], "stiffness": 0},
     {"min": [0, 0, 0], "max": [1, 1, 1]}, {"eye": [0, 0, 0], "target": [1, 1, 1]}, {"deg_per_s": 5}, {"deg_per_s": "x"},
@@ -106,8 +106,8 @@ class Mutations {
       look_(scene_);
       value = before;
     }
-    for (const char* key :
-         {"mass", "density", "fixed", "friction", "comment", "fov_deg", "shutter_deg", "shutter_samples"}) {
+    for (const char* key : {"mass", "density", "fixed", "friction", "collide", "comment", "fov_deg",
+                            "shutter_deg", "shutter_samples"}) {
       value[key] = 1;
       look_(scene_);
       value[key] = true;
@@ -135,7 +135,7 @@ class Mutations {
 // At most `count` of each kind: a list's other elements would only be changed the same way again, and a scene
 // may have thousands.
 json shortened(json scene, std::size_t count) {
-  for (const char* list : {"boxes", "springs", "walls"}) {
+  for (const char* list : {"boxes", "springs", "joints", "walls"}) {
     while (scene.contains(list) && scene[list].size() > count) {
       scene[list].erase(scene[list].size() - 1);
     }
@@ -155,7 +155,7 @@ TEST(SceneShape, hardCasesKeepToTheSchema) {
 }
 
 TEST(SceneShape, schemaAndReaderAcceptAndRejectTheSameFiles) {
-  std::vector<std::string> scenes = {kEveryKey};
+  std::vector<std::string> scenes = {kEveryKey, kJoints};
   for (const auto& entry : std::filesystem::directory_iterator(kAssets / "scenes")) {
     if (entry.is_regular_file()) {
       scenes.push_back(readFile(entry.path()));
@@ -169,13 +169,16 @@ TEST(SceneShape, schemaAndReaderAcceptAndRejectTheSameFiles) {
     const json original = json::parse(scene, nullptr, true, true);
     EXPECT_EQ(shapeErrorOf(scene), "no error");
     EXPECT_TRUE(schema.accepts(original));
-    Mutations(shortened(original, scene == kEveryKey ? 3 : 1), [&](const json& mutation) {
-      const std::string text = mutation.dump();
-      const std::string error = shapeErrorOf(text);
-      const bool bySchema = schema.accepts(mutation);
-      EXPECT_EQ(error == "no error", bySchema) << error << "\n" << text;
-      (bySchema ? accepted : rejected) += 1;
-    });
+    Mutations(shortened(original, scene == kEveryKey ? 3
+                                  : scene == kJoints ? 6
+                                                     : 1),
+              [&](const json& mutation) {
+                const std::string text = mutation.dump();
+                const std::string error = shapeErrorOf(text);
+                const bool bySchema = schema.accepts(mutation);
+                EXPECT_EQ(error == "no error", bySchema) << error << "\n" << text;
+                (bySchema ? accepted : rejected) += 1;
+              });
   }
   RecordProperty("accepted", accepted);
   RecordProperty("rejected", rejected);
@@ -210,7 +213,9 @@ TEST(SceneShape, schemaDescribesEveryKey) {
     if (property.contains("$ref")) {
       resolved = schema.at(json::json_pointer(property["$ref"].get<std::string>().substr(1)));
     }
-    const bool isCondition = property == json{{"const", true}};  // "fixed" where it excuses a missing mass
+    // "fixed" where it excuses a missing mass, "type" where other keys depend on it.
+    const bool isCondition =
+        property.size() == 1 && (property.contains("const") || property.contains("enum"));
     EXPECT_TRUE(isCondition || (resolved.contains("title") && resolved.contains("description"))) << path;
   }
 }
@@ -226,8 +231,8 @@ TEST(SceneShape, schemaTellsTheDefaultsOfTheReader) {
                      {"camera", camera},
                      {"film", json::object()}};
   json filled = bare;
-  for (const char* key :
-       {"name", "gravity", "walls", "springs", "method", "dt", "tolerance", "look", "light", "overlays"}) {
+  for (const char* key : {"name", "gravity", "walls", "springs", "joints", "pass_through", "method", "dt",
+                          "tolerance", "look", "light", "overlays"}) {
     filled[key] = keys[key]["default"];
   }
   for (const char* key : {"up", "fov_deg"}) {
@@ -274,6 +279,10 @@ TEST(SceneShape, schemaListsTheMethodsThereAre) {
   EXPECT_EQ(schemaFile()["properties"]["method"]["enum"], json(names));
 }
 
+TEST(SceneShape, schemaListsTheTypesOfJointsThereAre) {
+  EXPECT_EQ(schemaFile()["definitions"]["joint"]["properties"]["type"]["enum"], json(kJointKindNames));
+}
+
 TEST(SceneShape, schemaListsThePartsOfTheLightThereAre) {
   EXPECT_EQ(schemaFile()["properties"]["light"]["items"]["enum"], json(kLightPartNames));
 }
@@ -301,7 +310,8 @@ const std::vector<BadPiece> kBadValues = {
      R"(found the unknown key "gravitiy" in the scene, expected "gravity")"},
     {R"("gravity")", R"(@"wind")",
      R"(found the unknown key "wind" in the scene, expected one of careen, name, duration, gravity, room, )"
-     "walls, boxes, springs, drag, method, dt, tolerance, crowds, camera, film, look, light, overlays, "
+     "walls, boxes, springs, joints, pass_through, drag, method, dt, tolerance, crowds, camera, film, look, "
+     "light, overlays, "
      "$schema"},
     {"[0, 0, -9.81]", "@-9.81", "found -9.81 for gravity, expected [x, y, z] [m/s²]"},
     {"[0, 0, -9.81]", "@[0, -9.81]", "found an array of 2 for gravity, expected [x, y, z] [m/s²]"},

@@ -53,6 +53,23 @@ TEST(Starts, ofAMethodThatKnowsNoBoxesAreMovedOutOfWallsOnly) {
   EXPECT_GE(scene.boxes[0].pose.position.z(), 1 - 1e-12);
 }
 
+TEST(Starts, whatPassesThroughMayOverlap) {
+  Scene scene = overlapping(Method::kExact);
+  scene.apart = {{0, 1}};
+  EXPECT_FALSE(findOverlap(scene).has_value());
+  moveApart(scene);
+  EXPECT_EQ(scene.boxes[1].pose.position.x(), 1.5);
+}
+
+TEST(Starts, whatIsJoinedIsNotMoved) {
+  Scene scene = overlapping(Method::kExact);
+  Joint joint{.name = "leash", .kind = Joint::Kind::kRope, .from = {.body = 1}, .to = {}, .length = 9};
+  scene.joints.push_back(joint);
+  EXPECT_THROW(moveApart(scene), InputError);
+  scene.boxes[1].pose.position = {5, 0, 2};
+  EXPECT_NO_THROW(moveApart(scene));  // the other one is in the floor
+}
+
 TEST(Starts, whatIsHeldStays) {
   Scene scene = overlapping(Method::kExact);
   scene.boxes[0].fixed = true;

@@ -42,13 +42,43 @@ inline const std::string kEveryKey = R"({
   "overlays": ["time", "energy"]
 })";
 
-/// The same with one piece of text, which must occur exactly once, replaced by another.
-inline std::string everyKeyBut(const std::string& piece, const std::string& instead) {
-  const std::size_t at = kEveryKey.find(piece);
-  if (at == std::string::npos || kEveryKey.find(piece, at + 1) != std::string::npos) {
+/// A scene with every type of joint, and all their keys.
+inline const std::string kJoints = R"({
+  "careen": 1,
+  "duration": 2,
+  "boxes": [
+    { "name": "crate", "half_extents": [0.5, 0.25, 0.125], "mass": 2, "position": [1, 0.5, 2],
+      "orientation": { "axis": [0, 0, 1], "angle_deg": 90 }, "center": [0.125, 0, 0] },
+    { "name": "lid", "half_extents": [0.5, 0.25, 0.125], "mass": 1, "position": [1, 0.5, 2.125] },
+    { "name": "bob", "half_extents": [0.125, 0.125, 0.125], "mass": 1, "position": [1, 0.5, 4] },
+    { "name": "post", "half_extents": [0.1, 0.1, 0.1], "fixed": true, "position": [3, 1, 0.5] },
+    { "name": "rock", "half_extents": [0.1, 0.1, 0.1], "fixed": true, "position": [5, 1, 0.5] }
+  ],
+  "joints": [
+    { "name": "knee", "type": "hinge", "between": ["lid", "crate"], "at": [1, 1, 2], "axis": [0, 0, 2],
+      "range": [-0.5, 2.25], "restitution": 0.5, "collide": false },
+    { "type": "slider", "between": ["world", "bob"], "at": [1, 0.5, 4], "axis": [1, 0, 0], "range": [0, 2],
+      "until": 1.5 },
+    { "type": "ball", "between": ["bob", "post"], "at": [2, 1, 3], "collide": true },
+    { "name": "weld", "type": "fixed", "between": ["post", "lid"] },
+    { "name": "stick", "type": "rod", "between": ["crate", "bob"], "points": [[0, 0, 0.125], [0, 0, -0.125]],
+      "length": 1.75, "until": 1 },
+    { "name": "string", "type": "rope", "between": ["world", "bob"], "points": [[1, 0.5, 6], [0, 0, 0]],
+      "length": 2.5, "restitution": 0.25 }
+  ],
+  "pass_through": [["bob", "crate", "lid"], ["rock", "bob"]]
+})";
+
+/// A scene with one piece of text, which must occur exactly once, replaced by another.
+inline std::string sceneBut(const std::string& scene, const std::string& piece, const std::string& instead) {
+  const std::size_t at = scene.find(piece);
+  if (at == std::string::npos || scene.find(piece, at + 1) != std::string::npos) {
     throw std::logic_error("not there exactly once: " + piece);
   }
-  return std::string(kEveryKey).replace(at, piece.size(), instead);
+  return std::string(scene).replace(at, piece.size(), instead);
+}
+inline std::string everyKeyBut(const std::string& piece, const std::string& instead) {
+  return sceneBut(kEveryKey, piece, instead);
 }
 
 /// An edit that makes the scene invalid, and the resulting message.

@@ -27,6 +27,13 @@ Motion& instead(Trajectory& run) {
   return run.tracks[0].segments[0].motion.emplace<Motion>();
 }
 
+// Sound, but for what is changed.
+Joint& addLeash(Trajectory& run) {
+  Joint leash{.name = "leash", .kind = Joint::Kind::kRope, .from = {.body = 0}, .to = {.body = 1}};
+  leash.length = 9;
+  return run.world.joints.emplace_back(leash);
+}
+
 /// What makes the run senseless, and what is then said.
 struct Fault {
   const char* said;
@@ -150,6 +157,45 @@ const std::vector<Fault> kFaults = {
        run.stage.camera = Camera{.eye = Vec3::UnitX()};
        run.stage.cameraMove.followed = 2;
      }},
+    {"has a joint 'leash' with both ends at one body",
+     [](Trajectory& run) { addLeash(run).from.body.reset(); }},
+    {"has a joint 'leash' with both ends at one body", [](Trajectory& run) { addLeash(run).to.body = 0; }},
+    {"has a joint 'leash' with an end at an unknown body",
+     [](Trajectory& run) { addLeash(run).to.body = 2; }},
+    {"has a joint 'leash' with an end that is none",
+     [](Trajectory& run) { addLeash(run).to.point.x() = kNoNumber; }},
+    {"has a joint 'leash' with an end that is none",
+     [](Trajectory& run) { addLeash(run).from.axes(0, 0) = 2; }},
+    {"has a joint 'leash' with a length that is negative or not finite",
+     [](Trajectory& run) { addLeash(run).length = -1; }},
+    {"has a joint 'leash' with limits that exclude its start",
+     [](Trajectory& run) { addLeash(run).lowest = 0.1; }},
+    {"has a joint 'leash' with a restitution outside 0 to 1",
+     [](Trajectory& run) { addLeash(run).restitution = kNoNumber; }},
+    {"has a joint 'leash' with an end before it begins", [](Trajectory& run) { addLeash(run).until = 0; }},
+    {"has a world with bodies that pass through each other out of order",
+     [](Trajectory& run) {
+       run.world.apart = {{1, 0}};
+     }},
+    {"has a world with bodies that pass through each other out of order",
+     [](Trajectory& run) {
+       run.world.apart = {{0, 1}, {0, 1}};
+     }},
+    {"has a world with bodies that pass through each other out of order",
+     [](Trajectory& run) {
+       run.world.apart = {{0, 2}};
+     }},
+    {"has an impulse with an unknown joint", [](Trajectory& run) { run.jointImpulses.emplace_back(); }},
+    {"has an impulse with a time out of order or beyond the run's end",
+     [](Trajectory& run) {
+       addLeash(run);
+       run.jointImpulses = {{.time = 0.5}, {.time = 0.25}};
+     }},
+    {"has an impulse with invalid numbers",
+     [](Trajectory& run) {
+       addLeash(run);
+       run.jointImpulses = {{.angular = {0, kInfinity, 0}}};
+     }},
     {"has a camera with keys out of order",
      [](Trajectory& run) {
        run.stage.camera = Camera{.eye = Vec3::UnitX()};
@@ -166,7 +212,14 @@ const std::vector<Fault> kFaults = {
     {"has a picture with an invalid shutter", [](Trajectory& run) { run.stage.picture.shutter.samples = 0; }},
 };
 
-TEST(RunCheck, acceptsWhatMakesSense) { EXPECT_NO_THROW(checkRun(driftAndReturn())); }
+TEST(RunCheck, acceptsWhatMakesSense) {
+  Trajectory run = driftAndReturn();
+  EXPECT_NO_THROW(checkRun(run));
+  addLeash(run);
+  run.world.apart = {{0, 1}};
+  run.jointImpulses = {{.time = 0.25}, {.time = 0.25}, {.time = 1}};
+  EXPECT_NO_THROW(checkRun(run));
+}
 
 TEST(RunCheck, saysWhatMakesNoSense) {
   for (const Fault& fault : kFaults) {

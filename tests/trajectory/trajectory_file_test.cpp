@@ -190,6 +190,17 @@ TEST(TrajectoryFile, bringsBackARunOfManyPieces) {
   EXPECT_EQ(encodeTrajectory(back), bytes);
 }
 
+// Format version 9: without joints, which are three lists before the length and the hash of the last state.
+TEST(TrajectoryFile, readsWhatVersion9Wrote) {
+  const Trajectory run = driftAndReturn();
+  std::string record = recordOf(encodeTrajectory(run));
+  const std::size_t end = record.size() - 8 - run.stateHash().size();
+  EXPECT_EQ(record.substr(end - 24, 24), std::string(24, '\0'));
+  record.erase(end - 24, 24);
+  const std::string bytes = withRightChecksum("careen\r\n" + inBytes(9) + pieceOf(record) + "checksum");
+  EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
+}
+
 // Format version 8: the record in one piece without its packed size, and all segments in full.
 TEST(TrajectoryFile, readsWhatVersion8Wrote) {
   const Trajectory run = driftAndReturn();
@@ -259,8 +270,8 @@ TEST(TrajectoryFile, aMinuteOfABouncingBoxTakesLessThan50kB) {
 
 TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
-  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 9: a newer careen wrote it"),
-                                        std::pair('\3', "3, expected 4 to 9: simulate its scene again")}) {
+  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 10: a newer careen wrote it"),
+                                        std::pair('\3', "3, expected 4 to 10: simulate its scene again")}) {
     bytes[8] = version;
     EXPECT_EQ(messageOf(withRightChecksum(bytes)),
               "run.careen: this trajectory file has format version " + std::string(remedy));

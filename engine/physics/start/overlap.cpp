@@ -18,9 +18,14 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-// Boxes whose AABBs overlap, each pair once, in unspecified order: sweep along x.
+bool passThrough(ApartPairs apart, std::size_t a, std::size_t b) {
+  const std::pair pair(static_cast<int>(std::min(a, b)), static_cast<int>(std::max(a, b)));
+  return std::binary_search(apart.begin(), apart.end(), pair);
+}
+
+// Boxes whose AABBs overlap, and that may touch, each pair once, in unspecified order: sweep along x.
 template <class Visit>
-void forBoundsThatMeet(std::span<const PlacedBox> boxes, std::span<const Vec3> positions,
+void forBoundsThatMeet(std::span<const PlacedBox> boxes, std::span<const Vec3> positions, ApartPairs apart,
                        const Visit& visit) {
   std::vector<Vec3> reach;
   reach.reserve(boxes.size());
@@ -36,10 +41,10 @@ void forBoundsThatMeet(std::span<const PlacedBox> boxes, std::span<const Vec3> p
     const double high = positions[i].x() + reach[i].x();
     for (std::size_t l = k + 1; l < order.size() && low(order[l]) <= high; ++l) {
       const std::size_t j = order[l];
-      const Vec3 apart = (positions[i] - positions[j]).cwiseAbs();
+      const Vec3 between = (positions[i] - positions[j]).cwiseAbs();
       const Vec3 both = reach[i] + reach[j];
-      if (apart.y() <= both.y() && apart.z() <= both.z() &&
-          (boxes[i].inverseMass > 0 || boxes[j].inverseMass > 0)) {
+      if (between.y() <= both.y() && between.z() <= both.z() &&
+          (boxes[i].inverseMass > 0 || boxes[j].inverseMass > 0) && !passThrough(apart, i, j)) {
         visit(i, j);
       }
     }
@@ -90,10 +95,11 @@ struct Barrier {
 // Walls are indexed after the boxes: they lie at the origin, and cannot be moved.
 class Parting {
  public:
-  Parting(std::span<const PlacedBox> boxes, std::span<const Wall> walls, Meeting meeting)
+  Parting(std::span<const PlacedBox> boxes, std::span<const Wall> walls, Meeting meeting, ApartPairs apart)
       : boxes_(boxes),
         walls_(walls),
         meeting_(meeting),
+        apart_(apart),
         ease_(easeOf(boxes)),
         start_(positionsOf(boxes)),
         now_(start_),
@@ -173,7 +179,7 @@ class Parting {
   }
 
   void addPairs() {
-    forBoundsThatMeet(boxes_, now_, [this](std::size_t i, std::size_t j) {
+    forBoundsThatMeet(boxes_, now_, apart_, [this](std::size_t i, std::size_t j) {
       const auto [a, b] = rank_[i] < rank_[j] ? std::pair(i, j) : std::pair(j, i);
       const double lengths = lengthsOf(boxes_[a], boxes_[b], now_[a], now_[b]);
       if (!pairs_.contains({a, b}) &&
@@ -309,6 +315,7 @@ class Parting {
   std::span<const PlacedBox> boxes_;
   std::span<const Wall> walls_;
   Meeting meeting_;
+  ApartPairs apart_;
   std::vector<double> ease_;  // [1/kg] inverse mass used for each; 0: fixed
   std::vector<Vec3> start_;
   std::vector<Vec3> now_;
@@ -328,9 +335,9 @@ LowestGap lowestGap(const Wall& wall, BoxAt box) {
   return {.gap = gapToPlane(box, wall.normal, wall.offset), .lengths = size + reach + std::fabs(wall.offset)};
 }
 
-std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes) {
+std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes, ApartPairs apart) {
   std::vector<Overlap> all;
-  forBoundsThatMeet(boxes, positionsOf(boxes), [&](std::size_t i, std::size_t j) {
+  forBoundsThatMeet(boxes, positionsOf(boxes), apart, [&](std::size_t i, std::size_t j) {
     const auto [first, second] = std::minmax(i, j);
     const PlacedBox& a = boxes[first];
     const PlacedBox& b = boxes[second];
@@ -342,16 +349,17 @@ std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes) {
   return all;
 }
 
-std::optional<Overlap> firstOverlap(std::span<const PlacedBox> boxes) {
-  const std::vector<Overlap> all = overlaps(boxes);
+std::optional<Overlap> firstOverlap(std::span<const PlacedBox> boxes, ApartPairs apart) {
+  const std::vector<Overlap> all = overlaps(boxes, apart);
   const auto first = std::min_element(all.begin(), all.end(), [](const Overlap& x, const Overlap& y) {
     return std::pair(x.second, x.first) < std::pair(y.second, y.first);
   });
   return first == all.end() ? std::nullopt : std::optional(*first);
 }
 
-Parted moveApart(std::span<const PlacedBox> boxes, std::span<const Wall> walls, Meeting meeting) {
-  return Parting(boxes, walls, meeting).run();
+Parted moveApart(std::span<const PlacedBox> boxes, std::span<const Wall> walls, Meeting meeting,
+                 ApartPairs apart) {
+  return Parting(boxes, walls, meeting, apart).run();
 }
 
 }  // namespace careen

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/math/linear_algebra.h"
@@ -32,11 +33,14 @@ struct Overlap {
   std::size_t second = 0;
   double depth = 0;
 };
+/// Pairs of boxes that pass through each other, by index, the lesser first; sorted.
+using ApartPairs = std::span<const std::pair<int, int>>;
+
 /// The first pair in the given order, not both fixed, that overlaps by more than kGapAllowance: least
 /// `second`, then least `first`. Sweep along x: boxes in rows and heaps cost little more than O(n log n).
-std::optional<Overlap> firstOverlap(std::span<const PlacedBox> boxes);
+std::optional<Overlap> firstOverlap(std::span<const PlacedBox> boxes, ApartPairs apart = {});
 /// All overlapping pairs, in unspecified order.
-std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes);
+std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes, ApartPairs apart = {});
 
 /// Gap of a box to a wall [m], see gapToPlane, and the lengths whose difference it is.
 struct LowestGap {
@@ -65,7 +69,8 @@ struct Parted {
 ///
 /// Along a fixed axis the gap of boxes that do not rotate is linear in their positions, so the least
 /// displacement is a quadratic programme, solved by C. Hildreth's method (1957), one multiplier at a time.
-/// Pairs are processed in order of the boxes' names, so the given order changes no bit.
+/// Pairs are processed in order of the boxes' names, so the given order changes no bit. Those of `apart` may
+/// overlap.
 ///
 /// Not used: the pile's projection. Without rotation, 3000 of its passes leave 0.1 m under a top 1e4 times as
 /// heavy, and where the axis of least penetration has no room; and it cannot detect that there is no room at
@@ -73,6 +78,6 @@ struct Parted {
 ///
 /// InputError names a pair for which no room was found.
 Parted moveApart(std::span<const PlacedBox> boxes, std::span<const Wall> walls,
-                 Meeting meeting = Meeting::kAll);
+                 Meeting meeting = Meeting::kAll, ApartPairs apart = {});
 
 }  // namespace careen

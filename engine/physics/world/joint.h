@@ -1,9 +1,10 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
-#include <span>
 #include <string>
+#include <string_view>
 
 #include "core/math/linear_algebra.h"
 #include "core/math/pose.h"
@@ -58,6 +59,10 @@ struct Joint {
   bool hasCoordinate() const { return kind == Kind::kHinge || kind == Kind::kSlider; }
   bool isLoaded() const { return stiffness != 0 || damping != 0 || effort != 0; }
 };
+
+/// As scene files spell them, in the order of Joint::Kind.
+inline constexpr std::array<std::string_view, 6> kJointKindNames = {"ball",  "hinge", "slider",
+                                                                    "fixed", "rod",   "rope"};
 
 /// [rad] of a hinge, in (−π, π] from the middle of its limits, or from where its spring rests; [m] of a
 /// slider. Poses of both bodies.

@@ -18,6 +18,7 @@ struct MethodTraits {
   bool boxBox = false;    ///< box–box contact
   bool friction = false;
   bool rests = false;  ///< bounces may come to rest
+  bool joints = false;
 
   constexpr bool steps() const { return order > 0; }
 };
@@ -34,7 +35,8 @@ inline constexpr std::array kMethods = {
                  .forces = true,
                  .boxBox = true,
                  .friction = true,
-                 .rests = true},
+                 .rests = true,
+                 .joints = true},
     MethodTraits{.method = Method::kListing1, .name = "listing1", .order = 1, .forces = true},
     steppedFlight(Method::kStrang, "strang", 2),
     steppedFlight(Method::kRungeKutta4, "runge-kutta-4", 4),

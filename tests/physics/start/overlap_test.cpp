@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -81,6 +82,29 @@ TEST(FirstOverlap, leavesOutTwoThatAreHeld) {
 }
 
 // By 0.25 m along x: 3 kg by a quarter of that, 1 kg by three quarters.
+TEST(FirstOverlap, leavesOutTwoThatPassThroughEachOther) {
+  const std::vector<PlacedBox> boxes = {cube("a", {0, 0, 0}), cube("b", {0.9, 0, 0}), cube("c", {1.7, 0, 0})};
+  const std::vector<std::pair<int, int>> apart = {{0, 1}};
+  const std::optional<Overlap> found = firstOverlap(boxes, apart);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->first, 1U);
+  EXPECT_EQ(found->second, 2U);
+  EXPECT_EQ(overlaps(boxes, apart).size(), 1U);
+  const std::vector<std::pair<int, int>> all = {{0, 1}, {1, 2}};
+  EXPECT_FALSE(firstOverlap(boxes, all));
+}
+
+// The second and third are 0.2 m in each other, and part by that; the first stays in the second.
+TEST(MoveApart, leavesTwoInEachOtherThatPassThrough) {
+  const std::vector<PlacedBox> boxes = {cube("a", {0, 0, 0}), cube("b", {0.9, 0, 0}), cube("c", {1.7, 0, 0})};
+  const std::vector<std::pair<int, int>> apart = {{0, 1}};
+  const Parted parted = moveApart(boxes, {}, Meeting::kAll, apart);
+  EXPECT_EQ(parted.pairs, 1U);
+  EXPECT_EQ(parted.positions[0], boxes[0].pose.position);
+  EXPECT_NEAR(parted.positions[1].x(), 0.8, 1e-12);
+  EXPECT_NEAR(parted.positions[2].x(), 1.8, 1e-12);
+}
+
 TEST(MoveApart, movesTwoAlongTheAxisOfLeastDepthTheLighterOneFurther) {
   const Parted parted =
       moveApart(std::vector{cube("a", Vec3(0, 0, 0), 3), cube("b", Vec3(0.75, 0.5, 0.25), 1)}, {});
