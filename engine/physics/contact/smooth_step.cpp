@@ -46,6 +46,7 @@ SmoothStep::SmoothStep(const World& world, ContactSystem& system, double toleran
     : world_(world),
       system_(system),
       springs_(world, system.bodies()),
+      energy_(world, system),
       tolerance_(tolerance),
       timeScale_(timeScale) {
   end_.y = system.pack();
@@ -53,6 +54,7 @@ SmoothStep::SmoothStep(const World& world, ContactSystem& system, double toleran
 
 void SmoothStep::restart() {
   springs_.end();
+  energy_.end();
   forgetForces();
 }
 
@@ -65,8 +67,10 @@ bool SmoothStep::findRate(End& end) {
 bool SmoothStep::begin() {
   if (system_.pushes()) {
     springs_.end();
+    energy_.begin(end_.y);
   } else {
     springs_.begin(end_.y);
+    energy_.end();
   }
   if (goesOn_) {
     start_ = end_;
@@ -183,7 +187,8 @@ void SmoothStep::finish() {
   }
   const bool kept = system_.keepMomenta(start_.y, length_, end_.y);
   const bool moved = system_.project(end_.y, ContactSystem::kMostMoved * tolerance_);
-  if (springs_.keep(start_.y, length_, end_.y) || moved || kept) {
+  const bool scaled = energy_.keep(end_.y);
+  if (springs_.keep(start_.y, length_, end_.y) || moved || kept || scaled) {
     findRate(end_);
   }
 }

@@ -22,6 +22,8 @@ namespace {
 using Impulse = ContactProblem::Triple;
 using Impulses = std::vector<Impulse>;
 constexpr std::size_t kSix = ContactProblem::kAxes;
+/// [1] of the contacts' speeds: faster joints do not hold.
+constexpr double kJointsMove = 0x1p-30;
 /// [1] of the contacts' speeds: a residual with which an impact may go on although the solver aims at less.
 constexpr double kTolerable = 0x1p-24;
 /// [1] of the restitution that is tried, one after the other, where bodies are wedged.
@@ -38,7 +40,11 @@ constexpr int kMostFactorisations = 400;
 class Law {
  public:
   Law(ContactProblem problem, std::span<const ImpactContact> contacts, ImpactAccuracy accuracy)
-      : problem_(std::move(problem)), before_(problem_.free), contacts_(contacts), accuracy_(accuracy) {
+      : problem_(std::move(problem)),
+        before_(problem_.free),
+        start_(problem_.free),
+        contacts_(contacts),
+        accuracy_(accuracy) {
     double scale = 0;  // [m/s] Σ|n_k q_k| of a contact: its speeds are rounded by parts of that
     for (const ContactProblem::Contact& contact : problem_.contacts) {
       scale = std::max(scale, sumOfTerms(contact, 0, before_, [](double term) { return std::fabs(term); }));
@@ -47,6 +53,38 @@ class Law {
   }
 
   Impulses resolve() {
+    if (!movesJoints()) {
+      return resolveHeld();
+    }
+    const Impulses first = projection(before_, Chosen(contacts_.size(), 0));
+    before_ = problem_.free = after(first);
+    Impulses all = resolveHeld();
+    add(all, 1, first);
+    return all;
+  }
+
+  double approach(std::size_t contact) const {
+    return contacts_[contact].holds ? 0 : -speed(contact, 0, start_);
+  }
+  ContactResiduals takeResiduals() { return solver_.takeResiduals(); }
+
+ private:
+  using Chosen = std::vector<char>;  // of the contacts
+
+  /// Velocities that joints do not allow, as those of a scene's start may be: the joints alone come first.
+  bool movesJoints() const {
+    const double most = std::max(accuracy_.tolerable, kJointsMove / kApproachRounding * rounding_);
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      for (std::size_t row = 0; contacts_[c].holds && row < 3; ++row) {
+        if (std::fabs(speed(c, row, before_)) > most) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  Impulses resolveHeld() {
     Chosen approaches;
     findApproaching(before_, approaches);
     if (std::none_of(approaches.begin(), approaches.end(), [](char yes) { return yes != 0; })) {
@@ -62,14 +100,6 @@ class Law {
     Impulses impulses = frictionless();
     return rough ? withFriction(impulses) : impulses;
   }
-
-  double approach(std::size_t contact) const {
-    return contacts_[contact].holds ? 0 : -speed(contact, 0, before_);
-  }
-  ContactResiduals takeResiduals() { return solver_.takeResiduals(); }
-
- private:
-  using Chosen = std::vector<char>;  // of the contacts
 
   /// Each side for itself, since which of both is a must not matter.
   template <class Use>
@@ -293,6 +323,7 @@ class Law {
 
   ContactProblem problem_;
   std::vector<double> before_;
+  std::vector<double> start_;  // the same, but where joints had to come first
   std::span<const ImpactContact> contacts_;
   ContactSolver solver_;
   ImpactAccuracy accuracy_;
