@@ -252,9 +252,7 @@ void assembleJoints(const Scene& scene, const Plan& plan, World& world) {
     }
     world.joints.push_back(std::move(joint));
   }
-  if (plan.models("box-box")) {
-    world.apart = scene.apart;
-  }
+  world.apart = scene.apart;
 }
 
 void requireMethod(const Scene& scene, bool MethodTraits::*trait, const std::string& what) {

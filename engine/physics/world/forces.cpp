@@ -263,6 +263,11 @@ std::vector<double> accelerationsAtStart(const World& world) {
   for (std::size_t i = 0; i < loads.size(); ++i) {
     accelerations.push_back(world.bodies[i].mass.inverseMass * loads[i].force.norm());
   }
+  for (const Joint& joint : world.joints) {
+    if (joint.isLoaded()) {
+      addPulls(joint, world, states, accelerations);
+    }
+  }
   return accelerations;
 }
 
