@@ -210,7 +210,7 @@ void Books::include(const Holdings& now) {
 
 void Books::check() {
   origin_ = center([&](std::size_t body) -> const BodyState& { return samples_.state(0, body); });
-  takesEnergy_ = run_.world.drag.has_value() ||
+  takesEnergy_ = run_.world.drag.has_value() || group_.jointsLose ||
                  std::any_of(group_.springs.begin(), group_.springs.end(),
                              [&](std::size_t spring) { return run_.world.springs[spring].damping != 0; });
   std::vector<Holdings> all;
@@ -248,7 +248,8 @@ void Books::check() {
   for (std::size_t moment = 1; moment < all.size(); ++moment) {
     externals.push_back(following.until(samples_.times()[moment]));
     const External& external = externals.back();
-    alone_ = alone_ && external.walls.empty() && !external.liesOnImmovable && !external.isStruck;
+    alone_ = alone_ && external.walls.empty() && !external.liesOnImmovable && !external.isHeld &&
+             !external.isStruck;
   }
   due_ = all.front();
   if (isCrowd(samples_.times().front())) {  // perhaps in the midst of an impact
@@ -274,7 +275,7 @@ void Books::balance(double time, const Holdings& now, External& external) {
 
 void Books::balanceMomentum(double time, const Holdings& now, const External& external) {
   Vec3 excess = now.momentum - due_.momentum;
-  if (external.liesOnImmovable) {
+  if (external.liesOnImmovable || external.isHeld) {
     excess.setZero();
   } else if (!external.walls.empty()) {
     excess = beyondWalls(excess, external.walls);
@@ -289,7 +290,7 @@ void Books::balanceMomentum(double time, const Holdings& now, const External& ex
 
 void Books::balanceAngularMomentum(double time, const Holdings& now, const External& external) {
   Vec3 excess = now.angularMomentum - due_.angularMomentum;
-  if (external.liesOnImmovable) {
+  if (external.liesOnImmovable || external.isHeld) {
     excess.setZero();
   } else if (!external.walls.empty()) {
     const Vec3 normal = external.walls.front().normal;

@@ -9,15 +9,15 @@
 namespace careen {
 namespace {
 
-using Kind = Joint::Kind;
+using JointKind = Joint::Kind;
 
-bool takes(Kind kind, std::string_view key) {
-  const bool isLine = kind == Kind::kRod || kind == Kind::kRope;
-  const bool hasCoordinate = kind == Kind::kHinge || kind == Kind::kSlider;
+bool takes(JointKind kind, std::string_view key) {
+  const bool isLine = kind == JointKind::kRod || kind == JointKind::kRope;
+  const bool hasCoordinate = kind == JointKind::kHinge || kind == JointKind::kSlider;
   return key == "at"                          ? !isLine
          : key == "points" || key == "length" ? isLine
          : key == "axis" || key == "range"    ? hasCoordinate
-                                              : hasCoordinate || kind == Kind::kRope;  // restitution
+                                              : hasCoordinate || kind == JointKind::kRope;  // restitution
 }
 
 // Right-handed, with the axis as z. The x axis is that of the world which is least along it, as far as it
@@ -39,7 +39,7 @@ Joint readJoint(const JsonValue& value, std::size_t index) {
   const JsonObject object = value.object({"name", "type", "between", "at", "axis", "points", "length",
                                           "range", "restitution", "collide", "until"});
   Joint joint{.name = object.name("joint-" + std::to_string(index)), .from = {}, .to = {}};
-  joint.kind = static_cast<Kind>(
+  joint.kind = static_cast<JointKind>(
       object.require("type").word({kJointKindNames.begin(), kJointKindNames.end()}, "type of joint"));
   const std::string type(kJointKindNames.at(static_cast<std::size_t>(joint.kind)));
   for (const char* key : {"at", "axis", "points", "length", "range", "restitution"}) {
@@ -56,7 +56,7 @@ Joint readJoint(const JsonValue& value, std::size_t index) {
         object.require("points").elements("[[x, y, z], [x, y, z]] of both ends [m]", 2);
     joint.from.point = points[0].vector(anyNumber("m"));
     joint.to.point = points[1].vector(anyNumber("m"));
-  } else if (joint.kind != Kind::kFixed || object.has("at")) {
+  } else if (joint.kind != JointKind::kFixed || object.has("at")) {
     joint.from.point = object.require("at").vector(anyNumber("m"));
     joint.to.point = joint.from.point;
   }
@@ -66,7 +66,7 @@ Joint readJoint(const JsonValue& value, std::size_t index) {
   }
   joint.length = object.number("length", positiveNumber("m"), 0);
   if (const std::optional<JsonValue> range = object.find("range")) {
-    const NumberRange number = anyNumber(joint.kind == Kind::kHinge ? "rad" : "m");
+    const NumberRange number = anyNumber(joint.kind == JointKind::kHinge ? "rad" : "m");
     const std::vector<JsonValue> ends = range->elements("[lowest, highest]", 2);
     joint.lowest = ends[0].number(number);
     joint.highest = ends[1].number(number);
