@@ -3,8 +3,10 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "commands.h"
+#include "core/brief.h"
 #include "core/characters.h"
 #include "core/system/file.h"
 #include "report.h"
@@ -16,9 +18,39 @@
 namespace careen {
 namespace {
 
+// "joint        knee: hinge between lid and crate, from -0.5 to 2.25 rad"
+template <class Named>
+void printJoints(const std::vector<Joint>& joints, const std::vector<Named>& boxes) {
+  constexpr std::size_t kMost = 32;
+  const auto nameOf = [&](const JointEnd& end) {
+    return end.body ? printableName(boxes[static_cast<std::size_t>(*end.body)].name) : "the world";
+  };
+  for (std::size_t i = 0; i < joints.size() && i < kMost; ++i) {
+    const Joint& joint = joints[i];
+    std::cout << "joint        " << printableName(joint.name) << ": "
+              << kJointKindNames.at(static_cast<std::size_t>(joint.kind)) << " between " << nameOf(joint.from)
+              << " and " << nameOf(joint.to);
+    if (joint.lowest > -Joint::kFree || joint.highest < Joint::kFree) {
+      std::cout << ", from " << brief(joint.lowest) << " to " << brief(joint.highest)
+                << (joint.kind == Joint::Kind::kHinge ? " rad" : " m");
+    }
+    if (joint.length > 0) {
+      std::cout << ", " << brief(joint.length) << " m long";
+    }
+    if (joint.until < Joint::kFree) {
+      std::cout << ", until " << brief(joint.until) << " s";
+    }
+    std::cout << '\n';
+  }
+  if (joints.size() > kMost) {
+    std::cout << "             and " << joints.size() - kMost << " more\n";
+  }
+}
+
 void printScene(const Scene& scene) {
   const Plan items = plan(scene);
   printPlan(std::cout, scene.name, scene.boxes.size(), scene.settings, items);
+  printJoints(scene.joints, scene.boxes);
   printCrowds(std::cout, scene.settings, items);
 }
 
@@ -51,6 +83,7 @@ ExitCode infoCommand(std::filesystem::path path, const SceneOfTable& ofTable, co
   Run run = loadRun(path, {}, ofTable, stop);
   auditRun(run, {.keepGoing = true}, stop);  // what is broken is told below
   printPlan(std::cout, run.trajectory);
+  printJoints(run.trajectory.world.joints, run.trajectory.world.bodies);
   printError(std::cout, run);
   std::size_t segments = 0;
   for (const Track& track : run.trajectory.tracks) {

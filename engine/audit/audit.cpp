@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <variant>
 
 #include "audit/between_rows.h"
 #include "audit/findings.h"
 #include "audit/groups.h"
+#include "audit/joint_gap.h"
 #include "audit/ledger.h"
 #include "audit/moments.h"
 #include "audit/near_pairs.h"
@@ -53,7 +55,7 @@ class Auditor {
         part_(limits.table),
         settings_(settingsOf(run, limits)),
         findings_(settings_, promises(limits, false), promises(limits, true), crowdBeginnings(run)),
-        impacts_(impactsOfBodies(run)),
+        impulses_(impulsesOfBodies(run)),
         fallingSpeeds_(fallingSpeeds(run.world)),
         badness_(run.tracks.size(), 0) {}
 
@@ -71,6 +73,8 @@ class Auditor {
   void checkMoments(const Samples& samples);
   void checkWalls(std::size_t body, const Pose& pose, double time);
   void checkPair(std::size_t a, const Pose& poseA, std::size_t b, const Pose& poseB, double time);
+  template <class PoseOf>
+  void checkJoint(std::size_t index, const PoseOf& poseOf, double time);
   void checkSeams();
   void checkAround(std::size_t body, double time);
   void checkWorst();
@@ -86,9 +90,9 @@ class Auditor {
   double part_;  // see AuditLimits::table
   RunSettings settings_;
   Findings findings_;
-  std::vector<std::vector<std::size_t>> impacts_;  // of each body
-  std::vector<double> fallingSpeeds_;              // likewise
-  std::vector<double> badness_;                    // of each body: how far it is from what it should be
+  std::vector<ImpulsesOfBody> impulses_;  // of each body
+  std::vector<double> fallingSpeeds_;     // likewise
+  std::vector<double> badness_;           // of each body: how far it is from what it should be
   std::size_t looks_ = 0;
 };
 
@@ -134,7 +138,8 @@ void Auditor::checkWalls(std::size_t index, const Pose& pose, double time) {
 }
 
 void Auditor::checkPair(std::size_t a, const Pose& poseA, std::size_t b, const Pose& poseB, double time) {
-  if (isImmovable(body(a).mass) && isImmovable(body(b).mass)) {
+  if ((isImmovable(body(a).mass) && isImmovable(body(b).mass)) ||
+      !mayTouch(run_.world, static_cast<int>(a), static_cast<int>(b))) {
     return;
   }
   const double depth = -separationOf(auditBox(body(a), poseA), auditBox(body(b), poseB));
@@ -142,6 +147,32 @@ void Auditor::checkPair(std::size_t a, const Pose& poseA, std::size_t b, const P
     found(AuditKind::kBoxOverlap,
           placeRounding(body(a), poseA.position) + placeRounding(body(b), poseB.position),
           {.size = depth, .time = time, .bodies = {a, b}, .wall = {}});
+  }
+}
+
+// Until it lets go. `poseOf(body)`: the pose there.
+template <class PoseOf>
+void Auditor::checkJoint(std::size_t index, const PoseOf& poseOf, double time) {
+  const Joint& joint = run_.world.joints[index];
+  if (!(time < joint.until)) {
+    return;
+  }
+  std::vector<std::size_t> members;
+  const auto place = [&](const JointEnd& end) {
+    if (!end.body) {
+      return Pose{};
+    }
+    members.push_back(static_cast<std::size_t>(*end.body));
+    return poseOf(members.back());
+  };
+  const Pose from = place(joint.from);
+  const Pose to = place(joint.to);
+  const JointGap gap = jointGapOf(run_.world, joint, from, to);
+  for (const auto& [kind, size] :
+       {std::pair(AuditKind::kJointGap, gap.open), std::pair(AuditKind::kJointLimit, gap.beyond)}) {
+    if (size > 0) {
+      found(kind, gap.rounding, {.size = size, .time = time, .bodies = members, .wall = {}, .joint = index});
+    }
   }
 }
 
@@ -161,6 +192,10 @@ void Auditor::checkMoments(const Samples& samples) {
     for (const auto& [a, b] : nearPairs(balls)) {
       checkPair(a, samples.state(moment, a).pose, b, samples.state(moment, b).pose, time);
     }
+    for (std::size_t joint = 0; joint < run_.world.joints.size(); ++joint) {
+      checkJoint(
+          joint, [&](std::size_t body) { return samples.state(moment, body).pose; }, time);
+    }
   }
   looks_ += samples.moments() * bodies();
 }
@@ -174,6 +209,13 @@ void Auditor::checkAround(std::size_t index, double time) {
     return;
   }
   checkWalls(index, state.pose, time);
+  for (std::size_t joint = 0; joint < run_.world.joints.size(); ++joint) {
+    const Joint& each = run_.world.joints[joint];
+    if (each.from.body == static_cast<int>(index) || each.to.body == static_cast<int>(index)) {
+      checkJoint(
+          joint, [&](std::size_t body) { return run_.state(body, time).pose; }, time);
+    }
+  }
   for (std::size_t other = 0; other < bodies(); ++other) {
     const Track& track = run_.tracks[other];
     const Segment& segment = track.segments[segmentAt(track, time)];
@@ -215,7 +257,7 @@ void Auditor::checkSeams() {
       const Segment& after = run_.tracks[index].segments[seam.after];
       const bool isLooked = number++ % stride == 0 || std::holds_alternative<Rest>(after.motion);
       if (isLooked && after.start <= run_.settings.duration) {
-        checkSeam(run_, index, seam, impacts_[index], fallingSpeeds_[index], findings_);
+        checkSeam(run_, index, seam, impulses_[index], fallingSpeeds_[index], findings_);
         looks_ += 2;
       }
     }
@@ -291,6 +333,9 @@ std::vector<std::string> Auditor::namesOf(const Finding& finding) const {
   }
   if (finding.wall) {
     names.push_back(run_.world.walls[*finding.wall].name);
+  }
+  if (finding.joint) {
+    names.push_back(run_.world.joints[*finding.joint].name);
   }
   return names;
 }

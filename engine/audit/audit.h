@@ -35,7 +35,7 @@ struct AuditLimits {
 struct AuditFigure {
   double size = 0;                  ///< in the kind's unit; 0: nothing found
   double time = 0;                  ///< [s]
-  std::vector<std::string> bodies;  ///< and walls, by name
+  std::vector<std::string> bodies;  ///< walls and joints, by name
   bool promised = false;            ///< the method promises a bound for this kind at this time
 };
 

@@ -75,12 +75,18 @@ class Rows {
 
 void Rows::listPulled() {
   pulled_.assign(run_.tracks.size(), run_.world.drag ? 1 : 0);
-  for (const Spring& spring : run_.world.springs) {
-    for (const SpringEnd* end : {&spring.from, &spring.to}) {
-      if (end->body) {
-        pulled_[static_cast<std::size_t>(*end->body)] = 1;
-      }
+  const auto pull = [this](const std::optional<int>& body) {
+    if (body) {
+      pulled_[static_cast<std::size_t>(*body)] = 1;
     }
+  };
+  for (const Spring& spring : run_.world.springs) {
+    pull(spring.from.body);
+    pull(spring.to.body);
+  }
+  for (const Joint& joint : run_.world.joints) {
+    pull(joint.from.body);
+    pull(joint.to.body);
   }
 }
 
@@ -211,7 +217,7 @@ void Rows::findPartners(std::size_t row) {
     }
   }
   for (const auto& [a, b] : nearPairs(balls)) {
-    if ((!isHeld(a) || !isHeld(b)) &&
+    if ((!isHeld(a) || !isHeld(b)) && mayTouch(run_.world, static_cast<int>(a), static_cast<int>(b)) &&
         canTouch(isHeld(a) ? b : a, Partner::ofBody(static_cast<int>(isHeld(a) ? a : b)), row)) {
       flying_[a].partners.push_back(Partner::ofBody(static_cast<int>(b)));
       flying_[b].partners.push_back(Partner::ofBody(static_cast<int>(a)));

@@ -12,8 +12,8 @@ namespace careen {
 /// follow from velocities. Where it can have touched one thing only, restitution and friction are held to
 /// what both rows allow, see encounter.h. Small excesses of many rows add up.
 ///
-/// Not looked at: bodies under springs and drag, bodies that may have touched several things at once, boxes
-/// without rows at the times of the others.
+/// Not looked at: bodies under springs, joints and drag, bodies that may have touched several things at once,
+/// boxes without rows at the times of the others.
 ///
 /// `near` [m]: what is no farther apart may push each other; `part` [1]: speeds may be off by it;
 /// `fallingSpeeds` [m/s]: of each body, see seams.h.

@@ -50,8 +50,18 @@ External ExternalOf::until(double time) {
     follow(member, time, external);
   }
   addImpacts(time, external);
+  external.isHeld = isHeldByJoint();
   time_ = time;
   return external;
+}
+
+// From the last moment on, or for a while since.
+bool ExternalOf::isHeldByJoint() const {
+  return std::any_of(group_.joints.begin(), group_.joints.end(), [&](std::size_t index) {
+    const Joint& joint = run_.world.joints[index];
+    return joint.until >= time_ &&
+           !(isMovable(run_.world, joint.from.body) && isMovable(run_.world, joint.to.body));
+  });
 }
 
 void ExternalOf::follow(std::size_t member, double time, External& external) {
@@ -214,7 +224,8 @@ ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment)
           const Body& other = run_.world.bodies[fixed];
           const double reach = radiusOf(owner) + radiusOf(other) + near;
           const Pose& where = other.initial.pose;
-          return (place.position - where.position).norm() <= reach &&
+          return mayTouch(run_.world, static_cast<int>(body), static_cast<int>(fixed)) &&
+                 (place.position - where.position).norm() <= reach &&
                  separationOf(box, auditBox(other, where)) <= near;
         });
   }
@@ -222,7 +233,7 @@ ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment)
 }
 
 bool ExternalOf::touchesOther(std::size_t body, std::size_t segment) const {
-  if (group_.springs.empty()) {
+  if (group_.springs.empty() && group_.joints.empty()) {
     return true;  // nothing else takes such steps but what touches
   }
   const Body& owner = run_.world.bodies[body];
@@ -231,7 +242,8 @@ bool ExternalOf::touchesOther(std::size_t body, std::size_t segment) const {
   for (const double elapsed : {0.0, lengthOf(body, segment)}) {
     const AuditBox box = auditBox(owner, placeOf(body, segment, elapsed));
     if (std::any_of(group_.bodies.begin(), group_.bodies.end(), [&](std::size_t other) {
-          return other != body && meets(box, near, other, start + elapsed);
+          return other != body && mayTouch(run_.world, static_cast<int>(body), static_cast<int>(other)) &&
+                 meets(box, near, other, start + elapsed);
         })) {
       return true;
     }

@@ -21,6 +21,7 @@ struct External {
   std::vector<WallForce> walls;        ///< that bodies of the group lay on, each once
   bool lies = false;                   ///< on a wall or an immovable body, or on another of the group
   bool liesOnImmovable = false;
+  bool isHeld = false;          ///< by a joint to the world or an immovable body
   bool isStruck = false;        ///< by walls or immovable bodies
   bool losesInImpacts = false;  ///< of restitution or friction
 };
@@ -51,6 +52,7 @@ class ExternalOf {
   bool touchesOther(std::size_t body, std::size_t segment) const;
   Pose placeOf(std::size_t body, std::size_t segment, double elapsed) const;
   double lengthOf(std::size_t body, std::size_t segment) const;
+  bool isHeldByJoint() const;
   bool meets(const AuditBox& box, double near, std::size_t other, double time) const;
   double wayWithin(std::size_t body, std::size_t segment) const;
 

@@ -16,12 +16,13 @@ namespace careen {
 
 /// What an audit found of one kind: the largest, or the first that broke a promise.
 struct Finding {
-  double size = 0;                  ///< in the kind's unit
-  double time = 0;                  ///< [s]
-  std::vector<std::size_t> bodies;  ///< indices in the world
-  std::optional<std::size_t> wall;  ///< index in the world
-  double length = 1;                ///< [m] for kinds that have no unit: what the tolerance is compared with
-  bool promised = true;             ///< false: reported, whatever the method promises for the kind
+  double size = 0;                        ///< in the kind's unit
+  double time = 0;                        ///< [s]
+  std::vector<std::size_t> bodies;        ///< indices in the world
+  std::optional<std::size_t> wall;        ///< index in the world
+  std::optional<std::size_t> joint = {};  ///< likewise
+  double length = 1;     ///< [m] for kinds that have no unit: what the tolerance is compared with
+  bool promised = true;  ///< false: reported, whatever the method promises for the kind
 };
 
 /// Collects findings.

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <variant>
 
@@ -40,10 +41,25 @@ void joinByImpacts(const Trajectory& run, Joining& joining) {
   }
 }
 
-void joinBySprings(const World& world, Joining& joining) {
-  for (const Spring& spring : world.springs) {
-    if (spring.from.body && spring.to.body) {
-      joining.join(static_cast<std::size_t>(*spring.from.body), static_cast<std::size_t>(*spring.to.body));
+// Springs or joints.
+template <class Link>
+void joinByLinks(const std::vector<Link>& links, Joining& joining) {
+  for (const Link& link : links) {
+    if (link.from.body && link.to.body) {
+      joining.join(static_cast<std::size_t>(*link.from.body), static_cast<std::size_t>(*link.to.body));
+    }
+  }
+}
+
+// Calls `add` with the index of each, and a body of its ends that can move.
+template <class Link, class Add>
+void forMovableEnds(const std::vector<Link>& links, const Joining& joining, const Add& add) {
+  for (std::size_t index = 0; index < links.size(); ++index) {
+    for (const std::optional<int>& body : {links[index].from.body, links[index].to.body}) {
+      if (body && joining.isMovable(static_cast<std::size_t>(*body))) {
+        add(index, static_cast<std::size_t>(*body));
+        break;
+      }
     }
   }
 }
@@ -88,6 +104,7 @@ void joinByPlaces(const Trajectory& run, const Samples& samples, Joining& joinin
         return mayTouch(run.tracks[body].segments[segmentAt(run.tracks[body], time)].motion);
       };
       if (!joining.areJoined(a, b) && (touches(a) || touches(b)) &&
+          mayTouch(run.world, static_cast<int>(a), static_cast<int>(b)) &&
           separationOf(auditBox(run.world.bodies[a], samples.state(moment, a).pose),
                        auditBox(run.world.bodies[b], samples.state(moment, b).pose)) <=
               margins[a] + margins[b]) {
@@ -138,7 +155,8 @@ double touchingDistance(const Body& body, const RunSettings& settings) {
 std::vector<ExchangeGroup> exchangeGroups(const Trajectory& run, const Samples& samples) {
   Joining joining(run);
   joinByImpacts(run, joining);
-  joinBySprings(run.world, joining);
+  joinByLinks(run.world.springs, joining);
+  joinByLinks(run.world.joints, joining);
   joinBySteps(run, joining);
   joinByPlaces(run, samples, joining);
   std::vector<ExchangeGroup> groups;
@@ -154,14 +172,17 @@ std::vector<ExchangeGroup> exchangeGroups(const Trajectory& run, const Samples& 
       groupOf[body] = group;
     }
   }
-  for (std::size_t spring = 0; spring < run.world.springs.size(); ++spring) {
-    for (const SpringEnd* end : {&run.world.springs[spring].from, &run.world.springs[spring].to}) {
-      if (end->body && joining.isMovable(static_cast<std::size_t>(*end->body))) {
-        groups[groupOf[static_cast<std::size_t>(*end->body)]].springs.push_back(spring);
-        break;
-      }
-    }
-  }
+  forMovableEnds(run.world.springs, joining, [&](std::size_t spring, std::size_t body) {
+    groups[groupOf[body]].springs.push_back(spring);
+  });
+  forMovableEnds(run.world.joints, joining, [&](std::size_t index, std::size_t body) {
+    ExchangeGroup& group = groups[groupOf[body]];
+    const Joint& joint = run.world.joints[index];
+    const bool stops =
+        joint.kind == Joint::Kind::kRope || joint.lowest > -Joint::kFree || joint.highest < Joint::kFree;
+    group.joints.push_back(index);
+    group.jointsLose = group.jointsLose || (stops && joint.restitution < 1);
+  });
   for (std::size_t k = 0; k < run.impacts.size(); ++k) {
     const auto a = static_cast<std::size_t>(run.impacts[k].a.value);
     const std::size_t hit = joining.isMovable(a) || run.impacts[k].b.isWall()

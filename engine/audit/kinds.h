@@ -19,7 +19,9 @@ enum class AuditKind : int {
   kEnergyRise,
   kEnergyLoss,
   kRestitution,
-  kFriction
+  kFriction,
+  kJointGap,
+  kJointLimit
 };
 
 struct AuditKindTraits {
@@ -44,7 +46,9 @@ inline constexpr std::array kAuditKinds = {
     AuditKindTraits{AuditKind::kEnergyLoss, "energy_loss", "1", "energy nothing took"},
     // Of tables only. Friction is relative to the body's largest momentum.
     AuditKindTraits{AuditKind::kRestitution, "restitution", "1", "a bounce is not that of the scene"},
-    AuditKindTraits{AuditKind::kFriction, "friction", "1", "friction is not that of the scene"}};
+    AuditKindTraits{AuditKind::kFriction, "friction", "1", "friction is not that of the scene"},
+    AuditKindTraits{AuditKind::kJointGap, "joint_gap", "m", "a joint is open"},
+    AuditKindTraits{AuditKind::kJointLimit, "joint_limit", "m", "a joint is beyond its limits"}};
 inline constexpr std::size_t kAuditKindCount = kAuditKinds.size();
 
 constexpr std::size_t indexOf(AuditKind kind) { return static_cast<std::size_t>(kind); }

@@ -20,7 +20,8 @@ namespace careen {
 ///
 /// The angular momentum of a group that lies on walls is balanced only about their common normal, and only if
 /// they are without friction: where the forces act is not recorded. A group that lies on an immovable body is
-/// not balanced meanwhile.
+/// not balanced meanwhile, and nor is one that a joint holds to it or to the world; its energy is, as joints
+/// do no work: but limits and ropes may take some.
 ///
 /// `fallingSpeeds` [m/s]: of each body, see seams.h.
 void checkBalances(const Trajectory& run, const Samples& samples, const std::vector<ExchangeGroup>& groups,

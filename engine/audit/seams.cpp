@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <variant>
 
 #include "audit/samples.h"
@@ -28,22 +29,31 @@ double jumpOf(const Body& body, const Pose& before, const Pose& after) {
   return farthest;
 }
 
-/// What impacts gave a body.
+/// What impacts and joints gave a body.
 struct Given {
   Vec3 momentum = Vec3::Zero();
   Vec3 angularMomentum = Vec3::Zero();
   double all = 0;          // [N s] of all impulses
+  double couples = 0;      // [N m s] likewise
   double friction = 0;     // [N s] whose direction is not recorded
   double frictionArm = 0;  // [N m s] likewise, about the centre of mass
 };
 
-Given givenBy(const Trajectory& run, std::size_t body, const Vec3& center,
-              const std::vector<std::size_t>& impacts, double from, double to) {
+// Those of `own`, by index, after one time and not after the other [s].
+template <class Event, class Add>
+void forEventsBetween(const std::vector<Event>& events, const std::vector<std::size_t>& own, double from,
+                      double to, const Add& add) {
+  const auto later = [&](double time, std::size_t k) { return time < events[k].time; };
+  for (auto k = std::upper_bound(own.begin(), own.end(), from, later);
+       k != own.end() && events[*k].time <= to; ++k) {
+    add(events[*k]);
+  }
+}
+
+Given givenBy(const Trajectory& run, std::size_t body, const Vec3& center, const ImpulsesOfBody& impulses,
+              double from, double to) {
   Given given;
-  const auto later = [&](double time, std::size_t k) { return time < run.impacts[k].time; };
-  for (auto k = std::upper_bound(impacts.begin(), impacts.end(), from, later);
-       k != impacts.end() && run.impacts[*k].time <= to; ++k) {
-    const Impact& impact = run.impacts[*k];
+  forEventsBetween(run.impacts, impulses.impacts, from, to, [&](const Impact& impact) {
     const double sign = impact.a.value == static_cast<int>(body) ? 1 : -1;
     const Vec3 impulse = sign * impact.impulse * impact.normal;
     const Vec3 arm = impact.point - center;
@@ -52,7 +62,15 @@ Given givenBy(const Trajectory& run, std::size_t body, const Vec3& center,
     given.all += impact.impulse + impact.tangential;
     given.friction += impact.tangential;
     given.frictionArm += impact.tangential * arm.norm();
-  }
+  });
+  forEventsBetween(run.jointImpulses, impulses.joints, from, to, [&](const JointImpulse& passed) {
+    const Joint& joint = run.world.joints[static_cast<std::size_t>(passed.joint)];
+    const double sign = joint.from.body == static_cast<int>(body) ? 1 : -1;
+    given.momentum += sign * passed.linear;
+    given.angularMomentum += sign * (passed.angular + Vec3((passed.point - center).cross(passed.linear)));
+    given.all += passed.linear.norm();
+    given.couples += passed.angular.norm();
+  });
   return given;
 }
 
@@ -66,19 +84,19 @@ double lengthOf(const Motion& motion) {
 }
 
 void checkImpulse(const Trajectory& run, std::size_t body, const Seam& seam, const BodyState& before,
-                  const BodyState& after, const std::vector<std::size_t>& impacts, double fallingSpeed,
+                  const BodyState& after, const ImpulsesOfBody& impulses, double fallingSpeed,
                   Findings& findings) {
   const Body& owner = run.world.bodies[body];
   const std::vector<Segment>& segments = run.tracks[body].segments;
   const double time = segments[seam.after].start;
-  const Given given = givenBy(run, body, after.pose.position, impacts, segments[seam.before].start, time);
+  const Given given = givenBy(run, body, after.pose.position, impulses, segments[seam.before].start, time);
   const double mass = owner.mass.mass;
   const double size = owner.halfExtents.norm();
   const double still = mass * fallingSpeed;
   const double linearScale =
       mass * std::max(before.velocity.norm(), after.velocity.norm()) + given.all + still;
-  const double angularScale =
-      std::max(before.angularMomentum.norm(), after.angularMomentum.norm()) + size * (given.all + still);
+  const double angularScale = std::max(before.angularMomentum.norm(), after.angularMomentum.norm()) +
+                              size * (given.all + still) + given.couples;
   const double linear = (mass * (after.velocity - before.velocity) - given.momentum).norm() - given.friction;
   const double angular =
       (after.angularMomentum - before.angularMomentum - given.angularMomentum).norm() - given.frictionArm;
@@ -115,15 +133,23 @@ std::vector<Seam> seamsOf(const Track& track) {
   return seams;
 }
 
-std::vector<std::vector<std::size_t>> impactsOfBodies(const Trajectory& run) {
-  std::vector<std::vector<std::size_t>> impacts(run.tracks.size());
+std::vector<ImpulsesOfBody> impulsesOfBodies(const Trajectory& run) {
+  std::vector<ImpulsesOfBody> bodies(run.tracks.size());
   for (std::size_t k = 0; k < run.impacts.size(); ++k) {
-    impacts[static_cast<std::size_t>(run.impacts[k].a.value)].push_back(k);
+    bodies[static_cast<std::size_t>(run.impacts[k].a.value)].impacts.push_back(k);
     if (!run.impacts[k].b.isWall()) {
-      impacts[static_cast<std::size_t>(run.impacts[k].b.body())].push_back(k);
+      bodies[static_cast<std::size_t>(run.impacts[k].b.body())].impacts.push_back(k);
     }
   }
-  return impacts;
+  for (std::size_t k = 0; k < run.jointImpulses.size(); ++k) {
+    const Joint& joint = run.world.joints[static_cast<std::size_t>(run.jointImpulses[k].joint)];
+    for (const std::optional<int>& body : {joint.from.body, joint.to.body}) {
+      if (body) {
+        bodies[static_cast<std::size_t>(*body)].joints.push_back(k);
+      }
+    }
+  }
+  return bodies;
 }
 
 double placeRounding(const Body& body, const Vec3& position) {
@@ -149,8 +175,8 @@ void checkState(const BodyState& state, std::size_t body, double time, Findings&
       {.size = (a * a.transpose() - Mat3::Identity()).norm(), .time = time, .bodies = {body}, .wall = {}});
 }
 
-void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam,
-               const std::vector<std::size_t>& impacts, double fallingSpeed, Findings& findings) {
+void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam, const ImpulsesOfBody& impulses,
+               double fallingSpeed, Findings& findings) {
   const Body& owner = run.world.bodies[body];
   const std::vector<Segment>& segments = run.tracks[body].segments;
   const double time = segments[seam.after].start;
@@ -169,7 +195,7 @@ void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam,
   findings.add(AuditKind::kContinuity, rounding,
                {.size = jumpOf(owner, before.pose, after.pose), .time = time, .bodies = {body}, .wall = {}});
   if (!isImmovable(owner.mass)) {
-    checkImpulse(run, body, seam, before, after, impacts, fallingSpeed, findings);
+    checkImpulse(run, body, seam, before, after, impulses, fallingSpeed, findings);
   }
 }
 

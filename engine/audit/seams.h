@@ -15,13 +15,18 @@ struct Seam {
 };
 std::vector<Seam> seamsOf(const Track& track);
 
-/// Impacts of each body, as indices into the run's, in order of time.
-std::vector<std::vector<std::size_t>> impactsOfBodies(const Trajectory& run);
+/// What gave a body impulses, as indices into the run's lists, in order of time.
+struct ImpulsesOfBody {
+  std::vector<std::size_t> impacts;
+  std::vector<std::size_t> joints;  ///< of Trajectory::jointImpulses
+};
+std::vector<ImpulsesOfBody> impulsesOfBodies(const Trajectory& run);
 
-/// Looks at both sides of a seam: are both states finite, is the place the same, and did the impacts since
-/// the last seam give the velocity its jump? `impacts` and `fallingSpeed` are those of the body.
-void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam,
-               const std::vector<std::size_t>& impacts, double fallingSpeed, Findings& findings);
+/// Looks at both sides of a seam: are both states finite, is the place the same, and did the impacts and
+/// joints since the last seam give the velocity its jump? `impulses` and `fallingSpeed` are those of the
+/// body.
+void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam, const ImpulsesOfBody& impulses,
+               double fallingSpeed, Findings& findings);
 
 /// Looks at a body's way from row to row of a table that has velocities: how much farther it is than every
 /// velocity between those of the two rows takes it.

@@ -71,6 +71,12 @@ class MjcfWriter {
 
   MjcfFile file() {
     const bool sameDrag = world_.drag && world_.drag->linear == world_.drag->angular;
+    if (!world_.joints.empty()) {
+      file_.leftOut.emplace_back("joints");
+    }
+    if (!world_.apart.empty()) {
+      file_.leftOut.emplace_back("which boxes pass through each other");
+    }
     if (world_.drag && !sameDrag) {
       file_.leftOut.emplace_back("drag: linear and angular differ");
     }

@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view kWorld = "world";
 constexpr double kTurn = 2 * 3.141592653589793;  // [rad]
 constexpr double kSameLength = 1e-9;             // [1]
-constexpr int kDigits = 10;                      // of lengths, which may differ by no more than that
+constexpr int kDigitsOfLength = 10;              // of lengths, which may differ by no more than that
 
 /// A joint of the file on its way to one of the world.
 class Connecting {
@@ -143,11 +143,11 @@ class Connecting {
     const double off = distance - joint_.length;
     const bool isRod = joint_.kind == Joint::Kind::kRod;
     if ((isRod ? std::fabs(off) : off) > kSameLength * joint_.length) {
-      tree_.fail(
-          member("length").offset,
-          describe(member("length")) + " for " + label_ + ".length, which its points exceed by " +
-              brief(off) + " m at the start",
-          (isRod ? "their distance, " : "at least their distance, ") + brief(distance, kDigits) + " m");
+      tree_.fail(member("length").offset,
+                 describe(member("length")) + " for " + label_ + ".length, which its points exceed by " +
+                     brief(off) + " m at the start",
+                 (isRod ? "their distance, " : "at least their distance, ") +
+                     brief(distance, kDigitsOfLength) + " m");
     }
     joint_.length = isRod ? distance : std::max(joint_.length, distance);
   }

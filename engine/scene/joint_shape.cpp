@@ -11,16 +11,16 @@
 namespace careen {
 namespace {
 
-using Kind = Joint::Kind;
+using JointKind = Joint::Kind;
 
-bool takes(Kind kind, std::string_view key) {
-  const bool isLine = kind == Kind::kRod || kind == Kind::kRope;
-  const bool hasCoordinate = kind == Kind::kHinge || kind == Kind::kSlider;
+bool takes(JointKind kind, std::string_view key) {
+  const bool isLine = kind == JointKind::kRod || kind == JointKind::kRope;
+  const bool hasCoordinate = kind == JointKind::kHinge || kind == JointKind::kSlider;
   return key == "at"                          ? !isLine
          : key == "points" || key == "length" ? isLine
          : key == "axis" || key == "range" || key == "start" || key == "spring" || key == "damping"
              ? hasCoordinate
-             : hasCoordinate || kind == Kind::kRope;  // restitution
+             : hasCoordinate || kind == JointKind::kRope;  // restitution
 }
 
 // Right-handed, with the axis as z. The x axis is that of the world which is least along it, as far as it
@@ -39,7 +39,7 @@ Mat3 frameAbout(const Vec3& axis) {
 // Where the first end is at the start, of a joint whose ends' frames coincide.
 void beginAt(Joint& joint, double start) {
   const Vec3 axis = joint.to.axes.col(2);
-  if (joint.kind == Kind::kSlider) {
+  if (joint.kind == JointKind::kSlider) {
     joint.to.point -= start * axis;
   } else if (start != 0) {
     const auto turn = elementary::sinCos(start);
@@ -51,7 +51,7 @@ void beginAt(Joint& joint, double start) {
 }
 
 void readLoad(const JsonObject& object, Joint& joint) {
-  const bool turns = joint.kind == Kind::kHinge;
+  const bool turns = joint.kind == JointKind::kHinge;
   if (const std::optional<JsonValue> given = object.find("spring")) {
     const JsonObject spring = given->object({"stiffness", "rest"});
     joint.stiffness = spring.require("stiffness").number(nonNegativeNumber(turns ? "N m/rad" : "N/m"));
@@ -67,7 +67,7 @@ Joint readJoint(const JsonValue& value, std::size_t index) {
       value.object({"name", "type", "between", "at", "axis", "points", "length", "range", "start", "spring",
                     "damping", "restitution", "collide", "until"});
   Joint joint{.name = object.name("joint-" + std::to_string(index)), .from = {}, .to = {}};
-  joint.kind = static_cast<Kind>(
+  joint.kind = static_cast<JointKind>(
       object.require("type").word({kJointKindNames.begin(), kJointKindNames.end()}, "type of joint"));
   const std::string type(kJointKindNames.at(static_cast<std::size_t>(joint.kind)));
   for (const char* key :
@@ -85,19 +85,19 @@ Joint readJoint(const JsonValue& value, std::size_t index) {
         object.require("points").elements("[[x, y, z], [x, y, z]] of both ends [m]", 2);
     joint.from.point = points[0].vector(anyNumber("m"));
     joint.to.point = points[1].vector(anyNumber("m"));
-  } else if (joint.kind != Kind::kFixed || object.has("at")) {
+  } else if (joint.kind != JointKind::kFixed || object.has("at")) {
     joint.from.point = object.require("at").vector(anyNumber("m"));
     joint.to.point = joint.from.point;
   }
   if (takes(joint.kind, "axis")) {
     joint.from.axes = frameAbout(object.require("axis").direction());
     joint.to.axes = joint.from.axes;
-    beginAt(joint, object.number("start", anyNumber(joint.kind == Kind::kHinge ? "rad" : "m"), 0));
+    beginAt(joint, object.number("start", anyNumber(joint.kind == JointKind::kHinge ? "rad" : "m"), 0));
     readLoad(object, joint);
   }
   joint.length = object.number("length", positiveNumber("m"), 0);
   if (const std::optional<JsonValue> range = object.find("range")) {
-    const NumberRange number = anyNumber(joint.kind == Kind::kHinge ? "rad" : "m");
+    const NumberRange number = anyNumber(joint.kind == JointKind::kHinge ? "rad" : "m");
     const std::vector<JsonValue> ends = range->elements("[lowest, highest]", 2);
     joint.lowest = ends[0].number(number);
     joint.highest = ends[1].number(number);

@@ -41,7 +41,7 @@ struct BoxKind {
 };
 using BoxTraits = std::array<bool, 4>;
 
-BoxTraits traitsOf(const SceneBox& box) {
+BoxTraits boxTraitsOf(const SceneBox& box) {
   const Material& material = box.material;
   return {box.fixed, material.restitution > 0, material.restitution<1, material.friction> 0};
 }
@@ -51,14 +51,14 @@ template <class Look>
 void forKindsThatMeet(const Scene& scene, const Look& look) {
   std::map<BoxTraits, BoxKind> kinds;
   for (const SceneBox& box : scene.boxes) {
-    BoxKind& kind = kinds[traitsOf(box)];
+    BoxKind& kind = kinds[boxTraitsOf(box)];
     kind.one = &box;
     ++kind.count;
   }
   std::map<std::pair<BoxTraits, BoxTraits>, std::size_t> apart;
   for (const auto& [a, b] : scene.apart) {
-    ++apart[std::minmax(traitsOf(scene.boxes[static_cast<std::size_t>(a)]),
-                        traitsOf(scene.boxes[static_cast<std::size_t>(b)]))];
+    ++apart[std::minmax(boxTraitsOf(scene.boxes[static_cast<std::size_t>(a)]),
+                        boxTraitsOf(scene.boxes[static_cast<std::size_t>(b)]))];
   }
   for (const auto& [traits, kind] : kinds) {
     for (const auto& [others, other] : kinds) {

@@ -17,7 +17,8 @@
   OVERLAY(Velocity, "velocity")                \
   OVERLAY(Names, "names")                      \
   OVERLAY(Time, "time")                        \
-  OVERLAY(Energy, "energy")
+  OVERLAY(Energy, "energy")                    \
+  OVERLAY(Joints, "joints")
 
 namespace careen {
 

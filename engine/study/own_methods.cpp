@@ -28,6 +28,9 @@ class OwnMethod : public Contestant {
     if (!traits_.forces && (!world.springs.empty() || world.drag)) {
       return "no springs, no drag";
     }
+    if (!traits_.joints && !world.joints.empty()) {
+      return "no joints";
+    }
     if (!traits_.boxBox && world.bodies.size() > 1) {
       return "no collisions between boxes";
     }

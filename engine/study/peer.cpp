@@ -10,6 +10,9 @@
 namespace careen {
 
 std::string refusalOfPeers(const World& world) {
+  if (!world.joints.empty()) {
+    return "no joints";
+  }
   return world.springs.empty() && !world.drag ? "" : "no springs, no drag";
 }
 

@@ -140,6 +140,11 @@ Camera cameraThatFrames(const Trajectory& run, const TimeMap& clock, double aspe
       }
     }
   }
+  for (const Joint& joint : run.world.joints) {
+    if (!joint.to.body) {
+      framing.add(joint.to.point);
+    }
+  }
   return framing.camera();
 }
 

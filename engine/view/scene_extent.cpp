@@ -54,6 +54,11 @@ Extent extentOf(const RunSetup& setup) {
       }
     }
   }
+  for (const Joint& joint : setup.world.joints) {
+    if (!joint.to.body) {
+      include(extent, joint.to.point, 0);
+    }
+  }
   if (!(extent.radius() > 0 && extent.radius() < kInfinity)) {  // empty or unbounded: use a default
     return {.min = Vec3::Constant(-1), .max = Vec3::Constant(1)};
   }

@@ -278,6 +278,21 @@ TEST_F(CommandLine, infoTellsWhichBoxesMayGoOnAsACrowd) {
   EXPECT_FALSE(says(infoOf(walls + R"(, "method": "listing1")"), "crowd"));
 }
 
+TEST_F(CommandLine, infoListsJoints) {
+  folder_.write("scene.json", R"({ "careen": 1, "duration": 1,
+    "boxes": [ { "name": "crate", "half_extents": [1, 1, 1], "mass": 1 },
+               { "name": "lid", "half_extents": [1, 1, 0.1], "mass": 1, "position": [0, 0, 1.1] } ],
+    "joints": [ { "name": "hinge", "type": "hinge", "between": ["lid", "crate"], "at": [1, 0, 1],
+                  "axis": [0, 1, 0], "range": [-0.5, 2] },
+                { "type": "rope", "between": ["world", "lid"], "points": [[0, 0, 5], [0, 0, 0]],
+                  "length": 4, "until": 0.5 } ] })");
+  const std::string out = careen({"info", "scene.json"}).out;
+  EXPECT_NE(out.find("joint        hinge: hinge between lid and crate, from -0.5 to 2 rad\n"
+                     "joint        joint-1: rope between lid and the world, 4 m long, until 0.5 s\n"),
+            std::string::npos)
+      << out;
+}
+
 TEST_F(CommandLine, infoReadsATrajectoryToo) {
   folder_.write("scene.json", kScene);
   ASSERT_EQ(careen({"simulate", "scene.json", "-o", "run.careen"}).exitCode, 0);

@@ -219,6 +219,43 @@ TEST(Audit, findsBoxesThatPassThroughEachOther) {
                met + 0.01});
 }
 
+TEST(Audit, boxesThatMayPassThroughEachOtherDoNotOverlap) {
+  Trajectory run = runOf(kThree);
+  run.impacts.clear();
+  run.tracks[0].segments.resize(1);
+  run.tracks[1].segments.resize(1);
+  run.world.apart = {{0, 1}};
+  EXPECT_EQ(textOf(audit(run, AuditDepth::kFull), run), "");
+}
+
+// The loner goes 0.1 m/s along y, from (0, 3, 0).
+Joint& leash(Trajectory& run) {
+  run.world.joints = {{.name = "leash",
+                       .kind = Joint::Kind::kRope,
+                       .from = {.body = 2},
+                       .to = {.body = {}, .point = {0, 3, 0}},
+                       .length = 0.15}};
+  return run.world.joints[0];
+}
+
+TEST(Audit, findsAJointThatIsOpen) {
+  expectFound(
+      {kThree, [](Trajectory& run) { leash(run); }, AuditKind::kJointGap, {"loner", "leash"}, 1.5, 1.51});
+  Trajectory run = runOf(kThree);
+  leash(run).until = 1.5;  // then it lets go
+  EXPECT_EQ(textOf(audit(run, AuditDepth::kFull), run), "");
+}
+
+TEST(Audit, findsAJointBeyondItsLimits) {
+  const auto slide = [](Trajectory& run) {
+    Joint& slider = leash(run);
+    slider.kind = Joint::Kind::kSlider;
+    slider.highest = 0.15;
+    slider.to.axes << 0, 1, 0, 0, 0, 1, 1, 0, 0;  // along y
+  };
+  expectFound({kThree, slide, AuditKind::kJointLimit, {"loner", "leash"}, 1.5, 1.51});
+}
+
 TEST(Audit, findsABoxThatFallsThroughAFloor) {
   const double met = startOf(runOf(kBouncing), 0, 1);
   expectFound({kBouncing,

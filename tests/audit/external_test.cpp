@@ -111,5 +111,42 @@ TEST(External, whatSpringsJoinLiesOnlyWhereItTouches) {
   EXPECT_EQ(lies(2.5), std::pair(false, false));
 }
 
+// Joined like that too; in each other they push nothing if they pass through each other.
+TEST(External, whatJointsJoinLiesOnlyWhereItTouches) {
+  Trajectory run = drifting(Vec3::Zero());
+  run.world.bodies.push_back(box("other", Vec3::Ones(), 3, Vec3(1, 0, 0)));
+  run.world.joints = {{.name = "pin", .from = {.body = 0}, .to = {.body = 1}}};
+  run.tracks[0].segments = {{.start = 0, .motion = Rest{}}};
+  run.tracks.push_back({.segments = {{.start = 0, .motion = Rest{{.position = Vec3(1, 0, 0)}}}}});
+  const ExchangeGroup group{.bodies = {0, 1}, .springs = {}, .joints = {0}, .impacts = {}};
+  EXPECT_TRUE(ExternalOf(run, group, Vec3::Zero()).until(1).lies);
+  run.world.apart = {{0, 1}};
+  EXPECT_FALSE(ExternalOf(run, group, Vec3::Zero()).until(1).lies);
+}
+
+// A joint between two that move holds neither; one to the world does, until it lets go.
+TEST(External, jointsToTheWorldHold) {
+  Trajectory run = drifting(Vec3::Zero());
+  const ExchangeGroup group{.bodies = {0}, .springs = {}, .joints = {0}, .impacts = {}};
+  const auto held = [&](const Joint& joint) {
+    run.world.joints = {joint};
+    ExternalOf following(run, group, Vec3::Zero());
+    const bool first = following.until(1).isHeld;
+    return std::pair(first, following.until(2).isHeld);
+  };
+  const Joint pin{.name = "joint", .kind = Joint::Kind::kBall, .from = {.body = 0}, .to = {}};
+  EXPECT_EQ(held(pin), std::pair(true, true));
+  Joint brief = pin;
+  brief.until = 0.75;
+  EXPECT_EQ(held(brief), std::pair(true, false));
+  Joint table = pin;
+  table.to.body = 1;
+  run.world.bodies.push_back(box("table", Vec3::Ones(), 1, Vec3(0, 0, -5)));
+  run.tracks.push_back({.segments = {{.start = 0, .motion = Rest{{.position = Vec3(0, 0, -5)}}}}});
+  EXPECT_EQ(held(table), std::pair(false, false));
+  run.world.bodies.back().mass = immovable();
+  EXPECT_EQ(held(table), std::pair(true, true));
+}
+
 }  // namespace
 }  // namespace careen

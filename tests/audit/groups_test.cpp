@@ -46,6 +46,40 @@ TEST(Groups, impactsAndSpringsJoin) {
   EXPECT_EQ(groups[1].springs, (std::vector<std::size_t>{0}));
 }
 
+TEST(Groups, jointsJoin) {
+  Trajectory run = fourCubes();
+  run.world.joints = {{.name = "a", .kind = Joint::Kind::kBall, .from = {.body = 1}, .to = {.body = 3}},
+                      {.name = "b", .kind = Joint::Kind::kHinge, .from = {.body = 0}, .to = {}}};
+  EXPECT_EQ(membersOf(run), (Members{{0}, {1, 3}, {2}}));
+  const auto groups = exchangeGroups(run, Samples(run, {0, 1}));
+  EXPECT_EQ(groups[0].joints, (std::vector<std::size_t>{1}));
+  EXPECT_EQ(groups[1].joints, (std::vector<std::size_t>{0}));
+  EXPECT_TRUE(groups[2].joints.empty());
+}
+
+// Only what stops can: limits, ropes.
+TEST(Groups, loseEnergyInJointsThatStop) {
+  const auto loses = [](const Joint& joint) {
+    Trajectory run = fourCubes();
+    run.world.joints = {joint};
+    run.world.joints[0].from.body = 0;
+    return exchangeGroups(run, Samples(run, {0, 1})).front().jointsLose;
+  };
+  EXPECT_FALSE(loses({.name = "joint", .kind = Joint::Kind::kBall, .from = {}, .to = {}}));
+  EXPECT_FALSE(loses({.name = "joint", .kind = Joint::Kind::kHinge, .from = {}, .to = {}}));
+  EXPECT_TRUE(loses(
+      {.name = "joint", .kind = Joint::Kind::kHinge, .from = {}, .to = {}, .lowest = -1, .highest = 1}));
+  EXPECT_FALSE(loses({.name = "joint",
+                      .kind = Joint::Kind::kSlider,
+                      .from = {},
+                      .to = {},
+                      .lowest = 0,
+                      .highest = 1,
+                      .restitution = 1}));
+  EXPECT_TRUE(loses({.name = "joint", .kind = Joint::Kind::kRope, .from = {}, .to = {}, .restitution = 0.5}));
+  EXPECT_FALSE(loses({.name = "joint", .kind = Joint::Kind::kRope, .from = {}, .to = {}, .restitution = 1}));
+}
+
 TEST(Groups, immovableBodiesJoinNothing) {
   Trajectory run = fourCubes();
   run.world.bodies[1].mass = immovable();
@@ -73,6 +107,15 @@ TEST(Groups, boxesThatLieOnEachOtherJoin) {
   rest.pose.position = Vec3(0, 0, 2);
   run.tracks[3].segments = {{.start = 0, .motion = rest}};
   EXPECT_EQ(membersOf(run), (Members{{0, 3}, {1}, {2}}));
+}
+
+TEST(Groups, boxesThatPassThroughEachOtherDoNotJoin) {
+  Trajectory run = fourCubes();
+  Rest rest;
+  rest.pose.position = Vec3(0, 0, 2);
+  run.tracks[3].segments = {{.start = 0, .motion = rest}};
+  run.world.apart = {{0, 3}};
+  EXPECT_EQ(membersOf(run), (Members{{0}, {1}, {2}, {3}}));
 }
 
 TEST(Groups, loseEnergyIfAnyPairMay) {

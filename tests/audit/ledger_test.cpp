@@ -120,5 +120,32 @@ TEST(Ledger, groupsWithoutFrictionKeepTheirTurnAboutTheFloorsNormal) {
   EXPECT_EQ(balanced(run).largest(AuditKind::kAngularMomentum).size, 0);
 }
 
+// A cube that a pin holds at rest under gravity: the world may give it any momentum, but no energy.
+TEST(Ledger, jointsToTheWorldGiveMomentumButNoEnergy) {
+  Trajectory run = falling();
+  run.world.bodies[0].initial.velocity.setZero();
+  run.world.bodies[0].initial.angularMomentum.setZero();
+  Flight held;
+  held.position = Vec3(1e3, 0, 0);
+  run.tracks[0].segments[0].motion = held;
+  EXPECT_GT(balanced(run).largest(AuditKind::kLinearMomentum).size, 1);
+  run.world.joints = {{.name = "pin", .kind = Joint::Kind::kBall, .from = {.body = 0}, .to = {}}};
+  EXPECT_EQ(balanced(run).largest(AuditKind::kLinearMomentum).size, 0);
+  EXPECT_EQ(balanced(run).largest(AuditKind::kAngularMomentum).size, 0);
+  EXPECT_EQ(balanced(run).largest(AuditKind::kEnergyLoss).size, 0);
+  // Kinetic energy that begins in the middle of the run, and that ends there.
+  Flight moving = held;
+  moving.velocity = Vec3(0, 1, 0);
+  run.tracks[0].segments = {{.start = 0, .motion = held}, {.start = 0.5, .motion = moving}};
+  EXPECT_NEAR(balanced(run).largest(AuditKind::kEnergyRise).size, 1, 1e-9);
+  moving.position.y() = -0.5;
+  run.tracks[0].segments = {{.start = 0, .motion = moving}, {.start = 0.5, .motion = held}};
+  EXPECT_NEAR(balanced(run).largest(AuditKind::kEnergyLoss).size, 1, 1e-9);
+  run.world.joints[0].kind = Joint::Kind::kRope;  // which takes it where it becomes taut
+  EXPECT_EQ(balanced(run).largest(AuditKind::kEnergyLoss).size, 0);
+  run.world.joints[0].restitution = 1;
+  EXPECT_NEAR(balanced(run).largest(AuditKind::kEnergyLoss).size, 1, 1e-9);
+}
+
 }  // namespace
 }  // namespace careen

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
 #include "support/trajectories.h"
 
@@ -27,16 +28,26 @@ TEST(Seams, impactsGoToBothBodies) {
   Trajectory run = driftAndReturn();
   run.impacts.push_back(run.impacts.front());
   run.impacts.back().b = Partner::ofBody(1);
-  const auto impacts = impactsOfBodies(run);
-  EXPECT_EQ(impacts[0], (std::vector<std::size_t>{0, 1}));
-  EXPECT_EQ(impacts[1], (std::vector<std::size_t>{1}));
+  const auto impulses = impulsesOfBodies(run);
+  EXPECT_EQ(impulses[0].impacts, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(impulses[1].impacts, (std::vector<std::size_t>{1}));
+}
+
+TEST(Seams, impulsesOfJointsGoToBothEnds) {
+  Trajectory run = driftAndReturn();
+  run.world.joints = {{.name = "leash", .from = {.body = 1}, .to = {}},
+                      {.name = "stick", .from = {.body = 1}, .to = {.body = 0}}};
+  run.jointImpulses = {{.joint = 1}, {.joint = 0}};
+  const auto impulses = impulsesOfBodies(run);
+  EXPECT_EQ(impulses[0].joints, (std::vector<std::size_t>{0}));
+  EXPECT_EQ(impulses[1].joints, (std::vector<std::size_t>{0, 1}));
 }
 
 Findings checked(const Trajectory& run) {
   Findings findings(run.settings, crowdBeginnings(run));
   const std::vector<Seam> seams = seamsOf(run.tracks[0]);
   EXPECT_EQ(seams.size(), 1U);
-  checkSeam(run, 0, seams.at(0), impactsOfBodies(run)[0], fallingSpeeds(run.world)[0], findings);
+  checkSeam(run, 0, seams.at(0), impulsesOfBodies(run)[0], fallingSpeeds(run.world)[0], findings);
   return findings;
 }
 
@@ -52,6 +63,27 @@ TEST(Seams, impulsesMustGiveTheJumpOfTheVelocity) {
   EXPECT_NEAR(checked(run).largest(AuditKind::kImpulse).size, 2. / (4 + 6), 1e-12);
   run.impacts[0].tangential = 1.5;  // friction may point anywhere
   EXPECT_NEAR(checked(run).largest(AuditKind::kImpulse).size, 0.5 / (4 + 7.5), 1e-12);
+}
+
+// The same 8 N s by a joint, at a point 1 m above the centre of mass, (2, 0, 0): (0, 0, 1) × (-8, 0, 0) is
+// (0, -8, 0) N m s, which a couple of (0, 8, 1/3) turns into what the run was made with. The drifter is the
+// joint's second end: on it acts the opposite.
+TEST(Seams, impulsesOfJointsGiveAJumpToo) {
+  Trajectory run = driftAndReturn();
+  run.impacts.clear();
+  run.world.joints = {{.name = "stick", .from = {.body = 1}, .to = {.body = 0}}};
+  run.jointImpulses = {
+      {.time = 0.5, .joint = 0, .point = {2, 0, 1}, .linear = {8, 0, 0}, .angular = {0, -8, -1. / 3}}};
+  EXPECT_NEAR(checked(run).largest(AuditKind::kImpulse).size, 0, 1e-15);
+  std::swap(run.world.joints[0].from, run.world.joints[0].to);
+  run.jointImpulses[0].linear *= -1;
+  run.jointImpulses[0].angular *= -1;
+  EXPECT_NEAR(checked(run).largest(AuditKind::kImpulse).size, 0, 1e-15);
+  run.jointImpulses[0].linear *= 0.75;  // 2 of 8 N s too few, of 4 before and 6 given
+  run.jointImpulses[0].angular.y() *= 0.75;
+  EXPECT_NEAR(checked(run).largest(AuditKind::kImpulse).size, 2. / (4 + 6), 1e-12);
+  run.jointImpulses[0].time = 0.75;  // too late
+  EXPECT_NEAR(checked(run).largest(AuditKind::kImpulse).size, 8. / 4, 1e-12);
 }
 
 TEST(Seams, aTurnThatNoImpactGaveIsFound) {

@@ -12,7 +12,7 @@
 namespace careen {
 namespace {
 
-std::string errorOf(const std::string& text) {
+std::string shapeErrorOfJoints(const std::string& text) {
   return inputErrorOf([&text] { readShape(JsonTree(text, "f")); });
 }
 
@@ -87,12 +87,13 @@ const std::vector<BadPiece> kBadShapes = {
 TEST(JointShape, badValuesAreToldWhereAndWhy) {
   for (const BadPiece& bad : kBadShapes) {
     if (bad.message.empty()) {
-      EXPECT_NE(errorOf(sceneBut(kJoints, bad.piece, bad.instead)).find("found no type in joints[0]"),
-                std::string::npos);
+      EXPECT_NE(
+          shapeErrorOfJoints(sceneBut(kJoints, bad.piece, bad.instead)).find("found no type in joints[0]"),
+          std::string::npos);
       continue;
     }
     const MarkedText marked(sceneBut(kJoints, bad.piece, bad.instead));
-    EXPECT_EQ(errorOf(marked.text), "f:" + marked.place + ": " + bad.message);
+    EXPECT_EQ(shapeErrorOfJoints(marked.text), "f:" + marked.place + ": " + bad.message);
   }
 }
 

@@ -45,7 +45,9 @@ void ControlledWorld::change(std::span<const BodyState> states, Recorder& record
   const double time = next();
   changed_ = time;
   if (nextRelease_ <= time) {
-    release(time);
+    for (const JointEffort& effort : release(time)) {
+      recorder.drives(effort);
+    }
   }
   if (nextSample() <= time) {
     sample(time, states, recorder);
@@ -54,15 +56,20 @@ void ControlledWorld::change(std::span<const BodyState> states, Recorder& record
 }
 
 // What has let go has no load; the next one that will.
-void ControlledWorld::release(double time) {
+std::vector<JointEffort> ControlledWorld::release(double time) {
+  std::vector<JointEffort> ended;
   nextRelease_ = kNever;
   for (Joint& joint : world_.joints) {
     if (joint.until <= time) {
+      if (joint.effort != 0) {
+        ended.push_back({.time = time, .joint = static_cast<int>(&joint - world_.joints.data())});
+      }
       joint.stiffness = joint.damping = joint.effort = 0;
     } else {
       nextRelease_ = std::min(nextRelease_, joint.until);
     }
   }
+  return ended;
 }
 
 void ControlledWorld::sample(double time, std::span<const BodyState> states, Recorder& recorder) {

@@ -28,7 +28,7 @@ class ControlledWorld {
  private:
   double nextSample() const;
   void sample(double time, std::span<const BodyState> states, Recorder& recorder);
-  void release(double time);
+  std::vector<JointEffort> release(double time);
 
   World world_;
   std::vector<JointSample> samples_;  // by joint, of the last sample
