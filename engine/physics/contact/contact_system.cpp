@@ -270,8 +270,6 @@ bool ContactSystem::rate(std::span<const double> y, std::vector<double>& dy) {
   return found;
 }
 
-void ContactSystem::solveGiven(std::span<const double> free) { forces_.solveGiven(free, modes_); }
-
 // Where two edges or corners stick to each other they also stay together sideways: an offset would make the
 // contact one of an edge on a face.
 bool ContactSystem::holdsSideways(std::size_t contact) const {
@@ -359,7 +357,7 @@ double ContactSystem::projectPositions(std::vector<double>& y, double most, Turn
       const Vec3 gaps = gapsOf(c);
       forces_.contacts()[c].target = {-gaps[0], -gaps[1], -gaps[2]};
     }
-    solveGiven(still);
+    forces_.solveGiven(still, modes_);
     const double shift = shiftOf(forces_.accelerations());
     if (shift > kMostShift * deepest || moved + shift > most) {
       break;
@@ -420,7 +418,7 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
       setThree(before, m * kSix + 3,
                bodies_[movers_[m]].body->mass.toPrincipal(threeAt(y, m * kNumbers + 10)));
     }
-    solveGiven(before);
+    forces_.solveGiven(before, modes_);
     std::vector<double> change(forces_.accelerations().begin(), forces_.accelerations().end());
     for (std::size_t k = 0; k < change.size(); ++k) {
       change[k] -= before[k];

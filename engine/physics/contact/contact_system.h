@@ -142,7 +142,6 @@ class ContactSystem {
   Vec3 angularOf(std::span<const double> solution, std::size_t mover) const;
   void findFree();
   void fillContacts();
-  void solveGiven(std::span<const double> free);
 
   const World* world_;
   std::vector<TouchingBody> bodies_;

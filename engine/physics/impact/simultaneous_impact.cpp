@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/math/order_free_sum.h"
 #include "physics/geometry/contact_frame.h"
+#include "physics/impact/applied_impulses.h"
 #include "physics/impact/impact_problem.h"
 #include "physics/impact/single_impact.h"
 #include "physics/solver/contact_solver.h"
@@ -407,46 +408,6 @@ Impulses Law::shortened(const Impulses& smooth, Impulses rough) const {
   return result;
 }
 
-/// Adds the impulses of the contacts to velocity and angular momentum; a component below the rounding error
-/// of its terms becomes zero.
-void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> contacts,
-             std::span<const ImpactShare> shares, std::span<const Vec3> impulses) {
-  using Six = std::array<double, kSix>;
-  BodyState& state = *body.state;
-  std::vector<Six> terms;
-  terms.reserve(1 + 2 * contacts.size());
-  const auto add = [&terms](const Vec3& linear, const Vec3& angular) {
-    terms.push_back({linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]});
-  };
-  add(state.velocity, state.angularMomentum);
-  const bool turns = !body.mass->inverseInertiaBody.isZero(0);
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    for (const bool second : {false, true}) {
-      if ((second ? contacts[c].b : contacts[c].a) != index) {
-        continue;
-      }
-      if (contacts[c].rows) {
-        const BodyImpulse sum = impulseOf(second ? contacts[c].rows->b : contacts[c].rows->a, shares[c].rows);
-        add(body.mass->inverseMass * sum.push, turns ? sum.twist : Vec3(Vec3::Zero()));
-      } else {
-        const Vec3 impulse = second ? Vec3(-impulses[c]) : impulses[c];
-        const Vec3& arm = second ? contacts[c].armB : contacts[c].armA;
-        add(body.mass->inverseMass * impulse, turns ? arm.cross(impulse) : Vec3(Vec3::Zero()));
-      }
-    }
-  }
-  Six sums = orderFreeSums<kSix>(terms);
-  for (std::size_t k = 0; k < kSix; ++k) {
-    double largest = 0;
-    for (const Six& term : terms) {
-      largest = std::max(largest, std::fabs(term[k]));
-    }
-    sums[k] = std::fabs(sums[k]) <= 0x1p-49 * largest ? 0 : sums[k];
-  }
-  state.velocity = Vec3(sums[0], sums[1], sums[2]);
-  state.angularMomentum = Vec3(sums[3], sums[4], sums[5]);
-}
-
 }  // namespace
 
 ContactResiduals resolveTogether(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts,
@@ -480,7 +441,7 @@ ContactResiduals resolveTogether(std::span<const ImpactBody> bodies, std::span<c
   }
   for (std::size_t index = 0; index < bodies.size(); ++index) {
     if (!isImmovable(*bodies[index].mass)) {
-      applyTo(static_cast<int>(index), bodies[index], contacts, shares, world);
+      applyImpulses(static_cast<int>(index), bodies[index], contacts, shares, world);
     }
   }
   return law.takeResiduals();

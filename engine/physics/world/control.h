@@ -21,7 +21,7 @@ struct MotorTarget {
   double frequency = 0;  ///< [Hz]
   double phase = 0;      ///< [rad]
   double ramp = 0;       ///< [s]
-  std::vector<std::pair<double, double>> path;
+  std::vector<std::pair<double, double>> path = {};
 
   /// The coordinate that it has at a time [s], and its rate.
   struct Aim {
@@ -44,10 +44,10 @@ struct Motor {
   };
   int joint = 0;  ///< index in the world, of a hinge or slider
   double largest = std::numeric_limits<double>::infinity();
-  MotorTarget target;
+  MotorTarget target = {};
   double stiffness = 0;
   double damping = 0;
-  std::vector<Gain> gains;
+  std::vector<Gain> gains = {};
 };
 
 /// Of a joint at a sample: its coordinate, turns of a hinge counted from sample to sample, and its rate.
@@ -59,13 +59,13 @@ struct JointSample {
 /// What is looked at each `period` [s], and held until the next time: the efforts of motors.
 struct Control {
   double period = 0;  ///< [s]
-  std::vector<Motor> motors;
+  std::vector<Motor> motors = {};
   /// Called at each sample after the motors: time [s], the states of all bodies, all joints (hinges and
   /// sliders have coordinates), and the efforts of all joints, which it may change. Must always answer the
   /// same.
   std::function<void(double time, std::span<const BodyState> states, std::span<const JointSample> joints,
                      std::span<double> efforts)>
-      callback;
+      callback = {};
 };
 
 /// The efforts that its motors give, by joint of the world.

@@ -1,0 +1,31 @@
+#include "audit/motor_work.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "support/jointed.h"
+
+namespace careen {
+namespace {
+
+// A slide that moves at 2 m/s, pushed by 3 N from 0.5 s on and by −1 N from 1 s on.
+TEST(MotorWork, isEffortTimesWay) {
+  Trajectory run;
+  run.settings.duration = 2;
+  run.world.bodies = {box("slide", Vec3::Constant(0.1), 1, Vec3::Zero(), Vec3(2, 0, 0))};
+  test::join(run.world, Joint::Kind::kSlider, 0, {}, Vec3::Zero(), Vec3::UnitX());
+  Flight flight;
+  flight.velocity = Vec3(2, 0, 0);
+  run.tracks = {{.segments = {{.start = 0, .motion = flight}}}};
+  run.jointEfforts = {{.time = 0.5, .joint = 0, .effort = 3}, {.time = 1, .joint = 0, .effort = -1}};
+  const std::array<std::size_t, 1> joints{0};
+  MotorWork work(run, joints);
+  EXPECT_NEAR(work.until(0.25), 0, 1e-15);
+  EXPECT_NEAR(work.until(0.75), 3 * 2 * 0.25, 1e-15);
+  EXPECT_NEAR(work.until(1.5), 3 * 2 * 0.25 - 1 * 2 * 0.5, 1e-15);
+  EXPECT_NEAR(MotorWork(run, {}).until(2), 0, 0);
+}
+
+}  // namespace
+}  // namespace careen
