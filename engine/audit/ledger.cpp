@@ -1,4 +1,5 @@
 #include "audit/ledger.h"
+#include "audit/motor_work.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,7 @@ class Books {
         group_(group),
         fallingSpeeds_(fallingSpeeds),
         findings_(findings),
+        motors_(run, group.joints),
         momentum_(kMean * std::sqrt(run.settings.crowds.tolerance / CrowdSettings{}.tolerance)),
         angularMomentum_(momentum_),
         rise_(momentum_),
@@ -109,6 +111,7 @@ class Books {
   const ExchangeGroup& group_;
   const std::vector<double>& fallingSpeeds_;
   Findings& findings_;
+  MotorWork motors_;
   Vec3 origin_ = Vec3::Zero();
   Holdings due_;
   Holdings largest_;  // its scales only
@@ -172,7 +175,11 @@ Holdings Books::at(std::size_t moment) const {
 }
 
 double Books::springEnergyAt(std::size_t moment) const {
-  if (group_.springs.empty()) {
+  const auto isSprung = [&](std::size_t index) {
+    const Joint& joint = run_.world.joints[index];
+    return joint.stiffness != 0 && samples_.times()[moment] < joint.until;
+  };
+  if (group_.springs.empty() && std::none_of(group_.joints.begin(), group_.joints.end(), isSprung)) {
     return 0;
   }
   std::vector<BodyState> states(run_.world.bodies.size());
@@ -184,6 +191,13 @@ double Books::springEnergyAt(std::size_t moment) const {
     const Spring& spring = run_.world.springs[index];
     const double extension = stretchOf(spring, run_.world, states).length - spring.restLength;
     energy += 0.5 * spring.stiffness * extension * extension;
+  }
+  for (const std::size_t index : group_.joints) {
+    if (isSprung(index)) {
+      const Joint& joint = run_.world.joints[index];
+      const double extension = jointMotionOf(joint, run_.world, states).coordinate - joint.rest;
+      energy += 0.5 * joint.stiffness * extension * extension;
+    }
   }
   return energy;
 }
@@ -210,9 +224,14 @@ void Books::include(const Holdings& now) {
 
 void Books::check() {
   origin_ = center([&](std::size_t body) -> const BodyState& { return samples_.state(0, body); });
-  takesEnergy_ = run_.world.drag.has_value() || group_.jointsLose ||
-                 std::any_of(group_.springs.begin(), group_.springs.end(),
-                             [&](std::size_t spring) { return run_.world.springs[spring].damping != 0; });
+  takesEnergy_ =
+      run_.world.drag.has_value() || group_.jointsLose ||
+      std::any_of(group_.springs.begin(), group_.springs.end(),
+                  [&](std::size_t spring) { return run_.world.springs[spring].damping != 0; }) ||
+      std::any_of(group_.joints.begin(), group_.joints.end(), [&](std::size_t index) {
+        const Joint& joint = run_.world.joints[index];  // one that lets go takes its spring's along
+        return joint.damping != 0 || (joint.stiffness != 0 && joint.until <= run_.settings.duration);
+      });
   std::vector<Holdings> all;
   for (std::size_t moment = 0; moment < samples_.moments(); ++moment) {
     all.push_back(at(moment));
@@ -266,6 +285,7 @@ void Books::check() {
 }
 
 void Books::balance(double time, const Holdings& now, External& external) {
+  due_.energy += motors_.until(time);
   due_.momentum += external.impulse;
   due_.angularMomentum += external.angularImpulse;
   balanceMomentum(time, now, external);

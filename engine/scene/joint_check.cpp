@@ -98,8 +98,10 @@ class Connecting {
     if (!(joint_.lowest < joint_.highest)) {
       fail("its lowest value first, and a higher one");
     }
-    if (!(joint_.lowest <= 0 && joint_.highest >= 0)) {
-      fail("a range with 0 in it, where the joint starts");
+    const JsonNode* const given = node_.find("start");
+    const double start = given == nullptr ? 0 : given->number;
+    if (!(joint_.lowest <= start && joint_.highest >= start)) {
+      fail("a range with " + brief(start) + " in it, where the joint starts");
     }
     if (joint_.kind == Joint::Kind::kHinge && !(joint_.highest - joint_.lowest < kTurn)) {
       fail("less than a turn, 2π rad");
@@ -192,6 +194,40 @@ void listPassThrough(const JsonTree& tree, const BoxNames& boxes, Scene& scene) 
 }
 
 }  // namespace
+
+void connectMotors(const JsonTree& tree, Scene& scene) {
+  if (!scene.control) {
+    return;
+  }
+  constexpr double kMostSamples = 1e6;
+  const JsonNode& control = *tree.root().find("control");
+  const JsonNode& period = *control.find("period");
+  if (scene.control->period * kMostSamples < scene.settings.duration) {
+    tree.fail(period.offset, describe(period) + " for control.period, more than a million samples",
+              "a longer period, or a shorter scene");
+  }
+  const auto jointNamed = [&](const std::string& name, std::size_t offset) {
+    for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+      if (scene.joints[j].name == name) {
+        if (!scene.joints[j].hasCoordinate()) {
+          tree.fail(offset, "joint " + inQuotes(name) + ", which has no coordinate", "a hinge or slider");
+        }
+        return static_cast<int>(j);
+      }
+    }
+    tree.fail(offset, "unknown joint " + inQuotes(name), "the name of a joint");
+  };
+  const JsonNode& motors = *control.find("motors");
+  for (std::size_t i = 0; i < motors.children.size(); ++i) {
+    Motor& motor = scene.control->motors[i];
+    const JsonNode& joint = *motors.children[i].find("joint");
+    motor.joint = jointNamed(joint.text, joint.offset);
+    for (std::size_t k = 0; k < motor.gains.size(); ++k) {
+      const JsonNode& gain = motors.children[i].find("gains")->children[k];
+      motor.gains[k].joint = jointNamed(gain.key, gain.keyOffset);
+    }
+  }
+}
 
 void connectJoints(const JsonTree& tree, const BoxNames& boxes, Scene& scene) {
   checkJointNames(tree, scene);

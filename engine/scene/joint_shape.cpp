@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/math/elementary.h"
+
 namespace careen {
 namespace {
 
@@ -16,8 +18,9 @@ bool takes(JointKind kind, std::string_view key) {
   const bool hasCoordinate = kind == JointKind::kHinge || kind == JointKind::kSlider;
   return key == "at"                          ? !isLine
          : key == "points" || key == "length" ? isLine
-         : key == "axis" || key == "range"    ? hasCoordinate
-                                              : hasCoordinate || kind == JointKind::kRope;  // restitution
+         : key == "axis" || key == "range" || key == "start" || key == "spring" || key == "damping"
+             ? hasCoordinate
+             : hasCoordinate || kind == JointKind::kRope;  // restitution
 }
 
 // Right-handed, with the axis as z. The x axis is that of the world which is least along it, as far as it
@@ -33,16 +36,42 @@ Mat3 frameAbout(const Vec3& axis) {
   return frame;
 }
 
+// Where the first end is at the start, of a joint whose ends' frames coincide.
+void beginAt(Joint& joint, double start) {
+  const Vec3 axis = joint.to.axes.col(2);
+  if (joint.kind == JointKind::kSlider) {
+    joint.to.point -= start * axis;
+  } else if (start != 0) {
+    const auto turn = elementary::sinCos(start);
+    const Vec3 x = joint.from.axes.col(0);
+    const Vec3 y = joint.from.axes.col(1);
+    joint.from.axes.col(0) = turn.cos * x + turn.sin * y;
+    joint.from.axes.col(1) = turn.cos * y - turn.sin * x;
+  }
+}
+
+void readLoad(const JsonObject& object, Joint& joint) {
+  const bool turns = joint.kind == JointKind::kHinge;
+  if (const std::optional<JsonValue> given = object.find("spring")) {
+    const JsonObject spring = given->object({"stiffness", "rest"});
+    joint.stiffness = spring.require("stiffness").number(nonNegativeNumber(turns ? "N m/rad" : "N/m"));
+    joint.rest = spring.number("rest", anyNumber(turns ? "rad" : "m"), 0);
+  }
+  joint.damping = object.number("damping", nonNegativeNumber(turns ? "N m s/rad" : "N s/m"), 0);
+}
+
 }  // namespace
 
 Joint readJoint(const JsonValue& value, std::size_t index) {
-  const JsonObject object = value.object({"name", "type", "between", "at", "axis", "points", "length",
-                                          "range", "restitution", "collide", "until"});
+  const JsonObject object =
+      value.object({"name", "type", "between", "at", "axis", "points", "length", "range", "start", "spring",
+                    "damping", "restitution", "collide", "until"});
   Joint joint{.name = object.name("joint-" + std::to_string(index)), .from = {}, .to = {}};
   joint.kind = static_cast<JointKind>(
       object.require("type").word({kJointKindNames.begin(), kJointKindNames.end()}, "type of joint"));
   const std::string type(kJointKindNames.at(static_cast<std::size_t>(joint.kind)));
-  for (const char* key : {"at", "axis", "points", "length", "range", "restitution"}) {
+  for (const char* key :
+       {"at", "axis", "points", "length", "range", "start", "spring", "damping", "restitution"}) {
     if (const std::optional<JsonValue> given = object.find(key); given && !takes(joint.kind, key)) {
       given->fail("none: a joint of type " + type + " has no " + key);
     }
@@ -63,6 +92,8 @@ Joint readJoint(const JsonValue& value, std::size_t index) {
   if (takes(joint.kind, "axis")) {
     joint.from.axes = frameAbout(object.require("axis").direction());
     joint.to.axes = joint.from.axes;
+    beginAt(joint, object.number("start", anyNumber(joint.kind == JointKind::kHinge ? "rad" : "m"), 0));
+    readLoad(object, joint);
   }
   joint.length = object.number("length", positiveNumber("m"), 0);
   if (const std::optional<JsonValue> range = object.find("range")) {

@@ -142,6 +142,14 @@ std::vector<JsonValue> JsonValue::elements(const std::string& expected,
   return values;
 }
 
+std::vector<JsonValue> JsonValue::members() const {
+  std::vector<JsonValue> members;
+  for (const JsonNode& child : node_->children) {
+    members.emplace_back(*tree_, child, label_ + "." + child.key);
+  }
+  return members;
+}
+
 JsonObject JsonValue::object(std::initializer_list<std::string_view> keys) const {
   if (!is(Kind::kObject)) {
     fail("an object");

@@ -59,6 +59,8 @@ class JsonValue {
   Vec3 direction() const;
   /// `size` elements; any number of elements if `size` is absent.
   std::vector<JsonValue> elements(const std::string& expected, std::optional<std::size_t> size = {}) const;
+  /// The values of an object with any keys.
+  std::vector<JsonValue> members() const;
   /// An object with no other keys than these.
   JsonObject object(std::initializer_list<std::string_view> keys) const;
 

@@ -138,6 +138,12 @@ PlanItem joints(const Scene& scene, const char* what, const std::string& one, co
                     : modelled(what, counted(count, one, one + "s") + " in the scene");
 }
 
+PlanItem motors(const Scene& scene) {
+  return scene.control && !scene.control->motors.empty()
+             ? modelled("motors", counted(scene.control->motors.size(), "motor", "motors") + " in the scene")
+             : leftOut("motors", "the scene has none");
+}
+
 bool isRope(const Joint& joint) { return joint.kind == Joint::Kind::kRope; }
 bool isLimited(const Joint& joint) { return joint.lowest > -Joint::kFree; }
 
@@ -246,9 +252,7 @@ void assembleJoints(const Scene& scene, const Plan& plan, World& world) {
     }
     world.joints.push_back(std::move(joint));
   }
-  if (plan.models("box-box")) {
-    world.apart = scene.apart;
-  }
+  world.apart = scene.apart;
 }
 
 void requireMethod(const Scene& scene, bool MethodTraits::*trait, const std::string& what) {
@@ -264,7 +268,7 @@ Plan plan(const Scene& scene) {
   const Needs needs = needsOf(scene);
   return {{gravity(scene), drag(scene), springs(scene),
            joints(scene, "joints", "joint", [](const Joint& joint) { return !isRope(joint); }),
-           joints(scene, "limits", "joint", isLimited), joints(scene, "ropes", "rope", isRope),
+           joints(scene, "limits", "joint", isLimited), joints(scene, "ropes", "rope", isRope), motors(scene),
            boxWall(needs), boxBox(scene, needs), restitution(scene, needs), friction(scene, needs),
            resting(scene, needs)}};
 }
@@ -301,6 +305,9 @@ World assemble(const Scene& scene, const Plan& plan) {
     }
   }
   assembleJoints(scene, plan, world);
+  if (plan.models("motors")) {
+    world.control = scene.control;
+  }
   if (plan.models("drag")) {
     world.drag = scene.drag;
   }

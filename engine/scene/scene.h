@@ -50,6 +50,7 @@ struct Scene {
   std::vector<Wall> walls;  ///< the explicit walls; the room's come from `room`
   std::vector<SceneBox> boxes;
   std::vector<Spring> springs;
+  std::optional<Control> control;          ///< of joints, by their index here
   std::vector<Joint> joints;               ///< their ends in frames of boxes, with their origin in the middle
   std::vector<std::pair<int, int>> apart;  ///< boxes that pass through each other, as in World
   std::optional<Drag> drag;

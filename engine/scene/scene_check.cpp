@@ -222,6 +222,7 @@ void checkScene(const JsonTree& tree, Scene& scene, Starts starts) {
   const BoxNames boxes(scene);
   connectSprings(tree, boxes, scene);
   connectJoints(tree, boxes, scene);
+  connectMotors(tree, scene);
   findFollowed(tree, boxes, scene);
   checkFilm(tree, scene);
   if (starts == Starts::kApart) {

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "physics/world/method.h"
+#include "scene/control_shape.h"
 #include "scene/film_shape.h"
 #include "scene/joint_shape.h"
 #include "scene/json_shape.h"
@@ -264,10 +265,10 @@ Scene readShape(const JsonTree& tree) {
   if (root.is(Kind::kObject)) {
     readVersion(tree, root);
   }
-  const JsonObject object =
-      root.object({"careen",  "name",   "duration",     "gravity", "room",   "walls",    "boxes",
-                   "springs", "joints", "pass_through", "drag",    "method", "dt",       "tolerance",
-                   "crowds",  "camera", "film",         "look",    "light",  "overlays", "$schema"});
+  const JsonObject object = root.object({"careen", "name",    "duration",  "gravity",      "room",    "walls",
+                                         "boxes",  "springs", "joints",    "pass_through", "control", "drag",
+                                         "method", "dt",      "tolerance", "crowds",       "camera",  "film",
+                                         "look",   "light",   "overlays",  "$schema"});
   Scene scene;
   scene.text = tree.text();
   if (const std::optional<JsonValue> name = object.find("name")) {
@@ -287,6 +288,9 @@ Scene readShape(const JsonTree& tree) {
   scene.springs = readList<Spring>(object.find("springs"),
                                    [](const JsonValue& value, std::size_t) { return readSpring(value); });
   scene.joints = readList<Joint>(object.find("joints"), readJoint);
+  if (const std::optional<JsonValue> control = object.find("control")) {
+    scene.control = readControl(*control);
+  }
   if (const std::optional<JsonValue> lists = object.find("pass_through")) {
     for (const JsonValue& list : lists->elements("an array")) {
       readPassThrough(list);

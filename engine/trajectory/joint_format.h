@@ -33,6 +33,9 @@ void visit(Archive& archive, Visited<Archive, Joint> joint) {
   archive.visit(joint.highest);
   archive.visit(joint.restitution);
   archive.visit(joint.until);
+  archive.visit(joint.stiffness);
+  archive.visit(joint.rest);
+  archive.visit(joint.damping);
 }
 
 template <class Archive>
@@ -48,6 +51,13 @@ void visit(Archive& archive, Visited<Archive, JointImpulse> impulse) {
   visit(archive, impulse.point);
   visit(archive, impulse.linear);
   visit(archive, impulse.angular);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, JointEffort> effort) {
+  archive.visit(effort.time);
+  visitIndex(archive, effort.joint);
+  archive.visit(effort.effort);
 }
 
 }  // namespace careen

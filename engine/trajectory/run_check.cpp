@@ -128,6 +128,17 @@ void checkJointImpulses(const Trajectory& run) {
   }
 }
 
+void checkJointEfforts(const Trajectory& run) {
+  double before = 0;
+  for (const JointEffort& effort : run.jointEfforts) {
+    require(isWithin(effort.joint, run.world.joints.size()), "an unknown joint", "an effort");
+    require(effort.time >= before && effort.time <= run.settings.duration,
+            "a time out of order or beyond the run's end", "an effort");
+    require(std::isfinite(effort.effort), "invalid numbers", "an effort");
+    before = effort.time;
+  }
+}
+
 // ---- World.
 
 void checkMaterial(const Material& material, const std::string& owner) {
@@ -198,7 +209,9 @@ void checkJoint(const Joint& joint, std::size_t bodies) {
   }
   require(joint.from.body && joint.from.body != joint.to.body, "both ends at one body", owner);
   require(isNotNegative(joint.length), "a length that is negative or not finite", owner);
-  require(joint.lowest <= 0 && joint.highest >= 0, "limits that exclude its start", owner);
+  require(joint.lowest < joint.highest, "limits out of order", owner);
+  require(isNotNegative(joint.stiffness) && isNotNegative(joint.damping) && std::isfinite(joint.rest),
+          "a spring with invalid numbers", owner);
   require(joint.restitution >= 0 && joint.restitution <= 1, "a restitution outside 0 to 1", owner);
   require(joint.until > 0, "an end before it begins", owner);
 }
@@ -341,6 +354,7 @@ void checkMotions(const Trajectory& run) {
   }
   checkImpacts(run);
   checkJointImpulses(run);
+  checkJointEfforts(run);
 }
 
 void checkRun(const Trajectory& run) {

@@ -38,6 +38,10 @@ class TrajectoryRecorder : public Recorder {
     count(impulse.time);
     insertByTime(trajectory_.jointImpulses, impulse);
   }
+  void drives(const JointEffort& effort) override {
+    count(effort.time);
+    insertByTime(trajectory_.jointEfforts, effort);
+  }
 
  private:
   void count(double time) {

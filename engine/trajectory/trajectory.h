@@ -43,6 +43,7 @@ struct Trajectory : RunSetup {
   std::vector<Track> tracks;                ///< one per body of the world, in its order
   std::vector<Impact> impacts;              ///< in order of time
   std::vector<JointImpulse> jointImpulses;  ///< likewise
+  std::vector<JointEffort> jointEfforts;    ///< likewise; 0 before the first of a joint
   /// Present if the run comes from a table of poses: then it has no impacts, and method and tolerance of its
   /// settings mean nothing. Not stored in files.
   std::optional<GivenPoses> given;
@@ -67,9 +68,9 @@ struct Trajectory : RunSetup {
   std::string stateHash() const;
 };
 
-/// Adds an impact, or an impulse of a joint, after all that are not later. Few are late themselves: a group
-/// in time steps that is cut short takes its step again in shorter ones, and tells their impacts after those
-/// of others.
+/// Adds an impact, or an impulse or effort of a joint, after all that are not later. Few are late themselves:
+/// a group in time steps that is cut short takes its step again in shorter ones, and tells their impacts
+/// after those of others.
 template <class Event>
 void insertByTime(std::vector<Event>& events, const Event& event) {
   const auto isBefore = [](double time, const Event& other) { return time < other.time; };

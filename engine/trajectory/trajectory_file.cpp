@@ -73,6 +73,7 @@ void visitRecord(Archive& archive, Visited<Archive, Trajectory> run, std::uint64
     visitAll(archive, run.world.joints);
     visitAll(archive, run.world.apart);
     visitAll(archive, run.jointImpulses);
+    visitAll(archive, run.jointEfforts);
   }
 }
 

@@ -14,6 +14,8 @@ namespace careen {
 struct Recorded {
   RunFigures figures;
   std::vector<Impact> impacts;
+  std::vector<JointImpulse> passed;
+  std::vector<JointEffort> driven;
   std::vector<std::vector<std::pair<double, Motion>>> motions;  // of each body
 
   /// Number of different impact times: a face that lands is one, its corners are four rows.
@@ -43,6 +45,8 @@ class Notes : public Recorder {
     run_.motions[static_cast<std::size_t>(body.value)].emplace_back(time, motion);
   }
   void strikes(const Impact& impact) override { run_.impacts.push_back(impact); }
+  void drives(const JointEffort& effort) override { run_.driven.push_back(effort); }
+  void passes(const JointImpulse& impulse) override { run_.passed.push_back(impulse); }
 
  private:
   Recorded& run_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/contact/joint_rows.h"
+
 namespace careen {
 namespace {
 
@@ -339,9 +341,9 @@ ContactState stateOfNormal(const ContactFeature& feature, const Kinematics& a, T
 }  // namespace
 
 bool isSame(const ContactFeature& x, const ContactFeature& y) {
-  return x.kind == y.kind && x.a == y.a && x.b == y.b && x.axisA == y.axisA && x.axisB == y.axisB &&
-         x.sign == y.sign && (x.onA - y.onA).isZero(1e-9 * x.onA.norm()) &&
-         (x.onB - y.onB).isZero(1e-9 * x.onB.norm());
+  return x.kind == y.kind && x.joint == y.joint && x.part == y.part && x.a == y.a && x.b == y.b &&
+         x.axisA == y.axisA && x.axisB == y.axisB && x.sign == y.sign &&
+         (x.onA - y.onA).isZero(1e-9 * x.onA.norm()) && (x.onB - y.onB).isZero(1e-9 * x.onB.norm());
 }
 
 bool hasCorner(std::span<const ContactFeature> features, const ContactFeature& corner) {
@@ -352,6 +354,9 @@ bool hasCorner(std::span<const ContactFeature> features, const ContactFeature& c
 
 ContactState contactState(const ContactFeature& feature, const Kinematics& a, TouchingShape boxA,
                           const Kinematics& b, TouchingShape boxB) {
+  if (feature.isOfJoint()) {
+    return jointState(feature, a, boxA, b, boxB);
+  }
   ContactState state = stateOfNormal(feature, a, boxA, b, boxB);
   if (feature.axes != 0) {
     state.directions = directionsOf(feature.axes, {a.pose, boxA.halfExtents, boxA.center},

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/math/linear_algebra.h"
+#include "physics/geometry/contact_frame.h"
 #include "physics/geometry/contact_points.h"
 #include "physics/geometry/separating_axes.h"
+#include "physics/solver/contact_rows.h"
 #include "physics/world/body.h"
 #include "physics/world/world.h"
 
@@ -18,14 +21,27 @@ struct Kinematics {
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s]
 };
 
+/// Which of a joint's conditions a feature is.
+enum class JointPart : unsigned char {
+  kPoint,    ///< places of two points
+  kTurning,  ///< directions of axes
+  kLength,   ///< the distance of two points
+  kLowest,   ///< the lower limit of its coordinate
+  kHighest,  ///< the upper one
+};
+
 /// A contact given by the touching parts of the bodies rather than by a point, so that it stays valid while
-/// they move. Coincident faces, edges and corners give one feature for each point of the contact manifold.
+/// they move. Coincident faces, edges and corners give one feature for each point of the contact manifold. Or
+/// a condition of a joint: one that holds takes every impulse; one that only ends on one side, as a limit or
+/// a rope, is like a contact without friction, that closes where its gap does.
 struct ContactFeature {
   enum class Kind {
     kPointOnWall,
     kPointOnFace,  ///< a point of a on a face of b
     kEdgeOnEdge,   ///< the crossing of an edge of a and one of b
     kInCone,       ///< points on an edge or a corner of each, with a cone of normals (NormalCone)
+    kJoint,        ///< a joint's condition that holds
+    kJointEnd,     ///< one that ends on one side
   };
 
   Kind kind = Kind::kPointOnWall;
@@ -41,7 +57,13 @@ struct ContactFeature {
   Vec3 normalB = Vec3::Zero();  ///< [1] likewise in b's
   AxisSet axes = 0;             ///< of both boxes, one of which keeps them apart as well as the normal does
 
+  const Joint* joint = nullptr;  ///< of which it is a condition
+  JointPart part{};
+
   static constexpr int kNoEdge = -1;
+
+  bool isOfJoint() const { return joint != nullptr; }
+  bool holds() const { return kind == Kind::kJoint; }
 };
 
 /// A feature at one moment. Its gap d and its slip change with accelerations v̇ and ω̇ of both sides:
@@ -65,6 +87,15 @@ struct ContactState {
   Vec3 offset = Vec3::Zero();  ///< [m] kInCone: sideways, from b's point to a's
   /// [1] Of the feature's axes: the contact takes part only where the boxes would enter each other along all.
   std::vector<Vec3> directions = {};
+  /// Of a joint's condition that is no point's along the normal: its rows, in place of those of normal and
+  /// arms. Gap and rate are then the sizes of its own, if it holds.
+  std::shared_ptr<const ConstraintRows> rows = {};
+
+  /// The rows of a and of b, in that frame of the normal; [m/s] the rates of the three coordinates.
+  RowSide sideA(const ContactFrame& frame) const { return rows ? rows->a : pointSide(frame.axes(), armA, 1); }
+  RowSide sideB(const ContactFrame& frame) const {
+    return rows ? rows->b : pointSide(frame.axes(), armB, -1);
+  }
 
   /// [m/s] of a relative to b.
   Vec3 velocity() const { return slip + rate * normal; }

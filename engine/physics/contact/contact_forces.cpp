@@ -82,6 +82,9 @@ void ContactForces::look() {
 ContactForces::Mode ContactForces::modeOf(std::size_t c) {
   Contact& contact = contacts()[c];
   const Force& force = forces_[c];
+  if (contact.admissible == ContactProblem::Admissible::kSpace) {
+    return Mode::kStick;
+  }
   if (force[0] <= kNear * scale_ * masses_[c]) {
     return Mode::kOff;
   }

@@ -32,7 +32,7 @@ class ContactForces {
   enum class Mode : unsigned char {
     kOff,    ///< no force
     kOn,     ///< normal force, no friction
-    kStick,  ///< normal force, sticks
+    kStick,  ///< normal force, sticks; or a joint's condition that holds
     kSlip,   ///< normal force, slips or begins to
   };
 

@@ -51,14 +51,16 @@ void ContactImpulses::setFree(const GroupState& from, const GroupLoads& loads, d
 ContactProblem::Contact& ContactImpulses::add(const ContactFeature& feature, const ContactState& geometry) {
   ContactProblem::Contact contact;
   const ContactFrame frame = frameOf(geometry.normal);
-  const auto addSide = [&](std::size_t body, std::size_t side, const Vec3& arm, double sign) {
+  const auto addSide = [&](std::size_t body, std::size_t side) {
     if (places_[body] != ContactProblem::kNobody) {
-      setSide(contact, side, pointSide(frame.axes(), arm, sign), turned_[body]);
+      setSide(contact, side, side == 0 ? geometry.sideA(frame) : geometry.sideB(frame), turned_[body]);
     }
     return places_[body];
   };
-  contact.a = addSide(static_cast<std::size_t>(feature.a), 0, geometry.armA, 1);
-  contact.b = addSide(static_cast<std::size_t>(feature.b), 1, geometry.armB, -1);
+  contact.a = addSide(static_cast<std::size_t>(feature.a), 0);
+  contact.b = addSide(static_cast<std::size_t>(feature.b), 1);
+  contact.admissible =
+      feature.holds() ? ContactProblem::Admissible::kSpace : ContactProblem::Admissible::kCone;
   contact.friction = feature.material.friction;
   for (const Vec3& direction : geometry.directions) {
     contact.directions.push_back(frame.along(direction));
@@ -71,7 +73,8 @@ void ContactImpulses::aimAtEnd(std::size_t index, const ContactFeature& feature,
                                const ContactState& end, const GroupState& to) {
   ContactProblem::Contact& contact = problem_.contacts[index];
   const ContactFrame frame = frameOf(geometry.normal);
-  const std::array<double, 3> actual{end.rate, dot(end.slip, frame.tangent1), dot(end.slip, frame.tangent2)};
+  const Vec3 actual = end.rows ? end.rows->rates
+                               : Vec3(end.rate, dot(end.slip, frame.tangent1), dot(end.slip, frame.tangent2));
   for (std::size_t row = 0; row < 3; ++row) {
     double speed = 0;
     const std::array<int, 2> sides{contact.a, contact.b};
@@ -86,7 +89,7 @@ void ContactImpulses::aimAtEnd(std::size_t index, const ContactFeature& feature,
       speed += dot(threeAt(contact.rows[row], side * kSix), to[i].velocity) +
                dot(threeAt(contact.rows[row], side * kSix + 3), spin);
     }
-    contact.target[row] = speed - actual[row];
+    contact.target[row] = speed - actual[static_cast<Eigen::Index>(row)];
   }
 }
 
@@ -115,7 +118,19 @@ void ContactImpulses::sum(std::span<const ContactFeature> contacts, std::span<co
   for (auto& parts : parts_) {
     parts.clear();
   }
+  const auto addRows = [&](std::size_t body, const RowSide& side, const Triple& impulse) {
+    if (!group_.isHeld(body)) {
+      const BodyImpulse sum = impulseOf(side, impulse);
+      parts_[body].push_back(
+          {sum.push[0], sum.push[1], sum.push[2], sum.twist[0], sum.twist[1], sum.twist[2]});
+    }
+  };
   for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (geometry[c].rows) {
+      addRows(static_cast<std::size_t>(contacts[c].a), geometry[c].rows->a, impulses[c]);
+      addRows(static_cast<std::size_t>(contacts[c].b), geometry[c].rows->b, impulses[c]);
+      continue;
+    }
     const Vec3 push = frameOf(geometry[c].normal).inWorld(impulses[c]);
     const auto add = [&](std::size_t body, const Vec3& arm, double sign) {
       if (!group_.isHeld(body)) {

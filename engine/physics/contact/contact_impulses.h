@@ -9,15 +9,10 @@
 #include "physics/contact/group_loads.h"
 #include "physics/contact/touching_group.h"
 #include "physics/solver/contact_problem.h"
+#include "physics/solver/contact_rows.h"
 #include "physics/solver/contact_solver.h"
 
 namespace careen {
-
-/// What contacts give to a body.
-struct BodyImpulse {
-  Vec3 push = Vec3::Zero();   ///< [N s]
-  Vec3 twist = Vec3::Zero();  ///< [N m s] about the centre of mass
-};
 
 /// Impulses at contacts of a group: its ContactProblem, of the bodies that have contacts. First begin() and
 /// setFree(), then one add() for each contact, then solve().

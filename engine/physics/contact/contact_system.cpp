@@ -30,8 +30,14 @@ BodyState TouchingBody::state() const {
           .angularMomentum = columns * body->mass.inertiaTimes(angularVelocityBody)};
 }
 
+Kinematics TouchingBody::kinematics() const {
+  const Mat3 columns = worldFromBody.toRotationMatrix();
+  return {
+      .pose = {position, columns}, .velocity = velocity, .angularVelocity = columns * angularVelocityBody};
+}
+
 ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodies,
-                             std::vector<ContactFeature> features)
+                             std::vector<ContactFeature> features, std::span<const ContactFeature> joints)
     : world_(&world),
       bodies_(std::move(bodies)),
       features_(std::move(features)),
@@ -55,10 +61,17 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
       }
     }
   }
+  for (const ContactFeature& joint : joints) {
+    if (!joint.holds() &&
+        std::none_of(features_.begin(), features_.end(),
+                     [&](const ContactFeature& feature) { return isSame(feature, joint); })) {
+      openEnds_.push_back(joint);
+    }
+  }
   free_.resize(inverseMass_.size());
   forces_.setBodies(inverseMass_);
   forces_.contacts().resize(features_.size());
-  if (!world.springs.empty() || world.drag) {
+  if (hasVaryingLoads(world)) {
     for (const Body& body : world.bodies) {
       worldStates_.push_back(body.initial);
     }
@@ -75,6 +88,18 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
 
 bool ContactSystem::pushes() const {
   return std::any_of(modes_.begin(), modes_.end(), [](Mode mode) { return mode != Mode::kOff; });
+}
+
+void ContactSystem::closeAll() {
+  for (std::size_t c = 0; c < modes_.size(); ++c) {
+    modes_[c] = features_[c].holds() ? Mode::kStick : Mode::kOn;
+  }
+}
+
+ContactState ContactSystem::stateOf(const ContactFeature& feature) const {
+  const auto a = static_cast<std::size_t>(feature.a);
+  const auto b = static_cast<std::size_t>(feature.b);
+  return contactState(feature, kinematics_[a], bodies_[a].shape(), kinematics_[b], bodies_[b].shape());
 }
 
 double ContactSystem::touching(std::size_t body) const {
@@ -112,12 +137,8 @@ void ContactSystem::look(std::span<const double> y) {
     at.angularVelocity = at.pose.worldFromBody * threeAt(y, m * kNumbers + 10);
   }
   for (std::size_t c = 0; c < features_.size(); ++c) {
-    const ContactFeature& feature = features_[c];
     pushing_[c] = pushes(c) ? 1 : 0;
-    const auto a = static_cast<std::size_t>(feature.a);
-    const auto b = static_cast<std::size_t>(feature.b);
-    states_[c] =
-        contactState(feature, kinematics_[a], bodies_[a].shape(), kinematics_[b], bodies_[b].shape());
+    states_[c] = stateOf(features_[c]);
   }
   normals_.align(features_, pushing_, states_);
 }
@@ -131,19 +152,25 @@ void ContactSystem::fillContacts() {
     ContactForces::Contact& contact = forces_.contacts()[c];
     const ContactFrame frame = frameOf(state.normal);
     const auto a = static_cast<std::size_t>(feature.a);
-    const auto addSide = [&](std::size_t body, std::size_t side, const Vec3& arm, double sign) {
+    const auto addSide = [&](std::size_t body, std::size_t side) {
       if (places_[body] == kHeld) {
         return ContactForces::kNobody;
       }
-      setSide(contact, side, pointSide(frame.axes(), arm, sign),
+      setSide(contact, side, side == 0 ? state.sideA(frame) : state.sideB(frame),
               bodies_[body].body->mass.worldFromPrincipal(kinematics_[body].pose.worldFromBody));
       return static_cast<int>(places_[body]);
     };
-    contact.a = addSide(a, 0, state.armA, 1);
-    contact.b = addSide(static_cast<std::size_t>(feature.b), 1, state.armB, -1);
+    contact.a = addSide(a, 0);
+    contact.b = addSide(static_cast<std::size_t>(feature.b), 1);
+    contact.friction = feature.material.friction;
+    if (state.rows) {
+      contact.target = {-state.rows->biases[0], -state.rows->biases[1], -state.rows->biases[2]};
+      contact.admissible =
+          feature.holds() ? ContactProblem::Admissible::kSpace : ContactProblem::Admissible::kCone;
+      continue;
+    }
     contact.target = {-state.gapBias, -dot(state.slipBias, frame.tangent1),
                       -dot(state.slipBias, frame.tangent2)};
-    contact.friction = feature.material.friction;
     const double speed = state.slip.norm();
     const bool slips = speed > restSpeed_;
     contact.admissible = slips ? ContactProblem::Admissible::kLine : ContactProblem::Admissible::kCone;
@@ -203,6 +230,9 @@ bool ContactSystem::findModes(std::span<const double> y) {
   guess_.assign(forces_.forces().begin(), forces_.forces().end());
   guessedFriction_.resize(features_.size());
   for (std::size_t c = 0; c < features_.size(); ++c) {
+    if (states_[c].rows) {
+      continue;  // theirs do not jump
+    }
     const ContactFrame frame = frameOf(states_[c].normal);
     guessedFriction_[c] = frame.across(guess_[c][1], guess_[c][2]);
     if (modes_[c] == Mode::kSlip) {
@@ -218,6 +248,9 @@ bool ContactSystem::rate(std::span<const double> y, std::vector<double>& dy) {
   fillContacts();
   findFree();
   for (std::size_t c = 0; c < guess_.size(); ++c) {
+    if (states_[c].rows) {
+      continue;
+    }
     const ContactFrame frame = frameOf(states_[c].normal);
     guess_[c][1] = dot(guessedFriction_[c], frame.tangent1);
     guess_[c][2] = dot(guessedFriction_[c], frame.tangent2);
@@ -243,6 +276,19 @@ void ContactSystem::solveGiven(std::span<const double> free) { forces_.solveGive
 // contact one of an edge on a face.
 bool ContactSystem::holdsSideways(std::size_t contact) const {
   return modes_[contact] == Mode::kStick && features_[contact].kind == ContactFeature::Kind::kInCone;
+}
+
+// [m] The three coordinates of a contact that projection makes zero.
+Vec3 ContactSystem::gapsOf(std::size_t contact) const {
+  const ContactState& state = states_[contact];
+  if (state.rows) {
+    return features_[contact].holds() ? state.rows->gaps : Vec3(state.gap, 0, 0);
+  }
+  if (!holdsSideways(contact)) {
+    return {state.gap, 0, 0};
+  }
+  const ContactFrame frame = frameOf(state.normal);
+  return {state.gap, dot(state.offset, frame.tangent1), dot(state.offset, frame.tangent2)};
 }
 
 // [m] How far a displacement of all bodies moves one of them, its corners included.
@@ -288,7 +334,7 @@ double ContactSystem::projectPositions(std::vector<double>& y, double most, Turn
   const std::vector<double> before = y;
   const std::vector<Mode> kept = modes_;
   for (std::size_t c = 0; c < modes_.size(); ++c) {
-    modes_[c] = modes_[c] == Mode::kOff || holdsSideways(c) ? modes_[c] : Mode::kOn;
+    modes_[c] = modes_[c] == Mode::kOff || holdsSideways(c) || features_[c].holds() ? modes_[c] : Mode::kOn;
   }
   const std::vector<double> still(inverseMass_.size(), 0.0);
   double moved = 0;
@@ -310,13 +356,8 @@ double ContactSystem::projectPositions(std::vector<double>& y, double most, Turn
     }
     fillContacts();
     for (std::size_t c = 0; c < features_.size(); ++c) {
-      ContactForces::Contact& contact = forces_.contacts()[c];
-      contact.target = {-states_[c].gap, 0, 0};
-      if (holdsSideways(c)) {
-        const ContactFrame frame = frameOf(states_[c].normal);
-        contact.target = {-states_[c].gap, -dot(states_[c].offset, frame.tangent1),
-                          -dot(states_[c].offset, frame.tangent2)};
-      }
+      const Vec3 gaps = gapsOf(c);
+      forces_.contacts()[c].target = {-gaps[0], -gaps[1], -gaps[2]};
     }
     solveGiven(still);
     const double shift = shiftOf(forces_.accelerations());
@@ -369,7 +410,9 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
     fillContacts();
     for (ContactForces::Contact& contact : forces_.contacts()) {
       contact.target = {};
-      contact.admissible = ContactProblem::Admissible::kCone;
+      if (contact.admissible == ContactProblem::Admissible::kLine) {
+        contact.admissible = ContactProblem::Admissible::kCone;
+      }
     }
     std::vector<double> before(inverseMass_.size());
     for (std::size_t m = 0; m < movers_.size(); ++m) {

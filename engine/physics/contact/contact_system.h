@@ -24,9 +24,11 @@ struct TouchingBody {
 
   bool isHeld() const { return isImmovable(body->mass); }
   bool isBox() const { return halfSpace == nullptr; }
+  bool isNowhere() const { return halfSpace == &nowhere(); }
   TouchingShape shape() const { return {body->halfExtents, body->boxCenter, halfSpace}; }
   const Material& material() const { return isBox() ? body->material : halfSpace->material; }
   BodyState state() const;
+  Kinematics kinematics() const;
 };
 inline TouchingBody touchingBody(const Wall& wall) { return {.body = &bodyOfWalls(), .halfSpace = &wall}; }
 
@@ -45,7 +47,7 @@ template <class IsNear, class Visit>
 void forCorners(std::span<const TouchingBody> bodies, std::size_t box, const IsNear& isNear,
                 const Visit& visit) {
   for (std::size_t b = bodies[box].isHeld() ? bodies.size() : boxesOf(bodies); b < bodies.size(); ++b) {
-    if (isNear(*bodies[b].halfSpace)) {
+    if (!bodies[b].isNowhere() && isNear(*bodies[b].halfSpace)) {
       ContactFeature feature{.a = static_cast<int>(box),
                              .b = static_cast<int>(b),
                              .material = touching(bodies[box].material(), bodies[b].material())};
@@ -72,15 +74,23 @@ class ContactSystem {
   /// but not quite, better some gap than a jump.
   static constexpr double kMostShift = 64;
 
-  ContactSystem(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features);
+  /// `joints`: all conditions of the bodies' joints; those that end on one side and are no features are open.
+  ContactSystem(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features,
+                std::span<const ContactFeature> joints = {});
 
   const std::vector<TouchingBody>& bodies() const { return bodies_; }
   const std::vector<ContactFeature>& features() const { return features_; }
+  /// Ends of joints that are open, as slack ropes.
+  const std::vector<ContactFeature>& openEnds() const { return openEnds_; }
+  /// One of them, or of the features, where its bodies were last looked at.
+  ContactState stateOf(const ContactFeature& feature) const;
   std::vector<Mode>& modes() { return modes_; }
   const std::vector<Mode>& modes() const { return modes_; }
   bool pushes(std::size_t contact) const { return modes_[contact] != Mode::kOff; }
   /// Whether any contact does.
   bool pushes() const;
+  /// All of them, without friction.
+  void closeAll();
 
   std::vector<double> pack() const;
   void unpack(std::span<const double> y);
@@ -127,6 +137,7 @@ class ContactSystem {
  private:
   BodyState stateIn(std::span<const double> y, std::size_t body) const;
   bool holdsSideways(std::size_t contact) const;
+  Vec3 gapsOf(std::size_t contact) const;
   double shiftOf(std::span<const double> displacement) const;
   Vec3 angularOf(std::span<const double> solution, std::size_t mover) const;
   void findFree();
@@ -138,6 +149,7 @@ class ContactSystem {
   std::vector<std::size_t> places_;  // by body: index among the movable ones, or kHeld
   std::vector<std::size_t> movers_;  // by movable body: index in bodies_
   std::vector<ContactFeature> features_;
+  std::vector<ContactFeature> openEnds_;
   std::vector<Mode> modes_;
   std::vector<ContactForces::Force> guess_;  // forces found with the modes
   std::vector<Vec3> guessedFriction_;  // theirs [N], in the world: tangents may jump where a normal turns

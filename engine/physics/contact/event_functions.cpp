@@ -29,8 +29,13 @@ void EventFunctions::list() {
 void EventFunctions::listContacts() {
   using Kind = EventFunction::Kind;
   const std::vector<ContactFeature>& features = system_.features();
-  const auto isOnWall = [&](std::size_t c) { return features[c].kind == ContactFeature::Kind::kPointOnWall; };
+  const auto isOfBoxes = [&](const ContactFeature& feature) {
+    return feature.kind != ContactFeature::Kind::kPointOnWall && !feature.isOfJoint();
+  };
   for (std::size_t c = 0; c < features.size(); ++c) {
+    if (features[c].holds()) {
+      continue;
+    }
     if (!system_.pushes(c)) {
       functions_.push_back({.kind = Kind::kGap, .contact = c});
       continue;
@@ -39,19 +44,23 @@ void EventFunctions::listContacts() {
     if (system_.modes()[c] == Mode::kStick) {
       functions_.push_back({.kind = Kind::kStick, .contact = c});
     }
-    if (!isOnWall(c)) {
+    if (isOfBoxes(features[c])) {
       functions_.push_back({.kind = Kind::kWithin, .contact = c});
     }
   }
   for (std::size_t c = 0; c < features.size(); ++c) {
-    const bool first = std::none_of(features.begin(), features.begin() + static_cast<std::ptrdiff_t>(c),
-                                    [&](const ContactFeature& other) {
-                                      return (other.a == features[c].a && other.b == features[c].b) ||
-                                             (features[c].b == other.a && other.b == features[c].a);
-                                    });
-    if (!isOnWall(c) && first) {
+    const bool first =
+        std::none_of(features.begin(), features.begin() + static_cast<std::ptrdiff_t>(c),
+                     [&](const ContactFeature& other) {
+                       return !other.isOfJoint() && ((other.a == features[c].a && other.b == features[c].b) ||
+                                                     (features[c].b == other.a && other.b == features[c].a));
+                     });
+    if (isOfBoxes(features[c]) && first) {
       functions_.push_back({.kind = Kind::kOverlap, .contact = c});
     }
+  }
+  for (std::size_t k = 0; k < system_.openEnds().size(); ++k) {
+    functions_.push_back({.kind = Kind::kOpenEnd, .contact = k});
   }
 }
 
@@ -77,15 +86,23 @@ void EventFunctions::noteStart() {
       event.margin = marginOf(event, bare);
     }
     event.start = bare + event.margin;
-    event.rate = event.kind == EventFunction::Kind::kCorner ? rateOf(event) : 0;
+    event.rate = event.hasRate() ? rateOf(event) : 0;
   }
+}
+
+// The first body of it.
+std::size_t EventFunctions::bodyOf(const EventFunction& event) const {
+  if (event.kind == EventFunction::Kind::kOpenEnd) {
+    return static_cast<std::size_t>(system_.openEnds()[event.contact].a);
+  }
+  return event.kind == EventFunction::Kind::kCorner ? event.contact : firstBody(event.contact);
 }
 
 // [m] Penetration that is ignored, given the gap at the start of the step.
 double EventFunctions::marginOf(const EventFunction& event, double gap) const {
-  if (event.kind == EventFunction::Kind::kCorner) {
+  if (event.hasRate()) {
     // A corner that touches but is no contact is separating: rounding error must not count as an impact.
-    const double within = system_.touching(event.contact);
+    const double within = system_.touching(bodyOf(event));
     return gap > within ? 0 : kTouching * within;
   }
   return kTouching *
@@ -120,6 +137,8 @@ double EventFunctions::valueOf(const EventFunction& event) const {
       const Wall& wall = wallOf(event);
       return cornerGap(system_.kinematics(c).pose, event.corner, wall.normal, wall.offset) + event.margin;
     }
+    case EventFunction::Kind::kOpenEnd:
+      return system_.stateOf(system_.openEnds()[c]).gap + event.margin;
   }
   return 0;
 }
@@ -139,14 +158,16 @@ double EventFunctions::depth(std::span<const std::size_t> events) const {
     if (event.isOfForces()) {
       return kRootForce * system_.forces().scale();
     }
-    within = std::max(
-        within, system_.touching(event.kind == EventFunction::Kind::kCorner ? event.contact
-                                                                            : firstBody(event.contact)));
+    within = std::max(within, system_.touching(bodyOf(event)));
   }
   return kRootGap * within;
 }
 
-double EventFunctions::rateOf(const EventFunction& corner) const {
+double EventFunctions::rateOf(const EventFunction& event) const {
+  if (event.kind == EventFunction::Kind::kOpenEnd) {
+    return system_.stateOf(system_.openEnds()[event.contact]).rate;
+  }
+  const EventFunction& corner = event;
   const Kinematics& at = system_.kinematics(corner.contact);
   const Vec3 arm = at.pose.worldFromBody * corner.corner;
   return dot(wallOf(corner).normal, at.velocity + at.angularVelocity.cross(arm));
@@ -162,7 +183,8 @@ bool EventFunctions::hasTension() const {
 bool EventFunctions::coverPair(std::size_t a, std::size_t b) const {
   const std::vector<ContactFeature>& features = system_.features();
   const auto isBetween = [&](std::size_t c) {
-    return (firstBody(c) == a && secondBody(c) == b) || (firstBody(c) == b && secondBody(c) == a);
+    return !features[c].isOfJoint() &&
+           ((firstBody(c) == a && secondBody(c) == b) || (firstBody(c) == b && secondBody(c) == a));
   };
   for (std::size_t c = 0; c < features.size(); ++c) {
     if (isBetween(c) && system_.pushes(c)) {

@@ -18,16 +18,18 @@ struct EventFunction {
     kWithin,   ///< a contact leaves its face
     kOverlap,  ///< the gap of two boxes closes
     kCorner,   ///< a corner that is no contact meets a half-space
+    kOpenEnd,  ///< an open end of a joint closes
   };
   Kind kind{};
-  std::size_t contact = 0;     ///< or the body of a corner
+  std::size_t contact = 0;     ///< or the body of a corner, or an open end
   int halfSpace = 0;           ///< index in the group
   Vec3 corner = Vec3::Zero();  ///< [m] body frame
   double margin = 0;           ///< [m]
   double start = 0;            ///< its value at the start of the step
-  double rate = 0;             ///< [m/s] of a corner, then
+  double rate = 0;             ///< [m/s] of a corner or an open end, then
 
-  bool isOfPlaces() const { return kind == Kind::kOverlap || kind == Kind::kCorner; }
+  bool isOfPlaces() const { return kind == Kind::kOverlap || hasRate(); }
+  bool hasRate() const { return kind == Kind::kCorner || kind == Kind::kOpenEnd; }
   bool isOfForces() const { return kind == Kind::kPush || kind == Kind::kStick; }
 };
 
@@ -53,8 +55,8 @@ class EventFunctions {
   /// How far below zero events of one kind are located, at most four times that: a part of what the contacts
   /// count as zero anyway, above rounding errors.
   double depth(std::span<const std::size_t> events) const;
-  /// [m/s] Of a corner's gap.
-  double rateOf(const EventFunction& corner) const;
+  /// [m/s] Of the gap of a corner or an open end.
+  double rateOf(const EventFunction& event) const;
   /// At the start of the step some contact force is tensile, and its friction would drive the slip: the modes
   /// found are inconsistent.
   bool hasTension() const;
@@ -68,6 +70,7 @@ class EventFunctions {
   void listCorners();
   double valueOf(const EventFunction& event) const;
   double marginOf(const EventFunction& event, double gap) const;
+  std::size_t bodyOf(const EventFunction& event) const;
   std::size_t firstBody(std::size_t contact) const {
     return static_cast<std::size_t>(system_.features()[contact].a);
   }

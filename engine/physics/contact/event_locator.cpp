@@ -101,7 +101,7 @@ double EventLocator::lowestWithin(std::size_t event, double atEnd) {
   if (atEnd >= 0 && function.kind == EventFunction::Kind::kOverlap) {
     return dipOf(event);
   }
-  if (atEnd >= 0 && function.kind == EventFunction::Kind::kCorner && function.start >= 0) {
+  if (atEnd >= 0 && function.hasRate() && function.start >= 0) {
     return lowestOfCubic(step_.length(), function.start, function.rate, atEnd, events_.rateOf(function));
   }
   return 0;

@@ -60,6 +60,11 @@ void FoundContacts::find(const GroupState& at, double slow) {
       }
     }
   }
+  for (const ContactFeature& joint : joints_) {
+    if (joint.holds() || group_.contactAt(joint, at).gap <= closed_) {
+      features_.push_back(joint);
+    }
+  }
   follow(at);
 }
 
@@ -71,6 +76,14 @@ double FoundContacts::deepest() const {
   return deepest;
 }
 
+double FoundContacts::farthestOff() const {
+  double farthest = deepest();
+  for (std::size_t c = 0; c < features_.size(); ++c) {
+    farthest = features_[c].holds() ? std::max(farthest, states_[c].gap) : farthest;
+  }
+  return farthest;
+}
+
 bool FoundContacts::has(const ContactFeature& feature) const {
   return std::any_of(features_.begin(), features_.end(),
                      [&](const ContactFeature& found) { return isSame(found, feature); });
@@ -78,6 +91,9 @@ bool FoundContacts::has(const ContactFeature& feature) const {
 
 bool FoundContacts::obeys(std::size_t contact, double h) const {
   const ContactState& state = states_[contact];
+  if (features_[contact].holds()) {
+    return true;
+  }
   return state.gap <= closed_ && state.parting() * h <= kOpens * closed_ &&
          !(features_[contact].kind == ContactFeature::Kind::kInCone && state.passing() * h > closed_);
 }
@@ -100,6 +116,13 @@ std::vector<ClosedContact> FoundContacts::obeying(double h, const std::vector<Cl
   return obeying;
 }
 
+// Of a joint's condition, among all of them.
+int FoundContacts::indexOf(const ContactFeature& feature) const {
+  const auto same = std::find_if(joints_.begin(), joints_.end(),
+                                 [&](const ContactFeature& joint) { return isSame(joint, feature); });
+  return static_cast<int>(same - joints_.begin());
+}
+
 ImpactContact FoundContacts::impactAt(std::size_t contact) const {
   const ContactFeature& feature = features_[contact];
   const ContactState& state = states_[contact];
@@ -109,7 +132,10 @@ ImpactContact FoundContacts::impactAt(std::size_t contact) const {
           .armB = state.armB,
           .normal = state.normal,
           .material = feature.material,
-          .directions = state.directions};
+          .directions = state.directions,
+          .rows = state.rows,
+          .holds = feature.holds(),
+          .joint = feature.isOfJoint() ? indexOf(feature) : ImpactContact::kNoJoint};
 }
 
 }  // namespace careen

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "physics/contact/implicit_step.h"
@@ -12,8 +13,10 @@ namespace careen {
 /// The contacts of a group of bodies with each other: found at one state, then followed to others.
 class FoundContacts {
  public:
-  /// `closed` [m]: gaps up to this count as none.
-  FoundContacts(TouchingGroup& group, double closed) : group_(group), closed_(closed) {}
+  /// `closed` [m]: gaps up to this count as none. `joints`: the conditions of the group's joints, which must
+  /// outlive it: those that hold are always among the contacts.
+  FoundContacts(TouchingGroup& group, double closed, std::span<const ContactFeature> joints = {})
+      : group_(group), closed_(closed), joints_(joints) {}
 
   /// Finds all that are closed at a state. `slow` [m/s]: approach no faster is none.
   void find(const GroupState& at, double slow);
@@ -21,6 +24,7 @@ class FoundContacts {
   void follow(const GroupState& at) { group_.contactsAt(features_, at, states_); }
 
   const std::vector<ContactFeature>& features() const { return features_; }
+  std::span<const ContactFeature> joints() const { return joints_; }
   /// As last found or followed.
   const std::vector<ContactState>& states() const { return states_; }
   /// [m/s] Of the gap.
@@ -28,6 +32,8 @@ class FoundContacts {
   double closed() const { return closed_; }
   /// [m] 0 if none is.
   double deepest() const;
+  /// [m] That, or the largest gap of a joint.
+  double farthestOff() const;
   bool has(const ContactFeature& feature) const;
 
   /// Whether a contact obeys its law in a step of `h` [s]. One that parts so fast that it would open within
@@ -39,11 +45,13 @@ class FoundContacts {
 
  private:
   void addCorners(std::size_t body, const Pose& pose);
+  int indexOf(const ContactFeature& feature) const;
   void addBetween(std::size_t a, std::size_t b, const std::vector<Pose>& poses, const GroupState& at,
                   double slow);
 
   TouchingGroup& group_;
   double closed_;
+  std::span<const ContactFeature> joints_;
   std::vector<ContactFeature> features_;
   std::vector<ContactState> states_;
 };

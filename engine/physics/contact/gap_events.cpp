@@ -25,8 +25,13 @@ void GapEvents::list(const FoundContacts& contacts, const GroupState& start, dou
     }
     if (!contacts.obeys(c, h)) {
       add({.kind = Kind::kFeature, .feature = feature}, start);
-    } else if (feature.kind != ContactFeature::Kind::kPointOnWall) {
+    } else if (feature.kind != ContactFeature::Kind::kPointOnWall && !feature.isOfJoint()) {
       add({.kind = Kind::kBeyond, .feature = feature}, start);
+    }
+  }
+  for (const ContactFeature& joint : contacts.joints()) {
+    if (!joint.holds() && !contacts.has(joint)) {
+      add({.kind = Kind::kFeature, .feature = joint}, start);
     }
   }
   std::vector<double> reach;  // [m] by body: how far a point of it may come

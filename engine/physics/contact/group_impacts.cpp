@@ -108,9 +108,14 @@ bool GroupImpacts::compress(GroupState& state, const Struck& struck, std::span<I
     return false;
   }
   for (std::size_t c = 0; c < shares.size(); ++c) {
+    const ContactProblem::Triple& impulse = impulses[c];
+    if (struck.contacts[c].rows) {
+      shares[c] = {.impulse = Vec3(impulse[0], impulse[1], impulse[2]).norm(), .rows = impulse};
+      continue;
+    }
     shares[c] = {.approach = -equations_.group().contactAt(struck.features[c], before).rate,
-                 .impulse = impulses[c][0],
-                 .tangential = std::sqrt(impulses[c][1] * impulses[c][1] + impulses[c][2] * impulses[c][2]),
+                 .impulse = impulse[0],
+                 .tangential = std::sqrt(impulse[1] * impulse[1] + impulse[2] * impulse[2]),
                  .normal = struck.contacts[c].normal};
   }
   return true;
@@ -122,7 +127,14 @@ void GroupImpacts::addWithoutApproach(const FoundContacts& contacts, std::span<c
     const auto with = std::find_if(law.begin(), law.end(), [&](const ClosedContact& contact) {
       return isSame(contact.feature, contacts.features()[c]);
     });
-    if (with != law.end() && with->push > 0) {
+    if (with != law.end() && with->push > 0 && contacts.features()[c].isOfJoint()) {
+      const Vec3 along = contacts.features()[c].holds() ? with->friction : Vec3(with->push, 0, 0);
+      impacts_.push_back({.contact = contacts.impactAt(c),
+                          .share = {.impulse = h * with->push,
+                                    .normal = contacts.states()[c].normal,
+                                    .rows = {h * along[0], h * along[1], h * along[2]}},
+                          .cause = change});
+    } else if (with != law.end() && with->push > 0) {
       impacts_.push_back({.contact = contacts.impactAt(c),
                           .share = {.approach = std::max(0.0, -contacts.rate(c)),
                                     .impulse = h * with->push,

@@ -5,7 +5,7 @@
 namespace careen {
 
 GroupLoads::GroupLoads(const TouchingGroup& group) : group_(group), loads_(group.size()) {
-  if (!group.world().springs.empty() || group.world().drag) {
+  if (hasVaryingLoads(group.world())) {
     for (const Body& body : group.world().bodies) {
       worldStates_.push_back(body.initial);
     }

@@ -27,8 +27,11 @@ Quat rotationBy(const Vec3& angle) {
 
 Quat middleOf(const Quat& from, const Quat& to) { return Quat(from.coeffs() + to.coeffs()).normalized(); }
 
-// [N s] What a contact's last forces give in `h` [s]: along the normal and the tangents.
+// [N s] What a contact's last forces give in `h` [s]: along the normal and the tangents, or its rows.
 ContactProblem::Triple impulseOf(const ClosedContact& contact, const Vec3& normal, double h) {
+  if (contact.feature.holds()) {
+    return {h * contact.friction[0], h * contact.friction[1], h * contact.friction[2]};
+  }
   const ContactFrame frame = frameOf(normal);
   return {h * contact.push, h * dot(contact.friction, frame.tangent1),
           h * dot(contact.friction, frame.tangent2)};
@@ -144,6 +147,11 @@ void ImplicitStep::aimAtEnd(const GroupState& to) {
 void ImplicitStep::takeImpulses(const GroupState& from, double h, std::span<ClosedContact> contacts) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Triple& impulse = impulses_.impulses()[c];
+    if (features_[c].holds()) {
+      contacts[c].friction = Vec3(impulse[0], impulse[1], impulse[2]) / h;
+      contacts[c].push = contacts[c].friction.norm();
+      continue;
+    }
     contacts[c].push = impulse[0] / h;
     contacts[c].friction = frameOf(geometry_[c].normal).across(impulse[1], impulse[2]) / h;
   }
@@ -229,6 +237,11 @@ bool ImplicitStep::separate(GroupState& state, std::span<const ContactFeature> c
       contact.directions.clear();
       contact.target[0] = -geometry_[c].gap;
       deep = deep || geometry_[c].gap < -deepest;
+      if (contacts[c].holds()) {
+        const Vec3& gaps = geometry_[c].rows->gaps;
+        contact.target = {-gaps[0], -gaps[1], -gaps[2]};
+        deep = deep || geometry_[c].gap > deepest;
+      }
     }
     if (!deep) {
       break;
@@ -237,7 +250,7 @@ bool ImplicitStep::separate(GroupState& state, std::span<const ContactFeature> c
       return false;
     }
     for (std::size_t c = 0; c < contacts.size(); ++c) {
-      if (impulses_.impulses()[c][0] > 0) {
+      if (contacts[c].holds() || impulses_.impulses()[c][0] > 0) {
         pushing.push_back(contacts[c]);
       }
     }

@@ -25,7 +25,7 @@ constexpr double kWorkOfChange = 240;
 // [s] In which springs move a body by the tolerance from the start; infinite if none pulls.
 double timeUnderSprings(const World& world, double tolerance) {
   double time = kInfinity;
-  if (world.springs.empty()) {
+  if (!hasSprings(world)) {
     return time;
   }
   for (const double acceleration : accelerationsAtStart(world)) {
@@ -52,10 +52,11 @@ double timeScaleOf(const World& world, double tolerance) {
 }
 
 Island::Island(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features,
-               double tolerance, double timeScale)
+               double tolerance, double timeScale, std::vector<ContactFeature> joints)
     : world_(world),
       tolerance_(tolerance),
-      system_(world, std::move(bodies), std::move(features)),
+      joints_(std::move(joints)),
+      system_(world, std::move(bodies), std::move(features), joints_),
       step_(world, system_, tolerance, timeScale),
       events_(system_),
       locator_(system_, step_, events_, tolerance) {}
@@ -67,7 +68,8 @@ void Island::begin() {
   system_.look(state);
   for (std::size_t c = 0; c < system_.modes().size(); ++c) {
     const bool isChoice = system_.features()[c].axes != 0;  // it may not have to push
-    system_.modes()[c] = isChoice ? Mode::kOff : creeps(system_, c, tolerance_) ? Mode::kStick : Mode::kOn;
+    const bool sticks = system_.features()[c].holds() || creeps(system_, c, tolerance_);
+    system_.modes()[c] = isChoice ? Mode::kOff : sticks ? Mode::kStick : Mode::kOn;
   }
   system_.projectVelocities(state);
   bool found = system_.findModes(state);
@@ -86,7 +88,7 @@ void Island::begin() {
 
 void Island::beginTimeSteps(int count) {
   step_.restart();
-  timeSteps_ = std::make_unique<IslandTimeSteps>(world_, bodies(), tolerance_, count);
+  timeSteps_ = std::make_unique<IslandTimeSteps>(world_, bodies(), tolerance_, count, joints_);
 }
 
 bool Island::dropIdle(std::vector<ContactFeature>& features) const {
@@ -128,7 +130,7 @@ Island::Step Island::step(double most, double mostWork) {
     step_.forgetForces();
   }
   for (const ContactState& state : system_.states()) {
-    deepest_ = std::max(deepest_, -state.gap);
+    deepest_ = std::max(deepest_, -state.gap);  // a joint's gap is none
   }
   return {.length = step_.length(), .end = end};
 }
@@ -200,8 +202,8 @@ void Island::endTimeSteps() {
   if (!timeSteps_) {
     return;
   }
-  system_ = ContactSystem(world_, system_.bodies(), timeSteps_->contacts());
-  std::fill(system_.modes().begin(), system_.modes().end(), Mode::kOn);
+  system_ = ContactSystem(world_, system_.bodies(), timeSteps_->contacts(), joints_);
+  system_.closeAll();
   system_.projectPositions(step_.state(), ContactSystem::kMostMoved * tolerance_);
   system_.look(step_.state());
   system_.unpack(step_.state());
@@ -219,6 +221,8 @@ bool Island::mayLose() const {
   return timeSteps_ || world_.drag ||
          std::any_of(world_.springs.begin(), world_.springs.end(),
                      [](const Spring& spring) { return spring.damping > 0; }) ||
+         std::any_of(world_.joints.begin(), world_.joints.end(),
+                     [](const Joint& joint) { return joint.damping > 0; }) ||
          std::any_of(features.begin(), features.end(),
                      [](const ContactFeature& feature) { return feature.material.friction > 0; });
 }

@@ -30,9 +30,9 @@ double timeScaleOf(const World& world, double tolerance);
 class Island {
  public:
   /// `tolerance` [m]: for the position of every body and of its corners; `timeScale` [s]: timeScaleOf() with
-  /// it.
+  /// it. `features`: contacts that are closed; `joints`: all conditions of the bodies' joints.
   Island(const World& world, std::vector<TouchingBody> bodies, std::vector<ContactFeature> features,
-         double tolerance, double timeScale);
+         double tolerance, double timeScale, std::vector<ContactFeature> joints = {});
   Island(const Island&) = delete;
   Island& operator=(const Island&) = delete;
 
@@ -73,6 +73,7 @@ class Island {
 
   const ContactSystem& system() const { return system_; }
   const std::vector<TouchingBody>& bodies() const { return system_.bodies(); }
+  const std::vector<ContactFeature>& joints() const { return joints_; }
   /// Whether the event functions cover two bodies, because they were in contact at the start of the step.
   bool handlesPair(std::size_t a, std::size_t b) const { return timeSteps_ || events_.coverPair(a, b); }
   /// Motion of a movable body in the last step.
@@ -101,6 +102,7 @@ class Island {
 
   const World& world_;
   double tolerance_;
+  std::vector<ContactFeature> joints_;
   ContactSystem system_;
   SmoothStep step_;
   EventFunctions events_;

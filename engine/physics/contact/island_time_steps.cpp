@@ -13,8 +13,8 @@ constexpr int kBeforeRest = 16;
 }  // namespace
 
 IslandTimeSteps::IslandTimeSteps(const World& world, const std::vector<TouchingBody>& bodies,
-                                 double tolerance, int count)
-    : stepper_(world, bodies, tolerance), left_(std::max(count, kFewTimeSteps)) {}
+                                 double tolerance, int count, std::span<const ContactFeature> joints)
+    : stepper_(world, bodies, tolerance, joints), left_(std::max(count, kFewTimeSteps)) {}
 
 bool IslandTimeSteps::take(double most, double mostWork) {
   workBefore_ = stepper_.equations().work();

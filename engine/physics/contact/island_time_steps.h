@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "physics/contact/time_stepper.h"
@@ -10,7 +11,8 @@ namespace careen {
 class IslandTimeSteps {
  public:
   /// At least `count` of them, and not so few that trying again did not pay.
-  IslandTimeSteps(const World& world, const std::vector<TouchingBody>& bodies, double tolerance, int count);
+  IslandTimeSteps(const World& world, const std::vector<TouchingBody>& bodies, double tolerance, int count,
+                  std::span<const ContactFeature> joints = {});
 
   /// Takes one of at most `most` [s]. Returns false if it was the last: hardly anything moves any more, or
   /// there were enough. Throws NumericalError as TimeStepper::step() does.

@@ -17,7 +17,8 @@ void ManifoldNormals::align(std::span<const ContactFeature> features, std::span<
                             std::span<ContactState> contacts) {
   ofPairs_.clear();
   for (std::size_t c = 0; c < features.size(); ++c) {
-    if (features[c].kind != ContactFeature::Kind::kPointOnWall && (pushing.empty() || pushing[c] != 0)) {
+    if (features[c].kind != ContactFeature::Kind::kPointOnWall && !features[c].isOfJoint() &&
+        (pushing.empty() || pushing[c] != 0)) {
       const auto [first, second] = std::minmax({features[c].a, features[c].b});
       ofPairs_.push_back({first, second, c});
     }

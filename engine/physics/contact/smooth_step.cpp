@@ -7,6 +7,7 @@
 
 #include "physics/contact/three_at.h"
 #include "physics/motion/hermite_step.h"
+#include "physics/world/forces.h"
 
 namespace careen {
 namespace {
@@ -45,6 +46,7 @@ SmoothStep::SmoothStep(const World& world, ContactSystem& system, double toleran
     : world_(world),
       system_(system),
       springs_(world, system.bodies()),
+      energy_(world, system),
       tolerance_(tolerance),
       timeScale_(timeScale) {
   end_.y = system.pack();
@@ -52,6 +54,7 @@ SmoothStep::SmoothStep(const World& world, ContactSystem& system, double toleran
 
 void SmoothStep::restart() {
   springs_.end();
+  energy_.end();
   forgetForces();
 }
 
@@ -64,8 +67,10 @@ bool SmoothStep::findRate(End& end) {
 bool SmoothStep::begin() {
   if (system_.pushes()) {
     springs_.end();
+    energy_.begin(end_.y);
   } else {
     springs_.begin(end_.y);
+    energy_.end();
   }
   if (goesOn_) {
     start_ = end_;
@@ -131,7 +136,8 @@ double SmoothStep::longest() {
   }
   for (std::size_t c = 0; c < system_.features().size(); ++c) {
     const double speed = system_.states()[c].slip.norm();
-    if (speed > 0 && system_.features()[c].kind != ContactFeature::Kind::kPointOnWall) {
+    if (speed > 0 && system_.features()[c].kind != ContactFeature::Kind::kPointOnWall &&
+        !system_.features()[c].isOfJoint()) {
       const auto a = static_cast<std::size_t>(system_.features()[c].a);
       const auto b = static_cast<std::size_t>(system_.features()[c].b);
       most = std::min(most, kMostSlip *
@@ -181,7 +187,8 @@ void SmoothStep::finish() {
   }
   const bool kept = system_.keepMomenta(start_.y, length_, end_.y);
   const bool moved = system_.project(end_.y, ContactSystem::kMostMoved * tolerance_);
-  if (springs_.keep(start_.y, length_, end_.y) || moved || kept) {
+  const bool scaled = energy_.keep(end_.y);
+  if (springs_.keep(start_.y, length_, end_.y) || moved || kept || scaled) {
     findRate(end_);
   }
 }
@@ -309,7 +316,7 @@ bool SmoothStep::isMovedByCorrection() const {
 }
 
 bool SmoothStep::gainsEnergy() const {
-  if (!world_.springs.empty()) {
+  if (hasSprings(world_)) {
     return false;
   }
   double motion = 0;  // [J] before and after

@@ -6,6 +6,7 @@
 
 #include "physics/contact/contact_system.h"
 #include "physics/contact/dormand_prince5.h"
+#include "physics/contact/kept_energy.h"
 #include "physics/contact/undamped_springs.h"
 #include "physics/motion/motion.h"
 
@@ -72,6 +73,7 @@ class SmoothStep {
   const World& world_;
   ContactSystem& system_;
   UndampedSprings springs_;
+  KeptEnergy energy_;  // of joints
   DormandPrince5 integrator_;
   double tolerance_;
   double timeScale_;

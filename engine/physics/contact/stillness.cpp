@@ -21,6 +21,11 @@ constexpr double kStill = 0x1p-42;
 /// [1] The same relative to the accelerations by contact forces beyond those that carry a body alone.
 constexpr double kStillLoaded = 0x1p-40;
 
+// [N] The force of a contact along its normal; of a joint's condition all of it.
+double sizeOf(const ContactForces::Force& force, const ContactFeature& feature) {
+  return feature.holds() ? Vec3(force[0], force[1], force[2]).norm() : force[0];
+}
+
 // [m/s²] The largest acceleration of a body by the forces of its contacts, all in one direction: their
 // rounding errors accelerate too.
 double loadOf(const ContactSystem& system) {
@@ -29,7 +34,7 @@ double loadOf(const ContactSystem& system) {
     const ContactFeature& feature = system.features()[c];
     const auto add = [&](int body) {
       const auto i = static_cast<std::size_t>(body);
-      loads[i] += system.forces().forces()[c][0] * system.bodies()[i].body->mass.inverseMass;
+      loads[i] += sizeOf(system.forces().forces()[c], feature) * system.bodies()[i].body->mass.inverseMass;
     };
     add(feature.a);
     add(feature.b);

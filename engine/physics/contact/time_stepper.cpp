@@ -32,11 +32,12 @@ constexpr int kMostUnsolved = 10;
 
 }  // namespace
 
-TimeStepper::TimeStepper(const World& world, const std::vector<TouchingBody>& bodies, double tolerance)
+TimeStepper::TimeStepper(const World& world, const std::vector<TouchingBody>& bodies, double tolerance,
+                         std::span<const ContactFeature> joints)
     : bodies_(bodies),
       tolerance_(tolerance),
       equations_(world, bodies, tolerance),
-      found_(equations_.group(), closed()),
+      found_(equations_.group(), closed(), joints),
       events_(equations_.group(), closed()),
       impacts_(equations_),
       end_(equations_.group().state()),
@@ -245,8 +246,8 @@ double TimeStepper::accelerationInStep() const {
 void TimeStepper::correct() {
   end_ = step_.end;
   found_.find(end_, equations_.residual());
-  const double deep = found_.deepest();
-  deepest_ = std::max(deepest_, deep);
+  deepest_ = std::max(deepest_, found_.deepest());
+  const double deep = found_.farthestOff();
   if (!equations_.separate(end_, found_.features(), 0.125 * closed())) {
     return;
   }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "physics/contact/found_contacts.h"
@@ -25,8 +26,9 @@ namespace careen {
 /// do not: the impulse without approach of a jam.
 class TimeStepper {
  public:
-  /// `tolerance` [m]: of positions, corners included.
-  TimeStepper(const World& world, const std::vector<TouchingBody>& bodies, double tolerance);
+  /// `tolerance` [m]: of positions, corners included. `joints`: their conditions; must outlive it.
+  TimeStepper(const World& world, const std::vector<TouchingBody>& bodies, double tolerance,
+              std::span<const ContactFeature> joints = {});
 
   /// Takes one step, at most so long [s], and returns its length. Throws NumericalError if no impulses were
   /// found however short the step, or not for so much of ImplicitStep::work(); it is of no use then.

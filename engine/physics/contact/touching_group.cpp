@@ -46,7 +46,8 @@ double TouchingGroup::fastest(const GroupState& state) const {
 
 bool TouchingGroup::mayMeet(std::size_t a, std::size_t b, const GroupState& state, double within) const {
   const double reach = radiusOf(body(a)) + radiusOf(body(b)) + within;
-  return !(isHeld(a) && isHeld(b)) && (state[a].position - state[b].position).squaredNorm() <= reach * reach;
+  return !(isHeld(a) && isHeld(b)) && mayTouch(world_, bodies_[a].index, bodies_[b].index) &&
+         (state[a].position - state[b].position).squaredNorm() <= reach * reach;
 }
 
 ContactState TouchingGroup::stateOf(const ContactFeature& feature, const Kinematics& a,
@@ -54,8 +55,10 @@ ContactState TouchingGroup::stateOf(const ContactFeature& feature, const Kinemat
   const TouchingBody& bodyA = bodies_[static_cast<std::size_t>(feature.a)];
   const TouchingBody& bodyB = bodies_[static_cast<std::size_t>(feature.b)];
   ContactState at = contactState(feature, a, bodyA.shape(), b, bodyB.shape());
-  if (bodyB.isBox()) {  // one point for both, else their impulses would change angular momentum by gap ×
-                        // friction
+  if (bodyB.isBox() &&
+      !feature
+           .isOfJoint()) {  // one point for both, else their impulses would change angular momentum by gap ×
+                            // friction
     const Vec3 link = (a.pose.position - b.pose.position) + (at.armA - at.armB);
     at.armA -= 0.5 * link;
     at.armB += 0.5 * link;

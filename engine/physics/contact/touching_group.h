@@ -45,7 +45,8 @@ class TouchingGroup {
   Vec3 angularVelocity(std::size_t body, const Mat3& worldFromBody, const Vec3& angularMomentum) const;
   /// [m/s] Of the bodies that move and their corners, at most.
   double fastest(const GroupState& state) const;
-  /// Whether two boxes, not both held, are so near each other that they may have a gap of `within` [m].
+  /// Whether two boxes that stop each other, not both held, are so near each other that they may have a gap
+  /// of `within` [m].
   bool mayMeet(std::size_t a, std::size_t b, const GroupState& state, double within) const;
   ContactState contactAt(const ContactFeature& feature, const GroupState& state) const;
   /// All of them, points of one manifold with one normal.

@@ -104,7 +104,7 @@ void settleBody(const Bodies& bodies, Encounter& encounter, std::size_t index, c
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
     const ImpactContact& contact = encounter.contacts[k];
     const bool isA = contact.a == static_cast<int>(index);
-    if (!isA && contact.b != static_cast<int>(index)) {
+    if ((!isA && contact.b != static_cast<int>(index)) || contact.rows) {
       continue;
     }
     alone = alone && (isA ? encounter.b(k) : encounter.a(k)).mover->isHeld();
@@ -149,6 +149,10 @@ void findPersisting(const Bodies& bodies, Encounter& encounter) {
   const bool hops = encounter.cause == EventKind::kTouching;
   const double slow = hops ? fallSpeed(bodies, encounter) : 0;
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
+    if (encounter.contacts[k].holds) {
+      encounter.persists[k] = 1;
+      continue;
+    }
     const Parting parting = partingAt(encounter, k);
     const bool passes =
         !(encounter.shares[k].impulse > 0) && parting.speed < encounter.passing * parting.rounding;
@@ -164,6 +168,16 @@ void findPersisting(const Bodies& bodies, Encounter& encounter) {
 Parting partingAt(const Encounter& encounter, std::size_t contact) {
   const ImpactContact& at = encounter.contacts[contact];
   Parting parting;
+  if (at.rows) {
+    const auto addRow = [&](const EncounterBody& body, const RowSide& side) {
+      const Vec3 spin = angularVelocity(body.body().mass, body.after);
+      parting.speed += dot(side.linear[0], body.after.velocity) + dot(side.turning[0], spin);
+      parting.rounding += kParting * (body.after.velocity.norm() + spin.norm() * side.turning[0].norm());
+    };
+    addRow(encounter.a(contact), at.rows->a);
+    addRow(encounter.b(contact), at.rows->b);
+    return parting;
+  }
   const auto add = [&](const EncounterBody& body, const Vec3& arm, double sign) {
     const Vec3 spin = angularVelocity(body.body().mass, body.after);
     const Vec3 ofPoint = body.after.velocity + spin.cross(arm);

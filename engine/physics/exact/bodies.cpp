@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/names.h"
 #include "physics/contact/island.h"
+#include "physics/exact/controlled_world.h"
 #include "physics/exact/next_contact.h"
 #include "physics/motion/hermite_step.h"
 
@@ -64,15 +65,13 @@ Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& record
       longestStep_(longestStepOf(world)),
       recorder_(recorder),
       neighbors_(radiiOf(world)),
-      queue_(world.bodies.size() + world.walls.size()),
+      queue_(world.bodies.size() + world.walls.size() + 1),
       account_(world),
       forced_(world.bodies.size(), world.drag ? 1 : 0),
-      springs_(world.bodies.size() + world.walls.size()) {
-  std::vector<int> rankOf(world.bodies.size());
+      bonds_(world.bodies.size() + world.walls.size() + 1) {
   double movable = 0;
   for (const std::size_t listed : orderByName(world.bodies)) {
     const int rank = static_cast<int>(movers_.size());
-    rankOf[listed] = rank;
     Mover& mover = movers_.emplace_back();
     mover.body = &world.bodies[listed];
     mover.rank = rank;
@@ -91,19 +90,46 @@ Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& record
     mover.rank = rank;
     mover.listed = {static_cast<int>(w)};
   }
+  if (std::any_of(world.joints.begin(), world.joints.end(),
+                  [](const Joint& joint) { return !joint.to.body; })) {
+    const int rank = static_cast<int>(movers_.size());
+    Mover& mover = movers_.emplace_back();
+    mover.body = &bodyOfWalls();
+    mover.halfSpace = &careen::nowhere();
+    mover.rank = rank;
+  }
   forced_.resize(movers_.size(), 0);
   const double part = kFew / std::max(1.0, movable);
   isFew_ = movable <= kFew;
   workShare_ = part * std::min(1.0, part) * std::sqrt(std::max(1.0, RunSettings().tolerance / tolerance_));
-  for (const Spring& spring : world.springs) {
-    for (const SpringEnd* end : {&spring.from, &spring.to}) {
-      const SpringEnd& other = end == &spring.from ? spring.to : spring.from;
-      if (end->body) {
-        const auto rank = static_cast<std::size_t>(rankOf[static_cast<std::size_t>(*end->body)]);
-        forced_[rank] = 1;
-        if (other.body) {
-          springs_[rank].push_back(rankOf[static_cast<std::size_t>(*other.body)]);
-        }
+  addBonds();
+}
+
+void Bodies::addBonds() {
+  std::vector<int> rankOf(world_.bodies.size());
+  for (int rank = 0; rank < count(); ++rank) {
+    rankOf[static_cast<std::size_t>((*this)[rank].listed.value)] = rank;
+  }
+  const auto add = [&](const std::optional<int>& from, const std::optional<int>& to) {
+    if (from) {
+      const auto rank = static_cast<std::size_t>(rankOf[static_cast<std::size_t>(*from)]);
+      forced_[rank] = 1;
+      if (to) {
+        bonds_[rank].push_back(rankOf[static_cast<std::size_t>(*to)]);
+      }
+    }
+  };
+  for (const Spring& spring : world_.springs) {
+    add(spring.from.body, spring.to.body);
+    add(spring.to.body, spring.from.body);
+  }
+  const auto isHeld = [&](const JointEnd& end) {
+    return !end.body || isImmovable(world_.bodies[static_cast<std::size_t>(*end.body)].mass);
+  };
+  for (const Joint& joint : world_.joints) {  // what is held does not connect those joined to it
+    for (const JointEnd* end : {&joint.from, &joint.to}) {
+      if (!isHeld(*end)) {
+        add(end->body, end == &joint.from ? joint.to.body : joint.from.body);
       }
     }
   }
@@ -220,6 +246,35 @@ void Bodies::arrive(const Mover& body, const Instant& time, const BodyState& sta
   account_.arrives(static_cast<std::size_t>(body.listed.value), state, body.elapsed(time));
 }
 
+void Bodies::pass(const Instant& time, const ContactFeature& joint, const ImpactContact& contact,
+                  const ImpactShare& share, const Vec3& position) {
+  JointImpulse impulse{.time = time.hi,
+                       .joint = static_cast<int>(joint.joint - world_.joints.data()),
+                       .point = position + contact.armA};
+  if (contact.rows) {
+    const BodyImpulse sum = impulseOf(contact.rows->a, share.rows);
+    impulse.linear = sum.push;
+    impulse.angular = sum.twist - contact.armA.cross(sum.push);
+  } else {
+    impulse.linear = share.impulse * share.normal;
+  }
+  recorder_.passes(impulse);
+}
+
+// [s] The next moment at which the joint lets go, or its motor may change.
+double Bodies::changeOf(const Joint& joint) const {
+  return controlled_ == nullptr ? joint.until
+                                : controlled_->nextOf(static_cast<int>(&joint - world_.joints.data()));
+}
+
+double Bodies::untilChange(std::span<const ContactFeature> joints, const Instant& time) const {
+  double first = std::numeric_limits<double>::infinity();
+  for (const ContactFeature& feature : joints) {
+    first = std::min(first, changeOf(*feature.joint));
+  }
+  return std::isfinite(first) ? secondsBetween(time, Instant(first)) : first;
+}
+
 Doubt* Bodies::doubtAt(int rank, const Instant& time) {
   Mover& body = (*this)[rank];
   if (body.isHeld()) {
@@ -244,7 +299,7 @@ DoubtfulBody Bodies::doubtful(int rank, const Instant& time, const BodyState& af
 void Bodies::predict(int rank) {
   const Mover& body = (*this)[rank];
   if (!body.moves()) {
-    queue_.clear(rank);
+    predictChange(rank);
     return;
   }
   if (body.flies() && isForced(rank)) {  // has just begun, and has yet to feel springs and drag
@@ -261,12 +316,29 @@ void Bodies::predict(int rank) {
                             .body = rank});
   }
   for (const int candidate : around(rank)) {
-    if (!body.steps() || !body.group->seesTo(body.place, candidate)) {
+    if (mayTouch(world_, body.listed.value, (*this)[candidate].listed.value) &&
+        (!body.steps() || !body.group->seesTo(body.place, candidate))) {
       takeSooner(first, firstMeeting(body, (*this)[candidate], first ? first->time : end_));
     }
   }
   if (first) {
     queue_.set(*first);
+  } else {
+    queue_.clear(rank);
+  }
+}
+
+// One that rests may move where one of its joints lets go, or its motor changes.
+void Bodies::predictChange(int rank) {
+  const Mover& body = (*this)[rank];
+  double change = std::numeric_limits<double>::infinity();
+  for (const Joint& joint : world_.joints) {
+    if (!body.isHeld() && (joint.from.body == body.listed.value || joint.to.body == body.listed.value)) {
+      change = std::min(change, changeOf(joint));
+    }
+  }
+  if (std::isfinite(change)) {
+    queue_.set({.time = Instant(change), .kind = EventKind::kTouching, .body = rank});
   } else {
     queue_.clear(rank);
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/system/team.h"
+#include "physics/contact/contact_feature.h"
 #include "physics/exact/event_queue.h"
 #include "physics/exact/mover.h"
 #include "physics/impact/impact_law.h"
@@ -19,6 +20,8 @@
 
 namespace careen {
 
+class ControlledWorld;
+
 /// All bodies of method exact: how each moves now, and what happens to it next. A motion that begins is
 /// recorded, and an event that is predicted is queued.
 ///
@@ -29,6 +32,8 @@ class Bodies {
   Bodies(const World& world, const RunSettings& settings, Recorder& recorder);
 
   const World& world() const { return world_; }
+  /// The world is that one's, which must outlive this.
+  void follow(const ControlledWorld& controlled) { controlled_ = &controlled; }
   const Instant& end() const { return end_; }          ///< of the run
   double tolerance() const { return tolerance_; }      ///< [m]
   double timeScale() const { return timeScale_; }      ///< [s] see timeScaleOf
@@ -41,13 +46,17 @@ class Bodies {
 
   /// Of boxes; the walls are those after them.
   int count() const { return static_cast<int>(world_.bodies.size()); }
-  std::span<const Mover> walls() const { return std::span(movers_).subspan(world_.bodies.size()); }
+  std::span<const Mover> walls() const {
+    return std::span(movers_).subspan(world_.bodies.size(), world_.walls.size());
+  }
+  /// What joints that end in the world are of, if there are any: comes after the walls.
+  Mover* nowhere() { return movers_.back().halfSpace == &careen::nowhere() ? &movers_.back() : nullptr; }
   Mover& operator[](int rank) { return movers_[static_cast<std::size_t>(rank)]; }
   const Mover& operator[](int rank) const { return movers_[static_cast<std::size_t>(rank)]; }
-  /// Springs or drag act on it, so it is never in Flight.
+  /// Springs, joints or drag act on it, so it is never in Flight.
   bool isForced(int rank) const { return forced_[static_cast<std::size_t>(rank)] != 0; }
-  /// Bodies attached to it by springs.
-  std::span<const int> joinedTo(int rank) const { return springs_[static_cast<std::size_t>(rank)]; }
+  /// Bodies attached to it by springs and joints.
+  std::span<const int> joinedTo(int rank) const { return bonds_[static_cast<std::size_t>(rank)]; }
   /// All that it can touch in its cell or those around it, sorted.
   std::vector<int> around(int rank) const;
   /// Whether does(rank) is true of any of them.
@@ -72,6 +81,11 @@ class Bodies {
   void step(const std::shared_ptr<ContactGroup>& group, std::size_t place);
   /// An impact at that point [m] of a body with another one, both by rank.
   void strike(const Instant& time, int rank, int with, const Vec3& point, const ImpactShare& share);
+  /// What a joint passes on in an impact; the middle [m] of the first of its bodies.
+  void pass(const Instant& time, const ContactFeature& joint, const ImpactContact& contact,
+            const ImpactShare& share, const Vec3& position);
+  /// [s] From then on, until the first of these joints lets go or its motor may change.
+  double untilChange(std::span<const ContactFeature> joints, const Instant& time) const;
   /// Its doubt from then on, none if it is held. Past its size its place means nothing.
   Doubt* doubtAt(int rank, const Instant& time);
   /// A body that takes part in an impact at that time, in this state after it.
@@ -104,17 +118,21 @@ class Bodies {
   double workLeft(std::span<const int> ranks, const Instant& time) const;
   /// Of more than a few bodies in contact, time steps cost so much that it does not pay to begin.
   bool isTooMany(int movable) const;
-  bool mayBeCrowd() const { return crowds_.when != CrowdSettings::When::kNever; }
+  bool mayBeCrowd() const { return world_.joints.empty() && crowds_.when != CrowdSettings::When::kNever; }
 
   /// Most events of one body at one moment before it goes on in a crowd, and of twice as many the run gives
   /// up: more than any impact needs, and a bound on endless repetition.
   static constexpr int kMostAtOneMoment = 1000;
 
  private:
+  void addBonds();
   void begins(int rank, const Instant& time);
   void noteSpeed(const Mover& body);
+  void predictChange(int rank);
+  double changeOf(const Joint& joint) const;
 
   const World& world_;
+  const ControlledWorld* controlled_ = nullptr;
   Instant end_;
   double tolerance_;
   CrowdSettings crowds_;
@@ -133,8 +151,8 @@ class Bodies {
   double fastestAtZero_ = -std::numeric_limits<double>::infinity();
   int mostMoving_ = 0;
   int noted_ = 0;
-  std::vector<char> forced_;               // by rank
-  std::vector<std::vector<int>> springs_;  // by rank
+  std::vector<char> forced_;             // by rank
+  std::vector<std::vector<int>> bonds_;  // by rank
 };
 
 }  // namespace careen

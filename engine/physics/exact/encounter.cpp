@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "physics/contact/joint_rows.h"
 #include "physics/geometry/separation.h"
 #include "physics/world/forces.h"
 
@@ -38,6 +39,24 @@ void reach(Bodies& bodies, const Event& event, Encounter& encounter) {
   }
   std::sort(encounter.bodies.begin(), encounter.bodies.end(),
             [](const EncounterBody& x, const EncounterBody& y) { return x.mover->rank < y.mover->rank; });
+}
+
+void findJoints(const World& world, Encounter& encounter) {
+  if (world.joints.empty()) {
+    return;
+  }
+  const std::size_t boxes = encounter.boxes().size();
+  encounter.joints = jointFeatures(world, encounter.time.hi, [&](const JointEnd& end) {
+    if (!end.body) {
+      return static_cast<int>(encounter.bodies.size()) - 1;  // nowhere
+    }
+    for (std::size_t i = 0; i < boxes; ++i) {
+      if (encounter.bodies[i].listed() == *end.body) {
+        return static_cast<int>(i);
+      }
+    }
+    return -1;
+  });
 }
 
 double pullOf(const Bodies& bodies, const Encounter& encounter) {
@@ -98,7 +117,7 @@ double Encounter::lengthsAt(std::size_t contact) const {
 // Where the gap is only rounding the arms stay as they are, or a cube that lands flat would tilt.
 ImpactContact Encounter::joined(std::size_t contact) const {
   ImpactContact at = contacts[contact];
-  if (b(contact).mover->isBox()) {
+  if (b(contact).mover->isBox() && at.joint == ImpactContact::kNoJoint) {
     const Vec3 link = (a(contact).after.pose.position - b(contact).after.pose.position) + (at.armA - at.armB);
     if (link.norm() > kOnePoint * lengthsAt(contact)) {
       at.armA -= 0.5 * link;
@@ -129,6 +148,10 @@ Encounter gather(Bodies& bodies, const Event& event) {
   for (std::size_t w = 0; w < bodies.walls().size(); ++w) {
     encounter.bodies.emplace_back().mover = &bodies[bodies.count() + static_cast<int>(w)];
   }
+  if (Mover* nowhere = bodies.nowhere()) {
+    encounter.bodies.emplace_back().mover = nowhere;
+  }
+  findJoints(bodies.world(), encounter);
   return encounter;
 }
 

@@ -42,8 +42,9 @@ struct EncounterBody {
 struct Encounter {
   Instant time;
   EventKind cause{};
-  std::vector<EncounterBody> bodies;    ///< by rank; all walls are among them, at the end
+  std::vector<EncounterBody> bodies;    ///< by rank; all walls are among them, at the end, and nowhere()
   std::vector<ImpactContact> contacts;  ///< their bodies are indices into `bodies`
+  std::vector<ContactFeature> joints;   ///< the conditions of all joints, likewise
   std::vector<ImpactShare> shares;
   std::vector<char> persists;                         ///< of each contact: it stays closed
   std::vector<std::shared_ptr<IslandGroup>> islands;  ///< that bodies are in from now on

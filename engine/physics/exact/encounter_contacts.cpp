@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "physics/contact/implicit_step.h"
+#include "physics/contact/island.h"
 #include "physics/geometry/chosen_contact.h"
 #include "physics/impact/wall_contacts.h"
 
@@ -32,10 +33,12 @@ double slowOf(double tolerance, double pull, const EncounterBody& a, const Encou
 }
 
 // Adds the contacts of two bodies that touch.
-void addPairContacts(double tolerance, Encounter& encounter, std::size_t indexA, std::size_t indexB) {
+void addPairContacts(const World& world, double tolerance, Encounter& encounter, std::size_t indexA,
+                     std::size_t indexB) {
   const EncounterBody& a = encounter.bodies[indexA];
   const EncounterBody& b = encounter.bodies[indexB];
-  if ((a.mover->isHeld() && b.mover->isHeld()) || !areTouching(a.box(), b.box())) {
+  if ((a.mover->isHeld() && b.mover->isHeld()) || !mayTouch(world, a.listed(), b.listed()) ||
+      !areTouching(a.box(), b.box())) {
     return;
   }
   const auto velocityOf = [](const EncounterBody& body, const Vec3& arm) {
@@ -59,6 +62,29 @@ void addPairContacts(double tolerance, Encounter& encounter, std::size_t indexA,
 
 }  // namespace
 
+std::vector<ImpactContact> closedJoints(const Encounter& encounter) {
+  std::vector<ImpactContact> closed;
+  for (std::size_t k = 0; k < encounter.joints.size(); ++k) {
+    const ContactFeature& joint = encounter.joints[k];
+    const EncounterBody& first = encounter.bodies[static_cast<std::size_t>(joint.a)];
+    const TouchingBody a = first.touching();
+    const TouchingBody b = encounter.bodies[static_cast<std::size_t>(joint.b)].touching();
+    const ContactState state = contactState(joint, a.kinematics(), a.shape(), b.kinematics(), b.shape());
+    if (joint.holds() || state.gap <= Island::kTouching * touchingWithin(first.box())) {
+      closed.push_back({.a = joint.a,
+                        .b = joint.b,
+                        .armA = state.armA,
+                        .armB = state.armB,
+                        .normal = state.normal,
+                        .material = joint.material,
+                        .rows = state.rows,
+                        .holds = joint.holds(),
+                        .joint = static_cast<int>(k)});
+    }
+  }
+  return closed;
+}
+
 double findContacts(const Bodies& bodies, Encounter& encounter) {
   double deepest = 0;
   const std::size_t boxes = encounter.boxes().size();
@@ -70,9 +96,11 @@ double findContacts(const Bodies& bodies, Encounter& encounter) {
                                          static_cast<int>(boxes), encounter.contacts));
     }
     for (std::size_t j = i + 1; j < boxes; ++j) {
-      addPairContacts(bodies.tolerance(), encounter, i, j);
+      addPairContacts(bodies.world(), bodies.tolerance(), encounter, i, j);
     }
   }
+  const std::vector<ImpactContact> joints = closedJoints(encounter);
+  encounter.contacts.insert(encounter.contacts.end(), joints.begin(), joints.end());
   encounter.shares.resize(encounter.contacts.size());
   encounter.persists.assign(encounter.contacts.size(), 0);
   return deepest;

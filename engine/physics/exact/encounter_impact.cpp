@@ -45,7 +45,10 @@ void record(Bodies& bodies, const Encounter& encounter) {
     doubtful.push_back(bodies.doubtful(each.mover->rank, encounter.time, each.after));
   }
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
-    if (encounter.shares[k].impulse > 0) {
+    if (encounter.shares[k].impulse > 0 && encounter.contacts[k].joint != ImpactContact::kNoJoint) {
+      bodies.pass(encounter.time, encounter.joints[static_cast<std::size_t>(encounter.contacts[k].joint)],
+                  encounter.contacts[k], encounter.shares[k], encounter.a(k).before.pose.position);
+    } else if (encounter.shares[k].impulse > 0) {
       const ImpactContact contact = encounter.joined(k);
       touch(doubtful, contact, encounter.shares[k]);
       bodies.strike(encounter.time, encounter.a(k).mover->rank, encounter.b(k).mover->rank,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "physics/exact/encounter_contacts.h"
 #include "physics/geometry/contact_points.h"
 #include "physics/geometry/separation.h"
 
@@ -30,6 +31,13 @@ std::vector<TouchingBody> touchingOf(const Encounter& encounter) {
     touching.push_back(each.touching());
   }
   return touching;
+}
+
+// Adds the conditions of joints that hold, or have closed.
+void addJoints(const Encounter& encounter, Features& features) {
+  for (const ImpactContact& closed : closedJoints(encounter)) {
+    features.push_back(encounter.joints[static_cast<std::size_t>(closed.joint)]);
+  }
 }
 
 // Adds corners that have reached or passed a wall.
@@ -64,13 +72,13 @@ void addMeeting(const Encounter& encounter, std::size_t a, std::size_t b, Featur
 }
 
 // Adds contacts of bodies that penetrate after a time step.
-void addOverlaps(const Encounter& encounter, Features& features) {
+void addOverlaps(const World& world, const Encounter& encounter, Features& features) {
   const std::span<const EncounterBody> boxes = encounter.boxes();
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const EncounterBody& a = boxes[i];
     for (std::size_t j = i + 1; j < boxes.size(); ++j) {
       const EncounterBody& b = boxes[j];
-      if ((!a.mover->isHeld() || !b.mover->isHeld()) &&
+      if ((!a.mover->isHeld() || !b.mover->isHeld()) && mayTouch(world, a.listed(), b.listed()) &&
           (a.before.pose.position - b.before.pose.position).norm() <=
               radiusOf(a.body()) + radiusOf(b.body()) &&
           gapOf(encounter, i, j) < -kAligned * touchingWithin(a.box(), b.box())) {
@@ -89,6 +97,7 @@ void alignPlaces(const Bodies& bodies, const Event& event, Encounter& encounter)
   }
   Features features;
   addKnown(encounter, features);
+  addJoints(encounter, features);
   addCorners(encounter, features);
   const Mover& body = bodies[event.body];
   if (event.partner != Event::kNobody && bodies[event.partner].isBox() &&
@@ -99,7 +108,7 @@ void alignPlaces(const Bodies& bodies, const Event& event, Encounter& encounter)
   double mayMove = ContactSystem::kMostMoved * bodies.tolerance();
   for (int pass = 0; pass < kMostPasses; ++pass) {
     ContactSystem system(bodies.world(), touchingOf(encounter), features);
-    std::fill(system.modes().begin(), system.modes().end(), ContactForces::Mode::kOn);
+    system.closeAll();
     std::vector<double> y = system.pack();
     if (const double way = system.projectPositions(y, mayMove, ContactSystem::Turns::kAttitude); way > 0) {
       mayMove -= way;
@@ -114,7 +123,7 @@ void alignPlaces(const Bodies& bodies, const Event& event, Encounter& encounter)
     }
     const std::size_t known = features.size();
     addCorners(encounter, features);
-    addOverlaps(encounter, features);
+    addOverlaps(bodies.world(), encounter, features);
     if (features.size() == known) {
       return;
     }

@@ -16,6 +16,14 @@ namespace careen {
 
 // The event loop, from here to end().
 
+ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder)
+    : controlled_(world.joints.empty() ? std::nullopt : std::optional<ControlledWorld>(world)),
+      bodies_(controlled_ ? controlled_->world() : world, settings, recorder) {
+  if (controlled_) {
+    bodies_.follow(*controlled_);
+  }
+}
+
 RunFigures ExactWorld::run(const std::stop_token& stop) {
   begin();
   for (std::optional<Event> event = bodies_.queue().next(); event && !earlier(bodies_.end(), event->time);
@@ -24,6 +32,7 @@ RunFigures ExactWorld::run(const std::stop_token& stop) {
       throw Interrupted();
     }
     bodies_.recorder().reaches(event->time.hi);
+    changeJoints(event->time.hi);
     happen(*event);
   }
   end();
@@ -42,6 +51,18 @@ void ExactWorld::begin() {
   bodies_.account().parted();
   for (int rank = 0; rank < bodies_.count(); ++rank) {
     bodies_.predict(rank);
+  }
+}
+
+// All that step end their steps where their joints change.
+void ExactWorld::changeJoints(double until) {
+  while (controlled_ && controlled_->next() <= until) {
+    const Instant now(controlled_->next());
+    std::vector<BodyState> states(static_cast<std::size_t>(bodies_.count()));
+    for (int rank = 0; rank < bodies_.count(); ++rank) {
+      states[static_cast<std::size_t>(bodies_[rank].listed.value)] = bodies_[rank].stateAt(now);
+    }
+    controlled_->change(states, bodies_.recorder());
   }
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <stop_token>
 
 #include "physics/exact/bodies.h"
+#include "physics/exact/controlled_world.h"
 #include "physics/exact/encounter.h"
 #include "physics/exact/event_queue.h"
 #include "physics/motion/recorder.h"
@@ -20,13 +22,13 @@ namespace careen {
 /// others do not notice. RunFigures reports it.
 class ExactWorld {
  public:
-  ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder)
-      : bodies_(world, settings, recorder) {}
+  ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder);
   RunFigures run(const std::stop_token& stop);
 
  private:
   void begin();
   void happen(const Event& event);
+  void changeJoints(double until);
   void meet(const Event& event);
   void moveOn(Encounter& encounter);
   void end();
@@ -34,6 +36,7 @@ class ExactWorld {
   bool goesOnAsCrowd(const Encounter& encounter) const;
   bool costsTooMuch(const Encounter& encounter) const;
 
+  std::optional<ControlledWorld> controlled_;  // of worlds with joints
   Bodies bodies_;
 };
 

@@ -42,6 +42,9 @@ double fastestChange(const std::vector<TouchingBody>& before, const std::vector<
 
 ContactFeature featureOf(const Encounter& encounter, std::size_t k) {
   const ImpactContact& contact = encounter.contacts[k];
+  if (contact.joint != ImpactContact::kNoJoint) {
+    return encounter.joints[static_cast<std::size_t>(contact.joint)];
+  }
   const EncounterBody& a = encounter.a(k);
   ContactFeature feature;
   if (!encounter.b(k).mover->isBox()) {
@@ -74,12 +77,22 @@ bool beginsAtRest(Island& island, int timeSteps, double slow) {
   return false;
 }
 
-// The persisting contacts of an island's members. `indices` are its bodies: they, what they touch, and walls.
-std::vector<ContactFeature> featuresOf(const Encounter& encounter, const std::vector<std::size_t>& members,
-                                       std::vector<std::size_t>& indices) {
+// What an island is made of.
+struct IslandParts {
+  std::vector<std::size_t> indices;      // of its bodies: the members, what they touch, and walls
+  std::vector<ContactFeature> features;  // the contacts of members that persist
+  std::vector<ContactFeature> joints;    // all conditions of their joints
+};
+
+IslandParts partsOf(const Encounter& encounter, const std::vector<std::size_t>& members) {
   const std::size_t boxes = encounter.boxes().size();
-  indices = members;
-  std::vector<ContactFeature> features;
+  IslandParts parts;
+  parts.indices = members;
+  std::vector<std::size_t>& indices = parts.indices;
+  std::vector<ContactFeature>& features = parts.features;
+  const auto isMember = [&](int index) {
+    return std::find(members.begin(), members.end(), static_cast<std::size_t>(index)) != members.end();
+  };
   const auto placeOf = [&](int index) {
     return std::find(indices.begin(), indices.end(), static_cast<std::size_t>(index)) - indices.begin();
   };
@@ -90,9 +103,6 @@ std::vector<ContactFeature> featuresOf(const Encounter& encounter, const std::ve
   };
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
     const ImpactContact& contact = encounter.contacts[k];
-    const auto isMember = [&](int index) {
-      return std::find(members.begin(), members.end(), static_cast<std::size_t>(index)) != members.end();
-    };
     if (encounter.persists[k] == 0 || (!isMember(contact.a) && !isMember(contact.b))) {
       continue;
     }
@@ -100,19 +110,33 @@ std::vector<ContactFeature> featuresOf(const Encounter& encounter, const std::ve
     include(feature.a);
     include(feature.b);
   }
+  for (const ContactFeature& joint : encounter.joints) {
+    if (isMember(joint.a) || isMember(joint.b)) {
+      parts.joints.push_back(joint);
+      include(joint.a);
+      include(joint.b);
+    }
+  }
   for (std::size_t wall = boxes; wall < encounter.bodies.size(); ++wall) {
     indices.push_back(wall);
   }
-  for (ContactFeature& feature : features) {
-    feature.a = static_cast<int>(placeOf(feature.a));
-    feature.b = static_cast<int>(placeOf(feature.b));
+  for (std::vector<ContactFeature>* all : {&features, &parts.joints}) {
+    for (ContactFeature& feature : *all) {
+      feature.a = static_cast<int>(placeOf(feature.a));
+      feature.b = static_cast<int>(placeOf(feature.b));
+    }
   }
-  return features;
+  return parts;
+}
+
+bool hasContacts(const std::vector<ContactFeature>& features) {
+  return std::any_of(features.begin(), features.end(),
+                     [](const ContactFeature& feature) { return !feature.isOfJoint(); });
 }
 
 void formIsland(Bodies& bodies, Encounter& encounter, const std::vector<std::size_t>& members) {
-  std::vector<std::size_t> indices;
-  std::vector<ContactFeature> features = featuresOf(encounter, members, indices);
+  IslandParts parts = partsOf(encounter, members);
+  std::vector<ContactFeature>& features = parts.features;
   const bool forced = std::any_of(members.begin(), members.end(), [&](std::size_t i) {
     return bodies.isForced(encounter.bodies[i].mover->rank);
   });
@@ -127,18 +151,18 @@ void formIsland(Bodies& bodies, Encounter& encounter, const std::vector<std::siz
   }
   std::vector<TouchingBody> touching;
   std::vector<int> ranks;
-  for (const std::size_t i : indices) {
+  for (const std::size_t i : parts.indices) {
     touching.push_back(encounter.bodies[i].touching());
     ranks.push_back(encounter.bodies[i].mover->rank);
   }
   const auto islandOfThem = [&] {
     return std::make_unique<Island>(bodies.world(), touching, features, bodies.tolerance(),
-                                    bodies.timeScale());
+                                    bodies.timeScale(), parts.joints);
   };
   std::unique_ptr<Island> island = islandOfThem();
-  // Many bodies that nothing pulls may slide along each other without a force. Those that only springs join
-  // have no contact that could change.
-  const bool isMany = encounter.timeSteps == 0 && !features.empty() && members.size() > kMostSmooth;
+  // Many bodies that nothing pulls may slide along each other without a force. Those that only springs or
+  // joints connect have no contact that could change.
+  const bool isMany = encounter.timeSteps == 0 && hasContacts(features) && members.size() > kMostSmooth;
   const bool isPulled = forced || encounter.pull > 0;
   const int timeSteps = isMany && isPulled ? kTimeStepsOfMany : encounter.timeSteps;
   const double slow = fallSpeed(bodies, encounter);
@@ -197,6 +221,7 @@ void formIslands(Bodies& bodies, Encounter& encounter) {
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i + 1; encounter.timeSteps > 0 && j < count; ++j) {
       if (takesPart(i) && takesPart(j) &&
+          mayTouch(bodies.world(), encounter.bodies[i].listed(), encounter.bodies[j].listed()) &&
           areTouching(encounter.bodies[i].box(), encounter.bodies[j].box(), nearness(bodies, encounter))) {
         joined.join(i, j);
       }

@@ -18,6 +18,7 @@ IslandGroup::IslandGroup(Bodies& bodies, std::vector<int> ranks, std::unique_ptr
 }
 
 std::optional<Encounter> IslandGroup::advance(const Instant& time) {
+  accountForWork([&](std::size_t place) { return island_->bodies()[place].kinematics().pose; });
   accountForLosses();
   std::optional<Encounter> unsolved = begin(time);
   if (!unsolved) {
@@ -34,6 +35,7 @@ std::optional<Encounter> IslandGroup::advance(const Instant& time) {
 std::optional<Encounter> IslandGroup::begin(const Instant& time) {
   start_ = time;
   const std::vector<TouchingBody> before = island_->bodies();
+  noteMotors();
   if (!takeStep(time)) {
     Encounter unsolved;
     unsolved.time = time;
@@ -73,9 +75,11 @@ bool IslandGroup::takeStep(const Instant& time) {
   bool isSolved = true;
   try {
     // Not bounded by the end of the run, on which the motion must not depend.
-    const Island::Step step = island_->step(bodies_.longestStep(), bodies_.workLeft(ranks_, time));
+    const double change = bodies_.untilChange(island_->joints(), time);
+    const Island::Step step =
+        island_->step(std::min(bodies_.longestStep(), change), bodies_.workLeft(ranks_, time));
     length_ = step.length;
-    end_ = step.end;
+    end_ = step.length < change ? step.end : Island::End::kChanges;
   } catch (const NumericalError&) {
     if (!bodies_.mayBeCrowd()) {
       throw;
@@ -93,6 +97,7 @@ bool IslandGroup::enter(Encounter& encounter, int rank) {
     length_ = secondsBetween(start_, encounter.time);
     island_->cutTo(length_);
   }
+  accountForWork([&](std::size_t place) { return island_->bodies()[place].kinematics().pose; });
   encounter.timeSteps = std::max(encounter.timeSteps, island_->timeStepsLeft());
   island_->endTimeSteps();
   const TouchingBody& here = island_->bodies()[bodies_[rank].place];
@@ -111,6 +116,9 @@ void IslandGroup::addFeatures(const Encounter& encounter, std::vector<ContactFea
   };
   for (std::size_t c = 0; c < system.features().size(); ++c) {
     ContactFeature feature = system.features()[c];
+    if (feature.isOfJoint()) {
+      continue;  // the encounter has them
+    }
     const auto a = static_cast<std::size_t>(feature.a);
     const double within =
         kAligned * touchingWithin(boxAt(system.kinematics(a).pose, *system.bodies()[a].body));
@@ -136,7 +144,38 @@ void IslandGroup::endRun() {
       bodies_.account().departs(static_cast<std::size_t>(body.listed.value), body.stateAt(bodies_.end()));
     }
   }
+  accountForWork([&](std::size_t place) { return bodies_[ranks_[place]].stateAt(bodies_.end()).pose; });
   accountForLosses();
+}
+
+void IslandGroup::noteMotors() {
+  driven_.clear();
+  for (const ContactFeature& feature : island_->joints()) {
+    const auto poseOf = [&](int place) {
+      return island_->bodies()[static_cast<std::size_t>(place)].kinematics().pose;
+    };
+    if (feature.part == JointPart::kPoint && feature.joint->effort != 0) {
+      driven_.push_back(
+          {.of = &feature,
+           .effort = feature.joint->effort,
+           .coordinate = jointCoordinate(*feature.joint, poseOf(feature.a), poseOf(feature.b))});
+    }
+  }
+}
+
+// No hinge turns by half a turn in a step.
+template <class PoseOf>
+void IslandGroup::accountForWork(const PoseOf& poseOf) {
+  constexpr double kTurn = 2 * 3.141592653589793;
+  for (const Driven& driven : driven_) {
+    const Joint& joint = *driven.of->joint;
+    double way = jointCoordinate(joint, poseOf(static_cast<std::size_t>(driven.of->a)),
+                                 poseOf(static_cast<std::size_t>(driven.of->b))) -
+                 driven.coordinate;
+    way -= joint.kind == Joint::Kind::kHinge ? kTurn * std::nearbyint(way / kTurn) : 0;
+    bodies_.account().gives(driven.effort * way);
+  }
+  driven_.clear();
 }
 
 void IslandGroup::accountForLosses() {
@@ -153,6 +192,12 @@ void IslandGroup::recordImpacts() {
     bodies_[ranks_[i]].doubt.atLeast(bodies_[ranks_[i]].isHeld() ? 0 : bodies_.tolerance());
   }
   for (const GroupImpact& impact : island_->impacts()) {
+    if (impact.contact.joint != ImpactContact::kNoJoint) {
+      const auto a = static_cast<std::size_t>(impact.contact.a);
+      bodies_.pass(start_, island_->joints()[static_cast<std::size_t>(impact.contact.joint)], impact.contact,
+                   impact.share, bodies_[ranks_[a]].stateAt(start_).pose.position);
+      continue;
+    }
     touch(doubtful, impact.contact, impact.share);
     const auto rankOf = [&](int place) { return ranks_[static_cast<std::size_t>(place)]; };
     const ImpactContact& contact = impact.contact;

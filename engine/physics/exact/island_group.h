@@ -28,13 +28,22 @@ class IslandGroup final : public ContactGroup {
   void endRun() override;
 
  private:
+  struct Driven {  // a joint with an effort, in a step
+    const ContactFeature* of = nullptr;
+    double effort = 0;      // [N m] or [N]
+    double coordinate = 0;  // at its start
+  };
   bool takeStep(const Instant& time);
+  void noteMotors();
+  template <class PoseOf>
+  void accountForWork(const PoseOf& poseOf);
   void recordImpacts();
   void accountForLosses();
 
   Bodies& bodies_;
   std::unique_ptr<Island> island_;
   Island::End end_ = Island::End::kGoesOn;
+  std::vector<Driven> driven_;
 };
 
 }  // namespace careen

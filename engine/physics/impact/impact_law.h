@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "physics/geometry/separating_axes.h"
+#include "physics/solver/contact_rows.h"
 #include "physics/world/body.h"
 #include "physics/world/contact_residuals.h"
 
@@ -33,14 +36,20 @@ struct ImpactContact {
   /// [1] unit: the contact takes part only where its bodies would enter each other along all of them. None:
   /// the normal is the only one.
   std::vector<Vec3> directions = {};
+  /// A joint's rows, in place of normal and arms.
+  std::shared_ptr<const ConstraintRows> rows = {};
+  bool holds = false;  ///< it takes every impulse: its speeds stay zero
+  static constexpr int kNoJoint = -1;
+  int joint = kNoJoint;  ///< of a joint's condition: its index, as the caller counts
 };
 
 /// What an impact did at one contact.
 struct ImpactShare {
-  double approach = 0;         ///< [m/s] normal speed before, positive: approaching
-  double impulse = 0;          ///< [N s] along the normal, ≥ 0
-  double tangential = 0;       ///< [N s] size of the friction part, ≤ μ · impulse
-  Vec3 normal = Vec3::Zero();  ///< [1] along which it acted: the contact's, or one of its directions
+  double approach = 0;           ///< [m/s] normal speed before, positive: approaching
+  double impulse = 0;            ///< [N s] along the normal, ≥ 0
+  double tangential = 0;         ///< [N s] size of the friction part, ≤ μ · impulse
+  Vec3 normal = Vec3::Zero();    ///< [1] along which it acted: the contact's, or one of its directions
+  std::array<double, 3> rows{};  ///< [N s] of a joint's condition, along its rows; `impulse` is their size
 };
 
 /// Residuals of the equations of several contacts [m/s] that the caller can do with; 0: rounding.
@@ -83,6 +92,9 @@ struct ImpactAccuracy {
 ///   Mech. 65, 1998, with their direction replaced by that of maximum dissipation (as in S. Rakshit, A.
 ///   Chatterjee, Int. J. Mech. Sci. 90, 2015). For several contacts, where leverage lifts one of them, the
 ///   step is shortened if energy would rise.
+///
+/// Joints belong to every projection: K is then of the motions that they allow, and since reflections within
+/// a subspace are reflections all that is said above stays true.
 ///
 /// No heap allocation for up to a dozen contacts of one body. One contact: impulses in extended precision, so
 /// that 10⁶ bounces conserve energy to 1e-12. Several: to a few ulps. The order of the contacts changes no

@@ -67,11 +67,13 @@ void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactCo
   const std::array<Vec3, 3> axes = frameOf(contact.normal).axes();
   const auto a = static_cast<std::size_t>(contact.a);
   added.a = setup.movableOf[a];
-  setSide(added, 0, pointSide(axes, contact.armA, 1), principalAxes(bodies[a]));
+  setSide(added, 0, contact.rows ? contact.rows->a : pointSide(axes, contact.armA, 1),
+          principalAxes(bodies[a]));
   const auto b = static_cast<std::size_t>(contact.b);
   added.b = setup.movableOf[b];
   if (added.b != ContactProblem::kNobody) {
-    setSide(added, 1, pointSide(axes, contact.armB, -1), principalAxes(bodies[b]));
+    setSide(added, 1, contact.rows ? contact.rows->b : pointSide(axes, contact.armB, -1),
+            principalAxes(bodies[b]));
   }
   const double normal = inverseEffectiveMass(setup, added);
   if (!(normal > 0) || !std::isfinite(normal)) {
@@ -79,6 +81,7 @@ void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactCo
         "impact: a contact between two sides that cannot move, or a number that is not finite");
   }
   added.friction = contact.material.friction;
+  added.admissible = contact.holds ? ContactProblem::Admissible::kSpace : ContactProblem::Admissible::kCone;
   setup.problem.contacts.push_back(added);
 }
 

@@ -22,6 +22,8 @@ namespace {
 using Impulse = ContactProblem::Triple;
 using Impulses = std::vector<Impulse>;
 constexpr std::size_t kSix = ContactProblem::kAxes;
+/// [1] of the contacts' speeds: faster joints do not hold.
+constexpr double kJointsMove = 0x1p-30;
 /// [1] of the contacts' speeds: a residual with which an impact may go on although the solver aims at less.
 constexpr double kTolerable = 0x1p-24;
 /// [1] of the restitution that is tried, one after the other, where bodies are wedged.
@@ -38,7 +40,11 @@ constexpr int kMostFactorisations = 400;
 class Law {
  public:
   Law(ContactProblem problem, std::span<const ImpactContact> contacts, ImpactAccuracy accuracy)
-      : problem_(std::move(problem)), before_(problem_.free), contacts_(contacts), accuracy_(accuracy) {
+      : problem_(std::move(problem)),
+        before_(problem_.free),
+        start_(problem_.free),
+        contacts_(contacts),
+        accuracy_(accuracy) {
     double scale = 0;  // [m/s] Σ|n_k q_k| of a contact: its speeds are rounded by parts of that
     for (const ContactProblem::Contact& contact : problem_.contacts) {
       scale = std::max(scale, sumOfTerms(contact, 0, before_, [](double term) { return std::fabs(term); }));
@@ -47,6 +53,38 @@ class Law {
   }
 
   Impulses resolve() {
+    if (!movesJoints()) {
+      return resolveHeld();
+    }
+    const Impulses first = projection(before_, Chosen(contacts_.size(), 0));
+    before_ = problem_.free = after(first);
+    Impulses all = resolveHeld();
+    add(all, 1, first);
+    return all;
+  }
+
+  double approach(std::size_t contact) const {
+    return contacts_[contact].holds ? 0 : -speed(contact, 0, start_);
+  }
+  ContactResiduals takeResiduals() { return solver_.takeResiduals(); }
+
+ private:
+  using Chosen = std::vector<char>;  // of the contacts
+
+  /// Velocities that joints do not allow, as those of a scene's start may be: the joints alone come first.
+  bool movesJoints() const {
+    const double most = std::max(accuracy_.tolerable, kJointsMove / kApproachRounding * rounding_);
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      for (std::size_t row = 0; contacts_[c].holds && row < 3; ++row) {
+        if (std::fabs(speed(c, row, before_)) > most) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  Impulses resolveHeld() {
     Chosen approaches;
     findApproaching(before_, approaches);
     if (std::none_of(approaches.begin(), approaches.end(), [](char yes) { return yes != 0; })) {
@@ -62,12 +100,6 @@ class Law {
     Impulses impulses = frictionless();
     return rough ? withFriction(impulses) : impulses;
   }
-
-  double approach(std::size_t contact) const { return -speed(contact, 0, before_); }
-  ContactResiduals takeResiduals() { return solver_.takeResiduals(); }
-
- private:
-  using Chosen = std::vector<char>;  // of the contacts
 
   /// Each side for itself, since which of both is a must not matter.
   template <class Use>
@@ -147,16 +179,16 @@ class Law {
   void findApproaching(std::span<const double> q, Chosen& approaches) const {
     approaches.clear();
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      approaches.push_back(speed(c, 0, q) < -rounding_ ? 1 : 0);
+      approaches.push_back(!contacts_[c].holds && speed(c, 0, q) < -rounding_ ? 1 : 0);
     }
   }
 
-  /// Impulses that project q onto the motions in which the chosen contacts do not approach.
+  /// Impulses that project q onto the motions in which the chosen contacts do not approach, and joints hold.
   Impulses projection(std::span<const double> q, std::span<const char> chosen) {
     ContactProblem chosenOnly{
         .inverseMass = problem_.inverseMass, .free = {q.begin(), q.end()}, .contacts = {}};
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      if (chosen[c] != 0) {
+      if (chosen[c] != 0 || contacts_[c].holds) {
         chosenOnly.contacts.push_back(problem_.contacts[c]);
         chosenOnly.contacts.back().friction = 0;
       }
@@ -165,7 +197,7 @@ class Law {
     Impulses all(contacts_.size());
     std::size_t next = 0;
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      all[c] = chosen[c] != 0 ? found[next++] : Impulse{};
+      all[c] = chosen[c] != 0 || contacts_[c].holds ? found[next++] : Impulse{};
     }
     return all;
   }
@@ -176,6 +208,24 @@ class Law {
         sum[c][row] += factor * impulses[c][row];
       }
     }
+  }
+
+  /// Of the contacts; joints hold anyway.
+  bool areAll(const Chosen& chosen) const {
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      if (chosen[c] == 0 && !contacts_[c].holds) {
+        return false;
+      }
+    }
+    return true;
+  }
+  bool areNone(const Impulses& impulses) const {
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      if (impulses[c][0] != 0 && !contacts_[c].holds) {
+        return false;
+      }
+    }
+    return true;
   }
 
   /// P: Moreau's projection.
@@ -192,7 +242,7 @@ class Law {
     Impulses last = projection(q, recent);
     const std::vector<double> end = after(last, q);
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      const double parting = speed(c, 0, end);
+      const double parting = contacts_[c].holds ? 0 : speed(c, 0, end);
       if (parting < -kSettled * rounding_ || (recent[c] != 0 && parting > kSettled * rounding_)) {
         return std::nullopt;
       }
@@ -212,7 +262,7 @@ class Law {
     Chosen others(contacts_.size());
     Chosen recent(contacts_.size());  // that took an impulse since it was last asked
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      others[c] = contacts_[c].material.restitution > threshold ? 0 : 1;
+      others[c] = contacts_[c].material.restitution > threshold || contacts_[c].holds ? 0 : 1;
     }
     const bool isMixture = std::find(others.begin(), others.end(), 1) != others.end();
     const std::size_t cap = 100 + 10 * contacts_.size() * contacts_.size();
@@ -232,14 +282,14 @@ class Law {
       }
       const bool anyElastic = std::find(elastic.begin(), elastic.end(), 1) != elastic.end();
       const Chosen& chosen = anyElastic ? elastic : others;
-      const bool isPlastic = pass == 0 && std::find(chosen.begin(), chosen.end(), 0) == chosen.end();
+      const bool isPlastic = pass == 0 && areAll(chosen);
       const Impulses change = isPlastic ? plastic() : projection(q, chosen);
-      if (std::all_of(change.begin(), change.end(), [](const Impulse& impulse) { return impulse[0] == 0; })) {
+      if (areNone(change)) {
         return total;  // what is left of their approach is rounding
       }
       add(total, anyElastic ? 2 : 1, change);
       for (std::size_t c = 0; c < contacts_.size(); ++c) {
-        recent[c] = recent[c] != 0 || change[c][0] > 0 ? 1 : 0;
+        recent[c] = recent[c] != 0 || (!contacts_[c].holds && change[c][0] > 0) ? 1 : 0;
       }
       q = after(total);
     }
@@ -273,6 +323,7 @@ class Law {
 
   ContactProblem problem_;
   std::vector<double> before_;
+  std::vector<double> start_;  // the same, but where joints had to come first
   std::span<const ImpactContact> contacts_;
   ContactSolver solver_;
   ImpactAccuracy accuracy_;
@@ -293,6 +344,9 @@ Impulses Law::withFriction(const Impulses& smooth) {
   ContactProblem rough = problem_;
   for (const double part : kParts) {
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      if (contacts_[c].holds) {
+        continue;
+      }
       rough.contacts[c].target = {smooth[c][0] > 0 ? part * speed(c, 0, parting) : 0,
                                   part * speed(c, 1, restituted), part * speed(c, 2, restituted)};
     }
@@ -316,6 +370,9 @@ Impulses Law::shortened(const Impulses& smooth, Impulses rough) const {
   const std::vector<double> end = after(rough);
   double fraction = 1;
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    if (contacts_[c].holds) {
+      continue;
+    }
     const double size = std::sqrt(rough[c][1] * rough[c][1] + rough[c][2] * rough[c][2]);
     const double limit = contacts_[c].material.friction * smooth[c][0];
     const double over = size - contacts_[c].material.friction * rough[c][0];
@@ -353,7 +410,7 @@ Impulses Law::shortened(const Impulses& smooth, Impulses rough) const {
 /// Adds the impulses of the contacts to velocity and angular momentum; a component below the rounding error
 /// of its terms becomes zero.
 void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> contacts,
-             std::span<const Vec3> impulses) {
+             std::span<const ImpactShare> shares, std::span<const Vec3> impulses) {
   using Six = std::array<double, kSix>;
   BodyState& state = *body.state;
   std::vector<Six> terms;
@@ -365,7 +422,13 @@ void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> c
   const bool turns = !body.mass->inverseInertiaBody.isZero(0);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     for (const bool second : {false, true}) {
-      if ((second ? contacts[c].b : contacts[c].a) == index) {
+      if ((second ? contacts[c].b : contacts[c].a) != index) {
+        continue;
+      }
+      if (contacts[c].rows) {
+        const BodyImpulse sum = impulseOf(second ? contacts[c].rows->b : contacts[c].rows->a, shares[c].rows);
+        add(body.mass->inverseMass * sum.push, turns ? sum.twist : Vec3(Vec3::Zero()));
+      } else {
         const Vec3 impulse = second ? Vec3(-impulses[c]) : impulses[c];
         const Vec3& arm = second ? contacts[c].armB : contacts[c].armA;
         add(body.mass->inverseMass * impulse, turns ? arm.cross(impulse) : Vec3(Vec3::Zero()));
@@ -388,7 +451,7 @@ void applyTo(int index, const ImpactBody& body, std::span<const ImpactContact> c
 
 ContactResiduals resolveTogether(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts,
                                  std::span<ImpactShare> shares, ImpactAccuracy accuracy) {
-  if (contacts.size() == 1) {
+  if (contacts.size() == 1 && !contacts[0].rows) {
     const ImpactContact& only = contacts[0];
     const ImpactBody& b = bodies[static_cast<std::size_t>(only.b)];
     shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)],
@@ -409,10 +472,15 @@ ContactResiduals resolveTogether(std::span<const ImpactBody> bodies, std::span<c
     if (!world[c].allFinite()) {
       throw NumericalError("impact: an impulse is not a finite number");
     }
+    if (contacts[c].rows) {
+      shares[c].rows = j;
+      shares[c].impulse = Vec3(j[0], j[1], j[2]).norm();
+      shares[c].tangential = 0;
+    }
   }
   for (std::size_t index = 0; index < bodies.size(); ++index) {
     if (!isImmovable(*bodies[index].mass)) {
-      applyTo(static_cast<int>(index), bodies[index], contacts, world);
+      applyTo(static_cast<int>(index), bodies[index], contacts, shares, world);
     }
   }
   return law.takeResiduals();

@@ -35,6 +35,13 @@ struct JointImpulse {
   Vec3 angular = Vec3::Zero();  ///< [N m s] couple beside it
 };
 
+/// The effort of a joint's motor from then on.
+struct JointEffort {
+  double time = 0;    ///< [s]
+  int joint = 0;      ///< index in the world
+  double effort = 0;  ///< [N m] or [N], on the joint's `from`
+};
+
 /// Receives what a method reports while it runs; the trajectory is a recorder that stores it.
 class Recorder {
  public:
@@ -45,6 +52,8 @@ class Recorder {
   virtual void strikes(const Impact& impact) = 0;
   /// Likewise.
   virtual void passes(const JointImpulse& /*impulse*/) {}
+  /// Likewise.
+  virtual void drives(const JointEffort& /*effort*/) {}
   /// The run has come to this time [s]: told often, and even where nothing is recorded for long. Of bodies
   /// that are followed one after another, the mean.
   virtual void reaches(double /*time*/) {}

@@ -62,6 +62,8 @@ class ProgressRecorder : public Recorder {
 
   void moves(BodyIndex body, double time, const Motion& motion) override;
   void strikes(const Impact& impact) override;
+  void passes(const JointImpulse& impulse) override { next_.passes(impulse); }
+  void drives(const JointEffort& effort) override { next_.drives(effort); }
   void reaches(double time) override;
   void finish();
 

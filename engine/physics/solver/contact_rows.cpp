@@ -11,6 +11,15 @@ RowSide pointSide(const std::array<Vec3, 3>& axes, const Vec3& arm, double sign)
   return side;
 }
 
+BodyImpulse impulseOf(const RowSide& side, const ContactProblem::Triple& impulse) {
+  BodyImpulse sum;
+  for (std::size_t row = 0; row < 3; ++row) {
+    sum.push += impulse[row] * side.linear[row];
+    sum.twist += impulse[row] * side.turning[row];
+  }
+  return sum;
+}
+
 void setSide(ContactProblem::Contact& contact, std::size_t side, const RowSide& rows,
              const Mat3& worldFromPrincipal) {
   for (std::size_t row = 0; row < 3; ++row) {

@@ -135,9 +135,12 @@ CoupledContacts::Key CoupledContacts::keyOf(const ContactProblem::Contact& from,
       u[row] += product(&from.rows[row][side * kAxes], &free_[static_cast<std::size_t>(body) * kAxes]);
     }
   }
-  const double normal = u[0] - from.target[0];
+  double normal = u[0] - from.target[0];
   const double x = u[1] - from.target[1];
   const double y = u[2] - from.target[2];
+  if (from.admissible == ContactProblem::Admissible::kSpace) {  // rows along axes of the world
+    normal *= normal;
+  }
   return {.bodies = std::minmax(placeOf(from.a), placeOf(from.b)),
           .numbers = {numberOr0(from.friction), numberOr0(normal), numberOr0(x * x + y * y),
                       numberOr0(squaredArm[0] + squaredArm[1])},

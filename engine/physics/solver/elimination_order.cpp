@@ -74,6 +74,17 @@ struct Marks {
   auto operator<=>(const Marks&) const = default;
 };
 
+/// The rows of a joint point along axes of the world, which mirrors turn round.
+std::array<double, 3> markOf(const ContactProblem::Contact& contact, std::size_t side) {
+  const double arm = squareSum(&contact.rows[0][side * kAxes + 3]);
+  if (contact.admissible != ContactProblem::Admissible::kSpace) {
+    return {contact.friction, contact.target[0], arm};
+  }
+  const double arms =
+      arm + squareSum(&contact.rows[1][side * kAxes + 3]) + squareSum(&contact.rows[2][side * kAxes + 3]);
+  return {contact.friction, squareSum(contact.target.data()), arms};
+}
+
 std::vector<Marks> marksOf(const ContactProblem& problem) {
   std::vector<Marks> marks(problem.free.size() / kAxes);
   for (std::size_t body = 0; body < marks.size(); ++body) {
@@ -85,8 +96,7 @@ std::vector<Marks> marksOf(const ContactProblem& problem) {
     const std::array<int, 2> sides{contact.a, contact.b};
     for (std::size_t side = 0; side < 2; ++side) {
       if (sides[side] != ContactProblem::kNobody) {
-        marks[static_cast<std::size_t>(sides[side])].contacts.push_back(
-            {contact.friction, contact.target[0], squareSum(&contact.rows[0][side * kAxes + 3])});
+        marks[static_cast<std::size_t>(sides[side])].contacts.push_back(markOf(contact, side));
       }
     }
   }

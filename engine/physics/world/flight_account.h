@@ -27,6 +27,8 @@ class FlightAccount {
   void arrives(std::size_t body, const BodyState& state, double elapsed);
   /// Between the arrivals and the departures of its bodies: what happens may dissipate energy.
   void mayLose() { mayLose_ = true; }
+  /// Motors did so much work [J].
+  void gives(double work) { due_ += work; }
   /// All bodies of the impact have departed.
   void parted();
   void penetrates(double depth);
@@ -56,7 +58,7 @@ class FlightAccount {
 
   const World& world_;
   std::vector<BodyAccount> bodies_;
-  std::vector<BodyState> states_;  // for springs: last seen
+  std::vector<BodyState> states_;  // for springs and joints: last seen
   double energy_ = 0;              // [J] of all bodies, last seen, without springs
   double kinetic_ = 0;             // [J] likewise
   double largestKinetic_ = 0;      // [J]

@@ -43,7 +43,23 @@ void addAt(const SpringEnd& end, const Vec3& point, const Vec3& force, std::span
   }
 }
 
-// The order in which springs are listed changes no bit.
+// A couple, or a force at the point of `from`, and its opposite on `to`.
+void addJoint(const Joint& joint, const World& world, std::span<const BodyState> states,
+              std::vector<SpringLoad>& loads) {
+  const JointMotion motion = jointMotionOf(joint, world, states);
+  const Vec3 along = jointForce(joint, motion) * motion.axis;
+  const auto add = [&](const JointEnd& end, const Vec3& given) {
+    if (joint.kind == Joint::Kind::kSlider) {
+      addAt({.body = end.body}, motion.point, given, states, loads);
+    } else if (end.body) {
+      loads.push_back({static_cast<std::size_t>(*end.body), {0, 0, 0, given[0], given[1], given[2]}});
+    }
+  };
+  add(joint.from, along);
+  add(joint.to, -along);
+}
+
+// The order in which springs and joints are listed changes no bit.
 void addSprings(const World& world, std::span<const BodyState> states, std::vector<Load>& loads) {
   std::vector<SpringLoad> parts;
   parts.reserve(2 * world.springs.size());
@@ -52,6 +68,11 @@ void addSprings(const World& world, std::span<const BodyState> states, std::vect
     const Vec3 force = springForce(spring, stretch) * stretch.direction;
     addAt(spring.from, stretch.from, force, states, parts);
     addAt(spring.to, stretch.to, -force, states, parts);
+  }
+  for (const Joint& joint : world.joints) {
+    if (joint.isLoaded()) {
+      addJoint(joint, world, states, parts);
+    }
   }
   std::stable_sort(parts.begin(), parts.end(),
                    [](const SpringLoad& x, const SpringLoad& y) { return x.body < y.body; });
@@ -91,11 +112,57 @@ double springForce(const Spring& spring, const Stretch& stretch) {
   return spring.stiffness * (stretch.length - spring.restLength) + spring.damping * stretch.rate;
 }
 
+JointMotion jointMotionOf(const Joint& joint, const World& world, std::span<const BodyState> states) {
+  const auto poseOf = [&](const JointEnd& end) {
+    return end.body ? states[static_cast<std::size_t>(*end.body)].pose : Pose{};
+  };
+  const auto spinOf = [&](const JointEnd& end) {
+    if (!end.body) {
+      return Vec3(Vec3::Zero());
+    }
+    const auto index = static_cast<std::size_t>(*end.body);
+    return angularVelocity(world.bodies[index].mass, states[index]);
+  };
+  const Pose from = poseOf(joint.from);
+  const Pose to = poseOf(joint.to);
+  JointMotion motion{.coordinate = jointCoordinate(joint, from, to),
+                     .axis = joint.to.axesAt(to).col(2),
+                     .point = joint.from.pointAt(from)};
+  if (joint.kind == Joint::Kind::kSlider) {
+    const auto velocityAt = [&](const JointEnd& end) {
+      if (!end.body) {
+        return Vec3(Vec3::Zero());
+      }
+      const BodyState& state = states[static_cast<std::size_t>(*end.body)];
+      return pointVelocity(state.velocity, spinOf(end), motion.point - state.pose.position);
+    };
+    motion.rate = dot(motion.axis, Vec3(velocityAt(joint.from) - velocityAt(joint.to)));
+  } else {
+    motion.rate = dot(motion.axis, Vec3(spinOf(joint.from) - spinOf(joint.to)));
+  }
+  return motion;
+}
+
+double jointForce(const Joint& joint, const JointMotion& motion) {
+  return joint.effort - joint.stiffness * (motion.coordinate - joint.rest) - joint.damping * motion.rate;
+}
+
+bool hasSprings(const World& world) {
+  return !world.springs.empty() || std::any_of(world.joints.begin(), world.joints.end(),
+                                               [](const Joint& joint) { return joint.isLoaded(); });
+}
+
 double springEnergy(const World& world, std::span<const BodyState> states) {
   double energy = 0;
   for (const Spring& spring : world.springs) {
     const double extension = stretchOf(spring, world, states).length - spring.restLength;
     energy += 0.5 * spring.stiffness * extension * extension;
+  }
+  for (const Joint& joint : world.joints) {
+    if (joint.stiffness != 0) {
+      const double extension = jointMotionOf(joint, world, states).coordinate - joint.rest;
+      energy += 0.5 * joint.stiffness * extension * extension;
+    }
   }
   return energy;
 }
@@ -105,6 +172,12 @@ double dissipation(const World& world, std::span<const BodyState> states) {
   for (const Spring& spring : world.springs) {
     const double rate = stretchOf(spring, world, states).rate;
     power -= spring.damping * rate * rate;
+  }
+  for (const Joint& joint : world.joints) {
+    if (joint.damping != 0) {
+      const double rate = jointMotionOf(joint, world, states).rate;
+      power -= joint.damping * rate * rate;
+    }
   }
   if (world.drag) {
     for (std::size_t i = 0; i < states.size(); ++i) {
@@ -127,10 +200,31 @@ void computeLoads(const World& world, std::span<const BodyState> states, std::ve
       loads[i].torque += drag.torque;
     }
   }
-  if (!world.springs.empty()) {
+  if (hasSprings(world)) {
     addSprings(world, states, loads);
   }
 }
+
+namespace {
+
+// A torque counts by what it does at a corner.
+void addPulls(const Joint& joint, const World& world, std::span<const BodyState> states,
+              std::vector<double>& pulls) {
+  const JointMotion motion = jointMotionOf(joint, world, states);
+  const bool slides = joint.kind == Joint::Kind::kSlider;
+  for (const JointEnd* end : {&joint.from, &joint.to}) {
+    if (end->body) {
+      const auto body = static_cast<std::size_t>(*end->body);
+      const MassProperties& mass = world.bodies[body].mass;
+      const double radius = slides ? 1 : radiusOf(world.bodies[body]);
+      const double ease = slides ? mass.inverseMass : mass.inverseInertiaBody.maxCoeff();
+      pulls[body] += radius * (ease * std::fabs(jointForce(joint, motion)) +
+                               std::sqrt(ease * joint.stiffness) * std::fabs(motion.rate));
+    }
+  }
+}
+
+}  // namespace
 
 std::vector<double> pulls(const World& world, std::span<const BodyState> states) {
   std::vector<double> pulls(states.size(), 0.0);
@@ -144,6 +238,11 @@ std::vector<double> pulls(const World& world, std::span<const BodyState> states)
             inverseMass * std::fabs(springForce(spring, stretch)) +
             std::sqrt(inverseMass * spring.stiffness) * motionOf(*end, world, states).velocity.norm();
       }
+    }
+  }
+  for (const Joint& joint : world.joints) {
+    if (joint.isLoaded()) {
+      addPulls(joint, world, states, pulls);
     }
   }
   const double gravity = world.gravity.norm();
@@ -163,6 +262,11 @@ std::vector<double> accelerationsAtStart(const World& world) {
   std::vector<double> accelerations;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     accelerations.push_back(world.bodies[i].mass.inverseMass * loads[i].force.norm());
+  }
+  for (const Joint& joint : world.joints) {
+    if (joint.isLoaded()) {
+      addPulls(joint, world, states, accelerations);
+    }
   }
   return accelerations;
 }

@@ -48,16 +48,24 @@ struct Joint {
   double highest = kFree;  ///< likewise; less than a turn of a hinge from the lowest
   double restitution = 0;  ///< [1] of its limits, or where a rope becomes taut
   double until = kFree;    ///< [s] when it lets go
+  // Of a hinge or slider, along its coordinate q: the force [N] or torque [N m] on `from` is
+  // effort − stiffness (q − rest) − damping q̇.
+  double stiffness = 0;  ///< [N/m] or [N m/rad]
+  double rest = 0;       ///< [m] or [rad]
+  double damping = 0;    ///< [N s/m] or [N m s/rad]
+  double effort = 0;     ///< [N] or [N m] of its motor, as a control sets it
 
   /// Whether it has the coordinate that may be limited.
   bool hasCoordinate() const { return kind == Kind::kHinge || kind == Kind::kSlider; }
+  bool isLoaded() const { return stiffness != 0 || damping != 0 || effort != 0; }
 };
 
 /// As scene files spell them, in the order of Joint::Kind.
 inline constexpr std::array<std::string_view, 6> kJointKindNames = {"ball",  "hinge", "slider",
                                                                     "fixed", "rod",   "rope"};
 
-/// [rad] of a hinge, in (−π, π] from the middle of its limits, [m] of a slider; poses of both bodies.
+/// [rad] of a hinge, in (−π, π] from the middle of its limits, or from where its spring rests; [m] of a
+/// slider. Poses of both bodies.
 double jointCoordinate(const Joint& joint, const Pose& from, const Pose& to);
 
 }  // namespace careen

@@ -8,6 +8,7 @@
 
 #include "core/math/linear_algebra.h"
 #include "physics/world/body.h"
+#include "physics/world/control.h"
 #include "physics/world/joint.h"
 
 namespace careen {
@@ -19,6 +20,9 @@ struct Wall {
   double offset = 0;            ///< [m]
   Material material;
 };
+
+/// The half-space of what has no extent, which nothing meets: the shape of the world where joints end in it.
+const Wall& nowhere();
 
 /// End of a spring: a point of a body, in the body's frame, or of the world.
 struct SpringEnd {
@@ -49,6 +53,7 @@ struct World {
   std::vector<Spring> springs;
   std::optional<Drag> drag;
   std::vector<Joint> joints;
+  std::optional<Control> control;
   std::vector<std::pair<int, int>> apart;  ///< bodies that pass through each other, the lesser first; sorted
 };
 

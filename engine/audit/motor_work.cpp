@@ -1,0 +1,59 @@
+#include "audit/motor_work.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/world/joint.h"
+
+namespace careen {
+
+MotorWork::MotorWork(const Trajectory& run, std::span<const std::size_t> joints) : run_(run) {
+  for (const std::size_t index : joints) {
+    const bool isDriven = std::any_of(
+        run.jointEfforts.begin(), run.jointEfforts.end(),
+        [&](const JointEffort& effort) { return static_cast<std::size_t>(effort.joint) == index; });
+    if (isDriven) {
+      const Joint& joint = run.world.joints[index];
+      motors_.push_back({.joint = &joint, .coordinate = coordinateAt(joint, 0)});
+    }
+  }
+}
+
+double MotorWork::coordinateAt(const Joint& joint, double time) const {
+  const auto poseOf = [&](const JointEnd& end) {
+    return end.body ? run_.state(static_cast<std::size_t>(*end.body), time).pose : Pose{};
+  };
+  return jointCoordinate(joint, poseOf(joint.from), poseOf(joint.to));
+}
+
+double MotorWork::move(Motor& motor, double time) const {
+  constexpr double kTurn = 2 * 3.141592653589793;
+  const double coordinate = coordinateAt(*motor.joint, time);
+  double way = coordinate - motor.coordinate;
+  way -= motor.joint->kind == Joint::Kind::kHinge ? kTurn * std::nearbyint(way / kTurn) : 0;
+  motor.coordinate = coordinate;
+  return motor.effort * way;
+}
+
+double MotorWork::until(double time) {
+  double work = 0;
+  if (motors_.empty()) {
+    return work;
+  }
+  for (; next_ < run_.jointEfforts.size() && run_.jointEfforts[next_].time <= time; ++next_) {
+    const JointEffort& effort = run_.jointEfforts[next_];
+    const Joint* const joint = &run_.world.joints[static_cast<std::size_t>(effort.joint)];
+    for (Motor& motor : motors_) {
+      if (motor.joint == joint) {
+        work += move(motor, effort.time);
+        motor.effort = effort.effort;
+      }
+    }
+  }
+  for (Motor& motor : motors_) {
+    work += move(motor, time);
+  }
+  return work;
+}
+
+}  // namespace careen

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "trajectory/trajectory.h"
+
+namespace careen {
+
+/// Work of the motors of some joints during a run, from the efforts that it recorded and the coordinates that
+/// its poses give: an effort is constant until the next one, so its work is that times the way.
+class MotorWork {
+ public:
+  MotorWork(const Trajectory& run, std::span<const std::size_t> joints);
+
+  /// [J] Since it was last asked, or the start. Times [s] may not decrease, and no hinge may turn by half a
+  /// turn between two of them.
+  double until(double time);
+
+ private:
+  struct Motor {
+    const Joint* joint = nullptr;
+    double effort = 0;      // [N m] or [N]
+    double coordinate = 0;  // where it was last looked at
+  };
+  double coordinateAt(const Joint& joint, double time) const;
+  double move(Motor& motor, double time) const;
+
+  const Trajectory& run_;
+  std::vector<Motor> motors_;
+  std::size_t next_ = 0;  // of the run's efforts
+};
+
+}  // namespace careen

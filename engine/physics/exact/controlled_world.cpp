@@ -1,0 +1,102 @@
+#include "physics/exact/controlled_world.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/world/forces.h"
+
+namespace careen {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kTurn = 2 * 3.141592653589793;
+
+}  // namespace
+
+ControlledWorld::ControlledWorld(const World& world)
+    : world_(world), samples_(world.joints.size()), isDriven_(world.joints.size(), 0) {
+  if (world_.control) {
+    for (const Motor& motor : world_.control->motors) {
+      isDriven_[static_cast<std::size_t>(motor.joint)] = 1;
+    }
+    for (std::size_t j = 0; j < isDriven_.size(); ++j) {
+      isDriven_[j] =
+          isDriven_[j] != 0 || (world_.control->callback && world_.joints[j].hasCoordinate()) ? 1 : 0;
+    }
+  }
+  release(-kNever);
+}
+
+// By multiplication: no sum of periods.
+double ControlledWorld::nextSample() const {
+  return world_.control ? static_cast<double>(sampled_) * world_.control->period : kNever;
+}
+
+double ControlledWorld::nextOf(int joint) const {
+  const auto j = static_cast<std::size_t>(joint);
+  const double until = world_.joints[j].until;
+  if (until <= changed_) {
+    return kNever;
+  }
+  return isDriven_[j] != 0 ? std::min(until, nextSample()) : until;
+}
+
+void ControlledWorld::change(std::span<const BodyState> states, Recorder& recorder) {
+  const double time = next();
+  changed_ = time;
+  if (nextRelease_ <= time) {
+    for (const JointEffort& effort : release(time)) {
+      recorder.drives(effort);
+    }
+  }
+  if (nextSample() <= time) {
+    sample(time, states, recorder);
+    ++sampled_;
+  }
+}
+
+// What has let go has no load; the next one that will.
+std::vector<JointEffort> ControlledWorld::release(double time) {
+  std::vector<JointEffort> ended;
+  nextRelease_ = kNever;
+  for (Joint& joint : world_.joints) {
+    if (joint.until <= time) {
+      if (joint.effort != 0) {
+        ended.push_back({.time = time, .joint = static_cast<int>(&joint - world_.joints.data())});
+      }
+      joint.stiffness = joint.damping = joint.effort = 0;
+    } else {
+      nextRelease_ = std::min(nextRelease_, joint.until);
+    }
+  }
+  return ended;
+}
+
+void ControlledWorld::sample(double time, std::span<const BodyState> states, Recorder& recorder) {
+  for (std::size_t j = 0; j < samples_.size(); ++j) {
+    const Joint& joint = world_.joints[j];
+    if (!joint.hasCoordinate()) {
+      continue;
+    }
+    const JointMotion motion = jointMotionOf(joint, world_, states);
+    double coordinate = motion.coordinate;
+    if (joint.kind == Joint::Kind::kHinge) {
+      coordinate += kTurn * std::nearbyint((samples_[j].coordinate - coordinate) / kTurn);
+    }
+    samples_[j] = {.coordinate = coordinate, .rate = motion.rate};
+  }
+  std::vector<double> efforts = motorEfforts(*world_.control, time, samples_);
+  if (world_.control->callback) {
+    world_.control->callback(time, states, samples_, efforts);
+  }
+  for (std::size_t j = 0; j < efforts.size(); ++j) {
+    Joint& joint = world_.joints[j];
+    const double effort = isDriven_[j] != 0 && time < joint.until ? efforts[j] : 0;
+    if (effort != joint.effort) {
+      joint.effort = effort;
+      recorder.drives({.time = time, .joint = static_cast<int>(j), .effort = effort});
+    }
+  }
+}
+
+}  // namespace careen

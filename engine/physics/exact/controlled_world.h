@@ -1,0 +1,41 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "physics/motion/recorder.h"
+#include "physics/world/world.h"
+
+namespace careen {
+
+/// A world whose joints change at moments: the efforts of its motors at each sample of its control, and what
+/// lets go has no load any more.
+class ControlledWorld {
+ public:
+  explicit ControlledWorld(const World& world);
+
+  const World& world() const { return world_; }
+  /// [s] The next such moment.
+  double next() const { return std::min(nextSample(), nextRelease_); }
+  /// The next one of a joint: when its forces jump.
+  double nextOf(int joint) const;
+  /// That moment comes, with all bodies in these states.
+  void change(std::span<const BodyState> states, Recorder& recorder);
+
+ private:
+  double nextSample() const;
+  void sample(double time, std::span<const BodyState> states, Recorder& recorder);
+  std::vector<JointEffort> release(double time);
+
+  World world_;
+  std::vector<JointSample> samples_;  // by joint, of the last sample
+  std::vector<char> isDriven_;        // by joint: its effort may change
+  std::int64_t sampled_ = 0;          // how often
+  double nextRelease_ = std::numeric_limits<double>::infinity();
+  double changed_ = -std::numeric_limits<double>::infinity();  // [s] when, last
+};
+
+}  // namespace careen
