@@ -193,6 +193,19 @@ void listPassThrough(const JsonTree& tree, const BoxNames& boxes, Scene& scene) 
   }
 }
 
+// Its times.
+void checkPath(const JsonTree& tree, const JsonNode& motor, const MotorTarget& target, std::size_t index) {
+  for (std::size_t k = 1; k < target.path.size(); ++k) {
+    if (!(target.path[k].first > target.path[k - 1].first)) {
+      const JsonNode& time = motor.find("target")->find("path")->children[k].children[0];
+      tree.fail(time.offset,
+                describe(time) + " for control.motors[" + std::to_string(index) + "].target.path[" +
+                    std::to_string(k) + "][0]",
+                "a time after that of the point before");
+    }
+  }
+}
+
 }  // namespace
 
 void connectMotors(const JsonTree& tree, Scene& scene) {
@@ -222,6 +235,7 @@ void connectMotors(const JsonTree& tree, Scene& scene) {
     Motor& motor = scene.control->motors[i];
     const JsonNode& joint = *motors.children[i].find("joint");
     motor.joint = jointNamed(joint.text, joint.offset);
+    checkPath(tree, motors.children[i], motor.target, i);
     for (std::size_t k = 0; k < motor.gains.size(); ++k) {
       const JsonNode& gain = motors.children[i].find("gains")->children[k];
       motor.gains[k].joint = jointNamed(gain.key, gain.keyOffset);

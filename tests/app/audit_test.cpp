@@ -107,7 +107,7 @@ TEST_F(AuditOfRuns, aSoundRunHasNoBreaches) {
         careen({"simulate", "scene.json", "-o", "run.careen", "--report", "report.json", "--audit", depth});
     EXPECT_EQ(ended.exitCode, 0) << ended.err;
     EXPECT_EQ(report()["breaches"], nlohmann::json::array());
-    EXPECT_EQ(report()["audit"].size(), 12U);
+    EXPECT_EQ(report()["audit"].size(), 14U);
   }
 }
 

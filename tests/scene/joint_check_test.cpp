@@ -150,6 +150,17 @@ const std::vector<BadPiece> kBadJoints = {
     {R"("rock", "bob"])", R"("rock", @"bo"])", R"(found no box of the name "bo", expected "bob")"},
     {R"("rock", "bob"])", R"("rock", "bob", @"rock"])",
      R"(found box "rock" twice in one list, expected each box once)"},
+    {R"([1, 0.1]])", R"([@0, 0.1]])",
+     "found 0 for control.motors[1].target.path[1][0], expected a time after that of the point before"},
+    {R"("joint": "joint-1", "target")", R"("joint": @"elbow", "target")",
+     R"(found unknown joint "elbow", expected the name of a joint)"},
+    {R"("joint": "joint-1", "target")", R"("joint": @"weld", "target")",
+     R"(found joint "weld", which has no coordinate, expected a hinge or slider)"},
+    {R"("knee": [-3, 1])", R"(@"stick": [-3, 1])",
+     R"(found joint "stick", which has no coordinate, expected a hinge or slider)"},
+    {R"("period": 0.125)", R"("period": @1e-9)",
+     "found 1e-9 for control.period, more than a million samples, expected a longer period, or a shorter "
+     "scene"},
 };
 
 TEST(JointCheck, badJointsAreToldWhereAndWhy) {
@@ -157,6 +168,32 @@ TEST(JointCheck, badJointsAreToldWhereAndWhy) {
     const MarkedText marked(sceneBut(kJoints, bad.piece, bad.instead));
     EXPECT_EQ(inputErrorOf([&] { parseScene(marked.text, "f"); }), "f:" + marked.place + ": " + bad.message);
   }
+}
+
+// The lid begins half a radian further than the crate's frame; the bob 0.5 m further back, as the world is
+// named first.
+TEST(JointCheck, aJointMayBeginAnywhereInItsRange) {
+  const Scene turned = parseScene(sceneBut(kJoints, R"("start": 0)", R"("start": 0.5)"), "f");
+  EXPECT_NEAR(jointCoordinate(turned.joints[0], turned.boxes[1].pose, turned.boxes[0].pose), 0.5, 1e-15);
+  const Scene moved =
+      parseScene(sceneBut(kJoints, R"("range": [0, 2],)", R"("range": [0, 2], "start": 0.5,)"), "f");
+  EXPECT_NEAR(jointCoordinate(moved.joints[1], moved.boxes[2].pose, {}), 0.5, 1e-15);
+  const MarkedText outside(
+      sceneBut(kJoints, R"("range": [-0.5, 2.25], "start": 0)", R"("range": @[-0.5, 2.25], "start": 3)"));
+  EXPECT_EQ(inputErrorOf([&] { parseScene(outside.text, "f"); }),
+            "f:" + outside.place +
+                ": found [-0.5, 2.25] for joints[0].range, expected a range with 3 in it, where the joint "
+                "starts");
+}
+
+TEST(JointCheck, motorsFindTheirJoints) {
+  const Scene scene = parseScene(kJoints, "f");
+  ASSERT_TRUE(scene.control);
+  ASSERT_EQ(scene.control->motors.size(), 3U);
+  EXPECT_EQ(scene.control->motors[0].joint, 0);
+  EXPECT_EQ(scene.control->motors[1].joint, 1);
+  EXPECT_EQ(scene.control->motors[1].gains[0].joint, 0);
+  EXPECT_EQ(scene.control->motors[1].gains[1].joint, 1);
 }
 
 TEST(JointCheck, aBoxNamedWorldCannotBeToldFromTheWorld) {

@@ -46,13 +46,14 @@ TEST(Plan, defaultSceneNeedsGravityAndWalls) {
   const Plan planned = plan(shipped("careen.json"));
   EXPECT_EQ(planned.modelled(), (Names{"gravity", "box-wall", "restitution", "resting"}));
   EXPECT_EQ(planned.leftOut(),
-            (Names{"drag", "springs", "joints", "limits", "ropes", "box-box", "friction"}));
+            (Names{"drag", "springs", "joints", "limits", "ropes", "motors", "box-box", "friction"}));
 }
 
 TEST(Plan, sampleOf1997NeedsSpringsAndDragToo) {
   const Plan planned = plan(shipped("hecker-1997.json"));
   EXPECT_EQ(planned.modelled(), (Names{"gravity", "drag", "springs", "box-wall", "restitution"}));
-  EXPECT_EQ(planned.leftOut(), (Names{"joints", "limits", "ropes", "box-box", "friction", "resting"}));
+  EXPECT_EQ(planned.leftOut(),
+            (Names{"joints", "limits", "ropes", "motors", "box-box", "friction", "resting"}));
 }
 
 TEST(Plan, saysWhyEachThingIsModelled) {
@@ -90,7 +91,7 @@ TEST(Plan, saysWhatTheSceneDoesNotAskFor) {
   EXPECT_EQ(reasonFor(lone, "gravity"), "left out: the scene has none");
   EXPECT_EQ(reasonFor(lone, "drag"), "left out: the scene has none");
   EXPECT_EQ(reasonFor(lone, "springs"), "left out: the scene has none");
-  for (const char* what : {"joints", "limits", "ropes"}) {
+  for (const char* what : {"joints", "limits", "ropes", "motors"}) {
     EXPECT_EQ(reasonFor(lone, what), "left out: the scene has none");
   }
   EXPECT_EQ(reasonFor(lone, "box-wall"), "left out: the scene has no walls");
@@ -112,6 +113,7 @@ TEST(Plan, countsJointsAndTheirLimits) {
   EXPECT_EQ(reasonFor(scene, "joints"), "modelled: 5 joints in the scene");
   EXPECT_EQ(reasonFor(scene, "limits"), "modelled: 2 joints in the scene");
   EXPECT_EQ(reasonFor(scene, "ropes"), "modelled: 1 rope in the scene");
+  EXPECT_EQ(reasonFor(scene, "motors"), "modelled: 3 motors in the scene");
 }
 
 // Two boxes that are joined cannot collide; a third of the same kind can, with either.
@@ -122,7 +124,7 @@ TEST(Plan, boxesThatPassThroughEachOtherDoNotCollide) {
   const Scene apart = withParts(two + R"(, "pass_through": [["b", "a"]])");
   EXPECT_EQ(reasonFor(apart, "box-box"), "left out: no two boxes can collide");
   EXPECT_EQ(reasonFor(apart, "restitution"), "left out: nothing can collide");
-  EXPECT_TRUE(assemble(apart, plan(apart)).apart.empty());
+  EXPECT_EQ(assemble(apart, plan(apart)).apart, (std::vector<std::pair<int, int>>{{0, 1}}));
   const std::string three =
       std::string(two).replace(two.size() - 1, 1, R"(, {"name": "c", "half_extents": [1, 1, 1], "mass": 1,
                    "position": [4, 0, 0], "restitution": 0.5}])");
@@ -209,7 +211,8 @@ TEST(Assemble, assemblesOnlyTheJointsOfThePlan) {
   ASSERT_EQ(world.joints.size(), 5U);
   EXPECT_EQ(world.joints[0].lowest, -Joint::kFree);
   EXPECT_EQ(world.joints[0].highest, Joint::kFree);
-  EXPECT_TRUE(world.apart.empty());
+  EXPECT_EQ(world.apart, scene.apart);
+  EXPECT_FALSE(world.control);
 }
 
 TEST(Assemble, namesTheMethodThatModelsJoints) {

@@ -310,7 +310,8 @@ const std::vector<BadPiece> kBadValues = {
      R"(found the unknown key "gravitiy" in the scene, expected "gravity")"},
     {R"("gravity")", R"(@"wind")",
      R"(found the unknown key "wind" in the scene, expected one of careen, name, duration, gravity, room, )"
-     "walls, boxes, springs, joints, pass_through, drag, method, dt, tolerance, crowds, camera, film, look, "
+     "walls, boxes, springs, joints, pass_through, control, drag, method, dt, tolerance, crowds, camera, "
+     "film, look, "
      "light, overlays, "
      "$schema"},
     {"[0, 0, -9.81]", "@-9.81", "found -9.81 for gravity, expected [x, y, z] [m/s²]"},

@@ -56,7 +56,8 @@ inline const std::string kJoints = R"({
   ],
   "joints": [
     { "name": "knee", "type": "hinge", "between": ["lid", "crate"], "at": [1, 1, 2], "axis": [0, 0, 2],
-      "range": [-0.5, 2.25], "restitution": 0.5, "collide": false },
+      "range": [-0.5, 2.25], "start": 0, "spring": { "stiffness": 20, "rest": 0.3 }, "damping": 0.7,
+      "restitution": 0.5, "collide": false },
     { "type": "slider", "between": ["world", "bob"], "at": [1, 0.5, 4], "axis": [1, 0, 0], "range": [0, 2],
       "until": 1.5 },
     { "type": "ball", "between": ["bob", "post"], "at": [2, 1, 3], "collide": true },
@@ -66,7 +67,11 @@ inline const std::string kJoints = R"({
     { "name": "string", "type": "rope", "between": ["world", "bob"], "points": [[1, 0.5, 6], [0, 0, 0]],
       "length": 2.5, "restitution": 0.25 }
   ],
-  "pass_through": [["bob", "crate", "lid"], ["rock", "bob"]]
+  "pass_through": [["bob", "crate", "lid"], ["rock", "bob"]],
+  "control": { "period": 0.125, "motors": [
+    { "joint": "knee", "max": 40, "target": { "sine": [0, 0.2, 2, 1], "ramp": 0.75 }, "kp": 120, "kd": 4 },
+    { "joint": "joint-1", "target": { "path": [[0, 0], [1, 0.1]] }, "gains": { "knee": [-3, 1], "joint-1": [2, 0] } },
+    { "joint": "knee", "target": 0.3, "kd": 1 } ] }
 })";
 
 /// A scene with one piece of text, which must occur exactly once, replaced by another.

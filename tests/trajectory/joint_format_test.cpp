@@ -24,7 +24,10 @@ TEST(JointFormat, bringsBackJointsAndTheirImpulses) {
                        .to = {.body = 0, .point = {4, 5, 6}},
                        .lowest = -0.5,
                        .highest = 0.75,
-                       .restitution = 0.25},
+                       .restitution = 0.25,
+                       .stiffness = 12,
+                       .rest = 13,
+                       .damping = 14},
                       {.name = "leash",
                        .kind = Joint::Kind::kRope,
                        .from = {.body = 0},
@@ -34,6 +37,7 @@ TEST(JointFormat, bringsBackJointsAndTheirImpulses) {
   run.world.apart = {{0, 1}};
   run.jointImpulses = {
       {.time = 0.5, .joint = 1, .point = {1, 2, 3}, .linear = {4, 5, 6}, .angular = {7, 8, 9}}};
+  run.jointEfforts = {{.time = 0.25, .joint = 1, .effort = 15}};
   const std::string bytes = encodeTrajectory(run);
   const Trajectory back = decodeTrajectory(bytes, "run.careen");
   EXPECT_EQ(encodeTrajectory(back), bytes);
@@ -49,6 +53,9 @@ TEST(JointFormat, bringsBackJointsAndTheirImpulses) {
   EXPECT_EQ(knee.highest, 0.75);
   EXPECT_EQ(knee.restitution, 0.25);
   EXPECT_EQ(knee.until, Joint::kFree);
+  EXPECT_EQ(knee.stiffness, 12);
+  EXPECT_EQ(knee.rest, 13);
+  EXPECT_EQ(knee.damping, 14);
   const Joint& leash = back.world.joints[1];
   EXPECT_EQ(leash.kind, Joint::Kind::kRope);
   EXPECT_EQ(leash.to.body, std::nullopt);
@@ -63,6 +70,10 @@ TEST(JointFormat, bringsBackJointsAndTheirImpulses) {
   EXPECT_EQ(impulse.point, Vec3(1, 2, 3));
   EXPECT_EQ(impulse.linear, Vec3(4, 5, 6));
   EXPECT_EQ(impulse.angular, Vec3(7, 8, 9));
+  ASSERT_EQ(back.jointEfforts.size(), 1U);
+  EXPECT_EQ(back.jointEfforts[0].time, 0.25);
+  EXPECT_EQ(back.jointEfforts[0].joint, 1);
+  EXPECT_EQ(back.jointEfforts[0].effort, 15);
 }
 
 // Joints are not part of the last state, whose hash compares runs.

@@ -168,8 +168,25 @@ const std::vector<Fault> kFaults = {
      [](Trajectory& run) { addLeash(run).from.axes(0, 0) = 2; }},
     {"has a joint 'leash' with a length that is negative or not finite",
      [](Trajectory& run) { addLeash(run).length = -1; }},
-    {"has a joint 'leash' with limits that exclude its start",
-     [](Trajectory& run) { addLeash(run).lowest = 0.1; }},
+    {"has a joint 'leash' with limits out of order",
+     [](Trajectory& run) {
+       Joint& leash = addLeash(run);
+       leash.lowest = 0.1;
+       leash.highest = 0.1;
+     }},
+    {"has a joint 'leash' with a spring with invalid numbers",
+     [](Trajectory& run) { addLeash(run).damping = -1; }},
+    {"has an effort with an unknown joint", [](Trajectory& run) { run.jointEfforts.emplace_back(); }},
+    {"has an effort with a time out of order or beyond the run's end",
+     [](Trajectory& run) {
+       addLeash(run);
+       run.jointEfforts = {{.time = 1.5}};
+     }},
+    {"has an effort with invalid numbers",
+     [](Trajectory& run) {
+       addLeash(run);
+       run.jointEfforts = {{.effort = kNoNumber}};
+     }},
     {"has a joint 'leash' with a restitution outside 0 to 1",
      [](Trajectory& run) { addLeash(run).restitution = kNoNumber; }},
     {"has a joint 'leash' with an end before it begins", [](Trajectory& run) { addLeash(run).until = 0; }},

@@ -190,13 +190,13 @@ TEST(TrajectoryFile, bringsBackARunOfManyPieces) {
   EXPECT_EQ(encodeTrajectory(back), bytes);
 }
 
-// Format version 9: without joints, which are three lists before the length and the hash of the last state.
+// Format version 9: without joints, which are four lists before the length and the hash of the last state.
 TEST(TrajectoryFile, readsWhatVersion9Wrote) {
   const Trajectory run = driftAndReturn();
   std::string record = recordOf(encodeTrajectory(run));
   const std::size_t end = record.size() - 8 - run.stateHash().size();
-  EXPECT_EQ(record.substr(end - 24, 24), std::string(24, '\0'));
-  record.erase(end - 24, 24);
+  EXPECT_EQ(record.substr(end - 32, 32), std::string(32, '\0'));
+  record.erase(end - 32, 32);
   const std::string bytes = withRightChecksum("careen\r\n" + inBytes(9) + pieceOf(record) + "checksum");
   EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
 }
