@@ -175,11 +175,13 @@ void CrowdGroup::merge(CrowdGroup& other) {
   other.ranks_.clear();
 }
 
-// Admits what its members meet within the next step if nothing pushes them, and bodies at rest near them.
+// Admits what its members meet within the next step if nothing pushes them, bodies at rest near them, and no
+// larger crowds that are near in some steps.
 void CrowdGroup::admitNear(const Instant& time, double length) {
+  const double ahead = kStepsAhead * length;
   for (bool added = true; added;) {
     added = false;
-    for (const int rank : outsidersIn(bodies_, *this, crowd_.extent(length), time, length, Outsiders::kAll)) {
+    for (const int rank : outsidersIn(bodies_, *this, crowd_.extent(ahead), time, ahead, Outsiders::kAll)) {
       if (!has(bodies_[rank]) && meetsNext(bodies_, *this, rank, time, length)) {
         admitOutsider(rank, time);
         added = true;

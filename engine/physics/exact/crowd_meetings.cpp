@@ -125,6 +125,11 @@ bool wasMet(const Bodies& bodies, const CrowdGroup& group, int rank, const Insta
 
 bool meetsNext(const Bodies& bodies, const CrowdGroup& group, int rank, const Instant& time, double length) {
   const Mover& body = bodies[rank];
+  const bool isOfCrowd = body.group && !body.group->isPredicted();
+  if (isOfCrowd && body.group->ranks().size() > group.ranks().size()) {
+    return false;
+  }
+  const double within = isOfCrowd ? kStepsAhead * length : length;
   const BodyState state = body.stateAt(time);
   const double radius = radiusOf(*body.body);
   const double turning = body.moves() ? angularVelocity(body.body->mass, state).norm() * radius : 0;
@@ -135,14 +140,14 @@ bool meetsNext(const Bodies& bodies, const CrowdGroup& group, int rank, const In
     const PileBody& at = group.crowd().body(member.place);
     const double way =
         bodies.crowds().tolerance +
-        length * ((state.velocity - at.velocity).norm() + turning + at.radius * at.omega.norm() +
-                  (length + at.behind) * bodies.world().gravity.norm());
+        within * ((state.velocity - at.velocity).norm() + turning + at.radius * at.omega.norm() +
+                  (within + at.behind) * bodies.world().gravity.norm());
     if ((state.pose.position - at.position).norm() > radius + at.radius + way ||
         BoxAxes(boxAt(state.pose, *body.body), boxAt(stateOf(at).pose, *member.body)).gap() > way) {
       return false;
     }
-    return !body.moves() || (body.steps() ? !body.group->isPredicted()
-                                          : meetsWithin(bodies, group, body, member, time, length));
+    return !body.moves() || isOfCrowd ||
+           (body.flies() && meetsWithin(bodies, group, body, member, time, length));
   });
 }
 

@@ -16,8 +16,12 @@ enum class Outsiders {
 /// Bodies that are no members and may get into that space within that time [s] from `time` on.
 std::vector<int> outsidersIn(const Bodies& bodies, const CrowdGroup& group, const Crowd::Extent& extent,
                              const Instant& time, double length, Outsiders which);
+/// [1] Steps in which a crowd looks ahead for others, no larger, which it takes in before they meet. To
+/// become one early costs nothing, but to meet a larger one within its step costs that step of all its
+/// members.
+inline constexpr double kStepsAhead = 4;
 /// Whether a member meets it within the next step if nothing pushes it; of a body at rest, whether one is
-/// near.
+/// near; of a member of a crowd that is not larger, whether one is near within kStepsAhead.
 bool meetsNext(const Bodies& bodies, const CrowdGroup& group, int rank, const Instant& time, double length);
 /// Whether a member met it in the step that it has taken from `time` on.
 bool wasMet(const Bodies& bodies, const CrowdGroup& group, int rank, const Instant& time);

@@ -103,6 +103,23 @@ TEST(CrowdGroup, takesInAnotherOne) {
   EXPECT_EQ(all.bodies[0].group->start().hi, encounter.time.hi);
 }
 
+// Two are 5 mm from three, and may come nearer than that in some steps. They begin within the step of those,
+// and do not cut it: they are taken in when it ends.
+TEST(CrowdGroup, takesInASmallerOneBetweenSteps) {
+  StartedBodies all(
+      onFloor({cube("a", {0, 0, 0.5}), cube("b", {0, 0, 1.5}, {0, 0.1, 0}), cube("c", {1.005, 0, 0.5}),
+               cube("d", {1.005, 0, 1.5}), cube("e", {1.005, 0, 2.5}, {0, 0.1, 0})}));
+  const std::shared_ptr<CrowdGroup> larger = crowdOf(all, 2);
+  const double length = larger->length();
+  const std::shared_ptr<CrowdGroup> smaller = crowdOf(all, 0);
+  ASSERT_NE(larger, smaller);
+  EXPECT_EQ(larger->length(), length);
+  const Instant end = larger->end();
+  larger->advance(end);
+  EXPECT_TRUE(larger->has(all.bodies[0]) && larger->has(all.bodies[1]));
+  EXPECT_EQ(larger->start().hi, end.hi);
+}
+
 // Of three crowds that meet the last falls asleep then, at which others may look around, while members of the
 // second are in the first already: all are somewhere.
 TEST(CrowdGroup, knowsWhereMembersTakenInAre) {

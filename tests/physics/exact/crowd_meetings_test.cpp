@@ -49,6 +49,21 @@ TEST(CrowdMeetings, ofTheNextStepAreSearchedFor) {
   EXPECT_FALSE(meetsNext(all.bodies, *crowd, 3, Instant(0), 0.06));
 }
 
+// Crowds of two and of three boxes, 2 cm apart. In .06 s they may come nearer by .06 s (.1 m/s + .6 m/s) =
+// 4.2 cm, in .012 s by 3 mm. The larger one looks so far ahead; the smaller one leaves it to that.
+TEST(CrowdMeetings, ofCrowdsTheLargerOneLooksAhead) {
+  StartedBodies all(onFloor({cube("a", {0, 0, 0.5}), cube("b", {0, 0, 1.5}, {0, 0.1, 0}),
+                             cube("c", {1.02, 0, 0.5}), cube("d", {1.02, 0, 1.5}),
+                             cube("e", {1.02, 0, 2.5}, {0, 0.1, 0}), cube("f", {2.04, 0, 0.5})}));
+  const std::shared_ptr<CrowdGroup> larger = crowdOf(all, 2);
+  const std::shared_ptr<CrowdGroup> smaller = crowdOf(all, 0);
+  ASSERT_NE(larger, smaller);
+  EXPECT_TRUE(meetsNext(all.bodies, *larger, 1, Instant(0), 0.06 / kStepsAhead));
+  EXPECT_FALSE(meetsNext(all.bodies, *larger, 1, Instant(0), 0.012 / kStepsAhead));
+  EXPECT_FALSE(meetsNext(all.bodies, *smaller, 3, Instant(0), 0.06 / kStepsAhead));
+  EXPECT_FALSE(meetsNext(all.bodies, *larger, 5, Instant(0), 0.06 / kStepsAhead));  // of no crowd
+}
+
 // Of a step of some milliseconds: a neighbour at rest, 1e-5 m from one that comes along at 1 m/s.
 TEST(CrowdMeetings, ofTheStepTakenWereMet) {
   StartedBodies all(onFloor({cube("a", {0, 0, 0.5}), cube("b", {0, 0, 1.5}, {1, 0, 0}),
