@@ -16,6 +16,7 @@
 namespace py = pybind11;
 using careen::v1::Image;
 using careen::v1::Impact;
+using careen::v1::JointReading;
 using careen::v1::Run;
 using careen::v1::Scene;
 using careen::v1::SceneError;
@@ -34,9 +35,63 @@ Scene sceneOf(const py::object& scene) {
   return Scene::read(scene.cast<std::filesystem::path>());
 }
 
+// States of boxes as a dictionary of arrays, likewise to Run.states.
+py::dict arraysOf(const std::vector<State>& boxes) {
+  const auto numbers = [&](std::size_t count, auto&& of) {
+    py::array_t<double> array({static_cast<py::ssize_t>(boxes.size()), static_cast<py::ssize_t>(count)});
+    double* to = array.mutable_data();
+    for (const State& box : boxes) {
+      to = std::copy(of(box).begin(), of(box).end(), to);
+    }
+    return array;
+  };
+  py::dict states;
+  states["position"] = numbers(
+      3, [](const State& box) -> const auto& { return box.position; });
+  states["orientation"] = numbers(
+      4, [](const State& box) -> const auto& { return box.orientation; });
+  states["velocity"] = numbers(
+      3, [](const State& box) -> const auto& { return box.velocity; });
+  states["angular_velocity"] = numbers(
+      3, [](const State& box) -> const auto& { return box.angularVelocity; });
+  return states;
+}
+
+// The efforts that a function of Python gives for some joints by name; the others have none.
+std::vector<double> effortsOf(const py::object& control, double time, const std::vector<State>& boxes,
+                              const std::vector<JointReading>& joints) {
+  const py::gil_scoped_acquire locked;
+  py::dict readings;
+  for (const JointReading& joint : joints) {
+    readings[joint.name.c_str()] = py::make_tuple(joint.coordinate, joint.rate);
+  }
+  const py::dict answer = control(time, arraysOf(boxes), readings).cast<py::dict>();
+  std::vector<double> efforts;
+  std::size_t known = 0;
+  for (const JointReading& joint : joints) {
+    const bool has = answer.contains(joint.name.c_str());
+    efforts.push_back(has ? answer[joint.name.c_str()].cast<double>() : 0);
+    known += has ? 1 : 0;
+  }
+  if (known != answer.size()) {
+    throw careen::v1::Error("found an effort of an unknown joint, expected names of joints of the scene");
+  }
+  return efforts;
+}
+
 Run simulate(const py::object& given, const std::optional<std::string>& method,
-             std::optional<double> tolerance, int threads) {
+             std::optional<double> tolerance, int threads, const py::object& control,
+             std::optional<double> period) {
   Scene scene = sceneOf(given);
+  if (control.is_none() == period.has_value()) {
+    throw careen::v1::Error("found a control without a period, or the other way round, expected both");
+  }
+  if (period) {
+    scene.control(*period, [&control](double time, const std::vector<State>& boxes,
+                                      const std::vector<JointReading>& joints) {
+      return effortsOf(control, time, boxes, joints);
+    });
+  }
   if (method) {
     scene.method(*method);
   }
@@ -214,10 +269,16 @@ PYBIND11_MODULE(careen, module) {
            "Writes the run as a file that careen render and careen.read_run take.");
   module.def(
       "simulate", &simulate, py::arg("scene"), py::kw_only(), py::arg("method") = py::none(),
-      py::arg("tolerance") = py::none(), py::arg("threads") = 1,
+      py::arg("tolerance") = py::none(), py::arg("threads") = 1, py::arg("control") = py::none(),
+      py::arg("period") = py::none(),
       "Simulates a scene: the path of a scene file, or a dictionary with the same keys. method (str) and "
       "tolerance [m] replace those of the scene; threads share the steps of large crowds, and nothing but "
-      "the time depends on them. SceneError says what is wrong with a scene, and where.");
+      "the time depends on them. control(t, boxes, joints) is called each period [s], with the arrays of "
+      "Run.states "
+      "without times, and (coordinate, rate) of each joint by name; it returns efforts [N m] or [N] by name "
+      "of a "
+      "hinge or slider, which are held until the next time. SceneError says what is wrong with a scene, and "
+      "where.");
   module.def("read_run", &Run::read, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
              "Reads a run that Run.save or careen simulate wrote.");
 }

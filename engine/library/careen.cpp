@@ -1,14 +1,17 @@
 #include "library/careen.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <utility>
 
 #include "audit/audit.h"
 #include "core/error.h"
 #include "core/math/arithmetic.h"
 #include "core/system/file.h"
+#include "physics/world/control.h"
 #include "physics/world/method.h"
 #include "scene/prepare.h"
 #include "scene/scene_reader.h"
@@ -142,6 +145,15 @@ Scene& Scene::threads(int count) {
   return *this;
 }
 
+Scene& Scene::control(double period, Controller controller) {
+  if (!(period > 0 && std::isfinite(period))) {
+    throw Error("found the period " + std::to_string(period) + " s of a controller, expected more than 0");
+  }
+  period_ = period;
+  controller_ = std::move(controller);
+  return *this;
+}
+
 std::string Scene::text() const {
   if (!built_) {
     return text_;
@@ -179,13 +191,62 @@ struct Run::Data {
   std::vector<Impact> impacts;
 };
 
+namespace {
+
+State stateOf(const Body& body, const BodyState& state) {
+  const Pose box = boxPose(body, state.pose);
+  const Quat q(box.worldFromBody);
+  return {.position = vectorOf(box.position),
+          .orientation = {q.w(), q.x(), q.y(), q.z()},
+          .velocity = vectorOf(boxVelocity(body, state)),
+          .angularVelocity = vectorOf(angularVelocity(body.mass, state))};
+}
+
+Control controlBy(double period, const Controller& controller, const World& world) {
+  std::vector<std::string> names;
+  for (const Joint& joint : world.joints) {
+    names.push_back(joint.name);
+  }
+  const std::vector<Body> bodies = world.bodies;
+  Control control{.period = period};
+  control.callback = [=](double time, std::span<const BodyState> states, std::span<const JointSample> samples,
+                         std::span<double> efforts) {
+    std::vector<State> boxes;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      boxes.push_back(stateOf(bodies[i], states[i]));
+    }
+    std::vector<JointReading> joints;
+    for (std::size_t j = 0; j < samples.size(); ++j) {
+      joints.push_back({.name = names[j], .coordinate = samples[j].coordinate, .rate = samples[j].rate});
+    }
+    const std::vector<double> answer = controller(time, boxes, joints);
+    if (answer.size() != efforts.size()) {
+      throw InputError("found " + std::to_string(answer.size()) + " efforts of a controller, expected " +
+                       std::to_string(efforts.size()) + ", one for each joint");
+    }
+    for (std::size_t j = 0; j < efforts.size(); ++j) {
+      if (!std::isfinite(answer[j])) {
+        throw InputError("found an effort of joint " + names[j] + " that is no finite number");
+      }
+      efforts[j] = answer[j];
+    }
+  };
+  return control;
+}
+
+}  // namespace
+
 Run::Run(const Scene& scene) {
   const DefaultFloatEnvironment usual;
   data_ = translated(scene.name(), [&] {
     const RunOverrides overrides{.method = scene.method_ ? methodNamed(*scene.method_) : std::nullopt,
                                  .tolerance = scene.tolerance_,
                                  .threads = scene.threads_};
-    return std::make_shared<Data>(record(prepare(parseScene(scene.text(), scene.name()), overrides).setup));
+    RunSetup setup = prepare(parseScene(scene.text(), scene.name()), overrides).setup;
+    if (scene.controller_) {
+      setup.world.control = controlBy(scene.period_, scene.controller_, setup.world);
+    }
+    return std::make_shared<Data>(record(setup));
   });
 }
 

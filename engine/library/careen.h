@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -80,6 +81,26 @@ struct Wall {
   double friction = 0;        ///< [1]
 };
 
+struct State {
+  Vector position;         ///< [m] of the box's middle
+  Quaternion orientation;  ///< world from body
+  Vector velocity;         ///< [m/s] of the box's middle
+  Vector angularVelocity;  ///< [rad/s] world frame
+};
+
+/// A joint of the scene at a moment at which a controller is asked; both are 0 if it is no hinge or slider.
+struct JointReading {
+  std::string name;
+  double coordinate;  ///< [rad] or [m]; turns of a hinge are counted
+  double rate;        ///< [rad/s] or [m/s]
+};
+
+/// Answers with the efforts [N m] or [N] of all joints, in the order in which it is given them, which are
+/// held until it is asked again. It must always answer the same, or the same scene makes other runs; it may
+/// be asked by any thread that simulates.
+using Controller = std::function<std::vector<double>(double time, const std::vector<State>& boxes,
+                                                     const std::vector<JointReading>& joints)>;
+
 /// A scene: text in the format of scene files, checked when it is simulated.
 class Scene {
  public:
@@ -100,6 +121,10 @@ class Scene {
   /// it.
   Scene& threads(int count);
 
+  /// That it is asked each period [s], from 0 on, in place of a "control" in the scene. A run that is saved
+  /// has the efforts, and not the controller.
+  Scene& control(double period, Controller controller);
+
   std::string text() const;
   const std::string& name() const { return name_; }
 
@@ -115,13 +140,8 @@ class Scene {
   std::optional<std::string> method_;
   std::optional<double> tolerance_;
   int threads_ = 1;
-};
-
-struct State {
-  Vector position;         ///< [m] of the box's middle
-  Quaternion orientation;  ///< world from body
-  Vector velocity;         ///< [m/s] of the box's middle
-  Vector angularVelocity;  ///< [rad/s] world frame
+  double period_ = 0;  // [s]
+  Controller controller_;
 };
 
 struct Impact {

@@ -141,7 +141,7 @@ TEST(ImportMjcf, whatExportWritesComesBack) {
       EXPECT_EQ(first.springs[i].restLength, second.springs[i].restLength);
     }
   }
-  EXPECT_EQ(scenes, 13U);
+  EXPECT_EQ(scenes, 20U);
   std::cout << "attitudes " << turned << '\n';
   EXPECT_LT(turned, 2e-15);
 }

@@ -48,6 +48,31 @@ class Library : public testing::Test {
   TemporaryFolder folder_;
 };
 
+// The four gains of the scene, by a function.
+TEST_F(Library, asksAControllerAtEachSample) {
+  const std::filesystem::path file = kScenes / "pole.json";
+  std::vector<double> times;
+  std::vector<std::string> names;
+  const auto controller = [&](double time, const std::vector<State>& boxes,
+                              const std::vector<JointReading>& joints) {
+    times.push_back(time);
+    names = {joints.at(0).name, joints.at(1).name};
+    EXPECT_EQ(boxes.size(), 3U);
+    double effort = 0;
+    effort -= -2.8295 * joints[0].coordinate + -4.2276 * joints[0].rate;
+    effort -= -41.3668 * joints[1].coordinate + -10.1851 * joints[1].rate;
+    return std::vector<double>{effort, 0};
+  };
+  Scene scene = Scene::read(file);
+  const v1::Run run = simulate(scene.control(0.02, controller));
+  EXPECT_EQ(run.hash(), simulate(Scene::read(file)).hash());
+  EXPECT_EQ(names, (std::vector<std::string>{"rail", "pole"}));
+  ASSERT_GT(times.size(), 50U);
+  EXPECT_EQ(times[50], 50 * 0.02);
+  EXPECT_THROW(simulate(scene.control(0.02, [](auto&&...) { return std::vector<double>{1}; })), Error);
+  EXPECT_THROW(scene.control(0, controller), Error);
+}
+
 TEST_F(Library, givesTheStatesImpactsAndHashesOfTheProgram) {
   for (const char* const name : {"careen", "zeno", "stack"}) {
     const std::string file = kScenes / (std::string(name) + ".json");

@@ -49,6 +49,25 @@ class Module(unittest.TestCase):
             self.assertEqual(run.impacts["b"], list(table["impact_b"]))
             self.assertEqual(run.impacts["point"].shape, (len(table["impact_time"]), 3))
 
+    def test_a_control_in_python_is_that_of_the_scene(self):
+        scene = SCENES / "pole.json"
+        told = []
+
+        def control(time, boxes, joints):
+            told.append((time, boxes["position"].shape, boxes["orientation"].shape))
+            effort = 0.0
+            for name, k, d in (("rail", -2.8295, -4.2276), ("pole", -41.3668, -10.1851)):
+                effort -= k * joints[name][0] + d * joints[name][1]
+            return {"rail": effort}
+
+        run = careen.simulate(scene, control=control, period=0.02)
+        self.assertEqual(run.hash, careen.simulate(scene).hash)
+        self.assertEqual(told[50], (50 * 0.02, (3, 3), (3, 4)))
+        with self.assertRaisesRegex(careen.Error, "unknown joint"):
+            careen.simulate(scene, control=lambda *_: {"rial": 1}, period=0.02)
+        with self.assertRaisesRegex(careen.Error, "without a period"):
+            careen.simulate(scene, control=control)
+
     def test_boxes_have_the_inertia_and_the_centre_that_are_given(self):
         tensor = numpy.array([[0.3, 0.05, 0], [0.05, 0.4, -0.02], [0, -0.02, 0.5]])
         center, spin = numpy.array([0.1, -0.05, 0.02]), numpy.array([1.0, 2, 3])
