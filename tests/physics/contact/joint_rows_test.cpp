@@ -11,8 +11,8 @@
 namespace careen {
 namespace {
 
-const Vec3 kHalfA(0.3, 0.2, 0.1);
-const Vec3 kHalfB(0.25, 0.4, 0.35);
+const Vec3 kHalvesOfA(0.3, 0.2, 0.1);
+const Vec3 kHalvesOfB(0.25, 0.4, 0.35);
 
 // A body that turns steadily about a fixed axis while its centre runs along a parabola: known at any moment.
 struct Swing {
@@ -50,14 +50,14 @@ Joint jointOf(Joint::Kind kind) {
 // A limited hinge of two bodies, and a rope of the second one.
 World floorless() {
   World world;
-  world.bodies = {box("a", kHalfA, 1, Vec3::Zero()), box("b", kHalfB, 1, Vec3(1, 0, 0))};
+  world.bodies = {box("a", kHalvesOfA, 1, Vec3::Zero()), box("b", kHalvesOfB, 1, Vec3(1, 0, 0))};
   test::join(world, Joint::Kind::kHinge, 0, 1, Vec3(0.5, 0, 0)).highest = 1;
   test::tie(world, Joint::Kind::kRope, 1, Vec3::Zero(), Vec3(1, 0, 2), 3).restitution = 0.5;
   return world;
 }
 
 ContactState stateAt(const ContactFeature& feature, double t) {
-  return jointState(feature, kA.at(t), {kHalfA}, kB.at(t), {kHalfB});
+  return jointState(feature, kA.at(t), {kHalvesOfA}, kB.at(t), {kHalvesOfB});
 }
 
 // Of one coordinate of it: the rows on both motions.
@@ -131,9 +131,9 @@ TEST(JointRows, ofAHingesEndsAreTheDerivativesOfItsAngle) {
       Kinematics a = b;
       a.pose.worldFromBody = b.pose.worldFromBody * axisAngle(Vec3::UnitZ(), 0.2 + 2 * t);
       a.angularVelocity = b.angularVelocity + 2 * b.pose.worldFromBody.col(2);
-      return jointState(feature, a, {kHalfA}, b, {kHalfB});
+      return jointState(feature, a, {kHalvesOfA}, b, {kHalvesOfB});
     };
-    const double length = std::min(kHalfA.norm(), kHalfB.norm());
+    const double length = std::min(kHalvesOfA.norm(), kHalvesOfB.norm());
     const double sign = part == JointPart::kLowest ? 1 : -1;
     const ContactState now = at(0);
     EXPECT_NEAR(now.gap, length * (part == JointPart::kLowest ? 0.2 + 0.4 : 0.6 - 0.2), 1e-14);

@@ -17,7 +17,7 @@ using test::join;
 using Kind = Joint::Kind;
 using Real = long double;
 
-constexpr double kGravity = 9.81;
+constexpr double kGravityOfMotors = 9.81;
 
 // One step of Runge's method of order 4 of y″ = f(y, y′).
 template <std::size_t N, class Force>
@@ -46,7 +46,7 @@ void step(std::array<Real, N>& place, std::array<Real, N>& speed, Real h, const 
 // 5.9e-7 m off after 10 s before energy was kept.
 TEST(ExactWorldControl, aSprungHingeSwingsAsItsEquationSays) {
   World world;
-  world.gravity = Vec3(0, 0, -kGravity);
+  world.gravity = Vec3(0, 0, -kGravityOfMotors);
   world.bodies = {bar("bar", 0.5)};
   join(world, Kind::kHinge, 0, {}, Vec3::Zero(), Vec3::UnitY()).stiffness = 3;
   const Recorded run = runFor(world, 10);
@@ -92,7 +92,7 @@ TEST(ExactWorldControl, aSlideFollowsItsMotor) {
 // From 0.35 rad, by four gains, 50 times a second: 1.6e-8 m off after 10 s, when the pole stands.
 TEST(ExactWorldControl, aCartKeepsItsPoleUp) {
   World world;
-  world.gravity = Vec3(0, 0, -kGravity);
+  world.gravity = Vec3(0, 0, -kGravityOfMotors);
   const double lean = 0.35;
   world.bodies = {box("cart", Vec3(0.2, 0.1, 0.1), 1, Vec3::Zero()), bar("pole", lean)};
   Body& pole = world.bodies[1];
@@ -132,7 +132,7 @@ TEST(ExactWorldControl, aCartKeepsItsPoleUp) {
 // A box turns itself over by a flap that its motor swings against the floor, whatever the tolerance.
 TEST(ExactWorldControl, aBoxTurnsItselfOver) {
   World world;
-  world.gravity = Vec3(0, 0, -kGravity);
+  world.gravity = Vec3(0, 0, -kGravityOfMotors);
   world.walls = {wall("floor", Vec3::UnitZ(), 0, 0)};
   world.walls[0].material.friction = 0.7;
   world.bodies = {

@@ -22,11 +22,11 @@ using test::squaredFrequencyOf;
 using test::tie;
 using Kind = Joint::Kind;
 
-constexpr double kGravity = 9.81;
+constexpr double kEarthsGravity = 9.81;
 
 World swinging() {
   World world;
-  world.gravity = Vec3(0, 0, -kGravity);
+  world.gravity = Vec3(0, 0, -kEarthsGravity);
   return world;
 }
 
@@ -36,7 +36,7 @@ TEST(ExactWorldJoints, aBarOnAHingeIsAPendulum) {
   world.bodies = {bar("bar", 2)};
   join(world, Kind::kHinge, 0, {}, Vec3::Zero(), Vec3::UnitY());
   const Recorded run = runFor(world, 10);
-  const double angle = pendulumAfter(10, 2, 0, squaredFrequencyOf(world.bodies[0], kGravity))[0];
+  const double angle = pendulumAfter(10, 2, 0, squaredFrequencyOf(world.bodies[0], kEarthsGravity))[0];
   const Vec3 truth(-0.5 * std::sin(angle), 0, -0.5 * std::cos(angle));
   EXPECT_LE((run.last(world, 0, 10).pose.position - truth).norm(), 4e-6);
   EXPECT_LE(largestGapIn(world, run, 10), 1e-8);
@@ -57,7 +57,7 @@ TEST(ExactWorldJoints, aParallelogramOfHingesIsAPendulum) {
   const Recorded run = runFor(world, 20);
   // (2 I + m) θ'' = −(2 · ½ + 2) g sin θ, with I of a bar about its end and the bridge's m = 2.
   const long double inertia = 2 * (world.bodies[0].mass.inertiaBody[1] + 0.25L) + 2;
-  const double angle = pendulumAfter(20, start, 0, 3 * kGravity / inertia)[0];
+  const double angle = pendulumAfter(20, start, 0, 3 * kEarthsGravity / inertia)[0];
   const Vec3 truth(-std::sin(angle), 0, -std::cos(angle));
   EXPECT_LE((run.last(world, 2, 20).pose.position - truth).norm(), 4e-6);
   EXPECT_LE(largestGapIn(world, run, 20), 1e-8);
@@ -70,7 +70,7 @@ TEST(ExactWorldJoints, aBoxOnTwoRodsIsAPendulum) {
   tie(world, Kind::kRod, 0, Vec3(-0.3, 0, 0), Vec3(-0.3, 0, 0), 1);
   tie(world, Kind::kRod, 0, Vec3(0.3, 0, 0), Vec3(0.3, 0, 0), 1);
   const Recorded run = runFor(world, 20);
-  const double angle = pendulumAfter(20, std::asin(0.6), 0, kGravity)[0];
+  const double angle = pendulumAfter(20, std::asin(0.6), 0, kEarthsGravity)[0];
   const Vec3 truth(std::sin(angle), 0, -std::cos(angle));
   EXPECT_LE((run.last(world, 0, 20).pose.position - truth).norm(), 4e-6);
 }
@@ -183,15 +183,16 @@ TEST(ExactWorldJoints, aRopeBecomesTautWhereItsLengthSays) {
   World world = swinging();
   world.bodies = {box("box", Vec3(0.1, 0.1, 0.1), 1, Vec3(0.5, 0, -0.3), Vec3::Zero(), Vec3::Zero(), 0)};
   tie(world, Kind::kRope, 0, Vec3::Zero(), Vec3::Zero(), 1);
-  const double taut = std::sqrt(2 * (std::sqrt(0.75) - 0.3) / kGravity);
+  const double taut = std::sqrt(2 * (std::sqrt(0.75) - 0.3) / kEarthsGravity);
   const Recorded run = runFor(world, 2.5);
   ASSERT_EQ(run.passed.size(), 1U);
   EXPECT_NEAR(run.passed[0].time, taut, 1e-12);
   // Along the rope: (−½, 0, √¾) times what the fall has of it.
-  const double impulse = kGravity * taut * std::sqrt(0.75);
+  const double impulse = kEarthsGravity * taut * std::sqrt(0.75);
   EXPECT_LE((run.passed[0].linear - impulse * Vec3(-0.5, 0, std::sqrt(0.75))).norm(), 1e-11);
   EXPECT_TRUE(run.passed[0].angular.isZero(1e-15));
-  const double angle = pendulumAfter(2.5 - taut, std::asin(0.5L), -kGravity * taut * 0.5L, kGravity)[0];
+  const double angle =
+      pendulumAfter(2.5 - taut, std::asin(0.5L), -kEarthsGravity * taut * 0.5L, kEarthsGravity)[0];
   const Vec3 truth(std::sin(angle), 0, -std::cos(angle));
   EXPECT_LE((run.last(world, 0, 2.5).pose.position - truth).norm(), 1e-6);
 }
@@ -202,7 +203,7 @@ TEST(ExactWorldJoints, aBoxDroppedOnItsRopeComesToRest) {
   world.bodies = {box("box", Vec3(0.1, 0.1, 0.1), 1, Vec3(0, 0, -0.3))};
   tie(world, Kind::kRope, 0, Vec3(0, 0, 0.1), Vec3::Zero(), 0.5).restitution = 0.5;
   const Recorded run = runFor(world, 2);
-  const double fall = std::sqrt(2 * 0.3 / kGravity);
+  const double fall = std::sqrt(2 * 0.3 / kEarthsGravity);
   EXPECT_NEAR(run.motions[0].back().first, 3 * fall, 1e-6);  // 5.2e-7: hops lower than rounding are left out
   EXPECT_TRUE(std::holds_alternative<Rest>(run.motions[0].back().second));
   EXPECT_NEAR(run.last(world, 0, 2).pose.position.z(), -0.6, 1e-12);
@@ -216,7 +217,7 @@ TEST(ExactWorldJoints, aSliderBouncesAtItsEnd) {
   Joint& rail = join(world, Kind::kSlider, 0, {}, Vec3(0, 0, 0.1), axis);
   rail.lowest = -1;
   rail.restitution = 0.5;
-  const double pull = kGravity * std::sin(0.5);
+  const double pull = kEarthsGravity * std::sin(0.5);
   const double fall = std::sqrt(2 / pull);
   const Recorded run = runFor(world, 3);
   const double hop = fall + 0.3 * fall;  // of the first hop's ½ · 2 fall
@@ -236,10 +237,11 @@ TEST(ExactWorldJoints, aHingeBouncesAtItsLimit) {
   const Recorded run = runFor(world, 1);
   ASSERT_GE(run.passed.size(), 1U);
   const double first = run.passed[0].time;
-  const auto [angle, rate] = pendulumAfter(first, 1.5, 0, squaredFrequencyOf(world.bodies[0], kGravity));
+  const auto [angle, rate] =
+      pendulumAfter(first, 1.5, 0, squaredFrequencyOf(world.bodies[0], kEarthsGravity));
   EXPECT_NEAR(angle, 0, 1e-8);  // 3.1e-9
   const double after =
-      pendulumAfter(1 - first, 0, -0.5L * rate, squaredFrequencyOf(world.bodies[0], kGravity))[0];
+      pendulumAfter(1 - first, 0, -0.5L * rate, squaredFrequencyOf(world.bodies[0], kEarthsGravity))[0];
   const Vec3 truth(0.5 * std::sin(after), 0, -0.5 * std::cos(after));
   EXPECT_LE((run.last(world, 0, 1).pose.position - truth).norm(), 1e-6);
 }
@@ -252,7 +254,7 @@ TEST(ExactWorldJoints, aRopeLetsGo) {
   const Recorded run = runFor(world, 2);
   EXPECT_TRUE(std::holds_alternative<Rest>(run.motions[0][1].second));
   EXPECT_EQ(run.at(world, 0, 0.75).pose.position.z(), -1);
-  EXPECT_NEAR(run.last(world, 0, 2).pose.position.z(), -1 - 0.5 * kGravity * 1.25 * 1.25, 1e-12);
+  EXPECT_NEAR(run.last(world, 0, 2).pose.position.z(), -1 - 0.5 * kEarthsGravity * 1.25 * 1.25, 1e-12);
 }
 
 // Five cubes on ten strings: the first transfers its swing to the last, and back, twice in 4.2 s.
@@ -352,6 +354,33 @@ TEST(ExactWorldJoints, mirroredAndListedBackwardsHaveTheSameBits) {
     EXPECT_EQ(at, listed.last(backwards, 5 - i, 0.5).pose.position);
     EXPECT_EQ(at.x(), -other.last(mirrored, i, 0.5).pose.position.x());
     EXPECT_EQ(at.z(), other.last(mirrored, i, 0.5).pose.position.z());
+  }
+}
+
+// Lengths four times as long, times twice: the same numbers but for their exponents.
+TEST(ExactWorldJoints, inOtherUnitsHaveTheSameBits) {
+  const World world = chainAbove();
+  World larger = world;
+  for (Body& body : larger.bodies) {
+    body.halfExtents *= 4;
+    body.mass = solidBox(body.halfExtents, body.mass.mass);
+    body.initial.pose.position *= 4;
+  }
+  for (Joint& joint : larger.joints) {
+    joint.from.point *= 4;
+    joint.to.point *= 4;
+  }
+  const auto runOf = [](const World& of, double duration, double tolerance) {
+    Recorded run;
+    run.motions.resize(of.bodies.size());
+    Notes notes(run);
+    ExactWorld(of, {.duration = duration, .tolerance = tolerance}, notes).run({});
+    return run;
+  };
+  const Recorded run = runOf(world, 0.5, 1e-6);
+  const Recorded other = runOf(larger, 1, 4e-6);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(4 * run.last(world, i, 0.5).pose.position, other.last(larger, i, 1).pose.position);
   }
 }
 

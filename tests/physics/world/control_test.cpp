@@ -8,14 +8,14 @@
 namespace careen {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
+constexpr double kHalfTurn = 3.141592653589793;
 
 TEST(MotorTarget, isASine) {
-  const MotorTarget target{.offset = 1, .amplitude = 2, .frequency = 0.5, .phase = kPi / 2};
+  const MotorTarget target{.offset = 1, .amplitude = 2, .frequency = 0.5, .phase = kHalfTurn / 2};
   EXPECT_NEAR(target.at(0).coordinate, 3, 1e-15);
   EXPECT_NEAR(target.at(0).rate, 0, 1e-15);
   EXPECT_NEAR(target.at(0.5).coordinate, 1, 1e-15);
-  EXPECT_NEAR(target.at(0.5).rate, -2 * kPi, 1e-14);
+  EXPECT_NEAR(target.at(0.5).rate, -2 * kHalfTurn, 1e-14);
 }
 
 // amplitude · t/2 · sin: its rate is that of the product.
@@ -24,7 +24,7 @@ TEST(MotorTarget, growsWithinItsRamp) {
   EXPECT_NEAR(target.at(1).coordinate, 1, 1e-15);
   EXPECT_NEAR(target.at(1).rate, 1, 1e-15);
   EXPECT_NEAR(target.at(2).coordinate, 0, 1e-15);
-  EXPECT_NEAR(target.at(2).rate, -kPi, 1e-14);
+  EXPECT_NEAR(target.at(2).rate, -kHalfTurn, 1e-14);
 }
 
 TEST(MotorTarget, followsItsPath) {
