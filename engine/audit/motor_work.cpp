@@ -30,7 +30,7 @@ double MotorWork::move(Motor& motor, double time) const {
   constexpr double kTurn = 2 * 3.141592653589793;
   const double coordinate = coordinateAt(*motor.joint, time);
   double way = coordinate - motor.coordinate;
-  way -= motor.joint->kind == Joint::Kind::kHinge ? kTurn * std::nearbyint(way / kTurn) : 0;
+  way -= motor.joint->kind == Joint::Kind::kHinge ? kTurn * std::rint(way / kTurn) : 0;
   motor.coordinate = coordinate;
   return motor.effort * way;
 }

@@ -81,7 +81,7 @@ void ControlledWorld::sample(double time, std::span<const BodyState> states, Rec
     const JointMotion motion = jointMotionOf(joint, world_, states);
     double coordinate = motion.coordinate;
     if (joint.kind == Joint::Kind::kHinge) {
-      coordinate += kTurn * std::nearbyint((samples_[j].coordinate - coordinate) / kTurn);
+      coordinate += kTurn * std::rint((samples_[j].coordinate - coordinate) / kTurn);
     }
     samples_[j] = {.coordinate = coordinate, .rate = motion.rate};
   }

@@ -172,7 +172,7 @@ void IslandGroup::accountForWork(const PoseOf& poseOf) {
     double way = jointCoordinate(joint, poseOf(static_cast<std::size_t>(driven.of->a)),
                                  poseOf(static_cast<std::size_t>(driven.of->b))) -
                  driven.coordinate;
-    way -= joint.kind == Joint::Kind::kHinge ? kTurn * std::nearbyint(way / kTurn) : 0;
+    way -= joint.kind == Joint::Kind::kHinge ? kTurn * std::rint(way / kTurn) : 0;
     bodies_.account().gives(driven.effort * way);
   }
   driven_.clear();
