@@ -222,6 +222,21 @@ ContactState jointState(const ContactFeature& feature, const Kinematics& a, Touc
              : stateOfRows(at, rowsOfAngle(at, feature.part, length), feature.kind);
 }
 
+JointImpulse jointImpulseOf(const World& world, double time, const ContactFeature& feature,
+                            const ImpactContact& contact, const ImpactShare& share, const Vec3& position) {
+  JointImpulse impulse{.time = time,
+                       .joint = static_cast<int>(feature.joint - world.joints.data()),
+                       .point = position + contact.armA};
+  if (contact.rows) {
+    const BodyImpulse sum = impulseOf(contact.rows->a, share.rows);
+    impulse.linear = sum.push;
+    impulse.angular = sum.twist - contact.armA.cross(sum.push);
+  } else {
+    impulse.linear = share.impulse * share.normal;
+  }
+  return impulse;
+}
+
 std::vector<ContactFeature> jointFeatures(const World& world, double time,
                                           const std::function<int(const JointEnd&)>& placeOf) {
   using Kind = Joint::Kind;

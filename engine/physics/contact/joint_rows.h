@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "physics/contact/contact_feature.h"
+#include "physics/impact/impact_law.h"
+#include "physics/motion/recorder.h"
 #include "physics/world/world.h"
 
 namespace careen {
@@ -29,5 +31,9 @@ ContactState jointState(const ContactFeature& feature, const Kinematics& a, Touc
 /// −1; joints of which an end has none are left out.
 std::vector<ContactFeature> jointFeatures(const World& world, double time,
                                           const std::function<int(const JointEnd&)>& placeOf);
+
+/// What the condition of a joint passed on in an impact; the middle [m] of its first body.
+JointImpulse jointImpulseOf(const World& world, double time, const ContactFeature& feature,
+                            const ImpactContact& contact, const ImpactShare& share, const Vec3& position);
 
 }  // namespace careen

@@ -47,6 +47,46 @@ Doubt ofRounding(const Body& body) {
           .speed = kRounding * fastestPoint(body, body.initial)};
 }
 
+struct Bond {
+  int from = 0;           // index of a body on which more than gravity acts
+  std::optional<int> to;  // that moves with it
+};
+
+// By springs and joints; what is held does not connect those joined to it.
+std::vector<Bond> bondsOf(const World& world) {
+  std::vector<Bond> bonds;
+  const auto add = [&](const std::optional<int>& from, const std::optional<int>& to) {
+    if (from) {
+      bonds.push_back({.from = *from, .to = to});
+    }
+  };
+  for (const Spring& spring : world.springs) {
+    add(spring.from.body, spring.to.body);
+    add(spring.to.body, spring.from.body);
+  }
+  for (const Joint& joint : world.joints) {
+    for (const JointEnd* end : {&joint.from, &joint.to}) {
+      const bool isHeld = end->body && isImmovable(world.bodies[static_cast<std::size_t>(*end->body)].mass);
+      if (!isHeld) {
+        add(end->body, end == &joint.from ? joint.to.body : joint.from.body);
+      }
+    }
+  }
+  return bonds;
+}
+
+// [s] When one that rests may move, as one of its joints lets go or its motor changes.
+double changeAtRest(const World& world, const ControlledWorld* controlled, const Mover& body) {
+  double change = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < world.joints.size() && controlled != nullptr && !body.isHeld(); ++j) {
+    const Joint& joint = world.joints[j];
+    if (joint.from.body == body.listed.value || joint.to.body == body.listed.value) {
+      change = std::min(change, controlled->nextOf(static_cast<int>(j)));
+    }
+  }
+  return change;
+}
+
 void takeSooner(std::optional<Event>& first, const std::optional<Event>& candidate) {
   if (candidate && (!first || earlier(candidate->time, first->time))) {
     first = candidate;
@@ -55,8 +95,20 @@ void takeSooner(std::optional<Event>& first, const std::optional<Event>& candida
 
 }  // namespace
 
-Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& recorder)
+DoubtfulBody doubtful(Bodies& bodies, int rank, const Instant& time, const BodyState& after) {
+  const Body& body = *bodies[rank].body;
+  return {.body = &body, .doubt = bodies.doubtAt(rank, time), .speed = fastestPoint(body, after)};
+}
+
+bool endsInWorld(const World& world) {
+  return std::any_of(world.joints.begin(), world.joints.end(),
+                     [](const Joint& joint) { return !joint.to.body; });
+}
+
+Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& recorder,
+               const ControlledWorld* controlled)
     : world_(world),
+      controlled_(controlled),
       end_(settings.duration),
       tolerance_(settings.tolerance),
       crowds_(settings.crowds),
@@ -69,9 +121,11 @@ Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& record
       account_(world),
       forced_(world.bodies.size(), world.drag ? 1 : 0),
       bonds_(world.bodies.size() + world.walls.size() + 1) {
+  std::vector<int> rankOf(world.bodies.size());
   double movable = 0;
   for (const std::size_t listed : orderByName(world.bodies)) {
     const int rank = static_cast<int>(movers_.size());
+    rankOf[listed] = rank;
     Mover& mover = movers_.emplace_back();
     mover.body = &world.bodies[listed];
     mover.rank = rank;
@@ -90,8 +144,7 @@ Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& record
     mover.rank = rank;
     mover.listed = {static_cast<int>(w)};
   }
-  if (std::any_of(world.joints.begin(), world.joints.end(),
-                  [](const Joint& joint) { return !joint.to.body; })) {
+  if (endsInWorld(world)) {
     const int rank = static_cast<int>(movers_.size());
     Mover& mover = movers_.emplace_back();
     mover.body = &bodyOfWalls();
@@ -102,35 +155,11 @@ Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& record
   const double part = kFew / std::max(1.0, movable);
   isFew_ = movable <= kFew;
   workShare_ = part * std::min(1.0, part) * std::sqrt(std::max(1.0, RunSettings().tolerance / tolerance_));
-  addBonds();
-}
-
-void Bodies::addBonds() {
-  std::vector<int> rankOf(world_.bodies.size());
-  for (int rank = 0; rank < count(); ++rank) {
-    rankOf[static_cast<std::size_t>((*this)[rank].listed.value)] = rank;
-  }
-  const auto add = [&](const std::optional<int>& from, const std::optional<int>& to) {
-    if (from) {
-      const auto rank = static_cast<std::size_t>(rankOf[static_cast<std::size_t>(*from)]);
-      forced_[rank] = 1;
-      if (to) {
-        bonds_[rank].push_back(rankOf[static_cast<std::size_t>(*to)]);
-      }
-    }
-  };
-  for (const Spring& spring : world_.springs) {
-    add(spring.from.body, spring.to.body);
-    add(spring.to.body, spring.from.body);
-  }
-  const auto isHeld = [&](const JointEnd& end) {
-    return !end.body || isImmovable(world_.bodies[static_cast<std::size_t>(*end.body)].mass);
-  };
-  for (const Joint& joint : world_.joints) {  // what is held does not connect those joined to it
-    for (const JointEnd* end : {&joint.from, &joint.to}) {
-      if (!isHeld(*end)) {
-        add(end->body, end == &joint.from ? joint.to.body : joint.from.body);
-      }
+  for (const auto& [from, to] : bondsOf(world)) {
+    const auto rank = static_cast<std::size_t>(rankOf[static_cast<std::size_t>(from)]);
+    forced_[rank] = 1;
+    if (to) {
+      bonds_[rank].push_back(rankOf[static_cast<std::size_t>(*to)]);
     }
   }
 }
@@ -246,35 +275,6 @@ void Bodies::arrive(const Mover& body, const Instant& time, const BodyState& sta
   account_.arrives(static_cast<std::size_t>(body.listed.value), state, body.elapsed(time));
 }
 
-void Bodies::pass(const Instant& time, const ContactFeature& joint, const ImpactContact& contact,
-                  const ImpactShare& share, const Vec3& position) {
-  JointImpulse impulse{.time = time.hi,
-                       .joint = static_cast<int>(joint.joint - world_.joints.data()),
-                       .point = position + contact.armA};
-  if (contact.rows) {
-    const BodyImpulse sum = impulseOf(contact.rows->a, share.rows);
-    impulse.linear = sum.push;
-    impulse.angular = sum.twist - contact.armA.cross(sum.push);
-  } else {
-    impulse.linear = share.impulse * share.normal;
-  }
-  recorder_.passes(impulse);
-}
-
-// [s] The next moment at which the joint lets go, or its motor may change.
-double Bodies::changeOf(const Joint& joint) const {
-  return controlled_ == nullptr ? joint.until
-                                : controlled_->nextOf(static_cast<int>(&joint - world_.joints.data()));
-}
-
-double Bodies::untilChange(std::span<const ContactFeature> joints, const Instant& time) const {
-  double first = std::numeric_limits<double>::infinity();
-  for (const ContactFeature& feature : joints) {
-    first = std::min(first, changeOf(*feature.joint));
-  }
-  return std::isfinite(first) ? secondsBetween(time, Instant(first)) : first;
-}
-
 Doubt* Bodies::doubtAt(int rank, const Instant& time) {
   Mover& body = (*this)[rank];
   if (body.isHeld()) {
@@ -289,17 +289,17 @@ Doubt* Bodies::doubtAt(int rank, const Instant& time) {
   return &body.doubt;
 }
 
-DoubtfulBody Bodies::doubtful(int rank, const Instant& time, const BodyState& after) {
-  const Body& body = *(*this)[rank].body;
-  return {.body = &body, .doubt = doubtAt(rank, time), .speed = fastestPoint(body, after)};
-}
-
 // ---- Prediction of events.
 
 void Bodies::predict(int rank) {
   const Mover& body = (*this)[rank];
   if (!body.moves()) {
-    predictChange(rank);
+    const double change = changeAtRest(world_, controlled_, body);
+    if (std::isfinite(change)) {
+      queue_.set({.time = Instant(change), .kind = EventKind::kTouching, .body = rank});
+    } else {
+      queue_.clear(rank);
+    }
     return;
   }
   if (body.flies() && isForced(rank)) {  // has just begun, and has yet to feel springs and drag
@@ -323,22 +323,6 @@ void Bodies::predict(int rank) {
   }
   if (first) {
     queue_.set(*first);
-  } else {
-    queue_.clear(rank);
-  }
-}
-
-// One that rests may move where one of its joints lets go, or its motor changes.
-void Bodies::predictChange(int rank) {
-  const Mover& body = (*this)[rank];
-  double change = std::numeric_limits<double>::infinity();
-  for (const Joint& joint : world_.joints) {
-    if (!body.isHeld() && (joint.from.body == body.listed.value || joint.to.body == body.listed.value)) {
-      change = std::min(change, changeOf(joint));
-    }
-  }
-  if (std::isfinite(change)) {
-    queue_.set({.time = Instant(change), .kind = EventKind::kTouching, .body = rank});
   } else {
     queue_.clear(rank);
   }

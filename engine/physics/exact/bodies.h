@@ -29,11 +29,13 @@ class ControlledWorld;
 /// changes no bit; walls come after them.
 class Bodies {
  public:
-  Bodies(const World& world, const RunSettings& settings, Recorder& recorder);
+  /// `controlled`, if there is one, is what changes the world's joints. All must outlive it. Where joints end
+  /// in the world there is one more after the walls, which is nowhere().
+  Bodies(const World& world, const RunSettings& settings, Recorder& recorder,
+         const ControlledWorld* controlled = nullptr);
 
   const World& world() const { return world_; }
-  /// The world is that one's, which must outlive this.
-  void follow(const ControlledWorld& controlled) { controlled_ = &controlled; }
+  const ControlledWorld* controlled() const { return controlled_; }
   const Instant& end() const { return end_; }          ///< of the run
   double tolerance() const { return tolerance_; }      ///< [m]
   double timeScale() const { return timeScale_; }      ///< [s] see timeScaleOf
@@ -49,8 +51,6 @@ class Bodies {
   std::span<const Mover> walls() const {
     return std::span(movers_).subspan(world_.bodies.size(), world_.walls.size());
   }
-  /// What joints that end in the world are of, if there are any: comes after the walls.
-  Mover* nowhere() { return movers_.back().halfSpace == &careen::nowhere() ? &movers_.back() : nullptr; }
   Mover& operator[](int rank) { return movers_[static_cast<std::size_t>(rank)]; }
   const Mover& operator[](int rank) const { return movers_[static_cast<std::size_t>(rank)]; }
   /// Springs, joints or drag act on it, so it is never in Flight.
@@ -81,15 +81,8 @@ class Bodies {
   void step(const std::shared_ptr<ContactGroup>& group, std::size_t place);
   /// An impact at that point [m] of a body with another one, both by rank.
   void strike(const Instant& time, int rank, int with, const Vec3& point, const ImpactShare& share);
-  /// What a joint passes on in an impact; the middle [m] of the first of its bodies.
-  void pass(const Instant& time, const ContactFeature& joint, const ImpactContact& contact,
-            const ImpactShare& share, const Vec3& position);
-  /// [s] From then on, until the first of these joints lets go or its motor may change.
-  double untilChange(std::span<const ContactFeature> joints, const Instant& time) const;
   /// Its doubt from then on, none if it is held. Past its size its place means nothing.
   Doubt* doubtAt(int rank, const Instant& time);
-  /// A body that takes part in an impact at that time, in this state after it.
-  DoubtfulBody doubtful(int rank, const Instant& time, const BodyState& after);
   /// A flight ends in this state.
   void arrive(const Mover& body, const Instant& time, const BodyState& state);
 
@@ -125,11 +118,8 @@ class Bodies {
   static constexpr int kMostAtOneMoment = 1000;
 
  private:
-  void addBonds();
   void begins(int rank, const Instant& time);
   void noteSpeed(const Mover& body);
-  void predictChange(int rank);
-  double changeOf(const Joint& joint) const;
 
   const World& world_;
   const ControlledWorld* controlled_ = nullptr;
@@ -154,5 +144,10 @@ class Bodies {
   std::vector<char> forced_;             // by rank
   std::vector<std::vector<int>> bonds_;  // by rank
 };
+
+/// A body that takes part in an impact at that time, in this state after it.
+DoubtfulBody doubtful(Bodies& bodies, int rank, const Instant& time, const BodyState& after);
+/// Whether joints end in the world.
+bool endsInWorld(const World& world);
 
 }  // namespace careen

@@ -148,8 +148,8 @@ Encounter gather(Bodies& bodies, const Event& event) {
   for (std::size_t w = 0; w < bodies.walls().size(); ++w) {
     encounter.bodies.emplace_back().mover = &bodies[bodies.count() + static_cast<int>(w)];
   }
-  if (Mover* nowhere = bodies.nowhere()) {
-    encounter.bodies.emplace_back().mover = nowhere;
+  if (endsInWorld(bodies.world())) {
+    encounter.bodies.emplace_back().mover = &bodies[bodies.count() + static_cast<int>(bodies.walls().size())];
   }
   findJoints(bodies.world(), encounter);
   return encounter;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "physics/contact/implicit_step.h"
+#include "physics/contact/joint_rows.h"
 
 namespace careen {
 
@@ -42,12 +43,14 @@ void resolve(Bodies& bodies, Encounter& encounter) {
 void record(Bodies& bodies, const Encounter& encounter) {
   std::vector<DoubtfulBody> doubtful;
   for (const EncounterBody& each : encounter.bodies) {
-    doubtful.push_back(bodies.doubtful(each.mover->rank, encounter.time, each.after));
+    doubtful.push_back(careen::doubtful(bodies, each.mover->rank, encounter.time, each.after));
   }
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
     if (encounter.shares[k].impulse > 0 && encounter.contacts[k].joint != ImpactContact::kNoJoint) {
-      bodies.pass(encounter.time, encounter.joints[static_cast<std::size_t>(encounter.contacts[k].joint)],
-                  encounter.contacts[k], encounter.shares[k], encounter.a(k).before.pose.position);
+      bodies.recorder().passes(
+          jointImpulseOf(bodies.world(), encounter.time.hi,
+                         encounter.joints[static_cast<std::size_t>(encounter.contacts[k].joint)],
+                         encounter.contacts[k], encounter.shares[k], encounter.a(k).before.pose.position));
     } else if (encounter.shares[k].impulse > 0) {
       const ImpactContact contact = encounter.joined(k);
       touch(doubtful, contact, encounter.shares[k]);

@@ -18,11 +18,8 @@ namespace careen {
 
 ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder)
     : controlled_(world.joints.empty() ? std::nullopt : std::optional<ControlledWorld>(world)),
-      bodies_(controlled_ ? controlled_->world() : world, settings, recorder) {
-  if (controlled_) {
-    bodies_.follow(*controlled_);
-  }
-}
+      bodies_(controlled_ ? controlled_->world() : world, settings, recorder,
+              controlled_ ? &*controlled_ : nullptr) {}
 
 RunFigures ExactWorld::run(const std::stop_token& stop) {
   begin();

@@ -2,14 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "core/error.h"
+#include "physics/contact/joint_rows.h"
+#include "physics/exact/controlled_world.h"
 #include "physics/exact/encounter.h"
 #include "physics/exact/encounter_places.h"
 #include "physics/geometry/separation.h"
 
 namespace careen {
+namespace {
+
+// [s] From that time on, until the first of these joints lets go or its motor may change.
+double untilChange(const Bodies& bodies, std::span<const ContactFeature> joints, const Instant& time) {
+  double first = std::numeric_limits<double>::infinity();
+  for (const ContactFeature& feature : joints) {
+    const auto index = feature.joint - bodies.world().joints.data();
+    first = bodies.controlled() == nullptr
+                ? first
+                : std::min(first, bodies.controlled()->nextOf(static_cast<int>(index)));
+  }
+  return std::isfinite(first) ? secondsBetween(time, Instant(first)) : first;
+}
+
+}  // namespace
 
 IslandGroup::IslandGroup(Bodies& bodies, std::vector<int> ranks, std::unique_ptr<Island> island)
     : bodies_(bodies), island_(std::move(island)) {
@@ -75,7 +94,7 @@ bool IslandGroup::takeStep(const Instant& time) {
   bool isSolved = true;
   try {
     // Not bounded by the end of the run, on which the motion must not depend.
-    const double change = bodies_.untilChange(island_->joints(), time);
+    const double change = untilChange(bodies_, island_->joints(), time);
     const Island::Step step =
         island_->step(std::min(bodies_.longestStep(), change), bodies_.workLeft(ranks_, time));
     length_ = step.length;
@@ -188,14 +207,15 @@ void IslandGroup::accountForLosses() {
 void IslandGroup::recordImpacts() {
   std::vector<DoubtfulBody> doubtful;
   for (std::size_t i = 0; i < ranks_.size(); ++i) {
-    doubtful.push_back(bodies_.doubtful(ranks_[i], start_, island_->bodies()[i].state()));
+    doubtful.push_back(careen::doubtful(bodies_, ranks_[i], start_, island_->bodies()[i].state()));
     bodies_[ranks_[i]].doubt.atLeast(bodies_[ranks_[i]].isHeld() ? 0 : bodies_.tolerance());
   }
   for (const GroupImpact& impact : island_->impacts()) {
     if (impact.contact.joint != ImpactContact::kNoJoint) {
       const auto a = static_cast<std::size_t>(impact.contact.a);
-      bodies_.pass(start_, island_->joints()[static_cast<std::size_t>(impact.contact.joint)], impact.contact,
-                   impact.share, bodies_[ranks_[a]].stateAt(start_).pose.position);
+      bodies_.recorder().passes(jointImpulseOf(
+          bodies_.world(), start_.hi, island_->joints()[static_cast<std::size_t>(impact.contact.joint)],
+          impact.contact, impact.share, bodies_[ranks_[a]].stateAt(start_).pose.position));
       continue;
     }
     touch(doubtful, impact.contact, impact.share);

@@ -13,8 +13,8 @@ double jointCoordinate(const Joint& joint, const Pose& from, const Pose& to) {
   }
   const Vec3 x = joint.from.axesAt(from).col(0);
   const double angle = elementary::atan2(dot(x, axes.col(1)), dot(x, axes.col(0)));
-  const double middle =
-      std::isfinite(joint.lowest + joint.highest) ? 0.5 * (joint.lowest + joint.highest) : joint.rest;
+  const bool isLimited = std::isfinite(joint.lowest) && std::isfinite(joint.highest);
+  const double middle = isLimited ? 0.5 * (joint.lowest + joint.highest) : joint.rest;
   constexpr double kTurn = 2 * 3.141592653589793;
   return angle > middle + 0.5 * kTurn ? angle - kTurn : angle <= middle - 0.5 * kTurn ? angle + kTurn : angle;
 }
