@@ -218,7 +218,7 @@ void Auditor::checkAround(std::size_t index, double time) {
   }
   for (std::size_t other = 0; other < bodies(); ++other) {
     const Track& track = run_.tracks[other];
-    const Segment& segment = track.segments[segmentAt(track, time)];
+    const Segment segment = track.segments[segmentAt(track, time)];
     const double reach = radius(index) + radius(other);
     if (other != index &&
         (centerAt(segment.motion, time - segment.start) - state.pose.position).squaredNorm() <=
@@ -254,7 +254,7 @@ void Auditor::checkSeams() {
   for (std::size_t index = 0; index < bodies(); ++index) {
     rest();
     for (const Seam& seam : seamsOf(run_.tracks[index])) {
-      const Segment& after = run_.tracks[index].segments[seam.after];
+      const Segment after = run_.tracks[index].segments[seam.after];
       const bool isLooked = number++ % stride == 0 || std::holds_alternative<Rest>(after.motion);
       if (isLooked && after.start <= run_.settings.duration) {
         checkSeam(run_, index, seam, impulses_[index], fallingSpeeds_[index], findings_);
@@ -267,7 +267,7 @@ void Auditor::checkSeams() {
 // Start and middle of segments of a body; its end is the start of the next one. Of a table only its rows:
 // nobody knows what was between them.
 void Auditor::checkEverySegment(std::size_t index, std::size_t stride) {
-  const std::vector<Segment>& segments = run_.tracks[index].segments;
+  const Segments& segments = run_.tracks[index].segments;
   for (std::size_t k = 0; k < segments.size(); k += stride) {
     rest();
     const double end = k + 1 < segments.size() ? segments[k + 1].start : run_.settings.duration;
@@ -302,7 +302,7 @@ void Auditor::checkWorst() {
 bool Auditor::areMotionsFinite() {
   bool all = true;
   for (std::size_t index = 0; index < bodies(); ++index) {
-    const std::vector<Segment>& segments = run_.tracks[index].segments;
+    const Segments& segments = run_.tracks[index].segments;
     const auto broken = std::find_if(segments.begin(), segments.end(),
                                      [](const Segment& segment) { return !isFinite(segment.motion); });
     if (broken != segments.end()) {

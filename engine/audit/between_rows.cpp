@@ -56,9 +56,9 @@ class Rows {
   void checkWay(std::size_t index, std::size_t row);
   void checkFriction(std::size_t row);
   void checkBounce(std::size_t index, std::size_t row);
-  double start(std::size_t row) const { return run_.tracks[rowsOf_].segments[row].start; }
+  double start(std::size_t row) const { return run_.tracks[rowsOf_].segments.unpacked()[row].start; }
   double seconds(std::size_t row) const {
-    return std::get<SampledStep>(run_.tracks[rowsOf_].segments[row].motion).duration;
+    return std::get<SampledStep>(run_.tracks[rowsOf_].segments.unpacked()[row].motion).duration;
   }
 
   const Trajectory& run_;
@@ -91,7 +91,7 @@ void Rows::listPulled() {
 }
 
 bool Rows::haveCommonRows() const {
-  const std::vector<Segment>& rows = run_.tracks[rowsOf_].segments;
+  const Segments& rows = run_.tracks[rowsOf_].segments;
   for (std::size_t index = 0; index < run_.tracks.size(); ++index) {
     if (!isHeld(index) &&
         !std::equal(rows.begin(), rows.end(), run_.tracks[index].segments.begin(),
@@ -142,7 +142,7 @@ Flying Rows::flyingOf(std::size_t index, std::size_t row) const {
   if (isHeld(index)) {
     return {.before = &body(index).initial, .after = &body(index).initial};
   }
-  const SampledStep& step = std::get<SampledStep>(run_.tracks[index].segments[row].motion);
+  const SampledStep& step = std::get<SampledStep>(run_.tracks[index].segments.unpacked()[row].motion);
   Flying flying{.before = &step.start, .after = &step.end};
   for (const BodyState* state : {flying.before, flying.after}) {
     flying.speed =
@@ -229,7 +229,7 @@ std::pair<const BodyState&, const BodyState&> Rows::rowsOf(std::size_t index, st
   if (isHeld(index)) {
     return {body(index).initial, body(index).initial};
   }
-  const SampledStep& step = std::get<SampledStep>(run_.tracks[index].segments[row].motion);
+  const SampledStep& step = std::get<SampledStep>(run_.tracks[index].segments.unpacked()[row].motion);
   return {step.start, step.end};
 }
 
@@ -381,7 +381,7 @@ void Rows::checkBounce(std::size_t index, std::size_t row) {
             passages_[static_cast<std::size_t>(partner.body())][at].kind == Passage::Kind::kFlew);
   };
   const auto stateAt = [&](std::size_t body, std::size_t at, bool isEnd) {
-    const SampledStep& step = std::get<SampledStep>(run_.tracks[body].segments[at].motion);
+    const SampledStep& step = std::get<SampledStep>(run_.tracks[body].segments.unpacked()[at].motion);
     return isEnd ? step.end : step.start;
   };
   ObservedEncounter encounter = encounterOf(index, partner, row);

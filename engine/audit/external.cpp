@@ -66,7 +66,7 @@ bool ExternalOf::isHeldByJoint() const {
 
 void ExternalOf::follow(std::size_t member, double time, External& external) {
   const std::size_t body = group_.bodies[member];
-  const std::vector<Segment>& segments = run_.tracks[body].segments;
+  const Segments& segments = run_.tracks[body].segments;
   std::size_t& k = followers_[member].segment;
   double from = time_;
   while (true) {
@@ -163,7 +163,7 @@ void ExternalOf::addWall(std::size_t wall, double friction, External& external) 
 // [m] Several steps of a crowd are recorded as one, which does not tell what they touched, and nor do the
 // rows of a table: the farthest that a body moves in this one or one beside it.
 double ExternalOf::wayWithin(std::size_t body, std::size_t segment) const {
-  const std::vector<Segment>& segments = run_.tracks[body].segments;
+  const Segments& segments = run_.tracks[body].segments;
   const Body& owner = run_.world.bodies[body];
   const double size = radiusOf(owner);
   double way = 0;
@@ -171,10 +171,11 @@ double ExternalOf::wayWithin(std::size_t body, std::size_t segment) const {
   const std::size_t beside = run_.given && !run_.given->velocities ? 3 : 1;
   for (std::size_t k = segment - std::min(segment, beside);
        k < std::min(segment + beside + 1, segments.size()); ++k) {
-    if (const CrowdStep* const step = std::get_if<CrowdStep>(&segments[k].motion)) {
+    const Motion motion = segments[k].motion;
+    if (const CrowdStep* const step = std::get_if<CrowdStep>(&motion)) {
       const StepBounds bounds = boundsOf(asContactStep(*step));
       way = std::max(way, step->duration * (bounds.speed + bounds.angularSpeed * size));
-    } else if (const SampledStep* const row = std::get_if<SampledStep>(&segments[k].motion)) {
+    } else if (const SampledStep* const row = std::get_if<SampledStep>(&motion)) {
       for (const BodyState& state : {row->start, row->end}) {
         way = std::max(
             way, row->duration * (state.velocity.norm() + size * angularVelocity(owner.mass, state).norm()));
@@ -202,7 +203,7 @@ Pose ExternalOf::placeOf(std::size_t body, std::size_t segment, double elapsed) 
 
 // [s] A step may have been cut: where its polynomial ends the body never was.
 double ExternalOf::lengthOf(std::size_t body, std::size_t segment) const {
-  const std::vector<Segment>& segments = run_.tracks[body].segments;
+  const Segments& segments = run_.tracks[body].segments;
   return (segment + 1 < segments.size() ? segments[segment + 1].start : run_.settings.duration) -
          segments[segment].start;
 }

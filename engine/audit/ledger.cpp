@@ -255,7 +255,7 @@ void Books::check() {
   include(still);
   // Only contact depends on the tolerance.
   if (std::any_of(group_.bodies.begin(), group_.bodies.end(), [&](std::size_t body) {
-        const std::vector<Segment>& segments = run_.tracks[body].segments;
+        const Segments& segments = run_.tracks[body].segments;
         return std::any_of(segments.begin(), segments.end(),
                            [](const Segment& segment) { return mayTouch(segment.motion); });
       })) {
@@ -353,7 +353,8 @@ double Books::spinWithinSteps(double time) const {
   double sum = 0;
   for (const std::size_t body : group_.bodies) {
     const Track& track = run_.tracks[body];
-    const ContactStep* const step = std::get_if<ContactStep>(&track.segments[segmentAt(track, time)].motion);
+    const Motion motion = track.segments[segmentAt(track, time)].motion;
+    const ContactStep* const step = std::get_if<ContactStep>(&motion);
     if (step != nullptr && !run_.given && !group_.springs.empty()) {
       sum += mass(body) * reach_ * kOfSpeed * run_.settings.tolerance / step->duration;
     }

@@ -20,7 +20,7 @@ class Sums {
        Findings& findings)
       : body_(run.world.bodies[index]),
         index_(index),
-        segments_(run.tracks[index].segments),
+        segments_(run.tracks[index].segments.unpacked()),
         passages_(passages),
         findings_(findings) {
     momentum_ = std::max(kOfFall * body_.mass.mass * fallingSpeed, std::numeric_limits<double>::min());

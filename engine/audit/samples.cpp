@@ -1,7 +1,6 @@
 #include "audit/samples.h"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -58,7 +57,7 @@ Samples::Samples(const Trajectory& run, std::vector<double> times, const std::st
     : bodies_(run.tracks.size()), times_(std::move(times)), states_(times_.size() * bodies_) {
   std::size_t done = 0;
   for (std::size_t body = 0; body < bodies_; ++body) {
-    const std::vector<Segment>& segments = run.tracks[body].segments;
+    const Segments& segments = run.tracks[body].segments;
     std::size_t k = 0;
     for (std::size_t moment = 0; moment < times_.size(); ++moment) {
       while (k + 1 < segments.size() && segments[k + 1].start <= times_[moment]) {
@@ -78,15 +77,14 @@ Vec3 centerAt(const Motion& motion, double elapsed) {
 }
 
 std::size_t segmentAt(const Track& track, double time) {
-  const auto next = std::upper_bound(track.segments.begin(), track.segments.end(), time,
-                                     [](double t, const Segment& segment) { return t < segment.start; });
-  return next == track.segments.begin() ? 0 : static_cast<std::size_t>(next - track.segments.begin()) - 1;
+  const std::size_t begun = track.segments.countUntil(time);
+  return begun == 0 ? 0 : begun - 1;
 }
 
 std::vector<double> crowdBeginnings(const Trajectory& run) {
   std::vector<double> beginnings(run.tracks.size(), std::numeric_limits<double>::infinity());
   for (std::size_t body = 0; body < run.tracks.size(); ++body) {
-    const std::vector<Segment>& segments = run.tracks[body].segments;
+    const Segments& segments = run.tracks[body].segments;
     const auto first = std::find_if(segments.begin(), segments.end(), [](const Segment& segment) {
       return std::holds_alternative<CrowdStep>(segment.motion);
     });

@@ -87,7 +87,7 @@ void checkImpulse(const Trajectory& run, std::size_t body, const Seam& seam, con
                   const BodyState& after, const ImpulsesOfBody& impulses, double fallingSpeed,
                   Findings& findings) {
   const Body& owner = run.world.bodies[body];
-  const std::vector<Segment>& segments = run.tracks[body].segments;
+  const Segments& segments = run.tracks[body].segments;
   const double time = segments[seam.after].start;
   const Given given = givenBy(run, body, after.pose.position, impulses, segments[seam.before].start, time);
   const double mass = owner.mass.mass;
@@ -178,7 +178,7 @@ void checkState(const BodyState& state, std::size_t body, double time, Findings&
 void checkSeam(const Trajectory& run, std::size_t body, const Seam& seam, const ImpulsesOfBody& impulses,
                double fallingSpeed, Findings& findings) {
   const Body& owner = run.world.bodies[body];
-  const std::vector<Segment>& segments = run.tracks[body].segments;
+  const Segments& segments = run.tracks[body].segments;
   const double time = segments[seam.after].start;
   const BodyState before =
       stateAt(segments[seam.before].motion, owner.mass, time - segments[seam.before].start);

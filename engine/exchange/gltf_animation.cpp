@@ -61,7 +61,7 @@ AnimatedSpan GltfAnimation::span(std::vector<double> sceneKinks,
 
 void GltfAnimation::addKinks(std::size_t body, std::vector<double>& kinks, std::vector<double>& seams) const {
   kinks.insert(kinks.end(), impactsOf_[body].begin(), impactsOf_[body].end());
-  const std::vector<Segment>& segments = run_.tracks[body].segments;
+  const Segments& segments = run_.tracks[body].segments;
   for (std::size_t i = 1; i < segments.size(); ++i) {
     const bool rests = std::holds_alternative<Rest>(segments[i].motion) ||
                        std::holds_alternative<Rest>(segments[i - 1].motion);
@@ -76,7 +76,7 @@ void GltfAnimation::addTurns(std::size_t body, std::vector<double>& seams) const
   constexpr double kMostTurns = 7;
   constexpr double kGoldenAngle = 2.399963229728653;  // [rad]
   constexpr double kMostSeams = 1e5;
-  const std::vector<Segment>& segments = run_.tracks[body].segments;
+  const Segments& segments = run_.tracks[body].segments;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const double end = i + 1 < segments.size() ? segments[i + 1].start : run_.settings.duration;
     const MassProperties& mass = run_.world.bodies[body].mass;

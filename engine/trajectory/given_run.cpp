@@ -237,7 +237,7 @@ Samples Giving::samplesOf(std::size_t body) {
 
 void Giving::addMotions(std::size_t body, const Samples& samples) {
   bodies()[body].initial = samples.states.front();
-  std::vector<Segment>& segments = run_.tracks[body].segments;
+  std::vector<Segment>& segments = run_.tracks[body].segments.open();
   for (std::size_t k = 0; k + 1 < samples.times.size() && samples.times[k] < run_.settings.duration; ++k) {
     segments.push_back({.start = samples.times[k],
                         .motion = SampledStep{.duration = samples.times[k + 1] - samples.times[k],

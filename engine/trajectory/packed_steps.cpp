@@ -53,7 +53,7 @@ std::optional<int> lowestBit(double number) {
 
 // That most steps share: a step whose numbers are rounded to a grid has one odd multiple at least, almost
 // surely.
-int exponentOf(const std::vector<Segment>& segments) {
+int exponentOf(const Segments& segments) {
   std::map<int, std::size_t> steps;
   for (const Segment& segment : segments) {
     if (const CrowdStep* const step = std::get_if<CrowdStep>(&segment.motion)) {
@@ -105,7 +105,7 @@ void StepCoder::follow(double start, double duration, const Numbers& numbers) {
 
 // ---- Packing.
 
-StepPacker::StepPacker(const std::vector<Segment>& segments) : StepCoder(exponentOf(segments)) {
+StepPacker::StepPacker(const Segments& segments) : StepCoder(exponentOf(segments)) {
   bits_.put(static_cast<std::uint64_t>(exponent_ - kLeastExponent), kExponentBits);
 }
 

@@ -38,7 +38,7 @@ class StepCoder {
 /// Takes a track's segments in order.
 class StepPacker : public StepCoder {
  public:
-  explicit StepPacker(const std::vector<Segment>& segments);
+  explicit StepPacker(const Segments& segments);
   /// Whether it is packed now; else it is to be stored as it is.
   bool add(const Segment& segment);
   /// Lengths, and starts that are not the end of the step before.
@@ -78,9 +78,10 @@ void visitPacked(Archive& archive, Visited<Archive, Track> track) {
     archive.visit(times);
     archive.visit(bits);
     StepUnpacker steps(times, bits);
-    track.segments.reserve(std::min<std::uint64_t>(count, times.size() / sizeof(double)));
+    std::vector<Segment>& segments = track.segments.open();
+    segments.reserve(std::min<std::uint64_t>(count, times.size() / sizeof(double)));
     for (std::uint64_t k = 0; k < count; ++k) {
-      Segment& segment = track.segments.emplace_back();
+      Segment& segment = segments.emplace_back();
       const StepUnpacker::Next next = steps.next(segment);
       if (next == StepUnpacker::Next::kAsItIs) {
         visit(archive, segment);
@@ -93,16 +94,16 @@ void visitPacked(Archive& archive, Visited<Archive, Track> track) {
     }
   } else {
     StepPacker steps(track.segments);
-    std::vector<const Segment*> others;
-    for (const Segment& segment : track.segments) {
-      if (!steps.add(segment)) {
-        others.push_back(&segment);
+    std::vector<std::size_t> others;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!steps.add(track.segments[k])) {
+        others.push_back(k);
       }
     }
     archive.visit(steps.times());
     archive.visit(steps.bits());
-    for (const Segment* const segment : others) {
-      visit(archive, *segment);
+    for (const std::size_t k : others) {
+      visit(archive, track.segments[k]);
     }
   }
 }

@@ -87,7 +87,7 @@ void checkTrack(const Track& track, const std::string& name, const RunSettings& 
     fail("has no motion of body '" + name + "' at the start");
   }
   for (std::size_t k = 0; k < track.segments.size(); ++k) {
-    const Segment& segment = track.segments[k];
+    const Segment segment = track.segments[k];
     // The last step may end after the run.
     const double end = k + 1 < track.segments.size() ? track.segments[k + 1].start
                                                      : std::max(segment.start, settings.duration);

@@ -1,7 +1,6 @@
 #include "trajectory/trajectory.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 #include <variant>
 
@@ -24,11 +23,8 @@ class TrajectoryRecorder : public Recorder {
 
   void moves(BodyIndex body, double time, const Motion& motion) override {
     count(time);
-    std::vector<Segment>& segments = trajectory_.tracks.at(static_cast<std::size_t>(body.value)).segments;
-    if (segments.size() == segments.capacity()) {  // by a quarter: twice the room would be most of all memory
-      segments.reserve(segments.size() + segments.size() / 4 + 1);
-    }
-    segments.push_back({.start = time, .motion = motion});
+    trajectory_.tracks.at(static_cast<std::size_t>(body.value))
+        .segments.addPacked({.start = time, .motion = motion});
   }
   void strikes(const Impact& impact) override {
     count(impact.time);
@@ -109,12 +105,11 @@ BodyState Trajectory::state(std::size_t body, double time) const {
   }
   const Track& track = tracks.at(body);
   const Body& moved = world.bodies.at(body);
-  const auto next = std::upper_bound(track.segments.begin(), track.segments.end(), time,
-                                     [](double t, const Segment& segment) { return t < segment.start; });
-  if (next == track.segments.begin()) {
+  const std::size_t begun = track.segments.countUntil(time);
+  if (begun == 0) {
     throw InputError("body " + moved.name + " has no recorded motion");
   }
-  const Segment& segment = *std::prev(next);
+  const Segment segment = track.segments[begun - 1];
   return stateAt(segment.motion, moved.mass, time - segment.start);
 }
 

@@ -9,25 +9,15 @@
 #include <vector>
 
 #include "core/math/pose.h"
-#include "physics/motion/motion.h"
 #include "physics/motion/recorder.h"
 #include "physics/motion/run_progress.h"
 #include "physics/world/body.h"
 #include "physics/world/run_settings.h"
 #include "physics/world/world.h"
 #include "stage/run_setup.h"
+#include "trajectory/segments.h"
 
 namespace careen {
-
-struct Segment {
-  double start = 0;  ///< [s]
-  Motion motion;
-};
-
-/// Motion of one body: segments in order of time, the first at 0.
-struct Track {
-  std::vector<Segment> segments;
-};
 
 /// What is known of a run that careen did not compute but read from a table of poses.
 struct GivenPoses {

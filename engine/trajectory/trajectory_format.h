@@ -361,7 +361,11 @@ void visit(Archive& archive, Visited<Archive, PlanItem> item) {
 
 template <class Archive>
 void visit(Archive& archive, Visited<Archive, Track> track) {
-  visitAll(archive, track.segments);
+  if constexpr (Archive::kReads) {
+    visitAll(archive, track.segments.open());
+  } else {
+    visitAll(archive, track.segments);
+  }
 }
 
 /// [s] -1: never.

@@ -70,7 +70,7 @@ TEST(Audit, soundRunsBreakNothingAtAnyDepth) {
 
 TEST(Audit, noneLooksAtNothing) {
   Trajectory run = runOf(kThree);
-  run.tracks[0].segments.front().motion = Rest{};
+  run.tracks[0].segments.open().front().motion = Rest{};
   const Audit found = audit(run, AuditDepth::kNone);
   EXPECT_EQ(found.looks, 0U);
   EXPECT_TRUE(found.breaches.empty());
@@ -123,10 +123,10 @@ void expectFound(const Wrong& wrong) {
 }
 
 Flight& flight(Trajectory& run, std::size_t body, std::size_t segment) {
-  return std::get<Flight>(run.tracks[body].segments.at(segment).motion);
+  return std::get<Flight>(run.tracks[body].segments.open().at(segment).motion);
 }
 double startOf(const Trajectory& run, std::size_t body, std::size_t segment) {
-  return run.tracks[body].segments.at(segment).start;
+  return run.tracks[body].segments[segment].start;
 }
 
 TEST(Audit, findsStatesThatAreNotFinite) {
@@ -143,7 +143,7 @@ TEST(Audit, findsStatesThatAreNotFinite) {
 TEST(Audit, findsAnAttitudeThatIsNoRotation) {
   expectFound({kSliding,
                [](Trajectory& run) {
-                 std::get<Rest>(run.tracks[0].segments.back().motion).pose.worldFromBody *= 1.001;
+                 std::get<Rest>(run.tracks[0].segments.open().back().motion).pose.worldFromBody *= 1.001;
                },
                AuditKind::kOrthogonality,
                {"slider"},
@@ -195,7 +195,7 @@ TEST(Audit, findsAnOverlapThatIsSeenOnlyBetweenSeams) {
     // The loner goes to where "right" starts, stays a moment, and comes back along the same way.
     Rest there;
     there.pose.position = run.state(1, 0.25).pose.position;
-    std::vector<Segment>& segments = run.tracks[2].segments;
+    std::vector<Segment>& segments = run.tracks[2].segments.open();
     const Motion usual = segments.front().motion;
     segments.push_back({.start = 0.25, .motion = there});
     Flight later = std::get<Flight>(usual);
@@ -210,8 +210,8 @@ TEST(Audit, findsBoxesThatPassThroughEachOther) {
   expectFound({kThree,
                [](Trajectory& run) {
                  run.impacts.clear();
-                 run.tracks[0].segments.resize(1);
-                 run.tracks[1].segments.resize(1);
+                 run.tracks[0].segments.open().resize(1);
+                 run.tracks[1].segments.open().resize(1);
                },
                AuditKind::kBoxOverlap,
                {"left", "right"},
@@ -261,7 +261,7 @@ TEST(Audit, findsABoxThatFallsThroughAFloor) {
   expectFound({kBouncing,
                [](Trajectory& run) {
                  run.impacts.clear();
-                 run.tracks[0].segments.resize(1);
+                 run.tracks[0].segments.open().resize(1);
                },
                AuditKind::kWallOverlap,
                {"ball", "floor"},
@@ -347,7 +347,7 @@ TEST(Audit, energyThatASpringLosesIsFoundWhateverTheMaterials) {
   // From the middle on, both move about the centre of mass by 1 % less.
   for (Track& track : run.tracks) {
     const Vec3 middle(0.225, 0, 0);
-    for (Segment& segment : track.segments) {
+    for (Segment& segment : track.segments.open()) {
       if (ContactStep* const step = std::get_if<ContactStep>(&segment.motion);
           step != nullptr && segment.start > 0.5) {
         step->position[0] = middle + 0.99 * (step->position[0] - middle);
@@ -373,8 +373,8 @@ TEST(Audit, judgesTheMembersOfACrowdByItsTolerance) {
     still.position[0] = start.pose.position;
     still.position[1] = run.settings.duration * start.velocity;
     still.worldFromBody[0] = Quat(start.pose.worldFromBody).coeffs();
-    run.tracks[body].segments.resize(1);
-    run.tracks[body].segments[0].motion = still;
+    run.tracks[body].segments.open().resize(1);
+    run.tracks[body].segments.open()[0].motion = still;
   }
   run.settings.crowds.tolerance = 1;
   const Audit lax = audit(run, AuditDepth::kUsual);

@@ -78,7 +78,7 @@ TEST(External, whatRestsLiesOnTheWallsThatItTouches) {
   Trajectory run = drifting(Vec3::Zero());
   run.world.walls = {wall("floor", Vec3(0, 0, 1), -1), wall("side", Vec3(1, 0, 0), -5)};
   EXPECT_FALSE(over(run, 1).lies);
-  run.tracks[0].segments.push_back({.start = 0.5, .motion = Rest{}});
+  run.tracks[0].segments.open().push_back({.start = 0.5, .motion = Rest{}});
   const External given = over(run, 1);
   EXPECT_TRUE(given.lies);
   ASSERT_EQ(given.walls.size(), 1U);

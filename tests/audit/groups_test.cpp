@@ -96,7 +96,7 @@ TEST(Groups, contactStepsThatBeginTogetherJoin) {
     step.position[0] = Vec3(10. * static_cast<double>(body), 0, 0);
     step.worldFromBody.fill(Vec4::Zero());
     step.worldFromBody[0] = Vec4(0, 0, 0, 1);
-    run.tracks[body].segments.push_back({.start = 1. / 3, .motion = step});
+    run.tracks[body].segments.open().push_back({.start = 1. / 3, .motion = step});
   }
   EXPECT_EQ(membersOf(run), (Members{{0, 3}, {1}, {2}}));
 }

@@ -42,7 +42,7 @@ TEST(Ledger, balancesAFallFarFromTheOrigin) {
 // 0.1 % less gravity than the world has: after 1 s 0.01 kg m/s of |(1, 2, −7)| are missing.
 TEST(Ledger, missesWhatGravityShouldHaveGiven) {
   Trajectory run = falling();
-  std::get<Flight>(run.tracks[0].segments[0].motion).acceleration *= 0.999;
+  std::get<Flight>(run.tracks[0].segments.open()[0].motion).acceleration *= 0.999;
   const Findings findings = balanced(run);
   EXPECT_NEAR(findings.largest(AuditKind::kLinearMomentum).size, 0.01 / std::sqrt(1 + 4 + 49), 1e-4);
   EXPECT_EQ(findings.largest(AuditKind::kLinearMomentum).time, 1);
@@ -56,7 +56,7 @@ TEST(Ledger, smallExcessesAddUp) {
     Flight later = first;
     later.position = first.positionAt(0.05 * k);
     later.velocity = first.velocityAt(0.05 * k) + Vec3(1e-4 * k, 0, 0);
-    run.tracks[0].segments.push_back({.start = 0.05 * k, .motion = later});
+    run.tracks[0].segments.open().push_back({.start = 0.05 * k, .motion = later});
   }
   EXPECT_NEAR(balanced(run).largest(AuditKind::kLinearMomentum).size, 19e-4 / std::sqrt(1 + 4 + 49), 2e-5);
 }

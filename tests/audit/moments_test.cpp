@@ -42,7 +42,7 @@ Trajectory withRows(std::size_t rows) {
                                 .initial = {}});
     Track& track = run.tracks.emplace_back();
     for (std::size_t k = 0; k < times * rows; ++k) {
-      track.segments.push_back(
+      track.segments.open().push_back(
           {.start = 0.5 * static_cast<double>(k) / static_cast<double>(times), .motion = Rest{}});
     }
   }

@@ -18,7 +18,7 @@ struct TwentyRows {
     run.tracks.resize(1);
     const BodyState state{.velocity = Vec3(1, 0, 0)};
     for (std::size_t k = 0; k < passages.size(); ++k) {
-      run.tracks[0].segments.push_back(
+      run.tracks[0].segments.open().push_back(
           {.start = 0.05 * static_cast<double>(k),
            .motion = SampledStep{.duration = 0.05, .start = state, .end = state}});
       passages[k].kind = kind;

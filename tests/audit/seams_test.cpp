@@ -14,7 +14,7 @@ namespace {
 TEST(Seams, segmentsThatBeginTogetherAreOneSeam) {
   Track track;
   for (const double start : {0.0, 0.0, 1.0, 1.0, 1.0, 2.0}) {
-    track.segments.push_back({.start = start, .motion = Rest{}});
+    track.segments.open().push_back({.start = start, .motion = Rest{}});
   }
   const std::vector<Seam> seams = seamsOf(track);
   ASSERT_EQ(seams.size(), 2U);
@@ -55,7 +55,7 @@ Findings checked(const Trajectory& run) {
 // gives no turn; that it has one afterwards is what the run was made with.
 TEST(Seams, impulsesMustGiveTheJumpOfTheVelocity) {
   Trajectory run = driftAndReturn();
-  std::get<EulerStep>(run.tracks[0].segments[1].motion).start.angularMomentum.setZero();
+  std::get<EulerStep>(run.tracks[0].segments.open()[1].motion).start.angularMomentum.setZero();
   run.impacts[0].point = Vec3(2, 0, 0);
   EXPECT_EQ(checked(run).largest(AuditKind::kImpulse).size, 0);
   EXPECT_EQ(checked(run).largest(AuditKind::kContinuity).size, 0);
@@ -92,7 +92,7 @@ TEST(Seams, aTurnThatNoImpactGaveIsFound) {
 
 TEST(Seams, jumpsAreInMetresOfTheFarthestPoint) {
   Trajectory run = driftAndReturn();
-  EulerStep& back = std::get<EulerStep>(run.tracks[0].segments[1].motion);
+  EulerStep& back = std::get<EulerStep>(run.tracks[0].segments.open()[1].motion);
   back.start.pose.position.y() += 1e-3;
   EXPECT_NEAR(checked(run).largest(AuditKind::kContinuity).size, 1e-3, 1e-9);
   back.start.pose.position.y() -= 1e-3;

@@ -41,7 +41,7 @@ Trajectory driftingAll(const Scene& scene) {
   Trajectory run = drifting(scene, Vec3(0.3, 0.1, 0.2));
   for (std::size_t i = 1; i < scene.boxes.size(); ++i) {
     run.tracks.push_back(run.tracks[0]);
-    std::get<EulerStep>(run.tracks[i].segments[0].motion).start.pose = scene.boxes[i].pose;
+    std::get<EulerStep>(run.tracks[i].segments.open()[0].motion).start.pose = scene.boxes[i].pose;
   }
   return run;
 }

@@ -86,7 +86,7 @@ inline Comparison twoRuns() {
   const Trajectory run = driftAndReturn();
   Trajectory other = run;
   other.impacts[0].impulse = 8.5;
-  std::get<EulerStep>(other.tracks[0].segments[1].motion).start.velocity.x() = -1;
+  std::get<EulerStep>(other.tracks[0].segments.open()[1].motion).start.velocity.x() = -1;
   Comparison comparison;
   comparison.verdict = Verdict::kDifferent;
   comparison.headline = "other motion";

@@ -53,7 +53,7 @@ TEST(RunDifference, ordersOfBoxesDoNotMatter) {
 TEST(RunDifference, oneBitIsSeenWhereItBegins) {
   const Trajectory run = driftAndReturn();
   Trajectory other = run;
-  double& momentum = std::get<EulerStep>(other.tracks[0].segments[1].motion).start.angularMomentum.z();
+  double& momentum = std::get<EulerStep>(other.tracks[0].segments.open()[1].motion).start.angularMomentum.z();
   momentum = std::nextafter(momentum, 1);
   const RunDifference found = differenceOf(run, other);
   EXPECT_FALSE(found.sameBits);
@@ -91,7 +91,7 @@ TEST(RunDifference, firstImpactThatDiffersIsToldWithHow) {
 TEST(RunDifference, distanceIsRelativeToTheBox) {
   const Trajectory run = driftAndReturn();
   Trajectory other = run;
-  std::get<EulerStep>(other.tracks[0].segments[1].motion).start.pose.position.y() += 1e-3;
+  std::get<EulerStep>(other.tracks[0].segments.open()[1].motion).start.pose.position.y() += 1e-3;
   const RunDifference found = differenceOf(run, other);
   EXPECT_DOUBLE_EQ(found.worst.difference.position, 1e-3);
   EXPECT_NEAR(found.worst.difference.relative, 1e-3 / std::sqrt(0.14), 1e-15);
@@ -157,7 +157,7 @@ TEST(RunDifference, jumpWhereTheShorterEndsIsNoDifference) {
   const Trajectory run = driftAndReturn();
   Trajectory shorter = run;
   shorter.settings.duration = 0.5;
-  shorter.tracks[0].segments.pop_back();
+  shorter.tracks[0].segments.open().pop_back();
   const RunDifference found = differenceOf(run, shorter);
   EXPECT_FALSE(found.firstTime);
   EXPECT_EQ(found.worst.difference.relative, 0);
@@ -169,7 +169,7 @@ TEST(RunDifference, jumpWhereTheShorterEndsIsNoDifference) {
 TEST(RunDifference, whatIsLaterThanAskedForDoesNotCount) {
   const Trajectory run = driftAndReturn();
   Trajectory other = run;
-  std::get<EulerStep>(other.tracks[0].segments[1].motion).start.velocity.x() = -3;
+  std::get<EulerStep>(other.tracks[0].segments.open()[1].motion).start.velocity.x() = -3;
   other.impacts[0].impulse = 10;
   const RunDifference before = differenceOf(run, other, 0.4);
   EXPECT_TRUE(before.sameBits);
@@ -185,7 +185,7 @@ TEST(RunDifference, whatIsLaterThanAskedForDoesNotCount) {
 
 TEST(RunDifference, aStateThatIsNoNumberIsAnError) {
   Trajectory run = driftAndReturn();
-  std::get<EulerStep>(run.tracks[0].segments[1].motion).start.velocity.x() =
+  std::get<EulerStep>(run.tracks[0].segments.open()[1].motion).start.velocity.x() =
       std::numeric_limits<double>::quiet_NaN();
   const Trajectory whole = driftAndReturn();
   EXPECT_EQ(inputErrorOf([&] { differenceOf(run, whole); }),

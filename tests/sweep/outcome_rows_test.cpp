@@ -60,7 +60,7 @@ TEST_F(OutcomeRows, tellWhatBecameOfEachBoxThatMoves) {
 
 TEST_F(OutcomeRows, faceUpIsThatAgainstGravity) {
   const Family::Member member = family_.member(0);
-  auto& step = std::get<EulerStep>(run_.tracks[0].segments[1].motion);
+  auto& step = std::get<EulerStep>(run_.tracks[0].segments.open()[1].motion);
   step.start.angularMomentum = Vec3::Zero();
   const auto face = [&](const Mat3& worldFromBody, const Vec3& gravity) {
     step.start.pose.worldFromBody = worldFromBody;

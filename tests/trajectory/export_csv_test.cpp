@@ -57,7 +57,7 @@ TEST(PosesCsv, refusesMoreSamplesThanAnybodyReads) {
 TEST(PosesCsv, writesDoublesThatComeBackBitForBit) {
   Trajectory trajectory = driftAndReturn();
   const double third = 1. / 3;
-  std::get<EulerStep>(trajectory.tracks[0].segments[0].motion).start.pose.position.x() = third;
+  std::get<EulerStep>(trajectory.tracks[0].segments.open()[0].motion).start.pose.position.x() = third;
   const std::string row = posesOf(trajectory, 5)[1];
   EXPECT_TRUE(row.starts_with("0,drifter,0.33333333333333331,")) << row;
   EXPECT_EQ(std::stod(row.substr(10)), third);
@@ -71,7 +71,7 @@ TEST(PosesCsv, givesAngularVelocityOfTheWorldFrame) {
 
 TEST(PosesCsv, choosesTheQuaternionWithPositiveFirstPart) {
   Trajectory trajectory = driftAndReturn();
-  Mat3& turned = std::get<Rest>(trajectory.tracks[1].segments[0].motion).pose.worldFromBody;
+  Mat3& turned = std::get<Rest>(trajectory.tracks[1].segments.open()[0].motion).pose.worldFromBody;
   turned = axisAngle(Vec3(0, 0, -1), 3.0);
   const std::string row = posesOf(trajectory, 5)[2];
   // cos 1.5, and -sin 1.5 about z

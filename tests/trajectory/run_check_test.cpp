@@ -20,11 +20,11 @@ namespace {
 const double kNoNumber = std::nan("");
 const double kInfinity = std::numeric_limits<double>::infinity();
 
-EulerStep& firstStep(Trajectory& run) { return std::get<EulerStep>(run.tracks[0].segments[0].motion); }
+EulerStep& firstStep(Trajectory& run) { return std::get<EulerStep>(run.tracks[0].segments.open()[0].motion); }
 
 template <class Motion>
 Motion& instead(Trajectory& run) {
-  return run.tracks[0].segments[0].motion.emplace<Motion>();
+  return run.tracks[0].segments.open()[0].motion.emplace<Motion>();
 }
 
 // Sound, but for what is changed.
@@ -95,15 +95,16 @@ const std::vector<Fault> kFaults = {
     {"has settings with a duration, time step or tolerance that is not positive",
      [](Trajectory& run) { run.settings.dt = 0; }},
     {"has 1 tracks for 2 bodies", [](Trajectory& run) { run.tracks.pop_back(); }},
-    {"has no motion of body 'anchor' at the start", [](Trajectory& run) { run.tracks[1].segments.clear(); }},
+    {"has no motion of body 'anchor' at the start",
+     [](Trajectory& run) { run.tracks[1].segments.open().clear(); }},
     {"has no motion of body 'drifter' at the start",
-     [](Trajectory& run) { run.tracks[0].segments[0].start = 0.1; }},
+     [](Trajectory& run) { run.tracks[0].segments.open()[0].start = 0.1; }},
     {"has a track of body 'drifter' with segments out of order",
-     [](Trajectory& run) { run.tracks[0].segments[1].start = -0.5; }},
+     [](Trajectory& run) { run.tracks[0].segments.open()[1].start = -0.5; }},
     {"has a track of body 'drifter' with segments out of order",
-     [](Trajectory& run) { run.tracks[0].segments[1].start = kInfinity; }},
+     [](Trajectory& run) { run.tracks[0].segments.open()[1].start = kInfinity; }},
     {"has a track of body 'drifter' with segments out of order",
-     [](Trajectory& run) { run.tracks[0].segments[1].start = kNoNumber; }},
+     [](Trajectory& run) { run.tracks[0].segments.open()[1].start = kNoNumber; }},
     {"has a track of body 'drifter' with an invalid motion",
      [](Trajectory& run) { firstStep(run).force.x() = kNoNumber; }},
     {"has a track of body 'drifter' with an invalid motion",
@@ -111,7 +112,9 @@ const std::vector<Fault> kFaults = {
     {"has a track of body 'drifter' with an invalid motion",
      [](Trajectory& run) { firstStep(run).start.pose.worldFromBody = -Mat3::Identity(); }},
     {"has a track of body 'anchor' with an invalid motion",
-     [](Trajectory& run) { std::get<Rest>(run.tracks[1].segments[0].motion).pose.position.x() = kInfinity; }},
+     [](Trajectory& run) {
+       std::get<Rest>(run.tracks[1].segments.open()[0].motion).pose.position.x() = kInfinity;
+     }},
     {"has a track of body 'drifter' with an invalid motion",
      [](Trajectory& run) { instead<Flight>(run).worldFromBody.w() = 2; }},
     {"has a track of body 'drifter' with an invalid motion",  // its duration is 0

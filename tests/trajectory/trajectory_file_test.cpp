@@ -154,20 +154,20 @@ TEST(TrajectoryFile, bringsBackTheMeshesThatAreDrawn) {
 // Steps of a crowd's member that go on from each other; one of them is on no grid.
 TEST(TrajectoryFile, bringsBackStepsOfCrowds) {
   Trajectory run = driftAndReturn();
-  run.tracks[1].segments.clear();
+  run.tracks[1].segments.open().clear();
   for (int k = 0; k < 4; ++k) {
     CrowdStep step{.duration = 0.25};
     step.position = {Vec3(0, 5, 0), Vec3(0, 0, k == 2 ? 0.1 : 0x1p-30), Vec3::Zero(), Vec3(0, 0, -0.0)};
     step.worldFromBody.fill(Vec4::Zero());
     step.worldFromBody[0] = Vec4(0, 0, 0, 1);
-    run.tracks[1].segments.push_back({.start = 0.25 * k, .motion = step});
+    run.tracks[1].segments.open().push_back({.start = 0.25 * k, .motion = step});
   }
   const std::string bytes = encodeTrajectory(run);
   const Trajectory back = decodeTrajectory(bytes, "run.careen");
   EXPECT_EQ(encodeTrajectory(back), bytes);
   ASSERT_EQ(back.tracks[1].segments.size(), 4U);
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto& step = std::get<CrowdStep>(back.tracks[1].segments[k].motion);
+    const auto step = std::get<CrowdStep>(back.tracks[1].segments[k].motion);
     EXPECT_EQ(step.position, std::get<CrowdStep>(run.tracks[1].segments[k].motion).position);
     EXPECT_TRUE(std::signbit(step.position[3].z()));
     EXPECT_EQ(back.tracks[1].segments[k].start, 0.25 * static_cast<double>(k));

@@ -52,7 +52,7 @@ TEST(Trajectory, stateHashSeesOneBitAndNoOrder) {
   EXPECT_EQ(swapped.stateHash(), hash);
 
   Trajectory nudged = trajectory;
-  double& x = std::get<EulerStep>(nudged.tracks[0].segments[1].motion).start.angularMomentum.z();
+  double& x = std::get<EulerStep>(nudged.tracks[0].segments.open()[1].motion).start.angularMomentum.z();
   x = std::nextafter(x, 1.0);
   EXPECT_NE(nudged.stateHash(), hash);
 }

@@ -13,7 +13,7 @@ TEST_F(Arrows, whatIsNearerIsDrawnOverWhatIsBehind) {
     scene_.boxes.back().name = "other";
     run_ = drifting(scene_, Vec3(1, 0, 0.5));
     run_.tracks.push_back(run_.tracks[0]);
-    std::get<EulerStep>(run_.tracks[1].segments[0].motion).start.pose = scene_.boxes[1].pose;
+    std::get<EulerStep>(run_.tracks[1].segments.open()[0].motion).start.pose = scene_.boxes[1].pose;
     const Vec2 other = onPicture(scene_.boxes[1].pose.position);
     const std::vector<Stroke> found = arrows("velocity", 0);
     ASSERT_EQ(found.size(), 2U);
@@ -33,7 +33,8 @@ TEST_F(Arrows, whatIsTooShortToBeSeenIsNotDrawn) {
   for (const double speed : {2.1, 1.9}) {  // [px]
     run_ = drifting(scene_, Vec3(10, 0, 0));
     run_.tracks.push_back(run_.tracks[0]);
-    std::get<EulerStep>(run_.tracks[1].segments[0].motion).start.velocity = Vec3(10 * speed / 144, 0, 0);
+    std::get<EulerStep>(run_.tracks[1].segments.open()[0].motion).start.velocity =
+        Vec3(10 * speed / 144, 0, 0);
     EXPECT_EQ(arrows("velocity", 0).size(), speed > 2 ? 2U : 1U);
   }
 }

@@ -49,7 +49,7 @@ TEST(OverlayKinds, areInTheManualAsTheListHasThem) {
 
 // Whatever their order in the list: trails, axes, arrows, impacts, panels, names.
 TEST_F(OverlaysTest, areDrawnFromBackToFront) {
-  std::get<EulerStep>(run_.tracks[0].segments[0].motion).start.angularMomentum = Vec3(0, 0, 0.3);
+  std::get<EulerStep>(run_.tracks[0].segments.open()[0].motion).start.angularMomentum = Vec3(0, 0, 0.3);
   scene_.boxes[0].name = "crate";
   strike(0.2, 3);
   const OverlayShapes shapes =
@@ -108,7 +108,7 @@ TEST_F(OverlaysTest, namesDoNotCoverEachOther) {
     scene_.boxes.push_back(scene_.boxes[0]);
     scene_.boxes.back().name = name;
     run_.tracks.push_back(run_.tracks.back());
-    std::get<EulerStep>(run_.tracks.back().segments[0].motion).start.pose.position.x() += 1;
+    std::get<EulerStep>(run_.tracks.back().segments.open()[0].motion).start.pose.position.x() += 1;
   }
   const std::vector<Plate> plates = only<Plate>(shapesAt("names", 0));
   ASSERT_EQ(plates.size(), 4U);
@@ -120,7 +120,7 @@ TEST_F(OverlaysTest, namesDoNotCoverEachOther) {
 }
 
 TEST_F(OverlaysTest, namesKeepClearOfThePanels) {
-  std::get<EulerStep>(run_.tracks[0].segments[0].motion).start.pose.position = Vec3(-9, 0, 6.44);
+  std::get<EulerStep>(run_.tracks[0].segments.open()[0].motion).start.pose.position = Vec3(-9, 0, 6.44);
   const std::vector<Plate> alone = only<Plate>(shapesAt("names", 0));
   const std::vector<Plate> both = only<Plate>(shapesAt("time,names", 0));
   ASSERT_EQ(alone.size(), 1U);

@@ -26,7 +26,7 @@ TEST_F(OverlayPanels, legendSaysHowLongAnArrowOfARoundValueIs) {
 }
 
 TEST_F(OverlayPanels, legendHasItsOwnOrder) {
-  std::get<EulerStep>(run_.tracks[0].segments[0].motion).start.angularMomentum = Vec3(0, 0, 0.3);
+  std::get<EulerStep>(run_.tracks[0].segments.open()[0].motion).start.angularMomentum = Vec3(0, 0, 0.3);
   strike(0.2, 3);
   std::vector<std::string> words;
   for (const Label& label : only<Label>(shapesAt("impulses,spin-axis,angular-momentum,velocity", 0))) {

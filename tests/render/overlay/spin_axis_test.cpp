@@ -6,7 +6,7 @@ namespace {
 using SpinAxisOverlay = OverlayPictures;
 
 TEST_F(SpinAxisOverlay, pointsAlongTheAngularVelocityWithALineBackwards) {
-  std::get<EulerStep>(run_.tracks[0].segments[0].motion).start.angularMomentum = Vec3(0, 0, 0.3);
+  std::get<EulerStep>(run_.tracks[0].segments.open()[0].motion).start.angularMomentum = Vec3(0, 0, 0.3);
   const std::vector<Stroke> spin = arrows("spin-axis", 0);
   ASSERT_EQ(spin.size(), 2U);  // backwards, then the arrow
   const Vec3 omega = angularVelocity(run_.world.bodies[0].mass, run_.state(0, 0));
