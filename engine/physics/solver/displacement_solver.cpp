@@ -1,4 +1,4 @@
-#include "physics/pile/displacement_solver.h"
+#include "physics/solver/displacement_solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,32 +12,20 @@ constexpr double kLittle = 0.003;
 /// [1] of 1/(largest eigenvalue): length of steps along the gradient.
 constexpr double kGradientStep = 0.9;
 constexpr int kPowerSteps = 12;
-constexpr int kNothing = 0;  // in own_
 constexpr std::size_t kBlocksPerRange = 32;
 
 }  // namespace
 
-void DisplacementSolver::begin(std::span<const PileBody> bodies, double compliance) {
-  bodies_ = bodies;
+void DisplacementSolver::begin(std::size_t bodies, double compliance) {
   compliance_ = compliance;
-  members_.assign(bodies.size(), kNothing);
+  members_.assign(bodies, kNothing);
   own_.assign(1, {});
-  moves_.assign(1, {});
   blocks_.clear();
 }
 
-int DisplacementSolver::memberOf(int body) {
-  if (body == kNobody || bodies_[at(body)].still()) {
-    return kNothing;
-  }
-  if (members_[at(body)] == kNothing) {
-    members_[at(body)] = static_cast<int>(own_.size());
-    const Mat3 axes = bodies_[at(body)].principalAxes();
-    own_.push_back(
-        {.inverseMass = bodies_[at(body)].inverseMass,
-         .inverseInertia = axes * bodies_[at(body)].inverseInertiaBody.asDiagonal() * axes.transpose()});
-  }
-  return members_[at(body)];
+void DisplacementSolver::setBody(int index, const Body& body) {
+  members_[at(index)] = static_cast<int>(own_.size());
+  own_.push_back(body);
 }
 
 void DisplacementSolver::add(const Row& row) {
@@ -130,7 +118,6 @@ CAREEN_LANES void DisplacementSolver::move(const Ahead& ahead) {
     block.ahead = ahead(block);
     findPush(block);
   });
-  moves_.resize(own_.size());
   team_->share(own_.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = std::max<std::size_t>(first, 1); i < last; ++i) {
       moves_[i] = moved(i);
@@ -191,6 +178,7 @@ double DisplacementSolver::largestEigenvalue() {
 }
 
 int DisplacementSolver::solve(double enough, int most) {
+  moves_.assign(own_.size(), {});
   if (blocks_.empty()) {
     return 0;
   }
