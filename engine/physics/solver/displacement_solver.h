@@ -57,6 +57,10 @@ class DisplacementSolver {
 
   /// Until no row lacks more than `enough` [m], or more steps gain little; at most so many. Returns how many.
   int solve(double enough, int most);
+  /// Or until every row is off by no more than `enough` [m], as it lacks that, or pushes with that more than
+  /// its bound: to rounding. Ends, too, where that comes no nearer: rows contradict each other, and without c
+  /// their impulses grow in proportion to what they lack times their effective mass.
+  int solveExactly(double enough, int most);
 
   bool moves(int body) const { return !moveOf(body).shift.isZero(0) || !moveOf(body).turn.isZero(0); }
   const Vec3& displacement(int body) const { return moveOf(body).shift; }  ///< [m]
@@ -84,7 +88,7 @@ class DisplacementSolver {
     int rows = 0;
   };
   struct Sums {  // over some of the blocks
-    Lanes lacking{}, back{}, squares{};
+    Lanes lacking{}, off{}, back{}, squares{};
   };
   static constexpr std::size_t kMostRanges = 16;
   static constexpr int kNothing = 0;  // in own_
@@ -102,6 +106,8 @@ class DisplacementSolver {
   void findPush(Block& block) const;
   Move moved(std::size_t member) const;
   double largestEigenvalue();
+  template <class Done>
+  int descend(int most, const Done& done);
 
   std::shared_ptr<Team> team_;
   double compliance_ = kCompliance;
