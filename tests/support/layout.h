@@ -37,7 +37,7 @@ inline const std::map<std::string, Rooms> kRooms = {
       {"attitude", {"world"}},
       {"geometry", {"world"}},
       {"motion", {"attitude", "world"}},
-      {"start", {"geometry", "world"}},
+      {"start", {"geometry", "solver", "world"}},
       {"search", {"geometry", "motion"}},
       {"impact", {"geometry", "solver", "world"}},
       {"solver", {"world"}},

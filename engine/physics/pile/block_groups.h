@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/math/lanes.h"
 #include "core/system/rounds.h"
 #include "core/system/team.h"
 #include "physics/pile/index.h"
-#include "physics/pile/lanes.h"
 #include "physics/pile/row_list.h"
 #include "physics/pile/solver_body.h"
 

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/math/lanes.h"
 #include "core/system/team.h"
 #include "physics/pile/block_groups.h"
 #include "physics/pile/index.h"
-#include "physics/pile/lanes.h"
 #include "physics/pile/row_list.h"
 #include "physics/pile/solver_body.h"
 #include "physics/solver/residual_sum.h"

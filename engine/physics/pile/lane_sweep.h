@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "core/math/lanes.h"
 #include "physics/pile/block_groups.h"
 #include "physics/pile/index.h"
 #include "physics/pile/lane_rows.h"
-#include "physics/pile/lanes.h"
 #include "physics/pile/solver_body.h"
 
 namespace careen {

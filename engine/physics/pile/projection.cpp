@@ -165,12 +165,17 @@ void PileProjection::solve(int number) {
     solver_.solve(kSweepsAtFirst << number, PileSolver::Friction::kNone);
     return;
   }
-  const auto mover = [&](int body) { return isReached_[at(body)] != 0 ? body : DisplacementSolver::kNobody; };
-  gradients_.begin(bodies_, holds() ? kHoldingCompliance : DisplacementSolver::kCompliance);
+  gradients_.begin(bodies_.size(), holds() ? kHoldingCompliance : DisplacementSolver::kCompliance);
+  for (const int body : reached_) {
+    const Mat3 axes = bodies_[at(body)].principalAxes();
+    gradients_.setBody(body, {.inverseMass = bodies_[at(body)].inverseMass,
+                              .inverseInertia = axes * bodies_[at(body)].inverseInertiaBody.asDiagonal() *
+                                                axes.transpose()});
+  }
   for (std::size_t k = 0; k < solver_.rowCount(); ++k) {
     const PileSolver::RowView row = solver_.row(static_cast<int>(k));
-    gradients_.add({.a = mover(row.a),
-                    .b = mover(row.b),
+    gradients_.add({.a = row.a,
+                    .b = row.b,
                     .armA = row.armA,
                     .armB = row.armB,
                     .normal = row.axes[0],

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "physics/pile/body.h"
-#include "physics/pile/displacement_solver.h"
 #include "physics/pile/manifold.h"
 #include "physics/pile/solver.h"
+#include "physics/solver/displacement_solver.h"
 
 namespace careen {
 

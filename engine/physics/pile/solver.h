@@ -7,13 +7,13 @@
 #include <memory>
 #include <vector>
 
+#include "core/math/lanes.h"
 #include "core/math/linear_algebra.h"
 #include "core/system/team.h"
 #include "physics/pile/body.h"
 #include "physics/pile/index.h"
 #include "physics/pile/lane_rows.h"
 #include "physics/pile/lane_sweep.h"
-#include "physics/pile/lanes.h"
 #include "physics/pile/manifold.h"
 #include "physics/pile/row_list.h"
 #include "physics/pile/solver_body.h"

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <span>
 
+#include "core/math/lanes.h"
 #include "core/math/linear_algebra.h"
 #include "physics/pile/body.h"
 #include "physics/pile/index.h"
-#include "physics/pile/lanes.h"
 
 namespace careen {
 

@@ -1,7 +1,6 @@
 #include "physics/start/overlap.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -12,6 +11,7 @@
 #include "core/error.h"
 #include "core/names.h"
 #include "physics/geometry/separation.h"
+#include "physics/solver/displacement_solver.h"
 
 namespace careen {
 namespace {
@@ -70,15 +70,11 @@ std::vector<Vec3> positionsOf(std::span<const PlacedBox> boxes) {
   return positions;
 }
 
-// Convergence: rounding relative to the lengths of the gap.
-constexpr double kTight = 0x1p-48;
-// No room is detected by stagnating gaps: improvement of less than a thousandth in this many sweeps per box.
-// Towers take about 3 n² in all, those with a heavy top more.
-constexpr double kStalls = 0.999;
-constexpr std::size_t kSweepsPerBox = 100;
-constexpr std::size_t kMostPushes = 300'000'000;  // in total: a few seconds
+// Convergence [1] of the lengths of gaps.
+constexpr double kTight = 0x1p-46;
+constexpr std::size_t kMostPushes = 100'000'000;  // in total: a few seconds
 constexpr int kRounds = 200;
-// Largest mass ratio to the lightest box: the number of sweeps grows in proportion.
+// Largest mass ratio to the lightest box: the number of steps grows with its root.
 constexpr double kHeaviest = 64;
 
 // Constraint: n·(a − b) ≥ `least`.
@@ -87,9 +83,8 @@ struct Barrier {
   std::size_t b = 0;
   int choice = 0;  // rank of the axis among the pair's, by depth: 0 is the least
   Vec3 normal = Vec3::Zero();
-  double least = 0;       // [m]
-  double lengths = 0;     // [m] whose difference is the gap
-  double multiplier = 0;  // [kg m]
+  double least = 0;    // [m]
+  double lengths = 0;  // [m] whose difference is the gap
 };
 
 // Walls are indexed after the boxes: they lie at the origin, and cannot be moved.
@@ -122,11 +117,16 @@ class Parting {
         break;
       }
     }
-    const Barrier& worst = barriers_[deepest()];
-    const std::string other =
-        isBox(worst.b) ? "box " + boxes_[worst.b].name : "wall " + walls_[worst.b - boxes_.size()].name;
-    throw InputError("box " + boxes_[worst.a].name + " cannot be moved out of " + other +
-                     ": there is no room for it, " + brief(-gapOf(worst)) +
+    double work = 0;
+    const Barrier* hardest = &barriers_.front();
+    for (const Barrier& each : barriers_) {
+      work += std::max(0.0, -gapOf(each)) * forceOf(each);
+      hardest = forceOf(each) > forceOf(*hardest) ? &each : hardest;
+    }
+    const std::string other = isBox(hardest->b) ? "box " + boxes_[hardest->b].name
+                                                : "wall " + walls_[hardest->b - boxes_.size()].name;
+    throw InputError("box " + boxes_[hardest->a].name + " cannot be moved out of " + other +
+                     ": there is no room for it, " + brief(work / forceOf(*hardest)) +
                      " m are missing; expected boxes that have room to part");
   }
 
@@ -156,14 +156,9 @@ class Parting {
   double gapOf(const Barrier& barrier) const {
     return dot(barrier.normal, Vec3(now_[barrier.a] - now_[barrier.b])) - barrier.least;
   }
-  double easeOf(const Barrier& barrier) const { return ease_[barrier.a] + ease_[barrier.b]; }
-
-  // Order of names, walls after boxes.
-  bool before(const Barrier& x, const Barrier& y) const {
-    const auto key = [this](const Barrier& each) {
-      return std::array<std::size_t, 3>{isBox(each.b) ? 0U : 1U, rank_[each.a], rank_[each.b]};
-    };
-    return key(x) < key(y);
+  // [kg m] Of contradictory constraints: what pushes along each grows in proportion to this.
+  double forceOf(const Barrier& barrier) const {
+    return std::max(0.0, -gapOf(barrier)) / (ease_[barrier.a] + ease_[barrier.b]);
   }
 
   // Adds constraints for overlaps at the current positions; false if there are no new ones.
@@ -173,8 +168,9 @@ class Parting {
       addPairs();
     }
     addWalls();
-    std::sort(barriers_.begin(), barriers_.end(),
-              [this](const Barrier& x, const Barrier& y) { return before(x, y); });
+    std::sort(barriers_.begin(), barriers_.end(), [this](const Barrier& x, const Barrier& y) {
+      return std::pair(rank_[x.a], rank_[x.b]) < std::pair(rank_[y.a], rank_[y.b]);
+    });
     return barriers_.size() > known;
   }
 
@@ -182,9 +178,9 @@ class Parting {
     forBoundsThatMeet(boxes_, now_, apart_, [this](std::size_t i, std::size_t j) {
       const auto [a, b] = rank_[i] < rank_[j] ? std::pair(i, j) : std::pair(j, i);
       const double lengths = lengthsOf(boxes_[a], boxes_[b], now_[a], now_[b]);
-      if (!pairs_.contains({a, b}) &&
+      if (!known_.contains({a, b}) &&
           axesOf(boxes_[a], boxes_[b], now_[a] - now_[b]).gap() < -kGapAllowance * lengths) {
-        pairs_.insert({a, b});
+        known_.insert({a, b});
         barriers_.push_back({.a = a, .b = b, .lengths = lengths});
         choose(barriers_.back(), now_[a] - now_[b]);
       }
@@ -196,7 +192,7 @@ class Parting {
       const Pose pose{.position = now_[i], .worldFromBody = boxes_[i].pose.worldFromBody};
       for (std::size_t w = 0; w < walls_.size() && ease_[i] > 0; ++w) {
         const LowestGap lowest = lowestGap(walls_[w], {pose, boxes_[i].halfExtents});
-        if (lowest.overlaps() && behind_.insert({i, w}).second) {
+        if (lowest.overlaps() && known_.insert({i, boxes_.size() + w}).second) {
           const double centre = dot(walls_[w].normal, now_[i]);
           barriers_.push_back({.a = i,
                                .b = boxes_.size() + w,
@@ -232,59 +228,37 @@ class Parting {
     barrier.least = dot(barrier.normal, bToA) + way.depth;
   }
 
-  // Sweeps until every overlap is removed to rounding; false if that does not converge.
+  // The least displacement that removes every overlap; false if there is none.
   bool relax() {
-    const std::size_t sweeps = kSweepsPerBox * (boxes_.size() + 1);
-    double before = std::numeric_limits<double>::max();
-    while (pushes_ < kMostPushes) {
-      double worst = before;
-      for (std::size_t k = 0; k < sweeps && worst > kTight; ++k) {
-        worst = sweep();
-      }
-      if (worst <= kTight) {
-        return true;
-      }
-      if (worst > kStalls * before) {
-        break;
-      }
-      before = worst;
+    solver_.begin(start_.size(), 0);
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      solver_.setBody(static_cast<int>(i), {.inverseMass = ease_[i]});
+    }
+    double shortest = std::numeric_limits<double>::max();
+    for (const Barrier& each : barriers_) {
+      const double gap = dot(each.normal, Vec3(start_[each.a] - start_[each.b])) - each.least;
+      solver_.add({.a = static_cast<int>(each.a),
+                   .b = static_cast<int>(each.b),
+                   .normal = each.normal,
+                   .bound = -gap});
+      shortest = std::min(shortest, each.lengths);
+    }
+    const std::size_t most = (kMostPushes - pushes_) / barriers_.size();
+    const int steps = solver_.solveExactly(kTight * shortest, static_cast<int>(most));
+    pushes_ += static_cast<std::size_t>(steps) * barriers_.size();
+    for (std::size_t i = 0; i < start_.size(); ++i) {
+      now_[i] = start_[i] + solver_.displacement(static_cast<int>(i));
     }
     return std::all_of(barriers_.begin(), barriers_.end(),
                        [this](const Barrier& each) { return gapOf(each) >= -kGapAllowance * each.lengths; });
   }
 
-  // Largest correction of a constraint, relative to its lengths.
-  double sweep() {
-    double worst = 0;
-    for (Barrier& barrier : barriers_) {
-      const double before = barrier.multiplier;
-      barrier.multiplier = std::max(0.0, before - gapOf(barrier) / easeOf(barrier));
-      const double change = barrier.multiplier - before;
-      push(barrier, change);
-      worst = std::max(worst, std::fabs(change) * easeOf(barrier) / barrier.lengths);
-    }
-    pushes_ += barriers_.size();
-    return worst;
-  }
-
-  void push(const Barrier& barrier, double multiplier) {
-    now_[barrier.a] += (multiplier * ease_[barrier.a]) * barrier.normal;
-    now_[barrier.b] -= (multiplier * ease_[barrier.b]) * barrier.normal;
-  }
-
-  std::size_t deepest() const {
-    const auto least = std::min_element(
-        barriers_.begin(), barriers_.end(),
-        [this](const Barrier& x, const Barrier& y) { return gapOf(x) / x.lengths < gapOf(y) / y.lengths; });
-    return static_cast<std::size_t>(least - barriers_.begin());
-  }
-
-  // For contradictory constraints: next axis for the pair with the largest multiplier, then restart. False if
+  // For contradictory constraints: next axis for the pair that is pushed hardest, then restart. False if
   // there is no pair among them.
   bool turnToNextAxis() {
     Barrier* hardest = nullptr;
     for (Barrier& each : barriers_) {
-      if (isBox(each.b) && (hardest == nullptr || each.multiplier > hardest->multiplier)) {
+      if (isBox(each.b) && (hardest == nullptr || forceOf(each) > forceOf(*hardest))) {
         hardest = &each;
       }
     }
@@ -294,16 +268,14 @@ class Parting {
     ++hardest->choice;
     now_ = start_;
     choose(*hardest, now_[hardest->a] - now_[hardest->b]);
-    for (Barrier& each : barriers_) {
-      each.multiplier = 0;
-    }
     return true;
   }
 
   Parted result() const {
-    Parted parted{.positions = {now_.begin(), now_.begin() + std::ssize(boxes_)},
-                  .pairs = pairs_.size(),
-                  .behindWalls = behind_.size()};
+    Parted parted{.positions = {now_.begin(), now_.begin() + std::ssize(boxes_)}};
+    for (const Barrier& each : barriers_) {
+      ++(isBox(each.b) ? parted.pairs : parted.behindWalls);
+    }
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
       const double way = (now_[i] - start_[i]).norm();
       parted.moved += way > 0 ? 1U : 0U;
@@ -321,8 +293,8 @@ class Parting {
   std::vector<Vec3> now_;
   Indices rank_;  // of its name, walls after boxes
   std::vector<Barrier> barriers_;
-  std::set<std::pair<std::size_t, std::size_t>> pairs_;
-  std::set<std::pair<std::size_t, std::size_t>> behind_;
+  DisplacementSolver solver_;
+  std::set<std::pair<std::size_t, std::size_t>> known_;  // pairs that have one
   std::size_t pushes_ = 0;
 };
 

@@ -68,15 +68,10 @@ struct Parted {
 /// an axis leaves no room, as down into the floor, the pair's next best is tried.
 ///
 /// Along a fixed axis the gap of boxes that do not rotate is linear in their positions, so the least
-/// displacement is a quadratic programme, solved by C. Hildreth's method (1957), one multiplier at a time.
-/// Pairs are processed in order of the boxes' names, so the given order changes no bit. Those of `apart` may
-/// overlap.
+/// displacement is a quadratic programme: that of DisplacementSolver, whose rows may not give way. They are
+/// in order of the boxes' names, so the given order changes no bit. Pairs of `apart` may overlap.
 ///
-/// Not used: the pile's projection. Without rotation, 3000 of its passes leave 0.1 m under a top 1e4 times as
-/// heavy, and where the axis of least penetration has no room; and it cannot detect that there is no room at
-/// all.
-///
-/// InputError names a pair for which no room was found.
+/// InputError names a pair for which no room was found, and how much of it is missing.
 Parted moveApart(std::span<const PlacedBox> boxes, std::span<const Wall> walls,
                  Meeting meeting = Meeting::kAll, ApartPairs apart = {});
 

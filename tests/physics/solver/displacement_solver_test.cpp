@@ -1,4 +1,4 @@
-#include "physics/pile/displacement_solver.h"
+#include "physics/solver/displacement_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/system/team.h"
-#include "physics/pile/body.h"
+#include "physics/world/body.h"
 #include "support/pile_scenes.h"
 
 namespace careen {
@@ -19,23 +19,22 @@ namespace {
 
 constexpr int kNobody = DisplacementSolver::kNobody;
 
-PileBody boxOf(const Vec3& halfExtents, const Vec3& position, const Quat& attitude, double density) {
-  Body body;
-  body.halfExtents = halfExtents;
-  body.mass = solidBox(halfExtents, density);
-  body.initial.pose = {.position = position, .worldFromBody = attitude.toRotationMatrix()};
-  PileBody box = pileBody(body, body.initial);
-  box.center = nullptr;
-  return box;
+using Bodies = std::vector<DisplacementSolver::Body>;
+
+DisplacementSolver::Body boxOf(const Vec3& halfExtents, const Mat3& axes, double mass) {
+  const MassProperties box = solidBox(halfExtents, mass);
+  return {.inverseMass = box.inverseMass,
+          .inverseInertia = axes * box.inverseInertiaBody.asDiagonal() * axes.transpose()};
 }
 
-// Unit cubes side by side along x.
-std::vector<PileBody> rowOfCubes(int count) {
-  std::vector<PileBody> cubes;
-  for (int k = 0; k < count; ++k) {
-    cubes.push_back(boxOf(Vec3::Constant(0.5), Vec3(k, 0, 0), Quat::Identity(), 1));
+DisplacementSolver::Body cubeOf(double mass) { return boxOf(Vec3::Constant(0.5), Mat3::Identity(), mass); }
+
+void begin(DisplacementSolver& solver, const Bodies& bodies,
+           double compliance = DisplacementSolver::kCompliance) {
+  solver.begin(bodies.size(), compliance);
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    solver.setBody(static_cast<int>(k), bodies[k]);
   }
-  return cubes;
 }
 
 DisplacementSolver::Row between(int right, int left, double bound) {
@@ -55,9 +54,9 @@ double along(const DisplacementSolver& solver, int body) {
 // it one link further.
 TEST(DisplacementSolver, carriesThroughALongChain) {
   constexpr int kCount = 20;
-  const std::vector<PileBody> cubes = rowOfCubes(kCount);
+  const Bodies cubes(kCount, cubeOf(1));
   DisplacementSolver solver;
-  solver.begin(cubes);
+  begin(solver, cubes);
   for (int k = 1; k < kCount; ++k) {
     solver.add(between(k, k - 1, k == kCount / 2 ? 1e-3 : 0));
   }
@@ -76,13 +75,12 @@ TEST(DisplacementSolver, carriesThroughALongChain) {
 std::vector<Vec3> opened(int threads) {
   constexpr int kAcross = 16;
   constexpr int kCount = kAcross * kAcross;
-  std::vector<PileBody> cubes;
+  Bodies cubes;
   for (int k = 0; k < kCount; ++k) {
-    const Vec3 place(k % kAcross, 0, k / kAcross);
-    cubes.push_back(boxOf(Vec3::Constant(0.5), place, Quat::Identity(), 1 + k % 3));
+    cubes.push_back(cubeOf(1 + k % 3));
   }
   DisplacementSolver solver(std::make_shared<Team>(threads));
-  solver.begin(cubes);
+  begin(solver, cubes);
   for (int k = 0; k < kCount; ++k) {
     for (const auto& [other, there, axis] :
          {std::tuple(k - 1, k % kAcross > 0, 0), std::tuple(k - kAcross, k >= kAcross, 2)}) {
@@ -113,12 +111,45 @@ TEST(DisplacementSolver, numberOfThreadsChangesNoBit) {
   }
 }
 
+// A pair or more, and three cubes in a row, whose rows push each other: nothing is pushed too far for these.
+TEST(DisplacementSolver, stepsAreShortEnoughForFewRows) {
+  for (int pairs = 0; pairs < 20; ++pairs) {
+    DisplacementSolver solver;
+    begin(solver, Bodies(static_cast<std::size_t>(2 * pairs + 3), cubeOf(1)), 0);
+    for (int k = 0; k < pairs; ++k) {
+      solver.add(between(2 * k + 1, 2 * k, 1e-3));
+    }
+    solver.add(between(2 * pairs + 1, 2 * pairs, 1e-3));
+    solver.add(between(2 * pairs + 2, 2 * pairs + 1, 1e-3));
+    EXPECT_LT(solver.solveExactly(1e-15, 1000), 1000) << pairs;
+    for (int k = 0; k < 2 * pairs; ++k) {
+      EXPECT_NEAR(along(solver, k), k % 2 == 0 ? -0.5e-3 : 0.5e-3, 1e-14) << pairs;
+    }
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(along(solver, 2 * pairs + k), (k - 1) * 1e-3, 1e-14) << pairs;
+    }
+  }
+}
+
+// Two cubes in a space that is a millimetre too short. What is missing is shared so that Σ m e² is least, of
+// the effective masses 1, ½ and 1 kg: a quarter, a half and a quarter of it.
+TEST(DisplacementSolver, endsWhereRowsContradictEachOther) {
+  DisplacementSolver solver;
+  begin(solver, Bodies(2, cubeOf(1)), 0);
+  solver.add(between(0, kNobody, 0));
+  solver.add(between(1, 0, 1e-3));
+  solver.add(between(kNobody, 1, 0));
+  EXPECT_LT(solver.solveExactly(1e-15, 100'000), 1000);  // measured 599
+  EXPECT_NEAR(along(solver, 0), -0.25e-3, 1e-9);
+  EXPECT_NEAR(along(solver, 1), 0.25e-3, 1e-9);
+}
+
 // Ten cubes in a space that is a millimetre too short.
 TEST(DisplacementSolver, sharesWhatCannotBe) {
   constexpr int kCount = 10;
-  const std::vector<PileBody> cubes = rowOfCubes(kCount);
+  const Bodies cubes(kCount, cubeOf(1));
   DisplacementSolver solver;
-  solver.begin(cubes);
+  begin(solver, cubes);
   solver.add(between(0, kNobody, 0));
   for (int k = 1; k < kCount; ++k) {
     solver.add(between(k, k - 1, k == 3 ? 1e-3 : 0));
@@ -134,8 +165,7 @@ TEST(DisplacementSolver, sharesWhatCannotBe) {
 }
 
 // By trying all sets of rows that may push: of few rows.
-Eigen::VectorXd enumerated(const std::vector<PileBody>& boxes,
-                           const std::vector<DisplacementSolver::Row>& rows) {
+Eigen::VectorXd enumerated(const Bodies& boxes, const std::vector<DisplacementSolver::Row>& rows) {
   const auto count = static_cast<Eigen::Index>(rows.size());
   const auto size = static_cast<Eigen::Index>(6 * boxes.size());
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(count, size);
@@ -144,8 +174,7 @@ Eigen::VectorXd enumerated(const std::vector<PileBody>& boxes,
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const auto from = static_cast<Eigen::Index>(6 * i);
     inverse.block<3, 3>(from, from) = boxes[i].inverseMass * Mat3::Identity();
-    inverse.block<3, 3>(from + 3, from + 3) =
-        boxes[i].axes * boxes[i].inverseInertiaBody.asDiagonal() * boxes[i].axes.transpose();
+    inverse.block<3, 3>(from + 3, from + 3) = boxes[i].inverseInertia;
   }
   for (Eigen::Index k = 0; k < count; ++k) {
     const DisplacementSolver::Row& row = rows[static_cast<std::size_t>(k)];
@@ -182,17 +211,27 @@ Eigen::VectorXd enumerated(const std::vector<PileBody>& boxes,
   return {};
 }
 
+// [1] Of the largest.
+double offFrom(const Eigen::VectorXd& expected, const DisplacementSolver& solver) {
+  double off = 0;
+  for (int k = 0; k < 3; ++k) {
+    off = std::max({off, (solver.displacement(k) - expected.segment<3>(6 * k)).cwiseAbs().maxCoeff(),
+                    (solver.turn(k) - expected.segment<3>(6 * k + 3)).cwiseAbs().maxCoeff()});
+  }
+  return off > 0 ? off / expected.cwiseAbs().maxCoeff() : 0;
+}
+
 TEST(DisplacementSolver, findsWhatAnEnumerationOfSetsFinds) {
   test::Pourer pourer(11);
   double worst = 0;
+  double worstExact = 0;
   int compared = 0;
   for (int problem = 0; problem < 1000; ++problem) {
-    std::vector<PileBody> boxes;
+    Bodies boxes;
     for (int k = 0; k < 3; ++k) {
       const Vec3 halfExtents = pourer.vector(0.2, 0.6);
-      const Vec3 position = pourer.vector(-1, 1);
-      const Quat attitude = pourer.attitude();
-      boxes.push_back(boxOf(halfExtents, position, attitude, pourer.between(1, 5)));
+      const Mat3 axes = pourer.attitude().toRotationMatrix();
+      boxes.push_back(boxOf(halfExtents, axes, pourer.between(1, 5)));
     }
     std::vector<DisplacementSolver::Row> rows;
     for (int k = 0; k < 7; ++k) {
@@ -205,25 +244,22 @@ TEST(DisplacementSolver, findsWhatAnEnumerationOfSetsFinds) {
     }
     const Eigen::VectorXd expected = enumerated(boxes, rows);
     DisplacementSolver solver;
-    solver.begin(boxes);
+    begin(solver, boxes);
     for (const DisplacementSolver::Row& row : rows) {
       solver.add(row);
     }
-    solver.solve(0, 1000);
     ASSERT_EQ(expected.size(), 18) << problem;
-    const double largest = expected.cwiseAbs().maxCoeff();
-    for (int k = 0; k < 3 && largest > 0; ++k) {
-      const Vec3 shift = solver.moves(k) ? solver.displacement(k) : Vec3(Vec3::Zero());
-      const Vec3 turn = solver.moves(k) ? solver.turn(k) : Vec3(Vec3::Zero());
-      const double off = std::max((shift - expected.segment<3>(6 * k)).cwiseAbs().maxCoeff(),
-                                  (turn - expected.segment<3>(6 * k + 3)).cwiseAbs().maxCoeff());
-      worst = std::max(worst, off / largest);
-      ++compared;
-    }
+    solver.solve(0, 1000);
+    worst = std::max(worst, offFrom(expected, solver));
+    EXPECT_LT(solver.solveExactly(1e-15, 100'000), 100'000) << problem;
+    worstExact = std::max(worstExact, offFrom(expected, solver));
+    compared += expected.isZero(0) ? 0 : 1;
   }
-  EXPECT_GT(compared, 2000);
+  EXPECT_GT(compared, 900);
   RecordProperty("worst", std::to_string(worst));
-  EXPECT_LT(worst, 0.15);  // measured 0.113: of the largest, as the last tenths are not looked for
+  RecordProperty("worst exact", std::to_string(1e9 * worstExact) + "e-9");
+  EXPECT_LT(worst, 0.15);       // measured 0.113: of the largest, as the last tenths are not looked for
+  EXPECT_LT(worstExact, 1e-8);  // measured 7e-11
 }
 
 }  // namespace

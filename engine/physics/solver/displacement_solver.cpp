@@ -1,7 +1,8 @@
-#include "physics/pile/displacement_solver.h"
+#include "physics/solver/displacement_solver.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace careen {
@@ -11,33 +12,25 @@ namespace {
 constexpr double kLittle = 0.003;
 /// [1] of 1/(largest eigenvalue): length of steps along the gradient.
 constexpr double kGradientStep = 0.9;
+// Rows contradict each other if so many steps for each body do not bring what is off below [1] of what it
+// was.
+constexpr double kStalls = 0.999;
+constexpr int kPatience = 100;
 constexpr int kPowerSteps = 12;
-constexpr int kNothing = 0;  // in own_
 constexpr std::size_t kBlocksPerRange = 32;
 
 }  // namespace
 
-void DisplacementSolver::begin(std::span<const PileBody> bodies, double compliance) {
-  bodies_ = bodies;
+void DisplacementSolver::begin(std::size_t bodies, double compliance) {
   compliance_ = compliance;
-  members_.assign(bodies.size(), kNothing);
+  members_.assign(bodies, kNothing);
   own_.assign(1, {});
-  moves_.assign(1, {});
   blocks_.clear();
 }
 
-int DisplacementSolver::memberOf(int body) {
-  if (body == kNobody || bodies_[at(body)].still()) {
-    return kNothing;
-  }
-  if (members_[at(body)] == kNothing) {
-    members_[at(body)] = static_cast<int>(own_.size());
-    const Mat3 axes = bodies_[at(body)].principalAxes();
-    own_.push_back(
-        {.inverseMass = bodies_[at(body)].inverseMass,
-         .inverseInertia = axes * bodies_[at(body)].inverseInertiaBody.asDiagonal() * axes.transpose()});
-  }
-  return members_[at(body)];
+void DisplacementSolver::setBody(int index, const Body& body) {
+  members_[at(index)] = static_cast<int>(own_.size());
+  own_.push_back(body);
 }
 
 void DisplacementSolver::add(const Row& row) {
@@ -130,7 +123,6 @@ CAREEN_LANES void DisplacementSolver::move(const Ahead& ahead) {
     block.ahead = ahead(block);
     findPush(block);
   });
-  moves_.resize(own_.size());
   team_->share(own_.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = std::max<std::size_t>(first, 1); i < last; ++i) {
       moves_[i] = moved(i);
@@ -161,20 +153,22 @@ CAREEN_LANES DisplacementSolver::Sums DisplacementSolver::findResults(const Take
   Sums all;
   for (const Sums& sums : sums_) {
     all.lacking = largerOf(all.lacking, sums.lacking);
+    all.off = largerOf(all.off, sums.off);
     all.back += sums.back;
     all.squares += sums.squares;
   }
   return all;
 }
 
-// By powers: a little too small.
+// By powers: a little too small. The numbers it begins with differ in size, as signs alone may be at right
+// angles to what grows fastest among a few rows.
 double DisplacementSolver::largestEigenvalue() {
   std::minstd_rand random;
   double size = 0;
   for (Block& block : blocks_) {
     for (int lane = 0; lane < block.rows; ++lane) {
-      block.next[lane] = random() % 2 == 0 ? 1 : -1;
-      ++size;
+      block.next[lane] = static_cast<double>(random()) / std::minstd_rand::max() - 0.5;
+      size += block.next[lane] * block.next[lane];
     }
   }
   for (int step = 0; step < kPowerSteps; ++step) {
@@ -190,7 +184,9 @@ double DisplacementSolver::largestEigenvalue() {
   return std::sqrt(size);
 }
 
-int DisplacementSolver::solve(double enough, int most) {
+template <class Done>
+int DisplacementSolver::descend(int most, const Done& done) {
+  moves_.assign(own_.size(), {});
   if (blocks_.empty()) {
     return 0;
   }
@@ -199,7 +195,6 @@ int DisplacementSolver::solve(double enough, int most) {
   for (Block& block : blocks_) {
     block.next = block.impulse = Lanes{};
   }
-  double first = 0;
   double inertia = 1;
   double onward = 0;
   int taken = 0;
@@ -214,12 +209,11 @@ int DisplacementSolver::solve(double enough, int most) {
           block.next = largerOf(Lanes{}, block.ahead - length * gradient);
           const Lanes step = block.next - block.ahead;
           sum.lacking = largerOf(sum.lacking, -gradient * block.perScale);
+          sum.off = largerOf(sum.off, absOf(step) * block.perScale / length);
           sum.back += gradient * (block.next - block.impulse);
           sum.squares += step * step;
         });
-    const double far = std::sqrt(sumOf(sums.squares));
-    first = taken == 0 ? far : first;
-    if (largestOf(sums.lacking) <= enough || far < kLittle * first) {
+    if (done(sums)) {
       break;
     }
     const double before = inertia;
@@ -227,6 +221,27 @@ int DisplacementSolver::solve(double enough, int most) {
     onward = inertia > 1 ? (before - 1) / inertia : 0;
   }
   return taken;
+}
+
+int DisplacementSolver::solve(double enough, int most) {
+  double first = 0;
+  return descend(most, [&](const Sums& sums) {
+    const double far = std::sqrt(sumOf(sums.squares));
+    first = first == 0 ? far : first;
+    return largestOf(sums.lacking) <= enough || far < kLittle * first;
+  });
+}
+
+int DisplacementSolver::solveExactly(double enough, int most) {
+  const int patience = kPatience * static_cast<int>(own_.size());
+  double before = std::numeric_limits<double>::max();
+  double least = before;
+  int taken = 0;
+  return descend(most, [&](const Sums& sums) {
+    least = std::min(least, largestOf(sums.off));
+    const bool stalls = ++taken % patience == 0 && least > kStalls * std::exchange(before, least);
+    return stalls || least <= enough;
+  });
 }
 
 }  // namespace careen

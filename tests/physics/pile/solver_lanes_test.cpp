@@ -1,4 +1,4 @@
-#include "physics/pile/lanes.h"
+#include "physics/pile/solver.h"
 
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ std::vector<double> solved(Registers registers) {
   return found;
 }
 
-TEST(Lanes, widthOfRegistersChangesNoBit) {
+TEST(PileSolver, widthOfRegistersChangesNoBit) {
   if (widestRegisters() == Registers::kNarrow) {
     GTEST_SKIP() << "this machine has no wide registers";
   }
@@ -83,7 +83,7 @@ TEST(Lanes, widthOfRegistersChangesNoBit) {
 }
 
 // What Gauss–Seidel converges to: no row closes faster than its bound, and impulses lie in their cones.
-TEST(Lanes, solveTheirRows) {
+TEST(PileSolver, solveTheirRows) {
   constexpr int kBodies = 4;
   PileSolver solver;
   solver.begin(kBodies);

@@ -2,14 +2,12 @@
 
 #include <cstddef>
 #include <memory>
-#include <span>
 #include <utility>
 #include <vector>
 
+#include "core/math/lanes.h"
 #include "core/math/linear_algebra.h"
 #include "core/system/team.h"
-#include "physics/pile/body.h"
-#include "physics/pile/lanes.h"
 
 namespace careen {
 
@@ -34,11 +32,18 @@ class DisplacementSolver {
   explicit DisplacementSolver(std::shared_ptr<Team> team = std::make_shared<Team>(1))
       : team_(std::move(team)) {}
 
-  /// Of these, which must outlive it, until the next begin(); with that c.
-  void begin(std::span<const PileBody> bodies, double compliance = kCompliance);
+  /// For that many bodies, with that c.
+  void begin(std::size_t bodies, double compliance = kCompliance);
+
+  struct Body {
+    double inverseMass = 0;              ///< [1/kg]
+    Mat3 inverseInertia = Mat3::Zero();  ///< [1/(kg m²)] world; zero: it does not turn
+  };
+  /// Before the rows; one that is not set does not move.
+  void setBody(int index, const Body& body);
 
   /// A row n·δ ≥ bound [m] at the point with that arm [m] from the centre of body a, relative to the point
-  /// with that of b. A body that is kNobody, or still, does not move.
+  /// with that of b; kNobody does not move.
   static constexpr int kNobody = -1;
   struct Row {
     int a = kNobody;
@@ -52,16 +57,16 @@ class DisplacementSolver {
 
   /// Until no row lacks more than `enough` [m], or more steps gain little; at most so many. Returns how many.
   int solve(double enough, int most);
+  /// Or until every row is off by no more than `enough` [m], as it lacks that, or pushes with that more than
+  /// its bound: to rounding. Ends, too, where that comes no nearer: rows contradict each other, and without c
+  /// their impulses grow in proportion to what they lack times their effective mass.
+  int solveExactly(double enough, int most);
 
   bool moves(int body) const { return !moveOf(body).shift.isZero(0) || !moveOf(body).turn.isZero(0); }
   const Vec3& displacement(int body) const { return moveOf(body).shift; }  ///< [m]
   const Vec3& turn(int body) const { return moveOf(body).turn; }           ///< [rad]
 
  private:
-  struct Member {
-    double inverseMass = 0;
-    Mat3 inverseInertia = Mat3::Zero();  // world
-  };
   struct Move {
     Vec3 shift = Vec3::Zero();
     Vec3 turn = Vec3::Zero();
@@ -83,12 +88,13 @@ class DisplacementSolver {
     int rows = 0;
   };
   struct Sums {  // over some of the blocks
-    Lanes lacking{}, back{}, squares{};
+    Lanes lacking{}, off{}, back{}, squares{};
   };
   static constexpr std::size_t kMostRanges = 16;
+  static constexpr int kNothing = 0;  // in own_
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const Move& moveOf(int body) const { return moves_[at(members_[at(body)])]; }
-  int memberOf(int body);
+  int memberOf(int body) const { return body == kNobody ? kNothing : members_[at(body)]; }
   void listBlocksOfMembers();
   template <class Work>
   void forBlocks(const Work& work);
@@ -100,12 +106,13 @@ class DisplacementSolver {
   void findPush(Block& block) const;
   Move moved(std::size_t member) const;
   double largestEigenvalue();
+  template <class Done>
+  int descend(int most, const Done& done);
 
   std::shared_ptr<Team> team_;
-  std::span<const PileBody> bodies_;
   double compliance_ = kCompliance;
-  std::vector<int> members_;  // by body: in own_; 0 for those that do not move
-  std::vector<Member> own_;   // after the first
+  std::vector<int> members_;  // by body: in own_; kNothing for those that do not move
+  std::vector<Body> own_;     // after the first
   std::vector<Block> blocks_;
   std::vector<std::size_t> firstOf_;   // by member: in blocksOf_
   std::vector<std::size_t> blocksOf_;  // 2 · block, and 1 where the member is b
