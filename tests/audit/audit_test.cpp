@@ -222,8 +222,8 @@ TEST(Audit, findsBoxesThatPassThroughEachOther) {
 TEST(Audit, boxesThatMayPassThroughEachOtherDoNotOverlap) {
   Trajectory run = runOf(kThree);
   run.impacts.clear();
-  run.tracks[0].segments.resize(1);
-  run.tracks[1].segments.resize(1);
+  run.tracks[0].segments.open().resize(1);
+  run.tracks[1].segments.open().resize(1);
   run.world.apart = {{0, 1}};
   EXPECT_EQ(textOf(audit(run, AuditDepth::kFull), run), "");
 }

@@ -15,7 +15,7 @@ constexpr double kGradientStep = 0.9;
 // Rows contradict each other if so many steps for each body do not bring what is off below [1] of what it
 // was.
 constexpr double kStalls = 0.999;
-constexpr int kPatience = 100;
+constexpr int kPatienceOfGradients = 100;
 constexpr int kPowerSteps = 12;
 constexpr std::size_t kBlocksPerRange = 32;
 
@@ -233,7 +233,7 @@ int DisplacementSolver::solve(double enough, int most) {
 }
 
 int DisplacementSolver::solveExactly(double enough, int most) {
-  const int patience = kPatience * static_cast<int>(own_.size());
+  const int patience = kPatienceOfGradients * static_cast<int>(own_.size());
   double before = std::numeric_limits<double>::max();
   double least = before;
   int taken = 0;
