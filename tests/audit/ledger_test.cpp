@@ -127,7 +127,7 @@ TEST(Ledger, jointsToTheWorldGiveMomentumButNoEnergy) {
   run.world.bodies[0].initial.angularMomentum.setZero();
   Flight held;
   held.position = Vec3(1e3, 0, 0);
-  run.tracks[0].segments[0].motion = held;
+  run.tracks[0].segments.open()[0].motion = held;
   EXPECT_GT(balanced(run).largest(AuditKind::kLinearMomentum).size, 1);
   run.world.joints = {{.name = "pin", .kind = Joint::Kind::kBall, .from = {.body = 0}, .to = {}}};
   EXPECT_EQ(balanced(run).largest(AuditKind::kLinearMomentum).size, 0);
