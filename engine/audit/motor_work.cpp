@@ -26,13 +26,23 @@ double MotorWork::coordinateAt(const Joint& joint, double time) const {
   return jointCoordinate(joint, poseOf(joint.from), poseOf(joint.to));
 }
 
-double MotorWork::move(Motor& motor, double time) const {
+double MotorWork::moveTo(Motor& motor, double time) const {
   constexpr double kTurn = 2 * 3.141592653589793;
   const double coordinate = coordinateAt(*motor.joint, time);
   double way = coordinate - motor.coordinate;
   way -= motor.joint->kind == Joint::Kind::kHinge ? kTurn * std::rint(way / kTurn) : 0;
   motor.coordinate = coordinate;
+  motor.since = time;
   return motor.effort * way;
+}
+
+double MotorWork::move(Motor& motor, double time) const {
+  const Segments& segments = run_.tracks[static_cast<std::size_t>(*motor.joint->from.body)].segments;
+  double work = 0;
+  for (std::size_t k = segments.countUntil(motor.since); k < segments.countUntil(time); ++k) {
+    work += moveTo(motor, segments[k].start);
+  }
+  return work + moveTo(motor, time);
 }
 
 double MotorWork::until(double time) {

@@ -14,8 +14,8 @@ class MotorWork {
  public:
   MotorWork(const Trajectory& run, std::span<const std::size_t> joints);
 
-  /// [J] Since it was last asked, or the start. Times [s] may not decrease, and no hinge may turn by half a
-  /// turn between two of them.
+  /// [J] Since it was last asked, or the start. Times [s] may not decrease. A hinge is looked at where its
+  /// bodies' segments begin, too: in none of these it turns by half a turn.
   double until(double time);
 
  private:
@@ -23,8 +23,10 @@ class MotorWork {
     const Joint* joint = nullptr;
     double effort = 0;      // [N m] or [N]
     double coordinate = 0;  // where it was last looked at
+    double since = 0;       // [s] when
   };
   double coordinateAt(const Joint& joint, double time) const;
+  double moveTo(Motor& motor, double time) const;
   double move(Motor& motor, double time) const;
 
   const Trajectory& run_;

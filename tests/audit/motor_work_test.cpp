@@ -27,5 +27,29 @@ TEST(MotorWork, isEffortTimesWay) {
   EXPECT_NEAR(MotorWork(run, {}).until(2), 0, 0);
 }
 
+// A wheel that turns by 2.5 rad in each of its four segments, under 2 N m: work of all ten radians.
+TEST(MotorWork, countsTurnsByTheSegments) {
+  Trajectory run;
+  run.settings.duration = 4;
+  run.world.bodies = {box("wheel", Vec3::Constant(0.1), 1, Vec3::Zero())};
+  test::join(run.world, Joint::Kind::kHinge, 0, {}, Vec3::Zero());
+  for (int k = 0; k < 4; ++k) {
+    SampledStep step{.duration = 1, .start = {}, .end = {}};
+    const auto turned = [](double angle) {
+      BodyState state;
+      state.pose.worldFromBody = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+      state.angularMomentum = Vec3(0, 0, 2.5 / 150);  // I = 1/150 kg m²
+      return state;
+    };
+    step.start = turned(2.5 * k);
+    step.end = turned(2.5 * (k + 1));
+    run.tracks.resize(1);
+    run.tracks[0].segments.add({.start = static_cast<double>(k), .motion = step});
+  }
+  run.jointEfforts = {{.time = 0, .joint = 0, .effort = 2}};
+  const std::array<std::size_t, 1> joints{0};
+  EXPECT_NEAR(MotorWork(run, joints).until(4), 20, 1e-9);
+}
+
 }  // namespace
 }  // namespace careen
