@@ -27,10 +27,8 @@ double MotorWork::coordinateAt(const Joint& joint, double time) const {
 }
 
 double MotorWork::moveTo(Motor& motor, double time) const {
-  constexpr double kTurn = 2 * 3.141592653589793;
-  const double coordinate = coordinateAt(*motor.joint, time);
-  double way = coordinate - motor.coordinate;
-  way -= motor.joint->kind == Joint::Kind::kHinge ? kTurn * std::rint(way / kTurn) : 0;
+  const double coordinate = inNearestTurn(*motor.joint, coordinateAt(*motor.joint, time), motor.coordinate);
+  const double way = coordinate - motor.coordinate;
   motor.coordinate = coordinate;
   motor.since = time;
   return motor.effort * way;

@@ -98,8 +98,18 @@ void checkTrack(const Track& track, const std::string& name, const RunSettings& 
   }
 }
 
-void checkImpacts(const Trajectory& run) {
+template <class Event>
+void checkTimes(const Trajectory& run, const std::vector<Event>& events, const std::string& owner) {
   double before = 0;
+  for (const Event& event : events) {
+    require(event.time >= before && event.time <= run.settings.duration,
+            "a time out of order or beyond the run's end", owner);
+    before = event.time;
+  }
+}
+
+void checkImpacts(const Trajectory& run) {
+  checkTimes(run, run.impacts, "an impact");
   for (const Impact& impact : run.impacts) {
     const bool known = isWithin(impact.a.value, run.world.bodies.size()) &&
                        (impact.b.isWall() ? impact.b.wall() < run.world.walls.size()
@@ -107,35 +117,26 @@ void checkImpacts(const Trajectory& run) {
     if (!known) {
       fail("names an unknown body or wall");
     }
-    require(impact.time >= before && impact.time <= run.settings.duration,
-            "a time out of order or beyond the run's end", "an impact");
     require(impact.point.allFinite() && isUnit(impact.normal.norm()) && std::isfinite(impact.approach) &&
                 std::isfinite(impact.impulse) && std::isfinite(impact.tangential),
             "invalid numbers", "an impact");
-    before = impact.time;
   }
 }
 
 void checkJointImpulses(const Trajectory& run) {
-  double before = 0;
+  checkTimes(run, run.jointImpulses, "an impulse");
   for (const JointImpulse& impulse : run.jointImpulses) {
     require(isWithin(impulse.joint, run.world.joints.size()), "an unknown joint", "an impulse");
-    require(impulse.time >= before && impulse.time <= run.settings.duration,
-            "a time out of order or beyond the run's end", "an impulse");
     require(impulse.point.allFinite() && impulse.linear.allFinite() && impulse.angular.allFinite(),
             "invalid numbers", "an impulse");
-    before = impulse.time;
   }
 }
 
 void checkJointEfforts(const Trajectory& run) {
-  double before = 0;
+  checkTimes(run, run.jointEfforts, "an effort");
   for (const JointEffort& effort : run.jointEfforts) {
     require(isWithin(effort.joint, run.world.joints.size()), "an unknown joint", "an effort");
-    require(effort.time >= before && effort.time <= run.settings.duration,
-            "a time out of order or beyond the run's end", "an effort");
     require(std::isfinite(effort.effort), "invalid numbers", "an effort");
-    before = effort.time;
   }
 }
 

@@ -91,7 +91,7 @@ struct ContactState {
   /// arms. Gap and rate are then the sizes of its own, if it holds.
   std::shared_ptr<const ConstraintRows> rows = {};
 
-  /// The rows of a and of b, in that frame of the normal; [m/s] the rates of the three coordinates.
+  /// The rows of a and of b; of a contact, in that frame of its normal.
   RowSide sideA(const ContactFrame& frame) const { return rows ? rows->a : pointSide(frame.axes(), armA, 1); }
   RowSide sideB(const ContactFrame& frame) const {
     return rows ? rows->b : pointSide(frame.axes(), armB, -1);

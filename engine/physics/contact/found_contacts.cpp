@@ -13,6 +13,19 @@ constexpr double kOpens = 0x1p-4;
 
 }  // namespace
 
+ImpactContact impactContactOf(const ContactFeature& feature, const ContactState& state, int joint) {
+  return {.a = feature.a,
+          .b = feature.b,
+          .armA = state.armA,
+          .armB = state.armB,
+          .normal = state.normal,
+          .material = feature.material,
+          .directions = state.directions,
+          .rows = state.rows,
+          .holds = feature.holds(),
+          .joint = joint};
+}
+
 void FoundContacts::addCorners(std::size_t body, const Pose& pose) {
   const auto isNear = [&](const Wall& wall) {
     return gapToPlane(boxAt(pose, group_.body(body)), wall.normal, wall.offset) <= closed_;
@@ -125,17 +138,8 @@ int FoundContacts::indexOf(const ContactFeature& feature) const {
 
 ImpactContact FoundContacts::impactAt(std::size_t contact) const {
   const ContactFeature& feature = features_[contact];
-  const ContactState& state = states_[contact];
-  return {.a = feature.a,
-          .b = feature.b,
-          .armA = state.armA,
-          .armB = state.armB,
-          .normal = state.normal,
-          .material = feature.material,
-          .directions = state.directions,
-          .rows = state.rows,
-          .holds = feature.holds(),
-          .joint = feature.isOfJoint() ? indexOf(feature) : ImpactContact::kNoJoint};
+  return impactContactOf(feature, states_[contact],
+                         feature.isOfJoint() ? indexOf(feature) : ImpactContact::kNoJoint);
 }
 
 }  // namespace careen

@@ -10,6 +10,9 @@
 
 namespace careen {
 
+/// In an impact: the feature's, at that state; of a joint's condition, with its index as the caller counts.
+ImpactContact impactContactOf(const ContactFeature& feature, const ContactState& state, int joint);
+
 /// The contacts of a group of bodies with each other: found at one state, then followed to others.
 class FoundContacts {
  public:

@@ -76,15 +76,16 @@ KeptEnergy::Energy KeptEnergy::energyOf(std::span<const double> y) const {
       add(0.5 * joint->stiffness * extension * extension);
     }
   }
-  if (isFree()) {
+  const bool isInFlight = isFree();
+  if (isInFlight) {
     energy.rigid = momentumOf(members);
     energy.turning = energy.rigid.inertia.inverse() * energy.rigid.spin;
   }
   for (const GroupMember& member : members) {
     const Vec3 velocity =
         member.state.velocity - energy.rigid.velocity -
-        (isFree() ? Vec3(energy.turning.cross(member.state.pose.position - energy.rigid.center))
-                  : Vec3(Vec3::Zero()));
+        (isInFlight ? Vec3(energy.turning.cross(member.state.pose.position - energy.rigid.center))
+                    : Vec3(Vec3::Zero()));
     const Vec3 spin = angularVelocity(*member.mass, member.state) - energy.turning;
     energy.relative +=
         0.5 * (member.mass->mass * velocity.squaredNorm() +

@@ -9,7 +9,6 @@ namespace careen {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kTurn = 2 * 3.141592653589793;
 
 }  // namespace
 
@@ -79,11 +78,8 @@ void ControlledWorld::sample(double time, std::span<const BodyState> states, Rec
       continue;
     }
     const JointMotion motion = jointMotionOf(joint, world_, states);
-    double coordinate = motion.coordinate;
-    if (joint.kind == Joint::Kind::kHinge) {
-      coordinate += kTurn * std::rint((samples_[j].coordinate - coordinate) / kTurn);
-    }
-    samples_[j] = {.coordinate = coordinate, .rate = motion.rate};
+    samples_[j] = {.coordinate = inNearestTurn(joint, motion.coordinate, samples_[j].coordinate),
+                   .rate = motion.rate};
   }
   std::vector<double> efforts = motorEfforts(*world_.control, time, samples_);
   if (world_.control->callback) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "physics/contact/found_contacts.h"
 #include "physics/contact/implicit_step.h"
 #include "physics/contact/island.h"
 #include "physics/geometry/chosen_contact.h"
@@ -71,15 +72,7 @@ std::vector<ImpactContact> closedJoints(const Encounter& encounter) {
     const TouchingBody b = encounter.bodies[static_cast<std::size_t>(joint.b)].touching();
     const ContactState state = contactState(joint, a.kinematics(), a.shape(), b.kinematics(), b.shape());
     if (joint.holds() || state.gap <= Island::kTouching * touchingWithin(first.box())) {
-      closed.push_back({.a = joint.a,
-                        .b = joint.b,
-                        .armA = state.armA,
-                        .armB = state.armB,
-                        .normal = state.normal,
-                        .material = joint.material,
-                        .rows = state.rows,
-                        .holds = joint.holds(),
-                        .joint = static_cast<int>(k)});
+      closed.push_back(impactContactOf(joint, state, static_cast<int>(k)));
     }
   }
   return closed;

@@ -185,14 +185,12 @@ void IslandGroup::noteMotors() {
 // No hinge turns by half a turn in a step.
 template <class PoseOf>
 void IslandGroup::accountForWork(const PoseOf& poseOf) {
-  constexpr double kTurn = 2 * 3.141592653589793;
   for (const Driven& driven : driven_) {
     const Joint& joint = *driven.of->joint;
-    double way = jointCoordinate(joint, poseOf(static_cast<std::size_t>(driven.of->a)),
-                                 poseOf(static_cast<std::size_t>(driven.of->b))) -
-                 driven.coordinate;
-    way -= joint.kind == Joint::Kind::kHinge ? kTurn * std::rint(way / kTurn) : 0;
-    bodies_.account().gives(driven.effort * way);
+    const double now = jointCoordinate(joint, poseOf(static_cast<std::size_t>(driven.of->a)),
+                                       poseOf(static_cast<std::size_t>(driven.of->b)));
+    bodies_.account().gives(driven.effort *
+                            (inNearestTurn(joint, now, driven.coordinate) - driven.coordinate));
   }
   driven_.clear();
 }

@@ -68,4 +68,7 @@ inline constexpr std::array<std::string_view, 6> kJointKindNames = {"ball",  "hi
 /// slider. Poses of both bodies.
 double jointCoordinate(const Joint& joint, const Pose& from, const Pose& to);
 
+/// A coordinate in that turn of a hinge in which it is the nearest to another one; of a slider as it is.
+double inNearestTurn(const Joint& joint, double coordinate, double other);
+
 }  // namespace careen
