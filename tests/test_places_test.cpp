@@ -89,6 +89,7 @@ const std::map<std::string, std::string> kWithoutTest = {
      "what resolveImpact does once it knows who takes part: impact_law"},
     {"physics/impact/single_impact", "tested through impact_law"},
     {"physics/motion/recorder", "data and an interface"},
+    {"physics/pile/crowd_problem", "tested through crowd_direct and crowd_articulations"},
     {"physics/pile/index", "one cast"},
     {"physics/search/time_of_impact_boxes",
      "the half of time_of_impact.h for two boxes, tested through time_of_impact"},

@@ -17,6 +17,9 @@ namespace {
 constexpr double kUlps = 1024 * std::numeric_limits<double>::epsilon();
 // A group that hardly moves is compared with this part of what falling by its own size would give it.
 constexpr double kStill = 1.0 / 64;
+// A group that moves without turning is compared with this part of its momentum times its size; a crowd with
+// kStill, as its places are only right to its tolerance.
+constexpr double kOfMotion = 0x1p-20;
 // A group whose members' angular momenta cancel is compared with this part of theirs.
 constexpr double kOfMembers = 1.0 / 8;
 constexpr double kOfSpeed = 24.0 / 7;  // see spinWithinSteps
@@ -326,7 +329,8 @@ void Books::balanceAngularMomentum(double time, const Holdings& now, const Exter
   due_.angularMomentum = now.angularMomentum - excess;
   // Estimated velocities are as wrong as each of them is large.
   const bool isEstimated = run_.given && !(run_.given->velocities && run_.given->angularVelocities);
-  const double scale = std::max(largest_.spin, (isEstimated ? 1 : kOfMembers) * largest_.angularScale);
+  const double scale = std::max({largest_.spin, (isEstimated ? 1 : kOfMembers) * largest_.angularScale,
+                                 (isCrowd(time) ? kStill : kOfMotion) * largest_.momentumScale * reach_});
   report(AuditKind::kAngularMomentum, time, lasting(angularMomentum_, time, excess.norm()), scale,
          kUlps * (largest_.angularScale + largest_.turned + largest_.far * largest_.momentumScale) +
              spinWithinSteps(time));

@@ -4,16 +4,17 @@
 #include <memory>
 
 #include "physics/pile/crowd_apart.h"
+#include "physics/pile/crowd_articulations.h"
 #include "physics/pile/crowd_bounce.h"
 #include "physics/pile/crowd_contacts.h"
 #include "physics/pile/crowd_depth.h"
 #include "physics/pile/crowd_impulses.h"
-#include "physics/pile/crowd_joints.h"
 #include "physics/pile/crowd_loads.h"
 #include "physics/pile/crowd_members.h"
 #include "physics/pile/crowd_memory.h"
 #include "physics/pile/crowd_motion.h"
 #include "physics/pile/crowd_path.h"
+#include "physics/pile/crowd_seams.h"
 #include "physics/pile/crowd_sleep.h"
 
 namespace careen::test {
@@ -27,13 +28,14 @@ struct CrowdStages {
       : members(world, CrowdMembers::kUsualTolerance, std::make_shared<Team>(1)),
         loads(members, memory),
         contacts(members),
-        impulses(members, loads, contacts, memory),
-        bounces(members, loads, contacts, memory),
+        articulations(members),
+        impulses(members, loads, contacts, articulations, memory),
+        bounces(members, loads, contacts, articulations, memory),
         depth(members, contacts),
-        apart(members, contacts, depth, memory),
-        sleep(members, loads, contacts, memory),
+        apart(members, contacts, articulations, depth, memory),
+        sleep(members, loads, contacts, articulations, memory),
         path(members, loads, contacts),
-        joints(members, contacts, memory) {
+        seams(members, contacts, memory) {
     memory.length = members.h;
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
       members.add(pileBody(world.bodies[i], world.bodies[i].initial), i);
@@ -67,13 +69,14 @@ struct CrowdStages {
   CrowdMemory memory;
   CrowdLoads loads;
   CrowdContacts contacts;
+  CrowdArticulations articulations;
   CrowdImpulses impulses;
   CrowdBounces bounces;
   CrowdDepth depth;
   CrowdApart apart;
   CrowdSleep sleep;
   CrowdPath path;
-  CrowdJoints joints;
+  CrowdSeams seams;
 };
 
 }  // namespace careen::test

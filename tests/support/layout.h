@@ -42,7 +42,7 @@ inline const std::map<std::string, Rooms> kRooms = {
       {"impact", {"geometry", "solver", "world"}},
       {"solver", {"world"}},
       {"contact", {"geometry", "impact", "motion", "solver", "world"}},
-      {"pile", {"attitude", "geometry", "motion", "solver", "world"}},
+      {"pile", {"attitude", "contact", "geometry", "motion", "solver", "world"}},
       {"exact", {"attitude", "contact", "geometry", "impact", "motion", "pile", "search", "world"}},
       {"compared", {"attitude", "geometry", "impact", "motion", "world"}},
       {"", {"exact", "compared", "attitude", "motion", "world"}}}},

@@ -14,7 +14,9 @@ constexpr double kDeeper = 0x1p-4;
 constexpr double kLower = 0x1p-6;
 constexpr int kMostSearches = 12;
 
-/// Where a function with one minimum between two times is lowest, to 1/300 of the way: golden sections.
+}  // namespace
+
+// By golden sections.
 double lowestBetween(double from, double to, const GapAt& valueAt) {
   constexpr double kGolden = 0.6180339887498949;
   double left = to - kGolden * (to - from);
@@ -38,8 +40,6 @@ double lowestBetween(double from, double to, const GapAt& valueAt) {
   }
   return ofLeft < ofRight ? left : right;
 }
-
-}  // namespace
 
 double lowestOfCubic(double h, double valueFrom, double rateFrom, double valueTo, double rateTo) {
   const double from = h * rateFrom;

@@ -90,6 +90,15 @@ void EventFunctions::noteStart() {
   }
 }
 
+const ContactFeature* EventFunctions::endOf(const EventFunction& event) const {
+  if (event.kind == EventFunction::Kind::kOpenEnd) {
+    return &system_.openEnds()[event.contact];
+  }
+  const bool isOfEnd =
+      event.kind == EventFunction::Kind::kGap && system_.features()[event.contact].isOfJoint();
+  return isOfEnd ? &system_.features()[event.contact] : nullptr;
+}
+
 // The first body of it.
 std::size_t EventFunctions::bodyOf(const EventFunction& event) const {
   if (event.kind == EventFunction::Kind::kOpenEnd) {

@@ -57,6 +57,8 @@ class EventFunctions {
   double depth(std::span<const std::size_t> events) const;
   /// [m/s] Of the gap of a corner or an open end.
   double rateOf(const EventFunction& event) const;
+  /// The end of a joint that closes in it; null: it is another event.
+  const ContactFeature* endOf(const EventFunction& event) const;
   /// At the start of the step some contact force is tensile, and its friction would drive the slip: the modes
   /// found are inconsistent.
   bool hasTension() const;

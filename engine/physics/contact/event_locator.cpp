@@ -101,10 +101,35 @@ double EventLocator::lowestWithin(std::size_t event, double atEnd) {
   if (atEnd >= 0 && function.kind == EventFunction::Kind::kOverlap) {
     return dipOf(event);
   }
+  const ContactFeature* const end = events_.endOf(function);
+  if (end != nullptr) {
+    return atEnd >= 0 && function.start >= 0 && system_.stateOf(*end).rate > 0
+               ? lowestOfEnd(*end, atEnd - system_.stateOf(*end).gap)
+               : 0;
+  }
   if (atEnd >= 0 && function.hasRate() && function.start >= 0) {
     return lowestOfCubic(step_.length(), function.start, function.rate, atEnd, events_.rateOf(function));
   }
   return 0;
+}
+
+// Of an open end of a joint, whose gap rises at the end of the step: it is no cubic, where a spring swings
+// it. `margin` [m] is added to it.
+double EventLocator::lowestOfEnd(const ContactFeature& end, double margin) const {
+  const auto motionOf = [&](int index, double time) {
+    const auto i = static_cast<std::size_t>(index);
+    const TouchingBody& body = system_.bodies()[i];
+    return body.isHeld() ? system_.kinematics(i)
+                         : Kinematics{.pose = stateAt(Motion(step_.motion(i)), body.body->mass, time).pose};
+  };
+  const auto shapeOf = [&](int index) { return system_.bodies()[static_cast<std::size_t>(index)].shape(); };
+  const auto valueAt = [&](double time) {
+    const ContactState state =
+        contactState(end, motionOf(end.a, time), shapeOf(end.a), motionOf(end.b, time), shapeOf(end.b));
+    return state.gap + margin;
+  };
+  const double lowest = lowestBetween(0, step_.length(), valueAt);
+  return valueAt(lowest) < 0 ? lowest : 0;
 }
 
 double EventLocator::dipOf(std::size_t event) {

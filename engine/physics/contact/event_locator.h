@@ -45,6 +45,7 @@ class EventLocator {
   static Fall firstOf(std::span<const Fall> falls);
   double lowestWithin(std::size_t event, double atEnd);
   double dipOf(std::size_t event);
+  double lowestOfEnd(const ContactFeature& end, double margin) const;
   double deepMomentOf(std::size_t contact) const;
   FallingBracket bracketOf(const Fall& fall);
   Estimate estimateOf(const Fall& fall, FallingBracket bracket, std::span<const ContactStep> path);

@@ -401,4 +401,12 @@ double Bodies::workLeft(std::span<const int> ranks, const Instant& time) const {
   return movable * share * ((isWorthLess ? 0 : kWorkAtOnce) + kWorkPerSecond * time.hi) - spent;
 }
 
+double untilChange(const Bodies& bodies, const Joint& joint, const Instant& time) {
+  double next = std::numeric_limits<double>::infinity();
+  if (bodies.controlled() != nullptr) {
+    next = bodies.controlled()->nextOf(static_cast<int>(&joint - bodies.world().joints.data()));
+  }
+  return std::isfinite(next) ? secondsBetween(time, Instant(next)) : next;
+}
+
 }  // namespace careen

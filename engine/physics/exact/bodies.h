@@ -111,7 +111,7 @@ class Bodies {
   double workLeft(std::span<const int> ranks, const Instant& time) const;
   /// Of more than a few bodies in contact, time steps cost so much that it does not pay to begin.
   bool isTooMany(int movable) const;
-  bool mayBeCrowd() const { return world_.joints.empty() && crowds_.when != CrowdSettings::When::kNever; }
+  bool mayBeCrowd() const { return crowds_.when != CrowdSettings::When::kNever; }
 
   /// Most events of one body at one moment before it goes on in a crowd, and of twice as many the run gives
   /// up: more than any impact needs, and a bound on endless repetition.
@@ -147,6 +147,8 @@ class Bodies {
 
 /// A body that takes part in an impact at that time, in this state after it.
 DoubtfulBody doubtful(Bodies& bodies, int rank, const Instant& time, const BodyState& after);
+/// [s] From that time on, until a joint lets go or its motor may change.
+double untilChange(const Bodies& bodies, const Joint& joint, const Instant& time);
 /// Whether joints end in the world.
 bool endsInWorld(const World& world);
 

@@ -14,7 +14,8 @@ namespace {
 constexpr double kMoment = 0x1p-40;
 /// [1] of the tolerance: how far recorded steps may differ from those computed, so that fewer are recorded.
 constexpr double kMerged = 0.25;
-/// [1] of kMerged, without gravity: what moves slowly does so for long, and its momentum is all there is.
+/// [1] of kMerged, without gravity: what moves slowly does so for long, and its momentum is all there is; and
+/// of what is joined to others, whose momenta cancel.
 constexpr double kMergedAfloat = 0x1p-4;
 
 std::size_t listedOf(const Mover& body) { return static_cast<std::size_t>(body.listed.value); }
@@ -77,10 +78,11 @@ void CrowdGroup::joinStep(const Encounter& encounter) {
 void CrowdGroup::keepPlace(int rank, std::size_t place) {
   if (place >= ranks_.size()) {
     ranks_.resize(place + 1, -1);
-    joined_.resize(place + 1, newPath());
+    joined_.resize(place + 1, newPath(rank));
     motions_.resize(place + 1);
   }
   ranks_[place] = rank;
+  joined_[place] = newPath(rank);
   if (!bodies_[rank].isHeld()) {
     bodies_[rank].group = shared_from_this();
     bodies_[rank].place = place;
@@ -88,13 +90,14 @@ void CrowdGroup::keepPlace(int rank, std::size_t place) {
   }
 }
 
-// Adds a body in this state, once, with those that springs join to it. Bodies at rest stay so until pushed.
+// Adds a body in this state, once, with those that are joined to it. Bodies at rest stay so until pushed, but
+// for those whose joints may just have changed.
 void CrowdGroup::enlist(int rank, const Instant& time, const BodyState& state, const Quat& attitude) {
   Mover& body = bodies_[rank];
   if (has(body) || !body.isBox()) {  // it has all walls
     return;
   }
-  if (!body.moves()) {
+  if (!body.moves() && (body.isHeld() || !isJointed(bodies_.world(), body.listed.value))) {
     enlistAtRest(rank);
     return;
   }
@@ -113,8 +116,8 @@ void CrowdGroup::enlist(int rank, const Instant& time, const BodyState& state, c
   }
 }
 
-// Adds a body at rest or immovable, and all at rest that it touches, directly or through others: they are
-// pushed together.
+// Adds a body at rest or immovable, and all at rest that it touches or is joined to, directly or through
+// others: they are pushed together.
 void CrowdGroup::enlistAtRest(int rank) {
   std::vector<int> reached{rank};
   std::optional<std::size_t> cluster;
@@ -133,13 +136,22 @@ void CrowdGroup::enlistAtRest(int rank) {
     if (body.isHeld()) {
       continue;
     }
-    for (const int candidate : bodies_.around(reached[k])) {
+    const auto reach = [&](int candidate) {
       const Mover& other = bodies_[candidate];
       if (!other.moves() && !other.group &&
-          std::find(reached.begin(), reached.end(), candidate) == reached.end() &&
+          std::find(reached.begin(), reached.end(), candidate) == reached.end()) {
+        reached.push_back(candidate);
+      }
+    };
+    for (const int other : bodies_.joinedTo(reached[k])) {
+      reach(other);
+    }
+    for (const int candidate : bodies_.around(reached[k])) {
+      const Mover& other = bodies_[candidate];
+      if (mayTouch(bodies_.world(), body.listed.value, other.listed.value) &&
           areTouching(boxAt(body.pose, *body.body), boxAt(other.pose, *other.body),
                       bodies_.crowds().tolerance)) {
-        reached.push_back(candidate);
+        reach(candidate);
       }
     }
   }
@@ -172,6 +184,7 @@ void CrowdGroup::merge(CrowdGroup& other) {
       motions_[at] = other.motions_[place];  // others may look for it before it takes the next step
     }
   }
+  owed_ += other.owed_;
   other.ranks_.clear();
 }
 
@@ -249,9 +262,9 @@ std::vector<int> CrowdGroup::release(const Instant& time) {
 
 // ---- Paths.
 
-JoinedSteps CrowdGroup::newPath() const {
-  return JoinedSteps(kMerged * bodies_.crowds().tolerance *
-                     (bodies_.world().gravity.isZero(0) ? kMergedAfloat : 1));
+JoinedSteps CrowdGroup::newPath(int rank) const {
+  const bool isAfloat = bodies_.world().gravity.isZero(0) || !bodies_.joinedTo(rank).empty();
+  return JoinedSteps(kMerged * bodies_.crowds().tolerance * (isAfloat ? kMergedAfloat : 1));
 }
 
 // [s] Of a body that becomes a member now: half a step of the crowd, in which members who met it bent their
@@ -263,7 +276,7 @@ double CrowdGroup::pastOf(const Mover& body, const Instant& time) const {
 // Its path from so long ago on.
 JoinedSteps CrowdGroup::comingFrom(const Mover& body, const Instant& time, const BodyState& state,
                                    const Quat& attitude, double length) const {
-  JoinedSteps joined = newPath();
+  JoinedSteps joined = newPath(body.rank);
   if (length > 0) {
     const auto endAt = [&](const BodyState& at, const Quat& turned) {
       const Vec3 spin = at.pose.worldFromBody.transpose() * angularVelocity(body.body->mass, at);
@@ -323,17 +336,54 @@ std::optional<Encounter> CrowdGroup::advance(const Instant& time) {
 void CrowdGroup::endAt(const Instant& time) {
   if (earlier(time, end())) {
     do {
-      length_ = crowd_.stepAgain(secondsBetween(start_, time));
+      length_ = stepAgain(start_, secondsBetween(start_, time));
     } while (length_ > 0 && admitMet(start_, Taken::kAgain));
     while (secondsBetween(end(), time) > kMoment) {
       const Instant next = end();
       commit(next);
       start_ = next;
-      length_ = crowd_.step(secondsBetween(next, time));
+      length_ = step(next, secondsBetween(next, time));
     }
     bodies_.account().solvedCrowd(crowd_.takeResiduals());
   }
   commit(time);
+}
+
+// Of the joints that act then, of the members of now; until one of them changes.
+double CrowdGroup::step(const Instant& from, double most) {
+  crowd_.articulations().list(from.hi);
+  const CrowdArticulations& articulations = crowd_.articulations();
+  for (const CrowdArticulations::Listed& each : articulations.joints()) {
+    most = std::min(most, untilChange(bodies_, *each.joint, from));
+  }
+  return crowd_.step(most);
+}
+
+double CrowdGroup::stepAgain(const Instant& from, double length) {
+  crowd_.articulations().list(from.hi);
+  return crowd_.stepAgain(length);
+}
+
+// [J] In the step. No hinge turns by half a turn in one.
+double CrowdGroup::workOfMotors() {
+  double work = 0;
+  const CrowdArticulations& articulations = crowd_.articulations();
+  const auto beginOf = [&](int place) {
+    if (place >= CrowdArticulations::kOutside || !crowd_.moved(static_cast<std::size_t>(place))) {
+      return articulations.poseOf(place);
+    }
+    const StepEnd begin = crowd_.begin(static_cast<std::size_t>(place));
+    return Pose{.position = begin.position, .worldFromBody = begin.worldFromBody.toRotationMatrix()};
+  };
+  for (const CrowdArticulations::Listed& each : articulations.joints()) {
+    if (each.effort != 0) {
+      const double from = jointCoordinate(*each.joint, beginOf(each.a), beginOf(each.b));
+      const double to =
+          jointCoordinate(*each.joint, articulations.poseOf(each.a), articulations.poseOf(each.b));
+      work += each.effort * (inNearestTurn(*each.joint, to, from) - from);
+    }
+  }
+  return work;
 }
 
 // Records the step that ends now. Members that fell asleep rest from now on.
@@ -349,6 +399,9 @@ void CrowdGroup::commit(const Instant& time) {
                     .tangential = struck.tangential,
                     .normal = struck.normal});
   }
+  const double half = 0.5 * workOfMotors();  // velocities are those of the middle of the step
+  bodies_.account().gives(owed_ + half);
+  owed_ = half;
   const std::vector<char> suddenly = changedSuddenly();
   for (std::size_t place = 0; place < ranks_.size(); ++place) {
     const int rank = ranks_[place];
@@ -375,15 +428,15 @@ void CrowdGroup::go(const Instant& time) {
   admitNear(time, crowd_.nextLength(most));
   bodies_.account().mayLose();
   for (std::size_t place = 0; place < ranks_.size(); ++place) {
-    if (ranks_[place] >= 0 && !crowd_.isHeld(place) && !crowd_.sleeps(place)) {
+    if (ranks_[place] >= 0 && !crowd_.body(place).held && !crowd_.sleeps(place)) {
       bodies_.account().departs(listedOf(bodies_[ranks_[place]]), crowd_.stateAtVelocity(place));
     }
   }
   bodies_.account().parted();
   start_ = time;
-  length_ = crowd_.step(std::min(most, bodies_.withinCell(crowd_.fastest())));  // of those admitted too
+  length_ = step(time, std::min(most, bodies_.withinCell(crowd_.fastest())));  // of those admitted too
   while (admitMet(time, Taken::kFirst)) {
-    length_ = crowd_.stepAgain(crowd_.length());
+    length_ = stepAgain(time, crowd_.length());
   }
   bool any = false;
   for (std::size_t place = 0; place < ranks_.size(); ++place) {

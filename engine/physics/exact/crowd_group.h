@@ -46,7 +46,7 @@ class CrowdGroup final : public ContactGroup {
   void joinStep(const Encounter& encounter);
   std::vector<int> release(const Instant& time);
   // Their paths, to be recorded.
-  JoinedSteps newPath() const;
+  JoinedSteps newPath(int rank) const;
   double pastOf(const Mover& body, const Instant& time) const;
   JoinedSteps comingFrom(const Mover& body, const Instant& time, const BodyState& state, const Quat& attitude,
                          double length) const;
@@ -56,12 +56,16 @@ class CrowdGroup final : public ContactGroup {
   void go(const Instant& time);
   void takeStep(std::size_t place);
   void endAt(const Instant& time);
+  double step(const Instant& from, double most);
+  double stepAgain(const Instant& from, double length);
+  double workOfMotors();
   void commit(const Instant& time);
 
   Bodies& bodies_;
   Crowd crowd_;
   double before_ = 0;                // [s] length of the step before this one, 0: none
   std::vector<JoinedSteps> joined_;  // by place: not yet recorded
+  double owed_ = 0;                  // [J] that motors did since the middle of the last step
 };
 
 }  // namespace careen

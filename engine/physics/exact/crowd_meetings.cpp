@@ -63,11 +63,14 @@ bool meetsWithin(const Bodies& bodies, const CrowdGroup& group, const Mover& out
   return contact.kind != ContactKind::kNone;
 }
 
-/// Whether any member in the cells around that body does that.
+/// Whether any member in the cells around that body, which may touch it, does that.
 template <class Does>
 bool anyMember(const Bodies& bodies, const CrowdGroup& group, int rank, const Does& does) {
-  return bodies.anyAround(
-      rank, [&](int candidate) { return group.has(bodies[candidate]) && does(bodies[candidate]); });
+  return bodies.anyAround(rank, [&](int candidate) {
+    const Mover& member = bodies[candidate];
+    return group.has(member) && mayTouch(bodies.world(), bodies[rank].listed.value, member.listed.value) &&
+           does(member);
+  });
 }
 
 }  // namespace

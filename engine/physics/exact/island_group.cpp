@@ -3,33 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "core/error.h"
 #include "physics/contact/joint_rows.h"
-#include "physics/exact/controlled_world.h"
 #include "physics/exact/encounter.h"
 #include "physics/exact/encounter_places.h"
 #include "physics/geometry/separation.h"
 
 namespace careen {
-namespace {
-
-// [s] From that time on, until the first of these joints lets go or its motor may change.
-double untilChange(const Bodies& bodies, std::span<const ContactFeature> joints, const Instant& time) {
-  double first = std::numeric_limits<double>::infinity();
-  for (const ContactFeature& feature : joints) {
-    const auto index = feature.joint - bodies.world().joints.data();
-    first = bodies.controlled() == nullptr
-                ? first
-                : std::min(first, bodies.controlled()->nextOf(static_cast<int>(index)));
-  }
-  return std::isfinite(first) ? secondsBetween(time, Instant(first)) : first;
-}
-
-}  // namespace
-
 IslandGroup::IslandGroup(Bodies& bodies, std::vector<int> ranks, std::unique_ptr<Island> island)
     : bodies_(bodies), island_(std::move(island)) {
   motions_.resize(ranks.size());
@@ -94,7 +76,10 @@ bool IslandGroup::takeStep(const Instant& time) {
   bool isSolved = true;
   try {
     // Not bounded by the end of the run, on which the motion must not depend.
-    const double change = untilChange(bodies_, island_->joints(), time);
+    double change = std::numeric_limits<double>::infinity();
+    for (const ContactFeature& feature : island_->joints()) {
+      change = std::min(change, untilChange(bodies_, *feature.joint, time));
+    }
     const Island::Step step =
         island_->step(std::min(bodies_.longestStep(), change), bodies_.workLeft(ranks_, time));
     length_ = step.length;

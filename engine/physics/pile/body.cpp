@@ -97,6 +97,12 @@ void turnFree(PileBody& body, double h) {
                   turnOf(body.bodyFromPrincipal == nullptr ? theta : Vec3(*body.bodyFromPrincipal * theta)));
 }
 
+Vec3 freeSpinRate(const PileBody& body, const Vec3& omega) {
+  const Mat3 axes = body.principalAxes();
+  const Vec3 spin = axes.transpose() * omega;
+  return axes * body.inverseInertiaBody.cwiseProduct(body.inertiaBody.cwiseProduct(spin).cross(spin));
+}
+
 void turnBy(PileBody& body, const Vec3& rotation) { setAttitude(body, turnOf(rotation) * body.attitude); }
 
 }  // namespace careen

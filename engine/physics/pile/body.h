@@ -75,6 +75,9 @@ void setAttitude(PileBody& body, const Quat& attitude);
 /// Source: A. Iserles & S. P. Nørsett, Phil. Trans. R. Soc. A 357, 1999.
 void turnFree(PileBody& body, double h);
 
+/// [rad/s²] ω̇ = I⁻¹ (L × ω) of a free body with that ω, world.
+Vec3 freeSpinRate(const PileBody& body, const Vec3& omega);
+
 /// Rotates by a small rotation vector in the world frame, as the position projection does.
 void turnBy(PileBody& body, const Vec3& rotation);
 

@@ -37,13 +37,14 @@ Crowd::Crowd(const World& world, double tolerance, std::shared_ptr<Team> team)
     : members_(world, tolerance, std::move(team)),
       loads_(members_, memory_),
       contacts_(members_),
-      impulses_(members_, loads_, contacts_, memory_),
-      bounces_(members_, loads_, contacts_, memory_),
+      articulations_(members_),
+      impulses_(members_, loads_, contacts_, articulations_, memory_),
+      bounces_(members_, loads_, contacts_, articulations_, memory_),
       depth_(members_, contacts_),
-      apart_(members_, contacts_, depth_, memory_),
-      sleep_(members_, loads_, contacts_, memory_),
+      apart_(members_, contacts_, articulations_, depth_, memory_),
+      sleep_(members_, loads_, contacts_, articulations_, memory_),
       path_(members_, loads_, contacts_),
-      joints_(members_, contacts_, memory_) {
+      seams_(members_, contacts_, memory_) {
   memory_.length = members_.h;
 }
 
@@ -121,7 +122,7 @@ double Crowd::step(double most) {
   if (++figures_.steps % kStepsPerSorting == 0) {
     contacts_.sort();
   }
-  joints_.remember();
+  seams_.remember();
   memory_.loads = loads_.ofStep();
   memory_.length = members_.h;
   members_.begin();
@@ -178,6 +179,9 @@ void Crowd::take(double length, Shifts shifts) {
   }
   bounces_.find();
   moveMembers(members_, loads_, impulses_);
+  if (articulations_.close()) {
+    contacts_.displaced(articulations_.closedBy());
+  }
   bounces_.bounce(impulses_);
   countUntouched(members_, contacts_, memory_);
   apart_.begin();
@@ -219,7 +223,7 @@ double Crowd::keepApart() {
   deepest_ = std::max({deepest_, depth_.undone(), left, apart_.left()});
   memory_.effort = left > kTooDeep * members_.tolerance ? std::min(2 * memory_.effort, kMostEffort)
                                                         : std::max<std::int64_t>(memory_.effort / 2, 1);
-  isSharp_ = joints_.isSharp();
+  isSharp_ = seams_.isSharp();
   return members_.h;
 }
 

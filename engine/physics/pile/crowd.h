@@ -13,15 +13,16 @@
 #include "physics/motion/hermite_step.h"
 #include "physics/pile/body.h"
 #include "physics/pile/crowd_apart.h"
+#include "physics/pile/crowd_articulations.h"
 #include "physics/pile/crowd_bounce.h"
 #include "physics/pile/crowd_contacts.h"
 #include "physics/pile/crowd_depth.h"
 #include "physics/pile/crowd_impulses.h"
-#include "physics/pile/crowd_joints.h"
 #include "physics/pile/crowd_loads.h"
 #include "physics/pile/crowd_members.h"
 #include "physics/pile/crowd_memory.h"
 #include "physics/pile/crowd_path.h"
+#include "physics/pile/crowd_seams.h"
 #include "physics/pile/crowd_sleep.h"
 #include "physics/world/world.h"
 
@@ -75,6 +76,7 @@ class Crowd {
   std::size_t admitAtRest(std::size_t body, const Pose& pose, std::optional<std::size_t> cluster);
   void dismiss(std::size_t place);
 
+
   /// Advances by one step of at most `most` [s] and returns its length.
   double step(double most);
   /// Takes the last step again with that length [s], shorter than it was, and with those admitted since, who
@@ -93,7 +95,6 @@ class Crowd {
     return path_.cameNear(place, box, distance);
   }
 
-  bool isHeld(std::size_t place) const { return members_[place].held; }
   /// Asleep: its pose is bitwise constant until another body pushes it.
   bool sleeps(std::size_t place) const { return members_[place].asleep; }
   BodyState state(std::size_t place) const { return stateOf(members_[place]); }
@@ -138,6 +139,8 @@ class Crowd {
   Figures figures() const;
   /// What the next step will start from; nothing else of the last one shows in it but members and contacts.
   CrowdMemory& memory() { return memory_; }
+  /// To be listed before a step, and after admissions.
+  CrowdArticulations& articulations() { return articulations_; }
 
  private:
   static constexpr int kStepsAlone = 2;
@@ -153,13 +156,14 @@ class Crowd {
   CrowdMemory memory_;
   CrowdLoads loads_;
   CrowdContacts contacts_;
+  CrowdArticulations articulations_;
   CrowdImpulses impulses_;
   CrowdBounces bounces_;
   CrowdDepth depth_;
   CrowdApart apart_;
   CrowdSleep sleep_;
   CrowdPath path_;
-  CrowdJoints joints_;
+  CrowdSeams seams_;
   Figures figures_;    // but for what the stages count
   double chosen_ = 0;  // [s] what the last step would be if nothing outside cut it
   bool isSharp_ = false;

@@ -22,9 +22,11 @@ constexpr double kFarAway = 4;  // [1] of the tolerance: displacement that may l
 
 }  // namespace
 
-CrowdApart::CrowdApart(CrowdMembers& members, CrowdContacts& contacts, CrowdDepth& depth, CrowdMemory& memory)
+CrowdApart::CrowdApart(CrowdMembers& members, CrowdContacts& contacts, CrowdArticulations& articulations,
+                       CrowdDepth& depth, CrowdMemory& memory)
     : members_(members),
       contacts_(contacts),
+      articulations_(articulations),
       depth_(depth),
       memory_(memory),
       projection_(members.tolerance, members.team) {}
@@ -95,6 +97,7 @@ double CrowdApart::project(int passes) {
     for (const int body : projection_.moved()) {
       members_.ways[at(body)].pushed = members_.ways[at(body)].projected = true;
     }
+    closeJoints();
     deepest = projection_.deepest();
   }
   if (deepest > least) {
@@ -104,6 +107,20 @@ double CrowdApart::project(int passes) {
   }
   left_ = deepest;
   return deepest;
+}
+
+// What joints that are closed again do to gaps shows in the next pass.
+void CrowdApart::closeJoints() {
+  if (!articulations_.any() || !articulations_.close()) {
+    return;
+  }
+  contacts_.displaced(articulations_.closedBy());
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (articulations_.closedBy()[i] > 0) {
+      members_.ways[i].pushed = members_.ways[i].projected = true;
+    }
+  }
+  projection_.lookAgain();
 }
 
 void CrowdApart::keepPlaces() {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "physics/pile/crowd_articulations.h"
 #include "physics/pile/crowd_contacts.h"
 #include "physics/pile/crowd_depth.h"
 #include "physics/pile/crowd_members.h"
@@ -14,7 +15,8 @@ namespace careen {
 /// What pushes members of a crowd apart that are deep in each other.
 class CrowdApart {
  public:
-  CrowdApart(CrowdMembers& members, CrowdContacts& contacts, CrowdDepth& depth, CrowdMemory& memory);
+  CrowdApart(CrowdMembers& members, CrowdContacts& contacts, CrowdArticulations& articulations,
+             CrowdDepth& depth, CrowdMemory& memory);
 
   /// A step begins, or is taken again.
   void begin() { projected_ = 0; }
@@ -45,6 +47,7 @@ class CrowdApart {
   void beginProjection(Aim aim);
   void refreshGaps(PileManifold& manifold, PileProjection::Look look) const;
   double project(int passes);
+  void closeJoints();
   void keepPlaces();
   void restorePlaces();
   bool lookAtDeep(Aim aim);
@@ -53,6 +56,7 @@ class CrowdApart {
 
   CrowdMembers& members_;
   CrowdContacts& contacts_;
+  CrowdArticulations& articulations_;
   CrowdDepth& depth_;
   CrowdMemory& memory_;
   PileProjection projection_;

@@ -109,11 +109,13 @@ void CrowdBounces::solve(CrowdImpulses& impulses) {
     contacts_.addPresentRows(contacts_[slot], solver);
   }
   solver.link();
+  articulations_.keepRates();
   beginFrom(solver);
   if (!impulses.solveDirectly()) {
-    solver.solve(kBounceSweeps);
+    impulses.sweep(kBounceSweeps);
   }
   giveBack(solver);
+  impulses.solveJoints();
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const int index = static_cast<int>(i);
     if (solver.pushed(index)) {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "physics/pile/crowd_articulations.h"
 #include "physics/pile/crowd_contacts.h"
 #include "physics/pile/crowd_impulses.h"
 #include "physics/pile/crowd_loads.h"
@@ -26,10 +27,11 @@ class CrowdBounces {
   };
 
   CrowdBounces(CrowdMembers& members, const CrowdLoads& loads, CrowdContacts& contacts,
-               const CrowdMemory& memory)
+               CrowdArticulations& articulations, const CrowdMemory& memory)
       : members_(members),
         loads_(loads),
         contacts_(contacts),
+        articulations_(articulations),
         memory_(memory),
         restitution_(members, contacts) {}
 
@@ -72,6 +74,7 @@ class CrowdBounces {
   CrowdMembers& members_;
   const CrowdLoads& loads_;
   CrowdContacts& contacts_;
+  CrowdArticulations& articulations_;
   const CrowdMemory& memory_;
   CrowdRestitution restitution_;
   std::vector<Bounce> bounces_;

@@ -13,7 +13,13 @@ constexpr double kUnseen = 2;     // [1] of the tolerance: motion after which ot
 
 }  // namespace
 
-CrowdContacts::CrowdContacts(CrowdMembers& members) : members_(members), pairs_(members.team) {}
+CrowdContacts::CrowdContacts(CrowdMembers& members)
+    : members_(members),
+      pairs_(
+          members.team, members.world.apart.empty() ? PilePairs::MayTouch() : [&members](int a, int b) {
+            return mayTouch(members.world, static_cast<int>(members.listed[at(a)]),
+                            static_cast<int>(members.listed[at(b)]));
+          }) {}
 
 void CrowdContacts::sort() {
   near_.clear();
@@ -200,6 +206,12 @@ void CrowdContacts::rebuildNear() {
   for (const int slot : near_) {
     (*this)[slot].moved = std::numeric_limits<double>::max();
   }
+}
+
+void CrowdContacts::displaced(std::span<const double> by) {
+  forNear([&](PileManifold& manifold, std::size_t) {
+    manifold.moved += by[at(manifold.a)] + by[at(manifold.b)];
+  });
 }
 
 void CrowdContacts::addPresentRows(const PileManifold& manifold, PileSolver& solver) const {

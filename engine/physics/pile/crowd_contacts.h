@@ -66,6 +66,8 @@ class CrowdContacts {
   void refresh(PileManifold& manifold, const std::vector<PileBody>& bodies) const;
   /// Those of this step, when they are looked at next.
   void rebuildNear();
+  /// Members were moved by no more than that [m], by place.
+  void displaced(std::span<const double> by);
   /// Rows of those points that have one, at the gaps and with the impulses of now.
   void addPresentRows(const PileManifold& manifold, PileSolver& solver) const;
 

@@ -29,20 +29,10 @@ class Curvature {
   double secondOrder(const PileManifold& manifold, int k) const;
 
  private:
-  Vec3 spinRate(int body) const;
-
   const CrowdMembers& members_;
   const PileSolver& solver_;
   std::vector<char> bends_;  // by place: its corners leave their tangents in this step
 };
-
-// [rad/s²] ω̇ = I⁻¹ (L × ω), of a free body at the velocity found.
-Vec3 Curvature::spinRate(int body) const {
-  const PileBody& turning = members_[body];
-  const Mat3 axes = turning.principalAxes();
-  const Vec3 spin = axes.transpose() * solver_.omega(body);
-  return axes * turning.inverseInertiaBody.cwiseProduct(turning.inertiaBody.cwiseProduct(spin).cross(spin));
-}
 
 // [m/s²] Second derivative of a gap n·(xA − xB), x the points in contact as fixed in the bodies:
 //     n·(aA − aB) + 2 ṅ·(vA − vB),   a = ω × (ω × r) + ω̇ × r;
@@ -57,7 +47,7 @@ double Curvature::secondOrder(const PileManifold& manifold, int k) const {
       return 0.0;
     }
     const Vec3& spin = solver_.omega(body);
-    return dot(n, spin.cross(spin.cross(to)) + spinRate(body).cross(to));
+    return dot(n, spin.cross(spin.cross(to)) + freeSpinRate(members_[body], spin).cross(to));
   };
   const int b = manifold.b;
   const PileBody& bodyA = members_[manifold.a];

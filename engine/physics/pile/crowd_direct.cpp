@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 
 #include "physics/solver/contact_rows.h"
 
@@ -33,9 +34,11 @@ bool CrowdDirect::isHeavy() const {
   });
 }
 
+double CrowdDirect::enough() const { return kResidual * members_.tolerance / members_.h; }
+
 bool CrowdDirect::solve(PileSolver& solver) {
   const std::size_t count = solver.rowCount();
-  if (count == 0 || count > kMostRows) {
+  if (count > kMostRows || (count == 0 && !articulations_.any())) {
     return false;
   }
   const bool easy = count <= kFewRows || isHeavy();
@@ -43,89 +46,67 @@ bool CrowdDirect::solve(PileSolver& solver) {
     --memory_.directWait;
     return false;
   }
-  const std::vector<std::size_t> movers = pose(solver);
-  solution_.enough = kResidual * members_.tolerance / members_.h;
-  const bool solved = solver_.solveOnce(problem_, solution_, easy ? kMostFactorisations : kFewFactorisations);
+  problem_.begin();
+  addRows(solver);
+  articulations_.addTo(problem_, solver);
+  const bool solved = problem_.solve(solver_, enough(), easy ? kMostFactorisations : kFewFactorisations);
   memory_.directPause = easy || solved ? 1 : std::min(2 * memory_.directPause, kMostWait);
   memory_.directWait = easy || solved ? 0 : memory_.directPause;
   if (!solved) {
     return false;
   }
-  for (std::size_t m = 0; m < movers.size(); ++m) {
-    const double* q = &solution_.velocities[m * ContactProblem::kAxes];
-    const int body = static_cast<int>(movers[m]);
-    solver.velocity(body) = Vec3(q[0], q[1], q[2]);
-    solver.omega(body) = members_[movers[m]].principalAxes() * Vec3(q[3], q[4], q[5]);
+  for (std::size_t m = 0; m < problem_.movers().size(); ++m) {
+    const int body = problem_.movers()[m];
+    solver.velocity(body) = problem_.velocity(m);
+    solver.omega(body) = problem_.omega(m);
   }
   for (std::size_t k = 0; k < count; ++k) {
-    solver.setImpulse(static_cast<int>(k), solution_.impulses[k]);
+    solver.setImpulse(static_cast<int>(k), problem_.impulses()[k]);
   }
+  takeJoints(solver, count);
   return true;
 }
 
-// The problem of its rows; returns the places of the bodies that can move, in the problem's order.
-std::vector<std::size_t> CrowdDirect::pose(const PileSolver& solver) {
-  std::vector<int> index(members_.size(), ContactProblem::kNobody);
-  std::vector<std::size_t> movers;
-  problem_.inverseMass.clear();
-  problem_.free.clear();
-  const auto indexOf = [&](int body) {
-    if (members_[body].still()) {
-      return ContactProblem::kNobody;
-    }
-    if (index[at(body)] < 0) {
-      const PileBody& mover = members_[body];
-      index[at(body)] = static_cast<int>(movers.size());
-      movers.push_back(at(body));
-      const Vec3 spin = mover.principalAxes().transpose() * solver.omega(body);
-      for (int i = 0; i < 3; ++i) {
-        problem_.inverseMass.push_back(mover.inverseMass);
-        problem_.free.push_back(solver.velocity(body)[i]);
-      }
-      for (int i = 0; i < 3; ++i) {
-        problem_.inverseMass.push_back(mover.inverseInertiaBody[i]);
-        problem_.free.push_back(spin[i]);
-      }
-    }
-    return index[at(body)];
-  };
-  const std::size_t count = solver.rowCount();
-  problem_.contacts.assign(count, {});
-  solution_.impulses.resize(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const PileSolver::RowView row = solver.row(static_cast<int>(k));
-    ContactProblem::Contact& contact = problem_.contacts[k];
-    contact.a = indexOf(row.a);
-    contact.b = indexOf(row.b);
-    contact.friction = row.friction;
-    contact.target = {row.bound, 0, 0};
-    solution_.impulses[k] = row.impulse;
-    if (contact.a != ContactProblem::kNobody) {
-      setSide(contact, 0, pointSide(row.axes, row.armA, 1), members_[row.a].principalAxes());
-    }
-    if (contact.b != ContactProblem::kNobody) {
-      setSide(contact, 1, pointSide(row.axes, row.armB, -1), members_[row.b].principalAxes());
+// What they push is pushed.
+void CrowdDirect::takeJoints(PileSolver& solver, std::size_t first) {
+  if (!articulations_.any()) {
+    return;
+  }
+  articulations_.take(std::span(problem_.impulses()).subspan(first));
+  for (const int body : problem_.movers()) {
+    if (articulations_.isJoined(body)) {
+      solver.setPushed(body, solver.velocity(body), solver.omega(body));
     }
   }
-  addImpulses(-1);
-  return movers;
 }
 
-// To the problem's velocities.
-void CrowdDirect::addImpulses(double sign) {
-  for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
-    const ContactProblem::Contact& contact = problem_.contacts[k];
-    for (std::size_t d = 0; d < 3; ++d) {
-      const auto push = [&](int body, std::size_t from) {
-        for (std::size_t i = 0; body >= 0 && i < ContactProblem::kAxes; ++i) {
-          const std::size_t number = at(body) * ContactProblem::kAxes + i;
-          problem_.free[number] +=
-              sign * problem_.inverseMass[number] * contact.rows[d][from + i] * solution_.impulses[k][d];
-        }
-      };
-      push(contact.a, 0);
-      push(contact.b, ContactProblem::kAxes);
-    }
+double CrowdDirect::solveJoints(PileSolver& solver) {
+  problem_.begin();
+  articulations_.addTo(problem_, solver);
+  if (problem_.movers().empty() || !problem_.solve(ofJoints_, enough(), kMostFactorisations)) {
+    return 0;
+  }
+  double most = 0;
+  for (std::size_t m = 0; m < problem_.movers().size(); ++m) {
+    const int body = problem_.movers()[m];
+    most = std::max(most, (problem_.velocity(m) - solver.velocity(body)).norm() +
+                              members_[body].radius * (problem_.omega(m) - solver.omega(body)).norm());
+    solver.setPushed(body, problem_.velocity(m), problem_.omega(m));
+  }
+  articulations_.take(problem_.impulses());
+  return most;
+}
+
+void CrowdDirect::addRows(const PileSolver& solver) {
+  for (std::size_t k = 0; k < solver.rowCount(); ++k) {
+    const PileSolver::RowView row = solver.row(static_cast<int>(k));
+    const auto include = [&](int body) {
+      return problem_.include(body, solver.velocity(body), solver.omega(body));
+    };
+    const int a = include(row.a);
+    const int b = include(row.b);
+    problem_.add({.a = a, .b = b, .friction = row.friction, .target = {row.bound, 0, 0}},
+                 pointSide(row.axes, row.armA, 1), pointSide(row.axes, row.armB, -1), row.impulse);
   }
 }
 

@@ -33,19 +33,23 @@ constexpr double kShifted = 0.8;
 constexpr double kShiftedTo = 0.5;
 constexpr double kShiftChange = 0.25;
 constexpr int kShiftSweeps = 60;
+// Rounds of sweeps and joints, until what the latter change is that part of a tolerance in the step.
+constexpr int kMostRounds = 8;
+constexpr double kLittle = 0x1p-4;
 // [1] of the kinetic energy: if contacts add more to it, the step is taken again with more sweeps.
 constexpr double kMostGained = 0x1p-13;
 
 }  // namespace
 
 CrowdImpulses::CrowdImpulses(const CrowdMembers& members, const CrowdLoads& loads, CrowdContacts& contacts,
-                             CrowdMemory& memory)
+                             CrowdArticulations& articulations, CrowdMemory& memory)
     : members_(members),
       loads_(loads),
       contacts_(contacts),
+      articulations_(articulations),
       memory_(memory),
       solver_(members.team),
-      direct_(members, contacts, memory) {}
+      direct_(members, contacts, articulations, memory) {}
 
 void CrowdImpulses::find() {
   load();
@@ -76,6 +80,7 @@ void CrowdImpulses::load() {
   contacts_.forNear([&](PileManifold& manifold, std::size_t n) { addRows(manifold, rowsOf_[n]); });
   rowCount_ += static_cast<std::int64_t>(solver_.rowCount());
   solver_.link();
+  articulations_.aimAtEnd(solver_);
   solver_.warmStart();
 }
 
@@ -199,13 +204,14 @@ void CrowdImpulses::solve() {
     return static_cast<int>(memory_.effort * std::min(sweeps * effort, kMostSweeps));
   };
   const bool found = solver_.rowCount() <= CrowdDirect::kFewRows && solveDirectly();
-  std::int64_t solves = found ? 0 : solver_.solve(most(kFirstSweeps));
-  const bool curved = curveGaps(members_, contacts_, solver_);
+  std::int64_t solves = found ? 0 : sweep(most(kFirstSweeps));
+  articulations_.bend(solver_);
+  const bool curved = curveGaps(members_, contacts_, solver_) || articulations_.any();
   if ((found && !curved) || solveDirectly()) {
     residuals_.add(direct_.takeResiduals());
     return;
   }
-  solves += solver_.solve(most(kSweeps));
+  solves += sweep(most(kSweeps));
   residuals_.add(solver_.residuals(speed_));
   if (solves < kEasy * effort * manifolds) {
     memory_.tell = std::max(memory_.tell * 0.5, kTellLeast);
@@ -214,7 +220,34 @@ void CrowdImpulses::solve() {
   }
 }
 
+std::int64_t CrowdImpulses::sweep(int sweeps) {
+  std::int64_t solves = solver_.solve(sweeps);
+  const double little = kLittle * members_.tolerance / members_.h;
+  for (int round = 0; articulations_.any() && round < kMostRounds; ++round) {
+    const double change = direct_.solveJoints(solver_);
+    if (change <= little && round > 0) {
+      break;
+    }
+    contacts_.forNear([&](const PileManifold& manifold, std::size_t) {
+      if (articulations_.isJoined(manifold.a) || articulations_.isJoined(manifold.b)) {
+        for (int k = 0; k < manifold.count; ++k) {
+          const int row = manifold.points[at(k)].row;
+          if (row >= 0) {
+            solver_.wakeRow(row);
+          }
+        }
+      }
+    });
+    solves += solver_.solve(sweeps);
+  }
+  if (articulations_.any()) {
+    direct_.solveJoints(solver_);
+  }
+  return solves;
+}
+
 void CrowdImpulses::keep() {
+  articulations_.keep();
   contacts_.forNear([&](PileManifold& manifold, std::size_t) {
     manifold.span = members_.span;
     for (int k = 0; k < manifold.count; ++k) {

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "physics/pile/crowd_articulations.h"
 #include "physics/pile/crowd_contacts.h"
 #include "physics/pile/crowd_direct.h"
 #include "physics/pile/crowd_loads.h"
@@ -19,7 +20,7 @@ namespace careen {
 class CrowdImpulses {
  public:
   CrowdImpulses(const CrowdMembers& members, const CrowdLoads& loads, CrowdContacts& contacts,
-                CrowdMemory& memory);
+                CrowdArticulations& articulations, CrowdMemory& memory);
 
   /// Of the contacts of the step, the last impulses being the first guess.
   void find();
@@ -39,6 +40,11 @@ class CrowdImpulses {
   double shiftOf(int body) const;
   /// Solves the rows of solver() directly, if that is tried and succeeds.
   bool solveDirectly() { return direct_.solve(solver_); }
+  /// Sweeps over the rows of solver(), and the joints in between, until those change little. Returns the
+  /// number of manifold solves.
+  std::int64_t sweep(int sweeps);
+  /// The joints alone.
+  void solveJoints() { direct_.solveJoints(solver_); }
 
   /// [J] At the velocities found, whose angular momentum the body has; and before impulses.
   double kineticEnergy(std::size_t place) const;
@@ -64,6 +70,7 @@ class CrowdImpulses {
   const CrowdMembers& members_;
   const CrowdLoads& loads_;
   CrowdContacts& contacts_;
+  CrowdArticulations& articulations_;
   CrowdMemory& memory_;
   PileSolver solver_;
   CrowdDirect direct_;

@@ -8,12 +8,16 @@ namespace {
 
 constexpr double kMostOfSpring = 0x1p-3;  // [rad] phase of the stiffest spring per step
 constexpr int kLoadPasses = 3;
+constexpr double kMostDriven = 2;  // [1] of the tolerance: way that a motor adds in a step
 
 }  // namespace
 
 CrowdLoads::CrowdLoads(const CrowdMembers& members, const CrowdMemory& memory)
     : members_(members), memory_(memory) {
-  if (!members.world.springs.empty() || members.world.drag) {
+  const bool areLoaded =
+      members.world.control || std::any_of(members.world.joints.begin(), members.world.joints.end(),
+                                           [](const Joint& joint) { return joint.isLoaded(); });
+  if (!members.world.springs.empty() || members.world.drag || areLoaded) {
     for (const Body& body : members.world.bodies) {
       states_.push_back(body.initial);
     }
@@ -34,11 +38,48 @@ void CrowdLoads::limitBySprings(std::size_t listed) {
         attached = attached || at(*end->body) == listed;
       }
     }
-    if (attached && mobility > 0) {
-      const double stiff = std::sqrt(spring.stiffness * mobility) + spring.damping * mobility;
-      longestStep_ = stiff > 0 ? std::min(longestStep_, kMostOfSpring / stiff) : longestStep_;
+    if (attached) {
+      limit(spring.stiffness, spring.damping, mobility);
     }
   }
+  for (const Joint& joint : members_.world.joints) {
+    const bool attached =
+        joint.from.body == static_cast<int>(listed) || joint.to.body == static_cast<int>(listed);
+    if (attached && joint.hasCoordinate()) {
+      limit(joint.stiffness, joint.damping, mobilityOf(joint));
+    }
+  }
+}
+
+// [1/kg] or [1/(kg m²)] Of its coordinate, at the most.
+double CrowdLoads::mobilityOf(const Joint& joint) const {
+  double mobility = 0;
+  for (const JointEnd* end : {&joint.from, &joint.to}) {
+    if (end->body) {
+      const MassProperties& mass = members_.world.bodies[at(*end->body)].mass;
+      mobility += joint.kind == Joint::Kind::kSlider ? mass.inverseMass : mass.inverseInertiaBody.maxCoeff();
+    }
+  }
+  return mobility;
+}
+
+// [s] What a motor gives in a step moves no point further than a few tolerances.
+double CrowdLoads::longestStep() const {
+  double strongest = 0;  // [m/s²]
+  for (const Joint& joint : members_.world.joints) {
+    if (joint.effort != 0) {
+      const double reach =
+          joint.kind == Joint::Kind::kSlider ? 1 : radiusOf(members_.world.bodies[at(*joint.from.body)]);
+      strongest = std::max(strongest, reach * std::abs(joint.effort) * mobilityOf(joint));
+    }
+  }
+  return strongest > 0 ? std::min(longestStep_, std::sqrt(2 * kMostDriven * members_.tolerance / strongest))
+                       : longestStep_;
+}
+
+void CrowdLoads::limit(double stiffness, double damping, double mobility) {
+  const double stiff = std::sqrt(stiffness * mobility) + damping * mobility;  // [1/s]
+  longestStep_ = stiff > 0 ? std::min(longestStep_, kMostOfSpring / stiff) : longestStep_;
 }
 
 // Forces of springs and drag, in the middle of the step, found by iteration (implicit midpoint rule): springs

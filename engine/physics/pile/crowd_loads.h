@@ -17,8 +17,8 @@ class CrowdLoads {
 
   /// That body of the world is a member.
   void limitBySprings(std::size_t listed);
-  /// [s] With the springs of the members.
-  double longestStep() const { return longestStep_; }
+  /// [s] With the springs of the members, and those of their joints.
+  double longestStep() const;
 
   /// In the middle of the step.
   void find();
@@ -35,6 +35,9 @@ class CrowdLoads {
   Vec3 halfKick(std::size_t place) const { return members_[place].behind * acceleration(place); }
 
  private:
+  double mobilityOf(const Joint& joint) const;
+  void limit(double stiffness, double damping, double mobility);
+
   const CrowdMembers& members_;
   const CrowdMemory& memory_;
   double longestStep_ = std::numeric_limits<double>::infinity();

@@ -47,8 +47,13 @@ Vec3 forceOf(const PileManifold& manifold) {
 }  // namespace
 
 CrowdSleep::CrowdSleep(CrowdMembers& members, const CrowdLoads& loads, CrowdContacts& contacts,
-                       CrowdMemory& memory)
-    : members_(members), loads_(loads), contacts_(contacts), memory_(memory), solver_(members.team) {}
+                       const CrowdArticulations& articulations, CrowdMemory& memory)
+    : members_(members),
+      loads_(loads),
+      contacts_(contacts),
+      articulations_(articulations),
+      memory_(memory),
+      solver_(members.team) {}
 
 // Whether the moving body would push the sleeping one by more than the tolerated imbalance at rest, or strike
 // it, if forces between them are part of the balance: how those change is known after the step.
@@ -112,6 +117,11 @@ void CrowdSleep::findDisturbed() {
 }
 
 void CrowdSleep::wakeDisturbed() {
+  for (std::size_t i = 0; articulations_.any() && i < members_.size(); ++i) {
+    if (members_[i].asleep && articulations_.mayChange(static_cast<int>(i))) {
+      memory_.disturbed.push_back(members_[i].cluster);
+    }
+  }
   if (memory_.disturbed.empty()) {
     return;
   }
@@ -219,13 +229,34 @@ void CrowdSleep::findClusters() {
       clusters_.join(a, b);
     }
   }
+  joinArticulations();
+}
+
+// They sleep as one, and what holds one of them holds all.
+void CrowdSleep::joinArticulations() {
+  if (!articulations_.any()) {
+    return;
+  }
+  DisjointSets joined(members_.size());
+  const auto moves = [&](int place) { return place < CrowdArticulations::kOutside && !members_[place].held; };
+  for (const CrowdArticulations::Listed& joint : articulations_.joints()) {
+    if (moves(joint.a) && moves(joint.b)) {
+      joined.join(at(joint.a), at(joint.b));
+      clusters_.join(at(joint.a), at(joint.b));
+    }
+  }
+  for (int round = 0; round < 2; ++round) {
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      raiseTo(grip_[round == 0 ? joined.root(i) : i], grip_[round == 0 ? i : joined.root(i)]);
+    }
+  }
 }
 
 bool CrowdSleep::freeze() {
   findClusters();
   std::vector<char> quiet(members_.size(), 1);
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (!isQuiet(i, kFeasible, 1)) {
+    if (!isQuiet(i, kFeasible, 1) || articulations_.mayChange(static_cast<int>(i))) {
       quiet[clusters_.root(i)] = 0;
     }
   }
@@ -277,7 +308,7 @@ bool CrowdSleep::isQuiet(std::size_t place, double imbalance, double part) const
 void CrowdSleep::freezeParts() {
   std::vector<char> calm(members_.size(), 1);
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    calm[i] = isQuiet(i, kLoose, kSlow) ? 1 : 0;
+    calm[i] = isQuiet(i, kLoose, kSlow) && !articulations_.isJoined(static_cast<int>(i)) ? 1 : 0;
   }
   keepFar(calm);
   bool any = false;

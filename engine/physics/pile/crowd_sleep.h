@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/disjoint_sets.h"
+#include "physics/pile/crowd_articulations.h"
 #include "physics/pile/crowd_contacts.h"
 #include "physics/pile/crowd_loads.h"
 #include "physics/pile/crowd_members.h"
@@ -16,10 +17,11 @@ namespace careen {
 /// they are: then until what the ones awake push them with changes by an eighth of that and their weight.
 class CrowdSleep {
  public:
-  CrowdSleep(CrowdMembers& members, const CrowdLoads& loads, CrowdContacts& contacts, CrowdMemory& memory);
+  CrowdSleep(CrowdMembers& members, const CrowdLoads& loads, CrowdContacts& contacts,
+             const CrowdArticulations& articulations, CrowdMemory& memory);
 
   /// Those that the last step pushed otherwise than when they fell asleep: at the start of the next one, as
-  /// they did not move in it.
+  /// they did not move in it. And those whose joints may change.
   void wakeDisturbed();
   /// Those that contacts would push by more than they tolerate; returns whether there are any: their pairs
   /// are to be looked at, too.
@@ -47,6 +49,7 @@ class CrowdSleep {
   const PileBody& sleeperOf(const PileManifold& manifold) const;
   bool changes(const PileManifold& manifold, const Vec3& force, const Vec3& carried, double times) const;
   void findClusters();
+  void joinArticulations();
   bool isQuiet(std::size_t place, double imbalance, double part) const;
   void freeze(std::size_t place, int cluster);
   void freezeParts();
@@ -58,6 +61,7 @@ class CrowdSleep {
   CrowdMembers& members_;
   const CrowdLoads& loads_;
   CrowdContacts& contacts_;
+  const CrowdArticulations& articulations_;
   CrowdMemory& memory_;
   PileSolver solver_;         // of certificates
   std::vector<double> grip_;  // [1] largest friction coefficient at a body's contacts

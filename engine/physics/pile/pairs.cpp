@@ -192,7 +192,8 @@ void PilePairs::findPartners(std::span<const PileBody> bodies, int body) {
     for (int k = node.first; k < node.first + node.count; ++k) {
       const int other = order_[at(k)];
       const bool twice = left_[at(other)] != 0 && other < body;
-      if (other != body && !twice && !(held && bodies[at(other)].held) && box.overlaps(fat_[at(other)])) {
+      if (other != body && !twice && !(held && bodies[at(other)].held) && box.overlaps(fat_[at(other)]) &&
+          (!mayTouch_ || mayTouch_(body, other))) {
         found_.push_back(keyOf(std::min(body, other), std::max(body, other)));
       }
     }

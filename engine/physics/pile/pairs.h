@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -35,7 +36,10 @@ struct PilePair {
 /// Pairs are sorted by key, independent of history.
 class PilePairs {
  public:
-  explicit PilePairs(std::shared_ptr<Team> team = std::make_shared<Team>(1)) : team_(std::move(team)) {}
+  /// Whether two bodies, by index, stop each other; nothing: all do.
+  using MayTouch = std::function<bool(int a, int b)>;
+  explicit PilePairs(std::shared_ptr<Team> team = std::make_shared<Team>(1), MayTouch mayTouch = {})
+      : team_(std::move(team)), mayTouch_(std::move(mayTouch)) {}
 
   /// Removes all pairs of a body that is to be replaced by another.
   void clearPlace(int body);
@@ -73,6 +77,7 @@ class PilePairs {
   void merge();
 
   std::shared_ptr<Team> team_;
+  MayTouch mayTouch_;
   std::vector<Box> fat_;
   std::vector<char> left_;  // bodies that have just left their fat AABBs
   std::vector<PilePair> pairs_;

@@ -54,6 +54,11 @@ class PileSolver {
     moving_[at(body)].velocity += bodies_[at(body)].inverseMass * impulse;
     moving_[at(body)].omega += bodies_[at(body)].turned(arm.cross(impulse));
   }
+  /// An impulse [N s] and its moment [N m s] about the centre: it is pushed.
+  void give(int body, const Vec3& impulse, const Vec3& moment) {
+    setPushed(body, velocity(body) + bodies_[at(body)].inverseMass * impulse,
+              omega(body) + bodies_[at(body)].turned(moment));
+  }
   /// Whether any impulse acted on it since begin().
   bool pushed(int body) const { return moving_[at(body)].pushed != 0; }
 

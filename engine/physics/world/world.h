@@ -57,6 +57,11 @@ struct World {
   std::vector<std::pair<int, int>> apart;  ///< bodies that pass through each other, the lesser first; sorted
 };
 
+/// Whether a body, by index, is an end of a joint.
+bool isJointed(const World& world, int body);
+/// Whether a joint that holds lets go one day, or has an effort that a control may change.
+bool mayStillChange(const World& world, const Joint& joint);
+
 /// Whether two bodies stop each other.
 inline bool mayTouch(const World& world, int a, int b) {
   return world.apart.empty() || !std::binary_search(world.apart.begin(), world.apart.end(),

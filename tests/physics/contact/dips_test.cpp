@@ -24,6 +24,11 @@ TEST(Dips, lowestOfACubicIsBetweenItsTurns) {
   EXPECT_EQ(lowestOfCubic(1, 3, -2, 1, -2), 0);  // falling to its end
 }
 
+TEST(Dips, lowestBetweenTwoTimesIsFoundWhateverTheShape) {
+  EXPECT_NEAR(lowestBetween(1, 4, [](double t) { return std::fabs(t - 2.2); }), 2.2, 3.0 / 300);
+  EXPECT_NEAR(lowestBetween(0, 1, [](double t) { return t; }), 0, 1.0 / 300);
+}
+
 // Deeper than 1e-3 from 0.30 to 0.70: samples are at k/16, the first of them at 5/16.
 TEST(Dips, aWideDipIsSeenAtItsFirstSample) {
   const auto gap = [](double t) { return (t - 0.5) * (t - 0.5) - 0.04 - 1e-3; };

@@ -52,7 +52,7 @@ TEST(CrowdDirect, floorCarriesTheWeight) {
     PileSolver solver;
     load(stages, solver, guess);
     ASSERT_EQ(solver.rowCount(), 4U);
-    CrowdDirect direct(stages.members, stages.contacts, stages.memory);
+    CrowdDirect direct(stages.members, stages.contacts, stages.articulations, stages.memory);
     ASSERT_TRUE(direct.solve(solver));
     double sum = 0;
     for (int row = 0; row < 4; ++row) {
@@ -70,7 +70,8 @@ TEST(CrowdDirect, hasNothingToSolveWithoutRows) {
   CrowdStages stages(world);
   PileSolver solver;
   load(stages, solver);
-  EXPECT_FALSE(CrowdDirect(stages.members, stages.contacts, stages.memory).solve(solver));
+  EXPECT_FALSE(
+      CrowdDirect(stages.members, stages.contacts, stages.articulations, stages.memory).solve(solver));
 }
 
 // More than a few rows are not tried while a wait lasts; what is solved ends it.
@@ -80,7 +81,7 @@ TEST(CrowdDirect, waitsAfterAFailureWhereThereAreManyRows) {
   PileSolver solver;
   load(stages, solver);
   ASSERT_GT(solver.rowCount(), CrowdDirect::kFewRows);
-  CrowdDirect direct(stages.members, stages.contacts, stages.memory);
+  CrowdDirect direct(stages.members, stages.contacts, stages.articulations, stages.memory);
   stages.memory.directWait = 1;
   stages.memory.directPause = 8;
   EXPECT_FALSE(direct.solve(solver));

@@ -1,4 +1,4 @@
-#include "physics/pile/crowd_joints.h"
+#include "physics/pile/crowd_seams.h"
 
 #include <gtest/gtest.h>
 
@@ -30,36 +30,36 @@ bool isSharp(const Vec3& place, const Vec3& before, const Vec3& after) {
   };
   stages.members[1].position -= kJointStep * before;
   goOn(before);
-  stages.joints.remember();
+  stages.seams.remember();
   EXPECT_LT((stages.memory.places[1].rates.velocity - before).norm(), 1e-12);
   EXPECT_EQ(stages.memory.places[0].rates.velocity, Vec3(0, 0, 0));
   goOn(after);
-  return stages.joints.isSharp();
+  return stages.seams.isSharp();
 }
 
 // A smooth path cuts the corner that its steps make, on the side to which the velocity changes: here through
 // the edge that they go around, along one face and then along the next.
-TEST(CrowdJoints, pathThatWouldCutThroughAnEdgeIsSharp) {
+TEST(CrowdSeams, pathThatWouldCutThroughAnEdgeIsSharp) {
   const Vec3 atEdge(0.5, 0.5, 0);
   EXPECT_TRUE(isSharp(atEdge, Vec3(0, 3, 0), Vec3(-3, 0, 0)));
   EXPECT_FALSE(isSharp(atEdge, Vec3(0, 0.1, 0), Vec3(-0.1, 0, 0)));  // by less than half a tolerance
   EXPECT_FALSE(isSharp(atEdge, Vec3(-3, 0, 0), Vec3(0, 3, 0)));      // the change leads away
 }
 
-TEST(CrowdJoints, pathOfABounceIsSmooth) {
+TEST(CrowdSeams, pathOfABounceIsSmooth) {
   const Vec3 atFace(0.5, 0, 0);
   EXPECT_FALSE(isSharp(atFace, Vec3(-1, 0, 0), Vec3(1, 0, 0)));  // it turns before it is there
   EXPECT_TRUE(isSharp(atFace, Vec3(1, 0, 0), Vec3(-1, 0, 0)));   // its steps lead into the other
 }
 
 // What did not move remembers its velocity.
-TEST(CrowdJoints, ratesOfWhatStoodStillAreItsVelocity) {
+TEST(CrowdSeams, ratesOfWhatStoodStillAreItsVelocity) {
   World world;
   world.bodies.push_back(crate("a", Vec3::Constant(0.25), Vec3(0, 0, 0), {}));
   world.bodies[0].initial.velocity = Vec3(0, 2, 0);
   CrowdStages stages(world);
   stages.memory.places[0].past = 0.5;
-  stages.joints.remember();
+  stages.seams.remember();
   EXPECT_EQ(stages.memory.places[0].rates.velocity, Vec3(0, 2, 0));
   EXPECT_EQ(stages.memory.places[0].past, 0.5);
 }

@@ -1,4 +1,4 @@
-#include "physics/pile/crowd_joints.h"
+#include "physics/pile/crowd_seams.h"
 
 #include <algorithm>
 #include <atomic>
@@ -11,18 +11,18 @@
 namespace careen {
 namespace {
 
-// [1] of the tolerance: distance from a joint, and depth there, that are too much for a smooth path.
-constexpr double kRounded = 0.5;
-constexpr double kDeepAtJoint = 1.5;
+// [1] of the tolerance: distance from a seam, and depth there, that are too much for a smooth path.
+constexpr double kRoundedAtSeam = 0.5;
+constexpr double kDeepAtSeam = 1.5;
 // [1] of the bend, before and after it: from where to where it is looked at; as on the way of a step.
-constexpr double kBesideJoint = 0.4;
-constexpr double kSwingAtJoint = 2;
-constexpr double kShortestAtJoint = 0.0625;
+constexpr double kBesideSeam = 0.4;
+constexpr double kSwingAtSeam = 2;
+constexpr double kShortestAtSeam = 0.0625;
 
 }  // namespace
 
 // To second order.
-CrowdJoints::Rates CrowdJoints::meanRates(std::size_t place) const {
+CrowdSeams::Rates CrowdSeams::meanRates(std::size_t place) const {
   const PileBody& from = members_.start[place];
   const PileBody& to = members_[place];
   const Quat turn = to.attitude * from.attitude.conjugate();
@@ -31,7 +31,7 @@ CrowdJoints::Rates CrowdJoints::meanRates(std::size_t place) const {
           .omega = (turn.w() < 0 ? -2 : 2) * perSecond * turn.vec()};
 }
 
-void CrowdJoints::remember() {
+void CrowdSeams::remember() {
   members_.forEach([&](std::size_t i) {
     const bool moved = members_.ways[i].moved;
     CrowdMemory::OfPlace& place = memory_.places[i];
@@ -40,7 +40,7 @@ void CrowdJoints::remember() {
   });
 }
 
-bool CrowdJoints::isSharp() {
+bool CrowdSeams::isSharp() {
   change_.assign(members_.size(), {});
   members_.forEach([&](std::size_t i) {
     if (members_.ways[i].moved) {
@@ -58,19 +58,19 @@ bool CrowdJoints::isSharp() {
   return sharp;
 }
 
-bool CrowdJoints::isSharpAt(const PileManifold& manifold) const {
+bool CrowdSeams::isSharpAt(const PileManifold& manifold) const {
   const double most = JoinedSteps::beside(memory_.length, members_.h, 0).off;
-  if (!members_[manifold.b].isBox() || most * bendOf(manifold) <= kRounded * members_.tolerance) {
+  if (!members_[manifold.b].isBox() || most * bendOf(manifold) <= kRoundedAtSeam * members_.tolerance) {
     return false;
   }
   if (areAlike(manifold) && manifold.axis >= 0 && staysApart(manifold)) {
     return false;
   }
   const DepthSearch search{
-      .motion = kBesideJoint * std::max(memory_.length, members_.h) * passingSpeed(manifold),
-      .deep = kDeepAtJoint * members_.tolerance,
-      .swing = kSwingAtJoint * members_.tolerance,
-      .shortest = kShortestAtJoint};
+      .motion = kBesideSeam * std::max(memory_.length, members_.h) * passingSpeed(manifold),
+      .deep = kDeepAtSeam * members_.tolerance,
+      .swing = kSwingAtSeam * members_.tolerance,
+      .shortest = kShortestAtSeam};
   const double first = gapAt(manifold, 0);
   const double last = gapAt(manifold, 1);
   const auto between = [&](double along) { return gapAt(manifold, along); };
@@ -78,12 +78,12 @@ bool CrowdJoints::isSharpAt(const PileManifold& manifold) const {
 }
 
 // Whether their steps before were as long.
-bool CrowdJoints::areAlike(const PileManifold& manifold) const {
+bool CrowdSeams::areAlike(const PileManifold& manifold) const {
   return pastOf(at(manifold.a)) == pastOf(at(manifold.b));
 }
 
 // [m/s] By how much the rates of the one change as seen from the other, at the most.
-double CrowdJoints::bendOf(const PileManifold& manifold) const {
+double CrowdSeams::bendOf(const PileManifold& manifold) const {
   const int a = manifold.a;
   const int b = manifold.b;
   const Rates& ofA = change_[at(a)];
@@ -96,7 +96,7 @@ double CrowdJoints::bendOf(const PileManifold& manifold) const {
 }
 
 // [m/s] Bound.
-double CrowdJoints::passingSpeed(const PileManifold& manifold) const {
+double CrowdSeams::passingSpeed(const PileManifold& manifold) const {
   const std::size_t a = at(manifold.a);
   const std::size_t b = at(manifold.b);
   const Rates& ofA = ratesBefore(a);
@@ -106,9 +106,9 @@ double CrowdJoints::passingSpeed(const PileManifold& manifold) const {
          members_[b].radius * (ofB.omega.norm() + change_[b].omega.norm());
 }
 
-// The bend lies in the hull of the joint and its own ends; what the separation along an axis that turns with
+// The bend lies in the hull of the seam and its own ends; what the separation along an axis that turns with
 // the bodies is lower within by is of second order in their turns.
-bool CrowdJoints::staysApart(const PileManifold& manifold) const {
+bool CrowdSeams::staysApart(const PileManifold& manifold) const {
   const PileBody& a = members_.start[at(manifold.a)];
   const PileBody& b = members_.start[at(manifold.b)];
   const auto ratesAt = [&](int body, double time) {
@@ -140,22 +140,22 @@ bool CrowdJoints::staysApart(const PileManifold& manifold) const {
     const double way = std::abs(time) * (ofA.velocity - ofB.velocity).norm();
     lower = std::max(lower, turn * (turn * (a.radius + b.radius) + way));
   }
-  return least - lower > -kDeepAtJoint * members_.tolerance;
+  return least - lower > -kDeepAtSeam * members_.tolerance;
 }
 
 // [m] From 0 to 1, of the part of the bend that is looked at.
-double CrowdJoints::gapAt(const PileManifold& manifold, double along) const {
+double CrowdSeams::gapAt(const PileManifold& manifold, double along) const {
   const JoinedSteps::Beside moment =
-      JoinedSteps::beside(memory_.length, members_.h, kBesideJoint * (2 * along - 1));
+      JoinedSteps::beside(memory_.length, members_.h, kBesideSeam * (2 * along - 1));
   const PileBody& a = members_[manifold.a];
   const PileBody& b = members_[manifold.b];
   const Pose poseA = onPath(at(manifold.a), moment);
   const Pose poseB = onPath(at(manifold.b), moment);
-  return gapAbove(-kDeepAtJoint * members_.tolerance, manifold.axis, a, poseA.worldFromBody, b,
+  return gapAbove(-kDeepAtSeam * members_.tolerance, manifold.axis, a, poseA.worldFromBody, b,
                   poseB.worldFromBody, a.middleAt(poseA) - b.middleAt(poseB));
 }
 
-Pose CrowdJoints::onPath(std::size_t i, const JoinedSteps::Beside& moment) const {
+Pose CrowdSeams::onPath(std::size_t i, const JoinedSteps::Beside& moment) const {
   const Rates& rates = ratesBefore(i);
   const bool before = moment.time < 0;
   const double off =

@@ -12,12 +12,12 @@
 namespace careen {
 
 /// Whether the path of a crowd may be smooth where one step joins the next.
-class CrowdJoints {
+class CrowdSeams {
  public:
-  CrowdJoints(const CrowdMembers& members, CrowdContacts& contacts, CrowdMemory& memory)
+  CrowdSeams(const CrowdMembers& members, CrowdContacts& contacts, CrowdMemory& memory)
       : members_(members), contacts_(contacts), memory_(memory) {}
 
-  /// A step begins: of the one before, what the next joint asks for.
+  /// A step begins: of the one before, what the next seam asks for.
   void remember();
   /// Whether near where the step begins, the smooth path through both would lead members deep into each
   /// other: then its begin is to be met.
