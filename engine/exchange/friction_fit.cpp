@@ -53,7 +53,7 @@ class Fit {
     }
     for (std::size_t k = 1; k < rough.size(); ++k) {
       const double shared = friction_(a, rough[k]);
-      found[rough[k]] = shared * shared / found[a];
+      found[rough[k]] = std::isnan(shared) ? own_[rough[k]] : shared * shared / found[a];
     }
     return found;
   }

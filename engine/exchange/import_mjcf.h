@@ -10,8 +10,7 @@ struct ImportedScene {
   std::vector<std::string> notes;  ///< what was ignored, left open or renamed, in words
 };
 
-inline constexpr double kImportedDuration = 10;                ///< [s] MJCF has none
-inline constexpr std::size_t kMostImportedPairs = 10'000'000;  ///< of different friction
+inline constexpr double kImportedDuration = 10;  ///< [s] MJCF has none
 
 /// A model of MuJoCo (MJCF) as a scene: planes as walls, boxes without joint as fixed boxes, bodies with a
 /// free joint and one box that collides as boxes, with the masses, inertias, poses and classes of defaults
