@@ -7,6 +7,7 @@
 
 #include "core/brief.h"
 #include "exchange/mjcf_text.h"
+#include "scene/json_shape.h"
 
 namespace careen {
 namespace {
@@ -87,7 +88,7 @@ class JointEncoder {
     if (!joint.hasCoordinate()) {
       return text + "/>";
     }
-    text += mjcfAttribute("axis", mjcfNumbers(Vec3(sign * end.axes.col(2)))) +
+    text += mjcfAttribute("axis", mjcfNumbers(Vec3(sign * end.axes.col(2) + Vec3::Zero()))) +
             mjcfAttribute("ref", inFull(startOf(joint)));
     if (isLimited(joint)) {
       text += mjcfAttribute("limited", "true") +
@@ -165,9 +166,13 @@ class JointEncoder {
         result_.leftOut.push_back("the motor of " + joint.name + ", which closes a loop");
         continue;
       }
+      const bool isLimited = motor.largest < kLargestNumber;
       result_.actuators.push_back(
-          "<motor" + mjcfAttribute("joint", joint.name) + mjcfAttribute("ctrllimited", "true") +
-          mjcfAttribute("ctrlrange", mjcfNumbers({-motor.largest, motor.largest})) + "/>");
+          "<motor" + mjcfAttribute("joint", joint.name) +
+          (isLimited ? mjcfAttribute("ctrllimited", "true") +
+                           mjcfAttribute("ctrlrange", mjcfNumbers({-motor.largest, motor.largest}))
+                     : "") +
+          "/>");
     }
   }
 

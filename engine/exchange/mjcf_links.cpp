@@ -53,7 +53,10 @@ class LinkReader {
     return found->second;
   }
   MjcfFrame frameOf(const MjcfNamedBody& body) const {
-    return body.surface ? model_.surfaces[*body.surface].body : body.standing;
+    return moves(body) ? model_.surfaces[*body.surface].body : body.standing;
+  }
+  bool moves(const MjcfNamedBody& body) const {
+    return body.surface && model_.surfaces[*body.surface].movable;
   }
 
   void readClosing(const XmlElement& element) {
@@ -70,7 +73,7 @@ class LinkReader {
     }
     const MjcfNamedBody& one = bodyOf(element, "body1");
     const MjcfNamedBody& two = bodyOf(element, "body2");
-    if (!one.surface && !two.surface) {
+    if (!moves(one) && !moves(two)) {
       document_.ignore(element.name + " of what does not move");
       return;
     }
@@ -83,20 +86,20 @@ class LinkReader {
     const Vec3 at = here.position + here.turn * anchor;
     const MjcfFrame relative = seenFrom(two.standing, one.standing);
     const MjcfFrame wanted = frameOf(two).of(relative.position + relative.turn * anchor, relative.turn);
-    const double size = sizeOf(one.surface ? one : two);
+    const double size = sizeOf(moves(one) ? one : two);
     const double off =
         (at - wanted.position).norm() + (isWeld ? size * here.turn.angularDistance(wanted.turn) : 0);
     if (!(off <= kMjcfCentered * size)) {
       document_.fail(element, "<" + element.name + "> that the key frame \"start\" leaves open",
                      "one that holds");
     }
-    const bool isFirst = one.surface.has_value();
+    const bool isFirst = moves(one);
     links_.closings.push_back(
         {.isFixed = isWeld,
          .name = model_.jointNames.unique(element.text("name"),
                                           element.name + "-" + std::to_string(links_.closings.size())),
          .from = *(isFirst ? one : two).surface,
-         .to = isFirst ? two.surface : std::nullopt,
+         .to = (isFirst ? two : one).surface,
          .at = at});
   }
   static MjcfFrame seenFrom(const MjcfFrame& from, const MjcfFrame& frame) {
@@ -144,8 +147,9 @@ class LinkReader {
                     {"group", "user", "lengthrange"});
     const auto joint = joints_.find(actuator.text("joint"));
     if (joint == joints_.end() || !model_.surfaces[joint->second].joint.hasCoordinate()) {
-      document_.fail(actuator, inQuotes(actuator.text("joint")) + " for joint",
-                     "the name of a hinge or slide");
+      const XmlAttribute* const given = actuator.find("joint");
+      document_.tree().fail(given == nullptr ? actuator.offset : given->offset,
+                            inQuotes(actuator.text("joint")) + " for joint", "the name of a hinge or slide");
     }
     const std::vector<double> gears = document_.numbers(actuator, "gear", 1, 6);
     const double gear = gears.empty() ? 1 : gears[0];

@@ -14,7 +14,7 @@ struct MjcfClosing {
   bool isFixed = false;  ///< a weld; else a point in common
   std::string name;
   std::size_t from = 0;           ///< a box that moves
-  std::optional<std::size_t> to;  ///< none: what does not move
+  std::optional<std::size_t> to;  ///< none: the world
   Vec3 at = Vec3::Zero();         ///< [m] world, at the start
 };
 

@@ -80,6 +80,9 @@ class ModelReader {
                        "boxes and planes, fixed or with a joint");
       }
     }
+    if (body != nullptr && !boxes.empty()) {
+      model_.bodies[body->text("name")].surface = boxes[0];
+    }
     for (const std::size_t each : inIt) {
       if (body != nullptr && !boxes.empty() && each < model_.surfaces.size() &&
           model_.surfaces[each].isJointed() && !model_.surfaces[each].parent) {

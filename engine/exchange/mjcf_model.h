@@ -65,7 +65,7 @@ struct MjcfRope {
 
 /// What a name of a <body> stands for.
 struct MjcfNamedBody {
-  std::optional<std::size_t> surface = {};  ///< its box; none: of what does not move
+  std::optional<std::size_t> surface = {};  ///< its first box
   MjcfFrame standing = {};                  ///< world from it, as the model stands
 };
 
