@@ -196,7 +196,7 @@ TEST(ExportMjcfJoints, theSameBoxesMayTouchInMujoco) {
     const RunSetup setup = setupOfText(RandomJointed(seed, {.contacts = true}).text());
     const MjcfTree tree = treeOf(setup.world);
     std::string xml = encodeMjcf(setup, "test").text;
-    xml.insert(xml.find("<option"), R"(<size njmax="5000" nconmax="1000"/>)");
+    xml.insert(xml.find("<option"), R"(<size njmax="100" nconmax="1000"/>)");
     InMujoco other(xml);
     mj_kinematics(other.model.get(), other.data.get());
     mj_comPos(other.model.get(), other.data.get());
