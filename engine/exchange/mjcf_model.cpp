@@ -39,10 +39,11 @@ class ModelReader {
                      "the name of a tendon");
     }
     readStart(document_, model_);
-    for (const MjcfNames* const names : {&names_, &model_.jointNames}) {
-      if (!names->renamed().empty()) {
-        model_.notes.push_back("renamed: " + names->renamed());
-      }
+    if (!names_.renamed().empty()) {
+      model_.notes.push_back("renamed: " + names_.renamed());
+    }
+    if (!model_.jointNames.renamed().empty()) {
+      model_.notes.push_back("renamed joints: " + model_.jointNames.renamed());
     }
     return std::move(model_);
   }
