@@ -124,10 +124,11 @@ class JointEncoder {
       connect(joint.name + " below", joint.from.point - half);
       connect(joint.name + " above", joint.from.point + half);
       if (isLimited(joint) || joint.isLoaded()) {
-        result_.leftOut.push_back("limits and springs of " + joint.name + ", which closes a loop");
+        result_.leftOut.push_back("limits and springs of " + joint.name +
+                                  ", which closes a loop or long chain");
       }
     } else {
-      result_.leftOut.push_back(joint.name + ", a slider that closes a loop");
+      result_.leftOut.push_back(joint.name + ", a slider that closes a loop or long chain");
     }
   }
 
@@ -163,7 +164,7 @@ class JointEncoder {
     for (const Motor& motor : world_.control->motors) {
       const Joint& joint = world_.joints[static_cast<std::size_t>(motor.joint)];
       if (!inTree_.contains(static_cast<std::size_t>(motor.joint))) {
-        result_.leftOut.push_back("the motor of " + joint.name + ", which closes a loop");
+        result_.leftOut.push_back("the motor of " + joint.name + ", which closes a loop or long chain");
         continue;
       }
       const bool isLimited = motor.largest < kLargestNumber;

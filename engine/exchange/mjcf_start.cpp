@@ -145,6 +145,9 @@ class StartReader {
     const auto fail = [&](const std::string& found, const std::string& expected) {
       document_.fail(*joint.element, found, expected);
     };
+    if (std::isnan(elementary::sinCos(surface.coordinate).cos)) {
+      fail("a joint that starts at " + brief(surface.coordinate), "an angle of fewer turns");
+    }
     const auto [lowest, highest] = joint.range;
     const bool isHinge = joint.type == "hinge";
     if (document_.isLimited(*joint.element, joint.limited, joint.range)) {

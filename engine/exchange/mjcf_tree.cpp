@@ -6,15 +6,19 @@
 #include <set>
 
 #include "core/disjoint_sets.h"
+#include "exchange/xml_tree.h"
 
 namespace careen {
 namespace {
 
 using JointKind = Joint::Kind;
 
+constexpr int kDeepestMjcfBody = kDeepestXml - 3;  // in <mujoco> and <worldbody>, with a <geom> in it
+
 class TreeBuilder {
  public:
-  explicit TreeBuilder(const World& world) : world_(world), joints_(world.bodies.size() + 1) {
+  explicit TreeBuilder(const World& world)
+      : world_(world), joints_(world.bodies.size() + 1), depth_(world.bodies.size(), 1) {
     tree_.parent.resize(world.bodies.size());
     tree_.joint.resize(world.bodies.size());
     tree_.oneWith.resize(world.bodies.size());
@@ -34,6 +38,7 @@ class TreeBuilder {
         hang(i, isHeld);
       }
     }
+    std::sort(tree_.closing.begin(), tree_.closing.end());
     sort();
     return std::move(tree_);
   }
@@ -80,7 +85,6 @@ class TreeBuilder {
         joints_[other].push_back(each);
       }
     }
-    std::sort(tree_.closing.begin(), tree_.closing.end());
   }
 
   // What hangs on a node.
@@ -97,9 +101,17 @@ class TreeBuilder {
         const Joint& joint = world_.joints[each];
         const bool isFrom = nodeOf(joint.from) != node;
         const std::size_t body = nodeOf(isFrom ? joint.from : joint.to);
-        if (!isHeld[body]) {
+        const std::optional<int> holder = (isFrom ? joint.to : joint.from).body;
+        const int depth = holder ? depth_[static_cast<std::size_t>(*holder)] + 1 : 1;
+        if (isHeld[body]) {
+          continue;
+        }
+        if (depth > kDeepestMjcfBody) {
+          tree_.closing.push_back(each);  // the body is free, or held by what hangs on it
+        } else {
           isHeld[body] = true;
-          tree_.parent[body] = (isFrom ? joint.to : joint.from).body;
+          depth_[body] = depth;
+          tree_.parent[body] = holder;
           tree_.joint[body] = each;
           const bool isOne = joint.kind == JointKind::kFixed;
           tree_.oneWith[body] = !isOne             ? static_cast<int>(body)
@@ -131,6 +143,7 @@ class TreeBuilder {
   MjcfTree tree_;
   std::vector<std::vector<std::size_t>> joints_;  // of the tree, by node: a body, or all that is fixed
   std::set<std::size_t> driven_;
+  std::vector<int> depth_;  // of each body, 1 in the world
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ struct MjcfTree {
   std::vector<std::optional<int>> parent;         ///< the body that it is in, by body; none: the world
   std::vector<std::optional<std::size_t>> joint;  ///< that holds it there
   std::vector<int> order;                         ///< of all bodies: MuJoCo's
-  std::vector<std::size_t> closing;               ///< joints that close loops, but rods and ropes
+  std::vector<std::size_t> closing;  ///< joints that close loops or long chains, but rods and ropes
   /// The first body of those that it is one with, since only fixed joints are between them; none: the world.
   std::vector<std::optional<int>> oneWith;
 
@@ -27,7 +27,8 @@ struct MjcfTree {
 };
 
 /// Joints are in it before others if nothing but a joint of the tree can say what they do: sliders, hinges
-/// with limits, springs or motors, fixed ones, and other hinges before balls.
+/// with limits, springs or motors, fixed ones, and other hinges before balls. Bodies are in one another as
+/// deep as kDeepestXml lets them; what goes on there is another tree.
 MjcfTree treeOf(const World& world);
 
 }  // namespace careen

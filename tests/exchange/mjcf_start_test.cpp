@@ -75,6 +75,8 @@ TEST(MjcfStart, refusesWhereNoJointOfASceneStarts) {
             std::string::npos);
   EXPECT_NE(refusal(arm("") + key("0 0", "0")).find("found 2 numbers in qpos for <key>, expected 1"),
             std::string::npos);
+  EXPECT_NE(refusal(arm(R"(ref="1e20")") + "</worldbody>").find("found a joint that starts at 1e+20"),
+            std::string::npos);
   EXPECT_NE(refusal(arm("") + key("1e60", "0")).find("expected angles of fewer turns"), std::string::npos);
 }
 
