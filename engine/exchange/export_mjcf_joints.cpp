@@ -12,8 +12,6 @@
 namespace careen {
 namespace {
 
-using JointKind = Joint::Kind;
-
 class JointEncoder {
  public:
   JointEncoder(const World& world, const MjcfTree& tree) : world_(world), tree_(tree) {}
@@ -45,7 +43,7 @@ class JointEncoder {
 
  private:
   static bool isLine(const Joint& joint) {
-    return joint.kind == JointKind::kRod || joint.kind == JointKind::kRope;
+    return joint.kind == Joint::Kind::kRod || joint.kind == Joint::Kind::kRope;
   }
   static bool isLimited(const Joint& joint) {
     return std::isfinite(joint.lowest) || std::isfinite(joint.highest);
@@ -77,13 +75,13 @@ class JointEncoder {
 
   std::string elementOf(std::size_t body) const {
     const auto [joint, end, sign] = heldBy(body);
-    if (joint.kind == JointKind::kFixed) {
+    if (joint.kind == Joint::Kind::kFixed) {
       return "";
     }
     std::string text = "<joint" + mjcfAttribute("name", joint.name) +
-                       mjcfAttribute("type", joint.kind == JointKind::kSlider  ? "slide"
-                                             : joint.kind == JointKind::kHinge ? "hinge"
-                                                                               : "ball") +
+                       mjcfAttribute("type", joint.kind == Joint::Kind::kSlider  ? "slide"
+                                             : joint.kind == Joint::Kind::kHinge ? "hinge"
+                                                                                 : "ball") +
                        mjcfAttribute("pos", mjcfNumbers(inBoxFrame(world_.bodies[body], end.point)));
     if (!joint.hasCoordinate()) {
       return text + "/>";
@@ -115,11 +113,11 @@ class JointEncoder {
       result_.equalities.push_back("<connect" + mjcfAttribute("name", name) + ends(joint) +
                                    mjcfAttribute("anchor", mjcfNumbers(inBoxFrame(body, point))) + "/>");
     };
-    if (joint.kind == JointKind::kFixed) {
+    if (joint.kind == Joint::Kind::kFixed) {
       result_.equalities.push_back("<weld" + mjcfAttribute("name", joint.name) + ends(joint) + "/>");
-    } else if (joint.kind == JointKind::kBall) {
+    } else if (joint.kind == Joint::Kind::kBall) {
       connect(joint.name, joint.from.point);
-    } else if (joint.kind == JointKind::kHinge) {
+    } else if (joint.kind == Joint::Kind::kHinge) {
       const Vec3 half = radiusOf(body) * joint.from.axes.col(2);
       connect(joint.name + " below", joint.from.point - half);
       connect(joint.name + " above", joint.from.point + half);
@@ -134,7 +132,7 @@ class JointEncoder {
 
   void addLine(std::size_t index) {
     const Joint& joint = world_.joints[index];
-    const bool isRope = joint.kind == JointKind::kRope;
+    const bool isRope = joint.kind == Joint::Kind::kRope;
     result_.tendons.push_back(
         "<spatial" + mjcfAttribute("name", joint.name) +
         (isRope ? mjcfAttribute("limited", "true") + mjcfAttribute("range", mjcfNumbers({0, joint.length}))
@@ -215,14 +213,14 @@ class JointEncoder {
     }
     const Held held = heldBy(index);
     const Velocity other = velocityOf(tree_.parent[index]);
-    if (held.joint.kind == JointKind::kBall) {
+    if (held.joint.kind == Joint::Kind::kBall) {
       append(result_.places, mjcfNumbers(Quat::Identity()));
       append(result_.speeds,
              mjcfNumbers(Vec3(pose.worldFromBody.transpose() * Vec3(own.angular - other.angular))));
     } else if (held.joint.hasCoordinate()) {
       const Vec3 place = held.end.pointAt(pose);
-      const Vec3 relative = held.joint.kind == JointKind::kHinge ? Vec3(own.angular - other.angular)
-                                                                 : Vec3(own.at(place) - other.at(place));
+      const Vec3 relative = held.joint.kind == Joint::Kind::kHinge ? Vec3(own.angular - other.angular)
+                                                                   : Vec3(own.at(place) - other.at(place));
       append(result_.places, inFull(startOf(held.joint)));
       append(result_.speeds, inFull(dot(held.axis(pose), relative)));
     }
@@ -236,11 +234,11 @@ class JointEncoder {
     const Vec3 axis = joint.to.axesAt(poseOf(joint.to.body)).col(2);
     Vec3 linear = one.at(place) - other.at(place);
     Vec3 angular = one.angular - other.angular;
-    if (joint.kind == JointKind::kBall) {
+    if (joint.kind == Joint::Kind::kBall) {
       angular.setZero();
-    } else if (joint.kind == JointKind::kHinge) {
+    } else if (joint.kind == Joint::Kind::kHinge) {
       angular -= dot(axis, angular) * axis;
-    } else if (joint.kind == JointKind::kSlider) {
+    } else if (joint.kind == Joint::Kind::kSlider) {
       linear -= dot(axis, linear) * axis;
     }
     return linear.norm() + radiusOf(bodyAt(*joint.from.body)) * angular.norm();

@@ -14,24 +14,24 @@
 namespace careen {
 namespace {
 
-using SceneJson = nlohmann::ordered_json;
+using JointJson = nlohmann::ordered_json;
 
-SceneJson arrayOf(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+JointJson coordinatesOf(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 class JointWriter {
  public:
   JointWriter(const MjcfDocument& document, const MjcfModel& model, const MjcfContacts& contacts)
       : document_(document), model_(model), contacts_(contacts) {}
 
-  SceneJson write(const MjcfLinks& links) {
+  JointJson write(const MjcfLinks& links) {
     for (std::size_t i = 0; i < model_.surfaces.size(); ++i) {
       if (model_.surfaces[i].isJointed()) {
         addJoint(i);
       }
     }
     for (const MjcfClosing& each : links.closings) {
-      SceneJson item = begin(each.name, each.isFixed ? "fixed" : "ball", each.from, each.to);
-      item["at"] = arrayOf(each.at);
+      JointJson item = begin(each.name, each.isFixed ? "fixed" : "ball", each.from, each.to);
+      item["at"] = coordinatesOf(each.at);
       joints_.push_back(item);
     }
     for (const MjcfRope& each : model_.ropes) {
@@ -41,8 +41,8 @@ class JointWriter {
   }
 
   // Joined boxes that collide say so, others that do not are listed.
-  SceneJson passThrough() const {
-    SceneJson lists = SceneJson::array();
+  JointJson passThrough() const {
+    JointJson lists = JointJson::array();
     for (const auto& pair : contacts_.apart) {
       if (!joined_.contains(pair)) {
         lists.push_back({nameOf(pair.first), nameOf(pair.second)});
@@ -52,13 +52,13 @@ class JointWriter {
   }
 
  private:
-  SceneJson nameOf(const std::optional<std::size_t>& surface) const {
+  JointJson nameOf(const std::optional<std::size_t>& surface) const {
     return surface ? model_.surfaces[*surface].name : "world";
   }
 
-  SceneJson begin(const std::string& name, const std::string& type, const std::optional<std::size_t>& from,
+  JointJson begin(const std::string& name, const std::string& type, const std::optional<std::size_t>& from,
                   const std::optional<std::size_t>& to) {
-    SceneJson item = {{"name", name}, {"type", type}, {"between", {nameOf(from), nameOf(to)}}};
+    JointJson item = {{"name", name}, {"type", type}, {"between", {nameOf(from), nameOf(to)}}};
     if (from && to) {
       const std::pair<std::size_t, std::size_t> pair = std::minmax(*from, *to);
       if (contacts_.apart.contains(pair)) {
@@ -73,10 +73,10 @@ class JointWriter {
   void addJoint(std::size_t index) {
     const MjcfSurface& surface = model_.surfaces[index];
     const MjcfJoint& joint = surface.joint;
-    SceneJson item = begin(joint.name, joint.type == "slide" ? "slider" : joint.type, index, surface.parent);
-    item["at"] = arrayOf(surface.body.position + surface.body.turn * joint.position);
+    JointJson item = begin(joint.name, joint.type == "slide" ? "slider" : joint.type, index, surface.parent);
+    item["at"] = coordinatesOf(surface.body.position + surface.body.turn * joint.position);
     if (joint.hasCoordinate()) {
-      item["axis"] = arrayOf(surface.body.turn * joint.axis);
+      item["axis"] = coordinatesOf(surface.body.turn * joint.axis);
       if (surface.coordinate != 0) {
         item["start"] = surface.coordinate;
       }
@@ -103,8 +103,8 @@ class JointWriter {
                          " m apart",
                      rope.isRod ? "their distance" : "at least their distance");
     }
-    SceneJson item = begin(rope.name, rope.isRod ? "rod" : "rope", rope.from.surface, rope.to.surface);
-    item["points"] = {arrayOf(rope.from.point), arrayOf(rope.to.point)};
+    JointJson item = begin(rope.name, rope.isRod ? "rod" : "rope", rope.from.surface, rope.to.surface);
+    item["points"] = {coordinatesOf(rope.from.point), coordinatesOf(rope.to.point)};
     item["length"] = rope.length;
     joints_.push_back(item);
   }
@@ -112,15 +112,15 @@ class JointWriter {
   const MjcfDocument& document_;
   const MjcfModel& model_;
   const MjcfContacts& contacts_;
-  SceneJson joints_ = SceneJson::array();
+  JointJson joints_ = JointJson::array();
   std::set<std::pair<std::size_t, std::size_t>> joined_;  // that pass through each other
 };
 
-SceneJson controlOf(const MjcfModel& model, const MjcfLinks& links, double duration) {
+JointJson controlOf(const MjcfModel& model, const MjcfLinks& links, double duration) {
   constexpr double kMostSamples = 1e6;
-  SceneJson motors = SceneJson::array();
+  JointJson motors = JointJson::array();
   for (const MjcfMotor& each : links.motors) {
-    SceneJson motor = {{"joint", model.surfaces[each.surface].joint.name}, {"kp", each.kp}, {"kd", each.kd}};
+    JointJson motor = {{"joint", model.surfaces[each.surface].joint.name}, {"kp", each.kp}, {"kd", each.kd}};
     if (each.target != 0) {
       motor["target"] = each.target;
     }
@@ -137,10 +137,10 @@ SceneJson controlOf(const MjcfModel& model, const MjcfLinks& links, double durat
 void writeJoints(const MjcfDocument& document, const MjcfModel& model, const MjcfLinks& links,
                  const MjcfContacts& contacts, double duration, nlohmann::ordered_json& scene) {
   JointWriter writer(document, model, contacts);
-  if (SceneJson joints = writer.write(links); !joints.empty()) {
+  if (JointJson joints = writer.write(links); !joints.empty()) {
     scene["joints"] = std::move(joints);
   }
-  if (SceneJson lists = writer.passThrough(); !lists.empty()) {
+  if (JointJson lists = writer.passThrough(); !lists.empty()) {
     scene["pass_through"] = std::move(lists);
   }
   if (!links.motors.empty()) {

@@ -18,11 +18,13 @@ struct MjcfContacts {
 
 inline constexpr std::size_t kMostImportedPairs = 10'000'000;  ///< of different friction
 
+/// Whether bodies meet those that they are in, unless these stand still: <flag filterparent>.
+enum class FilterParent : unsigned char { kNo, kYes };
+
 /// Reads <contact>, and what MuJoCo lets through each other: boxes of one body or of bodies without a joint
-/// between them, a body and the one that it is in unless that stands still (`filterParent`), <exclude>, and
+/// between them, a body and the one that it is in, <exclude>, and
 /// what contype and conaffinity keep apart; but not what a <pair> names. InputError where a wall would let a
 /// box through, and where no coefficients give each pair its friction (exchange/friction_fit.h).
-enum class FilterParent : unsigned char { kNo, kYes };
 MjcfContacts readContacts(MjcfDocument& document, const MjcfModel& model, FilterParent filterParent);
 
 }  // namespace careen

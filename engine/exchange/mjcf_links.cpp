@@ -16,7 +16,7 @@ class LinkReader {
   LinkReader(MjcfDocument& document, MjcfModel& model) : document_(document), model_(model) {
     for (std::size_t i = 0; i < model_.surfaces.size(); ++i) {
       const MjcfSurface& surface = model_.surfaces[i];
-      if (surface.isJointed() && surface.joint.element->find("name") != nullptr) {
+      if (surface.movable && surface.joint.hasCoordinate()) {
         joints_[surface.joint.element->text("name")] = i;
       }
     }

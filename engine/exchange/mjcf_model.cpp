@@ -84,7 +84,7 @@ class ModelReader {
     if (body != nullptr && !boxes.empty()) {
       model_.bodies[body->text("name")].surface = boxes[0];
     }
-    for (const std::size_t each : inIt) {
+    for (const std::size_t each : inIt) {  // the world's boxes are not what its bodies are joined to
       if (body != nullptr && !boxes.empty() && each < model_.surfaces.size() &&
           model_.surfaces[each].isJointed() && !model_.surfaces[each].parent) {
         model_.surfaces[each].parent = boxes[0];

@@ -13,8 +13,6 @@
 namespace careen {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 std::size_t placesOf(const MjcfJoint& joint) {
   return joint.isFree() ? 7 : joint.isBall() ? 4 : joint.hasCoordinate() ? 1 : 0;
 }
@@ -156,10 +154,11 @@ class StartReader {
                  " to " + brief(highest),
              "a start within it");
       }
-      if (isHinge && !(highest - lowest < 2 * kPi)) {
+      if (isHinge && !(highest - lowest < 2 * std::numbers::pi)) {
         fail("a range of a turn or more", "less than a turn");
       }
-    } else if (isHinge && joint.stiffness != 0 && !(std::fabs(surface.coordinate - joint.springRef) < kPi)) {
+    } else if (isHinge && joint.stiffness != 0 &&
+               !(std::fabs(surface.coordinate - joint.springRef) < std::numbers::pi)) {
       fail("a spring that rests half a turn or more from the start", "less, or a range");
     }
   }

@@ -21,22 +21,22 @@
 namespace careen {
 namespace {
 
-RunSetup setupOfText(const std::string& text) {
+RunSetup setupForMujoco(const std::string& text) {
   return setupOf(parseScene(text, "test", Starts::kMayOverlap));
 }
-MjcfJoints jointsOf(const std::string& text) {
-  const RunSetup setup = setupOfText(text);
+MjcfJoints encodedJointsOf(const std::string& text) {
+  const RunSetup setup = setupForMujoco(text);
   return encodeJoints(setup.world, treeOf(setup.world));
 }
-std::string box(const std::string& name, const std::string& more) {
+std::string boxNamed(const std::string& name, const std::string& more) {
   return R"({ "name": ")" + name + R"(", "half_extents": [0.1, 0.2, 0.2], "mass": 1)" + more + " }";
 }
 
 // ---- By hand
 
 TEST(ExportMjcfJoints, aHingeHasItsCoordinateAndSpring) {
-  const MjcfJoints joints =
-      jointsOf(R"({ "careen": 1, "duration": 1, "boxes": [)" + box("a", R"(, "position": [1, 0, 0])") + R"(],
+  const MjcfJoints joints = encodedJointsOf(R"({ "careen": 1, "duration": 1, "boxes": [)" +
+                                            boxNamed("a", R"(, "position": [1, 0, 0])") + R"(],
     "joints": [ { "name": "h", "type": "hinge", "between": ["world", "a"], "at": [0.5, 0, 2], "axis": [0, 0, 1], "start": 0.25,
       "range": [-1, 1.5], "spring": { "stiffness": 3, "rest": 0.5 }, "damping": 0.125 } ] })");
   // Of the world relative to the box about z: of the box about -z.
@@ -52,8 +52,9 @@ TEST(ExportMjcfJoints, aHingeHasItsCoordinateAndSpring) {
 
 TEST(ExportMjcfJoints, whatClosesLoopsRopesRodsAndMotors) {
   const std::string two =
-      box("a", R"(, "position": [1, 0, 0])") + ", " + box("b", R"(, "position": [2, 0, 0])");
-  const MjcfJoints joints = jointsOf(R"({ "careen": 1, "duration": 1, "boxes": [)" + two + R"(], "joints": [
+      boxNamed("a", R"(, "position": [1, 0, 0])") + ", " + boxNamed("b", R"(, "position": [2, 0, 0])");
+  const MjcfJoints joints =
+      encodedJointsOf(R"({ "careen": 1, "duration": 1, "boxes": [)" + two + R"(], "joints": [
       { "name": "ball", "type": "ball", "between": ["a", "world"], "at": [0.5, 0, 0] },
       { "name": "slide", "type": "slider", "between": ["a", "b"], "at": [1.5, 0, 0], "axis": [1, 0, 0] },
       { "name": "weld", "type": "fixed", "between": ["b", "world"] },
@@ -78,12 +79,13 @@ TEST(ExportMjcfJoints, whatClosesLoopsRopesRodsAndMotors) {
 }
 
 TEST(ExportMjcfJoints, tellsWhatLoopsAndVelocitiesItLeavesOut) {
-  const std::string two = box("a", R"(, "position": [1, 0, 0], "velocity": [0, 0, 1])") + ", " +
-                          box("b", R"(, "position": [2, 0, 0])");
+  const std::string two = boxNamed("a", R"(, "position": [1, 0, 0], "velocity": [0, 0, 1])") + ", " +
+                          boxNamed("b", R"(, "position": [2, 0, 0])");
   const std::string slider = R"("type": "slider", "axis": [1, 0, 0], "at": [1.5, 0, 0], )";
-  const MjcfJoints joints = jointsOf(R"({ "careen": 1, "duration": 1, "boxes": [)" + two + R"(], "joints": [
+  const MjcfJoints joints =
+      encodedJointsOf(R"({ "careen": 1, "duration": 1, "boxes": [)" + two + R"(], "joints": [
       { )" + slider + R"("between": ["a", "b"] }, { )" +
-                                     slider + R"("between": ["b", "world"] },
+                      slider + R"("between": ["b", "world"] },
       { )" + slider + R"("between": ["a", "world"] } ] })");
   EXPECT_EQ(joints.leftOut, (std::vector<std::string>{"joint-2, a slider that closes a loop or long chain",
                                                       "velocities that joints do not allow"}));
@@ -98,7 +100,7 @@ struct Largest {
   static void most(double& of, double found) { of = found <= of ? of : found; }  // NaN counts
 };
 
-void compareStarts(const RunSetup& setup, InMujoco& other, Largest& largest) {
+void compareStartsWith(const RunSetup& setup, InMujoco& other, Largest& largest) {
   mjModel* const model = other.model.get();
   mjData* const data = other.data.get();
   mj_resetDataKeyframe(model, data, 0);
@@ -119,11 +121,11 @@ void compareStarts(const RunSetup& setup, InMujoco& other, Largest& largest) {
 TEST(ExportMjcfJoints, treesStartAsInMujoco) {
   Largest largest;
   for (unsigned seed = 0; seed < 200; ++seed) {
-    const RunSetup setup = setupOfText(RandomJointed(seed, {.limits = true}).text());
+    const RunSetup setup = setupForMujoco(RandomJointed(seed, {.limits = true}).text());
     const MjcfFile file = encodeMjcf(setup, "test");
     ASSERT_TRUE(file.leftOut.empty()) << file.leftOut[0];
     InMujoco other(file.text);
-    compareStarts(setup, other, largest);
+    compareStartsWith(setup, other, largest);
     // As the model stands it starts.
     std::vector<Vec3> places;
     for (const Body& body : setup.world.bodies) {
@@ -162,7 +164,7 @@ TEST(ExportMjcfJoints, treesMoveAsInMujoco) {
   double most = 0;
   double mostRatio = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
-    const RunSetup setup = setupOfText(RandomJointed(seed, {}).text());
+    const RunSetup setup = setupForMujoco(RandomJointed(seed, {}).text());
     const Trajectory run = record(setup);
     const std::string xml = encodeMjcf(setup, "test").text;
     const auto error = [&](double step) {
@@ -193,7 +195,7 @@ TEST(ExportMjcfJoints, theSameBoxesMayTouchInMujoco) {
   std::size_t touching = 0;
   std::size_t passing = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
-    const RunSetup setup = setupOfText(RandomJointed(seed, {.contacts = true}).text());
+    const RunSetup setup = setupForMujoco(RandomJointed(seed, {.contacts = true}).text());
     const MjcfTree tree = treeOf(setup.world);
     std::string xml = encodeMjcf(setup, "test").text;
     xml.insert(xml.find("<option"), R"(<size njmax="100" nconmax="1000"/>)");
@@ -229,7 +231,7 @@ TEST(ExportMjcfJoints, loopsAreClosedInMujoco) {
   double most = 0;
   int equalities = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
-    const RunSetup setup = setupOfText(RandomJointed(seed, {.loops = true}).text());
+    const RunSetup setup = setupForMujoco(RandomJointed(seed, {.loops = true}).text());
     InMujoco other(encodeMjcf(setup, "test").text);
     mj_forward(other.model.get(), other.data.get());
     for (int i = 0; i < other.data->ne; ++i) {

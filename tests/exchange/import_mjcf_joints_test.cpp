@@ -27,17 +27,17 @@
 namespace careen {
 namespace {
 
-RunSetup setupOfText(const std::string& text) {
+RunSetup setupThatMayOverlap(const std::string& text) {
   return setupOf(parseScene(text, "test", Starts::kMayOverlap));
 }
-nlohmann::json sceneOf(const std::string& elements, const std::string& before = "") {
+nlohmann::json sceneOfModel(const std::string& elements, const std::string& before = "") {
   return nlohmann::json::parse(
       importMjcf("<mujoco>" + before + "<worldbody>" + elements + "</mujoco>", "m.xml").text);
 }
-std::string refusal(const std::string& elements, const std::string& before = "") {
-  return inputErrorOf([&] { sceneOf(elements, before); });
+std::string refusalOfJoints(const std::string& elements, const std::string& before = "") {
+  return inputErrorOf([&] { sceneOfModel(elements, before); });
 }
-const std::string kBox = R"(<geom type="box" size="0.1 0.2 0.3"/>)";
+const std::string kJointedBox = R"(<geom type="box" size="0.1 0.2 0.3"/>)";
 
 std::set<std::pair<std::string, std::string>> apartIn(const World& world) {
   std::set<std::pair<std::string, std::string>> names;
@@ -55,9 +55,9 @@ TEST(ImportMjcfJoints, scenesComeBackFromMjcf) {
   double velocities = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
     const RandomJointed::With with{.limits = true, .loops = seed % 2 == 0, .contacts = seed % 3 == 0};
-    const World first = setupOfText(RandomJointed(seed, with).text()).world;
-    RunSetup setup = setupOfText(RandomJointed(seed, with).text());
-    const World second = setupOfText(importMjcf(encodeMjcf(setup, "test").text, "m.xml").text).world;
+    const World first = setupThatMayOverlap(RandomJointed(seed, with).text()).world;
+    RunSetup setup = setupThatMayOverlap(RandomJointed(seed, with).text());
+    const World second = setupThatMayOverlap(importMjcf(encodeMjcf(setup, "test").text, "m.xml").text).world;
     joints.compare(first, second);
     std::map<std::string, const Body*> found;
     for (const Body& body : second.bodies) {
@@ -95,16 +95,16 @@ TEST(ImportMjcfJoints, scenesComeBackFromMjcf) {
 }
 
 TEST(ImportMjcfJoints, aBodyInAnotherIsJoined) {
-  const nlohmann::json scene = sceneOf(R"(
+  const nlohmann::json scene = sceneOfModel(R"(
     <body name="arm" pos="1 0 0"><joint name="shoulder" pos="-0.5 0 0" axis="0 2 0" range="-90 45" ref="30"
         damping="0.5" stiffness="2" springref="60"/>)" +
-                                       kBox + R"(
+                                            kJointedBox + R"(
       <body name="hand" pos="1 0 0"><joint type="slide" axis="1 0 0"/>)" +
-                                       kBox + R"(
-        <body name="ring" pos="0 0 0.1">)" +
-                                       kBox + R"(</body></body>
+                                            kJointedBox + R"(
+        <body name="ring" pos="0 0 0.1">)" + kJointedBox +
+                                            R"(</body></body>
       <body name="ball" pos="0 1 0"><joint type="ball"/>)" +
-                                       kBox + R"(</body></body>
+                                            kJointedBox + R"(</body></body>
     <geom name="post" type="box" size="1 1 1" pos="9 0 0"/></worldbody>)");
   ASSERT_EQ(scene["joints"].size(), 4U);
   const nlohmann::json& shoulder = scene["joints"][0];
@@ -131,15 +131,15 @@ TEST(ImportMjcfJoints, aBodyInAnotherIsJoined) {
 
 TEST(ImportMjcfJoints, ropesRodsAndMotors) {
   const std::string body =
-      R"(<site name="hook" pos="0 0 3"/><body name="b"><joint name="j" type="slide" axis="0 0 1"/>)" + kBox +
-      R"(<site name="on b"/></body></worldbody>)";
+      R"(<site name="hook" pos="0 0 3"/><body name="b"><joint name="j" type="slide" axis="0 0 1"/>)" +
+      kJointedBox + R"(<site name="on b"/></body></worldbody>)";
   const std::string sites = R"(<site site="on b"/><site site="hook"/></spatial>)";
-  const nlohmann::json scene =
-      sceneOf(body + "<tendon><spatial name=\"t\" range=\"0 3.5\">" + sites + "<spatial name=\"r\">" + sites +
-                  R"(</tendon><equality><tendon tendon1="r"/></equality>
+  const nlohmann::json scene = sceneOfModel(body + "<tendon><spatial name=\"t\" range=\"0 3.5\">" + sites +
+                                                "<spatial name=\"r\">" + sites +
+                                                R"(</tendon><equality><tendon tendon1="r"/></equality>
       <actuator><motor joint="j"/><position joint="j" kp="8" gear="2" forcerange="-3 3"/><velocity joint="j" kv="0.5"/></actuator>
       <keyframe><key name="start" ctrl="0 0.5 0"/></keyframe>)",
-              R"(<option timestep="0.005"/>)");
+                                            R"(<option timestep="0.005"/>)");
   ASSERT_EQ(scene["joints"].size(), 3U);
   EXPECT_EQ(scene["joints"][1]["type"], "rope");
   EXPECT_EQ(scene["joints"][1]["length"], 3.5);
@@ -156,17 +156,17 @@ TEST(ImportMjcfJoints, ropesRodsAndMotors) {
 }
 
 TEST(ImportMjcfJoints, refusesRopesThatAreTooShort) {
-  const std::string body = R"(<site name="hook" pos="0 0 3"/><body name="b"><freejoint/>)" + kBox +
+  const std::string body = R"(<site name="hook" pos="0 0 3"/><body name="b"><freejoint/>)" + kJointedBox +
                            R"(<site name="on b"/></body></worldbody>)";
   const std::string sites = R"(<site site="on b"/><site site="hook"/></spatial></tendon>)";
-  EXPECT_NE(refusal(body + "<tendon><spatial range=\"0 2.5\">" + sites)
+  EXPECT_NE(refusalOfJoints(body + "<tendon><spatial range=\"0 2.5\">" + sites)
                 .find("found a length of 2.5 m between points that start 3 m apart"),
             std::string::npos);
-  EXPECT_NE(
-      refusal(body + "<tendon><spatial range=\"1 5\">" + sites).find("found range=\"1 5\" for <spatial>"),
-      std::string::npos);
-  EXPECT_NE(refusal(body + "<tendon><spatial name=\"t\">" + sites +
-                    R"(<equality><tendon tendon1="t"/></equality>
+  EXPECT_NE(refusalOfJoints(body + "<tendon><spatial range=\"1 5\">" + sites)
+                .find("found range=\"1 5\" for <spatial>"),
+            std::string::npos);
+  EXPECT_NE(refusalOfJoints(body + "<tendon><spatial name=\"t\">" + sites +
+                            R"(<equality><tendon tendon1="t"/></equality>
                        <keyframe><key name="start" qpos="0 0 1 1 0 0 0"/></keyframe>)")
                 .find("found a length of 3 m between points that start 2 m apart"),
             std::string::npos);
@@ -185,14 +185,14 @@ TEST(ImportMjcfJoints, longChainsComeBack) {
               std::to_string(i) + R"(", ")" + (i == 0 ? "world" : "b" + std::to_string(i - 1)) +
               R"("], "at": [0, 0, )" + inFull(0.05 - 0.1 * i) + "] }";
   }
-  const RunSetup setup = setupOfText(R"({ "careen": 1, "duration": 1, "boxes": [)" + boxes +
-                                     R"(], "joints": [)" + joints + "] }");
+  const RunSetup setup = setupThatMayOverlap(R"({ "careen": 1, "duration": 1, "boxes": [)" + boxes +
+                                             R"(], "joints": [)" + joints + "] }");
   const MjcfFile file = encodeMjcf(setup, "test");
   EXPECT_TRUE(file.leftOut.empty());
   InMujoco other(file.text);
   EXPECT_EQ(other.model->neq, 1);
   JointDifference difference;
-  difference.compare(setup.world, setupOfText(importMjcf(file.text, "m.xml").text).world);
+  difference.compare(setup.world, setupThatMayOverlap(importMjcf(file.text, "m.xml").text).world);
   EXPECT_EQ(difference.count, 100U);
   EXPECT_LT(difference.place, 1e-13);
 }

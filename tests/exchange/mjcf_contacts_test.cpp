@@ -18,30 +18,30 @@ MjcfContacts contactsOf(const std::string& elements, FilterParent filter = Filte
   const MjcfModel model = readModel(document);
   return readContacts(document, model, filter);
 }
-std::string box(const std::string& name) {
+std::string meetingBox(const std::string& name) {
   return "<geom name=\"" + name + R"(" type="box" size="0.1 0.1 0.1"/>)";
 }
 
 // 0 stands, 1 hangs on it, 2 is one with 1, 3 hangs on 2; 4 flies.
-const std::string kBodies = "<worldbody><body name=\"0\">" + box("0") + "<body name=\"1\"><joint/>" +
-                            box("1") + "<body name=\"2\">" + box("2") + "<body name=\"3\"><joint/>" +
-                            box("3") + "</body></body></body></body><body name=\"4\"><freejoint/>" +
-                            box("4") + "</body></worldbody>";
+const std::string kMeeting =
+    "<worldbody><body name=\"0\">" + meetingBox("0") + "<body name=\"1\"><joint/>" + meetingBox("1") +
+    "<body name=\"2\">" + meetingBox("2") + "<body name=\"3\"><joint/>" + meetingBox("3") +
+    "</body></body></body></body><body name=\"4\"><freejoint/>" + meetingBox("4") + "</body></worldbody>";
 
 TEST(MjcfContacts, aBodyMeetsWhatItIsInOnlyIfThatStandsStill) {
-  EXPECT_EQ(contactsOf(kBodies).apart, (Pairs{{1, 2}, {1, 3}, {2, 3}}));
-  EXPECT_EQ(contactsOf(kBodies, FilterParent::kNo).apart, (Pairs{{1, 2}}));
+  EXPECT_EQ(contactsOf(kMeeting).apart, (Pairs{{1, 2}, {1, 3}, {2, 3}}));
+  EXPECT_EQ(contactsOf(kMeeting, FilterParent::kNo).apart, (Pairs{{1, 2}}));
 }
 
 TEST(MjcfContacts, excludesPassThroughAndPairsDoNot) {
-  EXPECT_EQ(contactsOf(kBodies + R"(<contact><exclude body1="0" body2="1"/><exclude body1="4" body2="3"/>
+  EXPECT_EQ(contactsOf(kMeeting + R"(<contact><exclude body1="0" body2="1"/><exclude body1="4" body2="3"/>
       <pair geom1="3" geom2="1"/><pair geom1="4" geom2="3"/></contact>)")
                 .apart,
             (Pairs{{0, 1}, {1, 2}, {2, 3}}));
 }
 
 TEST(MjcfContacts, bitsKeepBoxesApart) {
-  const std::string free = "<body><freejoint/>" + box("a") + "</body><body><freejoint/>";
+  const std::string free = "<body><freejoint/>" + meetingBox("a") + "</body><body><freejoint/>";
   EXPECT_EQ(contactsOf("<worldbody>" + free +
                        R"(<geom type="box" size="1 1 1" contype="2" conaffinity="2"/></body></worldbody>)")
                 .apart,
@@ -70,7 +70,7 @@ TEST(MjcfContacts, whatPassesThroughHasNoFriction) {
 
 TEST(MjcfContacts, nothingGoesThroughWalls) {
   const std::string floor = "<worldbody><geom name=\"f\" type=\"plane\"/><body name=\"b\"><freejoint/>" +
-                            box("b") + "</body></worldbody>";
+                            meetingBox("b") + "</body></worldbody>";
   EXPECT_NE(inputErrorOf([&] {
               contactsOf(floor + "\n<contact><exclude body1=\"world\" body2=\"b\"/></contact>");
             }).find("m.xml:2:11: found \"f\", which goes through \"b\""),

@@ -7,19 +7,19 @@
 namespace careen {
 namespace {
 
-const std::string kBox = R"(<geom type="box" size="0.1 0.1 0.1"/>)";
-const std::string kBodies = R"(<worldbody><body name="post" pos="9 0 0">)" + kBox + R"(</body>
+const std::string kLinkedBox = R"(<geom type="box" size="0.1 0.1 0.1"/>)";
+const std::string kLinkedBodies = R"(<worldbody><body name="post" pos="9 0 0">)" + kLinkedBox + R"(</body>
   <body name="a" pos="1 0 0"><joint name="hinge" axis="0 0 1"/>)" +
-                            kBox + R"(</body>
+                                  kLinkedBox + R"(</body>
   <body name="b" pos="2 0 0"><joint name="ball" type="ball"/>)" +
-                            kBox + "</body></worldbody>";
+                                  kLinkedBox + "</body></worldbody>";
 
 MjcfLinks linksOf(const std::string& elements) {
-  MjcfDocument document("<mujoco>" + kBodies + elements + "</mujoco>", "m.xml");
+  MjcfDocument document("<mujoco>" + kLinkedBodies + elements + "</mujoco>", "m.xml");
   MjcfModel model = readModel(document);
   return readLinks(document, model);
 }
-std::string refusal(const std::string& elements) {
+std::string refusalOfLinks(const std::string& elements) {
   return inputErrorOf([&] { linksOf(elements); });
 }
 std::string equality(const std::string& element) { return "<equality>" + element + "</equality>"; }
@@ -46,22 +46,23 @@ TEST(MjcfLinks, whatHoldsAtTheStartClosesLoops) {
 }
 
 TEST(MjcfLinks, whatDoesNotHoldOrIsNoneIsRefused) {
-  EXPECT_NE(refusal(equality(R"(<connect body1="a" anchor="0.5 0 0"/>)") + kTurned)
+  EXPECT_NE(refusalOfLinks(equality(R"(<connect body1="a" anchor="0.5 0 0"/>)") + kTurned)
                 .find("found <connect> that the key frame \"start\" leaves open"),
             std::string::npos);
-  EXPECT_EQ(refusal(equality(R"(<connect body1="a" anchor="0 0 0.5"/>)") + kTurned), "no error")
+  EXPECT_EQ(refusalOfLinks(equality(R"(<connect body1="a" anchor="0 0 0.5"/>)") + kTurned), "no error")
       << "on the axis";
-  EXPECT_NE(refusal(equality(R"(<weld body1="a"/>)") + kTurned).find("found <weld> that the key frame"),
-            std::string::npos);
-  EXPECT_EQ(refusal("\n" + equality(R"(<weld body1="a" body2="no"/>)")).substr(0, 36),
+  EXPECT_NE(
+      refusalOfLinks(equality(R"(<weld body1="a"/>)") + kTurned).find("found <weld> that the key frame"),
+      std::string::npos);
+  EXPECT_EQ(refusalOfLinks("\n" + equality(R"(<weld body1="a" body2="no"/>)")).substr(0, 36),
             "m.xml:4:27: found body2=\"no\" for <we");
-  EXPECT_NE(refusal(equality(R"(<weld body1="a" body2="a"/>)")).find("found <weld> of one body"),
+  EXPECT_NE(refusalOfLinks(equality(R"(<weld body1="a" body2="a"/>)")).find("found <weld> of one body"),
             std::string::npos);
-  EXPECT_NE(refusal(equality(R"(<weld body1="a" relpose="0 0 0 1 0 0 0"/>)")).find("found relpose="),
+  EXPECT_NE(refusalOfLinks(equality(R"(<weld body1="a" relpose="0 0 0 1 0 0 0"/>)")).find("found relpose="),
             std::string::npos);
-  EXPECT_NE(refusal(equality(R"(<joint joint1="hinge"/>)")).find("found <joint> in <equality>"),
+  EXPECT_NE(refusalOfLinks(equality(R"(<joint joint1="hinge"/>)")).find("found <joint> in <equality>"),
             std::string::npos);
-  EXPECT_NE(refusal(equality(R"(<tendon tendon1="no"/>)")).find("found \"no\" for tendon1"),
+  EXPECT_NE(refusalOfLinks(equality(R"(<tendon tendon1="no"/>)")).find("found \"no\" for tendon1"),
             std::string::npos);
 }
 
@@ -83,20 +84,20 @@ TEST(MjcfLinks, actuatorsOfHingesFollowTheirControls) {
 }
 
 TEST(MjcfLinks, otherActuatorsAreRefused) {
-  EXPECT_NE(refusal(actuator(R"(<position joint="ball"/>)")).find("found \"ball\" for joint"),
+  EXPECT_NE(refusalOfLinks(actuator(R"(<position joint="ball"/>)")).find("found \"ball\" for joint"),
             std::string::npos);
-  EXPECT_NE(refusal(actuator(R"(<general joint="hinge"/>)")).find("found <general> in <actuator>"),
+  EXPECT_NE(refusalOfLinks(actuator(R"(<general joint="hinge"/>)")).find("found <general> in <actuator>"),
             std::string::npos);
-  EXPECT_NE(refusal(actuator(R"(<motor tendon="t"/>)")).find("found tendon=\"t\" for <motor>"),
+  EXPECT_NE(refusalOfLinks(actuator(R"(<motor tendon="t"/>)")).find("found tendon=\"t\" for <motor>"),
             std::string::npos);
-  EXPECT_NE(
-      refusal(actuator(R"(<position joint="hinge" forcerange="-1 2"/>)")).find("found forcerange=\"-1 2\""),
-      std::string::npos);
-  EXPECT_NE(
-      refusal(actuator(R"(<motor joint="hinge"/>)") + R"(<keyframe><key name="start" ctrl="1"/></keyframe>)")
-          .find("found <motor> with a control that is not 0"),
-      std::string::npos);
-  EXPECT_NE(refusal(actuator(R"(<motor joint="hinge"/>)") + "<default><motor gear=\"2\"/></default>")
+  EXPECT_NE(refusalOfLinks(actuator(R"(<position joint="hinge" forcerange="-1 2"/>)"))
+                .find("found forcerange=\"-1 2\""),
+            std::string::npos);
+  EXPECT_NE(refusalOfLinks(actuator(R"(<motor joint="hinge"/>)") +
+                           R"(<keyframe><key name="start" ctrl="1"/></keyframe>)")
+                .find("found <motor> with a control that is not 0"),
+            std::string::npos);
+  EXPECT_NE(refusalOfLinks(actuator(R"(<motor joint="hinge"/>)") + "<default><motor gear=\"2\"/></default>")
                 .find("found <motor> in <default>"),
             std::string::npos);
 }

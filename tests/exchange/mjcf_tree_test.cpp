@@ -10,7 +10,7 @@ namespace {
 using JointKind = Joint::Kind;
 
 // `fixed` of the bodies are immovable.
-World worldOf(int bodies, int fixed, std::vector<Joint> joints) {
+World worldOfJoints(int bodies, int fixed, std::vector<Joint> joints) {
   World world;
   for (int i = 0; i < bodies; ++i) {
     world.bodies.push_back({.name = std::to_string(i),
@@ -22,7 +22,7 @@ World worldOf(int bodies, int fixed, std::vector<Joint> joints) {
   world.joints = std::move(joints);
   return world;
 }
-Joint joint(JointKind kind, int from, std::optional<int> to) {
+Joint jointBetween(JointKind kind, int from, std::optional<int> to) {
   Joint made{.name = {}, .kind = kind, .from = {}, .to = {}};
   made.from.body = from;
   made.to.body = to;
@@ -31,8 +31,10 @@ Joint joint(JointKind kind, int from, std::optional<int> to) {
 
 // 4 – 2 – 0, 3 – 2, and 1 alone: from the least of what nothing holds.
 TEST(MjcfTree, bodiesHangOnTheFirstOfThem) {
-  const World world = worldOf(
-      5, 0, {joint(JointKind::kBall, 4, 2), joint(JointKind::kBall, 0, 2), joint(JointKind::kBall, 2, 3)});
+  const World world =
+      worldOfJoints(5, 0,
+                    {jointBetween(JointKind::kBall, 4, 2), jointBetween(JointKind::kBall, 0, 2),
+                     jointBetween(JointKind::kBall, 2, 3)});
   const MjcfTree tree = treeOf(world);
   EXPECT_EQ(tree.parent, (std::vector<std::optional<int>>{{}, {}, 0, 2, 2}));
   EXPECT_EQ(tree.joint, (std::vector<std::optional<std::size_t>>{{}, {}, 1U, 2U, 0U}));
@@ -47,9 +49,10 @@ TEST(MjcfTree, bodiesHangOnTheFirstOfThem) {
 
 // Four hinges about 0, which is fixed, 1, 2 and 3; 3 is held by the world too.
 TEST(MjcfTree, loopsAreClosedByTheLeastOfTheirJoints) {
-  World world = worldOf(4, 1,
-                        {joint(JointKind::kHinge, 1, 0), joint(JointKind::kHinge, 2, 1),
-                         joint(JointKind::kHinge, 2, 3), joint(JointKind::kHinge, 3, {})});
+  World world =
+      worldOfJoints(4, 1,
+                    {jointBetween(JointKind::kHinge, 1, 0), jointBetween(JointKind::kHinge, 2, 1),
+                     jointBetween(JointKind::kHinge, 2, 3), jointBetween(JointKind::kHinge, 3, {})});
   EXPECT_EQ(treeOf(world).closing, std::vector<std::size_t>{3});
   world.joints[3].damping = 1;  // what only a joint of the tree can have
   EXPECT_EQ(treeOf(world).closing, std::vector<std::size_t>{2});
@@ -67,8 +70,10 @@ TEST(MjcfTree, loopsAreClosedByTheLeastOfTheirJoints) {
 
 // 0 – 1 = 2 – 3: 1 and 2 are one, in 0, and 3 is in them.
 TEST(MjcfTree, bodiesThatAreFixedToEachOtherAreOne) {
-  const MjcfTree tree = treeOf(worldOf(
-      4, 0, {joint(JointKind::kHinge, 1, 0), joint(JointKind::kFixed, 2, 1), joint(JointKind::kBall, 3, 2)}));
+  const MjcfTree tree =
+      treeOf(worldOfJoints(4, 0,
+                           {jointBetween(JointKind::kHinge, 1, 0), jointBetween(JointKind::kFixed, 2, 1),
+                            jointBetween(JointKind::kBall, 3, 2)}));
   EXPECT_EQ(tree.oneWith, (std::vector<std::optional<int>>{0, 1, 1, 3}));
   EXPECT_TRUE(tree.areJoined(1, 2));
   EXPECT_TRUE(tree.areJoined(0, 2));
@@ -77,7 +82,8 @@ TEST(MjcfTree, bodiesThatAreFixedToEachOtherAreOne) {
 }
 
 TEST(MjcfTree, ropesAndRodsHoldNothingInIt) {
-  const MjcfTree tree = treeOf(worldOf(2, 0, {joint(JointKind::kRope, 1, 0), joint(JointKind::kRod, 1, 0)}));
+  const MjcfTree tree = treeOf(
+      worldOfJoints(2, 0, {jointBetween(JointKind::kRope, 1, 0), jointBetween(JointKind::kRod, 1, 0)}));
   EXPECT_EQ(tree.order, (std::vector<int>{0, 1}));
   EXPECT_FALSE(tree.joint[1]);
   EXPECT_TRUE(tree.closing.empty());
