@@ -47,10 +47,9 @@ class MjcfWriter {
 
   MjcfFile file() {
     file_.leftOut = joints_.leftOut;
-    const bool hasDrag = world_.drag && world_.joints.empty() && world_.drag->linear == world_.drag->angular;
-    if (world_.drag && !hasDrag) {
-      file_.leftOut.emplace_back(world_.joints.empty() ? "drag: linear and angular differ"
-                                                       : "drag: MuJoCo has none of jointed boxes");
+    const std::string whyNoDrag = world_.drag ? whyDragIsLeftOut() : "";
+    if (!whyNoDrag.empty()) {
+      file_.leftOut.push_back("drag: " + whyNoDrag);
     }
     leaveOutRestitution();
     for (const std::string& words : file_.leftOut) {
@@ -69,7 +68,7 @@ class MjcfWriter {
            mjcfAttribute("pos", mjcfNumbers(Vec3(wall.offset * wall.normal))) +
            mjcfAttribute("quat", mjcfNumbers(turnOfPlane(wall.normal))) + frictionOf(wall.material) + "/>");
     }
-    addBodies(hasDrag ? world_.drag->linear : 0);
+    addBodies(world_.drag && whyNoDrag.empty() ? world_.drag->linear : 0);
     addSites(std::nullopt, "    ");
     line("  </worldbody>");
     addContacts();
@@ -94,6 +93,16 @@ class MjcfWriter {
       frictions.insert(wall.material.friction);
     }
     isOneFriction_ = frictions.size() <= 1;
+  }
+
+  // MuJoCo's acts on free bodies, at the middles of boxes as they are written.
+  std::string whyDragIsLeftOut() const {
+    const bool isOff = std::any_of(world_.bodies.begin(), world_.bodies.end(),
+                                   [](const Body& body) { return !body.boxCenter.isZero(0); });
+    return !world_.joints.empty()                        ? "MuJoCo has none of jointed boxes"
+           : world_.drag->linear != world_.drag->angular ? "linear and angular differ"
+           : isOff                                       ? "a centre of mass is not its box's middle"
+                                                         : "";
   }
 
   void leaveOutRestitution() {

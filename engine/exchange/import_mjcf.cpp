@@ -261,7 +261,8 @@ class MjcfReader {
     }
   }
 
-  // Drag is one for all boxes; a free joint's acts on its own only.
+  // Drag is one for all boxes, at their centres of mass; a free joint's acts on its own, at the body's
+  // origin.
   void writeDrag() {
     const MjcfSurface* first = nullptr;
     for (const MjcfSurface& each : model_.surfaces) {
@@ -274,6 +275,11 @@ class MjcfReader {
         document_.fail(document_.root(),
                        "free joints of different damping, or bodies joined to one that has some",
                        "one damping for all");
+      }
+      const Vec3 center = each.geom.position + each.geom.turn * each.mass.center;
+      if (dragOf(each) > 0 && center.norm() > kMjcfCentered * Vec3(each.geom.size.data()).norm()) {
+        document_.fail(*each.joint.element, "damping of a body whose centre of mass is not its origin",
+                       "a body about its centre of mass, or no damping");
       }
     }
     if (first != nullptr && first->joint.isFree() && first->joint.damping > 0) {

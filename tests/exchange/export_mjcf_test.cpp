@@ -108,6 +108,10 @@ TEST(ExportMjcf, oneFrictionNeedsNoPairsAndUnequalDragIsTold) {
   EXPECT_EQ(unequal.leftOut, std::vector<std::string>{"drag: linear and angular differ"});
   const MjcfFile equal = encodeMjcf(setupOfText(scene + "0.5 } }"), "test");
   EXPECT_TRUE(equal.leftOut.empty());
+  std::string loaded = scene + "0.5 } }";
+  loaded.insert(loaded.find(R"("friction": 0.5 } ])"), R"("center": [0, 0, 0.05], )");
+  EXPECT_EQ(encodeMjcf(setupOfText(loaded), "test").leftOut,
+            std::vector<std::string>{"drag: a centre of mass is not its box's middle"});
   const InMujoco found(equal.text);
   EXPECT_EQ(found.model->npair, 0);
   EXPECT_EQ(found.model->ngeom, 7);

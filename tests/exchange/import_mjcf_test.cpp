@@ -378,6 +378,10 @@ TEST(ImportMjcf, namesWhatItRefusesAndWhere) {
            {"<mujoco><worldbody>" + after +
                 "<keyframe><key name=\"start\" qpos=\"0 0 0\"/></keyframe></mujoco>",
             "found 3 numbers in qpos for <key>, expected 7"},
+           {inBody("<joint type=\"free\" damping=\"1\"/><geom type=\"box\" size=\"1 1 1\" pos=\"0 0 1\"/>"),
+            "m.xml:1:27: found damping of a body whose centre of mass is not its origin"},
+           {inBody("<joint type=\"free\" damping=\"1\"/>" + box + "<body><joint/>" + box + "</body>"),
+            "m.xml:1:2: found free joints of different damping, or bodies joined to one that has some"},
            {"<mujoco><worldbody>" + after + "<tendon><fixed/></tendon></mujoco>",
             "found <fixed> in <tendon>"}}) {
     const std::string found = refusal(xml);
