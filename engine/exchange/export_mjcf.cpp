@@ -1,59 +1,33 @@
 #include "exchange/export_mjcf.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <initializer_list>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "exchange/export_mjcf_joints.h"
 #include "exchange/exporters.h"
+#include "exchange/mjcf_text.h"
+#include "exchange/mjcf_tree.h"
 
 namespace careen {
 namespace {
 
-std::string numbers(std::initializer_list<double> values) {
-  std::string text;
-  for (const double value : values) {
-    text += (text.empty() ? "" : " ") + inFull(value);
+// From one body's box, or the world, to another's.
+struct Placed {
+  Vec3 position;
+  Quat turn;
+};
+Placed seenFrom(const Body* parent, const Pose& box) {
+  if (parent == nullptr) {
+    return {box.position, Quat(box.worldFromBody).normalized()};
   }
-  return text;
-}
-std::string numbers(const Vec3& v) { return numbers({v.x(), v.y(), v.z()}); }
-std::string numbers(const Quat& q) { return numbers({q.w(), q.x(), q.y(), q.z()}); }
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += letter;
-    }
-  }
-  return result;
-}
-
-std::string attribute(const char* name, const std::string& value) {
-  return std::string(" ") + name + "=\"" + escaped(value) + "\"";
-}
-
-// MJCF's body frame is the box's: its origin is the middle.
-Vec3 inBoxFrame(const Body& body, const Vec3& point) {
-  return body.boxCenter.isZero(0) ? point : Vec3(point - body.boxCenter);
+  const Pose outer = boxPose(*parent, parent->initial.pose);
+  const Mat3 back = outer.worldFromBody.transpose();
+  return {back * Vec3(box.position - outer.position), Quat(Mat3(back * box.worldFromBody)).normalized()};
 }
 
 // The shortest turn of z to this direction.
@@ -64,21 +38,18 @@ Quat turnOfPlane(const Vec3& normal) {
 
 class MjcfWriter {
  public:
-  MjcfWriter(const RunSetup& setup, const std::string& program) : setup_(setup), world_(setup.world) {
+  MjcfWriter(const RunSetup& setup, const std::string& program)
+      : setup_(setup), world_(setup.world), tree_(treeOf(world_)), joints_(encodeJoints(world_, tree_)) {
     findMaterials();
+    findSites();
     file_.text = "<!-- By " + program + ". ";
   }
 
   MjcfFile file() {
-    const bool sameDrag = world_.drag && world_.drag->linear == world_.drag->angular;
-    if (!world_.joints.empty()) {
-      file_.leftOut.emplace_back("joints");
-    }
-    if (!world_.apart.empty()) {
-      file_.leftOut.emplace_back("which boxes pass through each other");
-    }
-    if (world_.drag && !sameDrag) {
-      file_.leftOut.emplace_back("drag: linear and angular differ");
+    file_.leftOut = joints_.leftOut;
+    const std::string whyNoDrag = world_.drag ? whyDragIsLeftOut() : "";
+    if (!whyNoDrag.empty()) {
+      file_.leftOut.push_back("drag: " + whyNoDrag);
     }
     leaveOutRestitution();
     for (const std::string& words : file_.leftOut) {
@@ -87,23 +58,24 @@ class MjcfWriter {
       file_.text += "Left out: " + safe + ". ";
     }
     line("-->");
-    line("<mujoco" + attribute("model", setup_.stage.name) + ">");
+    line("<mujoco" + mjcfAttribute("model", setup_.stage.name) + ">");
     line("  <compiler angle=\"radian\"/>");
-    line("  <option" + attribute("gravity", numbers(world_.gravity)) +
+    line("  <option" + mjcfAttribute("gravity", mjcfNumbers(world_.gravity)) +
          R"( timestep="0.001" integrator="RK4" cone="elliptic"/>)");
     line("  <worldbody>");
     for (const Wall& wall : world_.walls) {
-      line("    <geom" + attribute("name", wall.name) + R"( type="plane" size="0 0 1")" +
-           attribute("pos", numbers(Vec3(wall.offset * wall.normal))) +
-           attribute("quat", numbers(turnOfPlane(wall.normal))) + frictionOf(wall.material) + "/>");
+      line("    <geom" + mjcfAttribute("name", wall.name) + R"( type="plane" size="0 0 1")" +
+           mjcfAttribute("pos", mjcfNumbers(Vec3(wall.offset * wall.normal))) +
+           mjcfAttribute("quat", mjcfNumbers(turnOfPlane(wall.normal))) + frictionOf(wall.material) + "/>");
     }
-    for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
-      addBox(i, sameDrag ? world_.drag->linear : 0);
-    }
+    addBodies(world_.drag && whyNoDrag.empty() ? world_.drag->linear : 0);
     addSites(std::nullopt, "    ");
     line("  </worldbody>");
-    addPairs();
+    addContacts();
     addSprings();
+    addSection("tendon", tendons_);
+    addSection("equality", joints_.equalities);
+    addSection("actuator", joints_.actuators);
     addStart();
     line("</mujoco>");
     return std::move(file_);
@@ -123,6 +95,16 @@ class MjcfWriter {
     isOneFriction_ = frictions.size() <= 1;
   }
 
+  // MuJoCo's acts on free bodies, at the middles of boxes as they are written.
+  std::string whyDragIsLeftOut() const {
+    const bool isOff = std::any_of(world_.bodies.begin(), world_.bodies.end(),
+                                   [](const Body& body) { return !body.boxCenter.isZero(0); });
+    return !world_.joints.empty()                        ? "MuJoCo has none of jointed boxes"
+           : world_.drag->linear != world_.drag->angular ? "linear and angular differ"
+           : isOff                                       ? "a centre of mass is not its box's middle"
+                                                         : "";
+  }
+
   void leaveOutRestitution() {
     double most = 0;
     for (const Body& body : world_.bodies) {
@@ -131,6 +113,9 @@ class MjcfWriter {
     for (const Wall& wall : world_.walls) {
       most = std::max(most, wall.material.restitution);
     }
+    for (const Joint& joint : world_.joints) {
+      most = std::max(most, joint.restitution);
+    }
     if (most > 0) {
       file_.leftOut.push_back("restitution, up to " + brief(most));
     }
@@ -138,128 +123,172 @@ class MjcfWriter {
 
   // Of MuJoCo's five coefficients the first two are sliding's; without any, a contact has one dimension.
   std::string frictionOf(const Material& material) const {
-    return material.friction > 0 ? " condim=\"3\"" + attribute("friction", numbers({material.friction, 0, 0}))
-                                 : " condim=\"1\"";
+    return material.friction > 0
+               ? " condim=\"3\"" + mjcfAttribute("friction", mjcfNumbers({material.friction, 0, 0}))
+               : " condim=\"1\"";
   }
 
-  void addBox(std::size_t index, double damping) {
-    const Body& body = world_.bodies[index];
-    const bool isFixed = isImmovable(body.mass);
-    const Color& color = setup_.stage.colors[index];
-    const Quat turn = Quat(body.initial.pose.worldFromBody).normalized();
-    const Vec3 middle = boxPose(body, body.initial.pose).position;
-    line("    <body" + attribute("name", body.name) + attribute("pos", numbers(middle)) +
-         attribute("quat", numbers(turn)) + ">");
-    if (!isFixed) {
-      line(std::string("      <joint type=\"free\"") +
-           (damping > 0 ? attribute("damping", inFull(damping)) : std::string()) + "/>");
-      const Quat principal = Quat(body.mass.bodyFromPrincipal).normalized();
-      line("      <inertial" + attribute("pos", numbers(inBoxFrame(body, Vec3::Zero()))) +
-           (body.mass.turned ? attribute("quat", numbers(principal)) : std::string()) +
-           attribute("mass", inFull(body.mass.mass)) +
-           attribute("diaginertia", numbers(body.mass.inertiaBody)) + "/>");
+  // Each in the one that holds it.
+  void addBodies(double damping) {
+    std::vector<int> open;
+    const auto close = [&] {
+      open.pop_back();
+      line(std::string(4 + 2 * open.size(), ' ') + "</body>");
+    };
+    for (const int body : tree_.order) {
+      const std::optional<int> parent = tree_.parent[static_cast<std::size_t>(body)];
+      while (!open.empty() && open.back() != parent) {
+        close();
+      }
+      addBody(body, std::string(4 + 2 * open.size(), ' '), damping);
+      open.push_back(body);
     }
-    line("      <geom" + attribute("name", body.name) + " type=\"box\"" +
-         attribute("size", numbers(body.halfExtents)) + frictionOf(body.material) +
-         attribute("rgba", numbers({color.red / 255.0, color.green / 255.0, color.blue / 255.0, 1})) + "/>");
-    addSites(static_cast<int>(index), "      ");
-    line("    </body>");
+    while (!open.empty()) {
+      close();
+    }
   }
 
-  // Ends of springs that are on this body, or on none.
-  void addSites(std::optional<int> body, const std::string& indent) {
+  // Without its end.
+  void addBody(int number, const std::string& indent, double damping) {
+    const auto index = static_cast<std::size_t>(number);
+    const Body& body = world_.bodies[index];
+    const Color& color = setup_.stage.colors[index];
+    const std::optional<int> parent = tree_.parent[index];
+    const Placed placed = seenFrom(parent ? &world_.bodies[static_cast<std::size_t>(*parent)] : nullptr,
+                                   boxPose(body, body.initial.pose));
+    line(indent + "<body" + mjcfAttribute("name", body.name) +
+         mjcfAttribute("pos", mjcfNumbers(placed.position)) +
+         mjcfAttribute("quat", mjcfNumbers(placed.turn)) + ">");
+    if (tree_.isFree(world_, number)) {
+      line(indent + "  <joint type=\"free\"" +
+           (damping > 0 ? mjcfAttribute("damping", inFull(damping)) : std::string()) + "/>");
+    } else if (!joints_.ofBody[index].empty()) {
+      line(indent + "  " + joints_.ofBody[index]);
+    }
+    if (!isImmovable(body.mass)) {
+      const Quat principal = Quat(body.mass.bodyFromPrincipal).normalized();
+      line(indent + "  <inertial" + mjcfAttribute("pos", mjcfNumbers(inBoxFrame(body, Vec3::Zero()))) +
+           (body.mass.turned ? mjcfAttribute("quat", mjcfNumbers(principal)) : std::string()) +
+           mjcfAttribute("mass", inFull(body.mass.mass)) +
+           mjcfAttribute("diaginertia", mjcfNumbers(body.mass.inertiaBody)) + "/>");
+    }
+    line(indent + "  <geom" + mjcfAttribute("name", body.name) + " type=\"box\"" +
+         mjcfAttribute("size", mjcfNumbers(body.halfExtents)) + frictionOf(body.material) +
+         mjcfAttribute("rgba", mjcfNumbers({color.red / 255.0, color.green / 255.0, color.blue / 255.0, 1})) +
+         "/>");
+    addSites(number, indent + "  ");
+  }
+
+  /// An end of a spring, rope or rod.
+  struct Site {
+    std::string name;
+    std::optional<int> body;
+    Vec3 point;
+  };
+  void findSites() {
     for (std::size_t i = 0; i < world_.springs.size(); ++i) {
       const Spring& spring = world_.springs[i];
-      for (const auto& [end, which] : {std::pair(&spring.from, "from"), std::pair(&spring.to, "to")}) {
-        if (end->body == body) {
-          line(indent + "<site" + attribute("name", siteName(i, which)) +
-               attribute("pos",
-                         numbers(body ? inBoxFrame(world_.bodies[static_cast<std::size_t>(*body)], end->point)
-                                      : end->point)) +
-               "/>");
-        }
+      sites_.push_back({mjcfSite("spring", i, "from"), spring.from.body, spring.from.point});
+      sites_.push_back({mjcfSite("spring", i, "to"), spring.to.body, spring.to.point});
+    }
+    for (std::size_t i = 0; i < world_.joints.size(); ++i) {
+      const Joint& joint = world_.joints[i];
+      if (joint.kind == Joint::Kind::kRod || joint.kind == Joint::Kind::kRope) {
+        sites_.push_back({mjcfSite("joint", i, "from"), joint.from.body, joint.from.point});
+        sites_.push_back({mjcfSite("joint", i, "to"), joint.to.body, joint.to.point});
       }
     }
   }
-  static std::string siteName(std::size_t spring, const char* which) {
-    return "spring " + std::to_string(spring) + " " + which;
+
+  // Those on this body, or on none.
+  void addSites(std::optional<int> body, const std::string& indent) {
+    for (const Site& site : sites_) {
+      if (site.body == body) {
+        line(indent + "<site" + mjcfAttribute("name", site.name) +
+             mjcfAttribute(
+                 "pos",
+                 mjcfNumbers(body ? inBoxFrame(world_.bodies[static_cast<std::size_t>(*body)], site.point)
+                                  : site.point)) +
+             "/>");
+      }
+    }
   }
 
-  void addPairs() {
-    if (isOneFriction_) {
-      return;  // MuJoCo takes the larger of two, which are the same
+  void addSection(const std::string& name, const std::vector<std::string>& elements) {
+    if (elements.empty()) {
+      return;
     }
+    line("  <" + name + ">");
+    for (const std::string& element : elements) {
+      line("    " + element);
+    }
+    line("  </" + name + ">");
+  }
+
+  // A <pair> collides even if it is in the tree. Of two frictions MuJoCo takes the larger one; those that are
+  // the same need no pairs, but for those bodies.
+  void addContacts() {
+    std::vector<std::string> elements = joints_.excludes;
     const std::size_t boxes = world_.bodies.size();
-    if (boxes * (boxes - 1) / 2 + boxes * world_.walls.size() > kMostMjcfPairs) {
+    if (!isOneFriction_ && boxes * (boxes - 1) / 2 + boxes * world_.walls.size() > kMostMjcfPairs) {
       throw InputError("found boxes and walls of different friction in more than " +
                        std::to_string(kMostMjcfPairs) + " pairs, expected fewer, or one friction for all");
     }
-    line("  <contact>");
-    for (std::size_t a = 0; a < boxes; ++a) {
+    for (std::size_t a = 0; a < boxes && !(isOneFriction_ && world_.joints.empty()); ++a) {
       const Body& body = world_.bodies[a];
       for (const Wall& wall : world_.walls) {
-        if (!isImmovable(body.mass)) {
-          addPair(body.name, wall.name, touching(body.material, wall.material));
+        if (!isOneFriction_ && tree_.oneWith[a]) {
+          elements.push_back(pairOf(body.name, wall.name, touching(body.material, wall.material)));
         }
       }
       for (std::size_t b = a + 1; b < boxes; ++b) {
         const Body& other = world_.bodies[b];
-        if (!(isImmovable(body.mass) && isImmovable(other.mass))) {
-          addPair(body.name, other.name, touching(body.material, other.material));
+        const int one = static_cast<int>(a);
+        const int two = static_cast<int>(b);
+        const bool isNeeded = !isOneFriction_ || tree_.areJoined(one, two);
+        if (isNeeded && tree_.oneWith[a] != tree_.oneWith[b] && mayTouch(world_, one, two)) {
+          elements.push_back(pairOf(body.name, other.name, touching(body.material, other.material)));
         }
       }
     }
-    line("  </contact>");
+    addSection("contact", elements);
   }
-  void addPair(const std::string& a, const std::string& b, const Material& material) {
+  static std::string pairOf(const std::string& a, const std::string& b, const Material& material) {
     const double friction = material.friction;
-    line("    <pair" + attribute("geom1", a) + attribute("geom2", b) +
-         (friction > 0 ? " condim=\"3\"" + attribute("friction", numbers({friction, friction, 0, 0, 0}))
-                       : std::string(" condim=\"1\"")) +
-         "/>");
+    return "<pair" + mjcfAttribute("geom1", a) + mjcfAttribute("geom2", b) +
+           (friction > 0
+                ? " condim=\"3\"" + mjcfAttribute("friction", mjcfNumbers({friction, friction, 0, 0, 0}))
+                : std::string(" condim=\"1\"")) +
+           "/>";
   }
 
   void addSprings() {
-    if (world_.springs.empty()) {
-      return;
-    }
-    line("  <tendon>");
     for (std::size_t i = 0; i < world_.springs.size(); ++i) {
       const Spring& spring = world_.springs[i];
-      line("    <spatial" + attribute("stiffness", inFull(spring.stiffness)) +
-           attribute("damping", inFull(spring.damping)) +
-           attribute("springlength", inFull(spring.restLength)) + "><site" +
-           attribute("site", siteName(i, "from")) + "/><site" + attribute("site", siteName(i, "to")) +
-           "/></spatial>");
+      tendons_.push_back("<spatial" + mjcfAttribute("stiffness", inFull(spring.stiffness)) +
+                         mjcfAttribute("damping", inFull(spring.damping)) +
+                         mjcfAttribute("springlength", inFull(spring.restLength)) + "><site" +
+                         mjcfAttribute("site", mjcfSite("spring", i, "from")) + "/><site" +
+                         mjcfAttribute("site", mjcfSite("spring", i, "to")) + "/></spatial>");
     }
-    line("  </tendon>");
+    tendons_.insert(tendons_.end(), joints_.tendons.begin(), joints_.tendons.end());
   }
 
-  // Of a free joint: position and quaternion; velocity in the world's frame, angular velocity in the body's.
   void addStart() {
-    std::string places;
-    std::string speeds;
-    const auto append = [](std::string& text, const std::string& more) {
-      text += (text.empty() ? "" : " ") + more;
-    };
-    for (const Body& body : world_.bodies) {
-      if (!isImmovable(body.mass)) {
-        const Mat3& turn = body.initial.pose.worldFromBody;
-        append(places, numbers(boxPose(body, body.initial.pose).position));
-        append(places, numbers(Quat(turn).normalized()));
-        append(speeds, numbers(boxVelocity(body, body.initial)));
-        append(speeds, numbers(Vec3(turn.transpose() * angularVelocity(body.mass, body.initial))));
-      }
-    }
-    if (!places.empty()) {
+    if (!joints_.places.empty()) {
       line("  <keyframe>");
-      line("    <key name=\"start\"" + attribute("qpos", places) + attribute("qvel", speeds) + "/>");
+      line("    <key name=\"start\"" + mjcfAttribute("qpos", joints_.places) +
+           mjcfAttribute("qvel", joints_.speeds) + "/>");
       line("  </keyframe>");
     }
   }
 
   const RunSetup& setup_;
   const World& world_;
+  MjcfTree tree_;
+  MjcfJoints joints_;
+  std::vector<Site> sites_;
+  std::vector<std::string> tendons_;
   MjcfFile file_;
   bool isOneFriction_ = false;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace careen {
 namespace {
@@ -26,48 +27,63 @@ class Fit {
     return std::nullopt;
   }
 
-  // Of three that are pairs of each other, μ_a = F_ab F_ac / F_bc. Others follow from one that is known.
+  // From one to the next along pairs, as shares of the first one's: μ_b = F_ab² / μ_a. An odd round of pairs
+  // says what that is: of three, μ_a = F_ab F_ac / F_bc.
   std::vector<double> solve() const {
     std::vector<double> found(own_.size(), 0);
-    std::vector<std::size_t> rough;  // all but those whose every pair is without friction
-    for (std::size_t i = 0; i < own_.size(); ++i) {
-      if (isRough(i)) {
-        rough.push_back(i);
+    std::vector<Share> shares(own_.size());
+    std::vector<std::size_t> seeds(own_.size());
+    std::iota(seeds.begin(), seeds.end(), std::size_t{0});
+    std::stable_partition(seeds.begin(), seeds.end(), [this](std::size_t i) { return movable_[i]; });
+    for (const std::size_t seed : seeds) {
+      if (shares[seed].power == 0) {
+        solveFrom(seed, shares, found);
       }
-    }
-    // Movable ones first: any two of them, and any of them with an immovable one, are a pair.
-    std::stable_partition(rough.begin(), rough.end(), [this](std::size_t i) { return movable_[i]; });
-    if (rough.size() < 2) {
-      return found;
-    }
-    const std::size_t a = rough[0];
-    const std::size_t b = rough[1];
-    found[a] = own_[a] > 0 ? own_[a] : 1;
-    if (movable_[b] && rough.size() > 2 && friction_(b, rough[2]) > 0) {
-      found[a] = friction_(a, b) * friction_(a, rough[2]) / friction_(b, rough[2]);
-    } else if (movable_[b]) {
-      found[a] = friction_(a, b);
-    }
-    if (!(found[a] > 0)) {
-      return own_;  // two rough ones without friction between them: nothing fits
-    }
-    for (std::size_t k = 1; k < rough.size(); ++k) {
-      const double shared = friction_(a, rough[k]);
-      found[rough[k]] = shared * shared / found[a];
     }
     return found;
   }
 
  private:
-  bool isPair(std::size_t i, std::size_t j) const { return i != j && (movable_[i] || movable_[j]); }
-  bool isRough(std::size_t i) const {
-    for (std::size_t j = 0; j < own_.size(); ++j) {
-      if (isPair(i, j) && friction_(i, j) > 0) {
-        return true;
+  /// Of one coefficient: factor times the seed's to the power of 1 or −1; 0: not yet known.
+  struct Share {
+    double factor = 1;
+    int power = 0;
+  };
+
+  void solveFrom(std::size_t seed, std::vector<Share>& shares, std::vector<double>& found) const {
+    std::vector<std::size_t> members = {seed};
+    shares[seed].power = 1;
+    double first = 0;  // the seed's
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      const std::size_t i = members[k];
+      for (std::size_t j = 0; j < own_.size(); ++j) {
+        const double friction = isPair(i, j) ? friction_(i, j) : 0;
+        if (!(friction > 0)) {
+          continue;
+        }
+        if (shares[j].power == 0) {
+          shares[j] = {.factor = friction * friction / shares[i].factor, .power = -shares[i].power};
+          members.push_back(j);
+        } else if (shares[j].power == shares[i].power && first == 0) {
+          const double mean = std::sqrt(shares[i].factor * shares[j].factor);
+          first = shares[i].power > 0 ? friction / mean : mean / friction;
+        }
       }
     }
-    return false;
+    if (members.size() == 1) {
+      return;  // it has no friction with any
+    }
+    if (first == 0 && movable_[members[1]]) {
+      first = friction_(seed, members[1]);
+    } else if (first == 0) {
+      first = own_[seed] > 0 ? own_[seed] : 1;
+    }
+    for (const std::size_t each : members) {
+      found[each] = shares[each].power > 0 ? shares[each].factor * first : shares[each].factor / first;
+    }
   }
+
+  bool isPair(std::size_t i, std::size_t j) const { return i != j && (movable_[i] || movable_[j]); }
 
   const std::vector<double>& own_;
   const std::vector<bool>& movable_;

@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "core/brief.h"
 #include "core/math/linear_algebra.h"
-#include "exchange/friction_fit.h"
+#include "exchange/import_mjcf_joints.h"
+#include "exchange/mjcf_contacts.h"
 #include "exchange/mjcf_document.h"
+#include "exchange/mjcf_links.h"
 #include "exchange/mjcf_model.h"
 #include "exchange/mjcf_replicate.h"
 #include "physics/world/body.h"
@@ -54,8 +56,13 @@ class MjcfReader {
                      [](const auto& each) { return !each.isPlane(); })) {
       document_.fail(document_.root(), "no box in the model", "at least one");
     }
-    readContacts();
-    writeSurfaces();
+    const MjcfLinks links = readLinks(document_, model_);
+    const MjcfContacts contacts = readContacts(document_, model_, filterParent_);
+    if (contacts.isRefitted) {
+      note("friction: coefficients for which each pair has that of MuJoCo, since scenes combine others");
+    }
+    writeSurfaces(contacts.frictions);
+    writeJoints(document_, model_, links, contacts, kImportedDuration, scene_);
     writeDrag();
     notes_.insert(notes_.end(), model_.notes.begin(), model_.notes.end());
     noteIgnored();
@@ -77,8 +84,8 @@ class MjcfReader {
   // ---- Sections
 
   void readSections() {
-    const std::set<std::string> read = {"compiler", "default",  "worldbody", "tendon",
-                                        "contact",  "keyframe", "asset"};
+    const std::set<std::string> read = {"compiler", "default", "worldbody", "tendon",  "contact",
+                                        "keyframe", "asset",   "equality",  "actuator"};
     const std::set<std::string> ignored = {"visual", "statistic", "size", "custom", "sensor"};
     for (const XmlElement& section : document_.root().children) {
       if (section.name == "option") {
@@ -87,9 +94,9 @@ class MjcfReader {
         document_.ignore(section.name);
       } else if (!read.contains(section.name) && !section.children.empty()) {
         document_.fail(section.children[0], "<" + section.children[0].name + "> in <" + section.name + ">",
-                       "boxes and planes without it");
+                       "boxes, planes and joints without it");
       } else if (!read.contains(section.name)) {
-        document_.fail(section, "<" + section.name + ">", "boxes and planes without it");
+        document_.fail(section, "<" + section.name + ">", "boxes, planes and joints without it");
       }
     }
     scene_["gravity"] = arrayOf(hasGravity_ ? gravity_ : Vec3(Vec3::Zero()));
@@ -147,123 +154,16 @@ class MjcfReader {
       hasGravity_ = isOn;
       return;
     }
-    const std::set<std::string> changing = {"constraint", "contact", "passive", "spring", "damper"};
+    if (attribute.name == "filterparent") {
+      filterParent_ = isOn ? FilterParent::kYes : FilterParent::kNo;
+      return;
+    }
+    const std::set<std::string> changing = {"constraint", "contact",  "passive", "spring",
+                                            "damper",     "equality", "limit",   "actuation"};
     if ((changing.contains(attribute.name) && !isOn) || (attribute.name == "override" && isOn)) {
       document_.fail(flag, attribute, "a flag that changes no motion");
     }
     document_.ignore("flag " + attribute.name);
-  }
-
-  // ---- Friction
-
-  void readContacts() {
-    std::map<std::string, std::size_t> byGeom;
-    for (std::size_t i = 0; i < model_.surfaces.size(); ++i) {
-      if (!model_.surfaces[i].geom.name.empty()) {
-        byGeom.emplace(model_.surfaces[i].geom.name, i);
-      }
-    }
-    for (const XmlElement* const contacts : document_.sections("contact")) {
-      for (const XmlElement& pair : contacts->children) {
-        if (pair.name != "pair") {
-          document_.fail(pair, "<" + pair.name + "> in <contact>", "boxes that do not go through each other");
-        }
-        document_.check(pair, {"name", "geom1", "geom2", "condim", "friction"},
-                        {"solref", "solreffriction", "solimp", "margin", "gap"});
-        std::size_t ends[2] = {0, 0};
-        for (const int k : {0, 1}) {
-          const char* const attribute = k == 0 ? "geom1" : "geom2";
-          const auto found = byGeom.find(pair.text(attribute));
-          if (found == byGeom.end()) {
-            document_.fail(pair, inQuotes(pair.text(attribute)) + " for " + attribute,
-                           "the name of a <geom>");
-          }
-          ends[k] = found->second;
-        }
-        const std::vector<double> friction = document_.numbers(pair, "friction", 1, 5);
-        const double usual = ownFriction(ends[0], ends[1]);
-        const double sliding = friction.empty() ? usual : friction[0];
-        if (sliding < 0 || (friction.size() > 1 && friction[1] != sliding)) {
-          document_.fail(pair, *pair.find("friction"), "the same friction in all directions, not below 0");
-        }
-        const int most = std::max(model_.surfaces[ends[0]].geom.condim, model_.surfaces[ends[1]].geom.condim);
-        pairs_[std::minmax(ends[0], ends[1])] = document_.integer(pair, "condim", most) == 1 ? 0 : sliding;
-      }
-    }
-    fitFriction();
-  }
-
-  double ownFriction(std::size_t i, std::size_t j) const {
-    const MjcfGeom& a = model_.surfaces[i].geom;
-    const MjcfGeom& b = model_.surfaces[j].geom;
-    if (a.priority != b.priority) {
-      const MjcfGeom& counts = a.priority > b.priority ? a : b;
-      return counts.condim == 1 ? 0 : counts.friction;
-    }
-    return std::max(a.condim, b.condim) == 1 ? 0 : std::max(a.friction, b.friction);
-  }
-
-  void fitFriction() {
-    const auto likeFirst = [this](const MjcfSurface& each) {
-      const MjcfGeom& one = model_.surfaces[0].geom;
-      const MjcfGeom& other = each.geom;
-      return one.friction == other.friction && one.condim == other.condim && one.priority == other.priority &&
-             other.contype == 1 && other.conaffinity == 1;
-    };
-    std::vector<double> own;
-    std::vector<bool> movable;
-    for (const MjcfSurface& each : model_.surfaces) {
-      own.push_back(each.geom.condim == 1 ? 0 : each.geom.friction);
-      movable.push_back(each.movable);
-    }
-    frictions_ = own;
-    if (pairs_.empty() && std::all_of(model_.surfaces.begin(), model_.surfaces.end(), likeFirst)) {
-      return;
-    }
-    const std::size_t moving = model_.damping.size();
-    if (moving * model_.surfaces.size() > kMostImportedPairs) {
-      document_.fail(
-          document_.root(),
-          "geoms of different friction in more than " + std::to_string(kMostImportedPairs) + " pairs",
-          "fewer, or one friction for all");
-    }
-    checkCollisions();
-    const FrictionFit fit = fitFrictions(own, movable, [this](std::size_t i, std::size_t j) {
-      const auto pair = pairs_.find(std::minmax(i, j));
-      return pair == pairs_.end() ? ownFriction(i, j) : pair->second;
-    });
-    if (fit.misfit) {
-      const MjcfSurface& a = model_.surfaces[fit.misfit->first];
-      const MjcfSurface& b = model_.surfaces[fit.misfit->second];
-      document_.fail(*b.geom.element,
-                     "frictions of pairs, as of " + inQuotes(a.name) + " and " + inQuotes(b.name) +
-                         ", that no coefficients of the boxes and walls give",
-                     "those of a scene: the friction of each pair is sqrt(μ₁ μ₂)");
-    }
-    if (fit.coefficients != own) {
-      note("friction: coefficients for which each pair has that of MuJoCo, since scenes combine others");
-    }
-    frictions_ = fit.coefficients;
-  }
-
-  // A pair that is named collides whatever its bits are.
-  void checkCollisions() const {
-    for (std::size_t i = 0; i < model_.surfaces.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        const auto bits = [](int value) { return static_cast<unsigned>(value); };
-        const MjcfGeom& a = model_.surfaces[i].geom;
-        const MjcfGeom& b = model_.surfaces[j].geom;
-        const bool collide =
-            ((bits(a.contype) & bits(b.conaffinity)) | (bits(b.contype) & bits(a.conaffinity))) != 0;
-        if ((model_.surfaces[i].movable || model_.surfaces[j].movable) && !collide &&
-            !pairs_.contains({j, i})) {
-          document_.fail(*a.element,
-                         inQuotes(model_.surfaces[i].name) + ", which goes through " +
-                             inQuotes(model_.surfaces[j].name) + " (contype, conaffinity)",
-                         "boxes that do not go through each other");
-        }
-      }
-    }
   }
 
   // ---- The scene
@@ -289,7 +189,7 @@ class MjcfReader {
     return text + "\n}\n";
   }
 
-  void writeSurfaces() {
+  void writeSurfaces(const std::vector<double>& frictions) {
     SceneJson walls = SceneJson::array();
     SceneJson boxes = SceneJson::array();
     for (std::size_t i = 0; i < model_.surfaces.size(); ++i) {
@@ -301,7 +201,7 @@ class MjcfReader {
       } else {
         writeBox(each, item);
       }
-      item["friction"] = frictions_[i];
+      item["friction"] = frictions[i];
       (each.isPlane() ? walls : boxes).push_back(item);
     }
     scene_["walls"] = walls;
@@ -361,15 +261,29 @@ class MjcfReader {
     }
   }
 
-  // Drag is one for all boxes.
+  // Drag is one for all boxes, at their centres of mass; a free joint's acts on its own, at the body's
+  // origin.
   void writeDrag() {
-    const double damping = model_.damping.empty() ? 0 : model_.damping[0];
-    if (std::any_of(model_.damping.begin(), model_.damping.end(),
-                    [&](double each) { return each != damping; })) {
-      document_.fail(document_.root(), "free joints of different damping", "one damping for all");
+    const MjcfSurface* first = nullptr;
+    for (const MjcfSurface& each : model_.surfaces) {
+      if (!each.movable) {
+        continue;
+      }
+      const auto dragOf = [](const MjcfSurface& box) { return box.isJointed() ? 0 : box.joint.damping; };
+      first = first == nullptr ? &each : first;
+      if (dragOf(each) != dragOf(*first)) {
+        document_.fail(document_.root(),
+                       "free joints of different damping, or bodies joined to one that has some",
+                       "one damping for all");
+      }
+      const Vec3 center = each.geom.position + each.geom.turn * each.mass.center;
+      if (dragOf(each) > 0 && center.norm() > kMjcfCentered * Vec3(each.geom.size.data()).norm()) {
+        document_.fail(*each.joint.element, "damping of a body whose centre of mass is not its origin",
+                       "a body about its centre of mass, or no damping");
+      }
     }
-    if (damping > 0) {
-      scene_["drag"] = {{"linear", damping}, {"angular", damping}};
+    if (first != nullptr && first->joint.isFree() && first->joint.damping > 0) {
+      scene_["drag"] = {{"linear", first->joint.damping}, {"angular", first->joint.damping}};
     }
   }
 
@@ -379,8 +293,7 @@ class MjcfReader {
   bool hasGravity_ = true;
   std::vector<std::string> notes_;
   SceneJson scene_ = SceneJson::object();
-  std::vector<double> frictions_;
-  std::map<std::pair<std::size_t, std::size_t>, double> pairs_;  // friction, of surfaces in order
+  FilterParent filterParent_ = FilterParent::kYes;
 };
 
 }  // namespace

@@ -21,6 +21,11 @@ std::optional<std::array<double, 3>> colorOf(const MjcfDocument& document, const
   return std::array<double, 3>{rgba[0], rgba[1], rgba[2]};
 }
 
+bool isActuator(const XmlElement& element) {
+  return element.name == "motor" || element.name == "position" || element.name == "velocity" ||
+         element.name == "general";
+}
+
 // It would give key frames another meaning.
 void mustNotAlign(const MjcfDocument& document, const XmlElement& joint) {
   if (joint.text("align") == "true") {
@@ -34,8 +39,7 @@ const std::string MjcfDefaults::kMain = "main";
 
 MjcfDefaults::MjcfDefaults(MjcfDocument& document) : document_(document) {
   readMaterials();
-  MjcfFreeJoint hinge;  // the type of a <joint> that does not say it
-  hinge.isFree = false;
+  MjcfJoint hinge;  // the type of a <joint> that does not say it
   hinge.type = "hinge";
   classes_[kMain] = {.geom = {}, .joint = hinge};
   for (const XmlElement* const top : document_.sections("default")) {
@@ -66,6 +70,7 @@ void MjcfDefaults::read(const XmlElement& element, const Class& above, bool isTo
   if (!isTop && classes_.contains(name)) {
     document_.fail(element, *named, "a name that no other class has");
   }
+  const bool hasActuators = !document_.sections("actuator").empty();
   Class own = above;
   for (const XmlElement& child : element.children) {
     if (child.name == "geom") {
@@ -74,7 +79,7 @@ void MjcfDefaults::read(const XmlElement& element, const Class& above, bool isTo
       apply(child, own.joint);
     } else if (child.name == "site") {
       document_.check(child, {}, {"type", "group", "material", "rgba", "size", "user"});
-    } else if (child.name == "pair" || child.name == "tendon") {
+    } else if (child.name == "pair" || child.name == "tendon" || (isActuator(child) && hasActuators)) {
       document_.fail(child, "<" + child.name + "> in <default>",
                      "each <" + child.name + "> to say all itself");
     } else if (child.name != "default") {
@@ -114,14 +119,23 @@ MjcfGeom MjcfDefaults::geom(const XmlElement& element, const std::string& ofBody
   return geom;
 }
 
-MjcfFreeJoint MjcfDefaults::joint(const XmlElement& element, const std::string& ofBody) const {
+MjcfJoint MjcfDefaults::joint(const XmlElement& element, const std::string& ofBody) const {
+  MjcfJoint joint;
   if (element.name == "freejoint") {
     document_.check(element, {"name", "align"}, {"group"});
     mustNotAlign(document_, element);
-    return {};
+  } else {
+    joint = classes_.at(classOf(element, "class", ofBody)).joint;
+    apply(element, joint);
   }
-  MjcfFreeJoint joint = classes_.at(classOf(element, "class", ofBody)).joint;
-  apply(element, joint);
+  joint.element = &element;
+  joint.name = element.text("name");
+  check(joint);
+  if (joint.type == "hinge") {
+    for (double* const angle : {joint.range.data(), &joint.range[1], &joint.ref, &joint.springRef}) {
+      *angle = document_.radians(*angle);
+    }
+  }
   return joint;
 }
 
@@ -157,17 +171,10 @@ void MjcfDefaults::applyShape(const XmlElement& element, MjcfGeom& geom) const {
   if (element.find("fromto") != nullptr) {
     geom.fromTo = document_.numbers(element, "fromto", 6, 6);
   }
-  const auto positive = [&](const char* attribute, double whenAbsent) {
-    const double value = document_.number(element, attribute, whenAbsent);
-    if (value < 0) {
-      document_.fail(element, *element.find(attribute), "a number not below 0");
-    }
-    return value;
-  };
   if (element.find("mass") != nullptr) {
-    geom.mass = positive("mass", 0);
+    geom.mass = document_.positive(element, "mass", 0);
   }
-  geom.density = positive("density", geom.density);
+  geom.density = document_.positive(element, "density", geom.density);
   if (const XmlAttribute* const shell = element.find("shellinertia")) {
     geom.isShell = shell->value == "true";
   }
@@ -238,26 +245,54 @@ void MjcfDefaults::placeBetween(MjcfGeom& geom) const {
   geom.turn = *turn;
 }
 
-void MjcfDefaults::apply(const XmlElement& element, MjcfFreeJoint& joint) const {
-  if (const XmlAttribute* const type = element.find("type")) {
-    joint.type = type->value;
-    joint.isFree = joint.type == "free";
+void MjcfDefaults::apply(const XmlElement& element, MjcfJoint& joint) const {
+  document_.check(
+      element,
+      {"name", "class", "type", "pos", "axis", "limited", "range", "ref", "springref", "springdamper",
+       "damping", "stiffness", "armature", "frictionloss", "align"},
+      {"group", "margin", "solreflimit", "solimplimit", "solreffriction", "solimpfriction", "user"});
+  joint.type = document_.word(element, "type", {"free", "ball", "slide", "hinge"}, joint.type);
+  joint.limited = document_.word(element, "limited", {"false", "true", "auto"}, joint.limited);
+  joint.position = document_.vector(element, "pos", joint.position);
+  joint.axis = document_.vector(element, "axis", joint.axis);
+  if (const std::vector<double> range = document_.numbers(element, "range", 2, 2); !range.empty()) {
+    joint.range = {range[0], range[1]};
   }
-  if (!joint.isFree) {
-    return;  // refused where it is used, defaults of other joints are not
-  }
-  document_.check(element,
-                  {"name", "class", "type", "damping", "stiffness", "armature", "frictionloss", "align"},
-                  {"group", "pos", "limited", "axis", "ref", "springref", "springdamper", "range", "margin",
-                   "solreflimit", "solimplimit", "solreffriction", "solimpfriction", "user"});
-  joint.damping = document_.number(element, "damping", joint.damping);
-  if (joint.damping < 0) {
-    document_.fail(element, *element.find("damping"), "a number not below 0");
-  }
+  joint.ref = document_.number(element, "ref", joint.ref);
+  joint.springRef = document_.number(element, "springref", joint.springRef);
+  joint.damping = document_.positive(element, "damping", joint.damping);
+  joint.stiffness = document_.positive(element, "stiffness", joint.stiffness);
+  joint.absent = {document_.number(element, "armature", joint.absent[0]),
+                  document_.number(element, "frictionloss", joint.absent[1])};
+  document_.mustBeZero(element, "springdamper");
   mustNotAlign(document_, element);
-  document_.mustBeZero(element, "stiffness");
-  document_.mustBeZero(element, "armature");
-  document_.mustBeZero(element, "frictionloss");
+}
+
+// Of a class these are refused where they are used.
+void MjcfDefaults::check(const MjcfJoint& joint) const {
+  const auto refuse = [&](const char* attribute, const std::string& value) {
+    const XmlAttribute* const given = joint.element->find(attribute);
+    document_.tree().fail(
+        given == nullptr ? joint.element->offset : given->offset,
+        std::string(attribute) + "=" + inQuotes(value) + " for a joint of type " + inQuotes(joint.type),
+        "none: joints of scenes have no such thing");
+  };
+  const auto mustBeZero = [&](const char* attribute, double value) {
+    if (value != 0) {
+      refuse(attribute, brief(value));
+    }
+  };
+  mustBeZero("armature", joint.absent[0]);
+  mustBeZero("frictionloss", joint.absent[1]);
+  if (!joint.hasCoordinate()) {
+    mustBeZero("stiffness", joint.stiffness);
+  }
+  if (joint.isBall()) {
+    mustBeZero("damping", joint.damping);
+    if (document_.isLimited(*joint.element, joint.limited, joint.range)) {
+      refuse("range", brief(joint.range[0]) + " " + brief(joint.range[1]));
+    }
+  }
 }
 
 }  // namespace careen

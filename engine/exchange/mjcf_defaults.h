@@ -36,11 +36,24 @@ struct MjcfGeom {
   bool isVisual() const { return contype == 0 && conaffinity == 0; }
 };
 
-/// What the joint of a free body says likewise.
-struct MjcfFreeJoint {
-  bool isFree = true;
+/// What a <joint> says likewise, in its body; "fixed" is the type of none at all.
+struct MjcfJoint {
+  const XmlElement* element = nullptr;
+  std::string name;
   std::string type = "free";
-  double damping = 0;  ///< [N s/m, N m s]
+  Vec3 position = Vec3::Zero();    ///< [m]
+  Vec3 axis = Vec3::UnitZ();       ///< [1] of a hinge or slide
+  std::string limited = "auto";    ///< "auto": if there is a range, and <compiler autolimits> lets it
+  std::array<double, 2> range{};   ///< [rad] of a hinge, [m] of a slide
+  double ref = 0;                  ///< likewise: its coordinate as the model stands
+  double springRef = 0;            ///< likewise: where its spring rests
+  double stiffness = 0;            ///< [N m/rad] or [N/m]
+  double damping = 0;              ///< [N m s/rad] or [N s/m]; of a free joint both
+  std::array<double, 2> absent{};  ///< armature and frictionloss, which no scene has
+
+  bool isFree() const { return type == "free"; }
+  bool isBall() const { return type == "ball"; }
+  bool hasCoordinate() const { return type == "hinge" || type == "slide"; }
 };
 
 /// The classes of <default>, each with the settings of those above it.
@@ -52,15 +65,15 @@ class MjcfDefaults {
   const std::string& classOf(const XmlElement& element, std::string_view attribute,
                              const std::string& whenAbsent) const;
   MjcfGeom geom(const XmlElement& element, const std::string& ofBody) const;
-  /// <joint> or <freejoint>; the latter takes no defaults.
-  MjcfFreeJoint joint(const XmlElement& element, const std::string& ofBody) const;
+  /// <joint> or <freejoint>; the latter takes no defaults. Refuses what no joint of a scene has.
+  MjcfJoint joint(const XmlElement& element, const std::string& ofBody) const;
 
   static const std::string kMain;
 
  private:
   struct Class {
     MjcfGeom geom;
-    MjcfFreeJoint joint;
+    MjcfJoint joint;
   };
   void read(const XmlElement& element, const Class& above, bool isTop);
   void readMaterials();
@@ -69,7 +82,8 @@ class MjcfDefaults {
   void applyContact(const XmlElement& element, MjcfGeom& geom) const;
   void applyColor(const XmlElement& element, MjcfGeom& geom) const;
   void placeBetween(MjcfGeom& geom) const;
-  void apply(const XmlElement& element, MjcfFreeJoint& joint) const;
+  void apply(const XmlElement& element, MjcfJoint& joint) const;
+  void check(const MjcfJoint& joint) const;
 
   MjcfDocument& document_;
   std::map<std::string, Class> classes_;

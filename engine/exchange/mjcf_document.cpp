@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/brief.h"
 #include "exchange/mjcf_include.h"
 #include "scene/json_shape.h"
 #include "scene/json_tree.h"
@@ -62,11 +63,12 @@ std::vector<const XmlElement*> MjcfDocument::sections(std::string_view section) 
 }
 
 void MjcfDocument::readCompiler(const XmlElement& element) {
-  check(element,
-        {"angle", "eulerseq", "coordinate", "inertiafromgeom", "inertiagrouprange", "boundmass",
-         "boundinertia", "balanceinertia", "settotalmass", "discardvisual", "fusestatic", "alignfree"},
-        {"autolimits", "strippath", "meshdir", "texturedir", "assetdir", "convexhull", "usethread", "fitaabb",
-         "exactmeshinertia", "saveinertial"});
+  check(
+      element,
+      {"angle", "eulerseq", "coordinate", "inertiafromgeom", "inertiagrouprange", "boundmass", "boundinertia",
+       "balanceinertia", "settotalmass", "discardvisual", "fusestatic", "alignfree", "autolimits"},
+      {"strippath", "meshdir", "texturedir", "assetdir", "convexhull", "usethread", "fitaabb",
+       "exactmeshinertia", "saveinertial"});
   const auto flag = [&](std::string_view attribute, bool whenAbsent) {
     return word(element, attribute, {"true", "false"}, whenAbsent ? "true" : "false") == "true";
   };
@@ -76,6 +78,7 @@ void MjcfDocument::readCompiler(const XmlElement& element) {
   word(element, "alignfree", {"false"}, "false");
   compiler_.discardVisual = flag("discardvisual", compiler_.discardVisual);
   compiler_.fuseStatic = flag("fusestatic", compiler_.fuseStatic);
+  compiler_.autoLimits = flag("autolimits", compiler_.autoLimits);
   compiler_.balanceInertia = flag("balanceinertia", compiler_.balanceInertia);
   readMassRules(element);
   if (const XmlAttribute* const order = element.find("eulerseq")) {
@@ -171,6 +174,37 @@ std::vector<double> MjcfDocument::numbers(const XmlElement& element, std::string
 double MjcfDocument::number(const XmlElement& element, std::string_view attribute, double whenAbsent) const {
   const std::vector<double> values = numbers(element, attribute, 1, 1);
   return values.empty() ? whenAbsent : values[0];
+}
+
+double MjcfDocument::positive(const XmlElement& element, std::string_view attribute,
+                              double whenAbsent) const {
+  const double value = number(element, attribute, whenAbsent);
+  if (value < 0) {
+    fail(element, *element.find(attribute), "a number not below 0");
+  }
+  return value;
+}
+
+double MjcfDocument::radians(double angle) const {
+  return compiler_.isRadian ? angle : angle * (std::numbers::pi / 180);
+}
+
+bool MjcfDocument::isLimited(const XmlElement& element, const std::string& limited,
+                             const std::array<double, 2>& range) const {
+  const bool isRange = range[0] < range[1];
+  const XmlAttribute* const given = element.find("range");
+  const auto refuse = [&](const std::string& expected) {
+    tree_.fail(given == nullptr ? element.offset : given->offset,
+               "the range " + brief(range[0]) + " " + brief(range[1]) + " for <" + element.name + ">",
+               expected);
+  };
+  if (limited == "true" && !isRange) {
+    refuse("the lower end first");
+  }
+  if (limited == "auto" && isRange && !compiler_.autoLimits) {
+    refuse("limited=\"true\" or limited=\"false\" beside it, or autolimits=\"true\"");
+  }
+  return limited == "true" || (limited == "auto" && isRange);
 }
 
 int MjcfDocument::integer(const XmlElement& element, std::string_view attribute, int whenAbsent) const {

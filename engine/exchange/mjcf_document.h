@@ -28,6 +28,7 @@ struct MjcfCompiler {
   bool balanceInertia = false;  ///< impossible moments become their mean
   bool discardVisual = false;
   bool fuseStatic = false;
+  bool autoLimits = true;  ///< a range limits
 };
 
 /// An MJCF file while it is read: its elements with those of the files it includes, what <compiler> says, and
@@ -68,6 +69,16 @@ class MjcfDocument {
   double number(const XmlElement& element, std::string_view attribute, double whenAbsent) const;
   int integer(const XmlElement& element, std::string_view attribute, int whenAbsent) const;
   Vec3 vector(const XmlElement& element, std::string_view attribute, const Vec3& whenAbsent) const;
+  /// A number not below 0.
+  double positive(const XmlElement& element, std::string_view attribute, double whenAbsent) const;
+  std::string word(const XmlElement& element, std::string_view attribute, Words known,
+                   const std::string& whenAbsent) const;
+  /// [rad] An angle of the file.
+  double radians(double angle) const;
+  /// Whether a range limits, given what its attribute `limited` says, or none ("auto"); InputError where
+  /// MuJoCo has it too.
+  bool isLimited(const XmlElement& element, const std::string& limited,
+                 const std::array<double, 2>& range) const;
   /// Refuses an attribute that is there and not 0.
   void mustBeZero(const XmlElement& element, std::string_view attribute) const;
 
@@ -82,8 +93,6 @@ class MjcfDocument {
  private:
   void readCompiler(const XmlElement& element);
   void readMassRules(const XmlElement& element);
-  std::string word(const XmlElement& element, std::string_view attribute, Words known,
-                   const std::string& whenAbsent) const;
   double degrees(double angle) const;
 
   XmlTree tree_;

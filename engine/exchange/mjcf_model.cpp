@@ -1,12 +1,14 @@
 #include "exchange/mjcf_model.h"
 
+#include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "exchange/mjcf_solid.h"
+#include "exchange/mjcf_start.h"
 #include "scene/json_tree.h"
-#include "scene/scene.h"
 
 namespace careen {
 namespace {
@@ -21,17 +23,27 @@ class ModelReader {
         paired_.insert({pair.text("geom1"), pair.text("geom2")});
       }
     }
+    model_.bodies.emplace("world", MjcfNamedBody{});
     for (const XmlElement* const world : document_.sections("worldbody")) {
       document_.check(*world, {});
       readFixed(contentsOf(document_, defaults_, *world, MjcfDefaults::kMain), {}, nullptr);
     }
+    model_.bodies.erase("");  // those without a name
     scaleMasses();
+    findRods();
     for (const XmlElement* const tendons : document_.sections("tendon")) {
       readTendons(*tendons);
     }
-    readStart();
-    if (!renamed_.empty()) {
-      model_.notes.push_back(renamed_);
+    if (!rods_.empty()) {
+      document_.fail(*rods_.begin()->second, inQuotes(rods_.begin()->first) + " for tendon1",
+                     "the name of a tendon");
+    }
+    readStart(document_, model_);
+    if (!names_.renamed().empty()) {
+      model_.notes.push_back("renamed: " + names_.renamed());
+    }
+    if (!model_.jointNames.renamed().empty()) {
+      model_.notes.push_back("renamed joints: " + model_.jointNames.renamed());
     }
     return std::move(model_);
   }
@@ -44,23 +56,38 @@ class ModelReader {
   // `body` is null for the world.
   void readFixed(const std::vector<MjcfContent>& contents, const MjcfFrame& frame, const XmlElement* body) {
     std::vector<MjcfGeom> geoms;
+    std::vector<std::size_t> boxes;
+    std::vector<std::size_t> inIt;  // the first surfaces of bodies in it
     const XmlElement* inertial = nullptr;
     for (const MjcfContent& content : contents) {
       const XmlElement& child = *content.element;
       if (child.name == "geom") {
         geoms.push_back(geomOf(defaults_, content));
-        addFixed(geoms.back(), frame, body == nullptr ? std::string() : body->text("name"));
+        if (geoms.back().type != "plane" && collides(geoms.back())) {
+          boxes.push_back(model_.surfaces.size());
+        }
+        addFixed(geoms.back(), frame, body == nullptr ? "world" : body->text("name"));
       } else if (child.name == "site") {
         addSite(content, frame, std::nullopt);
       } else if (child.name == "body") {
-        readBody(content, frame, body == nullptr);
+        inIt.push_back(model_.surfaces.size());
+        readBody(content, {.frame = frame, .isWorld = body == nullptr});
       } else if (child.name == "inertial" && body != nullptr) {
         inertial = &child;
       } else if (child.name == "light" || child.name == "camera") {
         document_.ignore(child.name);
       } else {
         document_.fail(child, "<" + child.name + "> in <" + (body == nullptr ? "worldbody" : "body") + ">",
-                       "boxes and planes, fixed or with a free joint");
+                       "boxes and planes, fixed or with a joint");
+      }
+    }
+    if (body != nullptr && !boxes.empty()) {
+      model_.bodies[body->text("name")].surface = boxes[0];
+    }
+    for (const std::size_t each : inIt) {  // the world's boxes are not what its bodies are joined to
+      if (body != nullptr && !boxes.empty() && each < model_.surfaces.size() &&
+          model_.surfaces[each].isJointed() && !model_.surfaces[each].parent) {
+        model_.surfaces[each].parent = boxes[0];
       }
     }
     if (body != nullptr && document_.compiler().totalMass > 0) {
@@ -82,13 +109,23 @@ class ModelReader {
     if (!isPlane) {
       checkBox(geom);
     }
-    const std::string given = geom.name.empty() && !isPlane ? body : geom.name;
+    const std::string given = geom.name.empty() && !isPlane && body != "world" ? body : geom.name;
     std::string name = uniqueName(given, isPlane ? "wall" : "box");
-    model_.surfaces.push_back(
-        {.geom = std::move(geom), .movable = false, .frame = placed, .name = std::move(name)});
+    model_.surfaces.push_back({.geom = std::move(geom),
+                               .movable = false,
+                               .frame = placed,
+                               .name = std::move(name),
+                               .ofBody = body});
   }
 
-  void readBody(const MjcfContent& content, const MjcfFrame& parent, bool isTop) {
+  /// The body, or the world, that others are in.
+  struct Parent {
+    MjcfFrame frame;                      // world from it
+    std::optional<std::size_t> box = {};  // if it moves
+    bool isWorld = false;
+  };
+
+  void readBody(const MjcfContent& content, const Parent& parent) {
     const XmlElement& body = *content.element;
     document_.check(
         body,
@@ -98,35 +135,56 @@ class ModelReader {
     if (const XmlAttribute* const mocap = body.find("mocap"); mocap != nullptr && mocap->value != "false") {
       document_.fail(body, *mocap, "a body that nobody else moves");
     }
-    const MjcfFrame frame = poseOf(document_, body, content.in(parent));
+    const MjcfFrame frame = poseOf(document_, body, content.in(parent.frame));
     const std::vector<MjcfContent> contents =
         contentsOf(document_, defaults_, body, defaults_.classOf(body, "childclass", content.ofClass));
-    const XmlElement* joint = nullptr;
-    for (const MjcfContent& each : contents) {
-      const XmlElement& child = *each.element;
-      if (child.name == "joint" || child.name == "freejoint") {
-        const MjcfFreeJoint read = defaults_.joint(child, each.ofClass);
-        if (!read.isFree || joint != nullptr) {
-          document_.fail(child,
-                         joint != nullptr ? "a second joint" : "a joint of type " + inQuotes(read.type),
-                         "one free joint, or none");
-        }
-        if (!isTop) {
-          document_.fail(child, "a free joint in a body in another", "it in <worldbody>");
-        }
-        joint = &child;
-        model_.damping.push_back(read.damping);
-      }
-    }
-    if (joint == nullptr) {
+    const std::optional<MjcfJoint> joint = jointOf(contents, parent.isWorld);
+    if (!joint && !parent.box) {
+      model_.bodies.insert_or_assign(body.text("name"), MjcfNamedBody{.standing = frame});
       readFixed(contents, frame, &body);
-    } else {
-      readFreeBody(body, contents, frame);
+      return;
     }
+    MjcfSurface surface{.geom = {},
+                        .movable = true,
+                        .frame = {},
+                        .name = {},
+                        .ofBody = body.text("name"),
+                        .body = frame,
+                        .standing = frame,
+                        .parent = parent.box,
+                        .inParent = parent.box ? poseOf(document_, body, content.in({})) : frame,
+                        .joint = joint.value_or(MjcfJoint{.element = &body, .name = {}, .type = "fixed"})};
+    readMovable(body, contents, std::move(surface));
   }
 
-  void readFreeBody(const XmlElement& body, const std::vector<MjcfContent>& contents,
-                    const MjcfFrame& frame) {
+  std::optional<MjcfJoint> jointOf(const std::vector<MjcfContent>& contents, bool isTop) const {
+    std::optional<MjcfJoint> joint;
+    for (const MjcfContent& each : contents) {
+      const XmlElement& child = *each.element;
+      if (child.name != "joint" && child.name != "freejoint") {
+        continue;
+      }
+      if (joint) {
+        document_.fail(child, "a second joint", "one, or none");
+      }
+      joint = defaults_.joint(child, each.ofClass);
+      if (joint->isFree() && !isTop) {
+        document_.fail(child, "a free joint in a body in another", "it in <worldbody>");
+      }
+      if (each.frame) {
+        joint->position = each.frame->position + each.frame->turn * joint->position;
+        joint->axis = each.frame->turn * joint->axis;
+      }
+      if (!MjcfDocument::turnToZ(joint->axis)) {
+        document_.fail(child, "a joint with an axis of length 0", "a direction");
+      }
+      joint->axis = joint->axis.stableNormalized();
+    }
+    return joint;
+  }
+
+  void readMovable(const XmlElement& body, const std::vector<MjcfContent>& contents, MjcfSurface surface) {
+    const MjcfFrame frame = surface.body;
     const XmlElement* inertial = nullptr;
     std::vector<MjcfGeom> geoms;
     for (const MjcfContent& content : contents) {
@@ -137,28 +195,32 @@ class ModelReader {
         inertial = &child;
       } else if (child.name == "light" || child.name == "camera") {
         document_.ignore(child.name);
-      } else if (child.name != "joint" && child.name != "freejoint" && child.name != "site") {
+      } else if (child.name != "joint" && child.name != "freejoint" && child.name != "site" &&
+                 child.name != "body") {
         document_.fail(child, "<" + child.name + "> in a body that moves", "one box");
       }
     }
     const std::size_t box = boxOf(body, geoms);
-    MjcfSurface surface{.geom = geoms[box],
-                        .movable = true,
-                        .frame = frame.of(geoms[box].position, geoms[box].turn),
-                        .name = {},
-                        .mass = massOf(document_, geoms, box, inertial),
-                        .body = frame};
+    surface.geom = geoms[box];
+    surface.frame = frame.of(geoms[box].position, geoms[box].turn);
+    surface.mass = massOf(document_, geoms, box, inertial);
     for (const MjcfGeom& geom : geoms) {
       if (!surface.geom.color) {
         surface.geom.color = geom.color;
       }
     }
     surface.name = uniqueName(body.text("name").empty() ? surface.geom.name : body.text("name"), "box");
+    if (surface.isJointed()) {
+      surface.joint.name = model_.jointNames.unique(surface.joint.name, surface.name);
+    }
     const std::size_t index = model_.surfaces.size();
+    model_.bodies.insert_or_assign(body.text("name"), MjcfNamedBody{.surface = index, .standing = frame});
     model_.surfaces.push_back(std::move(surface));
     for (const MjcfContent& content : contents) {
       if (content.element->name == "site") {
         addSite(content, frame, index);
+      } else if (content.element->name == "body") {
+        readBody(content, {.frame = frame, .box = index});
       }
     }
   }
@@ -224,29 +286,9 @@ class ModelReader {
     }
   }
 
-  // Of a scene, boxes and walls share their names, some of which are those of a room; and tables have them.
+  // Of a scene, boxes and walls share their names.
   std::string uniqueName(const std::string& given, const std::string& kind) {
-    std::string name = given.empty() ? kind + "-" + std::to_string(model_.surfaces.size()) : given;
-    for (char& letter : name) {
-      const auto code = static_cast<unsigned char>(letter);
-      letter = letter == ',' || letter == '"' || code < 0x20 || code == 0x7f ? '_' : letter;
-    }
-    const std::string first = name;
-    for (int number = 2; isRoomWall(name) || !names_.insert(name).second; ++number) {
-      name = first + "-" + std::to_string(number);
-    }
-    if (!given.empty() && name != given) {
-      renamed_ += (renamed_.empty() ? "renamed: " : ", ") + inQuotes(given) + " is " + inQuotes(name);
-    }
-    return name;
-  }
-  static bool isRoomWall(const std::string& name) {
-    for (std::size_t side = 0; side < kRoomSides.size(); ++side) {
-      if (name == roomWallName(side)) {
-        return true;
-      }
-    }
-    return false;
+    return names_.unique(given, kind + "-" + std::to_string(model_.surfaces.size()));
   }
 
   // ---- Springs
@@ -282,13 +324,11 @@ class ModelReader {
       if (tendon.name != "spatial") {
         document_.fail(tendon, "<" + tendon.name + "> in <tendon>", "<spatial>");
       }
-      document_.check(tendon, {"name", "stiffness", "damping", "springlength", "limited", "frictionloss"},
+      document_.check(tendon,
+                      {"name", "stiffness", "damping", "springlength", "limited", "range", "frictionloss"},
                       {"group", "width", "material", "rgba", "user", "margin", "solreflimit", "solimplimit",
                        "solreffriction", "solimpfriction"});
       document_.mustBeZero(tendon, "frictionloss");
-      if (tendon.text("limited") == "true") {
-        document_.fail(tendon, *tendon.find("limited"), "a tendon without limits");
-      }
       std::vector<const MjcfSite*> ends;
       for (const XmlElement& end : tendon.children) {
         const auto site = end.name == "site" ? sites_.find(end.text("site")) : sites_.end();
@@ -301,86 +341,93 @@ class ModelReader {
         document_.fail(tendon, std::to_string(ends.size()) + " sites of a tendon",
                        "2, of two bodies, or of a body and the world");
       }
-      addSpring(tendon, *ends[0], *ends[1]);
+      const bool isHeld = addRopes(tendon, *ends[0], *ends[1]);
+      addSpring(tendon, *ends[0], *ends[1], isHeld);
     }
   }
 
-  void addSpring(const XmlElement& tendon, const MjcfSite& from, const MjcfSite& to) {
-    const auto positive = [&](const char* attribute, double whenAbsent) {
-      const double value = document_.number(tendon, attribute, whenAbsent);
-      if (value < 0) {
-        document_.fail(tendon, *tendon.find(attribute), "a number not below 0");
+  // What <equality> holds at the length it has.
+  void findRods() {
+    for (const XmlElement* const equalities : document_.sections("equality")) {
+      for (const XmlElement& each : equalities->children) {
+        if (each.name == "tendon" && each.text("active") != "false") {
+          document_.check(each, {"name", "class", "active", "tendon1", "polycoef"}, {"solref", "solimp"});
+          const std::vector<double> coefficients = document_.numbers(each, "polycoef", 1, 5);
+          if (!coefficients.empty() && coefficients[0] != 0) {
+            document_.fail(each, *each.find("polycoef"), "0 as the first: the length that the tendon has");
+          }
+          rods_[each.text("tendon1")] = &each;
+        }
       }
-      return value;
+    }
+  }
+
+  // Whether it is one.
+  bool addRopes(const XmlElement& tendon, const MjcfSite& from, const MjcfSite& to) {
+    const std::vector<double> given = document_.numbers(tendon, "range", 2, 2);
+    const std::array<double, 2> range = given.empty() ? std::array{0.0, 0.0} : std::array{given[0], given[1]};
+    const std::string name = tendon.text("name");
+    const bool isRope = document_.isLimited(
+        tendon, document_.word(tendon, "limited", {"false", "true", "auto"}, "auto"), range);
+    if (isRope && range[0] > 0) {
+      document_.fail(tendon, *tendon.find("range"), "0 as the least length: a rope may be slack");
+    }
+    const auto add = [&](const XmlElement& element, double length) {
+      model_.ropes.push_back(
+          {.element = &element,
+           .name = model_.jointNames.unique(name, "rope-" + std::to_string(model_.ropes.size())),
+           .isRod = &element != &tendon,
+           .from = from,
+           .to = to,
+           .length = length});
     };
+    if (isRope) {
+      add(tendon, range[1]);
+    }
+    const auto rod = name.empty() ? rods_.end() : rods_.find(name);
+    const bool isRod = rod != rods_.end();
+    if (isRod) {
+      add(*rod->second, (to.place - from.place).norm());
+      rods_.erase(rod);
+    }
+    return isRope || isRod;
+  }
+
+  // None where there is no force beside that of a rope.
+  void addSpring(const XmlElement& tendon, const MjcfSite& from, const MjcfSite& to, bool isHeld) {
+    const double stiffness = document_.positive(tendon, "stiffness", 0);
+    const double damping = document_.positive(tendon, "damping", 0);
     double rest = document_.number(tendon, "springlength", -1);
     if (rest == -1) {
       rest = (to.place - from.place).norm();  // as the model stands
     } else if (rest < 0) {
       document_.fail(tendon, *tendon.find("springlength"), "-1, or a length [m]");
     }
-    model_.springs.push_back({.from = from,
-                              .to = to,
-                              .stiffness = positive("stiffness", 0),
-                              .damping = positive("damping", 0),
-                              .restLength = rest});
-  }
-
-  // ---- The start
-
-  // Of a free joint: position and quaternion; velocity in the world's frame, angular velocity in the body's.
-  void readStart() {
-    const std::size_t count = model_.damping.size();
-    for (const XmlElement* const keys : document_.sections("keyframe")) {
-      for (const XmlElement& key : keys->children) {
-        if (key.text("name") != "start") {
-          document_.ignore("key " + inQuotes(key.text("name")));
-          continue;
-        }
-        document_.check(key, {"name", "qpos", "qvel"}, {"time"});
-        const std::vector<double> places = document_.numbers(key, "qpos", 7 * count, 7 * count);
-        const std::vector<double> speeds = document_.numbers(key, "qvel", 6 * count, 6 * count);
-        std::size_t index = 0;
-        for (MjcfSurface& surface : model_.surfaces) {
-          if (surface.movable) {
-            if (!places.empty()) {
-              place(key, surface, places.data() + 7 * index);
-            }
-            if (!speeds.empty()) {
-              const double* const v = speeds.data() + 6 * index;
-              surface.angularVelocity = surface.body.turn * Vec3(v[3], v[4], v[5]);
-              surface.velocity =
-                  Vec3(v[0], v[1], v[2]) +
-                  surface.angularVelocity.cross(Vec3(surface.body.turn * surface.geom.position));
-            }
-            ++index;
-          }
-        }
-        model_.notes.emplace_back("starts from the key frame \"start\"");
-      }
+    if (!isHeld || stiffness > 0 || damping > 0) {
+      model_.springs.push_back(
+          {.from = from, .to = to, .stiffness = stiffness, .damping = damping, .restLength = rest});
     }
-  }
-
-  void place(const XmlElement& key, MjcfSurface& surface, const double* q) const {
-    const Quat turn(q[3], q[4], q[5], q[6]);
-    if (turn.coeffs().cwiseAbs().maxCoeff() < 1e-14) {
-      document_.fail(key, *key.find("qpos"), "quaternions that are not 0");
-    }
-    surface.body = {Vec3(q[0], q[1], q[2]), turn.normalized()};
-    surface.frame = surface.body.of(surface.geom.position, surface.geom.turn);
   }
 
   MjcfDocument& document_;
   MjcfDefaults defaults_;
   MjcfModel model_;
-  std::set<std::string> names_;
-  std::string renamed_;
-  std::set<std::string> paired_;  // geoms that a <pair> names
-  double fixedMass_ = 0;          // [kg] of bodies that do not move
+  MjcfNames names_;
+  std::map<std::string, const XmlElement*> rods_;  // <equality> by tendon
+  std::set<std::string> paired_;                   // geoms that a <pair> names
+  double fixedMass_ = 0;                           // [kg] of bodies that do not move
   std::map<std::string, MjcfSite> sites_;
 };
 
 }  // namespace
+
+Vec3 MjcfModel::placeOf(const MjcfSite& site) const {
+  if (!site.surface) {
+    return site.point;
+  }
+  const MjcfFrame& box = surfaces[*site.surface].frame;
+  return box.position + box.turn * site.point;
+}
 
 MjcfModel readModel(MjcfDocument& document) { return ModelReader(document).read(); }
 

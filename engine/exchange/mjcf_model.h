@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/math/linear_algebra.h"
@@ -10,6 +12,7 @@
 #include "exchange/mjcf_document.h"
 #include "exchange/mjcf_frame.h"
 #include "exchange/mjcf_mass.h"
+#include "exchange/mjcf_names.h"
 
 namespace careen {
 
@@ -19,12 +22,20 @@ struct MjcfSurface {
   bool movable = false;
   MjcfFrame frame;  ///< world
   std::string name;
+  std::string ofBody;  ///< the name of its <body>
   MjcfMass mass = {};
-  MjcfFrame body = {};  ///< world from the body of a free joint
-  Vec3 velocity = Vec3::Zero();
+  // Of a body that moves:
+  MjcfFrame body = {};                     ///< world from it
+  MjcfFrame standing = {};                 ///< likewise, as the model stands before any key frame
+  std::optional<std::size_t> parent = {};  ///< the box of the body that it is in; none: the world
+  MjcfFrame inParent = {};       ///< as the model stands: from it to the parent if that moves, or the world
+  MjcfJoint joint = {};          ///< to the parent, in its own frame
+  double coordinate = 0;         ///< of a hinge or slide
+  Vec3 velocity = Vec3::Zero();  ///< of the box's middle
   Vec3 angularVelocity = Vec3::Zero();
 
   bool isPlane() const { return geom.type == "plane"; }
+  bool isJointed() const { return movable && !joint.isFree(); }
 };
 
 /// An end of springs.
@@ -42,17 +53,38 @@ struct MjcfSpring {
   double restLength = 0;  ///< [m]
 };
 
-/// The bodies of an MJCF file and what joins them, before anything touches.
-struct MjcfModel {
-  std::vector<MjcfSurface> surfaces;  ///< in the file's order
-  std::vector<MjcfSpring> springs;
-  std::vector<double> damping;     ///< of each free joint
-  std::vector<std::string> notes;  ///< what was renamed, and what it starts from
+/// A tendon as long as it may be, or as it must be.
+struct MjcfRope {
+  const XmlElement* element = nullptr;  ///< that says so
+  std::string name;
+  bool isRod = false;
+  MjcfSite from;
+  MjcfSite to;
+  double length = 0;  ///< [m]
 };
 
-/// Reads <worldbody>, <tendon> and the key frame "start" as MuJoCo does. Bodies that move have a free joint
-/// and one box that collides, and no other has a joint; otherwise InputError. Geoms that collide with nothing
-/// are not among the surfaces, but count for masses.
+/// What a name of a <body> stands for.
+struct MjcfNamedBody {
+  std::optional<std::size_t> surface = {};  ///< its first box
+  MjcfFrame standing = {};                  ///< world from it, as the model stands
+};
+
+/// The bodies of an MJCF file and what joins them, before anything touches.
+struct MjcfModel {
+  std::vector<MjcfSurface> surfaces;  ///< in the file's order, parents before what is in them
+  std::vector<MjcfSpring> springs;
+  std::vector<MjcfRope> ropes;
+  std::map<std::string, MjcfNamedBody> bodies;
+  MjcfNames jointNames;            ///< of joints of bodies, and of ropes
+  std::vector<std::string> notes;  ///< what was renamed, and what it starts from
+
+  /// A site's place [m] at the start, world.
+  Vec3 placeOf(const MjcfSite& site) const;
+};
+
+/// Reads <worldbody>, <tendon> and the key frame "start" as MuJoCo does. A body that moves has one box that
+/// collides; it is free, or has one joint to the body that it is in, or none; otherwise InputError. Geoms
+/// that collide with nothing are not among the surfaces, but count for masses.
 MjcfModel readModel(MjcfDocument& document);
 
 }  // namespace careen

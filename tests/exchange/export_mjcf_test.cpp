@@ -99,16 +99,6 @@ TEST(ExportMjcf, loadedBoxesFlyAndHangAsTheyDoHere) {
     "springs": [ { "from": ["hangs", [0.2, 0.2, 0.4]], "to": [5, 1, 2], "stiffness": 30, "damping": 0.4, "rest_length": 0.5 } ] })");
 }
 
-TEST(ExportMjcf, tellsThatJointsAreLeftOut) {
-  const RunSetup setup = setupOfText(R"({ "careen": 1, "duration": 1,
-    "boxes": [ { "name": "a", "half_extents": [0.1, 0.1, 0.1], "mass": 1 },
-               { "name": "b", "half_extents": [0.1, 0.1, 0.1], "mass": 1, "position": [1, 0, 0] },
-               { "name": "c", "half_extents": [0.1, 0.1, 0.1], "mass": 1, "position": [2, 0, 0] } ],
-    "joints": [ { "type": "ball", "between": ["a", "b"], "at": [0.5, 0, 0] } ] })");
-  EXPECT_EQ(encodeMjcf(setup, "test").leftOut,
-            (std::vector<std::string>{"joints", "which boxes pass through each other"}));
-}
-
 TEST(ExportMjcf, oneFrictionNeedsNoPairsAndUnequalDragIsTold) {
   const std::string scene = R"({ "careen": 1, "duration": 1, "gravity": [0, 0, -9.81],
     "room": { "min": [-2, -2, 0], "max": [2, 2, 4], "friction": 0.5 },
@@ -118,6 +108,10 @@ TEST(ExportMjcf, oneFrictionNeedsNoPairsAndUnequalDragIsTold) {
   EXPECT_EQ(unequal.leftOut, std::vector<std::string>{"drag: linear and angular differ"});
   const MjcfFile equal = encodeMjcf(setupOfText(scene + "0.5 } }"), "test");
   EXPECT_TRUE(equal.leftOut.empty());
+  std::string loaded = scene + "0.5 } }";
+  loaded.insert(loaded.find(R"("friction": 0.5 } ])"), R"("center": [0, 0, 0.05], )");
+  EXPECT_EQ(encodeMjcf(setupOfText(loaded), "test").leftOut,
+            std::vector<std::string>{"drag: a centre of mass is not its box's middle"});
   const InMujoco found(equal.text);
   EXPECT_EQ(found.model->npair, 0);
   EXPECT_EQ(found.model->ngeom, 7);

@@ -13,6 +13,8 @@
 #include "scene/scene_reader.h"
 #include "support/in_mujoco.h"
 #include "support/random_mjcf.h"
+#include "support/random_mjcf_joints.h"
+#include "trajectory/trajectory.h"
 
 namespace careen {
 namespace {
@@ -60,7 +62,7 @@ struct Differences {
       most(size, (body.halfExtents - Eigen::Map<const Vec3>(model->geom_size + 3 * geom)).norm());
       const int id = model->geom_bodyid[geom];
       if (xml == same) {
-        ASSERT_EQ(isImmovable(body.mass), model->body_dofnum[id] == 0) << body.name;
+        ASSERT_EQ(isImmovable(body.mass), model->body_weldid[id] == 0) << body.name;
       }
       if (isImmovable(body.mass)) {
         continue;
@@ -145,6 +147,94 @@ TEST(ImportMjcf, framesAndCopiesAreWhereFixedBodiesWouldBe) {
   EXPECT_GT(frames, 300U);
   EXPECT_GT(copies, 200U);
   expectSmall(found);
+}
+
+// ---- Joints
+
+TEST(ImportMjcf, saysOfRandomJointsWhatMujocoSays) {
+  Differences found;
+  double limits = 0;
+  std::size_t limited = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    const std::string xml = RandomMjcfJoints(seed, RandomMjcfJoints::Limits::kYes).text();
+    ASSERT_NO_THROW(found.compare(xml, xml)) << seed << "\n" << xml;
+    ASSERT_LT(std::max({found.position, found.attitude, found.inertia, found.moments, found.velocity}), 1e-6)
+        << seed << "\n"
+        << xml;
+    const RunSetup setup = setupOf(parseScene(importMjcf(xml, "m.xml").text, "m.xml", Starts::kMayOverlap));
+    InMujoco other(xml);
+    mj_forward(other.model.get(), other.data.get());
+    for (const Joint& joint : setup.world.joints) {
+      if (!joint.hasCoordinate()) {
+        continue;
+      }
+      const int id = mj_name2id(other.model.get(), mjOBJ_JOINT, joint.name.c_str());
+      ASSERT_GE(id, 0) << joint.name;
+      const auto poseOf = [&](const JointEnd& end) {
+        return end.body ? setup.world.bodies[static_cast<std::size_t>(*end.body)].initial.pose : Pose{};
+      };
+      const int place = other.model->jnt_qposadr[id];
+      Differences::most(
+          found.position,
+          std::fabs(jointCoordinate(joint, poseOf(joint.from), poseOf(joint.to)) - other.data->qpos[place]));
+      Differences::most(found.position, (joint.from.pointAt(poseOf(joint.from)) -
+                                         Eigen::Map<const Vec3>(other.data->xanchor + 3 * id))
+                                                .norm() *
+                                            (joint.kind == Joint::Kind::kHinge ? 1 : 0));
+      Differences::most(found.attitude, (joint.to.axesAt(poseOf(joint.to)).col(2) -
+                                         Eigen::Map<const Vec3>(other.data->xaxis + 3 * id))
+                                            .norm());
+      EXPECT_EQ(std::isfinite(joint.lowest), other.model->jnt_limited[id] != 0) << xml;
+      if (std::isfinite(joint.lowest)) {
+        ++limited;
+        Differences::most(limits, std::fabs(joint.lowest - other.model->jnt_range[2 * id]));
+        Differences::most(limits, std::fabs(joint.highest - other.model->jnt_range[2 * id + 1]));
+      }
+      EXPECT_EQ(joint.stiffness, other.model->jnt_stiffness[id]);
+      EXPECT_EQ(joint.damping, other.model->dof_damping[other.model->jnt_dofadr[id]]);
+      if (joint.stiffness > 0) {
+        Differences::most(limits, std::fabs(joint.rest - other.model->qpos_spring[place]));
+      }
+    }
+  }
+  std::cout << limited << " limits " << limits << '\n';
+  EXPECT_GT(limited, 100U);
+  EXPECT_LT(limits, 1e-15);
+  expectSmall(found);
+}
+
+// Attitudes of MuJoCo are of second order in its step.
+TEST(ImportMjcf, randomJointsMoveAsInMujoco) {
+  double most = 0;
+  double mostRatio = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    const std::string xml = RandomMjcfJoints(seed, RandomMjcfJoints::Limits::kNo).text();
+    Scene scene = parseScene(importMjcf(xml, "m.xml").text, "m.xml", Starts::kMayOverlap);
+    scene.settings.duration = 0.1;
+    scene.settings.tolerance = 1e-9;
+    const Trajectory run = record(setupOf(scene));
+    const auto error = [&](double step) {
+      InMujoco other(xml);
+      other.model->opt.timestep = step;
+      other.model->opt.integrator = mjINT_RK4;
+      other.stepTo(0.1);
+      double off = 0;
+      for (std::size_t i = 0; i < run.world.bodies.size(); ++i) {
+        const int geom = mj_name2id(other.model.get(), mjOBJ_GEOM, run.world.bodies[i].name.c_str());
+        const Pose pose = run.boxPoseAt(i, 0.1);
+        Differences::most(off,
+                          (pose.position - Eigen::Map<const Vec3>(other.data->geom_xpos + 3 * geom)).norm());
+      }
+      return off;
+    };
+    const double coarse = error(1e-3);
+    const double fine = error(2.5e-4);
+    Differences::most(most, fine);
+    Differences::most(mostRatio, fine > 1e-9 ? fine / coarse : 0);
+  }
+  std::cout << "after 0.1 s " << most << " ratio " << mostRatio << '\n';
+  EXPECT_LT(most, 1e-5);
+  EXPECT_LT(mostRatio, 0.1);
 }
 
 }  // namespace

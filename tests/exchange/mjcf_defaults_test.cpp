@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "support/input_error.h"
 
 namespace careen {
@@ -45,20 +47,52 @@ TEST(MjcfDefaults, ownColorsGoBeforeMaterials) {
   EXPECT_FALSE(Read("<geom/>").geom().color);
 }
 
-TEST(MjcfDefaults, onlyFreeJointsWithoutForces) {
+TEST(MjcfDefaults, jointsTakeAfterTheirClasses) {
   const auto joint = [](const std::string& element, const std::string& ofBody) {
     const Read read("<body>" + element + "</body>");
-    return read.defaults.joint(read.document.sections("body")[0]->children[0], ofBody);
+    MjcfJoint found = read.defaults.joint(read.document.sections("body")[0]->children[0], ofBody);
+    found.element = nullptr;
+    return found;
   };
-  EXPECT_TRUE(joint("<freejoint/>", "light").isFree);
+  EXPECT_TRUE(joint("<freejoint/>", "light").isFree());
   EXPECT_EQ(joint("<freejoint/>", "light").damping, 0) << "takes no defaults";
   EXPECT_EQ(joint("<joint/>", "light").damping, 2);
-  EXPECT_FALSE(joint("<joint/>", "main").isFree);
+  EXPECT_EQ(joint("<joint/>", "main").type, "hinge");
   EXPECT_EQ(joint("<joint type='slide'/>", "light").type, "slide");
-  EXPECT_NE(inputErrorOf([&] {
-              joint("<joint stiffness='1'/>", "light");
-            }).find("found stiffness=\"1\" for <joint>"),
+  // Degrees of hinges are angles, metres of slides are not.
+  const MjcfJoint hinge = joint("<joint range='-90 180' ref='45' springref='-45' stiffness='3'/>", "main");
+  EXPECT_NEAR(hinge.range[0], -0.5 * std::numbers::pi, 1e-15);
+  EXPECT_NEAR(hinge.range[1], std::numbers::pi, 1e-15);
+  EXPECT_NEAR(hinge.ref, 0.25 * std::numbers::pi, 1e-15);
+  EXPECT_NEAR(hinge.springRef, -0.25 * std::numbers::pi, 1e-15);
+  EXPECT_EQ(hinge.stiffness, 3);
+  EXPECT_EQ(joint("<joint type='slide' range='-90 180'/>", "main").range[1], 180);
+}
+
+TEST(MjcfDefaults, refusesWhatJointsOfScenesDoNotHave) {
+  const auto refusal = [](const std::string& element, const std::string& ofBody) {
+    return inputErrorOf([&] {
+      const Read read("<body>" + element + "</body>");
+      read.defaults.joint(read.document.sections("body")[0]->children[0], ofBody);
+    });
+  };
+  EXPECT_NE(
+      refusal("<joint stiffness='1'/>", "light").find("found stiffness=\"1\" for a joint of type \"free\""),
+      std::string::npos);
+  EXPECT_NE(
+      refusal("<joint armature='0.5'/>", "main").find("found armature=\"0.5\" for a joint of type \"hinge\""),
+      std::string::npos);
+  EXPECT_NE(refusal("<joint type='slide' frictionloss='2'/>", "main").find("found frictionloss=\"2\""),
             std::string::npos);
+  EXPECT_NE(refusal("<joint type='ball' damping='2'/>", "main").find("found damping=\"2\""),
+            std::string::npos);
+  EXPECT_NE(refusal("<joint type='ball' range='0 30'/>", "main").find("found range=\"0 30\""),
+            std::string::npos);
+  EXPECT_NE(refusal("<joint springdamper='1 1'/>", "main").find("found springdamper=\"1 1\""),
+            std::string::npos);
+  EXPECT_NE(refusal("<joint type='screw'/>", "main").find("found type=\"screw\" for <joint>"),
+            std::string::npos);
+  EXPECT_EQ(refusal("<joint type='ball' limited='false' range='0 30'/>", "main"), "no error");
 }
 
 TEST(MjcfDefaults, refusesClassesThatAreNotThere) {

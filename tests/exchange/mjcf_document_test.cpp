@@ -84,5 +84,27 @@ TEST(MjcfDocument, theLastCompilerCounts) {
       1e-15);
 }
 
+// As MuJoCo has it, of which older ones take no range without a word about it.
+TEST(MjcfDocument, rangesLimitUnlessTheySayOtherwise) {
+  const auto isLimited = [](const std::string& compiler, const std::string& limited,
+                            const std::array<double, 2>& range) {
+    const MjcfDocument document("<mujoco><compiler " + compiler + "/></mujoco>", "m.xml");
+    return document.isLimited(document.root(), limited, range);
+  };
+  EXPECT_TRUE(isLimited("", "auto", {-1, 1}));
+  EXPECT_FALSE(isLimited("", "auto", {0, 0}));
+  EXPECT_FALSE(isLimited("", "false", {-1, 1}));
+  EXPECT_TRUE(isLimited("autolimits=\"false\"", "true", {-1, 1}));
+  EXPECT_FALSE(isLimited("autolimits=\"false\"", "auto", {0, 0}));
+  EXPECT_NE(inputErrorOf([&] {
+              isLimited("autolimits=\"false\"", "auto", {-1, 1});
+            }).find("found the range -1 1 for <mujoco>, expected limited="),
+            std::string::npos);
+  EXPECT_NE(inputErrorOf([&] {
+              isLimited("", "true", {1, -1});
+            }).find("expected the lower end first"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace careen

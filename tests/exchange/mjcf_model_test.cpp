@@ -27,7 +27,6 @@ TEST(MjcfModel, fixedBodiesAreOneInAnother) {
   EXPECT_LT((model.surfaces[1].frame.position - Vec3(-1, 1, 0)).norm(), 1e-15);
   EXPECT_LT((model.surfaces[1].frame.turn * Vec3::UnitZ() - Vec3::UnitY()).norm(), 1e-15);
   EXPECT_EQ(model.surfaces[2].name, "box-2");
-  EXPECT_TRUE(model.damping.empty());
 }
 
 const std::string kTwo = R"(<worldbody><site name="ceiling" pos="0 0 5"/>
@@ -49,7 +48,8 @@ TEST(MjcfModel, sitesAreInTheAxesOfTheirBox) {
   EXPECT_EQ(spring.damping, 0.25);
   EXPECT_EQ(spring.restLength, 2);
   EXPECT_NEAR(model.springs[1].restLength, std::sqrt(65), 1e-14) << "as the model stands";
-  EXPECT_EQ(model.damping, (std::vector<double>{0.5, 0}));
+  EXPECT_EQ(model.surfaces[0].joint.damping, 0.5);
+  EXPECT_EQ(model.surfaces[1].joint.damping, 0);
 }
 
 TEST(MjcfModel, aKeyFrameMovesBodiesNotTheirSprings) {
