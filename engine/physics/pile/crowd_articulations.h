@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -59,9 +60,11 @@ class CrowdArticulations {
   void addTo(CrowdProblem& problem, const PileSolver& solver) const;
   void take(std::span<const CrowdProblem::Triple> impulses);
 
-  /// Displaces members until all joints are closed to a part of the tolerance; returns whether any moved, and
-  /// then how far [m] points of each did, by place.
-  bool close();
+  /// Displaces members until all joints are closed to a part of the tolerance; with more conditions, each
+  /// time at the places of then. Returns whether any moved, and then how far [m] points of each did, by
+  /// place.
+  using AddConditions = std::function<void(CrowdProblem& displacements)>;
+  bool close(const AddConditions& addMore = {});
   const std::vector<double>& closedBy() const { return closedBy_; }
 
  private:
