@@ -42,9 +42,9 @@ class CrowdArticulations {
   const std::vector<Listed>& joints() const { return joints_; }
   /// Of the body at such a place, now.
   Pose poseOf(int place) const;
-  bool isJoined(int place) const { return any() && isJoined_[at(place)] != 0; }
+  bool isJoined(int place) const { return isIn(isJoined_, place); }
   /// Whether a joint of it lets go one day, or has a motor.
-  bool mayChange(int place) const { return any() && mayChange_[at(place)] != 0; }
+  bool mayChange(int place) const { return isIn(mayChange_, place); }
 
   // Conditions on velocities in a solver.
   /// That they hold at the end of the step, to first order. Members begin with the impulses of the step
@@ -79,6 +79,9 @@ class CrowdArticulations {
   };
   Kinematics motionOf(int place, const PileSolver* solver) const;
   TouchingShape shapeOf(const JointEnd& end) const;
+  bool isIn(const std::vector<char>& places, int place) const {  // who came since is not
+    return any() && at(place) < places.size() && places[at(place)] != 0;
+  }
   bool moves(int place) const;
   void lookAt(Condition& condition, const PileSolver* solver) const;
   Vec3 speedBound(const PileSolver& solver) const;
