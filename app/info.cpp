@@ -37,6 +37,13 @@ void printJoints(const std::vector<Joint>& joints, const std::vector<Named>& box
     if (joint.length > 0) {
       std::cout << ", " << brief(joint.length) << " m long";
     }
+    const bool turns = joint.kind == Joint::Kind::kHinge;
+    if (joint.grip > 0 && joint.keptRate == 0) {
+      std::cout << ", friction " << brief(joint.grip) << (turns ? " N m" : " N");
+    } else if (joint.grip > 0) {
+      std::cout << ", driven at " << brief(joint.keptRate) << (turns ? " rad/s" : " m/s") << " by up to "
+                << brief(joint.grip) << (turns ? " N m" : " N");
+    }
     if (joint.until < Joint::kFree) {
       std::cout << ", until " << brief(joint.until) << " s";
     }

@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t kHeld = std::numeric_limits<std::size_t>::max();
 /// [1] of the speed after falling a half diagonal: rounding error of a body at rest.
 constexpr double kRestSpeed = 0x1p-44;
+/// [1] of the speeds of what a grip holds: rounding error of its rate.
+constexpr double kStillRate = 0x1p-44;
 /// [1] Gaps and rates this small relative to their lengths and speeds need no projection.
 constexpr double kProjected = 0x1p-51;
 constexpr double kProjectedSpeed = 0x1p-46;
@@ -92,7 +94,7 @@ bool ContactSystem::pushes() const {
 
 void ContactSystem::closeAll() {
   for (std::size_t c = 0; c < modes_.size(); ++c) {
-    modes_[c] = features_[c].holds() ? Mode::kStick : Mode::kOn;
+    modes_[c] = features_[c].holds() ? Mode::kStick : features_[c].grips() ? Mode::kOff : Mode::kOn;
   }
 }
 
@@ -165,8 +167,12 @@ void ContactSystem::fillContacts() {
     contact.friction = feature.material.friction;
     if (state.rows) {
       contact.target = {-state.rows->biases[0], -state.rows->biases[1], -state.rows->biases[2]};
-      contact.admissible =
-          feature.holds() ? ContactProblem::Admissible::kSpace : ContactProblem::Admissible::kCone;
+      contact.admissible = feature.holds()   ? ContactProblem::Admissible::kSpace
+                           : feature.grips() ? ContactProblem::Admissible::kInterval
+                                             : ContactProblem::Admissible::kCone;
+      const bool isGiven = modes_[c] == Mode::kSlip;
+      contact.least = isGiven ? -sideOf(c) * state.grip : -state.grip;
+      contact.most = isGiven ? contact.least : state.grip;
       continue;
     }
     contact.target = {-state.gapBias, -dot(state.slipBias, frame.tangent1),
@@ -224,12 +230,22 @@ Vec3 ContactSystem::angularOf(std::span<const double> solution, std::size_t move
 
 bool ContactSystem::findModes(std::span<const double> y) {
   look(y);
+  for (std::size_t c = 0; c < features_.size(); ++c) {
+    if (features_[c].grips()) {
+      const double rate = states_[c].rate;
+      modes_[c] = std::fabs(rate) > stillRate(c) ? Mode::kSlip : Mode::kStick;
+      onset_[c] = Vec3(rate > 0 ? 1 : -1, 0, 0);
+    }
+  }
   fillContacts();
   findFree();
   const bool found = forces_.findModes(free_, modes_);
   guess_.assign(forces_.forces().begin(), forces_.forces().end());
   guessedFriction_.resize(features_.size());
   for (std::size_t c = 0; c < features_.size(); ++c) {
+    if (features_[c].grips()) {
+      onset_[c] = Vec3(guess_[c][0] > 0 ? -1 : 1, 0, 0);
+    }
     if (states_[c].rows) {
       continue;  // theirs do not jump
     }
@@ -332,7 +348,9 @@ double ContactSystem::projectPositions(std::vector<double>& y, double most, Turn
   const std::vector<double> before = y;
   const std::vector<Mode> kept = modes_;
   for (std::size_t c = 0; c < modes_.size(); ++c) {
-    modes_[c] = modes_[c] == Mode::kOff || holdsSideways(c) || features_[c].holds() ? modes_[c] : Mode::kOn;
+    modes_[c] = modes_[c] == Mode::kOff || holdsSideways(c) || features_[c].holds() ? modes_[c]
+                : features_[c].grips()                                              ? Mode::kOff
+                                                                                    : Mode::kOn;
   }
   const std::vector<double> still(inverseMass_.size(), 0.0);
   double moved = 0;
@@ -390,6 +408,9 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
   double worst = 0;
   double scale = 0;
   for (std::size_t c = 0; c < features_.size(); ++c) {
+    if (features_[c].grips() && modes_[c] != Mode::kStick) {
+      modes_[c] = Mode::kOff;
+    }
     if (modes_[c] == Mode::kOff) {
       continue;
     }
@@ -406,8 +427,9 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
   bool moves = worst > kProjectedSpeed * scale;
   if (moves) {
     fillContacts();
-    for (ContactForces::Contact& contact : forces_.contacts()) {
-      contact.target = {};
+    for (std::size_t c = 0; c < features_.size(); ++c) {
+      ContactForces::Contact& contact = forces_.contacts()[c];
+      contact.target = {states_[c].kept, 0, 0};
       if (contact.admissible == ContactProblem::Admissible::kLine) {
         contact.admissible = ContactProblem::Admissible::kCone;
       }
@@ -439,6 +461,15 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
 bool ContactSystem::project(std::vector<double>& y, double most) {
   const bool moved = projectPositions(y, most) > 0;
   return projectVelocities(y) || moved;
+}
+
+double ContactSystem::stillRate(std::size_t contact) const {
+  double speeds = std::fabs(states_[contact].kept);
+  for (const int each : {features_[contact].a, features_[contact].b}) {
+    const auto body = static_cast<std::size_t>(each);
+    speeds += kinematics_[body].velocity.norm() + radius_ * kinematics_[body].angularVelocity.norm();
+  }
+  return std::max(restSpeed_, kStillRate * speeds);
 }
 
 double ContactSystem::slipSpeedRate(std::size_t c) const {

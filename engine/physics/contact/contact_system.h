@@ -121,6 +121,10 @@ class ContactSystem {
   const ContactForces& forces() const { return forces_; }
   ContactResiduals takeResiduals() { return forces_.takeResiduals(); }
   void look(std::span<const double> y);
+  /// [m/s] A grip that slips no faster keeps its rate: rounding error.
+  double stillRate(std::size_t contact) const;
+  /// [1] The direction, along its row, in which a grip slips; of one that slips.
+  double sideOf(std::size_t contact) const { return onset_[contact][0]; }
   /// [m/s²] rate of the slip speed of contact c.
   double slipSpeedRate(std::size_t contact) const;
   std::size_t placeOf(std::size_t body) const { return places_[body]; }
@@ -152,7 +156,8 @@ class ContactSystem {
   std::vector<Mode> modes_;
   std::vector<ContactForces::Force> guess_;  // forces found with the modes
   std::vector<Vec3> guessedFriction_;  // theirs [N], in the world: tangents may jump where a normal turns
-  std::vector<Vec3> onset_;            // [1] direction in which a sticking contact begins to slip
+  std::vector<Vec3>
+      onset_;  // [1] direction in which a sticking contact begins to slip; of a grip along its row
   std::vector<Kinematics> kinematics_;
   std::vector<ContactState> states_;
   std::vector<char> pushing_;  // by contact, as of then

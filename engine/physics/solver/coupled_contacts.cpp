@@ -110,6 +110,8 @@ void CoupledContacts::copyContacts(const ContactProblem& problem) {
     const bool isLine = from.admissible == ContactProblem::Admissible::kCone && !(from.friction > 0);
     contact.kind = isLine ? ContactProblem::Admissible::kLine : from.admissible;
     contact.friction = contact.kind == ContactProblem::Admissible::kCone ? from.friction : 0;
+    contact.least = from.least;
+    contact.most = from.most;
     contact.drag = {};
     if (from.admissible == ContactProblem::Admissible::kLine) {
       contact.drag = {-from.friction * from.slip[0], -from.friction * from.slip[1]};
@@ -138,12 +140,12 @@ CoupledContacts::Key CoupledContacts::keyOf(const ContactProblem::Contact& from,
   double normal = u[0] - from.target[0];
   const double x = u[1] - from.target[1];
   const double y = u[2] - from.target[2];
-  if (from.admissible == ContactProblem::Admissible::kSpace) {  // rows along axes of the world
+  if (!ContactProblem::hasNormal(from)) {
     normal *= normal;
   }
   return {.bodies = std::minmax(placeOf(from.a), placeOf(from.b)),
-          .numbers = {numberOr0(from.friction), numberOr0(normal), numberOr0(x * x + y * y),
-                      numberOr0(squaredArm[0] + squaredArm[1])},
+          .numbers = {numberOr0(from.friction + (from.most - from.least)), numberOr0(normal),
+                      numberOr0(x * x + y * y), numberOr0(squaredArm[0] + squaredArm[1])},
           .listed = listed};
 }
 
@@ -230,9 +232,10 @@ double CoupledContacts::largest(std::span<const Triple> impulses) const {
   double largest = 0;
   for (std::size_t c = 0; c < impulses.size(); ++c) {
     const Triple& impulse = impulses[c];
-    const double size = contacts_[c].kind == Contact::Kind::kSpace
-                            ? std::max({std::fabs(impulse[0]), std::fabs(impulse[1]), std::fabs(impulse[2])})
-                            : impulse[0];
+    const double size =
+        contacts_[c].kind == Contact::Kind::kSpace || contacts_[c].kind == Contact::Kind::kInterval
+            ? std::max({std::fabs(impulse[0]), std::fabs(impulse[1]), std::fabs(impulse[2])})
+            : impulse[0];
     largest = std::max(largest, size / contacts_[c].mass);
   }
   return largest;
