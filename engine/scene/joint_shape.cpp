@@ -61,7 +61,7 @@ void readLoad(const JsonObject& object, Joint& joint) {
   joint.grip = object.number("friction", effort, 0);
   if (const std::optional<JsonValue> given = object.find("drive")) {
     if (object.has("friction")) {
-      given->fail("none, or no friction: a drive keeps to its speed as friction does to none");
+      given->fail("none beside friction: both are one law, and friction that of speed 0");
     }
     const JsonObject drive = given->object({"speed", "max"});
     joint.keptRate = drive.require("speed").number(anyNumber(turns ? "rad/s" : "m/s"));

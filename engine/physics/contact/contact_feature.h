@@ -69,6 +69,10 @@ struct ContactFeature {
   bool grips() const { return kind == Kind::kJointGrip; }
   /// Whether its impulse, along its rows, may have any sign.
   bool isTwoSided() const { return holds() || grips(); }
+  ContactProblem::Admissible admissible() const {
+    using Set = ContactProblem::Admissible;
+    return holds() ? Set::kSpace : grips() ? Set::kInterval : Set::kCone;
+  }
 };
 
 /// A feature at one moment. Its gap d and its slip change with accelerations v̇ and ω̇ of both sides:
@@ -95,8 +99,9 @@ struct ContactState {
   /// Of a joint's condition that is no point's along the normal: its rows, in place of those of normal and
   /// arms. Gap and rate are then the sizes of its own, if it holds.
   std::shared_ptr<const ConstraintRows> rows = {};
-  double kept = 0;  ///< [m/s] that a grip keeps to: its rate is relative to it
-  double grip = 0;  ///< [N] its largest force along its row
+  double kept = 0;   ///< [m/s] that a grip keeps to: its rate is relative to it
+  double grip = 0;   ///< [N] its largest force along its row
+  double still = 0;  ///< [m/s] what rounding errors of its rate may amount to
 
   /// The rows of a and of b; of a contact, in that frame of its normal.
   RowSide sideA(const ContactFrame& frame) const { return rows ? rows->a : pointSide(frame.axes(), armA, 1); }

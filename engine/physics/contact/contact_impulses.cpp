@@ -61,9 +61,7 @@ ContactProblem::Contact& ContactImpulses::add(const ContactFeature& feature, con
   };
   contact.a = addSide(static_cast<std::size_t>(feature.a), 0);
   contact.b = addSide(static_cast<std::size_t>(feature.b), 1);
-  contact.admissible = feature.holds()   ? ContactProblem::Admissible::kSpace
-                       : feature.grips() ? ContactProblem::Admissible::kInterval
-                                         : ContactProblem::Admissible::kCone;
+  contact.admissible = feature.admissible();
   contact.most = length_ * geometry.grip;
   contact.least = -contact.most;
   contact.target[0] = geometry.kept;

@@ -16,27 +16,18 @@ namespace {
 constexpr std::size_t kHeld = std::numeric_limits<std::size_t>::max();
 /// [1] of the speed after falling a half diagonal: rounding error of a body at rest.
 constexpr double kRestSpeed = 0x1p-44;
-/// [1] of the speeds of what a grip holds: rounding error of its rate.
-constexpr double kStillRate = 0x1p-44;
 /// [1] Gaps and rates this small relative to their lengths and speeds need no projection.
 constexpr double kProjected = 0x1p-51;
 constexpr double kProjectedSpeed = 0x1p-46;
 constexpr int kMostProjections = 4;
 
+// In which a contact is closed without friction; a grip has no place to close at.
+ContactForces::Mode closedMode(const ContactFeature& feature) {
+  using Mode = ContactForces::Mode;
+  return feature.holds() ? Mode::kStick : feature.grips() ? Mode::kOff : Mode::kOn;
+}
+
 }  // namespace
-
-BodyState TouchingBody::state() const {
-  const Mat3 columns = worldFromBody.toRotationMatrix();
-  return {.pose = {.position = position, .worldFromBody = columns},
-          .velocity = velocity,
-          .angularMomentum = columns * body->mass.inertiaTimes(angularVelocityBody)};
-}
-
-Kinematics TouchingBody::kinematics() const {
-  const Mat3 columns = worldFromBody.toRotationMatrix();
-  return {
-      .pose = {position, columns}, .velocity = velocity, .angularVelocity = columns * angularVelocityBody};
-}
 
 ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodies,
                              std::vector<ContactFeature> features, std::span<const ContactFeature> joints)
@@ -94,7 +85,7 @@ bool ContactSystem::pushes() const {
 
 void ContactSystem::closeAll() {
   for (std::size_t c = 0; c < modes_.size(); ++c) {
-    modes_[c] = features_[c].holds() ? Mode::kStick : features_[c].grips() ? Mode::kOff : Mode::kOn;
+    modes_[c] = closedMode(features_[c]);
   }
 }
 
@@ -167,10 +158,8 @@ void ContactSystem::fillContacts() {
     contact.friction = feature.material.friction;
     if (state.rows) {
       contact.target = {-state.rows->biases[0], -state.rows->biases[1], -state.rows->biases[2]};
-      contact.admissible = feature.holds()   ? ContactProblem::Admissible::kSpace
-                           : feature.grips() ? ContactProblem::Admissible::kInterval
-                                             : ContactProblem::Admissible::kCone;
-      const bool isGiven = modes_[c] == Mode::kSlip;
+      contact.admissible = feature.admissible();
+      const bool isGiven = feature.grips() && modes_[c] == Mode::kSlip;
       contact.least = isGiven ? -sideOf(c) * state.grip : -state.grip;
       contact.most = isGiven ? contact.least : state.grip;
       continue;
@@ -230,11 +219,11 @@ Vec3 ContactSystem::angularOf(std::span<const double> solution, std::size_t move
 
 bool ContactSystem::findModes(std::span<const double> y) {
   look(y);
+  guess_.resize(features_.size());
   for (std::size_t c = 0; c < features_.size(); ++c) {
     if (features_[c].grips()) {
-      const double rate = states_[c].rate;
-      modes_[c] = std::fabs(rate) > stillRate(c) ? Mode::kSlip : Mode::kStick;
-      onset_[c] = Vec3(rate > 0 ? 1 : -1, 0, 0);
+      modes_[c] = std::fabs(states_[c].rate) > stillRate(c) ? Mode::kSlip : Mode::kStick;
+      guess_[c][0] = -states_[c].rate;
     }
   }
   fillContacts();
@@ -243,9 +232,6 @@ bool ContactSystem::findModes(std::span<const double> y) {
   guess_.assign(forces_.forces().begin(), forces_.forces().end());
   guessedFriction_.resize(features_.size());
   for (std::size_t c = 0; c < features_.size(); ++c) {
-    if (features_[c].grips()) {
-      onset_[c] = Vec3(guess_[c][0] > 0 ? -1 : 1, 0, 0);
-    }
     if (states_[c].rows) {
       continue;  // theirs do not jump
     }
@@ -348,9 +334,7 @@ double ContactSystem::projectPositions(std::vector<double>& y, double most, Turn
   const std::vector<double> before = y;
   const std::vector<Mode> kept = modes_;
   for (std::size_t c = 0; c < modes_.size(); ++c) {
-    modes_[c] = modes_[c] == Mode::kOff || holdsSideways(c) || features_[c].holds() ? modes_[c]
-                : features_[c].grips()                                              ? Mode::kOff
-                                                                                    : Mode::kOn;
+    modes_[c] = modes_[c] == Mode::kOff || holdsSideways(c) ? modes_[c] : closedMode(features_[c]);
   }
   const std::vector<double> still(inverseMass_.size(), 0.0);
   double moved = 0;
@@ -408,10 +392,8 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
   double worst = 0;
   double scale = 0;
   for (std::size_t c = 0; c < features_.size(); ++c) {
-    if (features_[c].grips() && modes_[c] != Mode::kStick) {
+    if (modes_[c] == Mode::kOff || (features_[c].grips() && modes_[c] != Mode::kStick)) {
       modes_[c] = Mode::kOff;
-    }
-    if (modes_[c] == Mode::kOff) {
       continue;
     }
     const auto a = static_cast<std::size_t>(features_[c].a);
@@ -461,20 +443,6 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
 bool ContactSystem::project(std::vector<double>& y, double most) {
   const bool moved = projectPositions(y, most) > 0;
   return projectVelocities(y) || moved;
-}
-
-double ContactSystem::stillRate(std::size_t contact) const {
-  double speeds = std::fabs(states_[contact].kept);
-  for (const int each : {features_[contact].a, features_[contact].b}) {
-    const auto body = static_cast<std::size_t>(each);
-    speeds += kinematics_[body].velocity.norm() + radius_ * kinematics_[body].angularVelocity.norm();
-  }
-  return std::max(restSpeed_, kStillRate * speeds);
-}
-
-double ContactSystem::slipSpeedRate(std::size_t c) const {
-  const auto& slip = forces_.contacts()[c].slip;
-  return slip[0] * forces_.excess(c, 1) + slip[1] * forces_.excess(c, 2);
 }
 
 }  // namespace careen

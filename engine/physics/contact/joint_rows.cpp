@@ -10,6 +10,8 @@ namespace {
 
 /// [1] of a rope's length: ends this near to each other have no direction.
 constexpr double kNoDirection = 0x1p-30;
+/// [1] of the speeds of what a grip holds: rounding error of its rate.
+constexpr double kStillRate = 0x1p-44;
 
 /// Both ends of a joint at one moment.
 struct Ends {
@@ -212,6 +214,10 @@ ContactState stateOfGrip(const Ends& at, double length) {
   ContactState state = stateOfRows(at, std::move(rows), ContactFeature::Kind::kJointGrip);
   state.kept = slides ? at.joint.keptRate : length * at.joint.keptRate;
   state.rate -= state.kept;
+  const auto speedOf = [&](const Kinematics& of) {
+    return of.velocity.norm() + length * of.angularVelocity.norm();
+  };
+  state.still = kStillRate * (speedOf(at.ofA) + speedOf(at.ofB) + std::fabs(state.kept));
   state.grip = slides ? at.joint.grip : at.joint.grip / length;
   return state;
 }
