@@ -73,8 +73,8 @@ struct ContactSolution {
   /// [m/s] On entry: a residual that is as good as none to the caller, if the impulses are much larger.
   double enough = 0;
   double residual = 0;  ///< [m/s] largest of the contacts' natural maps (impulse_set.h), of what is returned
-  double scale =
-      0;  ///< [m/s] V, the largest contact speed |J q₀ − target|: what the residual is measured against
+  double scale = 0;  ///< [m/s] V, the largest contact speed |J q₀ − target|, or a given λ/mass: what the
+                     ///< residual is measured against
   bool solved =
       false;  ///< the residual is small enough, see ContactSolver; otherwise the best iterate is kept
   ContactResiduals residuals = {};  ///< of what is returned

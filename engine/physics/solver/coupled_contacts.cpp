@@ -10,8 +10,6 @@ namespace careen {
 
 namespace {
 
-/// [1] Of the largest term of a relative velocity.
-
 using Row = ContactProblem::Row;
 using Triple = ContactProblem::Triple;
 
@@ -167,6 +165,9 @@ void CoupledContacts::weigh(Contact& contact) {
   contact.mass = 1 / (normal[0] + normal[1]);
   const Triple u = relativeVelocity(contact, free_);
   scale_ = std::max(scale_, std::sqrt(u[0] * u[0] + (u[1] * u[1] + u[2] * u[2])));
+  if (contact.isGiven()) {  // which moves what is free to
+    scale_ = std::max(scale_, std::fabs(contact.least) / contact.mass);
+  }
   for (const double part : contact.target) {
     largest = std::max(largest, std::fabs(part));
   }
