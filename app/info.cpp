@@ -12,7 +12,7 @@
 #include "core/brief.h"
 #include "core/characters.h"
 #include "core/system/file.h"
-#include "physics/contact/joint_freedom.h"
+#include "physics/joint_freedom.h"
 #include "physics/world/method.h"
 #include "report.h"
 #include "run.h"

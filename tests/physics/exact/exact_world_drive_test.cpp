@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -191,6 +192,39 @@ TEST(ExactWorldDrive, frictionTakesAPendulumToRestSwingBySwing) {
   EXPECT_NEAR(restsFrom(run, 0), static_cast<double>(due.time), 2e-6);
   const Mat3 attitude = run.last(world, 0, 10).pose.worldFromBody;
   EXPECT_NEAR(std::atan2(attitude(0, 2), attitude(2, 2)), static_cast<double>(due.angle), 2e-6);
+}
+
+// A spring of 2 N m/rad and friction of 0.25 N m: each half swing loses 2 τ/k = 0.25 rad, from 1 rad to
+// −0.75, 0.5, −0.25 and 0, where it rests.
+TEST(ExactWorldDrive, frictionTakesTheSameFromEachSwingOfASpring) {
+  World world = flywheel(0);
+  Joint& axle = world.joints[0];
+  axle.stiffness = 2;
+  axle.rest = 1;
+  axle.grip = 0.25;
+  const Recorded run = runFor(world, 5);
+  const double halfSwing = M_PI / std::sqrt(2 / world.bodies[0].mass.inertiaBody[2]);
+  EXPECT_NEAR(restsFrom(run, 0), 4 * halfSwing, 1e-6);
+  for (const auto& [swings, angle] :
+       {std::pair(1, 1.75), std::pair(2, 0.5), std::pair(3, 1.25), std::pair(4, 1.0)}) {
+    const Mat3 attitude = run.at(world, 0, swings * halfSwing).pose.worldFromBody;
+    EXPECT_LE(turnedAwayFrom(attitude, angle, Vec3::UnitZ()), 2e-6) << swings;
+  }
+}
+
+// 1 kg hangs on a rail by 10 N, and on it 2 kg by 15 N: both fall as one, with g − 10/3 m/s², by 6.67 N
+// between them.
+TEST(ExactWorldDrive, frictionsInSeriesShareAsTheyMust) {
+  World world;
+  world.gravity = Vec3(0, 0, -kGravityOfDrives);
+  world.bodies = {box("upper", Vec3::Constant(0.1), 1, Vec3(0, 0, 1)),
+                  box("lower", Vec3::Constant(0.1), 2, Vec3(0, 0, 0.5))};
+  join(world, Kind::kSlider, 0, {}, Vec3(0, 0, 1)).grip = 10;
+  join(world, Kind::kSlider, 1, 0, Vec3(0, 0, 0.5)).grip = 15;
+  const Recorded run = runFor(world, 1);
+  const double falls = 0.5 * (kGravityOfDrives - 10. / 3);
+  EXPECT_NEAR(run.last(world, 0, 1).pose.position[2], 1 - falls, 1e-10);
+  EXPECT_NEAR(run.last(world, 1, 1).pose.position[2], 0.5 - falls, 1e-10);
 }
 
 // It meets its limit with √(2 τ θ/I) = √7.5 rad/s, of which e = 0 leaves nothing, and stays there.

@@ -1,4 +1,4 @@
-#include "physics/contact/joint_freedom.h"
+#include "physics/joint_freedom.h"
 
 #include <gtest/gtest.h>
 
