@@ -231,8 +231,8 @@ void Books::check() {
                  std::any_of(group_.springs.begin(), group_.springs.end(),
                              [&](std::size_t spring) { return run_.world.springs[spring].damping != 0; }) ||
                  std::any_of(group_.joints.begin(), group_.joints.end(), [&](std::size_t index) {
-                   const Joint& joint =
-                       run_.world.joints[index];  // one that lets go takes its spring's along
+                   const Joint& joint = run_.world.joints[index];
+                   // One that lets go takes its spring's along.
                    return joint.damping != 0 || joint.grip != 0 ||
                           (joint.stiffness != 0 && joint.until <= run_.settings.duration);
                  });

@@ -81,7 +81,7 @@ void setRowAlong(const Ends& at, const Vec3& n, std::size_t row, ConstraintRows&
   rows.biases[k] = dot(n, at.centripetal(arm)) + 2 * dot(at.ofB.angularVelocity.cross(n), velocity);
 }
 
-// Across its axis.
+// Across a slider's axis.
 ConstraintRows rowsAcross(const Ends& at) {
   ConstraintRows rows = noRows();
   const Mat3 axes = at.joint.to.axesAt(at.ofB.pose);

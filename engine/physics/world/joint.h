@@ -63,8 +63,8 @@ struct Joint {
   /// Whether it has the coordinate that may be limited.
   bool hasCoordinate() const { return kind == Kind::kHinge || kind == Kind::kSlider; }
   bool isLoaded() const { return stiffness != 0 || damping != 0 || effort != 0 || grip != 0; }
-  /// [N] or [N m] By which alone it could gain energy: what a grip does is as much, or less. (Its force is f
-  /// = ±grip along the coordinate, and the other way only where the coordinate runs ahead of its speed.)
+  /// [N] or [N m] By which it gives energy, or takes it: a grip gives at most as much, and what it gives less
+  /// is lost.
   double drive() const { return effort + (keptRate == 0 ? 0 : std::copysign(grip, keptRate)); }
 };
 
