@@ -11,11 +11,6 @@
 namespace careen {
 namespace {
 
-// A million turns: of more, little is left of the place within one.
-constexpr double kMostAngle = 6e6;
-constexpr NumberRange kAngle = {
-    .min = -kMostAngle, .max = kMostAngle, .unit = "rad", .plain = "an angle of less than a million turns"};
-
 using JointKind = Joint::Kind;
 
 bool takes(JointKind kind, std::string_view key) {
@@ -106,7 +101,7 @@ Joint readJoint(const JsonValue& value, std::size_t index) {
   if (takes(joint.kind, "axis")) {
     joint.from.axes = frameAbout(object.require("axis").direction());
     joint.to.axes = joint.from.axes;
-    beginAt(joint, object.number("start", joint.kind == JointKind::kHinge ? kAngle : anyNumber("m"), 0));
+    beginAt(joint, object.number("start", anyNumber(joint.kind == JointKind::kHinge ? "rad" : "m"), 0));
     readLoad(object, joint);
   }
   joint.length = object.number("length", positiveNumber("m"), 0);
