@@ -133,6 +133,21 @@ inline Body bar(const std::string& name, double angle, const Vec3& from = Vec3::
   body.initial.pose.position = from + body.initial.pose.worldFromBody * Vec3(0, 0, -0.5);
   return body;
 }
+/// Two such bars, turned by that angle [rad], on hinges at (±0.3, 0, 0), and a bridge of 2 kg on hinges at
+/// their ends: three of its 20 rows are redundant.
+inline World parallelogram(double angle, const Vec3& gravity) {
+  World world;
+  world.gravity = gravity;
+  world.bodies = {bar("left", angle, Vec3(-0.3, 0, 0)), bar("right", angle, Vec3(0.3, 0, 0))};
+  const Vec3 tip = world.bodies[0].initial.pose.worldFromBody * Vec3(0, 0, -1);
+  world.bodies.push_back(box("bridge", Vec3(0.3, 0.05, 0.05), 2, tip));
+  for (const double x : {-0.3, 0.3}) {
+    const int side = x < 0 ? 0 : 1;
+    join(world, Joint::Kind::kHinge, side, {}, Vec3(x, 0, 0), Vec3::UnitY());
+    join(world, Joint::Kind::kHinge, side, 2, Vec3(x, 0, 0) + tip, Vec3::UnitY());
+  }
+  return world;
+}
 inline long double squaredFrequencyOf(const Body& bar, double gravity) {
   return gravity * 0.5L / (bar.mass.inertiaBody[1] + 0.25L);
 }

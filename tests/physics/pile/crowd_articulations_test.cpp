@@ -53,15 +53,7 @@ TEST(CrowdArticulations, aBarOnAHingeIsAPendulum) {
 
 // At the end of each step all is closed, in a loop with redundant rows, too.
 TEST(CrowdArticulations, jointsAreClosedAfterEachStep) {
-  World world = hanging();
-  world.bodies = {bar("left", 0.9, Vec3(-0.3, 0, 0)), bar("right", 0.9, Vec3(0.3, 0, 0))};
-  const Vec3 tip = world.bodies[0].initial.pose.worldFromBody * Vec3(0, 0, -1);
-  world.bodies.push_back(box("bridge", Vec3(0.3, 0.05, 0.05), 2, tip));
-  for (const double x : {-0.3, 0.3}) {
-    const int side = x < 0 ? 0 : 1;
-    join(world, Kind::kHinge, side, {}, Vec3(x, 0, 0), Vec3::UnitY());
-    join(world, Kind::kHinge, side, 2, Vec3(x, 0, 0) + tip, Vec3::UnitY());
-  }
+  const World world = parallelogram(0.9, hanging().gravity);
   Crowd crowd(world, kTolerance);
   for (std::size_t k = 0; k < world.bodies.size(); ++k) {
     const BodyState& state = world.bodies[k].initial;
