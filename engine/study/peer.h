@@ -5,8 +5,11 @@
 namespace careen {
 
 /// Why no other engine is asked to move this world; empty if they are. They model walls, boxes, gravity,
-/// restitution and friction.
+/// restitution and friction, some of them joints too.
 std::string refusalOfPeers(const World& world);
+
+/// Why an engine that has balls, hinges, sliders and fixed joints, all without springs, cannot have this one.
+std::string refusalOfLinesAndSprings(const Joint& joint);
 
 /// Another engine, which moves a world by time steps. An adapter defines how the engine is set up, stepped
 /// and read; this class does the rest.
@@ -27,11 +30,13 @@ class Peer : public Contestant {
   };
 
   bool steps() const override { return true; }
-  std::string refuses(const World& world) const override { return refusalOfPeers(world); }
+  std::string refuses(const World& world) const override;
   std::vector<std::vector<BodyState>> run(const World& world, double dt, std::span<const double> times,
                                           const std::stop_token& stop) const override;
 
  protected:
+  /// Why it cannot have such a joint; empty if it can. None is asked for motors, or to let go.
+  virtual std::string refusesJoint(const Joint& joint) const = 0;
   /// Sets up an engine; `world` outlives it.
   virtual std::unique_ptr<Engine> feed(const World& world) const = 0;
 };

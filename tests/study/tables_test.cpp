@@ -11,11 +11,11 @@ namespace {
 TEST(Tables, areTablesThatOtherProgramsRead) {
   const StudyResult study{.machine = "here", .command = "careen study", .cases = {someCase()}};
   EXPECT_EQ(resultsCsv(study),
-            "case,contestant,dt,tolerance,error,cost_us,spread,repeats,front,failure\n"
-            "tumble,exact,,1e-06,1e-15,0.1,0.1,3,1,\n"
-            "tumble,strang,0.2,,0.01,0.2,0.1,3,0,\n"
-            "tumble,strang,0.1,,0.0033333333333333335,0.4,0.1,3,0,\n"
-            "tumble,ode,0.1,,,,,,0,\"fell over, \"\"quietly\"\" and lay there\"\n");
+            "case,contestant,dt,tolerance,error,cost_us,spread,repeats,front,failure,joint_gap\n"
+            "tumble,exact,,1e-06,1e-15,0.1,0.1,3,1,,\n"
+            "tumble,strang,0.2,,0.01,0.2,0.1,3,0,,\n"
+            "tumble,strang,0.1,,0.0033333333333333335,0.4,0.1,3,0,,\n"
+            "tumble,ode,0.1,,,,,,0,\"fell over, \"\"quietly\"\" and lay there\",\n");
   EXPECT_EQ(energyCsv(study),
             "case,contestant,time,change\n"
             "tumble,exact,1,1e-15\ntumble,exact,2,-1e-15\n"
