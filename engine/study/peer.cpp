@@ -13,7 +13,7 @@ std::string refusalOfPeers(const World& world) {
   return world.springs.empty() && !world.drag ? "" : "no springs, no drag";
 }
 
-std::string refusalOfLinesAndSprings(const Joint& joint) {
+std::string Peer::refusesJoint(const Joint& joint) const {
   const bool isLine = joint.kind == Joint::Kind::kRod || joint.kind == Joint::Kind::kRope;
   return isLine ? "no rods, no ropes" : joint.isLoaded() ? "no springs in joints" : "";
 }

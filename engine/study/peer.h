@@ -8,9 +8,6 @@ namespace careen {
 /// restitution and friction, some of them joints too.
 std::string refusalOfPeers(const World& world);
 
-/// Why an engine that has balls, hinges, sliders and fixed joints, all without springs, cannot have this one.
-std::string refusalOfLinesAndSprings(const Joint& joint);
-
 /// Another engine, which moves a world by time steps. An adapter defines how the engine is set up, stepped
 /// and read; this class does the rest.
 class Peer : public Contestant {
@@ -35,8 +32,9 @@ class Peer : public Contestant {
                                           const std::stop_token& stop) const override;
 
  protected:
-  /// Why it cannot have such a joint; empty if it can. None is asked for motors, or to let go.
-  virtual std::string refusesJoint(const Joint& joint) const = 0;
+  /// Why it cannot have such a joint; empty if it can. None is asked for motors, or for a joint that lets go;
+  /// most have balls, hinges, sliders and fixed ones, all without springs.
+  virtual std::string refusesJoint(const Joint& joint) const;
   /// Sets up an engine; `world` outlives it.
   virtual std::unique_ptr<Engine> feed(const World& world) const = 0;
 };

@@ -241,7 +241,6 @@ class Bullet : public Peer {
   }
 
  protected:
-  std::string refusesJoint(const Joint& joint) const override { return refusalOfLinesAndSprings(joint); }
   std::unique_ptr<Engine> feed(const World& world) const override {
     auto engine = std::make_unique<BulletEngine>(world);
     if (best_) {

@@ -215,7 +215,6 @@ class Ode : public Peer {
   }
 
  protected:
-  std::string refusesJoint(const Joint& joint) const override { return refusalOfLinesAndSprings(joint); }
   std::unique_ptr<Engine> feed(const World& world) const override {
     static const Library library;
     dAllocateODEDataForThread(static_cast<unsigned int>(dAllocateMaskAll));
