@@ -174,6 +174,7 @@ class BulletEngine : public Peer::Engine {
       auto slider = std::make_unique<btSliderConstraint>(to, from, other, one, true);
       slider->setLowerLinLimit(isLimited ? joint.lowest : 1);  // none where it is above the other
       slider->setUpperLinLimit(isLimited ? joint.highest : -1);
+      slider->setDampingLimLin(1 - joint.restitution);
       slider->setLowerAngLimit(0);
       slider->setUpperAngLimit(0);
       return slider;
@@ -182,7 +183,8 @@ class BulletEngine : public Peer::Engine {
     if (isLimited) {
       constexpr double kSoftness = 0.9;  // as shipped
       constexpr double kBias = 0.3;
-      hinge->setLimit(joint.lowest, joint.highest, kSoftness, kBias, joint.restitution);
+      hinge->setLimit(joint.lowest, joint.highest, kSoftness, kBias,
+                      joint.restitution / kBias);  // it takes that part of a bounce too
     }
     return hinge;
   }
