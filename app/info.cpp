@@ -1,7 +1,10 @@
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +12,8 @@
 #include "core/brief.h"
 #include "core/characters.h"
 #include "core/system/file.h"
+#include "physics/joint_freedom.h"
+#include "physics/world/method.h"
 #include "report.h"
 #include "run.h"
 #include "scene/plan.h"
@@ -18,10 +23,60 @@
 namespace careen {
 namespace {
 
+// ", spring 20 N m/rad, damping 0.5 N m s/rad, friction 1.5 N m, motor up to 40 N m"
+void printLoads(const Joint& joint, const Motor* motor) {
+  const bool turns = joint.kind == Joint::Kind::kHinge;
+  const std::string effort = turns ? " N m" : " N";
+  if (joint.stiffness > 0) {
+    std::cout << ", spring " << brief(joint.stiffness) << (turns ? " N m/rad" : " N/m");
+  }
+  if (joint.damping > 0) {
+    std::cout << ", damping " << brief(joint.damping) << (turns ? " N m s/rad" : " N s/m");
+  }
+  if (joint.grip > 0 && joint.keptRate == 0) {
+    std::cout << ", friction " << brief(joint.grip) << effort;
+  } else if (joint.grip > 0) {
+    std::cout << ", driven at " << brief(joint.keptRate) << (turns ? " rad/s" : " m/s") << " by up to "
+              << brief(joint.grip) << effort;
+  }
+  if (motor != nullptr) {
+    std::cout << ", motor";
+    if (std::isfinite(motor->largest)) {
+      std::cout << " up to " << brief(motor->largest) << effort;
+    }
+  }
+}
+
+// "freedom      7 degrees of freedom of 2 boxes with joints; 3 of 20 conditions of joints are redundant"
+void printFreedom(const World& world) {
+  const JointFreedom freedom = jointFreedom(world);
+  if (freedom.bodies == 0) {
+    return;
+  }
+  const auto counted = [](int count, const std::string& one, const std::string& more) {
+    return std::to_string(count) + (count == 1 ? one : more);
+  };
+  std::cout << "freedom      " << counted(freedom.degrees, " degree", " degrees") << " of freedom of "
+            << counted(freedom.bodies, " box", " boxes") << " with joints at the start; "
+            << (freedom.redundant == 0
+                    ? "no"
+                    : std::to_string(freedom.redundant) + " of " + std::to_string(freedom.rows))
+            << " conditions of joints " << (freedom.redundant == 1 ? "is" : "are") << " redundant\n";
+}
+
 // "joint        knee: hinge between lid and crate, from -0.5 to 2.25 rad"
 template <class Named>
-void printJoints(const std::vector<Joint>& joints, const std::vector<Named>& boxes) {
+void printJoints(const std::vector<Joint>& joints, const std::vector<Named>& boxes,
+                 const std::optional<Control>& control) {
   constexpr std::size_t kMost = 32;
+  const auto motorOf = [&](int index) -> const Motor* {
+    if (!control) {
+      return nullptr;
+    }
+    const auto motor = std::find_if(control->motors.begin(), control->motors.end(),
+                                    [&](const Motor& each) { return each.joint == index; });
+    return motor == control->motors.end() ? nullptr : &*motor;
+  };
   const auto nameOf = [&](const JointEnd& end) {
     return end.body ? printableName(boxes[static_cast<std::size_t>(*end.body)].name) : "the world";
   };
@@ -37,6 +92,7 @@ void printJoints(const std::vector<Joint>& joints, const std::vector<Named>& box
     if (joint.length > 0) {
       std::cout << ", " << brief(joint.length) << " m long";
     }
+    printLoads(joint, motorOf(static_cast<int>(i)));
     if (joint.until < Joint::kFree) {
       std::cout << ", until " << brief(joint.until) << " s";
     }
@@ -50,7 +106,10 @@ void printJoints(const std::vector<Joint>& joints, const std::vector<Named>& box
 void printScene(const Scene& scene) {
   const Plan items = plan(scene);
   printPlan(std::cout, scene.name, scene.boxes.size(), scene.settings, items);
-  printJoints(scene.joints, scene.boxes);
+  printJoints(scene.joints, scene.boxes, scene.control);
+  if (!scene.joints.empty() && traitsOf(scene.settings.method).joints) {
+    printFreedom(assemble(scene, items));
+  }
   printCrowds(std::cout, scene.settings, items);
 }
 
@@ -83,7 +142,8 @@ ExitCode infoCommand(std::filesystem::path path, const SceneOfTable& ofTable, co
   Run run = loadRun(path, {}, ofTable, stop);
   auditRun(run, {.keepGoing = true}, stop);  // what is broken is told below
   printPlan(std::cout, run.trajectory);
-  printJoints(run.trajectory.world.joints, run.trajectory.world.bodies);
+  printJoints(run.trajectory.world.joints, run.trajectory.world.bodies, run.trajectory.world.control);
+  printFreedom(run.trajectory.world);
   printError(std::cout, run);
   std::size_t segments = 0;
   for (const Track& track : run.trajectory.tracks) {

@@ -31,6 +31,7 @@ struct SimulateOptions {
   std::optional<double> every;  // [s]
   std::filesystem::path npz;
   std::filesystem::path impacts;
+  std::filesystem::path joints;
   std::filesystem::path report;
   std::string log = "text";
   bool verbose = false;
@@ -66,7 +67,8 @@ void checkOutputs(const std::filesystem::path& source, const std::filesystem::pa
   std::vector<std::pair<const char*, std::filesystem::path>> known = {{"the scene", source}};
   for (const auto& [option, path] :
        {std::pair("--out", output), std::pair("--poses", options.poses), std::pair("--npz", options.npz),
-        std::pair("--impacts", options.impacts), std::pair("--report", options.report)}) {
+        std::pair("--impacts", options.impacts), std::pair("--joints", options.joints),
+        std::pair("--report", options.report)}) {
     for (const auto& [what, other] : known) {
       if (!path.empty() && isSameFile(path, other)) {
         throw InputError(std::string(option) + ": found " + path.string() + ", which is " + what +
@@ -85,8 +87,8 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(source.stem().string() + ".careen") : options.output;
   checkOutputs(source, output, options);
-  if (options.every && options.poses.empty() && options.npz.empty()) {
-    throw InputError("--every: found neither --poses nor --npz, expected one of them");
+  if (options.every && options.poses.empty() && options.npz.empty() && options.joints.empty()) {
+    throw InputError("--every: found none of --poses, --npz and --joints, expected one of them");
   }
   const bool logsJson = options.log == "json";
   SimulationProgress progress(logsJson);
@@ -100,6 +102,7 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   outputs.add(options.poses, [&](const TextSink& sink) { writePosesCsv(run.trajectory, every, sink); });
   outputs.add(options.npz, [&](const TextSink& sink) { sink(encodeNpz(run.trajectory, every)); });
   outputs.add(options.impacts, [&](const TextSink& sink) { writeImpactsCsv(run.trajectory, sink); });
+  outputs.add(options.joints, [&](const TextSink& sink) { writeJointsCsv(run.trajectory, every, sink); });
   outputs.add(options.report, [&](const TextSink& sink) { sink(runReportText(run, stopwatch.seconds())); });
   outputs.commit();
 
@@ -107,7 +110,7 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   printSummary(summary, run, stopwatch.seconds(), options.verbose);
   const char* between = "files        ";
   for (const std::filesystem::path& file :
-       {output, options.poses, options.npz, options.impacts, options.report}) {
+       {output, options.poses, options.npz, options.impacts, options.joints, options.report}) {
     if (!file.empty()) {
       summary << between << printableName(file.string());
       between = ", ";
@@ -126,7 +129,9 @@ void addSimulate(const CommandLine& commandLine) {
   command.add("-o,--out", options->output, "Trajectory file (default: the scene file's name, .careen)");
   command.add("--poses", options->poses, "Table of poses (CSV)");
   command.add("--npz", options->npz, "Poses, impacts, names and units as NumPy loads them (NPZ)");
-  command.add("--every", options->every, "Time between two poses of --poses and --npz [s] (default: 1/60)");
+  command.add("--joints", options->joints, "Table of angles, ways, rates and efforts of joints (CSV)");
+  command.add("--every", options->every,
+              "Time between two rows of --poses, --npz and --joints [s] (default: 1/60)");
   command.add("--impacts", options->impacts, "Table of impacts (CSV)");
   command.add("--report", options->report, "What was modelled, speed and error (JSON)");
   command

@@ -227,14 +227,15 @@ void Books::include(const Holdings& now) {
 
 void Books::check() {
   origin_ = center([&](std::size_t body) -> const BodyState& { return samples_.state(0, body); });
-  takesEnergy_ =
-      run_.world.drag.has_value() || group_.jointsLose ||
-      std::any_of(group_.springs.begin(), group_.springs.end(),
-                  [&](std::size_t spring) { return run_.world.springs[spring].damping != 0; }) ||
-      std::any_of(group_.joints.begin(), group_.joints.end(), [&](std::size_t index) {
-        const Joint& joint = run_.world.joints[index];  // one that lets go takes its spring's along
-        return joint.damping != 0 || (joint.stiffness != 0 && joint.until <= run_.settings.duration);
-      });
+  takesEnergy_ = run_.world.drag.has_value() || group_.jointsLose ||
+                 std::any_of(group_.springs.begin(), group_.springs.end(),
+                             [&](std::size_t spring) { return run_.world.springs[spring].damping != 0; }) ||
+                 std::any_of(group_.joints.begin(), group_.joints.end(), [&](std::size_t index) {
+                   const Joint& joint = run_.world.joints[index];
+                   // One that lets go takes its spring's along.
+                   return joint.damping != 0 || joint.grip != 0 ||
+                          (joint.stiffness != 0 && joint.until <= run_.settings.duration);
+                 });
   std::vector<Holdings> all;
   for (std::size_t moment = 0; moment < samples_.moments(); ++moment) {
     all.push_back(at(moment));

@@ -12,9 +12,9 @@ MotorWork::MotorWork(const Trajectory& run, std::span<const std::size_t> joints)
     const bool isDriven = std::any_of(
         run.jointEfforts.begin(), run.jointEfforts.end(),
         [&](const JointEffort& effort) { return static_cast<std::size_t>(effort.joint) == index; });
-    if (isDriven) {
-      const Joint& joint = run.world.joints[index];
-      motors_.push_back({.joint = &joint, .coordinate = coordinateAt(joint, 0)});
+    const Joint& joint = run.world.joints[index];
+    if (isDriven || joint.drive() != 0) {
+      motors_.push_back({.joint = &joint, .effort = joint.drive(), .coordinate = coordinateAt(joint, 0)});
     }
   }
 }
@@ -35,12 +35,14 @@ double MotorWork::moveTo(Motor& motor, double time) const {
 }
 
 double MotorWork::move(Motor& motor, double time) const {
+  // What lets go drives no more.
+  const double until = std::min(time, std::max(motor.since, motor.joint->until));
   const Segments& segments = run_.tracks[static_cast<std::size_t>(*motor.joint->from.body)].segments;
   double work = 0;
-  for (std::size_t k = segments.countUntil(motor.since); k < segments.countUntil(time); ++k) {
+  for (std::size_t k = segments.countUntil(motor.since); k < segments.countUntil(until); ++k) {
     work += moveTo(motor, segments[k].start);
   }
-  return work + moveTo(motor, time);
+  return work + moveTo(motor, until);
 }
 
 double MotorWork::until(double time) {
@@ -54,7 +56,7 @@ double MotorWork::until(double time) {
     for (Motor& motor : motors_) {
       if (motor.joint == joint) {
         work += move(motor, effort.time);
-        motor.effort = effort.effort;
+        motor.effort = effort.effort + joint->drive();
       }
     }
   }

@@ -9,7 +9,8 @@
 namespace careen {
 
 /// Work of the motors of some joints during a run, from the efforts that it recorded and the coordinates that
-/// its poses give: an effort is constant until the next one, so its work is that times the way.
+/// its poses give: an effort is constant until the next one, so its work is that times the way. Drives count
+/// with all their effort: they give no more.
 class MotorWork {
  public:
   MotorWork(const Trajectory& run, std::span<const std::size_t> joints);

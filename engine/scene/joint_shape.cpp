@@ -18,9 +18,8 @@ bool takes(JointKind kind, std::string_view key) {
   const bool hasCoordinate = kind == JointKind::kHinge || kind == JointKind::kSlider;
   return key == "at"                          ? !isLine
          : key == "points" || key == "length" ? isLine
-         : key == "axis" || key == "range" || key == "start" || key == "spring" || key == "damping"
-             ? hasCoordinate
-             : hasCoordinate || kind == JointKind::kRope;  // restitution
+         : key == "restitution"               ? hasCoordinate || kind == JointKind::kRope
+                                              : hasCoordinate;
 }
 
 // Right-handed, with the axis as z. The x axis is that of the world which is least along it, as far as it
@@ -58,6 +57,16 @@ void readLoad(const JsonObject& object, Joint& joint) {
     joint.rest = spring.number("rest", anyNumber(turns ? "rad" : "m"), 0);
   }
   joint.damping = object.number("damping", nonNegativeNumber(turns ? "N m s/rad" : "N s/m"), 0);
+  const NumberRange effort = nonNegativeNumber(turns ? "N m" : "N");
+  joint.grip = object.number("friction", effort, 0);
+  if (const std::optional<JsonValue> given = object.find("drive")) {
+    if (object.has("friction")) {
+      given->fail("none beside friction: both are one law, and friction that of speed 0");
+    }
+    const JsonObject drive = given->object({"speed", "max"});
+    joint.keptRate = drive.require("speed").number(anyNumber(turns ? "rad/s" : "m/s"));
+    joint.grip = drive.require("max").number(effort);
+  }
 }
 
 }  // namespace
@@ -65,13 +74,13 @@ void readLoad(const JsonObject& object, Joint& joint) {
 Joint readJoint(const JsonValue& value, std::size_t index) {
   const JsonObject object =
       value.object({"name", "type", "between", "at", "axis", "points", "length", "range", "start", "spring",
-                    "damping", "restitution", "collide", "until"});
+                    "damping", "friction", "drive", "restitution", "collide", "until"});
   Joint joint{.name = object.name("joint-" + std::to_string(index)), .from = {}, .to = {}};
   joint.kind = static_cast<JointKind>(
       object.require("type").word({kJointKindNames.begin(), kJointKindNames.end()}, "type of joint"));
   const std::string type(kJointKindNames.at(static_cast<std::size_t>(joint.kind)));
-  for (const char* key :
-       {"at", "axis", "points", "length", "range", "start", "spring", "damping", "restitution"}) {
+  for (const char* key : {"at", "axis", "points", "length", "range", "start", "spring", "damping", "friction",
+                          "drive", "restitution"}) {
     if (const std::optional<JsonValue> given = object.find(key); given && !takes(joint.kind, key)) {
       given->fail("none: a joint of type " + type + " has no " + key);
     }

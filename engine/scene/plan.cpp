@@ -139,9 +139,14 @@ PlanItem joints(const Scene& scene, const char* what, const std::string& one, co
 }
 
 PlanItem motors(const Scene& scene) {
-  return scene.control && !scene.control->motors.empty()
-             ? modelled("motors", counted(scene.control->motors.size(), "motor", "motors") + " in the scene")
-             : leftOut("motors", "the scene has none");
+  const std::size_t motors = scene.control ? scene.control->motors.size() : 0;
+  const auto drives = static_cast<std::size_t>(std::count_if(
+      scene.joints.begin(), scene.joints.end(), [](const Joint& joint) { return joint.keptRate != 0; }));
+  std::string all = motors == 0 ? "" : counted(motors, "motor", "motors");
+  if (drives > 0) {
+    all += (motors == 0 ? "" : " and ") + counted(drives, "drive", "drives");
+  }
+  return all.empty() ? leftOut("motors", "the scene has none") : modelled("motors", all + " in the scene");
 }
 
 bool isRope(const Joint& joint) { return joint.kind == Joint::Kind::kRope; }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -51,6 +53,17 @@ class BitReader {
     const std::size_t first = at_ / 8;
     const int skipped = static_cast<int>(at_ % 8);
     const int count = (skipped + width + 7) / 8;
+    constexpr std::size_t kWord = sizeof(value);
+    if (std::endian::native == std::endian::little && first + kWord < bytes_.size()) {
+      std::memcpy(&value, bytes_.data() + first, kWord);
+      value >>= skipped;
+      if (count > static_cast<int>(kWord)) {
+        value |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes_[first + kWord]))
+                 << (64 - skipped);
+      }
+      at_ += static_cast<std::size_t>(width);
+      return width < 64 ? value & ((std::uint64_t{1} << width) - 1) : value;
+    }
     for (int k = 0; k < count && first + static_cast<std::size_t>(k) < bytes_.size(); ++k) {
       const std::uint64_t byte = static_cast<unsigned char>(bytes_[first + static_cast<std::size_t>(k)]);
       value |= k == 0 ? byte >> skipped : byte << (8 * k - skipped);

@@ -5,6 +5,7 @@
 
 #include "core/table.h"
 #include "trajectory/exporter.h"
+#include "trajectory/joint_samples.h"
 #include "trajectory/pose_samples.h"
 
 namespace careen {
@@ -42,6 +43,22 @@ void writeImpactsCsv(const Trajectory& trajectory, const TextSink& sink) {
       row.add(column.of(impact));
     }
     sink(row.line());
+  }
+}
+
+void writeJointsCsv(const Trajectory& trajectory, double every, const TextSink& sink) {
+  CsvRow header;
+  header.add("time").add("joint");
+  for (const std::string_view column : kJointColumns) {
+    header.add(column);
+  }
+  sink(header.line());
+  JointSamples samples(trajectory);
+  for (const double time : sampleTimes(trajectory, every)) {
+    const std::vector<JointSamples::Row> rows = samples.at(time);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      sink(CsvRow().add(time).add(trajectory.world.joints[samples.joints()[k]].name).addAll(rows[k]).line());
+    }
   }
 }
 

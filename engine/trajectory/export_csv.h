@@ -31,4 +31,7 @@ inline constexpr std::array<ImpactColumn, 9> kImpactColumns = {
 /// impacts.csv: one row per contact point of an impact, in order of time.
 void writeImpactsCsv(const Trajectory& trajectory, const TextSink& sink);
 
+/// joints.csv: one row per hinge or slider and sample, samples as in poses.csv; columns as in JointSamples.
+void writeJointsCsv(const Trajectory& trajectory, double every, const TextSink& sink);
+
 }  // namespace careen

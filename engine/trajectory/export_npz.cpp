@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "core/error.h"
 #include "trajectory/export_csv.h"
 #include "trajectory/exporter.h"
+#include "trajectory/joint_samples.h"
 #include "trajectory/numpy_array.h"
 #include "trajectory/pose_samples.h"
 
@@ -63,6 +65,29 @@ void addImpacts(const Trajectory& run, NumpyArchive& archive) {
   }
 }
 
+void addJoints(const Trajectory& run, std::span<const double> times, NumpyArchive& archive) {
+  JointSamples samples(run);
+  std::vector<std::string> names;
+  for (const std::size_t joint : samples.joints()) {
+    names.push_back(run.world.joints[joint].name);
+  }
+  std::array<std::vector<double>, kJointColumns.size()> columns;
+  for (const double time : times) {
+    for (const JointSamples::Row& row : samples.at(time)) {
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        columns.at(k).push_back(row.at(k));
+      }
+    }
+  }
+  constexpr std::array<const char*, kJointColumns.size()> kUnits = {"rad or m", "rad/s or m/s", "N m or N"};
+  const std::size_t joints = names.size();
+  archive.add("joint", "", NumpyArray::of(std::move(names), {joints}));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    archive.add("joint_" + std::string(kJointColumns.at(k)), kUnits.at(k),
+                NumpyArray::of(std::move(columns.at(k)), {times.size(), joints}));
+  }
+}
+
 }  // namespace
 
 std::string encodeNpz(const Trajectory& trajectory, double every) {
@@ -73,6 +98,9 @@ std::string encodeNpz(const Trajectory& trajectory, double every) {
                      " rows, expected at most " + brief(kMostRows) + " in NPZ; --poses has no such limit");
   }
   NumpyArchive archive;
+  if (!trajectory.world.joints.empty()) {
+    addJoints(trajectory, times, archive);
+  }
   addPoses(trajectory, std::move(times), archive);
   addImpacts(trajectory, archive);
   return archive.bytes();
@@ -81,7 +109,7 @@ std::string encodeNpz(const Trajectory& trajectory, double every) {
 extern const Exporter kNpzExporter;
 constexpr Exporter kNpzExporter = {
     .suffix = ".npz",
-    .about = "a table of poses, and one of impacts",
+    .about = "tables of poses, impacts and joints",
     .option = ExportOption::kEvery,
     .write = [](const Trajectory& run, const ExportSettings& settings, const TextSink& sink) -> ExportNotes {
       sink(encodeNpz(run, settings.every));

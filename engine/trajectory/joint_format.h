@@ -38,6 +38,13 @@ void visit(Archive& archive, Visited<Archive, Joint> joint) {
   archive.visit(joint.damping);
 }
 
+/// What a joint has since format version 11, stored after the rest.
+template <class Archive>
+void visitGrip(Archive& archive, Visited<Archive, Joint> joint) {
+  archive.visit(joint.grip);
+  archive.visit(joint.keptRate);
+}
+
 template <class Archive>
 void visit(Archive& archive, Visited<Archive, std::pair<int, int>> bodies) {
   visitIndex(archive, bodies.first);

@@ -213,6 +213,7 @@ void checkJoint(const Joint& joint, std::size_t bodies) {
   require(joint.lowest < joint.highest, "limits out of order", owner);
   require(isNotNegative(joint.stiffness) && isNotNegative(joint.damping) && std::isfinite(joint.rest),
           "a spring with invalid numbers", owner);
+  require(isNotNegative(joint.grip) && std::isfinite(joint.keptRate), "a drive with invalid numbers", owner);
   require(joint.restitution >= 0 && joint.restitution <= 1, "a restitution outside 0 to 1", owner);
   require(joint.until > 0, "an end before it begins", owner);
 }

@@ -20,13 +20,14 @@ namespace {
 
 // The line ends in the magic word reveal a transfer in text mode.
 constexpr std::string_view kFileMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 10;
+constexpr std::uint64_t kVersion = 11;
 constexpr std::uint64_t kVersionWithoutCrowds = 4;  // the oldest that is read
 constexpr std::uint64_t kVersionWithoutLight = 5;
 constexpr std::uint64_t kVersionWithoutPlacement = 6;
 constexpr std::uint64_t kVersionWithoutResiduals = 7;
 constexpr std::uint64_t kVersionInOnePiece = 8;
 constexpr std::uint64_t kVersionWithoutJoints = 9;
+constexpr std::uint64_t kVersionWithoutGrips = 10;
 
 // A run since format version 9.
 template <class Archive>
@@ -74,6 +75,11 @@ void visitRecord(Archive& archive, Visited<Archive, Trajectory> run, std::uint64
     visitAll(archive, run.world.apart);
     visitAll(archive, run.jointImpulses);
     visitAll(archive, run.jointEfforts);
+  }
+  if (version > kVersionWithoutGrips) {
+    for (auto& joint : run.world.joints) {
+      visitGrip(archive, joint);
+    }
   }
 }
 

@@ -293,13 +293,22 @@ TEST_F(CommandLine, infoListsJoints) {
     "boxes": [ { "name": "crate", "half_extents": [1, 1, 1], "mass": 1 },
                { "name": "lid", "half_extents": [1, 1, 0.1], "mass": 1, "position": [0, 0, 1.1] } ],
     "joints": [ { "name": "hinge", "type": "hinge", "between": ["lid", "crate"], "at": [1, 0, 1],
-                  "axis": [0, 1, 0], "range": [-0.5, 2] },
+                  "axis": [0, 1, 0], "range": [-0.5, 2], "damping": 0.5, "spring": { "stiffness": 20 },
+                  "friction": 1.5 },
+                { "name": "spin", "type": "hinge", "between": ["crate", "world"], "at": [0, 0, -1],
+                  "axis": [0, 0, 1], "drive": { "speed": -3, "max": 7 } },
                 { "type": "rope", "between": ["world", "lid"], "points": [[0, 0, 5], [0, 0, 0]],
-                  "length": 4, "until": 0.5 } ] })");
+                  "length": 4, "until": 0.5 } ],
+    "control": { "period": 0.1, "motors": [ { "joint": "hinge", "target": 1, "kp": 2, "max": 40 } ] } })");
   const std::string out = careen({"info", "scene.json"}).out;
-  EXPECT_NE(out.find("joint        hinge: hinge between lid and crate, from -0.5 to 2 rad\n"
-                     "joint        joint-1: rope between lid and the world, 4 m long, until 0.5 s\n"),
-            std::string::npos)
+  EXPECT_NE(
+      out.find("joint        hinge: hinge between lid and crate, from -0.5 to 2 rad, spring 20 N m/rad, "
+               "damping 0.5 N m s/rad, friction 1.5 N m, motor up to 40 N m\n"
+               "joint        spin: hinge between crate and the world, driven at -3 rad/s by up to 7 N m\n"
+               "joint        joint-2: rope between lid and the world, 4 m long, until 0.5 s\n"
+               "freedom      2 degrees of freedom of 2 boxes with joints at the start; no conditions of "
+               "joints are redundant\n"),
+      std::string::npos)
       << out;
 }
 

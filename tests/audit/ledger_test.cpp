@@ -147,5 +147,38 @@ TEST(Ledger, jointsToTheWorldGiveMomentumButNoEnergy) {
   EXPECT_NEAR(balanced(run).largest(AuditKind::kEnergyLoss).size, 1, 1e-9);
 }
 
+// A slide of 1 kg that gains 3 m/s in a second, by 3 N: as much as a drive gives whose largest force that is,
+// and more than one of less does, or dry friction; but friction takes it.
+TEST(Ledger, drivesGiveNoMoreThanTheirForceTimesTheWay) {
+  Trajectory run = falling();
+  run.world.gravity.setZero();
+  run.world.bodies[0].initial.velocity.setZero();
+  run.world.bodies[0].initial.angularMomentum.setZero();
+  Flight gains;
+  gains.position = Vec3(1e3, 0, 0);
+  gains.acceleration = Vec3(3, 0, 0);
+  run.tracks[0].segments.open()[0].motion = gains;
+  run.world.joints = {{.name = "rail", .kind = Joint::Kind::kSlider, .from = {.body = 0}, .to = {}}};
+  Joint& rail = run.world.joints[0];
+  for (JointEnd* end : {&rail.from, &rail.to}) {
+    end->axes = Eigen::AngleAxisd(M_PI_2, Vec3::UnitY()).toRotationMatrix();  // along x
+  }
+  rail.keptRate = 7;
+  rail.grip = 3.0001;
+  EXPECT_EQ(balanced(run).largest(AuditKind::kEnergyRise).size, 0);
+  rail.grip = 2.7;
+  EXPECT_NEAR(balanced(run).largest(AuditKind::kEnergyRise).size, 0.1, 1e-6);
+  rail.grip = 30;
+  rail.keptRate = 0;
+  EXPECT_NEAR(balanced(run).largest(AuditKind::kEnergyRise).size, 1, 1e-6);
+  run.world.bodies[0].initial.velocity = Vec3(3, 0, 0);
+  gains.velocity = Vec3(3, 0, 0);
+  gains.acceleration = Vec3(-3, 0, 0);
+  run.tracks[0].segments.open()[0].motion = gains;
+  EXPECT_EQ(balanced(run).largest(AuditKind::kEnergyLoss).size, 0);
+  rail.grip = 0;
+  EXPECT_NEAR(balanced(run).largest(AuditKind::kEnergyLoss).size, 1, 1e-6);
+}
+
 }  // namespace
 }  // namespace careen

@@ -27,6 +27,29 @@ TEST(MotorWork, isEffortTimesWay) {
   EXPECT_NEAR(MotorWork(run, {}).until(2), 0, 0);
 }
 
+// The same slide with a drive forwards of at most 5 N, which gives no more, until it lets go after 1 s.
+TEST(MotorWork, ofADriveIsAtMostItsLargestEffortTimesWay) {
+  Trajectory run;
+  run.settings.duration = 2;
+  run.world.bodies = {box("slide", Vec3::Constant(0.1), 1, Vec3::Zero(), Vec3(2, 0, 0))};
+  Joint& rail = test::join(run.world, Joint::Kind::kSlider, 0, {}, Vec3::Zero(), Vec3::UnitX());
+  rail.grip = 5;
+  rail.until = 1;
+  Flight flight;
+  flight.velocity = Vec3(2, 0, 0);
+  run.tracks = {{.segments = {{.start = 0, .motion = flight}}}};
+  const std::array<std::size_t, 1> joints{0};
+  EXPECT_EQ(MotorWork(run, joints).until(2), 0);  // dry friction gives none
+  for (const double speed : {3.0, -3.0}) {
+    run.world.joints[0].keptRate = speed;
+    MotorWork work(run, joints);
+    const double effort = speed > 0 ? 5 : -5;
+    EXPECT_NEAR(work.until(0.75), effort * 1.5, 1e-14);
+    EXPECT_NEAR(work.until(1.5), effort * 0.5, 1e-14);
+    EXPECT_EQ(work.until(2), 0);
+  }
+}
+
 // A wheel that turns by 2.5 rad in each of its four segments, under 2 N m: work of all ten radians.
 TEST(MotorWork, countsTurnsByTheSegments) {
   Trajectory run;

@@ -29,10 +29,14 @@ TEST(JointShape, readsEveryKey) {
   EXPECT_EQ(knee.highest, 2.25);
   EXPECT_EQ(knee.restitution, 0.5);
   EXPECT_EQ(knee.until, Joint::kFree);
+  EXPECT_EQ(knee.grip, 1.25);
+  EXPECT_EQ(knee.keptRate, 0);
   const Joint& slider = joints[1];
   EXPECT_EQ(slider.name, "joint-1");
   EXPECT_EQ(slider.from.axes.col(2), Vec3(1, 0, 0));
   EXPECT_EQ(slider.until, 1.5);
+  EXPECT_EQ(slider.grip, 45);
+  EXPECT_EQ(slider.keptRate, -0.375);
   const Joint& rope = joints[5];
   EXPECT_EQ(rope.from.point, Vec3(1, 0.5, 6));
   EXPECT_EQ(rope.to.point, Vec3::Zero());
@@ -79,6 +83,22 @@ const std::vector<BadPiece> kBadShapes = {
     {R"("restitution": 0.5)", R"("restitution": @1.5)",
      "found 1.5 for joints[0].restitution, expected a number from 0 to 1"},
     {"[-0.5, 2.25]", "[-0.5, @null]", "found null for joints[0].range[1], expected a number [rad]"},
+    {R"("friction": 1.25)", R"("friction": @-1)",
+     "found -1 for joints[0].friction, expected a number not below 0 [N m]"},
+    {R"("friction": 1.25)", R"("friction": 1, "drive": @{ "speed": 1, "max": 2 })",
+     "found an object for joints[0].drive, expected none beside friction: both are one law, and friction "
+     "that of "
+     "speed 0"},
+    {R"({ "speed": -0.375, "max": 45 })", R"({ "speed": 1, "max": @-2 })",
+     "found -2 for joints[1].drive.max, expected a number not below 0 [N]"},
+    {R"({ "speed": -0.375, "max": 45 })", R"({ "speed": @"x", "max": 2 })",
+     "found \"x\" for joints[1].drive.speed, expected a number [m/s]"},
+    {R"({ "speed": -0.375, "max": 45 })", R"(@{ "max": 2 })",
+     "found no speed in joints[1].drive, expected that key"},
+    {R"("at": [2, 1, 3])", R"("at": [2, 1, 3], "friction": @0)",
+     "found 0 for joints[2].friction, expected none: a joint of type ball has no friction"},
+    {R"("length": 1.75)", R"("drive": @{})",
+     "found an object for joints[4].drive, expected none: a joint of type rod has no drive"},
     {R"("collide": false)", R"("collide": @0)", "found 0 for joints[0].collide, expected true or false"},
     {R"(["rock", "bob"])", R"(@["rock"])",
      "found an array of 1 for pass_through[1], expected two names of boxes or more"},

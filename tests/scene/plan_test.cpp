@@ -113,7 +113,7 @@ TEST(Plan, countsJointsAndTheirLimits) {
   EXPECT_EQ(reasonFor(scene, "joints"), "modelled: 5 joints in the scene");
   EXPECT_EQ(reasonFor(scene, "limits"), "modelled: 2 joints in the scene");
   EXPECT_EQ(reasonFor(scene, "ropes"), "modelled: 1 rope in the scene");
-  EXPECT_EQ(reasonFor(scene, "motors"), "modelled: 3 motors in the scene");
+  EXPECT_EQ(reasonFor(scene, "motors"), "modelled: 3 motors and 1 drive in the scene");
 }
 
 // Two boxes that are joined cannot collide; a third of the same kind can, with either.

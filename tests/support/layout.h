@@ -45,7 +45,7 @@ inline const std::map<std::string, Rooms> kRooms = {
       {"pile", {"attitude", "contact", "geometry", "motion", "solver", "world"}},
       {"exact", {"attitude", "contact", "geometry", "impact", "motion", "pile", "search", "world"}},
       {"compared", {"attitude", "geometry", "impact", "motion", "world"}},
-      {"", {"exact", "compared", "attitude", "motion", "world"}}}},
+      {"", {"exact", "compared", "contact", "attitude", "motion", "world"}}}},
     {"render",
      {{"gl", {}},
       {"look", {}},

@@ -56,10 +56,10 @@ inline const std::string kJoints = R"({
   ],
   "joints": [
     { "name": "knee", "type": "hinge", "between": ["lid", "crate"], "at": [1, 1, 2], "axis": [0, 0, 2],
-      "range": [-0.5, 2.25], "start": 0, "spring": { "stiffness": 20, "rest": 0.3 }, "damping": 0.7,
+      "range": [-0.5, 2.25], "start": 0, "spring": { "stiffness": 20, "rest": 0.3 }, "damping": 0.7, "friction": 1.25,
       "restitution": 0.5, "collide": false },
     { "type": "slider", "between": ["world", "bob"], "at": [1, 0.5, 4], "axis": [1, 0, 0], "range": [0, 2],
-      "until": 1.5 },
+      "drive": { "speed": -0.375, "max": 45 }, "until": 1.5 },
     { "type": "ball", "between": ["bob", "post"], "at": [2, 1, 3], "collide": true },
     { "name": "weld", "type": "fixed", "between": ["post", "lid"] },
     { "name": "stick", "type": "rod", "between": ["crate", "bob"], "points": [[0, 0, 0.125], [0, 0, -0.125]],

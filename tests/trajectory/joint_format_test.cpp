@@ -27,7 +27,9 @@ TEST(JointFormat, bringsBackJointsAndTheirImpulses) {
                        .restitution = 0.25,
                        .stiffness = 12,
                        .rest = 13,
-                       .damping = 14},
+                       .damping = 14,
+                       .grip = 16,
+                       .keptRate = -17},
                       {.name = "leash",
                        .kind = Joint::Kind::kRope,
                        .from = {.body = 0},
@@ -56,6 +58,8 @@ TEST(JointFormat, bringsBackJointsAndTheirImpulses) {
   EXPECT_EQ(knee.stiffness, 12);
   EXPECT_EQ(knee.rest, 13);
   EXPECT_EQ(knee.damping, 14);
+  EXPECT_EQ(knee.grip, 16);
+  EXPECT_EQ(knee.keptRate, -17);
   const Joint& leash = back.world.joints[1];
   EXPECT_EQ(leash.kind, Joint::Kind::kRope);
   EXPECT_EQ(leash.to.body, std::nullopt);

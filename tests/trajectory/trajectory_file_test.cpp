@@ -190,6 +190,19 @@ TEST(TrajectoryFile, bringsBackARunOfManyPieces) {
   EXPECT_EQ(encodeTrajectory(back), bytes);
 }
 
+// Format version 10: without dry friction, two numbers for each joint, the last before the length and the
+// hash of the last state.
+TEST(TrajectoryFile, readsWhatVersion10Wrote) {
+  Trajectory run = driftAndReturn();
+  run.world.joints = {{.name = "pin", .kind = Joint::Kind::kBall, .from = {.body = 0}, .to = {}}};
+  std::string record = recordOf(encodeTrajectory(run));
+  const std::size_t end = record.size() - 8 - run.stateHash().size();
+  EXPECT_EQ(record.substr(end - 16, 16), std::string(16, '\0'));
+  record.erase(end - 16, 16);
+  const std::string bytes = withRightChecksum("careen\r\n" + inBytes(10) + pieceOf(record) + "checksum");
+  EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
+}
+
 // Format version 9: without joints, which are four lists before the length and the hash of the last state.
 TEST(TrajectoryFile, readsWhatVersion9Wrote) {
   const Trajectory run = driftAndReturn();
@@ -270,8 +283,8 @@ TEST(TrajectoryFile, aMinuteOfABouncingBoxTakesLessThan50kB) {
 
 TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
-  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 10: a newer careen wrote it"),
-                                        std::pair('\3', "3, expected 4 to 10: simulate its scene again")}) {
+  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 11: a newer careen wrote it"),
+                                        std::pair('\3', "3, expected 4 to 11: simulate its scene again")}) {
     bytes[8] = version;
     EXPECT_EQ(messageOf(withRightChecksum(bytes)),
               "run.careen: this trajectory file has format version " + std::string(remedy));

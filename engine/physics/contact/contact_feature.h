@@ -28,6 +28,7 @@ enum class JointPart : unsigned char {
   kLength,   ///< the distance of two points
   kLowest,   ///< the lower limit of its coordinate
   kHighest,  ///< the upper one
+  kGrip,     ///< the rate of its coordinate
 };
 
 /// A contact given by the touching parts of the bodies rather than by a point, so that it stays valid while
@@ -42,6 +43,7 @@ struct ContactFeature {
     kInCone,       ///< points on an edge or a corner of each, with a cone of normals (NormalCone)
     kJoint,        ///< a joint's condition that holds
     kJointEnd,     ///< one that ends on one side
+    kJointGrip,    ///< one that holds a rate, by no more than its grip
   };
 
   Kind kind = Kind::kPointOnWall;
@@ -64,6 +66,13 @@ struct ContactFeature {
 
   bool isOfJoint() const { return joint != nullptr; }
   bool holds() const { return kind == Kind::kJoint; }
+  bool grips() const { return kind == Kind::kJointGrip; }
+  /// Whether its impulse, along its rows, may have any sign.
+  bool isTwoSided() const { return holds() || grips(); }
+  ContactProblem::Admissible admissible() const {
+    using Set = ContactProblem::Admissible;
+    return holds() ? Set::kSpace : grips() ? Set::kInterval : Set::kCone;
+  }
 };
 
 /// A feature at one moment. Its gap d and its slip change with accelerations v̇ and ω̇ of both sides:
@@ -90,6 +99,9 @@ struct ContactState {
   /// Of a joint's condition that is no point's along the normal: its rows, in place of those of normal and
   /// arms. Gap and rate are then the sizes of its own, if it holds.
   std::shared_ptr<const ConstraintRows> rows = {};
+  double kept = 0;   ///< [m/s] that a grip keeps to: its rate is relative to it
+  double grip = 0;   ///< [N] its largest force along its row
+  double still = 0;  ///< [m/s] what rounding errors of its rate may amount to
 
   /// The rows of a and of b; of a contact, in that frame of its normal.
   RowSide sideA(const ContactFrame& frame) const { return rows ? rows->a : pointSide(frame.axes(), armA, 1); }

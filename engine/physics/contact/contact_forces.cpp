@@ -28,8 +28,11 @@ constexpr int kOuterCap = 40;
 /// Factorisations before it counts as certain that no forces exist: then impulses do.
 constexpr int kMostFactorisations = 300;
 
+using Admissible = ContactProblem::Admissible;
+
 bool slips(const ContactProblem::Contact& contact) {
-  return contact.admissible == ContactProblem::Admissible::kLine;
+  return contact.admissible == Admissible::kLine ||
+         (contact.admissible == Admissible::kInterval && contact.least == contact.most);
 }
 
 std::array<double, 2> dragOf(const ContactProblem::Contact& contact) {
@@ -82,8 +85,12 @@ void ContactForces::look() {
 ContactForces::Mode ContactForces::modeOf(std::size_t c) {
   Contact& contact = contacts()[c];
   const Force& force = forces_[c];
-  if (contact.admissible == ContactProblem::Admissible::kSpace) {
+  if (contact.admissible == Admissible::kSpace) {
     return Mode::kStick;
+  }
+  if (contact.admissible == Admissible::kInterval) {
+    const double near = kNear * (contact.most - contact.least);
+    return force[0] > contact.least + near && force[0] < contact.most - near ? Mode::kStick : Mode::kSlip;
   }
   if (force[0] <= kNear * scale_ * masses_[c]) {
     return Mode::kOff;
@@ -136,7 +143,8 @@ double ContactForces::violation(std::span<const Mode> modes) const {
   double worst = 0;
   for (std::size_t c = 0; c < contacts().size(); ++c) {
     const Force& excess = excess_[c];
-    if (modes[c] != Mode::kOff) {
+    const bool isGiven = contacts()[c].admissible == Admissible::kInterval && modes[c] == Mode::kSlip;
+    if (modes[c] != Mode::kOff && !isGiven) {
       worst = std::max(worst, std::fabs(excess[0]));
     }
     if (modes[c] == Mode::kStick) {
@@ -157,7 +165,9 @@ void ContactForces::answer(std::span<const Mode> modes) {
     }
     ImpulseSet law{.mass = contact.mass,
                    .kind = mode == Mode::kStick ? ImpulseSet::Kind::kCone : ImpulseSet::Kind::kLine};
-    if (mode == Mode::kSlip) {
+    if (mode == Mode::kSlip && contact.isGiven()) {
+      law = contact;
+    } else if (mode == Mode::kSlip) {
       law.drag = dragOf(contacts()[coupled_.listed(c)]);
     }
     answers_[c] = stickingAnswer(law, {.rho = penalty_ * law.mass, .epsilon = 1}, multipliers_[c], u_[c]);
@@ -188,7 +198,8 @@ bool ContactForces::solveGiven(std::span<const double> free, std::span<const Mod
     if (modes[coupled_.listed(c)] == Mode::kSlip) {
       const auto drag = dragOf(contacts()[coupled_.listed(c)]);
       Force& force = multipliers_[c];
-      force = {force[0], drag[0] * force[0], drag[1] * force[0]};
+      force = coupled_.contacts()[c].isGiven() ? Force{coupled_.contacts()[c].least, 0, 0}
+                                               : Force{force[0], drag[0] * force[0], drag[1] * force[0]};
     }
   }
   penalty_ = kPenalty;

@@ -32,8 +32,8 @@ class ContactForces {
   enum class Mode : unsigned char {
     kOff,    ///< no force
     kOn,     ///< normal force, no friction
-    kStick,  ///< normal force, sticks; or a joint's condition that holds
-    kSlip,   ///< normal force, slips or begins to
+    kStick,  ///< normal force, sticks; or a joint's condition that holds, a grip that keeps its rate
+    kSlip,   ///< normal force, slips or begins to; or a grip that has all its force
   };
 
   /// Six 1/M per body [1/kg, 1/(kg m²)], all positive. Empties the contacts.

@@ -16,6 +16,7 @@ void ContactImpulses::begin(std::span<const ContactFeature> contacts, const Grou
   movers_.clear();
   problem_.inverseMass.clear();
   problem_.contacts.clear();
+  length_ = 0;
   solution_.impulses.clear();
   std::vector<char> touched(group_.size(), 0);
   for (const ContactFeature& feature : contacts) {
@@ -38,6 +39,7 @@ void ContactImpulses::begin(std::span<const ContactFeature> contacts, const Grou
 }
 
 void ContactImpulses::setFree(const GroupState& from, const GroupLoads& loads, double h) {
+  length_ = h;
   for (std::size_t m = 0; m < movers_.size(); ++m) {
     const std::size_t i = movers_[m];
     const MassProperties& mass = group_.body(i).mass;
@@ -59,8 +61,10 @@ ContactProblem::Contact& ContactImpulses::add(const ContactFeature& feature, con
   };
   contact.a = addSide(static_cast<std::size_t>(feature.a), 0);
   contact.b = addSide(static_cast<std::size_t>(feature.b), 1);
-  contact.admissible =
-      feature.holds() ? ContactProblem::Admissible::kSpace : ContactProblem::Admissible::kCone;
+  contact.admissible = feature.admissible();
+  contact.most = length_ * geometry.grip;
+  contact.least = -contact.most;
+  contact.target[0] = geometry.kept;
   contact.friction = feature.material.friction;
   for (const Vec3& direction : geometry.directions) {
     contact.directions.push_back(frame.along(direction));
@@ -73,7 +77,7 @@ void ContactImpulses::aimAtEnd(std::size_t index, const ContactFeature& feature,
                                const ContactState& end, const GroupState& to) {
   ContactProblem::Contact& contact = problem_.contacts[index];
   const ContactFrame frame = frameOf(geometry.normal);
-  const Vec3 actual = end.rows ? end.rows->rates
+  const Vec3 actual = end.rows ? Vec3(end.rows->rates - Vec3(end.kept, 0, 0))
                                : Vec3(end.rate, dot(end.slip, frame.tangent1), dot(end.slip, frame.tangent2));
   for (std::size_t row = 0; row < 3; ++row) {
     double speed = 0;

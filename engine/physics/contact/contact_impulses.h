@@ -65,6 +65,7 @@ class ContactImpulses {
   ContactSolution solution_;
   ContactSolver solver_;
   std::vector<std::vector<std::array<double, ContactProblem::kAxes>>> parts_;  // of sums, by body
+  double length_ = 0;                                                          // [s] of the step
   double work_ = 0;
   double mostWork_ = std::numeric_limits<double>::infinity();
 };

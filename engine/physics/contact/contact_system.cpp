@@ -21,20 +21,13 @@ constexpr double kProjected = 0x1p-51;
 constexpr double kProjectedSpeed = 0x1p-46;
 constexpr int kMostProjections = 4;
 
+// In which a contact is closed without friction; a grip has no place to close at.
+ContactForces::Mode closedMode(const ContactFeature& feature) {
+  using Mode = ContactForces::Mode;
+  return feature.holds() ? Mode::kStick : feature.grips() ? Mode::kOff : Mode::kOn;
+}
+
 }  // namespace
-
-BodyState TouchingBody::state() const {
-  const Mat3 columns = worldFromBody.toRotationMatrix();
-  return {.pose = {.position = position, .worldFromBody = columns},
-          .velocity = velocity,
-          .angularMomentum = columns * body->mass.inertiaTimes(angularVelocityBody)};
-}
-
-Kinematics TouchingBody::kinematics() const {
-  const Mat3 columns = worldFromBody.toRotationMatrix();
-  return {
-      .pose = {position, columns}, .velocity = velocity, .angularVelocity = columns * angularVelocityBody};
-}
 
 ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodies,
                              std::vector<ContactFeature> features, std::span<const ContactFeature> joints)
@@ -92,7 +85,7 @@ bool ContactSystem::pushes() const {
 
 void ContactSystem::closeAll() {
   for (std::size_t c = 0; c < modes_.size(); ++c) {
-    modes_[c] = features_[c].holds() ? Mode::kStick : Mode::kOn;
+    modes_[c] = closedMode(features_[c]);
   }
 }
 
@@ -165,8 +158,10 @@ void ContactSystem::fillContacts() {
     contact.friction = feature.material.friction;
     if (state.rows) {
       contact.target = {-state.rows->biases[0], -state.rows->biases[1], -state.rows->biases[2]};
-      contact.admissible =
-          feature.holds() ? ContactProblem::Admissible::kSpace : ContactProblem::Admissible::kCone;
+      contact.admissible = feature.admissible();
+      const bool isGiven = feature.grips() && modes_[c] == Mode::kSlip;
+      contact.least = isGiven ? -sideOf(c) * state.grip : -state.grip;
+      contact.most = isGiven ? contact.least : state.grip;
       continue;
     }
     contact.target = {-state.gapBias, -dot(state.slipBias, frame.tangent1),
@@ -224,6 +219,13 @@ Vec3 ContactSystem::angularOf(std::span<const double> solution, std::size_t move
 
 bool ContactSystem::findModes(std::span<const double> y) {
   look(y);
+  guess_.resize(features_.size());
+  for (std::size_t c = 0; c < features_.size(); ++c) {
+    if (features_[c].grips()) {
+      modes_[c] = std::fabs(states_[c].rate) > stillRate(c) ? Mode::kSlip : Mode::kStick;
+      guess_[c][0] = -states_[c].rate;
+    }
+  }
   fillContacts();
   findFree();
   const bool found = forces_.findModes(free_, modes_);
@@ -332,7 +334,7 @@ double ContactSystem::projectPositions(std::vector<double>& y, double most, Turn
   const std::vector<double> before = y;
   const std::vector<Mode> kept = modes_;
   for (std::size_t c = 0; c < modes_.size(); ++c) {
-    modes_[c] = modes_[c] == Mode::kOff || holdsSideways(c) || features_[c].holds() ? modes_[c] : Mode::kOn;
+    modes_[c] = modes_[c] == Mode::kOff || holdsSideways(c) ? modes_[c] : closedMode(features_[c]);
   }
   const std::vector<double> still(inverseMass_.size(), 0.0);
   double moved = 0;
@@ -390,7 +392,8 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
   double worst = 0;
   double scale = 0;
   for (std::size_t c = 0; c < features_.size(); ++c) {
-    if (modes_[c] == Mode::kOff) {
+    if (modes_[c] == Mode::kOff || (features_[c].grips() && modes_[c] != Mode::kStick)) {
+      modes_[c] = Mode::kOff;
       continue;
     }
     const auto a = static_cast<std::size_t>(features_[c].a);
@@ -406,8 +409,9 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
   bool moves = worst > kProjectedSpeed * scale;
   if (moves) {
     fillContacts();
-    for (ContactForces::Contact& contact : forces_.contacts()) {
-      contact.target = {};
+    for (std::size_t c = 0; c < features_.size(); ++c) {
+      ContactForces::Contact& contact = forces_.contacts()[c];
+      contact.target = {states_[c].kept, 0, 0};
       if (contact.admissible == ContactProblem::Admissible::kLine) {
         contact.admissible = ContactProblem::Admissible::kCone;
       }
@@ -439,11 +443,6 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
 bool ContactSystem::project(std::vector<double>& y, double most) {
   const bool moved = projectPositions(y, most) > 0;
   return projectVelocities(y) || moved;
-}
-
-double ContactSystem::slipSpeedRate(std::size_t c) const {
-  const auto& slip = forces_.contacts()[c].slip;
-  return slip[0] * forces_.excess(c, 1) + slip[1] * forces_.excess(c, 2);
 }
 
 }  // namespace careen

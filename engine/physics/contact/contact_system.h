@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -27,8 +28,17 @@ struct TouchingBody {
   bool isNowhere() const { return halfSpace == &nowhere(); }
   TouchingShape shape() const { return {body->halfExtents, body->boxCenter, halfSpace}; }
   const Material& material() const { return isBox() ? body->material : halfSpace->material; }
-  BodyState state() const;
-  Kinematics kinematics() const;
+  BodyState state() const {
+    const Mat3 columns = worldFromBody.toRotationMatrix();
+    return {.pose = {.position = position, .worldFromBody = columns},
+            .velocity = velocity,
+            .angularMomentum = columns * body->mass.inertiaTimes(angularVelocityBody)};
+  }
+  Kinematics kinematics() const {
+    const Mat3 columns = worldFromBody.toRotationMatrix();
+    return {
+        .pose = {position, columns}, .velocity = velocity, .angularVelocity = columns * angularVelocityBody};
+  }
 };
 inline TouchingBody touchingBody(const Wall& wall) { return {.body = &bodyOfWalls(), .halfSpace = &wall}; }
 
@@ -121,8 +131,15 @@ class ContactSystem {
   const ContactForces& forces() const { return forces_; }
   ContactResiduals takeResiduals() { return forces_.takeResiduals(); }
   void look(std::span<const double> y);
+  /// [m/s] A grip that slips no faster keeps its rate: rounding error.
+  double stillRate(std::size_t contact) const { return std::max(restSpeed_, states_[contact].still); }
+  /// [1] The direction, along its row, in which a grip slips; of one that slips.
+  double sideOf(std::size_t contact) const { return guess_[contact][0] > 0 ? -1 : 1; }
   /// [m/s²] rate of the slip speed of contact c.
-  double slipSpeedRate(std::size_t contact) const;
+  double slipSpeedRate(std::size_t contact) const {
+    const auto& slip = forces_.contacts()[contact].slip;
+    return slip[0] * forces_.excess(contact, 1) + slip[1] * forces_.excess(contact, 2);
+  }
   std::size_t placeOf(std::size_t body) const { return places_[body]; }
   const Kinematics& kinematics(std::size_t body) const { return kinematics_[body]; }
   /// [m] What of a body's gaps is rounding error where it is.

@@ -12,9 +12,10 @@ namespace {
 using Mode = ContactForces::Mode;
 
 /// How far below zero an event is located: [1] of what counts as touching, for gaps; of the accelerations,
-/// for forces.
+/// for forces; of what counts as none, for rates.
 constexpr double kRootGap = 0x1p-10;
 constexpr double kRootForce = 0x1p-44;
+constexpr double kRootRate = 0x1p-3;
 /// [1] of the current accelerations: a contact with no more tension than this is about to open.
 constexpr double kTension = 0x1p-20;
 
@@ -34,6 +35,11 @@ void EventFunctions::listContacts() {
   };
   for (std::size_t c = 0; c < features.size(); ++c) {
     if (features[c].holds()) {
+      continue;
+    }
+    if (features[c].grips()) {
+      functions_.push_back(
+          {.kind = system_.modes()[c] == Mode::kStick ? Kind::kStick : Kind::kHalt, .contact = c});
       continue;
     }
     if (!system_.pushes(c)) {
@@ -109,7 +115,7 @@ std::size_t EventFunctions::bodyOf(const EventFunction& event) const {
 
 // [m] Penetration that is ignored, given the gap at the start of the step.
 double EventFunctions::marginOf(const EventFunction& event, double gap) const {
-  if (event.hasRate()) {
+  if (event.isOfOne()) {
     // A corner that touches but is no contact is separating: rounding error must not count as an impact.
     const double within = system_.touching(bodyOf(event));
     return gap > within ? 0 : kTouching * within;
@@ -126,6 +132,9 @@ double EventFunctions::valueOf(const EventFunction& event) const {
       return forces.forces()[c][0] / forces.normalMass(c);
     case EventFunction::Kind::kStick: {
       const ContactForces::Force& force = forces.forces()[c];
+      if (system_.features()[c].grips()) {
+        return (system_.states()[c].grip - std::fabs(force[0])) / forces.normalMass(c);
+      }
       return (system_.features()[c].material.friction * force[0] -
               std::sqrt(force[1] * force[1] + force[2] * force[2])) /
              forces.normalMass(c);
@@ -148,6 +157,8 @@ double EventFunctions::valueOf(const EventFunction& event) const {
     }
     case EventFunction::Kind::kOpenEnd:
       return system_.stateOf(system_.openEnds()[c]).gap + event.margin;
+    case EventFunction::Kind::kHalt:
+      return system_.sideOf(c) * system_.states()[c].rate;
   }
   return 0;
 }
@@ -167,6 +178,9 @@ double EventFunctions::depth(std::span<const std::size_t> events) const {
     if (event.isOfForces()) {
       return kRootForce * system_.forces().scale();
     }
+    if (event.kind == EventFunction::Kind::kHalt) {
+      return kRootRate * system_.stillRate(event.contact);
+    }
     within = std::max(within, system_.touching(bodyOf(event)));
   }
   return kRootGap * within;
@@ -175,6 +189,9 @@ double EventFunctions::depth(std::span<const std::size_t> events) const {
 double EventFunctions::rateOf(const EventFunction& event) const {
   if (event.kind == EventFunction::Kind::kOpenEnd) {
     return system_.stateOf(system_.openEnds()[event.contact]).rate;
+  }
+  if (event.kind == EventFunction::Kind::kHalt) {
+    return system_.sideOf(event.contact) * system_.forces().excess(event.contact, 0);
   }
   const EventFunction& corner = event;
   const Kinematics& at = system_.kinematics(corner.contact);

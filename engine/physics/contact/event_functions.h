@@ -19,6 +19,7 @@ struct EventFunction {
     kOverlap,  ///< the gap of two boxes closes
     kCorner,   ///< a corner that is no contact meets a half-space
     kOpenEnd,  ///< an open end of a joint closes
+    kHalt,     ///< a grip that slips comes to the rate that it keeps
   };
   Kind kind{};
   std::size_t contact = 0;     ///< or the body of a corner, or an open end
@@ -26,10 +27,11 @@ struct EventFunction {
   Vec3 corner = Vec3::Zero();  ///< [m] body frame
   double margin = 0;           ///< [m]
   double start = 0;            ///< its value at the start of the step
-  double rate = 0;             ///< [m/s] of a corner or an open end, then
+  double rate = 0;             ///< its rate then, if it has one
 
-  bool isOfPlaces() const { return kind == Kind::kOverlap || hasRate(); }
-  bool hasRate() const { return kind == Kind::kCorner || kind == Kind::kOpenEnd; }
+  bool isOfPlaces() const { return kind == Kind::kOverlap || isOfOne(); }
+  bool isOfOne() const { return kind == Kind::kCorner || kind == Kind::kOpenEnd; }
+  bool hasRate() const { return isOfOne() || kind == Kind::kHalt; }
   bool isOfForces() const { return kind == Kind::kPush || kind == Kind::kStick; }
 };
 
@@ -55,7 +57,7 @@ class EventFunctions {
   /// How far below zero events of one kind are located, at most four times that: a part of what the contacts
   /// count as zero anyway, above rounding errors.
   double depth(std::span<const std::size_t> events) const;
-  /// [m/s] Of the gap of a corner or an open end.
+  /// [m/s] Of the gap of a corner or an open end; [m/s²] of a grip's slip.
   double rateOf(const EventFunction& event) const;
   /// The end of a joint that closes in it; null: it is another event.
   const ContactFeature* endOf(const EventFunction& event) const;

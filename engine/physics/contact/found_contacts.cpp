@@ -104,7 +104,7 @@ bool FoundContacts::has(const ContactFeature& feature) const {
 
 bool FoundContacts::obeys(std::size_t contact, double h) const {
   const ContactState& state = states_[contact];
-  if (features_[contact].holds()) {
+  if (features_[contact].isTwoSided()) {
     return true;
   }
   return state.gap <= closed_ && state.parting() * h <= kOpens * closed_ &&

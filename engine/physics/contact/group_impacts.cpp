@@ -23,7 +23,7 @@ void GroupImpacts::resolve(GroupState& state, FoundContacts& contacts, double ac
   }
 }
 
-// All contacts of bodies that are joined to one of those that approach.
+// All contacts of bodies that are joined to one of those that approach; but grips, whose force is finite.
 GroupImpacts::Struck GroupImpacts::struckAt(const GroupState& state, const FoundContacts& contacts,
                                             double acceleration) const {
   const TouchingGroup& group = equations_.group();
@@ -48,14 +48,14 @@ GroupImpacts::Struck GroupImpacts::struckAt(const GroupState& state, const Found
   Struck struck;
   std::vector<char> isStruck(group.size(), 0);
   for (std::size_t c = 0; c < features.size(); ++c) {
-    if (contacts.rate(c) < slow) {
+    if (contacts.rate(c) < slow && !features[c].grips()) {
       isStruck[rootOf(features[c])] = 1;
       const double parting = -features[c].material.restitution * contacts.rate(c);
       struck.bounces = struck.bounces || parting * parting > 2 * acceleration * kHop * contacts.closed();
     }
   }
   for (std::size_t c = 0; c < features.size(); ++c) {
-    if (isStruck[rootOf(features[c])] != 0) {
+    if (isStruck[rootOf(features[c])] != 0 && !features[c].grips()) {
       struck.features.push_back(features[c]);
       struck.contacts.push_back(contacts.impactAt(c));
       struck.fastest = std::max(struck.fastest, -contacts.rate(c));
@@ -128,7 +128,7 @@ void GroupImpacts::addWithoutApproach(const FoundContacts& contacts, std::span<c
       return isSame(contact.feature, contacts.features()[c]);
     });
     if (with != law.end() && with->push > 0 && contacts.features()[c].isOfJoint()) {
-      const Vec3 along = contacts.features()[c].holds() ? with->friction : Vec3(with->push, 0, 0);
+      const Vec3 along = contacts.features()[c].isTwoSided() ? with->friction : Vec3(with->push, 0, 0);
       impacts_.push_back({.contact = contacts.impactAt(c),
                           .share = {.impulse = h * with->push,
                                     .normal = contacts.states()[c].normal,

@@ -29,7 +29,7 @@ Quat middleOf(const Quat& from, const Quat& to) { return Quat(from.coeffs() + to
 
 // [N s] What a contact's last forces give in `h` [s]: along the normal and the tangents, or its rows.
 ContactProblem::Triple impulseOf(const ClosedContact& contact, const Vec3& normal, double h) {
-  if (contact.feature.holds()) {
+  if (contact.feature.isTwoSided()) {
     return {h * contact.friction[0], h * contact.friction[1], h * contact.friction[2]};
   }
   const ContactFrame frame = frameOf(normal);
@@ -147,7 +147,7 @@ void ImplicitStep::aimAtEnd(const GroupState& to) {
 void ImplicitStep::takeImpulses(const GroupState& from, double h, std::span<ClosedContact> contacts) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Triple& impulse = impulses_.impulses()[c];
-    if (features_[c].holds()) {
+    if (features_[c].isTwoSided()) {
       contacts[c].friction = Vec3(impulse[0], impulse[1], impulse[2]) / h;
       contacts[c].push = contacts[c].friction.norm();
       continue;

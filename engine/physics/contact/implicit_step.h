@@ -16,7 +16,7 @@ struct ClosedContact {
   // Mean over the step, found last, and the next step's warm start: [N] normal, and friction in the world, as
   // tangents may jump where the normal turns.
   double push = 0;
-  Vec3 friction = Vec3::Zero();  // of a joint's condition that holds: all three, along its rows
+  Vec3 friction = Vec3::Zero();  // of a joint's condition of either sign: all three, along its rows
 };
 
 /// The features of those that have a force.

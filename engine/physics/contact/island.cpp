@@ -222,7 +222,7 @@ bool Island::mayLose() const {
          std::any_of(world_.springs.begin(), world_.springs.end(),
                      [](const Spring& spring) { return spring.damping > 0; }) ||
          std::any_of(world_.joints.begin(), world_.joints.end(),
-                     [](const Joint& joint) { return joint.damping > 0; }) ||
+                     [](const Joint& joint) { return joint.damping > 0 || joint.grip > 0; }) ||
          std::any_of(features.begin(), features.end(),
                      [](const ContactFeature& feature) { return feature.material.friction > 0; });
 }

@@ -10,6 +10,8 @@ namespace {
 
 /// [1] of a rope's length: ends this near to each other have no direction.
 constexpr double kNoDirection = 0x1p-30;
+/// [1] of the speeds of what a grip holds: rounding error of its rate.
+constexpr double kStillRate = 0x1p-44;
 
 /// Both ends of a joint at one moment.
 struct Ends {
@@ -67,21 +69,24 @@ ConstraintRows rowsOfPoint(const Ends& at) {
   return rows;
 }
 
-// Of a slider's point across its axis.
+// Of a slider's point along an axis n that turns with b.
+void setRowAlong(const Ends& at, const Vec3& n, std::size_t row, ConstraintRows& rows) {
+  const auto k = static_cast<Eigen::Index>(row);
+  const Vec3 arm = at.armB + at.apart;
+  const Vec3 velocity = at.velocityA() - (at.ofB.velocity + at.ofB.angularVelocity.cross(arm));
+  setRow(rows.a, row, n, at.armA.cross(n));
+  setRow(rows.b, row, -n, -arm.cross(n));
+  rows.gaps[k] = dot(n, at.apart);
+  rows.rates[k] = dot(n, velocity);
+  rows.biases[k] = dot(n, at.centripetal(arm)) + 2 * dot(at.ofB.angularVelocity.cross(n), velocity);
+}
+
+// Across a slider's axis.
 ConstraintRows rowsAcross(const Ends& at) {
   ConstraintRows rows = noRows();
   const Mat3 axes = at.joint.to.axesAt(at.ofB.pose);
-  const Vec3 arm = at.armB + at.apart;
-  const Vec3 velocity = at.velocityA() - (at.ofB.velocity + at.ofB.angularVelocity.cross(arm));
-  const Vec3 centripetal = at.centripetal(arm);
   for (std::size_t row = 0; row < 2; ++row) {
-    const auto k = static_cast<Eigen::Index>(row);
-    const Vec3 n = axes.col(k);
-    setRow(rows.a, row, n, at.armA.cross(n));
-    setRow(rows.b, row, -n, -arm.cross(n));
-    rows.gaps[k] = dot(n, at.apart);
-    rows.rates[k] = dot(n, velocity);
-    rows.biases[k] = dot(n, centripetal) + 2 * dot(at.ofB.angularVelocity.cross(n), velocity);
+    setRowAlong(at, axes.col(static_cast<Eigen::Index>(row)), row, rows);
   }
   return rows;
 }
@@ -138,18 +143,24 @@ ConstraintRows rowsOfRod(const Ends& at) {
   return rows;
 }
 
-ConstraintRows rowsOfAngle(const Ends& at, JointPart part, double length) {
+// Of a hinge's turning about its axis, times a length, which may be negative.
+ConstraintRows rowsAbout(const Ends& at, double signedLength) {
   ConstraintRows rows = noRows();
   const Vec3 axis = at.joint.to.axesAt(at.ofB.pose).col(2);
-  const bool isLowest = part == JointPart::kLowest;
-  const double signedLength = isLowest ? length : -length;
   const Vec3 turning = signedLength * axis;
   setRow(rows.a, 0, Vec3::Zero(), turning);
   setRow(rows.b, 0, Vec3::Zero(), -turning);
-  const double end = isLowest ? at.joint.lowest : at.joint.highest;
-  rows.gaps[0] = signedLength * (jointCoordinate(at.joint, at.ofA.pose, at.ofB.pose) - end);
   rows.rates[0] = dot(turning, at.spin());
   rows.biases[0] = signedLength * dot(at.ofB.angularVelocity.cross(axis), at.spin());
+  return rows;
+}
+
+ConstraintRows rowsOfAngle(const Ends& at, JointPart part, double length) {
+  const bool isLowest = part == JointPart::kLowest;
+  const double signedLength = isLowest ? length : -length;
+  ConstraintRows rows = rowsAbout(at, signedLength);
+  const double end = isLowest ? at.joint.lowest : at.joint.highest;
+  rows.gaps[0] = signedLength * (jointCoordinate(at.joint, at.ofA.pose, at.ofB.pose) - end);
   return rows;
 }
 
@@ -193,6 +204,24 @@ ContactState stateOfRows(const Ends& at, ConstraintRows rows, ContactFeature::Ki
   return state;
 }
 
+ContactState stateOfGrip(const Ends& at, double length) {
+  const bool slides = at.joint.kind == Joint::Kind::kSlider;
+  ConstraintRows rows = slides ? noRows() : rowsAbout(at, length);
+  if (slides) {
+    setRowAlong(at, at.joint.to.axesAt(at.ofB.pose).col(2), 0, rows);
+    rows.gaps[0] = 0;
+  }
+  ContactState state = stateOfRows(at, std::move(rows), ContactFeature::Kind::kJointGrip);
+  state.kept = slides ? at.joint.keptRate : length * at.joint.keptRate;
+  state.rate -= state.kept;
+  const auto speedOf = [&](const Kinematics& of) {
+    return of.velocity.norm() + length * of.angularVelocity.norm();
+  };
+  state.still = kStillRate * (speedOf(at.ofA) + speedOf(at.ofB) + std::fabs(state.kept));
+  state.grip = slides ? at.joint.grip : at.joint.grip / length;
+  return state;
+}
+
 double smallerOf(TouchingShape a, TouchingShape b) {
   const double ofA = a.halfExtents.norm();
   return b.halfSpace != nullptr ? ofA : std::min(ofA, b.halfExtents.norm());
@@ -216,6 +245,8 @@ ContactState jointState(const ContactFeature& feature, const Kinematics& a, Touc
     case JointPart::kLowest:
     case JointPart::kHighest:
       break;
+    case JointPart::kGrip:
+      return stateOfGrip(at, length);
   }
   return joint.kind == Joint::Kind::kSlider
              ? stateOfWay(at, feature.part)
@@ -272,6 +303,9 @@ std::vector<ContactFeature> jointFeatures(const World& world, double time,
     }
     if (joint.hasCoordinate() && joint.highest < Joint::kFree) {
       end(JointPart::kHighest);
+    }
+    if (joint.hasCoordinate() && joint.grip > 0) {
+      add(ContactFeature::Kind::kJointGrip, JointPart::kGrip);
     }
   }
   return features;

@@ -23,6 +23,8 @@ namespace careen {
 ///   across u|²/|d|) angle θ            ±ℓ (θ − θ₀)     0, ±ℓ z_b; 0, ∓ℓ z_b               ±ℓ
 ///   (ω_b×z_b)·(ω_a−ω_b)
 ///
+/// A grip has the row of the angle, or that of a point along b's axis; its coordinate counts as 0.
+///
 /// κ = ω_a×(ω_a×r_a) − ω_b×(ω_b×r_b) [m/s²]; κ′ and ḋ′ are those of b's point that is where a's is.
 ContactState jointState(const ContactFeature& feature, const Kinematics& a, TouchingShape shapeA,
                         const Kinematics& b, TouchingShape shapeB);

@@ -27,8 +27,9 @@ bool KeptEnergy::isConstant() const {
     holds = holds || feature.isOfJoint();
   }
   return holds && !world_.drag && world_.springs.empty() &&
-         std::all_of(world_.joints.begin(), world_.joints.end(),
-                     [](const Joint& joint) { return joint.damping == 0 && joint.effort == 0; });
+         std::all_of(world_.joints.begin(), world_.joints.end(), [](const Joint& joint) {
+           return joint.damping == 0 && joint.effort == 0 && joint.grip == 0;
+         });
 }
 
 bool KeptEnergy::isFree() const {

@@ -23,7 +23,7 @@ constexpr double kStillLoaded = 0x1p-40;
 
 // [N] The force of a contact along its normal; of a joint's condition all of it.
 double sizeOf(const ContactForces::Force& force, const ContactFeature& feature) {
-  return feature.holds() ? Vec3(force[0], force[1], force[2]).norm() : force[0];
+  return feature.isTwoSided() ? Vec3(force[0], force[1], force[2]).norm() : force[0];
 }
 
 // [m/s²] The largest acceleration of a body by the forces of its contacts, all in one direction: their
@@ -70,8 +70,10 @@ bool isAtRest(const ContactSystem& system) {
 }
 
 bool creeps(const ContactSystem& system, std::size_t contact, double tolerance) {
-  return system.features()[contact].material.friction > 0 &&
-         system.states()[contact].slip.norm() <=
+  const ContactFeature& feature = system.features()[contact];
+  const ContactState& state = system.states()[contact];
+  return (feature.material.friction > 0 || feature.grips()) &&
+         (feature.grips() ? std::fabs(state.rate) : state.slip.norm()) <=
              kCreeps * tolerance * std::sqrt(system.pull() / system.radius());
 }
 

@@ -63,7 +63,7 @@ std::vector<JointEffort> ControlledWorld::release(double time) {
       if (joint.effort != 0) {
         ended.push_back({.time = time, .joint = static_cast<int>(&joint - world_.joints.data())});
       }
-      joint.stiffness = joint.damping = joint.effort = 0;
+      joint.stiffness = joint.damping = joint.effort = joint.grip = 0;
     } else {
       nextRelease_ = std::min(nextRelease_, joint.until);
     }

@@ -359,9 +359,10 @@ double CrowdGroup::step(const Instant& from, double most) {
   return crowd_.step(most);
 }
 
+// Where new members are joined, and turn fast, a shorter one.
 double CrowdGroup::stepAgain(const Instant& from, double length) {
   crowd_.articulations().list(from.hi);
-  return crowd_.stepAgain(length);
+  return crowd_.stepAgain(crowd_.articulations().any() ? crowd_.nextLength(length) : length);
 }
 
 // [J] In the step. No hinge turns by half a turn in one.

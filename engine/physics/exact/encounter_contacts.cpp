@@ -71,6 +71,9 @@ std::vector<ImpactContact> closedJoints(const Encounter& encounter) {
     const TouchingBody a = first.touching();
     const TouchingBody b = encounter.bodies[static_cast<std::size_t>(joint.b)].touching();
     const ContactState state = contactState(joint, a.kinematics(), a.shape(), b.kinematics(), b.shape());
+    if (joint.grips()) {
+      continue;  // no impulse in no time
+    }
     if (joint.holds() || state.gap <= Island::kTouching * touchingWithin(first.box())) {
       closed.push_back(impactContactOf(joint, state, static_cast<int>(k)));
     }

@@ -115,6 +115,9 @@ IslandParts partsOf(const Encounter& encounter, const std::vector<std::size_t>& 
       parts.joints.push_back(joint);
       include(joint.a);
       include(joint.b);
+      if (joint.grips()) {
+        features.push_back(joint);
+      }
     }
   }
   for (std::size_t wall = boxes; wall < encounter.bodies.size(); ++wall) {

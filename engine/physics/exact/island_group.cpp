@@ -158,10 +158,10 @@ void IslandGroup::noteMotors() {
     const auto poseOf = [&](int place) {
       return island_->bodies()[static_cast<std::size_t>(place)].kinematics().pose;
     };
-    if (feature.part == JointPart::kPoint && feature.joint->effort != 0) {
+    if (feature.part == JointPart::kPoint && feature.joint->drive() != 0) {
       driven_.push_back(
           {.of = &feature,
-           .effort = feature.joint->effort,
+           .effort = feature.joint->drive(),
            .coordinate = jointCoordinate(*feature.joint, poseOf(feature.a), poseOf(feature.b))});
     }
   }

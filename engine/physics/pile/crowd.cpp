@@ -28,6 +28,7 @@ constexpr double kTooDeep = 1.5;
 // gaps undoes it at its end and in its middle. Less after steps that had to be taken again, as they have to
 // be more often the more members there are.
 constexpr double kLeastBent = 2;
+constexpr double kJoinedBend = 3;  // [1] times as much where it opens a joint, by a quarter of it
 constexpr double kLessBent = 0.85;
 constexpr double kMoreBent = 1.04;
 
@@ -137,10 +138,12 @@ double Crowd::chooseLength() const {
   const double longest = members_.longestStep();
   double fastest = 0;
   double bending = 0;  // [m/s²]
-  for (const PileBody& body : members_.bodies) {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const PileBody& body = members_[i];
     if (!body.still()) {
+      const double times = articulations_.isJoined(static_cast<int>(i)) ? kJoinedBend : 1;
       fastest = std::max(fastest, (body.velocity.norm() + longest * members_.gravity) / body.length);
-      bending = std::max(bending, body.radius * body.omega.squaredNorm());
+      bending = std::max(bending, times * body.radius * body.omega.squaredNorm());
     }
   }
   double h = longest;

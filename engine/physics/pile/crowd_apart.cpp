@@ -1,6 +1,7 @@
 #include "physics/pile/crowd_apart.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace careen {
@@ -109,9 +110,33 @@ double CrowdApart::project(int passes) {
   return deepest;
 }
 
-// What joints that are closed again do to gaps shows in the next pass.
+// Of what touches bodies that are joined: no deeper than a projection leaves it.
+void CrowdApart::addGapsOfJoined(CrowdProblem& displacements) {
+  for (const int slot : contacts_.near()) {
+    PileManifold& manifold = contacts_[slot];
+    if (!articulations_.isJoined(manifold.a) && !articulations_.isJoined(manifold.b)) {
+      continue;
+    }
+    contacts_.refresh(manifold);
+    const double left = PileProjection::kLeft * projection_.tolerated(manifold.length);
+    const Vec3 apart = members_.apart(manifold.a, manifold.b);
+    for (int k = 0; k < manifold.count; ++k) {
+      const PilePoint& point = manifold.points[at(k)];
+      if (point.gap < kFarAway * members_.tolerance) {
+        const std::array<Vec3, 3> axes = manifold.frameOf(k).axes();
+        const int a = displacements.include(manifold.a, Vec3::Zero(), Vec3::Zero());
+        const int b = displacements.include(manifold.b, Vec3::Zero(), Vec3::Zero());
+        displacements.add({.a = a, .b = b, .target = {-(point.gap + left), 0, 0}},
+                          pointSide(axes, point.world, 1), pointSide(axes, point.world + apart, -1), {});
+      }
+    }
+  }
+}
+
+// What joints that are closed again do to other gaps shows in the next pass.
 void CrowdApart::closeJoints() {
-  if (!articulations_.any() || !articulations_.close()) {
+  if (!articulations_.any() ||
+      !articulations_.close([this](CrowdProblem& displacements) { addGapsOfJoined(displacements); })) {
     return;
   }
   contacts_.displaced(articulations_.closedBy());

@@ -48,6 +48,7 @@ class CrowdApart {
   void refreshGaps(PileManifold& manifold, PileProjection::Look look) const;
   double project(int passes);
   void closeJoints();
+  void addGapsOfJoined(CrowdProblem& displacements);
   void keepPlaces();
   void restorePlaces();
   bool lookAtDeep(Aim aim);

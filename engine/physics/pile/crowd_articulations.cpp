@@ -229,7 +229,7 @@ double CrowdArticulations::mostOpen() const {
   return most;
 }
 
-bool CrowdArticulations::close() {
+bool CrowdArticulations::close(const AddConditions& addMore) {
   closedBy_.assign(members_.size(), 0);
   bool any = false;
   for (int closing = 0; closing <= kClosings; ++closing) {
@@ -256,6 +256,9 @@ bool CrowdArticulations::close() {
                   .admissible = condition.feature.holds() ? ContactProblem::Admissible::kSpace
                                                           : ContactProblem::Admissible::kCone},
                  condition.state.sideA(frame), condition.state.sideB(frame), {});
+    }
+    if (addMore) {
+      addMore(close_);
     }
     if (!close_.solve(closer_, 0.5 * kClosed * members_.tolerance, kMostClosingFactorisations)) {
       break;

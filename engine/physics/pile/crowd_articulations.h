@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -41,9 +42,9 @@ class CrowdArticulations {
   const std::vector<Listed>& joints() const { return joints_; }
   /// Of the body at such a place, now.
   Pose poseOf(int place) const;
-  bool isJoined(int place) const { return any() && isJoined_[at(place)] != 0; }
+  bool isJoined(int place) const { return isIn(isJoined_, place); }
   /// Whether a joint of it lets go one day, or has a motor.
-  bool mayChange(int place) const { return any() && mayChange_[at(place)] != 0; }
+  bool mayChange(int place) const { return isIn(mayChange_, place); }
 
   // Conditions on velocities in a solver.
   /// That they hold at the end of the step, to first order. Members begin with the impulses of the step
@@ -59,9 +60,11 @@ class CrowdArticulations {
   void addTo(CrowdProblem& problem, const PileSolver& solver) const;
   void take(std::span<const CrowdProblem::Triple> impulses);
 
-  /// Displaces members until all joints are closed to a part of the tolerance; returns whether any moved, and
-  /// then how far [m] points of each did, by place.
-  bool close();
+  /// Displaces members until all joints are closed to a part of the tolerance; with more conditions, each
+  /// time at the places of then. Returns whether any moved, and then how far [m] points of each did, by
+  /// place.
+  using AddConditions = std::function<void(CrowdProblem& displacements)>;
+  bool close(const AddConditions& addMore = {});
   const std::vector<double>& closedBy() const { return closedBy_; }
 
  private:
@@ -76,6 +79,9 @@ class CrowdArticulations {
   };
   Kinematics motionOf(int place, const PileSolver* solver) const;
   TouchingShape shapeOf(const JointEnd& end) const;
+  bool isIn(const std::vector<char>& places, int place) const {  // who came since is not
+    return any() && at(place) < places.size() && places[at(place)] != 0;
+  }
   bool moves(int place) const;
   void lookAt(Condition& condition, const PileSolver* solver) const;
   Vec3 speedBound(const PileSolver& solver) const;

@@ -9,7 +9,6 @@
 namespace careen {
 namespace {
 
-constexpr double kLeft = 1.0 / 3;  // [1] of the tolerance: penetration kept, so that contacts persist
 constexpr double kTellPush =
     1.0 / 12;                      // [1] of the tolerance: smallest displacement that re-solves neighbours
 constexpr double kLongest = 0.25;  // [1] of the smallest size: largest displacement per pass

@@ -33,6 +33,9 @@ class PileProjection {
   PileProjection(double tolerance, std::shared_ptr<Team> team)
       : tolerance_(tolerance), team_(team), solver_(team), gradients_(std::move(team)) {}
 
+  /// [1] of the tolerance: penetration kept, so that contacts persist.
+  static constexpr double kLeft = 1.0 / 3;
+
   enum class Look { kFirst, kAgain };  ///< at a manifold in this projection
   /// Brings a manifold's gaps to where its bodies are. Called by several threads.
   using Refresh = std::function<void(PileManifold& manifold, Look look)>;

@@ -241,7 +241,8 @@ void ContactSolver::solveWithoutPolish(const ContactSolution& solution) {
           return x.mass < y.mass;
         })->mass;
     for (std::size_t c = 0; c < from_.size(); ++c) {
-      const bool isJoint = contacts[c].kind == CoupledContacts::Contact::Kind::kSpace;
+      const auto kind = contacts[c].kind;
+      const bool isJoint = kind == ImpulseSet::Kind::kSpace || kind == ImpulseSet::Kind::kInterval;
       from_[c] = {isJoint ? 0 : kTie * inScale(lightest), 0, 0};
     }
   }

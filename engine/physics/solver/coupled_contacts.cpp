@@ -10,8 +10,6 @@ namespace careen {
 
 namespace {
 
-/// [1] Of the largest term of a relative velocity.
-
 using Row = ContactProblem::Row;
 using Triple = ContactProblem::Triple;
 
@@ -110,6 +108,8 @@ void CoupledContacts::copyContacts(const ContactProblem& problem) {
     const bool isLine = from.admissible == ContactProblem::Admissible::kCone && !(from.friction > 0);
     contact.kind = isLine ? ContactProblem::Admissible::kLine : from.admissible;
     contact.friction = contact.kind == ContactProblem::Admissible::kCone ? from.friction : 0;
+    contact.least = from.least;
+    contact.most = from.most;
     contact.drag = {};
     if (from.admissible == ContactProblem::Admissible::kLine) {
       contact.drag = {-from.friction * from.slip[0], -from.friction * from.slip[1]};
@@ -138,12 +138,12 @@ CoupledContacts::Key CoupledContacts::keyOf(const ContactProblem::Contact& from,
   double normal = u[0] - from.target[0];
   const double x = u[1] - from.target[1];
   const double y = u[2] - from.target[2];
-  if (from.admissible == ContactProblem::Admissible::kSpace) {  // rows along axes of the world
+  if (!ContactProblem::hasNormal(from)) {
     normal *= normal;
   }
   return {.bodies = std::minmax(placeOf(from.a), placeOf(from.b)),
-          .numbers = {numberOr0(from.friction), numberOr0(normal), numberOr0(x * x + y * y),
-                      numberOr0(squaredArm[0] + squaredArm[1])},
+          .numbers = {numberOr0(from.friction + (from.most - from.least)), numberOr0(normal),
+                      numberOr0(x * x + y * y), numberOr0(squaredArm[0] + squaredArm[1])},
           .listed = listed};
 }
 
@@ -165,6 +165,9 @@ void CoupledContacts::weigh(Contact& contact) {
   contact.mass = 1 / (normal[0] + normal[1]);
   const Triple u = relativeVelocity(contact, free_);
   scale_ = std::max(scale_, std::sqrt(u[0] * u[0] + (u[1] * u[1] + u[2] * u[2])));
+  if (contact.isGiven()) {  // which moves what is free to
+    scale_ = std::max(scale_, std::fabs(contact.least) / contact.mass);
+  }
   for (const double part : contact.target) {
     largest = std::max(largest, std::fabs(part));
   }
@@ -230,9 +233,10 @@ double CoupledContacts::largest(std::span<const Triple> impulses) const {
   double largest = 0;
   for (std::size_t c = 0; c < impulses.size(); ++c) {
     const Triple& impulse = impulses[c];
-    const double size = contacts_[c].kind == Contact::Kind::kSpace
-                            ? std::max({std::fabs(impulse[0]), std::fabs(impulse[1]), std::fabs(impulse[2])})
-                            : impulse[0];
+    const double size =
+        contacts_[c].kind == Contact::Kind::kSpace || contacts_[c].kind == Contact::Kind::kInterval
+            ? std::max({std::fabs(impulse[0]), std::fabs(impulse[1]), std::fabs(impulse[2])})
+            : impulse[0];
     largest = std::max(largest, size / contacts_[c].mass);
   }
   return largest;

@@ -76,7 +76,7 @@ class CoupledContacts {
   void exportVelocities(std::span<const double> q, std::vector<double>& listed) const;
 
  private:
-  static constexpr double kNoise = 0x1p-50;
+  static constexpr double kNoise = 0x1p-50;  // [1] of the largest term of a relative velocity
   bool hasGraphOf(const ContactProblem& problem) const;
   void order(const ContactProblem& problem);
   struct Key {

@@ -77,7 +77,7 @@ struct Marks {
 /// The rows of a joint point along axes of the world, which mirrors turn round.
 std::array<double, 3> markOf(const ContactProblem::Contact& contact, std::size_t side) {
   const double arm = squareSum(&contact.rows[0][side * kAxes + 3]);
-  if (contact.admissible != ContactProblem::Admissible::kSpace) {
+  if (ContactProblem::hasNormal(contact)) {
     return {contact.friction, contact.target[0], arm};
   }
   const double arms =

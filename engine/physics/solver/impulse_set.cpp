@@ -52,6 +52,11 @@ double ImpulseSet::violation(const Triple& impulse, const Triple& u) const {
   if (kind == Kind::kSpace) {
     return std::sqrt(u[0] * u[0] + (u[1] * u[1] + u[2] * u[2]));
   }
+  if (kind == Kind::kInterval) {
+    const double x = impulse[0] - mass * u[0];
+    return x >= least && x <= most ? std::fabs(u[0])  // not rounded
+                                   : std::fabs(impulse[0] - std::clamp(x, least, most)) / mass;
+  }
   const double normal = impulse[0] / mass;
   const double open = std::min(normal, u[0]);  // normal − max(0, normal − u_n), but not rounded
   if (kind == Kind::kLine) {
@@ -69,6 +74,9 @@ Triple ImpulseSet::admissible(const Triple& impulse) const {
   if (kind == Kind::kSpace) {
     return impulse;
   }
+  if (kind == Kind::kInterval) {
+    return {std::clamp(impulse[0], least, most), 0, 0};
+  }
   if (!(impulse[0] > 0)) {
     return {};
   }
@@ -81,6 +89,9 @@ Triple ImpulseSet::admissible(const Triple& impulse) const {
 
 ContactAnswer stickingAnswer(const ImpulseSet& set, const ContactEquation& equation, const Triple& centre,
                              const Triple& u) {
+  if (set.isGiven()) {
+    return {.given = {set.least, 0, 0}};
+  }
   const double stiff = equation.rho / equation.epsilon;
   ContactAnswer answer;
   answer.given[0] = centre[0] - stiff * u[0];
@@ -103,6 +114,13 @@ ContactAnswer newtonAnswer(const ImpulseSet& set, const ContactEquation& equatio
     return stickingAnswer(set, equation, centre, u);
   }
   const double normal = impulse[0] - equation.rho * u[0];
+  if (set.kind == ImpulseSet::Kind::kInterval) {
+    const double end = std::clamp(normal, set.least, set.most);
+    return end == normal && !set.isGiven()
+               ? stickingAnswer(set, equation, centre, u)
+               : ContactAnswer{
+                     .given = {(end + equation.epsilon * centre[0]) / (1 + equation.epsilon), 0, 0}};
+  }
   if (!(normal > 0)) {
     return {};
   }

@@ -16,13 +16,17 @@ struct ImpulseSet {
   double friction = 0;           ///< [1] μ; of kCone, and then > 0
   Kind kind = Kind::kLine;       ///< kLine also without friction
   std::array<double, 2> drag{};  ///< [1] of kLine: λ_t = drag λ_n
+  double least = 0;              ///< [N s] of kInterval; so is `most`
+  double most = 0;
 
   /// [N s] Largest tangential impulse, of kCone.
   double limit(double normal) const { return friction * normal; }
+  /// Whether it admits one impulse only.
+  bool isGiven() const { return kind == Kind::kInterval && least == most; }
 
   /// How much the law is violated [m/s]: |λ − P(λ − ρ u)|/ρ with ρ = mass, P the projection of λ_n to ≥ 0 and
-  /// of λ_t to the disc of radius μ max(0, λ_n); in all of space |u|. Zero for solutions only; finite as μ →
-  /// ∞, unlike the natural map of De Saxcé's form.
+  /// of λ_t to the disc of radius μ max(0, λ_n), or of λ_n to its interval; in all of space |u|. Zero for
+  /// solutions only; finite as μ → ∞, unlike the natural map of De Saxcé's form.
   double violation(const Triple& impulse, const Triple& u) const;
 
   /// The impulse itself if it is admissible, else one that is, with the same normal part, or zero.
@@ -48,7 +52,7 @@ struct ContactAnswer {
 ContactAnswer newtonAnswer(const ImpulseSet& set, const ContactEquation& equation,
                            const ContactProblem::Triple& impulse, const ContactProblem::Triple& centre,
                            const ContactProblem::Triple& u);
-/// The same with every contact closed and, unless it is on a line, sticking.
+/// The same with every contact closed and, unless it is on a line or given, sticking.
 ContactAnswer stickingAnswer(const ImpulseSet& set, const ContactEquation& equation,
                              const ContactProblem::Triple& centre, const ContactProblem::Triple& u);
 /// |λ − P(λ − ρ u) + ε (λ − centre)|/ρ [m/s].

@@ -30,6 +30,8 @@ Triple impulseOf(const CoupledContacts::Contact& contact, double friction, const
       return {normal, contact.drag[0] * normal, contact.drag[1] * normal};
     case Kind::kCone:
       return {normal / friction, contact.mass * r[1], contact.mass * r[2]};
+    case Kind::kInterval:
+      return {contact.least + normal, 0, 0};
     case Kind::kSpace:
       break;
   }
@@ -53,10 +55,16 @@ void InteriorPoint::start(const CoupledContacts& contacts, const Options& option
     states_[c].r = {options.start * contacts.scale(), 0, 0};
     states_[c].w = {contacts.scale(), 0, 0};
     states_[c].slips = slips.empty() ? -1 : slips[c];
-    states_[c].isFree = contacts.contacts()[c].kind == Kind::kSpace;
+    const Contact& contact = contacts.contacts()[c];
+    states_[c].isInterval = contact.kind == Kind::kInterval;
+    states_[c].isFree = contact.kind == Kind::kSpace || contact.isGiven();
     if (states_[c].isFree) {
       states_[c].r = {};
       states_[c].w = {};
+    } else if (contact.kind == Kind::kInterval) {
+      const double half = (contact.most - contact.least) / contact.mass / 2;
+      states_[c].r = {half, half, 0};
+      states_[c].w = {contacts.scale(), contacts.scale(), 0};
     }
   }
   refresh(contacts);
@@ -77,6 +85,8 @@ void InteriorPoint::refresh(const CoupledContacts& contacts) {
     const Triple u = contacts.relativeVelocity(contact, q_);
     if (contact.kind == Kind::kSpace) {
       state.residual = {-u[0], -u[1], -u[2]};
+    } else if (contact.kind == Kind::kInterval) {
+      state.residual = {state.w[0] - state.w[1] - u[0], 0, 0};
     } else if (contact.kind == Kind::kLine) {
       state.residual = {state.w[0] - u[0], 0, 0};
     } else {
@@ -97,6 +107,12 @@ void InteriorPoint::scale(const Contact& contact, State& state, std::array<doubl
   if (contact.kind == Kind::kSpace) {
     state.size2 = kStiff;
     stiffness[0] = stiffness[4] = stiffness[8] = contact.mass * kStiff;
+    return;
+  }
+  if (contact.kind == Kind::kInterval) {
+    state.beyond = {};
+    state.size2 = state.isFree ? 0 : 1 / (state.w[0] / state.r[0] + state.w[1] / state.r[1]);
+    stiffness[0] = contact.mass * state.size2;
     return;
   }
   if (contact.kind == Kind::kLine) {
@@ -127,6 +143,12 @@ ContactProblem::Triple InteriorPoint::given(const Contact& contact, const State&
     return {state.r[0] + state.size2 * state.residual[0], state.r[1] + state.size2 * state.residual[1],
             state.r[2] + state.size2 * state.residual[2]};
   }
+  if (contact.kind == Kind::kInterval) {
+    const double pull = state.isFree ? 0
+                                     : (target / 2 - state.beyond[0]) / state.r[0] -
+                                           (target / 2 - state.beyond[1]) / state.r[1];
+    return {state.r[0] + state.size2 * (pull - (state.w[0] - state.w[1]) + state.residual[0]), 0, 0};
+  }
   if (contact.kind == Kind::kLine) {
     const double product = order == Order::kSecond ? state.changeR[0] * state.changeW[0] : 0;
     return {(target - product) / state.w[0] + state.size2 * state.residual[0], 0, 0};
@@ -154,6 +176,9 @@ void InteriorPoint::solve(const CoupledContacts& contacts, double centering, Ord
   for (std::size_t c = 0; c < states_.size(); ++c) {
     const Contact& contact = contacts.contacts()[c];
     State& state = states_[c];
+    if (contact.kind == Kind::kInterval && order == Order::kSecond) {
+      state.beyond = {state.changeR[0] * state.changeW[0], state.changeR[1] * state.changeW[1]};
+    }
     const Triple r = given(contact, state, centering * gap_, order);
     state.changeR = {r[0] - state.r[0], r[1] - state.r[1], r[2] - state.r[2]};
     answers_[c].given = impulseOf(contact, state.friction, r);
@@ -166,6 +191,16 @@ void InteriorPoint::solve(const CoupledContacts& contacts, double centering, Ord
     if (contact.kind == Kind::kSpace) {
       for (std::size_t k = 0; k < 3; ++k) {
         state.changeR[k] -= state.size2 * du[k];
+      }
+      continue;
+    }
+    if (contact.kind == Kind::kInterval) {
+      state.changeR = {state.changeR[0] - state.size2 * du[0], 0, 0};
+      state.changeR[1] = -state.changeR[0];
+      for (std::size_t end = 0; end < 2 && !state.isFree; ++end) {
+        state.changeW[end] =
+            (centering * gap_ / 2 - state.beyond[end] - state.w[end] * state.changeR[end]) / state.r[end] -
+            state.w[end];
       }
       continue;
     }
@@ -189,6 +224,13 @@ double InteriorPoint::strideToSurface() const {
     if (state.isFree) {
       continue;
     }
+    if (state.isInterval) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        most = std::min({most, lorentz::reach({state.r[end], 0, 0}, {state.changeR[end], 0, 0}),
+                         lorentz::reach({state.w[end], 0, 0}, {state.changeW[end], 0, 0})});
+      }
+      continue;
+    }
     most = std::min({most, lorentz::reach(state.r, state.changeR), lorentz::reach(state.w, state.changeW)});
   }
   return most;
@@ -202,8 +244,11 @@ bool InteriorPoint::move(double stride) {
       state.r[k] += stride * state.changeR[k];
       state.w[k] += stride * state.changeW[k];
     }
-    inside = inside && (state.isFree || (determinant(state.r) > 0 && determinant(state.w) > 0 &&
-                                         state.r[0] > 0 && state.w[0] > 0));
+    inside = inside && (!state.isInterval || state.isFree ||
+                        std::min({state.r[0], state.r[1], state.w[0], state.w[1]}) > 0);
+    inside = inside &&
+             (state.isFree || state.isInterval ||
+              (determinant(state.r) > 0 && determinant(state.w) > 0 && state.r[0] > 0 && state.w[0] > 0));
   }
   return inside;
 }

@@ -13,7 +13,8 @@ namespace careen {
 ///   r = (μ λ_n, λ_t)/mass,   w = (u_n/μ + |u_t|, u_t),   r ∘ w = 0;   half-lines: r = λ_n/mass, w = u_n.
 ///
 /// What admits all of space has no cone to stay in: u = 0 by the augmented Lagrangian, a step of its
-/// multiplier with each iteration, as far as the stride.
+/// multiplier with each iteration, as far as the stride. An interval has two half-lines: how far λ is from
+/// either end, r and width − r, with u_n = w_0 − w_1; one without width has a given λ.
 ///
 /// |u_t| makes the problem one that is not convex. It may be a parameter, to be iterated on (V. Acary, F.
 /// Cadoux, C. Lemaréchal, J. Malick, ZAMM 91, 2011): such problems are convex, and where nearly everything
@@ -46,10 +47,12 @@ class InteriorPoint {
  private:
   using Triple = ContactProblem::Triple;
   using Contact = CoupledContacts::Contact;
-  struct State {          // of one contact; of a half-line, the first numbers only; in space r is λ/mass
+  struct State {  // of one contact; of a half-line, the first numbers only, of an interval two; in space r is
+                  // λ/mass
     double friction = 0;  // μ
     double slips = -1;    // [m/s] instead of |u_t|, if not negative
-    bool isFree = false;  // admits all of space
+    bool isInterval = false;
+    bool isFree = false;  // has no cone: admits all of space, or one λ
     Triple r{};
     Triple w{};
     Triple point{};                // w̄, the scaling point, of length 1
@@ -59,6 +62,7 @@ class InteriorPoint {
     std::array<double, 2> slip{};  // u_t/|u_t|, the derivative of |u_t|
     Triple changeR{};
     Triple changeW{};
+    std::array<double, 2> beyond{};  // of an interval: its products of the changes found first
   };
 
   void refresh(const CoupledContacts& contacts);

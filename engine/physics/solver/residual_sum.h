@@ -25,6 +25,11 @@ class ResidualSum {
       power_ = std::max(power_, std::fabs(power + (t * u[1] + s * u[2])));
       return;
     }
+    if (set.kind == ImpulseSet::Kind::kInterval) {
+      dual_ = std::max({dual_, set.least - n, n - set.most});
+      power_ = std::max(power_, std::fabs((n - (u[0] > 0 ? set.least : set.most)) * u[0]));
+      return;
+    }
     primal_ = std::max(primal_, -u[0]);
     if (set.kind == ImpulseSet::Kind::kLine) {
       dual_ = std::max({dual_, -n, norm(t - set.drag[0] * n, s - set.drag[1] * n)});

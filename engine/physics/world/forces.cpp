@@ -218,7 +218,7 @@ void addPulls(const Joint& joint, const World& world, std::span<const BodyState>
       const MassProperties& mass = world.bodies[body].mass;
       const double radius = slides ? 1 : radiusOf(world.bodies[body]);
       const double ease = slides ? mass.inverseMass : mass.inverseInertiaBody.maxCoeff();
-      pulls[body] += radius * (ease * std::fabs(jointForce(joint, motion)) +
+      pulls[body] += radius * (ease * (std::fabs(jointForce(joint, motion)) + joint.grip) +
                                std::sqrt(ease * joint.stiffness) * std::fabs(motion.rate));
     }
   }

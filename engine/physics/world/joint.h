@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -54,10 +55,17 @@ struct Joint {
   double rest = 0;       ///< [m] or [rad]
   double damping = 0;    ///< [N s/m] or [N m s/rad]
   double effort = 0;     ///< [N] or [N m] of its motor, as a control sets it
+  // It keeps to a speed as far as no more than its grip is needed; else the grip drives it there. Dry
+  // friction keeps to none.
+  double grip = 0;      ///< [N] or [N m]
+  double keptRate = 0;  ///< [m/s] or [rad/s]
 
   /// Whether it has the coordinate that may be limited.
   bool hasCoordinate() const { return kind == Kind::kHinge || kind == Kind::kSlider; }
-  bool isLoaded() const { return stiffness != 0 || damping != 0 || effort != 0; }
+  bool isLoaded() const { return stiffness != 0 || damping != 0 || effort != 0 || grip != 0; }
+  /// [N] or [N m] By which it gives energy, or takes it: a grip gives at most as much, and what it gives less
+  /// is lost.
+  double drive() const { return effort + (keptRate == 0 ? 0 : std::copysign(grip, keptRate)); }
 };
 
 /// As scene files spell them, in the order of Joint::Kind.

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "support/exact_runs.h"
+#include "physics/contact/joint_rows.h"
+#include "support/jointed.h"
 
 namespace careen {
 namespace {
@@ -63,6 +65,34 @@ TEST(ImplicitStep, slidesByTheParabolaOfItsFriction) {
   EXPECT_NEAR(end[0].velocity.x(), 0.5, 1e-12);
   EXPECT_NEAR(end[0].position.x(), 0.25 - 0.0625, 1e-12);
   EXPECT_NEAR(end[0].position.z(), 0.1, 1e-12);
+}
+
+// A wheel of I = 1.2 kg m² at 3 rad/s, whose axle keeps to 0.5 rad/s by up to 1.5 N m: 1.25 rad/s per second,
+// until it has the speed within the fifth step of 0.5 s.
+TEST(ImplicitStep, aGripTakesWhatItsForceGivesInAStep) {
+  World world;
+  world.gravity = Vec3::Zero();
+  world.bodies = {box("wheel", Vec3(0.3, 0.3, 0.1), 20, Vec3(1, 2, 3), Vec3::Zero(), Vec3(0, 0, 3))};
+  Joint& axle = test::join(world, Joint::Kind::kHinge, 0, {}, Vec3(1, 2, 3));
+  axle.grip = 1.5;
+  axle.keptRate = 0.5;
+  const std::vector<TouchingBody> bodies{bodyOf(world, 0), touchingBody(nowhere())};
+  std::vector<ClosedContact> contacts;
+  for (const ContactFeature& feature :
+       jointFeatures(world, 0, [](const JointEnd& end) { return end.body ? 0 : 1; })) {
+    contacts.push_back({.feature = feature});
+  }
+  ASSERT_EQ(contacts.size(), 3U);  // a point, an axis and a grip
+  ImplicitStep step(world, bodies, 1e-9);
+  GroupState state = stateOf(world);
+  state.resize(2);
+  for (int k = 1; k <= 6; ++k) {
+    GroupState next;
+    ASSERT_TRUE(step.advance(state, 0.5, contacts, next));
+    state = next;
+    EXPECT_NEAR(state[0].angularMomentum[2] / 1.2, std::max(0.5, 3 - 0.625 * k), 1e-12) << k;
+    EXPECT_LE((state[0].position - Vec3(1, 2, 3)).norm(), 1e-12);
+  }
 }
 
 // It stops after 0.5 s and 0.25 m, within a step: the error is of the second order in its length.

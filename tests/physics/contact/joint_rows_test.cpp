@@ -144,6 +144,34 @@ TEST(JointRows, ofAHingesEndsAreTheDerivativesOfItsAngle) {
   }
 }
 
+// The row of the lower limit, in whose place it stands, but a rate that is relative to the one that it keeps;
+// forces of a hinge's row are torques over the length that makes angles metres.
+TEST(JointRows, ofAGripAreThoseOfItsCoordinate) {
+  for (const Joint::Kind kind : {Joint::Kind::kHinge, Joint::Kind::kSlider}) {
+    Joint joint = jointOf(kind);
+    joint.grip = 6;
+    joint.keptRate = 0.5;
+    const auto now = [&](ContactFeature::Kind of, JointPart part) {
+      return stateAt({.kind = of, .a = 0, .b = 1, .joint = &joint, .part = part}, 0);
+    };
+    const ContactState grip = now(ContactFeature::Kind::kJointGrip, JointPart::kGrip);
+    const ContactState limit = now(ContactFeature::Kind::kJointEnd, JointPart::kLowest);
+    const ContactFrame frame = frameOf(limit.normal);
+    const double length = kind == Joint::Kind::kHinge ? std::min(kHalvesOfA.norm(), kHalvesOfB.norm()) : 1;
+    EXPECT_EQ(grip.grip, 6 / length);
+    EXPECT_EQ(grip.kept, 0.5 * length);
+    EXPECT_NEAR(grip.rate, limit.rate - 0.5 * length, 1e-15);
+    EXPECT_EQ(grip.gap, 0);
+    EXPECT_NEAR(grip.rows->biases[0], limit.gapBias, 1e-14);
+    for (const auto& [own, other] :
+         {std::pair(grip.rows->a, limit.sideA(frame)), std::pair(grip.rows->b, limit.sideB(frame))}) {
+      EXPECT_LE((own.linear[0] - other.linear[0]).norm(), 1e-15);
+      EXPECT_LE((own.turning[0] - other.turning[0]).norm(), 1e-15);
+      EXPECT_EQ(own.turning[1], Vec3(0, 0, 0));
+    }
+  }
+}
+
 TEST(JointFeatures, areThoseOfJointsThatHaveNotLetGo) {
   World world = floorless();
   world.joints[0].until = 2;

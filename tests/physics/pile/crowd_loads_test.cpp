@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "support/crates.h"
@@ -60,6 +61,26 @@ TEST(CrowdLoads, halfKickIsThatOfTheTimeBehind) {
   CrowdStages stages(world);  // the floor has place 0
   stages.members[1].behind = 0.01;
   EXPECT_EQ(stages.loads.halfKick(1), 0.01 * world.gravity);
+}
+
+// Of a wheel with I = 0.1 kg m² whose corners are 0.3 m from its axis, at 20 N m: a = 60 m/s² moves them by
+// two tolerances in √(4 t/a). A spring of k = 90 N m/rad in its hinge: an eighth of a radian of √(k/I) = 30
+// rad/s.
+TEST(CrowdLoads, jointsShortenTheStep) {
+  World world;
+  world.bodies.push_back(crate("wheel", Vec3(0.2, 0.2, 0.1), Vec3::Zero(), {}));
+  world.bodies[0].mass.inverseInertiaBody = Vec3::Constant(10);
+  Joint hinge;
+  hinge.kind = Joint::Kind::kHinge;
+  hinge.from.body = 0;
+  world.joints = {hinge};
+  EXPECT_EQ(CrowdStages(world).loads.longestStep(), std::numeric_limits<double>::infinity());
+  world.joints[0].effort = -20;
+  EXPECT_NEAR(CrowdStages(world).loads.longestStep(), std::sqrt(4 * CrowdMembers::kUsualTolerance / 60),
+              1e-12);
+  world.joints[0].effort = 0;
+  world.joints[0].stiffness = 90;
+  EXPECT_NEAR(CrowdStages(world).loads.longestStep(), 0.125 / 30, 1e-12);
 }
 
 }  // namespace

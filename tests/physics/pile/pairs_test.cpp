@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
@@ -69,6 +70,22 @@ TEST(PilePairs, listsEveryPairThatCanTouchThroughoutAFlight) {
   }
   EXPECT_GT(touching, 1000U);
   EXPECT_LT(most, 150U * 149U / 4U);
+}
+
+// Three boxes in one place, of which the first two pass through each other.
+TEST(PilePairs, leavesOutWhatPassesThroughEachOther) {
+  const World world = test::pouring(3, 0, 0, 1, 5);
+  std::vector<PileBody> bodies;
+  for (const Body& body : world.bodies) {
+    bodies.push_back(pileBody(body, {.pose = {}}));
+  }
+  PilePairs pairs(std::make_shared<Team>(1), [](int a, int b) { return a + b != 1; });
+  pairs.update(bodies, Vec3::Zero(), 0.01, 0.02);
+  Found found;
+  for (const PilePair& pair : pairs.pairs()) {
+    found.emplace(pair.a, pair.b);
+  }
+  EXPECT_EQ(found, (Found{{0, 2}, {1, 2}}));
 }
 
 }  // namespace

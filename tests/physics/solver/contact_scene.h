@@ -201,6 +201,16 @@ inline Verified verified(const ContactProblem& problem, const ContactSolution& s
       result.residual = std::max(result.residual, static_cast<double>(size));
       continue;
     }
+    if (contact.admissible == ContactProblem::Admissible::kInterval) {
+      const Quad x = n - u[0] / inverse;
+      const Quad admitted = std::min(std::max(x, Quad(contact.least)), Quad(contact.most));
+      const Quad outside = std::max(Quad(contact.least) - n, n - Quad(contact.most));
+      dual = std::max(dual, outside);
+      power = std::max(power, Quad(abs((n - Quad(u[0] > 0 ? contact.least : contact.most)) * u[0])));
+      result.residual = std::max(result.residual, static_cast<double>(abs(n - admitted) * inverse));
+      result.cone = std::max(result.cone, static_cast<double>(outside * inverse));
+      continue;
+    }
     const bool slips = contact.admissible == ContactProblem::Admissible::kLine;
     primal = std::max(primal, Quad(-u[0]));
     Quad lost = n * u[0];

@@ -1,6 +1,7 @@
 // Joints, ropes and limits as rows of a ContactProblem: what admits every impulse, and half-lines.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -156,6 +157,58 @@ TEST(ContactSolverJoints, aRopeIsAHalfLine) {
     EXPECT_NEAR(solution.velocities[0], std::min(away, 0.0), 1e-15);
     EXPECT_EQ(solution.velocities[1], 3);
     EXPECT_NEAR(solution.impulses[0][0], std::max(away, 0.0), 1e-15);
+  }
+}
+
+// A row along x of at most 2 N s either way, that keeps to 0.5 m/s, of 1 kg: it brings to it what is within
+// 2 m/s, the rest nearer by 2 m/s.
+TEST(ContactSolverJoints, anIntervalKeepsToItsSpeedAsFarAsItReaches) {
+  for (const double speed : {-4.0, -1.0, 0.5, 2.0, 7.0}) {
+    ContactScene scene;
+    scene.add(1, {0.1, 0.1, 0.1}, {0, 0, 0}, {speed, 3, 0});
+    ContactProblem::Contact grip{.a = 0,
+                                 .target = {0.5, 0, 0},
+                                 .admissible = ContactProblem::Admissible::kInterval,
+                                 .least = -2,
+                                 .most = 2};
+    grip.rows[0][0] = 1;
+    scene.problem.contacts.push_back(grip);
+    const ContactSolution solution = solvedJoints(scene);
+    const double impulse = std::clamp(0.5 - speed, -2.0, 2.0);
+    EXPECT_NEAR(solution.velocities[0], speed + impulse, 1e-15);
+    EXPECT_EQ(solution.velocities[1], 3);
+    EXPECT_NEAR(solution.impulses[0][0], impulse, 1e-15);
+  }
+}
+
+// Links whose joints have dry friction, on a rough floor: each of their rows is at an end of its interval
+// where it slips, in quadruple precision.
+TEST(ContactSolverJoints, intervalsAndFrictionAreSolvedTogether) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> between(-1, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    ContactScene scene;
+    const int links = 2 + trial % 5;
+    for (int k = 0; k < links; ++k) {
+      scene.add(std::exp(2 * between(random)), {0.5, 0.2, 0.2}, {k + 0.5, 0, 0.2},
+                {between(random), between(random), between(random) - 0.5},
+                {between(random), between(random), between(random)});
+      scene.touchFlat(k, kNobody, k + 0.5, 0, 0.5, 0.2, 0, 0.3 + 0.3 * between(random));
+      if (k > 0) {
+        scene.join(k, k - 1, {static_cast<double>(k), 0, 0.2});
+        const double most = std::exp(3 * between(random) - 3);
+        ContactProblem::Contact grip{.a = k,
+                                     .b = k - 1,
+                                     .target = {0.2 * between(random), 0, 0},
+                                     .admissible = ContactProblem::Admissible::kInterval,
+                                     .least = -most,
+                                     .most = most};
+        grip.rows[0][4] = 0.5;
+        grip.rows[0][10] = -0.5;
+        scene.problem.contacts.push_back(grip);
+      }
+    }
+    solvedJoints(scene, 1e-9);
   }
 }
 

@@ -48,6 +48,32 @@ TEST(ImpulseSet, admissibleIsInTheCone) {
   EXPECT_EQ(slides.admissible({2, 7, 7}), (Triple{2, -1, 0.5}));
 }
 
+// From −1 to 3 N s, of 2 kg.
+TEST(ImpulseSet, anIntervalIsAtItsEndsWhereItSlips) {
+  const ImpulseSet interval{.mass = 2, .kind = ImpulseSet::Kind::kInterval, .least = -1, .most = 3};
+  EXPECT_EQ(interval.violation({2, 0, 0}, {0, 0, 0}), 0);        // sticks
+  EXPECT_EQ(interval.violation({-1, 0, 0}, {5, 0, 0}), 0);       // slips up
+  EXPECT_EQ(interval.violation({3, 0, 0}, {-5, 0, 0}), 0);       // down
+  EXPECT_EQ(interval.violation({2, 0, 0}, {0.25, 0, 0}), 0.25);  // creeps
+  EXPECT_EQ(interval.violation({3, 0, 0}, {5, 0, 0}), 2);        // 4 N s off
+  EXPECT_EQ(interval.violation({5, 0, 0}, {0, 0, 0}), 1);        // beyond
+  EXPECT_EQ(interval.admissible({7, 1, 1}), (Triple{3, 0, 0}));
+  EXPECT_EQ(interval.admissible({-7, 1, 1}), (Triple{-1, 0, 0}));
+  // Within: 0 = −ρ u − ε (λ − centre). Beyond: λ = 3 − ε (λ − centre), whatever it does to u.
+  const ContactEquation equation{.rho = 2, .epsilon = 0.25};
+  const ContactAnswer within = newtonAnswer(interval, equation, {1, 0, 0}, {1, 0, 0}, {0.5, 0, 0});
+  EXPECT_EQ(within.given[0], -3);
+  EXPECT_EQ(within.stiffness[0], 8);
+  const ContactAnswer beyond = newtonAnswer(interval, equation, {1, 0, 0}, {-2, 0, 0}, {-5, 0, 0});
+  EXPECT_EQ(beyond.given[0], 2);
+  EXPECT_EQ(beyond.stiffness[0], 0);
+  ImpulseSet one = interval;
+  one.least = 3;
+  EXPECT_TRUE(one.isGiven());
+  EXPECT_EQ(one.violation({3, 0, 0}, {7, 0, 0}), 0);
+  EXPECT_EQ(stickingAnswer(one, equation, {}, {7, 0, 0}).given[0], 3);
+}
+
 TEST(ImpulseSet, allOfSpaceHoldsWhateverTheImpulse) {
   const ImpulseSet space{.mass = 2, .kind = ImpulseSet::Kind::kSpace};
   for (const Triple& impulse : {Triple{0, 0, 0}, Triple{-3, 4, 1e6}}) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -34,6 +35,36 @@ TEST(InteriorPoint, endsAtTheCentre) {
       EXPECT_NEAR(impulses[c][0], above * 2 * 0.5 / 4, 1e-8) << friction;
     }
   }
+}
+
+// Spins of 1 kg m² each about x, y and z: one row stops its own, one would need more than it has, and one has
+// its impulse given.
+TEST(InteriorPoint, staysInIntervals) {
+  ContactScene scene;
+  scene.add(6, {0.5, 0.5, 0.5}, {0, 0, 0}, {0, 0, 0}, {0.5, 3, -2});
+  const std::array<std::array<double, 2>, 3> intervals{{{-1, 1}, {-2, 1}, {0.25, 0.25}}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    ContactProblem::Contact row{.a = 0,
+                                .admissible = ContactProblem::Admissible::kInterval,
+                                .least = intervals[k][0],
+                                .most = intervals[k][1]};
+    row.rows[0][3 + k] = 1;
+    scene.problem.contacts.push_back(row);
+  }
+  CoupledContacts contacts;
+  contacts.set(scene.problem);
+  InteriorPoint method;
+  method.start(contacts, {});
+  int iterations = 0;
+  for (; method.gap() > 1e-17 && iterations < 40; ++iterations) {
+    ASSERT_TRUE(method.advance(contacts)) << iterations;
+  }
+  EXPECT_LE(iterations, 15);
+  std::vector<ContactProblem::Triple> impulses;
+  contacts.exportImpulses(method.impulses(), impulses);
+  EXPECT_NEAR(impulses[0][0], -0.5, 1e-8);
+  EXPECT_NEAR(impulses[1][0], -2, 1e-8);
+  EXPECT_EQ(impulses[2][0], 0.25);
 }
 
 // A cube that lands while it slides, v_x = 1 − μ v_z. With |u_t| as a number the problem is convex: with the
