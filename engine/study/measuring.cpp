@@ -47,7 +47,7 @@ std::vector<BodyState> initialStates(const World& world) {
   return states;
 }
 
-// Springs of joints are no part of energyOf().
+// Springs of joints are no part of energyOf(), their friction takes energy.
 bool mayLoseEnergy(const World& world) {
   const auto loses = [](const Material& one, const Material& other) {
     const Material pair = touching(one, other);

@@ -15,7 +15,7 @@ std::string refusalOfPeers(const World& world) {
 
 std::string Peer::refusesJoint(const Joint& joint) const {
   const bool isLine = joint.kind == Joint::Kind::kRod || joint.kind == Joint::Kind::kRope;
-  return isLine ? "no rods, no ropes" : joint.isLoaded() ? "no springs in joints" : "";
+  return isLine ? "no rods, no ropes" : joint.isLoaded() ? "no springs, no friction of joints" : "";
 }
 
 std::string Peer::refuses(const World& world) const {

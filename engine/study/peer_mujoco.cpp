@@ -338,7 +338,9 @@ class Mujoco : public Peer {
   }
 
  protected:
-  std::string refusesJoint(const Joint& /*joint*/) const override { return ""; }
+  std::string refusesJoint(const Joint& joint) const override {
+    return joint.grip != 0 ? "no friction, no drives of joints" : "";  // its export has none
+  }
   std::unique_ptr<Engine> feed(const World& world) const override {
     return std::make_unique<MujocoEngine>(world, best_);
   }

@@ -115,7 +115,7 @@ TEST(Peer, saysWhichJointsAndMotorsItHasNot) {
   EXPECT_EQ(peer.refuses(world), "no rods, no ropes");
   world.joints[1].kind = Joint::Kind::kHinge;
   world.joints[1].damping = 1;
-  EXPECT_EQ(peer.refuses(world), "no springs in joints");
+  EXPECT_EQ(peer.refuses(world), "no springs, no friction of joints");
   world.joints[1].until = 1;
   EXPECT_EQ(peer.refuses(world), "no joints that let go");
   world.control.emplace();
