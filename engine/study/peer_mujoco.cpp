@@ -202,7 +202,10 @@ class MujocoEngine : public Peer::Engine {
     mj_fwdPosition(model_.get(), data_.get());
     mj_fwdVelocity(model_.get(), data_.get());
     const std::ptrdiff_t place = bodies_[body];
-    const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> turn(data_->xmat + 9 * place);
+    Mat3 turn;
+    for (int row = 0; row < 3; ++row) {
+      turn.row(row) = Vec3::Map(data_->xmat + 9 * place + std::ptrdiff_t{3} * row);
+    }
     std::array<mjtNum, 6> moves{};  // turning, then the centre of mass
     mj_objectVelocity(model_.get(), data_.get(), mjOBJ_BODY, bodies_[body], moves.data(), 0);
     BodyState state{.pose = bodyPose(world_.bodies[body],
