@@ -96,6 +96,9 @@ class JointEncoder {
       text += mjcfAttribute("stiffness", inFull(joint.stiffness)) +
               mjcfAttribute("springref", inFull(joint.rest));
     }
+    if (joint.grip != 0 && joint.keptRate == 0) {
+      text += mjcfAttribute("frictionloss", inFull(joint.grip));
+    }
     return text + (joint.damping != 0 ? mjcfAttribute("damping", inFull(joint.damping)) : "") + "/>";
   }
 
@@ -122,7 +125,7 @@ class JointEncoder {
       connect(joint.name + " below", joint.from.point - half);
       connect(joint.name + " above", joint.from.point + half);
       if (isLimited(joint) || joint.isLoaded()) {
-        result_.leftOut.push_back("limits and springs of " + joint.name +
+        result_.leftOut.push_back("limits, springs and friction of " + joint.name +
                                   ", which closes a loop or long chain");
       }
     } else {
@@ -250,6 +253,9 @@ class JointEncoder {
     };
     if (any([](const Joint& joint) { return std::isfinite(joint.until); })) {
       result_.leftOut.emplace_back("when joints let go");
+    }
+    if (any([](const Joint& joint) { return joint.keptRate != 0; })) {
+      result_.leftOut.emplace_back("drives of joints");
     }
     if (any([this](const Joint& joint) {
           const double speed =

@@ -89,6 +89,9 @@ class JointWriter {
       if (joint.damping != 0) {
         item["damping"] = joint.damping;
       }
+      if (joint.friction != 0) {
+        item["friction"] = joint.friction;
+      }
     }
     joints_.push_back(item);
   }

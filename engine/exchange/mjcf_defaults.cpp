@@ -262,8 +262,8 @@ void MjcfDefaults::apply(const XmlElement& element, MjcfJoint& joint) const {
   joint.springRef = document_.number(element, "springref", joint.springRef);
   joint.damping = document_.positive(element, "damping", joint.damping);
   joint.stiffness = document_.positive(element, "stiffness", joint.stiffness);
-  joint.absent = {document_.number(element, "armature", joint.absent[0]),
-                  document_.number(element, "frictionloss", joint.absent[1])};
+  joint.friction = document_.positive(element, "frictionloss", joint.friction);
+  joint.armature = document_.number(element, "armature", joint.armature);
   document_.mustBeZero(element, "springdamper");
   mustNotAlign(document_, element);
 }
@@ -282,9 +282,9 @@ void MjcfDefaults::check(const MjcfJoint& joint) const {
       refuse(attribute, brief(value));
     }
   };
-  mustBeZero("armature", joint.absent[0]);
-  mustBeZero("frictionloss", joint.absent[1]);
+  mustBeZero("armature", joint.armature);
   if (!joint.hasCoordinate()) {
+    mustBeZero("frictionloss", joint.friction);
     mustBeZero("stiffness", joint.stiffness);
   }
   if (joint.isBall()) {

@@ -41,15 +41,16 @@ struct MjcfJoint {
   const XmlElement* element = nullptr;
   std::string name;
   std::string type = "free";
-  Vec3 position = Vec3::Zero();    ///< [m]
-  Vec3 axis = Vec3::UnitZ();       ///< [1] of a hinge or slide
-  std::string limited = "auto";    ///< "auto": if there is a range, and <compiler autolimits> lets it
-  std::array<double, 2> range{};   ///< [rad] of a hinge, [m] of a slide
-  double ref = 0;                  ///< likewise: its coordinate as the model stands
-  double springRef = 0;            ///< likewise: where its spring rests
-  double stiffness = 0;            ///< [N m/rad] or [N/m]
-  double damping = 0;              ///< [N m s/rad] or [N s/m]; of a free joint both
-  std::array<double, 2> absent{};  ///< armature and frictionloss, which no scene has
+  Vec3 position = Vec3::Zero();   ///< [m]
+  Vec3 axis = Vec3::UnitZ();      ///< [1] of a hinge or slide
+  std::string limited = "auto";   ///< "auto": if there is a range, and <compiler autolimits> lets it
+  std::array<double, 2> range{};  ///< [rad] of a hinge, [m] of a slide
+  double ref = 0;                 ///< likewise: its coordinate as the model stands
+  double springRef = 0;           ///< likewise: where its spring rests
+  double stiffness = 0;           ///< [N m/rad] or [N/m]
+  double damping = 0;             ///< [N m s/rad] or [N s/m]; of a free joint both
+  double friction = 0;            ///< [N m] or [N] frictionloss
+  double armature = 0;            ///< which no scene has
 
   bool isFree() const { return type == "free"; }
   bool isBall() const { return type == "ball"; }

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::string_view kWorld = "world";
 constexpr double kTurn = 2 * 3.141592653589793;  // [rad]
+constexpr double kMostAngle = 1e6 * kTurn;       // of more, little is left of the place within a turn
 constexpr double kSameLength = 1e-9;             // [1]
 constexpr int kDigitsOfLength = 10;              // of lengths, which may differ by no more than that
 
@@ -33,6 +34,7 @@ class Connecting {
 
   void connect() {
     findEnds();
+    checkStart();
     checkRange();
     placeEnds();
     measure();
@@ -82,6 +84,14 @@ class Connecting {
         axes->col(1) = -axes->col(1);
         axes->col(2) = -axes->col(2);
       }
+    }
+  }
+
+  void checkStart() const {
+    const JsonNode* const start = node_.find("start");
+    if (start != nullptr && joint_.kind == Joint::Kind::kHinge && std::fabs(start->number) > kMostAngle) {
+      tree_.fail(start->offset, brief(start->number) + " rad for " + label_ + ".start",
+                 "less than a million turns");
     }
   }
 

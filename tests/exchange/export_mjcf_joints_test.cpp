@@ -38,13 +38,14 @@ TEST(ExportMjcfJoints, aHingeHasItsCoordinateAndSpring) {
   const MjcfJoints joints = encodedJointsOf(R"({ "careen": 1, "duration": 1, "boxes": [)" +
                                             boxNamed("a", R"(, "position": [1, 0, 0])") + R"(],
     "joints": [ { "name": "h", "type": "hinge", "between": ["world", "a"], "at": [0.5, 0, 2], "axis": [0, 0, 1], "start": 0.25,
-      "range": [-1, 1.5], "spring": { "stiffness": 3, "rest": 0.5 }, "damping": 0.125 } ] })");
+      "range": [-1, 1.5], "spring": { "stiffness": 3, "rest": 0.5 }, "damping": 0.125, "friction": 0.25 } ] })");
   // Of the world relative to the box about z: of the box about -z.
   EXPECT_EQ(joints.ofBody[0].substr(0, joints.ofBody[0].find(" ref")),
             R"(<joint name="h" type="hinge" pos="-0.5 0 2" axis="0 0 -1")");
-  EXPECT_NE(joints.ofBody[0].find(
-                R"(limited="true" range="-1 1.5" stiffness="3" springref="0.5" damping="0.125"/>)"),
-            std::string::npos)
+  EXPECT_NE(
+      joints.ofBody[0].find(
+          R"(limited="true" range="-1 1.5" stiffness="3" springref="0.5" frictionloss="0.25" damping="0.125"/>)"),
+      std::string::npos)
       << joints.ofBody[0];
   EXPECT_NEAR(std::stod(joints.places), 0.25, 1e-15);
   EXPECT_TRUE(joints.leftOut.empty());

@@ -97,7 +97,7 @@ TEST(ImportMjcfJoints, scenesComeBackFromMjcf) {
 TEST(ImportMjcfJoints, aBodyInAnotherIsJoined) {
   const nlohmann::json scene = sceneOfModel(R"(
     <body name="arm" pos="1 0 0"><joint name="shoulder" pos="-0.5 0 0" axis="0 2 0" range="-90 45" ref="30"
-        damping="0.5" stiffness="2" springref="60"/>)" +
+        damping="0.5" frictionloss="0.75" stiffness="2" springref="60"/>)" +
                                             kJointedBox + R"(
       <body name="hand" pos="1 0 0"><joint type="slide" axis="1 0 0"/>)" +
                                             kJointedBox + R"(
@@ -119,6 +119,7 @@ TEST(ImportMjcfJoints, aBodyInAnotherIsJoined) {
   EXPECT_EQ(shoulder["spring"]["stiffness"], 2);
   EXPECT_NEAR(shoulder["spring"]["rest"].get<double>(), 60 * degree, 1e-15);
   EXPECT_EQ(shoulder["damping"], 0.5);
+  EXPECT_EQ(shoulder["friction"], 0.75);
   EXPECT_EQ(scene["joints"][1]["type"], "slider");
   EXPECT_EQ(scene["joints"][1]["name"], "hand");
   EXPECT_EQ(scene["joints"][1]["between"], (nlohmann::json{"hand", "arm"}));

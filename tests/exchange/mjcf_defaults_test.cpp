@@ -82,7 +82,7 @@ TEST(MjcfDefaults, refusesWhatJointsOfScenesDoNotHave) {
   EXPECT_NE(
       refusal("<joint armature='0.5'/>", "main").find("found armature=\"0.5\" for a joint of type \"hinge\""),
       std::string::npos);
-  EXPECT_NE(refusal("<joint type='slide' frictionloss='2'/>", "main").find("found frictionloss=\"2\""),
+  EXPECT_NE(refusal("<joint type='ball' frictionloss='2'/>", "main").find("found frictionloss=\"2\""),
             std::string::npos);
   EXPECT_NE(refusal("<joint type='ball' damping='2'/>", "main").find("found damping=\"2\""),
             std::string::npos);

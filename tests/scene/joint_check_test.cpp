@@ -178,6 +178,10 @@ TEST(JointCheck, aJointMayBeginAnywhereInItsRange) {
   const Scene moved =
       parseScene(sceneBut(kJoints, R"("range": [0, 2],)", R"("range": [0, 2], "start": 0.5,)"), "f");
   EXPECT_NEAR(jointCoordinate(moved.joints[1], moved.boxes[2].pose, {}), 0.5, 1e-15);
+  const MarkedText turning(sceneBut(kJoints, R"("start": 0)", R"("start": @-1e60)"));
+  EXPECT_EQ(
+      inputErrorOf([&] { parseScene(turning.text, "f"); }),
+      "f:" + turning.place + ": found -1e+60 rad for joints[0].start, expected less than a million turns");
   const MarkedText outside(
       sceneBut(kJoints, R"("range": [-0.5, 2.25], "start": 0)", R"("range": @[-0.5, 2.25], "start": 3)"));
   EXPECT_EQ(inputErrorOf([&] { parseScene(outside.text, "f"); }),

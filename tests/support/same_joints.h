@@ -98,6 +98,7 @@ struct JointDifference {
     EXPECT_EQ(one.stiffness, other.stiffness) << one.name;
     EXPECT_EQ(one.stiffness == 0 ? 0 : one.rest, other.rest) << one.name;
     EXPECT_EQ(one.damping, other.damping) << one.name;
+    EXPECT_EQ(one.keptRate == 0 ? one.grip : 0, other.grip) << one.name;
   }
 };
 

@@ -377,12 +377,6 @@ double Bodies::withinCell(double speed) const {
              : longestStep_;
 }
 
-bool Bodies::mayBeCrowd() const {
-  return crowds_.when != CrowdSettings::When::kNever &&
-         std::none_of(world_.joints.begin(), world_.joints.end(),
-                      [](const Joint& joint) { return joint.grip > 0; });
-}
-
 bool Bodies::isTooMany(int movable) const {
   return mayBeCrowd() && movable > (crowds_.when == CrowdSettings::When::kAbove ? crowds_.above : kFew);
 }

@@ -111,8 +111,7 @@ class Bodies {
   double workLeft(std::span<const int> ranks, const Instant& time) const;
   /// Of more than a few bodies in contact, time steps cost so much that it does not pay to begin.
   bool isTooMany(int movable) const;
-  /// Crowds know no dry friction of joints, and no drives.
-  bool mayBeCrowd() const;
+  bool mayBeCrowd() const { return crowds_.when != CrowdSettings::When::kNever; }
 
   /// Most events of one body at one moment before it goes on in a crowd, and of twice as many the run gives
   /// up: more than any impact needs, and a bound on endless repetition.

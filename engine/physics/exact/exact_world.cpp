@@ -1,9 +1,13 @@
 #include "physics/exact/exact_world.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
+#include "core/disjoint_sets.h"
 #include "core/error.h"
 #include "physics/exact/aftermath.h"
 #include "physics/exact/crowd_group.h"
@@ -160,7 +164,7 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
   if (!bodies_.mayBeCrowd()) {
     return false;
   }
-  int movable = 0;
+  std::vector<int> ranks;
   bool moves = false;
   bool rubs = bodies_.crowds().when == CrowdSettings::When::kAbove;  // asked for, whatever it costs
   for (const EncounterBody& each : encounter.bodies) {
@@ -168,7 +172,7 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
       continue;
     }
     const Body& body = each.body();
-    ++movable;
+    ranks.push_back(each.mover->rank);
     rubs = rubs || body.material.friction > 0;
     const double spin = angularVelocity(body.mass, each.before).norm();
     moves = moves || each.before.velocity.norm() + spin * radiusOf(body) > fallSpeed(bodies_, encounter);
@@ -176,13 +180,41 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
       return true;
     }
   }
-  return moves && rubs && bodies_.isTooMany(movable);
+  return moves && rubs && bodies_.isTooMany(countApart(ranks));
+}
+
+// Of bodies, by rank; those that joints hold together count as one: they may be many and touch nothing.
+int ExactWorld::countApart(std::span<const int> ranks) const {
+  const World& world = bodies_.world();
+  auto count = static_cast<int>(ranks.size());
+  if (world.joints.empty()) {
+    return count;
+  }
+  DisjointSets together(world.bodies.size());
+  std::vector<char> isCounted(world.bodies.size(), 0);
+  for (const int rank : ranks) {
+    isCounted[static_cast<std::size_t>(bodies_[rank].listed.value)] = 1;
+  }
+  for (const Joint& joint : world.joints) {
+    if (!joint.to.body) {
+      continue;
+    }
+    const auto from = static_cast<std::size_t>(*joint.from.body);
+    const auto to = static_cast<std::size_t>(*joint.to.body);
+    if (isCounted[from] != 0 && isCounted[to] != 0 && together.root(from) != together.root(to)) {
+      together.join(from, to);
+      --count;
+    }
+  }
+  return count;
 }
 
 bool ExactWorld::costsTooMuch(const Encounter& encounter) const {
   const auto isTooLarge = [&](const std::shared_ptr<IslandGroup>& island) {
-    return bodies_.isTooMany(static_cast<int>(std::count_if(
-        island->ranks().begin(), island->ranks().end(), [&](int rank) { return !bodies_[rank].isHeld(); })));
+    std::vector<int> movable;
+    std::copy_if(island->ranks().begin(), island->ranks().end(), std::back_inserter(movable),
+                 [&](int rank) { return !bodies_[rank].isHeld(); });
+    return bodies_.isTooMany(countApart(movable));
   };
   return std::any_of(encounter.islands.begin(), encounter.islands.end(), isTooLarge) ||
          (!encounter.islands.empty() && bodies_.workLeft(encounter.ranks(), encounter.time) < 0);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <stop_token>
 
 #include "physics/exact/bodies.h"
@@ -35,6 +36,7 @@ class ExactWorld {
 
   bool goesOnAsCrowd(const Encounter& encounter) const;
   bool costsTooMuch(const Encounter& encounter) const;
+  int countApart(std::span<const int> ranks) const;
 
   std::optional<ControlledWorld> controlled_;  // of worlds with joints
   Bodies bodies_;

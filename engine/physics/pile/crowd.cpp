@@ -147,11 +147,11 @@ double Crowd::chooseLength() const {
     }
   }
   double h = longest;
-  if (fastest > 0) {
+  if (h * fastest > kMostMoved * members_.scale) {
     h = std::min(h, kMostMoved * members_.scale / fastest);
   }
   h = std::max(h, kShortestStep * members_.scale);
-  if (bending > 0) {
+  if (h * h * bending > 2 * memory_.bent * members_.tolerance) {
     const double straight = std::sqrt(2 * memory_.bent * members_.tolerance / bending);
     h = std::min(h, std::max(straight, kShortestTurn * kShortestStep * members_.scale));
   }

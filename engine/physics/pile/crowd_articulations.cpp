@@ -58,7 +58,7 @@ void CrowdArticulations::list(double time) {
     }
     if (joints_.empty() || joints_.back().joint != feature.joint) {
       joints_.push_back(
-          {.joint = feature.joint, .a = feature.a, .b = feature.b, .effort = feature.joint->effort});
+          {.joint = feature.joint, .a = feature.a, .b = feature.b, .effort = feature.joint->drive()});
     }
     for (const int place : {feature.a, feature.b}) {
       if (place < kOutside) {
@@ -121,8 +121,9 @@ void CrowdArticulations::aimAtEnd(PileSolver& solver) {
   const double scale = span_ > 0 ? members_.span / span_ : 0;
   for (Condition& condition : conditions_) {
     lookAt(condition, &solver);
-    condition.acts = condition.acts && (condition.feature.holds() || condition.state.gap <= near);
+    condition.acts = condition.acts && (condition.feature.isTwoSided() || condition.state.gap <= near);
     condition.target = tripleOf(-gapsOf(condition.state) / members_.h);
+    condition.target[0] += condition.state.kept;
     condition.impulse = {};
     if (!condition.acts) {
       continue;
@@ -161,7 +162,7 @@ Vec3 CrowdArticulations::secondOrder(const Condition& condition, const PileSolve
 
 void CrowdArticulations::bend(const PileSolver& solver) {
   for (Condition& condition : conditions_) {
-    if (condition.acts) {
+    if (condition.acts && !condition.feature.grips()) {
       lookAt(condition, &solver);
       condition.target =
           tripleOf(-gapsOf(condition.state) / members_.h - 0.5 * members_.h * secondOrder(condition, solver));
@@ -183,7 +184,9 @@ void CrowdArticulations::keepRates() {
     lookAt(condition, nullptr);
     condition.impulse = {};
     condition.target = tripleOf(ratesOf(condition.state));
-    if (!condition.feature.holds()) {
+    if (condition.feature.grips()) {  // no force has an impulse at one moment
+      condition.acts = false;
+    } else if (!condition.feature.holds()) {
       condition.acts = condition.acts && condition.state.gap <= kNearEnd * members_.tolerance;
       condition.target = {std::min(0.0, condition.target[0]), 0, 0};
     }
@@ -203,8 +206,9 @@ void CrowdArticulations::addTo(CrowdProblem& problem, const PileSolver& solver) 
     problem.add({.a = include(condition.feature.a),
                  .b = include(condition.feature.b),
                  .target = condition.target,
-                 .admissible = condition.feature.holds() ? ContactProblem::Admissible::kSpace
-                                                         : ContactProblem::Admissible::kCone},
+                 .admissible = condition.feature.admissible(),
+                 .least = -members_.span * condition.state.grip,
+                 .most = members_.span * condition.state.grip},
                 condition.state.sideA(frame), condition.state.sideB(frame), condition.impulse);
   }
 }
@@ -241,7 +245,7 @@ bool CrowdArticulations::close(const AddConditions& addMore) {
     }
     close_.begin();
     for (const Condition& condition : conditions_) {
-      if (!condition.acts ||
+      if (!condition.acts || condition.feature.grips() ||
           (!condition.feature.holds() && condition.state.gap > kNearEnd * members_.tolerance)) {
         continue;
       }
@@ -253,8 +257,7 @@ bool CrowdArticulations::close(const AddConditions& addMore) {
       close_.add({.a = include(condition.feature.a),
                   .b = include(condition.feature.b),
                   .target = tripleOf(-gapsOf(condition.state)),
-                  .admissible = condition.feature.holds() ? ContactProblem::Admissible::kSpace
-                                                          : ContactProblem::Admissible::kCone},
+                  .admissible = condition.feature.admissible()},
                  condition.state.sideA(frame), condition.state.sideB(frame), {});
     }
     if (addMore) {

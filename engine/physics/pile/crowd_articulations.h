@@ -37,7 +37,7 @@ class CrowdArticulations {
     const Joint* joint = nullptr;
     int a = 0;
     int b = 0;
-    double effort = 0;  ///< [N m] or [N] of its motor
+    double effort = 0;  ///< [N m] or [N] of its motor and drive, at the most
   };
   const std::vector<Listed>& joints() const { return joints_; }
   /// Of the body at such a place, now.

@@ -21,6 +21,8 @@ constexpr double kPolished = 0x1p-43;
 // [1] of the largest λ/mass
 constexpr double kOfImpulses = 1e-6;
 constexpr double kRounding = 0x1p-49;  // of velocities that large impulses give and cancel
+/// [m/s] Residuals of which ratios would overflow: of what friction has stopped.
+constexpr double kNothing = 0x1p-500;
 
 constexpr double kFall = 0x1p-10;  // of the gap, until Newton's method is tried again
 constexpr int kIterations = 60;
@@ -75,7 +77,7 @@ bool isAgainstAll(const ContactProblem::Contact& contact, std::span<const double
 bool ContactSolver::isEnough() const {
   const double largest = contacts_.largest(impulses_);
   const double enough = std::min(inScale(kEnough), std::max(inScale(kSmall), kOfImpulses * largest));
-  const double rounding = std::max(contacts_.noise(), kRounding * largest);
+  const double rounding = std::max({contacts_.noise(), kRounding * largest, kNothing});
   return residual_ <= std::max(enough, rounding) ||
          ContactNewton::isGood(contacts_, impulses_, residual_, enough_);
 }

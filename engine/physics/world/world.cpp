@@ -22,7 +22,7 @@ bool mayStillChange(const World& world, const Joint& joint) {
   const auto isOfJoint = [&](const Motor& motor) {
     return &world.joints[static_cast<std::size_t>(motor.joint)] == &joint;
   };
-  return joint.until < Joint::kFree ||
+  return joint.until < Joint::kFree || joint.keptRate != 0 ||
          (world.control &&
           ((world.control->callback && joint.hasCoordinate()) ||
            std::any_of(world.control->motors.begin(), world.control->motors.end(), isOfJoint)));

@@ -59,7 +59,7 @@ struct World {
 
 /// Whether a body, by index, is an end of a joint.
 bool isJointed(const World& world, int body);
-/// Whether a joint that holds lets go one day, or has an effort that a control may change.
+/// Whether a joint that holds lets go one day, is driven, or has an effort that a control may change.
 bool mayStillChange(const World& world, const Joint& joint);
 
 /// Whether two bodies stop each other.

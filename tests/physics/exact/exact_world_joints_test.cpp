@@ -384,10 +384,11 @@ TEST(ExactWorldJoints, inOtherUnitsHaveTheSameBits) {
   }
 }
 
-// Where the axis of a symmetric top is after a time [s] that begins leaning by θ [rad] without precession: from
-// its two momenta, θ'' = (φ'² cos θ − φ' L₃/I₁ + m g l/I₁) sin θ with φ' = (L_z − L₃ cos θ)/(I₁ sin² θ), by
-// Runge's method of order 4 in extended precision.
-Vec3 topAfter(double time, long double lean, long double spinMomentum, long double inertia, long double torque) {
+// Where the axis of a symmetric top is after a time [s] that begins leaning by θ [rad] without precession:
+// from its two momenta, θ'' = (φ'² cos θ − φ' L₃/I₁ + m g l/I₁) sin θ with φ' = (L_z − L₃ cos θ)/(I₁ sin² θ),
+// by Runge's method of order 4 in extended precision.
+Vec3 topAfter(double time, long double lean, long double spinMomentum, long double inertia,
+              long double torque) {
   constexpr int kSteps = 400000;
   const long double h = static_cast<long double>(time) / kSteps;
   const long double vertical = spinMomentum * std::cos(lean);
@@ -396,9 +397,10 @@ Vec3 topAfter(double time, long double lean, long double spinMomentum, long doub
     const long double sine = std::sin(at[0]);
     const long double cosine = std::cos(at[0]);
     const long double precession = (vertical - spinMomentum * cosine) / (inertia * sine * sine);
-    return {at[1],
-            (precession * precession * cosine - precession * spinMomentum / inertia + torque / inertia) * sine,
-            precession};
+    return {
+        at[1],
+        (precession * precession * cosine - precession * spinMomentum / inertia + torque / inertia) * sine,
+        precession};
   };
   const auto plus = [](const State& at, long double part, const State& by) -> State {
     return {at[0] + part * by[0], at[1] + part * by[1], at[2] + part * by[2]};
@@ -438,6 +440,25 @@ TEST(ExactWorldJoints, aTopPrecesses) {
         topAfter(10, each.lean, momentum, top.mass.inertiaBody[0] + 0.2L * 0.2L, kEarthsGravity * 0.2L);
     EXPECT_LE((run.last(world, 0, 10).pose.position - 0.2 * axis).norm(), 1e-5);
   }
+}
+
+// Twenty links touch nothing: no crowd, however many are joined; the energy is that of the start to 2e-8.
+TEST(ExactWorldJoints, aLongChainIsNoCrowd) {
+  World world = swinging();
+  for (int k = 0; k < 20; ++k) {
+    world.bodies.push_back(
+        box("link-" + std::to_string(k), Vec3(0.1, 0.02, 0.02), 1, Vec3(0.1 + 0.2 * k, 0, 0)));
+    join(world, Kind::kBall, k, k == 0 ? std::nullopt : std::optional(k - 1), Vec3(0.2 * k, 0, 0));
+  }
+  for (int a = 0; a < 20; ++a) {
+    for (int b = a + 1; b < 20; ++b) {
+      world.apart.emplace_back(a, b);
+    }
+  }
+  std::sort(world.apart.begin(), world.apart.end());
+  const Recorded run = runFor(world, 1);
+  EXPECT_FALSE(run.figures.boundedFrom.has_value());
+  EXPECT_NEAR(energyIn(world, run, 1), energyIn(world, run, 0), 1e-4);
 }
 
 // A falling figure whose springs swing a limb at its limit, away, and back, with a gap that is open at both

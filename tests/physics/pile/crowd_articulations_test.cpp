@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "support/crowd_run.h"
@@ -167,6 +168,26 @@ TEST(CrowdArticulations, aMotorTurnsAWheel) {
   const Mat3 turned = run.last(world, 0, 1).pose.worldFromBody;
   EXPECT_NEAR(std::atan2(turned(1, 0), turned(0, 0)), angle, 1e-3);
   EXPECT_NEAR(angularVelocity(world.bodies[0].mass, run.last(world, 0, 1)).z(), 2 * angle, 5e-3);
+}
+
+// A wheel with I ω₀ = 2 N m s that 0.5 N m of friction stop after 4 s and 2 ω₀; and one that 0.5 N m drive up
+// to ω₀ in that time, which is kept.
+TEST(CrowdArticulations, frictionStopsAndADriveKeepsItsSpeed) {
+  for (const double kept : {0.0, 3.0}) {
+    World world;
+    world.bodies = {box("wheel", Vec3(0.5, 0.5, 0.1), 4, Vec3::Zero())};
+    const double inertia = world.bodies[0].mass.inertiaBody[2];
+    Joint& hinge = join(world, Kind::kHinge, 0, {}, Vec3::Zero());
+    hinge.grip = inertia * 3 / 4;
+    hinge.keptRate = kept;
+    world.bodies[0].initial.angularMomentum = Vec3(0, 0, kept == 0 ? 3 * inertia : 0);
+    const Recorded run = crowdRun(world, 5);
+    const Mat3 turned = run.last(world, 0, 5).pose.worldFromBody;
+    const double angle = 6 + kept;
+    EXPECT_NEAR(std::remainder(std::atan2(turned(1, 0), turned(0, 0)) - angle, 2 * std::numbers::pi), 0,
+                1e-2);
+    EXPECT_NEAR(angularVelocity(world.bodies[0].mass, run.last(world, 0, 5)).z(), kept, 1e-6);
+  }
 }
 
 // A box on the floor, and an arm in the air that it holds.
