@@ -18,9 +18,9 @@ do for [k = 1:lines] {
   texts[k] = line
 }
 
-known = "exact listing1 strang runge-kutta-4 taylor-8 moser-veselov-10 bullet bullet-best ode ode-best mujoco mujoco-best mujoco-3 mujoco-3-best jolt jolt-best rapier rapier-best"
-colours = "#c8553d #888888 #66ccee #4477aa #ccbb44 #aa3377 #882255 #cc6677 #332288 #88ccee #117733 #999933 #44aa99 #bbcc33 #ee8866 #eedd88 #ee3377 #ffaabb"
-points = "7 2 4 6 10 12 5 4 9 8 11 13 1 2 3 14 15 6"
+known = "exact crowd listing1 strang runge-kutta-4 taylor-8 moser-veselov-10 bullet bullet-best ode ode-best mujoco mujoco-best mujoco-3 mujoco-3-best jolt jolt-best rapier rapier-best"
+colours = "#c8553d #e8a838 #888888 #66ccee #4477aa #ccbb44 #aa3377 #882255 #cc6677 #332288 #88ccee #117733 #999933 #44aa99 #bbcc33 #ee8866 #eedd88 #ee3377 #ffaabb"
+points = "7 9 2 4 6 10 12 5 4 9 8 11 13 1 2 3 14 15 6"
 place(name) = (sum [i = 1:words(known)] (word(known, i) eq name ? i : 0))
 colourOf(name) = place(name) > 0 ? word(colours, place(name)) : "#000000"
 pointOf(name) = place(name) > 0 ? int(word(points, place(name))) : 1

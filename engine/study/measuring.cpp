@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "audit/joint_gap.h"
 #include "core/error.h"
 #include "core/system/clock.h"
 #include "physics/start/overlap.h"
@@ -46,21 +47,42 @@ std::vector<BodyState> initialStates(const World& world) {
   return states;
 }
 
+// Springs of joints are no part of energyOf(), their friction takes energy.
 bool mayLoseEnergy(const World& world) {
-  return std::any_of(world.bodies.begin(), world.bodies.end(), [&](const Body& body) {
-    const auto loses = [&](const Material& other) {
-      const Material pair = touching(body.material, other);
-      return pair.restitution < 1 || pair.friction > 0;
-    };
-    return std::any_of(world.walls.begin(), world.walls.end(),
-                       [&](const Wall& wall) { return loses(wall.material); }) ||
-           (world.bodies.size() > 1 && loses(body.material));
-  });
+  const auto loses = [](const Material& one, const Material& other) {
+    const Material pair = touching(one, other);
+    return pair.restitution < 1 || pair.friction > 0;
+  };
+  const auto mayLoseIn = [&](int index) {
+    const Body& body = world.bodies[static_cast<std::size_t>(index)];
+    bool meets = false;
+    for (int other = 0; other < static_cast<int>(world.bodies.size()); ++other) {
+      meets = meets || (other != index && mayTouch(world, index, other));
+    }
+    return (meets && loses(body.material, body.material)) ||
+           std::any_of(world.walls.begin(), world.walls.end(),
+                       [&](const Wall& wall) { return loses(body.material, wall.material); });
+  };
+  const auto mayLoseInJoint = [](const Joint& joint) {
+    const bool strikes =
+        joint.kind == Joint::Kind::kRope || std::isfinite(joint.lowest) || std::isfinite(joint.highest);
+    return joint.isLoaded() || (strikes && joint.restitution < 1);
+  };
+  bool mayLose = world.control || std::any_of(world.joints.begin(), world.joints.end(), mayLoseInJoint);
+  for (int i = 0; i < static_cast<int>(world.bodies.size()) && !mayLose; ++i) {
+    mayLose = mayLoseIn(i);
+  }
+  return mayLose;
 }
 
 double energyChange(const World& world, const std::vector<BodyState>& states) {
   const Energy start = energyOf(world, initialStates(world));
-  return (energyOf(world, states).total() - start.total()) / start.kinetic;
+  double scale = start.kinetic;
+  for (std::size_t i = 0; start.kinetic == 0 && i < world.bodies.size(); ++i) {
+    const Body& body = world.bodies[i];
+    scale += isImmovable(body.mass) ? 0 : body.mass.mass * world.gravity.norm() * body.halfExtents.norm();
+  }
+  return (energyOf(world, states).total() - start.total()) / scale;
 }
 
 // The deepest penetration is put into the judgement, in half diagonals of the smaller of the two bodies.
@@ -82,6 +104,16 @@ void includeOverlap(const World& world, const std::vector<BodyState>& states, Ju
       const double gap = box.inverseMass > 0 ? lowestGap(wall, box.at()).gap : 0;
       include(std::isfinite(gap) ? -gap : INFINITY, box.halfExtents.norm());
     }
+  }
+}
+
+void includeJoints(const World& world, const std::vector<BodyState>& states, Judgement& judgement) {
+  for (const Joint& joint : world.joints) {
+    const auto poseOf = [&](const JointEnd& end) {
+      return end.body ? states[static_cast<std::size_t>(*end.body)].pose : Pose{};
+    };
+    const double open = jointGapOf(world, joint, poseOf(joint.from), poseOf(joint.to)).open;
+    judgement.jointGap = std::max(judgement.jointGap.value_or(0), open);
   }
 }
 
@@ -251,6 +283,9 @@ Judgement judge(const Case& study, const Answer& answer) {
     for (const std::vector<BodyState>& states : answer.states) {
       judgement.energy.push_back(energyChange(study.world, states));
     }
+  }
+  for (const std::vector<BodyState>& states : answer.states) {
+    includeJoints(study.world, states, judgement);
   }
   switch (study.measure) {
     case Measure::kPoses:

@@ -14,12 +14,15 @@ namespace careen {
 struct Judgement {
   double error = 0;  ///< [1] poses: largest over all times and boxes of distance / half diagonal and angle
                      ///< [rad]; overlap: deepest penetration of all times / half diagonal; energy: largest
-                     ///< change of energy relative to the initial kinetic energy
+                     ///< change of energy relative to the initial kinetic energy; of bodies that
+                     ///< start at rest, to that of a fall by their half diagonals
   std::vector<double> energy = {};  ///< [1] the change of energy at every time of the case; empty if impacts
                                     ///< may dissipate energy
   /// [m] What a tolerance promises to bound: the largest distance of a point of a box from its truth; none
   /// where the case measures energy, or overlap, that of crowds, which have a tolerance of their own.
   std::optional<double> displacement = {};
+  /// [m] How far any joint is open at any time of the case; none without joints.
+  std::optional<double> jointGap = {};
 };
 
 /// States at every time of the case: [time][body].

@@ -9,12 +9,22 @@
 namespace careen {
 namespace {
 
+// [1] Of its penetration to that of exact contact, as both are unless a scene says otherwise.
+constexpr double kToleranceOfCrowds = CrowdSettings{}.tolerance / RunSettings{}.tolerance;
+
 class OwnMethod : public Contestant {
  public:
-  explicit OwnMethod(const MethodTraits& traits) : traits_(traits) {}
+  enum class Groups : unsigned char { kAsUsual, kCrowds };
 
-  std::string name() const override { return std::string(traits_.name); }
+  OwnMethod(const MethodTraits& traits, Groups groups) : traits_(traits), groups_(groups) {}
+
+  std::string name() const override {
+    return groups_ == Groups::kCrowds ? "crowd" : std::string(traits_.name);
+  }
   std::string settings() const override {
+    if (groups_ == Groups::kCrowds) {
+      return "careen: exact, but all that touches or is jointed is a crowd, of 300 times the tolerance";
+    }
     if (!traits_.steps()) {
       return "careen: closed forms from impact to impact; contact in adaptive time steps that hold the "
              "tolerance";
@@ -25,6 +35,9 @@ class OwnMethod : public Contestant {
   bool steps() const override { return traits_.steps(); }
 
   std::string refuses(const World& world) const override {
+    if (groups_ == Groups::kCrowds && world.joints.empty()) {
+      return "asked for joints only";
+    }
     if (!traits_.forces && (!world.springs.empty() || world.drag)) {
       return "no springs, no drag";
     }
@@ -53,10 +66,14 @@ class OwnMethod : public Contestant {
   RunSettings settingsOf(double fineness, double duration) const {
     RunSettings settings{.method = traits_.method, .duration = duration};
     (traits_.steps() ? settings.dt : settings.tolerance) = fineness;
+    if (groups_ == Groups::kCrowds) {
+      settings.crowds = {.when = CrowdSettings::When::kAbove, .tolerance = kToleranceOfCrowds * fineness};
+    }
     return settings;
   }
 
   const MethodTraits& traits_;
+  Groups groups_;
 };
 
 }  // namespace
@@ -64,8 +81,9 @@ class OwnMethod : public Contestant {
 Contestants ownMethods() {
   Contestants all;
   for (const MethodTraits& traits : kMethods) {
-    all.push_back(std::make_unique<OwnMethod>(traits));
+    all.push_back(std::make_unique<OwnMethod>(traits, OwnMethod::Groups::kAsUsual));
   }
+  all.push_back(std::make_unique<OwnMethod>(traitsOf(Method::kExact), OwnMethod::Groups::kCrowds));
   return all;
 }
 

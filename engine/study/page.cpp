@@ -27,18 +27,20 @@ std::string published(const StudyResult& study) {
 }
 
 std::string attemptsOf(const CaseResult& result) {
-  Table table{.head = {"contestant", "dt [s]", "tolerance [m]", "error", "audit", "µs per simulated s",
-                       "spread", "repeats", "Pareto front"}};
+  Table table{.head = {"contestant", "dt [s]", "tolerance [m]", "error", "joints open [m]", "audit",
+                       "µs per simulated s", "spread", "repeats", "Pareto front"}};
   for (const Attempt& attempt : result.attempts) {
     std::vector<TableCell>& row = table.rows.emplace_back();
     row = {attempt.contestant, attempt.dt > 0 ? inShort(attempt.dt) : "",
            attempt.tolerance > 0 ? inShort(attempt.tolerance) : ""};
     if (attempt.failure.empty()) {
-      row.insert(row.end(), {inShort(attempt.judgement.error), attempt.audit,
-                             attempt.cost > 0 ? inShort(attempt.cost) : "", inShort(attempt.spread),
-                             std::to_string(attempt.repeats), onFront(result, attempt) ? "yes" : ""});
+      row.insert(row.end(),
+                 {inShort(attempt.judgement.error),
+                  attempt.judgement.jointGap ? inShort(*attempt.judgement.jointGap) : "", attempt.audit,
+                  attempt.cost > 0 ? inShort(attempt.cost) : "", inShort(attempt.spread),
+                  std::to_string(attempt.repeats), onFront(result, attempt) ? "yes" : ""});
     } else {
-      row.emplace_back(attempt.failure, R"(colspan="6" class="none")");
+      row.emplace_back(attempt.failure, R"(colspan="7" class="none")");
     }
   }
   return table.html();

@@ -10,10 +10,22 @@
 namespace careen {
 
 std::string refusalOfPeers(const World& world) {
-  if (!world.joints.empty()) {
-    return "no joints";
-  }
   return world.springs.empty() && !world.drag ? "" : "no springs, no drag";
+}
+
+std::string Peer::refusesJoint(const Joint& joint) const {
+  const bool isLine = joint.kind == Joint::Kind::kRod || joint.kind == Joint::Kind::kRope;
+  return isLine ? "no rods, no ropes" : joint.isLoaded() ? "no springs, no friction of joints" : "";
+}
+
+std::string Peer::refuses(const World& world) const {
+  std::string why = world.control ? "no motors" : refusalOfPeers(world);
+  for (const Joint& joint : world.joints) {
+    if (why.empty()) {
+      why = std::isfinite(joint.until) ? "no joints that let go" : refusesJoint(joint);
+    }
+  }
+  return why;
 }
 
 std::vector<std::vector<BodyState>> Peer::run(const World& world, double dt, std::span<const double> times,

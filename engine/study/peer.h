@@ -5,7 +5,7 @@
 namespace careen {
 
 /// Why no other engine is asked to move this world; empty if they are. They model walls, boxes, gravity,
-/// restitution and friction.
+/// restitution and friction, some of them joints too.
 std::string refusalOfPeers(const World& world);
 
 /// Another engine, which moves a world by time steps. An adapter defines how the engine is set up, stepped
@@ -27,11 +27,14 @@ class Peer : public Contestant {
   };
 
   bool steps() const override { return true; }
-  std::string refuses(const World& world) const override { return refusalOfPeers(world); }
+  std::string refuses(const World& world) const override;
   std::vector<std::vector<BodyState>> run(const World& world, double dt, std::span<const double> times,
                                           const std::stop_token& stop) const override;
 
  protected:
+  /// Why it cannot have such a joint; empty if it can. None is asked for motors, or for a joint that lets go;
+  /// most have balls, hinges, sliders and fixed ones, all without springs.
+  virtual std::string refusesJoint(const Joint& joint) const;
   /// Sets up an engine; `world` outlives it.
   virtual std::unique_ptr<Engine> feed(const World& world) const = 0;
 };

@@ -1,5 +1,6 @@
 #include <btBulletDynamicsCommon.h>
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -69,6 +70,21 @@ class BulletEngine : public Peer::Engine {
       add(std::make_unique<btStaticPlaneShape>(toBullet(wall.normal), wall.offset),
           {.name = wall.name, .mass = immovable(), .material = wall.material, .initial = {}});
     }
+    for (const auto& [a, b] : world.apart) {
+      objectOf(a).setIgnoreCollisionCheck(&objectOf(b), true);
+      objectOf(b).setIgnoreCollisionCheck(&objectOf(a), true);
+    }
+    for (const Joint& joint : world.joints) {
+      joints_.push_back(made(joint));
+      world_.addConstraint(joints_.back().get());
+    }
+  }
+  BulletEngine(const BulletEngine&) = delete;
+  BulletEngine& operator=(const BulletEngine&) = delete;
+  ~BulletEngine() override {
+    for (const std::unique_ptr<btTypedConstraint>& joint : joints_) {
+      world_.removeConstraint(joint.get());
+    }
   }
 
   void useBestSettings();
@@ -126,6 +142,53 @@ class BulletEngine : public Peer::Engine {
     objects_.push_back(std::move(object));
   }
 
+  btRigidBody& objectOf(int body) const { return *objects_[static_cast<std::size_t>(body)]; }
+
+  // In the frame of the object, which is the principal one.
+  btTransform frameOf(const JointEnd& end, bool alongX) const {
+    Pose frame{.position = end.point, .worldFromBody = end.axes};
+    if (alongX) {  // Bullet's sliders are
+      frame.worldFromBody << end.axes.col(2), end.axes.col(0), end.axes.col(1);
+    }
+    if (end.body && masses_[static_cast<std::size_t>(*end.body)].turned) {
+      const Mat3 back = masses_[static_cast<std::size_t>(*end.body)].bodyFromPrincipal.transpose();
+      frame = {back * frame.position, back * frame.worldFromBody};
+    }
+    return toBullet(frame);
+  }
+
+  std::unique_ptr<btTypedConstraint> made(const Joint& joint) const {
+    btRigidBody& from = objectOf(*joint.from.body);
+    btRigidBody& to = joint.to.body ? objectOf(*joint.to.body) : btTypedConstraint::getFixedBody();
+    const bool isSlider = joint.kind == Joint::Kind::kSlider;
+    const btTransform one = frameOf(joint.from, isSlider);
+    const btTransform other = frameOf(joint.to, isSlider);
+    if (joint.kind == Joint::Kind::kBall) {
+      return std::make_unique<btPoint2PointConstraint>(from, to, one.getOrigin(), other.getOrigin());
+    }
+    if (joint.kind == Joint::Kind::kFixed) {
+      return std::make_unique<btFixedConstraint>(from, to, one, other);
+    }
+    const bool isLimited = std::isfinite(joint.lowest) && std::isfinite(joint.highest);
+    if (isSlider) {
+      auto slider = std::make_unique<btSliderConstraint>(to, from, other, one, true);
+      slider->setLowerLinLimit(isLimited ? joint.lowest : 1);  // none where it is above the other
+      slider->setUpperLinLimit(isLimited ? joint.highest : -1);
+      slider->setDampingLimLin(1 - joint.restitution);
+      slider->setLowerAngLimit(0);
+      slider->setUpperAngLimit(0);
+      return slider;
+    }
+    auto hinge = std::make_unique<btHingeConstraint>(from, to, one, other);
+    if (isLimited) {
+      constexpr double kSoftness = 0.9;  // as shipped
+      constexpr double kBias = 0.3;
+      hinge->setLimit(joint.lowest, joint.highest, kSoftness, kBias,
+                      joint.restitution / kBias);  // it takes that part of a bounce too
+    }
+    return hinge;
+  }
+
   // Bodies, then walls; the world releases them before they are destroyed.
   std::vector<MassProperties> masses_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
@@ -135,6 +198,7 @@ class BulletEngine : public Peer::Engine {
   btDbvtBroadphase broadphase_;
   btSequentialImpulseConstraintSolver solver_;
   BulletWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  std::vector<std::unique_ptr<btTypedConstraint>> joints_;
 };
 
 // These settings gave the smallest errors in two free tumbles, impacts of a corner with e = 1, a minute in an

@@ -13,6 +13,7 @@
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "exchange/export_mjcf.h"
 #include "study/peer.h"
 
 namespace careen {
@@ -67,6 +68,14 @@ std::string boxText(const Body& body, const std::string& name) {
   }
   return text + "<geom type=\"box\"" + attribute("name", name) + attribute("pos", numbers(body.boxCenter)) +
          attribute("size", numbers(body.halfExtents)) + "/></body>";
+}
+
+// A world with joints, as careen exports it: a tree, and equalities where joints close loops.
+std::string exported(const World& world) {
+  RunSetup setup;
+  setup.world = world;
+  setup.stage.colors.resize(world.bodies.size());
+  return encodeMjcf(setup, "careen").text;
 }
 
 // The scene as MJCF. The frame of a body is the one that it has here: its origin is the centre of mass.
@@ -135,10 +144,19 @@ class MujocoEngine : public Peer::Engine {
       materials_.push_back(body.material);
     }
     build(0);
+    for (const Body& body : world.bodies) {
+      masses_.push_back(body.mass);
+    }
+    if (isJointed()) {
+      for (const Body& body : world.bodies) {
+        bodies_.push_back(mj_name2id(model_.get(), mjOBJ_BODY, body.name.c_str()));
+      }
+      mj_resetDataKeyframe(model_.get(), data_.get(), 0);
+      return;
+    }
     int place = 0;
     for (const Body& body : world.bodies) {
       bodies_.push_back(place);
-      masses_.push_back(body.mass);
       if (isImmovable(body.mass)) {
         continue;
       }
@@ -171,6 +189,33 @@ class MujocoEngine : public Peer::Engine {
         return {.pose = {.position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN())}};
       }
     }
+    return isJointed() ? stateInTree(body) : stateOfFree(body);
+  }
+
+ private:
+  static constexpr std::ptrdiff_t kPlaces = 7;  // of a free body: position, quaternion
+  static constexpr std::ptrdiff_t kSpeeds = 6;  // velocity; angular velocity in the body's frame
+
+  bool isJointed() const { return !world_.joints.empty(); }
+
+  BodyState stateInTree(std::size_t body) const {
+    mj_fwdPosition(model_.get(), data_.get());
+    mj_fwdVelocity(model_.get(), data_.get());
+    const std::ptrdiff_t place = bodies_[body];
+    Mat3 turn;
+    for (int row = 0; row < 3; ++row) {
+      turn.row(row) = Vec3::Map(data_->xmat + 9 * place + std::ptrdiff_t{3} * row);
+    }
+    std::array<mjtNum, 6> moves{};  // turning, then the centre of mass
+    mj_objectVelocity(model_.get(), data_.get(), mjOBJ_BODY, bodies_[body], moves.data(), 0);
+    BodyState state{.pose = bodyPose(world_.bodies[body],
+                                     {.position = Vec3::Map(data_->xpos + 3 * place), .worldFromBody = turn}),
+                    .velocity = Vec3::Map(moves.data() + 3)};
+    state.angularMomentum = angularMomentum(masses_[body], state.pose.worldFromBody, Vec3::Map(moves.data()));
+    return state;
+  }
+
+  BodyState stateOfFree(std::size_t body) const {
     const mjtNum* const at = data_->qpos + kPlaces * bodies_[body];
     const mjtNum* const moves = data_->qvel + kSpeeds * bodies_[body];
     BodyState state;
@@ -181,10 +226,6 @@ class MujocoEngine : public Peer::Engine {
                                             state.pose.worldFromBody * Vec3::Map(moves + 3));
     return state;
   }
-
- private:
-  static constexpr std::ptrdiff_t kPlaces = 7;  // of a free body: position, quaternion
-  static constexpr std::ptrdiff_t kSpeeds = 6;  // velocity; angular velocity in the body's frame
 
   // What a step begins from.
   struct Moment {
@@ -208,13 +249,13 @@ class MujocoEngine : public Peer::Engine {
     const bool areNamed = std::any_of(materials_.begin(), materials_.end(), [&](const Material& each) {
       return each.friction != materials_[0].friction || each.restitution != materials_[0].restitution;
     });
-    model_ = compiled(textOf(world_, areNamed, contacts));
+    model_ = compiled(isJointed() ? exported(world_) : textOf(world_, areNamed, contacts));
     data_.reset(mj_makeData(model_.get()));
-    if (isBest_) {
-      model_->opt.integrator = mjINT_RK4;
-      model_->opt.cone = mjCONE_ELLIPTIC;
+    model_->opt.integrator = isBest_ ? mjINT_RK4 : mjINT_EULER;
+    model_->opt.cone = isBest_ ? mjCONE_ELLIPTIC : mjCONE_PYRAMIDAL;
+    if (!isJointed()) {  // the export says it
+      setFriction();
     }
-    setFriction();
   }
 
   // Whether the last step had more contacts than there is room for.
@@ -257,11 +298,23 @@ class MujocoEngine : public Peer::Engine {
         solref[1] = 1;
       }
     };
-    for (int i = 0; i < model_->ngeom; ++i) {
+    for (int i = 0; i < model_->neq; ++i) {
+      spring(model_->eq_solref + std::ptrdiff_t{mjNREF} * i, 0);
+    }
+    for (const Joint& joint : world_.joints) {
+      const int limit = mj_name2id(model_.get(), mjOBJ_JOINT, joint.name.c_str());
+      const int rope = mj_name2id(model_.get(), mjOBJ_TENDON, joint.name.c_str());
+      if (limit >= 0) {
+        spring(model_->jnt_solref + std::ptrdiff_t{mjNREF} * limit, joint.restitution);
+      } else if (rope >= 0) {
+        spring(model_->tendon_solref_lim + std::ptrdiff_t{mjNREF} * rope, joint.restitution);
+      }
+    }
+    for (int i = 0; i < model_->ngeom && !isJointed(); ++i) {
       spring(model_->geom_solref + std::ptrdiff_t{mjNREF} * i,
              materials_[static_cast<std::size_t>(i)].restitution);
     }
-    for (int i = 0; i < model_->npair; ++i) {
+    for (int i = 0; i < model_->npair && !isJointed(); ++i) {
       spring(model_->pair_solref + std::ptrdiff_t{mjNREF} * i, ofPair(i).restitution);
     }
   }
@@ -288,6 +341,9 @@ class Mujoco : public Peer {
   }
 
  protected:
+  std::string refusesJoint(const Joint& joint) const override {
+    return joint.grip != 0 ? "no friction, no drives of joints" : "";  // its export has none
+  }
   std::unique_ptr<Engine> feed(const World& world) const override {
     return std::make_unique<MujocoEngine>(world, best_);
   }

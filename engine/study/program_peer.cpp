@@ -55,7 +55,9 @@ std::vector<std::vector<BodyState>> statesIn(const PoseTable& table, const World
 ProgramPeer::ProgramPeer(std::string name, std::string settings, std::vector<std::string> command)
     : name_(std::move(name)), settings_(std::move(settings)), command_(std::move(command)) {}
 
-std::string ProgramPeer::refuses(const World& world) const { return refusalOfPeers(world); }
+std::string ProgramPeer::refuses(const World& world) const {
+  return world.joints.empty() ? refusalOfPeers(world) : "no joints";
+}
 
 double ProgramPeer::secondsTaken() const {
   const std::lock_guard lock(time_.mutex);

@@ -50,6 +50,9 @@ OrderedJson toJson(const Attempt& attempt) {
   if (attempt.judgement.displacement) {
     json["displacement"] = *attempt.judgement.displacement;
   }
+  if (attempt.judgement.jointGap) {
+    json["joint_gap"] = *attempt.judgement.jointGap;
+  }
   json["audit"] = attempt.audit;
   json["cost_us"] = attempt.cost;
   json["spread"] = attempt.spread;
@@ -76,6 +79,9 @@ Attempt attemptFrom(const OrderedJson& json) {
     attempt.judgement.error = json.at("error").get<double>();
     if (json.contains("displacement")) {
       attempt.judgement.displacement = json["displacement"].get<double>();
+    }
+    if (json.contains("joint_gap")) {
+      attempt.judgement.jointGap = json["joint_gap"].get<double>();
     }
     attempt.judgement.energy = json.at("energy").get<std::vector<double>>();
     attempt.audit = json.at("audit").get<std::string>();

@@ -56,6 +56,22 @@ std::string finenessOf(const Attempt& attempt) {
                                  : "";
 }
 
+// One row per case with joints.
+void addJoints(std::ostream& text, StudyResult study) {
+  std::erase_if(study.cases, [](const CaseResult& result) {
+    return std::none_of(result.attempts.begin(), result.attempts.end(),
+                        [](const Attempt& attempt) { return attempt.judgement.jointGap.has_value(); });
+  });
+  if (!study.cases.empty()) {
+    text << "\n## Joints\n\nHow far any of them is open at the times of the case [m], at the usual time "
+            "step.\n\n"
+         << tableOf(study, [](const Attempt* attempt) -> TableCell {
+              return attempt != nullptr && attempt->judgement.jointGap ? inShort(*attempt->judgement.jointGap)
+                                                                       : "–";
+            }).markdown();
+  }
+}
+
 // One row per published scene.
 void addPublished(std::ostream& text, const StudyResult& study) {
   const StudyResult published = publishedOf(study);
@@ -152,7 +168,7 @@ Table promiseTable(const StudyResult& study) {
 
 std::string resultsCsv(const StudyResult& study) {
   Table table{.head = {"case", "contestant", "dt", "tolerance", "error", "cost_us", "spread", "repeats",
-                       "front", "failure"}};
+                       "front", "failure", "joint_gap"}};
   for (const CaseResult& result : study.cases) {
     for (const Attempt& attempt : result.attempts) {
       std::vector<TableCell>& row = table.rows.emplace_back();
@@ -161,9 +177,10 @@ std::string resultsCsv(const StudyResult& study) {
       if (attempt.failure.empty()) {
         row.insert(row.end(), {inFull(attempt.judgement.error),
                                attempt.cost > 0 ? brief(attempt.cost, 6) : "", brief(attempt.spread, 3),
-                               std::to_string(attempt.repeats), onFront(result, attempt) ? "1" : "0", ""});
+                               std::to_string(attempt.repeats), onFront(result, attempt) ? "1" : "0", "",
+                               attempt.judgement.jointGap ? inFull(*attempt.judgement.jointGap) : ""});
       } else {
-        row.insert(row.end(), {"", "", "", "", "0", attempt.failure});
+        row.insert(row.end(), {"", "", "", "", "0", attempt.failure, ""});
       }
     }
   }
@@ -216,6 +233,7 @@ std::string resultsMarkdown(const StudyResult& study) {
                                                                                : "–";
   });
   text << costs.markdown();
+  addJoints(text, study);
   addPublished(text, study);
   text
       << "\n## Promises kept by exact\n\n"

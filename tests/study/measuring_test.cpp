@@ -70,6 +70,29 @@ double errorOf(const Case& study, double dt) {
   return judge(study, answerOf(study, Drifter("drifter", 0), dt, {})).error;
 }
 
+// A ball that holds the box to where it starts is as far open as the box has moved.
+TEST(Measuring, saysHowFarJointsAreOpen) {
+  Case study = drift(Measure::kPoses);
+  EXPECT_FALSE(judge(study, answerOf(study, Drifter("drifter", 0), 0.3, {})).jointGap.has_value());
+  study.world.joints.resize(1);
+  study.world.joints[0].from.body = 0;
+  const Judgement judgement = judge(study, answerOf(study, Drifter("drifter", 0), 0.3, {}));
+  EXPECT_DOUBLE_EQ(judgement.jointGap.value(), 4 * 1.3);
+  EXPECT_EQ(judgement.energy.size(), 2U);
+  study.world.joints[0].damping = 1;
+  EXPECT_TRUE(judge(study, answerOf(study, Drifter("drifter", 0), 0.3, {})).energy.empty());
+}
+
+// A box of 3 m half diagonal that starts at rest and moves 4 · 0.3 m down without getting faster loses the
+// part 1.2/3 of what a fall by 3 m gives.
+TEST(Measuring, comparesEnergyFromRestToThatOfAFall) {
+  Case study = drift(Measure::kPoses);
+  study.world.bodies[0].initial.velocity.setZero();
+  study.world.gravity = Vec3(-10, 0, 0);
+  const Judgement judgement = judge(study, answerOf(study, Drifter("drifter", 0), 0.3, {}));
+  EXPECT_DOUBLE_EQ(judgement.energy.at(1), 4 * 0.3 / 3);
+}
+
 TEST(Measuring, takesTheLargestErrorOfAllMoments) {
   EXPECT_DOUBLE_EQ(errorOf(drift(Measure::kPoses), 0.3), 4 * 0.3 / 3);
   Case known = drift(Measure::kPoses);

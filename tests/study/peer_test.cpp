@@ -106,6 +106,22 @@ TEST(Peer, endsBeforeTheNextStepWhenAskedToStop) {
   EXPECT_TRUE(peer.taken().empty());
 }
 
+TEST(Peer, saysWhichJointsAndMotorsItHasNot) {
+  const Counter peer;
+  World world = twoBodies();
+  world.joints.resize(2);
+  EXPECT_EQ(peer.refuses(world), "");
+  world.joints[1].kind = Joint::Kind::kRope;
+  EXPECT_EQ(peer.refuses(world), "no rods, no ropes");
+  world.joints[1].kind = Joint::Kind::kHinge;
+  world.joints[1].damping = 1;
+  EXPECT_EQ(peer.refuses(world), "no springs, no friction of joints");
+  world.joints[1].until = 1;
+  EXPECT_EQ(peer.refuses(world), "no joints that let go");
+  world.control.emplace();
+  EXPECT_EQ(peer.refuses(world), "no motors");
+}
+
 TEST(Peer, knowsNeitherSpringsNorDrag) {
   const Counter peer;
   EXPECT_TRUE(peer.steps());

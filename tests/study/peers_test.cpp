@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iostream>
+#include <map>
 #include <memory>
 #include <set>
 #include <stop_token>
@@ -147,6 +149,54 @@ TEST_F(Peers, layAsManyBoxesAsThereAre) {
       EXPECT_NEAR(at.pose.position.z(), 0.1, 5e-4);
     }
   });
+}
+
+// What each engine makes of the cases with joints, at 1/960 s: its joints where they are, its limits on their
+// side, its boxes through each other.
+TEST_F(Peers, haveJoints) {
+  const std::map<std::string, double> errors = {
+      {"pendulum", 0.05}, {"parallelogram", 0.3}, {"weld", 0.05}, {"double-pendulum", 1}, {"heavy-top", 10}};
+  for (const auto& [name, bound] : errors) {
+    const Case study = readCase(name);
+    forEach([&](const Contestant& peer) {
+      ASSERT_EQ(peer.refuses(study.world), "");
+      const Judgement judgement = judge(study, answerOf(study, peer, 1.0 / 960, {}));
+      std::cout << name << ' ' << peer.name() << ": error " << judgement.error << ", open by "
+                << judgement.jointGap.value() << " m\n";
+      EXPECT_LT(judgement.error, bound) << name;
+      EXPECT_LT(judgement.jointGap.value(), 0.01) << name;
+    });
+  }
+}
+
+// A slide that starts at 0.1 m, within its range.
+World sliding(double speed) {
+  World world = worldOf({{.halfExtents = Vec3(0.1, 0.1, 0.1), .velocity = Vec3(speed, 0, 0)}});
+  Joint rail;
+  rail.name = "rail";
+  rail.kind = Joint::Kind::kSlider;
+  rail.from.body = 0;
+  rail.from.axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // z of it is x of the world
+  rail.to = rail.from;
+  rail.to.body.reset();
+  rail.to.point = Vec3(-0.1, 0, 0);
+  rail.lowest = -0.2;
+  rail.highest = 0.4;
+  world.joints = {rail};
+  return world;
+}
+
+// What passes a limit by a step's way is pushed back by a fifth of it in each step, as 0.2 of the speed.
+TEST_F(Peers, stopSlidesAtTheirLimits) {
+  for (const double speed : {1.0, -1.0}) {
+    const World world = sliding(speed);
+    forEach([&](const Contestant& peer) {
+      EXPECT_LT((after(peer, world, 0.2, 1.0 / 960)[0].pose.position - Vec3(0.2 * speed, 0, 0)).norm(), 1e-3);
+      const BodyState at = after(peer, world, 1, 1.0 / 960)[0];
+      EXPECT_LT(at.pose.position.norm(), 0.32);
+      EXPECT_LT(at.velocity.norm(), 0.21);
+    });
+  }
 }
 
 TEST_F(Peers, refuseSpringsAndDrag) {

@@ -1,6 +1,7 @@
 // The tables that results.h declares.
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 
 #include "some_case.h"
@@ -11,11 +12,11 @@ namespace {
 TEST(Tables, areTablesThatOtherProgramsRead) {
   const StudyResult study{.machine = "here", .command = "careen study", .cases = {someCase()}};
   EXPECT_EQ(resultsCsv(study),
-            "case,contestant,dt,tolerance,error,cost_us,spread,repeats,front,failure\n"
-            "tumble,exact,,1e-06,1e-15,0.1,0.1,3,1,\n"
-            "tumble,strang,0.2,,0.01,0.2,0.1,3,0,\n"
-            "tumble,strang,0.1,,0.0033333333333333335,0.4,0.1,3,0,\n"
-            "tumble,ode,0.1,,,,,,0,\"fell over, \"\"quietly\"\" and lay there\"\n");
+            "case,contestant,dt,tolerance,error,cost_us,spread,repeats,front,failure,joint_gap\n"
+            "tumble,exact,,1e-06,1e-15,0.1,0.1,3,1,,\n"
+            "tumble,strang,0.2,,0.01,0.2,0.1,3,0,,\n"
+            "tumble,strang,0.1,,0.0033333333333333335,0.4,0.1,3,0,,\n"
+            "tumble,ode,0.1,,,,,,0,\"fell over, \"\"quietly\"\" and lay there\",\n");
   EXPECT_EQ(energyCsv(study),
             "case,contestant,time,change\n"
             "tumble,exact,1,1e-15\ntumble,exact,2,-1e-15\n"
@@ -67,6 +68,22 @@ TEST(Tables, holdNamesAsCells) {
   EXPECT_NE(resultsCsv(study).find("\n\"'=a,\"\"b\"\" c|d\",exact,"), std::string::npos);
   EXPECT_NE(energyCsv(study).find("\n\"'=a,\"\"b\"\" c|d\",exact,"), std::string::npos);
   EXPECT_NE(resultsMarkdown(study).find("| =a,\"b\" c\\|d | 1e-15 |"), std::string::npos);
+}
+
+TEST(Tables, sayHowFarJointsAreOpenWhereThereAreAny) {
+  StudyResult study{.machine = "here", .command = "careen study", .cases = {someCase()}};
+  EXPECT_EQ(resultsMarkdown(study).find("## Joints"), std::string::npos);
+  study.cases.push_back(someCase());
+  study.cases[1].name = "pendulum";
+  study.cases[1].attempts[0].judgement.jointGap = 2.5e-9;
+  const std::string text = resultsMarkdown(study);
+  const std::string table = text.substr(text.find("## Joints"));
+  EXPECT_NE(table.find("| pendulum | 2.5e-09 | – | – |"), std::string::npos) << table;
+  EXPECT_NE(resultsCsv(study).find("pendulum,exact,,1e-06,1e-15,0.1,0.1,3,1,,2.5e-09\n"), std::string::npos);
+  const std::optional<CaseResult> back = decodeResult(encodeResult(study.cases[1]));
+  ASSERT_TRUE(back.has_value());
+  EXPECT_EQ(back->attempts[0].judgement.jointGap, 2.5e-9);
+  EXPECT_FALSE(back->attempts[1].judgement.jointGap.has_value());
 }
 
 // What a contestant was never asked is not what it failed at.

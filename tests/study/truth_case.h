@@ -27,6 +27,8 @@ struct TruthCase {
 
 /// The cases with persistent contact: sliding, rocking, tipping or standing boxes.
 std::vector<TruthCase> contactCases();
+/// The cases with joints.
+std::vector<TruthCase> jointCases();
 /// The scenes that others published with their answers.
 std::vector<TruthCase> publishedCases();
 

@@ -264,7 +264,7 @@ std::vector<TruthCase> casesOfFlight() {
 const std::vector<TruthCase>& cases() {
   static const std::vector<TruthCase> kCases = [] {
     std::vector<TruthCase> all = casesOfFlight();
-    for (std::vector<TruthCase> more : {contactCases(), publishedCases()}) {
+    for (std::vector<TruthCase> more : {contactCases(), jointCases(), publishedCases()}) {
       std::move(more.begin(), more.end(), std::back_inserter(all));
     }
     return all;

@@ -18,7 +18,7 @@ inline const std::map<std::string, Names> kMayInclude = {
     {"scene", {"physics", "stage", "core"}},
     {"trajectory", {"physics", "stage", "core"}},
     {"audit", {"trajectory", "physics", "stage", "core"}},
-    {"study", {"scene", "trajectory", "audit", "physics", "core"}},
+    {"study", {"scene", "exchange", "trajectory", "audit", "physics", "core"}},
     {"compare", {"image", "trajectory", "core"}},
     {"view", {"trajectory", "physics", "stage", "core"}},
     {"truth", {"view", "film", "trajectory", "stage", "physics", "core"}},

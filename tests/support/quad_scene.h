@@ -84,12 +84,29 @@ struct QuadBox {
   FreeBody<Quad> freeBody() const { return {moments, momentum, attitude}; }
 };
 
+/// What the oracles need of a joint.
+struct QuadJoint {
+  QuadVector at;  ///< [m] where it is at the start, or where the end of a rope is in the world
+  Quad length = 0;
+  Quad restitution = 0;
+  Quad start = 0;
+  Quad stiffness = 0;
+  Quad damping = 0;
+};
+
 /// A scene in quadruple precision, read independently of the engine: input of the oracles.
 struct QuadScene {
   double duration = 0;
   QuadVector gravity;
   std::vector<QuadWall> walls;
   std::vector<QuadBox> boxes;
+  std::vector<QuadJoint> joints;
+  // Of the one motor: k and d of each joint that it looks at, or what it aims at.
+  Quad period = 0;
+  std::vector<Quad> gains;
+  Quad target = 0;
+  Quad kp = 0;
+  Quad kd = 0;
 };
 
 }  // namespace careen::oracle

@@ -65,6 +65,35 @@ inline QuadBox boxIn(const nlohmann::json& object) {
   return box;
 }
 
+/// Joints, and the one motor.
+inline void readJoints(const nlohmann::json& file, QuadScene& scene) {
+  for (const nlohmann::json& each : file.value("joints", nlohmann::json::array())) {
+    QuadJoint joint{.at = vectorIn(each, "at")};
+    if (each.contains("points")) {
+      joint.at = vectorIn(nlohmann::json{{"end", each["points"].at(1)}}, "end");
+    }
+    joint.length = each.value("length", 0.0);
+    joint.restitution = each.value("restitution", 0.0);
+    joint.start = each.value("start", 0.0);
+    joint.stiffness = each.value("/spring/stiffness"_json_pointer, 0.0);
+    joint.damping = each.value("damping", 0.0);
+    scene.joints.push_back(joint);
+  }
+  if (file.contains("control")) {
+    scene.period = file["control"].at("period").get<double>();
+    const nlohmann::json& motor = file["control"].at("motors").at(0);
+    for (const nlohmann::json& joint : file["joints"]) {
+      const nlohmann::json gains = motor.value("gains", nlohmann::json::object());
+      for (const nlohmann::json& gain : gains.value(joint.value("name", ""), nlohmann::json::array())) {
+        scene.gains.emplace_back(gain.get<double>());
+      }
+    }
+    scene.target = motor.value("target", 0.0);
+    scene.kp = motor.value("kp", 0.0);
+    scene.kd = motor.value("kd", 0.0);
+  }
+}
+
 /// Reads the part of the format used by the hard cases: orientations as quaternions, every box with a mass
 /// or fixed, inertia as three moments. The numbers are exactly the doubles to which the file's decimals
 /// round.
@@ -105,6 +134,7 @@ inline QuadScene sceneIn(const std::filesystem::path& path) {
   for (const nlohmann::json& each : file.at("boxes")) {
     scene.boxes.push_back(boxIn(each));
   }
+  readJoints(file, scene);
   return scene;
 }
 
