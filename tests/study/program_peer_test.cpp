@@ -20,8 +20,8 @@ ProgramPeer answering(const std::string& script) {
           {"sh", "-c",
            R"sh(while read -r line; do
              if [ "$line" = '{}' ]; then echo '{}'; continue; fi
-             table=$(printf %s "$line" | sed 's/.*"table":"\([^"]*\)".*/\1/'); )sh" + script +
-               "\ndone"}};
+             table=$(printf %s "$line" | sed 's/.*"table":"\([^"]*\)".*/\1/'); )sh" +
+               script + "\ndone"}};
 }
 
 World oneBox() {

@@ -16,7 +16,7 @@ using oracle::QuadPoses;
 using oracle::Quads;
 using oracle::QuadScene;
 
-double furthestApart(const QuadPoses& some, const QuadPoses& others) {
+double furthestJointedApart(const QuadPoses& some, const QuadPoses& others) {
   EXPECT_EQ(some.size(), others.size());
   double worst = 0;
   for (std::size_t k = 0; k < std::min(some.size(), others.size()); ++k) {
@@ -29,9 +29,9 @@ double furthestApart(const QuadPoses& some, const QuadPoses& others) {
 TEST(TruthsOfJoints, ofAChainOfOneAreEllipticFunctions) {
   const QuadScene scene = oracle::sceneIn(scenePath("pendulum"));
   const std::array<double, 3> times = {1, 2.5, 4};
-  EXPECT_LT(
-      furthestApart(oracle::QuadChain(scene).poses(times, 1.0 / 64)[0], oracle::swungFromRest(scene, times)),
-      1e-25);
+  EXPECT_LT(furthestJointedApart(oracle::QuadChain(scene).poses(times, 1.0 / 64)[0],
+                                 oracle::swungFromRest(scene, times)),
+            1e-25);
 }
 
 // A loop has no chain: the sum of what its cranks and its bridge need, against Lagrange's equation.
@@ -88,7 +88,7 @@ TEST(TruthsOfJoints, ofChainsDependOnNoStep) {
     const auto one = chain.poses(times, 1.0 / 64);
     const auto other = chain.poses(times, 1.0 / 128);
     for (std::size_t k = 0; k < one.size(); ++k) {
-      EXPECT_LT(furthestApart(one[k], other[k]), 1e-20) << name;
+      EXPECT_LT(furthestJointedApart(one[k], other[k]), 1e-20) << name;
     }
   }
 }

@@ -204,7 +204,7 @@ class QuadChain {
 };
 
 /// θ″ = −w² sin θ in elliptic functions.
-struct QuadPendulum {
+struct QuadHinged {
   Quad frequency;  ///< [rad/s] of small swings
 
   /// From rest at an angle, after a time.
@@ -238,7 +238,7 @@ inline Quad momentAbout(const QuadVector& place, const QuadBox& box) {
 }
 
 /// A box on a hinge along y.
-inline QuadPendulum pendulumOf(const QuadScene& scene) {
+inline QuadHinged pendulumOf(const QuadScene& scene) {
   const QuadBox& box = scene.boxes.at(0);
   const QuadVector& at = scene.joints.at(0).at;
   return {sqrt(-scene.gravity[2] * box.mass * (box.position - at).norm() / momentAbout(at, box))};
@@ -267,7 +267,7 @@ inline std::vector<QuadPoses> parallelogram(const QuadScene& scene, std::span<co
     inertia += momentAbout(at.at(i), scene.boxes.at(i));
     weight += scene.boxes.at(i).mass * (scene.boxes.at(i).position - at.at(i)).norm();
   }
-  const QuadPendulum pendulum{sqrt(-scene.gravity[2] * weight / inertia)};
+  const QuadHinged pendulum{sqrt(-scene.gravity[2] * weight / inertia)};
   const Quad start = angleFromHanging(at[0], scene.joints.at(2).at);
   for (const double time : moments) {
     const Quad turn = pendulum.fromRest(start, time) - start;
@@ -284,7 +284,7 @@ inline std::vector<QuadPoses> parallelogram(const QuadScene& scene, std::span<co
 inline QuadPoses swungAtLimit(const QuadScene& scene, std::span<const double> moments) {
   const QuadBox& box = scene.boxes.at(0);
   const QuadVector& at = scene.joints.at(0).at;
-  const QuadPendulum pendulum = pendulumOf(scene);
+  const QuadHinged pendulum = pendulumOf(scene);
   const Quad start = angleFromHanging(at, box.position);
   QuadPoses poses;
   for (const double time : moments) {

@@ -1,6 +1,8 @@
 #include "physics/exact/crowd_group.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "physics/exact/crowd_meetings.h"
 #include "physics/exact/encounter.h"
@@ -349,12 +351,16 @@ void CrowdGroup::endAt(const Instant& time) {
   commit(time);
 }
 
-// Of the joints that act then, of the members of now; until one of them changes.
+// Of the joints that act then, of the members of now; in equal steps until one of them changes: speeds, as
+// motors are told them, are means over a step, and nothing is left of them in a very short one.
 double CrowdGroup::step(const Instant& from, double most) {
   crowd_.articulations().list(from.hi);
-  const CrowdArticulations& articulations = crowd_.articulations();
-  for (const CrowdArticulations::Listed& each : articulations.joints()) {
-    most = std::min(most, untilChange(bodies_, *each.joint, from));
+  double change = std::numeric_limits<double>::infinity();
+  for (const CrowdArticulations::Listed& each : crowd_.articulations().joints()) {
+    change = std::min(change, untilChange(bodies_, *each.joint, from));
+  }
+  if (change > kMoment && std::isfinite(change)) {
+    most = std::min(most, change / std::ceil((1 - kMoment) * change / crowd_.nextLength(most)));
   }
   return crowd_.step(most);
 }
