@@ -18,7 +18,8 @@
   OVERLAY(Names, "names")                      \
   OVERLAY(Time, "time")                        \
   OVERLAY(Energy, "energy")                    \
-  OVERLAY(Joints, "joints")
+  OVERLAY(Joints, "joints")                    \
+  OVERLAY(Efforts, "efforts")
 
 namespace careen {
 

@@ -52,9 +52,10 @@ struct ArrowMeaning {
   const char* name = "";
   const char* unit = "";
   Color color = {};
-  // One of the two.
+  // One of the three.
   Vec3 (*ofBody)(const MassProperties& mass, const BodyState& state) = nullptr;
   double (*ofImpact)(const Impact& impact) = nullptr;
+  double (*ofEffort)(const JointEffort& effort) = nullptr;
 };
 
 struct ShownOverlay;

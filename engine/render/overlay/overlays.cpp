@@ -46,6 +46,10 @@ void findLargest(std::vector<ShownOverlay>& shown, const Trajectory& trajectory)
   for (ShownOverlay& each : shown) {
     if (each.kind->legend && each.kind->legend->ofBody != nullptr) {
       ofBodies.push_back(&each);
+    } else if (each.kind->legend && each.kind->legend->ofEffort != nullptr) {
+      for (const JointEffort& effort : trajectory.jointEfforts) {
+        each.largest = std::max(each.largest, each.kind->legend->ofEffort(effort));
+      }
     } else if (each.kind->legend) {
       for (const Impact& impact : trajectory.impacts) {
         each.largest = std::max(each.largest, each.kind->legend->ofImpact(impact));
