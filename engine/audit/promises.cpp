@@ -27,20 +27,9 @@ constexpr Promise kApartInCrowd{.absolute = 1e-9, .crowdTolerances = 3};
 // Measured over 399 random scenes of 2 to 20 boxes: at most 0.018 and 1.9e-3.
 constexpr Promise kMomentumInCrowd{.absolute = 0.02};
 constexpr Promise kRiseInCrowd{.absolute = 0.01};
-constexpr Promises kOfCrowd = {kNever,
-                               kApartInCrowd,
-                               kApartInCrowd,
-                               kRotation,
-                               kSamePlace,
-                               {},
-                               kMomentumInCrowd,
-                               kMomentumInCrowd,
-                               kRiseInCrowd,
-                               {},
-                               {},
-                               {},
-                               kApartInCrowd,
-                               kApartInCrowd};
+constexpr Promises kOfCrowd = {kNever,           kApartInCrowd,    kApartInCrowd, kRotation, kSamePlace, {},
+                               kMomentumInCrowd, kMomentumInCrowd, kRiseInCrowd,  {},        {},         {},
+                               kApartInCrowd,    kApartInCrowd};
 // Explicit Euler: nothing about energy; corners may be 1 mm behind a wall at the ends of steps, and more
 // between them.
 constexpr Promises kOfListing1 = {kNever, {}, {}, kRotation, kRounding, kRounding, {}, {}, {}, {}};

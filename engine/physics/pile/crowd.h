@@ -76,7 +76,6 @@ class Crowd {
   std::size_t admitAtRest(std::size_t body, const Pose& pose, std::optional<std::size_t> cluster);
   void dismiss(std::size_t place);
 
-
   /// Advances by one step of at most `most` [s] and returns its length.
   double step(double most);
   /// Takes the last step again with that length [s], shorter than it was, and with those admitted since, who

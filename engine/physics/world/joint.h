@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -65,7 +64,7 @@ struct Joint {
   bool isLoaded() const { return stiffness != 0 || damping != 0 || effort != 0 || grip != 0; }
   /// [N] or [N m] By which it gives energy, or takes it: a grip gives at most as much, and what it gives less
   /// is lost.
-  double drive() const { return effort + (keptRate == 0 ? 0 : std::copysign(grip, keptRate)); }
+  double drive() const { return effort + (keptRate == 0 ? 0 : keptRate > 0 ? grip : -grip); }
 };
 
 /// As scene files spell them, in the order of Joint::Kind.
