@@ -81,6 +81,8 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"physics/contact/contact_forces", "tested through island"},
     {"physics/contact/contact_system", "tested through island"},
     {"physics/exact/contact_group", "an interface"},
+    {"physics/exact/crowd_motors", "tested through pile/crowd_articulations"},
+    {"physics/exact/crowd_paths", "a part of crowd_group, tested through it"},
     {"physics/geometry/box_at", "data and one sum, tested through separation and exact_world_center"},
     {"physics/geometry/contact_manifold", "a part of contact_points, tested through it"},
     {"physics/geometry/feature_overlap", "a part of contact_points, tested through it"},

@@ -48,6 +48,22 @@ TEST(Ledger, missesWhatGravityShouldHaveGiven) {
   EXPECT_EQ(findings.largest(AuditKind::kLinearMomentum).time, 1);
 }
 
+// A stone of 0.1 √3 m that moves at 3 m/s without turning, and begins to: compared with 2⁻²⁰ of its momentum
+// times its size, not with what it turned by before, which was nothing.
+TEST(Ledger, whatMovesWithoutTurningIsComparedWithItsMotion) {
+  Trajectory run = falling();
+  run.world.gravity.setZero();
+  run.world.bodies[0] = box("stone", Vec3(0.1, 0.1, 0.1), 1, Vec3::Zero(), Vec3(3, 0, 0));
+  Flight flight;
+  flight.velocity = Vec3(3, 0, 0);
+  Flight turning = flight;
+  turning.position = Vec3(1.5, 0, 0);
+  turning.angularMomentum = Vec3(0, 0, 1e-9);
+  run.tracks = {{.segments = {{.start = 0, .motion = flight}, {.start = 0.5, .motion = turning}}}};
+  EXPECT_NEAR(balanced(run).largest(AuditKind::kAngularMomentum).size,
+              1e-9 / (0x1p-20 * 3 * 0.1 * std::sqrt(3.0)), 1e-6);
+}
+
 // Many excesses, each a hundredth of what is allowed, are carried on.
 TEST(Ledger, smallExcessesAddUp) {
   Trajectory run = falling();

@@ -231,20 +231,7 @@ TEST(ImportMjcfJoints, damagedFilesEndInAMessage) {
   for (unsigned trial = 0; trial < 3000; ++trial) {
     std::string xml = RandomMjcfJoints(trial % 100, RandomMjcfJoints::Limits::kYes).text();
     for (unsigned i = 0; i < 1 + trial % 3; ++i) {
-      const std::size_t at = random() % xml.size();
-      switch (random() % 4) {
-        case 0:
-          xml[at] = static_cast<char>(random() % 256);
-          break;
-        case 1:
-          xml.erase(at, 1 + random() % 20);
-          break;
-        case 2:
-          xml.insert(at, xml.substr(random() % xml.size(), random() % 50));
-          break;
-        default:
-          xml[at] = static_cast<char>('0' + random() % 10);
-      }
+      damage(xml, random);
     }
     std::string scene;
     if (inputErrorOf([&] { scene = importMjcf(xml, "m.xml").text; }) != "no error") {

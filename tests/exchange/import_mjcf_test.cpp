@@ -414,20 +414,7 @@ TEST(ImportMjcf, damagedFilesEndInAMessage) {
   for (unsigned trial = 0; trial < 3000; ++trial) {
     std::string xml = RandomMjcf(trial % 50).text();
     for (unsigned i = 0; i < 1 + trial % 3; ++i) {
-      const std::size_t at = random() % xml.size();
-      switch (random() % 4) {
-        case 0:
-          xml[at] = static_cast<char>(random() % 256);
-          break;
-        case 1:
-          xml.erase(at, 1 + random() % 20);
-          break;
-        case 2:
-          xml.insert(at, xml.substr(random() % xml.size(), random() % 50));
-          break;
-        default:
-          xml.resize(at + 1);
-      }
+      damage(xml, random);
     }
     if (inputErrorOf([&] { importMjcf(xml, "m.xml"); }) != "no error") {
       ++refused;

@@ -32,15 +32,6 @@ double printedDifference(const std::string& what, const Quad& one, const Quad& o
   return by;
 }
 
-double furthestApart(const QuadPoses& some, const QuadPoses& others) {
-  EXPECT_EQ(some.size(), others.size());
-  double worst = 0;
-  for (std::size_t k = 0; k < std::min(some.size(), others.size()); ++k) {
-    worst = std::max(worst, apart(some[k], others[k]));
-  }
-  return worst;
-}
-
 QuadPoses slidAndSpun(const QuadScene& scene, const QuadBox& box, const std::vector<double>& times) {
   oracle::SlidingSpin spin(box, -scene.gravity[2], frictionOf(box, scene.walls.at(0)));
   QuadPoses poses;
@@ -64,7 +55,7 @@ TEST(TruthsOfContact, ofSlidingAtEveryAzimuthStopAfterTheSquareOfTheSpeed) {
     EXPECT_LT(abs(Quad(slide.way(Quad(1)) - squared / (2 * slows))), Quad(1e-30));
     EXPECT_LT(slide.stop(), Quad(scene.duration));
     if (k % 5 == 1) {  // only some, to save time
-      worst = std::max(worst, furthestApart(slide.poses(times), slidAndSpun(scene, box, times)));
+      worst = std::max(worst, oracle::furthestApart(slide.poses(times), slidAndSpun(scene, box, times)));
     }
   }
   std::cout << "sliding-azimuths: two oracles apart by " << worst << '\n';
@@ -80,7 +71,7 @@ TEST(TruthsOfContact, ofSpinningFlatEndAtTheAngleOfTheClosedForm) {
   oracle::SlidingSpin other(box, -scene.gravity[2], friction);
   EXPECT_LT(printedDifference("spinning-stop: stops at", spin.stop(), other.stop()), 1e-25);
   EXPECT_LT(spin.stop(), Quad(scene.duration));
-  const double worst = furthestApart(spin.poses(times), slidAndSpun(scene, box, times));
+  const double worst = oracle::furthestApart(spin.poses(times), slidAndSpun(scene, box, times));
   std::cout << "spinning-stop: two oracles apart by " << worst << '\n';
   EXPECT_LT(worst, 1e-25);
 }

@@ -16,21 +16,12 @@ using oracle::QuadPoses;
 using oracle::Quads;
 using oracle::QuadScene;
 
-double furthestJointedApart(const QuadPoses& some, const QuadPoses& others) {
-  EXPECT_EQ(some.size(), others.size());
-  double worst = 0;
-  for (std::size_t k = 0; k < std::min(some.size(), others.size()); ++k) {
-    worst = std::max(worst, apart(some[k], others[k]));
-  }
-  return worst;
-}
-
 // The chain assumes neither a plane nor an axis.
 TEST(TruthsOfJoints, ofAChainOfOneAreEllipticFunctions) {
   const QuadScene scene = oracle::sceneIn(scenePath("pendulum"));
   const std::array<double, 3> times = {1, 2.5, 4};
-  EXPECT_LT(furthestJointedApart(oracle::QuadChain(scene).poses(times, 1.0 / 64)[0],
-                                 oracle::swungFromRest(scene, times)),
+  EXPECT_LT(oracle::furthestApart(oracle::QuadChain(scene).poses(times, 1.0 / 64)[0],
+                                  oracle::swungFromRest(scene, times)),
             1e-25);
 }
 
@@ -88,7 +79,7 @@ TEST(TruthsOfJoints, ofChainsDependOnNoStep) {
     const auto one = chain.poses(times, 1.0 / 64);
     const auto other = chain.poses(times, 1.0 / 128);
     for (std::size_t k = 0; k < one.size(); ++k) {
-      EXPECT_LT(furthestJointedApart(one[k], other[k]), 1e-20) << name;
+      EXPECT_LT(oracle::furthestApart(one[k], other[k]), 1e-20) << name;
     }
   }
 }

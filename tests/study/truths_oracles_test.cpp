@@ -22,15 +22,6 @@ std::string measured(double value) {
   return text.str();
 }
 
-double furthest(const QuadPoses& some, const QuadPoses& others) {
-  EXPECT_EQ(some.size(), others.size());
-  double worst = 0;
-  for (std::size_t k = 0; k < std::min(some.size(), others.size()); ++k) {
-    worst = std::max(worst, apart(some[k], others[k]));
-  }
-  return worst;
-}
-
 struct Tumble {
   const char* name;
   double bound;
@@ -48,7 +39,7 @@ TEST_P(TruthsOfTumbling, agreeWithExtrapolation) {
     time *= part;
   }
   const QuadPoses flight = wide ? oracle::flown<Bits192, 48>(scene, times) : oracle::flown(scene, times);
-  const double worst = furthest(flight, flownByExtrapolation(scene, times));
+  const double worst = oracle::furthestApart(flight, flownByExtrapolation(scene, times));
   std::cout << name << ": two oracles apart by " << measured(worst) << '\n';
   RecordProperty("apart", measured(worst));
   EXPECT_LT(worst, bound);
@@ -77,7 +68,7 @@ TEST(TruthsOfTumblingTops, agreeWithTheClosedFormOfTheSymmetricTop) {
   for (const char* name : {"needle", "plate"}) {
     const QuadScene scene = oracle::sceneIn(scenePath(name));
     const std::vector<double> times = timesOf(name, scene);
-    const double worst = furthest(oracle::flown(scene, times), precessed(scene, times));
+    const double worst = oracle::furthestApart(oracle::flown(scene, times), precessed(scene, times));
     std::cout << name << ": two oracles apart by " << measured(worst) << '\n';
     EXPECT_LT(worst, 1e-25);
   }
@@ -85,7 +76,8 @@ TEST(TruthsOfTumblingTops, agreeWithTheClosedFormOfTheSymmetricTop) {
 
 double roomAgainst(const char* name, double step, int impacts, const QuadPoses& others) {
   const QuadScene scene = oracle::sceneIn(scenePath(name));
-  const double worst = furthest(struck(oracle::QuadRoom(scene, step), timesOf(name, scene), impacts), others);
+  const double worst =
+      oracle::furthestApart(struck(oracle::QuadRoom(scene, step), timesOf(name, scene), impacts), others);
   std::cout << name << ": two oracles apart by " << measured(worst) << '\n';
   return worst;
 }
@@ -137,7 +129,7 @@ TEST(TruthsOfImpacts, inTheBilliardUnfoldedAndOneByOneAgree) {
   const oracle::QuadPair oneByOne = galperinStruck(scene, times, impacts);
   EXPECT_EQ(impacts, 314);
   for (std::size_t box = 0; box < 2; ++box) {
-    const double worst = furthest(unfolded[box], oneByOne[box]);
+    const double worst = oracle::furthestApart(unfolded[box], oneByOne[box]);
     std::cout << "galperin: two oracles apart by " << measured(worst) << '\n';
     EXPECT_LT(worst, 1e-25);
   }
@@ -148,7 +140,7 @@ TEST(TruthsOfImpacts, inTheBilliardUnfoldedAndOneByOneAgree) {
 TEST(TruthsOfImpacts, onTwoEdgesHaveALimitThatTurnsTheCube) {
   const QuadPoses one = onFloor("near-simultaneous-1e-9", 1.0 / 512, 2);
   const QuadPoses other = onFloor("near-simultaneous-1e-12", 1.0 / 512, 2);
-  EXPECT_LT(furthest(one, other), 1e-7);
+  EXPECT_LT(oracle::furthestApart(one, other), 1e-7);
   EXPECT_LT(one.back().attitude[0], Quad(0.1));
 }
 

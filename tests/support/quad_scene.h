@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,6 +61,15 @@ inline double apart(const QuadPose& a, const QuadPose& b) {
   const Quad angle = 2 * sqrt(turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);
   const Quad distance = (a.position - b.position).norm();
   return static_cast<double>(angle > distance ? angle : distance);
+}
+
+/// The largest of such differences, pose by pose; infinite if there are not as many.
+inline double furthestApart(std::span<const QuadPose> some, std::span<const QuadPose> others) {
+  double worst = some.size() == others.size() ? 0 : std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < std::min(some.size(), others.size()); ++k) {
+    worst = std::max(worst, apart(some[k], others[k]));
+  }
+  return worst;
 }
 
 /// The free side is where normal·x > offset.

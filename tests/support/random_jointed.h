@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -10,13 +9,14 @@
 #include "core/math/elementary.h"
 #include "core/math/linear_algebra.h"
 #include "physics/world/joint.h"
+#include "support/random_text.h"
 
 namespace careen {
 
 /// Writes scenes of trees of 1 to 12 boxes that joints of all kinds hold in one another, in the world, or in
 /// a fixed box, with masses off the middle, springs, dampers, starts of coordinates that are not 0, and
 /// velocities that the joints allow.
-class RandomJointed {
+class RandomJointed : RandomText {
  public:
   struct With {
     bool limits = false;
@@ -24,7 +24,7 @@ class RandomJointed {
     bool contacts = false;  ///< boxes that all overlap, of which some pass through each other
   };
 
-  RandomJointed(unsigned seed, With with) : random_(seed), with_(with) {}
+  RandomJointed(unsigned seed, With with) : RandomText(seed), with_(with) {}
 
   std::string text() {
     std::string all = R"({ "careen": 1, "name": "tree", "duration": 0.1, "tolerance": 1e-9, "gravity": [)" +
@@ -62,10 +62,6 @@ class RandomJointed {
     Vec3 at(const Vec3& where) const { return velocity + spin.cross(Vec3(where - place)); }
   };
 
-  bool chance(unsigned of) { return random_() % of == 0; }
-  double real(double least, double most) {
-    return std::uniform_real_distribution<double>(least, most)(random_);
-  }
   Vec3 random(double most) {
     const double x = real(-most, most);
     const double y = real(-most, most);
@@ -211,7 +207,6 @@ class RandomJointed {
     return lists;
   }
 
-  std::mt19937 random_;
   With with_;
   std::vector<Box> boxes_;
   std::vector<std::string> joints_;

@@ -1,22 +1,22 @@
 #pragma once
 
 #include <array>
-#include <random>
 #include <string>
 
 #include "core/brief.h"
+#include "support/random_text.h"
 
 namespace careen {
 
 /// Writes models that use every notation of orientations, nested classes, masses of all kinds, geoms that
 /// only show, boxes between two points, what <compiler> changes of masses, and a key frame.
-class RandomMjcf {
+class RandomMjcf : RandomText {
  public:
   /// MuJoCo 2.2.2 knows no <frame> and no <replicate>. Models with them are written a second time, alike but
   /// for fixed bodies in the place of frames, of copies and of free bodies, whose poses are the same.
   enum class Frames { kNone, kWritten, kAsBodies };
 
-  explicit RandomMjcf(unsigned seed, Frames frames = Frames::kNone) : random_(seed), frames_(frames) {}
+  explicit RandomMjcf(unsigned seed, Frames frames = Frames::kNone) : RandomText(seed), frames_(frames) {}
 
   std::string text() {
     isRadian_ = chance(2);
@@ -55,18 +55,6 @@ class RandomMjcf {
  private:
   using Point = std::array<double, 3>;
 
-  bool chance(unsigned of) { return random_() % of == 0; }
-  double real(double least, double most) {
-    return std::uniform_real_distribution<double>(least, most)(random_);
-  }
-  std::string numbers(int count, double most) {
-    std::string text;
-    for (int i = 0; i < count; ++i) {
-      text += (i == 0 ? "" : " ") + inFull(real(-most, most));
-    }
-    return text;
-  }
-  std::string vector(double most) { return numbers(3, most); }
   std::string positive() { return inFull(real(0.1, 3)); }
   std::string positives(int count) {
     std::string text = positive();
@@ -262,7 +250,6 @@ class RandomMjcf {
     return geom + box + turn + "/><inertial" + place + turn + mass;
   }
 
-  std::mt19937 random_;
   Frames frames_;
   bool isRadian_ = false;
   int names_ = 0;

@@ -1,20 +1,20 @@
 #pragma once
 
-#include <random>
 #include <string>
 #include <vector>
 
 #include "core/brief.h"
+#include "support/random_text.h"
 
 namespace careen {
 
 /// Writes models of bodies in bodies with all kinds of joints, at places, along axes and in units of all
 /// kinds, some by classes, with a key frame that is not how the model stands. Nothing collides.
-class RandomMjcfJoints {
+class RandomMjcfJoints : RandomText {
  public:
   enum class Limits { kNo, kYes };
 
-  RandomMjcfJoints(unsigned seed, Limits limits) : random_(seed), hasLimits_(limits == Limits::kYes) {}
+  RandomMjcfJoints(unsigned seed, Limits limits) : RandomText(seed), hasLimits_(limits == Limits::kYes) {}
 
   std::string text() {
     isRadian_ = chance(2);
@@ -39,18 +39,6 @@ class RandomMjcfJoints {
   }
 
  private:
-  bool chance(unsigned of) { return random_() % of == 0; }
-  double real(double least, double most) {
-    return std::uniform_real_distribution<double>(least, most)(random_);
-  }
-  std::string numbers(int count, double most) {
-    std::string text;
-    for (int i = 0; i < count; ++i) {
-      text += (i == 0 ? "" : " ") + inFull(real(-most, most));
-    }
-    return text;
-  }
-  std::string vector(double most) { return numbers(3, most); }
   // [rad], as the file has it.
   std::string angle(double value) const { return inFull(isRadian_ ? value : value * kDegrees); }
   static constexpr double kDegrees = 180 / 3.141592653589793;
@@ -113,7 +101,6 @@ class RandomMjcfJoints {
     return text + "/>";
   }
 
-  std::mt19937 random_;
   bool hasLimits_;
   bool isRadian_ = false;
   bool hasAuto_ = false;

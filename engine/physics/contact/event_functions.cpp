@@ -187,9 +187,6 @@ double EventFunctions::depth(std::span<const std::size_t> events) const {
 }
 
 double EventFunctions::rateOf(const EventFunction& event) const {
-  if (event.kind == EventFunction::Kind::kOpenEnd) {
-    return system_.stateOf(system_.openEnds()[event.contact]).rate;
-  }
   if (event.kind == EventFunction::Kind::kHalt) {
     return system_.sideOf(event.contact) * system_.forces().excess(event.contact, 0);
   }

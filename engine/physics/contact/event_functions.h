@@ -31,7 +31,7 @@ struct EventFunction {
 
   bool isOfPlaces() const { return kind == Kind::kOverlap || isOfOne(); }
   bool isOfOne() const { return kind == Kind::kCorner || kind == Kind::kOpenEnd; }
-  bool hasRate() const { return isOfOne() || kind == Kind::kHalt; }
+  bool hasRate() const { return kind == Kind::kCorner || kind == Kind::kHalt; }
   bool isOfForces() const { return kind == Kind::kPush || kind == Kind::kStick; }
 };
 
@@ -57,7 +57,7 @@ class EventFunctions {
   /// How far below zero events of one kind are located, at most four times that: a part of what the contacts
   /// count as zero anyway, above rounding errors.
   double depth(std::span<const std::size_t> events) const;
-  /// [m/s] Of the gap of a corner or an open end; [m/s²] of a grip's slip.
+  /// [m/s] Of the gap of a corner; [m/s²] of a grip's slip.
   double rateOf(const EventFunction& event) const;
   /// The end of a joint that closes in it; null: it is another event.
   const ContactFeature* endOf(const EventFunction& event) const;

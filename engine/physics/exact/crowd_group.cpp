@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "physics/exact/crowd_meetings.h"
+#include "physics/exact/crowd_motors.h"
+#include "physics/exact/crowd_paths.h"
 #include "physics/exact/encounter.h"
 #include "physics/geometry/separation.h"
 #include "physics/motion/hermite_step.h"
@@ -14,12 +15,6 @@ namespace {
 
 /// [s] What rounding leaves of a step's length.
 constexpr double kMoment = 0x1p-40;
-/// [1] of the tolerance: how far recorded steps may differ from those computed, so that fewer are recorded.
-constexpr double kMerged = 0.25;
-/// [1] of kMerged, without gravity: what moves slowly does so for long, and its momentum is all there is; and
-/// of what is joined to others, whose momenta cancel.
-constexpr double kMergedAfloat = 0x1p-4;
-
 std::size_t listedOf(const Mover& body) { return static_cast<std::size_t>(body.listed.value); }
 
 }  // namespace
@@ -80,11 +75,11 @@ void CrowdGroup::joinStep(const Encounter& encounter) {
 void CrowdGroup::keepPlace(int rank, std::size_t place) {
   if (place >= ranks_.size()) {
     ranks_.resize(place + 1, -1);
-    joined_.resize(place + 1, newPath(rank));
+    joined_.resize(place + 1, newPath(bodies_, rank));
     motions_.resize(place + 1);
   }
   ranks_[place] = rank;
-  joined_[place] = newPath(rank);
+  joined_[place] = newPath(bodies_, rank);
   if (!bodies_[rank].isHeld()) {
     bodies_[rank].group = shared_from_this();
     bodies_[rank].place = place;
@@ -107,7 +102,7 @@ void CrowdGroup::enlist(int rank, const Instant& time, const BodyState& state, c
     bodies_.arrive(body, time, state);
   }
   const double past = pastOf(body, time);
-  const JoinedSteps joined = comingFrom(body, time, state, attitude, past);
+  const JoinedSteps joined = pathFrom(bodies_, body, time, state, attitude, past);
   body.rest(state.pose);
   const std::size_t place = crowd_.admit(listedOf(body), state, attitude, 2 * past);
   keepPlace(rank, place);
@@ -264,32 +259,10 @@ std::vector<int> CrowdGroup::release(const Instant& time) {
 
 // ---- Paths.
 
-JoinedSteps CrowdGroup::newPath(int rank) const {
-  const bool isAfloat = bodies_.world().gravity.isZero(0) || !bodies_.joinedTo(rank).empty();
-  return JoinedSteps(kMerged * bodies_.crowds().tolerance * (isAfloat ? kMergedAfloat : 1));
-}
-
 // [s] Of a body that becomes a member now: half a step of the crowd, in which members who met it bent their
 // paths, if its last motion is as long.
 double CrowdGroup::pastOf(const Mover& body, const Instant& time) const {
   return std::min(0.5 * before_, secondsBetween(body.start, time));
-}
-
-// Its path from so long ago on.
-JoinedSteps CrowdGroup::comingFrom(const Mover& body, const Instant& time, const BodyState& state,
-                                   const Quat& attitude, double length) const {
-  JoinedSteps joined = newPath(body.rank);
-  if (length > 0) {
-    const auto endAt = [&](const BodyState& at, const Quat& turned) {
-      const Vec3 spin = at.pose.worldFromBody.transpose() * angularVelocity(body.body->mass, at);
-      return StepEnd{
-          .position = at.pose.position, .velocity = at.velocity, .worldFromBody = turned, .spinBody = spin};
-    };
-    const Instant begin = instantAfter(time, -length);
-    const Quat turned = body.attitudeAt(begin);
-    joined.follows(begin.hi, endAt(body.stateAt(begin, turned), turned), endAt(state, attitude), length);
-  }
-  return joined;
 }
 
 // Only of interest where members are new.
@@ -355,10 +328,7 @@ void CrowdGroup::endAt(const Instant& time) {
 // motors are told them, are means over a step, and nothing is left of them in a very short one.
 double CrowdGroup::step(const Instant& from, double most) {
   crowd_.articulations().list(from.hi);
-  double change = std::numeric_limits<double>::infinity();
-  for (const CrowdArticulations::Listed& each : crowd_.articulations().joints()) {
-    change = std::min(change, untilChange(bodies_, *each.joint, from));
-  }
+  const double change = untilChange(bodies_, crowd_, from);
   if (change > kMoment && std::isfinite(change)) {
     most = std::min(most, change / std::ceil((1 - kMoment) * change / crowd_.nextLength(most)));
   }
@@ -369,28 +339,6 @@ double CrowdGroup::step(const Instant& from, double most) {
 double CrowdGroup::stepAgain(const Instant& from, double length) {
   crowd_.articulations().list(from.hi);
   return crowd_.stepAgain(crowd_.articulations().any() ? crowd_.nextLength(length) : length);
-}
-
-// [J] In the step. No hinge turns by half a turn in one.
-double CrowdGroup::workOfMotors() {
-  double work = 0;
-  const CrowdArticulations& articulations = crowd_.articulations();
-  const auto beginOf = [&](int place) {
-    if (place >= CrowdArticulations::kOutside || !crowd_.moved(static_cast<std::size_t>(place))) {
-      return articulations.poseOf(place);
-    }
-    const StepEnd begin = crowd_.begin(static_cast<std::size_t>(place));
-    return Pose{.position = begin.position, .worldFromBody = begin.worldFromBody.toRotationMatrix()};
-  };
-  for (const CrowdArticulations::Listed& each : articulations.joints()) {
-    if (each.effort != 0) {
-      const double from = jointCoordinate(*each.joint, beginOf(each.a), beginOf(each.b));
-      const double to =
-          jointCoordinate(*each.joint, articulations.poseOf(each.a), articulations.poseOf(each.b));
-      work += each.effort * (inNearestTurn(*each.joint, to, from) - from);
-    }
-  }
-  return work;
 }
 
 // Records the step that ends now. Members that fell asleep rest from now on.
@@ -406,7 +354,7 @@ void CrowdGroup::commit(const Instant& time) {
                     .tangential = struck.tangential,
                     .normal = struck.normal});
   }
-  const double half = 0.5 * workOfMotors();  // velocities are those of the middle of the step
+  const double half = 0.5 * workOfMotors(crowd_);  // velocities are those of the middle of the step
   bodies_.account().gives(owed_ + half);
   owed_ = half;
   const std::vector<char> suddenly = changedSuddenly();
@@ -468,8 +416,8 @@ void CrowdGroup::takeStep(std::size_t place) {
   const int rank = ranks_[place];
   const Mover& body = bodies_[rank];
   if (joined_[place].isNew() && !body.moves()) {  // it was asleep
-    joined_[place] = comingFrom(body, start_, {.pose = body.pose}, crowd_.begin(place).worldFromBody,
-                                pastOf(body, start_));
+    joined_[place] = pathFrom(bodies_, body, start_, {.pose = body.pose}, crowd_.begin(place).worldFromBody,
+                              pastOf(body, start_));
   }
   motions_[place] = asContactStep(cubicStep(crowd_.begin(place), crowd_.end(place), crowd_.length()));
   bodies_.step(shared_from_this(), place);

@@ -46,10 +46,7 @@ class CrowdGroup final : public ContactGroup {
   void joinStep(const Encounter& encounter);
   std::vector<int> release(const Instant& time);
   // Their paths, to be recorded.
-  JoinedSteps newPath(int rank) const;
   double pastOf(const Mover& body, const Instant& time) const;
-  JoinedSteps comingFrom(const Mover& body, const Instant& time, const BodyState& state, const Quat& attitude,
-                         double length) const;
   std::vector<char> changedSuddenly() const;
   void endStep(std::size_t place, const std::vector<char>& suddenly);
   // Steps.
@@ -58,7 +55,6 @@ class CrowdGroup final : public ContactGroup {
   void endAt(const Instant& time);
   double step(const Instant& from, double most);
   double stepAgain(const Instant& from, double length);
-  double workOfMotors();
   void commit(const Instant& time);
 
   Bodies& bodies_;

@@ -1,10 +1,9 @@
 #include "physics/exact/exact_world.h"
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <optional>
-#include <span>
+#include <set>
 #include <vector>
 
 #include "core/disjoint_sets.h"
@@ -17,13 +16,53 @@
 #include "physics/exact/island_group.h"
 
 namespace careen {
+namespace {
+
+// Counts bodies, by index in the world; what joints hold together is one: it may be much and touch nothing.
+class BodiesApart {
+ public:
+  explicit BodiesApart(const std::vector<std::size_t>& articulationOf) : articulationOf_(articulationOf) {}
+  void add(int listed) {
+    const bool isNew = articulationOf_.empty() ||
+                       articulations_.insert(articulationOf_[static_cast<std::size_t>(listed)]).second;
+    count_ += isNew ? 1 : 0;
+  }
+  int count() const { return count_; }
+
+ private:
+  const std::vector<std::size_t>& articulationOf_;
+  std::set<std::size_t> articulations_;
+  int count_ = 0;
+};
+
+std::vector<std::size_t> articulationsOf(const World& world) {
+  std::vector<std::size_t> articulations;
+  if (world.joints.empty()) {
+    return articulations;
+  }
+  DisjointSets together(world.bodies.size());
+  for (const Joint& joint : world.joints) {
+    const std::optional<int>& to = joint.to.body;
+    if (to && !isImmovable(world.bodies[static_cast<std::size_t>(*to)].mass) &&
+        !isImmovable(world.bodies[static_cast<std::size_t>(*joint.from.body)].mass)) {
+      together.join(static_cast<std::size_t>(*joint.from.body), static_cast<std::size_t>(*to));
+    }
+  }
+  for (std::size_t body = 0; body < world.bodies.size(); ++body) {
+    articulations.push_back(together.root(body));
+  }
+  return articulations;
+}
+
+}  // namespace
 
 // The event loop, from here to end().
 
 ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder)
     : controlled_(world.joints.empty() ? std::nullopt : std::optional<ControlledWorld>(world)),
       bodies_(controlled_ ? controlled_->world() : world, settings, recorder,
-              controlled_ ? &*controlled_ : nullptr) {}
+              controlled_ ? &*controlled_ : nullptr),
+      articulationOf_(articulationsOf(world)) {}
 
 RunFigures ExactWorld::run(const std::stop_token& stop) {
   begin();
@@ -164,7 +203,7 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
   if (!bodies_.mayBeCrowd()) {
     return false;
   }
-  std::vector<int> ranks;
+  BodiesApart movable(articulationOf_);
   bool moves = false;
   bool rubs = bodies_.crowds().when == CrowdSettings::When::kAbove;  // asked for, whatever it costs
   for (const EncounterBody& each : encounter.bodies) {
@@ -172,7 +211,7 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
       continue;
     }
     const Body& body = each.body();
-    ranks.push_back(each.mover->rank);
+    movable.add(each.listed());
     rubs = rubs || body.material.friction > 0;
     const double spin = angularVelocity(body.mass, each.before).norm();
     moves = moves || each.before.velocity.norm() + spin * radiusOf(body) > fallSpeed(bodies_, encounter);
@@ -180,41 +219,18 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
       return true;
     }
   }
-  return moves && rubs && bodies_.isTooMany(countApart(ranks));
-}
-
-// Of bodies, by rank; those that joints hold together count as one: they may be many and touch nothing.
-int ExactWorld::countApart(std::span<const int> ranks) const {
-  const World& world = bodies_.world();
-  auto count = static_cast<int>(ranks.size());
-  if (world.joints.empty()) {
-    return count;
-  }
-  DisjointSets together(world.bodies.size());
-  std::vector<char> isCounted(world.bodies.size(), 0);
-  for (const int rank : ranks) {
-    isCounted[static_cast<std::size_t>(bodies_[rank].listed.value)] = 1;
-  }
-  for (const Joint& joint : world.joints) {
-    if (!joint.to.body) {
-      continue;
-    }
-    const auto from = static_cast<std::size_t>(*joint.from.body);
-    const auto to = static_cast<std::size_t>(*joint.to.body);
-    if (isCounted[from] != 0 && isCounted[to] != 0 && together.root(from) != together.root(to)) {
-      together.join(from, to);
-      --count;
-    }
-  }
-  return count;
+  return moves && rubs && bodies_.isTooMany(movable.count());
 }
 
 bool ExactWorld::costsTooMuch(const Encounter& encounter) const {
   const auto isTooLarge = [&](const std::shared_ptr<IslandGroup>& island) {
-    std::vector<int> movable;
-    std::copy_if(island->ranks().begin(), island->ranks().end(), std::back_inserter(movable),
-                 [&](int rank) { return !bodies_[rank].isHeld(); });
-    return bodies_.isTooMany(countApart(movable));
+    BodiesApart movable(articulationOf_);
+    for (const int rank : island->ranks()) {
+      if (!bodies_[rank].isHeld()) {
+        movable.add(bodies_[rank].listed.value);
+      }
+    }
+    return bodies_.isTooMany(movable.count());
   };
   return std::any_of(encounter.islands.begin(), encounter.islands.end(), isTooLarge) ||
          (!encounter.islands.empty() && bodies_.workLeft(encounter.ranks(), encounter.time) < 0);

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
-#include <span>
 #include <stop_token>
+#include <vector>
 
 #include "physics/exact/bodies.h"
 #include "physics/exact/controlled_world.h"
@@ -36,10 +37,10 @@ class ExactWorld {
 
   bool goesOnAsCrowd(const Encounter& encounter) const;
   bool costsTooMuch(const Encounter& encounter) const;
-  int countApart(std::span<const int> ranks) const;
 
   std::optional<ControlledWorld> controlled_;  // of worlds with joints
   Bodies bodies_;
+  std::vector<std::size_t> articulationOf_;  // by body of the world; empty: there are no joints
 };
 
 }  // namespace careen

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <utility>
 
 #include "physics/contact/joint_rows.h"
 #include "physics/pile/crowd_motion.h"
@@ -32,7 +34,7 @@ void CrowdArticulations::list(double time) {
     return;
   }
   const std::vector<Body>& bodies = members_.world.bodies;
-  std::vector<int> places(bodies.size(), -1);
+  std::unordered_map<std::size_t, int> places;  // not by all bodies of the world: there may be many crowds
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (members_[i].isBox() && !members_[i].absent) {
       places[members_.listed[i]] = static_cast<int>(i);
@@ -40,9 +42,10 @@ void CrowdArticulations::list(double time) {
   }
   const auto placeOf = [&](const JointEnd& end) {
     const int listed = end.body.value_or(static_cast<int>(bodies.size()));
-    const bool isFixed = !end.body || isImmovable(bodies[at(listed)].mass);
-    const int place = end.body ? places[at(listed)] : -1;
-    return place < 0 && isFixed ? kOutside + listed : place;
+    const auto member = places.find(at(listed));
+    return member != places.end()                              ? member->second
+           : !end.body || isImmovable(bodies[at(listed)].mass) ? kOutside + listed
+                                                               : -1;
   };
   isJoined_.assign(members_.size(), 0);
   mayChange_.assign(members_.size(), 0);
@@ -60,12 +63,11 @@ void CrowdArticulations::list(double time) {
       joints_.push_back(
           {.joint = feature.joint, .a = feature.a, .b = feature.b, .effort = feature.joint->drive()});
     }
+    const bool changes = mayStillChange(members_.world, *feature.joint);
     for (const int place : {feature.a, feature.b}) {
       if (place < kOutside) {
         isJoined_[at(place)] = 1;
-        if (mayStillChange(members_.world, *feature.joint)) {
-          mayChange_[at(place)] = 1;
-        }
+        mayChange_[at(place)] = changes ? 1 : mayChange_[at(place)];
       }
     }
   }
@@ -109,6 +111,9 @@ void CrowdArticulations::lookAt(Condition& condition, const PileSolver* solver) 
 }
 
 void CrowdArticulations::aimAtEnd(PileSolver& solver) {
+  if (!any()) {
+    return;
+  }
   double fastest = 0;  // [m/s]
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const int place = static_cast<int>(i);
@@ -193,23 +198,32 @@ void CrowdArticulations::keepRates() {
   }
 }
 
+// With what its bodies begin with, unless they are in the problem.
+template <class VelocityOf, class OmegaOf>
+void CrowdArticulations::add(const Condition& condition, const Triple& target, const Triple& impulse,
+                             CrowdProblem& problem, const VelocityOf& velocityOf,
+                             const OmegaOf& omegaOf) const {
+  const auto include = [&](int place) {
+    return place >= kOutside ? ContactProblem::kNobody
+                             : problem.include(place, velocityOf(place), omegaOf(place));
+  };
+  const ContactFrame frame = frameOf(condition.state.normal);
+  problem.add({.a = include(condition.feature.a),
+               .b = include(condition.feature.b),
+               .target = target,
+               .admissible = condition.feature.admissible(),
+               .least = -members_.span * condition.state.grip,
+               .most = members_.span * condition.state.grip},
+              condition.state.sideA(frame), condition.state.sideB(frame), impulse);
+}
+
 void CrowdArticulations::addTo(CrowdProblem& problem, const PileSolver& solver) const {
   for (const Condition& condition : conditions_) {
-    if (!condition.acts) {
-      continue;
+    if (condition.acts) {
+      add(
+          condition, condition.target, condition.impulse, problem,
+          [&](int place) { return solver.velocity(place); }, [&](int place) { return solver.omega(place); });
     }
-    const auto include = [&](int place) {
-      return place >= kOutside ? ContactProblem::kNobody
-                               : problem.include(place, solver.velocity(place), solver.omega(place));
-    };
-    const ContactFrame frame = frameOf(condition.state.normal);
-    problem.add({.a = include(condition.feature.a),
-                 .b = include(condition.feature.b),
-                 .target = condition.target,
-                 .admissible = condition.feature.admissible(),
-                 .least = -members_.span * condition.state.grip,
-                 .most = members_.span * condition.state.grip},
-                condition.state.sideA(frame), condition.state.sideB(frame), condition.impulse);
   }
 }
 
@@ -233,8 +247,17 @@ double CrowdArticulations::mostOpen() const {
   return most;
 }
 
+bool CrowdArticulations::closes(const Condition& condition) const {
+  return condition.acts && !condition.feature.grips() &&
+         (condition.feature.holds() || condition.state.gap <= kNearEnd * members_.tolerance);
+}
+
 bool CrowdArticulations::close(const AddConditions& addMore) {
+  if (!this->any()) {
+    return false;
+  }
   closedBy_.assign(members_.size(), 0);
+  const auto nothing = [](int /*place*/) { return Vec3(Vec3::Zero()); };
   bool any = false;
   for (int closing = 0; closing <= kClosings; ++closing) {
     for (Condition& condition : conditions_) {
@@ -245,20 +268,9 @@ bool CrowdArticulations::close(const AddConditions& addMore) {
     }
     close_.begin();
     for (const Condition& condition : conditions_) {
-      if (!condition.acts || condition.feature.grips() ||
-          (!condition.feature.holds() && condition.state.gap > kNearEnd * members_.tolerance)) {
-        continue;
+      if (closes(condition)) {
+        add(condition, tripleOf(-gapsOf(condition.state)), {}, close_, nothing, nothing);
       }
-      const auto include = [&](int place) {
-        return place >= kOutside ? ContactProblem::kNobody
-                                 : close_.include(place, Vec3::Zero(), Vec3::Zero());
-      };
-      const ContactFrame frame = frameOf(condition.state.normal);
-      close_.add({.a = include(condition.feature.a),
-                  .b = include(condition.feature.b),
-                  .target = tripleOf(-gapsOf(condition.state)),
-                  .admissible = condition.feature.admissible()},
-                 condition.state.sideA(frame), condition.state.sideB(frame), {});
     }
     if (addMore) {
       addMore(close_);

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <functional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "physics/contact/contact_feature.h"
@@ -83,8 +82,11 @@ class CrowdArticulations {
     return any() && at(place) < places.size() && places[at(place)] != 0;
   }
   bool moves(int place) const;
+  template <class VelocityOf, class OmegaOf>
+  void add(const Condition& condition, const Triple& target, const Triple& impulse, CrowdProblem& problem,
+           const VelocityOf& velocityOf, const OmegaOf& omegaOf) const;
+  bool closes(const Condition& condition) const;
   void lookAt(Condition& condition, const PileSolver* solver) const;
-  Vec3 speedBound(const PileSolver& solver) const;
   Vec3 secondOrder(const Condition& condition, const PileSolver& solver) const;
   double mostOpen() const;
   void displace();

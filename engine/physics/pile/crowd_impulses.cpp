@@ -223,27 +223,27 @@ void CrowdImpulses::solve() {
 std::int64_t CrowdImpulses::sweep(int sweeps) {
   std::int64_t solves = solver_.solve(sweeps);
   const double little = kLittle * members_.tolerance / members_.h;
-  for (int round = 0; articulations_.any() && round < kMostRounds; ++round) {
+  for (int round = 0; articulations_.any(); ++round) {
     const double change = direct_.solveJoints(solver_);
-    if (change <= little && round > 0) {
+    if (round == kMostRounds || (round > 0 && change <= little)) {
       break;
     }
-    contacts_.forNear([&](const PileManifold& manifold, std::size_t) {
-      if (articulations_.isJoined(manifold.a) || articulations_.isJoined(manifold.b)) {
-        for (int k = 0; k < manifold.count; ++k) {
-          const int row = manifold.points[at(k)].row;
-          if (row >= 0) {
-            solver_.wakeRow(row);
-          }
-        }
-      }
-    });
+    wakeJoined();
     solves += solver_.solve(sweeps);
   }
-  if (articulations_.any()) {
-    direct_.solveJoints(solver_);
-  }
   return solves;
+}
+
+// The rows of what joints push.
+void CrowdImpulses::wakeJoined() {
+  contacts_.forNear([&](const PileManifold& manifold, std::size_t) {
+    const bool isJoined = articulations_.isJoined(manifold.a) || articulations_.isJoined(manifold.b);
+    for (int k = 0; isJoined && k < manifold.count; ++k) {
+      if (const int row = manifold.points[at(k)].row; row >= 0) {
+        solver_.wakeRow(row);
+      }
+    }
+  });
 }
 
 void CrowdImpulses::keep() {

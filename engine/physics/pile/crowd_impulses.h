@@ -63,6 +63,7 @@ class CrowdImpulses {
   double loadBody(std::size_t place);
   void solve();
   void findPushing();
+  void wakeJoined();
   double slowestBounce(const PileManifold& manifold) const;
   PileSolver::Extent lookForRows(PileManifold& manifold) const;
   void addRows(PileManifold& manifold, PileSolver::Extent next);

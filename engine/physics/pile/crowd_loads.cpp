@@ -14,10 +14,7 @@ constexpr double kMostDriven = 2;  // [1] of the tolerance: way that a motor add
 
 CrowdLoads::CrowdLoads(const CrowdMembers& members, const CrowdMemory& memory)
     : members_(members), memory_(memory) {
-  const bool areLoaded =
-      members.world.control || std::any_of(members.world.joints.begin(), members.world.joints.end(),
-                                           [](const Joint& joint) { return joint.isLoaded(); });
-  if (!members.world.springs.empty() || members.world.drag || areLoaded) {
+  if (hasVaryingLoads(members.world) || members.world.control) {
     for (const Body& body : members.world.bodies) {
       states_.push_back(body.initial);
     }
