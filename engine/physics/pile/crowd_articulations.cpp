@@ -33,6 +33,11 @@ void CrowdArticulations::list(double time) {
   if (members_.world.joints.empty()) {
     return;
   }
+  for (const Condition& each : before) {
+    if (each.feature.joint->until <= time) {
+      letGo(each);
+    }
+  }
   const std::vector<Body>& bodies = members_.world.bodies;
   std::unordered_map<std::size_t, int> places;  // not by all bodies of the world: there may be many crowds
   for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -71,6 +76,22 @@ void CrowdArticulations::list(double time) {
       }
     }
   }
+}
+
+void CrowdArticulations::letGo(const Condition& condition) {
+  const ContactFrame frame = frameOf(condition.state.normal);
+  const auto give = [&](int place, const RowSide& side) {
+    if (moves(place) && span_ > 0) {
+      PileBody& body = members_[place];
+      const double part = body.behind / span_;
+      const BodyImpulse impulse = impulseOf(side, condition.kept);
+      body.velocity += part * body.inverseMass * impulse.push;
+      body.angularMomentum += part * impulse.twist;
+      deriveOmega(body);
+    }
+  };
+  give(condition.feature.a, condition.state.sideA(frame));
+  give(condition.feature.b, condition.state.sideB(frame));
 }
 
 bool CrowdArticulations::moves(int place) const { return place < kOutside && !members_[place].still(); }

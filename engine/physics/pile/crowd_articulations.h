@@ -26,7 +26,8 @@ class CrowdArticulations {
  public:
   explicit CrowdArticulations(CrowdMembers& members) : members_(members), close_(members) {}
 
-  /// Those of members that have not let go at that time [s].
+  /// Those of members that have not let go at that time [s]. Velocities are those of the middle of the last
+  /// step: what lets go now gives its impulse for the other half.
   void list(double time);
   bool any() const { return !conditions_.empty(); }
   /// A joint with the places of its ends: from kOutside on those of bodies that are no members, as they never
@@ -82,6 +83,7 @@ class CrowdArticulations {
     return any() && at(place) < places.size() && places[at(place)] != 0;
   }
   bool moves(int place) const;
+  void letGo(const Condition& condition);
   template <class VelocityOf, class OmegaOf>
   void add(const Condition& condition, const Triple& target, const Triple& impulse, CrowdProblem& problem,
            const VelocityOf& velocityOf, const OmegaOf& omegaOf) const;
