@@ -114,7 +114,16 @@ std::vector<double> Auditor::moments() const {
   const std::size_t budget = isFull() ? kStatesAtMomentsInFull : kStatesAtMoments;
   const std::size_t each = std::clamp(budget / std::max<std::size_t>(bodies(), 1), kFewestMoments,
                                       (isFull() ? 10 : 1) * kMostMoments);
-  return run_.given ? momentsOfRows(run_, each) : goldenMoments(run_.settings.duration, each);
+  if (run_.given) {
+    return momentsOfRows(run_, each);
+  }
+  std::vector<double> moments = goldenMoments(run_.settings.duration, each);
+  for (const GravityChange& change : run_.world.gravityChanges) {
+    if (change.time < run_.settings.duration) {
+      moments.insert(std::lower_bound(moments.begin(), moments.end(), change.time), change.time);
+    }
+  }
+  return moments;
 }
 
 void Auditor::found(AuditKind kind, double rounding, const Finding& finding) {

@@ -61,6 +61,10 @@ class Rows {
     return std::get<SampledStep>(run_.tracks[rowsOf_].segments.unpacked()[row].motion).duration;
   }
 
+  Vec3 gravityOf(std::size_t row) const {
+    return meanGravity(run_.world, start(row), start(row) + seconds(row));
+  }
+
   const Trajectory& run_;
   double near_;
   double part_;
@@ -149,7 +153,7 @@ Flying Rows::flyingOf(std::size_t index, std::size_t row) const {
         std::max(flying.speed, state->velocity.norm() +
                                    radiusOf(body(index)) * angularVelocity(body(index).mass, *state).norm());
   }
-  flying.speed += run_.world.gravity.norm() * step.duration;
+  flying.speed += mostGravity(run_.world) * step.duration;
   return flying;
 }
 
@@ -184,7 +188,7 @@ void Rows::hasten() {
   std::vector<int> members(flying_.size(), 0);
   for (std::size_t index = 0; index < flying_.size(); ++index) {
     const MassProperties& mass = body(index).mass;
-    const double fall = run_.world.gravity.norm() * seconds_;
+    const double fall = mostGravity(run_.world) * seconds_;
     energies[joined.root(index)] +=
         0.5 * mass.mass * fall * fall +
         std::max(kineticEnergy(mass, *flying_[index].before), kineticEnergy(mass, *flying_[index].after));
@@ -234,11 +238,8 @@ std::pair<const BodyState&, const BodyState&> Rows::rowsOf(std::size_t index, st
 }
 
 ObservedEncounter Rows::encounterOf(std::size_t index, Partner partner, std::size_t row) const {
-  ObservedEncounter encounter{.body = &body(index),
-                              .gravity = run_.world.gravity,
-                              .seconds = seconds(row),
-                              .near = near_,
-                              .part = part_};
+  ObservedEncounter encounter{
+      .body = &body(index), .gravity = gravityOf(row), .seconds = seconds(row), .near = near_, .part = part_};
   std::tie(encounter.before, encounter.after) = rowsOf(index, row);
   if (partner.isWall()) {
     encounter.wall = &run_.world.walls[partner.wall()];
@@ -249,7 +250,7 @@ ObservedEncounter Rows::encounterOf(std::size_t index, Partner partner, std::siz
   }
   if (!run_.given->velocities || !run_.given->angularVelocities) {
     const double spin = angularVelocity(body(index).mass, encounter.before).norm();
-    encounter.doubt = encounter.seconds * (run_.world.gravity.norm() + spin * spin * radiusOf(body(index)));
+    encounter.doubt = encounter.seconds * (encounter.gravity.norm() + spin * spin * radiusOf(body(index)));
   }
   return encounter;
 }
@@ -276,7 +277,7 @@ void Rows::settle(std::size_t index, std::size_t row) {
   const Flying& flying = flying_[index];
   Passage& passage = passages_[index][row];
   const MassProperties& mass = body(index).mass;
-  const BodyState flight = flown(mass, *flying.before, run_.world.gravity, seconds(row));
+  const BodyState flight = flown(mass, *flying.before, gravityOf(row), seconds(row));
   passage.impulse = mass.mass * (flying.after->velocity - flight.velocity);
   passage.angularImpulse = flying.after->angularMomentum - flight.angularMomentum;
   const double turns = seconds(row) * std::max(angularVelocity(mass, *flying.before).norm(),

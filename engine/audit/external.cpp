@@ -92,10 +92,11 @@ void ExternalOf::addLoads(std::size_t body, const Segment& segment, double from,
                           External& external) {
   const World& world = run_.world;
   const MassProperties& mass = world.bodies[body].mass;
-  const Vec3 weight = mass.mass * world.gravity;
+  const Vec3 gravity = meanGravity(world, from, to);
+  const Vec3 weight = mass.mass * gravity;
   const double length = to - from;
   external.impulse += length * weight;
-  if (world.gravity.isZero(0) && !integrates_) {
+  if (gravity.isZero(0) && !integrates_) {
     return;
   }
   for (const double node : kNodes) {

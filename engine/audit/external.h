@@ -32,7 +32,8 @@ class ExternalOf {
   /// Torques are about `origin` [m]. Keeps references.
   ExternalOf(const Trajectory& run, const ExchangeGroup& group, Vec3 origin);
 
-  /// From the last moment (at first 0 s) to this one [s].
+  /// From the last moment (at first 0 s) to this one [s]; torques of gravity are right to rounding if it does
+  /// not change between them.
   External until(double time);
 
  private:

@@ -60,6 +60,12 @@ class LeastOfLate {
     rising_.push_back({.next = time, .value = value});
     return rising_.front().value;
   }
+  /// All values so far are that much more.
+  void shift(double by) {
+    for (Each& each : rising_) {
+      each.value += by;
+    }
+  }
 
  private:
   struct Each {
@@ -92,11 +98,13 @@ class Books {
   template <class StateOf>
   Vec3 center(const StateOf& stateOf) const;
   template <class StateOf>
-  Holdings holdings(const StateOf& stateOf, double springs) const;
+  Holdings holdings(const StateOf& stateOf, double springs, const Vec3& gravity) const;
+  Vec3 gravityUntil(std::size_t moment) const;
   Holdings at(std::size_t moment) const;
   double springEnergyAt(std::size_t moment) const;
   double reachAt(std::size_t moment) const;
   void include(const Holdings& now);
+  void changeGravity(std::size_t moment);
   void balance(double time, const Holdings& now, External& external);
   void balanceMomentum(double time, const Holdings& now, const External& external);
   void balanceAngularMomentum(double time, const Holdings& now, const External& external);
@@ -144,7 +152,7 @@ Vec3 Books::center(const StateOf& stateOf) const {
 }
 
 template <class StateOf>
-Holdings Books::holdings(const StateOf& stateOf, double springs) const {
+Holdings Books::holdings(const StateOf& stateOf, double springs, const Vec3& gravity) const {
   Holdings now;
   double all = 0;
   for (const std::size_t body : group_.bodies) {
@@ -158,7 +166,7 @@ Holdings Books::holdings(const StateOf& stateOf, double springs) const {
     const Vec3 arm = state.pose.position - origin_;
     const double kinetic = kineticEnergy(run_.world.bodies[body].mass, state);
     now.angularMomentum += state.angularMomentum + mass(body) * arm.cross(state.velocity);
-    now.energy += kinetic - mass(body) * run_.world.gravity.dot(arm);
+    now.energy += kinetic - mass(body) * gravity.dot(arm);
     now.momentumScale += mass(body) * state.velocity.norm();
     now.angularScale += state.angularMomentum.norm() +
                         mass(body) * (state.pose.position - middle).norm() * (state.velocity - drift).norm();
@@ -174,7 +182,29 @@ Holdings Books::holdings(const StateOf& stateOf, double springs) const {
 
 Holdings Books::at(std::size_t moment) const {
   return holdings([&](std::size_t body) -> const BodyState& { return samples_.state(moment, body); },
-                  springEnergyAt(moment));
+                  springEnergyAt(moment), gravityUntil(moment));
+}
+
+// [m/s²] That by which the energy at a moment counts: of one at which it changes, what was before.
+Vec3 Books::gravityUntil(std::size_t moment) const {
+  return gravityAt(run_.world, moment == 0 ? 0 : samples_.times()[moment - 1]);
+}
+
+// Gravity changes at that moment, and with it what the group may yet fall by.
+void Books::changeGravity(std::size_t moment) {
+  if (moment + 1 >= samples_.moments()) {
+    return;
+  }
+  const Vec3 change = gravityUntil(moment + 1) - gravityUntil(moment);
+  if (change.isZero(0)) {
+    return;
+  }
+  double given = 0;
+  for (const std::size_t body : group_.bodies) {
+    given -= mass(body) * change.dot(samples_.state(moment, body).pose.position - origin_);
+  }
+  due_.energy += given;
+  fall_.shift(-given);
 }
 
 double Books::springEnergyAt(std::size_t moment) const {
@@ -253,7 +283,7 @@ void Books::check() {
     const double momentum = mass(body) * fallingSpeeds_[body];
     still.momentumScale += kStill * momentum;
     still.angularScale += kStill * momentum * size;
-    largest_.weight += mass(body) * run_.world.gravity.norm();
+    largest_.weight += mass(body) * mostGravity(run_.world);
     still.energyScale += kStill * 0.5 * momentum * fallingSpeeds_[body];
   }
   include(still);
@@ -277,7 +307,7 @@ void Books::check() {
   due_ = all.front();
   if (isCrowd(samples_.times().front())) {  // perhaps in the midst of an impact
     due_ = holdings([&](std::size_t body) -> const BodyState& { return run_.world.bodies[body].initial; },
-                    springEnergyAt(0));
+                    springEnergyAt(0), gravityUntil(0));
   }
   momentum_.with(samples_.times().front(), 0);
   angularMomentum_.with(samples_.times().front(), 0);
@@ -285,6 +315,7 @@ void Books::check() {
   fall_.with(samples_.times().front(), -due_.energy);
   for (std::size_t moment = 1; moment < all.size(); ++moment) {
     balance(samples_.times()[moment], all[moment], externals[moment - 1]);
+    changeGravity(moment);
   }
 }
 

@@ -158,8 +158,10 @@ double placeRounding(const Body& body, const Vec3& position) {
 
 std::vector<double> fallingSpeeds(const World& world) {
   std::vector<double> speeds = accelerationsAtStart(world);
+  const double gravity = mostGravity(world);
   for (std::size_t i = 0; i < speeds.size(); ++i) {
-    speeds[i] = std::sqrt(2 * speeds[i] * world.bodies[i].halfExtents.norm());
+    const double acceleration = isImmovable(world.bodies[i].mass) ? speeds[i] : std::max(speeds[i], gravity);
+    speeds[i] = std::sqrt(2 * acceleration * world.bodies[i].halfExtents.norm());
   }
   return speeds;
 }
@@ -212,7 +214,7 @@ void checkSteps(const Trajectory& run, std::size_t body, Findings& findings) {
     const Vec3 mean = 0.5 * (step->start.velocity + step->end.velocity);
     const Vec3 change = 0.5 * (step->end.velocity - step->start.velocity);
     // Between bounces it falls: below the first velocity and above the second.
-    const double fallen = 0.5 * step->duration * step->duration * run.world.gravity.norm();
+    const double fallen = 0.5 * step->duration * step->duration * mostGravity(run.world);
     const double jump = (way - step->duration * mean).norm() - step->duration * change.norm() - fallen;
     findings.add(AuditKind::kContinuity,
                  placeRounding(run.world.bodies[body], step->end.pose.position) +

@@ -51,6 +51,9 @@ class MjcfWriter {
     if (!whyNoDrag.empty()) {
       file_.leftOut.push_back("drag: " + whyNoDrag);
     }
+    if (!world_.gravityChanges.empty()) {
+      file_.leftOut.emplace_back("how gravity changes");
+    }
     leaveOutRestitution();
     for (const std::string& words : file_.leftOut) {
       std::string safe = words;  // no comment may hold two hyphens

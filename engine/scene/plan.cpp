@@ -71,9 +71,11 @@ void forKindsThatMeet(const Scene& scene, const Look& look) {
   }
 }
 
+bool isPulled(const Scene& scene) { return !scene.gravity.isZero(0) || !scene.gravityChanges.empty(); }
+
 Needs needsOf(const Scene& scene) {
   Needs needs{.walls = wallsOf(scene)};
-  const bool pulled = !scene.gravity.isZero(0);
+  const bool pulled = isPulled(scene);
   for (const SceneBox& box : scene.boxes) {
     needs.movingBoxes += box.fixed ? 0U : 1U;
     for (std::size_t w = 0; w < needs.walls.size() && !box.fixed; ++w) {
@@ -112,8 +114,11 @@ std::string methodsWith(bool MethodTraits::*trait) {
 std::string nameOf(Method method) { return std::string(traitsOf(method).name); }
 
 PlanItem gravity(const Scene& scene) {
-  return scene.gravity.isZero(0) ? leftOut("gravity", "the scene has none")
-                                 : modelled("gravity", "the scene sets it");
+  const std::string changes = scene.gravityChanges.empty()
+                                  ? ""
+                                  : "; it changes " + counted(scene.gravityChanges.size(), "time", "times");
+  return isPulled(scene) ? modelled("gravity", "the scene sets it" + changes)
+                         : leftOut("gravity", "the scene has none");
 }
 
 PlanItem drag(const Scene& scene) {
@@ -289,12 +294,16 @@ World assemble(const Scene& scene, const Plan& plan) {
   if (plan.models("joints") || plan.models("ropes")) {
     requireMethod(scene, &MethodTraits::joints, "joints");
   }
+  if (!scene.gravityChanges.empty()) {
+    requireMethod(scene, &MethodTraits::gravityChanges, "gravity that changes");
+  }
   World world;
   for (const SceneBox& box : scene.boxes) {
     world.bodies.push_back(bodyOf(box, modelledPart(box.material)));
   }
   if (plan.models("gravity")) {
     world.gravity = scene.gravity;
+    world.gravityChanges = scene.gravityChanges;
   }
   if (plan.models("box-wall")) {
     world.walls = wallsOf(scene);

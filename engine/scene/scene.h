@@ -45,7 +45,8 @@ struct Scene {
   RunSettings settings;
   std::string text;  ///< the file, byte for byte
   std::string name = "untitled";
-  Vec3 gravity = Vec3::Zero();  ///< [m/s²]
+  Vec3 gravity = Vec3::Zero();                ///< [m/s²] at the start
+  std::vector<GravityChange> gravityChanges;  ///< as in World
   std::optional<Room> room;
   std::vector<Wall> walls;  ///< the explicit walls; the room's come from `room`
   std::vector<SceneBox> boxes;

@@ -43,6 +43,21 @@ void checkRoom(const JsonTree& tree, const Scene& scene) {
 }
 
 // Boxes and walls share a column of impacts.csv.
+// Its times; what it is at the start is no change.
+void checkGravity(const JsonTree& tree, Scene& scene) {
+  for (std::size_t k = 0; k < scene.gravityChanges.size(); ++k) {
+    const double time = scene.gravityChanges[k].time;
+    if (k == 0 ? time != 0 : !(time > scene.gravityChanges[k - 1].time)) {
+      const JsonNode& found = tree.root().find("gravity")->find("path")->children[k].children[0];
+      tree.fail(found.offset, describe(found) + " for gravity.path[" + std::to_string(k) + "][0]",
+                k == 0 ? "0, the start" : "a time after that of the point before");
+    }
+  }
+  if (!scene.gravityChanges.empty()) {
+    scene.gravityChanges.erase(scene.gravityChanges.begin());
+  }
+}
+
 void checkNames(const JsonTree& tree, const Scene& scene) {
   std::map<std::string, std::string> owners;
   for (std::size_t side = 0; side < kRoomSides.size(); ++side) {
@@ -212,6 +227,7 @@ void checkOverlap(const JsonTree& tree, const Scene& scene) {
 
 void checkScene(const JsonTree& tree, Scene& scene, Starts starts) {
   checkRoom(tree, scene);
+  checkGravity(tree, scene);
   checkNames(tree, scene);
   checkMasses(tree, scene);
   checkInertias(tree, scene);

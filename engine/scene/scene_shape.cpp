@@ -258,6 +258,27 @@ CrowdSettings readCrowds(const JsonValue& value) {
   return crowds;
 }
 
+void readGravity(const JsonObject& scene, Scene& into) {
+  const std::optional<JsonValue> value = scene.find("gravity");
+  if (!value || !value->is(Kind::kObject)) {
+    into.gravity = scene.vector("gravity", anyNumber("m/s²"));
+    return;
+  }
+  const JsonValue path = value->object({"path"}).require("path");
+  for (const JsonValue& point : path.elements("[[time, x, y, z], …]")) {
+    const std::vector<JsonValue> numbers = point.elements("[time, x, y, z]", 4);
+    GravityChange& change = into.gravityChanges.emplace_back();
+    change.time = numbers[0].number(nonNegativeNumber("s"));
+    for (int axis = 0; axis < 3; ++axis) {
+      change.gravity[axis] = numbers[static_cast<std::size_t>(axis) + 1].number(anyNumber("m/s²"));
+    }
+  }
+  if (into.gravityChanges.empty()) {
+    path.fail("one point or more");
+  }
+  into.gravity = into.gravityChanges.front().gravity;
+}
+
 }  // namespace
 
 Scene readShape(const JsonTree& tree) {
@@ -278,7 +299,7 @@ Scene readShape(const JsonTree& tree) {
     schema->string("a string");  // editors read it, for completion of keys
   }
   scene.settings.duration = object.require("duration").number(positiveNumber("s"));
-  scene.gravity = object.vector("gravity", anyNumber("m/s²"));
+  readGravity(object, scene);
   scene.room = readOptional<Room>(object.find("room"), readRoom);
   scene.walls = readList<Wall>(object.find("walls"), readWall);
   scene.boxes = readList<SceneBox>(object.require("boxes"), readBox);

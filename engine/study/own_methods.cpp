@@ -41,6 +41,9 @@ class OwnMethod : public Contestant {
     if (!traits_.forces && (!world.springs.empty() || world.drag)) {
       return "no springs, no drag";
     }
+    if (!traits_.gravityChanges && !world.gravityChanges.empty()) {
+      return "no gravity that changes";
+    }
     if (!traits_.joints && !world.joints.empty()) {
       return "no joints";
     }

@@ -10,7 +10,9 @@
 namespace careen {
 
 std::string refusalOfPeers(const World& world) {
-  return world.springs.empty() && !world.drag ? "" : "no springs, no drag";
+  return !world.gravityChanges.empty()          ? "no gravity that changes"
+         : world.springs.empty() && !world.drag ? ""
+                                                : "no springs, no drag";
 }
 
 std::string Peer::refusesJoint(const Joint& joint) const {

@@ -230,6 +230,12 @@ void checkApart(const World& world) {
 
 void checkWorld(const World& world) {
   require(world.gravity.allFinite(), "a gravity that is not finite", "a world");
+  double before = 0;
+  for (const GravityChange& change : world.gravityChanges) {
+    require(change.gravity.allFinite(), "a gravity that is not finite", "a world");
+    require(change.time > before && std::isfinite(change.time), "changes of gravity out of order", "a world");
+    before = change.time;
+  }
   checkNames(world);
   for (const Body& body : world.bodies) {
     checkBody(body);

@@ -228,6 +228,12 @@ void visit(Archive& archive, Visited<Archive, Drag> drag) {
 }
 
 template <class Archive>
+void visit(Archive& archive, Visited<Archive, GravityChange> change) {
+  archive.visit(change.time);
+  visit(archive, change.gravity);
+}
+
+template <class Archive>
 void visit(Archive& archive, Visited<Archive, World> world) {
   visit(archive, world.gravity);
   visitAll(archive, world.bodies);

@@ -20,10 +20,16 @@ bool isBehindAWall(const Stage& stage, const Vec3& point) {
 
 void includeFlight(Extent& extent, const RunSetup& setup, const Body& box) {
   const double radius = radiusOf(box);
+  Vec3 fallen = Vec3::Zero();
+  Vec3 gained = Vec3::Zero();  // [m/s]
+  double before = 0;
   for (int sample = 0; sample <= kSamples; ++sample) {
     const double time = setup.settings.duration * sample / kSamples;
-    const Vec3 point =
-        box.initial.pose.position + time * box.initial.velocity + 0.5 * time * time * setup.world.gravity;
+    const Vec3 gain = (time - before) * meanGravity(setup.world, before, time);
+    fallen += (time - before) * (gained + 0.5 * gain);
+    gained += gain;
+    before = time;
+    const Vec3 point = box.initial.pose.position + time * box.initial.velocity + fallen;
     if (sample > 0 && (isImmovable(box.mass) || isBehindAWall(setup.stage, point))) {
       return;
     }

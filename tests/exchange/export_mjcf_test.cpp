@@ -112,6 +112,10 @@ TEST(ExportMjcf, oneFrictionNeedsNoPairsAndUnequalDragIsTold) {
   loaded.insert(loaded.find(R"("friction": 0.5 } ])"), R"("center": [0, 0, 0.05], )");
   EXPECT_EQ(encodeMjcf(setupOfText(loaded), "test").leftOut,
             std::vector<std::string>{"drag: a centre of mass is not its box's middle"});
+  std::string changing = scene + "0.5 } }";
+  changing.replace(changing.find("[0, 0, -9.81]"), 13, R"({ "path": [[0, 0, 0, -9.81], [1, 0, 0, 0]] })");
+  EXPECT_EQ(encodeMjcf(setupOfText(changing), "test").leftOut,
+            std::vector<std::string>{"how gravity changes"});
   const InMujoco found(equal.text);
   EXPECT_EQ(found.model->npair, 0);
   EXPECT_EQ(found.model->ngeom, 7);

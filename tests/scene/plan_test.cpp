@@ -227,6 +227,22 @@ TEST(Assemble, namesTheMethodThatModelsJoints) {
   }
 }
 
+TEST(Assemble, gravityThatChangesIsOfTheMethodExact) {
+  const std::string boxes =
+      R"("gravity": { "path": [[0, 0, 0, 0], [2, 0, 0, -1]] }, "boxes": [)" + kBox + "]";
+  Scene scene = withParts(boxes);
+  EXPECT_EQ(reasonFor(scene, "gravity"), "modelled: the scene sets it; it changes 1 time");
+  const World world = assemble(scene, plan(scene));
+  EXPECT_EQ(world.gravity, Vec3::Zero());
+  ASSERT_EQ(world.gravityChanges.size(), 1U);
+  EXPECT_EQ(world.gravityChanges[0].time, 2);
+  EXPECT_EQ(world.gravityChanges[0].gravity, Vec3(0, 0, -1));
+  scene.settings.method = Method::kListing1;
+  EXPECT_EQ(
+      inputErrorOf([&] { assemble(scene, plan(scene)); }),
+      "scene untitled has gravity that changes, which method listing1 does not model; expected method exact");
+}
+
 // The crate is turned by 90° about z, so its x axis lies along the world's y: half sizes (0.25, 0.5, 0.125)
 // along the world's axes, mass 2 kg, ω = (3, 7, -2): L = 2/3 (0.5² + 0.125², 0.25² + 0.125², 0.25² + 0.5²) ·
 // ω.

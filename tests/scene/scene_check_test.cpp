@@ -18,6 +18,10 @@ std::string sceneErrorOf(const std::string& text) {
 }
 
 const std::vector<BadPiece> kBadScenes = {
+    {"[0, 0, -9.81]", R"({ "path": [[@1, 0, 0, -9.81]] })",
+     "found 1 for gravity.path[0][0], expected 0, the start"},
+    {"[0, 0, -9.81]", R"({ "path": [[0, 0, 0, -9.81], [1, 0, 0, 0], [@1, 0, 0, 1]] })",
+     "found 1 for gravity.path[2][0], expected a time after that of the point before"},
     {R"("max": [3, 2, 4])", R"("max": [3, @-2, 4])",
      "found -2 for room.max[1], expected more than room.min[1], which is -2"},
     {R"("max": [3, 2, 4])", R"("max": [3, 2, @-4.5])",

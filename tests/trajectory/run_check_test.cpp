@@ -44,6 +44,12 @@ const std::vector<Fault> kFaults = {
     // The world.
     {"has a world with a gravity that is not finite",
      [](Trajectory& run) { run.world.gravity.z() = kNoNumber; }},
+    {"has a world with changes of gravity out of order",
+     [](Trajectory& run) {
+       run.world.gravityChanges = {{.time = 0.5}, {.time = 0.5}};
+     }},
+    {"has a world with a gravity that is not finite",
+     [](Trajectory& run) { run.world.gravityChanges = {{.time = 0.5, .gravity = Vec3(0, kNoNumber, 0)}}; }},
     {"has two bodies or walls of the name 'anchor'",
      [](Trajectory& run) { run.world.bodies[0].name = "anchor"; }},
     {"has two bodies or walls of the name 'drifter'",

@@ -124,6 +124,16 @@ TEST(TrajectoryFile, bringsBackUntilWhenPlacesMeanSomething) {
   EXPECT_EQ(decodeTrajectory(encodeTrajectory(run), "run.careen").figures.horizon, 0.75);
 }
 
+TEST(TrajectoryFile, bringsBackHowGravityChanges) {
+  Trajectory run = driftAndReturn();
+  run.world.gravityChanges = {{.time = 0.25, .gravity = Vec3(1, 2, 3)},
+                              {.time = 0.5, .gravity = Vec3(4, 5, 6)}};
+  const Trajectory back = decodeTrajectory(encodeTrajectory(run), "run.careen");
+  ASSERT_EQ(back.world.gravityChanges.size(), 2U);
+  EXPECT_EQ(back.world.gravityChanges[1].time, 0.5);
+  EXPECT_EQ(back.world.gravityChanges[1].gravity, Vec3(4, 5, 6));
+}
+
 TEST(TrajectoryFile, bringsBackWhereTheCentreOfMassLiesAndItsAxes) {
   World world = elasticRoom();
   world.bodies[0].boxCenter = Vec3(0.1, -0.05, 0.02);
@@ -190,26 +200,36 @@ TEST(TrajectoryFile, bringsBackARunOfManyPieces) {
   EXPECT_EQ(encodeTrajectory(back), bytes);
 }
 
-// Format version 10: without dry friction, two numbers for each joint, the last before the length and the
-// hash of the last state.
+// Format version 11: without changes of gravity, a list before the length and the hash of the last state.
+TEST(TrajectoryFile, readsWhatVersion11Wrote) {
+  const Trajectory run = driftAndReturn();
+  std::string record = recordOf(encodeTrajectory(run));
+  const std::size_t end = record.size() - 8 - run.stateHash().size();
+  EXPECT_EQ(record.substr(end - 8, 8), std::string(8, '\0'));
+  record.erase(end - 8, 8);
+  const std::string bytes = withRightChecksum("careen\r\n" + inBytes(11) + pieceOf(record) + "checksum");
+  EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
+}
+
+// Format version 10: without dry friction too, two numbers for each joint before that list.
 TEST(TrajectoryFile, readsWhatVersion10Wrote) {
   Trajectory run = driftAndReturn();
   run.world.joints = {{.name = "pin", .kind = Joint::Kind::kBall, .from = {.body = 0}, .to = {}}};
   std::string record = recordOf(encodeTrajectory(run));
   const std::size_t end = record.size() - 8 - run.stateHash().size();
-  EXPECT_EQ(record.substr(end - 16, 16), std::string(16, '\0'));
-  record.erase(end - 16, 16);
+  EXPECT_EQ(record.substr(end - 24, 24), std::string(24, '\0'));
+  record.erase(end - 24, 24);
   const std::string bytes = withRightChecksum("careen\r\n" + inBytes(10) + pieceOf(record) + "checksum");
   EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
 }
 
-// Format version 9: without joints, which are four lists before the length and the hash of the last state.
+// Format version 9: without joints too, which are four lists before that one.
 TEST(TrajectoryFile, readsWhatVersion9Wrote) {
   const Trajectory run = driftAndReturn();
   std::string record = recordOf(encodeTrajectory(run));
   const std::size_t end = record.size() - 8 - run.stateHash().size();
-  EXPECT_EQ(record.substr(end - 32, 32), std::string(32, '\0'));
-  record.erase(end - 32, 32);
+  EXPECT_EQ(record.substr(end - 40, 40), std::string(40, '\0'));
+  record.erase(end - 40, 40);
   const std::string bytes = withRightChecksum("careen\r\n" + inBytes(9) + pieceOf(record) + "checksum");
   EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
 }
@@ -283,8 +303,8 @@ TEST(TrajectoryFile, aMinuteOfABouncingBoxTakesLessThan50kB) {
 
 TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
-  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 11: a newer careen wrote it"),
-                                        std::pair('\3', "3, expected 4 to 11: simulate its scene again")}) {
+  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 12: a newer careen wrote it"),
+                                        std::pair('\3', "3, expected 4 to 12: simulate its scene again")}) {
     bytes[8] = version;
     EXPECT_EQ(messageOf(withRightChecksum(bytes)),
               "run.careen: this trajectory file has format version " + std::string(remedy));

@@ -27,6 +27,19 @@ TEST(SceneExtent, followsAThrowToItsTop) {
   EXPECT_NEAR(extent.max.x(), 1 + 1.3, 1e-12);
 }
 
+// 1 s down at 1 m/s², then 2 s sideways at that: down .5 + 2 m, sideways 2 m. Fifty samples of 60 ms: the
+// first second ends within one, whose mean bends the way by less than 1e-3 m.
+TEST(SceneExtent, followsGravityThatChanges) {
+  Scene scene;
+  scene.settings.duration = 3;
+  scene.gravity = Vec3(0, 0, -1);
+  scene.gravityChanges = {{.time = 1, .gravity = Vec3(1, 0, 0)}};
+  scene.boxes.push_back(boxAt(Vec3::Zero(), Vec3(0.3, 0.4, 1.2)));
+  const Extent extent = extentOf(setupOf(scene));
+  EXPECT_NEAR(extent.min.z(), -2.5 - 1.3, 1e-3);
+  EXPECT_NEAR(extent.max.x(), 2 + 1.3, 1e-3);
+}
+
 TEST(SceneExtent, endsBehindAWall) {
   Scene scene;
   scene.settings.duration = 10;

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/names.h"
 #include "physics/contact/island.h"
-#include "physics/exact/controlled_world.h"
+#include "physics/exact/changing_world.h"
 #include "physics/exact/next_contact.h"
 #include "physics/motion/hermite_step.h"
 
@@ -76,12 +76,12 @@ std::vector<Bond> bondsOf(const World& world) {
 }
 
 // [s] When one that rests may move, as one of its joints lets go or its motor changes.
-double changeAtRest(const World& world, const ControlledWorld* controlled, const Mover& body) {
+double changeAtRest(const World& world, const ChangingWorld* changing, const Mover& body) {
   double change = std::numeric_limits<double>::infinity();
-  for (std::size_t j = 0; j < world.joints.size() && controlled != nullptr && !body.isHeld(); ++j) {
+  for (std::size_t j = 0; j < world.joints.size() && changing != nullptr && !body.isHeld(); ++j) {
     const Joint& joint = world.joints[j];
     if (joint.from.body == body.listed.value || joint.to.body == body.listed.value) {
-      change = std::min(change, controlled->nextOf(static_cast<int>(j)));
+      change = std::min(change, changing->nextOf(static_cast<int>(j)));
     }
   }
   return change;
@@ -106,9 +106,9 @@ bool endsInWorld(const World& world) {
 }
 
 Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& recorder,
-               const ControlledWorld* controlled)
+               const ChangingWorld* changing)
     : world_(world),
-      controlled_(controlled),
+      changing_(changing),
       end_(settings.duration),
       tolerance_(settings.tolerance),
       crowds_(settings.crowds),
@@ -294,7 +294,7 @@ Doubt* Bodies::doubtAt(int rank, const Instant& time) {
 void Bodies::predict(int rank) {
   const Mover& body = (*this)[rank];
   if (!body.moves()) {
-    const double change = changeAtRest(world_, controlled_, body);
+    const double change = changeAtRest(world_, changing_, body);
     if (std::isfinite(change)) {
       queue_.set({.time = Instant(change), .kind = EventKind::kTouching, .body = rank});
     } else {
@@ -342,6 +342,12 @@ void Bodies::cross(int rank) {
   predict(rank);
 }
 
+void Bodies::feelGravity() {
+  timeScale_ = timeScaleOf(world_, tolerance_);
+  longestStep_ = longestStepOf(world_);
+  fastestAtZero_ = -std::numeric_limits<double>::infinity();
+}
+
 void Bodies::file(int rank, const Vec3& position) {
   if (neighbors_.isFiled(rank)) {
     neighbors_.move(rank, neighbors_.cellOf(position));
@@ -378,11 +384,12 @@ double Bodies::withinCell(double speed) const {
 }
 
 bool Bodies::isTooMany(int movable) const {
-  return mayBeCrowd() && movable > (crowds_.when == CrowdSettings::When::kAbove ? crowds_.above : kFew);
+  return crowds_.areAllowed() &&
+         movable > (crowds_.when == CrowdSettings::When::kAbove ? crowds_.above : kFew);
 }
 
 double Bodies::workLeft(std::span<const int> ranks, const Instant& time) const {
-  if (!mayBeCrowd()) {
+  if (!crowds_.areAllowed()) {
     return std::numeric_limits<double>::infinity();
   }
   double spent = 0;
@@ -401,10 +408,16 @@ double Bodies::workLeft(std::span<const int> ranks, const Instant& time) const {
   return movable * share * ((isWorthLess ? 0 : kWorkAtOnce) + kWorkPerSecond * time.hi) - spent;
 }
 
+double untilGravity(const Bodies& bodies, const Instant& time) {
+  const double next = bodies.changing() != nullptr ? bodies.changing()->nextGravity()
+                                                   : std::numeric_limits<double>::infinity();
+  return std::isfinite(next) ? secondsBetween(time, Instant(next)) : next;
+}
+
 double untilChange(const Bodies& bodies, const Joint& joint, const Instant& time) {
   double next = std::numeric_limits<double>::infinity();
-  if (bodies.controlled() != nullptr) {
-    next = bodies.controlled()->nextOf(static_cast<int>(&joint - bodies.world().joints.data()));
+  if (bodies.changing() != nullptr) {
+    next = bodies.changing()->nextOf(static_cast<int>(&joint - bodies.world().joints.data()));
   }
   return std::isfinite(next) ? secondsBetween(time, Instant(next)) : next;
 }

@@ -20,7 +20,7 @@
 
 namespace careen {
 
-class ControlledWorld;
+class ChangingWorld;
 
 /// All bodies of method exact: how each moves now, and what happens to it next. A motion that begins is
 /// recorded, and an event that is predicted is queued.
@@ -29,13 +29,13 @@ class ControlledWorld;
 /// changes no bit; walls come after them.
 class Bodies {
  public:
-  /// `controlled`, if there is one, is what changes the world's joints. All must outlive it. Where joints end
-  /// in the world there is one more after the walls, which is nowhere().
+  /// `changing`, if there is one, is what changes the world. All must outlive it. Where joints end in the
+  /// world there is one more after the walls, which is nowhere().
   Bodies(const World& world, const RunSettings& settings, Recorder& recorder,
-         const ControlledWorld* controlled = nullptr);
+         const ChangingWorld* changing = nullptr);
 
   const World& world() const { return world_; }
-  const ControlledWorld* controlled() const { return controlled_; }
+  const ChangingWorld* changing() const { return changing_; }
   const Instant& end() const { return end_; }          ///< of the run
   double tolerance() const { return tolerance_; }      ///< [m]
   double timeScale() const { return timeScale_; }      ///< [s] see timeScaleOf
@@ -91,6 +91,8 @@ class Bodies {
   void predictAround(int rank);
   /// It has entered the cell that it was to cross into.
   void cross(int rank);
+  /// Gravity has changed, and all that can move will fly anew.
+  void feelGravity();
   /// Others find it from now on where that position [m] is.
   void file(int rank, const Vec3& position);
   void findCrossing(int rank);
@@ -111,7 +113,6 @@ class Bodies {
   double workLeft(std::span<const int> ranks, const Instant& time) const;
   /// Of more than a few bodies in contact, time steps cost so much that it does not pay to begin.
   bool isTooMany(int movable) const;
-  bool mayBeCrowd() const { return crowds_.when != CrowdSettings::When::kNever; }
 
   /// Most events of one body at one moment before it goes on in a crowd, and of twice as many the run gives
   /// up: more than any impact needs, and a bound on endless repetition.
@@ -122,7 +123,7 @@ class Bodies {
   void noteSpeed(const Mover& body);
 
   const World& world_;
-  const ControlledWorld* controlled_ = nullptr;
+  const ChangingWorld* changing_ = nullptr;
   Instant end_;
   double tolerance_;
   CrowdSettings crowds_;
@@ -147,7 +148,8 @@ class Bodies {
 
 /// A body that takes part in an impact at that time, in this state after it.
 DoubtfulBody doubtful(Bodies& bodies, int rank, const Instant& time, const BodyState& after);
-/// [s] From that time on, until a joint lets go or its motor may change.
+/// [s] From that time on, until gravity changes; and until a joint lets go or its motor may change.
+double untilGravity(const Bodies& bodies, const Instant& time);
 double untilChange(const Bodies& bodies, const Joint& joint, const Instant& time);
 /// Whether joints end in the world.
 bool endsInWorld(const World& world);

@@ -425,6 +425,24 @@ void CrowdGroup::takeStep(std::size_t place) {
   bodies_.file(rank, crowd_.body(place).position);
 }
 
+// Velocities are those of the middle of its step; what was not touched in it has felt its loads since.
+void CrowdGroup::dissolve(Encounter& encounter) {
+  endAt(encounter.time);
+  for (std::size_t place = 0; place < ranks_.size(); ++place) {
+    const int rank = ranks_[place];
+    if (rank < 0 || bodies_[rank].isHeld()) {
+      continue;
+    }
+    joined_[place].flush(bodies_.recorder(), bodies_[rank].listed);
+    encounter.bodies.push_back({.mover = &bodies_[rank],
+                                .attitude = crowd_.attitude(place),
+                                .before = crowd_.memory().places[place].untouchedSteps > 0
+                                              ? crowd_.stateAtEnd(place)
+                                              : crowd_.state(place)});
+  }
+  ranks_.clear();
+}
+
 // Its energy is known at the ends of its steps.
 void CrowdGroup::endRun() {
   const std::vector<char> suddenly = changedSuddenly();

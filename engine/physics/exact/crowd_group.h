@@ -20,6 +20,8 @@ class CrowdGroup final : public ContactGroup {
 
   /// The bodies of an encounter, and the crowds that they meet, are one crowd from there on.
   static void form(Bodies& bodies, const Encounter& encounter);
+  /// Ends at the time of an encounter, and adds its members to it.
+  void dissolve(Encounter& encounter);
 
   bool goesOn() const override { return true; }
   std::optional<Encounter> advance(const Instant& time) override;

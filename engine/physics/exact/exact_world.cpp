@@ -1,6 +1,7 @@
 #include "physics/exact/exact_world.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -59,21 +60,32 @@ std::vector<std::size_t> articulationsOf(const World& world) {
 // The event loop, from here to end().
 
 ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder)
-    : controlled_(world.joints.empty() ? std::nullopt : std::optional<ControlledWorld>(world)),
-      bodies_(controlled_ ? controlled_->world() : world, settings, recorder,
-              controlled_ ? &*controlled_ : nullptr),
+    : changing_(world.joints.empty() && world.gravityChanges.empty() ? std::nullopt
+                                                                     : std::optional<ChangingWorld>(world)),
+      bodies_(changing_ ? changing_->world() : world, settings, recorder, changing_ ? &*changing_ : nullptr),
       articulationOf_(articulationsOf(world)) {}
 
 RunFigures ExactWorld::run(const std::stop_token& stop) {
   begin();
-  for (std::optional<Event> event = bodies_.queue().next(); event && !earlier(bodies_.end(), event->time);
-       event = bodies_.queue().next()) {
+  while (true) {
+    const std::optional<Event> event = bodies_.queue().next();
+    const bool isOver = !event || earlier(bodies_.end(), event->time);
+    const double change = changing_ ? changing_->nextGravity() : std::numeric_limits<double>::infinity();
+    const bool changesFirst = change < bodies_.end().hi && (isOver || change <= event->time.hi);
+    if (isOver && !changesFirst) {
+      break;
+    }
     if (stop.stop_requested()) {
       throw Interrupted();
     }
-    bodies_.recorder().reaches(event->time.hi);
-    changeJoints(event->time.hi);
-    happen(*event);
+    const double time = changesFirst ? change : event->time.hi;
+    bodies_.recorder().reaches(time);
+    changeJoints(time);
+    if (changesFirst) {
+      changeGravity(Instant(time));
+    } else {
+      happen(*event);
+    }
   }
   end();
   return bodies_.account().figures();
@@ -96,13 +108,54 @@ void ExactWorld::begin() {
 
 // All that step end their steps where their joints change.
 void ExactWorld::changeJoints(double until) {
-  while (controlled_ && controlled_->next() <= until) {
-    const Instant now(controlled_->next());
+  while (changing_ && changing_->next() <= until) {
+    const Instant now(changing_->next());
     std::vector<BodyState> states(static_cast<std::size_t>(bodies_.count()));
     for (int rank = 0; rank < bodies_.count(); ++rank) {
       states[static_cast<std::size_t>(bodies_[rank].listed.value)] = bodies_[rank].stateAt(now);
     }
-    controlled_->change(states, bodies_.recorder());
+    changing_->change(states, bodies_.recorder());
+  }
+}
+
+// All that can move flies anew, as at the start of a run, and finds again what it touches.
+void ExactWorld::changeGravity(const Instant& time) {
+  Encounter all;
+  all.time = time;
+  for (int rank = 0; rank < bodies_.count(); ++rank) {
+    if (!bodies_[rank].isHeld()) {
+      join(bodies_, all, rank);
+    }
+  }
+  for (const std::shared_ptr<CrowdGroup>& crowd : all.crowds) {
+    crowd->dissolve(all);
+  }
+  const Vec3 before = bodies_.world().gravity;
+  for (const EncounterBody& body : all.bodies) {
+    if (body.mover->flies()) {
+      bodies_.arrive(*body.mover, time, body.before);
+    } else {
+      bodies_.account().departs(static_cast<std::size_t>(body.listed()), body.before);
+      bodies_.account().mayLose();
+    }
+  }
+  bodies_.account().parted();
+  changing_->changeGravity();
+  bodies_.feelGravity();
+  for (const EncounterBody& body : all.bodies) {
+    if (body.mover->isHeld()) {
+      continue;
+    }
+    const int rank = body.mover->rank;
+    bodies_.account().gives(-body.body().mass.mass *
+                            dot(bodies_.world().gravity - before, body.before.pose.position));
+    body.mover->group.reset();
+    bodies_.file(rank, body.before.pose.position);
+    bodies_.fly(rank, time, body.before, body.attitude);
+  }
+  bodies_.account().parted();
+  for (int rank = 0; rank < bodies_.count(); ++rank) {
+    bodies_.predict(rank);
   }
 }
 
@@ -139,7 +192,7 @@ void ExactWorld::meet(const Event& event) {
     resolve(bodies_, encounter);
     settle(bodies_, encounter);
   } catch (const NumericalError&) {
-    if (!bodies_.mayBeCrowd()) {
+    if (!bodies_.crowds().areAllowed()) {
       throw;
     }
     CrowdGroup::form(bodies_, encounter);
@@ -200,7 +253,7 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
   if (!encounter.crowds.empty()) {
     return true;
   }
-  if (!bodies_.mayBeCrowd()) {
+  if (!bodies_.crowds().areAllowed()) {
     return false;
   }
   BodiesApart movable(articulationOf_);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "physics/exact/bodies.h"
-#include "physics/exact/controlled_world.h"
+#include "physics/exact/changing_world.h"
 #include "physics/exact/encounter.h"
 #include "physics/exact/event_queue.h"
 #include "physics/motion/recorder.h"
@@ -31,6 +31,7 @@ class ExactWorld {
   void begin();
   void happen(const Event& event);
   void changeJoints(double until);
+  void changeGravity(const Instant& time);
   void meet(const Event& event);
   void moveOn(Encounter& encounter);
   void end();
@@ -38,7 +39,7 @@ class ExactWorld {
   bool goesOnAsCrowd(const Encounter& encounter) const;
   bool costsTooMuch(const Encounter& encounter) const;
 
-  std::optional<ControlledWorld> controlled_;  // of worlds with joints
+  std::optional<ChangingWorld> changing_;  // of worlds with joints, or whose gravity changes
   Bodies bodies_;
   std::vector<std::size_t> articulationOf_;  // by body of the world; empty: there are no joints
 };

@@ -76,7 +76,7 @@ bool IslandGroup::takeStep(const Instant& time) {
   bool isSolved = true;
   try {
     // Not bounded by the end of the run, on which the motion must not depend.
-    double change = std::numeric_limits<double>::infinity();
+    double change = untilGravity(bodies_, time);
     for (const ContactFeature& feature : island_->joints()) {
       change = std::min(change, untilChange(bodies_, *feature.joint, time));
     }
@@ -85,7 +85,7 @@ bool IslandGroup::takeStep(const Instant& time) {
     length_ = step.length;
     end_ = step.length < change ? step.end : Island::End::kChanges;
   } catch (const NumericalError&) {
-    if (!bodies_.mayBeCrowd()) {
+    if (!bodies_.crowds().areAllowed()) {
       throw;
     }
     isSolved = false;

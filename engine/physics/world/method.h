@@ -19,6 +19,7 @@ struct MethodTraits {
   bool friction = false;
   bool rests = false;  ///< bounces may come to rest
   bool joints = false;
+  bool gravityChanges = false;
 
   constexpr bool steps() const { return order > 0; }
 };
@@ -36,7 +37,8 @@ inline constexpr std::array kMethods = {
                  .boxBox = true,
                  .friction = true,
                  .rests = true,
-                 .joints = true},
+                 .joints = true,
+                 .gravityChanges = true},
     MethodTraits{.method = Method::kListing1, .name = "listing1", .order = 1, .forces = true},
     steppedFlight(Method::kStrang, "strang", 2),
     steppedFlight(Method::kRungeKutta4, "runge-kutta-4", 4),

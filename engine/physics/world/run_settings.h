@@ -32,6 +32,8 @@ struct CrowdSettings {
   When when = When::kAuto;
   int above = 0;
   double tolerance = 3e-4;  ///< [m] of penetration; steps are its root
+
+  bool areAllowed() const { return when != When::kNever; }
 };
 
 inline constexpr int kMostThreadsOfCrowds = 64;

@@ -1,6 +1,7 @@
 #include "physics/world/world.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace careen {
@@ -11,6 +12,35 @@ const Wall& nowhere() {
                          .offset = -std::numeric_limits<double>::infinity(),
                          .material = {}};
   return none;
+}
+
+Vec3 gravityAt(const World& world, double time) {
+  const auto after = std::find_if(world.gravityChanges.begin(), world.gravityChanges.end(),
+                                  [&](const GravityChange& change) { return change.time > time; });
+  return after == world.gravityChanges.begin() ? world.gravity : std::prev(after)->gravity;
+}
+
+Vec3 meanGravity(const World& world, double from, double to) {
+  Vec3 gravity = gravityAt(world, from);
+  if (world.gravityChanges.empty() || !(to > from)) {
+    return gravity;
+  }
+  Vec3 gained = (to - from) * gravity;
+  for (const GravityChange& change : world.gravityChanges) {
+    if (change.time > from && change.time < to) {
+      gained += (to - change.time) * (change.gravity - gravity);
+      gravity = change.gravity;
+    }
+  }
+  return gained / (to - from);
+}
+
+double mostGravity(const World& world) {
+  double most = world.gravity.norm();
+  for (const GravityChange& change : world.gravityChanges) {
+    most = std::max(most, change.gravity.norm());
+  }
+  return most;
 }
 
 bool isJointed(const World& world, int body) {

@@ -45,9 +45,16 @@ struct Drag {
   double angular = 0;  ///< [N m s]
 };
 
+/// Gravity [m/s²] from a moment [s] on.
+struct GravityChange {
+  double time = 0;
+  Vec3 gravity = Vec3::Zero();
+};
+
 /// The simulated system: only what a scene's plan needs is in it; an empty list costs nothing.
 struct World {
-  Vec3 gravity = Vec3::Zero();  ///< [m/s²]
+  Vec3 gravity = Vec3::Zero();                ///< [m/s²] at the start
+  std::vector<GravityChange> gravityChanges;  ///< after it; their times ascend
   std::vector<Body> bodies;
   std::vector<Wall> walls;
   std::vector<Spring> springs;
@@ -57,6 +64,11 @@ struct World {
   std::vector<std::pair<int, int>> apart;  ///< bodies that pass through each other, the lesser first; sorted
 };
 
+/// [m/s²] Gravity just after a moment [s], and its mean from one moment to another.
+Vec3 gravityAt(const World& world, double time);
+Vec3 meanGravity(const World& world, double from, double to);
+/// [m/s²] The largest that it ever is.
+double mostGravity(const World& world);
 /// Whether a body, by index, is an end of a joint.
 bool isJointed(const World& world, int body);
 /// Whether a joint that holds lets go one day, is driven, or has an effort that a control may change.

@@ -10,6 +10,24 @@ TEST(World, endsNowhere) {
   EXPECT_EQ(&nowhere(), &nowhere());
 }
 
+// 2 until 1 s, then 5 until 3 s, then −1, along x: of 0.5 to 4 s (0.5 · 2 + 2 · 5 − 1)/3.5.
+TEST(World, tellsGravityAtAnyTime) {
+  World world;
+  world.gravity = Vec3(2, 0, 0);
+  EXPECT_EQ(gravityAt(world, 7), Vec3(2, 0, 0));
+  EXPECT_EQ(meanGravity(world, 0, 7), Vec3(2, 0, 0));
+  world.gravityChanges = {{.time = 1, .gravity = Vec3(5, 0, 0)}, {.time = 3, .gravity = Vec3(-1, 0, 0)}};
+  EXPECT_EQ(gravityAt(world, 0).x(), 2);
+  EXPECT_EQ(gravityAt(world, 0.999).x(), 2);
+  EXPECT_EQ(gravityAt(world, 1).x(), 5);
+  EXPECT_EQ(gravityAt(world, 2.9).x(), 5);
+  EXPECT_EQ(gravityAt(world, 9).x(), -1);
+  EXPECT_NEAR(meanGravity(world, 0.5, 4).x(), 10 / 3.5, 1e-15);
+  EXPECT_EQ(meanGravity(world, 1, 3).x(), 5);
+  EXPECT_EQ(meanGravity(world, 3, 3).x(), -1);
+  EXPECT_EQ(mostGravity(world), 5);
+}
+
 TEST(World, letsThoseThroughThatItNames) {
   World world;
   EXPECT_TRUE(mayTouch(world, 0, 1));

@@ -1,4 +1,4 @@
-#include "physics/exact/controlled_world.h"
+#include "physics/exact/changing_world.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-ControlledWorld::ControlledWorld(const World& world)
+ChangingWorld::ChangingWorld(const World& world)
     : world_(world), samples_(world.joints.size()), isDriven_(world.joints.size(), 0) {
   if (world_.control) {
     for (const Motor& motor : world_.control->motors) {
@@ -26,12 +26,18 @@ ControlledWorld::ControlledWorld(const World& world)
   release(-kNever);
 }
 
+double ChangingWorld::nextGravity() const {
+  return gravities_ < world_.gravityChanges.size() ? world_.gravityChanges[gravities_].time : kNever;
+}
+
+void ChangingWorld::changeGravity() { world_.gravity = world_.gravityChanges[gravities_++].gravity; }
+
 // By multiplication: no sum of periods.
-double ControlledWorld::nextSample() const {
+double ChangingWorld::nextSample() const {
   return world_.control ? static_cast<double>(sampled_) * world_.control->period : kNever;
 }
 
-double ControlledWorld::nextOf(int joint) const {
+double ChangingWorld::nextOf(int joint) const {
   const auto j = static_cast<std::size_t>(joint);
   const double until = world_.joints[j].until;
   if (until <= changed_) {
@@ -40,7 +46,7 @@ double ControlledWorld::nextOf(int joint) const {
   return isDriven_[j] != 0 ? std::min(until, nextSample()) : until;
 }
 
-void ControlledWorld::change(std::span<const BodyState> states, Recorder& recorder) {
+void ChangingWorld::change(std::span<const BodyState> states, Recorder& recorder) {
   const double time = next();
   changed_ = time;
   if (nextRelease_ <= time) {
@@ -55,7 +61,7 @@ void ControlledWorld::change(std::span<const BodyState> states, Recorder& record
 }
 
 // What has let go has no load; the next one that will.
-std::vector<JointEffort> ControlledWorld::release(double time) {
+std::vector<JointEffort> ChangingWorld::release(double time) {
   std::vector<JointEffort> ended;
   nextRelease_ = kNever;
   for (Joint& joint : world_.joints) {
@@ -71,7 +77,7 @@ std::vector<JointEffort> ControlledWorld::release(double time) {
   return ended;
 }
 
-void ControlledWorld::sample(double time, std::span<const BodyState> states, Recorder& recorder) {
+void ChangingWorld::sample(double time, std::span<const BodyState> states, Recorder& recorder) {
   for (std::size_t j = 0; j < samples_.size(); ++j) {
     const Joint& joint = world_.joints[j];
     if (!joint.hasCoordinate()) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -11,14 +12,18 @@
 
 namespace careen {
 
-/// A world whose joints change at moments: the efforts of its motors at each sample of its control, and what
-/// lets go has no load any more.
-class ControlledWorld {
+/// A world that changes at moments: its gravity, the efforts of its motors at each sample of its control, and
+/// what lets go has no load any more.
+class ChangingWorld {
  public:
-  explicit ControlledWorld(const World& world);
+  explicit ChangingWorld(const World& world);
 
   const World& world() const { return world_; }
-  /// [s] The next such moment.
+  /// [s] When gravity changes next.
+  double nextGravity() const;
+  void changeGravity();
+
+  /// [s] The next moment at which joints change.
   double next() const { return std::min(nextSample(), nextRelease_); }
   /// The next one of a joint: when its forces jump.
   double nextOf(int joint) const;
@@ -26,11 +31,12 @@ class ControlledWorld {
   void change(std::span<const BodyState> states, Recorder& recorder);
 
  private:
-  double nextSample() const;
+  double nextSample() const;  // [s]
   void sample(double time, std::span<const BodyState> states, Recorder& recorder);
   std::vector<JointEffort> release(double time);
 
   World world_;
+  std::size_t gravities_ = 0;         // how often gravity has changed
   std::vector<JointSample> samples_;  // by joint, of the last sample
   std::vector<char> isDriven_;        // by joint: its effort may change
   std::int64_t sampled_ = 0;          // how often
