@@ -173,14 +173,20 @@ std::string lawInWords(const ImpactMoment& moment, const World& world) {
              "they share" +
              joints;
     case ImpactLaw::kInCrowd:
-      return "in a step of a crowd, to its tolerance; velocities are means over the steps before and after" +
-             joints;
+      return "a step of a crowd, which ends then, with all contacts of the crowd, to its tolerance" + joints;
     case ImpactLaw::kLoop1997:
       return "Listing 1 of 1997: one corner after another, without friction";
     case ImpactLaw::kStepped:
       break;
   }
   return "one box at walls, between two steps";
+}
+
+// Its impulses act within steps, so that no velocity jumps.
+bool isInCrowd(const ImpactMoment& moment) { return moment.law == ImpactLaw::kInCrowd; }
+
+std::string beforeAndAfter(double before, double after) {
+  return brief(before, kDigits) + " m/s before, " + brief(after, kDigits) + " m/s after";
 }
 
 // One contact of it.
@@ -200,12 +206,14 @@ void printContact(const Trajectory& run, const ImpactMoment& moment, std::size_t
             << b << '\n'
             << "pair         restitution " << brief(pair.restitution, kDigits) << ", friction "
             << brief(pair.friction, kDigits) << '\n'
-            << "normal       " << brief(along(at.before), kDigits) << " m/s before, "
-            << brief(along(at.after), kDigits) << " m/s after, impulse " << brief(impact.impulse, kDigits)
-            << " N s\n"
-            << "tangential   " << brief(across(at.before), kDigits) << " m/s before, "
-            << brief(across(at.after), kDigits) << " m/s after, impulse " << brief(impact.tangential, kDigits)
-            << " N s of at most " << brief(pair.friction * impact.impulse, kDigits) << "; "
+            << "normal       "
+            << (isInCrowd(moment) ? "approached at " + brief(impact.approach, kDigits) + " m/s"
+                                  : beforeAndAfter(along(at.before), along(at.after)))
+            << ", impulse " << brief(impact.impulse, kDigits) << " N s\n"
+            << "tangential   "
+            << (isInCrowd(moment) ? "" : beforeAndAfter(across(at.before), across(at.after)) + ", ")
+            << "impulse " << brief(impact.tangential, kDigits) << " N s of at most "
+            << brief(pair.friction * impact.impulse, kDigits) << "; "
             << inWords(frictionOutcome(impact, run.world)) << '\n';
 }
 
@@ -217,7 +225,7 @@ void printImpact(const Trajectory& run, int asked) {
     std::cout << "together     with" << listed(moment.impacts, index) << ", parts of one\n";
   }
   if (!moment.atTheSameTime.empty()) {
-    std::cout << "meanwhile    of other boxes:" << listed(moment.atTheSameTime, index) << '\n';
+    std::cout << "meanwhile   " << listed(moment.atTheSameTime, index) << ", of other boxes\n";
   }
   printContact(run, moment, index);
   for (const std::size_t each : moment.impacts) {
@@ -240,7 +248,10 @@ void printImpact(const Trajectory& run, int asked) {
     after += print("  after      ", struck.after);
   }
   std::cout << "energy       " << brief(before, kDigits) << " J before, " << brief(after, kDigits)
-            << " J after, kinetic; lost " << brief(before - after, kDigits) << " J\n"
+            << " J after, kinetic; "
+            << (isInCrowd(moment) ? "what was lost in the step is not told apart"
+                                  : "lost " + brief(before - after, kDigits) + " J")
+            << '\n'
             << "law          " << lawInWords(moment, run.world) << '\n';
 }
 
