@@ -123,6 +123,21 @@ TEST(EnergySamples, ofAnOscillatorWithAndWithoutDamping) {
   }
 }
 
+// Undamped, x = cos 2t: after an eighth of a period it has half of the 4 J, which it takes along there.
+TEST(EnergySamples, aSpringTakesItsEnergyAlongWhenItsJointLetsGo) {
+  World world = oscillator(0, true);
+  world.joints[0].until = M_PI / 8;
+  const Trajectory run = record(world, {.duration = 1, .tolerance = 1e-9}, "");
+  EnergySamples samples(run);
+  EXPECT_NEAR(samples.at(0.99 * M_PI / 8).shares.jointSprings, 2, 0.1);
+  for (const double time : {1.01 * M_PI / 8, 1.0}) {
+    const RunEnergies freed = samples.at(time);
+    EXPECT_EQ(freed.shares.jointSprings, 0);
+    EXPECT_NEAR(freed.shares.translation, 2, 1e-7);
+    EXPECT_NEAR(freed.remaining, 2, 1e-7);
+  }
+}
+
 // A slide of 1 kg is pushed by 3 N from 0.5 s on: F x = ½ m v². One with a drive of the same force, which is
 // not recorded: its work is missing in what remains.
 TEST(EnergySamples, motorsGiveTheirEffortTimesTheWay) {

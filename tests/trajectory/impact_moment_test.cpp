@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "support/exact_runs.h"
+#include "physics/world/method.h"
+#include "support/jointed.h"
 
 namespace careen {
 namespace {
@@ -88,6 +89,52 @@ TEST(ImpactMoment, ofAFaceWithFriction) {
     }
     EXPECT_EQ(pairOf(run.impacts[0], world).friction, friction);
   }
+}
+
+// 1 kg at 3 m/s and 3 kg at −1 m/s, elastic: in their middle's frame both turn back, their relative velocity,
+// too.
+TEST(ImpactMoment, ofTwoBoxes) {
+  World world;
+  world.bodies = {box("light", Vec3::Constant(0.5), 1, Vec3(-2, 0, 0), Vec3(3, 0, 0)),
+                  box("heavy", Vec3::Constant(0.5), 3, Vec3(2, 0, 0), Vec3(-1, 0, 0))};
+  const Trajectory run = record(world, {.duration = 1.5}, "");
+  ASSERT_FALSE(run.impacts.empty());
+  const ImpactMoment moment = impactMoment(run, 0);
+  EXPECT_EQ(moment.impacts.size(), run.impacts.size());
+  ASSERT_EQ(moment.bodies.size(), 2U);
+  EXPECT_LT((moment.bodies[0].after.velocity - Vec3(-3, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((moment.bodies[1].after.velocity - Vec3(1, 0, 0)).norm(), 1e-12);
+  for (const Impact& impact : run.impacts) {
+    const PointVelocities at = pointVelocities(impact, moment.bodies, world);
+    EXPECT_NEAR(dot(at.before, impact.normal), -4, 1e-12);
+    EXPECT_NEAR(dot(at.after, impact.normal), 4, 1e-12);
+  }
+}
+
+// What hangs on a joint is struck with it; and a box in a crowd by the crowd's own way.
+TEST(ImpactMoment, tellsJointsStepsAndCrowds) {
+  World world = overFloor(0.5, 0.5);
+  world.bodies = {dieAt("die", Vec3(0, 0, 1), Vec3::Zero(), 0.5),
+                  dieAt("rider", Vec3(0, 0, 2.2), Vec3::Zero(), 0.5)};
+  world.bodies.push_back(dieAt("last", Vec3(0, 0, 3.4), Vec3::Zero(), 0.5));
+  test::join(world, Joint::Kind::kBall, 0, 1, Vec3(0, 0, 1.6));
+  test::join(world, Joint::Kind::kBall, 1, 2, Vec3(0, 0, 2.8));
+  const ImpactMoment joined = impactMoment(record(world, {.duration = 0.5}, ""), 0);
+  EXPECT_EQ(joined.law, ImpactLaw::kInSteps);
+  EXPECT_EQ(joined.joints, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(joined.bodies.size(), 3U);
+
+  world.joints.clear();
+  world.apart.clear();
+  RunSettings settings{.duration = 1};
+  settings.crowds = {.when = CrowdSettings::When::kAbove, .above = 0};
+  const Trajectory crowd = record(world, settings, "");
+  ASSERT_FALSE(crowd.impacts.empty());
+  EXPECT_EQ(impactMoment(crowd, static_cast<int>(crowd.impacts.size()) - 1).law, ImpactLaw::kInCrowd);
+
+  settings = {.method = Method::kListing1, .duration = 0.5, .dt = 0.001};
+  world.bodies.resize(1);
+  EXPECT_EQ(impactMoment(record(world, settings, ""), 0).law, ImpactLaw::kLoop1997);
 }
 
 TEST(ImpactMoment, tellsStickingFromSliding) {
