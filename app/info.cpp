@@ -127,13 +127,13 @@ void printFamily(const Family& family) {
 
 constexpr int kDigits = 9;  // of an impact
 
-std::string inWords(const Vec3& v) {
+std::string vectorInWords(const Vec3& v) {
   const auto part = [](double x) { return brief(x + 0.0, kDigits); };  // no -0
   return "(" + part(v.x()) + ", " + part(v.y()) + ", " + part(v.z()) + ")";
 }
 
 // " 4, 5"
-std::string listed(const std::vector<std::size_t>& indices, std::size_t but) {
+std::string othersOf(const std::vector<std::size_t>& indices, std::size_t but) {
   std::string list;
   for (const std::size_t each : indices) {
     list += each == but ? "" : (list.empty() ? " " : ", ") + std::to_string(each);
@@ -141,7 +141,7 @@ std::string listed(const std::vector<std::size_t>& indices, std::size_t but) {
   return list;
 }
 
-std::string inWords(FrictionOutcome outcome) {
+std::string frictionInWords(FrictionOutcome outcome) {
   switch (outcome) {
     case FrictionOutcome::kNone:
       return "without friction";
@@ -202,8 +202,8 @@ void printContact(const Trajectory& run, const ImpactMoment& moment, std::size_t
   std::cout << "impact       " << index << " of " << run.impacts.size() << ", counted from 0: "
             << printableName(run.world.bodies[static_cast<std::size_t>(impact.a.value)].name) << " struck "
             << b << '\n'
-            << "where        " << inWords(impact.point) << " m, normal " << inWords(impact.normal) << " from "
-            << b << '\n'
+            << "where        " << vectorInWords(impact.point) << " m, normal " << vectorInWords(impact.normal)
+            << " from " << b << '\n'
             << "pair         restitution " << brief(pair.restitution, kDigits) << ", friction "
             << brief(pair.friction, kDigits) << '\n'
             << "normal       "
@@ -214,7 +214,7 @@ void printContact(const Trajectory& run, const ImpactMoment& moment, std::size_t
             << (isInCrowd(moment) ? "" : beforeAndAfter(across(at.before), across(at.after)) + ", ")
             << "impulse " << brief(impact.tangential, kDigits) << " N s of at most "
             << brief(pair.friction * impact.impulse, kDigits) << "; "
-            << inWords(frictionOutcome(impact, run.world)) << '\n';
+            << frictionInWords(frictionOutcome(impact, run.world)) << '\n';
 }
 
 void printImpact(const Trajectory& run, int asked) {
@@ -222,10 +222,10 @@ void printImpact(const Trajectory& run, int asked) {
   const auto index = static_cast<std::size_t>(asked);
   std::cout << "time         " << brief(moment.time, 12) << " s\n";
   if (moment.impacts.size() > 1) {
-    std::cout << "together     with" << listed(moment.impacts, index) << ", parts of one\n";
+    std::cout << "together     with" << othersOf(moment.impacts, index) << ", parts of one\n";
   }
   if (!moment.atTheSameTime.empty()) {
-    std::cout << "meanwhile   " << listed(moment.atTheSameTime, index) << ", of other boxes\n";
+    std::cout << "meanwhile   " << othersOf(moment.atTheSameTime, index) << ", of other boxes\n";
   }
   printContact(run, moment, index);
   for (const std::size_t each : moment.impacts) {
@@ -239,8 +239,9 @@ void printImpact(const Trajectory& run, int asked) {
     const Body& body = run.world.bodies[struck.body];
     const auto print = [&](const char* when, const BodyState& state) {
       const double energy = kineticEnergy(body.mass, state);
-      std::cout << when << inWords(state.velocity) << " m/s, " << inWords(angularVelocity(body.mass, state))
-                << " rad/s, " << brief(energy, kDigits) << " J\n";
+      std::cout << when << vectorInWords(state.velocity) << " m/s, "
+                << vectorInWords(angularVelocity(body.mass, state)) << " rad/s, " << brief(energy, kDigits)
+                << " J\n";
       return energy;
     };
     std::cout << "box          " << printableName(body.name) << '\n';

@@ -200,12 +200,13 @@ PointVelocities pointVelocities(const Impact& impact, const std::vector<StruckBo
 }
 
 FrictionOutcome frictionOutcome(const Impact& impact, const World& world) {
-  constexpr double kRounding = 1e-9;  // [1]
+  constexpr double kLimitRounding = 1e-9;  // [1]
   const double most = pairOf(impact, world).friction * impact.impulse;
   if (most == 0 || impact.tangential == 0) {
     return most == 0 ? FrictionOutcome::kNone : FrictionOutcome::kIdle;
   }
-  return impact.tangential < (1 - kRounding) * most ? FrictionOutcome::kSticks : FrictionOutcome::kSlides;
+  return impact.tangential < (1 - kLimitRounding) * most ? FrictionOutcome::kSticks
+                                                         : FrictionOutcome::kSlides;
 }
 
 Material pairOf(const Impact& impact, const World& world) {

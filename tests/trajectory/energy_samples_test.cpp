@@ -12,26 +12,26 @@
 namespace careen {
 namespace {
 
-constexpr double kGravity = 10;  // [m/s²]
+constexpr double kPull = 10;  // [m/s²]
 
-World falling(const Vec3& position, const Vec3& velocity = Vec3::Zero()) {
+World fallingDie(const Vec3& position, const Vec3& velocity = Vec3::Zero()) {
   World world;
-  world.gravity = Vec3(0, 0, -kGravity);
+  world.gravity = Vec3(0, 0, -kPull);
   world.bodies = {box("die", Vec3::Constant(0.5), 2, position, velocity, Vec3::Zero(), 0)};
   return world;
 }
 
 // 2 kg at 3 m: ½ m v² of v = g t, and m g h of the rest of its height; p and x × p.
 TEST(EnergySamples, ofAFreeFall) {
-  const Trajectory run = record(falling(Vec3(4, 0, 3), Vec3(0, 1, 0)), {.duration = 0.5}, "");
+  const Trajectory run = record(fallingDie(Vec3(4, 0, 3), Vec3(0, 1, 0)), {.duration = 0.5}, "");
   EnergySamples samples(run);
   for (const double time : {0.0, 0.125, 0.3, 0.5}) {
     const RunEnergies now = samples.at(time);
-    const double speed = kGravity * time;
-    const double height = 3 - 0.5 * kGravity * time * time;
+    const double speed = kPull * time;
+    const double height = 3 - 0.5 * kPull * time * time;
     EXPECT_NEAR(now.shares.translation, 0.5 * 2 * (1 + speed * speed), 1e-12);
     EXPECT_EQ(now.shares.rotation, 0);
-    EXPECT_NEAR(now.shares.gravity, 2 * kGravity * height, 1e-12);
+    EXPECT_NEAR(now.shares.gravity, 2 * kPull * height, 1e-12);
     EXPECT_NEAR(now.shares.sum(), 61, 1e-12);
     EXPECT_NEAR(now.remaining, 0, 1e-12);
     EXPECT_LT((now.momentum - Vec3(0, 2, -2 * speed)).norm(), 1e-12);
@@ -43,13 +43,13 @@ TEST(EnergySamples, ofAFreeFall) {
 // It falls 1 m: the impact takes (1 − e²)/2 m v² = (1 − e²) m g · 1 m.
 TEST(EnergySamples, aBounceLosesWhatRestitutionSays) {
   for (const double restitution : {1.0, 0.5, 0.0}) {
-    World world = falling(Vec3(0, 0, 1.5));
+    World world = fallingDie(Vec3(0, 0, 1.5));
     world.walls = {wall("floor", Vec3::UnitZ(), 0, restitution)};
     const Trajectory run = record(world, {.duration = 0.6}, "");
     EnergySamples samples(run);
     EXPECT_EQ(samples.at(0.44).lost.impacts, 0);  // √0.2 = 0.447
     const RunEnergies after = samples.at(0.6);
-    const double lost = (1 - restitution * restitution) * 2 * kGravity;
+    const double lost = (1 - restitution * restitution) * 2 * kPull;
     EXPECT_NEAR(after.lost.impacts, lost, 1e-11);
     EXPECT_NEAR(after.shares.sum(), 30 - lost, 1e-11);
     EXPECT_NEAR(after.remaining, 0, 1e-11);
@@ -58,7 +58,7 @@ TEST(EnergySamples, aBounceLosesWhatRestitutionSays) {
 
 // It stops after v²/(2 μ g) = 0.8 m, and μ m g · 0.8 m = ½ m v².
 TEST(EnergySamples, slidingIsWhatRemains) {
-  World world = falling(Vec3(0, 0, 0.5), Vec3(2, 0, 0));
+  World world = fallingDie(Vec3(0, 0, 0.5), Vec3(2, 0, 0));
   world.bodies[0].material.friction = 0.25;
   world.walls = {wall("floor", Vec3::UnitZ(), 0, 0)};
   world.walls[0].material.friction = 0.25;
@@ -68,7 +68,7 @@ TEST(EnergySamples, slidingIsWhatRemains) {
     const RunEnergies now = samples.at(time);
     const double until = std::min(time, 0.8);
     const double way = 2 * until - 0.5 * 2.5 * until * until;
-    EXPECT_NEAR(now.remaining, 0.25 * 2 * kGravity * way, 1e-6);
+    EXPECT_NEAR(now.remaining, 0.25 * 2 * kPull * way, 1e-6);
     EXPECT_NEAR(now.lost.sum(), 0, 1e-10);
   }
 }
@@ -183,7 +183,7 @@ TEST(EnergySamples, aFreePairKeepsItsMomenta) {
 }
 
 TEST(EnergySamples, writeATable) {
-  World world = falling(Vec3(0, 0, 1));
+  World world = fallingDie(Vec3(0, 0, 1));
   world.gravity = Vec3::Zero();
   world.bodies[0].initial.velocity = Vec3(2, 0, 0);
   std::string text;
