@@ -83,6 +83,20 @@ TEST(EnergyShares, springHoldsWhatItWasStretchedBy) {
   EXPECT_NEAR(book.sharesOf(trajectory.states(0.5), 0.5).springs, 4, 1e-12);  // ½ · 8 · 1²
 }
 
+// Along z it is at 1 m, and its spring rests at 0.5 m.
+TEST(EnergyShares, springsOfJointsCount) {
+  Trajectory trajectory = runOf(dropped(1));
+  Joint rail;
+  rail.kind = Joint::Kind::kSlider;
+  rail.from.body = 0;
+  rail.stiffness = 8;
+  rail.rest = 0.5;
+  trajectory.world.joints = {rail};
+  const EnergyBook book(trajectory);
+  EXPECT_TRUE(book.hasSprings());
+  EXPECT_NEAR(book.atStart(), 16 + 1, 1e-12);  // ½ · 8 · 0.5²
+}
+
 TEST(EnergyShares, whatIsHeldHasNone) {
   Scene scene = dropped(1);
   scene.boxes[0].fixed = true;
