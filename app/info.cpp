@@ -19,6 +19,7 @@
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
 #include "sweep/family.h"
+#include "trajectory/impact_moment.h"
 
 namespace careen {
 namespace {
@@ -124,6 +125,157 @@ void printFamily(const Family& family) {
   printScene(first);
 }
 
+constexpr int kDigits = 9;  // of an impact
+
+std::string vectorInWords(const Vec3& v) {
+  const auto part = [](double x) { return brief(x + 0.0, kDigits); };  // no -0
+  return "(" + part(v.x()) + ", " + part(v.y()) + ", " + part(v.z()) + ")";
+}
+
+// " 4, 5"
+std::string othersOf(const std::vector<std::size_t>& indices, std::size_t but) {
+  std::string list;
+  for (const std::size_t each : indices) {
+    list += each == but ? "" : (list.empty() ? " " : ", ") + std::to_string(each);
+  }
+  return list;
+}
+
+std::string frictionInWords(FrictionOutcome outcome) {
+  switch (outcome) {
+    case FrictionOutcome::kNone:
+      return "without friction";
+    case FrictionOutcome::kIdle:
+      return "friction had nothing to do";
+    case FrictionOutcome::kSticks:
+      return "it stuck: less than the limit ended the slip";
+    case FrictionOutcome::kSlides:
+      break;
+  }
+  return "it slid: friction at its limit";
+}
+
+std::string lawInWords(const ImpactMoment& moment, const World& world) {
+  std::string joints;
+  for (const std::size_t joint : moment.joints) {
+    joints += (joints.empty() ? ", through " : ", ") + printableName(world.joints[joint].name);
+  }
+  switch (moment.law) {
+    case ImpactLaw::kOneContact:
+      return "one contact of boxes that flew: it parts with the restitution times its normal speed, in "
+             "closed "
+             "form";
+    case ImpactLaw::kSeveralContacts:
+      return "several contacts of boxes that flew, resolved at once because they share boxes" + joints;
+    case ImpactLaw::kInSteps:
+      return "boxes that moved in steps (in contact, joined, or under springs or drag): with all contacts "
+             "that "
+             "they share" +
+             joints;
+    case ImpactLaw::kInCrowd:
+      return "a step of a crowd, which ends then, with all contacts of the crowd, to its tolerance" + joints;
+    case ImpactLaw::kLoop1997:
+      return "Listing 1 of 1997: one corner after another, without friction";
+    case ImpactLaw::kStepped:
+      break;
+  }
+  return "one box at walls, between two steps";
+}
+
+// Its impulses act within steps, so that no velocity jumps.
+bool isInCrowd(const ImpactMoment& moment) { return moment.law == ImpactLaw::kInCrowd; }
+
+std::string beforeAndAfter(double before, double after) {
+  return brief(before, kDigits) + " m/s before, " + brief(after, kDigits) + " m/s after";
+}
+
+// One contact of it.
+void printContact(const Trajectory& run, const ImpactMoment& moment, std::size_t index) {
+  const Impact& impact = run.impacts[index];
+  const Material pair = pairOf(impact, run.world);
+  const PointVelocities at = pointVelocities(impact, moment.bodies, run.world);
+  const auto along = [&](const Vec3& velocity) { return dot(velocity, impact.normal); };
+  const auto across = [&](const Vec3& velocity) {
+    return Vec3(velocity - along(velocity) * impact.normal).norm();
+  };
+  const std::string b = printableName(run.partnerName(impact));
+  std::cout << "impact       " << index << " of " << run.impacts.size() << ", counted from 0: "
+            << printableName(run.world.bodies[static_cast<std::size_t>(impact.a.value)].name) << " struck "
+            << b << '\n'
+            << "where        " << vectorInWords(impact.point) << " m, normal " << vectorInWords(impact.normal)
+            << " from " << b << '\n'
+            << "pair         restitution " << brief(pair.restitution, kDigits) << ", friction "
+            << brief(pair.friction, kDigits) << '\n'
+            << "normal       "
+            << (isInCrowd(moment) ? "approached at " + brief(impact.approach, kDigits) + " m/s"
+                                  : beforeAndAfter(along(at.before), along(at.after)))
+            << ", impulse " << brief(impact.impulse, kDigits) << " N s\n"
+            << "tangential   "
+            << (isInCrowd(moment) ? "" : beforeAndAfter(across(at.before), across(at.after)) + ", ")
+            << "impulse " << brief(impact.tangential, kDigits) << " N s of at most "
+            << brief(pair.friction * impact.impulse, kDigits) << "; "
+            << frictionInWords(frictionOutcome(impact, run.world)) << '\n';
+}
+
+void printImpact(const Trajectory& run, int asked) {
+  const ImpactMoment moment = impactMoment(run, asked);
+  const auto index = static_cast<std::size_t>(asked);
+  std::cout << "time         " << brief(moment.time, 12) << " s\n";
+  if (moment.impacts.size() > 1) {
+    std::cout << "together     with" << othersOf(moment.impacts, index) << ", parts of one\n";
+  }
+  if (!moment.atTheSameTime.empty()) {
+    std::cout << "meanwhile   " << othersOf(moment.atTheSameTime, index) << ", of other boxes\n";
+  }
+  printContact(run, moment, index);
+  for (const std::size_t each : moment.impacts) {
+    if (each != index) {
+      printContact(run, moment, each);
+    }
+  }
+  double before = 0;
+  double after = 0;
+  for (const StruckBody& struck : moment.bodies) {
+    const Body& body = run.world.bodies[struck.body];
+    const auto print = [&](const char* when, const BodyState& state) {
+      const double energy = kineticEnergy(body.mass, state);
+      std::cout << when << vectorInWords(state.velocity) << " m/s, "
+                << vectorInWords(angularVelocity(body.mass, state)) << " rad/s, " << brief(energy, kDigits)
+                << " J\n";
+      return energy;
+    };
+    std::cout << "box          " << printableName(body.name) << '\n';
+    before += print("  before     ", struck.before);
+    after += print("  after      ", struck.after);
+  }
+  std::cout << "energy       " << brief(before, kDigits) << " J before, " << brief(after, kDigits)
+            << " J after, kinetic; "
+            << (isInCrowd(moment) ? "what was lost in the step is not told apart"
+                                  : "lost " + brief(before - after, kDigits) + " J")
+            << '\n'
+            << "law          " << lawInWords(moment, run.world) << '\n';
+}
+
+struct InfoOptions {
+  std::filesystem::path path;
+  SceneOfTable scene;
+  std::optional<int> impact;
+};
+
+// Of a run as it lies there: nothing is simulated or audited.
+ExitCode impactCommand(const InfoOptions& options, const std::stop_token& stop) {
+  if (options.scene.given() == nullptr && (options.path.empty() || !isRun(options.path))) {
+    throw InputError("--impact: found no run, expected a trajectory file");
+  }
+  const Run run = loadRun(options.path, {}, options.scene, stop);
+  try {
+    printImpact(run.trajectory, *options.impact);
+  } catch (const InputError& error) {
+    throw InputError("--impact: " + std::string(error.what()));
+  }
+  return ExitCode::kDone;
+}
+
 ExitCode infoCommand(std::filesystem::path path, const SceneOfTable& ofTable, const std::stop_token& stop) {
   if (path.empty()) {
     path = defaultScene();
@@ -160,17 +312,15 @@ ExitCode infoCommand(std::filesystem::path path, const SceneOfTable& ofTable, co
 void addInfo(const CommandLine& commandLine) {
   const CommandLine command =
       commandLine.addCommand("info", "What a scene's run models, what it leaves out, and why");
-  struct Arguments {
-    std::filesystem::path path;
-    SceneOfTable scene;
-  };
-  const auto arguments = std::make_shared<Arguments>();
-  command.add("file", arguments->path,
+  const auto options = std::make_shared<InfoOptions>();
+  command.add("file", options->path,
               "Scene (or model of MuJoCo, .xml), trajectory file or table of poses; the default scene if "
               "none is named");
-  arguments->scene.addTo(command);
-  command.runs([arguments](const std::stop_token& stop) {
-    return infoCommand(arguments->path, arguments->scene, stop);
+  command.add("--impact", options->impact,
+              "All that a run knows of one impact: its row in the table of impacts, counted from 0");
+  options->scene.addTo(command);
+  command.runs([options](const std::stop_token& stop) {
+    return options->impact ? impactCommand(*options, stop) : infoCommand(options->path, options->scene, stop);
   });
 }
 

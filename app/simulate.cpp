@@ -32,6 +32,7 @@ struct SimulateOptions {
   std::filesystem::path npz;
   std::filesystem::path impacts;
   std::filesystem::path joints;
+  std::filesystem::path energy;
   std::filesystem::path report;
   std::string log = "text";
   bool verbose = false;
@@ -68,7 +69,7 @@ void checkOutputs(const std::filesystem::path& source, const std::filesystem::pa
   for (const auto& [option, path] :
        {std::pair("--out", output), std::pair("--poses", options.poses), std::pair("--npz", options.npz),
         std::pair("--impacts", options.impacts), std::pair("--joints", options.joints),
-        std::pair("--report", options.report)}) {
+        std::pair("--energy", options.energy), std::pair("--report", options.report)}) {
     for (const auto& [what, other] : known) {
       if (!path.empty() && isSameFile(path, other)) {
         throw InputError(std::string(option) + ": found " + path.string() + ", which is " + what +
@@ -87,8 +88,9 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(source.stem().string() + ".careen") : options.output;
   checkOutputs(source, output, options);
-  if (options.every && options.poses.empty() && options.npz.empty() && options.joints.empty()) {
-    throw InputError("--every: found none of --poses, --npz and --joints, expected one of them");
+  if (options.every && options.poses.empty() && options.npz.empty() && options.joints.empty() &&
+      options.energy.empty()) {
+    throw InputError("--every: found none of --poses, --npz, --joints and --energy, expected one of them");
   }
   const bool logsJson = options.log == "json";
   SimulationProgress progress(logsJson);
@@ -103,14 +105,15 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   outputs.add(options.npz, [&](const TextSink& sink) { sink(encodeNpz(run.trajectory, every)); });
   outputs.add(options.impacts, [&](const TextSink& sink) { writeImpactsCsv(run.trajectory, sink); });
   outputs.add(options.joints, [&](const TextSink& sink) { writeJointsCsv(run.trajectory, every, sink); });
+  outputs.add(options.energy, [&](const TextSink& sink) { writeEnergyCsv(run.trajectory, every, sink); });
   outputs.add(options.report, [&](const TextSink& sink) { sink(runReportText(run, stopwatch.seconds())); });
   outputs.commit();
 
   std::ostream& summary = logsJson ? std::cerr : std::cout;
   printSummary(summary, run, stopwatch.seconds(), options.verbose);
   const char* between = "files        ";
-  for (const std::filesystem::path& file :
-       {output, options.poses, options.npz, options.impacts, options.joints, options.report}) {
+  for (const std::filesystem::path& file : {output, options.poses, options.npz, options.impacts,
+                                            options.joints, options.energy, options.report}) {
     if (!file.empty()) {
       summary << between << printableName(file.string());
       between = ", ";
@@ -128,10 +131,13 @@ void addSimulate(const CommandLine& commandLine) {
   command.add("scene", options->scene, "Scene file; the default scene if none is named");
   command.add("-o,--out", options->output, "Trajectory file (default: the scene file's name, .careen)");
   command.add("--poses", options->poses, "Table of poses (CSV)");
-  command.add("--npz", options->npz, "Poses, impacts, names and units as NumPy loads them (NPZ)");
+  command.add("--npz", options->npz,
+              "Poses, impacts, joints, energies, names and units as NumPy loads them (NPZ)");
   command.add("--joints", options->joints, "Table of angles, ways, rates and efforts of joints (CSV)");
+  command.add("--energy", options->energy,
+              "Table of energies, of what was given and lost by cause, and of momenta (CSV)");
   command.add("--every", options->every,
-              "Time between two rows of --poses, --npz and --joints [s] (default: 1/60)");
+              "Time between two rows of --poses, --npz, --joints and --energy [s] (default: 1/60)");
   command.add("--impacts", options->impacts, "Table of impacts (CSV)");
   command.add("--report", options->report, "What was modelled, speed and error (JSON)");
   command

@@ -14,6 +14,7 @@
 #include "library/careen.h"
 
 namespace py = pybind11;
+using careen::v1::Energy;
 using careen::v1::Image;
 using careen::v1::Impact;
 using careen::v1::JointReading;
@@ -143,6 +144,48 @@ py::dict statesOf(const Run& run, const Times& times) {
   return states;
 }
 
+py::dict energiesOf(const Run& run, const Times& times) {
+  std::vector<Energy> energies;
+  {
+    const std::vector<double> at(times.data(), times.data() + times.size());
+    const py::gil_scoped_release unlocked;
+    energies = run.energies(at);
+  }
+  const std::vector<py::ssize_t> shape(times.shape(), times.shape() + times.ndim());
+  const auto numbers = [&](double Energy::*part) {
+    py::array_t<double> array(shape);
+    std::transform(energies.begin(), energies.end(), array.mutable_data(),
+                   [&](const Energy& each) { return each.*part; });
+    return array;
+  };
+  const auto vectors = [&](careen::v1::Vector Energy::*part) {
+    std::vector<py::ssize_t> full = shape;
+    full.push_back(3);
+    py::array_t<double> array(full);
+    double* to = array.mutable_data();
+    for (const Energy& each : energies) {
+      to = std::copy((each.*part).begin(), (each.*part).end(), to);
+    }
+    return array;
+  };
+  py::dict found;
+  found["translation"] = numbers(&Energy::translation);
+  found["rotation"] = numbers(&Energy::rotation);
+  found["gravity"] = numbers(&Energy::gravity);
+  found["springs"] = numbers(&Energy::springs);
+  found["joint_springs"] = numbers(&Energy::jointSprings);
+  found["total"] = numbers(&Energy::total);
+  found["motors"] = numbers(&Energy::motors);
+  found["impacts"] = numbers(&Energy::impacts);
+  found["joint_friction"] = numbers(&Energy::jointFriction);
+  found["damping"] = numbers(&Energy::damping);
+  found["drag"] = numbers(&Energy::drag);
+  found["remaining"] = numbers(&Energy::remaining);
+  found["momentum"] = vectors(&Energy::momentum);
+  found["angular_momentum"] = vectors(&Energy::angularMomentum);
+  return found;
+}
+
 py::dict impactsOf(const Run& run) {
   const std::vector<Impact>& impacts = run.impacts();
   const auto numbers = [&](auto&& of) {
@@ -256,6 +299,14 @@ PYBIND11_MODULE(careen, module) {
           "All K impacts in order of time, a dictionary: time (K,) [s]; a, b: lists of K str, what "
           "struck what; point (K, 3) [m]; normal (K, 3), from b to a; approach (K,) [m/s]; impulse "
           "(K,) [N s] along the normal; tangential (K,) [N s] of friction.")
+      .def("energy", &energiesOf, py::arg("t"),
+           "Energies [J] at times t [s], an array of any shape S within [0, duration]. A dictionary of "
+           "arrays of "
+           "shape S: translation, rotation, gravity, springs, joint_springs and their total; motors, what "
+           "they "
+           "gave since the start; impacts, joint_friction, damping, drag and remaining, what was lost since. "
+           "total - motors + what was lost is the total at the start. momentum S+(3,) [kg m/s] and "
+           "angular_momentum S+(3,) [kg m^2/s] about the world's origin.")
       .def_property_readonly(
           "audit", &auditOf,
           "What the run is worth, by code that shares nothing with the method: for each kind a "

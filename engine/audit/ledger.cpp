@@ -1,5 +1,4 @@
 #include "audit/ledger.h"
-#include "audit/motor_work.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "audit/external.h"
 #include "audit/seams.h"
 #include "physics/world/forces.h"
+#include "trajectory/motor_work.h"
 
 namespace careen {
 namespace {

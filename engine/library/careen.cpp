@@ -4,6 +4,7 @@
 #include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "physics/world/method.h"
 #include "scene/prepare.h"
 #include "scene/scene_reader.h"
+#include "trajectory/energy_samples.h"
 #include "trajectory/pose_samples.h"
 #include "trajectory/trajectory.h"
 #include "trajectory/trajectory_file.h"
@@ -279,6 +281,40 @@ State Run::state(std::size_t box, double time) const {
                  .orientation = {q.w(), q.x(), q.y(), q.z()},
                  .velocity = vectorOf(row.velocity),
                  .angularVelocity = vectorOf(row.angularVelocity)};
+  });
+}
+
+Energy Run::energy(double time) const { return energies({time}).front(); }
+
+std::vector<Energy> Run::energies(const std::vector<double>& times) const {
+  const DefaultFloatEnvironment usual;
+  return translated("", [&] {
+    std::vector<std::size_t> order(times.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    // A time that is no number is before all others, where it is refused.
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+      return std::isnan(times[i]) ? !std::isnan(times[j]) : times[i] < times[j];
+    });
+    std::vector<Energy> found(times.size());
+    EnergySamples samples(data_->trajectory);
+    for (const std::size_t k : order) {
+      const RunEnergies now = samples.at(times[k]);
+      found[k] = {.translation = now.shares.translation,
+                  .rotation = now.shares.rotation,
+                  .gravity = now.shares.gravity,
+                  .springs = now.shares.springs,
+                  .jointSprings = now.shares.jointSprings,
+                  .total = now.shares.sum(),
+                  .motors = now.motors,
+                  .impacts = now.lost.impacts,
+                  .jointFriction = now.lost.jointFriction,
+                  .damping = now.lost.damping,
+                  .drag = now.lost.drag,
+                  .remaining = now.remaining,
+                  .momentum = vectorOf(now.momentum),
+                  .angularMomentum = vectorOf(now.angularMomentum)};
+    }
+    return found;
   });
 }
 

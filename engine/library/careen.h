@@ -155,6 +155,25 @@ struct Impact {
   double tangential;  ///< [N s] of friction
 };
 
+/// Energies at a moment [J], and what was given and lost since the start: total − motors + impacts +
+/// jointFriction + damping + drag + remaining is the total at the start.
+struct Energy {
+  double translation;      ///< kinetic
+  double rotation;         ///< likewise
+  double gravity;          ///< potential, 0 at the height of the world's origin
+  double springs;          ///< of the scene
+  double jointSprings;     ///< of joints
+  double total;            ///< of these five
+  double motors;           ///< given by motors
+  double impacts;          ///< lost where impacts are recorded
+  double jointFriction;    ///< lost to dry friction of joints
+  double damping;          ///< lost in springs and joints
+  double drag;             ///< lost to drag
+  double remaining;        ///< lost in contact between impacts, and otherwise; less the work of drives
+  Vector momentum;         ///< [kg m/s]
+  Vector angularMomentum;  ///< [kg m²/s] about the world's origin
+};
+
 /// The largest finding of a kind, by code that shares nothing with the method.
 struct AuditFigure {
   std::string kind;                 ///< such as "box_overlap"
@@ -192,6 +211,10 @@ class Run {
   /// outside.
   State state(std::size_t box, double time) const;
   const std::vector<Impact>& impacts() const;  ///< in order of time
+  /// Energies at a time in [0, duration()] [s]. What was lost is added up from the start: ask for many
+  /// moments at once. Error outside.
+  Energy energy(double time) const;
+  std::vector<Energy> energies(const std::vector<double>& times) const;  ///< at times in any order
   Audit audit() const;
   std::string hash() const;  ///< of the final states, bit for bit
 

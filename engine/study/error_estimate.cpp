@@ -24,14 +24,6 @@ std::vector<double> sampleTimes(double duration) {
   return times;
 }
 
-std::vector<BodyState> statesAt(const Trajectory& run, double time) {
-  std::vector<BodyState> states;
-  for (std::size_t body = 0; body < run.tracks.size(); ++body) {
-    states.push_back(run.state(body, time));
-  }
-  return states;
-}
-
 /// The error of a crowd goes with its step, and that with the root of the tolerance: 1.5 would do while the
 /// error is smooth. Nine rows of dominoes and pours against exact contact at 1e-8, up to the horizon: 0.8 to
 /// 5.6, median 2.6, and 37 in one; four covers seven of them.
@@ -122,7 +114,7 @@ std::optional<ErrorEstimate> estimateError(const Trajectory& run, const std::sto
   for (std::size_t k = 0; k < times.size(); ++k) {
     PoseDifference largest;
     for (const std::vector<std::vector<BodyState>>& states : others) {
-      largest.include(differenceOf(world, statesAt(run, times[k]), states[k]));
+      largest.include(differenceOf(world, run.states(times[k]), states[k]));
     }
     if (largest.relative > kHorizonDifference) {
       estimate.horizon = times[k];

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/table.h"
+#include "trajectory/energy_samples.h"
 #include "trajectory/exporter.h"
 #include "trajectory/joint_samples.h"
 #include "trajectory/pose_samples.h"
@@ -59,6 +60,25 @@ void writeJointsCsv(const Trajectory& trajectory, double every, const TextSink& 
     for (std::size_t k = 0; k < rows.size(); ++k) {
       sink(CsvRow().add(time).add(trajectory.world.joints[samples.joints()[k]].name).addAll(rows[k]).line());
     }
+  }
+}
+
+void writeEnergyCsv(const Trajectory& trajectory, double every, const TextSink& sink) {
+  CsvRow header;
+  header.add("time");
+  for (const EnergyColumn& column : kEnergyColumns) {
+    header.add(column.name);
+  }
+  sink(header.line());
+  EnergySamples samples(trajectory);
+  for (const double time : sampleTimes(trajectory, every)) {
+    const RunEnergies energies = samples.at(time);
+    CsvRow row;
+    row.add(time);
+    for (const EnergyColumn& column : kEnergyColumns) {
+      row.add(column.of(energies));
+    }
+    sink(row.line());
   }
 }
 

@@ -34,4 +34,7 @@ void writeImpactsCsv(const Trajectory& trajectory, const TextSink& sink);
 /// joints.csv: one row per hinge or slider and sample, samples as in poses.csv; columns as in JointSamples.
 void writeJointsCsv(const Trajectory& trajectory, double every, const TextSink& sink);
 
+/// energy.csv: one row per sample, samples as in poses.csv; columns of kEnergyColumns.
+void writeEnergyCsv(const Trajectory& trajectory, double every, const TextSink& sink);
+
 }  // namespace careen

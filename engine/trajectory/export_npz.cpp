@@ -9,6 +9,7 @@
 
 #include "core/brief.h"
 #include "core/error.h"
+#include "trajectory/energy_samples.h"
 #include "trajectory/export_csv.h"
 #include "trajectory/exporter.h"
 #include "trajectory/joint_samples.h"
@@ -88,10 +89,25 @@ void addJoints(const Trajectory& run, std::span<const double> times, NumpyArchiv
   }
 }
 
+void addEnergies(const Trajectory& run, std::span<const double> times, NumpyArchive& archive) {
+  EnergySamples samples(run);
+  std::array<std::vector<double>, kEnergyColumns.size()> columns;
+  for (const double time : times) {
+    const RunEnergies energies = samples.at(time);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      columns.at(k).push_back(kEnergyColumns.at(k).of(energies));
+    }
+  }
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    archive.add("energy_" + std::string(kEnergyColumns.at(k).name), std::string(kEnergyColumns.at(k).unit),
+                NumpyArray::of(std::move(columns.at(k)), {times.size()}));
+  }
+}
+
 }  // namespace
 
 std::string encodeNpz(const Trajectory& trajectory, double every) {
-  std::vector<double> times = sampleTimes(trajectory, every);
+  const std::vector<double> times = sampleTimes(trajectory, every);
   const double rows = static_cast<double>(times.size()) * static_cast<double>(trajectory.tracks.size());
   if (rows > kMostRows) {
     throw InputError("poses are written every " + brief(every) + " s, which makes " + brief(rows) +
@@ -101,7 +117,8 @@ std::string encodeNpz(const Trajectory& trajectory, double every) {
   if (!trajectory.world.joints.empty()) {
     addJoints(trajectory, times, archive);
   }
-  addPoses(trajectory, std::move(times), archive);
+  addPoses(trajectory, times, archive);
+  addEnergies(trajectory, times, archive);
   addImpacts(trajectory, archive);
   return archive.bytes();
 }
@@ -109,7 +126,7 @@ std::string encodeNpz(const Trajectory& trajectory, double every) {
 extern const Exporter kNpzExporter;
 constexpr Exporter kNpzExporter = {
     .suffix = ".npz",
-    .about = "tables of poses, impacts and joints",
+    .about = "tables of poses, impacts, joints and energies",
     .option = ExportOption::kEvery,
     .write = [](const Trajectory& run, const ExportSettings& settings, const TextSink& sink) -> ExportNotes {
       sink(encodeNpz(run, settings.every));

@@ -15,6 +15,12 @@ using Arrays = std::map<std::string, NumpyArray>;
 
 constexpr std::string_view kExtension = ".npy";
 
+// What encodeNpz() writes beside the poses.
+bool isOfPoses(const std::string& array) {
+  return array != "units" && array != "joint" && !array.starts_with("impact_") &&
+         !array.starts_with("joint_") && !array.starts_with("energy_");
+}
+
 Arrays arraysIn(const std::string& bytes, const std::string& name) {
   Arrays arrays;
   for (const auto& [entry, content] : unzipped(bytes, name)) {
@@ -22,7 +28,7 @@ Arrays arraysIn(const std::string& bytes, const std::string& name) {
     if (array.ends_with(kExtension)) {
       array.resize(array.size() - kExtension.size());
     }
-    if (array != "units" && !array.starts_with("impact_")) {
+    if (isOfPoses(array)) {
       arrays[array] = decodeNumpy(content, name + ": array " + array);
     }
   }

@@ -6,8 +6,9 @@
 
 namespace careen {
 
-/// Reads a table of poses from NPZ, which is a ZIP archive of .npy files; see readPoseTable(). Arrays named
-/// `units` or beginning with `impact_` are not read. InputError names file, array and row.
+/// Reads a table of poses from NPZ, which is a ZIP archive of .npy files; see readPoseTable(). What
+/// encodeNpz() writes beside poses is not read: `units`, `joint`, and what begins with `impact_`, `joint_` or
+/// `energy_`. InputError names file, array and row.
 PoseTable readPoseArrays(const std::string& bytes, const std::string& name);
 
 }  // namespace careen

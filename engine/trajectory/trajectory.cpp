@@ -113,6 +113,15 @@ BodyState Trajectory::state(std::size_t body, double time) const {
   return stateAt(segment.motion, moved.mass, time - segment.start);
 }
 
+std::vector<BodyState> Trajectory::states(double time) const {
+  std::vector<BodyState> states;
+  states.reserve(tracks.size());
+  for (std::size_t body = 0; body < tracks.size(); ++body) {
+    states.push_back(state(body, time));
+  }
+  return states;
+}
+
 Pose Trajectory::boxPoseAt(std::size_t body, double time) const {
   return boxPose(world.bodies.at(body), state(body, time).pose);
 }

@@ -41,6 +41,8 @@ struct Trajectory : RunSetup {
   /// State of a body at a time in [0, duration] [s]; InputError outside. Where two segments meet, the later
   /// one.
   BodyState state(std::size_t body, double time) const;
+  /// Of all bodies.
+  std::vector<BodyState> states(double time) const;
   /// Of a body's box: where its middle is, which need not be the centre of mass.
   Pose boxPoseAt(std::size_t body, double time) const;
   /// Of all boxes.

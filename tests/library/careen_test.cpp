@@ -77,7 +77,7 @@ TEST_F(Library, givesTheStatesImpactsAndHashesOfTheProgram) {
   for (const char* const name : {"careen", "zeno", "stack"}) {
     const std::string file = kScenes / (std::string(name) + ".json");
     const Ended told = program({"simulate", file, "--verbose", "-o", "run.careen", "--poses", "poses.csv",
-                                "--impacts", "impacts.csv", "--every", "0.01"});
+                                "--impacts", "impacts.csv", "--every", "0.01", "--energy", "energy.csv"});
     const v1::Run run = simulate(Scene::read(file));
     EXPECT_NE(told.out.find("state hash   " + run.hash()), std::string::npos) << run.hash();
 
@@ -94,6 +94,41 @@ TEST_F(Library, givesTheStatesImpactsAndHashesOfTheProgram) {
           state.angularVelocity[2]};
       ASSERT_EQ(found, std::vector<double>(row.begin() + 2, row.end())) << name << " row " << k;
     }
+
+    const auto energies = rowsOf(folder_ / "energy.csv");
+    ASSERT_GT(energies.size(), 100U);
+    std::vector<double> times;  // the library takes them in any order
+    for (std::size_t k = energies.size(); k-- > 0;) {
+      times.push_back(energies[k][0]);
+    }
+    const std::vector<Energy> asked = run.energies(times);
+    for (std::size_t k = 0; k < energies.size(); ++k) {
+      const Energy& e = asked[energies.size() - 1 - k];
+      const std::vector<double> found = {energies[k][0],
+                                         e.translation,
+                                         e.rotation,
+                                         e.gravity,
+                                         e.springs,
+                                         e.jointSprings,
+                                         e.total,
+                                         e.motors,
+                                         e.impacts,
+                                         e.jointFriction,
+                                         e.damping,
+                                         e.drag,
+                                         e.remaining,
+                                         e.momentum[0],
+                                         e.momentum[1],
+                                         e.momentum[2],
+                                         e.angularMomentum[0],
+                                         e.angularMomentum[1],
+                                         e.angularMomentum[2]};
+      ASSERT_EQ(found, energies[k]) << name << " row " << k;
+    }
+    EXPECT_EQ(run.energy(times.front()).total, energies.back()[6]);
+    EXPECT_THROW(run.energy(-1), Error);
+    EXPECT_THROW(run.energies({0, run.duration() + 1}), Error);
+    EXPECT_THROW(run.energy(std::nan("")), Error);
 
     const auto impacts = rowsOf(folder_ / "impacts.csv");
     ASSERT_EQ(impacts.size(), run.impacts().size());

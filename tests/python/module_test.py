@@ -48,6 +48,14 @@ class Module(unittest.TestCase):
             self.assertEqual(run.impacts["a"], list(table["impact_a"]))
             self.assertEqual(run.impacts["b"], list(table["impact_b"]))
             self.assertEqual(run.impacts["point"].shape, (len(table["impact_time"]), 3))
+            energies = run.energy(table["time"])
+            for key in "translation rotation gravity springs total motors impacts damping drag remaining".split():
+                numpy.testing.assert_array_equal(energies[key], table["energy_" + key], err_msg=f"{name} {key}")
+            for key, letter in (("momentum", "p"), ("angular_momentum", "l")):
+                expected = numpy.stack([table[f"energy_{letter}{axis}"] for axis in "xyz"], axis=-1)
+                numpy.testing.assert_array_equal(energies[key], expected)
+            self.assertEqual(run.energy([[0, 0.1]])["momentum"].shape, (1, 2, 3))
+            self.assertEqual(run.energy(0)["total"], table["energy_total"][0])
 
     def test_a_control_in_python_is_that_of_the_scene(self):
         scene = SCENES / "pole.json"

@@ -5,8 +5,11 @@
 #include <map>
 
 #include "core/error.h"
+#include "support/jointed.h"
 #include "support/trajectories.h"
+#include "trajectory/energy_samples.h"
 #include "trajectory/numpy_array.h"
+#include "trajectory/pose_arrays.h"
 #include "trajectory/zip_archive.h"
 
 namespace careen {
@@ -45,6 +48,20 @@ TEST(ExportNpz, impactsAndUnitsAreThere) {
     EXPECT_TRUE(arrays.contains(units.texts[k] + ".npy")) << units.texts[k];
   }
   EXPECT_EQ(units.texts[1], "s");
+}
+
+// What encodeNpz() writes is read as a table again, joints and energies beside the poses.
+TEST(ExportNpz, energiesStandBesideThePoses) {
+  Trajectory run = driftAndReturn();
+  test::join(run.world, Joint::Kind::kSlider, 0, {}, Vec3::Zero(), Vec3::UnitX());
+  const auto arrays = arraysOf(run, 0.25);
+  EnergySamples samples(run);
+  for (std::size_t k = 0; k < 5; ++k) {
+    const RunEnergies now = samples.at(0.25 * static_cast<double>(k));
+    EXPECT_EQ(arrays.at("energy_total.npy").numbers[k], now.shares.sum());
+    EXPECT_EQ(arrays.at("energy_px.npy").numbers[k], now.momentum.x());
+  }
+  EXPECT_EQ(readPoseArrays(encodeNpz(run, 0.25), "t.npz").rows.size(), 10U);
 }
 
 TEST(ExportNpz, refusesWhatNobodyCouldLoad) {

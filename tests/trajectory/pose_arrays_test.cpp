@@ -65,8 +65,11 @@ TEST(PoseArrays, arraysOfRowsAreReadToo) {
   EXPECT_EQ(table.boxes[table.rows[5].box], "b");
 }
 
-TEST(PoseArrays, whatBelongsToImpactsIsNotRead) {
+TEST(PoseArrays, whatStandsBesideThemIsNotRead) {
   Arrays arrays = wide();
+  for (const char* const name : {"energy_total", "joint", "joint_rate"}) {
+    arrays[name] = NumpyArray::of(std::vector<double>{1}, {1});
+  }
   arrays["impact_time"] = NumpyArray::of(std::vector<double>{1}, {1});
   arrays["units"] = NumpyArray::of(std::vector<std::string>{"time", "s"}, {1, 2});
   EXPECT_EQ(refusalOf(arrays), "no error");

@@ -52,9 +52,9 @@ struct Share {
 std::vector<Share> sharesOf(const OverlayFrame& frame, const EnergyShares& shares) {
   std::vector<Share> list = {{"kinetic", shares.translation, kTeal},
                              {"rotation", shares.rotation, kViolet},
-                             {"potential", shares.potential, kSand}};
+                             {"potential", shares.gravity, kSand}};
   if (frame.energy->hasSprings()) {
-    list.push_back({"springs", shares.springs, kRose});
+    list.push_back({"springs", shares.springs + shares.jointSprings, kRose});
   }
   return list;
 }
@@ -93,7 +93,7 @@ void addEnergy(OverlayShapes& shapes, const OverlayFrame& frame, const ShownOver
     return;  // no finite, positive energy to show
   }
   const double em = frame.style.text;
-  const EnergyShares energy = frame.energy->sharesOf(frame.states);
+  const EnergyShares energy = frame.energy->sharesOf(frame.states, frame.time);
   std::vector<Share> shares = sharesOf(frame, energy);
   const double rows = static_cast<double>(shares.size()) + 2;
   const Vec2 size((kBarWidth + 2 * kPanelPadding) * em,

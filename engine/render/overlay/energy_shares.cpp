@@ -20,48 +20,26 @@ double lowestOf(const Trajectory& trajectory, std::size_t body, const Vec3& grav
   return lowest;
 }
 
-Vec3 endOf(const SpringEnd& end, std::span<const BodyState> states) {
-  return end.body ? states[static_cast<std::size_t>(*end.body)].pose.worldPoint(end.point) : end.point;
-}
-
 }  // namespace
 
-std::vector<BodyState> statesAt(const Trajectory& trajectory, double time) {
-  std::vector<BodyState> states;
-  states.reserve(trajectory.tracks.size());
+EnergyBook::EnergyBook(const Trajectory& trajectory) : world_(trajectory.world) {
   for (std::size_t body = 0; body < trajectory.tracks.size(); ++body) {
-    states.push_back(trajectory.state(body, time));
+    lowest_ += world_.bodies[body].mass.mass * lowestOf(trajectory, body, world_.gravity);
   }
-  return states;
-}
-
-EnergyBook::EnergyBook(const Trajectory& trajectory)
-    : gravity_(trajectory.world.gravity), springs_(trajectory.world.springs) {
-  for (std::size_t body = 0; body < trajectory.tracks.size(); ++body) {
-    masses_.push_back(trajectory.world.bodies[body].mass);
-    lowest_.push_back(lowestOf(trajectory, body, gravity_));
-  }
-  atStart_ = sharesOf(statesAt(trajectory, 0)).sum();
+  hasSprings_ =
+      !world_.springs.empty() || std::any_of(world_.joints.begin(), world_.joints.end(),
+                                             [](const Joint& joint) { return joint.stiffness != 0; });
+  atStart_ = sharesOf(trajectory.states(0), 0).sum();
   largest_ = atStart_;
   for (int sample = 1; sample <= kSamples; ++sample) {
     const double time = trajectory.settings.duration * sample / kSamples;
-    largest_ = std::max(largest_, sharesOf(statesAt(trajectory, time)).sum());
+    largest_ = std::max(largest_, sharesOf(trajectory.states(time), time).sum());
   }
 }
 
-EnergyShares EnergyBook::sharesOf(std::span<const BodyState> states) const {
-  EnergyShares shares;
-  for (std::size_t body = 0; body < states.size(); ++body) {
-    const MassProperties& mass = masses_[body];
-    const BodyState& state = states[body];
-    shares.translation += 0.5 * mass.mass * state.velocity.squaredNorm();
-    shares.rotation += 0.5 * angularVelocity(mass, state).dot(state.angularMomentum);
-    shares.potential += mass.mass * (-gravity_.dot(state.pose.position) - lowest_[body]);
-  }
-  for (const Spring& spring : springs_) {
-    const double stretch = (endOf(spring.to, states) - endOf(spring.from, states)).norm() - spring.restLength;
-    shares.springs += 0.5 * spring.stiffness * stretch * stretch;
-  }
+EnergyShares EnergyBook::sharesOf(std::span<const BodyState> states, double time) const {
+  EnergyShares shares = energySharesOf(world_, states, time);
+  shares.gravity -= lowest_;
   return shares;
 }
 

@@ -31,7 +31,7 @@ void findLargestOfBodies(std::span<ShownOverlay* const> arrows, const Trajectory
   const int samples = 100'000 / static_cast<int>(std::max<std::size_t>(1, trajectory.tracks.size()));
   const int steps = std::clamp(samples, 16, 512);
   for (int step = 0; step <= steps; ++step) {
-    const std::vector<BodyState> states = statesAt(trajectory, trajectory.settings.duration * step / steps);
+    const std::vector<BodyState> states = trajectory.states(trajectory.settings.duration * step / steps);
     for (std::size_t body = 0; body < states.size(); ++body) {
       for (ShownOverlay* const each : arrows) {
         const MassProperties& mass = trajectory.world.bodies[body].mass;
@@ -86,7 +86,7 @@ Overlays::Overlays(const Trajectory& trajectory, const OverlaySet& shown, double
 class Overlays::Frame {
  public:
   Frame(const Overlays& of, const OverlayMoment& moment, int width, int height)
-      : states_(statesAt(of.trajectory_, moment.sceneTime)),
+      : states_(of.trajectory_.states(moment.sceneTime)),
         screen_(moment.view, width, height),
         order_(orderOf(states_, screen_)),
         data_{.trajectory = of.trajectory_,

@@ -29,9 +29,9 @@ TEST(EnergyShares, fallTurnsPotentialIntoKinetic) {
   const EnergyBook book(trajectory);
   EXPECT_NEAR(book.atStart(), 16, 1e-12);  // 2 kg · 10 m/s² · 0.8 m
   for (const double time : {0.0, 0.1, 0.25, 0.39}) {
-    const EnergyShares shares = book.sharesOf(statesAt(trajectory, time));
+    const EnergyShares shares = book.sharesOf(trajectory.states(time), time);
     EXPECT_NEAR(shares.translation, 100 * time * time, 1e-11);
-    EXPECT_NEAR(shares.potential, 16 - 100 * time * time, 1e-11);
+    EXPECT_NEAR(shares.gravity, 16 - 100 * time * time, 1e-11);
     EXPECT_EQ(shares.rotation, 0);
   }
 }
@@ -40,7 +40,7 @@ TEST(EnergyShares, bounceTakesWhatRestitutionSays) {
   const Scene scene = dropped(0.5);
   const Trajectory trajectory = runOf(scene);
   const EnergyBook book(trajectory);
-  EXPECT_NEAR(book.sharesOf(statesAt(trajectory, 0.5)).sum(), 4, 1e-9);  // once struck, at 0.4 s
+  EXPECT_NEAR(book.sharesOf(trajectory.states(0.5), 0.5).sum(), 4, 1e-9);  // once struck, at 0.4 s
   EXPECT_NEAR(book.largest(), 16, 1e-9);  // it comes to rest 1.5e-12 m lower than it should
 }
 
@@ -57,9 +57,9 @@ TEST(EnergyShares, sumStaysInAnElasticRoom) {
   double leastRotation = 1e9;
   double mostRotation = 0;
   for (int k = 0; k <= 300; ++k) {
-    const EnergyShares shares = book.sharesOf(statesAt(trajectory, k / 30.0));
+    const EnergyShares shares = book.sharesOf(trajectory.states(k / 30.0), k / 30.0);
     EXPECT_NEAR(shares.sum(), book.atStart(), 1e-9 * book.atStart()) << k;
-    EXPECT_GE(shares.potential, 0);
+    EXPECT_GE(shares.gravity, 0);
     leastRotation = std::min(leastRotation, shares.rotation);
     mostRotation = std::max(mostRotation, shares.rotation);
   }
@@ -79,8 +79,22 @@ TEST(EnergyShares, springHoldsWhatItWasStretchedBy) {
       drifting(scene, Vec3(0, 0, 1));  // by hand: 2 m long at first, 1 m shorter later
   const EnergyBook book(trajectory);
   EXPECT_TRUE(book.hasSprings());
-  EXPECT_NEAR(book.sharesOf(statesAt(trajectory, 0)).springs, 9, 1e-12);    // ½ · 8 · 1.5²
-  EXPECT_NEAR(book.sharesOf(statesAt(trajectory, 0.5)).springs, 4, 1e-12);  // ½ · 8 · 1²
+  EXPECT_NEAR(book.sharesOf(trajectory.states(0), 0).springs, 9, 1e-12);      // ½ · 8 · 1.5²
+  EXPECT_NEAR(book.sharesOf(trajectory.states(0.5), 0.5).springs, 4, 1e-12);  // ½ · 8 · 1²
+}
+
+// Along z it is at 1 m, and its spring rests at 0.5 m.
+TEST(EnergyShares, springsOfJointsCount) {
+  Trajectory trajectory = runOf(dropped(1));
+  Joint rail;
+  rail.kind = Joint::Kind::kSlider;
+  rail.from.body = 0;
+  rail.stiffness = 8;
+  rail.rest = 0.5;
+  trajectory.world.joints = {rail};
+  const EnergyBook book(trajectory);
+  EXPECT_TRUE(book.hasSprings());
+  EXPECT_NEAR(book.atStart(), 16 + 1, 1e-12);  // ½ · 8 · 0.5²
 }
 
 TEST(EnergyShares, whatIsHeldHasNone) {
@@ -89,7 +103,7 @@ TEST(EnergyShares, whatIsHeldHasNone) {
   const Trajectory trajectory = runOf(scene);
   const EnergyBook book(trajectory);
   EXPECT_EQ(book.atStart(), 0);
-  EXPECT_EQ(book.sharesOf(statesAt(trajectory, 0.7)).sum(), 0);
+  EXPECT_EQ(book.sharesOf(trajectory.states(0.7), 0.7).sum(), 0);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "audit/motor_work.h"
+#include "trajectory/motor_work.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +7,15 @@
 
 namespace careen {
 
-MotorWork::MotorWork(const Trajectory& run, std::span<const std::size_t> joints) : run_(run) {
+MotorWork::MotorWork(const Trajectory& run, std::span<const std::size_t> joints, Drives drives)
+    : run_(run), drives_(drives) {
   for (const std::size_t index : joints) {
     const bool isDriven = std::any_of(
         run.jointEfforts.begin(), run.jointEfforts.end(),
         [&](const JointEffort& effort) { return static_cast<std::size_t>(effort.joint) == index; });
     const Joint& joint = run.world.joints[index];
-    if (isDriven || joint.drive() != 0) {
-      motors_.push_back({.joint = &joint, .effort = joint.drive(), .coordinate = coordinateAt(joint, 0)});
+    if (isDriven || ownEffort(joint) != 0) {
+      motors_.push_back({.joint = &joint, .effort = ownEffort(joint), .coordinate = coordinateAt(joint, 0)});
     }
   }
 }
@@ -56,7 +57,7 @@ double MotorWork::until(double time) {
     for (Motor& motor : motors_) {
       if (motor.joint == joint) {
         work += move(motor, effort.time);
-        motor.effort = effort.effort + joint->drive();
+        motor.effort = effort.effort + ownEffort(*joint);
       }
     }
   }

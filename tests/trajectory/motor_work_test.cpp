@@ -1,4 +1,4 @@
-#include "audit/motor_work.h"
+#include "trajectory/motor_work.h"
 
 #include <gtest/gtest.h>
 

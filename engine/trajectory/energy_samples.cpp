@@ -1,0 +1,66 @@
+#include "trajectory/energy_samples.h"
+
+#include <numeric>
+
+#include "physics/world/forces.h"
+
+namespace careen {
+namespace {
+
+std::vector<std::size_t> allJoints(const World& world) {
+  std::vector<std::size_t> all(world.joints.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+double energyOfSpring(double stiffness, double extension) { return 0.5 * stiffness * extension * extension; }
+
+}  // namespace
+
+EnergyShares energySharesOf(const World& world, std::span<const BodyState> states, double time) {
+  EnergyShares shares;
+  for (std::size_t body = 0; body < states.size(); ++body) {
+    const MassProperties& mass = world.bodies[body].mass;
+    const BodyState& state = states[body];
+    shares.translation += 0.5 * mass.mass * state.velocity.squaredNorm();
+    shares.rotation += 0.5 * dot(angularVelocity(mass, state), state.angularMomentum);
+    shares.gravity -= mass.mass * dot(world.gravity, state.pose.position);
+  }
+  for (const Spring& spring : world.springs) {
+    shares.springs +=
+        energyOfSpring(spring.stiffness, stretchOf(spring, world, states).length - spring.restLength);
+  }
+  for (const Joint& joint : world.joints) {
+    if (joint.stiffness != 0 && time < joint.until) {
+      shares.jointSprings +=
+          energyOfSpring(joint.stiffness, jointMotionOf(joint, world, states).coordinate - joint.rest);
+    }
+  }
+  return shares;
+}
+
+EnergySamples::EnergySamples(const Trajectory& run)
+    : run_(run), motorWork_(run, allJoints(run.world), MotorWork::Drives::kNone), losses_(run) {
+  std::vector<BodyState> initial;
+  for (const Body& body : run.world.bodies) {
+    initial.push_back(body.initial);
+  }
+  atStart_ = energySharesOf(run.world, initial, 0).sum();
+}
+
+RunEnergies EnergySamples::at(double time) {
+  const std::vector<BodyState> states = run_.states(time);
+  motors_ += motorWork_.until(time);
+  RunEnergies now{
+      .shares = energySharesOf(run_.world, states, time), .motors = motors_, .lost = losses_.until(time)};
+  now.remaining = atStart_ + now.motors - now.shares.sum() - now.lost.sum();
+  for (std::size_t body = 0; body < states.size(); ++body) {
+    const BodyState& state = states[body];
+    const Vec3 momentum = run_.world.bodies[body].mass.mass * state.velocity;
+    now.momentum += momentum;
+    now.angularMomentum += state.angularMomentum + state.pose.position.cross(momentum);
+  }
+  return now;
+}
+
+}  // namespace careen
