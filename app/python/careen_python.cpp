@@ -176,6 +176,7 @@ py::dict energiesOf(const Run& run, const Times& times) {
   found["joint_springs"] = numbers(&Energy::jointSprings);
   found["total"] = numbers(&Energy::total);
   found["motors"] = numbers(&Energy::motors);
+  found["changes"] = numbers(&Energy::changes);
   found["impacts"] = numbers(&Energy::impacts);
   found["joint_friction"] = numbers(&Energy::jointFriction);
   found["damping"] = numbers(&Energy::damping);
@@ -302,10 +303,11 @@ PYBIND11_MODULE(careen, module) {
       .def("energy", &energiesOf, py::arg("t"),
            "Energies [J] at times t [s], an array of any shape S within [0, duration]. A dictionary of "
            "arrays of "
-           "shape S: translation, rotation, gravity, springs, joint_springs and their total; motors, what "
+           "shape S: translation, rotation, gravity, springs, joint_springs and their total; motors, "
+           "changes, what "
            "they "
            "gave since the start; impacts, joint_friction, damping, drag and remaining, what was lost since. "
-           "total - motors + what was lost is the total at the start. momentum S+(3,) [kg m/s] and "
+           "total - motors - changes + what was lost is the total at the start. momentum S+(3,) [kg m/s] and "
            "angular_momentum S+(3,) [kg m^2/s] about the world's origin.")
       .def_property_readonly(
           "audit", &auditOf,

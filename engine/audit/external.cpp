@@ -37,6 +37,7 @@ ExternalOf::ExternalOf(const Trajectory& run, const ExchangeGroup& group, Vec3 o
       states_[fixed] = {.pose = run.world.bodies[fixed].initial.pose};
     }
   }
+  hasBelts_ = hasBelts(run.world);
   integrates_ = run.world.drag.has_value() ||
                 std::any_of(group.springs.begin(), group.springs.end(), [&](std::size_t spring) {
                   return !isMovable(run.world, run.world.springs[spring].from.body) ||
@@ -138,16 +139,31 @@ void ExternalOf::addTouches(std::size_t member, std::size_t segment, External& e
     follower.known = segment + 1;
   }
   Touches& touches = follower.touches;
-  external.lies = external.lies || touches.immovable || !touches.walls.empty();
+  external.lies = external.lies || !touches.immovables.empty() || !touches.walls.empty();
   if (!external.lies) {  // the others are looked at last: they may be many
     touches.other = touches.other ? touches.other : touchesOther(body, segment);
     external.lies = *touches.other;
   }
-  external.liesOnImmovable = external.liesOnImmovable || touches.immovable;
+  external.liesOnImmovable = external.liesOnImmovable || !touches.immovables.empty();
+  for (const std::size_t fixed : touches.immovables) {
+    addBelt(run_.world.bodies[fixed].material.surface, false, external);
+  }
   for (const std::size_t wall : touches.walls) {
+    addBelt(run_.world.walls[wall].material.surface, true, external);
     addWall(wall, touching(run_.world.bodies[body].material, run_.world.walls[wall].material).friction,
             external);
   }
+}
+
+// Or what does not move, beside it.
+void ExternalOf::addBelt(const SurfaceMotion& surface, bool isWall, External& external) const {
+  if (!hasBelts_) {
+    return;
+  }
+  const Vec3 before = external.belt.value_or(surface.velocity);
+  external.hasUnknownBelts = external.hasUnknownBelts || !surface.spin.isZero(0) ||
+                             before != surface.velocity || (!isWall && surface.moves());
+  external.belt = surface.velocity;
 }
 
 void ExternalOf::addWall(std::size_t wall, double friction, External& external) const {
@@ -221,15 +237,16 @@ ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment)
         touches.walls.push_back(wall);
       }
     }
-    touches.immovable =
-        touches.immovable || std::any_of(immovables_.begin(), immovables_.end(), [&](std::size_t fixed) {
-          const Body& other = run_.world.bodies[fixed];
-          const double reach = radiusOf(owner) + radiusOf(other) + near;
-          const Pose& where = other.initial.pose;
-          return mayTouch(run_.world, static_cast<int>(body), static_cast<int>(fixed)) &&
-                 (place.position - where.position).norm() <= reach &&
-                 separationOf(box, auditBox(other, where)) <= near;
-        });
+    for (const std::size_t fixed : immovables_) {
+      const Body& other = run_.world.bodies[fixed];
+      const double reach = radiusOf(owner) + radiusOf(other) + near;
+      const Pose& where = other.initial.pose;
+      if (mayTouch(run_.world, static_cast<int>(body), static_cast<int>(fixed)) &&
+          (place.position - where.position).norm() <= reach &&
+          separationOf(box, auditBox(other, where)) <= near) {
+        touches.immovables.push_back(fixed);
+      }
+    }
   }
   return touches;
 }
@@ -263,6 +280,10 @@ void ExternalOf::addImpacts(double time, External& external) {
                                 ? world.walls[impact.b.wall()].material
                                 : world.bodies[static_cast<std::size_t>(impact.b.body())].material;
     const Material pair = touching(world.bodies[a].material, other);
+    const bool isWithWall = impact.b.isWall();
+    if (isWithWall || isImmovable(world.bodies[static_cast<std::size_t>(impact.b.body())].mass)) {
+      addBelt(other.surface, isWithWall, external);
+    }
     external.losesInImpacts = external.losesInImpacts || pair.restitution < 1 || pair.friction > 0;
     const bool isA = group_.holds(a);
     const bool isB = !impact.b.isWall() && group_.holds(static_cast<std::size_t>(impact.b.body()));

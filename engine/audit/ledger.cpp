@@ -105,6 +105,7 @@ class Books {
   double reachAt(std::size_t moment) const;
   void include(const Holdings& now);
   void changeGravity(std::size_t moment);
+  void addWorkOfBelts(const Holdings& now, const External& external);
   void balance(double time, const Holdings& now, External& external);
   void balanceMomentum(double time, const Holdings& now, const External& external);
   void balanceAngularMomentum(double time, const Holdings& now, const External& external);
@@ -125,8 +126,9 @@ class Books {
   MotorWork motors_;
   Vec3 origin_ = Vec3::Zero();
   Holdings due_;
-  Holdings largest_;  // its scales only
-  double reach_ = 0;  // [m] from its middle to its farthest body
+  Vec3 momentumBefore_ = Vec3::Zero();  // [kg m/s] at the last moment
+  Holdings largest_;                    // its scales only
+  double reach_ = 0;                    // [m] from its middle to its farthest body
   bool takesEnergy_ = false;
   // A crowd's speeds are means over steps, near 0 where a body bounces, and other engines store energy in
   // contacts: of such, only what lasts counts.
@@ -309,6 +311,7 @@ void Books::check() {
     due_ = holdings([&](std::size_t body) -> const BodyState& { return run_.world.bodies[body].initial; },
                     springEnergyAt(0), gravityUntil(0));
   }
+  momentumBefore_ = due_.momentum;
   momentum_.with(samples_.times().front(), 0);
   angularMomentum_.with(samples_.times().front(), 0);
   rise_.with(samples_.times().front(), 0);
@@ -319,8 +322,20 @@ void Books::check() {
   }
 }
 
+// A wall whose surface moves does the work of its friction, which is all that acted along it from outside but
+// is known; others may have done any.
+void Books::addWorkOfBelts(const Holdings& now, const External& external) {
+  if (external.hasUnknownBelts || (external.belt && !external.belt->isZero(0) && external.isHeld)) {
+    due_.energy = std::max(due_.energy, now.energy);
+  } else if (external.belt) {
+    due_.energy += external.belt->dot(now.momentum - momentumBefore_ - external.impulse);
+  }
+  momentumBefore_ = now.momentum;
+}
+
 void Books::balance(double time, const Holdings& now, External& external) {
   due_.energy += motors_.until(time);
+  addWorkOfBelts(now, external);
   due_.momentum += external.impulse;
   due_.angularMomentum += external.angularImpulse;
   balanceMomentum(time, now, external);

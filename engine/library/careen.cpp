@@ -306,6 +306,7 @@ std::vector<Energy> Run::energies(const std::vector<double>& times) const {
                   .jointSprings = now.shares.jointSprings,
                   .total = now.shares.sum(),
                   .motors = now.motors,
+                  .changes = now.changes,
                   .impacts = now.lost.impacts,
                   .jointFriction = now.lost.jointFriction,
                   .damping = now.lost.damping,

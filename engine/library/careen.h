@@ -155,8 +155,8 @@ struct Impact {
   double tangential;  ///< [N s] of friction
 };
 
-/// Energies at a moment [J], and what was given and lost since the start: total − motors + impacts +
-/// jointFriction + damping + drag + remaining is the total at the start.
+/// Energies at a moment [J], and what was given and lost since the start: total − motors − changes + impacts
+/// + jointFriction + damping + drag + remaining is the total at the start.
 struct Energy {
   double translation;      ///< kinetic
   double rotation;         ///< likewise
@@ -165,6 +165,7 @@ struct Energy {
   double jointSprings;     ///< of joints
   double total;            ///< of these five
   double motors;           ///< given by motors
+  double changes;          ///< given where gravity changes
   double impacts;          ///< lost where impacts are recorded
   double jointFriction;    ///< lost to dry friction of joints
   double damping;          ///< lost in springs and joints

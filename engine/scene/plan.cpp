@@ -209,6 +209,15 @@ PlanItem friction(const Scene& scene, const Needs& needs) {
                                        " has none: everything slides freely");
 }
 
+PlanItem belts(const Scene& scene, const Needs& needs) {
+  const auto moves = [](const auto& each) { return each.material.surface.moves(); };
+  const auto count = static_cast<std::size_t>(std::count_if(scene.walls.begin(), scene.walls.end(), moves) +
+                                              std::count_if(scene.boxes.begin(), scene.boxes.end(), moves));
+  return count == 0           ? leftOut("belts", "no surface moves along itself")
+         : !needs.hasFriction ? leftOut("belts", "nothing that moves along itself is rough")
+                              : modelled("belts", counted(count, "surface that moves", "surfaces that move"));
+}
+
 PlanItem resting(const Scene& scene, const Needs& needs) {
   if (!needs.collides) {
     return leftOut("resting", noCollision(scene));
@@ -280,19 +289,23 @@ Plan plan(const Scene& scene) {
            joints(scene, "joints", "joint", [](const Joint& joint) { return !isRope(joint); }),
            joints(scene, "limits", "joint", isLimited), joints(scene, "ropes", "rope", isRope), motors(scene),
            boxWall(needs), boxBox(scene, needs), restitution(scene, needs), friction(scene, needs),
-           resting(scene, needs)}};
+           belts(scene, needs), resting(scene, needs)}};
 }
 
 World assemble(const Scene& scene, const Plan& plan) {
   const auto modelledPart = [&plan](const Material& material) {
     return Material{.restitution = plan.models("restitution") ? material.restitution : 0,
-                    .friction = plan.models("friction") ? material.friction : 0};
+                    .friction = plan.models("friction") ? material.friction : 0,
+                    .surface = plan.models("belts") ? material.surface : SurfaceMotion{}};
   };
   if (plan.models("springs") || plan.models("drag")) {
     requireMethod(scene, &MethodTraits::forces, "springs or drag");
   }
   if (plan.models("joints") || plan.models("ropes")) {
     requireMethod(scene, &MethodTraits::joints, "joints");
+  }
+  if (plan.models("belts")) {
+    requireMethod(scene, &MethodTraits::belts, "surfaces that move");
   }
   if (!scene.gravityChanges.empty()) {
     requireMethod(scene, &MethodTraits::gravityChanges, "gravity that changes");

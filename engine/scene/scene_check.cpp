@@ -167,6 +167,30 @@ void checkFixed(const JsonTree& tree, const Scene& scene) {
   }
 }
 
+// Along them, if they are walls; of boxes, only of those that are fixed: their faces leave out what is not.
+void checkSurfaces(const JsonTree& tree, const Scene& scene) {
+  constexpr double kAlong = 1e-6;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    const JsonNode* const velocity = elementOf(tree, "walls", i).find("surface_velocity");
+    const SurfaceMotion& surface = scene.walls[i].material.surface;
+    if (velocity != nullptr &&
+        std::fabs(dot(scene.walls[i].normal, surface.velocity)) > kAlong * surface.velocity.norm()) {
+      tree.fail(velocity->offset, "a surface_velocity that leaves wall " + inQuotes(scene.walls[i].name),
+                "one along the wall");
+    }
+  }
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    for (const char* const key : {"surface_velocity", "surface_spin"}) {
+      const JsonNode* const found = elementOf(tree, "boxes", i).find(key);
+      if (found != nullptr && !scene.boxes[i].fixed) {
+        tree.fail(found->offset,
+                  std::string(key) + " for box " + inQuotes(scene.boxes[i].name) + ", which is not fixed",
+                  "it for fixed boxes and walls only");
+      }
+    }
+  }
+}
+
 std::optional<int> bodyAt(const JsonTree& tree, const BoxNames& boxes, const JsonNode& end) {
   const JsonNode& first = end.children[0];
   if (first.kind != JsonNode::Kind::kString) {
@@ -235,6 +259,7 @@ void checkScene(const JsonTree& tree, Scene& scene, Starts starts) {
   takeMassesFromMeshes(tree, scene);
   takeDrawnMeshes(tree, scene);
   checkFixed(tree, scene);
+  checkSurfaces(tree, scene);
   const BoxNames boxes(scene);
   connectSprings(tree, boxes, scene);
   connectJoints(tree, boxes, scene);

@@ -76,12 +76,21 @@ Room readRoom(const JsonValue& value) {
   return room;
 }
 
+// A belt, or a turntable about an axis through that point.
+SurfaceMotion readSurface(const JsonObject& object, const Vec3& axis, const Vec3& point) {
+  const Vec3 spin = object.number("surface_spin", anyNumber("rad/s"), 0) * axis;
+  return {.velocity = object.vector("surface_velocity", anyNumber("m/s")) - spin.cross(point), .spin = spin};
+}
+
 Wall readWall(const JsonValue& value, std::size_t index) {
-  const JsonObject object = value.object({"name", "point", "normal", "restitution", "friction"});
+  const JsonObject object = value.object(
+      {"name", "point", "normal", "restitution", "friction", "surface_velocity", "surface_spin"});
   Wall wall{.name = object.name("wall-" + std::to_string(index)),
             .normal = object.require("normal").direction(),
             .material = readMaterial(object)};
-  wall.offset = dot(wall.normal, object.require("point").vector(anyNumber("m")));
+  const Vec3 point = object.require("point").vector(anyNumber("m"));
+  wall.offset = dot(wall.normal, point);
+  wall.material.surface = readSurface(object, wall.normal, point);
   return wall;
 }
 
@@ -122,9 +131,10 @@ constexpr std::array<Color, 6> kPalette{{{0xc8, 0x55, 0x3d},
                                          {0xd9, 0x7b, 0x41}}};
 
 SceneBox readBox(const JsonValue& value, std::size_t index) {
-  const JsonObject object = value.object({"name", "half_extents", "mass", "density", "mass_from", "draw",
-                                          "inertia", "center", "position", "orientation", "velocity",
-                                          "angular_velocity", "restitution", "friction", "fixed", "color"});
+  const JsonObject object =
+      value.object({"name", "half_extents", "mass", "density", "mass_from", "draw", "inertia", "center",
+                    "position", "orientation", "velocity", "angular_velocity", "restitution", "friction",
+                    "fixed", "color", "surface_velocity", "surface_spin"});
   SceneBox box;
   box.name = object.name("box-" + std::to_string(index));
   box.halfExtents = object.require("half_extents").vector(positiveNumber("m"));
@@ -156,6 +166,7 @@ SceneBox readBox(const JsonValue& value, std::size_t index) {
   box.velocity = object.vector("velocity", anyNumber("m/s"));
   box.angularVelocity = object.vector("angular_velocity", anyNumber("rad/s"));
   box.material = readMaterial(object);
+  box.material.surface = readSurface(object, box.pose.worldFromBody.col(2), box.pose.position);
   if (const std::optional<JsonValue> color = object.find("color")) {
     box.color = readColor(*color);
   } else if (!box.fixed) {

@@ -19,12 +19,13 @@ double energyOfSpring(double stiffness, double extension) { return 0.5 * stiffne
 
 EnergyShares energySharesOf(const World& world, std::span<const BodyState> states, double time) {
   EnergyShares shares;
+  const Vec3 gravity = gravityAt(world, time);
   for (std::size_t body = 0; body < states.size(); ++body) {
     const MassProperties& mass = world.bodies[body].mass;
     const BodyState& state = states[body];
     shares.translation += 0.5 * mass.mass * state.velocity.squaredNorm();
     shares.rotation += 0.5 * dot(angularVelocity(mass, state), state.angularMomentum);
-    shares.gravity -= mass.mass * dot(world.gravity, state.pose.position);
+    shares.gravity -= mass.mass * dot(gravity, state.pose.position);
   }
   for (const Spring& spring : world.springs) {
     shares.springs +=
@@ -48,12 +49,31 @@ EnergySamples::EnergySamples(const Trajectory& run)
   atStart_ = energySharesOf(run.world, initial, 0).sum();
 }
 
+// [J] By a change of gravity.
+double EnergySamples::givenBy(std::size_t change) const {
+  const World& world = run_.world;
+  const auto& [time, gravity] = world.gravityChanges[change];
+  const Vec3& before = change == 0 ? world.gravity : world.gravityChanges[change - 1].gravity;
+  const std::vector<BodyState> states = run_.states(time);
+  double given = 0;
+  for (std::size_t body = 0; body < states.size(); ++body) {
+    given -= world.bodies[body].mass.mass * dot(gravity - before, states[body].pose.position);
+  }
+  return given;
+}
+
 RunEnergies EnergySamples::at(double time) {
   const std::vector<BodyState> states = run_.states(time);
   motors_ += motorWork_.until(time);
-  RunEnergies now{
-      .shares = energySharesOf(run_.world, states, time), .motors = motors_, .lost = losses_.until(time)};
-  now.remaining = atStart_ + now.motors - now.shares.sum() - now.lost.sum();
+  for (; gravities_ < run_.world.gravityChanges.size() && run_.world.gravityChanges[gravities_].time <= time;
+       ++gravities_) {
+    changes_ += givenBy(gravities_);
+  }
+  RunEnergies now{.shares = energySharesOf(run_.world, states, time),
+                  .motors = motors_,
+                  .changes = changes_,
+                  .lost = losses_.until(time)};
+  now.remaining = atStart_ + now.motors + now.changes - now.shares.sum() - now.lost.sum();
   for (std::size_t body = 0; body < states.size(); ++body) {
     const BodyState& state = states[body];
     const Vec3 momentum = run_.world.bodies[body].mass.mass * state.velocity;

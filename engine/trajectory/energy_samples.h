@@ -25,14 +25,15 @@ struct EnergyShares {
 EnergyShares energySharesOf(const World& world, std::span<const BodyState> states, double time);
 
 /// Energies of a run at a moment, and what was given and lost since its start [J]:
-/// shares.sum() − motors + Σ of what was lost is the energy at the start.
+/// shares.sum() − motors − changes + Σ of what was lost is the energy at the start.
 struct RunEnergies {
   EnergyShares shares;
-  double motors = 0;  ///< work of motors, as controls set their efforts
+  double motors = 0;   ///< work of motors, as controls set their efforts
+  double changes = 0;  ///< by which that of gravity jumped where gravity changes: −M (g′ − g)·x
   EnergyLosses lost;
   /// What remains: lost in contact, by friction and in collisions of time steps, whose velocities do not jump
-  /// at one moment; less the work of drives, whose forces are not recorded; and what a joint that lets go
-  /// takes along.
+  /// at one moment; less the work of drives and of surfaces that move, whose forces are not recorded; and
+  /// what a joint that lets go takes along.
   double remaining = 0;
   Vec3 momentum = Vec3::Zero();         ///< [kg m/s] Σ M v
   Vec3 angularMomentum = Vec3::Zero();  ///< [kg m²/s] about the world's origin
@@ -44,7 +45,7 @@ struct EnergyColumn {
   std::string_view unit;
   double (*of)(const RunEnergies& energies);
 };
-inline constexpr std::array<EnergyColumn, 18> kEnergyColumns = {
+inline constexpr std::array<EnergyColumn, 19> kEnergyColumns = {
     {{"translation", "J", [](const RunEnergies& e) { return e.shares.translation; }},
      {"rotation", "J", [](const RunEnergies& e) { return e.shares.rotation; }},
      {"gravity", "J", [](const RunEnergies& e) { return e.shares.gravity; }},
@@ -52,6 +53,7 @@ inline constexpr std::array<EnergyColumn, 18> kEnergyColumns = {
      {"joint_springs", "J", [](const RunEnergies& e) { return e.shares.jointSprings; }},
      {"total", "J", [](const RunEnergies& e) { return e.shares.sum(); }},
      {"motors", "J", [](const RunEnergies& e) { return e.motors; }},
+     {"changes", "J", [](const RunEnergies& e) { return e.changes; }},
      {"impacts", "J", [](const RunEnergies& e) { return e.lost.impacts; }},
      {"joint_friction", "J", [](const RunEnergies& e) { return e.lost.jointFriction; }},
      {"damping", "J", [](const RunEnergies& e) { return e.lost.damping; }},
@@ -73,10 +75,14 @@ class EnergySamples {
   RunEnergies at(double time);
 
  private:
+  double givenBy(std::size_t change) const;
+
   const Trajectory& run_;
   double atStart_ = 0;  // [J]
   MotorWork motorWork_;
-  double motors_ = 0;  // [J] until the last time
+  double motors_ = 0;          // [J] until the last time
+  double changes_ = 0;         // [J] likewise
+  std::size_t gravities_ = 0;  // changes of gravity until then
   LossesOfRun losses_;
 };
 

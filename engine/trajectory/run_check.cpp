@@ -146,6 +146,8 @@ void checkMaterial(const Material& material, const std::string& owner) {
   require(isNotNegative(material.restitution) && material.restitution <= 1, "a restitution outside 0 to 1",
           owner);
   require(isNotNegative(material.friction), "a friction that is negative or not finite", owner);
+  require(material.surface.velocity.allFinite() && material.surface.spin.allFinite(),
+          "a surface whose motion is not finite", owner);
 }
 
 void checkBody(const Body& body) {

@@ -28,7 +28,7 @@ constexpr std::uint64_t kVersionWithoutResiduals = 7;
 constexpr std::uint64_t kVersionInOnePiece = 8;
 constexpr std::uint64_t kVersionWithoutJoints = 9;
 constexpr std::uint64_t kVersionWithoutGrips = 10;
-constexpr std::uint64_t kVersionOfOneGravity = 11;
+constexpr std::uint64_t kVersionOfOneGravity = 11;  // and of surfaces that are still
 
 // A run since format version 9.
 template <class Archive>
@@ -84,6 +84,12 @@ void visitRecord(Archive& archive, Visited<Archive, Trajectory> run, std::uint64
   }
   if (version > kVersionOfOneGravity) {
     visitAll(archive, run.world.gravityChanges);
+    for (auto& body : run.world.bodies) {
+      visitSurface(archive, body.material);
+    }
+    for (auto& wall : run.world.walls) {
+      visitSurface(archive, wall.material);
+    }
   }
 }
 

@@ -190,6 +190,12 @@ void visit(Archive& archive, Visited<Archive, Material> material) {
 }
 
 template <class Archive>
+void visitSurface(Archive& archive, Visited<Archive, Material> material) {
+  visit(archive, material.surface.velocity);
+  visit(archive, material.surface.spin);
+}
+
+template <class Archive>
 void visit(Archive& archive, Visited<Archive, Body> body) {
   archive.visit(body.name);
   visit(archive, body.halfExtents);

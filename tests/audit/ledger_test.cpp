@@ -70,6 +70,23 @@ TEST(Ledger, balancesGravityThatChanges) {
   EXPECT_GT(largest(AuditKind::kEnergyLoss), 1e-4);
 }
 
+// A box on a belt that gives it 1 m/s in 1 s, with friction of .1 g: the belt's work is twice the energy that
+// the box has then. On a floor that is still that energy would come from nowhere.
+TEST(Ledger, countsTheWorkOfBelts) {
+  World world;
+  world.gravity = Vec3(0, 0, -10);
+  world.bodies = {box("box", Vec3::Constant(0.1), 1, Vec3(0, 0, 0.1), Vec3::Zero(), Vec3::Zero(), 0)};
+  world.walls = {
+      {.name = "belt", .offset = 0, .material = {.friction = 0.1, .surface = {.velocity = Vec3(2, 0, 0)}}}};
+  world.bodies[0].material.friction = 0.1;
+  Trajectory run = record(world, {.duration = 1}, "");
+  EXPECT_NEAR(run.state(0, 1).velocity.x(), 1, 1e-9);
+  EXPECT_LT(balanced(run).largest(AuditKind::kEnergyRise).size, 1e-9);
+  EXPECT_LT(balanced(run).largest(AuditKind::kLinearMomentum).size, 1e-9);
+  run.world.walls[0].material.surface = {};
+  EXPECT_GT(balanced(run).largest(AuditKind::kEnergyRise).size, 0.9);
+}
+
 // 0.1 % less gravity than the world has: after 1 s 0.01 kg m/s of |(1, 2, −7)| are missing.
 TEST(Ledger, missesWhatGravityShouldHaveGiven) {
   Trajectory run = falling();

@@ -45,15 +45,15 @@ const std::string kFloor =
 TEST(Plan, defaultSceneNeedsGravityAndWalls) {
   const Plan planned = plan(shipped("careen.json"));
   EXPECT_EQ(planned.modelled(), (Names{"gravity", "box-wall", "restitution", "resting"}));
-  EXPECT_EQ(planned.leftOut(),
-            (Names{"drag", "springs", "joints", "limits", "ropes", "motors", "box-box", "friction"}));
+  EXPECT_EQ(planned.leftOut(), (Names{"drag", "springs", "joints", "limits", "ropes", "motors", "box-box",
+                                      "friction", "belts"}));
 }
 
 TEST(Plan, sampleOf1997NeedsSpringsAndDragToo) {
   const Plan planned = plan(shipped("hecker-1997.json"));
   EXPECT_EQ(planned.modelled(), (Names{"gravity", "drag", "springs", "box-wall", "restitution"}));
   EXPECT_EQ(planned.leftOut(),
-            (Names{"joints", "limits", "ropes", "motors", "box-box", "friction", "resting"}));
+            (Names{"joints", "limits", "ropes", "motors", "box-box", "friction", "belts", "resting"}));
 }
 
 TEST(Plan, saysWhyEachThingIsModelled) {
@@ -225,6 +225,21 @@ TEST(Assemble, namesTheMethodThatModelsJoints) {
                            : "scene untitled has joints, which method " + std::string(method.name) +
                                  " does not model; expected method exact");
   }
+}
+
+TEST(Assemble, surfacesThatMoveAreOfTheMethodExact) {
+  const std::string belt =
+      R"("walls": [{"point": [0, 0, -1], "normal": [0, 0, 1], "surface_velocity": [1, 0, 0], "friction": )";
+  Scene scene = withParts(belt + R"(0.5}], "boxes": [)" + kBox + "]");
+  EXPECT_EQ(reasonFor(scene, "belts"), "modelled: 1 surface that moves");
+  EXPECT_EQ(assemble(scene, plan(scene)).walls[0].material.surface.velocity, Vec3(1, 0, 0));
+  scene.settings.method = Method::kTaylor8;
+  EXPECT_EQ(
+      inputErrorOf([&] { assemble(scene, plan(scene)); }),
+      "scene untitled has surfaces that move, which method taylor-8 does not model; expected method exact");
+  const Scene smooth = withParts(belt + R"(0}], "boxes": [)" + kBox + "]");
+  EXPECT_EQ(reasonFor(smooth, "belts"), "left out: nothing that moves along itself is rough");
+  EXPECT_FALSE(assemble(smooth, plan(smooth)).walls[0].material.surface.moves());
 }
 
 TEST(Assemble, gravityThatChangesIsOfTheMethodExact) {

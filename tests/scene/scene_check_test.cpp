@@ -18,6 +18,12 @@ std::string sceneErrorOf(const std::string& text) {
 }
 
 const std::vector<BadPiece> kBadScenes = {
+    {R"("friction": 0.125)", R"("surface_velocity": @[1, 0, 0])",
+     R"(found a surface_velocity that leaves wall "ramp", expected one along the wall)"},
+    {R"("friction": 0.5, "fixed": false)", R"("surface_spin": @1)",
+     R"(found surface_spin for box "crate", which is not fixed, expected it for fixed boxes and walls only)"},
+    {R"("friction": 0.5, "fixed": false)", R"("surface_velocity": @[0, 0, 0])",
+     R"(found surface_velocity for box "crate", which is not fixed, expected it for fixed boxes and walls only)"},
     {"[0, 0, -9.81]", R"({ "path": [[@1, 0, 0, -9.81]] })",
      "found 1 for gravity.path[0][0], expected 0, the start"},
     {"[0, 0, -9.81]", R"({ "path": [[0, 0, 0, -9.81], [1, 0, 0, 0], [@1, 0, 0, 1]] })",

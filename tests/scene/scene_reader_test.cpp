@@ -68,6 +68,25 @@ TEST(SceneReader, readsWalls) {
   EXPECT_EQ(scene.walls[1].material.restitution, 0);
 }
 
+// A belt, a turntable about the wall's point, and a fixed box that is both, about its own axis.
+TEST(SceneReader, readsHowSurfacesMove) {
+  const Scene scene = parseScene(R"({ "careen": 1, "duration": 1,
+    "walls": [ { "point": [1, 2, 0], "normal": [0, 0, 2], "surface_velocity": [3, 0, 0] },
+               { "point": [1, 2, 9], "normal": [0, 0, -1], "surface_spin": 2 } ],
+    "boxes": [ { "half_extents": [1, 1, 1], "position": [0, 5, 4], "fixed": true, "surface_velocity": [0, 0, 1],
+                 "surface_spin": 0.5 } ] })",
+                                 "f");
+  EXPECT_EQ(scene.walls[0].material.surface.velocity, Vec3(3, 0, 0));
+  EXPECT_EQ(scene.walls[0].material.surface.spin, Vec3::Zero());
+  const SurfaceMotion& table = scene.walls[1].material.surface;
+  EXPECT_EQ(table.spin, Vec3(0, 0, -2));
+  EXPECT_EQ(table.along(Vec3::UnitZ(), Vec3(1, 2, 9)), Vec3::Zero());
+  EXPECT_EQ(table.along(Vec3::UnitZ(), Vec3(2, 2, 9)), Vec3(0, -2, 0));
+  const SurfaceMotion& box = scene.boxes[0].material.surface;
+  EXPECT_EQ(box.velocity + box.spin.cross(Vec3(0, 5, 7)), Vec3(0, 0, 1));
+  EXPECT_EQ(box.spin, Vec3(0, 0, 0.5));
+}
+
 TEST(SceneReader, readsBoxes) {
   const Scene scene = parseScene(kEveryKey, "f");
   ASSERT_EQ(scene.boxes.size(), 3U);

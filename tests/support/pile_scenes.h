@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "physics/pile/solver.h"
 #include "physics/world/world.h"
 #include "support/physics_worlds.h"
 
@@ -72,6 +73,13 @@ inline World pouring(int count, double friction = 0.5, double restitution = 0, d
     world.bodies.push_back(body);
   }
   return world;
+}
+
+/// [m/s] v_n of the row as it stands.
+inline double normalSpeed(const PileSolver& solver, int row) {
+  const PileSolver::RowView view = solver.row(row);
+  return dot(view.axes[0], solver.velocity(view.a) + solver.omega(view.a).cross(view.armA) -
+                               solver.velocity(view.b) - solver.omega(view.b).cross(view.armB));
 }
 
 }  // namespace careen::test

@@ -182,6 +182,22 @@ TEST(EnergySamples, aFreePairKeepsItsMomenta) {
   EXPECT_NEAR(end.remaining, 0, 1e-10);
 }
 
+// 2 kg fall from 3 m under 10 m/s² for .4 s, to 2.2 m, and go on under 5 upwards: that takes −2 (5 + 10) 2.2
+// J from m g z, which is −m g·x.
+TEST(EnergySamples, tellWhatChangesOfGravityGive) {
+  World world = fallingDie(Vec3(0, 0, 3));
+  world.gravityChanges = {{.time = 0.4, .gravity = Vec3(0, 0, 5)}};
+  const Trajectory run = record(world, {.duration = 1}, "");
+  EnergySamples samples(run);
+  EXPECT_EQ(samples.at(0.3).changes, 0);
+  for (const double time : {0.4, 0.7, 1.0}) {
+    const RunEnergies now = samples.at(time);
+    EXPECT_NEAR(now.changes, -66, 1e-12);
+    EXPECT_NEAR(now.shares.sum() - now.changes, 60, 1e-12);
+    EXPECT_NEAR(now.remaining, 0, 1e-12);
+  }
+}
+
 TEST(EnergySamples, writeATable) {
   World world = fallingDie(Vec3(0, 0, 1));
   world.gravity = Vec3::Zero();
@@ -189,11 +205,12 @@ TEST(EnergySamples, writeATable) {
   std::string text;
   writeEnergyCsv(record(world, {.duration = 0.5}, ""), 0.5,
                  [&text](std::string_view piece) { text += piece; });
-  EXPECT_EQ(text,
-            "time,translation,rotation,gravity,springs,joint_springs,total,motors,impacts,joint_friction,"
-            "damping,drag,remaining,px,py,pz,lx,ly,lz\n"
-            "0,4,0,0,0,0,4,0,0,0,0,0,0,4,0,0,0,4,0\n"
-            "0.5,4,0,0,0,0,4,0,0,0,0,0,0,4,0,0,0,4,0\n");
+  EXPECT_EQ(
+      text,
+      "time,translation,rotation,gravity,springs,joint_springs,total,motors,changes,impacts,joint_friction,"
+      "damping,drag,remaining,px,py,pz,lx,ly,lz\n"
+      "0,4,0,0,0,0,4,0,0,0,0,0,0,0,4,0,0,0,4,0\n"
+      "0.5,4,0,0,0,0,4,0,0,0,0,0,0,0,4,0,0,0,4,0\n");
 }
 
 }  // namespace

@@ -50,6 +50,8 @@ const std::vector<Fault> kFaults = {
      }},
     {"has a world with a gravity that is not finite",
      [](Trajectory& run) { run.world.gravityChanges = {{.time = 0.5, .gravity = Vec3(0, kNoNumber, 0)}}; }},
+    {"has a wall 'room+x' with a surface whose motion is not finite",
+     [](Trajectory& run) { run.world.walls[1].material.surface.spin.y() = kInfinity; }},
     {"has two bodies or walls of the name 'anchor'",
      [](Trajectory& run) { run.world.bodies[0].name = "anchor"; }},
     {"has two bodies or walls of the name 'drifter'",

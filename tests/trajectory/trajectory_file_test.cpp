@@ -124,6 +124,15 @@ TEST(TrajectoryFile, bringsBackUntilWhenPlacesMeanSomething) {
   EXPECT_EQ(decodeTrajectory(encodeTrajectory(run), "run.careen").figures.horizon, 0.75);
 }
 
+TEST(TrajectoryFile, bringsBackHowSurfacesMove) {
+  Trajectory run = driftAndReturn();
+  run.world.bodies[0].material.surface.velocity = Vec3(1, 2, 3);
+  run.world.walls[0].material.surface.spin = Vec3(4, 5, 6);
+  const Trajectory back = decodeTrajectory(encodeTrajectory(run), "run.careen");
+  EXPECT_EQ(back.world.bodies[0].material.surface.velocity, Vec3(1, 2, 3));
+  EXPECT_EQ(back.world.walls[0].material.surface.spin, Vec3(4, 5, 6));
+}
+
 TEST(TrajectoryFile, bringsBackHowGravityChanges) {
   Trajectory run = driftAndReturn();
   run.world.gravityChanges = {{.time = 0.25, .gravity = Vec3(1, 2, 3)},
@@ -200,13 +209,19 @@ TEST(TrajectoryFile, bringsBackARunOfManyPieces) {
   EXPECT_EQ(encodeTrajectory(back), bytes);
 }
 
-// Format version 11: without changes of gravity, a list before the length and the hash of the last state.
+// Format version 11: without changes of gravity, a list before the length and the hash of the last state, and
+// six numbers for each body and wall, how their surfaces move.
+std::size_t sinceVersion11(const Trajectory& run) {
+  return 8 + 48 * (run.world.bodies.size() + run.world.walls.size());
+}
+
 TEST(TrajectoryFile, readsWhatVersion11Wrote) {
   const Trajectory run = driftAndReturn();
   std::string record = recordOf(encodeTrajectory(run));
+  const std::size_t more = sinceVersion11(run);
   const std::size_t end = record.size() - 8 - run.stateHash().size();
-  EXPECT_EQ(record.substr(end - 8, 8), std::string(8, '\0'));
-  record.erase(end - 8, 8);
+  EXPECT_EQ(record.substr(end - more, more), std::string(more, '\0'));
+  record.erase(end - more, more);
   const std::string bytes = withRightChecksum("careen\r\n" + inBytes(11) + pieceOf(record) + "checksum");
   EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
 }
@@ -217,8 +232,9 @@ TEST(TrajectoryFile, readsWhatVersion10Wrote) {
   run.world.joints = {{.name = "pin", .kind = Joint::Kind::kBall, .from = {.body = 0}, .to = {}}};
   std::string record = recordOf(encodeTrajectory(run));
   const std::size_t end = record.size() - 8 - run.stateHash().size();
-  EXPECT_EQ(record.substr(end - 24, 24), std::string(24, '\0'));
-  record.erase(end - 24, 24);
+  const std::size_t more = 16 + sinceVersion11(run);
+  EXPECT_EQ(record.substr(end - more, more), std::string(more, '\0'));
+  record.erase(end - more, more);
   const std::string bytes = withRightChecksum("careen\r\n" + inBytes(10) + pieceOf(record) + "checksum");
   EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
 }
@@ -228,8 +244,9 @@ TEST(TrajectoryFile, readsWhatVersion9Wrote) {
   const Trajectory run = driftAndReturn();
   std::string record = recordOf(encodeTrajectory(run));
   const std::size_t end = record.size() - 8 - run.stateHash().size();
-  EXPECT_EQ(record.substr(end - 40, 40), std::string(40, '\0'));
-  record.erase(end - 40, 40);
+  const std::size_t more = 32 + sinceVersion11(run);
+  EXPECT_EQ(record.substr(end - more, more), std::string(more, '\0'));
+  record.erase(end - more, more);
   const std::string bytes = withRightChecksum("careen\r\n" + inBytes(9) + pieceOf(record) + "checksum");
   EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
 }

@@ -352,6 +352,20 @@ bool hasCorner(std::span<const ContactFeature> features, const ContactFeature& c
   });
 }
 
+namespace {
+
+// Of a surface that moves along itself: where the contact is on it, it is told by a's point.
+void addSurface(const SurfaceMotion& surface, const Kinematics& a, ContactState& state) {
+  const Vec3 point = a.pose.position + state.armA;
+  const Vec3 velocity = a.velocity + a.angularVelocity.cross(state.armA);
+  const Vec3 all = surface.velocity + surface.spin.cross(point);
+  state.surface = surface.along(state.normal, point);
+  state.slip -= state.surface;
+  state.slipBias -= surface.spin.cross(velocity) - dot(state.normal, all) * state.normalRate;
+}
+
+}  // namespace
+
 ContactState contactState(const ContactFeature& feature, const Kinematics& a, TouchingShape boxA,
                           const Kinematics& b, TouchingShape boxB) {
   if (feature.isOfJoint()) {
@@ -361,6 +375,9 @@ ContactState contactState(const ContactFeature& feature, const Kinematics& a, To
   if (feature.axes != 0) {
     state.directions = directionsOf(feature.axes, {a.pose, boxA.halfExtents, boxA.center},
                                     {b.pose, boxB.halfExtents, boxB.center});
+  }
+  if (feature.material.surface.moves()) {
+    addSurface(feature.material.surface, a, state);
   }
   return state;
 }

@@ -84,7 +84,8 @@ struct ContactState {
   Vec3 armB = Vec3::Zero();         ///< [m] likewise from b's
   double gap = 0;                   ///< [m]
   double rate = 0;                  ///< [m/s] of the gap
-  Vec3 slip = Vec3::Zero();         ///< [m/s] tangential velocity of a relative to b
+  Vec3 slip = Vec3::Zero();         ///< [m/s] tangential velocity of a relative to b's surface
+  Vec3 surface = Vec3::Zero();      ///< [m/s] tangential, of b's surface relative to b
   double gapBias = 0;               ///< [m/s²]
   Vec3 normalRate = Vec3::Zero();   ///< [1/s]
   Vec3 centripetal = Vec3::Zero();  ///< [m/s²] of the two points relative to each other, ω×(ω×arm)
@@ -109,7 +110,7 @@ struct ContactState {
     return rows ? rows->b : pointSide(frame.axes(), armB, -1);
   }
 
-  /// [m/s] of a relative to b.
+  /// [m/s] of a relative to b's surface.
   Vec3 velocity() const { return slip + rate * normal; }
   /// [m/s] How fast the boxes part, and how fast they pass each other along any of the directions.
   double parting() const { return directions.empty() ? rate : partingSpeed(directions, velocity()); }

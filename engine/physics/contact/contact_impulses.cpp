@@ -64,7 +64,8 @@ ContactProblem::Contact& ContactImpulses::add(const ContactFeature& feature, con
   contact.admissible = feature.admissible();
   contact.most = length_ * geometry.grip;
   contact.least = -contact.most;
-  contact.target[0] = geometry.kept;
+  contact.target = {geometry.kept, dot(geometry.surface, frame.tangent1),
+                    dot(geometry.surface, frame.tangent2)};
   contact.friction = feature.material.friction;
   for (const Vec3& direction : geometry.directions) {
     contact.directions.push_back(frame.along(direction));

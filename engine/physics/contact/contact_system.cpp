@@ -411,7 +411,9 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
     fillContacts();
     for (std::size_t c = 0; c < features_.size(); ++c) {
       ContactForces::Contact& contact = forces_.contacts()[c];
-      contact.target = {states_[c].kept, 0, 0};
+      const ContactFrame frame = frameOf(states_[c].normal);
+      contact.target = {states_[c].kept, dot(states_[c].surface, frame.tangent1),
+                        dot(states_[c].surface, frame.tangent2)};
       if (contact.admissible == ContactProblem::Admissible::kLine) {
         contact.admissible = ContactProblem::Admissible::kCone;
       }

@@ -53,7 +53,8 @@ void FoundContacts::addBetween(std::size_t a, std::size_t b, const std::vector<P
       });
   for (const ContactPoint& point : contact.points) {
     ContactFeature feature = featureAt(point, closed_, static_cast<int>(a), boxA, static_cast<int>(b), boxB);
-    feature.material = touching(group_.body(a).material, group_.body(b).material);
+    feature.material = touching(group_.body(static_cast<std::size_t>(feature.a)).material,
+                                group_.body(static_cast<std::size_t>(feature.b)).material);
     feature.axes = feature.a == static_cast<int>(a) ? contact.choice : swapped(contact.choice);
     features_.push_back(feature);
   }

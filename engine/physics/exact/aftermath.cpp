@@ -107,7 +107,8 @@ void settleBody(const Bodies& bodies, Encounter& encounter, std::size_t index, c
     if ((!isA && contact.b != static_cast<int>(index)) || contact.rows) {
       continue;
     }
-    alone = alone && (isA ? encounter.b(k) : encounter.a(k)).mover->isHeld();
+    alone =
+        alone && (isA ? encounter.b(k) : encounter.a(k)).mover->isHeld() && !contact.material.surface.moves();
     const Vec3 normal = isA ? contact.normal : Vec3(-contact.normal);
     const Vec3& arm = isA ? contact.armA : contact.armB;
     if (!contact.directions.empty() && !(encounter.shares[k].impulse > 0)) {

@@ -408,12 +408,6 @@ double Bodies::workLeft(std::span<const int> ranks, const Instant& time) const {
   return movable * share * ((isWorthLess ? 0 : kWorkAtOnce) + kWorkPerSecond * time.hi) - spent;
 }
 
-double untilGravity(const Bodies& bodies, const Instant& time) {
-  const double next = bodies.changing() != nullptr ? bodies.changing()->nextGravity()
-                                                   : std::numeric_limits<double>::infinity();
-  return std::isfinite(next) ? secondsBetween(time, Instant(next)) : next;
-}
-
 double untilChange(const Bodies& bodies, const Joint& joint, const Instant& time) {
   double next = std::numeric_limits<double>::infinity();
   if (bodies.changing() != nullptr) {

@@ -148,8 +148,7 @@ class Bodies {
 
 /// A body that takes part in an impact at that time, in this state after it.
 DoubtfulBody doubtful(Bodies& bodies, int rank, const Instant& time, const BodyState& after);
-/// [s] From that time on, until gravity changes; and until a joint lets go or its motor may change.
-double untilGravity(const Bodies& bodies, const Instant& time);
+/// [s] From that time on, until a joint lets go or its motor may change.
 double untilChange(const Bodies& bodies, const Joint& joint, const Instant& time);
 /// Whether joints end in the world.
 bool endsInWorld(const World& world);

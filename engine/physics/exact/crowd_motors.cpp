@@ -1,11 +1,12 @@
 #include "physics/exact/crowd_motors.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace careen {
 
 double untilChange(const Bodies& bodies, Crowd& crowd, const Instant& time) {
-  double change = untilGravity(bodies, time);
+  double change = std::numeric_limits<double>::infinity();
   for (const CrowdArticulations::Listed& each : crowd.articulations().joints()) {
     change = std::min(change, untilChange(bodies, *each.joint, time));
   }

@@ -56,7 +56,7 @@ ContactFeature featureOf(const Encounter& encounter, std::size_t k) {
                         gapAlong(boxA, boxB, contact.normal), contact.a, boxA, contact.b, boxB);
     feature.axes = feature.a == contact.a ? contact.axes : swapped(contact.axes);
   }
-  feature.material = contact.material;
+  feature.material = feature.a == contact.a ? contact.material : swapped(contact.material);
   return feature;
 }
 

@@ -76,7 +76,7 @@ bool IslandGroup::takeStep(const Instant& time) {
   bool isSolved = true;
   try {
     // Not bounded by the end of the run, on which the motion must not depend.
-    double change = untilGravity(bodies_, time);
+    double change = std::numeric_limits<double>::infinity();
     for (const ContactFeature& feature : island_->joints()) {
       change = std::min(change, untilChange(bodies_, *feature.joint, time));
     }

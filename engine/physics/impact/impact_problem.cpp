@@ -81,6 +81,11 @@ void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactCo
         "impact: a contact between two sides that cannot move, or a number that is not finite");
   }
   added.friction = contact.material.friction;
+  if (contact.material.surface.moves()) {
+    const Vec3 surface =
+        contact.material.surface.along(contact.normal, bodies[a].state->pose.position + contact.armA);
+    added.target = {0, dot(axes[1], surface), dot(axes[2], surface)};
+  }
   added.admissible = contact.holds ? ContactProblem::Admissible::kSpace : ContactProblem::Admissible::kCone;
   setup.problem.contacts.push_back(added);
 }

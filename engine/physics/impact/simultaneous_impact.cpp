@@ -348,8 +348,10 @@ Impulses Law::withFriction(const Impulses& smooth) {
       if (contacts_[c].holds) {
         continue;
       }
+      const auto& surface = problem_.contacts[c].target;
       rough.contacts[c].target = {smooth[c][0] > 0 ? part * speed(c, 0, parting) : 0,
-                                  part * speed(c, 1, restituted), part * speed(c, 2, restituted)};
+                                  part * speed(c, 1, restituted) + surface[1],
+                                  part * speed(c, 2, restituted) + surface[2]};
     }
     ContactSolution solution;
     solution.enough = accuracy_.enough;
@@ -390,7 +392,13 @@ Impulses Law::shortened(const Impulses& smooth, Impulses rough) const {
   for (std::size_t k = 0; k < way.size(); ++k) {
     way[k] -= start[k];
   }
-  const double slope = product(start, way);  // dE/dfraction at the start
+  double slope = product(start, way);  // dE/dfraction at the start, less the work of surfaces
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const auto& surface = problem_.contacts[c].target;
+    slope -= contacts_[c].holds
+                 ? 0
+                 : (rough[c][1] - smooth[c][1]) * surface[1] + (rough[c][2] - smooth[c][2]) * surface[2];
+  }
   const double curvature = product(way, way);
   const double full = product(start, start) / 2;
   if (fraction * slope + fraction * fraction * curvature / 2 > 0x1p-50 * full) {

@@ -159,6 +159,9 @@ Slip slipOf(const ImpactBody& a, const ImpactBody* b, const ImpactContact& conta
     byFirst += yield(*b, contact.armB, frame.tangent1);
     bySecond += yield(*b, contact.armB, frame.tangent2);
   }
+  if (contact.material.surface.moves()) {
+    velocity -= contact.material.surface.along(n, a.state->pose.position + contact.armA);
+  }
   const Plane across{.x = dot(byNormal, frame.tangent1), .y = dot(byNormal, frame.tangent2)};
   const double compression = approach / inverseEffectiveMass;
   Slip slip;

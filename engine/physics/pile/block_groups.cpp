@@ -172,8 +172,8 @@ void BlockGroups::addToGroup(int index, Part& part, int nobody) {
   }
   Group& group = part.groups[at(*found)];
   const std::size_t lane = at(group.used++);
-  group.a[lane] = moves(block.a) ? block.a : nobody;
-  group.b[lane] = moves(block.b) ? block.b : nobody;
+  group.a[lane] = isRead(block.a) ? block.a : nobody;
+  group.b[lane] = isRead(block.b) ? block.b : nobody;
   group.counts[lane] = block.count;
   group.blocks[lane] = index;
   if (group.used == kLanes) {
@@ -182,8 +182,8 @@ void BlockGroups::addToGroup(int index, Part& part, int nobody) {
 }
 
 bool BlockGroups::sharesBody(const Group& group, const RowBlock& block) const {
-  const int a = moves(block.a) ? block.a : -1;
-  const int b = moves(block.b) ? block.b : -1;
+  const int a = isRead(block.a) ? block.a : -1;
+  const int b = isRead(block.b) ? block.b : -1;
   bool shares = false;
   for (std::size_t k = 0; k < kLanes; ++k) {
     shares |= (group.a[k] == a) | (group.a[k] == b) | (group.b[k] == a) | (group.b[k] == b);

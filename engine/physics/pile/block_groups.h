@@ -31,7 +31,7 @@ class BlockGroups {
   explicit BlockGroups(std::shared_ptr<Team> team) : team_(std::move(team)) {}
 
   struct Group {
-    LaneBodies a{}, b{};               ///< in place of those that cannot move, nobody
+    LaneBodies a{}, b{};               ///< in place of those that cannot move and are no belts, nobody
     std::array<int, kLanes> counts{};  ///< rows
     std::array<int, kLanes> blocks{};
     int used = 0;   ///< lanes
@@ -77,6 +77,7 @@ class BlockGroups {
     int rows = 0;                        // of these, then the first of all
   };
   bool moves(int body) const { return bodies_[at(body)].moves(); }
+  bool isRead(int body) const { return bodies_[at(body)].moves() || bodies_[at(body)].isBelt; }
   void findParts();
   void findSlabs(std::size_t count);
   void divideBlocks();

@@ -60,7 +60,7 @@ bool CrowdBounces::resolve() {
                                      return contacts_[each.slot].points[at(each.point)].normalImpulse > 0;
                                    }) &&
                        std::any_of(contacts_.near().begin(), contacts_.near().end(),
-                                   [&](int slot) { return contacts_[slot].restitution > 0; });
+                                   [&](int slot) { return contacts_[slot].material.restitution > 0; });
   if (!elastic) {
     return false;
   }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "physics/pile/belts.h"
+
 namespace careen {
 namespace {
 
@@ -188,9 +190,7 @@ void CrowdContacts::beginManifold(const PilePair& pair, PileManifold& manifold) 
   manifold.span = members_.span;
   const PileBody& a = members_[pair.a];
   const PileBody& b = members_[pair.b];
-  const Material material = touching(a.material, b.material);
-  manifold.friction = material.friction;
-  manifold.restitution = material.restitution;
+  manifold.material = touching(a.material, b.material);
   manifold.length = std::min(a.length, b.length);
 }
 
@@ -224,7 +224,11 @@ void CrowdContacts::addPresentRows(const PileManifold& manifold, PileSolver& sol
     }
     const ContactFrame& frame = manifold.frameOf(k);
     if (begun != &frame) {
-      solver.beginBlock(manifold.a, manifold.b, manifold.friction, frame, apart);
+      const BeltBlock block =
+          isOnBelt(manifold) ? bodiesOnBelt(members_, manifold,
+                                            solver.addBelt(motionOfBelt(members_, manifold, frame, point)))
+                             : BeltBlock{.a = manifold.a, .b = manifold.b};
+      solver.beginBlock(block.a, block.b, manifold.material.friction, frame, apart);
       begun = &frame;
     }
     solver.add({.arm = point.world,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace careen {
@@ -83,11 +84,12 @@ bool curveGaps(const CrowdMembers& members, CrowdContacts& contacts, PileSolver&
         continue;
       }
       point.curved = 0.5 * h * h * curvature.secondOrder(manifold, k);
-      solver.addToBound(point.row, -point.curved / h);
-      if (point.curved > 0) {  // an arc from surface to surface goes through what lies between
-        solver.raiseBound(
-            point.row, -2 * (std::max(0.0, point.gap) + kSag * members.tolerance + 0.25 * point.curved) / h);
-      }
+      // An arc from surface to surface goes through what lies between.
+      const double least =
+          point.curved > 0
+              ? -2 * (std::max(0.0, point.gap) + kSag * members.tolerance + 0.25 * point.curved) / h
+              : -std::numeric_limits<double>::infinity();
+      solver.addToBound(point.row, -point.curved / h, least);
       if (std::abs(point.curved) > kStraight * members.tolerance) {
         solver.wakeRow(point.row);
         any = true;

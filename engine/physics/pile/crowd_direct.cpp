@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include "physics/pile/index.h"
 #include "physics/solver/contact_rows.h"
 
 namespace careen {
@@ -97,15 +98,28 @@ double CrowdDirect::solveJoints(PileSolver& solver) {
   return most;
 }
 
+// Bodies of the solver that are no members.
+bool CrowdDirect::isBelt(int body) const { return at(body) >= members_.size(); }
+
+// [m/s] Of its point at that arm.
+Vec3 CrowdDirect::beltAt(const PileSolver& solver, int body, const Vec3& arm) const {
+  return isBelt(body) ? Vec3(solver.velocity(body) + solver.omega(body).cross(arm)) : Vec3(Vec3::Zero());
+}
+
 void CrowdDirect::addRows(const PileSolver& solver) {
   for (std::size_t k = 0; k < solver.rowCount(); ++k) {
     const PileSolver::RowView row = solver.row(static_cast<int>(k));
     const auto include = [&](int body) {
-      return problem_.include(body, solver.velocity(body), solver.omega(body));
+      return isBelt(body) ? ContactProblem::kNobody
+                          : problem_.include(body, solver.velocity(body), solver.omega(body));
     };
     const int a = include(row.a);
     const int b = include(row.b);
-    problem_.add({.a = a, .b = b, .friction = row.friction, .target = {row.bound, 0, 0}},
+    const Vec3 ofBelts = beltAt(solver, row.b, row.armB) - beltAt(solver, row.a, row.armA);
+    problem_.add({.a = a,
+                  .b = b,
+                  .friction = row.friction,
+                  .target = {row.bound, dot(row.axes[1], ofBelts), dot(row.axes[2], ofBelts)}},
                  pointSide(row.axes, row.armA, 1), pointSide(row.axes, row.armB, -1), row.impulse);
   }
 }

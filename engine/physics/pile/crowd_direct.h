@@ -36,6 +36,8 @@ class CrowdDirect {
  private:
   bool isHeavy() const;
   double enough() const;
+  bool isBelt(int body) const;
+  Vec3 beltAt(const PileSolver& solver, int body, const Vec3& arm) const;
   void addRows(const PileSolver& solver);
   void takeJoints(PileSolver& solver, std::size_t first);
 

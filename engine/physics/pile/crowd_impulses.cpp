@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "physics/pile/belts.h"
 #include "physics/pile/crowd_curvature.h"
 #include "physics/pile/crowd_motion.h"
 
@@ -49,7 +50,8 @@ CrowdImpulses::CrowdImpulses(const CrowdMembers& members, const CrowdLoads& load
       articulations_(articulations),
       memory_(memory),
       solver_(members.team),
-      direct_(members, contacts, articulations, memory) {}
+      direct_(members, contacts, articulations, memory),
+      hasBelts_(hasBelts(members.world)) {}
 
 void CrowdImpulses::find() {
   load();
@@ -75,6 +77,7 @@ void CrowdImpulses::load() {
     const PileSolver::Extent own = std::exchange(each, all);
     all.blocks += own.blocks;
     all.rows += own.rows;
+    all.belts += own.belts;
   }
   solver_.reserve(all);
   contacts_.forNear([&](PileManifold& manifold, std::size_t n) { addRows(manifold, rowsOf_[n]); });
@@ -142,6 +145,7 @@ PileSolver::Extent CrowdImpulses::lookForRows(PileManifold& manifold) const {
   PileSolver::Extent rows;
   const ContactFrame* begun = nullptr;
   manifold.meets = manifold.strikes = false;
+  const bool isOnBelt = careen::isOnBelt(manifold);
   for (int k = 0; k < manifold.count; ++k) {
     PilePoint& point = manifold.points[at(k)];
     const Vec3 relative = vA + solver_.omega(manifold.a).cross(point.world) - vB -
@@ -157,6 +161,7 @@ PileSolver::Extent CrowdImpulses::lookForRows(PileManifold& manifold) const {
     }
     manifold.strikes = manifold.strikes || point.strikes;
     rows.blocks += begun == &manifold.frameOf(k) ? 0 : 1;
+    rows.belts += begun == &manifold.frameOf(k) || !isOnBelt ? 0 : 1;
     begun = &manifold.frameOf(k);
     ++rows.rows;
   }
@@ -170,6 +175,7 @@ void CrowdImpulses::addRows(PileManifold& manifold, PileSolver::Extent next) {
   for (int k = 0; k < manifold.count;) {
     const ContactFrame& frame = manifold.frameOf(k);
     const int first = next.rows;
+    const PilePoint& onBelt = manifold.points[at(k)];
     for (; k < manifold.count && &manifold.frameOf(k) == &frame; ++k) {
       PilePoint& point = manifold.points[at(k)];
       if (point.row < 0) {
@@ -187,8 +193,13 @@ void CrowdImpulses::addRows(PileManifold& manifold, PileSolver::Extent next) {
       solver_.setRow(point.row, row);
     }
     if (next.rows > first) {
-      solver_.setBlock({.blocks = next.blocks++, .rows = first}, next.rows - first, manifold.a, manifold.b,
-                       manifold.friction, frame, apart);
+      const BeltBlock block =
+          isOnBelt(manifold)
+              ? bodiesOnBelt(members_, manifold,
+                             solver_.setBelt(next.belts++, motionOfBelt(members_, manifold, frame, onBelt)))
+              : BeltBlock{.a = manifold.a, .b = manifold.b};
+      solver_.setBlock({.blocks = next.blocks++, .rows = first}, next.rows - first, block.a, block.b,
+                       manifold.material.friction, frame, apart);
     }
   }
 }
@@ -314,8 +325,8 @@ double CrowdImpulses::kineticEnergy(std::size_t place) const {
                 dot(solver_.omega(index), body.angularMomentum));
 }
 
-// An exact solution adds none. Under springs and drag the angular momenta before are not those of the
-// spins, and it is not looked at.
+// An exact solution adds none; surfaces that move do. Under springs and drag the angular momenta before are
+// not those of the spins, and it is not looked at.
 bool CrowdImpulses::gainedEnergy() const {
   double before = 0;
   double after = 0;
@@ -325,7 +336,7 @@ bool CrowdImpulses::gainedEnergy() const {
       after += members_.ways[i].kinetic;
     }
   }
-  return !loads_.any() && after - before > kMostGained * before;
+  return !loads_.any() && !hasBelts_ && after - before > kMostGained * before;
 }
 
 }  // namespace careen

@@ -223,8 +223,8 @@ void CrowdSleep::findClusters() {
     }
     const std::size_t a = at(manifold.a);
     const std::size_t b = at(manifold.b);
-    grip_[a] = std::max(grip_[a], manifold.friction);
-    grip_[b] = std::max(grip_[b], manifold.friction);
+    grip_[a] = std::max(grip_[a], manifold.material.friction);
+    grip_[b] = std::max(grip_[b], manifold.material.friction);
     if (!members_[a].held && !members_[b].held) {
       clusters_.join(a, b);
     }

@@ -57,9 +57,8 @@ struct PileManifold {
   int a = 0;
   int b = 0;
   double length = 0;  ///< [m] smallest size of the smaller body
-  double friction = 0;
-  double restitution = 0;
-  double span = 0;  ///< [s] in which its impulses acted
+  Material material;  ///< of the pair
+  double span = 0;    ///< [s] in which its impulses acted
 
   int axis = -1;          ///< best axis at the last rebuild, as in BoxAxis
   bool planeOfB = false;  ///< b owns the reference plane

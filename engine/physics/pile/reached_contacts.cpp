@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "physics/pile/belts.h"
 #include "physics/pile/index.h"
 
 namespace careen {
@@ -71,8 +72,8 @@ int ReachedContacts::listManifold(int slot) {
                        .bodies = bodies,
                        .arms = {from.world, from.world + apart},
                        .normal = manifold.frameOf(k).normal,
-                       .restitution = manifold.restitution,
-                       .friction = manifold.friction,
+                       .restitution = manifold.material.restitution,
+                       .friction = manifold.material.friction,
                        .before = std::max(0.0, from.speed)};
     for (std::size_t side = 0; side < 2; ++side) {
       if (bodies[side] != kNobody) {
@@ -81,6 +82,9 @@ int ReachedContacts::listManifold(int slot) {
         point.slip += side == 0 ? velocity : Vec3(-velocity);
         bodies_[at(bodies[side])].points.push_back(static_cast<int>(points_.size()));
       }
+    }
+    if (isOnBelt(manifold)) {
+      point.slip -= manifold.material.surface.along(point.normal, members_[manifold.a].position + from.world);
     }
     point.mass = massAlong(point, point.normal, 1);
     point.slip -= dot(point.normal, point.slip) * point.normal;

@@ -43,6 +43,7 @@ class RowList {
   struct Extent {
     int blocks = 0;
     int rows = 0;
+    int belts = 0;  ///< bodies that PileSolver has for them
   };
   void reserve(Extent all);
   void setBlock(int index, const RowBlock& block);

@@ -10,6 +10,24 @@ void PileSolver::begin(std::size_t bodies, Rows rows) {
   }
 }
 
+void PileSolver::reserve(Extent all) {
+  list_.reserve(all);
+  firstBelt_ = static_cast<int>(bodies_.size());
+  bodies_.resize(bodies_.size() + at(all.belts), {.isBelt = true});
+  moving_.resize(bodies_.size());
+}
+
+int PileSolver::addBelt(const Moving& motion) {
+  bodies_.push_back({.isBelt = true});
+  moving_.push_back(motion);
+  return static_cast<int>(bodies_.size()) - 1;
+}
+
+int PileSolver::setBelt(int belt, const Moving& motion) {
+  moving_[at(firstBelt_ + belt)] = motion;
+  return firstBelt_ + belt;
+}
+
 void PileSolver::setBlock(Extent index, int count, int a, int b, double friction, const ContactFrame& frame,
                           const Vec3& apart) {
   list_.setBlock(index.blocks, {.a = a,
@@ -77,13 +95,6 @@ std::int64_t PileSolver::solve(int sweeps, Friction friction) {
 void PileSolver::beginShifts(double h) {
   shifts_.assign(moving_.size(), {});
   rows_.beginShifts(h, moving_);
-}
-
-double PileSolver::normalSpeed(int row) const {
-  const RowView view = this->row(row);
-  const Moving& a = moving_[at(view.a)];
-  const Moving& b = moving_[at(view.b)];
-  return dot(view.axes[0], a.velocity + a.omega.cross(view.armA) - b.velocity - b.omega.cross(view.armB));
 }
 
 }  // namespace careen

@@ -70,7 +70,10 @@ class PileSolver {
   void add(const Row& row) { list_.add(row); }
   /// Or as RowList::reserve() says.
   using Extent = RowList::Extent;
-  void reserve(Extent all) { list_.reserve(all); }
+  void reserve(Extent all);
+  /// A body that cannot be moved, for one block; its index. And those of reserve(), by theirs.
+  int addBelt(const Moving& motion);
+  int setBelt(int belt, const Moving& motion);
   void setBlock(Extent index, int count, int a, int b, double friction, const ContactFrame& frame,
                 const Vec3& apart);
   void setRow(int index, const Row& row) { list_.setRow(index, row); }
@@ -101,9 +104,6 @@ class PileSolver {
   bool isShifted(int body) const { return shifts_[at(body)].pushed != 0; }
   const Vec3& displacement(int body) const { return shifts_[at(body)].velocity; }  ///< [m]
   const Vec3& turn(int body) const { return shifts_[at(body)].omega; }             ///< [rad]
-  /// [m/s] v_n of the row as it stands.
-  double normalSpeed(int row) const;
-
   /// One row as it stands.
   struct RowView {
     int a = 0;  ///< as in velocity()
@@ -130,10 +130,10 @@ class PileSolver {
   double tangential1(int row) const { return rows_.of(row).tangential1[rows_.laneOf(row)]; }
   double tangential2(int row) const { return rows_.of(row).tangential2[rows_.laneOf(row)]; }
   void setBound(int row, double bound) { rows_.of(row).bound[rows_.laneOf(row)] = bound; }
-  void addToBound(int row, double more) { rows_.of(row).bound[rows_.laneOf(row)] += more; }
-  void raiseBound(int row, double least) {
+  /// That much more, but no less than `least`.
+  void addToBound(int row, double more, double least) {
     Lanes& bounds = rows_.of(row).bound;
-    bounds[rows_.laneOf(row)] = std::max(bounds[rows_.laneOf(row)], least);
+    bounds[rows_.laneOf(row)] = std::max(bounds[rows_.laneOf(row)] + more, least);
   }
   void wakeAll();
   /// May be called by several threads at once.
@@ -141,11 +141,12 @@ class PileSolver {
 
  private:
   std::vector<SolverBody> bodies_;
-  std::vector<Moving> moving_;  // by body, then nobody's
+  std::vector<Moving> moving_;  // by body, belts among them, then nobody's
   std::vector<Moving> shifts_;  // displacements and turns in place of velocities
   RowList list_;
   LaneRows rows_;
   LaneSweep sweep_;
+  int firstBelt_ = 0;  // of reserve()
 };
 
 }  // namespace careen

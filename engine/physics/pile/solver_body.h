@@ -18,6 +18,7 @@ struct SolverBody {
   double radius = 0;                                      ///< [m]
   double change = 0;          ///< [m/s] change that puts its blocks back on the worklist
   Vec3 place = Vec3::Zero();  ///< [m] of its centre
+  bool isBelt = false;        ///< cannot move, but its surface does
 
   bool moves() const { return inverseMass > 0; }
   /// I⁻¹ v

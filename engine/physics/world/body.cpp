@@ -32,7 +32,15 @@ const Body& bodyOfWalls() {
 
 Material touching(const Material& a, const Material& b) {
   return {.restitution = std::max(a.restitution, b.restitution),
-          .friction = std::sqrt(a.friction * b.friction)};
+          .friction = std::sqrt(a.friction * b.friction),
+          .surface = {.velocity = b.surface.velocity - a.surface.velocity,
+                      .spin = b.surface.spin - a.surface.spin}};
+}
+
+Material swapped(const Material& pair) {
+  Material other = pair;
+  other.surface = {.velocity = -pair.surface.velocity, .spin = -pair.surface.spin};
+  return other;
 }
 
 Mat3 inverseInertiaWorld(const MassProperties& mass, const Mat3& worldFromBody) {

@@ -55,12 +55,29 @@ MassProperties solidBox(const Vec3& halfExtents, double mass);
 MassProperties immovable();
 inline bool isImmovable(const MassProperties& mass) { return mass.inverseMass == 0; }
 
+/// How a surface moves along itself, though what it belongs to is held: a belt, or a turntable. Friction aims
+/// at it.
+struct SurfaceMotion {
+  Vec3 velocity = Vec3::Zero();  ///< [m/s] of what passes the world's origin
+  Vec3 spin = Vec3::Zero();      ///< [rad/s]
+
+  bool moves() const { return !velocity.isZero(0) || !spin.isZero(0); }
+  /// [m/s] At a point of the world, along a surface with that normal.
+  Vec3 along(const Vec3& normal, const Vec3& point) const {
+    const Vec3 all = velocity + spin.cross(point);
+    return all - dot(normal, all) * normal;
+  }
+};
+
 /// Contact material. A pair has restitution max(e₁, e₂) and friction sqrt(μ₁ μ₂).
 struct Material {
-  double restitution = 0;  ///< [1] 0 … 1
-  double friction = 0;     ///< [1] Coulomb friction coefficient μ
+  double restitution = 0;      ///< [1] 0 … 1
+  double friction = 0;         ///< [1] Coulomb friction coefficient μ
+  SurfaceMotion surface = {};  ///< of what is held; of a pair, that of b as seen from a
 };
 Material touching(const Material& a, const Material& b);
+/// The same pair, the other way round.
+Material swapped(const Material& pair);
 
 /// State of one body, world frame. L, not ω, is the primary state: torque integrates to it, and a free body
 /// conserves it.

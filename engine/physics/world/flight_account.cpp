@@ -9,7 +9,8 @@
 
 namespace careen {
 
-FlightAccount::FlightAccount(const World& world) : world_(world), bodies_(world.bodies.size()) {
+FlightAccount::FlightAccount(const World& world)
+    : world_(world), bodies_(world.bodies.size()), mayGain_(hasBelts(world)) {
   if (!world.springs.empty() || !world.joints.empty()) {
     for (const Body& body : world.bodies) {
       states_.push_back(body.initial);
@@ -68,7 +69,7 @@ void FlightAccount::expect(const Vec3& momentum, const Vec3& due, double least) 
 
 void FlightAccount::parted() {
   const double energy = this->energy();
-  if (!begun_ || (mayLose_ && energy < due_)) {
+  if (!begun_ || mayGain_ || (mayLose_ && energy < due_)) {
     due_ = energy;
   }
   begun_ = true;

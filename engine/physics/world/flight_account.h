@@ -14,7 +14,8 @@ namespace careen {
 /// is proportional to the number of events.
 ///
 /// Energy dissipated by impacts with e < 1 or friction is accounted for. An energy increase never is, nor any
-/// change in flight or in an impact that should conserve energy.
+/// change in flight or in an impact that should conserve energy; but where surfaces move along themselves,
+/// which give some wherever bodies touch, flight alone is looked at.
 class FlightAccount {
  public:
   explicit FlightAccount(const World& world);
@@ -64,6 +65,7 @@ class FlightAccount {
   double largestKinetic_ = 0;      // [J]
   double due_ = 0;                 // [J] expected energy
   bool mayLose_ = false;
+  bool mayGain_ = false;
   bool begun_ = false;
   double largestError_ = 0;   // [J]
   double momentumError_ = 0;  // [1]

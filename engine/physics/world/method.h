@@ -20,6 +20,7 @@ struct MethodTraits {
   bool rests = false;  ///< bounces may come to rest
   bool joints = false;
   bool gravityChanges = false;
+  bool belts = false;  ///< surfaces that move along themselves
 
   constexpr bool steps() const { return order > 0; }
 };
@@ -38,7 +39,8 @@ inline constexpr std::array kMethods = {
                  .friction = true,
                  .rests = true,
                  .joints = true,
-                 .gravityChanges = true},
+                 .gravityChanges = true,
+                 .belts = true},
     MethodTraits{.method = Method::kListing1, .name = "listing1", .order = 1, .forces = true},
     steppedFlight(Method::kStrang, "strang", 2),
     steppedFlight(Method::kRungeKutta4, "runge-kutta-4", 4),

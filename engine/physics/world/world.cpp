@@ -14,6 +14,12 @@ const Wall& nowhere() {
   return none;
 }
 
+bool hasBelts(const World& world) {
+  const auto moves = [](const auto& each) { return each.material.surface.moves(); };
+  return std::any_of(world.walls.begin(), world.walls.end(), moves) ||
+         std::any_of(world.bodies.begin(), world.bodies.end(), moves);
+}
+
 Vec3 gravityAt(const World& world, double time) {
   const auto after = std::find_if(world.gravityChanges.begin(), world.gravityChanges.end(),
                                   [&](const GravityChange& change) { return change.time > time; });

@@ -64,6 +64,8 @@ struct World {
   std::vector<std::pair<int, int>> apart;  ///< bodies that pass through each other, the lesser first; sorted
 };
 
+/// Whether a surface moves along itself: it may give energy.
+bool hasBelts(const World& world);
 /// [m/s²] Gravity just after a moment [s], and its mean from one moment to another.
 Vec3 gravityAt(const World& world, double time);
 Vec3 meanGravity(const World& world, double from, double to);

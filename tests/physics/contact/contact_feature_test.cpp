@@ -63,6 +63,29 @@ TEST(ContactState, ofACornerOnAWallChangesAsItSays) {
   expectDerivatives({.a = 0, .onA = corner(kHalfA, 5)}, &wall);
 }
 
+// On a turntable: its slip is relative to the surface where the corner is, and changes as it says.
+TEST(ContactState, slipsOnWhatMovesAlongItself) {
+  const Wall wall{.name = "wall", .normal = Vec3(1, -2, 2) / 3, .offset = -0.2, .material = {}};
+  const SurfaceMotion surface{.velocity = Vec3(2, 1, 0), .spin = 3 * wall.normal};
+  ContactFeature feature{.a = 0, .onA = corner(kHalfA, 5)};
+  const auto state = [&](double t) {
+    const Kinematics a = kPathA.at(t);
+    return contactState(feature, a, {kHalfA}, {}, {.halfExtents = kHalfB, .halfSpace = &wall});
+  };
+  const ContactState before = state(0);
+  feature.material.surface = surface;
+  const ContactState now = state(0);
+  const Vec3 point = kPathA.at(0).pose.position + now.armA;
+  const Vec3 due = Vec3(2, 1, 0) + 3 * wall.normal.cross(point);
+  EXPECT_LT((now.slip + (due - wall.normal.dot(due) * wall.normal) - before.slip).norm(), 1e-14);
+  EXPECT_EQ(now.rate, before.rate);
+  EXPECT_EQ(now.gapBias, before.gapBias);
+  const double h = 1e-4;
+  const Vec3 change = (state(h).slip - state(-h).slip) / (2 * h);
+  const Vec3 said = kPathA.acceleration + now.slipBias;
+  EXPECT_LT((change - (said - wall.normal.dot(said) * wall.normal)).norm(), 1e-6);
+}
+
 TEST(ContactState, ofACornerOnATurningFaceChangesAsItSays) {
   expectDerivatives({.kind = ContactFeature::Kind::kPointOnFace,
                      .a = 0,

@@ -81,6 +81,19 @@ TEST(ExactWorldGravity, whatRestsFeelsIt) {
   EXPECT_NEAR(run.last(world, 0, 2).pose.position.z(), 0.1 + 2, 1e-15);
 }
 
+// Without gravity nothing tells how fast is slow: with it a box that falls .4 m bounces with .8 of its speed.
+TEST(ExactWorldGravity, setsTheScaleOfWhatBounces) {
+  World world = onFloor(0);
+  world.gravity.setZero();
+  world.walls[0].material.restitution = 0.8;
+  world.bodies[0].initial.pose.position.z() = 0.5;
+  world.gravityChanges = {{.time = 0.5, .gravity = kDown}};
+  const double speed = std::sqrt(2 * kWeight * 0.4);
+  const double lands = 0.5 + speed / kWeight;
+  const Recorded run = runFor(world, lands + 0.1);
+  EXPECT_NEAR(run.last(world, 0, lands + 0.1).velocity.z(), 0.8 * speed - 0.1 * kWeight, 1e-12);
+}
+
 // A pendulum of which gravity is turned off goes on with its speed: a bar about its end, from horizontal.
 // 4e-8 m off, of a tolerance of 1e-6.
 TEST(ExactWorldGravity, jointedBodiesFeelIt) {

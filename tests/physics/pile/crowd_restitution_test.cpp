@@ -40,7 +40,7 @@ struct Struck {
     restitution.begin();
     std::size_t n = 0;
     for (const int slot : stages.contacts.near()) {
-      stages.contacts[slot].restitution = restitutions[n++ % restitutions.size()];
+      stages.contacts[slot].material.restitution = restitutions[n++ % restitutions.size()];
     }
     for (const int slot : stages.contacts.near()) {
       const PileManifold& manifold = stages.contacts[slot];

@@ -85,6 +85,19 @@ TEST(Touching, takesTheLivelierRestitutionAndTheMeanFriction) {
   EXPECT_EQ(touching({.restitution = 0, .friction = 0}, {.restitution = 0.5, .friction = 1}).friction, 0);
 }
 
+// The surface of b as seen from a, whichever is which.
+TEST(Touching, tellsHowTheSurfacesMove) {
+  const Material belt{.surface = {.velocity = Vec3(1, 2, 0), .spin = Vec3(0, 0, 3)}};
+  EXPECT_EQ(touching({}, belt).surface.velocity, Vec3(1, 2, 0));
+  EXPECT_EQ(touching(belt, {}).surface.velocity, Vec3(-1, -2, 0));
+  EXPECT_EQ(touching(belt, {}).surface.spin, Vec3(0, 0, -3));
+  EXPECT_EQ(swapped(touching({}, belt)).surface.velocity, touching(belt, {}).surface.velocity);
+  EXPECT_FALSE(touching({}, {}).surface.moves());
+  // At (1, 1, 5) the spin adds (−3, 3, 0); the normal's part is left out.
+  EXPECT_EQ(belt.surface.along(Vec3::UnitZ(), Vec3(1, 1, 5)), Vec3(-2, 5, 0));
+  EXPECT_EQ(belt.surface.along(Vec3::UnitX(), Vec3(1, 1, 5)), Vec3(0, 5, 0));
+}
+
 // Eq. 20 by hand: a quarter turn about z exchanges the moments about x and y.
 TEST(InverseInertiaWorld, turnsWithTheBody) {
   const Mat3 quarter = axisAngle(Vec3::UnitZ(), std::acos(0.0));

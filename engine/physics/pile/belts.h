@@ -1,0 +1,26 @@
+#pragma once
+
+#include "physics/geometry/contact_frame.h"
+#include "physics/pile/crowd_members.h"
+#include "physics/pile/manifold.h"
+#include "physics/pile/solver_body.h"
+
+namespace careen {
+
+/// A surface that moves along itself is, to the solver, a body that cannot be moved and has its motion: one
+/// for each block of rows on it.
+///
+/// Whether the manifold is on one.
+inline bool isOnBelt(const PileManifold& manifold) { return manifold.material.surface.moves(); }
+/// How that body moves in the middle of the step, about the centre of the body of which the surface is, for
+/// rows in that frame of which one is at `point`: right everywhere on a face.
+Moving motionOfBelt(const CrowdMembers& members, const PileManifold& manifold, const ContactFrame& frame,
+                    const PilePoint& point);
+/// The block's bodies, the belt in place of the one that it is of.
+struct BeltBlock {
+  int a = 0;
+  int b = 0;
+};
+BeltBlock bodiesOnBelt(const CrowdMembers& members, const PileManifold& manifold, int belt);
+
+}  // namespace careen
