@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <optional>
 
 #include "audit/external.h"
+#include "audit/least_of_late.h"
 #include "audit/seams.h"
 #include "physics/world/forces.h"
 #include "trajectory/motor_work.h"
@@ -43,39 +43,6 @@ struct Holdings {
   bool isFinite() const { return std::isfinite(energy + momentum.sum() + angularMomentum.sum()); }
 };
 
-/// The least value of late: of those in the last `span` [s], and of one before.
-class LeastOfLate {
- public:
-  explicit LeastOfLate(double span) : span_(span) {}
-  double with(double time, double value) {
-    if (!rising_.empty()) {
-      rising_.back().next = time;
-    }
-    while (!rising_.empty() && rising_.back().value >= value) {
-      rising_.pop_back();
-    }
-    while (!rising_.empty() && rising_.front().next < time - span_) {
-      rising_.pop_front();
-    }
-    rising_.push_back({.next = time, .value = value});
-    return rising_.front().value;
-  }
-  /// All values so far are that much more.
-  void shift(double by) {
-    for (Each& each : rising_) {
-      each.value += by;
-    }
-  }
-
- private:
-  struct Each {
-    double next = 0;  // [s] of the value after it
-    double value = 0;
-  };
-  double span_;
-  std::deque<Each> rising_;  // values that may yet be the least
-};
-
 class Books {
  public:
   Books(const Trajectory& run, const Samples& samples, const ExchangeGroup& group,
@@ -86,7 +53,8 @@ class Books {
         fallingSpeeds_(fallingSpeeds),
         findings_(findings),
         motors_(run, group.joints),
-        momentum_(kMean * std::sqrt(run.settings.crowds.tolerance / CrowdSettings{}.tolerance)),
+        span_(kMean * std::sqrt(run.settings.crowds.tolerance / CrowdSettings{}.tolerance)),
+        momentum_(span_),
         angularMomentum_(momentum_),
         rise_(momentum_),
         fall_(momentum_) {}
@@ -105,6 +73,8 @@ class Books {
   double reachAt(std::size_t moment) const;
   void include(const Holdings& now);
   void changeGravity(std::size_t moment);
+  void spreadBelts(std::vector<External>& externals) const;
+  void give(double energy);
   void addWorkOfBelts(const Holdings& now, const External& external);
   void balance(double time, const Holdings& now, External& external);
   void balanceMomentum(double time, const Holdings& now, const External& external);
@@ -130,6 +100,7 @@ class Books {
   Holdings largest_;                    // its scales only
   double reach_ = 0;                    // [m] from its middle to its farthest body
   bool takesEnergy_ = false;
+  double span_;  // [s] over which speeds of crowds are means
   // A crowd's speeds are means over steps, near 0 where a body bounces, and other engines store energy in
   // contacts: of such, only what lasts counts.
   LeastOfLate momentum_;
@@ -205,8 +176,13 @@ void Books::changeGravity(std::size_t moment) {
   for (const std::size_t body : group_.bodies) {
     given -= mass(body) * change.dot(samples_.state(moment, body).pose.position - origin_);
   }
-  due_.energy += given;
-  fall_.shift(-given);
+  give(given);
+}
+
+// [J] From now on it has so much more, and would have had.
+void Books::give(double energy) {
+  due_.energy += energy;
+  fall_.shift(-energy);
 }
 
 double Books::springEnergyAt(std::size_t moment) const {
@@ -306,6 +282,7 @@ void Books::check() {
     alone_ = alone_ && external.walls.empty() && !external.liesOnImmovable && !external.isHeld &&
              !external.isStruck;
   }
+  spreadBelts(externals);
   due_ = all.front();
   if (isCrowd(samples_.times().front())) {  // perhaps in the midst of an impact
     due_ = holdings([&](std::size_t body) -> const BodyState& { return run_.world.bodies[body].initial; },
@@ -328,13 +305,45 @@ void Books::addWorkOfBelts(const Holdings& now, const External& external) {
   if (external.hasUnknownBelts || (external.belt && !external.belt->isZero(0) && external.isHeld)) {
     due_.energy = std::max(due_.energy, now.energy);
   } else if (external.belt) {
-    due_.energy += external.belt->dot(now.momentum - momentumBefore_ - external.impulse);
+    give(external.belt->dot(now.momentum - momentumBefore_ - external.impulse));
   }
   momentumBefore_ = now.momentum;
 }
 
+// What a crowd's member touches acts on it over some steps, before and after: velocities are means.
+void Books::spreadBelts(std::vector<External>& externals) const {
+  if (!hasBelts(run_.world)) {
+    return;
+  }
+  const std::vector<External> known = externals;
+  const auto timeOf = [&](std::size_t interval) { return samples_.times()[interval + 1]; };
+  const auto spread = [&](std::size_t from, std::size_t to) {
+    if (!isCrowd(timeOf(to)) || std::fabs(timeOf(from) - timeOf(to)) > span_ || !known[from].belt) {
+      return;
+    }
+    External& external = externals[to];
+    external.hasUnknownBelts = external.hasUnknownBelts || known[from].hasUnknownBelts ||
+                               external.belt.value_or(*known[from].belt) != *known[from].belt;
+    external.belt = known[from].belt;
+  };
+  std::optional<std::size_t> last;
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    last = known[k].belt ? k : last;
+    if (last) {
+      spread(*last, k);
+    }
+  }
+  last.reset();
+  for (std::size_t k = known.size(); k-- > 0;) {
+    last = known[k].belt ? k : last;
+    if (last) {
+      spread(*last, k);
+    }
+  }
+}
+
 void Books::balance(double time, const Holdings& now, External& external) {
-  due_.energy += motors_.until(time);
+  give(motors_.until(time));
   addWorkOfBelts(now, external);
   due_.momentum += external.impulse;
   due_.angularMomentum += external.angularImpulse;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/disjoint_sets.h"
+#include "physics/pile/belts.h"
 #include "physics/pile/crowd_motion.h"
 
 namespace careen {
@@ -175,7 +176,9 @@ void CrowdBounces::giveBack(PileSolver& solver) const {
   for (const ReachedPoint& point : restitution_.points()) {
     const int body = point.bodies[0] == ReachedContacts::kNobody ? point.bodies[1] : point.bodies[0];
     if (body != ReachedContacts::kNobody) {
-      energies[together.root(at(body))].taken += point.taken;
+      Energies& all = energies[together.root(at(body))];
+      all.taken += point.taken;
+      all.before += workOfBelt(point, solver);
     }
   }
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -187,6 +190,21 @@ void CrowdBounces::giveBack(PileSolver& solver) const {
     solver.setPushed(body.place, solver.velocity(body.place) + part * body.velocity,
                      solver.omega(body.place) + part * body.omega);
   }
+}
+
+// [J] That friction of a surface that moves did in the step: what impulses take is that more than what is
+// missing.
+double CrowdBounces::workOfBelt(const ReachedPoint& point, const PileSolver& solver) const {
+  const PileManifold& manifold = contacts_[point.slot];
+  const PilePoint& at = manifold.points[careen::at(point.index)];
+  if (!isOnBelt(manifold) || at.row < 0) {
+    return 0;
+  }
+  const ContactFrame& frame = manifold.frameOf(point.index);
+  const Vec3 friction =
+      solver.tangential1(at.row) * frame.tangent1 + solver.tangential2(at.row) * frame.tangent2;
+  return dot(friction,
+             manifold.material.surface.along(frame.normal, members_[manifold.a].position + at.world));
 }
 
 void CrowdBounces::addEnergies(const ReachedBody& reached, const PileSolver& solver, Energies& all) const {

@@ -68,6 +68,7 @@ class CrowdBounces {
   void solve(CrowdImpulses& impulses);
   void beginFrom(PileSolver& solver);
   void giveBack(PileSolver& solver) const;
+  double workOfBelt(const ReachedPoint& point, const PileSolver& solver) const;
   void addEnergies(const ReachedBody& reached, const PileSolver& solver, Energies& all) const;
   void note(const PileSolver& solver);
 
