@@ -193,6 +193,9 @@ class Run {
   State state(std::size_t box, double time) const;
   const std::vector<Impact>& impacts() const;  ///< in order of time
   Audit audit() const;
+  /// [s] All moments at which a statement becomes true, in order of time, such as "a touches b", "height(a) <
+  /// 0.5" or "rest"; 0 among them if it is from the start. Error if it is no statement about the run.
+  std::vector<double> when(const std::string& statement) const;
   std::string hash() const;  ///< of the final states, bit for bit
 
   /// The pictures at film times [s], as `careen render --still` draws them, overlays included; film time is

@@ -72,6 +72,10 @@ RunFigures ExactWorld::run(const std::stop_token& stop) {
       throw Interrupted();
     }
     bodies_.recorder().reaches(event->time.hi);
+    if (bodies_.recorder().hasEnough()) {
+      bodies_.endAt(event->time);
+      break;
+    }
     changeJoints(event->time.hi);
     happen(*event);
   }

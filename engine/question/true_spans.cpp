@@ -1,0 +1,108 @@
+#include "question/true_spans.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace careen {
+
+double TrueSpans::at(double time) {
+  ++looks_;
+  return (*value_)(time);
+}
+
+void TrueSpans::look(const SmoothPart& part, const Value& value) {
+  part_ = &part;
+  value_ = &value;
+  looks_ = 0;
+  const Look first{.time = part.from, .value = at(part.from)};
+  const Look last{.time = part.to, .value = at(part.to)};
+  note(first);
+  lastTime_ = part.from;
+  divide(first, last);
+  note(last);
+}
+
+// Notes what is between the two.
+void TrueSpans::divide(const Look& left, const Look& right) {
+  const double width = right.time - left.time;
+  const double l = left.value;
+  const double r = right.value;
+  const auto& [rate, bend] = part_->bounds;
+  if (!(std::isfinite(l) && std::isfinite(r)) || looks_ >= kMostLooks || width <= 0) {
+    return;
+  }
+  // |f − chord| ≤ bend · width²/8, and |f' − slope of the chord| ≤ bend · width/2.
+  const double bent = bend * width * width;
+  const double lifted = std::min(bent, part_->lift * width * width);
+  const double nearest = 0.5 * (std::fabs(l) + std::fabs(r) - rate * width);
+  if ((l > 0 && r > 0) || (l < 0 && r < 0)) {
+    if (nearest > -part_->unseen || 8 * std::min(std::fabs(l), std::fabs(r)) > (l > 0 ? bent : lifted) ||
+        isSettled(left, right)) {
+      return;
+    }
+  } else if (2 * std::fabs(r - l) > bent || rate * width <= part_->rounding) {
+    return;
+  }
+  const double time = left.time + 0.5 * width;
+  if (time <= left.time || time >= right.time) {
+    return;
+  }
+  const Look middle{.time = time, .value = at(time)};
+  divide(left, middle);
+  note(middle);
+  divide(middle, right);
+}
+
+bool TrueSpans::isSettled(const Look& left, const Look& right) {
+  const double width = right.time - left.time;
+  if (!(left.value > 0) || width > part_->settled) {
+    return false;
+  }
+  const auto isPositive = [&](double part) { return at(left.time + part * width) > 0; };
+  return isPositive(0.25) && isPositive(0.5) && isPositive(0.75);
+}
+
+// In order of time. What is within rounding of 0 is as true as before.
+void TrueSpans::note(const Look& look) {
+  const bool changes = isTrue_ ? look.value < -part_->rounding : look.value > part_->rounding;
+  if (changes) {
+    const bool jumps = look.time <= part_->from;
+    const double time = jumps ? look.time : rootBetween(lastTime_, look.time, !isTrue_);
+    isTrue_ = !isTrue_;
+    if (isTrue_) {
+      spans_.push_back({.from = time, .to = std::numeric_limits<double>::infinity()});
+    } else {
+      spans_.back().to = time;
+    }
+  }
+  const bool agrees = isTrue_ ? look.value > 0 : look.value <= 0;
+  if (agrees) {
+    lastTime_ = look.time;
+  }
+}
+
+double TrueSpans::rootBetween(double before, double after, bool rises) {
+  for (;;) {
+    const double middle = before + 0.5 * (after - before);
+    if (middle <= before || middle >= after) {
+      return after;
+    }
+    ((*value_)(middle) > 0) == rises ? after = middle : before = middle;
+  }
+}
+
+std::vector<TrueSpan> TrueSpans::finish(double end, double same) {
+  std::vector<TrueSpan> spans;
+  for (const TrueSpan& span : spans_) {
+    const double to = std::min(span.to, end);
+    if (!spans.empty() && span.from - spans.back().to <= same) {
+      spans.back().to = to;
+    } else {
+      spans.push_back({.from = span.from, .to = to});
+    }
+  }
+  return spans;
+}
+
+}  // namespace careen
