@@ -84,7 +84,7 @@ std::vector<Moment> momentsOfContact(const Trajectory& run, const Question& ques
     for (const TrueSpan& span : touchingSpans(run, body, isSwapped ? self : other, until)) {
       if (question.kind == Question::Kind::kTouches) {
         found.push_back({.time = span.from, .with = other});
-      } else if (span.to < until) {
+      } else if (!span.lasts) {
         found.push_back({.time = span.to, .with = other});
       }
     }

@@ -21,6 +21,8 @@ void TrueSpans::look(const SmoothPart& part, const Value& value) {
   lastTime_ = part.from;
   divide(first, last);
   note(last);
+  const bool changes = isTrue_ ? last.value <= 0 : wasFalse_ && last.value > 0;
+  changesAtEnd_ = changes ? std::optional(rootBetween(lastTime_, part.to, !isTrue_)) : std::nullopt;
 }
 
 // Notes what is between the two.
@@ -71,11 +73,12 @@ void TrueSpans::note(const Look& look) {
     const double time = jumps ? look.time : rootBetween(lastTime_, look.time, !isTrue_);
     isTrue_ = !isTrue_;
     if (isTrue_) {
-      spans_.push_back({.from = time, .to = std::numeric_limits<double>::infinity()});
+      spans_.push_back({.from = time, .to = std::numeric_limits<double>::infinity(), .lasts = true});
     } else {
-      spans_.back().to = time;
+      spans_.back() = {.from = spans_.back().from, .to = time};
     }
   }
+  wasFalse_ = !isTrue_ && (wasFalse_ || look.value < -part_->rounding);
   const bool agrees = isTrue_ ? look.value > 0 : look.value <= 0;
   if (agrees) {
     lastTime_ = look.time;
@@ -93,13 +96,18 @@ double TrueSpans::rootBetween(double before, double after, bool rises) {
 }
 
 std::vector<TrueSpan> TrueSpans::finish(double end, double same) {
+  if (changesAtEnd_ && isTrue_) {
+    spans_.back() = {.from = spans_.back().from, .to = *changesAtEnd_};
+  } else if (changesAtEnd_) {
+    spans_.push_back({.from = *changesAtEnd_, .to = end, .lasts = true});
+  }
   std::vector<TrueSpan> spans;
   for (const TrueSpan& span : spans_) {
     const double to = std::min(span.to, end);
     if (!spans.empty() && span.from - spans.back().to <= same) {
-      spans.back().to = to;
+      spans.back() = {.from = spans.back().from, .to = to, .lasts = span.lasts};
     } else {
-      spans.push_back({.from = span.from, .to = to});
+      spans.push_back({.from = span.from, .to = to, .lasts = span.lasts});
     }
   }
   return spans;

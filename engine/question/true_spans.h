@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "question/motion_bounds.h"
@@ -13,13 +14,14 @@ namespace careen {
 struct TrueSpan {
   double from = 0;
   double to = 0;
+  bool lasts = false;  ///< and at the end of the run
 };
 
 /// A part of a run in which a value is smooth.
 struct SmoothPart {
   double from = 0;      ///< [s]
   double to = 0;        ///< [s]
-  RateBounds bounds;    ///< of the value
+  RateBounds bounds = {};    ///< of the value
   double rounding = 0;  ///< of the value: it says nothing up to this
   /// Of the value: how far it may go beyond 0 and come back, unseen. Only where `bounds.bend` is infinite may
   /// that be more than rounding.
@@ -42,8 +44,8 @@ class TrueSpans {
 
   /// Parts come in order of time; `value` is called with times in it.
   void look(const SmoothPart& part, const Value& value);
-  /// All, the last of which may last to the end. What is between two that are nearer than `same` [s] is
-  /// rounding.
+  /// All, the last of which may last to the end, or be the end alone. What is between two that are nearer
+  /// than `same` [s] is rounding.
   std::vector<TrueSpan> finish(double end, double same);
 
   static constexpr std::size_t kMostLooks = 1 << 16;
@@ -64,6 +66,8 @@ class TrueSpans {
   std::size_t looks_ = 0;
   double lastTime_ = 0;  // [s] at which it was as true as it is
   bool isTrue_ = false;
+  bool wasFalse_ = false;               // beyond rounding, since it was true
+  std::optional<double> changesAtEnd_;  // [s] of the last part: to what differs by less than rounding
   std::vector<TrueSpan> spans_;
 };
 

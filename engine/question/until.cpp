@@ -27,11 +27,29 @@ double recordedUntil(const Trajectory& soFar, double time) {
   return time;
 }
 
-std::optional<double> firstAfterStart(const Trajectory& run, const Question& question, double until) {
+// Whether the run tells all of a touch: where two come near in flight an impact may follow, which is the
+// moment then.
+bool isCertain(const Trajectory& run, const Question& question, const Moment& moment, double until) {
+  if (question.kind != Question::Kind::kTouches) {
+    return true;
+  }
+  const auto goesOn = [&](const Partner& partner) {
+    if (partner.isWall()) {
+      return false;
+    }
+    const Segments& segments = run.tracks[static_cast<std::size_t>(partner.body())].segments;
+    return segments.countUntil(until) > segments.countUntil(moment.time);
+  };
+  return goesOn(question.of.front()) || goesOn(*moment.with) ||
+         std::any_of(run.impacts.begin(), run.impacts.end(),
+                     [&](const Impact& impact) { return impact.time == moment.time; });
+}
+
+std::optional<Moment> firstAfterStart(const Trajectory& run, const Question& question, double until) {
   const std::vector<Moment> found = moments(run, question, until);
   const auto first =
       std::find_if(found.begin(), found.end(), [](const Moment& moment) { return moment.time > 0; });
-  return first == found.end() ? std::nullopt : std::optional(first->time);
+  return first == found.end() ? std::nullopt : std::optional(*first);
 }
 
 template <class Event>
@@ -52,18 +70,21 @@ RunUntil recordUntil(const RunSetup& setup, const Question& question, const std:
     }
     next = kNextLook * time;
     // What happens now may not have happened to all.
-    const std::optional<double> first = firstAfterStart(soFar, question, recordedUntil(soFar, time));
-    return first && *first < time;
+    const std::optional<Moment> first = firstAfterStart(soFar, question, recordedUntil(soFar, time));
+    return first && first->time < time && isCertain(soFar, question, *first, time);
   };
   for (;;) {
     RunUntil until{.run = record(setup, stop, most, progress, isEnough), .time = {}};
     const double end = until.run.settings.duration;
-    until.time = firstAfterStart(until.run, question, end);
-    if (until.time) {
-      endAt(until.run, *until.time);
-    } else if (end < setup.settings.duration) {
+    const std::optional<Moment> first = firstAfterStart(until.run, question, end);
+    const bool isCut = end < setup.settings.duration;
+    if (isCut && !(first && isCertain(until.run, question, *first, end))) {
       next = kNextLook * end;  // once the last steps were recorded it was not true: again, for longer
       continue;
+    }
+    if (first) {
+      until.time = first->time;
+      endAt(until.run, first->time);
     }
     return until;
   }

@@ -46,7 +46,7 @@ TEST_F(Sliders, restWhenFrictionHasStoppedThem) {
   const auto only = [&](const std::string& question, double time) {
     const std::vector<Moment> found = momentsIn(run, question);
     ASSERT_EQ(found.size(), 1U) << question;
-    EXPECT_NEAR(found[0].time, time, 1e-9) << question;
+    EXPECT_NEAR(found[0].time, time, 1e-6) << question;
   };
   only("rest(fast)", 2 / (0.4 * kG));
   only("rest(slow)", 1 / (0.4 * kG));
@@ -63,7 +63,7 @@ TEST_F(Sliders, thatAreStruckRestAgain) {
   const Trajectory run = runOf(world_, 3);
   const std::vector<Moment> slow = momentsIn(run, "rest(slow)");
   ASSERT_GE(slow.size(), 1U);
-  EXPECT_NEAR(slow[0].time, 1 / (0.4 * kG), 1e-9);
+  EXPECT_NEAR(slow[0].time, 1 / (0.4 * kG), 1e-6);
   const std::vector<Moment> struck = momentsIn(run, "late touches anything");
   ASSERT_FALSE(struck.empty());
   EXPECT_NEAR(struck[0].time, 0.3, 1e-9);
@@ -219,6 +219,15 @@ bool isTrueAt(const Trajectory& run, const Question& question, double time) {
   return question.kind == Question::Kind::kAbove ? value > question.level : value < question.level;
 }
 
+// Of a touch whose moment is the impact a little later.
+bool isNearUntil(const Trajectory& run, const Question& question, double time, double moment) {
+  bool isNear = question.kind == Question::Kind::kTouches;
+  for (int i = 0; i <= 8 && isNear; ++i) {
+    isNear = isTrueAt(run, question, time + (moment - time) * i / 8);
+  }
+  return isNear;
+}
+
 // Between two samples of which only the second is true there is a moment; just after each moment it is true,
 // and just before it is not. At impacts a box touches for less time than lies between samples.
 TEST(Moments, agreeWithDenseSamplesOfRandomRuns) {
@@ -235,7 +244,7 @@ TEST(Moments, agreeWithDenseSamplesOfRandomRuns) {
       const Question question = room.question();
       const std::vector<Moment> all = moments(run, question);
       found += all.size();
-      bool before = false;
+      bool before = question.kind == Question::Kind::kLeaves && isTrueAt(run, question, 0);
       std::size_t next = 0;
       for (int i = 0; i <= kSamples; ++i) {
         const double time = kSeconds * i / kSamples;
@@ -244,9 +253,10 @@ TEST(Moments, agreeWithDenseSamplesOfRandomRuns) {
         for (; next < all.size() && all[next].time <= time; ++next) {
           ++here;
         }
-        if (now && !before && question.kind != Question::Kind::kLeaves) {
+        if (now && !before) {
           ++rises;
-          EXPECT_GE(here, 1U) << seed << ' ' << question.text << ' ' << time;
+          EXPECT_TRUE(here > 0 || (next < all.size() && isNearUntil(run, question, time, all[next].time)))
+              << seed << ' ' << question.text << ' ' << time;
         }
         before = now;
       }

@@ -50,7 +50,10 @@ TEST_F(PiecesOfTwo, knowWhereTheMiddleIs) {
   Pieces pieces(run_, std::array<std::size_t, 1>{0}, 1);
   pieces.next();
   EXPECT_NEAR((pieces[0].middleAt(0.25) - Vec3(1.5, 0.05, 0)).norm(), 0, 1e-15);
-  const MotionBounds bounds{.place = {.rate = 3, .bend = 4}, .spin = 2, .angularVelocity = {.rate = 5}};
+  MotionBounds bounds;
+  bounds.place = {.rate = 3, .bend = 4};
+  bounds.spin = 2;
+  bounds.angularVelocity.rate = 5;
   EXPECT_DOUBLE_EQ(pieces[0].middleBounds(bounds).rate, 3 + 2 * 0.05);
   EXPECT_DOUBLE_EQ(pieces[0].middleBounds(bounds).bend, 4 + (5 + 4) * 0.05);
 }

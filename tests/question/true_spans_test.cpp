@@ -41,7 +41,8 @@ TEST(TrueSpans, grazesAreSeenAsFarAsTheyAreAboveZero) {
   for (const double above : {1e-3, 1e-6, 1e-9, 1e-11}) {
     const std::vector<TrueSpan> spans = spansOf({.rate = 1, .level = above - 1}, 3, {1, 1});
     ASSERT_EQ(spans.size(), 1U) << above;
-    EXPECT_NEAR(spans[0].to - spans[0].from, 2 * std::sqrt(2 * above), 1e-4 * std::sqrt(above)) << above;
+    // 2 acos(1 − ε) = 2 √(2ε) (1 + ε/12 + …)
+    EXPECT_NEAR(spans[0].to - spans[0].from, 2 * std::sqrt(2 * above) * (1 + above / 12), 1e-4 * std::sqrt(above)) << above;
     EXPECT_TRUE(spansOf({.rate = 1, .level = -above - 1}, 3, {1, 1}).empty()) << above;
   }
   EXPECT_EQ(spansOf({.rate = 1, .level = 1e-6 - 1}, 3, {1, std::numeric_limits<double>::infinity()}).size(),
@@ -74,8 +75,25 @@ TEST(TrueSpans, roundingIsNoChange) {
   spans.look({.from = 2, .to = 3, .bounds = {1e-3, 1}, .rounding = 1e-15, .unseen = 1e-12}, noise);
   const std::vector<TrueSpan> found = spans.finish(3, 0);
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].from, 1.5);
+  EXPECT_NEAR(found[0].from, 1.5, 1e-15);  // the first double after it
   EXPECT_EQ(found[0].to, 3);
+}
+
+// A run that was ended at the first double at which it is true.
+TEST(TrueSpans, theEndAloneMayBeTrue) {
+  const auto value = [](double t) { return t - 1; };
+  for (const double beyond : {-1e-15, 0.0, 1e-15}) {
+    const double end = 1 + beyond;
+    TrueSpans spans;
+    spans.look({.from = 0, .to = 0.5, .bounds = {1, 0}, .rounding = 1e-14}, value);
+    spans.look({.from = 0.5, .to = end, .bounds = {1, 0}, .rounding = 1e-14}, value);
+    const std::vector<TrueSpan> found = spans.finish(end, 0);
+    ASSERT_EQ(found.size(), beyond > 0 ? 1U : 0U) << beyond;
+    if (beyond > 0) {
+      EXPECT_NEAR(found[0].from, 1, 1e-15);
+      EXPECT_EQ(found[0].to, end);
+    }
+  }
 }
 
 TEST(TrueSpans, whatIsNearerThanRoundingIsOne) {

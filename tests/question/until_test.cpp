@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "audit/audit.h"
+#include "physics/world/method.h"
 #include "question/moments.h"
 #include "support/exact_runs.h"
 #include "support/input_error.h"
@@ -131,6 +132,17 @@ TEST(Until, aCrowdEndsWithinAStep) {
       const Audit audited = audit(until.run, AuditDepth::kFull);
       EXPECT_TRUE(audited.breaches.empty()) << question << ' ' << inWords(audited);
     }
+  }
+}
+
+// Where it ends is a moment of the run that has ended, too.
+TEST(Until, theMomentIsInTheRunThatEndsThere) {
+  for (const char* const question : {"height(a) < 0.3", "speed(a) > 2", "energy(a) > 3", "a leaves floor"}) {
+    const RunUntil until = endedBy(setupFor(bouncing(), 5), question);
+    ASSERT_TRUE(until.time) << question;
+    const std::vector<Moment> found = moments(until.run, readQuestion(question, until.run.world));
+    ASSERT_EQ(found.size(), 1U) << question;
+    EXPECT_EQ(found[0].time, *until.time) << question;
   }
 }
 

@@ -37,7 +37,6 @@ class Bodies {
   const World& world() const { return world_; }
   const ControlledWorld* controlled() const { return controlled_; }
   const Instant& end() const { return end_; }          ///< of the run
-  void endAt(const Instant& time) { end_ = time; }     ///< instead
   double tolerance() const { return tolerance_; }      ///< [m]
   double timeScale() const { return timeScale_; }      ///< [s] see timeScaleOf
   double longestStep() const { return longestStep_; }  ///< [s] of an island

@@ -65,6 +65,7 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
       articulationOf_(articulationsOf(world)) {}
 
 RunFigures ExactWorld::run(const std::stop_token& stop) {
+  Instant ended = bodies_.end();
   begin();
   for (std::optional<Event> event = bodies_.queue().next(); event && !earlier(bodies_.end(), event->time);
        event = bodies_.queue().next()) {
@@ -73,13 +74,13 @@ RunFigures ExactWorld::run(const std::stop_token& stop) {
     }
     bodies_.recorder().reaches(event->time.hi);
     if (bodies_.recorder().hasEnough()) {
-      bodies_.endAt(event->time);
+      ended = event->time;
       break;
     }
     changeJoints(event->time.hi);
     happen(*event);
   }
-  end();
+  end(ended);
   return bodies_.account().figures();
 }
 
@@ -182,17 +183,17 @@ void ExactWorld::moveOn(Encounter& encounter) {
   }
 }
 
-void ExactWorld::end() {
+void ExactWorld::end(const Instant& time) {
   for (int rank = 0; rank < bodies_.count(); ++rank) {
     if (bodies_[rank].flies()) {
-      bodies_.arrive(bodies_[rank], bodies_.end(), bodies_[rank].stateAt(bodies_.end()));
+      bodies_.arrive(bodies_[rank], time, bodies_[rank].stateAt(time));
     }
   }
   for (int rank = 0; rank < bodies_.count(); ++rank) {
     const Mover& body = bodies_[rank];
-    bodies_.doubtAt(rank, bodies_.end());
+    bodies_.doubtAt(rank, time);
     if (body.steps() && body.group->leader() == rank) {
-      body.group->endRun();
+      body.group->endRun(time);
     }
   }
   bodies_.account().parted();
