@@ -36,10 +36,23 @@ void Pieces::enter(std::size_t which, std::size_t index) {
   bodies_[which].segment = (*place.segments)[index];
 }
 
+bool Pieces::beginsAtEnd() {
+  bool any = false;
+  for (std::size_t which = 0; which < places_.size(); ++which) {
+    const Segments& segments = *places_[which].segments;
+    const std::size_t begun = segments.countUntil(until_);
+    if (begun > places_[which].index + 1) {
+      enter(which, begun - 1);
+      any = true;
+    }
+  }
+  return any;
+}
+
 bool Pieces::next() {
   from_ = to_;
   if (from_ >= until_) {
-    return false;
+    return beginsAtEnd();
   }
   to_ = until_;
   for (std::size_t which = 0; which < places_.size(); ++which) {

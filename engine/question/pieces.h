@@ -29,7 +29,7 @@ class Pieces {
  public:
   Pieces(const Trajectory& run, std::span<const std::size_t> bodies, double until);
 
-  /// The next part, which is never empty; false after the last.
+  /// The next part; false after the last. None is empty but the last, where motions begin at the very end.
   bool next();
   double from() const { return from_; }  ///< [s]
   double to() const { return to_; }      ///< [s]
@@ -42,6 +42,7 @@ class Pieces {
     double end = 0;  // [s] of the segment
   };
   void enter(std::size_t which, std::size_t index);
+  bool beginsAtEnd();
 
   double until_;
   double from_ = 0;

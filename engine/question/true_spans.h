@@ -19,10 +19,10 @@ struct TrueSpan {
 
 /// A part of a run in which a value is smooth.
 struct SmoothPart {
-  double from = 0;      ///< [s]
-  double to = 0;        ///< [s]
-  RateBounds bounds = {};    ///< of the value
-  double rounding = 0;  ///< of the value: it says nothing up to this
+  double from = 0;         ///< [s]
+  double to = 0;           ///< [s]
+  RateBounds bounds = {};  ///< of the value
+  double rounding = 0;     ///< of the value: it says nothing up to this
   /// Of the value: how far it may go beyond 0 and come back, unseen. Only where `bounds.bend` is infinite may
   /// that be more than rounding.
   double unseen = 0;

@@ -62,8 +62,9 @@ TEST_F(When, printsAMomentALine) {
 }
 
 TEST_F(When, tellsOnlyTheFirstIfAsked) {
-  folder_.write("bounce.json", std::string(kScene).replace(kScene.find("\"friction\": 0.5 } ],"), 18,
-                                                           "\"restitution\": 0.5 } ],"));
+  const std::string friction = "\"friction\": 0.5";
+  folder_.write("bounce.json",
+                std::string(kScene).replace(kScene.find(friction), friction.size(), "\"restitution\": 0.5"));
   const std::string question = "'big crate' touches floor";
   EXPECT_GT(linesOf(careen({"when", "bounce.json", question}).out).size(), 3U);
   EXPECT_EQ(careen({"when", "bounce.json", question, "--first"}).out, "0.451523640986 s  " + question + "\n");

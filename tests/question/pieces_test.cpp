@@ -36,12 +36,26 @@ TEST_F(PiecesOfTwo, endWhereOneOfThemDoes) {
 }
 
 TEST_F(PiecesOfTwo, goNoFartherThanAsked) {
-  Pieces pieces(run_, std::array<std::size_t, 1>{0}, 0.5);
+  Pieces pieces(run_, std::array<std::size_t, 1>{0}, 0.4);
   EXPECT_TRUE(pieces.next());
-  EXPECT_EQ(pieces.to(), 0.5);
+  EXPECT_EQ(pieces.to(), 0.4);
   EXPECT_FALSE(pieces.next());
   Pieces none(run_, std::array<std::size_t, 1>{0}, 0);
   EXPECT_FALSE(none.next());
+}
+
+// The state at the end is that of the later one.
+TEST_F(PiecesOfTwo, endWithWhatBeginsAtTheEnd) {
+  Pieces pieces(run_, std::array<std::size_t, 2>{0, 1}, 0.5);
+  EXPECT_TRUE(pieces.next());
+  EXPECT_TRUE(pieces.next());
+  EXPECT_EQ(pieces.to(), 0.5);
+  EXPECT_EQ(pieces[0].segment.start, 0);
+  EXPECT_TRUE(pieces.next());
+  EXPECT_EQ(pieces.from(), 0.5);
+  EXPECT_EQ(pieces.to(), 0.5);
+  EXPECT_EQ(pieces[0].segment.start, 0.5);
+  EXPECT_FALSE(pieces.next());
 }
 
 // 2 m/s out and back from x = 1 m, with the middle 0.05 m beside the centre of mass.

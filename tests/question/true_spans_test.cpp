@@ -42,7 +42,9 @@ TEST(TrueSpans, grazesAreSeenAsFarAsTheyAreAboveZero) {
     const std::vector<TrueSpan> spans = spansOf({.rate = 1, .level = above - 1}, 3, {1, 1});
     ASSERT_EQ(spans.size(), 1U) << above;
     // 2 acos(1 − ε) = 2 √(2ε) (1 + ε/12 + …)
-    EXPECT_NEAR(spans[0].to - spans[0].from, 2 * std::sqrt(2 * above) * (1 + above / 12), 1e-4 * std::sqrt(above)) << above;
+    EXPECT_NEAR(spans[0].to - spans[0].from, 2 * std::sqrt(2 * above) * (1 + above / 12),
+                1e-4 * std::sqrt(above))
+        << above;
     EXPECT_TRUE(spansOf({.rate = 1, .level = -above - 1}, 3, {1, 1}).empty()) << above;
   }
   EXPECT_EQ(spansOf({.rate = 1, .level = 1e-6 - 1}, 3, {1, std::numeric_limits<double>::infinity()}).size(),
