@@ -17,8 +17,8 @@ void TrueSpans::look(const SmoothPart& part, const Value& value) {
   looks_ = 0;
   const Look first{.time = part.from, .value = at(part.from)};
   const Look last{.time = part.to, .value = at(part.to)};
+  lastTime_ = part.from;  // so that a jump is there
   note(first);
-  lastTime_ = part.from;
   divide(first, last);
   note(last);
   const bool changes = isTrue_ ? last.value <= 0 : wasFalse_ && last.value > 0;
@@ -69,8 +69,7 @@ bool TrueSpans::isSettled(const Look& left, const Look& right) {
 void TrueSpans::note(const Look& look) {
   const bool changes = isTrue_ ? look.value < -part_->rounding : look.value > part_->rounding;
   if (changes) {
-    const bool jumps = look.time <= part_->from;
-    const double time = jumps ? look.time : rootBetween(lastTime_, look.time, !isTrue_);
+    const double time = rootBetween(lastTime_, look.time, !isTrue_);
     isTrue_ = !isTrue_;
     if (isTrue_) {
       spans_.push_back({.from = time, .to = std::numeric_limits<double>::infinity(), .lasts = true});

@@ -73,6 +73,32 @@ TEST_F(Sliders, thatAreStruckRestAgain) {
   EXPECT_GT(all.back().time, 0.3);
 }
 
+// One comes to rest at the very time at which another begins to move: they never rest together, but once it
+// is at rest again.
+TEST(MomentsOfRest, countWhoGoesOnFirst) {
+  Trajectory run;
+  run.settings.duration = 4;
+  run.world.bodies = {box("a", Vec3::Ones(), 1, Vec3::Zero()), box("b", Vec3::Ones(), 1, Vec3(5, 0, 0))};
+  run.tracks = {{.segments = {{.start = 0, .motion = Rest()},
+                              {.start = 1, .motion = Flight()},
+                              {.start = 3, .motion = Rest()}}},
+                {.segments = {{.start = 0, .motion = Flight()}, {.start = 1, .motion = Rest()}}}};
+  const auto only = [&](const std::string& question, std::vector<double> expected) {
+    std::vector<double> times;
+    for (const Moment& moment : momentsIn(run, question)) {
+      times.push_back(moment.time);
+    }
+    EXPECT_EQ(times, expected) << question;
+  };
+  only("rest", {3});
+  only("rest(a)", {0, 3});
+  only("rest(b)", {1});
+  std::swap(run.tracks[0], run.tracks[1]);
+  only("rest", {3});
+  run.world.bodies[0].mass = immovable();
+  only("rest", {0, 3});
+}
+
 // What touches a thing is told for each thing; who asks from the other side gets the same moments.
 TEST_F(Sliders, touchesAreTheSameFromBothSides) {
   const Trajectory run = runOf(world_, 1);
