@@ -24,6 +24,8 @@ class Smooth {
   double levelOf(double level) const;
   double at(double time) const;
   RateBounds bounds() const;
+  /// What it is at most or, of places, what would be a small change.
+  double scale() const;
 
  private:
   RateBounds boundsOfSpeed(const MotionBounds& bounds) const;
@@ -145,6 +147,26 @@ RateBounds Smooth::bounds() const {
   }
 }
 
+double Smooth::scale() const {
+  const MotionBounds bounds = first().boundsWithin(pieces_.from(), pieces_.to());
+  const double radius = radiusOf(*first().body);
+  const MassProperties& mass = first().body->mass;
+  switch (quantity_) {
+    case Quantity::kSpeed:
+      return squared(bounds.speed + bounds.spin * first().body->boxCenter.norm());
+    case Quantity::kSpin:
+      return squared(bounds.spin);
+    case Quantity::kEnergy:
+      return 0.5 * (mass.mass * squared(bounds.speed) + mass.inertiaBody.maxCoeff() * squared(bounds.spin));
+    case Quantity::kTilt:
+      return 2;
+    case Quantity::kDistance:
+      return squared(radius);
+    default:
+      return radius;
+  }
+}
+
 }  // namespace
 
 std::vector<TrueSpan> quantitySpans(const Trajectory& run, const Question& question, double until) {
@@ -161,6 +183,8 @@ std::vector<TrueSpan> quantitySpans(const Trajectory& run, const Question& quest
     SmoothPart part{.from = pieces.from(), .to = pieces.to(), .bounds = smooth.bounds()};
     const double size =
         std::max({std::fabs(level), std::fabs(smooth.at(part.from)), std::fabs(smooth.at(part.to))});
+    constexpr double kSmallChange = 1e-2;
+    part.size = std::max(size, kSmallChange * smooth.scale());
     part.rounding = kUlps * size;
     part.unseen = (std::isfinite(part.bounds.bend) ? kUnseen : kUnseenInSteps) * size;
     spans.look(part, [&](double time) { return sign * (smooth.at(time) - level); });

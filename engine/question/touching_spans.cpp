@@ -176,6 +176,7 @@ std::vector<TrueSpan> touchingSpans(const Trajectory& run, std::size_t body, Par
     part.lift = bounds.bend;
     part.rounding = kSmallestRounding * near;
     part.unseen = kUnseen * near;
+    part.size = pair.size();
     part.settled = kSettledWay * pair.size() / part.bounds.rate;
     spans.look(part, [&](double time) { return near - pair.gapAt(time); });
     ends.push_back(part.to);

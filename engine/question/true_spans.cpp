@@ -11,16 +11,24 @@ double TrueSpans::at(double time) {
   return (*value_)(time);
 }
 
+// In as many equal pieces as it may change by its size, each of which has its looks.
 void TrueSpans::look(const SmoothPart& part, const Value& value) {
+  constexpr double kMostPieces = 1e7;
   part_ = &part;
   value_ = &value;
-  looks_ = 0;
-  const Look first{.time = part.from, .value = at(part.from)};
-  const Look last{.time = part.to, .value = at(part.to)};
+  const double change = part.size > 0 ? part.bounds.rate * (part.to - part.from) / part.size : 0;
+  const double pieces = change > 1 ? std::ceil(std::min(change, kMostPieces)) : 1;
+  Look last{.time = part.from, .value = at(part.from)};
   lastTime_ = part.from;  // so that a jump is there
-  note(first);
-  divide(first, last);
   note(last);
+  for (double piece = 1; piece <= pieces; ++piece) {
+    looks_ = 0;
+    const double time = piece < pieces ? part.from + piece / pieces * (part.to - part.from) : part.to;
+    const Look next{.time = time, .value = at(time)};
+    divide(last, next);
+    note(next);
+    last = next;
+  }
   const bool changes = isTrue_ ? last.value <= 0 : wasFalse_ && last.value > 0;
   changesAtEnd_ = changes ? std::optional(rootBetween(lastTime_, part.to, !isTrue_)) : std::nullopt;
 }

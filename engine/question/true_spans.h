@@ -23,6 +23,7 @@ struct SmoothPart {
   double to = 0;           ///< [s]
   RateBounds bounds = {};  ///< of the value
   double rounding = 0;     ///< of the value: it says nothing up to this
+  double size = 0;         ///< of the value, its order of magnitude, if it may change by much more than that
   /// Of the value: how far it may go beyond 0 and come back, unseen. Only where `bounds.bend` is infinite may
   /// that be more than rounding.
   double unseen = 0;
@@ -37,7 +38,7 @@ struct SmoothPart {
 /// and closed in on to neighbouring doubles, or at the beginning of a part, where the value may jump. A part
 /// is halved until bounds of the first or second derivative exclude that the value changes its sign between
 /// two looks, so that no pair of roots is missed but one that encloses less than `unseen`, or comes after
-/// kMostLooks of one part, which only a value that stays as near to 0 as its rounding takes.
+/// kMostLooks while it changes by its size, which only a value that stays very near to 0 takes.
 class TrueSpans {
  public:
   using Value = std::function<double(double time)>;

@@ -88,6 +88,18 @@ TEST(QuantitySpans, ofTheTiltOfASteadyTurn) {
   EXPECT_TRUE(spansIn(run, "spin(a) > 2.001").empty());
 }
 
+// For three hours at 20 rad/s, 34,377 turns, in one flight.
+TEST(QuantitySpans, ofALongFlightAreAllThere) {
+  const Trajectory run = runOf(
+      weightless({box("a", Vec3::Constant(0.2), 1, Vec3::Zero(), Vec3::Zero(), Vec3(20, 0, 0))}), 10'800);
+  ASSERT_EQ(run.tracks[0].segments.size(), 1U);
+  const std::vector<TrueSpan> spans = spansIn(run, "tilt(a) > 170");
+  ASSERT_EQ(spans.size(), 34'377U);
+  for (std::size_t k = 0; k < spans.size(); k += 1000) {
+    EXPECT_NEAR(spans[k].from, (2 * M_PI * static_cast<double>(k) + 170 * M_PI / 180) / 20, 1e-10);
+  }
+}
+
 // By Euler's m' = m × I⁻¹m with m = (A dn u, B sn u, C cn u), moments a < b < c, u = λt (at t = 0 nothing is
 // about b): λ = A √(AC·AB), B² = C² AC/AB, k² = (BC/AC) B²/A², with AB = 1/a − 1/b and so on. ω² = Σ (mᵢ/Iᵢ)²
 // is linear in sn² u, so that it is halfway between its extremes where sn² u = 1/2: u = F(π/4, k).
