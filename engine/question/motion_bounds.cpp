@@ -61,11 +61,16 @@ MotionBounds flightBounds(const Flight& flight, const MassProperties& mass, doub
   bounds.speed = kOfRounding * std::max(flight.velocityAt(from).norm(), flight.velocityAt(to).norm());
   bounds.place = {.rate = bounds.speed, .bend = flight.acceleration.norm()};
   bounds.velocity = {.rate = flight.acceleration.norm()};
-  // ω·L, twice the energy of turning, is constant and at least the least moment times ω².
+  // Of m = Jω both Σ mᵢ² = L² and Σ uᵢ mᵢ² = ω·L are constant, where uᵢ = 1/Jᵢ; and ω² = Σ uᵢ² mᵢ², where u²
+  // is not above its chord from the least to the largest u.
   const BodyState start{.pose = {.worldFromBody = flight.worldFromBody.normalized().toRotationMatrix()},
                         .angularMomentum = flight.angularMomentum};
   const double twice = angularVelocity(mass, start).dot(flight.angularMomentum);
-  addFreeTurning(mass, std::sqrt(std::max(0.0, twice) / mass.inertiaBody.minCoeff()), bounds);
+  const double least = mass.inverseInertiaBody.minCoeff();
+  const double most = mass.inverseInertiaBody.maxCoeff();
+  const double squared = (least + most) * twice - least * most * flight.angularMomentum.squaredNorm();
+  constexpr double kLost = 0x1p-40;  // [1] where the difference is small
+  addFreeTurning(mass, std::sqrt(std::max(0.0, squared + kLost * (least + most) * twice)), bounds);
   return bounds;
 }
 

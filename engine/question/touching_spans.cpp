@@ -30,6 +30,8 @@ class Pair {
   /// The second derivative is that of a corner over a wall, infinite of two boxes.
   RateBounds bounds() const;
   double size() const;  // [m] half the smaller diagonal
+  /// [m] The gap is not less all the time.
+  double leastGap(const RateBounds& bounds) const;
 
  private:
   static std::vector<std::size_t> bodiesOf(std::size_t body, Partner with) {
@@ -89,6 +91,23 @@ RateBounds Pair::bounds() const {
     speed = (1 + kSame) * std::max(apart(pieces_.from()), apart(pieces_.to()));
   }
   return {.rate = speed + turning, .bend = std::numeric_limits<double>::infinity()};
+}
+
+// That of balls around them, from their distance at both ends, or in the middle.
+double Pair::leastGap(const RateBounds& bounds) const {
+  const double width = pieces_.to() - pieces_.from();
+  const auto centerOf = [&](const MovingBody& each, double time) {
+    return centerAt(each.segment.motion, time - each.segment.start);
+  };
+  const MovingBody& box = pieces_[0];
+  if (wall_ != nullptr) {
+    const double nearer = std::min(wall_->normal.dot(centerOf(box, pieces_.from())),
+                                   wall_->normal.dot(centerOf(box, pieces_.to())));
+    return nearer - wall_->offset - radiusOf(*box.body) - bounds.bend * width * width / 8;
+  }
+  const double time = pieces_.from() + 0.5 * width;
+  return (centerOf(box, time) - centerOf(pieces_[1], time)).norm() - radiusOf(*box.body) -
+         radiusOf(*pieces_[1].body) - 0.5 * bounds.rate * width;
 }
 
 // [s] Of impacts of the two until then.
@@ -178,7 +197,12 @@ std::vector<TrueSpan> touchingSpans(const Trajectory& run, std::size_t body, Par
     part.unseen = kUnseen * near;
     part.size = pair.size();
     part.settled = kSettledWay * pair.size() / part.bounds.rate;
-    spans.look(part, [&](double time) { return near - pair.gapAt(time); });
+    if (const double gap = pair.leastGap(bounds); gap > near + kSame * std::fabs(gap)) {
+      part.bounds = {};
+      spans.look(part, [&](double) { return near - gap; });
+    } else {
+      spans.look(part, [&](double time) { return near - pair.gapAt(time); });
+    }
     ends.push_back(part.to);
   }
   return ends.empty()

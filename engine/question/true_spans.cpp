@@ -51,7 +51,7 @@ void TrueSpans::divide(const Look& left, const Look& right) {
         isSettled(left, right)) {
       return;
     }
-  } else if (2 * std::fabs(r - l) > bent || rate * width <= part_->rounding) {
+  } else if (2 * std::fabs(r - l) > bent || rate * width <= std::max(part_->rounding, part_->unseen)) {
     return;
   }
   const double time = left.time + 0.5 * width;
@@ -92,13 +92,27 @@ void TrueSpans::note(const Look& look) {
   }
 }
 
+// By turns where the chord is 0, a little beyond, and halfway.
 double TrueSpans::rootBetween(double before, double after, bool rises) {
-  for (;;) {
+  double left = (*value_)(before);
+  double right = (*value_)(after);
+  for (bool halves = false;; halves = !halves) {
     const double middle = before + 0.5 * (after - before);
     if (middle <= before || middle >= after) {
       return after;
     }
-    ((*value_)(middle) > 0) == rises ? after = middle : before = middle;
+    const double chord = before + left / (left - right) * (after - before);
+    const double beyond = (middle - chord) * 0x1p-10;  // so that both sides come nearer
+    const double aimed = chord + beyond;
+    const double time = !halves && aimed > before && aimed < after ? aimed : middle;
+    const double value = (*value_)(time);
+    if ((value > 0) == rises) {
+      after = time;
+      right = value;
+    } else {
+      before = time;
+      left = value;
+    }
   }
 }
 

@@ -157,6 +157,11 @@ TEST(MotionBounds, ofFlightAreClose) {
   EXPECT_NEAR(bounds.spin, spin, 1e-8 * spin);
   EXPECT_LT(bounds.angularVelocity.rate, 1e-12);
   EXPECT_NEAR(bounds.place.bend, flight.acceleration.norm(), 1e-8);
+  // A needle that turns about an axis across it, whose moment is the largest.
+  const MassProperties needle = solidBox(Vec3(1, 0.01, 0.005), 1);
+  flight.worldFromBody = Quat::Identity();
+  flight.angularMomentum = angularMomentum(needle, Mat3::Identity(), Vec3(0, 0, 3));
+  EXPECT_NEAR(boundsOf(flight, needle, 0, 2).spin, 3, 1e-6);
   flight.velocity = Vec3(0, 0, -1);
   flight.acceleration = Vec3(0, 0, -10);
   EXPECT_NEAR(boundsOf(flight, cube, 1, 2).speed, 21, 1e-7);

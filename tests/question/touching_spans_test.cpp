@@ -51,6 +51,19 @@ TEST(TouchingSpans, ofABouncingBoxBeginAtItsImpacts) {
   }
 }
 
+// G. Galperin's billiard: a box of 10,000 times the mass strikes one before a wall, all elastic; there are
+// 314 impacts, every other one of the two.
+TEST(TouchingSpans, areAsManyAsTheDigitsOfPi) {
+  World world;
+  world.walls = {wall("wall", Vec3::UnitX(), 0)};
+  world.bodies = {box("light", Vec3::Constant(0.1), 1, Vec3(1, 0, 0)),
+                  box("heavy", Vec3::Constant(0.1), 1e4, Vec3(2, 0, 0), Vec3(-1, 0, 0))};
+  const Trajectory run = runOf(world, 10);
+  EXPECT_EQ(spansIn(run, 0, Partner::ofBody(1)).size(), 157U);
+  EXPECT_EQ(spansIn(run, 0, Partner::ofWall(0)).size(), 157U);
+  EXPECT_EQ(spansIn(run, 1, Partner::ofWall(0)).size(), 0U);
+}
+
 // With their middles 0.3 m apart in y they are 0.1 m apart; 5e-6 m apart is above kNear, 3e-6 m is not.
 TEST(TouchingSpans, ofBoxesThatPassEachOtherAreWhereTheyAreNear) {
   for (const auto& [apart, touches] : {std::pair(0.1, false), {5e-6, false}, {3e-6, true}}) {
