@@ -174,14 +174,14 @@ TEST(QuantitySpans, jumpWhereTheRunDoes) {
   EXPECT_NEAR(spans[1].from, std::sqrt(0.9 / kG), 1e-14);
 }
 
-// A step whose quaternion is (x, 0, 0, 1) with x = p (t − ½), of any length, turns by 2 atan x, at the speed
-// 2p/(1 + x²): within √ε/p of its middle it is more than 2p/(1 + ε).
+// A step whose quaternion is (x, 0, 0, 1) with x = p (t − 0.37), of any length, turns by 2 atan x, at the
+// speed 2p/(1 + x²): within √ε/p of its middle it is more than 2p/(1 + ε).
 TEST(QuantitySpans, ofStepsOfContactHaveTheirPeaks) {
   constexpr double kP = 0.3;
   ContactStep step{.duration = 1};
   step.position.fill(Vec3::Zero());
   step.worldFromBody.fill(Vec4::Zero());
-  step.worldFromBody[0] = Vec4(-kP / 2, 0, 0, 1);
+  step.worldFromBody[0] = Vec4(-kP * 0.37, 0, 0, 1);
   step.worldFromBody[1] = Vec4(kP, 0, 0, 0);
   Trajectory run;
   run.settings.duration = 1;
@@ -192,7 +192,7 @@ TEST(QuantitySpans, ofStepsOfContactHaveTheirPeaks) {
     question.level = 2 * kP / (1 + above);
     const std::vector<TrueSpan> spans = quantitySpans(run, question, 1);
     ASSERT_EQ(spans.size(), 1U) << above;
-    EXPECT_NEAR(spans[0].from, 0.5 - std::sqrt(above) / kP, 1e-15 / above * std::sqrt(above) + 1e-13);
+    EXPECT_NEAR(spans[0].from, 0.37 - std::sqrt(above) / kP, 1e-15 / above * std::sqrt(above) + 1e-13);
     question.level = 2 * kP * (1 + above);
     EXPECT_TRUE(quantitySpans(run, question, 1).empty()) << above;
   }

@@ -66,18 +66,20 @@ TEST(TouchingSpans, areAsManyAsTheDigitsOfPi) {
 
 // With their middles 0.3 m apart in y they are 0.1 m apart; 5e-6 m apart is above kNear, 3e-6 m is not.
 TEST(TouchingSpans, ofBoxesThatPassEachOtherAreWhereTheyAreNear) {
-  for (const auto& [apart, touches] : {std::pair(0.1, false), {5e-6, false}, {3e-6, true}}) {
-    World world;
-    world.bodies = {box("a", Vec3::Constant(0.1), 1, Vec3(-1, 0.2 + apart, 0), Vec3(2, 0, 0)),
-                    box("b", Vec3::Constant(0.1), 1, Vec3(0, 0, 0))};
-    const Trajectory run = runOf(world, 1);
-    ASSERT_TRUE(run.impacts.empty());
-    const std::vector<TrueSpan> spans = spansIn(run, 0, Partner::ofBody(1));
-    ASSERT_EQ(spans.size(), touches ? 1U : 0U) << apart;
-    if (touches) {
-      // From 0.2 m before the other's middle to 0.2 m behind it, and kNear more at each end.
-      EXPECT_NEAR(spans[0].from, 0.4 - kNear / 2, 1e-12);
-      EXPECT_NEAR(spans[0].to, 0.6 + kNear / 2, 1e-12);
+  for (const double speed : {2.0, 7.0}) {
+    for (const auto& [apart, touches] : {std::pair(0.1, false), {5e-6, false}, {3e-6, true}}) {
+      World world;
+      world.bodies = {box("a", Vec3::Constant(0.1), 1, Vec3(-1, 0.2 + apart, 0), Vec3(speed, 0, 0)),
+                      box("b", Vec3::Constant(0.1), 1, Vec3(0, 0, 0))};
+      const Trajectory run = runOf(world, 1);
+      ASSERT_TRUE(run.impacts.empty());
+      const std::vector<TrueSpan> spans = spansIn(run, 0, Partner::ofBody(1));
+      ASSERT_EQ(spans.size(), touches ? 1U : 0U) << apart;
+      if (touches) {
+        // From 0.2 m before the other's middle to 0.2 m behind it, and kNear more at each end.
+        EXPECT_NEAR(spans[0].from, (0.8 - kNear) / speed, 1e-12);
+        EXPECT_NEAR(spans[0].to, (1.2 + kNear) / speed, 1e-12);
+      }
     }
   }
 }

@@ -98,6 +98,17 @@ TEST(TrueSpans, theEndAloneMayBeTrue) {
   }
 }
 
+TEST(TrueSpans, whatIsTrueMayEndAtTheEnd) {
+  for (const double beyond : {-1e-15, 1e-15}) {
+    const double end = 1 + beyond;
+    TrueSpans spans;
+    spans.look({.from = 0, .to = end, .bounds = {1, 0}, .rounding = 1e-14}, [](double t) { return 1 - t; });
+    const std::vector<TrueSpan> found = spans.finish(end, 0);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].lasts, beyond < 0);
+  }
+}
+
 TEST(TrueSpans, whatIsNearerThanRoundingIsOne) {
   TrueSpans spans;
   const auto look = [&](double from, double to, double value) {
