@@ -53,12 +53,20 @@ std::string rowsOf(const Trajectory& run, const Question& question, const std::v
   return found.empty() ? CsvRow().add(question.text).add("nan").add("").line() : rows;
 }
 
-ExitCode whenCommand(const WhenOptions& options, const std::stop_token& stop) {
-  const Run run = loadRun(options.run, options.overrides, options.scene, stop);
+std::vector<Question> questionsOf(const WhenOptions& options, const World& world) {
   std::vector<Question> questions;
   for (const std::string& text : options.questions) {
-    questions.push_back(readQuestion(text, run.trajectory.world));
+    questions.push_back(readQuestion(text, world));
   }
+  return questions;
+}
+
+ExitCode whenCommand(const WhenOptions& options, const std::stop_token& stop) {
+  if (!isRun(options.run) && !isMujocoModel(options.run)) {
+    questionsOf(options, setupOfScene(options.run).world);  // before it is simulated
+  }
+  const Run run = loadRun(options.run, options.overrides, options.scene, stop);
+  const std::vector<Question> questions = questionsOf(options, run.trajectory.world);
   std::string table = CsvRow().add("question").add("time").add("with").line();
   for (const Question& question : questions) {
     std::vector<Moment> found = moments(run.trajectory, question);
