@@ -26,6 +26,9 @@ class Smooth {
   RateBounds bounds() const;
   /// What it is at most or, of places, what would be a small change.
   double scale() const;
+  /// Whether it is a velocity in a step of contact, so short that what is corrected in place changes it more
+  /// than it moves.
+  bool isLost(double tolerance) const;
 
  private:
   RateBounds boundsOfSpeed(const MotionBounds& bounds) const;
@@ -167,6 +170,18 @@ double Smooth::scale() const {
   }
 }
 
+bool Smooth::isLost(double tolerance) const {
+  constexpr double kTooShort = 1e-3;  // [1] of the tolerance: the way in the step
+  const Motion& motion = first().segment.motion;
+  if (quantity_ != Quantity::kSpeed && quantity_ != Quantity::kSpin && quantity_ != Quantity::kEnergy) {
+    return false;
+  }
+  const MotionBounds bounds = first().boundsWithin(pieces_.from(), pieces_.to());
+  const double way = (bounds.speed + bounds.spin * radiusOf(*first().body)) * (pieces_.to() - pieces_.from());
+  return (std::holds_alternative<ContactStep>(motion) || std::holds_alternative<CrowdStep>(motion)) &&
+         way < kTooShort * tolerance;
+}
+
 }  // namespace
 
 std::vector<TrueSpan> quantitySpans(const Trajectory& run, const Question& question, double until) {
@@ -187,7 +202,14 @@ std::vector<TrueSpan> quantitySpans(const Trajectory& run, const Question& quest
     part.size = std::max(size, kSmallChange * smooth.scale());
     part.rounding = kUlps * size;
     part.unseen = (std::isfinite(part.bounds.bend) ? kUnseen : kUnseenInSteps) * size;
-    spans.look(part, [&](double time) { return sign * (smooth.at(time) - level); });
+    const double from = smooth.at(part.from);
+    const double slope = part.to > part.from ? (smooth.at(part.to) - from) / (part.to - part.from) : 0;
+    if (smooth.isLost(run.settings.tolerance)) {
+      part.bounds = {.rate = std::fabs(slope)};
+      spans.look(part, [&](double time) { return sign * (from + slope * (time - part.from) - level); });
+    } else {
+      spans.look(part, [&](double time) { return sign * (smooth.at(time) - level); });
+    }
   }
   constexpr double kSame = 1e-12;  // [1] of the run: rounding
   return spans.finish(until, kSame * until);

@@ -198,6 +198,26 @@ TEST(QuantitySpans, ofStepsOfContactHaveTheirPeaks) {
   }
 }
 
+// In 1e-13 s it goes 1e-12 m aside and back, at up to 31 m/s; in 0.1 s, by 0.1 m, it is as fast.
+TEST(QuantitySpans, ofCorrectionsOfThePlaceAreNone) {
+  for (const double seconds : {1e-13, 0.1}) {
+    ContactStep step{.duration = seconds};
+    const Vec3 way = Vec3(10 * seconds, 0, 0);
+    step.position = {Vec3::Zero(), Vec3::Zero(), 16 * way, -32 * way, 16 * way, Vec3::Zero()};
+    step.worldFromBody.fill(Vec4::Zero());
+    step.worldFromBody[0] = Vec4(0, 0, 0, 1);
+    Trajectory run;
+    run.settings.duration = 1;
+    run.world.bodies = {box("a", kBrick, 1, Vec3::Zero())};
+    run.tracks = {{.segments = {{.start = 0, .motion = Rest()},
+                                {.start = 0.5, .motion = step},
+                                {.start = 0.5 + seconds, .motion = Rest()}}}};
+    const bool moves = seconds > 0.01;
+    EXPECT_EQ(spansIn(run, "speed(a) > 20").size(), moves ? 2U : 0U);
+    EXPECT_EQ(spansIn(run, "energy(a) > 20").size(), moves ? 2U : 0U);
+  }
+}
+
 // Two steps of Listing 1, out and back at 2 m/s.
 TEST(QuantitySpans, ofOtherMotionsToo) {
   const Trajectory run = driftAndReturn();
