@@ -202,11 +202,10 @@ std::vector<TrueSpan> quantitySpans(const Trajectory& run, const Question& quest
     part.size = std::max(size, kSmallChange * smooth.scale());
     part.rounding = kUlps * size;
     part.unseen = (std::isfinite(part.bounds.bend) ? kUnseen : kUnseenInSteps) * size;
-    const double from = smooth.at(part.from);
-    const double slope = part.to > part.from ? (smooth.at(part.to) - from) / (part.to - part.from) : 0;
     if (smooth.isLost(run.settings.tolerance)) {
-      part.bounds = {.rate = std::fabs(slope)};
-      spans.look(part, [&](double time) { return sign * (from + slope * (time - part.from) - level); });
+      part.bounds = {};
+      const double from = smooth.at(part.from);
+      spans.look(part, [&](double) { return sign * (from - level); });
     } else {
       spans.look(part, [&](double time) { return sign * (smooth.at(time) - level); });
     }

@@ -15,7 +15,7 @@ namespace careen {
 /// in steps of contact, by less than 1e-9.
 ///
 /// In steps of contact in which no corner goes farther than a thousandth of the tolerance, speed, spin and
-/// energy are straight between both ends: what lies between is how the place was corrected.
+/// energy are those at the start: what follows is how the place was corrected.
 std::vector<TrueSpan> quantitySpans(const Trajectory& run, const Question& question, double until);
 
 }  // namespace careen

@@ -27,23 +27,23 @@ double recordedUntil(const Trajectory& soFar, double time) {
   return time;
 }
 
-// Whether the run tells all of a touch: where one comes near in flight an impact may follow, which is the
-// moment then.
+// Whether the run tells all of a touch: where one comes near in a motion that goes on, an impact may follow,
+// which is the moment then.
 bool isCertain(const Trajectory& run, const Question& question, const Moment& moment, double until) {
   if (question.kind != Question::Kind::kTouches) {
     return true;
   }
-  const auto stillFlies = [&](const Partner& partner) {
+  const auto goesOn = [&](const Partner& partner) {
     if (partner.isWall()) {
       return false;
     }
     const Segments& segments = run.tracks[static_cast<std::size_t>(partner.body())].segments;
     const std::size_t begun = segments.countUntil(moment.time);
-    return segments.countUntil(until) == begun && std::holds_alternative<Flight>(segments[begun - 1].motion);
+    return segments.countUntil(until) == begun && !std::holds_alternative<Rest>(segments[begun - 1].motion);
   };
   const bool isImpact = std::any_of(run.impacts.begin(), run.impacts.end(),
                                     [&](const Impact& impact) { return impact.time == moment.time; });
-  return isImpact || (!stillFlies(question.of.front()) && !stillFlies(*moment.with));
+  return isImpact || (!goesOn(question.of.front()) && !goesOn(*moment.with));
 }
 
 std::optional<Moment> firstAfterStart(const Trajectory& run, const Question& question, double until) {
