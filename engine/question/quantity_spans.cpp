@@ -13,6 +13,8 @@ constexpr double kUlps = 64 * std::numeric_limits<double>::epsilon();
 constexpr double kUnseen = 1e-12;        // [1] of the level, where second derivatives are bounded
 constexpr double kUnseenInSteps = 1e-9;  // [1] likewise, where only first ones are
 
+constexpr double kSame = 1e-12;  // [1] of the run: rounding
+
 double squared(double x) { return x * x; }
 
 // In place of the quantity itself, a smooth function that grows with it: squares of lengths and speeds, and
@@ -28,7 +30,7 @@ class Smooth {
   double scale() const;
   /// Whether it is a velocity in a step of contact, so short that what is corrected in place changes it more
   /// than it moves.
-  bool isLost(double tolerance) const;
+  bool isLost(const RunSettings& settings) const;
 
  private:
   RateBounds boundsOfSpeed(const MotionBounds& bounds) const;
@@ -170,7 +172,7 @@ double Smooth::scale() const {
   }
 }
 
-bool Smooth::isLost(double tolerance) const {
+bool Smooth::isLost(const RunSettings& settings) const {
   constexpr double kTooShort = 1e-3;  // [1] of the tolerance: the way in the step
   const Motion& motion = first().segment.motion;
   if (quantity_ != Quantity::kSpeed && quantity_ != Quantity::kSpin && quantity_ != Quantity::kEnergy) {
@@ -179,7 +181,7 @@ bool Smooth::isLost(double tolerance) const {
   const MotionBounds bounds = first().boundsWithin(pieces_.from(), pieces_.to());
   const double way = (bounds.speed + bounds.spin * radiusOf(*first().body)) * (pieces_.to() - pieces_.from());
   return (std::holds_alternative<ContactStep>(motion) || std::holds_alternative<CrowdStep>(motion)) &&
-         way < kTooShort * tolerance;
+         (way < kTooShort * settings.tolerance || pieces_.to() - pieces_.from() < kSame * settings.duration);
 }
 
 }  // namespace
@@ -202,7 +204,7 @@ std::vector<TrueSpan> quantitySpans(const Trajectory& run, const Question& quest
     part.size = std::max(size, kSmallChange * smooth.scale());
     part.rounding = kUlps * size;
     part.unseen = (std::isfinite(part.bounds.bend) ? kUnseen : kUnseenInSteps) * size;
-    if (smooth.isLost(run.settings.tolerance)) {
+    if (smooth.isLost(run.settings)) {
       part.bounds = {};
       const double from = smooth.at(part.from);
       spans.look(part, [&](double) { return sign * (from - level); });
@@ -210,7 +212,6 @@ std::vector<TrueSpan> quantitySpans(const Trajectory& run, const Question& quest
       spans.look(part, [&](double time) { return sign * (smooth.at(time) - level); });
     }
   }
-  constexpr double kSame = 1e-12;  // [1] of the run: rounding
   return spans.finish(until, kSame * until);
 }
 
