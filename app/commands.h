@@ -35,5 +35,6 @@ void addTruth(const CommandLine& commandLine);
 void addValidate(const CommandLine& commandLine);
 void addVerify(const CommandLine& commandLine);
 void addView(const CommandLine& commandLine);
+void addWhen(const CommandLine& commandLine);
 
 }  // namespace careen

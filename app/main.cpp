@@ -80,6 +80,7 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
 #ifdef CAREEN_RENDER
   addView(commandLine);
 #endif
+  addWhen(commandLine);
   commandLine.footer(
       "First steps: 'careen render' films the default scene into out/careen, 'careen help tutorial' goes on "
       "from\n"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "audit/promises.h"
+#include "core/brief.h"
 #include "core/characters.h"
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
@@ -289,6 +290,15 @@ void printInShort(std::ostream& out, const Run& run) {
   printBroken(out, run);
 }
 
+void printUntil(std::ostream& out, const Run& run) {
+  if (run.until) {
+    out << "until        " << printableName(run.until->question) << ": "
+        << (run.until->time ? "at " + brief(*run.until->time, 12) + " s, the end of the run"
+                            : "never; the run has its whole duration")
+        << '\n';
+  }
+}
+
 void printSpeed(std::ostream& out, const Run& run, double wallSeconds) {
   out << std::setprecision(3) << "speed        " << wallSeconds << " s in all";
   if (run.simulateSeconds > 0) {
@@ -337,6 +347,12 @@ nlohmann::ordered_json runReport(const Run& run, double wallSeconds) {
   if (!trajectory.given) {
     report["contact_residuals"] = {{"exact", residualReport(figures.contact)},
                                    {"crowds", residualReport(figures.crowds)}};
+  }
+  if (run.until) {
+    report["until"] = {{"question", run.until->question}, {"time", nullptr}};
+    if (run.until->time) {
+      report["until"]["time"] = *run.until->time;
+    }
   }
   if (figures.boundedFrom) {
     report["bounded_from"] = *figures.boundedFrom;
@@ -426,11 +442,13 @@ void printError(std::ostream& out, const Run& run) {
 void printSummary(std::ostream& out, const Run& run, double wallSeconds, bool verbose) {
   if (verbose) {
     printPlan(out, run.trajectory);
+    printUntil(out, run);
     printSpeed(out, run, wallSeconds);
     printError(out, run);
     printEstimate(out, run, true);
   } else {
     printInShort(out, run);
+    printUntil(out, run);
     printEstimate(out, run, false);
     printSpeed(out, run, wallSeconds);
   }

@@ -20,6 +20,7 @@
 #include "exchange/import_mjcf.h"
 #include "parsed.h"
 #include "physics/world/method.h"
+#include "question/until.h"
 #include "scene/plan.h"
 #include "scene/prepare.h"
 #include "scene/scene_reader.h"
@@ -50,7 +51,7 @@ void tellParted(const Parted& parted) {
 }
 
 Run simulateText(const std::filesystem::path& path, const std::string& bytes, const Overrides& overrides,
-                 const std::stop_token& stop, const RunCallback& progress) {
+                 const std::stop_token& stop, const RunCallback& progress, const std::string& until) {
   const DefaultFloatEnvironment usual;  // GL may be open in a window
   const auto [text, name] = sceneTextOf(path, bytes);
   Scene scene = parseScene(text, name, overrides.allowOverlap ? Starts::kMayOverlap : Starts::kApart);
@@ -64,7 +65,15 @@ Run simulateText(const std::filesystem::path& path, const std::string& bytes, co
   Run run;
   run.source = path;
   const Stopwatch stopwatch;
-  run.trajectory = record(std::move(prepared.setup), stop, overrides.mostRecords(), progress);
+  if (until.empty()) {
+    run.trajectory = record(std::move(prepared.setup), stop, overrides.mostRecords(), progress);
+  } else {
+    const auto read = [&](const std::string& each) { return readQuestion(each, prepared.setup.world); };
+    RunUntil ended =
+        recordUntil(prepared.setup, parsed("--until", until, read), stop, overrides.mostRecords(), progress);
+    run.trajectory = std::move(ended.run);
+    run.until = {.question = until, .time = ended.time};
+  }
   run.simulateSeconds = stopwatch.seconds();
   return run;
 }
@@ -283,8 +292,8 @@ SceneText sceneTextOf(const std::filesystem::path& path, const std::string& byte
 std::filesystem::path defaultScene() { return findResource("assets/scenes/careen.json"); }
 
 Run simulateScene(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop,
-                  const RunCallback& progress) {
-  return simulateText(path, readFile(path), overrides, stop, progress);
+                  const RunCallback& progress, const std::string& until) {
+  return simulateText(path, readFile(path), overrides, stop, progress, until);
 }
 
 bool isTable(const std::filesystem::path& path) {
@@ -316,7 +325,7 @@ Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const
       throw InputError(std::string(option) + ": found the scene " + path.string() +
                        " to be run, expected a table of poses");
     }
-    return simulateText(path, bytes, overrides, stop, progress);
+    return simulateText(path, bytes, overrides, stop, progress, {});
   }
   if (const char* const option = overrides.given()) {
     throw InputError(std::string(option) + ": found the run " + path.string() +

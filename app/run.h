@@ -17,12 +17,19 @@ namespace careen {
 
 class CommandLine;
 
+/// A statement whose becoming true ends a run.
+struct UntilTold {
+  std::string question;
+  std::optional<double> time = {};  ///< [s] none: never, and the run has its whole duration
+};
+
 /// A run, its origin and its cost.
 struct Run {
   std::filesystem::path source;  ///< the scene or trajectory file
   Trajectory trajectory;
-  double simulateSeconds = 0;  ///< [s] 0 if the trajectory was read from a file
-  bool estimated = false;      ///< whether estimating its error was attempted
+  std::optional<UntilTold> until;  ///< if it was asked to end then
+  double simulateSeconds = 0;      ///< [s] 0 if the trajectory was read from a file
+  bool estimated = false;          ///< whether estimating its error was attempted
   std::optional<ErrorEstimate> estimate;
   Audit audit;
   double auditSeconds = 0;  ///< [s]
@@ -103,9 +110,10 @@ bool isMujocoModel(const std::filesystem::path& path);
 /// The default scene of all commands.
 std::filesystem::path defaultScene();
 
-/// Reads a scene file and runs it. Reports overrides on standard error.
+/// Reads a scene file and runs it, until that statement becomes true if there is one. Reports overrides on
+/// standard error.
 Run simulateScene(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop,
-                  const RunCallback& progress = {});
+                  const RunCallback& progress = {}, const std::string& until = {});
 
 /// Whether the file is a run: a trajectory, or a table of poses.
 bool isRun(const std::filesystem::path& path);

@@ -36,6 +36,7 @@ struct SimulateOptions {
   std::filesystem::path report;
   std::string log = "text";
   bool verbose = false;
+  std::string until;
   Overrides overrides;
   EstimateChoice estimate;
   AuditChoice audit;
@@ -94,7 +95,8 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   }
   const bool logsJson = options.log == "json";
   SimulationProgress progress(logsJson);
-  Run run = simulateScene(source, options.overrides, stop, progress.ofRun(options.overrides.mostRecords()));
+  Run run = simulateScene(source, options.overrides, stop, progress.ofRun(options.overrides.mostRecords()),
+                          options.until);
   auditRun(run, options.audit, stop);
   estimate(run, options.estimate, stopwatch.seconds() - run.auditSeconds, stop, progress.ofEstimate());
 
@@ -145,6 +147,8 @@ void addSimulate(const CommandLine& commandLine) {
            "text, or json: lines on the standard output that tell how far the run is, and nothing else there "
            "(default: text)")
       .oneOf({"text", "json"});
+  command.add("--until", options->until,
+              "End the run when this becomes true, such as rest or 'a touches b' (see 'careen when')");
   command.addFlag("--verbose", options->verbose, "Print all that is known of the run, as --report has it");
   options->overrides.addTo(command);
   options->overrides.addThreadsTo(command);

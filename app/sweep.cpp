@@ -38,6 +38,7 @@ struct SweepOptions {
   SizeAndRate picture;
   std::optional<int> jobs;
   bool resume = false;
+  std::vector<std::string> questions;
   AuditChoice audit;
 };
 
@@ -99,6 +100,7 @@ SweepSettings settingsOf(const SweepOptions& options, const DrawFilm& drawFilm) 
   settings.resume = options.resume;
   settings.keepRuns = !options.keep.empty();
   settings.audit = options.audit.auditDepth();
+  settings.questions = options.questions;
   settings.program = "careen " CAREEN_VERSION;
   addFiles(settings, options, drawFilm);
   return settings;
@@ -176,6 +178,10 @@ void addSweep(const CommandLine& commandLine, const DrawFilm& drawFilm) {
       .excludes(share);
   command.add("--keep", options->keep, "runs: each run's trajectory too, as runs/0000017.careen")
       .oneOf({"runs"});
+  command
+      .add("--when", options->questions,
+           "A column with the first moment at which this is true, such as 'a touches b' (see 'careen when')")
+      .onePerUse();
   if (drawFilm) {
     command.addFlag("--film", options->film,
                     "Each run's film too, as by 'careen render', in a folder such as runs/0000017");

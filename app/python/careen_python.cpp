@@ -240,6 +240,15 @@ py::dict auditOf(const Run& run) {
   return found;
 }
 
+py::array_t<double> momentsOf(const Run& run, const std::string& statement) {
+  std::vector<double> times;
+  {
+    const py::gil_scoped_release unlocked;
+    times = run.when(statement);
+  }
+  return py::array_t<double>(static_cast<py::ssize_t>(times.size()), times.data());
+}
+
 py::array_t<std::uint8_t> frameOf(const Run& run, double time, const Size& size) {
   Image image;
   {
@@ -314,6 +323,11 @@ PYBIND11_MODULE(careen, module) {
           "What the run is worth, by code that shares nothing with the method: for each kind a "
           "dictionary of size, unit, time [s], bodies and promised; and breaches, a list of str, "
           "empty if the run keeps all promises of its method.")
+      .def("when", &momentsOf, py::arg("statement"),
+           "All moments [s] at which a statement becomes true, in order of time, an array; 0 among them if "
+           "it is "
+           "from the start. Such as 'a touches b', 'height(a) < 0.5', 'rest'; 'careen help questions' has "
+           "all.")
       .def("frame", &frameOf, py::arg("t"), py::arg("size") = py::none(),
            "The picture at film time t [s], an array of uint8 (height, width, 3); size is (width, height) "
            "[px], that "

@@ -14,6 +14,7 @@
 #include "core/system/file.h"
 #include "physics/world/control.h"
 #include "physics/world/method.h"
+#include "question/moments.h"
 #include "scene/prepare.h"
 #include "scene/scene_reader.h"
 #include "trajectory/energy_samples.h"
@@ -337,6 +338,18 @@ Audit Run::audit() const {
       audit.breaches.push_back(describe(breach, data_->trajectory));
     }
     return audit;
+  });
+}
+
+std::vector<double> Run::when(const std::string& statement) const {
+  const DefaultFloatEnvironment usual;
+  return translated("", [&] {
+    std::vector<double> times;
+    for (const Moment& moment :
+         moments(data_->trajectory, readQuestion(statement, data_->trajectory.world))) {
+      times.push_back(moment.time);
+    }
+    return times;
   });
 }
 

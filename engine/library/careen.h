@@ -217,6 +217,9 @@ class Run {
   Energy energy(double time) const;
   std::vector<Energy> energies(const std::vector<double>& times) const;  ///< at times in any order
   Audit audit() const;
+  /// [s] All moments at which a statement becomes true, in order of time, such as "a touches b", "height(a) <
+  /// 0.5" or "rest"; 0 among them if it is from the start. Error if it is no statement about the run.
+  std::vector<double> when(const std::string& statement) const;
   std::string hash() const;  ///< of the final states, bit for bit
 
   /// The pictures at film times [s], as `careen render --still` draws them, overlays included; film time is

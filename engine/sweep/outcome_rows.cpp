@@ -5,11 +5,14 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 #include <variant>
 
 #include "core/error.h"
 #include "core/table.h"
+#include "question/moments.h"
+#include "scene/prepare.h"
 #include "trajectory/numpy_array.h"
 #include "trajectory/pose_samples.h"
 
@@ -61,6 +64,20 @@ std::vector<ImpactsOfBox> impactsOfBoxes(const Trajectory& run) {
   return all;
 }
 
+// Of one with a name that the run lacks, as boxes may be of any number: none.
+std::vector<double> firstMoments(const Trajectory& run, const std::vector<std::string>& questions) {
+  std::vector<double> first;
+  for (const std::string& text : questions) {
+    std::vector<Moment> found;
+    try {
+      found = moments(run, readQuestion(text, run.world));
+    } catch (const InputError&) {
+    }
+    first.push_back(found.empty() ? kNone : found.front().time);
+  }
+  return first;
+}
+
 // The last cell of a line, which may be quoted; lines end at an even number of quotes.
 std::string nameOf(std::string_view cell) {
   if (!cell.starts_with('"')) {
@@ -76,7 +93,21 @@ std::string nameOf(std::string_view cell) {
 
 }  // namespace
 
-std::vector<OutcomeColumn> outcomeColumns(const Family& family) {
+void checkQuestions(const Family& family, const std::vector<std::string>& questions) {
+  if (questions.empty()) {
+    return;
+  }
+  const World world = prepare(family.member(0).scene, {.threads = 1}).setup.world;
+  std::set<std::string> asked;
+  for (const std::string& question : questions) {
+    static_cast<void>(readQuestion(question, world));
+    if (!asked.insert(question).second) {
+      throw InputError("found the question '" + question + "' twice, expected each once");
+    }
+  }
+}
+
+std::vector<OutcomeColumn> outcomeColumns(const Family& family, const std::vector<std::string>& questions) {
   std::vector<OutcomeColumn> columns = {{"run", ""}, {"attempts", ""}};
   for (const std::string& path : family.columns()) {
     columns.push_back({path, ""});
@@ -98,25 +129,29 @@ std::vector<OutcomeColumn> outcomeColumns(const Family& family) {
                                    {"impacts", ""},
                                    {"first_impact", "s"},
                                    {"last_impact", "s"},
-                                   {"rest_since", "s"},
-                                   {"run_impacts", ""},
-                                   {"broken", ""},
-                                   {"box", ""}}) {
+                                   {"rest_since", "s"}}) {
     columns.push_back({name, unit});
+  }
+  for (const std::string& question : questions) {
+    columns.push_back({question, "s"});
+  }
+  for (const char* const name : {"run_impacts", "broken", "box"}) {
+    columns.push_back({name, ""});
   }
   return columns;
 }
 
-std::string outcomeHeader(const Family& family) {
+std::string outcomeHeader(const Family& family, const std::vector<std::string>& questions) {
   CsvRow row;
-  for (const OutcomeColumn& column : outcomeColumns(family)) {
+  for (const OutcomeColumn& column : outcomeColumns(family, questions)) {
     row.add(column.name);
   }
   return row.line();
 }
 
 std::string outcomeRows(std::uint64_t run, const Family::Member& member, const Trajectory& trajectory,
-                        const Audit& audit) {
+                        const Audit& audit, const std::vector<std::string>& questions) {
+  const std::vector<double> answers = firstMoments(trajectory, questions);
   const std::vector<ImpactsOfBox> impacts = impactsOfBoxes(trajectory);
   std::string rows;
   for (std::size_t i = 0; i < trajectory.tracks.size(); ++i) {
@@ -137,6 +172,7 @@ std::string outcomeRows(std::uint64_t run, const Family::Member& member, const T
                 .add(faceUp(trajectory, end.worldFromBody))
                 .addAll(std::array{impacts[i].count, impacts[i].first, impacts[i].last})
                 .add(restSince(trajectory.tracks[i]))
+                .addAll(answers)
                 .add(static_cast<double>(trajectory.impacts.size()))
                 .add(static_cast<double>(audit.breaches.size()))
                 .add(body.name)
@@ -145,8 +181,9 @@ std::string outcomeRows(std::uint64_t run, const Family::Member& member, const T
   return rows;
 }
 
-OutcomeTable::OutcomeTable(const Family& family, std::string_view rows, const std::string& name)
-    : columns(outcomeColumns(family)), numbers(columns.size() - 1) {
+OutcomeTable::OutcomeTable(const Family& family, const std::vector<std::string>& questions,
+                           std::string_view rows, const std::string& name)
+    : columns(outcomeColumns(family, questions)), numbers(columns.size() - 1) {
   const auto fail = [&](const std::string& found) {
     throw InputError(name + ": " + found + " after " + std::to_string(boxes.size()) +
                      " rows, expected what 'careen sweep' wrote; remove it and resume");

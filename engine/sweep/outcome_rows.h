@@ -11,28 +11,35 @@
 
 namespace careen {
 
+/// InputError if one is no question about run 0 of the family, or asked twice.
+void checkQuestions(const Family& family, const std::vector<std::string>& questions);
+
 /// Columns of a sweep's table, with their units: a row for each run and each box of it that can move.
 ///   run, attempts           number of the run; starts drawn until none overlapped
 ///   the numbers that vary outside boxes, by their paths in the family
 ///   half_x … friction       the box
 ///   start_…, end_…          its state at both ends, columns as in poses.csv
 ///   face_up                 1 … 6: the face −x, +x, −y, +y, −z, +z that looks against gravity (up, without
-///   it) impacts, first_impact, last_impact    of the box; times are nan without one rest_since [s] when it
-///   came to rest for good; nan if it had not at the end run_impacts, broken     of the whole run: impacts,
-///   and promises of its method that the audit found broken box                     its name
+///   it)
+///   impacts, first_impact, last_impact    of the box; times are nan without one
+///   rest_since              [s] when it came to rest for good; nan if it had not at the end
+///   the questions           [s] the first moment at which each became true in the run (question/moments.h);
+///                           nan if it never did, or if the run has no box or wall of a name in it
+///   run_impacts, broken     of the whole run: impacts, and promises of its method that the audit found
+///   broken box                     its name
 struct OutcomeColumn {
   std::string name;
   std::string unit;
 };
-std::vector<OutcomeColumn> outcomeColumns(const Family& family);
+std::vector<OutcomeColumn> outcomeColumns(const Family& family, const std::vector<std::string>& questions);
 
 /// The rows of one run as lines of CSV, without a header; 17 digits, nan where there is no number. `box` is
 /// last.
 std::string outcomeRows(std::uint64_t run, const Family::Member& member, const Trajectory& trajectory,
-                        const Audit& audit);
+                        const Audit& audit, const std::vector<std::string>& questions);
 
 /// The first line of the table.
-std::string outcomeHeader(const Family& family);
+std::string outcomeHeader(const Family& family, const std::vector<std::string>& questions);
 
 /// Rows as numbers.
 struct OutcomeTable {
@@ -41,7 +48,8 @@ struct OutcomeTable {
   std::vector<std::string> boxes;
 
   /// InputError, which `name` begins, if the lines are not those of outcomeRows().
-  OutcomeTable(const Family& family, std::string_view rows, const std::string& name);
+  OutcomeTable(const Family& family, const std::vector<std::string>& questions, std::string_view rows,
+               const std::string& name);
   /// An NPZ archive: an array for each column, and `units`.
   std::string archive() const;
 };

@@ -88,6 +88,9 @@ std::string manifestOf(const std::string& familyText, const SweepSettings& setti
   if (settings.keepRuns) {
     manifest["keep"] = "runs";
   }
+  if (!settings.questions.empty()) {
+    manifest["when"] = nlohmann::ordered_json(settings.questions).dump();
+  }
   for (const auto& [name, what] : settings.written) {
     manifest[name] = what;
   }
@@ -108,7 +111,8 @@ std::string simulateBlock(const Family& family, const RunRange& range, const Swe
     const Family::Member member = family.member(run);
     try {
       Trajectory trajectory = record(prepare(member.scene, {.threads = 1}).setup, stop);
-      rows += outcomeRows(run, member, trajectory, audit(trajectory, settings.audit, stop));
+      rows +=
+          outcomeRows(run, member, trajectory, audit(trajectory, settings.audit, stop), settings.questions);
       if (settings.keepRuns) {
         saveTrajectory(trajectory, settings.folder / "runs" / (padded(k) + ".careen"));
       }
@@ -124,19 +128,19 @@ std::string simulateBlock(const Family& family, const RunRange& range, const Swe
   return rows;
 }
 
-SweepFigures join(const Family& family, const SweepFolder& folder, const Blocks& blocks,
-                  SweepFigures figures) {
+SweepFigures join(const Family& family, const SweepSettings& settings, const SweepFolder& folder,
+                  const Blocks& blocks, SweepFigures figures) {
   std::string rows;
   for (std::int64_t block = 0; block < blocks.count(); ++block) {
     rows += readFile(blocks.file(block));
   }
-  const OutcomeTable table(family, rows, folder.rows().string());
+  const OutcomeTable table(family, settings.questions, rows, folder.rows().string());
   figures.rows = std::ssize(table.boxes);
   const std::vector<double>& broken = table.numbers.back();
   figures.broken = std::count_if(broken.begin(), broken.end(), [](double count) { return count > 0; });
   AtomicFile csv(folder.table(".csv"));
   AtomicFile npz(folder.table(".npz"));
-  csv.write(outcomeHeader(family));
+  csv.write(outcomeHeader(family, settings.questions));
   csv.write(rows);
   npz.write(table.archive());
   npz.commit();
@@ -178,6 +182,7 @@ Share parseShare(const std::string& text) {
 SweepFigures runSweep(const Family& family, const std::string& familyText, const SweepSettings& settings,
                       const std::function<void(const SweepProgress&)>& progress,
                       const std::stop_token& stop) {
+  checkQuestions(family, settings.questions);
   const Blocks blocks(settings);
   const std::string manifest = manifestOf(familyText, settings);
   SweepFigures figures;
@@ -225,7 +230,8 @@ SweepFigures runSweep(const Family& family, const std::string& familyText, const
     figures.missing += blocks.isThere(block) ? 0 : blocks.size(block);
   }
   // Of several shares that end at once, none may take the others' files away.
-  return figures.missing == 0 && settings.share.count == 1 ? join(family, folder, blocks, figures) : figures;
+  return figures.missing == 0 && settings.share.count == 1 ? join(family, settings, folder, blocks, figures)
+                                                           : figures;
 }
 
 }  // namespace careen

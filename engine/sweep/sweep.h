@@ -39,6 +39,7 @@ struct SweepSettings {
   bool resume = false;    ///< keep the blocks that are there
   bool keepRuns = false;  ///< each run's trajectory, in runs/
   AuditDepth audit = AuditDepth::kUsual;
+  std::vector<std::string> questions;  ///< whose first moments are columns of the table
   /// Writes other files of a run, such as its film, into `folder`: runs/0000017, which appears whole or not
   /// at all, before the run's row. It may change the run. None: there is no such folder.
   std::function<void(Trajectory& run, const std::filesystem::path& folder, const std::stop_token& stop)>
@@ -67,8 +68,9 @@ struct SweepFigures {
 /// there; shares write theirs into the same folder, or into others whose files are copied together. Then the
 /// same without a share, resumed, simulates what is missing, makes the table of all blocks and removes them.
 /// The table's bytes depend on the family and the runs alone. sweep.json says what the folder is of;
-/// InputError if it is of something else, or if another process works there, unless both are shares. Throws
-/// the errors of runs, whose names they begin with; what is done stays.
+/// InputError if it is of something else, or if another process works there, unless both are shares.
+/// InputError too if a question is none about run 0. Throws the errors of runs, whose names they begin with;
+/// what is done stays.
 ///
 /// Runs are simulated in forked processes, so writeRun may fork others that open GL, if this process has not.
 SweepFigures runSweep(const Family& family, const std::string& familyText, const SweepSettings& settings,

@@ -19,7 +19,12 @@ namespace {
 
 class TrajectoryRecorder : public Recorder {
  public:
-  TrajectoryRecorder(Trajectory& trajectory, std::uint64_t most) : trajectory_(trajectory), most_(most) {}
+  TrajectoryRecorder(Trajectory& trajectory, std::uint64_t most, const EnoughRecorded& isEnough)
+      : trajectory_(trajectory), most_(most) {
+    if (trajectory.settings.method == Method::kExact) {
+      isEnough_ = isEnough;
+    }
+  }
 
   void moves(BodyIndex body, double time, const Motion& motion) override {
     count(time);
@@ -38,6 +43,12 @@ class TrajectoryRecorder : public Recorder {
     count(effort.time);
     insertByTime(trajectory_.jointEfforts, effort);
   }
+  void reaches(double time) override {
+    reached_ = time;
+    hasEnough_ = isEnough_ && isEnough_(trajectory_, time);
+  }
+  bool hasEnough() const override { return hasEnough_; }
+  double reached() const { return reached_; }  // [s]
 
  private:
   void count(double time) {
@@ -51,7 +62,10 @@ class TrajectoryRecorder : public Recorder {
 
   Trajectory& trajectory_;
   const std::uint64_t most_;
+  EnoughRecorded isEnough_;
   std::uint64_t count_ = 0;
+  double reached_ = 0;
+  bool hasEnough_ = false;
 };
 
 // Sizes, masses and speeds far from 1 may underflow or overflow in between: no such run may end as if it were
@@ -159,12 +173,15 @@ std::string Trajectory::stateHash() const {
 }
 
 Trajectory record(RunSetup setup, const std::stop_token& stop, std::uint64_t most,
-                  const RunCallback& progress) {
+                  const RunCallback& progress, const EnoughRecorded& isEnough) {
   Trajectory trajectory;
   static_cast<RunSetup&>(trajectory) = std::move(setup);
   trajectory.tracks.resize(trajectory.world.bodies.size());
-  TrajectoryRecorder recorder(trajectory, most);
+  TrajectoryRecorder recorder(trajectory, most, isEnough);
   trajectory.figures = simulate(trajectory.world, trajectory.settings, recorder, stop, progress);
+  if (recorder.hasEnough()) {
+    trajectory.settings.duration = recorder.reached();
+  }
   checkFinite(trajectory);
   checkReadable(trajectory);
   return trajectory;

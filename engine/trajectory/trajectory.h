@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -69,10 +70,15 @@ void insertByTime(std::vector<Event>& events, const Event& event) {
   events.insert(std::upper_bound(events.begin(), events.end(), event.time, isBefore), event);
 }
 
-/// Simulates the setup's world by its method and records the trajectory. InputError if it has more than
-/// `most` segments and impacts, NumericalError if a state of it is not finite, or no reader would accept it.
+/// Whether a run that has come to that time [s] may end there; of steps of contact not all until then need be
+/// recorded. Asked by method exact alone, before each of its events.
+using EnoughRecorded = std::function<bool(const Trajectory& soFar, double time)>;
+
+/// Simulates the setup's world by its method and records the trajectory, which ends where there is enough of
+/// it. InputError if it has more than `most` segments and impacts, NumericalError if a state of it is not
+/// finite, or no reader would accept it.
 Trajectory record(RunSetup setup, const std::stop_token& stop = {}, std::uint64_t most = kMostRecords,
-                  const RunCallback& progress = {});
+                  const RunCallback& progress = {}, const EnoughRecorded& isEnough = {});
 /// The same for a world without a scene: it is shown with a scene's default stage.
 Trajectory record(const World& world, const RunSettings& settings, std::string sceneText,
                   const std::stop_token& stop = {});

@@ -36,6 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     addTruth(commandLine);
     addValidate(commandLine);
     addVerify(commandLine);
+    addWhen(commandLine);
     commandLine.parse(static_cast<int>(arguments.size()), arguments.data());
   });
   std::cout.rdbuf(out);

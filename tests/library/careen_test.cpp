@@ -169,6 +169,11 @@ TEST_F(Library, simulatesASceneThatWasBuiltInCode) {
   EXPECT_NEAR(first.approach, 9.81 * time, 1e-12);
   EXPECT_NEAR(run.state(0, 0.25).position[2], 2 - 9.81 / 2 * 0.0625, 1e-14);
   EXPECT_NEAR(run.state(0, 0.25).velocity[2], -9.81 * 0.25, 1e-14);
+  EXPECT_EQ(run.when("crate touches floor"), std::vector<double>{first.time});
+  ASSERT_EQ(run.when("height(crate) < 1").size(), 1U);
+  EXPECT_NEAR(run.when("height(crate) < 1")[0], std::sqrt(2 / 9.81), 1e-14);
+  EXPECT_TRUE(run.when("rest").empty());
+  EXPECT_THROW(static_cast<void>(run.when("height(crat) < 1")), Error);
   EXPECT_EQ(run.boxes(), std::vector<std::string>{"crate"});
   EXPECT_EQ(run.duration(), 1.0);
   // It is the scene that a file with its text is.

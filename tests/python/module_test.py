@@ -92,6 +92,16 @@ class Module(unittest.TestCase):
         middle = center + times[:, None] * cross(spin, center) - turn @ center
         numpy.testing.assert_allclose(states["position"], middle, rtol=0, atol=1e-13)
 
+    def test_questions_are_answered_with_moments(self):
+        run = careen.simulate({"careen": 1, "duration": 1, "gravity": [0, 0, -9.81], "boxes": [
+            {"name": "a", "half_extents": [0.5, 0.5, 0.5], "mass": 2, "position": [0, 0, 2]}]})
+        found = run.when("height(a) < 1")
+        self.assertEqual(found.shape, (1,))
+        self.assertAlmostEqual(found[0], (2 / 9.81) ** 0.5, delta=1e-14)
+        self.assertEqual(run.when("rest").shape, (0,))
+        with self.assertRaisesRegex(careen.Error, "column 6: found 'b'"):
+            run.when("rest(b)")
+
     def test_times_have_any_shape(self):
         run = careen.simulate(SCENES / "zeno.json")
         boxes = len(run.boxes)

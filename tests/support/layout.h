@@ -18,14 +18,15 @@ inline const std::map<std::string, Names> kMayInclude = {
     {"scene", {"physics", "stage", "core"}},
     {"trajectory", {"physics", "stage", "core"}},
     {"audit", {"trajectory", "physics", "stage", "core"}},
+    {"question", {"trajectory", "audit", "physics", "stage", "core"}},
     {"study", {"scene", "exchange", "trajectory", "audit", "physics", "core"}},
     {"compare", {"image", "trajectory", "core"}},
     {"view", {"trajectory", "physics", "stage", "core"}},
     {"truth", {"view", "film", "trajectory", "stage", "physics", "core"}},
-    {"sweep", {"scene", "trajectory", "audit", "physics", "stage", "core"}},
+    {"sweep", {"scene", "trajectory", "audit", "question", "physics", "stage", "core"}},
     {"exchange", {"scene", "view", "trajectory", "physics", "stage", "core"}},
     {"render", {"view", "trajectory", "film", "stage", "image", "core"}},
-    {"library", {"render", "scene", "trajectory", "audit", "stage", "physics", "core"}},
+    {"library", {"render", "scene", "trajectory", "audit", "question", "stage", "physics", "core"}},
 };
 
 // Rooms of a folder, and whom each may include among them; "" is what lies in the folder itself.

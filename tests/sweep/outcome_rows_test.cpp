@@ -36,8 +36,8 @@ class OutcomeRows : public testing::Test {
 
 TEST_F(OutcomeRows, tellWhatBecameOfEachBoxThatMoves) {
   const Family::Member member = family_.member(12);
-  const std::string rows = outcomeRows(12, member, run_, {});
-  const OutcomeTable table(family_, rows + rows, "rows");
+  const std::string rows = outcomeRows(12, member, run_, {}, {});
+  const OutcomeTable table(family_, {}, rows + rows, "rows");
   ASSERT_EQ(table.boxes, (std::vector<std::string>{"a \"b\",\nc", "a \"b\",\nc"}));
   EXPECT_EQ(value(table, "run"), 12);
   EXPECT_EQ(value(table, "gravity[2]"), member.scene.gravity.z());
@@ -65,7 +65,7 @@ TEST_F(OutcomeRows, faceUpIsThatAgainstGravity) {
   const auto face = [&](const Mat3& worldFromBody, const Vec3& gravity) {
     step.start.pose.worldFromBody = worldFromBody;
     run_.world.gravity = gravity;
-    return value(OutcomeTable(family_, outcomeRows(0, member, run_, {}), "rows"), "face_up");
+    return value(OutcomeTable(family_, {}, outcomeRows(0, member, run_, {}, {}), "rows"), "face_up");
   };
   const Mat3 quarter = Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()).toRotationMatrix();  // y to z
   EXPECT_EQ(face(quarter, Vec3(0, 0, -1)), 4);
@@ -76,16 +76,33 @@ TEST_F(OutcomeRows, faceUpIsThatAgainstGravity) {
 }
 
 TEST_F(OutcomeRows, damagedLinesAreRefused) {
-  const std::string rows = outcomeRows(1, family_.member(1), run_, {});
-  EXPECT_EQ(OutcomeTable(family_, rows, "rows").boxes.size(), 1U);
+  const std::string rows = outcomeRows(1, family_.member(1), run_, {}, {});
+  EXPECT_EQ(OutcomeTable(family_, {}, rows, "rows").boxes.size(), 1U);
   for (std::size_t cut = 1; cut < rows.size(); ++cut) {
-    EXPECT_THROW(OutcomeTable(family_, rows.substr(0, cut), "rows"), InputError) << cut;
+    EXPECT_THROW(OutcomeTable(family_, {}, rows.substr(0, cut), "rows"), InputError) << cut;
   }
-  EXPECT_THROW(OutcomeTable(family_, "x" + rows, "rows"), InputError);
+  EXPECT_THROW(OutcomeTable(family_, {}, "x" + rows, "rows"), InputError);
+}
+
+// It is at 2 m at 0.5 s, where it is hit and turns back; without a box "other" there is no such moment.
+TEST_F(OutcomeRows, tellWhenQuestionsAreFirstTrue) {
+  run_.world.bodies[0].name = "drifter";
+  const std::vector<std::string> questions = {"x(drifter) > 1.5", "x(drifter) > 3", "rest(other)"};
+  const std::string rows = outcomeRows(12, family_.member(12), run_, {}, questions);
+  const OutcomeTable table(family_, questions, rows, "rows");
+  EXPECT_NEAR(value(table, questions[0]), 0.25, 1e-12);
+  EXPECT_TRUE(std::isnan(value(table, questions[1])));
+  EXPECT_TRUE(std::isnan(value(table, questions[2])));
+  EXPECT_TRUE(
+      outcomeHeader(family_, questions)
+          .ends_with(",rest_since,x(drifter) > 1.5,x(drifter) > 3,rest(other),run_impacts,broken,box\n"));
+  EXPECT_NO_THROW(checkQuestions(family_, {"x(drifter) > 1.5", "rest"}));
+  EXPECT_THROW(checkQuestions(family_, {"rest(other)"}), InputError);
+  EXPECT_THROW(checkQuestions(family_, {"rest", "rest"}), InputError);
 }
 
 TEST_F(OutcomeRows, headerNamesTheColumns) {
-  const std::string header = outcomeHeader(family_);
+  const std::string header = outcomeHeader(family_, {});
   EXPECT_TRUE(header.starts_with("run,attempts,gravity[2],half_x,")) << header;
   EXPECT_TRUE(header.ends_with(",run_impacts,broken,box\n")) << header;
 }

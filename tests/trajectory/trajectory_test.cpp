@@ -99,6 +99,34 @@ TEST(Trajectory, impactsThatAreToldLateComeInOrderOfTime) {
   EXPECT_EQ(impulses, (std::vector<double>{10, 30, 50, 20, 40}));  // of one moment, in the order told
 }
 
+// A ball between two walls, 1 m apart for its middle, strikes one each second; asked at each.
+TEST(Trajectory, endsWhereThereIsEnough) {
+  RunSetup setup;
+  setup.settings = {.method = Method::kExact, .duration = 100};
+  Body body;
+  body.name = "ball";
+  body.halfExtents = Vec3(0.5, 0.5, 0.5);
+  body.mass = solidBox(body.halfExtents, 1);
+  body.material.restitution = 1;
+  body.initial.velocity = Vec3(1, 0, 0);
+  setup.world.bodies = {body};
+  setup.world.walls = {{.name = "-x", .normal = Vec3::UnitX(), .offset = -1, .material = {}},
+                       {.name = "+x", .normal = -Vec3::UnitX(), .offset = -1, .material = {}}};
+  setup.stage.colors.resize(1);
+  std::vector<double> asked;
+  const Trajectory run = record(setup, {}, kMostRecords, {}, [&](const Trajectory& soFar, double time) {
+    EXPECT_EQ(soFar.tracks.size(), 1U);
+    asked.push_back(time);
+    return time > 3;
+  });
+  EXPECT_NEAR(run.settings.duration, 3.5, 1e-12);
+  EXPECT_EQ(asked.back(), run.settings.duration);
+  EXPECT_NEAR(run.impacts.back().time, 2.5, 1e-12);
+  EXPECT_NEAR(run.state(0, run.settings.duration).pose.position.x(), -0.5, 1e-12);
+  setup.settings = {.method = Method::kListing1, .duration = 1, .dt = 0.25};
+  EXPECT_EQ(record(setup, {}, kMostRecords, {}, [](const auto&...) { return true; }).settings.duration, 1);
+}
+
 TEST(Trajectory, stopsWhenAsked) {
   World world;
   Body body;

@@ -44,8 +44,8 @@ class ContactGroup : public std::enable_shared_from_this<ContactGroup> {
   virtual bool seesTo(std::size_t place, int rank) const = 0;
   /// Whether it is predicted whom its members meet in a step, but for those it sees to.
   virtual bool isPredicted() const = 0;
-  /// The run ends within its step.
-  virtual void endRun() = 0;
+  /// The run ends within its step, at that time.
+  virtual void endRun(const Instant& time) = 0;
 
  protected:
   ContactGroup() = default;

@@ -444,7 +444,7 @@ void CrowdGroup::dissolve(Encounter& encounter) {
 }
 
 // Its energy is known at the ends of its steps.
-void CrowdGroup::endRun() {
+void CrowdGroup::endRun(const Instant& /*time*/) {
   const std::vector<char> suddenly = changedSuddenly();
   for (std::size_t place = 0; place < ranks_.size(); ++place) {
     if (ranks_[place] >= 0 && bodies_[ranks_[place]].steps()) {

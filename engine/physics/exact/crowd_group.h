@@ -30,7 +30,7 @@ class CrowdGroup final : public ContactGroup {
   /// What it meets is found when it takes its step, but for what comes to rest within it.
   bool seesTo(std::size_t place, int rank) const override;
   bool isPredicted() const override { return false; }
-  void endRun() override;
+  void endRun(const Instant& time) override;
 
   const Crowd& crowd() const { return crowd_; }
   bool has(const Mover& body) const { return body.group.get() == this; }

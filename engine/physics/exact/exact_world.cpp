@@ -66,6 +66,7 @@ ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder
       articulationOf_(articulationsOf(world)) {}
 
 RunFigures ExactWorld::run(const std::stop_token& stop) {
+  Instant ended = bodies_.end();
   begin();
   while (true) {
     const std::optional<Event> event = bodies_.queue().next();
@@ -78,16 +79,20 @@ RunFigures ExactWorld::run(const std::stop_token& stop) {
     if (stop.stop_requested()) {
       throw Interrupted();
     }
-    const double time = changesFirst ? change : event->time.hi;
-    bodies_.recorder().reaches(time);
-    changeJoints(time);
+    const Instant now = changesFirst ? Instant(change) : event->time;
+    bodies_.recorder().reaches(now.hi);
+    if (bodies_.recorder().hasEnough()) {
+      ended = now;
+      break;
+    }
+    changeJoints(now.hi);
     if (changesFirst) {
-      changeGravity(Instant(time));
+      changeGravity(now);
     } else {
       happen(*event);
     }
   }
-  end();
+  end(ended);
   return bodies_.account().figures();
 }
 
@@ -231,17 +236,17 @@ void ExactWorld::moveOn(Encounter& encounter) {
   }
 }
 
-void ExactWorld::end() {
+void ExactWorld::end(const Instant& time) {
   for (int rank = 0; rank < bodies_.count(); ++rank) {
     if (bodies_[rank].flies()) {
-      bodies_.arrive(bodies_[rank], bodies_.end(), bodies_[rank].stateAt(bodies_.end()));
+      bodies_.arrive(bodies_[rank], time, bodies_[rank].stateAt(time));
     }
   }
   for (int rank = 0; rank < bodies_.count(); ++rank) {
     const Mover& body = bodies_[rank];
-    bodies_.doubtAt(rank, bodies_.end());
+    bodies_.doubtAt(rank, time);
     if (body.steps() && body.group->leader() == rank) {
-      body.group->endRun();
+      body.group->endRun(time);
     }
   }
   bodies_.account().parted();

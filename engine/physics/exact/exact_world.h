@@ -34,7 +34,7 @@ class ExactWorld {
   void changeGravity(const Instant& time);
   void meet(const Event& event);
   void moveOn(Encounter& encounter);
-  void end();
+  void end(const Instant& time);
 
   bool goesOnAsCrowd(const Encounter& encounter) const;
   bool costsTooMuch(const Encounter& encounter) const;

@@ -141,14 +141,14 @@ bool IslandGroup::seesTo(std::size_t place, int rank) const {
          island_->handlesPair(place, static_cast<std::size_t>(other - ranks_.begin()));
 }
 
-void IslandGroup::endRun() {
+void IslandGroup::endRun(const Instant& time) {
   for (const int rank : ranks_) {
     const Mover& body = bodies_[rank];
     if (!body.isHeld()) {
-      bodies_.account().departs(static_cast<std::size_t>(body.listed.value), body.stateAt(bodies_.end()));
+      bodies_.account().departs(static_cast<std::size_t>(body.listed.value), body.stateAt(time));
     }
   }
-  accountForWork([&](std::size_t place) { return bodies_[ranks_[place]].stateAt(bodies_.end()).pose; });
+  accountForWork([&](std::size_t place) { return bodies_[ranks_[place]].stateAt(time).pose; });
   accountForLosses();
 }
 

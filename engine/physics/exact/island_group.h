@@ -25,7 +25,7 @@ class IslandGroup final : public ContactGroup {
   void addFeatures(const Encounter& encounter, std::vector<ContactFeature>& features) const override;
   bool seesTo(std::size_t place, int rank) const override;
   bool isPredicted() const override { return true; }
-  void endRun() override;
+  void endRun(const Instant& time) override;
 
  private:
   struct Driven {  // a joint with an effort, in a step

@@ -57,6 +57,8 @@ class Recorder {
   /// The run has come to this time [s]: told often, and even where nothing is recorded for long. Of bodies
   /// that are followed one after another, the mean.
   virtual void reaches(double /*time*/) {}
+  /// Whether the run may end where it is; only method exact asks.
+  virtual bool hasEnough() const { return false; }
 
  protected:
   Recorder() = default;

@@ -90,6 +90,7 @@ void ProgressRecorder::strikes(const Impact& impact) {
 }
 
 void ProgressRecorder::reaches(double time) {
+  next_.reaches(time);
   if (++calls_ >= callsOfLook_) {
     look(time);
   }

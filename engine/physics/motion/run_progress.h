@@ -65,6 +65,7 @@ class ProgressRecorder : public Recorder {
   void passes(const JointImpulse& impulse) override { next_.passes(impulse); }
   void drives(const JointEffort& effort) override { next_.drives(effort); }
   void reaches(double time) override;
+  bool hasEnough() const override { return next_.hasEnough(); }
   void finish();
 
  private:

@@ -276,6 +276,35 @@ TEST(ExactWorld, tumblesToRest) {
   EXPECT_NEAR(std::get<Rest>(run.motions[0].back().second).pose.position.z(), 0.2, 1e-14);
 }
 
+class EnoughAfter : public Notes {
+ public:
+  EnoughAfter(Recorded& run, double time) : Notes(run), time_(time) {}
+  void reaches(double time) override { reached = time; }
+  bool hasEnough() const override { return reached >= time_; }
+  double reached = 0;  // [s]
+
+ private:
+  double time_;
+};
+
+// What there is then are the first events of the whole run, bit for bit, and its figures.
+TEST(ExactWorld, endsWhereItsRecorderHasEnough) {
+  const World world = elasticRoom();
+  const Recorded whole = runFor(world, 60);
+  Recorded run;
+  run.motions.resize(1);
+  EnoughAfter notes(run, 7);
+  run.figures = ExactWorld(world, {.duration = 60}, notes).run({});
+  EXPECT_GE(notes.reached, 7);
+  EXPECT_LT(notes.reached, 9);
+  ASSERT_FALSE(run.impacts.empty());
+  ASSERT_GT(whole.impacts.size(), run.impacts.size());
+  EXPECT_GE(whole.impacts[run.impacts.size()].time, notes.reached);
+  EXPECT_LT(run.impacts.back().time, notes.reached);
+  EXPECT_EQ(run.impacts.back().impulse, whole.impacts[run.impacts.size() - 1].impulse);
+  EXPECT_LE(run.figures.energyChange, whole.figures.energyChange);
+}
+
 TEST(ExactWorld, stopsWhenAsked) {
   const World world = elasticRoom();
   Recorded run;

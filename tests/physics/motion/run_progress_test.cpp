@@ -52,7 +52,10 @@ class CountedRecords : public Recorder {
  public:
   void moves(BodyIndex /*body*/, double time, const Motion& /*motion*/) override { times.push_back(time); }
   void strikes(const Impact& impact) override { times.push_back(impact.time); }
+  void reaches(double time) override { reached = time; }
+  bool hasEnough() const override { return reached > 4; }
   std::vector<double> times;
+  double reached = 0;  // [s]
 };
 
 // Two boxes that can move, and one that cannot.
@@ -79,6 +82,11 @@ TEST(ProgressRecorder, handsAllOnAndTellsWhatTheBoxesDo) {
   recorder.moves({0}, 1, ContactStep{});
   recorder.moves({0}, 2, CrowdStep{});
   recorder.moves({1}, 3, Rest{});
+  recorder.reaches(3);
+  EXPECT_EQ(kept.reached, 3);
+  EXPECT_FALSE(recorder.hasEnough());
+  recorder.reaches(4.5);
+  EXPECT_TRUE(recorder.hasEnough());
   recorder.finish();
   EXPECT_EQ(kept.times, (std::vector<double>{0, 0, 0, 1, 1, 2, 3}));
   ASSERT_EQ(told.size(), 1U);

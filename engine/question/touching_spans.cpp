@@ -1,0 +1,213 @@
+#include "question/touching_spans.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "audit/audit.h"
+#include "audit/overlap.h"
+#include "audit/promises.h"
+#include "audit/samples.h"
+#include "question/pieces.h"
+
+namespace careen {
+namespace {
+
+constexpr double kSame = 1e-12;              // [1] of the run: rounding
+constexpr double kUnseen = 1e-3;             // [1] of the gap
+constexpr double kSettledWay = 1.0 / 64;     // [1] of half the smaller diagonal
+constexpr double kSmallestRounding = 1e-15;  // [1] of the gap: what is at it touches
+
+// The two, in the part of the run that Pieces are at.
+class Pair {
+ public:
+  Pair(const Trajectory& run, std::size_t body, Partner with, double until)
+      : pieces_(run, bodiesOf(body, with), until),
+        wall_(with.isWall() ? &run.world.walls.at(with.wall()) : nullptr) {}
+
+  Pieces& pieces() { return pieces_; }
+  double gapAt(double time) const;
+  /// The second derivative is that of a corner over a wall, infinite of two boxes.
+  RateBounds bounds() const;
+  double size() const;  // [m] half the smaller diagonal
+  /// [m] The gap is not less all the time.
+  double leastGap(const RateBounds& bounds) const;
+
+ private:
+  static std::vector<std::size_t> bodiesOf(std::size_t body, Partner with) {
+    return with.isWall() ? std::vector{body} : std::vector{body, static_cast<std::size_t>(with.body())};
+  }
+  RateBounds boundsFromWall() const;
+
+  Pieces pieces_;
+  const Wall* wall_;
+};
+
+double Pair::gapAt(double time) const {
+  const auto boxOf = [&](const MovingBody& each) { return auditBox(*each.body, each.at(time).pose); };
+  return wall_ != nullptr ? separationOf(boxOf(pieces_[0]), *wall_)
+                          : separationOf(boxOf(pieces_[0]), boxOf(pieces_[1]));
+}
+
+double Pair::size() const {
+  const double own = pieces_[0].body->halfExtents.norm();
+  return wall_ != nullptr ? own : std::min(own, pieces_[1].body->halfExtents.norm());
+}
+
+// Each corner's distance has these. The least of them is so fast at most.
+RateBounds Pair::boundsFromWall() const {
+  const MovingBody& box = pieces_[0];
+  const MotionBounds bounds = box.boundsWithin(pieces_.from(), pieces_.to());
+  RateBounds gap = boundsAlong(box.segment.motion, wall_->normal, pieces_.from() - box.segment.start,
+                               pieces_.to() - box.segment.start);
+  const double radius = radiusOf(*box.body);
+  gap.rate += bounds.spin * radius;
+  gap.bend += (bounds.angularVelocity.rate + bounds.spin * bounds.spin) * radius;
+  return gap;
+}
+
+// The gap of boxes changes no faster than their points move towards each other. That of separating axes is
+// not larger, and 0 where it is.
+RateBounds Pair::bounds() const {
+  if (wall_ != nullptr) {
+    return boundsFromWall();
+  }
+  double speed = 0;
+  double turning = 0;
+  for (const std::size_t which : {0, 1}) {
+    const MovingBody& box = pieces_[which];
+    const MotionBounds bounds = box.boundsWithin(pieces_.from(), pieces_.to());
+    speed += bounds.place.rate;
+    turning += bounds.spin * radiusOf(*box.body);
+  }
+  const Flight* const a = std::get_if<Flight>(&pieces_[0].segment.motion);
+  const Flight* const b = std::get_if<Flight>(&pieces_[1].segment.motion);
+  if (a != nullptr && b != nullptr) {
+    // What both do alike brings them no nearer.
+    const auto apart = [&](double time) {
+      return (a->velocityAt(time - pieces_[0].segment.start) - b->velocityAt(time - pieces_[1].segment.start))
+          .norm();
+    };
+    speed = (1 + kSame) * std::max(apart(pieces_.from()), apart(pieces_.to()));
+  }
+  return {.rate = speed + turning, .bend = std::numeric_limits<double>::infinity()};
+}
+
+// That of balls around them, from their distance at both ends, or in the middle.
+double Pair::leastGap(const RateBounds& bounds) const {
+  const double width = pieces_.to() - pieces_.from();
+  const auto centerOf = [&](const MovingBody& each, double time) {
+    return centerAt(each.segment.motion, time - each.segment.start);
+  };
+  const MovingBody& box = pieces_[0];
+  if (wall_ != nullptr) {
+    const double nearer = std::min(wall_->normal.dot(centerOf(box, pieces_.from())),
+                                   wall_->normal.dot(centerOf(box, pieces_.to())));
+    return nearer - wall_->offset - radiusOf(*box.body) - bounds.bend * width * width / 8;
+  }
+  const double time = pieces_.from() + 0.5 * width;
+  return (centerOf(box, time) - centerOf(pieces_[1], time)).norm() - radiusOf(*box.body) -
+         radiusOf(*pieces_[1].body) - 0.5 * bounds.rate * width;
+}
+
+// [s] Of impacts of the two until then.
+std::vector<double> impactTimes(const Trajectory& run, std::size_t body, Partner with, double until) {
+  const Partner self = Partner::ofBody(static_cast<int>(body));
+  std::vector<double> times;
+  for (const Impact& impact : run.impacts) {
+    const Partner a = Partner::ofBody(impact.a.value);
+    const bool isOurs = (a == self && impact.b == with) || (a == with && impact.b == self);
+    if (isOurs && impact.time <= until && (times.empty() || times.back() < impact.time)) {
+      times.push_back(impact.time);
+    }
+  }
+  return times;
+}
+
+// A span that holds an impact begins at the first, if that ends the part of the run in which the two came
+// near; an impact outside all of them is one of its own. `ends` [s] are those of all parts.
+std::vector<TrueSpan> withImpacts(std::vector<TrueSpan> spans, const std::vector<double>& impacts,
+                                  const std::vector<double>& ends) {
+  std::vector<TrueSpan> all;
+  std::size_t next = 0;
+  for (TrueSpan span : spans) {
+    for (; next < impacts.size() && impacts[next] < span.from; ++next) {
+      all.push_back({.from = impacts[next], .to = impacts[next]});
+    }
+    const double partEnd = *std::upper_bound(ends.begin(), ends.end() - 1, span.from);
+    if (next < impacts.size() && impacts[next] <= std::min(span.to, partEnd) && span.from > 0) {
+      span.from = impacts[next];
+    }
+    while (next < impacts.size() && impacts[next] <= span.to) {
+      ++next;
+    }
+    all.push_back(span);
+  }
+  for (; next < impacts.size(); ++next) {
+    all.push_back({.from = impacts[next], .to = impacts[next]});
+  }
+  return all;
+}
+
+// [s] When one of them is first in a crowd.
+double crowdFrom(const Trajectory& run, std::size_t body, Partner with) {
+  const auto first = [&](std::size_t which) {
+    const Segments& segments = run.tracks.at(which).segments;
+    const auto found = std::find_if(segments.begin(), segments.end(), [](const Segment& segment) {
+      return std::holds_alternative<CrowdStep>(segment.motion);
+    });
+    return found == segments.end() ? std::numeric_limits<double>::infinity() : (*found).start;
+  };
+  return with.isWall() ? first(body) : std::min(first(body), first(static_cast<std::size_t>(with.body())));
+}
+
+}  // namespace
+
+TouchingGaps touchingGaps(const Trajectory& run) {
+  if (run.given) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Body& body : run.world.bodies) {
+      smallest = isImmovable(body.mass) ? smallest : std::min(smallest, body.halfExtents.norm());
+    }
+    const double gap = std::isfinite(smallest) ? AuditLimits().table * smallest : 0;
+    return {.usual = gap, .crowd = gap};
+  }
+  RunSettings settings = run.settings;
+  settings.method = Method();  // exact
+  return {.usual = promisedDepth(settings, false).value(), .crowd = promisedDepth(settings, true).value()};
+}
+
+std::vector<TrueSpan> touchingSpans(const Trajectory& run, std::size_t body, Partner with, double until) {
+  if (!with.isWall() && !mayTouch(run.world, static_cast<int>(body), with.body())) {
+    return {};
+  }
+  const TouchingGaps gaps = touchingGaps(run);
+  const double inCrowd = crowdFrom(run, body, with);
+  Pair pair(run, body, with, until);
+  TrueSpans spans;
+  std::vector<double> ends;
+  while (pair.pieces().next()) {
+    const double near = pair.pieces().from() >= inCrowd ? gaps.crowd : gaps.usual;
+    const RateBounds bounds = pair.bounds();
+    SmoothPart part{.from = pair.pieces().from(),
+                    .to = pair.pieces().to(),
+                    .bounds = {.rate = bounds.rate, .bend = std::numeric_limits<double>::infinity()}};
+    part.lift = bounds.bend;
+    part.rounding = kSmallestRounding * near;
+    part.unseen = kUnseen * near;
+    part.size = pair.size();
+    part.settled = kSettledWay * pair.size() / part.bounds.rate;
+    if (const double gap = pair.leastGap(bounds); gap > near + kSame * std::fabs(gap)) {
+      part.bounds = {};
+      spans.look(part, [&](double) { return near - gap; });
+    } else {
+      spans.look(part, [&](double time) { return near - pair.gapAt(time); });
+    }
+    ends.push_back(part.to);
+  }
+  return ends.empty()
+             ? std::vector<TrueSpan>()
+             : withImpacts(spans.finish(until, kSame * until), impactTimes(run, body, with, until), ends);
+}
+
+}  // namespace careen
