@@ -54,6 +54,9 @@ class MjcfWriter {
     if (!world_.gravityChanges.empty()) {
       file_.leftOut.emplace_back("how gravity changes");
     }
+    if (hasBelts(world_)) {
+      file_.leftOut.emplace_back("how surfaces move along themselves");
+    }
     leaveOutRestitution();
     for (const std::string& words : file_.leftOut) {
       std::string safe = words;  // no comment may hold two hyphens

@@ -13,8 +13,8 @@
 namespace careen {
 namespace {
 
-constexpr double kSame = 1e-12;              // [1] of the run: rounding
-constexpr double kUnseen = 1e-3;             // [1] of the gap
+constexpr double kSameMoment = 1e-12;        // [1] of the run: rounding
+constexpr double kUnseenGap = 1e-3;          // [1] of the gap
 constexpr double kSettledWay = 1.0 / 64;     // [1] of half the smaller diagonal
 constexpr double kSmallestRounding = 1e-15;  // [1] of the gap: what is at it touches
 
@@ -88,7 +88,7 @@ RateBounds Pair::bounds() const {
       return (a->velocityAt(time - pieces_[0].segment.start) - b->velocityAt(time - pieces_[1].segment.start))
           .norm();
     };
-    speed = (1 + kSame) * std::max(apart(pieces_.from()), apart(pieces_.to()));
+    speed = (1 + kSameMoment) * std::max(apart(pieces_.from()), apart(pieces_.to()));
   }
   return {.rate = speed + turning, .bend = std::numeric_limits<double>::infinity()};
 }
@@ -194,10 +194,10 @@ std::vector<TrueSpan> touchingSpans(const Trajectory& run, std::size_t body, Par
                     .bounds = {.rate = bounds.rate, .bend = std::numeric_limits<double>::infinity()}};
     part.lift = bounds.bend;
     part.rounding = kSmallestRounding * near;
-    part.unseen = kUnseen * near;
+    part.unseen = kUnseenGap * near;
     part.size = pair.size();
     part.settled = kSettledWay * pair.size() / part.bounds.rate;
-    if (const double gap = pair.leastGap(bounds); gap > near + kSame * std::fabs(gap)) {
+    if (const double gap = pair.leastGap(bounds); gap > near + kSameMoment * std::fabs(gap)) {
       part.bounds = {};
       spans.look(part, [&](double) { return near - gap; });
     } else {
@@ -205,9 +205,9 @@ std::vector<TrueSpan> touchingSpans(const Trajectory& run, std::size_t body, Par
     }
     ends.push_back(part.to);
   }
-  return ends.empty()
-             ? std::vector<TrueSpan>()
-             : withImpacts(spans.finish(until, kSame * until), impactTimes(run, body, with, until), ends);
+  return ends.empty() ? std::vector<TrueSpan>()
+                      : withImpacts(spans.finish(until, kSameMoment * until),
+                                    impactTimes(run, body, with, until), ends);
 }
 
 }  // namespace careen

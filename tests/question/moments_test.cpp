@@ -8,14 +8,15 @@
 
 #include "audit/overlap.h"
 #include "question/touching_spans.h"
+#include "support/asked_runs.h"
 #include "support/exact_runs.h"
 
 namespace careen {
 namespace {
 
-constexpr double kG = 9.81;  // [m/s²]
+using test::kG;
+using test::runOf;
 
-Trajectory runOf(const World& world, double duration) { return record(world, {.duration = duration}, ""); }
 std::vector<Moment> momentsIn(const Trajectory& run, const std::string& question) {
   return moments(run, readQuestion(question, run.world));
 }

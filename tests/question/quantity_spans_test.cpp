@@ -4,13 +4,15 @@
 
 #include <cmath>
 
+#include "support/asked_runs.h"
 #include "support/exact_runs.h"
 #include "support/trajectories.h"
 
 namespace careen {
 namespace {
 
-constexpr double kG = 9.81;  // [m/s²]
+using test::kG;
+using test::runOf;
 
 World falling(const Body& body) {
   World world;
@@ -27,7 +29,6 @@ World weightless(std::vector<Body> bodies) {
 std::vector<TrueSpan> spansIn(const Trajectory& run, const std::string& question) {
   return quantitySpans(run, readQuestion(question, run.world), run.settings.duration);
 }
-Trajectory runOf(const World& world, double duration) { return record(world, {.duration = duration}, ""); }
 
 void expectSpan(const std::vector<TrueSpan>& spans, double from, double to, double within = 1e-12) {
   ASSERT_EQ(spans.size(), 1U);

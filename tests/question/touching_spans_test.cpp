@@ -5,19 +5,19 @@
 #include <cmath>
 #include <set>
 
+#include "support/asked_runs.h"
 #include "support/exact_runs.h"
 #include "support/trajectories.h"
 
 namespace careen {
 namespace {
 
-constexpr double kG = 9.81;         // [m/s²]
+using test::kG;
+using test::runOf;
+
 constexpr double kNear = 4.001e-6;  // [m] 4 tolerances of 1e-6 and 1e-9
 const Partner kFloor = Partner::ofWall(0);
 
-Trajectory runOf(const World& world, double duration, CrowdSettings crowds = {}) {
-  return record(world, {.duration = duration, .crowds = crowds}, "");
-}
 std::vector<TrueSpan> spansIn(const Trajectory& run, std::size_t body, Partner with) {
   return touchingSpans(run, body, with, run.settings.duration);
 }

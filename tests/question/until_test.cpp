@@ -8,6 +8,7 @@
 #include "audit/audit.h"
 #include "physics/world/method.h"
 #include "question/moments.h"
+#include "support/asked_runs.h"
 #include "support/exact_runs.h"
 #include "support/input_error.h"
 #include "trajectory/trajectory_file.h"
@@ -15,7 +16,7 @@
 namespace careen {
 namespace {
 
-constexpr double kG = 9.81;  // [m/s²]
+using test::kG;
 
 RunSetup setupFor(const World& world, double duration, Method method = Method::kExact,
                   CrowdSettings crowds = {}) {
