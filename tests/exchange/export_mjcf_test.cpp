@@ -116,6 +116,12 @@ TEST(ExportMjcf, oneFrictionNeedsNoPairsAndUnequalDragIsTold) {
   changing.replace(changing.find("[0, 0, -9.81]"), 13, R"({ "path": [[0, 0, 0, -9.81], [1, 0, 0, 0]] })");
   EXPECT_EQ(encodeMjcf(setupOfText(changing), "test").leftOut,
             std::vector<std::string>{"how gravity changes"});
+  std::string belt = scene + "0.5 } }";
+  belt.insert(belt.find(R"("boxes")"),
+              R"("walls": [ { "point": [0, 0, -3], "normal": [0, 0, 1], "friction": 0.5,
+    "surface_velocity": [1, 0, 0] } ], )");
+  EXPECT_EQ(encodeMjcf(setupOfText(belt), "test").leftOut,
+            std::vector<std::string>{"how surfaces move along themselves"});
   const InMujoco found(equal.text);
   EXPECT_EQ(found.model->npair, 0);
   EXPECT_EQ(found.model->ngeom, 7);

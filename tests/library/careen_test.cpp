@@ -112,6 +112,7 @@ TEST_F(Library, givesTheStatesImpactsAndHashesOfTheProgram) {
                                          e.jointSprings,
                                          e.total,
                                          e.motors,
+                                         e.changes,
                                          e.impacts,
                                          e.jointFriction,
                                          e.damping,

@@ -1,4 +1,5 @@
 #include "study/truth_case.h"
+#include "support/belt_oracles.h"
 #include "support/contact_oracles.h"
 #include "support/pivot_oracles.h"
 #include "support/sliding_spin.h"
@@ -68,6 +69,30 @@ Boxes passesOn(const QuadScene& scene, Moments times) { return oracle::rowStruck
 
 Boxes tipsOver(const QuadScene& scene, Moments times) {
   return {oracle::overEdge(scene.boxes.at(0), scene.boxes.at(1), scene.gravity).poses(times)};
+}
+
+Boxes rides(const QuadScene& scene, Moments times) {
+  Boxes boxes;
+  for (const QuadBox& box : scene.boxes) {
+    boxes.push_back(oracle::onBelt(box, scene.gravity, scene.walls.at(0), times));
+  }
+  return boxes;
+}
+
+Boxes goesRound(const QuadScene& scene, Moments times) {
+  Boxes boxes;
+  for (const QuadBox& box : scene.boxes) {
+    boxes.push_back(oracle::onTurntable(box, scene.gravity, scene.walls.at(0), times));
+  }
+  return boxes;
+}
+
+Boxes isBraked(const QuadScene& scene, Moments times) {
+  Boxes boxes;
+  for (const QuadBox& box : scene.boxes) {
+    boxes.push_back(oracle::braked(box, scene, times));
+  }
+  return boxes;
 }
 
 }  // namespace
@@ -163,6 +188,26 @@ std::vector<TruthCase> contactCases() {
                   "contact is an edge within a face, away from every corner.",
        .source = "quadruple precision: Taylor series of an inverted pendulum about the edge",
        .oracle = tipsOver},
+      {.name = "belt",
+       .title = "Put on a belt, and thrown onto it",
+       .whyHard = "Friction aims at the speed of the belt, in whatever direction a box comes; where the box "
+                  "has that speed friction ends, and nothing may be left of the slip.",
+       .source = "closed form: v²/(2 μ g) in the frame of the belt, then at rest in it",
+       .oracle = rides},
+      {.name = "turntable",
+       .title = "Carried round by a turntable",
+       .whyHard =
+           "Friction alone carries the boxes round, up to 0.99 of what it can: every step that is taken "
+           "along the tangent leads outwards.",
+       .source = "closed form: a circle, as ω² r < μ g",
+       .oracle = goesRound},
+      {.name = "braked",
+       .title = "Loads of a vehicle that brakes",
+       .whyHard =
+           "Gravity changes between two moments, as in a vehicle that brakes with 0.8 g for 0.3 s: what "
+           "rests feels it at that moment, and some of it by a hundredth not enough.",
+       .source = "closed form: (a - μ g) while it brakes, μ g until it stops",
+       .oracle = isBraked},
       {.name = "pile",
        .title = "Poured into a pit",
        .whyHard = "128 boxes of 0.4 to 0.6 m are poured into a pit of 4.4 by 4.4 metres: their final "

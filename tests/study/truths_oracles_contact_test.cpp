@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "study/truths.h"
+#include "support/belt_oracles.h"
 #include "support/collocated_spin.h"
 #include "support/contact_oracles.h"
 #include "support/pivot_oracles.h"
@@ -344,6 +345,30 @@ TEST(TruthsOfContact, ofTheRowAgreeWithPairwiseImpacts) {
   }
   EXPECT_EQ(poses[0][0].position[0], Quad(-1.5));
   EXPECT_EQ(poses[0][2].position[0], Quad(-1));
+}
+
+// By hand, with g = 9.81: from rest on a belt of 1.5 m/s and μ = .3 a box is 1.5² / (2 μ g) = .3823 m behind
+// it after all; a load of that friction gains .5 g for .3 s, .2207 m, and slides 1.4715² / (2 μ g) = .3679 m
+// further.
+TEST(TruthsOfContact, ofBeltsAndBrakesAreThoseWorkedOutByHand) {
+  const QuadScene belt = sceneOf("belt");
+  const std::vector<double> end{belt.duration};
+  const oracle::QuadPose rides = oracle::onBelt(belt.boxes.at(0), belt.gravity, belt.walls.at(0), end).back();
+  EXPECT_NEAR(static_cast<double>(rides.position[0]), 4.5 - 0.38226, 1e-5);
+  const QuadScene brake = sceneOf("braked");
+  const auto wayOf = [&](std::size_t box) {
+    return static_cast<double>(
+        oracle::braked(brake.boxes.at(box), brake, std::vector<double>{2.0}).back().position[0]);
+  };
+  EXPECT_NEAR(wayOf(0), 0.22073 + 0.36788, 1e-5);
+  EXPECT_GT(wayOf(2), 1e-4);
+  EXPECT_EQ(wayOf(3), 0);
+  const QuadScene table = sceneOf("turntable");
+  for (const QuadBox& box : table.boxes) {  // once round after π s
+    const std::vector<double> round{static_cast<double>(kQuadPi)};
+    const oracle::QuadPose back = oracle::onTurntable(box, table.gravity, table.walls.at(0), round).back();
+    EXPECT_LT(static_cast<double>((back.position - box.position).norm()), 1e-15);
+  }
 }
 
 }  // namespace

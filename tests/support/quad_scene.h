@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/math/linear_algebra.h"
@@ -78,6 +79,8 @@ struct QuadWall {
   Quad offset = 0;
   Quad restitution = 0;
   Quad friction = 0;
+  QuadVector belt = QuadVector::Zero();  // [m/s] of its surface
+  Quad spin = 0;                         // [rad/s] of its surface about the normal through the origin
 };
 
 struct QuadBox {
@@ -110,6 +113,7 @@ struct QuadJoint {
 struct QuadScene {
   double duration = 0;
   QuadVector gravity;
+  std::vector<std::pair<Quad, QuadVector>> gravities;  // from each time [s] on; if it changes
   std::vector<QuadWall> walls;
   std::vector<QuadBox> boxes;
   std::vector<QuadJoint> joints;

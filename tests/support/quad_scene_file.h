@@ -101,7 +101,15 @@ inline QuadScene sceneIn(const std::filesystem::path& path) {
   const nlohmann::json file = jsonIn(path);
   QuadScene scene;
   scene.duration = file.at("duration").get<double>();
-  scene.gravity = vectorIn(file, "gravity");
+  if (file.contains("/gravity/path"_json_pointer)) {
+    for (const nlohmann::json& each : file["gravity"]["path"]) {
+      const nlohmann::json vector = {{"g", {each.at(1), each.at(2), each.at(3)}}};
+      scene.gravities.emplace_back(Quad(each.at(0).get<double>()), vectorIn(vector, "g"));
+    }
+    scene.gravity = scene.gravities.front().second;
+  } else {
+    scene.gravity = vectorIn(file, "gravity");
+  }
   if (file.contains("room")) {
     const nlohmann::json& room = file["room"];
     const nlohmann::json open = room.value("open", nlohmann::json::array());
@@ -129,6 +137,8 @@ inline QuadScene sceneIn(const std::filesystem::path& path) {
     wall.offset = wall.normal.dot(vectorIn(each, "point"));
     wall.restitution = each.value("restitution", 0.0);
     wall.friction = each.value("friction", 0.0);
+    wall.belt = vectorIn(each, "surface_velocity");
+    wall.spin = each.value("surface_spin", 0.0);
     scene.walls.push_back(wall);
   }
   for (const nlohmann::json& each : file.at("boxes")) {
