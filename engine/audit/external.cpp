@@ -280,9 +280,11 @@ void ExternalOf::addImpacts(double time, External& external) {
                                 ? world.walls[impact.b.wall()].material
                                 : world.bodies[static_cast<std::size_t>(impact.b.body())].material;
     const Material pair = touching(world.bodies[a].material, other);
-    const bool isWithWall = impact.b.isWall();
-    if (isWithWall || isImmovable(world.bodies[static_cast<std::size_t>(impact.b.body())].mass)) {
-      addBelt(other.surface, isWithWall, external);
+    if (isImmovable(world.bodies[a].mass)) {
+      addBelt(world.bodies[a].material.surface, false, external);
+    }
+    if (impact.b.isWall() || isImmovable(world.bodies[static_cast<std::size_t>(impact.b.body())].mass)) {
+      addBelt(other.surface, impact.b.isWall(), external);
     }
     external.losesInImpacts = external.losesInImpacts || pair.restitution < 1 || pair.friction > 0;
     const bool isA = group_.holds(a);
