@@ -66,6 +66,17 @@ auto translated(const std::string& name, Work&& work) {
   }
 }
 
+// Of a box or a wall, if it moves.
+template <class Part>
+void addSurface(const Part& part, Json& json) {
+  if (part.surfaceVelocity != Vector{}) {
+    json["surface_velocity"] = part.surfaceVelocity;
+  }
+  if (part.surfaceSpin != 0) {
+    json["surface_spin"] = part.surfaceSpin;
+  }
+}
+
 }  // namespace
 
 const char* version() { return "careen " CAREEN_VERSION; }
@@ -80,10 +91,26 @@ Scene Scene::read(const std::filesystem::path& path) {
 
 Scene Scene::parse(std::string text, std::string name) { return {std::move(name), std::move(text)}; }
 
-Scene& Scene::add(const Box& box) {
+void Scene::requireBuilt() const {
   if (!built_) {
     throw Error(name_ + ": found a scene of a file, expected one that was begun in code");
   }
+}
+
+Scene& Scene::gravity(const std::vector<std::pair<double, Vector>>& path) {
+  requireBuilt();
+  Json points = Json::array();
+  for (const auto& [time, gravity] : path) {
+    points.push_back({time, gravity[0], gravity[1], gravity[2]});
+  }
+  Json json = Json::parse(text_);
+  json["gravity"] = {{"path", points}};
+  text_ = json.dump();
+  return *this;
+}
+
+Scene& Scene::add(const Box& box) {
+  requireBuilt();
   Json json = {{"half_extents", box.halfExtents},
                {"mass", box.mass},
                {"position", box.position},
@@ -99,6 +126,7 @@ Scene& Scene::add(const Box& box) {
   if (box.center != Vector{}) {
     json["center"] = box.center;
   }
+  addSurface(box, json);
   if (!box.name.empty()) {
     json["name"] = box.name;
   }
@@ -107,13 +135,12 @@ Scene& Scene::add(const Box& box) {
 }
 
 Scene& Scene::add(const Wall& wall) {
-  if (!built_) {
-    throw Error(name_ + ": found a scene of a file, expected one that was begun in code");
-  }
+  requireBuilt();
   Json json = {{"point", wall.point},
                {"normal", wall.normal},
                {"restitution", wall.restitution},
                {"friction", wall.friction}};
+  addSurface(wall, json);
   if (!wall.name.empty()) {
     json["name"] = wall.name;
   }

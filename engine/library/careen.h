@@ -70,15 +70,19 @@ struct Box {
   std::optional<Tensor> inertia = std::nullopt;
   /// [m] Centre of mass, from the middle along the box's axes; inside the box. Not of a fixed box.
   Vector center = {0, 0, 0};
+  Vector surfaceVelocity = {0, 0, 0};  ///< [m/s] belts: how the faces of a fixed box move along themselves
+  double surfaceSpin = 0;              ///< [rad/s] turntables: likewise, about its z axis
 };
 
 /// A plane that keeps boxes on the side that its normal points to.
 struct Wall {
-  std::string name;           ///< empty: wall-0, wall-1 …
-  Vector point = {0, 0, 0};   ///< [m]
-  Vector normal = {0, 0, 1};  ///< of any length but 0
-  double restitution = 0;     ///< [1]
-  double friction = 0;        ///< [1]
+  std::string name;                    ///< empty: wall-0, wall-1 …
+  Vector point = {0, 0, 0};            ///< [m]
+  Vector normal = {0, 0, 1};           ///< of any length but 0
+  double restitution = 0;              ///< [1]
+  double friction = 0;                 ///< [1]
+  Vector surfaceVelocity = {0, 0, 0};  ///< [m/s] a belt: how it moves along itself
+  double surfaceSpin = 0;              ///< [rad/s] a turntable: about its normal, through its point
 };
 
 struct State {
@@ -114,6 +118,8 @@ class Scene {
   /// Error if the scene was not begun in code.
   Scene& add(const Box& box);
   Scene& add(const Wall& wall);
+  /// What gravity [m/s²] is from each time [s] on; times ascend, the first is 0.
+  Scene& gravity(const std::vector<std::pair<double, Vector>>& path);
   /// Method ("exact", "listing1" …) and tolerance [m] in place of those of the scene.
   Scene& method(const std::string& name);
   Scene& tolerance(double metres);
@@ -130,6 +136,7 @@ class Scene {
 
  private:
   friend class Run;
+  void requireBuilt() const;
   Scene(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {}
 
   std::string name_;

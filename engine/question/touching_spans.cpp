@@ -126,7 +126,7 @@ std::vector<double> impactTimes(const Trajectory& run, std::size_t body, Partner
 
 // A span that holds an impact begins at the first, if that ends the part of the run in which the two came
 // near; an impact outside all of them is one of its own. `ends` [s] are those of all parts.
-std::vector<TrueSpan> withImpacts(std::vector<TrueSpan> spans, const std::vector<double>& impacts,
+std::vector<TrueSpan> withImpacts(const std::vector<TrueSpan>& spans, const std::vector<double>& impacts,
                                   const std::vector<double>& ends) {
   std::vector<TrueSpan> all;
   std::size_t next = 0;

@@ -17,13 +17,14 @@ void TrueSpans::look(const SmoothPart& part, const Value& value) {
   part_ = &part;
   value_ = &value;
   const double change = part.size > 0 ? part.bounds.rate * (part.to - part.from) / part.size : 0;
-  const double pieces = change > 1 ? std::ceil(std::min(change, kMostPieces)) : 1;
+  const int pieces = change > 1 ? static_cast<int>(std::ceil(std::min(change, kMostPieces))) : 1;
   Look last{.time = part.from, .value = at(part.from)};
   lastTime_ = part.from;  // so that a jump is there
   note(last);
-  for (double piece = 1; piece <= pieces; ++piece) {
+  for (int piece = 1; piece <= pieces; ++piece) {
     looks_ = 0;
-    const double time = piece < pieces ? part.from + piece / pieces * (part.to - part.from) : part.to;
+    const double time =
+        piece < pieces ? part.from + (static_cast<double>(piece) / pieces) * (part.to - part.from) : part.to;
     const Look next{.time = time, .value = at(time)};
     divide(last, next);
     note(next);

@@ -122,14 +122,18 @@ void LossesOfRun::strike(double time) {
 }
 
 EnergyLosses LossesOfRun::until(double time) {
-  for (;;) {
-    const double impact = nextImpact_ < run_.impacts.size() ? run_.impacts[nextImpact_].time : Joint::kFree;
-    const double passed =
-        nextPassed_ < run_.jointImpulses.size() ? run_.jointImpulses[nextPassed_].time : Joint::kFree;
-    if (!(std::min(impact, passed) <= time)) {
+  while (true) {
+    double next = Joint::kFree;  // [s]
+    if (nextImpact_ < run_.impacts.size()) {
+      next = run_.impacts[nextImpact_].time;
+    }
+    if (nextPassed_ < run_.jointImpulses.size()) {
+      next = std::min(next, run_.jointImpulses[nextPassed_].time);
+    }
+    if (!(next <= time)) {
       break;
     }
-    strike(std::min(impact, passed));
+    strike(next);
   }
   for (Taker& taker : takers_) {
     follow(taker, time);

@@ -184,6 +184,31 @@ TEST_F(Library, simulatesASceneThatWasBuiltInCode) {
 
 // Euler's equations with a torque-free top: L = I ω keeps its direction, and the middle of the box circles
 // the centre of mass, which flies straight.
+// On a belt of 2 m/s, with friction of .5 g, a box is .4 m behind it when it has its speed; then gravity is
+// off, and it goes on with that.
+TEST_F(Library, surfacesMoveAndGravityChanges) {
+  Scene scene(2.0);
+  scene.gravity({{0, {0, 0, -10}}, {1, {0, 0, 0}}});
+  scene.add(Wall{.name = "belt", .friction = 0.5, .surfaceVelocity = {2, 0, 0}});
+  scene.add(Box{.name = "parcel", .halfExtents = {0.1, 0.1, 0.1}, .position = {0, 0, 0.1}, .friction = 0.5});
+  const v1::Run run = simulate(scene);
+  EXPECT_NEAR(run.state("parcel", 2).position[0], 4 - 0.4, 1e-9);
+  EXPECT_NEAR(run.state("parcel", 2).position[2], 0.1, 1e-9);
+  EXPECT_NE(scene.text().find("surface_velocity"), std::string::npos);
+  Scene turning(1.0, {0, 0, -10});
+  turning.add(
+      Box{.name = "table", .halfExtents = {1, 1, 0.1}, .friction = 1, .fixed = true, .surfaceSpin = 3});
+  turning.add(Box{.name = "rides",
+                  .halfExtents = {0.1, 0.1, 0.1},
+                  .position = {0, 0, 0.2},
+                  .angularVelocity = {0, 0, 3},
+                  .friction = 1});
+  EXPECT_NEAR(simulate(turning).state("rides", 1).angularVelocity[2], 3, 1e-9);
+  EXPECT_THROW(Scene::parse("{}").gravity({{0, {0, 0, 0}}}), Error);
+  EXPECT_THROW(static_cast<void>(simulate(Scene(1.0).gravity({{1, {0, 0, 0}}}).add(Box{.name = "box"}))),
+               SceneError);
+}
+
 TEST_F(Library, boxesHaveTheInertiaAndTheCentreThatAreGiven) {
   const Vector center = {0.1, -0.05, 0.02};
   const Vector spin = {1, 2, 3};

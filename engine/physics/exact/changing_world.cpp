@@ -27,7 +27,10 @@ ChangingWorld::ChangingWorld(const World& world)
 }
 
 double ChangingWorld::nextGravity() const {
-  return gravities_ < world_.gravityChanges.size() ? world_.gravityChanges[gravities_].time : kNever;
+  if (gravities_ == world_.gravityChanges.size()) {
+    return kNever;
+  }
+  return world_.gravityChanges[gravities_].time;
 }
 
 void ChangingWorld::changeGravity() { world_.gravity = world_.gravityChanges[gravities_++].gravity; }
