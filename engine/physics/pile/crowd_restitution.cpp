@@ -150,7 +150,8 @@ void CrowdRestitution::rub() {
     }
   }
   const auto solve = [&](ReachedPoint& point) {
-    return std::max(solveAt(point), point.friction > 0 ? rubAt(point) : 0.0);
+    const double rubbed = point.friction > 0 ? rubAt(point) : 0.0;  // first: arguments have no order
+    return std::max(solveAt(point), rubbed);
   };
   reached_.sweep(acting, kProjectionSweeps, kRounded * slow_, solve, [] {});
   for (const int p : acting) {
