@@ -196,6 +196,9 @@ PointVelocities pointVelocities(const Impact& impact, const std::vector<StruckBo
   if (!impact.b.isWall()) {
     add(impact.b.body(), -1);
   }
+  const Vec3 surface = pairOf(impact, world).surface.along(impact.normal, impact.point);
+  velocities.before -= surface;
+  velocities.after -= surface;
   return velocities;
 }
 

@@ -47,7 +47,8 @@ struct ImpactMoment {
 /// `index`: of an impact, from 0. InputError if there are not so many.
 ImpactMoment impactMoment(const Trajectory& run, int index);
 
-/// [m/s] Of the point of the body that the normal points to, relative to the other's.
+/// [m/s] Of the point of the body that the normal points to, relative to the other's, or to its surface if
+/// that moves along itself.
 struct PointVelocities {
   Vec3 before = Vec3::Zero();
   Vec3 after = Vec3::Zero();

@@ -93,6 +93,19 @@ TEST(ImpactMoment, ofAFaceWithFriction) {
 
 // 1 kg at 3 m/s and 3 kg at −1 m/s, elastic: in their middle's frame both turn back, their relative velocity,
 // too.
+// A cube falls .45 m, 3 m/s, on a belt of 2 m/s, with friction .5: it slips at 2 m/s before, and at 2 − .5 ·
+// 3 after.
+TEST(ImpactMoment, onABeltIsRelativeToItsSurface) {
+  World world = overFloor(0, 0.5);
+  world.walls[0].material.surface.velocity = Vec3(2, 0, 0);
+  world.bodies = {dieAt("die", Vec3(0, 0, 0.95), Vec3::Zero(), 0.5)};
+  const Trajectory run = record(world, {.duration = 0.4}, "");
+  ASSERT_FALSE(run.impacts.empty());
+  const PointVelocities at = pointVelocities(run.impacts[0], impactMoment(run, 0).bodies, world);
+  EXPECT_LT((at.before - Vec3(-2, 0, -3)).norm(), 1e-12);
+  EXPECT_NEAR(at.after.x(), -0.5, 1e-12);
+}
+
 TEST(ImpactMoment, ofTwoBoxes) {
   World world;
   world.bodies = {box("light", Vec3::Constant(0.5), 1, Vec3(-2, 0, 0), Vec3(3, 0, 0)),
