@@ -158,7 +158,7 @@ double placeRounding(const Body& body, const Vec3& position) {
 
 std::vector<double> fallingSpeeds(const World& world) {
   std::vector<double> speeds = accelerationsAtStart(world);
-  const double gravity = mostGravity(world);
+  const double gravity = world.gravityChanges.empty() ? 0 : mostGravity(world);
   for (std::size_t i = 0; i < speeds.size(); ++i) {
     const double acceleration = isImmovable(world.bodies[i].mass) ? speeds[i] : std::max(speeds[i], gravity);
     speeds[i] = std::sqrt(2 * acceleration * world.bodies[i].halfExtents.norm());

@@ -354,10 +354,11 @@ bool hasCorner(std::span<const ContactFeature> features, const ContactFeature& c
 
 namespace {
 
-// Of a surface that moves along itself: where the contact is on it, it is told by a's point.
-void addSurface(const SurfaceMotion& surface, const Kinematics& a, ContactState& state) {
+// Of a surface that moves along itself. What is on it tells where on it the contact is; the other is held.
+void addSurface(const SurfaceMotion& surface, const Kinematics& a, const Kinematics& b, ContactState& state) {
   const Vec3 point = a.pose.position + state.armA;
-  const Vec3 velocity = a.velocity + a.angularVelocity.cross(state.armA);
+  const Vec3 velocity =
+      (a.velocity + a.angularVelocity.cross(state.armA)) + (b.velocity + b.angularVelocity.cross(state.armB));
   const Vec3 all = surface.velocity + surface.spin.cross(point);
   state.surface = surface.along(state.normal, point);
   state.slip -= state.surface;
@@ -377,7 +378,7 @@ ContactState contactState(const ContactFeature& feature, const Kinematics& a, To
                                     {b.pose, boxB.halfExtents, boxB.center});
   }
   if (feature.material.surface.moves()) {
-    addSurface(feature.material.surface, a, state);
+    addSurface(feature.material.surface, a, b, state);
   }
   return state;
 }
