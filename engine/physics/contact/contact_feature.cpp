@@ -354,11 +354,10 @@ bool hasCorner(std::span<const ContactFeature> features, const ContactFeature& c
 
 namespace {
 
-// Of a surface that moves along itself. What is on it tells where on it the contact is; the other is held.
-void addSurface(const SurfaceMotion& surface, const Kinematics& a, const Kinematics& b, ContactState& state) {
+// Of a surface that moves along itself. The contact is where a's point is, whichever of the two is held.
+void addSurface(const SurfaceMotion& surface, const Kinematics& a, ContactState& state) {
   const Vec3 point = a.pose.position + state.armA;
-  const Vec3 velocity =
-      (a.velocity + a.angularVelocity.cross(state.armA)) + (b.velocity + b.angularVelocity.cross(state.armB));
+  const Vec3 velocity = a.velocity + a.angularVelocity.cross(state.armA);
   const Vec3 all = surface.velocity + surface.spin.cross(point);
   state.surface = surface.along(state.normal, point);
   state.slip -= state.surface;
@@ -378,7 +377,7 @@ ContactState contactState(const ContactFeature& feature, const Kinematics& a, To
                                     {b.pose, boxB.halfExtents, boxB.center});
   }
   if (feature.material.surface.moves()) {
-    addSurface(feature.material.surface, a, b, state);
+    addSurface(feature.material.surface, a, state);
   }
   return state;
 }
