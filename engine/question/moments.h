@@ -18,9 +18,9 @@ struct Moment {
 /// All moments from 0 to `until`, in order of time; 0 among them if it is true from the start.
 ///
 /// - kTouches: when one begins to touch the other (touching_spans.h); with anything, for each other one.
-/// - kLeaves: when it ends to: the gap rises above that in touching_spans.h. A box that bounces leaves so
-/// much
-///   later than its impact as it takes to rise so far.
+/// - kLeaves: when it ends to: the gap rises above that in touching_spans.h, after a bounce as much later
+/// than
+///   the impact as it takes to rise so far.
 /// - kBelow, kAbove: quantity_spans.h.
 /// - kRests: when the box comes to rest, the last of all boxes that can move. One that is struck may come to
 ///   rest again. Fixed boxes always rest. Study methods and tables of poses know no rest.
