@@ -15,14 +15,14 @@ using namespace test;
 
 // Three cubes of 1 m and 1000 kg on the floor, beside each other; none pushes yet.
 struct ThreeOnTheFloor {
-  ThreeOnTheFloor() : stages(world()), reached(stages.members, stages.contacts) {
+  ThreeOnTheFloor() : world(made()), stages(world), reached(stages.members, stages.contacts) {
     stages.members.begin();
     stages.meet(kCrowdStep);
     stages.impulses.find();
     moveMembers(stages.members, stages.loads, stages.impulses);
     reached.begin();
   }
-  static World world() {
+  static World made() {
     World world = floorWorld({});
     world.gravity = Vec3::Zero();
     for (int k = 0; k < 3; ++k) {
@@ -41,6 +41,7 @@ struct ThreeOnTheFloor {
     return -1;
   }
 
+  World world;
   CrowdStages stages;  // the floor has the first place
   ReachedContacts reached;
 };
