@@ -37,7 +37,6 @@ ExternalOf::ExternalOf(const Trajectory& run, const ExchangeGroup& group, Vec3 o
       states_[fixed] = {.pose = run.world.bodies[fixed].initial.pose};
     }
   }
-  hasBelts_ = hasBelts(run.world);
   integrates_ = run.world.drag.has_value() ||
                 std::any_of(group.springs.begin(), group.springs.end(), [&](std::size_t spring) {
                   return !isMovable(run.world, run.world.springs[spring].from.body) ||
@@ -146,23 +145,20 @@ void ExternalOf::addTouches(std::size_t member, std::size_t segment, External& e
   }
   external.liesOnImmovable = external.liesOnImmovable || !touches.immovables.empty();
   for (const std::size_t fixed : touches.immovables) {
-    addBelt(run_.world.bodies[fixed].material.surface, false, external);
+    addBelt(run_.world.bodies[fixed].material.surface, Of::kBox, external);
   }
   for (const std::size_t wall : touches.walls) {
-    addBelt(run_.world.walls[wall].material.surface, true, external);
+    addBelt(run_.world.walls[wall].material.surface, Of::kWall, external);
     addWall(wall, touching(run_.world.bodies[body].material, run_.world.walls[wall].material).friction,
             external);
   }
 }
 
 // Or what does not move, beside it.
-void ExternalOf::addBelt(const SurfaceMotion& surface, bool isWall, External& external) const {
-  if (!hasBelts_) {
-    return;
-  }
+void ExternalOf::addBelt(const SurfaceMotion& surface, Of of, External& external) {
   const Vec3 before = external.belt.value_or(surface.velocity);
   external.hasUnknownBelts = external.hasUnknownBelts || !surface.spin.isZero(0) ||
-                             before != surface.velocity || (!isWall && surface.moves());
+                             before != surface.velocity || (of == Of::kBox && surface.moves());
   external.belt = surface.velocity;
 }
 
@@ -281,10 +277,10 @@ void ExternalOf::addImpacts(double time, External& external) {
                                 : world.bodies[static_cast<std::size_t>(impact.b.body())].material;
     const Material pair = touching(world.bodies[a].material, other);
     if (isImmovable(world.bodies[a].mass)) {
-      addBelt(world.bodies[a].material.surface, false, external);
+      addBelt(world.bodies[a].material.surface, Of::kBox, external);
     }
     if (impact.b.isWall() || isImmovable(world.bodies[static_cast<std::size_t>(impact.b.body())].mass)) {
-      addBelt(other.surface, impact.b.isWall(), external);
+      addBelt(other.surface, impact.b.isWall() ? Of::kWall : Of::kBox, external);
     }
     external.losesInImpacts = external.losesInImpacts || pair.restitution < 1 || pair.friction > 0;
     const bool isA = group_.holds(a);

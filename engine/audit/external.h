@@ -24,8 +24,8 @@ struct External {
   bool isHeld = false;          ///< by a joint to the world or an immovable body
   bool isStruck = false;        ///< by walls or immovable bodies
   bool losesInImpacts = false;  ///< of restitution or friction
-  /// [m/s] Of walls whose surfaces move along themselves: of all that it touched, if that is one. And whether
-  /// there are several, or what turns, or boxes: then it is not known what they did.
+  /// [m/s] Of the surfaces that it touched, if all move alike: 0 if they are still. And whether they do not,
+  /// or turn, or are those of boxes that move: then it is not known what they did.
   std::optional<Vec3> belt;
   bool hasUnknownBelts = false;
 };
@@ -45,7 +45,8 @@ class ExternalOf {
   void addLoads(std::size_t body, const Segment& segment, double from, double to, External& external);
   void addTouches(std::size_t member, std::size_t segment, External& external);
   void addImpacts(double time, External& external);
-  void addBelt(const SurfaceMotion& surface, bool isWall, External& external) const;
+  enum class Of { kWall, kBox };
+  static void addBelt(const SurfaceMotion& surface, Of of, External& external);
   void addWall(std::size_t wall, double friction, External& external) const;
 
   /// What a body touches while it does not fly.
@@ -77,7 +78,6 @@ class ExternalOf {
   std::vector<std::size_t> immovables_;  // bodies
   std::vector<BodyState> states_;        // of all bodies, for springs: only those at its ends are up to date
   bool integrates_ = false;              // springs or drag need quadrature
-  bool hasBelts_ = false;
 };
 
 }  // namespace careen

@@ -181,6 +181,9 @@ void Books::changeGravity(std::size_t moment) {
 
 // [J] From now on it has so much more, and would have had.
 void Books::give(double energy) {
+  if (energy == 0) {
+    return;
+  }
   due_.energy += energy;
   fall_.shift(-energy);
 }
@@ -302,9 +305,10 @@ void Books::check() {
 // A wall whose surface moves does the work of its friction, which is all that acted along it from outside but
 // is known; others may have done any.
 void Books::addWorkOfBelts(const Holdings& now, const External& external) {
-  if (external.hasUnknownBelts || (external.belt && !external.belt->isZero(0) && external.isHeld)) {
+  const bool isMoved = external.belt && !external.belt->isZero(0);
+  if (external.hasUnknownBelts || (isMoved && external.isHeld)) {
     due_.energy = std::max(due_.energy, now.energy);
-  } else if (external.belt) {
+  } else if (isMoved) {
     give(external.belt->dot(now.momentum - momentumBefore_ - external.impulse));
   }
   momentumBefore_ = now.momentum;
@@ -312,7 +316,9 @@ void Books::addWorkOfBelts(const Holdings& now, const External& external) {
 
 // What a crowd's member touches acts on it over some steps, before and after: velocities are means.
 void Books::spreadBelts(std::vector<External>& externals) const {
-  if (!hasBelts(run_.world)) {
+  if (std::none_of(externals.begin(), externals.end(), [](const External& each) {
+        return each.hasUnknownBelts || (each.belt && !each.belt->isZero(0));
+      })) {
     return;
   }
   const std::vector<External> known = externals;

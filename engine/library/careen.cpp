@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "core/error.h"
 #include "core/math/arithmetic.h"
 #include "core/system/file.h"
+#include "library/translated.h"
 #include "physics/world/control.h"
 #include "physics/world/method.h"
 #include "question/moments.h"
@@ -30,174 +30,11 @@
 namespace careen::v1 {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Vector vectorOf(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-// Messages of the engine begin with "file:line:column: " where a place in a file is to blame.
-SceneError placed(const std::string& message, const std::string& name) {
-  std::size_t line = 0;
-  std::size_t column = 0;
-  if (message.starts_with(name + ":")) {
-    const char* at = message.c_str() + name.size() + 1;
-    char* end = nullptr;
-    const unsigned long first = std::strtoul(at, &end, 10);
-    if (end != at && *end == ':') {
-      at = end + 1;
-      const unsigned long second = std::strtoul(at, &end, 10);
-      if (end != at && *end == ':') {
-        line = first;
-        column = second;
-      }
-    }
-  }
-  return {message, message.starts_with(name) ? name : "", line, column};
-}
-
-// Errors of the engine become those of the header; `name` is what messages call the scene.
-template <class Work>
-auto translated(const std::string& name, Work&& work) {
-  try {
-    return work();
-  } catch (const careen::InputError& error) {
-    throw placed(error.what(), name);
-  } catch (const careen::Error& error) {
-    throw Error(error.what());
-  }
-}
-
-// Of a box or a wall, if it moves.
-template <class Part>
-void addSurface(const Part& part, Json& json) {
-  if (part.surfaceVelocity != Vector{}) {
-    json["surface_velocity"] = part.surfaceVelocity;
-  }
-  if (part.surfaceSpin != 0) {
-    json["surface_spin"] = part.surfaceSpin;
-  }
-}
 
 }  // namespace
 
 const char* version() { return "careen " CAREEN_VERSION; }
-
-Scene::Scene(double duration, Vector gravity) : name_("scene"), built_(true) {
-  text_ = Json{{"careen", 1}, {"duration", duration}, {"gravity", gravity}}.dump();
-}
-
-Scene Scene::read(const std::filesystem::path& path) {
-  return {path.string(), translated(path.string(), [&] { return readFile(path); })};
-}
-
-Scene Scene::parse(std::string text, std::string name) { return {std::move(name), std::move(text)}; }
-
-void Scene::requireBuilt() const {
-  if (!built_) {
-    throw Error(name_ + ": found a scene of a file, expected one that was begun in code");
-  }
-}
-
-Scene& Scene::gravity(const std::vector<std::pair<double, Vector>>& path) {
-  requireBuilt();
-  Json points = Json::array();
-  for (const auto& [time, gravity] : path) {
-    points.push_back({time, gravity[0], gravity[1], gravity[2]});
-  }
-  Json json = Json::parse(text_);
-  json["gravity"] = {{"path", points}};
-  text_ = json.dump();
-  return *this;
-}
-
-Scene& Scene::add(const Box& box) {
-  requireBuilt();
-  Json json = {{"half_extents", box.halfExtents},
-               {"mass", box.mass},
-               {"position", box.position},
-               {"orientation", box.orientation},
-               {"velocity", box.velocity},
-               {"angular_velocity", box.angularVelocity},
-               {"restitution", box.restitution},
-               {"friction", box.friction},
-               {"fixed", box.fixed}};
-  if (box.inertia) {
-    json["inertia"] = *box.inertia;
-  }
-  if (box.center != Vector{}) {
-    json["center"] = box.center;
-  }
-  addSurface(box, json);
-  if (!box.name.empty()) {
-    json["name"] = box.name;
-  }
-  boxes_.push_back(json.dump());
-  return *this;
-}
-
-Scene& Scene::add(const Wall& wall) {
-  requireBuilt();
-  Json json = {{"point", wall.point},
-               {"normal", wall.normal},
-               {"restitution", wall.restitution},
-               {"friction", wall.friction}};
-  addSurface(wall, json);
-  if (!wall.name.empty()) {
-    json["name"] = wall.name;
-  }
-  walls_.push_back(json.dump());
-  return *this;
-}
-
-Scene& Scene::method(const std::string& name) {
-  if (!methodNamed(name)) {
-    throw SceneError("found the unknown method '" + name + "'", "", 0, 0);
-  }
-  method_ = name;
-  return *this;
-}
-
-Scene& Scene::tolerance(double metres) {
-  if (!(metres > 0 && metres < 1)) {
-    throw SceneError(
-        "found the tolerance " + std::to_string(metres) + ", expected more than 0 and less than 1 m", "", 0,
-        0);
-  }
-  tolerance_ = metres;
-  return *this;
-}
-
-Scene& Scene::threads(int count) {
-  if (count < 1 || count > kMostThreadsOfCrowds) {
-    throw Error("found " + std::to_string(count) + " threads, expected 1 to " +
-                std::to_string(kMostThreadsOfCrowds));
-  }
-  threads_ = count;
-  return *this;
-}
-
-Scene& Scene::control(double period, Controller controller) {
-  if (!(period > 0 && std::isfinite(period))) {
-    throw Error("found the period " + std::to_string(period) + " s of a controller, expected more than 0");
-  }
-  period_ = period;
-  controller_ = std::move(controller);
-  return *this;
-}
-
-std::string Scene::text() const {
-  if (!built_) {
-    return text_;
-  }
-  Json json = Json::parse(text_);
-  const auto list = [&json](const char* key, const std::vector<std::string>& items) {
-    for (const std::string& item : items) {
-      json[key].push_back(Json::parse(item));
-    }
-  };
-  list("walls", walls_);
-  list("boxes", boxes_);
-  return json.dump(1);
-}
 
 struct Run::Data {
   explicit Data(Trajectory run) : trajectory(std::move(run)) {

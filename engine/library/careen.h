@@ -177,7 +177,7 @@ struct Energy {
   double jointFriction;    ///< lost to dry friction of joints
   double damping;          ///< lost in springs and joints
   double drag;             ///< lost to drag
-  double remaining;        ///< lost in contact between impacts, and otherwise; less the work of drives
+  double remaining;        ///< lost in contact between impacts, and otherwise; less the work of drives, belts
   Vector momentum;         ///< [kg m/s]
   Vector angularMomentum;  ///< [kg m²/s] about the world's origin
 };

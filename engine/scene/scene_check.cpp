@@ -43,8 +43,8 @@ void checkRoom(const JsonTree& tree, const Scene& scene) {
 }
 
 // Boxes and walls share a column of impacts.csv.
-// Its times; what it is at the start is no change.
-void checkGravity(const JsonTree& tree, Scene& scene) {
+// After its times are checked: what it is at the start is no change.
+void takeGravityAtStart(const JsonTree& tree, Scene& scene) {
   for (std::size_t k = 0; k < scene.gravityChanges.size(); ++k) {
     const double time = scene.gravityChanges[k].time;
     if (k == 0 ? time != 0 : !(time > scene.gravityChanges[k - 1].time)) {
@@ -251,7 +251,7 @@ void checkOverlap(const JsonTree& tree, const Scene& scene) {
 
 void checkScene(const JsonTree& tree, Scene& scene, Starts starts) {
   checkRoom(tree, scene);
-  checkGravity(tree, scene);
+  takeGravityAtStart(tree, scene);
   checkNames(tree, scene);
   checkMasses(tree, scene);
   checkInertias(tree, scene);

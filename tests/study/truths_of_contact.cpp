@@ -13,12 +13,19 @@ using oracle::QuadScene;
 using Moments = std::span<const double>;
 using Boxes = TruthCase::Boxes;
 
-Boxes slides(const QuadScene& scene, Moments times) {
+template <class PosesOf>
+Boxes ofEach(const QuadScene& scene, const PosesOf& posesOf) {
   Boxes boxes;
   for (const QuadBox& box : scene.boxes) {
-    boxes.push_back(oracle::QuadSlide(box, scene.gravity, scene.walls.at(0)).poses(times));
+    boxes.push_back(posesOf(box));
   }
   return boxes;
+}
+
+Boxes slides(const QuadScene& scene, Moments times) {
+  return ofEach(scene, [&](const QuadBox& box) {
+    return oracle::QuadSlide(box, scene.gravity, scene.walls.at(0)).poses(times);
+  });
 }
 
 Boxes slidesAndSpins(const QuadScene& scene, Moments times) {
@@ -39,11 +46,8 @@ Boxes spins(const QuadScene& scene, Moments times) {
 }
 
 Boxes rocks(const QuadScene& scene, Moments times) {
-  Boxes boxes;
-  for (const QuadBox& box : scene.boxes) {
-    boxes.push_back(oracle::QuadRocking(box, -scene.gravity[2]).poses(times));
-  }
-  return boxes;
+  return ofEach(scene,
+                [&](const QuadBox& box) { return oracle::QuadRocking(box, -scene.gravity[2]).poses(times); });
 }
 
 // Tipping is about the lower edge along y, downhill, where it starts.
@@ -58,11 +62,7 @@ Boxes slidesOrTips(const QuadScene& scene, Moments times) {
 }
 
 Boxes stands(const QuadScene& scene, Moments times) {
-  Boxes boxes;
-  for (const QuadBox& box : scene.boxes) {
-    boxes.push_back(oracle::stood(box, times));
-  }
-  return boxes;
+  return ofEach(scene, [&](const QuadBox& box) { return oracle::stood(box, times); });
 }
 
 Boxes passesOn(const QuadScene& scene, Moments times) { return oracle::rowStruck(scene, times); }
@@ -72,27 +72,19 @@ Boxes tipsOver(const QuadScene& scene, Moments times) {
 }
 
 Boxes rides(const QuadScene& scene, Moments times) {
-  Boxes boxes;
-  for (const QuadBox& box : scene.boxes) {
-    boxes.push_back(oracle::onBelt(box, scene.gravity, scene.walls.at(0), times));
-  }
-  return boxes;
+  return ofEach(scene, [&](const QuadBox& box) {
+    return oracle::onBelt(box, scene.gravity, scene.walls.at(0), times);
+  });
 }
 
 Boxes goesRound(const QuadScene& scene, Moments times) {
-  Boxes boxes;
-  for (const QuadBox& box : scene.boxes) {
-    boxes.push_back(oracle::onTurntable(box, scene.gravity, scene.walls.at(0), times));
-  }
-  return boxes;
+  return ofEach(scene, [&](const QuadBox& box) {
+    return oracle::onTurntable(box, scene.gravity, scene.walls.at(0), times);
+  });
 }
 
 Boxes isBraked(const QuadScene& scene, Moments times) {
-  Boxes boxes;
-  for (const QuadBox& box : scene.boxes) {
-    boxes.push_back(oracle::braked(box, scene, times));
-  }
-  return boxes;
+  return ofEach(scene, [&](const QuadBox& box) { return oracle::braked(box, scene, times); });
 }
 
 }  // namespace

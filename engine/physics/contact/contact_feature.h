@@ -110,6 +110,10 @@ struct ContactState {
     return rows ? rows->b : pointSide(frame.axes(), armB, -1);
   }
 
+  /// [m/s] What velocities along its rows are to be, in that frame of its normal: of a relative to b itself.
+  ContactProblem::Triple target(const ContactFrame& frame) const {
+    return {kept, dot(surface, frame.tangent1), dot(surface, frame.tangent2)};
+  }
   /// [m/s] of a relative to b's surface.
   Vec3 velocity() const { return slip + rate * normal; }
   /// [m/s] How fast the boxes part, and how fast they pass each other along any of the directions.

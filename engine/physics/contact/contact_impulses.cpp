@@ -64,8 +64,7 @@ ContactProblem::Contact& ContactImpulses::add(const ContactFeature& feature, con
   contact.admissible = feature.admissible();
   contact.most = length_ * geometry.grip;
   contact.least = -contact.most;
-  contact.target = {geometry.kept, dot(geometry.surface, frame.tangent1),
-                    dot(geometry.surface, frame.tangent2)};
+  contact.target = geometry.target(frame);
   contact.friction = feature.material.friction;
   for (const Vec3& direction : geometry.directions) {
     contact.directions.push_back(frame.along(direction));

@@ -411,9 +411,7 @@ bool ContactSystem::projectVelocities(std::vector<double>& y) {
     fillContacts();
     for (std::size_t c = 0; c < features_.size(); ++c) {
       ContactForces::Contact& contact = forces_.contacts()[c];
-      const ContactFrame frame = frameOf(states_[c].normal);
-      contact.target = {states_[c].kept, dot(states_[c].surface, frame.tangent1),
-                        dot(states_[c].surface, frame.tangent2)};
+      contact.target = states_[c].target(frameOf(states_[c].normal));
       if (contact.admissible == ContactProblem::Admissible::kLine) {
         contact.admissible = ContactProblem::Admissible::kCone;
       }

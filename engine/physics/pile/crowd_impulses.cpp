@@ -50,8 +50,7 @@ CrowdImpulses::CrowdImpulses(const CrowdMembers& members, const CrowdLoads& load
       articulations_(articulations),
       memory_(memory),
       solver_(members.team),
-      direct_(members, contacts, articulations, memory),
-      hasBelts_(hasBelts(members.world)) {}
+      direct_(members, contacts, articulations, memory) {}
 
 void CrowdImpulses::find() {
   load();
@@ -80,6 +79,7 @@ void CrowdImpulses::load() {
     all.belts += own.belts;
   }
   solver_.reserve(all);
+  isOnBelts_ = all.belts > 0;
   contacts_.forNear([&](PileManifold& manifold, std::size_t n) { addRows(manifold, rowsOf_[n]); });
   rowCount_ += static_cast<std::int64_t>(solver_.rowCount());
   solver_.link();
@@ -336,7 +336,7 @@ bool CrowdImpulses::gainedEnergy() const {
       after += members_.ways[i].kinetic;
     }
   }
-  return !loads_.any() && !hasBelts_ && after - before > kMostGained * before;
+  return !loads_.any() && !isOnBelts_ && after - before > kMostGained * before;
 }
 
 }  // namespace careen

@@ -81,7 +81,7 @@ class CrowdImpulses {
   double speed_ = 0;                        // [m/s] largest of its bodies: S of the residuals
   bool shifts_ = false;                     // in this step
   ContactResiduals residuals_;
-  bool hasBelts_;
+  bool isOnBelts_ = false;  // in this step
   std::int64_t rowCount_ = 0;
 };
 

@@ -23,8 +23,15 @@ double lowestOf(const Trajectory& trajectory, std::size_t body, const Vec3& grav
 }  // namespace
 
 EnergyBook::EnergyBook(const Trajectory& trajectory) : world_(trajectory.world) {
-  for (std::size_t body = 0; body < trajectory.tracks.size(); ++body) {
-    lowest_ += world_.bodies[body].mass.mass * lowestOf(trajectory, body, world_.gravity);
+  std::vector<Vec3> gravities{world_.gravity};
+  for (const GravityChange& change : world_.gravityChanges) {
+    gravities.push_back(change.gravity);
+  }
+  for (const Vec3& gravity : gravities) {
+    double& lowest = lowest_.emplace_back();
+    for (std::size_t body = 0; body < trajectory.tracks.size(); ++body) {
+      lowest += world_.bodies[body].mass.mass * lowestOf(trajectory, body, gravity);
+    }
   }
   hasSprings_ =
       !world_.springs.empty() || std::any_of(world_.joints.begin(), world_.joints.end(),
@@ -39,7 +46,9 @@ EnergyBook::EnergyBook(const Trajectory& trajectory) : world_(trajectory.world) 
 
 EnergyShares EnergyBook::sharesOf(std::span<const BodyState> states, double time) const {
   EnergyShares shares = energySharesOf(world_, states, time);
-  shares.gravity -= lowest_;
+  const auto changed = std::count_if(world_.gravityChanges.begin(), world_.gravityChanges.end(),
+                                     [&](const GravityChange& change) { return change.time <= time; });
+  shares.gravity -= lowest_[static_cast<std::size_t>(changed)];
   return shares;
 }
 

@@ -10,7 +10,7 @@ namespace careen {
 
 /// Energy balance of a run, which it must not outlive. Each box's potential energy is relative to x₀, the
 /// lowest position its centre reaches in the run, so that no part is negative: in free flight the minimum is
-/// at one of the ends.
+/// at one of the ends. Where gravity changes, each gravity has its own.
 class EnergyBook {
  public:
   explicit EnergyBook(const Trajectory& trajectory);
@@ -24,7 +24,7 @@ class EnergyBook {
 
  private:
   const World& world_;
-  double lowest_ = 0;  // [J] Σ M · minimum of −g·x
+  std::vector<double> lowest_;  // [J] by gravity: Σ M · minimum of −g·x
   bool hasSprings_ = false;
   double atStart_ = 0;
   double largest_ = 0;

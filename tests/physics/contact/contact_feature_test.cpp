@@ -83,7 +83,7 @@ TEST(ContactState, slipsOnWhatMovesAlongItself) {
   const double h = 1e-4;
   const Vec3 change = (state(h).slip - state(-h).slip) / (2 * h);
   const Vec3 said = kPathA.acceleration + now.slipBias;
-  EXPECT_LT((change - (said - wall.normal.dot(said) * wall.normal)).norm(), 1e-6);
+  EXPECT_LT((change - (said - wall.normal.dot(said) * wall.normal)).norm(), 2e-8);  // measured 4e-9
 }
 
 TEST(ContactState, ofACornerOnATurningFaceChangesAsItSays) {

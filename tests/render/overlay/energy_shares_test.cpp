@@ -36,6 +36,24 @@ TEST(EnergyShares, fallTurnsPotentialIntoKinetic) {
   }
 }
 
+// It has fallen .2 m when gravity turns over, and .2 m more until it does, too: by the second gravity it is
+// lowest where it began, 1 m up, and has 20 J for each metre below.
+TEST(EnergyShares, eachGravityHasItsOwnLowestPlace) {
+  Scene scene = dropped(1);
+  scene.settings.duration = 0.5;
+  scene.gravityChanges = {{.time = 0.2, .gravity = Vec3(0, 0, 10)}};
+  const Trajectory trajectory = runOf(scene);
+  const EnergyBook book(trajectory);
+  for (int k = 0; k <= 50; ++k) {
+    const double time = k / 100.0;
+    const EnergyShares shares = book.sharesOf(trajectory.states(time), time);
+    EXPECT_GE(shares.gravity, -1e-12) << time;
+    if (time > 0.2) {
+      EXPECT_NEAR(shares.gravity, 20 * (1 - trajectory.state(0, time).pose.position.z()), 1e-11);
+    }
+  }
+}
+
 TEST(EnergyShares, bounceTakesWhatRestitutionSays) {
   const Scene scene = dropped(0.5);
   const Trajectory trajectory = runOf(scene);
