@@ -23,6 +23,10 @@ namespace careen {
 /// not balanced meanwhile, and nor is one that a joint holds to it or to the world; its energy is, as joints
 /// do no work: but limits and ropes may take some.
 ///
+/// A wall whose surface moves along itself does work: that of its friction, which the group's momentum tells.
+/// While a group touches surfaces that move differently, one that turns, or a box whose surface moves, its
+/// energy may rise. Where gravity changes, the group has so much more by that.
+///
 /// `fallingSpeeds` [m/s]: of each body, see seams.h.
 void checkBalances(const Trajectory& run, const Samples& samples, const std::vector<ExchangeGroup>& groups,
                    const std::vector<double>& fallingSpeeds, Findings& findings);
